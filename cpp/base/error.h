@@ -1,0 +1,57 @@
+// Typed exceptions. Every message says what was wrong, where, and what would be right.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace mlt {
+
+class Error : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A mistake in a scene, a file it names, or a parameter. Exit code 2.
+class SceneError : public Error {
+ public:
+  using Error::Error;
+};
+
+/// A mistake in how a program or function was called. Exit code 2.
+class UsageError : public Error {
+ public:
+  using Error::Error;
+};
+
+/// A file that cannot be read or written. Exit code 2.
+class FileError : public Error {
+ public:
+  using Error::Error;
+};
+
+/// The render itself failed. Exit code 3.
+class RenderError : public Error {
+ public:
+  using Error::Error;
+};
+
+/// A place in an input file; `line` 0 means "the whole file".
+struct Location {
+  std::string file;
+  int line = 0;
+};
+
+/// "scene.xml:12" or "scene.xml", or "" when the object came from no file.
+std::string describe(const Location& location);
+
+/// "scene.xml:12: message", or just the message when there is no location.
+std::string at(const Location& location, const std::string& message);
+
+/// The candidate that `word` was probably meant to be (edit distance), or "" if none is near.
+std::string closest(const std::string& word, const std::vector<std::string>& candidates);
+
+/// "; did you mean 'max_depth'?", or "; valid are: a, b, c" when nothing is near.
+std::string suggestion(const std::string& word, const std::vector<std::string>& candidates);
+
+}  // namespace mlt

@@ -1,0 +1,21 @@
+// The base of everything a scene description can name.
+#pragma once
+
+#include "base/error.h"
+
+#include <memory>
+#include <string>
+
+namespace mlt {
+
+class Object {
+ public:
+  virtual ~Object() = default;
+
+  std::string id;  ///< The scene's name for it, or "".
+  Location where;  ///< Where the scene describes it.
+};
+
+using ObjectPtr = std::shared_ptr<Object>;
+
+}  // namespace mlt

@@ -1,0 +1,175 @@
+#include "base/params.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mlt {
+namespace {
+
+template <class T>
+bool is(const Value& value) {
+  return std::holds_alternative<T>(value);
+}
+
+bool is_number(const Value& value) { return is<int64_t>(value) || is<double>(value); }
+
+bool is_color(const Value& value) {
+  return is_number(value) || is<Triple>(value) || is<Spectrum>(value);
+}
+
+bool is_finite(const Value& value) {
+  if (const double* x = std::get_if<double>(&value)) return std::isfinite(*x);
+  const auto all_finite = [](const auto& numbers) {
+    return std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); });
+  };
+  if (const Triple* t = std::get_if<Triple>(&value)) return all_finite(*t);
+  if (const Matrix* m = std::get_if<Matrix>(&value)) return all_finite(*m);
+  return true;
+}
+
+bool fits(const Value& value, ParamType type) {
+  switch (type) {
+    case ParamType::boolean: return is<bool>(value);
+    case ParamType::integer: return is<int64_t>(value);
+    case ParamType::real: return is_number(value);
+    case ParamType::text: return is<std::string>(value);
+    case ParamType::point: return is<Triple>(value);
+    case ParamType::transform: return is<Matrix>(value);
+    case ParamType::reflectance:
+    case ParamType::radiance: return is_color(value);
+    case ParamType::texture:
+    case ParamType::emission: return is_color(value) || is<ObjectPtr>(value);
+    case ParamType::object: return is<ObjectPtr>(value);
+  }
+  return false;
+}
+
+std::string kind_of(const Value& value) {
+  static const char* names[] = {"nothing", "a boolean", "an integer",  "a float", "a string",
+                                "a triple", "a matrix", "a spectrum", "an object"};
+  return names[value.index()];
+}
+
+}  // namespace
+
+Params::Params(const Schema& schema, Location where, std::string id)
+    : schema_(&schema), where_(std::move(where)), id_(std::move(id)) {}
+
+void Params::set(const std::string& given_name, Value value, const Location& where) {
+  const std::string name = snake_case(given_name);
+  const Parameter* parameter = schema_->find(name);
+  if (!parameter) {
+    const auto& ignored = schema_->ignored;
+    if (std::find(ignored.begin(), ignored.end(), name) != ignored.end()) {
+      warnings_.push_back(at(where, schema_->family + " '" + schema_->name + "': '" + name +
+                                        "' has no effect here"));
+      return;
+    }
+    throw SceneError(at(where, "unknown parameter '" + given_name + "' for " + schema_->family +
+                                   " '" + schema_->name + "'" +
+                                   suggestion(name, schema_->parameter_names())));
+  }
+  const std::string about = schema_->family + " '" + schema_->name + "': '" + name + "' ";
+  if (!fits(value, parameter->type))
+    throw SceneError(
+        at(where, about + "is " + kind_of(value) + ", but should be a " + to_string(parameter->type)));
+  if (!is_finite(value)) throw SceneError(at(where, about + "must be finite"));
+  const auto& choices = parameter->choices;
+  if (const std::string* text = std::get_if<std::string>(&value))
+    if (!choices.empty() && std::find(choices.begin(), choices.end(), *text) == choices.end())
+      throw SceneError(at(where, about + "cannot be '" + *text + "'" + suggestion(*text, choices)));
+  if (!given_.emplace(name, Given{std::move(value), where}).second)
+    throw SceneError(at(where, about + "is given twice"));
+}
+
+void Params::add(const std::string& family, ObjectPtr object, const Location& where) {
+  nested_.push_back({family, std::move(object), where});
+}
+
+bool Params::has(const std::string& name) const {
+  if (given_.count(name)) return true;
+  return std::any_of(nested_.begin(), nested_.end(),
+                     [&](const Nested& nested) { return nested.family == name; });
+}
+
+const Value& Params::read(const std::string& name) {
+  const auto it = given_.find(name);
+  if (it != given_.end()) {
+    it->second.read = true;
+    return it->second.value;
+  }
+  const Parameter* parameter = schema_->find(name);
+  if (!parameter) throw Error("plug-in '" + schema_->name + "' reads '" + name + "', which its schema lacks");
+  if (is<std::monostate>(parameter->default_value)) fail("needs '" + name + "': " + parameter->doc);
+  return parameter->default_value;
+}
+
+bool Params::boolean(const std::string& name) { return std::get<bool>(read(name)); }
+int64_t Params::integer(const std::string& name) { return std::get<int64_t>(read(name)); }
+std::string Params::text(const std::string& name) { return std::get<std::string>(read(name)); }
+Triple Params::triple(const std::string& name) { return std::get<Triple>(read(name)); }
+Matrix Params::matrix(const std::string& name) { return std::get<Matrix>(read(name)); }
+const Value& Params::value(const std::string& name) { return read(name); }
+
+double Params::real(const std::string& name) {
+  const Value& value = read(name);
+  if (const int64_t* integer = std::get_if<int64_t>(&value)) return static_cast<double>(*integer);
+  return std::get<double>(value);
+}
+
+double Params::real_in(const std::string& name, double low, double high) {
+  const double x = real(name);
+  if (!(x >= low && x <= high))
+    fail(name, "is " + std::to_string(x) + ", but must lie between " + std::to_string(low) + " and " +
+                   std::to_string(high));
+  return x;
+}
+
+int64_t Params::integer_in(const std::string& name, int64_t low, int64_t high) {
+  const int64_t x = integer(name);
+  if (x < low || x > high)
+    fail(name, "is " + std::to_string(x) + ", but must lie between " + std::to_string(low) + " and " +
+                   std::to_string(high));
+  return x;
+}
+
+ObjectPtr Params::find_object(const std::string& name) {
+  const auto it = given_.find(name);
+  if (it != given_.end() && is<ObjectPtr>(it->second.value)) {
+    it->second.read = true;
+    return std::get<ObjectPtr>(it->second.value);
+  }
+  for (Nested& nested : nested_)
+    if (nested.family == name) {
+      nested.read = true;
+      return nested.object;
+    }
+  return nullptr;
+}
+
+void Params::fail(const std::string& name, const std::string& message) const {
+  const auto it = given_.find(name);
+  throw SceneError(at(it != given_.end() ? it->second.where : where_,
+                      schema_->family + " '" + schema_->name + "': '" + name + "' " + message));
+}
+
+void Params::fail(const std::string& message) const {
+  throw SceneError(at(where_, schema_->family + " '" + schema_->name + "' " + message));
+}
+
+void Params::warn(const std::string& message) {
+  warnings_.push_back(at(where_, schema_->family + " '" + schema_->name + "': " + message));
+}
+
+void Params::expect_all_read() const {
+  for (const auto& [name, given] : given_)
+    if (!given.read)
+      throw SceneError(at(given.where, schema_->family + " '" + schema_->name + "': '" + name +
+                                           "' has no effect with the other parameters given"));
+  for (const Nested& nested : nested_)
+    if (!nested.read)
+      throw SceneError(at(nested.where, schema_->family + " '" + schema_->name +
+                                            "' does not take a nested " + nested.family));
+}
+
+}  // namespace mlt

@@ -1,0 +1,59 @@
+// Random streams. A stream is named by (seed, purpose, index) and owned by a unit of work, never by
+// a thread, so that a render does not depend on how many threads made it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace mlt {
+
+/// What a stream is for: two purposes never share random numbers.
+enum class Purpose : uint64_t { bootstrap = 1, chain, pixel, test, resample, round, inspect };
+
+/// SplitMix64 (Steele, Lea & Flood 2014): a bijective mixer of 64 bits.
+inline uint64_t mix_bits(uint64_t x) {
+  x += 0x9e3779b97f4a7c15u;
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+  return x ^ (x >> 31);
+}
+
+/// xoshiro256++ (Blackman & Vigna 2019). Its state is a value: it can be copied, stored, compared.
+class Rng {
+ public:
+  using State = std::array<uint64_t, 4>;
+
+  Rng(uint64_t seed, Purpose purpose, uint64_t index) {
+    uint64_t key = mix_bits(mix_bits(mix_bits(seed) ^ static_cast<uint64_t>(purpose)) ^ index);
+    for (uint64_t& word : state_) word = key = mix_bits(key);
+  }
+  explicit Rng(const State& state) : state_(state) {}
+
+  const State& state() const { return state_; }
+
+  uint64_t next_bits() {
+    const uint64_t result = rotate(state_[0] + state_[3], 23) + state_[0];
+    const uint64_t t = state_[1] << 17;
+    state_[2] ^= state_[0];
+    state_[3] ^= state_[1];
+    state_[1] ^= state_[2];
+    state_[0] ^= state_[3];
+    state_[2] ^= t;
+    state_[3] = rotate(state_[3], 45);
+    return result;
+  }
+
+  /// Uniform in [0, 1), a multiple of 2^-53.
+  double next() { return static_cast<double>(next_bits() >> 11) * 0x1p-53; }
+
+  /// Uniform in {0, ..., n - 1}.
+  uint64_t below(uint64_t n) {
+    return static_cast<uint64_t>((static_cast<unsigned __int128>(next_bits()) * n) >> 64);
+  }
+
+ private:
+  static uint64_t rotate(uint64_t x, int k) { return (x << k) | (x >> (64 - k)); }
+  State state_;
+};
+
+}  // namespace mlt

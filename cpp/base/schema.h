@@ -1,0 +1,66 @@
+// What a plug-in's parameters are called, of which type, with which default, and what they mean.
+// The loader, the Python face, the docs and the error messages all read this one description.
+#pragma once
+
+#include "base/object.h"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace mlt {
+
+/// A point, vector or RGB triple.
+using Triple = std::array<double, 3>;
+/// A 4 x 4 matrix, row by row as scenes write it.
+using Matrix = std::array<double, 16>;
+/// Samples (wavelength in nm, value) of a spectrum.
+using Spectrum = std::vector<std::pair<double, double>>;
+
+using Value = std::variant<std::monostate, bool, int64_t, double, std::string, Triple, Matrix,
+                           Spectrum, ObjectPtr>;
+
+enum class ParamType {
+  boolean,
+  integer,
+  real,
+  text,
+  point,        ///< Triple: a position or direction.
+  transform,    ///< Matrix.
+  reflectance,  ///< A number, RGB or spectrum in [0, 1].
+  radiance,     ///< A number, RGB or spectrum, unbounded.
+  texture,      ///< A reflectance, or a Texture.
+  emission,     ///< A radiance, or a Texture.
+  object        ///< Another plug-in, of the family that the parameter is named after or its doc names.
+};
+
+std::string to_string(ParamType type);
+
+struct Parameter {
+  std::string name;  ///< snake_case; the older camelCase is accepted everywhere.
+  ParamType type;
+  Value default_value;  ///< monostate: no default (required, or optional where the doc says so).
+  std::string doc;
+  std::vector<std::string> choices = {};  ///< For text: the valid values, if they are few.
+};
+
+struct Schema {
+  std::string family;  ///< "bsdf", "emitter", "sensor", "shape", "texture", "integrator", ...
+  std::string name;
+  std::string doc;
+  std::vector<Parameter> parameters;
+  std::vector<std::string> ignored = {};  ///< Known and without effect here: one warning, no error.
+  bool conserves_energy = true;           ///< BSDFs: is the white-furnace albedo <= 1 promised?
+  bool reciprocal = true;                 ///< BSDFs: is f(a, b) = f(b, a) promised?
+
+  const Parameter* find(const std::string& parameter) const;
+  std::vector<std::string> parameter_names() const;
+};
+
+/// "toWorld" -> "to_world", "intIOR" -> "int_ior"; a snake_case name stays as it is.
+std::string snake_case(const std::string& name);
+
+}  // namespace mlt

@@ -1,0 +1,48 @@
+// A light transport algorithm: settings that are only stored, and a way to start rendering.
+#pragma once
+
+#include "base/object.h"
+#include "image/image.h"
+#include "render/stats.h"
+#include "scene/scene.h"
+
+#include <memory>
+
+namespace mlt {
+
+/// A render in progress, cut into units that are fixed by (scene, algorithm, seed) and independent of
+/// threads. Units are numbered 0, 1, 2, ... and started in that order; run_unit may be called from
+/// many threads at once.
+class Rendering {
+ public:
+  virtual ~Rendering() = default;
+
+  /// Work before the first unit (a bootstrap); may itself use `threads` threads. `cancelled` is
+  /// looked at now and then. Throws RenderError.
+  virtual void prepare(int threads, const std::atomic<bool>& cancelled) = 0;
+
+  /// How many units `spp` samples per pixel take.
+  virtual uint64_t unit_count(double spp) const = 0;
+  virtual void run_unit(uint64_t unit) = 0;
+  /// Samples per pixel after `units` units.
+  virtual double spp_done(uint64_t units) const = 0;
+
+  /// The image after the units that have finished, linear RGB.
+  virtual Image image() const = 0;
+  virtual void add_stats(Stats& stats) const = 0;
+
+  /// The whole state as bytes, and back. No unit may be running.
+  virtual std::string save() const = 0;
+  virtual void load(const std::string& bytes) = 0;
+};
+
+class Integrator : public Object {
+ public:
+  /// Throws SceneError if the scene has something that this algorithm cannot serve.
+  virtual std::unique_ptr<Rendering> start(ScenePtr scene, uint64_t seed) const = 0;
+  virtual const std::string& name() const = 0;
+};
+
+using IntegratorPtr = std::shared_ptr<const Integrator>;
+
+}  // namespace mlt

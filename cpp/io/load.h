@@ -1,0 +1,50 @@
+// From a scene description to a Scene.
+#pragma once
+
+#include "base/registry.h"
+#include "io/node.h"
+#include "scene/scene.h"
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace mlt {
+
+struct LoadOptions {
+  std::map<std::string, std::string> defines;  ///< Values for the scene's <default> parameters.
+  std::optional<Vec2i> size;                   ///< Replaces the film's width and height.
+};
+
+struct LoadedScene {
+  ScenePtr scene;
+  std::optional<Node> integrator;     ///< As the scene describes it, not yet made.
+  std::vector<std::string> warnings;  ///< One line each, with file and line.
+  double seconds = 0;                 ///< Wall time of loading.
+  uint64_t hash = 0;                  ///< Of everything that was read (scene, meshes, textures by content or size+name).
+};
+
+/// Reads a Mitsuba XML file into a tree: includes, defaults, aliases and paths are resolved, file
+/// names are absolute. Throws SceneError or FileError.
+Node read_xml_file(const std::string& path, const LoadOptions& options,
+                   std::vector<std::string>& warnings);
+Node read_xml_string(const std::string& xml, const std::string& directory,
+                     const LoadOptions& options, std::vector<std::string>& warnings);
+
+/// Builds the scene that a tree describes.
+LoadedScene build_scene(const Node& scene, const Registry& registry, const LoadOptions& options);
+
+LoadedScene load_file(const std::string& path, const Registry& registry, const LoadOptions& options);
+LoadedScene load_string(const std::string& xml, const std::string& directory,
+                        const Registry& registry, const LoadOptions& options);
+
+/// Makes one plug-in (with everything nested in it) from a tree.
+ObjectPtr build_object(const Node& node, const Registry& registry,
+                       std::vector<std::string>& warnings);
+
+/// The value that `text` means for a parameter of this type ("8" for an integer, "true", ...), as in
+/// `-p name=value`. Throws UsageError.
+Value parse_value(const std::string& text, const Parameter& parameter);
+
+}  // namespace mlt

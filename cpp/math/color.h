@@ -1,0 +1,21 @@
+// Linear Rec. 709 / sRGB-primaries colour, and the scalar that Metropolis sampling targets.
+#pragma once
+
+#include "math/vec.h"
+
+namespace mlt {
+
+using Color = Vec3;
+
+inline bool is_black(const Color& c) { return c.x == 0 && c.y == 0 && c.z == 0; }
+
+/// Rec. 709 luminance (ITU-R BT.709, sec. 3).
+inline double luminance(const Color& c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
+
+/// The scalar target L* = (luminance + mean of R, G, B) / 2. Since L* >= 0.2 of every channel,
+/// RGB / L* is bounded and a saturated colour cannot become a speckle.
+inline double target_luminance(const Color& c) {
+  return 0.5 * (luminance(c) + (c.x + c.y + c.z) / 3);
+}
+
+}  // namespace mlt

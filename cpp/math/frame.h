@@ -1,0 +1,42 @@
+// An orthonormal frame, and the trigonometry of directions in it (n is the z axis).
+#pragma once
+
+#include "math/vec.h"
+
+namespace mlt {
+
+struct Frame {
+  Vec3 s, t, n;
+
+  Vec3 to_local(const Vec3& v) const { return {dot(v, s), dot(v, t), dot(v, n)}; }
+  Vec3 to_world(const Vec3& v) const { return s * v.x + t * v.y + n * v.z; }
+
+  /// A frame around `n`: Duff et al. 2017, "Building an orthonormal basis, revisited".
+  static Frame around(const Vec3& n) {
+    const double sign = std::copysign(1.0, n.z);
+    const double a = -1 / (sign + n.z);
+    const double b = n.x * n.y * a;
+    return {{1 + sign * n.x * n.x * a, sign * b, -sign * n.x}, {b, sign + n.y * n.y * a, -n.y}, n};
+  }
+
+  /// A frame around `n` whose s axis lies in the plane of `n` and `along` (dp/du).
+  static Frame around(const Vec3& n, const Vec3& along) {
+    const Vec3 s = along - n * dot(n, along);
+    const double l2 = length_squared(s);
+    if (!(l2 > 1e-20 * length_squared(along))) return around(n);
+    const Vec3 unit = s / std::sqrt(l2);
+    return {unit, cross(n, unit), n};
+  }
+};
+
+// Directions in the local frame.
+inline double cos_theta(const Vec3& w) { return w.z; }
+inline double abs_cos_theta(const Vec3& w) { return std::abs(w.z); }
+inline double sin2_theta(const Vec3& w) { return w.x * w.x + w.y * w.y; }
+inline double tan2_theta(const Vec3& w) { return sin2_theta(w) / (w.z * w.z); }
+inline bool same_side(const Vec3& a, const Vec3& b) { return a.z * b.z > 0; }
+
+inline Vec3 reflect(const Vec3& w) { return {-w.x, -w.y, w.z}; }
+inline Vec3 reflect(const Vec3& w, const Vec3& h) { return 2 * dot(w, h) * h - w; }
+
+}  // namespace mlt

@@ -1,0 +1,56 @@
+// The vector types. Shading and paths are in double precision, so that a path's densities mean the
+// same whichever way it was made; meshes, textures and films store floats.
+#pragma once
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace mlt {
+
+using Vec2 = glm::dvec2;
+using Vec3 = glm::dvec3;
+using Vec4 = glm::dvec4;
+using Mat3 = glm::dmat3;
+using Mat4 = glm::dmat4;  // column-major: m[column][row]
+using Vec2i = glm::ivec2;
+using Vec2f = glm::fvec2;
+using Vec3f = glm::fvec3;
+
+using glm::cross;
+using glm::dot;
+using glm::length;
+using glm::normalize;
+
+constexpr double pi = 3.14159265358979323846;
+constexpr double inv_pi = 1 / pi;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+inline double sqr(double x) { return x * x; }
+inline double safe_sqrt(double x) { return std::sqrt(std::max(0.0, x)); }
+inline double length_squared(const Vec3& v) { return dot(v, v); }
+inline double max_component(const Vec3& v) { return std::max(v.x, std::max(v.y, v.z)); }
+inline double min_component(const Vec3& v) { return std::min(v.x, std::min(v.y, v.z)); }
+inline bool is_finite(const Vec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+inline Vec3 transform_point(const Mat4& m, const Vec3& p) {
+  const Vec4 q = m * Vec4(p, 1);
+  return Vec3(q) / q.w;
+}
+inline Vec3 transform_vector(const Mat4& m, const Vec3& v) { return Mat3(m) * v; }
+/// A normal moves with the inverse transpose; `inverse` is the inverse of the point transform.
+inline Vec3 transform_normal(const Mat4& inverse, const Vec3& n) {
+  return glm::transpose(Mat3(inverse)) * n;
+}
+
+}  // namespace mlt

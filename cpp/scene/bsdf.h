@@ -1,0 +1,87 @@
+// Scattering at a surface. Directions are unit vectors in the local shading frame and point away
+// from the surface: `wl` towards the light side of a path, `wc` towards its camera side.
+#pragma once
+
+#include "math/color.h"
+#include "math/frame.h"
+#include "scene/surface_point.h"
+#include "base/object.h"
+
+#include <optional>
+
+namespace mlt {
+
+/// What a path vertex remembers of how it scatters: by a density over directions, or by which
+/// delta distribution.
+enum class Lobe : uint8_t {
+  smooth,        ///< All non-delta lobes, summed.
+  reflection,    ///< Perfect mirror reflection.
+  transmission,  ///< Perfect refraction.
+  passage        ///< Straight on ("null").
+};
+
+struct BsdfSample {
+  Vec3 to;  ///< The sampled direction, local.
+  Lobe lobe;
+};
+
+/// Everything that a path needs to know of one scattering event.
+///
+/// smooth: `f` is the BSDF for radiance that flows from wl to wc (without a cosine; for refraction
+/// it includes the factor (eta_c / eta_l)^2 of radiance, Veach 1997, eq. 5.12), the densities are
+/// in solid angle.
+/// delta: `f` is the fraction F of power that this lobe carries (without the eta^2 of radiance: see
+/// `relative_eta`), the densities are the discrete probabilities of choosing this delta.
+struct Scattering {
+  Color f{0};
+  double pdf_from_light = 0;   ///< Density of wc, given wl.
+  double pdf_from_camera = 0;  ///< Density of wl, given wc.
+};
+
+class Bsdf : public Object {
+ public:
+  /// BSDF value alone. For a delta lobe the directions are taken to match it.
+  virtual Color eval(const SurfacePoint& at, const Vec3& wl, const Vec3& wc, Lobe lobe) const = 0;
+
+  /// Density (smooth: solid angle; delta: probability) of sampling `to`, given `from`.
+  virtual double pdf(const SurfacePoint& at, const Vec3& from, const Vec3& to, Lobe lobe) const = 0;
+
+  /// Draws a direction. u.x chooses the lobe, (u.y, u.z) the direction; all in [0, 1).
+  /// nullopt: nothing is scattered (absorbed, or sampled below the horizon). The same whether
+  /// `from` is on the light or on the camera side.
+  virtual std::optional<BsdfSample> sample(const SurfacePoint& at, const Vec3& from,
+                                           const Vec3& u) const = 0;
+
+  /// A u for which sample(at, from, u) gives (to, lobe); components that carry no information are
+  /// 1/2. nullopt where pdf is 0.
+  virtual std::optional<Vec3> invert(const SurfacePoint& at, const Vec3& from, const Vec3& to,
+                                     Lobe lobe) const = 0;
+
+  /// eval and both densities at once; override where they share work.
+  virtual Scattering scattering(const SurfacePoint& at, const Vec3& wl, const Vec3& wc,
+                                Lobe lobe) const {
+    return {eval(at, wl, wc, lobe), pdf(at, wl, wc, lobe), pdf(at, wc, wl, lobe)};
+  }
+
+  /// Whether the smooth lobes are present, and whether a delta lobe is.
+  virtual bool has_smooth() const { return true; }
+  virtual bool has_delta() const { return false; }
+  /// Whether a ray goes straight through with lobe `passage`.
+  virtual bool has_passage() const { return false; }
+
+  /// eta on the side that `w` is on, over eta on the other side; 1 for surfaces that do not refract.
+  virtual double relative_eta(const SurfacePoint& /*at*/, const Vec3& /*w*/) const { return 1; }
+
+  /// The roughness (Beckmann-equivalent alpha) of the narrowest smooth lobe that contributes to
+  /// scattering between these directions; infinity for a diffuse surface, 0 for delta lobes.
+  virtual double roughness(const SurfacePoint& /*at*/, const Vec3& /*wl*/, const Vec3& /*wc*/) const {
+    return infinity;
+  }
+
+  /// Average reflectance, for previews and sampling weights.
+  virtual Color albedo(const SurfacePoint& at) const = 0;
+};
+
+using BsdfPtr = std::shared_ptr<const Bsdf>;
+
+}  // namespace mlt

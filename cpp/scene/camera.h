@@ -1,0 +1,75 @@
+// Where paths end: a camera, its lens and its raster. Raster positions are in pixels of the cropped
+// image, x to the right and y down, (0, 0) at the upper left corner of the upper left pixel.
+#pragma once
+
+#include "base/object.h"
+#include "math/color.h"
+#include "scene/emitter.h"
+#include "scene/surface_point.h"
+
+#include <optional>
+
+namespace mlt {
+
+/// The image plane in pixels. Samples are drawn over the crop window widened by `border`, the radius
+/// of the reconstruction filter.
+struct Raster {
+  Vec2i full_size{0};    ///< The whole image, which fixes the field of view.
+  Vec2i crop_offset{0};  ///< Where the crop window starts in the whole image.
+  Vec2i size{0};         ///< The crop window: the image that is made.
+  double border = 0;
+
+  double pixels() const { return static_cast<double>(size.x) * size.y; }
+  /// Area of the sampled domain in pixels.
+  double sampled_area() const { return (size.x + 2 * border) * (size.y + 2 * border); }
+  /// Maps the unit square to the sampled domain.
+  Vec2 sample(const Vec2& u) const {
+    return {u.x * (size.x + 2 * border) - border, u.y * (size.y + 2 * border) - border};
+  }
+  Vec2 invert(const Vec2& position) const {
+    return {(position.x + border) / (size.x + 2 * border), (position.y + border) / (size.y + 2 * border)};
+  }
+  bool contains(const Vec2& position) const {
+    return position.x >= -border && position.x < size.x + border && position.y >= -border &&
+           position.y < size.y + border;
+  }
+};
+
+class Camera : public Object {
+ public:
+  /// Importance We(xk -> w) that the camera emits from xk along w, normalised so that its integral
+  /// over the lens and the projected solid angle of the *image* (size.x x size.y, without border) is
+  /// 1. For a pinhole: the coefficient of the delta position. 0 outside the sampled domain.
+  virtual double eval(const SurfacePoint& xk, const Vec3& w) const = 0;
+
+  virtual PositionSample sample_position(const Vec2& u) const = 0;
+  virtual double pdf_position(const SurfacePoint& xk) const = 0;
+  virtual Vec2 invert_position(const SurfacePoint& xk) const = 0;
+
+  /// The direction that leaves the lens at xk for a raster position.
+  virtual Vec3 direction(const SurfacePoint& xk, const Vec2& raster) const = 0;
+  /// The raster position that a direction belongs to; nullopt behind the camera or outside the
+  /// sampled domain. The inverse of `direction`.
+  virtual std::optional<Vec2> raster_position(const SurfacePoint& xk, const Vec3& w) const = 0;
+  /// Density of w in projected solid angle at xk, when raster positions are uniform over the sampled
+  /// domain. 0 outside.
+  virtual double pdf_direction(const SurfacePoint& xk, const Vec3& w) const = 0;
+
+  /// A pinhole: no walk can hit the lens.
+  virtual bool delta_position() const = 0;
+
+  const Raster& raster() const { return raster_; }
+  /// Camera time: uniform between shutter open and shutter close.
+  double time(double u) const { return shutter_open_ + u * (shutter_close_ - shutter_open_); }
+
+  /// Called once by the scene builder; `raster` comes from the film.
+  virtual void set_raster(const Raster& raster) { raster_ = raster; }
+
+ protected:
+  Raster raster_;
+  double shutter_open_ = 0, shutter_close_ = 0;
+};
+
+using CameraPtr = std::shared_ptr<Camera>;
+
+}  // namespace mlt

@@ -1,0 +1,78 @@
+// Where paths begin: a light. Positions are SurfacePoints (area measure; solid angle for lights at
+// infinity; a discrete probability of 1 for delta positions), directions are unit and in world space.
+#pragma once
+
+#include "base/object.h"
+#include "math/color.h"
+#include "scene/ray.h"
+#include "scene/surface_point.h"
+
+namespace mlt {
+
+class Shape;
+
+struct PositionSample {
+  SurfacePoint at;
+  double pdf;  ///< In the measure of `at`; 0 means that sampling failed.
+};
+
+/// A direction that leaves a given position, together with where it starts (for a light at infinity
+/// that is a point on a disk outside the scene).
+struct RaySample {
+  Vec3 origin;
+  Vec3 direction;
+  double pdf;  ///< Coefficient in projected solid angle: times G it is the density of the next vertex.
+};
+
+/// The sphere that encloses the scene.
+struct Bounds {
+  Vec3 center{0};
+  double radius = 1;
+};
+
+class Emitter : public Object {
+ public:
+  /// Emitted radiance (area lights, lights at infinity) or intensity (point lights) that leaves x0
+  /// along w. For a delta position: the coefficient of the delta.
+  virtual Color eval(const SurfacePoint& x0, const Vec3& w) const = 0;
+
+  virtual PositionSample sample_position(const Vec2& u) const = 0;
+  virtual double pdf_position(const SurfacePoint& x0) const = 0;
+  virtual Vec2 invert_position(const SurfacePoint& x0) const = 0;
+
+  /// Draws the first ray of a light walk that starts at x0.
+  virtual RaySample sample_ray(const SurfacePoint& x0, const Vec2& u) const = 0;
+  /// Coefficient (projected solid angle) of leaving x0 along w.
+  virtual double pdf_ray(const SurfacePoint& x0, const Vec3& w) const = 0;
+  /// The u for which the ray from x0 passes through x1.
+  virtual Vec2 invert_ray(const SurfacePoint& x0, const Vec3& x1) const = 0;
+
+  /// Draws a position to be seen from the point `from` (next-event estimation); the density may
+  /// depend on `from`. By default the same as sample_position.
+  virtual PositionSample sample_direct(const Vec3& /*from*/, const Vec2& u) const {
+    return sample_position(u);
+  }
+  virtual double pdf_direct(const Vec3& /*from*/, const SurfacePoint& x0) const {
+    return pdf_position(x0);
+  }
+  virtual Vec2 invert_direct(const Vec3& /*from*/, const SurfacePoint& x0) const {
+    return invert_position(x0);
+  }
+
+  virtual bool infinite() const { return false; }
+  /// A point or directional light: no walk can hit it, its position (or direction) is a delta.
+  virtual bool delta() const { return false; }
+
+  /// Emitted power (W per RGB), for choosing among emitters.
+  virtual Color power() const = 0;
+
+  /// Tells the light, once and before rendering, how large the scene is.
+  virtual void set_bounds(const Bounds&) {}
+  /// Area lights learn which shape they sit on.
+  virtual void set_shape(const Shape*) {}
+  virtual const Shape* shape() const { return nullptr; }
+};
+
+using EmitterPtr = std::shared_ptr<Emitter>;
+
+}  // namespace mlt

@@ -1,0 +1,29 @@
+// What the scene says about the image: its size, its filter, its file format.
+#pragma once
+
+#include "base/object.h"
+#include "image/filter.h"
+#include "math/vec.h"
+
+#include <memory>
+#include <string>
+
+namespace mlt {
+
+struct FilmSettings : Object {
+  Vec2i size{768, 576};
+  Vec2i crop_offset{0};
+  Vec2i crop_size{0};  ///< 0: the whole image.
+  std::shared_ptr<const Filter> filter;
+  bool half_precision = true;  ///< EXR component format.
+};
+
+struct SamplerSettings : Object {
+  int64_t sample_count = 0;  ///< 0: not given.
+};
+
+struct FilterObject : Object {
+  std::shared_ptr<const Filter> filter;
+};
+
+}  // namespace mlt

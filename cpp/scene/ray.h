@@ -1,0 +1,24 @@
+#pragma once
+
+#include "math/vec.h"
+
+#include <cstdint>
+
+namespace mlt {
+
+struct Ray {
+  Vec3 o;
+  Vec3 d;  ///< Unit length.
+  double time = 0;
+  double t_max = infinity;
+};
+
+/// What the accelerator found: which primitive, and where on it (barycentrics of Embree).
+struct Hit {
+  double t;
+  uint32_t shape;
+  uint32_t primitive;
+  float u, v;
+};
+
+}  // namespace mlt

@@ -1,0 +1,77 @@
+// An immutable world: shapes, lights and a camera, safe to share between threads.
+#pragma once
+
+#include "math/distribution.h"
+#include "scene/accel.h"
+#include "scene/camera.h"
+#include "scene/emitter.h"
+#include "scene/film_settings.h"
+#include "scene/shape.h"
+
+#include <atomic>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace mlt {
+
+/// A light chosen at random, and the probability with which it was.
+struct EmitterChoice {
+  const Emitter* emitter;
+  uint32_t index;
+  double probability;
+};
+
+class Scene {
+ public:
+  /// Throws SceneError if there is no sensor or nothing that emits.
+  Scene(std::vector<ShapePtr> shapes, std::vector<EmitterPtr> emitters, CameraPtr camera,
+        std::shared_ptr<FilmSettings> film, int64_t sample_count);
+
+  const std::vector<ShapePtr>& shapes() const { return shapes_; }
+  const std::vector<EmitterPtr>& emitters() const { return emitters_; }
+  const Camera& camera() const { return *camera_; }
+  const FilmSettings& film() const { return *film_; }
+  const Bounds& bounds() const { return bounds_; }
+  int64_t sample_count() const { return sample_count_; }  ///< The scene's own; 0 if it names none.
+
+  const Bsdf& bsdf(const SurfacePoint& at) const { return shapes_[at.shape]->bsdf(); }
+  /// The light that the surface point belongs to, or nullptr.
+  const Emitter* emitter(const SurfacePoint& at) const { return shapes_[at.shape]->emitter(); }
+
+  /// The nearest surface along the ray; false if there is none.
+  bool intersect(const Ray& ray, SurfacePoint& at) const;
+  /// Whether nothing stands between two points (at most one of them infinite). Only masks and null
+  /// surfaces that carry `Bsdf::has_passage` and nothing else would let light through; they block.
+  bool visible(const SurfacePoint& a, const SurfacePoint& b, double time) const;
+  /// A ray that leaves `from` along w, moved off the surface it starts on.
+  Ray spawn(const SurfacePoint& from, const Vec3& w, double time) const;
+
+  /// Lights at infinity: all of them shine along every ray that leaves the scene.
+  const std::vector<uint32_t>& infinite_emitters() const { return infinite_; }
+  /// The vertex at infinity that a ray along w ends in.
+  static SurfacePoint point_at_infinity(const Vec3& w);
+
+  /// Chooses a light; u is rescaled so that it can be used again.
+  EmitterChoice choose_emitter(double& u) const;
+  double emitter_probability(uint32_t index) const { return emitter_choice_.pdf(index); }
+  uint32_t emitter_index(const Emitter* emitter) const;
+
+  size_t triangle_count() const;
+  size_t bytes() const;  ///< Of the shapes' buffers.
+
+ private:
+  std::vector<ShapePtr> shapes_;
+  std::vector<EmitterPtr> emitters_;
+  CameraPtr camera_;
+  std::shared_ptr<FilmSettings> film_;
+  int64_t sample_count_;
+  Bounds bounds_;
+  std::unique_ptr<Accel> accel_;
+  std::vector<uint32_t> infinite_;
+  Discrete emitter_choice_;
+};
+
+using ScenePtr = std::shared_ptr<const Scene>;
+
+}  // namespace mlt

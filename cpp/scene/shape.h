@@ -1,0 +1,62 @@
+// Geometry with a material. A shape is a triangle mesh (most of them) or an analytic form.
+#pragma once
+
+#include "base/object.h"
+#include "scene/bsdf.h"
+#include "scene/emitter.h"
+#include "scene/ray.h"
+#include "scene/surface_point.h"
+
+#include <memory>
+
+namespace mlt {
+
+class Mesh;
+class Sphere;
+
+class Shape : public Object {
+ public:
+  /// The full description of a hit: position (refined in double precision along the ray), normals,
+  /// frame and uv. `at.shape` is set by the caller.
+  virtual void surface_point(const Ray& ray, const Hit& hit, SurfacePoint& at) const = 0;
+
+  virtual double area() const = 0;
+  /// Uniform over the area; pdf = 1 / area().
+  virtual PositionSample sample_position(const Vec2& u) const = 0;
+  virtual Vec2 invert_position(const SurfacePoint& at) const = 0;
+
+  /// Like sample_position, for a position to be seen from `from` (density in area measure).
+  virtual PositionSample sample_direct(const Vec3& /*from*/, const Vec2& u) const {
+    return sample_position(u);
+  }
+  virtual double pdf_direct(const Vec3& /*from*/, const SurfacePoint& /*at*/) const {
+    return 1 / area();
+  }
+  virtual Vec2 invert_direct(const Vec3& /*from*/, const SurfacePoint& at) const {
+    return invert_position(at);
+  }
+
+  /// Axis-aligned bounding box.
+  virtual void bounds(Vec3& low, Vec3& high) const = 0;
+
+  // Which of the forms that the accelerator knows it is.
+  virtual const Mesh* as_mesh() const { return nullptr; }
+  virtual const Sphere* as_sphere() const { return nullptr; }
+
+  const Bsdf& bsdf() const { return *bsdf_; }
+  const Emitter* emitter() const { return emitter_.get(); }
+  const EmitterPtr& emitter_ptr() const { return emitter_; }
+  void set_bsdf(BsdfPtr bsdf) { bsdf_ = std::move(bsdf); }
+  void set_emitter(EmitterPtr emitter) { emitter_ = std::move(emitter); }
+  uint32_t index() const { return index_; }
+  void set_index(uint32_t index) { index_ = index; }
+
+ protected:
+  BsdfPtr bsdf_;
+  EmitterPtr emitter_;
+  uint32_t index_ = SurfacePoint::no_shape;
+};
+
+using ShapePtr = std::shared_ptr<Shape>;
+
+}  // namespace mlt

@@ -1,0 +1,52 @@
+// A point where a path has a vertex, and the geometry between two of them.
+#pragma once
+
+#include "math/frame.h"
+
+#include <cstdint>
+
+namespace mlt {
+
+/// What the position of a point means, and with it the cosine that its end of an edge contributes.
+enum class PointKind : uint8_t {
+  surface,  ///< On a surface (or a lens): the measure is area, the cosine is against `ng`.
+  isolated, ///< A point without a surface (a point light): there is no cosine, it counts as 1.
+  infinite  ///< At infinity: `p` is the unit direction towards it, the measure is solid angle.
+};
+
+struct SurfacePoint {
+  Vec3 p{0};                 ///< Position; for an infinite point, the unit direction towards it.
+  Vec3 ng{0};                ///< Geometric normal, on the same side as the shading normal.
+  Frame shading{};           ///< shading.n is the shading normal, shading.s follows dp/du.
+  Vec2 uv{0};                ///< Texture coordinates.
+  uint32_t shape = no_shape; ///< Index into Scene::shapes().
+  uint32_t primitive = 0;    ///< Triangle of a mesh.
+  PointKind kind = PointKind::surface;
+
+  static constexpr uint32_t no_shape = ~0u;
+  bool infinite() const { return kind == PointKind::infinite; }
+};
+
+/// The unit direction in which `to` is seen from `from`. At most one of the two may be infinite.
+inline Vec3 direction(const SurfacePoint& from, const SurfacePoint& to) {
+  if (to.infinite()) return to.p;
+  if (from.infinite()) return -from.p;
+  return normalize(to.p - from.p);
+}
+
+/// |cos| between the direction w and the geometric normal; 1 where there is no surface.
+inline double abs_cos(const SurfacePoint& at, const Vec3& w) {
+  return at.kind == PointKind::surface ? std::abs(dot(at.ng, w)) : 1.0;
+}
+
+/// G(a, b), the factor that turns a density in projected solid angle at one end into a density in
+/// the measure of the other: |cos a| |cos b| / |a - b|^2 (Veach 1997, eq. 8.2), and |cos b| alone
+/// when a is at infinity. Visibility is not part of it.
+inline double geometry(const SurfacePoint& a, const SurfacePoint& b) {
+  const Vec3 w = direction(a, b);
+  const double cosines = abs_cos(a, w) * abs_cos(b, w);
+  if (a.infinite() || b.infinite()) return cosines;
+  return cosines / length_squared(b.p - a.p);
+}
+
+}  // namespace mlt

@@ -1,0 +1,32 @@
+// A quantity that varies over a surface.
+#pragma once
+
+#include "base/params.h"
+#include "math/color.h"
+#include "scene/surface_point.h"
+
+namespace mlt {
+
+class Texture : public Object {
+ public:
+  virtual Color eval(const SurfacePoint& at) const = 0;
+  /// The mean of the channels, for textures that steer a scalar such as roughness.
+  virtual double eval_scalar(const SurfacePoint& at) const;
+
+  virtual Color mean() const = 0;     ///< Average over the texture, for sampling probabilities.
+  virtual double maximum() const = 0; ///< Upper bound of every channel, for energy conservation.
+};
+
+using TexturePtr = std::shared_ptr<const Texture>;
+
+TexturePtr constant_texture(const Color& color);
+
+/// The texture parameter `name`: a nested Texture, or a constant from a number, rgb or spectrum.
+/// `texture` parameters are bounded to [0, 1] (SceneError otherwise), `emission` ones must be >= 0.
+TexturePtr texture_param(Params& params, const std::string& name);
+/// The colour parameter `name` (type reflectance or radiance).
+Color color_param(Params& params, const std::string& name);
+/// A real-valued parameter that may be textured (type texture, given as a number or a Texture).
+Mat4 matrix_param(Params& params, const std::string& name);
+
+}  // namespace mlt
