@@ -22,8 +22,8 @@ using Vec4 = glm::dvec4;
 using Mat3 = glm::dmat3;
 using Mat4 = glm::dmat4;  // column-major: m[column][row]
 using Vec2i = glm::ivec2;
-using Vec2f = glm::fvec2;
-using Vec3f = glm::fvec3;
+using Vec2f = glm::vec2;
+using Vec3f = glm::vec3;
 
 using glm::cross;
 using glm::dot;
