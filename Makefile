@@ -1,0 +1,93 @@
+# Two commands: `make demo` renders a picture, `make test` runs every test. Both first install and
+# build what is missing. On Debian and Ubuntu nothing but git, make and python3 needs to be there.
+
+PYTHON ?= python3
+JOBS ?= $(shell nproc)
+DEMO_SCENE ?= scenes/door-ajar/scene.xml
+DEMO_FLAGS ?= --integrator pssmlt --spp 512 --seed 1
+SHARD ?= 1/1
+
+BUILD := build/default
+VENV := .venv
+BIN := $(VENV)/bin
+STAMPS := build/stamps
+CTEST := ctest --test-dir $(BUILD) --output-on-failure --no-tests=error
+
+# What the C++ build reads; folders too, whose time changes when a file is added or removed.
+SOURCES := $(shell find cpp bindings tests/cpp cmake CMakeLists.txt pyproject.toml \
+             -not -name '.*' 2>/dev/null)
+CXX_FILES = $(shell git ls-files -- '*.h' '*.cpp')
+
+export CMAKE_BUILD_PARALLEL_LEVEL ?= $(JOBS)
+export PIP_DISABLE_PIP_VERSION_CHECK = 1
+
+.DEFAULT_GOAL := build
+.DELETE_ON_ERROR:
+.PHONY: setup build demo test test-long asan lint format clean distclean
+
+# ---- set-up ------------------------------------------------------------------------------------
+setup: $(VENV)/.stamp
+
+$(STAMPS)/apt: cmake/apt-packages.txt cmake/install-apt-packages.sh
+	cmake/install-apt-packages.sh $<
+	@mkdir -p $(@D) && touch $@
+
+$(VENV)/.stamp: requirements/constraints.txt pyproject.toml | $(STAMPS)/apt
+	test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
+	$(BIN)/python -c 'import sys; assert sys.version_info >= (3, 11), "pymlt needs Python 3.11"'
+	$(BIN)/pip install -q -c $< $$($(BIN)/python cmake/list_dependencies.py pyproject.toml dev)
+	@touch $@
+
+# ---- one build: library, mlt-render, C++ tests, and the extension, installed editable ------------
+build: $(STAMPS)/build
+
+$(STAMPS)/build: $(SOURCES) $(VENV)/.stamp
+	$(BIN)/pip install -v --no-build-isolation --no-deps -e . \
+	  --config-settings=build-dir=$(BUILD) \
+	  --config-settings=cmake.define.PYMLT_TESTS=ON
+	@mkdir -p $(@D) && touch $@
+
+# ---- run it --------------------------------------------------------------------------------------
+demo: build
+	@mkdir -p out
+	$(BIN)/python -m pymlt render $(DEMO_SCENE) $(DEMO_FLAGS) \
+	  -o out/demo.exr -o out/demo.png
+	@echo "Look at out/demo.png (and out/demo.exr)."
+
+# Both suites run, whatever the first one says.
+test: build
+	@status=0; \
+	$(CTEST) -j $(JOBS) -LE '^long$$' || status=1; \
+	$(BIN)/python -m pytest || status=1; \
+	exit $$status
+
+# The tests that take minutes; SHARD=2/4 runs the second of four parts.
+test-long: build
+	@status=0; \
+	$(CTEST) -j $(JOBS) -L '^long$$' -I $(subst /,$(comma)$(comma),$(SHARD)) || status=1; \
+	$(BIN)/python -m pytest -m long --timeout 3600 --shard=$(SHARD) || status=1; \
+	exit $$status
+comma := ,
+
+asan: | $(STAMPS)/apt
+	cmake --preset asan
+	cmake --build --preset asan
+	ctest --preset asan -j $(JOBS)
+
+# ---- style ---------------------------------------------------------------------------------------
+lint: $(VENV)/.stamp
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/clang-format --dry-run --Werror $(CXX_FILES)
+
+format: $(VENV)/.stamp
+	$(BIN)/ruff check --fix-only .
+	$(BIN)/ruff format .
+	$(BIN)/clang-format -i $(CXX_FILES)
+
+clean:
+	rm -rf build out
+	find . -name __pycache__ -not -path './$(VENV)/*' -prune -exec rm -rf {} +
+
+distclean: clean
+	rm -rf $(VENV)

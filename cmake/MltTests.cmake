@@ -1,0 +1,47 @@
+# One GoogleTest binary per folder of tests/cpp, made of the test_*.cpp in and below it. Every other
+# source there is a harness that the tests share. Tests run in the root of the repository.
+#
+# A test is long when its suite's name starts with "Long"; ctest gives it the label `long`.
+include(GoogleTest)
+
+file(GLOB_RECURSE support_files CONFIGURE_DEPENDS tests/cpp/*.cpp tests/cpp/*.h)
+list(FILTER support_files EXCLUDE REGEX "/test_[^/]*\\.cpp$")
+add_library(mlt_test_support INTERFACE)
+if("${support_files}" MATCHES "\\.cpp")
+  add_library(mlt_test_harness STATIC ${support_files})
+  target_include_directories(mlt_test_harness PUBLIC tests/cpp)
+  target_link_libraries(mlt_test_harness PUBLIC mlt GTest::gtest)
+  target_link_libraries(mlt_test_support INTERFACE mlt_test_harness)
+endif()
+target_include_directories(mlt_test_support INTERFACE tests/cpp)
+target_link_libraries(mlt_test_support INTERFACE mlt GTest::gmock GTest::gtest GTest::gtest_main)
+
+set(long_suites "Long*:*/Long*")
+file(GLOB_RECURSE test_files CONFIGURE_DEPENDS RELATIVE "${PROJECT_SOURCE_DIR}/tests/cpp"
+     tests/cpp/test_*.cpp)
+foreach(file IN LISTS test_files)
+  string(REGEX MATCH "^[^/]+" floor "${file}")
+  set(target test_${floor})
+  if(NOT TARGET ${target})
+    add_executable(${target})
+    target_link_libraries(${target} PRIVATE mlt_test_support)
+    gtest_discover_tests(
+      ${target}
+      TEST_FILTER "-${long_suites}"
+      TEST_PREFIX "${floor}."
+      WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}"
+      DISCOVERY_MODE PRE_TEST
+      DISCOVERY_TIMEOUT 60
+      PROPERTIES TIMEOUT 300)
+    gtest_discover_tests(
+      ${target}
+      TEST_FILTER "${long_suites}"
+      TEST_PREFIX "${floor}."
+      TEST_LIST ${target}_long
+      WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}"
+      DISCOVERY_MODE PRE_TEST
+      DISCOVERY_TIMEOUT 60
+      PROPERTIES LABELS long TIMEOUT 3600)
+  endif()
+  target_sources(${target} PRIVATE "${PROJECT_SOURCE_DIR}/tests/cpp/${file}")
+endforeach()

@@ -1,0 +1,59 @@
+"""What all Python tests share: where the external scenes are, which tests run, sharding."""
+
+import importlib.util
+import os
+from pathlib import Path
+
+import pytest
+
+REPOSITORY = Path(__file__).resolve().parents[2]
+
+
+def shared_root() -> Path:
+    """The folder of external scenes and references; it need not exist."""
+    return Path(os.environ.get("PYMLT_SHARED") or REPOSITORY.parent / "shared")
+
+
+@pytest.fixture(scope="session")
+def repository() -> Path:
+    return REPOSITORY
+
+
+@pytest.fixture(scope="session")
+def shared() -> Path:
+    """The external scenes and references; for tests that are marked `shared`."""
+    return shared_root()
+
+
+def pytest_addoption(parser):
+    parser.addoption("--shard", default="1/1", metavar="I/N", help="run the I-th of N parts")
+
+
+def pytest_collection_modifyitems(config, items):
+    missing = {
+        "shared": not (shared_root() / "scenes").is_dir(),
+        "peer": importlib.util.find_spec("mitsuba") is None,
+    }
+    reasons = {
+        "shared": f"no external scenes in {shared_root()} (set PYMLT_SHARED)",
+        "peer": "Mitsuba 3 is not installed (pip install mitsuba)",
+    }
+    for item in items:
+        for marker, absent in missing.items():
+            if absent and item.get_closest_marker(marker):
+                item.add_marker(pytest.mark.skip(reason=reasons[marker]))
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_collection_finish(session):
+    """Deal the selected tests out like cards, so that each shard gets some of every file."""
+    index, count = parse_shard(session.config.getoption("shard"))
+    session.items[:] = session.items[index - 1 :: count]
+
+
+def parse_shard(text: str) -> tuple[int, int]:
+    index, slash, count = text.partition("/")
+    valid = slash and index.isdigit() and count.isdigit() and 1 <= int(index) <= int(count)
+    if not valid:
+        raise pytest.UsageError(f"--shard {text}: expected I/N with 1 <= I <= N, such as 2/4")
+    return int(index), int(count)
