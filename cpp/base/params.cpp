@@ -39,6 +39,7 @@ bool fits(const Value& value, ParamType type) {
     case ParamType::radiance: return is_color(value);
     case ParamType::texture:
     case ParamType::emission: return is_color(value) || is<ObjectPtr>(value);
+    case ParamType::ior: return is_number(value) || is<std::string>(value);
     case ParamType::object: return is<ObjectPtr>(value);
   }
   return false;
