@@ -12,6 +12,7 @@ class Object {
  public:
   virtual ~Object() = default;
 
+  std::string type;  ///< Name of the plug-in that made it, or "".
   std::string id;  ///< The scene's name for it, or "".
   Location where;  ///< Where the scene describes it.
 };

@@ -6,7 +6,9 @@
 #include "render/stats.h"
 #include "scene/scene.h"
 
+#include <atomic>
 #include <memory>
+#include <string>
 
 namespace mlt {
 
@@ -40,7 +42,7 @@ class Integrator : public Object {
  public:
   /// Throws SceneError if the scene has something that this algorithm cannot serve.
   virtual std::unique_ptr<Rendering> start(ScenePtr scene, uint64_t seed) const = 0;
-  virtual const std::string& name() const = 0;
+  const std::string& name() const { return type; }
 };
 
 using IntegratorPtr = std::shared_ptr<const Integrator>;

@@ -5,12 +5,12 @@
 #include "integrator/integrator.h"
 
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <exception>
 #include <mutex>
 #include <optional>
 #include <thread>
-#include <vector>
 
 namespace mlt {
 
@@ -36,26 +36,39 @@ class Job {
   /// Waits until the render has ended or `seconds` have passed; true if it has ended. Rethrows what
   /// went wrong inside the render.
   bool wait(double seconds);
-  void cancel();
-
-  bool ended() const;
+  /// Ends the render soon; what has been rendered stays.
+  void cancel() { cancel_ = true; }
   bool cancelled() const { return cancel_; }
+
   double progress() const;  ///< 0 ... 1 of the budget.
   Image image() const;      ///< So far: linear RGB, row 0 on top.
   Stats stats() const;
 
  private:
+  using Clock = std::chrono::steady_clock;
+  enum class Phase { waiting, bootstrap, rendering, ended };
+
   void run();
   void work();
+  double seconds_since_start() const;
+  bool out_of_time() const;
 
   ScenePtr scene_;
   IntegratorPtr integrator_;
   RenderSettings settings_;
   std::unique_ptr<Rendering> rendering_;
-  // The rest belongs to job.cpp.
-  struct State;
-  std::unique_ptr<State> state_;
+
   std::atomic<bool> cancel_{false};
+  std::atomic<Phase> phase_{Phase::waiting};
+  std::atomic<uint64_t> next_unit_{0}, units_done_{0};
+  std::atomic<uint64_t> unit_count_{0};
+  Clock::time_point started_;
+  std::atomic<double> bootstrap_seconds_{0}, total_seconds_{0};
+
+  std::thread thread_;
+  std::mutex mutex_;
+  std::condition_variable ended_;
+  std::exception_ptr failure_;  ///< Guarded by mutex_ until the render has ended.
 };
 
 }  // namespace mlt

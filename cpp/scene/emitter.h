@@ -71,6 +71,13 @@ class Emitter : public Object {
   /// Area lights learn which shape they sit on.
   virtual void set_shape(const Shape*) {}
   virtual const Shape* shape() const { return nullptr; }
+
+  /// Position in Scene::emitters().
+  uint32_t index() const { return index_; }
+  void set_index(uint32_t index) { index_ = index; }
+
+ private:
+  uint32_t index_ = 0;
 };
 
 using EmitterPtr = std::shared_ptr<Emitter>;

@@ -55,7 +55,6 @@ class Scene {
   /// Chooses a light; u is rescaled so that it can be used again.
   EmitterChoice choose_emitter(double& u) const;
   double emitter_probability(uint32_t index) const { return emitter_choice_.pdf(index); }
-  uint32_t emitter_index(const Emitter* emitter) const;
 
   size_t triangle_count() const;
   size_t bytes() const;  ///< Of the shapes' buffers.

@@ -22,6 +22,7 @@ struct SurfacePoint {
   uint32_t shape = no_shape; ///< Index into Scene::shapes().
   uint32_t primitive = 0;    ///< Triangle of a mesh.
   PointKind kind = PointKind::surface;
+  double extent = 0;  ///< Largest coordinate of the primitive: the scale of float rounding in the accelerator.
 
   static constexpr uint32_t no_shape = ~0u;
   bool infinite() const { return kind == PointKind::infinite; }

@@ -1,0 +1,78 @@
+// States as bytes: plain values in sequence, checked when they are read back.
+#pragma once
+
+#include "base/error.h"
+
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace mlt {
+
+class ByteWriter {
+ public:
+  template <class T>
+  void write(const T& value) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    bytes_.append(reinterpret_cast<const char*>(&value), sizeof(T));
+  }
+  template <class T>
+  void write(const std::vector<T>& values) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    write<uint64_t>(values.size());
+    bytes_.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
+  }
+  void write(const std::string& text) {
+    write<uint64_t>(text.size());
+    bytes_ += text;
+  }
+  std::string take() { return std::move(bytes_); }
+
+ private:
+  std::string bytes_;
+};
+
+class ByteReader {
+ public:
+  explicit ByteReader(const std::string& bytes) : bytes_(&bytes) {}
+
+  template <class T>
+  T read() {
+    static_assert(std::is_trivially_copyable_v<T>);
+    T value;
+    copy(&value, sizeof(T));
+    return value;
+  }
+  template <class T>
+  void read(std::vector<T>& values) {
+    const uint64_t size = read<uint64_t>();
+    if (size > (bytes_->size() - position_) / sizeof(T)) truncated();
+    values.resize(size);
+    copy(values.data(), size * sizeof(T));
+  }
+  void read(std::string& text) {
+    const uint64_t size = read<uint64_t>();
+    if (size > bytes_->size() - position_) truncated();
+    text.assign(*bytes_, position_, size);
+    position_ += size;
+  }
+  /// Throws if something is left over.
+  void finish() const {
+    if (position_ != bytes_->size()) throw RenderError("the saved state is longer than expected");
+  }
+
+ private:
+  void copy(void* to, size_t size) {
+    if (size > bytes_->size() - position_) truncated();
+    if (size > 0) std::memcpy(to, bytes_->data() + position_, size);
+    position_ += size;
+  }
+  [[noreturn]] static void truncated() { throw RenderError("the saved state is truncated"); }
+
+  const std::string* bytes_;
+  size_t position_ = 0;
+};
+
+}  // namespace mlt

@@ -1,0 +1,37 @@
+#include "base/parallel.h"
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace mlt {
+
+int hardware_threads() { return std::max(1u, std::thread::hardware_concurrency()); }
+
+void parallel_for(int threads, uint64_t count, const std::function<void(uint64_t)>& body) {
+  std::atomic<uint64_t> next{0};
+  std::exception_ptr failure;
+  std::mutex failure_mutex;
+  const auto work = [&] {
+    for (uint64_t i = next++; i < count; i = next++) {
+      try {
+        body(i);
+      } catch (...) {
+        const std::lock_guard lock(failure_mutex);
+        if (!failure) failure = std::current_exception();
+        next = count;
+      }
+    }
+  };
+  std::vector<std::thread> workers;
+  const uint64_t wanted = std::min<uint64_t>(std::max(1, threads), count);
+  for (uint64_t i = 1; i < wanted; ++i) workers.emplace_back(work);
+  work();
+  for (std::thread& worker : workers) worker.join();
+  if (failure) std::rethrow_exception(failure);
+}
+
+}  // namespace mlt

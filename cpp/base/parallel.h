@@ -1,0 +1,17 @@
+// Running a loop on several threads. Which thread does which index is left open, so the body must
+// not depend on it.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+namespace mlt {
+
+/// As many threads as the machine has, at least 1.
+int hardware_threads();
+
+/// Calls body(0) ... body(count - 1), handing out indices in increasing order. The first exception
+/// stops the loop and is rethrown.
+void parallel_for(int threads, uint64_t count, const std::function<void(uint64_t)>& body);
+
+}  // namespace mlt

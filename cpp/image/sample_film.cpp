@@ -1,0 +1,151 @@
+#include "image/sample_film.h"
+
+#include "base/bytes.h"
+
+namespace mlt {
+namespace {
+
+/// Integral of f over the cell at distance d from the pixel, for d = 0 ... border. The filter is
+/// linear between its knots, which lie densely and on the half-integers: trapezoids are exact.
+std::vector<double> cell_weights(const Filter& filter, int border) {
+  std::vector<double> weights;
+  if (filter.is_box()) return {1};
+  constexpr int steps = 4096;
+  for (int d = 0; d <= border; ++d) {
+    double sum = 0;
+    for (int i = 0; i < steps; ++i) sum += filter.eval(d - 0.5 + (i + 0.5) / steps);
+    weights.push_back(sum / steps);
+  }
+  return weights;
+}
+
+}  // namespace
+
+SampleFilm::SampleFilm(int width, int height, std::shared_ptr<const Filter> filter, int groups)
+    : width_(width), height_(height), border_(filter_border(*filter)), filter_(std::move(filter)) {
+  tiles_x_ = (width + 2 * border_ + tile_size - 1) / tile_size;
+  tiles_y_ = (height + 2 * border_ + tile_size - 1) / tile_size;
+  cell_weight_ = cell_weights(*filter_, border_);
+  for (int g = 0; g < groups; ++g) {
+    groups_.push_back(std::make_unique<Group>());
+    groups_.back()->rgb.resize(size_t{3} * width * height);
+    groups_.back()->samples.resize(tile_count());
+  }
+}
+
+SampleFilm::Tile::Tile(const PixelRect& cells, const PixelRect& reach, const Filter& filter)
+    : cells_(cells), reach_(reach), filter_(&filter), rgb_(size_t{3} * reach.width() * reach.height()) {}
+
+void SampleFilm::Tile::add(const Vec2& raster, const Color& color) {
+  splat(*filter_, raster, reach_, [&](int x, int y, double weight) {
+    float* pixel = &rgb_[3 * (size_t(y - reach_.y0) * reach_.width() + (x - reach_.x0))];
+    for (int c = 0; c < 3; ++c) pixel[c] += static_cast<float>(color[c] * weight);
+  });
+}
+
+PixelRect SampleFilm::cells_of(int tile) const {
+  const int x0 = (tile % tiles_x_) * tile_size - border_, y0 = (tile / tiles_x_) * tile_size - border_;
+  return {x0, y0, std::min(x0 + tile_size, width_ + border_), std::min(y0 + tile_size, height_ + border_)};
+}
+
+PixelRect SampleFilm::reach_of(const PixelRect& cells) const {
+  return {std::max(0, cells.x0 - border_), std::max(0, cells.y0 - border_),
+          std::min(width_, cells.x1 + border_), std::min(height_, cells.y1 + border_)};
+}
+
+SampleFilm::Tile SampleFilm::begin(int tile) const {
+  const PixelRect cells = cells_of(tile);
+  return Tile(cells, reach_of(cells), *filter_);
+}
+
+void SampleFilm::commit(int group_index, uint64_t order, int tile, Tile&& data, int samples) {
+  Group& group = *groups_[group_index];
+  const std::lock_guard lock(group.mutex);
+  group.pending.emplace(order, Pending{tile, samples, std::move(data)});
+  for (auto it = group.pending.find(group.next); it != group.pending.end();
+       it = group.pending.find(group.next)) {
+    add(group, it->second);
+    group.pending.erase(it);
+    ++group.next;
+  }
+}
+
+void SampleFilm::add(Group& group, const Pending& pending) {
+  const PixelRect& reach = pending.data.reach_;
+  const size_t row = size_t{3} * reach.width();
+  for (int y = reach.y0; y < reach.y1; ++y) {
+    const float* from = &pending.data.rgb_[(y - reach.y0) * row];
+    float* to = &group.rgb[3 * (size_t(y) * width_ + reach.x0)];
+    for (size_t i = 0; i < row; ++i) to[i] += from[i];
+  }
+  group.samples[pending.tile] += pending.samples;
+}
+
+Image SampleFilm::image() const {
+  std::vector<double> rgb(size_t{3} * width_ * height_);
+  std::vector<uint64_t> samples(tile_count());
+  for (const auto& group : groups_) {
+    const std::lock_guard lock(group->mutex);
+    for (size_t i = 0; i < rgb.size(); ++i) rgb[i] += group->rgb[i];
+    for (size_t t = 0; t < samples.size(); ++t) samples[t] += group->samples[t];
+  }
+  return develop(rgb, samples);
+}
+
+Image SampleFilm::group_image(int group_index) const {
+  const Group& group = *groups_[group_index];
+  const std::lock_guard lock(group.mutex);
+  return develop({group.rgb.begin(), group.rgb.end()}, group.samples);
+}
+
+Image SampleFilm::develop(const std::vector<double>& rgb, const std::vector<uint64_t>& samples) const {
+  std::vector<double> weights(size_t(width_) * height_);
+  const auto expected = [&](int pixel, int begin, int end) {
+    double sum = 0;
+    for (int cell = std::max(begin, pixel - border_); cell < std::min(end, pixel + border_ + 1); ++cell)
+      sum += cell_weight_[std::abs(cell - pixel)];
+    return sum;
+  };
+  for (int tile = 0; tile < tile_count(); ++tile) {
+    if (samples[tile] == 0) continue;
+    const PixelRect cells = cells_of(tile), reach = reach_of(cells);
+    std::vector<double> wx;
+    for (int x = reach.x0; x < reach.x1; ++x) wx.push_back(expected(x, cells.x0, cells.x1));
+    for (int y = reach.y0; y < reach.y1; ++y) {
+      const double wy = samples[tile] * expected(y, cells.y0, cells.y1);
+      for (int x = reach.x0; x < reach.x1; ++x) weights[size_t(y) * width_ + x] += wy * wx[x - reach.x0];
+    }
+  }
+  Image image(width_, height_, 3);
+  for (size_t i = 0; i < weights.size(); ++i)
+    if (weights[i] > 0)
+      for (int c = 0; c < 3; ++c) image.data[3 * i + c] = static_cast<float>(rgb[3 * i + c] / weights[i]);
+  return image;
+}
+
+std::string SampleFilm::save() const {
+  ByteWriter bytes;
+  for (const auto& group : groups_) {
+    const std::lock_guard lock(group->mutex);
+    if (!group->pending.empty()) throw RenderError("a film cannot be saved while units are running");
+    bytes.write(group->next);
+    bytes.write(group->rgb);
+    bytes.write(group->samples);
+  }
+  return bytes.take();
+}
+
+void SampleFilm::load(const std::string& saved) {
+  ByteReader bytes(saved);
+  for (const auto& group : groups_) {
+    const size_t pixels = group->rgb.size(), tiles = group->samples.size();
+    group->next = bytes.read<uint64_t>();
+    bytes.read(group->rgb);
+    bytes.read(group->samples);
+    if (group->rgb.size() != pixels || group->samples.size() != tiles)
+      throw RenderError("the saved film has another size");
+  }
+  bytes.finish();
+}
+
+}  // namespace mlt

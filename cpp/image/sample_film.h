@@ -1,0 +1,80 @@
+// The film of integrators that sample pixel by pixel. Samples are recorded tile by tile; the tiles of
+// one group are added in a fixed order, so the image has the same bits for any number of threads.
+// The groups are independent of each other: their spread tells how wrong the image is.
+#pragma once
+
+#include "image/image.h"
+#include "image/splat.h"
+#include "math/color.h"
+
+#include <atomic>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace mlt {
+
+class SampleFilm {
+ public:
+  static constexpr int tile_size = 32;
+
+  SampleFilm(int width, int height, std::shared_ptr<const Filter> filter, int groups);
+
+  /// The samples of one tile, over the pixels that its filter footprints reach.
+  class Tile {
+   public:
+    Tile(const PixelRect& cells, const PixelRect& reach, const Filter& filter);
+    /// The cells to be sampled; those of border tiles may lie outside the image.
+    const PixelRect& cells() const { return cells_; }
+    void add(const Vec2& raster, const Color& color);
+
+   private:
+    friend class SampleFilm;
+    PixelRect cells_, reach_;
+    const Filter* filter_;
+    std::vector<float> rgb_;
+  };
+
+  int tile_count() const { return tiles_x_ * tiles_y_; }
+  int group_count() const { return static_cast<int>(groups_.size()); }
+  Tile begin(int tile) const;
+
+  /// Hands in the tile that is the `order`-th of its group (0, 1, 2, ... without gaps). It is added
+  /// when all before it have been; `samples` is how many samples each cell has received.
+  void commit(int group, uint64_t order, int tile, Tile&& samples_of_tile, int samples);
+
+  /// Sum of samples over their expected weight, per pixel; all groups, or one.
+  Image image() const;
+  Image group_image(int group) const;
+
+  std::string save() const;
+  void load(const std::string& bytes);
+
+ private:
+  struct Pending {
+    int tile;
+    int samples;
+    Tile data;
+  };
+  struct Group {
+    mutable std::mutex mutex;
+    uint64_t next = 0;
+    std::map<uint64_t, Pending> pending;
+    std::vector<float> rgb;
+    std::vector<uint64_t> samples;  ///< Per cell of each tile.
+  };
+
+  PixelRect cells_of(int tile) const;
+  PixelRect reach_of(const PixelRect& cells) const;
+  void add(Group& group, const Pending& pending);
+  Image develop(const std::vector<double>& rgb, const std::vector<uint64_t>& samples) const;
+
+  int width_, height_, border_, tiles_x_, tiles_y_;
+  std::shared_ptr<const Filter> filter_;
+  std::vector<double> cell_weight_;  ///< Expected weight of a uniform sample in a cell at distance d.
+  std::vector<std::unique_ptr<Group>> groups_;
+};
+
+}  // namespace mlt

@@ -1,0 +1,45 @@
+// Which pixels a sample at a continuous raster position reaches, and with which filter weight.
+#pragma once
+
+#include "image/filter.h"
+#include "math/vec.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mlt {
+
+/// A half-open rectangle of pixels.
+struct PixelRect {
+  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+  int width() const { return x1 - x0; }
+  int height() const { return y1 - y0; }
+};
+
+/// How far outside the image samples still reach a pixel, in whole pixels.
+inline int filter_border(const Filter& filter) {
+  return static_cast<int>(std::ceil(filter.radius() - 0.5));
+}
+
+/// Calls add(x, y, weight) for each pixel of `rect` whose filter covers the raster position `at`.
+template <class Add>
+void splat(const Filter& filter, const Vec2& at, const PixelRect& rect, Add&& add) {
+  if (filter.is_box()) {
+    const int x = static_cast<int>(std::floor(at.x)), y = static_cast<int>(std::floor(at.y));
+    if (x >= rect.x0 && x < rect.x1 && y >= rect.y0 && y < rect.y1) add(x, y, 1.0);
+    return;
+  }
+  const double r = filter.radius();
+  const int x0 = std::max(rect.x0, static_cast<int>(std::ceil(at.x - r - 0.5)));
+  const int y0 = std::max(rect.y0, static_cast<int>(std::ceil(at.y - r - 0.5)));
+  const int x1 = std::min(rect.x1 - 1, static_cast<int>(std::floor(at.x + r - 0.5)));
+  const int y1 = std::min(rect.y1 - 1, static_cast<int>(std::floor(at.y + r - 0.5)));
+  for (int y = y0; y <= y1; ++y) {
+    const double wy = filter.eval(y + 0.5 - at.y);
+    if (wy == 0) continue;
+    for (int x = x0; x <= x1; ++x)
+      if (const double w = wy * filter.eval(x + 0.5 - at.x); w != 0) add(x, y, w);
+  }
+}
+
+}  // namespace mlt

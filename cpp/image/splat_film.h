@@ -1,0 +1,42 @@
+// The film of Metropolis integrators. Splats are bounded, so they add up in fixed point: integer
+// sums do not depend on their order, and the image has the same bits for any number of threads.
+#pragma once
+
+#include "image/image.h"
+#include "image/splat.h"
+#include "math/color.h"
+
+#include <atomic>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace mlt {
+
+class SplatFilm {
+ public:
+  SplatFilm(int width, int height, std::shared_ptr<const Filter> filter, int groups);
+
+  /// Adds `color` times the filter at a raster position. Thread-safe.
+  void add(int group, const Vec2& raster, const Color& color);
+
+  int group_count() const { return groups_; }
+  /// Sum over the groups g of scale[g] * (what was added to g).
+  Image image(const std::vector<double>& scale) const;
+  /// Pixels of one group whose sums have left the range that fixed point can hold.
+  uint64_t saturated() const { return saturated_; }
+
+  std::string save() const;
+  void load(const std::string& bytes);
+
+ private:
+  static constexpr double one = 268435456.0;  // 2^28
+  using Cell = std::atomic<int64_t>;
+
+  int width_, height_, groups_;
+  std::shared_ptr<const Filter> filter_;
+  std::unique_ptr<Cell[]> cells_;  ///< [group][pixel][channel]
+  std::atomic<uint64_t> saturated_{0};
+};
+
+}  // namespace mlt

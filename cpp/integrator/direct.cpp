@@ -1,0 +1,107 @@
+// direct: light that reaches the camera over at most one reflection, by any number of samples of
+// lights and of the BSDF, combined by the multi-sample power heuristic (Veach 1997, sec. 9.2).
+#include "base/registry.h"
+#include "integrator/path_params.h"
+#include "integrator/sampled_rendering.h"
+
+namespace mlt {
+namespace {
+
+struct DirectSettings {
+  int emitter_samples = 1, bsdf_samples = 1;
+  bool hide_emitters = false, strict_normals = false;
+};
+
+class DirectRendering : public SampledRendering {
+ public:
+  DirectRendering(ScenePtr scene, uint64_t seed, const DirectSettings& settings)
+      : SampledRendering(std::move(scene), seed), settings_(settings) {}
+
+ private:
+  Color radiance(const Ray& ray, PixelSampler& sampler, RayCounts& rays) const override {
+    SurfacePoint at;
+    ++rays.intersect;
+    const bool hit = scene().intersect(ray, at);
+    const auto always = [](const Emitter&, const SurfacePoint&) { return 1.0; };
+    Color sum(0);
+    if (!settings_.hide_emitters) sum += emission(scene(), hit ? &at : nullptr, ray.d, always);
+    if (!hit || !consistent_sides(at, -ray.d, settings_.strict_normals)) return sum;
+    const Bsdf& bsdf = scene().bsdf(at);
+    if (bsdf.has_smooth())
+      for (int i = 0; i < settings_.emitter_samples; ++i) sum += by_light(at, ray, sampler, rays);
+    for (int i = 0; i < settings_.bsdf_samples; ++i) sum += by_bsdf(bsdf, at, ray, sampler, rays);
+    return sum;
+  }
+
+  Color by_light(const SurfacePoint& at, const Ray& ray, PixelSampler& sampler, RayCounts& rays) const {
+    const Vec2 u = sampler.next2();
+    const double n = settings_.emitter_samples, m = settings_.bsdf_samples;
+    const auto weight = [&](double light, double bsdf) { return power_heuristic(n * light, m * bsdf); };
+    return direct_light(scene(), at, -ray.d, {sampler.next(), u}, ray.time, settings_.strict_normals, rays,
+                        weight) / n;
+  }
+
+  Color by_bsdf(const Bsdf& bsdf, const SurfacePoint& at, const Ray& ray, PixelSampler& sampler,
+                RayCounts& rays) const {
+    const Vec2 u = sampler.next2();
+    const auto sample =
+        scatter_to_light(bsdf, at, -ray.d, {sampler.next(), u}, settings_.strict_normals);
+    if (!sample) return Color(0);
+    const double n = settings_.emitter_samples, m = settings_.bsdf_samples;
+    const auto weight = [&](const Emitter& emitter, const SurfacePoint& x0) {
+      if (sample->lobe != Lobe::smooth) return 1.0;
+      const double light = emitter_pdf(scene(), emitter, at.p, x0) * per_solid_angle(at.p, x0, sample->w);
+      return power_heuristic(m * sample->pdf, n * light);
+    };
+    SurfacePoint next;
+    ++rays.intersect;
+    const bool hit = scene().intersect(scene().spawn(at, sample->w, ray.time), next);
+    return sample->weight * emission(scene(), hit ? &next : nullptr, sample->w, weight) / m;
+  }
+
+  DirectSettings settings_;
+};
+
+class DirectIntegrator : public Integrator {
+ public:
+  explicit DirectIntegrator(Params& params) {
+    const int64_t both = params.integer_in("shading_samples", 1, 1 << 20);
+    const auto count = [&](const char* name) {
+      return static_cast<int>(params.has(name) ? params.integer_in(name, 0, 1 << 20) : both);
+    };
+    settings_.emitter_samples = count("emitter_samples");
+    settings_.bsdf_samples = count("bsdf_samples");
+    if (settings_.emitter_samples + settings_.bsdf_samples == 0)
+      params.fail("needs at least one of emitter_samples and bsdf_samples to be positive");
+    settings_.hide_emitters = params.boolean("hide_emitters");
+    settings_.strict_normals = params.boolean("strict_normals");
+  }
+  std::unique_ptr<Rendering> start(ScenePtr scene, uint64_t seed) const override {
+    return std::make_unique<DirectRendering>(std::move(scene), seed, settings_);
+  }
+
+ private:
+  DirectSettings settings_;
+};
+
+}  // namespace
+
+Plugin integrator_direct() {
+  Schema schema;
+  schema.family = "integrator";
+  schema.name = "direct";
+  schema.doc =
+      "Direct light: one reflection at the most, sampled from lights and BSDFs (Veach 1997, sec. 9.2). "
+      "One spp is one camera ray per pixel.";
+  schema.parameters = {
+      {"shading_samples", ParamType::integer, int64_t{1}, "Sets both of the numbers below."},
+      {"emitter_samples", ParamType::integer, {}, "Samples of lights per camera ray (default: shading_samples)."},
+      {"bsdf_samples", ParamType::integer, {}, "Samples of the BSDF per camera ray (default: shading_samples)."},
+  };
+  for (const Parameter& shared : path_parameters())
+    if (shared.name == "hide_emitters" || shared.name == "strict_normals")
+      schema.parameters.push_back(shared);
+  return {schema, [](Params& params) -> ObjectPtr { return std::make_shared<DirectIntegrator>(params); }};
+}
+
+}  // namespace mlt

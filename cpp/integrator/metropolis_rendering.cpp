@@ -1,0 +1,205 @@
+#include "integrator/metropolis_rendering.h"
+
+#include "base/parallel.h"
+#include "markov/bootstrap.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mlt {
+
+MetropolisRendering::MetropolisRendering(ScenePtr scene, uint64_t seed,
+                                         const MetropolisSettings& settings,
+                                         std::unique_ptr<MetropolisAlgorithm> algorithm)
+    : scene_(std::move(scene)),
+      seed_(seed),
+      settings_(settings),
+      algorithm_(std::move(algorithm)),
+      film_(scene_->camera().raster().size.x, scene_->camera().raster().size.y, scene_->film().filter,
+            groups),
+      groups_(groups),
+      steps_per_unit_(static_cast<uint64_t>(std::ceil(pixels() / settings.chains))) {}
+
+int MetropolisRendering::chains_of(int group) const {
+  return (settings_.chains + groups - 1 - group) / groups;
+}
+
+void MetropolisRendering::prepare(int threads, const std::atomic<bool>& cancelled) {
+  const uint64_t candidates = (settings_.luminance_samples + groups - 1) / groups;
+  std::vector<std::vector<double>> weights(groups, std::vector<double>(candidates));
+  constexpr uint64_t block = 256;
+  const uint64_t blocks = (candidates + block - 1) / block;
+  std::mutex rays_mutex;
+  parallel_for(threads, blocks * groups, [&](uint64_t i) {
+    const uint64_t group = i / blocks, first = i % blocks * block;
+    RayCounts rays;
+    for (uint64_t j = first; j < std::min(candidates, first + block) && !cancelled; ++j) {
+      Rng rng(seed_, Purpose::bootstrap, group * candidates + j);
+      const double weight = algorithm_->candidate(rng, rays);
+      weights[group][j] = std::isfinite(weight) && weight > 0 ? weight : 0;
+    }
+    const std::lock_guard lock(rays_mutex);
+    bootstrap_rays_.intersect += rays.intersect;
+    bootstrap_rays_.occluded += rays.occluded;
+  });
+  if (cancelled) return;
+
+  std::vector<std::vector<uint32_t>> seeds(groups);
+  for (int g = 0; g < groups; ++g) {
+    Rng rng(seed_, Purpose::resample, g);
+    Bootstrap bootstrap = resample(weights[g], chains_of(g), rng);
+    groups_[g].b = bootstrap.b;
+    groups_[g].b_error = bootstrap.b_error;
+    seeds[g] = std::move(bootstrap.seeds);
+  }
+  std::vector<std::pair<uint64_t, uint64_t>> starts;  // chain, candidate
+  for (int c = 0; c < settings_.chains; ++c) {
+    const int g = c % groups;
+    if (!seeds[g].empty()) starts.push_back({c, g * candidates + seeds[g][c / groups]});
+  }
+  if (starts.empty())
+    throw RenderError("no light path was found among " + std::to_string(candidates * groups) +
+                      " bootstrap samples; give more luminance_samples, or check that light can reach "
+                      "the camera");
+  lanes_.resize(starts.size());
+  parallel_for(threads, starts.size(), [&](uint64_t i) {
+    const auto [chain, candidate] = starts[i];
+    lanes_[i] = std::make_unique<Lane>();
+    lanes_[i]->group = static_cast<int>(chain % groups);
+    lanes_[i]->chain = algorithm_->start(Rng(seed_, Purpose::bootstrap, candidate),
+                                         Rng(seed_, Purpose::chain, chain));
+  });
+}
+
+uint64_t MetropolisRendering::unit_count(double spp) const {
+  const double per_round = static_cast<double>(lanes_.size() * steps_per_unit_);
+  return static_cast<uint64_t>(std::ceil(spp * pixels() / per_round)) * lanes_.size();
+}
+
+double MetropolisRendering::spp_done(uint64_t units) const {
+  return static_cast<double>(units * steps_per_unit_) / pixels();
+}
+
+void MetropolisRendering::run_unit(uint64_t unit) {
+  Lane& lane = *lanes_[unit % lanes_.size()];
+  const uint64_t round = unit / lanes_.size();
+  std::unique_lock lock(lane.mutex);
+  lane.turn.wait(lock, [&] { return lane.round == round; });
+  // Whatever happens, the thread that waits for the next stretch must go on.
+  struct Done {
+    Lane& lane;
+    ~Done() {
+      ++lane.round;
+      lane.turn.notify_all();
+    }
+  } done{lane};
+  lane.chain->advance(steps_per_unit_, ChainRecorder(film_, lane.group));
+  groups_[lane.group].steps += steps_per_unit_;
+}
+
+/// I_j = b E[h_j RGB / L*] per unit of image area: each group's own b_g times its mean, averaged over
+/// the groups that have begun. A group whose bootstrap found no light rightly contributes 0.
+Image MetropolisRendering::image() const {
+  int begun = 0;
+  std::vector<double> scale(groups, 0.0);
+  for (int g = 0; g < groups; ++g) {
+    const uint64_t steps = groups_[g].steps;
+    if (steps > 0) scale[g] = groups_[g].b * pixels() / static_cast<double>(steps);
+    if (steps > 0 || groups_[g].b == 0) ++begun;
+  }
+  for (double& s : scale) s /= std::max(1, begun);
+  return film_.image(scale);
+}
+
+void MetropolisRendering::add_stats(Stats& stats) const {
+  double sum = 0, variance = 0;
+  for (const Group& group : groups_) {
+    sum += group.b;
+    variance += sqr(group.b_error);
+  }
+  stats.b = sum / groups;
+  stats.b_error = std::sqrt(variance) / groups;
+
+  const std::vector<std::string> names = algorithm_->row_names();
+  std::vector<ChainStats::Row> rows(names.size());
+  RayCounts rays = bootstrap_rays_;
+  for (size_t i = 0; i < lanes_.size(); ++i) {
+    const Lane& lane = *lanes_[i];
+    const std::lock_guard lock(lane.mutex);
+    const ChainStats& s = lane.chain->stats();
+    for (size_t r = 0; r < rows.size(); ++r) {
+      rows[r].proposed += s.rows[r].proposed;
+      rows[r].generated += s.rows[r].generated;
+      rows[r].accepted += s.rows[r].accepted;
+      rows[r].acceptance += s.rows[r].acceptance;
+      rows[r].image_distance += s.rows[r].image_distance;
+    }
+    rays.intersect += s.rays.intersect;
+    rays.occluded += s.rays.occluded;
+    stats.invalid_samples += s.invalid;
+    if (s.longest_run > 0)
+      stats.stuck.push_back({i, s.longest_run, s.stuck_at.x, s.stuck_at.y, ""});
+  }
+  stats.rays_intersect = rays.intersect;
+  stats.rays_occluded = rays.occluded;
+  for (size_t r = 0; r < rows.size(); ++r) {
+    MutationStats m;
+    m.name = names[r];
+    m.proposed = rows[r].proposed;
+    m.generated = rows[r].generated;
+    m.accepted = rows[r].accepted;
+    const double n = static_cast<double>(std::max<uint64_t>(1, m.proposed));
+    m.mean_acceptance = rows[r].acceptance / n;
+    m.image_distance = rows[r].image_distance / n;
+    stats.mutations.push_back(m);
+  }
+  // The longest run of rejections alone is worth telling.
+  const auto longer = [](const StuckChain& a, const StuckChain& b) { return a.rejections < b.rejections; };
+  const auto longest = std::max_element(stats.stuck.begin(), stats.stuck.end(), longer);
+  if (longest != stats.stuck.end()) stats.stuck = {StuckChain(*longest)};
+  if (film_.saturated() > 0)
+    stats.warnings.push_back("the film's fixed-point range was exceeded; the brightest pixels are wrong");
+}
+
+std::string MetropolisRendering::save() const {
+  ByteWriter bytes;
+  for (const Group& group : groups_) {
+    bytes.write(group.b);
+    bytes.write(group.b_error);
+    bytes.write(group.steps.load());
+  }
+  bytes.write<uint64_t>(lanes_.size());
+  for (const auto& lane : lanes_) {
+    bytes.write(lane->group);
+    bytes.write(lane->round);
+    lane->chain->save(bytes);
+  }
+  bytes.write(film_.save());
+  return bytes.take();
+}
+
+void MetropolisRendering::load(const std::string& saved) {
+  ByteReader bytes(saved);
+  for (Group& group : groups_) {
+    group.b = bytes.read<double>();
+    group.b_error = bytes.read<double>();
+    group.steps = bytes.read<uint64_t>();
+  }
+  const uint64_t lanes = bytes.read<uint64_t>();
+  if (lanes > static_cast<uint64_t>(settings_.chains)) throw RenderError("the saved state has too many chains");
+  lanes_.clear();
+  for (uint64_t i = 0; i < lanes; ++i) {
+    lanes_.push_back(std::make_unique<Lane>());
+    lanes_[i]->group = bytes.read<int>();
+    if (lanes_[i]->group < 0 || lanes_[i]->group >= groups) throw RenderError("the saved state is damaged");
+    lanes_[i]->round = bytes.read<uint64_t>();
+    lanes_[i]->chain = algorithm_->blank();
+    lanes_[i]->chain->load(bytes);
+  }
+  std::string film;
+  bytes.read(film);
+  film_.load(film);
+  bytes.finish();
+}
+
+}  // namespace mlt

@@ -1,0 +1,118 @@
+// Rendering by Markov chains: what all Metropolis integrators share. A render is a fixed number of
+// chains, each with its own random stream; a unit is a stretch of steps of one chain, and chains are
+// visited in turn, so that every prefix of a render is a fair image. Chains form independent groups,
+// each with its own bootstrap and its own estimate of b.
+#pragma once
+
+#include "base/bytes.h"
+#include "base/rng.h"
+#include "image/splat_film.h"
+#include "integrator/integrator.h"
+#include "path/ray_counts.h"
+
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+namespace mlt {
+
+/// Where a chain leaves what it visits: RGB / L* at a raster position, times an expected weight.
+class ChainRecorder {
+ public:
+  ChainRecorder(SplatFilm& film, int group) : film_(&film), group_(group) {}
+  void record(const Vec2& raster, const Color& rgb_per_target, double weight) const {
+    film_->add(group_, raster, rgb_per_target * weight);
+  }
+
+ private:
+  SplatFilm* film_;
+  int group_;
+};
+
+/// What a chain tells about its steps; sums, so that chains can be merged.
+struct ChainStats {
+  struct Row {
+    uint64_t proposed = 0, generated = 0, accepted = 0;
+    double acceptance = 0, image_distance = 0;
+  };
+  std::vector<Row> rows;  ///< One for each row that MetropolisAlgorithm::row_names lists.
+  RayCounts rays;
+  uint64_t invalid = 0;
+  uint64_t rejections = 0, longest_run = 0;  ///< Rejections in a row, now and at the most.
+  Vec2 stuck_at{0};
+};
+
+/// One Markov chain.
+class Chain {
+ public:
+  virtual ~Chain() = default;
+  virtual void advance(uint64_t steps, const ChainRecorder& recorder) = 0;
+  virtual const ChainStats& stats() const = 0;
+  virtual void save(ByteWriter& bytes) const = 0;
+  virtual void load(ByteReader& bytes) = 0;
+};
+
+/// What distinguishes one Metropolis integrator from another.
+class MetropolisAlgorithm {
+ public:
+  virtual ~MetropolisAlgorithm() = default;
+
+  /// Draws a candidate for the start of a chain: returns its weight L* / p.
+  virtual double candidate(Rng& rng, RayCounts& rays) const = 0;
+  /// Starts a chain from the candidate that the same stream gave; `rng` is the chain's own.
+  virtual std::unique_ptr<Chain> start(Rng candidate, Rng rng) const = 0;
+  /// A chain without a state, to be loaded from bytes.
+  virtual std::unique_ptr<Chain> blank() const = 0;
+  virtual std::vector<std::string> row_names() const = 0;
+};
+
+struct MetropolisSettings {
+  int chains = 1024;
+  int64_t luminance_samples = 100000;
+};
+
+class MetropolisRendering : public Rendering {
+ public:
+  MetropolisRendering(ScenePtr scene, uint64_t seed, const MetropolisSettings& settings,
+                      std::unique_ptr<MetropolisAlgorithm> algorithm);
+
+  void prepare(int threads, const std::atomic<bool>& cancelled) override;
+  uint64_t unit_count(double spp) const override;
+  void run_unit(uint64_t unit) override;
+  double spp_done(uint64_t units) const override;
+  Image image() const override;
+  void add_stats(Stats& stats) const override;
+  std::string save() const override;
+  void load(const std::string& bytes) override;
+
+ private:
+  static constexpr int groups = 16;
+
+  struct Lane {
+    int group = 0;
+    std::unique_ptr<Chain> chain;
+    uint64_t round = 0;  ///< Units done.
+    mutable std::mutex mutex;
+    std::condition_variable turn;
+  };
+  struct Group {
+    double b = 0, b_error = 0;
+    std::atomic<uint64_t> steps{0};
+  };
+
+  double pixels() const { return scene_->camera().raster().pixels(); }
+  int chains_of(int group) const;
+
+  ScenePtr scene_;
+  uint64_t seed_;
+  MetropolisSettings settings_;
+  std::unique_ptr<MetropolisAlgorithm> algorithm_;
+  SplatFilm film_;
+  std::vector<std::unique_ptr<Lane>> lanes_;  ///< The chains of groups that have found light.
+  std::vector<Group> groups_;
+  uint64_t steps_per_unit_;
+  RayCounts bootstrap_rays_;
+};
+
+}  // namespace mlt

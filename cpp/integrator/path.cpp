@@ -1,0 +1,49 @@
+// path: unidirectional path tracing with next-event estimation and multiple importance sampling.
+// J. Kajiya, "The rendering equation", SIGGRAPH 1986; E. Veach and L. Guibas, "Optimally combining
+// sampling techniques for Monte Carlo rendering", SIGGRAPH 1995.
+#include "base/registry.h"
+#include "integrator/path_params.h"
+#include "integrator/sampled_rendering.h"
+
+namespace mlt {
+namespace {
+
+class PathRendering : public SampledRendering {
+ public:
+  PathRendering(ScenePtr scene, uint64_t seed, const PathSettings& settings)
+      : SampledRendering(std::move(scene), seed), settings_(settings) {}
+
+ private:
+  Color radiance(const Ray& ray, PixelSampler& sampler, RayCounts& rays) const override {
+    return trace_path(scene(), settings_, ray, sampler, rays);
+  }
+
+  PathSettings settings_;
+};
+
+class PathIntegrator : public Integrator {
+ public:
+  explicit PathIntegrator(Params& params) : settings_(path_settings(params)) {}
+  std::unique_ptr<Rendering> start(ScenePtr scene, uint64_t seed) const override {
+    return std::make_unique<PathRendering>(std::move(scene), seed, settings_);
+  }
+
+ private:
+  PathSettings settings_;
+};
+
+}  // namespace
+
+Plugin integrator_path() {
+  Schema schema;
+  schema.family = "integrator";
+  schema.name = "path";
+  schema.doc =
+      "Path tracing from the camera with next-event estimation and multiple importance sampling "
+      "(Kajiya 1986; Veach & Guibas 1995). One spp is one camera path per pixel.";
+  schema.parameters = path_parameters();
+  schema.ignored = {"samples_per_pass", "block_size"};
+  return {schema, [](Params& params) -> ObjectPtr { return std::make_shared<PathIntegrator>(params); }};
+}
+
+}  // namespace mlt

@@ -1,0 +1,12 @@
+// The parameters that integrators over paths share, with Mitsuba's names and defaults.
+#pragma once
+
+#include "base/params.h"
+#include "path/path_tracer.h"
+
+namespace mlt {
+
+std::vector<Parameter> path_parameters();
+PathSettings path_settings(Params& params);
+
+}  // namespace mlt

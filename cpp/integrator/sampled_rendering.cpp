@@ -1,0 +1,54 @@
+#include "integrator/sampled_rendering.h"
+
+#include "path/camera_ray.h"
+
+#include <cmath>
+
+namespace mlt {
+
+SampledRendering::SampledRendering(ScenePtr scene, uint64_t seed)
+    : scene_(std::move(scene)),
+      seed_(seed),
+      film_(scene_->camera().raster().size.x, scene_->camera().raster().size.y, scene_->film().filter,
+            groups) {}
+
+uint64_t SampledRendering::unit_count(double spp) const {
+  return static_cast<uint64_t>(std::ceil(spp)) * film_.tile_count();
+}
+
+double SampledRendering::spp_done(uint64_t units) const {
+  return static_cast<double>(units) / film_.tile_count();
+}
+
+void SampledRendering::run_unit(uint64_t unit) {
+  const uint64_t tiles = film_.tile_count(), pass = unit / tiles, index = pass / groups;
+  const int tile_index = static_cast<int>(unit % tiles), group = static_cast<int>(pass % groups);
+  SampleFilm::Tile tile = film_.begin(tile_index);
+  const PixelRect cells = tile.cells();
+  const Camera& camera = scene_->camera();
+  RayCounts rays;
+  for (int y = cells.y0; y < cells.y1; ++y)
+    for (int x = cells.x0; x < cells.x1; ++x) {
+      const uint64_t cell = (uint64_t(uint32_t(y)) << 32) | uint32_t(x);
+      const uint64_t stream = mix_bits(mix_bits(mix_bits(seed_) ^ cell) + group);
+      PixelSampler sampler(stream, static_cast<uint32_t>(index));
+      const Vec2 raster = Vec2(x, y) + sampler.next2();
+      const Vec2 u_lens = sampler.next2();
+      const Color color = radiance(camera_ray(camera, raster, u_lens, sampler.next()), sampler, rays);
+      if (is_finite(color) && min_component(color) >= 0)
+        tile.add(raster, color);
+      else
+        ++invalid_;
+    }
+  film_.commit(group, index * tiles + tile_index, tile_index, std::move(tile), 1);
+  intersect_ += rays.intersect;
+  occluded_ += rays.occluded;
+}
+
+void SampledRendering::add_stats(Stats& stats) const {
+  stats.rays_intersect = intersect_;
+  stats.rays_occluded = occluded_;
+  stats.invalid_samples = invalid_;
+}
+
+}  // namespace mlt

@@ -1,0 +1,78 @@
+// THE Metropolis-Hastings step (Metropolis et al. 1953, Hastings 1970). Nothing else in pymlt accepts
+// or rejects: light paths, primary samples and the one-dimensional examples of the lecture are all
+// instances of this template.
+//
+// A kernel proposes y from x and tells the two quotients that the acceptance needs,
+//
+//   a(x -> y) = min(1, L*(y) T(y -> x) / (L*(x) T(x -> y))) = min(1, backward / forward),
+//   forward = T(x -> y) / L*(y),   backward = T(y -> x) / L*(x),
+//
+// each up to one factor that both share. Quotients, since factors that T and L* have in common can
+// then be cancelled before they overflow.
+//
+// Both states are recorded with their expected weights, a for y and 1 - a for x, which says the same
+// in the mean as recording the state that was chosen and says it with less noise (Veach & Guibas
+// 1997, sec. 5.1).
+//
+// With several stages (delayed rejection, Tierney & Mira 1999) a rejected proposal is followed by
+// another; the kernel's quotients for stage 2 contain the probabilities of having been rejected
+// before. The weights are a1 for y1, (1 - a1) a2 for y2 and so on, and the rest for x.
+#pragma once
+
+#include "base/rng.h"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <utility>
+
+namespace mlt {
+
+struct Transition {
+  double forward = std::numeric_limits<double>::infinity();  ///< T(x -> y) / L*(y)
+  double backward = 0;                                       ///< T(y -> x) / L*(x)
+};
+
+/// No proposal, or one of zero density: always rejected.
+inline constexpr Transition impossible{};
+
+/// min(1, backward / forward). NaN if the quotients make no sense.
+inline double acceptance(const Transition& t) {
+  if (t.forward == std::numeric_limits<double>::infinity()) return 0;
+  const double ratio = t.backward / t.forward;
+  return ratio >= 1 ? 1.0 : ratio;
+}
+
+struct StepResult {
+  double acceptance = 0;  ///< Of the first stage.
+  int accepted = -1;      ///< Stage whose proposal was accepted, or -1.
+  bool invalid = false;   ///< A proposal had no valid acceptance (NaN) and was rejected.
+};
+
+/// Advances x by one step. `y` is scratch for one proposal per stage; on acceptance x and y are
+/// swapped. `kernel.propose(x, y, stage, rng)` fills y[stage] and returns its Transition;
+/// `record(state, weight)` receives states whose weights sum to 1.
+template <size_t stages, class State, class Kernel, class Record>
+StepResult metropolis_step(State& x, std::array<State, stages>& y, Kernel& kernel, Rng& rng,
+                           Record&& record) {
+  StepResult result;
+  double rest = 1;
+  for (size_t stage = 0; stage < stages && rest > 0; ++stage) {
+    double a = acceptance(kernel.propose(std::as_const(x), y, stage, rng));
+    if (!(a >= 0)) {
+      result.invalid = true;
+      a = 0;
+    }
+    if (stage == 0) result.acceptance = a;
+    if (a > 0) record(std::as_const(y[stage]), rest * a);
+    rest *= 1 - a;
+    const bool accept = rng.next() < a;
+    if (accept && result.accepted < 0) result.accepted = static_cast<int>(stage);
+  }
+  if (rest > 0) record(std::as_const(x), rest);
+  if (result.accepted >= 0) std::swap(x, y[result.accepted]);
+  return result;
+}
+
+}  // namespace mlt

@@ -1,0 +1,68 @@
+// Primary-sample-space mutations (Kelemen, Szirmay-Kalos, Antal & Csonka 2002, "A simple and robust
+// mutation strategy for the Metropolis light transport algorithm"). The state is the vector of
+// uniform numbers that a path was made from; the target is what the path estimator returns for it.
+//
+// A walk uses as many numbers as it needs. Numbers that the current path does not use are, given
+// the path, uniform and independent: drawing them afresh when a proposal needs them leaves the
+// distribution unchanged, so only used numbers are kept.
+#pragma once
+
+#include "base/rng.h"
+#include "markov/step.h"
+#include "math/color.h"
+#include "math/vec.h"
+
+#include <cmath>
+#include <vector>
+
+namespace mlt {
+
+struct PrimaryState {
+  std::vector<double> numbers;
+  Vec2 raster{0};
+  Color rgb{0};       ///< The estimator's value f / p.
+  double target = 0;  ///< L* of it.
+};
+
+/// A small step: u + s, wrapped around, where |s| is distributed between 1/1024 and 1/64 with density
+/// proportional to 1/|s| (Kelemen et al. 2002, sec. 4.2). Symmetric.
+inline double small_step(double u, Rng& rng) {
+  constexpr double smallest = 1.0 / 1024, largest = 1.0 / 64;
+  const double sample = rng.next();
+  const bool up = sample < 0.5;
+  const double size = largest * std::exp(-std::log(largest / smallest) * (up ? 2 * sample : 2 * sample - 1));
+  const double moved = up ? u + size : u - size;
+  return moved - std::floor(moved);
+}
+
+/// Large steps draw all numbers afresh, small steps move each a little. Both are symmetric, so the
+/// quotients of the step are the targets alone. `evaluate(state, rng)` walks: it fills in raster, rgb
+/// and target, and trims the numbers to those used.
+template <class Evaluate>
+class PrimarySampleKernel {
+ public:
+  enum Move { large = 0, small = 1 };
+
+  PrimarySampleKernel(double large_probability, Evaluate evaluate)
+      : large_probability_(large_probability), evaluate_(std::move(evaluate)) {}
+
+  Transition propose(const PrimaryState& x, std::array<PrimaryState, 1>& proposals, size_t, Rng& rng) {
+    PrimaryState& y = proposals[0];
+    last_ = rng.next() < large_probability_ ? large : small;
+    y.numbers.clear();
+    if (last_ == small)
+      for (const double u : x.numbers) y.numbers.push_back(small_step(u, rng));
+    evaluate_(y, rng);
+    if (y.target == 0) return impossible;
+    return {1 / y.target, 1 / x.target};
+  }
+
+  Move last() const { return last_; }
+
+ private:
+  double large_probability_;
+  Evaluate evaluate_;
+  Move last_ = large;
+};
+
+}  // namespace mlt

@@ -1,0 +1,65 @@
+#include "render/stats.h"
+
+#include <fmt/format.h>
+
+namespace mlt {
+namespace {
+
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\')
+      out += std::string("\\") + c;
+    else if (static_cast<unsigned char>(c) < 0x20)
+      out += fmt::format("\\u{:04x}", static_cast<int>(c));
+    else
+      out += c;
+  }
+  return out + "\"";
+}
+
+template <class T, class Write>
+std::string array(const std::vector<T>& items, Write&& write) {
+  std::string out;
+  for (const T& item : items) out += (out.empty() ? "\n    " : ",\n    ") + write(item);
+  return "[" + out + (items.empty() ? "]" : "\n  ]");
+}
+
+std::string mutation(const MutationStats& m) {
+  return fmt::format(
+      R"({{"name": {}, "length": {}, "proposed": {}, "generated": {}, "accepted": {}, )"
+      R"("mean_acceptance": {}, "image_distance": {}, "rays": {}, "seconds": {}}})",
+      quoted(m.name), m.length, m.proposed, m.generated, m.accepted, m.mean_acceptance,
+      m.image_distance, m.rays, m.seconds);
+}
+
+std::string stuck_chain(const StuckChain& s) {
+  return fmt::format(R"({{"chain": {}, "rejections": {}, "x": {}, "y": {}, "signature": {}}})", s.chain,
+                     s.rejections, s.x, s.y, quoted(s.signature));
+}
+
+}  // namespace
+
+std::string to_json(const Stats& s) {
+  std::string out = "{\n";
+  const auto line = [&](const char* name, const std::string& value) {
+    out += fmt::format("{}  \"{}\": {}", out.size() > 2 ? ",\n" : "", name, value);
+  };
+  line("version", quoted(s.version));
+  line("integrator", quoted(s.integrator));
+  line("seed", fmt::format("{}", s.seed));
+  line("size", fmt::format("[{}, {}]", s.width, s.height));
+  line("spp_done", fmt::format("{}", s.spp_done));
+  line("seconds", fmt::format(R"({{"load": {}, "bootstrap": {}, "render": {}}})", s.seconds_load,
+                              s.seconds_bootstrap, s.seconds_render));
+  line("rays", fmt::format(R"({{"intersect": {}, "occluded": {}}})", s.rays_intersect, s.rays_occluded));
+  line("b", fmt::format("{}", s.b));
+  line("b_error", fmt::format("{}", s.b_error));
+  line("invalid_samples", fmt::format("{}", s.invalid_samples));
+  line("stuck", array(s.stuck, stuck_chain));
+  line("mutations", array(s.mutations, mutation));
+  line("warnings", array(s.warnings, quoted));
+  return out + "\n}\n";
+}
+
+}  // namespace mlt

@@ -1,0 +1,181 @@
+// The ray accelerator on Embree 3 or 4. Meshes go to Embree as they are; spheres are user geometry,
+// intersected in double precision with the ray as it was given.
+#include "scene/accel.h"
+
+#include "scene/mesh.h"
+#include "scene/sphere.h"
+
+#if MLT_EMBREE_MAJOR >= 4
+#include <embree4/rtcore.h>
+#else
+#include <embree3/rtcore.h>
+#endif
+
+#include <string>
+
+namespace mlt {
+namespace {
+
+#if MLT_EMBREE_MAJOR >= 4
+using Context = RTCRayQueryContext;
+#else
+using Context = RTCIntersectContext;
+#endif
+
+/// The context of a query, with the ray in double precision for the analytic shapes.
+struct Query {
+  Context base;
+  const Ray* ray;
+};
+
+void init(Query& query, const Ray& ray) {
+#if MLT_EMBREE_MAJOR >= 4
+  rtcInitRayQueryContext(&query.base);
+#else
+  rtcInitIntersectContext(&query.base);
+#endif
+  query.ray = &ray;
+}
+
+RTCRay embree_ray(const Ray& ray) {
+  RTCRay r;
+  r.org_x = static_cast<float>(ray.o.x);
+  r.org_y = static_cast<float>(ray.o.y);
+  r.org_z = static_cast<float>(ray.o.z);
+  r.dir_x = static_cast<float>(ray.d.x);
+  r.dir_y = static_cast<float>(ray.d.y);
+  r.dir_z = static_cast<float>(ray.d.z);
+  r.tnear = 0;
+  r.tfar = static_cast<float>(ray.t_max);
+  r.time = 0;
+  r.mask = ~0u;
+  r.id = 0;
+  r.flags = 0;
+  return r;
+}
+
+void sphere_bounds(const RTCBoundsFunctionArguments* args) {
+  Vec3 low, high;
+  static_cast<const Sphere*>(args->geometryUserPtr)->bounds(low, high);
+  const float inf = std::numeric_limits<float>::infinity();
+  const auto down = [&](double x) { return std::nextafter(static_cast<float>(x), -inf); };
+  const auto up = [&](double x) { return std::nextafter(static_cast<float>(x), inf); };
+  *args->bounds_o = {down(low.x), down(low.y), down(low.z), 0, up(high.x), up(high.y), up(high.z), 0};
+}
+
+std::optional<double> sphere_hit(void* sphere, const Context* context, float t_max) {
+  const Ray& ray = *reinterpret_cast<const Query*>(context)->ray;
+  return static_cast<const Sphere*>(sphere)->intersect(ray.o, ray.d, 0, t_max);
+}
+
+void sphere_intersect(const RTCIntersectFunctionNArguments* args) {
+  if (!args->valid[0]) return;
+  RTCRayHit& rayhit = *reinterpret_cast<RTCRayHit*>(args->rayhit);
+  const auto t = sphere_hit(args->geometryUserPtr, args->context, rayhit.ray.tfar);
+  if (!t) return;
+  rayhit.ray.tfar = static_cast<float>(*t);
+  rayhit.hit.u = rayhit.hit.v = 0;
+  rayhit.hit.geomID = args->geomID;
+  rayhit.hit.primID = args->primID;
+}
+
+void sphere_occluded(const RTCOccludedFunctionNArguments* args) {
+  if (!args->valid[0]) return;
+  RTCRay& ray = *reinterpret_cast<RTCRay*>(args->ray);
+  if (sphere_hit(args->geometryUserPtr, args->context, ray.tfar))
+    ray.tfar = -std::numeric_limits<float>::infinity();
+}
+
+RTCGeometry mesh_geometry(RTCDevice device, const Mesh& mesh) {
+  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  const MeshData& data = mesh.data();
+  // Embree reads 16 bytes at the last vertex, so the buffer it sees must be padded: it gets a copy.
+  auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                                               sizeof(Vec3f), data.positions.size()));
+  if (!vertices) throw RenderError("not enough memory for the vertices of a mesh");
+  std::copy_n(&data.positions[0].x, 3 * data.positions.size(), vertices);
+  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, data.triangles.data(), 0,
+                             3 * sizeof(uint32_t), data.triangles.size());
+  return geometry;
+}
+
+RTCGeometry sphere_geometry(RTCDevice device, const Sphere& sphere) {
+  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
+  rtcSetGeometryUserPrimitiveCount(geometry, 1);
+  rtcSetGeometryUserData(geometry, const_cast<Sphere*>(&sphere));
+  rtcSetGeometryBoundsFunction(geometry, sphere_bounds, nullptr);
+  rtcSetGeometryIntersectFunction(geometry, sphere_intersect);
+  rtcSetGeometryOccludedFunction(geometry, sphere_occluded);
+  return geometry;
+}
+
+}  // namespace
+
+struct Accel::Impl {
+  RTCDevice device = nullptr;
+  RTCScene scene = nullptr;
+
+  ~Impl() {
+    if (scene) rtcReleaseScene(scene);
+    if (device) rtcReleaseDevice(device);
+  }
+};
+
+Accel::Accel(const std::vector<ShapePtr>& shapes, int build_threads) : impl_(std::make_unique<Impl>()) {
+  // A fixed instruction set, so that the bits do not depend on the machine's vector width.
+  const std::string config = "max_isa=avx2,threads=" + std::to_string(build_threads);
+  impl_->device = rtcNewDevice(config.c_str());
+  if (!impl_->device) throw RenderError("Embree does not start on this machine");
+  impl_->scene = rtcNewScene(impl_->device);
+  rtcSetSceneBuildQuality(impl_->scene, RTC_BUILD_QUALITY_MEDIUM);
+  for (size_t i = 0; i < shapes.size(); ++i) {
+    const Shape& shape = *shapes[i];
+    RTCGeometry geometry = shape.as_mesh() ? mesh_geometry(impl_->device, *shape.as_mesh())
+                                           : sphere_geometry(impl_->device, *shape.as_sphere());
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(impl_->scene, geometry, static_cast<unsigned>(i));
+    rtcReleaseGeometry(geometry);
+  }
+  rtcCommitScene(impl_->scene);
+  if (rtcGetDeviceError(impl_->device) != RTC_ERROR_NONE)
+    throw RenderError("Embree could not build the acceleration structure");
+}
+
+Accel::~Accel() = default;
+
+bool Accel::intersect(const Ray& ray, Hit& hit) const {
+  Query query;
+  init(query, ray);
+  RTCRayHit rayhit;
+  rayhit.ray = embree_ray(ray);
+  rayhit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  rayhit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+#if MLT_EMBREE_MAJOR >= 4
+  RTCIntersectArguments arguments;
+  rtcInitIntersectArguments(&arguments);
+  arguments.context = &query.base;
+  rtcIntersect1(impl_->scene, &rayhit, &arguments);
+#else
+  rtcIntersect1(impl_->scene, &query.base, &rayhit);
+#endif
+  if (rayhit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
+  hit = {rayhit.ray.tfar, rayhit.hit.geomID, rayhit.hit.primID, rayhit.hit.u, rayhit.hit.v};
+  return true;
+}
+
+bool Accel::occluded(const Ray& ray) const {
+  Query query;
+  init(query, ray);
+  RTCRay r = embree_ray(ray);
+#if MLT_EMBREE_MAJOR >= 4
+  RTCOccludedArguments arguments;
+  rtcInitOccludedArguments(&arguments);
+  arguments.context = &query.base;
+  rtcOccluded1(impl_->scene, &r, &arguments);
+#else
+  rtcOccluded1(impl_->scene, &query.base, &r);
+#endif
+  return r.tfar < 0;
+}
+
+}  // namespace mlt

@@ -1,0 +1,119 @@
+#include "scene/scene.h"
+
+#include "scene/mesh.h"
+
+#include <algorithm>
+
+namespace mlt {
+namespace {
+
+/// Rays start and end this far off their surfaces, relative to the largest coordinate of the
+/// primitive: 16 units in the last place of the accelerator's floats.
+constexpr double ray_offset = 0x1p-20;
+
+/// The point moved off its surface, to the side that w points to.
+Vec3 offset(const SurfacePoint& at, const Vec3& w) {
+  if (at.shape == SurfacePoint::no_shape) return at.p;
+  return at.p + at.ng * std::copysign(ray_offset * at.extent, dot(at.ng, w));
+}
+
+Bounds enclosing_sphere(const std::vector<ShapePtr>& shapes, const Camera& camera) {
+  const Vec3 lens = camera.sample_position({0.5, 0.5}).at.p;
+  Vec3 low = lens, high = lens;
+  for (const ShapePtr& shape : shapes) {
+    Vec3 l, h;
+    shape->bounds(l, h);
+    low = glm::min(low, l);
+    high = glm::max(high, h);
+  }
+  const double radius = 0.5 * length(high - low);
+  return {0.5 * (low + high), radius > 0 ? radius * (1 + 1e-6) : 1.0};
+}
+
+/// Half of the choices are uniform, half in proportion to power: a light that is weak as a whole may
+/// be all that a room gets.
+Discrete choose_by_power(const std::vector<EmitterPtr>& emitters) {
+  std::vector<double> weights;
+  double total = 0;
+  for (const EmitterPtr& emitter : emitters) {
+    weights.push_back(std::max(0.0, target_luminance(emitter->power())));
+    total += weights.back();
+  }
+  for (double& weight : weights) weight = (total > 0 ? weight / total : 0.0) + 1.0 / weights.size();
+  return Discrete(weights);
+}
+
+}  // namespace
+
+Scene::Scene(std::vector<ShapePtr> shapes, std::vector<EmitterPtr> emitters, CameraPtr camera,
+             std::shared_ptr<FilmSettings> film, int64_t sample_count)
+    : shapes_(std::move(shapes)),
+      emitters_(std::move(emitters)),
+      camera_(std::move(camera)),
+      film_(std::move(film)),
+      sample_count_(sample_count) {
+  if (!camera_) throw SceneError("the scene has no sensor; add <sensor type=\"perspective\">");
+  if (emitters_.empty()) throw SceneError("the scene has no emitter; add a light, or everything is black");
+  for (size_t i = 0; i < shapes_.size(); ++i) shapes_[i]->set_index(static_cast<uint32_t>(i));
+  bounds_ = enclosing_sphere(shapes_, *camera_);
+  for (size_t i = 0; i < emitters_.size(); ++i) {
+    emitters_[i]->set_bounds(bounds_);
+    emitters_[i]->set_index(static_cast<uint32_t>(i));
+    if (emitters_[i]->infinite()) infinite_.push_back(static_cast<uint32_t>(i));
+  }
+  emitter_choice_ = choose_by_power(emitters_);
+  accel_ = std::make_unique<Accel>(shapes_);
+}
+
+bool Scene::intersect(const Ray& ray, SurfacePoint& at) const {
+  Hit hit;
+  if (!accel_->intersect(ray, hit)) return false;
+  at.kind = PointKind::surface;
+  at.shape = hit.shape;
+  at.primitive = hit.primitive;
+  shapes_[hit.shape]->surface_point(ray, hit, at);
+  return true;
+}
+
+Ray Scene::spawn(const SurfacePoint& from, const Vec3& w, double time) const {
+  return {offset(from, w), w, time};
+}
+
+bool Scene::visible(const SurfacePoint& a, const SurfacePoint& b, double time) const {
+  if (a.infinite()) return visible(b, a, time);
+  if (b.infinite()) return !accel_->occluded(spawn(a, b.p, time));
+  const Vec3 ab = b.p - a.p;
+  const Vec3 start = offset(a, ab), end = offset(b, -ab);
+  const double distance = length(end - start);
+  return !accel_->occluded({start, (end - start) / distance, time, distance * (1 - ray_offset)});
+}
+
+SurfacePoint Scene::point_at_infinity(const Vec3& w) {
+  SurfacePoint at;
+  at.p = w;
+  at.ng = -w;
+  at.kind = PointKind::infinite;
+  return at;
+}
+
+EmitterChoice Scene::choose_emitter(double& u) const {
+  const auto [index, remainder] = emitter_choice_.sample_reuse(u);
+  u = remainder;
+  return {emitters_[index].get(), static_cast<uint32_t>(index), emitter_choice_.pdf(index)};
+}
+
+size_t Scene::triangle_count() const {
+  size_t count = 0;
+  for (const ShapePtr& shape : shapes_)
+    if (shape->as_mesh()) count += shape->as_mesh()->data().triangles.size();
+  return count;
+}
+
+size_t Scene::bytes() const {
+  size_t sum = 0;
+  for (const ShapePtr& shape : shapes_)
+    if (shape->as_mesh()) sum += shape->as_mesh()->bytes();
+  return sum;
+}
+
+}  // namespace mlt
