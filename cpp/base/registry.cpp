@@ -1,5 +1,7 @@
 #include "base/registry.h"
 
+#include <set>
+
 namespace mlt {
 
 void Registry::add(Plugin plugin) {
@@ -36,6 +38,15 @@ std::vector<std::string> Registry::names(const std::string& family) const {
   if (members != plugins_.end())
     for (const auto& [name, plugin] : members->second) names.push_back(name);
   return names;
+}
+
+std::vector<std::string> Registry::families_of(const std::string& name) const {
+  std::set<std::string> found;
+  for (const auto& [family, members] : plugins_)
+    if (members.count(name)) found.insert(family);
+  for (const auto& [family, members] : refused_)
+    if (members.count(name)) found.insert(family);
+  return {found.begin(), found.end()};
 }
 
 void Registry::refuse(const std::string& family, const std::string& name, const std::string& reason) {

@@ -27,6 +27,8 @@ class Registry {
 
   std::vector<std::string> families() const;
   std::vector<std::string> names(const std::string& family) const;
+  /// The families in which `name` is known or refused; normally one.
+  std::vector<std::string> families_of(const std::string& name) const;
 
   /// Refuses Mitsuba's plug-in `name` by name, in one line that ends with `reason`.
   void refuse(const std::string& family, const std::string& name, const std::string& reason);
