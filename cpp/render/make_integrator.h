@@ -1,0 +1,31 @@
+// Which algorithm renders, and with which settings: the scene's own integrator or another one by
+// name, with single parameters replaced.
+#pragma once
+
+#include "integrator/integrator.h"
+#include "io/load.h"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace mlt {
+
+/// (name, value) as somebody typed them, such as `-p max_depth=8`.
+using Assignments = std::vector<std::pair<std::string, std::string>>;
+
+struct MadeIntegrator {
+  IntegratorPtr integrator;
+  std::string settings;  ///< Its type and every parameter, given or default, as a JSON object.
+  std::vector<std::string> warnings;
+};
+
+/// The integrator that `name` asks for; with "" the scene's own, and `path` if it has none. One that
+/// replaces the scene's own inherits what is to be rendered (max_depth, hide_emitters), but not how.
+/// Throws UsageError for an assignment that the integrator does not know.
+Node choose_integrator(const LoadedScene& loaded, const std::string& name,
+                       const Assignments& assignments, const Registry& registry);
+
+MadeIntegrator make_integrator(const Node& node, const Registry& registry);
+
+}  // namespace mlt
