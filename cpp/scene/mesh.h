@@ -2,20 +2,10 @@
 #pragma once
 
 #include "math/distribution.h"
+#include "scene/mesh_data.h"
 #include "scene/shape.h"
 
-#include <array>
-#include <vector>
-
 namespace mlt {
-
-/// The buffers of a mesh; normals and uvs are empty or as many as the positions.
-struct MeshData {
-  std::vector<Vec3f> positions;
-  std::vector<Vec3f> normals;
-  std::vector<Vec2f> uvs;
-  std::vector<std::array<uint32_t, 3>> triangles;
-};
 
 class Mesh : public Shape {
  public:
@@ -35,17 +25,22 @@ class Mesh : public Shape {
   void bounds(Vec3& low, Vec3& high) const override;
   const Mesh* as_mesh() const override { return this; }
 
+  /// Builds the table that sample_position needs; called for meshes that carry an emitter.
+  /// Throws SceneError if the mesh has no area.
+  void prepare_sampling();
+
  private:
-  void fill(uint32_t triangle, double b1, double b2, SurfacePoint& at) const;
+  /// A triangle in double precision: a corner, the edges to the two others, and their cross product.
+  struct Triangle {
+    Vec3 p0, e1, e2, normal;
+  };
+  Triangle triangle(uint32_t index) const;
+  void fill(const Triangle& triangle, uint32_t index, double b1, double b2, SurfacePoint& at) const;
 
   MeshData data_;
-  bool flip_normals_ = false;
+  double side_;  ///< -1 with flip_normals, else 1.
   double area_ = 0;
   Discrete triangle_areas_;  ///< Built only for meshes that emit (see prepare_sampling).
-
- public:
-  /// Builds the table that sample_position needs; called for meshes that carry an emitter.
-  void prepare_sampling();
 };
 
 }  // namespace mlt

@@ -10,8 +10,12 @@ namespace mlt {
 class Sphere : public Shape {
  public:
   /// Throws SceneError if `to_world` scales unevenly or is singular, or the radius is not positive.
+  /// A `to_world` that mirrors turns the normals around.
   Sphere(const Vec3& center, double radius, const Mat4& to_world, bool flip_normals,
          const Location& where);
+
+  const Vec3& center() const { return center_; }
+  double radius() const { return radius_; }
 
   /// The nearest intersection with t_min <= t <= t_max.
   std::optional<double> intersect(const Vec3& o, const Vec3& d, double t_min, double t_max) const;
@@ -28,12 +32,21 @@ class Sphere : public Shape {
   const Sphere* as_sphere() const override { return this; }
 
  private:
-  void fill(const Vec3& normal, SurfacePoint& at) const;
+  /// Where a line passes the surface, in order.
+  struct Roots {
+    double near, far;
+  };
+  std::optional<Roots> roots(const Vec3& o, const Vec3& d) const;
+
+  struct Cone;
+  /// The cone in which `from` sees the sphere; nullopt from inside.
+  std::optional<Cone> cone(const Vec3& from) const;
+  void fill(const Vec3& outward, SurfacePoint& at) const;
 
   Vec3 center_;
   double radius_;
-  Mat3 to_object_;  ///< Rotation that turns world directions into the sphere's own, for uv.
-  bool flip_normals_;
+  Mat3 to_object_;  ///< Orthogonal: turns world directions into the sphere's own, for uv.
+  double side_;     ///< 1 if the normals point outward, else -1.
 };
 
 }  // namespace mlt

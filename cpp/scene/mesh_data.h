@@ -1,0 +1,38 @@
+// The buffers of a triangle mesh, and what is done to them between a file and a Mesh.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "base/error.h"
+#include "math/vec.h"
+
+namespace mlt {
+
+/// The buffers of a mesh; normals and uvs are empty or as many as the positions.
+struct MeshData {
+  std::vector<Vec3f> positions;
+  std::vector<Vec3f> normals;
+  std::vector<Vec2f> uvs;
+  std::vector<std::array<uint32_t, 3>> triangles;
+};
+
+/// Throws SceneError at `where` if the mesh is empty, an index is out of range, a position or uv is
+/// not finite, or a buffer has the wrong length.
+void check_mesh(const MeshData& data, const Location& where);
+
+/// Applies a transform to positions and normals. Throws SceneError at `where` if it is singular.
+void transform_mesh(MeshData& data, const Mat4& to_world, const Location& where);
+
+/// Gives every vertex the mean of the normals of its triangles, weighted by their angles at it
+/// (Thuermer & Wuethrich 1998, "Computing vertex normals from polygonal facets").
+void add_smooth_normals(MeshData& data);
+
+/// Replaces normals that are zero or not finite by the normal of a triangle they belong to, and
+/// makes the others unit vectors.
+void repair_normals(MeshData& data);
+
+/// Whether a transform maps some direction to nothing (up to rounding).
+bool is_singular(const Mat4& m);
+
+}  // namespace mlt

@@ -1,0 +1,28 @@
+// Readers of mesh files. They work from memory, trust nothing that the file says of itself, and
+// throw SceneError with the file's name (and line, where it has lines) for anything malformed. What
+// they allocate is bounded by what the file holds.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "scene/mesh_data.h"
+
+namespace mlt {
+
+/// Wavefront OBJ. All groups and objects make one mesh; vertices are shared between faces that name
+/// the same position, texture coordinate and normal. Polygons become fans of triangles.
+MeshData read_obj(std::string_view bytes, const std::string& name);
+
+/// PLY, ascii or binary of either byte order. Polygons become fans of triangles.
+MeshData read_ply(std::string_view bytes, const std::string& name);
+
+struct SerializedMesh {
+  MeshData mesh;
+  bool face_normals;  ///< The file asks for flat shading.
+};
+
+/// Mesh number `index` of a Mitsuba .serialized file, version 3 or 4.
+SerializedMesh read_serialized(std::string_view bytes, int64_t index, const std::string& name);
+
+}  // namespace mlt
