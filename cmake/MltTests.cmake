@@ -7,14 +7,16 @@ include(GoogleTest)
 file(GLOB_RECURSE support_files CONFIGURE_DEPENDS tests/cpp/*.cpp tests/cpp/*.h)
 list(FILTER support_files EXCLUDE REGEX "/test_[^/]*\\.cpp$")
 add_library(mlt_test_support INTERFACE)
+# Tests write the files that the library reads.
+set(test_libraries mlt OpenEXR::OpenEXR pugixml::pugixml ZLIB::ZLIB GTest::gmock GTest::gtest)
 if("${support_files}" MATCHES "\\.cpp")
   add_library(mlt_test_harness STATIC ${support_files})
   target_include_directories(mlt_test_harness PUBLIC tests/cpp)
-  target_link_libraries(mlt_test_harness PUBLIC mlt GTest::gtest)
+  target_link_libraries(mlt_test_harness PUBLIC ${test_libraries})
   target_link_libraries(mlt_test_support INTERFACE mlt_test_harness)
 endif()
 target_include_directories(mlt_test_support INTERFACE tests/cpp)
-target_link_libraries(mlt_test_support INTERFACE mlt GTest::gmock GTest::gtest GTest::gtest_main)
+target_link_libraries(mlt_test_support INTERFACE ${test_libraries} GTest::gtest_main)
 
 set(long_suites "Long*:*/Long*")
 file(GLOB_RECURSE test_files CONFIGURE_DEPENDS RELATIVE "${PROJECT_SOURCE_DIR}/tests/cpp"
