@@ -1,0 +1,191 @@
+#include "io/builder.h"
+
+#include "io/families.h"
+#include "io/text.h"
+#include "scene/mesh.h"
+#include "scene/texture.h"
+
+#include <algorithm>
+
+namespace mlt {
+namespace {
+
+/// Names that Mitsuba's own upgrade from 0.6 to 2 changes and that snake_case does not cover.
+std::string current_name(const Node& node, const std::string& name, const Schema& schema) {
+  if (node.family == "bsdf" && node.type == "diffuse" && snake_case(name) == "diffuse_reflectance" &&
+      !schema.find("diffuse_reflectance"))
+    return "reflectance";
+  return name;
+}
+
+/// What the builder itself takes out of a plug-in's parameters, whatever name it was given.
+bool is_part(const std::string& parent, const std::string& child) {
+  if (parent == "shape") return child == "bsdf" || child == "emitter";
+  return parent == "sensor" && (child == "film" || child == "sampler");
+}
+
+/// Is a nested object meant by its name? Names of textures always are, so that a misspelt one is an
+/// error; in a dict every object has a name, and the family tells what it is for.
+bool is_given_by_name(const Schema& schema, const std::string& name, const std::string& family) {
+  if (name.empty()) return false;
+  const std::string current = snake_case(name);
+  const auto& ignored = schema.ignored;
+  return schema.find(current) || family == "texture" ||
+         std::find(ignored.begin(), ignored.end(), current) != ignored.end();
+}
+
+ObjectPtr create(const Plugin& plugin, Params& params) {
+  try {
+    return plugin.create(params);
+  } catch (const FileError& error) {
+    const std::string message = error.what(), place = describe(params.where());
+    if (place.empty() || message.compare(0, place.size(), place) == 0) throw;
+    throw FileError(place + ": " + message);
+  }
+}
+
+bool needs_a_shape(const Emitter& emitter) { return !emitter.infinite() && !emitter.delta(); }
+
+template <class T>
+std::shared_ptr<T> only_one(const std::vector<std::shared_ptr<T>>& found, const char* family,
+                            const Params& params) {
+  if (found.size() > 1)
+    params.fail("has " + std::to_string(found.size()) + " nested elements <" + family + ">, but can have one");
+  return found.empty() ? nullptr : found.front();
+}
+
+void check(const FilmSettings& film) {
+  constexpr int largest = 1 << 16;
+  const auto fail = [&](const std::string& what) { throw SceneError(at(film.where, "film: " + what)); };
+  const auto text = [](const Vec2i& v) { return std::to_string(v.x) + " x " + std::to_string(v.y); };
+  if (std::min(film.size.x, film.size.y) < 1 || std::max(film.size.x, film.size.y) > largest)
+    fail("the size " + text(film.size) + " should lie between 1 and " + std::to_string(largest));
+  const Vec2i end = film.crop_offset + film.crop_size;
+  if (std::min({film.crop_offset.x, film.crop_offset.y, film.crop_size.x, film.crop_size.y}) < 0 ||
+      end.x > film.size.x || end.y > film.size.y)
+    fail("the crop window (" + text(film.crop_size) + " pixels) should lie inside the image (" +
+         text(film.size) + ")");
+}
+
+}  // namespace
+
+Builder::Builder(const Node& root, const Registry& registry, std::vector<std::string>& warnings)
+    : index_(index_nodes(root)), registry_(registry), warnings_(warnings) {}
+
+const Node& Builder::resolve(const Node& child) const {
+  return child.family == "ref" ? find_node(index_, child.type, child.where) : child;
+}
+
+ObjectPtr Builder::object(const Node& node) {
+  const auto known = made_.find(&node);
+  if (known != made_.end()) return known->second;
+  ObjectPtr object = make(node);
+  made_[&node] = object;
+  return object;
+}
+
+ObjectPtr Builder::make(const Node& node) {
+  if (std::count(in_progress_.begin(), in_progress_.end(), &node))
+    throw SceneError(at(node.where, "the " + node.family + " " + quote(node.id) + " contains itself"));
+  if (in_progress_.size() >= static_cast<size_t>(max_nesting))
+    throw SceneError(at(node.where, "references are nested more than " + std::to_string(max_nesting) + " deep"));
+  refuse_element(node.family, node.type, node.where);
+  const Plugin& plugin = registry_.find(node.family, node.type, node.where);
+  Params params(plugin.schema, node.where, node.id);
+  for (const Node::Property& property : node.properties)
+    params.set(current_name(node, property.name, plugin.schema), property.value, property.where);
+
+  in_progress_.push_back(&node);
+  for (const Node& child : node.children) give(params, node, child);
+  in_progress_.pop_back();
+
+  ObjectPtr object = create(plugin, params);
+  object->type = node.type;
+  object->id = node.id;
+  object->where = node.where;
+  if (const auto shape = std::dynamic_pointer_cast<Shape>(object))
+    attach(*shape, params, params.objects<Bsdf>(), params.objects<Emitter>());
+  if (const auto camera = std::dynamic_pointer_cast<Camera>(object)) {
+    const auto sampler = only_one(params.objects<SamplerSettings>(), "sampler", params);
+    views_[object.get()] = {camera, only_one(params.objects<FilmSettings>(), "film", params),
+                            sampler ? sampler->sample_count : 0};
+  }
+  params.expect_all_read();
+  warnings_.insert(warnings_.end(), params.warnings().begin(), params.warnings().end());
+  return object;
+}
+
+void Builder::give(Params& params, const Node& parent, const Node& child) {
+  const Node& target = resolve(child);
+  // A light belongs to one shape, so each shape gets its own.
+  const bool own = parent.family == "shape" && target.family == "emitter";
+  if (own) lights_of_shapes_.insert(&target);
+  ObjectPtr nested = own ? make(target) : object(target);
+
+  const Schema& schema = params.schema();
+  if (is_part(parent.family, target.family) || !is_given_by_name(schema, child.name, target.family))
+    return params.add(target.family, std::move(nested), child.where);
+  const std::string name = current_name(parent, child.name, schema);
+  const Parameter* parameter = schema.find(snake_case(name));
+  const bool textured = parameter && (parameter->type == ParamType::texture ||
+                                      parameter->type == ParamType::emission);
+  if (textured && !std::dynamic_pointer_cast<Texture>(nested))
+    throw SceneError(at(child.where, parent.family + " '" + parent.type + "': '" + parameter->name +
+                                         "' is a " + target.family + ", but should be a " +
+                                         to_string(parameter->type)));
+  params.set(name, std::move(nested), child.where);
+}
+
+void Builder::attach(Shape& shape, const Params& params, std::vector<std::shared_ptr<Bsdf>> bsdfs,
+                     std::vector<EmitterPtr> emitters) {
+  const BsdfPtr bsdf = only_one(bsdfs, "bsdf", params);
+  const EmitterPtr emitter = only_one(emitters, "emitter", params);
+  shape.set_bsdf(bsdf ? bsdf : default_bsdf(emitter != nullptr, params.where()));
+  if (!emitter) return;
+  if (!needs_a_shape(*emitter))
+    throw SceneError(at(emitter->where, "this emitter cannot be attached to a shape; put it directly into the scene"));
+  if (auto* mesh = dynamic_cast<Mesh*>(&shape)) mesh->prepare_sampling();
+  emitter->set_shape(&shape);
+  shape.set_emitter(emitter);
+}
+
+/// As in Mitsuba: what shines reflects nothing, anything else is a grey diffuse surface.
+BsdfPtr Builder::default_bsdf(bool on_light, const Location& where) {
+  BsdfPtr& bsdf = default_bsdf_[on_light];
+  if (!bsdf) {
+    const Plugin& diffuse = registry_.find("bsdf", "diffuse", where);
+    Params params(diffuse.schema, where);
+    params.set("reflectance", on_light ? 0.0 : 0.5, where);
+    bsdf = std::dynamic_pointer_cast<Bsdf>(diffuse.create(params));
+  }
+  return bsdf;
+}
+
+std::shared_ptr<FilmSettings> Builder::default_film(const Location& where) {
+  const Plugin& plugin = registry_.find("film", "hdrfilm", where);
+  Params params(plugin.schema, where);
+  auto film = std::dynamic_pointer_cast<FilmSettings>(plugin.create(params));
+  film->where = where;
+  return film;
+}
+
+ShapePtr Builder::shape(const Node& node) { return std::dynamic_pointer_cast<Shape>(object(node)); }
+
+Builder::View Builder::view(const Node& sensor, const std::optional<Vec2i>& size) {
+  View view = views_.at(object(sensor).get());
+  if (!view.film) view.film = default_film(sensor.where);
+  FilmSettings& film = *view.film;
+  if (size) {
+    film.size = *size;
+    film.crop_offset = film.crop_size = Vec2i(0);
+  }
+  if (film.crop_size == Vec2i(0)) film.crop_size = film.size - film.crop_offset;
+  check(film);
+  if (film.crop_size.x < 1 || film.crop_size.y < 1)
+    throw SceneError(at(film.where, "film: the crop window is empty"));
+  if (!film.filter) film.filter = std::make_shared<Filter>(gaussian_filter());
+  view.camera->set_raster({film.size, film.crop_offset, film.crop_size, film.filter->radius()});
+  return view;
+}
+
+}  // namespace mlt

@@ -1,0 +1,57 @@
+// Makes the objects that a tree of nodes describes, innermost first.
+#pragma once
+
+#include "base/registry.h"
+#include "io/load.h"
+#include "io/node_index.h"
+
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace mlt {
+
+class Builder {
+ public:
+  /// References are looked up in `root`, which must outlive the builder.
+  Builder(const Node& root, const Registry& registry, std::vector<std::string>& warnings);
+
+  /// The object of a node, made at the first call: what several places refer to is one object.
+  ObjectPtr object(const Node& node);
+
+  /// A shape with its BSDF and its light attached.
+  ShapePtr shape(const Node& node);
+
+  struct View {
+    CameraPtr camera;
+    std::shared_ptr<FilmSettings> film;
+    int64_t sample_count = 0;
+  };
+  /// A camera that knows its film. `size` replaces the film's own size and crop window.
+  View view(const Node& sensor, const std::optional<Vec2i>& size);
+
+  /// Has some shape taken this node as its light?
+  bool on_a_shape(const Node& emitter) const { return lights_of_shapes_.count(&emitter) > 0; }
+
+ private:
+  const Node& resolve(const Node& child) const;
+  ObjectPtr make(const Node& node);
+  void give(Params& params, const Node& parent, const Node& child);
+  void attach(Shape& shape, const Params& params, std::vector<std::shared_ptr<Bsdf>> bsdfs,
+              std::vector<EmitterPtr> emitters);
+  BsdfPtr default_bsdf(bool on_light, const Location& where);
+  std::shared_ptr<FilmSettings> default_film(const Location& where);
+
+  NodeIndex index_;
+  const Registry& registry_;
+  std::vector<std::string>& warnings_;
+  std::map<const Node*, ObjectPtr> made_;
+  std::vector<const Node*> in_progress_;
+  std::set<const Node*> lights_of_shapes_;
+  std::map<const Object*, View> views_;
+  BsdfPtr default_bsdf_[2];
+};
+
+}  // namespace mlt

@@ -1,0 +1,39 @@
+#include "io/families.h"
+
+#include "io/text.h"
+
+#include <algorithm>
+#include <map>
+
+namespace mlt {
+
+const std::vector<std::string>& plugin_families() {
+  static const std::vector<std::string> families{"bsdf",    "emitter", "film",  "integrator", "rfilter",
+                                                 "sampler", "sensor",  "shape", "texture"};
+  return families;
+}
+
+bool is_plugin_family(const std::string& tag) {
+  const auto& families = plugin_families();
+  return std::find(families.begin(), families.end(), tag) != families.end();
+}
+
+void refuse_element(const std::string& tag, const std::string& type, const Location& where) {
+  static const std::string media = "participating media are not supported";
+  static const std::map<std::string, std::string> reasons{
+      {"medium", media},
+      {"phase", media},
+      {"volume", media},
+      {"subsurface", "subsurface scattering is not supported"},
+      {"spectrum", "spectra are values here, not plug-ins; give rgb or wavelength:value pairs"},
+      {"blackbody", "colour temperatures are not supported; give rgb or wavelength:value pairs"},
+      {"animation", "animated transforms are not supported"},
+      {"camera", "this is the syntax of Mitsuba before 0.4; write <sensor>"},
+      {"luminaire", "this is the syntax of Mitsuba before 0.4; write <emitter>"}};
+  const auto reason = reasons.find(tag);
+  if (reason == reasons.end()) return;
+  const std::string title = type.empty() ? "<" + tag + ">" : tag + " " + quote(type);
+  throw SceneError(at(where, title + " is not supported: " + reason->second));
+}
+
+}  // namespace mlt

@@ -1,0 +1,19 @@
+// The families of plug-ins that scenes name, and those of Mitsuba's that are refused.
+#pragma once
+
+#include "base/error.h"
+
+#include <string>
+#include <vector>
+
+namespace mlt {
+
+/// "bsdf", "emitter", "film", "integrator", "rfilter", "sampler", "sensor", "shape", "texture".
+const std::vector<std::string>& plugin_families();
+bool is_plugin_family(const std::string& tag);
+
+/// Throws SceneError, in one line with the reason, for an element that Mitsuba has and this renderer
+/// refuses (participating media, spectra as plug-ins, ...). `type` may be "".
+void refuse_element(const std::string& tag, const std::string& type, const Location& where);
+
+}  // namespace mlt

@@ -1,0 +1,28 @@
+// Where files that a scene names are looked for.
+#pragma once
+
+#include "base/error.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace mlt {
+
+class SearchPath {
+ public:
+  /// A directory to look in before all others; "" is the current one.
+  void prepend(const std::filesystem::path& directory);
+
+  /// The absolute name of an existing file. A name with backslashes is also tried with slashes.
+  /// Throws SceneError that says where it was looked for.
+  std::string find_file(const std::string& name, const Location& where) const;
+  std::string find_directory(const std::string& name, const Location& where) const;
+
+ private:
+  std::string find(const std::string& name, bool directory, const Location& where) const;
+
+  std::vector<std::filesystem::path> directories_;
+};
+
+}  // namespace mlt

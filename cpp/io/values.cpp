@@ -1,0 +1,187 @@
+#include "io/values.h"
+
+#include "image/srgb.h"
+#include "io/text.h"
+
+#include <charconv>
+#include <fstream>
+#include <map>
+
+namespace mlt {
+namespace {
+
+const std::map<std::string, std::string>& examples() {
+  static const std::map<std::string, std::string> table{
+      {"float", "a number such as 0.5"},
+      {"integer", "a whole number such as 8"},
+      {"boolean", "true or false"},
+      {"string", "a text"},
+      {"point", "three numbers such as 0, 1, 2"},
+      {"vector", "three numbers such as 0, 1, 2"},
+      {"rgb", "one number, three, or #rrggbb"},
+      {"srgb", "one number, three, or #rrggbb"},
+      {"spectrum", "one number, three (RGB), or pairs such as 400:0.1, 700:0.3 by wavelength"}};
+  return table;
+}
+
+[[noreturn]] void fail_value(const Element& element, const std::string& text) {
+  element.fail("is " + quote(text) + ", but should be " + example_of(element.tag));
+}
+
+double read_real(const Element& element, const std::string& text) {
+  const std::optional<double> number = parse_real(text);
+  if (!number) fail_value(element, text);
+  return *number;
+}
+
+std::optional<Triple> parse_triple(const std::string& text) {
+  const auto numbers = parse_reals(text);
+  if (!numbers) return std::nullopt;
+  if (numbers->size() == 1) return Triple{(*numbers)[0], (*numbers)[0], (*numbers)[0]};
+  if (numbers->size() != 3) return std::nullopt;
+  return Triple{(*numbers)[0], (*numbers)[1], (*numbers)[2]};
+}
+
+Triple decode_srgb(const Triple& encoded) {
+  return {srgb_to_linear(encoded[0]), srgb_to_linear(encoded[1]), srgb_to_linear(encoded[2])};
+}
+
+/// #rrggbb, linear.
+std::optional<Triple> parse_hex(std::string_view text) {
+  text = trim(text);
+  if (text.size() != 7 || text[0] != '#') return std::nullopt;
+  unsigned bits = 0;
+  const auto [end, error] = std::from_chars(text.data() + 1, text.data() + 7, bits, 16);
+  if (error != std::errc() || end != text.data() + 7) return std::nullopt;
+  return decode_srgb({(bits >> 16) / 255.0, (bits >> 8 & 255) / 255.0, (bits & 255) / 255.0});
+}
+
+Triple read_rgb(const Element& element) {
+  const std::string& text = element.require("value");
+  if (const auto linear = parse_hex(text)) return *linear;
+  const auto triple = parse_triple(text);
+  if (!triple) fail_value(element, text);
+  return element.tag == "srgb" ? decode_srgb(*triple) : *triple;
+}
+
+std::optional<Spectrum> checked(Spectrum samples) {
+  if (samples.size() < 2) return std::nullopt;
+  for (size_t i = 1; i < samples.size(); ++i)
+    if (!(samples[i - 1].first < samples[i].first)) return std::nullopt;
+  return samples;
+}
+
+/// A table with a wavelength and a value on each line; '#' begins a comment.
+Spectrum read_spectrum_file(const Element& element, const SearchPath& search) {
+  const std::string path = search.find_file(element.require("filename"), element.where);
+  std::ifstream file(path);
+  if (!file) throw FileError(at(element.where, "cannot read " + path));
+  Spectrum samples;
+  std::string line;
+  for (int number = 1; std::getline(file, line); ++number) {
+    const std::string_view content = trim(std::string_view(line).substr(0, line.find('#')));
+    if (content.empty()) continue;
+    const auto numbers = parse_reals(content);
+    if (!numbers || numbers->size() != 2)
+      throw SceneError(at({path, number}, quote(content) + " should be a wavelength and a value"));
+    samples.emplace_back((*numbers)[0], (*numbers)[1]);
+  }
+  const auto result = checked(std::move(samples));
+  if (!result)
+    throw SceneError(at({path, 0}, "a spectrum needs two or more wavelengths, in increasing order"));
+  return *result;
+}
+
+Value read_spectrum(const Element& element, const SearchPath& search) {
+  element.expect_only({"name", "value", "filename"});
+  if (element.find("filename")) {
+    if (element.find("value")) element.fail("has both a 'value' and a 'filename'; give one of them");
+    return read_spectrum_file(element, search);
+  }
+  const std::string& text = element.require("value");
+  const auto value = parse_color(text);
+  if (!value) fail_value(element, text);
+  return *value;
+}
+
+}  // namespace
+
+bool is_value_tag(const std::string& tag) { return examples().count(tag) > 0; }
+
+std::string example_of(const std::string& tag) { return examples().at(tag); }
+
+std::optional<Spectrum> parse_spectrum(const std::string& text) {
+  Spectrum samples;
+  for (std::string_view word : split(text)) {
+    const size_t colon = word.find(':');
+    if (colon == std::string_view::npos) return std::nullopt;
+    const auto wavelength = parse_real(word.substr(0, colon));
+    const auto value = parse_real(word.substr(colon + 1));
+    if (!wavelength || !value) return std::nullopt;
+    samples.emplace_back(*wavelength, *value);
+  }
+  return checked(std::move(samples));
+}
+
+std::optional<Value> parse_color(const std::string& text) {
+  if (text.find(':') != std::string::npos) {
+    auto samples = parse_spectrum(text);
+    return samples ? std::optional<Value>(std::move(*samples)) : std::nullopt;
+  }
+  if (const auto number = parse_real(text)) return Value(*number);
+  if (const auto linear = parse_hex(text)) return Value(*linear);
+  const auto triple = parse_triple(text);
+  return triple ? std::optional<Value>(*triple) : std::nullopt;
+}
+
+Triple read_triple(const Element& element, double missing) {
+  static const char* axes[] = {"x", "y", "z"};
+  if (const std::string* text = element.find("value")) {
+    for (const char* axis : axes)
+      if (element.find(axis)) element.fail(std::string("has both 'value' and '") + axis + "'");
+    const auto triple = parse_triple(*text);
+    if (!triple)
+      element.fail("is " + quote(*text) + ", but should be three numbers such as 0, 1, 2");
+    return *triple;
+  }
+  Triple triple{missing, missing, missing};
+  bool any = false;
+  for (size_t i = 0; i < 3; ++i)
+    if (const std::string* text = element.find(axes[i])) {
+      const auto number = parse_real(*text);
+      if (!number)
+        element.fail(std::string("has ") + axes[i] + " = " + quote(*text) +
+                     ", but it should be a number such as 0.5");
+      triple[i] = *number;
+      any = true;
+    }
+  if (!any) element.fail("needs 'x', 'y' and 'z', or 'value' with three numbers");
+  return triple;
+}
+
+Value read_value(const Element& element, const SearchPath& search) {
+  const std::string& tag = element.tag;
+  if (tag == "spectrum") return read_spectrum(element, search);
+  if (tag == "point" || tag == "vector") {
+    element.expect_only({"name", "value", "x", "y", "z"});
+    return read_triple(element, 0);
+  }
+  element.expect_only({"name", "value"});
+  if (tag == "rgb" || tag == "srgb") return read_rgb(element);
+  if (tag == "string") {
+    if (!element.find("value")) element.require("value");
+    return element.get("value");
+  }
+  const std::string& text = element.require("value");
+  if (tag == "float") return read_real(element, text);
+  if (tag == "integer") {
+    const auto number = parse_integer(text);
+    if (!number) fail_value(element, text);
+    return *number;
+  }
+  const auto truth = parse_boolean(text);
+  if (!truth) fail_value(element, text);
+  return *truth;
+}
+
+}  // namespace mlt
