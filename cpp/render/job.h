@@ -39,6 +39,7 @@ class Job {
   /// Ends the render soon; what has been rendered stays.
   void cancel() { cancel_ = true; }
   bool cancelled() const { return cancel_; }
+  bool ended() const { return phase_ == Phase::ended; }
 
   double progress() const;  ///< 0 ... 1 of the budget.
   Image image() const;      ///< So far: linear RGB, row 0 on top.
