@@ -67,7 +67,7 @@ void save(const Options& options, const Image& image, const Stats& stats, WriteO
   };
   for (const std::string& path : options.outputs) report(path, save_image(path, image, write));
   if (!options.stats.empty())
-    report(options.stats, save_text(options.stats, to_json(stats) + "\n"));
+    report(options.stats, save_text(options.stats, to_json(stats)));
 }
 
 int run(const Options& options) {

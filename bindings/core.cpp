@@ -1,0 +1,13 @@
+#include "bindings.h"
+
+#include "mlt_version.h"
+
+PYBIND11_MODULE(_core, m) {
+  m.doc() = "The C++ side of pymlt; use it through the package.";
+  m.attr("__version__") = MLT_VERSION;
+  mlt::python::bind_errors(m);
+  mlt::python::bind_base(m);
+  mlt::python::bind_image(m);
+  mlt::python::bind_scene(m);
+  mlt::python::bind_render(m);
+}

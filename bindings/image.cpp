@@ -1,0 +1,80 @@
+// Image files and numpy arrays.
+#include "bindings.h"
+
+#include "image/atomic_file.h"
+#include "image/image_io.h"
+#include "render/output.h"
+
+#include <pybind11/stl.h>
+
+#include <array>
+#include <climits>
+#include <cstring>
+#include <map>
+#include <memory>
+
+namespace mlt::python {
+namespace {
+
+using Floats = py::array_t<float, py::array::c_style | py::array::forcecast>;
+
+Image to_image(const Floats& array) {
+  if (array.ndim() != 3 && array.ndim() != 2)
+    throw UsageError("an image should have the shape (height, width, channels) or (height, width)");
+  const auto extent = [&](int axis) {
+    return static_cast<int>(std::min<py::ssize_t>(array.shape(axis), INT_MAX));
+  };
+  Image image(extent(1), extent(0), array.ndim() == 3 ? extent(2) : 1);
+  std::memcpy(image.data.data(), array.data(), image.data.size() * sizeof(float));
+  return image;
+}
+
+std::string save(const std::string& path, const Floats& array,
+                 const std::map<std::string, std::string>& metadata, bool half, double exposure,
+                 bool rescue) {
+  const Image image = to_image(array);
+  const WriteOptions options{half, Metadata(metadata.begin(), metadata.end()), exposure};
+  py::gil_scoped_release release;
+  if (rescue) return save_image(path, image, options);
+  write_image(path, image, options);
+  return path;
+}
+
+py::array_t<float> read(const std::string& path, const std::string& layer) {
+  Image image;
+  {
+    py::gil_scoped_release release;
+    image = linear_image(read_image(path, layer));
+  }
+  return to_array(std::move(image));
+}
+
+std::map<std::string, std::string> metadata(const std::string& path) {
+  const Metadata found = read_exr_metadata(path);
+  return {found.begin(), found.end()};
+}
+
+}  // namespace
+
+py::array_t<float> to_array(Image image) {
+  auto owned = std::make_unique<Image>(std::move(image));
+  const Image& kept = *owned;
+  py::capsule owner(owned.get(), [](void* pointer) { delete static_cast<Image*>(pointer); });
+  owned.release();
+  const std::array<py::ssize_t, 3> shape{kept.height, kept.width, kept.channels};
+  return py::array_t<float>(shape, kept.data.data(), owner);
+}
+
+void bind_image(py::module_& m) {
+  m.def("read_image", &read, py::arg("path"), py::arg("layer") = "");
+  m.def("read_metadata", &metadata, py::arg("path"));
+  m.def("write_image", &save, py::arg("path"), py::arg("image"), py::arg("metadata"),
+        py::arg("half"), py::arg("exposure"), py::arg("rescue"),
+        "With `rescue`, a failed write is tried again elsewhere. Returns where the image is.");
+  m.def("write_text", &save_text, py::arg("path"), py::arg("text"),
+        "A failed write is tried again elsewhere. Returns where the file is.");
+  m.def("check_image_writable", &check_writable, py::arg("path"));
+  m.def("check_file_writable", &check_file_writable, py::arg("path"));
+}
+
+}  // namespace mlt::python

@@ -1,0 +1,95 @@
+// Loading, and what a scene tells about itself.
+#include "bindings.h"
+#include "values.h"
+
+#include "io/load.h"
+#include "render/output.h"
+#include "render/plugins.h"
+
+#include <pybind11/stl.h>
+
+namespace mlt::python {
+namespace {
+
+using Size = std::optional<std::pair<int, int>>;
+using Defines = std::map<std::string, std::string>;
+
+LoadOptions load_options(const Size& size, const Defines& defines = {}) {
+  LoadOptions options;
+  options.defines = defines;
+  if (size) options.size = Vec2i(size->first, size->second);
+  return options;
+}
+
+LoadedScene from_file(const std::string& path, const Defines& defines, const Size& size) {
+  return load_file(path, plugins(), load_options(size, defines));
+}
+
+LoadedScene from_string(const std::string& xml, const std::string& directory,
+                        const Defines& defines, const Size& size) {
+  return load_string(xml, directory, plugins(), load_options(size, defines));
+}
+
+LoadedScene from_dict(const py::dict& dict, const Size& size) {
+  const Node node = to_node(dict, "scene", "scene", plugins());
+  if (node.type != "scene")
+    throw SceneError("scene: 'type' is '" + node.type + "', but should be 'scene'");
+  py::gil_scoped_release release;
+  return build_scene(node, plugins(), load_options(size));
+}
+
+py::object integrator_type(const LoadedScene& loaded) {
+  if (!loaded.integrator) return py::none();
+  return py::str(loaded.integrator->type);
+}
+
+py::dict info(const LoadedScene& loaded) {
+  const Scene& scene = *loaded.scene;
+  const Vec2i size = image_size(scene);
+  const Bounds& sphere = scene.bounds();
+  py::dict info;
+  info["size"] = py::make_tuple(size.x, size.y);
+  info["shapes"] = scene.shapes().size();
+  info["triangles"] = scene.triangle_count();
+  info["bytes"] = scene.bytes();
+  info["emitters"] = scene.emitters().size();
+  info["center"] = py::make_tuple(sphere.center.x, sphere.center.y, sphere.center.z);
+  info["radius"] = sphere.radius;
+  info["integrator"] = integrator_type(loaded);
+  info["sample_count"] = scene.sample_count();
+  info["filter"] = scene.film().filter ? py::object(py::str(scene.film().filter->name())) : py::none();
+  info["seconds"] = loaded.seconds;
+  info["warnings"] = loaded.warnings;
+  return info;
+}
+
+py::str describe(const LoadedScene& loaded) {
+  const Scene& scene = *loaded.scene;
+  const Vec2i size = image_size(scene);
+  return py::str("Scene({} x {}, {} shapes, {} triangles, {} emitters, integrator={!r})")
+      .format(size.x, size.y, scene.shapes().size(), scene.triangle_count(),
+              scene.emitters().size(), integrator_type(loaded));
+}
+
+}  // namespace
+
+void bind_scene(py::module_& m) {
+  py::class_<LoadedScene, std::shared_ptr<LoadedScene>>(
+      m, "Scene", "An immutable world, as load_file, load_string or load_dict made it.")
+      .def_property_readonly("width", [](const LoadedScene& s) { return image_size(*s.scene).x; })
+      .def_property_readonly("height", [](const LoadedScene& s) { return image_size(*s.scene).y; })
+      .def_readonly("warnings", &LoadedScene::warnings, "One line each, with file and line.")
+      .def_property_readonly(
+          "half", [](const LoadedScene& s) { return s.scene->film().half_precision; },
+          "Whether the film asks for 16-bit EXR samples.")
+      .def("info", &info, "What the scene holds, as a dict.")
+      .def("__repr__", &describe);
+
+  using NoGil = py::call_guard<py::gil_scoped_release>;
+  m.def("load_file", &from_file, py::arg("path"), py::arg("defines"), py::arg("size"), NoGil());
+  m.def("load_string", &from_string, py::arg("xml"), py::arg("directory"), py::arg("defines"),
+        py::arg("size"), NoGil());
+  m.def("load_dict", &from_dict, py::arg("dict"), py::arg("size"));
+}
+
+}  // namespace mlt::python

@@ -1,0 +1,196 @@
+// The Mitsuba 3 dict: every plug-in is a dict with its name under "type"; colours, spectra and
+// references are dicts with types of their own ("rgb", "spectrum", "uniform", "ref"); transforms are
+// 4 x 4 matrices. A nested plug-in's key is the parameter it is given for, or, in a scene, its id.
+#include "values.h"
+
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace mlt::python {
+namespace {
+
+struct ToPython {
+  py::object operator()(std::monostate) const { return py::none(); }
+  py::object operator()(const ObjectPtr&) const { return py::none(); }
+  py::object operator()(const Matrix& m) const {
+    py::list rows;
+    for (size_t i = 0; i < 16; i += 4) rows.append(py::make_tuple(m[i], m[i + 1], m[i + 2], m[i + 3]));
+    return rows;
+  }
+  py::object operator()(const Triple& t) const { return py::make_tuple(t[0], t[1], t[2]); }
+  template <class T>
+  py::object operator()(const T& value) const {
+    return py::cast(value);
+  }
+};
+
+std::string kind_of(const py::handle& object) {
+  return py::str(py::type::of(object).attr("__name__"));
+}
+
+[[noreturn]] void refuse(const Location& where, const std::string& key, const std::string& message) {
+  throw SceneError(at(where, "'" + key + "' " + message));
+}
+
+Value from_array(const py::object& object, const std::string& key, const Location& where) {
+  const auto array = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(object);
+  if (!array) {
+    PyErr_Clear();
+    refuse(where, key, "is a " + kind_of(object) + ", which is neither numbers nor a plug-in");
+  }
+  const double* data = array.data();
+  if (array.ndim() == 1 && array.size() == 3) return Triple{data[0], data[1], data[2]};
+  if (array.ndim() == 2 && array.shape(0) == 4 && array.shape(1) == 4) {
+    Matrix matrix;
+    std::copy_n(data, 16, matrix.begin());
+    return matrix;
+  }
+  refuse(where, key, "is an array that is neither 3 numbers nor a 4 x 4 matrix");
+}
+
+Value from_number(const py::object& number, const std::string& key, const Location& where) {
+  try {
+    if (PyLong_Check(number.ptr())) return number.cast<int64_t>();
+    return number.cast<double>();
+  } catch (const py::cast_error&) {
+    refuse(where, key, "is an integer that does not fit into 64 bits");
+  }
+}
+
+Value from_scalar_or_array(py::object object, const std::string& key, const Location& where) {
+  if (py::hasattr(object, "__fspath__")) object = object.attr("__fspath__")();
+  if (py::hasattr(object, "ndim") && py::object(object.attr("ndim")).equal(py::int_(0)))
+    object = object.attr("item")();  // a numpy scalar
+  if (object.is_none()) refuse(where, key, "is None; leave it out to get its default");
+  if (py::isinstance<py::str>(object)) return object.cast<std::string>();
+  if (PyBool_Check(object.ptr())) return object.cast<bool>();
+  if (PyLong_Check(object.ptr()) || PyFloat_Check(object.ptr()))
+    return from_number(object, key, where);
+  if (py::hasattr(object, "matrix")) object = object.attr("matrix");  // transforms, Mitsuba's too
+  return from_array(object, key, where);
+}
+
+std::string text_of(const py::dict& dict, const char* key, const Location& where) {
+  if (!dict.contains(key)) throw SceneError(at(where, std::string("needs a '") + key + "'"));
+  const py::object value = dict[key];
+  if (!py::isinstance<py::str>(value))
+    refuse(where, key, "is a " + kind_of(value) + ", but should be a string");
+  return value.cast<std::string>();
+}
+
+/// {"type": "rgb", "value": [...]} and its like: a value that is written as a dict.
+Value from_color(const py::dict& dict, const std::string& type, const std::string& key,
+                 const Location& where) {
+  for (const auto& item : dict) {
+    const std::string name = py::str(item.first);
+    if (name != "type" && name != "value")
+      refuse(where, key, "has an unknown '" + name + "'; valid are: type, value");
+  }
+  if (!dict.contains("value")) refuse(where, key, "needs a 'value'");
+  const py::object value = dict["value"];
+  if (type == "spectrum" && (py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value))) {
+    try {
+      return value.cast<Spectrum>();
+    } catch (const py::cast_error&) {
+      refuse(where, key, "should be a number or a list of (wavelength, value) pairs");
+    }
+  }
+  return from_scalar_or_array(value, key, where);
+}
+
+bool is_color(const std::string& type) {
+  return type == "rgb" || type == "spectrum" || type == "uniform";
+}
+
+std::string family_of(const std::string& type, const std::string& key, const Location& where,
+                      const Registry& registry) {
+  const std::vector<std::string> found = registry.families_of(type);
+  if (found.size() == 1) return found[0];
+  const std::vector<std::string> families = registry.families();
+  const auto& candidates = found.empty() ? families : found;
+  if (key == "sampler" || std::count(candidates.begin(), candidates.end(), key)) return key;
+  if (!found.empty()) return found[0];
+  std::vector<std::string> all;
+  for (const std::string& family : families)
+    for (const std::string& name : registry.names(family)) all.push_back(name);
+  const std::string near = closest(type, all);
+  throw SceneError(at(where, "unknown type '" + type + "'" +
+                                 (near.empty() ? "" : "; did you mean '" + near + "'?")));
+}
+
+class Converter {
+ public:
+  explicit Converter(const Registry& registry) : registry_(registry) {}
+
+  Node convert(const py::dict& dict, const std::string& family, const std::string& path) {
+    if (++depth_ > 64) throw SceneError(path.substr(0, 200) + "...: dicts are nested too deeply");
+    Node node;
+    node.family = family;
+    node.where = {path, 0};
+    node.type = text_of(dict, "type", node.where);
+    if (dict.contains("id")) node.id = text_of(dict, "id", node.where);
+    for (const auto& [key_object, value] : dict) {
+      if (!py::isinstance<py::str>(key_object))
+        throw SceneError(at(node.where, "a key is a " + kind_of(key_object) + ", not a string"));
+      const std::string key = key_object.cast<std::string>();
+      if (key != "type" && key != "id")
+        add(node, key, py::reinterpret_borrow<py::object>(value));
+    }
+    --depth_;
+    return node;
+  }
+
+ private:
+  void add(Node& node, const std::string& key, py::object value) {
+    const std::string path = node.where.file + "['" + key + "']";
+    if (py::hasattr(value, "to_dict")) value = value.attr("to_dict")();
+    if (!py::isinstance<py::dict>(value)) {
+      Value converted = from_scalar_or_array(value, key, node.where);
+      if (std::string* text = std::get_if<std::string>(&converted); text && key == "filename")
+        *text = std::filesystem::absolute(*text).lexically_normal().string();
+      node.properties.push_back({key, std::move(converted), node.where});
+      return;
+    }
+    const auto dict = py::reinterpret_borrow<py::dict>(value);
+    const std::string type = text_of(dict, "type", {path, 0});
+    if (is_color(type)) {
+      node.properties.push_back({key, from_color(dict, type, key, node.where), node.where});
+      return;
+    }
+    node.children.push_back(type == "ref" ? reference(dict, path) : nested(dict, type, key, path));
+    Node& child = node.children.back();
+    if (node.family != "scene")
+      child.name = key;
+    else if (child.id.empty())
+      child.id = key;
+  }
+
+  Node nested(const py::dict& dict, const std::string& type, const std::string& key,
+              const std::string& path) {
+    return convert(dict, family_of(type, key, {path, 0}, registry_), path);
+  }
+
+  static Node reference(const py::dict& dict, const std::string& path) {
+    Node node;
+    node.family = "ref";
+    node.where = {path, 0};
+    node.type = text_of(dict, "id", node.where);
+    return node;
+  }
+
+  const Registry& registry_;
+  int depth_ = 0;
+};
+
+}  // namespace
+
+py::object to_python(const Value& value) { return std::visit(ToPython{}, value); }
+
+Node to_node(const py::dict& dict, const std::string& family, const std::string& path,
+             const Registry& registry) {
+  return Converter(registry).convert(dict, family, path);
+}
+
+}  // namespace mlt::python

@@ -1,0 +1,20 @@
+// Values and trees between Python and C++: a parameter's value, and the Mitsuba dict.
+#pragma once
+
+#include "bindings.h"
+
+#include "base/registry.h"
+#include "io/node.h"
+
+#include <string>
+
+namespace mlt::python {
+
+py::object to_python(const Value& value);
+
+/// The tree of a nested dict. `path` is how the caller names the dict, such as "scene": errors about
+/// its parts say where with it ("scene['sensor']['film']").
+Node to_node(const py::dict& dict, const std::string& family, const std::string& path,
+             const Registry& registry);
+
+}  // namespace mlt::python
