@@ -11,6 +11,9 @@ namespace mlt {
 #define MLT_PLUGIN(name) Plugin emitter_##name();
 #include "scene/emitter/list.inc"
 #undef MLT_PLUGIN
+#define MLT_PLUGIN(name) Plugin name();
+#include "scene/film/list.inc"
+#undef MLT_PLUGIN
 #define MLT_PLUGIN(name) Plugin integrator_##name();
 #include "integrator/list.inc"
 #undef MLT_PLUGIN
@@ -32,6 +35,9 @@ void add_all(Registry& registry) {
 #undef MLT_PLUGIN
 #define MLT_PLUGIN(name) registry.add(emitter_##name());
 #include "scene/emitter/list.inc"
+#undef MLT_PLUGIN
+#define MLT_PLUGIN(name) registry.add(name());
+#include "scene/film/list.inc"
 #undef MLT_PLUGIN
 #define MLT_PLUGIN(name) registry.add(integrator_##name());
 #include "integrator/list.inc"

@@ -1,0 +1,102 @@
+#include "scene/camera/projective.h"
+
+#include "math/warp.h"
+
+namespace mlt {
+
+ProjectiveCamera::ProjectiveCamera(const Vec3& position, const Frame& axes, const View& view,
+                                   const Lens& lens, double shutter_open, double shutter_close)
+    : position_(position), axes_(axes), view_(view), lens_(lens) {
+  shutter_open_ = shutter_open;
+  shutter_close_ = shutter_close;
+}
+
+void ProjectiveCamera::set_raster(const Raster& raster) {
+  raster_ = raster;
+  const Vec2 full(raster.full_size);
+  const double aspect = full.x / full.y;
+  const double t = std::tan(view_.fov / 2);
+  double half_width = t;  // of the full image at unit distance
+  switch (view_.axis) {
+    case View::Axis::x: break;
+    case View::Axis::y: half_width = t * aspect; break;
+    case View::Axis::smaller: half_width = t * std::max(aspect, 1.0); break;
+    case View::Axis::larger: half_width = t * std::min(aspect, 1.0); break;
+    case View::Axis::diagonal: half_width = t / std::sqrt(1 + 1 / sqr(aspect)); break;
+  }
+  // (X, Y) = half * (1 - 2 (s + principal offset)), s = (raster + crop offset) / full size.
+  const Vec2 half(half_width, half_width / aspect);
+  to_raster_scale_ = -full / (2.0 * half);
+  to_raster_offset_ = full * (0.5 - view_.principal_offset) - Vec2(raster.crop_offset);
+  image_area_ = 4 * half.x * half.y * raster.pixels() / (full.x * full.y);
+}
+
+Vec2 ProjectiveCamera::lens_point(const SurfacePoint& xk) const {
+  if (delta_position()) return Vec2(0);
+  const Vec3 offset = xk.p - position_;
+  return {dot(offset, axes_.s), dot(offset, axes_.t)};
+}
+
+SurfacePoint ProjectiveCamera::point_at(const Vec3& p) const {
+  SurfacePoint at;
+  at.p = p;
+  at.ng = axes_.n;
+  at.shading = axes_;
+  return at;
+}
+
+PositionSample ProjectiveCamera::sample_position(const Vec2& u) const {
+  Vec3 p = position_;
+  if (!delta_position()) {
+    const Vec2 offset = sample_disk(u) * lens_.radius;
+    p += axes_.s * offset.x + axes_.t * offset.y;
+  }
+  const SurfacePoint at = point_at(p);
+  return {at, pdf_position(at)};
+}
+
+double ProjectiveCamera::pdf_position(const SurfacePoint&) const {
+  return delta_position() ? 1 : disk_pdf() / sqr(lens_.radius);
+}
+
+Vec2 ProjectiveCamera::invert_position(const SurfacePoint& xk) const {
+  return delta_position() ? Vec2(0.5) : invert_disk(lens_point(xk) / lens_.radius);
+}
+
+Vec3 ProjectiveCamera::direction(const SurfacePoint& xk, const Vec2& raster) const {
+  const Vec2 plane = (raster - to_raster_offset_) / to_raster_scale_;
+  const Vec2 slope = plane - lens_point(xk) / lens_.focus_distance;
+  return axes_.to_world(normalize(Vec3(slope, 1)));
+}
+
+std::optional<Vec2> ProjectiveCamera::raster_position(const SurfacePoint& xk, const Vec3& w) const {
+  const Vec3 local = axes_.to_local(w);
+  if (!(local.z > 0)) return std::nullopt;
+  const Vec2 plane = Vec2(local) / local.z + lens_point(xk) / lens_.focus_distance;
+  const Vec2 raster = plane * to_raster_scale_ + to_raster_offset_;
+  if (!raster_.contains(raster)) return std::nullopt;
+  return raster;
+}
+
+double ProjectiveCamera::image_density(const SurfacePoint& xk, const Vec3& w) const {
+  if (!raster_position(xk, w)) return 0;
+  return 1 / (image_area_ * sqr(sqr(dot(w, axes_.n))));
+}
+
+double ProjectiveCamera::eval(const SurfacePoint& xk, const Vec3& w) const {
+  return image_density(xk, w) * pdf_position(xk);  // pdf_position = 1 / A_lens
+}
+
+std::optional<SurfacePoint> ProjectiveCamera::hit_lens(const Ray& ray) const {
+  const double t = dot(position_ - ray.o, axes_.n) / dot(ray.d, axes_.n);
+  if (!(t > 0 && t < ray.t_max)) return std::nullopt;
+  const Vec3 p = ray.o + ray.d * t;
+  if (!(length_squared(p - position_) < sqr(lens_.radius))) return std::nullopt;
+  return point_at(p);
+}
+
+double ProjectiveCamera::pdf_direction(const SurfacePoint& xk, const Vec3& w) const {
+  return image_density(xk, w) * (raster_.pixels() / raster_.sampled_area());
+}
+
+}  // namespace mlt

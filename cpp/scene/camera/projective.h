@@ -1,0 +1,76 @@
+// The ideal camera that projects through a lens onto a plane: a pinhole if the lens has no extent,
+// otherwise a thin lens that is sharp at one distance (Kolb et al. 1995, "A realistic camera model
+// for computer graphics", sec. 3; Potmesil & Chakravarty 1981).
+//
+// In camera space the lens is at the origin, z looks into the scene, y is up and x points to the
+// LEFT of the image, as in Mitsuba. A raster position stands for the point (X, Y, 1) of the plane at
+// unit distance; rays from anywhere on the lens for this raster position meet in f (X, Y, 1), where f
+// is the focus distance.
+//
+// With A the area that the image takes on the plane at unit distance and c = w_z the cosine at the
+// lens, dA = f^2 dw / c^3 on the focus plane, which the image fills with area A f^2. So a uniform
+// raster position has the density 1 / (A c^3) in solid angle and 1 / (A c^4) in projected solid
+// angle, and the importance that integrates to 1 (Veach 1997, sec. 8.3; Pharr et al., PBRT 3rd ed.,
+// sec. 16.1.1) is
+//
+//   We(xk -> w) = 1 / (A_lens A c^4)       (without A_lens for the delta position of a pinhole).
+#pragma once
+
+#include "base/params.h"
+#include "scene/camera.h"
+
+namespace mlt {
+
+class ProjectiveCamera final : public Camera {
+ public:
+  /// What the scene says about the field of view.
+  struct View {
+    enum class Axis { x, y, diagonal, smaller, larger };
+    double fov = 0;  ///< Full angle in radians, along `axis`.
+    Axis axis = Axis::x;
+    Vec2 principal_offset{0};  ///< Shift of the optical axis, as a fraction of the image size.
+  };
+  struct Lens {
+    double radius = 0;  ///< 0: a pinhole.
+    double focus_distance = 1;
+  };
+
+  ProjectiveCamera(const Vec3& position, const Frame& axes, const View& view, const Lens& lens,
+                   double shutter_open, double shutter_close);
+
+  void set_raster(const Raster& raster) override;
+
+  double eval(const SurfacePoint& xk, const Vec3& w) const override;
+  PositionSample sample_position(const Vec2& u) const override;
+  double pdf_position(const SurfacePoint& xk) const override;
+  Vec2 invert_position(const SurfacePoint& xk) const override;
+  Vec3 direction(const SurfacePoint& xk, const Vec2& raster) const override;
+  std::optional<Vec2> raster_position(const SurfacePoint& xk, const Vec3& w) const override;
+  double pdf_direction(const SurfacePoint& xk, const Vec3& w) const override;
+  bool delta_position() const override { return lens_.radius == 0; }
+  std::optional<SurfacePoint> hit_lens(const Ray& ray) const override;
+
+ private:
+  SurfacePoint point_at(const Vec3& p) const;
+  /// Where on the lens xk lies, in camera space; 0 for a pinhole.
+  Vec2 lens_point(const SurfacePoint& xk) const;
+  /// 1 / (A c^4) with A the area of the image; 0 outside the sampled domain.
+  double image_density(const SurfacePoint& xk, const Vec3& w) const;
+
+  Vec3 position_;
+  Frame axes_;
+  View view_;
+  Lens lens_;
+  // raster = (X, Y) * to_raster_scale_ + to_raster_offset_
+  Vec2 to_raster_scale_{-1}, to_raster_offset_{0};
+  double image_area_ = 1;  ///< A
+};
+
+/// The parameters that all projective cameras share.
+std::vector<Parameter> view_parameters();
+ProjectiveCamera::View read_view(Params& params);
+std::shared_ptr<ProjectiveCamera> make_projective(Params& params,
+                                                  const ProjectiveCamera::View& view,
+                                                  const ProjectiveCamera::Lens& lens);
+
+}  // namespace mlt

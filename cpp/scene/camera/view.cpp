@@ -1,0 +1,85 @@
+// The field of view and the placement of a projective camera, with Mitsuba's parameters.
+#include "scene/camera/projective.h"
+#include "scene/orientation.h"
+#include "scene/texture.h"
+
+#include <charconv>
+
+namespace mlt {
+namespace {
+
+/// The diagonal of a frame of 35 mm film (36 mm x 24 mm), to which focal lengths refer.
+const double film_diagonal = std::sqrt(36.0 * 36.0 + 24.0 * 24.0);
+
+double focal_length_mm(Params& params) {
+  const std::string text = params.text("focal_length");
+  double mm = 0;
+  const char* end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, mm);
+  const std::string unit(rest, end);
+  if (error != std::errc() || !(unit.empty() || unit == "mm") || !(mm > 0) || !std::isfinite(mm))
+    params.fail("focal_length",
+                "is '" + text + "', but should be a positive length such as '50mm'");
+  return mm;
+}
+
+ProjectiveCamera::View::Axis read_axis(Params& params) {
+  using Axis = ProjectiveCamera::View::Axis;
+  const std::string axis = params.text("fov_axis");
+  if (axis == "y") return Axis::y;
+  if (axis == "diagonal") return Axis::diagonal;
+  if (axis == "smaller") return Axis::smaller;
+  if (axis == "larger") return Axis::larger;
+  return Axis::x;
+}
+
+}  // namespace
+
+std::vector<Parameter> view_parameters() {
+  return {
+      {"to_world",
+       ParamType::transform,
+       {},
+       "Camera space to world space: the camera looks along +z, +y is up and +x is to the left. "
+       "Identity if not given."},
+      {"fov", ParamType::real, {}, "Field of view in degrees; if not given, focal_length counts."},
+      {"fov_axis",
+       ParamType::text,
+       std::string("x"),
+       "The image axis that fov is measured along.",
+       {"x", "y", "diagonal", "smaller", "larger"}},
+      {"focal_length", ParamType::text, std::string("50mm"),
+       "Focal length on 35 mm film, of which the image has the same diagonal field of view."},
+      {"shutter_open", ParamType::real, 0.0, "Time at which the shutter opens."},
+      {"shutter_close", ParamType::real, 0.0, "Time at which the shutter closes."}};
+}
+
+ProjectiveCamera::View read_view(Params& params) {
+  ProjectiveCamera::View view;
+  if (params.has("fov")) {
+    if (params.has("focal_length")) params.fail("focal_length", "and 'fov' exclude each other");
+    const double degrees = params.real("fov");
+    if (!(degrees > 0 && degrees < 180))
+      params.fail("fov",
+                  "is " + std::to_string(degrees) + ", but must lie between 0 and 180 degrees");
+    view.fov = degrees * (pi / 180);
+    view.axis = read_axis(params);
+  } else {
+    view.fov = 2 * std::atan(film_diagonal / (2 * focal_length_mm(params)));
+    view.axis = ProjectiveCamera::View::Axis::diagonal;
+  }
+  return view;
+}
+
+std::shared_ptr<ProjectiveCamera> make_projective(Params& params,
+                                                  const ProjectiveCamera::View& view,
+                                                  const ProjectiveCamera::Lens& lens) {
+  const Mat4 to_world = matrix_param(params, "to_world");
+  const Frame axes = orientation(params, "to_world", to_world);
+  const double open = params.real("shutter_open"), close = params.real("shutter_close");
+  if (close < open) params.fail("shutter_close", "is before shutter_open");
+  return std::make_shared<ProjectiveCamera>(transform_point(to_world, Vec3(0)), axes, view, lens,
+                                            open, close);
+}
+
+}  // namespace mlt

@@ -1,0 +1,77 @@
+// A surface that glows with the same radiance in all directions on its front side, that of the
+// geometric normal.
+#include "base/registry.h"
+#include "math/warp.h"
+#include "scene/emitter.h"
+#include "scene/shape.h"
+#include "scene/texture.h"
+
+namespace mlt {
+namespace {
+
+class AreaLight final : public Emitter {
+ public:
+  explicit AreaLight(Params& params) : radiance_(texture_param(params, "radiance")) {}
+
+  Color eval(const SurfacePoint& x0, const Vec3& w) const override {
+    if (!(dot(x0.ng, w) > 0)) return Color(0);
+    return glm::max(radiance_->eval(x0), Color(0));
+  }
+
+  PositionSample sample_position(const Vec2& u) const override {
+    return here(shape_->sample_position(u));
+  }
+  double pdf_position(const SurfacePoint&) const override { return 1 / shape_->area(); }
+  Vec2 invert_position(const SurfacePoint& x0) const override {
+    return shape_->invert_position(x0);
+  }
+
+  PositionSample sample_direct(const Vec3& from, const Vec2& u) const override {
+    return here(shape_->sample_direct(from, u));
+  }
+  double pdf_direct(const Vec3& from, const SurfacePoint& x0) const override {
+    return shape_->pdf_direct(from, x0);
+  }
+  Vec2 invert_direct(const Vec3& from, const SurfacePoint& x0) const override {
+    return shape_->invert_direct(from, x0);
+  }
+
+  /// Proportional to the cosine, so the coefficient in projected solid angle is 1 / pi.
+  RaySample sample_ray(const SurfacePoint& x0, const Vec2& u) const override {
+    const Vec3 w = Frame::around(x0.ng).to_world(sample_cosine_hemisphere(u));
+    return {x0.p, w, pdf_ray(x0, w)};
+  }
+  double pdf_ray(const SurfacePoint& x0, const Vec3& w) const override {
+    return dot(x0.ng, w) > 0 ? inv_pi : 0;
+  }
+  Vec2 invert_ray(const SurfacePoint& x0, const Vec3& x1) const override {
+    return invert_cosine_hemisphere(Frame::around(x0.ng).to_local(normalize(x1 - x0.p)));
+  }
+
+  Color power() const override { return radiance_->mean() * (pi * shape_->area()); }
+
+  void set_shape(const Shape* shape) override { shape_ = shape; }
+  const Shape* shape() const override { return shape_; }
+
+ private:
+  PositionSample here(PositionSample sample) const {
+    sample.at.shape = shape_->index();
+    return sample;
+  }
+
+  TexturePtr radiance_;
+  const Shape* shape_ = nullptr;
+};
+
+}  // namespace
+
+Plugin emitter_area() {
+  return {{"emitter",
+           "area",
+           "Makes the shape that it is nested in glow on its front side.",
+           {{"radiance", ParamType::emission, 1.0, "Emitted radiance, which may be textured."}},
+           {"sampling_weight"}},
+          [](Params& params) -> ObjectPtr { return std::make_shared<AreaLight>(params); }};
+}
+
+}  // namespace mlt

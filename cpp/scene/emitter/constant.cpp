@@ -1,0 +1,40 @@
+// A sky of the same radiance in all directions.
+#include "base/registry.h"
+#include "scene/emitter/infinite.h"
+#include "scene/texture.h"
+
+namespace mlt {
+namespace {
+
+class ConstantSky final : public InfiniteEmitter {
+ public:
+  explicit ConstantSky(Params& params) : radiance_(color_param(params, "radiance")) {}
+
+  Color eval(const SurfacePoint&, const Vec3&) const override { return radiance_; }
+
+  PositionSample sample_position(const Vec2& u) const override {
+    return {point_towards(sample_uniform_sphere(u)), uniform_sphere_pdf()};
+  }
+  double pdf_position(const SurfacePoint&) const override { return uniform_sphere_pdf(); }
+  Vec2 invert_position(const SurfacePoint& x0) const override {
+    return invert_uniform_sphere(x0.p);
+  }
+
+  Color power() const override { return radiance_ * (4 * pi * disk_area()); }
+
+ private:
+  Color radiance_;
+};
+
+}  // namespace
+
+Plugin emitter_constant() {
+  return {{"emitter",
+           "constant",
+           "A sky of the same radiance in all directions.",
+           {{"radiance", ParamType::radiance, 1.0, "Radiance of the sky."}},
+           {"sampling_weight", "to_world"}},
+          [](Params& params) -> ObjectPtr { return std::make_shared<ConstantSky>(params); }};
+}
+
+}  // namespace mlt

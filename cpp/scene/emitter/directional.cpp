@@ -1,0 +1,60 @@
+// Parallel light from infinitely far away, as from a sun of no size. Its radiance is a delta of
+// direction, whose coefficient is the irradiance on a surface that faces it.
+#include "base/registry.h"
+#include "scene/emitter/infinite.h"
+#include "scene/texture.h"
+
+namespace mlt {
+namespace {
+
+class DirectionalLight final : public InfiniteEmitter {
+ public:
+  explicit DirectionalLight(Params& params) : irradiance_(color_param(params, "irradiance")) {
+    const bool given = params.has("direction");
+    const std::string name = given ? "direction" : "to_world";
+    Vec3 d;
+    if (given) {
+      if (params.has("to_world")) params.fail("to_world", "and 'direction' exclude each other");
+      const Triple t = params.triple("direction");
+      d = {t[0], t[1], t[2]};
+    } else {
+      d = transform_vector(matrix_param(params, "to_world"), {0, 0, 1});
+    }
+    if (!(length(d) > 0) || !std::isfinite(length(d)))
+      params.fail(name, "gives a direction without length");
+    towards_ = -normalize(d);
+  }
+
+  Color eval(const SurfacePoint&, const Vec3&) const override { return irradiance_; }
+
+  PositionSample sample_position(const Vec2&) const override {
+    return {point_towards(towards_), 1};
+  }
+  double pdf_position(const SurfacePoint&) const override { return 1; }
+  Vec2 invert_position(const SurfacePoint&) const override { return Vec2(0.5); }
+
+  bool delta() const override { return true; }
+  Color power() const override { return irradiance_ * disk_area(); }
+
+ private:
+  Color irradiance_;
+  Vec3 towards_;
+};
+
+}  // namespace
+
+Plugin emitter_directional() {
+  return {{"emitter",
+           "directional",
+           "Parallel light from infinitely far away.",
+           {{"irradiance", ParamType::radiance, 1.0, "Power per area perpendicular to the light."},
+            {"direction", ParamType::point, {}, "The direction in which light travels."},
+            {"to_world",
+             ParamType::transform,
+             {},
+             "Instead of direction: light travels along the image of the z axis."}},
+           {"sampling_weight"}},
+          [](Params& params) -> ObjectPtr { return std::make_shared<DirectionalLight>(params); }};
+}
+
+}  // namespace mlt

@@ -1,0 +1,159 @@
+// Light from infinitely far away that an image describes, in the latitude-longitude layout of
+// Mitsuba 3 (release 3.9): in the map's own space y is up, and the direction with polar angle theta
+// and azimuth phi,
+//
+//   w = (sin theta sin phi, cos theta, -sin theta cos phi),
+//
+// is at u = phi / 2 pi, v = theta / pi. Column i lies at u = i / width and row j at
+// v = j / (height - 1), so that the first and the last row are the poles; between them values are
+// interpolated bilinearly.
+//
+// Directions are drawn with a density that is constant in solid angle over each cell between four
+// texels, proportional to their mean luminance times the cell's solid angle. It is positive wherever
+// the interpolated radiance is. (Pharr et al., PBRT 3rd ed., sec. 14.2.4, tabulate sin theta at
+// texel centres instead; drawing cos theta uniformly within a row needs no such approximation and
+// keeps the density finite at the poles.)
+#include "base/registry.h"
+#include "math/distribution.h"
+#include "scene/emitter/infinite.h"
+#include "scene/orientation.h"
+#include "scene/texture.h"
+#include "scene/texture/load_texels.h"
+
+namespace mlt {
+namespace {
+
+class EnvironmentMap final : public InfiniteEmitter {
+ public:
+  explicit EnvironmentMap(Params& params)
+      : axes_(orientation(params, "to_world", matrix_param(params, "to_world"))),
+        scale_(params.real("scale")) {
+    if (scale_ < 0) params.fail("scale", "must not be negative");
+    image_ = load_texels(params, {});
+    if (image_.width < 2 || image_.height < 3)
+      params.fail("filename", "is an image of " + std::to_string(image_.width) + " x " +
+                                  std::to_string(image_.height) +
+                                  " pixels; an environment map needs at least 2 x 3");
+    tabulate();
+  }
+
+  Color eval(const SurfacePoint& x0, const Vec3&) const override {
+    const Vec3 d = axes_.to_local(x0.p);
+    const double x = turns(-d.z, d.x) * image_.width;
+    const double y = theta_of(d) * inv_pi * cell_rows();
+    const int i = std::min(static_cast<int>(x), image_.width - 1);
+    const int j = std::min(static_cast<int>(y), cell_rows() - 1);
+    const double a = x - i, b = y - j;
+    return scale_ * ((1 - b) * ((1 - a) * texel(i, j) + a * texel(i + 1, j)) +
+                     b * ((1 - a) * texel(i, j + 1) + a * texel(i + 1, j + 1)));
+  }
+
+  PositionSample sample_position(const Vec2& u) const override {
+    const SurfacePoint at = point_towards(axes_.to_world(direction_of(table_.sample(u))));
+    return {at, pdf_position(at)};
+  }
+  double pdf_position(const SurfacePoint& x0) const override {
+    const Vec2 p = place_of(axes_.to_local(x0.p));
+    const double cells = static_cast<double>(image_.width) * cell_rows();
+    return table_.pdf(p) / (cells * cell_solid_angle(row_at(p.y)));
+  }
+  Vec2 invert_position(const SurfacePoint& x0) const override {
+    return table_.invert(place_of(axes_.to_local(x0.p)));
+  }
+
+  Color power() const override { return integral_ * (scale_ * disk_area()); }
+
+ private:
+  int cell_rows() const { return image_.height - 1; }
+
+  Color texel(int i, int j) const {
+    if (i >= image_.width) i -= image_.width;
+    const float* c = &image_.data[image_.index(i, j, 0)];
+    return image_.channels == 1 ? Color(c[0]) : Color(c[0], c[1], c[2]);
+  }
+
+  /// Polar angle against the y axis, exact near the poles too.
+  static double theta_of(const Vec3& d) { return std::atan2(std::hypot(d.x, d.z), d.y); }
+
+  /// The weights of the cells, and the integral of the interpolated radiance over the sphere.
+  void tabulate() {
+    const int w = image_.width, h = cell_rows();
+    for (int j = 0; j <= h; ++j) cos_rows_.push_back(std::cos(pi * j / h));
+    std::vector<float> weights;
+    weights.reserve(image_.pixel_count());
+    bool black = true;
+    for (int j = 0; j < h; ++j)
+      for (int i = 0; i < w; ++i) {
+        const Color mean =
+            0.25 * (texel(i, j) + texel(i + 1, j) + texel(i, j + 1) + texel(i + 1, j + 1));
+        weights.push_back(static_cast<float>(luminance(mean) * cell_solid_angle(j)));
+        black = black && !(weights.back() > 0);
+      }
+    if (black)
+      for (size_t k = 0; k < weights.size(); ++k)
+        weights[k] = static_cast<float>(cell_solid_angle(static_cast<int>(k / size_t(w))));
+    table_ = Piecewise2D(weights, size_t(w), size_t(h));
+    integrate();
+  }
+
+  /// The tent of row j in theta, integrated with sin theta: with d the distance of rows it is
+  /// 2 sin theta_j (1 - cos d) / d inside, and 1 - sin(d) / d at a pole.
+  void integrate() {
+    const double d = pi / cell_rows();
+    for (int j = 0; j < image_.height; ++j) {
+      Color row(0);
+      for (int i = 0; i < image_.width; ++i) row += texel(i, j);
+      const bool pole = j == 0 || j == cell_rows();
+      const double tent = pole ? 1 - std::sin(d) / d : 2 * std::sin(j * d) * (1 - std::cos(d)) / d;
+      integral_ += row * (tent * 2 * pi / image_.width);
+    }
+  }
+
+  double cell_solid_angle(int row) const {
+    return 2 * pi / image_.width * (cos_rows_[size_t(row)] - cos_rows_[size_t(row) + 1]);
+  }
+
+  // The table's unit square: x is the azimuth in turns; within each row y is linear in cos theta.
+  int row_at(double y) const {
+    return std::clamp(static_cast<int>(y * cell_rows()), 0, cell_rows() - 1);
+  }
+
+  Vec3 direction_of(const Vec2& p) const {
+    const int j = row_at(p.y);
+    const double t = p.y * cell_rows() - j;
+    const double top = cos_rows_[size_t(j)], bottom = cos_rows_[size_t(j) + 1];
+    const double cos_theta = top + t * (bottom - top);
+    const double sin_theta = safe_sqrt((1 - cos_theta) * (1 + cos_theta));
+    const SinCos phi = sincos_turns(p.x);
+    return {sin_theta * phi.sin, cos_theta, -sin_theta * phi.cos};
+  }
+
+  Vec2 place_of(const Vec3& d) const {
+    const int j = row_at(theta_of(d) * inv_pi);
+    const double top = cos_rows_[size_t(j)], bottom = cos_rows_[size_t(j) + 1];
+    const double t = std::clamp((top - d.y) / (top - bottom), 0.0, 1 - 0x1p-40);
+    return {turns(-d.z, d.x), (j + t) / cell_rows()};
+  }
+
+  Frame axes_;
+  double scale_;
+  Image image_;
+  std::vector<double> cos_rows_;  // cos theta of each row of texels
+  Piecewise2D table_;
+  Color integral_{0};
+};
+
+}  // namespace
+
+Plugin emitter_envmap() {
+  return {{"emitter",
+           "envmap",
+           "Light from infinitely far away, given as a latitude-longitude image.",
+           {{"filename", ParamType::text, {}, "Image file, preferably EXR or HDR."},
+            {"scale", ParamType::real, 1.0, "Multiplies the image."},
+            {"to_world", ParamType::transform, {}, "Turns the map; identity if not given."}},
+           {"sampling_weight", "mis_compensation", "cache"}},
+          [](Params& params) -> ObjectPtr { return std::make_shared<EnvironmentMap>(params); }};
+}
+
+}  // namespace mlt

@@ -1,0 +1,95 @@
+// What a scene says about its image. Every image is linear RGB; hdrfilm and ldrfilm differ only in
+// what they were for in the program that wrote the scene.
+#include "base/registry.h"
+#include "scene/film_settings.h"
+
+namespace mlt {
+namespace {
+
+constexpr int64_t max_side = 1 << 15;
+constexpr int64_t max_pixels = 1 << 28;
+
+int read_side(Params& params, const std::string& name, int64_t most) {
+  return static_cast<int>(params.integer_in(name, 1, most));
+}
+
+void read_size(Params& params, FilmSettings& film) {
+  film.size = {read_side(params, "width", max_side), read_side(params, "height", max_side)};
+  if (int64_t{film.size.x} * film.size.y > max_pixels)
+    params.fail("is " + std::to_string(film.size.x) + " x " + std::to_string(film.size.y) +
+                " pixels large; at most 2^28 pixels are possible");
+}
+
+void read_crop(Params& params, FilmSettings& film) {
+  const char* names[] = {"crop_offset_x", "crop_offset_y", "crop_width", "crop_height"};
+  if (std::none_of(std::begin(names), std::end(names), [&](auto name) { return params.has(name); }))
+    return;
+  film.crop_offset = {static_cast<int>(params.integer_in("crop_offset_x", 0, film.size.x - 1)),
+                      static_cast<int>(params.integer_in("crop_offset_y", 0, film.size.y - 1))};
+  film.crop_size = film.size;
+  if (params.has("crop_width")) film.crop_size.x = read_side(params, "crop_width", film.size.x);
+  if (params.has("crop_height")) film.crop_size.y = read_side(params, "crop_height", film.size.y);
+  const Vec2i end = film.crop_offset + film.crop_size;
+  if (end.x > film.size.x || end.y > film.size.y)
+    params.fail("has a crop window that ends at (" + std::to_string(end.x) + ", " +
+                std::to_string(end.y) + "), outside of the image of " +
+                std::to_string(film.size.x) + " x " + std::to_string(film.size.y) + " pixels");
+}
+
+void read_format(Params& params, FilmSettings& film) {
+  if (params.has("component_format"))
+    film.half_precision = params.text("component_format") == "float16";
+  if (params.has("pixel_format")) {
+    const std::string format = params.text("pixel_format");
+    if (format != "rgb" && format != "rgba" && format != "spectrum")
+      params.warn("pixel_format '" + format + "' is read as 'rgb'");
+  }
+  if (params.has("file_format")) params.text("file_format");  // the output's extension decides
+}
+
+ObjectPtr create(Params& params) {
+  auto film = std::make_shared<FilmSettings>();
+  read_size(params, *film);
+  read_crop(params, *film);
+  read_format(params, *film);
+  const auto filter = params.object<FilterObject>("rfilter");
+  film->filter = filter ? filter->filter : std::make_shared<const Filter>(gaussian_filter());
+  return film;
+}
+
+std::vector<Parameter> parameters() {
+  return {
+      {"width", ParamType::integer, int64_t{768}, "Width of the whole image in pixels."},
+      {"height", ParamType::integer, int64_t{576}, "Height of the whole image in pixels."},
+      {"crop_offset_x", ParamType::integer, int64_t{0}, "Left border of the crop window."},
+      {"crop_offset_y", ParamType::integer, int64_t{0}, "Upper border of the crop window."},
+      {"crop_width", ParamType::integer, {}, "Width of the crop window; all if not given."},
+      {"crop_height", ParamType::integer, {}, "Height of the crop window; all if not given."},
+      {"rfilter", ParamType::object, {}, "Reconstruction filter; gaussian if not given."},
+      {"component_format",
+       ParamType::text,
+       std::string("float16"),
+       "Precision of EXR files: half or single.",
+       {"float16", "float32"}},
+      {"pixel_format", ParamType::text, std::string("rgb"), "Images are RGB, whatever it says."},
+      {"file_format", ParamType::text, std::string("openexr"),
+       "The extension of the output file decides instead."}};
+}
+
+Plugin film(const std::string& name, const std::string& doc) {
+  return {
+      {"film",
+       name,
+       doc,
+       parameters(),
+       {"banner", "gamma", "filename", "label", "attach_log", "high_quality_edges", "sample_border",
+        "exposure", "tonemap_method", "key", "burn", "compensate", "has_alpha"}},
+      create};
+}
+
+}  // namespace
+
+Plugin film_hdrfilm() { return film("hdrfilm", "Size, crop window and filter of the image."); }
+Plugin film_ldrfilm() { return film("ldrfilm", "The same as hdrfilm; tone mapping is ignored."); }
+
+}  // namespace mlt

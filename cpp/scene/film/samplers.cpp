@@ -1,0 +1,39 @@
+// Scenes choose a sampler; here the integrators choose their own random numbers, and only the
+// number of samples counts.
+#include "base/registry.h"
+#include "scene/film_settings.h"
+
+namespace mlt {
+namespace {
+
+ObjectPtr create(Params& params) {
+  auto sampler = std::make_shared<SamplerSettings>();
+  if (params.has("sample_count"))
+    sampler->sample_count = params.integer_in("sample_count", 1, int64_t{1} << 40);
+  return sampler;
+}
+
+Plugin sampler(const std::string& name) {
+  return {{"sampler",
+           name,
+           "Accepted for its sample_count; integrators draw their own samples.",
+           {{"sample_count",
+             ParamType::integer,
+             {},
+             "Samples per pixel, if the render is given no other budget."}},
+           {"seed", "jitter", "scramble", "dimension", "depth", "strength"}},
+          create};
+}
+
+}  // namespace
+
+Plugin sampler_independent() { return sampler("independent"); }
+Plugin sampler_stratified() { return sampler("stratified"); }
+Plugin sampler_ldsampler() { return sampler("ldsampler"); }
+Plugin sampler_multijitter() { return sampler("multijitter"); }
+Plugin sampler_orthogonal() { return sampler("orthogonal"); }
+Plugin sampler_halton() { return sampler("halton"); }
+Plugin sampler_sobol() { return sampler("sobol"); }
+Plugin sampler_hammersley() { return sampler("hammersley"); }
+
+}  // namespace mlt

@@ -1,0 +1,15 @@
+// The axes of a transform that only turns (and may mirror) what it places: cameras and environment
+// maps. Scales mean nothing there and are dropped.
+#pragma once
+
+#include "base/params.h"
+#include "math/frame.h"
+
+namespace mlt {
+
+/// The images of the x, y and z axes as an orthonormal frame (left-handed for a mirrored transform).
+/// The z axis is kept exactly; the others are made perpendicular to it. Throws SceneError about the
+/// parameter `name` if the transform is singular or shears.
+Frame orientation(const Params& params, const std::string& name, const Mat4& to_world);
+
+}  // namespace mlt

@@ -1,0 +1,86 @@
+#include "scene/texture.h"
+
+#include "math/spectrum.h"
+
+namespace mlt {
+namespace {
+
+class Constant final : public Texture {
+ public:
+  explicit Constant(const Color& color) : color_(color) {}
+  Color eval(const SurfacePoint&) const override { return color_; }
+  Color mean() const override { return color_; }
+  double maximum() const override { return max_component(color_); }
+
+ private:
+  Color color_;
+};
+
+bool emits(ParamType type) { return type == ParamType::radiance || type == ParamType::emission; }
+
+Color spectrum_color(Params& params, const std::string& name, const Spectrum& spectrum,
+                     SpectrumUse use) {
+  if (spectrum.size() == 1) return uniform_spectrum_to_rgb(spectrum[0].second, use);
+  std::vector<SpectrumSample> samples;
+  for (const auto& [wavelength, value] : spectrum) samples.push_back({wavelength, value});
+  try {
+    const SpectrumColor found = spectrum_to_rgb(samples, use);
+    if (found.clamped) params.warn("'" + name + "' is outside of the sRGB gamut and was clamped");
+    return found.color;
+  } catch (const UsageError& error) {
+    params.fail(name, std::string("is no valid spectrum: ") + error.what());
+  }
+}
+
+Color to_color(Params& params, const std::string& name, const Value& value, SpectrumUse use) {
+  if (const int64_t* integer = std::get_if<int64_t>(&value))
+    return Color(static_cast<double>(*integer));
+  if (const double* real = std::get_if<double>(&value)) return Color(*real);
+  if (const Triple* rgb = std::get_if<Triple>(&value)) return {(*rgb)[0], (*rgb)[1], (*rgb)[2]};
+  if (const Spectrum* spectrum = std::get_if<Spectrum>(&value))
+    return spectrum_color(params, name, *spectrum, use);
+  params.fail(name, "should be a number, an rgb triple or a spectrum");
+}
+
+}  // namespace
+
+double Texture::eval_scalar(const SurfacePoint& at) const {
+  const Color c = eval(at);
+  return (c.x + c.y + c.z) / 3;
+}
+
+TexturePtr constant_texture(const Color& color) { return std::make_shared<Constant>(color); }
+
+Color color_param(Params& params, const std::string& name) {
+  const bool emission = emits(params.schema().find(name)->type);
+  const Color color = to_color(params, name, params.value(name),
+                               emission ? SpectrumUse::emission : SpectrumUse::reflectance);
+  if (min_component(color) < 0) params.fail(name, "must not be negative");
+  if (!emission && max_component(color) > 1)
+    params.fail(
+        name, "reaches " + std::to_string(max_component(color)) + ", but must lie between 0 and 1");
+  return color;
+}
+
+TexturePtr texture_param(Params& params, const std::string& name) {
+  if (const ObjectPtr* object = std::get_if<ObjectPtr>(&params.value(name))) {
+    TexturePtr texture = std::dynamic_pointer_cast<const Texture>(*object);
+    if (!texture) params.fail(name, "is an object, but not a texture");
+    return texture;
+  }
+  return constant_texture(color_param(params, name));
+}
+
+Mat4 matrix_param(Params& params, const std::string& name) {
+  const Parameter* parameter = params.schema().find(name);
+  const bool has_default = !std::holds_alternative<std::monostate>(parameter->default_value);
+  if (!has_default && !params.has(name)) return Mat4(1);
+  const Matrix rows = params.matrix(name);
+  Mat4 m;
+  for (int row = 0; row < 4; ++row)
+    for (int column = 0; column < 4; ++column)
+      m[column][row] = rows[static_cast<size_t>(4 * row + column)];
+  return m;
+}
+
+}  // namespace mlt

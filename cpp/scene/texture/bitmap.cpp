@@ -1,0 +1,171 @@
+// An image as a texture. Conventions are Mitsuba 3's: row 0 of the image is at v = 0, the centre of
+// texel (i, j) is at u = (i + 1/2) / width, v = (j + 1/2) / height.
+#include "base/registry.h"
+#include "scene/texture.h"
+#include "scene/texture/load_texels.h"
+#include "scene/texture/uv_transform.h"
+
+namespace mlt {
+namespace {
+
+/// What lies outside of the unit interval.
+enum class Wrap { repeat, mirror, clamp, zero, one };
+
+/// An equivalent coordinate close to [0, 1], so that texel indices stay small.
+double reduce(double u, Wrap wrap) {
+  switch (wrap) {
+    case Wrap::repeat: return u - std::floor(u);
+    case Wrap::mirror: return u - 2 * std::floor(0.5 * u);
+    default: return std::clamp(u, -2.0, 3.0);
+  }
+}
+
+/// The texel that index i stands for, or -1 where the border value counts.
+int wrapped(int i, int n, Wrap wrap) {
+  switch (wrap) {
+    case Wrap::repeat: return ((i % n) + n) % n;
+    case Wrap::mirror: {
+      const int m = ((i % (2 * n)) + 2 * n) % (2 * n);
+      return m < n ? m : 2 * n - 1 - m;
+    }
+    case Wrap::clamp: return std::clamp(i, 0, n - 1);
+    default: return i >= 0 && i < n ? i : -1;
+  }
+}
+
+double border_value(Wrap wrap) { return wrap == Wrap::one ? 1 : 0; }
+
+class Bitmap final : public Texture {
+ public:
+  Bitmap(Image image, bool nearest, Wrap wrap_u, Wrap wrap_v, const UvTransform& to_uv)
+      : image_(std::move(image)),
+        nearest_(nearest),
+        wrap_u_(wrap_u),
+        wrap_v_(wrap_v),
+        to_uv_(to_uv) {
+    Color sum(0);
+    for (int y = 0; y < image_.height; ++y)
+      for (int x = 0; x < image_.width; ++x) {
+        const Color c = texel(x, y);
+        sum += c;
+        maximum_ = std::max(maximum_, max_component(c));
+      }
+    mean_ = sum / static_cast<double>(image_.pixel_count());
+    maximum_ = std::max({maximum_, border_value(wrap_u), border_value(wrap_v)});
+  }
+
+  Color eval(const SurfacePoint& at) const override {
+    const Vec2 uv = to_uv_(at.uv);
+    const double x = reduce(uv.x, wrap_u_) * image_.width;
+    const double y = reduce(uv.y, wrap_v_) * image_.height;
+    if (!std::isfinite(x) || !std::isfinite(y)) return mean_;
+    if (nearest_) return lookup(static_cast<int>(std::floor(x)), static_cast<int>(std::floor(y)));
+    const double fx = std::floor(x - 0.5), fy = std::floor(y - 0.5);
+    const int i = static_cast<int>(fx), j = static_cast<int>(fy);
+    const double a = x - 0.5 - fx, b = y - 0.5 - fy;
+    return (1 - b) * ((1 - a) * lookup(i, j) + a * lookup(i + 1, j)) +
+           b * ((1 - a) * lookup(i, j + 1) + a * lookup(i + 1, j + 1));
+  }
+
+  Color mean() const override { return mean_; }
+  double maximum() const override { return maximum_; }
+
+ private:
+  Color texel(int x, int y) const {
+    const float* c = &image_.data[image_.index(x, y, 0)];
+    return image_.channels == 1 ? Color(c[0]) : Color(c[0], c[1], c[2]);
+  }
+  Color lookup(int i, int j) const {
+    const int x = wrapped(i, image_.width, wrap_u_), y = wrapped(j, image_.height, wrap_v_);
+    if (x < 0) return Color(border_value(wrap_u_));
+    if (y < 0) return Color(border_value(wrap_v_));
+    return texel(x, y);
+  }
+
+  Image image_;
+  bool nearest_;
+  Wrap wrap_u_, wrap_v_;
+  UvTransform to_uv_;
+  Color mean_{0};
+  double maximum_ = 0;
+};
+
+Wrap read_wrap(Params& params, const std::string& name) {
+  const std::string mode = params.text(params.has(name) ? name : "wrap_mode");
+  if (mode == "mirror") return Wrap::mirror;
+  if (mode == "clamp") return Wrap::clamp;
+  if (mode == "zero" || mode == "black") return Wrap::zero;
+  if (mode == "one" || mode == "white") return Wrap::one;
+  return Wrap::repeat;
+}
+
+bool read_nearest(Params& params) {
+  const std::string filter = params.text("filter_type");
+  if (filter == "trilinear" || filter == "ewa")
+    params.warn("filter_type '" + filter + "' is read as 'bilinear'");
+  return filter == "nearest";
+}
+
+Decoding read_decoding(Params& params) {
+  Decoding decoding;
+  if (params.boolean("raw")) {
+    if (params.has("gamma")) params.fail("gamma", "and 'raw' exclude each other");
+    decoding.kind = Decoding::Kind::none;
+    decoding.keep_negative = true;
+  } else if (params.has("gamma")) {
+    decoding.gamma = params.real("gamma");
+    if (decoding.gamma == -1)
+      decoding.kind = Decoding::Kind::srgb;
+    else if (decoding.gamma == 1)
+      decoding.kind = Decoding::Kind::none;
+    else if (decoding.gamma > 0)
+      decoding.kind = Decoding::Kind::power;
+    else
+      params.fail("gamma", "must be positive, or -1 for sRGB");
+  }
+  return decoding;
+}
+
+ObjectPtr create(Params& params) {
+  const Wrap wrap_u = read_wrap(params, "wrap_mode_u"), wrap_v = read_wrap(params, "wrap_mode_v");
+  const bool nearest = read_nearest(params);
+  const UvTransform to_uv(params);
+  return std::make_shared<Bitmap>(load_texels(params, read_decoding(params)), nearest, wrap_u,
+                                  wrap_v, to_uv);
+}
+
+std::vector<Parameter> parameters() {
+  const std::vector<std::string> wraps = {"repeat", "mirror", "clamp", "zero",
+                                          "one",    "black",  "white"};
+  std::vector<Parameter> all = {
+      {"filename", ParamType::text, {}, "Image file: PNG, JPEG, HDR, EXR, TGA or BMP."},
+      {"filter_type",
+       ParamType::text,
+       std::string("bilinear"),
+       "How texels are interpolated; trilinear and ewa are read as bilinear.",
+       {"bilinear", "nearest", "trilinear", "ewa"}},
+      {"wrap_mode", ParamType::text, std::string("repeat"), "What lies outside of [0, 1].", wraps},
+      {"wrap_mode_u", ParamType::text, {}, "wrap_mode along u, if different.", wraps},
+      {"wrap_mode_v", ParamType::text, {}, "wrap_mode along v, if different.", wraps},
+      {"raw", ParamType::boolean, false,
+       "Take the stored values as they are, without sRGB decoding."},
+      {"gamma",
+       ParamType::real,
+       {},
+       "Gamma of the stored values: 1 is linear, -1 sRGB; by the file's format if not given."}};
+  for (Parameter& parameter : uv_parameters()) all.push_back(std::move(parameter));
+  return all;
+}
+
+}  // namespace
+
+Plugin texture_bitmap() {
+  return {{"texture",
+           "bitmap",
+           "An image, interpolated between its texels.",
+           parameters(),
+           {"format", "accel", "cache", "max_anisotropy"}},
+          create};
+}
+
+}  // namespace mlt

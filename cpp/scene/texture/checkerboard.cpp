@@ -1,0 +1,46 @@
+// Two colours in the four quarters of the uv square, repeated for ever.
+#include "base/registry.h"
+#include "scene/texture.h"
+#include "scene/texture/uv_transform.h"
+
+namespace mlt {
+namespace {
+
+class Checkerboard final : public Texture {
+ public:
+  explicit Checkerboard(Params& params)
+      : color0_(texture_param(params, "color0")),
+        color1_(texture_param(params, "color1")),
+        to_uv_(params) {}
+
+  Color eval(const SurfacePoint& at) const override {
+    const Vec2 uv = to_uv_(at.uv);
+    return upper_half(uv.x) == upper_half(uv.y) ? color0_->eval(at) : color1_->eval(at);
+  }
+  Color mean() const override { return 0.5 * (color0_->mean() + color1_->mean()); }
+  double maximum() const override { return std::max(color0_->maximum(), color1_->maximum()); }
+
+ private:
+  static bool upper_half(double x) { return x - std::floor(x) > 0.5; }
+
+  TexturePtr color0_, color1_;
+  UvTransform to_uv_;
+};
+
+std::vector<Parameter> parameters() {
+  std::vector<Parameter> all = {
+      {"color0", ParamType::texture, 0.4, "Colour of the quarters at the lower left, upper right."},
+      {"color1", ParamType::texture, 0.2, "Colour of the other two quarters."}};
+  for (Parameter& parameter : uv_parameters()) all.push_back(std::move(parameter));
+  return all;
+}
+
+}  // namespace
+
+Plugin texture_checkerboard() {
+  return {{"texture", "checkerboard", "A board of two colours, 2 x 2 fields in the uv square.",
+           parameters()},
+          [](Params& params) -> ObjectPtr { return std::make_shared<Checkerboard>(params); }};
+}
+
+}  // namespace mlt
