@@ -1,0 +1,105 @@
+#include "math/distribution.h"
+
+#include "base/error.h"
+
+#include <fmt/format.h>
+
+namespace mlt {
+
+namespace {
+
+void check_weight(double weight, size_t index) {
+  if (!(weight >= 0) || !std::isfinite(weight))
+    throw UsageError(fmt::format(
+        "a distribution needs weights that are finite and not negative; weight {} is {}", index,
+        weight));
+}
+
+/// Where each weight's share of [0, full] begins. Every positive weight gets one unit and its part
+/// of what remains, so none is lost to rounding; a weight of zero gets exactly nothing.
+void fill_row(const float* weights, size_t n, double total, uint32_t full, uint32_t* starts) {
+  uint32_t positive = 0;
+  for (size_t i = 0; i < n; ++i) positive += weights[i] > 0;
+  const double divisible = full - positive;
+  double sum = 0;
+  uint32_t units = 0;
+  for (size_t i = 0; i < n; ++i) {
+    starts[i] = units + static_cast<uint32_t>(sum / total * divisible);
+    sum += weights[i];
+    units += weights[i] > 0;
+  }
+}
+
+}  // namespace
+
+Discrete::Discrete(const std::vector<double>& weights) {
+  if (weights.empty()) throw UsageError("a distribution needs at least one weight");
+  cdf_.reserve(weights.size() + 1);
+  cdf_.push_back(0);
+  size_t last_positive = 0;
+  for (size_t i = 0; i < weights.size(); ++i) {
+    check_weight(weights[i], i);
+    if (weights[i] > 0) last_positive = i;
+    total_ += weights[i];
+    cdf_.push_back(total_);
+  }
+  if (!(total_ > 0)) throw UsageError("a distribution needs at least one weight above zero");
+  if (!std::isfinite(total_)) throw UsageError("the weights of a distribution overflow their sum");
+  for (double& c : cdf_) c /= total_;
+  for (size_t i = last_positive + 1; i < cdf_.size(); ++i) cdf_[i] = 1;
+}
+
+Piecewise2D::Piecewise2D(const std::vector<float>& weights, size_t width, size_t height)
+    : width_(width), height_(height) {
+  if (width == 0 || height == 0 || weights.size() != width * height)
+    throw UsageError(fmt::format("a {} x {} table needs {} weights, not {}", width, height,
+                                 width * height, weights.size()));
+  std::vector<double> sums(height, 0.0);
+  for (size_t i = 0; i < weights.size(); ++i) {
+    check_weight(weights[i], i);
+    sums[i / width] += weights[i];
+  }
+  rows_ = Discrete(sums);
+  integral_ = rows_.total() / (static_cast<double>(width) * static_cast<double>(height));
+
+  starts_.resize(weights.size());
+  for (size_t y = 0; y < height; ++y) {
+    if (sums[y] == 0) continue;
+    fill_row(weights.data() + y * width, width, sums[y], full, starts_.data() + y * width);
+  }
+}
+
+Vec2 Piecewise2D::sample(const Vec2& u) const {
+  const Discrete::Sample row = rows_.sample_reuse(u.y);
+  const uint32_t* starts = starts_.data() + row.index * width_;
+  const double share = u.x * full;
+  const auto column = static_cast<size_t>(
+      std::upper_bound(starts + 1, starts + width_, static_cast<uint32_t>(share)) - starts - 1);
+  const Cell cell{row.index, column, row.remainder, 0};
+  const double low = begin(cell), high = end(cell);
+  const double x = std::min((share - low) / (high - low), 1 - 0x1p-53);
+  return {(static_cast<double>(column) + x) / static_cast<double>(width_),
+          (static_cast<double>(row.index) + row.remainder) / static_cast<double>(height_)};
+}
+
+Piecewise2D::Cell Piecewise2D::locate(const Vec2& p) const {
+  const double x = std::min(std::max(p.x, 0.0), 1.0) * static_cast<double>(width_);
+  const double y = std::min(std::max(p.y, 0.0), 1.0) * static_cast<double>(height_);
+  const size_t column = std::min(static_cast<size_t>(x), width_ - 1);
+  const size_t row = std::min(static_cast<size_t>(y), height_ - 1);
+  return {row, column, y - static_cast<double>(row), x - static_cast<double>(column)};
+}
+
+double Piecewise2D::pdf(const Vec2& p) const {
+  const Cell cell = locate(p);
+  const double in_row = (static_cast<double>(end(cell)) - begin(cell)) / full;
+  return rows_.pdf(cell.row) * in_row * static_cast<double>(width_) * static_cast<double>(height_);
+}
+
+Vec2 Piecewise2D::invert(const Vec2& p) const {
+  const Cell cell = locate(p);
+  const double low = begin(cell), high = end(cell);
+  return {(low + cell.x * (high - low)) / full, rows_.invert(cell.row, cell.y)};
+}
+
+}  // namespace mlt

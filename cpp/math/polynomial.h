@@ -1,0 +1,16 @@
+// Polynomials by Horner's rule; the loop unrolls at compile time.
+#pragma once
+
+#include <cstddef>
+
+namespace mlt {
+
+/// coefficients[0] x^(N-1) + ... + coefficients[N-1].
+template <size_t N>
+inline double polynomial(double x, const double (&coefficients)[N]) {
+  double sum = coefficients[0];
+  for (size_t i = 1; i < N; ++i) sum = sum * x + coefficients[i];
+  return sum;
+}
+
+}  // namespace mlt

@@ -1,0 +1,36 @@
+// Spectra given as wavelength : value pairs, converted to linear sRGB by the rule that the RGB
+// variants of Mitsuba 3 follow, so that a scene means the same colours in both.
+#pragma once
+
+#include "math/color.h"
+
+#include <vector>
+
+namespace mlt {
+
+struct SpectrumSample {
+  double wavelength;  // nm
+  double value;
+};
+
+/// What a spectrum stands for: it decides the illuminant and the range.
+enum class SpectrumUse {
+  reflectance,  // seen under D65, clamped to [0, 1]
+  unbounded,    // seen under D65, clamped to >= 0: eta and k of a conductor
+  emission,     // as it is, clamped to >= 0
+};
+
+struct SpectrumColor {
+  Color color;
+  bool clamped;  // the colour was outside of the range, and was clamped
+};
+
+/// The pairs are interpolated linearly and are zero outside. Throws UsageError unless there are at
+/// least two, in strictly increasing wavelength, all finite.
+SpectrumColor spectrum_to_rgb(const std::vector<SpectrumSample>& samples, SpectrumUse use);
+
+/// A spectrum with the same value everywhere: grey, except for an emitter, where it is the
+/// equal-energy illuminant (slightly red beside the D65 white of sRGB).
+Color uniform_spectrum_to_rgb(double value, SpectrumUse use);
+
+}  // namespace mlt

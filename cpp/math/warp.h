@@ -1,0 +1,197 @@
+// Warps from the unit square to the domains that rendering integrates over. Each is a triple:
+// sample_x(u) maps uniform numbers in [0,1) to a point, x_pdf(point) is its density with respect to
+// length, area or solid angle, and invert_x(point) returns the numbers that sample_x maps to it.
+// Directions are in the local frame (z is the axis). Angles are measured in turns, so that u is
+// used exactly; sine and cosine are the only transcendental functions on the sampling side.
+#pragma once
+
+#include "math/frame.h"
+#include "math/polynomial.h"
+
+#include <cstdint>
+
+namespace mlt {
+
+struct SinCos {
+  double sin, cos;
+};
+
+namespace detail {
+
+/// sin and cos of x for |x| <= pi/4, by their Taylor series to 1 ulp (x^17 / 17! < 5e-17).
+inline SinCos sincos_octant(double x) {
+  const double y = x * x;
+  const double s = polynomial(y, {-1. / 1307674368000, 1. / 6227020800, -1. / 39916800, 1. / 362880,
+                                  -1. / 5040, 1. / 120, -1. / 6});
+  const double c = polynomial(y, {1. / 20922789888000, -1. / 87178291200, 1. / 479001600,
+                                  -1. / 3628800, 1. / 40320, -1. / 720, 1. / 24, -0.5});
+  return {x + x * y * s, 1 + y * c};
+}
+
+}  // namespace detail
+
+/// sin and cos of 2 pi u for |u| < 2^30: the quarter turns are removed from u exactly.
+inline SinCos sincos_turns(double u) {
+  const double quarter = std::nearbyint(4 * u);
+  const SinCos a = detail::sincos_octant(2 * pi * (u - 0.25 * quarter));
+  const auto k = static_cast<int64_t>(quarter);
+  const double s = k & 1 ? a.cos : a.sin;
+  const double c = k & 1 ? a.sin : a.cos;
+  return {k & 2 ? -s : s, (k + 1) & 2 ? -c : c};
+}
+
+/// The inverse of sincos_turns: the azimuth of (x, y) in turns, in [0, 1).
+inline double turns(double x, double y) {
+  const double t = std::atan2(y, x) * (0.5 * inv_pi);
+  return t < 0 ? std::min(t + 1, 1 - 0x1p-53) : t;
+}
+
+namespace detail {
+
+struct DiskPoint {
+  Vec2 p;
+  double radius;
+};
+
+inline DiskPoint concentric(const Vec2& u) {
+  const double a = 2 * u.x - 1, b = 2 * u.y - 1;
+  const bool wide = std::abs(a) > std::abs(b);
+  const double r = wide ? a : b;
+  if (r == 0) return {{0, 0}, 0};
+  const SinCos angle = sincos_octant((pi / 4) * ((wide ? b : a) / r));
+  const Vec2 p = wide ? Vec2(r * angle.cos, r * angle.sin) : Vec2(r * angle.sin, r * angle.cos);
+  return {p, std::abs(r)};
+}
+
+}  // namespace detail
+
+// The unit disk, by the concentric map (Shirley & Chiu 1997, "A low distortion map between disk and
+// square"): four triangles of the square become four quarters of the disk.
+
+inline Vec2 sample_disk(const Vec2& u) { return detail::concentric(u).p; }
+
+inline double disk_pdf() { return inv_pi; }
+
+inline Vec2 invert_disk(const Vec2& p) {
+  const bool wide = std::abs(p.x) > std::abs(p.y);
+  const double radius = std::min(1.0, std::sqrt(p.x * p.x + p.y * p.y));
+  if (radius == 0) return {0.5, 0.5};
+  const double r = std::copysign(radius, wide ? p.x : p.y);
+  const double other = r * (4 * inv_pi) * std::atan(wide ? p.y / p.x : p.x / p.y);
+  const Vec2 ab = wide ? Vec2(r, other) : Vec2(other, r);
+  return {0.5 * ab.x + 0.5, 0.5 * ab.y + 0.5};
+}
+
+// The hemisphere with density cos / pi: the disk, lifted (Malley's method; Pharr et al., PBRT 3rd
+// ed., sec. 13.6.3).
+
+inline Vec3 sample_cosine_hemisphere(const Vec2& u) {
+  const auto [p, r] = detail::concentric(u);
+  return {p.x, p.y, std::sqrt((1 - r) * (1 + r))};
+}
+
+inline double cosine_hemisphere_pdf(const Vec3& w) { return w.z > 0 ? w.z * inv_pi : 0; }
+
+inline Vec2 invert_cosine_hemisphere(const Vec3& w) { return invert_disk({w.x, w.y}); }
+
+// The whole sphere: by Archimedes, z is uniform.
+
+inline Vec3 sample_uniform_sphere(const Vec2& u) {
+  const double r = 2 * std::sqrt(u.x * (1 - u.x));
+  const SinCos phi = sincos_turns(u.y);
+  return {r * phi.cos, r * phi.sin, 1 - 2 * u.x};
+}
+
+inline double uniform_sphere_pdf() { return 0.25 * inv_pi; }
+
+inline Vec2 invert_uniform_sphere(const Vec3& w) { return {0.5 * (1 - w.z), turns(w.x, w.y)}; }
+
+// The spherical cap of directions with 1 - cos <= `height`; height = 1 is the hemisphere. The
+// height (not the cosine) is the parameter, so that narrow cones keep their digits.
+
+inline Vec3 sample_cone(const Vec2& u, double height) {
+  const double h = u.x * height;
+  const double r = std::sqrt(h * (2 - h));
+  const SinCos phi = sincos_turns(u.y);
+  return {r * phi.cos, r * phi.sin, 1 - h};
+}
+
+inline double cone_pdf(double height) { return 1 / (2 * pi * height); }
+
+inline double cone_pdf(const Vec3& w, double height) {
+  return 1 - w.z <= height ? cone_pdf(height) : 0;
+}
+
+inline Vec2 invert_cone(const Vec3& w, double height) {
+  const double h = w.z > 0 ? sin2_theta(w) / (1 + w.z) : 1 - w.z;  // 1 - cos without cancellation
+  return {std::min(h / height, 1 - 0x1p-53), turns(w.x, w.y)};
+}
+
+inline Vec3 sample_uniform_hemisphere(const Vec2& u) { return sample_cone(u, 1); }
+
+inline double uniform_hemisphere_pdf(const Vec3& w) { return w.z >= 0 ? 0.5 * inv_pi : 0; }
+
+inline Vec2 invert_uniform_hemisphere(const Vec3& w) { return invert_cone(w, 1); }
+
+// A lobe cos^n about the z axis, as in the Phong model (Lafortune & Willems 1994, "Using the
+// modified Phong reflectance model for physically based rendering").
+
+inline Vec3 sample_cosine_power(const Vec2& u, double n) {
+  const double log_cos = std::log(1 - u.x) / (n + 1);
+  const double sin2 = -std::expm1(2 * log_cos);
+  const SinCos phi = sincos_turns(u.y);
+  const double r = std::sqrt(sin2);
+  return {r * phi.cos, r * phi.sin, std::sqrt(1 - sin2)};
+}
+
+inline double cosine_power_pdf(const Vec3& w, double n) {
+  return w.z > 0 ? (n + 1) * (0.5 * inv_pi) * std::pow(w.z, n) : 0;
+}
+
+inline Vec2 invert_cosine_power(const Vec3& w, double n) {
+  // cos^(n+1) = exp((n+1)/2 log(1 - sin^2)): accurate also for narrow lobes.
+  const double tail =
+      w.z > 0 ? std::expm1(0.5 * (n + 1) * std::log1p(-std::min(1.0, sin2_theta(w)))) : -1;
+  return {std::min(-tail, 1 - 0x1p-53), turns(w.x, w.y)};
+}
+
+// The same lobe about any unit axis.
+
+inline Vec3 sample_lobe(const Vec2& u, const Vec3& axis, double n) {
+  return Frame::around(axis).to_world(sample_cosine_power(u, n));
+}
+
+inline double lobe_pdf(const Vec3& w, const Vec3& axis, double n) {
+  return cosine_power_pdf({0, 0, dot(w, axis)}, n);
+}
+
+inline Vec2 invert_lobe(const Vec3& w, const Vec3& axis, double n) {
+  return invert_cosine_power(Frame::around(axis).to_local(w), n);
+}
+
+// Barycentric coordinates (b1, b2) uniform in a triangle; b0 = 1 - b1 - b2 (Heitz 2019, "A
+// low-distortion map between triangle and square"). Divide by the area for a density on a surface.
+
+inline Vec2 sample_triangle(const Vec2& u) {
+  if (u.y > u.x) return {0.5 * u.x, u.y - 0.5 * u.x};
+  return {u.x - 0.5 * u.y, 0.5 * u.y};
+}
+
+inline double triangle_pdf() { return 2; }
+
+inline Vec2 invert_triangle(const Vec2& b) {
+  if (b.y > b.x) return {2 * b.x, b.y + b.x};
+  return {b.x + b.y, 2 * b.y};
+}
+
+// The tent 1 - |x| on [-1, 1].
+
+inline double sample_tent(double u) {
+  return u < 0.5 ? std::sqrt(2 * u) - 1 : 1 - std::sqrt(2 - 2 * u);
+}
+
+inline double tent_pdf(double x) { return std::max(0.0, 1 - std::abs(x)); }
+
+inline double invert_tent(double x) { return x < 0 ? 0.5 * sqr(1 + x) : 1 - 0.5 * sqr(1 - x); }
+
+}  // namespace mlt
