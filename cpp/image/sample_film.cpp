@@ -5,8 +5,7 @@
 namespace mlt {
 namespace {
 
-/// Integral of f over the cell at distance d from the pixel, for d = 0 ... border. The filter is
-/// linear between its knots, which lie densely and on the half-integers: trapezoids are exact.
+/// Integral of f over the cell at distance d from the pixel, for d = 0 ... border.
 std::vector<double> cell_weights(const Filter& filter, int border) {
   std::vector<double> weights;
   if (filter.is_box()) return {1};
@@ -37,7 +36,7 @@ SampleFilm::Tile::Tile(const PixelRect& cells, const PixelRect& reach, const Fil
     : cells_(cells), reach_(reach), filter_(&filter), rgb_(size_t{3} * reach.width() * reach.height()) {}
 
 void SampleFilm::Tile::add(const Vec2& raster, const Color& color) {
-  splat(*filter_, raster, reach_, [&](int x, int y, double weight) {
+  mlt::splat(*filter_, raster, reach_, [&](int x, int y, double weight) {
     float* pixel = &rgb_[3 * (size_t(y - reach_.y0) * reach_.width() + (x - reach_.x0))];
     for (int c = 0; c < 3; ++c) pixel[c] += static_cast<float>(color[c] * weight);
   });
@@ -79,26 +78,25 @@ void SampleFilm::add(Group& group, const Pending& pending) {
     for (size_t i = 0; i < row; ++i) to[i] += from[i];
   }
   group.samples[pending.tile] += pending.samples;
+  if (pending.data.splats_.empty()) return;
+  group.light.resize(group.rgb.size());
+  for (const Splat& one : pending.data.splats_)
+    splat(*filter_, one.raster, {0, 0, width_, height_}, [&](int x, int y, double weight) {
+      float* pixel = &group.light[3 * (size_t(y) * width_ + x)];
+      for (int c = 0; c < 3; ++c) pixel[c] += static_cast<float>(one.color[c] * weight);
+    });
 }
 
 Image SampleFilm::image() const {
-  std::vector<double> rgb(size_t{3} * width_ * height_);
-  std::vector<uint64_t> samples(tile_count());
-  for (const auto& group : groups_) {
-    const std::lock_guard lock(group->mutex);
-    for (size_t i = 0; i < rgb.size(); ++i) rgb[i] += group->rgb[i];
-    for (size_t t = 0; t < samples.size(); ++t) samples[t] += group->samples[t];
-  }
-  return develop(rgb, samples);
+  std::vector<const Group*> all;
+  for (const auto& group : groups_) all.push_back(group.get());
+  return develop(all);
 }
 
-Image SampleFilm::group_image(int group_index) const {
-  const Group& group = *groups_[group_index];
-  const std::lock_guard lock(group.mutex);
-  return develop({group.rgb.begin(), group.rgb.end()}, group.samples);
-}
+Image SampleFilm::group_image(int group) const { return develop({groups_[group].get()}); }
 
-Image SampleFilm::develop(const std::vector<double>& rgb, const std::vector<uint64_t>& samples) const {
+/// The weight that uniform samples of the cells are expected to have in each pixel.
+std::vector<double> SampleFilm::expected_weights(const std::vector<uint64_t>& samples) const {
   std::vector<double> weights(size_t(width_) * height_);
   const auto expected = [&](int pixel, int begin, int end) {
     double sum = 0;
@@ -116,10 +114,46 @@ Image SampleFilm::develop(const std::vector<double>& rgb, const std::vector<uint
       for (int x = reach.x0; x < reach.x1; ++x) weights[size_t(y) * width_ + x] += wy * wx[x - reach.x0];
     }
   }
+  return weights;
+}
+
+/// Importance integrates to 1 over the image, so a pixel is the pixel count times the mean.
+double SampleFilm::splat_scale(const std::vector<uint64_t>& samples) const {
+  double walks = 0;
+  for (int tile = 0; tile < tile_count(); ++tile) {
+    const PixelRect cells = cells_of(tile);
+    walks += static_cast<double>(samples[tile]) * cells.width() * cells.height();
+  }
+  return walks > 0 ? static_cast<double>(width_) * height_ / walks : 0.0;
+}
+
+double SampleFilm::splat_scale() const {
+  std::vector<uint64_t> samples(tile_count());
+  for (const auto& group : groups_) {
+    const std::lock_guard lock(group->mutex);
+    for (size_t t = 0; t < samples.size(); ++t) samples[t] += group->samples[t];
+  }
+  return splat_scale(samples);
+}
+
+Image SampleFilm::develop(const std::vector<const Group*>& groups) const {
+  std::vector<double> rgb(size_t{3} * width_ * height_), light;
+  std::vector<uint64_t> samples(tile_count());
+  for (const Group* group : groups) {
+    const std::lock_guard lock(group->mutex);
+    for (size_t i = 0; i < rgb.size(); ++i) rgb[i] += group->rgb[i];
+    for (size_t t = 0; t < samples.size(); ++t) samples[t] += group->samples[t];
+    light.resize(std::max(light.size(), group->light.size()));
+    for (size_t i = 0; i < group->light.size(); ++i) light[i] += group->light[i];
+  }
+  const std::vector<double> weights = expected_weights(samples);
+  const double light_scale = splat_scale(samples);
   Image image(width_, height_, 3);
-  for (size_t i = 0; i < weights.size(); ++i)
-    if (weights[i] > 0)
-      for (int c = 0; c < 3; ++c) image.data[3 * i + c] = static_cast<float>(rgb[3 * i + c] / weights[i]);
+  for (size_t i = 0; i < rgb.size(); ++i) {
+    double value = weights[i / 3] > 0 ? rgb[i] / weights[i / 3] : 0.0;
+    if (!light.empty()) value += light_scale * light[i];
+    image.data[i] = static_cast<float>(value);
+  }
   return image;
 }
 
@@ -130,6 +164,7 @@ std::string SampleFilm::save() const {
     if (!group->pending.empty()) throw RenderError("a film cannot be saved while units are running");
     bytes.write(group->next);
     bytes.write(group->rgb);
+    bytes.write(group->light);
     bytes.write(group->samples);
   }
   return bytes.take();
@@ -141,8 +176,10 @@ void SampleFilm::load(const std::string& saved) {
     const size_t pixels = group->rgb.size(), tiles = group->samples.size();
     group->next = bytes.read<uint64_t>();
     bytes.read(group->rgb);
+    bytes.read(group->light);
     bytes.read(group->samples);
-    if (group->rgb.size() != pixels || group->samples.size() != tiles)
+    const bool light_fits = group->light.empty() || group->light.size() == pixels;
+    if (group->rgb.size() != pixels || !light_fits || group->samples.size() != tiles)
       throw RenderError("the saved film has another size");
   }
   bytes.finish();

@@ -22,6 +22,11 @@ class SampleFilm {
 
   SampleFilm(int width, int height, std::shared_ptr<const Filter> filter, int groups);
 
+  struct Splat {
+    Vec2 raster;
+    Color color;
+  };
+
   /// The samples of one tile, over the pixels that its filter footprints reach.
   class Tile {
    public:
@@ -29,12 +34,16 @@ class SampleFilm {
     /// The cells to be sampled; those of border tiles may lie outside the image.
     const PixelRect& cells() const { return cells_; }
     void add(const Vec2& raster, const Color& color);
+    /// Adds what a walk from a light, one for each sample of a cell, leaves anywhere on the image. A
+    /// measurement contribution over its density, with importance that integrates to 1 over the image.
+    void splat(const Vec2& raster, const Color& contribution) { splats_.push_back({raster, contribution}); }
 
    private:
     friend class SampleFilm;
     PixelRect cells_, reach_;
     const Filter* filter_;
     std::vector<float> rgb_;
+    std::vector<Splat> splats_;
   };
 
   int tile_count() const { return tiles_x_ * tiles_y_; }
@@ -48,6 +57,8 @@ class SampleFilm {
   /// Sum of samples over their expected weight, per pixel; all groups, or one.
   Image image() const;
   Image group_image(int group) const;
+  /// By what a sum of contributions over one light walk per sample is to be multiplied.
+  double splat_scale() const;
 
   std::string save() const;
   void load(const std::string& bytes);
@@ -63,13 +74,16 @@ class SampleFilm {
     uint64_t next = 0;
     std::map<uint64_t, Pending> pending;
     std::vector<float> rgb;
+    std::vector<float> light;  ///< The splats; empty until there is one.
     std::vector<uint64_t> samples;  ///< Per cell of each tile.
   };
 
   PixelRect cells_of(int tile) const;
   PixelRect reach_of(const PixelRect& cells) const;
   void add(Group& group, const Pending& pending);
-  Image develop(const std::vector<double>& rgb, const std::vector<uint64_t>& samples) const;
+  Image develop(const std::vector<const Group*>& groups) const;
+  double splat_scale(const std::vector<uint64_t>& samples) const;
+  std::vector<double> expected_weights(const std::vector<uint64_t>& samples) const;
 
   int width_, height_, border_, tiles_x_, tiles_y_;
   std::shared_ptr<const Filter> filter_;

@@ -3,6 +3,7 @@
 #include "base/registry.h"
 #include "integrator/path_params.h"
 #include "integrator/sampled_rendering.h"
+#include "path/camera_ray.h"
 
 namespace mlt {
 namespace {
@@ -18,15 +19,31 @@ class DirectRendering : public SampledRendering {
       : SampledRendering(std::move(scene), seed), settings_(settings) {}
 
  private:
-  Color radiance(const Ray& ray, PixelSampler& sampler, RayCounts& rays) const override {
+  class DirectWorker;
+  std::unique_ptr<Worker> make_worker() override;
+
+  DirectSettings settings_;
+};
+
+class DirectRendering::DirectWorker : public Worker {
+ public:
+  DirectWorker(const Scene& scene, const DirectSettings& settings) : scene_(&scene), settings_(settings) {}
+
+  void sample(const Vec2& raster, PixelSampler& sampler, Sink& sink, RayCounts& rays) override {
+    const Ray ray = camera_ray(scene_->camera(), raster, sampler);
+    sink.add(raster, radiance(ray, sampler, rays));
+  }
+
+ private:
+  Color radiance(const Ray& ray, PixelSampler& sampler, RayCounts& rays) const {
     SurfacePoint at;
     ++rays.intersect;
-    const bool hit = scene().intersect(ray, at);
+    const bool hit = scene_->intersect(ray, at);
     const auto always = [](const Emitter&, const SurfacePoint&) { return 1.0; };
     Color sum(0);
-    if (!settings_.hide_emitters) sum += emission(scene(), hit ? &at : nullptr, ray.d, always);
+    if (!settings_.hide_emitters) sum += emission(*scene_, hit ? &at : nullptr, ray.d, always);
     if (!hit || !consistent_sides(at, -ray.d, settings_.strict_normals)) return sum;
-    const Bsdf& bsdf = scene().bsdf(at);
+    const Bsdf& bsdf = scene_->bsdf(at);
     if (bsdf.has_smooth())
       for (int i = 0; i < settings_.emitter_samples; ++i) sum += by_light(at, ray, sampler, rays);
     for (int i = 0; i < settings_.bsdf_samples; ++i) sum += by_bsdf(bsdf, at, ray, sampler, rays);
@@ -37,7 +54,7 @@ class DirectRendering : public SampledRendering {
     const Vec2 u = sampler.next2();
     const double n = settings_.emitter_samples, m = settings_.bsdf_samples;
     const auto weight = [&](double light, double bsdf) { return power_heuristic(n * light, m * bsdf); };
-    return direct_light(scene(), at, -ray.d, {sampler.next(), u}, ray.time, settings_.strict_normals, rays,
+    return direct_light(*scene_, at, -ray.d, {sampler.next(), u}, ray.time, settings_.strict_normals, rays,
                         weight) / n;
   }
 
@@ -50,17 +67,22 @@ class DirectRendering : public SampledRendering {
     const double n = settings_.emitter_samples, m = settings_.bsdf_samples;
     const auto weight = [&](const Emitter& emitter, const SurfacePoint& x0) {
       if (sample->lobe != Lobe::smooth) return 1.0;
-      const double light = emitter_pdf(scene(), emitter, at.p, x0) * per_solid_angle(at.p, x0, sample->w);
+      const double light = emitter_pdf(*scene_, emitter, at.p, x0) * per_solid_angle(at.p, x0, sample->w);
       return power_heuristic(m * sample->pdf, n * light);
     };
     SurfacePoint next;
     ++rays.intersect;
-    const bool hit = scene().intersect(scene().spawn(at, sample->w, ray.time), next);
-    return sample->weight * emission(scene(), hit ? &next : nullptr, sample->w, weight) / m;
+    const bool hit = scene_->intersect(scene_->spawn(at, sample->w, ray.time), next);
+    return sample->weight * emission(*scene_, hit ? &next : nullptr, sample->w, weight) / m;
   }
 
+  const Scene* scene_;
   DirectSettings settings_;
 };
+
+std::unique_ptr<SampledRendering::Worker> DirectRendering::make_worker() {
+  return std::make_unique<DirectWorker>(scene(), settings_);
+}
 
 class DirectIntegrator : public Integrator {
  public:

@@ -9,8 +9,14 @@
 #include <atomic>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace mlt {
+
+struct NamedImage {
+  std::string name;
+  Image image;
+};
 
 /// A render in progress, cut into units that are fixed by (scene, algorithm, seed) and independent of
 /// threads. Units are numbered 0, 1, 2, ... and started in that order; run_unit may be called from
@@ -32,6 +38,8 @@ class Rendering {
   /// The image after the units that have finished, linear RGB.
   virtual Image image() const = 0;
   virtual void add_stats(Stats& stats) const = 0;
+  /// Further images that the render was asked to keep.
+  virtual std::vector<NamedImage> layers() const { return {}; }
 
   /// The whole state as bytes, and back. No unit may be running.
   virtual std::string save() const = 0;

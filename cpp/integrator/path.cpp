@@ -4,6 +4,7 @@
 #include "base/registry.h"
 #include "integrator/path_params.h"
 #include "integrator/sampled_rendering.h"
+#include "path/camera_ray.h"
 
 namespace mlt {
 namespace {
@@ -14,8 +15,21 @@ class PathRendering : public SampledRendering {
       : SampledRendering(std::move(scene), seed), settings_(settings) {}
 
  private:
-  Color radiance(const Ray& ray, PixelSampler& sampler, RayCounts& rays) const override {
-    return trace_path(scene(), settings_, ray, sampler, rays);
+  class PathWorker : public Worker {
+   public:
+    PathWorker(const Scene& scene, const PathSettings& settings) : scene_(&scene), settings_(settings) {}
+    void sample(const Vec2& raster, PixelSampler& sampler, Sink& sink, RayCounts& rays) override {
+      const Ray ray = camera_ray(scene_->camera(), raster, sampler);
+      sink.add(raster, trace_path(*scene_, settings_, ray, sampler, rays));
+    }
+
+   private:
+    const Scene* scene_;
+    PathSettings settings_;
+  };
+
+  std::unique_ptr<Worker> make_worker() override {
+    return std::make_unique<PathWorker>(scene(), settings_);
   }
 
   PathSettings settings_;

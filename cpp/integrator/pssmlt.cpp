@@ -22,8 +22,7 @@ void evaluate(const Scene& scene, const PathSettings& settings, PrimaryState& st
   PrimarySampler sampler(state.numbers, rng);
   const Camera& camera = scene.camera();
   state.raster = camera.raster().sample(sampler.next2());
-  const Vec2 u_lens = sampler.next2();
-  const Ray ray = camera_ray(camera, state.raster, u_lens, sampler.next());
+  const Ray ray = camera_ray(camera, state.raster, sampler);
   // Importance over the density of uniform raster positions.
   const double importance = camera.raster().sampled_area() / camera.raster().pixels();
   state.rgb = trace_path(scene, settings, ray, sampler, stats.rays) * importance;

@@ -1,7 +1,5 @@
 #include "integrator/sampled_rendering.h"
 
-#include "path/camera_ray.h"
-
 #include <cmath>
 
 namespace mlt {
@@ -25,22 +23,20 @@ void SampledRendering::run_unit(uint64_t unit) {
   const int tile_index = static_cast<int>(unit % tiles), group = static_cast<int>(pass % groups);
   SampleFilm::Tile tile = film_.begin(tile_index);
   const PixelRect cells = tile.cells();
-  const Camera& camera = scene_->camera();
   RayCounts rays;
+  uint64_t invalid = 0;
+  Sink sink(tile, invalid);
+  const std::unique_ptr<Worker> worker = make_worker();
   for (int y = cells.y0; y < cells.y1; ++y)
     for (int x = cells.x0; x < cells.x1; ++x) {
       const uint64_t cell = (uint64_t(uint32_t(y)) << 32) | uint32_t(x);
       const uint64_t stream = mix_bits(mix_bits(mix_bits(seed_) ^ cell) + group);
       PixelSampler sampler(stream, static_cast<uint32_t>(index));
       const Vec2 raster = Vec2(x, y) + sampler.next2();
-      const Vec2 u_lens = sampler.next2();
-      const Color color = radiance(camera_ray(camera, raster, u_lens, sampler.next()), sampler, rays);
-      if (is_finite(color) && min_component(color) >= 0)
-        tile.add(raster, color);
-      else
-        ++invalid_;
+      worker->sample(raster, sampler, sink, rays);
     }
   film_.commit(group, index * tiles + tile_index, tile_index, std::move(tile), 1);
+  invalid_ += invalid;
   intersect_ += rays.intersect;
   occluded_ += rays.occluded;
 }

@@ -5,11 +5,11 @@
 
 namespace mlt {
 
-/// The ray through a raster position, from a point on the lens, at a moment; all but the raster
-/// position from uniform numbers.
-inline Ray camera_ray(const Camera& camera, const Vec2& raster, const Vec2& u_lens, double u_time) {
-  const SurfacePoint lens = camera.sample_position(u_lens).at;
-  return {lens.p, camera.direction(lens, raster), camera.time(u_time)};
+/// The ray through a raster position, from a point on the lens, at a moment.
+template <class Sampler>
+Ray camera_ray(const Camera& camera, const Vec2& raster, Sampler& sampler) {
+  const SurfacePoint lens = camera.sample_position(sampler.next2()).at;
+  return {lens.p, camera.direction(lens, raster), camera.time(sampler.next())};
 }
 
 }  // namespace mlt

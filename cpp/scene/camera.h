@@ -57,6 +57,8 @@ class Camera : public Object {
 
   /// A pinhole: no walk can hit the lens.
   virtual bool delta_position() const = 0;
+  /// Where a ray passes through the lens, if it has an area. The lens does not stop the ray.
+  virtual std::optional<SurfacePoint> hit_lens(const Ray& /*ray*/) const { return std::nullopt; }
 
   const Raster& raster() const { return raster_; }
   /// Camera time: uniform between shutter open and shutter close.

@@ -1,0 +1,70 @@
+// ptracer: light tracing (Arvo 1986; Dutre, Lafortune & Willems 1993). Walks start at the lights, and
+// every vertex is connected to the lens: the technique t = 1 of bidirectional path tracing alone. It
+// cannot see what the camera sees only by way of a mirror or through glass.
+#include "base/registry.h"
+#include "integrator/path_params.h"
+#include "integrator/sampled_rendering.h"
+#include "path/bidirectional.h"
+
+namespace mlt {
+namespace {
+
+class PtracerRendering : public SampledRendering {
+ public:
+  PtracerRendering(ScenePtr scene, uint64_t seed, const BidirectionalSettings& settings)
+      : SampledRendering(std::move(scene), seed), settings_(settings) {}
+
+ private:
+  class PtracerWorker : public Worker {
+   public:
+    PtracerWorker(const Scene& scene, const BidirectionalSettings& settings)
+        : bidirectional_(scene, settings) {}
+
+    void sample(const Vec2&, PixelSampler& sampler, Sink& sink, RayCounts& rays) override {
+      bidirectional_.sample_light(sampler, rays);
+      bidirectional_.connect_to_lens(
+          rays, [&](const Connection& c) { sink.splat(c.raster, c.contribution); });
+    }
+
+   private:
+    Bidirectional bidirectional_;
+  };
+
+  std::unique_ptr<Worker> make_worker() override {
+    return std::make_unique<PtracerWorker>(scene(), settings_);
+  }
+
+  BidirectionalSettings settings_;
+};
+
+class PtracerIntegrator : public Integrator {
+ public:
+  explicit PtracerIntegrator(Params& params) {
+    const PathSettings path = path_settings(params);
+    settings_.max_depth = path.max_depth;
+    settings_.rr_depth = path.rr_depth;
+    settings_.hide_emitters = path.hide_emitters;
+    settings_.strict_normals = path.strict_normals;
+  }
+  std::unique_ptr<Rendering> start(ScenePtr scene, uint64_t seed) const override {
+    return std::make_unique<PtracerRendering>(std::move(scene), seed, settings_);
+  }
+
+ private:
+  BidirectionalSettings settings_;
+};
+
+}  // namespace
+
+Plugin integrator_ptracer() {
+  Schema schema;
+  schema.family = "integrator";
+  schema.name = "ptracer";
+  schema.doc =
+      "Light tracing: walks from the lights, connected to the lens at each vertex (Dutre et al. 1993). "
+      "One spp is one light path per pixel.";
+  schema.parameters = path_parameters();
+  return {schema, [](Params& params) -> ObjectPtr { return std::make_shared<PtracerIntegrator>(params); }};
+}
+
+}  // namespace mlt

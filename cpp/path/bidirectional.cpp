@@ -1,0 +1,153 @@
+#include "path/bidirectional.h"
+
+namespace mlt {
+
+/// Densities that do not depend on how the subpaths are joined: what each walk knows of its own
+/// vertices, and of them as made by the other walk, up to the two vertices next to the joint.
+void Bidirectional::begin_densities(const WalkVertex* lights, int s, const WalkVertex* cameras, int t) {
+  const int k = s + t - 1;
+  from_light_.resize(k + 1);
+  from_camera_.resize(k + 1);
+  connectable_.resize(k + 1);
+  for (int i = 0; i < s; ++i) {
+    from_light_[i] = lights[i].forward;
+    from_camera_[i] = lights[i].reverse;
+    connectable_[i] = lights[i].lobe == Lobe::smooth;
+  }
+  for (int j = 0; j < t; ++j) {
+    from_camera_[k - j] = cameras[j].forward;
+    from_light_[k - j] = cameras[j].reverse;
+    connectable_[k - j] = cameras[j].lobe == Lobe::smooth;
+  }
+}
+
+double Bidirectional::weight(int s, const Vertex& x0, const Vertex& xk, const SurfacePoint& x1) {
+  const int k = static_cast<int>(from_light_.size()) - 1;
+  if (!settings_.light_image) connectable_[k] = false;  // t = 1 is not among the techniques
+  const double direct = settings_.sample_direct ? direct_position_pdf(*scene_, x0, x1) : from_light_[0];
+  return mis_weight(from_light_.data(), from_camera_.data(), connectable_.data(), k, s, direct,
+                    can_be_hit(*scene_, x0), settings_.light_image && can_be_hit(*scene_, xk),
+                    settings_.heuristic);
+}
+
+/// s = 0: the camera walk has hit a light.
+bool Bidirectional::evaluate_hit_light(Connection& connection) {
+  const int t = connection.t;
+  const WalkVertex& end = camera_[t - 1];
+  const Vertex x0 = light_vertex(*connection.emitter, end.vertex.at);
+  if (!can_be_hit(*scene_, x0)) return false;
+  const VertexTerms terms =
+      vertex_terms(*scene_, x0, end.towards_previous, end.towards_previous, settings_.strict_normals);
+  connection.contribution = end.throughput * terms.f;
+  if (is_black(connection.contribution)) return false;
+  begin_densities(nullptr, 0, camera_.data(), t);
+  connectable_[0] = true;
+  from_light_[0] = light_position_pdf(*scene_, x0);
+  from_light_[1] = terms.pdf_from_light * end.G;
+  connection.weight = weight(0, x0, camera_[0].vertex, camera_[t - 2].vertex.at);
+  return connection.weight > 0;
+}
+
+/// s >= 1, t >= 1: the last vertices of the two subpaths see each other.
+bool Bidirectional::evaluate_connection(Connection& connection, RayCounts& rays) {
+  const int s = connection.s, t = connection.t, k = s + t - 1;
+  const WalkVertex& b = camera_[t - 1];
+  if (b.vertex.at.infinite()) return false;
+  const bool direct = s == 1 && settings_.sample_direct;
+  if (direct ? !choose_direct(b.vertex.at, direct_u_[t - 1]) : s > static_cast<int>(light_.size()))
+    return false;
+  const WalkVertex* lights = direct ? &direct_ : light_.data();
+  const WalkVertex& a = lights[s - 1];
+  if (k == 1 && !can_be_hit(*scene_, a.vertex) && !can_be_hit(*scene_, b.vertex)) return false;
+
+  const Vec3 ab = direction(a.vertex.at, b.vertex.at);
+  const VertexTerms at_a =
+      vertex_terms(*scene_, a.vertex, a.towards_previous, ab, settings_.strict_normals);
+  if (is_black(at_a.f)) return false;
+  const VertexTerms at_b =
+      vertex_terms(*scene_, b.vertex, -ab, b.towards_previous, settings_.strict_normals);
+  if (is_black(at_b.f)) return false;
+  const double G = geometry(a.vertex.at, b.vertex.at);
+  connection.contribution = a.throughput * at_a.f * G * at_b.f * b.throughput;
+  if (is_black(connection.contribution)) return false;
+  if (t == 1) {
+    const auto raster = scene_->camera().raster_position(b.vertex.at, -ab);
+    if (!raster) return false;
+    connection.raster = *raster;
+  }
+  ++rays.occluded;
+  if (!scene_->visible(a.vertex.at, b.vertex.at, time_)) return false;
+
+  begin_densities(lights, s, camera_.data(), t);
+  connectable_[s - 1] = connectable_[s] = true;
+  from_light_[s] = at_a.pdf_from_light * G;
+  if (t >= 2) from_light_[s + 1] = at_b.pdf_from_light * b.G;
+  from_camera_[s - 1] = at_b.pdf_from_camera * G;
+  if (s >= 2) from_camera_[s - 2] = at_a.pdf_from_camera * a.G;
+  const SurfacePoint& x1 = s >= 2 ? light_[1].vertex.at : b.vertex.at;
+  connection.weight = weight(s, lights[0].vertex, camera_[0].vertex, x1);
+  return connection.weight > 0;
+}
+
+bool Bidirectional::choose_direct(const SurfacePoint& from, const Vec3& u) {
+  const EmitterSample chosen = sample_emitter(*scene_, from.p, u);
+  if (!(chosen.pdf > 0)) return false;
+  direct_.vertex = light_vertex(*chosen.emitter, chosen.x0);
+  direct_.throughput = Color(1 / chosen.pdf);
+  direct_.forward = light_position_pdf(*scene_, direct_.vertex);
+  return true;
+}
+
+/// t = 0: the light walk passes through the lens after its vertex s - 2.
+bool Bidirectional::evaluate_hit_lens(Connection& connection) {
+  const int s = connection.s, k = s - 1;
+  const WalkVertex& last = light_[s - 2];
+  if (last.absorbed) return false;
+  const Ray ray = scene_->spawn(last.vertex.at, last.towards_next, time_);
+  const auto hit = scene_->camera().hit_lens(ray);
+  if (!hit) return false;
+  if (s <= static_cast<int>(light_.size()) &&
+      length_squared(hit->p - ray.o) >= length_squared(light_[s - 1].vertex.at.p - ray.o))
+    return false;
+  lens_.vertex = camera_vertex(*hit);
+  const VertexTerms terms = vertex_terms(*scene_, lens_.vertex, -last.towards_next, -last.towards_next,
+                                         settings_.strict_normals);
+  const auto raster = scene_->camera().raster_position(*hit, -last.towards_next);
+  if (is_black(terms.f) || !raster) return false;
+  connection.raster = *raster;
+  connection.contribution = last.next_throughput * terms.f;
+  if (is_black(connection.contribution)) return false;
+  lens_.forward = camera_position_pdf(*scene_, lens_.vertex);
+  const double G = geometry(last.vertex.at, *hit);
+  begin_densities(light_.data(), k, &lens_, 1);
+  from_light_[k] = last.next_coefficient * G;
+  from_camera_[k - 1] = terms.pdf_from_camera * G;
+  if (k >= 2) {
+    const VertexTerms at_last = surface_terms(*scene_, last.vertex.at, last.lobe, last.towards_previous,
+                                              last.towards_next, settings_.strict_normals);
+    from_camera_[k - 2] = at_last.pdf_from_camera * last.G;
+  }
+  const SurfacePoint& x1 = k >= 2 ? light_[1].vertex.at : lens_.vertex.at;
+  connection.weight = weight(s, light_[0].vertex, lens_.vertex, x1);
+  return connection.weight > 0;
+}
+
+void Bidirectional::assemble(const Connection& connection, Path& path) const {
+  const int s = connection.s, t = connection.t;
+  path.vertices.clear();
+  path.time = time_;
+  const bool direct = s == 1 && settings_.sample_direct;
+  const int lights = t == 0 ? s - 1 : s;
+  for (int i = 0; i < lights; ++i) {
+    path.vertices.push_back(direct ? direct_.vertex : light_[i].vertex);
+    if (i + 1 < lights || t == 0) path.vertices.back().lobe = light_[i].lobe;
+  }
+  if (t == 0) path.vertices.push_back(lens_.vertex);
+  for (int j = t - 1; j >= 0; --j) {
+    path.vertices.push_back(camera_[j].vertex);
+    if (j + 1 < t) path.vertices.back().lobe = camera_[j].lobe;
+  }
+  if (s == 0) path.vertices[0] = light_vertex(*connection.emitter, path.vertices[0].at);
+}
+
+}  // namespace mlt

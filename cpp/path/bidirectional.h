@@ -1,0 +1,153 @@
+// All ways of connecting a light and a camera subpath into a path (Veach & Guibas 1994; Lafortune &
+// Willems 1993), each with its multiple importance sampling weight.
+#pragma once
+
+#include "path/path_terms.h"
+#include "path/subpath.h"
+
+#include <vector>
+
+namespace mlt {
+
+struct BidirectionalSettings {
+  int max_depth = -1;
+  int rr_depth = 5;
+  bool light_image = true;    ///< Techniques t <= 1, which write anywhere on the image.
+  bool sample_direct = true;  ///< s = 1 chooses x_0 as seen from x_1.
+  bool hide_emitters = false;
+  bool strict_normals = false;
+  Heuristic heuristic = Heuristic::power;
+};
+
+/// One path found by technique (s, t).
+struct Connection {
+  int s, t;
+  Vec2 raster;
+  Color contribution;  ///< f / p, without the weight.
+  double weight;
+  const Emitter* emitter = nullptr;  ///< The light of a path with s = 0.
+};
+
+/// A light and a camera subpath, and the connections between them. Keeps its memory from sample to
+/// sample.
+class Bidirectional {
+ public:
+  Bidirectional(const Scene& scene, const BidirectionalSettings& settings)
+      : scene_(&scene), settings_(settings) {}
+
+  /// Draws both subpaths for a raster position.
+  template <class Sampler>
+  void sample(const Vec2& raster, Sampler& sampler, RayCounts& rays) {
+    raster_ = raster;
+    const Vec2 u_lens = sampler.next2();
+    time_ = scene_->camera().time(sampler.next());
+    walk_from_camera(*scene_, walk_settings(most_edges() + 1), raster, u_lens, time_, sampler, camera_, rays);
+    walk_from_light(*scene_, walk_settings(most_edges()), time_, sampler, light_, rays);
+    draw_direct(sampler);
+  }
+
+  /// Draws a light subpath and a point on the lens alone.
+  template <class Sampler>
+  void sample_light(Sampler& sampler, RayCounts& rays) {
+    const PositionSample lens = scene_->camera().sample_position(sampler.next2());
+    time_ = scene_->camera().time(sampler.next());
+    camera_.start(camera_vertex(lens.at), lens.pdf);
+    walk_from_light(*scene_, walk_settings(most_edges()), time_, sampler, light_, rays);
+    draw_direct(sampler);
+  }
+
+  /// Calls found(connection) for each path with a positive contribution.
+  template <class Found>
+  void connect_all(RayCounts& rays, Found&& found) {
+    if (settings_.light_image) connect_to_lens(rays, found);
+    for (int t = 2; t <= static_cast<int>(camera_.size()); ++t) {
+      hit_light(t, found);
+      for (int s = 1; s <= std::max(1, static_cast<int>(light_.size())); ++s) connect(s, t, rays, found);
+    }
+    if (settings_.light_image && !scene_->camera().delta_position())
+      for (int s = 2; s <= static_cast<int>(light_.size()) + 1; ++s) hit_lens(s, found);
+  }
+
+  /// The connections with t = 1.
+  template <class Found>
+  void connect_to_lens(RayCounts& rays, Found&& found) {
+    for (int s = 1; s <= std::max(1, static_cast<int>(light_.size())); ++s) connect(s, 1, rays, found);
+  }
+
+  /// The path of a connection that was just found, as a value.
+  void assemble(const Connection& connection, Path& path) const;
+
+  const Subpath& light() const { return light_; }
+  const Subpath& camera() const { return camera_; }
+  double time() const { return time_; }
+
+ private:
+  int most_edges() const {
+    return settings_.max_depth < 0 ? (1 << 16) : settings_.max_depth;
+  }
+  bool wanted(int s, int t) const {
+    const int k = s + t - 1;
+    return k <= most_edges() && !(k == 1 && settings_.hide_emitters);
+  }
+  WalkSettings walk_settings(int max_vertices) const {
+    return {max_vertices, settings_.rr_depth, settings_.strict_normals};
+  }
+
+  template <class Sampler>
+  void draw_direct(Sampler& sampler) {
+    direct_u_.clear();
+    for (size_t i = 0; i < camera_.size(); ++i) {
+      const Vec2 u = sampler.next2();
+      direct_u_.push_back({sampler.next(), u});
+    }
+  }
+
+  template <class Found>
+  void hit_light(int t, Found& found) {
+    if (!wanted(0, t)) return;
+    const SurfacePoint& end = camera_[t - 1].vertex.at;
+    if (end.infinite()) {
+      for (const uint32_t index : scene_->infinite_emitters()) emit(*scene_->emitters()[index], t, found);
+    } else if (const Emitter* emitter = scene_->emitter(end)) {
+      emit(*emitter, t, found);
+    }
+  }
+
+  template <class Found>
+  void emit(const Emitter& emitter, int t, Found& found) {
+    Connection connection{0, t, raster_, Color(0), 0, &emitter};
+    if (evaluate_hit_light(connection)) found(connection);
+  }
+
+  template <class Found>
+  void connect(int s, int t, RayCounts& rays, Found& found) {
+    Connection connection{s, t, raster_, Color(0), 0};
+    if (wanted(s, t) && evaluate_connection(connection, rays)) found(connection);
+  }
+
+  template <class Found>
+  void hit_lens(int s, Found& found) {
+    Connection connection{s, 0, raster_, Color(0), 0};
+    if (wanted(s, 0) && evaluate_hit_lens(connection)) found(connection);
+  }
+
+  bool evaluate_hit_light(Connection& connection);
+  bool evaluate_connection(Connection& connection, RayCounts& rays);
+  bool evaluate_hit_lens(Connection& connection);
+  bool choose_direct(const SurfacePoint& from, const Vec3& u);
+
+  void begin_densities(const WalkVertex* lights, int s, const WalkVertex* cameras, int t);
+  double weight(int s, const Vertex& x0, const Vertex& xk, const SurfacePoint& x1);
+
+  const Scene* scene_;
+  BidirectionalSettings settings_;
+  Subpath light_{Subpath::From::light}, camera_{Subpath::From::camera};
+  Vec2 raster_{0};
+  double time_ = 0;
+  std::vector<Vec3> direct_u_;  ///< Numbers for s = 1, one triple for each camera vertex.
+  WalkVertex direct_, lens_;    ///< The end chosen for s = 1 as seen from x_1, or hit for t = 0.
+  std::vector<double> from_light_, from_camera_;
+  std::vector<char> connectable_;
+};
+
+}  // namespace mlt

@@ -1,0 +1,33 @@
+// A light path as a value: x_0 on a light ... x_k on the camera's lens, always in that direction,
+// whichever way it was made.
+#pragma once
+
+#include "path/vertex.h"
+
+#include <string>
+#include <vector>
+
+namespace mlt {
+
+struct Path {
+  std::vector<Vertex> vertices;
+  double time = 0;
+
+  int edges() const { return static_cast<int>(vertices.size()) - 1; }  ///< k
+  Vertex& operator[](size_t i) { return vertices[i]; }
+  const Vertex& operator[](size_t i) const { return vertices[i]; }
+};
+
+/// Where the path meets the image; nullopt if it does not.
+std::optional<Vec2> raster_position(const Scene& scene, const Path& path);
+
+/// Heckbert's notation: L, then D or S for each surface vertex, then E. A smooth vertex counts as S
+/// when its roughness between its two directions is below `near_specular`.
+std::string signature(const Scene& scene, const Path& path, double near_specular = 0);
+
+/// Whether vertex i scatters (almost) in one direction: a delta, or rougher than nothing but below
+/// the threshold. A function of the BSDF, the position and the two directions alone.
+bool is_specular(const Scene& scene, const Vertex& x, const SurfacePoint& towards_light,
+                 const SurfacePoint& towards_camera, double near_specular);
+
+}  // namespace mlt

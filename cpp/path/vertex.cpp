@@ -1,0 +1,78 @@
+#include "path/vertex.h"
+
+#include "path/next_event.h"
+#include "path/scatter.h"
+
+namespace mlt {
+
+namespace {
+
+VertexTerms light_terms(const Scene& scene, const Vertex& x0, const Vec3& w) {
+  const Emitter& emitter = *scene.emitters()[x0.emitter];
+  return {emitter.eval(x0.at, w), emitter.pdf_ray(x0.at, w), 0};
+}
+
+VertexTerms camera_terms(const Scene& scene, const Vertex& xk, const Vec3& w) {
+  return {Color(scene.camera().eval(xk.at, w)), 0, scene.camera().pdf_direction(xk.at, w)};
+}
+
+}  // namespace
+
+VertexTerms surface_terms(const Scene& scene, const SurfacePoint& at, Lobe lobe, const Vec3& wl,
+                          const Vec3& wc, bool strict_normals) {
+  const double geometric_l = std::abs(dot(at.ng, wl)), geometric_c = std::abs(dot(at.ng, wc));
+  if (geometric_l == 0 || geometric_c == 0) return {};
+  if (lobe != Lobe::passage &&
+      !(consistent_sides(at, wl, strict_normals) && consistent_sides(at, wc, strict_normals)))
+    return {};
+  const Bsdf& bsdf = scene.bsdf(at);
+  const Vec3 local_l = at.shading.to_local(wl), local_c = at.shading.to_local(wc);
+  const Scattering s = bsdf.scattering(at, local_l, local_c, lobe);
+  if (lobe == Lobe::smooth)
+    return {s.f * (abs_cos_theta(local_l) / geometric_l), s.pdf_from_light / geometric_c,
+            s.pdf_from_camera / geometric_l};
+  if (lobe == Lobe::passage) return {s.f, s.pdf_from_light, s.pdf_from_camera};
+  const double adjoint =
+      abs_cos_theta(local_l) * geometric_c / (abs_cos_theta(local_c) * geometric_l);
+  const double eta2 = lobe == Lobe::transmission ? sqr(bsdf.relative_eta(at, local_l)) : 1.0;
+  return {s.f * adjoint, s.pdf_from_light, s.pdf_from_camera * eta2 * adjoint};
+}
+
+VertexTerms vertex_terms(const Scene& scene, const Vertex& x, const Vec3& wl, const Vec3& wc,
+                         bool strict_normals) {
+  switch (x.kind) {
+    case VertexKind::light: return light_terms(scene, x, wc);
+    case VertexKind::camera: return camera_terms(scene, x, wl);
+    case VertexKind::surface: break;
+  }
+  return surface_terms(scene, x.at, x.lobe, wl, wc, strict_normals);
+}
+
+double light_position_pdf(const Scene& scene, const Vertex& x0) {
+  return scene.emitter_probability(x0.emitter) * scene.emitters()[x0.emitter]->pdf_position(x0.at);
+}
+
+double direct_position_pdf(const Scene& scene, const Vertex& x0, const SurfacePoint& from) {
+  return emitter_pdf(scene, *scene.emitters()[x0.emitter], from.p, x0.at);
+}
+
+double camera_position_pdf(const Scene& scene, const Vertex& xk) {
+  return scene.camera().pdf_position(xk.at);
+}
+
+bool can_be_hit(const Scene& scene, const Vertex& end) {
+  return end.kind == VertexKind::light ? !scene.emitters()[end.emitter]->delta()
+                                       : !scene.camera().delta_position();
+}
+
+Vertex light_vertex(const Emitter& emitter, const SurfacePoint& at) {
+  return {VertexKind::light, Lobe::smooth, emitter.index(), at};
+}
+
+Vertex camera_vertex(const SurfacePoint& at) { return {VertexKind::camera, Lobe::smooth, 0, at}; }
+
+Vertex surface_vertex(const SurfacePoint& at, Lobe lobe) {
+  return {VertexKind::surface, lobe, 0, at};
+}
+
+}  // namespace mlt
