@@ -1,0 +1,65 @@
+// A perfectly smooth metal: a mirror whose reflectance follows Fresnel's equations for a complex
+// index of refraction.
+#include "base/registry.h"
+#include "math/fresnel.h"
+#include "scene/bsdf.h"
+#include "scene/bsdf/ior_params.h"
+#include "scene/bsdf/lobes.h"
+#include "scene/texture.h"
+
+namespace mlt {
+namespace {
+
+class Conductor final : public Bsdf {
+ public:
+  explicit Conductor(Params& params)
+      : ior_(conductor_param(params)), reflectance_(texture_param(params, "specular_reflectance")) {}
+
+  Color eval(const SurfacePoint& at, const Vec3& wl, const Vec3& wc, Lobe lobe) const override {
+    if (lobe != Lobe::reflection || !above(wl, wc)) return Color(0);
+    return reflectance_->eval(at) * fresnel_conductor(std::min(wl.z, 1.0), ior_.eta, ior_.k);
+  }
+
+  double pdf(const SurfacePoint&, const Vec3& from, const Vec3& to, Lobe lobe) const override {
+    return lobe == Lobe::reflection && above(from, to) ? 1 : 0;
+  }
+
+  std::optional<BsdfSample> sample(const SurfacePoint&, const Vec3& from,
+                                   const Vec3&) const override {
+    if (from.z <= 0) return std::nullopt;
+    return BsdfSample{reflect(from), Lobe::reflection};
+  }
+
+  std::optional<Vec3> invert(const SurfacePoint&, const Vec3& from, const Vec3& to,
+                             Lobe lobe) const override {
+    if (lobe != Lobe::reflection || !above(from, to)) return std::nullopt;
+    return u_of_only_delta;
+  }
+
+  bool has_smooth() const override { return false; }
+  bool has_delta() const override { return true; }
+  double roughness(const SurfacePoint&, const Vec3&, const Vec3&) const override { return 0; }
+
+  Color albedo(const SurfacePoint& at) const override {
+    return reflectance_->eval(at) * fresnel_conductor(1, ior_.eta, ior_.k);
+  }
+
+ private:
+  ComplexIor ior_;
+  TexturePtr reflectance_;
+};
+
+}  // namespace
+
+Plugin bsdf_conductor() {
+  Plugin plugin{{"bsdf",
+                 "conductor",
+                 "A smooth metal: a mirror with the colour of its material.",
+                 conductor_parameters()},
+                [](Params& params) -> ObjectPtr { return std::make_shared<Conductor>(params); }};
+  plugin.schema.parameters.push_back(
+      {"specular_reflectance", ParamType::texture, 1.0, "Factor on the reflection."});
+  return plugin;
+}
+
+}  // namespace mlt

@@ -1,0 +1,115 @@
+// A perfectly smooth interface between two transparent media, such as glass and air: light is
+// reflected with the fraction F of Fresnel's equations, and refracted with the fraction 1 - F.
+#include "base/registry.h"
+#include "math/fresnel.h"
+#include "scene/bsdf.h"
+#include "scene/bsdf/ior_params.h"
+#include "scene/bsdf/lobes.h"
+#include "scene/texture.h"
+
+namespace mlt {
+namespace {
+
+class Dielectric final : public Bsdf {
+ public:
+  explicit Dielectric(Params& params)
+      : eta_(relative_ior_param(params)),
+        reflectance_(texture_param(params, "specular_reflectance")),
+        transmittance_(texture_param(params, "specular_transmittance")),
+        reflection_weight_(target_luminance(reflectance_->mean())),
+        transmission_weight_(target_luminance(transmittance_->mean())) {}
+
+  Color eval(const SurfacePoint& at, const Vec3& wl, const Vec3& wc, Lobe lobe) const override {
+    if (!matches(wl, wc, lobe)) return Color(0);
+    const double F = fresnel(wl, wc);
+    return lobe == Lobe::reflection ? F * reflectance_->eval(at)
+                                    : (1 - F) * transmittance_->eval(at);
+  }
+
+  double pdf(const SurfacePoint&, const Vec3& from, const Vec3& to, Lobe lobe) const override {
+    if (!matches(from, to, lobe)) return 0;
+    const double p = reflection_probability(fresnel(from, to));
+    return lobe == Lobe::reflection ? p : 1 - p;
+  }
+
+  Scattering scattering(const SurfacePoint& at, const Vec3& wl, const Vec3& wc,
+                        Lobe lobe) const override {
+    if (!matches(wl, wc, lobe)) return {};
+    const double F = fresnel(wl, wc);
+    const double p = reflection_probability(F);
+    if (lobe == Lobe::reflection) return {F * reflectance_->eval(at), p, p};
+    return {(1 - F) * transmittance_->eval(at), 1 - p, 1 - p};
+  }
+
+  std::optional<BsdfSample> sample(const SurfacePoint&, const Vec3& from,
+                                   const Vec3& u) const override {
+    if (from.z == 0) return std::nullopt;
+    const Fresnel fresnel = fresnel_dielectric(from.z, eta_);
+    if (u.x < reflection_probability(fresnel.reflectance))
+      return BsdfSample{reflect(from), Lobe::reflection};
+    if (fresnel.cos_t == 0) return std::nullopt;
+    return BsdfSample{refract(from, fresnel.cos_t, fresnel.eta_ti), Lobe::transmission};
+  }
+
+  std::optional<Vec3> invert(const SurfacePoint&, const Vec3& from, const Vec3& to,
+                             Lobe lobe) const override {
+    if (!matches(from, to, lobe)) return std::nullopt;
+    const double p = reflection_probability(fresnel(from, to));
+    if (!((lobe == Lobe::reflection ? p : 1 - p) > 0)) return std::nullopt;
+    return Vec3(lobe == Lobe::reflection ? u_of_first(p) : u_of_second(p), 0.5, 0.5);
+  }
+
+  bool has_smooth() const override { return false; }
+  bool has_delta() const override { return true; }
+  bool has_transmission() const override { return true; }
+  double relative_eta(const SurfacePoint&, const Vec3& w) const override {
+    return w.z > 0 ? 1 / eta_ : eta_;
+  }
+  double roughness(const SurfacePoint&, const Vec3&, const Vec3&) const override { return 0; }
+
+  Color albedo(const SurfacePoint& at) const override {
+    const double F = fresnel_dielectric(1, eta_).reflectance;
+    return F * reflectance_->eval(at) + (1 - F) * transmittance_->eval(at);
+  }
+
+ private:
+  static bool matches(const Vec3& a, const Vec3& b, Lobe lobe) {
+    return lobe == Lobe::reflection     ? same_side(a, b)
+           : lobe == Lobe::transmission ? a.z * b.z < 0
+                                        : false;
+  }
+
+  /// F of a reflection or refraction from a to b. For a refraction it comes from the direction in
+  /// the thinner medium: F is the same from both, but there it is well conditioned up to grazing.
+  double fresnel(const Vec3& a, const Vec3& b) const {
+    const bool thin_is_above = eta_ >= 1;
+    return fresnel_dielectric((a.z > 0) == thin_is_above ? a.z : b.z, eta_).reflectance;
+  }
+
+  double reflection_probability(double F) const {
+    return first_share(F * reflection_weight_, (1 - F) * transmission_weight_);
+  }
+
+  double eta_;
+  TexturePtr reflectance_, transmittance_;
+  double reflection_weight_, transmission_weight_;
+};
+
+}  // namespace
+
+Plugin bsdf_dielectric() {
+  Plugin plugin{{"bsdf",
+                 "dielectric",
+                 "A smooth interface between two transparent media, such as glass and air.",
+                 ior_parameters("bk7")},
+                [](Params& params) -> ObjectPtr { return std::make_shared<Dielectric>(params); }};
+  auto& parameters = plugin.schema.parameters;
+  parameters.push_back(
+      {"specular_reflectance", ParamType::texture, 1.0, "Factor on the reflection."});
+  parameters.push_back(
+      {"specular_transmittance", ParamType::texture, 1.0, "Factor on the refraction."});
+  plugin.schema.reciprocal = false;
+  return plugin;
+}
+
+}  // namespace mlt

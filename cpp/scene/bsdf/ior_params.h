@@ -1,0 +1,19 @@
+// Indices of refraction among the parameters of a material.
+#pragma once
+
+#include "base/params.h"
+#include "math/ior.h"
+
+namespace mlt {
+
+/// The parameters `int_ior` and `ext_ior`, with the given default inside and air outside.
+std::vector<Parameter> ior_parameters(const std::string& default_inside);
+/// int_ior / ext_ior.
+double relative_ior_param(Params& params);
+
+/// The parameters `material`, `eta`, `k` and `ext_eta` of a conductor.
+std::vector<Parameter> conductor_parameters();
+/// The complex index that they give, relative to the outside.
+ComplexIor conductor_param(Params& params);
+
+}  // namespace mlt

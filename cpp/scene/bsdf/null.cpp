@@ -1,0 +1,45 @@
+// A surface that is not there: every ray goes straight through, as a delta lobe of its own.
+#include "base/registry.h"
+#include "scene/bsdf.h"
+#include "scene/bsdf/lobes.h"
+
+namespace mlt {
+namespace {
+
+class Null final : public Bsdf {
+ public:
+  Color eval(const SurfacePoint&, const Vec3&, const Vec3&, Lobe lobe) const override {
+    return Color(lobe == Lobe::passage ? 1 : 0);
+  }
+
+  double pdf(const SurfacePoint&, const Vec3&, const Vec3&, Lobe lobe) const override {
+    return lobe == Lobe::passage ? 1 : 0;
+  }
+
+  std::optional<BsdfSample> sample(const SurfacePoint&, const Vec3& from,
+                                   const Vec3&) const override {
+    return BsdfSample{-from, Lobe::passage};
+  }
+
+  std::optional<Vec3> invert(const SurfacePoint&, const Vec3&, const Vec3&,
+                             Lobe lobe) const override {
+    if (lobe != Lobe::passage) return std::nullopt;
+    return u_of_only_delta;
+  }
+
+  bool has_smooth() const override { return false; }
+  bool has_delta() const override { return true; }
+  bool has_passage() const override { return true; }
+  bool has_transmission() const override { return true; }
+  double roughness(const SurfacePoint&, const Vec3&, const Vec3&) const override { return 0; }
+  Color albedo(const SurfacePoint&) const override { return Color(1); }
+};
+
+}  // namespace
+
+Plugin bsdf_null() {
+  return {{"bsdf", "null", "An invisible surface: light goes straight through it.", {}},
+          [](Params&) -> ObjectPtr { return std::make_shared<Null>(); }};
+}
+
+}  // namespace mlt

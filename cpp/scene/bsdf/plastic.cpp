@@ -1,0 +1,107 @@
+// Smooth plastic: a diffuse base below a smooth dielectric coating. Light is mirrored by the coating
+// with the fraction F; the rest enters, is scattered by the base, and is reflected back to it by the
+// coating from inside any number of times: with d the reflectance of the base, T = 1 - F and F_i the
+// mean internal reflectance,
+//   f = d / (1 - d F_i) T(wl) T(wc) / (pi eta^2)
+// (Wolff 1994, "Diffuse-reflectance model for smooth dielectric surfaces", eq. 22). The linear
+// variant does not let the base colour the multiple reflections: 1 - F_i in the denominator.
+#include "base/registry.h"
+#include "math/fresnel.h"
+#include "math/warp.h"
+#include "scene/bsdf.h"
+#include "scene/bsdf/coated_base.h"
+#include "scene/bsdf/ior_params.h"
+#include "scene/bsdf/lobes.h"
+
+namespace mlt {
+namespace {
+
+class Plastic final : public Bsdf {
+ public:
+  explicit Plastic(Params& params)
+      : eta_(relative_ior_param(params)),
+        base_(params, eta_, fresnel_diffuse_reflectance(1 / eta_)),
+        reflectance_(texture_param(params, "specular_reflectance")),
+        specular_weight_(target_luminance(reflectance_->mean())),
+        diffuse_weight_(base_.weight() * (1 - fresnel_diffuse_reflectance(eta_))) {}
+
+  Color eval(const SurfacePoint& at, const Vec3& wl, const Vec3& wc, Lobe lobe) const override {
+    if (!above(wl, wc)) return Color(0);
+    if (lobe == Lobe::reflection) return fresnel(wl) * reflectance_->eval(at);
+    if (lobe == Lobe::smooth) return base_.eval(at) * ((1 - fresnel(wl)) * (1 - fresnel(wc)));
+    return Color(0);
+  }
+
+  double pdf(const SurfacePoint&, const Vec3& from, const Vec3& to, Lobe lobe) const override {
+    if (!above(from, to)) return 0;
+    if (lobe == Lobe::reflection) return specular_share(fresnel(from));
+    if (lobe == Lobe::smooth) return (1 - specular_share(fresnel(from))) * inv_pi * to.z;
+    return 0;
+  }
+
+  Scattering scattering(const SurfacePoint& at, const Vec3& wl, const Vec3& wc,
+                        Lobe lobe) const override {
+    if (!above(wl, wc)) return {};
+    const double Fl = fresnel(wl), Fc = fresnel(wc);
+    const double pl = specular_share(Fl), pc = specular_share(Fc);
+    if (lobe == Lobe::reflection) return {Fl * reflectance_->eval(at), pl, pc};
+    if (lobe == Lobe::smooth)
+      return {base_.eval(at) * ((1 - Fl) * (1 - Fc)), (1 - pl) * inv_pi * wc.z,
+              (1 - pc) * inv_pi * wl.z};
+    return {};
+  }
+
+  std::optional<BsdfSample> sample(const SurfacePoint&, const Vec3& from,
+                                   const Vec3& u) const override {
+    if (from.z <= 0) return std::nullopt;
+    if (u.x < specular_share(fresnel(from))) return BsdfSample{reflect(from), Lobe::reflection};
+    const Vec3 to = sample_cosine_hemisphere(direction_part(u));
+    if (to.z <= 0) return std::nullopt;
+    return BsdfSample{to, Lobe::smooth};
+  }
+
+  std::optional<Vec3> invert(const SurfacePoint& at, const Vec3& from, const Vec3& to,
+                             Lobe lobe) const override {
+    if (!(pdf(at, from, to, lobe) > 0)) return std::nullopt;
+    const double p = specular_share(fresnel(from));
+    if (lobe == Lobe::reflection) return Vec3(u_of_first(p), 0.5, 0.5);
+    return Vec3(u_of_second(p), invert_cosine_hemisphere(to));
+  }
+
+  bool has_delta() const override { return true; }
+
+  Color albedo(const SurfacePoint& at) const override {
+    const double F = fresnel_dielectric(1, eta_).reflectance;
+    return F * reflectance_->eval(at) + (1 - F) * base_.reflectance(at);
+  }
+
+ private:
+  double fresnel(const Vec3& w) const { return fresnel_dielectric(w.z, eta_).reflectance; }
+
+  /// The mirror's share of what both lobes reflect of light from a direction with this F.
+  double specular_share(double F) const {
+    return first_share(F * specular_weight_, (1 - F) * diffuse_weight_);
+  }
+
+  double eta_;
+  CoatedBase base_;
+  TexturePtr reflectance_;
+  double specular_weight_, diffuse_weight_;
+};
+
+}  // namespace
+
+Plugin bsdf_plastic() {
+  Plugin plugin{{"bsdf",
+                 "plastic",
+                 "Smooth plastic: a diffuse base below a smooth transparent coating.",
+                 ior_parameters("polypropylene")},
+                [](Params& params) -> ObjectPtr { return std::make_shared<Plastic>(params); }};
+  auto& parameters = plugin.schema.parameters;
+  for (Parameter& parameter : CoatedBase::parameters()) parameters.push_back(std::move(parameter));
+  parameters.push_back(
+      {"specular_reflectance", ParamType::texture, 1.0, "Factor on the coating's reflection."});
+  return plugin;
+}
+
+}  // namespace mlt

@@ -1,0 +1,63 @@
+// The microfacet parameters that the rough materials share, and what scattering by a distribution of
+// normals needs of it at one pair of directions.
+#pragma once
+
+#include "base/params.h"
+#include "math/microfacet.h"
+#include "scene/texture.h"
+
+namespace mlt {
+
+/// The parameters `distribution`, `alpha`, `alpha_u`, `alpha_v` and `sample_visible`.
+std::vector<Parameter> rough_surface_parameters();
+
+/// A distribution of normals whose roughness may vary over the surface.
+class RoughSurface {
+ public:
+  explicit RoughSurface(Params& params);
+
+  Microfacet at(const SurfacePoint& at) const { return alpha_u_ ? textured(at) : constant_; }
+
+  /// The roughness in the direction in which it is less.
+  double alpha(const SurfacePoint& point) const {
+    const Microfacet microfacet = at(point);
+    return std::min(microfacet.alpha_u(), microfacet.alpha_v());
+  }
+
+ private:
+  Microfacet textured(const SurfacePoint& at) const;
+
+  Microfacet constant_;
+  TexturePtr alpha_u_, alpha_v_;  ///< Null if the roughness is the same everywhere.
+};
+
+/// "beckmann" or "ggx", from the parameter `distribution`.
+MicrofacetType microfacet_type_param(Params& params);
+Parameter microfacet_type_parameter();
+Parameter sample_visible_parameter();
+
+/// G1 of one direction: as densities use it (exact), and as BSDF values use it (Microfacet::G).
+struct Masking {
+  double exact, fit;
+
+  Masking(const Microfacet& microfacet, const Vec3& w, const Vec3& h)
+      : exact(microfacet.g1(w, h)),
+        fit(microfacet.type() == MicrofacetType::ggx ? exact : microfacet.g1_fit(w, h)) {}
+};
+
+/// Density of the normal h when it is sampled for the direction `from`, which may be on either side
+/// (Heitz & d'Eon 2014, eq. 2; Walter et al. 2007, eq. 24). `g1` is the exact one of `from`.
+inline double normal_pdf(const Microfacet& microfacet, const Vec3& from, const Vec3& h, double D,
+                         double g1) {
+  if (microfacet.sample_visible()) return D * g1 * std::abs(dot(from, h) / from.z);
+  return g1 > 0 ? D * h.z : 0;
+}
+
+/// The density of the direction into which `from` is mirrored by h: |dh / dto| = 1 / (4 |from . h|)
+/// (Walter et al. 2007, eq. 14).
+inline double reflection_pdf(const Microfacet& microfacet, const Vec3& from, const Vec3& h, double D,
+                             double g1) {
+  return normal_pdf(microfacet, from, h, D, g1) / (4 * std::abs(dot(from, h)));
+}
+
+}  // namespace mlt

@@ -1,0 +1,96 @@
+// A rough metal: mirror-like microfacets with Fresnel's equations for a complex index of refraction
+// (Cook & Torrance 1982; Walter et al. 2007, eq. 20):
+//   f = F(wl . h) D(h) G(wl, wc, h) / (4 cos_l cos_c),   h = (wl + wc) / |wl + wc|.
+#include "base/registry.h"
+#include "math/fresnel.h"
+#include "scene/bsdf.h"
+#include "scene/bsdf/ior_params.h"
+#include "scene/bsdf/lobes.h"
+#include "scene/bsdf/rough_surface.h"
+
+namespace mlt {
+namespace {
+
+class RoughConductor final : public Bsdf {
+ public:
+  explicit RoughConductor(Params& params)
+      : surface_(params),
+        ior_(conductor_param(params)),
+        reflectance_(texture_param(params, "specular_reflectance")) {}
+
+  Color eval(const SurfacePoint& at, const Vec3& wl, const Vec3& wc, Lobe lobe) const override {
+    if (lobe != Lobe::smooth || !above(wl, wc)) return Color(0);
+    const Microfacet microfacet = surface_.at(at);
+    const Vec3 h = normalize(wl + wc);
+    return value(at, wl, wc, h, microfacet.D(h), microfacet.G(wl, wc, h));
+  }
+
+  double pdf(const SurfacePoint& at, const Vec3& from, const Vec3& to, Lobe lobe) const override {
+    if (lobe != Lobe::smooth || !above(from, to)) return 0;
+    const Microfacet microfacet = surface_.at(at);
+    const Vec3 h = normalize(from + to);
+    return reflection_pdf(microfacet, from, h, microfacet.D(h), microfacet.g1(from, h));
+  }
+
+  Scattering scattering(const SurfacePoint& at, const Vec3& wl, const Vec3& wc,
+                        Lobe lobe) const override {
+    if (lobe != Lobe::smooth || !above(wl, wc)) return {};
+    const Microfacet microfacet = surface_.at(at);
+    const Vec3 h = normalize(wl + wc);
+    const double D = microfacet.D(h);
+    const Masking light(microfacet, wl, h), camera(microfacet, wc, h);
+    return {value(at, wl, wc, h, D, light.fit * camera.fit),
+            reflection_pdf(microfacet, wl, h, D, light.exact),
+            reflection_pdf(microfacet, wc, h, D, camera.exact)};
+  }
+
+  std::optional<BsdfSample> sample(const SurfacePoint& at, const Vec3& from,
+                                   const Vec3& u) const override {
+    if (from.z <= 0) return std::nullopt;
+    const Vec3 h = surface_.at(at).sample(from, direction_part(u));
+    const Vec3 to = reflect(from, h);
+    if (dot(from, h) <= 0 || to.z <= 0) return std::nullopt;
+    return BsdfSample{to, Lobe::smooth};
+  }
+
+  std::optional<Vec3> invert(const SurfacePoint& at, const Vec3& from, const Vec3& to,
+                             Lobe lobe) const override {
+    if (!(pdf(at, from, to, lobe) > 0)) return std::nullopt;
+    return Vec3(0.5, surface_.at(at).invert(from, normalize(from + to)));
+  }
+
+  double roughness(const SurfacePoint& at, const Vec3&, const Vec3&) const override {
+    return surface_.alpha(at);
+  }
+
+  Color albedo(const SurfacePoint& at) const override {
+    return reflectance_->eval(at) * fresnel_conductor(1, ior_.eta, ior_.k);
+  }
+
+ private:
+  Color value(const SurfacePoint& at, const Vec3& wl, const Vec3& wc, const Vec3& h, double D,
+              double G) const {
+    if (!(D * G > 0)) return Color(0);
+    const Color F = fresnel_conductor(std::min(dot(wl, h), 1.0), ior_.eta, ior_.k);
+    return reflectance_->eval(at) * F * (D * G / (4 * wl.z * wc.z));
+  }
+
+  RoughSurface surface_;
+  ComplexIor ior_;
+  TexturePtr reflectance_;
+};
+
+}  // namespace
+
+Plugin bsdf_roughconductor() {
+  Plugin plugin{
+      {"bsdf", "roughconductor", "A rough metal.", rough_surface_parameters()},
+      [](Params& params) -> ObjectPtr { return std::make_shared<RoughConductor>(params); }};
+  auto& parameters = plugin.schema.parameters;
+  for (Parameter& parameter : conductor_parameters()) parameters.push_back(std::move(parameter));
+  parameters.push_back(
+      {"specular_reflectance", ParamType::texture, 1.0, "Factor on the reflection."});
+  return plugin;
+}
+
+}  // namespace mlt

@@ -1,0 +1,172 @@
+// A rough interface between two transparent media, such as frosted glass: microfacets that reflect
+// and refract by Fresnel's equations (Walter et al. 2007, eqs. 20 and 21). Refraction is written for
+// radiance that flows from wl to wc, so that f(wl, wc) / eta_c^2 is symmetric.
+#include "base/registry.h"
+#include "math/fresnel.h"
+#include "scene/bsdf.h"
+#include "scene/bsdf/ior_params.h"
+#include "scene/bsdf/lobes.h"
+#include "scene/bsdf/rough_surface.h"
+
+namespace mlt {
+namespace {
+
+class RoughDielectric final : public Bsdf {
+ public:
+  explicit RoughDielectric(Params& params)
+      : surface_(params),
+        eta_(relative_ior_param(params)),
+        reflectance_(texture_param(params, "specular_reflectance")),
+        transmittance_(texture_param(params, "specular_transmittance")),
+        reflection_weight_(target_luminance(reflectance_->mean())),
+        transmission_weight_(target_luminance(transmittance_->mean())) {
+    if (eta_ == 1) params.fail("needs an int_ior that differs from ext_ior");
+  }
+
+  Color eval(const SurfacePoint& at, const Vec3& wl, const Vec3& wc, Lobe lobe) const override {
+    const Facet facet = facet_between(wl, wc, lobe);
+    if (!facet.exists) return Color(0);
+    const Microfacet microfacet = surface_.at(at);
+    return value(at, wl, wc, facet, microfacet.D(facet.h) * microfacet.G(wl, wc, facet.h));
+  }
+
+  double pdf(const SurfacePoint& at, const Vec3& from, const Vec3& to, Lobe lobe) const override {
+    const Facet facet = facet_between(from, to, lobe);
+    if (!facet.exists) return 0;
+    const Microfacet microfacet = surface_.at(at);
+    return probability(facet) *
+           density(microfacet, from, to, facet, microfacet.D(facet.h), microfacet.g1(from, facet.h));
+  }
+
+  Scattering scattering(const SurfacePoint& at, const Vec3& wl, const Vec3& wc,
+                        Lobe lobe) const override {
+    const Facet facet = facet_between(wl, wc, lobe);
+    if (!facet.exists) return {};
+    const Microfacet microfacet = surface_.at(at);
+    const double D = microfacet.D(facet.h);
+    const Masking light(microfacet, wl, facet.h), camera(microfacet, wc, facet.h);
+    const double p = probability(facet);
+    return {value(at, wl, wc, facet, D * light.fit * camera.fit),
+            p * density(microfacet, wl, wc, facet, D, light.exact),
+            p * density(microfacet, wc, wl, facet, D, camera.exact)};
+  }
+
+  std::optional<BsdfSample> sample(const SurfacePoint& at, const Vec3& from,
+                                   const Vec3& u) const override {
+    if (from.z == 0) return std::nullopt;
+    const Vec3 h = surface_.at(at).sample(upwards(from), direction_part(u));
+    const double cos_h = dot(from, h);
+    if (cos_h * from.z <= 0) return std::nullopt;
+    const Fresnel fresnel = fresnel_dielectric(cos_h, eta_);
+    const bool reflects = u.x < reflection_probability(fresnel.reflectance);
+    if (!reflects && fresnel.cos_t == 0) return std::nullopt;
+    const Vec3 to =
+        reflects ? reflect(from, h) : refract(from, h, fresnel.cos_t, fresnel.eta_ti);
+    if (to.z == 0 || same_side(from, to) != reflects) return std::nullopt;
+    return BsdfSample{to, Lobe::smooth};
+  }
+
+  std::optional<Vec3> invert(const SurfacePoint& at, const Vec3& from, const Vec3& to,
+                             Lobe lobe) const override {
+    if (!(pdf(at, from, to, lobe) > 0)) return std::nullopt;
+    const Facet facet = facet_between(from, to, lobe);
+    const double p = reflection_probability(facet.F);
+    return Vec3(facet.reflects ? u_of_first(p) : u_of_second(p),
+                surface_.at(at).invert(upwards(from), facet.h));
+  }
+
+  bool has_transmission() const override { return true; }
+  double relative_eta(const SurfacePoint&, const Vec3& w) const override { return eta_on_side(w); }
+  double roughness(const SurfacePoint& at, const Vec3&, const Vec3&) const override {
+    return surface_.alpha(at);
+  }
+
+  Color albedo(const SurfacePoint& at) const override {
+    const double F = fresnel_dielectric(1, eta_).reflectance;
+    return F * reflectance_->eval(at) + (1 - F) * transmittance_->eval(at);
+  }
+
+ private:
+  /// The microfacet that scatters from a to b.
+  struct Facet {
+    bool exists;
+    bool reflects;
+    Vec3 h;    ///< Its normal, above the surface.
+    double F;  ///< Its Fresnel reflectance.
+  };
+
+  /// The same from b to a, up to rounding.
+  Facet facet_between(const Vec3& a, const Vec3& b, Lobe lobe) const {
+    if (lobe != Lobe::smooth || a.z * b.z == 0) return {};
+    const bool reflects = same_side(a, b);
+    // Walter et al. 2007, eqs. 13 and 16, up to the sign and length.
+    const Vec3 sum = reflects ? a + b : eta_on_side(a) * a + b;
+    if (sum.z == 0) return {};
+    const Vec3 h = normalize(sum.z < 0 ? -sum : sum);
+    const double cos_a = dot(a, h), cos_b = dot(b, h);
+    if (cos_a * a.z <= 0 || cos_b * b.z <= 0) return {};
+    // In the thinner medium F is well conditioned up to grazing.
+    const bool thin_is_above = eta_ > 1;
+    const double cos_thin = (a.z > 0) == thin_is_above ? cos_a : cos_b;
+    return {true, reflects, h, fresnel_dielectric(cos_thin, eta_).reflectance};
+  }
+
+  /// Value of the BSDF, given D G.
+  Color value(const SurfacePoint& at, const Vec3& wl, const Vec3& wc, const Facet& facet,
+              double DG) const {
+    const double cosines = std::abs(wl.z * wc.z);
+    if (facet.reflects) return facet.F * DG / (4 * cosines) * reflectance_->eval(at);
+    const double l = dot(wl, facet.h), c = dot(wc, facet.h);
+    // eq. 21, both eta divided by eta_c.
+    const double jacobian = std::abs(l * c) / sqr(l * eta_on_side(wl) + c);
+    return (1 - facet.F) * DG * jacobian / cosines * transmittance_->eval(at);
+  }
+
+  /// Density of `to` if this kind of facet (reflecting or refracting) is chosen.
+  double density(const Microfacet& microfacet, const Vec3& from, const Vec3& to, const Facet& facet,
+                 double D, double g1) const {
+    if (facet.reflects) return reflection_pdf(microfacet, from, facet.h, D, g1);
+    const double f = dot(from, facet.h), t = dot(to, facet.h);
+    // eq. 17, both eta divided by the one on the side of `to`.
+    return normal_pdf(microfacet, from, facet.h, D, g1) * std::abs(t) /
+           sqr(f * eta_on_side(from) + t);
+  }
+
+  double probability(const Facet& facet) const {
+    const double p = reflection_probability(facet.F);
+    return facet.reflects ? p : 1 - p;
+  }
+
+  double reflection_probability(double F) const {
+    return first_share(F * reflection_weight_, (1 - F) * transmission_weight_);
+  }
+
+  double eta_on_side(const Vec3& w) const { return w.z > 0 ? 1 / eta_ : eta_; }
+  static Vec3 upwards(const Vec3& w) { return w.z < 0 ? -w : w; }
+
+  RoughSurface surface_;
+  double eta_;
+  TexturePtr reflectance_, transmittance_;
+  double reflection_weight_, transmission_weight_;
+};
+
+}  // namespace
+
+Plugin bsdf_roughdielectric() {
+  Plugin plugin{
+      {"bsdf",
+       "roughdielectric",
+       "A rough interface between two transparent media, such as frosted glass.",
+       ior_parameters("bk7")},
+      [](Params& params) -> ObjectPtr { return std::make_shared<RoughDielectric>(params); }};
+  auto& parameters = plugin.schema.parameters;
+  for (Parameter& parameter : rough_surface_parameters()) parameters.push_back(std::move(parameter));
+  parameters.push_back(
+      {"specular_reflectance", ParamType::texture, 1.0, "Factor on the reflection."});
+  parameters.push_back(
+      {"specular_transmittance", ParamType::texture, 1.0, "Factor on the refraction."});
+  plugin.schema.reciprocal = false;
+  return plugin;
+}
+
+}  // namespace mlt

@@ -1,0 +1,82 @@
+// Makes an opaque one-sided material visible from both sides. Seen from the back, the local z axis
+// is mirrored, so that the nested material always finds itself on its front.
+#include "base/registry.h"
+#include "scene/bsdf.h"
+
+namespace mlt {
+namespace {
+
+class TwoSided final : public Bsdf {
+ public:
+  TwoSided(BsdfPtr front, BsdfPtr back) : front_(std::move(front)), back_(std::move(back)) {}
+
+  Color eval(const SurfacePoint& at, const Vec3& wl, const Vec3& wc, Lobe lobe) const override {
+    if (!same_side(wl, wc)) return Color(0);
+    return nested(wl).eval(at, to_front(wl), to_front(wc), lobe);
+  }
+
+  double pdf(const SurfacePoint& at, const Vec3& from, const Vec3& to, Lobe lobe) const override {
+    if (!same_side(from, to)) return 0;
+    return nested(from).pdf(at, to_front(from), to_front(to), lobe);
+  }
+
+  Scattering scattering(const SurfacePoint& at, const Vec3& wl, const Vec3& wc,
+                        Lobe lobe) const override {
+    if (!same_side(wl, wc)) return {};
+    return nested(wl).scattering(at, to_front(wl), to_front(wc), lobe);
+  }
+
+  std::optional<BsdfSample> sample(const SurfacePoint& at, const Vec3& from,
+                                   const Vec3& u) const override {
+    auto sampled = nested(from).sample(at, to_front(from), u);
+    if (sampled && from.z < 0) sampled->to.z = -sampled->to.z;
+    return sampled;
+  }
+
+  std::optional<Vec3> invert(const SurfacePoint& at, const Vec3& from, const Vec3& to,
+                             Lobe lobe) const override {
+    if (!same_side(from, to)) return std::nullopt;
+    return nested(from).invert(at, to_front(from), to_front(to), lobe);
+  }
+
+  bool has_smooth() const override { return front_->has_smooth() || back_->has_smooth(); }
+  bool has_delta() const override { return front_->has_delta() || back_->has_delta(); }
+
+  double roughness(const SurfacePoint& at, const Vec3& wl, const Vec3& wc) const override {
+    return nested(wl).roughness(at, to_front(wl), to_front(wc));
+  }
+
+  Color albedo(const SurfacePoint& at) const override {
+    return 0.5 * (front_->albedo(at) + back_->albedo(at));
+  }
+
+ private:
+  const Bsdf& nested(const Vec3& w) const { return w.z < 0 ? *back_ : *front_; }
+  static Vec3 to_front(const Vec3& w) { return {w.x, w.y, std::abs(w.z)}; }
+
+  BsdfPtr front_, back_;
+};
+
+ObjectPtr create(Params& params) {
+  const auto nested = params.objects<Bsdf>();
+  if (nested.empty() || nested.size() > 2)
+    params.fail("needs one nested bsdf, or two (front and back), but has " +
+                std::to_string(nested.size()));
+  for (const auto& bsdf : nested)
+    if (bsdf->has_transmission())
+      params.fail("cannot hold a bsdf that transmits light: it is two-sided already");
+  return std::make_shared<TwoSided>(nested.front(), nested.back());
+}
+
+}  // namespace
+
+Plugin bsdf_twosided() {
+  return {{"bsdf",
+           "twosided",
+           "Shows one nested opaque bsdf on both sides of a surface, or a first one on the front and "
+           "a second one on the back.",
+           {}},
+          create};
+}
+
+}  // namespace mlt
