@@ -8,16 +8,14 @@
 
 namespace mlt {
 
+/// The fractions of light from one direction that a rough interface reflects and transmits, when
+/// light that is masked after one scattering is lost: the means over the normals m that are visible
+/// from there,
+///   R = mean of F G1(reflected, m),  T = mean of (1 - F) G1(refracted, m)
+/// (the albedos of Walter et al. 2007, eqs. 20 and 21, by eq. 41).
 struct RoughFresnel {
   double reflectance, transmittance;
 };
-
-/// The fractions of light from direction (sin, 0, cos_i) that a rough interface reflects and
-/// transmits, when light that is masked after one scattering is lost:
-///   R = mean of F G1(reflected, m),  T = mean of (1 - F) G1(refracted, m)
-/// over the normals m that are visible from there (Walter et al. 2007, eq. 41, integrated).
-/// `order`^2 normals are taken.
-RoughFresnel rough_fresnel(const Microfacet& microfacet, double cos_i, double eta, int order);
 
 class RoughCoating {
  public:
