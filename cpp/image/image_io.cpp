@@ -1,0 +1,150 @@
+#include "image/image_io.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <utility>
+
+#include "image/atomic_file.h"
+#include "image/srgb.h"
+#include "image/stb_formats.h"
+
+namespace mlt {
+namespace {
+
+std::string extension_of(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+  return extension;
+}
+
+bool starts_with(std::string_view bytes, std::string_view magic) {
+  return bytes.substr(0, magic.size()) == magic;
+}
+
+StbFormat stb_format(std::string_view bytes, const std::string& name) {
+  if (starts_with(bytes, "\x89PNG\r\n\x1a\n")) return StbFormat::png;
+  if (starts_with(bytes, "\xff\xd8\xff")) return StbFormat::jpeg;
+  if (starts_with(bytes, "#?RADIANCE\n") || starts_with(bytes, "#?RGBE\n")) return StbFormat::hdr;
+  // "BM" could begin a TGA as well: its image ID would be 66 bytes long, of a colour-mapped type 77.
+  if (starts_with(bytes, "BM")) return StbFormat::bmp;
+  if (extension_of(name) == ".tga") return StbFormat::tga;
+  throw FileError(name + (bytes.empty() ? ": the file is empty"
+                                        : ": this is no image in a known format; use EXR, PNG, "
+                                          "JPEG, HDR, TGA or BMP"));
+}
+
+/// floor(255 v + 1/2) of the encoded sample; NaN becomes 0.
+unsigned char to_byte(double v) {
+  return static_cast<unsigned char>(v > 0 ? std::floor(255 * std::min(v, 1.0) + 0.5) : 0);
+}
+
+void check_channels(const std::string& path, const Image& image) {
+  if (image.data.size() != Image::sample_count(image.width, image.height, image.channels))
+    throw UsageError(path + ": the image's size differs from its data");
+  if (image.channels > 4)
+    throw UsageError(path + ": an image with " + std::to_string(image.channels) +
+                     " channels can only be written as EXR, with names for them");
+}
+
+enum class Target { exr, png, hdr };
+
+Target target_of(const std::string& path) {
+  const std::string extension = extension_of(path);
+  if (extension == ".exr") return Target::exr;
+  if (extension == ".png") return Target::png;
+  if (extension == ".hdr") return Target::hdr;
+  throw UsageError(path + ": cannot write an image with the extension '" + extension +
+                   "'; valid are: .exr, .png, .hdr");
+}
+
+}  // namespace
+
+ReadImage read_image_memory(std::string_view bytes, const std::string& name,
+                            const std::string& layer) {
+  ReadImage read;
+  if (starts_with(bytes, "\x76\x2f\x31\x01")) {
+    read.image = decode_exr(bytes, name, layer);
+  } else {
+    const StbFormat format = stb_format(bytes, name);
+    if (!layer.empty())
+      throw FileError(name + ": has no layer '" + layer + "'; only EXR files have layers");
+    StbImage decoded = decode_stb(bytes, format, name);
+    read.image = std::move(decoded.image);
+    read.bits = decoded.bits;
+    read.srgb_encoded = decoded.bits < 32;
+  }
+  read.has_alpha = read.image.channels == 2 || read.image.channels == 4;
+  return read;
+}
+
+ReadImage read_image(const std::string& path, const std::string& layer) {
+  return read_image_memory(read_file(path), path, layer);
+}
+
+Image linear_image(ReadImage read) {
+  if (!read.srgb_encoded) return std::move(read.image);
+  const double levels = (1 << read.bits) - 1;
+  std::vector<float> table(size_t{1} << read.bits);
+  for (size_t i = 0; i < table.size(); ++i)
+    table[i] = static_cast<float>(srgb_to_linear(static_cast<double>(i) / levels));
+  const size_t channels = static_cast<size_t>(read.image.channels);
+  const size_t colours = channels - (read.has_alpha ? 1 : 0);
+  std::vector<float>& data = read.image.data;
+  for (size_t i = 0; i < data.size(); ++i) {
+    if (i % channels < colours) data[i] = table[static_cast<size_t>(std::lround(data[i] * levels))];
+  }
+  return std::move(read.image);
+}
+
+Metadata read_exr_metadata(const std::string& path) {
+  return decode_exr_metadata(read_file(path), path);
+}
+
+void write_exr(const std::string& path, const std::vector<ExrLayer>& layers,
+               const WriteOptions& options) {
+  write_file(path, encode_exr(layers, options.half, options.metadata));
+}
+
+void write_exr(const std::string& path, const Image& image, const WriteOptions& options) {
+  write_exr(path, {ExrLayer{"", image}}, options);
+}
+
+void write_png(const std::string& path, const Image& image, double exposure) {
+  check_channels(path, image);
+  const double scale = std::exp2(exposure);
+  const size_t channels = static_cast<size_t>(image.channels);
+  const size_t colours = channels - (channels % 2 == 0 ? 1 : 0);
+  std::vector<unsigned char> samples(image.data.size());
+  for (size_t i = 0; i < samples.size(); ++i) {
+    const double v = image.data[i];
+    samples[i] = to_byte(i % channels < colours ? linear_to_srgb(scale * v) : v);
+  }
+  write_file(path, encode_png(samples, image.width, image.height, image.channels));
+}
+
+void write_hdr(const std::string& path, const Image& image) {
+  check_channels(path, image);
+  write_file(path, encode_hdr(image));
+}
+
+void write_image(const std::string& path, const std::vector<ExrLayer>& layers,
+                 const WriteOptions& options) {
+  const Target target = target_of(path);
+  if (layers.empty()) throw UsageError(path + ": there is no image to write");
+  if (target == Target::exr) write_exr(path, layers, options);
+  if (target == Target::png) write_png(path, layers.front().image, options.exposure);
+  if (target == Target::hdr) write_hdr(path, layers.front().image);
+}
+
+void write_image(const std::string& path, const Image& image, const WriteOptions& options) {
+  write_image(path, {ExrLayer{"", image}}, options);
+}
+
+void check_writable(const std::string& path) {
+  target_of(path);
+  check_file_writable(path);
+}
+
+}  // namespace mlt

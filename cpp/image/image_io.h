@@ -1,0 +1,61 @@
+// Image files in and out. What a file is follows from its content, what it shall become from its
+// extension. EXR and HDR hold linear radiance; the integer formats hold sRGB-encoded values.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "image/exr.h"
+#include "image/image.h"
+
+namespace mlt {
+
+struct ReadImage {
+  Image image;
+  bool srgb_encoded = false;  // integer formats; a scene may know better (normal maps, masks)
+  bool has_alpha = false;     // the last of 2 or 4 channels; never encoded
+  int bits = 32;              // of a stored sample: 8 or 16 (integers), else 32
+};
+
+/// Reads EXR, PNG (8 and 16 bit), JPEG, HDR, TGA or BMP, with as many channels as the file has. Only
+/// EXR has layers; see decode_exr for which channels "" means. Throws a FileError that names the file.
+/// EXR samples may be NaN or infinite, as in the file.
+ReadImage read_image(const std::string& path, const std::string& layer = "");
+
+/// The same for the bytes of a file; `name` is for messages, and its extension tells TGA.
+ReadImage read_image_memory(std::string_view bytes, const std::string& name,
+                            const std::string& layer = "");
+
+/// The image in linear light, decoded if it was encoded.
+Image linear_image(ReadImage read);
+
+/// The text attributes of an EXR file, sorted by name.
+Metadata read_exr_metadata(const std::string& path);
+
+struct WriteOptions {
+  bool half = false;    // EXR: 16-bit samples
+  Metadata metadata;    // EXR: text attributes
+  double exposure = 0;  // PNG: stops by which the image is brightened
+};
+
+/// Linear samples, as they are. Equal images and options make equal files.
+void write_exr(const std::string& path, const Image& image, const WriteOptions& options = {});
+void write_exr(const std::string& path, const std::vector<ExrLayer>& layers,
+               const WriteOptions& options = {});
+
+/// sRGB with 8 bits: each colour sample is scaled by 2^exposure, clipped to [0, 1], encoded, rounded.
+void write_png(const std::string& path, const Image& image, double exposure = 0);
+
+void write_hdr(const std::string& path, const Image& image);
+
+/// By extension: .exr, .png or .hdr, else a UsageError that lists them. Only EXR holds more than the
+/// first layer.
+void write_image(const std::string& path, const Image& image, const WriteOptions& options = {});
+void write_image(const std::string& path, const std::vector<ExrLayer>& layers,
+                 const WriteOptions& options = {});
+
+/// Call it before a long render: the UsageError or FileError that write_image(path) would end in.
+void check_writable(const std::string& path);
+
+}  // namespace mlt

@@ -1,0 +1,193 @@
+#include "image/stb_formats.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <memory>
+#include <stdexcept>
+
+#include "image/distrust.h"
+
+// A failed assertion inside stb is a bad file, not a reason to abort; memory that a short file
+// leaves unwritten is zero, not whatever was there.
+#define STBI_ASSERT(x) ((x) ? void() : throw std::runtime_error("it is corrupt"))
+#define STBI_MALLOC(size) std::calloc(1, size)
+#define STBI_REALLOC(pointer, size) std::realloc(pointer, size)
+#define STBI_FREE(pointer) std::free(pointer)
+#define STB_IMAGE_STATIC
+#define STB_IMAGE_IMPLEMENTATION
+#define STBI_ONLY_PNG
+#define STBI_ONLY_JPEG
+#define STBI_ONLY_BMP
+#define STBI_ONLY_TGA
+#define STBI_ONLY_HDR
+#define STBI_NO_STDIO
+#define STB_IMAGE_WRITE_STATIC
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-function"
+#pragma GCC diagnostic ignored "-Wmissing-field-initializers"
+#pragma GCC diagnostic ignored "-Wsign-compare"
+#include <stb/stb_image.h>
+#include <stb/stb_image_write.h>
+#pragma GCC diagnostic pop
+
+namespace mlt {
+namespace {
+
+/// Feeds stb and remembers whether it asked for more than there is: stb itself reads on in zeros.
+class Reader {
+ public:
+  explicit Reader(std::string_view bytes) : bytes_(bytes) {}
+
+  bool ended_early() const { return ended_early_; }
+
+  static constexpr stbi_io_callbacks callbacks() {
+    return {[](void* self, char* target, int count) {
+              return static_cast<Reader*>(self)->read(target, count);
+            },
+            [](void* self, int count) { static_cast<Reader*>(self)->skip(count); },
+            [](void* self) { return static_cast<Reader*>(self)->at_end(); }};
+  }
+
+ private:
+  int read(char* target, int count) {
+    const size_t left = bytes_.size() - position_;
+    const size_t size = std::min(left, static_cast<size_t>(count));
+    if (size > 0) std::memcpy(target, bytes_.data() + position_, size);
+    position_ += size;
+    // stb fills its own buffer first, and again when it needs a byte more: less than was asked for is
+    // then enough, nothing is not. Any other request goes to a pixel buffer and must be met.
+    if (!stb_buffer_) stb_buffer_ = target;
+    const bool refill = target == stb_buffer_;
+    if (size == 0 || (!refill && size < static_cast<size_t>(count))) ended_early_ = true;
+    if (size > 0 || !refill) return static_cast<int>(size);
+    // Told of the end, stb would read zeros for ever, and an HDR run of length 0 never gets anywhere.
+    // Newlines end a header, and make runs.
+    std::memset(target, '\n', static_cast<size_t>(count));
+    return count;
+  }
+
+  void skip(int count) {
+    const size_t left = bytes_.size() - position_, size = static_cast<size_t>(count);
+    if (size > left) ended_early_ = true;
+    position_ += std::min(size, left);
+  }
+
+  int at_end() const { return position_ >= bytes_.size() ? 1 : 0; }
+
+  std::string_view bytes_;
+  size_t position_ = 0;
+  const char* stb_buffer_ = nullptr;
+  bool ended_early_ = false;
+};
+
+struct Free {
+  void operator()(void* pointer) const { std::free(pointer); }
+};
+
+/// A size is believed only if the file is large enough for it. Per byte of file, deflate holds at
+/// most 8 * 1032 one-bit pixels; a progressive JPEG 8 blocks of 64; the others far fewer.
+void check_size(int width, int height, StbFormat format, size_t file_size) {
+  const int64_t pixels = int64_t{width} * height;
+  const int64_t per_byte = format == StbFormat::png ? 8 * 1032 : 1024;
+  if (width <= 0 || height <= 0) throw std::runtime_error("its header says that it has no pixels");
+  if (pixels > max_image_pixels || pixels / per_byte > static_cast<int64_t>(file_size))
+    throw std::runtime_error("its header says that it has " + std::to_string(width) + " x " +
+                             std::to_string(height) +
+                             " pixels, more than a file of this size can hold");
+}
+
+template <class Sample>
+void copy_samples(const Sample* samples, double scale, std::vector<float>* data) {
+  for (size_t i = 0; i < data->size(); ++i)
+    (*data)[i] = static_cast<float>(static_cast<double>(samples[i]) / scale);
+}
+
+[[noreturn]] void fail_as_stb() {
+  const char* reason = stbi_failure_reason();
+  throw std::runtime_error(std::string("stb_image reports '") + (reason ? reason : "unknown") +
+                           "'");
+}
+
+StbImage decode(std::string_view bytes, StbFormat format) {
+  if (format == StbFormat::png) check_png_chunks(bytes);
+  if (format == StbFormat::jpeg) check_jpeg_tables(bytes);
+  const stbi_io_callbacks callbacks = Reader::callbacks();
+  int width = 0, height = 0, channels = 0;
+  Reader info_reader(bytes);
+  if (!stbi_info_from_callbacks(&callbacks, &info_reader, &width, &height, &channels))
+    fail_as_stb();
+  check_size(width, height, format, bytes.size());
+
+  StbImage result;
+  if (format == StbFormat::hdr) result.bits = 32;
+  Reader depth_reader(bytes);
+  if (format == StbFormat::png && stbi_is_16_bit_from_callbacks(&callbacks, &depth_reader))
+    result.bits = 16;
+
+  Reader reader(bytes);
+  std::unique_ptr<void, Free> samples;
+  if (result.bits == 32)
+    samples.reset(stbi_loadf_from_callbacks(&callbacks, &reader, &width, &height, &channels, 0));
+  else if (result.bits == 16)
+    samples.reset(stbi_load_16_from_callbacks(&callbacks, &reader, &width, &height, &channels, 0));
+  else
+    samples.reset(stbi_load_from_callbacks(&callbacks, &reader, &width, &height, &channels, 0));
+  if (reader.ended_early()) throw std::runtime_error("the file ends early");
+  if (!samples) fail_as_stb();
+
+  result.image = Image(width, height, channels);
+  if (result.bits == 32)
+    copy_samples(static_cast<const float*>(samples.get()), 1, &result.image.data);
+  else if (result.bits == 16)
+    copy_samples(static_cast<const stbi_us*>(samples.get()), 65535, &result.image.data);
+  else
+    copy_samples(static_cast<const stbi_uc*>(samples.get()), 255, &result.image.data);
+  return result;
+}
+
+void append(void* target, void* data, int size) {
+  static_cast<std::string*>(target)->append(static_cast<const char*>(data),
+                                            static_cast<size_t>(size));
+}
+
+}  // namespace
+
+StbImage decode_stb(std::string_view bytes, StbFormat format, const std::string& name) {
+  static const char* const names[] = {"PNG", "JPEG", "BMP", "TGA", "HDR"};
+  const std::string what =
+      name + ": cannot be read as " + names[static_cast<size_t>(format)] + ": ";
+  try {
+    return decode(bytes, format);
+  } catch (const std::bad_alloc&) {
+    throw FileError(what + "it needs more memory than there is");
+  } catch (const std::exception& error) {
+    throw FileError(what + error.what());
+  }
+}
+
+std::string encode_png(const std::vector<unsigned char>& samples, int width, int height,
+                       int channels) {
+  if (Image::sample_count(width, height, channels) + static_cast<size_t>(height) > size_t{1} << 30)
+    throw UsageError("an image of " + std::to_string(width) + " x " + std::to_string(height) +
+                     " pixels is too large for PNG; write it as EXR");
+  std::string bytes;
+  if (!stbi_write_png_to_func(append, &bytes, width, height, channels, samples.data(),
+                              width * channels))
+    throw FileError("PNG: encoding failed for want of memory");
+  return bytes;
+}
+
+std::string encode_hdr(const Image& image) {
+  std::vector<float> samples(image.data.size());
+  std::transform(image.data.begin(), image.data.end(), samples.begin(),
+                 [](float v) { return v > 0 ? std::min(v, 1e38f) : 0.0f; });
+  std::string bytes;
+  if (!stbi_write_hdr_to_func(append, &bytes, image.width, image.height, image.channels,
+                              samples.data()))
+    throw FileError("HDR: encoding failed for want of memory");
+  return bytes;
+}
+
+}  // namespace mlt
