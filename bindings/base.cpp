@@ -36,8 +36,9 @@ py::dict schema(const std::string& family, const std::string& name) {
 
 void bind_base(py::module_& m) {
   m.def("families", [] { return plugins().families(); });
-  m.def("names", [](const std::string& family) { return plugins().names(family); },
-        py::arg("family"));
+  m.def(
+      "names", [](const std::string& family) { return plugins().names(family); },
+      py::arg("family"));
   m.def("schema", &schema, py::arg("family"), py::arg("name"));
   m.def("suggestion", &suggestion, py::arg("word"), py::arg("candidates"),
         "\"; did you mean 'b'?\", or a list of what is valid.");

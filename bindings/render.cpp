@@ -82,15 +82,19 @@ void bind_render(py::module_& m) {
   py::class_<PyJob>(m, "Job")
       .def(py::init(&make_job), py::arg("scene"), py::arg("integrator"), py::arg("spp"),
            py::arg("time"), py::arg("seed"), py::arg("threads"))
-      .def("start", [](PyJob& job) { (*job).start(); }, NoGil())
-      .def("wait", [](PyJob& job, double seconds) { return (*job).wait(seconds); },
-           py::arg("seconds"), NoGil())
-      .def("cancel", [](PyJob& job) { (*job).cancel(); }, NoGil())
+      .def(
+          "start", [](PyJob& job) { (*job).start(); }, NoGil())
+      .def(
+          "wait", [](PyJob& job, double seconds) { return (*job).wait(seconds); },
+          py::arg("seconds"), NoGil())
+      .def(
+          "cancel", [](PyJob& job) { (*job).cancel(); }, NoGil())
       .def_property_readonly("ended", [](PyJob& job) { return (*job).ended(); })
       .def_property_readonly("cancelled", [](PyJob& job) { return (*job).cancelled(); })
       .def_property_readonly("progress", [](PyJob& job) { return (*job).progress(); })
       .def("image", &image)
-      .def("stats", [](PyJob& job) { return to_json(job.stats()); }, NoGil(), "As JSON.")
+      .def(
+          "stats", [](PyJob& job) { return to_json(job.stats()); }, NoGil(), "As JSON.")
       .def("metadata", &metadata);
 }
 

@@ -57,7 +57,8 @@ py::dict info(const LoadedScene& loaded) {
   info["radius"] = sphere.radius;
   info["integrator"] = integrator_type(loaded);
   info["sample_count"] = scene.sample_count();
-  info["filter"] = scene.film().filter ? py::object(py::str(scene.film().filter->name())) : py::none();
+  info["filter"] =
+      scene.film().filter ? py::object(py::str(scene.film().filter->name())) : py::none();
   info["seconds"] = loaded.seconds;
   info["warnings"] = loaded.warnings;
   return info;

@@ -16,7 +16,8 @@ struct ToPython {
   py::object operator()(const ObjectPtr&) const { return py::none(); }
   py::object operator()(const Matrix& m) const {
     py::list rows;
-    for (size_t i = 0; i < 16; i += 4) rows.append(py::make_tuple(m[i], m[i + 1], m[i + 2], m[i + 3]));
+    for (size_t i = 0; i < 16; i += 4)
+      rows.append(py::make_tuple(m[i], m[i + 1], m[i + 2], m[i + 3]));
     return rows;
   }
   py::object operator()(const Triple& t) const { return py::make_tuple(t[0], t[1], t[2]); }
@@ -30,7 +31,8 @@ std::string kind_of(const py::handle& object) {
   return py::str(py::type::of(object).attr("__name__"));
 }
 
-[[noreturn]] void refuse(const Location& where, const std::string& key, const std::string& message) {
+[[noreturn]] void refuse(const Location& where, const std::string& key,
+                         const std::string& message) {
   throw SceneError(at(where, "'" + key + "' " + message));
 }
 
@@ -135,8 +137,7 @@ class Converter {
       if (!py::isinstance<py::str>(key_object))
         throw SceneError(at(node.where, "a key is a " + kind_of(key_object) + ", not a string"));
       const std::string key = key_object.cast<std::string>();
-      if (key != "type" && key != "id")
-        add(node, key, py::reinterpret_borrow<py::object>(value));
+      if (key != "type" && key != "id") add(node, key, py::reinterpret_borrow<py::object>(value));
     }
     --depth_;
     return node;

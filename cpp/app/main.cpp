@@ -10,8 +10,8 @@
 #include "render/output.h"
 #include "render/plugins.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <csignal>
 
@@ -66,8 +66,7 @@ void save(const Options& options, const Image& image, const Stats& stats, WriteO
                  written);
   };
   for (const std::string& path : options.outputs) report(path, save_image(path, image, write));
-  if (!options.stats.empty())
-    report(options.stats, save_text(options.stats, to_json(stats)));
+  if (!options.stats.empty()) report(options.stats, save_text(options.stats, to_json(stats)));
 }
 
 int run(const Options& options) {

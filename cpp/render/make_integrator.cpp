@@ -29,7 +29,7 @@ void assign(Node& node, const std::string& name, const std::string& text, const 
 
 /// What an image shows depends on these parameters and not on the algorithm.
 void inherit(Node& node, const Node& own, const Schema& schema) {
-  for (const char* name : {"max_depth", "hide_emitters"})
+  for (const char* name : {"max_depth", "hide_emitters", "strict_normals"})
     if (const Node::Property* property = find(own, name); property && schema.find(name))
       node.properties.push_back(*property);
 }
@@ -66,7 +66,8 @@ MadeIntegrator make_integrator(const Node& node, const Registry& registry) {
   MadeIntegrator made;
   const ObjectPtr object = build_object(node, registry, made.warnings);
   made.integrator = std::dynamic_pointer_cast<const Integrator>(object);
-  if (!made.integrator) throw SceneError(at(node.where, "'" + node.type + "' is not an integrator"));
+  if (!made.integrator)
+    throw SceneError(at(node.where, "'" + node.type + "' is not an integrator"));
   made.settings = describe(node, registry).text();
   return made;
 }

@@ -18,8 +18,8 @@ std::string free_name(const fs::path& folder, const fs::path& wanted) {
   std::error_code ignored;
   fs::path name = folder / fmt::format("rescued-{}", wanted.filename().string());
   for (int i = 2; fs::exists(name, ignored) && i < 1000; ++i)
-    name = folder / fmt::format("rescued-{}-{}{}", wanted.stem().string(), i,
-                                wanted.extension().string());
+    name = folder /
+           fmt::format("rescued-{}-{}{}", wanted.stem().string(), i, wanted.extension().string());
   return name.string();
 }
 

@@ -1,0 +1,49 @@
+"""pymlt: an open renderer for Metropolis light transport.
+
+    import pymlt as mlt
+
+    scene = mlt.load_file("scene.xml")
+    image = mlt.render(scene, "pssmlt", spp=64)     # numpy float32, (height, width, 3), linear
+    mlt.write_image("door.png", image)
+
+What is heavy (numpy, tqdm, ...) is imported where it is first used, so this import is quick.
+"""
+
+from . import integrators as _integrators
+from . import scenes
+from ._core import Error, FileError, RenderError, Scene, SceneError, UsageError, __version__
+from .images import read_image, read_metadata, write_image
+from .integrators import *  # noqa: F403 (the classes are made from the schemas)
+from .integrators import Integrator
+from .jobs import Job, Result, render, start
+from .loading import load_dict, load_file, load_string
+from .metrics import compare
+from .schemas import available, describe
+from .transforms import Transform
+
+__all__ = [
+    "Error",
+    "FileError",
+    "Integrator",
+    "Job",
+    "RenderError",
+    "Result",
+    "Scene",
+    "SceneError",
+    "Transform",
+    "UsageError",
+    "__version__",
+    "available",
+    "compare",
+    "describe",
+    "load_dict",
+    "load_file",
+    "load_string",
+    "read_image",
+    "read_metadata",
+    "render",
+    "scenes",
+    "start",
+    "write_image",
+]
+__all__ += _integrators.__all__

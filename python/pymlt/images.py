@@ -1,0 +1,73 @@
+"""Image files: linear numpy arrays in memory, whatever the format."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING
+
+from . import _core
+
+if TYPE_CHECKING:
+    import numpy as np
+
+_NATIVE = {".exr", ".png", ".jpg", ".jpeg", ".hdr", ".tga", ".bmp"}
+
+
+def read_image(path, layer: str = "") -> np.ndarray:
+    """Read an image as float32 of shape (height, width, channels), in linear light.
+
+    EXR, PNG, JPEG, HDR, TGA and BMP are read natively, anything else by OpenImageIO. `layer` names
+    one of an EXR file's layers.
+    """
+    path = os.fspath(path)
+    suffix = os.path.splitext(path)[1].lower()
+    if suffix in _NATIVE or layer:
+        return _core.read_image(path, layer)
+    return _read_with_openimageio(path)
+
+
+def _read_with_openimageio(path: str) -> np.ndarray:
+    import OpenImageIO
+
+    file = OpenImageIO.ImageInput.open(path)
+    if file is None:
+        raise _core.FileError(f"{path}: {OpenImageIO.geterror().strip() or 'cannot be read'}")
+    try:
+        is_integer = file.spec().format.basetype not in (
+            OpenImageIO.HALF,
+            OpenImageIO.FLOAT,
+            OpenImageIO.DOUBLE,
+        )
+        pixels = file.read_image("float")
+        if pixels is None:
+            raise _core.FileError(f"{path}: {file.geterror().strip()}")
+    finally:
+        file.close()
+    pixels = pixels[..., None] if pixels.ndim == 2 else pixels
+    return _decode_srgb(pixels) if is_integer else pixels
+
+
+def _decode_srgb(pixels: np.ndarray) -> np.ndarray:
+    """IEC 61966-2-1; a second or fourth channel is alpha and not encoded."""
+    import numpy as np
+
+    linear = np.where(pixels <= 0.04045, pixels / 12.92, ((pixels + 0.055) / 1.055) ** 2.4)
+    if pixels.shape[2] in (2, 4):
+        linear[..., -1] = pixels[..., -1]
+    return linear.astype(np.float32)
+
+
+def read_metadata(path) -> dict[str, str]:
+    """The text attributes of an EXR file: how a render was made."""
+    return _core.read_metadata(os.fspath(path))
+
+
+def write_image(path, image, *, exposure: float = 0, half: bool = False, metadata=None) -> None:
+    """Write linear pixels to .exr, .png (sRGB, brightened by `exposure` stops) or .hdr.
+
+    `half` (16-bit samples) and `metadata` (a dict of texts) are for EXR.
+    """
+    import numpy as np
+
+    pixels = np.asarray(image, dtype=np.float32)
+    _core.write_image(os.fspath(path), pixels, metadata or {}, half, exposure, rescue=False)

@@ -1,0 +1,200 @@
+"""Rendering: start a job and look at it, or just wait for the image."""
+
+from __future__ import annotations
+
+import atexit
+import json
+import os
+import weakref
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from . import _core
+from .integrators import Integrator
+from .loading import load_dict, load_file
+from .progress import progress_bar
+
+if TYPE_CHECKING:
+    import numpy as np
+
+_running: weakref.WeakSet[Job] = weakref.WeakSet()
+
+
+@dataclass
+class Result:
+    """What a render left behind."""
+
+    image: np.ndarray  #: float32, (height, width, 3), linear Rec. 709, row 0 on top
+    stats: dict  #: the content of stats.json
+    integrator: dict  #: type and every parameter, given or default
+    metadata: dict[str, str] = field(repr=False)  #: what `write` puts into an EXR header
+    half: bool = field(default=False, repr=False)  #: EXR with 16-bit samples, as the film asks
+
+    @property
+    def seed(self) -> int:
+        return self.stats["seed"]
+
+    def write(self, path, exposure: float = 0) -> None:
+        """Write the image to .exr (with settings, seed and version in its header), .png or .hdr."""
+        self._write(path, exposure, rescue=False)
+
+    def save(self, path, exposure: float = 0) -> str:
+        """The same, but if `path` fails try other places; returns where the image is."""
+        return self._write(path, exposure, rescue=True)
+
+    def _write(self, path, exposure: float, rescue: bool) -> str:
+        path = os.fspath(path)
+        return _core.write_image(path, self.image, self.metadata, self.half, exposure, rescue)
+
+    def __repr__(self) -> str:
+        height, width = self.image.shape[:2]
+        spp = self.stats["spp_done"]
+        return f"Result({width} x {height}, {self.integrator['type']!r}, {spp:g} spp)"
+
+
+class Job:
+    """A render in progress; made by `start`."""
+
+    def __init__(self, scene: _core.Scene, integrator: _core.Integrator, job: _core.Job):
+        self._scene = scene
+        self._integrator = integrator
+        self._job = job
+        _running.add(self)
+
+    @property
+    def image(self) -> np.ndarray:
+        """The image so far: float32, (height, width, 3), linear, row 0 on top."""
+        return self._job.image()
+
+    @property
+    def stats(self) -> dict:
+        return json.loads(self._job.stats())
+
+    @property
+    def progress(self) -> float:
+        """0 to 1 of the budget."""
+        return self._job.progress
+
+    @property
+    def ended(self) -> bool:
+        return self._job.ended
+
+    @property
+    def cancelled(self) -> bool:
+        return self._job.cancelled
+
+    def cancel(self) -> None:
+        """End the render soon; what has been rendered stays."""
+        self._job.cancel()
+
+    def wait(self, timeout: float | None = None, progress=False) -> bool:
+        """Wait for the end, at most `timeout` seconds; True if the render has ended.
+
+        Ctrl-C ends the waiting, not the render. Raises what went wrong in the render.
+        """
+        with progress_bar(progress) as show:
+            left = float("inf") if timeout is None else timeout
+            while not self._job.wait(min(0.1, max(0.0, left))):
+                left -= 0.1
+                if left <= 0:
+                    return False
+                if progress is not False:
+                    show(self.progress, {"spp": f"{self.stats['spp_done']:.4g}"})
+        return True
+
+    def result(self) -> Result:
+        """Wait for the end and return the image with everything known about it."""
+        self.wait()
+        return self._snapshot()
+
+    def _snapshot(self) -> Result:
+        settings = json.loads(self._integrator.settings)
+        return Result(self.image, self.stats, settings, self._job.metadata(), self._scene.half)
+
+    def __repr__(self) -> str:
+        state = "cancelled" if self.cancelled else "ended" if self.ended else "running"
+        return f"Job({state}, {100 * self.progress:.0f} %)"
+
+
+@atexit.register
+def _cancel_all() -> None:
+    """No thread may outlive the interpreter."""
+    for job in list(_running):
+        job.cancel()
+        while not job.ended:
+            job._job.wait(1.0)
+
+
+def start(scene, integrator=None, *, spp=None, time=None, seed=0, threads=0) -> Job:
+    """Start a render and return at once.
+
+    scene
+        a Scene, a dict, or the path of an XML file.
+    integrator
+        an object such as `Path(max_depth=8)`, a dict, or a name. None is the scene's own, else
+        `path`. A name keeps what the scene says about what is to be rendered (max_depth,
+        hide_emitters, strict_normals); an object or a dict means exactly what it says.
+    spp, time
+        samples (for Metropolis integrators: mutations) per pixel, and seconds. The first one to be
+        reached ends the render; with neither, the scene's own sample count counts, else 64.
+    seed, threads
+        The image depends on the seed but not on the number of threads (0: all there are).
+    """
+    scene = _as_scene(scene)
+    made = as_integrator(scene, integrator)
+    if isinstance(seed, bool) or not 0 <= seed < 2**64:
+        raise _core.UsageError(f"seed is {seed!r}, but should be an integer from 0 to 2^64 - 1")
+    job = _core.Job(scene, made, spp, time, seed, threads)
+    job.start()
+    return Job(scene, made, job)
+
+
+def render(
+    scene,
+    integrator=None,
+    *,
+    spp=None,
+    time=None,
+    seed=0,
+    threads=0,
+    progress=None,
+) -> np.ndarray:
+    """Render and return the image: float32, (height, width, 3), linear Rec. 709, row 0 on top.
+
+    The arguments are those of `start`. `progress` is True, False, None (a bar on a terminal and in
+    a notebook) or a function of the fraction that is done. After Ctrl-C the KeyboardInterrupt
+    carries the image so far, as `error.result`.
+    """
+    job = start(scene, integrator, spp=spp, time=time, seed=seed, threads=threads)
+    try:
+        job.wait(progress=progress)
+    except KeyboardInterrupt as error:
+        job.cancel()
+        error.result = job.result()
+        raise
+    return job.image
+
+
+def as_integrator(scene: _core.Scene, integrator, assignments=()) -> _core.Integrator:
+    """What `integrator` means for this scene; see `start`."""
+    if isinstance(integrator, _core.Integrator):
+        return integrator
+    if isinstance(integrator, Integrator):
+        integrator = integrator.to_dict()
+    if isinstance(integrator, dict):
+        return _core.integrator_from_dict(integrator)
+    if integrator is None or isinstance(integrator, str):
+        return _core.integrator_by_name(scene, integrator or "", list(assignments))
+    if isinstance(integrator, type) and issubclass(integrator, Integrator):
+        raise _core.UsageError(f"integrator is a class; write {integrator.__name__}()")
+    raise _core.UsageError(f"{integrator!r} is not an integrator, a dict, or a name")
+
+
+def _as_scene(scene) -> _core.Scene:
+    if isinstance(scene, _core.Scene):
+        return scene
+    if isinstance(scene, dict):
+        return load_dict(scene)
+    if isinstance(scene, str | os.PathLike):
+        return load_file(scene)
+    raise _core.UsageError(f"{scene!r} is not a scene, a dict, or the path of a file")

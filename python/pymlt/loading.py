@@ -1,0 +1,56 @@
+"""From a scene description to a Scene."""
+
+from __future__ import annotations
+
+import os
+
+from . import _core
+
+
+def load_file(path, /, *, size=None, **defines) -> _core.Scene:
+    """Load a Mitsuba XML scene.
+
+    `defines` are values for the scene's <default> parameters (`resx=640`); `size` is the image's
+    (width, height) in place of the film's own.
+    """
+    return _core.load_file(os.fspath(path), _texts(defines), _size(size))
+
+
+def load_string(xml: str, /, *, directory=".", size=None, **defines) -> _core.Scene:
+    """Load a scene from a string of Mitsuba XML; file names in it are relative to `directory`."""
+    return _core.load_string(xml, os.fspath(directory), _texts(defines), _size(size))
+
+
+def load_dict(scene: dict, /, *, size=None) -> _core.Scene:
+    """Load a scene from a Mitsuba 3 dict.
+
+    Transforms may be `Transform`, Mitsuba's own, numpy arrays or nested lists; file names are
+    relative to the current directory.
+    """
+    if not isinstance(scene, dict):
+        raise _core.UsageError(f"load_dict needs a dict, not a {type(scene).__name__}")
+    return _core.load_dict(scene, _size(size))
+
+
+def _size(size) -> tuple[int, int] | None:
+    if size is None:
+        return None
+    try:
+        width, height = size
+        if int(width) == width and int(height) == height:
+            return int(width), int(height)
+    except (TypeError, ValueError):
+        pass
+    raise _core.UsageError(f"size is {size!r}, but should be (width, height)")
+
+
+def _texts(defines: dict) -> dict[str, str]:
+    return {name: _text(value) for name, value in defines.items()}
+
+
+def _text(value) -> str:
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, list | tuple):
+        return ", ".join(map(_text, value))
+    return str(value)

@@ -1,0 +1,108 @@
+"""How far an image is from a reference."""
+
+from __future__ import annotations
+
+import os
+
+from . import _core
+from .images import read_image
+
+
+def compare(image, reference, *, flip: bool | None = None) -> dict[str, float]:
+    """Errors of an image against a reference; arrays or file names.
+
+    With a the image and r the reference, over all pixels and channels:
+
+    mse, rmse
+        mean (a - r)^2, and its root.
+    relmse
+        mean (a - r)^2 / (r^2 + 0.01).
+    relmse_trimmed
+        the same without the 0.1 % of the pixels that are worst: what is left without fireflies.
+    mape
+        mean |a - r| / (|r| + 0.01), as a fraction.
+    bias_z
+        the mean of a - r over its standard error, from the spread between the blocks of a grid. Of
+        two unbiased images it is about a standard normal number, as long as pixels farther apart
+        than a block are independent.
+    flip
+        mean perceptual error (HDR-FLIP, Andersson et al. 2021); needs flip-evaluator. None: if it
+        is installed.
+    """
+    import numpy as np
+
+    a, r = (_pixels(x) for x in (image, reference))
+    if a.shape != r.shape:
+        raise _core.UsageError(
+            f"the images differ in size: {_describe(a.shape)} and {_describe(r.shape)}",
+        )
+    error = a - r
+    squared = error**2
+    relative = (squared / (r**2 + 0.01)).mean(axis=2).ravel()
+    kept = np.sort(relative)[: max(1, int(np.floor(0.999 * relative.size)))]
+    metrics = {
+        "mse": squared.mean(),
+        "rmse": np.sqrt(squared.mean()),
+        "relmse": relative.mean(),
+        "relmse_trimmed": kept.mean(),
+        "mape": (np.abs(error) / (np.abs(r) + 0.01)).mean(),
+        "bias_z": _bias_z(error.mean(axis=2)),
+    }
+    perceptual = _flip(a, r, flip)
+    if perceptual is not None:
+        metrics["flip"] = perceptual
+    return {name: float(value) for name, value in metrics.items()}
+
+
+def _pixels(image):
+    """RGB (or grey) in float64, without alpha."""
+    import numpy as np
+
+    name = "the image"
+    if isinstance(image, str | os.PathLike):
+        name = os.fspath(image)
+        image = read_image(image)
+    pixels = np.asarray(getattr(image, "image", image), dtype=np.float64)
+    pixels = pixels[..., None] if pixels.ndim == 2 else pixels
+    if pixels.ndim != 3 or pixels.size == 0:
+        raise _core.UsageError(
+            f"{name} has the shape {pixels.shape}, but should have (height, width, channels)",
+        )
+    return pixels[..., : 3 if pixels.shape[2] >= 3 else 1]
+
+
+def _describe(shape) -> str:
+    return f"{shape[1]} x {shape[0]} with {shape[2]} channels"
+
+
+def _bias_z(error) -> float:
+    import numpy as np
+
+    blocks = [
+        block.mean()
+        for rows in np.array_split(error, min(16, error.shape[0]), axis=0)
+        for block in np.array_split(rows, min(16, error.shape[1]), axis=1)
+    ]
+    spread = np.std(blocks, ddof=1) if len(blocks) > 1 else 0.0
+    mean = np.mean(blocks)
+    if spread == 0:
+        return 0.0 if mean == 0 else float(np.copysign(np.inf, mean))
+    return mean / (spread / np.sqrt(len(blocks)))
+
+
+def _flip(a, r, wanted: bool | None) -> float | None:
+    if wanted is False:
+        return None
+    try:
+        import flip_evaluator
+    except ImportError:
+        if wanted:
+            raise _core.UsageError("flip needs `pip install flip-evaluator`") from None
+        return None
+    import numpy as np
+
+    def prepare(x):
+        rgb = np.broadcast_to(np.maximum(x, 0), (*x.shape[:2], 3))
+        return np.ascontiguousarray(rgb, dtype=np.float32)
+
+    return flip_evaluator.evaluate(prepare(r), prepare(a), "HDR", applyMagma=False)[1]
