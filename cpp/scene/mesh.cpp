@@ -76,6 +76,8 @@ void Mesh::fill(const Triangle& tri, uint32_t index, double b1, double b2, Surfa
   }
   at.ng = ng;
   at.shading = Frame::around(n, along);
+  at.extent = max_component(
+      glm::max(glm::abs(tri.p0), glm::max(glm::abs(tri.p0 + tri.e1), glm::abs(tri.p0 + tri.e2))));
   at.shape = index_;
   at.primitive = index;
   at.kind = PointKind::surface;

@@ -67,7 +67,7 @@ std::optional<double> Sphere::intersect(const Vec3& o, const Vec3& d, double t_m
 void Sphere::surface_point(const Ray& ray, const Hit& hit, SurfacePoint& at) const {
   double t = hit.t;  // Rounded to a float by the accelerator: only good enough to tell the roots.
   if (const std::optional<Roots> exact = roots(ray.o, ray.d))
-    t = std::abs(exact->near - t) <= std::abs(exact->far - t) ? exact->near : exact->far;
+    t = t - exact->near <= exact->far - t + 1e-6 * t ? exact->near : exact->far;
   const Vec3 outward = normalize(ray.o + ray.d * t - center_);
   at.p = center_ + outward * radius_;
   fill(outward, at);
@@ -78,6 +78,7 @@ void Sphere::fill(const Vec3& outward, SurfacePoint& at) const {
   at.uv = {turns(local.x, local.y), std::atan2(std::hypot(local.x, local.y), local.z) * inv_pi};
   at.ng = outward * side_;
   at.shading = Frame::around(at.ng, Vec3(-local.y, local.x, 0) * to_object_);
+  at.extent = max_component(glm::abs(center_)) + radius_;
   at.shape = index_;
   at.primitive = 0;
   at.kind = PointKind::surface;

@@ -17,21 +17,31 @@ struct Corner {
   }
 };
 
-/// Numbers distinct corners in the order of their appearance: a hash table with open addressing.
+/// Numbers distinct corners in the order of their appearance. The first corner of each position is
+/// found by the position alone, which keeps memory accesses local; the others are in a hash table
+/// with open addressing.
 class CornerTable {
  public:
   uint32_t number_of(const Corner& corner) {
-    if (2 * (corners_.size() + 1) > slots_.size()) grow();
+    if (corner.position >= first_.size()) first_.resize(size_t{corner.position} + 1, none);
+    uint32_t& first = first_[corner.position];
+    if (first == none) return first = append(corner);
+    if (corners_[first] == corner) return first;
+    if (2 * (others_ + 1) > slots_.size()) grow();
     uint32_t& slot = slots_[find(corner)];
     if (slot == none) {
-      slot = static_cast<uint32_t>(corners_.size());
-      corners_.push_back(corner);
+      slot = append(corner);
+      ++others_;
     }
     return slot;
   }
   const std::vector<Corner>& corners() const { return corners_; }
 
  private:
+  uint32_t append(const Corner& corner) {
+    corners_.push_back(corner);
+    return static_cast<uint32_t>(corners_.size() - 1);
+  }
   size_t find(const Corner& corner) const {
     const size_t mask = slots_.size() - 1;
     size_t i = mix_bits(corner.position + (uint64_t{corner.uv} << 32) +
@@ -41,12 +51,15 @@ class CornerTable {
     return i;
   }
   void grow() {
-    slots_.assign(std::max<size_t>(1024, 4 * slots_.size()), none);
-    for (uint32_t i = 0; i < corners_.size(); ++i) slots_[find(corners_[i])] = i;
+    const std::vector<uint32_t> old = std::move(slots_);
+    slots_.assign(std::max<size_t>(1024, 4 * old.size()), none);
+    for (const uint32_t number : old)
+      if (number != none) slots_[find(corners_[number])] = number;
   }
 
   std::vector<Corner> corners_;
-  std::vector<uint32_t> slots_;
+  std::vector<uint32_t> first_, slots_;
+  size_t others_ = 0;  ///< Corners in the hash table.
 };
 
 class ObjReader {
