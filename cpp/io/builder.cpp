@@ -1,5 +1,7 @@
 #include "io/builder.h"
 
+#include "image/splat.h"
+
 #include "io/families.h"
 #include "io/text.h"
 #include "scene/mesh.h"
@@ -12,8 +14,8 @@ namespace {
 
 /// Names that Mitsuba's own upgrade from 0.6 to 2 changes and that snake_case does not cover.
 std::string current_name(const Node& node, const std::string& name, const Schema& schema) {
-  if (node.family == "bsdf" && node.type == "diffuse" && snake_case(name) == "diffuse_reflectance" &&
-      !schema.find("diffuse_reflectance"))
+  if (node.family == "bsdf" && node.type == "diffuse" &&
+      snake_case(name) == "diffuse_reflectance" && !schema.find("diffuse_reflectance"))
     return "reflectance";
   return name;
 }
@@ -50,21 +52,23 @@ template <class T>
 std::shared_ptr<T> only_one(const std::vector<std::shared_ptr<T>>& found, const char* family,
                             const Params& params) {
   if (found.size() > 1)
-    params.fail("has " + std::to_string(found.size()) + " nested elements <" + family + ">, but can have one");
+    params.fail("has " + std::to_string(found.size()) + " nested elements <" + family +
+                ">, but can have one");
   return found.empty() ? nullptr : found.front();
 }
 
-void check(const FilmSettings& film) {
-  constexpr int largest = 1 << 16;
-  const auto fail = [&](const std::string& what) { throw SceneError(at(film.where, "film: " + what)); };
-  const auto text = [](const Vec2i& v) { return std::to_string(v.x) + " x " + std::to_string(v.y); };
-  if (std::min(film.size.x, film.size.y) < 1 || std::max(film.size.x, film.size.y) > largest)
-    fail("the size " + text(film.size) + " should lie between 1 and " + std::to_string(largest));
-  const Vec2i end = film.crop_offset + film.crop_size;
-  if (std::min({film.crop_offset.x, film.crop_offset.y, film.crop_size.x, film.crop_size.y}) < 0 ||
-      end.x > film.size.x || end.y > film.size.y)
-    fail("the crop window (" + text(film.crop_size) + " pixels) should lie inside the image (" +
-         text(film.size) + ")");
+/// Other programs have samplers of their own; only their number of samples matters here.
+std::shared_ptr<SamplerSettings> foreign_sampler(const Node& node) {
+  auto sampler = std::make_shared<SamplerSettings>();
+  for (const Node::Property& property : node.properties)
+    if (const auto* count = std::get_if<int64_t>(&property.value))
+      if (snake_case(property.name) == "sample_count" && *count > 0) sampler->sample_count = *count;
+  return sampler;
+}
+
+bool is_known(const Registry& registry, const Node& node) {
+  const std::vector<std::string> names = registry.names(node.family);
+  return std::find(names.begin(), names.end(), node.type) != names.end();
 }
 
 }  // namespace
@@ -86,10 +90,17 @@ ObjectPtr Builder::object(const Node& node) {
 
 ObjectPtr Builder::make(const Node& node) {
   if (std::count(in_progress_.begin(), in_progress_.end(), &node))
-    throw SceneError(at(node.where, "the " + node.family + " " + quote(node.id) + " contains itself"));
+    throw SceneError(
+        at(node.where, "the " + node.family + " " + quote(node.id) + " contains itself"));
   if (in_progress_.size() >= static_cast<size_t>(max_nesting))
-    throw SceneError(at(node.where, "references are nested more than " + std::to_string(max_nesting) + " deep"));
+    throw SceneError(
+        at(node.where, "references are nested more than " + std::to_string(max_nesting) + " deep"));
   refuse_element(node.family, node.type, node.where);
+  if (node.family == "sampler" && !is_known(registry_, node)) {
+    warnings_.push_back(at(node.where, "sampler " + quote(node.type) +
+                                           " is not known here; only its sample_count is used"));
+    return foreign_sampler(node);
+  }
   const Plugin& plugin = registry_.find(node.family, node.type, node.where);
   Params params(plugin.schema, node.where, node.id);
   for (const Node::Property& property : node.properties)
@@ -143,7 +154,9 @@ void Builder::attach(Shape& shape, const Params& params, std::vector<std::shared
   shape.set_bsdf(bsdf ? bsdf : default_bsdf(emitter != nullptr, params.where()));
   if (!emitter) return;
   if (!needs_a_shape(*emitter))
-    throw SceneError(at(emitter->where, "this emitter cannot be attached to a shape; put it directly into the scene"));
+    throw SceneError(
+        at(emitter->where, "emitter '" + emitter->type +
+                               "' cannot be attached to a shape; put it directly into the scene"));
   if (auto* mesh = dynamic_cast<Mesh*>(&shape)) mesh->prepare_sampling();
   emitter->set_shape(&shape);
   shape.set_emitter(emitter);
@@ -179,12 +192,9 @@ Builder::View Builder::view(const Node& sensor, const std::optional<Vec2i>& size
     film.size = *size;
     film.crop_offset = film.crop_size = Vec2i(0);
   }
-  if (film.crop_size == Vec2i(0)) film.crop_size = film.size - film.crop_offset;
-  check(film);
-  if (film.crop_size.x < 1 || film.crop_size.y < 1)
-    throw SceneError(at(film.where, "film: the crop window is empty"));
-  if (!film.filter) film.filter = std::make_shared<Filter>(gaussian_filter());
-  view.camera->set_raster({film.size, film.crop_offset, film.crop_size, film.filter->radius()});
+  const Vec2i cropped = film.crop_size == Vec2i(0) ? film.size : film.crop_size;
+  view.camera->set_raster(
+      {film.size, film.crop_offset, cropped, filter_border(*film.filter) * 1.0});
   return view;
 }
 

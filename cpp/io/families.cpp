@@ -8,8 +8,8 @@
 namespace mlt {
 
 const std::vector<std::string>& plugin_families() {
-  static const std::vector<std::string> families{"bsdf",    "emitter", "film",  "integrator", "rfilter",
-                                                 "sampler", "sensor",  "shape", "texture"};
+  static const std::vector<std::string> families{
+      "bsdf", "emitter", "film", "integrator", "rfilter", "sampler", "sensor", "shape", "texture"};
   return families;
 }
 

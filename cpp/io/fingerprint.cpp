@@ -85,7 +85,8 @@ class TreeHasher {
 
   void add_text(const std::string& name, const std::string& text) {
     std::error_code error;
-    if (name != "filename" || !std::filesystem::is_regular_file(text, error)) return hash_.text(text);
+    if (name != "filename" || !std::filesystem::is_regular_file(text, error))
+      return hash_.text(text);
     auto known = files_.find(text);
     if (known == files_.end()) known = files_.emplace(text, hash_file(text)).first;
     hash_.word(known->second);

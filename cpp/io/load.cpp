@@ -4,6 +4,7 @@
 #include "io/families.h"
 #include "io/fingerprint.h"
 
+#include <algorithm>
 #include <chrono>
 
 namespace mlt {
@@ -15,12 +16,23 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+void check_size(const Vec2i& size) {
+  constexpr int max_side = 1 << 15;
+  constexpr int64_t max_pixels = 1 << 28;
+  if (std::min(size.x, size.y) < 1 || std::max(size.x, size.y) > max_side ||
+      int64_t{size.x} * size.y > max_pixels)
+    throw UsageError("the image size is " + std::to_string(size.x) + " x " +
+                     std::to_string(size.y) + ", but each side should lie between 1 and " +
+                     std::to_string(max_side) + ", and 2^28 pixels are the most");
+}
+
 const Node& only_sensor(const Node& scene, std::vector<std::string>& warnings) {
   const Node* sensor = nullptr;
   for (const Node& child : scene.children) {
     if (child.family != "sensor") continue;
     if (sensor)
-      warnings.push_back(at(child.where, "this scene has several sensors; only the first one is used"));
+      warnings.push_back(
+          at(child.where, "this scene has several sensors; only the first one is used"));
     else
       sensor = &child;
   }
@@ -39,28 +51,31 @@ const Node& unwrapped(const Node& integrator, std::vector<std::string>& warnings
                                                   "' inside it is used"));
       return unwrapped(child, warnings);
     }
-  throw SceneError(at(integrator.where, "integrator '" + integrator.type + "' has no integrator inside"));
+  throw SceneError(
+      at(integrator.where, "integrator '" + integrator.type + "' has no integrator inside"));
 }
 
 std::optional<Node> only_integrator(const Node& scene, std::vector<std::string>& warnings) {
   const Node* integrator = nullptr;
   for (const Node& child : scene.children) {
     if (child.family != "integrator") continue;
-    if (integrator) throw SceneError(at(child.where, "the scene has a second integrator; keep one"));
+    if (integrator)
+      throw SceneError(at(child.where, "the scene has a second integrator; keep one"));
     integrator = &child;
   }
   if (!integrator) return std::nullopt;
   return unwrapped(*integrator, warnings);
 }
 
-/// Shapes and lights in the order of the scene; everything else that has a name is made and checked.
+/// Shapes and lights in the order of the scene; everything else is made too, and so checked.
 void build_contents(const Node& scene, Builder& builder, std::vector<ShapePtr>& shapes,
                     std::vector<EmitterPtr>& emitters) {
   std::vector<std::pair<const Node*, EmitterPtr>> placeless;
   for (const Node& child : scene.children) {
     if (child.family == "sensor" || child.family == "integrator") continue;
     if (child.family == "ref")
-      throw SceneError(at(child.where, "a <ref> at the top of a scene has no effect; put it inside a shape"));
+      throw SceneError(
+          at(child.where, "a <ref> at the top of a scene has no effect; put it inside a shape"));
     if (child.family == "shape") {
       shapes.push_back(builder.shape(child));
       if (const EmitterPtr& light = shapes.back()->emitter_ptr()) emitters.push_back(light);
@@ -76,9 +91,11 @@ void build_contents(const Node& scene, Builder& builder, std::vector<ShapePtr>& 
   }
   for (const auto& [node, emitter] : placeless)
     if (!builder.on_a_shape(*node))
-      throw SceneError(at(node->where, "emitter '" + node->type + "' needs a shape; put it inside one"));
+      throw SceneError(
+          at(node->where, "emitter '" + node->type + "' needs a shape; put it inside one"));
   if (emitters.empty())
-    throw SceneError(at(scene.where, "the scene has no emitter, so the image would be black; add a light"));
+    throw SceneError(
+        at(scene.where, "the scene has no emitter, so the image would be black; add a light"));
 }
 
 }  // namespace
@@ -87,8 +104,7 @@ LoadedScene build_scene(const Node& scene, const Registry& registry, const LoadO
   const auto start = Clock::now();
   if (scene.family != "scene")
     throw SceneError(at(scene.where, "the root is a " + scene.family + ", but should be a scene"));
-  if (options.size && (options.size->x < 1 || options.size->y < 1))
-    throw UsageError("the image size should be at least 1 x 1");
+  if (options.size) check_size(*options.size);
 
   LoadedScene loaded;
   const Node& sensor = only_sensor(scene, loaded.warnings);
@@ -125,8 +141,10 @@ LoadedScene load(const Read& read, const Registry& registry, const LoadOptions& 
 
 }  // namespace
 
-LoadedScene load_file(const std::string& path, const Registry& registry, const LoadOptions& options) {
-  return load([&](auto& warnings) { return read_xml_file(path, options, warnings); }, registry, options);
+LoadedScene load_file(const std::string& path, const Registry& registry,
+                      const LoadOptions& options) {
+  return load([&](auto& warnings) { return read_xml_file(path, options, warnings); }, registry,
+              options);
 }
 
 LoadedScene load_string(const std::string& xml, const std::string& directory,

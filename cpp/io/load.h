@@ -22,7 +22,8 @@ struct LoadedScene {
   std::optional<Node> integrator;     ///< As the scene describes it, not yet made.
   std::vector<std::string> warnings;  ///< One line each, with file and line.
   double seconds = 0;                 ///< Wall time of loading.
-  uint64_t hash = 0;                  ///< Of everything that was read (scene, meshes, textures by content or size+name).
+  uint64_t hash =
+      0;  ///< Of everything that was read (scene, meshes, textures by content or size+name).
 };
 
 /// Reads a Mitsuba XML file into a tree: includes, defaults, aliases and paths are resolved, file
@@ -35,7 +36,8 @@ Node read_xml_string(const std::string& xml, const std::string& directory,
 /// Builds the scene that a tree describes.
 LoadedScene build_scene(const Node& scene, const Registry& registry, const LoadOptions& options);
 
-LoadedScene load_file(const std::string& path, const Registry& registry, const LoadOptions& options);
+LoadedScene load_file(const std::string& path, const Registry& registry,
+                      const LoadOptions& options);
 LoadedScene load_string(const std::string& xml, const std::string& directory,
                         const Registry& registry, const LoadOptions& options);
 
@@ -43,8 +45,8 @@ LoadedScene load_string(const std::string& xml, const std::string& directory,
 ObjectPtr build_object(const Node& node, const Registry& registry,
                        std::vector<std::string>& warnings);
 
-/// The value that `text` means for a parameter of this type ("8" for an integer, "true", ...), as in
-/// `-p name=value`. Throws UsageError.
+/// The value that `text` means for a parameter of this type ("8" for an integer, "true", ...), as
+/// in `-p name=value`. Throws UsageError.
 Value parse_value(const std::string& text, const Parameter& parameter);
 
 }  // namespace mlt

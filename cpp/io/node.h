@@ -15,10 +15,11 @@ struct Node {
     Location where;
   };
 
-  std::string family;  ///< "scene", "shape", "bsdf", "emitter", "sensor", "film", "rfilter", ...; "ref".
-  std::string type;    ///< Plug-in name; for a "ref" the id that it refers to.
-  std::string id;      ///< The name by which references find it, or "".
-  std::string name;    ///< The parameter of the parent that it is given for, or "".
+  std::string
+      family;  ///< "scene", "shape", "bsdf", "emitter", "sensor", "film", "rfilter", ...; "ref".
+  std::string type;  ///< Plug-in name; for a "ref" the id that it refers to.
+  std::string id;    ///< The name by which references find it, or "".
+  std::string name;  ///< The parameter of the parent that it is given for, or "".
   Location where;
   std::vector<Property> properties;
   std::vector<Node> children;

@@ -7,7 +7,8 @@ namespace {
 
 void add(NodeIndex& index, const Node& node, int depth) {
   if (depth > max_nesting)
-    throw SceneError(at(node.where, "elements are nested more than " + std::to_string(max_nesting) + " deep"));
+    throw SceneError(
+        at(node.where, "elements are nested more than " + std::to_string(max_nesting) + " deep"));
   if (!node.id.empty() && node.family != "ref") {
     const auto [first, is_new] = index.emplace(node.id, &node);
     if (!is_new) {

@@ -8,7 +8,7 @@
 
 namespace mlt {
 
-/// Nodes may be nested this deep, includes and references counted; deeper is a mistake or an attack.
+/// Nodes, includes and references may be nested this deep; deeper is a mistake or an attack.
 constexpr int max_nesting = 100;
 
 using NodeIndex = std::map<std::string, const Node*>;

@@ -50,7 +50,8 @@ Value parse_value(const std::string& text, const Parameter& parameter) {
     throw UsageError("'" + parameter.name + "' is a " + to_string(parameter.type) +
                      ", which cannot be written as one value; give it in the scene");
   if (auto value = parse(text, tag)) return std::move(*value);
-  throw UsageError("'" + parameter.name + "' is " + quote(text) + ", but should be " + example_of(tag));
+  throw UsageError("'" + parameter.name + "' is " + quote(text) + ", but should be " +
+                   example_of(tag));
 }
 
 }  // namespace mlt

@@ -49,7 +49,8 @@ std::string SearchPath::find(const std::string& name, bool directory, const Loca
   }
   std::string looked;
   if (!fs::path(name).is_absolute())
-    for (const fs::path& base : directories_) looked += (looked.empty() ? "" : ", ") + base.string();
+    for (const fs::path& base : directories_)
+      looked += (looked.empty() ? "" : ", ") + base.string();
   throw SceneError(at(where, std::string("there is no ") + (directory ? "directory " : "file ") +
                                  quote(name) + (looked.empty() ? "" : " in " + looked)));
 }

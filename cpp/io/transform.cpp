@@ -12,8 +12,8 @@ namespace mlt {
 namespace {
 
 const std::vector<std::string>& tags() {
-  static const std::vector<std::string> names{"translate", "scale", "rotate", "lookat", "lookAt",
-                                              "matrix"};
+  static const std::vector<std::string> names{"translate", "scale",  "rotate",
+                                              "lookat",    "lookAt", "matrix"};
   return names;
 }
 
@@ -34,7 +34,8 @@ Vec3 corner(const Element& step, const std::string& attribute) {
   const std::string& text = step.require(attribute);
   const auto numbers = parse_reals(text);
   if (!numbers || numbers->size() != 3)
-    step.fail("has " + attribute + " = " + quote(text) + ", but it should be three numbers such as 0, 1, 2");
+    step.fail("has " + attribute + " = " + quote(text) +
+              ", but it should be three numbers such as 0, 1, 2");
   return {(*numbers)[0], (*numbers)[1], (*numbers)[2]};
 }
 
@@ -87,11 +88,13 @@ bool is_transform_tag(const std::string& tag) {
 Matrix read_transform(const std::vector<Element>& steps) {
   Mat4 product(1);
   for (const Element& step : steps) {
-    if (!is_transform_tag(step.tag)) step.fail("does not belong in a <transform>" + suggestion(step.tag, tags()));
+    if (!is_transform_tag(step.tag))
+      step.fail("does not belong in a <transform>" + suggestion(step.tag, tags()));
     product = matrix_of(step) * product;
   }
   Matrix rows;
-  for (size_t i = 0; i < 16; ++i) rows[i] = product[static_cast<int>(i % 4)][static_cast<int>(i / 4)];
+  for (size_t i = 0; i < 16; ++i)
+    rows[i] = product[static_cast<int>(i % 4)][static_cast<int>(i / 4)];
   return rows;
 }
 

@@ -88,14 +88,16 @@ Spectrum read_spectrum_file(const Element& element, const SearchPath& search) {
   }
   const auto result = checked(std::move(samples));
   if (!result)
-    throw SceneError(at({path, 0}, "a spectrum needs two or more wavelengths, in increasing order"));
+    throw SceneError(
+        at({path, 0}, "a spectrum needs two or more wavelengths, in increasing order"));
   return *result;
 }
 
 Value read_spectrum(const Element& element, const SearchPath& search) {
   element.expect_only({"name", "value", "filename"});
   if (element.find("filename")) {
-    if (element.find("value")) element.fail("has both a 'value' and a 'filename'; give one of them");
+    if (element.find("value"))
+      element.fail("has both a 'value' and a 'filename'; give one of them");
     return read_spectrum_file(element, search);
   }
   const std::string& text = element.require("value");

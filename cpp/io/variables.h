@@ -16,9 +16,9 @@ class Variables {
   /// A <default>: keeps the value that the name already has.
   void set_default(const std::string& name, const std::string& value);
 
-  /// Replaces every $name by its value: of the names that are known, the longest that fits. `\$` is
-  /// a dollar sign, and so is one that no letter, digit or underscore follows. Throws SceneError for
-  /// an unknown name.
+  /// Replaces every $name by its value: of the names that are known, the longest that fits. `\$`
+  /// is a dollar sign, and so is one that no letter, digit or underscore follows. Throws SceneError
+  /// for an unknown name.
   std::string substitute(const std::string& text, const Location& where);
 
   /// Throws UsageError for a define that the scene has no use for.

@@ -14,8 +14,8 @@ XmlDocument::XmlDocument(const std::string& text, std::string file) : file_(std:
   const pugi::xml_parse_result result =
       document_.load_buffer(text.data(), text.size(), flags, pugi::encoding_utf8);
   if (!result)
-    throw SceneError(at({file_, line(result.offset)}, std::string("this is not well-formed XML: ") +
-                                                          result.description()));
+    throw SceneError(at({file_, line(result.offset)},
+                        std::string("this is not well-formed XML: ") + result.description()));
   for (const pugi::xml_node& node : document_.children()) {
     if (node.type() == pugi::node_doctype)
       throw SceneError(at({file_, 1}, "a document type (<!DOCTYPE>) is not allowed; remove it"));

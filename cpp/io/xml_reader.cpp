@@ -124,7 +124,8 @@ void XmlReader::read_children(const pugi::xml_node& xml, Node& parent, Source& s
     } else if (child.type() == pugi::node_pcdata || child.type() == pugi::node_cdata) {
       const Location where{source.document.file(), source.document.line(xml)};
       throw SceneError(at(where, "<" + std::string(xml.name()) + "> contains the text " +
-                                     quote(trim(child.value())) + "; only elements are expected here"));
+                                     quote(trim(child.value())) +
+                                     "; only elements are expected here"));
     }
   }
 }
@@ -133,7 +134,8 @@ void XmlReader::read_child(const pugi::xml_node& xml, Node& parent, Source& sour
   const Location where{source.document.file(), source.document.line(xml)};
   const std::string tag = xml.name();
   if (depth > max_nesting)
-    throw SceneError(at(where, "elements are nested more than " + std::to_string(max_nesting) + " deep"));
+    throw SceneError(
+        at(where, "elements are nested more than " + std::to_string(max_nesting) + " deep"));
   const bool known = is_plugin_family(tag) || is_value_tag(tag) || is_transform_tag(tag) ||
                      std::count(scene_tags().begin(), scene_tags().end(), tag) || tag == "scene";
   if (!known) {
@@ -184,7 +186,8 @@ void XmlReader::read_child(const pugi::xml_node& xml, Node& parent, Source& sour
 void XmlReader::read_property(const Element& element, Node& parent, const Source& source) {
   const std::string& name = element.require("name");
   if (parent.family == "scene") {
-    warnings_.push_back(at(element.where, element.title() + " has no effect at the top of a scene"));
+    warnings_.push_back(
+        at(element.where, element.title() + " has no effect at the top of a scene"));
     return;
   }
   Value value = read_value(element, source.search);
@@ -202,16 +205,19 @@ void XmlReader::read_transform_property(const pugi::xml_node& xml, const Element
     if (child.type() == pugi::node_pcdata || child.type() == pugi::node_cdata)
       element.fail("contains a text; only steps such as <translate> are expected here");
   }
-  if (parent.family == "scene") element.fail("has no effect at the top of a scene; put it inside a shape");
+  if (parent.family == "scene")
+    element.fail("has no effect at the top of a scene; put it inside a shape");
   parent.properties.push_back({element.require("name"), read_transform(steps), element.where});
 }
 
-void XmlReader::read_include(const Element& element, Node& parent, const Source& source, int depth) {
+void XmlReader::read_include(const Element& element, Node& parent, const Source& source,
+                             int depth) {
   element.expect_only({"filename", "name"});
   const std::string path = source.search.find_file(element.require("filename"), element.where);
   const std::string identity = canonical(path);
   if (std::count(open_files_.begin(), open_files_.end(), identity))
-    element.fail("includes " + path + ", which is being read already: the files include each other");
+    element.fail("includes " + path +
+                 ", which is being read already: the files include each other");
   if (open_files_.size() > max_include_depth)
     element.fail("is nested more than " + std::to_string(max_include_depth) + " files deep");
   if (++include_count_ > max_includes)
@@ -252,10 +258,12 @@ void XmlReader::resolve_aliases(Node& root) const {
   std::map<std::string, std::string> target_of;
   for (const auto& [name, alias] : aliases_) {
     if (index.count(name))
-      throw SceneError(at(alias.where, "the alias " + quote(name) + " is already the id of an object"));
+      throw SceneError(
+          at(alias.where, "the alias " + quote(name) + " is already the id of an object"));
     std::string target = alias.id;
     for (size_t hops = 0; aliases_.count(target); ++hops) {
-      if (hops > aliases_.size()) throw SceneError(at(alias.where, "the alias " + quote(name) + " means itself"));
+      if (hops > aliases_.size())
+        throw SceneError(at(alias.where, "the alias " + quote(name) + " means itself"));
       target = aliases_.at(target).id;
     }
     find_node(index, target, alias.where);

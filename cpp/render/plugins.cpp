@@ -14,6 +14,9 @@ namespace mlt {
 #define MLT_PLUGIN(name) Plugin name();
 #include "scene/film/list.inc"
 #undef MLT_PLUGIN
+#define MLT_PLUGIN(name) Plugin name();
+#include "scene/film/list.inc"
+#undef MLT_PLUGIN
 #define MLT_PLUGIN(name) Plugin integrator_##name();
 #include "integrator/list.inc"
 #undef MLT_PLUGIN
@@ -39,6 +42,9 @@ void add_all(Registry& registry) {
 #define MLT_PLUGIN(name) registry.add(name());
 #include "scene/film/list.inc"
 #undef MLT_PLUGIN
+#define MLT_PLUGIN(name) registry.add(name());
+#include "scene/film/list.inc"
+#undef MLT_PLUGIN
 #define MLT_PLUGIN(name) registry.add(integrator_##name());
 #include "integrator/list.inc"
 #undef MLT_PLUGIN
@@ -59,60 +65,66 @@ struct Refusal {
   std::vector<const char*> names;
 };
 
-/// The plug-ins of Mitsuba 0.6 and 3. A name that exists here after all is found before its refusal.
+/// The plug-ins of Mitsuba 0.6 and 3. One that exists here after all is found before its refusal.
 const std::vector<Refusal>& refusals() {
-  static const char* not_yet = "it is not implemented yet";
+  static const char* not_yet = "not implemented yet";
   static const char* media = "participating media are not supported";
   static const char* polarised = "polarised rendering is not supported";
   static const char* curves = "hair and curves are not supported";
   static const char* differentiable = "differentiable rendering is not supported";
   static const char* layered = "layered and measured materials are not supported";
   static const std::vector<Refusal> table{
-      {"shape", not_yet,
-       {"obj", "ply", "serialized", "rectangle", "cube", "sphere", "disk", "cylinder", "instance",
-        "shapegroup", "animatedinstance", "heightfield", "deformable"}},
+      {"shape",
+       not_yet,
+       {"disk", "cylinder", "instance", "shapegroup", "animatedinstance", "heightfield",
+        "deformable"}},
       {"shape", curves, {"hair", "bsplinecurve", "linearcurve"}},
-      {"shape", "volumetric primitives are not supported",
+      {"shape",
+       "volumetric primitives are not supported",
        {"sdfgrid", "ellipsoids", "ellipsoidsmesh", "volume"}},
       {"shape", "write the shapes directly into the scene", {"merge"}},
-      {"bsdf", not_yet,
-       {"diffuse", "dielectric", "roughdielectric", "conductor", "roughconductor", "plastic",
-        "roughplastic", "phong", "twosided", "null", "mask", "bumpmap", "normalmap", "blendbsdf",
-        "mixturebsdf", "principled", "principledthin", "thindielectric", "roughdiffuse", "ward",
-        "difftrans"}},
+      {"bsdf",
+       not_yet,
+       {"mask", "bumpmap", "normalmap", "blendbsdf", "mixturebsdf", "principled", "principledthin",
+        "thindielectric", "roughdiffuse", "ward", "difftrans"}},
       {"bsdf", polarised, {"pplastic", "polarizer", "retarder", "circular", "measured_polarized"}},
       {"bsdf", layered, {"measured", "coating", "roughcoating", "irawan", "hapke"}},
       {"bsdf", "subsurface scattering is not supported", {"hk", "sss", "dipole"}},
       {"bsdf", curves, {"hair"}},
-      {"emitter", not_yet,
-       {"area", "point", "directional", "constant", "envmap", "spot", "projector",
-        "directionalarea", "sunsky", "timed_sunsky", "sun", "sky", "collimated"}},
-      {"sensor", not_yet,
-       {"perspective", "thinlens", "orthographic", "telecentric", "spherical", "perspective_rdist"}},
-      {"sensor", "sensors that measure a single value are not supported",
+      {"emitter",
+       not_yet,
+       {"spot", "projector", "directionalarea", "sunsky", "timed_sunsky", "sun", "sky",
+        "collimated"}},
+      {"sensor", not_yet, {"orthographic", "telecentric", "spherical", "perspective_rdist"}},
+      {"sensor",
+       "sensors that measure a single value are not supported",
        {"irradiancemeter", "radiancemeter", "fluencemeter", "distant"}},
       {"sensor", "render the views one by one", {"batch"}},
-      {"film", not_yet, {"hdrfilm", "ldrfilm", "tiledhdrfilm"}},
+      {"film", "images are held in memory; use hdrfilm", {"tiledhdrfilm"}},
       {"film", "the command line writes images; use hdrfilm", {"mfilm"}},
       {"film", "spectral rendering is not supported; use hdrfilm", {"specfilm"}},
-      {"rfilter", not_yet, {"box", "tent", "gaussian", "mitchell", "catmullrom", "lanczos"}},
-      {"texture", not_yet,
-       {"bitmap", "checkerboard", "gridtexture", "scale", "wireframe", "curvature", "vertexcolors",
-        "mesh_attribute"}},
+      {"texture",
+       not_yet,
+       {"gridtexture", "scale", "wireframe", "curvature", "vertexcolors", "mesh_attribute"}},
       {"texture", media, {"volume"}},
       {"medium", media, {"homogeneous", "heterogeneous"}},
-      {"phase", media, {"hg", "isotropic", "rayleigh", "sggx", "tabphase", "blendphase", "kkay", "microflake"}},
+      {"phase",
+       media,
+       {"hg", "isotropic", "rayleigh", "sggx", "tabphase", "blendphase", "kkay", "microflake"}},
       {"volume", media, {"constvolume", "gridvolume"}},
-      {"spectrum", "give rgb or wavelength:value pairs",
+      {"spectrum",
+       "give rgb or wavelength:value pairs",
        {"blackbody", "d65", "uniform", "regular", "irregular", "rawconstant"}},
-      {"integrator", not_yet,
-       {"path", "direct", "ptracer", "bdpt", "mlt", "pssmlt", "mmlt", "erpt", "ao", "depth", "field",
-        "aov", "moment"}},
+      {"integrator",
+       not_yet,
+       {"ptracer", "bdpt", "mlt", "mmlt", "erpt", "ao", "depth", "field", "aov", "moment"}},
       {"integrator", media, {"volpath", "volpath_simple", "volpathmis"}},
-      {"integrator", "photon mapping and virtual point lights are not supported (they are biased)",
+      {"integrator",
+       "photon mapping and virtual point lights are not supported (they are biased)",
        {"photonmapper", "ppm", "sppm", "vpl", "irrcache"}},
       {"integrator", polarised, {"stokes"}},
-      {"integrator", differentiable,
+      {"integrator",
+       differentiable,
        {"prb", "prb_basic", "prb_projective", "prbvolpath", "direct_projective", "emission_reparam",
         "volprim_rf_basic"}},
       {"integrator", "set a time or an error budget instead", {"adaptive"}},
