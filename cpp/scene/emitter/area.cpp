@@ -70,7 +70,7 @@ Plugin emitter_area() {
            "area",
            "Makes the shape that it is nested in glow on its front side.",
            {{"radiance", ParamType::emission, 1.0, "Emitted radiance, which may be textured."}},
-           {"sampling_weight"}},
+           {"sampling_weight", "caustic_emitter_single", "caustic_emitter_multi"}},
           [](Params& params) -> ObjectPtr { return std::make_shared<AreaLight>(params); }};
 }
 

@@ -17,7 +17,11 @@ Schema shape_schema(const std::string& name, const std::string& doc,
   parameters.push_back({"flip_normals", ParamType::boolean, false, "Turn all normals around."});
   parameters.push_back({"bsdf", ParamType::object, {}, "The material; optional."});
   parameters.push_back({"emitter", ParamType::object, {}, "An area light; optional."});
-  return {"shape", name, doc, std::move(parameters)};
+  return {"shape",
+          name,
+          doc,
+          std::move(parameters),
+          {"caustic_caster_single", "caustic_caster_multi", "caustic_bouncer"}};
 }
 
 Parameter filename_parameter(const std::string& doc) {
