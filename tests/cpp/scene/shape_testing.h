@@ -15,7 +15,7 @@
 #include "scene/shape.h"
 #include "scene/sphere.h"
 
-namespace mlt {
+namespace mlt::shape_testing {
 
 inline Vec3 random_direction(Rng& rng) {
   const double z = 2 * rng.next() - 1, phi = 2 * pi * rng.next(), r = std::sqrt(1 - z * z);
@@ -111,4 +111,4 @@ inline void expect_near(const Vec3& a, const Vec3& b, double tolerance) {
                                       << b.x << ", " << b.y << ", " << b.z << ")";
 }
 
-}  // namespace mlt
+}  // namespace mlt::shape_testing

@@ -5,6 +5,8 @@
 namespace mlt {
 namespace {
 
+using namespace shape_testing;
+
 using testing::HasSubstr;
 
 const Location here{"scene.xml", 3};

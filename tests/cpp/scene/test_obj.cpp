@@ -4,6 +4,8 @@
 namespace mlt {
 namespace {
 
+using namespace shape_testing;
+
 using testing::HasSubstr;
 
 MeshData read(std::string_view text) { return read_obj(text, "mesh.file"); }

@@ -6,6 +6,8 @@
 namespace mlt {
 namespace {
 
+using namespace shape_testing;
+
 using testing::HasSubstr;
 
 MeshData read(std::string_view text) { return read_ply(text, "mesh.file"); }

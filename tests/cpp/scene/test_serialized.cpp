@@ -8,6 +8,8 @@
 namespace mlt {
 namespace {
 
+using namespace shape_testing;
+
 using testing::HasSubstr;
 
 constexpr uint32_t normals = 1, uvs = 2, colors = 8, flat = 16, doubles = 0x2000;

@@ -14,6 +14,8 @@ namespace mlt {
 
 namespace {
 
+using namespace shape_testing;
+
 using testing::HasSubstr;
 
 const Plugin& plugin(const std::string& name) {

@@ -6,6 +6,8 @@
 namespace mlt {
 namespace {
 
+using namespace shape_testing;
+
 using testing::HasSubstr;
 
 const Location here{"scene.xml", 3};
