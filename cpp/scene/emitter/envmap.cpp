@@ -4,15 +4,15 @@
 //
 //   w = (sin theta sin phi, cos theta, -sin theta cos phi),
 //
-// is at u = phi / 2 pi, v = theta / pi. Column i lies at u = i / width and row j at
+// is at u = phi / 2 pi, v = theta / pi. Column i lies at u = (i + 1/2) / width and row j at
 // v = j / (height - 1), so that the first and the last row are the poles; between them values are
 // interpolated bilinearly.
 //
 // Directions are drawn with a density that is constant in solid angle over each cell between four
-// texels, proportional to their mean luminance times the cell's solid angle. It is positive wherever
-// the interpolated radiance is. (Pharr et al., PBRT 3rd ed., sec. 14.2.4, tabulate sin theta at
-// texel centres instead; drawing cos theta uniformly within a row needs no such approximation and
-// keeps the density finite at the poles.)
+// texels, proportional to their mean luminance times the cell's solid angle. It is positive
+// wherever the interpolated radiance is. (Pharr et al., PBRT 3rd ed., sec. 14.2.4, tabulate
+// sin theta at texel centres instead; drawing cos theta uniformly within a row needs no such
+// approximation and keeps the density finite at the poles.)
 #include "base/registry.h"
 #include "math/distribution.h"
 #include "scene/emitter/infinite.h"
@@ -39,7 +39,7 @@ class EnvironmentMap final : public InfiniteEmitter {
 
   Color eval(const SurfacePoint& x0, const Vec3&) const override {
     const Vec3 d = axes_.to_local(x0.p);
-    const double x = turns(-d.z, d.x) * image_.width;
+    const double x = column_at(d) * image_.width;
     const double y = theta_of(d) * inv_pi * cell_rows();
     const int i = std::min(static_cast<int>(x), image_.width - 1);
     const int j = std::min(static_cast<int>(y), cell_rows() - 1);
@@ -74,6 +74,12 @@ class EnvironmentMap final : public InfiniteEmitter {
 
   /// Polar angle against the y axis, exact near the poles too.
   static double theta_of(const Vec3& d) { return std::atan2(std::hypot(d.x, d.z), d.y); }
+
+  /// How far d is, in turns, from the first column's azimuth; in [0, 1).
+  double column_at(const Vec3& d) const {
+    const double x = turns(-d.z, d.x) - 0.5 / image_.width;
+    return x < 0 ? x + 1 : x;
+  }
 
   /// The weights of the cells, and the integral of the interpolated radiance over the sphere.
   void tabulate() {
@@ -113,7 +119,7 @@ class EnvironmentMap final : public InfiniteEmitter {
     return 2 * pi / image_.width * (cos_rows_[size_t(row)] - cos_rows_[size_t(row) + 1]);
   }
 
-  // The table's unit square: x is the azimuth in turns; within each row y is linear in cos theta.
+  // The table's unit square: x is column_at; within each row y is linear in cos theta.
   int row_at(double y) const {
     return std::clamp(static_cast<int>(y * cell_rows()), 0, cell_rows() - 1);
   }
@@ -124,7 +130,7 @@ class EnvironmentMap final : public InfiniteEmitter {
     const double top = cos_rows_[size_t(j)], bottom = cos_rows_[size_t(j) + 1];
     const double cos_theta = top + t * (bottom - top);
     const double sin_theta = safe_sqrt((1 - cos_theta) * (1 + cos_theta));
-    const SinCos phi = sincos_turns(p.x);
+    const SinCos phi = sincos_turns(p.x + 0.5 / image_.width);
     return {sin_theta * phi.sin, cos_theta, -sin_theta * phi.cos};
   }
 
@@ -132,7 +138,7 @@ class EnvironmentMap final : public InfiniteEmitter {
     const int j = row_at(theta_of(d) * inv_pi);
     const double top = cos_rows_[size_t(j)], bottom = cos_rows_[size_t(j) + 1];
     const double t = std::clamp((top - d.y) / (top - bottom), 0.0, 1 - 0x1p-40);
-    return {turns(-d.z, d.x), (j + t) / cell_rows()};
+    return {column_at(d), (j + t) / cell_rows()};
   }
 
   Frame axes_;

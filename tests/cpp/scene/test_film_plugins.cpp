@@ -1,0 +1,123 @@
+#include <gmock/gmock.h>
+
+#include "scene/film_settings.h"
+#include "scene/plugin_testing.h"
+
+namespace mlt {
+
+#define MLT_PLUGIN(name) Plugin name();
+#include "scene/film/list.inc"
+#undef MLT_PLUGIN
+
+namespace {
+
+using test::error_in;
+using test::Given;
+using test::make;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+TEST(FilmPlugins, HaveMitsubasDefaults) {
+  for (const Plugin& plugin : {film_hdrfilm(), film_ldrfilm()}) {
+    const auto film = make<FilmSettings>(plugin);
+    EXPECT_EQ(film->size, Vec2i(768, 576));
+    EXPECT_EQ(film->crop_size, Vec2i(0));
+    EXPECT_EQ(film->filter->name(), "gaussian");
+    EXPECT_TRUE(film->half_precision);
+  }
+}
+
+TEST(FilmPlugins, ReadSizeCropFilterAndPrecision) {
+  const ObjectPtr filter = make<FilterObject>(rfilter_tent(), {{"radius", 1.5}});
+  const auto film = make<FilmSettings>(film_hdrfilm(), {{"width", int64_t{64}},
+                                                        {"height", int64_t{36}},
+                                                        {"cropOffsetX", int64_t{10}},
+                                                        {"cropWidth", int64_t{20}},
+                                                        {"componentFormat", std::string("float32")},
+                                                        {"rfilter", filter}});
+  EXPECT_EQ(film->size, Vec2i(64, 36));
+  EXPECT_EQ(film->crop_offset, Vec2i(10, 0));
+  EXPECT_EQ(film->crop_size, Vec2i(20, 36));
+  EXPECT_FALSE(film->half_precision);
+  EXPECT_EQ(film->filter->name(), "tent");
+  EXPECT_EQ(film->filter->radius(), 1.5);
+}
+
+TEST(FilmPlugins, TakeAFilterWithoutAName) {
+  const Plugin plugin = film_hdrfilm();
+  Params params(plugin.schema, {});
+  params.add("rfilter", make<FilterObject>(rfilter_box()), {});
+  const auto film = std::dynamic_pointer_cast<FilmSettings>(plugin.create(params));
+  params.expect_all_read();
+  EXPECT_TRUE(film->filter->is_box());
+}
+
+TEST(FilmPlugins, RefuseSizesThatMakeNoSense) {
+  for (int64_t bad : {int64_t{0}, int64_t{-5}, int64_t{32769}, int64_t{1} << 40}) {
+    EXPECT_THAT(error_in(film_hdrfilm(), {{"width", bad}}), HasSubstr("width")) << bad;
+    EXPECT_THAT(error_in(film_hdrfilm(), {{"height", bad}}), HasSubstr("height")) << bad;
+    EXPECT_THAT(error_in(film_hdrfilm(), {{"crop_width", bad}}), HasSubstr("crop_width")) << bad;
+  }
+  EXPECT_THAT(error_in(film_hdrfilm(), {{"width", int64_t{32768}}, {"height", int64_t{32768}}}),
+              HasSubstr("2^28"));
+  EXPECT_THAT(
+      error_in(film_hdrfilm(), {{"crop_offset_x", int64_t{700}}, {"crop_width", int64_t{100}}}),
+      HasSubstr("outside of the image"));
+  EXPECT_THAT(error_in(film_hdrfilm(), {{"crop_offset_y", int64_t{10}}}), HasSubstr("outside"));
+  EXPECT_THAT(error_in(film_hdrfilm(), {{"component_format", std::string("float64")}}),
+              HasSubstr("did you mean 'float16'"));
+}
+
+TEST(FilmPlugins, WarnOnlyAboutWhatChangesTheResult) {
+  std::vector<std::string> warnings;
+  make<FilmSettings>(
+      film_hdrfilm(),
+      {{"pixel_format", std::string("rgb")}, {"file_format", std::string("openexr")}}, &warnings);
+  EXPECT_THAT(warnings, IsEmpty());
+  make<FilmSettings>(film_hdrfilm(), {{"pixelFormat", std::string("luminance")}}, &warnings);
+  EXPECT_THAT(warnings, ElementsAre(HasSubstr("read as 'rgb'")));
+  make<FilmSettings>(film_ldrfilm(), {{"banner", false}}, &warnings);
+  EXPECT_THAT(warnings, ElementsAre(HasSubstr("no effect")));
+  make<FilmSettings>(film_ldrfilm(), {{"gamma", 2.2}}, &warnings);
+  EXPECT_THAT(warnings, ElementsAre(HasSubstr("no effect")));
+}
+
+TEST(FilterPlugins, MakeTheFilterTheyName) {
+  const Plugin plugins[] = {rfilter_box(),      rfilter_tent(),       rfilter_gaussian(),
+                            rfilter_mitchell(), rfilter_catmullrom(), rfilter_lanczos()};
+  for (const Plugin& plugin : plugins) {
+    EXPECT_EQ(plugin.schema.family, "rfilter");
+    const auto filter = make<FilterObject>(plugin)->filter;
+    const Filter standard = make_filter(plugin.schema.name);
+    EXPECT_EQ(filter->name(), plugin.schema.name);
+    EXPECT_EQ(filter->radius(), standard.radius());
+    for (double x : {0.0, 0.4, 0.9, 1.7}) EXPECT_EQ(filter->eval(x), standard.eval(x));
+  }
+  EXPECT_EQ(make<FilterObject>(rfilter_lanczos(), {{"lobes", int64_t{2}}})->filter->radius(), 2);
+  EXPECT_EQ(make<FilterObject>(rfilter_gaussian(), {{"stddev", 0.25}})->filter->radius(), 1);
+  const auto sharp = make<FilterObject>(rfilter_mitchell(), {{"B", 0.0}, {"C", 0.5}})->filter;
+  for (double x : {0.0, 0.4, 0.9, 1.7}) EXPECT_EQ(sharp->eval(x), catmullrom_filter().eval(x));
+}
+
+TEST(FilterPlugins, NameTheLineOfABadParameter) {
+  const std::string error = error_in(rfilter_gaussian(), {{"stddev", -1.0}});
+  EXPECT_THAT(error, HasSubstr("scene.xml:7"));
+  EXPECT_THAT(error, HasSubstr("stddev"));
+  EXPECT_THAT(error_in(rfilter_lanczos(), {{"lobes", int64_t{0}}}), HasSubstr("lobes"));
+}
+
+TEST(SamplerPlugins, CarryTheSampleCount) {
+  const Plugin plugins[] = {sampler_independent(), sampler_stratified(), sampler_ldsampler(),
+                            sampler_multijitter(), sampler_orthogonal(), sampler_halton(),
+                            sampler_sobol(),       sampler_hammersley()};
+  for (const Plugin& plugin : plugins) {
+    EXPECT_EQ(plugin.schema.family, "sampler");
+    EXPECT_EQ(make<SamplerSettings>(plugin)->sample_count, 0);
+    EXPECT_EQ(make<SamplerSettings>(plugin, {{"sampleCount", int64_t{17}}})->sample_count, 17);
+    EXPECT_THAT(error_in(plugin, {{"sample_count", int64_t{0}}}), HasSubstr("sample_count"));
+  }
+}
+
+}  // namespace
+}  // namespace mlt
