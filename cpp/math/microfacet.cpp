@@ -3,6 +3,8 @@
 #include "math/erf_inverse.h"
 #include "math/warp.h"
 
+#include <glm/common.hpp>
+
 namespace mlt {
 
 // All normals. In units of the roughness the slopes are isotropic, with squared radius t and
@@ -35,7 +37,7 @@ Vec3 Microfacet::sample_visible_ggx(const Vec3& wi, const Vec2& u) const {
 Vec2 Microfacet::invert_visible_ggx(const Vec3& wi, const Vec3& m) const {
   const Vec3 w = stretch(wi);
   const Vec3 c = reflect(w, unstretch(m));
-  return {std::min((1 - c.z) / (1 + w.z), 1 - 0x1p-53), turns(c.x, c.y)};
+  return {glm::clamp((1 - c.z) / (1 + w.z), 0.0, 1 - 0x1p-53), turns(c.x, c.y)};
 }
 
 // Visible Beckmann normals. With wi in the x-z plane at angle theta, the slope along y is Gaussian
