@@ -3,8 +3,8 @@
 // for computer graphics", sec. 3; Potmesil & Chakravarty 1981).
 //
 // In camera space the lens is at the origin, z looks into the scene, y is up and x points to the
-// LEFT of the image, as in Mitsuba. A raster position stands for the point (X, Y, 1) of the plane at
-// unit distance; rays from anywhere on the lens for this raster position meet in f (X, Y, 1),
+// LEFT of the image, as in Mitsuba. A raster position stands for the point (X, Y, 1) of the plane
+// at unit distance; rays from anywhere on the lens for this raster position meet in f (X, Y, 1),
 // where f is the focus distance.
 //
 // With A the area that the image takes on the plane at unit distance and c = w_z the cosine at the
