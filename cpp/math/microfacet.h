@@ -55,6 +55,7 @@ class Microfacet {
   double lambda(const Vec3& v) const {
     const double a = std::abs(v.z) / rough_radius(v);
     if (type_ == MicrofacetType::ggx) return 0.5 * (std::sqrt(1 + 1 / (a * a)) - 1);
+    if (a > 6) return 0;  // below 1e-18
     return std::exp(-a * a) / (2 * sqrt_pi * a) - 0.5 * std::erfc(a);
   }
 
