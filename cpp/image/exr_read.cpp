@@ -15,6 +15,7 @@
 #include <map>
 #include <new>
 
+#include "image/distrust.h"
 #include "image/exr.h"
 
 namespace mlt {
@@ -189,6 +190,7 @@ Image read_part(Imf::InputPart& part, const std::string& layer) {
 template <class Read>
 auto with_file(std::string_view bytes, const std::string& name, const Read& read) {
   try {
+    check_exr_headers(bytes);
     MemoryInput stream(bytes, name);
     Imf::MultiPartInputFile file(stream, 0, false);
     return read(file);

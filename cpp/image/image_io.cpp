@@ -27,7 +27,8 @@ StbFormat stb_format(std::string_view bytes, const std::string& name) {
   if (starts_with(bytes, "\x89PNG\r\n\x1a\n")) return StbFormat::png;
   if (starts_with(bytes, "\xff\xd8\xff")) return StbFormat::jpeg;
   if (starts_with(bytes, "#?RADIANCE\n") || starts_with(bytes, "#?RGBE\n")) return StbFormat::hdr;
-  // "BM" could begin a TGA as well: its image ID would be 66 bytes long, of a colour-mapped type 77.
+  // "BM" could begin a TGA as well: its image ID would be 66 bytes long, of a colour-mapped
+  // type 77.
   if (starts_with(bytes, "BM")) return StbFormat::bmp;
   if (extension_of(name) == ".tga") return StbFormat::tga;
   throw FileError(name + (bytes.empty() ? ": the file is empty"

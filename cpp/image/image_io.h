@@ -18,9 +18,9 @@ struct ReadImage {
   int bits = 32;              // of a stored sample: 8 or 16 (integers), else 32
 };
 
-/// Reads EXR, PNG (8 and 16 bit), JPEG, HDR, TGA or BMP, with as many channels as the file has. Only
-/// EXR has layers; see decode_exr for which channels "" means. Throws a FileError that names the file.
-/// EXR samples may be NaN or infinite, as in the file.
+/// Reads EXR, PNG (8 and 16 bit), JPEG, HDR, TGA or BMP, with as many channels as the file has.
+/// Only EXR has layers; see decode_exr for which channels "" means. Throws a FileError that names
+/// the file. EXR samples may be NaN or infinite, as in the file.
 ReadImage read_image(const std::string& path, const std::string& layer = "");
 
 /// The same for the bytes of a file; `name` is for messages, and its extension tells TGA.
@@ -44,13 +44,14 @@ void write_exr(const std::string& path, const Image& image, const WriteOptions& 
 void write_exr(const std::string& path, const std::vector<ExrLayer>& layers,
                const WriteOptions& options = {});
 
-/// sRGB with 8 bits: each colour sample is scaled by 2^exposure, clipped to [0, 1], encoded, rounded.
+/// sRGB with 8 bits: each colour sample is scaled by 2^exposure, clipped to [0, 1], encoded,
+/// rounded.
 void write_png(const std::string& path, const Image& image, double exposure = 0);
 
 void write_hdr(const std::string& path, const Image& image);
 
-/// By extension: .exr, .png or .hdr, else a UsageError that lists them. Only EXR holds more than the
-/// first layer.
+/// By extension: .exr, .png or .hdr, else a UsageError that lists them. Only EXR holds more than
+/// the first layer.
 void write_image(const std::string& path, const Image& image, const WriteOptions& options = {});
 void write_image(const std::string& path, const std::vector<ExrLayer>& layers,
                  const WriteOptions& options = {});

@@ -56,14 +56,14 @@ class Reader {
     const size_t size = std::min(left, static_cast<size_t>(count));
     if (size > 0) std::memcpy(target, bytes_.data() + position_, size);
     position_ += size;
-    // stb fills its own buffer first, and again when it needs a byte more: less than was asked for is
-    // then enough, nothing is not. Any other request goes to a pixel buffer and must be met.
+    // stb fills its own buffer first, and again when it needs a byte more: less than was asked for
+    // is then enough, nothing is not. Any other request goes to a pixel buffer and must be met.
     if (!stb_buffer_) stb_buffer_ = target;
     const bool refill = target == stb_buffer_;
     if (size == 0 || (!refill && size < static_cast<size_t>(count))) ended_early_ = true;
     if (size > 0 || !refill) return static_cast<int>(size);
-    // Told of the end, stb would read zeros for ever, and an HDR run of length 0 never gets anywhere.
-    // Newlines end a header, and make runs.
+    // Told of the end, stb would read zeros for ever, and an HDR run of length 0 never gets
+    // anywhere. Newlines end a header, and make runs.
     std::memset(target, '\n', static_cast<size_t>(count));
     return count;
   }

@@ -166,6 +166,13 @@ TEST(CorruptImage, ALyingSizeIsAnErrorAndCostsNothing) {
             << name << " " << size;
     }
   }
+  const std::string& parts = files.at("parts.exr");
+  const size_t count = parts.find("chunkCount") + std::string("chunkCount\0int\0....", 19).size();
+  EXPECT_EQ(outcome(replaced(parts, count, little(0x0fffffff, 4)), "parts.exr"),
+            Outcome::file_error);
+  const std::string& text = files.at("half.exr");
+  const size_t size = text.find("string\0", 0, 7) + 7;
+  EXPECT_EQ(outcome(replaced(text, size, little(0x7fffffff, 4)), "half.exr"), Outcome::file_error);
   EXPECT_LT(peak_memory() - before, 200 << 20);
 }
 

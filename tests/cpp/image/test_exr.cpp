@@ -1,5 +1,5 @@
-// EXR files: what is written comes back, equal content gives equal bytes, and the kinds of file that
-// other programs write are read as they are meant.
+// EXR files: what is written comes back, equal content gives equal bytes, and the kinds of file
+// that other programs write are read as they are meant.
 #include <gtest/gtest.h>
 
 #include <algorithm>
