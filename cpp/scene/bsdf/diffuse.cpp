@@ -38,7 +38,7 @@ class Diffuse final : public Bsdf {
   std::optional<Vec3> invert(const SurfacePoint&, const Vec3& from, const Vec3& to,
                              Lobe lobe) const override {
     if (lobe != Lobe::smooth || !above(from, to)) return std::nullopt;
-    return Vec3(0.5, invert_cosine_hemisphere(to));
+    return u_of(0.5, invert_cosine_hemisphere(to));
   }
 
   Color albedo(const SurfacePoint& at) const override { return reflectance_->eval(at); }

@@ -4,6 +4,8 @@
 
 #include "math/frame.h"
 
+#include <glm/common.hpp>
+
 #include <algorithm>
 
 namespace mlt {
@@ -18,6 +20,11 @@ inline Vec2 direction_part(const Vec3& u) { return {u.y, u.z}; }
 
 inline double u_of_first(double p) { return 0.5 * p; }
 inline double u_of_second(double p) { return std::min(0.5 * (1 + p), 1 - 0x1p-53); }
+
+/// A u in [0, 1)^3 from its lobe part and direction part: inverses may round up to 1.
+inline Vec3 u_of(double lobe, const Vec2& direction) {
+  return {lobe, glm::clamp(direction, 0.0, 1 - 0x1p-53)};
+}
 
 /// The u that stands for a delta lobe when it is the only one.
 constexpr Vec3 u_of_only_delta{0.5, 0.5, 0.5};

@@ -60,8 +60,8 @@ class Phong final : public Bsdf {
                              Lobe lobe) const override {
     if (!(pdf(at, from, to, lobe) > 0)) return std::nullopt;
     if (specular_pdf(power(from, to)) > diffuse_pdf(to))
-      return Vec3(u_of_first(specular_share_), invert_lobe(to, reflect(from), exponent_));
-    return Vec3(u_of_second(specular_share_), invert_cosine_hemisphere(to));
+      return u_of(u_of_first(specular_share_), invert_lobe(to, reflect(from), exponent_));
+    return u_of(u_of_second(specular_share_), invert_cosine_hemisphere(to));
   }
 
   /// A lobe cos^n is as wide as a Beckmann lobe with alpha^2 = 2 / (n + 2) (Walter et al. 2007,

@@ -65,7 +65,7 @@ class Plastic final : public Bsdf {
     if (!(pdf(at, from, to, lobe) > 0)) return std::nullopt;
     const double p = specular_share(fresnel(from));
     if (lobe == Lobe::reflection) return Vec3(u_of_first(p), 0.5, 0.5);
-    return Vec3(u_of_second(p), invert_cosine_hemisphere(to));
+    return u_of(u_of_second(p), invert_cosine_hemisphere(to));
   }
 
   bool has_delta() const override { return true; }

@@ -71,7 +71,7 @@ class RoughDielectric final : public Bsdf {
     if (!(pdf(at, from, to, lobe) > 0)) return std::nullopt;
     const Facet facet = facet_between(from, to, lobe);
     const double p = reflection_probability(facet.F);
-    return Vec3(facet.reflects ? u_of_first(p) : u_of_second(p),
+    return u_of(facet.reflects ? u_of_first(p) : u_of_second(p),
                 surface_.at(at).invert(upwards(from), facet.h));
   }
 

@@ -77,8 +77,8 @@ class RoughPlastic final : public Bsdf {
     if (!(total > 0)) return std::nullopt;
     const double p = specular_share(coating_.at(from.z));
     if ((1 - p) * inv_pi * to.z >= 0.5 * total)
-      return Vec3(u_of_second(p), invert_cosine_hemisphere(to));
-    return Vec3(u_of_first(p), microfacet_.invert(from, normalize(from + to)));
+      return u_of(u_of_second(p), invert_cosine_hemisphere(to));
+    return u_of(u_of_first(p), microfacet_.invert(from, normalize(from + to)));
   }
 
   /// The lobe that contributes more between the two directions decides.

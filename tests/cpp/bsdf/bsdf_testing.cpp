@@ -1,0 +1,171 @@
+#include "bsdf/bsdf_testing.h"
+
+#include "scene/texture.h"
+
+#include <stdexcept>
+
+namespace mlt {
+
+#define MLT_PLUGIN(name) Plugin bsdf_##name();
+#include "scene/bsdf/list.inc"
+#undef MLT_PLUGIN
+
+namespace test {
+namespace {
+
+using namespace std::string_literals;
+
+const Plugin& plugin(const std::string& name) {
+  static const std::vector<Plugin> plugins = {
+#define MLT_PLUGIN(name) bsdf_##name(),
+#include "scene/bsdf/list.inc"
+#undef MLT_PLUGIN
+  };
+  for (const Plugin& p : plugins)
+    if (p.schema.name == name) return p;
+  throw std::logic_error("no bsdf '" + name + "'");
+}
+
+class Ramp final : public Texture {
+ public:
+  Ramp(double low, double high) : low_(low), high_(high) {}
+  Color eval(const SurfacePoint& at) const override {
+    return Color(low_ + at.uv.x * (high_ - low_));
+  }
+  Color mean() const override { return Color(0.5 * (low_ + high_)); }
+  double maximum() const override { return std::max(low_, high_); }
+
+ private:
+  double low_, high_;
+};
+
+struct Maker {
+  std::vector<Case> made;
+
+  void add(const std::string& label, const std::string& name, const Given& given,
+           double lost_samples, double max_weight, bool two_sided = false,
+           const std::vector<BsdfPtr>& nested = {}) {
+    const Schema& schema = bsdf_schema(name);
+    made.push_back({label, make_bsdf(name, given, nested), schema.conserves_energy,
+                    schema.reciprocal, two_sided, lost_samples, max_weight});
+  }
+};
+
+/// Lobes are chosen by L*, which is at least a fifth of every channel.
+constexpr double gray = 5;
+
+/// The rational fit of Beckmann's G1 is up to 0.35 % too large (Walter et al. 2007, sec. 5.2).
+constexpr double fit = 1.0036;
+
+void add_rough(Maker& maker, const std::string& distribution) {
+  const auto type = std::make_pair("distribution"s, Value(distribution));
+  for (double alpha : {0.02, 0.1, 0.5}) {
+    const std::string label = distribution + " " + std::to_string(alpha).substr(0, 4);
+    const auto rough = std::make_pair("alpha"s, Value(alpha));
+    maker.add("roughconductor " + label, "roughconductor", {type, rough, {"material", "Au"s}}, 1,
+              fit);
+    maker.add("roughdielectric " + label, "roughdielectric", {type, rough}, 1, fit, true);
+    maker.add("roughplastic " + label, "roughplastic", {type, rough}, 1, infinity);
+  }
+  const auto all_normals = std::make_pair("sample_visible"s, Value(false));
+  const auto rough = std::make_pair("alpha"s, Value(0.3));
+  maker.add("roughconductor " + distribution + " all normals", "roughconductor",
+            {type, rough, all_normals, {"eta", 1.5}, {"k", 2.0}}, 1, infinity);
+  maker.add("roughdielectric " + distribution + " all normals", "roughdielectric",
+            {type, rough, all_normals, {"int_ior", 1.2}, {"ext_ior", 1.7}}, 1, infinity, true);
+  maker.add("roughplastic " + distribution + " all normals", "roughplastic",
+            {type, rough, all_normals, {"nonlinear", true}, {"diffuse_reflectance", 0.9}}, 1,
+            infinity);
+  maker.add("roughconductor " + distribution + " anisotropic", "roughconductor",
+            {type, {"alpha_u", 0.05}, {"alpha_v", ramp_texture(0.2, 0.6)}}, 1, fit);
+  maker.add("roughdielectric " + distribution + " anisotropic", "roughdielectric",
+            {type, {"alpha_u", 0.5}, {"alpha_v", 0.1}, {"specular_transmittance", 0.5}}, 1, fit,
+            true);
+}
+
+std::vector<Case> make_cases() {
+  Maker maker;
+  const Value pink = Triple{0.8, 0.3, 0.4};
+  maker.add("diffuse", "diffuse", {{"reflectance", pink}}, 0, 1);
+  maker.add("null", "null", {}, 0, 1, true);
+  maker.add("conductor", "conductor", {{"material", "Cu"s}}, 0, 1);
+  maker.add("dielectric", "dielectric", {}, 0, 1, true);
+  maker.add("dielectric bubble", "dielectric",
+            {{"int_ior", "air"s}, {"ext_ior", "water"s}, {"specular_reflectance", 0.5}}, 0, 1, true);
+  maker.add("plastic", "plastic", {{"diffuse_reflectance", pink}}, 0, gray);
+  maker.add("plastic nonlinear", "plastic",
+            {{"diffuse_reflectance", pink}, {"nonlinear", true}, {"int_ior", 1.9}}, 0, gray);
+  maker.add("phong", "phong", {{"diffuse_reflectance", pink}}, 1, gray * 32 / 31);
+  maker.add("phong shiny", "phong",
+            {{"exponent", 200.0}, {"specular_reflectance", 0.9}, {"diffuse_reflectance", 0.5}}, 1, gray);
+  maker.add("twosided", "twosided", {}, 1, gray, true,
+            {maker.made.back().bsdf, make_bsdf("roughconductor", {{"alpha", 0.3}})});
+  maker.add("twosided plastic", "twosided", {}, 0, gray, true, {make_bsdf("plastic")});
+  add_rough(maker, "beckmann");
+  add_rough(maker, "ggx");
+  return maker.made;
+}
+
+}  // namespace
+
+const Schema& bsdf_schema(const std::string& name) { return plugin(name).schema; }
+
+BsdfPtr make_bsdf(const std::string& name, const Given& given, const std::vector<BsdfPtr>& nested) {
+  const Plugin& p = plugin(name);
+  const Location where{"test.xml", 7};
+  Params params(p.schema, where);
+  for (const auto& [key, value] : given) params.set(key, value, where);
+  for (const BsdfPtr& bsdf : nested) params.add("bsdf", std::const_pointer_cast<Bsdf>(bsdf), where);
+  BsdfPtr made = std::dynamic_pointer_cast<const Bsdf>(p.create(params));
+  params.expect_all_read();
+  return made;
+}
+
+ObjectPtr ramp_texture(double low, double high) { return std::make_shared<Ramp>(low, high); }
+
+const std::vector<Case>& cases() {
+  static const std::vector<Case> all = make_cases();
+  return all;
+}
+
+const Case& find_case(const std::string& label) {
+  for (const Case& c : cases())
+    if (c.label == label) return c;
+  throw std::logic_error("no case '" + label + "'");
+}
+
+SurfacePoint point() {
+  SurfacePoint at;
+  at.ng = {0, 0, 1};
+  at.shading = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  at.uv = {0.5, 0.5};
+  return at;
+}
+
+std::vector<Vec3> incident_directions(const Case& test_case) {
+  std::vector<Vec3> directions = {normalize(Vec3(0.01, 0.02, 1)), normalize(Vec3(-0.5, 0.6, 0.7)),
+                                  normalize(Vec3(0.9, 0.3, 0.1))};
+  if (test_case.two_sided)
+    for (size_t i = 0; i < 3; ++i) directions.push_back(-directions[i]);
+  return directions;
+}
+
+Vec3 random_direction(Rng& rng) {
+  const double z = 2 * rng.next() - 1, phi = 2 * pi * rng.next();
+  const double r = std::sqrt(1 - z * z);
+  return {r * std::cos(phi), r * std::sin(phi), z};
+}
+
+Vec3 random_u(Rng& rng) {
+  const double x = rng.next(), y = rng.next();
+  return {x, y, rng.next()};
+}
+
+Color weight_from_light(const Bsdf& bsdf, const Vec3& wl, const BsdfSample& s) {
+  const Scattering scattering = bsdf.scattering(point(), wl, s.to, s.lobe);
+  const double cosine = s.lobe == Lobe::smooth ? std::abs(s.to.z) : 1;
+  return scattering.f * (cosine / scattering.pdf_from_light);
+}
+
+}  // namespace test
+}  // namespace mlt

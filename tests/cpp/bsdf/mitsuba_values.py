@@ -1,0 +1,108 @@
+"""Writes mitsuba_values.inc: BSDF values and densities of Mitsuba 3 for the cases of the same label.
+
+    python tests/cpp/bsdf/mitsuba_values.py > tests/cpp/bsdf/mitsuba_values.inc
+
+Needs the PyPI package `mitsuba` (made with 3.9.1).
+"""
+
+import math
+
+import mitsuba as mi
+import numpy as np
+
+mi.set_variant("scalar_rgb")
+
+PINK = {"type": "rgb", "value": [0.8, 0.3, 0.4]}
+
+
+def cases():
+    yield "diffuse", {"type": "diffuse", "reflectance": PINK}
+    yield "plastic", {"type": "plastic", "diffuse_reflectance": PINK}
+    yield (
+        "plastic nonlinear",
+        {"type": "plastic", "diffuse_reflectance": PINK, "nonlinear": True, "int_ior": 1.9},
+    )
+    for kind in ("beckmann", "ggx"):
+        rough = {"distribution": kind}
+        for alpha in (0.1, 0.5):
+            label = f"{kind} {alpha:.2f}"
+            rough["alpha"] = alpha
+            yield (
+                f"roughconductor {label}",
+                {"type": "roughconductor", "material": "Au", **rough},
+            )
+            yield f"roughdielectric {label}", {"type": "roughdielectric", **rough}
+            yield f"roughplastic {label}", {"type": "roughplastic", **rough}
+        yield (
+            f"roughconductor {kind} anisotropic",
+            {"type": "roughconductor", "distribution": kind, "alpha_u": 0.05, "alpha_v": 0.4},
+        )
+        yield (
+            f"roughdielectric {kind} all normals",
+            {
+                "type": "roughdielectric",
+                "distribution": kind,
+                "alpha": 0.3,
+                "int_ior": 1.2,
+                "ext_ior": 1.7,
+                "sample_visible": False,
+            },
+        )
+        yield (
+            f"roughplastic {kind} all normals",
+            {
+                "type": "roughplastic",
+                "distribution": kind,
+                "alpha": 0.3,
+                "nonlinear": True,
+                "diffuse_reflectance": 0.9,
+            },
+        )
+
+
+def unit(v):
+    return np.asarray(v, float) / np.linalg.norm(v)
+
+
+def partners(wc, rough, rng):
+    """Directions near the mirrored and the refracted one, and one anywhere above."""
+    spread = 0.3 * rough
+    yield unit(wc * [-1, -1, 1] + rng.normal(size=3) * spread)
+    yield unit(-wc + rng.normal(size=3) * spread)
+    z = rng.uniform(0.1, 1)
+    phi = rng.uniform(0, 2 * math.pi)
+    yield np.array([math.sqrt(1 - z * z) * math.cos(phi), math.sqrt(1 - z * z) * math.sin(phi), z])
+
+
+def rows(label, scene_dict, rng):
+    bsdf = mi.load_dict(scene_dict)
+    context = mi.BSDFContext()
+    interaction = mi.SurfaceInteraction3f()
+    two_sided = "dielectric" in label
+    for wc in ([0.3, -0.2, 0.9], [-0.8, 0.3, 0.35], [0.2, 0.4, -0.8]):
+        wc = unit(wc)
+        if wc[2] < 0 and not two_sided:
+            continue
+        for wl in partners(wc, scene_dict.get("alpha", 0.5), rng):
+            if abs(wl[2]) < 0.05:
+                continue
+            interaction.wi = mi.Vector3f(*wc)
+            value, density = bsdf.eval_pdf(context, interaction, mi.Vector3f(*wl))
+            f = np.array(value) / abs(wl[2])
+            if not f.any():
+                continue
+            numbers = [*wl, *wc, *f]
+            l, c, rgb = (", ".join(f"{x:.9g}" for x in numbers[i : i + 3]) for i in (0, 3, 6))
+            yield f'{{"{label}", {{{l}}}, {{{c}}}, {{{rgb}}}, {density:.9g}}},'
+
+
+def main():
+    print("// Written by mitsuba_values.py: label, wl, wc, f, density of wl given wc.")
+    rng = np.random.default_rng(1)
+    for label, scene_dict in cases():
+        for row in rows(label, dict(scene_dict), rng):
+            print(row)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,154 @@
+// What the parameters of materials mean, and what is refused.
+#include "bsdf/bsdf_testing.h"
+#include "math/fresnel.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace mlt::test {
+namespace {
+
+using namespace std::string_literals;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+const Vec3 normal(0, 0, 1);
+
+std::string error_of(const std::string& name, const Given& given,
+                     const std::vector<BsdfPtr>& nested = {}) {
+  try {
+    make_bsdf(name, given, nested);
+  } catch (const SceneError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+double value_at_normal(const BsdfPtr& bsdf, Lobe lobe) {
+  return bsdf->eval(point(), normal, normal, lobe).x;
+}
+
+double reflectance_at_normal(double eta) { return sqr((eta - 1) / (eta + 1)); }
+
+/// f in a direction that the glossy lobe does not reach, times pi: the scaled diffuse reflectance.
+double diffuse_part(const BsdfPtr& phong) {
+  const Vec3 w = normalize(Vec3(1, 0, 0.1));
+  return phong->eval(point(), w, w, Lobe::smooth).x * pi;
+}
+
+TEST(BsdfParameters, PhongConservesEnergyAsMitsuba06Does) {
+  const auto phong = [](Value diffuse, double specular, bool ensure) {
+    return make_bsdf("phong", {{"diffuse_reflectance", diffuse},
+                               {"specular_reflectance", specular},
+                               {"exponent", 200.0},
+                               {"ensureEnergyConservation", ensure}});
+  };
+  EXPECT_NEAR(diffuse_part(phong(0.5, 0.4, true)), 0.5, 1e-12);
+  EXPECT_NEAR(diffuse_part(phong(1.0, 0.45, true)), 0.99 / 1.45, 1e-12);
+  EXPECT_NEAR(diffuse_part(phong(1.0, 0.45, false)), 1, 1e-12);
+  // The texture's maximum decides, not its value at the point (0.5 here).
+  EXPECT_NEAR(diffuse_part(phong(ramp_texture(0, 1), 0.45, true)), 0.5 * 0.99 / 1.45, 1e-12);
+}
+
+TEST(BsdfParameters, PhongLobeIsTheNormalisedCosinePower) {
+  const BsdfPtr phong = make_bsdf("phong", {{"exponent", 10.0},
+                                            {"specular_reflectance", 0.5},
+                                            {"diffuse_reflectance", 0.0}});
+  const Vec3 wl = normalize(Vec3(1, 0, 1)), wc = normalize(Vec3(-1, 0, 3));
+  const double cos_alpha = dot(reflect(wl), wc);
+  EXPECT_NEAR(phong->eval(point(), wl, wc, Lobe::smooth).x,
+              0.5 * 12 / (2 * pi) * std::pow(cos_alpha, 10), 1e-12);
+}
+
+TEST(BsdfParameters, DefaultIndicesOfRefraction) {
+  EXPECT_NEAR(value_at_normal(make_bsdf("dielectric"), Lobe::reflection),
+              reflectance_at_normal(1.5046 / 1.000277), 1e-12);
+  EXPECT_NEAR(value_at_normal(make_bsdf("plastic"), Lobe::reflection),
+              reflectance_at_normal(1.49 / 1.000277), 1e-12);
+}
+
+TEST(BsdfParameters, IndicesAreNumbersOrNames) {
+  const BsdfPtr glass = make_bsdf("dielectric", {{"intIOR", 2.0}, {"extIOR", "vacuum"s}});
+  EXPECT_NEAR(value_at_normal(glass, Lobe::reflection), reflectance_at_normal(2), 1e-12);
+  EXPECT_THAT(error_of("dielectric", {{"int_ior", "diamnd"s}}),
+              AllOf(HasSubstr("test.xml:7"), HasSubstr("diamnd"), HasSubstr("diamond")));
+  EXPECT_THAT(error_of("dielectric", {{"int_ior", 0.0}}), HasSubstr("positive"));
+  EXPECT_THAT(error_of("roughdielectric", {{"int_ior", 1.5}, {"ext_ior", 1.5}}),
+              HasSubstr("differs"));
+}
+
+TEST(BsdfParameters, Metals) {
+  EXPECT_NEAR(value_at_normal(make_bsdf("conductor"), Lobe::reflection), 1, 1e-12);
+  const BsdfPtr metal = make_bsdf("conductor", {{"eta", 1.5}, {"k", 2.0}, {"ext_eta", 1.2}});
+  EXPECT_NEAR(value_at_normal(metal, Lobe::reflection), fresnel_conductor(1, 1.5 / 1.2, 2 / 1.2),
+              1e-12);
+  const Color gold = make_bsdf("conductor", {{"material", "Au"s}})->albedo(point());
+  EXPECT_GT(gold.x, gold.y);
+  EXPECT_GT(gold.y, gold.z);
+  EXPECT_THAT(error_of("conductor", {{"material", "Gold"s}}), HasSubstr("Gold"));
+  EXPECT_THAT(error_of("conductor", {{"material", "Au"s}, {"eta", 1.0}}), HasSubstr("material"));
+  EXPECT_THAT(error_of("conductor", {{"k", -1.0}}), HasSubstr("negative"));
+}
+
+TEST(BsdfParameters, Roughness) {
+  EXPECT_THAT(error_of("roughconductor", {{"alpha_u", 0.1}}), HasSubstr("alpha_v"));
+  EXPECT_THAT(
+      error_of("roughconductor", {{"alpha", 0.1}, {"alpha_u", 0.1}, {"alpha_v", 0.1}}),
+      HasSubstr("alpha"));
+  EXPECT_THAT(error_of("roughconductor", {{"distribution", "phong"s}}), HasSubstr("phong"));
+  EXPECT_THAT(error_of("roughplastic", {{"alpha", -0.1}}), HasSubstr("alpha"));
+
+  const Vec3 w = normalize(Vec3(1, 0, 1)), grazing = normalize(Vec3(1, 0, 0.1));
+  const auto roughness = [&](const BsdfPtr& bsdf, const Vec3& a, const Vec3& b) {
+    return bsdf->roughness(point(), a, b);
+  };
+  EXPECT_EQ(roughness(make_bsdf("diffuse"), w, w), infinity);
+  EXPECT_EQ(roughness(make_bsdf("plastic"), w, w), infinity);
+  EXPECT_EQ(roughness(make_bsdf("dielectric"), w, -w), 0);
+  EXPECT_EQ(roughness(make_bsdf("roughconductor", {{"alpha_u", 0.3}, {"alpha_v", 0.2}}), w, w), 0.2);
+  EXPECT_EQ(roughness(make_bsdf("roughdielectric", {{"alpha", ramp_texture(0, 0.5)}}), w, -w), 0.25);
+  EXPECT_EQ(roughness(make_bsdf("roughplastic"), w, reflect(w)), 0.1);
+  EXPECT_EQ(roughness(make_bsdf("roughplastic"), grazing, grazing), infinity);
+  EXPECT_DOUBLE_EQ(roughness(make_bsdf("phong", {{"exponent", 48.0}}), w, reflect(w)), 0.2);
+  EXPECT_EQ(roughness(make_bsdf("phong"), grazing, grazing), infinity);
+  const BsdfPtr both = make_bsdf("twosided", {}, {make_bsdf("roughplastic")});
+  EXPECT_EQ(roughness(both, -w, -reflect(w)), 0.1);
+}
+
+TEST(BsdfParameters, TwoSidedShowsItsFrontOnBothSidesOrAMaterialOnEach) {
+  const BsdfPtr red = make_bsdf("diffuse", {{"reflectance", Triple{1, 0, 0}}});
+  const BsdfPtr blue = make_bsdf("diffuse", {{"reflectance", Triple{0, 0, 1}}});
+  const BsdfPtr one = make_bsdf("twosided", {}, {red});
+  const BsdfPtr two = make_bsdf("twosided", {}, {red, blue});
+  EXPECT_NEAR(one->eval(point(), -normal, -normal, Lobe::smooth).x, inv_pi, 1e-12);
+  EXPECT_NEAR(two->eval(point(), normal, normal, Lobe::smooth).x, inv_pi, 1e-12);
+  EXPECT_NEAR(two->eval(point(), -normal, -normal, Lobe::smooth).z, inv_pi, 1e-12);
+  EXPECT_TRUE(is_black(two->eval(point(), normal, -normal, Lobe::smooth)));
+}
+
+TEST(BsdfParameters, TwoSidedRefusesWhatItCannotHold) {
+  for (const char* name : {"dielectric", "roughdielectric", "null"})
+    EXPECT_THAT(error_of("twosided", {}, {make_bsdf(name)}), HasSubstr("transmits")) << name;
+  EXPECT_THAT(error_of("twosided", {}), HasSubstr("0"));
+  const BsdfPtr matte = make_bsdf("diffuse");
+  EXPECT_THAT(error_of("twosided", {}, {matte, matte, matte}), HasSubstr("3"));
+}
+
+TEST(BsdfParameters, ReflectancesMustLieBetweenZeroAndOne) {
+  EXPECT_THAT(error_of("diffuse", {{"reflectance", 1.5}}), HasSubstr("reflectance"));
+  EXPECT_THAT(error_of("phong", {{"exponent", -1.0}}), HasSubstr("exponent"));
+}
+
+TEST(BsdfParameters, EveryParameterIsDocumented) {
+#define MLT_PLUGIN(plugin)                                         \
+  for (const Parameter& p : bsdf_schema(#plugin).parameters) {     \
+    EXPECT_FALSE(p.doc.empty()) << #plugin << " " << p.name;       \
+    EXPECT_EQ(snake_case(p.name), p.name) << #plugin;              \
+  }                                                                \
+  EXPECT_EQ(bsdf_schema(#plugin).family, "bsdf");
+#include "scene/bsdf/list.inc"
+#undef MLT_PLUGIN
+}
+
+}  // namespace
+}  // namespace mlt::test

@@ -1,0 +1,243 @@
+// Energy, symmetry and soundness of every material's values.
+#include "bsdf/bsdf_testing.h"
+#include "harness/statistics.h"
+
+#include <gtest/gtest.h>
+
+namespace mlt::test {
+namespace {
+
+/// Half of the directions lie anywhere, half close to where light scattered from `a` is strong.
+Vec3 partner(const Bsdf& bsdf, const Vec3& a, Rng& rng) {
+  if (rng.next() < 0.5) return random_direction(rng);
+  const auto s = bsdf.sample(point(), a, random_u(rng));
+  return s ? s->to : random_direction(rng);
+}
+
+void expect_close(double a, double b, double relative, const std::string& label) {
+  EXPECT_LE(std::abs(a - b), relative * std::max(std::abs(a), std::abs(b))) << label;
+}
+
+void expect_scattering_is_eval_and_pdf(const Case& c, const Vec3& wl, const Vec3& wc, Lobe lobe) {
+  const Scattering s = c.bsdf->scattering(point(), wl, wc, lobe);
+  const Color f = c.bsdf->eval(point(), wl, wc, lobe);
+  for (int k = 0; k < 3; ++k) expect_close(s.f[k], f[k], 1e-12, c.label);
+  expect_close(s.pdf_from_light, c.bsdf->pdf(point(), wl, wc, lobe), 1e-12, c.label);
+  expect_close(s.pdf_from_camera, c.bsdf->pdf(point(), wc, wl, lobe), 1e-12, c.label);
+}
+
+TEST(BsdfValues, ScatteringIsEvalAndBothDensities) {
+  for (const Case& c : cases()) {
+    Rng rng(1, Purpose::test, 0);
+    for (int i = 0; i < 2000; ++i) {
+      const Vec3 wl = random_direction(rng);
+      expect_scattering_is_eval_and_pdf(c, wl, random_direction(rng), Lobe::smooth);
+      if (const auto s = c.bsdf->sample(point(), wl, random_u(rng)))
+        expect_scattering_is_eval_and_pdf(c, wl, s->to, s->lobe);
+    }
+  }
+}
+
+/// f(wl, wc) / eta_c^2 is symmetric (Veach 1997, sec. 5.2), which is plain reciprocity on one side.
+TEST(BsdfValues, SmoothLobesAreReciprocal) {
+  for (const Case& c : cases()) {
+    Rng rng(2, Purpose::test, 0);
+    int compared = 0;
+    for (int i = 0; i < 4000; ++i) {
+      const Vec3 a = random_direction(rng), b = partner(*c.bsdf, a, rng);
+      const double ratio = same_side(a, b) ? 1 : c.bsdf->relative_eta(point(), a);
+      if (c.reciprocal) {
+        EXPECT_EQ(ratio, 1) << c.label;
+      }
+      const Color forth = sqr(ratio) * c.bsdf->eval(point(), a, b, Lobe::smooth);
+      const Color back = c.bsdf->eval(point(), b, a, Lobe::smooth);
+      for (int k = 0; k < 3; ++k) expect_close(forth[k], back[k], 1e-7, c.label);
+      compared += !is_black(forth);
+    }
+    EXPECT_EQ(compared > 100, c.bsdf->has_smooth()) << c.label;
+  }
+}
+
+TEST(BsdfValues, DeltaLobesCarryTheSameFractionBothWays) {
+  for (const Case& c : cases()) {
+    Rng rng(3, Purpose::test, 0);
+    for (int i = 0; i < 1000; ++i) {
+      const Vec3 a = random_direction(rng);
+      const auto s = c.bsdf->sample(point(), a, random_u(rng));
+      if (!s || s->lobe == Lobe::smooth) continue;
+      const Color forth = c.bsdf->eval(point(), a, s->to, s->lobe);
+      const Color back = c.bsdf->eval(point(), s->to, a, s->lobe);
+      for (int k = 0; k < 3; ++k) expect_close(forth[k], back[k], 1e-9, c.label);
+    }
+  }
+}
+
+TEST(BsdfValues, RelativeEtaIsThatOfTheSide) {
+  const double eta = 1.5046 / 1.000277;
+  for (const char* name : {"dielectric", "roughdielectric"}) {
+    const BsdfPtr glass = make_bsdf(name);
+    EXPECT_DOUBLE_EQ(glass->relative_eta(point(), {0, 0, 1}), 1 / eta);
+    EXPECT_DOUBLE_EQ(glass->relative_eta(point(), {0, 0, -1}), eta);
+  }
+  EXPECT_EQ(make_bsdf("plastic")->relative_eta(point(), {0, 0, 1}), 1);
+}
+
+/// Snell's law holds between a sample and its source.
+TEST(BsdfValues, RefractionObeysSnell) {
+  const BsdfPtr glass = make_bsdf("dielectric");
+  Rng rng(4, Purpose::test, 0);
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3 a = random_direction(rng);
+    const auto s = glass->sample(point(), a, {1 - 1e-9, 0.5, 0.5});
+    if (!s || s->lobe != Lobe::transmission) continue;
+    const double eta = glass->relative_eta(point(), a);
+    EXPECT_NEAR(s->to.x, -eta * a.x, 1e-12);
+    EXPECT_NEAR(s->to.y, -eta * a.y, 1e-12);
+    EXPECT_LT(s->to.z * a.z, 0);
+    EXPECT_NEAR(length(s->to), 1, 1e-12);
+  }
+}
+
+/// The share of a beam from wl that is scattered, channel by channel: a t-test on the estimate.
+TEST(BsdfValues, NoMoreLightLeavesThanArrives) {
+  for (const Case& c : cases()) {
+    if (!c.conserves_energy) continue;
+    for (const Vec3& wl : incident_directions(c)) {
+      Moments scattered[3];
+      Rng rng(5, Purpose::test, 0);
+      for (int i = 0; i < 20000; ++i) {
+        const auto s = c.bsdf->sample(point(), wl, random_u(rng));
+        const Color w = s ? weight_from_light(*c.bsdf, wl, *s) : Color(0);
+        for (int k = 0; k < 3; ++k) scattered[k].add(w[k]);
+      }
+      for (const Moments& m : scattered) {
+        const double error = std::sqrt(m.variance() / static_cast<double>(m.count()));
+        EXPECT_LE(m.mean(), 1 + 5 * error + 1e-12) << c.label << ", cos " << wl.z;
+        EXPECT_GT(m.mean(), 0) << c.label << ", cos " << wl.z;
+      }
+    }
+  }
+}
+
+TEST(BsdfValues, LosslessDielectricLosesNothing) {
+  const Case& glass = find_case("dielectric");
+  for (const Vec3& wl : incident_directions(glass)) {
+    Color sum(0);
+    const Vec3 mirrored = reflect(wl);
+    sum += glass.bsdf->eval(point(), wl, mirrored, Lobe::reflection);
+    const auto through = glass.bsdf->sample(point(), wl, {1 - 1e-12, 0.5, 0.5});
+    if (through->lobe == Lobe::transmission)
+      sum += glass.bsdf->eval(point(), wl, through->to, Lobe::transmission);
+    for (int k = 0; k < 3; ++k) EXPECT_NEAR(sum[k], 1, 1e-12);
+  }
+}
+
+/// A rough interface without absorption loses only what is masked after one scattering: with narrow
+/// lobes, next to nothing.
+TEST(BsdfValues, AlmostSmoothDielectricLosesAlmostNothing) {
+  for (const char* type : {"beckmann", "ggx"}) {
+    const BsdfPtr glass =
+        make_bsdf("roughdielectric", {{"alpha", 0.001}, {"distribution", std::string(type)}});
+    for (const Vec3& wl : {normalize(Vec3(0.3, 0, 1)), normalize(Vec3(0.2, 0.1, -1))}) {
+      Moments scattered;
+      Rng rng(6, Purpose::test, 0);
+      for (int i = 0; i < 5000; ++i) {
+        const auto s = glass->sample(point(), wl, random_u(rng));
+        scattered.add(s ? weight_from_light(*glass, wl, *s).x : 0);
+      }
+      EXPECT_NEAR(scattered.mean(), 1, 1e-4) << type;
+    }
+  }
+}
+
+TEST(BsdfValues, SamplingWeightsAreBounded) {
+  for (const Case& c : cases()) {
+    double worst = 0;
+    Rng rng(7, Purpose::test, 0);
+    for (int i = 0; i < 20000; ++i) {
+      const Vec3 wl = random_direction(rng);
+      const auto s = c.bsdf->sample(point(), wl, random_u(rng));
+      if (s) worst = std::max(worst, max_component(weight_from_light(*c.bsdf, wl, *s)));
+    }
+    EXPECT_LE(worst, c.max_weight + 1e-9) << c.label;
+    EXPECT_TRUE(std::isfinite(worst)) << c.label;
+  }
+}
+
+/// Directions and random numbers that break careless code.
+struct Nasty {
+  Rng rng{8, Purpose::test, 0};
+
+  Vec3 direction() {
+    Vec3 w = random_direction(rng);
+    switch (rng.below(8)) {
+      case 0: return {0, 0, w.z < 0 ? -1.0 : 1.0};
+      case 1: return {w.x < 0 ? -1.0 : 1.0, 0, 0};
+      case 2: w.z *= std::pow(10.0, -20 * rng.next()); return normalize(w);
+      case 3: w.x *= 1e-9, w.y *= 1e-9; return normalize(w);
+      default: return w;
+    }
+  }
+  double number() {
+    switch (rng.below(8)) {
+      case 0: return 0;
+      case 1: return 1 - 0x1p-53;
+      case 2: return 0.5;
+      default: return rng.next();
+    }
+  }
+  Vec3 u() {
+    const double x = number(), y = number();
+    return {x, y, number()};
+  }
+};
+
+void expect_sound(const Bsdf& bsdf, const Vec3& wl, const Vec3& wc, Lobe lobe,
+                  const std::string& label) {
+  const Scattering s = bsdf.scattering(point(), wl, wc, lobe);
+  const double smallest = std::min({min_component(s.f), s.pdf_from_light, s.pdf_from_camera});
+  ASSERT_TRUE(is_finite(s.f) && std::isfinite(s.pdf_from_light + s.pdf_from_camera) && smallest >= 0)
+      << label << ": f " << s.f.x << " densities " << s.pdf_from_light << " " << s.pdf_from_camera
+      << " for wl " << wl.x << " " << wl.y << " " << wl.z << ", wc " << wc.x << " " << wc.y << " "
+      << wc.z;
+}
+
+TEST(BsdfValues, AreFiniteAndNotNegative) {
+  const int rounds = 1000000 / static_cast<int>(cases().size()) / 2;
+  Nasty nasty;
+  for (const Case& c : cases())
+    for (int i = 0; i < rounds; ++i) {
+      const Vec3 wl = nasty.direction(), wc = nasty.direction();
+      expect_sound(*c.bsdf, wl, wc, i % 8 ? Lobe::smooth : lobes[i / 8 % 4], c.label);
+      if (HasFatalFailure()) return;
+      const auto s = c.bsdf->sample(point(), wl, nasty.u());
+      if (!s) continue;
+      ASSERT_NEAR(length(s->to), 1, 1e-9) << c.label;
+      expect_sound(*c.bsdf, wl, s->to, s->lobe, c.label);
+      if (HasFatalFailure()) return;
+      const auto u = c.bsdf->invert(point(), wl, s->to, s->lobe);
+      if (!u) continue;
+      ASSERT_TRUE(min_component(*u) >= 0 && max_component(*u) < 1) << c.label;
+    }
+}
+
+TEST(BsdfValues, OneSidedMaterialsAreBlackFromBelow) {
+  for (const Case& c : cases()) {
+    if (c.two_sided) continue;
+    Rng rng(9, Purpose::test, 0);
+    for (int i = 0; i < 200; ++i) {
+      Vec3 below = random_direction(rng);
+      below.z = -std::abs(below.z);
+      EXPECT_FALSE(c.bsdf->sample(point(), below, random_u(rng))) << c.label;
+      const Vec3 other = random_direction(rng);
+      for (Lobe lobe : lobes) {
+        EXPECT_TRUE(is_black(c.bsdf->eval(point(), below, other, lobe))) << c.label;
+        EXPECT_TRUE(is_black(c.bsdf->eval(point(), other, below, lobe))) << c.label;
+        EXPECT_EQ(c.bsdf->pdf(point(), below, other, lobe), 0) << c.label;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace mlt::test
