@@ -325,6 +325,41 @@ TEST(SceneObject, CanBeMadeAlone) {
   EXPECT_EQ(bsdf->id, "a");
 }
 
+TEST(SceneObject, MayHaveAnyNameWhereItsFamilyTellsWhatItIsFor) {
+  const LoadedScene loaded = load(R"(<sensor type='perspective' name='sensor'>
+      <film type='hdrfilm' name='film'><rfilter type='box' name='rfilter'/></film></sensor>
+    <shape type='cube' name='cube'><emitter type='area' name='light'/>
+      <bsdf type='twosided' name='material'><bsdf type='diffuse' name='inside'/></bsdf></shape>)");
+  EXPECT_EQ(loaded.scene->film().filter->name(), "box");
+  EXPECT_EQ(loaded.scene->shapes()[0]->bsdf().type, "twosided");
+  EXPECT_NE(loaded.scene->shapes()[0]->emitter(), nullptr);
+}
+
+TEST(Plugins, AreAllInTheTableOfTheManual) {
+  std::ifstream file("docs/mitsuba.md");
+  const std::string manual(std::istreambuf_iterator<char>(file), {});
+  ASSERT_FALSE(manual.empty());
+  for (const std::string& family : plugins().families()) {
+    if (family == "sampler") continue;  // any of them will do
+    for (const std::string& name : plugins().names(family))
+      EXPECT_NE(manual.find("`" + name + "`"), std::string::npos) << family << " " << name;
+  }
+}
+
+TEST(Plugins, HaveCompleteDescriptions) {
+  for (const std::string& family : plugins().families()) {
+    for (const std::string& name : plugins().names(family)) {
+      const Schema& schema = plugins().find(family, name, {}).schema;
+      EXPECT_EQ(schema.family, family) << name;
+      EXPECT_FALSE(schema.doc.empty()) << family << " " << name;
+      for (const Parameter& parameter : schema.parameters) {
+        EXPECT_FALSE(parameter.doc.empty()) << family << " " << name << " " << parameter.name;
+        EXPECT_EQ(parameter.name, snake_case(parameter.name)) << family << " " << name;
+      }
+    }
+  }
+}
+
 // ---- the fingerprint
 
 TEST_F(SceneFileTest, FingerprintsFollowTheContentAndNotThePlace) {
