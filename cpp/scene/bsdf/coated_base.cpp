@@ -15,8 +15,6 @@ CoatedBase::CoatedBase(Params& params, double eta, double internal_reflectance)
       internal_reflectance_(internal_reflectance),
       scale_(inv_pi / (eta * eta)) {}
 
-double CoatedBase::weight() const {
-  return pi * target_luminance(scattered(reflectance_->mean()));
-}
+double CoatedBase::weight() const { return pi * target_luminance(scattered(reflectance_->mean())); }
 
 }  // namespace mlt

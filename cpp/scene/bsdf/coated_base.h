@@ -24,8 +24,8 @@ class CoatedBase {
 
  private:
   Color scattered(const Color& d) const {
-    return d * scale_ / (nonlinear_ ? Color(1) - d * internal_reflectance_
-                                    : Color(1 - internal_reflectance_));
+    return d * scale_ /
+           (nonlinear_ ? Color(1) - d * internal_reflectance_ : Color(1 - internal_reflectance_));
   }
 
   TexturePtr reflectance_;

@@ -13,7 +13,8 @@ namespace {
 class Conductor final : public Bsdf {
  public:
   explicit Conductor(Params& params)
-      : ior_(conductor_param(params)), reflectance_(texture_param(params, "specular_reflectance")) {}
+      : ior_(conductor_param(params)),
+        reflectance_(texture_param(params, "specular_reflectance")) {}
 
   Color eval(const SurfacePoint& at, const Vec3& wl, const Vec3& wc, Lobe lobe) const override {
     if (lobe != Lobe::reflection || !above(wl, wc)) return Color(0);
@@ -52,9 +53,7 @@ class Conductor final : public Bsdf {
 }  // namespace
 
 Plugin bsdf_conductor() {
-  Plugin plugin{{"bsdf",
-                 "conductor",
-                 "A smooth metal: a mirror with the colour of its material.",
+  Plugin plugin{{"bsdf", "conductor", "A smooth metal: a mirror with the colour of its material.",
                  conductor_parameters()},
                 [](Params& params) -> ObjectPtr { return std::make_shared<Conductor>(params); }};
   plugin.schema.parameters.push_back(

@@ -98,8 +98,7 @@ class Dielectric final : public Bsdf {
 }  // namespace
 
 Plugin bsdf_dielectric() {
-  Plugin plugin{{"bsdf",
-                 "dielectric",
+  Plugin plugin{{"bsdf", "dielectric",
                  "A smooth interface between two transparent media, such as glass and air.",
                  ior_parameters("bk7")},
                 [](Params& params) -> ObjectPtr { return std::make_shared<Dielectric>(params); }};

@@ -18,7 +18,8 @@ double ior_param(Params& params, const std::string& name) {
 }
 
 Color spectrum_index(Params& params, const std::string& name, const Spectrum& spectrum) {
-  if (spectrum.size() == 1) return uniform_spectrum_to_rgb(spectrum[0].second, SpectrumUse::unbounded);
+  if (spectrum.size() == 1)
+    return uniform_spectrum_to_rgb(spectrum[0].second, SpectrumUse::unbounded);
   std::vector<SpectrumSample> samples;
   for (const auto& [wavelength, value] : spectrum) samples.push_back({wavelength, value});
   try {
@@ -46,10 +47,11 @@ Color index_param(Params& params, const std::string& name) {
 }  // namespace
 
 std::vector<Parameter> ior_parameters(const std::string& default_inside) {
-  return {{"int_ior", ParamType::ior, default_inside,
-           "Index of refraction inside (below the surface): a number or a material's name."},
-          {"ext_ior", ParamType::ior, std::string("air"),
-           "Index of refraction outside (where the normal points): a number or a material's name."}};
+  return {
+      {"int_ior", ParamType::ior, default_inside,
+       "Index of refraction inside (below the surface): a number or a material's name."},
+      {"ext_ior", ParamType::ior, std::string("air"),
+       "Index of refraction outside (where the normal points): a number or a material's name."}};
 }
 
 double relative_ior_param(Params& params) {
@@ -58,14 +60,15 @@ double relative_ior_param(Params& params) {
 }
 
 std::vector<Parameter> conductor_parameters() {
-  return {{"material", ParamType::text, std::string("none"),
-           "Chemical symbol of a metal, such as Au or Cu; none is a perfect mirror unless eta and k "
-           "are given.",
-           conductor_names()},
-          {"eta", ParamType::radiance, 0.0, "Real part of the index of refraction."},
-          {"k", ParamType::radiance, 1.0, "Imaginary part of the index of refraction."},
-          {"ext_eta", ParamType::ior, 1.0,
-           "Index of refraction outside: a number or a material's name."}};
+  return {
+      {"material", ParamType::text, std::string("none"),
+       "Chemical symbol of a metal, such as Au or Cu; none is a perfect mirror unless eta and k "
+       "are given.",
+       conductor_names()},
+      {"eta", ParamType::radiance, 0.0, "Real part of the index of refraction."},
+      {"k", ParamType::radiance, 1.0, "Imaginary part of the index of refraction."},
+      {"ext_eta", ParamType::ior, 1.0,
+       "Index of refraction outside: a number or a material's name."}};
 }
 
 ComplexIor conductor_param(Params& params) {

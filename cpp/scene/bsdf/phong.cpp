@@ -49,9 +49,8 @@ class Phong final : public Bsdf {
   std::optional<BsdfSample> sample(const SurfacePoint&, const Vec3& from,
                                    const Vec3& u) const override {
     if (from.z <= 0) return std::nullopt;
-    const Vec3 to = u.x < specular_share_
-                        ? sample_lobe(direction_part(u), reflect(from), exponent_)
-                        : sample_cosine_hemisphere(direction_part(u));
+    const Vec3 to = u.x < specular_share_ ? sample_lobe(direction_part(u), reflect(from), exponent_)
+                                          : sample_cosine_hemisphere(direction_part(u));
     if (to.z <= 0) return std::nullopt;
     return BsdfSample{to, Lobe::smooth};
   }
@@ -69,7 +68,8 @@ class Phong final : public Bsdf {
   double roughness(const SurfacePoint& at, const Vec3& wl, const Vec3& wc) const override {
     if (!above(wl, wc)) return infinity;
     const double specular = target_luminance(specular_part(at, power(wl, wc)));
-    return specular > target_luminance(diffuse_part(at)) ? std::sqrt(2 / (exponent_ + 2)) : infinity;
+    return specular > target_luminance(diffuse_part(at)) ? std::sqrt(2 / (exponent_ + 2))
+                                                         : infinity;
   }
 
   Color albedo(const SurfacePoint& at) const override {
@@ -83,9 +83,7 @@ class Phong final : public Bsdf {
     return cos_alpha > 0 ? std::pow(std::min(cos_alpha, 1.0), exponent_) : 0;
   }
 
-  Color diffuse_part(const SurfacePoint& at) const {
-    return scale_ * inv_pi * diffuse_->eval(at);
-  }
+  Color diffuse_part(const SurfacePoint& at) const { return scale_ * inv_pi * diffuse_->eval(at); }
   Color specular_part(const SurfacePoint& at, double cos_n) const {
     return scale_ * (exponent_ + 2) * (0.5 * inv_pi) * cos_n * specular_->eval(at);
   }

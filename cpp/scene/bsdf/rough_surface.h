@@ -55,8 +55,8 @@ inline double normal_pdf(const Microfacet& microfacet, const Vec3& from, const V
 
 /// The density of the direction into which `from` is mirrored by h: |dh / dto| = 1 / (4 |from . h|)
 /// (Walter et al. 2007, eq. 14).
-inline double reflection_pdf(const Microfacet& microfacet, const Vec3& from, const Vec3& h, double D,
-                             double g1) {
+inline double reflection_pdf(const Microfacet& microfacet, const Vec3& from, const Vec3& h,
+                             double D, double g1) {
   return normal_pdf(microfacet, from, h, D, g1) / (4 * std::abs(dot(from, h)));
 }
 

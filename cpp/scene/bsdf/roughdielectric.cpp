@@ -34,8 +34,8 @@ class RoughDielectric final : public Bsdf {
     const Facet facet = facet_between(from, to, lobe);
     if (!facet.exists) return 0;
     const Microfacet microfacet = surface_.at(at);
-    return probability(facet) *
-           density(microfacet, from, to, facet, microfacet.D(facet.h), microfacet.g1(from, facet.h));
+    return probability(facet) * density(microfacet, from, to, facet, microfacet.D(facet.h),
+                                        microfacet.g1(from, facet.h));
   }
 
   Scattering scattering(const SurfacePoint& at, const Vec3& wl, const Vec3& wc,
@@ -60,8 +60,7 @@ class RoughDielectric final : public Bsdf {
     const Fresnel fresnel = fresnel_dielectric(cos_h, eta_);
     const bool reflects = u.x < reflection_probability(fresnel.reflectance);
     if (!reflects && fresnel.cos_t == 0) return std::nullopt;
-    const Vec3 to =
-        reflects ? reflect(from, h) : refract(from, h, fresnel.cos_t, fresnel.eta_ti);
+    const Vec3 to = reflects ? reflect(from, h) : refract(from, h, fresnel.cos_t, fresnel.eta_ti);
     if (to.z == 0 || same_side(from, to) != reflects) return std::nullopt;
     return BsdfSample{to, Lobe::smooth};
   }
@@ -95,20 +94,20 @@ class RoughDielectric final : public Bsdf {
     double F;  ///< Its Fresnel reflectance.
   };
 
-  /// The same from b to a, up to rounding.
+  /// The same from b to a, bit for bit.
   Facet facet_between(const Vec3& a, const Vec3& b, Lobe lobe) const {
     if (lobe != Lobe::smooth || a.z * b.z == 0) return {};
     const bool reflects = same_side(a, b);
     // Walter et al. 2007, eqs. 13 and 16, up to the sign and length.
-    const Vec3 sum = reflects ? a + b : eta_on_side(a) * a + b;
+    const Vec3 sum = reflects ? a + b : a.z > 0 ? a + eta_ * b : b + eta_ * a;
     if (sum.z == 0) return {};
     const Vec3 h = normalize(sum.z < 0 ? -sum : sum);
     const double cos_a = dot(a, h), cos_b = dot(b, h);
     if (cos_a * a.z <= 0 || cos_b * b.z <= 0) return {};
-    // In the thinner medium F is well conditioned up to grazing.
+    // Refraction: in the thinner medium F is well conditioned up to grazing.
     const bool thin_is_above = eta_ > 1;
-    const double cos_thin = (a.z > 0) == thin_is_above ? cos_a : cos_b;
-    return {true, reflects, h, fresnel_dielectric(cos_thin, eta_).reflectance};
+    const double cosine = reflects ? 0.5 * dot(sum, h) : (a.z > 0) == thin_is_above ? cos_a : cos_b;
+    return {true, reflects, h, fresnel_dielectric(cosine, eta_).reflectance};
   }
 
   /// Value of the BSDF, given D G.
@@ -154,13 +153,13 @@ class RoughDielectric final : public Bsdf {
 
 Plugin bsdf_roughdielectric() {
   Plugin plugin{
-      {"bsdf",
-       "roughdielectric",
+      {"bsdf", "roughdielectric",
        "A rough interface between two transparent media, such as frosted glass.",
        ior_parameters("bk7")},
       [](Params& params) -> ObjectPtr { return std::make_shared<RoughDielectric>(params); }};
   auto& parameters = plugin.schema.parameters;
-  for (Parameter& parameter : rough_surface_parameters()) parameters.push_back(std::move(parameter));
+  for (Parameter& parameter : rough_surface_parameters())
+    parameters.push_back(std::move(parameter));
   parameters.push_back(
       {"specular_reflectance", ParamType::texture, 1.0, "Factor on the reflection."});
   parameters.push_back(

@@ -51,10 +51,10 @@ class RoughPlastic final : public Bsdf {
     const Masking light(microfacet_, wl, h), camera(microfacet_, wc, h);
     const RoughFresnel coat_l = coating_.at(wl.z), coat_c = coating_.at(wc.z);
     const double pl = specular_share(coat_l), pc = specular_share(coat_c);
-    return {specular_part(at, wl, wc, h, D * light.fit * camera.fit) +
-                diffuse_part(at, coat_l, coat_c),
-            pl * reflection_pdf(microfacet_, wl, h, D, light.exact) + (1 - pl) * inv_pi * wc.z,
-            pc * reflection_pdf(microfacet_, wc, h, D, camera.exact) + (1 - pc) * inv_pi * wl.z};
+    return {
+        specular_part(at, wl, wc, h, D * light.fit * camera.fit) + diffuse_part(at, coat_l, coat_c),
+        pl * reflection_pdf(microfacet_, wl, h, D, light.exact) + (1 - pl) * inv_pi * wc.z,
+        pc * reflection_pdf(microfacet_, wc, h, D, camera.exact) + (1 - pc) * inv_pi * wl.z};
   }
 
   std::optional<BsdfSample> sample(const SurfacePoint&, const Vec3& from,
@@ -88,7 +88,8 @@ class RoughPlastic final : public Bsdf {
     const Color specular =
         specular_part(at, wl, wc, h, microfacet_.D(h) * microfacet_.G(wl, wc, h));
     const Color diffuse = diffuse_part(at, coating_.at(wl.z), coating_.at(wc.z));
-    return target_luminance(specular) > target_luminance(diffuse) ? microfacet_.alpha_u() : infinity;
+    return target_luminance(specular) > target_luminance(diffuse) ? microfacet_.alpha_u()
+                                                                  : infinity;
   }
 
   Color albedo(const SurfacePoint& at) const override {
@@ -130,9 +131,7 @@ class RoughPlastic final : public Bsdf {
 
 Plugin bsdf_roughplastic() {
   Plugin plugin{
-      {"bsdf",
-       "roughplastic",
-       "Rough plastic: a diffuse base below a rough transparent coating.",
+      {"bsdf", "roughplastic", "Rough plastic: a diffuse base below a rough transparent coating.",
        ior_parameters("polypropylene")},
       [](Params& params) -> ObjectPtr { return std::make_shared<RoughPlastic>(params); }};
   auto& parameters = plugin.schema.parameters;

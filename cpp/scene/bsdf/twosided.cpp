@@ -71,12 +71,13 @@ ObjectPtr create(Params& params) {
 }  // namespace
 
 Plugin bsdf_twosided() {
-  return {{"bsdf",
-           "twosided",
-           "Shows one nested opaque bsdf on both sides of a surface, or a first one on the front and "
-           "a second one on the back.",
-           {}},
-          create};
+  return {
+      {"bsdf",
+       "twosided",
+       "Shows one nested opaque bsdf on both sides of a surface, or a first one on the front and "
+       "a second one on the back.",
+       {}},
+      create};
 }
 
 }  // namespace mlt

@@ -91,13 +91,15 @@ std::vector<Case> make_cases() {
   maker.add("conductor", "conductor", {{"material", "Cu"s}}, 0, 1);
   maker.add("dielectric", "dielectric", {}, 0, 1, true);
   maker.add("dielectric bubble", "dielectric",
-            {{"int_ior", "air"s}, {"ext_ior", "water"s}, {"specular_reflectance", 0.5}}, 0, 1, true);
+            {{"int_ior", "air"s}, {"ext_ior", "water"s}, {"specular_reflectance", 0.5}}, 0, 1,
+            true);
   maker.add("plastic", "plastic", {{"diffuse_reflectance", pink}}, 0, gray);
   maker.add("plastic nonlinear", "plastic",
             {{"diffuse_reflectance", pink}, {"nonlinear", true}, {"int_ior", 1.9}}, 0, gray);
   maker.add("phong", "phong", {{"diffuse_reflectance", pink}}, 1, gray * 32 / 31);
   maker.add("phong shiny", "phong",
-            {{"exponent", 200.0}, {"specular_reflectance", 0.9}, {"diffuse_reflectance", 0.5}}, 1, gray);
+            {{"exponent", 200.0}, {"specular_reflectance", 0.9}, {"diffuse_reflectance", 0.5}}, 1,
+            gray);
   maker.add("twosided", "twosided", {}, 1, gray, true,
             {maker.made.back().bsdf, make_bsdf("roughconductor", {{"alpha", 0.3}})});
   maker.add("twosided plastic", "twosided", {}, 0, gray, true, {make_bsdf("plastic")});

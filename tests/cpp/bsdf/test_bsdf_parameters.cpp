@@ -51,9 +51,8 @@ TEST(BsdfParameters, PhongConservesEnergyAsMitsuba06Does) {
 }
 
 TEST(BsdfParameters, PhongLobeIsTheNormalisedCosinePower) {
-  const BsdfPtr phong = make_bsdf("phong", {{"exponent", 10.0},
-                                            {"specular_reflectance", 0.5},
-                                            {"diffuse_reflectance", 0.0}});
+  const BsdfPtr phong = make_bsdf(
+      "phong", {{"exponent", 10.0}, {"specular_reflectance", 0.5}, {"diffuse_reflectance", 0.0}});
   const Vec3 wl = normalize(Vec3(1, 0, 1)), wc = normalize(Vec3(-1, 0, 3));
   const double cos_alpha = dot(reflect(wl), wc);
   EXPECT_NEAR(phong->eval(point(), wl, wc, Lobe::smooth).x,
@@ -92,9 +91,8 @@ TEST(BsdfParameters, Metals) {
 
 TEST(BsdfParameters, Roughness) {
   EXPECT_THAT(error_of("roughconductor", {{"alpha_u", 0.1}}), HasSubstr("alpha_v"));
-  EXPECT_THAT(
-      error_of("roughconductor", {{"alpha", 0.1}, {"alpha_u", 0.1}, {"alpha_v", 0.1}}),
-      HasSubstr("alpha"));
+  EXPECT_THAT(error_of("roughconductor", {{"alpha", 0.1}, {"alpha_u", 0.1}, {"alpha_v", 0.1}}),
+              HasSubstr("alpha"));
   EXPECT_THAT(error_of("roughconductor", {{"distribution", "phong"s}}), HasSubstr("phong"));
   EXPECT_THAT(error_of("roughplastic", {{"alpha", -0.1}}), HasSubstr("alpha"));
 
@@ -105,8 +103,10 @@ TEST(BsdfParameters, Roughness) {
   EXPECT_EQ(roughness(make_bsdf("diffuse"), w, w), infinity);
   EXPECT_EQ(roughness(make_bsdf("plastic"), w, w), infinity);
   EXPECT_EQ(roughness(make_bsdf("dielectric"), w, -w), 0);
-  EXPECT_EQ(roughness(make_bsdf("roughconductor", {{"alpha_u", 0.3}, {"alpha_v", 0.2}}), w, w), 0.2);
-  EXPECT_EQ(roughness(make_bsdf("roughdielectric", {{"alpha", ramp_texture(0, 0.5)}}), w, -w), 0.25);
+  EXPECT_EQ(roughness(make_bsdf("roughconductor", {{"alpha_u", 0.3}, {"alpha_v", 0.2}}), w, w),
+            0.2);
+  EXPECT_EQ(roughness(make_bsdf("roughdielectric", {{"alpha", ramp_texture(0, 0.5)}}), w, -w),
+            0.25);
   EXPECT_EQ(roughness(make_bsdf("roughplastic"), w, reflect(w)), 0.1);
   EXPECT_EQ(roughness(make_bsdf("roughplastic"), grazing, grazing), infinity);
   EXPECT_DOUBLE_EQ(roughness(make_bsdf("phong", {{"exponent", 48.0}}), w, reflect(w)), 0.2);
@@ -140,11 +140,11 @@ TEST(BsdfParameters, ReflectancesMustLieBetweenZeroAndOne) {
 }
 
 TEST(BsdfParameters, EveryParameterIsDocumented) {
-#define MLT_PLUGIN(plugin)                                         \
-  for (const Parameter& p : bsdf_schema(#plugin).parameters) {     \
-    EXPECT_FALSE(p.doc.empty()) << #plugin << " " << p.name;       \
-    EXPECT_EQ(snake_case(p.name), p.name) << #plugin;              \
-  }                                                                \
+#define MLT_PLUGIN(plugin)                                     \
+  for (const Parameter& p : bsdf_schema(#plugin).parameters) { \
+    EXPECT_FALSE(p.doc.empty()) << #plugin << " " << p.name;   \
+    EXPECT_EQ(snake_case(p.name), p.name) << #plugin;          \
+  }                                                            \
   EXPECT_EQ(bsdf_schema(#plugin).family, "bsdf");
 #include "scene/bsdf/list.inc"
 #undef MLT_PLUGIN

@@ -113,8 +113,8 @@ TEST(BsdfSampling, InverseLeadsToTheSameDirection) {
 /// Models whose directions come from one map each, so that the random numbers themselves return.
 TEST(BsdfSampling, InverseGivesTheRandomNumbersBack) {
   for (const Case& c : cases()) {
-    const bool ambiguous = c.label.find("roughplastic") == 0 || c.label.find("phong") == 0 ||
-                           c.label == "twosided";
+    const bool ambiguous =
+        c.label.find("roughplastic") == 0 || c.label.find("phong") == 0 || c.label == "twosided";
     if (ambiguous) continue;
     for (const Vec3& from : incident_directions(c)) {
       Rng rng(13, Purpose::test, 0);

@@ -196,7 +196,8 @@ void expect_sound(const Bsdf& bsdf, const Vec3& wl, const Vec3& wc, Lobe lobe,
                   const std::string& label) {
   const Scattering s = bsdf.scattering(point(), wl, wc, lobe);
   const double smallest = std::min({min_component(s.f), s.pdf_from_light, s.pdf_from_camera});
-  ASSERT_TRUE(is_finite(s.f) && std::isfinite(s.pdf_from_light + s.pdf_from_camera) && smallest >= 0)
+  ASSERT_TRUE(is_finite(s.f) && std::isfinite(s.pdf_from_light + s.pdf_from_camera) &&
+              smallest >= 0)
       << label << ": f " << s.f.x << " densities " << s.pdf_from_light << " " << s.pdf_from_camera
       << " for wl " << wl.x << " " << wl.y << " " << wl.z << ", wc " << wc.x << " " << wc.y << " "
       << wc.z;
