@@ -4,6 +4,7 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -28,7 +29,10 @@ void parallel_for(int threads, uint64_t count, const std::function<void(uint64_t
   };
   std::vector<std::thread> workers;
   const uint64_t wanted = std::min<uint64_t>(std::max(1, threads), count);
-  for (uint64_t i = 1; i < wanted; ++i) workers.emplace_back(work);
+  try {
+    for (uint64_t i = 1; i < wanted; ++i) workers.emplace_back(work);
+  } catch (const std::system_error&) {  // no more threads to be had: go on with those there are
+  }
   work();
   for (std::thread& worker : workers) worker.join();
   if (failure) std::rethrow_exception(failure);

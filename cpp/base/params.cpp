@@ -24,6 +24,10 @@ bool is_finite(const Value& value) {
   };
   if (const Triple* t = std::get_if<Triple>(&value)) return all_finite(*t);
   if (const Matrix* m = std::get_if<Matrix>(&value)) return all_finite(*m);
+  if (const Spectrum* s = std::get_if<Spectrum>(&value))
+    return std::all_of(s->begin(), s->end(), [](const auto& sample) {
+      return std::isfinite(sample.first) && std::isfinite(sample.second);
+    });
   return true;
 }
 
@@ -51,6 +55,11 @@ std::string kind_of(const Value& value) {
   return names[value.index()];
 }
 
+std::string with_article(const std::string& noun) {
+  const bool vowel = std::string("aeiou").find(noun[0]) != std::string::npos;
+  return (vowel ? "an " : "a ") + noun;
+}
+
 }  // namespace
 
 Params::Params(const Schema& schema, Location where, std::string id)
@@ -73,7 +82,8 @@ void Params::set(const std::string& given_name, Value value, const Location& whe
   const std::string about = schema_->family + " '" + schema_->name + "': '" + name + "' ";
   if (!fits(value, parameter->type))
     throw SceneError(
-        at(where, about + "is " + kind_of(value) + ", but should be a " + to_string(parameter->type)));
+        at(where, about + "is " + kind_of(value) + ", but should be " +
+                                 with_article(to_string(parameter->type))));
   if (!is_finite(value)) throw SceneError(at(where, about + "must be finite"));
   const auto& choices = parameter->choices;
   if (const std::string* text = std::get_if<std::string>(&value))

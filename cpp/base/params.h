@@ -40,10 +40,14 @@ class Params {
   /// An integer that must lie in [low, high].
   int64_t integer_in(const std::string& name, int64_t low, int64_t high);
 
-  /// The named or (by family) unnamed nested object, or nullptr.
+  /// The named or (by family) unnamed nested object, or nullptr; throws SceneError if there is one,
+  /// but not a T.
   template <class T>
   std::shared_ptr<T> object(const std::string& name) {
-    return std::dynamic_pointer_cast<T>(find_object(name));
+    const ObjectPtr given = find_object(name);
+    auto found = std::dynamic_pointer_cast<T>(given);
+    if (given && !found) fail(name, "cannot be a '" + given->type + "'");
+    return found;
   }
   /// All nested objects of type T, in the order they were given.
   template <class T>

@@ -13,16 +13,18 @@ void Registry::add(Plugin plugin) {
 const Plugin& Registry::find(const std::string& family, const std::string& name,
                              const Location& where) const {
   const auto members = plugins_.find(family);
-  if (members == plugins_.end())
-    throw SceneError(at(where, "unknown element '" + family + "'" + suggestion(family, families())));
-  const auto plugin = members->second.find(name);
-  if (plugin != members->second.end()) return *plugin->second;
+  if (members != plugins_.end()) {
+    const auto plugin = members->second.find(name);
+    if (plugin != members->second.end()) return *plugin->second;
+  }
   const auto refused = refused_.find(family);
   if (refused != refused_.end()) {
     const auto reason = refused->second.find(name);
     if (reason != refused->second.end())
       throw SceneError(at(where, family + " '" + name + "' is not supported: " + reason->second));
   }
+  if (members == plugins_.end())
+    throw SceneError(at(where, "unknown element '" + family + "'" + suggestion(family, families())));
   throw SceneError(at(where, "unknown " + family + " '" + name + "'" + suggestion(name, names(family))));
 }
 

@@ -172,17 +172,20 @@ std::string SampleFilm::save() const {
 
 void SampleFilm::load(const std::string& saved) {
   ByteReader bytes(saved);
-  for (const auto& group : groups_) {
-    const size_t pixels = group->rgb.size(), tiles = group->samples.size();
-    group->next = bytes.read<uint64_t>();
-    bytes.read(group->rgb);
-    bytes.read(group->light);
-    bytes.read(group->samples);
-    const bool light_fits = group->light.empty() || group->light.size() == pixels;
-    if (group->rgb.size() != pixels || !light_fits || group->samples.size() != tiles)
+  std::vector<std::unique_ptr<Group>> groups;
+  for (const auto& old : groups_) {
+    groups.push_back(std::make_unique<Group>());
+    Group& group = *groups.back();
+    group.next = bytes.read<uint64_t>();
+    bytes.read(group.rgb);
+    bytes.read(group.light);
+    bytes.read(group.samples);
+    const bool light_fits = group.light.empty() || group.light.size() == old->rgb.size();
+    if (group.rgb.size() != old->rgb.size() || !light_fits || group.samples.size() != old->samples.size())
       throw RenderError("the saved film has another size");
   }
   bytes.finish();
+  groups_ = std::move(groups);
 }
 
 }  // namespace mlt

@@ -4,7 +4,7 @@
 
 namespace mlt {
 namespace {
-constexpr int64_t largest_sum = int64_t{1} << 62;
+constexpr int64_t largest = int64_t{1} << 62;  // of a sum, or of one splat
 }
 
 SplatFilm::SplatFilm(int width, int height, std::shared_ptr<const Filter> filter, int groups)
@@ -19,9 +19,14 @@ void SplatFilm::add(int group, const Vec2& raster, const Color& color) {
   splat(*filter_, raster, {0, 0, width_, height_}, [&](int x, int y, double weight) {
     Cell* pixel = cells + 3 * (size_t(y) * width_ + x);
     for (int c = 0; c < 3; ++c) {
-      const auto step = static_cast<int64_t>(std::llrint(color[c] * weight * one));
+      const double value = color[c] * weight * one;
+      if (!(std::abs(value) < largest)) {  // or not a number
+        ++saturated_;
+        continue;
+      }
+      const auto step = static_cast<int64_t>(std::llrint(value));
       const int64_t before = pixel[c].fetch_add(step, std::memory_order_relaxed);
-      if (std::abs(before) > largest_sum) ++saturated_;
+      if (before > largest || before < -largest) ++saturated_;
     }
   });
 }
@@ -43,6 +48,7 @@ std::string SplatFilm::save() const {
   for (size_t i = 0; i < count; ++i) sums[i] = cells_[i].load(std::memory_order_relaxed);
   ByteWriter bytes;
   bytes.write(sums);
+  bytes.write(saturated_.load());
   return bytes.take();
 }
 
@@ -51,9 +57,11 @@ void SplatFilm::load(const std::string& saved) {
   std::vector<int64_t> sums;
   ByteReader bytes(saved);
   bytes.read(sums);
+  const auto saturated = bytes.read<uint64_t>();
   bytes.finish();
   if (sums.size() != count) throw RenderError("the saved film has another size");
   for (size_t i = 0; i < count; ++i) cells_[i].store(sums[i], std::memory_order_relaxed);
+  saturated_ = saturated;
 }
 
 }  // namespace mlt

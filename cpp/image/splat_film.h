@@ -23,7 +23,7 @@ class SplatFilm {
   int group_count() const { return groups_; }
   /// Sum over the groups g of scale[g] * (what was added to g).
   Image image(const std::vector<double>& scale) const;
-  /// Pixels of one group whose sums have left the range that fixed point can hold.
+  /// How many additions were out of the range of fixed point, or went to a sum that was.
   uint64_t saturated() const { return saturated_; }
 
   std::string save() const;

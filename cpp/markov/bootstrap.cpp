@@ -1,5 +1,6 @@
 #include "markov/bootstrap.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 

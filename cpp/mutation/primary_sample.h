@@ -32,7 +32,8 @@ inline double small_step(double u, Rng& rng) {
   const bool up = sample < 0.5;
   const double size = largest * std::exp(-std::log(largest / smallest) * (up ? 2 * sample : 2 * sample - 1));
   const double moved = up ? u + size : u - size;
-  return moved - std::floor(moved);
+  const double wrapped = moved - std::floor(moved);
+  return wrapped < 1 ? wrapped : 0;  // a moved one just below 0 is rounded up to 1
 }
 
 /// Large steps draw all numbers afresh, small steps move each a little. Both are symmetric, so the
