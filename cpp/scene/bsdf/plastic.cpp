@@ -1,7 +1,7 @@
-// Smooth plastic: a diffuse base below a smooth dielectric coating. Light is mirrored by the coating
-// with the fraction F; the rest enters, is scattered by the base, and is reflected back to it by the
-// coating from inside any number of times: with d the reflectance of the base, T = 1 - F and F_i the
-// mean internal reflectance,
+// Smooth plastic: a diffuse base below a smooth dielectric coating. Light is mirrored by the
+// coating with the fraction F; the rest enters, is scattered by the base, and is reflected back to
+// it by the coating from inside any number of times: with d the reflectance of the base, T = 1 - F
+// and F_i the mean internal reflectance,
 //   f = d / (1 - d F_i) T(wl) T(wc) / (pi eta^2)
 // (Wolff 1994, "Diffuse-reflectance model for smooth dielectric surfaces", eq. 22). The linear
 // variant does not let the base colour the multiple reflections: 1 - F_i in the denominator.

@@ -1,5 +1,5 @@
-// The microfacet parameters that the rough materials share, and what scattering by a distribution of
-// normals needs of it at one pair of directions.
+// The microfacet parameters that the rough materials share, and what scattering by a distribution
+// of normals needs of it at one pair of directions.
 #pragma once
 
 #include "base/params.h"

@@ -1,6 +1,6 @@
 // A rough interface between two transparent media, such as frosted glass: microfacets that reflect
-// and refract by Fresnel's equations (Walter et al. 2007, eqs. 20 and 21). Refraction is written for
-// radiance that flows from wl to wc, so that f(wl, wc) / eta_c^2 is symmetric.
+// and refract by Fresnel's equations (Walter et al. 2007, eqs. 20 and 21). Refraction is written
+// for radiance that flows from wl to wc, so that f(wl, wc) / eta_c^2 is symmetric.
 #include "base/registry.h"
 #include "math/fresnel.h"
 #include "scene/bsdf.h"

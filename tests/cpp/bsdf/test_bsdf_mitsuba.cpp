@@ -1,8 +1,9 @@
 // The same values as Mitsuba 3 (stored in mitsuba_values.inc). Bounds of the relative difference:
 // Mitsuba computes in single precision; its plastics use a polynomial fit and a coarse quadrature
 // for the internal reflectance; its Beckmann densities use the rational fit of G1 (Walter et al.
-// 2007, sec. 5.2), ours the exact one. Lobe probabilities of the plastics are our own, and where all
-// normals are sampled Mitsuba widens the distribution of a roughdielectric (Walter et al., sec. 5.3).
+// 2007, sec. 5.2), ours the exact one. Lobe probabilities of the plastics are our own, and where
+// all normals are sampled Mitsuba widens the distribution of a roughdielectric (Walter et al., sec.
+// 5.3).
 #include "bsdf/bsdf_testing.h"
 
 #include <gtest/gtest.h>
