@@ -1,6 +1,6 @@
 // The modified Phong model: a diffuse part and a lobe cos^n about the mirror direction (Phong 1975;
 // made reciprocal and normalised by Lafortune & Willems 1994, "Using the modified Phong reflectance
-// model for physically based rendering", eq. 3):
+// model for physically based rendering"):
 //   f = k_d / pi + k_s (n + 2) / (2 pi) cos^n alpha.
 #include "base/registry.h"
 #include "math/warp.h"

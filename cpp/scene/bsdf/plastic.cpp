@@ -3,7 +3,7 @@
 // it by the coating from inside any number of times: with d the reflectance of the base, T = 1 - F
 // and F_i the mean internal reflectance,
 //   f = d / (1 - d F_i) T(wl) T(wc) / (pi eta^2)
-// (Wolff 1994, "Diffuse-reflectance model for smooth dielectric surfaces", eq. 22). The linear
+// (Wolff 1994, "Diffuse-reflectance model for smooth dielectric surfaces"). The linear
 // variant does not let the base colour the multiple reflections: 1 - F_i in the denominator.
 #include "base/registry.h"
 #include "math/fresnel.h"

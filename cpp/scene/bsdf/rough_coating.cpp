@@ -9,7 +9,7 @@ namespace {
 constexpr int order = 32;
 
 /// Nodes and weights of the Gauss-Legendre rule on [0, 1], by Newton's method on the Legendre
-/// polynomial P_n (Press et al., "Numerical Recipes", 3rd ed., sec. 4.6.1).
+/// polynomial P_n (Press et al., "Numerical Recipes", 3rd ed., sec. 4.6).
 struct Quadrature {
   std::array<double, order> node, weight;
 
