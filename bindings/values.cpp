@@ -28,7 +28,7 @@ struct ToPython {
 };
 
 std::string kind_of(const py::handle& object) {
-  return py::str(py::type::of(object).attr("__name__"));
+  return "of type " + std::string(py::str(py::type::of(object).attr("__name__")));
 }
 
 [[noreturn]] void refuse(const Location& where, const std::string& key,
@@ -40,7 +40,7 @@ Value from_array(const py::object& object, const std::string& key, const Locatio
   const auto array = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(object);
   if (!array) {
     PyErr_Clear();
-    refuse(where, key, "is a " + kind_of(object) + ", which is neither numbers nor a plug-in");
+    refuse(where, key, "is " + kind_of(object) + ", which is neither numbers nor a plug-in");
   }
   const double* data = array.data();
   if (array.ndim() == 1 && array.size() == 3) return Triple{data[0], data[1], data[2]};
@@ -78,7 +78,7 @@ std::string text_of(const py::dict& dict, const char* key, const Location& where
   if (!dict.contains(key)) throw SceneError(at(where, std::string("needs a '") + key + "'"));
   const py::object value = dict[key];
   if (!py::isinstance<py::str>(value))
-    refuse(where, key, "is a " + kind_of(value) + ", but should be a string");
+    refuse(where, key, "is " + kind_of(value) + ", but should be a string");
   return value.cast<std::string>();
 }
 
@@ -135,7 +135,7 @@ class Converter {
     if (dict.contains("id")) node.id = text_of(dict, "id", node.where);
     for (const auto& [key_object, value] : dict) {
       if (!py::isinstance<py::str>(key_object))
-        throw SceneError(at(node.where, "a key is a " + kind_of(key_object) + ", not a string"));
+        throw SceneError(at(node.where, "a key is " + kind_of(key_object) + ", not a string"));
       const std::string key = key_object.cast<std::string>();
       if (key != "type" && key != "id") add(node, key, py::reinterpret_borrow<py::object>(value));
     }
@@ -148,6 +148,7 @@ class Converter {
     const std::string path = node.where.file + "['" + key + "']";
     if (py::hasattr(value, "to_dict")) value = value.attr("to_dict")();
     if (!py::isinstance<py::dict>(value)) {
+      if (node.family == "scene") refuse(node.where, key, "should be a plug-in (a dict)");
       Value converted = from_scalar_or_array(value, key, node.where);
       if (std::string* text = std::get_if<std::string>(&converted); text && key == "filename")
         *text = std::filesystem::absolute(*text).lexically_normal().string();

@@ -14,6 +14,7 @@
 #include <CLI/CLI.hpp>
 
 #include <csignal>
+#include <exception>
 
 namespace mlt {
 namespace {
@@ -58,15 +59,25 @@ int render(Job& job, bool quiet) {
   return caught_signal;
 }
 
+/// Every output is tried, and elsewhere if it fails, before any error is reported.
 void save(const Options& options, const Image& image, const Stats& stats, WriteOptions write) {
   write.exposure = options.exposure;
-  const auto report = [&](const std::string& wanted, const std::string& written) {
-    if (written != wanted)
-      fmt::print(stderr, "mlt-render: {} could not be written; it is saved as {}\n", wanted,
-                 written);
+  std::exception_ptr failure;
+  const auto attempt = [&](const std::string& path, const auto& save_as) {
+    try {
+      const std::string written = save_as();
+      if (written != path)
+        fmt::print(stderr, "mlt-render: {} could not be written; it is saved as {}\n", path,
+                   written);
+    } catch (const FileError&) {
+      if (!failure) failure = std::current_exception();
+    }
   };
-  for (const std::string& path : options.outputs) report(path, save_image(path, image, write));
-  if (!options.stats.empty()) report(options.stats, save_text(options.stats, to_json(stats)));
+  for (const std::string& path : options.outputs)
+    attempt(path, [&] { return save_image(path, image, write); });
+  if (!options.stats.empty())
+    attempt(options.stats, [&] { return save_text(options.stats, to_json(stats)); });
+  if (failure) std::rethrow_exception(failure);
 }
 
 int run(const Options& options) {

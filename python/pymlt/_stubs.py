@@ -5,6 +5,7 @@ Run it after a schema has changed; a test compares the stubs with what this make
 
 from __future__ import annotations
 
+import json
 import textwrap
 from pathlib import Path
 
@@ -12,12 +13,9 @@ from . import _core
 from .integrators import class_name
 from .schemas import documentation
 
-HEAD = '''\
-# Made by `python -m pymlt._stubs` from the schemas of the plug-ins. Do not edit.
-from typing import Any
+HEAD = "# Made by `python -m pymlt._stubs` from the schemas of the plug-ins. Do not edit.\n"
 
-import numpy as np
-
+BASE = '''\
 class Integrator:
     """A light transport algorithm: a name and its parameters."""
 
@@ -38,6 +36,8 @@ SEQUENCES = {
 def type_of(parameter: dict) -> str:
     """The annotation of a parameter: a scalar type, or anything for colours and objects."""
     kind = TYPES.get(parameter["type"]) or SEQUENCES.get(parameter["type"], "Any")
+    if parameter["choices"]:
+        kind = f"Literal[{', '.join(map(json.dumps, parameter['choices']))}]"
     return f"{kind} | None" if parameter["default"] is None and kind != "Any" else kind
 
 
@@ -60,12 +60,22 @@ def class_stub(schema: dict) -> str:
     return "\n".join(line.rstrip() for line in lines) + "\n"
 
 
+def imports(body: str) -> str:
+    """What the stubs use, sorted as ruff sorts it."""
+    typing = [name for name in ("Any", "Literal") if name in body]
+    lines = [f"from typing import {', '.join(typing)}"]
+    if "np." in body:
+        lines += ["", "import numpy as np"]
+    return "\n".join(lines) + "\n"
+
+
 def integrators_stub() -> str:
     """All of integrators.pyi."""
     schemas = [_core.schema("integrator", name) for name in _core.names("integrator")]
-    names = [class_name(schema["name"]) for schema in schemas]
+    names = sorted((class_name(s["name"]) for s in schemas), key=lambda n: (not n.isupper(), n))
     exported = "__all__ = [\n" + "".join(f'    "{name}",\n' for name in names) + "]\n"
-    return "\n".join([HEAD, *map(class_stub, schemas), exported])
+    body = "\n".join([BASE, *map(class_stub, schemas), exported])
+    return f"{HEAD}{imports(body)}\n{body}"
 
 
 if __name__ == "__main__":

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import atexit
 import json
+import math
+import operator
 import os
 import weakref
 from dataclasses import dataclass, field
+from time import monotonic
 from typing import TYPE_CHECKING
 
 from . import _core
@@ -93,10 +96,9 @@ class Job:
         Ctrl-C ends the waiting, not the render. Raises what went wrong in the render.
         """
         with progress_bar(progress) as show:
-            left = float("inf") if timeout is None else timeout
-            while not self._job.wait(min(0.1, max(0.0, left))):
-                left -= 0.1
-                if left <= 0:
+            end = math.inf if timeout is None else monotonic() + timeout
+            while not self._job.wait(min(0.1, max(0.0, end - monotonic()))):
+                if monotonic() >= end:
                     return False
                 if progress is not False:
                     show(self.progress, {"spp": f"{self.stats['spp_done']:.4g}"})
@@ -142,9 +144,14 @@ def start(scene, integrator=None, *, spp=None, time=None, seed=0, threads=0) -> 
     """
     scene = _as_scene(scene)
     made = as_integrator(scene, integrator)
-    if isinstance(seed, bool) or not 0 <= seed < 2**64:
-        raise _core.UsageError(f"seed is {seed!r}, but should be an integer from 0 to 2^64 - 1")
-    job = _core.Job(scene, made, spp, time, seed, threads)
+    job = _core.Job(
+        scene,
+        made,
+        _number("spp", spp),
+        _number("time", time),
+        _integer("seed", seed, 2**64),
+        _integer("threads", threads, 2**31),
+    )
     job.start()
     return Job(scene, made, job)
 
@@ -188,6 +195,22 @@ def as_integrator(scene: _core.Scene, integrator, assignments=()) -> _core.Integ
     if isinstance(integrator, type) and issubclass(integrator, Integrator):
         raise _core.UsageError(f"integrator is a class; write {integrator.__name__}()")
     raise _core.UsageError(f"{integrator!r} is not an integrator, a dict, or a name")
+
+
+def _number(name: str, value) -> float | None:
+    try:
+        return None if value is None else float(value)
+    except (TypeError, ValueError):
+        raise _core.UsageError(f"{name} is {value!r}, but should be a number") from None
+
+
+def _integer(name: str, value, end: int) -> int:
+    try:
+        if not isinstance(value, bool) and 0 <= operator.index(value) < end:
+            return operator.index(value)
+    except TypeError:
+        pass
+    raise _core.UsageError(f"{name} is {value!r}, but should be an integer from 0 to {end - 1}")
 
 
 def _as_scene(scene) -> _core.Scene:

@@ -1,0 +1,204 @@
+# Made by `python -m pymlt._stubs` from the schemas of the plug-ins. Do not edit.
+from typing import Any, Literal
+
+class Integrator:
+    """A light transport algorithm: a name and its parameters."""
+
+    @property
+    def name(self) -> str: ...
+    def to_dict(self) -> dict[str, Any]: ...
+
+def class_name(plugin: str) -> str: ...
+
+class BDPT(Integrator):
+    """Bidirectional path tracing with every technique (s, t) and multiple importance sampling
+    (Veach & Guibas 1994; Veach 1997, ch. 10). One spp is a camera and a light path per pixel.
+
+    Parameters
+    ----------
+    max_depth : integer, default -1
+        Edges of the longest path: 1 shows the lights alone, 2 adds direct light, -1 is
+        unbounded.
+    rr_depth : integer, default 5
+        Depth from which on Russian roulette may end a path.
+    hide_emitters : boolean, default False
+        Leave out lights that the camera sees directly.
+    strict_normals : boolean, default False
+        Refuse directions that the geometric and the shading normal see on different sides.
+    light_image : boolean, default True
+        Use techniques that connect light paths to the lens (t <= 1).
+    sample_direct : boolean, default True
+        Technique s = 1 chooses the light as seen from the point to be lit.
+    heuristic : string, default 'power'
+        How techniques are combined (Veach 1997, sec. 9.2). One of: balance, power, maximum.
+    techniques : boolean, default False
+        Keep the image of each technique, raw and weighted; needs a max_depth of 16 or less.
+    """
+
+    max_depth: int
+    rr_depth: int
+    hide_emitters: bool
+    strict_normals: bool
+    light_image: bool
+    sample_direct: bool
+    heuristic: Literal["balance", "power", "maximum"]
+    techniques: bool
+    def __init__(
+        self,
+        *,
+        max_depth: int = ...,
+        rr_depth: int = ...,
+        hide_emitters: bool = ...,
+        strict_normals: bool = ...,
+        light_image: bool = ...,
+        sample_direct: bool = ...,
+        heuristic: Literal["balance", "power", "maximum"] = ...,
+        techniques: bool = ...,
+    ) -> None: ...
+
+class Direct(Integrator):
+    """Direct light: one reflection at the most, sampled from lights and BSDFs (Veach 1997, sec.
+    9.2). One spp is one camera ray per pixel.
+
+    Parameters
+    ----------
+    shading_samples : integer, default 1
+        Sets both of the numbers below.
+    emitter_samples : integer
+        Samples of lights per camera ray (default: shading_samples).
+    bsdf_samples : integer
+        Samples of the BSDF per camera ray (default: shading_samples).
+    hide_emitters : boolean, default False
+        Leave out lights that the camera sees directly.
+    strict_normals : boolean, default False
+        Refuse directions that the geometric and the shading normal see on different sides.
+    """
+
+    shading_samples: int
+    emitter_samples: int | None
+    bsdf_samples: int | None
+    hide_emitters: bool
+    strict_normals: bool
+    def __init__(
+        self,
+        *,
+        shading_samples: int = ...,
+        emitter_samples: int | None = ...,
+        bsdf_samples: int | None = ...,
+        hide_emitters: bool = ...,
+        strict_normals: bool = ...,
+    ) -> None: ...
+
+class Path(Integrator):
+    """Path tracing from the camera with next-event estimation and multiple importance sampling
+    (Kajiya 1986; Veach & Guibas 1995). One spp is one camera path per pixel.
+
+    Parameters
+    ----------
+    max_depth : integer, default -1
+        Edges of the longest path: 1 shows the lights alone, 2 adds direct light, -1 is
+        unbounded.
+    rr_depth : integer, default 5
+        Depth from which on Russian roulette may end a path.
+    hide_emitters : boolean, default False
+        Leave out lights that the camera sees directly.
+    strict_normals : boolean, default False
+        Refuse directions that the geometric and the shading normal see on different sides.
+    """
+
+    max_depth: int
+    rr_depth: int
+    hide_emitters: bool
+    strict_normals: bool
+    def __init__(
+        self,
+        *,
+        max_depth: int = ...,
+        rr_depth: int = ...,
+        hide_emitters: bool = ...,
+        strict_normals: bool = ...,
+    ) -> None: ...
+
+class PSSMLT(Integrator):
+    """Primary-sample-space Metropolis light transport over the path tracer (Kelemen et al. 2002).
+    One spp is one mutation per pixel.
+
+    Parameters
+    ----------
+    max_depth : integer, default -1
+        Edges of the longest path: 1 shows the lights alone, 2 adds direct light, -1 is
+        unbounded.
+    rr_depth : integer, default 5
+        Depth from which on Russian roulette may end a path.
+    hide_emitters : boolean, default False
+        Leave out lights that the camera sees directly.
+    strict_normals : boolean, default False
+        Refuse directions that the geometric and the shading normal see on different sides.
+    luminance_samples : integer, default 100000
+        Paths drawn to estimate the image's mean brightness b and to start the chains from.
+    chains : integer, default 1024
+        Number of Markov chains, whatever the budget: more samples make chains longer.
+    p_large : float, default 0.3
+        Probability of a large step, which draws a new path independently.
+    bidirectional : boolean, default False
+        Only false: bidirectional estimators are not part of this integrator.
+    """
+
+    max_depth: int
+    rr_depth: int
+    hide_emitters: bool
+    strict_normals: bool
+    luminance_samples: int
+    chains: int
+    p_large: float
+    bidirectional: bool
+    def __init__(
+        self,
+        *,
+        max_depth: int = ...,
+        rr_depth: int = ...,
+        hide_emitters: bool = ...,
+        strict_normals: bool = ...,
+        luminance_samples: int = ...,
+        chains: int = ...,
+        p_large: float = ...,
+        bidirectional: bool = ...,
+    ) -> None: ...
+
+class PTracer(Integrator):
+    """Light tracing: walks from the lights, connected to the lens at each vertex (Dutre et al.
+    1993). One spp is one light path per pixel.
+
+    Parameters
+    ----------
+    max_depth : integer, default -1
+        Edges of the longest path: 1 shows the lights alone, 2 adds direct light, -1 is
+        unbounded.
+    rr_depth : integer, default 5
+        Depth from which on Russian roulette may end a path.
+    hide_emitters : boolean, default False
+        Leave out lights that the camera sees directly.
+    strict_normals : boolean, default False
+        Refuse directions that the geometric and the shading normal see on different sides.
+    """
+
+    max_depth: int
+    rr_depth: int
+    hide_emitters: bool
+    strict_normals: bool
+    def __init__(
+        self,
+        *,
+        max_depth: int = ...,
+        rr_depth: int = ...,
+        hide_emitters: bool = ...,
+        strict_normals: bool = ...,
+    ) -> None: ...
+
+__all__ = [
+    "BDPT",
+    "PSSMLT",
+    "Direct",
+    "PTracer",
+    "Path",
+]

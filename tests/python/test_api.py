@@ -1,0 +1,262 @@
+"""The Python face: classes from schemas, scenes, images, errors."""
+
+import inspect
+import pickle
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+import tiny
+
+import pymlt as mlt
+
+
+def test_the_import_is_light():
+    code = (
+        "import sys, pymlt;"
+        "heavy = {'numpy', 'tqdm', 'OpenImageIO', 'flip_evaluator', 'matplotlib', 'scipy'};"
+        "print(sorted(heavy & set(sys.modules)))"
+    )
+    out = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert out.stdout.strip() == "[]"
+
+
+def test_all_exported_names_exist():
+    assert all(hasattr(mlt, name) for name in mlt.__all__)
+    assert len(set(mlt.__all__)) == len(mlt.__all__)
+
+
+def test_the_stubs_are_current():
+    from pymlt import _stubs
+
+    written = Path(mlt.__file__).with_name("integrators.pyi").read_text()
+    assert written == _stubs.integrators_stub(), "run `python -m pymlt._stubs`"
+
+
+# ---- integrators -------------------------------------------------------------------------------
+
+CLASSES = sorted(mlt.Integrator.__subclasses__(), key=lambda c: c.__name__)
+
+
+def test_every_integrator_has_a_class():
+    assert {c().name for c in CLASSES} == set(mlt.available("integrator"))
+    assert {"Path", "Direct", "PSSMLT"} <= {c.__name__ for c in CLASSES}
+
+
+@pytest.mark.parametrize("integrator", CLASSES)
+def test_an_integrator_class_tells_its_parameters(integrator):
+    parameters = inspect.signature(integrator).parameters
+    assert all(p.kind is p.KEYWORD_ONLY for p in parameters.values())
+    assert all(name in integrator.__doc__ for name in parameters)
+    with pytest.raises(TypeError):
+        integrator(3)
+
+
+@pytest.mark.parametrize("integrator", CLASSES)
+def test_an_integrator_survives_pickling_and_renders(integrator):
+    made = integrator(hide_emitters=True)
+    copy = pickle.loads(pickle.dumps(made))
+    assert copy == made
+    assert copy != integrator()
+    assert repr(copy) == f"{integrator.__name__}(hide_emitters=True)"
+    scene = mlt.load_string(tiny.XML)
+    images = [mlt.render(scene, algo, spp=2, seed=1) for algo in (made, copy, made.to_dict())]
+    assert np.array_equal(images[0], images[1])
+    assert np.array_equal(images[0], images[2])
+
+
+def test_a_constructor_only_stores():
+    assert mlt.Path(max_depth="many").max_depth == "many"
+    with pytest.raises(mlt.SceneError, match="'max_depth' is a string"):
+        mlt.render(tiny.scene(), mlt.Path(max_depth="many"))
+
+
+def test_a_misspelt_parameter_gets_a_suggestion():
+    with pytest.raises(TypeError, match="'max_dpeth'; did you mean 'max_depth'"):
+        mlt.Path(max_dpeth=3)
+    with pytest.raises(mlt.SceneError, match="did you mean 'max_depth'"):
+        mlt.render(tiny.scene(), {"type": "path", "max_dpeth": 3})
+
+
+def test_a_name_keeps_what_the_scene_says_and_an_object_does_not():
+    scene = mlt.load_string(tiny.XML, depth=3)
+    settings = [
+        mlt.start(scene, algo, spp=1).result().integrator
+        for algo in (None, "path", "pssmlt", mlt.PSSMLT(), {"type": "pssmlt"})
+    ]
+    assert [s["max_depth"] for s in settings] == [3, 3, 3, -1, -1]
+
+
+def test_a_scene_without_integrator_is_rendered_by_path():
+    scene = tiny.scene()
+    del scene["integrator"]
+    assert mlt.start(scene, spp=1).result().integrator["type"] == "path"
+
+
+@pytest.mark.parametrize("wrong", [mlt.Path, 3, "pthe", {"type": "diffuse"}])
+def test_what_is_no_integrator_is_refused(wrong):
+    with pytest.raises(mlt.Error):
+        mlt.render(tiny.scene(), wrong, spp=1)
+
+
+def test_plug_ins_are_listed_and_described():
+    assert "diffuse" in mlt.available("bsdf")
+    assert mlt.available()["integrator"] == mlt.available("integrator")
+    assert "reflectance" in mlt.describe("bsdf", "diffuse")
+    with pytest.raises(mlt.UsageError, match="did you mean 'bsdf'"):
+        mlt.available("bsfd")
+    with pytest.raises(mlt.SceneError, match="did you mean 'diffuse'"):
+        mlt.describe("bsdf", "difuse")
+
+
+# ---- scenes ------------------------------------------------------------------------------------
+
+
+def test_a_file_is_loaded_with_defines_and_size(tmp_path):
+    path = tmp_path / "scene.xml"
+    path.write_text(tiny.XML)
+    scene = mlt.load_file(path)
+    assert (scene.width, scene.height) == (16, 12)
+    assert mlt.load_file(str(path), res=20).width == 20
+    sized = mlt.load_file(path, size=(5, 4), depth=2)
+    assert mlt.render(sized, spp=1).shape == (4, 5, 3)
+    assert mlt.render(path, spp=1).shape == (12, 16, 3)
+
+
+def test_a_scene_tells_what_it_holds():
+    scene = mlt.load_dict(tiny.scene())
+    info = scene.info()
+    assert info["size"] == (16, 12)
+    assert info["shapes"] == 3
+    assert info["emitters"] == 1
+    assert info["integrator"] == "path"
+    assert info["sample_count"] == 4
+    assert repr(scene).startswith("Scene(16 x 12, 3 shapes, ")
+    assert scene.warnings == []
+
+
+def test_what_is_ignored_is_a_warning_with_its_line():
+    xml = tiny.XML.replace("<scene version", "<!-- -->\n<scene version")
+    xml = xml.replace(
+        '<rfilter type="box"/>', '<rfilter type="box"/><boolean name="banner" value="false"/>'
+    )
+    scene = mlt.load_string(xml)
+    assert len(scene.warnings) == 1
+    assert "banner" in scene.warnings[0]
+    assert scene.warnings[0] in mlt.start(scene, spp=1).result().stats["warnings"]
+
+
+@pytest.mark.parametrize("size", [(0, 4), (3,), 7, "ab", (2.5, 3)])
+def test_a_size_that_makes_no_sense_is_refused(size):
+    with pytest.raises(mlt.UsageError, match="size"):
+        mlt.load_dict(tiny.scene(), size=size)
+
+
+@pytest.mark.parametrize("name", mlt.scenes.names())
+def test_every_built_in_scene_renders(name):
+    scene = mlt.load_dict(getattr(mlt.scenes, name)(), size=(24, 16))
+    image = mlt.render(scene, spp=4)
+    assert scene.warnings == []
+    assert image.max() > 0
+
+
+# ---- errors, images, transforms ----------------------------------------------------------------
+
+
+def test_errors_are_also_the_built_in_ones():
+    for error, builtin in [
+        (mlt.SceneError, ValueError),
+        (mlt.UsageError, ValueError),
+        (mlt.FileError, OSError),
+        (mlt.RenderError, RuntimeError),
+    ]:
+        assert issubclass(error, mlt.Error)
+        assert issubclass(error, builtin)
+    with pytest.raises(OSError, match=r"nowhere\.xml"):
+        mlt.load_file("nowhere.xml")
+    error = pickle.loads(pickle.dumps(mlt.SceneError("x")))
+    assert isinstance(error, mlt.SceneError)
+
+
+@pytest.mark.parametrize(("suffix", "tolerance"), [("exr", 0), ("hdr", 0.01), ("png", 0.02)])
+def test_images_come_back(tmp_path, suffix, tolerance):
+    image = np.random.default_rng(1).random((5, 7, 3)).astype(np.float32)
+    path = tmp_path / f"image.{suffix}"
+    mlt.write_image(path, image)
+    back = mlt.read_image(path)
+    assert back.dtype == np.float32
+    assert back.shape == image.shape
+    assert np.abs(back - image).max() <= tolerance
+
+
+def test_an_image_owns_its_memory_and_may_be_changed():
+    image = mlt.render(tiny.scene(), spp=1)
+    image[:] = 3
+    assert image.flags.writeable
+    assert image.flags.c_contiguous
+
+
+def test_other_formats_are_read_by_openimageio(tmp_path):
+    oiio = pytest.importorskip("OpenImageIO")
+    spec = oiio.ImageSpec(4, 3, 3, oiio.UINT8)
+    file = oiio.ImageOutput.create(str(tmp_path / "a.tif"))
+    file.open(str(tmp_path / "a.tif"), spec)
+    file.write_image(np.full((3, 4, 3), 188, np.uint8))
+    file.close()
+    assert mlt.read_image(tmp_path / "a.tif") == pytest.approx(0.503, abs=1e-3)
+    with pytest.raises(mlt.FileError, match=r"none\.tif"):
+        mlt.read_image(tmp_path / "none.tif")
+
+
+def test_exposure_brightens_png(tmp_path):
+    image = np.full((2, 2, 3), 0.1, np.float32)
+    mlt.write_image(tmp_path / "a.png", image, exposure=1)
+    assert mlt.read_image(tmp_path / "a.png") == pytest.approx(0.2, abs=0.01)
+
+
+def test_a_result_says_in_the_header_how_it_was_made(tmp_path):
+    result = mlt.start(tiny.scene(), mlt.PSSMLT(max_depth=3, chains=16), spp=2, seed=5).result()
+    result.write(tmp_path / "a.exr")
+    result.write(tmp_path / "b.exr")
+    meta = mlt.read_metadata(tmp_path / "a.exr")
+    assert meta["software"] == f"pymlt {mlt.__version__}"
+    assert meta["seed"] == "5"
+    assert '"max_depth": 3' in meta["integrator"]
+    assert '"p_large": 0.3' in meta["integrator"]
+    assert (tmp_path / "a.exr").read_bytes() == (tmp_path / "b.exr").read_bytes()
+    assert np.array_equal(mlt.read_image(tmp_path / "a.exr"), result.image)
+
+
+def test_an_image_that_cannot_be_written_is_rescued(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    result = mlt.start(tiny.scene(), spp=1).result()
+    with pytest.raises(mlt.FileError):
+        result.write(tmp_path / "no" / "a.exr")
+    saved = {result.save(tmp_path / "no" / "a.exr") for _ in range(2)}
+    assert len(saved) == 2
+    assert all(np.array_equal(mlt.read_image(path), result.image) for path in saved)
+
+
+def test_transforms_are_matrices():
+    T = mlt.Transform
+    point = np.array([1.0, 2.0, 3.0, 1.0])
+    chained = T().translate(0, 1, 0).rotate([0, 0, 2], 90).scale(2)
+    assert chained == T.translate([0, 1, 0]) @ T.rotate([0, 0, 1], 90) @ T.scale([2, 2, 2])
+    assert chained.matrix @ point == pytest.approx([-4, 3, 6, 1])
+    assert (chained @ chained.inverse()).matrix == pytest.approx(np.eye(4))
+    view = T.look_at(origin=[0, 0, 3.9], target=[0, 0, 0], up=[0, 1, 0])
+    expected = [[-1, 0, 0, 0], [0, 1, 0, 0], [0, 0, -1, 3.9], [0, 0, 0, 1]]
+    assert view.matrix == pytest.approx(np.array(expected))
+    assert T(view.matrix) == view
+    assert np.array_equal(np.asarray(view), view.matrix)
+
+
+def test_transforms_without_a_direction_are_refused():
+    with pytest.raises(ValueError, match="axis"):
+        mlt.Transform.rotate([0, 0, 0], 90)
+    with pytest.raises(ValueError, match="parallel"):
+        mlt.Transform.look_at([0, 0, 0], [0, 1, 0], [0, 1, 0])
+    with pytest.raises(ValueError, match="4 x 4"):
+        mlt.Transform(np.eye(3))

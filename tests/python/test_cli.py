@@ -1,0 +1,313 @@
+"""The command lines: `pymlt render` and `mlt-render` share one contract; pymlt can do more."""
+
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+import tiny
+
+import pymlt as mlt
+
+PYMLT = [sys.executable, "-m", "pymlt"]
+
+
+def mlt_render() -> list[str] | None:
+    """The binary of the same build: beside the interpreter, or named by the environment."""
+    beside = Path(sys.executable).parent / "mlt-render"
+    found = os.environ.get("MLT_RENDER") or (beside if beside.exists() else None)
+    return [str(found)] if found else None
+
+
+@pytest.fixture(params=["pymlt", "mlt-render"])
+def program(request) -> list[str]:
+    if request.param == "pymlt":
+        return [*PYMLT, "render"]
+    return mlt_render() or pytest.skip("mlt-render is not installed beside this Python")
+
+
+@pytest.fixture
+def scene(tmp_path, monkeypatch) -> str:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "scene.xml").write_text(tiny.XML)
+    return "scene.xml"
+
+
+def run(command, *arguments, **kwargs):
+    return subprocess.run(
+        [*command, *map(str, arguments)], capture_output=True, text=True, timeout=60, **kwargs
+    )
+
+
+def the_error(outcome, code: int = 2) -> str:
+    """The single line on stderr of a command that ended with this code."""
+    assert outcome.returncode == code, outcome.stderr
+    assert outcome.stdout == ""
+    lines = outcome.stderr.splitlines()
+    assert len(lines) == 1, outcome.stderr
+    assert lines[0].startswith(("pymlt: ", "mlt-render: "))
+    return lines[0]
+
+
+# ---- what a render makes -----------------------------------------------------------------------
+
+
+def test_a_render_writes_images_and_stats(program, scene):
+    done = run(
+        program, scene, "-o", "a.exr", "-o", "a.png", "--stats", "a.json", "--spp", 4, "--seed", 7
+    )
+    assert done.returncode == 0, done.stderr
+    assert done.stdout == ""
+    image = mlt.read_image("a.exr")
+    assert np.array_equal(image, mlt.render(mlt.load_file(scene), spp=4, seed=7))
+    assert mlt.read_image("a.png").shape == image.shape
+    stats = json.loads(Path("a.json").read_text())
+    assert stats["spp_done"] == 4
+    assert stats["seed"] == 7
+    assert "a.exr" in done.stderr
+
+
+def test_quiet_is_silent(program, scene):
+    done = run(program, scene, "-o", "a.exr", "--spp", 1, "--quiet")
+    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+
+
+def test_both_programs_write_the_same_bytes(scene):
+    binary = mlt_render() or pytest.skip("mlt-render is not installed beside this Python")
+    flags = [scene, "--integrator", "pssmlt", "-p", "chains=16", "-p", "maxDepth=3"]
+    flags += ["-D", "res=20", "--spp", 4, "--seed", 3]
+    for name, command in {"a": [*PYMLT, "render"], "b": binary}.items():
+        for suffix in "exr", "png":
+            assert run(command, *flags, "-o", f"{name}.{suffix}").returncode == 0
+    assert Path("a.exr").read_bytes() == Path("b.exr").read_bytes()
+    assert Path("a.png").read_bytes() == Path("b.png").read_bytes()
+    assert '"max_depth": 3' in mlt.read_metadata("a.exr")["integrator"]
+    assert mlt.read_image("a.exr").shape == (12, 20, 3)
+
+
+@pytest.mark.parametrize("integrator", ["path", "pssmlt"])
+def test_the_number_of_threads_does_not_change_a_byte(program, scene, integrator):
+    flags = [scene, "--integrator", integrator, "--spp", 4, "--size", "32x24"]
+    for threads in 1, 2:
+        done = run(program, *flags, "--threads", threads, "-o", f"{threads}.exr")
+        assert done.returncode == 0
+    assert Path("1.exr").read_bytes() == Path("2.exr").read_bytes()
+
+
+def test_an_integrator_by_name_keeps_the_depth_of_the_scene(program, scene):
+    run(program, scene, "--integrator", "pssmlt", "--spp", 1, "-o", "a.exr")
+    assert '"max_depth": 4' in mlt.read_metadata("a.exr")["integrator"]
+
+
+def test_exposure_is_for_png_alone(program, scene):
+    run(program, scene, "--spp", 4, "-o", "a.png", "-o", "a.exr")
+    run(program, scene, "--spp", 4, "-o", "b.png", "-o", "b.exr", "--exposure", "-2")
+    assert np.array_equal(mlt.read_image("a.exr"), mlt.read_image("b.exr"))
+    assert mlt.read_image("b.png").mean() < 0.5 * mlt.read_image("a.png").mean()
+
+
+def test_time_is_a_budget(program, scene):
+    done = run(
+        program, scene, "--time", 0.3, "-o", "a.exr", "--stats", "a.json", "--size", "200x150"
+    )
+    assert done.returncode == 0
+    assert 0.2 < json.loads(Path("a.json").read_text())["seconds"]["render"] < 5
+
+
+# ---- mistakes ----------------------------------------------------------------------------------
+
+OUT = ["-o", "a.exr"]
+USAGE = {
+    "no output": (["scene.xml"], "output"),
+    "no scene": (OUT, "required"),
+    "unknown extension": (["scene.xml", "-o", "a.jpeg2"], ".exr"),
+    "unknown flag": (["scene.xml", *OUT, "--sp", "3"], "--sp"),
+    "checkpoint": (["scene.xml", *OUT, "--checkpoint", "x"], "--checkpoint"),
+    "resume": (["scene.xml", *OUT, "--resume", "x"], "--resume"),
+    "error budget": (["scene.xml", *OUT, "--error", "0.1"], "--error"),
+    "size": (["scene.xml", *OUT, "--size", "3by4"], "3by4"),
+    "size 0": (["scene.xml", *OUT, "--size", "0x4"], "0x4"),
+    "spp is a word": (["scene.xml", *OUT, "--spp", "many"], "many"),
+    "spp 0": (["scene.xml", *OUT, "--spp", "0"], "spp"),
+    "negative time": (["scene.xml", *OUT, "--time=-1"], "time"),
+    "negative threads": (["scene.xml", *OUT, "--threads=-1"], "threads"),
+    "-p without value": (["scene.xml", *OUT, "-p", "max_depth"], "max_depth"),
+    "-p misspelt": (["scene.xml", *OUT, "-p", "max_dpeth=3"], "did you mean 'max_depth'?"),
+    "-p wrong type": (["scene.xml", *OUT, "-p", "max_depth=x"], "'x'"),
+    "-p out of range": (["scene.xml", *OUT, "-p", "max_depth=-7"], "max_depth"),
+    "-D unknown": (["scene.xml", *OUT, "-D", "rse=3"], "rse"),
+    "-D without value": (["scene.xml", *OUT, "-D", "res"], "res"),
+    "integrator": (["scene.xml", *OUT, "--integrator", "pssmtl"], "did you mean 'pssmlt'?"),
+    "missing scene": (["nowhere.xml", *OUT], "nowhere.xml"),
+    "two scenes": (["scene.xml", "scene.xml", *OUT], "scene.xml"),
+}
+
+
+@pytest.mark.parametrize(("arguments", "what"), USAGE.values(), ids=USAGE.keys())
+def test_a_mistake_in_usage_is_one_line(program, scene, arguments, what):
+    assert what in the_error(run(program, *arguments))
+    assert not Path("a.exr").exists()
+
+
+SCENE_MISTAKES = {
+    "misspelt parameter": ('name="fov"', 'name="fvo"', "did you mean 'fov'?"),
+    "misspelt plug-in": ('"dielectric"', '"dielctric"', "did you mean 'dielectric'?"),
+    "wrong value": ('value="40"', 'value="forty"', "forty"),
+    "dangling reference": ('<ref id="clay"/>', '<ref id="clya"/>', "did you mean 'clay'?"),
+    "no end": ("</scene>", "", "scene"),
+    "medium": ('<bsdf type="dielectric"/>', '<medium type="homogeneous"/>', "not supported"),
+}
+
+
+@pytest.mark.parametrize(
+    ("good", "bad", "what"), SCENE_MISTAKES.values(), ids=SCENE_MISTAKES.keys()
+)
+def test_a_mistake_in_a_scene_names_file_and_line(program, scene, good, bad, what):
+    Path(scene).write_text(tiny.XML.replace(good, bad, 1))
+    error = the_error(run(program, scene, *OUT))
+    line = tiny.XML[: tiny.XML.index(good)].count("\n") + 1
+    assert f": {scene}:{line}: " in error
+    assert what in error
+
+
+def test_an_unwritable_output_is_known_before_the_scene_is_read(program, scene):
+    Path(scene).write_text("this is no scene")
+    for output in ["no/such/folder/a.exr", "."]:
+        assert "scene.xml" not in the_error(run(program, scene, "-o", output))
+    assert "no/a.json" in the_error(run(program, scene, *OUT, "--stats", "no/a.json"))
+
+
+def test_a_render_that_fails_ends_with_3(program, scene):
+    Path(scene).write_text(tiny.XML.replace("5, 6, 7", "0, 0, 0"))
+    assert "light" in the_error(run(program, scene, *OUT, "--integrator", "pssmlt"), code=3)
+
+
+def test_help_and_version_succeed(program):
+    for flag in "--help", "--version":
+        done = run(program if flag == "--help" else program[:3], flag)
+        assert done.returncode == 0
+        assert done.stderr == ""
+        assert done.stdout
+
+
+# ---- interruptions and lost folders ------------------------------------------------------------
+
+
+def start(command, *arguments) -> subprocess.Popen:
+    process = subprocess.Popen(
+        [*command, *map(str, arguments)], text=True, stderr=subprocess.PIPE, stdout=subprocess.PIPE
+    )
+    time.sleep(1.5)  # to load the program and render a little
+    return process
+
+
+@pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+def test_an_interrupted_render_saves_what_there_is(program, scene, number, code):
+    flags = [scene, "--size", "320x240", "--spp", "1e7", "-o", "a.exr", "--stats", "a.json"]
+    process = start(program, *flags)
+    begin = time.perf_counter()
+    process.send_signal(number)
+    _, err = process.communicate(timeout=20)
+    assert time.perf_counter() - begin < 3
+    assert process.returncode == code
+    assert "interrupted" in err
+    assert mlt.read_image("a.exr").max() > 0
+    assert 0 < json.loads(Path("a.json").read_text())["spp_done"] < 1e7
+
+
+def test_a_finished_image_is_never_lost(program, scene):
+    Path("out").mkdir()
+    process = start(program, scene, "--time", 3, "-o", "out/a.exr")
+    shutil.rmtree("out")
+    _, err = process.communicate(timeout=20)
+    assert process.returncode == 0
+    assert "out/a.exr could not be written; it is saved as " in err
+    saved = err.split("it is saved as ")[1].splitlines()[0]
+    assert mlt.read_image(saved).max() > 0
+
+
+# ---- compare, info, list, built-in scenes ------------------------------------------------------
+
+
+@pytest.fixture
+def images(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    image = np.random.default_rng(1).random((8, 8, 3)).astype(np.float32)
+    mlt.write_image("a.exr", image)
+    mlt.write_image("b.exr", image + np.float32(0.5))
+
+
+def test_compare_prints_metrics(images):
+    metrics = json.loads(run(PYMLT, "compare", "b.exr", "a.exr", "--json").stdout)
+    assert metrics["mse"] == pytest.approx(0.25, rel=1e-5)
+    text = run(PYMLT, "compare", "b.exr", "a.exr").stdout
+    assert [line.split()[0] for line in text.splitlines()] == list(metrics)
+
+
+def test_compare_fails_above_a_limit(images):
+    command = [*PYMLT, "compare", "b.exr", "a.exr"]
+    assert run(command, "--fail-above", "mse=0.3").returncode == 0
+    failed = run(command, "--fail-above", "mse=0.3", "--fail-above", "rmse=0.4")
+    assert failed.returncode == 1
+    assert "rmse is 0.5, above 0.4" in failed.stderr
+
+
+def test_compare_does_not_pass_nan(images):
+    image = mlt.read_image("a.exr")
+    image[3, 3] = np.nan
+    mlt.write_image("nan.exr", image)
+    done = run(PYMLT, "compare", "nan.exr", "a.exr", "--fail-above", "mse=1e9", "--json")
+    assert done.returncode == 1
+    assert json.loads(done.stdout)["mse"] is None
+
+
+@pytest.mark.parametrize(
+    ("arguments", "what"),
+    [
+        (["a.exr"], "B"),
+        (["a.exr", "nowhere.exr"], "nowhere.exr"),
+        (["a.exr", "b.exr", "--fail-above", "msee=1"], "did you mean 'mse'?"),
+        (["a.exr", "b.exr", "--fail-above", "mse=x"], "x"),
+    ],
+)
+def test_compare_explains_mistakes(images, arguments, what):
+    assert what in the_error(run(PYMLT, "compare", *arguments))
+
+
+def test_info_tells_what_a_scene_holds(scene):
+    info = json.loads(run(PYMLT, "info", scene, "-D", "res=40", "--json").stdout)
+    assert info["size"] == [40, 12]
+    assert info["shapes"] == 3
+    assert "40 x 12" in run(PYMLT, "info", scene, "-D", "res=40").stdout
+
+
+def test_built_in_scenes_have_names(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    done = run(PYMLT, "render", "cornell-box", "--size", "16x16", "--spp", 2, "-o", "a.exr")
+    assert done.returncode == 0
+    assert mlt.read_image("a.exr").shape == (16, 16, 3)
+    error = the_error(run(PYMLT, "render", "cornell-bx", "-o", "a.exr"))
+    assert "did you mean 'cornell_box'?" in error
+    assert "size" in the_error(run(PYMLT, "info", "cornell_box", "-D", "size=3"))
+
+
+def test_list_names_plug_ins_and_scenes():
+    assert "diffuse" in run(PYMLT, "list", "bsdf").stdout.split()
+    assert "cornell_box" in run(PYMLT, "list", "scenes").stdout.split()
+    assert "integrator: " in run(PYMLT, "list").stdout
+    assert "did you mean 'bsdf'?" in the_error(run(PYMLT, "list", "bsfd"))
+
+
+def test_a_closed_pipe_is_no_error():
+    done = run(["sh", "-c", f"{sys.executable} -m pymlt list | true"])
+    assert done.stderr == ""
+
+
+def test_without_a_command_there_is_one_line():
+    assert "render" in the_error(run(PYMLT))

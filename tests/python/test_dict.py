@@ -1,0 +1,182 @@
+"""The Mitsuba dict: the same scenes as XML, and errors that name the place in the dict."""
+
+import numpy as np
+import pytest
+import tiny
+
+import pymlt as mlt
+
+
+def pixels(scene, **settings):
+    return mlt.render(scene, spp=4, seed=7, **settings)
+
+
+def test_a_dict_and_the_same_xml_give_the_same_pixels():
+    from_dict = mlt.load_dict(tiny.scene())
+    from_xml = mlt.load_string(tiny.XML)
+    assert np.array_equal(pixels(from_dict), pixels(from_xml))
+    assert pixels(from_dict).std() > 0.01  # there is something to see
+
+
+@pytest.mark.parametrize(
+    "form",
+    [
+        lambda m: m.tolist(),
+        lambda m: m,
+        lambda m: m.astype(np.float64, order="F"),
+        lambda m: tuple(map(tuple, m)),
+        mlt.Transform,
+    ],
+    ids=["lists", "array", "fortran", "tuples", "Transform"],
+)
+def test_a_transform_may_be_written_in_many_forms(form):
+    expected, scene = tiny.scene(), tiny.scene()
+    scene["floor"]["to_world"] = form(scene["floor"]["to_world"].matrix)
+    assert np.array_equal(pixels(scene), pixels(expected))
+
+
+def test_numbers_may_come_from_numpy():
+    scene = tiny.scene()
+    scene["sensor"]["fov"] = np.float32(40)
+    scene["sensor"]["film"]["width"] = np.int16(16)
+    scene["ball"]["center"] = np.array([0, 0.6, 0])
+    scene["lamp"]["emitter"]["radiance"]["value"] = np.array([5, 6, 7])
+    assert np.array_equal(pixels(scene), pixels(tiny.scene()))
+
+
+def test_older_names_and_integrator_objects_are_accepted():
+    scene = tiny.scene()
+    scene["sensor"]["toWorld"] = scene["sensor"].pop("to_world")
+    scene["integrator"] = mlt.Path(max_depth=4)
+    assert np.array_equal(pixels(scene), pixels(tiny.scene()))
+
+
+def test_uniform_spectra_are_numbers():
+    grey, uniform, flat = tiny.scene(), tiny.scene(), tiny.scene()
+    grey["clay"]["reflectance"] = 0.25
+    uniform["clay"]["reflectance"] = {"type": "uniform", "value": 0.25}
+    flat["clay"]["reflectance"] = {"type": "spectrum", "value": 0.25}
+    assert np.array_equal(pixels(uniform), pixels(grey))
+    assert np.array_equal(pixels(flat), pixels(grey))
+
+
+def test_file_names_are_relative_to_the_current_directory(tmp_path, monkeypatch):
+    mlt.write_image(tmp_path / "grey.exr", np.full((2, 2, 3), 0.25))
+    monkeypatch.chdir(tmp_path)
+    textured, plain = tiny.scene(), tiny.scene()
+    textured["clay"]["reflectance"] = {"type": "bitmap", "filename": "grey.exr"}
+    plain["clay"]["reflectance"] = 0.25
+    assert np.allclose(pixels(textured), pixels(plain), rtol=1e-5)
+
+
+def test_the_dict_is_not_changed():
+    scene = tiny.scene()
+    before = repr(scene)
+    mlt.load_dict(scene)
+    assert repr(scene) == before
+
+
+def change(path, **values):
+    """A function that updates the dict at a path of keys."""
+
+    def apply(scene):
+        for key in path:
+            scene = scene[key]
+        scene.update(values)
+
+    return apply
+
+
+FILM = ("sensor", "film")
+MISTAKES = {
+    "misspelt parameter": (change(FILM, widht=3), "scene['sensor']['film']: ", "'width'"),
+    "wrong type": (change(FILM, width="3"), "scene['sensor']['film']: ", "'width' is a string"),
+    "None": (change(FILM, width=None), "scene['sensor']['film']: ", "'width' is None"),
+    "not a value": (change(FILM, width=object()), "scene['sensor']['film']: ", "of type object"),
+    "huge integer": (change(FILM, width=10**30), "scene['sensor']['film']: ", "64 bits"),
+    "wrong shape": (change(["lamp"], to_world=np.eye(3)), "scene['lamp']: ", "4 x 4"),
+    "singular": (change(["lamp"], to_world=np.zeros((4, 4))), "scene['lamp']: ", "singular"),
+    "nan": (change(["ball"], radius=float("nan")), "scene['ball']: ", "finite"),
+    "misspelt plug-in": (
+        change(["ball"], bsdf={"type": "dielctric"}),
+        "scene['ball']['bsdf']: ",
+        "'dielectric'",
+    ),
+    "unknown type": (change([], x={"type": "sphre"}), "scene['x']: ", "'sphere'"),
+    "no type": (change([], x={}), "scene['x']: ", "needs a 'type'"),
+    "type is a number": (change([], x={"type": 3}), "scene['x']: ", "'type' is of type int"),
+    "refused": (change([], x={"type": "homogeneous"}), "scene['x']: ", "homogeneous"),
+    "dangling reference": (
+        change(["ball"], bsdf={"type": "ref", "id": "clya"}),
+        "scene['ball']['bsdf']: ",
+        "'clay'",
+    ),
+    "reference to nothing": (change(["ball"], bsdf={"type": "ref"}), "scene['ball']", "'id'"),
+    "two numbers for rgb": (
+        change(["clay"], reflectance={"type": "rgb", "value": [1, 2]}),
+        "scene['clay']: ",
+        "'reflectance'",
+    ),
+    "rgb without value": (
+        change(["clay"], reflectance={"type": "rgb"}),
+        "scene['clay']",
+        "'value'",
+    ),
+    "rgb with more": (
+        change(["clay"], reflectance={"type": "rgb", "value": [1, 1, 1], "scale": 2}),
+        "scene['clay']",
+        "'scale'",
+    ),
+    "bad spectrum": (
+        change(["clay"], reflectance={"type": "spectrum", "value": [1, 2, 3]}),
+        "scene['clay']",
+        "pairs",
+    ),
+    "number in a scene": (change([], x=3), "scene: ", "'x'"),
+    "key is a number": (lambda s: s.update({3: 4}), "scene: ", "of type int"),
+    "not a scene": (change([], type="scne"), "scene: ", "'scene'"),
+    "no sensor": (lambda s: s.pop("sensor"), "scene: ", "sensor"),
+    "no light": (lambda s: s.pop("lamp"), "scene: ", "no emitter"),
+}
+
+
+@pytest.mark.parametrize(("mistake", "where", "what"), MISTAKES.values(), ids=MISTAKES.keys())
+def test_a_mistake_is_named_with_its_place(mistake, where, what):
+    scene = tiny.scene()
+    mistake(scene)
+    with pytest.raises(mlt.SceneError) as error:
+        mlt.load_dict(scene)
+    assert str(error.value).startswith(where)
+    assert what in str(error.value)
+    assert "\n" not in str(error.value)
+
+
+def test_a_missing_file_is_a_file_error():
+    scene = tiny.scene()
+    scene["clay"]["reflectance"] = {"type": "bitmap", "filename": "nowhere.png"}
+    with pytest.raises(mlt.FileError, match=r"scene\['clay'\]\['reflectance'\]: .*nowhere.png"):
+        mlt.load_dict(scene)
+
+
+def test_a_dict_that_contains_itself_is_refused():
+    scene = tiny.scene()
+    scene["clay"]["again"] = scene["clay"]
+    with pytest.raises(mlt.SceneError, match="too deeply"):
+        mlt.load_dict(scene)
+
+
+def test_something_else_than_a_dict_is_refused():
+    with pytest.raises(mlt.UsageError, match="needs a dict, not a list"):
+        mlt.load_dict([])
+
+
+@pytest.mark.peer
+def test_mitsubas_own_cornell_box_loads_and_is_ours():
+    import mitsuba
+
+    mitsuba.set_variant("scalar_rgb")
+    theirs = mlt.load_dict(mitsuba.cornell_box(), size=(24, 24))
+    ours = mlt.load_dict(mlt.scenes.cornell_box(), size=(24, 24))
+    a, b = (mlt.render(s, spp=16, seed=1) for s in (theirs, ours))
+    # Their matrices are in single precision, so a few rays may differ.
+    assert np.isclose(a, b, rtol=1e-3).mean() > 0.98

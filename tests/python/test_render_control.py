@@ -1,0 +1,194 @@
+"""Jobs: determinism, budgets, progress, cancelling, Ctrl-C."""
+
+import signal
+import subprocess
+import sys
+import time
+
+import numpy as np
+import pytest
+import tiny
+
+import pymlt as mlt
+
+
+@pytest.fixture(scope="module")
+def scene():
+    return mlt.load_string(tiny.XML, res=24)
+
+
+def big_scene():
+    return mlt.load_dict(tiny.scene(), size=(320, 240))
+
+
+@pytest.mark.parametrize("integrator", mlt.available("integrator"))
+def test_the_number_of_threads_does_not_change_a_bit(scene, integrator):
+    images = [mlt.render(scene, integrator, spp=6, seed=3, threads=n) for n in (1, 2, 3)]
+    assert np.array_equal(images[0], images[1])
+    assert np.array_equal(images[0], images[2])
+
+
+@pytest.mark.parametrize("integrator", mlt.available("integrator"))
+def test_the_seed_changes_the_noise(scene, integrator):
+    a, b = (mlt.render(scene, integrator, spp=2, seed=s) for s in (1, 2))
+    assert not np.array_equal(a, b)
+
+
+def test_an_image_is_linear_float_rgb_with_row_0_on_top(scene):
+    image = mlt.render(scene, spp=4)
+    assert image.shape == (12, 24, 3)
+    assert image.dtype == np.float32
+    assert image[:6].mean() < image[6:].mean()  # the floor is below, the dark above
+
+
+def test_without_a_budget_the_scene_decides(scene):
+    assert mlt.start(scene).result().stats["spp_done"] == 4
+
+
+def test_time_ends_a_render():
+    start = time.perf_counter()
+    stats = mlt.start(big_scene(), time=0.5).result().stats
+    assert 0.4 < time.perf_counter() - start < 5
+    assert 0.4 < stats["seconds"]["render"] < 5
+    assert stats["spp_done"] > 0
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        {"spp": 0},
+        {"spp": -1},
+        {"spp": float("nan")},
+        {"spp": "many"},
+        {"time": 0},
+        {"threads": -1},
+        {"seed": -1},
+        {"seed": 2**64},
+        {"seed": 1.5},
+        {"seed": True},
+    ],
+    ids=str,
+)
+def test_settings_that_make_no_sense_are_refused(scene, wrong):
+    with pytest.raises(mlt.UsageError, match=next(iter(wrong))):
+        mlt.render(scene, **wrong)
+
+
+def test_a_job_runs_beside_python_and_can_be_cancelled():
+    job = mlt.start(big_scene(), spp=1e7)
+    steps = 0
+    seen = []
+    deadline = time.perf_counter() + 1
+    while time.perf_counter() < deadline:
+        steps += 1
+        seen.append(job.progress)
+    assert steps > 1000  # the interpreter was never held up
+    assert seen == sorted(seen)
+    assert not job.ended
+    assert not job.wait(timeout=0.05)
+    assert "running" in repr(job)
+    job.cancel()
+    start = time.perf_counter()
+    result = job.result()
+    assert time.perf_counter() - start < 2
+    assert job.ended
+    assert job.cancelled
+    assert 0 < result.stats["spp_done"] < 1e7
+    assert result.image.max() > 0
+
+
+def test_progress_is_reported_to_a_function():
+    seen = []
+    mlt.render(big_scene(), time=0.6, progress=seen.append)
+    assert len(seen) >= 2
+    assert seen == sorted(seen)
+    assert 0 <= seen[0] < seen[-1] <= 1
+
+
+def test_a_progress_bar_can_be_asked_for(capsys):
+    mlt.render(big_scene(), time=0.4, progress=True)
+    assert "%" in capsys.readouterr().err
+    mlt.render(big_scene(), time=0.3)
+    assert capsys.readouterr().err == ""  # not a terminal
+
+
+def test_stats_have_the_promised_members(scene):
+    stats = mlt.start(scene, "pssmlt", spp=4, seed=9).result().stats
+    assert {k: type(v) for k, v in stats.items()} == {
+        "version": str,
+        "integrator": str,
+        "seed": int,
+        "size": list,
+        "spp_done": type(stats["spp_done"]),
+        "seconds": dict,
+        "rays": dict,
+        "b": float,
+        "b_error": float,
+        "invalid_samples": int,
+        "stuck": list,
+        "mutations": list,
+        "warnings": list,
+    }
+    assert stats["integrator"] == "pssmlt"
+    assert stats["seed"] == 9
+    assert stats["size"] == [24, 12]
+    assert set(stats["seconds"]) == {"load", "bootstrap", "render"}
+    assert set(stats["rays"]) == {"intersect", "occluded"}
+    assert stats["rays"]["intersect"] > 0
+    assert stats["b"] > 0
+    for mutation in stats["mutations"]:
+        assert mutation["accepted"] <= mutation["generated"] <= mutation["proposed"]
+
+
+def test_a_render_that_fails_says_why():
+    dark = tiny.scene()
+    dark["lamp"]["emitter"]["radiance"]["value"] = [0.0, 0.0, 0.0]
+    with pytest.raises(mlt.RenderError, match="light"):
+        mlt.render(dark, "pssmlt", spp=1)
+
+
+# ---- signals -----------------------------------------------------------------------------------
+
+SETUP = """
+import sys
+sys.path.insert(0, {folder!r})
+import pymlt as mlt, tiny
+scene = mlt.load_dict(tiny.scene(), size=(320, 240))
+"""
+
+
+def python(code: str, **kwargs) -> subprocess.Popen:
+    from pathlib import Path
+
+    setup = SETUP.format(folder=str(Path(tiny.__file__).parent))
+    return subprocess.Popen(
+        [sys.executable, "-c", setup + code], text=True, stdout=subprocess.PIPE, **kwargs
+    )
+
+
+def test_ctrl_c_is_prompt_and_keeps_the_image_so_far():
+    process = python(
+        """
+def started(done):
+    if done > 0: print("started", flush=True)
+try:
+    mlt.render(scene, spp=1e7, progress=started)
+except KeyboardInterrupt as error:
+    print(error.result, error.result.image.max() > 0)
+"""
+    )
+    assert process.stdout.readline() == "started\n"
+    start = time.perf_counter()
+    process.send_signal(signal.SIGINT)
+    out, _ = process.communicate(timeout=20)
+    assert time.perf_counter() - start < 3
+    assert process.returncode == 0
+    assert out.splitlines()[-1].startswith("Result(320 x 240, 'path', ")
+    assert out.splitlines()[-1].endswith("True")
+
+
+def test_leaving_python_ends_running_jobs():
+    process = python("job = mlt.start(scene, spp=1e7); print('started', flush=True)")
+    assert process.stdout.readline() == "started\n"
+    process.communicate(timeout=20)
+    assert process.returncode == 0
