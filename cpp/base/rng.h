@@ -8,7 +8,9 @@
 namespace mlt {
 
 /// What a stream is for: two purposes never share random numbers.
-enum class Purpose : uint64_t { bootstrap = 1, chain, pixel, test, resample, round, inspect };
+enum class Purpose : uint64_t {
+  bootstrap = 1, chain, pixel, test, resample, choice, round, pilot, inspect
+};
 
 /// SplitMix64 (Steele, Lea & Flood 2014): a bijective mixer of 64 bits.
 inline uint64_t mix_bits(uint64_t x) {

@@ -8,6 +8,53 @@
 
 namespace mlt {
 
+ChainStats::Row& ChainStats::Row::operator+=(const Row& other) {
+  proposed += other.proposed;
+  generated += other.generated;
+  accepted += other.accepted;
+  rays += other.rays;
+  acceptance += other.acceptance;
+  image_distance += other.image_distance;
+  seconds += other.seconds;
+  return *this;
+}
+
+void ChainStats::count(Row& row, const StepResult& result, bool generated, double moved) {
+  ++row.proposed;
+  row.generated += generated;
+  row.acceptance += result.acceptance;
+  invalid += result.invalid;
+  if (result.accepted < 0) {
+    ++run;
+    return;
+  }
+  ++row.accepted;
+  row.image_distance += moved;
+  run = 0;
+}
+
+void ChainStats::save(ByteWriter& bytes) const {
+  bytes.write(rows);
+  bytes.write(rays);
+  bytes.write(invalid);
+  bytes.write(run);
+  bytes.write(longest.rejections);
+  bytes.write(longest.raster);
+  bytes.write(longest.signature);
+}
+
+void ChainStats::load(ByteReader& bytes) {
+  const size_t expected = rows.size();
+  bytes.read(rows);
+  if (rows.size() != expected) throw RenderError("the saved state counts other mutations");
+  rays = bytes.read<RayCounts>();
+  invalid = bytes.read<uint64_t>();
+  run = bytes.read<uint64_t>();
+  longest.rejections = bytes.read<uint64_t>();
+  longest.raster = bytes.read<Vec2>();
+  bytes.read(longest.signature);
+}
+
 MetropolisRendering::MetropolisRendering(ScenePtr scene, uint64_t seed,
                                          const MetropolisSettings& settings,
                                          std::unique_ptr<MetropolisAlgorithm> algorithm)
@@ -25,6 +72,7 @@ int MetropolisRendering::chains_of(int group) const {
 }
 
 void MetropolisRendering::prepare(int threads, const std::atomic<bool>& cancelled) {
+  algorithm_->prepare(seed_, threads, cancelled);
   const uint64_t candidates = (settings_.luminance_samples + groups - 1) / groups;
   std::vector<std::vector<double>> weights(groups, std::vector<double>(candidates));
   constexpr uint64_t block = 256;
@@ -52,10 +100,14 @@ void MetropolisRendering::prepare(int threads, const std::atomic<bool>& cancelle
     groups_[g].b_error = bootstrap.b_error;
     seeds[g] = std::move(bootstrap.seeds);
   }
-  std::vector<std::pair<uint64_t, uint64_t>> starts;  // chain, candidate
+  struct Start {
+    int group, number;
+    uint64_t candidate;
+  };
+  std::vector<Start> starts;
   for (int c = 0; c < settings_.chains; ++c) {
-    const int g = c % groups;
-    if (!seeds[g].empty()) starts.push_back({c, g * candidates + seeds[g][c / groups]});
+    const int g = c % groups, number = c / groups;
+    if (!seeds[g].empty()) starts.push_back({g, number, g * candidates + seeds[g][number]});
   }
   if (starts.empty())
     throw RenderError("no light path was found among " + std::to_string(candidates * groups) +
@@ -63,11 +115,13 @@ void MetropolisRendering::prepare(int threads, const std::atomic<bool>& cancelle
                       "the camera");
   lanes_.resize(starts.size());
   parallel_for(threads, starts.size(), [&](uint64_t i) {
-    const auto [chain, candidate] = starts[i];
+    const auto [group, number, candidate] = starts[i];
     lanes_[i] = std::make_unique<Lane>();
-    lanes_[i]->group = static_cast<int>(chain % groups);
-    lanes_[i]->chain = algorithm_->start(Rng(seed_, Purpose::bootstrap, candidate),
-                                         Rng(seed_, Purpose::chain, chain));
+    lanes_[i]->group = group;
+    lanes_[i]->number = number;
+    lanes_[i]->chain =
+        algorithm_->start(chain_id(group, number), Rng(seed_, Purpose::bootstrap, candidate),
+                          Rng(seed_, Purpose::choice, static_cast<uint64_t>(number) * groups + group));
   });
 }
 
@@ -120,43 +174,38 @@ void MetropolisRendering::add_stats(Stats& stats) const {
   stats.b = sum / groups;
   stats.b_error = std::sqrt(variance) / groups;
 
-  const std::vector<std::string> names = algorithm_->row_names();
+  std::vector<MutationStats> names = algorithm_->rows();
   std::vector<ChainStats::Row> rows(names.size());
   RayCounts rays = bootstrap_rays_;
+  StuckChain stuck;
   for (size_t i = 0; i < lanes_.size(); ++i) {
     const Lane& lane = *lanes_[i];
     const std::lock_guard lock(lane.mutex);
     const ChainStats& s = lane.chain->stats();
-    for (size_t r = 0; r < rows.size(); ++r) {
-      rows[r].proposed += s.rows[r].proposed;
-      rows[r].generated += s.rows[r].generated;
-      rows[r].accepted += s.rows[r].accepted;
-      rows[r].acceptance += s.rows[r].acceptance;
-      rows[r].image_distance += s.rows[r].image_distance;
-    }
+    for (size_t r = 0; r < rows.size(); ++r) rows[r] += s.rows[r];
     rays.intersect += s.rays.intersect;
     rays.occluded += s.rays.occluded;
     stats.invalid_samples += s.invalid;
-    if (s.longest_run > 0)
-      stats.stuck.push_back({i, s.longest_run, s.stuck_at.x, s.stuck_at.y, ""});
+    if (s.longest.rejections > stuck.rejections)
+      stuck = {i, s.longest.rejections, s.longest.raster.x, s.longest.raster.y, s.longest.signature};
   }
   stats.rays_intersect = rays.intersect;
   stats.rays_occluded = rays.occluded;
   for (size_t r = 0; r < rows.size(); ++r) {
-    MutationStats m;
-    m.name = names[r];
+    if (rows[r].proposed == 0) continue;
+    MutationStats& m = names[r];
+    const double n = static_cast<double>(rows[r].proposed);
     m.proposed = rows[r].proposed;
     m.generated = rows[r].generated;
     m.accepted = rows[r].accepted;
-    const double n = static_cast<double>(std::max<uint64_t>(1, m.proposed));
+    m.rays = rows[r].rays;
+    m.seconds = rows[r].seconds;
     m.mean_acceptance = rows[r].acceptance / n;
     m.image_distance = rows[r].image_distance / n;
     stats.mutations.push_back(m);
   }
-  // The longest run of rejections alone is worth telling.
-  const auto longer = [](const StuckChain& a, const StuckChain& b) { return a.rejections < b.rejections; };
-  const auto longest = std::max_element(stats.stuck.begin(), stats.stuck.end(), longer);
-  if (longest != stats.stuck.end()) stats.stuck = {StuckChain(*longest)};
+  if (stuck.rejections > 0) stats.stuck = {stuck};
+  algorithm_->add_stats(stats);
   if (film_.saturated() > 0)
     stats.warnings.push_back("the film's fixed-point range was exceeded; the brightest pixels are wrong");
 }
@@ -168,9 +217,12 @@ std::string MetropolisRendering::save() const {
     bytes.write(group.b_error);
     bytes.write(group.steps.load());
   }
+  bytes.write(bootstrap_rays_);
+  bytes.write(algorithm_->save());
   bytes.write<uint64_t>(lanes_.size());
   for (const auto& lane : lanes_) {
     bytes.write(lane->group);
+    bytes.write(lane->number);
     bytes.write(lane->round);
     lane->chain->save(bytes);
   }
@@ -185,6 +237,10 @@ void MetropolisRendering::load(const std::string& saved) {
     group.b_error = bytes.read<double>();
     group.steps = bytes.read<uint64_t>();
   }
+  bootstrap_rays_ = bytes.read<RayCounts>();
+  std::string prepared;
+  bytes.read(prepared);
+  algorithm_->load(prepared);
   const uint64_t lanes = bytes.read<uint64_t>();
   if (lanes > static_cast<uint64_t>(settings_.chains)) throw RenderError("the saved state has too many chains");
   lanes_.clear();
@@ -192,8 +248,9 @@ void MetropolisRendering::load(const std::string& saved) {
     lanes_.push_back(std::make_unique<Lane>());
     lanes_[i]->group = bytes.read<int>();
     if (lanes_[i]->group < 0 || lanes_[i]->group >= groups) throw RenderError("the saved state is damaged");
+    lanes_[i]->number = bytes.read<int>();
     lanes_[i]->round = bytes.read<uint64_t>();
-    lanes_[i]->chain = algorithm_->blank();
+    lanes_[i]->chain = algorithm_->blank(chain_id(lanes_[i]->group, lanes_[i]->number));
     lanes_[i]->chain->load(bytes);
   }
   std::string film;

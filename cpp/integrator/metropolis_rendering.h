@@ -8,6 +8,7 @@
 #include "base/rng.h"
 #include "image/splat_film.h"
 #include "integrator/integrator.h"
+#include "markov/step.h"
 #include "path/ray_counts.h"
 
 #include <condition_variable>
@@ -33,14 +34,27 @@ class ChainRecorder {
 /// What a chain tells about its steps; sums, so that chains can be merged.
 struct ChainStats {
   struct Row {
-    uint64_t proposed = 0, generated = 0, accepted = 0;
-    double acceptance = 0, image_distance = 0;
+    uint64_t proposed = 0, generated = 0, accepted = 0, rays = 0;
+    double acceptance = 0, image_distance = 0, seconds = 0;
+
+    Row& operator+=(const Row& other);
   };
-  std::vector<Row> rows;  ///< One for each row that MetropolisAlgorithm::row_names lists.
+  /// The longest run of rejections.
+  struct Stuck {
+    uint64_t rejections = 0;
+    Vec2 raster{0};
+    std::string signature;
+  };
+  std::vector<Row> rows;  ///< As MetropolisAlgorithm::rows lists them.
   RayCounts rays;
   uint64_t invalid = 0;
-  uint64_t rejections = 0, longest_run = 0;  ///< Rejections in a row, now and at the most.
-  Vec2 stuck_at{0};
+  uint64_t run = 0;  ///< Rejections in a row up to now.
+  Stuck longest;
+
+  /// Counts one step; `moved` is the distance on the image if it was accepted.
+  void count(Row& row, const StepResult& result, bool generated, double moved);
+  void save(ByteWriter& bytes) const;
+  void load(ByteReader& bytes);
 };
 
 /// One Markov chain.
@@ -53,6 +67,15 @@ class Chain {
   virtual void load(ByteReader& bytes) = 0;
 };
 
+/// Which chain it is: by its group, and by its number in the group.
+struct ChainId {
+  uint64_t seed;
+  int group, number, count;
+  Purpose purpose = Purpose::chain;
+
+  Rng rng() const { return Rng(seed, purpose, (uint64_t(group) << 32) | uint32_t(number)); }
+};
+
 /// What distinguishes one Metropolis integrator from another.
 class MetropolisAlgorithm {
  public:
@@ -60,11 +83,18 @@ class MetropolisAlgorithm {
 
   /// Draws a candidate for the start of a chain: returns its weight L* / p.
   virtual double candidate(Rng& rng, RayCounts& rays) const = 0;
-  /// Starts a chain from the candidate that the same stream gave; `rng` is the chain's own.
-  virtual std::unique_ptr<Chain> start(Rng candidate, Rng rng) const = 0;
+  /// Starts a chain from the candidate that the same stream gave; `choice` is there to choose one of
+  /// several paths that the candidate consists of.
+  virtual std::unique_ptr<Chain> start(const ChainId& id, Rng candidate, Rng choice) const = 0;
   /// A chain without a state, to be loaded from bytes.
-  virtual std::unique_ptr<Chain> blank() const = 0;
-  virtual std::vector<std::string> row_names() const = 0;
+  virtual std::unique_ptr<Chain> blank(const ChainId& id) const = 0;
+  /// Name and path length of each row of the statistics.
+  virtual std::vector<MutationStats> rows() const = 0;
+  /// Called once before the bootstrap, to prepare whatever is to be known by then.
+  virtual void prepare(uint64_t /*seed*/, int /*threads*/, const std::atomic<bool>& /*cancelled*/) {}
+  virtual void add_stats(Stats& /*stats*/) const {}
+  virtual std::string save() const { return ""; }
+  virtual void load(const std::string& /*bytes*/) {}
 };
 
 struct MetropolisSettings {
@@ -90,7 +120,7 @@ class MetropolisRendering : public Rendering {
   static constexpr int groups = 16;
 
   struct Lane {
-    int group = 0;
+    int group = 0, number = 0;
     std::unique_ptr<Chain> chain;
     uint64_t round = 0;  ///< Units done.
     mutable std::mutex mutex;
@@ -103,6 +133,7 @@ class MetropolisRendering : public Rendering {
 
   double pixels() const { return scene_->camera().raster().pixels(); }
   int chains_of(int group) const;
+  ChainId chain_id(int group, int number) const { return {seed_, group, number, chains_of(group)}; }
 
   ScenePtr scene_;
   uint64_t seed_;

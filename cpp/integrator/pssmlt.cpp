@@ -50,8 +50,12 @@ class PssmltChain : public Chain {
     };
     for (uint64_t i = 0; i < steps; ++i) {
       const Vec2 from = x_.raster;
+      const uint64_t rays_before = stats_.rays.intersect + stats_.rays.occluded;
       const StepResult result = metropolis_step(x_, y_, kernel, rng_, record);
-      count(kernel.last(), result, from);
+      ChainStats::Row& row = stats_.rows[kernel.last()];
+      stats_.count(row, result, kernel.generated(), glm::length(x_.raster - from));
+      row.rays += stats_.rays.intersect + stats_.rays.occluded - rays_before;
+      if (stats_.run > stats_.longest.rejections) stats_.longest = {stats_.run, x_.raster, ""};
     }
   }
 
@@ -63,12 +67,7 @@ class PssmltChain : public Chain {
     bytes.write(x_.raster);
     bytes.write(x_.rgb);
     bytes.write(x_.target);
-    bytes.write(stats_.rows);
-    bytes.write(stats_.rays);
-    bytes.write(stats_.invalid);
-    bytes.write(stats_.rejections);
-    bytes.write(stats_.longest_run);
-    bytes.write(stats_.stuck_at);
+    stats_.save(bytes);
   }
   void load(ByteReader& bytes) override {
     rng_ = Rng(bytes.read<Rng::State>());
@@ -76,31 +75,10 @@ class PssmltChain : public Chain {
     x_.raster = bytes.read<Vec2>();
     x_.rgb = bytes.read<Color>();
     x_.target = bytes.read<double>();
-    bytes.read(stats_.rows);
-    stats_.rows.resize(2);
-    stats_.rays = bytes.read<RayCounts>();
-    stats_.invalid = bytes.read<uint64_t>();
-    stats_.rejections = bytes.read<uint64_t>();
-    stats_.longest_run = bytes.read<uint64_t>();
-    stats_.stuck_at = bytes.read<Vec2>();
+    stats_.load(bytes);
   }
 
  private:
-  void count(int move, const StepResult& result, const Vec2& from) {
-    ChainStats::Row& row = stats_.rows[move];
-    ++row.proposed;
-    row.acceptance += result.acceptance;
-    if (result.acceptance > 0) ++row.generated;
-    if (result.accepted >= 0) {
-      ++row.accepted;
-      row.image_distance += glm::length(x_.raster - from);
-      stats_.rejections = 0;
-    } else if (++stats_.rejections > stats_.longest_run) {
-      stats_.longest_run = stats_.rejections;
-      stats_.stuck_at = x_.raster;
-    }
-  }
-
   const Scene* scene_;
   PssmltSettings settings_;
   Rng rng_;
@@ -120,14 +98,14 @@ class Pssmlt : public MetropolisAlgorithm {
     rays.occluded += stats.rays.occluded;
     return weight;
   }
-  std::unique_ptr<Chain> start(Rng candidate, Rng rng) const override {
+  std::unique_ptr<Chain> start(const ChainId& id, Rng candidate, Rng) const override {
     ChainStats stats;
-    return std::make_unique<PssmltChain>(*scene_, settings_, rng, walk(candidate, stats));
+    return std::make_unique<PssmltChain>(*scene_, settings_, id.rng(), walk(candidate, stats));
   }
-  std::unique_ptr<Chain> blank() const override {
-    return std::make_unique<PssmltChain>(*scene_, settings_, Rng(0, Purpose::chain, 0), PrimaryState());
+  std::unique_ptr<Chain> blank(const ChainId& id) const override {
+    return std::make_unique<PssmltChain>(*scene_, settings_, id.rng(), PrimaryState());
   }
-  std::vector<std::string> row_names() const override { return {"large_step", "small_step"}; }
+  std::vector<MutationStats> rows() const override { return {{"large_step"}, {"small_step"}}; }
 
  private:
   PrimaryState walk(Rng& rng, ChainStats& stats) const {

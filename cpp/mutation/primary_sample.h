@@ -54,16 +54,20 @@ class PrimarySampleKernel {
     if (last_ == small)
       for (const double u : x.numbers) y.numbers.push_back(small_step(u, rng));
     evaluate_(y, rng);
-    if (y.target == 0) return impossible;
+    generated_ = y.target > 0;
+    if (!generated_) return impossible;
     return {1 / y.target, 1 / x.target};
   }
 
   Move last() const { return last_; }
+  /// Whether the last proposal carries light.
+  bool generated() const { return generated_; }
 
  private:
   double large_probability_;
   Evaluate evaluate_;
   Move last_ = large;
+  bool generated_ = false;
 };
 
 }  // namespace mlt

@@ -9,20 +9,30 @@ void compute_terms(const Scene& scene, const Path& path, const TermSettings& set
   terms.from_light.resize(k + 1);
   terms.from_camera.resize(k + 1);
   terms.connectable.resize(k + 1);
-  for (int i = 0; i <= k; ++i) {
+  update_terms(scene, path, settings, 0, k, terms);
+}
+
+void update_terms(const Scene& scene, const Path& path, const TermSettings& settings, int first, int last,
+                  PathTerms& terms) {
+  const int k = path.edges();
+  for (int i = first; i < last; ++i) terms.G[i] = geometry(path[i].at, path[i + 1].at);
+  for (int i = first; i <= last; ++i) {
     terms.connectable[i] = connectable(path[i]);
     const Vec3 wl = i > 0 ? direction(path[i].at, path[i - 1].at) : Vec3(0);
     const Vec3 wc = i < k ? direction(path[i].at, path[i + 1].at) : Vec3(0);
     terms.vertex[i] = vertex_terms(scene, path[i], wl, wc, settings.strict_normals);
-    if (i < k) terms.G[i] = geometry(path[i].at, path[i + 1].at);
+    if (i < k) terms.from_light[i + 1] = terms.vertex[i].pdf_from_light * terms.G[i];
+    if (i > 0) terms.from_camera[i - 1] = terms.vertex[i].pdf_from_camera * terms.G[i - 1];
   }
-  terms.from_light[0] = light_position_pdf(scene, path[0]);
-  for (int i = 0; i < k; ++i) terms.from_light[i + 1] = terms.vertex[i].pdf_from_light * terms.G[i];
-  terms.from_camera[k] = camera_position_pdf(scene, path[k]);
-  for (int i = k; i > 0; --i) terms.from_camera[i - 1] = terms.vertex[i].pdf_from_camera * terms.G[i - 1];
-  terms.direct = settings.sample_direct ? direct_position_pdf(scene, path[0], path[1].at) : terms.from_light[0];
-  terms.light_can_be_hit = can_be_hit(scene, path[0]);
-  terms.camera_can_be_hit = can_be_hit(scene, path[k]);
+  if (first <= 1) {
+    terms.from_light[0] = light_position_pdf(scene, path[0]);
+    terms.direct = settings.sample_direct ? direct_position_pdf(scene, path[0], path[1].at) : terms.from_light[0];
+    terms.light_can_be_hit = can_be_hit(scene, path[0]);
+  }
+  if (last == k) {
+    terms.from_camera[k] = camera_position_pdf(scene, path[k]);
+    terms.camera_can_be_hit = can_be_hit(scene, path[k]);
+  }
 }
 
 Color contribution(const PathTerms& terms) {

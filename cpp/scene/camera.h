@@ -57,6 +57,11 @@ class Camera : public Object {
 
   /// A pinhole: no walk can hit the lens.
   virtual bool delta_position() const = 0;
+  /// The point of the lens at this offset (in its plane) from xk; nullopt beyond its rim.
+  virtual std::optional<SurfacePoint> move_on_lens(const SurfacePoint& /*xk*/, const Vec2& /*by*/) const {
+    return std::nullopt;
+  }
+  virtual double lens_radius() const { return 0; }
   /// Where a ray passes through the lens, if it has an area. The lens does not stop the ray.
   virtual std::optional<SurfacePoint> hit_lens(const Ray& /*ray*/) const { return std::nullopt; }
 

@@ -59,7 +59,9 @@ Scene::Scene(std::vector<ShapePtr> shapes, std::vector<EmitterPtr> emitters, Cam
   for (size_t i = 0; i < emitters_.size(); ++i) {
     emitters_[i]->set_bounds(bounds_);
     emitters_[i]->set_index(static_cast<uint32_t>(i));
-    if (emitters_[i]->infinite()) infinite_.push_back(static_cast<uint32_t>(i));
+    if (!emitters_[i]->infinite()) continue;
+    infinite_.push_back(static_cast<uint32_t>(i));
+    if (!emitters_[i]->delta()) backgrounds_.push_back(static_cast<uint32_t>(i));
   }
   emitter_choice_ = choose_by_power(emitters_);
   accel_ = std::make_unique<Accel>(shapes_);

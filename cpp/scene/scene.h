@@ -49,6 +49,8 @@ class Scene {
 
   /// Lights at infinity: all of them shine along every ray that leaves the scene.
   const std::vector<uint32_t>& infinite_emitters() const { return infinite_; }
+  /// Those of them that a ray can hit: all but directional lights.
+  const std::vector<uint32_t>& backgrounds() const { return backgrounds_; }
   /// The vertex at infinity that a ray along w ends in.
   static SurfacePoint point_at_infinity(const Vec3& w);
 
@@ -67,7 +69,7 @@ class Scene {
   int64_t sample_count_;
   Bounds bounds_;
   std::unique_ptr<Accel> accel_;
-  std::vector<uint32_t> infinite_;
+  std::vector<uint32_t> infinite_, backgrounds_;
   Discrete emitter_choice_;
 };
 

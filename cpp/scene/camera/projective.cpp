@@ -87,6 +87,12 @@ double ProjectiveCamera::eval(const SurfacePoint& xk, const Vec3& w) const {
   return image_density(xk, w) * pdf_position(xk);  // pdf_position = 1 / A_lens
 }
 
+std::optional<SurfacePoint> ProjectiveCamera::move_on_lens(const SurfacePoint& xk, const Vec2& by) const {
+  const Vec3 p = xk.p + axes_.s * by.x + axes_.t * by.y;
+  if (!(length_squared(p - position_) < sqr(lens_.radius))) return std::nullopt;
+  return point_at(p);
+}
+
 std::optional<SurfacePoint> ProjectiveCamera::hit_lens(const Ray& ray) const {
   const double t = dot(position_ - ray.o, axes_.n) / dot(ray.d, axes_.n);
   if (!(t > 0 && t < ray.t_max)) return std::nullopt;

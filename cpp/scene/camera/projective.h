@@ -48,6 +48,8 @@ class ProjectiveCamera final : public Camera {
   std::optional<Vec2> raster_position(const SurfacePoint& xk, const Vec3& w) const override;
   double pdf_direction(const SurfacePoint& xk, const Vec3& w) const override;
   bool delta_position() const override { return lens_.radius == 0; }
+  std::optional<SurfacePoint> move_on_lens(const SurfacePoint& xk, const Vec2& by) const override;
+  double lens_radius() const override { return lens_.radius; }
   std::optional<SurfacePoint> hit_lens(const Ray& ray) const override;
 
  private:

@@ -1,0 +1,40 @@
+// The bidirectional mutation (Veach & Guibas 1997, sec. 5.3.1; Veach 1997, sec. 11.3.1): delete a piece
+// of the path, grow new vertices from both ends of the gap, and connect them. It can change anything,
+// including the length, so it makes the chain ergodic on its own.
+//
+// With x_l and x_m the vertices that stay on both sides of the gap (l = -1 or m = k + 1: no vertex
+// stays there), c_d = m - l edges are deleted and c_a = s + t + 1 are added, of which s vertices come
+// from the light side and t from the camera side. All ways (s, t) of making the same vertices are
+// summed:
+//
+//   T(x -> y) = p_delete(l, m | x) p_length(c_a | c_d) sum_s p_way(s) p_s(inserted vertices)
+#pragma once
+
+#include "mutation/mutation.h"
+
+namespace mlt {
+
+class BidirectionalMutation : public Mutation {
+ public:
+  BidirectionalMutation(const Scene& scene, const MutationSettings& settings)
+      : scene_(&scene), settings_(settings) {}
+
+  const std::string& name() const override;
+  double suitability(const LightPath&) const override { return 1; }
+  std::optional<Edit> propose(const LightPath& x, LightPath& y, MutationContext& context) const override;
+  double density(const LightPath& x, const LightPath& y, const Edit& edit) const override;
+
+ private:
+  bool grow_from_light(LightPath& y, int first, int count, MutationContext& context) const;
+  bool grow_from_camera(LightPath& y, int first, int count, MutationContext& context) const;
+  bool scatter(Vertex& from, const Vec3& towards_previous, bool kept, double time,
+               MutationContext& context, Ray& ray) const;
+  bool arrive(const Ray& ray, Vertex& next, MutationContext& context) const;
+  bool arrive_at_light(const Ray& ray, Vertex& x0, MutationContext& context) const;
+  int most_edges() const { return settings_.max_depth < 0 ? 1 << 16 : settings_.max_depth; }
+
+  const Scene* scene_;
+  MutationSettings settings_;
+};
+
+}  // namespace mlt

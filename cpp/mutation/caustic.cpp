@@ -1,0 +1,67 @@
+#include "mutation/caustic.h"
+
+namespace mlt {
+
+const std::string& CausticPerturbation::name() const {
+  static const std::string name = "caustic";
+  return name;
+}
+
+int CausticPerturbation::start(const LightPath& x) const {
+  const int last = x.edges() - 1;
+  if (last < 1 || x.specular[last]) return -1;
+  int i = last - 1;
+  while (i > 0 && x.specular[i]) --i;
+  return i;
+}
+
+/// How far a ray from infinity moves: as far as a pixel is wide where the camera sees the chain's end.
+ExponentialRadius CausticPerturbation::offset_radius(const LightPath& x) const {
+  const int k = x.edges();
+  const double cos_lens = abs_cos(x[k].at, direction(x[k].at, x[k - 1].at));
+  const double pixel_angle = std::sqrt(1 / (chain_.raster_per_direction(x) * cos_lens));
+  return chain_.image_radius() * (pixel_angle * length(x[k].at.p - x[k - 1].at.p));
+}
+
+std::optional<Edit> CausticPerturbation::propose(const LightPath& x, LightPath& y,
+                                                 MutationContext& context) const {
+  const int k = x.edges(), a = start(x);
+  const Edit edit{a + 1, k - 1, k - 1 - a};
+  Rng& rng = context.rng;
+  splice(x, edit, y);
+  Ray ray;
+  if (x[a].at.infinite()) {
+    const double r = offset_radius(x).sample(rng.next()), phi = 2 * pi * rng.next();
+    const Frame frame = Frame::around(x[0].at.p);
+    const Vec3 through = x[1].at.p + r * (std::cos(phi) * frame.s + std::sin(phi) * frame.t);
+    const Bounds& bounds = scene_->bounds();
+    const double back = dot(bounds.center - through, x[0].at.p) + bounds.radius;
+    ray = {through + back * x[0].at.p, -x[0].at.p, y.path.time};
+  } else {
+    const Vec3 w = direction(x[a].at, x[a + 1].at);
+    ray = scene_->spawn(x[a].at, ChainPerturbation::perturb(w, chain_.angle(x, a, k - 1, 1), rng), y.path.time);
+  }
+  if (!chain_.carry(x, {a, k - 1, 1}, ray, y, context)) return std::nullopt;
+  evaluate(*scene_, settings_, a + 1, k - 1, y);
+  if (!(y.target > 0)) return edit;
+  ++context.rays.occluded;
+  if (!scene_->visible(y[k - 1].at, y[k].at, y.path.time)) y.target = 0;
+  return edit;
+}
+
+double CausticPerturbation::density(const LightPath& x, const LightPath& y, const Edit& edit) const {
+  const int k = x.edges(), a = start(x);
+  if (a < 0 || a != start(y) || a + 1 != edit.first) return 0;
+  double first;
+  if (x[a].at.infinite()) {
+    const Vec3 d = y[1].at.p - x[1].at.p;
+    first = offset_radius(x).planar_pdf(length(d - dot(d, x[0].at.p) * x[0].at.p));
+  } else {
+    const Vec3 from = direction(x[a].at, x[a + 1].at), to = direction(y[a].at, y[a + 1].at);
+    const double theta = 2 * std::atan2(length(from - to), length(from + to));
+    first = chain_.angle(x, a, k - 1, 1).angular_pdf(theta) / abs_cos(y[a].at, to);
+  }
+  return chain_.density(x, y, {a, k - 1, 1}, first);
+}
+
+}  // namespace mlt

@@ -1,0 +1,34 @@
+// The caustic perturbation (Veach & Guibas 1997, sec. 5.3.2.2; Veach 1997, sec. 11.3.3.2), for paths of the
+// form (L|D)S*DE: the direction that leaves the light-side vertex turns by a small angle, the specular
+// chain follows, and the diffuse vertex at its end is joined to the lens, at a new image position.
+//
+// Where the chain starts at a light at infinity its direction x_0 stays and the ray moves across the
+// plane perpendicular to it. The angle (or the distance) is such that the image position moves about as
+// far as the lens perturbation would move it.
+#pragma once
+
+#include "mutation/chain_perturbation.h"
+
+namespace mlt {
+
+class CausticPerturbation : public Mutation {
+ public:
+  CausticPerturbation(const Scene& scene, const MutationSettings& settings)
+      : scene_(&scene), settings_(settings), chain_(scene, settings) {}
+
+  const std::string& name() const override;
+  double suitability(const LightPath& x) const override { return start(x) >= 0 ? 1 : 0; }
+  std::optional<Edit> propose(const LightPath& x, LightPath& y, MutationContext& context) const override;
+  double density(const LightPath& x, const LightPath& y, const Edit& edit) const override;
+
+ private:
+  /// The vertex from which the chain to the last diffuse vertex starts; -1: another form.
+  int start(const LightPath& x) const;
+  ExponentialRadius offset_radius(const LightPath& x) const;
+
+  const Scene* scene_;
+  MutationSettings settings_;
+  ChainPerturbation chain_;
+};
+
+}  // namespace mlt

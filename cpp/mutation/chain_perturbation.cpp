@@ -1,0 +1,127 @@
+#include "mutation/chain_perturbation.h"
+
+#include "mutation/half_vector.h"
+
+namespace mlt {
+namespace {
+
+/// Directions at vertex i to where a walk with this step comes from and to where it goes.
+Vec3 direction_in(const LightPath& x, int i, int step) { return direction(x[i].at, x[i - step].at); }
+Vec3 direction_out(const LightPath& x, int i, int step) { return direction(x[i].at, x[i + step].at); }
+
+double angle_between(const Vec3& a, const Vec3& b) {
+  return 2 * std::atan2(length(a - b), length(a + b));
+}
+
+}  // namespace
+
+ChainPerturbation::ChainPerturbation(const Scene& scene, const MutationSettings& settings) : scene_(&scene) {
+  const Raster& raster = scene.camera().raster();
+  const double diagonal = std::hypot(raster.size.x, raster.size.y);
+  image_radius_ = {settings.smallest_pixels, std::max(2 * settings.smallest_pixels, settings.largest_share * diagonal)};
+}
+
+double ChainPerturbation::raster_per_direction(const LightPath& x) const {
+  return x.terms.vertex[x.edges()].pdf_from_camera * scene_->camera().raster().sampled_area();
+}
+
+/// Veach 1997, eq. 11.11: the angle that a move of one pixel is seen under from the lens, times the
+/// length of the path between the lens and the chain's near end over the length of the chain.
+ExponentialRadius ChainPerturbation::angle(const LightPath& x, int i, int stop, int step) const {
+  const int k = x.edges();
+  const double cos_lens = abs_cos(x[k].at, direction(x[k].at, x[k - 1].at));
+  const double pixel_angle = std::sqrt(1 / (raster_per_direction(x) * cos_lens));
+  const auto edge = [&](int a, int b) { return length(x[a].at.p - x[b].at.p); };
+  double seen = 0, chain = 0;
+  for (int j = step > 0 ? stop : i; j < k; ++j) seen += edge(j, j + 1);
+  for (int j = i; j != stop; j += step)
+    if (!x[j].at.infinite()) chain += edge(j, j + step);
+  const double scale = pixel_angle * seen / chain;
+  const double largest = std::min(image_radius_.largest * scale, 0.5 * pi);
+  return {std::min(image_radius_.smallest * scale, 0.5 * largest), largest};
+}
+
+Vec3 ChainPerturbation::perturb(const Vec3& w, const ExponentialRadius& angle, Rng& rng) {
+  const double theta = angle.sample(rng.next()), phi = 2 * pi * rng.next();
+  const Frame frame = Frame::around(w);
+  return frame.to_world({std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)});
+}
+
+int ChainPerturbation::next_diffuse(const LightPath& x, int start, int step) {
+  const int end = step < 0 ? 0 : x.edges();
+  int i = start + step;
+  while (i != end && x.specular[i]) i += step;
+  return i == end ? -1 : i;
+}
+
+bool ChainPerturbation::carry(const LightPath& x, const Span& span, Ray ray, LightPath& y,
+                              MutationContext& context) const {
+  for (int i = span.start + span.step;; i += span.step) {
+    SurfacePoint at;
+    ++context.rays.intersect;
+    if (!scene_->intersect(ray, at)) return false;
+    y.path[i] = surface_vertex(at, x[i].lobe);
+    if (i == span.stop) return true;
+    const auto out = carried_direction(x, y, i, span.step, -ray.d, context);
+    if (!out) return false;
+    ray = scene_->spawn(at, *out, y.path.time);
+  }
+}
+
+std::optional<Vec3> ChainPerturbation::carried_direction(const LightPath& x, const LightPath& y, int i,
+                                                         int step, const Vec3& in,
+                                                         MutationContext& context) const {
+  if (!x.specular[i]) {
+    const int stop = next_diffuse(x, i, step);
+    return perturb(direction_out(x, i, step), angle(x, i, stop, step), context.rng);
+  }
+  const SurfacePoint& from = x[i].at;
+  const SurfacePoint& at = y[i].at;
+  if (x[i].lobe == Lobe::passage) return -in;
+  const Vec3 x_in = from.shading.to_local(direction_in(x, i, step));
+  const Vec3 x_out = from.shading.to_local(direction_out(x, i, step));
+  const Vec3 y_in = at.shading.to_local(in);
+  if (!same_side(x_in, y_in) && !x[i].delta()) return std::nullopt;
+  std::optional<Vec3> h = Vec3(0, 0, 1);
+  if (!x[i].delta()) h = half_vector(x_in, x_out, scene_->bsdf(from).relative_eta(from, x_in));
+  if (!h) return std::nullopt;
+  const bool reflected = x[i].delta() ? x[i].lobe == Lobe::reflection : same_side(x_in, x_out);
+  const auto y_out = reflected ? reflect_about(y_in, *h)
+                               : refract_about(y_in, *h, scene_->bsdf(at).relative_eta(at, y_in));
+  if (!y_out) return std::nullopt;
+  return at.shading.to_world(*y_out);
+}
+
+double ChainPerturbation::density(const LightPath& x, const LightPath& y, const Span& span,
+                                  double first_coefficient) const {
+  const auto G = [&](int i) { return y.terms.G[span.step < 0 ? i - 1 : i]; };
+  double p = first_coefficient * G(span.start);
+  for (int i = span.start + span.step; i != span.stop; i += span.step)
+    p *= coefficient(x, y, i, span.step) * G(i);
+  return p;
+}
+
+/// Density with which y's vertex i is left, in projected solid angle, when x is perturbed.
+double ChainPerturbation::coefficient(const LightPath& x, const LightPath& y, int i, int step) const {
+  const SurfacePoint& at = y[i].at;
+  const Vec3 in = direction_in(y, i, step), out = direction_out(y, i, step);
+  if (!x.specular[i]) {
+    const int stop = next_diffuse(x, i, step);
+    const double theta = angle_between(out, direction_out(x, i, step));
+    return angle(x, i, stop, step).angular_pdf(theta) / abs_cos(at, out);
+  }
+  const Bsdf& bsdf = scene_->bsdf(at);
+  const Vec3 local_in = at.shading.to_local(in), local_out = at.shading.to_local(out);
+  if (y[i].delta()) {
+    // The coefficient of the one delta without the probability of having chosen it: the lobe stays.
+    const double chosen = bsdf.pdf(at, local_in, local_out, y[i].lobe);
+    const VertexTerms& terms = y.terms.vertex[i];
+    return (step < 0 ? terms.pdf_from_camera : terms.pdf_from_light) / chosen;
+  }
+  const double eta = bsdf.relative_eta(at, local_in);
+  const auto h = half_vector(local_in, local_out, eta);
+  if (!h) return 0;
+  return half_vector_jacobian(local_in, local_out, *h, eta) / abs_cos(at, out);
+}
+
+}  // namespace mlt

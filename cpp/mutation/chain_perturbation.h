@@ -1,0 +1,72 @@
+// What lens, caustic and multi-chain perturbation share: an end of the path is moved a little, and the
+// move is carried from vertex to vertex (Veach & Guibas 1997, sec. 5.3.2; Veach 1997, sec. 11.3.3).
+//
+// The path is walked from `start` in steps of `step` (-1: from the camera, +1: from the light) up to
+// `stop`; the vertices after `start` up to `stop` move. At a specular vertex the half vector is kept. At a
+// diffuse vertex in between (multi-chain) the direction is perturbed by a small angle.
+#pragma once
+
+#include "mutation/mutation.h"
+
+namespace mlt {
+
+/// A distance distributed with density proportional to 1 / R between two radii (Veach 1997, sec.
+/// 11.3.3.1): R = R_2 exp(-ln(R_2 / R_1) u).
+struct ExponentialRadius {
+  double smallest, largest;
+
+  double sample(double u) const { return largest * std::exp(-std::log(largest / smallest) * u); }
+  /// Density of an offset of length r in the plane.
+  double planar_pdf(double r) const {
+    if (!(r > smallest && r < largest)) return 0;
+    return 1 / (2 * pi * r * r * std::log(largest / smallest));
+  }
+  /// Density in solid angle of a direction at angle r from another.
+  double angular_pdf(double r) const {
+    if (!(r > smallest && r < largest)) return 0;
+    return 1 / (2 * pi * r * std::sin(r) * std::log(largest / smallest));
+  }
+  ExponentialRadius operator*(double s) const { return {smallest * s, largest * s}; }
+};
+
+class ChainPerturbation {
+ public:
+  ChainPerturbation(const Scene& scene, const MutationSettings& settings);
+
+  struct Span {
+    int start, stop, step;
+  };
+
+  /// Moves vertices after span.start up to span.stop; the first of them is where `ray` arrives. The
+  /// terms of y are not evaluated.
+  bool carry(const LightPath& x, const Span& span, Ray ray, LightPath& y, MutationContext& context) const;
+
+  /// Product of the densities of the moved vertices of y, in their area measure; `first_coefficient` is
+  /// the density of the first direction in projected solid angle at span.start.
+  double density(const LightPath& x, const LightPath& y, const Span& span, double first_coefficient) const;
+
+  /// Radii of a move on the image, in pixels.
+  const ExponentialRadius& image_radius() const { return image_radius_; }
+  /// d(raster area) / d(projected solid angle) at the lens, for the direction of x.
+  double raster_per_direction(const LightPath& x) const;
+  /// Angles at vertex i by which a direction is perturbed so that the end of the chain, which `span`
+  /// enters there and leaves at `stop`, moves as far as the image radius says.
+  ExponentialRadius angle(const LightPath& x, int i, int stop, int step) const;
+
+  /// A direction at an exponentially distributed angle from `w`.
+  static Vec3 perturb(const Vec3& w, const ExponentialRadius& angle, Rng& rng);
+
+  /// Whether the path has the form from `start` on: specular vertices up to a diffuse one. Returns that
+  /// one's index, or -1 if the walk reaches the other end first.
+  static int next_diffuse(const LightPath& x, int start, int step);
+
+ private:
+  std::optional<Vec3> carried_direction(const LightPath& x, const LightPath& y, int i, int step,
+                                        const Vec3& in, MutationContext& context) const;
+  double coefficient(const LightPath& x, const LightPath& y, int i, int step) const;
+
+  const Scene* scene_;
+  ExponentialRadius image_radius_;
+};
+
+}  // namespace mlt

@@ -1,0 +1,86 @@
+#include "mutation/lens.h"
+
+namespace mlt {
+namespace {
+
+/// Both ways of the lens point are equally likely: to stay, or to move.
+bool lens_moves(const LightPath& x, const LightPath& y) { return x[x.edges()].at.p != y[y.edges()].at.p; }
+
+}  // namespace
+
+const std::string& LensPerturbation::name() const {
+  static const std::string name = "lens";
+  return name;
+}
+
+const std::string& MultiChainPerturbation::name() const {
+  static const std::string name = "multi_chain";
+  return name;
+}
+
+CameraPerturbation::Form CameraPerturbation::form(const LightPath& x) const {
+  Form form;
+  for (int i = ChainPerturbation::next_diffuse(x, x.edges(), -1); i > 0;
+       i = ChainPerturbation::next_diffuse(x, i, -1)) {
+    if (i == 1 || !x.specular[i - 1]) {
+      form.stop = i;
+      return form;
+    }
+    ++form.further_chains;
+  }
+  return form;
+}
+
+double CameraPerturbation::suitability(const LightPath& x) const {
+  const Form f = form(x);
+  return f.stop > 0 && suits(f.further_chains) ? 1 : 0;
+}
+
+/// Radii on the lens: a thousandth and a third of its own radius.
+ExponentialRadius CameraPerturbation::lens_radius() const {
+  const double radius = scene_->camera().lens_radius();
+  return {1e-3 * radius, radius / 3};
+}
+
+std::optional<Edit> CameraPerturbation::propose(const LightPath& x, LightPath& y,
+                                                MutationContext& context) const {
+  const int k = x.edges(), stop = form(x).stop;
+  const Edit edit{stop, k, k - stop + 1};
+  Rng& rng = context.rng;
+  const Camera& camera = scene_->camera();
+  splice(x, edit, y);
+  y.path[k] = x[k];
+  if (!camera.delta_position() && rng.next() < 0.5) {
+    const double r = lens_radius().sample(rng.next()), phi = 2 * pi * rng.next();
+    const auto moved = camera.move_on_lens(x[k].at, {r * std::cos(phi), r * std::sin(phi)});
+    if (!moved) return std::nullopt;
+    y.path[k].at = *moved;
+  }
+  const double r = chain_.image_radius().sample(rng.next()), phi = 2 * pi * rng.next();
+  const Vec2 raster = x.raster + r * Vec2(std::cos(phi), std::sin(phi));
+  if (!camera.raster().contains(raster)) return std::nullopt;
+
+  const Ray ray{y[k].at.p, camera.direction(y[k].at, raster), y.path.time};
+  if (!chain_.carry(x, {k, stop, -1}, ray, y, context)) return std::nullopt;
+  evaluate(*scene_, settings_, stop, k, y);
+  if (!(y.target > 0)) return edit;
+  ++context.rays.occluded;
+  if (!scene_->visible(y[stop - 1].at, y[stop].at, y.path.time)) y.target = 0;
+  return edit;
+}
+
+double CameraPerturbation::density(const LightPath& x, const LightPath& y, const Edit& edit) const {
+  const Form from = form(x), to = form(y);
+  if (from.stop != to.stop || from.further_chains != to.further_chains || from.stop != edit.first) return 0;
+  for (int i = from.stop; i < x.edges(); ++i)
+    if (x.specular[i] != y.specular[i]) return 0;
+  const int k = x.edges();
+  const double on_image =
+      chain_.image_radius().planar_pdf(glm::length(y.raster - x.raster)) * chain_.raster_per_direction(y);
+  double on_lens = 1;
+  if (!scene_->camera().delta_position())
+    on_lens = lens_moves(x, y) ? 0.5 * lens_radius().planar_pdf(length(y[k].at.p - x[k].at.p)) : 0.5;
+  return on_lens * chain_.density(x, y, {k, from.stop, -1}, on_image);
+}
+
+}  // namespace mlt

@@ -1,0 +1,71 @@
+#include "mutation/lens_subpath.h"
+
+namespace mlt {
+
+const std::string& LensSubpathMutation::name() const {
+  static const std::string name = "lens_subpath";
+  return name;
+}
+
+int LensSubpathMutation::stop(const LightPath& x) const {
+  int i = x.edges() - 1;
+  while (i > 0 && x[i].delta()) --i;
+  return i > 0 && !x[i - 1].delta() ? i : -1;
+}
+
+double LensSubpathMutation::stop_probability(const SurfacePoint& at) const {
+  const Bsdf& bsdf = scene_->bsdf(at);
+  if (!bsdf.has_smooth()) return 0;
+  return bsdf.has_delta() ? 0.5 : 1.0;
+}
+
+std::optional<Edit> LensSubpathMutation::propose(const LightPath& x, LightPath& y,
+                                                 MutationContext& context) const {
+  const Camera& camera = scene_->camera();
+  Rng& rng = context.rng;
+  const PositionSample lens = camera.sample_position({rng.next(), rng.next()});
+  Ray ray{lens.at.p, camera.direction(lens.at, context.stratified_raster), x.path.time};
+
+  // The walk comes first: only then is the length of the path known.
+  constexpr int most_vertices = 32;
+  Vertex walk[most_vertices];
+  int count = 0;
+  for (;; ++count) {
+    if (count == most_vertices) return std::nullopt;
+    SurfacePoint at;
+    ++context.rays.intersect;
+    if (!scene_->intersect(ray, at)) return std::nullopt;
+    walk[count] = surface_vertex(at);
+    if (rng.next() < stop_probability(at)) break;
+    const auto sample =
+        scene_->bsdf(at).sample(at, at.shading.to_local(-ray.d), {rng.next(), rng.next(), rng.next()});
+    if (!sample || sample->lobe == Lobe::smooth) return std::nullopt;
+    walk[count].lobe = sample->lobe;
+    ray = scene_->spawn(at, at.shading.to_world(sample->to), x.path.time);
+  }
+  const int first = stop(x);
+  const Edit edit{first, x.edges(), count + 2};
+  if (settings_.max_depth >= 0 && x.edges() + edit.shift() > settings_.max_depth) return std::nullopt;
+  splice(x, edit, y);
+  const int k = y.edges();
+  y.path[k] = camera_vertex(lens.at);
+  for (int i = 0; i <= count; ++i) y.path[k - 1 - i] = walk[i];
+  evaluate(*scene_, settings_, first, k, y);
+  if (!(y.target > 0)) return edit;
+  ++context.rays.occluded;
+  if (!scene_->visible(y[first - 1].at, y[first].at, y.path.time)) y.target = 0;
+  return edit;
+}
+
+double LensSubpathMutation::density(const LightPath& x, const LightPath& y, const Edit& edit) const {
+  if (stop(x) != edit.first || stop(y) != edit.first) return 0;
+  double p = 1;
+  for (int i = edit.first; i <= y.edges(); ++i) p *= y.terms.from_camera[i];
+  for (int i = edit.first; i < y.edges(); ++i) {
+    const double stops = stop_probability(y[i].at);
+    p *= i == edit.first ? stops : 1 - stops;
+  }
+  return p;
+}
+
+}  // namespace mlt

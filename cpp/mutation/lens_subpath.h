@@ -1,0 +1,35 @@
+// The lens subpath mutation (Veach 1997, sec. 11.3.4): the camera end of the path is replaced by a fresh
+// one, for paths of the form ...(L|D)DS*E with perfectly specular S. A new point on the lens and a new
+// image position are drawn, the walk goes on as long as it scatters specularly, and the vertex where it
+// stops is joined to the rest of the path.
+//
+// The image positions that the chains of one round use are stratified over the image; each by itself
+// is uniform, so nothing else changes.
+#pragma once
+
+#include "mutation/mutation.h"
+
+namespace mlt {
+
+class LensSubpathMutation : public Mutation {
+ public:
+  LensSubpathMutation(const Scene& scene, const MutationSettings& settings)
+      : scene_(&scene), settings_(settings) {}
+
+  const std::string& name() const override;
+  double suitability(const LightPath& x) const override { return stop(x) > 0 ? 1 : 0; }
+  std::optional<Edit> propose(const LightPath& x, LightPath& y, MutationContext& context) const override;
+  double density(const LightPath& x, const LightPath& y, const Edit& edit) const override;
+
+ private:
+  /// The vertex that ends the lens subpath: the first from the camera that is not a delta; -1 if it, or
+  /// the one before it, cannot be connected.
+  int stop(const LightPath& x) const;
+  /// Probability with which a walk stops at this surface, to be joined there.
+  double stop_probability(const SurfacePoint& at) const;
+
+  const Scene* scene_;
+  MutationSettings settings_;
+};
+
+}  // namespace mlt
