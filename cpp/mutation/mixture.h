@@ -58,6 +58,7 @@ class MutationMixture {
     if (!edit || y.target == 0) return impossible;
     generated_ = true;
     const double forward = suitability_[chosen_] / sum * mutation.density(x, y, *edit);
+    if (forward == 0) return impossible;  // y has another form than the mutation makes
     const double backward = probability(y) * mutation.density(y, x, edit->reversed());
     return {forward / y.target, backward / x.target};
   }
