@@ -89,6 +89,93 @@ class Direct(Integrator):
         strict_normals: bool = ...,
     ) -> None: ...
 
+class MLT(Integrator):
+    """Metropolis light transport in path space with Veach's mutations (Veach & Guibas 1997). One
+    spp is one mutation per pixel.
+
+    Parameters
+    ----------
+    max_depth : integer, default -1
+        Edges of the longest path: 1 shows the lights alone, 2 adds direct light, -1 is
+        unbounded.
+    rr_depth : integer, default 5
+        Depth from which on Russian roulette may end a path.
+    hide_emitters : boolean, default False
+        Leave out lights that the camera sees directly.
+    strict_normals : boolean, default False
+        Refuse directions that the geometric and the shading normal see on different sides.
+    luminance_samples : integer, default 100000
+        Paths drawn to estimate the image's mean brightness b and to start the chains from.
+    chains : integer, default 1024
+        Number of Markov chains, whatever the budget: more samples make chains longer.
+    bidirectional_mutation : boolean, default True
+        Use the bidirectional mutation, which replaces any piece of the path (Veach 1997, sec.
+        11.3.1).
+    bidirectional_weight : float, default 0.3
+        Weight of the bidirectional mutation among those that suit a path.
+    lens_perturbation : boolean, default True
+        Use the lens perturbation of paths (L|D)DS*E (Veach 1997, sec. 11.3.3.1).
+    lens_weight : float, default 0.3
+        Weight of the lens mutation among those that suit a path.
+    caustic_perturbation : boolean, default True
+        Use the caustic perturbation of paths (L|D)S*DE (Veach 1997, sec. 11.3.3.2).
+    caustic_weight : float, default 0.2
+        Weight of the caustic mutation among those that suit a path.
+    multi_chain_perturbation : boolean, default True
+        Use the multi-chain perturbation of paths (L|D)(DS+)*DS*E (Veach 1997, sec. 11.3.3.3).
+    multi_chain_weight : float, default 0.2
+        Weight of the multi_chain mutation among those that suit a path.
+    lens_subpath_mutation : boolean, default True
+        Use the lens subpath mutation, which draws a fresh camera end (Veach 1997, sec. 11.3.4).
+    lens_subpath_weight : float, default 0.1
+        Weight of the lens_subpath mutation among those that suit a path.
+    near_specular : float, default 0.1
+        Smooth vertices below this roughness count as specular in perturbations.
+    manifold_perturbation : boolean, default False
+        Only false: it does not exist yet.
+    """
+
+    max_depth: int
+    rr_depth: int
+    hide_emitters: bool
+    strict_normals: bool
+    luminance_samples: int
+    chains: int
+    bidirectional_mutation: bool
+    bidirectional_weight: float
+    lens_perturbation: bool
+    lens_weight: float
+    caustic_perturbation: bool
+    caustic_weight: float
+    multi_chain_perturbation: bool
+    multi_chain_weight: float
+    lens_subpath_mutation: bool
+    lens_subpath_weight: float
+    near_specular: float
+    manifold_perturbation: bool
+    def __init__(
+        self,
+        *,
+        max_depth: int = ...,
+        rr_depth: int = ...,
+        hide_emitters: bool = ...,
+        strict_normals: bool = ...,
+        luminance_samples: int = ...,
+        chains: int = ...,
+        bidirectional_mutation: bool = ...,
+        bidirectional_weight: float = ...,
+        lens_perturbation: bool = ...,
+        lens_weight: float = ...,
+        caustic_perturbation: bool = ...,
+        caustic_weight: float = ...,
+        multi_chain_perturbation: bool = ...,
+        multi_chain_weight: float = ...,
+        lens_subpath_mutation: bool = ...,
+        lens_subpath_weight: float = ...,
+        near_specular: float = ...,
+        manifold_perturbation: bool = ...,
+    ) -> None: ...
+
 class Path(Integrator):
     """Path tracing from the camera with next-event estimation and multiple importance sampling
     (Kajiya 1986; Veach & Guibas 1995). One spp is one camera path per pixel.
@@ -197,6 +284,7 @@ class PTracer(Integrator):
 
 __all__ = [
     "BDPT",
+    "MLT",
     "PSSMLT",
     "Direct",
     "PTracer",
