@@ -31,6 +31,38 @@ class ChainRecorder {
   int group_;
 };
 
+/// Records the states of a chain, each once: the weights of the current state add up until the chain
+/// leaves it. A State has raster, rgb and target.
+template <class State>
+class StepRecorder {
+ public:
+  StepRecorder(const ChainRecorder& recorder, const State& x) : recorder_(&recorder), x_(&x) {}
+
+  /// As metropolis_step calls it.
+  void operator()(const State& state, double weight) { (&state == x_ ? weight_x_ : weight_y_) += weight; }
+
+  /// After a step; on acceptance `other` is the state that x has left, otherwise the proposal.
+  void settle(const StepResult& result, const State& other) {
+    if (result.accepted >= 0) std::swap(weight_x_, weight_y_);
+    record(other, weight_y_);
+    weight_y_ = 0;
+  }
+  /// Records what the current state has gathered.
+  void finish() {
+    record(*x_, weight_x_);
+    weight_x_ = 0;
+  }
+
+ private:
+  void record(const State& state, double weight) const {
+    if (weight > 0) recorder_->record(state.raster, state.rgb / state.target, weight);
+  }
+
+  const ChainRecorder* recorder_;
+  const State* x_;
+  double weight_x_ = 0, weight_y_ = 0;
+};
+
 /// What a chain tells about its steps; sums, so that chains can be merged.
 struct ChainStats {
   struct Row {

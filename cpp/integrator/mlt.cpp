@@ -37,21 +37,21 @@ class MltChain : public Chain {
 
   void advance(uint64_t steps, const ChainRecorder& recorder) override {
     MutationMixture kernel(*mutations_, *choice_, stats_.rays);
-    const auto record = [&](const LightPath& state, double weight) {
-      recorder.record(state.raster, state.rgb / state.target, weight);
-    };
+    StepRecorder<LightPath> record(recorder, x_);
     for (uint64_t i = 0; i < steps; ++i, ++step_) {
       kernel.set_stratified_raster(round_raster());
       const Vec2 from = x_.raster;
       const int edges = x_.edges();
       const uint64_t rays_before = stats_.rays.intersect + stats_.rays.occluded;
       const StepResult result = metropolis_step(x_, y_, kernel, rng_, record);
+      record.settle(result, y_[0]);
       ChainStats::Row& row = stats_.rows[kernel.chosen() * (longest_counted + 1) + std::min(edges, longest_counted)];
       stats_.count(row, result, kernel.generated(), glm::length(x_.raster - from));
       row.rays += stats_.rays.intersect + stats_.rays.occluded - rays_before;
       if (stats_.run > stats_.longest.rejections && stats_.run % 64 == 0)
         stats_.longest = {stats_.run, x_.raster, signature()};
     }
+    record.finish();
   }
 
   const ChainStats& stats() const override { return stats_; }

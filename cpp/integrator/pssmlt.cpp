@@ -45,18 +45,18 @@ class PssmltChain : public Chain {
     PrimarySampleKernel kernel(settings_.large_probability, [&](PrimaryState& state, Rng& rng) {
       evaluate(*scene_, settings_.path, state, rng, stats_);
     });
-    const auto record = [&](const PrimaryState& state, double weight) {
-      recorder.record(state.raster, state.rgb / state.target, weight);
-    };
+    StepRecorder<PrimaryState> record(recorder, x_);
     for (uint64_t i = 0; i < steps; ++i) {
       const Vec2 from = x_.raster;
       const uint64_t rays_before = stats_.rays.intersect + stats_.rays.occluded;
       const StepResult result = metropolis_step(x_, y_, kernel, rng_, record);
+      record.settle(result, y_[0]);
       ChainStats::Row& row = stats_.rows[kernel.last()];
       stats_.count(row, result, kernel.generated(), glm::length(x_.raster - from));
       row.rays += stats_.rays.intersect + stats_.rays.occluded - rays_before;
       if (stats_.run > stats_.longest.rejections) stats_.longest = {stats_.run, x_.raster, ""};
     }
+    record.finish();
   }
 
   const ChainStats& stats() const override { return stats_; }

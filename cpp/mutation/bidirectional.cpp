@@ -5,17 +5,19 @@
 namespace mlt {
 namespace {
 
+double power_of_half(int n) { return 1 / static_cast<double>(uint64_t{1} << std::min(n, 60)); }
+
 /// Weight of deleting `edges` edges (Veach 1997, sec. 11.3.1.1): mostly two, that is one vertex.
 double deletion_weight(int edges) {
   if (edges <= 1) return 0.25;
-  return edges == 2 ? 0.5 : std::ldexp(1.0, -edges);
+  return edges == 2 ? 0.5 : power_of_half(edges);
 }
 
 /// Weight of adding `added` edges where `deleted` were (Veach 1997, sec. 11.3.1.2).
 double addition_weight(int added, int deleted) {
   const int change = std::abs(added - deleted);
   if (change == 0) return 0.5;
-  return change == 1 ? 0.15 : 0.2 * std::ldexp(1.0, -change);
+  return change == 1 ? 0.15 : 0.2 * power_of_half(change);
 }
 
 /// May the gap lie between vertices l and m? What stays must scatter smoothly: a delta vertex would

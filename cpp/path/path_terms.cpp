@@ -15,14 +15,16 @@ void compute_terms(const Scene& scene, const Path& path, const TermSettings& set
 void update_terms(const Scene& scene, const Path& path, const TermSettings& settings, int first, int last,
                   PathTerms& terms) {
   const int k = path.edges();
-  for (int i = first; i < last; ++i) terms.G[i] = geometry(path[i].at, path[i + 1].at);
+  // Each direction is computed once, for the vertices at both of its ends.
+  Vec3 wl = first > 0 ? direction(path[first].at, path[first - 1].at) : Vec3(0);
   for (int i = first; i <= last; ++i) {
-    terms.connectable[i] = connectable(path[i]);
-    const Vec3 wl = i > 0 ? direction(path[i].at, path[i - 1].at) : Vec3(0);
     const Vec3 wc = i < k ? direction(path[i].at, path[i + 1].at) : Vec3(0);
+    if (i < last) terms.G[i] = geometry(path[i].at, path[i + 1].at, wc);
+    terms.connectable[i] = connectable(path[i]);
     terms.vertex[i] = vertex_terms(scene, path[i], wl, wc, settings.strict_normals);
-    if (i < k) terms.from_light[i + 1] = terms.vertex[i].pdf_from_light * terms.G[i];
     if (i > 0) terms.from_camera[i - 1] = terms.vertex[i].pdf_from_camera * terms.G[i - 1];
+    if (i < k) terms.from_light[i + 1] = terms.vertex[i].pdf_from_light * terms.G[i];
+    wl = -wc;
   }
   if (first <= 1) {
     terms.from_light[0] = light_position_pdf(scene, path[0]);

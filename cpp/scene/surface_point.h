@@ -43,11 +43,14 @@ inline double abs_cos(const SurfacePoint& at, const Vec3& w) {
 /// G(a, b), the factor that turns a density in projected solid angle at one end into a density in
 /// the measure of the other: |cos a| |cos b| / |a - b|^2 (Veach 1997, eq. 8.2), and |cos b| alone
 /// when a is at infinity. Visibility is not part of it.
-inline double geometry(const SurfacePoint& a, const SurfacePoint& b) {
-  const Vec3 w = direction(a, b);
+/// `w` is the direction from a to b.
+inline double geometry(const SurfacePoint& a, const SurfacePoint& b, const Vec3& w) {
   const double cosines = abs_cos(a, w) * abs_cos(b, w);
   if (a.infinite() || b.infinite()) return cosines;
   return cosines / length_squared(b.p - a.p);
+}
+inline double geometry(const SurfacePoint& a, const SurfacePoint& b) {
+  return geometry(a, b, direction(a, b));
 }
 
 }  // namespace mlt
