@@ -43,6 +43,10 @@ inline bool is_finite(const Vec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
+/// Whether the last row is 0 0 0 1: no perspective.
+inline bool is_affine(const Mat4& m) {
+  return m[0].w == 0 && m[1].w == 0 && m[2].w == 0 && m[3].w == 1;
+}
 inline Vec3 transform_point(const Mat4& m, const Vec3& p) {
   const Vec4 q = m * Vec4(p, 1);
   return Vec3(q) / q.w;

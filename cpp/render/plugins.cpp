@@ -76,8 +76,7 @@ const std::vector<Refusal>& refusals() {
   static const std::vector<Refusal> table{
       {"shape",
        not_yet,
-       {"disk", "cylinder", "instance", "shapegroup", "animatedinstance", "heightfield",
-        "deformable"}},
+       {"instance", "shapegroup", "animatedinstance", "heightfield", "deformable"}},
       {"shape", curves, {"hair", "bsplinecurve", "linearcurve"}},
       {"shape",
        "volumetric primitives are not supported",

@@ -1,9 +1,9 @@
-// The ray accelerator on Embree 3 or 4. Meshes go to Embree as they are; spheres are user geometry,
-// intersected in double precision with the ray as it was given.
+// The ray accelerator on Embree 3 or 4. Meshes go to Embree as they are; analytic shapes are
+// user geometry, intersected in double precision with the ray as it was given.
 #include "scene/accel.h"
 
+#include "scene/analytic_shape.h"
 #include "scene/mesh.h"
-#include "scene/sphere.h"
 
 #if MLT_EMBREE_MAJOR >= 4
 #include <embree4/rtcore.h>
@@ -54,24 +54,24 @@ RTCRay embree_ray(const Ray& ray) {
   return r;
 }
 
-void sphere_bounds(const RTCBoundsFunctionArguments* args) {
+void analytic_bounds(const RTCBoundsFunctionArguments* args) {
   Vec3 low, high;
-  static_cast<const Sphere*>(args->geometryUserPtr)->bounds(low, high);
+  static_cast<const AnalyticShape*>(args->geometryUserPtr)->bounds(low, high);
   const float inf = std::numeric_limits<float>::infinity();
   const auto down = [&](double x) { return std::nextafter(static_cast<float>(x), -inf); };
   const auto up = [&](double x) { return std::nextafter(static_cast<float>(x), inf); };
   *args->bounds_o = {down(low.x), down(low.y), down(low.z), 0, up(high.x), up(high.y), up(high.z), 0};
 }
 
-std::optional<double> sphere_hit(void* sphere, const Context* context, float t_max) {
+std::optional<double> analytic_hit(void* shape, const Context* context, float t_max) {
   const Ray& ray = *reinterpret_cast<const Query*>(context)->ray;
-  return static_cast<const Sphere*>(sphere)->intersect(ray.o, ray.d, 0, t_max);
+  return static_cast<const AnalyticShape*>(shape)->intersect(ray.o, ray.d, 0, t_max);
 }
 
-void sphere_intersect(const RTCIntersectFunctionNArguments* args) {
+void analytic_intersect(const RTCIntersectFunctionNArguments* args) {
   if (!args->valid[0]) return;
   RTCRayHit& rayhit = *reinterpret_cast<RTCRayHit*>(args->rayhit);
-  const auto t = sphere_hit(args->geometryUserPtr, args->context, rayhit.ray.tfar);
+  const auto t = analytic_hit(args->geometryUserPtr, args->context, rayhit.ray.tfar);
   if (!t) return;
   rayhit.ray.tfar = static_cast<float>(*t);
   rayhit.hit.u = rayhit.hit.v = 0;
@@ -79,10 +79,10 @@ void sphere_intersect(const RTCIntersectFunctionNArguments* args) {
   rayhit.hit.primID = args->primID;
 }
 
-void sphere_occluded(const RTCOccludedFunctionNArguments* args) {
+void analytic_occluded(const RTCOccludedFunctionNArguments* args) {
   if (!args->valid[0]) return;
   RTCRay& ray = *reinterpret_cast<RTCRay*>(args->ray);
-  if (sphere_hit(args->geometryUserPtr, args->context, ray.tfar))
+  if (analytic_hit(args->geometryUserPtr, args->context, ray.tfar))
     ray.tfar = -std::numeric_limits<float>::infinity();
 }
 
@@ -99,13 +99,13 @@ RTCGeometry mesh_geometry(RTCDevice device, const Mesh& mesh) {
   return geometry;
 }
 
-RTCGeometry sphere_geometry(RTCDevice device, const Sphere& sphere) {
+RTCGeometry analytic_geometry(RTCDevice device, const AnalyticShape& shape) {
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
   rtcSetGeometryUserPrimitiveCount(geometry, 1);
-  rtcSetGeometryUserData(geometry, const_cast<Sphere*>(&sphere));
-  rtcSetGeometryBoundsFunction(geometry, sphere_bounds, nullptr);
-  rtcSetGeometryIntersectFunction(geometry, sphere_intersect);
-  rtcSetGeometryOccludedFunction(geometry, sphere_occluded);
+  rtcSetGeometryUserData(geometry, const_cast<AnalyticShape*>(&shape));
+  rtcSetGeometryBoundsFunction(geometry, analytic_bounds, nullptr);
+  rtcSetGeometryIntersectFunction(geometry, analytic_intersect);
+  rtcSetGeometryOccludedFunction(geometry, analytic_occluded);
   return geometry;
 }
 
@@ -130,8 +130,9 @@ Accel::Accel(const std::vector<ShapePtr>& shapes, int build_threads) : impl_(std
   rtcSetSceneBuildQuality(impl_->scene, RTC_BUILD_QUALITY_MEDIUM);
   for (size_t i = 0; i < shapes.size(); ++i) {
     const Shape& shape = *shapes[i];
-    RTCGeometry geometry = shape.as_mesh() ? mesh_geometry(impl_->device, *shape.as_mesh())
-                                           : sphere_geometry(impl_->device, *shape.as_sphere());
+    RTCGeometry geometry = shape.as_mesh()
+                               ? mesh_geometry(impl_->device, *shape.as_mesh())
+                               : analytic_geometry(impl_->device, *shape.as_analytic());
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(impl_->scene, geometry, static_cast<unsigned>(i));
     rtcReleaseGeometry(geometry);

@@ -60,8 +60,7 @@ void transform_mesh(MeshData& data, const Mat4& to_world, const Location& where)
   if (is_singular(to_world))
     throw SceneError(at(where, "'to_world' is singular: it flattens the shape or is not finite"));
   if (to_world == Mat4(1)) return;
-  const bool affine =
-      Vec4(to_world[0].w, to_world[1].w, to_world[2].w, to_world[3].w) == Vec4(0, 0, 0, 1);
+  const bool affine = is_affine(to_world);
   const Mat3 linear(to_world);
   const Vec3 offset(to_world[3]);
   for (Vec3f& p : data.positions)

@@ -11,8 +11,8 @@
 
 namespace mlt {
 
+class AnalyticShape;
 class Mesh;
-class Sphere;
 
 class Shape : public Object {
  public:
@@ -41,7 +41,7 @@ class Shape : public Object {
 
   // Which of the forms that the accelerator knows it is.
   virtual const Mesh* as_mesh() const { return nullptr; }
-  virtual const Sphere* as_sphere() const { return nullptr; }
+  virtual const AnalyticShape* as_analytic() const { return nullptr; }
 
   const Bsdf& bsdf() const { return *bsdf_; }
   const Emitter* emitter() const { return emitter_.get(); }

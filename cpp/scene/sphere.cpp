@@ -31,8 +31,7 @@ Sphere::Sphere(const Vec3& center, double radius, const Mat4& to_world, bool fli
   double deviation = 0;
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) deviation = std::max(deviation, std::abs(gram[i][j] - (i == j)));
-  const Vec4 last_row(to_world[0].w, to_world[1].w, to_world[2].w, to_world[3].w);
-  if (!(deviation < 1e-3) || last_row != Vec4(0, 0, 0, 1))
+  if (!(deviation < 1e-3) || !is_affine(to_world))
     throw SceneError(at(where,
                         "'to_world' makes this sphere an ellipsoid; only translation, rotation "
                         "and one scale for all axes are possible (use a mesh instead)"));

@@ -1,13 +1,11 @@
 // A sphere, intersected in double precision.
 #pragma once
 
-#include "scene/shape.h"
-
-#include <optional>
+#include "scene/analytic_shape.h"
 
 namespace mlt {
 
-class Sphere : public Shape {
+class Sphere : public AnalyticShape {
  public:
   /// Throws SceneError if `to_world` scales unevenly or is singular, or the radius is not positive.
   /// A `to_world` that mirrors turns the normals around.
@@ -17,9 +15,8 @@ class Sphere : public Shape {
   const Vec3& center() const { return center_; }
   double radius() const { return radius_; }
 
-  /// The nearest intersection with t_min <= t <= t_max.
-  std::optional<double> intersect(const Vec3& o, const Vec3& d, double t_min, double t_max) const;
-
+  std::optional<double> intersect(const Vec3& o, const Vec3& d, double t_min,
+                                  double t_max) const override;
   void surface_point(const Ray& ray, const Hit& hit, SurfacePoint& at) const override;
   double area() const override;
   PositionSample sample_position(const Vec2& u) const override;
@@ -29,7 +26,6 @@ class Sphere : public Shape {
   double pdf_direct(const Vec3& from, const SurfacePoint& at) const override;
   Vec2 invert_direct(const Vec3& from, const SurfacePoint& at) const override;
   void bounds(Vec3& low, Vec3& high) const override;
-  const Sphere* as_sphere() const override { return this; }
 
  private:
   /// Where a line passes the surface, in order.

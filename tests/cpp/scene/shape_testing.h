@@ -11,9 +11,9 @@
 
 #include "base/registry.h"
 #include "base/rng.h"
+#include "scene/analytic_shape.h"
 #include "scene/mesh.h"
 #include "scene/shape.h"
-#include "scene/sphere.h"
 
 namespace mlt::shape_testing {
 
@@ -55,8 +55,8 @@ inline std::optional<Hit> nearest_hit(const Mesh& mesh, const Ray& ray) {
   return nearest;
 }
 
-inline std::optional<Hit> nearest_hit(const Sphere& sphere, const Ray& ray) {
-  const std::optional<double> t = sphere.intersect(ray.o, ray.d, 0, infinity);
+inline std::optional<Hit> nearest_hit(const AnalyticShape& shape, const Ray& ray) {
+  const std::optional<double> t = shape.intersect(ray.o, ray.d, 0, infinity);
   if (!t) return std::nullopt;
   return Hit{static_cast<float>(*t), 0, 0, 0, 0};
 }
@@ -64,7 +64,7 @@ inline std::optional<Hit> nearest_hit(const Sphere& sphere, const Ray& ray) {
 inline std::optional<SurfacePoint> trace(const Shape& shape, const Ray& ray) {
   const Mesh* mesh = shape.as_mesh();
   const std::optional<Hit> hit =
-      mesh ? nearest_hit(*mesh, ray) : nearest_hit(dynamic_cast<const Sphere&>(shape), ray);
+      mesh ? nearest_hit(*mesh, ray) : nearest_hit(*shape.as_analytic(), ray);
   if (!hit) return std::nullopt;
   SurfacePoint at;
   shape.surface_point(ray, *hit, at);

@@ -1,0 +1,45 @@
+// The side of a circular cylinder, without its ends.
+#pragma once
+
+#include "scene/analytic_shape.h"
+
+namespace mlt {
+
+class Cylinder : public AnalyticShape {
+ public:
+  /// From `base` along frame.n for `length`; azimuths are counted from frame.s towards frame.t (the
+  /// frame may be left-handed). Normals point outward, or inward with `flip_normals`.
+  Cylinder(const Vec3& base, const Frame& frame, double radius, double length, bool flip_normals);
+
+  const Vec3& base() const { return base_; }
+  const Vec3& axis() const { return frame_.n; }
+  double radius() const { return radius_; }
+  double length() const { return length_; }
+
+  std::optional<double> intersect(const Vec3& o, const Vec3& d, double t_min,
+                                  double t_max) const override;
+  void surface_point(const Ray& ray, const Hit& hit, SurfacePoint& at) const override;
+  double area() const override { return 2 * pi * radius_ * length_; }
+  PositionSample sample_position(const Vec2& u) const override;
+  Vec2 invert_position(const SurfacePoint& at) const override;
+  void bounds(Vec3& low, Vec3& high) const override;
+
+ private:
+  /// Where a line meets the infinite cylinder, in order, and in which of the two it is between the
+  /// ends.
+  struct Roots {
+    double near, far;
+    bool near_counts, far_counts;
+  };
+  std::optional<Roots> roots(const Vec3& o, const Vec3& d) const;
+  /// The point at the height z and in the direction (x, y) from the axis, a unit vector.
+  void fill(const Vec2& outward, double z, SurfacePoint& at) const;
+
+  Vec3 base_;
+  Frame frame_;
+  double radius_, length_;
+  double side_;  ///< 1 if the normals point outward, else -1.
+  double extent_;
+};
+
+}  // namespace mlt

@@ -1,0 +1,60 @@
+#include "scene/accel.h"
+
+#include "scene/cylinder.h"
+#include "scene/disk.h"
+#include "scene/shape_testing.h"
+#include "scene/sphere.h"
+
+namespace mlt {
+namespace {
+
+using namespace shape_testing;
+
+const Location here{"scene.xml", 3};
+
+/// Spheres, cylinders and disks of sizes from 0.01 to 1, every other one along the axes.
+std::vector<ShapePtr> random_shapes(int count, Rng& rng) {
+  std::vector<ShapePtr> shapes;
+  for (int i = 0; i < count; ++i) {
+    const Vec3 p = random_point(rng, 2);
+    const double size = std::pow(10.0, -2 * rng.next());
+    const Frame f = Frame::around(i % 2 ? random_direction(rng) : Vec3(0, 0, 1));
+    const Mat4 m(Vec4(f.s * size, 0), Vec4(f.t * size, 0), Vec4(f.n * size, 0), Vec4(p, 1));
+    if (i % 3 == 0) shapes.push_back(std::make_shared<Sphere>(Vec3(0), 1, m, false, here));
+    if (i % 3 == 1) shapes.push_back(std::make_shared<Disk>(m, false, here));
+    if (i % 3 == 2) shapes.push_back(std::make_shared<Cylinder>(p, f, size, 0.5 * size, false));
+  }
+  return shapes;
+}
+
+TEST(Accel, FindsAnalyticShapesAsTheirEquationsDo) {
+  Rng rng(1, Purpose::test, 0);
+  const std::vector<ShapePtr> shapes = random_shapes(60, rng);
+  const Accel accel(shapes);
+  int hits = 0, differences = 0;
+  constexpr int rays = 20000;
+  for (int i = 0; i < rays; ++i) {
+    const Ray ray{random_point(rng, 3), random_direction(rng)};
+    std::optional<Hit> nearest;
+    for (uint32_t s = 0; s < shapes.size(); ++s)
+      if (const auto t = shapes[s]->as_analytic()->intersect(ray.o, ray.d, 0, infinity))
+        if (!nearest || *t < nearest->t) nearest = Hit{*t, s, 0, 0, 0};
+    Hit hit;
+    const bool found = accel.intersect(ray, hit);
+    hits += nearest.has_value();
+    const bool same = found == nearest.has_value() &&
+                      (!found || (hit.shape == nearest->shape &&
+                                  hit.t == static_cast<double>(static_cast<float>(nearest->t))));
+    differences += !same;
+    EXPECT_EQ(accel.occluded(ray), found);
+    if (found) {
+      EXPECT_FALSE(accel.occluded({ray.o, ray.d, 0, 0.999 * hit.t}));
+    }
+  }
+  EXPECT_GT(hits, rays / 20);
+  // The accelerator's boxes are in single precision: rays that touch their edges may slip through.
+  EXPECT_LE(differences, 2);
+}
+
+}  // namespace
+}  // namespace mlt
