@@ -105,10 +105,10 @@ void MetropolisRendering::prepare(int threads, const std::atomic<bool>& cancelle
     uint64_t candidate;
   };
   std::vector<Start> starts;
-  for (int c = 0; c < settings_.chains; ++c) {
-    const int g = c % groups, number = c / groups;
-    if (!seeds[g].empty()) starts.push_back({g, number, g * candidates + seeds[g][number]});
-  }
+  // Group after group: the film of one group then stays in the cache while its chains advance.
+  for (int g = 0; g < groups; ++g)
+    for (int number = 0; number < static_cast<int>(seeds[g].size()); ++number)
+      starts.push_back({g, number, g * candidates + seeds[g][number]});
   if (starts.empty())
     throw RenderError("no light path was found among " + std::to_string(candidates * groups) +
                       " bootstrap samples; give more luminance_samples, or check that light can reach "
