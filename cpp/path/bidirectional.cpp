@@ -99,11 +99,11 @@ bool Bidirectional::choose_direct(const SurfacePoint& from, const Vec3& u) {
 }
 
 /// t = 0: the light walk passes through the lens after its vertex s - 2.
-bool Bidirectional::evaluate_hit_lens(Connection& connection) {
+bool Bidirectional::evaluate_hit_lens(Connection& connection, RayCounts& rays) {
   const int s = connection.s, k = s - 1;
   const WalkVertex& last = light_[s - 2];
   if (last.absorbed) return false;
-  const Ray ray = scene_->spawn(last.vertex.at, last.towards_next, time_);
+  const Ray ray = s == 2 ? light_.first_ray() : scene_->spawn(last.vertex.at, last.towards_next, time_);
   const auto hit = scene_->camera().hit_lens(ray);
   if (!hit) return false;
   if (s <= static_cast<int>(light_.size()) &&
@@ -117,16 +117,15 @@ bool Bidirectional::evaluate_hit_lens(Connection& connection) {
   connection.raster = *raster;
   connection.contribution = last.next_throughput * terms.f;
   if (is_black(connection.contribution)) return false;
+  if (k == most_edges()) {  // The walk has not followed its last direction.
+    ++rays.occluded;
+    if (!scene_->visible(last.vertex.at, *hit, time_)) return false;
+  }
   lens_.forward = camera_position_pdf(*scene_, lens_.vertex);
   const double G = geometry(last.vertex.at, *hit);
   begin_densities(light_.data(), k, &lens_, 1);
   from_light_[k] = last.next_coefficient * G;
   from_camera_[k - 1] = terms.pdf_from_camera * G;
-  if (k >= 2) {
-    const VertexTerms at_last = surface_terms(*scene_, last.vertex.at, last.lobe, last.towards_previous,
-                                              last.towards_next, settings_.strict_normals);
-    from_camera_[k - 2] = at_last.pdf_from_camera * last.G;
-  }
   const SurfacePoint& x1 = k >= 2 ? light_[1].vertex.at : lens_.vertex.at;
   connection.weight = weight(s, light_[0].vertex, lens_.vertex, x1);
   return connection.weight > 0;

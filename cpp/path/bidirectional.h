@@ -65,7 +65,7 @@ class Bidirectional {
       for (int s = 1; s <= std::max(1, static_cast<int>(light_.size())); ++s) connect(s, t, rays, found);
     }
     if (settings_.light_image && !scene_->camera().delta_position())
-      for (int s = 2; s <= static_cast<int>(light_.size()) + 1; ++s) hit_lens(s, found);
+      for (int s = 2; s <= static_cast<int>(light_.size()) + 1; ++s) hit_lens(s, rays, found);
   }
 
   /// The connections with t = 1.
@@ -126,14 +126,14 @@ class Bidirectional {
   }
 
   template <class Found>
-  void hit_lens(int s, Found& found) {
+  void hit_lens(int s, RayCounts& rays, Found& found) {
     Connection connection{s, 0, raster_, Color(0), 0};
-    if (wanted(s, 0) && evaluate_hit_lens(connection)) found(connection);
+    if (wanted(s, 0) && evaluate_hit_lens(connection, rays)) found(connection);
   }
 
   bool evaluate_hit_light(Connection& connection);
   bool evaluate_connection(Connection& connection, RayCounts& rays);
-  bool evaluate_hit_lens(Connection& connection);
+  bool evaluate_hit_lens(Connection& connection, RayCounts& rays);
   bool choose_direct(const SurfacePoint& from, const Vec3& u);
 
   void begin_densities(const WalkVertex* lights, int s, const WalkVertex* cameras, int t);

@@ -42,6 +42,8 @@ class Subpath {
   const WalkVertex& operator[](size_t i) const { return vertices_[i]; }
   const WalkVertex* data() const { return vertices_.data(); }
   From from() const { return from_; }
+  /// With which the walk left its end; for a light at infinity it starts outside the scene.
+  const Ray& first_ray() const { return first_ray_; }
 
   void clear() { vertices_.clear(); }
   /// Starts at an end whose position has this density; returns the vertex to be given its first
@@ -54,6 +56,7 @@ class Subpath {
   template <class Sampler>
   void walk(const Scene& scene, const WalkSettings& settings, Ray ray, double coefficient,
             Sampler& sampler, RayCounts& rays) {
+    first_ray_ = ray;
     leave(scene, ray.d, coefficient);
     while (static_cast<int>(size()) < settings.max_vertices && trace(scene, ray, rays)) {
       // A light walk may still hit the lens from its last vertex.
@@ -75,6 +78,7 @@ class Subpath {
   void append(const SurfacePoint& at, const Vec3& towards_previous);
 
   From from_;
+  Ray first_ray_{};
   std::vector<WalkVertex> vertices_;
 };
 
