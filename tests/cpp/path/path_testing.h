@@ -1,0 +1,219 @@
+// Paths for tests, and their densities and weights by a second implementation that knows nothing of
+// the first: directions and densities in solid angle, asked from the plug-ins one by one.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "path/bidirectional.h"
+#include "path/samplers.h"
+#include "scenes.h"
+
+namespace mlt::test {
+
+/// Walks as long as the test wants: roulette is not part of any density.
+inline BidirectionalSettings without_roulette(int max_depth) {
+  BidirectionalSettings settings;
+  settings.max_depth = max_depth;
+  settings.rr_depth = 1 << 20;
+  return settings;
+}
+
+/// Calls found(connection, path) for all paths of `samples` pairs of subpaths.
+template <class Found>
+void for_each_path(const Scene& scene, const BidirectionalSettings& settings, uint64_t seed,
+                   int samples, Found&& found) {
+  Bidirectional bidirectional(scene, settings);
+  RayCounts rays;
+  Path path;
+  for (int i = 0; i < samples; ++i) {
+    Rng rng(seed, Purpose::test, static_cast<uint64_t>(i));
+    RandomSampler sampler(rng);
+    bidirectional.sample(scene.camera().raster().sample(sampler.next2()), sampler, rays);
+    bidirectional.connect_all(rays, [&](const Connection& connection) {
+      bidirectional.assemble(connection, path);
+      found(connection, path);
+    });
+  }
+}
+
+/// What a broken twin of the naive implementation leaves out.
+enum class Flaw { none, no_direct, no_eta };
+
+/// Density of vertex i, in its measure, made by a walk from the light or from the camera.
+struct NaiveDensities {
+  std::vector<double> from_light, from_camera;
+  double direct = 0;
+};
+
+/// d(solid angle at `from`) / d(measure of `to`).
+inline double solid_angle_per_measure(const SurfacePoint& from, const SurfacePoint& to) {
+  if (to.infinite()) return 1;
+  const Vec3 d = to.p - from.p;
+  const double cosine = to.kind == PointKind::surface ? std::abs(dot(to.ng, d)) / length(d) : 1;
+  return cosine / dot(d, d);
+}
+
+/// The probability of a reflection is the same from both sides, but close to total reflection it is
+/// badly conditioned, and a path's directions are mirror images only up to rounding. A BSDF may
+/// compute it once or from each side.
+enum class Mirrors { ask_twice, ask_once };
+
+inline NaiveDensities naive_densities(const Scene& scene, const Path& path, Flaw flaw = Flaw::none,
+                                      Mirrors mirrors = Mirrors::ask_twice) {
+  const int k = path.edges();
+  NaiveDensities p;
+  p.from_light.assign(k + 1, 0);
+  p.from_camera.assign(k + 1, 0);
+  const Vertex &x0 = path[0], &xk = path[k];
+  const Emitter& emitter = *scene.emitters().at(x0.emitter);
+  const double choice = scene.emitter_probability(x0.emitter);
+  p.from_light[0] = choice * emitter.pdf_position(x0.at);
+  p.direct =
+      flaw == Flaw::no_direct ? p.from_light[0] : choice * emitter.pdf_direct(path[1].at.p, x0.at);
+  p.from_camera[k] = scene.camera().pdf_position(xk.at);
+
+  const auto cosine = [](const SurfacePoint& at, const Vec3& w) {
+    return at.kind == PointKind::surface ? std::abs(dot(at.ng, w)) : 1.0;
+  };
+  const Vec3 w0 = direction(x0.at, path[1].at);
+  p.from_light[1] =
+      emitter.pdf_ray(x0.at, w0) *
+      (x0.at.infinite() ? cosine(path[1].at, w0)
+                        : cosine(x0.at, w0) * solid_angle_per_measure(x0.at, path[1].at));
+  const Vec3 wk = direction(xk.at, path[k - 1].at);
+  p.from_camera[k - 1] = scene.camera().pdf_direction(xk.at, wk) * cosine(xk.at, wk) *
+                         solid_angle_per_measure(xk.at, path[k - 1].at);
+  for (int i = 1; i < k; ++i) {
+    const SurfacePoint& at = path[i].at;
+    const Bsdf& bsdf = scene.bsdf(at);
+    const Vec3 world_l = direction(at, path[i - 1].at), world_c = direction(at, path[i + 1].at);
+    const Vec3 wl = at.shading.to_local(world_l), wc = at.shading.to_local(world_c);
+    const Lobe lobe = path[i].lobe;
+    const double to_camera = bsdf.pdf(at, wl, wc, lobe);
+    const double to_light = lobe == Lobe::reflection && mirrors == Mirrors::ask_once
+                                ? to_camera
+                                : bsdf.pdf(at, wc, wl, lobe);
+    const double out = solid_angle_per_measure(at, path[i + 1].at);
+    const double back = solid_angle_per_measure(at, path[i - 1].at);
+    if (lobe == Lobe::smooth) {
+      p.from_light[i + 1] = to_camera * out;
+      p.from_camera[i - 1] = to_light * back;
+    } else {
+      // One delta, in projected solid angle of the camera side: the other side's carries the ratio
+      // of projected solid angles, n_l^2 |cos l| d(wl) = n_c^2 |cos c| d(wc) in the shading frame.
+      const double gl = std::abs(dot(at.ng, world_l)), gc = std::abs(dot(at.ng, world_c));
+      double ratio = 1;
+      if (lobe == Lobe::transmission && flaw != Flaw::no_eta)
+        ratio = sqr(bsdf.relative_eta(at, wl));
+      if (lobe != Lobe::passage) ratio *= std::abs(wl.z) / std::abs(wc.z) * (gc / gl);
+      p.from_light[i + 1] = to_camera * gc * out;
+      p.from_camera[i - 1] = to_light * ratio * gl * back;
+    }
+  }
+  return p;
+}
+
+/// Whether technique s can make the path at all.
+inline bool naive_can_sample(const Scene& scene, const Path& path, int s,
+                             const BidirectionalSettings& settings) {
+  const int k = path.edges();
+  if (s == 0) return !scene.emitters()[path[0].emitter]->delta();
+  if (s == k + 1) return settings.light_image && !scene.camera().delta_position();
+  if (s == k && !settings.light_image) return false;
+  return path[s - 1].lobe == Lobe::smooth && path[s].lobe == Lobe::smooth;
+}
+
+/// p_{s,t} of all techniques, as plain products.
+inline std::vector<double> naive_technique_densities(const Scene& scene, const Path& path,
+                                                     const BidirectionalSettings& settings,
+                                                     Flaw flaw = Flaw::none) {
+  const NaiveDensities p = naive_densities(scene, path, flaw);
+  const int k = path.edges();
+  std::vector<double> densities(k + 2, 0.0);
+  for (int s = 0; s <= k + 1; ++s) {
+    if (!naive_can_sample(scene, path, s, settings)) continue;
+    densities[s] = 1;
+    for (int i = 0; i < s; ++i)
+      densities[s] *= s == 1 && settings.sample_direct ? p.direct : p.from_light[i];
+    for (int i = s; i <= k; ++i) densities[s] *= p.from_camera[i];
+  }
+  return densities;
+}
+
+/// Weights of all techniques from their densities.
+inline std::vector<double> naive_weights(const std::vector<double>& densities,
+                                         Heuristic heuristic) {
+  std::vector<double> weights(densities.size(), 0.0);
+  if (heuristic == Heuristic::maximum) {
+    weights[std::max_element(densities.begin(), densities.end()) - densities.begin()] = 1;
+    return weights;
+  }
+  const double largest = *std::max_element(densities.begin(), densities.end());
+  double sum = 0;
+  for (size_t s = 0; s < weights.size(); ++s) {
+    const double p = densities[s] / largest;
+    sum += weights[s] = heuristic == Heuristic::balance ? p : p * p;
+  }
+  for (double& w : weights) w /= sum;
+  return weights;
+}
+
+inline double relative_difference(double a, double b) {
+  return a == b ? 0 : std::abs(a - b) / std::max(std::abs(a), std::abs(b));
+}
+inline double relative_difference(const Color& a, const Color& b) {
+  return a == b ? 0 : max_component(glm::abs(a - b)) / std::max(max_component(a), max_component(b));
+}
+
+/// How far `values` are from f(path), in units of what rounding explains. Rays start off their
+/// surface by a small offset, so a walk's own directions belong to vertices that are moved by that
+/// offset: the tolerance is 1e-9 plus what ten times such moves, one by one, change in f (moves of
+/// neighbours may cancel where the walk's mixture of both does not, and close to total reflection f
+/// is steep). Above 1 it is an error.
+template <class F>
+double excess(const Scene& scene, const Path& path, F&& f, const std::vector<double>& values) {
+  const std::vector<double> expected = f(path);
+  std::vector<double> tolerance;
+  bool exact = true;
+  for (size_t i = 0; i < values.size(); ++i) {
+    tolerance.push_back(1e-9 * std::abs(expected[i]));
+    exact = exact && std::abs(values[i] - expected[i]) <= tolerance[i];
+  }
+  if (exact) return 0;
+  for (int v = 0; v <= path.edges(); ++v) {
+    const SurfacePoint& at = path[v].at;
+    if (at.infinite()) continue;
+    for (const double side : {-1.0, 1.0}) {
+      Path moved = path;
+      moved[v].at.p += 10.0 * (scene.spawn(at, side * at.ng, path.time).o - at.p);
+      const std::vector<double> other = f(moved);
+      for (size_t i = 0; i < other.size(); ++i) tolerance[i] += std::abs(other[i] - expected[i]);
+    }
+  }
+  double worst = 0;
+  for (size_t i = 0; i < values.size(); ++i) {
+    const double difference = std::abs(values[i] - expected[i]);
+    const double ratio = difference == 0 ? 0 : difference / tolerance[i];
+    worst = std::isnan(ratio) ? infinity : std::max(worst, ratio);
+  }
+  return worst;
+}
+
+/// The largest of many numbers, and which one it was. A NaN counts as infinite.
+struct Worst {
+  double value = 0;
+  std::string where;
+  void add(double x, const std::string& at) {
+    if (std::isnan(x)) x = infinity;
+    if (x > value) value = x, where = at;
+  }
+};
+
+inline std::string technique_name(const Scene& scene, const Connection& c, const Path& path) {
+  return signature(scene, path) + " by s = " + std::to_string(c.s) + ", t = " + std::to_string(c.t);
+}
+
+}  // namespace mlt::test
