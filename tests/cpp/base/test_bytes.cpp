@@ -45,7 +45,8 @@ TEST(Bytes, CutAnywhereAreRefused) {
 TEST(Bytes, LeftOverAreRefused) { EXPECT_THROW(read_example(example() + 'x'), RenderError); }
 
 TEST(Bytes, ASizeThatCannotBeIsRefusedBeforeMemoryIsTaken) {
-  for (const uint64_t size : {uint64_t{2}, uint64_t{1} << 61, std::numeric_limits<uint64_t>::max()}) {
+  for (const uint64_t size :
+       {uint64_t{2}, uint64_t{1} << 61, std::numeric_limits<uint64_t>::max()}) {
     ByteWriter writer;
     writer.write(size);
     writer.write(1.0);

@@ -1,5 +1,5 @@
-// Parameters are checked as they are given and tracked as they are read; every mistake has a message
-// of its own, which names the place, the plug-in and the parameter.
+// Parameters are checked as they are given and tracked as they are read; every mistake has a
+// message of its own, which names the place, the plug-in and the parameter.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -54,7 +54,9 @@ class ParamsTest : public testing::Test {
   std::string error_of_set(const std::string& name, Value value) {
     return message_of([&] { params.set(name, std::move(value), {"s.xml", 7}); });
   }
-  void set(const std::string& name, Value value) { params.set(name, std::move(value), {"s.xml", 7}); }
+  void set(const std::string& name, Value value) {
+    params.set(name, std::move(value), {"s.xml", 7});
+  }
 
   Schema schema = example_schema();
   Params params{schema, {"s.xml", 3}, "it"};
@@ -63,17 +65,20 @@ class ParamsTest : public testing::Test {
 const std::string here = "s.xml:7: integrator 'demo': ";
 
 TEST_F(ParamsTest, UnknownNamesAreRefusedWithTheNameThatWasMeant) {
-  EXPECT_EQ(error_of_set("max_dpeth", int64_t{3}),
-            "s.xml:7: unknown parameter 'max_dpeth' for integrator 'demo'; did you mean 'max_depth'?");
-  EXPECT_EQ(error_of_set("maxDpeth", int64_t{3}),
-            "s.xml:7: unknown parameter 'maxDpeth' for integrator 'demo'; did you mean 'max_depth'?");
+  EXPECT_EQ(
+      error_of_set("max_dpeth", int64_t{3}),
+      "s.xml:7: unknown parameter 'max_dpeth' for integrator 'demo'; did you mean 'max_depth'?");
+  EXPECT_EQ(
+      error_of_set("maxDpeth", int64_t{3}),
+      "s.xml:7: unknown parameter 'maxDpeth' for integrator 'demo'; did you mean 'max_depth'?");
 }
 
 TEST_F(ParamsTest, UnknownNamesThatAreNearNothingGetTheWholeList) {
   const std::string message = error_of_set("xyzzy_plugh", 1.0);
-  EXPECT_EQ(message.find("s.xml:7: unknown parameter 'xyzzy_plugh' for integrator 'demo'; valid are: "
-                         "max_depth, strict, radius,"),
-            0u)
+  EXPECT_EQ(
+      message.find("s.xml:7: unknown parameter 'xyzzy_plugh' for integrator 'demo'; valid are: "
+                   "max_depth, strict, radius,"),
+      0u)
       << message;
 }
 
@@ -85,10 +90,12 @@ TEST_F(ParamsTest, TheOlderSpellingIsAccepted) {
 }
 
 TEST_F(ParamsTest, AWrongTypeNamesBothTypes) {
-  EXPECT_EQ(error_of_set("max_depth", 1.5), here + "'max_depth' is a float, but should be an integer");
+  EXPECT_EQ(error_of_set("max_depth", 1.5),
+            here + "'max_depth' is a float, but should be an integer");
   EXPECT_EQ(error_of_set("radius", std::string("big")),
             here + "'radius' is a string, but should be a float");
-  EXPECT_EQ(error_of_set("strict", int64_t{1}), here + "'strict' is an integer, but should be a boolean");
+  EXPECT_EQ(error_of_set("strict", int64_t{1}),
+            here + "'strict' is an integer, but should be a boolean");
   EXPECT_EQ(error_of_set("title", true), here + "'title' is a boolean, but should be a string");
   EXPECT_EQ(error_of_set("origin", Matrix{}),
             here + "'origin' is a matrix, but should be a point or vector");
@@ -103,13 +110,14 @@ TEST_F(ParamsTest, AWrongTypeNamesBothTypes) {
 
 TEST_F(ParamsTest, EachTypeTakesWhatItSays) {
   const ObjectPtr object = std::make_shared<Lamp>();
-  const std::vector<Value> values{true,     int64_t{1}, 1.0,           std::string("fast"), Triple{1, 1, 1},
-                                  Matrix{}, Spectrum{{500, 1}}, object};
+  const std::vector<Value> values{
+      true,     int64_t{1},         1.0,   std::string("fast"), Triple{1, 1, 1},
+      Matrix{}, Spectrum{{500, 1}}, object};
   const std::string kinds = "bifstmSo";  // of the values above
   const std::map<std::string, std::string> accepted{
-      {"strict", "b"},    {"max_depth", "i"}, {"radius", "if"},     {"title", "s"},
-      {"origin", "t"},    {"to_world", "m"},  {"albedo", "iftS"},   {"power", "iftS"},
-      {"pattern", "iftSo"}, {"glow", "iftSo"}, {"int_ior", "ifs"},  {"lamp", "o"}};
+      {"strict", "b"},      {"max_depth", "i"}, {"radius", "if"},   {"title", "s"},
+      {"origin", "t"},      {"to_world", "m"},  {"albedo", "iftS"}, {"power", "iftS"},
+      {"pattern", "iftSo"}, {"glow", "iftSo"},  {"int_ior", "ifs"}, {"lamp", "o"}};
   for (const auto& [name, takes] : accepted)
     for (size_t i = 0; i < values.size(); ++i) {
       Params fresh(schema, {});
@@ -125,7 +133,8 @@ TEST_F(ParamsTest, NumbersMustBeFinite) {
   Matrix matrix{};
   matrix[15] = not_a_number;
   EXPECT_EQ(error_of_set("to_world", matrix), here + "'to_world' must be finite");
-  EXPECT_EQ(error_of_set("power", Spectrum{{400, 1}, {500, infinite}}), here + "'power' must be finite");
+  EXPECT_EQ(error_of_set("power", Spectrum{{400, 1}, {500, infinite}}),
+            here + "'power' must be finite");
   EXPECT_EQ(error_of_set("power", Spectrum{{not_a_number, 1}}), here + "'power' must be finite");
 }
 
@@ -222,7 +231,8 @@ TEST_F(ParamsTest, AnObjectOfAnotherKindIsNotOverlooked) {
   const auto stone = std::make_shared<Stone>();
   stone->type = "granite";
   set("lamp", ObjectPtr(stone));
-  EXPECT_EQ(message_of([&] { params.object<Lamp>("lamp"); }), here + "'lamp' cannot be a 'granite'");
+  EXPECT_EQ(message_of([&] { params.object<Lamp>("lamp"); }),
+            here + "'lamp' cannot be a 'granite'");
 }
 
 TEST_F(ParamsTest, AllObjectsOfAKindComeInOrder) {

@@ -57,8 +57,9 @@ TEST(Registry, RefusesByNameWithTheReason) {
 }
 
 TEST(Registry, RefusesInFamiliesThatHaveNoPlugin) {
-  EXPECT_EQ(error_of(example(), "medium", "homogeneous"),
-            "s.xml:4: medium 'homogeneous' is not supported: participating media are not supported");
+  EXPECT_EQ(
+      error_of(example(), "medium", "homogeneous"),
+      "s.xml:4: medium 'homogeneous' is not supported: participating media are not supported");
 }
 
 TEST(Registry, APluginIsFoundBeforeItsRefusal) {

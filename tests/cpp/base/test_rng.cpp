@@ -84,32 +84,43 @@ using Numbers = std::pair<double, double>;
 
 TEST(Rng, SuccessiveNumbersAreUniformAndIndependent) {
   Rng rng(3, Purpose::test, 0);
-  EXPECT_GT(grid_p_value(200'000, [&](uint64_t) -> Numbers {
-    const double x = rng.next();
-    return {x, rng.next()};
-  }), alpha);
+  EXPECT_GT(grid_p_value(200'000,
+                         [&](uint64_t) -> Numbers {
+                           const double x = rng.next();
+                           return {x, rng.next()};
+                         }),
+            alpha);
 }
 
 TEST(Rng, FirstNumbersOfNeighbouringStreamsAreIndependent) {
   const auto first = [](uint64_t seed, Purpose purpose, uint64_t index) {
     return Rng(seed, purpose, index).next();
   };
-  EXPECT_GT(grid_p_value(200'000, [&](uint64_t i) -> Numbers {
-    return {first(1, Purpose::test, i), first(1, Purpose::test, i + 1)};
-  }), alpha);
-  EXPECT_GT(grid_p_value(200'000, [&](uint64_t i) -> Numbers {
-    return {first(i, Purpose::test, 0), first(i + 1, Purpose::test, 0)};
-  }), alpha);
-  EXPECT_GT(grid_p_value(200'000, [&](uint64_t i) -> Numbers {
-    return {first(1, Purpose::chain, i), first(1, Purpose::pixel, i)};
-  }), alpha);
+  EXPECT_GT(grid_p_value(200'000,
+                         [&](uint64_t i) -> Numbers {
+                           return {first(1, Purpose::test, i), first(1, Purpose::test, i + 1)};
+                         }),
+            alpha);
+  EXPECT_GT(grid_p_value(200'000,
+                         [&](uint64_t i) -> Numbers {
+                           return {first(i, Purpose::test, 0), first(i + 1, Purpose::test, 0)};
+                         }),
+            alpha);
+  EXPECT_GT(grid_p_value(200'000,
+                         [&](uint64_t i) -> Numbers {
+                           return {first(1, Purpose::chain, i), first(1, Purpose::pixel, i)};
+                         }),
+            alpha);
 }
 
 TEST(Rng, TheGridTestFindsATiedPair) {
-  EXPECT_LT(grid_p_value(200'000, [](uint64_t i) -> Numbers {
-    const double x = Rng(1, Purpose::test, i).next(), y = Rng(1, Purpose::chain, i).next();
-    return {x, y < 0.1 ? x : y};
-  }), alpha);
+  EXPECT_LT(grid_p_value(200'000,
+                         [](uint64_t i) -> Numbers {
+                           const double x = Rng(1, Purpose::test, i).next(),
+                                        y = Rng(1, Purpose::chain, i).next();
+                           return {x, y < 0.1 ? x : y};
+                         }),
+            alpha);
 }
 
 TEST(Rng, BelowIsUniform) {

@@ -1,5 +1,5 @@
-// The two chains whose answer is known in closed form: two states, and a parabola. Each can be broken
-// on purpose, so that its tests are seen to fail.
+// The two chains whose answer is known in closed form: two states, and a parabola. Each can be
+// broken on purpose, so that its tests are seen to fail.
 #pragma once
 
 #include <algorithm>
@@ -58,7 +58,8 @@ inline int bin_of(double x) { return std::min(bins - 1, static_cast<int>(x * bin
 inline std::vector<double> bin_integrals() {
   std::vector<double> integrals;
   for (int i = 0; i < bins; ++i)
-    integrals.push_back(Parabola::cumulative((i + 1.) / bins) - Parabola::cumulative(double(i) / bins));
+    integrals.push_back(Parabola::cumulative((i + 1.) / bins) -
+                        Parabola::cumulative(double(i) / bins));
   return integrals;
 }
 
@@ -72,7 +73,8 @@ inline double parabola_p_value(const std::vector<double>& states) {
 
 /// Where `chains` independent chains are after `steps` steps.
 template <class State, class Kernel, class Start>
-std::vector<State> end_states(Kernel kernel, const Start& start, int chains, int steps, uint64_t seed) {
+std::vector<State> end_states(Kernel kernel, const Start& start, int chains, int steps,
+                              uint64_t seed) {
   std::vector<State> states;
   for (int c = 0; c < chains; ++c) {
     Rng rng(seed, Purpose::test, static_cast<uint64_t>(c));

@@ -1,6 +1,6 @@
-// Two stages: after a rejected proposal comes a second one (Tierney & Mira 1999, "Some adaptive Monte
-// Carlo methods for Bayesian inference", sec. 3). The target stays what it is, if the second stage's
-// quotient knows that the first was rejected, from either side.
+// Two stages: after a rejected proposal comes a second one (Tierney & Mira 1999, "Some adaptive
+// Monte Carlo methods for Bayesian inference", sec. 3). The target stays what it is, if the second
+// stage's quotient knows that the first was rejected, from either side.
 #include <gtest/gtest.h>
 
 #include "markov/lecture_examples.h"
@@ -12,15 +12,17 @@ using namespace test;
 
 constexpr double alpha = 1e-5;
 
-/// Over the parabola on the circle [0, 1): a bold first stage that is not symmetric, then a timid one
-/// whose size depends on what was rejected.
+/// Over the parabola on the circle [0, 1): a bold first stage that is not symmetric, then a timid
+/// one whose size depends on what was rejected.
 struct TwoStages {
   bool forgets_rejection = false;
 
   static double wrap(double x) { return x - std::floor(x); }
 
   /// 1 + 0.9 cos(2 pi (y - x - 1/4)): prefers what lies a quarter ahead.
-  static double bold_density(double x, double y) { return 1 + 0.9 * std::cos(2 * pi * (y - x - 0.25)); }
+  static double bold_density(double x, double y) {
+    return 1 + 0.9 * std::cos(2 * pi * (y - x - 0.25));
+  }
   static double bold_sample(double x, Rng& rng) {
     while (true) {
       const double y = rng.next();
@@ -114,8 +116,9 @@ TEST(DelayedRejection, RecordsOneAfterTheOther) {
     std::array<double, 2> y{};
     std::vector<std::pair<double, double>> recorded;
     Rng replay = rng;
-    metropolis_step(x, y, kernel, rng,
-                    [&](double state, double weight) { recorded.push_back({state, weight}); });
+    metropolis_step(x, y, kernel, rng, [&](double state, double weight) {
+      recorded.push_back({state, weight});
+    });
 
     std::array<double, 2> z{};
     const double a1 = acceptance(kernel.propose(before, z, 0, replay));

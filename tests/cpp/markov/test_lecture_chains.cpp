@@ -42,7 +42,9 @@ double two_state_p_value(const TwoStates& kernel, int start) {
   // The second eigenvalue is 4/9 or less: 60 steps leave less than 1e-20 of the start.
   constexpr int chains = 50'000;
   std::vector<double> counts(2);
-  for (const int x : end_states<int>(kernel, [&](Rng&) { return start; }, chains, 60, 11)) counts[x] += 1;
+  for (const int x : end_states<int>(
+           kernel, [&](Rng&) { return start; }, chains, 60, 11))
+    counts[x] += 1;
   return chi_square_counts(counts, {0.9 * chains, 0.1 * chains}).p_value;
 }
 
@@ -67,7 +69,8 @@ std::pair<double, double> recorded_share(TwoStates kernel, int steps, uint64_t s
   std::array<int, 1> y{};
   double expected = 0, chosen = 0;
   for (int i = 0; i < steps; ++i) {
-    metropolis_step(x, y, kernel, rng, [&](int state, double weight) { expected += state * weight; });
+    metropolis_step(x, y, kernel, rng,
+                    [&](int state, double weight) { expected += state * weight; });
     chosen += x;
   }
   return {expected / steps, chosen / steps};
@@ -100,23 +103,28 @@ TEST(TwoStateChain, ExpectedValuesHaveLessNoise) {
 TEST(ParabolaChain, HasItsStationaryDistribution) {
   // From anywhere, a step goes to the target itself with probability 1/30 at least (0.1 of uniform
   // proposals, accepted with f(y) / max f or more): 600 steps leave less than 2e-9 of the start.
-  EXPECT_GT(parabola_p_value(end_states<double>(Parabola{}, [](Rng&) { return 0.9; }, 20'000, 600, 13)),
+  EXPECT_GT(parabola_p_value(end_states<double>(
+                Parabola{}, [](Rng&) { return 0.9; }, 20'000, 600, 13)),
             alpha);
 }
 
 TEST(ParabolaChain, HasAnotherOneWhenTheProposalsDrift) {
   const Parabola broken{0.1};
-  EXPECT_LT(parabola_p_value(end_states<double>(broken, [](Rng&) { return 0.9; }, 20'000, 600, 13)), alpha);
+  EXPECT_LT(parabola_p_value(end_states<double>(
+                broken, [](Rng&) { return 0.9; }, 20'000, 600, 13)),
+            alpha);
 }
 
 double sample_target(Rng& rng) { return Parabola::sample(rng.next()); }
 
 TEST(ParabolaChain, StaysInItsDistributionForOneStep) {
-  EXPECT_GT(parabola_p_value(end_states<double>(Parabola{}, sample_target, 1'000'000, 1, 14)), alpha);
+  EXPECT_GT(parabola_p_value(end_states<double>(Parabola{}, sample_target, 1'000'000, 1, 14)),
+            alpha);
 }
 
 TEST(ParabolaChain, LeavesItInOneStepWhenTheProposalsDrift) {
-  EXPECT_LT(parabola_p_value(end_states<double>(Parabola{0.1}, sample_target, 1'000'000, 1, 14)), alpha);
+  EXPECT_LT(parabola_p_value(end_states<double>(Parabola{0.1}, sample_target, 1'000'000, 1, 14)),
+            alpha);
 }
 
 TEST(ParabolaChain, LeavesItWhenTheQuotientIsWrong) {
@@ -141,7 +149,8 @@ TEST(ParabolaChain, RecordsTheSameMeanWithAndWithoutExpectedValues) {
     std::array<double, 1> y{};
     std::array<double, bins> e{}, c{};
     for (int i = 0; i < steps; ++i) {
-      metropolis_step(x, y, kernel, rng, [&](double s, double weight) { e[bin_of(s)] += weight / steps; });
+      metropolis_step(x, y, kernel, rng,
+                      [&](double s, double weight) { e[bin_of(s)] += weight / steps; });
       c[bin_of(x)] += 1. / steps;
     }
     for (int i = 0; i < bins; ++i) {
@@ -157,8 +166,8 @@ TEST(ParabolaChain, RecordsTheSameMeanWithAndWithoutExpectedValues) {
 
 enum class Start { resampled, unweighted, fixed };
 
-/// Many runs, each of four chains of three steps: is b times what they record the integral of f over
-/// each bin, in the mean?
+/// Many runs, each of four chains of three steps: is b times what they record the integral of f
+/// over each bin, in the mean?
 double start_up_p_value(Start start) {
   constexpr int candidates = 16, chains = 4, steps = 3;
   std::vector<Moments> estimates(bins);

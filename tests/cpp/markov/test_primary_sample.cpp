@@ -34,7 +34,8 @@ TEST(SmallStep, IsSymmetricAndFollowsItsDensity) {
       const double size = std::abs(s);
       ASSERT_GE(size, smallest - rounding);
       ASSERT_LE(size, largest + rounding);
-      const int cell = static_cast<int>(cells * std::log(size / smallest) / std::log(largest / smallest));
+      const int cell =
+          static_cast<int>(cells * std::log(size / smallest) / std::log(largest / smallest));
       observed[(s > 0 ? cells : 0) + std::min(cells - 1, std::max(0, cell))] += 1;
     }
     EXPECT_GT(chi_square_counts(observed, expected).p_value, alpha) << u;
@@ -61,7 +62,8 @@ TEST(SmallStep, NeverReachesOne) {
 
 // ---- one step of a kernel
 
-/// A walk that uses two more numbers per bounce and ends when one of them says so; its value may be 0.
+/// A walk that uses two more numbers per bounce and ends when one of them says so. Its value may
+/// be 0.
 void walk(PrimaryState& state, Rng& rng) {
   PrimarySampler sampler(state.numbers, rng);
   state.raster = {sampler.next(), 0};
@@ -142,7 +144,8 @@ template <class Spoil>
 struct SpoiltQuotient {
   PrimarySampleKernel<void (*)(PrimaryState&, Rng&)> kernel;
   Spoil spoil;
-  Transition propose(const PrimaryState& x, std::array<PrimaryState, 1>& y, size_t stage, Rng& rng) {
+  Transition propose(const PrimaryState& x, std::array<PrimaryState, 1>& y, size_t stage,
+                     Rng& rng) {
     const Transition t = kernel.propose(x, y, stage, rng);
     return y[0].target == 0 ? t : spoil(t, x, y[0]);
   }
@@ -154,15 +157,19 @@ SpoiltQuotient<Spoil> spoilt(double large, Spoil spoil) {
 
 TEST(PrimarySampleKernel, WithAWrongQuotientIsFound) {
   for (const double large : {1.0, 0.0}) {
-    EXPECT_LT(invariance(spoilt(large, [](Transition t, auto&, auto&) {
-                return Transition{t.forward, std::sqrt(t.backward)};
-              })).p_value,
+    EXPECT_LT(invariance(spoilt(large,
+                                [](Transition t, auto&, auto&) {
+                                  return Transition{t.forward, std::sqrt(t.backward)};
+                                }))
+                  .p_value,
               alpha);
     // Counting the numbers as if they were not of density 1.
-    EXPECT_LT(invariance(spoilt(large, [](Transition t, const PrimaryState& x, const PrimaryState& y) {
-                return Transition{t.forward * std::pow(1.1, y.numbers.size()),
-                                  t.backward * std::pow(1.1, x.numbers.size())};
-              })).p_value,
+    EXPECT_LT(invariance(spoilt(large,
+                                [](Transition t, const PrimaryState& x, const PrimaryState& y) {
+                                  return Transition{t.forward * std::pow(1.1, y.numbers.size()),
+                                                    t.backward * std::pow(1.1, x.numbers.size())};
+                                }))
+                  .p_value,
               alpha);
   }
 }
@@ -171,7 +178,8 @@ TEST(PrimarySampleKernel, WithAWrongQuotientIsFound) {
 template <class Flaw>
 struct Flawed {
   Flaw flaw;
-  Transition propose(const PrimaryState& x, std::array<PrimaryState, 1>& proposals, size_t, Rng& rng) {
+  Transition propose(const PrimaryState& x, std::array<PrimaryState, 1>& proposals, size_t,
+                     Rng& rng) {
     PrimaryState& y = proposals[0];
     y.numbers.clear();
     flaw(x, y, rng);

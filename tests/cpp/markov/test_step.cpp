@@ -1,5 +1,5 @@
-// One Metropolis-Hastings step, part by part: acceptance, weights, choice, and quotients that make no
-// sense.
+// One Metropolis-Hastings step, part by part: acceptance, weights, choice, and quotients that make
+// no sense.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -49,7 +49,8 @@ struct Scripted {
 
   Transition propose(const int& x, std::array<int, stages>& y, size_t stage, Rng&) {
     EXPECT_EQ(x, 0);
-    for (size_t i = 0; i < stage; ++i) EXPECT_EQ(y[i], static_cast<int>(i) + 1) << "stages see earlier ones";
+    for (size_t i = 0; i < stage; ++i)
+      EXPECT_EQ(y[i], static_cast<int>(i) + 1) << "stages see earlier ones";
     asked.push_back(stage);
     y[stage] = static_cast<int>(stage) + 1;
     return transitions[stage];

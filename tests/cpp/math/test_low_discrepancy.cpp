@@ -51,7 +51,8 @@ TEST(ScrambledSobol, TheCheckFindsBlocksThatAreNot) {
   EXPECT_FALSE(is_stratified([&](uint32_t) { return Vec2(rng.next(), rng.next()); }, 0, 6));
   // Stratified in each dimension, and not in both together.
   EXPECT_FALSE(is_stratified(
-      [](uint32_t i) { return Vec2(reverse_bits(i), reverse_bits(i ^ (i >> 1))) * 0x1p-32; }, 0, 6));
+      [](uint32_t i) { return Vec2(reverse_bits(i), reverse_bits(i ^ (i >> 1))) * 0x1p-32; }, 0,
+      6));
 }
 
 TEST(ScrambledSobol, LiesInTheUnitSquare) {
@@ -112,10 +113,14 @@ TEST(ScrambledSobol, NeighbouringSeedsAreIndependent) {
   std::vector<double> p;
   for (const uint32_t index : indices) {
     const auto point = [&](uint64_t seed) { return scrambled_sobol(index, seed); };
-    p.push_back(grid_p_value(100'000, [&](uint64_t s) { return Vec2(point(s).x, point(s + 1).x); }));
-    p.push_back(grid_p_value(100'000, [&](uint64_t s) { return Vec2(point(s).y, point(s + 1).y); }));
-    p.push_back(grid_p_value(100'000, [&](uint64_t s) { return Vec2(point(s).x, point(s + 1).y); }));
-    p.push_back(grid_p_value(100'000, [&](uint64_t s) { return Vec2(point(s).y, point(s + 1).x); }));
+    p.push_back(
+        grid_p_value(100'000, [&](uint64_t s) { return Vec2(point(s).x, point(s + 1).x); }));
+    p.push_back(
+        grid_p_value(100'000, [&](uint64_t s) { return Vec2(point(s).y, point(s + 1).y); }));
+    p.push_back(
+        grid_p_value(100'000, [&](uint64_t s) { return Vec2(point(s).x, point(s + 1).y); }));
+    p.push_back(
+        grid_p_value(100'000, [&](uint64_t s) { return Vec2(point(s).y, point(s + 1).x); }));
   }
   for (const double adjusted : holm_adjusted(p)) EXPECT_GT(adjusted, alpha);
 }
@@ -133,7 +138,8 @@ double correlation_p_value(uint32_t n, const std::function<Vec2(uint32_t, uint64
     for (uint32_t i = 0; i < n; ++i) {
       const Vec2 a = first(i, pair), b = second(i, pair);
       for (size_t f = 0; f < functions.size(); ++f)
-        for (int d = 0; d < 4; ++d) sums[4 * f + d] += functions[f](a[d & 1]) * functions[f](b[d >> 1]);
+        for (int d = 0; d < 4; ++d)
+          sums[4 * f + d] += functions[f](a[d & 1]) * functions[f](b[d >> 1]);
     }
     for (size_t k = 0; k < sums.size(); ++k) products[k].add(sums[k] / n);
   }
@@ -155,11 +161,12 @@ TEST(ScrambledSobol, SequencesOfDifferentSeedsAreUncorrelated) {
 TEST(ScrambledSobol, SequencesInTheSameOrderAreFoundCorrelated) {
   // Scrambled by one digit only and not shuffled, the points of two sequences go hand in hand.
   const auto flipped = [](uint32_t i, uint64_t pair) {
-    return Vec2(reverse_bits(i ^ static_cast<uint32_t>(pair & 1)), reverse_bits(sobol_1_reversed(i))) *
+    return Vec2(reverse_bits(i ^ static_cast<uint32_t>(pair & 1)),
+                reverse_bits(sobol_1_reversed(i))) *
            0x1p-32;
   };
-  EXPECT_LT(correlation_p_value(
-                16, flipped, [&](uint32_t i, uint64_t pair) { return flipped(i, pair / 2); }),
+  EXPECT_LT(correlation_p_value(16, flipped,
+                                [&](uint32_t i, uint64_t pair) { return flipped(i, pair / 2); }),
             alpha);
 }
 
