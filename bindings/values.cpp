@@ -99,7 +99,12 @@ Value from_color(const py::dict& dict, const std::string& type, const std::strin
       refuse(where, key, "should be a number or a list of (wavelength, value) pairs");
     }
   }
-  return from_scalar_or_array(value, key, where);
+  Value given = from_scalar_or_array(value, key, where);
+  if (type != "spectrum") return given;
+  if (const auto* real = std::get_if<double>(&given)) return constant_spectrum(*real);
+  if (const auto* whole = std::get_if<int64_t>(&given))
+    return constant_spectrum(static_cast<double>(*whole));
+  return given;
 }
 
 bool is_color(const std::string& type) {

@@ -17,8 +17,9 @@ namespace mlt {
 using Triple = std::array<double, 3>;
 /// A 4 x 4 matrix, row by row as scenes write it.
 using Matrix = std::array<double, 16>;
-/// Samples (wavelength in nm, value) of a spectrum.
+/// Samples (wavelength in nm, value) of a spectrum. A single one stands for all wavelengths.
 using Spectrum = std::vector<std::pair<double, double>>;
+inline Spectrum constant_spectrum(double value) { return {{550, value}}; }
 
 using Value = std::variant<std::monostate, bool, int64_t, double, std::string, Triple, Matrix,
                            Spectrum, ObjectPtr>;

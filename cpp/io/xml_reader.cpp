@@ -51,6 +51,11 @@ const std::vector<std::string>& scene_tags() {
   return tags;
 }
 
+/// Whether the format is that of Mitsuba 2 or later.
+bool is_modern(const std::string& version) {
+  return parse_real(version.substr(0, version.find('.'))).value_or(0) >= 2;
+}
+
 void rename_references(Node& node, const std::map<std::string, std::string>& target_of) {
   if (node.family == "ref") {
     const auto found = target_of.find(node.type);
@@ -76,9 +81,10 @@ Node XmlReader::read_string(const std::string& xml, const std::string& directory
 }
 
 Node XmlReader::read_document(const XmlDocument& document, const std::string& directory) {
-  Source source{document, {}};
+  Source source{document, {}, false};
   source.search.prepend(directory);
   const Element root = element(document.root(), source);
+  source.spectral = is_modern(root.get("version"));
   if (root.tag != "scene" && !is_plugin_family(root.tag)) {
     refuse_element(root.tag, root.get("type"), root.where);
     root.fail("is not a scene; the root element should be <scene>");
@@ -193,6 +199,8 @@ void XmlReader::read_property(const Element& element, Node& parent, const Source
   Value value = read_value(element, source.search);
   if (name == "filename" && element.tag == "string" && reads_a_file(parent.family))
     value = source.search.find_file(std::get<std::string>(value), element.where);
+  const double* number = std::get_if<double>(&value);
+  if (number && element.tag == "spectrum" && source.spectral) value = constant_spectrum(*number);
   parent.properties.push_back({name, std::move(value), element.where});
 }
 
@@ -225,9 +233,10 @@ void XmlReader::read_include(const Element& element, Node& parent, const Source&
 
   open_files_.push_back(identity);
   const XmlDocument document(read_text(path, path), path);
-  Source inner{document, source.search};
+  Source inner{document, source.search, source.spectral};
   inner.search.prepend(fs::path(path).parent_path());
   const Element root = this->element(document.root(), inner);
+  if (root.find("version")) inner.spectral = is_modern(root.get("version"));
   if (root.tag == "scene") {
     read_children(document.root(), parent, inner, depth);
   } else if (is_plugin_family(root.tag)) {

@@ -25,6 +25,9 @@ class XmlReader {
   struct Source {
     const XmlDocument& document;
     SearchPath search;
+    /// Is a <spectrum> of one number the same power at all wavelengths, and not grey? It is since
+    /// Mitsuba 2, and differs for what emits.
+    bool spectral;
   };
 
   Node read_document(const XmlDocument& document, const std::string& directory);

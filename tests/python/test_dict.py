@@ -60,6 +60,17 @@ def test_uniform_spectra_are_numbers():
     assert np.array_equal(pixels(flat), pixels(grey))
 
 
+def test_the_flat_spectrum_of_a_light_is_not_grey_but_the_uniform_one_is():
+    flat, table, uniform, grey = (tiny.scene() for _ in range(4))
+    flat["lamp"]["emitter"]["radiance"] = {"type": "spectrum", "value": 3}
+    table["lamp"]["emitter"]["radiance"] = {"type": "spectrum", "value": [(360, 3), (830, 3)]}
+    uniform["lamp"]["emitter"]["radiance"] = {"type": "uniform", "value": 3}
+    grey["lamp"]["emitter"]["radiance"] = {"type": "rgb", "value": 3}
+    assert np.allclose(pixels(flat), pixels(table), rtol=1e-3)
+    assert np.array_equal(pixels(uniform), pixels(grey))
+    assert not np.allclose(pixels(flat), pixels(grey), rtol=0.05)
+
+
 def test_file_names_are_relative_to_the_current_directory(tmp_path, monkeypatch):
     mlt.write_image(tmp_path / "grey.exr", np.full((2, 2, 3), 0.25))
     monkeypatch.chdir(tmp_path)

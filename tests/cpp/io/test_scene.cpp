@@ -44,6 +44,25 @@ TEST(Scene, NeedsNoShapes) {
   EXPECT_TRUE(loaded.warnings.empty());
 }
 
+TEST(Scene, OneNumberIsAnEqualEnergySpectrumOfALightAndAGreySurface) {
+  const auto colors = [](const std::string& version) {
+    const LoadedScene loaded =
+        load_string("<scene version='" + version + "'>" + sensor +
+                        "<emitter type='constant'><spectrum name='radiance' value='2'/></emitter>"
+                        "<shape type='sphere'><bsdf type='diffuse'>"
+                        "<spectrum name='reflectance' value='0.5'/></bsdf></shape></scene>",
+                    "", plugins(), {});
+    EXPECT_EQ(albedo(loaded, 0), Color(0.5));
+    const Emitter& sky = *loaded.scene->emitters().at(0);
+    const SurfacePoint far = loaded.scene->point_at_infinity({0, 0, 1});
+    return sky.eval(far, {0, 0, -1});
+  };
+  EXPECT_EQ(colors("0.6.0"), Color(2));
+  // What Mitsuba 3.9.1 (scalar_rgb) shows of such a light; it integrates tables.
+  const Color difference = colors("2.0.0") - Color(2.4095879, 1.8965818, 1.8178325);
+  EXPECT_LT(length(difference), 1e-4);
+}
+
 TEST(Scene, MustBeTheRoot) {
   EXPECT_EQ(message_of([] { load_string("<bsdf type='diffuse'/>", "", plugins(), {}); }),
             "<string>:1: the root is a bsdf, but should be a scene");
@@ -264,7 +283,7 @@ TEST(SceneMistake, InAnUnusedMaterialIsFoundToo) {
 
 TEST(SceneMistake, PluginsOfMitsubaAreRefusedByName) {
   for (const char* element :
-       {"shape type='cylinder'", "shape type='shapegroup'", "bsdf type='principled'",
+       {"shape type='heightfield'", "shape type='shapegroup'", "bsdf type='principled'",
         "bsdf type='hapke'", "emitter type='spot'", "texture type='mesh_attribute'"}) {
     const std::string message = error_of(sensor + point_light + "<" + element + "/>");
     EXPECT_NE(message.find("is not supported: "), std::string::npos) << message;

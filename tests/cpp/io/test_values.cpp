@@ -45,6 +45,23 @@ TEST(Values, Colours) {
             Value(Spectrum{{400, 0}, {500, 8}, {600, 15.6}}));
 }
 
+TEST(Values, ASpectrumOfOneNumberHoldsForAllWavelengthsSinceMitsuba2) {
+  const auto in_scene = [](const std::string& version) {
+    std::vector<std::string> warnings;
+    const Node scene = read_xml_string("<scene" + version +
+                                           "><bsdf type='diffuse'><spectrum name='a' value='2'/>"
+                                           "<float name='b' value='2'/></bsdf></scene>",
+                                       "", {}, warnings);
+    const Node& bsdf = scene.children.at(0);
+    EXPECT_EQ(bsdf.properties.at(1).value, Value(2.0));
+    return bsdf.properties.at(0).value;
+  };
+  for (const char* old : {"", " version='0.5.0'", " version='0.6.0'", " version='1.9'"})
+    EXPECT_EQ(in_scene(old), Value(2.0)) << old;
+  for (const char* modern : {" version='2.0.0'", " version='2.1.0'", " version='3.0.0'"})
+    EXPECT_EQ(in_scene(modern), Value(constant_spectrum(2))) << modern;
+}
+
 TEST(Values, CodesOfColoursAreSrgbAndBecomeLinear) {
   for (const char* element :
        {"<rgb name='a' value='#ff8000'/>", "<srgb name='a' value=' #FF8000 '/>",
