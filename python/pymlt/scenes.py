@@ -1,16 +1,19 @@
 """Built-in scenes: functions that return a Mitsuba dict for `load_dict` or `render`.
 
-image = mlt.render(mlt.scenes.cornell_box(), spp=64)
+image = mlt.render(mlt.scenes.door_ajar(), "pssmlt", spp=64)
+
+The scenes are the folders of `scenes/`, each with a scene.xml (which `load_file` and mlt-render
+read as well) and a README.md. This module reads the XML into a dict, in which everything can be
+changed.
 """
 
 from __future__ import annotations
 
 import inspect
 import sys
+from pathlib import Path
 
 from .transforms import Transform
-
-T = Transform  # short, because chains of transforms are long
 
 
 def names() -> list[str]:
@@ -25,59 +28,120 @@ def names() -> list[str]:
 
 def cornell_box() -> dict:
     """The Cornell box (Goral et al. 1984) with the measures and colours of Mitsuba 3's own."""
-    white = {"type": "ref", "id": "white"}
+    return _load("cornell-box")
 
-    def diffuse(r, g, b):
-        return {"type": "diffuse", "reflectance": {"type": "rgb", "value": [r, g, b]}}
 
-    def wall(to_world, bsdf="white"):
-        return {"type": "rectangle", "to_world": to_world, "bsdf": {"type": "ref", "id": bsdf}}
+def glass_ball() -> dict:
+    """The Cornell box with a glass ball and a light a tenth as wide: a caustic on the floor."""
+    return _load("glass-ball")
 
-    return {
-        "type": "scene",
-        "integrator": {"type": "path", "max_depth": 8},
-        "sensor": {
-            "type": "perspective",
-            "fov": 39.3077,
-            "fov_axis": "smaller",
-            "to_world": T.look_at(origin=[0, 0, 3.9], target=[0, 0, 0], up=[0, 1, 0]),
-            "film": {
-                "type": "hdrfilm",
-                "width": 256,
-                "height": 256,
-                "component_format": "float32",
-                "rfilter": {"type": "gaussian"},
-            },
-            "sampler": {"type": "independent", "sample_count": 64},
-        },
-        "white": diffuse(0.885809, 0.698859, 0.666422),
-        "green": diffuse(0.105421, 0.37798, 0.076425),
-        "red": diffuse(0.570068, 0.0430135, 0.0443706),
-        "light": {
-            "type": "rectangle",
-            "to_world": T().translate(0, 0.99, 0.01).rotate([1, 0, 0], 90).scale(0.23, 0.19, 0.19),
-            "bsdf": white,
-            "emitter": {
-                "type": "area",
-                "radiance": {"type": "rgb", "value": [18.387, 13.9873, 6.75357]},
-            },
-        },
-        "floor": wall(T().translate(0, -1, 0).rotate([1, 0, 0], -90)),
-        "ceiling": wall(T().translate(0, 1, 0).rotate([1, 0, 0], 90)),
-        "back": wall(T().translate(0, 0, -1)),
-        "green_wall": wall(T().translate(1, 0, 0).rotate([0, 1, 0], -90), "green"),
-        "red_wall": wall(T().translate(-1, 0, 0).rotate([0, 1, 0], 90), "red"),
-        "small_box": {
-            "type": "cube",
-            "to_world": T().translate(0.335, -0.7, 0.38).rotate([0, 1, 0], -17).scale(0.3),
-            "bsdf": white,
-        },
-        "large_box": {
-            "type": "cube",
-            "to_world": T()
-            .translate(-0.33, -0.4, -0.28)
-            .rotate([0, 1, 0], 18.25)
-            .scale(0.3, 0.61, 0.3),
-            "bsdf": white,
-        },
-    }
+
+def door_ajar(opening: float = 16) -> dict:
+    """A dark room and the light of the next one through a door, which is `opening` degrees open."""
+    return _load("door-ajar", opening=opening)
+
+
+def pool() -> dict:
+    """A tiled pool below a small light: all is seen and lit through rippled water."""
+    return _load("pool")
+
+
+def ring() -> dict:
+    """A gold ring on paper below a small light: the caustic of a cylindrical mirror."""
+    return _load("ring")
+
+
+def furnace() -> dict:
+    """A closed box that emits e and reflects a: the radiance is e / (1 - a) = 0.5 everywhere."""
+    return _load("furnace")
+
+
+def dof(aperture: float = 0.07) -> dict:
+    """Glass balls before a lens of radius `aperture`: caustics within the blur."""
+    return _load("dof", aperture=aperture)
+
+
+# ---- from XML to a dict ------------------------------------------------------------------------
+
+
+def _load(folder: str, **values) -> dict:
+    from xml.etree import ElementTree
+
+    path = _folder() / folder / "scene.xml"
+    root = ElementTree.parse(path).getroot()
+    defaults = {e.get("name"): e.get("value") for e in root.findall("default")}
+    assert values.keys() == defaults.keys()
+    for element in root.iter():
+        for key, text in element.attrib.items():
+            if text.startswith("$"):
+                element.set(key, str(values[text[1:]]))
+    return {"type": "scene"} | _children(root, path.parent)
+
+
+def _folder() -> Path:
+    """Where the scenes are: in the package as it is installed, or beside it in the repository."""
+    here = Path(__file__).resolve().parent
+    installed = here / "scene_files"
+    return installed if installed.is_dir() else here.parents[1] / "scenes"
+
+
+def _children(element, folder: Path) -> dict:
+    """What stands inside an element, by the name or id it has, or by what it is."""
+    children: dict = {}
+    for child in element:
+        if child.tag == "default":
+            continue
+        key = child.get("name") or (child.get("id") if child.tag != "ref" else None) or child.tag
+        if key in children:
+            key = f"{key}_{len(children)}"
+        children[key] = _value(child, folder)
+    return children
+
+
+def _value(element, folder: Path):
+    match element.tag:
+        case "float":
+            return float(element.get("value"))
+        case "integer":
+            return int(element.get("value"))
+        case "boolean":
+            return element.get("value") == "true"
+        case "string":
+            is_file = element.get("name") == "filename"
+            return str(folder / element.get("value")) if is_file else element.get("value")
+        case "rgb":
+            numbers = _numbers(element.get("value"))
+            return {"type": "rgb", "value": numbers if len(numbers) == 3 else numbers[0]}
+        case "point":
+            return [float(element.get(axis, 0)) for axis in "xyz"]
+        case "transform":
+            return _transform(element)
+        case "ref":
+            return {"type": "ref", "id": element.get("id")}
+    return {"type": element.get("type")} | _children(element, folder)
+
+
+def _transform(element) -> Transform:
+    transform = Transform()
+    for step in element:
+        transform = _step(step) @ transform
+    return transform
+
+
+def _step(step) -> Transform:
+    match step.tag:
+        case "translate":
+            return Transform.translate([float(step.get(axis, 0)) for axis in "xyz"])
+        case "scale":
+            rest = step.get("value", 1)
+            return Transform.scale([float(step.get(axis, rest)) for axis in "xyz"])
+        case "rotate":
+            axis = [float(step.get(axis, 0)) for axis in "xyz"]
+            return Transform.rotate(axis, float(step.get("angle")))
+        case "lookat":
+            return Transform.look_at(*(_numbers(step.get(k)) for k in ("origin", "target", "up")))
+    raise ValueError(f"<{step.tag}> in the transform of a built-in scene")
+
+
+def _numbers(text: str) -> list[float]:
+    return [float(number) for number in text.split(",")]
