@@ -1,13 +1,12 @@
 // bdpt: bidirectional path tracing with all techniques (s, t) and multiple importance sampling.
 // E. Lafortune and Y. Willems, "Bi-directional path tracing", Compugraphics 1993; E. Veach and L.
 // Guibas, "Bidirectional estimators for light transport", EGWR 1994; Veach 1997, ch. 10.
+#include "base/bytes.h"
 #include "base/registry.h"
 #include "image/splat_film.h"
 #include "integrator/bdpt_params.h"
 #include "integrator/path_params.h"
 #include "integrator/sampled_rendering.h"
-
-#include <mutex>
 
 namespace mlt {
 namespace {
@@ -44,6 +43,10 @@ class TechniqueFilms {
     return layers;
   }
 
+  uint64_t saturated() const { return film_.saturated(); }
+  std::string save() const { return film_.save(); }
+  void load(const std::string& bytes) { film_.load(bytes); }
+
  private:
   std::vector<std::string> names_;
   SplatFilm film_;
@@ -59,6 +62,29 @@ class BdptRendering : public SampledRendering {
 
   std::vector<NamedImage> layers() const override {
     return techniques_ ? techniques_->images(splat_scale()) : std::vector<NamedImage>();
+  }
+
+  void add_stats(Stats& stats) const override {
+    SampledRendering::add_stats(stats);
+    if (techniques_ && techniques_->saturated() > 0)
+      stats.warnings.push_back(
+          "an image of a technique exceeded its fixed-point range; its brightest pixels are wrong");
+  }
+
+  std::string save() const override {
+    ByteWriter bytes;
+    bytes.write(SampledRendering::save());
+    bytes.write(techniques_ ? techniques_->save() : std::string());
+    return bytes.take();
+  }
+  void load(const std::string& saved) override {
+    ByteReader bytes(saved);
+    std::string image, techniques;
+    bytes.read(image);
+    bytes.read(techniques);
+    bytes.finish();
+    if (techniques_) techniques_->load(techniques);
+    SampledRendering::load(image);
   }
 
  private:

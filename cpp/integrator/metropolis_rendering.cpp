@@ -15,7 +15,6 @@ ChainStats::Row& ChainStats::Row::operator+=(const Row& other) {
   rays += other.rays;
   acceptance += other.acceptance;
   image_distance += other.image_distance;
-  seconds += other.seconds;
   return *this;
 }
 
@@ -57,11 +56,13 @@ void ChainStats::load(ByteReader& bytes) {
 
 MetropolisRendering::MetropolisRendering(ScenePtr scene, uint64_t seed,
                                          const MetropolisSettings& settings,
-                                         std::unique_ptr<MetropolisAlgorithm> algorithm)
+                                         std::unique_ptr<MetropolisAlgorithm> algorithm,
+                                         SeparateImage render_separately)
     : scene_(std::move(scene)),
       seed_(seed),
       settings_(settings),
       algorithm_(std::move(algorithm)),
+      render_separately_(std::move(render_separately)),
       film_(scene_->camera().raster().size.x, scene_->camera().raster().size.y, scene_->film().filter,
             groups),
       groups_(groups),
@@ -72,6 +73,7 @@ int MetropolisRendering::chains_of(int group) const {
 }
 
 void MetropolisRendering::prepare(int threads, const std::atomic<bool>& cancelled) {
+  if (render_separately_) separate_ = render_separately_(threads, cancelled);
   algorithm_->prepare(seed_, threads, cancelled);
   const uint64_t candidates = (settings_.luminance_samples + groups - 1) / groups;
   std::vector<std::vector<double>> weights(groups, std::vector<double>(candidates));
@@ -162,7 +164,9 @@ Image MetropolisRendering::image() const {
     if (steps > 0 || groups_[g].b == 0) ++begun;
   }
   for (double& s : scale) s /= std::max(1, begun);
-  return film_.image(scale);
+  Image image = film_.image(scale);
+  for (size_t i = 0; i < separate_.data.size(); ++i) image.data[i] += separate_.data[i];
+  return image;
 }
 
 void MetropolisRendering::add_stats(Stats& stats) const {
@@ -199,7 +203,6 @@ void MetropolisRendering::add_stats(Stats& stats) const {
     m.generated = rows[r].generated;
     m.accepted = rows[r].accepted;
     m.rays = rows[r].rays;
-    m.seconds = rows[r].seconds;
     m.mean_acceptance = rows[r].acceptance / n;
     m.image_distance = rows[r].image_distance / n;
     stats.mutations.push_back(m);
@@ -226,6 +229,7 @@ std::string MetropolisRendering::save() const {
     bytes.write(lane->round);
     lane->chain->save(bytes);
   }
+  bytes.write(separate_.data);
   bytes.write(film_.save());
   return bytes.take();
 }
@@ -252,6 +256,13 @@ void MetropolisRendering::load(const std::string& saved) {
     lanes_[i]->round = bytes.read<uint64_t>();
     lanes_[i]->chain = algorithm_->blank(chain_id(lanes_[i]->group, lanes_[i]->number));
     lanes_[i]->chain->load(bytes);
+  }
+  std::vector<float> separate;
+  bytes.read(separate);
+  if (!separate.empty()) {
+    separate_ = Image(scene_->camera().raster().size.x, scene_->camera().raster().size.y, 3);
+    if (separate.size() != separate_.data.size()) throw RenderError("the saved state has another size");
+    separate_.data = std::move(separate);
   }
   std::string film;
   bytes.read(film);

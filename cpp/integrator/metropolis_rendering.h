@@ -12,6 +12,7 @@
 #include "path/ray_counts.h"
 
 #include <condition_variable>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <vector>
@@ -67,7 +68,7 @@ class StepRecorder {
 struct ChainStats {
   struct Row {
     uint64_t proposed = 0, generated = 0, accepted = 0, rays = 0;
-    double acceptance = 0, image_distance = 0, seconds = 0;
+    double acceptance = 0, image_distance = 0;
 
     Row& operator+=(const Row& other);
   };
@@ -134,10 +135,14 @@ struct MetropolisSettings {
   int64_t luminance_samples = 100000;
 };
 
+/// An image that is added to what the chains make: light that is rendered apart.
+using SeparateImage = std::function<Image(int threads, const std::atomic<bool>& cancelled)>;
+
 class MetropolisRendering : public Rendering {
  public:
   MetropolisRendering(ScenePtr scene, uint64_t seed, const MetropolisSettings& settings,
-                      std::unique_ptr<MetropolisAlgorithm> algorithm);
+                      std::unique_ptr<MetropolisAlgorithm> algorithm,
+                      SeparateImage render_separately = {});
 
   void prepare(int threads, const std::atomic<bool>& cancelled) override;
   uint64_t unit_count(double spp) const override;
@@ -171,6 +176,8 @@ class MetropolisRendering : public Rendering {
   uint64_t seed_;
   MetropolisSettings settings_;
   std::unique_ptr<MetropolisAlgorithm> algorithm_;
+  SeparateImage render_separately_;
+  Image separate_;  ///< Empty if there is none.
   SplatFilm film_;
   std::vector<std::unique_ptr<Lane>> lanes_;  ///< The chains of groups that have found light.
   std::vector<Group> groups_;

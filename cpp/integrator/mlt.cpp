@@ -1,14 +1,16 @@
 // mlt: Metropolis light transport in path space. E. Veach and L. Guibas, "Metropolis light transport",
 // SIGGRAPH 1997; Veach 1997, ch. 11.
+#include "base/parallel.h"
 #include "base/registry.h"
 #include "integrator/metropolis_params.h"
 #include "integrator/metropolis_rendering.h"
 #include "integrator/path_params.h"
 #include "math/permutation.h"
+#include "integrator/separate_direct.h"
+#include "mutation/adaptation.h"
 #include "mutation/kinds.h"
 #include "mutation/mixture.h"
-#include "path/bidirectional.h"
-#include "path/samplers.h"
+#include "mutation/path_seeds.h"
 
 namespace mlt {
 namespace {
@@ -17,7 +19,13 @@ struct MltSettings {
   BidirectionalSettings paths;
   MutationSettings mutation;
   std::vector<std::pair<std::string, double>> weights;  ///< Of each mutation, by name.
+  bool adaptive = true;
+  bool two_stage = false;
+  int64_t luminance_samples = 100000;
 };
+
+/// Step sizes among which adaptation chooses: largest radii, as shares of the image's diagonal.
+constexpr double adaptive_shares[] = {0.02, 0.1};
 
 constexpr int longest_counted = 16;  // longer paths share a row of the statistics
 
@@ -94,32 +102,42 @@ class Mlt : public MetropolisAlgorithm {
  public:
   Mlt(ScenePtr scene, const MltSettings& settings)
       : scene_(std::move(scene)), settings_(settings), choice_(std::vector<double>()) {
+    if (settings_.two_stage) {
+      map_ = std::make_unique<TargetMap>(scene_->camera().raster(), 16);
+      settings_.mutation.map = map_.get();
+    }
     std::vector<double> weights;
-    for (const auto& [name, weight] : settings.weights) {
-      mutations_.push_back(make_mutation(name, *scene_, settings.mutation));
-      weights.push_back(weight);
+    for (const auto& [name, weight] : settings_.weights) {
+      const bool perturbation = name == "lens" || name == "caustic" || name == "multi_chain";
+      if (!settings_.adaptive || !perturbation) {
+        add(name, settings_.mutation.largest_share);
+        weights.push_back(weight);
+        continue;
+      }
+      for (const double share : adaptive_shares) {
+        add(name, share);
+        weights.push_back(weight / std::size(adaptive_shares));
+      }
     }
     choice_ = MutationChoice(std::move(weights));
   }
 
-  double candidate(Rng& rng, RayCounts& rays) const override {
-    Bidirectional paths(*scene_, settings_.paths);
-    double sum = 0;
-    sample(paths, rng, rays, [&](const Connection&, double weight) { sum += weight; });
-    return sum;
+  void prepare(uint64_t seed, int threads, const std::atomic<bool>& cancelled) override {
+    if (map_) draw_map(seed, threads, cancelled);
+    if (!settings_.adaptive || cancelled) return;
+    AdaptationSettings adaptation;
+    adaptation.seed = seed;
+    adaptation.threads = threads;
+    choice_ = adapt(*scene_, settings_.paths, settings_.mutation, mutations_, choice_, adaptation, cancelled);
   }
 
-  /// Chooses one of the candidate's paths in proportion to its weighted L*.
+  double candidate(Rng& rng, RayCounts& rays) const override {
+    return PathSeeds(*scene_, settings_.paths, settings_.mutation).weigh(rng, rays, [](const Vec2&, double) {});
+  }
+
   std::unique_ptr<Chain> start(const ChainId& id, Rng candidate, Rng choice) const override {
-    Bidirectional paths(*scene_, settings_.paths);
     RayCounts rays;
-    LightPath x;
-    double sum = 0;
-    sample(paths, candidate, rays, [&](const Connection& connection, double weight) {
-      sum += weight;
-      if (choice.next() * sum < weight) paths.assemble(connection, x.path);
-    });
-    evaluate(*scene_, settings_.mutation, x);
+    LightPath x = PathSeeds(*scene_, settings_.paths, settings_.mutation).pick(candidate, choice, rays);
     return std::make_unique<MltChain>(*scene_, settings_.mutation, mutations_, choice_, id, std::move(x));
   }
 
@@ -129,28 +147,75 @@ class Mlt : public MetropolisAlgorithm {
 
   std::vector<MutationStats> rows() const override {
     std::vector<MutationStats> rows;
-    for (const auto& mutation : mutations_)
+    for (size_t i = 0; i < mutations_.size(); ++i)
       for (int k = 0; k <= longest_counted; ++k) {
-        rows.push_back({mutation->name()});
-        rows.back().length = k;
+        MutationStats row;
+        row.name = mutations_[i]->name();
+        row.length = k;
+        row.step_size = steps_[i];
+        const std::vector<double>& weights = choice_.weights(k);
+        row.weight = weights[i];
+        rows.push_back(row);
       }
     return rows;
   }
 
+  std::string save() const override {
+    ByteWriter bytes;
+    bytes.write(map_ ? map_->factors() : std::vector<double>());
+    bytes.write<uint64_t>(choice_.rows());
+    for (size_t k = 0; k < choice_.rows(); ++k) bytes.write(choice_.weights(static_cast<int>(k)));
+    return bytes.take();
+  }
+  void load(const std::string& saved) override {
+    ByteReader bytes(saved);
+    std::vector<double> factors;
+    bytes.read(factors);
+    if (map_) map_->set_factors(std::move(factors));
+    const uint64_t count = bytes.read<uint64_t>();
+    std::vector<std::vector<double>> rows;
+    for (uint64_t k = 0; k < count; ++k) {
+      rows.emplace_back();
+      bytes.read(rows.back());
+      if (rows.back().size() != mutations_.size()) throw RenderError("the saved state has other mutations");
+    }
+    if (rows.empty()) throw RenderError("the saved state has no mutations");
+    choice_ = MutationChoice(std::move(rows));
+    bytes.finish();
+  }
+
  private:
-  template <class Found>
-  void sample(Bidirectional& paths, Rng& rng, RayCounts& rays, Found&& found) const {
-    RandomSampler sampler(rng);
-    paths.sample(scene_->camera().raster().sample(sampler.next2()), sampler, rays);
-    paths.connect_all(rays, [&](const Connection& c) {
-      const double weight = target_luminance(c.contribution) * c.weight;
-      if (std::isfinite(weight) && weight > 0) found(c, weight);
+  void add(const std::string& name, double largest_share) {
+    MutationSettings settings = settings_.mutation;
+    settings.largest_share = largest_share;
+    mutations_.push_back(make_mutation(name, *scene_, settings));
+    steps_.push_back(largest_share);
+  }
+
+  /// The first stage: a coarse image by bidirectional path tracing.
+  void draw_map(uint64_t seed, int threads, const std::atomic<bool>& cancelled) {
+    MutationSettings plain = settings_.mutation;
+    plain.map = nullptr;
+    constexpr uint64_t block = 256;
+    std::vector<std::vector<std::pair<Vec2, double>>> seen(settings_.luminance_samples / block + 1);
+    parallel_for(threads, seen.size(), [&](uint64_t b) {
+      PathSeeds seeds(*scene_, settings_.paths, plain);
+      RayCounts rays;
+      for (uint64_t i = 0; i < block && !cancelled; ++i) {
+        Rng rng(seed, Purpose::round, b * block + i);
+        seeds.weigh(rng, rays, [&](const Vec2& raster, double weight) { seen[b].push_back({raster, weight}); });
+      }
     });
+    for (const auto& samples : seen)
+      for (const auto& [raster, weight] : samples) map_->add(raster, weight);
+    map_->finish();
   }
 
   ScenePtr scene_;
   MltSettings settings_;
+  std::unique_ptr<TargetMap> map_;
   Mutations mutations_;
+  std::vector<double> steps_;
   MutationChoice choice_;
 };
 
@@ -175,22 +240,35 @@ class MltIntegrator : public Integrator {
     settings_.mutation.near_specular = params.real_in("near_specular", 0, 1);
     if (params.boolean("manifold_perturbation"))
       params.fail("manifold_perturbation", "is true, but this mutation does not exist yet; leave it out");
+    settings_.two_stage = params.boolean("two_stage");
+    settings_.luminance_samples = metropolis_.luminance_samples;
+    direct_samples_ = static_cast<int>(params.integer_in("direct_samples", -1, 1 << 20));
+    if (direct_samples_ >= 0) settings_.paths.min_depth = settings_.mutation.min_depth = 3;
     double sum = 0;
+    bool chosen = false;  // by the user
     for (const MutationKind& kind : mutation_kinds()) {
       const double weight = params.boolean(kind.switch_name) ? params.real_in(kind.weight_name, 0, 1e9) : 0;
       if (weight > 0) settings_.weights.push_back({kind.name, weight});
       sum += weight;
+      chosen = chosen || params.has(kind.weight_name);
     }
+    settings_.adaptive = params.has("adaptive") ? params.boolean("adaptive") : !chosen;
     if (!(sum > 0)) params.fail("needs at least one mutation with a positive weight");
   }
   std::unique_ptr<Rendering> start(ScenePtr scene, uint64_t seed) const override {
     auto algorithm = std::make_unique<Mlt>(scene, settings_);
-    return std::make_unique<MetropolisRendering>(std::move(scene), seed, metropolis_, std::move(algorithm));
+    SeparateImage direct;
+    if (direct_samples_ >= 0)
+      direct = separate_direct(scene, seed, direct_samples_, settings_.paths.hide_emitters,
+                               settings_.paths.strict_normals);
+    return std::make_unique<MetropolisRendering>(std::move(scene), seed, metropolis_, std::move(algorithm),
+                                                 std::move(direct));
   }
 
  private:
   MetropolisSettings metropolis_;
   MltSettings settings_;
+  int direct_samples_ = -1;
 };
 
 }  // namespace
@@ -211,6 +289,14 @@ Plugin integrator_mlt() {
   }
   schema.parameters.push_back({"near_specular", ParamType::real, 0.1,
                                "Smooth vertices below this roughness count as specular in perturbations."});
+  schema.parameters.push_back({"adaptive", ParamType::boolean, true,
+                               "Let pilot chains find the weights and step sizes of the mutations; by default "
+                               "only if no weight is given."});
+  schema.parameters.push_back({"two_stage", ParamType::boolean, false,
+                               "Divide the target by a coarse image, so that dark regions get their share."});
+  schema.parameters.push_back({"direct_samples", ParamType::integer, int64_t{-1},
+                               "Render light of at most one reflection apart with this many samples per pixel; "
+                               "0 leaves it out, -1 leaves it to the chains."});
   schema.parameters.push_back({"manifold_perturbation", ParamType::boolean, false, "Only false: it does not exist yet."});
   return {schema, [](Params& params) -> ObjectPtr { return std::make_shared<MltIntegrator>(params); }};
 }

@@ -105,7 +105,10 @@ class Pssmlt : public MetropolisAlgorithm {
   std::unique_ptr<Chain> blank(const ChainId& id) const override {
     return std::make_unique<PssmltChain>(*scene_, settings_, id.rng(), PrimaryState());
   }
-  std::vector<MutationStats> rows() const override { return {{"large_step"}, {"small_step"}}; }
+  std::vector<MutationStats> rows() const override { MutationStats large, small;
+    large.name = "large_step";
+    small.name = "small_step";
+    return {large, small}; }
 
  private:
   PrimaryState walk(Rng& rng, ChainStats& stats) const {

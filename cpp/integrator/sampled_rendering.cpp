@@ -1,5 +1,7 @@
 #include "integrator/sampled_rendering.h"
 
+#include "base/bytes.h"
+
 #include <cmath>
 
 namespace mlt {
@@ -45,6 +47,26 @@ void SampledRendering::add_stats(Stats& stats) const {
   stats.rays_intersect = intersect_;
   stats.rays_occluded = occluded_;
   stats.invalid_samples = invalid_;
+}
+
+std::string SampledRendering::save() const {
+  ByteWriter bytes;
+  bytes.write(film_.save());
+  for (const auto* count : {&intersect_, &occluded_, &invalid_}) bytes.write(count->load());
+  return bytes.take();
+}
+
+void SampledRendering::load(const std::string& saved) {
+  ByteReader bytes(saved);
+  std::string film;
+  bytes.read(film);
+  uint64_t counts[3];
+  for (uint64_t& count : counts) count = bytes.read<uint64_t>();
+  bytes.finish();
+  film_.load(film);
+  intersect_ = counts[0];
+  occluded_ = counts[1];
+  invalid_ = counts[2];
 }
 
 }  // namespace mlt

@@ -19,8 +19,8 @@ class SampledRendering : public Rendering {
   double spp_done(uint64_t units) const override;
   Image image() const override { return film_.image(); }
   void add_stats(Stats& stats) const override;
-  std::string save() const override { return film_.save(); }
-  void load(const std::string& bytes) override { film_.load(bytes); }
+  std::string save() const override;
+  void load(const std::string& saved) override;
 
  protected:
   /// Where samples go; invalid ones are counted and left out.

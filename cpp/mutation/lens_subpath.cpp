@@ -9,13 +9,14 @@ const std::string& LensSubpathMutation::name() const {
 
 int LensSubpathMutation::stop(const LightPath& x) const {
   int i = x.edges() - 1;
-  while (i > 0 && x[i].delta()) --i;
+  while (i > 0 && (x[i].delta() || stop_probability(x[i].at) == 0)) --i;
   return i > 0 && !x[i - 1].delta() ? i : -1;
 }
 
 double LensSubpathMutation::stop_probability(const SurfacePoint& at) const {
   const Bsdf& bsdf = scene_->bsdf(at);
-  if (!bsdf.has_smooth()) return 0;
+  const Vec3 up(0, 0, 1);
+  if (!bsdf.has_smooth() || bsdf.roughness(at, up, up) < settings_.near_specular) return 0;
   return bsdf.has_delta() ? 0.5 : 1.0;
 }
 
@@ -36,10 +37,11 @@ std::optional<Edit> LensSubpathMutation::propose(const LightPath& x, LightPath& 
     ++context.rays.intersect;
     if (!scene_->intersect(ray, at)) return std::nullopt;
     walk[count] = surface_vertex(at);
-    if (rng.next() < stop_probability(at)) break;
+    const double stops = stop_probability(at);
+    if (rng.next() < stops) break;
     const auto sample =
         scene_->bsdf(at).sample(at, at.shading.to_local(-ray.d), {rng.next(), rng.next(), rng.next()});
-    if (!sample || sample->lobe == Lobe::smooth) return std::nullopt;
+    if (!sample || (stops > 0 && sample->lobe == Lobe::smooth)) return std::nullopt;
     walk[count].lobe = sample->lobe;
     ray = scene_->spawn(at, at.shading.to_world(sample->to), x.path.time);
   }

@@ -1,6 +1,6 @@
 // The lens subpath mutation (Veach 1997, sec. 11.3.4): the camera end of the path is replaced by a fresh
-// one, for paths of the form ...(L|D)DS*E with perfectly specular S. A new point on the lens and a new
-// image position are drawn, the walk goes on as long as it scatters specularly, and the vertex where it
+// one, for paths of the form ...(L|D)DS*E. A new point on the lens and a new image position are drawn, the
+// walk goes on over surfaces that are (nearly) specular as their BSDF samples it, and the vertex where it
 // stops is joined to the rest of the path.
 //
 // The image positions that the chains of one round use are stratified over the image; each by itself
@@ -22,10 +22,11 @@ class LensSubpathMutation : public Mutation {
   double density(const LightPath& x, const LightPath& y, const Edit& edit) const override;
 
  private:
-  /// The vertex that ends the lens subpath: the first from the camera that is not a delta; -1 if it, or
-  /// the one before it, cannot be connected.
+  /// The vertex that ends the lens subpath: the first from the camera at which a walk may stop; -1 if
+  /// the one before it cannot be connected.
   int stop(const LightPath& x) const;
-  /// Probability with which a walk stops at this surface, to be joined there.
+  /// Probability with which a walk stops at this surface, to be joined there: 0 where all scattering is
+  /// (nearly) specular, 1 where none is a delta.
   double stop_probability(const SurfacePoint& at) const;
 
   const Scene* scene_;

@@ -15,6 +15,7 @@ TermSettings term_settings(const MutationSettings& settings) { return {true, set
 
 void finish(const Scene& scene, const MutationSettings& settings, LightPath& x) {
   x.target = 0;
+  if (x.edges() < settings.min_depth) return;
   if (x.edges() == 1 && (settings.hide_emitters || !(x.terms.light_can_be_hit || x.terms.camera_can_be_hit)))
     return;
   x.rgb = contribution(x.terms);
@@ -26,7 +27,7 @@ void finish(const Scene& scene, const MutationSettings& settings, LightPath& x) 
   const auto raster = raster_position(scene, x.path);
   if (!raster) return;
   x.raster = *raster;
-  x.target = target;
+  x.target = settings.map ? target * (*settings.map)(x.raster) : target;
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // The state of Metropolis light transport: a light path with its terms and its target L*.
 #pragma once
 
+#include "mutation/target_map.h"
 #include "path/path_terms.h"
 
 #include <vector>
@@ -19,6 +20,8 @@ struct Edit {
 
 struct MutationSettings {
   int max_depth = -1;
+  int min_depth = 1;  ///< Shorter paths carry no light: they are rendered apart.
+  const TargetMap* map = nullptr;  ///< Two-stage sampling: a factor of the target.
   bool hide_emitters = false;
   bool strict_normals = false;
   /// Smooth vertices below this roughness count as specular in signatures.
@@ -33,7 +36,7 @@ struct LightPath {
   std::vector<char> specular;  ///< S or D of each vertex (signature with near_specular).
   Vec2 raster{0};
   Color rgb{0};       ///< f(x), Veach 1997, eq. 8.7
-  double target = 0;  ///< L*(x)
+  double target = 0;  ///< L*(x), times the factor of two-stage sampling
 
   int edges() const { return path.edges(); }
   const Vertex& operator[](size_t i) const { return path[i]; }

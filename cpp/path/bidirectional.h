@@ -11,6 +11,7 @@ namespace mlt {
 
 struct BidirectionalSettings {
   int max_depth = -1;
+  int min_depth = 1;
   int rr_depth = 5;
   bool light_image = true;    ///< Techniques t <= 1, which write anywhere on the image.
   bool sample_direct = true;  ///< s = 1 chooses x_0 as seen from x_1.
@@ -87,7 +88,7 @@ class Bidirectional {
   }
   bool wanted(int s, int t) const {
     const int k = s + t - 1;
-    return k <= most_edges() && !(k == 1 && settings_.hide_emitters);
+    return k >= settings_.min_depth && k <= most_edges() && !(k == 1 && settings_.hide_emitters);
   }
   WalkSettings walk_settings(int max_vertices) const {
     return {max_vertices, settings_.rr_depth, settings_.strict_normals};

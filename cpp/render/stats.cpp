@@ -28,9 +28,9 @@ std::string array(const std::vector<T>& items, Write&& write) {
 std::string mutation(const MutationStats& m) {
   return fmt::format(
       R"({{"name": {}, "length": {}, "proposed": {}, "generated": {}, "accepted": {}, )"
-      R"("mean_acceptance": {}, "image_distance": {}, "rays": {}, "seconds": {}}})",
+      R"("mean_acceptance": {}, "image_distance": {}, "rays": {}, "weight": {}, "step_size": {}}})",
       quoted(m.name), m.length, m.proposed, m.generated, m.accepted, m.mean_acceptance,
-      m.image_distance, m.rays, m.seconds);
+      m.image_distance, m.rays, m.weight, m.step_size);
 }
 
 std::string stuck_chain(const StuckChain& s) {

@@ -14,7 +14,8 @@ struct MutationStats {
   double mean_acceptance = 0;
   double image_distance = 0;  ///< Mean move on the image per proposal, in pixels.
   uint64_t rays = 0;
-  double seconds = 0;
+  double weight = 0;     ///< With which it takes part in the choice at this length.
+  double step_size = 0;  ///< Largest move on the image, as a share of its diagonal; 0: not a perturbation.
 };
 
 struct StuckChain {
