@@ -15,6 +15,7 @@ void bind_base(py::module_& m);
 void bind_image(py::module_& m);
 void bind_scene(py::module_& m);
 void bind_render(py::module_& m);
+void bind_metropolis(py::module_& m);
 
 /// A numpy array (height, width, channels) that owns the image's buffer.
 py::array_t<float> to_array(Image image);

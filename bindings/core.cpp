@@ -10,4 +10,5 @@ PYBIND11_MODULE(_core, m) {
   mlt::python::bind_image(m);
   mlt::python::bind_scene(m);
   mlt::python::bind_render(m);
+  mlt::python::bind_metropolis(m);
 }

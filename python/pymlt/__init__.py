@@ -9,6 +9,9 @@
 What is heavy (numpy, tqdm, ...) is imported where it is first used, so this import is quick.
 """
 
+import importlib as _importlib
+from typing import TYPE_CHECKING
+
 from . import integrators as _integrators
 from . import scenes
 from ._core import Error, FileError, RenderError, Scene, SceneError, UsageError, __version__
@@ -20,6 +23,9 @@ from .loading import load_dict, load_file, load_string
 from .metrics import compare
 from .schemas import available, describe
 from .transforms import Transform
+
+if TYPE_CHECKING:
+    from . import metropolis, quadrature
 
 __all__ = [
     "Error",
@@ -39,6 +45,8 @@ __all__ = [
     "load_dict",
     "load_file",
     "load_string",
+    "metropolis",
+    "quadrature",
     "read_image",
     "read_metadata",
     "render",
@@ -47,3 +55,10 @@ __all__ = [
     "write_image",
 ]
 __all__ += _integrators.__all__
+
+
+def __getattr__(name: str):
+    """Submodules that not every program needs."""
+    if name in ("metropolis", "quadrature"):
+        return _importlib.import_module(f"{__name__}.{name}")
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

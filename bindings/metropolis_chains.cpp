@@ -1,0 +1,110 @@
+#include "metropolis_chains.h"
+
+namespace mlt::python {
+
+using lab::Point;
+
+namespace {
+
+Doubles checked(const py::object& returned, size_t count, const std::string& what) {
+  Doubles array = Doubles::ensure(returned);
+  if (!array) PyErr_Clear();
+  if (!array || array.ndim() != 1 || static_cast<size_t>(array.size()) != count)
+    throw UsageError("vectorized: " + what + " must return an array of " + std::to_string(count) +
+                     " numbers, one for each chain that it was given");
+  return array;
+}
+
+}  // namespace
+
+VectorChains::VectorChains(const Numbers& space, py::object target, const Moves& moves,
+                           std::vector<py::object> vectorized, const std::vector<Point>& starts,
+                           uint64_t seed)
+    : Chains(space),
+      function_(std::move(target)),
+      vectorized_(std::move(vectorized)),
+      generator_(Rng(seed, Purpose::chain, starts.size())) {
+  const Doubles values = evaluate(to_array(starts));
+  for (size_t c = 0; c < starts.size(); ++c)
+    chains_.emplace_back(starts[c], values.data()[c], moves, seed, c);
+}
+
+py::dict VectorChains::advance(size_t steps, bool expected_values) {
+  Trace<Numbers> trace(space_, chains_.size(), steps, expected_values);
+  for (size_t i = 0; i < steps; ++i) {
+    check_signals(i + 1);
+    draft_all();
+    evaluate_all();
+    for (size_t c = 0; c < chains_.size(); ++c) {
+      lab::Chain<Point>& chain = chains_[c];
+      trace.begin(c, i, chain.state());
+      const StepResult result = chain.finish([&](const Point& state, double weight, bool proposal) {
+        trace.record(c, i, state, weight, proposal);
+      });
+      trace.end(c, i, chain, result);
+    }
+  }
+  return trace.take();
+}
+
+py::object VectorChains::to_array(const std::vector<Point>& points) const {
+  py::array_t<double> array(std::vector<size_t>{points.size(), space_.dimensions});
+  double* data = array.mutable_data();
+  for (const Point& p : points) data = std::copy(p.begin(), p.end(), data);
+  if (space_.form == Numbers::Form::array) return std::move(array);
+  py::object flat = array.reshape({-1});
+  return space_.form == Numbers::Form::number ? flat : flat.attr("astype")("int64");
+}
+
+Doubles VectorChains::evaluate(const py::object& points) const {
+  return checked(function_(points), py::len(points), "the target");
+}
+
+void VectorChains::draft_all() {
+  std::vector<std::vector<size_t>> groups(vectorized_.size());
+  for (size_t c = 0; c < chains_.size(); ++c) {
+    if (!chains_[c].choose()) continue;
+    const size_t move = chains_[c].mixture().chosen();
+    if (vectorized_[move].is_none())
+      chains_[c].draw();
+    else
+      groups[move].push_back(c);
+  }
+  for (size_t move = 0; move < groups.size(); ++move)
+    if (!groups[move].empty()) draft(vectorized_[move], groups[move]);
+}
+
+void VectorChains::draft(const py::object& move, const std::vector<size_t>& group) {
+  const size_t count = group.size(), width = space_.dimensions;
+  std::vector<Point> states;
+  for (const size_t c : group) states.push_back(chains_[c].state());
+  const py::object x = to_array(states);
+  const py::object proposed = move.attr("propose")(x, generator_.generator());
+  const Doubles y = Doubles::ensure(proposed);
+  if (!y) PyErr_Clear();
+  if (!y || static_cast<size_t>(y.size()) != count * width ||
+      static_cast<size_t>(y.shape(0)) != count)
+    throw UsageError("vectorized: propose(x, rng) must return an array of the shape of x");
+  Doubles forward, backward;
+  const bool symmetric = move.attr("symmetric").cast<bool>();
+  if (!symmetric) {
+    forward = checked(move.attr("density")(x, proposed), count, "density(x, y)");
+    backward = checked(move.attr("density")(proposed, x), count, "density(x, y)");
+  }
+  for (size_t i = 0; i < count; ++i) {
+    const double* p = y.data() + i * width;
+    chains_[group[i]].set_proposal(Point(p, p + width), symmetric ? 1 : forward.data()[i],
+                                   symmetric ? 1 : backward.data()[i]);
+  }
+}
+
+void VectorChains::evaluate_all() {
+  std::vector<Point> points;
+  for (const lab::Chain<Point>& chain : chains_)
+    points.push_back(chain.generated() ? chain.proposal() : chain.state());
+  const Doubles values = evaluate(to_array(points));
+  for (size_t c = 0; c < chains_.size(); ++c)
+    if (chains_[c].generated()) chains_[c].set_target(values.data()[c]);
+}
+
+}  // namespace mlt::python

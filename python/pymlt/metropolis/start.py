@@ -1,0 +1,55 @@
+"""Starting without start-up bias (Veach & Guibas 1997, sec. 5.1)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from .. import _core
+
+
+@dataclass(frozen=True)
+class Start:
+    """Where chains start, and what the candidates said about the integral b of the target."""
+
+    b: float
+    b_error: float
+    starts: Any
+
+    def __repr__(self) -> str:
+        return f"Start(b={self.b:.6g} ± {self.b_error:.2g}, {len(self.starts)} starts)"
+
+
+def bootstrap(
+    target: Callable[[Any], Any],
+    sample: Callable,
+    density: Callable[[Any], Any],
+    candidates: int,
+    chains: int = 1,
+    *,
+    seed: int = 0,
+) -> Start:
+    """Draw candidates from a known density p and start chains in proportion to f / p.
+
+    `sample(rng, count)` returns an array of states, `density` their p and `target` their f; all
+    take arrays. The mean of f / p estimates b, the integral of the target. b times a mean over
+    chains that start there is unbiased from the first step on.
+    """
+    import numpy as np
+
+    rng = np.random.default_rng(seed)
+    x = np.asarray(sample(rng, candidates))
+    f, p = (np.asarray(function(x), dtype=float) for function in (target, density))
+    if f.shape != (candidates,) or p.shape != (candidates,):
+        raise _core.UsageError("target and density must return one number for each candidate")
+    if not (p > 0).all():
+        raise _core.UsageError("density is not positive at a candidate that sample has drawn")
+    weights = f / p
+    if not (np.isfinite(weights).all() and (weights >= 0).all()):
+        raise _core.UsageError("the target must be finite and not negative at every candidate")
+    if not weights.any():
+        raise _core.UsageError(f"the target is 0 at all of {candidates} candidates; draw more")
+    b, b_error, chosen = _core.metropolis.resample(weights, chains, seed)
+    order = np.random.default_rng([seed, 1]).permutation(len(chosen))
+    return Start(b, b_error, x[np.asarray(chosen)[order]])
