@@ -27,8 +27,6 @@ struct MltSettings {
 /// Step sizes among which adaptation chooses: largest radii, as shares of the image's diagonal.
 constexpr double adaptive_shares[] = {0.02, 0.1};
 
-constexpr int longest_counted = 16;  // longer paths share a row of the statistics
-
 class MltChain : public Chain {
  public:
   MltChain(const Scene& scene, const MutationSettings& settings, const Mutations& mutations,
@@ -40,7 +38,7 @@ class MltChain : public Chain {
         id_(id),
         rng_(id.rng()),
         x_(std::move(start)) {
-    stats_.rows.resize(mutations.size() * (longest_counted + 1));
+    stats_.rows.resize(mutations.size() * (longest_row + 1));
   }
 
   void advance(uint64_t steps, const ChainRecorder& recorder) override {
@@ -53,11 +51,11 @@ class MltChain : public Chain {
       const uint64_t rays_before = stats_.rays.intersect + stats_.rays.occluded;
       const StepResult result = metropolis_step(x_, y_, kernel, rng_, record);
       record.settle(result, y_[0]);
-      ChainStats::Row& row = stats_.rows[kernel.chosen() * (longest_counted + 1) + std::min(edges, longest_counted)];
+      ChainStats::Row& row = stats_.rows[kernel.chosen() * (longest_row + 1) + std::min(edges, longest_row)];
       stats_.count(row, result, kernel.generated(), glm::length(x_.raster - from));
       row.rays += stats_.rays.intersect + stats_.rays.occluded - rays_before;
       if (stats_.run > stats_.longest.rejections && stats_.run % 64 == 0)
-        stats_.longest = {stats_.run, x_.raster, signature()};
+        stats_.longest = {stats_.run, x_.raster, signature(*scene_, x_.path, settings_->near_specular)};
     }
     record.finish();
   }
@@ -74,12 +72,6 @@ class MltChain : public Chain {
   void load(ByteReader& bytes) override;
 
  private:
-  std::string signature() const {
-    std::string letters = "L";
-    for (int i = 1; i < x_.edges(); ++i) letters += x_.specular[i] ? 'S' : 'D';
-    return letters + "E";
-  }
-
   /// The image position of this chain among those of all chains of the group in this step.
   Vec2 round_raster() const {
     const uint64_t key = mix_bits(mix_bits(id_.seed ^ mix_bits(static_cast<uint64_t>(id_.group))) + step_);
@@ -108,8 +100,7 @@ class Mlt : public MetropolisAlgorithm {
     }
     std::vector<double> weights;
     for (const auto& [name, weight] : settings_.weights) {
-      const bool perturbation = name == "lens" || name == "caustic" || name == "multi_chain";
-      if (!settings_.adaptive || !perturbation) {
+      if (!settings_.adaptive || !mutation_kind(name).perturbation) {
         add(name, settings_.mutation.largest_share);
         weights.push_back(weight);
         continue;
@@ -148,13 +139,12 @@ class Mlt : public MetropolisAlgorithm {
   std::vector<MutationStats> rows() const override {
     std::vector<MutationStats> rows;
     for (size_t i = 0; i < mutations_.size(); ++i)
-      for (int k = 0; k <= longest_counted; ++k) {
+      for (int k = 0; k <= longest_row; ++k) {
         MutationStats row;
         row.name = mutations_[i]->name();
         row.length = k;
         row.step_size = steps_[i];
-        const std::vector<double>& weights = choice_.weights(k);
-        row.weight = weights[i];
+        row.weight = choice_.weights(k)[i];
         rows.push_back(row);
       }
     return rows;
@@ -189,7 +179,7 @@ class Mlt : public MetropolisAlgorithm {
     MutationSettings settings = settings_.mutation;
     settings.largest_share = largest_share;
     mutations_.push_back(make_mutation(name, *scene_, settings));
-    steps_.push_back(largest_share);
+    steps_.push_back(mutation_kind(name).perturbation ? largest_share : 0.0);
   }
 
   /// The first stage: a coarse image by bidirectional path tracing.

@@ -8,8 +8,6 @@
 namespace mlt {
 namespace {
 
-constexpr int longest = 16;  // longer paths share a row
-
 /// What the pilot chains learn of one mutation at one path length.
 struct Experience {
   double jumps = 0;
@@ -29,7 +27,7 @@ using Table = std::vector<std::vector<Experience>>;  // [length][mutation]
 
 Table explore(const Scene& scene, const Mutations& mutations, const MutationChoice& choice, LightPath x,
               int steps, Rng rng) {
-  Table table(longest + 1, std::vector<Experience>(mutations.size()));
+  Table table(longest_row + 1, std::vector<Experience>(mutations.size()));
   RayCounts rays;
   MutationMixture kernel(mutations, choice, rays);
   std::array<LightPath, 1> y;
@@ -41,7 +39,7 @@ Table explore(const Scene& scene, const Mutations& mutations, const MutationChoi
     metropolis_step(x, y, kernel, rng, [&](const LightPath& state, double weight) {
       if (&state != &x) jump += weight * squared_jump(scene, x, state);
     });
-    Experience& e = table[std::min(edges, longest)][kernel.chosen()];
+    Experience& e = table[std::min(edges, longest_row)][kernel.chosen()];
     e.jumps += jump;
     ++e.proposed;
     e.rays += rays.intersect + rays.occluded - rays_before;
@@ -114,7 +112,7 @@ MutationChoice adapt(const Scene& scene, const BidirectionalSettings& paths,
     if (x.target > 0) tables[i] = explore(scene, mutations, initial, std::move(x), adaptation.steps, own);
   });
 
-  Table sum(longest + 1, std::vector<Experience>(mutations.size()));
+  Table sum(longest_row + 1, std::vector<Experience>(mutations.size()));
   std::vector<Experience> all(mutations.size());
   for (const Table& table : tables)
     for (size_t k = 0; k < table.size(); ++k)

@@ -7,19 +7,6 @@ namespace {
 
 double power_of_half(int n) { return 1 / static_cast<double>(uint64_t{1} << std::min(n, 60)); }
 
-/// Weight of deleting `edges` edges (Veach 1997, sec. 11.3.1.1): mostly two, that is one vertex.
-double deletion_weight(int edges) {
-  if (edges <= 1) return 0.25;
-  return edges == 2 ? 0.5 : power_of_half(edges);
-}
-
-/// Weight of adding `added` edges where `deleted` were (Veach 1997, sec. 11.3.1.2).
-double addition_weight(int added, int deleted) {
-  const int change = std::abs(added - deleted);
-  if (change == 0) return 0.5;
-  return change == 1 ? 0.15 : 0.2 * power_of_half(change);
-}
-
 /// May the gap lie between vertices l and m? What stays must scatter smoothly: a delta vertex would
 /// only grow back what was there. An end of the path stays what it is.
 bool deletable(const LightPath& x, int l, int m) {
@@ -28,40 +15,59 @@ bool deletable(const LightPath& x, int l, int m) {
   return (l < 0 || x.terms.connectable[l]) && (m > k || x.terms.connectable[m]);
 }
 
-template <class Visit>
-void for_each_gap(const LightPath& x, Visit&& visit) {
-  const int k = x.edges();
-  for (int l = -1; l <= k; ++l)
-    for (int m = l + 1; m <= k + 1; ++m)
-      if (deletable(x, l, m)) visit(l, m, deletion_weight(m - l));
-}
+/// How many edges a gap has: mostly two, that is one vertex (Veach 1997, sec. 11.3.1.1). 1/4, 1/2 and
+/// then 1/8, 1/16, ..., cut off at the k + 2 edges that a path of k edges has with its two open ends.
+struct GapLength {
+  static double probability(int edges, int k) {
+    const double weight = edges == 1 ? 0.25 : edges == 2 ? 0.5 : power_of_half(edges);
+    return weight / (1 - power_of_half(k + 2));
+  }
+  static int sample(double u, int k) {
+    int edges = 1;
+    while (edges < k + 2 && (u -= probability(edges, k)) >= 0) ++edges;
+    return edges;
+  }
+};
+
+/// Where a gap of this many edges may begin: l = -1 ... k + 1 - edges, whether deletable there or not.
+int gap_positions(int edges, int k) { return k + 3 - edges; }
 
 double deletion_probability(const LightPath& x, int l, int m) {
   if (!deletable(x, l, m)) return 0;
-  double sum = 0;
-  for_each_gap(x, [&](int, int, double weight) { sum += weight; });
-  return deletion_weight(m - l) / sum;
+  const int k = x.edges();
+  return GapLength::probability(m - l, k) / gap_positions(m - l, k);
 }
 
-/// How many edges may replace those of a gap: at least enough for the ends that are missing.
-struct Lengths {
+/// How many edges replace those of a gap: mostly as many (Veach 1997, sec. 11.3.1.2), but at least enough
+/// for the ends that are missing.
+struct AddedLength {
+  static constexpr int most_change = 12;
   int least, most, deleted;
 
-  Lengths(int edges, int l, int m, int most_edges) : deleted(m - l) {
-    least = 1 + (l < 0) + (m > edges);
-    most = std::min(deleted + most_change, most_edges - edges + deleted);
+  AddedLength(int k, int l, int m, int most_edges) : deleted(m - l) {
+    least = std::max(1 + (l < 0) + (m > k), deleted - most_change);
+    most = std::min(deleted + most_change, most_edges - k + deleted);
   }
-  /// One edge for one edge would change nothing.
   double weight(int added) const {
-    if (added < least || added > most || (added == 1 && deleted == 1)) return 0;
-    return addition_weight(added, deleted);
+    if (added == 1 && deleted == 1) return 0;  // one edge for one edge would change nothing
+    const int change = std::abs(added - deleted);
+    return change == 0 ? 0.5 : change == 1 ? 0.15 : 0.2 * power_of_half(change);
   }
-  double probability(int added) const {
+  double total() const {
     double sum = 0;
     for (int c = least; c <= most; ++c) sum += weight(c);
-    return sum > 0 ? weight(added) / sum : 0.0;
+    return sum;
   }
-  static constexpr int most_change = 12;
+  double probability(int added) const {
+    return added < least || added > most ? 0.0 : weight(added) / total();
+  }
+  /// 0 if nothing may be added.
+  int sample(double u) const {
+    u *= total();
+    int added = least;
+    while (added < most && (u -= weight(added)) >= 0) ++added;
+    return added <= most && weight(added) > 0 ? added : 0;
+  }
 };
 
 /// How many of n inserted vertices may come from the light: not all, where the last one would have to
@@ -80,26 +86,11 @@ const std::string& BidirectionalMutation::name() const {
 std::optional<Edit> BidirectionalMutation::propose(const LightPath& x, LightPath& y,
                                                    MutationContext& context) const {
   const int k = x.edges();
-  int l = -1, m = k + 1;
-  double sum = 0;
-  for_each_gap(x, [&](int, int, double weight) { sum += weight; });
-  double u = context.rng.next() * sum;
-  bool chosen = false;
-  for_each_gap(x, [&](int first, int last, double weight) {
-    if (chosen) return;
-    l = first;
-    m = last;
-    chosen = (u -= weight) < 0;
-  });
-
-  const Lengths lengths(k, l, m, most_edges());
-  double total = 0;
-  for (int c = lengths.least; c <= lengths.most; ++c) total += lengths.weight(c);
-  if (!(total > 0)) return std::nullopt;
-  u = context.rng.next() * total;
-  int added = lengths.least;
-  while (added < lengths.most && (u -= lengths.weight(added)) >= 0) ++added;
-  if (lengths.weight(added) == 0) return std::nullopt;
+  const int gap = GapLength::sample(context.rng.next(), k);
+  const int l = static_cast<int>(context.rng.below(gap_positions(gap, k))) - 1, m = l + gap;
+  if (!deletable(x, l, m)) return std::nullopt;
+  const int added = AddedLength(k, l, m, most_edges()).sample(context.rng.next());
+  if (added == 0) return std::nullopt;
 
   const int n = added - 1;
   const Edit edit{l + 1, m - 1, n};
@@ -151,7 +142,8 @@ bool BidirectionalMutation::grow_from_light(LightPath& y, int first, int count,
     } else if (!scatter(from, direction(from.at, path[i - 2].at), i == first, path.time, context, ray)) {
       return false;
     }
-    if (!arrive(ray, path[i], context)) return false;
+    if (i < path.edges() ? !arrive(ray, path[i], context) : !arrive_at_lens(ray, path[i], context))
+      return false;
   }
   return true;
 }
@@ -204,6 +196,16 @@ bool BidirectionalMutation::arrive(const Ray& ray, Vertex& next, MutationContext
   return true;
 }
 
+/// The lens does not stop a ray, but what stands before it does.
+bool BidirectionalMutation::arrive_at_lens(const Ray& ray, Vertex& xk, MutationContext& context) const {
+  const auto lens = scene_->camera().hit_lens(ray);
+  if (!lens) return false;
+  xk = camera_vertex(*lens);
+  SurfacePoint at;
+  ++context.rays.intersect;
+  return !scene_->intersect(ray, at) || length_squared(at.p - ray.o) > length_squared(lens->p - ray.o);
+}
+
 bool BidirectionalMutation::arrive_at_light(const Ray& ray, Vertex& x0, MutationContext& context) const {
   SurfacePoint at;
   ++context.rays.intersect;
@@ -224,7 +226,7 @@ double BidirectionalMutation::density(const LightPath& x, const LightPath& y, co
   const int k = x.edges(), l = edit.first - 1, m = edit.last + 1, n = edit.inserted;
   const double p_delete = deletion_probability(x, l, m);
   if (p_delete == 0) return 0;
-  const double p_length = Lengths(k, l, m, most_edges()).probability(n + 1);
+  const double p_length = AddedLength(k, l, m, most_edges()).probability(n + 1);
   const int most = most_from_light(n, m > k, *scene_);
   double sum = 0;
   for (int s = 0; s <= most; ++s) {

@@ -30,6 +30,7 @@ class BidirectionalMutation : public Mutation {
   bool scatter(Vertex& from, const Vec3& towards_previous, bool kept, double time,
                MutationContext& context, Ray& ray) const;
   bool arrive(const Ray& ray, Vertex& next, MutationContext& context) const;
+  bool arrive_at_lens(const Ray& ray, Vertex& xk, MutationContext& context) const;
   bool arrive_at_light(const Ray& ray, Vertex& x0, MutationContext& context) const;
   int most_edges() const { return settings_.max_depth < 0 ? 1 << 16 : settings_.max_depth; }
 

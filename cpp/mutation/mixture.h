@@ -12,6 +12,9 @@
 
 namespace mlt {
 
+/// Paths of more edges than this share a row of weights and of statistics.
+constexpr int longest_row = 16;
+
 /// Weights of the mutations, for each path length: row k is for paths of k edges, the last row for all
 /// longer ones.
 class MutationChoice {

@@ -1,4 +1,4 @@
-#include "mutation/lens.h"
+#include "mutation/camera_perturbation.h"
 
 namespace mlt {
 namespace {
@@ -7,16 +7,6 @@ namespace {
 bool lens_moves(const LightPath& x, const LightPath& y) { return x[x.edges()].at.p != y[y.edges()].at.p; }
 
 }  // namespace
-
-const std::string& LensPerturbation::name() const {
-  static const std::string name = "lens";
-  return name;
-}
-
-const std::string& MultiChainPerturbation::name() const {
-  static const std::string name = "multi_chain";
-  return name;
-}
 
 CameraPerturbation::Form CameraPerturbation::form(const LightPath& x) const {
   Form form;

@@ -1,0 +1,37 @@
+// What the two perturbations that start at the lens share: the image position moves by a small distance
+// (and, with a lens of finite aperture, half of the time the point on the lens too) and the path
+// follows, up to the diffuse vertex that is joined to the rest. They differ in the paths that they suit:
+// lens.h has the form (L|D)DS*E, multi_chain.h (L|D)(DS+)+DS*E.
+#pragma once
+
+#include "mutation/chain_perturbation.h"
+
+namespace mlt {
+
+class CameraPerturbation : public Mutation {
+ public:
+  CameraPerturbation(const Scene& scene, const MutationSettings& settings)
+      : scene_(&scene), settings_(settings), chain_(scene, settings) {}
+
+  double suitability(const LightPath& x) const override;
+  std::optional<Edit> propose(const LightPath& x, LightPath& y, MutationContext& context) const override;
+  double density(const LightPath& x, const LightPath& y, const Edit& edit) const override;
+
+ protected:
+  /// How many chains follow the first.
+  virtual bool suits(int further_chains) const = 0;
+
+ private:
+  struct Form {
+    int stop = -1;  ///< The diffuse vertex that is joined to the rest; -1: the path has another form.
+    int further_chains = 0;
+  };
+  Form form(const LightPath& x) const;
+  ExponentialRadius lens_radius() const;
+
+  const Scene* scene_;
+  MutationSettings settings_;
+  ChainPerturbation chain_;
+};
+
+}  // namespace mlt
