@@ -36,7 +36,7 @@ class PathSeeds {
     return x;
   }
 
- private:
+  /// Calls found(connection, weight) for each path of a candidate.
   template <class Found>
   void draw(Rng& rng, RayCounts& rays, Found&& found) {
     RandomSampler sampler(rng);
@@ -48,6 +48,13 @@ class PathSeeds {
     });
   }
 
+  /// The path of a connection that was just found.
+  void assemble(const Connection& connection, LightPath& x) const {
+    paths_.assemble(connection, x.path);
+    evaluate(*scene_, *settings_, x);
+  }
+
+ private:
   const Scene* scene_;
   const MutationSettings* settings_;
   Bidirectional paths_;

@@ -1,0 +1,331 @@
+#include "mutation/audit.h"
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "mutation/path_functions.h"
+#include "mutation/path_seeds.h"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <numeric>
+
+namespace mlt {
+namespace {
+
+constexpr int batches = 128;
+constexpr double least_effective_samples = 1000;
+/// A function that hardly ever changes is not tested: a t-test needs more than a few events.
+constexpr double least_effective_changes = 100;
+constexpr double most_splits = 4096;
+
+using RowKey = std::pair<size_t, std::string>;  // mutation, signature
+
+/// Sums over the samples of one batch.
+struct Batch {
+  double light = 0;                        ///< Weight of all paths.
+  double weight = 0, weight_squared = 0;   ///< Of those that a mutation suits, sample by sample.
+  std::vector<double> expected, chosen;    ///< Of w (g(y) - g(x)), for each function.
+  std::vector<double> size, size_squared;  ///< Of |w (g(y) - g(x))| with expected weights.
+  std::map<RowKey, AuditRow> rows;
+  uint64_t steps = 0, lost = 0;
+};
+
+class Auditor {
+ public:
+  Auditor(const Scene& scene, const MutationSettings& settings, const Mutations& mutations,
+          const MutationChoice& choice, const AuditSettings& how)
+      : scene_(&scene),
+        settings_(&settings),
+        mutations_(&mutations),
+        choice_(&choice),
+        how_(how),
+        functions_(scene) {
+    samples_ = std::max<uint64_t>(1, how.paths / batches);
+    paths_.max_depth = settings.max_depth;
+    paths_.min_depth = settings.min_depth;
+    paths_.hide_emitters = settings.hide_emitters;
+    paths_.strict_normals = settings.strict_normals;
+  }
+
+  AuditReport run() {
+    weight_of_step_ = pilot();
+    std::vector<Batch> done(batches);
+    parallel_for(how_.threads, batches, [&](uint64_t i) { done[i] = batch(i); });
+    return report(done);
+  }
+
+ private:
+  /// Mean weight of a sample, roughly, in paths that a mutation suits: as a step's weight, it makes for one
+  /// step per sample.
+  double pilot() const {
+    PathSeeds seeds(*scene_, paths_, *settings_);
+    RayCounts rays;
+    Rng rng(how_.seed, Purpose::pilot, 0);
+    const uint64_t n = std::max<uint64_t>(1000, how_.paths / 10);
+    double light = 0, suited = 0;
+    LightPath x;
+    for (uint64_t i = 0; i < n; ++i)
+      seeds.draw(rng, rays, [&](const Connection& connection, double weight) {
+        light += weight;
+        if (take(seeds, connection, x)) suited += weight;
+      });
+    if (!(light > 0))
+      throw RenderError("no light path was found among " + std::to_string(n) + " samples");
+    return (suited > 0 ? suited : light) / static_cast<double>(n);
+  }
+
+  /// Makes x of a connection; false if no mutation would do anything to it.
+  bool take(const PathSeeds& seeds, const Connection& connection, LightPath& x) const {
+    seeds.assemble(connection, x);
+    if (!(x.target > 0)) return true;
+    const std::vector<double>& weights = choice_->weights(x.edges());
+    for (size_t i = 0; i < mutations_->size(); ++i)
+      if (weights[i] > 0 && (*mutations_)[i]->suitability(x) > 0) return true;
+    return false;
+  }
+
+  Batch batch(uint64_t index) const {
+    Batch sums;
+    for (auto* values : {&sums.expected, &sums.chosen, &sums.size, &sums.size_squared})
+      values->assign(functions_.size(), 0);
+    PathSeeds seeds(*scene_, paths_, *settings_);
+    RayCounts rays;
+    Rng rng(how_.seed, Purpose::inspect, index);
+    MutationMixture kernel(*mutations_, *choice_, rays);
+    LightPath x;
+    Scratch scratch;
+    for (uint64_t i = 0; i < samples_; ++i) {
+      double weight_of_sample = 0;
+      seeds.draw(rng, rays, [&](const Connection& connection, double weight) {
+        sums.light += weight;
+        if (!take(seeds, connection, x)) return;
+        if (!(x.target > 0)) {
+          ++sums.lost;
+          return;
+        }
+        weight_of_sample += weight;
+        const double wanted = weight / weight_of_step_;
+        const double splits = std::min(std::floor(wanted + rng.next()), most_splits);
+        const double each = wanted < most_splits ? weight_of_step_ : weight / splits;
+        for (double s = 0; s < splits; ++s) step(x, each, kernel, rng, scratch, sums);
+      });
+      sums.weight += weight_of_sample;
+      sums.weight_squared += sqr(weight_of_sample);
+    }
+    return sums;
+  }
+
+  struct Scratch {
+    LightPath x;
+    std::array<LightPath, 1> y;
+    std::vector<double> before, after, mean;
+  };
+
+  void step(const LightPath& start, double weight, MutationMixture& kernel, Rng& rng, Scratch& s,
+            Batch& sums) const {
+    kernel.set_stratified_raster(scene_->camera().raster().sample({rng.next(), rng.next()}));
+    s.x = start;
+    functions_.evaluate(s.x, s.before);
+    s.mean.assign(functions_.size(), 0);
+    const auto record = [&](const LightPath& state, double share) {
+      functions_.evaluate(state, s.after);
+      for (size_t g = 0; g < s.mean.size(); ++g) s.mean[g] += share * (s.after[g] - s.before[g]);
+    };
+    const StepResult result = metropolis_step(s.x, s.y, kernel, rng, record);
+    ++sums.steps;
+    AuditRow& row = sums.rows[{kernel.chosen(), signature(start)}];
+    ++row.steps;
+    row.generated += kernel.generated();
+    row.accepted += result.accepted >= 0;
+    row.invalid += result.invalid;
+    row.acceptance += result.acceptance;
+    if (result.acceptance == 0) return;
+    for (size_t g = 0; g < s.mean.size(); ++g) {
+      const double change = weight * s.mean[g];
+      sums.expected[g] += change;
+      sums.size[g] += std::abs(change);
+      sums.size_squared[g] += sqr(change);
+    }
+    if (result.accepted < 0) return;
+    functions_.evaluate(s.x, s.after);
+    for (size_t g = 0; g < s.after.size(); ++g)
+      sums.chosen[g] += weight * (s.after[g] - s.before[g]);
+  }
+
+  static std::string signature(const LightPath& x) {
+    std::string letters = "L";
+    for (int i = 1; i < x.edges(); ++i) letters += x.specular[i] ? 'S' : 'D';
+    return letters + "E";
+  }
+
+  AuditReport report(const std::vector<Batch>& done) const {
+    AuditReport report;
+    std::map<RowKey, AuditRow> rows;
+    double light = 0, weight = 0, weight_squared = 0;
+    for (const Batch& batch : done) {
+      light += batch.light;
+      weight += batch.weight;
+      weight_squared += batch.weight_squared;
+      report.steps += batch.steps;
+      report.lost += batch.lost;
+      for (const auto& [key, row] : batch.rows) {
+        AuditRow& sum = rows[key];
+        sum.steps += row.steps;
+        sum.generated += row.generated;
+        sum.accepted += row.accepted;
+        sum.invalid += row.invalid;
+        sum.acceptance += row.acceptance;
+      }
+    }
+    for (auto& [key, row] : rows) {
+      row.mutation = (*mutations_)[key.first]->name();
+      row.signature = key.second;
+      report.accepted += row.accepted;
+      report.invalid += row.invalid;
+      report.rows.push_back(row);
+    }
+    std::stable_sort(report.rows.begin(), report.rows.end(),
+                     [](const AuditRow& a, const AuditRow& b) { return a.steps > b.steps; });
+    report.samples = samples_ * batches;
+    report.b = light / static_cast<double>(report.samples);
+    report.suited = weight / light;
+    report.effective_samples = weight > 0 ? sqr(weight) / weight_squared : 0;
+    if (weight > 0) add_tests(done, weight, report);
+    judge(report);
+    return report;
+  }
+
+  void add_tests(const std::vector<Batch>& done, double weight, AuditReport& report) const {
+    for (size_t g = 0; g < functions_.size(); ++g) {
+      double size = 0, size_squared = 0;
+      for (const Batch& batch : done) {
+        size += batch.size[g];
+        size_squared += batch.size_squared[g];
+      }
+      if (!(sqr(size) >= least_effective_changes * size_squared) || size == 0) continue;
+      for (const bool expected : {true, false}) {
+        AuditTest test = t_test(done, expected ? &Batch::expected : &Batch::chosen, g, weight);
+        test.function = functions_.names()[g];
+        test.expected = expected;
+        report.tests.push_back(test);
+      }
+    }
+    std::sort(report.tests.begin(), report.tests.end(),
+              [](const AuditTest& a, const AuditTest& b) { return a.p < b.p; });
+    double largest = 0;
+    for (size_t i = 0; i < report.tests.size(); ++i) {
+      const double corrected = report.tests[i].p * static_cast<double>(report.tests.size() - i);
+      largest = std::max(largest, std::min(1.0, corrected));
+      report.tests[i].adjusted_p = largest;
+    }
+  }
+
+  static AuditTest t_test(const std::vector<Batch>& done, std::vector<double> Batch::*sums,
+                          size_t g, double weight) {
+    double mean = 0, variance = 0;
+    for (const Batch& batch : done) mean += (batch.*sums)[g] / batches;
+    for (const Batch& batch : done) variance += sqr((batch.*sums)[g] - mean) / (batches - 1);
+    AuditTest test;
+    const double error = std::sqrt(variance / batches);
+    test.change = mean * batches / weight;
+    test.error = error * batches / weight;
+    test.z = error > 0 ? mean / error : 0;
+    test.p = two_sided(test.z, batches - 1);
+    return test;
+  }
+
+  /// P(|T| > |t|) of Student's t, by the normal variable that Wallace 1959 ("Bounds on normal approximations to
+  /// Student's and the chi-square distributions") puts in its place: right to 1 % for n > 60.
+  static double two_sided(double t, double n) {
+    const double z = std::sqrt(n * std::log1p(sqr(t) / n)) * (8 * n + 1) / (8 * n + 3);
+    return std::erfc(z * std::sqrt(0.5));
+  }
+
+  void judge(AuditReport& report) const {
+    const auto say = [&](Verdict verdict, std::string reason) {
+      report.verdict = verdict;
+      report.reason = std::move(reason);
+    };
+    if (report.lost > 0)
+      return say(Verdict::wrong,
+                 fmt::format("{} paths that were sampled have no target", report.lost));
+    if (report.invalid > 0)
+      return say(Verdict::wrong,
+                 fmt::format("{} steps had an acceptance that is not a number", report.invalid));
+    if (report.suited == 0) return say(Verdict::inconclusive, "no path suits");
+    if (report.effective_samples < least_effective_samples)
+      return say(
+          Verdict::inconclusive,
+          fmt::format(
+              "the samples are worth only {:.0f} of equal weight; at least {:.0f} are needed",
+              report.effective_samples, least_effective_samples));
+    if (!report.tests.empty() && report.tests[0].adjusted_p <= how_.significance) {
+      const AuditTest& t = report.tests[0];
+      return say(Verdict::wrong,
+                 fmt::format("the mean of '{}' changes by {:.3g} +- {:.2g} (z = {:.1f})",
+                             t.function, t.change, t.error, t.z));
+    }
+    if (report.accepted < how_.least_accepted)
+      return say(Verdict::inconclusive,
+                 fmt::format("only {} moves were accepted; at least {} are needed", report.accepted,
+                             how_.least_accepted));
+    if (report.tests.empty()) return say(Verdict::inconclusive, "nothing that is measured changes");
+    const size_t n = report.tests.size();
+    say(Verdict::right, fmt::format("none of {} means changes (least p = {:.2g} after correction)",
+                                    n, report.tests[0].adjusted_p));
+  }
+
+  const Scene* scene_;
+  const MutationSettings* settings_;
+  const Mutations* mutations_;
+  const MutationChoice* choice_;
+  AuditSettings how_;
+  PathFunctions functions_;
+  BidirectionalSettings paths_;
+  uint64_t samples_;  ///< Of each batch.
+  double weight_of_step_ = 0;
+};
+
+}  // namespace
+
+const char* name_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::right: return "right";
+    case Verdict::wrong: return "wrong";
+    case Verdict::inconclusive: break;
+  }
+  return "inconclusive";
+}
+
+std::string AuditReport::text(size_t most) const {
+  std::string out = fmt::format(
+      "{}: {}\n{} samples worth {:.0f} suit in {:.3g} % of the light ({:.5g}), {} steps, {} "
+      "accepted\n",
+      name_of(verdict), reason, samples, effective_samples, 100 * suited, b, steps, accepted);
+  for (size_t i = 0; i < std::min(most, tests.size()); ++i) {
+    const AuditTest& t = tests[i];
+    out += fmt::format(
+        "  {:<26}{:<10}{:>11.3g} +- {:<9.2g} z = {:>6.2f}  p = {:<8.2g} corrected {:.2g}\n",
+        t.function, t.expected ? "expected" : "chosen", t.change, t.error, t.z, t.p, t.adjusted_p);
+  }
+  for (size_t i = 0; i < std::min(most, rows.size()); ++i) {
+    const AuditRow& row = rows[i];
+    out += fmt::format("  {:<14}{:<16}{:>9} steps {:>9} generated {:>9} accepted  mean {:.3f}\n",
+                       row.mutation, row.signature, row.steps, row.generated, row.accepted,
+                       row.acceptance / static_cast<double>(row.steps));
+  }
+  return out;
+}
+
+AuditReport audit(const Scene& scene, const MutationSettings& settings, const Mutations& mutations,
+                  const MutationChoice& choice, const AuditSettings& how) {
+  return Auditor(scene, settings, mutations, choice, how).run();
+}
+
+AuditReport audit(const Scene& scene, const MutationSettings& settings,
+                  const std::shared_ptr<const Mutation>& mutation, const AuditSettings& how) {
+  return audit(scene, settings, {mutation}, MutationChoice(std::vector<double>{1.0}), how);
+}
+
+}  // namespace mlt

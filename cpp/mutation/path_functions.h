@@ -1,0 +1,26 @@
+// Functions g of a light path that together see most of what a wrong mutation may disturb: where the
+// path meets the image, its length, its light, its vertices, its edges, its colour.
+#pragma once
+
+#include "mutation/light_path.h"
+
+#include <string>
+#include <vector>
+
+namespace mlt {
+
+class PathFunctions {
+ public:
+  explicit PathFunctions(const Scene& scene);
+
+  const std::vector<std::string>& names() const { return names_; }
+  size_t size() const { return names_.size(); }
+  /// g_0(x) ... g_{n-1}(x).
+  void evaluate(const LightPath& x, std::vector<double>& values) const;
+
+ private:
+  const Scene* scene_;
+  std::vector<std::string> names_;
+};
+
+}  // namespace mlt
