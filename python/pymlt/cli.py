@@ -1,4 +1,4 @@
-"""The command line: pymlt render | compare | info | list.
+"""The command line: pymlt render | compare | info | list | lab.
 
 Exit codes: 0 done; 1 `compare --fail-above` found more; 2 a mistake in usage or in the scene, or an
 output that cannot be written; 3 the render failed; 130 and 143 interrupted by SIGINT or SIGTERM,
@@ -17,7 +17,7 @@ import sys
 import threading
 import traceback
 
-from . import _core, scenes
+from . import _core, lab, scenes
 from .jobs import Job, Result, as_integrator, start
 from .loading import load_dict, load_file
 from .metrics import compare
@@ -73,12 +73,13 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--version", action="version", version=f"pymlt {_core.__version__}")
     commands = parser.add_subparsers(
-        required=True, metavar="{render,compare,info,list}", parser_class=_Parser
+        required=True, metavar="{render,compare,info,list,lab}", parser_class=_Parser
     )
     _add_render(commands)
     _add_compare(commands)
     _add_info(commands)
     _add_list(commands)
+    lab.add_command(commands, _add_command)
     return parser
 
 

@@ -1,0 +1,77 @@
+"""
+Where to start
+==============
+
+A chain remembers where it started. Throwing its first samples away helps, but nobody knows how many
+are enough. Better: draw candidates x from a known density p, and start chains from candidates that
+are chosen in proportion to f(x) / p(x). The mean of f / p estimates b, the integral of f. Then b
+times what the chains record is right in the mean from the very first step (Veach & Guibas 1997).
+"""
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+from pymlt import lab, metropolis
+
+lab.style()
+
+f = metropolis.Parabola()
+moves = [(metropolis.Uniform(0, 1), 0.02), (metropolis.RandomWalk(0.1), 0.98)]
+CHAINS, STEPS = 20_000, 200
+
+
+def uniform(rng, n):
+    return rng.random(n)
+
+
+def one(x):
+    return np.ones(len(x))
+
+
+# Many small bootstraps of 32 candidates for 4 chains each, as independent experiments.
+starts = [
+    metropolis.bootstrap(f, uniform, one, candidates=32, chains=4, seed=s)
+    for s in range(CHAINS // 4)
+]
+b = np.repeat([start.b for start in starts], 4)
+resampled = np.concatenate([start.starts for start in starts])
+print(f"b: {np.mean(b):.5f} in the mean; the integral is {1 / 12:.5f}")
+
+ways = {
+    "all chains from x = 0.6": (np.full(CHAINS, 0.6), 1 / 12),
+    "from uniform candidates": (np.random.default_rng(2).random(CHAINS), 1 / 12),
+    "from candidates resampled by f / p": (resampled, b[:, None]),
+}
+
+# %%
+# What is estimated is the integral of g f with g(x) = |x - 1/2|, that is 1/32. The lines are means
+# of 20 000 chains after each step; the dashed lines, of all steps up to there.
+
+figure, (left, right) = plt.subplots(1, 2, figsize=(11, 4.2), width_ratios=[1, 1.4])
+left.set(xlabel="x", title="Where chains are at step 0 and after 200", yticks=[])
+left.grid(False)
+x = np.linspace(0, 1, 300)
+for row, ((name, (x0, scale)), color) in enumerate(
+    zip(ways.items(), (lab.RED, lab.ORANGE, lab.GREEN), strict=True)
+):
+    run = metropolis.run(f, moves, x0, STEPS, chains=CHAINS, seed=row)
+    for states, alpha in ((x0, 0.3), (run.states[:, -1], 0.7)):
+        h, edges = np.histogram(states, 50, (0, 1), density=True)
+        left.stairs(
+            np.minimum(h, 4) + 4.8 * (2 - row),
+            edges,
+            baseline=4.8 * (2 - row),
+            fill=True,
+            color=color,
+            alpha=alpha,
+            lw=0,
+        )
+    left.plot(x, 12 * (x - 0.5) ** 2 + 4.8 * (2 - row), color="black", lw=0.8)
+    g = scale * np.abs(np.column_stack([x0, run.states]) - 0.5)
+    each = g.mean(axis=0)
+    right.plot(each, color=color, label=name)
+    right.plot(np.cumsum(each) / np.arange(1, STEPS + 2), color=color, lw=1, ls="--")
+right.axhline(1 / 32, color="black", lw=0.8)
+right.set(xlabel="step", title="Estimate of the integral of |x − ½| f(x)", ylim=(0.012, 0.034))
+right.legend(loc="lower right")
+plt.show()
