@@ -10,6 +10,7 @@ namespace mlt {
 
 /// The image of i under a permutation of {0, ..., n - 1} that `key` names: rounds of a bijective mixer on
 /// the next power of two, repeated until the result is in range (cycle walking, Black & Rogaway 2002).
+/// A rotation at the end makes the image of every single i exactly uniform over the keys.
 inline uint32_t permute(uint32_t i, uint32_t n, uint64_t key) {
   uint32_t mask = n - 1;
   for (int shift = 1; shift < 32; shift *= 2) mask |= mask >> shift;
@@ -23,7 +24,9 @@ inline uint32_t permute(uint32_t i, uint32_t n, uint64_t key) {
       i ^= i >> half;
     }
   } while (i >= n);
-  return i;
+  const uint64_t shift = ((mix_bits(~key) >> 32) * n) >> 32;
+  const uint64_t rotated = i + shift;
+  return static_cast<uint32_t>(rotated < n ? rotated : rotated - n);
 }
 
 /// Point i of n points in the unit square, each in a cell of its own of a grid and uniform by itself.
