@@ -1,0 +1,99 @@
+// What the tests of mutations share: settings, paths to start from, mutations spoilt on purpose.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "mutation/audit.h"
+#include "mutation/kinds.h"
+#include "mutation/mutation_scenes.h"
+#include "path/bidirectional.h"
+#include "path/samplers.h"
+
+namespace mlt::test {
+
+inline MutationSettings mutation_settings(int max_depth = 8) {
+  MutationSettings settings;
+  settings.max_depth = max_depth;
+  return settings;
+}
+
+inline Mutations all_mutations(const Scene& scene, const MutationSettings& settings) {
+  Mutations all;
+  for (const MutationKind& kind : mutation_kinds())
+    all.push_back(make_mutation(kind.name, scene, settings));
+  return all;
+}
+
+inline MutationChoice default_choice() {
+  std::vector<double> weights;
+  for (const MutationKind& kind : mutation_kinds()) weights.push_back(kind.weight);
+  return MutationChoice(weights);
+}
+
+inline std::string signature_of(const LightPath& x) {
+  std::string letters = "L";
+  for (int i = 1; i < x.edges(); ++i) letters += x.specular[i] ? 'S' : 'D';
+  return letters + 'E';
+}
+
+/// Calls found(x) for the paths of `samples` bidirectional samples.
+inline void for_each_light_path(const Scene& scene, const MutationSettings& settings, uint64_t seed,
+                                int samples, const std::function<void(const LightPath&)>& found) {
+  BidirectionalSettings how;
+  how.max_depth = settings.max_depth;
+  Bidirectional paths(scene, how);
+  RayCounts rays;
+  LightPath x;
+  for (int i = 0; i < samples; ++i) {
+    Rng rng(seed, Purpose::test, static_cast<uint64_t>(i));
+    RandomSampler sampler(rng);
+    paths.sample(scene.camera().raster().sample(sampler.next2()), sampler, rays);
+    paths.connect_all(rays, [&](const Connection& connection) {
+      paths.assemble(connection, x.path);
+      evaluate(scene, settings, x);
+      found(x);
+    });
+  }
+}
+
+/// The first path of this signature that `suits`.
+inline LightPath find_path(const Scene& scene, const MutationSettings& settings,
+                           const std::string& signature,
+                           const std::function<bool(const LightPath&)>& suits = nullptr) {
+  LightPath result;
+  for (uint64_t seed = 1; result.path.vertices.empty() && seed < 200; ++seed)
+    for_each_light_path(scene, settings, seed, 200, [&](const LightPath& x) {
+      if (result.path.vertices.empty() && signature_of(x) == signature && (!suits || suits(x)))
+        result = x;
+    });
+  EXPECT_FALSE(result.path.vertices.empty()) << "no path " << signature;
+  return result;
+}
+
+/// A mutation whose density lacks a factor.
+class BrokenTwin : public Mutation {
+ public:
+  using Factor = std::function<double(const LightPath& x, const LightPath& y, const Edit& edit)>;
+
+  BrokenTwin(std::shared_ptr<const Mutation> whole, Factor dropped)
+      : whole_(std::move(whole)), dropped_(std::move(dropped)) {}
+
+  const std::string& name() const override { return whole_->name(); }
+  double suitability(const LightPath& x) const override { return whole_->suitability(x); }
+  std::optional<Edit> propose(const LightPath& x, LightPath& y,
+                              MutationContext& context) const override {
+    return whole_->propose(x, y, context);
+  }
+  double density(const LightPath& x, const LightPath& y, const Edit& edit) const override {
+    const double whole = whole_->density(x, y, edit);
+    return whole == 0 ? 0 : whole / dropped_(x, y, edit);
+  }
+
+ private:
+  std::shared_ptr<const Mutation> whole_;
+  Factor dropped_;
+};
+
+}  // namespace mlt::test

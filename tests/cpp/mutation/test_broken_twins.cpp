@@ -1,0 +1,158 @@
+// The invariance test must fail where a mutation's density lacks a factor, or else it says nothing.
+#include "mutation/bidirectional.h"
+#include "mutation/chain_perturbation.h"
+#include "mutation/half_vector.h"
+#include "mutation/mutation_testing.h"
+
+namespace mlt::test {
+namespace {
+
+struct Twin {
+  std::string name, mutation, scene;
+  std::function<BrokenTwin::Factor(const Scene&, const MutationSettings&, const Mutations&)>
+      dropped;
+  uint64_t paths = 20000;
+};
+
+/// A twin whose lost factor depends on the paths alone.
+Twin twin(const std::string& name, const std::string& mutation, const std::string& scene,
+          const BrokenTwin::Factor& dropped) {
+  return {name, mutation, scene,
+          [=](const Scene&, const MutationSettings&, const Mutations&) { return dropped; }};
+}
+
+Vec3 towards(const LightPath& x, int i, int j) { return direction(x[i].at, x[j].at); }
+
+/// Density of what was inserted, made with s vertices from the light side, for all s.
+double density_of_all_ways(const Scene& scene, const LightPath& y, const Edit& edit) {
+  double sum = 0;
+  const bool no_lens = edit.first + edit.inserted > y.edges() && scene.camera().delta_position();
+  for (int s = 0; s <= edit.inserted - no_lens; ++s) {
+    if (!can_sample(y.terms, edit.first + s)) continue;
+    double p = 1;
+    for (int i = edit.first; i < edit.first + edit.inserted; ++i) {
+      if (i < edit.first + s)
+        p *= i == 0 && s == 1 ? y.terms.direct : y.terms.from_light[i];
+      else
+        p *= y.terms.from_camera[i];
+    }
+    sum += p;
+  }
+  return sum;
+}
+
+std::vector<Twin> twins() {
+  std::vector<Twin> all;
+  all.push_back({"raster_per_direction", "lens", "light_in_glass",
+                 [](const Scene& scene, const MutationSettings& settings, const Mutations&) {
+                   const ChainPerturbation chain(scene, settings);
+                   return BrokenTwin::Factor(
+                       [chain](const LightPath&, const LightPath& y, const Edit&) {
+                         return chain.raster_per_direction(y);
+                       });
+                 },
+                 100000});
+  all.push_back(twin("G_of_the_last_edge", "lens", "cornell",
+                     [](auto&, const LightPath& y, auto&) { return y.terms.G[y.edges() - 1]; }));
+  all.push_back({"half_vector_jacobian", "lens", "near_specular",
+                 [](const Scene& scene, const MutationSettings&, const Mutations&) {
+                   return BrokenTwin::Factor([&scene](const LightPath& x, const LightPath& y,
+                                                      const Edit& edit) {
+                     double product = 1;
+                     for (int i = edit.first + 1; i < x.edges(); ++i) {
+                       if (y[i].delta()) continue;
+                       const SurfacePoint& at = y[i].at;
+                       const Vec3 in = at.shading.to_local(towards(y, i, i + 1));
+                       const Vec3 out = at.shading.to_local(towards(y, i, i - 1));
+                       const double eta = scene.bsdf(at).relative_eta(at, in);
+                       product *= half_vector_jacobian(in, out, *half_vector(in, out, eta), eta);
+                     }
+                     return product;
+                   });
+                 }});
+  all.push_back(
+      twin("G_of_the_joint", "multi_chain", "mirrors",
+           [](auto&, const LightPath& y, const Edit& edit) { return y.terms.G[edit.first]; }));
+  all.push_back(twin(
+      "cosine_at_the_start", "caustic", "cornell", [](auto&, const LightPath& y, const Edit& edit) {
+        return 1 / abs_cos(y[edit.first - 1].at, towards(y, edit.first - 1, edit.first));
+      }));
+  all.push_back(
+      twin("G_of_the_chain", "caustic", "caustic", [](auto&, const LightPath& y, const Edit& edit) {
+        return y.terms.G[y.edges() - 2] * (edit.inserted > 0);
+      }));
+  all.push_back(
+      twin("G_from_infinity", "caustic", "sun", [](auto&, const LightPath& y, const Edit& edit) {
+        return edit.first == 1 ? y.terms.G[0] : 1.0;
+      }));
+  all.push_back(twin("G_of_the_first_edge", "lens_subpath", "cornell",
+                     [](auto&, const LightPath& y, auto&) { return y.terms.G[y.edges() - 1]; }));
+  all.push_back({"stop_probability", "lens_subpath", "plastic",
+                 [](const Scene& scene, const MutationSettings&, const Mutations&) {
+                   return BrokenTwin::Factor(
+                       [&scene](const LightPath&, const LightPath& y, const Edit& edit) {
+                         double product = 1;
+                         for (int i = edit.first; i < y.edges(); ++i)
+                           if (scene.bsdf(y[i].at).has_smooth() && scene.bsdf(y[i].at).has_delta())
+                             product *= 0.5;
+                         return product;
+                       });
+                 },
+                 100000});
+  // The choice of where a gap of some length begins.
+  all.push_back(
+      twin("p_delete", "bidirectional", "caustic", [](const LightPath& x, auto&, const Edit& edit) {
+        return 1.0 / (x.edges() + 2 - edit.deleted());
+      }));
+  all.push_back({"all_ways_but_one", "bidirectional", "cornell",
+                 [](const Scene& scene, const MutationSettings&, const Mutations&) {
+                   return BrokenTwin::Factor(
+                       [&scene](const LightPath&, const LightPath& y, const Edit& edit) {
+                         double one = 1;  // all of it from the camera side
+                         for (int i = edit.first; i < edit.first + edit.inserted; ++i)
+                           one *= y.terms.from_camera[i];
+                         return one > 0 ? density_of_all_ways(scene, y, edit) / one : 1.0;
+                       });
+                 }});
+  all.push_back(twin("G_of_the_first_inserted", "bidirectional", "cornell",
+                     [](auto&, const LightPath& y, const Edit& edit) {
+                       return edit.inserted > 0 && edit.first > 0 ? y.terms.G[edit.first - 1] : 1.0;
+                     }));
+  all.push_back({"P_choose", "mixture", "caustic",
+                 [](const Scene&, const MutationSettings&, const Mutations& all) {
+                   return BrokenTwin::Factor([&all](const LightPath& x, auto&, auto&) {
+                     double sum = 0;
+                     for (size_t i = 0; i < all.size(); ++i)
+                       sum += mutation_kinds()[i].weight * all[i]->suitability(x);
+                     return 1 / sum;
+                   });
+                 }});
+  return all;
+}
+
+class BrokenTwins : public testing::TestWithParam<Twin> {};
+
+TEST_P(BrokenTwins, AreFound) {
+  const Twin& twin = GetParam();
+  const ScenePtr scene = make_mutation_scene(twin.scene).scene;
+  const MutationSettings settings = mutation_settings();
+  const Mutations all = all_mutations(*scene, settings);
+  const BrokenTwin::Factor dropped = twin.dropped(*scene, settings, all);
+  Mutations spoilt;
+  for (const auto& mutation : all)
+    if (twin.mutation == "mixture" || twin.mutation == mutation->name())
+      spoilt.push_back(std::make_shared<BrokenTwin>(mutation, dropped));
+  const MutationChoice choice =
+      spoilt.size() > 1 ? default_choice() : MutationChoice(std::vector<double>{1.0});
+  AuditSettings how;
+  how.paths = twin.paths;
+  const AuditReport report = audit(*scene, settings, spoilt, choice, how);
+  EXPECT_EQ(report.verdict, Verdict::wrong) << report.text();
+}
+
+INSTANTIATE_TEST_SUITE_P(Mutations, BrokenTwins, testing::ValuesIn(twins()), [](const auto& info) {
+  return info.param.mutation + "_without_" + info.param.name;
+});
+
+}  // namespace
+}  // namespace mlt::test

@@ -1,0 +1,129 @@
+// Distances, angles and forms that the perturbations are made of.
+#include "mutation/chain_perturbation.h"
+
+#include "harness/chi_square.h"
+#include "mutation/mutation_testing.h"
+
+namespace mlt::test {
+namespace {
+
+TEST(ExponentialRadius, StaysBetweenItsRadii) {
+  const ExponentialRadius radius{0.1, 25};
+  EXPECT_DOUBLE_EQ(radius.sample(0), 25);
+  EXPECT_NEAR(radius.sample(1), 0.1, 1e-15);
+  EXPECT_NEAR(radius.sample(0.5), std::sqrt(0.1 * 25), 1e-12);
+  EXPECT_EQ(radius.planar_pdf(0.05), 0);
+  EXPECT_EQ(radius.planar_pdf(26), 0);
+  EXPECT_DOUBLE_EQ((radius * 2).smallest, 0.2);
+  EXPECT_DOUBLE_EQ((radius * 2).largest, 50);
+}
+
+TEST(ExponentialRadius, FollowsItsDensityInThePlane) {
+  const ExponentialRadius radius{0.3, 2};
+  const auto sample = [&](Rng& rng) -> std::optional<Vec2> {
+    const double r = radius.sample(rng.next()), phi = 2 * pi * rng.next();
+    return Vec2(r * std::cos(phi), r * std::sin(phi));
+  };
+  const auto result = chi_square_rect(
+      sample, [&](const Vec2& p) { return radius.planar_pdf(glm::length(p)); }, Vec2(-2), Vec2(2),
+      100000, 1);
+  EXPECT_GT(result.p_value, 1e-4) << result;
+}
+
+TEST(ExponentialRadius, FollowsItsDensityOnTheSphere) {
+  const ExponentialRadius angle{0.2, 1.4};
+  const Vec3 axis = normalize(Vec3(0.3, -0.5, 0.6));
+  const auto sample = [&](Rng& rng) -> std::optional<Vec3> {
+    return ChainPerturbation::perturb(axis, angle, rng);
+  };
+  const auto pdf = [&](const Vec3& w) {
+    return angle.angular_pdf(std::acos(std::clamp(dot(w, axis), -1.0, 1.0)));
+  };
+  const auto result = chi_square_sphere(sample, pdf, 100000, 2);
+  EXPECT_GT(result.p_value, 1e-4) << result;
+}
+
+TEST(ChainPerturbation, TurnsALongChainLessThanAShortOne) {
+  // A path on the axis of a camera with pixels of 1/100 rad: L at 9, D at 3, E at 0, or with D close to L.
+  const ScenePtr scene = make_scene("cornell").scene;
+  const MutationSettings settings = mutation_settings();
+  const ChainPerturbation chain(*scene, settings);
+  const LightPath x = find_path(*scene, settings, "LDE");
+  const ExponentialRadius& pixels = chain.image_radius();
+  EXPECT_DOUBLE_EQ(pixels.smallest, settings.smallest_pixels);
+  EXPECT_DOUBLE_EQ(pixels.largest, settings.largest_share * std::hypot(16, 12));
+
+  const ExponentialRadius angle = chain.angle(x, 0, 1, 1);
+  const double seen = length(x[2].at.p - x[1].at.p), own = length(x[1].at.p - x[0].at.p);
+  // A pixel seen from the lens: d(angle)^2 = 1 / (density of the raster in solid angle).
+  const double cosine = abs_cos(x[2].at, direction(x[2].at, x[1].at));
+  const double pixel = 1 / std::sqrt(chain.raster_per_direction(x) * cosine);
+  EXPECT_NEAR(angle.largest, std::min(pixels.largest * pixel * seen / own, pi / 2), 1e-9);
+  EXPECT_LE(angle.smallest, angle.largest / 2);
+}
+
+TEST(ChainPerturbation, MovesTheImageAboutAsFarAsTheLensPerturbation) {
+  // Turning the direction that leaves the lamp by an angle moves the vertex, and so the image position.
+  const ScenePtr scene = make_scene("point").scene;
+  const MutationSettings settings = mutation_settings();
+  const auto caustic = make_mutation("caustic", *scene, settings);
+  const ChainPerturbation chain(*scene, settings);
+  Rng rng(3, Purpose::test, 0);
+  RayCounts rays;
+  LightPath y;
+  double sum = 0, count = 0;
+  for_each_light_path(*scene, settings, 4, 1000, [&](const LightPath& x) {
+    if (caustic->suitability(x) == 0) return;
+    MutationContext context{rng, rays, {}};
+    if (!caustic->propose(x, y, context) || !(y.target > 0)) return;
+    sum += std::log(glm::length(y.raster - x.raster));
+    ++count;
+  });
+  ASSERT_GT(count, 500);
+  const ExponentialRadius& pixels = chain.image_radius();
+  const double expected = 0.5 * (std::log(pixels.smallest) + std::log(pixels.largest));
+  EXPECT_NEAR(sum / count, expected,
+              std::log(2));  // Within a factor of two: surfaces are seen at a slant.
+}
+
+TEST(ChainPerturbation, FindsTheDiffuseVertexThatEndsAChain) {
+  LightPath x;
+  x.path.vertices.resize(6);  // L D S D S E
+  x.specular = {0, 0, 1, 0, 1, 0};
+  EXPECT_EQ(ChainPerturbation::next_diffuse(x, 5, -1), 3);
+  EXPECT_EQ(ChainPerturbation::next_diffuse(x, 3, -1), 1);
+  EXPECT_EQ(ChainPerturbation::next_diffuse(x, 1, -1), -1);
+  EXPECT_EQ(ChainPerturbation::next_diffuse(x, 0, 1), 1);
+  EXPECT_EQ(ChainPerturbation::next_diffuse(x, 1, 1), 3);
+  EXPECT_EQ(ChainPerturbation::next_diffuse(x, 3, 1), -1);
+}
+
+/// Veach's forms: (L|D)DS*E, (L|D)S*DE and (L|D)(DS+)+DS*E, the light side of the joint not being specular.
+TEST(Mutations, SuitTheirForms) {
+  const ScenePtr scene = make_mutation_scene("mirrors").scene;
+  const MutationSettings settings = mutation_settings();
+  const auto suits = [&](const std::string& mutation, const std::string& signature) {
+    const LightPath x = find_path(*scene, settings, signature);
+    return make_mutation(mutation, *scene, settings)->suitability(x) > 0;
+  };
+  for (const char* form : {"LDE", "LDDE", "LDSE", "LDDSE", "LDSSE", "LSDDE", "LDSSSSE"})
+    EXPECT_TRUE(suits("lens", form)) << form;
+  for (const char* form : {"LE", "LSE", "LSDE", "LSDSE", "LDSDE"})
+    EXPECT_FALSE(suits("lens", form)) << form;
+  for (const char* form : {"LDE", "LDDE", "LSDE", "LSSDE", "LDSDE", "LSDSDE"})
+    EXPECT_TRUE(suits("caustic", form)) << form;
+  for (const char* form : {"LE", "LSE", "LDSE", "LSDSE"})
+    EXPECT_FALSE(suits("caustic", form)) << form;
+  for (const char* form : {"LDSDE", "LDSDSE", "LDSSDE"})
+    EXPECT_TRUE(suits("multi_chain", form)) << form;
+  for (const char* form : {"LDE", "LSDE", "LDSE", "LDDE", "LSDSE"})
+    EXPECT_FALSE(suits("multi_chain", form)) << form;
+  for (const char* form : {"LDE", "LDSE", "LDDSSE"})
+    EXPECT_TRUE(suits("lens_subpath", form)) << form;
+  for (const char* form : {"LE", "LSE", "LSDE", "LDSDE"})
+    EXPECT_FALSE(suits("lens_subpath", form)) << form;
+  for (const char* form : {"LE", "LSE", "LSDSE"}) EXPECT_TRUE(suits("bidirectional", form)) << form;
+}
+
+}  // namespace
+}  // namespace mlt::test

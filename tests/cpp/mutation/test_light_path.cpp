@@ -1,0 +1,105 @@
+// What a mutation's edit touched, computed anew, and all of the path computed afresh are the same bits.
+#include <cstring>
+
+#include "mutation/mutation_testing.h"
+
+namespace mlt::test {
+namespace {
+
+bool same_bits(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+bool same_bits(const Vec2& a, const Vec2& b) { return same_bits(a.x, b.x) && same_bits(a.y, b.y); }
+bool same_bits(const Vec3& a, const Vec3& b) {
+  return same_bits(a.x, b.x) && same_bits(a.y, b.y) && same_bits(a.z, b.z);
+}
+bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
+}
+
+std::string difference(const LightPath& a, const LightPath& b) {
+  if (a.path.vertices.size() != b.path.vertices.size()) return "length";
+  if (!same_bits(a.target, b.target)) return "target";
+  if (!same_bits(a.rgb, b.rgb)) return "rgb";
+  if (a.target > 0 && !same_bits(a.raster, b.raster)) return "raster";
+  if (a.specular != b.specular) return "specular";
+  const PathTerms &s = a.terms, &t = b.terms;
+  if (!same_bits(s.G, t.G)) return "G";
+  if (!same_bits(s.from_light, t.from_light)) return "from_light";
+  if (!same_bits(s.from_camera, t.from_camera)) return "from_camera";
+  if (s.connectable != t.connectable) return "connectable";
+  if (!same_bits(s.direct, t.direct)) return "direct";
+  if (s.light_can_be_hit != t.light_can_be_hit || s.camera_can_be_hit != t.camera_can_be_hit)
+    return "can be hit";
+  for (size_t i = 0; i < s.vertex.size(); ++i)
+    if (!same_bits(s.vertex[i].f, t.vertex[i].f) ||
+        !same_bits(s.vertex[i].pdf_from_light, t.vertex[i].pdf_from_light) ||
+        !same_bits(s.vertex[i].pdf_from_camera, t.vertex[i].pdf_from_camera))
+      return "terms of vertex " + std::to_string(i);
+  return "";
+}
+
+class LightPaths : public testing::TestWithParam<std::string> {};
+
+TEST_P(LightPaths, AreTheSameBitsWhenAnEditIsComputedAndWhenAllIs) {
+  const ScenePtr scene = make_mutation_scene(GetParam()).scene;
+  const MutationSettings settings = mutation_settings();
+  const Mutations all = all_mutations(*scene, settings);
+  Rng rng(1, Purpose::test, 0);
+  RayCounts rays;
+  LightPath y;
+  std::vector<int> compared(all.size(), 0);
+  for_each_light_path(*scene, settings, 2, 2000, [&](const LightPath& x) {
+    if (!(x.target > 0)) return;
+    for (size_t i = 0; i < all.size(); ++i) {
+      if (all[i]->suitability(x) == 0) continue;
+      MutationContext context{rng, rays, scene->camera().raster().sample({rng.next(), rng.next()})};
+      if (!all[i]->propose(x, y, context) || !(y.target > 0)) continue;
+      LightPath fresh;
+      fresh.path = y.path;
+      evaluate(*scene, settings, fresh);
+      ASSERT_EQ(difference(y, fresh), "")
+          << all[i]->name() << " on " << signature_of(x) << " to " << signature_of(y);
+      ++compared[i];
+    }
+  });
+  for (size_t i = 0; i < all.size(); ++i)
+    EXPECT_GT(compared[i], all[i]->name() == "multi_chain" ? -1 : 50) << all[i]->name();
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, LightPaths,
+                         testing::Values("mirrors", "near_specular", "mixed_lights", "thin_lens",
+                                         "light_under_water", "smooth_normals", "null_surface"),
+                         [](const auto& info) { return info.param; });
+
+TEST(LightPaths, ReverseAnEdit) {
+  const Edit edit{2, 4, 1};
+  EXPECT_EQ(edit.deleted(), 3);
+  EXPECT_EQ(edit.shift(), -2);
+  const Edit back = edit.reversed();
+  EXPECT_EQ(back.first, 2);
+  EXPECT_EQ(back.last, 2);
+  EXPECT_EQ(back.inserted, 3);
+  const Edit nothing_deleted{3, 2, 2};
+  EXPECT_EQ(nothing_deleted.deleted(), 0);
+  EXPECT_EQ(nothing_deleted.reversed().inserted, 0);
+}
+
+TEST(LightPaths, SpliceKeepsWhatLiesOutsideOfTheEdit) {
+  const ScenePtr scene = make_scene("cornell").scene;
+  const MutationSettings settings = mutation_settings();
+  const LightPath x = find_path(*scene, settings, "LDDDE");
+  for (const Edit edit :
+       {Edit{1, 2, 1}, Edit{2, 1, 3}, Edit{0, 1, 1}, Edit{3, 4, 2}, Edit{0, 4, 3}}) {
+    LightPath y;
+    splice(x, edit, y);
+    ASSERT_EQ(y.edges(), x.edges() + edit.shift());
+    for (int i = 0; i <= x.edges(); ++i) {
+      if (i >= edit.first && i <= edit.last) continue;
+      const int j = i < edit.first ? i : i + edit.shift();
+      EXPECT_TRUE(same_bits(x[i].at.p, y[j].at.p)) << i;
+      EXPECT_EQ(x[i].kind, y[j].kind) << i;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace mlt::test
