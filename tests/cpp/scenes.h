@@ -265,7 +265,7 @@ inline TestScene make_scene(const std::string& name, const SceneSettings& settin
     return done(lens(0.6) + sky + table + ball + before_lens + sphere(-0.5, -0.4, 0.3, 0.4, glass),
                 true, false);
   const std::string eye_in_ball = camera(middle, "0, -0.3, -1", 70, image);
-  const std::string glow = sphere(0, 0.5, 0, 0.12, white + area_light("30 25 20"));
+  const std::string glow = sphere(0, 0.5, 0, 0.2, white + area_light("10 8 6"));
   if (name == "camera_in_glass")
     return done(eye_in_ball + room() + lamp + sphere(0.05, -0.1, 0.02, 0.3, glass), true, false);
   if (name == "light_in_glass")
@@ -276,11 +276,12 @@ inline TestScene make_scene(const std::string& name, const SceneSettings& settin
     return done(eye_in_ball + room() + glow + sphere(0, 0.2, 0, 0.6, glass), true, false);
   const std::string pool = rectangle(scale(3) + rotate("x", -90) + translate(0, -0.2, 0), water);
   if (name == "camera_under_water")
-    return done(camera("0, -0.7, 0.8", "0, 0.3, -0.5", 80, image) + room() + lamp + pool, true,
-                false);
+    return done(
+        camera("0, -0.7, 0.8", "0, 0.3, -0.5", 80, image) + room() + ceiling_lamp(0.8) + pool, true,
+        false);
   if (name == "light_under_water")
     return done(camera("0, 0.7, 0.8", "0, -0.3, -1", 80, image) + room() + pool +
-                    sphere(0.3, -0.6, 0, 0.15, white + area_light("30 25 20")),
+                    sphere(0.3, -0.6, 0, 0.25, white + area_light("10 8 6")),
                 true, false);
   if (name == "smooth_normals")
     return done(pinhole + room() + lamp + coarse_ball("<bsdf type='twosided'>" + white + "</bsdf>"),

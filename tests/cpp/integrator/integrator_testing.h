@@ -1,0 +1,55 @@
+// Integrators by name, and renderings of whole images without a Job.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+
+#include "base/parallel.h"
+#include "harness/same_image.h"
+#include "render/make_integrator.h"
+#include "scenes.h"
+
+namespace mlt::test {
+
+inline IntegratorPtr integrator(const std::string& name, const Assignments& assignments = {}) {
+  const Node node = choose_integrator(LoadedScene(), name, assignments, plugins());
+  return make_integrator(node, plugins()).integrator;
+}
+
+inline void run_units(Rendering& rendering, uint64_t first, uint64_t last, int threads = 1) {
+  parallel_for(threads, last - first, [&](uint64_t i) { rendering.run_unit(first + i); });
+}
+
+inline std::unique_ptr<Rendering> prepared(const ScenePtr& scene, const IntegratorPtr& algorithm,
+                                           uint64_t seed, int threads = 1) {
+  auto rendering = algorithm->start(scene, seed);
+  const std::atomic<bool> cancelled{false};
+  rendering->prepare(threads, cancelled);
+  return rendering;
+}
+
+inline std::unique_ptr<Rendering> rendered(const ScenePtr& scene, const IntegratorPtr& algorithm,
+                                           uint64_t seed, double spp, int threads = 1) {
+  auto rendering = prepared(scene, algorithm, seed, threads);
+  run_units(*rendering, 0, rendering->unit_count(spp), threads);
+  return rendering;
+}
+
+/// An integrator as a side of a comparison. Metropolis integrators scale their bootstrap with the
+/// samples, so that its error vanishes with theirs.
+inline Side side(const ScenePtr& scene, const std::string& name, const Assignments& assignments,
+                 double spp) {
+  return {name, [=](uint64_t seed, double effort) {
+            Assignments all = assignments;
+            if (name == "pssmlt") {
+              all.push_back({"chains", "64"});
+              all.push_back({"luminance_samples", std::to_string(static_cast<int>(5000 * effort))});
+            }
+            return rendered(scene, integrator(name, all), seed, spp * effort)->image();
+          }};
+}
+
+inline Side known(const std::string& name, const Image& image) { return {name, nullptr, image}; }
+
+}  // namespace mlt::test

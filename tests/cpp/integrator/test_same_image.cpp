@@ -1,0 +1,138 @@
+// path = ptracer = bdpt = pssmlt, by a test of significance, on every test scene that both sides of a
+// pair can see. The short suite would see a difference of 2 % of an image and 10 % of a block; the
+// long one takes all scenes and 1 % and 5 %.
+#include <gtest/gtest.h>
+
+#include "integrator_testing.h"
+
+namespace mlt {
+namespace {
+
+using namespace test;
+
+struct Pair {
+  std::string scene, integrator;
+};
+
+void PrintTo(const Pair& pair, std::ostream* out) {
+  *out << pair.scene << " by " << pair.integrator;
+}
+
+std::string pair_name(const testing::TestParamInfo<Pair>& info) {
+  return info.param.scene + "_" + info.param.integrator;
+}
+
+SameImageSettings short_test() {
+  SameImageSettings settings;
+  settings.whole = 0.02;
+  settings.block = 0.1;
+  settings.max_effort = 1000;
+  return settings;
+}
+
+SameImageSettings long_test() {
+  SameImageSettings settings;
+  settings.max_effort = 50000;
+  return settings;
+}
+
+void expect_same(const Pair& pair, const SameImageSettings& settings) {
+  const ScenePtr scene = make_scene(pair.scene).scene;
+  const Assignments depth{{"max_depth", "6"}};
+  const SameImage found =
+      same_image(side(scene, pair.integrator, depth, pair.integrator == "pssmlt" ? 64 : 16),
+                 side(scene, "bdpt", depth, 16), settings);
+  EXPECT_TRUE(found) << pair.scene << ": " << found.text;
+}
+
+class SameImageOf : public testing::TestWithParam<Pair> {};
+
+TEST_P(SameImageOf, TwoIntegrators) { expect_same(GetParam(), short_test()); }
+
+INSTANTIATE_TEST_SUITE_P(
+    Pairs, SameImageOf,
+    testing::Values(Pair{"cornell", "ptracer"}, Pair{"caustic", "path"}, Pair{"plastic", "path"},
+                    Pair{"rough_glass", "path"}, Pair{"sky", "path"}, Pair{"sky", "pssmlt"},
+                    Pair{"sky_map", "path"}, Pair{"sun", "path"}, Pair{"point", "ptracer"},
+                    Pair{"thin_lens", "path"}, Pair{"thin_lens_sky", "path"},
+                    Pair{"camera_in_glass", "path"}, Pair{"light_under_water", "path"},
+                    Pair{"smooth_normals", "path"}, Pair{"smooth_normals", "ptracer"},
+                    Pair{"smooth_glass", "path"}, Pair{"sphere_light", "path"}),
+    pair_name);
+
+class LongSameImageOf : public testing::TestWithParam<Pair> {};
+
+TEST_P(LongSameImageOf, TwoIntegrators) { expect_same(GetParam(), long_test()); }
+
+std::vector<Pair> all_pairs() {
+  std::vector<Pair> pairs;
+  for (const std::string& name : scene_names()) {
+    const TestScene made = make_scene(name);
+    if (made.path_sees_all) pairs.push_back({name, "path"});
+    if (made.path_sees_all) pairs.push_back({name, "pssmlt"});
+    if (made.light_sees_all) pairs.push_back({name, "ptracer"});
+  }
+  return pairs;
+}
+
+INSTANTIATE_TEST_SUITE_P(Pairs, LongSameImageOf, testing::ValuesIn(all_pairs()), pair_name);
+
+// ---- the parameters of bdpt change the noise, not the image; others change it for all alike
+
+void expect_same_with(const std::string& scene_name, const std::string& other, const Assignments& a,
+                      const Assignments& b) {
+  const ScenePtr scene = make_scene(scene_name).scene;
+  const SameImage found =
+      same_image(side(scene, other, a, 16), side(scene, "bdpt", b, 16), short_test());
+  EXPECT_TRUE(found) << scene_name << ", " << a.back().first << " = " << a.back().second << ": "
+                     << found.text;
+}
+
+TEST(BdptParameters, ChangeTheNoiseNotTheImage) {
+  const Assignments plain{{"max_depth", "4"}};
+  for (const auto& [name, value] : Assignments{{"heuristic", "balance"},
+                                               {"heuristic", "maximum"},
+                                               {"light_image", "false"},
+                                               {"sample_direct", "false"},
+                                               {"rr_depth", "1"},
+                                               {"rr_depth", "1000"}})
+    expect_same_with("thin_lens_sky", "bdpt", {{"max_depth", "4"}, {name, value}}, plain);
+}
+
+TEST(SharedParameters, MeanTheSameForPathAndBdpt) {
+  for (const auto& [scene, name, value] :
+       std::vector<std::array<std::string, 3>>{{"sky", "max_depth", "-1"},
+                                               {"sky", "hide_emitters", "true"},
+                                               {"sphere_light", "hide_emitters", "true"},
+                                               {"smooth_normals", "strict_normals", "true"},
+                                               {"thin_lens_sky", "max_depth", "2"}}) {
+    Assignments both{{name, value}};
+    if (name != "max_depth") both.insert(both.begin(), {"max_depth", "4"});
+    expect_same_with(scene, "path", both, both);
+  }
+}
+
+TEST(SharedParameters, HideLightsFromLightWalksToo) {
+  const Assignments both{{"max_depth", "3"}, {"hide_emitters", "true"}};
+  expect_same_with("sphere_light", "ptracer", both, both);
+}
+
+// ---- a broken twin: what is 2 % brighter is not the same
+
+TEST(SameImageTest, RejectsAnImageThatIsTwoPercentBrighter) {
+  const ScenePtr scene = make_scene("sky").scene;
+  const Assignments depth{{"max_depth", "3"}};
+  Side bright = side(scene, "path", depth, 16);
+  const Render plain = bright.render;
+  bright.render = [=](uint64_t seed, double effort) {
+    Image image = plain(seed, effort);
+    for (float& x : image.data) x *= 1.02f;
+    return image;
+  };
+  const SameImage found = same_image(bright, side(scene, "bdpt", depth, 16));
+  EXPECT_TRUE(found.powerful) << found.text;
+  EXPECT_FALSE(found.same) << found.text;
+}
+
+}  // namespace
+}  // namespace mlt
