@@ -56,7 +56,8 @@ class StepRecorder {
 
  private:
   void record(const State& state, double weight) const {
-    if (weight > 0) recorder_->record(state.raster, state.rgb / state.target, weight);
+    // A chain may start from a path whose light rounding has taken away.
+    if (weight > 0 && state.target > 0) recorder_->record(state.raster, state.rgb / state.target, weight);
   }
 
   const ChainRecorder* recorder_;

@@ -60,8 +60,8 @@ struct AuditReport {
   double suited = 0;   ///< The share of it in paths that a mutation suits; all else is about these.
   double effective_samples = 0;
   uint64_t samples = 0, steps = 0, accepted = 0;
-  uint64_t invalid = 0;          ///< Steps whose acceptance was NaN.
-  uint64_t lost = 0;             ///< Paths with a weight but without a target: the two must agree.
+  uint64_t invalid = 0;  ///< Steps whose acceptance was NaN.
+  double lost = 0;  ///< Share of b in paths with a weight but without a target: the two must agree.
   std::vector<AuditTest> tests;  ///< The least probable first.
   std::vector<AuditRow> rows;    ///< The most frequent first.
 
