@@ -1,0 +1,125 @@
+"""Time to equal error: `path` against Mitsuba 3 (scalar_rgb and llvm_ad_rgb) on the Cornell box.
+
+Each renderer runs on one thread in a process of its own, in turn with the others; the first round
+(which compiles LLVM's kernels) is not counted. The error of an image is the variance that the
+rounds show, relative as in relMSE: mean of var / (r^2 + 0.01), with r the mean of all images. No
+renderer's image is the reference of another, and the means are compared as a check of bias.
+
+error x time does not depend on the number of samples, as long as samples are independent; its
+quotient is the time to equal error. Ours are stratified, which pays more the more there are, so
+Mitsuba also runs with its `multijitter` sampler.
+"""
+
+from __future__ import annotations
+
+import ctypes.util
+import os
+import sys
+import tempfile
+from pathlib import Path
+from statistics import median
+
+import numpy as np
+from common import MissingError, Worker, parser, print_table, say, write_results
+
+PEERS = {
+    "Mitsuba scalar_rgb": ("scalar_rgb", "independent"),
+    "Mitsuba scalar_rgb, multijitter": ("scalar_rgb", "multijitter"),
+    "Mitsuba llvm_ad_rgb": ("llvm_ad_rgb", "independent"),
+    "Mitsuba llvm_ad_rgb, multijitter": ("llvm_ad_rgb", "multijitter"),
+}
+
+
+def llvm_environment() -> dict[str, str]:
+    """Where Dr.Jit finds LLVM: it wants to be told if there are only versioned files."""
+    if os.environ.get("DRJIT_LIBLLVM_PATH"):
+        return {}
+    for folder in (Path("/usr/lib/x86_64-linux-gnu"), Path("/usr/lib/aarch64-linux-gnu")):
+        versions = sorted(folder.glob("libLLVM*.so*"), key=_version)
+        if versions:
+            return {"DRJIT_LIBLLVM_PATH": str(versions[-1])}
+    if ctypes.util.find_library("LLVM"):
+        return {}
+    raise MissingError("no LLVM library; apt-get install libllvm19, or set DRJIT_LIBLLVM_PATH")
+
+
+def _version(path: Path) -> int:
+    digits = "".join(c if c.isdigit() else " " for c in path.name).split()
+    return int(digits[0]) if digits else 0
+
+
+def start_workers(args) -> dict[str, Worker]:
+    scene = (str(args.size), str(args.max_depth))
+    workers = {"pymlt": Worker(sys.executable, "worker_pymlt.py", *scene)}
+    for name, (variant, sampler) in PEERS.items():
+        try:
+            environment = llvm_environment() if "llvm" in variant else {}
+            workers[name] = Worker(
+                args.mitsuba_python,
+                "worker_mitsuba.py",
+                *scene,
+                variant,
+                sampler,
+                environment=environment,
+            )
+        except (MissingError, OSError) as reason:
+            say(f"{name}: skipped, {reason}")
+    return workers
+
+
+def measure(workers: dict[str, Worker], args) -> list[dict]:
+    seconds = {name: [] for name in workers}
+    images = {name: [] for name in workers}
+    with tempfile.TemporaryDirectory() as folder:
+        output = f"{folder}/image.npy"
+        for round_ in range(args.rounds + 1):
+            for name, worker in workers.items():
+                answer = worker.ask(spp=args.spp, seed=round_, output=output)
+                if round_ == 0:
+                    continue
+                seconds[name].append(answer["seconds"])
+                images[name].append(np.load(output).astype(np.float64))
+    mean = np.mean([image for own in images.values() for image in own], axis=0)
+    samples = args.size**2 * args.spp
+    rows = []
+    for name in workers:
+        error = np.mean(np.var(images[name], axis=0, ddof=1) / (mean**2 + 0.01))
+        time = median(seconds[name])
+        rows.append(
+            {
+                "renderer": name,
+                "Msamples/s": samples / time / 1e6,
+                "relMSE": float(error),
+                "relMSE x s": float(error * time),
+                "time to equal error": float(error * time),
+                "mean / all": float(np.mean(images[name]) / mean.mean()),
+            }
+        )
+    ours = rows[0]["relMSE x s"]
+    for row in rows:
+        row["time to equal error"] /= ours
+    return rows
+
+
+def main() -> None:
+    options = parser(__doc__)
+    options.add_argument("--mitsuba-python", default=sys.executable, help="one that has mitsuba")
+    options.add_argument("--size", type=int, default=512)
+    options.add_argument("--max-depth", type=int, default=8)
+    options.add_argument("--spp", type=int, default=64)
+    options.add_argument("--rounds", type=int, default=5)
+    args = options.parse_args()
+
+    workers = start_workers(args)
+    try:
+        rows = measure(workers, args)
+    finally:
+        for worker in workers.values():
+            worker.close()
+    print_table(rows)
+    settings = {key: getattr(args, key) for key in ("size", "max_depth", "spp", "rounds")}
+    write_results(args.json, "equal_time", settings, rows)
+
+
+if __name__ == "__main__":
+    main()
