@@ -1,0 +1,78 @@
+"""Makes the pictures of the README and the docs: python docs/images/make.py [NAME ...]
+
+door-ajar     the picture at the head of the README
+equal-time    the same scene by path, bdpt and mlt, with equal CPU time
+scenes        the other scenes
+strategies    the techniques of bidirectional path tracing
+"""
+
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import numpy as np
+
+import pymlt as mlt
+
+HERE = Path(__file__).parent
+
+
+def render(name, integrator, cpu_seconds, size, seed=1):
+    """Renders for so many seconds of CPU time, over all threads and with all preparations."""
+    scene = mlt.load_dict(getattr(mlt.scenes, name)(), size=size)
+    start = time.process_time()
+    job = mlt.start(scene, integrator, time=1e6, seed=seed)
+    while time.process_time() - start < cpu_seconds:
+        job.wait(0.05)
+    job.cancel()
+    job.wait()
+    result = job.result()
+    print(f"{name}, {result.integrator['type']}: {result.stats['spp_done']:.1f} spp", flush=True)
+    return result.image
+
+
+def door_ajar():
+    image = render("door_ajar", mlt.MLT(max_depth=10), 240, (640, 360))
+    mlt.write_image(HERE / "door-ajar.png", image)
+
+
+def equal_time():
+    integrators = [mlt.Path(max_depth=10), mlt.BDPT(max_depth=10), mlt.MLT(max_depth=10)]
+    images = [render("door_ajar", i, 30, (240, 135)) for i in integrators]
+    mlt.write_image(HERE / "equal-time.png", np.concatenate(images, axis=1))
+
+
+def scenes():
+    size = (320, 180)
+    rows = [
+        [
+            render("pool", mlt.MLT(max_depth=10), 40, size),
+            render("ring", mlt.BDPT(max_depth=8), 40, size),
+        ],
+        [
+            render("dof", mlt.BDPT(max_depth=10), 40, size),
+            render("glass_ball", mlt.BDPT(max_depth=10), 40, size),
+        ],
+    ]
+    image = np.concatenate([np.concatenate(row, axis=1) for row in rows])
+    mlt.write_image(HERE / "scenes.png", image)
+
+
+def strategies():
+    scene = mlt.load_dict(mlt.scenes.glass_ball(), size=(96, 96))
+    result = mlt.start(scene, mlt.BDPT(max_depth=5, techniques=True), spp=192).result()
+    with tempfile.TemporaryDirectory() as folder:
+        result.write(Path(folder) / "table.png", exposure=1)
+        (HERE / "strategies.png").write_bytes((Path(folder) / "table.techniques.png").read_bytes())
+
+
+if __name__ == "__main__":
+    pictures = {
+        "door-ajar": door_ajar,
+        "equal-time": equal_time,
+        "scenes": scenes,
+        "strategies": strategies,
+    }
+    for name in sys.argv[1:] or pictures:
+        pictures[name]()
