@@ -23,7 +23,7 @@ export PIP_DISABLE_PIP_VERSION_CHECK = 1
 
 .DEFAULT_GOAL := build
 .DELETE_ON_ERROR:
-.PHONY: setup build demo test test-long asan lint format clean distclean
+.PHONY: setup build demo docs test test-long asan lint format clean distclean
 
 # ---- set-up ------------------------------------------------------------------------------------
 setup: $(VENV)/.stamp
@@ -53,6 +53,14 @@ demo: build
 	$(BIN)/python -m pymlt render $(DEMO_SCENE) $(DEMO_FLAGS) \
 	  -o out/demo.exr -o out/demo.png
 	@echo "Look at out/demo.png (and out/demo.exr)."
+
+# The documentation, with the gallery's figures: open build/docs/index.html.
+docs: build $(STAMPS)/docs
+	$(BIN)/python -m sphinx -b html docs build/docs
+
+$(STAMPS)/docs: requirements/constraints.txt pyproject.toml $(VENV)/.stamp
+	$(BIN)/pip install -q -c $< $$($(BIN)/python cmake/list_dependencies.py pyproject.toml docs)
+	@mkdir -p $(@D) && touch $@
 
 # Both suites run, whatever the first one says.
 test: build

@@ -44,8 +44,8 @@ ways = {
 }
 
 # %%
-# What is estimated is the integral of g f with g(x) = |x - 1/2|, that is 1/32. The lines are means
-# of 20 000 chains after each step; the dashed lines, of all steps up to there.
+# What is estimated is the integral of g f with ``g(x) = |x - 1/2|``, that is 1/32. The lines are
+# means of 20 000 chains after each step; the dashed lines, of all steps up to there.
 
 figure, (left, right) = plt.subplots(1, 2, figsize=(11, 4.2), width_ratios=[1, 1.4])
 left.set(xlabel="x", title="Where chains are at step 0 and after 200", yticks=[])

@@ -20,7 +20,7 @@ def compare(image, reference, *, flip: bool | None = None) -> dict[str, float]:
     relmse_trimmed
         the same without the 0.1 % of the pixels that are worst: what is left without fireflies.
     mape
-        mean |a - r| / (|r| + 0.01), as a fraction.
+        mean `|a - r| / (|r| + 0.01)`, as a fraction.
     bias_z
         the mean of a - r over its standard error, from the spread between the blocks of a grid. Of
         two unbiased images it is about a standard normal number, as long as pixels farther apart

@@ -1,5 +1,7 @@
 """Monte Carlo quadrature: naive, stratified, by importance sampling, and by several techniques.
 
+For example::
+
     from pymlt import quadrature
 
     quadrature.naive(lambda x: x**2, (0, 1), 10_000)          # 0.333 ± 0.003
@@ -206,7 +208,7 @@ def combined(
     Parameters
     ----------
     techniques
-        `Technique`s, or (sample, pdf) pairs.
+        `Technique` objects, or (sample, pdf) pairs.
     counts
         Number of samples of each technique; one number: the same for all.
     heuristic

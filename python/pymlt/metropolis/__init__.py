@@ -1,5 +1,7 @@
 """The lecture's laboratory: Metropolis sampling of any function, with the kernel that renders.
 
+For example::
+
     from pymlt import metropolis
 
     run = metropolis.run(
