@@ -75,7 +75,7 @@ for name, method in methods.items():
 right.loglog(counts, 1.3 * counts**-0.5, "--", color="black", lw=0.8)
 right.text(counts[-1], 1.5 * counts[-1] ** -0.5, "$n^{-1/2}$", ha="right", va="bottom")
 right.loglog(counts, 0.5 * counts**-1.5, "--", color="black", lw=0.8)
-right.text(counts[-1], 0.25 * counts[-1] ** -1.5, "$n^{-3/2}$", ha="right", va="top")
+right.text(counts[-3], 0.35 * counts[-3] ** -1.5, "$n^{-3/2}$", ha="right", va="top")
 right.set(xlabel="samples n", ylabel="RMS error", title="Error over 200 repetitions")
 right.legend(fontsize=9, loc="lower left")
 plt.show()
