@@ -18,6 +18,9 @@ SOURCES := $(shell find cpp bindings tests/cpp cmake CMakeLists.txt pyproject.to
              -not -name '.*' 2>/dev/null)
 CXX_FILES = $(shell git ls-files -- '*.h' '*.cpp')
 
+# Without this, make would link cpp/scene/texture.cpp into the folder of that name.
+MAKEFLAGS += --no-builtin-rules
+
 export CMAKE_BUILD_PARALLEL_LEVEL ?= $(JOBS)
 export PIP_DISABLE_PIP_VERSION_CHECK = 1
 
