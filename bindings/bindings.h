@@ -14,6 +14,8 @@ void bind_errors(py::module_& m);
 void bind_base(py::module_& m);
 void bind_image(py::module_& m);
 void bind_scene(py::module_& m);
+void bind_light_path(py::module_& m);
+void bind_mutations(py::module_& m);
 void bind_render(py::module_& m);
 void bind_metropolis(py::module_& m);
 

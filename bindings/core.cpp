@@ -9,6 +9,8 @@ PYBIND11_MODULE(_core, m) {
   mlt::python::bind_base(m);
   mlt::python::bind_image(m);
   mlt::python::bind_scene(m);
+  mlt::python::bind_light_path(m);
+  mlt::python::bind_mutations(m);
   mlt::python::bind_render(m);
   mlt::python::bind_metropolis(m);
 }

@@ -30,13 +30,15 @@ Image to_image(const Floats& array) {
 }
 
 std::string save(const std::string& path, const Floats& array,
+                 const std::map<std::string, Floats>& layers,
                  const std::map<std::string, std::string>& metadata, bool half, double exposure,
                  bool rescue) {
-  const Image image = to_image(array);
+  RenderedImage render{to_image(array), {}};
+  for (const auto& [name, pixels] : layers) render.layers.push_back({name, to_image(pixels)});
   const WriteOptions options{half, Metadata(metadata.begin(), metadata.end()), exposure};
   py::gil_scoped_release release;
-  if (rescue) return save_image(path, image, options);
-  write_image(path, image, options);
+  if (rescue) return save_render(path, render, options);
+  write_render(path, render, options);
   return path;
 }
 
@@ -68,8 +70,8 @@ py::array_t<float> to_array(Image image) {
 void bind_image(py::module_& m) {
   m.def("read_image", &read, py::arg("path"), py::arg("layer") = "");
   m.def("read_metadata", &metadata, py::arg("path"));
-  m.def("write_image", &save, py::arg("path"), py::arg("image"), py::arg("metadata"),
-        py::arg("half"), py::arg("exposure"), py::arg("rescue"),
+  m.def("write_image", &save, py::arg("path"), py::arg("image"), py::arg("layers"),
+        py::arg("metadata"), py::arg("half"), py::arg("exposure"), py::arg("rescue"),
         "With `rescue`, a failed write is tried again elsewhere. Returns where the image is.");
   m.def("write_text", &save_text, py::arg("path"), py::arg("text"),
         "A failed write is tried again elsewhere. Returns where the file is.");

@@ -1,5 +1,6 @@
 // Integrators and jobs.
 #include "bindings.h"
+#include "light_path.h"
 #include "values.h"
 
 #include "render/output.h"
@@ -25,6 +26,7 @@ class PyJob {
   }
 
   Job& operator*() { return *job_; }
+  const LoadedPtr& loaded() const { return loaded_; }
   Stats stats() const { return render_stats(*job_, *loaded_, made_); }
   Metadata metadata() const { return render_metadata(stats(), made_); }
 
@@ -62,6 +64,27 @@ py::array_t<float> image(PyJob& job) {
   return to_array(std::move(image));
 }
 
+py::dict layers(PyJob& job) {
+  std::vector<NamedImage> layers;
+  {
+    py::gil_scoped_release release;
+    layers = (*job).layers();
+  }
+  py::dict dict;
+  for (NamedImage& layer : layers) dict[py::str(layer.name)] = to_array(std::move(layer.image));
+  return dict;
+}
+
+py::tuple replay(PyJob& job, const std::pair<int, int>& pixel, uint64_t sample) {
+  const Vec2i at(pixel.first, pixel.second);
+  check_pixel(*job.loaded()->scene, at);
+  Replay replay = (*job).replay(at, sample);
+  std::vector<PyLightPath> paths;
+  for (FoundPath& found : replay.paths) paths.push_back(light_path(job.loaded(), std::move(found)));
+  return py::make_tuple(py::make_tuple(replay.raster.x, replay.raster.y), to_array(replay.radiance),
+                        paths);
+}
+
 py::dict metadata(PyJob& job) {
   py::dict dict;
   for (const auto& [name, value] : job.metadata()) dict[py::str(name)] = value;
@@ -93,6 +116,8 @@ void bind_render(py::module_& m) {
       .def_property_readonly("cancelled", [](PyJob& job) { return (*job).cancelled(); })
       .def_property_readonly("progress", [](PyJob& job) { return (*job).progress(); })
       .def("image", &image)
+      .def("replay", &replay, py::arg("pixel"), py::arg("sample"), "(raster, radiance, paths)")
+      .def("layers", &layers, "Further images that the render was asked to keep, by name.")
       .def(
           "stats", [](PyJob& job) { return to_json(job.stats()); }, NoGil(), "As JSON.")
       .def("metadata", &metadata);

@@ -60,7 +60,8 @@ int render(Job& job, bool quiet) {
 }
 
 /// Every output is tried, and elsewhere if it fails, before any error is reported.
-void save(const Options& options, const Image& image, const Stats& stats, WriteOptions write) {
+void save(const Options& options, const RenderedImage& render, const Stats& stats,
+          WriteOptions write) {
   write.exposure = options.exposure;
   std::exception_ptr failure;
   const auto attempt = [&](const std::string& path, const auto& save_as) {
@@ -74,7 +75,7 @@ void save(const Options& options, const Image& image, const Stats& stats, WriteO
     }
   };
   for (const std::string& path : options.outputs)
-    attempt(path, [&] { return save_image(path, image, write); });
+    attempt(path, [&] { return save_render(path, render, write); });
   if (!options.stats.empty())
     attempt(options.stats, [&] { return save_text(options.stats, to_json(stats)); });
   if (failure) std::rethrow_exception(failure);
@@ -100,7 +101,7 @@ int run(const Options& options) {
   WriteOptions write;
   write.half = loaded.scene->film().half_precision;
   write.metadata = render_metadata(stats, made);
-  save(options, job.image(), stats, write);
+  save(options, {job.image(), job.layers()}, stats, write);
   if (!options.quiet)
     fmt::print(stderr, "mlt-render: {}{} x {}, {:.4g} spp in {:.1f} s: {}\n",
                signal ? "interrupted; " : "", stats.width, stats.height, stats.spp_done,

@@ -95,7 +95,8 @@ class BdptRendering : public SampledRendering {
   class BdptWorker : public Worker {
    public:
     BdptWorker(const Scene& scene, const BidirectionalSettings& settings, TechniqueFilms* techniques)
-        : scale_(scene.camera().raster().pixels() / scene.camera().raster().sampled_area()),
+        : scene_(&scene),
+          scale_(radiance_scale(scene)),
           bidirectional_(scene, settings),
           techniques_(techniques) {}
 
@@ -107,13 +108,17 @@ class BdptRendering : public SampledRendering {
           seen += c.contribution * c.weight;
         else
           sink.splat(c.raster, c.contribution * c.weight);
-        if (techniques_) techniques_->add(c);
+        if (std::vector<FoundPath>* paths = sink.paths())
+          paths->push_back(found_path(*scene_, bidirectional_, c));
+        else if (techniques_)
+          techniques_->add(c);
       });
       // Importance over the density of raster positions is divided out: what is left is radiance.
       sink.add(raster, seen * scale_);
     }
 
    private:
+    const Scene* scene_;
     double scale_;
     Bidirectional bidirectional_;
     TechniqueFilms* techniques_;

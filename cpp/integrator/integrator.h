@@ -3,6 +3,7 @@
 
 #include "base/object.h"
 #include "image/image.h"
+#include "path/inspect.h"
 #include "render/stats.h"
 #include "scene/scene.h"
 
@@ -40,6 +41,10 @@ class Rendering {
   virtual void add_stats(Stats& stats) const = 0;
   /// Further images that the render was asked to keep.
   virtual std::vector<NamedImage> layers() const { return {}; }
+
+  /// Repeats one sample of a pixel (0, 1, 2, ...), as it was or will be taken, without a trace in the
+  /// image. Throws UsageError if the algorithm does not sample pixel by pixel.
+  virtual Replay replay(const Vec2i& pixel, uint64_t sample);
 
   /// The whole state as bytes, and back. No unit may be running.
   virtual std::string save() const = 0;

@@ -19,8 +19,13 @@ class PathRendering : public SampledRendering {
    public:
     PathWorker(const Scene& scene, const PathSettings& settings) : scene_(&scene), settings_(settings) {}
     void sample(const Vec2& raster, PixelSampler& sampler, Sink& sink, RayCounts& rays) override {
-      const Ray ray = camera_ray(scene_->camera(), raster, sampler);
-      sink.add(raster, trace_path(*scene_, settings_, ray, sampler, rays));
+      SurfacePoint lens;
+      const Ray ray = camera_ray(scene_->camera(), raster, sampler, &lens);
+      if (std::vector<FoundPath>* paths = sink.paths())
+        sink.add(raster, trace_path(*scene_, settings_, ray, sampler, rays,
+                                    PathRecorder(*scene_, raster, lens, ray.time, *paths)));
+      else
+        sink.add(raster, trace_path(*scene_, settings_, ray, sampler, rays));
     }
 
    private:

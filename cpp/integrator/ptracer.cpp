@@ -18,15 +18,20 @@ class PtracerRendering : public SampledRendering {
   class PtracerWorker : public Worker {
    public:
     PtracerWorker(const Scene& scene, const BidirectionalSettings& settings)
-        : bidirectional_(scene, settings) {}
+        : scene_(&scene), bidirectional_(scene, settings) {}
 
     void sample(const Vec2&, PixelSampler& sampler, Sink& sink, RayCounts& rays) override {
       bidirectional_.sample_light(sampler, rays);
-      bidirectional_.connect_to_lens(
-          rays, [&](const Connection& c) { sink.splat(c.raster, c.contribution); });
+      bidirectional_.connect_to_lens(rays, [&](Connection c) {
+        c.weight = 1;
+        sink.splat(c.raster, c.contribution);
+        if (std::vector<FoundPath>* paths = sink.paths())
+          paths->push_back(found_path(*scene_, bidirectional_, c));
+      });
     }
 
    private:
+    const Scene* scene_;
     Bidirectional bidirectional_;
   };
 

@@ -20,6 +20,23 @@ double SampledRendering::spp_done(uint64_t units) const {
   return static_cast<double>(units) / film_.tile_count();
 }
 
+PixelSampler SampledRendering::sampler(int x, int y, uint64_t pass) const {
+  const uint64_t cell = (uint64_t(uint32_t(y)) << 32) | uint32_t(x);
+  const uint64_t stream = mix_bits(mix_bits(mix_bits(seed_) ^ cell) + pass % groups);
+  return {stream, static_cast<uint32_t>(pass / groups)};
+}
+
+Replay SampledRendering::replay(const Vec2i& pixel, uint64_t sample) {
+  Replay replay;
+  uint64_t invalid = 0;
+  RayCounts rays;
+  Sink sink(replay, invalid);
+  PixelSampler numbers = sampler(pixel.x, pixel.y, sample);
+  replay.raster = Vec2(pixel) + numbers.next2();
+  make_worker()->sample(replay.raster, numbers, sink, rays);
+  return replay;
+}
+
 void SampledRendering::run_unit(uint64_t unit) {
   const uint64_t tiles = film_.tile_count(), pass = unit / tiles, index = pass / groups;
   const int tile_index = static_cast<int>(unit % tiles), group = static_cast<int>(pass % groups);
@@ -31,11 +48,9 @@ void SampledRendering::run_unit(uint64_t unit) {
   const std::unique_ptr<Worker> worker = make_worker();
   for (int y = cells.y0; y < cells.y1; ++y)
     for (int x = cells.x0; x < cells.x1; ++x) {
-      const uint64_t cell = (uint64_t(uint32_t(y)) << 32) | uint32_t(x);
-      const uint64_t stream = mix_bits(mix_bits(mix_bits(seed_) ^ cell) + group);
-      PixelSampler sampler(stream, static_cast<uint32_t>(index));
-      const Vec2 raster = Vec2(x, y) + sampler.next2();
-      worker->sample(raster, sampler, sink, rays);
+      PixelSampler numbers = sampler(x, y, pass);
+      const Vec2 raster = Vec2(x, y) + numbers.next2();
+      worker->sample(raster, numbers, sink, rays);
     }
   film_.commit(group, index * tiles + tile_index, tile_index, std::move(tile), 1);
   invalid_ += invalid;

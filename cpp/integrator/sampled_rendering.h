@@ -19,22 +19,32 @@ class SampledRendering : public Rendering {
   double spp_done(uint64_t units) const override;
   Image image() const override { return film_.image(); }
   void add_stats(Stats& stats) const override;
+  /// `direct` tells the radiance alone, the others the paths too.
+  Replay replay(const Vec2i& pixel, uint64_t sample) override;
   std::string save() const override;
   void load(const std::string& saved) override;
 
  protected:
-  /// Where samples go; invalid ones are counted and left out.
+  /// Where samples go; invalid ones are counted and left out. When a sample is replayed there is no film
+  /// but somebody to be told its paths.
   class Sink {
    public:
     Sink(SampleFilm::Tile& tile, uint64_t& invalid) : tile_(&tile), invalid_(&invalid) {}
+    Sink(Replay& replay, uint64_t& invalid) : replay_(&replay), invalid_(&invalid) {}
     /// Radiance at the sampled raster position.
     void add(const Vec2& raster, const Color& radiance) {
-      if (valid(radiance)) tile_->add(raster, radiance);
+      if (!valid(radiance)) return;
+      if (tile_)
+        tile_->add(raster, radiance);
+      else
+        replay_->radiance += radiance;
     }
     /// What a walk from a light leaves anywhere on the image, over its density.
     void splat(const Vec2& raster, const Color& contribution) {
-      if (valid(contribution)) tile_->splat(raster, contribution);
+      if (valid(contribution) && tile_) tile_->splat(raster, contribution);
     }
+    /// Where found paths are to be told; usually nullptr.
+    std::vector<FoundPath>* paths() { return replay_ ? &replay_->paths : nullptr; }
 
    private:
     bool valid(const Color& color) {
@@ -42,7 +52,8 @@ class SampledRendering : public Rendering {
       if (!ok) ++*invalid_;
       return ok;
     }
-    SampleFilm::Tile* tile_;
+    SampleFilm::Tile* tile_ = nullptr;
+    Replay* replay_ = nullptr;
     uint64_t* invalid_;
   };
 
@@ -61,6 +72,10 @@ class SampledRendering : public Rendering {
 
  private:
   static constexpr int groups = 16;
+
+  /// The numbers of one sample of a cell: those of its group's stream for it. Passes over the image go to
+  /// the groups in turn.
+  PixelSampler sampler(int x, int y, uint64_t pass) const;
 
   ScenePtr scene_;
   uint64_t seed_;

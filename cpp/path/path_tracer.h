@@ -61,20 +61,34 @@ Color direct_light(const Scene& scene, const SurfacePoint& at, const Vec3& wc, c
   return radiance * s.f * (abs_cos_theta(local_l) * mis / pdf);
 }
 
+/// Who watches trace_path is told of each step, in this order; this one is not interested.
+struct IgnorePaths {
+  /// A light was hit at x0; its radiance towards w is to be multiplied by `throughput`.
+  void hit(const Emitter&, const SurfacePoint& /*x0*/, const Vec3& /*w*/, const Color& /*throughput*/) {}
+  void arrive(const SurfacePoint&) {}
+  /// A position on a light, which sample_emitter finds by `u`, was seen from there, with this result.
+  void connect(const Vec3& /*u*/, const Color& /*radiance*/) {}
+  void scatter(Lobe) {}
+};
+
 /// The radiance that arrives along `ray` from the scene. Every vertex draws the same number of
 /// numbers from the sampler, so that a small change of the numbers is a small change of the path.
-template <class Sampler>
+template <class Sampler, class Watcher = IgnorePaths>
 Color trace_path(const Scene& scene, const PathSettings& settings, Ray ray, Sampler& sampler,
-                 RayCounts& rays) {
+                 RayCounts& rays, Watcher&& watcher = Watcher()) {
   Color radiance(0), throughput(1);
   Vec3 previous = ray.o;
   double scatter_pdf = 0, eta2 = 1;
   bool delta = true;
   const auto found_by_scattering = [&](const Emitter& emitter, const SurfacePoint& x0) {
-    if (delta) return 1.0;
-    const double light_pdf =
-        emitter_pdf(scene, emitter, previous, x0) * per_solid_angle(previous, x0, ray.d);
-    return power_heuristic(scatter_pdf, light_pdf);
+    double weight = 1;
+    if (!delta) {
+      const double light_pdf =
+          emitter_pdf(scene, emitter, previous, x0) * per_solid_angle(previous, x0, ray.d);
+      weight = power_heuristic(scatter_pdf, light_pdf);
+    }
+    watcher.hit(emitter, x0, -ray.d, throughput * weight);
+    return weight;
   };
   for (int depth = 1;; ++depth) {
     SurfacePoint at;
@@ -83,18 +97,24 @@ Color trace_path(const Scene& scene, const PathSettings& settings, Ray ray, Samp
     if (depth > 1 || !settings.hide_emitters)
       radiance += throughput * emission(scene, hit ? &at : nullptr, ray.d, found_by_scattering);
     if (!hit || depth == settings.max_depth) break;
+    watcher.arrive(at);
 
     const Vec3 wc = -ray.d;
     if (!consistent_sides(at, wc, settings.strict_normals)) break;
     const Bsdf& bsdf = scene.bsdf(at);
     const Vec2 u_light = sampler.next2(), u_direction = sampler.next2();
     const double u_choice = sampler.next(), u_lobe = sampler.next(), u_roulette = sampler.next();
-    if (bsdf.has_smooth())
-      radiance += throughput * direct_light(scene, at, wc, {u_choice, u_light}, ray.time,
-                                            settings.strict_normals, rays, power_heuristic);
+    if (bsdf.has_smooth()) {
+      const Vec3 u(u_choice, u_light);
+      const Color direct = throughput * direct_light(scene, at, wc, u, ray.time, settings.strict_normals,
+                                                     rays, power_heuristic);
+      watcher.connect(u, direct);
+      radiance += direct;
+    }
 
     const auto sample = scatter_to_light(bsdf, at, wc, {u_lobe, u_direction}, settings.strict_normals);
     if (!sample) break;
+    watcher.scatter(sample->lobe);
     throughput *= sample->weight;
     scatter_pdf = sample->pdf;
     delta = sample->lobe != Lobe::smooth;

@@ -43,6 +43,10 @@ class Job {
 
   double progress() const;  ///< 0 ... 1 of the budget.
   Image image() const;      ///< So far: linear RGB, row 0 on top.
+  /// Further images that the render was asked to keep, so far.
+  std::vector<NamedImage> layers() const { return rendering_->layers(); }
+  /// Repeats one sample of a pixel, whether or not the render has started. Throws UsageError.
+  Replay replay(const Vec2i& pixel, uint64_t sample) { return rendering_->replay(pixel, sample); }
   Stats stats() const;
 
  private:

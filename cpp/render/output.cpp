@@ -2,6 +2,7 @@
 
 #include "image/atomic_file.h"
 #include "mlt_version.h"
+#include "render/technique_pyramid.h"
 
 #include <fmt/format.h>
 
@@ -50,6 +51,13 @@ Vec2i image_size(const Scene& scene) {
   return film.crop_size.x > 0 && film.crop_size.y > 0 ? film.crop_size : film.size;
 }
 
+void check_pixel(const Scene& scene, const Vec2i& pixel) {
+  const Vec2i size = image_size(scene);
+  if (pixel.x < 0 || pixel.y < 0 || pixel.x >= size.x || pixel.y >= size.y)
+    throw UsageError(fmt::format("pixel ({}, {}) is outside of the image, which has {} x {} pixels",
+                                 pixel.x, pixel.y, size.x, size.y));
+}
+
 Stats render_stats(const Job& job, const LoadedScene& loaded, const MadeIntegrator& made) {
   Stats stats = job.stats();
   stats.seconds_load = loaded.seconds;
@@ -65,8 +73,20 @@ Metadata render_metadata(const Stats& stats, const MadeIntegrator& made) {
           {"spp", fmt::format("{}", stats.spp_done)}};
 }
 
-std::string save_image(const std::string& path, const Image& image, const WriteOptions& options) {
-  return save(path, [&](const std::string& where) { write_image(where, image, options); });
+void write_render(const std::string& path, const RenderedImage& render,
+                  const WriteOptions& options) {
+  std::vector<ExrLayer> layers = {{"", render.image}};
+  for (const NamedImage& layer : render.layers) layers.push_back({layer.name, layer.image});
+  write_image(path, layers, options);
+  fs::path beside(path);
+  if (beside.extension() != ".png") return;
+  if (const auto pyramid = technique_pyramid(render.layers, options.exposure))
+    write_png(beside.replace_extension(".techniques.png").string(), *pyramid);
+}
+
+std::string save_render(const std::string& path, const RenderedImage& render,
+                        const WriteOptions& options) {
+  return save(path, [&](const std::string& where) { write_render(where, render, options); });
 }
 
 std::string save_text(const std::string& path, const std::string& text) {

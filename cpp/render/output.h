@@ -14,6 +14,9 @@ namespace mlt {
 /// The size of the image that a render of the scene makes: the film's, or its crop window's.
 Vec2i image_size(const Scene& scene);
 
+/// Throws UsageError for a pixel outside of the image.
+void check_pixel(const Scene& scene, const Vec2i& pixel);
+
 /// The job's, completed by what loading and the integrator had to say.
 Stats render_stats(const Job& job, const LoadedScene& loaded, const MadeIntegrator& made);
 
@@ -21,9 +24,21 @@ Stats render_stats(const Job& job, const LoadedScene& loaded, const MadeIntegrat
 /// number of threads: equal renders are equal files.
 Metadata render_metadata(const Stats& stats, const MadeIntegrator& made);
 
-/// Writes the image to `path`, or, if that fails, to the current or the temporary folder under a name
-/// that is not taken. Returns where it is; throws the first FileError if no place would have it.
-std::string save_image(const std::string& path, const Image& image, const WriteOptions& options);
+/// What a render made: its image, and the further ones that it was asked to keep.
+struct RenderedImage {
+  Image image;
+  std::vector<NamedImage> layers;
+};
+
+/// Writes the image by extension. EXR files hold the layers too; beside NAME.png the techniques of
+/// a bidirectional render go to NAME.techniques.png as one picture.
+void write_render(const std::string& path, const RenderedImage& render,
+                  const WriteOptions& options);
+
+/// The same, or, if that fails, in the current or the temporary folder under a name that is not
+/// taken. Returns where it is; throws the first FileError if no place would have it.
+std::string save_render(const std::string& path, const RenderedImage& render,
+                        const WriteOptions& options);
 
 /// The same for a text file.
 std::string save_text(const std::string& path, const std::string& text);

@@ -13,14 +13,26 @@ import importlib as _importlib
 from typing import TYPE_CHECKING
 
 from . import integrators as _integrators
+from . import mutations as _mutations
 from . import scenes
-from ._core import Error, FileError, RenderError, Scene, SceneError, UsageError, __version__
+from ._core import (
+    Error,
+    FileError,
+    LightPath,
+    RenderError,
+    Scene,
+    SceneError,
+    UsageError,
+    __version__,
+)
 from .images import read_image, read_metadata, write_image
 from .integrators import *  # noqa: F403 (the classes are made from the schemas)
 from .integrators import Integrator
-from .jobs import Job, Result, render, start
+from .jobs import Job, Replay, Result, Technique, render, replay, start
 from .loading import load_dict, load_file, load_string
 from .metrics import compare
+from .mutations import *  # noqa: F403
+from .mutations import Audit, Mutation, audit
 from .schemas import available, describe
 from .transforms import Transform
 
@@ -28,17 +40,23 @@ if TYPE_CHECKING:
     from . import metropolis, quadrature
 
 __all__ = [
+    "Audit",
     "Error",
     "FileError",
     "Integrator",
     "Job",
+    "LightPath",
+    "Mutation",
     "RenderError",
+    "Replay",
     "Result",
     "Scene",
     "SceneError",
+    "Technique",
     "Transform",
     "UsageError",
     "__version__",
+    "audit",
     "available",
     "compare",
     "describe",
@@ -50,11 +68,12 @@ __all__ = [
     "read_image",
     "read_metadata",
     "render",
+    "replay",
     "scenes",
     "start",
     "write_image",
 ]
-__all__ += _integrators.__all__
+__all__ += _integrators.__all__ + _mutations.__all__
 
 
 def __getattr__(name: str):

@@ -1,4 +1,8 @@
+from typing import Literal
+
 import numpy as np
+
+from .mutations import Mutation
 
 __version__: str
 
@@ -20,6 +24,94 @@ class Scene:
     @property
     def half(self) -> bool: ...
     def info(self) -> dict: ...
+    def trace_path(
+        self,
+        *,
+        pixel: tuple[int, int],
+        seed: int = 0,
+        max_depth: int = 10,
+        strict_normals: bool = False,
+    ) -> LightPath:
+        """A light path through the pixel (x, y), found by path tracing (s = 0 or s = 1).
+
+        Samples are taken until one finds light.
+        """
+
+    def sample_path(
+        self,
+        *,
+        seed: int = 0,
+        max_depth: int = 10,
+        strict_normals: bool = False,
+    ) -> LightPath:
+        """A light path anywhere on the image, by any technique of bidirectional path tracing."""
+
+    def propose(
+        self,
+        path: LightPath,
+        mutation: Mutation | str,
+        *,
+        seed: int = 0,
+        count: int = 100,
+        max_depth: int = 10,
+        near_specular: float = 0.1,
+    ) -> list[LightPath]:
+        """What a mutation, alone, would make of a path in `count` tries.
+
+        Those that found a path are returned, each with its `acceptance`.
+        """
+
+class LightPath:
+    """A light path: x_0 on a light ... x_k on the camera's lens, whichever way it was made."""
+
+    @property
+    def signature(self) -> str:
+        """Heckbert's notation, light to camera: L, a D or S for each surface, E."""
+
+    def signature_with(self, near_specular: float) -> str:
+        """The same, where a surface below this roughness counts as S."""
+
+    @property
+    def vertices(self) -> np.ndarray:
+        """A structured array: kind, position, normal, shading_normal, uv, lobe, infinite, shape,
+        primitive, emitter. At infinity, position is the direction towards the vertex."""
+
+    @property
+    def edges(self) -> int:
+        """k"""
+
+    @property
+    def time(self) -> float: ...
+    @property
+    def raster(self) -> tuple[float, float]:
+        """Where it meets the image, in pixels from the upper left corner."""
+
+    @property
+    def technique(self) -> tuple[int, int] | None:
+        """(s, t) that found it, or None."""
+
+    @property
+    def estimate(self) -> np.ndarray | None:
+        """What it brought to the image: RGB of its contribution over its density, weighted."""
+
+    @property
+    def acceptance(self) -> float | None:
+        """Of a proposal: the probability of accepting it."""
+
+    def contribution(self) -> np.ndarray:
+        """f(x), RGB (Veach 1997, eq. 8.7), without visibility."""
+
+    def densities(self, sample_direct: bool = True) -> np.ndarray:
+        """p_{s,t}(x) in the product-area measure, for s = 0 ... k + 1."""
+
+    def weights(
+        self,
+        heuristic: Literal["balance", "power", "maximum"] = "power",
+        sample_direct: bool = True,
+    ) -> np.ndarray:
+        """The weights of multiple importance sampling, for s = 0 ... k + 1."""
+
+    def __len__(self) -> int: ...
 
 class Integrator:
     @property
@@ -47,9 +139,49 @@ class Job:
     def wait(self, seconds: float) -> bool: ...
     def cancel(self) -> None: ...
     def image(self) -> np.ndarray: ...
+    def replay(
+        self,
+        pixel: tuple[int, int],
+        sample: int,
+    ) -> tuple[tuple[float, float], np.ndarray, list[LightPath]]: ...
+    def layers(self) -> dict[str, np.ndarray]: ...
     def stats(self) -> str: ...
     def metadata(self) -> dict[str, str]: ...
 
+class AuditReport:
+    @property
+    def verdict(self) -> Literal["right", "wrong", "inconclusive"]: ...
+    @property
+    def reason(self) -> str: ...
+    @property
+    def b(self) -> float: ...
+    @property
+    def samples(self) -> int: ...
+    @property
+    def effective_samples(self) -> float: ...
+    @property
+    def steps(self) -> int: ...
+    @property
+    def accepted(self) -> int: ...
+    @property
+    def invalid(self) -> int: ...
+    @property
+    def tests(self) -> list[tuple[str, bool, float, float, float, float, float]]: ...
+    def text(self, most: int) -> str: ...
+
+def mutation_kinds() -> list[dict]: ...
+def audit(
+    scene: Scene,
+    mixture: list[tuple[str, float]],
+    max_depth: int,
+    hide_emitters: bool,
+    strict_normals: bool,
+    near_specular: float,
+    paths: int,
+    seed: int,
+    threads: int,
+    significance: float,
+) -> AuditReport: ...
 def families() -> list[str]: ...
 def names(family: str) -> list[str]: ...
 def schema(family: str, name: str) -> dict: ...
@@ -73,6 +205,7 @@ def read_metadata(path: str) -> dict[str, str]: ...
 def write_image(
     path: str,
     image: np.ndarray,
+    layers: dict[str, np.ndarray],
     metadata: dict[str, str],
     half: bool,
     exposure: float,

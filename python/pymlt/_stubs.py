@@ -10,7 +10,8 @@ import textwrap
 from pathlib import Path
 
 from . import _core
-from .integrators import class_name
+from .integrators import class_name, integrator_schema
+from .mutations import mutation_class_name, mutation_documentation
 from .schemas import documentation
 
 HEAD = "# Made by `python -m pymlt._stubs` from the schemas of the plug-ins. Do not edit.\n"
@@ -24,12 +25,64 @@ class Integrator:
     def to_dict(self) -> dict[str, Any]: ...
 
 def class_name(plugin: str) -> str: ...
+def integrator_schema(plugin: str) -> dict[str, Any]: ...
+'''
+
+MUTATIONS = '''\
+class Mutation:
+    """A way of changing a light path; it holds no state."""
+
+    @property
+    def name(self) -> str: ...
+
+def mutation_class_name(name: str) -> str: ...
+def mutation_documentation(kind: dict[str, Any]) -> str: ...
+def weighted(
+    mutations: Sequence[Mutation | tuple[Mutation, float]],
+) -> dict[Mutation, float]: ...
+def parameters(
+    mutations: Sequence[Mutation | tuple[Mutation, float]],
+) -> dict[str, bool | float]: ...
+def parameter_names() -> list[str]: ...
+
+class AuditTest(NamedTuple):
+    function: str
+    expected: bool
+    change: float
+    error: float
+    z: float
+    p: float
+    adjusted_p: float
+
+class Audit:
+    verdict: Literal["right", "wrong", "inconclusive"]
+    reason: str
+    tests: list[AuditTest]
+    steps: int
+    accepted: int
+    effective_samples: float
+    text: str
+
+    def __bool__(self) -> bool: ...
+    def summary(self) -> str: ...
+
+def audit(
+    what: Mutation | Integrator,
+    scene: Scene | dict[str, Any] | str | PathLike[str],
+    *,
+    paths: int = ...,
+    seed: int = ...,
+    threads: int = ...,
+    significance: float = ...,
+    max_depth: int | None = ...,
+) -> Audit: ...
 '''
 
 TYPES = {"boolean": "bool", "integer": "int", "float": "float", "string": "str"}
 SEQUENCES = {
     "point or vector": "tuple[float, float, float] | list[float] | np.ndarray",
     "transform": "np.ndarray | list[list[float]]",
+    "list of mutations": "Sequence[Mutation | tuple[Mutation, float]]",
 }
 
 
@@ -62,21 +115,48 @@ def class_stub(schema: dict) -> str:
 
 def imports(body: str) -> str:
     """What the stubs use, sorted as ruff sorts it."""
-    typing = [name for name in ("Any", "Literal") if name in body]
-    lines = [f"from typing import {', '.join(typing)}"]
+    lines = []
+    if "Sequence[" in body:
+        lines += ["from collections.abc import Sequence"]
+    if typing := [name for name in ("Any", "Literal", "NamedTuple") if name in body]:
+        lines += [f"from typing import {', '.join(typing)}"]
     if "np." in body:
         lines += ["", "import numpy as np"]
+    if "Mutation " in body and "class Mutation" not in body:
+        lines += ["", "from .mutations import Mutation"]
     return "\n".join(lines) + "\n"
 
 
 def integrators_stub() -> str:
     """All of integrators.pyi."""
-    schemas = [_core.schema("integrator", name) for name in _core.names("integrator")]
+    schemas = [integrator_schema(name) for name in _core.names("integrator")]
     names = sorted((class_name(s["name"]) for s in schemas), key=lambda n: (not n.isupper(), n))
     exported = "__all__ = [\n" + "".join(f'    "{name}",\n' for name in names) + "]\n"
     body = "\n".join([BASE, *map(class_stub, schemas), exported])
     return f"{HEAD}{imports(body)}\n{body}"
 
 
+def mutation_stub(kind: dict) -> str:
+    """The stub of one mutation's class."""
+    doc = textwrap.indent(mutation_documentation(kind), "    ").lstrip()
+    end = '\n    """' if "\n" in doc else '"""'
+    return f'class {mutation_class_name(kind["name"])}(Mutation):\n    """{doc}{end}\n'
+
+
+def mutations_stub() -> str:
+    """All of mutations.pyi."""
+    kinds = _core.mutation_kinds()
+    names = [mutation_class_name(kind["name"]) for kind in kinds]
+    exported = "__all__ = [\n" + "".join(f'    "{n}",\n' for n in sorted(names)) + "]\n"
+    body = "\n".join([MUTATIONS, *map(mutation_stub, kinds), exported])
+    head = "from collections.abc import Sequence\nfrom os import PathLike\n"
+    head += "from typing import Any, Literal, NamedTuple\n\n"
+    head += "from ._core import Scene\nfrom .integrators import Integrator\n"
+    return f"{HEAD}{head}\n{body}"
+
+
+STUBS = {"integrators.pyi": integrators_stub, "mutations.pyi": mutations_stub}
+
 if __name__ == "__main__":
-    Path(__file__).with_name("integrators.pyi").write_text(integrators_stub())
+    for name, make in STUBS.items():
+        Path(__file__).with_name(name).write_text(make())

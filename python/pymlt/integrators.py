@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import inspect
 
-from . import _core
+from . import _core, mutations
 from .schemas import documentation
 
 # Names that are abbreviations; any other one is capitalised.
@@ -17,7 +17,10 @@ _SPELLING["ptracer"] = "PTracer"
 
 
 class Integrator:
-    """A light transport algorithm: a name and its parameters."""
+    """A light transport algorithm: a name and its parameters.
+
+    Parameters that were not given are attributes of the class: their defaults.
+    """
 
     _name: str
     _defaults: dict
@@ -29,7 +32,7 @@ class Integrator:
                     f"{type(self).__name__}() has no parameter {name!r}"
                     + _core.suggestion(name, list(self._defaults)),
                 )
-        self.__dict__.update(self._defaults | parameters)
+        self.__dict__.update(parameters)
 
     @property
     def name(self) -> str:
@@ -50,9 +53,44 @@ class Integrator:
         return f"{type(self).__name__}({', '.join(changed)})"
 
     def __eq__(self, other) -> bool:
-        return type(self) is type(other) and self.__dict__ == other.__dict__
+        if not isinstance(other, Integrator):
+            return NotImplemented
+        mine, others = ({**x._defaults, **x.__dict__} for x in (self, other))
+        return type(self) is type(other) and mine == others
 
     __hash__ = None
+
+
+class _WithMutations:
+    """What `MLT` can do beside its plug-in: a list of mutations in place of their parameters."""
+
+    def to_dict(self) -> dict:
+        given = super().to_dict()
+        mixture = given.pop("mutations", None)
+        if mixture is None:
+            return given
+        chosen = mutations.parameters(mixture)
+        if twice := [name for name in mutations.parameter_names() if name in given]:
+            raise _core.UsageError(f"{twice[0]} is given beside mutations; give one of the two")
+        return {"adaptive": False, **given, **chosen}
+
+
+_MUTATIONS = {
+    "name": "mutations",
+    "type": "list of mutations",
+    "default": None,
+    "doc": "Those that take part, such as [(Bidirectional(), 0.4), (Lens(), 0.6)], in place of the "
+    "parameters for each; others are off, and so is `adaptive` unless it is given.",
+    "choices": [],
+}
+
+
+def integrator_schema(plugin: str) -> dict:
+    """The schema of a plug-in, with the parameters that its class adds."""
+    schema = _core.schema("integrator", plugin)
+    if plugin == "mlt":
+        schema["parameters"].append(_MUTATIONS)
+    return schema
 
 
 def class_name(plugin: str) -> str:
@@ -61,7 +99,7 @@ def class_name(plugin: str) -> str:
 
 
 def _make_class(plugin: str) -> type:
-    schema = _core.schema("integrator", plugin)
+    schema = integrator_schema(plugin)
     defaults = {p["name"]: p["default"] for p in schema["parameters"]}
     keyword = inspect.Parameter.KEYWORD_ONLY
     signature = inspect.Signature(
@@ -69,8 +107,9 @@ def _make_class(plugin: str) -> type:
     )
     return type(
         class_name(plugin),
-        (Integrator,),
+        (_WithMutations, Integrator) if plugin == "mlt" else (Integrator,),
         {
+            **defaults,
             "__doc__": documentation(schema),
             "__module__": __name__,
             "__signature__": signature,

@@ -1,5 +1,8 @@
 # Made by `python -m pymlt._stubs` from the schemas of the plug-ins. Do not edit.
+from collections.abc import Sequence
 from typing import Any, Literal
+
+from .mutations import Mutation
 
 class Integrator:
     """A light transport algorithm: a name and its parameters."""
@@ -9,6 +12,7 @@ class Integrator:
     def to_dict(self) -> dict[str, Any]: ...
 
 def class_name(plugin: str) -> str: ...
+def integrator_schema(plugin: str) -> dict[str, Any]: ...
 
 class BDPT(Integrator):
     """Bidirectional path tracing with every technique (s, t) and multiple importance sampling
@@ -122,7 +126,7 @@ class MLT(Integrator):
     caustic_weight : float, default 0.2
         Weight of the caustic mutation among those that suit a path.
     multi_chain_perturbation : boolean, default True
-        Use the multi-chain perturbation of paths (L|D)(DS+)*DS*E (Veach 1997, sec. 11.3.3.3).
+        Use the multi-chain perturbation of paths (L|D)(DS+)+DS*E (Veach 1997, sec. 11.3.3.3).
     multi_chain_weight : float, default 0.2
         Weight of the multi_chain mutation among those that suit a path.
     lens_subpath_mutation : boolean, default True
@@ -131,8 +135,19 @@ class MLT(Integrator):
         Weight of the lens_subpath mutation among those that suit a path.
     near_specular : float, default 0.1
         Smooth vertices below this roughness count as specular in perturbations.
+    adaptive : boolean, default True
+        Let pilot chains find the weights and step sizes of the mutations; by default only if no
+        weight is given.
+    two_stage : boolean, default False
+        Divide the target by a coarse image, so that dark regions get their share.
+    direct_samples : integer, default -1
+        Render light of at most one reflection apart with this many samples per pixel; 0 leaves
+        it out, -1 leaves it to the chains.
     manifold_perturbation : boolean, default False
         Only false: it does not exist yet.
+    mutations : list of mutations
+        Those that take part, such as [(Bidirectional(), 0.4), (Lens(), 0.6)], in place of the
+        parameters for each; others are off, and so is `adaptive` unless it is given.
     """
 
     max_depth: int
@@ -152,7 +167,11 @@ class MLT(Integrator):
     lens_subpath_mutation: bool
     lens_subpath_weight: float
     near_specular: float
+    adaptive: bool
+    two_stage: bool
+    direct_samples: int
     manifold_perturbation: bool
+    mutations: Sequence[Mutation | tuple[Mutation, float]] | None
     def __init__(
         self,
         *,
@@ -173,7 +192,11 @@ class MLT(Integrator):
         lens_subpath_mutation: bool = ...,
         lens_subpath_weight: float = ...,
         near_specular: float = ...,
+        adaptive: bool = ...,
+        two_stage: bool = ...,
+        direct_samples: int = ...,
         manifold_perturbation: bool = ...,
+        mutations: Sequence[Mutation | tuple[Mutation, float]] | None = ...,
     ) -> None: ...
 
 class Path(Integrator):

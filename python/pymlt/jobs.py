@@ -10,7 +10,7 @@ import os
 import weakref
 from dataclasses import dataclass, field
 from time import monotonic
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from . import _core
 from .integrators import Integrator
@@ -23,6 +23,13 @@ if TYPE_CHECKING:
 _running: weakref.WeakSet[Job] = weakref.WeakSet()
 
 
+class Technique(NamedTuple):
+    """The image of one technique (s, t) of bidirectional path tracing."""
+
+    raw: np.ndarray  #: what it finds alone, without weights
+    weighted: np.ndarray  #: what it brings to the render
+
+
 @dataclass
 class Result:
     """What a render left behind."""
@@ -30,6 +37,7 @@ class Result:
     image: np.ndarray  #: float32, (height, width, 3), linear Rec. 709, row 0 on top
     stats: dict  #: the content of stats.json
     integrator: dict  #: type and every parameter, given or default
+    layers: dict[str, np.ndarray] = field(repr=False)  #: further images that were kept, by name
     metadata: dict[str, str] = field(repr=False)  #: what `write` puts into an EXR header
     half: bool = field(default=False, repr=False)  #: EXR with 16-bit samples, as the film asks
 
@@ -37,8 +45,25 @@ class Result:
     def seed(self) -> int:
         return self.stats["seed"]
 
+    @property
+    def techniques(self) -> dict[tuple[int, int], Technique]:
+        """The images of the techniques (s, t), of a render by `BDPT(techniques=True)`.
+
+        A path of technique (s, t) has s vertices from the light and t from the camera.
+        """
+        found = {}
+        for name, weighted in self.layers.items():
+            kind, *numbers = name.split(".")
+            if kind == "weighted":
+                s, t = (int(number[1:]) for number in numbers)
+                found[s, t] = Technique(self.layers[f"raw.s{s}.t{t}"], weighted)
+        return found
+
     def write(self, path, exposure: float = 0) -> None:
-        """Write the image to .exr (with settings, seed and version in its header), .png or .hdr."""
+        """Write the image to .exr (with settings, seed and version in its header), .png or .hdr.
+
+        An .exr holds the layers too; beside NAME.png, NAME.techniques.png shows the techniques.
+        """
         self._write(path, exposure, rescue=False)
 
     def save(self, path, exposure: float = 0) -> str:
@@ -47,12 +72,27 @@ class Result:
 
     def _write(self, path, exposure: float, rescue: bool) -> str:
         path = os.fspath(path)
-        return _core.write_image(path, self.image, self.metadata, self.half, exposure, rescue)
+        return _core.write_image(
+            path, self.image, self.layers, self.metadata, self.half, exposure, rescue
+        )
 
     def __repr__(self) -> str:
         height, width = self.image.shape[:2]
         spp = self.stats["spp_done"]
         return f"Result({width} x {height}, {self.integrator['type']!r}, {spp:g} spp)"
+
+
+class Replay(NamedTuple):
+    """What one sample of a pixel has seen."""
+
+    raster: tuple[float, float]  #: where on the image, in pixels
+    radiance: np.ndarray  #: RGB, as the film got it there
+    paths: list[_core.LightPath]  #: what it found; `direct` does not tell
+
+    def __repr__(self) -> str:
+        x, y = self.raster
+        rgb = ", ".join(f"{c:.4g}" for c in self.radiance)
+        return f"Replay(({x:.2f}, {y:.2f}), rgb=({rgb}), {len(self.paths)} paths)"
 
 
 class Job:
@@ -62,7 +102,6 @@ class Job:
         self._scene = scene
         self._integrator = integrator
         self._job = job
-        _running.add(self)
 
     @property
     def image(self) -> np.ndarray:
@@ -72,6 +111,15 @@ class Job:
     @property
     def stats(self) -> dict:
         return json.loads(self._job.stats())
+
+    def replay(self, pixel: tuple[int, int], sample: int = 0) -> Replay:
+        """Repeat one sample of a pixel (x, y), whether it has been taken or not.
+
+        `sample` counts from 0. What is asked for again shows the same paths, those that the render
+        has added up. For integrators that sample pixel by pixel.
+        """
+        sample = _integer("sample", sample, 2**36)
+        return Replay(*self._job.replay(pixel, sample))
 
     @property
     def progress(self) -> float:
@@ -111,7 +159,14 @@ class Job:
 
     def _snapshot(self) -> Result:
         settings = json.loads(self._integrator.settings)
-        return Result(self.image, self.stats, settings, self._job.metadata(), self._scene.half)
+        return Result(
+            self.image,
+            self.stats,
+            settings,
+            self._job.layers(),
+            self._job.metadata(),
+            self._scene.half,
+        )
 
     def __repr__(self) -> str:
         state = "cancelled" if self.cancelled else "ended" if self.ended else "running"
@@ -142,7 +197,7 @@ def start(scene, integrator=None, *, spp=None, time=None, seed=0, threads=0) -> 
     seed, threads
         The image depends on the seed but not on the number of threads (0: all there are).
     """
-    scene = _as_scene(scene)
+    scene = as_scene(scene)
     made = as_integrator(scene, integrator)
     job = _core.Job(
         scene,
@@ -153,7 +208,9 @@ def start(scene, integrator=None, *, spp=None, time=None, seed=0, threads=0) -> 
         _integer("threads", threads, 2**31),
     )
     job.start()
-    return Job(scene, made, job)
+    started = Job(scene, made, job)
+    _running.add(started)
+    return started
 
 
 def render(
@@ -180,6 +237,14 @@ def render(
         error.result = job.result()
         raise
     return job.image
+
+
+def replay(scene, integrator=None, *, pixel, sample=0, seed=0) -> Replay:
+    """Repeat one sample of a pixel of the render that these arguments mean; see `Job.replay`."""
+    scene = as_scene(scene)
+    made = as_integrator(scene, integrator)
+    job = _core.Job(scene, made, 1.0, None, _integer("seed", seed, 2**64), 1)
+    return Job(scene, made, job).replay(pixel, sample)
 
 
 def as_integrator(scene: _core.Scene, integrator, assignments=()) -> _core.Integrator:
@@ -213,7 +278,8 @@ def _integer(name: str, value, end: int) -> int:
     raise _core.UsageError(f"{name} is {value!r}, but should be an integer from 0 to {end - 1}")
 
 
-def _as_scene(scene) -> _core.Scene:
+def as_scene(scene) -> _core.Scene:
+    """What `scene` means: itself, a dict, or the path of a file."""
     if isinstance(scene, _core.Scene):
         return scene
     if isinstance(scene, dict):

@@ -31,8 +31,9 @@ def test_all_exported_names_exist():
 def test_the_stubs_are_current():
     from pymlt import _stubs
 
-    written = Path(mlt.__file__).with_name("integrators.pyi").read_text()
-    assert written == _stubs.integrators_stub(), "run `python -m pymlt._stubs`"
+    for name, make in _stubs.STUBS.items():
+        written = Path(mlt.__file__).with_name(name).read_text()
+        assert written == make(), "run `python -m pymlt._stubs`"
 
 
 # ---- integrators -------------------------------------------------------------------------------

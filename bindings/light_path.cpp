@@ -1,0 +1,227 @@
+// Light paths to look at: their vertices as numpy, contribution, densities and weights.
+#include "light_path.h"
+
+#include "mutation/kinds.h"
+#include "mutation/proposals.h"
+#include "render/output.h"
+
+#include <pybind11/stl.h>
+
+#include <algorithm>
+
+namespace mlt::python {
+namespace {
+
+using LoadedPtr = std::shared_ptr<LoadedScene>;
+
+// ---- vertices
+// ------------------------------------------------------------------------------------
+
+const char* name_of(VertexKind kind) {
+  switch (kind) {
+    case VertexKind::light: return "light";
+    case VertexKind::camera: return "camera";
+    case VertexKind::surface: break;
+  }
+  return "surface";
+}
+
+const char* name_of(Lobe lobe) {
+  switch (lobe) {
+    case Lobe::reflection: return "reflection";
+    case Lobe::transmission: return "transmission";
+    case Lobe::passage: return "passage";
+    case Lobe::smooth: break;
+  }
+  return "smooth";
+}
+
+py::tuple row(const Vertex& x) {
+  const SurfacePoint& at = x.at;
+  const auto triple = [](const Vec3& v) { return py::make_tuple(v.x, v.y, v.z); };
+  const int64_t shape = at.shape == SurfacePoint::no_shape ? -1 : int64_t{at.shape};
+  const int64_t emitter = x.kind == VertexKind::light ? int64_t{x.emitter} : -1;
+  return py::make_tuple(name_of(x.kind), triple(at.p), triple(at.ng), triple(at.shading.n),
+                        py::make_tuple(at.uv.x, at.uv.y), name_of(x.lobe), at.infinite(), shape,
+                        at.primitive, emitter);
+}
+
+py::object vertices(const PyLightPath& path) {
+  const auto field = [](const char* name, const char* type, const py::object& shape = py::tuple()) {
+    return py::make_tuple(name, type, shape);
+  };
+  py::list fields, rows;
+  fields.append(field("kind", "U7"));
+  for (const char* name : {"position", "normal", "shading_normal"})
+    fields.append(field(name, "f8", py::make_tuple(3)));
+  fields.append(field("uv", "f8", py::make_tuple(2)));
+  fields.append(field("lobe", "U12"));
+  fields.append(field("infinite", "?"));
+  fields.append(field("shape", "i8"));
+  fields.append(field("primitive", "u4"));
+  fields.append(field("emitter", "i8"));
+  for (const Vertex& x : path.path.vertices) rows.append(row(x));
+  return py::module_::import("numpy").attr("array")(rows, fields);
+}
+
+// ---- terms
+// ---------------------------------------------------------------------------------------
+
+PathTerms terms(const PyLightPath& path, bool sample_direct = true) {
+  PathTerms terms;
+  compute_terms(*path.scene->scene, path.path, {sample_direct, path.strict_normals}, terms);
+  return terms;
+}
+
+template <class Value>
+py::array_t<double> for_each_technique(const PathTerms& terms, Value&& value) {
+  py::array_t<double> values(terms.edges() + 2);
+  for (int s = 0; s <= terms.edges() + 1; ++s) values.mutable_at(s) = value(s);
+  return values;
+}
+
+py::array_t<double> densities(const PyLightPath& path, bool sample_direct) {
+  const PathTerms t = terms(path, sample_direct);
+  return for_each_technique(t, [&](int s) { return technique_density(t, s); });
+}
+
+py::array_t<double> weights(const PyLightPath& path, const std::string& heuristic,
+                            bool sample_direct) {
+  const std::vector<std::string> names = {"balance", "power", "maximum"};
+  const auto found = std::find(names.begin(), names.end(), heuristic);
+  if (found == names.end())
+    throw UsageError("unknown heuristic '" + heuristic + "'" + suggestion(heuristic, names));
+  const auto kind = static_cast<Heuristic>(found - names.begin());
+  const PathTerms t = terms(path, sample_direct);
+  return for_each_technique(t, [&](int s) { return mis_weight(t, s, kind); });
+}
+
+std::string signature_of(const PyLightPath& path, double near_specular) {
+  return signature(*path.scene->scene, path.path, near_specular);
+}
+
+py::str describe(const PyLightPath& path) {
+  py::str text = py::str("LightPath({!r}, raster=({:.2f}, {:.2f})")
+                     .format(signature_of(path, 0), path.raster.x, path.raster.y);
+  if (path.technique)
+    text += py::str(", s={}, t={}").format(path.technique->first, path.technique->second);
+  if (path.acceptance) text += py::str(", acceptance={:.3g}").format(*path.acceptance);
+  return text + py::str(")");
+}
+
+// ---- where paths come from
+// -------------------------------------------------------------------------
+
+InspectSettings inspect_settings(uint64_t seed, int max_depth, bool strict_normals) {
+  if (max_depth == 0 || max_depth < -1)
+    throw UsageError("max_depth is " + std::to_string(max_depth) +
+                     ", but should be positive, or -1 for no limit");
+  return {seed, max_depth, strict_normals};
+}
+
+PyLightPath trace(const LoadedPtr& scene, const std::pair<int, int>& pixel, uint64_t seed,
+                  int max_depth, bool strict_normals) {
+  const Vec2i at(pixel.first, pixel.second);
+  check_pixel(*scene->scene, at);
+  const InspectSettings settings = inspect_settings(seed, max_depth, strict_normals);
+  return light_path(scene, trace_path_through(*scene->scene, at, settings), strict_normals);
+}
+
+PyLightPath sample(const LoadedPtr& scene, uint64_t seed, int max_depth, bool strict_normals) {
+  const InspectSettings settings = inspect_settings(seed, max_depth, strict_normals);
+  return light_path(scene, sample_path(*scene->scene, settings), strict_normals);
+}
+
+std::vector<PyLightPath> proposals(const LoadedPtr& scene, const PyLightPath& x,
+                                   const py::object& mutation, uint64_t seed, int count,
+                                   int max_depth, double near_specular) {
+  if (x.scene->scene != scene->scene) throw UsageError("the path is one of another scene");
+  const py::object name = py::hasattr(mutation, "name") ? mutation.attr("name") : mutation;
+  MutationSettings settings;
+  settings.max_depth = max_depth;
+  settings.near_specular = near_specular;
+  settings.strict_normals = x.strict_normals;
+  const auto made = make_mutation(name.cast<std::string>(), *scene->scene, settings);
+  std::vector<PyLightPath> result;
+  for (Proposal& y : propose(*scene->scene, settings, x.path, made, seed, count))
+    result.push_back(
+        {scene, std::move(y.path.path), y.path.raster, {}, {}, y.acceptance, x.strict_normals});
+  return result;
+}
+
+void bind_class(py::module_& m) {
+  py::class_<PyLightPath>(
+      m, "LightPath",
+      "A light path: x_0 on a light ... x_k on the camera's lens, whichever way it was made.")
+      .def_property_readonly(
+          "signature", [](const PyLightPath& p) { return signature_of(p, 0); },
+          "Heckbert's notation, light to camera: L, a D or S for each surface, E.")
+      .def("signature_with", &signature_of, py::arg("near_specular"),
+           "The same, where a surface below this roughness counts as S.")
+      .def_property_readonly(
+          "vertices", &vertices,
+          "A structured array: kind, position, normal, shading_normal, uv, lobe, infinite, shape, "
+          "primitive, emitter. At infinity, position is the direction towards the vertex.")
+      .def_property_readonly(
+          "edges", [](const PyLightPath& p) { return p.path.edges(); }, "k")
+      .def_property_readonly("time", [](const PyLightPath& p) { return p.path.time; })
+      .def_property_readonly(
+          "raster", [](const PyLightPath& p) { return py::make_tuple(p.raster.x, p.raster.y); },
+          "Where it meets the image, in pixels from the upper left corner.")
+      .def_readonly("technique", &PyLightPath::technique, "(s, t) that found it, or None.")
+      .def_property_readonly(
+          "estimate",
+          [](const PyLightPath& p) {
+            return p.estimate ? py::object(to_array(*p.estimate)) : py::none();
+          },
+          "What it brought to the image: RGB of its contribution over its density, weighted; or "
+          "None.")
+      .def_readonly("acceptance", &PyLightPath::acceptance,
+                    "Of a proposal: the probability of accepting it; else None.")
+      .def(
+          "contribution", [](const PyLightPath& p) { return to_array(contribution(terms(p))); },
+          "f(x), RGB (Veach 1997, eq. 8.7), without visibility.")
+      .def("densities", &densities, py::arg("sample_direct") = true,
+           "p_{s,t}(x) in the product-area measure, for s = 0 ... k + 1.")
+      .def("weights", &weights, py::arg("heuristic") = "power", py::arg("sample_direct") = true,
+           "The weights of multiple importance sampling, for s = 0 ... k + 1.")
+      .def("__len__", [](const PyLightPath& p) { return p.path.vertices.size(); })
+      .def("__repr__", &describe);
+}
+
+}  // namespace
+
+PyLightPath light_path(LoadedPtr scene, FoundPath found, bool strict_normals) {
+  return {std::move(scene), std::move(found.path),
+          found.raster,     std::make_pair(found.s, found.t),
+          found.estimate,   {},
+          strict_normals};
+}
+
+py::array_t<double> to_array(const Color& color) {
+  py::array_t<double> array(3);
+  for (int i = 0; i < 3; ++i) array.mutable_at(i) = color[i];
+  return array;
+}
+
+void bind_light_path(py::module_& m) {
+  bind_class(m);
+  auto scene = py::class_<LoadedScene, std::shared_ptr<LoadedScene>>(m.attr("Scene"));
+  scene.def("trace_path", &trace, py::kw_only(), py::arg("pixel"), py::arg("seed") = 0,
+            py::arg("max_depth") = 10, py::arg("strict_normals") = false,
+            "A light path through the pixel (x, y), found by path tracing (s = 0 or s = 1). "
+            "Samples are taken "
+            "until one finds light.");
+  scene.def(
+      "sample_path", &sample, py::kw_only(), py::arg("seed") = 0, py::arg("max_depth") = 10,
+      py::arg("strict_normals") = false,
+      "A light path anywhere on the image, found by any technique of bidirectional path tracing.");
+  scene.def("propose", &proposals, py::arg("path"), py::arg("mutation"), py::kw_only(),
+            py::arg("seed") = 0, py::arg("count") = 100, py::arg("max_depth") = 10,
+            py::arg("near_specular") = 0.1,
+            "What a mutation, alone, would make of a path in `count` tries: those that found a "
+            "path, each with "
+            "its `acceptance`.");
+}
+
+}  // namespace mlt::python

@@ -1,0 +1,28 @@
+// A light path as Python sees it.
+#pragma once
+
+#include "bindings.h"
+
+#include "io/load.h"
+#include "path/inspect.h"
+
+#include <optional>
+
+namespace mlt::python {
+
+struct PyLightPath {
+  std::shared_ptr<LoadedScene> scene;
+  Path path;
+  Vec2 raster{0};
+  std::optional<std::pair<int, int>> technique;
+  std::optional<Color> estimate;
+  std::optional<double> acceptance;
+  bool strict_normals = false;
+};
+
+PyLightPath light_path(std::shared_ptr<LoadedScene> scene, FoundPath found,
+                       bool strict_normals = false);
+
+py::array_t<double> to_array(const Color& color);
+
+}  // namespace mlt::python

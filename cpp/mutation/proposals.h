@@ -1,0 +1,22 @@
+// What one mutation would make of a path: proposals to look at, none of which is accepted.
+#pragma once
+
+#include "mutation/mutation.h"
+
+#include <memory>
+#include <vector>
+
+namespace mlt {
+
+struct Proposal {
+  LightPath path;
+  double acceptance = 0;  ///< min(1, L*(y) T(y -> x) / (L*(x) T(x -> y)))
+};
+
+/// Up to `count` proposals of a mutation that acts alone; tries that find no path are left out.
+/// Throws UsageError if the path carries no light or does not suit the mutation.
+std::vector<Proposal> propose(const Scene& scene, const MutationSettings& settings,
+                              const Path& path, const std::shared_ptr<const Mutation>& mutation,
+                              uint64_t seed, int count);
+
+}  // namespace mlt

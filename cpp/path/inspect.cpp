@@ -1,0 +1,130 @@
+#include "path/inspect.h"
+
+#include "base/error.h"
+#include "path/camera_ray.h"
+#include "path/samplers.h"
+
+#include <algorithm>
+
+namespace mlt {
+namespace {
+
+constexpr uint64_t most_samples = 10000;
+
+/// Roulette only where nothing else ends a walk.
+int roulette_depth(int max_depth) { return max_depth < 0 ? 5 : max_depth; }
+
+std::vector<FoundPath> traced(const Scene& scene, const InspectSettings& settings,
+                              const Vec2& raster, RandomSampler& sampler) {
+  std::vector<FoundPath> found;
+  RayCounts rays;
+  SurfacePoint lens;
+  const Ray ray = camera_ray(scene.camera(), raster, sampler, &lens);
+  PathRecorder recorder(scene, raster, lens, ray.time, found);
+  const PathSettings path{settings.max_depth, roulette_depth(settings.max_depth), false,
+                          settings.strict_normals};
+  trace_path(scene, path, ray, sampler, rays, recorder);
+  return found;
+}
+
+std::vector<FoundPath> connected(const Scene& scene, const InspectSettings& settings,
+                                 const Vec2& raster, RandomSampler& sampler) {
+  BidirectionalSettings all;
+  all.max_depth = settings.max_depth;
+  all.rr_depth = roulette_depth(settings.max_depth);
+  all.strict_normals = settings.strict_normals;
+  std::vector<FoundPath> found;
+  RayCounts rays;
+  Bidirectional paths(scene, all);
+  paths.sample(raster, sampler, rays);
+  paths.connect_all(rays,
+                    [&](const Connection& c) { found.push_back(found_path(scene, paths, c)); });
+  return found;
+}
+
+/// One of them, chosen by weight; nullptr if there is none with a weight.
+FoundPath* choose(std::vector<FoundPath>& found, RandomSampler& sampler) {
+  const auto weight = [](const FoundPath& path) {
+    const double w = target_luminance(path.estimate);
+    return std::isfinite(w) && w > 0 ? w : 0.0;
+  };
+  double sum = 0;
+  for (const FoundPath& path : found) sum += weight(path);
+  double u = sampler.next() * sum;
+  FoundPath* last = nullptr;
+  for (FoundPath& path : found)
+    if (weight(path) > 0) {
+      last = &path;
+      if ((u -= weight(path)) < 0) break;
+    }
+  return last;
+}
+
+/// Tries samples until one finds light; `sample(sampler)` returns the paths of one.
+template <class Sample>
+FoundPath first_found(uint64_t seed, const std::string& where, Sample&& sample) {
+  for (uint64_t i = 0; i < most_samples; ++i) {
+    Rng rng(seed, Purpose::inspect, i);
+    RandomSampler sampler(rng);
+    std::vector<FoundPath> found = sample(sampler);
+    if (FoundPath* chosen = choose(found, sampler)) return std::move(*chosen);
+  }
+  throw RenderError("no light path found " + where + " in " + std::to_string(most_samples) +
+                    " samples; is it dark there, or max_depth too small?");
+}
+
+}  // namespace
+
+FoundPath found_path(const Scene& scene, const Bidirectional& paths, const Connection& connection) {
+  FoundPath found;
+  paths.assemble(connection, found.path);
+  found.s = connection.s;
+  found.t = connection.t;
+  found.raster = connection.raster;
+  found.estimate = connection.contribution * (connection.weight * radiance_scale(scene));
+  return found;
+}
+
+PathRecorder::PathRecorder(const Scene& scene, const Vec2& raster, const SurfacePoint& lens,
+                           double time, std::vector<FoundPath>& found)
+    : scene_(&scene), raster_(raster), time_(time), walk_{camera_vertex(lens)}, found_(&found) {}
+
+void PathRecorder::hit(const Emitter& emitter, const SurfacePoint& x0, const Vec3& w,
+                       const Color& throughput) {
+  keep(light_vertex(emitter, x0), false, throughput * emitter.eval(x0, w));
+}
+
+void PathRecorder::connect(const Vec3& u_light, const Color& estimate) {
+  const EmitterSample light = sample_emitter(*scene_, walk_.back().at.p, u_light);
+  if (light.pdf > 0) keep(light_vertex(*light.emitter, light.x0), true, estimate);
+}
+
+void PathRecorder::keep(const Vertex& x0, bool connected, const Color& estimate) {
+  if (is_black(estimate)) return;
+  FoundPath found;
+  found.path.time = time_;
+  found.path.vertices.push_back(x0);
+  found.path.vertices.insert(found.path.vertices.end(), walk_.rbegin(), walk_.rend());
+  found.s = connected ? 1 : 0;
+  found.t = found.path.edges() + 1 - found.s;
+  found.raster = raster_;
+  found.estimate = estimate;
+  found_->push_back(std::move(found));
+}
+
+FoundPath trace_path_through(const Scene& scene, const Vec2i& pixel,
+                             const InspectSettings& settings) {
+  const std::string where =
+      "through pixel (" + std::to_string(pixel.x) + ", " + std::to_string(pixel.y) + ")";
+  return first_found(settings.seed, where, [&](RandomSampler& sampler) {
+    return traced(scene, settings, Vec2(pixel) + sampler.next2(), sampler);
+  });
+}
+
+FoundPath sample_path(const Scene& scene, const InspectSettings& settings) {
+  return first_found(settings.seed, "on the image", [&](RandomSampler& sampler) {
+    return connected(scene, settings, scene.camera().raster().sample(sampler.next2()), sampler);
+  });
+}
+
+}  // namespace mlt
