@@ -71,6 +71,7 @@ class Furnace : public testing::TestWithParam<std::string> {};
 TEST_P(Furnace, HasTheRadianceOfTheGeometricSeries) { expect_furnace(GetParam(), "cube", -1); }
 
 TEST_P(Furnace, HasThePartialSumsOfTheGeometricSeries) {
+  if (GetParam() == "pssmlt") GTEST_SKIP() << "the long suite has them";
   expect_furnace(GetParam(), "cube", 1);
   expect_furnace(GetParam(), "sphere", 3);
 }

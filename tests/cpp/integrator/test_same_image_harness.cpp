@@ -35,14 +35,14 @@ constexpr auto brighter_pixel = [](int x, int y) { return x == 5 && y == 4 ? 1.5
 
 TEST(SameImageHarness, AcceptsWhatIsEqual) {
   int rejected = 0;
-  for (uint64_t seed = 1; seed <= 100; ++seed) {
+  for (uint64_t seed = 1; seed <= 30; ++seed) {
     SameImageSettings settings;
     settings.seed = seed;
     const SameImage found = same_image(noise("a", 40, one), noise("b", 60, one), settings);
     EXPECT_TRUE(found.powerful) << found.text;
     rejected += !found.same;
   }
-  EXPECT_EQ(rejected, 0) << "of 100 at the level 1e-3, squared by the repetition";
+  EXPECT_EQ(rejected, 0) << "of 30 at the level 1e-3, squared by the repetition";
 }
 
 TEST(SameImageHarness, RejectsWhatDiffers) {
