@@ -6,8 +6,8 @@ rounds show, relative as in relMSE: mean of var / (r^2 + 0.01), with r the mean 
 renderer's image is the reference of another, and the means are compared as a check of bias.
 
 error x time does not depend on the number of samples, as long as samples are independent; its
-quotient is the time to equal error. Ours are stratified, which pays more the more there are, so
-Mitsuba also runs with its `multijitter` sampler.
+quotient is the time to equal error. Stratified samples do better the more there are: ours are
+stratified within each of 16 groups, Mitsuba's with its `multijitter` sampler, which runs as well.
 """
 
 from __future__ import annotations
