@@ -4,7 +4,7 @@
 PYTHON ?= python3
 JOBS ?= $(shell nproc)
 DEMO_SCENE ?= scenes/door-ajar/scene.xml
-DEMO_FLAGS ?= --integrator pssmlt --spp 512 --seed 1
+DEMO_FLAGS ?= --integrator mlt --spp 256 --seed 1
 SHARD ?= 1/1
 
 BUILD := build/default

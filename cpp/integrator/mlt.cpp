@@ -65,8 +65,7 @@ class MltChain : public Chain {
   void save(ByteWriter& bytes) const override {
     bytes.write(rng_.state());
     bytes.write(step_);
-    bytes.write(x_.path.vertices);
-    bytes.write(x_.path.time);
+    mlt::save(bytes, x_.path);
     stats_.save(bytes);
   }
   void load(ByteReader& bytes) override;
@@ -212,8 +211,7 @@ class Mlt : public MetropolisAlgorithm {
 void MltChain::load(ByteReader& bytes) {
   rng_ = Rng(bytes.read<Rng::State>());
   step_ = bytes.read<uint64_t>();
-  bytes.read(x_.path.vertices);
-  x_.path.time = bytes.read<double>();
+  mlt::load(bytes, x_.path);
   stats_.load(bytes);
   if (x_.path.vertices.size() < 2) throw RenderError("the saved state has a chain without a path");
   evaluate(*scene_, *settings_, x_);

@@ -2,6 +2,47 @@
 
 namespace mlt {
 
+namespace {
+
+/// Visits the members of a vertex; a writer and a reader share it.
+template <class V, class Visit>
+void for_each_member(V& x, Visit&& visit) {
+  visit(x.kind);
+  visit(x.lobe);
+  visit(x.emitter);
+  auto& at = x.at;
+  visit(at.p);
+  visit(at.ng);
+  visit(at.shading.s);
+  visit(at.shading.t);
+  visit(at.shading.n);
+  visit(at.uv);
+  visit(at.shape);
+  visit(at.primitive);
+  visit(at.kind);
+  visit(at.extent);
+}
+
+}  // namespace
+
+void save(ByteWriter& bytes, const Path& path) {
+  bytes.write<uint64_t>(path.vertices.size());
+  for (const Vertex& x : path.vertices)
+    for_each_member(x, [&](const auto& member) { bytes.write(member); });
+  bytes.write(path.time);
+}
+
+void load(ByteReader& bytes, Path& path) {
+  const uint64_t count = bytes.read<uint64_t>();
+  path.vertices.clear();
+  for (uint64_t i = 0; i < count; ++i) {
+    path.vertices.emplace_back();
+    for_each_member(path.vertices.back(),
+                    [&](auto& member) { member = bytes.read<std::decay_t<decltype(member)>>(); });
+  }
+  path.time = bytes.read<double>();
+}
+
 std::optional<Vec2> raster_position(const Scene& scene, const Path& path) {
   const int k = path.edges();
   return scene.camera().raster_position(path[k].at, direction(path[k].at, path[k - 1].at));

@@ -2,6 +2,7 @@
 // whichever way it was made.
 #pragma once
 
+#include "base/bytes.h"
 #include "path/vertex.h"
 
 #include <string>
@@ -17,6 +18,10 @@ struct Path {
   Vertex& operator[](size_t i) { return vertices[i]; }
   const Vertex& operator[](size_t i) const { return vertices[i]; }
 };
+
+/// A path as bytes, member by member: equal paths are equal bytes.
+void save(ByteWriter& bytes, const Path& path);
+void load(ByteReader& bytes, Path& path);
 
 /// Where the path meets the image; nullopt if it does not.
 std::optional<Vec2> raster_position(const Scene& scene, const Path& path);

@@ -112,7 +112,8 @@ def _stages():
         yield _stage(f"checkerboard-on-{thing}", material="checkerboard", object=thing)
     lights = ("area", "constant", "point", "directional", "envmap", "textured", "spectrum")
     for light in (*lights, "sphere", "mesh"):
-        yield _stage(f"light-{light}", light=light)
+        noisy = {"spp": 128} if light in ("spectrum", "mesh") else {}
+        yield _stage(f"light-{light}", light=light, **noisy)
     for light in ("area", "envmap", "sphere"):
         gloss = "roughconductor-ggx"
         yield _stage(f"gloss-under-{light}", light=light, material=gloss, spp=96)

@@ -54,8 +54,8 @@ inline TestScene make_mutation_scene(const std::string& name) {
   if (name == "lens_through_mirror")
     return done(
         camera(
-            "0, 0, 0.9", "0, 0, 0", 60, image, "thinlens",
-            "<float name='aperture_radius' value='0.4'/><float name='focus_distance' value='1'/>") +
+            "0, 0, 0.9", "0, 0, 0", 90, image, "thinlens",
+            "<float name='aperture_radius' value='0.8'/><float name='focus_distance' value='1'/>") +
         point_lamp + rectangle(rotate("x", -90) + translate(0, -1, 0), white) +
         rectangle(translate(0, 0, -1), mirror));
   return make_scene(name);

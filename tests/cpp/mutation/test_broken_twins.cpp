@@ -99,10 +99,12 @@ std::vector<Twin> twins() {
                        });
                  },
                  100000});
-  // The choice of where a gap of some length begins.
+  // The choice of a gap: of its length, then of where it begins.
   all.push_back(
       twin("p_delete", "bidirectional", "caustic", [](const LightPath& x, auto&, const Edit& edit) {
-        return 1.0 / (x.edges() + 2 - edit.deleted());
+        const int gap = edit.deleted() + 1;
+        const double length = gap == 1 ? 0.25 : gap == 2 ? 0.5 : std::pow(0.5, gap);
+        return length / (x.edges() + 3 - gap);
       }));
   all.push_back({"all_ways_but_one", "bidirectional", "cornell",
                  [](const Scene& scene, const MutationSettings&, const Mutations&) {
@@ -128,6 +130,10 @@ std::vector<Twin> twins() {
                    });
                  }});
   return all;
+}
+
+void PrintTo(const Twin& twin, std::ostream* out) {
+  *out << twin.mutation << " without " << twin.name;
 }
 
 class BrokenTwins : public testing::TestWithParam<Twin> {};

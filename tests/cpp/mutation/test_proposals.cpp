@@ -118,14 +118,14 @@ TEST(Proposals, BidirectionalMutationInsertsTheVertexThatIsSeen) {
 TEST(Proposals, BidirectionalMutationMovesTheEndOnTheLens) {
   // Half of the time the lens point is drawn, half of the time a light walk is to hit the lens.
   Proposals p("lens_through_mirror", "bidirectional", 4);
-  p.start("LDE", [](const LightPath&) { return Edit{2, 2, 1}; });
+  p.start("LE", [](const LightPath&) { return Edit{1, 1, 1}; });
   const Camera& camera = p.scene().camera();
-  const SurfacePoint& xk = p.x[2].at;
+  const SurfacePoint& xk = p.x[1].at;
   const SurfacePoint center = camera.sample_position(Vec2(0.5)).at;
   const double radius = camera.lens_radius();
   const auto sample = [&](Rng& rng) -> std::optional<Vec2> {
     if (!p.propose(rng)) return std::nullopt;
-    const Vec3 d = p.y[2].at.p - center.p;
+    const Vec3 d = p.y[1].at.p - center.p;
     return Vec2(dot(d, xk.shading.s), dot(d, xk.shading.t));
   };
   const auto pdf = [&](const Vec2& d) {

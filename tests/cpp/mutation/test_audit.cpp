@@ -1,0 +1,189 @@
+// Every mutation leaves L* unchanged, alone and in the mixture; that the images of mlt are right rests on
+// this.
+#include "mutation/mutation_testing.h"
+
+namespace mlt::test {
+namespace {
+
+struct Case {
+  std::string scene, mutation;
+};
+
+void PrintTo(const Case& c, std::ostream* out) { *out << c.mutation << " on " << c.scene; }
+std::string name_of_case(const testing::TestParamInfo<Case>& info) {
+  return info.param.scene + "_" + info.param.mutation;
+}
+
+std::vector<Case> cases(const std::vector<std::string>& scenes) {
+  std::vector<Case> all;
+  for (const std::string& scene : scenes) {
+    for (const MutationKind& kind : mutation_kinds()) all.push_back({scene, kind.name});
+    all.push_back({scene, "mixture"});
+  }
+  return all;
+}
+
+AuditReport audit_case(const Case& c, uint64_t paths) {
+  const ScenePtr scene = make_mutation_scene(c.scene).scene;
+  const MutationSettings settings = mutation_settings();
+  AuditSettings how;
+  how.paths = paths;
+  how.significance = 1e-5;  // of each of many cases
+  if (c.mutation != "mixture")
+    return audit(*scene, settings, make_mutation(c.mutation, *scene, settings), how);
+  return audit(*scene, settings, all_mutations(*scene, settings), default_choice(), how);
+}
+
+class Audit : public testing::TestWithParam<Case> {};
+
+TEST_P(Audit, LeavesTheTargetUnchanged) {
+  const AuditReport report = audit_case(GetParam(), 20000);
+  EXPECT_EQ(report.verdict, Verdict::right) << report.text();
+}
+
+INSTANTIATE_TEST_SUITE_P(Mutations, Audit, testing::ValuesIn(cases({"mirrors", "near_specular"})),
+                         name_of_case);
+
+/// Whether the scene has enough paths for something to be said.
+bool has_paths(const Case& c) {
+  if (c.mutation == "caustic") return c.scene != "camera_in_glass" && c.scene != "both_in_glass";
+  if (c.mutation != "multi_chain") return true;
+  for (const char* scene : {"caustic", "plastic", "camera_under_water", "light_under_water",
+                            "smooth_glass", "null_surface", "mirror", "mirrors", "near_specular",
+                            "near_specular_mirrors", "sun_caustic", "point_caustic"})
+    if (c.scene == scene) return true;
+  return false;
+}
+
+class LongAudit : public testing::TestWithParam<Case> {};
+
+TEST_P(LongAudit, LeavesTheTargetUnchanged) {
+  const Case& c = GetParam();
+  const AuditReport report = audit_case(c, 100000);
+  EXPECT_NE(report.verdict, Verdict::wrong) << report.text();
+  if (has_paths(c)) EXPECT_EQ(report.verdict, Verdict::right) << report.text();
+  // A perturbation moves the paths of every signature that it takes on.
+  for (const AuditRow& row : report.rows)
+    if (c.mutation != "mixture" && c.mutation != "bidirectional" && row.steps > 2000)
+      EXPECT_GT(row.accepted, row.steps / 1000) << row.signature << "\n" << report.text();
+}
+
+INSTANTIATE_TEST_SUITE_P(Mutations, LongAudit, testing::ValuesIn(cases(mutation_scene_names())),
+                         name_of_case);
+
+/// What the render may do besides: other step sizes, weights for each path length, a target divided by a
+/// coarse image, short paths left to others.
+AuditReport audit_variant(const std::string& name, bool two_stage, int min_depth, uint64_t paths) {
+  const ScenePtr scene = make_mutation_scene(name).scene;
+  MutationSettings settings = mutation_settings();
+  settings.min_depth = min_depth;
+  TargetMap map(scene->camera().raster(), 2);
+  if (two_stage) {
+    for_each_light_path(*scene, settings, 9, 2000,
+                        [&](const LightPath& x) { map.add(x.raster, 1 + x.rgb.y); });
+    map.finish();
+    settings.map = &map;
+  }
+  Mutations all;
+  for (const double share : {0.02, 0.3})
+    for (const MutationKind& kind : mutation_kinds()) {
+      MutationSettings own = settings;
+      own.largest_share = share;
+      all.push_back(make_mutation(kind.name, *scene, own));
+    }
+  std::vector<std::vector<double>> rows;
+  for (int k = 0; k < 6; ++k) {
+    rows.emplace_back();
+    for (size_t i = 0; i < all.size(); ++i)
+      rows.back().push_back(1.0 + static_cast<double>((i + k) * (i + k) % 7));
+  }
+  AuditSettings how;
+  how.paths = paths;
+  return audit(*scene, settings, all, MutationChoice(rows), how);
+}
+
+TEST(AuditOfTheMixture, HoldsForWeightsByLengthAndManyStepSizes) {
+  const AuditReport report = audit_variant("mirrors", false, 1, 20000);
+  EXPECT_EQ(report.verdict, Verdict::right) << report.text();
+}
+
+TEST(AuditOfTheMixture, HoldsForATwoStageTarget) {
+  const AuditReport report = audit_variant("cornell", true, 1, 20000);
+  EXPECT_EQ(report.verdict, Verdict::right) << report.text();
+}
+
+TEST(AuditOfTheMixture, HoldsWhereShortPathsAreLeftToOthers) {
+  const AuditReport report = audit_variant("caustic", false, 3, 20000);
+  EXPECT_EQ(report.verdict, Verdict::right) << report.text();
+  for (const AuditRow& row : report.rows) EXPECT_GE(row.signature.size(), 4u) << row.signature;
+}
+
+TEST(LongAuditOfTheMixture, HoldsForAllVariants) {
+  for (const char* scene :
+       {"cornell", "caustic", "mirrors", "near_specular", "thin_lens", "light_under_water"}) {
+    const AuditReport report = audit_variant(scene, true, 3, 200000);
+    EXPECT_EQ(report.verdict, Verdict::right) << scene << ": " << report.text();
+  }
+}
+
+TEST(AuditReport, IsTheSameForAnyNumberOfThreads) {
+  const ScenePtr scene = make_scene("caustic").scene;
+  const MutationSettings settings = mutation_settings();
+  AuditSettings how;
+  how.paths = 5000;
+  const auto text = [&](int threads) {
+    how.threads = threads;
+    return audit(*scene, settings, all_mutations(*scene, settings), default_choice(), how)
+        .text(1000);
+  };
+  EXPECT_EQ(text(1), text(3));
+}
+
+TEST(AuditReport, SaysWhyNothingIsConcluded) {
+  const ScenePtr scene = make_scene("cornell").scene;
+  const MutationSettings settings = mutation_settings();
+  const auto multi_chain = make_mutation("multi_chain", *scene, settings);
+  AuditSettings how;
+  how.paths = 2000;
+  AuditReport report = audit(*scene, settings, multi_chain, how);
+  EXPECT_EQ(report.verdict, Verdict::inconclusive);
+  EXPECT_EQ(report.reason, "no path suits");
+
+  how.paths = 500;
+  report = audit(*scene, settings, make_mutation("lens", *scene, settings), how);
+  EXPECT_EQ(report.verdict, Verdict::inconclusive);
+  EXPECT_NE(report.reason.find("at least 1000"), std::string::npos) << report.reason;
+}
+
+/// Proposes nothing, ever.
+class Idle : public Mutation {
+ public:
+  const std::string& name() const override { return name_; }
+  double suitability(const LightPath&) const override { return 1; }
+  std::optional<Edit> propose(const LightPath&, LightPath&, MutationContext&) const override {
+    return std::nullopt;
+  }
+  double density(const LightPath&, const LightPath&, const Edit&) const override { return 0; }
+
+ private:
+  std::string name_ = "idle";
+};
+
+TEST(AuditReport, DoesNotCallAMutationRightThatNeverMoves) {
+  const ScenePtr scene = make_scene("cornell").scene;
+  AuditSettings how;
+  how.paths = 5000;
+  const AuditReport report = audit(*scene, mutation_settings(), std::make_shared<Idle>(), how);
+  EXPECT_EQ(report.verdict, Verdict::inconclusive) << report.text();
+  EXPECT_NE(report.reason.find("only 0 moves"), std::string::npos) << report.reason;
+}
+
+TEST(AuditReport, NeedsLight) {
+  const ScenePtr scene =
+      load_scene(camera(in_front, "0, 0, 10", 40, film(16, 12)) + room() + ceiling_lamp());
+  const MutationSettings settings = mutation_settings();
+  EXPECT_THROW(audit(*scene, settings, make_mutation("lens", *scene, settings), {}), RenderError);
+}
+
+}  // namespace
+}  // namespace mlt::test

@@ -1,0 +1,196 @@
+// mlt as a whole: its images are those of bdpt, its b is their mean, it does not matter how many samples its
+// bootstrap has, how many threads there are, and whether it was saved on the way.
+#include "integrator/integrator_testing.h"
+#include "mutation/mutation_scenes.h"
+#include "render/stats.h"
+
+namespace mlt::test {
+namespace {
+
+Assignments mlt_settings(int luminance_samples, Assignments more = {}) {
+  more.push_back({"max_depth", "6"});
+  more.push_back({"chains", "64"});
+  more.push_back({"luminance_samples", std::to_string(luminance_samples)});
+  return more;
+}
+
+/// mlt as a side of a comparison: the bootstrap grows with the samples, so that its error vanishes with theirs.
+Side mlt_side(const ScenePtr& scene, const std::string& name, double spp, int luminance_samples,
+              const Assignments& more = {}) {
+  return {name, [=](uint64_t seed, double effort) {
+            const int samples = static_cast<int>(luminance_samples * effort);
+            return rendered(scene, integrator("mlt", mlt_settings(samples, more)), seed,
+                            spp * effort)
+                ->image();
+          }};
+}
+
+Side bdpt_side(const ScenePtr& scene, double spp) {
+  return side(scene, "bdpt", {{"max_depth", "6"}}, spp);
+}
+
+SameImageSettings in_short() {
+  SameImageSettings settings;
+  settings.whole = 0.02;
+  settings.block = 0.1;
+  settings.max_effort = 1000;
+  return settings;
+}
+
+SameImageSettings at_length() {
+  SameImageSettings settings;
+  settings.max_effort = 50000;
+  return settings;
+}
+
+// ---- the same image as bdpt
+
+class MltImage : public testing::TestWithParam<std::string> {};
+
+TEST_P(MltImage, IsThatOfBdpt) {
+  const ScenePtr scene = make_mutation_scene(GetParam()).scene;
+  const SameImage found = same_image(mlt_side(scene, "mlt", 64, 5000, {{"adaptive", "false"}}),
+                                     bdpt_side(scene, 16), in_short());
+  EXPECT_TRUE(found) << found.text;
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, MltImage, testing::Values("cornell", "caustic"),
+                         [](const auto& info) { return info.param; });
+
+/// Scenes that bdpt renders in reasonable time; in the others it hardly sees some features.
+std::vector<std::string> scenes_of_bdpt() {
+  std::vector<std::string> names;
+  for (const std::string& name : mutation_scene_names())
+    if (name != "sun_caustic" && name != "both_in_glass" && name != "point_caustic")
+      names.push_back(name);
+  return names;
+}
+
+class LongMltImage : public testing::TestWithParam<std::string> {};
+
+TEST_P(LongMltImage, IsThatOfBdpt) {
+  const ScenePtr scene = make_mutation_scene(GetParam()).scene;
+  const SameImage found =
+      same_image(mlt_side(scene, "mlt", 64, 5000), bdpt_side(scene, 16), at_length());
+  EXPECT_TRUE(found) << found.text;
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, LongMltImage, testing::ValuesIn(scenes_of_bdpt()),
+                         [](const auto& info) { return info.param; });
+
+/// Each mutation alone with the bidirectional one, which makes the chain ergodic, and each variant.
+class LongMltVariant : public testing::TestWithParam<Assignments> {};
+
+TEST_P(LongMltVariant, HasTheSameImage) {
+  for (const char* name : {"cornell", "mirrors"}) {
+    const ScenePtr scene = make_mutation_scene(name).scene;
+    const SameImage found =
+        same_image(mlt_side(scene, "mlt", 64, 5000, GetParam()), bdpt_side(scene, 16), at_length());
+    EXPECT_TRUE(found) << name << ": " << found.text;
+  }
+}
+
+Assignments without(std::vector<std::string> switches) {
+  Assignments all;
+  for (const std::string& name : switches) all.push_back({name, "false"});
+  return all;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Variants, LongMltVariant,
+    testing::Values(
+        without({"lens_perturbation", "caustic_perturbation", "multi_chain_perturbation",
+                 "lens_subpath_mutation"}),
+        without({"caustic_perturbation", "multi_chain_perturbation", "lens_subpath_mutation"}),
+        without({"lens_perturbation", "multi_chain_perturbation", "lens_subpath_mutation"}),
+        without({"lens_perturbation", "caustic_perturbation", "lens_subpath_mutation"}),
+        without({"lens_perturbation", "caustic_perturbation", "multi_chain_perturbation"}),
+        Assignments{{"two_stage", "true"}}, Assignments{{"direct_samples", "16"}}));
+
+// ---- two runs
+
+TEST(MltRuns, AgreeWhateverTheBootstrap) {
+  // Three chains' worth of starting paths or very many: start-up bias must vanish in the mean over seeds.
+  const ScenePtr scene = make_mutation_scene("cornell").scene;
+  const SameImage found = same_image(
+      mlt_side(scene, "mlt with a small bootstrap", 32, 1000, {{"adaptive", "false"}}),
+      mlt_side(scene, "mlt with a large one", 32, 8000, {{"adaptive", "false"}}), in_short());
+  EXPECT_TRUE(found) << found.text;
+}
+
+TEST(MltRuns, EstimateBAsTheMeanOfTheImage) {
+  const ScenePtr scene = make_mutation_scene("caustic").scene;
+  Moments b, errors, mean;
+  for (uint64_t seed = 1; seed <= 16; ++seed) {
+    Stats stats;
+    rendered(scene, integrator("mlt", mlt_settings(4000, {{"adaptive", "false"}})), seed, 1)
+        ->add_stats(stats);
+    b.add(stats.b);
+    errors.add(stats.b_error);
+    const Image image =
+        rendered(scene, integrator("bdpt", {{"max_depth", "6"}}), seed, 32)->image();
+    double sum = 0;
+    for (int y = 0; y < image.height; ++y)
+      for (int x = 0; x < image.width; ++x)
+        sum += target_luminance({image.at(x, y, 0), image.at(x, y, 1), image.at(x, y, 2)});
+    mean.add(sum / (image.width * image.height));
+  }
+  EXPECT_GT(welch_t_test(b, mean).p_value, 1e-3) << b.mean() << " and " << mean.mean();
+  // The error that is told is the one that is made: chi-square of 16 values, two-sided.
+  const double ratio = 15 * b.variance() / (errors.mean() * errors.mean());
+  EXPECT_GT(chi_square_tail(ratio, 15), 1e-4)
+      << std::sqrt(b.variance()) << " and " << errors.mean();
+  EXPECT_LT(chi_square_tail(ratio, 15), 1 - 1e-4)
+      << std::sqrt(b.variance()) << " and " << errors.mean();
+}
+
+TEST(MltRuns, MakeNoInvalidSteps) {
+  for (const std::string& name : mutation_scene_names()) {
+    const ScenePtr scene = make_mutation_scene(name).scene;
+    Stats stats;
+    rendered(scene, integrator("mlt", mlt_settings(2000)), 3, 64)->add_stats(stats);
+    EXPECT_EQ(stats.invalid_samples, 0u) << name;
+    EXPECT_TRUE(stats.warnings.empty()) << name << ": " << stats.warnings.front();
+  }
+}
+
+// ---- determinism
+
+std::vector<Assignments> variants() {
+  return {mlt_settings(2000), mlt_settings(2000, {{"adaptive", "false"}}),
+          mlt_settings(2000, {{"two_stage", "true"}}),
+          mlt_settings(2000, {{"direct_samples", "4"}})};
+}
+
+TEST(MltBits, AreTheSameForAnyNumberOfThreads) {
+  const ScenePtr scene = make_mutation_scene("near_specular").scene;
+  for (const Assignments& settings : variants()) {
+    const IntegratorPtr made = integrator("mlt", settings);
+    const Image one = rendered(scene, made, 5, 20, 1)->image();
+    for (const int threads : {2, 3})
+      EXPECT_TRUE(one == rendered(scene, made, 5, 20, threads)->image());
+    EXPECT_FALSE(one == rendered(scene, made, 6, 20)->image()) << "the seed does not matter";
+  }
+}
+
+TEST(MltBits, AreTheSameWhenARenderGoesOnAfterItWasSaved) {
+  const ScenePtr scene = make_mutation_scene("thin_lens").scene;
+  for (const Assignments& settings : variants()) {
+    const IntegratorPtr made = integrator("mlt", settings);
+    const auto straight = prepared(scene, made, 7);
+    const uint64_t units = straight->unit_count(20);
+    run_units(*straight, 0, units);
+    for (const uint64_t stop : {uint64_t{0}, uint64_t{1}, units / 2 + 1, units}) {
+      const auto first = prepared(scene, made, 7);
+      run_units(*first, 0, stop);
+      const auto second = made->start(scene, 7);
+      second->load(first->save());
+      EXPECT_TRUE(first->image() == second->image());
+      run_units(*second, stop, units, 2);
+      EXPECT_TRUE(straight->image() == second->image());
+    }
+  }
+}
+
+}  // namespace
+}  // namespace mlt::test
