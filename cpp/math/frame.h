@@ -20,12 +20,16 @@ struct Frame {
   }
 
   /// A frame around `n` whose s axis lies in the plane of `n` and `along` (dp/du).
-  static Frame around(const Vec3& n, const Vec3& along) {
-    const Vec3 s = along - n * dot(n, along);
-    const double l2 = length_squared(s);
-    if (!(l2 > 1e-20 * length_squared(along))) return around(n);
-    const Vec3 unit = s / std::sqrt(l2);
-    return {unit, cross(n, unit), n};
+  static Frame around(const Vec3& n, const Vec3& along) { return around(n, n, along); }
+
+  /// The same. `m` has the direction of `n` and any length: the square roots that normalise the two
+  /// axes can then be drawn side by side.
+  static Frame around(const Vec3& n, const Vec3& m, const Vec3& along) {
+    const Vec3 t = cross(m, along);
+    const double l2 = length_squared(t);
+    if (!(l2 > 1e-20 * length_squared(along) * length_squared(m))) return around(n);
+    const Vec3 unit = t * (1 / std::sqrt(l2));
+    return {cross(unit, n), unit, n};
   }
 };
 

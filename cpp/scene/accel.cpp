@@ -60,7 +60,8 @@ void analytic_bounds(const RTCBoundsFunctionArguments* args) {
   const float inf = std::numeric_limits<float>::infinity();
   const auto down = [&](double x) { return std::nextafter(static_cast<float>(x), -inf); };
   const auto up = [&](double x) { return std::nextafter(static_cast<float>(x), inf); };
-  *args->bounds_o = {down(low.x), down(low.y), down(low.z), 0, up(high.x), up(high.y), up(high.z), 0};
+  *args->bounds_o = {down(low.x), down(low.y), down(low.z), 0,
+                     up(high.x),  up(high.y),  up(high.z),  0};
 }
 
 std::optional<double> analytic_hit(void* shape, const Context* context, float t_max) {
@@ -89,11 +90,8 @@ void analytic_occluded(const RTCOccludedFunctionNArguments* args) {
 RTCGeometry mesh_geometry(RTCDevice device, const Mesh& mesh) {
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
   const MeshData& data = mesh.data();
-  // Embree reads 16 bytes at the last vertex, so the buffer it sees must be padded: it gets a copy.
-  auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                               sizeof(Vec3f), data.positions.size()));
-  if (!vertices) throw RenderError("not enough memory for the vertices of a mesh");
-  std::copy_n(&data.positions[0].x, 3 * data.positions.size(), vertices);
+  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                             data.positions.data(), 0, sizeof(Vec3f), data.positions.size());
   rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, data.triangles.data(), 0,
                              3 * sizeof(uint32_t), data.triangles.size());
   return geometry;

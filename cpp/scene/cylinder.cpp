@@ -9,11 +9,7 @@ namespace mlt {
 
 Cylinder::Cylinder(const Vec3& base, const Frame& frame, double radius, double length,
                    bool flip_normals)
-    : base_(base),
-      frame_(frame),
-      radius_(radius),
-      length_(length),
-      side_(flip_normals ? -1 : 1) {
+    : base_(base), frame_(frame), radius_(radius), length_(length), side_(flip_normals ? -1 : 1) {
   Vec3 low, high;
   bounds(low, high);
   extent_ = max_component(glm::max(glm::abs(low), glm::abs(high)));

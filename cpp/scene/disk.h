@@ -26,9 +26,9 @@ class Disk : public AnalyticShape {
   Vec2 to_disk(const Vec3& p) const;
   void fill(const Vec2& q, SurfacePoint& at) const;
 
-  Vec3 center_, x_, y_;    ///< The images of the origin and of the two axes.
-  Vec3 dual_x_, dual_y_;   ///< In the plane, with dot(dual_i, axis_j) = 1 if i = j, else 0.
-  Vec3 normal_;            ///< Unit length, on the side that flip_normals leaves in front.
+  Vec3 center_, x_, y_;   ///< The images of the origin and of the two axes.
+  Vec3 dual_x_, dual_y_;  ///< In the plane, with dot(dual_i, axis_j) = 1 if i = j, else 0.
+  Vec3 normal_;           ///< Unit length, on the side that flip_normals leaves in front.
   double area_;
   double extent_;
 };

@@ -16,6 +16,7 @@ Mesh::Mesh(MeshData data, const Mat4& to_world, bool face_normals, bool flip_nor
   transform_mesh(data_, to_world, where);
   if (to_world != Mat4(1)) check_mesh(data_, where);
   repair_normals(data_);
+  data_.positions.reserve(data_.positions.size() + 1);  // See data().
   for (uint32_t i = 0; i < data_.triangles.size(); ++i) area_ += 0.5 * length(triangle(i).normal);
 }
 
@@ -25,12 +26,18 @@ size_t Mesh::bytes() const {
          (triangle_areas_.size() + 1) * sizeof(double);
 }
 
-Mesh::Triangle Mesh::triangle(uint32_t index) const {
+inline Mesh::Triangle Mesh::triangle(uint32_t index) const {
   const auto& corners = data_.triangles[index];
   const Vec3 p0(data_.positions[corners[0]]);
   const Vec3 e1 = Vec3(data_.positions[corners[1]]) - p0;
   const Vec3 e2 = Vec3(data_.positions[corners[2]]) - p0;
   return {p0, e1, e2, cross(e1, e2)};
+}
+
+/// The largest coordinate of a vertex, without its sign.
+inline float Mesh::reach(uint32_t vertex) const {
+  const Vec3f& p = data_.positions[vertex];
+  return std::max(std::max(std::fabs(p.x), std::fabs(p.y)), std::fabs(p.z));
 }
 
 void Mesh::surface_point(const Ray& ray, const Hit& hit, SurfacePoint& at) const {
@@ -52,32 +59,37 @@ void Mesh::surface_point(const Ray& ray, const Hit& hit, SurfacePoint& at) const
   fill(tri, hit.primitive, b1, b2, at);
 }
 
-void Mesh::fill(const Triangle& tri, uint32_t index, double b1, double b2, SurfacePoint& at) const {
+inline void Mesh::fill(const Triangle& tri, uint32_t index, double b1, double b2,
+                       SurfacePoint& at) const {
   const auto& corners = data_.triangles[index];
   const double l2 = length_squared(tri.normal);
-  Vec3 ng = l2 > 0 ? tri.normal * (side_ / std::sqrt(l2)) : Vec3(0, 0, side_);
-  Vec3 along = tri.e1;
-  at.uv = {b1, b2};
-  if (!data_.uvs.empty()) {
+  const Vec3 ng = l2 > 0 ? tri.normal * (side_ / std::sqrt(l2)) : Vec3(0, 0, side_);
+  at.ng = ng;
+  Vec3 n = ng, m = tri.normal * side_;  // The shading normal, and a multiple of it.
+  if (!data_.normals.empty()) {
+    const Vec3 sum = Vec3(data_.normals[corners[0]]) * (1 - b1 - b2) +
+                     Vec3(data_.normals[corners[1]]) * b1 + Vec3(data_.normals[corners[2]]) * b2;
+    const double sum2 = length_squared(sum);
+    if (sum2 > 1e-12) {
+      n = sum * (side_ / std::sqrt(sum2));
+      m = sum * side_;
+    }
+    at.ng = ng * std::copysign(1.0, dot(ng, n));
+  }
+  if (data_.uvs.empty()) {
+    at.uv = {b1, b2};
+    at.shading = Frame::around(n);
+  } else {
     const Vec2 uv0(data_.uvs[corners[0]]);
     const Vec2 d1 = Vec2(data_.uvs[corners[1]]) - uv0;
     const Vec2 d2 = Vec2(data_.uvs[corners[2]]) - uv0;
     at.uv = uv0 + d1 * b1 + d2 * b2;
     // Solves e1 = d1.x dp/du + d1.y dp/dv and e2 likewise, up to a positive factor.
-    along = (tri.e1 * d2.y - tri.e2 * d1.y) * std::copysign(1.0, d1.x * d2.y - d1.y * d2.x);
+    const Vec3 dp_du =
+        (tri.e1 * d2.y - tri.e2 * d1.y) * std::copysign(1.0, d1.x * d2.y - d1.y * d2.x);
+    at.shading = Frame::around(n, m, dp_du);
   }
-  Vec3 n = ng;
-  if (!data_.normals.empty()) {
-    const Vec3 sum = Vec3(data_.normals[corners[0]]) * (1 - b1 - b2) +
-                     Vec3(data_.normals[corners[1]]) * b1 + Vec3(data_.normals[corners[2]]) * b2;
-    const double sum2 = length_squared(sum);
-    if (sum2 > 1e-12) n = sum * (side_ / std::sqrt(sum2));
-    if (dot(ng, n) < 0) ng = -ng;
-  }
-  at.ng = ng;
-  at.shading = Frame::around(n, along);
-  at.extent = max_component(
-      glm::max(glm::abs(tri.p0), glm::max(glm::abs(tri.p0 + tri.e1), glm::abs(tri.p0 + tri.e2))));
+  at.extent = std::max({reach(corners[0]), reach(corners[1]), reach(corners[2])});
   at.shape = index_;
   at.primitive = index;
   at.kind = PointKind::surface;

@@ -15,6 +15,9 @@ class Mesh : public Shape {
   Mesh(MeshData data, const Mat4& to_world, bool face_normals, bool flip_normals,
        const Location& where);
 
+  Mesh(const Mesh&) = delete;
+
+  /// There is room for 16 bytes at every position, also the last: the accelerator reads so many.
   const MeshData& data() const { return data_; }
   size_t bytes() const;
 
@@ -35,6 +38,7 @@ class Mesh : public Shape {
     Vec3 p0, e1, e2, normal;
   };
   Triangle triangle(uint32_t index) const;
+  float reach(uint32_t vertex) const;
   void fill(const Triangle& triangle, uint32_t index, double b1, double b2, SurfacePoint& at) const;
 
   MeshData data_;

@@ -87,7 +87,8 @@ bool Scene::visible(const SurfacePoint& a, const SurfacePoint& b, double time) c
   const Vec3 ab = b.p - a.p;
   const Vec3 start = offset(a, ab), end = offset(b, -ab);
   const double distance = length(end - start);
-  return !accel_->occluded({start, (end - start) / distance, time, distance * (1 - ray_offset)});
+  const Vec3 w = (end - start) * (1 / distance);
+  return !accel_->occluded({start, w, time, distance * (1 - ray_offset)});
 }
 
 SurfacePoint Scene::point_at_infinity(const Vec3& w) {

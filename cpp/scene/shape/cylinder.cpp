@@ -45,11 +45,11 @@ ObjectPtr create(Params& params) {
 }  // namespace
 
 Plugin shape_cylinder() {
-  return {shape_schema("cylinder", "The side of a cylinder, open at both ends.",
-                       {{"p0", ParamType::point, Triple{0, 0, 0},
-                         "Where its axis begins, in object space."},
-                        {"p1", ParamType::point, Triple{0, 0, 1}, "Where its axis ends."},
-                        {"radius", ParamType::real, 1.0, "In object space."}}),
+  return {shape_schema(
+              "cylinder", "The side of a cylinder, open at both ends.",
+              {{"p0", ParamType::point, Triple{0, 0, 0}, "Where its axis begins, in object space."},
+               {"p1", ParamType::point, Triple{0, 0, 1}, "Where its axis ends."},
+               {"radius", ParamType::real, 1.0, "In object space."}}),
           create};
 }
 
