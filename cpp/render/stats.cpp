@@ -1,22 +1,11 @@
 #include "render/stats.h"
 
+#include "render/json.h"
+
 #include <fmt/format.h>
 
 namespace mlt {
 namespace {
-
-std::string quoted(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\')
-      out += std::string("\\") + c;
-    else if (static_cast<unsigned char>(c) < 0x20)
-      out += fmt::format("\\u{:04x}", static_cast<int>(c));
-    else
-      out += c;
-  }
-  return out + "\"";
-}
 
 template <class T, class Write>
 std::string array(const std::vector<T>& items, Write&& write) {
@@ -29,13 +18,13 @@ std::string mutation(const MutationStats& m) {
   return fmt::format(
       R"({{"name": {}, "length": {}, "proposed": {}, "generated": {}, "accepted": {}, )"
       R"("mean_acceptance": {}, "image_distance": {}, "rays": {}, "weight": {}, "step_size": {}}})",
-      quoted(m.name), m.length, m.proposed, m.generated, m.accepted, m.mean_acceptance,
+      json_string(m.name), m.length, m.proposed, m.generated, m.accepted, m.mean_acceptance,
       m.image_distance, m.rays, m.weight, m.step_size);
 }
 
 std::string stuck_chain(const StuckChain& s) {
   return fmt::format(R"({{"chain": {}, "rejections": {}, "x": {}, "y": {}, "signature": {}}})", s.chain,
-                     s.rejections, s.x, s.y, quoted(s.signature));
+                     s.rejections, s.x, s.y, json_string(s.signature));
 }
 
 }  // namespace
@@ -45,8 +34,8 @@ std::string to_json(const Stats& s) {
   const auto line = [&](const char* name, const std::string& value) {
     out += fmt::format("{}  \"{}\": {}", out.size() > 2 ? ",\n" : "", name, value);
   };
-  line("version", quoted(s.version));
-  line("integrator", quoted(s.integrator));
+  line("version", json_string(s.version));
+  line("integrator", json_string(s.integrator));
   line("seed", fmt::format("{}", s.seed));
   line("size", fmt::format("[{}, {}]", s.width, s.height));
   line("spp_done", fmt::format("{}", s.spp_done));
@@ -58,7 +47,7 @@ std::string to_json(const Stats& s) {
   line("invalid_samples", fmt::format("{}", s.invalid_samples));
   line("stuck", array(s.stuck, stuck_chain));
   line("mutations", array(s.mutations, mutation));
-  line("warnings", array(s.warnings, quoted));
+  line("warnings", array(s.warnings, json_string));
   return out + "\n}\n";
 }
 
