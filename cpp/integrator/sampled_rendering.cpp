@@ -20,10 +20,16 @@ double SampledRendering::spp_done(uint64_t units) const {
   return static_cast<double>(units) / film_.tile_count();
 }
 
+SampledRendering::Place SampledRendering::place_of(uint64_t pass) {
+  const uint64_t block = pass / passes_of_block;
+  return {static_cast<int>(block % groups), block / groups * passes_of_block + pass % passes_of_block};
+}
+
 PixelSampler SampledRendering::sampler(int x, int y, uint64_t pass) const {
   const uint64_t cell = (uint64_t(uint32_t(y)) << 32) | uint32_t(x);
-  const uint64_t stream = mix_bits(mix_bits(mix_bits(seed_) ^ cell) + pass % groups);
-  return {stream, static_cast<uint32_t>(pass / groups)};
+  const Place place = place_of(pass);
+  const uint64_t stream = mix_bits(mix_bits(mix_bits(seed_) ^ cell) + place.group);
+  return {stream, static_cast<uint32_t>(place.index)};
 }
 
 Replay SampledRendering::replay(const Vec2i& pixel, uint64_t sample) {
@@ -38,8 +44,9 @@ Replay SampledRendering::replay(const Vec2i& pixel, uint64_t sample) {
 }
 
 void SampledRendering::run_unit(uint64_t unit) {
-  const uint64_t tiles = film_.tile_count(), pass = unit / tiles, index = pass / groups;
-  const int tile_index = static_cast<int>(unit % tiles), group = static_cast<int>(pass % groups);
+  const uint64_t tiles = film_.tile_count(), pass = unit / tiles;
+  const int tile_index = static_cast<int>(unit % tiles);
+  const Place place = place_of(pass);
   SampleFilm::Tile tile = film_.begin(tile_index);
   const PixelRect cells = tile.cells();
   RayCounts rays;
@@ -52,7 +59,7 @@ void SampledRendering::run_unit(uint64_t unit) {
       const Vec2 raster = Vec2(x, y) + numbers.next2();
       worker->sample(raster, numbers, sink, rays);
     }
-  film_.commit(group, index * tiles + tile_index, tile_index, std::move(tile), 1);
+  film_.commit(place.group, place.index * tiles + tile_index, tile_index, std::move(tile), 1);
   invalid_ += invalid;
   intersect_ += rays.intersect;
   occluded_ += rays.occluded;

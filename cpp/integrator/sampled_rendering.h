@@ -14,7 +14,7 @@ class SampledRendering : public Rendering {
 
   void prepare(int /*threads*/, const std::atomic<bool>& /*cancelled*/) override {}
   uint64_t unit_count(double spp) const override;
-  /// One sample for each cell of one tile; passes over the image go to the groups in turn.
+  /// One sample for each cell of one tile.
   void run_unit(uint64_t unit) override;
   double spp_done(uint64_t units) const override;
   Image image() const override { return film_.image(); }
@@ -72,9 +72,18 @@ class SampledRendering : public Rendering {
 
  private:
   static constexpr int groups = 16;
+  /// The more, the better stratified is a render of few samples; the fewer, the sooner it has several
+  /// groups, whose spread tells its error.
+  static constexpr uint64_t passes_of_block = 8;
 
-  /// The numbers of one sample of a cell: those of its group's stream for it. Passes over the image go to
-  /// the groups in turn.
+  /// Blocks of passes over the image go to the groups in turn; within a block, samples are stratified.
+  struct Place {
+    int group;
+    uint64_t index;  ///< Of the pass in its group.
+  };
+  static Place place_of(uint64_t pass);
+
+  /// The numbers of one sample of a cell: those of its group's stream for it.
   PixelSampler sampler(int x, int y, uint64_t pass) const;
 
   ScenePtr scene_;

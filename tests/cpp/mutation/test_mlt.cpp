@@ -29,17 +29,18 @@ Side bdpt_side(const ScenePtr& scene, double spp) {
   return side(scene, "bdpt", {{"max_depth", "6"}}, spp);
 }
 
+/// Less power than at length, where every scene is compared to one percent.
 SameImageSettings in_short() {
   SameImageSettings settings;
-  settings.whole = 0.02;
-  settings.block = 0.1;
-  settings.max_effort = 1000;
+  settings.whole = 0.05;
+  settings.block = 0.25;
+  settings.max_effort = 100;
   return settings;
 }
 
 SameImageSettings at_length() {
   SameImageSettings settings;
-  settings.max_effort = 50000;
+  settings.max_effort = 5000;
   return settings;
 }
 
@@ -49,7 +50,7 @@ class MltImage : public testing::TestWithParam<std::string> {};
 
 TEST_P(MltImage, IsThatOfBdpt) {
   const ScenePtr scene = make_mutation_scene(GetParam()).scene;
-  const SameImage found = same_image(mlt_side(scene, "mlt", 64, 5000, {{"adaptive", "false"}}),
+  const SameImage found = same_image(mlt_side(scene, "mlt", 256, 10000, {{"adaptive", "false"}}),
                                      bdpt_side(scene, 16), in_short());
   EXPECT_TRUE(found) << found.text;
 }
@@ -71,7 +72,7 @@ class LongMltImage : public testing::TestWithParam<std::string> {};
 TEST_P(LongMltImage, IsThatOfBdpt) {
   const ScenePtr scene = make_mutation_scene(GetParam()).scene;
   const SameImage found =
-      same_image(mlt_side(scene, "mlt", 64, 5000), bdpt_side(scene, 16), at_length());
+      same_image(mlt_side(scene, "mlt", 256, 10000), bdpt_side(scene, 16), at_length());
   EXPECT_TRUE(found) << found.text;
 }
 
@@ -85,7 +86,7 @@ TEST_P(LongMltVariant, HasTheSameImage) {
   for (const char* name : {"cornell", "mirrors"}) {
     const ScenePtr scene = make_mutation_scene(name).scene;
     const SameImage found =
-        same_image(mlt_side(scene, "mlt", 64, 5000, GetParam()), bdpt_side(scene, 16), at_length());
+        same_image(mlt_side(scene, "mlt", 256, 10000, GetParam()), bdpt_side(scene, 16), at_length());
     EXPECT_TRUE(found) << name << ": " << found.text;
   }
 }
@@ -110,11 +111,11 @@ INSTANTIATE_TEST_SUITE_P(
 // ---- two runs
 
 TEST(MltRuns, AgreeWhateverTheBootstrap) {
-  // Three chains' worth of starting paths or very many: start-up bias must vanish in the mean over seeds.
+  // Start-up bias must vanish in the mean over seeds.
   const ScenePtr scene = make_mutation_scene("cornell").scene;
   const SameImage found = same_image(
-      mlt_side(scene, "mlt with a small bootstrap", 32, 1000, {{"adaptive", "false"}}),
-      mlt_side(scene, "mlt with a large one", 32, 8000, {{"adaptive", "false"}}), in_short());
+      mlt_side(scene, "mlt with a small bootstrap", 256, 2000, {{"adaptive", "false"}}),
+      mlt_side(scene, "mlt with a large one", 256, 16000, {{"adaptive", "false"}}), in_short());
   EXPECT_TRUE(found) << found.text;
 }
 
@@ -148,7 +149,7 @@ TEST(MltRuns, MakeNoInvalidSteps) {
   for (const std::string& name : mutation_scene_names()) {
     const ScenePtr scene = make_mutation_scene(name).scene;
     Stats stats;
-    rendered(scene, integrator("mlt", mlt_settings(2000)), 3, 64)->add_stats(stats);
+    rendered(scene, integrator("mlt", mlt_settings(2000)), 3, 16)->add_stats(stats);
     EXPECT_EQ(stats.invalid_samples, 0u) << name;
     EXPECT_TRUE(stats.warnings.empty()) << name << ": " << stats.warnings.front();
   }
