@@ -132,5 +132,10 @@ BOXES = [
     Case("mitsuba-cornell-box", "mitsuba-cornell-box.xml", spp=256, reference_spp=2048),
     Case("glass-ball", "glass-ball.xml", spp=256, reference_spp=2048),
 ]
-SHARED: list[Case] = []
+SHARED = [
+    _shared("cornell-box", spp=256, reference_spp=2048),
+    _shared("veach-bidir", spp=512, reference_spp=4096),
+    _shared("veach-mi", spp=64),
+    _shared("matpreview", spp=64, systematic=COATING),
+]
 CASES = {case.name: case for case in [*STAGES, *BOXES, *SHARED]}

@@ -42,7 +42,7 @@ inline Side side(const ScenePtr& scene, const std::string& name, const Assignmen
                  double spp) {
   return {name, [=](uint64_t seed, double effort) {
             Assignments all = assignments;
-            if (name == "pssmlt") {
+            if (name == "pssmlt" || name == "mlt") {
               all.push_back({"chains", "64"});
               all.push_back({"luminance_samples", std::to_string(static_cast<int>(5000 * effort))});
             }
