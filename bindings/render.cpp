@@ -3,10 +3,13 @@
 #include "light_path.h"
 #include "values.h"
 
+#include "render/checkpoint.h"
 #include "render/output.h"
 #include "render/plugins.h"
 
 #include <pybind11/stl.h>
+
+#include <algorithm>
 
 namespace mlt::python {
 namespace {
@@ -19,6 +22,7 @@ class PyJob {
   PyJob(LoadedPtr loaded, MadeIntegrator made, const RenderSettings& settings)
       : loaded_(std::move(loaded)),
         made_(std::move(made)),
+        seed_(settings.seed),
         job_(std::make_unique<Job>(loaded_->scene, made_.integrator, settings)) {}
   ~PyJob() {
     py::gil_scoped_release release;
@@ -29,20 +33,57 @@ class PyJob {
   const LoadedPtr& loaded() const { return loaded_; }
   Stats stats() const { return render_stats(*job_, *loaded_, made_); }
   Metadata metadata() const { return render_metadata(stats(), made_); }
+  void checkpoint(const std::string& path) {
+    check_checkpoint_writable(path);
+    Checkpoint checkpoint = checkpoint_of(*loaded_, made_, seed_);
+    checkpoint.state = job_->save();
+    write_checkpoint(path, checkpoint);
+  }
 
  private:
   LoadedPtr loaded_;
   MadeIntegrator made_;
+  uint64_t seed_;
   std::unique_ptr<Job> job_;
+};
+
+/// A checkpoint, its path, and the integrator that it names.
+struct PyCheckpoint {
+  explicit PyCheckpoint(const std::string& file)
+      : path(file),
+        saved(read_checkpoint(file)),
+        made(make_integrator(saved.integrator, plugins())) {}
+
+  py::object built_in() const {
+    if (saved.scene.kind != SceneSource::Kind::built_in) return py::none();
+    std::optional<std::pair<int, int>> size;
+    if (const auto& asked = saved.scene.options.size) size = {asked->x, asked->y};
+    return py::make_tuple(saved.scene.name, saved.scene.options.defines, size);
+  }
+  LoadedPtr load(const std::string& moved_to) const {
+    return std::make_shared<LoadedScene>(load_scene(saved, path, moved_to, plugins()));
+  }
+  void check(const LoadedScene& loaded) const { check_same_scene(saved, path, loaded); }
+  void take(PyJob& job) const { take_up(*job, saved, path); }
+
+  std::string path;
+  Checkpoint saved;
+  MadeIntegrator made;
 };
 
 std::unique_ptr<PyJob> make_job(LoadedPtr loaded, const MadeIntegrator& made,
                                 std::optional<double> spp, std::optional<double> time,
-                                uint64_t seed, int threads) {
+                                std::optional<double> error, uint64_t seed, int threads,
+                                const std::string& checkpoint, double every) {
   RenderSettings settings;
-  settings.budget = {spp, time};
+  settings.budget = {spp, time, error};
   settings.seed = seed;
   settings.threads = threads;
+  settings.autosave.every = every;
+  if (!checkpoint.empty()) {
+    check_checkpoint_writable(checkpoint);
+    settings.autosave = autosave_to(checkpoint, every, checkpoint_of(*loaded, made, seed));
+  }
   return std::make_unique<PyJob>(std::move(loaded), made, settings);
 }
 
@@ -62,6 +103,36 @@ py::array_t<float> image(PyJob& job) {
     image = (*job).image();
   }
   return to_array(std::move(image));
+}
+
+/// (images, weights, b): the independent groups of a render.
+py::tuple groups(PyJob& job) {
+  const Rendering& rendering = (*job).rendering();
+  const int count = rendering.group_count();
+  const Vec2i size = image_size(*job.loaded()->scene);
+  py::array_t<float> images(std::vector<py::ssize_t>{count, size.y, size.x, 3});
+  std::vector<double> weights(count), b(count);
+  {
+    float* to = images.mutable_data();
+    py::gil_scoped_release release;
+    for (int g = 0; g < count; ++g) {
+      const GroupImage group = rendering.group(g);
+      to = std::copy(group.image.data.begin(), group.image.data.end(), to);
+      weights[g] = group.weight;
+      b[g] = group.b;
+    }
+  }
+  return py::make_tuple(images, py::array_t<double>(count, weights.data()),
+                        py::array_t<double>(count, b.data()));
+}
+
+py::bytes save(PyJob& job) {
+  std::string state;
+  {
+    py::gil_scoped_release release;
+    state = (*job).save();
+  }
+  return state;
 }
 
 py::dict layers(PyJob& job) {
@@ -102,9 +173,22 @@ void bind_render(py::module_& m) {
   m.def("integrator_by_name", &by_name, py::arg("scene"), py::arg("name"), py::arg("assignments"));
   m.def("integrator_from_dict", &from_dict, py::arg("dict"));
 
+  py::class_<PyCheckpoint>(m, "Checkpoint", "A render on disk, read and found whole.")
+      .def(py::init<const std::string&>(), py::arg("path"), NoGil())
+      .def_readonly("integrator", &PyCheckpoint::made)
+      .def_property_readonly("seed", [](const PyCheckpoint& c) { return c.saved.seed; })
+      .def_property_readonly("built_in", &PyCheckpoint::built_in,
+                             "(name, defines, size) of a scene of the package, or None.")
+      .def("load_scene", &PyCheckpoint::load, py::arg("moved_to"), NoGil())
+      .def("check", &PyCheckpoint::check, py::arg("scene"), NoGil(),
+           "Raises SceneError unless it is the checkpoint's scene.")
+      .def("take_up", &PyCheckpoint::take, py::arg("job"), NoGil(),
+           "Before start: the job goes on from here.");
+
   py::class_<PyJob>(m, "Job")
       .def(py::init(&make_job), py::arg("scene"), py::arg("integrator"), py::arg("spp"),
-           py::arg("time"), py::arg("seed"), py::arg("threads"))
+           py::arg("time"), py::arg("error"), py::arg("seed"), py::arg("threads"),
+           py::arg("checkpoint") = "", py::arg("every") = 60.0)
       .def(
           "start", [](PyJob& job) { (*job).start(); }, NoGil())
       .def(
@@ -112,6 +196,20 @@ void bind_render(py::module_& m) {
           py::arg("seconds"), NoGil())
       .def(
           "cancel", [](PyJob& job) { (*job).cancel(); }, NoGil())
+      .def("save", &save, "The whole state as bytes; the render goes on.")
+      .def(
+          "load", [](PyJob& job, const std::string& state) { (*job).load(state); },
+          py::arg("state"), NoGil(), "Before start: go on where the state was saved.")
+      .def(
+          "extend",
+          [](PyJob& job, std::optional<double> spp, std::optional<double> time,
+             std::optional<double> error) { (*job).extend({spp, time, error}); },
+          py::arg("spp"), py::arg("time"), py::arg("error"), NoGil(),
+          "After the end: go on to a larger budget.")
+      .def("checkpoint", &PyJob::checkpoint, py::arg("path"), NoGil())
+      .def("groups", &groups,
+           "(images, weights, b) of the independent groups: float32 (G, height, width, 3), float64 "
+           "(G,) and (G,); without light that is rendered aside.")
       .def_property_readonly("ended", [](PyJob& job) { return (*job).ended(); })
       .def_property_readonly("cancelled", [](PyJob& job) { return (*job).cancelled(); })
       .def_property_readonly("progress", [](PyJob& job) { return (*job).progress(); })

@@ -30,12 +30,17 @@ LoadedScene from_string(const std::string& xml, const std::string& directory,
   return load_string(xml, directory, plugins(), load_options(size, defines));
 }
 
-LoadedScene from_dict(const py::dict& dict, const Size& size) {
+/// `built_in` and `defines` name a scene of the Python package, so that a checkpoint can.
+LoadedScene from_dict(const py::dict& dict, const Size& size, const std::string& built_in,
+                      const Defines& defines) {
   const Node node = to_node(dict, "scene", "scene", plugins());
   if (node.type != "scene")
     throw SceneError("scene: 'type' is '" + node.type + "', but should be 'scene'");
   py::gil_scoped_release release;
-  return build_scene(node, plugins(), load_options(size));
+  LoadedScene loaded = build_scene(node, plugins(), load_options(size));
+  if (!built_in.empty())
+    loaded.source = {SceneSource::Kind::built_in, built_in, "", load_options(size, defines)};
+  return loaded;
 }
 
 py::object integrator_type(const LoadedScene& loaded) {
@@ -90,7 +95,8 @@ void bind_scene(py::module_& m) {
   m.def("load_file", &from_file, py::arg("path"), py::arg("defines"), py::arg("size"), NoGil());
   m.def("load_string", &from_string, py::arg("xml"), py::arg("directory"), py::arg("defines"),
         py::arg("size"), NoGil());
-  m.def("load_dict", &from_dict, py::arg("dict"), py::arg("size"));
+  m.def("load_dict", &from_dict, py::arg("dict"), py::arg("size"), py::arg("built_in") = "",
+        py::arg("defines") = Defines());
 }
 
 }  // namespace mlt::python

@@ -7,6 +7,7 @@
 #include "app/progress_line.h"
 #include "image/atomic_file.h"
 #include "mlt_version.h"
+#include "render/checkpoint.h"
 #include "render/output.h"
 #include "render/plugins.h"
 
@@ -29,7 +30,7 @@ void on_signal(int signal) {
 
 void declare(CLI::App& app, Options& options, std::vector<std::string>& parameters,
              std::vector<std::string>& defines, std::string& size) {
-  app.add_option("scene", options.scene, "Mitsuba scene file (XML)")->required();
+  app.add_option("scene", options.scene, "Mitsuba scene file (XML)");
   app.add_option("-o,--output", options.outputs, "image file: .exr, .png or .hdr; may be repeated")
       ->required()
       ->allow_extra_args(false);
@@ -39,8 +40,15 @@ void declare(CLI::App& app, Options& options, std::vector<std::string>& paramete
   app.add_option("--size", size, "image size in pixels, WIDTHxHEIGHT");
   app.add_option("--spp", options.render.budget.spp, "samples (or mutations) per pixel");
   app.add_option("--time", options.render.budget.seconds, "seconds to render");
+  app.add_option("--error", options.render.budget.error, "relative error to reach, such as 0.02");
   app.add_option("--seed", options.render.seed, "seed of all random numbers");
   app.add_option("--threads", options.render.threads, "0: as many as the machine has");
+  app.add_option("--checkpoint", options.checkpoint, "keep the state of the render in this file");
+  app.add_option("--every", options.every, "seconds between checkpoints (60)");
+  app.add_option(
+      "--resume", options.resume,
+      "go on from a checkpoint, in place of SCENE; it is renewed, unless --checkpoint names "
+      "another file");
   app.add_option("--stats", options.stats, "write what the render tells about itself, as JSON");
   app.add_option("--exposure", options.exposure, "brighten PNG files by so many stops");
   app.add_flag("--quiet", options.quiet, "say nothing but errors");
@@ -81,19 +89,40 @@ void save(const Options& options, const RenderedImage& render, const Stats& stat
   if (failure) std::rethrow_exception(failure);
 }
 
-int run(const Options& options) {
+/// All but the first `known` warnings.
+void print_warnings(const Stats& stats, size_t known = 0) {
+  for (size_t i = known; i < stats.warnings.size(); ++i)
+    fmt::print(stderr, "mlt-render: warning: {}\n", stats.warnings[i]);
+}
+
+int run(Options options) {
   for (const std::string& path : options.outputs) check_writable(path);
   if (!options.stats.empty()) check_file_writable(options.stats);
-  const LoadedScene loaded = load_file(options.scene, plugins(), options.load);
+  std::optional<Checkpoint> saved;
+  if (!options.resume.empty()) {
+    saved = read_checkpoint(options.resume);
+    options.render.seed = saved->seed;
+    if (options.checkpoint.empty()) options.checkpoint = options.resume;
+  }
+  if (!options.checkpoint.empty()) check_checkpoint_writable(options.checkpoint);
+  const LoadedScene loaded = saved ? load_scene(*saved, options.resume, options.scene, plugins())
+                                   : load_file(options.scene, plugins(), options.load);
   const MadeIntegrator made = make_integrator(
-      choose_integrator(loaded, options.integrator, options.parameters, plugins()), plugins());
+      saved ? saved->integrator
+            : choose_integrator(loaded, options.integrator, options.parameters, plugins()),
+      plugins());
+  if (!options.checkpoint.empty())
+    options.render.autosave = autosave_to(options.checkpoint, options.every,
+                                          checkpoint_of(loaded, made, options.render.seed));
   Job job(loaded.scene, made.integrator, options.render);
-  if (!options.quiet)
-    for (const std::string& warning : render_stats(job, loaded, made).warnings)
-      fmt::print(stderr, "mlt-render: warning: {}\n", warning);
+  if (saved) take_up(job, *saved, options.resume);
+  saved.reset();
+  const size_t known = render_stats(job, loaded, made).warnings.size();
+  if (!options.quiet) print_warnings(render_stats(job, loaded, made));
 
   const int signal = render(job, options.quiet);
   const Stats stats = render_stats(job, loaded, made);
+  if (!options.quiet) print_warnings(stats, known);
   if (signal && stats.spp_done == 0) {
     fmt::print(stderr, "mlt-render: interrupted before the first sample; nothing to save\n");
     return 128 + signal;
@@ -131,7 +160,8 @@ int main(int argc, char** argv) {
       options.load.defines[name] = value;
     }
     if (!size.empty()) options.load.size = parse_size(size);
-    return run(options);
+    check_options(options, app.count("--seed") > 0, app.count("--every") > 0);
+    return run(std::move(options));
   } catch (const CLI::Success& help) {
     return app.exit(help);
   } catch (const CLI::ParseError& error) {

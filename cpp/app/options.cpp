@@ -4,6 +4,23 @@
 
 namespace mlt {
 
+void check_options(const Options& options, bool seed_given, bool every_given) {
+  if (options.scene.empty() && options.resume.empty())
+    throw UsageError("SCENE is required, or --resume FILE; see mlt-render --help");
+  if (every_given && options.checkpoint.empty() && options.resume.empty())
+    throw UsageError("--every needs --checkpoint FILE");
+  if (options.resume.empty()) return;
+  const std::pair<const char*, bool> fixed[] = {{"--integrator", !options.integrator.empty()},
+                                                {"-p", !options.parameters.empty()},
+                                                {"-D", !options.load.defines.empty()},
+                                                {"--size", options.load.size.has_value()},
+                                                {"--seed", seed_given}};
+  for (const auto& [flag, given] : fixed)
+    if (given)
+      throw UsageError(std::string(flag) +
+                       " cannot be given with --resume: the checkpoint says it");
+}
+
 std::pair<std::string, std::string> parse_assignment(const std::string& flag,
                                                      const std::string& text) {
   const size_t equals = text.find('=');

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <cstring>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -23,6 +24,11 @@ class ByteWriter {
     static_assert(std::is_trivially_copyable_v<T>);
     write<uint64_t>(values.size());
     bytes_.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
+  }
+  template <class T>
+  void write(const std::optional<T>& value) {
+    write<uint64_t>(value.has_value());
+    write(value.value_or(T()));
   }
   void write(const std::string& text) {
     write<uint64_t>(text.size());
@@ -51,6 +57,12 @@ class ByteReader {
     if (size > (bytes_->size() - position_) / sizeof(T)) truncated();
     values.resize(size);
     copy(values.data(), size * sizeof(T));
+  }
+  template <class T>
+  void read(std::optional<T>& value) {
+    const bool given = read<uint64_t>() != 0;
+    const T content = read<T>();
+    value = given ? std::optional<T>(content) : std::nullopt;
   }
   void read(std::string& text) {
     const uint64_t size = read<uint64_t>();

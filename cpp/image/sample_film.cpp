@@ -95,6 +95,12 @@ Image SampleFilm::image() const {
 
 Image SampleFilm::group_image(int group) const { return develop({groups_[group].get()}); }
 
+uint64_t SampleFilm::passes(int group) const {
+  const std::lock_guard lock(groups_[group]->mutex);
+  const std::vector<uint64_t>& samples = groups_[group]->samples;
+  return *std::min_element(samples.begin(), samples.end());
+}
+
 /// The weight that uniform samples of the cells are expected to have in each pixel.
 std::vector<double> SampleFilm::expected_weights(const std::vector<uint64_t>& samples) const {
   std::vector<double> weights(size_t(width_) * height_);

@@ -57,6 +57,8 @@ class SampleFilm {
   /// Sum of samples over their expected weight, per pixel; all groups, or one.
   Image image() const;
   Image group_image(int group) const;
+  /// How many samples every cell has received from a group at least.
+  uint64_t passes(int group) const;
   /// By what a sum of contributions over one light walk per sample is to be multiplied.
   double splat_scale() const;
 

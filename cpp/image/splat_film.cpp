@@ -35,7 +35,7 @@ Image SplatFilm::image(const std::vector<double>& scale) const {
   const size_t count = size_t{3} * width_ * height_;
   std::vector<double> sum(count);
   for (int g = 0; g < groups_; ++g)
-    for (size_t i = 0; i < count; ++i)
+    for (size_t i = 0; scale[g] != 0 && i < count; ++i)
       sum[i] += scale[g] / one * static_cast<double>(cells_[g * count + i].load(std::memory_order_relaxed));
   Image image(width_, height_, 3);
   for (size_t i = 0; i < count; ++i) image.data[i] = static_cast<float>(sum[i]);

@@ -19,6 +19,18 @@ struct NamedImage {
   Image image;
 };
 
+/// What one of the independent groups of a render has seen by itself: an unbiased image that owes
+/// nothing to the other groups. Linear RGB.
+struct GroupImage {
+  Image image;
+  /// Its weight in the mean that is the render's image: finished passes, or 1 for a group of chains;
+  /// 0 as long as it has nothing to say.
+  double weight = 0;
+  /// Metropolis: its own estimate of the mean of L*, by which its image is scaled, and the standard
+  /// error of that.
+  double b = 0, b_error = 0;
+};
+
 /// A render in progress, cut into units that are fixed by (scene, algorithm, seed) and independent of
 /// threads. Units are numbered 0, 1, 2, ... and started in that order; run_unit may be called from
 /// many threads at once.
@@ -32,6 +44,8 @@ class Rendering {
 
   /// How many units `spp` samples per pixel take.
   virtual uint64_t unit_count(double spp) const = 0;
+  /// After each multiple of so many units no group has an unfinished share of the work.
+  virtual uint64_t units_per_share() const = 0;
   virtual void run_unit(uint64_t unit) = 0;
   /// Samples per pixel after `units` units.
   virtual double spp_done(uint64_t units) const = 0;
@@ -42,11 +56,23 @@ class Rendering {
   /// Further images that the render was asked to keep.
   virtual std::vector<NamedImage> layers() const { return {}; }
 
+  /// The groups whose spread tells how wrong the image is: each has its own random numbers, and for
+  /// Metropolis its own share of the bootstrap. The image is their weighted mean (while a share is
+  /// unfinished, nearly so), plus the image of what is rendered aside.
+  virtual int group_count() const = 0;
+  virtual GroupImage group(int index) const = 0;
+  /// Light that is rendered apart by other means, with groups of its own; usually nullptr.
+  virtual const Rendering* aside() const { return nullptr; }
+
   /// Repeats one sample of a pixel (0, 1, 2, ...), as it was or will be taken, without a trace in the
   /// image. Throws UsageError if the algorithm does not sample pixel by pixel.
   virtual Replay replay(const Vec2i& pixel, uint64_t sample);
 
-  /// The whole state as bytes, and back. No unit may be running.
+  /// The whole state as bytes, and back: films, chains, random streams, bootstrap and counters. No
+  /// unit may be running, and those that have run must be 0 ... n - 1. `load` is for a rendering that
+  /// the same build made from the same scene, settings and seed; it takes the place of `prepare`, and
+  /// going on with unit n makes the same pixels as if the render had never stopped. Throws
+  /// RenderError if the bytes do not fit; the rendering is then of no use.
   virtual std::string save() const = 0;
   virtual void load(const std::string& bytes) = 0;
 };

@@ -57,23 +57,32 @@ void ChainStats::load(ByteReader& bytes) {
 MetropolisRendering::MetropolisRendering(ScenePtr scene, uint64_t seed,
                                          const MetropolisSettings& settings,
                                          std::unique_ptr<MetropolisAlgorithm> algorithm,
-                                         SeparateImage render_separately)
+                                         Aside aside)
     : scene_(std::move(scene)),
       seed_(seed),
       settings_(settings),
       algorithm_(std::move(algorithm)),
-      render_separately_(std::move(render_separately)),
-      film_(scene_->camera().raster().size.x, scene_->camera().raster().size.y, scene_->film().filter,
-            groups),
+      aside_(std::move(aside)),
+      film_(scene_->camera().raster().size.x, scene_->camera().raster().size.y,
+            scene_->film().filter, groups),
       groups_(groups),
-      steps_per_unit_(static_cast<uint64_t>(std::ceil(pixels() / settings.chains))) {}
+      steps_per_unit_(std::min(most_steps_per_unit,
+                               static_cast<uint64_t>(std::ceil(pixels() / settings.chains)))) {}
 
 int MetropolisRendering::chains_of(int group) const {
   return (settings_.chains + groups - 1 - group) / groups;
 }
 
+void MetropolisRendering::render_aside(int threads, const std::atomic<bool>& cancelled) {
+  Rendering& aside = *aside_.rendering;
+  aside.prepare(threads, cancelled);
+  parallel_for(threads, aside.unit_count(aside_.spp), [&](uint64_t unit) {
+    if (!cancelled) aside.run_unit(unit);
+  });
+}
+
 void MetropolisRendering::prepare(int threads, const std::atomic<bool>& cancelled) {
-  if (render_separately_) separate_ = render_separately_(threads, cancelled);
+  if (aside_.rendering) render_aside(threads, cancelled);
   algorithm_->prepare(seed_, threads, cancelled);
   const uint64_t candidates = (settings_.luminance_samples + groups - 1) / groups;
   std::vector<std::vector<double>> weights(groups, std::vector<double>(candidates));
@@ -112,18 +121,19 @@ void MetropolisRendering::prepare(int threads, const std::atomic<bool>& cancelle
     for (int number = 0; number < static_cast<int>(seeds[g].size()); ++number)
       starts.push_back({g, number, g * candidates + seeds[g][number]});
   if (starts.empty())
-    throw RenderError("no light path was found among " + std::to_string(candidates * groups) +
-                      " bootstrap samples; give more luminance_samples, or check that light can reach "
-                      "the camera");
+    throw RenderError(
+        "no light path was found among " + std::to_string(candidates * groups) +
+        " bootstrap samples; give more luminance_samples, or check that light can reach "
+        "the camera");
   lanes_.resize(starts.size());
   parallel_for(threads, starts.size(), [&](uint64_t i) {
     const auto [group, number, candidate] = starts[i];
     lanes_[i] = std::make_unique<Lane>();
     lanes_[i]->group = group;
     lanes_[i]->number = number;
-    lanes_[i]->chain =
-        algorithm_->start(chain_id(group, number), Rng(seed_, Purpose::bootstrap, candidate),
-                          Rng(seed_, Purpose::choice, static_cast<uint64_t>(number) * groups + group));
+    lanes_[i]->chain = algorithm_->start(
+        chain_id(group, number), Rng(seed_, Purpose::bootstrap, candidate),
+        Rng(seed_, Purpose::choice, static_cast<uint64_t>(number) * groups + group));
   });
 }
 
@@ -153,20 +163,34 @@ void MetropolisRendering::run_unit(uint64_t unit) {
   groups_[lane.group].steps += steps_per_unit_;
 }
 
-/// I_j = b E[h_j RGB / L*] per unit of image area: each group's own b_g times its mean, averaged over
-/// the groups that have begun. A group whose bootstrap found no light rightly contributes 0.
+/// I_j = b E[h_j RGB / L*] per unit of image area: the group's own b_g times its mean.
+double MetropolisRendering::scale_of(const Group& group) const {
+  const uint64_t steps = group.steps;
+  return steps > 0 ? group.b * pixels() / static_cast<double>(steps) : 0.0;
+}
+
+/// The mean over the groups that have begun. A group whose bootstrap found no light rightly
+/// contributes 0.
 Image MetropolisRendering::image() const {
-  int begun = 0;
+  int count = 0;
   std::vector<double> scale(groups, 0.0);
   for (int g = 0; g < groups; ++g) {
-    const uint64_t steps = groups_[g].steps;
-    if (steps > 0) scale[g] = groups_[g].b * pixels() / static_cast<double>(steps);
-    if (steps > 0 || groups_[g].b == 0) ++begun;
+    scale[g] = scale_of(groups_[g]);
+    count += begun(groups_[g]);
   }
-  for (double& s : scale) s /= std::max(1, begun);
+  for (double& s : scale) s /= std::max(1, count);
   Image image = film_.image(scale);
-  for (size_t i = 0; i < separate_.data.size(); ++i) image.data[i] += separate_.data[i];
+  if (!aside()) return image;
+  const Image other = aside()->image();
+  for (size_t i = 0; i < image.data.size(); ++i) image.data[i] += other.data[i];
   return image;
+}
+
+GroupImage MetropolisRendering::group(int index) const {
+  const Group& group = groups_[index];
+  std::vector<double> scale(groups, 0.0);
+  scale[index] = scale_of(group);
+  return {film_.image(scale), begun(group) ? 1.0 : 0.0, group.b, group.b_error};
 }
 
 void MetropolisRendering::add_stats(Stats& stats) const {
@@ -191,7 +215,8 @@ void MetropolisRendering::add_stats(Stats& stats) const {
     rays.occluded += s.rays.occluded;
     stats.invalid_samples += s.invalid;
     if (s.longest.rejections > stuck.rejections)
-      stuck = {i, s.longest.rejections, s.longest.raster.x, s.longest.raster.y, s.longest.signature};
+      stuck = {i, s.longest.rejections, s.longest.raster.x, s.longest.raster.y,
+               s.longest.signature};
   }
   stats.rays_intersect = rays.intersect;
   stats.rays_occluded = rays.occluded;
@@ -210,7 +235,8 @@ void MetropolisRendering::add_stats(Stats& stats) const {
   if (stuck.rejections > 0) stats.stuck = {stuck};
   algorithm_->add_stats(stats);
   if (film_.saturated() > 0)
-    stats.warnings.push_back("the film's fixed-point range was exceeded; the brightest pixels are wrong");
+    stats.warnings.push_back(
+        "the film's fixed-point range was exceeded; the brightest pixels are wrong");
 }
 
 std::string MetropolisRendering::save() const {
@@ -229,7 +255,7 @@ std::string MetropolisRendering::save() const {
     bytes.write(lane->round);
     lane->chain->save(bytes);
   }
-  bytes.write(separate_.data);
+  bytes.write(aside() ? aside()->save() : std::string());
   bytes.write(film_.save());
   return bytes.take();
 }
@@ -246,24 +272,22 @@ void MetropolisRendering::load(const std::string& saved) {
   bytes.read(prepared);
   algorithm_->load(prepared);
   const uint64_t lanes = bytes.read<uint64_t>();
-  if (lanes > static_cast<uint64_t>(settings_.chains)) throw RenderError("the saved state has too many chains");
+  if (lanes > static_cast<uint64_t>(settings_.chains))
+    throw RenderError("the saved state has too many chains");
   lanes_.clear();
   for (uint64_t i = 0; i < lanes; ++i) {
     lanes_.push_back(std::make_unique<Lane>());
     lanes_[i]->group = bytes.read<int>();
-    if (lanes_[i]->group < 0 || lanes_[i]->group >= groups) throw RenderError("the saved state is damaged");
+    if (lanes_[i]->group < 0 || lanes_[i]->group >= groups)
+      throw RenderError("the saved state is damaged");
     lanes_[i]->number = bytes.read<int>();
     lanes_[i]->round = bytes.read<uint64_t>();
     lanes_[i]->chain = algorithm_->blank(chain_id(lanes_[i]->group, lanes_[i]->number));
     lanes_[i]->chain->load(bytes);
   }
-  std::vector<float> separate;
-  bytes.read(separate);
-  if (!separate.empty()) {
-    separate_ = Image(scene_->camera().raster().size.x, scene_->camera().raster().size.y, 3);
-    if (separate.size() != separate_.data.size()) throw RenderError("the saved state has another size");
-    separate_.data = std::move(separate);
-  }
+  std::string other;
+  bytes.read(other);
+  if (aside()) aside_.rendering->load(other);
   std::string film;
   bytes.read(film);
   film_.load(film);

@@ -12,7 +12,6 @@
 #include "path/ray_counts.h"
 
 #include <condition_variable>
-#include <functional>
 #include <memory>
 #include <mutex>
 #include <vector>
@@ -40,7 +39,9 @@ class StepRecorder {
   StepRecorder(const ChainRecorder& recorder, const State& x) : recorder_(&recorder), x_(&x) {}
 
   /// As metropolis_step calls it.
-  void operator()(const State& state, double weight) { (&state == x_ ? weight_x_ : weight_y_) += weight; }
+  void operator()(const State& state, double weight) {
+    (&state == x_ ? weight_x_ : weight_y_) += weight;
+  }
 
   /// After a step; on acceptance `other` is the state that x has left, otherwise the proposal.
   void settle(const StepResult& result, const State& other) {
@@ -57,7 +58,8 @@ class StepRecorder {
  private:
   void record(const State& state, double weight) const {
     // A chain may start from a path whose light rounding has taken away.
-    if (weight > 0 && state.target > 0) recorder_->record(state.raster, state.rgb / state.target, weight);
+    if (weight > 0 && state.target > 0)
+      recorder_->record(state.raster, state.rgb / state.target, weight);
   }
 
   const ChainRecorder* recorder_;
@@ -125,7 +127,8 @@ class MetropolisAlgorithm {
   /// Name and path length of each row of the statistics.
   virtual std::vector<MutationStats> rows() const = 0;
   /// Called once before the bootstrap, to prepare whatever is to be known by then.
-  virtual void prepare(uint64_t /*seed*/, int /*threads*/, const std::atomic<bool>& /*cancelled*/) {}
+  virtual void prepare(uint64_t /*seed*/, int /*threads*/, const std::atomic<bool>& /*cancelled*/) {
+  }
   virtual void add_stats(Stats& /*stats*/) const {}
   virtual std::string save() const { return ""; }
   virtual void load(const std::string& /*bytes*/) {}
@@ -136,26 +139,35 @@ struct MetropolisSettings {
   int64_t luminance_samples = 100000;
 };
 
-/// An image that is added to what the chains make: light that is rendered apart.
-using SeparateImage = std::function<Image(int threads, const std::atomic<bool>& cancelled)>;
+/// Light that is rendered apart and added to what the chains make.
+struct Aside {
+  std::unique_ptr<Rendering> rendering;  ///< nullptr: there is none.
+  double spp = 0;
+};
 
 class MetropolisRendering : public Rendering {
  public:
   MetropolisRendering(ScenePtr scene, uint64_t seed, const MetropolisSettings& settings,
-                      std::unique_ptr<MetropolisAlgorithm> algorithm,
-                      SeparateImage render_separately = {});
+                      std::unique_ptr<MetropolisAlgorithm> algorithm, Aside aside = {});
 
   void prepare(int threads, const std::atomic<bool>& cancelled) override;
   uint64_t unit_count(double spp) const override;
+  /// One unit of each chain.
+  uint64_t units_per_share() const override { return lanes_.size(); }
   void run_unit(uint64_t unit) override;
   double spp_done(uint64_t units) const override;
   Image image() const override;
+  int group_count() const override { return groups; }
+  GroupImage group(int index) const override;
+  const Rendering* aside() const override { return aside_.rendering.get(); }
   void add_stats(Stats& stats) const override;
   std::string save() const override;
   void load(const std::string& bytes) override;
 
  private:
   static constexpr int groups = 16;
+  /// A unit ends within a fraction of a second, however few chains share a large image.
+  static constexpr uint64_t most_steps_per_unit = 4096;
 
   struct Lane {
     int group = 0, number = 0;
@@ -171,14 +183,16 @@ class MetropolisRendering : public Rendering {
 
   double pixels() const { return scene_->camera().raster().pixels(); }
   int chains_of(int group) const;
+  void render_aside(int threads, const std::atomic<bool>& cancelled);
+  bool begun(const Group& group) const { return group.steps > 0 || group.b == 0; }
+  double scale_of(const Group& group) const;
   ChainId chain_id(int group, int number) const { return {seed_, group, number, chains_of(group)}; }
 
   ScenePtr scene_;
   uint64_t seed_;
   MetropolisSettings settings_;
   std::unique_ptr<MetropolisAlgorithm> algorithm_;
-  SeparateImage render_separately_;
-  Image separate_;  ///< Empty if there is none.
+  Aside aside_;
   SplatFilm film_;
   std::vector<std::unique_ptr<Lane>> lanes_;  ///< The chains of groups that have found light.
   std::vector<Group> groups_;

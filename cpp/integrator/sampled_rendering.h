@@ -14,10 +14,16 @@ class SampledRendering : public Rendering {
 
   void prepare(int /*threads*/, const std::atomic<bool>& /*cancelled*/) override {}
   uint64_t unit_count(double spp) const override;
+  /// A block of passes, which one group has by itself.
+  uint64_t units_per_share() const override { return passes_of_block * film_.tile_count(); }
   /// One sample for each cell of one tile.
   void run_unit(uint64_t unit) override;
   double spp_done(uint64_t units) const override;
   Image image() const override { return film_.image(); }
+  int group_count() const override { return groups; }
+  GroupImage group(int index) const override {
+    return {film_.group_image(index), static_cast<double>(film_.passes(index))};
+  }
   void add_stats(Stats& stats) const override;
   /// `direct` tells the radiance alone, the others the paths too.
   Replay replay(const Vec2i& pixel, uint64_t sample) override;

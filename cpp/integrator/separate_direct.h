@@ -6,7 +6,7 @@
 namespace mlt {
 
 /// Light of at most one reflection, `samples` per pixel; none at all if samples is 0.
-SeparateImage separate_direct(ScenePtr scene, uint64_t seed, int samples, bool hide_emitters,
-                              bool strict_normals);
+Aside separate_direct(ScenePtr scene, uint64_t seed, int samples, bool hide_emitters,
+                      bool strict_normals);
 
 }  // namespace mlt

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 
 namespace mlt {
 namespace {
@@ -129,12 +130,15 @@ ObjectPtr build_object(const Node& node, const Registry& registry,
 namespace {
 
 template <class Read>
-LoadedScene load(const Read& read, const Registry& registry, const LoadOptions& options) {
+LoadedScene load(SceneSource source, const Read& read, const Registry& registry,
+                 const LoadOptions& options) {
   const auto start = Clock::now();
   std::vector<std::string> warnings;
   const Node tree = read(warnings);
   LoadedScene loaded = build_scene(tree, registry, options);
   loaded.warnings.insert(loaded.warnings.begin(), warnings.begin(), warnings.end());
+  source.options = options;
+  loaded.source = std::move(source);
   loaded.seconds = seconds_since(start);
   return loaded;
 }
@@ -143,14 +147,21 @@ LoadedScene load(const Read& read, const Registry& registry, const LoadOptions& 
 
 LoadedScene load_file(const std::string& path, const Registry& registry,
                       const LoadOptions& options) {
-  return load([&](auto& warnings) { return read_xml_file(path, options, warnings); }, registry,
-              options);
+  std::error_code ignored;
+  const std::string absolute = std::filesystem::absolute(path, ignored).string();
+  return load(
+      {SceneSource::Kind::file, absolute, "", {}},
+      [&](auto& warnings) { return read_xml_file(path, options, warnings); }, registry, options);
 }
 
 LoadedScene load_string(const std::string& xml, const std::string& directory,
                         const Registry& registry, const LoadOptions& options) {
-  return load([&](auto& warnings) { return read_xml_string(xml, directory, options, warnings); },
-              registry, options);
+  std::error_code ignored;
+  const std::string absolute = std::filesystem::absolute(directory, ignored).string();
+  return load(
+      {SceneSource::Kind::text, xml, absolute, {}},
+      [&](auto& warnings) { return read_xml_string(xml, directory, options, warnings); }, registry,
+      options);
 }
 
 }  // namespace mlt

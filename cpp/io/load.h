@@ -17,8 +17,22 @@ struct LoadOptions {
   std::optional<Vec2i> size;                   ///< Replaces the film's width and height.
 };
 
+/// How a scene was asked for, so that a checkpoint can ask for it again.
+struct SceneSource {
+  enum class Kind : uint8_t {
+    none,     ///< Built from a tree that has no name; only its maker can make it again.
+    file,     ///< `name` is the absolute path of an XML file.
+    text,     ///< `name` is the XML itself, `directory` is where its file names start.
+    built_in  ///< `name` is a scene of the Python package.
+  };
+  Kind kind = Kind::none;
+  std::string name, directory;
+  LoadOptions options;
+};
+
 struct LoadedScene {
   ScenePtr scene;
+  SceneSource source;
   std::optional<Node> integrator;     ///< As the scene describes it, not yet made.
   std::vector<std::string> warnings;  ///< One line each, with file and line.
   double seconds = 0;                 ///< Wall time of loading.

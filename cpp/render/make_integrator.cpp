@@ -68,6 +68,7 @@ MadeIntegrator make_integrator(const Node& node, const Registry& registry) {
   made.integrator = std::dynamic_pointer_cast<const Integrator>(object);
   if (!made.integrator)
     throw SceneError(at(node.where, "'" + node.type + "' is not an integrator"));
+  made.node = node;
   made.settings = describe(node, registry).text();
   return made;
 }

@@ -16,6 +16,7 @@ using Assignments = std::vector<std::pair<std::string, std::string>>;
 
 struct MadeIntegrator {
   IntegratorPtr integrator;
+  Node node;             ///< From which it was made.
   std::string settings;  ///< Its type and every parameter, given or default, as a JSON object.
   std::vector<std::string> warnings;
 };

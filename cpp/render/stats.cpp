@@ -23,8 +23,12 @@ std::string mutation(const MutationStats& m) {
 }
 
 std::string stuck_chain(const StuckChain& s) {
-  return fmt::format(R"({{"chain": {}, "rejections": {}, "x": {}, "y": {}, "signature": {}}})", s.chain,
-                     s.rejections, s.x, s.y, json_string(s.signature));
+  return fmt::format(R"({{"chain": {}, "rejections": {}, "x": {}, "y": {}, "signature": {}}})",
+                     s.chain, s.rejections, s.x, s.y, json_string(s.signature));
+}
+
+std::string disagreement(const DisagreementStats& d) {
+  return fmt::format(R"({{"x": {}, "y": {}, "share": {}}})", d.x, d.y, d.share);
 }
 
 }  // namespace
@@ -41,7 +45,13 @@ std::string to_json(const Stats& s) {
   line("spp_done", fmt::format("{}", s.spp_done));
   line("seconds", fmt::format(R"({{"load": {}, "bootstrap": {}, "render": {}}})", s.seconds_load,
                               s.seconds_bootstrap, s.seconds_render));
-  line("rays", fmt::format(R"({{"intersect": {}, "occluded": {}}})", s.rays_intersect, s.rays_occluded));
+  line("rays",
+       fmt::format(R"({{"intersect": {}, "occluded": {}}})", s.rays_intersect, s.rays_occluded));
+  line("ended_by", json_string(s.ended_by));
+  line("groups", fmt::format("{}", s.groups));
+  line("error", json_value(s.error));
+  line("block_error", json_value(s.block_error));
+  line("disagreements", array(s.disagreements, disagreement));
   line("b", fmt::format("{}", s.b));
   line("b_error", fmt::format("{}", s.b_error));
   line("invalid_samples", fmt::format("{}", s.invalid_samples));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -14,8 +15,9 @@ struct MutationStats {
   double mean_acceptance = 0;
   double image_distance = 0;  ///< Mean move on the image per proposal, in pixels.
   uint64_t rays = 0;
-  double weight = 0;     ///< With which it takes part in the choice at this length.
-  double step_size = 0;  ///< Largest move on the image, as a share of its diagonal; 0: not a perturbation.
+  double weight = 0;  ///< With which it takes part in the choice at this length.
+  double step_size =
+      0;  ///< Largest move on the image, as a share of its diagonal; 0: not a perturbation.
 };
 
 struct StuckChain {
@@ -25,6 +27,12 @@ struct StuckChain {
   std::string signature;
 };
 
+/// A block of pixels where one independent group has found most of the light.
+struct DisagreementStats {
+  int x = 0, y = 0;  ///< Its upper left pixel.
+  double share = 0;  ///< Of the block's light, found by that group.
+};
+
 struct Stats {
   std::string version, integrator;
   uint64_t seed = 0;
@@ -32,7 +40,14 @@ struct Stats {
   double spp_done = 0;
   double seconds_load = 0, seconds_bootstrap = 0, seconds_render = 0;
   uint64_t rays_intersect = 0, rays_occluded = 0;
-  double b = 0, b_error = 0;  ///< Mean of L* over the image and its standard error; Metropolis only.
+  std::string ended_by;  ///< "spp", "time", "error" or "cancel"; "" while it runs.
+  int groups = 0;        ///< Independent groups that the error is estimated from.
+  /// Estimated relative error of the image and of its 8 x 8 block means; NaN (null) if not known.
+  double error = std::numeric_limits<double>::quiet_NaN();
+  double block_error = std::numeric_limits<double>::quiet_NaN();
+  std::vector<DisagreementStats> disagreements;  ///< The brightest blocks first, ten at the most.
+  double b = 0,
+         b_error = 0;  ///< Mean of L* over the image and its standard error; Metropolis only.
   uint64_t invalid_samples = 0;
   std::vector<StuckChain> stuck;
   std::vector<MutationStats> mutations;

@@ -28,7 +28,7 @@ from ._core import (
 from .images import read_image, read_metadata, write_image
 from .integrators import *  # noqa: F403 (the classes are made from the schemas)
 from .integrators import Integrator
-from .jobs import Job, Replay, Result, Technique, render, replay, start
+from .jobs import Groups, Job, Replay, Result, Technique, render, replay, resume, start
 from .loading import load_dict, load_file, load_string
 from .metrics import compare
 from .mutations import *  # noqa: F403
@@ -43,6 +43,7 @@ __all__ = [
     "Audit",
     "Error",
     "FileError",
+    "Groups",
     "Integrator",
     "Job",
     "LightPath",
@@ -69,6 +70,7 @@ __all__ = [
     "read_metadata",
     "render",
     "replay",
+    "resume",
     "scenes",
     "start",
     "write_image",

@@ -8,7 +8,6 @@ with what was rendered saved. Every error is one line on stderr.
 from __future__ import annotations
 
 import argparse
-import inspect
 import json
 import math
 import os
@@ -18,8 +17,8 @@ import threading
 import traceback
 
 from . import _core, lab, scenes
-from .jobs import Job, Result, as_integrator, start
-from .loading import load_dict, load_file
+from .jobs import Job, Result, as_integrator, begin, prepare_resume, start
+from .loading import load_built_in, load_file
 from .metrics import compare
 from .progress import progress_bar
 from .schemas import available
@@ -91,7 +90,7 @@ def _add_command(commands, name: str, run, help: str):
 
 def _add_render(commands) -> None:
     c = _add_command(commands, "render", _render, "Render a scene to image files.")
-    c.add_argument("scene", metavar="SCENE", help=SCENE_HELP)
+    c.add_argument("scene", metavar="SCENE", nargs="?", help=SCENE_HELP)
     c.add_argument(
         "-o",
         "--output",
@@ -116,8 +115,17 @@ def _add_render(commands) -> None:
     )
     c.add_argument("--spp", metavar="N", type=float, help="samples (or mutations) per pixel")
     c.add_argument("--time", metavar="SECONDS", type=float, help="seconds to render")
-    c.add_argument("--seed", metavar="N", type=int, default=0, help="seed of all random numbers")
+    c.add_argument("--error", metavar="E", type=float, help="relative error to reach, such as 0.02")
+    c.add_argument("--seed", metavar="N", type=int, help="seed of all random numbers (0)")
     c.add_argument("--threads", metavar="N", type=int, default=0, help="0: as many as there are")
+    c.add_argument("--checkpoint", metavar="FILE", help="keep the state of the render in this file")
+    c.add_argument("--every", metavar="SECONDS", type=float, help="between checkpoints (60)")
+    c.add_argument(
+        "--resume",
+        metavar="FILE",
+        help="go on from a checkpoint, in place of SCENE; it is renewed, unless --checkpoint names "
+        "another file",
+    )
     c.add_argument(
         "--stats", metavar="FILE", help="write what the render tells about itself (JSON)"
     )
@@ -200,35 +208,69 @@ def _limit(text: str) -> tuple[str, float]:
 # ---- render ------------------------------------------------------------------------------------
 
 
+def _check_resume(args) -> None:
+    """With --resume the checkpoint says what is rendered."""
+    if not args.scene and not args.resume:
+        raise _core.UsageError("SCENE is required, or --resume FILE; see pymlt render --help")
+    if args.every is not None and not args.checkpoint and not args.resume:
+        raise _core.UsageError("--every needs --checkpoint FILE")
+    if not args.resume:
+        return
+    fixed = {
+        "--integrator": args.integrator is not None,
+        "-p": args.parameters,
+        "-D": args.defines,
+        "--size": args.size,
+        "--seed": args.seed is not None,
+    }
+    for flag, given in fixed.items():
+        if given:
+            raise _core.UsageError(f"{flag} cannot be given with --resume: the checkpoint says it")
+
+
+def _start(args, signals: _Signals) -> Job:
+    budget = {"spp": args.spp, "time": args.time, "error": args.error}
+    every = 60 if args.every is None else args.every
+    common = {"threads": args.threads, "checkpoint": args.checkpoint, "every": every, **budget}
+    if args.resume:
+        moved = args.scene if args.scene and os.path.exists(args.scene) else None
+        if args.scene and not moved:
+            raise _core.FileError(f"{args.scene}: no such file")
+        made = signals.abandonable(lambda: prepare_resume(args.resume, scene=moved, **common))
+        return begin(made)
+    scene = signals.abandonable(lambda: _load(args))
+    integrator = as_integrator(scene, args.integrator, args.parameters)
+    return start(scene, integrator, seed=args.seed or 0, **common)
+
+
 def _render(args) -> int:
+    _check_resume(args)
     for path in args.output:
         _core.check_image_writable(path)
     if args.stats:
         _core.check_file_writable(args.stats)
     with _Signals() as signals:
-        scene = signals.abandonable(lambda: _load(args))
-        integrator = as_integrator(scene, args.integrator, args.parameters)
-        job = start(
-            scene,
-            integrator,
-            spp=args.spp,
-            time=args.time,
-            seed=args.seed,
-            threads=args.threads,
-        )
+        job = _start(args, signals)
+        known = job.stats["warnings"]
         if not args.quiet:
-            for warning in job.stats["warnings"]:
-                _say(f"warning: {warning}")
+            _warn(known)
         _wait(job, signals, args.quiet)
         code = 128 + signals.caught if signals.caught else 0
         if code and job.stats["spp_done"] == 0:
             _say("interrupted before the first sample; nothing to save")
             return code
         result = job.result()
+        if not args.quiet:
+            _warn(result.stats["warnings"][len(known) :])
         _save(args, result)
     if not args.quiet:
         _say(("interrupted; " if code else "") + _summary(result, args.output))
     return code
+
+
+def _warn(warnings: list[str]) -> None:
+    for warning in warnings:
+        _say(f"warning: {warning}")
 
 
 def _wait(job: Job, signals: _Signals, quiet: bool) -> None:
@@ -272,34 +314,13 @@ def _load(args) -> _core.Scene:
     if os.path.exists(args.scene):
         return load_file(args.scene, size=args.size, **defines)
     if name in scenes.names():
-        return load_dict(_built_in(name, defines), size=args.size)
+        return load_built_in(name, defines, args.size)
     if "." in name or os.sep in name:
         raise _core.FileError(f"{args.scene}: no such file")
     raise _core.UsageError(
         f"{args.scene!r} is neither a file nor a built-in scene"
         + _core.suggestion(name, scenes.names()),
     )
-
-
-def _built_in(name: str, defines: dict[str, str]) -> dict:
-    function = getattr(scenes, name)
-    known = inspect.signature(function).parameters
-    for define in defines:
-        if define not in known:
-            raise _core.UsageError(
-                f"-D {define}: unknown parameter of the scene {name!r}"
-                + _core.suggestion(define, list(known)),
-            )
-    return function(**{key: _number(value) for key, value in defines.items()})
-
-
-def _number(text: str) -> int | float | str:
-    for kind in (int, float):
-        try:
-            return kind(text)
-        except ValueError:
-            pass
-    return text
 
 
 class _Signals:

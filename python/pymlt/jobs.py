@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from . import _core
 from .integrators import Integrator
-from .loading import load_dict, load_file
+from .loading import load_built_in, load_dict, load_file
 from .progress import progress_bar
 
 if TYPE_CHECKING:
@@ -44,6 +44,23 @@ class Result:
     @property
     def seed(self) -> int:
         return self.stats["seed"]
+
+    @property
+    def error_map(self) -> np.ndarray | None:
+        """The standard error of each pixel, of the shape of `image`, or None if it is not known.
+
+        It is estimated from the spread of independent groups, and there must be two of them.
+        """
+        return self.layers.get("error")
+
+    @property
+    def block_error(self) -> np.ndarray | None:
+        """The standard errors of the means over blocks of 8 x 8 pixels, or None.
+
+        float32, (rows, columns, 3); the blocks at the right and the lower border may be smaller.
+        """
+        spread = self.layers.get("error_block")
+        return None if spread is None else spread[::8, ::8]
 
     @property
     def techniques(self) -> dict[tuple[int, int], Technique]:
@@ -82,6 +99,17 @@ class Result:
         return f"Result({width} x {height}, {self.integrator['type']!r}, {spp:g} spp)"
 
 
+class Groups(NamedTuple):
+    """The independent groups of a render: the image is the mean of theirs.
+
+    Light that is rendered aside (`direct_samples` of `mlt`) is not in them.
+    """
+
+    images: np.ndarray  #: float32, (groups, height, width, 3)
+    weights: np.ndarray  #: of each in the mean, 0 for one that has nothing to say yet
+    b: np.ndarray  #: by which each image is scaled, for Metropolis integrators; else 0
+
+
 class Replay(NamedTuple):
     """What one sample of a pixel has seen."""
 
@@ -111,6 +139,31 @@ class Job:
     @property
     def stats(self) -> dict:
         return json.loads(self._job.stats())
+
+    @property
+    def groups(self) -> Groups:
+        """What the independent groups have seen so far."""
+        return Groups(*self._job.groups())
+
+    @property
+    def error_map(self) -> np.ndarray | None:
+        """The standard error of each pixel so far; see `Result.error_map`."""
+        return self._job.layers().get("error")
+
+    def checkpoint(self, path) -> None:
+        """Save the state of the render, now, to a file that `resume` goes on from.
+
+        The units in flight are finished, and the render goes on. Raises FileError if the file
+        cannot be written, or exists and is no checkpoint.
+        """
+        self._job.checkpoint(os.fspath(path))
+
+    def extend(self, *, spp=None, time=None, error=None) -> None:
+        """After the end: go on to a larger budget, counted from the very beginning.
+
+        The image is the same as if the render had had this budget from the start.
+        """
+        self._job.extend(_number("spp", spp), _number("time", time), _number("error", error))
 
     def replay(self, pixel: tuple[int, int], sample: int = 0) -> Replay:
         """Repeat one sample of a pixel (x, y), whether it has been taken or not.
@@ -182,7 +235,18 @@ def _cancel_all() -> None:
             job._job.wait(1.0)
 
 
-def start(scene, integrator=None, *, spp=None, time=None, seed=0, threads=0) -> Job:
+def start(
+    scene,
+    integrator=None,
+    *,
+    spp=None,
+    time=None,
+    error=None,
+    seed=0,
+    threads=0,
+    checkpoint=None,
+    every=60,
+) -> Job:
     """Start a render and return at once.
 
     scene
@@ -191,26 +255,91 @@ def start(scene, integrator=None, *, spp=None, time=None, seed=0, threads=0) -> 
         an object such as `Path(max_depth=8)`, a dict, or a name. None is the scene's own, else
         `path`. A name keeps what the scene says about what is to be rendered (max_depth,
         hide_emitters, strict_normals); an object or a dict means exactly what it says.
-    spp, time
-        samples (for Metropolis integrators: mutations) per pixel, and seconds. The first one to be
-        reached ends the render; with neither, the scene's own sample count counts, else 64.
+    spp, time, error
+        samples (for Metropolis integrators: mutations) per pixel, seconds, and the relative error
+        of the image (0.02: 2 %), as `stats["error"]` estimates it. The first one to be reached
+        ends the render; with none, the scene's own sample count counts, else 64.
     seed, threads
         The image depends on the seed but not on the number of threads (0: all there are).
+    checkpoint, every
+        a file that keeps the state of the render, renewed every so many seconds and at the end;
+        `resume` goes on from there.
     """
     scene = as_scene(scene)
     made = as_integrator(scene, integrator)
+    budget = spp, time, error
+    job = _make(scene, made, budget, _integer("seed", seed, 2**64), threads, checkpoint, every)
+    return begin(job)
+
+
+def resume(
+    path,
+    *,
+    scene=None,
+    spp=None,
+    time=None,
+    error=None,
+    threads=0,
+    checkpoint=None,
+    every=60,
+) -> Job:
+    """Go on with a render that was saved in a checkpoint; the image ends with the same pixels.
+
+    path
+        the file. Raises FileError if it is foreign, truncated, damaged or of another build.
+    scene
+        None loads the scene from where it was. A Scene, a dict or another path for its XML file is
+        needed if it has moved or was made from a dict. SceneError if it differs.
+    spp, time, error
+        budgets in place of those in the file, each counted from the very beginning: a finished
+        render goes on if they are larger.
+    checkpoint, every
+        where the state is kept from now on; None means `path`.
+    """
+    budget = {"spp": spp, "time": time, "error": error}
+    job = prepare_resume(
+        path, scene=scene, threads=threads, checkpoint=checkpoint, every=every, **budget
+    )
+    return begin(job)
+
+
+def prepare_resume(path, *, scene, spp, time, error, threads, checkpoint, every) -> Job:
+    """The job of `resume`, not yet started."""
+    path = os.fspath(path)
+    saved = _core.Checkpoint(path)
+    if isinstance(scene, _core.Scene | dict):
+        scene = as_scene(scene)
+        saved.check(scene)
+    elif scene is None and saved.built_in:
+        scene = load_built_in(*saved.built_in)
+        saved.check(scene)
+    else:
+        scene = saved.load_scene("" if scene is None else os.fspath(scene))
+    budget = spp, time, error
+    checkpoint = path if checkpoint is None else checkpoint
+    job = _make(scene, saved.integrator, budget, saved.seed, threads, checkpoint, every)
+    saved.take_up(job._job)
+    return job
+
+
+def begin(job: Job) -> Job:
+    """Start a job that was made."""
+    job._job.start()
+    _running.add(job)
+    return job
+
+
+def _make(scene, made, budget, seed: int, threads, checkpoint, every) -> Job:
     job = _core.Job(
         scene,
         made,
-        _number("spp", spp),
-        _number("time", time),
-        _integer("seed", seed, 2**64),
+        *map(_number, ("spp", "time", "error"), budget),
+        seed,
         _integer("threads", threads, 2**31),
+        "" if checkpoint is None else os.fspath(checkpoint),
+        _number("every", every),
     )
-    job.start()
-    started = Job(scene, made, job)
-    _running.add(started)
-    return started
+    return Job(scene, made, job)
 
 
 def render(
@@ -219,8 +348,11 @@ def render(
     *,
     spp=None,
     time=None,
+    error=None,
     seed=0,
     threads=0,
+    checkpoint=None,
+    every=60,
     progress=None,
 ) -> np.ndarray:
     """Render and return the image: float32, (height, width, 3), linear Rec. 709, row 0 on top.
@@ -229,12 +361,22 @@ def render(
     a notebook) or a function of the fraction that is done. After Ctrl-C the KeyboardInterrupt
     carries the image so far, as `error.result`.
     """
-    job = start(scene, integrator, spp=spp, time=time, seed=seed, threads=threads)
+    job = start(
+        scene,
+        integrator,
+        spp=spp,
+        time=time,
+        error=error,
+        seed=seed,
+        threads=threads,
+        checkpoint=checkpoint,
+        every=every,
+    )
     try:
         job.wait(progress=progress)
-    except KeyboardInterrupt as error:
+    except KeyboardInterrupt as interrupt:
         job.cancel()
-        error.result = job.result()
+        interrupt.result = job.result()
         raise
     return job.image
 
@@ -243,7 +385,7 @@ def replay(scene, integrator=None, *, pixel, sample=0, seed=0) -> Replay:
     """Repeat one sample of a pixel of the render that these arguments mean; see `Job.replay`."""
     scene = as_scene(scene)
     made = as_integrator(scene, integrator)
-    job = _core.Job(scene, made, 1.0, None, _integer("seed", seed, 2**64), 1)
+    job = _core.Job(scene, made, 1.0, None, None, _integer("seed", seed, 2**64), 1)
     return Job(scene, made, job).replay(pixel, sample)
 
 

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import inspect
 import os
 
-from . import _core
+from . import _core, scenes
 
 
 def load_file(path, /, *, size=None, **defines) -> _core.Scene:
@@ -30,6 +31,29 @@ def load_dict(scene: dict, /, *, size=None) -> _core.Scene:
     if not isinstance(scene, dict):
         raise _core.UsageError(f"load_dict needs a dict, not a {type(scene).__name__}")
     return _core.load_dict(scene, _size(size))
+
+
+def load_built_in(name: str, defines: dict[str, str], size=None) -> _core.Scene:
+    """Load a scene of this package by its name; `defines` are its parameters, as texts."""
+    function = getattr(scenes, name)
+    known = inspect.signature(function).parameters
+    for define in defines:
+        if define not in known:
+            raise _core.UsageError(
+                f"-D {define}: unknown parameter of the scene {name!r}"
+                + _core.suggestion(define, list(known)),
+            )
+    scene = function(**{key: _number(value) for key, value in defines.items()})
+    return _core.load_dict(scene, _size(size), name, defines)
+
+
+def _number(text: str) -> int | float | str:
+    for kind in (int, float):
+        try:
+            return kind(text)
+        except ValueError:
+            pass
+    return text
 
 
 def _size(size) -> tuple[int, int] | None:

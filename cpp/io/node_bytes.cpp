@@ -1,0 +1,90 @@
+#include "io/node_bytes.h"
+
+#include "io/node_index.h"
+
+namespace mlt {
+namespace {
+
+/// Calls use(T()) for the type at this place in the variant; throws if values have no such type.
+template <size_t I = 0, class Use>
+void with_type(size_t index, Use&& use) {
+  if constexpr (I == std::variant_size_v<Value>) {
+    throw RenderError("the saved state has a value of an unknown type");
+  } else {
+    if (index != I) return with_type<I + 1>(index, use);
+    using T = std::variant_alternative_t<I, Value>;
+    if constexpr (std::is_same_v<T, ObjectPtr>)
+      throw RenderError("a made object cannot be saved");
+    else
+      use(T());
+  }
+}
+
+void save(ByteWriter& bytes, const Value& value) {
+  bytes.write(static_cast<uint64_t>(value.index()));
+  with_type(value.index(), [&](const auto& type) {
+    using T = std::decay_t<decltype(type)>;
+    const T& content = std::get<T>(value);
+    if constexpr (std::is_same_v<T, Spectrum>) {
+      bytes.write<uint64_t>(content.size());
+      for (const auto& [wavelength, x] : content) {
+        bytes.write(wavelength);
+        bytes.write(x);
+      }
+    } else {
+      bytes.write(content);
+    }
+  });
+}
+
+Value load_value(ByteReader& bytes) {
+  Value value;
+  with_type(bytes.read<uint64_t>(), [&](auto content) {
+    using T = decltype(content);
+    if constexpr (std::is_same_v<T, Spectrum>) {
+      for (uint64_t left = bytes.read<uint64_t>(); left > 0; --left) {
+        const auto wavelength = bytes.read<double>(), x = bytes.read<double>();
+        content.push_back({wavelength, x});
+      }
+    } else if constexpr (std::is_same_v<T, std::string>) {
+      bytes.read(content);
+    } else {
+      content = bytes.read<T>();
+    }
+    value = std::move(content);
+  });
+  return value;
+}
+
+Node load_node(ByteReader& bytes, int depth) {
+  if (depth > max_nesting) throw RenderError("the saved state is nested too deeply");
+  Node node;
+  for (std::string* text : {&node.family, &node.type, &node.id, &node.name}) bytes.read(*text);
+  for (uint64_t left = bytes.read<uint64_t>(); left > 0; --left) {
+    Node::Property property;
+    bytes.read(property.name);
+    property.value = load_value(bytes);
+    node.properties.push_back(std::move(property));
+  }
+  for (uint64_t left = bytes.read<uint64_t>(); left > 0; --left)
+    node.children.push_back(load_node(bytes, depth + 1));
+  return node;
+}
+
+}  // namespace
+
+void save(ByteWriter& bytes, const Node& node) {
+  for (const std::string* text : {&node.family, &node.type, &node.id, &node.name})
+    bytes.write(*text);
+  bytes.write<uint64_t>(node.properties.size());
+  for (const Node::Property& property : node.properties) {
+    bytes.write(property.name);
+    save(bytes, property.value);
+  }
+  bytes.write<uint64_t>(node.children.size());
+  for (const Node& child : node.children) save(bytes, child);
+}
+
+Node load_node(ByteReader& bytes) { return load_node(bytes, 1); }
+
+}  // namespace mlt
