@@ -10,7 +10,7 @@ class Constant final : public Texture {
   explicit Constant(const Color& color) : color_(color) {}
   Color eval(const SurfacePoint&) const override { return color_; }
   Color mean() const override { return color_; }
-  double maximum() const override { return max_component(color_); }
+  Color maximum() const override { return color_; }
 
  private:
   Color color_;

@@ -14,7 +14,7 @@ class Texture : public Object {
   virtual double eval_scalar(const SurfacePoint& at) const;
 
   virtual Color mean() const = 0;     ///< Average over the texture, for sampling probabilities.
-  virtual double maximum() const = 0; ///< Upper bound of every channel, for energy conservation.
+  virtual Color maximum() const = 0;  ///< Upper bound, for energy conservation.
 };
 
 using TexturePtr = std::shared_ptr<const Texture>;

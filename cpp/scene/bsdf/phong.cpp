@@ -13,7 +13,10 @@ namespace {
 
 /// The factor on both reflectances that keeps their sum below 1: the rule of Mitsuba 0.6, which
 /// leaves a margin of 1 % where it acts.
-double energy_scale(double largest_sum) { return largest_sum > 1 ? 0.99 / largest_sum : 1; }
+double energy_scale(const Color& largest) {
+  const double sum = max_component(largest);
+  return sum > 1 ? 0.99 / sum : 1;
+}
 
 class Phong final : public Bsdf {
  public:

@@ -22,6 +22,7 @@ double reduce(double u, Wrap wrap) {
 
 /// The texel that index i stands for, or -1 where the border value counts.
 int wrapped(int i, int n, Wrap wrap) {
+  if (i >= 0 && i < n) return i;
   switch (wrap) {
     case Wrap::repeat: return ((i % n) + n) % n;
     case Wrap::mirror: {
@@ -29,7 +30,7 @@ int wrapped(int i, int n, Wrap wrap) {
       return m < n ? m : 2 * n - 1 - m;
     }
     case Wrap::clamp: return std::clamp(i, 0, n - 1);
-    default: return i >= 0 && i < n ? i : -1;
+    default: return -1;
   }
 }
 
@@ -48,10 +49,10 @@ class Bitmap final : public Texture {
       for (int x = 0; x < image_.width; ++x) {
         const Color c = texel(x, y);
         sum += c;
-        maximum_ = std::max(maximum_, max_component(c));
+        maximum_ = glm::max(maximum_, c);
       }
     mean_ = sum / static_cast<double>(image_.pixel_count());
-    maximum_ = std::max({maximum_, border_value(wrap_u), border_value(wrap_v)});
+    maximum_ = glm::max(maximum_, Color(std::max(border_value(wrap_u), border_value(wrap_v))));
   }
 
   Color eval(const SurfacePoint& at) const override {
@@ -68,7 +69,7 @@ class Bitmap final : public Texture {
   }
 
   Color mean() const override { return mean_; }
-  double maximum() const override { return maximum_; }
+  Color maximum() const override { return maximum_; }
 
  private:
   Color texel(int x, int y) const {
@@ -87,7 +88,7 @@ class Bitmap final : public Texture {
   Wrap wrap_u_, wrap_v_;
   UvTransform to_uv_;
   Color mean_{0};
-  double maximum_ = 0;
+  Color maximum_{0};
 };
 
 Wrap read_wrap(Params& params, const std::string& name) {

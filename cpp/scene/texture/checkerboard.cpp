@@ -18,7 +18,7 @@ class Checkerboard final : public Texture {
     return upper_half(uv.x) == upper_half(uv.y) ? color0_->eval(at) : color1_->eval(at);
   }
   Color mean() const override { return 0.5 * (color0_->mean() + color1_->mean()); }
-  double maximum() const override { return std::max(color0_->maximum(), color1_->maximum()); }
+  Color maximum() const override { return glm::max(color0_->maximum(), color1_->maximum()); }
 
  private:
   static bool upper_half(double x) { return x - std::floor(x) > 0.5; }

@@ -33,7 +33,7 @@ class Ramp final : public Texture {
     return Color(low_ + at.uv.x * (high_ - low_));
   }
   Color mean() const override { return Color(0.5 * (low_ + high_)); }
-  double maximum() const override { return std::max(low_, high_); }
+  Color maximum() const override { return Color(std::max(low_, high_)); }
 
  private:
   double low_, high_;

@@ -37,7 +37,7 @@ double diffuse_part(const BsdfPtr& phong) {
 }
 
 TEST(BsdfParameters, PhongConservesEnergyAsMitsuba06Does) {
-  const auto phong = [](Value diffuse, double specular, bool ensure) {
+  const auto phong = [](Value diffuse, Value specular, bool ensure) {
     return make_bsdf("phong", {{"diffuse_reflectance", diffuse},
                                {"specular_reflectance", specular},
                                {"exponent", 200.0},
@@ -48,6 +48,8 @@ TEST(BsdfParameters, PhongConservesEnergyAsMitsuba06Does) {
   EXPECT_NEAR(diffuse_part(phong(1.0, 0.45, false)), 1, 1e-12);
   // The texture's maximum decides, not its value at the point (0.5 here).
   EXPECT_NEAR(diffuse_part(phong(ramp_texture(0, 1), 0.45, true)), 0.5 * 0.99 / 1.45, 1e-12);
+  const Value red = Triple{0.9, 0, 0}, green = Triple{0, 0.9, 0};
+  EXPECT_NEAR(diffuse_part(phong(red, green, true)), 0.9, 1e-12);
 }
 
 TEST(BsdfParameters, PhongLobeIsTheNormalisedCosinePower) {
