@@ -30,7 +30,8 @@ from common import (
     write_results,
 )
 
-ALGORITHMS = ("path", "bdpt", "pssmlt", "mlt")
+TWO_STAGES = "mlt, two stages"
+ALGORITHMS = ("path", "bdpt", "pssmlt", "mlt", TWO_STAGES)
 
 
 @dataclass
@@ -47,6 +48,8 @@ class Case:
 def integrator(name: str, max_depth: int = 8):
     import pymlt as mlt
 
+    if name == TWO_STAGES:
+        return mlt.MLT(max_depth=max_depth, two_stage=True)
     made = {"path": mlt.Path, "bdpt": mlt.BDPT, "pssmlt": mlt.PSSMLT, "mlt": mlt.MLT}
     return made[name](max_depth=max_depth)
 

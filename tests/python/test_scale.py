@@ -1,7 +1,7 @@
 """A scene's unit of length does not matter: scaled by a power of two, its image has the same bits.
 
-Powers of two scale floating-point numbers exactly, so any difference comes from a threshold in units of
-length that hides in the code.
+Powers of two scale floating-point numbers exactly, so any difference comes from a threshold in
+units of length that hides in the code.
 """
 
 import xml.etree.ElementTree as ET

@@ -1,4 +1,4 @@
-"""Writes mitsuba_values.inc: BSDF values and densities of Mitsuba 3 for the cases of the same label.
+"""BSDF values and densities by Mitsuba 3, for test_bsdf_mitsuba.cpp: mitsuba_values.inc.
 
     python tests/cpp/bsdf/mitsuba_values.py > tests/cpp/bsdf/mitsuba_values.inc
 
@@ -92,8 +92,10 @@ def rows(label, scene_dict, rng):
             if not f.any():
                 continue
             numbers = [*wl, *wc, *f]
-            l, c, rgb = (", ".join(f"{x:.9g}" for x in numbers[i : i + 3]) for i in (0, 3, 6))
-            yield f'{{"{label}", {{{l}}}, {{{c}}}, {{{rgb}}}, {density:.9g}}},'
+            light, camera, rgb = (
+                ", ".join(f"{x:.9g}" for x in numbers[i : i + 3]) for i in (0, 3, 6)
+            )
+            yield f'{{"{label}", {{{light}}}, {{{camera}}}, {{{rgb}}}, {density:.9g}}},'
 
 
 def main():
