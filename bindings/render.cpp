@@ -3,6 +3,7 @@
 #include "light_path.h"
 #include "values.h"
 
+#include "io/pack.h"
 #include "render/checkpoint.h"
 #include "render/output.h"
 #include "render/plugins.h"
@@ -32,7 +33,7 @@ class PyJob {
   Job& operator*() { return *job_; }
   const LoadedPtr& loaded() const { return loaded_; }
   Stats stats() const { return render_stats(*job_, *loaded_, made_); }
-  Metadata metadata() const { return render_metadata(stats(), made_); }
+  Metadata metadata() const { return render_metadata(stats(), *loaded_, made_); }
   void checkpoint(const std::string& path) {
     check_checkpoint_writable(path);
     Checkpoint checkpoint = checkpoint_of(*loaded_, made_, seed_);
@@ -169,7 +170,10 @@ void bind_render(py::module_& m) {
 
   py::class_<MadeIntegrator>(m, "Integrator", "A light transport algorithm with its settings.")
       .def_readonly("settings", &MadeIntegrator::settings, "As JSON.")
-      .def_readonly("warnings", &MadeIntegrator::warnings);
+      .def_readonly("warnings", &MadeIntegrator::warnings)
+      .def(py::pickle(
+          [](const MadeIntegrator& made) { return py::bytes(pack(made.node)); },
+          [](const py::bytes& packed) { return make_integrator(unpack_node(packed), plugins()); }));
   m.def("integrator_by_name", &by_name, py::arg("scene"), py::arg("name"), py::arg("assignments"));
   m.def("integrator_from_dict", &from_dict, py::arg("dict"));
 

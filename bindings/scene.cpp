@@ -3,9 +3,11 @@
 #include "values.h"
 
 #include "io/load.h"
+#include "io/pack.h"
 #include "render/output.h"
 #include "render/plugins.h"
 
+#include <fmt/format.h>
 #include <pybind11/stl.h>
 
 namespace mlt::python {
@@ -88,6 +90,15 @@ void bind_scene(py::module_& m) {
       .def_property_readonly(
           "half", [](const LoadedScene& s) { return s.scene->film().half_precision; },
           "Whether the film asks for 16-bit EXR samples.")
+      .def_property_readonly(
+          "hash", [](const LoadedScene& s) { return fmt::format("{:016x}", s.hash); },
+          "Of the description and of the files that it names, wherever they lie.")
+      .def(py::pickle([](const LoadedScene& s) { return py::bytes(pack(s)); },
+                      [](const py::bytes& bytes) {
+                        const std::string packed = bytes;
+                        py::gil_scoped_release release;
+                        return std::make_shared<LoadedScene>(unpack_scene(packed, plugins()));
+                      }))
       .def("info", &info, "What the scene holds, as a dict.")
       .def("__repr__", &describe);
 

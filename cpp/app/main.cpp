@@ -129,7 +129,7 @@ int run(Options options) {
   }
   WriteOptions write;
   write.half = loaded.scene->film().half_precision;
-  write.metadata = render_metadata(stats, made);
+  write.metadata = render_metadata(stats, loaded, made);
   save(options, {job.image(), job.layers()}, stats, write);
   if (!options.quiet)
     fmt::print(stderr, "mlt-render: {}{} x {}, {:.4g} spp in {:.1f} s: {}\n",

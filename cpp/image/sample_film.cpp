@@ -1,6 +1,6 @@
 #include "image/sample_film.h"
 
-#include "base/bytes.h"
+#include <algorithm>
 
 namespace mlt {
 namespace {
@@ -20,20 +20,33 @@ std::vector<double> cell_weights(const Filter& filter, int border) {
 
 }  // namespace
 
-SampleFilm::SampleFilm(int width, int height, std::shared_ptr<const Filter> filter, int groups)
-    : width_(width), height_(height), border_(filter_border(*filter)), filter_(std::move(filter)) {
+SampleFilm::SampleFilm(int width, int height, std::shared_ptr<const Filter> filter, int groups,
+                       bool splats)
+    : width_(width),
+      height_(height),
+      border_(filter_border(*filter)),
+      splats_(splats),
+      filter_(std::move(filter)) {
   tiles_x_ = (width + 2 * border_ + tile_size - 1) / tile_size;
   tiles_y_ = (height + 2 * border_ + tile_size - 1) / tile_size;
   cell_weight_ = cell_weights(*filter_, border_);
+  std::vector<Strand> strands(splats ? 1 : tile_count());
+  for (size_t i = 0; i < strands.size(); ++i) {
+    strands[i].reach =
+        splats ? PixelRect{0, 0, width, height} : reach_of(cells_of(static_cast<int>(i)));
+    strands[i].samples.resize(splats ? tile_count() : 1);
+  }
   for (int g = 0; g < groups; ++g) {
     groups_.push_back(std::make_unique<Group>());
-    groups_.back()->rgb.resize(size_t{3} * width * height);
-    groups_.back()->samples.resize(tile_count());
+    groups_.back()->strands = strands;
   }
 }
 
 SampleFilm::Tile::Tile(const PixelRect& cells, const PixelRect& reach, const Filter& filter)
-    : cells_(cells), reach_(reach), filter_(&filter), rgb_(size_t{3} * reach.width() * reach.height()) {}
+    : cells_(cells),
+      reach_(reach),
+      filter_(&filter),
+      rgb_(size_t{3} * reach.width() * reach.height()) {}
 
 void SampleFilm::Tile::add(const Vec2& raster, const Color& color) {
   mlt::splat(*filter_, raster, reach_, [&](int x, int y, double weight) {
@@ -43,8 +56,10 @@ void SampleFilm::Tile::add(const Vec2& raster, const Color& color) {
 }
 
 PixelRect SampleFilm::cells_of(int tile) const {
-  const int x0 = (tile % tiles_x_) * tile_size - border_, y0 = (tile / tiles_x_) * tile_size - border_;
-  return {x0, y0, std::min(x0 + tile_size, width_ + border_), std::min(y0 + tile_size, height_ + border_)};
+  const int x0 = (tile % tiles_x_) * tile_size - border_,
+            y0 = (tile / tiles_x_) * tile_size - border_;
+  return {x0, y0, std::min(x0 + tile_size, width_ + border_),
+          std::min(y0 + tile_size, height_ + border_)};
 }
 
 PixelRect SampleFilm::reach_of(const PixelRect& cells) const {
@@ -60,31 +75,38 @@ SampleFilm::Tile SampleFilm::begin(int tile) const {
 void SampleFilm::commit(int group_index, uint64_t order, int tile, Tile&& data, int samples) {
   Group& group = *groups_[group_index];
   const std::lock_guard lock(group.mutex);
-  group.pending.emplace(order, Pending{tile, samples, std::move(data)});
-  for (auto it = group.pending.find(group.next); it != group.pending.end();
-       it = group.pending.find(group.next)) {
-    add(group, it->second);
-    group.pending.erase(it);
-    ++group.next;
+  Strand& strand = group.strands[splats_ ? 0 : tile];
+  strand.pending.emplace(order / group.strands.size(), Pending{tile, samples, std::move(data)});
+  for (auto it = strand.pending.find(strand.next); it != strand.pending.end();
+       it = strand.pending.find(strand.next)) {
+    add(strand, it->second);
+    strand.pending.erase(it);
+    ++strand.next;
   }
 }
 
-void SampleFilm::add(Group& group, const Pending& pending) {
-  const PixelRect& reach = pending.data.reach_;
+void SampleFilm::add(Strand& strand, const Pending& pending) {
+  const PixelRect &reach = pending.data.reach_, &all = strand.reach;
   const size_t row = size_t{3} * reach.width();
+  strand.rgb.resize(strand.size());
   for (int y = reach.y0; y < reach.y1; ++y) {
     const float* from = &pending.data.rgb_[(y - reach.y0) * row];
-    float* to = &group.rgb[3 * (size_t(y) * width_ + reach.x0)];
+    float* to = &strand.rgb[3 * (size_t(y - all.y0) * all.width() + (reach.x0 - all.x0))];
     for (size_t i = 0; i < row; ++i) to[i] += from[i];
   }
-  group.samples[pending.tile] += pending.samples;
+  strand.samples[splats_ ? pending.tile : 0] += pending.samples;
   if (pending.data.splats_.empty()) return;
-  group.light.resize(group.rgb.size());
+  strand.light.resize(strand.size());
   for (const Splat& one : pending.data.splats_)
-    splat(*filter_, one.raster, {0, 0, width_, height_}, [&](int x, int y, double weight) {
-      float* pixel = &group.light[3 * (size_t(y) * width_ + x)];
+    splat(*filter_, one.raster, all, [&](int x, int y, double weight) {
+      float* pixel = &strand.light[3 * (size_t(y) * all.width() + x)];
       for (int c = 0; c < 3; ++c) pixel[c] += static_cast<float>(one.color[c] * weight);
     });
+}
+
+void SampleFilm::add_samples(const Group& group, std::vector<uint64_t>& samples) const {
+  for (size_t t = 0; t < samples.size(); ++t)
+    samples[t] += splats_ ? group.strands[0].samples[t] : group.strands[t].samples[0];
 }
 
 Image SampleFilm::image() const {
@@ -97,7 +119,8 @@ Image SampleFilm::group_image(int group) const { return develop({groups_[group].
 
 uint64_t SampleFilm::passes(int group) const {
   const std::lock_guard lock(groups_[group]->mutex);
-  const std::vector<uint64_t>& samples = groups_[group]->samples;
+  std::vector<uint64_t> samples(tile_count());
+  add_samples(*groups_[group], samples);
   return *std::min_element(samples.begin(), samples.end());
 }
 
@@ -106,7 +129,8 @@ std::vector<double> SampleFilm::expected_weights(const std::vector<uint64_t>& sa
   std::vector<double> weights(size_t(width_) * height_);
   const auto expected = [&](int pixel, int begin, int end) {
     double sum = 0;
-    for (int cell = std::max(begin, pixel - border_); cell < std::min(end, pixel + border_ + 1); ++cell)
+    for (int cell = std::max(begin, pixel - border_); cell < std::min(end, pixel + border_ + 1);
+         ++cell)
       sum += cell_weight_[std::abs(cell - pixel)];
     return sum;
   };
@@ -117,7 +141,8 @@ std::vector<double> SampleFilm::expected_weights(const std::vector<uint64_t>& sa
     for (int x = reach.x0; x < reach.x1; ++x) wx.push_back(expected(x, cells.x0, cells.x1));
     for (int y = reach.y0; y < reach.y1; ++y) {
       const double wy = samples[tile] * expected(y, cells.y0, cells.y1);
-      for (int x = reach.x0; x < reach.x1; ++x) weights[size_t(y) * width_ + x] += wy * wx[x - reach.x0];
+      for (int x = reach.x0; x < reach.x1; ++x)
+        weights[size_t(y) * width_ + x] += wy * wx[x - reach.x0];
     }
   }
   return weights;
@@ -137,7 +162,7 @@ double SampleFilm::splat_scale() const {
   std::vector<uint64_t> samples(tile_count());
   for (const auto& group : groups_) {
     const std::lock_guard lock(group->mutex);
-    for (size_t t = 0; t < samples.size(); ++t) samples[t] += group->samples[t];
+    add_samples(*group, samples);
   }
   return splat_scale(samples);
 }
@@ -147,10 +172,18 @@ Image SampleFilm::develop(const std::vector<const Group*>& groups) const {
   std::vector<uint64_t> samples(tile_count());
   for (const Group* group : groups) {
     const std::lock_guard lock(group->mutex);
-    for (size_t i = 0; i < rgb.size(); ++i) rgb[i] += group->rgb[i];
-    for (size_t t = 0; t < samples.size(); ++t) samples[t] += group->samples[t];
-    light.resize(std::max(light.size(), group->light.size()));
-    for (size_t i = 0; i < group->light.size(); ++i) light[i] += group->light[i];
+    for (const Strand& strand : group->strands) {
+      const PixelRect& reach = strand.reach;
+      const size_t row = size_t{3} * reach.width();
+      for (int y = reach.y0; !strand.rgb.empty() && y < reach.y1; ++y) {
+        const float* from = &strand.rgb[(y - reach.y0) * row];
+        double* to = &rgb[3 * (size_t(y) * width_ + reach.x0)];
+        for (size_t i = 0; i < row; ++i) to[i] += from[i];
+      }
+      light.resize(std::max(light.size(), strand.light.size()));
+      for (size_t i = 0; i < strand.light.size(); ++i) light[i] += strand.light[i];
+    }
+    add_samples(*group, samples);
   }
   const std::vector<double> weights = expected_weights(samples);
   const double light_scale = splat_scale(samples);
@@ -163,15 +196,64 @@ Image SampleFilm::develop(const std::vector<const Group*>& groups) const {
   return image;
 }
 
+// ---- bytes
+
+void SampleFilm::write(ByteWriter& bytes, const Strand& strand) const {
+  if (!strand.pending.empty()) throw RenderError("a film cannot be saved while units are running");
+  bytes.write(strand.reach);
+  bytes.write(strand.next);
+  bytes.write(strand.rgb);
+  bytes.write(strand.light);
+  bytes.write(strand.samples);
+}
+
+SampleFilm::Strand SampleFilm::read(ByteReader& bytes, const Strand& like) const {
+  Strand strand;
+  strand.reach = bytes.read<PixelRect>();
+  strand.next = bytes.read<uint64_t>();
+  bytes.read(strand.rgb);
+  bytes.read(strand.light);
+  bytes.read(strand.samples);
+  const auto fit = [&](const std::vector<float>& sums) {
+    return sums.empty() || sums.size() == like.size();
+  };
+  const PixelRect &a = strand.reach, &b = like.reach;
+  if (a.x0 != b.x0 || a.y0 != b.y0 || a.x1 != b.x1 || a.y1 != b.y1 || !fit(strand.rgb) ||
+      !fit(strand.light) || strand.samples.size() != like.samples.size())
+    throw RenderError("the saved film has another size");
+  return strand;
+}
+
+template <class F>
+void SampleFilm::for_each_strand(int share, const std::vector<int>& groups, const F& f) const {
+  for (const int group : groups) {
+    const int strand = splats_ ? 0 : share;
+    if (splats_ && share != group) continue;
+    const std::lock_guard lock(groups_[group]->mutex);
+    f(group, strand);
+  }
+}
+
+std::string SampleFilm::save_share(int share, const std::vector<int>& groups) const {
+  ByteWriter bytes;
+  for_each_strand(share, groups, [&](int g, int s) { write(bytes, groups_[g]->strands[s]); });
+  return bytes.take();
+}
+
+void SampleFilm::load_share(int share, const std::vector<int>& groups, const std::string& saved) {
+  ByteReader bytes(saved);
+  for_each_strand(share, groups, [&](int g, int s) {
+    Strand& strand = groups_[g]->strands[s];
+    strand = read(bytes, strand);
+  });
+  bytes.finish();
+}
+
 std::string SampleFilm::save() const {
   ByteWriter bytes;
   for (const auto& group : groups_) {
     const std::lock_guard lock(group->mutex);
-    if (!group->pending.empty()) throw RenderError("a film cannot be saved while units are running");
-    bytes.write(group->next);
-    bytes.write(group->rgb);
-    bytes.write(group->light);
-    bytes.write(group->samples);
+    for (const Strand& strand : group->strands) write(bytes, strand);
   }
   return bytes.take();
 }
@@ -181,14 +263,7 @@ void SampleFilm::load(const std::string& saved) {
   std::vector<std::unique_ptr<Group>> groups;
   for (const auto& old : groups_) {
     groups.push_back(std::make_unique<Group>());
-    Group& group = *groups.back();
-    group.next = bytes.read<uint64_t>();
-    bytes.read(group.rgb);
-    bytes.read(group.light);
-    bytes.read(group.samples);
-    const bool light_fits = group.light.empty() || group.light.size() == old->rgb.size();
-    if (group.rgb.size() != old->rgb.size() || !light_fits || group.samples.size() != old->samples.size())
-      throw RenderError("the saved film has another size");
+    for (const Strand& like : old->strands) groups.back()->strands.push_back(read(bytes, like));
   }
   bytes.finish();
   groups_ = std::move(groups);

@@ -1,8 +1,9 @@
-// The film of integrators that sample pixel by pixel. Samples are recorded tile by tile; the tiles of
-// one group are added in a fixed order, so the image has the same bits for any number of threads.
+// The film of integrators that sample pixel by pixel. Samples are recorded tile by tile, and tiles are
+// added in a fixed order, so the image has the same bits for any number of threads.
 // The groups are independent of each other: their spread tells how wrong the image is.
 #pragma once
 
+#include "base/bytes.h"
 #include "image/image.h"
 #include "image/splat.h"
 #include "math/color.h"
@@ -20,7 +21,10 @@ class SampleFilm {
  public:
   static constexpr int tile_size = 32;
 
-  SampleFilm(int width, int height, std::shared_ptr<const Filter> filter, int groups);
+  /// With splats, which reach over the whole image, all tiles of a group are added in one sequence;
+  /// without, each place of the image has sums and a sequence of its own.
+  SampleFilm(int width, int height, std::shared_ptr<const Filter> filter, int groups,
+             bool splats = true);
 
   struct Splat {
     Vec2 raster;
@@ -36,7 +40,9 @@ class SampleFilm {
     void add(const Vec2& raster, const Color& color);
     /// Adds what a walk from a light, one for each sample of a cell, leaves anywhere on the image. A
     /// measurement contribution over its density, with importance that integrates to 1 over the image.
-    void splat(const Vec2& raster, const Color& contribution) { splats_.push_back({raster, contribution}); }
+    void splat(const Vec2& raster, const Color& contribution) {
+      splats_.push_back({raster, contribution});
+    }
 
    private:
     friend class SampleFilm;
@@ -65,31 +71,54 @@ class SampleFilm {
   std::string save() const;
   void load(const std::string& bytes);
 
+  /// The sums come in shares that do not depend on each other: groups with splats, else places (tiles,
+  /// over all groups).
+  int share_count() const { return splats_ ? group_count() : tile_count(); }
+  int share_of(int group, int tile) const { return splats_ ? group : tile; }
+  /// A share, as far as it belongs to these groups, and back in its place.
+  std::string save_share(int share, const std::vector<int>& groups) const;
+  void load_share(int share, const std::vector<int>& groups, const std::string& bytes);
+
  private:
   struct Pending {
     int tile;
     int samples;
     Tile data;
   };
-  struct Group {
-    mutable std::mutex mutex;
+  /// Sums to which tiles are added in order.
+  struct Strand {
+    PixelRect reach;  ///< Of the image.
     uint64_t next = 0;
     std::map<uint64_t, Pending> pending;
-    std::vector<float> rgb;
-    std::vector<float> light;  ///< The splats; empty until there is one.
+    std::vector<float> rgb;         ///< Empty until there is a sample.
+    std::vector<float> light;       ///< The splats; empty until there is one.
     std::vector<uint64_t> samples;  ///< Per cell of each tile.
+
+    size_t size() const { return size_t{3} * reach.width() * reach.height(); }
+  };
+  struct Group {
+    mutable std::mutex mutex;
+    std::vector<Strand> strands;  ///< One, or one for each tile.
   };
 
+  void write(ByteWriter& bytes, const Strand& strand) const;
+  Strand read(ByteReader& bytes, const Strand& like) const;
+  /// Calls f(group, number of the strand) for what the share has in these groups.
+  template <class F>
+  void for_each_strand(int share, const std::vector<int>& groups, const F& f) const;
+  void add_samples(const Group& group, std::vector<uint64_t>& samples) const;
   PixelRect cells_of(int tile) const;
   PixelRect reach_of(const PixelRect& cells) const;
-  void add(Group& group, const Pending& pending);
+  void add(Strand& strand, const Pending& pending);
   Image develop(const std::vector<const Group*>& groups) const;
   double splat_scale(const std::vector<uint64_t>& samples) const;
   std::vector<double> expected_weights(const std::vector<uint64_t>& samples) const;
 
   int width_, height_, border_, tiles_x_, tiles_y_;
+  bool splats_;
   std::shared_ptr<const Filter> filter_;
-  std::vector<double> cell_weight_;  ///< Expected weight of a uniform sample in a cell at distance d.
+  std::vector<double>
+      cell_weight_;  ///< Expected weight of a uniform sample in a cell at distance d.
   std::vector<std::unique_ptr<Group>> groups_;
 };
 

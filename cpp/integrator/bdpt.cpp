@@ -46,6 +46,7 @@ class TechniqueFilms {
   uint64_t saturated() const { return film_.saturated(); }
   std::string save() const { return film_.save(); }
   void load(const std::string& bytes) { film_.load(bytes); }
+  void add(const std::string& bytes) { film_.add_groups(0, film_.group_count(), bytes); }
 
  private:
   std::vector<std::string> names_;
@@ -55,7 +56,7 @@ class TechniqueFilms {
 class BdptRendering : public SampledRendering {
  public:
   BdptRendering(ScenePtr scene, uint64_t seed, const BdptSettings& settings)
-      : SampledRendering(std::move(scene), seed), settings_(settings) {
+      : SampledRendering(std::move(scene), seed, true), settings_(settings) {
     if (settings.techniques)
       techniques_ = std::make_unique<TechniqueFilms>(this->scene(), settings.paths.max_depth);
   }
@@ -85,6 +86,22 @@ class BdptRendering : public SampledRendering {
     bytes.finish();
     if (techniques_) techniques_->load(techniques);
     SampledRendering::load(image);
+  }
+
+  std::string give_back(const Work& work) const override {
+    ByteWriter bytes;
+    bytes.write(SampledRendering::give_back(work));
+    bytes.write(techniques_ ? techniques_->save() : std::string());
+    return bytes.take();
+  }
+  void take_back(const Work& work, const std::string& given_back) override {
+    ByteReader bytes(given_back);
+    std::string image, techniques;
+    bytes.read(image);
+    bytes.read(techniques);
+    bytes.finish();
+    SampledRendering::take_back(work, image);
+    if (techniques_) techniques_->add(techniques);
   }
 
  private:

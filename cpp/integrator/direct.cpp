@@ -16,7 +16,7 @@ struct DirectSettings {
 class DirectRendering : public SampledRendering {
  public:
   DirectRendering(ScenePtr scene, uint64_t seed, const DirectSettings& settings)
-      : SampledRendering(std::move(scene), seed), settings_(settings) {}
+      : SampledRendering(std::move(scene), seed, false), settings_(settings) {}
 
  private:
   class DirectWorker;

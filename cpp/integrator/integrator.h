@@ -31,6 +31,17 @@ struct GroupImage {
   double b = 0, b_error = 0;
 };
 
+/// Some of the shares of a render: first, ..., last - 1.
+struct Part {
+  uint64_t first = 0, last = 0;
+};
+
+/// The units from, ..., to - 1 of some shares.
+struct Work {
+  Part part;
+  uint64_t from = 0, to = 0;
+};
+
 /// A render in progress, cut into units that are fixed by (scene, algorithm, seed) and independent of
 /// threads. Units are numbered 0, 1, 2, ... and started in that order; run_unit may be called from
 /// many threads at once.
@@ -75,6 +86,24 @@ class Rendering {
   /// RenderError if the bytes do not fit; the rendering is then of no use.
   virtual std::string save() const = 0;
   virtual void load(const std::string& bytes) = 0;
+
+  // A render can be divided: each unit belongs to a share (a chain, a group of samples, a tile of the
+  // image), and what the units of one share do depends on no other share. A copy of the rendering
+  // that has not been prepared borrows what a piece of work needs, runs the units of its shares in
+  // their order, and gives back what came of it; the owner then has the same bits as if it had run
+  // them itself.
+
+  /// Known after `prepare`.
+  virtual uint64_t share_count() const = 0;
+  virtual uint64_t share_of(uint64_t unit) const = 0;
+  /// In so many successive units, counted from 0, most shares have something to do.
+  virtual uint64_t units_per_step() const = 0;
+  /// All shares, cut into `wanted` parts or as near to it as is sensible.
+  virtual std::vector<Part> parts(int wanted) const = 0;
+  virtual std::string lend(const Work& work) const = 0;
+  virtual void borrow(const Work& work, const std::string& lent) = 0;
+  virtual std::string give_back(const Work& work) const = 0;
+  virtual void take_back(const Work& work, const std::string& given_back) = 0;
 };
 
 class Integrator : public Object {

@@ -239,6 +239,24 @@ void MetropolisRendering::add_stats(Stats& stats) const {
         "the film's fixed-point range was exceeded; the brightest pixels are wrong");
 }
 
+void MetropolisRendering::save_lane(ByteWriter& bytes, const Lane& lane) const {
+  bytes.write(lane.group);
+  bytes.write(lane.number);
+  bytes.write(lane.round);
+  lane.chain->save(bytes);
+}
+
+std::unique_ptr<MetropolisRendering::Lane> MetropolisRendering::load_lane(ByteReader& bytes) const {
+  auto lane = std::make_unique<Lane>();
+  lane->group = bytes.read<int>();
+  if (lane->group < 0 || lane->group >= groups) throw RenderError("the saved state is damaged");
+  lane->number = bytes.read<int>();
+  lane->round = bytes.read<uint64_t>();
+  lane->chain = algorithm_->blank(chain_id(lane->group, lane->number));
+  lane->chain->load(bytes);
+  return lane;
+}
+
 std::string MetropolisRendering::save() const {
   ByteWriter bytes;
   for (const Group& group : groups_) {
@@ -249,12 +267,7 @@ std::string MetropolisRendering::save() const {
   bytes.write(bootstrap_rays_);
   bytes.write(algorithm_->save());
   bytes.write<uint64_t>(lanes_.size());
-  for (const auto& lane : lanes_) {
-    bytes.write(lane->group);
-    bytes.write(lane->number);
-    bytes.write(lane->round);
-    lane->chain->save(bytes);
-  }
+  for (const auto& lane : lanes_) save_lane(bytes, *lane);
   bytes.write(aside() ? aside()->save() : std::string());
   bytes.write(film_.save());
   return bytes.take();
@@ -275,16 +288,7 @@ void MetropolisRendering::load(const std::string& saved) {
   if (lanes > static_cast<uint64_t>(settings_.chains))
     throw RenderError("the saved state has too many chains");
   lanes_.clear();
-  for (uint64_t i = 0; i < lanes; ++i) {
-    lanes_.push_back(std::make_unique<Lane>());
-    lanes_[i]->group = bytes.read<int>();
-    if (lanes_[i]->group < 0 || lanes_[i]->group >= groups)
-      throw RenderError("the saved state is damaged");
-    lanes_[i]->number = bytes.read<int>();
-    lanes_[i]->round = bytes.read<uint64_t>();
-    lanes_[i]->chain = algorithm_->blank(chain_id(lanes_[i]->group, lanes_[i]->number));
-    lanes_[i]->chain->load(bytes);
-  }
+  for (uint64_t i = 0; i < lanes; ++i) lanes_.push_back(load_lane(bytes));
   std::string other;
   bytes.read(other);
   if (aside()) aside_.rendering->load(other);

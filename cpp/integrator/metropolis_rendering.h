@@ -163,6 +163,16 @@ class MetropolisRendering : public Rendering {
   void add_stats(Stats& stats) const override;
   std::string save() const override;
   void load(const std::string& bytes) override;
+  /// A share is a chain.
+  uint64_t share_count() const override { return lanes_.size(); }
+  uint64_t share_of(uint64_t unit) const override { return unit % lanes_.size(); }
+  uint64_t units_per_step() const override { return lanes_.size(); }
+  /// Each lies within one group, so that it adds to one film only.
+  std::vector<Part> parts(int wanted) const override;
+  std::string lend(const Work& work) const override;
+  void borrow(const Work& work, const std::string& lent) override;
+  std::string give_back(const Work& work) const override;
+  void take_back(const Work& work, const std::string& given_back) override;
 
  private:
   static constexpr int groups = 16;
@@ -186,6 +196,8 @@ class MetropolisRendering : public Rendering {
   void render_aside(int threads, const std::atomic<bool>& cancelled);
   bool begun(const Group& group) const { return group.steps > 0 || group.b == 0; }
   double scale_of(const Group& group) const;
+  void save_lane(ByteWriter& bytes, const Lane& lane) const;
+  std::unique_ptr<Lane> load_lane(ByteReader& bytes) const;
   ChainId chain_id(int group, int number) const { return {seed_, group, number, chains_of(group)}; }
 
   ScenePtr scene_;

@@ -12,7 +12,7 @@ namespace {
 class PathRendering : public SampledRendering {
  public:
   PathRendering(ScenePtr scene, uint64_t seed, const PathSettings& settings)
-      : SampledRendering(std::move(scene), seed), settings_(settings) {}
+      : SampledRendering(std::move(scene), seed, false), settings_(settings) {}
 
  private:
   class PathWorker : public Worker {

@@ -12,7 +12,7 @@ namespace {
 class PtracerRendering : public SampledRendering {
  public:
   PtracerRendering(ScenePtr scene, uint64_t seed, const BidirectionalSettings& settings)
-      : SampledRendering(std::move(scene), seed), settings_(settings) {}
+      : SampledRendering(std::move(scene), seed, true), settings_(settings) {}
 
  private:
   class PtracerWorker : public Worker {

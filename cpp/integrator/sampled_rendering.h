@@ -6,11 +6,14 @@
 #include "path/ray_counts.h"
 #include "path/samplers.h"
 
+#include <array>
+
 namespace mlt {
 
 class SampledRendering : public Rendering {
  public:
-  SampledRendering(ScenePtr scene, uint64_t seed);
+  /// `splats`: walks from lights leave something anywhere on the image.
+  SampledRendering(ScenePtr scene, uint64_t seed, bool splats);
 
   void prepare(int /*threads*/, const std::atomic<bool>& /*cancelled*/) override {}
   uint64_t unit_count(double spp) const override;
@@ -29,6 +32,15 @@ class SampledRendering : public Rendering {
   Replay replay(const Vec2i& pixel, uint64_t sample) override;
   std::string save() const override;
   void load(const std::string& saved) override;
+  /// A share is what the film says: a group, or a tile.
+  uint64_t share_count() const override { return film_.share_count(); }
+  uint64_t share_of(uint64_t unit) const override;
+  uint64_t units_per_step() const override;
+  std::vector<Part> parts(int wanted) const override;
+  std::string lend(const Work& work) const override;
+  void borrow(const Work& work, const std::string& lent) override;
+  std::string give_back(const Work& work) const override;
+  void take_back(const Work& work, const std::string& given_back) override;
 
  protected:
   /// Where samples go; invalid ones are counted and left out. When a sample is replayed there is no film
@@ -81,6 +93,11 @@ class SampledRendering : public Rendering {
   /// The more, the better stratified is a render of few samples; the fewer, the sooner it has several
   /// groups, whose spread tells its error.
   static constexpr uint64_t passes_of_block = 8;
+  using Counts = std::array<uint64_t, 3>;  ///< Rays, shadow rays, invalid samples.
+
+  void save_counts(ByteWriter& bytes) const;
+  std::vector<int> groups_of(const Work& work) const;
+  void load_shares(const Work& work, ByteReader& bytes);
 
   /// Blocks of passes over the image go to the groups in turn; within a block, samples are stratified.
   struct Place {
@@ -94,6 +111,7 @@ class SampledRendering : public Rendering {
 
   ScenePtr scene_;
   uint64_t seed_;
+  bool splats_;
   SampleFilm film_;
   std::atomic<uint64_t> intersect_{0}, occluded_{0}, invalid_{0};
 };

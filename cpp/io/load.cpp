@@ -117,6 +117,8 @@ LoadedScene build_scene(const Node& scene, const Registry& registry, const LoadO
   build_contents(scene, builder, shapes, emitters);
   loaded.scene = std::make_shared<Scene>(std::move(shapes), std::move(emitters), view.camera,
                                          view.film, view.sample_count);
+  loaded.tree = scene;
+  loaded.size = options.size;
   loaded.hash = fingerprint(scene, options.size);
   loaded.seconds = seconds_since(start);
   return loaded;

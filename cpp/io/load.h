@@ -33,6 +33,8 @@ struct SceneSource {
 struct LoadedScene {
   ScenePtr scene;
   SceneSource source;
+  Node tree;                          ///< What it was built from,
+  std::optional<Vec2i> size;          ///< and the size that was asked for.
   std::optional<Node> integrator;     ///< As the scene describes it, not yet made.
   std::vector<std::string> warnings;  ///< One line each, with file and line.
   double seconds = 0;                 ///< Wall time of loading.

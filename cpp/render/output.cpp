@@ -66,8 +66,10 @@ Stats render_stats(const Job& job, const LoadedScene& loaded, const MadeIntegrat
   return stats;
 }
 
-Metadata render_metadata(const Stats& stats, const MadeIntegrator& made) {
+Metadata render_metadata(const Stats& stats, const LoadedScene& loaded,
+                         const MadeIntegrator& made) {
   return {{"software", "pymlt " MLT_VERSION},
+          {"scene", fmt::format("{:016x}", loaded.hash)},
           {"integrator", made.settings},
           {"seed", fmt::format("{}", stats.seed)},
           {"spp", fmt::format("{}", stats.spp_done)}};

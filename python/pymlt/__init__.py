@@ -28,8 +28,20 @@ from ._core import (
 from .images import read_image, read_metadata, write_image
 from .integrators import *  # noqa: F403 (the classes are made from the schemas)
 from .integrators import Integrator
-from .jobs import Groups, Job, Replay, Result, Technique, render, replay, resume, start
+from .jobs import (
+    Groups,
+    Job,
+    Replay,
+    Result,
+    Technique,
+    render,
+    render_progressive,
+    replay,
+    resume,
+    start,
+)
 from .loading import load_dict, load_file, load_string
+from .merging import merge
 from .metrics import compare
 from .mutations import *  # noqa: F403
 from .mutations import Audit, Mutation, audit
@@ -64,11 +76,13 @@ __all__ = [
     "load_dict",
     "load_file",
     "load_string",
+    "merge",
     "metropolis",
     "quadrature",
     "read_image",
     "read_metadata",
     "render",
+    "render_progressive",
     "replay",
     "resume",
     "scenes",

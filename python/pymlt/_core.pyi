@@ -23,6 +23,10 @@ class Scene:
     def warnings(self) -> list[str]: ...
     @property
     def half(self) -> bool: ...
+    @property
+    def hash(self) -> str:
+        """Of the description and of the files that it names, wherever they lie."""
+
     def info(self) -> dict: ...
     def trace_path(
         self,

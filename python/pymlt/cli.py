@@ -1,4 +1,4 @@
-"""The command line: pymlt render | compare | info | list | lab.
+"""The command line: pymlt render | merge | compare | info | list | lab.
 
 Exit codes: 0 done; 1 `compare --fail-above` found more; 2 a mistake in usage or in the scene, or an
 output that cannot be written; 3 the render failed; 130 and 143 interrupted by SIGINT or SIGTERM,
@@ -19,6 +19,7 @@ import traceback
 from . import _core, lab, scenes
 from .jobs import Job, Result, as_integrator, begin, prepare_resume, start
 from .loading import load_built_in, load_file
+from .merging import merge
 from .metrics import compare
 from .progress import progress_bar
 from .schemas import available
@@ -72,9 +73,10 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--version", action="version", version=f"pymlt {_core.__version__}")
     commands = parser.add_subparsers(
-        required=True, metavar="{render,compare,info,list,lab}", parser_class=_Parser
+        required=True, metavar="{render,merge,compare,info,list,lab}", parser_class=_Parser
     )
     _add_render(commands)
+    _add_merge(commands)
     _add_compare(commands)
     _add_info(commands)
     _add_list(commands)
@@ -137,6 +139,15 @@ def _add_render(commands) -> None:
         help="brighten PNG files by so many stops",
     )
     c.add_argument("--quiet", action="store_true", help="say nothing but errors")
+
+
+def _add_merge(commands) -> None:
+    c = _add_command(commands, "merge", _merge, "Merge renders of one scene with different seeds.")
+    c.add_argument("renders", metavar="FILE", nargs="+", help=".exr files that pymlt has written")
+    c.add_argument("-o", "--output", metavar="FILE", required=True, help=".exr, .png or .hdr")
+    c.add_argument(
+        "--force", action="store_true", help="whether or not they have the same scene and settings"
+    )
 
 
 def _add_compare(commands) -> None:
@@ -362,6 +373,15 @@ class _Signals:
         if "error" in outcome:
             raise outcome["error"]
         return outcome["value"]
+
+
+# ---- merge -------------------------------------------------------------------------------------
+
+
+def _merge(args) -> int:
+    _core.check_image_writable(args.output)
+    merge(args.renders, force=args.force).write(args.output)
+    return 0
 
 
 # ---- compare, info, list -----------------------------------------------------------------------

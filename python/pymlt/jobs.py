@@ -18,6 +18,8 @@ from .loading import load_built_in, load_dict, load_file
 from .progress import progress_bar
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     import numpy as np
 
 _running: weakref.WeakSet[Job] = weakref.WeakSet()
@@ -191,26 +193,44 @@ class Job:
         """End the render soon; what has been rendered stays."""
         self._job.cancel()
 
-    def wait(self, timeout: float | None = None, progress=False) -> bool:
+    def wait(
+        self, timeout: float | None = None, progress=False, *, callback=None, interval: float = 1
+    ) -> bool:
         """Wait for the end, at most `timeout` seconds; True if the render has ended.
 
-        Ctrl-C ends the waiting, not the render. Raises what went wrong in the render.
+        `callback` is called with a `snapshot` each `interval` seconds while the render runs; if it
+        returns True the render ends. Ctrl-C ends the waiting, not the render. Raises what went
+        wrong in the render; what had been rendered by then is the error's `result`.
         """
         with progress_bar(progress) as show:
             end = math.inf if timeout is None else monotonic() + timeout
-            while not self._job.wait(min(0.1, max(0.0, end - monotonic()))):
+            next_call = monotonic() + interval
+            while not self._ended(min(0.1, max(0.0, end - monotonic()))):
                 if monotonic() >= end:
                     return False
                 if progress is not False:
                     show(self.progress, {"spp": f"{self.stats['spp_done']:.4g}"})
+                if callback is not None and monotonic() >= next_call:
+                    if callback(self.snapshot()) is True:
+                        self.cancel()
+                    next_call = monotonic() + interval
         return True
+
+    def _ended(self, seconds: float) -> bool:
+        try:
+            return self._job.wait(seconds)
+        except _core.RenderError as error:
+            if self.stats["spp_done"] > 0:
+                error.result = self.snapshot()
+            raise
 
     def result(self) -> Result:
         """Wait for the end and return the image with everything known about it."""
         self.wait()
-        return self._snapshot()
+        return self.snapshot()
 
-    def _snapshot(self) -> Result:
+    def snapshot(self) -> Result:
+        """The image so far, with everything known about it."""
         settings = json.loads(self._integrator.settings)
         return Result(
             self.image,
@@ -220,6 +240,16 @@ class Job:
             self._job.metadata(),
             self._scene.half,
         )
+
+    def show(self, *, interval: float = 1, exposure: float = 0) -> None:
+        """Show the image in a notebook, and renew it each `interval` seconds until the render ends.
+
+        `exposure` brightens it by so many stops. Interrupting the cell ends the showing, not the
+        render. Needs IPython.
+        """
+        from .notebook import show
+
+        show(self, interval, exposure)
 
     def __repr__(self) -> str:
         state = "cancelled" if self.cancelled else "ended" if self.ended else "running"
@@ -354,12 +384,15 @@ def render(
     checkpoint=None,
     every=60,
     progress=None,
+    callback=None,
+    interval=1,
 ) -> np.ndarray:
     """Render and return the image: float32, (height, width, 3), linear Rec. 709, row 0 on top.
 
     The arguments are those of `start`. `progress` is True, False, None (a bar on a terminal and in
-    a notebook) or a function of the fraction that is done. After Ctrl-C the KeyboardInterrupt
-    carries the image so far, as `error.result`.
+    a notebook) or a function of the fraction that is done. `callback` is a function of the Result
+    so far, called each `interval` seconds; it ends the render by returning True. After Ctrl-C the
+    KeyboardInterrupt carries the image so far, as `error.result`.
     """
     job = start(
         scene,
@@ -373,12 +406,31 @@ def render(
         every=every,
     )
     try:
-        job.wait(progress=progress)
+        job.wait(progress=progress, callback=callback, interval=interval)
     except KeyboardInterrupt as interrupt:
         job.cancel()
         interrupt.result = job.result()
         raise
+    except BaseException:
+        job.cancel()
+        raise
     return job.image
+
+
+def render_progressive(scene, integrator=None, *, interval=1, **settings) -> Iterator[Result]:
+    """Render and look at it: `for snapshot in render_progressive(scene, spp=256): ...`.
+
+    Yields a Result each `interval` seconds, and at the end the finished one. The other arguments are
+    those of `start`. The render begins with the first step of the loop, and leaving the loop ends
+    it.
+    """
+    job = start(scene, integrator, **settings)
+    try:
+        while not job.wait(interval):
+            yield job.snapshot()
+        yield job.snapshot()
+    finally:
+        job.cancel()
 
 
 def replay(scene, integrator=None, *, pixel, sample=0, seed=0) -> Replay:

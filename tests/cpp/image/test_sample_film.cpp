@@ -435,8 +435,9 @@ TEST(SampleFilm, RefusesDamagedBytesAndStaysAsItWas) {
   refuses(SampleFilm(width, height, shared(mitchell_filter()), 1).save());
   refuses(SampleFilm(width, height, shared(mitchell_filter()), 3).save());
   // Each count, made too small and much too large.
-  size_t at = 8;
-  for (int group = 0; group < 2; ++group, at += 8)
+  const size_t head = sizeof(PixelRect) + sizeof(uint64_t);
+  size_t at = head;
+  for (int group = 0; group < 2; ++group, at += head)
     for (const size_t element : {sizeof(float), sizeof(float), sizeof(uint64_t)}) {
       uint64_t size;
       std::memcpy(&size, &bytes[at], sizeof size);

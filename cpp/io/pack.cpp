@@ -1,0 +1,106 @@
+#include "io/pack.h"
+
+#include "image/atomic_file.h"
+#include "io/node_bytes.h"
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <functional>
+#include <map>
+
+namespace mlt {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Calls f(name) for the name of every file that the tree reads, in order.
+void for_each_file(Node& node, const std::function<void(std::string&)>& f) {
+  for (Node::Property& property : node.properties)
+    if (auto* text = std::get_if<std::string>(&property.value); text && property.name == "filename")
+      f(*text);
+  for (Node& child : node.children) for_each_file(child, f);
+}
+
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string pattern = (fs::temp_directory_path() / "pymlt-XXXXXX").string();
+    if (!mkdtemp(pattern.data()))
+      throw FileError("cannot make a folder " + pattern + ": " + std::strerror(errno));
+    path_ = pattern;
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+}  // namespace
+
+std::string pack(const Node& node) {
+  ByteWriter bytes;
+  save(bytes, node);
+  return bytes.take();
+}
+
+Node unpack_node(const std::string& packed) {
+  ByteReader bytes(packed);
+  Node node = load_node(bytes);
+  bytes.finish();
+  return node;
+}
+
+std::string pack(const LoadedScene& loaded) {
+  Node tree = loaded.tree;
+  std::map<std::string, std::string> files;
+  for_each_file(tree, [&](std::string& path) {
+    std::error_code error;
+    // A film's file name is one to write; what is missing is an error only where it is read.
+    if (fs::is_regular_file(path, error) && !files.count(path)) files[path] = read_file(path);
+  });
+  ByteWriter bytes;
+  save(bytes, tree);
+  bytes.write(loaded.size.value_or(Vec2i(0)));
+  bytes.write<uint64_t>(files.size());
+  for (const auto& [path, text] : files) {
+    bytes.write(path);
+    bytes.write(text);
+  }
+  return bytes.take();
+}
+
+LoadedScene unpack_scene(const std::string& packed, const Registry& registry) {
+  ByteReader bytes(packed);
+  const Node tree = load_node(bytes);
+  LoadOptions options;
+  if (const auto size = bytes.read<Vec2i>(); size.x > 0) options.size = size;
+  const TemporaryFolder folder;
+  std::map<std::string, std::string> here;
+  for (auto left = bytes.read<uint64_t>(); left > 0; --left) {
+    std::string path, text;
+    bytes.read(path);
+    bytes.read(text);
+    // The extension says what format it is.
+    const fs::path name = std::to_string(left) + fs::path(path).extension().string();
+    here[path] = (folder.path() / name).string();
+    write_file(here[path], text);
+  }
+  bytes.finish();
+  Node moved = tree;
+  for_each_file(moved, [&](std::string& path) {
+    if (const auto found = here.find(path); found != here.end()) path = found->second;
+  });
+  LoadedScene loaded = build_scene(moved, registry, options);
+  loaded.tree = tree;
+  return loaded;
+}
+
+}  // namespace mlt
