@@ -85,6 +85,12 @@ void SampleFilm::commit(int group_index, uint64_t order, int tile, Tile&& data, 
   }
 }
 
+bool SampleFilm::has(int group_index, uint64_t order, int tile) const {
+  const Group& group = *groups_[group_index];
+  const std::lock_guard lock(group.mutex);
+  return order / group.strands.size() < group.strands[splats_ ? 0 : tile].next;
+}
+
 void SampleFilm::add(Strand& strand, const Pending& pending) {
   const PixelRect &reach = pending.data.reach_, &all = strand.reach;
   const size_t row = size_t{3} * reach.width();

@@ -60,6 +60,9 @@ class SampleFilm {
   /// when all before it have been; `samples` is how many samples each cell has received.
   void commit(int group, uint64_t order, int tile, Tile&& samples_of_tile, int samples);
 
+  /// Has the tile been added?
+  bool has(int group, uint64_t order, int tile) const;
+
   /// Sum of samples over their expected weight, per pixel; all groups, or one.
   Image image() const;
   Image group_image(int group) const;

@@ -57,6 +57,7 @@ class Rendering {
   virtual uint64_t unit_count(double spp) const = 0;
   /// After each multiple of so many units no group has an unfinished share of the work.
   virtual uint64_t units_per_share() const = 0;
+  /// Does nothing if the unit has been done already.
   virtual void run_unit(uint64_t unit) = 0;
   /// Samples per pixel after `units` units.
   virtual double spp_done(uint64_t units) const = 0;
@@ -80,7 +81,7 @@ class Rendering {
   virtual Replay replay(const Vec2i& pixel, uint64_t sample);
 
   /// The whole state as bytes, and back: films, chains, random streams, bootstrap and counters. No
-  /// unit may be running, and those that have run must be 0 ... n - 1. `load` is for a rendering that
+  /// unit may be running; 0 ... n - 1 have run, and perhaps some others. `load` is for a rendering that
   /// the same build made from the same scene, settings and seed; it takes the place of `prepare`, and
   /// going on with unit n makes the same pixels as if the render had never stopped. Throws
   /// RenderError if the bytes do not fit; the rendering is then of no use.

@@ -150,7 +150,8 @@ void MetropolisRendering::run_unit(uint64_t unit) {
   Lane& lane = *lanes_[unit % lanes_.size()];
   const uint64_t round = unit / lanes_.size();
   std::unique_lock lock(lane.mutex);
-  lane.turn.wait(lock, [&] { return lane.round == round; });
+  lane.turn.wait(lock, [&] { return lane.round >= round; });
+  if (lane.round > round) return;
   // Whatever happens, the thread that waits for the next stretch must go on.
   struct Done {
     Lane& lane;

@@ -51,6 +51,8 @@ void SampledRendering::run_unit(uint64_t unit) {
   const uint64_t tiles = film_.tile_count(), pass = unit / tiles;
   const int tile_index = static_cast<int>(unit % tiles);
   const Place place = place_of(pass);
+  const uint64_t order = place.index * tiles + tile_index;
+  if (film_.has(place.group, order, tile_index)) return;
   SampleFilm::Tile tile = film_.begin(tile_index);
   const PixelRect cells = tile.cells();
   RayCounts rays;
@@ -63,7 +65,7 @@ void SampledRendering::run_unit(uint64_t unit) {
       const Vec2 raster = Vec2(x, y) + numbers.next2();
       worker->sample(raster, numbers, sink, rays);
     }
-  film_.commit(place.group, place.index * tiles + tile_index, tile_index, std::move(tile), 1);
+  film_.commit(place.group, order, tile_index, std::move(tile), 1);
   invalid_ += invalid;
   intersect_ += rays.intersect;
   occluded_ += rays.occluded;

@@ -19,9 +19,15 @@ struct OutcomeHead {
 
 }  // namespace
 
-Division::Division(Rendering& rendering, uint64_t seed, int wanted_parts)
+Division::Division(Rendering& rendering, uint64_t seed, int wanted_parts, uint64_t done)
     : rendering_(&rendering), seed_(seed) {
-  for (const Part& part : rendering.parts(wanted_parts)) pieces_.push_back({part});
+  for (const Part& part : rendering.parts(wanted_parts)) pieces_.push_back({part, done});
+}
+
+uint64_t Division::done() const {
+  uint64_t least = ~uint64_t{0};
+  for (const Piece& piece : pieces_) least = std::min(least, piece.position);
+  return least;
 }
 
 bool Division::split(size_t part) {
@@ -60,8 +66,8 @@ uint64_t Division::fold(size_t part, const std::string& outcome) {
   std::string given_back;
   bytes.read(given_back);
   bytes.finish();
-  const Part& part = head.work.part;
-  if (part.first != piece.part.first || part.last != piece.part.last ||
+  const Part& shares = head.work.part;
+  if (shares.first != piece.part.first || shares.last != piece.part.last ||
       head.work.from != piece.position || head.reached < piece.position)
     throw RenderError("a part of the render came back that nobody waits for");
   rendering_->take_back(head.work, given_back);

@@ -16,12 +16,14 @@ namespace mlt {
 /// The owner's side. Not for several threads at once.
 class Division {
  public:
-  /// `rendering` has been prepared and no unit has run; it outlives this.
-  Division(Rendering& rendering, uint64_t seed, int wanted_parts);
+  /// `rendering` has been prepared, and its units 0 ... `done` - 1 have run; it outlives this.
+  Division(Rendering& rendering, uint64_t seed, int wanted_parts, uint64_t done);
 
   size_t parts() const { return pieces_.size(); }
   /// Up to which unit the part's shares are done.
   uint64_t position(size_t part) const { return pieces_.at(part).position; }
+  /// The units before this one are done, perhaps with some others.
+  uint64_t done() const;
   /// Cuts a part in two, for more machines; false if it is a single share. The second half is the last
   /// part then.
   bool split(size_t part);

@@ -47,9 +47,14 @@ Job::Job(ScenePtr scene, IntegratorPtr integrator, const RenderSettings& setting
   rendering_ = integrator_->start(scene_, settings_.seed);
 }
 
-Job::~Job() {
+void Job::stop() {
   cancel();
   if (thread_.joinable()) thread_.join();
+}
+
+void Job::hire(std::unique_ptr<Crew> crew) {
+  if (phase_ != Phase::waiting) throw UsageError("the render has been started already");
+  crew_ = std::move(crew);
 }
 
 void Job::start() {
@@ -92,8 +97,13 @@ void Job::run() {
   } catch (...) {
     failure = std::current_exception();
   }
-  total_seconds_ = seconds_so_far();
-  if (!failure && prepared_) autosave_at_end();
+  try {
+    if (crew_) crew_->dismiss();
+    total_seconds_ = seconds_so_far();
+    if (!failure && prepared_) autosave_at_end();
+  } catch (...) {
+    if (!failure) failure = std::current_exception();
+  }
   const std::lock_guard lock(mutex_);
   failure_ = failure;
   if (ended_by_.empty()) ended_by_ = "cancel";
@@ -104,6 +114,7 @@ void Job::run() {
 
 void Job::render() {
   unit_count_ = rendering_->unit_count(settings_.budget.spp.value_or(endless_spp));
+  if (crew_) divide();
   phase_ = Phase::rendering;
   for (;;) {
     open_gate();
@@ -116,8 +127,21 @@ void Job::render() {
     next_unit_ = units_done_.load();
     stop_at_ = unit_count_;
     if (settings_.budget.error) stop_at_ = std::min(stop_at_, next_look(units_done_));
-    parallel_for(settings_.threads, settings_.threads, [this](uint64_t) { work(); });
+    if (crew_)
+      crew_->advance(*this, stop_at_);
+    else
+      parallel_for(settings_.threads, settings_.threads, [this](uint64_t) { work(); });
   }
+}
+
+void Job::divide() {
+  if (division_) units_done_ = division_->done();  // in an earlier run, parts came to different ends
+  division_.emplace(*rendering_, settings_.seed, crew_->wanted_parts(), units_done_);
+}
+
+void Job::fold(size_t part, const std::string& outcome) {
+  const std::lock_guard lock(folding_);
+  units_done_ += division_->fold(part, outcome);
 }
 
 std::string Job::why_to_end() {
@@ -148,7 +172,7 @@ uint64_t Job::next_look(uint64_t units) const {
 /// Units are started in order and each one that was started is finished, so a stretch always ends
 /// with the units 0 ... units_done_ - 1 done and no other begun.
 void Job::work() {
-  while (!cancel_ && savers_ == 0 && !out_of_time() && !autosave_due()) {
+  while (!interrupted()) {
     const uint64_t unit = next_unit_++;
     if (unit >= stop_at_) break;
     try {
@@ -194,7 +218,7 @@ std::string Job::state() const {
   ByteWriter bytes;
   const Budget& budget = settings_.budget;
   for (const auto* limit : {&budget.spp, &budget.seconds, &budget.error}) bytes.write(*limit);
-  bytes.write(units_done_.load());
+  bytes.write(division_ ? division_->done() : units_done_.load());
   bytes.write(bootstrap_seconds_.load());
   bytes.write(phase_ == Phase::ended ? total_seconds_.load() : seconds_so_far());
   bytes.write(rendering_->save());
@@ -294,9 +318,13 @@ double Job::progress() const {
   return std::min(1.0, done);
 }
 
-Image Job::image() const { return rendering_->image(); }
+Image Job::image() const {
+  const std::lock_guard lock(folding_);
+  return rendering_->image();
+}
 
 std::shared_ptr<const ErrorEstimate> Job::error() const {
+  const std::lock_guard no_folding(folding_);
   if (!ended()) return std::make_shared<ErrorEstimate>(estimate_error(*rendering_));
   const std::lock_guard lock(error_mutex_);
   if (!final_error_) final_error_ = std::make_shared<ErrorEstimate>(estimate_error(*rendering_));
@@ -304,7 +332,11 @@ std::shared_ptr<const ErrorEstimate> Job::error() const {
 }
 
 std::vector<NamedImage> Job::layers() const {
-  std::vector<NamedImage> layers = rendering_->layers();
+  std::vector<NamedImage> layers;
+  {
+    const std::lock_guard lock(folding_);
+    layers = rendering_->layers();
+  }
   for (NamedImage& layer : error_layers(*error())) layers.push_back(std::move(layer));
   return layers;
 }

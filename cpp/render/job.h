@@ -4,6 +4,7 @@
 
 #include "image/image.h"
 #include "integrator/integrator.h"
+#include "render/division.h"
 #include "render/error_estimate.h"
 
 #include <atomic>
@@ -42,18 +43,38 @@ struct RenderSettings {
   Autosave autosave;
 };
 
+class Job;
+
+/// Runs the units of a render elsewhere than on threads of this process. It is called by the thread
+/// that leads the render.
+class Crew {
+ public:
+  virtual ~Crew() = default;
+  /// The render is cut into about so many parts.
+  virtual int wanted_parts() = 0;
+  /// Takes every part of the job's division from where it stands to the unit `to`. Returns early when
+  /// the job is interrupted; it will be called again.
+  virtual void advance(Job& job, uint64_t to) = 0;
+  /// The render has ended.
+  virtual void dismiss() = 0;
+};
+
 class Job {
  public:
   /// Throws UsageError for a budget that makes no sense, SceneError for a scene that does not suit.
   Job(ScenePtr scene, IntegratorPtr integrator, const RenderSettings& settings);
-  ~Job();  ///< Cancels and waits.
+  ~Job() { stop(); }
 
+  /// Before start(): units are run by this crew; the bootstrap is not.
+  void hire(std::unique_ptr<Crew> crew);
   void start();
   /// Waits until the render has ended or `seconds` have passed; true if it has ended. Rethrows what
   /// went wrong inside the render.
   bool wait(double seconds);
   /// Ends the render soon; what has been rendered stays.
   void cancel() { cancel_ = true; }
+  /// Cancels and waits.
+  void stop();
   bool cancelled() const { return cancel_; }
   bool ended() const { return phase_ == Phase::ended; }
 
@@ -81,6 +102,17 @@ class Job {
   /// After the end with the error of the image.
   Stats stats() const;
 
+  // For a crew.
+  Division& division() { return *division_; }
+  /// Folds the outcome of an order of the division; see Division::fold.
+  void fold(size_t part, const std::string& outcome);
+  uint64_t units_done() const { return units_done_; }
+  uint64_t units_per_step() const { return rendering_->units_per_step(); }
+  /// Is the render to end now?
+  bool stopping() const { return cancel_ || out_of_time(); }
+  /// Or does somebody want to look at its state?
+  bool interrupted() const { return stopping() || savers_ != 0 || autosave_due(); }
+
  private:
   using Clock = std::chrono::steady_clock;
   enum class Phase { waiting, bootstrap, rendering, ended };
@@ -89,6 +121,7 @@ class Job {
   void run();
   void render();
   std::string why_to_end();
+  void divide();
   void work();
   void open_gate();
   std::string state() const;
@@ -106,6 +139,10 @@ class Job {
   RenderSettings settings_;
   bool default_budget_;  ///< None was asked for.
   std::unique_ptr<Rendering> rendering_;
+
+  std::unique_ptr<Crew> crew_;
+  std::optional<Division> division_;
+  mutable std::mutex folding_;  ///< Nobody looks at the image while an outcome is folded in.
 
   std::atomic<bool> cancel_{false};
   std::atomic<Phase> phase_{Phase::waiting};

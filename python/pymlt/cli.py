@@ -129,6 +129,11 @@ def _add_render(commands) -> None:
         "another file",
     )
     c.add_argument(
+        "--cluster",
+        metavar="ADDRESS",
+        help="render on a dask cluster, such as tcp://host:8786, or on local:N processes",
+    )
+    c.add_argument(
         "--stats", metavar="FILE", help="write what the render tells about itself (JSON)"
     )
     c.add_argument(
@@ -248,10 +253,10 @@ def _start(args, signals: _Signals) -> Job:
         if args.scene and not moved:
             raise _core.FileError(f"{args.scene}: no such file")
         made = signals.abandonable(lambda: prepare_resume(args.resume, scene=moved, **common))
-        return begin(made)
+        return begin(made, args.cluster)
     scene = signals.abandonable(lambda: _load(args))
     integrator = as_integrator(scene, args.integrator, args.parameters)
-    return start(scene, integrator, seed=args.seed or 0, **common)
+    return start(scene, integrator, seed=args.seed or 0, cluster=args.cluster, **common)
 
 
 def _render(args) -> int:
@@ -265,7 +270,12 @@ def _render(args) -> int:
         known = job.stats["warnings"]
         if not args.quiet:
             _warn(known)
-        _wait(job, signals, args.quiet)
+        try:
+            _wait(job, signals, args.quiet)
+        except _core.RenderError as error:
+            if hasattr(error, "result"):
+                _save(args, error.result)
+            raise
         code = 128 + signals.caught if signals.caught else 0
         if code and job.stats["spp_done"] == 0:
             _say("interrupted before the first sample; nothing to save")

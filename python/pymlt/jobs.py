@@ -276,6 +276,7 @@ def start(
     threads=0,
     checkpoint=None,
     every=60,
+    cluster=None,
 ) -> Job:
     """Start a render and return at once.
 
@@ -294,12 +295,16 @@ def start(
     checkpoint, every
         a file that keeps the state of the render, renewed every so many seconds and at the end;
         `resume` goes on from there.
+    cluster
+        where to render: a `dask.distributed` client or cluster, the address of one
+        ("tcp://host:8786"), or "local:N" for N processes of this machine. None is this process.
+        The bootstrap runs here. The pixels are the same. Needs `pymlt[cluster]`.
     """
     scene = as_scene(scene)
     made = as_integrator(scene, integrator)
     budget = spp, time, error
     job = _make(scene, made, budget, _integer("seed", seed, 2**64), threads, checkpoint, every)
-    return begin(job)
+    return begin(job, cluster)
 
 
 def resume(
@@ -312,6 +317,7 @@ def resume(
     threads=0,
     checkpoint=None,
     every=60,
+    cluster=None,
 ) -> Job:
     """Go on with a render that was saved in a checkpoint; the image ends with the same pixels.
 
@@ -325,12 +331,14 @@ def resume(
         render goes on if they are larger.
     checkpoint, every
         where the state is kept from now on; None means `path`.
+    cluster
+        where to render, as for `start`; it need not be where the render began.
     """
     budget = {"spp": spp, "time": time, "error": error}
     job = prepare_resume(
         path, scene=scene, threads=threads, checkpoint=checkpoint, every=every, **budget
     )
-    return begin(job)
+    return begin(job, cluster)
 
 
 def prepare_resume(path, *, scene, spp, time, error, threads, checkpoint, every) -> Job:
@@ -352,8 +360,12 @@ def prepare_resume(path, *, scene, spp, time, error, threads, checkpoint, every)
     return job
 
 
-def begin(job: Job) -> Job:
+def begin(job: Job, cluster=None) -> Job:
     """Start a job that was made."""
+    if cluster is not None:
+        from .cluster import Crew
+
+        job._job.hire(Crew(job._scene, job._integrator, cluster))
     job._job.start()
     _running.add(job)
     return job
@@ -383,6 +395,7 @@ def render(
     threads=0,
     checkpoint=None,
     every=60,
+    cluster=None,
     progress=None,
     callback=None,
     interval=1,
@@ -404,6 +417,7 @@ def render(
         threads=threads,
         checkpoint=checkpoint,
         every=every,
+        cluster=cluster,
     )
     try:
         job.wait(progress=progress, callback=callback, interval=interval)
@@ -420,9 +434,9 @@ def render(
 def render_progressive(scene, integrator=None, *, interval=1, **settings) -> Iterator[Result]:
     """Render and look at it: `for snapshot in render_progressive(scene, spp=256): ...`.
 
-    Yields a Result each `interval` seconds, and at the end the finished one. The other arguments are
-    those of `start`. The render begins with the first step of the loop, and leaving the loop ends
-    it.
+    Yields a Result each `interval` seconds, and at the end the finished one. The other arguments
+    are those of `start`. The render begins with the first step of the loop, and leaving the loop
+    ends it.
     """
     job = start(scene, integrator, **settings)
     try:

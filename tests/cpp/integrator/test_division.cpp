@@ -42,7 +42,7 @@ std::string outcome(const Division& division, size_t part, uint64_t to,
 /// Takes every part to `units` in steps, the last part first.
 void run_divided(Rendering& rendering, const IntegratorPtr& algorithm, int wanted, uint64_t units,
                  uint64_t step, int threads) {
-  Division division(rendering, seed, wanted);
+  Division division(rendering, seed, wanted, 0);
   uint64_t done = 0;
   for (uint64_t to = std::min(step, units);; to = std::min(to + step, units)) {
     for (size_t part = division.parts(); part-- > 0;)
@@ -80,7 +80,7 @@ TEST(Division, CanBecomeFinerOnTheWay) {
     SCOPED_TRACE(algorithm.name);
     const IntegratorPtr made = integrator(algorithm.name, algorithm.assignments);
     const auto whole = rendered(scene(), made, seed, 3), divided = prepared(scene(), made, seed);
-    Division division(*divided, seed, 1);
+    Division division(*divided, seed, 1, 0);
     const size_t coarse = division.parts();
     for (const uint64_t to : {whole->unit_count(1), whole->unit_count(2), whole->unit_count(3)}) {
       const size_t parts = division.parts();
@@ -119,7 +119,7 @@ TEST(Division, CountsNothingTwice) {
     SCOPED_TRACE(algorithm.name);
     const IntegratorPtr made = integrator(algorithm.name, algorithm.assignments);
     const auto rendering = prepared(scene(), made, seed);
-    Division division(*rendering, seed, 1);
+    Division division(*rendering, seed, 1, 0);
     const uint64_t units = rendering->unit_count(40);
     const std::string first = outcome(division, 0, units, made, 1);
     EXPECT_EQ(first, outcome(division, 0, units, made, 2)) << "an order has more than one outcome";
@@ -132,12 +132,29 @@ TEST(Division, CountsNothingTwice) {
   }
 }
 
+TEST(Division, LeavesAStateThatOneMachineGoesOnFrom) {
+  for (const Algorithm& algorithm : algorithms()) {
+    SCOPED_TRACE(algorithm.name);
+    const IntegratorPtr made = integrator(algorithm.name, algorithm.assignments);
+    const auto whole = rendered(scene(), made, seed, 4), divided = prepared(scene(), made, seed);
+    Division division(*divided, seed, 7, 0);
+    const uint64_t units = whole->unit_count(4);
+    for (size_t part = 0; part < division.parts(); ++part)
+      division.fold(part, outcome(division, part, units / (1 + part % 3), made, 1));
+    EXPECT_LE(division.done(), units / 2);
+    const auto second = made->start(scene(), seed);
+    second->load(divided->save());
+    run_units(*second, division.done(), units, 2);
+    EXPECT_EQ(second->save(), whole->save());
+  }
+}
+
 TEST(Division, PassesOverPartsThatHaveNothingToDo) {
   for (const Algorithm& algorithm : algorithms()) {
     SCOPED_TRACE(algorithm.name);
     const IntegratorPtr made = integrator(algorithm.name, algorithm.assignments);
     const auto rendering = prepared(scene(), made, seed);
-    Division division(*rendering, seed, 1);
+    Division division(*rendering, seed, 1, 0);
     const uint64_t units = rendering->unit_count(1);
     for (size_t part = 0; part < division.parts(); ++part) {
       const std::string came = outcome(division, part, units, made, 1);
@@ -153,7 +170,7 @@ TEST(Division, PassesOverPartsThatHaveNothingToDo) {
 TEST(Division, GoesOnWhereACancelledOrderStopped) {
   const IntegratorPtr made = integrator("pssmlt", algorithms()[4].assignments);
   const auto rendering = prepared(scene(), made, seed);
-  Division division(*rendering, seed, 1);
+  Division division(*rendering, seed, 1, 0);
   const std::atomic<bool> cancelled{true};
   const uint64_t units = rendering->unit_count(3);
   EXPECT_EQ(division.fold(0, carry_out(division.order(0, units), scene(), *made, 1, cancelled)),

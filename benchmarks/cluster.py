@@ -1,0 +1,159 @@
+"""Rendering on many machines: bytes and CPU time of orders and outcomes, and 1, 2, 4 processes.
+
+The constants of the cost model in docs/many-machines.md. A part of a render is ordered, carried out
+and folded within this process, so that nothing but that is measured; an order without work shows
+what one costs at least. Then a whole render on this process with one thread and on clusters of 1, 2
+and 4 processes with one thread each, in turn: the quotient of their wall times is the speed-up,
+that of their CPU times (all processes of the cluster) what dividing the render costs.
+"""
+
+from __future__ import annotations
+
+import pickle
+from statistics import median
+from time import perf_counter, process_time
+
+from common import parser, print_table, say, write_results
+
+import pymlt as mlt
+from pymlt import _core
+from pymlt.jobs import as_integrator
+
+
+def cpu(function, *arguments):
+    start = process_time()
+    result = function(*arguments)
+    return result, process_time() - start
+
+
+class Measured:
+    """A crew that takes one part of the render some stages on and measures that."""
+
+    def __init__(self, scene, integrator, parts: int, rounds: int):
+        self.helper = _core.Helper(scene, integrator)
+        self.parts, self.rounds = parts, rounds
+        self.times = {"order": [], "empty": [], "fold": []}
+
+    def wanted_parts(self) -> int:
+        return self.parts
+
+    def advance(self, job, to: int) -> None:
+        step = job.units_per_step
+        for _ in range(self.rounds):
+            position = job.position(0)
+            _, seconds = cpu(self.helper.run, job.order(0, position), 1)
+            self.times["empty"].append(seconds)
+            order, seconds = cpu(job.order, 0, position + step)
+            self.times["order"].append(seconds)
+            outcome = self.helper.run(order, 1)
+            _, seconds = cpu(job.fold, 0, outcome)
+            self.times["fold"].append(seconds)
+        self.order_bytes, self.outcome_bytes, self.cut_into = len(order), len(outcome), job.parts
+        job.cancel()
+
+    def dismiss(self) -> None:
+        pass
+
+
+def costs(scene, name: str, parts: int, rounds: int) -> dict:
+    """Of one part of a render, per order."""
+    integrator = as_integrator(scene, name)
+    job = _core.Job(scene, integrator, 1e6, None, None, 1, 1)
+    measured = Measured(scene, integrator, parts, rounds)
+    job.hire(measured)
+    job.start()
+    job.wait(float("inf"))
+    pixels = scene.width * scene.height
+    return {
+        "integrator": name,
+        "size": f"{scene.width}x{scene.height}",
+        "parts": measured.cut_into,
+        "order bytes": measured.order_bytes,
+        "outcome bytes": measured.outcome_bytes,
+        "all outcomes, bytes/pixel": measured.outcome_bytes * measured.cut_into / pixels,
+        "order ms": 1e3 * median(measured.times["order"]),
+        "empty ms": 1e3 * median(measured.times["empty"]),
+        "fold ms": 1e3 * median(measured.times["fold"]),
+    }
+
+
+class Cluster:
+    """So many processes; counts the CPU seconds of all of them."""
+
+    def __init__(self, processes: int):
+        from distributed import Client
+
+        from pymlt.cluster import local_cluster
+
+        self.cluster = local_cluster(f"local:{processes}")
+        self.client = Client(self.cluster)
+        self.client.wait_for_workers(processes)
+
+    def cpu_seconds(self) -> float:
+        workers = sum(self.client.run(process_time).values())
+        return workers + self.client.run_on_scheduler(process_time) + process_time()
+
+    def close(self) -> None:
+        self.client.close()
+        self.cluster.close()
+
+
+def scaling(scene, name: str, spp: float, rounds: int) -> list[dict]:
+    clusters = {n: Cluster(n) for n in (1, 2, 4)}
+    measured = {n: [] for n in (0, *clusters)}
+    for _ in range(rounds + 1):
+        for n in measured:
+            cluster = clusters.get(n)
+            before = cluster.cpu_seconds() if cluster else process_time()
+            start = perf_counter()
+            where = {"cluster": cluster.client} if cluster else {"threads": 1}
+            mlt.render(scene, name, spp=spp, seed=1, progress=False, **where)
+            wall = perf_counter() - start
+            after = cluster.cpu_seconds() if cluster else process_time()
+            measured[n].append((wall, after - before))
+    for cluster in clusters.values():
+        cluster.close()
+    rows = []
+    for n, pairs in measured.items():
+        pairs = pairs[1:]  # the first one warms up
+        alone = measured[0][1:]
+        rows.append(
+            {
+                "integrator": name,
+                "processes": n or "this one",
+                "wall s": median(wall for wall, _ in pairs),
+                "CPU s": median(used for _, used in pairs),
+                "speed-up": median(a[0] / p[0] for a, p in zip(alone, pairs, strict=True)),
+                "CPU ratio": median(p[1] / a[1] for a, p in zip(alone, pairs, strict=True)),
+            }
+        )
+    return rows
+
+
+def main() -> None:
+    options = parser(__doc__)
+    options.add_argument("--rounds", type=int, default=5)
+    options.add_argument("--seconds", type=float, default=20, help="of one render, alone")
+    options.add_argument("--parts", type=int, default=64)
+    args = options.parse_args()
+    box = mlt.scenes.cornell_box()
+    small, large = (mlt.load_dict(box, size=size) for size in ((320, 180), (1920, 1080)))
+    say(f"the scene travels as {len(pickle.dumps(small))} bytes")
+    rows = [
+        costs(scene, name, args.parts, args.rounds)
+        for scene in (small, large)
+        for name in ("path", "bdpt", "pssmlt", "mlt")
+    ]
+    print_table(rows)
+    speed_ups = []
+    for name in ("path", "mlt"):
+        _, seconds = cpu(lambda name=name: mlt.render(small, name, spp=16, threads=1))
+        spp = max(128, round(16 * args.seconds / seconds))
+        speed_ups += scaling(small, name, spp, args.rounds)
+    print_table(speed_ups)
+    settings = {"rounds": args.rounds, "seconds": args.seconds, "parts": args.parts}
+    write_results(args.json, "cluster", settings, rows + speed_ups)
+
+
+if __name__ == "__main__":
+    main()

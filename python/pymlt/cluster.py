@@ -1,0 +1,314 @@
+"""Rendering on many machines: a dask.distributed cluster runs the units, this process the rest.
+
+This process keeps the whole state of the render. It prepares it (bootstrap), and then sends orders,
+"take this part from here to there", which any worker can carry out, any number of times with the
+same outcome; so dask redoes elsewhere what a lost worker held. Each outcome is folded in once. The
+pixels have the same bits as those of one machine with the same seed and samples.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import pickle
+import queue
+import threading
+import uuid
+from contextlib import ExitStack, contextmanager, suppress
+from time import monotonic
+
+from . import _core
+
+SHORTEST_STAGE = 1.0  #: seconds between two outcomes of a part, at the least
+LONGEST_STAGE = 60.0
+GROWTH = 0.3  #: a stage grows with the render: this share of the time so far
+OWNER_SHARE = 0.05  #: of the time, at most, the owner is to spend on gathering and folding
+CONNECT_SECONDS = 15
+
+
+# ---- the workers' side ---------------------------------------------------------------------------
+
+
+class _Bench:
+    """What a worker process keeps between orders; it hangs on dask's worker and ends with it."""
+
+    def __init__(self):
+        self.lock = threading.Lock()
+        self.scenes: dict[str, _core.Scene] = {}
+        self.helpers: dict[str, set[_core.Helper]] = {}  #: those at work, by job
+        self.cancelled: set[str] = set()
+
+    def scene(self, name: str, packed: bytes) -> _core.Scene:
+        with self.lock:  # so that several threads do not unpack the same one
+            if name not in self.scenes:
+                self.scenes[name] = pickle.loads(packed)
+            return self.scenes[name]
+
+    @contextmanager
+    def at_work(self, job: str, helper: _core.Helper):
+        with self.lock:
+            self.helpers.setdefault(job, set()).add(helper)
+            if job in self.cancelled:
+                helper.cancel()
+        try:
+            yield
+        finally:
+            with self.lock:
+                self.helpers[job].discard(helper)
+
+    def cancel(self, job: str) -> None:
+        with self.lock:
+            self.cancelled.add(job)
+            for helper in self.helpers.get(job, ()):
+                helper.cancel()
+
+    def forget(self, job: str, scene: str) -> None:
+        with self.lock:
+            self.cancelled.discard(job)
+            self.helpers.pop(job, None)
+            if not any(self.helpers.values()):
+                self.scenes.pop(scene, None)
+
+
+def _bench(worker) -> _Bench:
+    with _making_a_bench:
+        if not hasattr(worker, "pymlt_bench"):
+            worker.pymlt_bench = _Bench()
+        return worker.pymlt_bench
+
+
+_making_a_bench = threading.Lock()
+
+
+def _hold(packed: bytes) -> bytes:
+    """The scene as a task of its own: it reaches each worker once, and can be had again if lost."""
+    return packed
+
+
+def _carry_out(packed, job, scene, integrator, build, order, threads) -> bytes:
+    """The outcome of an order."""
+    from distributed import get_worker
+
+    if build != build_name():
+        raise _core.UsageError(
+            "this worker has another build of pymlt than the one that started the render; "
+            "install the same one everywhere"
+        )
+    worker = get_worker()
+    bench = _bench(worker)
+    helper = _core.Helper(bench.scene(scene, packed), integrator)
+    with bench.at_work(job, helper):
+        return helper.run(order, min(threads, worker.state.nthreads))
+
+
+def _cancel(job: str, dask_worker) -> None:
+    _bench(dask_worker).cancel(job)
+
+
+def _forget(job: str, scene: str, dask_worker) -> None:
+    _bench(dask_worker).forget(job, scene)
+
+
+def build_name() -> str:
+    """Of the compiled extension: the same bits are promised for one build."""
+    with open(_core.__file__, "rb") as file:
+        return hashlib.file_digest(file, "blake2b").hexdigest()[:32]
+
+
+# ---- the owner's side ----------------------------------------------------------------------------
+
+
+class _Connection:
+    """A client of a cluster, and what must be closed after the render."""
+
+    def __init__(self, cluster):
+        self._own = ExitStack()
+        try:
+            self.client = self._connect(cluster)
+        except BaseException:
+            self.close()
+            raise
+
+    def _connect(self, cluster):
+        try:
+            from distributed import Client
+        except ImportError:
+            raise _core.UsageError(
+                "a cluster needs dask.distributed; pip install 'pymlt[cluster]'"
+            ) from None
+        if isinstance(cluster, Client):
+            if cluster.asynchronous:
+                raise _core.UsageError("the cluster's client is asynchronous; make another one")
+            return cluster
+        if isinstance(cluster, str) and cluster.startswith("local:"):
+            cluster = self._own.enter_context(local_cluster(cluster))
+        elif not isinstance(cluster, str) and not hasattr(cluster, "scheduler_address"):
+            raise _core.UsageError(
+                f"cluster is {cluster!r}, but should be a dask client, a cluster, an address "
+                "such as 'tcp://host:8786', or 'local:4' for four processes of this machine"
+            )
+        try:
+            return self._own.enter_context(Client(cluster, timeout=CONNECT_SECONDS))
+        except (OSError, ValueError, TimeoutError) as error:
+            raise _core.UsageError(f"no cluster at {cluster}: {error}") from None
+
+    def close(self) -> None:
+        self._own.close()
+
+
+def local_cluster(text: str):
+    """Processes of this machine, one thread each. Scripts need no `if __name__` for them."""
+    count = text.removeprefix("local:")
+    if not count.isdecimal() or int(count) == 0:
+        raise _core.UsageError(f"cluster is {text!r}, but should be local:N with N >= 1")
+    from distributed.deploy.subprocess import SubprocessCluster
+
+    return SubprocessCluster(
+        n_workers=int(count),
+        threads_per_worker=1,
+        worker_class="distributed.Worker",
+        worker_kwargs={"memory_limit": 0, "dashboard": False},
+        scheduler_kwargs={"dashboard": False},
+    )
+
+
+class Crew:
+    """Sends the orders of a job to a cluster and folds their outcomes; see `_core.Job.hire`."""
+
+    def __init__(self, scene, integrator, cluster):
+        self.cluster = cluster
+        self.scene_name = scene.hash
+        self.packed = pickle.dumps(scene)
+        self.integrator = integrator
+        self.build = build_name()
+        self._begin()
+
+    def _begin(self) -> None:
+        self.connection = _Connection(self.cluster)
+        self.client = self.connection.client
+        self.name = f"pymlt-{uuid.uuid4().hex}"
+        self.scene = None
+        self.finished: queue.SimpleQueue = queue.SimpleQueue()
+        self.at_work: dict = {}  #: part -> future
+        self.folding = 0.0  #: seconds spent on gathering and folding
+        self.folded = 0
+        self.cancelling = False
+
+    def wanted_parts(self) -> int:
+        if self.connection is None:  # the render was extended
+            self._begin()
+        return 2 * self._slots()
+
+    def advance(self, job, to: int) -> None:
+        try:
+            self._advance(job, to)
+        except Exception as error:
+            raise _core.RenderError(_reason(error)) from error
+
+    def _advance(self, job, to: int) -> None:
+        if self.scene is None:
+            self.scene = self._submit(_hold, self.packed, key=f"{self.name}-scene")
+            self.start, self.units_before = monotonic(), job.units_done
+            self.frontier = min(job.position(part) for part in range(job.parts))
+        while True:
+            if job.stopping and not self.cancelling:
+                self.cancelling = True
+                self.client.run(_cancel, self.name)
+            elif job.interrupted and not self.cancelling:
+                return
+            if not self.cancelling:
+                self._send_orders(job, to)
+            if not self.at_work:
+                return
+            self._fold_one(job)
+
+    def dismiss(self) -> None:
+        """Whatever state the cluster is in by now: one that is gone has nothing to forget."""
+        if self.connection is None:
+            return
+        with suppress(Exception):
+            for future in self.at_work.values():
+                future.cancel()
+            self.client.run(_forget, self.name, self.scene_name, on_error="ignore")
+        self.at_work.clear()
+        self.scene = None
+        with suppress(Exception):
+            self.connection.close()
+        self.connection = self.client = None
+
+    def _slots(self) -> int:
+        return max(1, sum(self.client.nthreads().values()))
+
+    def _send_orders(self, job, to: int) -> None:
+        """Keep every worker busy, with the parts that are behind; never far ahead of the others."""
+        slots = self._slots()
+        threads = -(-slots // job.parts)
+        most = slots + max(1, slots // 2)
+        while len(self.at_work) < most:
+            waiting = [part for part in range(job.parts) if part not in self.at_work]
+            if not waiting:
+                return
+            part = min(waiting, key=job.position)
+            if job.position(part) >= self.frontier:
+                if self.frontier >= to:
+                    return
+                self.frontier = self._next_frontier(job, to)
+            if job.pass_over(part, self.frontier):
+                continue
+            future = self._submit(
+                _carry_out,
+                self.scene,
+                self.name,
+                self.scene_name,
+                self.integrator,
+                self.build,
+                job.order(part, self.frontier),
+                threads,
+                key=f"{self.name}-{part}-{job.position(part)}",
+            )
+            self.at_work[part] = future
+            future.add_done_callback(lambda _, part=part: self.finished.put(part))
+
+    def _next_frontier(self, job, to: int) -> int:
+        """A stage ahead. Stages are long enough that the owner's work hardly counts."""
+        elapsed = monotonic() - self.start
+        seconds = max(SHORTEST_STAGE, min(LONGEST_STAGE, GROWTH * elapsed))
+        if self.folded:
+            seconds = max(seconds, self.folding / self.folded * job.parts / OWNER_SHARE)
+        rate = (job.units_done - self.units_before) / max(elapsed, 1e-3)
+        steps = max(1, round(rate * seconds / job.units_per_step))
+        return min(to, self.frontier + steps * job.units_per_step)
+
+    def _fold_one(self, job) -> None:
+        try:
+            part = self.finished.get(timeout=0.05)
+        except queue.Empty:
+            return
+        start = monotonic()
+        try:
+            outcome = self.at_work[part].result(timeout=10)
+        except TimeoutError:  # its worker was lost in between: dask does it again
+            self.finished.put(part)
+            return
+        job.fold(part, outcome)
+        del self.at_work[part]
+        if job.parts < self._slots():  # workers have come
+            job.split(part)
+        self.folding += monotonic() - start
+        self.folded += 1
+
+    def _submit(self, function, *arguments, key):
+        import dask
+
+        # Orders carry the state of their part; the scheduler keeps it in case a worker is lost.
+        with dask.config.set({"distributed.admin.large-graph-warning-threshold": "1TB"}):
+            return self.client.submit(function, *arguments, key=key, pure=False)
+
+
+def _reason(error: BaseException) -> str:
+    if isinstance(error, _core.Error):
+        return str(error)
+    from distributed import KilledWorker
+
+    if isinstance(error, KilledWorker):
+        return f"workers of the cluster died, each time with the same order: {error}"
+    return f"the cluster is gone: {type(error).__name__}: {error}"
