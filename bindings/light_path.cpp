@@ -1,7 +1,8 @@
 // Light paths to look at: their vertices as numpy, contribution, densities and weights.
 #include "light_path.h"
 
-#include "mutation/kinds.h"
+#include "python_mutation.h"
+
 #include "mutation/proposals.h"
 #include "render/output.h"
 
@@ -15,35 +16,14 @@ namespace {
 using LoadedPtr = std::shared_ptr<LoadedScene>;
 
 // ---- vertices
-// ------------------------------------------------------------------------------------
-
-const char* name_of(VertexKind kind) {
-  switch (kind) {
-    case VertexKind::light: return "light";
-    case VertexKind::camera: return "camera";
-    case VertexKind::surface: break;
-  }
-  return "surface";
-}
-
-const char* name_of(Lobe lobe) {
-  switch (lobe) {
-    case Lobe::reflection: return "reflection";
-    case Lobe::transmission: return "transmission";
-    case Lobe::passage: return "passage";
-    case Lobe::smooth: break;
-  }
-  return "smooth";
-}
 
 py::tuple row(const Vertex& x) {
   const SurfacePoint& at = x.at;
   const auto triple = [](const Vec3& v) { return py::make_tuple(v.x, v.y, v.z); };
-  const int64_t shape = at.shape == SurfacePoint::no_shape ? -1 : int64_t{at.shape};
   const int64_t emitter = x.kind == VertexKind::light ? int64_t{x.emitter} : -1;
   return py::make_tuple(name_of(x.kind), triple(at.p), triple(at.ng), triple(at.shading.n),
-                        py::make_tuple(at.uv.x, at.uv.y), name_of(x.lobe), at.infinite(), shape,
-                        at.primitive, emitter);
+                        py::make_tuple(at.uv.x, at.uv.y), name_of(x.lobe), at.infinite(),
+                        shape_of(x), at.primitive, emitter);
 }
 
 py::object vertices(const PyLightPath& path) {
@@ -64,13 +44,46 @@ py::object vertices(const PyLightPath& path) {
   return py::module_::import("numpy").attr("array")(rows, fields);
 }
 
+Vertex vertex_at(const PyLightPath& path, py::ssize_t i) {
+  const auto count = static_cast<py::ssize_t>(path.path.vertices.size());
+  if (i < -count || i >= count)
+    throw py::index_error("a path of " + std::to_string(count) + " vertices");
+  return path.path[static_cast<size_t>(i < 0 ? i + count : i)];
+}
+
+std::vector<Vertex> vertices_at(const PyLightPath& path, const py::slice& slice) {
+  size_t start, stop, step, length;
+  if (!slice.compute(path.path.vertices.size(), &start, &stop, &step, &length))
+    throw py::error_already_set();
+  std::vector<Vertex> found;
+  for (size_t i = 0; i < length; ++i) found.push_back(path.path[start + i * step]);
+  return found;
+}
+
+PyLightPath with_vertices(const PyLightPath& x, std::vector<Vertex> vertices) {
+  const size_t n = vertices.size();
+  bool right =
+      n >= 2 && vertices[0].kind == VertexKind::light && vertices[n - 1].kind == VertexKind::camera;
+  for (size_t i = 1; right && i + 1 < n; ++i) right = vertices[i].kind == VertexKind::surface;
+  if (!right)
+    throw UsageError(
+        "a path should be one vertex on a light, any number on surfaces, and one on the lens");
+  PyLightPath y{x.scene, {std::move(vertices), x.path.time}};
+  y.strict_normals = x.strict_normals;
+  y.raster = raster_position(*x.scene->scene, y.path).value_or(Vec2(std::nan("")));
+  return y;
+}
+
 // ---- terms
-// ---------------------------------------------------------------------------------------
 
 PathTerms terms(const PyLightPath& path, bool sample_direct = true) {
   PathTerms terms;
   compute_terms(*path.scene->scene, path.path, {sample_direct, path.strict_normals}, terms);
   return terms;
+}
+
+py::array_t<double> numbers(const std::vector<double>& values) {
+  return py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data());
 }
 
 template <class Value>
@@ -110,7 +123,6 @@ py::str describe(const PyLightPath& path) {
 }
 
 // ---- where paths come from
-// -------------------------------------------------------------------------
 
 InspectSettings inspect_settings(uint64_t seed, int max_depth, bool strict_normals) {
   if (max_depth == 0 || max_depth < -1)
@@ -136,12 +148,11 @@ std::vector<PyLightPath> proposals(const LoadedPtr& scene, const PyLightPath& x,
                                    const py::object& mutation, uint64_t seed, int count,
                                    int max_depth, double near_specular) {
   if (x.scene->scene != scene->scene) throw UsageError("the path is one of another scene");
-  const py::object name = py::hasattr(mutation, "name") ? mutation.attr("name") : mutation;
   MutationSettings settings;
   settings.max_depth = max_depth;
   settings.near_specular = near_specular;
   settings.strict_normals = x.strict_normals;
-  const auto made = make_mutation(name.cast<std::string>(), *scene->scene, settings);
+  const auto made = to_mutation(scene, settings, mutation);
   std::vector<PyLightPath> result;
   for (Proposal& y : propose(*scene->scene, settings, x.path, made, seed, count))
     result.push_back(
@@ -162,6 +173,20 @@ void bind_class(py::module_& m) {
           "vertices", &vertices,
           "A structured array: kind, position, normal, shading_normal, uv, lobe, infinite, shape, "
           "primitive, emitter. At infinity, position is the direction towards the vertex.")
+      .def("__getitem__", &vertex_at, "Vertex i, counted from the light.")
+      .def("__getitem__", &vertices_at)
+      .def("with_vertices", &with_vertices, py::arg("vertices"),
+           "Another path of the same scene and time, through these vertices.")
+      .def_property_readonly("scene", [](const PyLightPath& p) { return p.scene; })
+      .def_property_readonly(
+          "G", [](const PyLightPath& p) { return numbers(terms(p).G); },
+          "G(x_i, x_{i+1}) for i = 0 ... k - 1 (Veach 1997, eq. 8.2), without visibility.")
+      .def_property_readonly(
+          "from_light", [](const PyLightPath& p) { return numbers(terms(p).from_light); },
+          "Density of each x_i when a walk from the light makes it, per unit of area.")
+      .def_property_readonly(
+          "from_camera", [](const PyLightPath& p) { return numbers(terms(p).from_camera); },
+          "Density of each x_i when a walk from the camera makes it, per unit of area.")
       .def_property_readonly(
           "edges", [](const PyLightPath& p) { return p.path.edges(); }, "k")
       .def_property_readonly("time", [](const PyLightPath& p) { return p.path.time; })
@@ -191,6 +216,29 @@ void bind_class(py::module_& m) {
 
 }  // namespace
 
+const char* name_of(VertexKind kind) {
+  switch (kind) {
+    case VertexKind::light: return "light";
+    case VertexKind::camera: return "camera";
+    case VertexKind::surface: break;
+  }
+  return "surface";
+}
+
+const char* name_of(Lobe lobe) {
+  switch (lobe) {
+    case Lobe::reflection: return "reflection";
+    case Lobe::transmission: return "transmission";
+    case Lobe::passage: return "passage";
+    case Lobe::smooth: break;
+  }
+  return "smooth";
+}
+
+int64_t shape_of(const Vertex& x) {
+  return x.at.shape == SurfacePoint::no_shape ? -1 : int64_t{x.at.shape};
+}
+
 PyLightPath light_path(LoadedPtr scene, FoundPath found, bool strict_normals) {
   return {std::move(scene), std::move(found.path),
           found.raster,     std::make_pair(found.s, found.t),
@@ -205,6 +253,7 @@ py::array_t<double> to_array(const Color& color) {
 }
 
 void bind_light_path(py::module_& m) {
+  bind_vertex(m);
   bind_class(m);
   auto scene = py::class_<LoadedScene, std::shared_ptr<LoadedScene>>(m.attr("Scene"));
   scene.def("trace_path", &trace, py::kw_only(), py::arg("pixel"), py::arg("seed") = 0,

@@ -25,4 +25,12 @@ PyLightPath light_path(std::shared_ptr<LoadedScene> scene, FoundPath found,
 
 py::array_t<double> to_array(const Color& color);
 
+const char* name_of(VertexKind kind);
+const char* name_of(Lobe lobe);
+/// Which shape of the scene a vertex is on; -1: none.
+int64_t shape_of(const Vertex& x);
+
+/// `Vertex`, and the methods of `Scene` that find vertices.
+void bind_vertex(py::module_& m);
+
 }  // namespace mlt::python

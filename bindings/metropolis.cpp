@@ -1,6 +1,7 @@
 // The laboratory of markov/lab.h for Python: built-in targets and moves, and chains that run on these
 // or on Python's own.
 #include "metropolis_chains.h"
+#include "path_chains.h"
 
 #include "markov/bootstrap.h"
 #include "markov/lab_moves.h"
@@ -12,9 +13,8 @@ namespace mlt::python {
 namespace {
 
 using lab::Point;
-// ---- from Python's arguments
 
-using WeightedMoves = std::vector<std::pair<py::object, double>>;
+// ---- from Python's arguments
 
 bool truth(const py::object& object, const char* attribute) {
   return py::cast<bool>(object.attr(attribute));
@@ -23,7 +23,7 @@ bool truth(const py::object& object, const char* attribute) {
 /// A built-in move as it is, any other object as a PythonMove.
 template <class Space>
 typename lab::Mixture<typename Space::State>::Moves make_moves(const Space& space,
-                                                               const WeightedMoves& given,
+                                                               const WeightedObjects& given,
                                                                uint64_t seed, bool& native) {
   using X = typename Space::State;
   typename lab::Mixture<X>::Moves moves;
@@ -53,7 +53,8 @@ Numbers make_space(const std::string& form, size_t dimensions) {
           dimensions};
 }
 
-std::unique_ptr<Chains<Numbers>> number_chains(const py::object& target, const WeightedMoves& given,
+std::unique_ptr<Chains<Numbers>> number_chains(const py::object& target,
+                                               const WeightedObjects& given,
                                                const std::vector<Point>& starts,
                                                const std::string& form, uint64_t seed,
                                                bool vectorized) {
@@ -72,8 +73,9 @@ std::unique_ptr<Chains<Numbers>> number_chains(const py::object& target, const W
   return std::make_unique<VectorChains>(space, target, moves, python_moves, starts, seed);
 }
 
-std::unique_ptr<Chains<Objects>> object_chains(const py::object& target, const WeightedMoves& given,
-                                               const py::list& starts, uint64_t seed) {
+std::unique_ptr<Chains<Objects>> object_chains(const py::object& target,
+                                               const WeightedObjects& given, const py::list& starts,
+                                               uint64_t seed) {
   const Objects space;
   bool native = false;
   const auto moves = make_moves(space, given, seed, native);
@@ -153,6 +155,7 @@ void bind_metropolis(py::module_& parent) {
   bind_random_source(m);
   bind_moves(m);
   bind_targets(m);
+  bind_path_target(parent, m);
 
   py::class_<Chains<Numbers>>(m, "NumberChains", "Chains of numbers or arrays.")
       .def("advance", &Chains<Numbers>::advance, py::arg("steps"), py::arg("expected_values"));

@@ -84,13 +84,18 @@ class Trace {
     sample_weight_[chain * 2 * steps_ + i] = weight;
   }
 
-  void end(size_t c, size_t step, const lab::Chain<X>& chain, const StepResult& result) {
+  /// After a step: the state, the index of the move that was chosen (-1: none), and its size.
+  void end(size_t c, size_t step, const X& x, int32_t move, double size, const StepResult& result) {
     const size_t i = c * steps_ + step;
-    states_.set(c, step, chain.state());
+    states_.set(c, step, x);
     acceptance_data_[i] = result.acceptance;
     accepted_data_[i] = result.accepted >= 0;
-    moves_data_[i] = static_cast<int32_t>(chain.mixture().chosen());
-    sizes_data_[i] = chain.mixture().size();
+    moves_data_[i] = move;
+    sizes_data_[i] = size;
+  }
+  void end(size_t c, size_t step, const lab::Chain<X>& chain, const StepResult& result) {
+    const lab::Mixture<X>& mixture = chain.mixture();
+    end(c, step, chain.state(), static_cast<int32_t>(mixture.chosen()), mixture.size(), result);
   }
 
   py::dict take() {

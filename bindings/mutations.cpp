@@ -1,8 +1,7 @@
 // What mutations there are, and the audit of one or of a mixture.
-#include "bindings.h"
+#include "python_mutation.h"
 
 #include "base/parallel.h"
-#include "io/load.h"
 #include "mutation/audit.h"
 #include "mutation/kinds.h"
 
@@ -25,11 +24,9 @@ py::list kinds() {
   return list;
 }
 
-using WeightedNames = std::vector<std::pair<std::string, double>>;
-
-AuditReport run_audit(const LoadedScene& loaded, const WeightedNames& mixture, int max_depth,
-                      bool hide_emitters, bool strict_normals, double near_specular, uint64_t paths,
-                      uint64_t seed, int threads, double significance) {
+AuditReport run_audit(const std::shared_ptr<LoadedScene>& loaded, const WeightedObjects& mixture,
+                      int max_depth, bool hide_emitters, bool strict_normals, double near_specular,
+                      uint64_t paths, uint64_t seed, int threads, double significance) {
   MutationSettings settings;
   settings.max_depth = max_depth;
   settings.hide_emitters = hide_emitters;
@@ -42,11 +39,12 @@ AuditReport run_audit(const LoadedScene& loaded, const WeightedNames& mixture, i
   how.significance = significance;
   Mutations mutations;
   std::vector<double> weights;
-  for (const auto& [name, weight] : mixture) {
-    mutations.push_back(make_mutation(name, *loaded.scene, settings));
+  for (const auto& [mutation, weight] : mixture) {
+    mutations.push_back(to_mutation(loaded, settings, mutation));
     weights.push_back(weight);
   }
-  return audit(*loaded.scene, settings, mutations, MutationChoice(weights), how);
+  const py::gil_scoped_release release;
+  return audit(*loaded->scene, settings, mutations, MutationChoice(weights), how);
 }
 
 py::list tests(const AuditReport& report) {
@@ -74,8 +72,7 @@ void bind_mutations(py::module_& m) {
       .def("text", &AuditReport::text, py::arg("most"));
   m.def("audit", &run_audit, py::arg("scene"), py::arg("mixture"), py::arg("max_depth"),
         py::arg("hide_emitters"), py::arg("strict_normals"), py::arg("near_specular"),
-        py::arg("paths"), py::arg("seed"), py::arg("threads"), py::arg("significance"),
-        py::call_guard<py::gil_scoped_release>());
+        py::arg("paths"), py::arg("seed"), py::arg("threads"), py::arg("significance"));
 }
 
 }  // namespace mlt::python

@@ -1,6 +1,6 @@
 // Integrators and jobs.
 #include "bindings.h"
-#include "light_path.h"
+#include "python_mutation.h"
 #include "values.h"
 
 #include "io/pack.h"
@@ -98,6 +98,37 @@ MadeIntegrator from_dict(const py::dict& dict) {
   return make_integrator(to_node(dict, "integrator", "integrator", plugins()), plugins());
 }
 
+/// mlt with mutations that are written in Python, for this scene alone.
+MadeIntegrator with_python_mutations(const MadeIntegrator& made, const LoadedPtr& loaded,
+                                     const WeightedObjects& mutations) {
+  std::vector<ExtraMutation> extra;
+  for (const auto& [object, weight] : mutations) {
+    const auto held = hold(object);
+    const auto make = [loaded, held](const Scene& scene, const MutationSettings& settings) {
+      if (&scene != loaded->scene.get())
+        throw UsageError("an integrator with mutations written in Python serves one scene only");
+      const py::gil_scoped_acquire gil;
+      return to_mutation(loaded, settings, *held);
+    };
+    extra.push_back({object.attr("name").cast<std::string>(), weight, make});
+  }
+  return with_mutations(made, extra);
+}
+
+/// Waits without the GIL, which mutations written in Python need. What went wrong in one of these is
+/// raised as Python knows it, each time anew: an error_already_set serves only once.
+bool wait(PyJob& job, double seconds) {
+  try {
+    const py::gil_scoped_release release;
+    return (*job).wait(seconds);
+  } catch (const py::error_already_set& error) {
+    PyErr_Restore(py::object(error.type()).release().ptr(),
+                  py::object(error.value()).release().ptr(),
+                  py::object(error.trace()).release().ptr());
+    throw py::error_already_set();
+  }
+}
+
 py::array_t<float> image(PyJob& job) {
   Image image;
   {
@@ -159,8 +190,13 @@ py::tuple replay(PyJob& job, const std::pair<int, int>& pixel, uint64_t sample) 
 }
 
 py::dict metadata(PyJob& job) {
+  Metadata metadata;
+  {
+    py::gil_scoped_release release;
+    metadata = job.metadata();
+  }
   py::dict dict;
-  for (const auto& [name, value] : job.metadata()) dict[py::str(name)] = value;
+  for (const auto& [name, value] : metadata) dict[py::str(name)] = value;
   return dict;
 }
 
@@ -250,6 +286,8 @@ void bind_render(py::module_& m) {
           [](const py::bytes& packed) { return make_integrator(unpack_node(packed), plugins()); }));
   m.def("integrator_by_name", &by_name, py::arg("scene"), py::arg("name"), py::arg("assignments"));
   m.def("integrator_from_dict", &from_dict, py::arg("dict"));
+  m.def("with_mutations", &with_python_mutations, py::arg("integrator"), py::arg("scene"),
+        py::arg("mutations"));
 
   py::class_<PyCheckpoint>(m, "Checkpoint", "A render on disk, read and found whole.")
       .def(py::init<const std::string&>(), py::arg("path"), NoGil())
@@ -269,9 +307,7 @@ void bind_render(py::module_& m) {
            py::arg("checkpoint") = "", py::arg("every") = 60.0)
       .def(
           "start", [](PyJob& job) { (*job).start(); }, NoGil())
-      .def(
-          "wait", [](PyJob& job, double seconds) { return (*job).wait(seconds); },
-          py::arg("seconds"), NoGil())
+      .def("wait", &wait, py::arg("seconds"))
       .def(
           "cancel", [](PyJob& job) { (*job).cancel(); }, NoGil())
       .def("save", &save, "The whole state as bytes; the render goes on.")

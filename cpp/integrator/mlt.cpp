@@ -1,5 +1,7 @@
 // mlt: Metropolis light transport in path space. E. Veach and L. Guibas, "Metropolis light transport",
 // SIGGRAPH 1997; Veach 1997, ch. 11.
+#include "integrator/mlt.h"
+
 #include "base/parallel.h"
 #include "base/registry.h"
 #include "integrator/metropolis_params.h"
@@ -19,6 +21,7 @@ struct MltSettings {
   BidirectionalSettings paths;
   MutationSettings mutation;
   std::vector<std::pair<std::string, double>> weights;  ///< Of each mutation, by name.
+  std::vector<ExtraMutation> extra;
   bool adaptive = true;
   bool two_stage = false;
   int64_t luminance_samples = 100000;
@@ -108,6 +111,11 @@ class Mlt : public MetropolisAlgorithm {
         add(name, share);
         weights.push_back(weight / std::size(adaptive_shares));
       }
+    }
+    for (const ExtraMutation& extra : settings_.extra) {
+      mutations_.push_back(extra.make(*scene_, settings_.mutation));
+      steps_.push_back(0);
+      weights.push_back(extra.weight);
     }
     choice_ = MutationChoice(std::move(weights));
   }
@@ -252,6 +260,7 @@ class MltIntegrator : public Integrator {
     return std::make_unique<MetropolisRendering>(std::move(scene), seed, metropolis_, std::move(algorithm),
                                                  std::move(direct));
   }
+  void add(const ExtraMutation& extra) { settings_.extra.push_back(extra); }
 
  private:
   MetropolisSettings metropolis_;
@@ -260,6 +269,14 @@ class MltIntegrator : public Integrator {
 };
 
 }  // namespace
+
+IntegratorPtr with_mutations(const Integrator& integrator, const std::vector<ExtraMutation>& extra) {
+  const auto* mlt = dynamic_cast<const MltIntegrator*>(&integrator);
+  if (!mlt) throw UsageError("'" + integrator.name() + "' has no mixture of mutations; mlt has");
+  auto made = std::make_shared<MltIntegrator>(*mlt);
+  for (const ExtraMutation& mutation : extra) made->add(mutation);
+  return made;
+}
 
 Plugin integrator_mlt() {
   Schema schema;

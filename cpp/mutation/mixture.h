@@ -51,6 +51,7 @@ class MutationMixture {
       suitability_.push_back(weights[i] > 0 ? weights[i] * (*mutations_)[i]->suitability(x) : 0.0);
       sum += suitability_.back();
     }
+    suited_ = sum > 0;
     double u = rng.next() * sum;
     chosen_ = 0;
     while (chosen_ + 1 < suitability_.size() && (u -= suitability_[chosen_]) >= 0) ++chosen_;
@@ -66,6 +67,8 @@ class MutationMixture {
     return {forward / y.target, backward / x.target};
   }
 
+  /// Whether any mutation suited the path of the last step, and which one was chosen.
+  bool suited() const { return suited_; }
   size_t chosen() const { return chosen_; }
   bool generated() const { return generated_; }
 
@@ -88,7 +91,7 @@ class MutationMixture {
   Vec2 stratified_raster_{0};
   std::vector<double> suitability_;
   size_t chosen_ = 0;
-  bool generated_ = false;
+  bool suited_ = false, generated_ = false;
 };
 
 }  // namespace mlt

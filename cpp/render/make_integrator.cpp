@@ -73,4 +73,13 @@ MadeIntegrator make_integrator(const Node& node, const Registry& registry) {
   return made;
 }
 
+MadeIntegrator with_mutations(MadeIntegrator made, const std::vector<ExtraMutation>& extra) {
+  made.integrator = with_mutations(*made.integrator, extra);
+  Json weights;
+  for (const ExtraMutation& mutation : extra) weights.add(mutation.name, mutation.weight);
+  made.settings.pop_back();  // the closing brace
+  made.settings += ", \"extra_mutations\": " + weights.text() + "}";
+  return made;
+}
+
 }  // namespace mlt

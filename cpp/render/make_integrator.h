@@ -2,7 +2,7 @@
 // name, with single parameters replaced.
 #pragma once
 
-#include "integrator/integrator.h"
+#include "integrator/mlt.h"
 #include "io/load.h"
 
 #include <string>
@@ -28,5 +28,7 @@ Node choose_integrator(const LoadedScene& loaded, const std::string& name,
                        const Assignments& assignments, const Registry& registry);
 
 MadeIntegrator make_integrator(const Node& node, const Registry& registry);
+/// The same with more mutations; the settings list their names and weights as "extra_mutations".
+MadeIntegrator with_mutations(MadeIntegrator made, const std::vector<ExtraMutation>& extra);
 
 }  // namespace mlt

@@ -23,6 +23,7 @@ from ._core import (
     Scene,
     SceneError,
     UsageError,
+    Vertex,
     __version__,
 )
 from .images import read_image, read_metadata, write_image
@@ -68,6 +69,7 @@ __all__ = [
     "Technique",
     "Transform",
     "UsageError",
+    "Vertex",
     "__version__",
     "audit",
     "available",

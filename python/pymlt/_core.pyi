@@ -1,7 +1,10 @@
-from typing import Literal
+from collections.abc import Sequence
+from typing import Any, Literal, overload
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from .metropolis import Start
 from .mutations import Mutation
 
 __version__: str
@@ -65,6 +68,77 @@ class Scene:
         Those that found a path are returned, each with its `acceptance`.
         """
 
+    def path_target(
+        self,
+        *,
+        max_depth: int = 8,
+        hide_emitters: bool = False,
+        strict_normals: bool = False,
+        near_specular: float = 0.1,
+    ) -> _MetropolisModule.PathTarget:
+        """L* of the paths of this scene as a target for `metropolis.run`."""
+
+    def intersect(
+        self,
+        start: Vertex | ArrayLike,
+        direction: ArrayLike,
+        time: float = 0.0,
+    ) -> Vertex | None:
+        """The surface that a ray meets first, as a (smooth) vertex; None if it meets none."""
+
+    def visible(self, a: Vertex, b: Vertex, time: float = 0.0) -> bool:
+        """Whether nothing stands between two vertices."""
+
+    def scatter(
+        self,
+        vertex: Vertex,
+        direction: ArrayLike,
+        u: ArrayLike,
+    ) -> tuple[Vertex, np.ndarray] | None:
+        """Samples the BSDF of a surface vertex for light or a camera in `direction`.
+
+        u: three random numbers. Returns the vertex with the lobe that was chosen, and a direction.
+        """
+
+    def camera_direction(self, vertex: Vertex, raster: ArrayLike) -> np.ndarray | None:
+        """The direction that leaves the lens at the last vertex of a path for a raster position."""
+
+    @property
+    def raster_area(self) -> float:
+        """Of the image with the border that its filter needs, in square pixels."""
+
+class Vertex:
+    """A vertex of a light path; it belongs to the scene of its path."""
+
+    @property
+    def kind(self) -> Literal["light", "surface", "camera"]: ...
+    @property
+    def position(self) -> np.ndarray:
+        """Where it is; at infinity, the direction towards it."""
+
+    @property
+    def normal(self) -> np.ndarray: ...
+    @property
+    def shading_normal(self) -> np.ndarray: ...
+    @property
+    def uv(self) -> tuple[float, float]: ...
+    @property
+    def lobe(self) -> Literal["smooth", "reflection", "transmission", "passage"]:
+        """How it scatters: smooth, or by which delta."""
+
+    @property
+    def delta(self) -> bool:
+        """Whether it scatters in one direction only."""
+
+    @property
+    def infinite(self) -> bool: ...
+    @property
+    def shape(self) -> int:
+        """Which shape of the scene it is on; -1: none."""
+
+    def direction_to(self, other: Vertex) -> np.ndarray:
+        """The unit direction in which another vertex is seen."""
+
 class LightPath:
     """A light path: x_0 on a light ... x_k on the camera's lens, whichever way it was made."""
 
@@ -116,6 +190,139 @@ class LightPath:
         """The weights of multiple importance sampling, for s = 0 ... k + 1."""
 
     def __len__(self) -> int: ...
+    @overload
+    def __getitem__(self, i: int) -> Vertex:
+        """Vertex i, counted from the light."""
+
+    @overload
+    def __getitem__(self, i: slice) -> list[Vertex]: ...
+    def with_vertices(self, vertices: Sequence[Vertex]) -> LightPath:
+        """Another path of the same scene and time, through these vertices."""
+
+    @property
+    def scene(self) -> Scene: ...
+    @property
+    def G(self) -> np.ndarray:  # noqa: N802
+        """G(x_i, x_{i+1}) for i = 0 ... k - 1 (Veach 1997, eq. 8.2), without visibility."""
+
+    @property
+    def from_light(self) -> np.ndarray:
+        """Density of each x_i when a walk from the light makes it, per unit of area."""
+
+    @property
+    def from_camera(self) -> np.ndarray:
+        """Density of each x_i when a walk from the camera makes it, per unit of area."""
+
+class _MetropolisModule:
+    """`_core.metropolis`, the C++ side of pymlt.metropolis: a module."""
+
+    class Move:
+        """A built-in move."""
+
+    class Target:
+        """A built-in target."""
+
+        def values(self, points: np.ndarray) -> np.ndarray:
+            """At each row of an array."""
+
+    class PathTarget:
+        """L*(x), the brightness that a light path brings to the image."""
+
+        def __call__(self, path: LightPath) -> float:
+            """L*(x); 0 if light cannot take the path."""
+
+        def bootstrap(
+            self,
+            candidates: int = 10000,
+            *,
+            chains: int = 1,
+            seed: int = 0,
+        ) -> Start:
+            """Paths to start chains from without start-up bias, with b, the integral of L*."""
+
+        def metropolis_chains(
+            self,
+            moves: list[tuple[Mutation, float]],
+            x0: LightPath | list[LightPath],
+            chains: int | None,
+            seed: int,
+        ) -> tuple[Any, str]: ...
+
+    class NumberChains:
+        """Chains of numbers or arrays."""
+
+        def advance(self, steps: int, expected_values: bool) -> dict[str, Any]: ...
+
+    class ObjectChains:
+        """Chains of any Python objects."""
+
+        def advance(self, steps: int, expected_values: bool) -> dict[str, Any]: ...
+
+    class PathChains:
+        """Chains of light paths."""
+
+        def advance(self, steps: int, expected_values: bool) -> dict[str, Any]: ...
+
+    class BitGenerator:
+        """The random stream of a chain, as numpy's bit generators are."""
+
+        @property
+        def capsule(self) -> Any: ...
+        @property
+        def lock(self) -> Any: ...
+
+    @staticmethod
+    def random_walk(size: list[float], shape: str) -> Move: ...
+    @staticmethod
+    def adaptive_walk(
+        size: list[float],
+        shape: str,
+        goal: float,
+        rate: float,
+        decay: float,
+    ) -> Move: ...
+    @staticmethod
+    def uniform(low: list[float], high: list[float]) -> Move: ...
+    @staticmethod
+    def discrete(matrix: list[list[float]]) -> Move: ...
+    @staticmethod
+    def parabola() -> Target: ...
+    @staticmethod
+    def table(values: list[float]) -> Target: ...
+    @staticmethod
+    def image(pixels: np.ndarray) -> Target: ...
+    @staticmethod
+    def normals(
+        means: list[list[float]],
+        deviations: list[float],
+        weights: list[float],
+    ) -> Target: ...
+    @staticmethod
+    def number_chains(
+        target: Any,
+        moves: list[tuple[Any, float]],
+        starts: np.ndarray,
+        form: str,
+        seed: int,
+        vectorized: bool,
+    ) -> NumberChains: ...
+    @staticmethod
+    def object_chains(
+        target: Any,
+        moves: list[tuple[Any, float]],
+        starts: list[Any],
+        seed: int,
+    ) -> ObjectChains: ...
+    @staticmethod
+    def resample(
+        weights: np.ndarray,
+        chains: int,
+        seed: int,
+    ) -> tuple[float, float, list[int]]: ...
+    @staticmethod
+    def acceptance(forward: float, backward: float) -> float: ...
+
+metropolis: _MetropolisModule
 
 class Integrator:
     @property
@@ -217,7 +424,7 @@ class AuditReport:
 def mutation_kinds() -> list[dict]: ...
 def audit(
     scene: Scene,
-    mixture: list[tuple[str, float]],
+    mixture: list[tuple[Mutation | str, float]],
     max_depth: int,
     hide_emitters: bool,
     strict_normals: bool,
@@ -250,6 +457,11 @@ def integrator_by_name(
     assignments: list[tuple[str, str]],
 ) -> Integrator: ...
 def integrator_from_dict(dict: dict) -> Integrator: ...
+def with_mutations(
+    integrator: Integrator,
+    scene: Scene,
+    mutations: list[tuple[Mutation, float]],
+) -> Integrator: ...
 def read_image(path: str, layer: str = "") -> np.ndarray: ...
 def read_metadata(path: str) -> dict[str, str]: ...
 def write_image(

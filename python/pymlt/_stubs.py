@@ -30,10 +30,18 @@ def integrator_schema(plugin: str) -> dict[str, Any]: ...
 
 MUTATIONS = '''\
 class Mutation:
-    """A way of changing a light path; it holds no state."""
+    """A way of changing a light path. Subclass it to write one in Python."""
 
     @property
     def name(self) -> str: ...
+    def suitability(self, x: LightPath) -> float:
+        """The weight with which it takes part in the choice: 1, or 0 where it cannot act on x."""
+
+    def propose(self, x: LightPath, rng: np.random.Generator) -> LightPath | None:
+        """Another path y, made by `x.with_vertices(...)`, or None."""
+
+    def density(self, x: LightPath, y: LightPath) -> float:
+        """T(x -> y) in the product-area measure of the vertices that y has and x has not."""
 
 def mutation_class_name(name: str) -> str: ...
 def mutation_documentation(kind: dict[str, Any]) -> str: ...
@@ -44,6 +52,9 @@ def parameters(
     mutations: Sequence[Mutation | tuple[Mutation, float]],
 ) -> dict[str, bool | float]: ...
 def parameter_names() -> list[str]: ...
+def written_in_python(
+    mutations: Sequence[Mutation | tuple[Mutation, float]],
+) -> list[tuple[Mutation, float]]: ...
 
 class AuditTest(NamedTuple):
     function: str
@@ -151,7 +162,8 @@ def mutations_stub() -> str:
     body = "\n".join([MUTATIONS, *map(mutation_stub, kinds), exported])
     head = "from collections.abc import Sequence\nfrom os import PathLike\n"
     head += "from typing import Any, Literal, NamedTuple\n\n"
-    head += "from ._core import Scene\nfrom .integrators import Integrator\n"
+    head += "import numpy as np\n\nfrom ._core import LightPath, Scene\n"
+    head += "from .integrators import Integrator\n"
     return f"{HEAD}{head}\n{body}"
 
 

@@ -41,8 +41,18 @@ class Integrator:
 
     def to_dict(self) -> dict:
         """The Mitsuba dict that means the same."""
+        given, written = self._parts()
+        if written:
+            raise _core.UsageError(
+                f"{written[0][0]!r} is written in Python, which a dict cannot say; use the "
+                f"{type(self).__name__} object itself"
+            )
+        return given
+
+    def _parts(self) -> tuple[dict, list]:
+        """The dict, and beside it the mutations that are written in Python, with their weights."""
         given = {name: value for name, value in self.__dict__.items() if value is not None}
-        return {"type": self._name, **given}
+        return {"type": self._name, **given}, []
 
     def __repr__(self) -> str:
         changed = [
@@ -64,15 +74,15 @@ class Integrator:
 class _WithMutations:
     """What `MLT` can do beside its plug-in: a list of mutations in place of their parameters."""
 
-    def to_dict(self) -> dict:
-        given = super().to_dict()
+    def _parts(self) -> tuple[dict, list]:
+        given, _ = super()._parts()
         mixture = given.pop("mutations", None)
         if mixture is None:
-            return given
+            return given, []
         chosen = mutations.parameters(mixture)
         if twice := [name for name in mutations.parameter_names() if name in given]:
             raise _core.UsageError(f"{twice[0]} is given beside mutations; give one of the two")
-        return {"adaptive": False, **given, **chosen}
+        return {"adaptive": False, **given, **chosen}, mutations.written_in_python(mixture)
 
 
 _MUTATIONS = {

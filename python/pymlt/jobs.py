@@ -460,7 +460,10 @@ def as_integrator(scene: _core.Scene, integrator, assignments=()) -> _core.Integ
     if isinstance(integrator, _core.Integrator):
         return integrator
     if isinstance(integrator, Integrator):
-        integrator = integrator.to_dict()
+        integrator, written = integrator._parts()
+        if written:
+            made = _core.integrator_from_dict(integrator)
+            return _core.with_mutations(made, scene, written)
     if isinstance(integrator, dict):
         return _core.integrator_from_dict(integrator)
     if integrator is None or isinstance(integrator, str):

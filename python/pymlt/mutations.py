@@ -3,7 +3,8 @@
     algo = mlt.MLT(mutations=[(mlt.Bidirectional(), 0.4), (mlt.Lens(), 0.3), (mlt.Caustic(), 0.3)])
     print(mlt.audit(mlt.Lens(), scene).summary())
 
-Each class is made from what the C++ side says about the mutation.
+Each class is made from what the C++ side says about the mutation. A mutation of your own is a
+subclass of `Mutation`.
 """
 
 from __future__ import annotations
@@ -13,11 +14,61 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from . import _core
+from ._core import LightPath
 
 
 class Mutation:
-    """A way of changing a light path; it holds no state."""
+    """A way of changing a light path. Subclass it to write one in Python.
 
+    It may be audited, join the mixture of an `MLT`, and move chains of `metropolis.run` whose
+    target is `scene.path_target()`. All chains and threads share the object, so its methods must
+    not change it. They are called from one thread at a time.
+
+    suitability(x)
+        The weight with which it takes part in the choice among mutations: 1, or 0 where it cannot
+        act on x. Acceptance accounts for it.
+    propose(x, rng)
+        Returns another path y, made by `x.with_vertices(...)`, or None if it finds none. `rng` is a
+        `numpy.random.Generator` on the random stream of the chain; draw from nothing else, and
+        renders depend on their seed alone. Visibility is tested afterwards: a path that light
+        cannot take is rejected, and so is one that breaks the law of reflection or refraction at a
+        delta vertex.
+    density(x, y)
+        T(x -> y), the density with which `propose` makes y of x, given that this mutation was
+        chosen, in the product-area measure of the vertices that y has and x has not: the product
+        over these vertices of a density per unit of area (in the units of the scene; per steradian
+        for a vertex at infinity, and for a vertex that follows a delta vertex the coefficient of
+        that delta), as `y.from_light` and `y.from_camera` are. It is also asked for T(y -> x), and
+        must be 0 where `propose` could not have made the path. A constant factor cancels, but not
+        one that depends on the paths.
+
+    The contract is that of the C++ side (cpp/mutation/mutation.h; Veach 1997, sec. 11.2).
+    """
+
+    _built_in = False
+
+    @property
+    def name(self) -> str:
+        """As in `stats`: the name of the class."""
+        return type(self).__name__
+
+    def suitability(self, x: LightPath) -> float:
+        return 1.0
+
+    def propose(self, x: LightPath, rng) -> LightPath | None:
+        raise NotImplementedError(f"{type(self).__name__} needs a method propose(x, rng)")
+
+    def density(self, x: LightPath, y: LightPath) -> float:
+        raise NotImplementedError(f"{type(self).__name__} needs a method density(x, y)")
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}()"
+
+
+class _BuiltIn(Mutation):
+    """A mutation of the C++ side; it holds no state."""
+
+    _built_in = True
     _name: str
     _switch: str  # the parameters of the integrator that turn it on ...
     _weight_name: str  # ... and give it its weight
@@ -27,9 +78,6 @@ class Mutation:
     def name(self) -> str:
         """As in `stats` and in the parameters of the integrator."""
         return self._name
-
-    def __repr__(self) -> str:
-        return f"{type(self).__name__}()"
 
     def __eq__(self, other) -> bool:
         return type(self) is type(other)
@@ -51,7 +99,7 @@ def mutation_documentation(kind: dict) -> str:
 def _make_class(kind: dict) -> type:
     return type(
         mutation_class_name(kind["name"]),
-        (Mutation,),
+        (_BuiltIn,),
         {
             "__doc__": mutation_documentation(kind),
             "__module__": __name__,
@@ -77,13 +125,21 @@ def weighted(mutations) -> dict[Mutation, float]:
     for item in mutations:
         mutation, weight = item if isinstance(item, tuple | list) else (item, None)
         if not isinstance(mutation, Mutation):
-            name = getattr(mutation, "__name__", None)
-            hint = f"; write {name}()" if mutation in _classes else ""
+            is_class = isinstance(mutation, type) and issubclass(mutation, Mutation)
+            hint = f"; write {mutation.__name__}()" if is_class else ""
             raise _core.UsageError(f"{mutation!r} in mutations is not a mutation{hint}")
         if mutation in weights:
             raise _core.UsageError(f"{mutation!r} is twice in mutations")
-        weights[mutation] = mutation._weight if weight is None else float(weight)
+        weights[mutation] = _weight(mutation, weight)
     return weights
+
+
+def _weight(mutation: Mutation, weight) -> float:
+    if weight is None:
+        return mutation._weight if mutation._built_in else 0.3
+    if not mutation._built_in and not 0 <= float(weight) < float("inf"):
+        raise _core.UsageError(f"the weight of {mutation!r} is {weight}; it must not be negative")
+    return float(weight)
 
 
 def parameter_names() -> list[str]:
@@ -92,7 +148,10 @@ def parameter_names() -> list[str]:
 
 
 def parameters(mutations) -> dict[str, bool | float]:
-    """The parameters of the integrator that mean this mixture: those not listed are off."""
+    """The parameters of the integrator that mean the built-in mutations of this mixture.
+
+    Those not listed are off.
+    """
     weights = weighted(mutations)
     chosen: dict[str, bool | float] = {}
     for made in _classes:
@@ -100,6 +159,18 @@ def parameters(mutations) -> dict[str, bool | float]:
         if made() in weights:
             chosen[made._weight_name] = weights[made()]
     return chosen
+
+
+def written_in_python(mutations) -> list[tuple[Mutation, float]]:
+    """The others, with their weights."""
+    weights = weighted(mutations)
+    written = [(m, weight) for m, weight in weights.items() if not m._built_in]
+    if written and not any(m._built_in and weight > 0 for m, weight in weights.items()):
+        raise _core.UsageError(
+            "mutations written in Python need a built-in one beside them, such as Bidirectional(): "
+            "together they must be able to reach every path"
+        )
+    return written
 
 
 # ---- audit --------------------------------------------------------------------------------------
@@ -153,7 +224,7 @@ def audit(
     """Test whether one step of a mutation, or of an `MLT`, leaves the target unchanged.
 
     what
-        a mutation such as `Lens()`, or an `MLT` with its mixture.
+        a mutation such as `Lens()` or one that is written in Python, or an `MLT` with its mixture.
     paths
         samples of bidirectional path tracing from which steps start.
     significance
@@ -166,15 +237,15 @@ def audit(
 
     settings = {"hide_emitters": False, "strict_normals": False, "near_specular": 0.1}
     if isinstance(what, Mutation):
-        mixture = [(what.name, 1.0)]
+        mixture = [(what, 1.0)]
         depth = 8
     elif isinstance(what, Integrator) and what.name == "mlt":
-        given = what.to_dict()
+        given, written = what._parts()
         mixture = [
-            (made._name, given.get(made._weight_name, made._weight))
+            (made(), given.get(made._weight_name, made._weight))
             for made in _classes
             if given.get(made._switch, True)
-        ]
+        ] + written
         settings = {name: getattr(what, name) for name in settings}
         depth = what.max_depth
     else:

@@ -3,14 +3,24 @@ from collections.abc import Sequence
 from os import PathLike
 from typing import Any, Literal, NamedTuple
 
-from ._core import Scene
+import numpy as np
+
+from ._core import LightPath, Scene
 from .integrators import Integrator
 
 class Mutation:
-    """A way of changing a light path; it holds no state."""
+    """A way of changing a light path. Subclass it to write one in Python."""
 
     @property
     def name(self) -> str: ...
+    def suitability(self, x: LightPath) -> float:
+        """The weight with which it takes part in the choice: 1, or 0 where it cannot act on x."""
+
+    def propose(self, x: LightPath, rng: np.random.Generator) -> LightPath | None:
+        """Another path y, made by `x.with_vertices(...)`, or None."""
+
+    def density(self, x: LightPath, y: LightPath) -> float:
+        """T(x -> y) in the product-area measure of the vertices that y has and x has not."""
 
 def mutation_class_name(name: str) -> str: ...
 def mutation_documentation(kind: dict[str, Any]) -> str: ...
@@ -21,6 +31,9 @@ def parameters(
     mutations: Sequence[Mutation | tuple[Mutation, float]],
 ) -> dict[str, bool | float]: ...
 def parameter_names() -> list[str]: ...
+def written_in_python(
+    mutations: Sequence[Mutation | tuple[Mutation, float]],
+) -> list[tuple[Mutation, float]]: ...
 
 class AuditTest(NamedTuple):
     function: str

@@ -40,11 +40,19 @@ def test_commands_parse(page):
             assert args.integrator in mlt.available("integrator")
 
 
+def python_of(page):
+    """All Python of a page as one program."""
+    return "\n".join(re.findall(r"```python\n(.*?)```", (ROOT / page).read_text(), re.DOTALL))
+
+
+def test_the_mutation_of_the_page_on_prototypes_is_right(capsys):
+    exec(compile(python_of("docs/prototyping.md"), "prototyping.md", "exec"), {})
+    assert "right: none of" in capsys.readouterr().out
+
+
 def test_the_python_examples_of_the_readme_run(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    code = "\n".join(
-        re.findall(r"```python\n(.*?)```", (ROOT / "README.md").read_text(), re.DOTALL)
-    )
+    code = python_of("README.md")
     assert "mlt.render(" in code
     # The same statements on small images, so that they take no time.
     code = re.sub(r"(spp|time)=[\d.]+", r"\1=1", code)

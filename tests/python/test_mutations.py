@@ -8,9 +8,9 @@ import pytest
 import tiny
 
 import pymlt as mlt
-from pymlt import _core
+from pymlt import _core, mutations
 
-CLASSES = sorted(mlt.Mutation.__subclasses__(), key=lambda c: c.__name__)
+CLASSES = [getattr(mlt, name) for name in sorted(mutations.__all__)]
 ALL = [made() for made in CLASSES]
 
 
@@ -69,7 +69,7 @@ def test_a_render_by_a_mixture_uses_these_mutations_alone():
 
 
 @pytest.mark.parametrize(
-    ("mutations", "message"),
+    ("mixture", "message"),
     [
         ([mlt.Lens], r"write Lens\(\)"),
         (["lens"], "is not a mutation"),
@@ -78,9 +78,9 @@ def test_a_render_by_a_mixture_uses_these_mutations_alone():
         ([], "at least one"),
     ],
 )
-def test_a_mixture_that_makes_no_sense_is_refused(mutations, message):
+def test_a_mixture_that_makes_no_sense_is_refused(mixture, message):
     with pytest.raises(mlt.Error, match=message):
-        mlt.start(tiny.scene(), mlt.MLT(mutations=mutations), spp=1)
+        mlt.start(tiny.scene(), mlt.MLT(mutations=mixture), spp=1)
 
 
 def test_a_mixture_and_its_parameters_contradict_each_other():

@@ -23,7 +23,7 @@ from .moves import AdaptiveWalk, Discrete, Independent, Move, RandomWalk, Symmet
 from .run import run
 from .samples import Samples, autocorrelation
 from .start import Start, bootstrap
-from .targets import Image, Normals, Parabola, Table, Target
+from .targets import Image, Normals, Parabola, PathTarget, Table, Target
 
 __all__ = [
     "AdaptiveWalk",
@@ -34,6 +34,7 @@ __all__ = [
     "Move",
     "Normals",
     "Parabola",
+    "PathTarget",
     "RandomWalk",
     "Samples",
     "Start",

@@ -12,6 +12,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from .. import _core
+from ..mutations import Mutation
 from .moves import Discrete, Move
 from .samples import Samples
 from .start import Start
@@ -23,8 +24,8 @@ _lab = _core.metropolis
 def run(
     target: Callable[[Any], float],
     moves: Any,
-    x0: Any,
-    n: int,
+    x0: Any = None,
+    n: int = 1000,
     *,
     expected_values: bool = False,
     seed: int = 0,
@@ -37,13 +38,15 @@ def run(
     ----------
     target
         Any function of a state that returns a number, nowhere negative; not normalised. Or one of
-        the built-in targets, with which a run needs no Python between its steps.
+        the built-in targets, with which a run needs no Python between its steps. Or
+        `scene.path_target()`: then states are light paths, and moves are mutations of these.
     moves
         A move, or a list [(move, weight), ...] of which one is chosen at each step by weight.
     x0
         The first state: a number, an array of numbers, or (with moves written in Python) any
         object. With `Discrete` moves it is an integer. With `chains`, an array or list with one
-        start each, or one start for all; or the `Start` that `bootstrap` returned.
+        start each, or one start for all; or the `Start` that `bootstrap` returned. A target of
+        light paths finds a start by itself (`target.bootstrap`) if there is none.
     n
         Steps of each chain.
     expected_values
@@ -62,17 +65,28 @@ def run(
     if n < 1 or int(n) != n:
         raise _core.UsageError(f"n must be a positive number of steps, not {n!r}")
     b = b_error = None
-    if isinstance(x0, Start):
+    if x0 is None:
+        x0, b, b_error = _found_start(target, chains, seed)
+    elif isinstance(x0, Start):
         x0, b, b_error = x0.starts, x0.b, x0.b_error
         chains = len(x0) if chains is None else chains
     if hasattr(target, "metropolis_chains"):
-        engine, form = target.metropolis_chains(pairs, x0, chains, seed)
+        _count(chains)
+        engine, form = target.metropolis_chains(pairs, x0, chains, _seed(seed))
     else:
         if not callable(target):
             raise _core.UsageError(f"the target must be a function of the state, not {target!r}")
         engine, form = _chains(target, pairs, x0, chains, seed, vectorized)
     trace = engine.advance(int(n), expected_values)
     return Samples._from_trace(trace, form, chains, [move for move, _ in pairs], b, b_error)
+
+
+def _found_start(target, chains, seed):
+    """(x0, b, b_error) of a target that can find a start by itself."""
+    if not hasattr(target, "bootstrap"):
+        raise _core.UsageError("x0 is missing: a chain must start somewhere")
+    start = target.bootstrap(chains=_count(chains), seed=_seed(seed))
+    return start.starts if chains is not None else start.starts[0], start.b, start.b_error
 
 
 def _weighted(moves) -> list[tuple[Any, float]]:
@@ -101,6 +115,11 @@ def _weighted(moves) -> list[tuple[Any, float]]:
 
 def _chains(target, pairs, x0, chains, seed, vectorized):
     """The C++ chains, and what their states are: "number", "integer", "array" or "object"."""
+    for move, _ in pairs:
+        if isinstance(move, Mutation):
+            raise _core.UsageError(
+                f"{move!r} moves light paths; the target of these is scene.path_target()"
+            )
     discrete = any(isinstance(move, Discrete) for move, _ in pairs)
     count = _count(chains)
     numbers = _numbers(x0, chains)

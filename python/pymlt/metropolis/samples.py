@@ -142,8 +142,12 @@ class Samples:
             error = np.hypot(error, self.b_error * mean)
         return Estimate(mean * scale, float(error), self.samples, values.ravel() * scale)
 
-    def to_arviz(self, name: str = "x"):
-        """The chains as an ArviZ `InferenceData`: for R-hat, effective sample sizes, plots."""
+    def to_arviz(self, name: str = "x", g=None):
+        """The chains as an ArviZ `InferenceData`: for R-hat, effective sample sizes, plots.
+
+        `g` is a function of one state; states that are Python objects, such as light paths, need
+        it.
+        """
         import numpy as np
 
         try:
@@ -153,10 +157,12 @@ class Samples:
         except ImportError:
             raise _core.UsageError("to_arviz needs `pip install 'pymlt[arviz]'`") from None
         states = self.states if self._axis else [self.states]
+        if g is not None:
+            states = [[g(x) for x in chain] for chain in states]
         try:
             states = np.asarray(states, dtype=float)
         except (TypeError, ValueError):
-            raise _core.UsageError("to_arviz needs states that are numbers") from None
+            raise _core.UsageError("to_arviz needs states that are numbers, or g") from None
         probability = np.atleast_2d(self.acceptance_probability)
         return arviz.from_dict(
             posterior={name: states}, sample_stats={"acceptance_rate": probability}

@@ -10,6 +10,7 @@ from functools import cached_property
 from .. import _core
 
 _lab = _core.metropolis
+PathTarget = _lab.PathTarget
 
 
 class Target:

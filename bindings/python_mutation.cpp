@@ -1,0 +1,130 @@
+#include "python_mutation.h"
+
+#include "mutation/adopt.h"
+#include "mutation/kinds.h"
+
+namespace mlt::python {
+namespace {
+
+std::string repr(const py::object& object) { return py::repr(object); }
+
+}  // namespace
+
+struct PythonMutation::Held {
+  py::object object, suitability, propose, density;
+  /// Generators that no call is using; while one call waits for another thread, that thread draws
+  /// from another stream.
+  std::vector<std::unique_ptr<RandomGenerator>> idle;
+};
+
+/// A generator for the length of one call.
+class PythonMutation::Borrowed {
+ public:
+  explicit Borrowed(Held& held) : held_(held) {
+    if (held_.idle.empty()) {
+      generator_ = std::make_unique<RandomGenerator>(Rng(0, Purpose::chain, 0));
+    } else {
+      generator_ = std::move(held_.idle.back());
+      held_.idle.pop_back();
+    }
+  }
+  ~Borrowed() { held_.idle.push_back(std::move(generator_)); }
+  Borrowed(const Borrowed&) = delete;
+  Borrowed& operator=(const Borrowed&) = delete;
+
+  const RandomGenerator& operator*() const { return *generator_; }
+
+ private:
+  Held& held_;
+  std::unique_ptr<RandomGenerator> generator_;
+};
+
+PythonMutation::PythonMutation(std::shared_ptr<LoadedScene> scene, const MutationSettings& settings,
+                               py::object object)
+    : scene_(std::move(scene)),
+      settings_(settings),
+      name_(object.attr("name").cast<std::string>()),
+      held_(std::make_unique<Held>()) {
+  held_->suitability = object.attr("suitability");
+  held_->propose = object.attr("propose");
+  held_->density = object.attr("density");
+  held_->object = std::move(object);
+}
+
+PythonMutation::~PythonMutation() {
+  const py::gil_scoped_acquire gil;
+  held_.reset();
+}
+
+double PythonMutation::suitability(const LightPath& x) const {
+  const py::gil_scoped_acquire gil;
+  return checked(held_->suitability(wrap(x)), "suitability(x)", x);
+}
+
+std::optional<Edit> PythonMutation::propose(const LightPath& x, LightPath& y,
+                                            MutationContext& context) const {
+  const py::gil_scoped_acquire gil;
+  py::object proposed;
+  {
+    const Borrowed generator(*held_);
+    const RandomGenerator::Use use(*generator, context.rng);
+    proposed = held_->propose(wrap(x), (*generator).generator());
+  }
+  if (proposed.is_none()) return std::nullopt;
+  if (!py::isinstance<PyLightPath>(proposed))
+    throw UsageError(name_ + ".propose(x, rng) returned " + repr(proposed) +
+                     "; it must be a LightPath, such as x.with_vertices(...), or None");
+  const auto& made = proposed.cast<const PyLightPath&>();
+  if (made.scene->scene != scene_->scene)
+    throw UsageError(name_ + ".propose(x, rng) returned a path of another scene than x's");
+  if (settings_.max_depth >= 0 && made.path.edges() > settings_.max_depth) return std::nullopt;
+  y.path = made.path;
+  return adopt(*scene_->scene, settings_, x, y, context.rays);
+}
+
+double PythonMutation::density(const LightPath& x, const LightPath& y, const Edit&) const {
+  const py::gil_scoped_acquire gil;
+  return checked(held_->density(wrap(x), wrap(y)), "density(x, y)", x);
+}
+
+py::object PythonMutation::wrap(const LightPath& x) const {
+  PyLightPath path{scene_, x.path, x.raster};
+  path.strict_normals = settings_.strict_normals;
+  return py::cast(std::move(path));
+}
+
+double PythonMutation::checked(const py::object& returned, const char* method,
+                               const LightPath& x) const {
+  const double value = PyFloat_AsDouble(returned.ptr());
+  if (value >= 0 && value < infinity) return value;
+  PyErr_Clear();
+  throw UsageError(name_ + "." + method + " is " + repr(returned) + " for x = " + repr(wrap(x)) +
+                   "; it must be a finite number that is not negative");
+}
+
+std::shared_ptr<const py::object> hold(py::object object) {
+  return {new py::object(std::move(object)), [](const py::object* held) {
+            const py::gil_scoped_acquire gil;
+            delete held;
+          }};
+}
+
+std::shared_ptr<const Mutation> to_mutation(const std::shared_ptr<LoadedScene>& scene,
+                                            const MutationSettings& settings,
+                                            const py::object& object) {
+  if (py::isinstance<py::str>(object))
+    return make_mutation(object.cast<std::string>(), *scene->scene, settings);
+  const py::object base = py::module_::import("pymlt.mutations").attr("Mutation");
+  if (!py::isinstance(object, base)) {
+    const bool is_class =
+        PyType_Check(object.ptr()) && PyObject_IsSubclass(object.ptr(), base.ptr()) == 1;
+    throw UsageError(
+        repr(object) + " is not a mutation of light paths" +
+        (is_class ? "; write " + object.attr("__name__").cast<std::string>() + "()" : ""));
+  }
+  if (object.attr("_built_in").cast<bool>())
+    return make_mutation(object.attr("name").cast<std::string>(), *scene->scene, settings);
+  return std::make_shared<PythonMutation>(scene, settings, object);
+}
+
+}  // namespace mlt::python

@@ -1,0 +1,133 @@
+// Vertices of light paths as Python sees them, and how a mutation written in Python finds new ones.
+#include "light_path.h"
+
+#include "io/load.h"
+
+#include <pybind11/stl.h>
+
+namespace mlt::python {
+namespace {
+
+using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+Vec3 to_vector(const Doubles& array, const char* what) {
+  if (array.ndim() != 1 || array.size() != 3)
+    throw UsageError(std::string(what) + " should be three numbers");
+  const Vec3 v(array.data()[0], array.data()[1], array.data()[2]);
+  if (!std::isfinite(length_squared(v))) throw UsageError(std::string(what) + " is not finite");
+  return v;
+}
+
+Vec3 to_direction(const Doubles& array, const char* what) {
+  const Vec3 v = to_vector(array, what);
+  if (!(length_squared(v) > 0)) throw UsageError(std::string(what) + " has no length");
+  return normalize(v);
+}
+
+std::optional<Vertex> first_hit(const LoadedScene& loaded, const Ray& ray) {
+  SurfacePoint at;
+  if (!loaded.scene->intersect(ray, at)) return std::nullopt;
+  return surface_vertex(at);
+}
+
+std::optional<Vertex> seen_from_vertex(const LoadedScene& loaded, const Vertex& from,
+                                       const Doubles& direction, double time) {
+  if (from.at.infinite()) throw UsageError("no ray can start from a vertex at infinity");
+  const Vec3 w = to_direction(direction, "direction");
+  return first_hit(loaded, loaded.scene->spawn(from.at, w, time));
+}
+
+std::optional<Vertex> seen_from_point(const LoadedScene& loaded, const Doubles& from,
+                                      const Doubles& direction, double time) {
+  return first_hit(loaded, {to_vector(from, "start"), to_direction(direction, "direction"), time});
+}
+
+bool visible(const LoadedScene& loaded, const Vertex& a, const Vertex& b, double time) {
+  if (a.at.infinite() && b.at.infinite())
+    throw UsageError("both vertices are at infinity; nothing is between them");
+  return loaded.scene->visible(a.at, b.at, time);
+}
+
+py::object scatter(const LoadedScene& loaded, const Vertex& at, const Doubles& from,
+                   const Doubles& u) {
+  if (at.kind != VertexKind::surface) throw UsageError("only a vertex on a surface scatters");
+  const Frame& frame = at.at.shading;
+  const auto sample = loaded.scene->bsdf(at.at).sample(
+      at.at, frame.to_local(to_direction(from, "direction")), to_vector(u, "u"));
+  if (!sample) return py::none();
+  return py::make_tuple(surface_vertex(at.at, sample->lobe), to_array(frame.to_world(sample->to)));
+}
+
+py::object camera_direction(const LoadedScene& loaded, const Vertex& lens, const Doubles& raster) {
+  if (lens.kind != VertexKind::camera)
+    throw UsageError("a path leaves the camera at its last vertex only");
+  if (raster.size() != 2) throw UsageError("raster should be two numbers, in pixels");
+  const Camera& camera = loaded.scene->camera();
+  const Vec2 at(raster.data()[0], raster.data()[1]);
+  if (!camera.raster().contains(at)) return py::none();
+  return to_array(camera.direction(lens.at, at));
+}
+
+void bind_class(py::module_& m) {
+  py::class_<Vertex>(m, "Vertex", "A vertex of a light path; it belongs to the scene of its path.")
+      .def_property_readonly(
+          "kind", [](const Vertex& x) { return name_of(x.kind); },
+          "'light', 'surface' or 'camera'.")
+      .def_property_readonly(
+          "position", [](const Vertex& x) { return to_array(x.at.p); },
+          "Where it is; at infinity, the direction towards it.")
+      .def_property_readonly("normal", [](const Vertex& x) { return to_array(x.at.ng); })
+      .def_property_readonly("shading_normal",
+                             [](const Vertex& x) { return to_array(x.at.shading.n); })
+      .def_property_readonly("uv",
+                             [](const Vertex& x) { return py::make_tuple(x.at.uv.x, x.at.uv.y); })
+      .def_property_readonly(
+          "lobe", [](const Vertex& x) { return name_of(x.lobe); },
+          "How it scatters: 'smooth', or by which delta, 'reflection', 'transmission', 'passage'.")
+      .def_property_readonly("delta", &Vertex::delta, "Whether it scatters in one direction only.")
+      .def_property_readonly("infinite", [](const Vertex& x) { return x.at.infinite(); })
+      .def_property_readonly(
+          "shape", [](const Vertex& x) { return shape_of(x); },
+          "Which shape of the scene it is on; -1: none.")
+      .def(
+          "direction_to",
+          [](const Vertex& a, const Vertex& b) { return to_array(direction(a.at, b.at)); },
+          py::arg("other"), "The unit direction in which another vertex is seen.")
+      .def("__repr__", [](const Vertex& x) {
+        return py::str("Vertex({}, ({:.4g}, {:.4g}, {:.4g}), {})")
+            .format(name_of(x.kind), x.at.p.x, x.at.p.y, x.at.p.z, name_of(x.lobe));
+      });
+}
+
+}  // namespace
+
+void bind_vertex(py::module_& m) {
+  bind_class(m);
+  auto scene = py::class_<LoadedScene, std::shared_ptr<LoadedScene>>(m.attr("Scene"));
+  const char* doc =
+      "The surface that a ray meets first, as a (smooth) vertex; None if it meets none. It starts "
+      "at "
+      "a vertex or at a point.";
+  scene
+      .def("intersect", &seen_from_vertex, py::arg("start"), py::arg("direction"),
+           py::arg("time") = 0.0, doc)
+      .def("intersect", &seen_from_point, py::arg("start"), py::arg("direction"),
+           py::arg("time") = 0.0, doc)
+      .def("visible", &visible, py::arg("a"), py::arg("b"), py::arg("time") = 0.0,
+           "Whether nothing stands between two vertices.")
+      .def(
+          "scatter", &scatter, py::arg("vertex"), py::arg("direction"), py::arg("u"),
+          "Samples the BSDF of a surface vertex for light or a camera in `direction`, with three "
+          "random numbers u: (the vertex with the lobe that was chosen, the sampled direction), or "
+          "None. Its density is in from_light and from_camera of the path that it leads to.")
+      .def("camera_direction", &camera_direction, py::arg("vertex"), py::arg("raster"),
+           "The direction that leaves the lens at the last vertex of a path for a raster position; "
+           "None outside of the image.")
+      .def_property_readonly(
+          "raster_area",
+          [](const LoadedScene& s) { return s.scene->camera().raster().sampled_area(); },
+          "Of the image with the border that its filter needs, in square pixels: raster positions "
+          "drawn by camera walks have the density 1 / raster_area.");
+}
+
+}  // namespace mlt::python

@@ -1,0 +1,22 @@
+// Taking over a path that others have made of x, such as a mutation that is written in Python: what the
+// mutations here know about their proposals is found from the vertices alone.
+#pragma once
+
+#include "mutation/light_path.h"
+#include "path/ray_counts.h"
+
+namespace mlt {
+
+/// The smallest edit that makes y of x.
+Edit difference(const Path& x, const Path& y);
+
+/// Whether light can take the edges that touch vertices first ... last: nothing stands in the way, and
+/// each delta vertex at one of their ends scatters in the one direction that it can.
+bool passable(const Scene& scene, const Path& path, int first, int last, RayCounts& rays);
+
+/// Evaluates y, of which only the path is known; target = 0 also where light cannot take it. Returns
+/// the edit that has made it of x, whose edges are taken to be passable.
+Edit adopt(const Scene& scene, const MutationSettings& settings, const LightPath& x, LightPath& y,
+           RayCounts& rays);
+
+}  // namespace mlt

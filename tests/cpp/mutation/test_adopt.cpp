@@ -1,0 +1,95 @@
+// Paths that others have made: the edit is found, and light that could not take a path is not counted.
+#include "mutation/adopt.h"
+#include "mutation/mutation_testing.h"
+
+namespace mlt::test {
+namespace {
+
+TEST(Difference, IsTheSmallestEdit) {
+  const ScenePtr scene = make_mutation_scene("cornell").scene;
+  const MutationSettings settings = mutation_settings();
+  const LightPath x = find_path(*scene, settings, "LDDE"),
+                  other = find_path(*scene, settings, "LDDDE");
+  const auto edit = [](const Edit& e) { return std::vector<int>{e.first, e.last, e.inserted}; };
+  EXPECT_EQ(edit(difference(x.path, x.path)), (std::vector<int>{4, 3, 0}));
+  Path y = x.path;
+  y[1] = other[2];
+  EXPECT_EQ(edit(difference(x.path, y)), (std::vector<int>{1, 1, 1}));
+  EXPECT_EQ(edit(difference(y, x.path)), (std::vector<int>{1, 1, 1}));
+  y.vertices.insert(y.vertices.begin() + 2, other[1]);
+  EXPECT_EQ(edit(difference(x.path, y)), (std::vector<int>{1, 1, 2}));
+  EXPECT_EQ(edit(difference(y, x.path)), (std::vector<int>{1, 2, 1}));
+  y = x.path;
+  y.vertices.insert(y.vertices.begin() + 2, x[2]);  // doubled
+  EXPECT_EQ(edit(difference(x.path, y)), (std::vector<int>{3, 2, 1}));
+}
+
+class Adopt : public testing::TestWithParam<std::string> {};
+
+/// What the mutations know about their proposals is found from the vertices alone.
+TEST_P(Adopt, ValuesProposalsAsTheirMutationsDo) {
+  const ScenePtr scene = make_mutation_scene(GetParam()).scene;
+  const MutationSettings settings = mutation_settings();
+  const Mutations all = all_mutations(*scene, settings);
+  Rng rng(1, Purpose::test, 0);
+  RayCounts rays;
+  LightPath y;
+  int compared = 0, differ = 0;
+  for_each_light_path(*scene, settings, 2, 1000, [&](const LightPath& x) {
+    if (!(x.target > 0)) return;
+    for (const auto& mutation : all) {
+      if (mutation->suitability(x) == 0) continue;
+      MutationContext context{rng, rays, scene->camera().raster().sample({rng.next(), rng.next()})};
+      const auto edit = mutation->propose(x, y, context);
+      if (!edit || !(y.target > 0)) continue;
+      LightPath adopted;
+      adopted.path = y.path;
+      const Edit found = adopt(*scene, settings, x, adopted, rays);
+      if (found.deleted() + found.inserted > 0) {  // the one point of a light may be drawn again
+        EXPECT_GE(found.first, edit->first);
+        EXPECT_LE(found.last, edit->last);
+      }
+      EXPECT_EQ(found.shift(), edit->shift());
+      ++compared;
+      if (adopted.target != y.target) ++differ;
+    }
+  });
+  // Rays that graze a surface may be seen in one direction and not in the other.
+  EXPECT_GT(compared, 200);
+  EXPECT_LE(differ, compared / 1000) << "of " << compared;
+}
+
+std::string as_name(const testing::TestParamInfo<std::string>& info) { return info.param; }
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Adopt, testing::ValuesIn(mutation_scene_names()), as_name);
+
+TEST(Passable, IsNoPathThroughAWall) {
+  const ScenePtr scene = make_mutation_scene("cornell").scene;
+  const LightPath x = find_path(*scene, mutation_settings(), "LDDE");
+  RayCounts rays;
+  EXPECT_TRUE(passable(*scene, x.path, 0, x.edges(), rays));
+  Path y = x.path;
+  y[1].at.p -= (dot(y[1].at.ng, y[2].at.p - y[1].at.p) > 0 ? 3.0 : -3.0) * y[1].at.ng;
+  EXPECT_FALSE(passable(*scene, y, 1, 1, rays));
+}
+
+TEST(Passable, IsNoPathThatBendsAMirrorsLaw) {
+  const ScenePtr scene = make_mutation_scene("mirrors").scene;
+  const MutationSettings settings = mutation_settings();
+  RayCounts rays;
+  for (const char* signature : {"LDSE", "LSDE"}) {
+    const LightPath x = find_path(*scene, settings, signature);
+    const int diffuse = signature[1] == 'D' ? 1 : 2;
+    EXPECT_TRUE(passable(*scene, x.path, 0, x.edges(), rays));
+    Path y = x.path;
+    y[diffuse].at.p += 0.05 * y[diffuse].at.shading.s;
+    EXPECT_FALSE(passable(*scene, y, diffuse, diffuse, rays)) << signature;
+    LightPath adopted;
+    adopted.path = y;
+    adopt(*scene, settings, x, adopted, rays);
+    EXPECT_EQ(adopted.target, 0);
+  }
+}
+
+}  // namespace
+}  // namespace mlt::test
