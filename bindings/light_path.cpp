@@ -68,10 +68,9 @@ PyLightPath with_vertices(const PyLightPath& x, std::vector<Vertex> vertices) {
   if (!right)
     throw UsageError(
         "a path should be one vertex on a light, any number on surfaces, and one on the lens");
-  PyLightPath y{x.scene, {std::move(vertices), x.path.time}};
-  y.strict_normals = x.strict_normals;
-  y.raster = raster_position(*x.scene->scene, y.path).value_or(Vec2(std::nan("")));
-  return y;
+  Path y{std::move(vertices), x.path.time};
+  const Vec2 raster = raster_position(*x.scene->scene, y).value_or(Vec2(std::nan("")));
+  return {x.scene, std::move(y), raster, {}, {}, {}, x.strict_normals};
 }
 
 // ---- terms
@@ -154,9 +153,10 @@ std::vector<PyLightPath> proposals(const LoadedPtr& scene, const PyLightPath& x,
   settings.strict_normals = x.strict_normals;
   const auto made = to_mutation(scene, settings, mutation);
   std::vector<PyLightPath> result;
-  for (Proposal& y : propose(*scene->scene, settings, x.path, made, seed, count))
-    result.push_back(
-        {scene, std::move(y.path.path), y.path.raster, {}, {}, y.acceptance, x.strict_normals});
+  for (const Proposal& y : propose(*scene->scene, settings, x.path, made, seed, count)) {
+    result.push_back(light_path(scene, y.path, x.strict_normals));
+    result.back().acceptance = y.acceptance;
+  }
   return result;
 }
 
@@ -244,6 +244,10 @@ PyLightPath light_path(LoadedPtr scene, FoundPath found, bool strict_normals) {
           found.raster,     std::make_pair(found.s, found.t),
           found.estimate,   {},
           strict_normals};
+}
+
+PyLightPath light_path(LoadedPtr scene, const LightPath& x, bool strict_normals) {
+  return {std::move(scene), x.path, x.raster, {}, {}, {}, strict_normals};
 }
 
 py::array_t<double> to_array(const Color& color) {

@@ -48,9 +48,7 @@ py::tuple PathTarget::bootstrap(uint64_t candidates, uint32_t chains, uint64_t s
 }
 
 py::object PathTarget::to_python(const LightPath& x) const {
-  PyLightPath path{scene_, x.path, x.raster};
-  path.strict_normals = settings_.strict_normals;
-  return py::cast(std::move(path));
+  return py::cast(light_path(scene_, x, settings_.strict_normals));
 }
 
 PathChains::PathChains(const PathTarget& target, const WeightedObjects& moves,
@@ -128,9 +126,8 @@ std::vector<py::object> starts_of(const py::object& x0, const py::object& chains
   for (const py::object& start : starts)
     if (!py::isinstance<PyLightPath>(start))
       throw UsageError(
-          "x0 should be a LightPath, such as scene.sample_path() returns, or with chains a list "
-          "with "
-          "one for each");
+          "x0 should be a LightPath, such as scene.sample_path() returns, or a list with one for "
+          "each of the chains");
   return starts;
 }
 
@@ -150,6 +147,10 @@ void bind_path_target(py::module_& core, py::module_& m) {
                          "of Metropolis light transport, for `metropolis.run`.")
       .def("__call__", &PathTarget::operator(), py::arg("path"),
            "L*(x) = (luminance + mean of R, G, B of f(x)) / 2; 0 if light cannot take the path.")
+      .def("__repr__",
+           [](const PathTarget& target) {
+             return "PathTarget(max_depth=" + std::to_string(target.settings().max_depth) + ")";
+           })
       .def("bootstrap", &bootstrap, py::arg("candidates") = 10000, py::kw_only(),
            py::arg("chains") = 1, py::arg("seed") = 0,
            "Paths to start chains from without start-up bias, as a `metropolis.Start` with b, the "

@@ -88,9 +88,7 @@ double PythonMutation::density(const LightPath& x, const LightPath& y, const Edi
 }
 
 py::object PythonMutation::wrap(const LightPath& x) const {
-  PyLightPath path{scene_, x.path, x.raster};
-  path.strict_normals = settings_.strict_normals;
-  return py::cast(std::move(path));
+  return py::cast(light_path(scene_, x, settings_.strict_normals));
 }
 
 double PythonMutation::checked(const py::object& returned, const char* method,

@@ -23,7 +23,8 @@ struct Checkpoint {
   std::string state;  ///< See Job::save.
 };
 
-/// What a render of these settings puts into its checkpoints, but for the state.
+/// What a render of these settings puts into its checkpoints, but for the state. Throws UsageError for
+/// an integrator that its node does not tell.
 Checkpoint checkpoint_of(const LoadedScene& loaded, const MadeIntegrator& made, uint64_t seed);
 
 /// Throws FileError for a file that is missing, foreign, truncated, damaged or of another build.

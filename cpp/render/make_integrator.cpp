@@ -75,6 +75,7 @@ MadeIntegrator make_integrator(const Node& node, const Registry& registry) {
 
 MadeIntegrator with_mutations(MadeIntegrator made, const std::vector<ExtraMutation>& extra) {
   made.integrator = with_mutations(*made.integrator, extra);
+  made.extra_mutations = true;
   Json weights;
   for (const ExtraMutation& mutation : extra) weights.add(mutation.name, mutation.weight);
   made.settings.pop_back();  // the closing brace

@@ -19,6 +19,7 @@ struct MadeIntegrator {
   Node node;             ///< From which it was made.
   std::string settings;  ///< Its type and every parameter, given or default, as a JSON object.
   std::vector<std::string> warnings;
+  bool extra_mutations = false;  ///< Has mutations that the node does not tell.
 };
 
 /// The integrator that `name` asks for; with "" the scene's own, and `path` if it has none. One that

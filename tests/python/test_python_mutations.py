@@ -475,12 +475,14 @@ def test_a_path_of_another_scene_is_refused(scene, target):
         metropolis.run(target, Elsewhere(), path_like(scene, "LDE"))
 
 
-def test_where_python_has_no_place_is_told(scene):
+def test_where_python_has_no_place_is_told(scene, tmp_path):
     algo = mlt.MLT(mutations=[mlt.Bidirectional(), Nudge()])
     with pytest.raises(mlt.UsageError, match=r"Nudge\(\) is written in Python, which a dict"):
         algo.to_dict()
     with pytest.raises(mlt.UsageError, match="need a built-in one beside them"):
         mlt.start(scene, mlt.MLT(mutations=[Nudge()]), spp=1)
+    with pytest.raises(mlt.UsageError, match="has no checkpoint"):
+        mlt.start(scene, algo, spp=1, checkpoint=tmp_path / "render.mlt")
     with pytest.raises(mlt.UsageError, match="must not be negative"):
         mlt.start(scene, mlt.MLT(mutations=[mlt.Lens(), (Nudge(), -1)]), spp=1)
 

@@ -83,6 +83,8 @@ def run(
 
 def _found_start(target, chains, seed):
     """(x0, b, b_error) of a target that can find a start by itself."""
+    if hasattr(target, "metropolis_chains") and not hasattr(target, "bootstrap"):
+        return None, None, None  # that is its own business
     if not hasattr(target, "bootstrap"):
         raise _core.UsageError("x0 is missing: a chain must start somewhere")
     start = target.bootstrap(chains=_count(chains), seed=_seed(seed))

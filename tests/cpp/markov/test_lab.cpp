@@ -82,9 +82,11 @@ TEST(LabMove, DiscreteFollowsItsMatrix) {
     for (const Point& y : proposals(move, {double(x)}, 20000)) counts[size_t(y[0])] += 1;
     for (size_t y = 0; y < 3; ++y) {
       EXPECT_DOUBLE_EQ(move->density({double(x)}, {double(y)}), T[x][y]);
-      if (T[x][y] == 0) EXPECT_EQ(counts[y], 0);
+      EXPECT_TRUE(T[x][y] > 0 || counts[y] == 0);
     }
-    if (x == 0) EXPECT_GT(test::chi_square_counts(counts, expected).p_value, alpha);
+    if (x == 0) {
+      EXPECT_GT(test::chi_square_counts(counts, expected).p_value, alpha);
+    }
   }
 }
 
