@@ -282,7 +282,7 @@ void bind_render(py::module_& m) {
       .def_readonly("settings", &MadeIntegrator::settings, "As JSON.")
       .def_readonly("warnings", &MadeIntegrator::warnings)
       .def(py::pickle(
-          [](const MadeIntegrator& made) { return py::bytes(pack(made.node)); },
+          [](const MadeIntegrator& made) { return py::bytes(pack(node_of(made))); },
           [](const py::bytes& packed) { return make_integrator(unpack_node(packed), plugins()); }));
   m.def("integrator_by_name", &by_name, py::arg("scene"), py::arg("name"), py::arg("assignments"));
   m.def("integrator_from_dict", &from_dict, py::arg("dict"));

@@ -83,11 +83,7 @@ std::string name_of(const SceneSource& scene) {
 }  // namespace
 
 Checkpoint checkpoint_of(const LoadedScene& loaded, const MadeIntegrator& made, uint64_t seed) {
-  if (made.extra_mutations)
-    throw UsageError(
-        "a render with mutations that are written in Python has no checkpoint: it could not be "
-        "resumed without them");
-  return {loaded.source, loaded.hash, made.node, seed, ""};
+  return {loaded.source, loaded.hash, node_of(made), seed, ""};
 }
 
 Checkpoint read_checkpoint(const std::string& path) {

@@ -73,6 +73,14 @@ MadeIntegrator make_integrator(const Node& node, const Registry& registry) {
   return made;
 }
 
+const Node& node_of(const MadeIntegrator& made) {
+  if (made.extra_mutations)
+    throw UsageError(
+        "a render with mutations that are written in Python stays in its process: it has no "
+        "checkpoint and cannot be sent to others");
+  return made.node;
+}
+
 MadeIntegrator with_mutations(MadeIntegrator made, const std::vector<ExtraMutation>& extra) {
   made.integrator = with_mutations(*made.integrator, extra);
   made.extra_mutations = true;

@@ -29,6 +29,8 @@ Node choose_integrator(const LoadedScene& loaded, const std::string& name,
                        const Assignments& assignments, const Registry& registry);
 
 MadeIntegrator make_integrator(const Node& node, const Registry& registry);
+/// The node that makes it again. Throws UsageError for one with mutations that no node can tell.
+const Node& node_of(const MadeIntegrator& made);
 /// The same with more mutations; the settings list their names and weights as "extra_mutations".
 MadeIntegrator with_mutations(MadeIntegrator made, const std::vector<ExtraMutation>& extra);
 

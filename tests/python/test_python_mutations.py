@@ -1,5 +1,6 @@
 """Mutations that are written in Python: in the laboratory, in the audit, in renders."""
 
+import pickle
 import traceback
 
 import numpy as np
@@ -7,7 +8,7 @@ import pytest
 import tiny
 
 import pymlt as mlt
-from pymlt import metropolis
+from pymlt import jobs, metropolis
 
 
 class Nudge(mlt.Mutation):
@@ -481,8 +482,10 @@ def test_where_python_has_no_place_is_told(scene, tmp_path):
         algo.to_dict()
     with pytest.raises(mlt.UsageError, match="need a built-in one beside them"):
         mlt.start(scene, mlt.MLT(mutations=[Nudge()]), spp=1)
-    with pytest.raises(mlt.UsageError, match="has no checkpoint"):
+    with pytest.raises(mlt.UsageError, match="it has no checkpoint"):
         mlt.start(scene, algo, spp=1, checkpoint=tmp_path / "render.mlt")
+    with pytest.raises(mlt.UsageError, match="stays in its process"):
+        pickle.dumps(jobs.as_integrator(scene, algo))
     with pytest.raises(mlt.UsageError, match="must not be negative"):
         mlt.start(scene, mlt.MLT(mutations=[mlt.Lens(), (Nudge(), -1)]), spp=1)
 
