@@ -10,7 +10,8 @@ import pymlt as mlt
 from pymlt.cli import _parser
 
 ROOT = Path(__file__).resolve().parents[2]
-PAGES = [ROOT / "README.md", *ROOT.glob("docs/*.md"), *ROOT.glob("scenes/**/*.md")]
+PAGES = [ROOT / "README.md", *ROOT.glob("docs/*.md"), *ROOT.glob("docs/mutations/*.md")]
+PAGES += ROOT.glob("scenes/**/*.md")
 
 
 def test_the_tables_of_parameters_are_those_of_the_schemas():

@@ -58,6 +58,24 @@ inline void for_each_light_path(const Scene& scene, const MutationSettings& sett
   }
 }
 
+/// Calls found(i, x, y, edit) for the proposals y with light that mutation i makes of such paths x.
+template <class Found>
+void for_each_proposal(const Scene& scene, const MutationSettings& settings, const Mutations& all,
+                       uint64_t seed, int samples, Found&& found) {
+  Rng rng(1, Purpose::test, 0);
+  RayCounts rays;
+  LightPath y;
+  for_each_light_path(scene, settings, seed, samples, [&](const LightPath& x) {
+    if (!(x.target > 0)) return;
+    for (size_t i = 0; i < all.size(); ++i) {
+      if (all[i]->suitability(x) == 0) continue;
+      MutationContext context{rng, rays, scene.camera().raster().sample({rng.next(), rng.next()})};
+      const auto edit = all[i]->propose(x, y, context);
+      if (edit && y.target > 0) found(i, x, y, *edit);
+    }
+  });
+}
+
 /// The first path of this signature that `suits`.
 inline LightPath find_path(const Scene& scene, const MutationSettings& settings,
                            const std::string& signature,

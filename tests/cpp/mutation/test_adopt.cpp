@@ -31,29 +31,21 @@ TEST_P(Adopt, ValuesProposalsAsTheirMutationsDo) {
   const ScenePtr scene = make_mutation_scene(GetParam()).scene;
   const MutationSettings settings = mutation_settings();
   const Mutations all = all_mutations(*scene, settings);
-  Rng rng(1, Purpose::test, 0);
   RayCounts rays;
-  LightPath y;
   int compared = 0, differ = 0;
-  for_each_light_path(*scene, settings, 2, 1000, [&](const LightPath& x) {
-    if (!(x.target > 0)) return;
-    for (const auto& mutation : all) {
-      if (mutation->suitability(x) == 0) continue;
-      MutationContext context{rng, rays, scene->camera().raster().sample({rng.next(), rng.next()})};
-      const auto edit = mutation->propose(x, y, context);
-      if (!edit || !(y.target > 0)) continue;
-      LightPath adopted;
-      adopted.path = y.path;
-      const Edit found = adopt(*scene, settings, x, adopted, rays);
-      if (found.deleted() + found.inserted > 0) {  // the one point of a light may be drawn again
-        EXPECT_GE(found.first, edit->first);
-        EXPECT_LE(found.last, edit->last);
-      }
-      EXPECT_EQ(found.shift(), edit->shift());
-      ++compared;
-      if (adopted.target != y.target) ++differ;
+  const auto compare = [&](size_t, const LightPath& x, const LightPath& y, const Edit& edit) {
+    LightPath adopted;
+    adopted.path = y.path;
+    const Edit found = adopt(*scene, settings, x, adopted, rays);
+    if (found.deleted() + found.inserted > 0) {  // the one point of a light may be drawn again
+      EXPECT_GE(found.first, edit.first);
+      EXPECT_LE(found.last, edit.last);
     }
-  });
+    EXPECT_EQ(found.shift(), edit.shift());
+    ++compared;
+    if (adopted.target != y.target) ++differ;
+  };
+  for_each_proposal(*scene, settings, all, 2, 1000, compare);
   // Rays that graze a surface may be seen in one direction and not in the other.
   EXPECT_GT(compared, 200);
   EXPECT_LE(differ, compared / 1000) << "of " << compared;

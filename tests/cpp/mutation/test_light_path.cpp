@@ -43,24 +43,16 @@ TEST_P(LightPaths, AreTheSameBitsWhenAnEditIsComputedAndWhenAllIs) {
   const ScenePtr scene = make_mutation_scene(GetParam()).scene;
   const MutationSettings settings = mutation_settings();
   const Mutations all = all_mutations(*scene, settings);
-  Rng rng(1, Purpose::test, 0);
-  RayCounts rays;
-  LightPath y;
   std::vector<int> compared(all.size(), 0);
-  for_each_light_path(*scene, settings, 2, 2000, [&](const LightPath& x) {
-    if (!(x.target > 0)) return;
-    for (size_t i = 0; i < all.size(); ++i) {
-      if (all[i]->suitability(x) == 0) continue;
-      MutationContext context{rng, rays, scene->camera().raster().sample({rng.next(), rng.next()})};
-      if (!all[i]->propose(x, y, context) || !(y.target > 0)) continue;
-      LightPath fresh;
-      fresh.path = y.path;
-      evaluate(*scene, settings, fresh);
-      ASSERT_EQ(difference(y, fresh), "")
-          << all[i]->name() << " on " << signature_of(x) << " to " << signature_of(y);
-      ++compared[i];
-    }
-  });
+  const auto compare = [&](size_t i, const LightPath& x, const LightPath& y, const Edit&) {
+    LightPath fresh;
+    fresh.path = y.path;
+    evaluate(*scene, settings, fresh);
+    ASSERT_EQ(difference(y, fresh), "")
+        << all[i]->name() << " on " << signature_of(x) << " to " << signature_of(y);
+    ++compared[i];
+  };
+  for_each_proposal(*scene, settings, all, 2, 2000, compare);
   for (size_t i = 0; i < all.size(); ++i)
     EXPECT_GT(compared[i], all[i]->name() == "multi_chain" ? -1 : 50) << all[i]->name();
 }
