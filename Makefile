@@ -44,11 +44,13 @@ $(VENV)/.stamp: requirements/constraints.txt pyproject.toml | $(STAMPS)/apt
 # ---- one build: library, mlt-render, C++ tests, and the extension, installed editable ------------
 build: $(STAMPS)/build
 
+# The stamp bears the time of the start: a file that changes during the build is built the next time.
 $(STAMPS)/build: $(SOURCES) $(VENV)/.stamp
+	@mkdir -p $(@D) && touch $@.begun
 	$(BIN)/pip install -v --no-build-isolation --no-deps -e . \
 	  --config-settings=build-dir=$(BUILD) \
 	  --config-settings=cmake.define.PYMLT_TESTS=ON
-	@mkdir -p $(@D) && touch $@
+	@mv $@.begun $@
 
 # ---- run it --------------------------------------------------------------------------------------
 demo: build
