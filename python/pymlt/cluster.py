@@ -84,8 +84,8 @@ def _hold(packed: bytes) -> bytes:
     return packed
 
 
-def _carry_out(packed, job, scene, integrator, build, order, threads) -> bytes:
-    """The outcome of an order."""
+def _carry_out(packed, job, scene, integrator, build, order) -> bytes:
+    """The outcome of an order, on all threads of the worker: they share one film."""
     from distributed import get_worker
 
     if build != build_name():
@@ -97,7 +97,7 @@ def _carry_out(packed, job, scene, integrator, build, order, threads) -> bytes:
     bench = _bench(worker)
     helper = _core.Helper(bench.scene(scene, packed), integrator)
     with bench.at_work(job, helper):
-        return helper.run(order, min(threads, worker.state.nthreads))
+        return helper.run(order, worker.state.nthreads)
 
 
 def _cancel(job: str, dask_worker) -> None:
@@ -192,11 +192,12 @@ class Crew:
         self.folding = 0.0  #: seconds spent on gathering and folding
         self.folded = 0
         self.cancelling = False
+        self.next_count = 0.0
 
     def wanted_parts(self) -> int:
         if self.connection is None:  # the render was extended
             self._begin()
-        return 2 * self._slots()
+        return 2 * self._workers()
 
     def advance(self, job, to: int) -> None:
         try:
@@ -235,14 +236,17 @@ class Crew:
             self.connection.close()
         self.connection = self.client = None
 
-    def _slots(self) -> int:
-        return max(1, sum(self.client.nthreads().values()))
+    def _workers(self) -> int:
+        """How many there are. To ask the scheduler takes a while: every other second."""
+        if monotonic() >= self.next_count:
+            self.workers = max(1, len(self.client.nthreads()))
+            self.next_count = monotonic() + 2
+        return self.workers
 
     def _send_orders(self, job, to: int) -> None:
         """Keep every worker busy, with the parts that are behind; never far ahead of the others."""
-        slots = self._slots()
-        threads = -(-slots // job.parts)
-        most = slots + max(1, slots // 2)
+        workers = self._workers()
+        most = workers + max(1, workers // 2)
         while len(self.at_work) < most:
             waiting = [part for part in range(job.parts) if part not in self.at_work]
             if not waiting:
@@ -262,7 +266,6 @@ class Crew:
                 self.integrator,
                 self.build,
                 job.order(part, self.frontier),
-                threads,
                 key=f"{self.name}-{part}-{job.position(part)}",
             )
             self.at_work[part] = future
@@ -280,7 +283,7 @@ class Crew:
 
     def _fold_one(self, job) -> None:
         try:
-            part = self.finished.get(timeout=0.05)
+            part = self.finished.get(timeout=0.1)
         except queue.Empty:
             return
         start = monotonic()
@@ -291,7 +294,7 @@ class Crew:
             return
         job.fold(part, outcome)
         del self.at_work[part]
-        if job.parts < self._slots():  # workers have come
+        if job.parts < self._workers():  # some have come
             job.split(part)
         self.folding += monotonic() - start
         self.folded += 1
@@ -305,10 +308,14 @@ class Crew:
 
 
 def _reason(error: BaseException) -> str:
+    """One line on what went wrong."""
+    from distributed import CancelledError, KilledWorker
+    from distributed.comm import CommClosedError
+
     if isinstance(error, _core.Error):
         return str(error)
-    from distributed import KilledWorker
-
     if isinstance(error, KilledWorker):
         return f"workers of the cluster died, each time with the same order: {error}"
-    return f"the cluster is gone: {type(error).__name__}: {error}"
+    gone = isinstance(error, CancelledError | CommClosedError | OSError | TimeoutError)
+    where = "the cluster is gone" if gone else "on the cluster"
+    return f"{where}: {type(error).__name__}: {error}"

@@ -181,7 +181,7 @@ def test_an_error_in_the_render_is_reported(client):
 def test_a_worker_with_another_build_is_refused(client):
     from pymlt.cluster import _carry_out
 
-    future = client.submit(_carry_out, b"", "job", "scene", None, "another", b"", 1)
+    future = client.submit(_carry_out, b"", "job", "scene", None, "another", b"")
     with pytest.raises(mlt.UsageError, match="another build of pymlt"):
         future.result()
 
