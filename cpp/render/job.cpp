@@ -112,7 +112,21 @@ void Job::run() {
   gate_.notify_all();
 }
 
+/// However long the chains become, b stays as wrong as the bootstrap has left it.
+void Job::check_goal() const {
+  const Budget& budget = settings_.budget;
+  if (!budget.error || budget.spp || budget.seconds) return;
+  Stats stats;
+  rendering_->add_stats(stats);
+  if (const double least = stats.b_error / stats.b; stats.b > 0 && least >= *budget.error)
+    throw RenderError(fmt::format(
+        "an error of {:g} cannot be reached, since the bootstrap leaves one of {:.2g}; give more "
+        "luminance_samples, or a budget of spp or time as well",
+        *budget.error, least));
+}
+
 void Job::render() {
+  check_goal();
   unit_count_ = rendering_->unit_count(settings_.budget.spp.value_or(endless_spp));
   if (crew_) divide();
   phase_ = Phase::rendering;

@@ -120,6 +120,7 @@ class Job {
   void launch();
   void run();
   void render();
+  void check_goal() const;
   std::string why_to_end();
   void divide();
   void work();

@@ -44,6 +44,7 @@ from .jobs import (
 from .loading import load_dict, load_file, load_string
 from .merging import merge
 from .metrics import compare
+from .mixing import Convergence, convergence
 from .mutations import *  # noqa: F403
 from .mutations import Audit, Mutation, audit
 from .schemas import available, describe
@@ -54,6 +55,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "Audit",
+    "Convergence",
     "Error",
     "FileError",
     "Groups",
@@ -74,6 +76,7 @@ __all__ = [
     "audit",
     "available",
     "compare",
+    "convergence",
     "describe",
     "load_dict",
     "load_file",

@@ -5,6 +5,8 @@ import os
 from pathlib import Path
 
 import pytest
+import tiny
+from command_line import PYMLT, mlt_render
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 
@@ -23,6 +25,20 @@ def repository() -> Path:
 def shared() -> Path:
     """The external scenes and references; for tests that are marked `shared`."""
     return shared_root()
+
+
+@pytest.fixture(params=["pymlt", "mlt-render"])
+def program(request) -> list[str]:
+    if request.param == "pymlt":
+        return [*PYMLT, "render"]
+    return mlt_render() or pytest.skip("mlt-render is not installed beside this Python")
+
+
+@pytest.fixture
+def scene(tmp_path, monkeypatch) -> str:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "scene.xml").write_text(tiny.XML)
+    return "scene.xml"
 
 
 def pytest_addoption(parser):

@@ -1,7 +1,6 @@
 """The command lines: `pymlt render` and `mlt-render` share one contract; pymlt can do more."""
 
 import json
-import os
 import shutil
 import signal
 import subprocess
@@ -12,48 +11,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 import tiny
+from command_line import PYMLT, mlt_render, run, the_error
 
 import pymlt as mlt
-
-PYMLT = [sys.executable, "-m", "pymlt"]
-
-
-def mlt_render() -> list[str] | None:
-    """The binary of the same build: beside the interpreter, or named by the environment."""
-    beside = Path(sys.executable).parent / "mlt-render"
-    found = os.environ.get("MLT_RENDER") or (beside if beside.exists() else None)
-    return [str(found)] if found else None
-
-
-@pytest.fixture(params=["pymlt", "mlt-render"])
-def program(request) -> list[str]:
-    if request.param == "pymlt":
-        return [*PYMLT, "render"]
-    return mlt_render() or pytest.skip("mlt-render is not installed beside this Python")
-
-
-@pytest.fixture
-def scene(tmp_path, monkeypatch) -> str:
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "scene.xml").write_text(tiny.XML)
-    return "scene.xml"
-
-
-def run(command, *arguments, **kwargs):
-    return subprocess.run(
-        [*command, *map(str, arguments)], capture_output=True, text=True, timeout=60, **kwargs
-    )
-
-
-def the_error(outcome, code: int = 2) -> str:
-    """The single line on stderr of a command that ended with this code."""
-    assert outcome.returncode == code, outcome.stderr
-    assert outcome.stdout == ""
-    lines = outcome.stderr.splitlines()
-    assert len(lines) == 1, outcome.stderr
-    assert lines[0].startswith(("pymlt: ", "mlt-render: "))
-    return lines[0]
-
 
 # ---- what a render makes -----------------------------------------------------------------------
 

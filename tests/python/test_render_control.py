@@ -53,6 +53,18 @@ def test_time_ends_a_render():
     assert stats["spp_done"] > 0
 
 
+@pytest.mark.long
+@pytest.mark.parametrize("integrator", mlt.available("integrator"))
+def test_time_is_kept_within_two_percent(integrator):
+    scene = mlt.load_dict(mlt.scenes.door_ajar(), size=(640, 360))
+    off = []
+    for seed in range(5):
+        start = time.perf_counter()
+        mlt.start(scene, integrator, time=10.5, seed=seed).wait()
+        off.append(abs(time.perf_counter() - start - 10.5) / 10.5)
+    assert np.median(off) < 0.02
+
+
 @pytest.mark.parametrize(
     "wrong",
     [
@@ -61,6 +73,9 @@ def test_time_ends_a_render():
         {"spp": float("nan")},
         {"spp": "many"},
         {"time": 0},
+        {"error": 0},
+        {"error": "small"},
+        {"every": 0},
         {"threads": -1},
         {"seed": -1},
         {"seed": 2**64},

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import warnings
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from .. import _core
+from .._arviz import import_arviz
 
 if TYPE_CHECKING:
     from ..quadrature import Estimate
@@ -150,12 +150,7 @@ class Samples:
         """
         import numpy as np
 
-        try:
-            with warnings.catch_warnings():  # it announces its next version
-                warnings.simplefilter("ignore", FutureWarning)
-                import arviz
-        except ImportError:
-            raise _core.UsageError("to_arviz needs `pip install 'pymlt[arviz]'`") from None
+        arviz = import_arviz("to_arviz")
         states = self.states if self._axis else [self.states]
         if g is not None:
             states = [[g(x) for x in chain] for chain in states]

@@ -1,0 +1,244 @@
+"""The error that a render claims, against the error that it has."""
+
+import math
+
+import numpy as np
+import pytest
+import tiny
+
+import pymlt as mlt
+
+SEEDS = 20
+SEEN_BY = 0.9  # of the groups, in blocks where the claim counts
+LOWEST, HIGHEST = 0.8, 1.25  # claimed over true
+
+
+def load(name: str, size=(32, 24)) -> mlt.Scene:
+    return mlt.load_dict(getattr(mlt.scenes, name)(), size=size)
+
+
+def block_means(image: np.ndarray) -> np.ndarray:
+    rows, columns = image.shape[0] // 8, image.shape[1] // 8
+    return image.reshape(rows, 8, columns, 8, 3).mean(axis=(1, 3))
+
+
+def claimed_over_true(scene, integrator, spp) -> tuple[float, float]:
+    """The ratio of RMS errors of blocks, and the share of the blocks that went into it.
+
+    The reference is the mean of all runs. Its own variance makes each run seem nearer by a factor
+    of (n - 1) / n, in the square. That the mean is right is for other tests to say.
+    """
+    images, claims, counted = [], [], []
+    for seed in range(1, SEEDS + 1):
+        job = mlt.start(scene, integrator, spp=spp, seed=seed)
+        result = job.result()
+        lit = np.array([block_means(image).max(axis=2) > 0 for image in job.groups.images])
+        counted.append(lit.mean(axis=0) >= SEEN_BY)
+        images.append(block_means(result.image))
+        claims.append(result.block_error)
+    images, claims, counted = (np.array(x, dtype=np.float64) for x in (images, claims, counted))
+    squares = (images - images.mean(axis=0)) ** 2 * SEEDS / (SEEDS - 1)
+    where = counted.astype(bool)
+    return math.sqrt((claims[where] ** 2).mean() / squares[where].mean()), counted.mean()
+
+
+@pytest.mark.parametrize("integrator", ["path", "pssmlt"])
+def test_the_claimed_error_is_the_true_one(integrator):
+    ratio, seen = claimed_over_true(load("cornell_box"), integrator, spp=128)
+    assert seen == 1
+    assert LOWEST < ratio < HIGHEST
+
+
+SCENES = ["cornell_box", "dof", "furnace", "glass_ball", "ring"]
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("integrator", ["path", "bdpt", "pssmlt", "mlt"])
+@pytest.mark.parametrize("name", SCENES)
+def test_the_claimed_error_is_the_true_one_in_scenes_of_all_kinds(name, integrator):
+    ratio, seen = claimed_over_true(load(name, (64, 48)), integrator, spp=128)
+    assert seen > 0.5
+    assert LOWEST < ratio < HIGHEST
+
+
+def test_the_error_of_the_image_foretells_its_distance_to_the_truth():
+    """`stats["error"]` is the root of relMSE, but for the part that 0.01 M^2 replaces."""
+    scene = load("cornell_box")
+    truth = mlt.render(scene, "path", spp=4096, seed=99).astype(np.float64)
+    result = mlt.start(scene, "path", spp=128, seed=1).result()
+    light, true = luminance(result.image), luminance(truth)
+    distance = (light - true) ** 2 / (true**2 + 0.01 * true.mean() ** 2)
+    assert result.stats["error"] == pytest.approx(math.sqrt(distance.mean()), rel=0.2)
+    assert 0 < result.stats["block_error"] < result.stats["error"]
+
+
+def luminance(image: np.ndarray) -> np.ndarray:
+    return image @ (0.5 * np.array([0.2126, 0.7152, 0.0722]) + 0.5 / 3)
+
+
+@pytest.mark.parametrize("integrator", ["path", "mlt"])
+def test_the_claim_follows_from_the_groups(integrator):
+    job = mlt.start(load("cornell_box"), integrator, spp=128, seed=3)
+    result, groups = job.result(), job.groups
+    images = groups.images.astype(np.float64)
+    assert groups.weights.tolist() == [8 if integrator == "path" else 1] * 16
+    assert np.allclose(images.mean(axis=0), result.image, rtol=1e-4, atol=1e-6)
+    error = images.std(axis=0, ddof=1) / 4
+    assert np.allclose(result.error_map, error, rtol=1e-3, atol=1e-6)
+    blocks = np.array([block_means(image) for image in images]).std(axis=0, ddof=1) / 4
+    assert np.allclose(result.block_error, blocks, rtol=1e-3, atol=1e-6)
+    assert np.array_equal(job.error_map, result.error_map)
+    assert (groups.b > 0).all() == (integrator == "mlt")
+
+
+def test_light_that_is_rendered_aside_has_its_error_too():
+    scene = load("cornell_box")
+    aside = mlt.start(scene, mlt.Direct(), spp=16, seed=1).result().error_map
+    direct = mlt.MLT(direct_samples=16, adaptive=False, max_depth=3)
+    result = mlt.start(scene, direct, spp=64, seed=1).result()
+    assert (result.error_map >= 0.999 * aside).all()
+    assert (result.error_map > 1.001 * aside).mean() > 0.5  # and the chains have theirs
+
+
+def test_the_error_is_in_the_file(tmp_path):
+    result = mlt.start(mlt.load_dict(tiny.scene(), size=(20, 13)), "path", spp=32).result()
+    result.write(tmp_path / "a.exr")
+    assert np.array_equal(mlt.read_image(tmp_path / "a.exr", "error"), result.error_map)
+    spread = mlt.read_image(tmp_path / "a.exr", "error_block")
+    assert result.block_error.shape == (2, 3, 3)  # the last ones are smaller
+    assert np.array_equal(spread, result.block_error.repeat(8, 0).repeat(8, 1)[:13, :20])
+
+
+def test_one_group_knows_no_error(tmp_path):
+    result = mlt.start(load("cornell_box"), "path", spp=4).result()
+    assert result.stats["groups"] == 1
+    assert result.stats["error"] is None
+    assert result.error_map is None
+    assert result.block_error is None
+    result.write(tmp_path / "a.exr")
+
+
+# ---- groups that disagree ------------------------------------------------------------------------
+
+
+def test_a_feature_that_one_group_alone_has_found_is_reported():
+    """A lamp so small and bright that a few rays at the most meet it."""
+    scene = tiny.scene()
+    scene["ball"] = {
+        "type": "sphere",
+        "center": [0.9, 0.02, 1.0],
+        "radius": 0.002,
+        "emitter": {"type": "area", "radiance": {"type": "rgb", "value": [3e5, 3e5, 3e5]}},
+    }
+    scene = mlt.load_dict(scene, size=(64, 48))
+    alone = 0
+    for seed in range(10):
+        job = mlt.start(scene, mlt.Path(max_depth=1), spp=64, seed=seed)
+        stats = job.result().stats
+        found_by = (job.groups.images.max(axis=(1, 2, 3)) > 1000).sum()
+        if found_by == 0:
+            assert stats["warnings"] == stats["disagreements"] == []
+        if found_by == 1:
+            alone += 1
+            (warning,) = stats["warnings"]
+            assert "one of 8 independent groups" in warning
+            (block,) = stats["disagreements"]
+            assert block["share"] > 0.99
+            assert f"({block['x']}, {block['y']})" in warning
+            seen = job.image[block["y"] : block["y"] + 8, block["x"] : block["x"] + 8]
+            assert seen.max() > 1000 / 8
+    assert alone > 0
+
+
+def test_groups_that_agree_say_nothing():
+    stats = mlt.start(load("cornell_box"), "path", spp=128).result().stats
+    assert stats["disagreements"] == stats["warnings"] == []
+
+
+# ---- an error as a budget ------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("integrator", "goal"), [("path", 0.05), ("pssmlt", 0.2)])
+def test_a_render_ends_when_its_error_is_small_enough(integrator, goal):
+    scene = load("cornell_box")
+    job = mlt.start(scene, integrator, error=goal, seed=2)
+    stats = job.result().stats
+    assert stats["ended_by"] == "error"
+    assert stats["error"] <= goal
+    before = mlt.start(scene, integrator, spp=stats["spp_done"] / 1.5, seed=2).result().stats
+    assert before["error"] > goal  # it did not go on for long
+    assert before["ended_by"] == "spp"
+    for threads in 1, 2:  # nor does it depend on the moment of looking
+        again = mlt.render(scene, integrator, error=goal, seed=2, threads=threads)
+        assert np.array_equal(again, job.image)
+
+
+def test_an_error_that_chains_cannot_reach_is_refused():
+    few = mlt.PSSMLT(luminance_samples=2000)
+    with pytest.raises(mlt.RenderError, match="luminance_samples"):
+        mlt.render(load("cornell_box"), few, error=1e-3)
+    assert mlt.start(load("cornell_box"), few, error=1e-3, spp=2).result().stats["spp_done"] >= 2
+
+
+def test_the_first_budget_ends_a_render(tmp_path):
+    scene = load("cornell_box")
+    for budget, by in [
+        ({"spp": 3, "error": 1e-9, "time": 60}, "spp"),
+        ({"spp": 1e9, "error": 1e-9, "time": 0.2}, "time"),
+        ({"spp": 1e9, "error": 0.5, "time": 60}, "error"),
+    ]:
+        assert mlt.start(scene, "path", **budget).result().stats["ended_by"] == by
+
+
+def test_a_render_for_an_error_is_resumed_to_the_same_end(tmp_path):
+    scene = load("cornell_box")
+    whole = mlt.render(scene, "pssmlt", error=0.2, seed=2)
+    job = mlt.start(scene, "pssmlt", error=0.2, seed=2)
+    job.checkpoint(tmp_path / "a.mlt")
+    job.cancel()
+    resumed = mlt.resume(tmp_path / "a.mlt", scene=scene).result()
+    assert np.array_equal(resumed.image, whole)
+    assert resumed.stats["ended_by"] == "error"
+
+
+def test_an_image_without_light_is_not_good_enough():
+    scene = tiny.scene()
+    scene["lamp"]["to_world"] = mlt.Transform().translate(0, -9, 0).rotate([1, 0, 0], 90)
+    scene["sensor"]["to_world"] = mlt.Transform.look_at([0, 1, 4], [0, 0.5, 9], [0, 1, 0])
+    stats = mlt.start(mlt.load_dict(scene), "path", error=0.5, spp=200).result().stats
+    assert stats["ended_by"] == "spp"
+    assert stats["error"] is None
+
+
+# ---- have the chains converged? ------------------------------------------------------------------
+
+
+def test_convergence_tells_good_chains_from_bad_ones():
+    pytest.importorskip("arviz", reason="ArviZ is not installed (pip install arviz)")
+    scene = load("cornell_box", (64, 48))
+    settings = {"spp": 64, "draws": 16, "grid": (3, 4), "seed": 1}
+    good = mlt.convergence(scene, mlt.PSSMLT(chains=16), **settings)
+    bad = mlt.convergence(scene, mlt.PSSMLT(chains=1024, p_large=0.001), **settings)
+    assert good.draws.shape == (16, 16, 3, 4)
+    assert good.rhat.shape == good.ess.shape == (3, 4)
+    assert np.median(good.rhat) < 1.03 < np.median(bad.rhat)
+    assert np.median(bad.ess) < np.median(good.ess)
+    assert "16 groups x 16 draws" in repr(good)
+    assert good.to_arviz().posterior["light"].shape == (16, 16, 3, 4)
+    whole = mlt.render(scene, mlt.PSSMLT(chains=16), spp=64, seed=1)
+    assert np.array_equal(good.result.image, whole)
+
+
+@pytest.mark.parametrize(
+    ("integrator", "wrong", "what"),
+    [
+        ("path", {}, "Metropolis"),
+        ("pssmlt", {"draws": 3}, "draws"),
+        ("pssmlt", {"spp": 4}, "too few"),
+        ("pssmlt", {"grid": (99, 2)}, "grid"),
+    ],
+)
+def test_convergence_explains_mistakes(integrator, wrong, what):
+    pytest.importorskip("arviz", reason="ArviZ is not installed (pip install arviz)")
+    with pytest.raises(mlt.UsageError, match=what):
+        mlt.convergence(load("cornell_box"), integrator, **{"spp": 16, "draws": 8, **wrong})
