@@ -134,8 +134,8 @@ BOXES = [
 ]
 SHARED = [
     _shared("cornell-box", spp=256, reference_spp=2048),
-    _shared("veach-bidir", spp=512, reference_spp=4096),
-    _shared("veach-mi", spp=64),
+    _shared("veach-mi", spp=1600),
     _shared("matpreview", spp=64, systematic=COATING),
 ]
-CASES = {case.name: case for case in [*STAGES, *BOXES, *SHARED]}
+BIDIR = _shared("veach-bidir", spp=512, reference_spp=4096)  # too noisy by path tracing alone
+CASES = {case.name: case for case in [*STAGES, *BOXES, *SHARED, BIDIR]}

@@ -8,7 +8,7 @@ import itertools
 import re
 
 import pytest
-from mitsuba_cases import BOXES, CASES, SHARED, SIZE, STAGES, Case, read_reference
+from mitsuba_cases import BIDIR, BOXES, CASES, SHARED, SIZE, STAGES, Case, read_reference
 from same_image import FULL, QUICK, assert_same_image
 
 import pymlt as mlt
@@ -94,9 +94,15 @@ def test_bdpt(name):
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("case", cases([CASES[name] for name in SOME], BOXES, SHARED))
+@pytest.mark.parametrize("case", cases([CASES[name] for name in SOME]))
 def test_bdpt_pixel_by_pixel(case):
     check(case, mlt.BDPT, spp=4 * case.spp, runs=96, scales=FULL)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("case", cases(BOXES, SHARED, [BIDIR]))
+def test_bdpt_on_larger_scenes(case):
+    check(case, mlt.BDPT, spp=case.spp, runs=96, scales=FULL)
 
 
 @pytest.mark.long
