@@ -13,8 +13,8 @@ class Object {
   virtual ~Object() = default;
 
   std::string type;  ///< Name of the plug-in that made it, or "".
-  std::string id;  ///< The scene's name for it, or "".
-  Location where;  ///< Where the scene describes it.
+  std::string id;    ///< The scene's name for it, or "".
+  Location where;    ///< Where the scene describes it.
 };
 
 using ObjectPtr = std::shared_ptr<Object>;

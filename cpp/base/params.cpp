@@ -50,8 +50,8 @@ bool fits(const Value& value, ParamType type) {
 }
 
 std::string kind_of(const Value& value) {
-  static const char* names[] = {"nothing", "a boolean", "an integer",  "a float", "a string",
-                                "a triple", "a matrix", "a spectrum", "an object"};
+  static const char* names[] = {"nothing",  "a boolean", "an integer", "a float",  "a string",
+                                "a triple", "a matrix",  "a spectrum", "an object"};
   return names[value.index()];
 }
 
@@ -71,8 +71,8 @@ void Params::set(const std::string& given_name, Value value, const Location& whe
   if (!parameter) {
     const auto& ignored = schema_->ignored;
     if (std::find(ignored.begin(), ignored.end(), name) != ignored.end()) {
-      warnings_.push_back(at(where, schema_->family + " '" + schema_->name + "': '" + name +
-                                        "' has no effect here"));
+      warnings_.push_back(at(
+          where, schema_->family + " '" + schema_->name + "': '" + name + "' has no effect here"));
       return;
     }
     throw SceneError(at(where, "unknown parameter '" + given_name + "' for " + schema_->family +
@@ -81,9 +81,8 @@ void Params::set(const std::string& given_name, Value value, const Location& whe
   }
   const std::string about = schema_->family + " '" + schema_->name + "': '" + name + "' ";
   if (!fits(value, parameter->type))
-    throw SceneError(
-        at(where, about + "is " + kind_of(value) + ", but should be " +
-                                 with_article(to_string(parameter->type))));
+    throw SceneError(at(where, about + "is " + kind_of(value) + ", but should be " +
+                                   with_article(to_string(parameter->type))));
   if (!is_finite(value)) throw SceneError(at(where, about + "must be finite"));
   const auto& choices = parameter->choices;
   if (const std::string* text = std::get_if<std::string>(&value))
@@ -110,7 +109,8 @@ const Value& Params::read(const std::string& name) {
     return it->second.value;
   }
   const Parameter* parameter = schema_->find(name);
-  if (!parameter) throw Error("plug-in '" + schema_->name + "' reads '" + name + "', which its schema lacks");
+  if (!parameter)
+    throw Error("plug-in '" + schema_->name + "' reads '" + name + "', which its schema lacks");
   if (is<std::monostate>(parameter->default_value)) fail("needs '" + name + "': " + parameter->doc);
   return parameter->default_value;
 }
@@ -131,16 +131,16 @@ double Params::real(const std::string& name) {
 double Params::real_in(const std::string& name, double low, double high) {
   const double x = real(name);
   if (!(x >= low && x <= high))
-    fail(name, "is " + std::to_string(x) + ", but must lie between " + std::to_string(low) + " and " +
-                   std::to_string(high));
+    fail(name, "is " + std::to_string(x) + ", but must lie between " + std::to_string(low) +
+                   " and " + std::to_string(high));
   return x;
 }
 
 int64_t Params::integer_in(const std::string& name, int64_t low, int64_t high) {
   const int64_t x = integer(name);
   if (x < low || x > high)
-    fail(name, "is " + std::to_string(x) + ", but must lie between " + std::to_string(low) + " and " +
-                   std::to_string(high));
+    fail(name, "is " + std::to_string(x) + ", but must lie between " + std::to_string(low) +
+                   " and " + std::to_string(high));
   return x;
 }
 

@@ -24,8 +24,10 @@ const Plugin& Registry::find(const std::string& family, const std::string& name,
       throw SceneError(at(where, family + " '" + name + "' is not supported: " + reason->second));
   }
   if (members == plugins_.end())
-    throw SceneError(at(where, "unknown element '" + family + "'" + suggestion(family, families())));
-  throw SceneError(at(where, "unknown " + family + " '" + name + "'" + suggestion(name, names(family))));
+    throw SceneError(
+        at(where, "unknown element '" + family + "'" + suggestion(family, families())));
+  throw SceneError(
+      at(where, "unknown " + family + " '" + name + "'" + suggestion(name, names(family))));
 }
 
 std::vector<std::string> Registry::families() const {
@@ -51,7 +53,8 @@ std::vector<std::string> Registry::families_of(const std::string& name) const {
   return {found.begin(), found.end()};
 }
 
-void Registry::refuse(const std::string& family, const std::string& name, const std::string& reason) {
+void Registry::refuse(const std::string& family, const std::string& name,
+                      const std::string& reason) {
   refused_[family][name] = reason;
 }
 

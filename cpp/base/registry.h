@@ -23,7 +23,8 @@ class Registry {
 
   /// Throws SceneError at `where` with a suggestion, or with the reason when the name is one that
   /// Mitsuba has and this renderer refuses.
-  const Plugin& find(const std::string& family, const std::string& name, const Location& where) const;
+  const Plugin& find(const std::string& family, const std::string& name,
+                     const Location& where) const;
 
   std::vector<std::string> families() const;
   std::vector<std::string> names(const std::string& family) const;

@@ -9,7 +9,15 @@ namespace mlt {
 
 /// What a stream is for: two purposes never share random numbers.
 enum class Purpose : uint64_t {
-  bootstrap = 1, chain, pixel, test, resample, choice, round, pilot, inspect
+  bootstrap = 1,
+  chain,
+  pixel,
+  test,
+  resample,
+  choice,
+  round,
+  pilot,
+  inspect
 };
 
 /// SplitMix64 (Steele, Lea & Flood 2014): a bijective mixer of 64 bits.

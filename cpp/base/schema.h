@@ -36,7 +36,7 @@ enum class ParamType {
   texture,      ///< A reflectance, or a Texture.
   emission,     ///< A radiance, or a Texture.
   ior,          ///< An index of refraction: a number, or the name of a material.
-  object        ///< Another plug-in, of the family that the parameter is named after or its doc names.
+  object  ///< Another plug-in, of the family that the parameter is named after or its doc names.
 };
 
 std::string to_string(ParamType type);

@@ -111,7 +111,8 @@ class BdptRendering : public SampledRendering {
 
   class BdptWorker : public Worker {
    public:
-    BdptWorker(const Scene& scene, const BidirectionalSettings& settings, TechniqueFilms* techniques)
+    BdptWorker(const Scene& scene, const BidirectionalSettings& settings,
+               TechniqueFilms* techniques)
         : scene_(&scene),
           scale_(radiance_scale(scene)),
           bidirectional_(scene, settings),
@@ -151,7 +152,8 @@ class BdptIntegrator : public Integrator {
     settings_.paths = bidirectional_settings(params);
     settings_.techniques = params.boolean("techniques");
     if (settings_.techniques && (settings_.paths.max_depth < 0 || settings_.paths.max_depth > 16))
-      params.fail("techniques", "needs a max_depth from 1 to 16: it keeps an image for each technique");
+      params.fail("techniques",
+                  "needs a max_depth from 1 to 16: it keeps an image for each technique");
   }
   std::unique_ptr<Rendering> start(ScenePtr scene, uint64_t seed) const override {
     return std::make_unique<BdptRendering>(std::move(scene), seed, settings_);
@@ -175,7 +177,8 @@ Plugin integrator_bdpt() {
   schema.parameters.push_back(
       {"techniques", ParamType::boolean, false,
        "Keep the image of each technique, raw and weighted; needs a max_depth of 16 or less."});
-  return {schema, [](Params& params) -> ObjectPtr { return std::make_shared<BdptIntegrator>(params); }};
+  return {schema,
+          [](Params& params) -> ObjectPtr { return std::make_shared<BdptIntegrator>(params); }};
 }
 
 }  // namespace mlt

@@ -10,8 +10,11 @@ std::vector<Parameter> bidirectional_parameters() {
        "Use techniques that connect light paths to the lens (t <= 1)."},
       {"sample_direct", ParamType::boolean, true,
        "Technique s = 1 chooses the light as seen from the point to be lit."},
-      {"heuristic", ParamType::text, std::string("power"),
-       "How techniques are combined (Veach 1997, sec. 9.2).", {"balance", "power", "maximum"}},
+      {"heuristic",
+       ParamType::text,
+       std::string("power"),
+       "How techniques are combined (Veach 1997, sec. 9.2).",
+       {"balance", "power", "maximum"}},
   };
 }
 

@@ -27,7 +27,8 @@ class DirectRendering : public SampledRendering {
 
 class DirectRendering::DirectWorker : public Worker {
  public:
-  DirectWorker(const Scene& scene, const DirectSettings& settings) : scene_(&scene), settings_(settings) {}
+  DirectWorker(const Scene& scene, const DirectSettings& settings)
+      : scene_(&scene), settings_(settings) {}
 
   void sample(const Vec2& raster, PixelSampler& sampler, Sink& sink, RayCounts& rays) override {
     const Ray ray = camera_ray(scene_->camera(), raster, sampler);
@@ -50,12 +51,16 @@ class DirectRendering::DirectWorker : public Worker {
     return sum;
   }
 
-  Color by_light(const SurfacePoint& at, const Ray& ray, PixelSampler& sampler, RayCounts& rays) const {
+  Color by_light(const SurfacePoint& at, const Ray& ray, PixelSampler& sampler,
+                 RayCounts& rays) const {
     const Vec2 u = sampler.next2();
     const double n = settings_.emitter_samples, m = settings_.bsdf_samples;
-    const auto weight = [&](double light, double bsdf) { return power_heuristic(n * light, m * bsdf); };
-    return direct_light(*scene_, at, -ray.d, {sampler.next(), u}, ray.time, settings_.strict_normals, rays,
-                        weight) / n;
+    const auto weight = [&](double light, double bsdf) {
+      return power_heuristic(n * light, m * bsdf);
+    };
+    return direct_light(*scene_, at, -ray.d, {sampler.next(), u}, ray.time,
+                        settings_.strict_normals, rays, weight) /
+           n;
   }
 
   Color by_bsdf(const Bsdf& bsdf, const SurfacePoint& at, const Ray& ray, PixelSampler& sampler,
@@ -67,7 +72,8 @@ class DirectRendering::DirectWorker : public Worker {
     const double n = settings_.emitter_samples, m = settings_.bsdf_samples;
     const auto weight = [&](const Emitter& emitter, const SurfacePoint& x0) {
       if (sample->lobe != Lobe::smooth) return 1.0;
-      const double light = emitter_pdf(*scene_, emitter, at.p, x0) * per_solid_angle(at.p, x0, sample->w);
+      const double light =
+          emitter_pdf(*scene_, emitter, at.p, x0) * per_solid_angle(at.p, x0, sample->w);
       return power_heuristic(m * sample->pdf, n * light);
     };
     SurfacePoint next;
@@ -113,17 +119,25 @@ Plugin integrator_direct() {
   schema.family = "integrator";
   schema.name = "direct";
   schema.doc =
-      "Direct light: one reflection at the most, sampled from lights and BSDFs (Veach 1997, sec. 9.2). "
+      "Direct light: one reflection at the most, sampled from lights and BSDFs (Veach 1997, sec. "
+      "9.2). "
       "One spp is one camera ray per pixel.";
   schema.parameters = {
       {"shading_samples", ParamType::integer, int64_t{1}, "Sets both of the numbers below."},
-      {"emitter_samples", ParamType::integer, {}, "Samples of lights per camera ray (default: shading_samples)."},
-      {"bsdf_samples", ParamType::integer, {}, "Samples of the BSDF per camera ray (default: shading_samples)."},
+      {"emitter_samples",
+       ParamType::integer,
+       {},
+       "Samples of lights per camera ray (default: shading_samples)."},
+      {"bsdf_samples",
+       ParamType::integer,
+       {},
+       "Samples of the BSDF per camera ray (default: shading_samples)."},
   };
   for (const Parameter& shared : path_parameters())
     if (shared.name == "hide_emitters" || shared.name == "strict_normals")
       schema.parameters.push_back(shared);
-  return {schema, [](Params& params) -> ObjectPtr { return std::make_shared<DirectIntegrator>(params); }};
+  return {schema,
+          [](Params& params) -> ObjectPtr { return std::make_shared<DirectIntegrator>(params); }};
 }
 
 }  // namespace mlt

@@ -7,8 +7,8 @@
 #include "integrator/metropolis_params.h"
 #include "integrator/metropolis_rendering.h"
 #include "integrator/path_params.h"
-#include "math/permutation.h"
 #include "integrator/separate_direct.h"
+#include "math/permutation.h"
 #include "mutation/adaptation.h"
 #include "mutation/kinds.h"
 #include "mutation/mixture.h"
@@ -54,11 +54,13 @@ class MltChain : public Chain {
       const uint64_t rays_before = stats_.rays.intersect + stats_.rays.occluded;
       const StepResult result = metropolis_step(x_, y_, kernel, rng_, record);
       record.settle(result, y_[0]);
-      ChainStats::Row& row = stats_.rows[kernel.chosen() * (longest_row + 1) + std::min(edges, longest_row)];
+      ChainStats::Row& row =
+          stats_.rows[kernel.chosen() * (longest_row + 1) + std::min(edges, longest_row)];
       stats_.count(row, result, kernel.generated(), glm::length(x_.raster - from));
       row.rays += stats_.rays.intersect + stats_.rays.occluded - rays_before;
       if (stats_.run > stats_.longest.rejections && stats_.run % 64 == 0)
-        stats_.longest = {stats_.run, x_.raster, signature(*scene_, x_.path, settings_->near_specular)};
+        stats_.longest = {stats_.run, x_.raster,
+                          signature(*scene_, x_.path, settings_->near_specular)};
     }
     record.finish();
   }
@@ -76,7 +78,8 @@ class MltChain : public Chain {
  private:
   /// The image position of this chain among those of all chains of the group in this step.
   Vec2 round_raster() const {
-    const uint64_t key = mix_bits(mix_bits(id_.seed ^ mix_bits(static_cast<uint64_t>(id_.group))) + step_);
+    const uint64_t key =
+        mix_bits(mix_bits(id_.seed ^ mix_bits(static_cast<uint64_t>(id_.group))) + step_);
     return scene_->camera().raster().sample(stratified_point(id_.number, id_.count, key));
   }
 
@@ -126,21 +129,26 @@ class Mlt : public MetropolisAlgorithm {
     AdaptationSettings adaptation;
     adaptation.seed = seed;
     adaptation.threads = threads;
-    choice_ = adapt(*scene_, settings_.paths, settings_.mutation, mutations_, choice_, adaptation, cancelled);
+    choice_ = adapt(*scene_, settings_.paths, settings_.mutation, mutations_, choice_, adaptation,
+                    cancelled);
   }
 
   double candidate(Rng& rng, RayCounts& rays) const override {
-    return PathSeeds(*scene_, settings_.paths, settings_.mutation).weigh(rng, rays, [](const Vec2&, double) {});
+    return PathSeeds(*scene_, settings_.paths, settings_.mutation)
+        .weigh(rng, rays, [](const Vec2&, double) {});
   }
 
   std::unique_ptr<Chain> start(const ChainId& id, Rng candidate, Rng choice) const override {
     RayCounts rays;
-    LightPath x = PathSeeds(*scene_, settings_.paths, settings_.mutation).pick(candidate, choice, rays);
-    return std::make_unique<MltChain>(*scene_, settings_.mutation, mutations_, choice_, id, std::move(x));
+    LightPath x =
+        PathSeeds(*scene_, settings_.paths, settings_.mutation).pick(candidate, choice, rays);
+    return std::make_unique<MltChain>(*scene_, settings_.mutation, mutations_, choice_, id,
+                                      std::move(x));
   }
 
   std::unique_ptr<Chain> blank(const ChainId& id) const override {
-    return std::make_unique<MltChain>(*scene_, settings_.mutation, mutations_, choice_, id, LightPath());
+    return std::make_unique<MltChain>(*scene_, settings_.mutation, mutations_, choice_, id,
+                                      LightPath());
   }
 
   std::vector<MutationStats> rows() const override {
@@ -174,7 +182,8 @@ class Mlt : public MetropolisAlgorithm {
     for (uint64_t k = 0; k < count; ++k) {
       rows.emplace_back();
       bytes.read(rows.back());
-      if (rows.back().size() != mutations_.size()) throw RenderError("the saved state has other mutations");
+      if (rows.back().size() != mutations_.size())
+        throw RenderError("the saved state has other mutations");
     }
     if (rows.empty()) throw RenderError("the saved state has no mutations");
     choice_ = MutationChoice(std::move(rows));
@@ -200,7 +209,9 @@ class Mlt : public MetropolisAlgorithm {
       RayCounts rays;
       for (uint64_t i = 0; i < block && !cancelled; ++i) {
         Rng rng(seed, Purpose::round, b * block + i);
-        seeds.weigh(rng, rays, [&](const Vec2& raster, double weight) { seen[b].push_back({raster, weight}); });
+        seeds.weigh(rng, rays, [&](const Vec2& raster, double weight) {
+          seen[b].push_back({raster, weight});
+        });
       }
     });
     for (const auto& samples : seen)
@@ -235,7 +246,8 @@ class MltIntegrator : public Integrator {
     settings_.paths.strict_normals = settings_.mutation.strict_normals = path.strict_normals;
     settings_.mutation.near_specular = params.real_in("near_specular", 0, 1);
     if (params.boolean("manifold_perturbation"))
-      params.fail("manifold_perturbation", "is true, but this mutation does not exist yet; leave it out");
+      params.fail("manifold_perturbation",
+                  "is true, but this mutation does not exist yet; leave it out");
     settings_.two_stage = params.boolean("two_stage");
     settings_.luminance_samples = metropolis_.luminance_samples;
     direct_samples_ = static_cast<int>(params.integer_in("direct_samples", -1, 1 << 20));
@@ -243,7 +255,8 @@ class MltIntegrator : public Integrator {
     double sum = 0;
     bool chosen = false;  // by the user
     for (const MutationKind& kind : mutation_kinds()) {
-      const double weight = params.boolean(kind.switch_name) ? params.real_in(kind.weight_name, 0, 1e9) : 0;
+      const double weight =
+          params.boolean(kind.switch_name) ? params.real_in(kind.weight_name, 0, 1e9) : 0;
       if (weight > 0) settings_.weights.push_back({kind.name, weight});
       sum += weight;
       chosen = chosen || params.has(kind.weight_name);
@@ -257,8 +270,8 @@ class MltIntegrator : public Integrator {
     if (direct_samples_ >= 0)
       direct = separate_direct(scene, seed, direct_samples_, settings_.paths.hide_emitters,
                                settings_.paths.strict_normals);
-    return std::make_unique<MetropolisRendering>(std::move(scene), seed, metropolis_, std::move(algorithm),
-                                                 std::move(direct));
+    return std::make_unique<MetropolisRendering>(std::move(scene), seed, metropolis_,
+                                                 std::move(algorithm), std::move(direct));
   }
   void add(const ExtraMutation& extra) { settings_.extra.push_back(extra); }
 
@@ -270,7 +283,8 @@ class MltIntegrator : public Integrator {
 
 }  // namespace
 
-IntegratorPtr with_mutations(const Integrator& integrator, const std::vector<ExtraMutation>& extra) {
+IntegratorPtr with_mutations(const Integrator& integrator,
+                             const std::vector<ExtraMutation>& extra) {
   const auto* mlt = dynamic_cast<const MltIntegrator*>(&integrator);
   if (!mlt) throw UsageError("'" + integrator.name() + "' has no mixture of mutations; mlt has");
   auto made = std::make_shared<MltIntegrator>(*mlt);
@@ -283,27 +297,36 @@ Plugin integrator_mlt() {
   schema.family = "integrator";
   schema.name = "mlt";
   schema.doc =
-      "Metropolis light transport in path space with Veach's mutations (Veach & Guibas 1997). One spp is "
+      "Metropolis light transport in path space with Veach's mutations (Veach & Guibas 1997). One "
+      "spp is "
       "one mutation per pixel.";
   schema.parameters = path_parameters();
   for (const Parameter& shared : metropolis_parameters()) schema.parameters.push_back(shared);
   for (const MutationKind& kind : mutation_kinds()) {
-    schema.parameters.push_back({kind.switch_name, ParamType::boolean, true, "Use the " + kind.doc});
-    schema.parameters.push_back({kind.weight_name, ParamType::real, kind.weight,
-                                 "Weight of the " + kind.name + " mutation among those that suit a path."});
+    schema.parameters.push_back(
+        {kind.switch_name, ParamType::boolean, true, "Use the " + kind.doc});
+    schema.parameters.push_back(
+        {kind.weight_name, ParamType::real, kind.weight,
+         "Weight of the " + kind.name + " mutation among those that suit a path."});
   }
-  schema.parameters.push_back({"near_specular", ParamType::real, 0.1,
-                               "Smooth vertices below this roughness count as specular in perturbations."});
-  schema.parameters.push_back({"adaptive", ParamType::boolean, true,
-                               "Let pilot chains find the weights and step sizes of the mutations; by default "
-                               "only if no weight is given."});
-  schema.parameters.push_back({"two_stage", ParamType::boolean, false,
-                               "Divide the target by a coarse image, so that dark regions get their share."});
-  schema.parameters.push_back({"direct_samples", ParamType::integer, int64_t{-1},
-                               "Render light of at most one reflection apart with this many samples per pixel; "
-                               "0 leaves it out, -1 leaves it to the chains."});
-  schema.parameters.push_back({"manifold_perturbation", ParamType::boolean, false, "Only false: it does not exist yet."});
-  return {schema, [](Params& params) -> ObjectPtr { return std::make_shared<MltIntegrator>(params); }};
+  schema.parameters.push_back(
+      {"near_specular", ParamType::real, 0.1,
+       "Smooth vertices below this roughness count as specular in perturbations."});
+  schema.parameters.push_back(
+      {"adaptive", ParamType::boolean, true,
+       "Let pilot chains find the weights and step sizes of the mutations; by default "
+       "only if no weight is given."});
+  schema.parameters.push_back(
+      {"two_stage", ParamType::boolean, false,
+       "Divide the target by a coarse image, so that dark regions get their share."});
+  schema.parameters.push_back(
+      {"direct_samples", ParamType::integer, int64_t{-1},
+       "Render light of at most one reflection apart with this many samples per pixel; "
+       "0 leaves it out, -1 leaves it to the chains."});
+  schema.parameters.push_back(
+      {"manifold_perturbation", ParamType::boolean, false, "Only false: it does not exist yet."});
+  return {schema,
+          [](Params& params) -> ObjectPtr { return std::make_shared<MltIntegrator>(params); }};
 }
 
 }  // namespace mlt

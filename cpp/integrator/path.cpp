@@ -17,7 +17,8 @@ class PathRendering : public SampledRendering {
  private:
   class PathWorker : public Worker {
    public:
-    PathWorker(const Scene& scene, const PathSettings& settings) : scene_(&scene), settings_(settings) {}
+    PathWorker(const Scene& scene, const PathSettings& settings)
+        : scene_(&scene), settings_(settings) {}
     void sample(const Vec2& raster, PixelSampler& sampler, Sink& sink, RayCounts& rays) override {
       SurfacePoint lens;
       const Ray ray = camera_ray(scene_->camera(), raster, sampler, &lens);
@@ -62,7 +63,8 @@ Plugin integrator_path() {
       "(Kajiya 1986; Veach & Guibas 1995). One spp is one camera path per pixel.";
   schema.parameters = path_parameters();
   schema.ignored = {"samples_per_pass", "block_size"};
-  return {schema, [](Params& params) -> ObjectPtr { return std::make_shared<PathIntegrator>(params); }};
+  return {schema,
+          [](Params& params) -> ObjectPtr { return std::make_shared<PathIntegrator>(params); }};
 }
 
 }  // namespace mlt

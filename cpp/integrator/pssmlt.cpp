@@ -89,7 +89,8 @@ class PssmltChain : public Chain {
 
 class Pssmlt : public MetropolisAlgorithm {
  public:
-  Pssmlt(ScenePtr scene, const PssmltSettings& settings) : scene_(std::move(scene)), settings_(settings) {}
+  Pssmlt(ScenePtr scene, const PssmltSettings& settings)
+      : scene_(std::move(scene)), settings_(settings) {}
 
   double candidate(Rng& rng, RayCounts& rays) const override {
     ChainStats stats;
@@ -105,10 +106,12 @@ class Pssmlt : public MetropolisAlgorithm {
   std::unique_ptr<Chain> blank(const ChainId& id) const override {
     return std::make_unique<PssmltChain>(*scene_, settings_, id.rng(), PrimaryState());
   }
-  std::vector<MutationStats> rows() const override { MutationStats large, small;
+  std::vector<MutationStats> rows() const override {
+    MutationStats large, small;
     large.name = "large_step";
     small.name = "small_step";
-    return {large, small}; }
+    return {large, small};
+  }
 
  private:
   PrimaryState walk(Rng& rng, ChainStats& stats) const {
@@ -127,13 +130,15 @@ class PssmltIntegrator : public Integrator {
       : metropolis_(metropolis_settings(params)),
         settings_{path_settings(params), params.real_in("p_large", 0, 1)} {
     if (params.boolean("bidirectional"))
-      params.fail("bidirectional", "is true, but pssmlt works over the path tracer only; leave it out");
+      params.fail("bidirectional",
+                  "is true, but pssmlt works over the path tracer only; leave it out");
     if (settings_.large_probability == 0)
       params.fail("p_large", "is 0, but without large steps a chain cannot reach the whole image");
   }
   std::unique_ptr<Rendering> start(ScenePtr scene, uint64_t seed) const override {
     auto algorithm = std::make_unique<Pssmlt>(scene, settings_);
-    return std::make_unique<MetropolisRendering>(std::move(scene), seed, metropolis_, std::move(algorithm));
+    return std::make_unique<MetropolisRendering>(std::move(scene), seed, metropolis_,
+                                                 std::move(algorithm));
   }
 
  private:
@@ -152,11 +157,14 @@ Plugin integrator_pssmlt() {
       "One spp is one mutation per pixel.";
   schema.parameters = path_parameters();
   for (const Parameter& shared : metropolis_parameters()) schema.parameters.push_back(shared);
-  schema.parameters.push_back({"p_large", ParamType::real, 0.3,
-                               "Probability of a large step, which draws a new path independently."});
-  schema.parameters.push_back({"bidirectional", ParamType::boolean, false,
-                               "Only false: bidirectional estimators are not part of this integrator."});
-  return {schema, [](Params& params) -> ObjectPtr { return std::make_shared<PssmltIntegrator>(params); }};
+  schema.parameters.push_back(
+      {"p_large", ParamType::real, 0.3,
+       "Probability of a large step, which draws a new path independently."});
+  schema.parameters.push_back(
+      {"bidirectional", ParamType::boolean, false,
+       "Only false: bidirectional estimators are not part of this integrator."});
+  return {schema,
+          [](Params& params) -> ObjectPtr { return std::make_shared<PssmltIntegrator>(params); }};
 }
 
 }  // namespace mlt

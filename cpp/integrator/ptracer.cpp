@@ -66,10 +66,12 @@ Plugin integrator_ptracer() {
   schema.family = "integrator";
   schema.name = "ptracer";
   schema.doc =
-      "Light tracing: walks from the lights, connected to the lens at each vertex (Dutre et al. 1993). "
+      "Light tracing: walks from the lights, connected to the lens at each vertex (Dutre et al. "
+      "1993). "
       "One spp is one light path per pixel.";
   schema.parameters = path_parameters();
-  return {schema, [](Params& params) -> ObjectPtr { return std::make_shared<PtracerIntegrator>(params); }};
+  return {schema,
+          [](Params& params) -> ObjectPtr { return std::make_shared<PtracerIntegrator>(params); }};
 }
 
 }  // namespace mlt

@@ -16,7 +16,8 @@ Bootstrap resample(const std::vector<double>& weights, uint32_t chains, Rng& rng
   }
   if (!(sum > 0)) return result;
   result.b = sum / n;
-  if (n > 1) result.b_error = std::sqrt(std::max(0.0, sum_of_squares / n - result.b * result.b) / (n - 1));
+  if (n > 1)
+    result.b_error = std::sqrt(std::max(0.0, sum_of_squares / n - result.b * result.b) / (n - 1));
 
   const double spacing = sum / chains;
   double next = rng.next() * spacing, cumulative = 0;
@@ -29,7 +30,8 @@ Bootstrap resample(const std::vector<double>& weights, uint32_t chains, Rng& rng
   for (size_t i = weights.size(); result.seeds.size() < chains;)
     if (weights[--i] > 0) result.seeds.resize(chains, static_cast<uint32_t>(i));
   // Systematic order would tie a chain's number to its candidate; which chain gets which is chance.
-  for (size_t i = result.seeds.size(); i > 1; --i) std::swap(result.seeds[i - 1], result.seeds[rng.below(i)]);
+  for (size_t i = result.seeds.size(); i > 1; --i)
+    std::swap(result.seeds[i - 1], result.seeds[rng.below(i)]);
   return result;
 }
 

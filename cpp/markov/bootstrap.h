@@ -12,8 +12,8 @@
 namespace mlt {
 
 struct Bootstrap {
-  double b = 0;        ///< Mean weight of the candidates.
-  double b_error = 0;  ///< Its standard error.
+  double b = 0;                 ///< Mean weight of the candidates.
+  double b_error = 0;           ///< Its standard error.
   std::vector<uint32_t> seeds;  ///< Index of the candidate that each chain starts from.
 };
 

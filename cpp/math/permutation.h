@@ -35,7 +35,8 @@ inline Vec2 stratified_point(uint32_t i, uint32_t n, uint64_t key) {
   const uint32_t rows = (n + columns - 1) / columns;
   const uint32_t cell = permute(i, columns * rows, key);
   const uint64_t bits = mix_bits(mix_bits(key) + i);
-  const Vec2 jitter(static_cast<double>(bits >> 32) * 0x1p-32, static_cast<double>(bits & 0xffffffffu) * 0x1p-32);
+  const Vec2 jitter(static_cast<double>(bits >> 32) * 0x1p-32,
+                    static_cast<double>(bits & 0xffffffffu) * 0x1p-32);
   return {(cell % columns + jitter.x) / columns, (cell / columns + jitter.y) / rows};
 }
 

@@ -25,8 +25,8 @@ struct Experience {
 
 using Table = std::vector<std::vector<Experience>>;  // [length][mutation]
 
-Table explore(const Scene& scene, const Mutations& mutations, const MutationChoice& choice, LightPath x,
-              int steps, Rng rng) {
+Table explore(const Scene& scene, const Mutations& mutations, const MutationChoice& choice,
+              LightPath x, int steps, Rng rng) {
   Table table(longest_row + 1, std::vector<Experience>(mutations.size()));
   RayCounts rays;
   MutationMixture kernel(mutations, choice, rays);
@@ -78,7 +78,8 @@ double squared_jump(const Scene& scene, const LightPath& x, const LightPath& y) 
     if (a.infinite() != b.infinite())
       vertices += 1;
     else
-      vertices += squared(length(a.p - b.p) / (share_of_radius * (a.infinite() ? 1 : scene.bounds().radius)));
+      vertices += squared(length(a.p - b.p) /
+                          (share_of_radius * (a.infinite() ? 1 : scene.bounds().radius)));
   }
   return 0.5 * (image + vertices / (longer + 1));
 }
@@ -92,7 +93,8 @@ MutationChoice adapt(const Scene& scene, const BidirectionalSettings& paths,
   parallel_for(adaptation.threads, (weights.size() + block - 1) / block, [&](uint64_t b) {
     PathSeeds seeds(scene, paths, settings);
     RayCounts rays;
-    for (uint64_t i = b * block; i < std::min<uint64_t>(weights.size(), (b + 1) * block) && !cancelled; ++i) {
+    for (uint64_t i = b * block;
+         i < std::min<uint64_t>(weights.size(), (b + 1) * block) && !cancelled; ++i) {
       Rng rng(adaptation.seed, Purpose::pilot, i);
       weights[i] = seeds.weigh(rng, rays, [](const Vec2&, double) {});
     }
@@ -109,7 +111,8 @@ MutationChoice adapt(const Scene& scene, const BidirectionalSettings& paths,
     Rng choice(adaptation.seed, Purpose::pilot, weights.size() + 1 + 2 * i);
     const Rng own(adaptation.seed, Purpose::pilot, weights.size() + 2 + 2 * i);
     LightPath x = seeds.pick(candidate, choice, rays);
-    if (x.target > 0) tables[i] = explore(scene, mutations, initial, std::move(x), adaptation.steps, own);
+    if (x.target > 0)
+      tables[i] = explore(scene, mutations, initial, std::move(x), adaptation.steps, own);
   });
 
   Table sum(longest_row + 1, std::vector<Experience>(mutations.size()));
@@ -123,10 +126,12 @@ MutationChoice adapt(const Scene& scene, const BidirectionalSettings& paths,
   // A mutation that comes in several step sizes shares its floor among them.
   std::vector<double> floors;
   for (const auto& mutation : mutations) {
-    const auto same = std::count_if(mutations.begin(), mutations.end(),
-                                    [&](const auto& other) { return other->name() == mutation->name(); });
+    const auto same = std::count_if(mutations.begin(), mutations.end(), [&](const auto& other) {
+      return other->name() == mutation->name();
+    });
     floors.push_back((mutation->name() == "bidirectional" ? adaptation.least_share_of_bidirectional
-                                                           : adaptation.least_share) / same);
+                                                          : adaptation.least_share) /
+                     same);
   }
   std::vector<std::vector<double>> rows;
   for (const auto& row : sum) rows.push_back(shares(row, all, floors));

@@ -19,8 +19,8 @@ struct AdaptationSettings {
   int chains = 64;
   int steps = 1000;
   uint64_t candidates = 16384;
-  double least_share = 0.05;                ///< What every mutation keeps.
-  double least_share_of_bidirectional = 0.1; ///< The one that makes the chain ergodic keeps more.
+  double least_share = 0.05;                  ///< What every mutation keeps.
+  double least_share_of_bidirectional = 0.1;  ///< The one that makes the chain ergodic keeps more.
 };
 
 /// How far y is from x, squared, between 0 and 1: half for the image, where a move counts as whole from

@@ -225,7 +225,7 @@ class Auditor {
     }
   }
 
-  static AuditTest t_test(const std::vector<Batch>& done, std::vector<double> Batch::*sums,
+  static AuditTest t_test(const std::vector<Batch>& done, std::vector<double> Batch::* sums,
                           size_t g, double weight) {
     double mean = 0, variance = 0;
     for (const Batch& batch : done) mean += (batch.*sums)[g] / batches;

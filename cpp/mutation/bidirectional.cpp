@@ -94,7 +94,8 @@ std::optional<Edit> BidirectionalMutation::propose(const LightPath& x, LightPath
 
   const int n = added - 1;
   const Edit edit{l + 1, m - 1, n};
-  const int s = static_cast<int>(context.rng.below(most_from_light(n, m > k, *scene_) + 1)), t = n - s;
+  const int s = static_cast<int>(context.rng.below(most_from_light(n, m > k, *scene_) + 1)),
+            t = n - s;
   splice(x, edit, y);
   if (l < 0 && m > k) y.path.time = scene_->camera().time(context.rng.next());
   // The emitter chosen to be seen from x_1 needs x_1: the camera side grows first.
@@ -139,7 +140,8 @@ bool BidirectionalMutation::grow_from_light(LightPath& y, int first, int count,
       if (!(sample.pdf > 0)) return false;
       ray = from.at.infinite() ? Ray{sample.origin, sample.direction, path.time}
                                : scene_->spawn(from.at, sample.direction, path.time);
-    } else if (!scatter(from, direction(from.at, path[i - 2].at), i == first, path.time, context, ray)) {
+    } else if (!scatter(from, direction(from.at, path[i - 2].at), i == first, path.time, context,
+                        ray)) {
       return false;
     }
     if (i < path.edges() ? !arrive(ray, path[i], context) : !arrive_at_lens(ray, path[i], context))
@@ -170,14 +172,15 @@ bool BidirectionalMutation::grow_from_camera(LightPath& y, int first, int count,
                         context, ray)) {
       return false;
     }
-    if (i > 0 ? !arrive(ray, path[i], context) : !arrive_at_light(ray, path[0], context)) return false;
+    if (i > 0 ? !arrive(ray, path[i], context) : !arrive_at_light(ray, path[0], context))
+      return false;
   }
   return true;
 }
 
 /// Samples a direction at a surface vertex. One that stays (`kept`) must go on scattering smoothly.
-bool BidirectionalMutation::scatter(Vertex& from, const Vec3& towards_previous, bool kept, double time,
-                                    MutationContext& context, Ray& ray) const {
+bool BidirectionalMutation::scatter(Vertex& from, const Vec3& towards_previous, bool kept,
+                                    double time, MutationContext& context, Ray& ray) const {
   const SurfacePoint& at = from.at;
   Rng& rng = context.rng;
   const Vec3 u{rng.next(), rng.next(), rng.next()};
@@ -197,16 +200,19 @@ bool BidirectionalMutation::arrive(const Ray& ray, Vertex& next, MutationContext
 }
 
 /// The lens does not stop a ray, but what stands before it does.
-bool BidirectionalMutation::arrive_at_lens(const Ray& ray, Vertex& xk, MutationContext& context) const {
+bool BidirectionalMutation::arrive_at_lens(const Ray& ray, Vertex& xk,
+                                           MutationContext& context) const {
   const auto lens = scene_->camera().hit_lens(ray);
   if (!lens) return false;
   xk = camera_vertex(*lens);
   SurfacePoint at;
   ++context.rays.intersect;
-  return !scene_->intersect(ray, at) || length_squared(at.p - ray.o) > length_squared(lens->p - ray.o);
+  return !scene_->intersect(ray, at) ||
+         length_squared(at.p - ray.o) > length_squared(lens->p - ray.o);
 }
 
-bool BidirectionalMutation::arrive_at_light(const Ray& ray, Vertex& x0, MutationContext& context) const {
+bool BidirectionalMutation::arrive_at_light(const Ray& ray, Vertex& x0,
+                                            MutationContext& context) const {
   SurfacePoint at;
   ++context.rays.intersect;
   if (scene_->intersect(ray, at)) {
@@ -222,7 +228,8 @@ bool BidirectionalMutation::arrive_at_light(const Ray& ray, Vertex& x0, Mutation
   return true;
 }
 
-double BidirectionalMutation::density(const LightPath& x, const LightPath& y, const Edit& edit) const {
+double BidirectionalMutation::density(const LightPath& x, const LightPath& y,
+                                      const Edit& edit) const {
   const int k = x.edges(), l = edit.first - 1, m = edit.last + 1, n = edit.inserted;
   const double p_delete = deletion_probability(x, l, m);
   if (p_delete == 0) return 0;
@@ -233,7 +240,8 @@ double BidirectionalMutation::density(const LightPath& x, const LightPath& y, co
     const int technique = edit.first + s;
     if (!can_sample(y.terms, technique)) continue;
     double p = 1;
-    if (technique == 0 && y[0].at.infinite()) p /= static_cast<double>(scene_->backgrounds().size());
+    if (technique == 0 && y[0].at.infinite())
+      p /= static_cast<double>(scene_->backgrounds().size());
     for (int i = edit.first; i < edit.first + n; ++i) {
       if (i >= technique)
         p *= y.terms.from_camera[i];

@@ -21,7 +21,8 @@ class BidirectionalMutation : public Mutation {
 
   const std::string& name() const override;
   double suitability(const LightPath&) const override { return 1; }
-  std::optional<Edit> propose(const LightPath& x, LightPath& y, MutationContext& context) const override;
+  std::optional<Edit> propose(const LightPath& x, LightPath& y,
+                              MutationContext& context) const override;
   double density(const LightPath& x, const LightPath& y, const Edit& edit) const override;
 
  private:

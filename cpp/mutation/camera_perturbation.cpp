@@ -4,7 +4,9 @@ namespace mlt {
 namespace {
 
 /// Both ways of the lens point are equally likely: to stay, or to move.
-bool lens_moves(const LightPath& x, const LightPath& y) { return x[x.edges()].at.p != y[y.edges()].at.p; }
+bool lens_moves(const LightPath& x, const LightPath& y) {
+  return x[x.edges()].at.p != y[y.edges()].at.p;
+}
 
 }  // namespace
 
@@ -61,15 +63,17 @@ std::optional<Edit> CameraPerturbation::propose(const LightPath& x, LightPath& y
 
 double CameraPerturbation::density(const LightPath& x, const LightPath& y, const Edit& edit) const {
   const Form from = form(x), to = form(y);
-  if (from.stop != to.stop || from.further_chains != to.further_chains || from.stop != edit.first) return 0;
+  if (from.stop != to.stop || from.further_chains != to.further_chains || from.stop != edit.first)
+    return 0;
   for (int i = from.stop; i < x.edges(); ++i)
     if (x.specular[i] != y.specular[i]) return 0;
   const int k = x.edges();
-  const double on_image =
-      chain_.image_radius().planar_pdf(glm::length(y.raster - x.raster)) * chain_.raster_per_direction(y);
+  const double on_image = chain_.image_radius().planar_pdf(glm::length(y.raster - x.raster)) *
+                          chain_.raster_per_direction(y);
   double on_lens = 1;
   if (!scene_->camera().delta_position())
-    on_lens = lens_moves(x, y) ? 0.5 * lens_radius().planar_pdf(length(y[k].at.p - x[k].at.p)) : 0.5;
+    on_lens =
+        lens_moves(x, y) ? 0.5 * lens_radius().planar_pdf(length(y[k].at.p - x[k].at.p)) : 0.5;
   return on_lens * chain_.density(x, y, {k, from.stop, -1}, on_image);
 }
 

@@ -14,7 +14,8 @@ class CameraPerturbation : public Mutation {
       : scene_(&scene), settings_(settings), chain_(scene, settings) {}
 
   double suitability(const LightPath& x) const override;
-  std::optional<Edit> propose(const LightPath& x, LightPath& y, MutationContext& context) const override;
+  std::optional<Edit> propose(const LightPath& x, LightPath& y,
+                              MutationContext& context) const override;
   double density(const LightPath& x, const LightPath& y, const Edit& edit) const override;
 
  protected:
@@ -23,7 +24,8 @@ class CameraPerturbation : public Mutation {
 
  private:
   struct Form {
-    int stop = -1;  ///< The diffuse vertex that is joined to the rest; -1: the path has another form.
+    int stop =
+        -1;  ///< The diffuse vertex that is joined to the rest; -1: the path has another form.
     int further_chains = 0;
   };
   Form form(const LightPath& x) const;

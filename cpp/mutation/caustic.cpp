@@ -39,7 +39,8 @@ std::optional<Edit> CausticPerturbation::propose(const LightPath& x, LightPath& 
     ray = {through + back * x[0].at.p, -x[0].at.p, y.path.time};
   } else {
     const Vec3 w = direction(x[a].at, x[a + 1].at);
-    ray = scene_->spawn(x[a].at, ChainPerturbation::perturb(w, chain_.angle(x, a, k - 1, 1), rng), y.path.time);
+    ray = scene_->spawn(x[a].at, ChainPerturbation::perturb(w, chain_.angle(x, a, k - 1, 1), rng),
+                        y.path.time);
   }
   if (!chain_.carry(x, {a, k - 1, 1}, ray, y, context)) return std::nullopt;
   evaluate(*scene_, settings_, a + 1, k - 1, y);
@@ -49,7 +50,8 @@ std::optional<Edit> CausticPerturbation::propose(const LightPath& x, LightPath& 
   return edit;
 }
 
-double CausticPerturbation::density(const LightPath& x, const LightPath& y, const Edit& edit) const {
+double CausticPerturbation::density(const LightPath& x, const LightPath& y,
+                                    const Edit& edit) const {
   const int k = x.edges(), a = start(x);
   if (a < 0 || a != start(y) || a + 1 != edit.first) return 0;
   double first;

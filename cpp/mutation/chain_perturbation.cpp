@@ -6,8 +6,12 @@ namespace mlt {
 namespace {
 
 /// Directions at vertex i to where a walk with this step comes from and to where it goes.
-Vec3 direction_in(const LightPath& x, int i, int step) { return direction(x[i].at, x[i - step].at); }
-Vec3 direction_out(const LightPath& x, int i, int step) { return direction(x[i].at, x[i + step].at); }
+Vec3 direction_in(const LightPath& x, int i, int step) {
+  return direction(x[i].at, x[i - step].at);
+}
+Vec3 direction_out(const LightPath& x, int i, int step) {
+  return direction(x[i].at, x[i + step].at);
+}
 
 double angle_between(const Vec3& a, const Vec3& b) {
   return 2 * std::atan2(length(a - b), length(a + b));
@@ -15,10 +19,12 @@ double angle_between(const Vec3& a, const Vec3& b) {
 
 }  // namespace
 
-ChainPerturbation::ChainPerturbation(const Scene& scene, const MutationSettings& settings) : scene_(&scene) {
+ChainPerturbation::ChainPerturbation(const Scene& scene, const MutationSettings& settings)
+    : scene_(&scene) {
   const Raster& raster = scene.camera().raster();
   const double diagonal = std::hypot(raster.size.x, raster.size.y);
-  image_radius_ = {settings.smallest_pixels, std::max(2 * settings.smallest_pixels, settings.largest_share * diagonal)};
+  image_radius_ = {settings.smallest_pixels,
+                   std::max(2 * settings.smallest_pixels, settings.largest_share * diagonal)};
 }
 
 double ChainPerturbation::raster_per_direction(const LightPath& x) const {
@@ -44,7 +50,8 @@ ExponentialRadius ChainPerturbation::angle(const LightPath& x, int i, int stop, 
 Vec3 ChainPerturbation::perturb(const Vec3& w, const ExponentialRadius& angle, Rng& rng) {
   const double theta = angle.sample(rng.next()), phi = 2 * pi * rng.next();
   const Frame frame = Frame::around(w);
-  return frame.to_world({std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)});
+  return frame.to_world(
+      {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)});
 }
 
 int ChainPerturbation::next_diffuse(const LightPath& x, int start, int step) {
@@ -68,8 +75,8 @@ bool ChainPerturbation::carry(const LightPath& x, const Span& span, Ray ray, Lig
   }
 }
 
-std::optional<Vec3> ChainPerturbation::carried_direction(const LightPath& x, const LightPath& y, int i,
-                                                         int step, const Vec3& in,
+std::optional<Vec3> ChainPerturbation::carried_direction(const LightPath& x, const LightPath& y,
+                                                         int i, int step, const Vec3& in,
                                                          MutationContext& context) const {
   if (!x.specular[i]) {
     const int stop = next_diffuse(x, i, step);
@@ -102,7 +109,8 @@ double ChainPerturbation::density(const LightPath& x, const LightPath& y, const 
 }
 
 /// Density with which y's vertex i is left, in projected solid angle, when x is perturbed.
-double ChainPerturbation::coefficient(const LightPath& x, const LightPath& y, int i, int step) const {
+double ChainPerturbation::coefficient(const LightPath& x, const LightPath& y, int i,
+                                      int step) const {
   const SurfacePoint& at = y[i].at;
   const Vec3 in = direction_in(y, i, step), out = direction_out(y, i, step);
   if (!x.specular[i]) {

@@ -39,11 +39,13 @@ class ChainPerturbation {
 
   /// Moves vertices after span.start up to span.stop; the first of them is where `ray` arrives. The
   /// terms of y are not evaluated.
-  bool carry(const LightPath& x, const Span& span, Ray ray, LightPath& y, MutationContext& context) const;
+  bool carry(const LightPath& x, const Span& span, Ray ray, LightPath& y,
+             MutationContext& context) const;
 
   /// Product of the densities of the moved vertices of y, in their area measure; `first_coefficient` is
   /// the density of the first direction in projected solid angle at span.start.
-  double density(const LightPath& x, const LightPath& y, const Span& span, double first_coefficient) const;
+  double density(const LightPath& x, const LightPath& y, const Span& span,
+                 double first_coefficient) const;
 
   /// Radii of a move on the image, in pixels.
   const ExponentialRadius& image_radius() const { return image_radius_; }

@@ -35,7 +35,8 @@ inline std::optional<Vec3> refract_about(const Vec3& in, const Vec3& h, double e
   const double cos_in = dot(in, h);
   const double cos2_out = 1 - sqr(eta) * (1 - sqr(cos_in));
   if (!(cos2_out > 0)) return std::nullopt;
-  const Vec3 out = normalize((eta * cos_in - std::copysign(std::sqrt(cos2_out), cos_in)) * h - eta * in);
+  const Vec3 out =
+      normalize((eta * cos_in - std::copysign(std::sqrt(cos2_out), cos_in)) * h - eta * in);
   if (same_side(in, out)) return std::nullopt;
   return out;
 }

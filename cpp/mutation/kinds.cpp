@@ -19,10 +19,11 @@ std::shared_ptr<const Mutation> make(const Scene& scene, const MutationSettings&
 const std::vector<MutationKind>& mutation_kinds() {
   static const std::vector<MutationKind> kinds = {
       {"bidirectional", "bidirectional_mutation", "bidirectional_weight", 0.3,
-       "bidirectional mutation, which replaces any piece of the path (Veach 1997, sec. 11.3.1).", false,
-       make<BidirectionalMutation>},
+       "bidirectional mutation, which replaces any piece of the path (Veach 1997, sec. 11.3.1).",
+       false, make<BidirectionalMutation>},
       {"lens", "lens_perturbation", "lens_weight", 0.3,
-       "lens perturbation of paths (L|D)DS*E (Veach 1997, sec. 11.3.3.1).", true, make<LensPerturbation>},
+       "lens perturbation of paths (L|D)DS*E (Veach 1997, sec. 11.3.3.1).", true,
+       make<LensPerturbation>},
       {"caustic", "caustic_perturbation", "caustic_weight", 0.2,
        "caustic perturbation of paths (L|D)S*DE (Veach 1997, sec. 11.3.3.2).", true,
        make<CausticPerturbation>},

@@ -10,7 +10,8 @@ namespace mlt {
 
 struct MutationKind {
   std::string name;
-  std::string switch_name;  ///< The parameter that turns it on, with Mitsuba's name where it has one.
+  std::string
+      switch_name;  ///< The parameter that turns it on, with Mitsuba's name where it has one.
   std::string weight_name;
   double weight;  ///< The default.
   std::string doc;

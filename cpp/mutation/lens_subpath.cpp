@@ -39,15 +39,16 @@ std::optional<Edit> LensSubpathMutation::propose(const LightPath& x, LightPath& 
     walk[count] = surface_vertex(at);
     const double stops = stop_probability(at);
     if (rng.next() < stops) break;
-    const auto sample =
-        scene_->bsdf(at).sample(at, at.shading.to_local(-ray.d), {rng.next(), rng.next(), rng.next()});
+    const auto sample = scene_->bsdf(at).sample(at, at.shading.to_local(-ray.d),
+                                                {rng.next(), rng.next(), rng.next()});
     if (!sample || (stops > 0 && sample->lobe == Lobe::smooth)) return std::nullopt;
     walk[count].lobe = sample->lobe;
     ray = scene_->spawn(at, at.shading.to_world(sample->to), x.path.time);
   }
   const int first = stop(x);
   const Edit edit{first, x.edges(), count + 2};
-  if (settings_.max_depth >= 0 && x.edges() + edit.shift() > settings_.max_depth) return std::nullopt;
+  if (settings_.max_depth >= 0 && x.edges() + edit.shift() > settings_.max_depth)
+    return std::nullopt;
   splice(x, edit, y);
   const int k = y.edges();
   y.path[k] = camera_vertex(lens.at);
@@ -59,7 +60,8 @@ std::optional<Edit> LensSubpathMutation::propose(const LightPath& x, LightPath& 
   return edit;
 }
 
-double LensSubpathMutation::density(const LightPath& x, const LightPath& y, const Edit& edit) const {
+double LensSubpathMutation::density(const LightPath& x, const LightPath& y,
+                                    const Edit& edit) const {
   if (stop(x) != edit.first || stop(y) != edit.first) return 0;
   double p = 1;
   for (int i = edit.first; i <= y.edges(); ++i) p *= y.terms.from_camera[i];

@@ -18,7 +18,8 @@ class LensSubpathMutation : public Mutation {
 
   const std::string& name() const override;
   double suitability(const LightPath& x) const override { return stop(x) > 0 ? 1 : 0; }
-  std::optional<Edit> propose(const LightPath& x, LightPath& y, MutationContext& context) const override;
+  std::optional<Edit> propose(const LightPath& x, LightPath& y,
+                              MutationContext& context) const override;
   double density(const LightPath& x, const LightPath& y, const Edit& edit) const override;
 
  private:

@@ -11,12 +11,15 @@ void splice(const std::vector<T>& x, const Edit& edit, std::vector<T>& y) {
             y.begin() + std::min<size_t>(edit.first + edit.inserted, y.size()));
 }
 
-TermSettings term_settings(const MutationSettings& settings) { return {true, settings.strict_normals}; }
+TermSettings term_settings(const MutationSettings& settings) {
+  return {true, settings.strict_normals};
+}
 
 void finish(const Scene& scene, const MutationSettings& settings, LightPath& x) {
   x.target = 0;
   if (x.edges() < settings.min_depth) return;
-  if (x.edges() == 1 && (settings.hide_emitters || !(x.terms.light_can_be_hit || x.terms.camera_can_be_hit)))
+  if (x.edges() == 1 &&
+      (settings.hide_emitters || !(x.terms.light_can_be_hit || x.terms.camera_can_be_hit)))
     return;
   x.rgb = contribution(x.terms);
   const double target = target_luminance(x.rgb);
@@ -46,7 +49,8 @@ void splice(const LightPath& x, const Edit& edit, LightPath& y) {
   y.terms.camera_can_be_hit = x.terms.camera_can_be_hit;
 }
 
-void evaluate(const Scene& scene, const MutationSettings& settings, int first, int last, LightPath& x) {
+void evaluate(const Scene& scene, const MutationSettings& settings, int first, int last,
+              LightPath& x) {
   const int k = x.edges(), from = std::max(0, first - 1), to = std::min(k, last + 1);
   update_terms(scene, x.path, term_settings(settings), from, to, x.terms);
   for (int i = std::max(1, from); i <= std::min(k - 1, to); ++i)

@@ -20,7 +20,7 @@ struct Edit {
 
 struct MutationSettings {
   int max_depth = -1;
-  int min_depth = 1;  ///< Shorter paths carry no light: they are rendered apart.
+  int min_depth = 1;               ///< Shorter paths carry no light: they are rendered apart.
   const TargetMap* map = nullptr;  ///< Two-stage sampling: a factor of the target.
   bool hide_emitters = false;
   bool strict_normals = false;
@@ -47,7 +47,8 @@ void splice(const LightPath& x, const Edit& edit, LightPath& y);
 
 /// Computes what depends on vertices first ... last and their neighbours, then f and L*. Without
 /// visibility. target = 0 if the path carries no light or misses the image.
-void evaluate(const Scene& scene, const MutationSettings& settings, int first, int last, LightPath& x);
+void evaluate(const Scene& scene, const MutationSettings& settings, int first, int last,
+              LightPath& x);
 /// The same for a path of which nothing has been computed yet.
 void evaluate(const Scene& scene, const MutationSettings& settings, LightPath& x);
 

@@ -31,7 +31,8 @@ class Mutation {
 
   /// Makes y from x, with its terms evaluated; nullopt if nothing was found. The connecting edge has
   /// been tested for visibility if y.target > 0.
-  virtual std::optional<Edit> propose(const LightPath& x, LightPath& y, MutationContext& context) const = 0;
+  virtual std::optional<Edit> propose(const LightPath& x, LightPath& y,
+                                      MutationContext& context) const = 0;
 
   /// T(x -> y) for this edit, without the probability of having chosen this mutation. The reverse is
   /// density(y, x, edit.reversed()).

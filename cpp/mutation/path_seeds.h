@@ -10,7 +10,8 @@ namespace mlt {
 
 class PathSeeds {
  public:
-  PathSeeds(const Scene& scene, const BidirectionalSettings& paths, const MutationSettings& settings)
+  PathSeeds(const Scene& scene, const BidirectionalSettings& paths,
+            const MutationSettings& settings)
       : scene_(&scene), settings_(&settings), paths_(scene, paths) {}
 
   /// Sum of the weights of a candidate's paths; `seen(raster, weight)` is called for each.

@@ -30,7 +30,8 @@ inline double small_step(double u, Rng& rng) {
   constexpr double smallest = 1.0 / 1024, largest = 1.0 / 64;
   const double sample = rng.next();
   const bool up = sample < 0.5;
-  const double size = largest * std::exp(-std::log(largest / smallest) * (up ? 2 * sample : 2 * sample - 1));
+  const double size =
+      largest * std::exp(-std::log(largest / smallest) * (up ? 2 * sample : 2 * sample - 1));
   const double moved = up ? u + size : u - size;
   const double wrapped = moved - std::floor(moved);
   return wrapped < 1 ? wrapped : 0;  // a moved one just below 0 is rounded up to 1
@@ -47,7 +48,8 @@ class PrimarySampleKernel {
   PrimarySampleKernel(double large_probability, Evaluate evaluate)
       : large_probability_(large_probability), evaluate_(std::move(evaluate)) {}
 
-  Transition propose(const PrimaryState& x, std::array<PrimaryState, 1>& proposals, size_t, Rng& rng) {
+  Transition propose(const PrimaryState& x, std::array<PrimaryState, 1>& proposals, size_t,
+                     Rng& rng) {
     PrimaryState& y = proposals[0];
     last_ = rng.next() < large_probability_ ? large : small;
     y.numbers.clear();

@@ -19,7 +19,9 @@ size_t TargetMap::cell_at(const Vec2& raster) const {
   return static_cast<size_t>(y) * columns_ + x;
 }
 
-void TargetMap::add(const Vec2& raster, double brightness) { factors_[cell_at(raster)] += brightness; }
+void TargetMap::add(const Vec2& raster, double brightness) {
+  factors_[cell_at(raster)] += brightness;
+}
 
 void TargetMap::finish() {
   constexpr double least_share = 0.05;  // of the mean: no region is preferred more than 20 times

@@ -4,7 +4,8 @@ namespace mlt {
 
 /// Densities that do not depend on how the subpaths are joined: what each walk knows of its own
 /// vertices, and of them as made by the other walk, up to the two vertices next to the joint.
-void Bidirectional::begin_densities(const WalkVertex* lights, int s, const WalkVertex* cameras, int t) {
+void Bidirectional::begin_densities(const WalkVertex* lights, int s, const WalkVertex* cameras,
+                                    int t) {
   const int k = s + t - 1;
   from_light_.resize(k + 1);
   from_camera_.resize(k + 1);
@@ -24,7 +25,8 @@ void Bidirectional::begin_densities(const WalkVertex* lights, int s, const WalkV
 double Bidirectional::weight(int s, const Vertex& x0, const Vertex& xk, const SurfacePoint& x1) {
   const int k = static_cast<int>(from_light_.size()) - 1;
   if (!settings_.light_image) connectable_[k] = false;  // t = 1 is not among the techniques
-  const double direct = settings_.sample_direct ? direct_position_pdf(*scene_, x0, x1) : from_light_[0];
+  const double direct =
+      settings_.sample_direct ? direct_position_pdf(*scene_, x0, x1) : from_light_[0];
   return mis_weight(from_light_.data(), from_camera_.data(), connectable_.data(), k, s, direct,
                     can_be_hit(*scene_, x0), settings_.light_image && can_be_hit(*scene_, xk),
                     settings_.heuristic);
@@ -36,8 +38,8 @@ bool Bidirectional::evaluate_hit_light(Connection& connection) {
   const WalkVertex& end = camera_[t - 1];
   const Vertex x0 = light_vertex(*connection.emitter, end.vertex.at);
   if (!can_be_hit(*scene_, x0)) return false;
-  const VertexTerms terms =
-      vertex_terms(*scene_, x0, end.towards_previous, end.towards_previous, settings_.strict_normals);
+  const VertexTerms terms = vertex_terms(*scene_, x0, end.towards_previous, end.towards_previous,
+                                         settings_.strict_normals);
   connection.contribution = end.throughput * terms.f;
   if (is_black(connection.contribution)) return false;
   begin_densities(nullptr, 0, camera_.data(), t);
@@ -103,15 +105,16 @@ bool Bidirectional::evaluate_hit_lens(Connection& connection, RayCounts& rays) {
   const int s = connection.s, k = s - 1;
   const WalkVertex& last = light_[s - 2];
   if (last.absorbed) return false;
-  const Ray ray = s == 2 ? light_.first_ray() : scene_->spawn(last.vertex.at, last.towards_next, time_);
+  const Ray ray =
+      s == 2 ? light_.first_ray() : scene_->spawn(last.vertex.at, last.towards_next, time_);
   const auto hit = scene_->camera().hit_lens(ray);
   if (!hit) return false;
   if (s <= static_cast<int>(light_.size()) &&
       length_squared(hit->p - ray.o) >= length_squared(light_[s - 1].vertex.at.p - ray.o))
     return false;
   lens_.vertex = camera_vertex(*hit);
-  const VertexTerms terms = vertex_terms(*scene_, lens_.vertex, -last.towards_next, -last.towards_next,
-                                         settings_.strict_normals);
+  const VertexTerms terms = vertex_terms(*scene_, lens_.vertex, -last.towards_next,
+                                         -last.towards_next, settings_.strict_normals);
   const auto raster = scene_->camera().raster_position(*hit, -last.towards_next);
   if (is_black(terms.f) || !raster) return false;
   connection.raster = *raster;

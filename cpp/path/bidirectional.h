@@ -42,7 +42,8 @@ class Bidirectional {
     raster_ = raster;
     const Vec2 u_lens = sampler.next2();
     time_ = scene_->camera().time(sampler.next());
-    walk_from_camera(*scene_, walk_settings(most_edges() + 1), raster, u_lens, time_, sampler, camera_, rays);
+    walk_from_camera(*scene_, walk_settings(most_edges() + 1), raster, u_lens, time_, sampler,
+                     camera_, rays);
     walk_from_light(*scene_, walk_settings(most_edges()), time_, sampler, light_, rays);
     draw_direct(sampler);
   }
@@ -63,7 +64,8 @@ class Bidirectional {
     if (settings_.light_image) connect_to_lens(rays, found);
     for (int t = 2; t <= static_cast<int>(camera_.size()); ++t) {
       hit_light(t, found);
-      for (int s = 1; s <= std::max(1, static_cast<int>(light_.size())); ++s) connect(s, t, rays, found);
+      for (int s = 1; s <= std::max(1, static_cast<int>(light_.size())); ++s)
+        connect(s, t, rays, found);
     }
     if (settings_.light_image && !scene_->camera().delta_position())
       for (int s = 2; s <= static_cast<int>(light_.size()) + 1; ++s) hit_lens(s, rays, found);
@@ -72,7 +74,8 @@ class Bidirectional {
   /// The connections with t = 1.
   template <class Found>
   void connect_to_lens(RayCounts& rays, Found&& found) {
-    for (int s = 1; s <= std::max(1, static_cast<int>(light_.size())); ++s) connect(s, 1, rays, found);
+    for (int s = 1; s <= std::max(1, static_cast<int>(light_.size())); ++s)
+      connect(s, 1, rays, found);
   }
 
   /// The path of a connection that was just found, as a value.
@@ -83,9 +86,7 @@ class Bidirectional {
   double time() const { return time_; }
 
  private:
-  int most_edges() const {
-    return settings_.max_depth < 0 ? (1 << 16) : settings_.max_depth;
-  }
+  int most_edges() const { return settings_.max_depth < 0 ? (1 << 16) : settings_.max_depth; }
   bool wanted(int s, int t) const {
     const int k = s + t - 1;
     return k >= settings_.min_depth && k <= most_edges() && !(k == 1 && settings_.hide_emitters);
@@ -108,7 +109,8 @@ class Bidirectional {
     if (!wanted(0, t)) return;
     const SurfacePoint& end = camera_[t - 1].vertex.at;
     if (end.infinite()) {
-      for (const uint32_t index : scene_->infinite_emitters()) emit(*scene_->emitters()[index], t, found);
+      for (const uint32_t index : scene_->infinite_emitters())
+        emit(*scene_->emitters()[index], t, found);
     } else if (const Emitter* emitter = scene_->emitter(end)) {
       emit(*emitter, t, found);
     }

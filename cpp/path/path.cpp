@@ -60,7 +60,8 @@ bool is_specular(const Scene& scene, const Vertex& x, const SurfacePoint& toward
 std::string signature(const Scene& scene, const Path& path, double near_specular) {
   std::string letters = "L";
   for (int i = 1; i < path.edges(); ++i)
-    letters += is_specular(scene, path[i], path[i - 1].at, path[i + 1].at, near_specular) ? 'S' : 'D';
+    letters +=
+        is_specular(scene, path[i], path[i - 1].at, path[i + 1].at, near_specular) ? 'S' : 'D';
   return letters + 'E';
 }
 

@@ -2,7 +2,8 @@
 
 namespace mlt {
 
-void compute_terms(const Scene& scene, const Path& path, const TermSettings& settings, PathTerms& terms) {
+void compute_terms(const Scene& scene, const Path& path, const TermSettings& settings,
+                   PathTerms& terms) {
   const int k = path.edges();
   terms.vertex.resize(k + 1);
   terms.G.resize(k);
@@ -12,8 +13,8 @@ void compute_terms(const Scene& scene, const Path& path, const TermSettings& set
   update_terms(scene, path, settings, 0, k, terms);
 }
 
-void update_terms(const Scene& scene, const Path& path, const TermSettings& settings, int first, int last,
-                  PathTerms& terms) {
+void update_terms(const Scene& scene, const Path& path, const TermSettings& settings, int first,
+                  int last, PathTerms& terms) {
   const int k = path.edges();
   // Each direction is computed once, for the vertices at both of its ends.
   Vec3 wl = first > 0 ? direction(path[first].at, path[first - 1].at) : Vec3(0);
@@ -28,7 +29,8 @@ void update_terms(const Scene& scene, const Path& path, const TermSettings& sett
   }
   if (first <= 1) {
     terms.from_light[0] = light_position_pdf(scene, path[0]);
-    terms.direct = settings.sample_direct ? direct_position_pdf(scene, path[0], path[1].at) : terms.from_light[0];
+    terms.direct = settings.sample_direct ? direct_position_pdf(scene, path[0], path[1].at)
+                                          : terms.from_light[0];
     terms.light_can_be_hit = can_be_hit(scene, path[0]);
   }
   if (last == k) {
@@ -70,7 +72,8 @@ double mis_weight(const double* from_light, const double* from_camera, const cha
                   Heuristic heuristic) {
   const int k = edges;
   const double direct_over_walk = direct / from_light[0];
-  const double own = s == 1 ? direct_over_walk : 1.0;  // p_s, in units of its density by walks alone
+  const double own =
+      s == 1 ? direct_over_walk : 1.0;  // p_s, in units of its density by walks alone
   double sum = own * own, sum_balance = own;
   bool largest = true;
   const auto add = [&](double ratio, int i) {

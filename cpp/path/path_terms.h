@@ -31,12 +31,13 @@ struct TermSettings {
 };
 
 /// All terms, from the vertices alone. `terms` keeps its memory.
-void compute_terms(const Scene& scene, const Path& path, const TermSettings& settings, PathTerms& terms);
+void compute_terms(const Scene& scene, const Path& path, const TermSettings& settings,
+                   PathTerms& terms);
 
 /// Brings the terms up to date after vertices first ... last, or a neighbour of theirs, have changed:
 /// computes anew the terms of these vertices, the edges between them, and the densities that follow.
-void update_terms(const Scene& scene, const Path& path, const TermSettings& settings, int first, int last,
-                  PathTerms& terms);
+void update_terms(const Scene& scene, const Path& path, const TermSettings& settings, int first,
+                  int last, PathTerms& terms);
 
 /// f(x) = f_0 G_0 f_1 G_1 ... G_{k-1} f_k (Veach 1997, eq. 8.7), without visibility.
 Color contribution(const PathTerms& terms);

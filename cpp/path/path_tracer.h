@@ -52,7 +52,8 @@ Color direct_light(const Scene& scene, const SurfacePoint& at, const Vec3& wc, c
   const Color radiance = light.emitter->eval(light.x0, -wl);
   if (is_black(radiance)) return Color(0);
   const Vec3 local_l = at.shading.to_local(wl);
-  const Scattering s = scene.bsdf(at).scattering(at, local_l, at.shading.to_local(wc), Lobe::smooth);
+  const Scattering s =
+      scene.bsdf(at).scattering(at, local_l, at.shading.to_local(wc), Lobe::smooth);
   if (is_black(s.f)) return Color(0);
   ++rays.occluded;
   if (!scene.visible(at, light.x0, time)) return Color(0);
@@ -64,7 +65,8 @@ Color direct_light(const Scene& scene, const SurfacePoint& at, const Vec3& wc, c
 /// Who watches trace_path is told of each step, in this order; this one is not interested.
 struct IgnorePaths {
   /// A light was hit at x0; its radiance towards w is to be multiplied by `throughput`.
-  void hit(const Emitter&, const SurfacePoint& /*x0*/, const Vec3& /*w*/, const Color& /*throughput*/) {}
+  void hit(const Emitter&, const SurfacePoint& /*x0*/, const Vec3& /*w*/,
+           const Color& /*throughput*/) {}
   void arrive(const SurfacePoint&) {}
   /// A position on a light, which sample_emitter finds by `u`, was seen from there, with this result.
   void connect(const Vec3& /*u*/, const Color& /*radiance*/) {}
@@ -106,13 +108,15 @@ Color trace_path(const Scene& scene, const PathSettings& settings, Ray ray, Samp
     const double u_choice = sampler.next(), u_lobe = sampler.next(), u_roulette = sampler.next();
     if (bsdf.has_smooth()) {
       const Vec3 u(u_choice, u_light);
-      const Color direct = throughput * direct_light(scene, at, wc, u, ray.time, settings.strict_normals,
-                                                     rays, power_heuristic);
+      const Color direct =
+          throughput *
+          direct_light(scene, at, wc, u, ray.time, settings.strict_normals, rays, power_heuristic);
       watcher.connect(u, direct);
       radiance += direct;
     }
 
-    const auto sample = scatter_to_light(bsdf, at, wc, {u_lobe, u_direction}, settings.strict_normals);
+    const auto sample =
+        scatter_to_light(bsdf, at, wc, {u_lobe, u_direction}, settings.strict_normals);
     if (!sample) break;
     watcher.scatter(sample->lobe);
     throughput *= sample->weight;

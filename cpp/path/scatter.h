@@ -15,11 +15,11 @@ inline bool consistent_sides(const SurfacePoint& at, const Vec3& w, bool strict)
 }
 
 struct ScatterSample {
-  Vec3 w;            ///< Towards the light side.
-  Color weight;      ///< Of radiance: f |cos| / pdf.
-  double pdf;        ///< Solid angle, or the probability of the delta lobe.
+  Vec3 w;        ///< Towards the light side.
+  Color weight;  ///< Of radiance: f |cos| / pdf.
+  double pdf;    ///< Solid angle, or the probability of the delta lobe.
   Lobe lobe;
-  double eta2;       ///< The factor of radiance in `weight` that is due to refraction alone.
+  double eta2;  ///< The factor of radiance in `weight` that is due to refraction alone.
 };
 
 /// Samples the direction from which the light that goes on along wc may have come.
@@ -37,7 +37,8 @@ inline std::optional<ScatterSample> scatter_to_light(const Bsdf& bsdf, const Sur
                          (sample->lobe == Lobe::smooth && !same_side(sample->to, local_c));
   const double eta2 = refracted ? sqr(bsdf.relative_eta(at, local_c)) : 1.0;
   const double factor = sample->lobe == Lobe::smooth ? abs_cos_theta(sample->to) : eta2;
-  return ScatterSample{w, s.f * (factor / s.pdf_from_camera), s.pdf_from_camera, sample->lobe, eta2};
+  return ScatterSample{w, s.f * (factor / s.pdf_from_camera), s.pdf_from_camera, sample->lobe,
+                       eta2};
 }
 
 }  // namespace mlt

@@ -16,7 +16,8 @@ void Subpath::leave(const Scene& scene, const Vec3& w, double coefficient) {
   end.towards_next = w;
   end.absorbed = false;
   end.next_coefficient = coefficient;
-  end.next_throughput = end.throughput * vertex_terms(scene, end.vertex, w, w, false).f / coefficient;
+  end.next_throughput =
+      end.throughput * vertex_terms(scene, end.vertex, w, w, false).f / coefficient;
 }
 
 void Subpath::append(const SurfacePoint& at, const Vec3& towards_previous) {
@@ -43,7 +44,8 @@ bool Subpath::trace(const Scene& scene, const Ray& ray, RayCounts& rays) {
   return false;
 }
 
-bool Subpath::scatter(const Scene& scene, const WalkSettings& settings, const Vec3& u, double u_roulette) {
+bool Subpath::scatter(const Scene& scene, const WalkSettings& settings, const Vec3& u,
+                      double u_roulette) {
   WalkVertex& x = vertices_.back();
   const SurfacePoint& at = x.vertex.at;
   const auto sample = scene.bsdf(at).sample(at, at.shading.to_local(x.towards_previous), u);

@@ -13,17 +13,18 @@ namespace mlt {
 
 /// One vertex of a subpath; number 0 is the end of the path (on the light, or on the lens).
 struct WalkVertex {
-  Vertex vertex;              ///< As an end to connect to: its lobe is smooth.
-  Lobe lobe = Lobe::smooth;   ///< How the walk went on from here.
-  Color throughput{0};        ///< alpha: f / p of everything before this vertex scatters.
-  Color next_throughput{0};   ///< alpha of the next vertex.
+  Vertex vertex;             ///< As an end to connect to: its lobe is smooth.
+  Lobe lobe = Lobe::smooth;  ///< How the walk went on from here.
+  Color throughput{0};       ///< alpha: f / p of everything before this vertex scatters.
+  Color next_throughput{0};  ///< alpha of the next vertex.
   Vec3 towards_previous{0};
   Vec3 towards_next{0};  ///< As sampled; meaningless if `absorbed`.
   bool absorbed = true;  ///< No direction was sampled here.
   double G = 0;          ///< G between this vertex and the previous one.
   double forward = 0;    ///< Density of this vertex, made by this walk.
   double reverse = 0;    ///< Density of this vertex, made by a walk from the other end (if known).
-  double next_coefficient = 0;  ///< Density of towards_next in projected solid angle, for this walk.
+  double next_coefficient =
+      0;  ///< Density of towards_next in projected solid angle, for this walk.
 };
 
 struct WalkSettings {
@@ -84,8 +85,8 @@ class Subpath {
 
 /// A subpath of the light that next-event estimation has chosen, or that a light walk starts from.
 template <class Sampler>
-void walk_from_light(const Scene& scene, const WalkSettings& settings, double time, Sampler& sampler,
-                     Subpath& subpath, RayCounts& rays) {
+void walk_from_light(const Scene& scene, const WalkSettings& settings, double time,
+                     Sampler& sampler, Subpath& subpath, RayCounts& rays) {
   subpath.clear();
   const Vec2 u_position = sampler.next2(), u_direction = sampler.next2();
   double u_choice = sampler.next();
@@ -103,13 +104,15 @@ void walk_from_light(const Scene& scene, const WalkSettings& settings, double ti
 /// A subpath from a point on the lens through a raster position.
 template <class Sampler>
 void walk_from_camera(const Scene& scene, const WalkSettings& settings, const Vec2& raster,
-                      const Vec2& u_lens, double time, Sampler& sampler, Subpath& subpath, RayCounts& rays) {
+                      const Vec2& u_lens, double time, Sampler& sampler, Subpath& subpath,
+                      RayCounts& rays) {
   subpath.clear();
   const Camera& camera = scene.camera();
   const PositionSample lens = camera.sample_position(u_lens);
   subpath.start(camera_vertex(lens.at), lens.pdf);
   const Vec3 w = camera.direction(lens.at, raster);
-  subpath.walk(scene, settings, {lens.at.p, w, time}, camera.pdf_direction(lens.at, w), sampler, rays);
+  subpath.walk(scene, settings, {lens.at.p, w, time}, camera.pdf_direction(lens.at, w), sampler,
+               rays);
 }
 
 }  // namespace mlt

@@ -149,7 +149,8 @@ void Job::render() {
 }
 
 void Job::divide() {
-  if (division_) units_done_ = division_->done();  // in an earlier run, parts came to different ends
+  if (division_)
+    units_done_ = division_->done();  // in an earlier run, parts came to different ends
   division_.emplace(*rendering_, settings_.seed, crew_->wanted_parts(), units_done_);
 }
 
@@ -179,7 +180,7 @@ uint64_t Job::next_look(uint64_t units) const {
   uint64_t shares = (rendering_->unit_count(first_look_spp) + share - 1) / share;
   while (shares * share <= units)
     shares = std::max(shares + 1,
-                     static_cast<uint64_t>(std::ceil(look_growth * static_cast<double>(shares))));
+                      static_cast<uint64_t>(std::ceil(look_growth * static_cast<double>(shares))));
   return shares * share;
 }
 

@@ -92,8 +92,8 @@ RTCGeometry mesh_geometry(RTCDevice device, const Mesh& mesh) {
   const MeshData& data = mesh.data();
   rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                              data.positions.data(), 0, sizeof(Vec3f), data.positions.size());
-  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, data.triangles.data(), 0,
-                             3 * sizeof(uint32_t), data.triangles.size());
+  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                             data.triangles.data(), 0, 3 * sizeof(uint32_t), data.triangles.size());
   return geometry;
 }
 
@@ -119,7 +119,8 @@ struct Accel::Impl {
   }
 };
 
-Accel::Accel(const std::vector<ShapePtr>& shapes, int build_threads) : impl_(std::make_unique<Impl>()) {
+Accel::Accel(const std::vector<ShapePtr>& shapes, int build_threads)
+    : impl_(std::make_unique<Impl>()) {
   // A fixed instruction set, so that the bits do not depend on the machine's vector width.
   const std::string config = "max_isa=avx2,threads=" + std::to_string(build_threads);
   impl_->device = rtcNewDevice(config.c_str());
@@ -128,9 +129,8 @@ Accel::Accel(const std::vector<ShapePtr>& shapes, int build_threads) : impl_(std
   rtcSetSceneBuildQuality(impl_->scene, RTC_BUILD_QUALITY_MEDIUM);
   for (size_t i = 0; i < shapes.size(); ++i) {
     const Shape& shape = *shapes[i];
-    RTCGeometry geometry = shape.as_mesh()
-                               ? mesh_geometry(impl_->device, *shape.as_mesh())
-                               : analytic_geometry(impl_->device, *shape.as_analytic());
+    RTCGeometry geometry = shape.as_mesh() ? mesh_geometry(impl_->device, *shape.as_mesh())
+                                           : analytic_geometry(impl_->device, *shape.as_analytic());
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(impl_->scene, geometry, static_cast<unsigned>(i));
     rtcReleaseGeometry(geometry);

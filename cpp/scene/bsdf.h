@@ -2,10 +2,10 @@
 // from the surface: `wl` towards the light side of a path, `wc` towards its camera side.
 #pragma once
 
+#include "base/object.h"
 #include "math/color.h"
 #include "math/frame.h"
 #include "scene/surface_point.h"
-#include "base/object.h"
 
 #include <optional>
 
@@ -77,7 +77,8 @@ class Bsdf : public Object {
 
   /// The roughness (Beckmann-equivalent alpha) of the narrowest smooth lobe that contributes to
   /// scattering between these directions; infinity for a diffuse surface, 0 for delta lobes.
-  virtual double roughness(const SurfacePoint& /*at*/, const Vec3& /*wl*/, const Vec3& /*wc*/) const {
+  virtual double roughness(const SurfacePoint& /*at*/, const Vec3& /*wl*/,
+                           const Vec3& /*wc*/) const {
     return infinity;
   }
 

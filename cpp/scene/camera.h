@@ -27,7 +27,8 @@ struct Raster {
     return {u.x * (size.x + 2 * border) - border, u.y * (size.y + 2 * border) - border};
   }
   Vec2 invert(const Vec2& position) const {
-    return {(position.x + border) / (size.x + 2 * border), (position.y + border) / (size.y + 2 * border)};
+    return {(position.x + border) / (size.x + 2 * border),
+            (position.y + border) / (size.y + 2 * border)};
   }
   bool contains(const Vec2& position) const {
     return position.x >= -border && position.x < size.x + border && position.y >= -border &&
@@ -58,7 +59,8 @@ class Camera : public Object {
   /// A pinhole: no walk can hit the lens.
   virtual bool delta_position() const = 0;
   /// The point of the lens at this offset (in its plane) from xk; nullopt beyond its rim.
-  virtual std::optional<SurfacePoint> move_on_lens(const SurfacePoint& /*xk*/, const Vec2& /*by*/) const {
+  virtual std::optional<SurfacePoint> move_on_lens(const SurfacePoint& /*xk*/,
+                                                   const Vec2& /*by*/) const {
     return std::nullopt;
   }
   virtual double lens_radius() const { return 0; }

@@ -21,7 +21,8 @@ struct PositionSample {
 struct RaySample {
   Vec3 origin;
   Vec3 direction;
-  double pdf;  ///< Coefficient in projected solid angle: times G it is the density of the next vertex.
+  double
+      pdf;  ///< Coefficient in projected solid angle: times G it is the density of the next vertex.
 };
 
 /// The sphere that encloses the scene.

@@ -53,7 +53,8 @@ Scene::Scene(std::vector<ShapePtr> shapes, std::vector<EmitterPtr> emitters, Cam
       film_(std::move(film)),
       sample_count_(sample_count) {
   if (!camera_) throw SceneError("the scene has no sensor; add <sensor type=\"perspective\">");
-  if (emitters_.empty()) throw SceneError("the scene has no emitter; add a light, or everything is black");
+  if (emitters_.empty())
+    throw SceneError("the scene has no emitter; add a light, or everything is black");
   for (size_t i = 0; i < shapes_.size(); ++i) shapes_[i]->set_index(static_cast<uint32_t>(i));
   bounds_ = enclosing_sphere(shapes_, *camera_);
   for (size_t i = 0; i < emitters_.size(); ++i) {

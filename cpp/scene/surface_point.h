@@ -9,20 +9,21 @@ namespace mlt {
 
 /// What the position of a point means, and with it the cosine that its end of an edge contributes.
 enum class PointKind : uint8_t {
-  surface,  ///< On a surface (or a lens): the measure is area, the cosine is against `ng`.
-  isolated, ///< A point without a surface (a point light): there is no cosine, it counts as 1.
-  infinite  ///< At infinity: `p` is the unit direction towards it, the measure is solid angle.
+  surface,   ///< On a surface (or a lens): the measure is area, the cosine is against `ng`.
+  isolated,  ///< A point without a surface (a point light): there is no cosine, it counts as 1.
+  infinite   ///< At infinity: `p` is the unit direction towards it, the measure is solid angle.
 };
 
 struct SurfacePoint {
-  Vec3 p{0};                 ///< Position; for an infinite point, the unit direction towards it.
-  Vec3 ng{0};                ///< Geometric normal, on the same side as the shading normal.
-  Frame shading{};           ///< shading.n is the shading normal, shading.s follows dp/du.
-  Vec2 uv{0};                ///< Texture coordinates.
-  uint32_t shape = no_shape; ///< Index into Scene::shapes().
-  uint32_t primitive = 0;    ///< Triangle of a mesh.
+  Vec3 p{0};                  ///< Position; for an infinite point, the unit direction towards it.
+  Vec3 ng{0};                 ///< Geometric normal, on the same side as the shading normal.
+  Frame shading{};            ///< shading.n is the shading normal, shading.s follows dp/du.
+  Vec2 uv{0};                 ///< Texture coordinates.
+  uint32_t shape = no_shape;  ///< Index into Scene::shapes().
+  uint32_t primitive = 0;     ///< Triangle of a mesh.
   PointKind kind = PointKind::surface;
-  double extent = 0;  ///< Largest coordinate of the primitive: the scale of float rounding in the accelerator.
+  double extent =
+      0;  ///< Largest coordinate of the primitive: the scale of float rounding in the accelerator.
 
   static constexpr uint32_t no_shape = ~0u;
   bool infinite() const { return kind == PointKind::infinite; }

@@ -87,7 +87,8 @@ double ProjectiveCamera::eval(const SurfacePoint& xk, const Vec3& w) const {
   return image_density(xk, w) * pdf_position(xk);  // pdf_position = 1 / A_lens
 }
 
-std::optional<SurfacePoint> ProjectiveCamera::move_on_lens(const SurfacePoint& xk, const Vec2& by) const {
+std::optional<SurfacePoint> ProjectiveCamera::move_on_lens(const SurfacePoint& xk,
+                                                           const Vec2& by) const {
   const Vec3 p = xk.p + axes_.s * by.x + axes_.t * by.y;
   if (!(length_squared(p - position_) < sqr(lens_.radius))) return std::nullopt;
   return point_at(p);

@@ -214,9 +214,7 @@ TEST(SampleFilm, GroupsAreWeightedByTheirSamples) {
     const auto order = static_cast<uint64_t>(tile);
     film.commit(0, order, tile, sampled_tile(film, tile, 1, white, rng), 1);
     film.commit(1, order, tile,
-                sampled_tile(
-                    film, tile, 2, [](const Vec2&) { return Color(3); }, rng),
-                4);
+                sampled_tile(film, tile, 2, [](const Vec2&) { return Color(3); }, rng), 4);
   }
   EXPECT_EQ(film.group_count(), 2);
   EXPECT_EQ(film.group_image(0).at(3, 3, 0), 1.0f);

@@ -116,9 +116,8 @@ TEST(DelayedRejection, RecordsOneAfterTheOther) {
     std::array<double, 2> y{};
     std::vector<std::pair<double, double>> recorded;
     Rng replay = rng;
-    metropolis_step(x, y, kernel, rng, [&](double state, double weight) {
-      recorded.push_back({state, weight});
-    });
+    metropolis_step(x, y, kernel, rng,
+                    [&](double state, double weight) { recorded.push_back({state, weight}); });
 
     std::array<double, 2> z{};
     const double a1 = acceptance(kernel.propose(before, z, 0, replay));

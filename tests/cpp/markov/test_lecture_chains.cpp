@@ -42,8 +42,7 @@ double two_state_p_value(const TwoStates& kernel, int start) {
   // The second eigenvalue is 4/9 or less: 60 steps leave less than 1e-20 of the start.
   constexpr int chains = 50'000;
   std::vector<double> counts(2);
-  for (const int x : end_states<int>(
-           kernel, [&](Rng&) { return start; }, chains, 60, 11))
+  for (const int x : end_states<int>(kernel, [&](Rng&) { return start; }, chains, 60, 11))
     counts[x] += 1;
   return chi_square_counts(counts, {0.9 * chains, 0.1 * chains}).p_value;
 }

@@ -157,10 +157,9 @@ SpoiltQuotient<Spoil> spoilt(double large, Spoil spoil) {
 
 TEST(PrimarySampleKernel, WithAWrongQuotientIsFound) {
   for (const double large : {1.0, 0.0}) {
-    EXPECT_LT(invariance(spoilt(large,
-                                [](Transition t, auto&, auto&) {
-                                  return Transition{t.forward, std::sqrt(t.backward)};
-                                }))
+    EXPECT_LT(invariance(
+                  spoilt(large, [](Transition t, auto&,
+                                   auto&) { return Transition{t.forward, std::sqrt(t.backward)}; }))
                   .p_value,
               alpha);
     // Counting the numbers as if they were not of density 1.

@@ -54,8 +54,8 @@ TEST(StratifiedPoint, IsUniformByItself) {
     const auto sample = [&](Rng& rng) -> std::optional<Vec2> {
       return stratified_point(2, n, rng.next_bits());
     };
-    const ChiSquareResult result = chi_square_rect(
-        sample, [](const Vec2&) { return 1.0; }, Vec2(0), Vec2(1), 100000, n);
+    const ChiSquareResult result =
+        chi_square_rect(sample, [](const Vec2&) { return 1.0; }, Vec2(0), Vec2(1), 100000, n);
     EXPECT_GT(result.p_value, 1e-4) << n << ": " << result;
   }
 }

@@ -87,8 +87,8 @@ class LongMltVariant : public testing::TestWithParam<Assignments> {};
 TEST_P(LongMltVariant, HasTheSameImage) {
   for (const char* name : {"cornell", "mirrors"}) {
     const ScenePtr scene = make_mutation_scene(name).scene;
-    const SameImage found =
-        same_image(mlt_side(scene, "mlt", 256, 10000, GetParam()), bdpt_side(scene, 16), at_length());
+    const SameImage found = same_image(mlt_side(scene, "mlt", 256, 10000, GetParam()),
+                                       bdpt_side(scene, 16), at_length());
     EXPECT_TRUE(found) << name << ": " << found.text;
   }
 }

@@ -145,12 +145,7 @@ TEST(Proposals, BidirectionalMutationDrawsAFreshLightEnd) {
   const auto on_lamp = [&](const LightPath& x) {
     return !x[0].at.infinite() && x[0].at.shape != SurfacePoint::no_shape && x[0].at.p.y > 0.97;
   };
-  p.start(
-      "LDDE",
-      [](const LightPath&) {
-        return Edit{0, 0, 1};
-      },
-      on_lamp);
+  p.start("LDDE", [](const LightPath&) { return Edit{0, 0, 1}; }, on_lamp);
   const Emitter& lamp = *p.scene().emitters()[p.x[0].emitter];
   const auto sample = [&](Rng& rng) -> std::optional<Vec2> {
     if (!p.propose(rng) || p.y[0].emitter != lamp.index()) return std::nullopt;
@@ -170,12 +165,7 @@ TEST(Proposals, LensPerturbationMovesTheImagePosition) {
   const auto in_the_middle = [](const LightPath& x) {
     return std::abs(x.raster.x - 8) < 3 && std::abs(x.raster.y - 6) < 2;
   };
-  p.start(
-      "LDE",
-      [](const LightPath&) {
-        return Edit{1, 2, 2};
-      },
-      in_the_middle);
+  p.start("LDE", [](const LightPath&) { return Edit{1, 2, 2}; }, in_the_middle);
   const ChainPerturbation chain(p.scene(), p.settings());
   const ExponentialRadius radius = chain.image_radius();
   const auto sample = [&](Rng& rng) -> std::optional<Vec2> {

@@ -178,7 +178,8 @@ TEST(ShapePlugins, ErrorsNameTheFile) {
 }
 
 TEST(ShapePlugins, AllTakeAMaterialAndALight) {
-  for (const char* name : {"cube", "cylinder", "disk", "obj", "ply", "rectangle", "serialized", "sphere"})
+  for (const char* name :
+       {"cube", "cylinder", "disk", "obj", "ply", "rectangle", "serialized", "sphere"})
     for (const char* nested : {"bsdf", "emitter"}) {
       const Parameter* parameter = plugin(name).schema.find(nested);
       ASSERT_NE(parameter, nullptr) << name;
