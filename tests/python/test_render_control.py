@@ -182,7 +182,12 @@ def python(code: str, **kwargs) -> subprocess.Popen:
 
     setup = SETUP.format(folder=str(Path(tiny.__file__).parent))
     return subprocess.Popen(
-        [sys.executable, "-c", setup + code], text=True, stdout=subprocess.PIPE, **kwargs
+        [sys.executable, "-c", setup + code],
+        text=True,
+        stdout=subprocess.PIPE,
+        # What a shell starts in the background has Ctrl-C ignored, and so have its children.
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+        **kwargs,
     )
 
 
