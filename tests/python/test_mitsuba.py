@@ -109,4 +109,4 @@ def test_bdpt_on_larger_scenes(case):
 @pytest.mark.parametrize("case", cases([CASES[name] for name in SOME], BOXES, SHARED[:1]))
 def test_pssmlt(case):
     few = {"luminance_samples": 100_000, "chains": 64}
-    check(case, mlt.PSSMLT, spp=6 * case.spp, runs=48, scales=QUICK, **few)
+    check(case, mlt.PSSMLT, spp=8 * case.spp, runs=48, scales=QUICK, **few)
