@@ -51,7 +51,7 @@ py::object VectorChains::to_array(const std::vector<Point>& points) const {
   py::array_t<double> array(std::vector<size_t>{points.size(), space_.dimensions});
   double* data = array.mutable_data();
   for (const Point& p : points) data = std::copy(p.begin(), p.end(), data);
-  if (space_.form == Numbers::Form::array) return std::move(array);
+  if (space_.form == Numbers::Form::array) return array;
   py::object flat = array.reshape({-1});
   return space_.form == Numbers::Form::number ? flat : flat.attr("astype")("int64");
 }
