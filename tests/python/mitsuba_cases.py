@@ -137,5 +137,5 @@ SHARED = [
     _shared("veach-mi", spp=1600),
     _shared("matpreview", spp=64, systematic=COATING),
 ]
-BIDIR = _shared("veach-bidir", spp=128, reference_spp=4096)  # too noisy by path tracing alone
+BIDIR = _shared("veach-bidir", spp=384, reference_spp=4096)  # too noisy by path tracing alone
 CASES = {case.name: case for case in [*STAGES, *BOXES, *SHARED, BIDIR]}

@@ -100,9 +100,17 @@ def test_bdpt_pixel_by_pixel(case):
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("case", cases(BOXES, SHARED, [BIDIR]))
+@pytest.mark.parametrize("case", cases(BOXES, SHARED))
 def test_bdpt_on_larger_scenes(case):
     check(case, mlt.BDPT, spp=case.spp, runs=96, scales=FULL)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("case", cases([BIDIR]))
+def test_bdpt_where_paths_are_rare(case):
+    """Not pixel by pixel: some light comes so rarely to a path tracer that 260,000 samples of a pixel,
+    as many as the reference has, still miss some of it, and then its standard error is too small."""
+    check(case, mlt.BDPT, spp=case.spp, runs=96, scales=QUICK)
 
 
 @pytest.mark.long
