@@ -108,8 +108,8 @@ def test_bdpt_on_larger_scenes(case):
 @pytest.mark.long
 @pytest.mark.parametrize("case", cases([BIDIR]))
 def test_bdpt_where_paths_are_rare(case):
-    """Not pixel by pixel: some light comes so rarely to a path tracer that 260,000 samples of a pixel,
-    as many as the reference has, still miss some of it, and then its standard error is too small."""
+    """Not pixel by pixel: some light comes so rarely to a path tracer that the 260,000 samples
+    which the reference has of a pixel miss some of it, and its standard error is too small."""
     check(case, mlt.BDPT, spp=case.spp, runs=96, scales=QUICK)
 
 
