@@ -43,22 +43,6 @@ def equal_time():
     mlt.write_image(HERE / "equal-time.png", np.concatenate(images, axis=1))
 
 
-def scenes():
-    size = (320, 180)
-    rows = [
-        [
-            render("pool", mlt.MLT(max_depth=10), 40, size),
-            render("ring", mlt.BDPT(max_depth=8), 40, size),
-        ],
-        [
-            render("dof", mlt.BDPT(max_depth=10), 40, size),
-            render("glass_ball", mlt.BDPT(max_depth=10), 40, size),
-        ],
-    ]
-    image = np.concatenate([np.concatenate(row, axis=1) for row in rows])
-    mlt.write_image(HERE / "scenes.png", image)
-
-
 def strategies():
     scene = mlt.load_dict(mlt.scenes.glass_ball(), size=(96, 96))
     result = mlt.start(scene, mlt.BDPT(max_depth=5, techniques=True), spp=192).result()
@@ -71,7 +55,6 @@ if __name__ == "__main__":
     pictures = {
         "door-ajar": door_ajar,
         "equal-time": equal_time,
-        "scenes": scenes,
         "strategies": strategies,
     }
     for name in sys.argv[1:] or pictures:
