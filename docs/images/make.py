@@ -2,7 +2,6 @@
 
 door-ajar     the picture at the head of the README
 equal-time    the same scene by path, bdpt and mlt, with equal CPU time
-scenes        the other scenes
 strategies    the techniques of bidirectional path tracing
 """
 
