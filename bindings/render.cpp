@@ -327,6 +327,7 @@ void bind_render(py::module_& m) {
       .def_property_readonly("ended", [](PyJob& job) { return (*job).ended(); })
       .def_property_readonly("cancelled", [](PyJob& job) { return (*job).cancelled(); })
       .def_property_readonly("progress", [](PyJob& job) { return (*job).progress(); })
+      .def_property_readonly("spp_done", [](PyJob& job) { return (*job).spp_done(); })
       .def("image", &image)
       .def("replay", &replay, py::arg("pixel"), py::arg("sample"), "(raster, radiance, paths)")
       .def("layers", &layers, "Further images that the render was asked to keep, by name.")

@@ -62,7 +62,7 @@ int render(Job& job, bool quiet) {
   job.start();
   while (!job.wait(0.1)) {
     if (caught_signal) job.cancel();
-    line.update(job.progress(), job.stats().spp_done);
+    line.update(job.progress(), job.spp_done());
   }
   return caught_signal;
 }

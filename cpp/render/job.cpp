@@ -356,6 +356,13 @@ std::vector<NamedImage> Job::layers() const {
   return layers;
 }
 
+double Job::spp_done() const {
+  // A render that is taken up again counts what it has once it has begun.
+  const Phase phase = phase_;
+  const bool begun = phase == Phase::rendering || phase == Phase::ended;
+  return begun ? rendering_->spp_done(units_done_) : 0.0;
+}
+
 Stats Job::stats() const {
   Stats stats;
   stats.version = MLT_VERSION;
@@ -365,7 +372,7 @@ Stats Job::stats() const {
   stats.height = scene_->camera().raster().size.y;
   const Phase phase = phase_;
   if (phase == Phase::rendering || phase == Phase::ended) {
-    stats.spp_done = rendering_->spp_done(units_done_);
+    stats.spp_done = spp_done();
     stats.seconds_bootstrap = bootstrap_seconds_;
     stats.seconds_render =
         (phase == Phase::ended ? total_seconds_.load() : seconds_so_far()) - bootstrap_seconds_;

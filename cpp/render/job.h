@@ -90,6 +90,7 @@ class Job {
   void extend(const Budget& budget);
 
   double progress() const;  ///< 0 ... 1 of the budget.
+  double spp_done() const;  ///< Samples per pixel so far.
   Image image() const;      ///< So far: linear RGB, row 0 on top.
   /// Further images that the render was asked to keep, and its error, so far.
   std::vector<NamedImage> layers() const;

@@ -209,7 +209,7 @@ class Job:
                 if monotonic() >= end:
                     return False
                 if progress is not False:
-                    show(self.progress, {"spp": f"{self.stats['spp_done']:.4g}"})
+                    show(self.progress, {"spp": f"{self._job.spp_done:.4g}"})
                 if callback is not None and monotonic() >= next_call:
                     if callback(self.snapshot()) is True:
                         self.cancel()
@@ -220,7 +220,7 @@ class Job:
         try:
             return self._job.wait(seconds)
         except _core.RenderError as error:
-            if self.stats["spp_done"] > 0:
+            if self._job.spp_done > 0:
                 error.result = self.snapshot()
             raise
 
