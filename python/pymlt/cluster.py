@@ -8,7 +8,9 @@ pixels have the same bits as those of one machine with the same seed and samples
 
 from __future__ import annotations
 
+import functools
 import hashlib
+import os
 import pickle
 import queue
 import threading
@@ -22,6 +24,9 @@ SHORTEST_STAGE = 1.0  #: seconds between two outcomes of a part, at the least
 LONGEST_STAGE = 60.0
 GROWTH = 0.3  #: a stage grows with the render: this share of the time so far
 OWNER_SHARE = 0.05  #: of the time, at most, the owner is to spend on gathering and folding
+#: The same, of the time of each worker; an order costs all processes three times what it costs the
+#: owner, so dividing the render costs 2 %.
+WORKER_SHARE = 0.006
 CONNECT_SECONDS = 15
 
 
@@ -34,13 +39,18 @@ class _Bench:
     def __init__(self):
         self.lock = threading.Lock()
         self.scenes: dict[str, _core.Scene] = {}
+        self.users: dict[str, set[str]] = {}  #: of a scene: jobs
         self.helpers: dict[str, set[_core.Helper]] = {}  #: those at work, by job
         self.cancelled: set[str] = set()
 
-    def scene(self, name: str, packed: bytes) -> _core.Scene:
+    def scene(self, job: str, name: str, packed: bytes | None) -> _core.Scene | None:
+        """None if it is neither here nor given."""
         with self.lock:  # so that several threads do not unpack the same one
             if name not in self.scenes:
+                if packed is None:
+                    return None
                 self.scenes[name] = pickle.loads(packed)
+            self.users.setdefault(name, set()).add(job)
             return self.scenes[name]
 
     @contextmanager
@@ -65,7 +75,10 @@ class _Bench:
         with self.lock:
             self.cancelled.discard(job)
             self.helpers.pop(job, None)
-            if not any(self.helpers.values()):
+            users = self.users.get(scene, set())
+            users.discard(job)
+            if not users:
+                self.users.pop(scene, None)
                 self.scenes.pop(scene, None)
 
 
@@ -80,12 +93,16 @@ _making_a_bench = threading.Lock()
 
 
 def _hold(packed: bytes) -> bytes:
-    """The scene as a task of its own: it reaches each worker once, and can be had again if lost."""
+    """The scene as a task of its own: whoever has it passes it on, and it is made again if lost."""
     return packed
 
 
-def _carry_out(packed, job, scene, integrator, build, order) -> bytes:
-    """The outcome of an order, on all threads of the worker: they share one film."""
+def _carry_out(packed, job, scene, integrator, build, order) -> bytes | str:
+    """The outcome of an order, on all threads of the worker: they share one film.
+
+    If the worker has not got the scene and it does not come with the order: its address. Orders
+    have it on request only, since dask drops copies and would bring a new one with each of them.
+    """
     from distributed import get_worker
 
     if build != build_name():
@@ -95,7 +112,10 @@ def _carry_out(packed, job, scene, integrator, build, order) -> bytes:
         )
     worker = get_worker()
     bench = _bench(worker)
-    helper = _core.Helper(bench.scene(scene, packed), integrator)
+    unpacked = bench.scene(job, scene, packed)
+    if unpacked is None:
+        return worker.address
+    helper = _core.Helper(unpacked, integrator)
     with bench.at_work(job, helper):
         return helper.run(order, worker.state.nthreads)
 
@@ -108,6 +128,7 @@ def _forget(job: str, scene: str, dask_worker) -> None:
     _bench(dask_worker).forget(job, scene)
 
 
+@functools.cache
 def build_name() -> str:
     """Of the compiled extension: the same bits are promised for one build."""
     with open(_core.__file__, "rb") as file:
@@ -162,13 +183,33 @@ def local_cluster(text: str):
         raise _core.UsageError(f"cluster is {text!r}, but should be local:N with N >= 1")
     from distributed.deploy.subprocess import SubprocessCluster
 
-    return SubprocessCluster(
-        n_workers=int(count),
-        threads_per_worker=1,
-        worker_class="distributed.Worker",
-        worker_kwargs={"memory_limit": 0, "dashboard": False},
-        scheduler_kwargs={"dashboard": False},
-    )
+    with _environment(QUIET):
+        return SubprocessCluster(
+            n_workers=int(count),
+            threads_per_worker=1,
+            worker_class="distributed.Worker",
+            worker_kwargs={"memory_limit": 0, "dashboard": False},
+            scheduler_kwargs={"dashboard": False},
+        )
+
+
+#: dask's processes watch themselves a hundred times a second, which takes 4 % of a processor each.
+QUIET = {
+    "DASK_DISTRIBUTED__WORKER__PROFILE__ENABLED": "False",
+    "DASK_DISTRIBUTED__ADMIN__TICK__INTERVAL": "1s",
+}
+
+
+@contextmanager
+def _environment(defaults: dict[str, str]):
+    """For the processes that are started meanwhile: variables that are not set."""
+    added = {name: value for name, value in defaults.items() if name not in os.environ}
+    os.environ.update(added)
+    try:
+        yield
+    finally:
+        for name in added:
+            del os.environ[name]
 
 
 class Crew:
@@ -258,25 +299,34 @@ class Crew:
                 self.frontier = self._next_frontier(job, to)
             if job.pass_over(part, self.frontier):
                 continue
-            future = self._submit(
-                _carry_out,
-                self.scene,
-                self.name,
-                self.scene_name,
-                self.integrator,
-                self.build,
-                job.order(part, self.frontier),
-                key=f"{self.name}-{part}-{job.position(part)}",
-            )
-            self.at_work[part] = future
-            future.add_done_callback(lambda _, part=part: self.finished.put(part))
+            self._send(job, part)
+
+    def _send(self, job, part: int, with_scene_to: str | None = None) -> None:
+        """An order, to any worker, or with the scene to the one that has asked for it."""
+        place = {}
+        if with_scene_to is not None:
+            place = {"workers": [with_scene_to], "allow_other_workers": True}
+        future = self._submit(
+            _carry_out,
+            None if with_scene_to is None else self.scene,
+            self.name,
+            self.scene_name,
+            self.integrator,
+            self.build,
+            job.order(part, self.frontier),
+            key=f"{self.name}-{part}-{job.position(part)}-{with_scene_to}",
+            **place,
+        )
+        self.at_work[part] = future
+        future.add_done_callback(lambda _, part=part: self.finished.put(part))
 
     def _next_frontier(self, job, to: int) -> int:
         """A stage ahead. Stages are long enough that the owner's work hardly counts."""
         elapsed = monotonic() - self.start
         seconds = max(SHORTEST_STAGE, min(LONGEST_STAGE, GROWTH * elapsed))
         if self.folded:
-            seconds = max(seconds, self.folding / self.folded * job.parts / OWNER_SHARE)
+            share = min(OWNER_SHARE, WORKER_SHARE * self._workers())
+            seconds = max(seconds, self.folding / self.folded * job.parts / share)
         rate = (job.units_done - self.units_before) / max(elapsed, 1e-3)
         steps = max(1, round(rate * seconds / job.units_per_step))
         return min(to, self.frontier + steps * job.units_per_step)
@@ -292,19 +342,23 @@ class Crew:
         except TimeoutError:  # its worker was lost in between: dask does it again
             self.finished.put(part)
             return
-        job.fold(part, outcome)
         del self.at_work[part]
+        if isinstance(outcome, str):
+            if not self.cancelling:
+                self._send(job, part, with_scene_to=outcome)
+            return
+        job.fold(part, outcome)
         if job.parts < self._workers():  # some have come
             job.split(part)
         self.folding += monotonic() - start
         self.folded += 1
 
-    def _submit(self, function, *arguments, key):
+    def _submit(self, function, *arguments, key, **place):
         import dask
 
         # Orders carry the state of their part; the scheduler keeps it in case a worker is lost.
         with dask.config.set({"distributed.admin.large-graph-warning-threshold": "1TB"}):
-            return self.client.submit(function, *arguments, key=key, pure=False)
+            return self.client.submit(function, *arguments, key=key, pure=False, **place)
 
 
 def _reason(error: BaseException) -> str:

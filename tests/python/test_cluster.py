@@ -1,36 +1,41 @@
 """Rendering on a cluster: the same pixels as here, whatever happens to the workers."""
 
 import os
+import pickle
 import signal
 import time
+import types
 
 import numpy as np
 import pytest
 import tiny
 
 import pymlt as mlt
+import pymlt.cluster
 from pymlt.cli import main
 
+dask = pytest.importorskip("dask", reason="needs pymlt[cluster]")
 distributed = pytest.importorskip("distributed", reason="needs pymlt[cluster]")
 
 # Of dask's processes, when they are killed.
 pytestmark = pytest.mark.filterwarnings("ignore")
 
 
+def processes(count, **settings):
+    """So many on this machine; one that dies is replaced."""
+    return distributed.LocalCluster(
+        n_workers=count,
+        processes=True,
+        memory_limit=0,
+        dashboard_address="127.0.0.1:0",
+        silence_logs=60,
+        **settings,
+    )
+
+
 @pytest.fixture(scope="module")
 def client():
-    """Two processes on this machine; one that dies is replaced."""
-    with (
-        distributed.LocalCluster(
-            n_workers=2,
-            threads_per_worker=1,
-            processes=True,
-            memory_limit=0,
-            dashboard_address="127.0.0.1:0",
-            silence_logs=60,
-        ) as cluster,
-        distributed.Client(cluster) as client,
-    ):
+    with processes(2, threads_per_worker=1) as cluster, distributed.Client(cluster) as client:
         yield client
 
 
@@ -95,6 +100,52 @@ def leftovers(dask_worker):
 def test_nothing_is_left_on_the_workers(client):
     mlt.render(scene(), spp=20, cluster=client)
     wait_until(lambda: set(client.run(leftovers).values()) == {0})
+
+
+class SceneCounter(distributed.WorkerPlugin):
+    """On each worker: how often it received, made and unpacked a scene."""
+
+    def setup(self, worker):
+        self.counts = worker.scenes = {"received": 0, "made": 0, "unpacked": 0}
+        pymlt.cluster.pickle = types.SimpleNamespace(loads=self.loads)
+
+    def loads(self, packed):
+        self.counts["unpacked"] += 1
+        return pickle.loads(packed)
+
+    def transition(self, key, start, finish, **_):
+        if str(key).endswith("-scene") and finish == "memory":
+            self.counts["received" if start == "flight" else "made"] += 1
+
+
+def test_the_scene_travels_once_to_each_worker(monkeypatch):
+    """Also to one that comes late, and although dask drops copies that nobody waits for."""
+    often = {"distributed.scheduler.active-memory-manager.interval": "20ms"}
+    monkeypatch.setattr("pymlt.cluster.SHORTEST_STAGE", 0.02)
+    monkeypatch.setattr("pymlt.cluster.GROWTH", 0)
+    monkeypatch.setattr("pymlt.cluster.WORKER_SHARE", 1)
+    monkeypatch.setattr("pymlt.cluster.OWNER_SHARE", 1)
+    with (
+        dask.config.set(often),
+        processes(2, threads_per_worker=2) as cluster,
+        distributed.Client(cluster) as client,
+    ):
+        client.register_plugin(SceneCounter())
+        job = mlt.start(scene(120, 90), spp=1e7, cluster=client)
+
+        def scenes():
+            return list(client.run(lambda dask_worker: dask_worker.scenes).values())
+
+        for workers in 2, 3:
+            cluster.scale(workers)
+            wait_until(lambda n=workers: [c["unpacked"] for c in scenes()] == [1] * n)
+            done = job.stats["spp_done"]
+            wait_until(lambda n=done: job.stats["spp_done"] > n + 100, seconds=60)
+        job.cancel()
+        job.wait()
+        assert [c["unpacked"] for c in scenes()] == [1, 1, 1]
+        assert sum(c["made"] for c in scenes()) == 1
+        assert max(c["received"] for c in scenes()) == 1
 
 
 def test_what_a_lost_worker_held_is_done_by_others(client):
