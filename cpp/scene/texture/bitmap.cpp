@@ -60,12 +60,14 @@ class Bitmap final : public Texture {
     const double x = reduce(uv.x, wrap_u_) * image_.width;
     const double y = reduce(uv.y, wrap_v_) * image_.height;
     if (!std::isfinite(x) || !std::isfinite(y)) return mean_;
-    if (nearest_) return lookup(static_cast<int>(std::floor(x)), static_cast<int>(std::floor(y)));
+    if (nearest_)
+      return lookup(column(static_cast<int>(std::floor(x))), row(static_cast<int>(std::floor(y))));
     const double fx = std::floor(x - 0.5), fy = std::floor(y - 0.5);
     const int i = static_cast<int>(fx), j = static_cast<int>(fy);
+    const int left = column(i), right = column(i + 1), low = row(j), high = row(j + 1);
     const double a = x - 0.5 - fx, b = y - 0.5 - fy;
-    return (1 - b) * ((1 - a) * lookup(i, j) + a * lookup(i + 1, j)) +
-           b * ((1 - a) * lookup(i, j + 1) + a * lookup(i + 1, j + 1));
+    return (1 - b) * ((1 - a) * lookup(left, low) + a * lookup(right, low)) +
+           b * ((1 - a) * lookup(left, high) + a * lookup(right, high));
   }
 
   Color mean() const override { return mean_; }
@@ -76,8 +78,10 @@ class Bitmap final : public Texture {
     const float* c = &image_.data[image_.index(x, y, 0)];
     return image_.channels == 1 ? Color(c[0]) : Color(c[0], c[1], c[2]);
   }
-  Color lookup(int i, int j) const {
-    const int x = wrapped(i, image_.width, wrap_u_), y = wrapped(j, image_.height, wrap_v_);
+  int column(int i) const { return wrapped(i, image_.width, wrap_u_); }
+  int row(int j) const { return wrapped(j, image_.height, wrap_v_); }
+  /// Of a column and a row, or the border's value.
+  Color lookup(int x, int y) const {
     if (x < 0) return Color(border_value(wrap_u_));
     if (y < 0) return Color(border_value(wrap_v_));
     return texel(x, y);
