@@ -81,8 +81,11 @@ PathTerms terms(const PyLightPath& path, bool sample_direct = true) {
   return terms;
 }
 
-py::array_t<double> numbers(const std::vector<double>& values) {
-  return py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data());
+/// One of the terms, of the first `count` vertices.
+py::array_t<double> column(const PathTerms& terms, int count, double TermsAt::* member) {
+  py::array_t<double> values(count);
+  for (int i = 0; i < count; ++i) values.mutable_at(i) = terms[i].*member;
+  return values;
 }
 
 template <class Value>
@@ -179,13 +182,19 @@ void bind_class(py::module_& m) {
            "Another path of the same scene and time, through these vertices.")
       .def_property_readonly("scene", [](const PyLightPath& p) { return p.scene; })
       .def_property_readonly(
-          "G", [](const PyLightPath& p) { return numbers(terms(p).G); },
+          "G", [](const PyLightPath& p) { return column(terms(p), p.path.edges(), &TermsAt::G); },
           "G(x_i, x_{i+1}) for i = 0 ... k - 1 (Veach 1997, eq. 8.2), without visibility.")
       .def_property_readonly(
-          "from_light", [](const PyLightPath& p) { return numbers(terms(p).from_light); },
+          "from_light",
+          [](const PyLightPath& p) {
+            return column(terms(p), p.path.edges() + 1, &TermsAt::from_light);
+          },
           "Density of each x_i when a walk from the light makes it, per unit of area.")
       .def_property_readonly(
-          "from_camera", [](const PyLightPath& p) { return numbers(terms(p).from_camera); },
+          "from_camera",
+          [](const PyLightPath& p) {
+            return column(terms(p), p.path.edges() + 1, &TermsAt::from_camera);
+          },
           "Density of each x_i when a walk from the camera makes it, per unit of area.")
       .def_property_readonly(
           "edges", [](const PyLightPath& p) { return p.path.edges(); }, "k")

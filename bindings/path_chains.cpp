@@ -84,8 +84,7 @@ py::dict PathChains::advance(size_t steps, bool expected_values) {
 void PathChains::step(size_t c, size_t i, bool expected_values, MutationMixture& kernel,
                       Trace<Objects>& trace) {
   Chain& chain = chains_[c];
-  const Vec2 u{chain.rng.next(), chain.rng.next()};
-  kernel.set_stratified_raster(target_.scene()->scene->camera().raster().sample(u));
+  kernel.set_stratified_raster(unstratified(target_.scene()->scene->camera().raster(), chain.rng));
   trace.begin(c, i, chain.shown);
   Object y;
   const StepResult result =

@@ -20,6 +20,12 @@ class SplatFilm {
 
   /// Adds `color` times the filter at a raster position. Thread-safe.
   void add(int group, const Vec2& raster, const Color& color);
+  /// Says that something will be added there soon, so that memory has time.
+  void prefetch(int group, const Vec2& raster) const {
+    const int x = static_cast<int>(raster.x), y = static_cast<int>(raster.y);
+    if (x >= 0 && x < width_ && y >= 0 && y < height_)
+      __builtin_prefetch(&cells_[group_size() * group + 3 * (size_t(y) * width_ + x)], 1);
+  }
 
   int group_count() const { return groups_; }
   /// Sum over the groups g of scale[g] * (what was added to g).

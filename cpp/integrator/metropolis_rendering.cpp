@@ -160,7 +160,8 @@ void MetropolisRendering::run_unit(uint64_t unit) {
       lane.turn.notify_all();
     }
   } done{lane};
-  lane.chain->advance(steps_per_unit_, ChainRecorder(film_, lane.group));
+  ChainRecorder recorder(film_, lane.group);
+  lane.chain->advance(steps_per_unit_, recorder);
   groups_[lane.group].steps += steps_per_unit_;
 }
 

@@ -18,17 +18,27 @@
 
 namespace mlt {
 
-/// Where a chain leaves what it visits: RGB / L* at a raster position, times an expected weight.
+/// Where a chain leaves what it visits: RGB / L* at a raster position, times an expected weight. Each
+/// splat waits for the next one, while its pixel comes from memory.
 class ChainRecorder {
  public:
   ChainRecorder(SplatFilm& film, int group) : film_(&film), group_(group) {}
-  void record(const Vec2& raster, const Color& rgb_per_target, double weight) const {
-    film_->add(group_, raster, rgb_per_target * weight);
+  void record(const Vec2& raster, const Color& rgb_per_target, double weight) {
+    film_->prefetch(group_, raster);
+    flush();
+    raster_ = raster;
+    color_ = rgb_per_target * weight;
+  }
+  void flush() {
+    if (!is_black(color_)) film_->add(group_, raster_, color_);
+    color_ = Color(0);
   }
 
  private:
   SplatFilm* film_;
   int group_;
+  Vec2 raster_{0};
+  Color color_{0};
 };
 
 /// Records the states of a chain, each once: the weights of the current state add up until the chain
@@ -36,7 +46,7 @@ class ChainRecorder {
 template <class State>
 class StepRecorder {
  public:
-  StepRecorder(const ChainRecorder& recorder, const State& x) : recorder_(&recorder), x_(&x) {}
+  StepRecorder(ChainRecorder& recorder, const State& x) : recorder_(&recorder), x_(&x) {}
 
   /// As metropolis_step calls it.
   void operator()(const State& state, double weight) {
@@ -53,16 +63,17 @@ class StepRecorder {
   void finish() {
     record(*x_, weight_x_);
     weight_x_ = 0;
+    recorder_->flush();
   }
 
  private:
-  void record(const State& state, double weight) const {
+  void record(const State& state, double weight) {
     // A chain may start from a path whose light rounding has taken away.
     if (weight > 0 && state.target > 0)
       recorder_->record(state.raster, state.rgb / state.target, weight);
   }
 
-  const ChainRecorder* recorder_;
+  ChainRecorder* recorder_;
   const State* x_;
   double weight_x_ = 0, weight_y_ = 0;
 };
@@ -97,7 +108,7 @@ struct ChainStats {
 class Chain {
  public:
   virtual ~Chain() = default;
-  virtual void advance(uint64_t steps, const ChainRecorder& recorder) = 0;
+  virtual void advance(uint64_t steps, ChainRecorder& recorder) = 0;
   virtual const ChainStats& stats() const = 0;
   virtual void save(ByteWriter& bytes) const = 0;
   virtual void load(ByteReader& bytes) = 0;

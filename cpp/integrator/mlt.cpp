@@ -8,7 +8,6 @@
 #include "integrator/metropolis_rendering.h"
 #include "integrator/path_params.h"
 #include "integrator/separate_direct.h"
-#include "math/permutation.h"
 #include "mutation/adaptation.h"
 #include "mutation/kinds.h"
 #include "mutation/mixture.h"
@@ -39,12 +38,13 @@ class MltChain : public Chain {
         mutations_(&mutations),
         choice_(&choice),
         id_(id),
+        round_key_(mix_bits(id.seed ^ mix_bits(static_cast<uint64_t>(id.group)))),
         rng_(id.rng()),
         x_(std::move(start)) {
     stats_.rows.resize(mutations.size() * (longest_row + 1));
   }
 
-  void advance(uint64_t steps, const ChainRecorder& recorder) override {
+  void advance(uint64_t steps, ChainRecorder& recorder) override {
     MutationMixture kernel(*mutations_, *choice_, stats_.rays);
     StepRecorder<LightPath> record(recorder, x_);
     for (uint64_t i = 0; i < steps; ++i, ++step_) {
@@ -77,10 +77,9 @@ class MltChain : public Chain {
 
  private:
   /// The image position of this chain among those of all chains of the group in this step.
-  Vec2 round_raster() const {
-    const uint64_t key =
-        mix_bits(mix_bits(id_.seed ^ mix_bits(static_cast<uint64_t>(id_.group))) + step_);
-    return scene_->camera().raster().sample(stratified_point(id_.number, id_.count, key));
+  StratifiedRaster round_raster() const {
+    return {&scene_->camera().raster(), static_cast<uint32_t>(id_.number),
+            static_cast<uint32_t>(id_.count), mix_bits(round_key_ + step_)};
   }
 
   const Scene* scene_;
@@ -88,6 +87,7 @@ class MltChain : public Chain {
   const Mutations* mutations_;
   const MutationChoice* choice_;
   ChainId id_;
+  uint64_t round_key_;  ///< Names the rounds of the chain's group.
   Rng rng_;
   uint64_t step_ = 0;
   LightPath x_;

@@ -41,7 +41,7 @@ class PssmltChain : public Chain {
     stats_.rows.resize(2);
   }
 
-  void advance(uint64_t steps, const ChainRecorder& recorder) override {
+  void advance(uint64_t steps, ChainRecorder& recorder) override {
     PrimarySampleKernel kernel(settings_.large_probability, [&](PrimaryState& state, Rng& rng) {
       evaluate(*scene_, settings_.path, state, rng, stats_);
     });

@@ -32,7 +32,7 @@ Table explore(const Scene& scene, const Mutations& mutations, const MutationChoi
   MutationMixture kernel(mutations, choice, rays);
   std::array<LightPath, 1> y;
   for (int i = 0; i < steps; ++i) {
-    kernel.set_stratified_raster(scene.camera().raster().sample({rng.next(), rng.next()}));
+    kernel.set_stratified_raster(unstratified(scene.camera().raster(), rng));
     const uint64_t rays_before = rays.intersect + rays.occluded;
     const int edges = x.edges();
     double jump = 0;

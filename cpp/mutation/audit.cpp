@@ -127,7 +127,7 @@ class Auditor {
 
   void step(const LightPath& start, double weight, MutationMixture& kernel, Rng& rng, Scratch& s,
             Batch& sums) const {
-    kernel.set_stratified_raster(scene_->camera().raster().sample({rng.next(), rng.next()}));
+    kernel.set_stratified_raster(unstratified(scene_->camera().raster(), rng));
     s.x = start;
     functions_.evaluate(s.x, s.before);
     s.mean.assign(functions_.size(), 0);
@@ -158,7 +158,7 @@ class Auditor {
 
   static std::string signature(const LightPath& x) {
     std::string letters = "L";
-    for (int i = 1; i < x.edges(); ++i) letters += x.specular[i] ? 'S' : 'D';
+    for (int i = 1; i < x.edges(); ++i) letters += x.specular(i) ? 'S' : 'D';
     return letters + "E";
   }
 

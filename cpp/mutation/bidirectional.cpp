@@ -12,7 +12,7 @@ double power_of_half(int n) { return 1 / static_cast<double>(uint64_t{1} << std:
 bool deletable(const LightPath& x, int l, int m) {
   const int k = x.edges();
   if ((l == -1 && m == 0) || (l == k && m == k + 1)) return false;
-  return (l < 0 || x.terms.connectable[l]) && (m > k || x.terms.connectable[m]);
+  return (l < 0 || x.terms[l].connectable) && (m > k || x.terms[m].connectable);
 }
 
 /// How many edges a gap has: mostly two, that is one vertex (Veach 1997, sec. 11.3.1.1). 1/4, 1/2 and
@@ -244,9 +244,9 @@ double BidirectionalMutation::density(const LightPath& x, const LightPath& y,
       p /= static_cast<double>(scene_->backgrounds().size());
     for (int i = edit.first; i < edit.first + n; ++i) {
       if (i >= technique)
-        p *= y.terms.from_camera[i];
+        p *= y.terms[i].from_camera;
       else
-        p *= i == 0 && technique == 1 ? y.terms.direct : y.terms.from_light[i];
+        p *= i == 0 && technique == 1 ? y.terms.direct : y.terms[i].from_light;
     }
     sum += p;
   }

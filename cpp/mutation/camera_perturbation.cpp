@@ -14,7 +14,7 @@ CameraPerturbation::Form CameraPerturbation::form(const LightPath& x) const {
   Form form;
   for (int i = ChainPerturbation::next_diffuse(x, x.edges(), -1); i > 0;
        i = ChainPerturbation::next_diffuse(x, i, -1)) {
-    if (i == 1 || !x.specular[i - 1]) {
+    if (i == 1 || !x.specular(i - 1)) {
       form.stop = i;
       return form;
     }
@@ -66,7 +66,7 @@ double CameraPerturbation::density(const LightPath& x, const LightPath& y, const
   if (from.stop != to.stop || from.further_chains != to.further_chains || from.stop != edit.first)
     return 0;
   for (int i = from.stop; i < x.edges(); ++i)
-    if (x.specular[i] != y.specular[i]) return 0;
+    if (x.specular(i) != y.specular(i)) return 0;
   const int k = x.edges();
   const double on_image = chain_.image_radius().planar_pdf(glm::length(y.raster - x.raster)) *
                           chain_.raster_per_direction(y);

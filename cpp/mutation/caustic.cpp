@@ -9,9 +9,9 @@ const std::string& CausticPerturbation::name() const {
 
 int CausticPerturbation::start(const LightPath& x) const {
   const int last = x.edges() - 1;
-  if (last < 1 || x.specular[last]) return -1;
+  if (last < 1 || x.specular(last)) return -1;
   int i = last - 1;
-  while (i > 0 && x.specular[i]) --i;
+  while (i > 0 && x.specular(i)) --i;
   return i;
 }
 

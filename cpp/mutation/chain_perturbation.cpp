@@ -23,12 +23,13 @@ ChainPerturbation::ChainPerturbation(const Scene& scene, const MutationSettings&
     : scene_(&scene) {
   const Raster& raster = scene.camera().raster();
   const double diagonal = std::hypot(raster.size.x, raster.size.y);
-  image_radius_ = {settings.smallest_pixels,
-                   std::max(2 * settings.smallest_pixels, settings.largest_share * diagonal)};
+  image_radius_ =
+      ExponentialRadius(settings.smallest_pixels,
+                        std::max(2 * settings.smallest_pixels, settings.largest_share * diagonal));
 }
 
 double ChainPerturbation::raster_per_direction(const LightPath& x) const {
-  return x.terms.vertex[x.edges()].pdf_from_camera * scene_->camera().raster().sampled_area();
+  return x.terms[x.edges()].vertex.pdf_from_camera * scene_->camera().raster().sampled_area();
 }
 
 /// Veach 1997, eq. 11.11: the angle that a move of one pixel is seen under from the lens, times the
@@ -42,9 +43,9 @@ ExponentialRadius ChainPerturbation::angle(const LightPath& x, int i, int stop, 
   for (int j = step > 0 ? stop : i; j < k; ++j) seen += edge(j, j + 1);
   for (int j = i; j != stop; j += step)
     if (!x[j].at.infinite()) chain += edge(j, j + step);
-  const double scale = pixel_angle * seen / chain;
-  const double largest = std::min(image_radius_.largest * scale, 0.5 * pi);
-  return {std::min(image_radius_.smallest * scale, 0.5 * largest), largest};
+  const ExponentialRadius radius = image_radius_ * (pixel_angle * seen / chain);
+  if (radius.largest <= 0.5 * pi) return radius;
+  return {std::min(radius.smallest, 0.25 * pi), 0.5 * pi};
 }
 
 Vec3 ChainPerturbation::perturb(const Vec3& w, const ExponentialRadius& angle, Rng& rng) {
@@ -57,7 +58,7 @@ Vec3 ChainPerturbation::perturb(const Vec3& w, const ExponentialRadius& angle, R
 int ChainPerturbation::next_diffuse(const LightPath& x, int start, int step) {
   const int end = step < 0 ? 0 : x.edges();
   int i = start + step;
-  while (i != end && x.specular[i]) i += step;
+  while (i != end && x.specular(i)) i += step;
   return i == end ? -1 : i;
 }
 
@@ -78,7 +79,7 @@ bool ChainPerturbation::carry(const LightPath& x, const Span& span, Ray ray, Lig
 std::optional<Vec3> ChainPerturbation::carried_direction(const LightPath& x, const LightPath& y,
                                                          int i, int step, const Vec3& in,
                                                          MutationContext& context) const {
-  if (!x.specular[i]) {
+  if (!x.specular(i)) {
     const int stop = next_diffuse(x, i, step);
     return perturb(direction_out(x, i, step), angle(x, i, stop, step), context.rng);
   }
@@ -101,7 +102,7 @@ std::optional<Vec3> ChainPerturbation::carried_direction(const LightPath& x, con
 
 double ChainPerturbation::density(const LightPath& x, const LightPath& y, const Span& span,
                                   double first_coefficient) const {
-  const auto G = [&](int i) { return y.terms.G[span.step < 0 ? i - 1 : i]; };
+  const auto G = [&](int i) { return y.terms[span.step < 0 ? i - 1 : i].G; };
   double p = first_coefficient * G(span.start);
   for (int i = span.start + span.step; i != span.stop; i += span.step)
     p *= coefficient(x, y, i, span.step) * G(i);
@@ -113,7 +114,7 @@ double ChainPerturbation::coefficient(const LightPath& x, const LightPath& y, in
                                       int step) const {
   const SurfacePoint& at = y[i].at;
   const Vec3 in = direction_in(y, i, step), out = direction_out(y, i, step);
-  if (!x.specular[i]) {
+  if (!x.specular(i)) {
     const int stop = next_diffuse(x, i, step);
     const double theta = angle_between(out, direction_out(x, i, step));
     return angle(x, i, stop, step).angular_pdf(theta) / abs_cos(at, out);
@@ -123,7 +124,7 @@ double ChainPerturbation::coefficient(const LightPath& x, const LightPath& y, in
   if (y[i].delta()) {
     // The coefficient of the one delta without the probability of having chosen it: the lobe stays.
     const double chosen = bsdf.pdf(at, local_in, local_out, y[i].lobe);
-    const VertexTerms& terms = y.terms.vertex[i];
+    const VertexTerms& terms = y.terms[i].vertex;
     return (step < 0 ? terms.pdf_from_camera : terms.pdf_from_light) / chosen;
   }
   const double eta = bsdf.relative_eta(at, local_in);

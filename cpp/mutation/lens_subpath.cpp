@@ -25,7 +25,7 @@ std::optional<Edit> LensSubpathMutation::propose(const LightPath& x, LightPath& 
   const Camera& camera = scene_->camera();
   Rng& rng = context.rng;
   const PositionSample lens = camera.sample_position({rng.next(), rng.next()});
-  Ray ray{lens.at.p, camera.direction(lens.at, context.stratified_raster), x.path.time};
+  Ray ray{lens.at.p, camera.direction(lens.at, context.stratified_raster.position()), x.path.time};
 
   // The walk comes first: only then is the length of the path known.
   constexpr int most_vertices = 32;
@@ -64,7 +64,7 @@ double LensSubpathMutation::density(const LightPath& x, const LightPath& y,
                                     const Edit& edit) const {
   if (stop(x) != edit.first || stop(y) != edit.first) return 0;
   double p = 1;
-  for (int i = edit.first; i <= y.edges(); ++i) p *= y.terms.from_camera[i];
+  for (int i = edit.first; i <= y.edges(); ++i) p *= y.terms[i].from_camera;
   for (int i = edit.first; i < y.edges(); ++i) {
     const double stops = stop_probability(y[i].at);
     p *= i == edit.first ? stops : 1 - stops;

@@ -33,13 +33,13 @@ struct MutationSettings {
 struct LightPath {
   Path path;
   PathTerms terms;
-  std::vector<char> specular;  ///< S or D of each vertex (signature with near_specular).
   Vec2 raster{0};
   Color rgb{0};       ///< f(x), Veach 1997, eq. 8.7
   double target = 0;  ///< L*(x), times the factor of two-stage sampling
 
   int edges() const { return path.edges(); }
   const Vertex& operator[](size_t i) const { return path[i]; }
+  bool specular(int i) const { return terms[i].specular; }  ///< S, not D, of inner vertex i.
 };
 
 /// y becomes x with the edit applied; the inserted vertices and their terms are yet to be filled in.

@@ -36,20 +36,19 @@ using Mutations = std::vector<std::shared_ptr<const Mutation>>;
 class MutationMixture {
  public:
   MutationMixture(const Mutations& mutations, const MutationChoice& choice, RayCounts& rays)
-      : mutations_(&mutations), choice_(&choice), rays_(&rays) {}
+      : mutations_(&mutations), choice_(&choice), rays_(&rays), suitability_(mutations.size()) {}
 
   /// The raster position that a fresh lens subpath is to use in the next step.
-  void set_stratified_raster(const Vec2& raster) { stratified_raster_ = raster; }
+  void set_stratified_raster(const StratifiedRaster& raster) { stratified_raster_ = raster; }
 
   Transition propose(const LightPath& x, std::array<LightPath, 1>& proposals, size_t, Rng& rng) {
     LightPath& y = proposals[0];
     generated_ = false;
     const std::vector<double>& weights = choice_->weights(x.edges());
     double sum = 0;
-    suitability_.clear();
     for (size_t i = 0; i < mutations_->size(); ++i) {
-      suitability_.push_back(weights[i] > 0 ? weights[i] * (*mutations_)[i]->suitability(x) : 0.0);
-      sum += suitability_.back();
+      suitability_[i] = weights[i] > 0 ? weights[i] * (*mutations_)[i]->suitability(x) : 0.0;
+      sum += suitability_[i];
     }
     suited_ = sum > 0;
     double u = rng.next() * sum;
@@ -88,8 +87,8 @@ class MutationMixture {
   const Mutations* mutations_;
   const MutationChoice* choice_;
   RayCounts* rays_;
-  Vec2 stratified_raster_{0};
   std::vector<double> suitability_;
+  StratifiedRaster stratified_raster_;
   size_t chosen_ = 0;
   bool suited_ = false, generated_ = false;
 };

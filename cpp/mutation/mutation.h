@@ -6,6 +6,7 @@
 
 #include "base/rng.h"
 #include "mutation/light_path.h"
+#include "mutation/stratified_raster.h"
 #include "path/ray_counts.h"
 
 #include <optional>
@@ -17,8 +18,7 @@ namespace mlt {
 struct MutationContext {
   Rng& rng;
   RayCounts& rays;
-  /// A raster position that is uniform for this chain and stratified over all chains of a round.
-  Vec2 stratified_raster{0};
+  StratifiedRaster stratified_raster{};
 };
 
 class Mutation {

@@ -54,7 +54,7 @@ void collect(const Scene& scene, const LightPath& x, Collector& g) {
 
   int specular = 0, deltas = 0;
   for (int i = 1; i < k; ++i) {
-    specular += x.specular[i];
+    specular += x.specular(i);
     deltas += x[i].delta();
   }
   g.cases("specular vertices", specular, most_specular + 1);
@@ -70,7 +70,7 @@ void collect(const Scene& scene, const LightPath& x, Collector& g) {
 
   double shortest = 4, longest_edge = 0, smallest_G = infinity;
   for (int i = 0; i < k; ++i) {
-    smallest_G = std::min(smallest_G, x.terms.G[i]);
+    smallest_G = std::min(smallest_G, x.terms[i].G);
     if (x[i].at.infinite()) continue;
     const double edge = length(x[i + 1].at.p - x[i].at.p) / bounds.radius;
     shortest = std::min(shortest, edge);
@@ -99,7 +99,8 @@ PathFunctions::PathFunctions(const Scene& scene) : scene_(&scene) {
   LightPath any;
   any.path.vertices.resize(2);
   any.path[1].at.p = Vec3(1);
-  any.terms.G = {1};
+  any.terms.at.resize(2);
+  any.terms[0].G = 1;
   any.target = 1;
   Collector collector(nullptr, &names_);
   collect(scene, any, collector);

@@ -24,8 +24,7 @@ std::vector<Proposal> propose(const Scene& scene, const MutationSettings& settin
   std::array<LightPath, 1> y;
   std::vector<Proposal> proposals;
   for (int i = 0; i < count; ++i) {
-    const double u = rng.next();
-    kernel.set_stratified_raster(scene.camera().raster().sample({u, rng.next()}));
+    kernel.set_stratified_raster(unstratified(scene.camera().raster(), rng));
     const double a = acceptance(kernel.propose(x, y, 0, rng));
     if (kernel.generated()) proposals.push_back({y[0], a});
   }

@@ -7,29 +7,21 @@ namespace mlt {
 void Bidirectional::begin_densities(const WalkVertex* lights, int s, const WalkVertex* cameras,
                                     int t) {
   const int k = s + t - 1;
-  from_light_.resize(k + 1);
-  from_camera_.resize(k + 1);
-  connectable_.resize(k + 1);
-  for (int i = 0; i < s; ++i) {
-    from_light_[i] = lights[i].forward;
-    from_camera_[i] = lights[i].reverse;
-    connectable_[i] = lights[i].lobe == Lobe::smooth;
-  }
-  for (int j = 0; j < t; ++j) {
-    from_camera_[k - j] = cameras[j].forward;
-    from_light_[k - j] = cameras[j].reverse;
-    connectable_[k - j] = cameras[j].lobe == Lobe::smooth;
-  }
+  densities_.resize(k + 1);
+  for (int i = 0; i < s; ++i)
+    densities_[i] = {lights[i].forward, lights[i].reverse, lights[i].lobe == Lobe::smooth};
+  for (int j = 0; j < t; ++j)
+    densities_[k - j] = {cameras[j].reverse, cameras[j].forward, cameras[j].lobe == Lobe::smooth};
 }
 
 double Bidirectional::weight(int s, const Vertex& x0, const Vertex& xk, const SurfacePoint& x1) {
-  const int k = static_cast<int>(from_light_.size()) - 1;
-  if (!settings_.light_image) connectable_[k] = false;  // t = 1 is not among the techniques
+  const int k = static_cast<int>(densities_.size()) - 1;
+  if (!settings_.light_image)
+    densities_[k].connectable = false;  // t = 1 is not among the techniques
   const double direct =
-      settings_.sample_direct ? direct_position_pdf(*scene_, x0, x1) : from_light_[0];
-  return mis_weight(from_light_.data(), from_camera_.data(), connectable_.data(), k, s, direct,
-                    can_be_hit(*scene_, x0), settings_.light_image && can_be_hit(*scene_, xk),
-                    settings_.heuristic);
+      settings_.sample_direct ? direct_position_pdf(*scene_, x0, x1) : densities_[0].from_light;
+  return mis_weight(densities_.data(), k, s, direct, can_be_hit(*scene_, x0),
+                    settings_.light_image && can_be_hit(*scene_, xk), settings_.heuristic);
 }
 
 /// s = 0: the camera walk has hit a light.
@@ -43,9 +35,9 @@ bool Bidirectional::evaluate_hit_light(Connection& connection) {
   connection.contribution = end.throughput * terms.f;
   if (is_black(connection.contribution)) return false;
   begin_densities(nullptr, 0, camera_.data(), t);
-  connectable_[0] = true;
-  from_light_[0] = light_position_pdf(*scene_, x0);
-  from_light_[1] = terms.pdf_from_light * end.G;
+  densities_[0].connectable = true;
+  densities_[0].from_light = light_position_pdf(*scene_, x0);
+  densities_[1].from_light = terms.pdf_from_light * end.G;
   connection.weight = weight(0, x0, camera_[0].vertex, camera_[t - 2].vertex.at);
   return connection.weight > 0;
 }
@@ -81,11 +73,11 @@ bool Bidirectional::evaluate_connection(Connection& connection, RayCounts& rays)
   if (!scene_->visible(a.vertex.at, b.vertex.at, time_)) return false;
 
   begin_densities(lights, s, camera_.data(), t);
-  connectable_[s - 1] = connectable_[s] = true;
-  from_light_[s] = at_a.pdf_from_light * G;
-  if (t >= 2) from_light_[s + 1] = at_b.pdf_from_light * b.G;
-  from_camera_[s - 1] = at_b.pdf_from_camera * G;
-  if (s >= 2) from_camera_[s - 2] = at_a.pdf_from_camera * a.G;
+  densities_[s - 1].connectable = densities_[s].connectable = true;
+  densities_[s].from_light = at_a.pdf_from_light * G;
+  if (t >= 2) densities_[s + 1].from_light = at_b.pdf_from_light * b.G;
+  densities_[s - 1].from_camera = at_b.pdf_from_camera * G;
+  if (s >= 2) densities_[s - 2].from_camera = at_a.pdf_from_camera * a.G;
   const SurfacePoint& x1 = s >= 2 ? light_[1].vertex.at : b.vertex.at;
   connection.weight = weight(s, lights[0].vertex, camera_[0].vertex, x1);
   return connection.weight > 0;
@@ -127,8 +119,8 @@ bool Bidirectional::evaluate_hit_lens(Connection& connection, RayCounts& rays) {
   lens_.forward = camera_position_pdf(*scene_, lens_.vertex);
   const double G = geometry(last.vertex.at, *hit);
   begin_densities(light_.data(), k, &lens_, 1);
-  from_light_[k] = last.next_coefficient * G;
-  from_camera_[k - 1] = terms.pdf_from_camera * G;
+  densities_[k].from_light = last.next_coefficient * G;
+  densities_[k - 1].from_camera = terms.pdf_from_camera * G;
   const SurfacePoint& x1 = k >= 2 ? light_[1].vertex.at : lens_.vertex.at;
   connection.weight = weight(s, light_[0].vertex, lens_.vertex, x1);
   return connection.weight > 0;

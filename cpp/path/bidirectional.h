@@ -149,8 +149,7 @@ class Bidirectional {
   double time_ = 0;
   std::vector<Vec3> direct_u_;  ///< Numbers for s = 1, one triple for each camera vertex.
   WalkVertex direct_, lens_;    ///< The end chosen for s = 1 as seen from x_1, or hit for t = 0.
-  std::vector<double> from_light_, from_camera_;
-  std::vector<char> connectable_;
+  std::vector<VertexDensities> densities_;
 };
 
 }  // namespace mlt

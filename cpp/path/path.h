@@ -32,7 +32,7 @@ std::string signature(const Scene& scene, const Path& path, double near_specular
 
 /// Whether vertex i scatters (almost) in one direction: a delta, or rougher than nothing but below
 /// the threshold. A function of the BSDF, the position and the two directions alone.
-bool is_specular(const Scene& scene, const Vertex& x, const SurfacePoint& towards_light,
-                 const SurfacePoint& towards_camera, double near_specular);
+bool is_specular(const Scene& scene, const Vertex& x, const Vec3& wl, const Vec3& wc,
+                 double near_specular);
 
 }  // namespace mlt

@@ -12,22 +12,35 @@
 
 namespace mlt {
 
+/// How the techniques make x_i.
+struct VertexDensities {
+  double from_light = 0;     ///< Density of x_i made by a light walk, in the measure of x_i.
+  double from_camera = 0;    ///< The same for a camera walk.
+  bool connectable = false;  ///< Whether an edge may be made by connection at x_i.
+};
+
+/// What the path's formulas need of x_i, and of the edge that leads on from it.
+struct TermsAt : VertexDensities {
+  VertexTerms vertex;     ///< f_i and the two coefficients.
+  double G = 0;           ///< G_i = G(x_i, x_{i+1}), without visibility; of i < k.
+  bool specular = false;  ///< S or D (see signature) by `TermSettings::near_specular`.
+};
+
 struct PathTerms {
-  std::vector<VertexTerms> vertex;  ///< f_i and the two coefficients, i = 0 ... k.
-  std::vector<double> G;            ///< G_i = G(x_i, x_{i+1}), i = 0 ... k - 1; without visibility.
-  std::vector<double> from_light;   ///< Density of x_i made by a light walk, in the measure of x_i.
-  std::vector<double> from_camera;  ///< The same for a camera walk.
-  std::vector<char> connectable;    ///< Whether an edge may be made by connection at x_i.
+  std::vector<TermsAt> at;  ///< i = 0 ... k.
   bool light_can_be_hit = false, camera_can_be_hit = false;
   /// Density of x_0 in the technique s = 1, which may choose it to be seen from x_1.
   double direct = 0;
 
-  int edges() const { return static_cast<int>(G.size()); }
+  int edges() const { return static_cast<int>(at.size()) - 1; }  ///< k
+  TermsAt& operator[](size_t i) { return at[i]; }
+  const TermsAt& operator[](size_t i) const { return at[i]; }
 };
 
 struct TermSettings {
   bool sample_direct = true;  ///< Technique s = 1 chooses x_0 as seen from x_1.
   bool strict_normals = false;
+  double near_specular = 0;  ///< Smooth vertices below this roughness count as specular.
 };
 
 /// All terms, from the vertices alone. `terms` keeps its memory.
@@ -54,10 +67,10 @@ enum class Heuristic { balance, power, maximum };
 /// The MIS weight of technique s (Veach 1997, eqs. 9.8, 9.13 with beta = 2, 9.12).
 double mis_weight(const PathTerms& terms, int s, Heuristic heuristic);
 
-/// The MIS weight from the density arrays: r_i = p_i / p_s by the recurrence of Veach 1997, eq. 10.9,
-/// p_{i+1} / p_i = from_light[i] / from_camera[i]. `direct` is the density of x_0 in technique 1.
-double mis_weight(const double* from_light, const double* from_camera, const char* connectable,
-                  int edges, int s, double direct, bool light_can_be_hit, bool camera_can_be_hit,
-                  Heuristic heuristic);
+/// The MIS weight from the densities x[0] ... x[edges]: r_i = p_i / p_s by the recurrence of Veach 1997,
+/// eq. 10.9, p_{i+1} / p_i = from_light / from_camera of x_i. `direct` is the density of x_0 in technique 1.
+template <class Densities>
+double mis_weight(const Densities* x, int edges, int s, double direct, bool light_can_be_hit,
+                  bool camera_can_be_hit, Heuristic heuristic);
 
 }  // namespace mlt

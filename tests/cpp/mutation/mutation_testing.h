@@ -34,7 +34,7 @@ inline MutationChoice default_choice() {
 
 inline std::string signature_of(const LightPath& x) {
   std::string letters = "L";
-  for (int i = 1; i < x.edges(); ++i) letters += x.specular[i] ? 'S' : 'D';
+  for (int i = 1; i < x.edges(); ++i) letters += x.specular(i) ? 'S' : 'D';
   return letters + 'E';
 }
 
@@ -69,7 +69,7 @@ void for_each_proposal(const Scene& scene, const MutationSettings& settings, con
     if (!(x.target > 0)) return;
     for (size_t i = 0; i < all.size(); ++i) {
       if (all[i]->suitability(x) == 0) continue;
-      MutationContext context{rng, rays, scene.camera().raster().sample({rng.next(), rng.next()})};
+      MutationContext context{rng, rays, unstratified(scene.camera().raster(), rng)};
       const auto edit = all[i]->propose(x, y, context);
       if (edit && y.target > 0) found(i, x, y, *edit);
     }

@@ -32,9 +32,9 @@ double density_of_all_ways(const Scene& scene, const LightPath& y, const Edit& e
     double p = 1;
     for (int i = edit.first; i < edit.first + edit.inserted; ++i) {
       if (i < edit.first + s)
-        p *= i == 0 && s == 1 ? y.terms.direct : y.terms.from_light[i];
+        p *= i == 0 && s == 1 ? y.terms.direct : y.terms[i].from_light;
       else
-        p *= y.terms.from_camera[i];
+        p *= y.terms[i].from_camera;
     }
     sum += p;
   }
@@ -51,9 +51,9 @@ std::vector<Twin> twins() {
                          return chain.raster_per_direction(y);
                        });
                  },
-                 100000});
+                 300000});
   all.push_back(twin("G_of_the_last_edge", "lens", "cornell",
-                     [](auto&, const LightPath& y, auto&) { return y.terms.G[y.edges() - 1]; }));
+                     [](auto&, const LightPath& y, auto&) { return y.terms[y.edges() - 1].G; }));
   all.push_back({"half_vector_jacobian", "lens", "near_specular",
                  [](const Scene& scene, const MutationSettings&, const Mutations&) {
                    return BrokenTwin::Factor([&scene](const LightPath& x, const LightPath& y,
@@ -72,21 +72,21 @@ std::vector<Twin> twins() {
                  }});
   all.push_back(
       twin("G_of_the_joint", "multi_chain", "mirrors",
-           [](auto&, const LightPath& y, const Edit& edit) { return y.terms.G[edit.first]; }));
+           [](auto&, const LightPath& y, const Edit& edit) { return y.terms[edit.first].G; }));
   all.push_back(twin(
       "cosine_at_the_start", "caustic", "cornell", [](auto&, const LightPath& y, const Edit& edit) {
         return 1 / abs_cos(y[edit.first - 1].at, towards(y, edit.first - 1, edit.first));
       }));
   all.push_back(
       twin("G_of_the_chain", "caustic", "caustic", [](auto&, const LightPath& y, const Edit& edit) {
-        return y.terms.G[y.edges() - 2] * (edit.inserted > 0);
+        return y.terms[y.edges() - 2].G * (edit.inserted > 0);
       }));
   all.push_back(
       twin("G_from_infinity", "caustic", "sun", [](auto&, const LightPath& y, const Edit& edit) {
-        return edit.first == 1 ? y.terms.G[0] : 1.0;
+        return edit.first == 1 ? y.terms[0].G : 1.0;
       }));
   all.push_back(twin("G_of_the_first_edge", "lens_subpath", "cornell",
-                     [](auto&, const LightPath& y, auto&) { return y.terms.G[y.edges() - 1]; }));
+                     [](auto&, const LightPath& y, auto&) { return y.terms[y.edges() - 1].G; }));
   all.push_back({"stop_probability", "lens_subpath", "plastic",
                  [](const Scene& scene, const MutationSettings&, const Mutations&) {
                    return BrokenTwin::Factor(
@@ -98,7 +98,7 @@ std::vector<Twin> twins() {
                          return product;
                        });
                  },
-                 100000});
+                 300000});
   // The choice of a gap: of its length, then of where it begins.
   all.push_back(
       twin("p_delete", "bidirectional", "caustic", [](const LightPath& x, auto&, const Edit& edit) {
@@ -112,13 +112,13 @@ std::vector<Twin> twins() {
                        [&scene](const LightPath&, const LightPath& y, const Edit& edit) {
                          double one = 1;  // all of it from the camera side
                          for (int i = edit.first; i < edit.first + edit.inserted; ++i)
-                           one *= y.terms.from_camera[i];
+                           one *= y.terms[i].from_camera;
                          return one > 0 ? density_of_all_ways(scene, y, edit) / one : 1.0;
                        });
                  }});
   all.push_back(twin("G_of_the_first_inserted", "bidirectional", "cornell",
                      [](auto&, const LightPath& y, const Edit& edit) {
-                       return edit.inserted > 0 && edit.first > 0 ? y.terms.G[edit.first - 1] : 1.0;
+                       return edit.inserted > 0 && edit.first > 0 ? y.terms[edit.first - 1].G : 1.0;
                      }));
   all.push_back({"P_choose", "mixture", "caustic",
                  [](const Scene&, const MutationSettings&, const Mutations& all) {

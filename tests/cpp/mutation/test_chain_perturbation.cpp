@@ -89,7 +89,8 @@ TEST(ChainPerturbation, MovesTheImageAboutAsFarAsTheLensPerturbation) {
 TEST(ChainPerturbation, FindsTheDiffuseVertexThatEndsAChain) {
   LightPath x;
   x.path.vertices.resize(6);  // L D S D S E
-  x.specular = {0, 0, 1, 0, 1, 0};
+  x.terms.at.resize(6);
+  x.terms[2].specular = x.terms[4].specular = true;
   EXPECT_EQ(ChainPerturbation::next_diffuse(x, 5, -1), 3);
   EXPECT_EQ(ChainPerturbation::next_diffuse(x, 3, -1), 1);
   EXPECT_EQ(ChainPerturbation::next_diffuse(x, 1, -1), -1);

@@ -15,25 +15,32 @@ bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
 }
 
+std::string difference(const TermsAt& a, const TermsAt& b, bool has_edge) {
+  if (has_edge && !same_bits(a.G, b.G)) return "G";
+  if (!same_bits(a.from_light, b.from_light)) return "from_light";
+  if (!same_bits(a.from_camera, b.from_camera)) return "from_camera";
+  if (a.connectable != b.connectable) return "connectable";
+  if (a.specular != b.specular) return "specular";
+  const VertexTerms &s = a.vertex, &t = b.vertex;
+  if (!same_bits(s.f, t.f) || !same_bits(s.pdf_from_light, t.pdf_from_light) ||
+      !same_bits(s.pdf_from_camera, t.pdf_from_camera))
+    return "terms";
+  return "";
+}
+
 std::string difference(const LightPath& a, const LightPath& b) {
   if (a.path.vertices.size() != b.path.vertices.size()) return "length";
   if (!same_bits(a.target, b.target)) return "target";
   if (!same_bits(a.rgb, b.rgb)) return "rgb";
   if (a.target > 0 && !same_bits(a.raster, b.raster)) return "raster";
-  if (a.specular != b.specular) return "specular";
   const PathTerms &s = a.terms, &t = b.terms;
-  if (!same_bits(s.G, t.G)) return "G";
-  if (!same_bits(s.from_light, t.from_light)) return "from_light";
-  if (!same_bits(s.from_camera, t.from_camera)) return "from_camera";
-  if (s.connectable != t.connectable) return "connectable";
   if (!same_bits(s.direct, t.direct)) return "direct";
   if (s.light_can_be_hit != t.light_can_be_hit || s.camera_can_be_hit != t.camera_can_be_hit)
     return "can be hit";
-  for (size_t i = 0; i < s.vertex.size(); ++i)
-    if (!same_bits(s.vertex[i].f, t.vertex[i].f) ||
-        !same_bits(s.vertex[i].pdf_from_light, t.vertex[i].pdf_from_light) ||
-        !same_bits(s.vertex[i].pdf_from_camera, t.vertex[i].pdf_from_camera))
-      return "terms of vertex " + std::to_string(i);
+  for (int i = 0; i <= s.edges(); ++i) {
+    const std::string what = difference(s[i], t[i], i < s.edges());
+    if (!what.empty()) return what + " of vertex " + std::to_string(i);
+  }
   return "";
 }
 

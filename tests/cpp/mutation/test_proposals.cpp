@@ -30,7 +30,7 @@ class Proposals {
 
   /// A proposal of this edit that carries light.
   bool propose(Rng& rng) {
-    MutationContext context{rng, rays_, scene().camera().raster().sample({rng.next(), rng.next()})};
+    MutationContext context{rng, rays_, unstratified(scene().camera().raster(), rng)};
     const auto edit = mutation_->propose(x, y, context);
     return edit && *edit == edit_ && y.target > 0;
   }
@@ -76,7 +76,7 @@ double per_direction(const SurfacePoint& from, const SurfacePoint& to, double de
 
 /// Density per area of the image of x_{k-1} with this density in area.
 double per_pixel(const LightPath& y, const ChainPerturbation& chain, double density) {
-  return density / (y.terms.G[y.edges() - 1] * chain.raster_per_direction(y));
+  return density / (y.terms[y.edges() - 1].G * chain.raster_per_direction(y));
 }
 
 TEST(Proposals, BidirectionalMutationInsertsOneVertexBetweenTwo) {

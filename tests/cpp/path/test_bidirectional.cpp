@@ -60,6 +60,14 @@ class PathsOf : public testing::TestWithParam<std::string> {
   ScenePtr scene_;
 };
 
+void expect_same_densities(const PathTerms& a, const PathTerms& b) {
+  ASSERT_EQ(a.at.size(), b.at.size());
+  for (size_t i = 0; i < a.at.size(); ++i) {
+    ASSERT_EQ(a[i].from_light, b[i].from_light);
+    ASSERT_EQ(a[i].from_camera, b[i].from_camera);
+  }
+}
+
 TEST_P(PathsOf, AreAssembledAsTheyWereFound) {
   int hidden = 0, all = 0;
   std::string which;
@@ -125,7 +133,10 @@ TEST_P(PathsOf, HaveTheDensitiesOfThePlugIns) {
       const NaiveDensities p = naive_densities(*scene_, x, Flaw::none, mirrors);
       return both(p.from_light, p.from_camera);
     };
-    return excess(*scene_, path, densities, both(terms.from_light, terms.from_camera));
+    std::vector<double> own;
+    for (const TermsAt& at : terms.at) own.push_back(at.from_light);
+    for (const TermsAt& at : terms.at) own.push_back(at.from_camera);
+    return excess(*scene_, path, densities, own);
   };
   for_all(3, [&](const Connection& c, const Path& path, const PathTerms& terms,
                  const BidirectionalSettings& settings) {
@@ -142,13 +153,13 @@ TEST_P(PathsOf, HaveTheDensitiesOfThePlugIns) {
     for (int i = 0; i <= path.edges(); ++i) {
       const std::string name = technique_name(*scene_, c, path) + ", vertex " + std::to_string(i);
       // With strict normals a direction may be refused that the BSDF would sample.
-      const bool refused_l = settings.strict_normals && terms.from_light[i] == 0;
-      const bool refused_c = settings.strict_normals && terms.from_camera[i] == 0;
+      const bool refused_l = settings.strict_normals && terms[i].from_light == 0;
+      const bool refused_c = settings.strict_normals && terms[i].from_camera == 0;
       if (!refused_l)
-        worst.add(relative_difference(terms.from_light[i], naive.from_light[i]),
+        worst.add(relative_difference(terms[i].from_light, naive.from_light[i]),
                   name + " from the light");
       if (!refused_c)
-        worst.add(relative_difference(terms.from_camera[i], naive.from_camera[i]),
+        worst.add(relative_difference(terms[i].from_camera, naive.from_camera[i]),
                   name + " from the camera");
     }
     const double direct = settings.sample_direct ? naive.direct : naive.from_light[0];
@@ -222,14 +233,12 @@ TEST_P(PathsOf, AreUpdatedBitForBit) {
       PathTerms updated = terms, afresh;
       update_terms(*scene_, moved, term_settings, i - 1, i + 1, updated);
       compute_terms(*scene_, moved, term_settings, afresh);
-      ASSERT_EQ(updated.G, afresh.G);
-      ASSERT_EQ(updated.from_light, afresh.from_light);
-      ASSERT_EQ(updated.from_camera, afresh.from_camera);
+      expect_same_densities(updated, afresh);
+      for (int j = 0; j < path.edges(); ++j) ASSERT_EQ(updated[j].G, afresh[j].G);
       ASSERT_EQ(updated.direct, afresh.direct);
       ASSERT_EQ(contribution(updated), contribution(afresh));
       update_terms(*scene_, path, term_settings, i - 1, i + 1, updated);
-      ASSERT_EQ(updated.from_light, terms.from_light);
-      ASSERT_EQ(updated.from_camera, terms.from_camera);
+      expect_same_densities(updated, terms);
     }
   });
 }
