@@ -39,15 +39,39 @@ inline std::unique_ptr<Rendering> rendered(const ScenePtr& scene, const Integrat
 /// An integrator as a side of a comparison. Metropolis integrators scale their bootstrap with the
 /// samples, so that its error vanishes with theirs.
 inline Side side(const ScenePtr& scene, const std::string& name, const Assignments& assignments,
-                 double spp) {
+                 double spp, double luminance_samples = 5000) {
   return {name, [=](uint64_t seed, double effort) {
             Assignments all = assignments;
             if (name == "pssmlt" || name == "mlt") {
+              const auto samples = static_cast<int>(luminance_samples * effort);
               all.push_back({"chains", "64"});
-              all.push_back({"luminance_samples", std::to_string(static_cast<int>(5000 * effort))});
+              all.push_back({"luminance_samples", std::to_string(samples)});
             }
             return rendered(scene, integrator(name, all), seed, spp * effort)->image();
           }};
+}
+
+/// Every integrator with what it can save and share out, by settings for small renders.
+struct Algorithm {
+  std::string name;
+  Assignments assignments;
+};
+
+inline std::vector<Algorithm> algorithms() {
+  return {{"path", {{"max_depth", "6"}}},
+          {"direct", {}},
+          {"ptracer", {{"max_depth", "6"}}},
+          {"bdpt", {{"max_depth", "6"}}},
+          {"bdpt", {{"max_depth", "3"}, {"techniques", "true"}}},
+          {"pssmlt", {{"max_depth", "6"}, {"chains", "40"}, {"luminance_samples", "4000"}}},
+          {"mlt", {{"max_depth", "6"}, {"chains", "40"}, {"luminance_samples", "4000"}}}};
+}
+
+/// All kinds of light, on more than one tile of the film, with a filter that reaches over their borders.
+inline ScenePtr lights_on_tiles() {
+  static const ScenePtr made =
+      make_scene("mixed_lights", {70, 40, "<rfilter type='gaussian'/>"}).scene;
+  return made;
 }
 
 inline Side known(const std::string& name, const Image& image) { return {name, nullptr, image}; }

@@ -8,27 +8,6 @@ namespace {
 
 using namespace test;
 
-struct Algorithm {
-  std::string name;
-  Assignments assignments;
-};
-
-std::vector<Algorithm> algorithms() {
-  return {{"path", {{"max_depth", "6"}}},
-          {"direct", {}},
-          {"ptracer", {{"max_depth", "6"}}},
-          {"bdpt", {{"max_depth", "6"}}},
-          {"bdpt", {{"max_depth", "3"}, {"techniques", "true"}}},
-          {"pssmlt", {{"max_depth", "6"}, {"chains", "40"}, {"luminance_samples", "4000"}}}};
-}
-
-/// More than one tile of the film, and a filter that reaches over their borders.
-ScenePtr scene() {
-  static const ScenePtr made =
-      make_scene("mixed_lights", {70, 40, "<rfilter type='gaussian'/>"}).scene;
-  return made;
-}
-
 void expect_equal(const Rendering& a, const Rendering& b) {
   EXPECT_TRUE(a.image() == b.image());
   const auto layers_a = a.layers(), layers_b = b.layers();
@@ -43,9 +22,10 @@ TEST(Render, HasTheSameBitsForAnyNumberOfThreads) {
   for (const Algorithm& algorithm : algorithms()) {
     SCOPED_TRACE(algorithm.name);
     const IntegratorPtr made = integrator(algorithm.name, algorithm.assignments);
-    const auto one = rendered(scene(), made, 5, 5, 1);
-    for (const int threads : {2, 3}) expect_equal(*one, *rendered(scene(), made, 5, 5, threads));
-    EXPECT_FALSE(one->image() == rendered(scene(), made, 6, 5)->image())
+    const auto one = rendered(lights_on_tiles(), made, 5, 5, 1);
+    for (const int threads : {2, 3})
+      expect_equal(*one, *rendered(lights_on_tiles(), made, 5, 5, threads));
+    EXPECT_FALSE(one->image() == rendered(lights_on_tiles(), made, 6, 5)->image())
         << "the seed does not matter";
   }
 }
@@ -54,13 +34,13 @@ TEST(Render, GoesOnAfterItHasBeenSaved) {
   for (const Algorithm& algorithm : algorithms()) {
     SCOPED_TRACE(algorithm.name);
     const IntegratorPtr made = integrator(algorithm.name, algorithm.assignments);
-    const auto straight = prepared(scene(), made, 7);
+    const auto straight = prepared(lights_on_tiles(), made, 7);
     const uint64_t units = straight->unit_count(4);
     run_units(*straight, 0, units);
     for (const uint64_t stop : {uint64_t{0}, uint64_t{1}, units / 2 + 1, units}) {
-      const auto first = prepared(scene(), made, 7);
+      const auto first = prepared(lights_on_tiles(), made, 7);
       run_units(*first, 0, stop);
-      const auto second = made->start(scene(), 7);
+      const auto second = made->start(lights_on_tiles(), 7);
       second->load(first->save());
       EXPECT_EQ(second->unit_count(4), units);
       expect_equal(*first, *second);
@@ -75,8 +55,8 @@ TEST(Render, CountsTheSameRaysForAnyNumberOfThreadsAndNothingInvalid) {
   for (const Algorithm& algorithm : algorithms()) {
     const IntegratorPtr made = integrator(algorithm.name, algorithm.assignments);
     Stats one, two;
-    rendered(scene(), made, 8, 3, 1)->add_stats(one);
-    rendered(scene(), made, 8, 3, 2)->add_stats(two);
+    rendered(lights_on_tiles(), made, 8, 3, 1)->add_stats(one);
+    rendered(lights_on_tiles(), made, 8, 3, 2)->add_stats(two);
     EXPECT_GT(one.rays_intersect, 70u * 40u) << algorithm.name;
     EXPECT_EQ(one.rays_intersect, two.rays_intersect) << algorithm.name;
     EXPECT_EQ(one.rays_occluded, two.rays_occluded) << algorithm.name;
@@ -89,7 +69,7 @@ TEST(Render, RefusesTheStateOfAnotherImage) {
     const IntegratorPtr made = integrator(algorithm.name, algorithm.assignments);
     const ScenePtr other = make_scene("mixed_lights", {30, 20, "<rfilter type='gaussian'/>"}).scene;
     const std::string saved = rendered(other, made, 7, 1)->save();
-    EXPECT_THROW(made->start(scene(), 7)->load(saved), RenderError) << algorithm.name;
+    EXPECT_THROW(made->start(lights_on_tiles(), 7)->load(saved), RenderError) << algorithm.name;
     EXPECT_THROW(made->start(other, 7)->load(saved.substr(0, saved.size() / 2)), RenderError)
         << algorithm.name;
   }

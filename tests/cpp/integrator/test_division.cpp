@@ -13,30 +13,10 @@ using namespace test;
 
 constexpr uint64_t seed = 5;
 
-struct Algorithm {
-  std::string name;
-  Assignments assignments;
-};
-
-std::vector<Algorithm> algorithms() {
-  return {{"path", {{"max_depth", "6"}}},
-          {"direct", {}},
-          {"ptracer", {{"max_depth", "6"}}},
-          {"bdpt", {{"max_depth", "3"}, {"techniques", "true"}}},
-          {"pssmlt", {{"max_depth", "6"}, {"chains", "40"}, {"luminance_samples", "4000"}}},
-          {"mlt", {{"max_depth", "6"}, {"chains", "40"}, {"luminance_samples", "4000"}}}};
-}
-
-ScenePtr scene() {
-  static const ScenePtr made =
-      make_scene("mixed_lights", {70, 40, "<rfilter type='gaussian'/>"}).scene;
-  return made;
-}
-
 std::string outcome(const Division& division, size_t part, uint64_t to,
                     const IntegratorPtr& algorithm, int threads) {
   const std::atomic<bool> cancelled{false};
-  return carry_out(division.order(part, to), scene(), *algorithm, threads, cancelled);
+  return carry_out(division.order(part, to), lights_on_tiles(), *algorithm, threads, cancelled);
 }
 
 /// Takes every part to `units` in steps, the last part first.
@@ -56,10 +36,10 @@ TEST(Division, ChangesNoBit) {
   for (const Algorithm& algorithm : algorithms()) {
     SCOPED_TRACE(algorithm.name);
     const IntegratorPtr made = integrator(algorithm.name, algorithm.assignments);
-    const auto whole = rendered(scene(), made, seed, 5);
+    const auto whole = rendered(lights_on_tiles(), made, seed, 5);
     const uint64_t units = whole->unit_count(5);
     for (const auto& [wanted, threads] : {std::pair(1, 1), std::pair(35, 2)}) {
-      const auto divided = prepared(scene(), made, seed);
+      const auto divided = prepared(lights_on_tiles(), made, seed);
       run_divided(*divided, made, wanted, units, units / 3 + 7, threads);
       EXPECT_TRUE(divided->image() == whole->image());
       EXPECT_EQ(divided->save(), whole->save());
@@ -79,7 +59,8 @@ TEST(Division, CanBecomeFinerOnTheWay) {
   for (const Algorithm& algorithm : algorithms()) {
     SCOPED_TRACE(algorithm.name);
     const IntegratorPtr made = integrator(algorithm.name, algorithm.assignments);
-    const auto whole = rendered(scene(), made, seed, 3), divided = prepared(scene(), made, seed);
+    const auto whole = rendered(lights_on_tiles(), made, seed, 3),
+               divided = prepared(lights_on_tiles(), made, seed);
     Division division(*divided, seed, 1, 0);
     const size_t coarse = division.parts();
     for (const uint64_t to : {whole->unit_count(1), whole->unit_count(2), whole->unit_count(3)}) {
@@ -101,7 +82,7 @@ TEST(Division, CutsEveryShareIntoOnePart) {
   for (const Algorithm& algorithm : algorithms()) {
     SCOPED_TRACE(algorithm.name);
     const auto rendering =
-        prepared(scene(), integrator(algorithm.name, algorithm.assignments), seed);
+        prepared(lights_on_tiles(), integrator(algorithm.name, algorithm.assignments), seed);
     for (const int wanted : {1, 16, 17, 35, 100000}) {
       uint64_t next = 0;
       for (const Part& part : rendering->parts(wanted)) {
@@ -118,7 +99,7 @@ TEST(Division, CountsNothingTwice) {
   for (const Algorithm& algorithm : algorithms()) {
     SCOPED_TRACE(algorithm.name);
     const IntegratorPtr made = integrator(algorithm.name, algorithm.assignments);
-    const auto rendering = prepared(scene(), made, seed);
+    const auto rendering = prepared(lights_on_tiles(), made, seed);
     Division division(*rendering, seed, 1, 0);
     const uint64_t units = rendering->unit_count(40);
     const std::string first = outcome(division, 0, units, made, 1);
@@ -136,13 +117,14 @@ TEST(Division, LeavesAStateThatOneMachineGoesOnFrom) {
   for (const Algorithm& algorithm : algorithms()) {
     SCOPED_TRACE(algorithm.name);
     const IntegratorPtr made = integrator(algorithm.name, algorithm.assignments);
-    const auto whole = rendered(scene(), made, seed, 4), divided = prepared(scene(), made, seed);
+    const auto whole = rendered(lights_on_tiles(), made, seed, 4),
+               divided = prepared(lights_on_tiles(), made, seed);
     Division division(*divided, seed, 7, 0);
     const uint64_t units = whole->unit_count(4);
     for (size_t part = 0; part < division.parts(); ++part)
       division.fold(part, outcome(division, part, units / (1 + part % 3), made, 1));
     EXPECT_LE(division.done(), units / 2);
-    const auto second = made->start(scene(), seed);
+    const auto second = made->start(lights_on_tiles(), seed);
     second->load(divided->save());
     run_units(*second, division.done(), units, 2);
     EXPECT_EQ(second->save(), whole->save());
@@ -153,28 +135,32 @@ TEST(Division, PassesOverPartsThatHaveNothingToDo) {
   for (const Algorithm& algorithm : algorithms()) {
     SCOPED_TRACE(algorithm.name);
     const IntegratorPtr made = integrator(algorithm.name, algorithm.assignments);
-    const auto rendering = prepared(scene(), made, seed);
+    const auto rendering = prepared(lights_on_tiles(), made, seed);
     Division division(*rendering, seed, 1, 0);
     const uint64_t units = rendering->unit_count(1);
     for (size_t part = 0; part < division.parts(); ++part) {
       const std::string came = outcome(division, part, units, made, 1);
       const bool idle = division.pass(part, units);
       EXPECT_EQ(division.position(part), idle ? units : 0);
-      if (!idle) EXPECT_GT(division.fold(part, came), 0u);
+      if (!idle) {
+        EXPECT_GT(division.fold(part, came), 0u);
+      }
     }
-    const auto whole = rendered(scene(), made, seed, 1);
+    const auto whole = rendered(lights_on_tiles(), made, seed, 1);
     EXPECT_TRUE(rendering->image() == whole->image());
   }
 }
 
 TEST(Division, GoesOnWhereACancelledOrderStopped) {
-  const IntegratorPtr made = integrator("pssmlt", algorithms()[4].assignments);
-  const auto rendering = prepared(scene(), made, seed);
+  const IntegratorPtr made =
+      integrator("pssmlt", {{"chains", "40"}, {"luminance_samples", "4000"}});
+  const auto rendering = prepared(lights_on_tiles(), made, seed);
   Division division(*rendering, seed, 1, 0);
   const std::atomic<bool> cancelled{true};
   const uint64_t units = rendering->unit_count(3);
-  EXPECT_EQ(division.fold(0, carry_out(division.order(0, units), scene(), *made, 1, cancelled)),
-            0u);
+  EXPECT_EQ(
+      division.fold(0, carry_out(division.order(0, units), lights_on_tiles(), *made, 1, cancelled)),
+      0u);
   EXPECT_EQ(division.position(0), 0u);
   EXPECT_GT(division.fold(0, outcome(division, 0, units, made, 1)), 0u);
   EXPECT_EQ(division.position(0), units);

@@ -14,20 +14,12 @@ Assignments mlt_settings(int luminance_samples, Assignments more = {}) {
   return more;
 }
 
-/// mlt as a side of a comparison: the bootstrap grows with the samples, so that its error vanishes with theirs.
-Side mlt_side(const ScenePtr& scene, const std::string& name, double spp, int luminance_samples,
-              const Assignments& more = {}) {
-  return {name, [=](uint64_t seed, double effort) {
-            const int samples = static_cast<int>(luminance_samples * effort);
-            return rendered(scene, integrator("mlt", mlt_settings(samples, more)), seed,
-                            spp * effort)
-                ->image();
-          }};
+Side mlt_side(const ScenePtr& scene, Assignments more = {}, double luminance_samples = 10000) {
+  more.push_back({"max_depth", "6"});
+  return side(scene, "mlt", more, 256, luminance_samples);
 }
 
-Side bdpt_side(const ScenePtr& scene, double spp) {
-  return side(scene, "bdpt", {{"max_depth", "6"}}, spp);
-}
+Side bdpt_side(const ScenePtr& scene) { return side(scene, "bdpt", {{"max_depth", "6"}}, 16); }
 
 /// What must not stay unseen: 5 % of the whole and 25 % of a block in the quick suite, 2 % and 10 % in
 /// the long one. Half as much takes four times as long.
@@ -52,8 +44,8 @@ class MltImage : public testing::TestWithParam<std::string> {};
 
 TEST_P(MltImage, IsThatOfBdpt) {
   const ScenePtr scene = make_mutation_scene(GetParam()).scene;
-  const SameImage found = same_image(mlt_side(scene, "mlt", 256, 10000, {{"adaptive", "false"}}),
-                                     bdpt_side(scene, 16), in_short());
+  const SameImage found =
+      same_image(mlt_side(scene, {{"adaptive", "false"}}), bdpt_side(scene), in_short());
   EXPECT_TRUE(found) << found.text;
 }
 
@@ -73,8 +65,7 @@ class LongMltImage : public testing::TestWithParam<std::string> {};
 
 TEST_P(LongMltImage, IsThatOfBdpt) {
   const ScenePtr scene = make_mutation_scene(GetParam()).scene;
-  const SameImage found =
-      same_image(mlt_side(scene, "mlt", 256, 10000), bdpt_side(scene, 16), at_length());
+  const SameImage found = same_image(mlt_side(scene), bdpt_side(scene), at_length());
   EXPECT_TRUE(found) << found.text;
 }
 
@@ -87,8 +78,7 @@ class LongMltVariant : public testing::TestWithParam<Assignments> {};
 TEST_P(LongMltVariant, HasTheSameImage) {
   for (const char* name : {"cornell", "mirrors"}) {
     const ScenePtr scene = make_mutation_scene(name).scene;
-    const SameImage found = same_image(mlt_side(scene, "mlt", 256, 10000, GetParam()),
-                                       bdpt_side(scene, 16), at_length());
+    const SameImage found = same_image(mlt_side(scene, GetParam()), bdpt_side(scene), at_length());
     EXPECT_TRUE(found) << name << ": " << found.text;
   }
 }
@@ -115,9 +105,8 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(MltRuns, AgreeWhateverTheBootstrap) {
   // Start-up bias must vanish in the mean over seeds.
   const ScenePtr scene = make_mutation_scene("cornell").scene;
-  const SameImage found = same_image(
-      mlt_side(scene, "mlt with a small bootstrap", 256, 2000, {{"adaptive", "false"}}),
-      mlt_side(scene, "mlt with a large one", 256, 16000, {{"adaptive", "false"}}), in_short());
+  const SameImage found = same_image(mlt_side(scene, {{"adaptive", "false"}}, 2000),
+                                     mlt_side(scene, {{"adaptive", "false"}}, 16000), in_short());
   EXPECT_TRUE(found) << found.text;
 }
 
