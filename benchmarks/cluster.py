@@ -4,14 +4,16 @@ The constants of the cost model in docs/many-machines.md. A part of a render is 
 and folded within this process, so that nothing but that is measured; an order without work shows
 what one costs at least. Then a whole render on this process with one thread and on clusters of 1, 2
 and 4 processes with one thread each, in turn: the quotient of their wall times is the speed-up,
-that of their CPU times (all processes of the cluster) what dividing the render costs.
+that of their CPU times (all processes of the cluster) what dividing the render costs. What dask's
+processes use while nothing is rendered is paid per second of wall time, so a machine that has other
+work to do makes it a larger share.
 """
 
 from __future__ import annotations
 
 import pickle
 from statistics import median
-from time import perf_counter, process_time
+from time import perf_counter, process_time, sleep
 
 from common import parser, print_table, say, write_results
 
@@ -94,6 +96,19 @@ class Cluster:
         workers = sum(self.client.run(process_time).values())
         return workers + self.client.run_on_scheduler(process_time) + process_time()
 
+    def idle(self, seconds: float) -> dict:
+        """CPU time of each process without work, in percent of the time."""
+        before = self.client.run(process_time), self.client.run_on_scheduler(process_time)
+        start = perf_counter()
+        sleep(seconds)
+        wall = perf_counter() - start
+        workers = [used - before[0][name] for name, used in self.client.run(process_time).items()]
+        scheduler = self.client.run_on_scheduler(process_time) - before[1]
+        return {
+            "idle worker, %": 100 * median(workers) / wall,
+            "idle scheduler, %": 100 * scheduler / wall,
+        }
+
     def close(self) -> None:
         self.client.close()
         self.cluster.close()
@@ -102,13 +117,13 @@ class Cluster:
 def scaling(scene, name: str, spp: float, rounds: int) -> list[dict]:
     clusters = {n: Cluster(n) for n in (1, 2, 4)}
     measured = {n: [] for n in (0, *clusters)}
-    for _ in range(rounds + 1):
+    for passes in [1, *[spp] * rounds]:  # the first ones warm up
         for n in measured:
             cluster = clusters.get(n)
             before = cluster.cpu_seconds() if cluster else process_time()
             start = perf_counter()
             where = {"cluster": cluster.client} if cluster else {"threads": 1}
-            mlt.render(scene, name, spp=spp, seed=1, progress=False, **where)
+            mlt.render(scene, name, spp=passes, seed=1, progress=False, **where)
             wall = perf_counter() - start
             after = cluster.cpu_seconds() if cluster else process_time()
             measured[n].append((wall, after - before))
@@ -116,7 +131,7 @@ def scaling(scene, name: str, spp: float, rounds: int) -> list[dict]:
         cluster.close()
     rows = []
     for n, pairs in measured.items():
-        pairs = pairs[1:]  # the first one warms up
+        pairs = pairs[1:]
         alone = measured[0][1:]
         rows.append(
             {
@@ -146,13 +161,17 @@ def main() -> None:
         for name in ("path", "bdpt", "pssmlt", "mlt")
     ]
     print_table(rows)
-    speed_ups = []
+    cluster = Cluster(2)
+    rows.append(cluster.idle(args.seconds))
+    print_table(rows[-1:])
+    cluster.close()
     for name in ("path", "mlt"):
-        _, seconds = cpu(lambda name=name: mlt.render(small, name, spp=16, threads=1))
-        speed_ups += scaling(small, name, round(16 * args.seconds / seconds), args.rounds)
-    print_table(speed_ups)
+        _, seconds = cpu(lambda name=name: mlt.render(small, name, spp=64, threads=1))
+        speed_ups = scaling(small, name, round(64 * args.seconds / seconds), args.rounds)
+        print_table(speed_ups)
+        rows += speed_ups
     settings = {"rounds": args.rounds, "seconds": args.seconds, "parts": args.parts}
-    write_results(args.json, "cluster", settings, rows + speed_ups)
+    write_results(args.json, "cluster", settings, rows)
 
 
 if __name__ == "__main__":

@@ -189,7 +189,8 @@ def local_cluster(text: str):
             threads_per_worker=1,
             worker_class="distributed.Worker",
             worker_kwargs={"memory_limit": 0, "dashboard": False},
-            scheduler_kwargs={"dashboard": False},
+            # For the case that this process is killed and cannot end them.
+            scheduler_kwargs={"dashboard": False, "idle_timeout": "12h"},
         )
 
 
@@ -197,6 +198,7 @@ def local_cluster(text: str):
 QUIET = {
     "DASK_DISTRIBUTED__WORKER__PROFILE__ENABLED": "False",
     "DASK_DISTRIBUTED__ADMIN__TICK__INTERVAL": "1s",
+    "DASK_DISTRIBUTED__ADMIN__SYSTEM_MONITOR__INTERVAL": "10s",
 }
 
 

@@ -304,7 +304,7 @@ def test_kill_9_costs_no_pixel(scene):
 @pytest.mark.parametrize("integrator", mlt.available("integrator"))
 def test_kill_9_at_twenty_moments_costs_no_pixel(scene, integrator):
     binary = mlt_render() or pytest.skip("mlt-render is not installed beside this Python")
-    spp = {"path": 3000, "direct": 3000}.get(integrator, 800)  # some seconds
+    spp = {"path": 3000, "direct": 3000, "ptracer": 3000}.get(integrator, 800)  # some seconds
     killed_and_resumed(binary, scene, integrator, kills=20, spp=spp)
 
 
