@@ -208,9 +208,13 @@ class SameImageTest {
   uint64_t round_ = 0;
 };
 
-/// `b` may be a known image; `a` may not.
+/// `b` may be a known image; `a` may not. Says what was found, since how much would have been seen is
+/// worth knowing of a test that passes, too.
 inline SameImage same_image(const Side& a, const Side& b, const SameImageSettings& settings = {}) {
-  return SameImageTest(a, b, settings).run();
+  const SameImage found = SameImageTest(a, b, settings).run();
+  std::puts(found.text.c_str());
+  std::fflush(stdout);
+  return found;
 }
 
 }  // namespace mlt::test
