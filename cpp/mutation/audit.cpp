@@ -29,6 +29,7 @@ struct Batch {
   double weight = 0, weight_squared = 0;   ///< Of those that a mutation suits, sample by sample.
   std::vector<double> expected, chosen;    ///< Of w (g(y) - g(x)), for each function.
   std::vector<double> size, size_squared;  ///< Of |w (g(y) - g(x))| with expected weights.
+  std::vector<uint64_t> seen;              ///< Steps from an x with g(x) != 0.
   std::map<RowKey, AuditRow> rows;
   double lost = 0;  ///< Weight of paths without a target.
   uint64_t steps = 0;
@@ -92,6 +93,7 @@ class Auditor {
     Batch sums;
     for (auto* values : {&sums.expected, &sums.chosen, &sums.size, &sums.size_squared})
       values->assign(functions_.size(), 0);
+    sums.seen.assign(functions_.size(), 0);
     PathSeeds seeds(*scene_, paths_, *settings_);
     RayCounts rays;
     Rng rng(how_.seed, Purpose::inspect, index);
@@ -130,6 +132,7 @@ class Auditor {
     kernel.set_stratified_raster(unstratified(scene_->camera().raster(), rng));
     s.x = start;
     functions_.evaluate(s.x, s.before);
+    for (size_t g = 0; g < s.before.size(); ++g) sums.seen[g] += s.before[g] != 0;
     s.mean.assign(functions_.size(), 0);
     const auto record = [&](const LightPath& state, double share) {
       functions_.evaluate(state, s.after);
@@ -203,11 +206,15 @@ class Auditor {
   void add_tests(const std::vector<Batch>& done, double weight, AuditReport& report) const {
     for (size_t g = 0; g < functions_.size(); ++g) {
       double size = 0, size_squared = 0;
+      uint64_t seen = 0;
       for (const Batch& batch : done) {
         size += batch.size[g];
         size_squared += batch.size_squared[g];
+        seen += batch.seen[g];
       }
       if (!(sqr(size) >= least_effective_changes * size_squared) || size == 0) continue;
+      if (static_cast<double>(seen) < least_effective_changes)
+        continue;  // Those that leave are missing.
       for (const bool expected : {true, false}) {
         AuditTest test = t_test(done, expected ? &Batch::expected : &Batch::chosen, g, weight);
         test.function = functions_.names()[g];

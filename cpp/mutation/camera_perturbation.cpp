@@ -8,24 +8,26 @@ bool lens_moves(const LightPath& x, const LightPath& y) {
   return x[x.edges()].at.p != y[y.edges()].at.p;
 }
 
+/// A perturbation does not go from one light at infinity to another, nor to or from a surface.
+bool same_light_at_infinity(const LightPath& x, const LightPath& y) {
+  return x[0].at.infinite() == y[0].at.infinite() &&
+         (!x[0].at.infinite() || x[0].emitter == y[0].emitter);
+}
+
 }  // namespace
 
 CameraPerturbation::Form CameraPerturbation::form(const LightPath& x) const {
   Form form;
-  for (int i = ChainPerturbation::next_diffuse(x, x.edges(), -1); i > 0;
-       i = ChainPerturbation::next_diffuse(x, i, -1)) {
-    if (i == 1 || !x.specular(i - 1)) {
-      form.stop = i;
-      return form;
-    }
+  int i = ChainPerturbation::chain_end(x, x.edges(), -1);
+  for (; i > 1 && x.specular(i - 1); i = ChainPerturbation::chain_end(x, i, -1))
     ++form.further_chains;
-  }
+  if (i > 0 || x.terms.light_can_be_hit) form.stop = i;
   return form;
 }
 
 double CameraPerturbation::suitability(const LightPath& x) const {
   const Form f = form(x);
-  return f.stop > 0 && suits(f.further_chains) ? 1 : 0;
+  return f.stop >= 0 && suits(f.further_chains) ? 1 : 0;
 }
 
 /// Radii on the lens: a thousandth and a third of its own radius.
@@ -55,7 +57,7 @@ std::optional<Edit> CameraPerturbation::propose(const LightPath& x, LightPath& y
   const Ray ray{y[k].at.p, camera.direction(y[k].at, raster), y.path.time};
   if (!chain_.carry(x, {k, stop, -1}, ray, y, context)) return std::nullopt;
   evaluate(*scene_, settings_, stop, k, y);
-  if (!(y.target > 0)) return edit;
+  if (!(y.target > 0) || stop == 0) return edit;
   ++context.rays.occluded;
   if (!scene_->visible(y[stop - 1].at, y[stop].at, y.path.time)) y.target = 0;
   return edit;
@@ -65,6 +67,7 @@ double CameraPerturbation::density(const LightPath& x, const LightPath& y, const
   const Form from = form(x), to = form(y);
   if (from.stop != to.stop || from.further_chains != to.further_chains || from.stop != edit.first)
     return 0;
+  if (from.stop == 0 && !same_light_at_infinity(x, y)) return 0;
   for (int i = from.stop; i < x.edges(); ++i)
     if (x.specular(i) != y.specular(i)) return 0;
   const int k = x.edges();

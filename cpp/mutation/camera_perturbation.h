@@ -2,6 +2,10 @@
 // (and, with a lens of finite aperture, half of the time the point on the lens too) and the path
 // follows, up to the diffuse vertex that is joined to the rest. They differ in the paths that they suit:
 // lens.h has the form (L|D)DS*E, multi_chain.h (L|D)(DS+)+DS*E.
+//
+// Where specular vertices lead on to the light, LS*E and L(S+D)+S*E, nothing can be joined; Veach leaves
+// these paths to the bidirectional mutation. Here the whole path follows, and its end has to hit a light
+// again: so a lamp is explored in a mirror, and what it lights through glass, seen through glass.
 #pragma once
 
 #include "mutation/chain_perturbation.h"
@@ -25,7 +29,7 @@ class CameraPerturbation : public Mutation {
  private:
   struct Form {
     int stop =
-        -1;  ///< The diffuse vertex that is joined to the rest; -1: the path has another form.
+        -1;  ///< The diffuse vertex that is joined to the rest; 0: a light that is hit; -1: neither.
     int further_chains = 0;
   };
   Form form(const LightPath& x) const;

@@ -42,7 +42,7 @@ ExponentialRadius ChainPerturbation::angle(const LightPath& x, int i, int stop, 
   double seen = 0, chain = 0;
   for (int j = step > 0 ? stop : i; j < k; ++j) seen += edge(j, j + 1);
   for (int j = i; j != stop; j += step)
-    if (!x[j].at.infinite()) chain += edge(j, j + step);
+    if (!x[j].at.infinite() && !x[j + step].at.infinite()) chain += edge(j, j + step);
   const ExponentialRadius radius = image_radius_ * (pixel_angle * seen / chain);
   if (radius.largest <= 0.5 * pi) return radius;
   return {std::min(radius.smallest, 0.25 * pi), 0.5 * pi};
@@ -55,11 +55,11 @@ Vec3 ChainPerturbation::perturb(const Vec3& w, const ExponentialRadius& angle, R
       {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)});
 }
 
-int ChainPerturbation::next_diffuse(const LightPath& x, int start, int step) {
+int ChainPerturbation::chain_end(const LightPath& x, int start, int step) {
   const int end = step < 0 ? 0 : x.edges();
   int i = start + step;
   while (i != end && x.specular(i)) i += step;
-  return i == end ? -1 : i;
+  return i;
 }
 
 bool ChainPerturbation::carry(const LightPath& x, const Span& span, Ray ray, LightPath& y,
@@ -67,7 +67,9 @@ bool ChainPerturbation::carry(const LightPath& x, const Span& span, Ray ray, Lig
   for (int i = span.start + span.step;; i += span.step) {
     SurfacePoint at;
     ++context.rays.intersect;
-    if (!scene_->intersect(ray, at)) return false;
+    const bool hit = scene_->intersect(ray, at);
+    if (i == 0) return arrive_at_light(x, ray, hit ? &at : nullptr, y);
+    if (!hit) return false;
     y.path[i] = surface_vertex(at, x[i].lobe);
     if (i == span.stop) return true;
     const auto out = carried_direction(x, y, i, span.step, -ray.d, context);
@@ -76,11 +78,21 @@ bool ChainPerturbation::carry(const LightPath& x, const Span& span, Ray ray, Lig
   }
 }
 
+/// A light at infinity stays the one that it is; a surface may be that of any light.
+bool ChainPerturbation::arrive_at_light(const LightPath& x, const Ray& ray, const SurfacePoint* hit,
+                                        LightPath& y) const {
+  if (x[0].at.infinite() != !hit) return false;
+  const Emitter* emitter = hit ? scene_->emitter(*hit) : scene_->emitters()[x[0].emitter].get();
+  if (!emitter) return false;
+  y.path[0] = light_vertex(*emitter, hit ? *hit : Scene::point_at_infinity(ray.d));
+  return true;
+}
+
 std::optional<Vec3> ChainPerturbation::carried_direction(const LightPath& x, const LightPath& y,
                                                          int i, int step, const Vec3& in,
                                                          MutationContext& context) const {
   if (!x.specular(i)) {
-    const int stop = next_diffuse(x, i, step);
+    const int stop = chain_end(x, i, step);
     return perturb(direction_out(x, i, step), angle(x, i, stop, step), context.rng);
   }
   const SurfacePoint& from = x[i].at;
@@ -115,7 +127,7 @@ double ChainPerturbation::coefficient(const LightPath& x, const LightPath& y, in
   const SurfacePoint& at = y[i].at;
   const Vec3 in = direction_in(y, i, step), out = direction_out(y, i, step);
   if (!x.specular(i)) {
-    const int stop = next_diffuse(x, i, step);
+    const int stop = chain_end(x, i, step);
     const double theta = angle_between(out, direction_out(x, i, step));
     return angle(x, i, stop, step).angular_pdf(theta) / abs_cos(at, out);
   }

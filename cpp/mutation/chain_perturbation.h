@@ -3,7 +3,8 @@
 //
 // The path is walked from `start` in steps of `step` (-1: from the camera, +1: from the light) up to
 // `stop`; the vertices after `start` up to `stop` move. At a specular vertex the half vector is kept. At a
-// diffuse vertex in between (multi-chain) the direction is perturbed by a small angle.
+// diffuse vertex in between (multi-chain) the direction is perturbed by a small angle. Where `stop` is the
+// light, the last ray has to hit one.
 #pragma once
 
 #include "mutation/mutation.h"
@@ -68,11 +69,12 @@ class ChainPerturbation {
   /// A direction at an exponentially distributed angle from `w`.
   static Vec3 perturb(const Vec3& w, const ExponentialRadius& angle, Rng& rng);
 
-  /// Whether the path has the form from `start` on: specular vertices up to a diffuse one. Returns that
-  /// one's index, or -1 if the walk reaches the other end first.
-  static int next_diffuse(const LightPath& x, int start, int step);
+  /// The vertex that ends the specular chain from `start` on: the next diffuse one, or the path's end.
+  static int chain_end(const LightPath& x, int start, int step);
 
  private:
+  bool arrive_at_light(const LightPath& x, const Ray& ray, const SurfacePoint* hit,
+                       LightPath& y) const;
   std::optional<Vec3> carried_direction(const LightPath& x, const LightPath& y, int i, int step,
                                         const Vec3& in, MutationContext& context) const;
   double coefficient(const LightPath& x, const LightPath& y, int i, int step) const;

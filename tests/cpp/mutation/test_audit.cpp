@@ -36,8 +36,13 @@ AuditReport audit_case(const Case& c, uint64_t paths) {
 
 class Audit : public testing::TestWithParam<Case> {};
 
+/// In caustics samples are worth less.
+uint64_t paths_for(const Case& c, uint64_t paths) {
+  return c.mutation == "multi_chain" || c.scene == "sun_caustic" ? 5 * paths : paths;
+}
+
 TEST_P(Audit, LeavesTheTargetUnchanged) {
-  const AuditReport report = audit_case(GetParam(), 20000);
+  const AuditReport report = audit_case(GetParam(), paths_for(GetParam(), 20000));
   EXPECT_EQ(report.verdict, Verdict::right) << report.text();
 }
 
@@ -59,13 +64,16 @@ class LongAudit : public testing::TestWithParam<Case> {};
 
 TEST_P(LongAudit, LeavesTheTargetUnchanged) {
   const Case& c = GetParam();
-  const AuditReport report = audit_case(c, 100000);
+  const AuditReport report = audit_case(c, paths_for(c, 100000));
   EXPECT_NE(report.verdict, Verdict::wrong) << report.text();
-  if (has_paths(c)) EXPECT_EQ(report.verdict, Verdict::right) << report.text();
+  if (has_paths(c)) {
+    EXPECT_EQ(report.verdict, Verdict::right) << report.text();
+  }
   // A perturbation moves the paths of every signature that it takes on.
   for (const AuditRow& row : report.rows)
-    if (c.mutation != "mixture" && c.mutation != "bidirectional" && row.steps > 2000)
+    if (c.mutation != "mixture" && c.mutation != "bidirectional" && row.steps > 2000) {
       EXPECT_GT(row.accepted, row.steps / 1000) << row.signature << "\n" << report.text();
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Mutations, LongAudit, testing::ValuesIn(cases(mutation_scene_names())),
@@ -108,7 +116,7 @@ TEST(AuditOfTheMixture, HoldsForWeightsByLengthAndManyStepSizes) {
 }
 
 TEST(AuditOfTheMixture, HoldsForATwoStageTarget) {
-  const AuditReport report = audit_variant("cornell", true, 1, 20000);
+  const AuditReport report = audit_variant("cornell", true, 1, 100000);
   EXPECT_EQ(report.verdict, Verdict::right) << report.text();
 }
 

@@ -52,6 +52,14 @@ std::vector<Twin> twins() {
                        });
                  },
                  300000});
+  // A chain that ends at a light.
+  const auto light_edge = [](const Scene&, const MutationSettings&, const Mutations&) {
+    return BrokenTwin::Factor([](const LightPath&, const LightPath& y, const Edit& edit) {
+      return edit.first == 0 ? y.terms[0].G : 1.0;
+    });
+  };
+  all.push_back({"G_of_the_edge_from_the_light", "lens", "cornell", light_edge, 300000});
+  all.push_back({"G_of_the_edge_from_the_light", "multi_chain", "caustic", light_edge, 300000});
   all.push_back(twin("G_of_the_last_edge", "lens", "cornell",
                      [](auto&, const LightPath& y, auto&) { return y.terms[y.edges() - 1].G; }));
   all.push_back({"half_vector_jacobian", "lens", "near_specular",
@@ -128,7 +136,8 @@ std::vector<Twin> twins() {
                        sum += mutation_kinds()[i].weight * all[i]->suitability(x);
                      return 1 / sum;
                    });
-                 }});
+                 },
+                 100000});
   return all;
 }
 

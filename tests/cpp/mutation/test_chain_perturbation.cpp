@@ -86,20 +86,21 @@ TEST(ChainPerturbation, MovesTheImageAboutAsFarAsTheLensPerturbation) {
               std::log(2));  // Within a factor of two: surfaces are seen at a slant.
 }
 
-TEST(ChainPerturbation, FindsTheDiffuseVertexThatEndsAChain) {
+TEST(ChainPerturbation, FindsTheVertexThatEndsAChain) {
   LightPath x;
   x.path.vertices.resize(6);  // L D S D S E
   x.terms.at.resize(6);
   x.terms[2].specular = x.terms[4].specular = true;
-  EXPECT_EQ(ChainPerturbation::next_diffuse(x, 5, -1), 3);
-  EXPECT_EQ(ChainPerturbation::next_diffuse(x, 3, -1), 1);
-  EXPECT_EQ(ChainPerturbation::next_diffuse(x, 1, -1), -1);
-  EXPECT_EQ(ChainPerturbation::next_diffuse(x, 0, 1), 1);
-  EXPECT_EQ(ChainPerturbation::next_diffuse(x, 1, 1), 3);
-  EXPECT_EQ(ChainPerturbation::next_diffuse(x, 3, 1), -1);
+  EXPECT_EQ(ChainPerturbation::chain_end(x, 5, -1), 3);
+  EXPECT_EQ(ChainPerturbation::chain_end(x, 3, -1), 1);
+  EXPECT_EQ(ChainPerturbation::chain_end(x, 1, -1), 0);
+  EXPECT_EQ(ChainPerturbation::chain_end(x, 0, 1), 1);
+  EXPECT_EQ(ChainPerturbation::chain_end(x, 1, 1), 3);
+  EXPECT_EQ(ChainPerturbation::chain_end(x, 3, 1), 5);
 }
 
-/// Veach's forms: (L|D)DS*E, (L|D)S*DE and (L|D)(DS+)+DS*E, the light side of the joint not being specular.
+/// Veach's forms, (L|D)DS*E, (L|D)S*DE and (L|D)(DS+)+DS*E, the light side of the joint not being specular;
+/// and those whose chains lead on to a light that can be hit, LS*E and L(S+D)+S*E.
 TEST(Mutations, SuitTheirForms) {
   const ScenePtr scene = make_mutation_scene("mirrors").scene;
   const MutationSettings settings = mutation_settings();
@@ -107,17 +108,17 @@ TEST(Mutations, SuitTheirForms) {
     const LightPath x = find_path(*scene, settings, signature);
     return make_mutation(mutation, *scene, settings)->suitability(x) > 0;
   };
-  for (const char* form : {"LDE", "LDDE", "LDSE", "LDDSE", "LDSSE", "LSDDE", "LDSSSSE"})
+  for (const char* form :
+       {"LDE", "LDDE", "LDSE", "LDDSE", "LDSSE", "LSDDE", "LDSSSSE", "LE", "LSE"})
     EXPECT_TRUE(suits("lens", form)) << form;
-  for (const char* form : {"LE", "LSE", "LSDE", "LSDSE", "LDSDE"})
-    EXPECT_FALSE(suits("lens", form)) << form;
+  for (const char* form : {"LSDE", "LSDSE", "LDSDE"}) EXPECT_FALSE(suits("lens", form)) << form;
   for (const char* form : {"LDE", "LDDE", "LSDE", "LSSDE", "LDSDE", "LSDSDE"})
     EXPECT_TRUE(suits("caustic", form)) << form;
   for (const char* form : {"LE", "LSE", "LDSE", "LSDSE"})
     EXPECT_FALSE(suits("caustic", form)) << form;
-  for (const char* form : {"LDSDE", "LDSDSE", "LDSSDE"})
+  for (const char* form : {"LDSDE", "LDSDSE", "LDSSDE", "LSDE", "LSDSE"})
     EXPECT_TRUE(suits("multi_chain", form)) << form;
-  for (const char* form : {"LDE", "LSDE", "LDSE", "LDDE", "LSDSE"})
+  for (const char* form : {"LE", "LSE", "LDE", "LDSE", "LDDE", "LSDDE"})
     EXPECT_FALSE(suits("multi_chain", form)) << form;
   for (const char* form : {"LDE", "LDSE", "LDDSSE"})
     EXPECT_TRUE(suits("lens_subpath", form)) << form;
