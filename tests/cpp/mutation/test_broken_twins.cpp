@@ -58,7 +58,7 @@ std::vector<Twin> twins() {
       return edit.first == 0 ? y.terms[0].G : 1.0;
     });
   };
-  all.push_back({"G_of_the_edge_from_the_light", "lens", "cornell", light_edge, 300000});
+  all.push_back({"G_of_the_edge_from_the_light", "lens", "sphere_light", light_edge});
   all.push_back({"G_of_the_edge_from_the_light", "multi_chain", "caustic", light_edge, 300000});
   all.push_back(twin("G_of_the_last_edge", "lens", "cornell",
                      [](auto&, const LightPath& y, auto&) { return y.terms[y.edges() - 1].G; }));
