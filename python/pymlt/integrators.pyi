@@ -118,7 +118,7 @@ class MLT(Integrator):
     bidirectional_weight : float, default 0.3
         Weight of the bidirectional mutation among those that suit a path.
     lens_perturbation : boolean, default True
-        Use the lens perturbation of paths (L|D)DS*E (Veach 1997, sec. 11.3.3.1).
+        Use the lens perturbation of paths (L|D)DS*E and LS*E (Veach 1997, sec. 11.3.3.1).
     lens_weight : float, default 0.3
         Weight of the lens mutation among those that suit a path.
     caustic_perturbation : boolean, default True
@@ -126,7 +126,8 @@ class MLT(Integrator):
     caustic_weight : float, default 0.2
         Weight of the caustic mutation among those that suit a path.
     multi_chain_perturbation : boolean, default True
-        Use the multi-chain perturbation of paths (L|D)(DS+)+DS*E (Veach 1997, sec. 11.3.3.3).
+        Use the multi-chain perturbation of paths (L|D)(DS+)+DS*E and L(S+D)+S*E (Veach 1997,
+        sec. 11.3.3.3).
     multi_chain_weight : float, default 0.2
         Weight of the multi_chain mutation among those that suit a path.
     lens_subpath_mutation : boolean, default True

@@ -73,13 +73,15 @@ class Bidirectional(Mutation):
     """
 
 class Lens(Mutation):
-    """The lens perturbation of paths (L|D)DS*E (Veach 1997, sec. 11.3.3.1)."""
+    """The lens perturbation of paths (L|D)DS*E and LS*E (Veach 1997, sec. 11.3.3.1)."""
 
 class Caustic(Mutation):
     """The caustic perturbation of paths (L|D)S*DE (Veach 1997, sec. 11.3.3.2)."""
 
 class MultiChain(Mutation):
-    """The multi-chain perturbation of paths (L|D)(DS+)+DS*E (Veach 1997, sec. 11.3.3.3)."""
+    """The multi-chain perturbation of paths (L|D)(DS+)+DS*E and L(S+D)+S*E (Veach 1997, sec.
+    11.3.3.3).
+    """
 
 class LensSubpath(Mutation):
     """The lens subpath mutation, which draws a fresh camera end (Veach 1997, sec. 11.3.4)."""
