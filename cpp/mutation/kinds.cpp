@@ -28,8 +28,9 @@ const std::vector<MutationKind>& mutation_kinds() {
        "caustic perturbation of paths (L|D)S*DE (Veach 1997, sec. 11.3.3.2).", true,
        make<CausticPerturbation>},
       {"multi_chain", "multi_chain_perturbation", "multi_chain_weight", 0.2,
-       "multi-chain perturbation of paths (L|D)(DS+)+DS*E and L(S+D)+S*E (Veach 1997, sec. 11.3.3.3).", true,
-       make<MultiChainPerturbation>},
+       "multi-chain perturbation of paths (L|D)(DS+)+DS*E and L(S+D)+S*E (Veach 1997, sec. "
+       "11.3.3.3).",
+       true, make<MultiChainPerturbation>},
       {"lens_subpath", "lens_subpath_mutation", "lens_subpath_weight", 0.1,
        "lens subpath mutation, which draws a fresh camera end (Veach 1997, sec. 11.3.4).", false,
        make<LensSubpathMutation>},
