@@ -15,7 +15,8 @@ namespace {
 
 constexpr int batches = 128;
 constexpr double least_effective_samples = 1000;
-/// A function that hardly ever changes is not tested: a t-test needs more than a few events.
+/// A function that hardly ever changes is not tested, since a t-test needs more than a few events; nor is
+/// one that is 0 for almost all starting paths, since the few that would leave that set are missing.
 constexpr double least_effective_changes = 100;
 /// At grazing angles a walk's directions and those of its vertices differ by rounding.
 constexpr double most_lost = 1e-4;
@@ -213,8 +214,7 @@ class Auditor {
         seen += batch.seen[g];
       }
       if (!(sqr(size) >= least_effective_changes * size_squared) || size == 0) continue;
-      if (static_cast<double>(seen) < least_effective_changes)
-        continue;  // Those that leave are missing.
+      if (static_cast<double>(seen) < least_effective_changes) continue;
       for (const bool expected : {true, false}) {
         AuditTest test = t_test(done, expected ? &Batch::expected : &Batch::chosen, g, weight);
         test.function = functions_.names()[g];

@@ -1,7 +1,7 @@
 // The lens perturbation (Veach & Guibas 1997, sec. 5.3.2.1; Veach 1997, sec. 11.3.3.1), for paths of the
-// form (L|D)DS*E, and LS*E: the image position moves by a small distance, the specular chain follows, and the
-// diffuse vertex at its end is joined to the rest of the path. It explores what is seen directly, in
-// mirrors and through glass.
+// forms (L|D)DS*E and LS*E: the image position moves by a small distance, the specular chain follows, and
+// the diffuse vertex at its end is joined to the rest of the path, or the light is hit again. It explores
+// what is seen directly, in mirrors and through glass.
 #pragma once
 
 #include "mutation/camera_perturbation.h"

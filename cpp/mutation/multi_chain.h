@@ -1,7 +1,7 @@
 // The multi-chain perturbation (Veach & Guibas 1997, sec. 5.3.2.3; Veach 1997, sec. 11.3.3.3), for paths of
-// the form (L|D)(DS+)+DS*E, and L(S+D)+S*E, such as a caustic seen through glass: it begins like the lens perturbation, and
-// where the path goes on from a diffuse vertex to another specular chain, the direction is perturbed by a
-// small angle and carried through that chain, and so on, for any number of chains.
+// the forms (L|D)(DS+)+DS*E and L(S+D)+S*E, such as a caustic seen through glass: it begins like the lens
+// perturbation, and where the path goes on from a diffuse vertex to another specular chain, the direction
+// is perturbed by a small angle and carried through that chain, and so on, for any number of chains.
 #pragma once
 
 #include "mutation/camera_perturbation.h"
