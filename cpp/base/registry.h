@@ -17,6 +17,13 @@ struct Plugin {
   ObjectPtr (*create)(Params&);
 };
 
+/// The plug-in whose objects are made by `T(Params&)`.
+template <class T>
+Plugin make_plugin(Schema schema) {
+  return {std::move(schema),
+          [](Params& params) -> ObjectPtr { return std::make_shared<T>(params); }};
+}
+
 class Registry {
  public:
   void add(Plugin plugin);
