@@ -238,7 +238,7 @@ const char* name_of(Lobe lobe) {
   switch (lobe) {
     case Lobe::reflection: return "reflection";
     case Lobe::transmission: return "transmission";
-    case Lobe::passage: return "passage";
+    case Lobe::null: return "null";
     case Lobe::smooth: break;
   }
   return "smooth";

@@ -97,7 +97,7 @@ std::optional<Vec3> ChainPerturbation::carried_direction(const LightPath& x, con
   }
   const SurfacePoint& from = x[i].at;
   const SurfacePoint& at = y[i].at;
-  if (x[i].lobe == Lobe::passage) return -in;
+  if (x[i].lobe == Lobe::null) return -in;
   const Vec3 x_in = from.shading.to_local(direction_in(x, i, step));
   const Vec3 x_out = from.shading.to_local(direction_out(x, i, step));
   const Vec3 y_in = at.shading.to_local(in);

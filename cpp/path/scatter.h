@@ -29,7 +29,7 @@ inline std::optional<ScatterSample> scatter_to_light(const Bsdf& bsdf, const Sur
   const auto sample = bsdf.sample(at, local_c, u);
   if (!sample) return std::nullopt;
   const Vec3 w = at.shading.to_world(sample->to);
-  if (sample->lobe != Lobe::passage && !consistent_sides(at, w, strict)) return std::nullopt;
+  if (sample->lobe != Lobe::null && !consistent_sides(at, w, strict)) return std::nullopt;
   const Scattering s = bsdf.scattering(at, sample->to, local_c, sample->lobe);
   if (!(s.pdf_from_camera > 0) || is_black(s.f)) return std::nullopt;
 

@@ -22,7 +22,7 @@ VertexTerms surface_terms(const Scene& scene, const SurfacePoint& at, Lobe lobe,
                           const Vec3& wc, bool strict_normals) {
   const double geometric_l = std::abs(dot(at.ng, wl)), geometric_c = std::abs(dot(at.ng, wc));
   if (geometric_l == 0 || geometric_c == 0) return {};
-  if (lobe != Lobe::passage &&
+  if (lobe != Lobe::null &&
       !(consistent_sides(at, wl, strict_normals) && consistent_sides(at, wc, strict_normals)))
     return {};
   const Bsdf& bsdf = scene.bsdf(at);
@@ -31,7 +31,7 @@ VertexTerms surface_terms(const Scene& scene, const SurfacePoint& at, Lobe lobe,
   if (lobe == Lobe::smooth)
     return {s.f * (abs_cos_theta(local_l) / geometric_l), s.pdf_from_light / geometric_c,
             s.pdf_from_camera / geometric_l};
-  if (lobe == Lobe::passage) return {s.f, s.pdf_from_light, s.pdf_from_camera};
+  if (lobe == Lobe::null) return {s.f, s.pdf_from_light, s.pdf_from_camera};
   const double adjoint =
       abs_cos_theta(local_l) * geometric_c / (abs_cos_theta(local_c) * geometric_l);
   const double eta2 = lobe == Lobe::transmission ? sqr(bsdf.relative_eta(at, local_l)) : 1.0;

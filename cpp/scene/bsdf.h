@@ -17,7 +17,7 @@ enum class Lobe : uint8_t {
   smooth,        ///< All non-delta lobes, summed.
   reflection,    ///< Perfect mirror reflection.
   transmission,  ///< Perfect refraction.
-  passage        ///< Straight on ("null").
+  null           ///< Straight on, without a change.
 };
 
 struct BsdfSample {
@@ -66,8 +66,6 @@ class Bsdf : public Object {
   /// Whether the smooth lobes are present, and whether a delta lobe is.
   virtual bool has_smooth() const { return true; }
   virtual bool has_delta() const { return false; }
-  /// Whether a ray goes straight through with lobe `passage`.
-  virtual bool has_passage() const { return false; }
 
   /// Whether any lobe leads to the other side of the surface.
   virtual bool has_transmission() const { return false; }

@@ -123,7 +123,7 @@ class Vertex:
     @property
     def uv(self) -> tuple[float, float]: ...
     @property
-    def lobe(self) -> Literal["smooth", "reflection", "transmission", "passage"]:
+    def lobe(self) -> Literal["smooth", "reflection", "transmission", "null"]:
         """How it scatters: smooth, or by which delta."""
 
     @property

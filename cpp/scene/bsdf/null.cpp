@@ -9,27 +9,26 @@ namespace {
 class Null final : public Bsdf {
  public:
   Color eval(const SurfacePoint&, const Vec3&, const Vec3&, Lobe lobe) const override {
-    return Color(lobe == Lobe::passage ? 1 : 0);
+    return Color(lobe == Lobe::null ? 1 : 0);
   }
 
   double pdf(const SurfacePoint&, const Vec3&, const Vec3&, Lobe lobe) const override {
-    return lobe == Lobe::passage ? 1 : 0;
+    return lobe == Lobe::null ? 1 : 0;
   }
 
   std::optional<BsdfSample> sample(const SurfacePoint&, const Vec3& from,
                                    const Vec3&) const override {
-    return BsdfSample{-from, Lobe::passage};
+    return BsdfSample{-from, Lobe::null};
   }
 
   std::optional<Vec3> invert(const SurfacePoint&, const Vec3&, const Vec3&,
                              Lobe lobe) const override {
-    if (lobe != Lobe::passage) return std::nullopt;
+    if (lobe != Lobe::null) return std::nullopt;
     return u_of_only_delta;
   }
 
   bool has_smooth() const override { return false; }
   bool has_delta() const override { return true; }
-  bool has_passage() const override { return true; }
   bool has_transmission() const override { return true; }
   double roughness(const SurfacePoint&, const Vec3&, const Vec3&) const override { return 0; }
   Color albedo(const SurfacePoint&) const override { return Color(1); }

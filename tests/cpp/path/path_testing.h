@@ -108,7 +108,7 @@ inline NaiveDensities naive_densities(const Scene& scene, const Path& path, Flaw
       double ratio = 1;
       if (lobe == Lobe::transmission && flaw != Flaw::no_eta)
         ratio = sqr(bsdf.relative_eta(at, wl));
-      if (lobe != Lobe::passage) ratio *= std::abs(wl.z) / std::abs(wc.z) * (gc / gl);
+      if (lobe != Lobe::null) ratio *= std::abs(wl.z) / std::abs(wc.z) * (gc / gl);
       p.from_light[i + 1] = to_camera * gc * out;
       p.from_camera[i - 1] = to_light * ratio * gl * back;
     }

@@ -291,7 +291,7 @@ TEST(TestScenes, TogetherHaveEveryKindOfTechniqueAndVertex) {
                     for (const Vertex& x : path.vertices) {
                       if (x.lobe == Lobe::reflection) seen.insert("reflection");
                       if (x.lobe == Lobe::transmission) seen.insert("transmission");
-                      if (x.lobe == Lobe::passage) seen.insert("passage");
+                      if (x.lobe == Lobe::null) seen.insert("null");
                       if (x.kind == VertexKind::surface && dot(x.at.ng, x.at.shading.n) < 0.99)
                         seen.insert("shading normal");
                     }
@@ -300,7 +300,7 @@ TEST(TestScenes, TogetherHaveEveryKindOfTechniqueAndVertex) {
   EXPECT_EQ(seen,
             (std::set<std::string>{"s = 0", "s = 1", "s > 1", "t = 0", "t = 1", "t > 1",
                                    "light at infinity", "light at infinity that reaches the lens",
-                                   "reflection", "transmission", "passage", "shading normal"}));
+                                   "reflection", "transmission", "null", "shading normal"}));
 }
 
 }  // namespace
