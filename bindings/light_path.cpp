@@ -255,7 +255,7 @@ PyLightPath light_path(LoadedPtr scene, FoundPath found, bool strict_normals) {
           strict_normals};
 }
 
-PyLightPath light_path(LoadedPtr scene, const LightPath& x, bool strict_normals) {
+PyLightPath light_path(LoadedPtr scene, const PathState& x, bool strict_normals) {
   return {std::move(scene), x.path, x.raster, {}, {}, {}, strict_normals};
 }
 

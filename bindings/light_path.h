@@ -4,7 +4,7 @@
 #include "bindings.h"
 
 #include "io/load.h"
-#include "mutation/light_path.h"
+#include "mutation/path_state.h"
 #include "path/inspect.h"
 
 #include <optional>
@@ -23,7 +23,7 @@ struct PyLightPath {
 
 PyLightPath light_path(std::shared_ptr<LoadedScene> scene, FoundPath found,
                        bool strict_normals = false);
-PyLightPath light_path(std::shared_ptr<LoadedScene> scene, const LightPath& x, bool strict_normals);
+PyLightPath light_path(std::shared_ptr<LoadedScene> scene, const PathState& x, bool strict_normals);
 
 py::array_t<double> to_array(const Color& color);
 

@@ -3,7 +3,7 @@
 
 #include "base/parallel.h"
 #include "mutation/audit.h"
-#include "mutation/kinds.h"
+#include "mutation/mutation_registry.h"
 
 #include <pybind11/stl.h>
 

@@ -3,14 +3,14 @@
 #include "metropolis_chains.h"
 
 #include "markov/bootstrap.h"
-#include "mutation/adopt.h"
+#include "mutation/evaluate_proposal.h"
 #include "mutation/path_seeds.h"
 
 namespace mlt::python {
 
-LightPath PathTarget::evaluated(const PyLightPath& x) const {
+PathState PathTarget::evaluated(const PyLightPath& x) const {
   if (x.scene->scene != scene_->scene) throw UsageError("the path is one of another scene");
-  LightPath evaluated;
+  PathState evaluated;
   evaluated.path = x.path;
   evaluate(*scene_->scene, settings_, evaluated);
   const int k = x.path.edges();
@@ -47,7 +47,7 @@ py::tuple PathTarget::bootstrap(uint64_t candidates, uint32_t chains, uint64_t s
   return py::make_tuple(found.b, found.b_error, starts);
 }
 
-py::object PathTarget::to_python(const LightPath& x) const {
+py::object PathTarget::to_python(const PathState& x) const {
   return py::cast(light_path(scene_, x, settings_.strict_normals));
 }
 
@@ -61,7 +61,7 @@ PathChains::PathChains(const PathTarget& target, const WeightedObjects& moves,
   }
   choice_ = MutationChoice(std::move(weights));
   for (const py::object& start : starts) {
-    LightPath x = target.evaluated(start.cast<const PyLightPath&>());
+    PathState x = target.evaluated(start.cast<const PyLightPath&>());
     if (!(x.target > 0))
       throw UsageError("the target is 0 at the start " + std::string(py::repr(start)) +
                        "; a chain must start where it is positive");
@@ -88,7 +88,7 @@ void PathChains::step(size_t c, size_t i, bool expected_values, MutationMixture&
   trace.begin(c, i, chain.shown);
   Object y;
   const StepResult result =
-      metropolis_step(chain.x, y_, kernel, chain.rng, [&](const LightPath& state, double weight) {
+      metropolis_step(chain.x, y_, kernel, chain.rng, [&](const PathState& state, double weight) {
         const bool proposal = &state != &chain.x;
         if (!expected_values) return;
         if (proposal) y.value = target_.to_python(state);

@@ -19,11 +19,11 @@ class PathTarget {
   double operator()(const PyLightPath& x) const { return evaluated(x).target; }
   /// x with its terms; target = 0 also where light cannot take it. Throws UsageError for a path of
   /// another scene.
-  LightPath evaluated(const PyLightPath& x) const;
+  PathState evaluated(const PyLightPath& x) const;
   /// (b, its error, paths to start chains from). Throws RenderError if no path carries light.
   py::tuple bootstrap(uint64_t candidates, uint32_t chains, uint64_t seed) const;
 
-  py::object to_python(const LightPath& x) const;
+  py::object to_python(const PathState& x) const;
   const std::shared_ptr<LoadedScene>& scene() const { return scene_; }
   const MutationSettings& settings() const { return settings_; }
 
@@ -43,7 +43,7 @@ class PathChains {
 
  private:
   struct Chain {
-    LightPath x;
+    PathState x;
     Object shown;
     Rng rng;
   };
@@ -54,7 +54,7 @@ class PathChains {
   Mutations mutations_;
   MutationChoice choice_;
   std::vector<Chain> chains_;
-  std::array<LightPath, 1> y_;
+  std::array<PathState, 1> y_;
 };
 
 /// `Scene.path_target` in the core, the rest in the module of the laboratory.

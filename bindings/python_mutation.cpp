@@ -1,7 +1,7 @@
 #include "python_mutation.h"
 
-#include "mutation/adopt.h"
-#include "mutation/kinds.h"
+#include "mutation/evaluate_proposal.h"
+#include "mutation/mutation_registry.h"
 
 namespace mlt::python {
 namespace {
@@ -56,12 +56,12 @@ PythonMutation::~PythonMutation() {
   held_.reset();
 }
 
-double PythonMutation::suitability(const LightPath& x) const {
+double PythonMutation::suitability(const PathState& x) const {
   const py::gil_scoped_acquire gil;
   return checked(held_->suitability(wrap(x)), "suitability(x)", x);
 }
 
-std::optional<Edit> PythonMutation::propose(const LightPath& x, LightPath& y,
+std::optional<Edit> PythonMutation::propose(const PathState& x, PathState& y,
                                             MutationContext& context) const {
   const py::gil_scoped_acquire gil;
   py::object proposed;
@@ -79,20 +79,20 @@ std::optional<Edit> PythonMutation::propose(const LightPath& x, LightPath& y,
     throw UsageError(name_ + ".propose(x, rng) returned a path of another scene than x's");
   if (settings_.max_depth >= 0 && made.path.edges() > settings_.max_depth) return std::nullopt;
   y.path = made.path;
-  return adopt(*scene_->scene, settings_, x, y, context.rays);
+  return evaluate_proposal(*scene_->scene, settings_, x, y, context.rays);
 }
 
-double PythonMutation::density(const LightPath& x, const LightPath& y, const Edit&) const {
+double PythonMutation::density(const PathState& x, const PathState& y, const Edit&) const {
   const py::gil_scoped_acquire gil;
   return checked(held_->density(wrap(x), wrap(y)), "density(x, y)", x);
 }
 
-py::object PythonMutation::wrap(const LightPath& x) const {
+py::object PythonMutation::wrap(const PathState& x) const {
   return py::cast(light_path(scene_, x, settings_.strict_normals));
 }
 
 double PythonMutation::checked(const py::object& returned, const char* method,
-                               const LightPath& x) const {
+                               const PathState& x) const {
   const double value = PyFloat_AsDouble(returned.ptr());
   if (value >= 0 && value < infinity) return value;
   PyErr_Clear();

@@ -22,18 +22,18 @@ class PythonMutation final : public Mutation {
   ~PythonMutation() override;
 
   const std::string& name() const override { return name_; }
-  double suitability(const LightPath& x) const override;
-  std::optional<Edit> propose(const LightPath& x, LightPath& y,
+  double suitability(const PathState& x) const override;
+  std::optional<Edit> propose(const PathState& x, PathState& y,
                               MutationContext& context) const override;
-  double density(const LightPath& x, const LightPath& y, const Edit& edit) const override;
+  double density(const PathState& x, const PathState& y, const Edit& edit) const override;
 
  private:
   struct Held;  // what needs the GIL
   class Borrowed;
 
-  py::object wrap(const LightPath& x) const;
+  py::object wrap(const PathState& x) const;
   /// A number that a method has returned: finite and not negative, else UsageError.
-  double checked(const py::object& returned, const char* method, const LightPath& x) const;
+  double checked(const py::object& returned, const char* method, const PathState& x) const;
 
   std::shared_ptr<LoadedScene> scene_;
   MutationSettings settings_;

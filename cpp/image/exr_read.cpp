@@ -15,8 +15,8 @@
 #include <map>
 #include <new>
 
-#include "image/distrust.h"
 #include "image/exr.h"
+#include "image/validate.h"
 
 namespace mlt {
 namespace {

@@ -6,7 +6,7 @@
 #include <memory>
 #include <stdexcept>
 
-#include "image/distrust.h"
+#include "image/validate.h"
 
 // A failed assertion inside stb is a bad file, not a reason to abort; memory that a short file
 // leaves unwritten is zero, not whatever was there.

@@ -138,7 +138,7 @@ class BdptRendering : public SampledRendering {
    private:
     const Scene* scene_;
     double scale_;
-    Bidirectional bidirectional_;
+    BidirectionalSampler bidirectional_;
     TechniqueFilms* techniques_;
   };
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/params.h"
-#include "path/bidirectional.h"
+#include "path/bidirectional_sampler.h"
 
 namespace mlt {
 

@@ -9,8 +9,8 @@
 #include "integrator/path_params.h"
 #include "integrator/separate_direct.h"
 #include "mutation/adaptation.h"
-#include "mutation/kinds.h"
 #include "mutation/mixture.h"
+#include "mutation/mutation_registry.h"
 #include "mutation/path_seeds.h"
 
 namespace mlt {
@@ -32,7 +32,7 @@ constexpr double adaptive_shares[] = {0.02, 0.1};
 class MltChain : public Chain {
  public:
   MltChain(const Scene& scene, const MutationSettings& settings, const Mutations& mutations,
-           const MutationChoice& choice, const ChainId& id, LightPath start)
+           const MutationChoice& choice, const ChainId& id, PathState start)
       : scene_(&scene),
         settings_(&settings),
         mutations_(&mutations),
@@ -46,7 +46,7 @@ class MltChain : public Chain {
 
   void advance(uint64_t steps, ChainRecorder& recorder) override {
     MutationMixture kernel(*mutations_, *choice_, stats_.rays);
-    StepRecorder<LightPath> record(recorder, x_);
+    StepRecorder<PathState> record(recorder, x_);
     for (uint64_t i = 0; i < steps; ++i, ++step_) {
       kernel.set_stratified_raster(round_raster());
       const Vec2 from = x_.raster;
@@ -90,8 +90,8 @@ class MltChain : public Chain {
   uint64_t round_key_;  ///< Names the rounds of the chain's group.
   Rng rng_;
   uint64_t step_ = 0;
-  LightPath x_;
-  std::array<LightPath, 1> y_;
+  PathState x_;
+  std::array<PathState, 1> y_;
   ChainStats stats_;
 };
 
@@ -140,7 +140,7 @@ class Mlt : public MetropolisAlgorithm {
 
   std::unique_ptr<Chain> start(const ChainId& id, Rng candidate, Rng choice) const override {
     RayCounts rays;
-    LightPath x =
+    PathState x =
         PathSeeds(*scene_, settings_.paths, settings_.mutation).pick(candidate, choice, rays);
     return std::make_unique<MltChain>(*scene_, settings_.mutation, mutations_, choice_, id,
                                       std::move(x));
@@ -148,7 +148,7 @@ class Mlt : public MetropolisAlgorithm {
 
   std::unique_ptr<Chain> blank(const ChainId& id) const override {
     return std::make_unique<MltChain>(*scene_, settings_.mutation, mutations_, choice_, id,
-                                      LightPath());
+                                      PathState());
   }
 
   std::vector<MutationStats> rows() const override {

@@ -4,7 +4,7 @@
 #include "base/registry.h"
 #include "integrator/path_params.h"
 #include "integrator/sampled_rendering.h"
-#include "path/bidirectional.h"
+#include "path/bidirectional_sampler.h"
 
 namespace mlt {
 namespace {
@@ -32,7 +32,7 @@ class PtracerRendering : public SampledRendering {
 
    private:
     const Scene* scene_;
-    Bidirectional bidirectional_;
+    BidirectionalSampler bidirectional_;
   };
 
   std::unique_ptr<Worker> make_worker() override {

@@ -26,17 +26,17 @@ struct Experience {
 using Table = std::vector<std::vector<Experience>>;  // [length][mutation]
 
 Table explore(const Scene& scene, const Mutations& mutations, const MutationChoice& choice,
-              LightPath x, int steps, Rng rng) {
+              PathState x, int steps, Rng rng) {
   Table table(longest_row + 1, std::vector<Experience>(mutations.size()));
   RayCounts rays;
   MutationMixture kernel(mutations, choice, rays);
-  std::array<LightPath, 1> y;
+  std::array<PathState, 1> y;
   for (int i = 0; i < steps; ++i) {
     kernel.set_stratified_raster(unstratified(scene.camera().raster(), rng));
     const uint64_t rays_before = rays.intersect + rays.occluded;
     const int edges = x.edges();
     double jump = 0;
-    metropolis_step(x, y, kernel, rng, [&](const LightPath& state, double weight) {
+    metropolis_step(x, y, kernel, rng, [&](const PathState& state, double weight) {
       if (&state != &x) jump += weight * squared_jump(scene, x, state);
     });
     Experience& e = table[std::min(edges, longest_row)][kernel.chosen()];
@@ -67,7 +67,7 @@ std::vector<double> shares(const std::vector<Experience>& row, const std::vector
 
 }  // namespace
 
-double squared_jump(const Scene& scene, const LightPath& x, const LightPath& y) {
+double squared_jump(const Scene& scene, const PathState& x, const PathState& y) {
   constexpr double pixels = 4, share_of_radius = 0.01;
   const auto squared = [](double distance) { return sqr(std::min(1.0, distance)); };
   const double image = squared(glm::length(y.raster - x.raster) / pixels);
@@ -110,7 +110,7 @@ MutationChoice adapt(const Scene& scene, const BidirectionalSettings& paths,
     Rng candidate(adaptation.seed, Purpose::pilot, bootstrap.seeds[i]);
     Rng choice(adaptation.seed, Purpose::pilot, weights.size() + 1 + 2 * i);
     const Rng own(adaptation.seed, Purpose::pilot, weights.size() + 2 + 2 * i);
-    LightPath x = seeds.pick(candidate, choice, rays);
+    PathState x = seeds.pick(candidate, choice, rays);
     if (x.target > 0)
       tables[i] = explore(scene, mutations, initial, std::move(x), adaptation.steps, own);
   });

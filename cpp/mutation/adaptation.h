@@ -26,7 +26,7 @@ struct AdaptationSettings {
 /// How far y is from x, squared, between 0 and 1: half for the image, where a move counts as whole from
 /// 4 pixels on, half for the path's vertices, where it does from 1 % of the scene's radius on. Farther
 /// moves do not make a pixel's value any more independent.
-double squared_jump(const Scene& scene, const LightPath& x, const LightPath& y);
+double squared_jump(const Scene& scene, const PathState& x, const PathState& y);
 
 /// The probabilities found; `initial` is what the pilot chains use. Deterministic for any number of
 /// threads. Returns `initial` if no light path was found, or when cancelled.

@@ -69,7 +69,7 @@ class Auditor {
     Rng rng(how_.seed, Purpose::pilot, 0);
     const uint64_t n = std::max<uint64_t>(1000, how_.paths / 10);
     double light = 0, suited = 0;
-    LightPath x;
+    PathState x;
     for (uint64_t i = 0; i < n; ++i)
       seeds.draw(rng, rays, [&](const Connection& connection, double weight) {
         light += weight;
@@ -81,7 +81,7 @@ class Auditor {
   }
 
   /// Makes x of a connection; false if no mutation would do anything to it.
-  bool take(const PathSeeds& seeds, const Connection& connection, LightPath& x) const {
+  bool take(const PathSeeds& seeds, const Connection& connection, PathState& x) const {
     seeds.assemble(connection, x);
     if (!(x.target > 0)) return true;
     const std::vector<double>& weights = choice_->weights(x.edges());
@@ -99,7 +99,7 @@ class Auditor {
     RayCounts rays;
     Rng rng(how_.seed, Purpose::inspect, index);
     MutationMixture kernel(*mutations_, *choice_, rays);
-    LightPath x;
+    PathState x;
     Scratch scratch;
     for (uint64_t i = 0; i < samples_; ++i) {
       double weight_of_sample = 0;
@@ -123,19 +123,19 @@ class Auditor {
   }
 
   struct Scratch {
-    LightPath x;
-    std::array<LightPath, 1> y;
+    PathState x;
+    std::array<PathState, 1> y;
     std::vector<double> before, after, mean;
   };
 
-  void step(const LightPath& start, double weight, MutationMixture& kernel, Rng& rng, Scratch& s,
+  void step(const PathState& start, double weight, MutationMixture& kernel, Rng& rng, Scratch& s,
             Batch& sums) const {
     kernel.set_stratified_raster(unstratified(scene_->camera().raster(), rng));
     s.x = start;
     functions_.evaluate(s.x, s.before);
     for (size_t g = 0; g < s.before.size(); ++g) sums.seen[g] += s.before[g] != 0;
     s.mean.assign(functions_.size(), 0);
-    const auto record = [&](const LightPath& state, double share) {
+    const auto record = [&](const PathState& state, double share) {
       functions_.evaluate(state, s.after);
       for (size_t g = 0; g < s.mean.size(); ++g) s.mean[g] += share * (s.after[g] - s.before[g]);
     };
@@ -160,7 +160,7 @@ class Auditor {
       sums.chosen[g] += weight * (s.after[g] - s.before[g]);
   }
 
-  static std::string signature(const LightPath& x) {
+  static std::string signature(const PathState& x) {
     std::string letters = "L";
     for (int i = 1; i < x.edges(); ++i) letters += x.specular(i) ? 'S' : 'D';
     return letters + "E";

@@ -4,19 +4,19 @@ namespace mlt {
 namespace {
 
 /// Both ways of the lens point are equally likely: to stay, or to move.
-bool lens_moves(const LightPath& x, const LightPath& y) {
+bool lens_moves(const PathState& x, const PathState& y) {
   return x[x.edges()].at.p != y[y.edges()].at.p;
 }
 
 /// A perturbation does not go from one light at infinity to another, nor to or from a surface.
-bool same_light_at_infinity(const LightPath& x, const LightPath& y) {
+bool same_light_at_infinity(const PathState& x, const PathState& y) {
   return x[0].at.infinite() == y[0].at.infinite() &&
          (!x[0].at.infinite() || x[0].emitter == y[0].emitter);
 }
 
 }  // namespace
 
-CameraPerturbation::Form CameraPerturbation::form(const LightPath& x) const {
+CameraPerturbation::Form CameraPerturbation::form(const PathState& x) const {
   Form form;
   int i = ChainPerturbation::chain_end(x, x.edges(), -1);
   for (; i > 1 && x.specular(i - 1); i = ChainPerturbation::chain_end(x, i, -1))
@@ -25,7 +25,7 @@ CameraPerturbation::Form CameraPerturbation::form(const LightPath& x) const {
   return form;
 }
 
-double CameraPerturbation::suitability(const LightPath& x) const {
+double CameraPerturbation::suitability(const PathState& x) const {
   const Form f = form(x);
   return f.stop >= 0 && suits(f.further_chains) ? 1 : 0;
 }
@@ -36,7 +36,7 @@ ExponentialRadius CameraPerturbation::lens_radius() const {
   return {1e-3 * radius, radius / 3};
 }
 
-std::optional<Edit> CameraPerturbation::propose(const LightPath& x, LightPath& y,
+std::optional<Edit> CameraPerturbation::propose(const PathState& x, PathState& y,
                                                 MutationContext& context) const {
   const int k = x.edges(), stop = form(x).stop;
   const Edit edit{stop, k, k - stop + 1};
@@ -63,7 +63,7 @@ std::optional<Edit> CameraPerturbation::propose(const LightPath& x, LightPath& y
   return edit;
 }
 
-double CameraPerturbation::density(const LightPath& x, const LightPath& y, const Edit& edit) const {
+double CameraPerturbation::density(const PathState& x, const PathState& y, const Edit& edit) const {
   const Form from = form(x), to = form(y);
   if (from.stop != to.stop || from.further_chains != to.further_chains || from.stop != edit.first)
     return 0;

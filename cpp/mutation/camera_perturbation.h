@@ -17,10 +17,10 @@ class CameraPerturbation : public Mutation {
   CameraPerturbation(const Scene& scene, const MutationSettings& settings)
       : scene_(&scene), settings_(settings), chain_(scene, settings) {}
 
-  double suitability(const LightPath& x) const override;
-  std::optional<Edit> propose(const LightPath& x, LightPath& y,
+  double suitability(const PathState& x) const override;
+  std::optional<Edit> propose(const PathState& x, PathState& y,
                               MutationContext& context) const override;
-  double density(const LightPath& x, const LightPath& y, const Edit& edit) const override;
+  double density(const PathState& x, const PathState& y, const Edit& edit) const override;
 
  protected:
   /// How many chains follow the first.
@@ -32,7 +32,7 @@ class CameraPerturbation : public Mutation {
         -1;  ///< The diffuse vertex that is joined to the rest; 0: a light that is hit; -1: neither.
     int further_chains = 0;
   };
-  Form form(const LightPath& x) const;
+  Form form(const PathState& x) const;
   ExponentialRadius lens_radius() const;
 
   const Scene* scene_;

@@ -7,7 +7,7 @@ const std::string& CausticPerturbation::name() const {
   return name;
 }
 
-int CausticPerturbation::start(const LightPath& x) const {
+int CausticPerturbation::start(const PathState& x) const {
   const int last = x.edges() - 1;
   if (last < 1 || x.specular(last)) return -1;
   int i = last - 1;
@@ -16,14 +16,14 @@ int CausticPerturbation::start(const LightPath& x) const {
 }
 
 /// How far a ray from infinity moves: as far as a pixel is wide where the camera sees the chain's end.
-ExponentialRadius CausticPerturbation::offset_radius(const LightPath& x) const {
+ExponentialRadius CausticPerturbation::offset_radius(const PathState& x) const {
   const int k = x.edges();
   const double cos_lens = abs_cos(x[k].at, direction(x[k].at, x[k - 1].at));
   const double pixel_angle = std::sqrt(1 / (chain_.raster_per_direction(x) * cos_lens));
   return chain_.image_radius() * (pixel_angle * length(x[k].at.p - x[k - 1].at.p));
 }
 
-std::optional<Edit> CausticPerturbation::propose(const LightPath& x, LightPath& y,
+std::optional<Edit> CausticPerturbation::propose(const PathState& x, PathState& y,
                                                  MutationContext& context) const {
   const int k = x.edges(), a = start(x);
   const Edit edit{a + 1, k - 1, k - 1 - a};
@@ -50,7 +50,7 @@ std::optional<Edit> CausticPerturbation::propose(const LightPath& x, LightPath& 
   return edit;
 }
 
-double CausticPerturbation::density(const LightPath& x, const LightPath& y,
+double CausticPerturbation::density(const PathState& x, const PathState& y,
                                     const Edit& edit) const {
   const int k = x.edges(), a = start(x);
   if (a < 0 || a != start(y) || a + 1 != edit.first) return 0;

@@ -17,15 +17,15 @@ class CausticPerturbation : public Mutation {
       : scene_(&scene), settings_(settings), chain_(scene, settings) {}
 
   const std::string& name() const override;
-  double suitability(const LightPath& x) const override { return start(x) >= 0 ? 1 : 0; }
-  std::optional<Edit> propose(const LightPath& x, LightPath& y,
+  double suitability(const PathState& x) const override { return start(x) >= 0 ? 1 : 0; }
+  std::optional<Edit> propose(const PathState& x, PathState& y,
                               MutationContext& context) const override;
-  double density(const LightPath& x, const LightPath& y, const Edit& edit) const override;
+  double density(const PathState& x, const PathState& y, const Edit& edit) const override;
 
  private:
   /// The vertex from which the chain to the last diffuse vertex starts; -1: another form.
-  int start(const LightPath& x) const;
-  ExponentialRadius offset_radius(const LightPath& x) const;
+  int start(const PathState& x) const;
+  ExponentialRadius offset_radius(const PathState& x) const;
 
   const Scene* scene_;
   MutationSettings settings_;

@@ -6,10 +6,10 @@ namespace mlt {
 namespace {
 
 /// Directions at vertex i to where a walk with this step comes from and to where it goes.
-Vec3 direction_in(const LightPath& x, int i, int step) {
+Vec3 direction_in(const PathState& x, int i, int step) {
   return direction(x[i].at, x[i - step].at);
 }
-Vec3 direction_out(const LightPath& x, int i, int step) {
+Vec3 direction_out(const PathState& x, int i, int step) {
   return direction(x[i].at, x[i + step].at);
 }
 
@@ -28,13 +28,13 @@ ChainPerturbation::ChainPerturbation(const Scene& scene, const MutationSettings&
                         std::max(2 * settings.smallest_pixels, settings.largest_share * diagonal));
 }
 
-double ChainPerturbation::raster_per_direction(const LightPath& x) const {
+double ChainPerturbation::raster_per_direction(const PathState& x) const {
   return x.terms[x.edges()].vertex.pdf_from_camera * scene_->camera().raster().sampled_area();
 }
 
 /// Veach 1997, eq. 11.11: the angle that a move of one pixel is seen under from the lens, times the
 /// length of the path between the lens and the chain's near end over the length of the chain.
-ExponentialRadius ChainPerturbation::angle(const LightPath& x, int i, int stop, int step) const {
+ExponentialRadius ChainPerturbation::angle(const PathState& x, int i, int stop, int step) const {
   const int k = x.edges();
   const double cos_lens = abs_cos(x[k].at, direction(x[k].at, x[k - 1].at));
   const double pixel_angle = std::sqrt(1 / (raster_per_direction(x) * cos_lens));
@@ -55,14 +55,14 @@ Vec3 ChainPerturbation::perturb(const Vec3& w, const ExponentialRadius& angle, R
       {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)});
 }
 
-int ChainPerturbation::chain_end(const LightPath& x, int start, int step) {
+int ChainPerturbation::chain_end(const PathState& x, int start, int step) {
   const int end = step < 0 ? 0 : x.edges();
   int i = start + step;
   while (i != end && x.specular(i)) i += step;
   return i;
 }
 
-bool ChainPerturbation::carry(const LightPath& x, const Span& span, Ray ray, LightPath& y,
+bool ChainPerturbation::carry(const PathState& x, const Span& span, Ray ray, PathState& y,
                               MutationContext& context) const {
   for (int i = span.start + span.step;; i += span.step) {
     SurfacePoint at;
@@ -79,8 +79,8 @@ bool ChainPerturbation::carry(const LightPath& x, const Span& span, Ray ray, Lig
 }
 
 /// A light at infinity stays the one that it is; a surface may be that of any light.
-bool ChainPerturbation::arrive_at_light(const LightPath& x, const Ray& ray, const SurfacePoint* hit,
-                                        LightPath& y) const {
+bool ChainPerturbation::arrive_at_light(const PathState& x, const Ray& ray, const SurfacePoint* hit,
+                                        PathState& y) const {
   if (x[0].at.infinite() != !hit) return false;
   const Emitter* emitter = hit ? scene_->emitter(*hit) : scene_->emitters()[x[0].emitter].get();
   if (!emitter) return false;
@@ -88,7 +88,7 @@ bool ChainPerturbation::arrive_at_light(const LightPath& x, const Ray& ray, cons
   return true;
 }
 
-std::optional<Vec3> ChainPerturbation::carried_direction(const LightPath& x, const LightPath& y,
+std::optional<Vec3> ChainPerturbation::carried_direction(const PathState& x, const PathState& y,
                                                          int i, int step, const Vec3& in,
                                                          MutationContext& context) const {
   if (!x.specular(i)) {
@@ -112,7 +112,7 @@ std::optional<Vec3> ChainPerturbation::carried_direction(const LightPath& x, con
   return at.shading.to_world(*y_out);
 }
 
-double ChainPerturbation::density(const LightPath& x, const LightPath& y, const Span& span,
+double ChainPerturbation::density(const PathState& x, const PathState& y, const Span& span,
                                   double first_coefficient) const {
   const auto G = [&](int i) { return y.terms[span.step < 0 ? i - 1 : i].G; };
   double p = first_coefficient * G(span.start);
@@ -122,7 +122,7 @@ double ChainPerturbation::density(const LightPath& x, const LightPath& y, const 
 }
 
 /// Density with which y's vertex i is left, in projected solid angle, when x is perturbed.
-double ChainPerturbation::coefficient(const LightPath& x, const LightPath& y, int i,
+double ChainPerturbation::coefficient(const PathState& x, const PathState& y, int i,
                                       int step) const {
   const SurfacePoint& at = y[i].at;
   const Vec3 in = direction_in(y, i, step), out = direction_out(y, i, step);

@@ -50,34 +50,34 @@ class ChainPerturbation {
 
   /// Moves vertices after span.start up to span.stop; the first of them is where `ray` arrives. The
   /// terms of y are not evaluated.
-  bool carry(const LightPath& x, const Span& span, Ray ray, LightPath& y,
+  bool carry(const PathState& x, const Span& span, Ray ray, PathState& y,
              MutationContext& context) const;
 
   /// Product of the densities of the moved vertices of y, in their area measure; `first_coefficient` is
   /// the density of the first direction in projected solid angle at span.start.
-  double density(const LightPath& x, const LightPath& y, const Span& span,
+  double density(const PathState& x, const PathState& y, const Span& span,
                  double first_coefficient) const;
 
   /// Radii of a move on the image, in pixels.
   const ExponentialRadius& image_radius() const { return image_radius_; }
   /// d(raster area) / d(projected solid angle) at the lens, for the direction of x.
-  double raster_per_direction(const LightPath& x) const;
+  double raster_per_direction(const PathState& x) const;
   /// Angles at vertex i by which a direction is perturbed so that the end of the chain, which `span`
   /// enters there and leaves at `stop`, moves as far as the image radius says.
-  ExponentialRadius angle(const LightPath& x, int i, int stop, int step) const;
+  ExponentialRadius angle(const PathState& x, int i, int stop, int step) const;
 
   /// A direction at an exponentially distributed angle from `w`.
   static Vec3 perturb(const Vec3& w, const ExponentialRadius& angle, Rng& rng);
 
   /// The vertex that ends the specular chain from `start` on: the next diffuse one, or the path's end.
-  static int chain_end(const LightPath& x, int start, int step);
+  static int chain_end(const PathState& x, int start, int step);
 
  private:
-  bool arrive_at_light(const LightPath& x, const Ray& ray, const SurfacePoint* hit,
-                       LightPath& y) const;
-  std::optional<Vec3> carried_direction(const LightPath& x, const LightPath& y, int i, int step,
+  bool arrive_at_light(const PathState& x, const Ray& ray, const SurfacePoint* hit,
+                       PathState& y) const;
+  std::optional<Vec3> carried_direction(const PathState& x, const PathState& y, int i, int step,
                                         const Vec3& in, MutationContext& context) const;
-  double coefficient(const LightPath& x, const LightPath& y, int i, int step) const;
+  double coefficient(const PathState& x, const PathState& y, int i, int step) const;
 
   const Scene* scene_;
   ExponentialRadius image_radius_;

@@ -7,7 +7,7 @@ const std::string& LensSubpathMutation::name() const {
   return name;
 }
 
-int LensSubpathMutation::stop(const LightPath& x) const {
+int LensSubpathMutation::stop(const PathState& x) const {
   int i = x.edges() - 1;
   while (i > 0 && (x[i].delta() || stop_probability(x[i].at) == 0)) --i;
   return i > 0 && !x[i - 1].delta() ? i : -1;
@@ -20,7 +20,7 @@ double LensSubpathMutation::stop_probability(const SurfacePoint& at) const {
   return bsdf.has_delta() ? 0.5 : 1.0;
 }
 
-std::optional<Edit> LensSubpathMutation::propose(const LightPath& x, LightPath& y,
+std::optional<Edit> LensSubpathMutation::propose(const PathState& x, PathState& y,
                                                  MutationContext& context) const {
   const Camera& camera = scene_->camera();
   Rng& rng = context.rng;
@@ -60,7 +60,7 @@ std::optional<Edit> LensSubpathMutation::propose(const LightPath& x, LightPath& 
   return edit;
 }
 
-double LensSubpathMutation::density(const LightPath& x, const LightPath& y,
+double LensSubpathMutation::density(const PathState& x, const PathState& y,
                                     const Edit& edit) const {
   if (stop(x) != edit.first || stop(y) != edit.first) return 0;
   double p = 1;

@@ -17,15 +17,15 @@ class LensSubpathMutation : public Mutation {
       : scene_(&scene), settings_(settings) {}
 
   const std::string& name() const override;
-  double suitability(const LightPath& x) const override { return stop(x) > 0 ? 1 : 0; }
-  std::optional<Edit> propose(const LightPath& x, LightPath& y,
+  double suitability(const PathState& x) const override { return stop(x) > 0 ? 1 : 0; }
+  std::optional<Edit> propose(const PathState& x, PathState& y,
                               MutationContext& context) const override;
-  double density(const LightPath& x, const LightPath& y, const Edit& edit) const override;
+  double density(const PathState& x, const PathState& y, const Edit& edit) const override;
 
  private:
   /// The vertex that ends the lens subpath: the first from the camera at which a walk may stop; -1 if
   /// the one before it cannot be connected.
-  int stop(const LightPath& x) const;
+  int stop(const PathState& x) const;
   /// Probability with which a walk stops at this surface, to be joined there: 0 where all scattering is
   /// (nearly) specular, 1 where none is a delta.
   double stop_probability(const SurfacePoint& at) const;

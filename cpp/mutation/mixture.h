@@ -41,8 +41,8 @@ class MutationMixture {
   /// The raster position that a fresh lens subpath is to use in the next step.
   void set_stratified_raster(const StratifiedRaster& raster) { stratified_raster_ = raster; }
 
-  Transition propose(const LightPath& x, std::array<LightPath, 1>& proposals, size_t, Rng& rng) {
-    LightPath& y = proposals[0];
+  Transition propose(const PathState& x, std::array<PathState, 1>& proposals, size_t, Rng& rng) {
+    PathState& y = proposals[0];
     generated_ = false;
     const std::vector<double>& weights = choice_->weights(x.edges());
     double sum = 0;
@@ -73,7 +73,7 @@ class MutationMixture {
 
  private:
   /// P_choose of the chosen mutation at y.
-  double probability(const LightPath& y) const {
+  double probability(const PathState& y) const {
     const std::vector<double>& weights = choice_->weights(y.edges());
     double sum = 0, own = 0;
     for (size_t i = 0; i < mutations_->size(); ++i) {

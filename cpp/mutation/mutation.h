@@ -5,7 +5,7 @@
 #pragma once
 
 #include "base/rng.h"
-#include "mutation/light_path.h"
+#include "mutation/path_state.h"
 #include "mutation/stratified_raster.h"
 #include "path/ray_counts.h"
 
@@ -27,16 +27,16 @@ class Mutation {
   virtual const std::string& name() const = 0;
 
   /// Can it act on this path? Weight with which it takes part in the choice, 0 or 1.
-  virtual double suitability(const LightPath& x) const = 0;
+  virtual double suitability(const PathState& x) const = 0;
 
   /// Makes y from x, with its terms evaluated; nullopt if nothing was found. The connecting edge has
   /// been tested for visibility if y.target > 0.
-  virtual std::optional<Edit> propose(const LightPath& x, LightPath& y,
+  virtual std::optional<Edit> propose(const PathState& x, PathState& y,
                                       MutationContext& context) const = 0;
 
   /// T(x -> y) for this edit, without the probability of having chosen this mutation. The reverse is
   /// density(y, x, edit.reversed()).
-  virtual double density(const LightPath& x, const LightPath& y, const Edit& edit) const = 0;
+  virtual double density(const PathState& x, const PathState& y, const Edit& edit) const = 0;
 };
 
 }  // namespace mlt

@@ -38,7 +38,7 @@ int octant(const SurfacePoint& at, const Bounds& bounds) {
 /// Bounded from below, so that no single path outweighs the others.
 double bounded_log(double x) { return std::log(std::max(x, 1e-12)); }
 
-void collect(const Scene& scene, const LightPath& x, Collector& g) {
+void collect(const Scene& scene, const PathState& x, Collector& g) {
   const int k = x.edges();
   const Bounds& bounds = scene.bounds();
   const Vec2 image = x.raster / Vec2(scene.camera().raster().size);
@@ -96,7 +96,7 @@ void collect(const Scene& scene, const LightPath& x, Collector& g) {
 }  // namespace
 
 PathFunctions::PathFunctions(const Scene& scene) : scene_(&scene) {
-  LightPath any;
+  PathState any;
   any.path.vertices.resize(2);
   any.path[1].at.p = Vec3(1);
   any.terms.at.resize(2);
@@ -106,7 +106,7 @@ PathFunctions::PathFunctions(const Scene& scene) : scene_(&scene) {
   collect(scene, any, collector);
 }
 
-void PathFunctions::evaluate(const LightPath& x, std::vector<double>& values) const {
+void PathFunctions::evaluate(const PathState& x, std::vector<double>& values) const {
   values.clear();
   Collector collector(&values, nullptr);
   collect(*scene_, x, collector);

@@ -2,7 +2,7 @@
 // path meets the image, its length, its light, its vertices, its edges, its colour.
 #pragma once
 
-#include "mutation/light_path.h"
+#include "mutation/path_state.h"
 
 #include <string>
 #include <vector>
@@ -16,7 +16,7 @@ class PathFunctions {
   const std::vector<std::string>& names() const { return names_; }
   size_t size() const { return names_.size(); }
   /// g_0(x) ... g_{n-1}(x).
-  void evaluate(const LightPath& x, std::vector<double>& values) const;
+  void evaluate(const PathState& x, std::vector<double>& values) const;
 
  private:
   const Scene* scene_;

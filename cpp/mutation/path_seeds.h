@@ -2,8 +2,8 @@
 // it: several paths, each with the weight L*(x) mis(x) / p(x).
 #pragma once
 
-#include "mutation/light_path.h"
-#include "path/bidirectional.h"
+#include "mutation/path_state.h"
+#include "path/bidirectional_sampler.h"
 #include "path/samplers.h"
 
 namespace mlt {
@@ -26,8 +26,8 @@ class PathSeeds {
   }
 
   /// One of a candidate's paths, chosen in proportion to its weight.
-  LightPath pick(Rng& rng, Rng& choice, RayCounts& rays) {
-    LightPath x;
+  PathState pick(Rng& rng, Rng& choice, RayCounts& rays) {
+    PathState x;
     double sum = 0;
     draw(rng, rays, [&](const Connection& connection, double weight) {
       sum += weight;
@@ -50,7 +50,7 @@ class PathSeeds {
   }
 
   /// The path of a connection that was just found.
-  void assemble(const Connection& connection, LightPath& x) const {
+  void assemble(const Connection& connection, PathState& x) const {
     paths_.assemble(connection, x.path);
     evaluate(*scene_, *settings_, x);
   }
@@ -58,7 +58,7 @@ class PathSeeds {
  private:
   const Scene* scene_;
   const MutationSettings* settings_;
-  Bidirectional paths_;
+  BidirectionalSampler paths_;
 };
 
 }  // namespace mlt

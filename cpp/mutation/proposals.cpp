@@ -8,7 +8,7 @@ namespace mlt {
 std::vector<Proposal> propose(const Scene& scene, const MutationSettings& settings,
                               const Path& path, const std::shared_ptr<const Mutation>& mutation,
                               uint64_t seed, int count) {
-  LightPath x;
+  PathState x;
   x.path = path;
   evaluate(scene, settings, x);
   if (!(x.target > 0))
@@ -21,7 +21,7 @@ std::vector<Proposal> propose(const Scene& scene, const MutationSettings& settin
   const Mutations alone = {mutation};
   const MutationChoice choice(std::vector<double>{1.0});
   MutationMixture kernel(alone, choice, rays);
-  std::array<LightPath, 1> y;
+  std::array<PathState, 1> y;
   std::vector<Proposal> proposals;
   for (int i = 0; i < count; ++i) {
     kernel.set_stratified_raster(unstratified(scene.camera().raster(), rng));

@@ -9,7 +9,7 @@
 namespace mlt {
 
 struct Proposal {
-  LightPath path;
+  PathState path;
   double acceptance = 0;  ///< min(1, L*(y) T(y -> x) / (L*(x) T(x -> y)))
 };
 

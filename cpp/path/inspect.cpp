@@ -35,7 +35,7 @@ std::vector<FoundPath> connected(const Scene& scene, const InspectSettings& sett
   all.strict_normals = settings.strict_normals;
   std::vector<FoundPath> found;
   RayCounts rays;
-  Bidirectional paths(scene, all);
+  BidirectionalSampler paths(scene, all);
   paths.sample(raster, sampler, rays);
   paths.connect_all(rays,
                     [&](const Connection& c) { found.push_back(found_path(scene, paths, c)); });
@@ -75,7 +75,8 @@ FoundPath first_found(uint64_t seed, const std::string& where, Sample&& sample) 
 
 }  // namespace
 
-FoundPath found_path(const Scene& scene, const Bidirectional& paths, const Connection& connection) {
+FoundPath found_path(const Scene& scene, const BidirectionalSampler& paths,
+                     const Connection& connection) {
   FoundPath found;
   paths.assemble(connection, found.path);
   found.s = connection.s;

@@ -2,7 +2,7 @@
 // each as a value with what it brings to the image.
 #pragma once
 
-#include "path/bidirectional.h"
+#include "path/bidirectional_sampler.h"
 #include "path/path_tracer.h"
 
 #include <vector>
@@ -32,7 +32,8 @@ inline double radiance_scale(const Scene& scene) {
 }
 
 /// A connection that `paths` has just found, as a value.
-FoundPath found_path(const Scene& scene, const Bidirectional& paths, const Connection& connection);
+FoundPath found_path(const Scene& scene, const BidirectionalSampler& paths,
+                     const Connection& connection);
 
 /// Watches trace_path (see IgnorePaths) and keeps the paths that it finds.
 class PathRecorder {

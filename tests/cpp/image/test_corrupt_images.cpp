@@ -7,9 +7,9 @@
 
 #include "base/error.h"
 #include "image/atomic_file.h"
-#include "image/distrust.h"
 #include "image/image_files.h"
 #include "image/image_io.h"
+#include "image/validate.h"
 
 namespace mlt {
 namespace {

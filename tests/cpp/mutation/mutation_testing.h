@@ -6,9 +6,9 @@
 #include <functional>
 
 #include "mutation/audit.h"
-#include "mutation/kinds.h"
+#include "mutation/mutation_registry.h"
 #include "mutation/mutation_scenes.h"
-#include "path/bidirectional.h"
+#include "path/bidirectional_sampler.h"
 #include "path/samplers.h"
 
 namespace mlt::test {
@@ -32,7 +32,7 @@ inline MutationChoice default_choice() {
   return MutationChoice(weights);
 }
 
-inline std::string signature_of(const LightPath& x) {
+inline std::string signature_of(const PathState& x) {
   std::string letters = "L";
   for (int i = 1; i < x.edges(); ++i) letters += x.specular(i) ? 'S' : 'D';
   return letters + 'E';
@@ -40,12 +40,12 @@ inline std::string signature_of(const LightPath& x) {
 
 /// Calls found(x) for the paths of `samples` bidirectional samples.
 inline void for_each_light_path(const Scene& scene, const MutationSettings& settings, uint64_t seed,
-                                int samples, const std::function<void(const LightPath&)>& found) {
+                                int samples, const std::function<void(const PathState&)>& found) {
   BidirectionalSettings how;
   how.max_depth = settings.max_depth;
-  Bidirectional paths(scene, how);
+  BidirectionalSampler paths(scene, how);
   RayCounts rays;
-  LightPath x;
+  PathState x;
   for (int i = 0; i < samples; ++i) {
     Rng rng(seed, Purpose::test, static_cast<uint64_t>(i));
     RandomSampler sampler(rng);
@@ -64,8 +64,8 @@ void for_each_proposal(const Scene& scene, const MutationSettings& settings, con
                        uint64_t seed, int samples, Found&& found) {
   Rng rng(1, Purpose::test, 0);
   RayCounts rays;
-  LightPath y;
-  for_each_light_path(scene, settings, seed, samples, [&](const LightPath& x) {
+  PathState y;
+  for_each_light_path(scene, settings, seed, samples, [&](const PathState& x) {
     if (!(x.target > 0)) return;
     for (size_t i = 0; i < all.size(); ++i) {
       if (all[i]->suitability(x) == 0) continue;
@@ -77,12 +77,12 @@ void for_each_proposal(const Scene& scene, const MutationSettings& settings, con
 }
 
 /// The first path of this signature that `suits`.
-inline LightPath find_path(const Scene& scene, const MutationSettings& settings,
+inline PathState find_path(const Scene& scene, const MutationSettings& settings,
                            const std::string& signature,
-                           const std::function<bool(const LightPath&)>& suits = nullptr) {
-  LightPath result;
+                           const std::function<bool(const PathState&)>& suits = nullptr) {
+  PathState result;
   for (uint64_t seed = 1; result.path.vertices.empty() && seed < 200; ++seed)
-    for_each_light_path(scene, settings, seed, 200, [&](const LightPath& x) {
+    for_each_light_path(scene, settings, seed, 200, [&](const PathState& x) {
       if (result.path.vertices.empty() && signature_of(x) == signature && (!suits || suits(x)))
         result = x;
     });
@@ -93,18 +93,18 @@ inline LightPath find_path(const Scene& scene, const MutationSettings& settings,
 /// A mutation whose density lacks a factor.
 class BrokenTwin : public Mutation {
  public:
-  using Factor = std::function<double(const LightPath& x, const LightPath& y, const Edit& edit)>;
+  using Factor = std::function<double(const PathState& x, const PathState& y, const Edit& edit)>;
 
   BrokenTwin(std::shared_ptr<const Mutation> whole, Factor dropped)
       : whole_(std::move(whole)), dropped_(std::move(dropped)) {}
 
   const std::string& name() const override { return whole_->name(); }
-  double suitability(const LightPath& x) const override { return whole_->suitability(x); }
-  std::optional<Edit> propose(const LightPath& x, LightPath& y,
+  double suitability(const PathState& x) const override { return whole_->suitability(x); }
+  std::optional<Edit> propose(const PathState& x, PathState& y,
                               MutationContext& context) const override {
     return whole_->propose(x, y, context);
   }
-  double density(const LightPath& x, const LightPath& y, const Edit& edit) const override {
+  double density(const PathState& x, const PathState& y, const Edit& edit) const override {
     const double whole = whole_->density(x, y, edit);
     return whole == 0 ? 0 : whole / dropped_(x, y, edit);
   }

@@ -89,7 +89,7 @@ AuditReport audit_variant(const std::string& name, bool two_stage, int min_depth
   TargetMap map(scene->camera().raster(), 2);
   if (two_stage) {
     for_each_light_path(*scene, settings, 9, 2000,
-                        [&](const LightPath& x) { map.add(x.raster, 1 + x.rgb.y); });
+                        [&](const PathState& x) { map.add(x.raster, 1 + x.rgb.y); });
     map.finish();
     settings.map = &map;
   }
@@ -168,11 +168,11 @@ TEST(AuditReport, SaysWhyNothingIsConcluded) {
 class Idle : public Mutation {
  public:
   const std::string& name() const override { return name_; }
-  double suitability(const LightPath&) const override { return 1; }
-  std::optional<Edit> propose(const LightPath&, LightPath&, MutationContext&) const override {
+  double suitability(const PathState&) const override { return 1; }
+  std::optional<Edit> propose(const PathState&, PathState&, MutationContext&) const override {
     return std::nullopt;
   }
-  double density(const LightPath&, const LightPath&, const Edit&) const override { return 0; }
+  double density(const PathState&, const PathState&, const Edit&) const override { return 0; }
 
  private:
   std::string name_ = "idle";

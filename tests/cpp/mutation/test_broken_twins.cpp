@@ -1,5 +1,5 @@
 // The invariance test must fail where a mutation's density lacks a factor, or else it says nothing.
-#include "mutation/bidirectional.h"
+#include "mutation/bidirectional_mutation.h"
 #include "mutation/chain_perturbation.h"
 #include "mutation/half_vector.h"
 #include "mutation/mutation_testing.h"
@@ -21,10 +21,10 @@ Twin twin(const std::string& name, const std::string& mutation, const std::strin
           [=](const Scene&, const MutationSettings&, const Mutations&) { return dropped; }};
 }
 
-Vec3 towards(const LightPath& x, int i, int j) { return direction(x[i].at, x[j].at); }
+Vec3 towards(const PathState& x, int i, int j) { return direction(x[i].at, x[j].at); }
 
 /// Density of what was inserted, made with s vertices from the light side, for all s.
-double density_of_all_ways(const Scene& scene, const LightPath& y, const Edit& edit) {
+double density_of_all_ways(const Scene& scene, const PathState& y, const Edit& edit) {
   double sum = 0;
   const bool no_lens = edit.first + edit.inserted > y.edges() && scene.camera().delta_position();
   for (int s = 0; s <= edit.inserted - no_lens; ++s) {
@@ -47,24 +47,24 @@ std::vector<Twin> twins() {
                  [](const Scene& scene, const MutationSettings& settings, const Mutations&) {
                    const ChainPerturbation chain(scene, settings);
                    return BrokenTwin::Factor(
-                       [chain](const LightPath&, const LightPath& y, const Edit&) {
+                       [chain](const PathState&, const PathState& y, const Edit&) {
                          return chain.raster_per_direction(y);
                        });
                  },
                  300000});
   // A chain that ends at a light.
   const auto light_edge = [](const Scene&, const MutationSettings&, const Mutations&) {
-    return BrokenTwin::Factor([](const LightPath&, const LightPath& y, const Edit& edit) {
+    return BrokenTwin::Factor([](const PathState&, const PathState& y, const Edit& edit) {
       return edit.first == 0 ? y.terms[0].G : 1.0;
     });
   };
   all.push_back({"G_of_the_edge_from_the_light", "lens", "sphere_light", light_edge});
   all.push_back({"G_of_the_edge_from_the_light", "multi_chain", "caustic", light_edge, 300000});
   all.push_back(twin("G_of_the_last_edge", "lens", "cornell",
-                     [](auto&, const LightPath& y, auto&) { return y.terms[y.edges() - 1].G; }));
+                     [](auto&, const PathState& y, auto&) { return y.terms[y.edges() - 1].G; }));
   all.push_back({"half_vector_jacobian", "lens", "near_specular",
                  [](const Scene& scene, const MutationSettings&, const Mutations&) {
-                   return BrokenTwin::Factor([&scene](const LightPath& x, const LightPath& y,
+                   return BrokenTwin::Factor([&scene](const PathState& x, const PathState& y,
                                                       const Edit& edit) {
                      double product = 1;
                      for (int i = edit.first + 1; i < x.edges(); ++i) {
@@ -80,25 +80,25 @@ std::vector<Twin> twins() {
                  }});
   all.push_back(
       twin("G_of_the_joint", "multi_chain", "mirrors",
-           [](auto&, const LightPath& y, const Edit& edit) { return y.terms[edit.first].G; }));
+           [](auto&, const PathState& y, const Edit& edit) { return y.terms[edit.first].G; }));
   all.push_back(twin(
-      "cosine_at_the_start", "caustic", "cornell", [](auto&, const LightPath& y, const Edit& edit) {
+      "cosine_at_the_start", "caustic", "cornell", [](auto&, const PathState& y, const Edit& edit) {
         return 1 / abs_cos(y[edit.first - 1].at, towards(y, edit.first - 1, edit.first));
       }));
   all.push_back(
-      twin("G_of_the_chain", "caustic", "caustic", [](auto&, const LightPath& y, const Edit& edit) {
+      twin("G_of_the_chain", "caustic", "caustic", [](auto&, const PathState& y, const Edit& edit) {
         return y.terms[y.edges() - 2].G * (edit.inserted > 0);
       }));
   all.push_back(
-      twin("G_from_infinity", "caustic", "sun", [](auto&, const LightPath& y, const Edit& edit) {
+      twin("G_from_infinity", "caustic", "sun", [](auto&, const PathState& y, const Edit& edit) {
         return edit.first == 1 ? y.terms[0].G : 1.0;
       }));
   all.push_back(twin("G_of_the_first_edge", "lens_subpath", "cornell",
-                     [](auto&, const LightPath& y, auto&) { return y.terms[y.edges() - 1].G; }));
+                     [](auto&, const PathState& y, auto&) { return y.terms[y.edges() - 1].G; }));
   all.push_back({"stop_probability", "lens_subpath", "plastic",
                  [](const Scene& scene, const MutationSettings&, const Mutations&) {
                    return BrokenTwin::Factor(
-                       [&scene](const LightPath&, const LightPath& y, const Edit& edit) {
+                       [&scene](const PathState&, const PathState& y, const Edit& edit) {
                          double product = 1;
                          for (int i = edit.first; i < y.edges(); ++i)
                            if (scene.bsdf(y[i].at).has_smooth() && scene.bsdf(y[i].at).has_delta())
@@ -109,7 +109,7 @@ std::vector<Twin> twins() {
                  300000});
   // The choice of a gap: of its length, then of where it begins.
   all.push_back(
-      twin("p_delete", "bidirectional", "caustic", [](const LightPath& x, auto&, const Edit& edit) {
+      twin("p_delete", "bidirectional", "caustic", [](const PathState& x, auto&, const Edit& edit) {
         const int gap = edit.deleted() + 1;
         const double length = gap == 1 ? 0.25 : gap == 2 ? 0.5 : std::pow(0.5, gap);
         return length / (x.edges() + 3 - gap);
@@ -117,7 +117,7 @@ std::vector<Twin> twins() {
   all.push_back({"all_ways_but_one", "bidirectional", "cornell",
                  [](const Scene& scene, const MutationSettings&, const Mutations&) {
                    return BrokenTwin::Factor(
-                       [&scene](const LightPath&, const LightPath& y, const Edit& edit) {
+                       [&scene](const PathState&, const PathState& y, const Edit& edit) {
                          double one = 1;  // all of it from the camera side
                          for (int i = edit.first; i < edit.first + edit.inserted; ++i)
                            one *= y.terms[i].from_camera;
@@ -125,12 +125,12 @@ std::vector<Twin> twins() {
                        });
                  }});
   all.push_back(twin("G_of_the_first_inserted", "bidirectional", "cornell",
-                     [](auto&, const LightPath& y, const Edit& edit) {
+                     [](auto&, const PathState& y, const Edit& edit) {
                        return edit.inserted > 0 && edit.first > 0 ? y.terms[edit.first - 1].G : 1.0;
                      }));
   all.push_back({"P_choose", "mixture", "caustic",
                  [](const Scene&, const MutationSettings&, const Mutations& all) {
-                   return BrokenTwin::Factor([&all](const LightPath& x, auto&, auto&) {
+                   return BrokenTwin::Factor([&all](const PathState& x, auto&, auto&) {
                      double sum = 0;
                      for (size_t i = 0; i < all.size(); ++i)
                        sum += mutation_kinds()[i].weight * all[i]->suitability(x);

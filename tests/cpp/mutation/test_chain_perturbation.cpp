@@ -48,7 +48,7 @@ TEST(ChainPerturbation, TurnsALongChainLessThanAShortOne) {
   const ScenePtr scene = make_scene("cornell").scene;
   const MutationSettings settings = mutation_settings();
   const ChainPerturbation chain(*scene, settings);
-  const LightPath x = find_path(*scene, settings, "LDE");
+  const PathState x = find_path(*scene, settings, "LDE");
   const ExponentialRadius& pixels = chain.image_radius();
   EXPECT_DOUBLE_EQ(pixels.smallest, settings.smallest_pixels);
   EXPECT_DOUBLE_EQ(pixels.largest, settings.largest_share * std::hypot(16, 12));
@@ -70,9 +70,9 @@ TEST(ChainPerturbation, MovesTheImageAboutAsFarAsTheLensPerturbation) {
   const ChainPerturbation chain(*scene, settings);
   Rng rng(3, Purpose::test, 0);
   RayCounts rays;
-  LightPath y;
+  PathState y;
   double sum = 0, count = 0;
-  for_each_light_path(*scene, settings, 4, 1000, [&](const LightPath& x) {
+  for_each_light_path(*scene, settings, 4, 1000, [&](const PathState& x) {
     if (caustic->suitability(x) == 0) return;
     MutationContext context{rng, rays, {}};
     if (!caustic->propose(x, y, context) || !(y.target > 0)) return;
@@ -87,7 +87,7 @@ TEST(ChainPerturbation, MovesTheImageAboutAsFarAsTheLensPerturbation) {
 }
 
 TEST(ChainPerturbation, FindsTheVertexThatEndsAChain) {
-  LightPath x;
+  PathState x;
   x.path.vertices.resize(6);  // L D S D S E
   x.terms.at.resize(6);
   x.terms[2].specular = x.terms[4].specular = true;
@@ -105,7 +105,7 @@ TEST(Mutations, SuitTheirForms) {
   const ScenePtr scene = make_mutation_scene("mirrors").scene;
   const MutationSettings settings = mutation_settings();
   const auto suits = [&](const std::string& mutation, const std::string& signature) {
-    const LightPath x = find_path(*scene, settings, signature);
+    const PathState x = find_path(*scene, settings, signature);
     return make_mutation(mutation, *scene, settings)->suitability(x) > 0;
   };
   for (const char* form :

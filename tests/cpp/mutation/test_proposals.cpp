@@ -22,8 +22,8 @@ class Proposals {
         settings_(mutation_settings(max_depth)),
         mutation_(make_mutation(mutation, *scene_, settings_)) {}
 
-  void start(const std::string& signature, const std::function<Edit(const LightPath&)>& edit,
-             const std::function<bool(const LightPath&)>& suits = nullptr) {
+  void start(const std::string& signature, const std::function<Edit(const PathState&)>& edit,
+             const std::function<bool(const PathState&)>& suits = nullptr) {
     x = find_path(*scene_, settings_, signature, suits);
     edit_ = edit(x);
   }
@@ -58,7 +58,7 @@ class Proposals {
   const Scene& scene() const { return *scene_; }
   const MutationSettings& settings() const { return settings_; }
 
-  LightPath x, y;
+  PathState x, y;
 
  private:
   ScenePtr scene_;
@@ -75,13 +75,13 @@ double per_direction(const SurfacePoint& from, const SurfacePoint& to, double de
 }
 
 /// Density per area of the image of x_{k-1} with this density in area.
-double per_pixel(const LightPath& y, const ChainPerturbation& chain, double density) {
+double per_pixel(const PathState& y, const ChainPerturbation& chain, double density) {
   return density / (y.terms[y.edges() - 1].G * chain.raster_per_direction(y));
 }
 
 TEST(Proposals, BidirectionalMutationInsertsOneVertexBetweenTwo) {
   Proposals p("point", "bidirectional");
-  p.start("LDDE", [](const LightPath&) { return Edit{1, 1, 1}; });
+  p.start("LDDE", [](const PathState&) { return Edit{1, 1, 1}; });
   const SurfacePoint from = p.x[2].at;
   const auto sample = [&](Rng& rng) -> std::optional<Vec3> {
     if (!p.propose(rng)) return std::nullopt;
@@ -98,7 +98,7 @@ TEST(Proposals, BidirectionalMutationInsertsOneVertexBetweenTwo) {
 
 TEST(Proposals, BidirectionalMutationInsertsTheVertexThatIsSeen) {
   Proposals p("cornell", "bidirectional");
-  p.start("LDDE", [](const LightPath&) { return Edit{2, 2, 1}; });
+  p.start("LDDE", [](const PathState&) { return Edit{2, 2, 1}; });
   const ChainPerturbation chain(p.scene(), p.settings());
   const SurfacePoint& lens = p.x[3].at;
   const auto sample = [&](Rng& rng) -> std::optional<Vec2> {
@@ -118,7 +118,7 @@ TEST(Proposals, BidirectionalMutationInsertsTheVertexThatIsSeen) {
 TEST(Proposals, BidirectionalMutationMovesTheEndOnTheLens) {
   // Half of the time the lens point is drawn, half of the time a light walk is to hit the lens.
   Proposals p("lens_through_mirror", "bidirectional", 4);
-  p.start("LE", [](const LightPath&) { return Edit{1, 1, 1}; });
+  p.start("LE", [](const PathState&) { return Edit{1, 1, 1}; });
   const Camera& camera = p.scene().camera();
   const SurfacePoint& xk = p.x[1].at;
   const SurfacePoint center = camera.sample_position(Vec2(0.5)).at;
@@ -142,10 +142,10 @@ TEST(Proposals, BidirectionalMutationMovesTheEndOnTheLens) {
 
 TEST(Proposals, BidirectionalMutationDrawsAFreshLightEnd) {
   Proposals p("mixed_lights", "bidirectional");
-  const auto on_lamp = [&](const LightPath& x) {
+  const auto on_lamp = [&](const PathState& x) {
     return !x[0].at.infinite() && x[0].at.shape != SurfacePoint::no_shape && x[0].at.p.y > 0.97;
   };
-  p.start("LDDE", [](const LightPath&) { return Edit{0, 0, 1}; }, on_lamp);
+  p.start("LDDE", [](const PathState&) { return Edit{0, 0, 1}; }, on_lamp);
   const Emitter& lamp = *p.scene().emitters()[p.x[0].emitter];
   const auto sample = [&](Rng& rng) -> std::optional<Vec2> {
     if (!p.propose(rng) || p.y[0].emitter != lamp.index()) return std::nullopt;
@@ -162,10 +162,10 @@ TEST(Proposals, BidirectionalMutationDrawsAFreshLightEnd) {
 
 TEST(Proposals, LensPerturbationMovesTheImagePosition) {
   Proposals p("cornell", "lens");
-  const auto in_the_middle = [](const LightPath& x) {
+  const auto in_the_middle = [](const PathState& x) {
     return std::abs(x.raster.x - 8) < 3 && std::abs(x.raster.y - 6) < 2;
   };
-  p.start("LDE", [](const LightPath&) { return Edit{1, 2, 2}; }, in_the_middle);
+  p.start("LDE", [](const PathState&) { return Edit{1, 2, 2}; }, in_the_middle);
   const ChainPerturbation chain(p.scene(), p.settings());
   const ExponentialRadius radius = chain.image_radius();
   const auto sample = [&](Rng& rng) -> std::optional<Vec2> {
@@ -189,7 +189,7 @@ TEST(Proposals, LensPerturbationMovesTheImagePosition) {
 
 TEST(Proposals, LensPerturbationMovesThePointOnTheLens) {
   Proposals p("thin_lens", "lens");
-  p.start("LDE", [](const LightPath&) { return Edit{1, 2, 2}; });
+  p.start("LDE", [](const PathState&) { return Edit{1, 2, 2}; });
   const SurfacePoint xk = p.x[2].at;
   const double radius = p.scene().camera().lens_radius();
   // Half of the proposals stay; of the others, the part within the rim has a density of 1 / (2 pi r^2 ln).
@@ -217,7 +217,7 @@ TEST(Proposals, LensPerturbationMovesThePointOnTheLens) {
 void expect_caustic_follows_density(const std::string& scene, const std::string& signature,
                                     uint64_t seed) {
   Proposals p(scene, "caustic");
-  p.start(signature, [](const LightPath& x) { return Edit{x.edges() - 1, x.edges() - 1, 1}; });
+  p.start(signature, [](const PathState& x) { return Edit{x.edges() - 1, x.edges() - 1, 1}; });
   const int k = p.x.edges();
   const SurfacePoint from = p.x[k - 2].at;
   const Vec3 axis = direction(from, p.x[k - 1].at);
@@ -256,7 +256,7 @@ TEST(Proposals, CausticPerturbationTurnsTheDirectionFromAPointLight) {
 
 TEST(Proposals, CausticPerturbationMovesARayFromInfinity) {
   Proposals p("sun", "caustic");
-  p.start("LDE", [](const LightPath&) { return Edit{1, 1, 1}; });
+  p.start("LDE", [](const PathState&) { return Edit{1, 1, 1}; });
   const Vec3 sun = p.x[0].at.p;
   const Frame frame = Frame::around(sun);
   const auto sample = [&](Rng& rng) -> std::optional<Vec2> {
@@ -281,7 +281,7 @@ TEST(Proposals, CausticPerturbationMovesARayFromInfinity) {
 void expect_lens_subpath_follows_density(const std::string& scene, const std::string& signature,
                                          uint64_t seed) {
   Proposals p(scene, "lens_subpath");
-  p.start(signature, [](const LightPath& x) { return Edit{x.edges() - 1, x.edges(), 2}; });
+  p.start(signature, [](const PathState& x) { return Edit{x.edges() - 1, x.edges(), 2}; });
   const int k = p.x.edges();
   const ChainPerturbation chain(p.scene(), p.settings());
   const SurfacePoint lens = p.x[k].at;

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "path/bidirectional.h"
+#include "path/bidirectional_sampler.h"
 #include "path/samplers.h"
 #include "scenes.h"
 
@@ -25,7 +25,7 @@ inline BidirectionalSettings without_roulette(int max_depth) {
 template <class Found>
 void for_each_path(const Scene& scene, const BidirectionalSettings& settings, uint64_t seed,
                    int samples, Found&& found) {
-  Bidirectional bidirectional(scene, settings);
+  BidirectionalSampler bidirectional(scene, settings);
   RayCounts rays;
   Path path;
   for (int i = 0; i < samples; ++i) {

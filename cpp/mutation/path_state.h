@@ -30,7 +30,7 @@ struct MutationSettings {
   double smallest_pixels = 0.1, largest_share = 0.1;
 };
 
-struct LightPath {
+struct PathState {
   Path path;
   PathTerms terms;
   Vec2 raster{0};
@@ -43,13 +43,13 @@ struct LightPath {
 };
 
 /// y becomes x with the edit applied; the inserted vertices and their terms are yet to be filled in.
-void splice(const LightPath& x, const Edit& edit, LightPath& y);
+void splice(const PathState& x, const Edit& edit, PathState& y);
 
 /// Computes what depends on vertices first ... last and their neighbours, then f and L*. Without
 /// visibility. target = 0 if the path carries no light or misses the image.
 void evaluate(const Scene& scene, const MutationSettings& settings, int first, int last,
-              LightPath& x);
+              PathState& x);
 /// The same for a path of which nothing has been computed yet.
-void evaluate(const Scene& scene, const MutationSettings& settings, LightPath& x);
+void evaluate(const Scene& scene, const MutationSettings& settings, PathState& x);
 
 }  // namespace mlt

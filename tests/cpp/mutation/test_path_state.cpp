@@ -28,7 +28,7 @@ std::string difference(const TermsAt& a, const TermsAt& b, bool has_edge) {
   return "";
 }
 
-std::string difference(const LightPath& a, const LightPath& b) {
+std::string difference(const PathState& a, const PathState& b) {
   if (a.path.vertices.size() != b.path.vertices.size()) return "length";
   if (!same_bits(a.target, b.target)) return "target";
   if (!same_bits(a.rgb, b.rgb)) return "rgb";
@@ -51,8 +51,8 @@ TEST_P(LightPaths, AreTheSameBitsWhenAnEditIsComputedAndWhenAllIs) {
   const MutationSettings settings = mutation_settings();
   const Mutations all = all_mutations(*scene, settings);
   std::vector<int> compared(all.size(), 0);
-  const auto compare = [&](size_t i, const LightPath& x, const LightPath& y, const Edit&) {
-    LightPath fresh;
+  const auto compare = [&](size_t i, const PathState& x, const PathState& y, const Edit&) {
+    PathState fresh;
     fresh.path = y.path;
     evaluate(*scene, settings, fresh);
     ASSERT_EQ(difference(y, fresh), "")
@@ -85,10 +85,10 @@ TEST(LightPaths, ReverseAnEdit) {
 TEST(LightPaths, SpliceKeepsWhatLiesOutsideOfTheEdit) {
   const ScenePtr scene = make_scene("cornell").scene;
   const MutationSettings settings = mutation_settings();
-  const LightPath x = find_path(*scene, settings, "LDDDE");
+  const PathState x = find_path(*scene, settings, "LDDDE");
   for (const Edit edit :
        {Edit{1, 2, 1}, Edit{2, 1, 3}, Edit{0, 1, 1}, Edit{3, 4, 2}, Edit{0, 4, 3}}) {
-    LightPath y;
+    PathState y;
     splice(x, edit, y);
     ASSERT_EQ(y.edges(), x.edges() + edit.shift());
     for (int i = 0; i <= x.edges(); ++i) {

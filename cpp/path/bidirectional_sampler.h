@@ -31,9 +31,9 @@ struct Connection {
 
 /// A light and a camera subpath, and the connections between them. Keeps its memory from sample to
 /// sample.
-class Bidirectional {
+class BidirectionalSampler {
  public:
-  Bidirectional(const Scene& scene, const BidirectionalSettings& settings)
+  BidirectionalSampler(const Scene& scene, const BidirectionalSettings& settings)
       : scene_(&scene), settings_(settings) {}
 
   /// Draws both subpaths for a raster position.

@@ -1,4 +1,4 @@
-#include "mutation/adopt.h"
+#include "mutation/evaluate_proposal.h"
 
 namespace mlt {
 namespace {
@@ -55,8 +55,8 @@ bool passable(const Scene& scene, const Path& path, int first, int last, RayCoun
   return true;
 }
 
-Edit adopt(const Scene& scene, const MutationSettings& settings, const LightPath& x, LightPath& y,
-           RayCounts& rays) {
+Edit evaluate_proposal(const Scene& scene, const MutationSettings& settings, const PathState& x,
+                       PathState& y, RayCounts& rays) {
   const Edit edit = difference(x.path, y.path);
   evaluate(scene, settings, y);
   const int last = edit.first + edit.inserted - 1;

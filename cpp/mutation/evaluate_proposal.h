@@ -1,8 +1,8 @@
-// Taking over a path that others have made of x, such as a mutation that is written in Python: what the
+// Evaluating a proposal y of which only the path is known, such as one made in Python: what the
 // mutations here know about their proposals is found from the vertices alone.
 #pragma once
 
-#include "mutation/light_path.h"
+#include "mutation/path_state.h"
 #include "path/ray_counts.h"
 
 namespace mlt {
@@ -16,7 +16,7 @@ bool passable(const Scene& scene, const Path& path, int first, int last, RayCoun
 
 /// Evaluates y, of which only the path is known; target = 0 also where light cannot take it. Returns
 /// the edit that has made it of x, whose edges are taken to be passable.
-Edit adopt(const Scene& scene, const MutationSettings& settings, const LightPath& x, LightPath& y,
-           RayCounts& rays);
+Edit evaluate_proposal(const Scene& scene, const MutationSettings& settings, const PathState& x,
+                       PathState& y, RayCounts& rays);
 
 }  // namespace mlt

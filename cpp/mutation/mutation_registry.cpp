@@ -1,6 +1,6 @@
-#include "mutation/kinds.h"
+#include "mutation/mutation_registry.h"
 
-#include "mutation/bidirectional.h"
+#include "mutation/bidirectional_mutation.h"
 #include "mutation/caustic.h"
 #include "mutation/lens.h"
 #include "mutation/lens_subpath.h"

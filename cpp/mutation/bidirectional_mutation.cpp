@@ -1,4 +1,4 @@
-#include "mutation/bidirectional.h"
+#include "mutation/bidirectional_mutation.h"
 
 #include "path/next_event.h"
 
@@ -9,7 +9,7 @@ double power_of_half(int n) { return 1 / static_cast<double>(uint64_t{1} << std:
 
 /// May the gap lie between vertices l and m? What stays must scatter smoothly: a delta vertex would
 /// only grow back what was there. An end of the path stays what it is.
-bool deletable(const LightPath& x, int l, int m) {
+bool deletable(const PathState& x, int l, int m) {
   const int k = x.edges();
   if ((l == -1 && m == 0) || (l == k && m == k + 1)) return false;
   return (l < 0 || x.terms[l].connectable) && (m > k || x.terms[m].connectable);
@@ -32,7 +32,7 @@ struct GapLength {
 /// Where a gap of this many edges may begin: l = -1 ... k + 1 - edges, whether deletable there or not.
 int gap_positions(int edges, int k) { return k + 3 - edges; }
 
-double deletion_probability(const LightPath& x, int l, int m) {
+double deletion_probability(const PathState& x, int l, int m) {
   if (!deletable(x, l, m)) return 0;
   const int k = x.edges();
   return GapLength::probability(m - l, k) / gap_positions(m - l, k);
@@ -83,7 +83,7 @@ const std::string& BidirectionalMutation::name() const {
   return name;
 }
 
-std::optional<Edit> BidirectionalMutation::propose(const LightPath& x, LightPath& y,
+std::optional<Edit> BidirectionalMutation::propose(const PathState& x, PathState& y,
                                                    MutationContext& context) const {
   const int k = x.edges();
   const int gap = GapLength::sample(context.rng.next(), k);
@@ -112,7 +112,7 @@ std::optional<Edit> BidirectionalMutation::propose(const LightPath& x, LightPath
 }
 
 /// Fills vertices first ... first + count - 1 by a walk from vertex first - 1, or from a light.
-bool BidirectionalMutation::grow_from_light(LightPath& y, int first, int count,
+bool BidirectionalMutation::grow_from_light(PathState& y, int first, int count,
                                             MutationContext& context) const {
   Path& path = y.path;
   Rng& rng = context.rng;
@@ -152,7 +152,7 @@ bool BidirectionalMutation::grow_from_light(LightPath& y, int first, int count,
 
 /// Fills vertices first ... first + count - 1, the last one first, by a walk from vertex first + count,
 /// or from the lens.
-bool BidirectionalMutation::grow_from_camera(LightPath& y, int first, int count,
+bool BidirectionalMutation::grow_from_camera(PathState& y, int first, int count,
                                              MutationContext& context) const {
   Path& path = y.path;
   Rng& rng = context.rng;
@@ -228,7 +228,7 @@ bool BidirectionalMutation::arrive_at_light(const Ray& ray, Vertex& x0,
   return true;
 }
 
-double BidirectionalMutation::density(const LightPath& x, const LightPath& y,
+double BidirectionalMutation::density(const PathState& x, const PathState& y,
                                       const Edit& edit) const {
   const int k = x.edges(), l = edit.first - 1, m = edit.last + 1, n = edit.inserted;
   const double p_delete = deletion_probability(x, l, m);

@@ -20,14 +20,14 @@ class BidirectionalMutation : public Mutation {
       : scene_(&scene), settings_(settings) {}
 
   const std::string& name() const override;
-  double suitability(const LightPath&) const override { return 1; }
-  std::optional<Edit> propose(const LightPath& x, LightPath& y,
+  double suitability(const PathState&) const override { return 1; }
+  std::optional<Edit> propose(const PathState& x, PathState& y,
                               MutationContext& context) const override;
-  double density(const LightPath& x, const LightPath& y, const Edit& edit) const override;
+  double density(const PathState& x, const PathState& y, const Edit& edit) const override;
 
  private:
-  bool grow_from_light(LightPath& y, int first, int count, MutationContext& context) const;
-  bool grow_from_camera(LightPath& y, int first, int count, MutationContext& context) const;
+  bool grow_from_light(PathState& y, int first, int count, MutationContext& context) const;
+  bool grow_from_camera(PathState& y, int first, int count, MutationContext& context) const;
   bool scatter(Vertex& from, const Vec3& towards_previous, bool kept, double time,
                MutationContext& context, Ray& ray) const;
   bool arrive(const Ray& ray, Vertex& next, MutationContext& context) const;

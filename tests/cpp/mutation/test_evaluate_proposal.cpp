@@ -1,5 +1,5 @@
 // Paths that others have made: the edit is found, and light that could not take a path is not counted.
-#include "mutation/adopt.h"
+#include "mutation/evaluate_proposal.h"
 #include "mutation/mutation_testing.h"
 
 namespace mlt::test {
@@ -8,7 +8,7 @@ namespace {
 TEST(Difference, IsTheSmallestEdit) {
   const ScenePtr scene = make_mutation_scene("cornell").scene;
   const MutationSettings settings = mutation_settings();
-  const LightPath x = find_path(*scene, settings, "LDDE"),
+  const PathState x = find_path(*scene, settings, "LDDE"),
                   other = find_path(*scene, settings, "LDDDE");
   const auto edit = [](const Edit& e) { return std::vector<int>{e.first, e.last, e.inserted}; };
   EXPECT_EQ(edit(difference(x.path, x.path)), (std::vector<int>{4, 3, 0}));
@@ -33,17 +33,17 @@ TEST_P(Adopt, ValuesProposalsAsTheirMutationsDo) {
   const Mutations all = all_mutations(*scene, settings);
   RayCounts rays;
   int compared = 0, differ = 0;
-  const auto compare = [&](size_t, const LightPath& x, const LightPath& y, const Edit& edit) {
-    LightPath adopted;
-    adopted.path = y.path;
-    const Edit found = adopt(*scene, settings, x, adopted, rays);
+  const auto compare = [&](size_t, const PathState& x, const PathState& y, const Edit& edit) {
+    PathState evaluated;
+    evaluated.path = y.path;
+    const Edit found = evaluate_proposal(*scene, settings, x, evaluated, rays);
     if (found.deleted() + found.inserted > 0) {  // the one point of a light may be drawn again
       EXPECT_GE(found.first, edit.first);
       EXPECT_LE(found.last, edit.last);
     }
     EXPECT_EQ(found.shift(), edit.shift());
     ++compared;
-    if (adopted.target != y.target) ++differ;
+    if (evaluated.target != y.target) ++differ;
   };
   for_each_proposal(*scene, settings, all, 2, 1000, compare);
   // Rays that graze a surface may be seen in one direction and not in the other.
@@ -57,7 +57,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Adopt, testing::ValuesIn(mutation_scene_names()
 
 TEST(Passable, IsNoPathThroughAWall) {
   const ScenePtr scene = make_mutation_scene("cornell").scene;
-  const LightPath x = find_path(*scene, mutation_settings(), "LDDE");
+  const PathState x = find_path(*scene, mutation_settings(), "LDDE");
   RayCounts rays;
   EXPECT_TRUE(passable(*scene, x.path, 0, x.edges(), rays));
   Path y = x.path;
@@ -70,16 +70,16 @@ TEST(Passable, IsNoPathThatBendsAMirrorsLaw) {
   const MutationSettings settings = mutation_settings();
   RayCounts rays;
   for (const char* signature : {"LDSE", "LSDE"}) {
-    const LightPath x = find_path(*scene, settings, signature);
+    const PathState x = find_path(*scene, settings, signature);
     const int diffuse = signature[1] == 'D' ? 1 : 2;
     EXPECT_TRUE(passable(*scene, x.path, 0, x.edges(), rays));
     Path y = x.path;
     y[diffuse].at.p += 0.05 * y[diffuse].at.shading.s;
     EXPECT_FALSE(passable(*scene, y, diffuse, diffuse, rays)) << signature;
-    LightPath adopted;
-    adopted.path = y;
-    adopt(*scene, settings, x, adopted, rays);
-    EXPECT_EQ(adopted.target, 0);
+    PathState evaluated;
+    evaluated.path = y;
+    evaluate_proposal(*scene, settings, x, evaluated, rays);
+    EXPECT_EQ(evaluated.target, 0);
   }
 }
 

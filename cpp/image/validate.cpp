@@ -1,4 +1,4 @@
-#include "image/distrust.h"
+#include "image/validate.h"
 
 #include <zlib.h>
 

@@ -1,11 +1,11 @@
-#include "path/bidirectional.h"
+#include "path/bidirectional_sampler.h"
 
 namespace mlt {
 
 /// Densities that do not depend on how the subpaths are joined: what each walk knows of its own
 /// vertices, and of them as made by the other walk, up to the two vertices next to the joint.
-void Bidirectional::begin_densities(const WalkVertex* lights, int s, const WalkVertex* cameras,
-                                    int t) {
+void BidirectionalSampler::begin_densities(const WalkVertex* lights, int s,
+                                           const WalkVertex* cameras, int t) {
   const int k = s + t - 1;
   densities_.resize(k + 1);
   for (int i = 0; i < s; ++i)
@@ -14,7 +14,8 @@ void Bidirectional::begin_densities(const WalkVertex* lights, int s, const WalkV
     densities_[k - j] = {cameras[j].reverse, cameras[j].forward, cameras[j].lobe == Lobe::smooth};
 }
 
-double Bidirectional::weight(int s, const Vertex& x0, const Vertex& xk, const SurfacePoint& x1) {
+double BidirectionalSampler::weight(int s, const Vertex& x0, const Vertex& xk,
+                                    const SurfacePoint& x1) {
   const int k = static_cast<int>(densities_.size()) - 1;
   if (!settings_.light_image)
     densities_[k].connectable = false;  // t = 1 is not among the techniques
@@ -25,7 +26,7 @@ double Bidirectional::weight(int s, const Vertex& x0, const Vertex& xk, const Su
 }
 
 /// s = 0: the camera walk has hit a light.
-bool Bidirectional::evaluate_hit_light(Connection& connection) {
+bool BidirectionalSampler::evaluate_hit_light(Connection& connection) {
   const int t = connection.t;
   const WalkVertex& end = camera_[t - 1];
   const Vertex x0 = light_vertex(*connection.emitter, end.vertex.at);
@@ -43,7 +44,7 @@ bool Bidirectional::evaluate_hit_light(Connection& connection) {
 }
 
 /// s >= 1, t >= 1: the last vertices of the two subpaths see each other.
-bool Bidirectional::evaluate_connection(Connection& connection, RayCounts& rays) {
+bool BidirectionalSampler::evaluate_connection(Connection& connection, RayCounts& rays) {
   const int s = connection.s, t = connection.t, k = s + t - 1;
   const WalkVertex& b = camera_[t - 1];
   if (b.vertex.at.infinite()) return false;
@@ -83,7 +84,7 @@ bool Bidirectional::evaluate_connection(Connection& connection, RayCounts& rays)
   return connection.weight > 0;
 }
 
-bool Bidirectional::choose_direct(const SurfacePoint& from, const Vec3& u) {
+bool BidirectionalSampler::choose_direct(const SurfacePoint& from, const Vec3& u) {
   const EmitterSample chosen = sample_emitter(*scene_, from.p, u);
   if (!(chosen.pdf > 0)) return false;
   direct_.vertex = light_vertex(*chosen.emitter, chosen.x0);
@@ -93,7 +94,7 @@ bool Bidirectional::choose_direct(const SurfacePoint& from, const Vec3& u) {
 }
 
 /// t = 0: the light walk passes through the lens after its vertex s - 2.
-bool Bidirectional::evaluate_hit_lens(Connection& connection, RayCounts& rays) {
+bool BidirectionalSampler::evaluate_hit_lens(Connection& connection, RayCounts& rays) {
   const int s = connection.s, k = s - 1;
   const WalkVertex& last = light_[s - 2];
   if (last.absorbed) return false;
@@ -126,7 +127,7 @@ bool Bidirectional::evaluate_hit_lens(Connection& connection, RayCounts& rays) {
   return connection.weight > 0;
 }
 
-void Bidirectional::assemble(const Connection& connection, Path& path) const {
+void BidirectionalSampler::assemble(const Connection& connection, Path& path) const {
   const int s = connection.s, t = connection.t;
   path.vertices.clear();
   path.time = time_;

@@ -1,4 +1,4 @@
-#include "mutation/light_path.h"
+#include "mutation/path_state.h"
 
 namespace mlt {
 namespace {
@@ -15,7 +15,7 @@ TermSettings term_settings(const MutationSettings& settings) {
   return {true, settings.strict_normals, settings.near_specular};
 }
 
-void finish(const Scene& scene, const MutationSettings& settings, LightPath& x) {
+void finish(const Scene& scene, const MutationSettings& settings, PathState& x) {
   x.target = 0;
   if (x.edges() < settings.min_depth) return;
   if (x.edges() == 1 &&
@@ -35,7 +35,7 @@ void finish(const Scene& scene, const MutationSettings& settings, LightPath& x) 
 
 }  // namespace
 
-void splice(const LightPath& x, const Edit& edit, LightPath& y) {
+void splice(const PathState& x, const Edit& edit, PathState& y) {
   splice(x.path.vertices, edit, y.path.vertices);
   y.path.time = x.path.time;
   splice(x.terms.at, edit, y.terms.at);
@@ -45,13 +45,13 @@ void splice(const LightPath& x, const Edit& edit, LightPath& y) {
 }
 
 void evaluate(const Scene& scene, const MutationSettings& settings, int first, int last,
-              LightPath& x) {
+              PathState& x) {
   const int k = x.edges(), from = std::max(0, first - 1), to = std::min(k, last + 1);
   update_terms(scene, x.path, term_settings(settings), from, to, x.terms);
   finish(scene, settings, x);
 }
 
-void evaluate(const Scene& scene, const MutationSettings& settings, LightPath& x) {
+void evaluate(const Scene& scene, const MutationSettings& settings, PathState& x) {
   compute_terms(scene, x.path, term_settings(settings), x.terms);
   finish(scene, settings, x);
 }
