@@ -19,8 +19,9 @@ py::dict to_dict(const Parameter& parameter) {
   return dict;
 }
 
-py::dict schema(const std::string& family, const std::string& name) {
-  const Schema& schema = plugins().find(family, name, {}).schema;
+}  // namespace
+
+py::dict to_dict(const Schema& schema) {
   py::list parameters;
   for (const Parameter& parameter : schema.parameters) parameters.append(to_dict(parameter));
   py::dict dict;
@@ -32,14 +33,17 @@ py::dict schema(const std::string& family, const std::string& name) {
   return dict;
 }
 
-}  // namespace
-
 void bind_base(py::module_& m) {
   m.def("families", [] { return plugins().families(); });
   m.def(
       "names", [](const std::string& family) { return plugins().names(family); },
       py::arg("family"));
-  m.def("schema", &schema, py::arg("family"), py::arg("name"));
+  m.def(
+      "schema",
+      [](const std::string& family, const std::string& name) {
+        return to_dict(plugins().find(family, name, {}).schema);
+      },
+      py::arg("family"), py::arg("name"));
   m.def("suggestion", &suggestion, py::arg("word"), py::arg("candidates"),
         "\"; did you mean 'b'?\", or a list of what is valid.");
 }

@@ -27,11 +27,11 @@ MadeIntegrator with_python_mutations(const MadeIntegrator& made, const LoadedPtr
   std::vector<ExtraMutation> extra;
   for (const auto& [object, weight] : mutations) {
     const auto held = hold(object);
-    const auto make = [loaded, held](const Scene& scene, const MutationSettings& settings) {
-      if (&scene != loaded->scene.get())
+    const auto make = [loaded, held](const PathTarget& target) {
+      if (target.scene_ptr() != loaded->scene)
         throw UsageError("an integrator with mutations written in Python serves one scene only");
       const py::gil_scoped_acquire gil;
-      return to_mutation(loaded, settings, *held);
+      return to_mutation(loaded, target, *held);
     };
     extra.push_back({object.attr("name").cast<std::string>(), weight, make});
   }

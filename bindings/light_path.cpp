@@ -150,13 +150,10 @@ std::vector<PyLightPath> proposals(const LoadedPtr& scene, const PyLightPath& x,
                                    const py::object& mutation, uint64_t seed, int count,
                                    int max_depth, double near_specular) {
   if (x.scene->scene != scene->scene) throw UsageError("the path is one of another scene");
-  MutationSettings settings;
-  settings.max_depth = max_depth;
-  settings.near_specular = near_specular;
-  settings.strict_normals = x.strict_normals;
-  const auto made = to_mutation(scene, settings, mutation);
+  const PathTarget target = path_target(*scene, max_depth, false, x.strict_normals, near_specular);
+  const MutationPtr made = to_mutation(scene, target, mutation);
   std::vector<PyLightPath> result;
-  for (const Proposal& y : propose(*scene->scene, settings, x.path, made, seed, count)) {
+  for (const Proposal& y : propose(target, x.path, made, seed, count)) {
     result.push_back(light_path(scene, y.path, x.strict_normals));
     result.back().acceptance = y.acceptance;
   }

@@ -1,11 +1,11 @@
-// The laboratory of markov/lab.h for Python: built-in targets and moves, and chains that run on these
+// The laboratory of cpp/lab for Python: built-in targets and moves, and chains that run on these
 // or on Python's own.
 #include "metropolis_chains.h"
 #include "path_chains.h"
 
+#include "lab/moves.h"
+#include "lab/targets.h"
 #include "markov/bootstrap.h"
-#include "markov/lab_moves.h"
-#include "markov/lab_targets.h"
 
 #include <pybind11/stl.h>
 
@@ -22,11 +22,10 @@ bool truth(const py::object& object, const char* attribute) {
 
 /// A built-in move as it is, any other object as a PythonMove.
 template <class Space>
-typename lab::Mixture<typename Space::State>::Moves make_moves(const Space& space,
-                                                               const WeightedObjects& given,
-                                                               uint64_t seed, bool& native) {
+lab::Prototypes<typename Space::State> make_moves(const Space& space, const WeightedObjects& given,
+                                                  uint64_t seed, bool& native) {
   using X = typename Space::State;
-  typename lab::Mixture<X>::Moves moves;
+  lab::Prototypes<X> moves;
   std::shared_ptr<RandomGenerator> generator;
   for (const auto& [object, weight] : given) {
     if constexpr (std::is_same_v<Space, Numbers>) {

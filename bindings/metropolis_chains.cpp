@@ -1,5 +1,7 @@
 #include "metropolis_chains.h"
 
+#include "lab/lockstep.h"
+
 namespace mlt::python {
 
 using lab::Point;
@@ -31,18 +33,23 @@ VectorChains::VectorChains(const Numbers& space, py::object target, const Moves&
 
 py::dict VectorChains::advance(size_t steps, bool expected_values) {
   Trace<Numbers> trace(space_, chains_.size(), steps, expected_values);
+  const auto draw_all = [&](size_t move, const std::vector<size_t>& group) {
+    if (!vectorized_[move].is_none()) return draw(vectorized_[move], group);
+    for (const size_t c : group) chains_[c].draw();
+  };
+  const auto evaluate_all = [&](const std::vector<Point>& points) {
+    const Doubles values = evaluate(to_array(points));
+    return std::vector<double>(values.data(), values.data() + values.size());
+  };
   for (size_t i = 0; i < steps; ++i) {
     check_signals(i + 1);
-    draft_all();
-    evaluate_all();
-    for (size_t c = 0; c < chains_.size(); ++c) {
-      lab::Chain<Point>& chain = chains_[c];
-      trace.begin(c, i, chain.state());
+    lab::step_together(chains_, draw_all, evaluate_all, [&](size_t c, lab::Chain<Point>& chain) {
+      trace.begin(c, i, chain.state().x);
       const StepResult result = chain.finish([&](const Point& state, double weight, bool proposal) {
         trace.record(c, i, state, weight, proposal);
       });
       trace.end(c, i, chain, result);
-    }
+    });
   }
   return trace.take();
 }
@@ -60,24 +67,10 @@ Doubles VectorChains::evaluate(const py::object& points) const {
   return checked(function_(points), py::len(points), "the target");
 }
 
-void VectorChains::draft_all() {
-  std::vector<std::vector<size_t>> groups(vectorized_.size());
-  for (size_t c = 0; c < chains_.size(); ++c) {
-    if (!chains_[c].choose()) continue;
-    const size_t move = chains_[c].mixture().chosen();
-    if (vectorized_[move].is_none())
-      chains_[c].draw();
-    else
-      groups[move].push_back(c);
-  }
-  for (size_t move = 0; move < groups.size(); ++move)
-    if (!groups[move].empty()) draft(vectorized_[move], groups[move]);
-}
-
-void VectorChains::draft(const py::object& move, const std::vector<size_t>& group) {
+void VectorChains::draw(const py::object& move, const std::vector<size_t>& group) {
   const size_t count = group.size(), width = space_.dimensions;
   std::vector<Point> states;
-  for (const size_t c : group) states.push_back(chains_[c].state());
+  for (const size_t c : group) states.push_back(chains_[c].state().x);
   const py::object x = to_array(states);
   const py::object proposed = move.attr("propose")(x, generator_.generator());
   const Doubles y = Doubles::ensure(proposed);
@@ -96,15 +89,6 @@ void VectorChains::draft(const py::object& move, const std::vector<size_t>& grou
     chains_[group[i]].set_proposal(Point(p, p + width), symmetric ? 1 : forward.data()[i],
                                    symmetric ? 1 : backward.data()[i]);
   }
-}
-
-void VectorChains::evaluate_all() {
-  std::vector<Point> points;
-  for (const lab::Chain<Point>& chain : chains_)
-    points.push_back(chain.generated() ? chain.proposal() : chain.state());
-  const Doubles values = evaluate(to_array(points));
-  for (size_t c = 0; c < chains_.size(); ++c)
-    if (chains_[c].generated()) chains_[c].set_target(values.data()[c]);
 }
 
 }  // namespace mlt::python

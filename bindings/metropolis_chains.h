@@ -20,7 +20,7 @@ template <class Space>
 class Chains {
  public:
   using X = typename Space::State;
-  using Moves = typename lab::Mixture<X>::Moves;
+  using Moves = lab::Prototypes<X>;
 
   Chains(const Space& space, std::shared_ptr<const lab::Target<X>> target, const Moves& moves,
          const std::vector<X>& starts, uint64_t seed, bool native)
@@ -53,7 +53,7 @@ class Chains {
     lab::Chain<X>& chain = chains_[c];
     for (size_t i = 0; i < steps; ++i) {
       check_signals(i + 1);
-      trace.begin(c, i, chain.state());
+      trace.begin(c, i, chain.state().x);
       const StepResult result =
           chain.step(*target_, [&](const X& state, double weight, bool proposal) {
             trace.record(c, i, state, weight, proposal);
@@ -78,9 +78,7 @@ class VectorChains final : public Chains<Numbers> {
  private:
   py::object to_array(const std::vector<lab::Point>& points) const;
   Doubles evaluate(const py::object& points) const;
-  void draft_all();
-  void draft(const py::object& move, const std::vector<size_t>& group);
-  void evaluate_all();
+  void draw(const py::object& move, const std::vector<size_t>& group);
 
   py::object function_;
   std::vector<py::object> vectorized_;

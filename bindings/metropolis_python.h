@@ -4,7 +4,7 @@
 #include "bindings.h"
 #include "random_generator.h"
 
-#include "markov/lab.h"
+#include "lab/lab.h"
 
 #include <optional>
 #include <string>
@@ -79,10 +79,10 @@ class PythonMove final : public lab::Move<typename Space::State> {
     if (!traits_.symmetric) density_ = object_.attr("density");
   }
 
-  std::unique_ptr<lab::Move<X>> clone() const override {
+  std::shared_ptr<lab::Move<X>> clone() const override {
     py::object own = object_;
     if (traits_.adapts) own = py::module_::import("copy").attr("deepcopy")(object_);
-    return std::make_unique<PythonMove>(space_, own, traits_, generator_);
+    return std::make_shared<PythonMove>(space_, own, traits_, generator_);
   }
 
   double suitability(const X& x) const override {

@@ -14,6 +14,12 @@ inline py::array_t<double> table_of(size_t chains, size_t columns) {
   return py::array_t<double>(std::vector<size_t>{chains, columns});
 }
 
+/// The index of the move that a chain has chosen; -1: none suited its state.
+template <class Chain>
+int32_t chosen_move(const Chain& chain) {
+  return chain.kernel().suited() ? static_cast<int32_t>(chain.kernel().chosen()) : -1;
+}
+
 /// States of each chain, in order.
 class NumberStore {
  public:
@@ -94,8 +100,7 @@ class Trace {
     sizes_data_[i] = size;
   }
   void end(size_t c, size_t step, const lab::Chain<X>& chain, const StepResult& result) {
-    const lab::Mixture<X>& mixture = chain.mixture();
-    end(c, step, chain.state(), static_cast<int32_t>(mixture.chosen()), mixture.size(), result);
+    end(c, step, chain.state().x, chosen_move(chain), chain.move_size(), result);
   }
 
   py::dict take() {

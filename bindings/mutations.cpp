@@ -1,24 +1,22 @@
 // What mutations there are, and the audit of one or of a mixture.
 #include "python_mutation.h"
+#include "values.h"
 
 #include "base/parallel.h"
 #include "mutation/audit.h"
-#include "mutation/mutation_registry.h"
 
 #include <pybind11/stl.h>
 
 namespace mlt::python {
 namespace {
 
-py::list kinds() {
+py::list all_mutations() {
   py::list list;
-  for (const MutationKind& kind : mutation_kinds()) {
-    py::dict dict;
-    dict["name"] = kind.name;
-    dict["switch"] = kind.switch_name;
-    dict["weight_name"] = kind.weight_name;
-    dict["weight"] = kind.weight;
-    dict["doc"] = kind.doc;
+  for (const MutationPlugin& plugin : mutation_plugins()) {
+    py::dict dict = to_dict(plugin.schema);
+    dict["switch"] = plugin.switch_name;
+    dict["weight_name"] = plugin.weight_name();
+    dict["weight"] = plugin.weight;
     list.append(dict);
   }
   return list;
@@ -27,24 +25,17 @@ py::list kinds() {
 AuditReport run_audit(const std::shared_ptr<LoadedScene>& loaded, const WeightedObjects& mixture,
                       int max_depth, bool hide_emitters, bool strict_normals, double near_specular,
                       uint64_t paths, uint64_t seed, int threads, double significance) {
-  MutationSettings settings;
-  settings.max_depth = max_depth;
-  settings.hide_emitters = hide_emitters;
-  settings.strict_normals = strict_normals;
-  settings.near_specular = near_specular;
+  const PathTarget target =
+      path_target(*loaded, max_depth, hide_emitters, strict_normals, near_specular);
   AuditSettings how;
   how.paths = paths;
   how.seed = seed;
   how.threads = threads > 0 ? threads : hardware_threads();
   how.significance = significance;
-  Mutations mutations;
-  std::vector<double> weights;
-  for (const auto& [mutation, weight] : mixture) {
-    mutations.push_back(to_mutation(loaded, settings, mutation));
-    weights.push_back(weight);
-  }
-  const py::gil_scoped_release release;
-  return audit(*loaded->scene, settings, mutations, MutationChoice(weights), how);
+  const auto [mutations, weights] = to_mixture(loaded, target, mixture);
+  return run_interruptibly([&](const std::atomic<bool>& cancelled) {
+    return audit(target, mutations, weights, how, cancelled);
+  });
 }
 
 py::list tests(const AuditReport& report) {
@@ -57,7 +48,7 @@ py::list tests(const AuditReport& report) {
 }  // namespace
 
 void bind_mutations(py::module_& m) {
-  m.def("mutation_kinds", &kinds);
+  m.def("mutations", &all_mutations);
   py::class_<AuditReport>(m, "AuditReport")
       .def_property_readonly("verdict", [](const AuditReport& r) { return name_of(r.verdict); })
       .def_readonly("reason", &AuditReport::reason)

@@ -1,7 +1,6 @@
 #include "python_mutation.h"
 
 #include "mutation/evaluate_proposal.h"
-#include "mutation/mutation_registry.h"
 
 namespace mlt::python {
 namespace {
@@ -39,11 +38,11 @@ class PythonMutation::Borrowed {
   std::unique_ptr<RandomGenerator> generator_;
 };
 
-PythonMutation::PythonMutation(std::shared_ptr<LoadedScene> scene, const MutationSettings& settings,
+PythonMutation::PythonMutation(std::shared_ptr<LoadedScene> scene, const PathTarget& target,
                                py::object object)
-    : scene_(std::move(scene)),
-      settings_(settings),
-      name_(object.attr("name").cast<std::string>()),
+    : Mutation(object.attr("name").cast<std::string>()),
+      scene_(std::move(scene)),
+      target_(&target),
       held_(std::make_unique<Held>()) {
   held_->suitability = object.attr("suitability");
   held_->propose = object.attr("propose");
@@ -72,14 +71,14 @@ std::optional<Edit> PythonMutation::propose(const PathState& x, PathState& y,
   }
   if (proposed.is_none()) return std::nullopt;
   if (!py::isinstance<PyLightPath>(proposed))
-    throw UsageError(name_ + ".propose(x, rng) returned " + repr(proposed) +
+    throw UsageError(name() + ".propose(x, rng) returned " + repr(proposed) +
                      "; it must be a LightPath, such as x.with_vertices(...), or None");
   const auto& made = proposed.cast<const PyLightPath&>();
   if (made.scene->scene != scene_->scene)
-    throw UsageError(name_ + ".propose(x, rng) returned a path of another scene than x's");
-  if (settings_.max_depth >= 0 && made.path.edges() > settings_.max_depth) return std::nullopt;
+    throw UsageError(name() + ".propose(x, rng) returned a path of another scene than x's");
+  if (made.path.edges() > target_->rules().most_edges()) return std::nullopt;
   y.path = made.path;
-  return evaluate_proposal(*scene_->scene, settings_, x, y, context.rays);
+  return evaluate_proposal(*target_, x, y, context.rays);
 }
 
 double PythonMutation::density(const PathState& x, const PathState& y, const Edit&) const {
@@ -88,7 +87,7 @@ double PythonMutation::density(const PathState& x, const PathState& y, const Edi
 }
 
 py::object PythonMutation::wrap(const PathState& x) const {
-  return py::cast(light_path(scene_, x, settings_.strict_normals));
+  return py::cast(light_path(scene_, x, target_->rules().strict_normals));
 }
 
 double PythonMutation::checked(const py::object& returned, const char* method,
@@ -96,7 +95,7 @@ double PythonMutation::checked(const py::object& returned, const char* method,
   const double value = PyFloat_AsDouble(returned.ptr());
   if (value >= 0 && value < infinity) return value;
   PyErr_Clear();
-  throw UsageError(name_ + "." + method + " is " + repr(returned) + " for x = " + repr(wrap(x)) +
+  throw UsageError(name() + "." + method + " is " + repr(returned) + " for x = " + repr(wrap(x)) +
                    "; it must be a finite number that is not negative");
 }
 
@@ -107,11 +106,9 @@ std::shared_ptr<const py::object> hold(py::object object) {
           }};
 }
 
-std::shared_ptr<const Mutation> to_mutation(const std::shared_ptr<LoadedScene>& scene,
-                                            const MutationSettings& settings,
-                                            const py::object& object) {
-  if (py::isinstance<py::str>(object))
-    return make_mutation(object.cast<std::string>(), *scene->scene, settings);
+MutationPtr to_mutation(const std::shared_ptr<LoadedScene>& scene, const PathTarget& target,
+                        const py::object& object) {
+  if (py::isinstance<py::str>(object)) return make_mutation(object.cast<std::string>(), target);
   const py::object base = py::module_::import("pymlt.mutations").attr("Mutation");
   if (!py::isinstance(object, base)) {
     const bool is_class =
@@ -120,9 +117,33 @@ std::shared_ptr<const Mutation> to_mutation(const std::shared_ptr<LoadedScene>& 
         repr(object) + " is not a mutation of light paths" +
         (is_class ? "; write " + object.attr("__name__").cast<std::string>() + "()" : ""));
   }
-  if (object.attr("_built_in").cast<bool>())
-    return make_mutation(object.attr("name").cast<std::string>(), *scene->scene, settings);
-  return std::make_shared<PythonMutation>(scene, settings, object);
+  if (!object.attr("_built_in").cast<bool>())
+    return std::make_shared<PythonMutation>(scene, target, object);
+  return make_mutation(object.attr("name").cast<std::string>(), target);
+}
+
+std::pair<Mutations, MixtureWeights> to_mixture(const std::shared_ptr<LoadedScene>& scene,
+                                                const PathTarget& target,
+                                                const WeightedObjects& objects) {
+  Mutations mutations;
+  std::vector<double> weights;
+  for (const auto& [object, weight] : objects) {
+    mutations.push_back(to_mutation(scene, target, object));
+    weights.push_back(weight);
+  }
+  return {mutations, MixtureWeights(std::move(weights))};
+}
+
+PathTarget path_target(const LoadedScene& scene, int max_depth, bool hide_emitters,
+                       bool strict_normals, double near_specular) {
+  if (max_depth == 0 || max_depth < -1)
+    throw UsageError("max_depth is " + std::to_string(max_depth) +
+                     ", but should be positive, or -1 for no limit");
+  PathRules rules;
+  rules.max_depth = max_depth;
+  rules.hide_emitters = hide_emitters;
+  rules.strict_normals = strict_normals;
+  return PathTarget(scene.scene, rules, near_specular);
 }
 
 }  // namespace mlt::python

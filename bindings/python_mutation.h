@@ -4,8 +4,11 @@
 #include "light_path.h"
 #include "random_generator.h"
 
-#include "mutation/mutation.h"
+#include "mutation/mutation_registry.h"
 
+#include <atomic>
+#include <chrono>
+#include <future>
 #include <memory>
 #include <string>
 #include <utility>
@@ -17,11 +20,9 @@ namespace mlt::python {
 /// render may go on in many threads; all of them share the object.
 class PythonMutation final : public Mutation {
  public:
-  PythonMutation(std::shared_ptr<LoadedScene> scene, const MutationSettings& settings,
-                 py::object object);
+  PythonMutation(std::shared_ptr<LoadedScene> scene, const PathTarget& target, py::object object);
   ~PythonMutation() override;
 
-  const std::string& name() const override { return name_; }
   double suitability(const PathState& x) const override;
   std::optional<Edit> propose(const PathState& x, PathState& y,
                               MutationContext& context) const override;
@@ -36,8 +37,7 @@ class PythonMutation final : public Mutation {
   double checked(const py::object& returned, const char* method, const PathState& x) const;
 
   std::shared_ptr<LoadedScene> scene_;
-  MutationSettings settings_;
-  std::string name_;
+  const PathTarget* target_;
   std::unique_ptr<Held> held_;
 };
 
@@ -48,8 +48,36 @@ using WeightedObjects = std::vector<std::pair<py::object, double>>;
 
 /// A mutation of C++ by its name or by its object in Python; any other object as a PythonMutation.
 /// Throws UsageError for what is not a mutation.
-std::shared_ptr<const Mutation> to_mutation(const std::shared_ptr<LoadedScene>& scene,
-                                            const MutationSettings& settings,
-                                            const py::object& object);
+MutationPtr to_mutation(const std::shared_ptr<LoadedScene>& scene, const PathTarget& target,
+                        const py::object& object);
+
+/// The same for all of a mixture, with their weights.
+std::pair<Mutations, MixtureWeights> to_mixture(const std::shared_ptr<LoadedScene>& scene,
+                                                const PathTarget& target,
+                                                const WeightedObjects& objects);
+
+/// The paths of a scene that Python's arguments name. Throws UsageError for a max_depth that is none.
+PathTarget path_target(const LoadedScene& scene, int max_depth, bool hide_emitters,
+                       bool strict_normals, double near_specular);
+
+/// Runs work that looks at `cancelled` now and then, without the GIL, and lets Ctrl-C through.
+template <class Work>
+auto run_interruptibly(Work&& work) {
+  std::atomic<bool> cancelled{false};
+  const py::gil_scoped_release release;
+  auto running = std::async(std::launch::async, [&] { return work(cancelled); });
+  while (running.wait_for(std::chrono::milliseconds(50)) != std::future_status::ready) {
+    const py::gil_scoped_acquire acquire;
+    if (PyErr_CheckSignals() == 0) continue;
+    const py::error_already_set interrupt;
+    cancelled = true;
+    {
+      const py::gil_scoped_release waiting;
+      running.wait();
+    }
+    throw interrupt;
+  }
+  return running.get();
+}
 
 }  // namespace mlt::python

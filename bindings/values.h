@@ -11,6 +11,8 @@
 namespace mlt::python {
 
 py::object to_python(const Value& value);
+/// Family, name, doc, parameters (name, type, default, doc, choices) and ignored names.
+py::dict to_dict(const Schema& schema);
 
 /// The tree of a nested dict. `path` is how the caller names the dict, such as "scene": errors about
 /// its parts say where with it ("scene['sensor']['film']").

@@ -38,4 +38,11 @@ void parallel_for(int threads, uint64_t count, const std::function<void(uint64_t
   if (failure) std::rethrow_exception(failure);
 }
 
+void parallel_blocks(int threads, uint64_t count,
+                     const std::function<void(uint64_t, uint64_t)>& body) {
+  constexpr uint64_t block = 256;
+  parallel_for(threads, (count + block - 1) / block,
+               [&](uint64_t i) { body(i * block, std::min(count, (i + 1) * block)); });
+}
+
 }  // namespace mlt

@@ -15,7 +15,7 @@ enum class Purpose : uint64_t {
   test,
   resample,
   choice,
-  round,
+  map,
   pilot,
   inspect
 };

@@ -10,4 +10,8 @@ Replay Rendering::replay(const Vec2i& /*pixel*/, uint64_t /*sample*/) {
       "ptracer and bdpt do");
 }
 
+IntegratorPtr Integrator::with_mutations(const std::vector<ExtraMutation>& /*extra*/) const {
+  throw UsageError("'" + name() + "' has no mixture of mutations; mlt has");
+}
+
 }  // namespace mlt

@@ -3,6 +3,7 @@
 
 #include "base/object.h"
 #include "image/image.h"
+#include "mutation/extra_mutation.h"
 #include "path/inspect.h"
 #include "render/stats.h"
 #include "scene/scene.h"
@@ -112,6 +113,9 @@ class Integrator : public Object {
   /// Throws SceneError if the scene has something that this algorithm cannot serve.
   virtual std::unique_ptr<Rendering> start(ScenePtr scene, uint64_t seed) const = 0;
   const std::string& name() const { return type; }
+  /// The same with more mutations in its mixture. Throws UsageError if it has no mixture.
+  virtual std::shared_ptr<const Integrator> with_mutations(
+      const std::vector<ExtraMutation>& extra) const;
 };
 
 using IntegratorPtr = std::shared_ptr<const Integrator>;

@@ -8,52 +8,6 @@
 
 namespace mlt {
 
-ChainStats::Row& ChainStats::Row::operator+=(const Row& other) {
-  proposed += other.proposed;
-  generated += other.generated;
-  accepted += other.accepted;
-  rays += other.rays;
-  acceptance += other.acceptance;
-  image_distance += other.image_distance;
-  return *this;
-}
-
-void ChainStats::count(Row& row, const StepResult& result, bool generated, double moved) {
-  ++row.proposed;
-  row.generated += generated;
-  row.acceptance += result.acceptance;
-  invalid += result.invalid;
-  if (result.accepted < 0) {
-    ++run;
-    return;
-  }
-  ++row.accepted;
-  row.image_distance += moved;
-  run = 0;
-}
-
-void ChainStats::save(ByteWriter& bytes) const {
-  bytes.write(rows);
-  bytes.write(rays);
-  bytes.write(invalid);
-  bytes.write(run);
-  bytes.write(longest.rejections);
-  bytes.write(longest.raster);
-  bytes.write(longest.signature);
-}
-
-void ChainStats::load(ByteReader& bytes) {
-  const size_t expected = rows.size();
-  bytes.read(rows);
-  if (rows.size() != expected) throw RenderError("the saved state counts other mutations");
-  rays = bytes.read<RayCounts>();
-  invalid = bytes.read<uint64_t>();
-  run = bytes.read<uint64_t>();
-  longest.rejections = bytes.read<uint64_t>();
-  longest.raster = bytes.read<Vec2>();
-  bytes.read(longest.signature);
-}
-
 MetropolisRendering::MetropolisRendering(ScenePtr scene, uint64_t seed,
                                          const MetropolisSettings& settings,
                                          std::unique_ptr<MetropolisAlgorithm> algorithm,
@@ -84,29 +38,18 @@ void MetropolisRendering::render_aside(int threads, const std::atomic<bool>& can
 void MetropolisRendering::prepare(int threads, const std::atomic<bool>& cancelled) {
   if (aside_.rendering) render_aside(threads, cancelled);
   algorithm_->prepare(seed_, threads, cancelled);
-  const uint64_t candidates = (settings_.luminance_samples + groups - 1) / groups;
-  std::vector<std::vector<double>> weights(groups, std::vector<double>(candidates));
-  constexpr uint64_t block = 256;
-  const uint64_t blocks = (candidates + block - 1) / block;
-  std::mutex rays_mutex;
-  parallel_for(threads, blocks * groups, [&](uint64_t i) {
-    const uint64_t group = i / blocks, first = i % blocks * block;
-    RayCounts rays;
-    for (uint64_t j = first; j < std::min(candidates, first + block) && !cancelled; ++j) {
-      Rng rng(seed_, Purpose::bootstrap, group * candidates + j);
-      const double weight = algorithm_->candidate(rng, rays);
-      weights[group][j] = std::isfinite(weight) && weight > 0 ? weight : 0;
-    }
-    const std::lock_guard lock(rays_mutex);
-    bootstrap_rays_.intersect += rays.intersect;
-    bootstrap_rays_.occluded += rays.occluded;
-  });
+  const uint64_t per_group = (settings_.luminance_samples + groups - 1) / groups;
+  const Candidates candidates{seed_, Purpose::bootstrap, per_group * groups};
+  const std::vector<double> weights = candidate_weights(
+      candidates, threads, cancelled, [&] { return algorithm_->source(); },
+      [&](const MetropolisAlgorithm::Source& source) { bootstrap_rays_ += source.rays(); });
   if (cancelled) return;
 
   std::vector<std::vector<uint32_t>> seeds(groups);
   for (int g = 0; g < groups; ++g) {
     Rng rng(seed_, Purpose::resample, g);
-    Bootstrap bootstrap = resample(weights[g], chains_of(g), rng);
+    const auto first = weights.begin() + g * per_group;
+    Bootstrap bootstrap = resample({first, first + per_group}, chains_of(g), rng);
     groups_[g].b = bootstrap.b;
     groups_[g].b_error = bootstrap.b_error;
     seeds[g] = std::move(bootstrap.seeds);
@@ -119,10 +62,10 @@ void MetropolisRendering::prepare(int threads, const std::atomic<bool>& cancelle
   // Group after group: the film of one group then stays in the cache while its chains advance.
   for (int g = 0; g < groups; ++g)
     for (int number = 0; number < static_cast<int>(seeds[g].size()); ++number)
-      starts.push_back({g, number, g * candidates + seeds[g][number]});
+      starts.push_back({g, number, g * per_group + seeds[g][number]});
   if (starts.empty())
     throw RenderError(
-        "no light path was found among " + std::to_string(candidates * groups) +
+        "no light path was found among " + std::to_string(candidates.count) +
         " bootstrap samples; give more luminance_samples, or check that light can reach "
         "the camera");
   lanes_.resize(starts.size());
@@ -132,7 +75,7 @@ void MetropolisRendering::prepare(int threads, const std::atomic<bool>& cancelle
     lanes_[i]->group = group;
     lanes_[i]->number = number;
     lanes_[i]->chain = algorithm_->start(
-        chain_id(group, number), Rng(seed_, Purpose::bootstrap, candidate),
+        chain_id(group, number), candidates.rng(candidate),
         Rng(seed_, Purpose::choice, static_cast<uint64_t>(number) * groups + group));
   });
 }
@@ -213,8 +156,7 @@ void MetropolisRendering::add_stats(Stats& stats) const {
     const std::lock_guard lock(lane.mutex);
     const ChainStats& s = lane.chain->stats();
     for (size_t r = 0; r < rows.size(); ++r) rows[r] += s.rows[r];
-    rays.intersect += s.rays.intersect;
-    rays.occluded += s.rays.occluded;
+    rays += s.rays;
     stats.invalid_samples += s.invalid;
     if (s.longest.rejections > stuck.rejections)
       stuck = {i, s.longest.rejections, s.longest.raster.x, s.longest.raster.y,

@@ -4,12 +4,8 @@
 // each with its own bootstrap and its own estimate of b.
 #pragma once
 
-#include "base/bytes.h"
-#include "base/rng.h"
-#include "image/splat_film.h"
 #include "integrator/integrator.h"
-#include "markov/step.h"
-#include "path/ray_counts.h"
+#include "integrator/metropolis_chain.h"
 
 #include <condition_variable>
 #include <memory>
@@ -18,123 +14,26 @@
 
 namespace mlt {
 
-/// Where a chain leaves what it visits: RGB / L* at a raster position, times an expected weight. Each
-/// splat waits for the next one, while its pixel comes from memory.
-class ChainRecorder {
- public:
-  ChainRecorder(SplatFilm& film, int group) : film_(&film), group_(group) {}
-  void record(const Vec2& raster, const Color& rgb_per_target, double weight) {
-    film_->prefetch(group_, raster);
-    flush();
-    raster_ = raster;
-    color_ = rgb_per_target * weight;
-  }
-  void flush() {
-    if (!is_black(color_)) film_->add(group_, raster_, color_);
-    color_ = Color(0);
-  }
-
- private:
-  SplatFilm* film_;
-  int group_;
-  Vec2 raster_{0};
-  Color color_{0};
-};
-
-/// Records the states of a chain, each once: the weights of the current state add up until the chain
-/// leaves it. A State has raster, rgb and target.
-template <class State>
-class StepRecorder {
- public:
-  StepRecorder(ChainRecorder& recorder, const State& x) : recorder_(&recorder), x_(&x) {}
-
-  /// As metropolis_step calls it.
-  void operator()(const State& state, double weight) {
-    (&state == x_ ? weight_x_ : weight_y_) += weight;
-  }
-
-  /// After a step; on acceptance `other` is the state that x has left, otherwise the proposal.
-  void settle(const StepResult& result, const State& other) {
-    if (result.accepted >= 0) std::swap(weight_x_, weight_y_);
-    record(other, weight_y_);
-    weight_y_ = 0;
-  }
-  /// Records what the current state has gathered.
-  void finish() {
-    record(*x_, weight_x_);
-    weight_x_ = 0;
-    recorder_->flush();
-  }
-
- private:
-  void record(const State& state, double weight) {
-    // A chain may start from a path whose light rounding has taken away.
-    if (weight > 0 && state.target > 0)
-      recorder_->record(state.raster, state.rgb / state.target, weight);
-  }
-
-  ChainRecorder* recorder_;
-  const State* x_;
-  double weight_x_ = 0, weight_y_ = 0;
-};
-
-/// What a chain tells about its steps; sums, so that chains can be merged.
-struct ChainStats {
-  struct Row {
-    uint64_t proposed = 0, generated = 0, accepted = 0, rays = 0;
-    double acceptance = 0, image_distance = 0;
-
-    Row& operator+=(const Row& other);
-  };
-  /// The longest run of rejections.
-  struct Stuck {
-    uint64_t rejections = 0;
-    Vec2 raster{0};
-    std::string signature;
-  };
-  std::vector<Row> rows;  ///< As MetropolisAlgorithm::rows lists them.
-  RayCounts rays;
-  uint64_t invalid = 0;
-  uint64_t run = 0;  ///< Rejections in a row up to now.
-  Stuck longest;
-
-  /// Counts one step; `moved` is the distance on the image if it was accepted.
-  void count(Row& row, const StepResult& result, bool generated, double moved);
-  void save(ByteWriter& bytes) const;
-  void load(ByteReader& bytes);
-};
-
-/// One Markov chain.
-class Chain {
- public:
-  virtual ~Chain() = default;
-  virtual void advance(uint64_t steps, ChainRecorder& recorder) = 0;
-  virtual const ChainStats& stats() const = 0;
-  virtual void save(ByteWriter& bytes) const = 0;
-  virtual void load(ByteReader& bytes) = 0;
-};
-
-/// Which chain it is: by its group, and by its number in the group.
-struct ChainId {
-  uint64_t seed;
-  int group, number, count;
-  Purpose purpose = Purpose::chain;
-
-  Rng rng() const { return Rng(seed, purpose, (uint64_t(group) << 32) | uint32_t(number)); }
-};
-
 /// What distinguishes one Metropolis integrator from another.
 class MetropolisAlgorithm {
  public:
   virtual ~MetropolisAlgorithm() = default;
 
-  /// Draws a candidate for the start of a chain: returns its weight L* / p.
-  virtual double candidate(Rng& rng, RayCounts& rays) const = 0;
+  /// Draws candidates for the starts of chains, and keeps its memory from one to the next.
+  class Source {
+   public:
+    virtual ~Source() = default;
+    /// Draws a candidate; returns its weight L* / p.
+    virtual double weigh(Rng& rng) = 0;
+    virtual const RayCounts& rays() const = 0;
+  };
+  virtual std::unique_ptr<Source> source() const = 0;
   /// Starts a chain from the candidate that the same stream gave; `choice` is there to choose one of
   /// several paths that the candidate consists of.
-  virtual std::unique_ptr<Chain> start(const ChainId& id, Rng candidate, Rng choice) const = 0;
+  virtual std::unique_ptr<RenderChain> start(const ChainId& id, Rng candidate,
+                                             Rng choice) const = 0;
   /// A chain without a state, to be loaded from bytes.
-  virtual std::unique_ptr<Chain> blank(const ChainId& id) const = 0;
+  virtual std::unique_ptr<RenderChain> blank(const ChainId& id) const = 0;
   /// Name and path length of each row of the statistics.
   virtual std::vector<MutationStats> rows() const = 0;
   /// Called once before the bootstrap, to prepare whatever is to be known by then.
@@ -192,7 +91,7 @@ class MetropolisRendering : public Rendering {
 
   struct Lane {
     int group = 0, number = 0;
-    std::unique_ptr<Chain> chain;
+    std::unique_ptr<RenderChain> chain;
     uint64_t round = 0;  ///< Units done.
     mutable std::mutex mutex;
     std::condition_variable turn;

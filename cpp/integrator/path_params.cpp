@@ -30,4 +30,9 @@ PathSettings path_settings(Params& params) {
   return settings;
 }
 
+PathRules path_rules(Params& params) {
+  const PathSettings s = path_settings(params);
+  return {s.max_depth, 1, s.rr_depth, s.hide_emitters, s.strict_normals};
+}
+
 }  // namespace mlt

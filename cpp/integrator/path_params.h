@@ -2,11 +2,13 @@
 #pragma once
 
 #include "base/params.h"
+#include "path/path_rules.h"
 #include "path/path_tracer.h"
 
 namespace mlt {
 
 std::vector<Parameter> path_parameters();
 PathSettings path_settings(Params& params);
+PathRules path_rules(Params& params);
 
 }  // namespace mlt

@@ -17,74 +17,48 @@ struct PssmltSettings {
 };
 
 /// Walks from the camera as the numbers say, over the whole image plane.
-void evaluate(const Scene& scene, const PathSettings& settings, PrimaryState& state, Rng& rng,
-              ChainStats& stats) {
-  PrimarySampler sampler(state.numbers, rng);
-  const Camera& camera = scene.camera();
-  state.raster = camera.raster().sample(sampler.next2());
-  const Ray ray = camera_ray(camera, state.raster, sampler);
-  // Importance over the density of uniform raster positions.
-  const double importance = camera.raster().sampled_area() / camera.raster().pixels();
-  state.rgb = trace_path(scene, settings, ray, sampler, stats.rays) * importance;
-  state.target = target_luminance(state.rgb);
-  state.numbers.resize(sampler.used());
-  if (!(std::isfinite(state.target) && min_component(state.rgb) >= 0)) {
-    ++stats.invalid;
-    state.target = 0;
-  }
-}
+struct PrimaryWalk {
+  const Scene* scene;
+  PathSettings settings;
+  RayCounts rays = {};
 
-class PssmltChain : public Chain {
+  void operator()(PrimaryState& state, Rng& rng) {
+    PrimarySampler sampler(state.numbers, rng);
+    const Camera& camera = scene->camera();
+    state.raster = camera.raster().sample(sampler.next2());
+    const Ray ray = camera_ray(camera, state.raster, sampler);
+    // Importance over the density of uniform raster positions.
+    const double importance = camera.raster().sampled_area() / camera.raster().pixels();
+    state.rgb = trace_path(*scene, settings, ray, sampler, rays) * importance;
+    state.target = target_luminance(state.rgb);
+    state.numbers.resize(sampler.used());
+    if (!(std::isfinite(state.target) && min_component(state.rgb) >= 0))
+      state.target = std::nan("");
+  }
+};
+
+/// Moves a chain that renders.
+class PssmltKernel : public PrimarySampleKernel<PrimaryWalk> {
  public:
-  PssmltChain(const Scene& scene, const PssmltSettings& settings, Rng rng, PrimaryState start)
-      : scene_(&scene), settings_(settings), rng_(rng), x_(std::move(start)) {
-    stats_.rows.resize(2);
-  }
+  using PrimarySampleKernel::PrimarySampleKernel;
 
-  void advance(uint64_t steps, ChainRecorder& recorder) override {
-    PrimarySampleKernel kernel(settings_.large_probability, [&](PrimaryState& state, Rng& rng) {
-      evaluate(*scene_, settings_.path, state, rng, stats_);
-    });
-    StepRecorder<PrimaryState> record(recorder, x_);
-    for (uint64_t i = 0; i < steps; ++i) {
-      const Vec2 from = x_.raster;
-      const uint64_t rays_before = stats_.rays.intersect + stats_.rays.occluded;
-      const StepResult result = metropolis_step(x_, y_, kernel, rng_, record);
-      record.settle(result, y_[0]);
-      ChainStats::Row& row = stats_.rows[kernel.last()];
-      stats_.count(row, result, kernel.generated(), glm::length(x_.raster - from));
-      row.rays += stats_.rays.intersect + stats_.rays.occluded - rays_before;
-      if (stats_.run > stats_.longest.rejections) stats_.longest = {stats_.run, x_.raster, ""};
-    }
-    record.finish();
-  }
+  size_t stats_row() const { return last(); }
+  size_t stats_rows() const { return 2; }
+  RayCounts& rays() { return evaluate().rays; }
+  std::string signature(const PrimaryState&) const { return ""; }
 
-  const ChainStats& stats() const override { return stats_; }
-
-  void save(ByteWriter& bytes) const override {
-    bytes.write(rng_.state());
-    bytes.write(x_.numbers);
-    bytes.write(x_.raster);
-    bytes.write(x_.rgb);
-    bytes.write(x_.target);
-    stats_.save(bytes);
+  void save(ByteWriter& bytes, const PrimaryState& x) const {
+    bytes.write(x.numbers);
+    bytes.write(x.raster);
+    bytes.write(x.rgb);
+    bytes.write(x.target);
   }
-  void load(ByteReader& bytes) override {
-    rng_ = Rng(bytes.read<Rng::State>());
-    bytes.read(x_.numbers);
-    x_.raster = bytes.read<Vec2>();
-    x_.rgb = bytes.read<Color>();
-    x_.target = bytes.read<double>();
-    stats_.load(bytes);
+  void load(ByteReader& bytes, PrimaryState& x) const {
+    bytes.read(x.numbers);
+    x.raster = bytes.read<Vec2>();
+    x.rgb = bytes.read<Color>();
+    x.target = bytes.read<double>();
   }
-
- private:
-  const Scene* scene_;
-  PssmltSettings settings_;
-  Rng rng_;
-  PrimaryState x_;
-  std::array<PrimaryState, 1> y_;
-  ChainStats stats_;
 };
 
 class Pssmlt : public MetropolisAlgorithm {
@@ -92,20 +66,13 @@ class Pssmlt : public MetropolisAlgorithm {
   Pssmlt(ScenePtr scene, const PssmltSettings& settings)
       : scene_(std::move(scene)), settings_(settings) {}
 
-  double candidate(Rng& rng, RayCounts& rays) const override {
-    ChainStats stats;
-    const double weight = walk(rng, stats).target;
-    rays.intersect += stats.rays.intersect;
-    rays.occluded += stats.rays.occluded;
-    return weight;
+  std::unique_ptr<Source> source() const override { return std::make_unique<PssmltSource>(walk()); }
+  std::unique_ptr<RenderChain> start(const ChainId& id, Rng candidate, Rng) const override {
+    PrimaryState x;
+    walk()(x, candidate);
+    return chain(id, std::move(x));
   }
-  std::unique_ptr<Chain> start(const ChainId& id, Rng candidate, Rng) const override {
-    ChainStats stats;
-    return std::make_unique<PssmltChain>(*scene_, settings_, id.rng(), walk(candidate, stats));
-  }
-  std::unique_ptr<Chain> blank(const ChainId& id) const override {
-    return std::make_unique<PssmltChain>(*scene_, settings_, id.rng(), PrimaryState());
-  }
+  std::unique_ptr<RenderChain> blank(const ChainId& id) const override { return chain(id, {}); }
   std::vector<MutationStats> rows() const override {
     MutationStats large, small;
     large.name = "large_step";
@@ -114,10 +81,23 @@ class Pssmlt : public MetropolisAlgorithm {
   }
 
  private:
-  PrimaryState walk(Rng& rng, ChainStats& stats) const {
+  struct PssmltSource : Source {
+    explicit PssmltSource(const PrimaryWalk& w) : walk(w) {}
+    double weigh(Rng& rng) override {
+      state.numbers.clear();
+      walk(state, rng);
+      return state.target;
+    }
+    const RayCounts& rays() const override { return walk.rays; }
+
+    PrimaryWalk walk;
     PrimaryState state;
-    evaluate(*scene_, settings_.path, state, rng, stats);
-    return state;
+  };
+
+  PrimaryWalk walk() const { return {scene_.get(), settings_.path}; }
+  std::unique_ptr<RenderChain> chain(const ChainId& id, PrimaryState start) const {
+    return std::make_unique<RecordedChain<PssmltKernel>>(
+        PssmltKernel(settings_.large_probability, walk()), id, std::move(start));
   }
 
   ScenePtr scene_;
@@ -163,8 +143,7 @@ Plugin integrator_pssmlt() {
   schema.parameters.push_back(
       {"bidirectional", ParamType::boolean, false,
        "Only false: bidirectional estimators are not part of this integrator."});
-  return {schema,
-          [](Params& params) -> ObjectPtr { return std::make_shared<PssmltIntegrator>(params); }};
+  return make_plugin<PssmltIntegrator>(std::move(schema));
 }
 
 }  // namespace mlt

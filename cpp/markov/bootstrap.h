@@ -4,9 +4,13 @@
 // record is then right from the first step on.
 #pragma once
 
+#include "base/parallel.h"
 #include "base/rng.h"
 
+#include <atomic>
+#include <cmath>
 #include <cstdint>
+#include <mutex>
 #include <vector>
 
 namespace mlt {
@@ -20,5 +24,37 @@ struct Bootstrap {
 /// Systematic resampling of `chains` seeds: candidate i is chosen chains * w_i / sum(w) times in the
 /// mean. Without any positive weight, `seeds` is empty.
 Bootstrap resample(const std::vector<double>& weights, uint32_t chains, Rng& rng);
+
+/// Candidates by number; each has a random stream of its own, and can be drawn again.
+struct Candidates {
+  uint64_t seed;
+  Purpose purpose;
+  uint64_t count;
+
+  Rng rng(uint64_t i) const { return Rng(seed, purpose, i); }
+};
+
+/// The weight of each candidate. `make_source()` returns a pointer to what draws them, and keeps its memory
+/// from one to the next; `source->weigh(rng)` draws one and returns its weight. What is not a positive
+/// number counts as 0; when `cancelled` the rest stays 0. `finished(*source)` is called by one thread after
+/// the other.
+template <class MakeSource, class Finished>
+std::vector<double> candidate_weights(const Candidates& candidates, int threads,
+                                      const std::atomic<bool>& cancelled, MakeSource&& make_source,
+                                      Finished&& finished) {
+  std::vector<double> weights(candidates.count);
+  std::mutex mutex;
+  parallel_blocks(threads, candidates.count, [&](uint64_t first, uint64_t last) {
+    const auto source = make_source();
+    for (uint64_t i = first; i < last && !cancelled; ++i) {
+      Rng rng = candidates.rng(i);
+      const double weight = source->weigh(rng);
+      if (std::isfinite(weight) && weight > 0) weights[i] = weight;
+    }
+    const std::lock_guard lock(mutex);
+    finished(*source);
+  });
+  return weights;
+}
 
 }  // namespace mlt

@@ -1,7 +1,7 @@
 #include "mutation/adaptation.h"
 
 #include "base/parallel.h"
-#include "markov/bootstrap.h"
+#include "mutation/path_seeds.h"
 
 #include <algorithm>
 
@@ -25,26 +25,39 @@ struct Experience {
 
 using Table = std::vector<std::vector<Experience>>;  // [length][mutation]
 
-Table explore(const Scene& scene, const Mutations& mutations, const MutationChoice& choice,
-              PathState x, int steps, Rng rng) {
-  Table table(longest_row + 1, std::vector<Experience>(mutations.size()));
-  RayCounts rays;
-  MutationMixture kernel(mutations, choice, rays);
-  std::array<PathState, 1> y;
+Table explore(PathChain& chain, const Scene& scene, int steps) {
+  const PathMixture& mixture = chain.kernel();
+  Table table(longest_row + 1, std::vector<Experience>(mixture.moves().size()));
   for (int i = 0; i < steps; ++i) {
-    kernel.set_stratified_raster(unstratified(scene.camera().raster(), rng));
-    const uint64_t rays_before = rays.intersect + rays.occluded;
-    const int edges = x.edges();
+    const uint64_t rays_before = mixture.aids().rays.total();
     double jump = 0;
-    metropolis_step(x, y, kernel, rng, [&](const PathState& state, double weight) {
-      if (&state != &x) jump += weight * squared_jump(scene, x, state);
+    chain.step([&](const PathState& state, double weight) {
+      if (&state != &chain.state()) jump += weight * squared_jump(scene, chain.state(), state);
     });
-    Experience& e = table[std::min(edges, longest_row)][kernel.chosen()];
+    Experience& e = table[std::min(mixture.row(), longest_row)][mixture.chosen()];
     e.jumps += jump;
     ++e.proposed;
-    e.rays += rays.intersect + rays.occluded - rays_before;
+    e.rays += mixture.aids().rays.total() - rays_before;
   }
   return table;
+}
+
+/// Pilot chains, each from a path of its own; fewer, or none, where no light was found.
+std::vector<Table> explore(const PathTarget& target, const Mutations& mutations,
+                           const MixtureWeights& weights, const AdaptationSettings& adaptation,
+                           const std::atomic<bool>& cancelled) {
+  const Candidates candidates{adaptation.seed, Purpose::pilot, adaptation.candidates};
+  PathStarts starts =
+      bootstrap(target, candidates, adaptation.chains, adaptation.threads, cancelled);
+  std::vector<Table> tables(cancelled ? 0 : starts.paths.size());
+  const auto shared = std::make_shared<MixtureWeights>(weights);
+  parallel_for(adaptation.threads, tables.size(), [&](uint64_t i) {
+    PathChain chain({mutations, shared},
+                    candidates.rng(candidates.count + 1 + starts.paths.size() + i),
+                    std::move(starts.paths[i]));
+    if (chain.state().target > 0) tables[i] = explore(chain, target.scene(), adaptation.steps);
+  });
+  return tables;
 }
 
 /// Shares in proportion to efficiency, none below its floor.
@@ -84,37 +97,11 @@ double squared_jump(const Scene& scene, const PathState& x, const PathState& y) 
   return 0.5 * (image + vertices / (longer + 1));
 }
 
-MutationChoice adapt(const Scene& scene, const BidirectionalSettings& paths,
-                     const MutationSettings& settings, const Mutations& mutations,
-                     const MutationChoice& initial, const AdaptationSettings& adaptation,
+MixtureWeights adapt(const PathTarget& target, const Mutations& mutations,
+                     const MixtureWeights& initial, const AdaptationSettings& adaptation,
                      const std::atomic<bool>& cancelled) {
-  std::vector<double> weights(adaptation.candidates);
-  constexpr uint64_t block = 256;
-  parallel_for(adaptation.threads, (weights.size() + block - 1) / block, [&](uint64_t b) {
-    PathSeeds seeds(scene, paths, settings);
-    RayCounts rays;
-    for (uint64_t i = b * block;
-         i < std::min<uint64_t>(weights.size(), (b + 1) * block) && !cancelled; ++i) {
-      Rng rng(adaptation.seed, Purpose::pilot, i);
-      weights[i] = seeds.weigh(rng, rays, [](const Vec2&, double) {});
-    }
-  });
-  Rng choose(adaptation.seed, Purpose::pilot, weights.size());
-  const Bootstrap bootstrap = resample(weights, adaptation.chains, choose);
-  if (bootstrap.seeds.empty() || cancelled) return initial;
-
-  std::vector<Table> tables(bootstrap.seeds.size());
-  parallel_for(adaptation.threads, tables.size(), [&](uint64_t i) {
-    PathSeeds seeds(scene, paths, settings);
-    RayCounts rays;
-    Rng candidate(adaptation.seed, Purpose::pilot, bootstrap.seeds[i]);
-    Rng choice(adaptation.seed, Purpose::pilot, weights.size() + 1 + 2 * i);
-    const Rng own(adaptation.seed, Purpose::pilot, weights.size() + 2 + 2 * i);
-    PathState x = seeds.pick(candidate, choice, rays);
-    if (x.target > 0)
-      tables[i] = explore(scene, mutations, initial, std::move(x), adaptation.steps, own);
-  });
-
+  const std::vector<Table> tables = explore(target, mutations, initial, adaptation, cancelled);
+  if (tables.empty()) return initial;
   Table sum(longest_row + 1, std::vector<Experience>(mutations.size()));
   std::vector<Experience> all(mutations.size());
   for (const Table& table : tables)
@@ -125,17 +112,17 @@ MutationChoice adapt(const Scene& scene, const BidirectionalSettings& paths,
       }
   // A mutation that comes in several step sizes shares its floor among them.
   std::vector<double> floors;
-  for (const auto& mutation : mutations) {
-    const auto same = std::count_if(mutations.begin(), mutations.end(), [&](const auto& other) {
-      return other->name() == mutation->name();
-    });
-    floors.push_back((mutation->name() == "bidirectional" ? adaptation.least_share_of_bidirectional
-                                                          : adaptation.least_share) /
-                     same);
+  for (const MutationPtr& mutation : mutations) {
+    const auto same =
+        std::count_if(mutations.begin(), mutations.end(),
+                      [&](const MutationPtr& other) { return other->name() == mutation->name(); });
+    floors.push_back(
+        (mutation->ergodic() ? adaptation.least_share_of_ergodic : adaptation.least_share) /
+        static_cast<double>(same));
   }
   std::vector<std::vector<double>> rows;
   for (const auto& row : sum) rows.push_back(shares(row, all, floors));
-  return MutationChoice(std::move(rows));
+  return MixtureWeights(std::move(rows));
 }
 
 }  // namespace mlt

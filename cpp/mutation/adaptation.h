@@ -5,11 +5,9 @@
 // Mutations of several step sizes take part as so many mutations; so the step sizes are chosen as well.
 #pragma once
 
-#include "mutation/mixture.h"
-#include "mutation/path_seeds.h"
+#include "mutation/path_chain.h"
 
 #include <atomic>
-#include <string>
 
 namespace mlt {
 
@@ -19,8 +17,8 @@ struct AdaptationSettings {
   int chains = 64;
   int steps = 1000;
   uint64_t candidates = 16384;
-  double least_share = 0.05;                  ///< What every mutation keeps.
-  double least_share_of_bidirectional = 0.1;  ///< The one that makes the chain ergodic keeps more.
+  double least_share = 0.05;            ///< What every mutation keeps.
+  double least_share_of_ergodic = 0.1;  ///< One that makes the chain ergodic keeps more.
 };
 
 /// How far y is from x, squared, between 0 and 1: half for the image, where a move counts as whole from
@@ -30,9 +28,8 @@ double squared_jump(const Scene& scene, const PathState& x, const PathState& y);
 
 /// The probabilities found; `initial` is what the pilot chains use. Deterministic for any number of
 /// threads. Returns `initial` if no light path was found, or when cancelled.
-MutationChoice adapt(const Scene& scene, const BidirectionalSettings& paths,
-                     const MutationSettings& settings, const Mutations& mutations,
-                     const MutationChoice& initial, const AdaptationSettings& adaptation,
+MixtureWeights adapt(const PathTarget& target, const Mutations& mutations,
+                     const MixtureWeights& initial, const AdaptationSettings& adaptation,
                      const std::atomic<bool>& cancelled);
 
 }  // namespace mlt

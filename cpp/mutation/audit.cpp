@@ -38,20 +38,14 @@ struct Batch {
 
 class Auditor {
  public:
-  Auditor(const Scene& scene, const MutationSettings& settings, const Mutations& mutations,
-          const MutationChoice& choice, const AuditSettings& how)
-      : scene_(&scene),
-        settings_(&settings),
-        mutations_(&mutations),
-        choice_(&choice),
+  Auditor(const PathTarget& target, const Mutations& mutations, const MixtureWeights& weights,
+          const AuditSettings& how, const std::atomic<bool>& cancelled)
+      : target_(&target),
+        mixture_(mutations, std::make_shared<MixtureWeights>(weights)),
         how_(how),
-        functions_(scene) {
-    samples_ = std::max<uint64_t>(1, how.paths / batches);
-    paths_.max_depth = settings.max_depth;
-    paths_.min_depth = settings.min_depth;
-    paths_.hide_emitters = settings.hide_emitters;
-    paths_.strict_normals = settings.strict_normals;
-  }
+        cancelled_(&cancelled),
+        functions_(target.scene()),
+        samples_(std::max<uint64_t>(1, how.paths / batches)) {}
 
   AuditReport run() {
     weight_of_step_ = pilot();
@@ -64,30 +58,27 @@ class Auditor {
   /// Mean weight of a sample, roughly, in paths that a mutation suits: as a step's weight, it makes for one
   /// step per sample.
   double pilot() const {
-    PathSeeds seeds(*scene_, paths_, *settings_);
-    RayCounts rays;
+    PathSeeds seeds = target_->seeds();
+    PathMixture mixture = mixture_;
     Rng rng(how_.seed, Purpose::pilot, 0);
     const uint64_t n = std::max<uint64_t>(1000, how_.paths / 10);
     double light = 0, suited = 0;
     PathState x;
-    for (uint64_t i = 0; i < n; ++i)
-      seeds.draw(rng, rays, [&](const Connection& connection, double weight) {
+    for (uint64_t i = 0; i < n && !*cancelled_; ++i)
+      seeds.draw(rng, [&](const Connection& connection, double weight) {
         light += weight;
-        if (take(seeds, connection, x)) suited += weight;
+        if (take(seeds, connection, mixture, x)) suited += weight;
       });
-    if (!(light > 0))
+    if (!(light > 0) && !*cancelled_)
       throw RenderError("no light path was found among " + std::to_string(n) + " samples");
     return (suited > 0 ? suited : light) / static_cast<double>(n);
   }
 
   /// Makes x of a connection; false if no mutation would do anything to it.
-  bool take(const PathSeeds& seeds, const Connection& connection, PathState& x) const {
+  static bool take(const PathSeeds& seeds, const Connection& connection, PathMixture& mixture,
+                   PathState& x) {
     seeds.assemble(connection, x);
-    if (!(x.target > 0)) return true;
-    const std::vector<double>& weights = choice_->weights(x.edges());
-    for (size_t i = 0; i < mutations_->size(); ++i)
-      if (weights[i] > 0 && (*mutations_)[i]->suitability(x) > 0) return true;
-    return false;
+    return !(x.target > 0) || mixture.suits(x);
   }
 
   Batch batch(uint64_t index) const {
@@ -95,26 +86,24 @@ class Auditor {
     for (auto* values : {&sums.expected, &sums.chosen, &sums.size, &sums.size_squared})
       values->assign(functions_.size(), 0);
     sums.seen.assign(functions_.size(), 0);
-    PathSeeds seeds(*scene_, paths_, *settings_);
-    RayCounts rays;
-    Rng rng(how_.seed, Purpose::inspect, index);
-    MutationMixture kernel(*mutations_, *choice_, rays);
+    PathSeeds seeds = target_->seeds();
+    PathChain chain(mixture_, Rng(how_.seed, Purpose::inspect, index));
     PathState x;
     Scratch scratch;
-    for (uint64_t i = 0; i < samples_; ++i) {
+    for (uint64_t i = 0; i < samples_ && !*cancelled_; ++i) {
       double weight_of_sample = 0;
-      seeds.draw(rng, rays, [&](const Connection& connection, double weight) {
+      seeds.draw(chain.rng(), [&](const Connection& connection, double weight) {
         sums.light += weight;
-        if (!take(seeds, connection, x)) return;
+        if (!take(seeds, connection, chain.kernel(), x)) return;
         if (!(x.target > 0)) {
           sums.lost += weight;
           return;
         }
         weight_of_sample += weight;
         const double wanted = weight / weight_of_step_;
-        const double splits = std::min(std::floor(wanted + rng.next()), most_splits);
+        const double splits = std::min(std::floor(wanted + chain.rng().next()), most_splits);
         const double each = wanted < most_splits ? weight_of_step_ : weight / splits;
-        for (double s = 0; s < splits; ++s) step(x, each, kernel, rng, scratch, sums);
+        for (double s = 0; s < splits; ++s) step(x, each, chain, scratch, sums);
       });
       sums.weight += weight_of_sample;
       sums.weight_squared += sqr(weight_of_sample);
@@ -123,27 +112,23 @@ class Auditor {
   }
 
   struct Scratch {
-    PathState x;
-    std::array<PathState, 1> y;
     std::vector<double> before, after, mean;
   };
 
-  void step(const PathState& start, double weight, MutationMixture& kernel, Rng& rng, Scratch& s,
-            Batch& sums) const {
-    kernel.set_stratified_raster(unstratified(scene_->camera().raster(), rng));
-    s.x = start;
-    functions_.evaluate(s.x, s.before);
+  void step(const PathState& x, double weight, PathChain& chain, Scratch& s, Batch& sums) const {
+    functions_.evaluate(x, s.before);
     for (size_t g = 0; g < s.before.size(); ++g) sums.seen[g] += s.before[g] != 0;
     s.mean.assign(functions_.size(), 0);
     const auto record = [&](const PathState& state, double share) {
       functions_.evaluate(state, s.after);
       for (size_t g = 0; g < s.mean.size(); ++g) s.mean[g] += share * (s.after[g] - s.before[g]);
     };
-    const StepResult result = metropolis_step(s.x, s.y, kernel, rng, record);
+    chain.restart(x);
+    const StepResult result = chain.step(record);
     ++sums.steps;
-    AuditRow& row = sums.rows[{kernel.chosen(), signature(start)}];
+    AuditRow& row = sums.rows[{chain.kernel().chosen(), signature(x)}];
     ++row.steps;
-    row.generated += kernel.generated();
+    row.generated += chain.kernel().generated(result.accepted < 0 ? chain.other() : chain.state());
     row.accepted += result.accepted >= 0;
     row.invalid += result.invalid;
     row.acceptance += result.acceptance;
@@ -155,15 +140,9 @@ class Auditor {
       sums.size_squared[g] += sqr(change);
     }
     if (result.accepted < 0) return;
-    functions_.evaluate(s.x, s.after);
+    functions_.evaluate(chain.state(), s.after);
     for (size_t g = 0; g < s.after.size(); ++g)
       sums.chosen[g] += weight * (s.after[g] - s.before[g]);
-  }
-
-  static std::string signature(const PathState& x) {
-    std::string letters = "L";
-    for (int i = 1; i < x.edges(); ++i) letters += x.specular(i) ? 'S' : 'D';
-    return letters + "E";
   }
 
   AuditReport report(const std::vector<Batch>& done) const {
@@ -186,7 +165,7 @@ class Auditor {
       }
     }
     for (auto& [key, row] : rows) {
-      row.mutation = (*mutations_)[key.first]->name();
+      row.mutation = mixture_.moves()[key.first]->name();
       row.signature = key.second;
       report.accepted += row.accepted;
       report.invalid += row.invalid;
@@ -287,13 +266,11 @@ class Auditor {
                                     n, report.tests[0].adjusted_p));
   }
 
-  const Scene* scene_;
-  const MutationSettings* settings_;
-  const Mutations* mutations_;
-  const MutationChoice* choice_;
+  const PathTarget* target_;
+  PathMixture mixture_;
   AuditSettings how_;
+  const std::atomic<bool>* cancelled_;
   PathFunctions functions_;
-  BidirectionalSettings paths_;
   uint64_t samples_;  ///< Of each batch.
   double weight_of_step_ = 0;
 };
@@ -329,14 +306,14 @@ std::string AuditReport::text(size_t most) const {
   return out;
 }
 
-AuditReport audit(const Scene& scene, const MutationSettings& settings, const Mutations& mutations,
-                  const MutationChoice& choice, const AuditSettings& how) {
-  return Auditor(scene, settings, mutations, choice, how).run();
+AuditReport audit(const PathTarget& target, const Mutations& mutations,
+                  const MixtureWeights& weights, const AuditSettings& how,
+                  const std::atomic<bool>& cancelled) {
+  return Auditor(target, mutations, weights, how, cancelled).run();
 }
 
-AuditReport audit(const Scene& scene, const MutationSettings& settings,
-                  const std::shared_ptr<const Mutation>& mutation, const AuditSettings& how) {
-  return audit(scene, settings, {mutation}, MutationChoice(std::vector<double>{1.0}), how);
+AuditReport audit(const PathTarget& target, const MutationPtr& mutation, const AuditSettings& how) {
+  return audit(target, {mutation}, MixtureWeights(std::vector<double>{1.0}), how);
 }
 
 }  // namespace mlt

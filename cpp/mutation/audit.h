@@ -16,7 +16,8 @@
 // nothing is concluded.
 #pragma once
 
-#include "mutation/mixture.h"
+#include "base/parallel.h"
+#include "mutation/path_chain.h"
 
 #include <string>
 #include <vector>
@@ -71,11 +72,12 @@ struct AuditReport {
 
 const char* name_of(Verdict verdict);
 
-/// Tests one step of the mixture of `mutations`. Throws RenderError if no path carries light.
-AuditReport audit(const Scene& scene, const MutationSettings& settings, const Mutations& mutations,
-                  const MutationChoice& choice, const AuditSettings& how);
+/// Tests one step of the mixture of `mutations`. Throws RenderError if no path carries light. A report that
+/// was cancelled says nothing.
+AuditReport audit(const PathTarget& target, const Mutations& mutations,
+                  const MixtureWeights& weights, const AuditSettings& how,
+                  const std::atomic<bool>& cancelled = never_cancelled);
 /// Tests one mutation alone.
-AuditReport audit(const Scene& scene, const MutationSettings& settings,
-                  const std::shared_ptr<const Mutation>& mutation, const AuditSettings& how);
+AuditReport audit(const PathTarget& target, const MutationPtr& mutation, const AuditSettings& how);
 
 }  // namespace mlt

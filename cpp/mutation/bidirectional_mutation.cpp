@@ -1,5 +1,6 @@
 #include "mutation/bidirectional_mutation.h"
 
+#include "mutation/mutation_registry.h"
 #include "path/next_event.h"
 
 namespace mlt {
@@ -78,11 +79,6 @@ int most_from_light(int n, bool lens_is_missing, const Scene& scene) {
 
 }  // namespace
 
-const std::string& BidirectionalMutation::name() const {
-  static const std::string name = "bidirectional";
-  return name;
-}
-
 std::optional<Edit> BidirectionalMutation::propose(const PathState& x, PathState& y,
                                                    MutationContext& context) const {
   const int k = x.edges();
@@ -101,7 +97,7 @@ std::optional<Edit> BidirectionalMutation::propose(const PathState& x, PathState
   // The emitter chosen to be seen from x_1 needs x_1: the camera side grows first.
   if (!grow_from_camera(y, edit.first + s, t, context)) return std::nullopt;
   if (!grow_from_light(y, edit.first, s, context)) return std::nullopt;
-  evaluate(*scene_, settings_, edit.first, edit.first + n - 1, y);
+  target_->evaluate(edit.first, edit.first + n - 1, y);
   if (!(y.target > 0)) return edit;
   const int joint = edit.first + s;  // the connecting edge is (joint - 1, joint)
   if (joint > 0 && joint <= y.edges()) {
@@ -251,6 +247,19 @@ double BidirectionalMutation::density(const PathState& x, const PathState& y,
     sum += p;
   }
   return p_delete * p_length * sum / (most + 1);
+}
+
+MutationPlugin mutation_bidirectional() {
+  return {
+      {"mutation",
+       "bidirectional",
+       "bidirectional mutation, which replaces any piece of the path (Veach 1997, sec. 11.3.1).",
+       {}},
+      "bidirectional_mutation",
+      0.3,
+      [](const PathTarget& target, Params&) -> MutationPtr {
+        return std::make_shared<BidirectionalMutation>(target);
+      }};
 }
 
 }  // namespace mlt

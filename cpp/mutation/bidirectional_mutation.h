@@ -16,11 +16,11 @@ namespace mlt {
 
 class BidirectionalMutation : public Mutation {
  public:
-  BidirectionalMutation(const Scene& scene, const MutationSettings& settings)
-      : scene_(&scene), settings_(settings) {}
+  explicit BidirectionalMutation(const PathTarget& target)
+      : Mutation("bidirectional"), target_(&target), scene_(&target.scene()) {}
 
-  const std::string& name() const override;
   double suitability(const PathState&) const override { return 1; }
+  bool ergodic() const override { return true; }
   std::optional<Edit> propose(const PathState& x, PathState& y,
                               MutationContext& context) const override;
   double density(const PathState& x, const PathState& y, const Edit& edit) const override;
@@ -33,10 +33,10 @@ class BidirectionalMutation : public Mutation {
   bool arrive(const Ray& ray, Vertex& next, MutationContext& context) const;
   bool arrive_at_lens(const Ray& ray, Vertex& xk, MutationContext& context) const;
   bool arrive_at_light(const Ray& ray, Vertex& x0, MutationContext& context) const;
-  int most_edges() const { return settings_.max_depth < 0 ? 1 << 16 : settings_.max_depth; }
+  int most_edges() const { return target_->rules().most_edges(); }
 
+  const PathTarget* target_;
   const Scene* scene_;
-  MutationSettings settings_;
 };
 
 }  // namespace mlt

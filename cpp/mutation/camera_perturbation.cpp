@@ -1,5 +1,7 @@
 #include "mutation/camera_perturbation.h"
 
+#include "mutation/mutation_registry.h"
+
 namespace mlt {
 namespace {
 
@@ -27,7 +29,7 @@ CameraPerturbation::Form CameraPerturbation::form(const PathState& x) const {
 
 double CameraPerturbation::suitability(const PathState& x) const {
   const Form f = form(x);
-  return f.stop >= 0 && suits(f.further_chains) ? 1 : 0;
+  return f.stop >= 0 && (f.further_chains > 0) == (chains_ == Chains::many) ? 1 : 0;
 }
 
 /// Radii on the lens: a thousandth and a third of its own radius.
@@ -56,7 +58,7 @@ std::optional<Edit> CameraPerturbation::propose(const PathState& x, PathState& y
 
   const Ray ray{y[k].at.p, camera.direction(y[k].at, raster), y.path.time};
   if (!chain_.carry(x, {k, stop, -1}, ray, y, context)) return std::nullopt;
-  evaluate(*scene_, settings_, stop, k, y);
+  target_->evaluate(stop, k, y);
   if (!(y.target > 0) || stop == 0) return edit;
   ++context.rays.occluded;
   if (!scene_->visible(y[stop - 1].at, y[stop].at, y.path.time)) y.target = 0;
@@ -78,6 +80,31 @@ double CameraPerturbation::density(const PathState& x, const PathState& y, const
     on_lens =
         lens_moves(x, y) ? 0.5 * lens_radius().planar_pdf(length(y[k].at.p - x[k].at.p)) : 0.5;
   return on_lens * chain_.density(x, y, {k, from.stop, -1}, on_image);
+}
+
+MutationPlugin mutation_lens() {
+  return {{"mutation", "lens",
+           "lens perturbation of paths (L|D)DS*E and LS*E (Veach 1997, sec. 11.3.3.1).",
+           step_size_parameters()},
+          "lens_perturbation",
+          0.3,
+          [](const PathTarget& target, Params& params) -> MutationPtr {
+            return std::make_shared<CameraPerturbation>("lens", CameraPerturbation::Chains::one,
+                                                        target, step_sizes(params));
+          }};
+}
+
+MutationPlugin mutation_multi_chain() {
+  return {{"mutation", "multi_chain",
+           "multi-chain perturbation of paths (L|D)(DS+)+DS*E and L(S+D)+S*E (Veach 1997, sec. "
+           "11.3.3.3).",
+           step_size_parameters()},
+          "multi_chain_perturbation",
+          0.2,
+          [](const PathTarget& target, Params& params) -> MutationPtr {
+            return std::make_shared<CameraPerturbation>(
+                "multi_chain", CameraPerturbation::Chains::many, target, step_sizes(params));
+          }};
 }
 
 }  // namespace mlt

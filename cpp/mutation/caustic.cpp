@@ -1,11 +1,8 @@
 #include "mutation/caustic.h"
 
-namespace mlt {
+#include "mutation/mutation_registry.h"
 
-const std::string& CausticPerturbation::name() const {
-  static const std::string name = "caustic";
-  return name;
-}
+namespace mlt {
 
 int CausticPerturbation::start(const PathState& x) const {
   const int last = x.edges() - 1;
@@ -43,7 +40,7 @@ std::optional<Edit> CausticPerturbation::propose(const PathState& x, PathState& 
                         y.path.time);
   }
   if (!chain_.carry(x, {a, k - 1, 1}, ray, y, context)) return std::nullopt;
-  evaluate(*scene_, settings_, a + 1, k - 1, y);
+  target_->evaluate(a + 1, k - 1, y);
   if (!(y.target > 0)) return edit;
   ++context.rays.occluded;
   if (!scene_->visible(y[k - 1].at, y[k].at, y.path.time)) y.target = 0;
@@ -64,6 +61,17 @@ double CausticPerturbation::density(const PathState& x, const PathState& y,
     first = chain_.angle(x, a, k - 1, 1).angular_pdf(theta) / abs_cos(y[a].at, to);
   }
   return chain_.density(x, y, {a, k - 1, 1}, first);
+}
+
+MutationPlugin mutation_caustic() {
+  return {{"mutation", "caustic",
+           "caustic perturbation of paths (L|D)S*DE (Veach 1997, sec. 11.3.3.2).",
+           step_size_parameters()},
+          "caustic_perturbation",
+          0.2,
+          [](const PathTarget& target, Params& params) -> MutationPtr {
+            return std::make_shared<CausticPerturbation>(target, step_sizes(params));
+          }};
 }
 
 }  // namespace mlt

@@ -13,10 +13,12 @@ namespace mlt {
 
 class CausticPerturbation : public Mutation {
  public:
-  CausticPerturbation(const Scene& scene, const MutationSettings& settings)
-      : scene_(&scene), settings_(settings), chain_(scene, settings) {}
+  CausticPerturbation(const PathTarget& target, const StepSizes& steps)
+      : Mutation("caustic"),
+        target_(&target),
+        scene_(&target.scene()),
+        chain_(target.scene(), steps) {}
 
-  const std::string& name() const override;
   double suitability(const PathState& x) const override { return start(x) >= 0 ? 1 : 0; }
   std::optional<Edit> propose(const PathState& x, PathState& y,
                               MutationContext& context) const override;
@@ -27,8 +29,8 @@ class CausticPerturbation : public Mutation {
   int start(const PathState& x) const;
   ExponentialRadius offset_radius(const PathState& x) const;
 
+  const PathTarget* target_;
   const Scene* scene_;
-  MutationSettings settings_;
   ChainPerturbation chain_;
 };
 

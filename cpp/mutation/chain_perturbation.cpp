@@ -19,13 +19,23 @@ double angle_between(const Vec3& a, const Vec3& b) {
 
 }  // namespace
 
-ChainPerturbation::ChainPerturbation(const Scene& scene, const MutationSettings& settings)
-    : scene_(&scene) {
+std::vector<Parameter> step_size_parameters() {
+  const StepSizes steps;
+  return {{"smallest_pixels", ParamType::real, steps.smallest_pixels,
+           "Smallest move on the image, in pixels."},
+          {"largest_share", ParamType::real, steps.largest_share,
+           "Largest move on the image, as a share of its diagonal."}};
+}
+
+StepSizes step_sizes(Params& params) {
+  return {params.real_in("smallest_pixels", 1e-6, 1e3), params.real_in("largest_share", 1e-6, 1)};
+}
+
+ChainPerturbation::ChainPerturbation(const Scene& scene, const StepSizes& steps) : scene_(&scene) {
   const Raster& raster = scene.camera().raster();
   const double diagonal = std::hypot(raster.size.x, raster.size.y);
-  image_radius_ =
-      ExponentialRadius(settings.smallest_pixels,
-                        std::max(2 * settings.smallest_pixels, settings.largest_share * diagonal));
+  image_radius_ = ExponentialRadius(
+      steps.smallest_pixels, std::max(2 * steps.smallest_pixels, steps.largest_share * diagonal));
 }
 
 double ChainPerturbation::raster_per_direction(const PathState& x) const {

@@ -7,9 +7,18 @@
 // light, the last ray has to hit one.
 #pragma once
 
+#include "base/params.h"
 #include "mutation/mutation.h"
 
 namespace mlt {
+
+/// Radii between which the image position is perturbed: pixels, and a share of the image's diagonal.
+struct StepSizes {
+  double smallest_pixels = 0.1, largest_share = 0.1;
+};
+/// The same as parameters of a perturbation.
+std::vector<Parameter> step_size_parameters();
+StepSizes step_sizes(Params& params);
 
 /// A distance distributed with density proportional to 1 / R between two radii (Veach 1997, sec.
 /// 11.3.3.1): R = R_2 exp(-ln(R_2 / R_1) u).
@@ -42,7 +51,7 @@ struct ExponentialRadius {
 
 class ChainPerturbation {
  public:
-  ChainPerturbation(const Scene& scene, const MutationSettings& settings);
+  ChainPerturbation(const Scene& scene, const StepSizes& steps);
 
   struct Span {
     int start, stop, step;

@@ -55,13 +55,21 @@ bool passable(const Scene& scene, const Path& path, int first, int last, RayCoun
   return true;
 }
 
-Edit evaluate_proposal(const Scene& scene, const MutationSettings& settings, const PathState& x,
-                       PathState& y, RayCounts& rays) {
+Edit evaluate_proposal(const PathTarget& target, const PathState& x, PathState& y,
+                       RayCounts& rays) {
   const Edit edit = difference(x.path, y.path);
-  evaluate(scene, settings, y);
+  target.evaluate(y);
   const int last = edit.first + edit.inserted - 1;
-  if (y.target > 0 && !passable(scene, y.path, edit.first, last, rays)) y.target = 0;
+  if (y.target > 0 && !passable(target.scene(), y.path, edit.first, last, rays)) y.target = 0;
   return edit;
+}
+
+PathState evaluated(const PathTarget& target, const Path& path, RayCounts& rays) {
+  PathState x;
+  x.path = path;
+  target.evaluate(x);
+  if (x.target > 0 && !passable(target.scene(), path, 0, path.edges(), rays)) x.target = 0;
+  return x;
 }
 
 }  // namespace mlt

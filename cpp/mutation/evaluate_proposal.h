@@ -2,7 +2,7 @@
 // mutations here know about their proposals is found from the vertices alone.
 #pragma once
 
-#include "mutation/path_state.h"
+#include "mutation/path_target.h"
 #include "path/ray_counts.h"
 
 namespace mlt {
@@ -16,7 +16,9 @@ bool passable(const Scene& scene, const Path& path, int first, int last, RayCoun
 
 /// Evaluates y, of which only the path is known; target = 0 also where light cannot take it. Returns
 /// the edit that has made it of x, whose edges are taken to be passable.
-Edit evaluate_proposal(const Scene& scene, const MutationSettings& settings, const PathState& x,
-                       PathState& y, RayCounts& rays);
+Edit evaluate_proposal(const PathTarget& target, const PathState& x, PathState& y, RayCounts& rays);
+
+/// A path of which only the vertices are known, with its terms; target = 0 also where light cannot take it.
+PathState evaluated(const PathTarget& target, const Path& path, RayCounts& rays);
 
 }  // namespace mlt

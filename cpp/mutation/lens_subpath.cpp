@@ -1,11 +1,8 @@
 #include "mutation/lens_subpath.h"
 
-namespace mlt {
+#include "mutation/mutation_registry.h"
 
-const std::string& LensSubpathMutation::name() const {
-  static const std::string name = "lens_subpath";
-  return name;
-}
+namespace mlt {
 
 int LensSubpathMutation::stop(const PathState& x) const {
   int i = x.edges() - 1;
@@ -16,7 +13,7 @@ int LensSubpathMutation::stop(const PathState& x) const {
 double LensSubpathMutation::stop_probability(const SurfacePoint& at) const {
   const Bsdf& bsdf = scene_->bsdf(at);
   const Vec3 up(0, 0, 1);
-  if (!bsdf.has_smooth() || bsdf.roughness(at, up, up) < settings_.near_specular) return 0;
+  if (!bsdf.has_smooth() || bsdf.roughness(at, up, up) < target_->near_specular()) return 0;
   return bsdf.has_delta() ? 0.5 : 1.0;
 }
 
@@ -25,7 +22,8 @@ std::optional<Edit> LensSubpathMutation::propose(const PathState& x, PathState& 
   const Camera& camera = scene_->camera();
   Rng& rng = context.rng;
   const PositionSample lens = camera.sample_position({rng.next(), rng.next()});
-  Ray ray{lens.at.p, camera.direction(lens.at, context.stratified_raster.position()), x.path.time};
+  Ray ray{lens.at.p, camera.direction(lens.at, context.raster_position(camera.raster())),
+          x.path.time};
 
   // The walk comes first: only then is the length of the path known.
   constexpr int most_vertices = 32;
@@ -47,13 +45,12 @@ std::optional<Edit> LensSubpathMutation::propose(const PathState& x, PathState& 
   }
   const int first = stop(x);
   const Edit edit{first, x.edges(), count + 2};
-  if (settings_.max_depth >= 0 && x.edges() + edit.shift() > settings_.max_depth)
-    return std::nullopt;
+  if (x.edges() + edit.shift() > target_->rules().most_edges()) return std::nullopt;
   splice(x, edit, y);
   const int k = y.edges();
   y.path[k] = camera_vertex(lens.at);
   for (int i = 0; i <= count; ++i) y.path[k - 1 - i] = walk[i];
-  evaluate(*scene_, settings_, first, k, y);
+  target_->evaluate(first, k, y);
   if (!(y.target > 0)) return edit;
   ++context.rays.occluded;
   if (!scene_->visible(y[first - 1].at, y[first].at, y.path.time)) y.target = 0;
@@ -70,6 +67,18 @@ double LensSubpathMutation::density(const PathState& x, const PathState& y,
     p *= i == edit.first ? stops : 1 - stops;
   }
   return p;
+}
+
+MutationPlugin mutation_lens_subpath() {
+  return {{"mutation",
+           "lens_subpath",
+           "lens subpath mutation, which draws a fresh camera end (Veach 1997, sec. 11.3.4).",
+           {}},
+          "lens_subpath_mutation",
+          0.1,
+          [](const PathTarget& target, Params&) -> MutationPtr {
+            return std::make_shared<LensSubpathMutation>(target);
+          }};
 }
 
 }  // namespace mlt

@@ -13,10 +13,9 @@ namespace mlt {
 
 class LensSubpathMutation : public Mutation {
  public:
-  LensSubpathMutation(const Scene& scene, const MutationSettings& settings)
-      : scene_(&scene), settings_(settings) {}
+  explicit LensSubpathMutation(const PathTarget& target)
+      : Mutation("lens_subpath"), target_(&target), scene_(&target.scene()) {}
 
-  const std::string& name() const override;
   double suitability(const PathState& x) const override { return stop(x) > 0 ? 1 : 0; }
   std::optional<Edit> propose(const PathState& x, PathState& y,
                               MutationContext& context) const override;
@@ -30,8 +29,8 @@ class LensSubpathMutation : public Mutation {
   /// (nearly) specular, 1 where none is a delta.
   double stop_probability(const SurfacePoint& at) const;
 
+  const PathTarget* target_;
   const Scene* scene_;
-  MutationSettings settings_;
 };
 
 }  // namespace mlt

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "base/rng.h"
-#include "mutation/path_state.h"
+#include "mutation/path_target.h"
 #include "mutation/stratified_raster.h"
 #include "path/ray_counts.h"
 
@@ -14,17 +14,40 @@
 
 namespace mlt {
 
+/// What a chain has for its mutations beside random numbers.
+struct MutationAids {
+  RayCounts rays;                              ///< Traced by its mutations so far.
+  std::optional<StratifiedRaster> stratified;  ///< For a fresh lens subpath in this step.
+};
+
 /// What a proposal may draw on.
 struct MutationContext {
+  MutationContext(Rng& rng, MutationAids& aids) : rng(rng), rays(aids.rays), aids_(&aids) {}
+
+  /// A raster position for a fresh lens subpath: uniform, and stratified where chains go side by side.
+  Vec2 raster_position(const Raster& raster) const {
+    if (aids_->stratified) return aids_->stratified->position(raster);
+    const double x = rng.next();
+    return raster.sample({x, rng.next()});
+  }
+
   Rng& rng;
   RayCounts& rays;
-  StratifiedRaster stratified_raster{};
+
+ private:
+  const MutationAids* aids_;
 };
 
 class Mutation {
  public:
+  using State = PathState;
+  using Aids = MutationAids;
+  using Context = MutationContext;
+  using Edit = mlt::Edit;
+
+  explicit Mutation(std::string name) : name_(std::move(name)) {}
   virtual ~Mutation() = default;
-  virtual const std::string& name() const = 0;
+  const std::string& name() const { return name_; }
 
   /// Can it act on this path? Weight with which it takes part in the choice, 0 or 1.
   virtual double suitability(const PathState& x) const = 0;
@@ -37,6 +60,16 @@ class Mutation {
   /// T(x -> y) for this edit, without the probability of having chosen this mutation. The reverse is
   /// density(y, x, edit.reversed()).
   virtual double density(const PathState& x, const PathState& y, const Edit& edit) const = 0;
+
+  /// Whether it alone can make every path of every other.
+  virtual bool ergodic() const { return false; }
+
+  /// Weights of the mutations go by path length.
+  static size_t row(const PathState& x) { return static_cast<size_t>(x.edges()); }
+  void check(const PathState&, const PathState&, double, double) const {}
+
+ private:
+  std::string name_;
 };
 
 }  // namespace mlt

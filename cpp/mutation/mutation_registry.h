@@ -1,29 +1,41 @@
-// The mutations by name.
+// The mutations by name. Each file of a mutation ends with the function that describes it, and has a line
+// in list.inc.
 #pragma once
 
-#include "mutation/mutation.h"
+#include "base/params.h"
+#include "mutation/path_chain.h"
 
-#include <memory>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace mlt {
 
-struct MutationKind {
-  std::string name;
-  std::string
-      switch_name;  ///< The parameter that turns it on, with Mitsuba's name where it has one.
-  std::string weight_name;
-  double weight;  ///< The default.
-  std::string doc;
-  bool perturbation;  ///< Has a step size.
-  std::shared_ptr<const Mutation> (*make)(const Scene& scene, const MutationSettings& settings);
+struct MutationPlugin {
+  /// Name, doc, and the parameters of its own. `mlt` has them with the mutation's name in front:
+  /// largest_share of lens is lens_largest_share.
+  Schema schema;
+  std::string switch_name;  ///< The parameter of mlt that turns it on: Mitsuba's, where it has one.
+  double weight;            ///< The default.
+  MutationPtr (*make)(const PathTarget& target, Params& own);
+
+  const std::string& name() const { return schema.name; }
+  std::string weight_name() const { return name() + "_weight"; }
+  /// The parameter of mlt that stands for one of its own.
+  std::string full_name(const std::string& own) const { return name() + "_" + own; }
+  /// Whether it moves by steps of a size that can be chosen.
+  bool has_step_size() const { return schema.find("largest_share") != nullptr; }
 };
 
-const std::vector<MutationKind>& mutation_kinds();
-
+const std::vector<MutationPlugin>& mutation_plugins();
 /// Throws UsageError for an unknown name.
-const MutationKind& mutation_kind(const std::string& name);
-std::shared_ptr<const Mutation> make_mutation(const std::string& name, const Scene& scene,
-                                              const MutationSettings& settings);
+const MutationPlugin& mutation_plugin(const std::string& name);
+
+/// Values for parameters of a mutation's own; the others have their defaults.
+using MutationValues = std::vector<std::pair<std::string, Value>>;
+
+/// Throws UsageError for an unknown name, SceneError for a value that does not fit.
+MutationPtr make_mutation(const std::string& name, const PathTarget& target,
+                          const MutationValues& values = {});
 
 }  // namespace mlt

@@ -2,7 +2,8 @@
 // it: several paths, each with the weight L*(x) mis(x) / p(x).
 #pragma once
 
-#include "mutation/path_state.h"
+#include "markov/bootstrap.h"
+#include "mutation/path_target.h"
 #include "path/bidirectional_sampler.h"
 #include "path/samplers.h"
 
@@ -10,55 +11,79 @@ namespace mlt {
 
 class PathSeeds {
  public:
-  PathSeeds(const Scene& scene, const BidirectionalSettings& paths,
-            const MutationSettings& settings)
-      : scene_(&scene), settings_(&settings), paths_(scene, paths) {}
+  explicit PathSeeds(const PathTarget& target)
+      : target_(&target), paths_(target.scene(), settings(target.rules())) {}
 
-  /// Sum of the weights of a candidate's paths; `seen(raster, weight)` is called for each.
-  template <class Seen>
-  double weigh(Rng& rng, RayCounts& rays, Seen&& seen) {
+  /// Sum of the weights of a candidate's paths.
+  double weigh(Rng& rng) {
     double sum = 0;
-    draw(rng, rays, [&](const Connection& connection, double weight) {
-      sum += weight;
-      seen(connection.raster, weight);
-    });
+    draw(rng, [&](const Connection&, double weight) { sum += weight; });
     return sum;
   }
 
   /// One of a candidate's paths, chosen in proportion to its weight.
-  PathState pick(Rng& rng, Rng& choice, RayCounts& rays) {
+  PathState pick(Rng rng, Rng choice) {
     PathState x;
     double sum = 0;
-    draw(rng, rays, [&](const Connection& connection, double weight) {
+    draw(rng, [&](const Connection& connection, double weight) {
       sum += weight;
       if (choice.next() * sum < weight) paths_.assemble(connection, x.path);
     });
-    if (!x.path.vertices.empty()) evaluate(*scene_, *settings_, x);
+    if (!x.path.vertices.empty()) target_->evaluate(x);
     return x;
   }
 
   /// Calls found(connection, weight) for each path of a candidate.
   template <class Found>
-  void draw(Rng& rng, RayCounts& rays, Found&& found) {
-    RandomSampler sampler(rng);
-    paths_.sample(scene_->camera().raster().sample(sampler.next2()), sampler, rays);
-    paths_.connect_all(rays, [&](const Connection& c) {
+  void draw(Rng& rng, Found&& found) {
+    draw_all(rng, [&](const Connection& c) {
       double weight = target_luminance(c.contribution) * c.weight;
-      if (settings_->map) weight *= (*settings_->map)(c.raster);
+      if (target_->map()) weight *= (*target_->map())(c.raster);
       if (std::isfinite(weight) && weight > 0) found(c, weight);
     });
+  }
+
+  /// The same, also for paths without a weight: calls found(connection).
+  template <class Found>
+  void draw_all(Rng& rng, Found&& found) {
+    RandomSampler sampler(rng);
+    paths_.sample(target_->scene().camera().raster().sample(sampler.next2()), sampler, rays_);
+    paths_.connect_all(rays_, found);
   }
 
   /// The path of a connection that was just found.
   void assemble(const Connection& connection, PathState& x) const {
     paths_.assemble(connection, x.path);
-    evaluate(*scene_, *settings_, x);
+    target_->evaluate(x);
   }
 
+  /// Traced so far.
+  const RayCounts& rays() const { return rays_; }
+
  private:
-  const Scene* scene_;
-  const MutationSettings* settings_;
+  static BidirectionalSettings settings(const PathRules& rules) {
+    BidirectionalSettings settings;
+    settings.max_depth = rules.max_depth;
+    settings.min_depth = rules.min_depth;
+    settings.rr_depth = rules.rr_depth;
+    settings.hide_emitters = rules.hide_emitters;
+    settings.strict_normals = rules.strict_normals;
+    return settings;
+  }
+
+  const PathTarget* target_;
   BidirectionalSampler paths_;
+  RayCounts rays_;
 };
+
+struct PathStarts {
+  double b = 0, b_error = 0;     ///< See Bootstrap.
+  std::vector<PathState> paths;  ///< One for each chain; none if no path with light was found.
+};
+
+/// Paths to start `chains` chains from without start-up bias. Random streams of the candidates beyond
+/// candidates.count + chains are free for the chains.
+PathStarts bootstrap(const PathTarget& target, const Candidates& candidates, uint32_t chains,
+                     int threads, const std::atomic<bool>& cancelled);
 
 }  // namespace mlt

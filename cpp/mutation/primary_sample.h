@@ -21,7 +21,7 @@ struct PrimaryState {
   std::vector<double> numbers;
   Vec2 raster{0};
   Color rgb{0};       ///< The estimator's value f / p.
-  double target = 0;  ///< L* of it.
+  double target = 0;  ///< L* of it; NaN if the estimator failed.
 };
 
 /// A small step: u + s, wrapped around, where |s| is distributed between 1/1024 and 1/64 with density
@@ -43,6 +43,7 @@ inline double small_step(double u, Rng& rng) {
 template <class Evaluate>
 class PrimarySampleKernel {
  public:
+  using State = PrimaryState;
   enum Move { large = 0, small = 1 };
 
   PrimarySampleKernel(double large_probability, Evaluate evaluate)
@@ -56,20 +57,18 @@ class PrimarySampleKernel {
     if (last_ == small)
       for (const double u : x.numbers) y.numbers.push_back(small_step(u, rng));
     evaluate_(y, rng);
-    generated_ = y.target > 0;
-    if (!generated_) return impossible;
+    if (!generated(y)) return impossible;
     return {1 / y.target, 1 / x.target};
   }
 
   Move last() const { return last_; }
-  /// Whether the last proposal carries light.
-  bool generated() const { return generated_; }
+  static bool generated(const PrimaryState& y) { return y.target != 0; }
+  Evaluate& evaluate() { return evaluate_; }
 
  private:
   double large_probability_;
   Evaluate evaluate_;
   Move last_ = large;
-  bool generated_ = false;
 };
 
 }  // namespace mlt

@@ -1,7 +1,7 @@
 // What one mutation would make of a path: proposals to look at, none of which is accepted.
 #pragma once
 
-#include "mutation/mutation.h"
+#include "mutation/path_chain.h"
 
 #include <memory>
 #include <vector>
@@ -15,8 +15,7 @@ struct Proposal {
 
 /// Up to `count` proposals of a mutation that acts alone; tries that find no path are left out.
 /// Throws UsageError if the path carries no light or does not suit the mutation.
-std::vector<Proposal> propose(const Scene& scene, const MutationSettings& settings,
-                              const Path& path, const std::shared_ptr<const Mutation>& mutation,
-                              uint64_t seed, int count);
+std::vector<Proposal> propose(const PathTarget& target, const Path& path,
+                              const MutationPtr& mutation, uint64_t seed, int count);
 
 }  // namespace mlt

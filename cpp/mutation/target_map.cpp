@@ -23,6 +23,10 @@ void TargetMap::add(const Vec2& raster, double brightness) {
   factors_[cell_at(raster)] += brightness;
 }
 
+void TargetMap::add(const TargetMap& other) {
+  for (size_t i = 0; i < factors_.size(); ++i) factors_[i] += other.factors_[i];
+}
+
 void TargetMap::finish() {
   constexpr double least_share = 0.05;  // of the mean: no region is preferred more than 20 times
   const std::vector<double> coarse = factors_;

@@ -17,6 +17,7 @@ class TargetMap {
 
   /// Adds one sample of the coarse image.
   void add(const Vec2& raster, double brightness);
+  void add(const TargetMap& other);
   /// Smooths the coarse image and turns it into factors: 1 over the brightness, at least a share of the
   /// mean.
   void finish();

@@ -82,7 +82,7 @@ const Node& node_of(const MadeIntegrator& made) {
 }
 
 MadeIntegrator with_mutations(MadeIntegrator made, const std::vector<ExtraMutation>& extra) {
-  made.integrator = with_mutations(*made.integrator, extra);
+  made.integrator = made.integrator->with_mutations(extra);
   made.extra_mutations = true;
   Json weights;
   for (const ExtraMutation& mutation : extra) weights.add(mutation.name, mutation.weight);

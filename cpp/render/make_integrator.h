@@ -2,7 +2,7 @@
 // name, with single parameters replaced.
 #pragma once
 
-#include "integrator/mlt.h"
+#include "integrator/integrator.h"
 #include "io/load.h"
 
 #include <string>

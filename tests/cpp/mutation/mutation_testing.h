@@ -8,51 +8,38 @@
 #include "mutation/audit.h"
 #include "mutation/mutation_registry.h"
 #include "mutation/mutation_scenes.h"
-#include "path/bidirectional_sampler.h"
-#include "path/samplers.h"
+#include "mutation/path_seeds.h"
 
 namespace mlt::test {
 
-inline MutationSettings mutation_settings(int max_depth = 8) {
-  MutationSettings settings;
-  settings.max_depth = max_depth;
-  return settings;
+inline PathTarget path_target(const ScenePtr& scene, int max_depth = 8) {
+  PathRules rules;
+  rules.max_depth = max_depth;
+  return PathTarget(scene, rules);
 }
 
-inline Mutations all_mutations(const Scene& scene, const MutationSettings& settings) {
+inline Mutations all_mutations(const PathTarget& target) {
   Mutations all;
-  for (const MutationKind& kind : mutation_kinds())
-    all.push_back(make_mutation(kind.name, scene, settings));
+  for (const MutationPlugin& plugin : mutation_plugins())
+    all.push_back(make_mutation(plugin.name(), target));
   return all;
 }
 
-inline MutationChoice default_choice() {
+inline MixtureWeights default_weights() {
   std::vector<double> weights;
-  for (const MutationKind& kind : mutation_kinds()) weights.push_back(kind.weight);
-  return MutationChoice(weights);
-}
-
-inline std::string signature_of(const PathState& x) {
-  std::string letters = "L";
-  for (int i = 1; i < x.edges(); ++i) letters += x.specular(i) ? 'S' : 'D';
-  return letters + 'E';
+  for (const MutationPlugin& plugin : mutation_plugins()) weights.push_back(plugin.weight);
+  return MixtureWeights(weights);
 }
 
 /// Calls found(x) for the paths of `samples` bidirectional samples.
-inline void for_each_light_path(const Scene& scene, const MutationSettings& settings, uint64_t seed,
-                                int samples, const std::function<void(const PathState&)>& found) {
-  BidirectionalSettings how;
-  how.max_depth = settings.max_depth;
-  BidirectionalSampler paths(scene, how);
-  RayCounts rays;
+inline void for_each_light_path(const PathTarget& target, uint64_t seed, int samples,
+                                const std::function<void(const PathState&)>& found) {
+  PathSeeds seeds(target);
   PathState x;
   for (int i = 0; i < samples; ++i) {
     Rng rng(seed, Purpose::test, static_cast<uint64_t>(i));
-    RandomSampler sampler(rng);
-    paths.sample(scene.camera().raster().sample(sampler.next2()), sampler, rays);
-    paths.connect_all(rays, [&](const Connection& connection) {
-      paths.assemble(connection, x.path);
-      evaluate(scene, settings, x);
+    seeds.draw_all(rng, [&](const Connection& connection) {
+      seeds.assemble(connection, x);
       found(x);
     });
   }
@@ -60,16 +47,16 @@ inline void for_each_light_path(const Scene& scene, const MutationSettings& sett
 
 /// Calls found(i, x, y, edit) for the proposals y with light that mutation i makes of such paths x.
 template <class Found>
-void for_each_proposal(const Scene& scene, const MutationSettings& settings, const Mutations& all,
-                       uint64_t seed, int samples, Found&& found) {
+void for_each_proposal(const PathTarget& target, const Mutations& all, uint64_t seed, int samples,
+                       Found&& found) {
   Rng rng(1, Purpose::test, 0);
-  RayCounts rays;
+  MutationAids aids;
   PathState y;
-  for_each_light_path(scene, settings, seed, samples, [&](const PathState& x) {
+  for_each_light_path(target, seed, samples, [&](const PathState& x) {
     if (!(x.target > 0)) return;
     for (size_t i = 0; i < all.size(); ++i) {
       if (all[i]->suitability(x) == 0) continue;
-      MutationContext context{rng, rays, unstratified(scene.camera().raster(), rng)};
+      MutationContext context{rng, aids};
       const auto edit = all[i]->propose(x, y, context);
       if (edit && y.target > 0) found(i, x, y, *edit);
     }
@@ -77,16 +64,15 @@ void for_each_proposal(const Scene& scene, const MutationSettings& settings, con
 }
 
 /// The first path of this signature that `suits`.
-inline PathState find_path(const Scene& scene, const MutationSettings& settings,
-                           const std::string& signature,
+inline PathState find_path(const PathTarget& target, const std::string& wanted,
                            const std::function<bool(const PathState&)>& suits = nullptr) {
   PathState result;
   for (uint64_t seed = 1; result.path.vertices.empty() && seed < 200; ++seed)
-    for_each_light_path(scene, settings, seed, 200, [&](const PathState& x) {
-      if (result.path.vertices.empty() && signature_of(x) == signature && (!suits || suits(x)))
+    for_each_light_path(target, seed, 200, [&](const PathState& x) {
+      if (result.path.vertices.empty() && signature(x) == wanted && (!suits || suits(x)))
         result = x;
     });
-  EXPECT_FALSE(result.path.vertices.empty()) << "no path " << signature;
+  EXPECT_FALSE(result.path.vertices.empty()) << "no path " << wanted;
   return result;
 }
 
@@ -95,10 +81,9 @@ class BrokenTwin : public Mutation {
  public:
   using Factor = std::function<double(const PathState& x, const PathState& y, const Edit& edit)>;
 
-  BrokenTwin(std::shared_ptr<const Mutation> whole, Factor dropped)
-      : whole_(std::move(whole)), dropped_(std::move(dropped)) {}
+  BrokenTwin(MutationPtr whole, Factor dropped)
+      : Mutation(whole->name()), whole_(std::move(whole)), dropped_(std::move(dropped)) {}
 
-  const std::string& name() const override { return whole_->name(); }
   double suitability(const PathState& x) const override { return whole_->suitability(x); }
   std::optional<Edit> propose(const PathState& x, PathState& y,
                               MutationContext& context) const override {
@@ -110,7 +95,7 @@ class BrokenTwin : public Mutation {
   }
 
  private:
-  std::shared_ptr<const Mutation> whole_;
+  MutationPtr whole_;
   Factor dropped_;
 };
 

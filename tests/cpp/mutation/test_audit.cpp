@@ -17,7 +17,7 @@ std::string name_of_case(const testing::TestParamInfo<Case>& info) {
 std::vector<Case> cases(const std::vector<std::string>& scenes) {
   std::vector<Case> all;
   for (const std::string& scene : scenes) {
-    for (const MutationKind& kind : mutation_kinds()) all.push_back({scene, kind.name});
+    for (const MutationPlugin& plugin : mutation_plugins()) all.push_back({scene, plugin.name()});
     all.push_back({scene, "mixture"});
   }
   return all;
@@ -25,13 +25,12 @@ std::vector<Case> cases(const std::vector<std::string>& scenes) {
 
 AuditReport audit_case(const Case& c, uint64_t paths) {
   const ScenePtr scene = make_mutation_scene(c.scene).scene;
-  const MutationSettings settings = mutation_settings();
+  const PathTarget target = path_target(scene);
   AuditSettings how;
   how.paths = paths;
   how.significance = 1e-5;  // of each of many cases
-  if (c.mutation != "mixture")
-    return audit(*scene, settings, make_mutation(c.mutation, *scene, settings), how);
-  return audit(*scene, settings, all_mutations(*scene, settings), default_choice(), how);
+  if (c.mutation != "mixture") return audit(target, make_mutation(c.mutation, target), how);
+  return audit(target, all_mutations(target), default_weights(), how);
 }
 
 class Audit : public testing::TestWithParam<Case> {};
@@ -70,7 +69,7 @@ TEST_P(LongAudit, LeavesTheTargetUnchanged) {
     EXPECT_EQ(report.verdict, Verdict::right) << report.text();
   }
   // A perturbation moves the paths of every signature that it takes on.
-  if (c.mutation == "mixture" || !mutation_kind(c.mutation).perturbation) return;
+  if (c.mutation == "mixture" || !mutation_plugin(c.mutation).has_step_size()) return;
   for (const AuditRow& row : report.rows)
     if (row.steps > 2000) {
       EXPECT_GT(row.accepted, row.steps / 1000) << row.signature << "\n" << report.text();
@@ -84,21 +83,23 @@ INSTANTIATE_TEST_SUITE_P(Mutations, LongAudit, testing::ValuesIn(cases(mutation_
 /// coarse image, short paths left to others.
 AuditReport audit_variant(const std::string& name, bool two_stage, int min_depth, uint64_t paths) {
   const ScenePtr scene = make_mutation_scene(name).scene;
-  MutationSettings settings = mutation_settings();
-  settings.min_depth = min_depth;
+  PathRules rules;
+  rules.max_depth = 8;
+  rules.min_depth = min_depth;
+  PathTarget target(scene, rules);
   TargetMap map(scene->camera().raster(), 2);
   if (two_stage) {
-    for_each_light_path(*scene, settings, 9, 2000,
+    for_each_light_path(target, 9, 2000,
                         [&](const PathState& x) { map.add(x.raster, 1 + x.rgb.y); });
     map.finish();
-    settings.map = &map;
+    target.set_map(map);
   }
   Mutations all;
   for (const double share : {0.02, 0.3})
-    for (const MutationKind& kind : mutation_kinds()) {
-      MutationSettings own = settings;
-      own.largest_share = share;
-      all.push_back(make_mutation(kind.name, *scene, own));
+    for (const MutationPlugin& plugin : mutation_plugins()) {
+      MutationValues own;
+      if (plugin.has_step_size()) own.push_back({"largest_share", share});
+      all.push_back(make_mutation(plugin.name(), target, own));
     }
   std::vector<std::vector<double>> rows;
   for (int k = 0; k < 6; ++k) {
@@ -108,7 +109,7 @@ AuditReport audit_variant(const std::string& name, bool two_stage, int min_depth
   }
   AuditSettings how;
   how.paths = paths;
-  return audit(*scene, settings, all, MutationChoice(rows), how);
+  return audit(target, all, MixtureWeights(rows), how);
 }
 
 TEST(AuditOfTheMixture, HoldsForWeightsByLengthAndManyStepSizes) {
@@ -137,29 +138,28 @@ TEST(LongAuditOfTheMixture, HoldsForAllVariants) {
 
 TEST(AuditReport, IsTheSameForAnyNumberOfThreads) {
   const ScenePtr scene = make_scene("caustic").scene;
-  const MutationSettings settings = mutation_settings();
+  const PathTarget target = path_target(scene);
   AuditSettings how;
   how.paths = 5000;
   const auto text = [&](int threads) {
     how.threads = threads;
-    return audit(*scene, settings, all_mutations(*scene, settings), default_choice(), how)
-        .text(1000);
+    return audit(target, all_mutations(target), default_weights(), how).text(1000);
   };
   EXPECT_EQ(text(1), text(3));
 }
 
 TEST(AuditReport, SaysWhyNothingIsConcluded) {
   const ScenePtr scene = make_scene("cornell").scene;
-  const MutationSettings settings = mutation_settings();
-  const auto multi_chain = make_mutation("multi_chain", *scene, settings);
+  const PathTarget target = path_target(scene);
+  const auto multi_chain = make_mutation("multi_chain", target);
   AuditSettings how;
   how.paths = 2000;
-  AuditReport report = audit(*scene, settings, multi_chain, how);
+  AuditReport report = audit(target, multi_chain, how);
   EXPECT_EQ(report.verdict, Verdict::inconclusive);
   EXPECT_EQ(report.reason, "no path suits");
 
   how.paths = 500;
-  report = audit(*scene, settings, make_mutation("lens", *scene, settings), how);
+  report = audit(target, make_mutation("lens", target), how);
   EXPECT_EQ(report.verdict, Verdict::inconclusive);
   EXPECT_NE(report.reason.find("at least 1000"), std::string::npos) << report.reason;
 }
@@ -167,22 +167,19 @@ TEST(AuditReport, SaysWhyNothingIsConcluded) {
 /// Proposes nothing, ever.
 class Idle : public Mutation {
  public:
-  const std::string& name() const override { return name_; }
+  Idle() : Mutation("idle") {}
   double suitability(const PathState&) const override { return 1; }
   std::optional<Edit> propose(const PathState&, PathState&, MutationContext&) const override {
     return std::nullopt;
   }
   double density(const PathState&, const PathState&, const Edit&) const override { return 0; }
-
- private:
-  std::string name_ = "idle";
 };
 
 TEST(AuditReport, DoesNotCallAMutationRightThatNeverMoves) {
   const ScenePtr scene = make_scene("cornell").scene;
   AuditSettings how;
   how.paths = 5000;
-  const AuditReport report = audit(*scene, mutation_settings(), std::make_shared<Idle>(), how);
+  const AuditReport report = audit(path_target(scene), std::make_shared<Idle>(), how);
   EXPECT_EQ(report.verdict, Verdict::inconclusive) << report.text();
   EXPECT_NE(report.reason.find("only 0 moves"), std::string::npos) << report.reason;
 }
@@ -190,8 +187,8 @@ TEST(AuditReport, DoesNotCallAMutationRightThatNeverMoves) {
 TEST(AuditReport, NeedsLight) {
   const ScenePtr scene =
       load_scene(camera(in_front, "0, 0, 10", 40, film(16, 12)) + room() + ceiling_lamp());
-  const MutationSettings settings = mutation_settings();
-  EXPECT_THROW(audit(*scene, settings, make_mutation("lens", *scene, settings), {}), RenderError);
+  const PathTarget target = path_target(scene);
+  EXPECT_THROW(audit(target, make_mutation("lens", target), {}), RenderError);
 }
 
 }  // namespace

@@ -9,16 +9,14 @@ namespace {
 
 struct Twin {
   std::string name, mutation, scene;
-  std::function<BrokenTwin::Factor(const Scene&, const MutationSettings&, const Mutations&)>
-      dropped;
+  std::function<BrokenTwin::Factor(const Scene&, const Mutations&)> dropped;
   uint64_t paths = 20000;
 };
 
 /// A twin whose lost factor depends on the paths alone.
 Twin twin(const std::string& name, const std::string& mutation, const std::string& scene,
           const BrokenTwin::Factor& dropped) {
-  return {name, mutation, scene,
-          [=](const Scene&, const MutationSettings&, const Mutations&) { return dropped; }};
+  return {name, mutation, scene, [=](const Scene&, const Mutations&) { return dropped; }};
 }
 
 Vec3 towards(const PathState& x, int i, int j) { return direction(x[i].at, x[j].at); }
@@ -44,8 +42,8 @@ double density_of_all_ways(const Scene& scene, const PathState& y, const Edit& e
 std::vector<Twin> twins() {
   std::vector<Twin> all;
   all.push_back({"raster_per_direction", "lens", "light_in_glass",
-                 [](const Scene& scene, const MutationSettings& settings, const Mutations&) {
-                   const ChainPerturbation chain(scene, settings);
+                 [](const Scene& scene, const Mutations&) {
+                   const ChainPerturbation chain(scene, StepSizes());
                    return BrokenTwin::Factor(
                        [chain](const PathState&, const PathState& y, const Edit&) {
                          return chain.raster_per_direction(y);
@@ -53,7 +51,7 @@ std::vector<Twin> twins() {
                  },
                  300000});
   // A chain that ends at a light.
-  const auto light_edge = [](const Scene&, const MutationSettings&, const Mutations&) {
+  const auto light_edge = [](const Scene&, const Mutations&) {
     return BrokenTwin::Factor([](const PathState&, const PathState& y, const Edit& edit) {
       return edit.first == 0 ? y.terms[0].G : 1.0;
     });
@@ -62,22 +60,22 @@ std::vector<Twin> twins() {
   all.push_back({"G_of_the_edge_from_the_light", "multi_chain", "caustic", light_edge, 300000});
   all.push_back(twin("G_of_the_last_edge", "lens", "cornell",
                      [](auto&, const PathState& y, auto&) { return y.terms[y.edges() - 1].G; }));
-  all.push_back({"half_vector_jacobian", "lens", "near_specular",
-                 [](const Scene& scene, const MutationSettings&, const Mutations&) {
-                   return BrokenTwin::Factor([&scene](const PathState& x, const PathState& y,
-                                                      const Edit& edit) {
-                     double product = 1;
-                     for (int i = edit.first + 1; i < x.edges(); ++i) {
-                       if (y[i].delta()) continue;
-                       const SurfacePoint& at = y[i].at;
-                       const Vec3 in = at.shading.to_local(towards(y, i, i + 1));
-                       const Vec3 out = at.shading.to_local(towards(y, i, i - 1));
-                       const double eta = scene.bsdf(at).relative_eta(at, in);
-                       product *= half_vector_jacobian(in, out, *half_vector(in, out, eta), eta);
-                     }
-                     return product;
-                   });
-                 }});
+  all.push_back(
+      {"half_vector_jacobian", "lens", "near_specular", [](const Scene& scene, const Mutations&) {
+         return BrokenTwin::Factor(
+             [&scene](const PathState& x, const PathState& y, const Edit& edit) {
+               double product = 1;
+               for (int i = edit.first + 1; i < x.edges(); ++i) {
+                 if (y[i].delta()) continue;
+                 const SurfacePoint& at = y[i].at;
+                 const Vec3 in = at.shading.to_local(towards(y, i, i + 1));
+                 const Vec3 out = at.shading.to_local(towards(y, i, i - 1));
+                 const double eta = scene.bsdf(at).relative_eta(at, in);
+                 product *= half_vector_jacobian(in, out, *half_vector(in, out, eta), eta);
+               }
+               return product;
+             });
+       }});
   all.push_back(
       twin("G_of_the_joint", "multi_chain", "mirrors",
            [](auto&, const PathState& y, const Edit& edit) { return y.terms[edit.first].G; }));
@@ -96,7 +94,7 @@ std::vector<Twin> twins() {
   all.push_back(twin("G_of_the_first_edge", "lens_subpath", "cornell",
                      [](auto&, const PathState& y, auto&) { return y.terms[y.edges() - 1].G; }));
   all.push_back({"stop_probability", "lens_subpath", "plastic",
-                 [](const Scene& scene, const MutationSettings&, const Mutations&) {
+                 [](const Scene& scene, const Mutations&) {
                    return BrokenTwin::Factor(
                        [&scene](const PathState&, const PathState& y, const Edit& edit) {
                          double product = 1;
@@ -114,26 +112,26 @@ std::vector<Twin> twins() {
         const double length = gap == 1 ? 0.25 : gap == 2 ? 0.5 : std::pow(0.5, gap);
         return length / (x.edges() + 3 - gap);
       }));
-  all.push_back({"all_ways_but_one", "bidirectional", "cornell",
-                 [](const Scene& scene, const MutationSettings&, const Mutations&) {
-                   return BrokenTwin::Factor(
-                       [&scene](const PathState&, const PathState& y, const Edit& edit) {
-                         double one = 1;  // all of it from the camera side
-                         for (int i = edit.first; i < edit.first + edit.inserted; ++i)
-                           one *= y.terms[i].from_camera;
-                         return one > 0 ? density_of_all_ways(scene, y, edit) / one : 1.0;
-                       });
-                 }});
+  all.push_back(
+      {"all_ways_but_one", "bidirectional", "cornell", [](const Scene& scene, const Mutations&) {
+         return BrokenTwin::Factor(
+             [&scene](const PathState&, const PathState& y, const Edit& edit) {
+               double one = 1;  // all of it from the camera side
+               for (int i = edit.first; i < edit.first + edit.inserted; ++i)
+                 one *= y.terms[i].from_camera;
+               return one > 0 ? density_of_all_ways(scene, y, edit) / one : 1.0;
+             });
+       }});
   all.push_back(twin("G_of_the_first_inserted", "bidirectional", "cornell",
                      [](auto&, const PathState& y, const Edit& edit) {
                        return edit.inserted > 0 && edit.first > 0 ? y.terms[edit.first - 1].G : 1.0;
                      }));
   all.push_back({"P_choose", "mixture", "caustic",
-                 [](const Scene&, const MutationSettings&, const Mutations& all) {
+                 [](const Scene&, const Mutations& all) {
                    return BrokenTwin::Factor([&all](const PathState& x, auto&, auto&) {
                      double sum = 0;
                      for (size_t i = 0; i < all.size(); ++i)
-                       sum += mutation_kinds()[i].weight * all[i]->suitability(x);
+                       sum += mutation_plugins()[i].weight * all[i]->suitability(x);
                      return 1 / sum;
                    });
                  },
@@ -150,18 +148,18 @@ class BrokenTwins : public testing::TestWithParam<Twin> {};
 TEST_P(BrokenTwins, AreFound) {
   const Twin& twin = GetParam();
   const ScenePtr scene = make_mutation_scene(twin.scene).scene;
-  const MutationSettings settings = mutation_settings();
-  const Mutations all = all_mutations(*scene, settings);
-  const BrokenTwin::Factor dropped = twin.dropped(*scene, settings, all);
+  const PathTarget target = path_target(scene);
+  const Mutations all = all_mutations(target);
+  const BrokenTwin::Factor dropped = twin.dropped(*scene, all);
   Mutations spoilt;
   for (const auto& mutation : all)
     if (twin.mutation == "mixture" || twin.mutation == mutation->name())
       spoilt.push_back(std::make_shared<BrokenTwin>(mutation, dropped));
-  const MutationChoice choice =
-      spoilt.size() > 1 ? default_choice() : MutationChoice(std::vector<double>{1.0});
+  const MixtureWeights weights =
+      spoilt.size() > 1 ? default_weights() : MixtureWeights(std::vector<double>{1.0});
   AuditSettings how;
   how.paths = twin.paths;
-  const AuditReport report = audit(*scene, settings, spoilt, choice, how);
+  const AuditReport report = audit(target, spoilt, weights, how);
   EXPECT_EQ(report.verdict, Verdict::wrong) << report.text();
 }
 

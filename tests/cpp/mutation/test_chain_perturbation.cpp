@@ -46,12 +46,12 @@ TEST(ExponentialRadius, FollowsItsDensityOnTheSphere) {
 TEST(ChainPerturbation, TurnsALongChainLessThanAShortOne) {
   // A path on the axis of a camera with pixels of 1/100 rad: L at 9, D at 3, E at 0, or with D close to L.
   const ScenePtr scene = make_scene("cornell").scene;
-  const MutationSettings settings = mutation_settings();
-  const ChainPerturbation chain(*scene, settings);
-  const PathState x = find_path(*scene, settings, "LDE");
+  const PathTarget target = path_target(scene);
+  const ChainPerturbation chain(*scene, StepSizes());
+  const PathState x = find_path(target, "LDE");
   const ExponentialRadius& pixels = chain.image_radius();
-  EXPECT_DOUBLE_EQ(pixels.smallest, settings.smallest_pixels);
-  EXPECT_DOUBLE_EQ(pixels.largest, settings.largest_share * std::hypot(16, 12));
+  EXPECT_DOUBLE_EQ(pixels.smallest, StepSizes().smallest_pixels);
+  EXPECT_DOUBLE_EQ(pixels.largest, StepSizes().largest_share * std::hypot(16, 12));
 
   const ExponentialRadius angle = chain.angle(x, 0, 1, 1);
   const double seen = length(x[2].at.p - x[1].at.p), own = length(x[1].at.p - x[0].at.p);
@@ -65,16 +65,16 @@ TEST(ChainPerturbation, TurnsALongChainLessThanAShortOne) {
 TEST(ChainPerturbation, MovesTheImageAboutAsFarAsTheLensPerturbation) {
   // Turning the direction that leaves the lamp by an angle moves the vertex, and so the image position.
   const ScenePtr scene = make_scene("point").scene;
-  const MutationSettings settings = mutation_settings();
-  const auto caustic = make_mutation("caustic", *scene, settings);
-  const ChainPerturbation chain(*scene, settings);
+  const PathTarget target = path_target(scene);
+  const auto caustic = make_mutation("caustic", target);
+  const ChainPerturbation chain(*scene, StepSizes());
   Rng rng(3, Purpose::test, 0);
-  RayCounts rays;
+  MutationAids aids;
   PathState y;
   double sum = 0, count = 0;
-  for_each_light_path(*scene, settings, 4, 1000, [&](const PathState& x) {
+  for_each_light_path(target, 4, 1000, [&](const PathState& x) {
     if (caustic->suitability(x) == 0) return;
-    MutationContext context{rng, rays, {}};
+    MutationContext context{rng, aids};
     if (!caustic->propose(x, y, context) || !(y.target > 0)) return;
     sum += std::log(glm::length(y.raster - x.raster));
     ++count;
@@ -103,10 +103,10 @@ TEST(ChainPerturbation, FindsTheVertexThatEndsAChain) {
 /// and those whose chains lead on to a light that can be hit, LS*E and L(S+D)+S*E.
 TEST(Mutations, SuitTheirForms) {
   const ScenePtr scene = make_mutation_scene("mirrors").scene;
-  const MutationSettings settings = mutation_settings();
+  const PathTarget target = path_target(scene);
   const auto suits = [&](const std::string& mutation, const std::string& signature) {
-    const PathState x = find_path(*scene, settings, signature);
-    return make_mutation(mutation, *scene, settings)->suitability(x) > 0;
+    const PathState x = find_path(target, signature);
+    return make_mutation(mutation, target)->suitability(x) > 0;
   };
   for (const char* form :
        {"LDE", "LDDE", "LDSE", "LDDSE", "LDSSE", "LSDDE", "LDSSSSE", "LE", "LSE"})

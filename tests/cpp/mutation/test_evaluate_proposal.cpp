@@ -7,9 +7,8 @@ namespace {
 
 TEST(Difference, IsTheSmallestEdit) {
   const ScenePtr scene = make_mutation_scene("cornell").scene;
-  const MutationSettings settings = mutation_settings();
-  const PathState x = find_path(*scene, settings, "LDDE"),
-                  other = find_path(*scene, settings, "LDDDE");
+  const PathTarget target = path_target(scene);
+  const PathState x = find_path(target, "LDDE"), other = find_path(target, "LDDDE");
   const auto edit = [](const Edit& e) { return std::vector<int>{e.first, e.last, e.inserted}; };
   EXPECT_EQ(edit(difference(x.path, x.path)), (std::vector<int>{4, 3, 0}));
   Path y = x.path;
@@ -29,14 +28,14 @@ class Adopt : public testing::TestWithParam<std::string> {};
 /// What the mutations know about their proposals is found from the vertices alone.
 TEST_P(Adopt, ValuesProposalsAsTheirMutationsDo) {
   const ScenePtr scene = make_mutation_scene(GetParam()).scene;
-  const MutationSettings settings = mutation_settings();
-  const Mutations all = all_mutations(*scene, settings);
+  const PathTarget target = path_target(scene);
+  const Mutations all = all_mutations(target);
   RayCounts rays;
   int compared = 0, differ = 0;
   const auto compare = [&](size_t, const PathState& x, const PathState& y, const Edit& edit) {
     PathState evaluated;
     evaluated.path = y.path;
-    const Edit found = evaluate_proposal(*scene, settings, x, evaluated, rays);
+    const Edit found = evaluate_proposal(target, x, evaluated, rays);
     if (found.deleted() + found.inserted > 0) {  // the one point of a light may be drawn again
       EXPECT_GE(found.first, edit.first);
       EXPECT_LE(found.last, edit.last);
@@ -45,7 +44,7 @@ TEST_P(Adopt, ValuesProposalsAsTheirMutationsDo) {
     ++compared;
     if (evaluated.target != y.target) ++differ;
   };
-  for_each_proposal(*scene, settings, all, 2, 1000, compare);
+  for_each_proposal(target, all, 2, 1000, compare);
   // Rays that graze a surface may be seen in one direction and not in the other.
   EXPECT_GT(compared, 200);
   EXPECT_LE(differ, compared / 1000) << "of " << compared;
@@ -57,7 +56,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Adopt, testing::ValuesIn(mutation_scene_names()
 
 TEST(Passable, IsNoPathThroughAWall) {
   const ScenePtr scene = make_mutation_scene("cornell").scene;
-  const PathState x = find_path(*scene, mutation_settings(), "LDDE");
+  const PathState x = find_path(path_target(scene), "LDDE");
   RayCounts rays;
   EXPECT_TRUE(passable(*scene, x.path, 0, x.edges(), rays));
   Path y = x.path;
@@ -67,10 +66,10 @@ TEST(Passable, IsNoPathThroughAWall) {
 
 TEST(Passable, IsNoPathThatBendsAMirrorsLaw) {
   const ScenePtr scene = make_mutation_scene("mirrors").scene;
-  const MutationSettings settings = mutation_settings();
+  const PathTarget target = path_target(scene);
   RayCounts rays;
   for (const char* signature : {"LDSE", "LSDE"}) {
-    const PathState x = find_path(*scene, settings, signature);
+    const PathState x = find_path(target, signature);
     const int diffuse = signature[1] == 'D' ? 1 : 2;
     EXPECT_TRUE(passable(*scene, x.path, 0, x.edges(), rays));
     Path y = x.path;
@@ -78,7 +77,7 @@ TEST(Passable, IsNoPathThatBendsAMirrorsLaw) {
     EXPECT_FALSE(passable(*scene, y, diffuse, diffuse, rays)) << signature;
     PathState evaluated;
     evaluated.path = y;
-    evaluate_proposal(*scene, settings, x, evaluated, rays);
+    evaluate_proposal(target, x, evaluated, rays);
     EXPECT_EQ(evaluated.target, 0);
   }
 }

@@ -11,10 +11,6 @@ bool same_bits(const Vec2& a, const Vec2& b) { return same_bits(a.x, b.x) && sam
 bool same_bits(const Vec3& a, const Vec3& b) {
   return same_bits(a.x, b.x) && same_bits(a.y, b.y) && same_bits(a.z, b.z);
 }
-bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
-}
-
 std::string difference(const TermsAt& a, const TermsAt& b, bool has_edge) {
   if (has_edge && !same_bits(a.G, b.G)) return "G";
   if (!same_bits(a.from_light, b.from_light)) return "from_light";
@@ -48,18 +44,18 @@ class LightPaths : public testing::TestWithParam<std::string> {};
 
 TEST_P(LightPaths, AreTheSameBitsWhenAnEditIsComputedAndWhenAllIs) {
   const ScenePtr scene = make_mutation_scene(GetParam()).scene;
-  const MutationSettings settings = mutation_settings();
-  const Mutations all = all_mutations(*scene, settings);
+  const PathTarget target = path_target(scene);
+  const Mutations all = all_mutations(target);
   std::vector<int> compared(all.size(), 0);
   const auto compare = [&](size_t i, const PathState& x, const PathState& y, const Edit&) {
     PathState fresh;
     fresh.path = y.path;
-    evaluate(*scene, settings, fresh);
+    target.evaluate(fresh);
     ASSERT_EQ(difference(y, fresh), "")
-        << all[i]->name() << " on " << signature_of(x) << " to " << signature_of(y);
+        << all[i]->name() << " on " << signature(x) << " to " << signature(y);
     ++compared[i];
   };
-  for_each_proposal(*scene, settings, all, 2, 2000, compare);
+  for_each_proposal(target, all, 2, 2000, compare);
   for (size_t i = 0; i < all.size(); ++i)
     EXPECT_GT(compared[i], all[i]->name() == "multi_chain" ? -1 : 50) << all[i]->name();
 }
@@ -84,8 +80,8 @@ TEST(LightPaths, ReverseAnEdit) {
 
 TEST(LightPaths, SpliceKeepsWhatLiesOutsideOfTheEdit) {
   const ScenePtr scene = make_scene("cornell").scene;
-  const MutationSettings settings = mutation_settings();
-  const PathState x = find_path(*scene, settings, "LDDDE");
+  const PathTarget target = path_target(scene);
+  const PathState x = find_path(target, "LDDDE");
   for (const Edit edit :
        {Edit{1, 2, 1}, Edit{2, 1, 3}, Edit{0, 1, 1}, Edit{3, 4, 2}, Edit{0, 4, 3}}) {
     PathState y;

@@ -19,18 +19,18 @@ class Proposals {
  public:
   Proposals(const std::string& scene, const std::string& mutation, int max_depth = 8)
       : scene_(make_mutation_scene(scene).scene),
-        settings_(mutation_settings(max_depth)),
-        mutation_(make_mutation(mutation, *scene_, settings_)) {}
+        target_(path_target(scene_, max_depth)),
+        mutation_(make_mutation(mutation, target_)) {}
 
   void start(const std::string& signature, const std::function<Edit(const PathState&)>& edit,
              const std::function<bool(const PathState&)>& suits = nullptr) {
-    x = find_path(*scene_, settings_, signature, suits);
+    x = find_path(target_, signature, suits);
     edit_ = edit(x);
   }
 
   /// A proposal of this edit that carries light.
   bool propose(Rng& rng) {
-    MutationContext context{rng, rays_, unstratified(scene().camera().raster(), rng)};
+    MutationContext context{rng, aids_};
     const auto edit = mutation_->propose(x, y, context);
     return edit && *edit == edit_ && y.target > 0;
   }
@@ -39,7 +39,7 @@ class Proposals {
   double density(const std::vector<Vertex>& inserted) {
     splice(x, edit_, y);
     for (size_t i = 0; i < inserted.size(); ++i) y.path[edit_.first + i] = inserted[i];
-    evaluate(scene(), settings_, edit_.first, edit_.first + edit_.inserted - 1, y);
+    target_.evaluate(edit_.first, edit_.first + edit_.inserted - 1, y);
     if (!(y.target > 0)) return 0;
     for (int i = std::max(edit_.first, 1); i <= std::min(edit_.first + edit_.inserted, y.edges());
          ++i)
@@ -56,16 +56,15 @@ class Proposals {
   }
 
   const Scene& scene() const { return *scene_; }
-  const MutationSettings& settings() const { return settings_; }
 
   PathState x, y;
 
  private:
   ScenePtr scene_;
-  MutationSettings settings_;
-  std::shared_ptr<const Mutation> mutation_;
+  PathTarget target_;
+  MutationPtr mutation_;
   Edit edit_{};
-  RayCounts rays_;
+  MutationAids aids_;
 };
 
 /// Density in solid angle at `from` of a point with this density in area.
@@ -99,7 +98,7 @@ TEST(Proposals, BidirectionalMutationInsertsOneVertexBetweenTwo) {
 TEST(Proposals, BidirectionalMutationInsertsTheVertexThatIsSeen) {
   Proposals p("cornell", "bidirectional");
   p.start("LDDE", [](const PathState&) { return Edit{2, 2, 1}; });
-  const ChainPerturbation chain(p.scene(), p.settings());
+  const ChainPerturbation chain(p.scene(), StepSizes());
   const SurfacePoint& lens = p.x[3].at;
   const auto sample = [&](Rng& rng) -> std::optional<Vec2> {
     if (!p.propose(rng)) return std::nullopt;
@@ -166,7 +165,7 @@ TEST(Proposals, LensPerturbationMovesTheImagePosition) {
     return std::abs(x.raster.x - 8) < 3 && std::abs(x.raster.y - 6) < 2;
   };
   p.start("LDE", [](const PathState&) { return Edit{1, 2, 2}; }, in_the_middle);
-  const ChainPerturbation chain(p.scene(), p.settings());
+  const ChainPerturbation chain(p.scene(), StepSizes());
   const ExponentialRadius radius = chain.image_radius();
   const auto sample = [&](Rng& rng) -> std::optional<Vec2> {
     if (!p.propose(rng)) return std::nullopt;
@@ -222,7 +221,7 @@ void expect_caustic_follows_density(const std::string& scene, const std::string&
   const SurfacePoint from = p.x[k - 2].at;
   const Vec3 axis = direction(from, p.x[k - 1].at);
   const Frame frame = Frame::around(axis);
-  const ChainPerturbation chain(p.scene(), p.settings());
+  const ChainPerturbation chain(p.scene(), StepSizes());
   const ExponentialRadius angle = chain.angle(p.x, k - 2, k - 1, 1);
   const auto sample = [&](Rng& rng) -> std::optional<Vec2> {
     if (!p.propose(rng)) return std::nullopt;
@@ -283,7 +282,7 @@ void expect_lens_subpath_follows_density(const std::string& scene, const std::st
   Proposals p(scene, "lens_subpath");
   p.start(signature, [](const PathState& x) { return Edit{x.edges() - 1, x.edges(), 2}; });
   const int k = p.x.edges();
-  const ChainPerturbation chain(p.scene(), p.settings());
+  const ChainPerturbation chain(p.scene(), StepSizes());
   const SurfacePoint lens = p.x[k].at;
   const auto sample = [&](Rng& rng) -> std::optional<Vec2> {
     if (!p.propose(rng)) return std::nullopt;

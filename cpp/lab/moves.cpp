@@ -1,4 +1,4 @@
-#include "markov/lab_moves.h"
+#include "lab/moves.h"
 
 #include "math/vec.h"
 #include "math/warp.h"
@@ -16,7 +16,7 @@ class RandomWalk : public Move<Point> {
  public:
   RandomWalk(std::vector<double> size, WalkShape shape) : size_(std::move(size)), shape_(shape) {}
 
-  std::unique_ptr<Move> clone() const override { return std::make_unique<RandomWalk>(*this); }
+  std::shared_ptr<Move> clone() const override { return std::make_shared<RandomWalk>(*this); }
 
   bool propose(const Point& x, Point& y, Rng& rng) override {
     y.resize(x.size());
@@ -40,7 +40,7 @@ class AdaptiveWalk final : public RandomWalk {
   AdaptiveWalk(std::vector<double> size, WalkShape shape, const Adaptation& adaptation)
       : RandomWalk(std::move(size), shape), adaptation_(adaptation) {}
 
-  std::unique_ptr<Move> clone() const override { return std::make_unique<AdaptiveWalk>(*this); }
+  std::shared_ptr<Move> clone() const override { return std::make_shared<AdaptiveWalk>(*this); }
   double size() const override { return scale_ * size_[0]; }
 
   void adapt(double acceptance) override {
@@ -58,7 +58,7 @@ class Uniform final : public Move<Point> {
  public:
   Uniform(Point low, Point high) : low_(std::move(low)), high_(std::move(high)) {}
 
-  std::unique_ptr<Move> clone() const override { return std::make_unique<Uniform>(*this); }
+  std::shared_ptr<Move> clone() const override { return std::make_shared<Uniform>(*this); }
 
   bool propose(const Point&, Point& y, Rng& rng) override {
     y.resize(low_.size());
@@ -81,7 +81,7 @@ class Discrete final : public Move<Point> {
  public:
   explicit Discrete(std::vector<std::vector<double>> matrix) : matrix_(std::move(matrix)) {}
 
-  std::unique_ptr<Move> clone() const override { return std::make_unique<Discrete>(*this); }
+  std::shared_ptr<Move> clone() const override { return std::make_shared<Discrete>(*this); }
 
   bool propose(const Point& x, Point& y, Rng& rng) override {
     const std::vector<double>& row = row_of(x);

@@ -2,15 +2,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "markov/lab_moves.h"
-#include "markov/lab_targets.h"
+#include "lab/moves.h"
+#include "lab/targets.h"
 #include "markov/lecture_examples.h"
 
 namespace mlt {
 namespace {
 
 using lab::Point;
-using Moves = lab::Mixture<Point>::Moves;
+using Moves = lab::Prototypes<Point>;
 using testing::HasSubstr;
 
 constexpr double alpha = 1e-5;
@@ -123,7 +123,7 @@ TEST(LabMove, AdaptiveWalkLearnsInACopyOfItsOwn) {
 class Growing : public lab::Move<Point> {
  public:
   explicit Growing(bool forgets_density) : forgets_density_(forgets_density) {}
-  std::unique_ptr<Move> clone() const override { return std::make_unique<Growing>(*this); }
+  std::shared_ptr<Move> clone() const override { return std::make_shared<Growing>(*this); }
   bool propose(const Point& x, Point& y, Rng& rng) override {
     y = {x[0] + size_at(x) * (rng.next() - 0.5)};
     return true;
@@ -141,7 +141,7 @@ class Growing : public lab::Move<Point> {
 /// A uniform move that suits some states more than others.
 class Picky : public lab::Move<Point> {
  public:
-  std::unique_ptr<Move> clone() const override { return std::make_unique<Picky>(*this); }
+  std::shared_ptr<Move> clone() const override { return std::make_shared<Picky>(*this); }
   double suitability(const Point& x) const override { return x[0] < 0.3 ? 0 : x[0]; }
   bool propose(const Point&, Point& y, Rng& rng) override {
     y = {rng.next()};
@@ -161,7 +161,7 @@ double p_value(const Moves& moves) {
     const Point start = {test::Parabola::sample(rng.next())};
     lab::Chain<Point> chain(start, (*f)(start), moves, 7, c);
     for (int i = 0; i < 20; ++i) chain.step(*f, [](const Point&, double, bool) {});
-    states.push_back(chain.state()[0]);
+    states.push_back(chain.state().x[0]);
   }
   return test::parabola_p_value(states);
 }
@@ -183,7 +183,7 @@ TEST(LabChain, AcceptsOneNinthInTheLectureExample) {
   const auto f = lab::table({9, 1});
   lab::Chain<Point> chain({0}, 9, {{lab::discrete({{0.5, 0.5}, {0.5, 0.5}}), 1}}, 1, 0);
   for (int i = 0; i < 200; ++i) {
-    const double from = chain.state()[0];
+    const double from = chain.state().x[0];
     double to = from, sum = 0;
     const StepResult result = chain.step(*f, [&](const Point& x, double weight, bool proposal) {
       if (proposal) to = x[0];
@@ -219,7 +219,7 @@ TEST(LabChain, RefusesAStartThatItCannotLeaveFairly) {
 TEST(LabChain, RefusesADensityOfWhatItHasProposed) {
   class Impossible : public Picky {
    public:
-    std::unique_ptr<Move> clone() const override { return std::make_unique<Impossible>(*this); }
+    std::shared_ptr<Move> clone() const override { return std::make_shared<Impossible>(*this); }
     double suitability(const Point&) const override { return 1; }
     double density(const Point&, const Point&) const override { return 0; }
   };
@@ -240,8 +240,8 @@ TEST(LabChain, StaysWhereNoMoveSuits) {
   lab::Chain<Point> chain({0.25}, 1, {{std::make_shared<Picky>(), 1}}, 1, 0);
   const StepResult result = chain.step(*lab::parabola(), [](const Point&, double, bool) {});
   EXPECT_EQ(result.acceptance, 0);
-  EXPECT_EQ(chain.state(), Point{0.25});
-  EXPECT_EQ(chain.mixture().chosen(), lab::Mixture<Point>::none);
+  EXPECT_EQ(chain.state().x, Point{0.25});
+  EXPECT_FALSE(chain.kernel().suited());
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // Targets of the laboratory that run without Python. None needs to be normalised.
 #pragma once
 
-#include "markov/lab.h"
+#include "lab/lab.h"
 
 #include <memory>
 

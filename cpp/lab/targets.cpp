@@ -1,4 +1,4 @@
-#include "markov/lab_targets.h"
+#include "lab/targets.h"
 
 #include "math/vec.h"
 

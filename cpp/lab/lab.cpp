@@ -1,4 +1,4 @@
-#include "markov/lab.h"
+#include "lab/lab.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // Moves of the laboratory that run without Python.
 #pragma once
 
-#include "markov/lab.h"
+#include "lab/lab.h"
 
 #include <memory>
 

@@ -1,0 +1,51 @@
+#include "integrator/metropolis_chain.h"
+
+namespace mlt {
+
+ChainStats::Row& ChainStats::Row::operator+=(const Row& other) {
+  proposed += other.proposed;
+  generated += other.generated;
+  accepted += other.accepted;
+  rays += other.rays;
+  acceptance += other.acceptance;
+  image_distance += other.image_distance;
+  return *this;
+}
+
+void ChainStats::count(Row& row, const StepResult& result, bool generated, double moved) {
+  ++row.proposed;
+  row.generated += generated;
+  row.acceptance += result.acceptance;
+  invalid += result.invalid;
+  if (result.accepted < 0) {
+    ++run;
+    return;
+  }
+  ++row.accepted;
+  row.image_distance += moved;
+  run = 0;
+}
+
+void ChainStats::save(ByteWriter& bytes) const {
+  bytes.write(rows);
+  bytes.write(rays);
+  bytes.write(invalid);
+  bytes.write(run);
+  bytes.write(longest.rejections);
+  bytes.write(longest.raster);
+  bytes.write(longest.signature);
+}
+
+void ChainStats::load(ByteReader& bytes) {
+  const size_t expected = rows.size();
+  bytes.read(rows);
+  if (rows.size() != expected) throw RenderError("the saved state counts other mutations");
+  rays = bytes.read<RayCounts>();
+  invalid = bytes.read<uint64_t>();
+  run = bytes.read<uint64_t>();
+  longest.rejections = bytes.read<uint64_t>();
+  longest.raster = bytes.read<Vec2>();
+  bytes.read(longest.signature);
+}
+
+}  // namespace mlt

@@ -1,0 +1,174 @@
+// Chains that render: what they visit is recorded in a film, and what their steps came to is counted.
+#pragma once
+
+#include "base/bytes.h"
+#include "base/rng.h"
+#include "image/splat_film.h"
+#include "markov/chain.h"
+#include "path/ray_counts.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace mlt {
+
+/// Where a chain leaves what it visits: RGB / L* at a raster position, times an expected weight. Each
+/// splat waits for the next one, while its pixel comes from memory.
+class ChainRecorder {
+ public:
+  ChainRecorder(SplatFilm& film, int group) : film_(&film), group_(group) {}
+  void record(const Vec2& raster, const Color& rgb_per_target, double weight) {
+    film_->prefetch(group_, raster);
+    flush();
+    raster_ = raster;
+    color_ = rgb_per_target * weight;
+  }
+  void flush() {
+    if (!is_black(color_)) film_->add(group_, raster_, color_);
+    color_ = Color(0);
+  }
+
+ private:
+  SplatFilm* film_;
+  int group_;
+  Vec2 raster_{0};
+  Color color_{0};
+};
+
+/// Records the states of a chain, each once: the weights of the current state add up until the chain
+/// leaves it. A State has raster, rgb and target.
+template <class State>
+class StepRecorder {
+ public:
+  StepRecorder(ChainRecorder& recorder, const State& x) : recorder_(&recorder), x_(&x) {}
+
+  /// As metropolis_step calls it.
+  void operator()(const State& state, double weight) {
+    (&state == x_ ? weight_x_ : weight_y_) += weight;
+  }
+
+  /// After a step; on acceptance `other` is the state that x has left, otherwise the proposal.
+  void settle(const StepResult& result, const State& other) {
+    if (result.accepted >= 0) std::swap(weight_x_, weight_y_);
+    record(other, weight_y_);
+    weight_y_ = 0;
+  }
+  /// Records what the current state has gathered.
+  void finish() {
+    record(*x_, weight_x_);
+    weight_x_ = 0;
+    recorder_->flush();
+  }
+
+ private:
+  void record(const State& state, double weight) {
+    // A chain may start from a path whose light rounding has taken away.
+    if (weight > 0 && state.target > 0)
+      recorder_->record(state.raster, state.rgb / state.target, weight);
+  }
+
+  ChainRecorder* recorder_;
+  const State* x_;
+  double weight_x_ = 0, weight_y_ = 0;
+};
+
+/// What a chain tells about its steps; sums, so that chains can be merged.
+struct ChainStats {
+  struct Row {
+    uint64_t proposed = 0, generated = 0, accepted = 0, rays = 0;
+    double acceptance = 0, image_distance = 0;
+
+    Row& operator+=(const Row& other);
+  };
+  /// The longest run of rejections.
+  struct Stuck {
+    uint64_t rejections = 0;
+    Vec2 raster{0};
+    std::string signature;
+  };
+  std::vector<Row> rows;  ///< As MetropolisAlgorithm::rows lists them.
+  RayCounts rays;
+  uint64_t invalid = 0;
+  uint64_t run = 0;  ///< Rejections in a row up to now.
+  Stuck longest;
+
+  /// Counts one step; `moved` is the distance on the image if it was accepted.
+  void count(Row& row, const StepResult& result, bool generated, double moved);
+  void save(ByteWriter& bytes) const;
+  void load(ByteReader& bytes);
+};
+
+/// One Markov chain of a render.
+class RenderChain {
+ public:
+  virtual ~RenderChain() = default;
+  virtual void advance(uint64_t steps, ChainRecorder& recorder) = 0;
+  virtual const ChainStats& stats() const = 0;
+  virtual void save(ByteWriter& bytes) const = 0;
+  virtual void load(ByteReader& bytes) = 0;
+};
+
+/// Which chain it is: by its group, and by its number in the group.
+struct ChainId {
+  uint64_t seed;
+  int group, number, count;
+  Purpose purpose = Purpose::chain;
+
+  Rng rng() const { return Rng(seed, purpose, (uint64_t(group) << 32) | uint32_t(number)); }
+};
+
+/// A chain of any kernel that has State; propose; generated(y); stats_row(), the row of the statistics that
+/// its last step belongs to, of stats_rows(); rays(), traced so far; signature(x), for messages; and
+/// save(bytes, x), load(bytes, x) for the state of the chain and its own.
+template <class Kernel>
+class RecordedChain : public RenderChain {
+  using State = typename Kernel::State;
+
+ public:
+  RecordedChain(Kernel kernel, const ChainId& id, State start)
+      : chain_(std::move(kernel), id.rng(), std::move(start)) {
+    stats_.rows.resize(chain_.kernel().stats_rows());
+  }
+
+  void advance(uint64_t steps, ChainRecorder& recorder) override {
+    Kernel& kernel = chain_.kernel();
+    StepRecorder<State> record(recorder, chain_.state());
+    for (uint64_t i = 0; i < steps; ++i) {
+      const Vec2 from = chain_.state().raster;
+      const uint64_t rays_before = kernel.rays().total();
+      const StepResult result = chain_.step(record);
+      record.settle(result, chain_.other());
+      const State& y = result.accepted < 0 ? chain_.other() : chain_.state();
+      ChainStats::Row& row = stats_.rows[kernel.stats_row()];
+      stats_.count(row, result, kernel.generated(y), glm::length(chain_.state().raster - from));
+      row.rays += kernel.rays().total() - rays_before;
+      if (stats_.run > stats_.longest.rejections && stats_.run % 64 == 0)
+        stats_.longest = {stats_.run, chain_.state().raster, kernel.signature(chain_.state())};
+    }
+    record.finish();
+    stats_.rays = kernel.rays();
+  }
+
+  const ChainStats& stats() const override { return stats_; }
+
+  void save(ByteWriter& bytes) const override {
+    bytes.write(chain_.rng().state());
+    chain_.kernel().save(bytes, chain_.state());
+    stats_.save(bytes);
+  }
+  void load(ByteReader& bytes) override {
+    chain_.rng() = Rng(bytes.read<Rng::State>());
+    State x;
+    chain_.kernel().load(bytes, x);
+    chain_.restart(std::move(x));
+    stats_.load(bytes);
+    chain_.kernel().rays() = stats_.rays;
+  }
+
+ private:
+  Chain<State, Kernel> chain_;
+  ChainStats stats_;
+};
+
+}  // namespace mlt

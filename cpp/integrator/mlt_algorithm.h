@@ -1,0 +1,33 @@
+// The chains of mlt: which mutations move them, with which weights, towards which target.
+#pragma once
+
+#include "integrator/metropolis_rendering.h"
+#include "mutation/extra_mutation.h"
+#include "mutation/mutation_registry.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace mlt {
+
+/// A mutation of the registry as a part of the mixture.
+struct MixedMutation {
+  std::string name;
+  double weight;
+  MutationValues values = {};
+};
+
+struct MltSettings {
+  PathRules rules;
+  double near_specular = 0.1;
+  std::vector<MixedMutation> mixture;
+  std::vector<ExtraMutation> extra;
+  bool adaptive = true;
+  bool two_stage = false;
+  int64_t luminance_samples = 100000;
+};
+
+std::unique_ptr<MetropolisAlgorithm> mlt_algorithm(ScenePtr scene, const MltSettings& settings);
+
+}  // namespace mlt

@@ -1,0 +1,172 @@
+// The lecture's laboratory: Metropolis sampling of any function by any mixture of moves, by the step,
+// the mixture and the chain that light paths use.
+//
+// X is what a state is made of: numbers here, any Python object in the bindings.
+#pragma once
+
+#include "base/error.h"
+#include "base/rng.h"
+#include "markov/chain.h"
+#include "markov/mixture.h"
+
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace mlt::lab {
+
+/// Coordinates; a discrete state is one coordinate, its index.
+using Point = std::vector<double>;
+
+/// "x = 0.25" or "x = (0.25, 1)", for messages.
+std::string describe(const Point& x);
+std::string describe(double number);
+
+template <class X>
+class Target {
+ public:
+  virtual ~Target() = default;
+  virtual double operator()(const X& x) const = 0;
+};
+
+template <class X>
+struct State {
+  X x{};
+  double target = 0;
+};
+
+/// A value that must be finite and not negative; `what` is for the message.
+template <class X>
+double checked(const std::string& what, double value, const X& x) {
+  if (value >= 0 && value < std::numeric_limits<double>::infinity()) return value;
+  throw UsageError(what + " is " + describe(value) + " at " + describe(x) +
+                   "; it must be a finite number that is not negative");
+}
+
+template <class X>
+class Move {
+ public:
+  virtual ~Move() = default;
+  /// A chain has its own copy of each move, since a move may learn.
+  virtual std::shared_ptr<Move> clone() const = 0;
+  /// May it act on x? A factor of its weight.
+  virtual double suitability(const X& /*x*/) const { return 1; }
+  /// Draws y from T(x -> .); false if there is no proposal.
+  virtual bool propose(const X& x, X& y, Rng& rng) = 0;
+  /// T(x -> y), up to a factor that does not depend on x and y. A symmetric move leaves it at 1.
+  virtual double density(const X& /*x*/, const X& /*y*/) const { return 1; }
+  /// Is told how its proposal fared.
+  virtual void adapt(double /*acceptance*/) {}
+  /// Its present size if that changes, else NaN.
+  virtual double size() const { return std::numeric_limits<double>::quiet_NaN(); }
+
+  // What a mixture asks of a move: the same for states with their targets.
+
+  using State = lab::State<X>;
+  struct Edit {
+    Edit reversed() const { return {}; }
+  };
+  struct Aids {};
+  struct Context {
+    Rng& rng;
+    Aids& aids;
+  };
+  static size_t row(const State&) { return 0; }
+  double suitability(const State& x) const {
+    return checked("a move's suitability", suitability(x.x), x.x);
+  }
+  std::optional<Edit> propose(const State& x, State& y, const Context& context) {
+    return propose(x.x, y.x, context.rng) ? std::optional<Edit>(Edit()) : std::nullopt;
+  }
+  double density(const State& x, const State& y, const Edit&) const { return density(x.x, y.x); }
+  void check(const State& x, const State& y, double forward, double backward) const {
+    if (!(forward > 0))
+      throw UsageError("a move proposed " + describe(y.x) + " from " + describe(x.x) +
+                       " but its density T(x -> y) is " + describe(forward));
+    if (!(backward >= 0))
+      throw UsageError("a move's density T(x -> y) is " + describe(backward) + " from " +
+                       describe(y.x) + " to " + describe(x.x));
+  }
+};
+
+template <class X>
+using Mixture = mlt::Mixture<Move<X>>;
+
+/// Moves to be copied for each chain, with their weights.
+template <class X>
+using Prototypes = std::vector<std::pair<std::shared_ptr<const Move<X>>, double>>;
+
+template <class X>
+class Chain : public mlt::Chain<State<X>, Mixture<X>> {
+  using Base = mlt::Chain<State<X>, Mixture<X>>;
+
+ public:
+  Chain(const X& start, double target, const Prototypes<X>& moves, uint64_t seed, uint64_t index)
+      : Base(mixture_of(moves), Rng(seed, Purpose::chain, index), {start, target}) {
+    if (checked("the target", target, start) == 0)
+      throw UsageError("the target is 0 at the start " + describe(start) +
+                       "; a chain must start where it is positive");
+    this->y_[0] = this->x_;
+  }
+
+  /// One step; `record(x, weight, is_proposal)`.
+  template <class Record>
+  StepResult step(const Target<X>& target, Record&& record) {
+    if (choose()) draw();
+    if (proposed()) set_target(target(this->other().x));
+    return finish(record);
+  }
+
+  // The parts of a step, for chains that go in lockstep: choose; draw, or set_proposal; set_target if
+  // there is a proposal; finish.
+
+  bool choose() { return this->kernel_.choose(this->x_, this->rng_); }
+  void draw() { this->kernel_.draw(this->x_, this->y_[0], this->rng_); }
+  void set_proposal(X y, double forward, double backward) {
+    this->y_[0].x = std::move(y);
+    this->kernel_.set_densities(forward, backward);
+  }
+  void set_target(double value) {
+    this->y_[0].target = checked("the target", value, this->y_[0].x);
+  }
+  bool proposed() const { return this->kernel_.proposed(); }
+
+  template <class Record>
+  StepResult finish(Record&& record) {
+    struct Proposed {
+      Mixture<X>& mixture;
+      Transition propose(const State<X>& x, const std::array<State<X>, 1>& y, size_t, Rng&) {
+        return mixture.transition(x, y[0]);
+      }
+    } kernel{this->kernel_};
+    const StepResult result = metropolis_step(this->x_, this->y_, kernel, this->rng_,
+                                              [&](const State<X>& state, double weight) {
+                                                record(state.x, weight, &state != &this->x_);
+                                              });
+    if (proposed()) this->kernel_.moves()[this->kernel_.chosen()]->adapt(result.acceptance);
+    return result;
+  }
+
+  /// Of the first move that has one.
+  double move_size() const {
+    for (const auto& move : this->kernel_.moves())
+      if (!std::isnan(move->size())) return move->size();
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+
+ private:
+  static Mixture<X> mixture_of(const Prototypes<X>& prototypes) {
+    typename Mixture<X>::Moves moves;
+    std::vector<double> weights;
+    for (const auto& [move, weight] : prototypes) {
+      moves.push_back(move->clone());
+      weights.push_back(weight);
+    }
+    return {std::move(moves), std::make_shared<MixtureWeights>(std::move(weights))};
+  }
+};
+
+}  // namespace mlt::lab

@@ -1,0 +1,40 @@
+// A Markov chain: a state, the random stream that is its own, and the kernel that moves it.
+#pragma once
+
+#include "markov/step.h"
+
+namespace mlt {
+
+template <class State, class Kernel>
+class Chain {
+ public:
+  Chain(Kernel kernel, const Rng& rng, State start = {})
+      : kernel_(std::move(kernel)), rng_(rng), x_(std::move(start)) {}
+
+  /// See metropolis_step.
+  template <class Record>
+  StepResult step(Record&& record) {
+    return metropolis_step(x_, y_, kernel_, rng_, record);
+  }
+  /// A proposal that is neither accepted nor rejected: the probability with which it would be accepted.
+  double propose() { return acceptance(kernel_.propose(x_, y_, 0, rng_)); }
+
+  const State& state() const { return x_; }
+  /// After a proposal, that one; after a step, the state that the chain is not in.
+  const State& other() const { return y_[0]; }
+  /// Goes on from another state, with the same stream.
+  void restart(const State& x) { x_ = x; }
+
+  Kernel& kernel() { return kernel_; }
+  const Kernel& kernel() const { return kernel_; }
+  Rng& rng() { return rng_; }
+  const Rng& rng() const { return rng_; }
+
+ protected:
+  Kernel kernel_;
+  Rng rng_;
+  State x_;
+  std::array<State, 1> y_{};
+};
+
+}  // namespace mlt

@@ -1,0 +1,146 @@
+// A mixture of moves as the kernel of the Metropolis-Hastings step. Of the moves that suit a state one is
+// chosen by weight, and the acceptance is that of the chosen move alone, with the probability of its
+// choice as a part of T: the reverse state may suit other moves (Veach 1997, sec. 11.4.1).
+//
+// A move is a class with
+//
+//   State, Aids, Context{Rng&, Aids&}, Edit    types: what it moves, what chains have for it beside random
+//                                              numbers, both together, and what a proposal remembers
+//   static size_t row(const State&)            which row of weights is for this state
+//   double suitability(const State&) const     may it act on x? A factor of its weight
+//   std::optional<Edit> propose(x, y, context) makes y from x
+//   double density(x, y, edit)                 T(x -> y), without the probability of its choice
+//   void check(x, y, forward, backward)        throws if these densities cannot be
+//
+// where Edit has reversed(), and a State has its target L*, known at the latest when the step ends.
+#pragma once
+
+#include "markov/step.h"
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace mlt {
+
+/// Weights of the moves, row by row; a state beyond the last row uses the last one.
+class MixtureWeights {
+ public:
+  MixtureWeights() = default;
+  explicit MixtureWeights(std::vector<double> weights) : rows_{std::move(weights)} {}
+  explicit MixtureWeights(std::vector<std::vector<double>> rows) : rows_(std::move(rows)) {}
+
+  const std::vector<double>& operator[](size_t row) const {
+    return rows_[std::min(row, rows_.size() - 1)];
+  }
+  const std::vector<std::vector<double>>& rows() const { return rows_; }
+
+ private:
+  std::vector<std::vector<double>> rows_;
+};
+
+template <class Move>
+class Mixture {
+ public:
+  using State = typename Move::State;
+  using Aids = typename Move::Aids;
+  using Moves = std::vector<std::shared_ptr<Move>>;
+
+  Mixture(Moves moves, std::shared_ptr<const MixtureWeights> weights)
+      : moves_(std::move(moves)), weights_(std::move(weights)), shares_(moves_.size()) {}
+
+  /// As metropolis_step calls it, where the moves find the target of what they propose.
+  Transition propose(const State& x, std::array<State, 1>& proposals, size_t, Rng& rng) {
+    if (choose(x, rng)) draw(x, proposals[0], rng);
+    return transition(x, proposals[0]);
+  }
+
+  // The parts of a proposal, for chains that go in lockstep.
+
+  /// Chooses a move for x; false if none suits it.
+  bool choose(const State& x, Rng& rng) {
+    edit_.reset();
+    densities_.reset();
+    row_ = Move::row(x);
+    const double sum = weigh(x);
+    suited_ = sum > 0;
+    chosen_ = 0;
+    if (!suited_) return false;
+    double u = rng.next() * sum;
+    while (chosen_ + 1 < shares_.size() && (u -= shares_[chosen_]) >= 0) ++chosen_;
+    while (shares_[chosen_] == 0) --chosen_;  // u was rounded past the last share
+    probability_ = shares_[chosen_] / sum;
+    return true;
+  }
+  /// Lets the chosen move make y.
+  void draw(const State& x, State& y, Rng& rng) {
+    typename Move::Context context{rng, aids_};
+    edit_ = moves_[chosen_]->propose(x, y, context);
+  }
+  /// Says that the chosen move has made its y elsewhere, and with which densities T(x -> y), T(y -> x).
+  void set_densities(double forward, double backward) {
+    edit_.emplace();
+    densities_ = {forward, backward};
+  }
+  /// Of the proposal y, whose target is known.
+  Transition transition(const State& x, const State& y) {
+    if (!generated(y)) return impossible;
+    Move& move = *moves_[chosen_];
+    const auto [forward, backward] =
+        densities_ ? *densities_
+                   : std::pair(move.density(x, y, *edit_), move.density(y, x, edit_->reversed()));
+    move.check(x, y, forward, backward);
+    if (forward == 0) return impossible;  // y has another form than the move makes
+    return {probability_ * forward / y.target,
+            backward == 0 ? 0 : probability(y) * backward / x.target};
+  }
+
+  /// Whether any move suits x.
+  bool suits(const State& x) { return weigh(x) > 0; }
+
+  // Of the last step:
+
+  /// Whether any move suited the state, and which one was chosen.
+  bool suited() const { return suited_; }
+  size_t chosen() const { return chosen_; }
+  /// The row of weights that it was chosen by.
+  size_t row() const { return row_; }
+  /// Whether there is a proposal, and whether one with this state can be accepted at all.
+  bool proposed() const { return edit_.has_value(); }
+  bool generated(const State& y) const { return proposed() && y.target != 0; }
+
+  Move& operator[](size_t i) const { return *moves_[i]; }
+  const Moves& moves() const { return moves_; }
+  Aids& aids() { return aids_; }
+  const Aids& aids() const { return aids_; }
+
+ private:
+  /// Fills in each move's share of the choice at x; returns their sum.
+  double weigh(const State& x) {
+    const std::vector<double>& weights = (*weights_)[Move::row(x)];
+    double sum = 0;
+    for (size_t i = 0; i < moves_.size(); ++i) {
+      shares_[i] = weights[i] > 0 ? weights[i] * moves_[i]->suitability(x) : 0.0;
+      sum += shares_[i];
+    }
+    return sum;
+  }
+  /// P_choose of the chosen move at y.
+  double probability(const State& y) {
+    const double sum = weigh(y);
+    return shares_[chosen_] > 0 ? shares_[chosen_] / sum : 0.0;
+  }
+
+  Moves moves_;
+  std::shared_ptr<const MixtureWeights> weights_;
+  Aids aids_{};
+  std::vector<double> shares_;
+  size_t chosen_ = 0, row_ = 0;
+  bool suited_ = false;
+  double probability_ = 0;
+  std::optional<typename Move::Edit> edit_;
+  std::optional<std::pair<double, double>> densities_;
+};
+
+}  // namespace mlt

@@ -1,0 +1,27 @@
+// Chains of light paths, moved by a mixture of mutations: what mlt renders with, what adapts its weights,
+// what the audit and Python look at.
+#pragma once
+
+#include "markov/chain.h"
+#include "markov/mixture.h"
+#include "mutation/mutation.h"
+
+#include <memory>
+#include <vector>
+
+namespace mlt {
+
+/// Paths of more edges than this share a row of weights and of statistics.
+constexpr size_t longest_row = 16;
+
+using MutationPtr = std::shared_ptr<const Mutation>;
+using Mutations = std::vector<MutationPtr>;
+using PathMixture = Mixture<const Mutation>;
+using PathChain = Chain<PathState, PathMixture>;
+
+/// The mixture of mutations with one weight each.
+inline PathMixture path_mixture(const Mutations& mutations, std::vector<double> weights) {
+  return {mutations, std::make_shared<MixtureWeights>(std::move(weights))};
+}
+
+}  // namespace mlt

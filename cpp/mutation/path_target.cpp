@@ -1,0 +1,38 @@
+#include "mutation/path_target.h"
+
+#include "mutation/path_seeds.h"
+
+namespace mlt {
+
+void PathTarget::evaluate(int first, int last, PathState& x) const {
+  const int k = x.edges(), from = std::max(0, first - 1), to = std::min(k, last + 1);
+  update_terms(*scene_, x.path, term_settings(), from, to, x.terms);
+  evaluate_target(x);
+}
+
+void PathTarget::evaluate(PathState& x) const {
+  compute_terms(*scene_, x.path, term_settings(), x.terms);
+  evaluate_target(x);
+}
+
+void PathTarget::evaluate_target(PathState& x) const {
+  x.target = 0;
+  if (x.edges() < rules_.min_depth || x.edges() > rules_.most_edges()) return;
+  if (x.edges() == 1 &&
+      (rules_.hide_emitters || !(x.terms.light_can_be_hit || x.terms.camera_can_be_hit)))
+    return;
+  x.rgb = contribution(x.terms);
+  const double target = target_luminance(x.rgb);
+  if (!(target > 0)) {
+    if (std::isnan(target)) x.target = target;
+    return;
+  }
+  const auto raster = raster_position(*scene_, x.path);
+  if (!raster) return;
+  x.raster = *raster;
+  x.target = map_ ? target * (*map_)(x.raster) : target;
+}
+
+PathSeeds PathTarget::seeds() const { return PathSeeds(*this); }
+
+}  // namespace mlt

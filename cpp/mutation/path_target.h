@@ -1,0 +1,53 @@
+// L*(x), the target of Metropolis light transport: which paths of a scene count, and for how much.
+#pragma once
+
+#include "mutation/path_state.h"
+#include "mutation/target_map.h"
+#include "path/path_rules.h"
+
+#include <memory>
+#include <optional>
+
+namespace mlt {
+
+class PathSeeds;
+
+class PathTarget {
+ public:
+  /// Smooth vertices below the roughness `near_specular` count as specular in signatures.
+  explicit PathTarget(ScenePtr scene, const PathRules& rules = {}, double near_specular = 0.1)
+      : scene_(std::move(scene)), rules_(rules), near_specular_(near_specular) {}
+
+  const Scene& scene() const { return *scene_; }
+  const ScenePtr& scene_ptr() const { return scene_; }
+  const PathRules& rules() const { return rules_; }
+  double near_specular() const { return near_specular_; }
+  /// Two-stage sampling: a factor of the target; nullptr without.
+  const TargetMap* map() const { return map_ ? &*map_ : nullptr; }
+  void set_map(TargetMap map) { map_ = std::move(map); }
+
+  /// Computes what depends on vertices first ... last and their neighbours, then f and L*. Without
+  /// visibility. target = 0 if the path carries no light, misses the image or breaks the rules.
+  void evaluate(int first, int last, PathState& x) const;
+  /// The same for a path of which nothing has been computed yet.
+  void evaluate(PathState& x) const;
+
+  /// Heckbert's notation, by near_specular.
+  std::string signature(const Path& path) const {
+    return mlt::signature(*scene_, path, near_specular_);
+  }
+
+  /// Paths to start chains from; the target must outlive them.
+  PathSeeds seeds() const;
+
+ private:
+  TermSettings term_settings() const { return {true, rules_.strict_normals, near_specular_}; }
+  void evaluate_target(PathState& x) const;
+
+  ScenePtr scene_;
+  PathRules rules_;
+  double near_specular_;
+  std::optional<TargetMap> map_;
+};
+
+}  // namespace mlt
