@@ -23,9 +23,9 @@ PathState PathTarget::evaluated(const PyLightPath& x) const {
 
 py::tuple PathTarget::bootstrap(uint64_t candidates, uint32_t chains, uint64_t seed) const {
   BidirectionalSettings how;
-  how.max_depth = settings_.max_depth;
-  how.hide_emitters = settings_.hide_emitters;
-  how.strict_normals = settings_.strict_normals;
+  how.rules.max_depth = settings_.max_depth;
+  how.rules.hide_emitters = settings_.hide_emitters;
+  how.rules.strict_normals = settings_.strict_normals;
   PathSeeds seeds(*scene_->scene, how, settings_);
   RayCounts rays;
   std::vector<double> weights;

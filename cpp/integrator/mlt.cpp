@@ -59,8 +59,7 @@ class MltChain : public Chain {
       stats_.count(row, result, kernel.generated(), glm::length(x_.raster - from));
       row.rays += stats_.rays.intersect + stats_.rays.occluded - rays_before;
       if (stats_.run > stats_.longest.rejections && stats_.run % 64 == 0)
-        stats_.longest = {stats_.run, x_.raster,
-                          signature(*scene_, x_.path, settings_->near_specular)};
+        stats_.longest = {stats_.run, x_.raster, signature(x_.terms)};
     }
     record.finish();
   }
@@ -239,11 +238,11 @@ void MltChain::load(ByteReader& bytes) {
 class MltIntegrator : public Integrator {
  public:
   explicit MltIntegrator(Params& params) : metropolis_(metropolis_settings(params)) {
-    const PathSettings path = path_settings(params);
-    settings_.paths.max_depth = settings_.mutation.max_depth = path.max_depth;
-    settings_.paths.rr_depth = path.rr_depth;
-    settings_.paths.hide_emitters = settings_.mutation.hide_emitters = path.hide_emitters;
-    settings_.paths.strict_normals = settings_.mutation.strict_normals = path.strict_normals;
+    PathRules& rules = settings_.paths.rules;
+    rules = path_rules(params);
+    settings_.mutation.max_depth = rules.max_depth;
+    settings_.mutation.hide_emitters = rules.hide_emitters;
+    settings_.mutation.strict_normals = rules.strict_normals;
     settings_.mutation.near_specular = params.real_in("near_specular", 0, 1);
     if (params.boolean("manifold_perturbation"))
       params.fail("manifold_perturbation",
@@ -251,7 +250,7 @@ class MltIntegrator : public Integrator {
     settings_.two_stage = params.boolean("two_stage");
     settings_.luminance_samples = metropolis_.luminance_samples;
     direct_samples_ = static_cast<int>(params.integer_in("direct_samples", -1, 1 << 20));
-    if (direct_samples_ >= 0) settings_.paths.min_depth = settings_.mutation.min_depth = 3;
+    if (direct_samples_ >= 0) rules.min_depth = settings_.mutation.min_depth = 3;
     double sum = 0;
     bool chosen = false;  // by the user
     for (const MutationKind& kind : mutation_kinds()) {
@@ -268,8 +267,8 @@ class MltIntegrator : public Integrator {
     auto algorithm = std::make_unique<Mlt>(scene, settings_);
     Aside direct;
     if (direct_samples_ >= 0)
-      direct = separate_direct(scene, seed, direct_samples_, settings_.paths.hide_emitters,
-                               settings_.paths.strict_normals);
+      direct = separate_direct(scene, seed, direct_samples_, settings_.paths.rules.hide_emitters,
+                               settings_.paths.rules.strict_normals);
     return std::make_unique<MetropolisRendering>(std::move(scene), seed, metropolis_,
                                                  std::move(algorithm), std::move(direct));
   }

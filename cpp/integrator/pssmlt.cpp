@@ -5,27 +5,26 @@
 #include "integrator/metropolis_params.h"
 #include "integrator/path_params.h"
 #include "mutation/primary_sample.h"
-#include "path/camera_ray.h"
 #include "path/samplers.h"
 
 namespace mlt {
 namespace {
 
 struct PssmltSettings {
-  PathSettings path;
+  PathRules path;
   double large_probability = 0.3;
 };
 
 /// Walks from the camera as the numbers say, over the whole image plane.
-void evaluate(const Scene& scene, const PathSettings& settings, PrimaryState& state, Rng& rng,
+void evaluate(const Scene& scene, const PathRules& rules, PrimaryState& state, Rng& rng,
               ChainStats& stats) {
   PrimarySampler sampler(state.numbers, rng);
   const Camera& camera = scene.camera();
   state.raster = camera.raster().sample(sampler.next2());
-  const Ray ray = camera_ray(camera, state.raster, sampler);
+  const Ray ray = leave_lens(camera, state.raster, sampler).ray;
   // Importance over the density of uniform raster positions.
   const double importance = camera.raster().sampled_area() / camera.raster().pixels();
-  state.rgb = trace_path(scene, settings, ray, sampler, stats.rays) * importance;
+  state.rgb = trace_path(scene, rules, ray, sampler, stats.rays) * importance;
   state.target = target_luminance(state.rgb);
   state.numbers.resize(sampler.used());
   if (!(std::isfinite(state.target) && min_component(state.rgb) >= 0)) {
@@ -128,7 +127,7 @@ class PssmltIntegrator : public Integrator {
  public:
   explicit PssmltIntegrator(Params& params)
       : metropolis_(metropolis_settings(params)),
-        settings_{path_settings(params), params.real_in("p_large", 0, 1)} {
+        settings_{path_rules(params), params.real_in("p_large", 0, 1)} {
     if (params.boolean("bidirectional"))
       params.fail("bidirectional",
                   "is true, but pssmlt works over the path tracer only; leave it out");

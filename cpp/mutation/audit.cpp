@@ -47,10 +47,10 @@ class Auditor {
         how_(how),
         functions_(scene) {
     samples_ = std::max<uint64_t>(1, how.paths / batches);
-    paths_.max_depth = settings.max_depth;
-    paths_.min_depth = settings.min_depth;
-    paths_.hide_emitters = settings.hide_emitters;
-    paths_.strict_normals = settings.strict_normals;
+    paths_.rules.max_depth = settings.max_depth;
+    paths_.rules.min_depth = settings.min_depth;
+    paths_.rules.hide_emitters = settings.hide_emitters;
+    paths_.rules.strict_normals = settings.strict_normals;
   }
 
   AuditReport run() {
@@ -141,7 +141,7 @@ class Auditor {
     };
     const StepResult result = metropolis_step(s.x, s.y, kernel, rng, record);
     ++sums.steps;
-    AuditRow& row = sums.rows[{kernel.chosen(), signature(start)}];
+    AuditRow& row = sums.rows[{kernel.chosen(), signature(start.terms)}];
     ++row.steps;
     row.generated += kernel.generated();
     row.accepted += result.accepted >= 0;
@@ -158,12 +158,6 @@ class Auditor {
     functions_.evaluate(s.x, s.after);
     for (size_t g = 0; g < s.after.size(); ++g)
       sums.chosen[g] += weight * (s.after[g] - s.before[g]);
-  }
-
-  static std::string signature(const PathState& x) {
-    std::string letters = "L";
-    for (int i = 1; i < x.edges(); ++i) letters += x.specular(i) ? 'S' : 'D';
-    return letters + "E";
   }
 
   AuditReport report(const std::vector<Batch>& done) const {

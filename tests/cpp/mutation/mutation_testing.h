@@ -33,16 +33,14 @@ inline MutationChoice default_choice() {
 }
 
 inline std::string signature_of(const PathState& x) {
-  std::string letters = "L";
-  for (int i = 1; i < x.edges(); ++i) letters += x.specular(i) ? 'S' : 'D';
-  return letters + 'E';
+  return signature(x.terms);
 }
 
 /// Calls found(x) for the paths of `samples` bidirectional samples.
 inline void for_each_light_path(const Scene& scene, const MutationSettings& settings, uint64_t seed,
                                 int samples, const std::function<void(const PathState&)>& found) {
   BidirectionalSettings how;
-  how.max_depth = settings.max_depth;
+  how.rules.max_depth = settings.max_depth;
   BidirectionalSampler paths(scene, how);
   RayCounts rays;
   PathState x;
