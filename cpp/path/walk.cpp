@@ -2,18 +2,6 @@
 
 namespace mlt {
 
-LightSample sample_light_position(const Scene& scene, Vec3 u) {
-  const EmitterChoice choice = scene.choose_emitter(u.x);
-  const PositionSample position = choice.emitter->sample_position({u.y, u.z});
-  return {choice.emitter, position.at, choice.probability * position.pdf};
-}
-
-LightSample sample_direct_position(const Scene& scene, const Vec3& from, Vec3 u) {
-  const EmitterChoice choice = scene.choose_emitter(u.x);
-  const PositionSample position = choice.emitter->sample_direct(from, {u.y, u.z});
-  return {choice.emitter, position.at, choice.probability * position.pdf};
-}
-
 Departure Walker::leave_light(const Vertex& x0, const Vec2& u) const {
   const RaySample sample = scene.emitters()[x0.emitter]->sample_ray(x0.at, u);
   if (!(sample.pdf > 0)) return {{}, 0};

@@ -17,9 +17,17 @@ struct LightSample {
 };
 
 /// Where a walk from the light begins. u.x chooses the light, (u.y, u.z) the position on it.
-LightSample sample_light_position(const Scene& scene, Vec3 u);
+inline LightSample sample_light_position(const Scene& scene, Vec3 u) {
+  const EmitterChoice choice = scene.choose_emitter(u.x);
+  const PositionSample position = choice.emitter->sample_position({u.y, u.z});
+  return {choice.emitter, position.at, choice.probability * position.pdf};
+}
 /// The same, to be seen from the point `from` (next-event estimation).
-LightSample sample_direct_position(const Scene& scene, const Vec3& from, Vec3 u);
+inline LightSample sample_direct_position(const Scene& scene, const Vec3& from, Vec3 u) {
+  const EmitterChoice choice = scene.choose_emitter(u.x);
+  const PositionSample position = choice.emitter->sample_direct(from, {u.y, u.z});
+  return {choice.emitter, position.at, choice.probability * position.pdf};
+}
 
 /// The first ray of a walk.
 struct Departure {
