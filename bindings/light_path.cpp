@@ -130,7 +130,10 @@ InspectSettings inspect_settings(uint64_t seed, int max_depth, bool strict_norma
   if (max_depth == 0 || max_depth < -1)
     throw UsageError("max_depth is " + std::to_string(max_depth) +
                      ", but should be positive, or -1 for no limit");
-  return {seed, max_depth, strict_normals};
+  InspectSettings settings{seed};
+  settings.rules.max_depth = max_depth;
+  settings.rules.strict_normals = strict_normals;
+  return settings;
 }
 
 PyLightPath trace(const LoadedPtr& scene, const std::pair<int, int>& pixel, uint64_t seed,

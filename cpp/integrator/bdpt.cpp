@@ -58,7 +58,7 @@ class BdptRendering : public SampledRendering {
   BdptRendering(ScenePtr scene, uint64_t seed, const BdptSettings& settings)
       : SampledRendering(std::move(scene), seed, true), settings_(settings) {
     if (settings.techniques)
-      techniques_ = std::make_unique<TechniqueFilms>(this->scene(), settings.paths.max_depth);
+      techniques_ = std::make_unique<TechniqueFilms>(this->scene(), settings.paths.rules.max_depth);
   }
 
   std::vector<NamedImage> layers() const override {
@@ -151,7 +151,8 @@ class BdptIntegrator : public Integrator {
   explicit BdptIntegrator(Params& params) {
     settings_.paths = bidirectional_settings(params);
     settings_.techniques = params.boolean("techniques");
-    if (settings_.techniques && (settings_.paths.max_depth < 0 || settings_.paths.max_depth > 16))
+    if (settings_.techniques &&
+        (settings_.paths.rules.max_depth < 0 || settings_.paths.rules.max_depth > 16))
       params.fail("techniques",
                   "needs a max_depth from 1 to 16: it keeps an image for each technique");
   }

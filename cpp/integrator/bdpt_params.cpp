@@ -19,12 +19,8 @@ std::vector<Parameter> bidirectional_parameters() {
 }
 
 BidirectionalSettings bidirectional_settings(Params& params) {
-  const PathSettings path = path_settings(params);
   BidirectionalSettings settings;
-  settings.max_depth = path.max_depth;
-  settings.rr_depth = path.rr_depth;
-  settings.hide_emitters = path.hide_emitters;
-  settings.strict_normals = path.strict_normals;
+  settings.rules = path_rules(params);
   settings.light_image = params.boolean("light_image");
   settings.sample_direct = params.boolean("sample_direct");
   const std::string heuristic = params.text("heuristic");

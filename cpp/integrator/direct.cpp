@@ -3,14 +3,13 @@
 #include "base/registry.h"
 #include "integrator/path_params.h"
 #include "integrator/sampled_rendering.h"
-#include "path/camera_ray.h"
 
 namespace mlt {
 namespace {
 
 struct DirectSettings {
   int emitter_samples = 1, bsdf_samples = 1;
-  bool hide_emitters = false, strict_normals = false;
+  PathRules rules;
 };
 
 class DirectRendering : public SampledRendering {
@@ -31,54 +30,52 @@ class DirectRendering::DirectWorker : public Worker {
       : scene_(&scene), settings_(settings) {}
 
   void sample(const Vec2& raster, PixelSampler& sampler, Sink& sink, RayCounts& rays) override {
-    const Ray ray = camera_ray(scene_->camera(), raster, sampler);
+    const Ray ray = leave_lens(scene_->camera(), raster, sampler).ray;
     sink.add(raster, radiance(ray, sampler, rays));
   }
 
  private:
   Color radiance(const Ray& ray, PixelSampler& sampler, RayCounts& rays) const {
+    const Walker walker{*scene_, ray.time, rays};
     SurfacePoint at;
-    ++rays.intersect;
-    const bool hit = scene_->intersect(ray, at);
+    const bool hit = walker.arrive(ray, at);
     const auto always = [](const Emitter&, const SurfacePoint&) { return 1.0; };
     Color sum(0);
-    if (!settings_.hide_emitters) sum += emission(*scene_, hit ? &at : nullptr, ray.d, always);
-    if (!hit || !consistent_sides(at, -ray.d, settings_.strict_normals)) return sum;
-    const Bsdf& bsdf = scene_->bsdf(at);
-    if (bsdf.has_smooth())
-      for (int i = 0; i < settings_.emitter_samples; ++i) sum += by_light(at, ray, sampler, rays);
-    for (int i = 0; i < settings_.bsdf_samples; ++i) sum += by_bsdf(bsdf, at, ray, sampler, rays);
+    if (!settings_.rules.hide_emitters)
+      sum += emission(*scene_, hit ? &at : nullptr, ray.d, always);
+    if (!hit || !consistent_sides(at, -ray.d, settings_.rules.strict_normals)) return sum;
+    if (scene_->bsdf(at).has_smooth())
+      for (int i = 0; i < settings_.emitter_samples; ++i) sum += by_light(walker, at, ray, sampler);
+    for (int i = 0; i < settings_.bsdf_samples; ++i) sum += by_bsdf(walker, at, ray, sampler);
     return sum;
   }
 
-  Color by_light(const SurfacePoint& at, const Ray& ray, PixelSampler& sampler,
-                 RayCounts& rays) const {
+  Color by_light(const Walker& walker, const SurfacePoint& at, const Ray& ray,
+                 PixelSampler& sampler) const {
     const Vec2 u = sampler.next2();
     const double n = settings_.emitter_samples, m = settings_.bsdf_samples;
     const auto weight = [&](double light, double bsdf) {
       return power_heuristic(n * light, m * bsdf);
     };
-    return direct_light(*scene_, at, -ray.d, {sampler.next(), u}, ray.time,
-                        settings_.strict_normals, rays, weight) /
+    return direct_light(walker, at, -ray.d, {sampler.next(), u}, settings_.rules.strict_normals,
+                        weight) /
            n;
   }
 
-  Color by_bsdf(const Bsdf& bsdf, const SurfacePoint& at, const Ray& ray, PixelSampler& sampler,
-                RayCounts& rays) const {
+  Color by_bsdf(const Walker& walker, const SurfacePoint& at, const Ray& ray,
+                PixelSampler& sampler) const {
     const Vec2 u = sampler.next2();
     const auto sample =
-        scatter_to_light(bsdf, at, -ray.d, {sampler.next(), u}, settings_.strict_normals);
+        scatter_to_light(walker, at, -ray.d, {sampler.next(), u}, settings_.rules.strict_normals);
     if (!sample) return Color(0);
     const double n = settings_.emitter_samples, m = settings_.bsdf_samples;
     const auto weight = [&](const Emitter& emitter, const SurfacePoint& x0) {
       if (sample->lobe != Lobe::smooth) return 1.0;
-      const double light =
-          emitter_pdf(*scene_, emitter, at.p, x0) * per_solid_angle(at.p, x0, sample->w);
+      const double light = direct_pdf(*scene_, emitter, at.p, x0, sample->w);
       return power_heuristic(m * sample->pdf, n * light);
     };
     SurfacePoint next;
-    ++rays.intersect;
-    const bool hit = scene_->intersect(scene_->spawn(at, sample->w, ray.time), next);
+    const bool hit = walker.arrive(walker.leave(at, sample->w), next);
     return sample->weight * emission(*scene_, hit ? &next : nullptr, sample->w, weight) / m;
   }
 
@@ -101,8 +98,8 @@ class DirectIntegrator : public Integrator {
     settings_.bsdf_samples = count("bsdf_samples");
     if (settings_.emitter_samples + settings_.bsdf_samples == 0)
       params.fail("needs at least one of emitter_samples and bsdf_samples to be positive");
-    settings_.hide_emitters = params.boolean("hide_emitters");
-    settings_.strict_normals = params.boolean("strict_normals");
+    settings_.rules.hide_emitters = params.boolean("hide_emitters");
+    settings_.rules.strict_normals = params.boolean("strict_normals");
   }
   std::unique_ptr<Rendering> start(ScenePtr scene, uint64_t seed) const override {
     return std::make_unique<DirectRendering>(std::move(scene), seed, settings_);

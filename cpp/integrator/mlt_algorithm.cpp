@@ -27,7 +27,7 @@ class GroupMixture : public PathMixture {
   size_t stats_row() const { return chosen() * (longest_row + 1) + std::min(row(), longest_row); }
   size_t stats_rows() const { return moves().size() * (longest_row + 1); }
   RayCounts& rays() { return aids().rays; }
-  std::string signature(const PathState& x) const { return mlt::signature(x); }
+  std::string signature(const PathState& x) const { return mlt::signature(x.terms); }
 
   void save(ByteWriter& bytes, const PathState& x) const {
     bytes.write(step_);

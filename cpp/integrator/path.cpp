@@ -4,52 +4,49 @@
 #include "base/registry.h"
 #include "integrator/path_params.h"
 #include "integrator/sampled_rendering.h"
-#include "path/camera_ray.h"
 
 namespace mlt {
 namespace {
 
 class PathRendering : public SampledRendering {
  public:
-  PathRendering(ScenePtr scene, uint64_t seed, const PathSettings& settings)
-      : SampledRendering(std::move(scene), seed, false), settings_(settings) {}
+  PathRendering(ScenePtr scene, uint64_t seed, const PathRules& rules)
+      : SampledRendering(std::move(scene), seed, false), rules_(rules) {}
 
  private:
   class PathWorker : public Worker {
    public:
-    PathWorker(const Scene& scene, const PathSettings& settings)
-        : scene_(&scene), settings_(settings) {}
+    PathWorker(const Scene& scene, const PathRules& rules) : scene_(&scene), rules_(rules) {}
     void sample(const Vec2& raster, PixelSampler& sampler, Sink& sink, RayCounts& rays) override {
-      SurfacePoint lens;
-      const Ray ray = camera_ray(scene_->camera(), raster, sampler, &lens);
+      const auto [lens, ray] = leave_lens(scene_->camera(), raster, sampler);
       if (std::vector<FoundPath>* paths = sink.paths())
-        sink.add(raster, trace_path(*scene_, settings_, ray, sampler, rays,
-                                    PathRecorder(*scene_, raster, lens, ray.time, *paths)));
+        sink.add(raster, trace_path(*scene_, rules_, ray, sampler, rays,
+                                    PathRecorder(*scene_, raster, lens.at, ray.time, *paths)));
       else
-        sink.add(raster, trace_path(*scene_, settings_, ray, sampler, rays));
+        sink.add(raster, trace_path(*scene_, rules_, ray, sampler, rays));
     }
 
    private:
     const Scene* scene_;
-    PathSettings settings_;
+    PathRules rules_;
   };
 
   std::unique_ptr<Worker> make_worker() override {
-    return std::make_unique<PathWorker>(scene(), settings_);
+    return std::make_unique<PathWorker>(scene(), rules_);
   }
 
-  PathSettings settings_;
+  PathRules rules_;
 };
 
 class PathIntegrator : public Integrator {
  public:
-  explicit PathIntegrator(Params& params) : settings_(path_settings(params)) {}
+  explicit PathIntegrator(Params& params) : rules_(path_rules(params)) {}
   std::unique_ptr<Rendering> start(ScenePtr scene, uint64_t seed) const override {
-    return std::make_unique<PathRendering>(std::move(scene), seed, settings_);
+    return std::make_unique<PathRendering>(std::move(scene), seed, rules_);
   }
 
  private:
-  PathSettings settings_;
+  PathRules rules_;
 };
 
 }  // namespace

@@ -18,21 +18,16 @@ std::vector<Parameter> path_parameters() {
   };
 }
 
-PathSettings path_settings(Params& params) {
-  constexpr int64_t most = std::numeric_limits<int>::max();
-  PathSettings settings;
-  settings.max_depth = static_cast<int>(params.integer_in("max_depth", -1, most));
-  if (settings.max_depth == 0)
-    params.fail("max_depth", "is 0, but must be positive, or -1 for unbounded");
-  settings.rr_depth = static_cast<int>(params.integer_in("rr_depth", 1, most));
-  settings.hide_emitters = params.boolean("hide_emitters");
-  settings.strict_normals = params.boolean("strict_normals");
-  return settings;
-}
-
 PathRules path_rules(Params& params) {
-  const PathSettings s = path_settings(params);
-  return {s.max_depth, 1, s.rr_depth, s.hide_emitters, s.strict_normals};
+  constexpr int64_t most = std::numeric_limits<int>::max();
+  PathRules rules;
+  rules.max_depth = static_cast<int>(params.integer_in("max_depth", -1, most));
+  if (rules.max_depth == 0)
+    params.fail("max_depth", "is 0, but must be positive, or -1 for unbounded");
+  rules.rr_depth = static_cast<int>(params.integer_in("rr_depth", 1, most));
+  rules.hide_emitters = params.boolean("hide_emitters");
+  rules.strict_normals = params.boolean("strict_normals");
+  return rules;
 }
 
 }  // namespace mlt

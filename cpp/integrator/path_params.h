@@ -8,7 +8,6 @@
 namespace mlt {
 
 std::vector<Parameter> path_parameters();
-PathSettings path_settings(Params& params);
 PathRules path_rules(Params& params);
 
 }  // namespace mlt

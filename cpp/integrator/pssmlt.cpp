@@ -5,31 +5,30 @@
 #include "integrator/metropolis_params.h"
 #include "integrator/path_params.h"
 #include "mutation/primary_sample.h"
-#include "path/camera_ray.h"
 #include "path/samplers.h"
 
 namespace mlt {
 namespace {
 
 struct PssmltSettings {
-  PathSettings path;
+  PathRules path;
   double large_probability = 0.3;
 };
 
 /// Walks from the camera as the numbers say, over the whole image plane.
 struct PrimaryWalk {
   const Scene* scene;
-  PathSettings settings;
+  PathRules rules;
   RayCounts rays = {};
 
   void operator()(PrimaryState& state, Rng& rng) {
     PrimarySampler sampler(state.numbers, rng);
     const Camera& camera = scene->camera();
     state.raster = camera.raster().sample(sampler.next2());
-    const Ray ray = camera_ray(camera, state.raster, sampler);
+    const Ray ray = leave_lens(camera, state.raster, sampler).ray;
     // Importance over the density of uniform raster positions.
     const double importance = camera.raster().sampled_area() / camera.raster().pixels();
-    state.rgb = trace_path(*scene, settings, ray, sampler, rays) * importance;
+    state.rgb = trace_path(*scene, rules, ray, sampler, rays) * importance;
     state.target = target_luminance(state.rgb);
     state.numbers.resize(sampler.used());
     if (!(std::isfinite(state.target) && min_component(state.rgb) >= 0))
@@ -108,7 +107,7 @@ class PssmltIntegrator : public Integrator {
  public:
   explicit PssmltIntegrator(Params& params)
       : metropolis_(metropolis_settings(params)),
-        settings_{path_settings(params), params.real_in("p_large", 0, 1)} {
+        settings_{path_rules(params), params.real_in("p_large", 0, 1)} {
     if (params.boolean("bidirectional"))
       params.fail("bidirectional",
                   "is true, but pssmlt works over the path tracer only; leave it out");

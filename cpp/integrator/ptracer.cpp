@@ -44,13 +44,7 @@ class PtracerRendering : public SampledRendering {
 
 class PtracerIntegrator : public Integrator {
  public:
-  explicit PtracerIntegrator(Params& params) {
-    const PathSettings path = path_settings(params);
-    settings_.max_depth = path.max_depth;
-    settings_.rr_depth = path.rr_depth;
-    settings_.hide_emitters = path.hide_emitters;
-    settings_.strict_normals = path.strict_normals;
-  }
+  explicit PtracerIntegrator(Params& params) : settings_{path_rules(params)} {}
   std::unique_ptr<Rendering> start(ScenePtr scene, uint64_t seed) const override {
     return std::make_unique<PtracerRendering>(std::move(scene), seed, settings_);
   }

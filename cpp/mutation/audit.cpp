@@ -126,7 +126,7 @@ class Auditor {
     chain.restart(x);
     const StepResult result = chain.step(record);
     ++sums.steps;
-    AuditRow& row = sums.rows[{chain.kernel().chosen(), signature(x)}];
+    AuditRow& row = sums.rows[{chain.kernel().chosen(), signature(x.terms)}];
     ++row.steps;
     row.generated += chain.kernel().generated(result.accepted < 0 ? chain.other() : chain.state());
     row.accepted += result.accepted >= 0;

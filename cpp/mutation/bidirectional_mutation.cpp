@@ -1,7 +1,7 @@
 #include "mutation/bidirectional_mutation.h"
 
+#include "mutation/join.h"
 #include "mutation/mutation_registry.h"
-#include "path/next_event.h"
 
 namespace mlt {
 namespace {
@@ -77,6 +77,43 @@ int most_from_light(int n, bool lens_is_missing, const Scene& scene) {
   return lens_is_missing && scene.camera().delta_position() ? n - 1 : n;
 }
 
+/// Where a walk begins: on the lens, or on a light. A light for which nothing else is inserted is
+/// chosen to be seen from x_1.
+bool new_end(const Scene& scene, Path& path, int i, bool alone, Rng& rng) {
+  if (i > 0) {
+    path[i] = camera_vertex(scene.camera().sample_position({rng.next(), rng.next()}).at);
+    return true;
+  }
+  const Vec3 u{rng.next(), rng.next(), rng.next()};
+  const LightSample light =
+      alone ? sample_direct_position(scene, path[1].at.p, u) : sample_light_position(scene, u);
+  if (!(light.pdf > 0)) return false;
+  path[0] = light_vertex(*light.emitter, light.x0);
+  return true;
+}
+
+std::optional<Ray> leave_end(const Walker& walker, const Vertex& end, Rng& rng) {
+  const Vec2 u{rng.next(), rng.next()};
+  const Camera& camera = walker.scene.camera();
+  if (end.kind == VertexKind::camera)
+    return leave_lens(camera, end.at, camera.raster().sample(u), walker.time);
+  const Departure first = walker.leave_light(end, u);
+  if (!(first.pdf > 0)) return std::nullopt;
+  return first.ray;
+}
+
+/// At vertex i, whichever it is.
+bool arrive(const Walker& walker, const Ray& ray, Path& path, int i, Rng& rng) {
+  if (i == path.edges()) return walker.arrive_at_lens(ray, path[i]);
+  if (i > 0) return walker.arrive(ray, path[i]);
+  const auto any_background = [&]() -> const Emitter* {
+    const std::vector<uint32_t>& indices = walker.scene.backgrounds();
+    if (indices.empty()) return nullptr;
+    return walker.scene.emitters()[indices[rng.below(indices.size())]].get();
+  };
+  return walker.arrive_at_light(ray, any_background, path[0]);
+}
+
 }  // namespace
 
 std::optional<Edit> BidirectionalMutation::propose(const PathState& x, PathState& y,
@@ -95,132 +132,38 @@ std::optional<Edit> BidirectionalMutation::propose(const PathState& x, PathState
   splice(x, edit, y);
   if (l < 0 && m > k) y.path.time = scene_->camera().time(context.rng.next());
   // The emitter chosen to be seen from x_1 needs x_1: the camera side grows first.
-  if (!grow_from_camera(y, edit.first + s, t, context)) return std::nullopt;
-  if (!grow_from_light(y, edit.first, s, context)) return std::nullopt;
+  if (!grow(y, edit.first + n - 1, t, -1, context)) return std::nullopt;
+  if (!grow(y, edit.first, s, 1, context)) return std::nullopt;
   target_->evaluate(edit.first, edit.first + n - 1, y);
-  if (!(y.target > 0)) return edit;
-  const int joint = edit.first + s;  // the connecting edge is (joint - 1, joint)
-  if (joint > 0 && joint <= y.edges()) {
-    ++context.rays.occluded;
-    if (!scene_->visible(y[joint - 1].at, y[joint].at, y.path.time)) y.target = 0;
-  }
+  const int joint = edit.first + s;
+  if (joint > 0 && joint <= y.edges()) join(*scene_, joint, y, context.rays);
   return edit;
 }
 
-/// Fills vertices first ... first + count - 1 by a walk from vertex first - 1, or from a light.
-bool BidirectionalMutation::grow_from_light(PathState& y, int first, int count,
-                                            MutationContext& context) const {
+/// Fills `count` vertices from number `first` on, in steps of +1 by a walk from the light or of -1 by
+/// one from the camera. The walk goes on from the vertex before, or begins where there is none.
+bool BidirectionalMutation::grow(PathState& y, int first, int count, int step,
+                                 MutationContext& context) const {
   Path& path = y.path;
   Rng& rng = context.rng;
-  for (int i = first; i < first + count; ++i) {
-    if (i == 0) {
+  const Walker walker{*scene_, path.time, context.rays};
+  const int begin = step > 0 ? 0 : path.edges();
+  for (int i = first; i != first + count * step; i += step) {
+    if (i == begin) {
+      if (!new_end(*scene_, path, i, count == 1, rng)) return false;
+      continue;
+    }
+    Vertex& from = path[i - step];
+    std::optional<Ray> ray;
+    if (i - step == begin) {
+      ray = leave_end(walker, from, rng);
+    } else {
       const Vec3 u{rng.next(), rng.next(), rng.next()};
-      if (count == 1) {
-        const EmitterSample light = sample_emitter(*scene_, path[1].at.p, u);
-        if (!(light.pdf > 0)) return false;
-        path[0] = light_vertex(*light.emitter, light.x0);
-        continue;
-      }
-      double u_choice = u.x;
-      const EmitterChoice choice = scene_->choose_emitter(u_choice);
-      const PositionSample position = choice.emitter->sample_position({u.y, u.z});
-      if (!(position.pdf > 0)) return false;
-      path[0] = light_vertex(*choice.emitter, position.at);
-      continue;
+      ray = walker.scatter(from, direction(from.at, path[i - 2 * step].at), u);
+      if (i == first && from.delta()) return false;  // what stays must go on scattering smoothly
     }
-    Ray ray;
-    Vertex& from = path[i - 1];
-    if (i == 1) {
-      const RaySample sample =
-          scene_->emitters()[from.emitter]->sample_ray(from.at, {rng.next(), rng.next()});
-      if (!(sample.pdf > 0)) return false;
-      ray = from.at.infinite() ? Ray{sample.origin, sample.direction, path.time}
-                               : scene_->spawn(from.at, sample.direction, path.time);
-    } else if (!scatter(from, direction(from.at, path[i - 2].at), i == first, path.time, context,
-                        ray)) {
-      return false;
-    }
-    if (i < path.edges() ? !arrive(ray, path[i], context) : !arrive_at_lens(ray, path[i], context))
-      return false;
+    if (!ray || !arrive(walker, *ray, path, i, rng)) return false;
   }
-  return true;
-}
-
-/// Fills vertices first ... first + count - 1, the last one first, by a walk from vertex first + count,
-/// or from the lens.
-bool BidirectionalMutation::grow_from_camera(PathState& y, int first, int count,
-                                             MutationContext& context) const {
-  Path& path = y.path;
-  Rng& rng = context.rng;
-  const int k = path.edges();
-  for (int i = first + count - 1; i >= first; --i) {
-    if (i == k) {
-      const PositionSample lens = scene_->camera().sample_position({rng.next(), rng.next()});
-      path[k] = camera_vertex(lens.at);
-      continue;
-    }
-    Ray ray;
-    Vertex& from = path[i + 1];
-    if (i == k - 1) {
-      const Vec2 raster = scene_->camera().raster().sample({rng.next(), rng.next()});
-      ray = {from.at.p, scene_->camera().direction(from.at, raster), path.time};
-    } else if (!scatter(from, direction(from.at, path[i + 2].at), i == first + count - 1, path.time,
-                        context, ray)) {
-      return false;
-    }
-    if (i > 0 ? !arrive(ray, path[i], context) : !arrive_at_light(ray, path[0], context))
-      return false;
-  }
-  return true;
-}
-
-/// Samples a direction at a surface vertex. One that stays (`kept`) must go on scattering smoothly.
-bool BidirectionalMutation::scatter(Vertex& from, const Vec3& towards_previous, bool kept,
-                                    double time, MutationContext& context, Ray& ray) const {
-  const SurfacePoint& at = from.at;
-  Rng& rng = context.rng;
-  const Vec3 u{rng.next(), rng.next(), rng.next()};
-  const auto sample = scene_->bsdf(at).sample(at, at.shading.to_local(towards_previous), u);
-  if (!sample || (kept && sample->lobe != Lobe::smooth)) return false;
-  from.lobe = sample->lobe;
-  ray = scene_->spawn(at, at.shading.to_world(sample->to), time);
-  return true;
-}
-
-bool BidirectionalMutation::arrive(const Ray& ray, Vertex& next, MutationContext& context) const {
-  SurfacePoint at;
-  ++context.rays.intersect;
-  if (!scene_->intersect(ray, at)) return false;
-  next = surface_vertex(at);
-  return true;
-}
-
-/// The lens does not stop a ray, but what stands before it does.
-bool BidirectionalMutation::arrive_at_lens(const Ray& ray, Vertex& xk,
-                                           MutationContext& context) const {
-  const auto lens = scene_->camera().hit_lens(ray);
-  if (!lens) return false;
-  xk = camera_vertex(*lens);
-  SurfacePoint at;
-  ++context.rays.intersect;
-  return !scene_->intersect(ray, at) ||
-         length_squared(at.p - ray.o) > length_squared(lens->p - ray.o);
-}
-
-bool BidirectionalMutation::arrive_at_light(const Ray& ray, Vertex& x0,
-                                            MutationContext& context) const {
-  SurfacePoint at;
-  ++context.rays.intersect;
-  if (scene_->intersect(ray, at)) {
-    const Emitter* emitter = scene_->emitter(at);
-    if (!emitter) return false;
-    x0 = light_vertex(*emitter, at);
-    return true;
-  }
-  const std::vector<uint32_t>& backgrounds = scene_->backgrounds();
-  if (backgrounds.empty()) return false;
-  const uint32_t index = backgrounds[context.rng.below(backgrounds.size())];
-  x0 = light_vertex(*scene_->emitters()[index], Scene::point_at_infinity(ray.d));
   return true;
 }
 

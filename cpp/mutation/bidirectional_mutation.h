@@ -26,13 +26,7 @@ class BidirectionalMutation : public Mutation {
   double density(const PathState& x, const PathState& y, const Edit& edit) const override;
 
  private:
-  bool grow_from_light(PathState& y, int first, int count, MutationContext& context) const;
-  bool grow_from_camera(PathState& y, int first, int count, MutationContext& context) const;
-  bool scatter(Vertex& from, const Vec3& towards_previous, bool kept, double time,
-               MutationContext& context, Ray& ray) const;
-  bool arrive(const Ray& ray, Vertex& next, MutationContext& context) const;
-  bool arrive_at_lens(const Ray& ray, Vertex& xk, MutationContext& context) const;
-  bool arrive_at_light(const Ray& ray, Vertex& x0, MutationContext& context) const;
+  bool grow(PathState& y, int first, int count, int step, MutationContext& context) const;
   int most_edges() const { return target_->rules().most_edges(); }
 
   const PathTarget* target_;

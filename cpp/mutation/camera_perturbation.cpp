@@ -1,5 +1,6 @@
 #include "mutation/camera_perturbation.h"
 
+#include "mutation/join.h"
 #include "mutation/mutation_registry.h"
 
 namespace mlt {
@@ -56,12 +57,10 @@ std::optional<Edit> CameraPerturbation::propose(const PathState& x, PathState& y
   const Vec2 raster = x.raster + r * Vec2(std::cos(phi), std::sin(phi));
   if (!camera.raster().contains(raster)) return std::nullopt;
 
-  const Ray ray{y[k].at.p, camera.direction(y[k].at, raster), y.path.time};
+  const Ray ray = leave_lens(camera, y[k].at, raster, y.path.time);
   if (!chain_.carry(x, {k, stop, -1}, ray, y, context)) return std::nullopt;
   target_->evaluate(stop, k, y);
-  if (!(y.target > 0) || stop == 0) return edit;
-  ++context.rays.occluded;
-  if (!scene_->visible(y[stop - 1].at, y[stop].at, y.path.time)) y.target = 0;
+  if (stop > 0) join(*scene_, stop, y, context.rays);
   return edit;
 }
 

@@ -1,5 +1,6 @@
 #include "mutation/caustic.h"
 
+#include "mutation/join.h"
 #include "mutation/mutation_registry.h"
 
 namespace mlt {
@@ -41,9 +42,7 @@ std::optional<Edit> CausticPerturbation::propose(const PathState& x, PathState& 
   }
   if (!chain_.carry(x, {a, k - 1, 1}, ray, y, context)) return std::nullopt;
   target_->evaluate(a + 1, k - 1, y);
-  if (!(y.target > 0)) return edit;
-  ++context.rays.occluded;
-  if (!scene_->visible(y[k - 1].at, y[k].at, y.path.time)) y.target = 0;
+  join(*scene_, k, y, context.rays);
   return edit;
 }
 
@@ -57,8 +56,8 @@ double CausticPerturbation::density(const PathState& x, const PathState& y,
     first = offset_radius(x).planar_pdf(length(d - dot(d, x[0].at.p) * x[0].at.p));
   } else {
     const Vec3 from = direction(x[a].at, x[a + 1].at), to = direction(y[a].at, y[a + 1].at);
-    const double theta = 2 * std::atan2(length(from - to), length(from + to));
-    first = chain_.angle(x, a, k - 1, 1).angular_pdf(theta) / abs_cos(y[a].at, to);
+    first =
+        chain_.angle(x, a, k - 1, 1).angular_pdf(angle_between(from, to)) / abs_cos(y[a].at, to);
   }
   return chain_.density(x, y, {a, k - 1, 1}, first);
 }

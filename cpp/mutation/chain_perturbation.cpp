@@ -1,6 +1,7 @@
 #include "mutation/chain_perturbation.h"
 
 #include "mutation/half_vector.h"
+#include "path/walk.h"
 
 namespace mlt {
 namespace {
@@ -11,10 +12,6 @@ Vec3 direction_in(const PathState& x, int i, int step) {
 }
 Vec3 direction_out(const PathState& x, int i, int step) {
   return direction(x[i].at, x[i + step].at);
-}
-
-double angle_between(const Vec3& a, const Vec3& b) {
-  return 2 * std::atan2(length(a - b), length(a + b));
 }
 
 }  // namespace
@@ -74,28 +71,22 @@ int ChainPerturbation::chain_end(const PathState& x, int start, int step) {
 
 bool ChainPerturbation::carry(const PathState& x, const Span& span, Ray ray, PathState& y,
                               MutationContext& context) const {
+  const Walker walker{*scene_, y.path.time, context.rays};
+  // A light at infinity stays the one that it is; a surface may be that of any light.
+  const auto background = [&] {
+    return x[0].at.infinite() ? scene_->emitters()[x[0].emitter].get() : nullptr;
+  };
   for (int i = span.start + span.step;; i += span.step) {
-    SurfacePoint at;
-    ++context.rays.intersect;
-    const bool hit = scene_->intersect(ray, at);
-    if (i == 0) return arrive_at_light(x, ray, hit ? &at : nullptr, y);
-    if (!hit) return false;
-    y.path[i] = surface_vertex(at, x[i].lobe);
+    if (i == 0)
+      return walker.arrive_at_light(ray, background, y.path[0]) &&
+             y[0].at.infinite() == x[0].at.infinite();
+    if (!walker.arrive(ray, y.path[i])) return false;
+    y.path[i].lobe = x[i].lobe;
     if (i == span.stop) return true;
     const auto out = carried_direction(x, y, i, span.step, -ray.d, context);
     if (!out) return false;
-    ray = scene_->spawn(at, *out, y.path.time);
+    ray = walker.leave(y[i].at, *out);
   }
-}
-
-/// A light at infinity stays the one that it is; a surface may be that of any light.
-bool ChainPerturbation::arrive_at_light(const PathState& x, const Ray& ray, const SurfacePoint* hit,
-                                        PathState& y) const {
-  if (x[0].at.infinite() != !hit) return false;
-  const Emitter* emitter = hit ? scene_->emitter(*hit) : scene_->emitters()[x[0].emitter].get();
-  if (!emitter) return false;
-  y.path[0] = light_vertex(*emitter, hit ? *hit : Scene::point_at_infinity(ray.d));
-  return true;
 }
 
 std::optional<Vec3> ChainPerturbation::carried_direction(const PathState& x, const PathState& y,

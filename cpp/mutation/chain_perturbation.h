@@ -49,6 +49,11 @@ struct ExponentialRadius {
   }
 };
 
+/// Of two unit vectors; exact for small angles too.
+inline double angle_between(const Vec3& a, const Vec3& b) {
+  return 2 * std::atan2(length(a - b), length(a + b));
+}
+
 class ChainPerturbation {
  public:
   ChainPerturbation(const Scene& scene, const StepSizes& steps);
@@ -82,8 +87,6 @@ class ChainPerturbation {
   static int chain_end(const PathState& x, int start, int step);
 
  private:
-  bool arrive_at_light(const PathState& x, const Ray& ray, const SurfacePoint* hit,
-                       PathState& y) const;
   std::optional<Vec3> carried_direction(const PathState& x, const PathState& y, int i, int step,
                                         const Vec3& in, MutationContext& context) const;
   double coefficient(const PathState& x, const PathState& y, int i, int step) const;

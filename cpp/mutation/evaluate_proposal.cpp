@@ -1,5 +1,7 @@
 #include "mutation/evaluate_proposal.h"
 
+#include "path/walk.h"
+
 namespace mlt {
 namespace {
 
@@ -45,12 +47,12 @@ Edit difference(const Path& x, const Path& y) {
 
 bool passable(const Scene& scene, const Path& path, int first, int last, RayCounts& rays) {
   const int k = path.edges();
+  const Walker walker{scene, path.time, rays};
   for (int i = std::max(1, first - 1); i <= std::min(k - 1, last + 1); ++i)
     if (path[i].delta() && !obeys_delta(scene, path, i)) return false;
   for (int i = std::max(0, first - 1); i <= std::min(k - 1, last); ++i) {
     if (path[i].at.infinite() && path[i + 1].at.infinite()) return false;
-    ++rays.occluded;
-    if (!scene.visible(path[i].at, path[i + 1].at, path.time)) return false;
+    if (walker.join(path[i].at, path[i + 1].at) == 0) return false;
   }
   return true;
 }

@@ -1,5 +1,6 @@
 #include "mutation/lens_subpath.h"
 
+#include "mutation/join.h"
 #include "mutation/mutation_registry.h"
 
 namespace mlt {
@@ -22,26 +23,21 @@ std::optional<Edit> LensSubpathMutation::propose(const PathState& x, PathState& 
   const Camera& camera = scene_->camera();
   Rng& rng = context.rng;
   const PositionSample lens = camera.sample_position({rng.next(), rng.next()});
-  Ray ray{lens.at.p, camera.direction(lens.at, context.raster_position(camera.raster())),
-          x.path.time};
+  const Walker walker{*scene_, x.path.time, context.rays};
+  Ray ray = leave_lens(camera, lens.at, context.raster_position(camera.raster()), x.path.time);
 
   // The walk comes first: only then is the length of the path known.
   constexpr int most_vertices = 32;
   Vertex walk[most_vertices];
   int count = 0;
   for (;; ++count) {
-    if (count == most_vertices) return std::nullopt;
-    SurfacePoint at;
-    ++context.rays.intersect;
-    if (!scene_->intersect(ray, at)) return std::nullopt;
-    walk[count] = surface_vertex(at);
-    const double stops = stop_probability(at);
+    if (count == most_vertices || !walker.arrive(ray, walk[count])) return std::nullopt;
+    Vertex& end = walk[count];
+    const double stops = stop_probability(end.at);
     if (rng.next() < stops) break;
-    const auto sample = scene_->bsdf(at).sample(at, at.shading.to_local(-ray.d),
-                                                {rng.next(), rng.next(), rng.next()});
-    if (!sample || (stops > 0 && sample->lobe == Lobe::smooth)) return std::nullopt;
-    walk[count].lobe = sample->lobe;
-    ray = scene_->spawn(at, at.shading.to_world(sample->to), x.path.time);
+    const auto next = walker.scatter(end, -ray.d, {rng.next(), rng.next(), rng.next()});
+    if (!next || (stops > 0 && !end.delta())) return std::nullopt;
+    ray = *next;
   }
   const int first = stop(x);
   const Edit edit{first, x.edges(), count + 2};
@@ -51,9 +47,7 @@ std::optional<Edit> LensSubpathMutation::propose(const PathState& x, PathState& 
   y.path[k] = camera_vertex(lens.at);
   for (int i = 0; i <= count; ++i) y.path[k - 1 - i] = walk[i];
   target_->evaluate(first, k, y);
-  if (!(y.target > 0)) return edit;
-  ++context.rays.occluded;
-  if (!scene_->visible(y[first - 1].at, y[first].at, y.path.time)) y.target = 0;
+  join(*scene_, first, y, context.rays);
   return edit;
 }
 

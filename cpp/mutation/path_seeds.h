@@ -63,11 +63,7 @@ class PathSeeds {
  private:
   static BidirectionalSettings settings(const PathRules& rules) {
     BidirectionalSettings settings;
-    settings.max_depth = rules.max_depth;
-    settings.min_depth = rules.min_depth;
-    settings.rr_depth = rules.rr_depth;
-    settings.hide_emitters = rules.hide_emitters;
-    settings.strict_normals = rules.strict_normals;
+    settings.rules = rules;
     return settings;
   }
 

@@ -22,10 +22,4 @@ void splice(const PathState& x, const Edit& edit, PathState& y) {
   y.terms.camera_can_be_hit = x.terms.camera_can_be_hit;
 }
 
-std::string signature(const PathState& x) {
-  std::string letters = "L";
-  for (int i = 1; i < x.edges(); ++i) letters += x.specular(i) ? 'S' : 'D';
-  return letters + 'E';
-}
-
 }  // namespace mlt

@@ -32,7 +32,4 @@ struct PathState {
 /// y becomes x with the edit applied; the inserted vertices and their terms are yet to be filled in.
 void splice(const PathState& x, const Edit& edit, PathState& y);
 
-/// As `signature` of path.h, from the terms.
-std::string signature(const PathState& x);
-
 }  // namespace mlt

@@ -17,10 +17,8 @@ void PathTarget::evaluate(PathState& x) const {
 
 void PathTarget::evaluate_target(PathState& x) const {
   x.target = 0;
-  if (x.edges() < rules_.min_depth || x.edges() > rules_.most_edges()) return;
-  if (x.edges() == 1 &&
-      (rules_.hide_emitters || !(x.terms.light_can_be_hit || x.terms.camera_can_be_hit)))
-    return;
+  if (!rules_.wants(x.edges())) return;
+  if (x.edges() == 1 && !(x.terms.light_can_be_hit || x.terms.camera_can_be_hit)) return;
   x.rgb = contribution(x.terms);
   const double target = target_luminance(x.rgb);
   if (!(target > 0)) {

@@ -9,9 +9,9 @@ void BidirectionalSampler::begin_densities(const WalkVertex* lights, int s,
   const int k = s + t - 1;
   densities_.resize(k + 1);
   for (int i = 0; i < s; ++i)
-    densities_[i] = {lights[i].forward, lights[i].reverse, lights[i].lobe == Lobe::smooth};
+    densities_[i] = {lights[i].forward, lights[i].reverse, connectable(lights[i].vertex)};
   for (int j = 0; j < t; ++j)
-    densities_[k - j] = {cameras[j].reverse, cameras[j].forward, cameras[j].lobe == Lobe::smooth};
+    densities_[k - j] = {cameras[j].reverse, cameras[j].forward, connectable(cameras[j].vertex)};
 }
 
 double BidirectionalSampler::weight(int s, const Vertex& x0, const Vertex& xk,
@@ -32,7 +32,7 @@ bool BidirectionalSampler::evaluate_hit_light(Connection& connection) {
   const Vertex x0 = light_vertex(*connection.emitter, end.vertex.at);
   if (!can_be_hit(*scene_, x0)) return false;
   const VertexTerms terms = vertex_terms(*scene_, x0, end.towards_previous, end.towards_previous,
-                                         settings_.strict_normals);
+                                         settings_.rules.strict_normals);
   connection.contribution = end.throughput * terms.f;
   if (is_black(connection.contribution)) return false;
   begin_densities(nullptr, 0, camera_.data(), t);
@@ -57,10 +57,10 @@ bool BidirectionalSampler::evaluate_connection(Connection& connection, RayCounts
 
   const Vec3 ab = direction(a.vertex.at, b.vertex.at);
   const VertexTerms at_a =
-      vertex_terms(*scene_, a.vertex, a.towards_previous, ab, settings_.strict_normals);
+      joint_terms(*scene_, a.vertex, a.towards_previous, ab, settings_.rules.strict_normals);
   if (is_black(at_a.f)) return false;
   const VertexTerms at_b =
-      vertex_terms(*scene_, b.vertex, -ab, b.towards_previous, settings_.strict_normals);
+      joint_terms(*scene_, b.vertex, -ab, b.towards_previous, settings_.rules.strict_normals);
   if (is_black(at_b.f)) return false;
   const double G = geometry(a.vertex.at, b.vertex.at);
   connection.contribution = a.throughput * at_a.f * G * at_b.f * b.throughput;
@@ -70,8 +70,9 @@ bool BidirectionalSampler::evaluate_connection(Connection& connection, RayCounts
     if (!raster) return false;
     connection.raster = *raster;
   }
-  ++rays.occluded;
-  if (!scene_->visible(a.vertex.at, b.vertex.at, time_)) return false;
+  const double seen = walker(rays).join(a.vertex.at, b.vertex.at);
+  if (seen == 0) return false;
+  connection.contribution *= seen;
 
   begin_densities(lights, s, camera_.data(), t);
   densities_[s - 1].connectable = densities_[s].connectable = true;
@@ -85,7 +86,7 @@ bool BidirectionalSampler::evaluate_connection(Connection& connection, RayCounts
 }
 
 bool BidirectionalSampler::choose_direct(const SurfacePoint& from, const Vec3& u) {
-  const EmitterSample chosen = sample_emitter(*scene_, from.p, u);
+  const LightSample chosen = sample_direct_position(*scene_, from.p, u);
   if (!(chosen.pdf > 0)) return false;
   direct_.vertex = light_vertex(*chosen.emitter, chosen.x0);
   direct_.throughput = Color(1 / chosen.pdf);
@@ -97,9 +98,9 @@ bool BidirectionalSampler::choose_direct(const SurfacePoint& from, const Vec3& u
 bool BidirectionalSampler::evaluate_hit_lens(Connection& connection, RayCounts& rays) {
   const int s = connection.s, k = s - 1;
   const WalkVertex& last = light_[s - 2];
-  if (last.absorbed) return false;
+  if (last.absorbed()) return false;
   const Ray ray =
-      s == 2 ? light_.first_ray() : scene_->spawn(last.vertex.at, last.towards_next, time_);
+      s == 2 ? light_.first_ray() : walker(rays).leave(last.vertex.at, last.towards_next);
   const auto hit = scene_->camera().hit_lens(ray);
   if (!hit) return false;
   if (s <= static_cast<int>(light_.size()) &&
@@ -107,15 +108,16 @@ bool BidirectionalSampler::evaluate_hit_lens(Connection& connection, RayCounts& 
     return false;
   lens_.vertex = camera_vertex(*hit);
   const VertexTerms terms = vertex_terms(*scene_, lens_.vertex, -last.towards_next,
-                                         -last.towards_next, settings_.strict_normals);
+                                         -last.towards_next, settings_.rules.strict_normals);
   const auto raster = scene_->camera().raster_position(*hit, -last.towards_next);
   if (is_black(terms.f) || !raster) return false;
   connection.raster = *raster;
   connection.contribution = last.next_throughput * terms.f;
   if (is_black(connection.contribution)) return false;
-  if (k == most_edges()) {  // The walk has not followed its last direction.
-    ++rays.occluded;
-    if (!scene_->visible(last.vertex.at, *hit, time_)) return false;
+  if (k == settings_.rules.most_edges()) {  // The walk has not followed its last direction.
+    const double seen = walker(rays).join(last.vertex.at, *hit);
+    if (seen == 0) return false;
+    connection.contribution *= seen;
   }
   lens_.forward = camera_position_pdf(*scene_, lens_.vertex);
   const double G = geometry(last.vertex.at, *hit);
@@ -133,16 +135,14 @@ void BidirectionalSampler::assemble(const Connection& connection, Path& path) co
   path.time = time_;
   const bool direct = s == 1 && settings_.sample_direct;
   const int lights = t == 0 ? s - 1 : s;
-  for (int i = 0; i < lights; ++i) {
+  for (int i = 0; i < lights; ++i)
     path.vertices.push_back(direct ? direct_.vertex : light_[i].vertex);
-    if (i + 1 < lights || t == 0) path.vertices.back().lobe = light_[i].lobe;
-  }
   if (t == 0) path.vertices.push_back(lens_.vertex);
-  for (int j = t - 1; j >= 0; --j) {
-    path.vertices.push_back(camera_[j].vertex);
-    if (j + 1 < t) path.vertices.back().lobe = camera_[j].lobe;
-  }
-  if (s == 0) path.vertices[0] = light_vertex(*connection.emitter, path.vertices[0].at);
+  for (int j = t - 1; j >= 0; --j) path.vertices.push_back(camera_[j].vertex);
+  if (s == 0)
+    path[0] = light_vertex(*connection.emitter, path[0].at);
+  else if (t > 0)
+    path[s - 1].lobe = path[s].lobe = Lobe::smooth;
 }
 
 }  // namespace mlt

@@ -10,13 +10,9 @@
 namespace mlt {
 
 struct BidirectionalSettings {
-  int max_depth = -1;
-  int min_depth = 1;
-  int rr_depth = 5;
+  PathRules rules;
   bool light_image = true;    ///< Techniques t <= 1, which write anywhere on the image.
   bool sample_direct = true;  ///< s = 1 chooses x_0 as seen from x_1.
-  bool hide_emitters = false;
-  bool strict_normals = false;
   Heuristic heuristic = Heuristic::power;
 };
 
@@ -40,11 +36,12 @@ class BidirectionalSampler {
   template <class Sampler>
   void sample(const Vec2& raster, Sampler& sampler, RayCounts& rays) {
     raster_ = raster;
-    const Vec2 u_lens = sampler.next2();
-    time_ = scene_->camera().time(sampler.next());
-    walk_from_camera(*scene_, walk_settings(most_edges() + 1), raster, u_lens, time_, sampler,
-                     camera_, rays);
-    walk_from_light(*scene_, walk_settings(most_edges()), time_, sampler, light_, rays);
+    const auto [lens, ray] = leave_lens(scene_->camera(), raster, sampler);
+    time_ = ray.time;
+    camera_.start(camera_vertex(lens.at), lens.pdf);
+    camera_.walk(walker(rays), settings_.rules,
+                 {ray, scene_->camera().pdf_direction(lens.at, ray.d)}, sampler);
+    walk_from_light(walker(rays), settings_.rules, sampler, light_);
     draw_direct(sampler);
   }
 
@@ -54,7 +51,7 @@ class BidirectionalSampler {
     const PositionSample lens = scene_->camera().sample_position(sampler.next2());
     time_ = scene_->camera().time(sampler.next());
     camera_.start(camera_vertex(lens.at), lens.pdf);
-    walk_from_light(*scene_, walk_settings(most_edges()), time_, sampler, light_, rays);
+    walk_from_light(walker(rays), settings_.rules, sampler, light_);
     draw_direct(sampler);
   }
 
@@ -86,14 +83,8 @@ class BidirectionalSampler {
   double time() const { return time_; }
 
  private:
-  int most_edges() const { return settings_.max_depth < 0 ? (1 << 16) : settings_.max_depth; }
-  bool wanted(int s, int t) const {
-    const int k = s + t - 1;
-    return k >= settings_.min_depth && k <= most_edges() && !(k == 1 && settings_.hide_emitters);
-  }
-  WalkSettings walk_settings(int max_vertices) const {
-    return {max_vertices, settings_.rr_depth, settings_.strict_normals};
-  }
+  bool wanted(int s, int t) const { return settings_.rules.wants(s + t - 1); }
+  Walker walker(RayCounts& rays) const { return {*scene_, time_, rays}; }
 
   template <class Sampler>
   void draw_direct(Sampler& sampler) {

@@ -1,7 +1,6 @@
 #include "path/inspect.h"
 
 #include "base/error.h"
-#include "path/camera_ray.h"
 #include "path/samplers.h"
 
 #include <algorithm>
@@ -12,30 +11,26 @@ namespace {
 constexpr uint64_t most_samples = 10000;
 
 /// Roulette only where nothing else ends a walk.
-int roulette_depth(int max_depth) { return max_depth < 0 ? 5 : max_depth; }
+PathRules without_roulette(PathRules rules) {
+  rules.rr_depth = rules.max_depth < 0 ? 5 : rules.max_depth;
+  return rules;
+}
 
-std::vector<FoundPath> traced(const Scene& scene, const InspectSettings& settings,
-                              const Vec2& raster, RandomSampler& sampler) {
+std::vector<FoundPath> traced(const Scene& scene, const PathRules& rules, const Vec2& raster,
+                              RandomSampler& sampler) {
   std::vector<FoundPath> found;
   RayCounts rays;
-  SurfacePoint lens;
-  const Ray ray = camera_ray(scene.camera(), raster, sampler, &lens);
-  PathRecorder recorder(scene, raster, lens, ray.time, found);
-  const PathSettings path{settings.max_depth, roulette_depth(settings.max_depth), false,
-                          settings.strict_normals};
-  trace_path(scene, path, ray, sampler, rays, recorder);
+  const auto [lens, ray] = leave_lens(scene.camera(), raster, sampler);
+  PathRecorder recorder(scene, raster, lens.at, ray.time, found);
+  trace_path(scene, without_roulette(rules), ray, sampler, rays, recorder);
   return found;
 }
 
-std::vector<FoundPath> connected(const Scene& scene, const InspectSettings& settings,
-                                 const Vec2& raster, RandomSampler& sampler) {
-  BidirectionalSettings all;
-  all.max_depth = settings.max_depth;
-  all.rr_depth = roulette_depth(settings.max_depth);
-  all.strict_normals = settings.strict_normals;
+std::vector<FoundPath> connected(const Scene& scene, const PathRules& rules, const Vec2& raster,
+                                 RandomSampler& sampler) {
   std::vector<FoundPath> found;
   RayCounts rays;
-  BidirectionalSampler paths(scene, all);
+  BidirectionalSampler paths(scene, {without_roulette(rules)});
   paths.sample(raster, sampler, rays);
   paths.connect_all(rays,
                     [&](const Connection& c) { found.push_back(found_path(scene, paths, c)); });
@@ -96,7 +91,7 @@ void PathRecorder::hit(const Emitter& emitter, const SurfacePoint& x0, const Vec
 }
 
 void PathRecorder::connect(const Vec3& u_light, const Color& estimate) {
-  const EmitterSample light = sample_emitter(*scene_, walk_.back().at.p, u_light);
+  const LightSample light = sample_direct_position(*scene_, walk_.back().at.p, u_light);
   if (light.pdf > 0) keep(light_vertex(*light.emitter, light.x0), true, estimate);
 }
 
@@ -118,13 +113,14 @@ FoundPath trace_path_through(const Scene& scene, const Vec2i& pixel,
   const std::string where =
       "through pixel (" + std::to_string(pixel.x) + ", " + std::to_string(pixel.y) + ")";
   return first_found(settings.seed, where, [&](RandomSampler& sampler) {
-    return traced(scene, settings, Vec2(pixel) + sampler.next2(), sampler);
+    return traced(scene, settings.rules, Vec2(pixel) + sampler.next2(), sampler);
   });
 }
 
 FoundPath sample_path(const Scene& scene, const InspectSettings& settings) {
   return first_found(settings.seed, "on the image", [&](RandomSampler& sampler) {
-    return connected(scene, settings, scene.camera().raster().sample(sampler.next2()), sampler);
+    return connected(scene, settings.rules, scene.camera().raster().sample(sampler.next2()),
+                     sampler);
   });
 }
 

@@ -58,8 +58,7 @@ class PathRecorder {
 
 struct InspectSettings {
   uint64_t seed = 0;
-  int max_depth = 10;
-  bool strict_normals = false;
+  PathRules rules{10};  ///< Roulette only if there is no longest path.
 };
 
 /// A path through a pixel: samples of path tracing without roulette are taken until one finds

@@ -56,14 +56,4 @@ bool is_specular(const Scene& scene, const Vertex& x, const Vec3& wl, const Vec3
   return scene.bsdf(x.at).roughness(x.at, frame.to_local(wl), frame.to_local(wc)) < near_specular;
 }
 
-std::string signature(const Scene& scene, const Path& path, double near_specular) {
-  std::string letters = "L";
-  for (int i = 1; i < path.edges(); ++i) {
-    const Vec3 wl = direction(path[i].at, path[i - 1].at);
-    const Vec3 wc = direction(path[i].at, path[i + 1].at);
-    letters += is_specular(scene, path[i], wl, wc, near_specular) ? 'S' : 'D';
-  }
-  return letters + 'E';
-}
-
 }  // namespace mlt

@@ -5,7 +5,6 @@
 #include "base/bytes.h"
 #include "path/vertex.h"
 
-#include <string>
 #include <vector>
 
 namespace mlt {
@@ -25,10 +24,6 @@ void load(ByteReader& bytes, Path& path);
 
 /// Where the path meets the image; nullopt if it does not.
 std::optional<Vec2> raster_position(const Scene& scene, const Path& path);
-
-/// Heckbert's notation: L, then D or S for each surface vertex, then E. A smooth vertex counts as S
-/// when its roughness between its two directions is below `near_specular`.
-std::string signature(const Scene& scene, const Path& path, double near_specular = 0);
 
 /// Whether vertex i scatters (almost) in one direction: a delta, or rougher than nothing but below
 /// the threshold. A function of the BSDF, the position and the two directions alone.

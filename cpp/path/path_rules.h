@@ -11,6 +11,10 @@ struct PathRules {
   bool strict_normals = false;  ///< See `consistent_sides`.
 
   int most_edges() const { return max_depth < 0 ? 1 << 16 : max_depth; }
+  /// Whether paths of this many edges are to be found.
+  bool wants(int edges) const {
+    return edges >= min_depth && edges <= most_edges() && !(edges == 1 && hide_emitters);
+  }
 };
 
 }  // namespace mlt

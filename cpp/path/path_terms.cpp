@@ -37,6 +37,18 @@ void update_terms(const Scene& scene, const Path& path, const TermSettings& sett
   }
 }
 
+std::string signature(const PathTerms& terms) {
+  std::string letters = "L";
+  for (int i = 1; i < terms.edges(); ++i) letters += terms[i].specular ? 'S' : 'D';
+  return letters + 'E';
+}
+
+std::string signature(const Scene& scene, const Path& path, double near_specular) {
+  PathTerms terms;
+  compute_terms(scene, path, {true, false, near_specular}, terms);
+  return signature(terms);
+}
+
 Color contribution(const PathTerms& terms) {
   Color product = terms[0].vertex.f;
   for (int i = 0; i < terms.edges(); ++i) product *= terms[i].G * terms[i + 1].vertex.f;

@@ -8,6 +8,7 @@
 
 #include "path/path.h"
 
+#include <string>
 #include <vector>
 
 namespace mlt {
@@ -51,6 +52,11 @@ void compute_terms(const Scene& scene, const Path& path, const TermSettings& set
 /// computes anew the terms of these vertices, the edges between them, and the densities that follow.
 void update_terms(const Scene& scene, const Path& path, const TermSettings& settings, int first,
                   int last, PathTerms& terms);
+
+/// Heckbert's notation: L, then D or S for each surface vertex, then E. A smooth vertex counts as S
+/// when its roughness between its two directions is below `near_specular`.
+std::string signature(const PathTerms& terms);
+std::string signature(const Scene& scene, const Path& path, double near_specular = 0);
 
 /// f(x) = f_0 G_0 f_1 G_1 ... G_{k-1} f_k (Veach 1997, eq. 8.7), without visibility.
 Color contribution(const PathTerms& terms);

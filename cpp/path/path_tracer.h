@@ -2,22 +2,28 @@
 // multiple importance sampling (Veach & Guibas 1995, power heuristic).
 #pragma once
 
-#include "path/next_event.h"
-#include "path/ray_counts.h"
-#include "path/scatter.h"
+#include "path/path_rules.h"
+#include "path/walk.h"
 
 namespace mlt {
-
-struct PathSettings {
-  int max_depth = -1;  ///< Edges of the longest path; 1: lights seen directly; -1: unbounded.
-  int rr_depth = 5;    ///< From this depth on Russian roulette may end a path.
-  bool hide_emitters = false;
-  bool strict_normals = false;
-};
 
 /// beta = 2 of Veach 1997, eq. 9.13, for two techniques.
 inline double power_heuristic(double pdf, double other) {
   return sqr(pdf) / (sqr(pdf) + sqr(other));
+}
+
+/// d(measure of x0) / d(solid angle of w at `from`): turns a density at x0 into one over directions.
+/// w points from `from` to x0.
+inline double per_solid_angle(const Vec3& from, const SurfacePoint& x0, const Vec3& w) {
+  if (x0.infinite()) return 1;
+  return length_squared(x0.p - from) / abs_cos(x0, w);
+}
+
+/// Density in solid angle with which next-event estimation at `from` chooses x0, seen along w.
+inline double direct_pdf(const Scene& scene, const Emitter& emitter, const Vec3& from,
+                         const SurfacePoint& x0, const Vec3& w) {
+  return scene.emitter_probability(emitter.index()) * emitter.pdf_direct(from, x0) *
+         per_solid_angle(from, x0, w);
 }
 
 /// Emission towards the camera of everything at infinity, or of the surface `at` that was hit;
@@ -43,9 +49,9 @@ Color emission(const Scene& scene, const SurfacePoint* at, const Vec3& w, Weight
 /// The light that a position on a light, chosen by next-event estimation, sends through `at` towards
 /// wc; `weight(pdf_light, pdf_bsdf)` is the MIS weight, of densities in solid angle.
 template <class Weight>
-Color direct_light(const Scene& scene, const SurfacePoint& at, const Vec3& wc, const Vec3& u,
-                   double time, bool strict, RayCounts& rays, Weight&& weight) {
-  const EmitterSample light = sample_emitter(scene, at.p, u);
+Color direct_light(const Walker& walker, const SurfacePoint& at, const Vec3& wc, const Vec3& u,
+                   bool strict, Weight&& weight) {
+  const LightSample light = sample_direct_position(walker.scene, at.p, u);
   if (!(light.pdf > 0)) return Color(0);
   const Vec3 wl = direction(at, light.x0);
   if (!consistent_sides(at, wl, strict)) return Color(0);
@@ -53,13 +59,40 @@ Color direct_light(const Scene& scene, const SurfacePoint& at, const Vec3& wc, c
   if (is_black(radiance)) return Color(0);
   const Vec3 local_l = at.shading.to_local(wl);
   const Scattering s =
-      scene.bsdf(at).scattering(at, local_l, at.shading.to_local(wc), Lobe::smooth);
+      walker.scene.bsdf(at).scattering(at, local_l, at.shading.to_local(wc), Lobe::smooth);
   if (is_black(s.f)) return Color(0);
-  ++rays.occluded;
-  if (!scene.visible(at, light.x0, time)) return Color(0);
+  const double seen = walker.join(at, light.x0);
+  if (seen == 0) return Color(0);
   const double pdf = light.pdf * per_solid_angle(at.p, light.x0, wl);
   const double mis = light.emitter->delta() ? 1.0 : weight(pdf, s.pdf_from_camera);
-  return radiance * s.f * (abs_cos_theta(local_l) * mis / pdf);
+  return radiance * s.f * (seen * abs_cos_theta(local_l) * mis / pdf);
+}
+
+/// One scattering event of a walk from the camera.
+struct ScatterSample {
+  Vec3 w;        ///< Towards the light side.
+  Color weight;  ///< Of radiance: f |cos| / pdf.
+  double pdf;    ///< Solid angle, or the probability of the delta lobe.
+  Lobe lobe;
+  double eta2;  ///< The factor of radiance in `weight` that is due to refraction alone.
+};
+
+/// Samples the direction from which the light that goes on along wc may have come.
+inline std::optional<ScatterSample> scatter_to_light(const Walker& walker, const SurfacePoint& at,
+                                                     const Vec3& wc, const Vec3& u, bool strict) {
+  const auto sample = walker.scatter(at, wc, u);
+  if (!sample) return std::nullopt;
+  const auto& [w, local_c, local_l, lobe] = *sample;
+  if (lobe != Lobe::null && !consistent_sides(at, w, strict)) return std::nullopt;
+  const Bsdf& bsdf = walker.scene.bsdf(at);
+  const Scattering s = bsdf.scattering(at, local_l, local_c, lobe);
+  if (!(s.pdf_from_camera > 0) || is_black(s.f)) return std::nullopt;
+
+  const bool refracted =
+      lobe == Lobe::transmission || (lobe == Lobe::smooth && !same_side(local_l, local_c));
+  const double eta2 = refracted ? sqr(bsdf.relative_eta(at, local_c)) : 1.0;
+  const double factor = lobe == Lobe::smooth ? abs_cos_theta(local_l) : eta2;
+  return ScatterSample{w, s.f * (factor / s.pdf_from_camera), s.pdf_from_camera, lobe, eta2};
 }
 
 /// Who watches trace_path is told of each step, in this order; this one is not interested.
@@ -68,7 +101,8 @@ struct IgnorePaths {
   void hit(const Emitter&, const SurfacePoint& /*x0*/, const Vec3& /*w*/,
            const Color& /*throughput*/) {}
   void arrive(const SurfacePoint&) {}
-  /// A position on a light, which sample_emitter finds by `u`, was seen from there, with this result.
+  /// A position on a light, which sample_direct_position finds by `u`, was seen from there, with this
+  /// result.
   void connect(const Vec3& /*u*/, const Color& /*radiance*/) {}
   void scatter(Lobe) {}
 };
@@ -76,60 +110,54 @@ struct IgnorePaths {
 /// The radiance that arrives along `ray` from the scene. Every vertex draws the same number of
 /// numbers from the sampler, so that a small change of the numbers is a small change of the path.
 template <class Sampler, class Watcher = IgnorePaths>
-Color trace_path(const Scene& scene, const PathSettings& settings, Ray ray, Sampler& sampler,
+Color trace_path(const Scene& scene, const PathRules& rules, Ray ray, Sampler& sampler,
                  RayCounts& rays, Watcher&& watcher = Watcher()) {
+  const Walker walker{scene, ray.time, rays};
   Color radiance(0), throughput(1);
   Vec3 previous = ray.o;
   double scatter_pdf = 0, eta2 = 1;
   bool delta = true;
   const auto found_by_scattering = [&](const Emitter& emitter, const SurfacePoint& x0) {
-    double weight = 1;
-    if (!delta) {
-      const double light_pdf =
-          emitter_pdf(scene, emitter, previous, x0) * per_solid_angle(previous, x0, ray.d);
-      weight = power_heuristic(scatter_pdf, light_pdf);
-    }
+    const double weight =
+        delta ? 1.0 : power_heuristic(scatter_pdf, direct_pdf(scene, emitter, previous, x0, ray.d));
     watcher.hit(emitter, x0, -ray.d, throughput * weight);
     return weight;
   };
   for (int depth = 1;; ++depth) {
     SurfacePoint at;
-    ++rays.intersect;
-    const bool hit = scene.intersect(ray, at);
-    if (depth > 1 || !settings.hide_emitters)
+    const bool hit = walker.arrive(ray, at);
+    if (rules.wants(depth))
       radiance += throughput * emission(scene, hit ? &at : nullptr, ray.d, found_by_scattering);
-    if (!hit || depth == settings.max_depth) break;
+    if (!hit || depth == rules.most_edges()) break;
     watcher.arrive(at);
 
     const Vec3 wc = -ray.d;
-    if (!consistent_sides(at, wc, settings.strict_normals)) break;
-    const Bsdf& bsdf = scene.bsdf(at);
+    if (!consistent_sides(at, wc, rules.strict_normals)) break;
     const Vec2 u_light = sampler.next2(), u_direction = sampler.next2();
     const double u_choice = sampler.next(), u_lobe = sampler.next(), u_roulette = sampler.next();
-    if (bsdf.has_smooth()) {
+    if (scene.bsdf(at).has_smooth() && rules.wants(depth + 1)) {
       const Vec3 u(u_choice, u_light);
       const Color direct =
-          throughput *
-          direct_light(scene, at, wc, u, ray.time, settings.strict_normals, rays, power_heuristic);
+          throughput * direct_light(walker, at, wc, u, rules.strict_normals, power_heuristic);
       watcher.connect(u, direct);
       radiance += direct;
     }
 
     const auto sample =
-        scatter_to_light(bsdf, at, wc, {u_lobe, u_direction}, settings.strict_normals);
+        scatter_to_light(walker, at, wc, {u_lobe, u_direction}, rules.strict_normals);
     if (!sample) break;
     watcher.scatter(sample->lobe);
     throughput *= sample->weight;
     scatter_pdf = sample->pdf;
     delta = sample->lobe != Lobe::smooth;
     eta2 /= sample->eta2;
-    if (depth >= settings.rr_depth) {
+    if (depth >= rules.rr_depth) {
       const double survival = std::min(max_component(throughput) * eta2, 0.95);
       if (!(u_roulette < survival)) break;
       throughput /= survival;
     }
     previous = at.p;
-    ray = scene.spawn(at, sample->w, ray.time);
+    ray = walker.leave(at, sample->w);
   }
   return radiance;
 }

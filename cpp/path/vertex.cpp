@@ -1,19 +1,21 @@
 #include "path/vertex.h"
 
-#include "path/next_event.h"
-#include "path/scatter.h"
-
 namespace mlt {
 
 namespace {
 
-VertexTerms light_terms(const Scene& scene, const Vertex& x0, const Vec3& w) {
-  const Emitter& emitter = *scene.emitters()[x0.emitter];
-  return {emitter.eval(x0.at, w), emitter.pdf_ray(x0.at, w), 0};
-}
-
-VertexTerms camera_terms(const Scene& scene, const Vertex& xk, const Vec3& w) {
-  return {Color(scene.camera().eval(xk.at, w)), 0, scene.camera().pdf_direction(xk.at, w)};
+VertexTerms terms_by_lobe(const Scene& scene, const Vertex& x, Lobe lobe, const Vec3& wl,
+                          const Vec3& wc, bool strict_normals) {
+  switch (x.kind) {
+    case VertexKind::light: {
+      const Emitter& emitter = *scene.emitters()[x.emitter];
+      return {emitter.eval(x.at, wc), emitter.pdf_ray(x.at, wc), 0};
+    }
+    case VertexKind::camera:
+      return {Color(scene.camera().eval(x.at, wl)), 0, scene.camera().pdf_direction(x.at, wl)};
+    case VertexKind::surface: break;
+  }
+  return surface_terms(scene, x.at, lobe, wl, wc, strict_normals);
 }
 
 }  // namespace
@@ -40,12 +42,12 @@ VertexTerms surface_terms(const Scene& scene, const SurfacePoint& at, Lobe lobe,
 
 VertexTerms vertex_terms(const Scene& scene, const Vertex& x, const Vec3& wl, const Vec3& wc,
                          bool strict_normals) {
-  switch (x.kind) {
-    case VertexKind::light: return light_terms(scene, x, wc);
-    case VertexKind::camera: return camera_terms(scene, x, wl);
-    case VertexKind::surface: break;
-  }
-  return surface_terms(scene, x.at, x.lobe, wl, wc, strict_normals);
+  return terms_by_lobe(scene, x, x.lobe, wl, wc, strict_normals);
+}
+
+VertexTerms joint_terms(const Scene& scene, const Vertex& x, const Vec3& wl, const Vec3& wc,
+                        bool strict_normals) {
+  return terms_by_lobe(scene, x, Lobe::smooth, wl, wc, strict_normals);
 }
 
 double light_position_pdf(const Scene& scene, const Vertex& x0) {
@@ -53,7 +55,8 @@ double light_position_pdf(const Scene& scene, const Vertex& x0) {
 }
 
 double direct_position_pdf(const Scene& scene, const Vertex& x0, const SurfacePoint& from) {
-  return emitter_pdf(scene, *scene.emitters()[x0.emitter], from.p, x0.at);
+  return scene.emitter_probability(x0.emitter) *
+         scene.emitters()[x0.emitter]->pdf_direct(from.p, x0.at);
 }
 
 double camera_position_pdf(const Scene& scene, const Vertex& xk) {

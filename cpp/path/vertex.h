@@ -18,6 +18,12 @@ struct Vertex {
   bool delta() const { return lobe != Lobe::smooth; }
 };
 
+/// Light leaks through or vanishes where the geometric and the shading normal see a direction on
+/// different sides. By default the shading normal alone decides; `strict` refuses such directions.
+inline bool consistent_sides(const SurfacePoint& at, const Vec3& w, bool strict) {
+  return !strict || dot(at.ng, w) * dot(at.shading.n, w) > 0;
+}
+
 /// The factors that one vertex contributes to a path through `towards_light` and `towards_camera`.
 ///
 /// `f` is the scattering factor f_i of the measurement contribution (Veach 1997, eq. 8.7): emitted
@@ -42,6 +48,9 @@ struct VertexTerms {
 /// on its camera side; x_0 has no wl and x_k no wc, they are not looked at.
 VertexTerms vertex_terms(const Scene& scene, const Vertex& x, const Vec3& wl, const Vec3& wc,
                          bool strict_normals);
+/// Terms of a vertex at which a path is joined, whatever its lobe: it scatters smoothly there.
+VertexTerms joint_terms(const Scene& scene, const Vertex& x, const Vec3& wl, const Vec3& wc,
+                        bool strict_normals);
 /// The same for a surface vertex that scatters by `lobe`.
 VertexTerms surface_terms(const Scene& scene, const SurfacePoint& at, Lobe lobe, const Vec3& wl,
                           const Vec3& wc, bool strict_normals);

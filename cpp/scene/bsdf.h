@@ -40,11 +40,17 @@ struct Scattering {
 
 class Bsdf : public Object {
  public:
-  /// BSDF value alone. For a delta lobe the directions are taken to match it.
-  virtual Color eval(const SurfacePoint& at, const Vec3& wl, const Vec3& wc, Lobe lobe) const = 0;
-
+  /// What the path needs of scattering between wl and wc. For a delta lobe the directions are taken
+  /// to match it.
+  virtual Scattering scattering(const SurfacePoint& at, const Vec3& wl, const Vec3& wc,
+                                Lobe lobe) const = 0;
+  Color eval(const SurfacePoint& at, const Vec3& wl, const Vec3& wc, Lobe lobe) const {
+    return scattering(at, wl, wc, lobe).f;
+  }
   /// Density (smooth: solid angle; delta: probability) of sampling `to`, given `from`.
-  virtual double pdf(const SurfacePoint& at, const Vec3& from, const Vec3& to, Lobe lobe) const = 0;
+  double pdf(const SurfacePoint& at, const Vec3& from, const Vec3& to, Lobe lobe) const {
+    return scattering(at, from, to, lobe).pdf_from_light;
+  }
 
   /// Draws a direction. u.x chooses the lobe, (u.y, u.z) the direction; all in [0, 1).
   /// nullopt: nothing is scattered (absorbed, or sampled below the horizon). The same whether
@@ -56,12 +62,6 @@ class Bsdf : public Object {
   /// 1/2. nullopt where pdf is 0.
   virtual std::optional<Vec3> invert(const SurfacePoint& at, const Vec3& from, const Vec3& to,
                                      Lobe lobe) const = 0;
-
-  /// eval and both densities at once; override where they share work.
-  virtual Scattering scattering(const SurfacePoint& at, const Vec3& wl, const Vec3& wc,
-                                Lobe lobe) const {
-    return {eval(at, wl, wc, lobe), pdf(at, wl, wc, lobe), pdf(at, wc, wl, lobe)};
-  }
 
   /// Whether the smooth lobes are present, and whether a delta lobe is.
   virtual bool has_smooth() const { return true; }

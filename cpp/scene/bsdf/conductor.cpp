@@ -16,13 +16,11 @@ class Conductor final : public Bsdf {
       : ior_(conductor_param(params)),
         reflectance_(texture_param(params, "specular_reflectance")) {}
 
-  Color eval(const SurfacePoint& at, const Vec3& wl, const Vec3& wc, Lobe lobe) const override {
-    if (lobe != Lobe::reflection || !above(wl, wc)) return Color(0);
-    return reflectance_->eval(at) * fresnel_conductor(std::min(wl.z, 1.0), ior_.eta, ior_.k);
-  }
-
-  double pdf(const SurfacePoint&, const Vec3& from, const Vec3& to, Lobe lobe) const override {
-    return lobe == Lobe::reflection && above(from, to) ? 1 : 0;
+  Scattering scattering(const SurfacePoint& at, const Vec3& wl, const Vec3& wc,
+                        Lobe lobe) const override {
+    if (lobe != Lobe::reflection || !above(wl, wc)) return {};
+    return {reflectance_->eval(at) * fresnel_conductor(std::min(wl.z, 1.0), ior_.eta, ior_.k), 1,
+            1};
   }
 
   std::optional<BsdfSample> sample(const SurfacePoint&, const Vec3& from,
@@ -53,9 +51,9 @@ class Conductor final : public Bsdf {
 }  // namespace
 
 Plugin bsdf_conductor() {
-  Plugin plugin{{"bsdf", "conductor", "A smooth metal: a mirror with the colour of its material.",
-                 conductor_parameters()},
-                [](Params& params) -> ObjectPtr { return std::make_shared<Conductor>(params); }};
+  Plugin plugin = make_plugin<Conductor>(
+      {"bsdf", "conductor", "A smooth metal: a mirror with the colour of its material.",
+       conductor_parameters()});
   plugin.schema.parameters.push_back(
       {"specular_reflectance", ParamType::texture, 1.0, "Factor on the reflection."});
   return plugin;

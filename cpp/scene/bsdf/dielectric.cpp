@@ -19,19 +19,6 @@ class Dielectric final : public Bsdf {
         reflection_weight_(target_luminance(reflectance_->mean())),
         transmission_weight_(target_luminance(transmittance_->mean())) {}
 
-  Color eval(const SurfacePoint& at, const Vec3& wl, const Vec3& wc, Lobe lobe) const override {
-    if (!matches(wl, wc, lobe)) return Color(0);
-    const double F = fresnel(wl, wc);
-    return lobe == Lobe::reflection ? F * reflectance_->eval(at)
-                                    : (1 - F) * transmittance_->eval(at);
-  }
-
-  double pdf(const SurfacePoint&, const Vec3& from, const Vec3& to, Lobe lobe) const override {
-    if (!matches(from, to, lobe)) return 0;
-    const double p = reflection_probability(fresnel(from, to));
-    return lobe == Lobe::reflection ? p : 1 - p;
-  }
-
   Scattering scattering(const SurfacePoint& at, const Vec3& wl, const Vec3& wc,
                         Lobe lobe) const override {
     if (!matches(wl, wc, lobe)) return {};
@@ -98,10 +85,10 @@ class Dielectric final : public Bsdf {
 }  // namespace
 
 Plugin bsdf_dielectric() {
-  Plugin plugin{{"bsdf", "dielectric",
-                 "A smooth interface between two transparent media, such as glass and air.",
-                 ior_parameters("bk7")},
-                [](Params& params) -> ObjectPtr { return std::make_shared<Dielectric>(params); }};
+  Plugin plugin = make_plugin<Dielectric>(
+      {"bsdf", "dielectric",
+       "A smooth interface between two transparent media, such as glass and air.",
+       ior_parameters("bk7")});
   auto& parameters = plugin.schema.parameters;
   parameters.push_back(
       {"specular_reflectance", ParamType::texture, 1.0, "Factor on the reflection."});

@@ -13,15 +13,6 @@ class Diffuse final : public Bsdf {
  public:
   explicit Diffuse(Params& params) : reflectance_(texture_param(params, "reflectance")) {}
 
-  Color eval(const SurfacePoint& at, const Vec3& wl, const Vec3& wc, Lobe lobe) const override {
-    if (lobe != Lobe::smooth || !above(wl, wc)) return Color(0);
-    return reflectance_->eval(at) * inv_pi;
-  }
-
-  double pdf(const SurfacePoint&, const Vec3& from, const Vec3& to, Lobe lobe) const override {
-    return lobe == Lobe::smooth && above(from, to) ? to.z * inv_pi : 0;
-  }
-
   Scattering scattering(const SurfacePoint& at, const Vec3& wl, const Vec3& wc,
                         Lobe lobe) const override {
     if (lobe != Lobe::smooth || !above(wl, wc)) return {};
@@ -50,11 +41,11 @@ class Diffuse final : public Bsdf {
 }  // namespace
 
 Plugin bsdf_diffuse() {
-  return {{"bsdf",
-           "diffuse",
-           "A matte surface that scatters light equally to all directions on its front side.",
-           {{"reflectance", ParamType::texture, 0.5, "Fraction of the light that is scattered."}}},
-          [](Params& params) -> ObjectPtr { return std::make_shared<Diffuse>(params); }};
+  return make_plugin<Diffuse>(
+      {"bsdf",
+       "diffuse",
+       "A matte surface that scatters light equally to all directions on its front side.",
+       {{"reflectance", ParamType::texture, 0.5, "Fraction of the light that is scattered."}}});
 }
 
 }  // namespace mlt

@@ -8,12 +8,8 @@ namespace {
 
 class Null final : public Bsdf {
  public:
-  Color eval(const SurfacePoint&, const Vec3&, const Vec3&, Lobe lobe) const override {
-    return Color(lobe == Lobe::null ? 1 : 0);
-  }
-
-  double pdf(const SurfacePoint&, const Vec3&, const Vec3&, Lobe lobe) const override {
-    return lobe == Lobe::null ? 1 : 0;
+  Scattering scattering(const SurfacePoint&, const Vec3&, const Vec3&, Lobe lobe) const override {
+    return lobe == Lobe::null ? Scattering{Color(1), 1, 1} : Scattering{};
   }
 
   std::optional<BsdfSample> sample(const SurfacePoint&, const Vec3& from,

@@ -30,16 +30,6 @@ class Phong final : public Bsdf {
         first_share(target_luminance(specular_->mean()), target_luminance(diffuse_->mean()));
   }
 
-  Color eval(const SurfacePoint& at, const Vec3& wl, const Vec3& wc, Lobe lobe) const override {
-    if (lobe != Lobe::smooth || !above(wl, wc)) return Color(0);
-    return diffuse_part(at) + specular_part(at, power(wl, wc));
-  }
-
-  double pdf(const SurfacePoint&, const Vec3& from, const Vec3& to, Lobe lobe) const override {
-    if (lobe != Lobe::smooth || !above(from, to)) return 0;
-    return diffuse_pdf(to) + specular_pdf(power(from, to));
-  }
-
   Scattering scattering(const SurfacePoint& at, const Vec3& wl, const Vec3& wc,
                         Lobe lobe) const override {
     if (lobe != Lobe::smooth || !above(wl, wc)) return {};
@@ -105,16 +95,16 @@ class Phong final : public Bsdf {
 }  // namespace
 
 Plugin bsdf_phong() {
-  return {{"bsdf",
-           "phong",
-           "The modified Phong model: a diffuse part and a glossy lobe about the mirror direction.",
-           {{"exponent", ParamType::real, 30.0, "Exponent of the glossy lobe; larger is shinier."},
-            {"specular_reflectance", ParamType::texture, 0.2, "Reflectance of the glossy lobe."},
-            {"diffuse_reflectance", ParamType::texture, 0.5, "Reflectance of the diffuse part."},
-            {"ensure_energy_conservation", ParamType::boolean, true,
-             "If the largest values of both reflectances add up to more than 1, scale both so that "
-             "they add up to 0.99. Without it the surface may reflect more than it receives."}}},
-          [](Params& params) -> ObjectPtr { return std::make_shared<Phong>(params); }};
+  return make_plugin<Phong>(
+      {"bsdf",
+       "phong",
+       "The modified Phong model: a diffuse part and a glossy lobe about the mirror direction.",
+       {{"exponent", ParamType::real, 30.0, "Exponent of the glossy lobe; larger is shinier."},
+        {"specular_reflectance", ParamType::texture, 0.2, "Reflectance of the glossy lobe."},
+        {"diffuse_reflectance", ParamType::texture, 0.5, "Reflectance of the diffuse part."},
+        {"ensure_energy_conservation", ParamType::boolean, true,
+         "If the largest values of both reflectances add up to more than 1, scale both so that "
+         "they add up to 0.99. Without it the surface may reflect more than it receives."}}});
 }
 
 }  // namespace mlt

@@ -25,20 +25,6 @@ class Plastic final : public Bsdf {
         specular_weight_(target_luminance(reflectance_->mean())),
         diffuse_weight_(base_.weight() * (1 - fresnel_diffuse_reflectance(eta_))) {}
 
-  Color eval(const SurfacePoint& at, const Vec3& wl, const Vec3& wc, Lobe lobe) const override {
-    if (!above(wl, wc)) return Color(0);
-    if (lobe == Lobe::reflection) return fresnel(wl) * reflectance_->eval(at);
-    if (lobe == Lobe::smooth) return base_.eval(at) * ((1 - fresnel(wl)) * (1 - fresnel(wc)));
-    return Color(0);
-  }
-
-  double pdf(const SurfacePoint&, const Vec3& from, const Vec3& to, Lobe lobe) const override {
-    if (!above(from, to)) return 0;
-    if (lobe == Lobe::reflection) return specular_share(fresnel(from));
-    if (lobe == Lobe::smooth) return (1 - specular_share(fresnel(from))) * inv_pi * to.z;
-    return 0;
-  }
-
   Scattering scattering(const SurfacePoint& at, const Vec3& wl, const Vec3& wc,
                         Lobe lobe) const override {
     if (!above(wl, wc)) return {};
@@ -92,10 +78,9 @@ class Plastic final : public Bsdf {
 }  // namespace
 
 Plugin bsdf_plastic() {
-  Plugin plugin{
+  Plugin plugin = make_plugin<Plastic>(
       {"bsdf", "plastic", "Smooth plastic: a diffuse base below a smooth transparent coating.",
-       ior_parameters("polypropylene")},
-      [](Params& params) -> ObjectPtr { return std::make_shared<Plastic>(params); }};
+       ior_parameters("polypropylene")});
   auto& parameters = plugin.schema.parameters;
   for (Parameter& parameter : CoatedBase::parameters()) parameters.push_back(std::move(parameter));
   parameters.push_back(

@@ -18,20 +18,6 @@ class RoughConductor final : public Bsdf {
         ior_(conductor_param(params)),
         reflectance_(texture_param(params, "specular_reflectance")) {}
 
-  Color eval(const SurfacePoint& at, const Vec3& wl, const Vec3& wc, Lobe lobe) const override {
-    if (lobe != Lobe::smooth || !above(wl, wc)) return Color(0);
-    const Microfacet microfacet = surface_.at(at);
-    const Vec3 h = normalize(wl + wc);
-    return value(at, wl, wc, h, microfacet.D(h), microfacet.G(wl, wc, h));
-  }
-
-  double pdf(const SurfacePoint& at, const Vec3& from, const Vec3& to, Lobe lobe) const override {
-    if (lobe != Lobe::smooth || !above(from, to)) return 0;
-    const Microfacet microfacet = surface_.at(at);
-    const Vec3 h = normalize(from + to);
-    return reflection_pdf(microfacet, from, h, microfacet.D(h), microfacet.g1(from, h));
-  }
-
   Scattering scattering(const SurfacePoint& at, const Vec3& wl, const Vec3& wc,
                         Lobe lobe) const override {
     if (lobe != Lobe::smooth || !above(wl, wc)) return {};
@@ -83,9 +69,8 @@ class RoughConductor final : public Bsdf {
 }  // namespace
 
 Plugin bsdf_roughconductor() {
-  Plugin plugin{
-      {"bsdf", "roughconductor", "A rough metal.", rough_surface_parameters()},
-      [](Params& params) -> ObjectPtr { return std::make_shared<RoughConductor>(params); }};
+  Plugin plugin = make_plugin<RoughConductor>(
+      {"bsdf", "roughconductor", "A rough metal.", rough_surface_parameters()});
   auto& parameters = plugin.schema.parameters;
   for (Parameter& parameter : conductor_parameters()) parameters.push_back(std::move(parameter));
   parameters.push_back(

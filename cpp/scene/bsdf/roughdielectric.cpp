@@ -23,21 +23,6 @@ class RoughDielectric final : public Bsdf {
     if (eta_ == 1) params.fail("needs an int_ior that differs from ext_ior");
   }
 
-  Color eval(const SurfacePoint& at, const Vec3& wl, const Vec3& wc, Lobe lobe) const override {
-    const Facet facet = facet_between(wl, wc, lobe);
-    if (!facet.exists) return Color(0);
-    const Microfacet microfacet = surface_.at(at);
-    return value(at, wl, wc, facet, microfacet.D(facet.h) * microfacet.G(wl, wc, facet.h));
-  }
-
-  double pdf(const SurfacePoint& at, const Vec3& from, const Vec3& to, Lobe lobe) const override {
-    const Facet facet = facet_between(from, to, lobe);
-    if (!facet.exists) return 0;
-    const Microfacet microfacet = surface_.at(at);
-    return probability(facet) * density(microfacet, from, to, facet, microfacet.D(facet.h),
-                                        microfacet.g1(from, facet.h));
-  }
-
   Scattering scattering(const SurfacePoint& at, const Vec3& wl, const Vec3& wc,
                         Lobe lobe) const override {
     const Facet facet = facet_between(wl, wc, lobe);
@@ -152,11 +137,10 @@ class RoughDielectric final : public Bsdf {
 }  // namespace
 
 Plugin bsdf_roughdielectric() {
-  Plugin plugin{
+  Plugin plugin = make_plugin<RoughDielectric>(
       {"bsdf", "roughdielectric",
        "A rough interface between two transparent media, such as frosted glass.",
-       ior_parameters("bk7")},
-      [](Params& params) -> ObjectPtr { return std::make_shared<RoughDielectric>(params); }};
+       ior_parameters("bk7")});
   auto& parameters = plugin.schema.parameters;
   for (Parameter& parameter : rough_surface_parameters())
     parameters.push_back(std::move(parameter));

@@ -27,22 +27,6 @@ class RoughPlastic final : public Bsdf {
         specular_weight_(target_luminance(reflectance_->mean())),
         diffuse_weight_(base_.weight() * coating_.mean_transmittance()) {}
 
-  Color eval(const SurfacePoint& at, const Vec3& wl, const Vec3& wc, Lobe lobe) const override {
-    if (lobe != Lobe::smooth || !above(wl, wc)) return Color(0);
-    const Vec3 h = normalize(wl + wc);
-    const double DG = microfacet_.D(h) * microfacet_.G(wl, wc, h);
-    return specular_part(at, wl, wc, h, DG) +
-           diffuse_part(at, coating_.at(wl.z), coating_.at(wc.z));
-  }
-
-  double pdf(const SurfacePoint&, const Vec3& from, const Vec3& to, Lobe lobe) const override {
-    if (lobe != Lobe::smooth || !above(from, to)) return 0;
-    const Vec3 h = normalize(from + to);
-    const double p = specular_share(coating_.at(from.z));
-    return p * reflection_pdf(microfacet_, from, h, microfacet_.D(h), microfacet_.g1(from, h)) +
-           (1 - p) * inv_pi * to.z;
-  }
-
   Scattering scattering(const SurfacePoint& at, const Vec3& wl, const Vec3& wc,
                         Lobe lobe) const override {
     if (lobe != Lobe::smooth || !above(wl, wc)) return {};
@@ -130,10 +114,9 @@ class RoughPlastic final : public Bsdf {
 }  // namespace
 
 Plugin bsdf_roughplastic() {
-  Plugin plugin{
+  Plugin plugin = make_plugin<RoughPlastic>(
       {"bsdf", "roughplastic", "Rough plastic: a diffuse base below a rough transparent coating.",
-       ior_parameters("polypropylene")},
-      [](Params& params) -> ObjectPtr { return std::make_shared<RoughPlastic>(params); }};
+       ior_parameters("polypropylene")});
   auto& parameters = plugin.schema.parameters;
   parameters.push_back(microfacet_type_parameter());
   parameters.push_back({"alpha", ParamType::real, 0.1,

@@ -10,16 +10,6 @@ class TwoSided final : public Bsdf {
  public:
   TwoSided(BsdfPtr front, BsdfPtr back) : front_(std::move(front)), back_(std::move(back)) {}
 
-  Color eval(const SurfacePoint& at, const Vec3& wl, const Vec3& wc, Lobe lobe) const override {
-    if (!same_side(wl, wc)) return Color(0);
-    return nested(wl).eval(at, to_front(wl), to_front(wc), lobe);
-  }
-
-  double pdf(const SurfacePoint& at, const Vec3& from, const Vec3& to, Lobe lobe) const override {
-    if (!same_side(from, to)) return 0;
-    return nested(from).pdf(at, to_front(from), to_front(to), lobe);
-  }
-
   Scattering scattering(const SurfacePoint& at, const Vec3& wl, const Vec3& wc,
                         Lobe lobe) const override {
     if (!same_side(wl, wc)) return {};

@@ -69,7 +69,7 @@ inline PathState find_path(const PathTarget& target, const std::string& wanted,
   PathState result;
   for (uint64_t seed = 1; result.path.vertices.empty() && seed < 200; ++seed)
     for_each_light_path(target, seed, 200, [&](const PathState& x) {
-      if (result.path.vertices.empty() && signature(x) == wanted && (!suits || suits(x)))
+      if (result.path.vertices.empty() && signature(x.terms) == wanted && (!suits || suits(x)))
         result = x;
     });
   EXPECT_FALSE(result.path.vertices.empty()) << "no path " << wanted;

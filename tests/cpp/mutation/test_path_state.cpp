@@ -52,7 +52,7 @@ TEST_P(LightPaths, AreTheSameBitsWhenAnEditIsComputedAndWhenAllIs) {
     fresh.path = y.path;
     target.evaluate(fresh);
     ASSERT_EQ(difference(y, fresh), "")
-        << all[i]->name() << " on " << signature(x) << " to " << signature(y);
+        << all[i]->name() << " on " << signature(x.terms) << " to " << signature(y.terms);
     ++compared[i];
   };
   for_each_proposal(target, all, 2, 2000, compare);

@@ -16,8 +16,8 @@ namespace mlt::test {
 /// Walks as long as the test wants: roulette is not part of any density.
 inline BidirectionalSettings without_roulette(int max_depth) {
   BidirectionalSettings settings;
-  settings.max_depth = max_depth;
-  settings.rr_depth = 1 << 20;
+  settings.rules.max_depth = max_depth;
+  settings.rules.rr_depth = 1 << 20;
   return settings;
 }
 

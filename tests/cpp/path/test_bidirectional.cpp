@@ -32,7 +32,7 @@ BidirectionalSettings settings_of(const Variant& variant) {
   settings.light_image = variant.light_image;
   settings.sample_direct = variant.sample_direct;
   settings.heuristic = variant.heuristic;
-  settings.strict_normals = variant.strict_normals;
+  settings.rules.strict_normals = variant.strict_normals;
   return settings;
 }
 
@@ -50,7 +50,7 @@ class PathsOf : public testing::TestWithParam<std::string> {
       for_each_path(
           *scene_, settings, seed, samples, [&](const Connection& connection, const Path& path) {
             ++paths;
-            compute_terms(*scene_, path, {settings.sample_direct, settings.strict_normals}, terms);
+            compute_terms(*scene_, path, {settings.sample_direct, settings.rules.strict_normals}, terms);
             found(connection, path, terms, settings);
           });
       EXPECT_GT(paths, samples) << variant.name;
@@ -76,7 +76,7 @@ TEST_P(PathsOf, AreAssembledAsTheyWereFound) {
     const std::string name = technique_name(*scene_, c, path);
     const int k = path.edges();
     ASSERT_EQ(k, c.s + c.t - 1) << name;
-    ASSERT_LE(k, settings.max_depth) << name;
+    ASSERT_LE(k, settings.rules.max_depth) << name;
     ASSERT_EQ(path[0].kind, VertexKind::light) << name;
     ASSERT_EQ(path[k].kind, VertexKind::camera) << name;
     for (int i = 1; i < k; ++i) ASSERT_EQ(path[i].kind, VertexKind::surface) << name;
@@ -105,7 +105,7 @@ TEST_P(PathsOf, CarryTheContributionOverTheDensityOfTheirTechnique) {
                  const BidirectionalSettings& settings) {
     const auto carried = [&](const Path& x) {
       PathTerms of_x;
-      compute_terms(*scene_, x, {settings.sample_direct, settings.strict_normals}, of_x);
+      compute_terms(*scene_, x, {settings.sample_direct, settings.rules.strict_normals}, of_x);
       const Color carries = contribution(of_x) / technique_density(of_x, c.s);
       return std::vector<double>{carries.x, carries.y, carries.z};
     };
@@ -144,7 +144,7 @@ TEST_P(PathsOf, HaveTheDensitiesOfThePlugIns) {
     bool delta = false;
     for (const Vertex& x : path.vertices) delta = delta || x.delta();
     if (delta) {
-      if (!settings.strict_normals)
+      if (!settings.rules.strict_normals)
         at_deltas.add(std::min(excess_of(path, terms, Mirrors::ask_twice),
                                excess_of(path, terms, Mirrors::ask_once)),
                       technique_name(*scene_, c, path));
@@ -153,8 +153,8 @@ TEST_P(PathsOf, HaveTheDensitiesOfThePlugIns) {
     for (int i = 0; i <= path.edges(); ++i) {
       const std::string name = technique_name(*scene_, c, path) + ", vertex " + std::to_string(i);
       // With strict normals a direction may be refused that the BSDF would sample.
-      const bool refused_l = settings.strict_normals && terms[i].from_light == 0;
-      const bool refused_c = settings.strict_normals && terms[i].from_camera == 0;
+      const bool refused_l = settings.rules.strict_normals && terms[i].from_light == 0;
+      const bool refused_c = settings.rules.strict_normals && terms[i].from_camera == 0;
       if (!refused_l)
         worst.add(relative_difference(terms[i].from_light, naive.from_light[i]),
                   name + " from the light");
@@ -225,7 +225,7 @@ TEST_P(PathsOf, HaveTheWeightsOfPlainProducts) {
 TEST_P(PathsOf, AreUpdatedBitForBit) {
   for_all(6, [&](const Connection&, const Path& path, const PathTerms& terms,
                  const BidirectionalSettings& settings) {
-    const TermSettings term_settings{settings.sample_direct, settings.strict_normals};
+    const TermSettings term_settings{settings.sample_direct, settings.rules.strict_normals};
     for (int i = 1; i < path.edges(); ++i) {
       // The vertex moves along its surface, and comes back.
       Path moved = path;

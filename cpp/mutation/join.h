@@ -1,0 +1,17 @@
+// The edge at which a mutation joins what it has made to the rest of the path.
+#pragma once
+
+#include "mutation/path_state.h"
+#include "path/walk.h"
+
+namespace mlt {
+
+/// Tests the edge between vertices i - 1 and i of y, which has been evaluated, for what stands in it.
+inline void join(const Scene& scene, int i, PathState& y, RayCounts& rays) {
+  if (!(y.target > 0)) return;
+  const double seen = Walker{scene, y.path.time, rays}.join(y[i - 1].at, y[i].at);
+  y.rgb *= seen;
+  y.target = seen > 0 ? seen * y.target : 0;
+}
+
+}  // namespace mlt

@@ -1,0 +1,113 @@
+// The steps of which every walk along a light path is made: leave a light or the lens, arrive, scatter,
+// and join two vertices. The caller draws the random numbers, and decides what a step is worth.
+#pragma once
+
+#include "path/ray_counts.h"
+#include "path/vertex.h"
+
+#include <optional>
+
+namespace mlt {
+
+/// A position on a light, as the end of a path.
+struct LightSample {
+  const Emitter* emitter = nullptr;
+  SurfacePoint x0;
+  double pdf = 0;  ///< In the measure of x0, the choice of the light included. 0: failed.
+};
+
+/// Where a walk from the light begins. u.x chooses the light, (u.y, u.z) the position on it.
+inline LightSample sample_light_position(const Scene& scene, Vec3 u) {
+  const EmitterChoice choice = scene.choose_emitter(u.x);
+  const PositionSample position = choice.emitter->sample_position({u.y, u.z});
+  return {choice.emitter, position.at, choice.probability * position.pdf};
+}
+/// The same, to be seen from the point `from` (next-event estimation).
+inline LightSample sample_direct_position(const Scene& scene, const Vec3& from, Vec3 u) {
+  const EmitterChoice choice = scene.choose_emitter(u.x);
+  const PositionSample position = choice.emitter->sample_direct(from, {u.y, u.z});
+  return {choice.emitter, position.at, choice.probability * position.pdf};
+}
+
+/// The first ray of a walk.
+struct Departure {
+  Ray ray;
+  double pdf;  ///< Coefficient in projected solid angle; 0: failed.
+};
+
+/// The ray from a point on the lens through a raster position.
+inline Ray leave_lens(const Camera& camera, const SurfacePoint& xk, const Vec2& raster,
+                      double time) {
+  return {xk.p, camera.direction(xk, raster), time};
+}
+
+struct LensDeparture {
+  PositionSample lens;
+  Ray ray;
+};
+
+/// The same from a random point on the lens, at a random moment.
+template <class Sampler>
+LensDeparture leave_lens(const Camera& camera, const Vec2& raster, Sampler& sampler) {
+  const PositionSample lens = camera.sample_position(sampler.next2());
+  return {lens, leave_lens(camera, lens.at, raster, camera.time(sampler.next()))};
+}
+
+/// A direction that a BSDF has sampled, and its lobe.
+struct ScatteredDirection {
+  Vec3 w;         ///< In the world.
+  Vec3 from, to;  ///< Local: towards the previous vertex, and w.
+  Lobe lobe;
+};
+
+/// Takes the other steps: at one moment, and counting its rays.
+struct Walker {
+  const Scene& scene;
+  double time;
+  RayCounts& rays;
+
+  Departure leave_light(const Vertex& x0, const Vec2& u) const;
+
+  /// Goes on from a surface.
+  Ray leave(const SurfacePoint& at, const Vec3& w) const { return scene.spawn(at, w, time); }
+
+  /// u.x chooses the lobe, (u.y, u.z) the direction; nullopt if nothing is scattered.
+  std::optional<ScatteredDirection> scatter(const SurfacePoint& at, const Vec3& towards_previous,
+                                            const Vec3& u) const {
+    const Vec3 from = at.shading.to_local(towards_previous);
+    const auto sample = scene.bsdf(at).sample(at, from, u);
+    if (!sample) return std::nullopt;
+    return ScatteredDirection{at.shading.to_world(sample->to), from, sample->to, sample->lobe};
+  }
+  /// The same, followed by the ray that goes on; x remembers the lobe.
+  std::optional<Ray> scatter(Vertex& x, const Vec3& towards_previous, const Vec3& u) const;
+
+  /// At the surface that the ray hits.
+  bool arrive(const Ray& ray, SurfacePoint& at) const {
+    ++rays.intersect;
+    return scene.intersect(ray, at);
+  }
+  bool arrive(const Ray& ray, Vertex& next) const;
+
+  /// At the surface of a light, or outside the scene at the light `background()` (nullptr: none).
+  template <class Background>
+  bool arrive_at_light(const Ray& ray, Background&& background, Vertex& x0) const {
+    SurfacePoint at;
+    const bool hit = arrive(ray, at);
+    const Emitter* emitter = hit ? scene.emitter(at) : background();
+    if (!emitter) return false;
+    x0 = light_vertex(*emitter, hit ? at : Scene::point_at_infinity(ray.d));
+    return true;
+  }
+
+  /// At the lens, which does not stop a ray; but what stands before it does.
+  bool arrive_at_lens(const Ray& ray, Vertex& xk) const;
+
+  /// The share of the light that gets from one vertex to the other.
+  double join(const SurfacePoint& a, const SurfacePoint& b) const {
+    ++rays.occluded;
+    return scene.visible(a, b, time) ? 1 : 0;
+  }
+};
+
+}  // namespace mlt
