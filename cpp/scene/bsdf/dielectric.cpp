@@ -98,15 +98,10 @@ class Dielectric final : public Bsdf {
 }  // namespace
 
 Plugin bsdf_dielectric() {
-  Plugin plugin{{"bsdf", "dielectric",
-                 "A smooth interface between two transparent media, such as glass and air.",
-                 ior_parameters("bk7")},
-                [](Params& params) -> ObjectPtr { return std::make_shared<Dielectric>(params); }};
-  auto& parameters = plugin.schema.parameters;
-  parameters.push_back(
-      {"specular_reflectance", ParamType::texture, 1.0, "Factor on the reflection."});
-  parameters.push_back(
-      {"specular_transmittance", ParamType::texture, 1.0, "Factor on the refraction."});
+  Plugin plugin = make_plugin<Dielectric>(
+      "bsdf", "dielectric",
+      "A smooth interface between two transparent media, such as glass and air.",
+      concat({ior_parameters("bk7"), interface_factors()}));
   plugin.schema.reciprocal = false;
   return plugin;
 }

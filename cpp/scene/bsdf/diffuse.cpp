@@ -50,11 +50,10 @@ class Diffuse final : public Bsdf {
 }  // namespace
 
 Plugin bsdf_diffuse() {
-  return {{"bsdf",
-           "diffuse",
-           "A matte surface that scatters light equally to all directions on its front side.",
-           {{"reflectance", ParamType::texture, 0.5, "Fraction of the light that is scattered."}}},
-          [](Params& params) -> ObjectPtr { return std::make_shared<Diffuse>(params); }};
+  return make_plugin<Diffuse>(
+      "bsdf", "diffuse",
+      "A matte surface that scatters light equally to all directions on its front side.",
+      {{"reflectance", ParamType::texture, 0.5, "Fraction of the light that is scattered."}});
 }
 
 }  // namespace mlt

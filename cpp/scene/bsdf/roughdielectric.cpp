@@ -152,18 +152,10 @@ class RoughDielectric final : public Bsdf {
 }  // namespace
 
 Plugin bsdf_roughdielectric() {
-  Plugin plugin{
-      {"bsdf", "roughdielectric",
-       "A rough interface between two transparent media, such as frosted glass.",
-       ior_parameters("bk7")},
-      [](Params& params) -> ObjectPtr { return std::make_shared<RoughDielectric>(params); }};
-  auto& parameters = plugin.schema.parameters;
-  for (Parameter& parameter : rough_surface_parameters())
-    parameters.push_back(std::move(parameter));
-  parameters.push_back(
-      {"specular_reflectance", ParamType::texture, 1.0, "Factor on the reflection."});
-  parameters.push_back(
-      {"specular_transmittance", ParamType::texture, 1.0, "Factor on the refraction."});
+  Plugin plugin = make_plugin<RoughDielectric>(
+      "bsdf", "roughdielectric",
+      "A rough interface between two transparent media, such as frosted glass.",
+      concat({ior_parameters("bk7"), rough_surface_parameters(), interface_factors()}));
   plugin.schema.reciprocal = false;
   return plugin;
 }
