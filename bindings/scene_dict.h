@@ -12,8 +12,8 @@ namespace mlt::python {
 
 py::object to_python(const Value& value);
 
-/// The tree of a nested dict. `path` is how the caller names the dict, such as "scene": errors about
-/// its parts say where with it ("scene['sensor']['film']").
+/// The tree of a nested dict. `path` is how the caller names the dict, such as "scene": errors
+/// about its parts say where with it ("scene['sensor']['film']").
 Node to_node(const py::dict& dict, const std::string& family, const std::string& path,
              const Registry& registry);
 
