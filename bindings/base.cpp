@@ -1,6 +1,6 @@
 // What plug-ins there are, and their schemas as dicts.
 #include "bindings.h"
-#include "values.h"
+#include "scene_dict.h"
 
 #include "render/plugins.h"
 

@@ -2,7 +2,7 @@
 #include "bindings.h"
 #include "py_job.h"
 #include "python_mutation.h"
-#include "values.h"
+#include "scene_dict.h"
 
 #include "io/pack.h"
 #include "render/plugins.h"

@@ -2,7 +2,7 @@
 #include "bindings.h"
 #include "light_path.h"
 #include "py_job.h"
-#include "values.h"
+#include "scene_dict.h"
 
 #include <pybind11/stl.h>
 

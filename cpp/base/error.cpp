@@ -1,5 +1,7 @@
 #include "base/error.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <numeric>
 
@@ -53,9 +55,7 @@ std::string suggestion(const std::string& word, const std::vector<std::string>& 
   const std::string near = closest(word, candidates);
   if (!near.empty()) return "; did you mean '" + near + "'?";
   if (candidates.empty()) return "; none is known here";
-  std::string list;
-  for (const std::string& candidate : candidates) list += (list.empty() ? "" : ", ") + candidate;
-  return "; valid are: " + list;
+  return fmt::format("; valid are: {}", fmt::join(candidates, ", "));
 }
 
 }  // namespace mlt

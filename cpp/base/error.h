@@ -1,6 +1,8 @@
 // Typed exceptions. Every message says what was wrong, where, and what would be right.
 #pragma once
 
+#include <fmt/core.h>
+
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -47,6 +49,12 @@ std::string describe(const Location& location);
 
 /// "scene.xml:12: message", or just the message when there is no location.
 std::string at(const Location& location, const std::string& message);
+/// The same for a message that fmt::format makes.
+template <class First, class... Rest>
+std::string at(const Location& location, const char* format, const First& first,
+               const Rest&... rest) {
+  return at(location, fmt::format(fmt::runtime(format), first, rest...));
+}
 
 /// The candidate that `word` was probably meant to be (edit distance), or "" if none is near.
 std::string closest(const std::string& word, const std::vector<std::string>& candidates);

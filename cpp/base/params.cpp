@@ -70,26 +70,23 @@ void Params::set(const std::string& given_name, Value value, const Location& whe
   const Parameter* parameter = schema_->find(name);
   if (!parameter) {
     const auto& ignored = schema_->ignored;
-    if (std::find(ignored.begin(), ignored.end(), name) != ignored.end()) {
-      warnings_.push_back(at(
-          where, schema_->family + " '" + schema_->name + "': '" + name + "' has no effect here"));
-      return;
-    }
-    throw SceneError(at(where, "unknown parameter '" + given_name + "' for " + schema_->family +
-                                   " '" + schema_->name + "'" +
-                                   suggestion(name, schema_->parameter_names())));
+    if (std::find(ignored.begin(), ignored.end(), name) == ignored.end())
+      throw SceneError(at(where, "unknown parameter '{}' for {}{}", given_name, title(),
+                          suggestion(name, schema_->parameter_names())));
+    warnings_.push_back(at(where, "{}: '{}' has no effect here", title(), name));
+    return;
   }
-  const std::string about = schema_->family + " '" + schema_->name + "': '" + name + "' ";
+  const auto refuse = [&](const std::string& why) {
+    throw SceneError(at(where, "{}: '{}' {}", title(), name, why));
+  };
   if (!fits(value, parameter->type))
-    throw SceneError(at(where, about + "is " + kind_of(value) + ", but should be " +
-                                   with_article(to_string(parameter->type))));
-  if (!is_finite(value)) throw SceneError(at(where, about + "must be finite"));
+    refuse("is " + kind_of(value) + ", but should be " + with_article(to_string(parameter->type)));
+  if (!is_finite(value)) refuse("must be finite");
   const auto& choices = parameter->choices;
   if (const std::string* text = std::get_if<std::string>(&value))
     if (!choices.empty() && std::find(choices.begin(), choices.end(), *text) == choices.end())
-      throw SceneError(at(where, about + "cannot be '" + *text + "'" + suggestion(*text, choices)));
-  if (!given_.emplace(name, Given{std::move(value), where}).second)
-    throw SceneError(at(where, about + "is given twice"));
+      refuse("cannot be '" + *text + "'" + suggestion(*text, choices));
+  if (!given_.emplace(name, Given{std::move(value), where}).second) refuse("is given twice");
 }
 
 void Params::add(const std::string& family, ObjectPtr object, const Location& where) {
@@ -131,16 +128,14 @@ double Params::real(const std::string& name) {
 double Params::real_in(const std::string& name, double low, double high) {
   const double x = real(name);
   if (!(x >= low && x <= high))
-    fail(name, "is " + std::to_string(x) + ", but must lie between " + std::to_string(low) +
-                   " and " + std::to_string(high));
+    fail(name, fmt::format("is {:f}, but must lie between {:f} and {:f}", x, low, high));
   return x;
 }
 
 int64_t Params::integer_in(const std::string& name, int64_t low, int64_t high) {
   const int64_t x = integer(name);
   if (x < low || x > high)
-    fail(name, "is " + std::to_string(x) + ", but must lie between " + std::to_string(low) +
-                   " and " + std::to_string(high));
+    fail(name, fmt::format("is {}, but must lie between {} and {}", x, low, high));
   return x;
 }
 
@@ -158,29 +153,28 @@ ObjectPtr Params::find_object(const std::string& name) {
   return nullptr;
 }
 
+std::string Params::title() const { return schema_->family + " '" + schema_->name + "'"; }
+
 void Params::fail(const std::string& name, const std::string& message) const {
   const auto it = given_.find(name);
-  throw SceneError(at(it != given_.end() ? it->second.where : where_,
-                      schema_->family + " '" + schema_->name + "': '" + name + "' " + message));
+  const Location& place = it != given_.end() ? it->second.where : where_;
+  throw SceneError(at(place, "{}: '{}' {}", title(), name, message));
 }
 
 void Params::fail(const std::string& message) const {
-  throw SceneError(at(where_, schema_->family + " '" + schema_->name + "' " + message));
+  throw SceneError(at(where_, title() + " " + message));
 }
 
 void Params::warn(const std::string& message) {
-  warnings_.push_back(at(where_, schema_->family + " '" + schema_->name + "': " + message));
+  warnings_.push_back(at(where_, title() + ": " + message));
 }
 
 void Params::expect_all_read() const {
   for (const auto& [name, given] : given_)
-    if (!given.read)
-      throw SceneError(at(given.where, schema_->family + " '" + schema_->name + "': '" + name +
-                                           "' has no effect with the other parameters given"));
+    if (!given.read) fail(name, "has no effect with the other parameters given");
   for (const Nested& nested : nested_)
     if (!nested.read)
-      throw SceneError(at(nested.where, schema_->family + " '" + schema_->name +
-                                            "' does not take a nested " + nested.family));
+      throw SceneError(at(nested.where, "{} does not take a nested {}", title(), nested.family));
 }
 
 }  // namespace mlt

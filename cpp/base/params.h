@@ -88,6 +88,7 @@ class Params {
     bool read = false;
   };
 
+  std::string title() const;  ///< "bsdf 'diffuse'"
   ObjectPtr find_object(const std::string& name);
   const Value& read(const std::string& name);
 

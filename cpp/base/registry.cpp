@@ -1,61 +1,66 @@
 #include "base/registry.h"
 
-#include <set>
-
 namespace mlt {
 
+ObjectPtr make_object(const Plugin& plugin, Params& params) {
+  try {
+    return plugin.create(params);
+  } catch (const FileError& error) {
+    throw FileError(at(params.where(), error.what()));
+  } catch (const UsageError& error) {
+    throw SceneError(at(params.where(), error.what()));
+  }
+}
+
+void Registry::insert(const std::string& family, const std::string& name, Entry entry) {
+  if (!entries_[family].emplace(name, std::move(entry)).second)
+    throw Error(at({}, "{} '{}' is registered twice", family, name));
+}
+
 void Registry::add(Plugin plugin) {
-  auto& family = plugins_[plugin.schema.family];
-  const std::string name = plugin.schema.name;
-  family[name] = std::make_unique<Plugin>(std::move(plugin));
-}
-
-const Plugin& Registry::find(const std::string& family, const std::string& name,
-                             const Location& where) const {
-  const auto members = plugins_.find(family);
-  if (members != plugins_.end()) {
-    const auto plugin = members->second.find(name);
-    if (plugin != members->second.end()) return *plugin->second;
-  }
-  const auto refused = refused_.find(family);
-  if (refused != refused_.end()) {
-    const auto reason = refused->second.find(name);
-    if (reason != refused->second.end())
-      throw SceneError(at(where, family + " '" + name + "' is not supported: " + reason->second));
-  }
-  if (members == plugins_.end())
-    throw SceneError(
-        at(where, "unknown element '" + family + "'" + suggestion(family, families())));
-  throw SceneError(
-      at(where, "unknown " + family + " '" + name + "'" + suggestion(name, names(family))));
-}
-
-std::vector<std::string> Registry::families() const {
-  std::vector<std::string> names;
-  for (const auto& [family, members] : plugins_) names.push_back(family);
-  return names;
-}
-
-std::vector<std::string> Registry::names(const std::string& family) const {
-  std::vector<std::string> names;
-  const auto members = plugins_.find(family);
-  if (members != plugins_.end())
-    for (const auto& [name, plugin] : members->second) names.push_back(name);
-  return names;
-}
-
-std::vector<std::string> Registry::families_of(const std::string& name) const {
-  std::set<std::string> found;
-  for (const auto& [family, members] : plugins_)
-    if (members.count(name)) found.insert(family);
-  for (const auto& [family, members] : refused_)
-    if (members.count(name)) found.insert(family);
-  return {found.begin(), found.end()};
+  const std::string family = plugin.schema.family, name = plugin.schema.name;
+  insert(family, name, {std::move(plugin), ""});
 }
 
 void Registry::refuse(const std::string& family, const std::string& name,
                       const std::string& reason) {
-  refused_[family][name] = reason;
+  insert(family, name, {{}, reason});
+}
+
+const Plugin& Registry::find(const std::string& family, const std::string& name,
+                             const Location& where) const {
+  if (const auto members = entries_.find(family); members != entries_.end())
+    if (const auto found = members->second.find(name); found != members->second.end()) {
+      const auto& [plugin, refusal] = found->second;
+      if (plugin.create) return plugin;
+      throw SceneError(at(where, "{} '{}' is not supported: {}", family, name, refusal));
+    }
+  const std::vector<std::string> known = names(family);
+  if (known.empty())
+    throw SceneError(at(where, "unknown element '{}'{}", family, suggestion(family, families())));
+  throw SceneError(at(where, "unknown {} '{}'{}", family, name, suggestion(name, known)));
+}
+
+std::vector<std::string> Registry::families() const {
+  std::vector<std::string> found;
+  for (const auto& [family, members] : entries_)
+    if (!names(family).empty()) found.push_back(family);
+  return found;
+}
+
+std::vector<std::string> Registry::names(const std::string& family) const {
+  std::vector<std::string> found;
+  if (const auto members = entries_.find(family); members != entries_.end())
+    for (const auto& [name, entry] : members->second)
+      if (entry.plugin.create) found.push_back(name);
+  return found;
+}
+
+std::vector<std::string> Registry::families_of(const std::string& name) const {
+  std::vector<std::string> found;
+  for (const auto& [family, members] : entries_)
+    if (members.count(name)) found.push_back(family);
+  return found;
 }
 
 }  // namespace mlt

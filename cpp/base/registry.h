@@ -3,6 +3,7 @@
 
 #include "base/params.h"
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -14,19 +15,30 @@ namespace mlt {
 /// returns its Plugin, named after family and name: `Plugin bsdf_diffuse()`.
 struct Plugin {
   Schema schema;
-  ObjectPtr (*create)(Params&);
+  std::function<ObjectPtr(Params&)> create;
 };
+
+/// Calls plugin.create. A FileError, or a UsageError about a value, gets the plug-in's place in the
+/// scene in front of its message; the latter becomes a SceneError.
+ObjectPtr make_object(const Plugin& plugin, Params& params);
 
 /// The plug-in whose objects are made by `T(Params&)`.
 template <class T>
 Plugin make_plugin(Schema schema) {
-  return {std::move(schema),
-          [](Params& params) -> ObjectPtr { return std::make_shared<T>(params); }};
+  return {std::move(schema), [](Params& params) { return std::make_shared<T>(params); }};
+}
+template <class T>
+Plugin make_plugin(const char* family, const char* name, const char* doc,
+                   std::vector<Parameter> parameters = {}, std::vector<std::string> ignored = {}) {
+  return make_plugin<T>({family, name, doc, std::move(parameters), std::move(ignored)});
 }
 
 class Registry {
  public:
+  /// Each name is added or refused once: a second time throws Error.
   void add(Plugin plugin);
+  /// Refuses Mitsuba's plug-in `name` by name, in one line that ends with `reason`.
+  void refuse(const std::string& family, const std::string& name, const std::string& reason);
 
   /// Throws SceneError at `where` with a suggestion, or with the reason when the name is one that
   /// Mitsuba has and this renderer refuses.
@@ -38,12 +50,15 @@ class Registry {
   /// The families in which `name` is known or refused; normally one.
   std::vector<std::string> families_of(const std::string& name) const;
 
-  /// Refuses Mitsuba's plug-in `name` by name, in one line that ends with `reason`.
-  void refuse(const std::string& family, const std::string& name, const std::string& reason);
-
  private:
-  std::map<std::string, std::map<std::string, std::unique_ptr<Plugin>>> plugins_;
-  std::map<std::string, std::map<std::string, std::string>> refused_;
+  /// A plug-in, or the reason why there is none.
+  struct Entry {
+    Plugin plugin;
+    std::string refusal;
+  };
+  void insert(const std::string& family, const std::string& name, Entry entry);
+
+  std::map<std::string, std::map<std::string, Entry>> entries_;
 };
 
 }  // namespace mlt

@@ -22,6 +22,17 @@ std::string to_string(ParamType type) {
   return "";
 }
 
+Parameter choice_parameter(const std::string& name, const std::string& default_value,
+                           const std::string& doc, const std::vector<std::string>& choices) {
+  return {name, ParamType::text, default_value, doc, choices};
+}
+
+std::vector<Parameter> concat(std::initializer_list<std::vector<Parameter>> lists) {
+  std::vector<Parameter> all;
+  for (const auto& list : lists) all.insert(all.end(), list.begin(), list.end());
+  return all;
+}
+
 const Parameter* Schema::find(const std::string& parameter) const {
   for (const Parameter& p : parameters)
     if (p.name == parameter) return &p;

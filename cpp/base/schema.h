@@ -1,11 +1,12 @@
 // What a plug-in's parameters are called, of which type, with which default, and what they mean.
-// The loader, the Python face, the docs and the error messages all read this one description.
+// The loader, the Python classes, the docs and the error messages all read this one description.
 #pragma once
 
 #include "base/object.h"
 
 #include <array>
 #include <cstdint>
+#include <initializer_list>
 #include <string>
 #include <utility>
 #include <variant>
@@ -41,6 +42,9 @@ enum class ParamType {
 
 std::string to_string(ParamType type);
 
+/// Stands in the place of a default value where there is none.
+constexpr std::monostate no_default;
+
 struct Parameter {
   std::string name;  ///< snake_case; the older camelCase is accepted everywhere.
   ParamType type;
@@ -48,6 +52,12 @@ struct Parameter {
   std::string doc;
   std::vector<std::string> choices = {};  ///< For text: the valid values, if they are few.
 };
+
+/// A text parameter with few valid values.
+Parameter choice_parameter(const std::string& name, const std::string& default_value,
+                           const std::string& doc, const std::vector<std::string>& choices);
+/// The parameters of several lists, one list after the other.
+std::vector<Parameter> concat(std::initializer_list<std::vector<Parameter>> lists);
 
 struct Schema {
   std::string family;  ///< "bsdf", "emitter", "sensor", "shape", "texture", "integrator", ...

@@ -1,5 +1,5 @@
-// Whole files in and out. A file is written beside its name and then renamed, so that nobody ever
-// sees half of one, and an older file survives until the new one is complete.
+// Whole files in and out. A file is written beside its name and then renamed, so that no
+// incomplete file is ever visible, and an older file stays until the new one is complete.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
-// The reading half of exr.h. A header is believed only as far as the size of its file bears it out:
-// no compression that OpenEXR has can be better than its method allows.
+// The reading half of exr.h. A header that announces more pixels than a file of this size can hold,
+// with the best ratio that its compression method can reach, is refused before memory is allocated.
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
@@ -80,9 +80,7 @@ void check_header(const Imf::Header& header, size_t file_size) {
   const double limit = static_cast<double>(max_expansion(header.compression())) *
                        (static_cast<double>(file_size) + 64);
   if (static_cast<double>(pixels) * static_cast<double>(pixel_size) > limit)
-    throw std::runtime_error("its header says that it has " + std::to_string(width_of(data)) +
-                             " x " + std::to_string(height_of(data)) +
-                             " pixels, more than a file of this size can hold");
+    throw std::runtime_error(too_many_pixels(width_of(data), height_of(data)));
 }
 
 /// Channels of one layer by their last name, in lower case and short ("red" is "r").

@@ -42,8 +42,8 @@ std::vector<std::string> channel_names(const ExrLayer& layer) {
   if (names.empty() && count >= 1 && count <= 4)
     for (const char* c = defaults[count - 1]; *c; ++c) names.emplace_back(1, *c);
   if (names.size() != static_cast<size_t>(count))
-    throw UsageError("layer '" + layer.name + "' has " + std::to_string(count) + " channels but " +
-                     std::to_string(names.size()) + " channel names");
+    throw UsageError(fmt::format("layer '{}' has {} channels but {} channel names", layer.name,
+                                 count, names.size()));
   for (std::string& name : names)
     if (!layer.name.empty()) name.insert(0, layer.name + ".");
   return names;

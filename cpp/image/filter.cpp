@@ -35,7 +35,7 @@ class FilterTable {
     for (size_t i = 1; i + 1 < table.size(); ++i) sum += table[i];
     const double integral = 2 * sum * filter->radius_ / Filter::intervals;
     if (!(integral > 0) || !std::isfinite(integral))
-      throw SceneError("filter '" + filter->name_ + "': its parameters give it no positive weight");
+      throw UsageError("filter '" + filter->name_ + "': its parameters give it no positive weight");
     for (double& value : table) value /= integral;
   }
 };
@@ -46,9 +46,8 @@ constexpr double max_radius = 64;
 
 void check_range(const char* filter, const char* parameter, double value, double low, double high) {
   if (value >= low && value <= high) return;
-  throw SceneError("filter '" + std::string(filter) + "': " + parameter + " is " +
-                   std::to_string(value) + "; it must lie between " + std::to_string(low) +
-                   " and " + std::to_string(high));
+  throw UsageError(fmt::format("filter '{}': {} is {:f}; it must lie between {:f} and {:f}", filter,
+                               parameter, value, low, high));
 }
 
 /// Mitchell & Netravali, "Reconstruction Filters in Computer Graphics", 1988, eq. 8, for x >= 0.
@@ -99,21 +98,6 @@ Filter lanczos_filter(int lobes) {
   check_range("lanczos", "lobes", lobes, 1, 16);
   return FilterTable::make("lanczos", lobes,
                            [lobes](double x) { return sinc(x) * sinc(x / lobes); });
-}
-
-std::vector<std::string> filter_names() {
-  return {"box", "tent", "gaussian", "mitchell", "catmullrom", "lanczos"};
-}
-
-Filter make_filter(const std::string& name) {
-  if (name == "box") return box_filter();
-  if (name == "tent") return tent_filter();
-  if (name == "gaussian") return gaussian_filter();
-  if (name == "mitchell") return mitchell_filter();
-  if (name == "catmullrom") return catmullrom_filter();
-  if (name == "lanczos") return lanczos_filter();
-  throw SceneError("unknown reconstruction filter '" + name + "'" +
-                   suggestion(name, filter_names()));
 }
 
 }  // namespace mlt

@@ -46,7 +46,7 @@ class Filter {
   std::vector<double> table_;
 };
 
-// Names, parameters and defaults are Mitsuba 3's; a parameter out of range is a SceneError.
+// Names, parameters and defaults are Mitsuba 3's; a parameter out of range is a UsageError.
 Filter box_filter(double radius = 0.5);
 Filter tent_filter(double radius = 1);
 /// A Gaussian cut at 4 standard deviations and lowered so that it is 0 there.
@@ -57,9 +57,5 @@ Filter mitchell_filter(double b = 1.0 / 3, double c = 1.0 / 3);
 Filter catmullrom_filter();
 /// sinc(x) windowed by sinc(x / lobes).
 Filter lanczos_filter(int lobes = 3);
-
-/// A filter with its default parameters; an unknown name is a SceneError that lists the names.
-Filter make_filter(const std::string& name);
-std::vector<std::string> filter_names();
 
 }  // namespace mlt

@@ -11,7 +11,7 @@
 
 namespace mlt {
 
-/// No image has more pixels than this: what claims to be larger is a mistake or a lie.
+/// No image has more pixels than this: a file that says otherwise is damaged or hostile.
 constexpr int64_t max_image_pixels = int64_t{1} << 31;
 
 struct Image {

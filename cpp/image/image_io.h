@@ -13,7 +13,7 @@ namespace mlt {
 
 struct ReadImage {
   Image image;
-  bool srgb_encoded = false;  // integer formats; a scene may know better (normal maps, masks)
+  bool srgb_encoded = false;  // integer formats; a scene may say otherwise (normal maps, masks)
   bool has_alpha = false;     // the last of 2 or 4 channels; never encoded
   int bits = 32;              // of a stored sample: 8 or 16 (integers), else 32
 };

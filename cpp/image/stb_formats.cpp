@@ -62,8 +62,8 @@ class Reader {
     const bool refill = target == stb_buffer_;
     if (size == 0 || (!refill && size < static_cast<size_t>(count))) ended_early_ = true;
     if (size > 0 || !refill) return static_cast<int>(size);
-    // Told of the end, stb would read zeros for ever, and an HDR run of length 0 never gets
-    // anywhere. Newlines end a header, and make runs.
+    // After the end of the file stb would go on with zeros, and would never finish an HDR run of
+    // length 0. Newlines end a header, and are runs with a length.
     std::memset(target, '\n', static_cast<size_t>(count));
     return count;
   }
@@ -86,16 +86,14 @@ struct Free {
   void operator()(void* pointer) const { std::free(pointer); }
 };
 
-/// A size is believed only if the file is large enough for it. Per byte of file, deflate holds at
+/// Refuses a size for which the file is not large enough. Per byte of file, deflate holds at
 /// most 8 * 1032 one-bit pixels; a progressive JPEG 8 blocks of 64; the others far fewer.
 void check_size(int width, int height, StbFormat format, size_t file_size) {
   const int64_t pixels = int64_t{width} * height;
   const int64_t per_byte = format == StbFormat::png ? 8 * 1032 : 1024;
   if (width <= 0 || height <= 0) throw std::runtime_error("its header says that it has no pixels");
   if (pixels > max_image_pixels || pixels / per_byte > static_cast<int64_t>(file_size))
-    throw std::runtime_error("its header says that it has " + std::to_string(width) + " x " +
-                             std::to_string(height) +
-                             " pixels, more than a file of this size can hold");
+    throw std::runtime_error(too_many_pixels(width, height));
 }
 
 template <class Sample>
@@ -170,8 +168,8 @@ StbImage decode_stb(std::string_view bytes, StbFormat format, const std::string&
 std::string encode_png(const std::vector<unsigned char>& samples, int width, int height,
                        int channels) {
   if (Image::sample_count(width, height, channels) + static_cast<size_t>(height) > size_t{1} << 30)
-    throw UsageError("an image of " + std::to_string(width) + " x " + std::to_string(height) +
-                     " pixels is too large for PNG; write it as EXR");
+    throw UsageError(fmt::format("an image of {} x {} pixels is too large for PNG; write it as EXR",
+                                 width, height));
   std::string bytes;
   if (!stbi_write_png_to_func(append, &bytes, width, height, channels, samples.data(),
                               width * channels))

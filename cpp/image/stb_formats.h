@@ -17,7 +17,8 @@ struct StbImage {
   int bits = 8;  // 8 or 16: integers, scaled to [0, 1]; 32: linear radiance
 };
 
-/// Throws a FileError that begins with `name`, also when a file ends early or its size is a lie.
+/// Throws a FileError that begins with `name`, also when a file ends early or is too small for its
+/// size.
 StbImage decode_stb(std::string_view bytes, StbFormat format, const std::string& name);
 
 /// 8-bit samples, interleaved, of 1 to 4 channels.

@@ -36,24 +36,13 @@ bool is_given_by_name(const Schema& schema, const std::string& name, const std::
          std::find(ignored.begin(), ignored.end(), current) != ignored.end();
 }
 
-ObjectPtr create(const Plugin& plugin, Params& params) {
-  try {
-    return plugin.create(params);
-  } catch (const FileError& error) {
-    const std::string message = error.what(), place = describe(params.where());
-    if (place.empty() || message.compare(0, place.size(), place) == 0) throw;
-    throw FileError(place + ": " + message);
-  }
-}
-
 bool needs_a_shape(const Emitter& emitter) { return !emitter.infinite() && !emitter.delta(); }
 
 template <class T>
 std::shared_ptr<T> only_one(const std::vector<std::shared_ptr<T>>& found, const char* family,
                             const Params& params) {
   if (found.size() > 1)
-    params.fail("has " + std::to_string(found.size()) + " nested elements <" + family +
-                ">, but can have one");
+    params.fail(fmt::format("has {} nested elements <{}>, but can have one", found.size(), family));
   return found.empty() ? nullptr : found.front();
 }
 
@@ -90,15 +79,14 @@ ObjectPtr Builder::object(const Node& node) {
 
 ObjectPtr Builder::make(const Node& node) {
   if (std::count(in_progress_.begin(), in_progress_.end(), &node))
-    throw SceneError(
-        at(node.where, "the " + node.family + " " + quote(node.id) + " contains itself"));
+    throw SceneError(at(node.where, "the {} {} contains itself", node.family, quote(node.id)));
   if (in_progress_.size() >= static_cast<size_t>(max_nesting))
-    throw SceneError(
-        at(node.where, "references are nested more than " + std::to_string(max_nesting) + " deep"));
+    throw SceneError(at(node.where, "references are nested more than {} deep", max_nesting));
   refuse_element(node.family, node.type, node.where);
   if (node.family == "sampler" && !is_known(registry_, node)) {
-    warnings_.push_back(at(node.where, "sampler " + quote(node.type) +
-                                           " is not known here; only its sample_count is used"));
+    warnings_.push_back(at(node.where,
+                           "sampler {} is not known here; only its sample_count is used",
+                           quote(node.type)));
     return foreign_sampler(node);
   }
   const Plugin& plugin = registry_.find(node.family, node.type, node.where);
@@ -110,7 +98,7 @@ ObjectPtr Builder::make(const Node& node) {
   for (const Node& child : node.children) give(params, node, child);
   in_progress_.pop_back();
 
-  ObjectPtr object = create(plugin, params);
+  ObjectPtr object = make_object(plugin, params);
   object->type = node.type;
   object->id = node.id;
   object->where = node.where;
@@ -141,9 +129,8 @@ void Builder::give(Params& params, const Node& parent, const Node& child) {
   const bool textured = parameter && (parameter->type == ParamType::texture ||
                                       parameter->type == ParamType::emission);
   if (textured && !std::dynamic_pointer_cast<Texture>(nested))
-    throw SceneError(at(child.where, parent.family + " '" + parent.type + "': '" + parameter->name +
-                                         "' is a " + target.family + ", but should be a " +
-                                         to_string(parameter->type)));
+    throw SceneError(at(child.where, "{} '{}': '{}' is a {}, but should be a {}", parent.family,
+                        parent.type, parameter->name, target.family, to_string(parameter->type)));
   params.set(name, std::move(nested), child.where);
 }
 
@@ -155,8 +142,9 @@ void Builder::attach(Shape& shape, const Params& params, std::vector<std::shared
   if (!emitter) return;
   if (!needs_a_shape(*emitter))
     throw SceneError(
-        at(emitter->where, "emitter '" + emitter->type +
-                               "' cannot be attached to a shape; put it directly into the scene"));
+        at(emitter->where,
+           "emitter '{}' cannot be attached to a shape; put it directly into the scene",
+           emitter->type));
   if (auto* mesh = dynamic_cast<Mesh*>(&shape)) mesh->prepare_sampling();
   emitter->set_shape(&shape);
   shape.set_emitter(emitter);
@@ -165,28 +153,20 @@ void Builder::attach(Shape& shape, const Params& params, std::vector<std::shared
 /// As in Mitsuba: what shines reflects nothing, anything else is a grey diffuse surface.
 BsdfPtr Builder::default_bsdf(bool on_light, const Location& where) {
   BsdfPtr& bsdf = default_bsdf_[on_light];
-  if (!bsdf) {
-    const Plugin& diffuse = registry_.find("bsdf", "diffuse", where);
-    Params params(diffuse.schema, where);
-    params.set("reflectance", on_light ? 0.0 : 0.5, where);
-    bsdf = std::dynamic_pointer_cast<Bsdf>(diffuse.create(params));
-  }
+  const double reflectance = on_light ? 0.0 : 0.5;
+  if (!bsdf)
+    bsdf = std::dynamic_pointer_cast<Bsdf>(
+        make({"bsdf", "diffuse", "", "", where, {{"reflectance", reflectance, where}}, {}}));
   return bsdf;
-}
-
-std::shared_ptr<FilmSettings> Builder::default_film(const Location& where) {
-  const Plugin& plugin = registry_.find("film", "hdrfilm", where);
-  Params params(plugin.schema, where);
-  auto film = std::dynamic_pointer_cast<FilmSettings>(plugin.create(params));
-  film->where = where;
-  return film;
 }
 
 ShapePtr Builder::shape(const Node& node) { return std::dynamic_pointer_cast<Shape>(object(node)); }
 
 Builder::View Builder::view(const Node& sensor, const std::optional<Vec2i>& size) {
   View view = views_.at(object(sensor).get());
-  if (!view.film) view.film = default_film(sensor.where);
+  if (!view.film)
+    view.film = std::dynamic_pointer_cast<FilmSettings>(
+        make({"film", "hdrfilm", "", "", sensor.where, {}, {}}));
   FilmSettings& film = *view.film;
   if (size) {
     film.size = *size;

@@ -29,7 +29,8 @@ class Builder {
     std::shared_ptr<FilmSettings> film;
     int64_t sample_count = 0;
   };
-  /// A camera that knows its film. `size` replaces the film's own size and crop window.
+  /// A camera whose raster is set from its film. `size` replaces the film's own size and crop
+  /// window.
   View view(const Node& sensor, const std::optional<Vec2i>& size);
 
   /// Has some shape taken this node as its light?
@@ -42,7 +43,6 @@ class Builder {
   void attach(Shape& shape, const Params& params, std::vector<std::shared_ptr<Bsdf>> bsdfs,
               std::vector<EmitterPtr> emitters);
   BsdfPtr default_bsdf(bool on_light, const Location& where);
-  std::shared_ptr<FilmSettings> default_film(const Location& where);
 
   NodeIndex index_;
   const Registry& registry_;

@@ -33,7 +33,7 @@ void refuse_element(const std::string& tag, const std::string& type, const Locat
   const auto reason = reasons.find(tag);
   if (reason == reasons.end()) return;
   const std::string title = type.empty() ? "<" + tag + ">" : tag + " " + quote(type);
-  throw SceneError(at(where, title + " is not supported: " + reason->second));
+  throw SceneError(at(where, "{} is not supported: {}", title, reason->second));
 }
 
 }  // namespace mlt

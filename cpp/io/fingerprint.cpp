@@ -23,11 +23,23 @@ class Hasher {
       word(bits);
     }
   }
-  void text(const std::string& text) { bytes(text.data(), text.size()); }
-  void real(double x) {
+  void add(const std::string& text) { bytes(text.data(), text.size()); }
+  void add(bool b) { word(b); }
+  void add(int64_t i) { word(static_cast<uint64_t>(i)); }
+  void add(double x) {
     uint64_t bits;
     std::memcpy(&bits, &x, sizeof bits);
     word(bits);
+  }
+  void add(const std::pair<double, double>& sample) {
+    add(sample.first);
+    add(sample.second);
+  }
+  void add(std::monostate) {}
+  void add(const ObjectPtr&) {}
+  template <class Sequence>
+  void add(const Sequence& items) {
+    for (const auto& item : items) add(item);
   }
   uint64_t result() const { return state_; }
 
@@ -50,13 +62,11 @@ uint64_t hash_file(const std::string& path) {
 class TreeHasher {
  public:
   void add(const Node& node) {
-    hash_.text(node.family);
-    hash_.text(node.type);
-    hash_.text(node.id);
-    hash_.text(node.name);
+    for (const std::string* text : {&node.family, &node.type, &node.id, &node.name})
+      hash_.add(*text);
     hash_.word(node.properties.size());
     for (const Node::Property& property : node.properties) {
-      hash_.text(property.name);
+      hash_.add(property.name);
       add(property);
     }
     hash_.word(node.children.size());
@@ -66,29 +76,13 @@ class TreeHasher {
 
  private:
   void add(const Node::Property& property) {
-    const Value& value = property.value;
-    hash_.word(value.index());
-    if (const auto* b = std::get_if<bool>(&value)) hash_.word(*b);
-    if (const auto* i = std::get_if<int64_t>(&value)) hash_.word(static_cast<uint64_t>(*i));
-    if (const auto* x = std::get_if<double>(&value)) hash_.real(*x);
-    if (const auto* t = std::get_if<Triple>(&value))
-      for (double x : *t) hash_.real(x);
-    if (const auto* m = std::get_if<Matrix>(&value))
-      for (double x : *m) hash_.real(x);
-    if (const auto* s = std::get_if<Spectrum>(&value))
-      for (const auto& [wavelength, x] : *s) {
-        hash_.real(wavelength);
-        hash_.real(x);
-      }
-    if (const auto* text = std::get_if<std::string>(&value)) add_text(property.name, *text);
-  }
-
-  void add_text(const std::string& name, const std::string& text) {
+    hash_.word(property.value.index());
+    const auto* text = std::get_if<std::string>(&property.value);
     std::error_code error;
-    if (name != "filename" || !std::filesystem::is_regular_file(text, error))
-      return hash_.text(text);
-    auto known = files_.find(text);
-    if (known == files_.end()) known = files_.emplace(text, hash_file(text)).first;
+    if (!text || property.name != "filename" || !std::filesystem::is_regular_file(*text, error))
+      return std::visit([&](const auto& content) { hash_.add(content); }, property.value);
+    auto known = files_.find(*text);
+    if (known == files_.end()) known = files_.emplace(*text, hash_file(*text)).first;
     hash_.word(known->second);
   }
 

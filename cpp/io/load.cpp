@@ -18,13 +18,13 @@ double seconds_since(Clock::time_point start) {
 }
 
 void check_size(const Vec2i& size) {
-  constexpr int max_side = 1 << 15;
-  constexpr int64_t max_pixels = 1 << 28;
+  constexpr auto max_side = FilmSettings::max_side;
   if (std::min(size.x, size.y) < 1 || std::max(size.x, size.y) > max_side ||
-      int64_t{size.x} * size.y > max_pixels)
-    throw UsageError("the image size is " + std::to_string(size.x) + " x " +
-                     std::to_string(size.y) + ", but each side should lie between 1 and " +
-                     std::to_string(max_side) + ", and 2^28 pixels are the most");
+      int64_t{size.x} * size.y > FilmSettings::max_pixels)
+    throw UsageError(fmt::format(
+        "the image size is {} x {}, but each side should lie between 1 and {}, and 2^28 pixels are "
+        "the most",
+        size.x, size.y, max_side));
 }
 
 const Node& only_sensor(const Node& scene, std::vector<std::string>& warnings) {
@@ -47,13 +47,13 @@ const Node& unwrapped(const Node& integrator, std::vector<std::string>& warnings
   if (integrator.type != "moment" && integrator.type != "aov") return integrator;
   for (const Node& child : integrator.children)
     if (child.family == "integrator") {
-      warnings.push_back(at(integrator.where, "integrator '" + integrator.type +
-                                                  "' is not supported; the '" + child.type +
-                                                  "' inside it is used"));
+      warnings.push_back(at(integrator.where,
+                            "integrator '{}' is not supported; the '{}' inside it is used",
+                            integrator.type, child.type));
       return unwrapped(child, warnings);
     }
   throw SceneError(
-      at(integrator.where, "integrator '" + integrator.type + "' has no integrator inside"));
+      at(integrator.where, "integrator '{}' has no integrator inside", integrator.type));
 }
 
 std::optional<Node> only_integrator(const Node& scene, std::vector<std::string>& warnings) {
@@ -71,7 +71,7 @@ std::optional<Node> only_integrator(const Node& scene, std::vector<std::string>&
 /// Shapes and lights in the order of the scene; everything else is made too, and so checked.
 void build_contents(const Node& scene, Builder& builder, std::vector<ShapePtr>& shapes,
                     std::vector<EmitterPtr>& emitters) {
-  std::vector<std::pair<const Node*, EmitterPtr>> placeless;
+  std::vector<std::pair<const Node*, EmitterPtr>> unattached;
   for (const Node& child : scene.children) {
     if (child.family == "sensor" || child.family == "integrator") continue;
     if (child.family == "ref")
@@ -85,15 +85,15 @@ void build_contents(const Node& scene, Builder& builder, std::vector<ShapePtr>& 
       if (emitter->infinite() || emitter->delta())
         emitters.push_back(emitter);
       else
-        placeless.emplace_back(&child, emitter);
+        unattached.emplace_back(&child, emitter);
     } else {
       builder.object(child);
     }
   }
-  for (const auto& [node, emitter] : placeless)
+  for (const auto& [node, emitter] : unattached)
     if (!builder.on_a_shape(*node))
       throw SceneError(
-          at(node->where, "emitter '" + node->type + "' needs a shape; put it inside one"));
+          at(node->where, "emitter '{}' needs a shape; put it inside one", node->type));
   if (emitters.empty())
     throw SceneError(
         at(scene.where, "the scene has no emitter, so the image would be black; add a light"));
@@ -104,7 +104,7 @@ void build_contents(const Node& scene, Builder& builder, std::vector<ShapePtr>& 
 LoadedScene build_scene(const Node& scene, const Registry& registry, const LoadOptions& options) {
   const auto start = Clock::now();
   if (scene.family != "scene")
-    throw SceneError(at(scene.where, "the root is a " + scene.family + ", but should be a scene"));
+    throw SceneError(at(scene.where, "the root is a {}, but should be a scene", scene.family));
   if (options.size) check_size(*options.size);
 
   LoadedScene loaded;

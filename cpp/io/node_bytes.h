@@ -6,7 +6,7 @@
 
 namespace mlt {
 
-/// Properties only: locations are left out, and a node from bytes is nowhere in a file.
+/// Properties only: locations are left out, and a node from bytes has none.
 void save(ByteWriter& bytes, const Node& node);
 
 /// Throws RenderError for bytes that are no node.

@@ -7,14 +7,13 @@ namespace {
 
 void add(NodeIndex& index, const Node& node, int depth) {
   if (depth > max_nesting)
-    throw SceneError(
-        at(node.where, "elements are nested more than " + std::to_string(max_nesting) + " deep"));
+    throw SceneError(at(node.where, "elements are nested more than {} deep", max_nesting));
   if (!node.id.empty() && node.family != "ref") {
     const auto [first, is_new] = index.emplace(node.id, &node);
     if (!is_new) {
       const std::string place = describe(first->second->where);
-      throw SceneError(at(node.where, "the id " + quote(node.id) + " is given twice" +
-                                          (place.empty() ? "" : ", first at " + place)));
+      throw SceneError(at(node.where, "the id {} is given twice{}", quote(node.id),
+                          place.empty() ? "" : ", first at " + place));
     }
   }
   for (const Node& child : node.children) add(index, child, depth + 1);
@@ -34,8 +33,8 @@ const Node& find_node(const NodeIndex& index, const std::string& id, const Locat
   std::vector<std::string> ids;
   for (const auto& [known, node] : index) ids.push_back(known);
   const std::string near = closest(id.substr(0, 80), ids);
-  throw SceneError(at(where, "nothing has the id " + quote(id) +
-                                 (near.empty() ? "" : "; did you mean " + quote(near) + "?")));
+  throw SceneError(at(where, "nothing has the id {}{}", quote(id),
+                      near.empty() ? "" : "; did you mean " + quote(near) + "?"));
 }
 
 }  // namespace mlt

@@ -1,5 +1,5 @@
-// A scene description as bytes, with the files that it reads, so that another process or machine can
-// build the same scene.
+// A scene description as bytes, with the files that it reads, so that another process or machine
+// can build the same scene.
 #pragma once
 
 #include "io/load.h"

@@ -24,20 +24,16 @@ std::string tag_of(ParamType type) {
   return "";
 }
 
-template <class T>
-std::optional<Value> as_value(const std::optional<T>& parsed) {
-  return parsed ? std::optional<Value>(*parsed) : std::nullopt;
-}
-
 std::optional<Value> parse(const std::string& text, const std::string& tag) {
+  const auto as_value = [](const auto& parsed) {
+    return parsed ? std::optional<Value>(*parsed) : std::nullopt;
+  };
   if (tag == "boolean") return as_value(parse_boolean(text));
   if (tag == "integer") return as_value(parse_integer(text));
   if (tag == "float") return as_value(parse_real(text));
   if (tag == "string") return Value(text);
   if (tag == "spectrum") return parse_color(text);
-  const auto numbers = parse_reals(text);
-  if (!numbers || numbers->size() != 3) return std::nullopt;
-  return Triple{(*numbers)[0], (*numbers)[1], (*numbers)[2]};
+  return as_value(parse_triple(text));
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include "io/text.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace mlt {
@@ -47,12 +49,11 @@ std::string SearchPath::find(const std::string& name, bool directory, const Loca
     for (const fs::path& base : directories_)
       if (is_there(base / spelling, directory)) return make_absolute(base / spelling).string();
   }
-  std::string looked;
+  std::vector<std::string> looked;
   if (!fs::path(name).is_absolute())
-    for (const fs::path& base : directories_)
-      looked += (looked.empty() ? "" : ", ") + base.string();
-  throw SceneError(at(where, std::string("there is no ") + (directory ? "directory " : "file ") +
-                                 quote(name) + (looked.empty() ? "" : " in " + looked)));
+    for (const fs::path& base : directories_) looked.push_back(base.string());
+  throw SceneError(at(where, "there is no {} {}{}", directory ? "directory" : "file", quote(name),
+                      looked.empty() ? "" : fmt::format(" in {}", fmt::join(looked, ", "))));
 }
 
 }  // namespace mlt

@@ -27,12 +27,6 @@ std::string quote(std::string_view text) {
   return out + (text.size() > longest ? "...'" : "'");
 }
 
-std::string join(const std::vector<std::string>& words) {
-  std::string out;
-  for (const std::string& word : words) out += (out.empty() ? "" : ", ") + word;
-  return out;
-}
-
 std::string_view trim(std::string_view text) {
   while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
   while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
@@ -88,6 +82,12 @@ std::optional<std::vector<double>> parse_reals(std::string_view text) {
     numbers.push_back(*number);
   }
   return numbers;
+}
+
+std::optional<std::array<double, 3>> parse_triple(std::string_view text) {
+  const auto numbers = parse_reals(text);
+  if (!numbers || numbers->size() != 3) return std::nullopt;
+  return std::array<double, 3>{(*numbers)[0], (*numbers)[1], (*numbers)[2]};
 }
 
 }  // namespace mlt

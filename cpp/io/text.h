@@ -1,6 +1,7 @@
 // Numbers and lists as scene files write them. Nothing here depends on the locale.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -11,9 +12,6 @@ namespace mlt {
 
 /// 'text' in quotes for a message: short, and on one line whatever it holds.
 std::string quote(std::string_view text);
-
-/// "a, b, c".
-std::string join(const std::vector<std::string>& words);
 
 std::string_view trim(std::string_view text);
 
@@ -28,5 +26,7 @@ std::optional<bool> parse_boolean(std::string_view text);
 
 /// A list of numbers; nullopt if one of the words is not a number.
 std::optional<std::vector<double>> parse_reals(std::string_view text);
+/// Exactly three numbers.
+std::optional<std::array<double, 3>> parse_triple(std::string_view text);
 
 }  // namespace mlt

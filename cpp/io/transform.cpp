@@ -32,11 +32,11 @@ Mat4 rotation(const Element& step) {
 
 Vec3 corner(const Element& step, const std::string& attribute) {
   const std::string& text = step.require(attribute);
-  const auto numbers = parse_reals(text);
-  if (!numbers || numbers->size() != 3)
+  const auto numbers = parse_triple(text);
+  if (!numbers)
     step.fail("has " + attribute + " = " + quote(text) +
               ", but it should be three numbers such as 0, 1, 2");
-  return {(*numbers)[0], (*numbers)[1], (*numbers)[2]};
+  return vector_of(*numbers);
 }
 
 /// The frame whose z axis points from `origin` to `target` and whose y axis is nearest to `up`;

@@ -24,22 +24,20 @@ const std::map<std::string, std::string>& examples() {
   return table;
 }
 
-[[noreturn]] void fail_value(const Element& element, const std::string& text) {
-  element.fail("is " + quote(text) + ", but should be " + example_of(element.tag));
+/// What `parse` makes of the attribute `value`; an error if it is nothing.
+template <class Parse>
+auto read_as(const Element& element, Parse parse) {
+  const std::string& text = element.require("value");
+  auto value = parse(text);
+  if (!value) element.fail("is " + quote(text) + ", but should be " + example_of(element.tag));
+  return *value;
 }
 
-double read_real(const Element& element, const std::string& text) {
-  const std::optional<double> number = parse_real(text);
-  if (!number) fail_value(element, text);
-  return *number;
-}
-
-std::optional<Triple> parse_triple(const std::string& text) {
+/// Three numbers, or one for all three.
+std::optional<Triple> parse_one_or_three(const std::string& text) {
   const auto numbers = parse_reals(text);
-  if (!numbers) return std::nullopt;
-  if (numbers->size() == 1) return Triple{(*numbers)[0], (*numbers)[0], (*numbers)[0]};
-  if (numbers->size() != 3) return std::nullopt;
-  return Triple{(*numbers)[0], (*numbers)[1], (*numbers)[2]};
+  if (numbers && numbers->size() == 1) return Triple{(*numbers)[0], (*numbers)[0], (*numbers)[0]};
+  return parse_triple(text);
 }
 
 Triple decode_srgb(const Triple& encoded) {
@@ -57,11 +55,9 @@ std::optional<Triple> parse_hex(std::string_view text) {
 }
 
 Triple read_rgb(const Element& element) {
-  const std::string& text = element.require("value");
-  if (const auto linear = parse_hex(text)) return *linear;
-  const auto triple = parse_triple(text);
-  if (!triple) fail_value(element, text);
-  return element.tag == "srgb" ? decode_srgb(*triple) : *triple;
+  if (const auto linear = parse_hex(element.require("value"))) return *linear;
+  const Triple triple = read_as(element, parse_one_or_three);
+  return element.tag == "srgb" ? decode_srgb(triple) : triple;
 }
 
 std::optional<Spectrum> checked(Spectrum samples) {
@@ -100,10 +96,7 @@ Value read_spectrum(const Element& element, const SearchPath& search) {
       element.fail("has both a 'value' and a 'filename'; give one of them");
     return read_spectrum_file(element, search);
   }
-  const std::string& text = element.require("value");
-  const auto value = parse_color(text);
-  if (!value) fail_value(element, text);
-  return *value;
+  return read_as(element, parse_color);
 }
 
 }  // namespace
@@ -132,7 +125,7 @@ std::optional<Value> parse_color(const std::string& text) {
   }
   if (const auto number = parse_real(text)) return Value(*number);
   if (const auto linear = parse_hex(text)) return Value(*linear);
-  const auto triple = parse_triple(text);
+  const auto triple = parse_one_or_three(text);
   return triple ? std::optional<Value>(*triple) : std::nullopt;
 }
 
@@ -141,7 +134,7 @@ Triple read_triple(const Element& element, double missing) {
   if (const std::string* text = element.find("value")) {
     for (const char* axis : axes)
       if (element.find(axis)) element.fail(std::string("has both 'value' and '") + axis + "'");
-    const auto triple = parse_triple(*text);
+    const auto triple = parse_one_or_three(*text);
     if (!triple)
       element.fail("is " + quote(*text) + ", but should be three numbers such as 0, 1, 2");
     return *triple;
@@ -174,16 +167,9 @@ Value read_value(const Element& element, const SearchPath& search) {
     if (!element.find("value")) element.require("value");
     return element.get("value");
   }
-  const std::string& text = element.require("value");
-  if (tag == "float") return read_real(element, text);
-  if (tag == "integer") {
-    const auto number = parse_integer(text);
-    if (!number) fail_value(element, text);
-    return *number;
-  }
-  const auto truth = parse_boolean(text);
-  if (!truth) fail_value(element, text);
-  return *truth;
+  if (tag == "float") return read_as(element, parse_real);
+  if (tag == "integer") return read_as(element, parse_integer);
+  return read_as(element, parse_boolean);
 }
 
 }  // namespace mlt

@@ -2,6 +2,8 @@
 
 #include "io/text.h"
 
+#include <fmt/format.h>
+
 #include <cctype>
 
 namespace mlt {
@@ -48,16 +50,17 @@ std::string Variables::substitute(const std::string& text, const Location& where
     if (name.empty()) {
       std::vector<std::string> known;
       for (const auto& [known_name, value] : values_) known.push_back("$" + known_name);
-      throw SceneError(at(where, "$" + text.substr(i + 1, std::min<size_t>(end - i - 1, 80)) +
-                                     " has no value; give it one with -D or <default>" +
-                                     (known.empty() ? "" : "; known are: " + join(known))));
+      throw SceneError(
+          at(where, "${} has no value; give it one with -D or <default>{}",
+             text.substr(i + 1, std::min<size_t>(end - i - 1, 80)),
+             known.empty() ? "" : fmt::format("; known are: {}", fmt::join(known, ", "))));
     }
     unused_.erase(name);
     out += values_.at(name);
     i += 1 + name.size();
     if (out.size() > longest_value)
-      throw SceneError(at(where, "a value made of $names is longer than " +
-                                     std::to_string(longest_value) + " characters"));
+      throw SceneError(
+          at(where, "a value made of $names is longer than {} characters", longest_value));
   }
   return out;
 }

@@ -1,14 +1,18 @@
-#include "io/xml_reader.h"
-
+// From Mitsuba XML, either dialect, to a tree of nodes.
+#include "image/atomic_file.h"
+#include "io/element.h"
 #include "io/families.h"
+#include "io/load.h"
 #include "io/node_index.h"
+#include "io/search_path.h"
 #include "io/text.h"
 #include "io/transform.h"
 #include "io/values.h"
+#include "io/variables.h"
+#include "io/xml_document.h"
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 
 namespace mlt {
 namespace fs = std::filesystem;
@@ -21,18 +25,6 @@ constexpr size_t longest_name = 1000;
 /// Families whose string `filename` is a file to read. (A film's is one to write.)
 bool reads_a_file(const std::string& family) {
   return family == "shape" || family == "texture" || family == "emitter" || family == "bsdf";
-}
-
-std::string read_text(const std::string& path, const std::string& shown) {
-  std::error_code error;
-  if (!fs::exists(path, error)) throw FileError("there is no file " + shown);
-  if (!fs::is_regular_file(path, error)) throw FileError(shown + " is not a file");
-  const uintmax_t size = fs::file_size(path, error);
-  std::ifstream file(path, std::ios::binary);
-  std::string text(error ? 0 : size, '\0');
-  if (!file.read(text.data(), static_cast<std::streamsize>(text.size())))
-    throw FileError("cannot read " + shown);
-  return text;
 }
 
 std::string canonical(const std::string& path) {
@@ -64,222 +56,234 @@ void rename_references(Node& node, const std::map<std::string, std::string>& tar
   for (Node& child : node.children) rename_references(child, target_of);
 }
 
-}  // namespace
+class XmlReader {
+ public:
+  XmlReader(const LoadOptions& options, std::vector<std::string>& warnings)
+      : variables_(options.defines), warnings_(warnings) {}
 
-XmlReader::XmlReader(const LoadOptions& options, std::vector<std::string>& warnings)
-    : variables_(options.defines), warnings_(warnings) {}
-
-Node XmlReader::read_file(const std::string& path) {
-  open_files_ = {canonical(path)};
-  const XmlDocument document(read_text(path, path), path);
-  return read_document(document, fs::path(path).parent_path().string());
-}
-
-Node XmlReader::read_string(const std::string& xml, const std::string& directory) {
-  const XmlDocument document(xml, "<string>");
-  return read_document(document, directory);
-}
-
-Node XmlReader::read_document(const XmlDocument& document, const std::string& directory) {
-  Source source{document, {}, false};
-  source.search.prepend(directory);
-  const Element root = element(document.root(), source);
-  source.spectral = is_modern(root.get("version"));
-  if (root.tag != "scene" && !is_plugin_family(root.tag)) {
-    refuse_element(root.tag, root.get("type"), root.where);
-    root.fail("is not a scene; the root element should be <scene>");
+  Node read_file(const std::string& path) {
+    open_files_ = {canonical(path)};
+    const XmlDocument document(mlt::read_file(path), path);
+    return read_document(document, fs::path(path).parent_path().string());
   }
-  Node node = read_plugin(document.root(), root, source, 1);
-  resolve_aliases(node);
-  variables_.expect_all_used();
-  return node;
-}
 
-Element XmlReader::element(const pugi::xml_node& node, const Source& source) {
-  Element e{node.name(), {source.document.file(), source.document.line(node)}, {}};
-  for (const pugi::xml_attribute& attribute : node.attributes()) {
-    const std::string name = attribute.name();
-    if (e.find(name)) e.fail("has the attribute " + quote(name) + " twice");
-    std::string value = variables_.substitute(attribute.value(), e.where);
-    const bool is_name = name == "name" || name == "type" || name == "id" || name == "as";
-    if (is_name && value.size() > longest_name) e.fail("has a '" + name + "' that is too long");
-    if (std::any_of(value.begin(), value.end(), [](unsigned char c) { return c < ' '; }))
-      e.fail("has a control character in its attribute " + quote(name));
-    e.attributes.emplace_back(name, std::move(value));
+  Node read_string(const std::string& xml, const std::string& directory) {
+    const XmlDocument document(xml, "<string>");
+    return read_document(document, directory);
   }
-  return e;
-}
 
-Node XmlReader::read_plugin(const pugi::xml_node& xml, const Element& element, Source& source,
-                            int depth) {
-  Node node;
-  node.family = element.tag;
-  node.where = element.where;
-  node.id = element.get("id");
-  node.name = element.get("name");
-  element.expect_only({"type", "id", "name", "version"});
-  node.type = element.tag == "scene" ? "scene" : element.require("type");
-  read_children(xml, node, source, depth);
-  return node;
-}
+ private:
+  /// What is being read, and where the files that it names are looked for.
+  struct Source {
+    const XmlDocument& document;
+    SearchPath search;
+    /// Is a <spectrum> of one number the same power at all wavelengths, and not grey? It is since
+    /// Mitsuba 2, and differs for what emits.
+    bool spectral;
+  };
 
-void XmlReader::read_children(const pugi::xml_node& xml, Node& parent, Source& source, int depth) {
-  for (const pugi::xml_node& child : xml.children()) {
-    if (child.type() == pugi::node_element) {
-      read_child(child, parent, source, depth + 1);
-    } else if (child.type() == pugi::node_pcdata || child.type() == pugi::node_cdata) {
-      const Location where{source.document.file(), source.document.line(xml)};
-      throw SceneError(at(where, "<" + std::string(xml.name()) + "> contains the text " +
-                                     quote(trim(child.value())) +
-                                     "; only elements are expected here"));
+  Node read_document(const XmlDocument& document, const std::string& directory) {
+    Source source{document, {}, false};
+    source.search.prepend(directory);
+    const Element root = element(document.root(), source);
+    source.spectral = is_modern(root.get("version"));
+    if (root.tag != "scene" && !is_plugin_family(root.tag)) {
+      refuse_element(root.tag, root.get("type"), root.where);
+      root.fail("is not a scene; the root element should be <scene>");
+    }
+    Node node = read_plugin(document.root(), root, source, 1);
+    resolve_aliases(node);
+    variables_.expect_all_used();
+    return node;
+  }
+
+  Element element(const pugi::xml_node& node, const Source& source) {
+    Element e{node.name(), {source.document.file(), source.document.line(node)}, {}};
+    for (const pugi::xml_attribute& attribute : node.attributes()) {
+      const std::string name = attribute.name();
+      if (e.find(name)) e.fail("has the attribute " + quote(name) + " twice");
+      std::string value = variables_.substitute(attribute.value(), e.where);
+      const bool is_name = name == "name" || name == "type" || name == "id" || name == "as";
+      if (is_name && value.size() > longest_name) e.fail("has a '" + name + "' that is too long");
+      if (std::any_of(value.begin(), value.end(), [](unsigned char c) { return c < ' '; }))
+        e.fail("has a control character in its attribute " + quote(name));
+      e.attributes.emplace_back(name, std::move(value));
+    }
+    return e;
+  }
+
+  Node read_plugin(const pugi::xml_node& xml, const Element& element, Source& source, int depth) {
+    Node node;
+    node.family = element.tag;
+    node.where = element.where;
+    node.id = element.get("id");
+    node.name = element.get("name");
+    element.expect_only({"type", "id", "name", "version"});
+    node.type = element.tag == "scene" ? "scene" : element.require("type");
+    read_children(xml, node, source, depth);
+    return node;
+  }
+
+  void read_children(const pugi::xml_node& xml, Node& parent, Source& source, int depth) {
+    for (const pugi::xml_node& child : xml.children()) {
+      if (child.type() == pugi::node_element) {
+        read_child(child, parent, source, depth + 1);
+      } else if (child.type() == pugi::node_pcdata || child.type() == pugi::node_cdata) {
+        const Location where{source.document.file(), source.document.line(xml)};
+        throw SceneError(at(where, "<{}> contains the text {}; only elements are expected here",
+                            xml.name(), quote(trim(child.value()))));
+      }
     }
   }
-}
 
-void XmlReader::read_child(const pugi::xml_node& xml, Node& parent, Source& source, int depth) {
-  const Location where{source.document.file(), source.document.line(xml)};
-  const std::string tag = xml.name();
-  if (depth > max_nesting)
-    throw SceneError(
-        at(where, "elements are nested more than " + std::to_string(max_nesting) + " deep"));
-  const bool known = is_plugin_family(tag) || is_value_tag(tag) || is_transform_tag(tag) ||
-                     std::count(scene_tags().begin(), scene_tags().end(), tag) || tag == "scene";
-  if (!known) {
-    refuse_element(tag, xml.attribute("type").value(), where);
-    return skip_foreign({tag, where, {}}, parent);
+  void read_child(const pugi::xml_node& xml, Node& parent, Source& source, int depth) {
+    const Location where{source.document.file(), source.document.line(xml)};
+    const std::string tag = xml.name();
+    if (depth > max_nesting)
+      throw SceneError(at(where, "elements are nested more than {} deep", max_nesting));
+    const bool known = is_plugin_family(tag) || is_value_tag(tag) || is_transform_tag(tag) ||
+                       std::count(scene_tags().begin(), scene_tags().end(), tag) || tag == "scene";
+    if (!known) {
+      refuse_element(tag, xml.attribute("type").value(), where);
+      return skip_foreign({tag, where, {}}, parent);
+    }
+
+    const Element e = element(xml, source);
+    if (tag == "spectrum" && e.find("type")) refuse_element(tag, e.get("type"), where);
+    if (is_plugin_family(tag)) {
+      parent.children.push_back(read_plugin(xml, e, source, depth));
+      return;
+    }
+    if (tag == "transform") return read_transform_property(xml, e, parent, source);
+    for (const pugi::xml_node& child : xml.children())
+      if (child.type() != pugi::node_comment) e.fail("should be empty, but has something inside");
+
+    if (tag == "ref") {
+      e.expect_only({"id", "name"});
+      parent.children.push_back({"ref", e.require("id"), "", e.get("name"), where, {}, {}});
+    } else if (tag == "default") {
+      e.expect_only({"name", "value"});
+      if (!e.find("value")) e.require("value");
+      variables_.set_default(e.require("name"), e.get("value"));
+    } else if (tag == "include") {
+      read_include(e, parent, source, depth);
+    } else if (tag == "path") {
+      e.expect_only({"value"});
+      if (parent.family != "scene") e.fail("must stand at the top of the scene");
+      source.search.prepend(source.search.find_directory(e.require("value"), where));
+    } else if (tag == "alias") {
+      e.expect_only({"id", "as"});
+      if (!aliases_.emplace(e.require("as"), Alias{e.require("id"), where}).second)
+        e.fail("gives the name " + quote(e.get("as")) + " a second time");
+    } else if (is_value_tag(tag)) {
+      read_property(e, parent, source);
+    } else {
+      e.fail(tag == "scene" ? "cannot stand inside another element"
+                            : "can only stand inside a <transform>");
+    }
   }
 
-  const Element e = element(xml, source);
-  if (tag == "spectrum" && e.find("type")) refuse_element(tag, e.get("type"), where);
-  if (is_plugin_family(tag)) {
-    parent.children.push_back(read_plugin(xml, e, source, depth));
-    return;
+  void read_property(const Element& element, Node& parent, const Source& source) {
+    const std::string& name = element.require("name");
+    if (parent.family == "scene") {
+      warnings_.push_back(
+          at(element.where, element.title() + " has no effect at the top of a scene"));
+      return;
+    }
+    Value value = read_value(element, source.search);
+    if (name == "filename" && element.tag == "string" && reads_a_file(parent.family))
+      value = source.search.find_file(std::get<std::string>(value), element.where);
+    const double* number = std::get_if<double>(&value);
+    if (number && element.tag == "spectrum" && source.spectral) value = constant_spectrum(*number);
+    parent.properties.push_back({name, std::move(value), element.where});
   }
-  if (tag == "transform") return read_transform_property(xml, e, parent, source);
-  for (const pugi::xml_node& child : xml.children())
-    if (child.type() != pugi::node_comment) e.fail("should be empty, but has something inside");
 
-  if (tag == "ref") {
-    e.expect_only({"id", "name"});
-    Node ref;
-    ref.family = "ref";
-    ref.type = e.require("id");
-    ref.name = e.get("name");
-    ref.where = where;
-    parent.children.push_back(std::move(ref));
-  } else if (tag == "default") {
-    e.expect_only({"name", "value"});
-    if (!e.find("value")) e.require("value");
-    variables_.set_default(e.require("name"), e.get("value"));
-  } else if (tag == "include") {
-    read_include(e, parent, source, depth);
-  } else if (tag == "path") {
-    e.expect_only({"value"});
-    if (parent.family != "scene") e.fail("must stand at the top of the scene");
-    source.search.prepend(source.search.find_directory(e.require("value"), where));
-  } else if (tag == "alias") {
-    e.expect_only({"id", "as"});
-    if (!aliases_.emplace(e.require("as"), Alias{e.require("id"), where}).second)
-      e.fail("gives the name " + quote(e.get("as")) + " a second time");
-  } else if (is_value_tag(tag)) {
-    read_property(e, parent, source);
-  } else {
-    e.fail(tag == "scene" ? "cannot stand inside another element"
-                          : "can only stand inside a <transform>");
+  void read_transform_property(const pugi::xml_node& xml, const Element& element, Node& parent,
+                               const Source& source) {
+    element.expect_only({"name"});
+    std::vector<Element> steps;
+    for (const pugi::xml_node& child : xml.children()) {
+      if (child.type() == pugi::node_element) steps.push_back(this->element(child, source));
+      if (child.type() == pugi::node_pcdata || child.type() == pugi::node_cdata)
+        element.fail("contains a text; only steps such as <translate> are expected here");
+    }
+    if (parent.family == "scene")
+      element.fail("has no effect at the top of a scene; put it inside a shape");
+    parent.properties.push_back({element.require("name"), read_transform(steps), element.where});
   }
-}
 
-void XmlReader::read_property(const Element& element, Node& parent, const Source& source) {
-  const std::string& name = element.require("name");
-  if (parent.family == "scene") {
+  void read_include(const Element& element, Node& parent, const Source& source, int depth) {
+    element.expect_only({"filename", "name"});
+    const std::string path = source.search.find_file(element.require("filename"), element.where);
+    const std::string identity = canonical(path);
+    if (std::count(open_files_.begin(), open_files_.end(), identity))
+      element.fail("includes " + path +
+                   ", which is being read already: the files include each other");
+    if (open_files_.size() > max_include_depth)
+      element.fail("is nested more than " + std::to_string(max_include_depth) + " files deep");
+    if (++include_count_ > max_includes)
+      element.fail("is one of more than " + std::to_string(max_includes) + " includes");
+
+    open_files_.push_back(identity);
+    const XmlDocument document(mlt::read_file(path), path);
+    Source inner{document, source.search, source.spectral};
+    inner.search.prepend(fs::path(path).parent_path());
+    const Element root = this->element(document.root(), inner);
+    if (root.find("version")) inner.spectral = is_modern(root.get("version"));
+    if (root.tag == "scene") {
+      read_children(document.root(), parent, inner, depth);
+    } else if (is_plugin_family(root.tag)) {
+      Node node = read_plugin(document.root(), root, inner, depth);
+      if (element.find("name")) node.name = element.get("name");
+      parent.children.push_back(std::move(node));
+    } else {
+      refuse_element(root.tag, root.get("type"), root.where);
+      root.fail("cannot be included; the root element should be <scene> or a plug-in");
+    }
+    open_files_.pop_back();
+  }
+
+  void skip_foreign(const Element& element, const Node& parent) {
+    const std::string tag = element.tag.substr(0, 80), near = closest(tag, scene_tags());
+    if (parent.family != "scene" || !near.empty())
+      throw SceneError(at(element.where, "unknown element <{}> in {}{}", tag, parent.family,
+                          near.empty() ? "" : "; did you mean <" + near + ">?"));
     warnings_.push_back(
-        at(element.where, element.title() + " has no effect at the top of a scene"));
-    return;
+        at(element.where, "the element <{}> is not known here and was skipped", tag));
   }
-  Value value = read_value(element, source.search);
-  if (name == "filename" && element.tag == "string" && reads_a_file(parent.family))
-    value = source.search.find_file(std::get<std::string>(value), element.where);
-  const double* number = std::get_if<double>(&value);
-  if (number && element.tag == "spectrum" && source.spectral) value = constant_spectrum(*number);
-  parent.properties.push_back({name, std::move(value), element.where});
-}
 
-void XmlReader::read_transform_property(const pugi::xml_node& xml, const Element& element,
-                                        Node& parent, const Source& source) {
-  element.expect_only({"name"});
-  std::vector<Element> steps;
-  for (const pugi::xml_node& child : xml.children()) {
-    if (child.type() == pugi::node_element) steps.push_back(this->element(child, source));
-    if (child.type() == pugi::node_pcdata || child.type() == pugi::node_cdata)
-      element.fail("contains a text; only steps such as <translate> are expected here");
-  }
-  if (parent.family == "scene")
-    element.fail("has no effect at the top of a scene; put it inside a shape");
-  parent.properties.push_back({element.require("name"), read_transform(steps), element.where});
-}
-
-void XmlReader::read_include(const Element& element, Node& parent, const Source& source,
-                             int depth) {
-  element.expect_only({"filename", "name"});
-  const std::string path = source.search.find_file(element.require("filename"), element.where);
-  const std::string identity = canonical(path);
-  if (std::count(open_files_.begin(), open_files_.end(), identity))
-    element.fail("includes " + path +
-                 ", which is being read already: the files include each other");
-  if (open_files_.size() > max_include_depth)
-    element.fail("is nested more than " + std::to_string(max_include_depth) + " files deep");
-  if (++include_count_ > max_includes)
-    element.fail("is one of more than " + std::to_string(max_includes) + " includes");
-
-  open_files_.push_back(identity);
-  const XmlDocument document(read_text(path, path), path);
-  Source inner{document, source.search, source.spectral};
-  inner.search.prepend(fs::path(path).parent_path());
-  const Element root = this->element(document.root(), inner);
-  if (root.find("version")) inner.spectral = is_modern(root.get("version"));
-  if (root.tag == "scene") {
-    read_children(document.root(), parent, inner, depth);
-  } else if (is_plugin_family(root.tag)) {
-    Node node = read_plugin(document.root(), root, inner, depth);
-    if (element.find("name")) node.name = element.get("name");
-    parent.children.push_back(std::move(node));
-  } else {
-    refuse_element(root.tag, root.get("type"), root.where);
-    root.fail("cannot be included; the root element should be <scene> or a plug-in");
-  }
-  open_files_.pop_back();
-}
-
-void XmlReader::skip_foreign(const Element& element, const Node& parent) {
-  const std::string near = closest(element.tag.substr(0, 80), scene_tags());
-  if (parent.family == "scene" && near.empty()) {
-    warnings_.push_back(at(element.where, "the element <" + element.tag.substr(0, 80) +
-                                              "> is not known here and was skipped"));
-    return;
-  }
-  throw SceneError(at(element.where, "unknown element <" + element.tag.substr(0, 80) + "> in " +
-                                         parent.family +
-                                         (near.empty() ? "" : "; did you mean <" + near + ">?")));
-}
-
-void XmlReader::resolve_aliases(Node& root) const {
-  const NodeIndex index = index_nodes(root);
-  std::map<std::string, std::string> target_of;
-  for (const auto& [name, alias] : aliases_) {
-    if (index.count(name))
-      throw SceneError(
-          at(alias.where, "the alias " + quote(name) + " is already the id of an object"));
-    std::string target = alias.id;
-    for (size_t hops = 0; aliases_.count(target); ++hops) {
-      if (hops > aliases_.size())
-        throw SceneError(at(alias.where, "the alias " + quote(name) + " means itself"));
-      target = aliases_.at(target).id;
+  void resolve_aliases(Node& root) const {
+    const NodeIndex index = index_nodes(root);
+    std::map<std::string, std::string> target_of;
+    for (const auto& [name, alias] : aliases_) {
+      if (index.count(name))
+        throw SceneError(
+            at(alias.where, "the alias {} is already the id of an object", quote(name)));
+      std::string target = alias.id;
+      for (size_t hops = 0; aliases_.count(target); ++hops) {
+        if (hops > aliases_.size())
+          throw SceneError(at(alias.where, "the alias {} means itself", quote(name)));
+        target = aliases_.at(target).id;
+      }
+      find_node(index, target, alias.where);
+      target_of[name] = target;
     }
-    find_node(index, target, alias.where);
-    target_of[name] = target;
+    if (!target_of.empty()) rename_references(root, target_of);
   }
-  if (!target_of.empty()) rename_references(root, target_of);
-}
+
+  struct Alias {
+    std::string id;
+    Location where;
+  };
+
+  Variables variables_;
+  std::vector<std::string>& warnings_;
+  std::vector<std::string> open_files_;  ///< Each includes the next.
+  int include_count_ = 0;
+  std::map<std::string, Alias> aliases_;  ///< By the new name.
+};
+
+}  // namespace
 
 Node read_xml_file(const std::string& path, const LoadOptions& options,
                    std::vector<std::string>& warnings) {

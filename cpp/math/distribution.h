@@ -50,9 +50,10 @@ class Discrete {
   double total_ = 0;
 };
 
-/// A density on [0,1]^2 that is constant in each cell of a `width` x `height` grid (x runs fastest).
-/// Each row's cumulative table holds 32-bit integers: 4 bytes per cell, as floats would take, but
-/// with a resolution of 2^-32 everywhere, and every cell of positive weight can be sampled.
+/// A density on [0,1]^2 that is constant in each cell of a `width` x `height` grid (x runs
+/// fastest). Each row's cumulative table holds 32-bit integers: 4 bytes per cell, as floats would
+/// take, but with a resolution of 2^-32 everywhere, and every cell of positive weight can be
+/// sampled.
 class Piecewise2D {
  public:
   Piecewise2D() = default;

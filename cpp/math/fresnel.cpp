@@ -5,7 +5,7 @@ namespace mlt {
 namespace {
 
 /// 2 int_0^1 F(c) c dc for eta > 1. F is analytic on (0, 1) but has, for eta near 1, a root almost
-/// at c = 0; the double-exponential rule (Takahasi & Mori 1974) does not mind.
+/// at c = 0; the double-exponential rule (Takahasi & Mori 1974) handles it.
 double external_reflectance(double eta) {
   constexpr double step = 1.0 / 64;
   double sum = 0;

@@ -8,9 +8,10 @@
 
 namespace mlt {
 
-/// The image of i under a permutation of {0, ..., n - 1} that `key` names: rounds of a bijective mixer on
-/// the next power of two, repeated until the result is in range (cycle walking, Black & Rogaway 2002).
-/// A rotation at the end makes the image of every single i exactly uniform over the keys.
+/// The image of i under a permutation of {0, ..., n - 1} that `key` names: rounds of a bijective
+/// mixer on the next power of two, repeated until the result is in range (cycle walking, Black &
+/// Rogaway 2002). A rotation at the end makes the image of every single i exactly uniform over the
+/// keys.
 inline uint32_t permute(uint32_t i, uint32_t n, uint64_t key) {
   uint32_t mask = n - 1;
   for (int shift = 1; shift < 32; shift *= 2) mask |= mask >> shift;
@@ -29,7 +30,8 @@ inline uint32_t permute(uint32_t i, uint32_t n, uint64_t key) {
   return static_cast<uint32_t>(rotated < n ? rotated : rotated - n);
 }
 
-/// Point i of n points in the unit square, each in a cell of its own of a grid and uniform by itself.
+/// Point i of n points in the unit square, each in a cell of its own of a grid and uniform by
+/// itself.
 inline Vec2 stratified_point(uint32_t i, uint32_t n, uint64_t key) {
   const auto columns = static_cast<uint32_t>(std::ceil(std::sqrt(static_cast<double>(n))));
   const uint32_t rows = (n + columns - 1) / columns;

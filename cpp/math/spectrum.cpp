@@ -149,41 +149,43 @@ Vec3 response(double wavelength, bool under_d65) {
   return xyz * (light / y_sum);
 }
 
-void check(const std::vector<SpectrumSample>& samples) {
+void check(const Spectrum& samples) {
   if (samples.size() < 2)
     throw UsageError(fmt::format(
         "a spectrum needs at least two wavelength:value pairs, this one has {}", samples.size()));
   for (size_t i = 0; i < samples.size(); ++i) {
-    if (!std::isfinite(samples[i].wavelength) || !std::isfinite(samples[i].value))
+    const auto [wavelength, value] = samples[i];
+    if (!std::isfinite(wavelength) || !std::isfinite(value))
       throw UsageError(fmt::format("pair {} of a spectrum is {}:{}, not two finite numbers", i + 1,
-                                   samples[i].wavelength, samples[i].value));
-    if (i > 0 && samples[i].wavelength <= samples[i - 1].wavelength)
+                                   wavelength, value));
+    if (i > 0 && wavelength <= samples[i - 1].first)
       throw UsageError(
           fmt::format("the wavelengths of a spectrum must increase, but {} comes after {}",
-                      samples[i].wavelength, samples[i - 1].wavelength));
+                      wavelength, samples[i - 1].first));
   }
 }
 
 /// Mitsuba's quadrature: 1000 points that include both ends, each worth 470 nm / 1000.
-Vec3 spectrum_to_xyz(const std::vector<SpectrumSample>& samples, bool under_d65) {
+Vec3 spectrum_to_xyz(const Spectrum& samples, bool under_d65) {
   constexpr int points = 1000;
   constexpr double range = last_wavelength - first_wavelength;
   Vec3 xyz(0.0);
   size_t i = 0;
   for (int p = 0; p < points; ++p) {
     const double w = first_wavelength + p * (range / (points - 1));
-    if (w < samples.front().wavelength || w > samples.back().wavelength) continue;
-    while (i + 2 < samples.size() && samples[i + 1].wavelength <= w) ++i;
-    const SpectrumSample &a = samples[i], &b = samples[i + 1];
-    const double f = (w - a.wavelength) / (b.wavelength - a.wavelength);
-    xyz += response(w, under_d65) * (a.value + f * (b.value - a.value));
+    if (w < samples.front().first || w > samples.back().first) continue;
+    while (i + 2 < samples.size() && samples[i + 1].first <= w) ++i;
+    const auto [wa, a] = samples[i];
+    const auto [wb, b] = samples[i + 1];
+    const double f = (w - wa) / (wb - wa);
+    xyz += response(w, under_d65) * (a + f * (b - a));
   }
   return xyz * (range / points);
 }
 
 }  // namespace
 
-SpectrumColor spectrum_to_rgb(const std::vector<SpectrumSample>& samples, SpectrumUse use) {
+SpectrumColor spectrum_to_rgb(const Spectrum& samples, SpectrumUse use) {
   check(samples);
   const bool under_d65 = use == SpectrumUse::reflectance || use == SpectrumUse::unbounded;
   const Color rgb = xyz_to_srgb(spectrum_to_xyz(samples, under_d65));

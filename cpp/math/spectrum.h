@@ -2,16 +2,10 @@
 // variants of Mitsuba 3 follow, so that a scene means the same colours in both.
 #pragma once
 
+#include "base/schema.h"
 #include "math/color.h"
 
-#include <vector>
-
 namespace mlt {
-
-struct SpectrumSample {
-  double wavelength;  // nm
-  double value;
-};
 
 /// What a spectrum stands for: it decides the illuminant and the range.
 enum class SpectrumUse {
@@ -27,7 +21,7 @@ struct SpectrumColor {
 
 /// The pairs are interpolated linearly and are zero outside. Throws UsageError unless there are at
 /// least two, in strictly increasing wavelength, all finite.
-SpectrumColor spectrum_to_rgb(const std::vector<SpectrumSample>& samples, SpectrumUse use);
+SpectrumColor spectrum_to_rgb(const Spectrum& samples, SpectrumUse use);
 
 /// A spectrum with the same value everywhere: grey, except for an emitter, where it is the
 /// equal-energy illuminant (slightly red beside the D65 white of sRGB).

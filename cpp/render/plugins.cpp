@@ -4,60 +4,25 @@
 
 namespace mlt {
 
-// Each list is read twice: to declare the functions that describe the plug-ins, and to call them.
-#define MLT_PLUGIN(name) Plugin bsdf_##name();
-#include "scene/bsdf/list.inc"
-#undef MLT_PLUGIN
-#define MLT_PLUGIN(name) Plugin emitter_##name();
-#include "scene/emitter/list.inc"
-#undef MLT_PLUGIN
-#define MLT_PLUGIN(name) Plugin name();
-#include "scene/film/list.inc"
-#undef MLT_PLUGIN
-#define MLT_PLUGIN(name) Plugin name();
-#include "scene/film/list.inc"
-#undef MLT_PLUGIN
-#define MLT_PLUGIN(name) Plugin integrator_##name();
+/// MLT_PLUGIN(family, name) declares the function that describes the plug-in, and calls it. (Not in
+/// the unnamed namespace below: it would be taken to define those functions.)
+static void add_all(Registry& registry) {
+#define MLT_PLUGIN(family, name)     \
+  {                                  \
+    extern Plugin family##_##name(); \
+    registry.add(family##_##name()); \
+  }
 #include "integrator/list.inc"
-#undef MLT_PLUGIN
-#define MLT_PLUGIN(name) Plugin sensor_##name();
-#include "scene/camera/list.inc"
-#undef MLT_PLUGIN
-#define MLT_PLUGIN(name) Plugin shape_##name();
-#include "scene/shape/list.inc"
-#undef MLT_PLUGIN
-#define MLT_PLUGIN(name) Plugin texture_##name();
-#include "scene/texture/list.inc"
-#undef MLT_PLUGIN
-
-namespace {
-
-void add_all(Registry& registry) {
-#define MLT_PLUGIN(name) registry.add(bsdf_##name());
 #include "scene/bsdf/list.inc"
-#undef MLT_PLUGIN
-#define MLT_PLUGIN(name) registry.add(emitter_##name());
-#include "scene/emitter/list.inc"
-#undef MLT_PLUGIN
-#define MLT_PLUGIN(name) registry.add(name());
-#include "scene/film/list.inc"
-#undef MLT_PLUGIN
-#define MLT_PLUGIN(name) registry.add(name());
-#include "scene/film/list.inc"
-#undef MLT_PLUGIN
-#define MLT_PLUGIN(name) registry.add(integrator_##name());
-#include "integrator/list.inc"
-#undef MLT_PLUGIN
-#define MLT_PLUGIN(name) registry.add(sensor_##name());
 #include "scene/camera/list.inc"
-#undef MLT_PLUGIN
-#define MLT_PLUGIN(name) registry.add(shape_##name());
+#include "scene/emitter/list.inc"
+#include "scene/film/list.inc"
 #include "scene/shape/list.inc"
-#undef MLT_PLUGIN
-#define MLT_PLUGIN(name) registry.add(texture_##name());
 #include "scene/texture/list.inc"
 #undef MLT_PLUGIN
 }
+
+namespace {
 
 struct Refusal {
   const char* family;
@@ -65,14 +30,12 @@ struct Refusal {
   std::vector<const char*> names;
 };
 
-/// The plug-ins of Mitsuba 0.6 and 3. One that exists here after all is found before its refusal.
+/// The plug-ins of Mitsuba 0.6 and 3 that do not exist here.
 const std::vector<Refusal>& refusals() {
   static const char* not_yet = "not implemented yet";
   static const char* media = "participating media are not supported";
   static const char* polarised = "polarised rendering is not supported";
   static const char* curves = "hair and curves are not supported";
-  static const char* differentiable = "differentiable rendering is not supported";
-  static const char* layered = "layered and measured materials are not supported";
   static const std::vector<Refusal> table{
       {"shape",
        not_yet,
@@ -87,7 +50,9 @@ const std::vector<Refusal>& refusals() {
        {"mask", "bumpmap", "normalmap", "blendbsdf", "mixturebsdf", "principled", "principledthin",
         "thindielectric", "roughdiffuse", "ward", "difftrans"}},
       {"bsdf", polarised, {"pplastic", "polarizer", "retarder", "circular", "measured_polarized"}},
-      {"bsdf", layered, {"measured", "coating", "roughcoating", "irawan", "hapke"}},
+      {"bsdf",
+       "layered and measured materials are not supported",
+       {"measured", "coating", "roughcoating", "irawan", "hapke"}},
       {"bsdf", "subsurface scattering is not supported", {"hk", "sss", "dipole"}},
       {"bsdf", curves, {"hair"}},
       {"emitter",
@@ -114,16 +79,14 @@ const std::vector<Refusal>& refusals() {
       {"spectrum",
        "give rgb or wavelength:value pairs",
        {"blackbody", "d65", "uniform", "regular", "irregular", "rawconstant"}},
-      {"integrator",
-       not_yet,
-       {"ptracer", "bdpt", "mlt", "mmlt", "erpt", "ao", "depth", "field", "aov", "moment"}},
+      {"integrator", not_yet, {"mmlt", "erpt", "ao", "depth", "field", "aov", "moment"}},
       {"integrator", media, {"volpath", "volpath_simple", "volpathmis"}},
       {"integrator",
        "photon mapping and virtual point lights are not supported (they are biased)",
        {"photonmapper", "ppm", "sppm", "vpl", "irrcache"}},
       {"integrator", polarised, {"stokes"}},
       {"integrator",
-       differentiable,
+       "differentiable rendering is not supported",
        {"prb", "prb_basic", "prb_projective", "prbvolpath", "direct_projective", "emission_reparam",
         "volprim_rf_basic"}},
       {"integrator", "set a time or an error budget instead", {"adaptive"}},

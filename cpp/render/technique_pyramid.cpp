@@ -1,12 +1,12 @@
 #include "render/technique_pyramid.h"
 
-#include "image/text.h"
+#include "image/label.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
+#include <regex>
 
 namespace mlt {
 namespace {
@@ -105,24 +105,10 @@ class Pyramid {
 }  // namespace
 
 std::optional<TechniqueName> parse_technique(const std::string& layer) {
-  TechniqueName name;
-  const auto after = [&](const char*& at, const std::string& text) {
-    const size_t left = static_cast<size_t>(layer.data() + layer.size() - at);
-    if (left < text.size() || std::string(at, text.size()) != text) return false;
-    at += text.size();
-    return true;
-  };
-  const auto number = [&](const char*& at, int& value) {
-    const auto read = std::from_chars(at, layer.data() + layer.size(), value);
-    at = read.ptr;
-    return read.ec == std::errc() && value >= 0;
-  };
-  const char* at = layer.data();
-  name.weighted = after(at, "weighted.");
-  if (!name.weighted && !after(at, "raw.")) return std::nullopt;
-  const bool read = after(at, "s") && number(at, name.s) && after(at, ".t") && number(at, name.t);
-  if (!read || at != layer.data() + layer.size()) return std::nullopt;
-  return name;
+  static const std::regex pattern("(raw|weighted)\\.s(\\d{1,9})\\.t(\\d{1,9})");
+  std::smatch parts;
+  if (!std::regex_match(layer, parts, pattern)) return std::nullopt;
+  return TechniqueName{std::stoi(parts[2]), std::stoi(parts[3]), parts[1] == "weighted"};
 }
 
 std::optional<Image> technique_pyramid(const std::vector<NamedImage>& layers, double exposure,

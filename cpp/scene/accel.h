@@ -1,4 +1,4 @@
-// The ray accelerator. The only place that knows Embree.
+// The ray accelerator. accel.cpp is the only file that uses Embree.
 #pragma once
 
 #include "scene/ray.h"

@@ -11,8 +11,8 @@
 
 namespace mlt {
 
-/// The image plane in pixels. Samples are drawn over the crop window widened by `border`, the radius
-/// of the reconstruction filter.
+/// The image plane in pixels. Samples are drawn over the crop window widened by `border`, the
+/// radius of the reconstruction filter.
 struct Raster {
   Vec2i full_size{0};    ///< The whole image, which fixes the field of view.
   Vec2i crop_offset{0};  ///< Where the crop window starts in the whole image.
@@ -39,8 +39,8 @@ struct Raster {
 class Camera : public Object {
  public:
   /// Importance We(xk -> w) that the camera emits from xk along w, normalised so that its integral
-  /// over the lens and the projected solid angle of the *image* (size.x x size.y, without border) is
-  /// 1. For a pinhole: the coefficient of the delta position. 0 outside the sampled domain.
+  /// over the lens and the projected solid angle of the *image* (size.x x size.y, without border)
+  /// is 1. For a pinhole: the coefficient of the delta position. 0 outside the sampled domain.
   virtual double eval(const SurfacePoint& xk, const Vec3& w) const = 0;
 
   virtual PositionSample sample_position(const Vec2& u) const = 0;
@@ -52,8 +52,8 @@ class Camera : public Object {
   /// The raster position that a direction belongs to; nullopt behind the camera or outside the
   /// sampled domain. The inverse of `direction`.
   virtual std::optional<Vec2> raster_position(const SurfacePoint& xk, const Vec3& w) const = 0;
-  /// Density of w in projected solid angle at xk, when raster positions are uniform over the sampled
-  /// domain. 0 outside.
+  /// Density of w in projected solid angle at xk, when raster positions are uniform over the
+  /// sampled domain. 0 outside.
   virtual double pdf_direction(const SurfacePoint& xk, const Vec3& w) const = 0;
 
   /// A pinhole: no walk can hit the lens.

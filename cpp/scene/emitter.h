@@ -1,5 +1,6 @@
 // Where paths begin: a light. Positions are SurfacePoints (area measure; solid angle for lights at
-// infinity; a discrete probability of 1 for delta positions), directions are unit and in world space.
+// infinity; a discrete probability of 1 for delta positions), directions are unit and in world
+// space.
 #pragma once
 
 #include "base/object.h"
@@ -69,7 +70,7 @@ class Emitter : public Object {
 
   /// Tells the light, once and before rendering, how large the scene is.
   virtual void set_bounds(const Bounds&) {}
-  /// Area lights learn which shape they sit on.
+  /// Tells an area light which shape it is attached to.
   virtual void set_shape(const Shape*) {}
   virtual const Shape* shape() const { return nullptr; }
 

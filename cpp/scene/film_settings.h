@@ -11,6 +11,8 @@
 namespace mlt {
 
 struct FilmSettings : Object {
+  static constexpr int64_t max_side = 1 << 15, max_pixels = 1 << 28;
+
   Vec2i size{768, 576};
   Vec2i crop_offset{0};
   Vec2i crop_size{0};  ///< 0: the whole image.

@@ -27,11 +27,7 @@ size_t Mesh::bytes() const {
 }
 
 inline Mesh::Triangle Mesh::triangle(uint32_t index) const {
-  const auto& corners = data_.triangles[index];
-  const Vec3 p0(data_.positions[corners[0]]);
-  const Vec3 e1 = Vec3(data_.positions[corners[1]]) - p0;
-  const Vec3 e2 = Vec3(data_.positions[corners[2]]) - p0;
-  return {p0, e1, e2, cross(e1, e2)};
+  return data_.triangle(data_.triangles[index]);
 }
 
 /// The largest coordinate of a vertex, without its sign.

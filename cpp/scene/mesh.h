@@ -33,10 +33,7 @@ class Mesh : public Shape {
   void prepare_sampling();
 
  private:
-  /// A triangle in double precision: a corner, the edges to the two others, and their cross product.
-  struct Triangle {
-    Vec3 p0, e1, e2, normal;
-  };
+  using Triangle = MeshData::Triangle;
   Triangle triangle(uint32_t index) const;
   float reach(uint32_t vertex) const;
   void fill(const Triangle& triangle, uint32_t index, double b1, double b2, SurfacePoint& at) const;

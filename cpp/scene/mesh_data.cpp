@@ -8,12 +8,6 @@ namespace {
 
 bool is_finite(const Vec2f& v) { return std::isfinite(v.x) && std::isfinite(v.y); }
 
-/// The normal by winding; its length is twice the area.
-Vec3 face_normal(const MeshData& data, const std::array<uint32_t, 3>& corners) {
-  const Vec3 p0(data.positions[corners[0]]);
-  return cross(Vec3(data.positions[corners[1]]) - p0, Vec3(data.positions[corners[2]]) - p0);
-}
-
 /// The angle between two vectors of the given lengths.
 double angle(const Vec3& a, double length_a, const Vec3& b, double length_b) {
   return std::acos(std::clamp(dot(a, b) / (length_a * length_b), -1.0, 1.0));
@@ -36,17 +30,15 @@ void check_mesh(const MeshData& data, const Location& where) {
   for (size_t i = 0; i < data.triangles.size(); ++i)
     for (const uint32_t index : data.triangles[i])
       if (index >= count)
-        throw SceneError(at(where, "triangle " + std::to_string(i) + " uses vertex " +
-                                       std::to_string(index) + ", but there are only " +
-                                       std::to_string(count)));
+        throw SceneError(
+            at(where, "triangle {} uses vertex {}, but there are only {}", i, index, count));
   for (size_t i = 0; i < count; ++i)
     if (!is_finite(Vec3(data.positions[i])))
-      throw SceneError(at(where, "the position of vertex " + std::to_string(i) +
-                                     " is not finite (in single precision)"));
+      throw SceneError(
+          at(where, "the position of vertex {} is not finite (in single precision)", i));
   for (size_t i = 0; i < data.uvs.size(); ++i)
     if (!is_finite(data.uvs[i]))
-      throw SceneError(
-          at(where, "the texture coordinates of vertex " + std::to_string(i) + " are not finite"));
+      throw SceneError(at(where, "the texture coordinates of vertex {} are not finite", i));
 }
 
 bool is_singular(const Mat4& m) {
@@ -75,10 +67,7 @@ void transform_mesh(MeshData& data, const Mat4& to_world, const Location& where)
 void add_smooth_normals(MeshData& data) {
   std::vector<Vec3> sums(data.positions.size(), Vec3(0));
   for (const auto& corners : data.triangles) {
-    const Vec3 p0(data.positions[corners[0]]);
-    const Vec3 a = Vec3(data.positions[corners[1]]) - p0;
-    const Vec3 b = Vec3(data.positions[corners[2]]) - p0;
-    const Vec3 normal = cross(a, b);
+    const auto [p0, a, b, normal] = data.triangle(corners);
     const double l = length(normal);
     if (!(l > 0)) continue;
     const double length_a = length(a), length_b = length(b);
@@ -104,7 +93,7 @@ void repair_normals(MeshData& data) {
   for (const auto& corners : data.triangles)
     for (const uint32_t corner : corners) {
       if (data.normals[corner] != Vec3f(0)) continue;
-      const Vec3 normal = face_normal(data, corners);
+      const Vec3 normal = data.triangle(corners).normal;
       if (is_usable(normal)) data.normals[corner] = normalize(normal);
     }
 }

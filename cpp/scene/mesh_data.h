@@ -15,6 +15,17 @@ struct MeshData {
   std::vector<Vec3f> normals;
   std::vector<Vec2f> uvs;
   std::vector<std::array<uint32_t, 3>> triangles;
+
+  /// A triangle in double precision: a corner, the edges to the two others, and their cross
+  /// product, whose length is twice the area.
+  struct Triangle {
+    Vec3 p0, e1, e2, normal;
+  };
+  Triangle triangle(const std::array<uint32_t, 3>& corners) const {
+    const Vec3 p0(positions[corners[0]]);
+    const Vec3 e1 = Vec3(positions[corners[1]]) - p0, e2 = Vec3(positions[corners[2]]) - p0;
+    return {p0, e1, e2, cross(e1, e2)};
+  }
 };
 
 /// Throws SceneError at `where` if the mesh is empty, an index is out of range, a position or uv is

@@ -7,9 +7,9 @@
 
 namespace mlt {
 
-/// The images of the x, y and z axes as an orthonormal frame (left-handed for a mirrored transform).
-/// The z axis is kept exactly; the others are made perpendicular to it. Throws SceneError about the
-/// parameter `name` if the transform is singular or shears.
+/// The images of the x, y and z axes as an orthonormal frame (left-handed for a mirrored
+/// transform). The z axis is kept exactly; the others are made perpendicular to it. Throws
+/// SceneError about the parameter `name` if the transform is singular or shears.
 Frame orientation(const Params& params, const std::string& name, const Mat4& to_world);
 
 }  // namespace mlt

@@ -1,5 +1,6 @@
 #include "scene/scene.h"
 
+#include "scene/emitter/infinite.h"
 #include "scene/mesh.h"
 
 #include <algorithm>
@@ -30,8 +31,8 @@ Bounds enclosing_sphere(const std::vector<ShapePtr>& shapes, const Camera& camer
   return {0.5 * (low + high), radius > 0 ? radius * (1 + 1e-6) : 1.0};
 }
 
-/// Half of the choices are uniform, half in proportion to power: a light that is weak as a whole may
-/// be all that a room gets.
+/// Half of the choices are uniform, half in proportion to power: a light that is weak as a whole
+/// may be the only one in a room.
 Discrete choose_by_power(const std::vector<EmitterPtr>& emitters) {
   std::vector<double> weights;
   double total = 0;
@@ -92,13 +93,7 @@ bool Scene::visible(const SurfacePoint& a, const SurfacePoint& b, double time) c
   return !accel_->occluded({start, w, time, distance * (1 - ray_offset)});
 }
 
-SurfacePoint Scene::point_at_infinity(const Vec3& w) {
-  SurfacePoint at;
-  at.p = w;
-  at.ng = -w;
-  at.kind = PointKind::infinite;
-  return at;
-}
+SurfacePoint Scene::point_at_infinity(const Vec3& w) { return InfiniteEmitter::point_towards(w); }
 
 EmitterChoice Scene::choose_emitter(double& u) const {
   const auto [index, remainder] = emitter_choice_.sample_reuse(u);

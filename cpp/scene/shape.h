@@ -39,7 +39,7 @@ class Shape : public Object {
   /// Axis-aligned bounding box.
   virtual void bounds(Vec3& low, Vec3& high) const = 0;
 
-  // Which of the forms that the accelerator knows it is.
+  // Which of the two kinds that the accelerator supports it is.
   virtual const Mesh* as_mesh() const { return nullptr; }
   virtual const AnalyticShape* as_analytic() const { return nullptr; }
 

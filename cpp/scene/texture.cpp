@@ -21,25 +21,14 @@ bool emits(ParamType type) { return type == ParamType::radiance || type == Param
 Color spectrum_color(Params& params, const std::string& name, const Spectrum& spectrum,
                      SpectrumUse use) {
   if (spectrum.size() == 1) return uniform_spectrum_to_rgb(spectrum[0].second, use);
-  std::vector<SpectrumSample> samples;
-  for (const auto& [wavelength, value] : spectrum) samples.push_back({wavelength, value});
   try {
-    const SpectrumColor found = spectrum_to_rgb(samples, use);
-    if (found.clamped) params.warn("'" + name + "' is outside of the sRGB gamut and was clamped");
+    const SpectrumColor found = spectrum_to_rgb(spectrum, use);
+    if (found.clamped && use != SpectrumUse::unbounded)
+      params.warn("'" + name + "' is outside of the sRGB gamut and was clamped");
     return found.color;
   } catch (const UsageError& error) {
     params.fail(name, std::string("is no valid spectrum: ") + error.what());
   }
-}
-
-Color to_color(Params& params, const std::string& name, const Value& value, SpectrumUse use) {
-  if (const int64_t* integer = std::get_if<int64_t>(&value))
-    return Color(static_cast<double>(*integer));
-  if (const double* real = std::get_if<double>(&value)) return Color(*real);
-  if (const Triple* rgb = std::get_if<Triple>(&value)) return {(*rgb)[0], (*rgb)[1], (*rgb)[2]};
-  if (const Spectrum* spectrum = std::get_if<Spectrum>(&value))
-    return spectrum_color(params, name, *spectrum, use);
-  params.fail(name, "should be a number, an rgb triple or a spectrum");
 }
 
 }  // namespace
@@ -51,14 +40,24 @@ double Texture::eval_scalar(const SurfacePoint& at) const {
 
 TexturePtr constant_texture(const Color& color) { return std::make_shared<Constant>(color); }
 
+Color to_color(Params& params, const std::string& name, SpectrumUse use) {
+  const Value& value = params.value(name);
+  if (const Triple* rgb = std::get_if<Triple>(&value)) return {(*rgb)[0], (*rgb)[1], (*rgb)[2]};
+  if (const Spectrum* spectrum = std::get_if<Spectrum>(&value))
+    return spectrum_color(params, name, *spectrum, use);
+  if (std::holds_alternative<ObjectPtr>(value))
+    params.fail(name, "should be a number, an rgb triple or a spectrum");
+  return Color(params.real(name));
+}
+
 Color color_param(Params& params, const std::string& name) {
   const bool emission = emits(params.schema().find(name)->type);
-  const Color color = to_color(params, name, params.value(name),
-                               emission ? SpectrumUse::emission : SpectrumUse::reflectance);
+  const Color color =
+      to_color(params, name, emission ? SpectrumUse::emission : SpectrumUse::reflectance);
   if (min_component(color) < 0) params.fail(name, "must not be negative");
   if (!emission && max_component(color) > 1)
-    params.fail(
-        name, "reaches " + std::to_string(max_component(color)) + ", but must lie between 0 and 1");
+    params.fail(name,
+                fmt::format("reaches {:f}, but must lie between 0 and 1", max_component(color)));
   return color;
 }
 
@@ -69,6 +68,11 @@ TexturePtr texture_param(Params& params, const std::string& name) {
     return texture;
   }
   return constant_texture(color_param(params, name));
+}
+
+Vec3 vector_param(Params& params, const std::string& name) {
+  const Triple t = params.triple(name);
+  return {t[0], t[1], t[2]};
 }
 
 Mat4 matrix_param(Params& params, const std::string& name) {

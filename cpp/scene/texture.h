@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/params.h"
-#include "math/color.h"
+#include "math/spectrum.h"
 #include "scene/surface_point.h"
 
 namespace mlt {
@@ -26,7 +26,10 @@ TexturePtr constant_texture(const Color& color);
 TexturePtr texture_param(Params& params, const std::string& name);
 /// The colour parameter `name` (type reflectance or radiance).
 Color color_param(Params& params, const std::string& name);
-/// A real-valued parameter that may be textured (type texture, given as a number or a Texture).
+/// A number, rgb or spectrum as the colour that `use` makes of it, whatever its range.
+Color to_color(Params& params, const std::string& name, SpectrumUse use);
+Vec3 vector_param(Params& params, const std::string& name);
+/// A transform; the identity if it has no default and is not given.
 Mat4 matrix_param(Params& params, const std::string& name);
 
 }  // namespace mlt

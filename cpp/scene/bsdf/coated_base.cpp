@@ -6,7 +6,8 @@ std::vector<Parameter> CoatedBase::parameters() {
   return {{"diffuse_reflectance", ParamType::texture, 0.5, "Reflectance of the base."},
           {"nonlinear", ParamType::boolean, false,
            "Let the base colour the light that is reflected several times between it and the "
-           "coating: more saturated."}};
+           "coating: more saturated."},
+          {"specular_reflectance", ParamType::texture, 1.0, "Factor on the coating's reflection."}};
 }
 
 CoatedBase::CoatedBase(Params& params, double eta, double internal_reflectance)

@@ -9,7 +9,8 @@ namespace mlt {
 
 class CoatedBase {
  public:
-  /// The parameters `diffuse_reflectance` and `nonlinear`.
+  /// The parameters `diffuse_reflectance` and `nonlinear`, and `specular_reflectance`, which is for
+  /// the coating: the material itself reads it.
   static std::vector<Parameter> parameters();
 
   /// `eta` of the coating against the outside; the mean reflectance of the coating from inside.

@@ -51,12 +51,9 @@ class Conductor final : public Bsdf {
 }  // namespace
 
 Plugin bsdf_conductor() {
-  Plugin plugin = make_plugin<Conductor>(
-      {"bsdf", "conductor", "A smooth metal: a mirror with the colour of its material.",
-       conductor_parameters()});
-  plugin.schema.parameters.push_back(
-      {"specular_reflectance", ParamType::texture, 1.0, "Factor on the reflection."});
-  return plugin;
+  return make_plugin<Conductor>("bsdf", "conductor",
+                                "A smooth metal: a mirror with the colour of its material.",
+                                conductor_parameters());
 }
 
 }  // namespace mlt

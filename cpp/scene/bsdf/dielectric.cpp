@@ -86,14 +86,9 @@ class Dielectric final : public Bsdf {
 
 Plugin bsdf_dielectric() {
   Plugin plugin = make_plugin<Dielectric>(
-      {"bsdf", "dielectric",
-       "A smooth interface between two transparent media, such as glass and air.",
-       ior_parameters("bk7")});
-  auto& parameters = plugin.schema.parameters;
-  parameters.push_back(
-      {"specular_reflectance", ParamType::texture, 1.0, "Factor on the reflection."});
-  parameters.push_back(
-      {"specular_transmittance", ParamType::texture, 1.0, "Factor on the refraction."});
+      "bsdf", "dielectric",
+      "A smooth interface between two transparent media, such as glass and air.",
+      concat({ior_parameters("bk7"), interface_factors()}));
   plugin.schema.reciprocal = false;
   return plugin;
 }

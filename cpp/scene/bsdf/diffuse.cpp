@@ -42,10 +42,9 @@ class Diffuse final : public Bsdf {
 
 Plugin bsdf_diffuse() {
   return make_plugin<Diffuse>(
-      {"bsdf",
-       "diffuse",
-       "A matte surface that scatters light equally to all directions on its front side.",
-       {{"reflectance", ParamType::texture, 0.5, "Fraction of the light that is scattered."}}});
+      "bsdf", "diffuse",
+      "A matte surface that scatters light equally to all directions on its front side.",
+      {{"reflectance", ParamType::texture, 0.5, "Fraction of the light that is scattered."}});
 }
 
 }  // namespace mlt

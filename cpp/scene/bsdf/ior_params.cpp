@@ -1,6 +1,6 @@
 #include "scene/bsdf/ior_params.h"
 
-#include "math/spectrum.h"
+#include "scene/texture.h"
 
 namespace mlt {
 namespace {
@@ -17,29 +17,9 @@ double ior_param(Params& params, const std::string& name) {
   return ior;
 }
 
-Color spectrum_index(Params& params, const std::string& name, const Spectrum& spectrum) {
-  if (spectrum.size() == 1)
-    return uniform_spectrum_to_rgb(spectrum[0].second, SpectrumUse::unbounded);
-  std::vector<SpectrumSample> samples;
-  for (const auto& [wavelength, value] : spectrum) samples.push_back({wavelength, value});
-  try {
-    return spectrum_to_rgb(samples, SpectrumUse::unbounded).color;
-  } catch (const UsageError& error) {
-    params.fail(name, std::string("is no valid spectrum: ") + error.what());
-  }
-}
-
 /// A component of a complex index: a number, an RGB triple or a spectrum, none negative.
 Color index_param(Params& params, const std::string& name) {
-  const Value& value = params.value(name);
-  Color color(0);
-  if (const Triple* rgb = std::get_if<Triple>(&value)) {
-    color = {(*rgb)[0], (*rgb)[1], (*rgb)[2]};
-  } else if (const Spectrum* spectrum = std::get_if<Spectrum>(&value)) {
-    color = spectrum_index(params, name, *spectrum);
-  } else {
-    color = Color(params.real(name));
-  }
+  const Color color = to_color(params, name, SpectrumUse::unbounded);
   if (!(min_component(color) >= 0)) params.fail(name, "must not be negative");
   return color;
 }
@@ -52,6 +32,11 @@ std::vector<Parameter> ior_parameters(const std::string& default_inside) {
        "Index of refraction inside (below the surface): a number or a material's name."},
       {"ext_ior", ParamType::ior, std::string("air"),
        "Index of refraction outside (where the normal points): a number or a material's name."}};
+}
+
+std::vector<Parameter> interface_factors() {
+  return {{"specular_reflectance", ParamType::texture, 1.0, "Factor on the reflection."},
+          {"specular_transmittance", ParamType::texture, 1.0, "Factor on the refraction."}};
 }
 
 double relative_ior_param(Params& params) {
@@ -68,7 +53,8 @@ std::vector<Parameter> conductor_parameters() {
       {"eta", ParamType::radiance, 0.0, "Real part of the index of refraction."},
       {"k", ParamType::radiance, 1.0, "Imaginary part of the index of refraction."},
       {"ext_eta", ParamType::ior, 1.0,
-       "Index of refraction outside: a number or a material's name."}};
+       "Index of refraction outside: a number or a material's name."},
+      {"specular_reflectance", ParamType::texture, 1.0, "Factor on the reflection."}};
 }
 
 ComplexIor conductor_param(Params& params) {

@@ -11,7 +11,10 @@ std::vector<Parameter> ior_parameters(const std::string& default_inside);
 /// int_ior / ext_ior.
 double relative_ior_param(Params& params);
 
-/// The parameters `material`, `eta`, `k` and `ext_eta` of a conductor.
+/// The parameters `specular_reflectance` and `specular_transmittance` of an interface.
+std::vector<Parameter> interface_factors();
+
+/// The parameters `material`, `eta`, `k`, `ext_eta` and `specular_reflectance` of a conductor.
 std::vector<Parameter> conductor_parameters();
 /// The complex index that they give, relative to the outside.
 ComplexIor conductor_param(Params& params);

@@ -1,4 +1,4 @@
-// A surface that is not there: every ray goes straight through, as a delta lobe of its own.
+// An invisible surface: every ray goes straight through, as a delta lobe of its own.
 #include "base/registry.h"
 #include "scene/bsdf.h"
 #include "scene/bsdf/lobes.h"
@@ -8,6 +8,8 @@ namespace {
 
 class Null final : public Bsdf {
  public:
+  explicit Null(Params&) {}
+
   Scattering scattering(const SurfacePoint&, const Vec3&, const Vec3&, Lobe lobe) const override {
     return lobe == Lobe::null ? Scattering{Color(1), 1, 1} : Scattering{};
   }
@@ -33,8 +35,7 @@ class Null final : public Bsdf {
 }  // namespace
 
 Plugin bsdf_null() {
-  return {{"bsdf", "null", "An invisible surface: light goes straight through it.", {}},
-          [](Params&) -> ObjectPtr { return std::make_shared<Null>(); }};
+  return make_plugin<Null>("bsdf", "null", "An invisible surface: light goes straight through it.");
 }
 
 }  // namespace mlt

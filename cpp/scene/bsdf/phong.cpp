@@ -96,15 +96,14 @@ class Phong final : public Bsdf {
 
 Plugin bsdf_phong() {
   return make_plugin<Phong>(
-      {"bsdf",
-       "phong",
-       "The modified Phong model: a diffuse part and a glossy lobe about the mirror direction.",
-       {{"exponent", ParamType::real, 30.0, "Exponent of the glossy lobe; larger is shinier."},
-        {"specular_reflectance", ParamType::texture, 0.2, "Reflectance of the glossy lobe."},
-        {"diffuse_reflectance", ParamType::texture, 0.5, "Reflectance of the diffuse part."},
-        {"ensure_energy_conservation", ParamType::boolean, true,
-         "If the largest values of both reflectances add up to more than 1, scale both so that "
-         "they add up to 0.99. Without it the surface may reflect more than it receives."}}});
+      "bsdf", "phong",
+      "The modified Phong model: a diffuse part and a glossy lobe about the mirror direction.",
+      {{"exponent", ParamType::real, 30.0, "Exponent of the glossy lobe; larger is shinier."},
+       {"specular_reflectance", ParamType::texture, 0.2, "Reflectance of the glossy lobe."},
+       {"diffuse_reflectance", ParamType::texture, 0.5, "Reflectance of the diffuse part."},
+       {"ensure_energy_conservation", ParamType::boolean, true,
+        "If the largest values of both reflectances add up to more than 1, scale both so that "
+        "they add up to 0.99. Without it the surface may reflect more than it receives."}});
 }
 
 }  // namespace mlt

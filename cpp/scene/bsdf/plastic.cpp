@@ -78,14 +78,9 @@ class Plastic final : public Bsdf {
 }  // namespace
 
 Plugin bsdf_plastic() {
-  Plugin plugin = make_plugin<Plastic>(
-      {"bsdf", "plastic", "Smooth plastic: a diffuse base below a smooth transparent coating.",
-       ior_parameters("polypropylene")});
-  auto& parameters = plugin.schema.parameters;
-  for (Parameter& parameter : CoatedBase::parameters()) parameters.push_back(std::move(parameter));
-  parameters.push_back(
-      {"specular_reflectance", ParamType::texture, 1.0, "Factor on the coating's reflection."});
-  return plugin;
+  return make_plugin<Plastic>("bsdf", "plastic",
+                              "Smooth plastic: a diffuse base below a smooth transparent coating.",
+                              concat({ior_parameters("polypropylene"), CoatedBase::parameters()}));
 }
 
 }  // namespace mlt

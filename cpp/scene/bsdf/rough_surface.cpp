@@ -17,11 +17,9 @@ bool is_texture(Params& params, const std::string& name) {
 }  // namespace
 
 Parameter microfacet_type_parameter() {
-  return {"distribution",
-          ParamType::text,
-          std::string("beckmann"),
-          "Distribution of the microfacet normals; ggx has longer tails.",
-          {"beckmann", "ggx"}};
+  return choice_parameter("distribution", "beckmann",
+                          "Distribution of the microfacet normals; ggx has longer tails.",
+                          {"beckmann", "ggx"});
 }
 
 Parameter sample_visible_parameter() {
@@ -37,13 +35,9 @@ std::vector<Parameter> rough_surface_parameters() {
   return {microfacet_type_parameter(),
           {"alpha", ParamType::texture, 0.1,
            "Roughness: about the root mean square slope of the microfacets."},
-          {"alpha_u",
-           ParamType::texture,
-           {},
+          {"alpha_u", ParamType::texture, no_default,
            "Roughness along the tangent (optional; together with alpha_v, in place of alpha)."},
-          {"alpha_v",
-           ParamType::texture,
-           {},
+          {"alpha_v", ParamType::texture, no_default,
            "Roughness across the tangent (optional; together with alpha_u, in place of alpha)."},
           sample_visible_parameter()};
 }

@@ -69,13 +69,8 @@ class RoughConductor final : public Bsdf {
 }  // namespace
 
 Plugin bsdf_roughconductor() {
-  Plugin plugin = make_plugin<RoughConductor>(
-      {"bsdf", "roughconductor", "A rough metal.", rough_surface_parameters()});
-  auto& parameters = plugin.schema.parameters;
-  for (Parameter& parameter : conductor_parameters()) parameters.push_back(std::move(parameter));
-  parameters.push_back(
-      {"specular_reflectance", ParamType::texture, 1.0, "Factor on the reflection."});
-  return plugin;
+  return make_plugin<RoughConductor>("bsdf", "roughconductor", "A rough metal.",
+                                     concat({rough_surface_parameters(), conductor_parameters()}));
 }
 
 }  // namespace mlt

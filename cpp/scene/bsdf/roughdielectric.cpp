@@ -138,16 +138,9 @@ class RoughDielectric final : public Bsdf {
 
 Plugin bsdf_roughdielectric() {
   Plugin plugin = make_plugin<RoughDielectric>(
-      {"bsdf", "roughdielectric",
-       "A rough interface between two transparent media, such as frosted glass.",
-       ior_parameters("bk7")});
-  auto& parameters = plugin.schema.parameters;
-  for (Parameter& parameter : rough_surface_parameters())
-    parameters.push_back(std::move(parameter));
-  parameters.push_back(
-      {"specular_reflectance", ParamType::texture, 1.0, "Factor on the reflection."});
-  parameters.push_back(
-      {"specular_transmittance", ParamType::texture, 1.0, "Factor on the refraction."});
+      "bsdf", "roughdielectric",
+      "A rough interface between two transparent media, such as frosted glass.",
+      concat({ior_parameters("bk7"), rough_surface_parameters(), interface_factors()}));
   plugin.schema.reciprocal = false;
   return plugin;
 }

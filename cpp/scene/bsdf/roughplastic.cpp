@@ -114,18 +114,14 @@ class RoughPlastic final : public Bsdf {
 }  // namespace
 
 Plugin bsdf_roughplastic() {
-  Plugin plugin = make_plugin<RoughPlastic>(
-      {"bsdf", "roughplastic", "Rough plastic: a diffuse base below a rough transparent coating.",
-       ior_parameters("polypropylene")});
-  auto& parameters = plugin.schema.parameters;
-  parameters.push_back(microfacet_type_parameter());
-  parameters.push_back({"alpha", ParamType::real, 0.1,
-                        "Roughness: about the root mean square slope of the microfacets."});
-  parameters.push_back(sample_visible_parameter());
-  for (Parameter& parameter : CoatedBase::parameters()) parameters.push_back(std::move(parameter));
-  parameters.push_back(
-      {"specular_reflectance", ParamType::texture, 1.0, "Factor on the coating's reflection."});
-  return plugin;
+  return make_plugin<RoughPlastic>(
+      "bsdf", "roughplastic", "Rough plastic: a diffuse base below a rough transparent coating.",
+      concat({ior_parameters("polypropylene"),
+              {microfacet_type_parameter(),
+               {"alpha", ParamType::real, 0.1,
+                "Roughness: about the root mean square slope of the microfacets."},
+               sample_visible_parameter()},
+              CoatedBase::parameters()}));
 }
 
 }  // namespace mlt

@@ -8,7 +8,17 @@ namespace {
 
 class TwoSided final : public Bsdf {
  public:
-  TwoSided(BsdfPtr front, BsdfPtr back) : front_(std::move(front)), back_(std::move(back)) {}
+  explicit TwoSided(Params& params) {
+    const auto nested = params.objects<Bsdf>();
+    if (nested.empty() || nested.size() > 2)
+      params.fail("needs one nested bsdf, or two (front and back), but has " +
+                  std::to_string(nested.size()));
+    for (const auto& bsdf : nested)
+      if (bsdf->has_transmission())
+        params.fail("cannot hold a bsdf that transmits light: it is two-sided already");
+    front_ = nested.front();
+    back_ = nested.back();
+  }
 
   Scattering scattering(const SurfacePoint& at, const Vec3& wl, const Vec3& wc,
                         Lobe lobe) const override {
@@ -47,27 +57,13 @@ class TwoSided final : public Bsdf {
   BsdfPtr front_, back_;
 };
 
-ObjectPtr create(Params& params) {
-  const auto nested = params.objects<Bsdf>();
-  if (nested.empty() || nested.size() > 2)
-    params.fail("needs one nested bsdf, or two (front and back), but has " +
-                std::to_string(nested.size()));
-  for (const auto& bsdf : nested)
-    if (bsdf->has_transmission())
-      params.fail("cannot hold a bsdf that transmits light: it is two-sided already");
-  return std::make_shared<TwoSided>(nested.front(), nested.back());
-}
-
 }  // namespace
 
 Plugin bsdf_twosided() {
-  return {
-      {"bsdf",
-       "twosided",
-       "Shows one nested opaque bsdf on both sides of a surface, or a first one on the front and "
-       "a second one on the back.",
-       {}},
-      create};
+  return make_plugin<TwoSided>(
+      "bsdf", "twosided",
+      "Shows one nested opaque bsdf on both sides of a surface, or a first one on the front and "
+      "a second one on the back.");
 }
 
 }  // namespace mlt

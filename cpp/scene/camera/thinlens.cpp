@@ -5,24 +5,9 @@
 namespace mlt {
 namespace {
 
-std::vector<Parameter> parameters() {
-  std::vector<Parameter> all = view_parameters();
-  all.push_back({"aperture_radius",
-                 ParamType::real,
-                 {},
-                 "Radius of the lens in scene units; 0 makes it a pinhole."});
-  all.push_back({"focus_distance",
-                 ParamType::real,
-                 {},
-                 "Distance of the plane in focus; far_clip if not given."});
-  all.push_back({"far_clip", ParamType::real, 1e4,
-                 "Only the default of focus_distance; nothing is clipped."});
-  return all;
-}
-
 double positive(Params& params, const std::string& name) {
   const double x = params.real(name);
-  if (!(x > 0)) params.fail(name, "is " + std::to_string(x) + ", but must be positive");
+  if (!(x > 0)) params.fail(name, fmt::format("is {:f}, but must be positive", x));
   return x;
 }
 
@@ -38,7 +23,15 @@ ObjectPtr create(Params& params) {
 }  // namespace
 
 Plugin sensor_thinlens() {
-  return {{"sensor", "thinlens", "A camera with depth of field.", parameters(), {"near_clip"}},
+  return {{"sensor", "thinlens", "A camera with depth of field.",
+           concat({view_parameters(),
+                   {{"aperture_radius", ParamType::real, no_default,
+                     "Radius of the lens in scene units; 0 makes it a pinhole."},
+                    {"focus_distance", ParamType::real, no_default,
+                     "Distance of the plane in focus; far_clip if not given."},
+                    {"far_clip", ParamType::real, 1e4,
+                     "Only the default of focus_distance; nothing is clipped."}}}),
+           std::vector<std::string>{"near_clip"}},
           create};
 }
 

@@ -37,17 +37,13 @@ ProjectiveCamera::View::Axis read_axis(Params& params) {
 
 std::vector<Parameter> view_parameters() {
   return {
-      {"to_world",
-       ParamType::transform,
-       {},
+      {"to_world", ParamType::transform, no_default,
        "Camera space to world space: the camera looks along +z, +y is up and +x is to the left. "
        "Identity if not given."},
-      {"fov", ParamType::real, {}, "Field of view in degrees; if not given, focal_length counts."},
-      {"fov_axis",
-       ParamType::text,
-       std::string("x"),
-       "The image axis that fov is measured along.",
-       {"x", "y", "diagonal", "smaller", "larger"}},
+      {"fov", ParamType::real, no_default,
+       "Field of view in degrees; if not given, focal_length counts."},
+      choice_parameter("fov_axis", "x", "The image axis that fov is measured along.",
+                       {"x", "y", "diagonal", "smaller", "larger"}),
       {"focal_length", ParamType::text, std::string("50mm"),
        "Focal length on 35 mm film, of which the image has the same diagonal field of view."},
       {"shutter_open", ParamType::real, 0.0, "Time at which the shutter opens."},
@@ -60,8 +56,7 @@ ProjectiveCamera::View read_view(Params& params) {
     if (params.has("focal_length")) params.fail("focal_length", "and 'fov' exclude each other");
     const double degrees = params.real("fov");
     if (!(degrees > 0 && degrees < 180))
-      params.fail("fov",
-                  "is " + std::to_string(degrees) + ", but must lie between 0 and 180 degrees");
+      params.fail("fov", fmt::format("is {:f}, but must lie between 0 and 180 degrees", degrees));
     view.fov = degrees * (pi / 180);
     view.axis = read_axis(params);
   } else {

@@ -66,12 +66,10 @@ class AreaLight final : public Emitter {
 }  // namespace
 
 Plugin emitter_area() {
-  return {{"emitter",
-           "area",
-           "Makes the shape that it is nested in glow on its front side.",
-           {{"radiance", ParamType::emission, 1.0, "Emitted radiance, which may be textured."}},
-           {"sampling_weight", "caustic_emitter_single", "caustic_emitter_multi"}},
-          [](Params& params) -> ObjectPtr { return std::make_shared<AreaLight>(params); }};
+  return make_plugin<AreaLight>(
+      "emitter", "area", "Makes the shape that it is nested in glow on its front side.",
+      {{"radiance", ParamType::emission, 1.0, "Emitted radiance, which may be textured."}},
+      {"sampling_weight", "caustic_emitter_single", "caustic_emitter_multi"});
 }
 
 }  // namespace mlt

@@ -29,12 +29,10 @@ class ConstantSky final : public InfiniteEmitter {
 }  // namespace
 
 Plugin emitter_constant() {
-  return {{"emitter",
-           "constant",
-           "A sky of the same radiance in all directions.",
-           {{"radiance", ParamType::radiance, 1.0, "Radiance of the sky."}},
-           {"sampling_weight", "to_world"}},
-          [](Params& params) -> ObjectPtr { return std::make_shared<ConstantSky>(params); }};
+  return make_plugin<ConstantSky>("emitter", "constant",
+                                  "A sky of the same radiance in all directions.",
+                                  {{"radiance", ParamType::radiance, 1.0, "Radiance of the sky."}},
+                                  {"sampling_weight", "to_world"});
 }
 
 }  // namespace mlt

@@ -15,8 +15,7 @@ class DirectionalLight final : public InfiniteEmitter {
     Vec3 d;
     if (given) {
       if (params.has("to_world")) params.fail("to_world", "and 'direction' exclude each other");
-      const Triple t = params.triple("direction");
-      d = {t[0], t[1], t[2]};
+      d = vector_param(params, "direction");
     } else {
       d = transform_vector(matrix_param(params, "to_world"), {0, 0, 1});
     }
@@ -44,17 +43,13 @@ class DirectionalLight final : public InfiniteEmitter {
 }  // namespace
 
 Plugin emitter_directional() {
-  return {{"emitter",
-           "directional",
-           "Parallel light from infinitely far away.",
-           {{"irradiance", ParamType::radiance, 1.0, "Power per area perpendicular to the light."},
-            {"direction", ParamType::point, {}, "The direction in which light travels."},
-            {"to_world",
-             ParamType::transform,
-             {},
-             "Instead of direction: light travels along the image of the z axis."}},
-           {"sampling_weight"}},
-          [](Params& params) -> ObjectPtr { return std::make_shared<DirectionalLight>(params); }};
+  return make_plugin<DirectionalLight>(
+      "emitter", "directional", "Parallel light from infinitely far away.",
+      {{"irradiance", ParamType::radiance, 1.0, "Power per area perpendicular to the light."},
+       {"direction", ParamType::point, no_default, "The direction in which light travels."},
+       {"to_world", ParamType::transform, no_default,
+        "Instead of direction: light travels along the image of the z axis."}},
+      {"sampling_weight"});
 }
 
 }  // namespace mlt

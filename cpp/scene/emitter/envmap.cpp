@@ -31,9 +31,10 @@ class EnvironmentMap final : public InfiniteEmitter {
     if (scale_ < 0) params.fail("scale", "must not be negative");
     image_ = load_texels(params, {});
     if (image_.width < 2 || image_.height < 3)
-      params.fail("filename", "is an image of " + std::to_string(image_.width) + " x " +
-                                  std::to_string(image_.height) +
-                                  " pixels; an environment map needs at least 2 x 3");
+      params.fail("filename",
+                  fmt::format("is an image of {} x {} pixels; an environment map needs at least "
+                              "2 x 3",
+                              image_.width, image_.height));
     tabulate();
   }
 
@@ -67,9 +68,7 @@ class EnvironmentMap final : public InfiniteEmitter {
   int cell_rows() const { return image_.height - 1; }
 
   Color texel(int i, int j) const {
-    if (i >= image_.width) i -= image_.width;
-    const float* c = &image_.data[image_.index(i, j, 0)];
-    return image_.channels == 1 ? Color(c[0]) : Color(c[0], c[1], c[2]);
+    return mlt::texel(image_, i >= image_.width ? i - image_.width : i, j);
   }
 
   /// Polar angle against the y axis, exact near the poles too.
@@ -152,14 +151,12 @@ class EnvironmentMap final : public InfiniteEmitter {
 }  // namespace
 
 Plugin emitter_envmap() {
-  return {{"emitter",
-           "envmap",
-           "Light from infinitely far away, given as a latitude-longitude image.",
-           {{"filename", ParamType::text, {}, "Image file, preferably EXR or HDR."},
-            {"scale", ParamType::real, 1.0, "Multiplies the image."},
-            {"to_world", ParamType::transform, {}, "Turns the map; identity if not given."}},
-           {"sampling_weight", "mis_compensation", "cache"}},
-          [](Params& params) -> ObjectPtr { return std::make_shared<EnvironmentMap>(params); }};
+  return make_plugin<EnvironmentMap>(
+      "emitter", "envmap", "Light from infinitely far away, given as a latitude-longitude image.",
+      {{"filename", ParamType::text, no_default, "Image file, preferably EXR or HDR."},
+       {"scale", ParamType::real, 1.0, "Multiplies the image."},
+       {"to_world", ParamType::transform, no_default, "Turns the map; identity if not given."}},
+      {"sampling_weight", "mis_compensation", "cache"});
 }
 
 }  // namespace mlt

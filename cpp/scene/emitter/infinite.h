@@ -11,6 +11,14 @@ namespace mlt {
 
 class InfiniteEmitter : public Emitter {
  public:
+  static SurfacePoint point_towards(const Vec3& w) {
+    SurfacePoint at;
+    at.p = w;
+    at.ng = -w;
+    at.kind = PointKind::infinite;
+    return at;
+  }
+
   /// Uniform over the disk: 1 / (pi R^2).
   RaySample sample_ray(const SurfacePoint& x0, const Vec2& u) const override {
     const Frame disk = Frame::around(x0.p);
@@ -29,13 +37,6 @@ class InfiniteEmitter : public Emitter {
   void set_bounds(const Bounds& bounds) override { bounds_ = bounds; }
 
  protected:
-  static SurfacePoint point_towards(const Vec3& w) {
-    SurfacePoint at;
-    at.p = w;
-    at.ng = -w;
-    at.kind = PointKind::infinite;
-    return at;
-  }
   double disk_area() const { return pi * sqr(bounds_.radius); }
 
  private:

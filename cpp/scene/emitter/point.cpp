@@ -12,8 +12,7 @@ class PointLight final : public Emitter {
   explicit PointLight(Params& params) : intensity_(color_param(params, "intensity")) {
     if (params.has("position")) {
       if (params.has("to_world")) params.fail("to_world", "and 'position' exclude each other");
-      const Triple p = params.triple("position");
-      position_ = {p[0], p[1], p[2]};
+      position_ = vector_param(params, "position");
     } else {
       position_ = transform_point(matrix_param(params, "to_world"), Vec3(0));
     }
@@ -50,14 +49,13 @@ class PointLight final : public Emitter {
 }  // namespace
 
 Plugin emitter_point() {
-  return {{"emitter",
-           "point",
-           "A light of no size that shines equally in all directions.",
-           {{"intensity", ParamType::radiance, 1.0, "Power per solid angle."},
-            {"position", ParamType::point, {}, "Where it is; the origin if not given."},
-            {"to_world", ParamType::transform, {}, "Moves the origin there, instead of position."}},
-           {"sampling_weight"}},
-          [](Params& params) -> ObjectPtr { return std::make_shared<PointLight>(params); }};
+  return make_plugin<PointLight>(
+      "emitter", "point", "A light of no size that shines equally in all directions.",
+      {{"intensity", ParamType::radiance, 1.0, "Power per solid angle."},
+       {"position", ParamType::point, no_default, "Where it is; the origin if not given."},
+       {"to_world", ParamType::transform, no_default,
+        "Moves the origin there, instead of position."}},
+      {"sampling_weight"});
 }
 
 }  // namespace mlt

@@ -6,18 +6,16 @@
 namespace mlt {
 namespace {
 
-constexpr int64_t max_side = 1 << 15;
-constexpr int64_t max_pixels = 1 << 28;
-
 int read_side(Params& params, const std::string& name, int64_t most) {
   return static_cast<int>(params.integer_in(name, 1, most));
 }
 
 void read_size(Params& params, FilmSettings& film) {
-  film.size = {read_side(params, "width", max_side), read_side(params, "height", max_side)};
-  if (int64_t{film.size.x} * film.size.y > max_pixels)
-    params.fail("is " + std::to_string(film.size.x) + " x " + std::to_string(film.size.y) +
-                " pixels large; at most 2^28 pixels are possible");
+  film.size = {read_side(params, "width", film.max_side),
+               read_side(params, "height", film.max_side)};
+  if (int64_t{film.size.x} * film.size.y > film.max_pixels)
+    params.fail(fmt::format("is {} x {} pixels large; at most 2^28 pixels are possible",
+                            film.size.x, film.size.y));
 }
 
 void read_crop(Params& params, FilmSettings& film) {
@@ -31,9 +29,9 @@ void read_crop(Params& params, FilmSettings& film) {
   if (params.has("crop_height")) film.crop_size.y = read_side(params, "crop_height", film.size.y);
   const Vec2i end = film.crop_offset + film.crop_size;
   if (end.x > film.size.x || end.y > film.size.y)
-    params.fail("has a crop window that ends at (" + std::to_string(end.x) + ", " +
-                std::to_string(end.y) + "), outside of the image of " +
-                std::to_string(film.size.x) + " x " + std::to_string(film.size.y) + " pixels");
+    params.fail(fmt::format(
+        "has a crop window that ends at ({}, {}), outside of the image of {} x {} pixels", end.x,
+        end.y, film.size.x, film.size.y));
 }
 
 void read_format(Params& params, FilmSettings& film) {
@@ -63,28 +61,23 @@ std::vector<Parameter> parameters() {
       {"height", ParamType::integer, int64_t{576}, "Height of the whole image in pixels."},
       {"crop_offset_x", ParamType::integer, int64_t{0}, "Left border of the crop window."},
       {"crop_offset_y", ParamType::integer, int64_t{0}, "Upper border of the crop window."},
-      {"crop_width", ParamType::integer, {}, "Width of the crop window; all if not given."},
-      {"crop_height", ParamType::integer, {}, "Height of the crop window; all if not given."},
-      {"rfilter", ParamType::object, {}, "Reconstruction filter; gaussian if not given."},
-      {"component_format",
-       ParamType::text,
-       std::string("float16"),
-       "Precision of EXR files: half or single.",
-       {"float16", "float32"}},
+      {"crop_width", ParamType::integer, no_default, "Width of the crop window; all if not given."},
+      {"crop_height", ParamType::integer, no_default,
+       "Height of the crop window; all if not given."},
+      {"rfilter", ParamType::object, no_default, "Reconstruction filter; gaussian if not given."},
+      choice_parameter("component_format", "float16", "Precision of EXR files: half or single.",
+                       {"float16", "float32"}),
       {"pixel_format", ParamType::text, std::string("rgb"), "Images are RGB, whatever it says."},
       {"file_format", ParamType::text, std::string("openexr"),
        "The extension of the output file decides instead."}};
 }
 
 Plugin film(const std::string& name, const std::string& doc) {
-  return {
-      {"film",
-       name,
-       doc,
-       parameters(),
-       {"banner", "gamma", "filename", "label", "attach_log", "high_quality_edges", "sample_border",
-        "exposure", "tonemap_method", "key", "burn", "compensate", "has_alpha"}},
-      create};
+  std::vector<std::string> ignored = {
+      "banner",        "gamma",    "filename",       "label", "attach_log", "high_quality_edges",
+      "sample_border", "exposure", "tonemap_method", "key",   "burn",       "compensate",
+      "has_alpha"};
+  return {{"film", name, doc, parameters(), std::move(ignored)}, create};
 }
 
 }  // namespace

@@ -13,16 +13,15 @@ ObjectPtr create(Params& params) {
   return sampler;
 }
 
-Plugin sampler(const std::string& name) {
-  return {{"sampler",
-           name,
-           "Accepted for its sample_count; integrators draw their own samples.",
-           {{"sample_count",
-             ParamType::integer,
-             {},
-             "Samples per pixel, if the render is given no other budget."}},
-           {"seed", "jitter", "scramble", "dimension", "depth", "strength"}},
-          create};
+Plugin sampler(const char* name) {
+  return {
+      Schema{"sampler",
+             name,
+             "Accepted for its sample_count; integrators draw their own samples.",
+             std::vector<Parameter>{{"sample_count", ParamType::integer, no_default,
+                                     "Samples per pixel, if the render is given no other budget."}},
+             {"seed", "jitter", "scramble", "dimension", "depth", "strength"}},
+      create};
 }
 
 }  // namespace

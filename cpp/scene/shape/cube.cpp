@@ -9,20 +9,19 @@ struct Face {
   Vec3f center, u, v;
 };
 
-constexpr int face_count = 6;
-
-const Face& face(int i) {
-  static const Face faces[face_count] = {
-      {{1, 0, 0}, {0, 1, 0}, {0, 0, -1}},  {{-1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
-      {{0, 1, 0}, {-1, 0, 0}, {0, 0, -1}}, {{0, -1, 0}, {0, 0, 1}, {1, 0, 0}},
-      {{0, 0, 1}, {0, 1, 0}, {1, 0, 0}},   {{0, 0, -1}, {0, -1, 0}, {1, 0, 0}}};
-  return faces[i];
+const std::array<Face, 6>& faces() {
+  static const std::array<Face, 6> all{{{{1, 0, 0}, {0, 1, 0}, {0, 0, -1}},
+                                        {{-1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+                                        {{0, 1, 0}, {-1, 0, 0}, {0, 0, -1}},
+                                        {{0, -1, 0}, {0, 0, 1}, {1, 0, 0}},
+                                        {{0, 0, 1}, {0, 1, 0}, {1, 0, 0}},
+                                        {{0, 0, -1}, {0, -1, 0}, {1, 0, 0}}}};
+  return all;
 }
 
 MeshData cube() {
   MeshData data;
-  for (int i = 0; i < face_count; ++i) {
-    const Face& f = face(i);
+  for (const Face& f : faces()) {
     const auto first = static_cast<uint32_t>(data.positions.size());
     for (const Vec2f uv : {Vec2f(0, 0), Vec2f(1, 0), Vec2f(1, 1), Vec2f(0, 1)}) {
       data.positions.push_back(f.center + (2 * uv.x - 1) * f.u + (2 * uv.y - 1) * f.v);
@@ -36,18 +35,10 @@ MeshData cube() {
   return data;
 }
 
-ObjectPtr create(Params& params) {
-  params.boolean("face_normals");
-  return flat_mesh(params, cube());
-}
-
 }  // namespace
 
 Plugin shape_cube() {
-  return {shape_schema("cube", "The cube from (-1, -1, -1) to (1, 1, 1).",
-                       {{"face_normals", ParamType::boolean, false,
-                         "Accepted for files that set it; its faces are flat anyway."}}),
-          create};
+  return flat_shape_plugin("cube", "The cube from (-1, -1, -1) to (1, 1, 1).", cube);
 }
 
 }  // namespace mlt

@@ -1,14 +1,78 @@
-// The side of a cylinder around the line from p0 to p1, open at both ends, with its normals outward.
-// u is the azimuth, v runs from 0 to 1 along the axis. The default is the unit cylinder over the unit
-// circle, from z = 0 to 1.
-#include "scene/cylinder.h"
+// In the frame of the cylinder a line passes the axis at the distance |o x d| / |d|, taken in the
+// xy plane. Written with it, the discriminant is a product of a sum and a difference of lengths,
+// and the product of the roots is another: nothing cancels for lines that start on the surface.
+#include "scene/shape/cylinder.h"
 
+#include "math/warp.h"
 #include "scene/mesh_data.h"
 #include "scene/orientation.h"
 #include "scene/shape/common.h"
 #include "scene/texture.h"
 
 namespace mlt {
+
+Cylinder::Cylinder(const Vec3& base, const Frame& frame, double radius, double length,
+                   bool flip_normals)
+    : base_(base), frame_(frame), radius_(radius), length_(length), side_(flip_normals ? -1 : 1) {
+  set_extent();
+}
+
+std::optional<Cylinder::Roots> Cylinder::roots(const Vec3& world_o, const Vec3& world_d) const {
+  const Vec3 o = frame_.to_local(world_o - base_), d = frame_.to_local(world_d);
+  const double a = d.x * d.x + d.y * d.y;
+  if (!(a > 0)) return std::nullopt;
+  const double reach = radius_ * std::sqrt(a), pass = std::abs(o.x * d.y - o.y * d.x);
+  if (pass > reach) return std::nullopt;
+  const double b = -(o.x * d.x + o.y * d.y);
+  const double q = b + std::copysign(std::sqrt((reach - pass) * (reach + pass)), b);
+  const double distance = std::sqrt(o.x * o.x + o.y * o.y);
+  const double one = q / a;
+  const double other = q == 0 ? 0 : (distance - radius_) * (distance + radius_) / q;
+  const double near = std::min(one, other), far = std::max(one, other);
+  const auto counts = [&](double t) {
+    const double z = o.z + t * d.z;
+    return z >= 0 && z <= length_;
+  };
+  return Roots{near, far, counts(near), counts(far)};
+}
+
+std::optional<double> Cylinder::intersect(const Vec3& o, const Vec3& d, double t_min,
+                                          double t_max) const {
+  const std::optional<Roots> t = roots(o, d);
+  return t ? t->nearest(t_min, t_max) : std::nullopt;
+}
+
+void Cylinder::surface_point(const Ray& ray, const Hit& hit, SurfacePoint& at) const {
+  const std::optional<Roots> exact = roots(ray.o, ray.d);
+  const double t = exact ? exact->meant_by(hit.t) : hit.t;
+  const Vec3 q = frame_.to_local(ray.o + ray.d * t - base_);
+  at = point(normalize(Vec2(q)), std::min(std::max(q.z, 0.0), length_));
+}
+
+SurfacePoint Cylinder::point(const Vec2& outward, double z) const {
+  const Vec3 n = frame_.s * outward.x + frame_.t * outward.y, ng = n * side_;
+  const Vec3 s = frame_.t * outward.x - frame_.s * outward.y;
+  return point_at(base_ + n * radius_ + frame_.n * z, ng, {s, cross(ng, s), ng},
+                  {turns(outward.x, outward.y), z / length_});
+}
+
+PositionSample Cylinder::sample_position(const Vec2& u) const {
+  const SinCos phi = sincos_turns(u.y);
+  return {point({phi.cos, phi.sin}, u.x * length_), 1 / area()};
+}
+
+Vec2 Cylinder::invert_position(const SurfacePoint& at) const {
+  const Vec3 q = frame_.to_local(at.p - base_);
+  return {std::min(std::max(q.z / length_, 0.0), 1 - 0x1p-53), turns(q.x, q.y)};
+}
+
+void Cylinder::bounds(Vec3& low, Vec3& high) const {
+  const Vec3 reach = glm::sqrt(frame_.s * frame_.s + frame_.t * frame_.t) * radius_;
+  const Vec3 end = base_ + frame_.n * length_;
+  low = glm::min(base_, end) - reach;
+  high = glm::max(base_, end) + reach;
+}
+
 namespace {
 
 /// A circle whose two radii differ by more than this is an ellipse, and none that was rounded.
@@ -16,8 +80,7 @@ constexpr double max_eccentricity = 1e-3;
 
 ObjectPtr create(Params& params) {
   const Mat4 to_world = matrix_param(params, "to_world");
-  const Triple a = params.triple("p0"), b = params.triple("p1");
-  const Vec3 p0(a[0], a[1], a[2]), p1(b[0], b[1], b[2]);
+  const Vec3 p0 = vector_param(params, "p0"), p1 = vector_param(params, "p1");
   const double radius = params.real("radius");
   if (!(radius > 0)) params.fail("radius", "must be positive");
   const double height = length(p1 - p0);

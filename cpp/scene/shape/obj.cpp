@@ -1,23 +1,186 @@
-// A triangle mesh from a Wavefront OBJ file; the file's materials are not read.
+// Wavefront OBJ (Alias|Wavefront, "Advanced Visualizer" manual, appendix B1): v, vt, vn and f.
+// Materials, groups, smoothing groups, lines, points and free-form elements are passed over.
+#include "base/rng.h"
 #include "scene/shape/common.h"
 #include "scene/shape/readers.h"
+#include "scene/shape/text_scanner.h"
 
 namespace mlt {
 namespace {
 
-ObjectPtr create(Params& params) {
-  MeshData data = read_obj(read_file(params), params.text("filename"));
-  flip_tex_coords(params, data);
-  return mesh_from_file(params, std::move(data));
-}
+constexpr uint32_t none = ~0u;
+
+/// What one corner of a face names: position, texture coordinate (or none), normal (or none).
+struct Corner {
+  uint32_t position, uv, normal;
+  bool operator==(const Corner& o) const {
+    return position == o.position && uv == o.uv && normal == o.normal;
+  }
+};
+
+/// Numbers distinct corners in the order of their appearance. The first corner of each position is
+/// found by the position alone, which keeps memory accesses local; the others are in a hash table
+/// with open addressing.
+class CornerTable {
+ public:
+  uint32_t number_of(const Corner& corner) {
+    if (corner.position >= first_.size()) first_.resize(size_t{corner.position} + 1, none);
+    uint32_t& first = first_[corner.position];
+    if (first == none) return first = append(corner);
+    if (corners_[first] == corner) return first;
+    if (2 * (others_ + 1) > slots_.size()) grow();
+    uint32_t& slot = slots_[find(corner)];
+    if (slot == none) {
+      slot = append(corner);
+      ++others_;
+    }
+    return slot;
+  }
+  const std::vector<Corner>& corners() const { return corners_; }
+
+ private:
+  uint32_t append(const Corner& corner) {
+    corners_.push_back(corner);
+    return static_cast<uint32_t>(corners_.size() - 1);
+  }
+  size_t find(const Corner& corner) const {
+    const size_t mask = slots_.size() - 1;
+    size_t i = mix_bits(corner.position + (uint64_t{corner.uv} << 32) +
+                        corner.normal * 0x9e3779b97f4a7c15u) &
+               mask;
+    while (slots_[i] != none && !(corners_[slots_[i]] == corner)) i = (i + 1) & mask;
+    return i;
+  }
+  void grow() {
+    const std::vector<uint32_t> old = std::move(slots_);
+    slots_.assign(std::max<size_t>(1024, 4 * old.size()), none);
+    for (const uint32_t number : old)
+      if (number != none) slots_[find(corners_[number])] = number;
+  }
+
+  std::vector<Corner> corners_;
+  std::vector<uint32_t> first_, slots_;
+  size_t others_ = 0;  ///< Corners in the hash table.
+};
+
+class ObjReader {
+ public:
+  ObjReader(std::string_view bytes, const std::string& name) : text_(bytes, name), name_(name) {}
+
+  MeshData read() {
+    for (; !text_.at_end(); text_.next_line()) {
+      text_.skip_blanks();
+      if (!text_.at_line_end()) read_statement();
+    }
+    if (mesh_.triangles.empty()) throw SceneError(at({name_}, "the file has no faces"));
+    gather();
+    return std::move(mesh_);
+  }
+
+ private:
+  void read_statement() {
+    const std::string_view keyword = text_.word();
+    if (keyword == "v") {
+      positions_.push_back(read_triple());
+    } else if (keyword == "vt") {
+      uvs_.push_back(read_uv());
+    } else if (keyword == "vn") {
+      normals_.push_back(read_triple());
+    } else if (keyword == "f") {
+      read_face();
+    }
+  }
+
+  double number() {
+    text_.skip_blanks();
+    return text_.real("a number");
+  }
+
+  Vec3f read_triple() {
+    const double x = number(), y = number(), z = number();
+    return Vec3(x, y, z);
+  }
+
+  Vec2f read_uv() {
+    const double u = number();
+    text_.skip_blanks();
+    return Vec2(u, text_.at_line_end() ? 0 : number());
+  }
+
+  void read_face() {
+    uint32_t first = 0, previous = 0, count = 0;
+    for (;; ++count) {
+      text_.skip_blanks();
+      if (text_.at_line_end()) break;
+      const uint32_t vertex = table_.number_of(read_corner());
+      if (count >= 2) mesh_.triangles.push_back({first, previous, vertex});
+      if (count == 0) first = vertex;
+      previous = vertex;
+    }
+    if (count < 3)
+      text_.fail("a face needs three vertices or more, but has " + std::to_string(count));
+  }
+
+  /// "p", "p/t", "p//n" or "p/t/n".
+  Corner read_corner() {
+    Corner corner{index(positions_.size(), "vertex"), none, none};
+    if (text_.accept('/')) {
+      if (text_.accept('/')) {
+        corner.normal = index(normals_.size(), "normal");
+      } else {
+        corner.uv = index(uvs_.size(), "texture coordinate");
+        if (text_.accept('/')) corner.normal = index(normals_.size(), "normal");
+      }
+    }
+    const std::string_view rest = text_.word();
+    if (!rest.empty())
+      text_.fail("'" + std::string(rest.substr(0, 40)) + "' after a face's vertex");
+    return corner;
+  }
+
+  /// Counted from 1, or from the end if negative.
+  uint32_t index(size_t count, const char* what) {
+    const int64_t given = text_.integer("an index");
+    const int64_t counted = given < 0 ? given + static_cast<int64_t>(count) : given - 1;
+    if (counted < 0 || counted >= static_cast<int64_t>(count) || counted >= none)
+      text_.fail(
+          fmt::format("a face names {} {}, but {} are defined above it", what, given, count));
+    return static_cast<uint32_t>(counted);
+  }
+
+  void gather() {
+    const std::vector<Corner>& corners = table_.corners();
+    bool any_uv = false, any_normal = false;
+    for (const Corner& c : corners) {
+      any_uv = any_uv || c.uv != none;
+      any_normal = any_normal || c.normal != none;
+    }
+    mesh_.positions.reserve(corners.size());
+    for (const Corner& c : corners) mesh_.positions.push_back(positions_[c.position]);
+    if (any_uv)
+      for (const Corner& c : corners) mesh_.uvs.push_back(c.uv == none ? Vec2f(0) : uvs_[c.uv]);
+    if (any_normal)
+      for (const Corner& c : corners)
+        mesh_.normals.push_back(c.normal == none ? Vec3f(0) : normals_[c.normal]);
+  }
+
+  TextScanner text_;
+  const std::string& name_;
+  std::vector<Vec3f> positions_, normals_;
+  std::vector<Vec2f> uvs_;
+  CornerTable table_;
+  MeshData mesh_;
+};
 
 }  // namespace
 
+MeshData read_obj(std::string_view bytes, const std::string& name) {
+  return ObjReader(bytes, name).read();
+}
+
 Plugin shape_obj() {
-  return {shape_schema("obj", "A mesh from a Wavefront OBJ file.",
-                       {filename_parameter("The OBJ file."), face_normals_parameter(),
-                        flip_tex_coords_parameter(true)}),
-          create};
+  return mesh_file_plugin("obj", "A mesh from a Wavefront OBJ file.", "The OBJ file.", true,
+                          read_obj);
 }
 
 }  // namespace mlt

@@ -1,23 +1,272 @@
-// A triangle mesh from a PLY file (ascii, or binary of either byte order).
+// The elements of a PLY file that make a mesh: positions, normals and texture coordinates of
+// `vertex`, and the index lists of `face`. Everything else is passed over.
 #include "scene/shape/common.h"
+#include "scene/shape/ply_header.h"
 #include "scene/shape/readers.h"
+#include "scene/shape/text_scanner.h"
+
+#include <limits>
 
 namespace mlt {
 namespace {
 
-ObjectPtr create(Params& params) {
-  MeshData data = read_ply(read_file(params), params.text("filename"));
-  flip_tex_coords(params, data);
-  return mesh_from_file(params, std::move(data));
+template <class T, bool swapped>
+T load(const char* bytes) {
+  char ordered[sizeof(T)];
+  for (size_t i = 0; i < sizeof(T); ++i) ordered[i] = bytes[swapped ? sizeof(T) - 1 - i : i];
+  T value;
+  std::memcpy(&value, ordered, sizeof(T));
+  return value;
 }
+
+/// Values of a binary file.
+template <bool swapped>
+class BinarySource {
+ public:
+  BinarySource(std::string_view bytes, const std::string& name)
+      : at_(bytes.data()), end_(bytes.data() + bytes.size()), name_(name) {}
+
+  /// Throws if `count` elements of at least `size` bytes cannot follow.
+  void expect(uint64_t count, size_t size, const std::string& what) const {
+    if (size > 0 && count > remaining() / size) fail_truncated(what);
+  }
+
+  double real(PlyType type, const std::string& what) {
+    switch (type) {
+      case PlyType::int8: return next<int8_t>(what);
+      case PlyType::uint8: return next<uint8_t>(what);
+      case PlyType::int16: return next<int16_t>(what);
+      case PlyType::uint16: return next<uint16_t>(what);
+      case PlyType::int32: return next<int32_t>(what);
+      case PlyType::uint32: return next<uint32_t>(what);
+      case PlyType::float32: return next<float>(what);
+      case PlyType::float64: return next<double>(what);
+    }
+    return 0;
+  }
+  int64_t integer(PlyType type, const std::string& what) {
+    if (type == PlyType::int32) return next<int32_t>(what);
+    return static_cast<int64_t>(real(type, what));
+  }
+  void skip(PlyType type, uint64_t count, const std::string& what) {
+    expect(count, size_of(type), what);
+    at_ += count * size_of(type);
+  }
+  size_t least_size(const PlyElement& element) const { return element.least_size(); }
+
+  [[noreturn]] void fail(const std::string& message) const {
+    throw SceneError(at({name_}, message));
+  }
+
+ private:
+  size_t remaining() const { return static_cast<size_t>(end_ - at_); }
+  [[noreturn]] void fail_truncated(const std::string& what) const {
+    fail("the file ends within its element '" + what + "'");
+  }
+  template <class T>
+  T next(const std::string& what) {
+    if (remaining() < sizeof(T)) fail_truncated(what);
+    const char* from = at_;
+    at_ += sizeof(T);
+    return load<T, swapped>(from);
+  }
+
+  const char* at_;
+  const char* end_;
+  const std::string& name_;
+};
+
+/// Values of an ascii file.
+class AsciiSource {
+ public:
+  AsciiSource(std::string_view bytes, const std::string& name, int first_line)
+      : text_(bytes, name, first_line) {}
+
+  void expect(uint64_t count, size_t size, const std::string& what) const {
+    if (size > 0 && count > (text_.remaining() + 1) / size)
+      text_.fail("the file ends within its element '" + what + "'");
+  }
+  double real(PlyType, const std::string& what) {
+    start_value(what);
+    return text_.real("a number");
+  }
+  int64_t integer(PlyType, const std::string& what) {
+    start_value(what);
+    return text_.integer("an integer");
+  }
+  void skip(PlyType, uint64_t count, const std::string& what) {
+    expect(count, 2, what);
+    for (uint64_t i = 0; i < count; ++i) {
+      start_value(what);
+      text_.word();
+    }
+  }
+  /// A digit and a blank for each property.
+  size_t least_size(const PlyElement& element) const { return 2 * element.properties.size(); }
+
+  [[noreturn]] void fail(const std::string& message) const { text_.fail(message); }
+
+ private:
+  void start_value(const std::string& what) {
+    text_.skip_space();
+    if (text_.at_end()) text_.fail("the file ends within its element '" + what + "'");
+  }
+
+  TextScanner text_;
+};
+
+template <class Source>
+class PlyBody {
+ public:
+  explicit PlyBody(Source source) : source_(std::move(source)) {}
+
+  MeshData read(const PlyHeader& header) {
+    bool vertices = false, faces = false;
+    for (const PlyElement& element : header.elements) {
+      source_.expect(element.count, source_.least_size(element), element.name);
+      if (element.name == "vertex") {
+        if (vertices) source_.fail("the PLY header has two elements 'vertex'");
+        vertices = true;
+        read_vertices(element);
+      } else if (element.name == "face") {
+        if (faces) source_.fail("the PLY header has two elements 'face'");
+        faces = true;
+        read_faces(element);
+      } else if (!element.properties.empty()) {
+        for (uint64_t i = 0; i < element.count; ++i) skip_properties(element, -1);
+      }
+    }
+    if (!vertices) source_.fail("the PLY file has no element 'vertex'");
+    if (!faces || mesh_.triangles.empty()) source_.fail("the PLY file has no faces");
+    return std::move(mesh_);
+  }
+
+ private:
+  /// Where the numbers of a vertex go.
+  enum Slot { x, y, z, nx, ny, nz, u, v, slot_count };
+
+  void read_vertices(const PlyElement& element) {
+    if (element.count >= std::numeric_limits<uint32_t>::max()) source_.fail("too many vertices");
+    const std::vector<int> slots = slots_of(element);
+    const bool normals = has(slots, nx) && has(slots, ny) && has(slots, nz);
+    const bool uvs = has(slots, u) && has(slots, v);
+    if (!has(slots, x) || !has(slots, y) || !has(slots, z))
+      source_.fail("the element 'vertex' needs the properties x, y and z");
+    const size_t count = static_cast<size_t>(element.count);
+    mesh_.positions.resize(count);
+    if (normals) mesh_.normals.resize(count);
+    if (uvs) mesh_.uvs.resize(count);
+    double value[slot_count + 1] = {};
+    for (size_t i = 0; i < count; ++i) {
+      for (size_t k = 0; k < slots.size(); ++k) {
+        const PlyProperty& property = element.properties[k];
+        if (property.list) {
+          skip_property(element, property);
+        } else {
+          value[slots[k]] = source_.real(property.type, element.name);
+        }
+      }
+      mesh_.positions[i] = Vec3(value[x], value[y], value[z]);
+      if (normals) mesh_.normals[i] = Vec3(value[nx], value[ny], value[nz]);
+      if (uvs) mesh_.uvs[i] = Vec2(value[u], value[v]);
+    }
+  }
+
+  static bool has(const std::vector<int>& slots, Slot slot) {
+    return std::find(slots.begin(), slots.end(), slot) != slots.end();
+  }
+
+  /// For each property the slot it fills; slot_count if it is of no use.
+  static std::vector<int> slots_of(const PlyElement& element) {
+    std::vector<int> slots(element.properties.size(), slot_count);
+    const auto assign = [&](Slot slot, std::initializer_list<const char*> names) {
+      const int found = element.find(names);
+      if (found >= 0 && !element.properties[static_cast<size_t>(found)].list)
+        slots[static_cast<size_t>(found)] = slot;
+    };
+    assign(x, {"x"});
+    assign(y, {"y"});
+    assign(z, {"z"});
+    assign(nx, {"nx"});
+    assign(ny, {"ny"});
+    assign(nz, {"nz"});
+    assign(u, {"u", "s", "texture_u"});
+    assign(v, {"v", "t", "texture_v"});
+    return slots;
+  }
+
+  void read_faces(const PlyElement& element) {
+    const int list = element.find({"vertex_indices", "vertex_index"});
+    if (list < 0 || !element.properties[static_cast<size_t>(list)].list)
+      source_.fail("the element 'face' needs a list property 'vertex_indices'");
+    if (!is_integer(element.properties[static_cast<size_t>(list)].type))
+      source_.fail("'vertex_indices' must be integers");
+    mesh_.triangles.reserve(static_cast<size_t>(element.count));
+    for (uint64_t i = 0; i < element.count; ++i) skip_properties(element, list);
+  }
+
+  /// Passes over one element; property number `face`, if any, is read as a polygon.
+  void skip_properties(const PlyElement& element, int face) {
+    for (size_t k = 0; k < element.properties.size(); ++k) {
+      const PlyProperty& property = element.properties[k];
+      if (static_cast<int>(k) == face) {
+        read_polygon(element, property);
+      } else {
+        skip_property(element, property);
+      }
+    }
+  }
+
+  void skip_property(const PlyElement& element, const PlyProperty& property) {
+    source_.skip(property.type, property.list ? read_count(element, property) : 1, element.name);
+  }
+
+  uint64_t read_count(const PlyElement& element, const PlyProperty& property) {
+    const int64_t count = source_.integer(property.count_type, element.name);
+    if (count < 0) source_.fail("a list of negative length in the element '" + element.name + "'");
+    return static_cast<uint64_t>(count);
+  }
+
+  void read_polygon(const PlyElement& element, const PlyProperty& property) {
+    const uint64_t count = read_count(element, property);
+    if (count < 3) source_.fail("a face with fewer than three vertices");
+    const uint32_t first = read_index(element, property);
+    uint32_t previous = read_index(element, property);
+    for (uint64_t i = 2; i < count; ++i) {
+      const uint32_t next = read_index(element, property);
+      mesh_.triangles.push_back({first, previous, next});
+      previous = next;
+    }
+  }
+
+  /// Whether the vertex exists is for check_mesh to say: vertices may follow the faces.
+  uint32_t read_index(const PlyElement& element, const PlyProperty& property) {
+    const int64_t index = source_.integer(property.type, element.name);
+    if (index < 0 || index >= std::numeric_limits<uint32_t>::max())
+      source_.fail("a face names vertex " + std::to_string(index) + ", which cannot exist");
+    return static_cast<uint32_t>(index);
+  }
+
+  Source source_;
+  MeshData mesh_;
+};
 
 }  // namespace
 
+MeshData read_ply(std::string_view bytes, const std::string& name) {
+  const PlyHeader header = read_ply_header(bytes, name);
+  const std::string_view body = bytes.substr(header.size);
+  switch (header.format) {
+    case PlyFormat::ascii: return PlyBody(AsciiSource(body, name, header.lines + 1)).read(header);
+    case PlyFormat::little_endian: return PlyBody(BinarySource<false>(body, name)).read(header);
+    case PlyFormat::big_endian: break;
+  }
+  return PlyBody(BinarySource<true>(body, name)).read(header);
+}
+
 Plugin shape_ply() {
-  return {shape_schema("ply", "A mesh from a PLY (Stanford triangle format) file.",
-                       {filename_parameter("The PLY file."), face_normals_parameter(),
-                        flip_tex_coords_parameter(false)}),
-          create};
+  return mesh_file_plugin("ply", "A mesh from a PLY (Stanford triangle format) file.",
+                          "The PLY file.", false, read_ply);
 }
 
 }  // namespace mlt

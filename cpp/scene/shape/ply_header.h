@@ -1,5 +1,5 @@
-// The header of a PLY file (Turk 1994, "The PLY polygon file format"): what elements follow, and the
-// types of their properties.
+// The header of a PLY file (Turk 1994, "The PLY polygon file format"): what elements follow, and
+// the types of their properties.
 #pragma once
 
 #include <cstdint>

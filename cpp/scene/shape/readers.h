@@ -1,4 +1,4 @@
-// Readers of mesh files. They work from memory, trust nothing that the file says of itself, and
+// Readers of mesh files. They work from memory, check everything that the file says of itself, and
 // throw SceneError with the file's name (and line, where it has lines) for anything malformed. What
 // they allocate is bounded by what the file holds.
 #pragma once

@@ -47,7 +47,7 @@ class Bitmap final : public Texture {
     Color sum(0);
     for (int y = 0; y < image_.height; ++y)
       for (int x = 0; x < image_.width; ++x) {
-        const Color c = texel(x, y);
+        const Color c = texel(image_, x, y);
         sum += c;
         maximum_ = glm::max(maximum_, c);
       }
@@ -74,17 +74,13 @@ class Bitmap final : public Texture {
   Color maximum() const override { return maximum_; }
 
  private:
-  Color texel(int x, int y) const {
-    const float* c = &image_.data[image_.index(x, y, 0)];
-    return image_.channels == 1 ? Color(c[0]) : Color(c[0], c[1], c[2]);
-  }
   int column(int i) const { return wrapped(i, image_.width, wrap_u_); }
   int row(int j) const { return wrapped(j, image_.height, wrap_v_); }
   /// Of a column and a row, or the border's value.
   Color lookup(int x, int y) const {
     if (x < 0) return Color(border_value(wrap_u_));
     if (y < 0) return Color(border_value(wrap_v_));
-    return texel(x, y);
+    return texel(image_, x, y);
   }
 
   Image image_;
@@ -142,34 +138,25 @@ ObjectPtr create(Params& params) {
 std::vector<Parameter> parameters() {
   const std::vector<std::string> wraps = {"repeat", "mirror", "clamp", "zero",
                                           "one",    "black",  "white"};
-  std::vector<Parameter> all = {
-      {"filename", ParamType::text, {}, "Image file: PNG, JPEG, HDR, EXR, TGA or BMP."},
-      {"filter_type",
-       ParamType::text,
-       std::string("bilinear"),
-       "How texels are interpolated; trilinear and ewa are read as bilinear.",
-       {"bilinear", "nearest", "trilinear", "ewa"}},
-      {"wrap_mode", ParamType::text, std::string("repeat"), "What lies outside of [0, 1].", wraps},
-      {"wrap_mode_u", ParamType::text, {}, "wrap_mode along u, if different.", wraps},
-      {"wrap_mode_v", ParamType::text, {}, "wrap_mode along v, if different.", wraps},
-      {"raw", ParamType::boolean, false,
-       "Take the stored values as they are, without sRGB decoding."},
-      {"gamma",
-       ParamType::real,
-       {},
-       "Gamma of the stored values: 1 is linear, -1 sRGB; by the file's format if not given."}};
-  for (Parameter& parameter : uv_parameters()) all.push_back(std::move(parameter));
-  return all;
+  return {{"filename", ParamType::text, no_default, "Image file: PNG, JPEG, HDR, EXR, TGA or BMP."},
+          choice_parameter("filter_type", "bilinear",
+                           "How texels are interpolated; trilinear and ewa are read as bilinear.",
+                           {"bilinear", "nearest", "trilinear", "ewa"}),
+          choice_parameter("wrap_mode", "repeat", "What lies outside of [0, 1].", wraps),
+          {"wrap_mode_u", ParamType::text, no_default, "wrap_mode along u, if different.", wraps},
+          {"wrap_mode_v", ParamType::text, no_default, "wrap_mode along v, if different.", wraps},
+          {"raw", ParamType::boolean, false,
+           "Take the stored values as they are, without sRGB decoding."},
+          {"gamma", ParamType::real, no_default,
+           "Gamma of the stored values: 1 is linear, -1 sRGB; by the file's format if not given."}};
 }
 
 }  // namespace
 
 Plugin texture_bitmap() {
-  return {{"texture",
-           "bitmap",
-           "An image, interpolated between its texels.",
-           parameters(),
-           {"format", "accel", "cache", "max_anisotropy"}},
+  std::vector<std::string> ignored = {"format", "accel", "cache", "max_anisotropy"};
+  return {{"texture", "bitmap", "An image, interpolated between its texels.",
+           concat({parameters(), uv_parameters()}), std::move(ignored)},
           create};
 }
 

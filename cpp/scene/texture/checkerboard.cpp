@@ -1,4 +1,4 @@
-// Two colours in the four quarters of the uv square, repeated for ever.
+// Two colours in the four quarters of the uv square, repeated in both directions.
 #include "base/registry.h"
 #include "scene/texture.h"
 #include "scene/texture/uv_transform.h"
@@ -27,20 +27,15 @@ class Checkerboard final : public Texture {
   UvTransform to_uv_;
 };
 
-std::vector<Parameter> parameters() {
-  std::vector<Parameter> all = {
-      {"color0", ParamType::texture, 0.4, "Colour of the quarters at the lower left, upper right."},
-      {"color1", ParamType::texture, 0.2, "Colour of the other two quarters."}};
-  for (Parameter& parameter : uv_parameters()) all.push_back(std::move(parameter));
-  return all;
-}
-
 }  // namespace
 
 Plugin texture_checkerboard() {
-  return {{"texture", "checkerboard", "A board of two colours, 2 x 2 fields in the uv square.",
-           parameters()},
-          [](Params& params) -> ObjectPtr { return std::make_shared<Checkerboard>(params); }};
+  return make_plugin<Checkerboard>(
+      "texture", "checkerboard", "A board of two colours, 2 x 2 fields in the uv square.",
+      concat({{{"color0", ParamType::texture, 0.4,
+                "Colour of the quarters at the lower left, upper right."},
+               {"color1", ParamType::texture, 0.2, "Colour of the other two quarters."}},
+              uv_parameters()}));
 }
 
 }  // namespace mlt

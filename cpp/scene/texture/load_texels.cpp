@@ -8,14 +8,6 @@
 namespace mlt {
 namespace {
 
-ReadImage read(const Params& params, const std::string& path) {
-  try {
-    return read_image(path);
-  } catch (const FileError& error) {
-    throw FileError(at(params.where(), error.what()));
-  }
-}
-
 /// Grey or RGB, without alpha and whatever comes after it.
 Image colour_channels(Image image) {
   const int channels = image.channels < 3 ? 1 : 3;
@@ -42,13 +34,12 @@ void decode(Image& image, const Decoding& decoding, bool srgb_encoded) {
 
 Image load_texels(Params& params, const Decoding& decoding) {
   const std::string path = params.text("filename");
-  ReadImage file = read(params, path);
+  ReadImage file = read_image(path);
   Image image = colour_channels(std::move(file.image));
   decode(image, decoding, file.srgb_encoded);
   bool negative = false;
   for (float& v : image.data) {
-    if (!std::isfinite(v))
-      throw FileError(at(params.where(), path + ": holds NaN or infinite pixels"));
+    if (!std::isfinite(v)) throw FileError(path + ": holds NaN or infinite pixels");
     if (v < 0 && !decoding.keep_negative) {
       v = 0;
       negative = true;

@@ -5,15 +5,13 @@
 namespace mlt {
 
 std::vector<Parameter> uv_parameters() {
-  return {{"to_uv",
-           ParamType::transform,
-           {},
+  return {{"to_uv", ParamType::transform, no_default,
            "Applied to texture coordinates: x, y and the translation of a transform count. "
            "Identity if not given."},
           {"uoffset", ParamType::real, 0.0, "Added to u, after the scale."},
           {"voffset", ParamType::real, 0.0, "Added to v, after the scale."},
-          {"uscale", ParamType::real, {}, "Multiplies u; uvscale if not given."},
-          {"vscale", ParamType::real, {}, "Multiplies v; uvscale if not given."},
+          {"uscale", ParamType::real, no_default, "Multiplies u; uvscale if not given."},
+          {"vscale", ParamType::real, no_default, "Multiplies v; uvscale if not given."},
           {"uvscale", ParamType::real, 1.0, "Multiplies u and v."}};
 }
 

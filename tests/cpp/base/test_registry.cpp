@@ -62,9 +62,13 @@ TEST(Registry, RefusesInFamiliesThatHaveNoPlugin) {
       "s.xml:4: medium 'homogeneous' is not supported: participating media are not supported");
 }
 
-TEST(Registry, APluginIsFoundBeforeItsRefusal) {
+TEST(Registry, NoNameIsRegisteredOrRefusedTwice) {
   Registry registry = example();
-  registry.refuse("bsdf", "diffuse", "not implemented yet");
+  EXPECT_THROW(registry.add(plugin("bsdf", "diffuse")), Error);
+  EXPECT_THROW(registry.refuse("bsdf", "diffuse", "not implemented yet"), Error);
+  EXPECT_THROW(registry.add(plugin("bsdf", "measured")), Error);
+  EXPECT_THROW(registry.refuse("bsdf", "measured", "again"), Error);
+  registry.add(plugin("shape", "diffuse"));
   EXPECT_EQ(error_of(registry, "bsdf", "diffuse"), "no error");
 }
 

@@ -6,7 +6,7 @@
 
 namespace mlt {
 
-#define MLT_PLUGIN(name) Plugin bsdf_##name();
+#define MLT_PLUGIN(family, name) Plugin family##_##name();
 #include "scene/bsdf/list.inc"
 #undef MLT_PLUGIN
 
@@ -17,7 +17,7 @@ using namespace std::string_literals;
 
 const Plugin& plugin(const std::string& name) {
   static const std::vector<Plugin> plugins = {
-#define MLT_PLUGIN(name) bsdf_##name(),
+#define MLT_PLUGIN(family, name) family##_##name(),
 #include "scene/bsdf/list.inc"
 #undef MLT_PLUGIN
   };

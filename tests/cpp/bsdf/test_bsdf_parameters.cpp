@@ -142,7 +142,7 @@ TEST(BsdfParameters, ReflectancesMustLieBetweenZeroAndOne) {
 }
 
 TEST(BsdfParameters, EveryParameterIsDocumented) {
-#define MLT_PLUGIN(plugin)                                     \
+#define MLT_PLUGIN(family_name, plugin)                        \
   for (const Parameter& p : bsdf_schema(#plugin).parameters) { \
     EXPECT_FALSE(p.doc.empty()) << #plugin << " " << p.name;   \
     EXPECT_EQ(snake_case(p.name), p.name) << #plugin;          \

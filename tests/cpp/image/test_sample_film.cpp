@@ -1,5 +1,6 @@
 // The film that divides by expected weights: right in the mean everywhere, at the borders of the
 // image too; the same bits in any order; and safe against damaged bytes.
+#include "filters.h"
 #include "image/sample_film.h"
 
 #include <gtest/gtest.h>
@@ -26,7 +27,7 @@ FilterPtr shared(Filter filter) { return std::make_shared<const Filter>(std::mov
 
 std::vector<FilterPtr> all_filters() {
   std::vector<FilterPtr> filters;
-  for (const std::string& name : filter_names()) filters.push_back(shared(make_filter(name)));
+  for (const Filter& filter : test::default_filters()) filters.push_back(shared(filter));
   filters.push_back(shared(box_filter(1.25)));
   filters.push_back(shared(tent_filter(0.7)));
   return filters;

@@ -1,5 +1,6 @@
 // The film that adds in fixed point: the same bits in any order and on any number of threads, a
 // known precision, and a range that tells when it is left.
+#include "filters.h"
 #include "image/splat_film.h"
 
 #include <gtest/gtest.h>
@@ -69,8 +70,8 @@ TEST(SplatFilm, HasTheSameBitsForAnyNumberOfThreads) {
 
 TEST(SplatFilm, EachSplatIsRoundedOnceToHalfAUnit) {
   const std::vector<Splat> all = splats(5000);
-  for (const std::string& name : filter_names()) {
-    const FilterPtr filter = shared(make_filter(name));
+  for (const Filter& each : test::default_filters()) {
+    const FilterPtr filter = shared(each);
     SplatFilm film(width, height, filter, groups);
     std::vector<double> sum(3 * width * height), added(sum.size());
     const std::vector<double> scale{0.25, 1.5};
@@ -90,7 +91,8 @@ TEST(SplatFilm, EachSplatIsRoundedOnceToHalfAUnit) {
     const Image image = film.image(scale);
     EXPECT_EQ(film.saturated(), 0u);
     for (size_t i = 0; i < sum.size(); ++i)
-      ASSERT_NEAR(image.data[i], sum[i], added[i] * 0x1p-29 + std::abs(sum[i]) * 0x1p-23) << name;
+      ASSERT_NEAR(image.data[i], sum[i], added[i] * 0x1p-29 + std::abs(sum[i]) * 0x1p-23)
+          << each.name();
   }
 }
 

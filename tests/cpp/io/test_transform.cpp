@@ -1,5 +1,6 @@
 // Every form of <transform>, against matrices worked out by hand. "Peer" values were printed once
-// by Mitsuba 3.9 for the same XML, but with axes of length 1: it does not normalise them (0.6 does).
+// by Mitsuba 3.9 for the same XML, but with axes of length 1: it does not normalise them (0.6
+// does).
 #include <gtest/gtest.h>
 
 #include <algorithm>

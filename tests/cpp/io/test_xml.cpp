@@ -259,8 +259,8 @@ TEST_F(XmlFiles, AMissingFileNamesThePlacesLookedAt) {
   here.pop_back();
   EXPECT_EQ(error_of_file("scene.xml"),
             path("scene.xml") + ":3: there is no file 'no.obj' in " + path("meshes") + ", " + here);
-  EXPECT_EQ(error_of_file("no.xml"), "there is no file " + path("no.xml"));
-  EXPECT_EQ(error_of_file("meshes"), path("meshes") + " is not a file");
+  EXPECT_EQ(error_of_file("no.xml"), path("no.xml") + ": there is no such file");
+  EXPECT_EQ(error_of_file("meshes"), path("meshes") + ": cannot read it: it is a folder");
   EXPECT_EQ(
       error_of(in_scene("<shape type='obj'><string name='filename' value='/no/a.obj'/></shape>")),
       "<string>:2: there is no file '/no/a.obj'");

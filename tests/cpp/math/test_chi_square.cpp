@@ -1,4 +1,5 @@
-// The chi-square harness must accept right samplers, however narrow, and reject slightly wrong ones.
+// The chi-square harness must accept right samplers, however narrow, and reject slightly wrong
+// ones.
 #include "harness/chi_square.h"
 
 #include "math/warp.h"

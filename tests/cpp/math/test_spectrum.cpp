@@ -11,7 +11,7 @@ namespace mlt::test {
 namespace {
 
 struct Case {
-  std::vector<SpectrumSample> samples;
+  Spectrum samples;
   SpectrumUse use;
   Color expected;
 };
@@ -125,9 +125,7 @@ TEST(Spectrum, SaysWhenItClamps) {
 }
 
 TEST(Spectrum, RefusesBadLists) {
-  const auto convert = [](const std::vector<SpectrumSample>& s) {
-    return spectrum_to_rgb(s, SpectrumUse::emission);
-  };
+  const auto convert = [](const Spectrum& s) { return spectrum_to_rgb(s, SpectrumUse::emission); };
   EXPECT_THROW(convert({}), UsageError);
   EXPECT_THROW(convert({{500, 1}}), UsageError);
   EXPECT_THROW(convert({{500, 1}, {500, 2}}), UsageError);

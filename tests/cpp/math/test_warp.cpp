@@ -1,5 +1,5 @@
-// Every warp as a triple: samples follow the density, the density integrates to one, and the inverse
-// gives back the random numbers.
+// Every warp as a triple: samples follow the density, the density integrates to one, and the
+// inverse gives back the random numbers.
 #include "math/warp.h"
 
 #include "harness/chi_square.h"

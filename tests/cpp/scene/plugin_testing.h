@@ -24,7 +24,7 @@ std::shared_ptr<T> make(const Plugin& plugin, const Given& given = {},
                         std::vector<std::string>* warnings = nullptr) {
   Params params(plugin.schema, {"scene.xml", 7});
   for (const auto& [name, value] : given) params.set(name, value, {"scene.xml", 8});
-  auto object = std::dynamic_pointer_cast<T>(plugin.create(params));
+  auto object = std::dynamic_pointer_cast<T>(make_object(plugin, params));
   params.expect_all_read();
   if (warnings) *warnings = params.warnings();
   return object;

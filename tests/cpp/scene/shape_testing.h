@@ -37,7 +37,8 @@ inline Mat4 scaling(double x, double y, double z) {
   return rows({x, 0, 0, 0, 0, y, 0, 0, 0, 0, z, 0, 0, 0, 0, 1});
 }
 
-/// The nearest hit with a triangle of the mesh, rounded to single precision as an accelerator would.
+/// The nearest hit with a triangle of the mesh, rounded to single precision as an accelerator
+/// would.
 inline std::optional<Hit> nearest_hit(const Mesh& mesh, const Ray& ray) {
   std::optional<Hit> nearest;
   const MeshData& data = mesh.data();
@@ -76,7 +77,7 @@ inline std::shared_ptr<Shape> make_shape(const Plugin& plugin,
                                          const std::map<std::string, Value>& given) {
   Params params(plugin.schema, {"scene.xml", 7});
   for (const auto& [name, value] : given) params.set(name, value, {"scene.xml", 8});
-  auto shape = std::dynamic_pointer_cast<Shape>(plugin.create(params));
+  auto shape = std::dynamic_pointer_cast<Shape>(make_object(plugin, params));
   params.expect_all_read();
   return shape;
 }
@@ -92,8 +93,8 @@ std::string error_of(Action action) {
   return "";
 }
 
-/// Runs `read` on every truncation of `bytes` (each in a buffer of its own, so that a sanitizer sees
-/// any read past its end); all must throw a typed error or succeed.
+/// Runs `read` on every truncation of `bytes` (each in a buffer of its own, so that a sanitizer
+/// sees any read past its end); all must throw a typed error or succeed.
 template <class Read>
 void expect_truncations_are_safe(const std::string& bytes, Read read) {
   for (size_t size = 0; size < bytes.size(); ++size) {

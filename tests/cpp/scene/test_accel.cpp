@@ -1,9 +1,9 @@
 #include "scene/accel.h"
 
-#include "scene/cylinder.h"
-#include "scene/disk.h"
+#include "scene/shape/cylinder.h"
+#include "scene/shape/disk.h"
+#include "scene/shape/sphere.h"
 #include "scene/shape_testing.h"
-#include "scene/sphere.h"
 
 namespace mlt {
 namespace {

@@ -1,4 +1,4 @@
-#include "scene/cylinder.h"
+#include "scene/shape/cylinder.h"
 
 #include "scene/shape_testing.h"
 

@@ -1,4 +1,4 @@
-#include "scene/disk.h"
+#include "scene/shape/disk.h"
 
 #include "scene/shape_testing.h"
 

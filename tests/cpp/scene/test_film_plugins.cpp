@@ -1,11 +1,12 @@
 #include <gmock/gmock.h>
 
+#include "filters.h"
 #include "scene/film_settings.h"
 #include "scene/plugin_testing.h"
 
 namespace mlt {
 
-#define MLT_PLUGIN(name) Plugin name();
+#define MLT_PLUGIN(family, name) Plugin family##_##name();
 #include "scene/film/list.inc"
 #undef MLT_PLUGIN
 
@@ -48,7 +49,7 @@ TEST(FilmPlugins, TakeAFilterWithoutAName) {
   const Plugin plugin = film_hdrfilm();
   Params params(plugin.schema, {});
   params.add("rfilter", make<FilterObject>(rfilter_box()), {});
-  const auto film = std::dynamic_pointer_cast<FilmSettings>(plugin.create(params));
+  const auto film = std::dynamic_pointer_cast<FilmSettings>(make_object(plugin, params));
   params.expect_all_read();
   EXPECT_TRUE(film->filter->is_box());
 }
@@ -86,13 +87,15 @@ TEST(FilmPlugins, WarnOnlyAboutWhatChangesTheResult) {
 TEST(FilterPlugins, MakeTheFilterTheyName) {
   const Plugin plugins[] = {rfilter_box(),      rfilter_tent(),       rfilter_gaussian(),
                             rfilter_mitchell(), rfilter_catmullrom(), rfilter_lanczos()};
-  for (const Plugin& plugin : plugins) {
-    EXPECT_EQ(plugin.schema.family, "rfilter");
-    const auto filter = make<FilterObject>(plugin)->filter;
-    const Filter standard = make_filter(plugin.schema.name);
-    EXPECT_EQ(filter->name(), plugin.schema.name);
-    EXPECT_EQ(filter->radius(), standard.radius());
-    for (double x : {0.0, 0.4, 0.9, 1.7}) EXPECT_EQ(filter->eval(x), standard.eval(x));
+  const std::vector<Filter> filters = test::default_filters();
+  ASSERT_EQ(std::size(plugins), filters.size());
+  for (size_t i = 0; i < filters.size(); ++i) {
+    EXPECT_EQ(plugins[i].schema.family, "rfilter");
+    const auto filter = make<FilterObject>(plugins[i])->filter;
+    EXPECT_EQ(filter->name(), plugins[i].schema.name);
+    EXPECT_EQ(filter->name(), filters[i].name());
+    EXPECT_EQ(filter->radius(), filters[i].radius());
+    for (double x : {0.0, 0.4, 0.9, 1.7}) EXPECT_EQ(filter->eval(x), filters[i].eval(x));
   }
   EXPECT_EQ(make<FilterObject>(rfilter_lanczos(), {{"lobes", int64_t{2}}})->filter->radius(), 2);
   EXPECT_EQ(make<FilterObject>(rfilter_gaussian(), {{"stddev", 0.25}})->filter->radius(), 1);

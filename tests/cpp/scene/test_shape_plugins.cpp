@@ -8,7 +8,7 @@
 
 namespace mlt {
 
-#define MLT_PLUGIN(name) Plugin shape_##name();
+#define MLT_PLUGIN(family, name) Plugin family##_##name();
 #include "scene/shape/list.inc"
 #undef MLT_PLUGIN
 
@@ -21,7 +21,7 @@ using testing::HasSubstr;
 const Plugin& plugin(const std::string& name) {
   static const Registry registry = [] {
     Registry made;
-#define MLT_PLUGIN(name) made.add(shape_##name());
+#define MLT_PLUGIN(family, name) made.add(family##_##name());
 #include "scene/shape/list.inc"
 #undef MLT_PLUGIN
     return made;
@@ -161,10 +161,10 @@ TEST(ShapePlugins, ErrorsNameTheFile) {
     return error_of([&] { make(type, given); });
   };
   EXPECT_EQ(error("obj", {{"filename", std::string("/nowhere/x.obj")}}),
-            "scene.xml:7: cannot read '/nowhere/x.obj': No such file or directory");
+            "scene.xml:7: /nowhere/x.obj: there is no such file");
   EXPECT_THAT(error("ply", {{"filename", testing::TempDir()}}), HasSubstr("cannot read"));
   const TemporaryFile empty("empty.obj", "");
-  EXPECT_THAT(error("obj", {{"filename", empty.path}}), HasSubstr("it is empty"));
+  EXPECT_THAT(error("obj", {{"filename", empty.path}}), HasSubstr("the file has no faces"));
   EXPECT_THAT(error("obj", {}), HasSubstr("needs 'filename'"));
   const TemporaryFile nan("nan.obj", "v nan 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n");
   EXPECT_EQ(error("obj", {{"filename", nan.path}}),

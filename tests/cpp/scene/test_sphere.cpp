@@ -1,4 +1,4 @@
-#include "scene/sphere.h"
+#include "scene/shape/sphere.h"
 
 #include "math/warp.h"
 #include "scene/shape_testing.h"

@@ -1,6 +1,8 @@
-// An ellipse filled: the unit disk under an affine map.
+// An ellipse filled: the unit disk under an affine map. u is the distance from the centre, v the
+// azimuth from +x.
 #pragma once
 
+#include "base/params.h"
 #include "scene/analytic_shape.h"
 
 namespace mlt {
@@ -10,6 +12,8 @@ class Disk : public AnalyticShape {
   /// The disk of radius 1 in the xy plane under `to_world`. The normal stays on the side of the
   /// image of +z. Throws SceneError if `to_world` is singular or no affine map.
   Disk(const Mat4& to_world, bool flip_normals, const Location& where);
+
+  explicit Disk(Params& params);
 
   std::optional<double> intersect(const Vec3& o, const Vec3& d, double t_min,
                                   double t_max) const override;
@@ -24,13 +28,12 @@ class Disk : public AnalyticShape {
   double plane_distance(const Vec3& o, const Vec3& d) const;
   /// The point of the unit disk that is mapped to p.
   Vec2 to_disk(const Vec3& p) const;
-  void fill(const Vec2& q, SurfacePoint& at) const;
+  SurfacePoint point(const Vec3& p, const Vec2& q) const;
 
   Vec3 center_, x_, y_;   ///< The images of the origin and of the two axes.
   Vec3 dual_x_, dual_y_;  ///< In the plane, with dot(dual_i, axis_j) = 1 if i = j, else 0.
   Vec3 normal_;           ///< Unit length, on the side that flip_normals leaves in front.
   double area_;
-  double extent_;
 };
 
 }  // namespace mlt

@@ -14,8 +14,8 @@ py::object to_python(const Value& value);
 /// Family, name, doc, parameters (name, type, default, doc, choices) and ignored names.
 py::dict to_dict(const Schema& schema);
 
-/// The tree of a nested dict. `path` is how the caller names the dict, such as "scene": errors about
-/// its parts say where with it ("scene['sensor']['film']").
+/// The tree of a nested dict. `path` is how the caller names the dict, such as "scene": errors
+/// about its parts say where with it ("scene['sensor']['film']").
 Node to_node(const py::dict& dict, const std::string& family, const std::string& path,
              const Registry& registry);
 

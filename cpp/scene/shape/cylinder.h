@@ -1,4 +1,5 @@
-// The side of a circular cylinder, without its ends.
+// The side of a circular cylinder, open at both ends. u is the azimuth, v runs from 0 to 1 along
+// the axis.
 #pragma once
 
 #include "scene/analytic_shape.h"
@@ -25,21 +26,14 @@ class Cylinder : public AnalyticShape {
   void bounds(Vec3& low, Vec3& high) const override;
 
  private:
-  /// Where a line meets the infinite cylinder, in order, and in which of the two it is between the
-  /// ends.
-  struct Roots {
-    double near, far;
-    bool near_counts, far_counts;
-  };
   std::optional<Roots> roots(const Vec3& o, const Vec3& d) const;
   /// The point at the height z and in the direction (x, y) from the axis, a unit vector.
-  void fill(const Vec2& outward, double z, SurfacePoint& at) const;
+  SurfacePoint point(const Vec2& outward, double z) const;
 
   Vec3 base_;
   Frame frame_;
   double radius_, length_;
   double side_;  ///< 1 if the normals point outward, else -1.
-  double extent_;
 };
 
 }  // namespace mlt

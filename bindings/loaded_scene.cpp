@@ -1,6 +1,6 @@
 // Loading, and what a scene tells about itself.
 #include "bindings.h"
-#include "values.h"
+#include "scene_dict.h"
 
 #include "io/load.h"
 #include "io/pack.h"

@@ -1,4 +1,4 @@
-#include "image/text.h"
+#include "image/label.h"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,7 @@
-// A sphere, intersected in double precision.
+// A sphere. u is the azimuth about its z axis from +x, v the polar angle from +z.
 #pragma once
 
+#include "base/params.h"
 #include "scene/analytic_shape.h"
 
 namespace mlt {
@@ -11,6 +12,8 @@ class Sphere : public AnalyticShape {
   /// A `to_world` that mirrors turns the normals around.
   Sphere(const Vec3& center, double radius, const Mat4& to_world, bool flip_normals,
          const Location& where);
+
+  explicit Sphere(Params& params);
 
   const Vec3& center() const { return center_; }
   double radius() const { return radius_; }
@@ -28,16 +31,12 @@ class Sphere : public AnalyticShape {
   void bounds(Vec3& low, Vec3& high) const override;
 
  private:
-  /// Where a line passes the surface, in order.
-  struct Roots {
-    double near, far;
-  };
   std::optional<Roots> roots(const Vec3& o, const Vec3& d) const;
 
   struct Cone;
   /// The cone in which `from` sees the sphere; nullopt from inside.
   std::optional<Cone> cone(const Vec3& from) const;
-  void fill(const Vec3& outward, SurfacePoint& at) const;
+  SurfacePoint point(const Vec3& outward) const;
 
   Vec3 center_;
   double radius_;

@@ -1,7 +1,8 @@
 // The Mitsuba 3 dict: every plug-in is a dict with its name under "type"; colours, spectra and
-// references are dicts with types of their own ("rgb", "spectrum", "uniform", "ref"); transforms are
-// 4 x 4 matrices. A nested plug-in's key is the parameter it is given for, or, in a scene, its id.
-#include "values.h"
+// references are dicts with types of their own ("rgb", "spectrum", "uniform", "ref"); transforms
+// are 4 x 4 matrices. A nested plug-in's key is the parameter it is given for, or, in a scene, its
+// id.
+#include "scene_dict.h"
 
 #include <pybind11/stl.h>
 
@@ -180,11 +181,7 @@ class Converter {
   }
 
   static Node reference(const py::dict& dict, const std::string& path) {
-    Node node;
-    node.family = "ref";
-    node.where = {path, 0};
-    node.type = text_of(dict, "id", node.where);
-    return node;
+    return {"ref", text_of(dict, "id", {path, 0}), "", "", {path, 0}, {}, {}};
   }
 
   const Registry& registry_;
