@@ -3,7 +3,6 @@
 #include "base/error.h"
 #include "io/text.h"
 
-#include <algorithm>
 #include <charconv>
 #include <limits>
 #include <optional>
@@ -48,11 +47,6 @@ T found(const std::optional<T>& value, const std::string& text, const char* expe
 std::string first_spelling(const Flag& flag) {
   const std::string all = flag.spelling;
   return all.substr(0, all.find(','));
-}
-
-const Flag& flag_named(const std::string& name) {
-  const std::vector<Flag>& flags = render_flags();
-  return *std::find_if(flags.begin(), flags.end(), [&](const Flag& f) { return f.name == name; });
 }
 
 }  // namespace
@@ -114,17 +108,14 @@ FlagValue read_flag(const Flag& flag, const std::string& text) {
 void check_flags(const std::set<std::string>& given) {
   const bool resumed = given.count("resume") > 0;
   if (!resumed && !given.count("scene")) throw UsageError("SCENE is required, or --resume FILE");
-  for (const std::string& name : given) {
-    const Flag& flag = flag_named(name);
+  for (const Flag& flag : render_flags()) {
+    if (!given.count(flag.name)) continue;
     if (resumed && flag.is(Flag::fixed_by_resume))
       throw UsageError(first_spelling(flag) +
                        " cannot be given with --resume: the checkpoint says it");
     // A resumed render renews its checkpoint anyway.
-    if (!resumed && *flag.needs && !given.count(flag.needs)) {
-      const Flag& other = flag_named(flag.needs);
-      throw UsageError(first_spelling(flag) + " needs " + first_spelling(other) + " " +
-                       other.metavar);
-    }
+    if (!resumed && *flag.needs && !given.count(flag.needs))
+      throw UsageError(first_spelling(flag) + " needs --" + flag.needs);
   }
 }
 

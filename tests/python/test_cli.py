@@ -130,11 +130,18 @@ def test_a_mistake_in_usage_is_one_line(program, scene, arguments, what):
     assert not Path("a.exr").exists()
 
 
-# Parsers have words of their own for these, and what lies behind the flags has its own tests.
-PARSERS = {"no output", "unknown flag", "two scenes"}
+RULES = ["no scene", "every alone", "every 0", "resume with a seed", "resume with -p", "size"]
+RULES += [
+    "negative seed",
+    "large seed",
+    "spp 0",
+    "spp is a word",
+    "negative threads",
+    "-D without value",
+]
 
 
-@pytest.mark.parametrize("name", sorted(USAGE.keys() - PARSERS))
+@pytest.mark.parametrize("name", RULES)
 def test_both_programs_refuse_in_the_same_words(scene, name):
     binary = mlt_render() or pytest.skip("mlt-render is not installed beside this Python")
     errors = [the_error(run(p, *USAGE[name][0])) for p in ([*PYMLT, "render"], binary)]
