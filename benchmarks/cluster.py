@@ -19,7 +19,7 @@ from common import parser, print_table, say, write_results
 
 import pymlt as mlt
 from pymlt import _core
-from pymlt.jobs import as_integrator
+from pymlt.algorithms.integrator import as_integrator
 
 
 def cpu(function, *arguments):
@@ -86,7 +86,7 @@ class Cluster:
     def __init__(self, processes: int):
         from distributed import Client
 
-        from pymlt.cluster import local_cluster
+        from pymlt.rendering.cluster.connection import local_cluster
 
         self.cluster = local_cluster(f"local:{processes}")
         self.client = Client(self.cluster)

@@ -17,6 +17,7 @@ void bind_scene(py::module_& m);
 void bind_light_path(py::module_& m);
 void bind_mutations(py::module_& m);
 void bind_integrators(py::module_& m);
+void bind_flags(py::module_& m);
 void bind_render(py::module_& m);
 void bind_checkpoint(py::module_& m);
 void bind_crew(py::module_& m);

@@ -12,6 +12,7 @@ PYBIND11_MODULE(_core, m) {
   mlt::python::bind_light_path(m);
   mlt::python::bind_mutations(m);
   mlt::python::bind_integrators(m);
+  mlt::python::bind_flags(m);
   mlt::python::bind_render(m);
   mlt::python::bind_checkpoint(m);
   mlt::python::bind_crew(m);

@@ -109,7 +109,7 @@ std::shared_ptr<const py::object> hold(py::object object) {
 MutationPtr to_mutation(const std::shared_ptr<LoadedScene>& scene, const PathTarget& target,
                         const py::object& object) {
   if (py::isinstance<py::str>(object)) return make_mutation(object.cast<std::string>(), target);
-  const py::object base = py::module_::import("pymlt.mutations").attr("Mutation");
+  const py::object base = py::module_::import("pymlt").attr("Mutation");
   if (!py::isinstance(object, base)) {
     const bool is_class =
         PyType_Check(object.ptr()) && PyObject_IsSubclass(object.ptr(), base.ptr()) == 1;

@@ -3,6 +3,7 @@
 // Exit codes: 0 done; 2 a mistake in usage or in the scene, or an output that cannot be written;
 // 3 the render failed; 130 and 143 interrupted by SIGINT or SIGTERM, with what was rendered saved.
 
+#include "app/flags.h"
 #include "app/options.h"
 #include "app/progress_line.h"
 #include "image/atomic_file.h"
@@ -28,31 +29,50 @@ void on_signal(int signal) {
   caught_signal = signal;
 }
 
-void declare(CLI::App& app, Options& options, std::vector<std::string>& parameters,
-             std::vector<std::string>& defines, std::string& size) {
-  app.add_option("scene", options.scene, "Mitsuba scene file (XML)");
-  app.add_option("-o,--output", options.outputs, "image file: .exr, .png or .hdr; may be repeated")
-      ->required()
-      ->allow_extra_args(false);
-  app.add_option("--integrator", options.integrator, "algorithm, in place of the scene's own");
-  app.add_option("-p", parameters, "integrator parameter, name=value")->allow_extra_args(false);
-  app.add_option("-D", defines, "scene parameter, name=value")->allow_extra_args(false);
-  app.add_option("--size", size, "image size in pixels, WIDTHxHEIGHT");
-  app.add_option("--spp", options.render.budget.spp, "samples (or mutations) per pixel");
-  app.add_option("--time", options.render.budget.seconds, "seconds to render");
-  app.add_option("--error", options.render.budget.error, "relative error to reach, such as 0.02");
-  app.add_option("--seed", options.render.seed, "seed of all random numbers");
-  app.add_option("--threads", options.render.threads, "0: as many as the machine has");
-  app.add_option("--checkpoint", options.checkpoint, "keep the state of the render in this file");
-  app.add_option("--every", options.every, "seconds between checkpoints (60)");
-  app.add_option(
-      "--resume", options.resume,
-      "go on from a checkpoint, in place of SCENE; it is renewed, unless --checkpoint names "
-      "another file");
-  app.add_option("--stats", options.stats, "write what the render tells about itself, as JSON");
-  app.add_option("--exposure", options.exposure, "brighten PNG files by so many stops");
-  app.add_flag("--quiet", options.quiet, "say nothing but errors");
+FlagValue read(const Flag& flag, const std::string& text) {
+  try {
+    return read_flag(flag, text);
+  } catch (const UsageError& error) {
+    throw UsageError(fmt::format("argument {}: {}", flag.spelling, error.what()));
+  }
+}
+
+void declare(CLI::App& app, FlagValues& given) {
+  using Texts = std::vector<std::string>;
+  for (const Flag& flag : render_flags()) {
+    if (flag.is(Flag::python_only)) continue;
+    if (flag.kind == Flag::Kind::on) {
+      app.add_flag_callback(
+          flag.spelling, [&flag, &given] { given[flag.name].emplace_back(); }, flag.help);
+      continue;
+    }
+    CLI::Option* option = app.add_option_function<Texts>(
+        flag.spelling,
+        [&flag, &given](const Texts& texts) {
+          for (const std::string& text : texts) given[flag.name].push_back(read(flag, text));
+        },
+        flag.help);
+    option->type_name(flag.metavar)->required(flag.is(Flag::required))->allow_extra_args(false);
+    if (!flag.is(Flag::repeatable)) option->expected(1);
+  }
   app.set_version_flag("--version", "mlt-render " MLT_VERSION);
+}
+
+Options parse(int argc, char** argv) {
+  CLI::App app("Renders a Mitsuba scene, by path tracing or Metropolis light transport.");
+  FlagValues given;
+  declare(app, given);
+  try {
+    app.parse(argc, argv);
+    std::set<std::string> names;
+    for (const auto& [name, values] : given) names.insert(name);
+    check_flags(names);
+  } catch (const CLI::Success& help) {
+    std::exit(app.exit(help));
+  } catch (const std::exception& error) {
+    throw UsageError(fmt::format("{}; see mlt-render --help", error.what()));
+  }
+  return read_options(given);
 }
 
 /// Renders until the budget is used up or a signal arrives; returns the signal, or 0.
@@ -112,7 +132,7 @@ int run(Options options) {
             : choose_integrator(loaded, options.integrator, options.parameters, plugins()),
       plugins());
   if (!options.checkpoint.empty())
-    options.render.autosave = autosave_to(options.checkpoint, options.every,
+    options.render.autosave = autosave_to(options.checkpoint, options.render.autosave.every,
                                           checkpoint_of(loaded, made, options.render.seed));
   Job job(loaded.scene, made.integrator, options.render);
   if (saved) take_up(job, *saved, options.resume);
@@ -146,26 +166,8 @@ int fail(int code, const std::string& message) {
 int main(int argc, char** argv) {
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
-  Options options;
-  std::vector<std::string> parameters, defines;
-  std::string size;
-  CLI::App app("Renders a Mitsuba scene, by path tracing or Metropolis light transport.");
-  declare(app, options, parameters, defines, size);
   try {
-    app.parse(argc, argv);
-    for (const std::string& text : parameters)
-      options.parameters.push_back(parse_assignment("-p", text));
-    for (const std::string& text : defines) {
-      const auto [name, value] = parse_assignment("-D", text);
-      options.load.defines[name] = value;
-    }
-    if (!size.empty()) options.load.size = parse_size(size);
-    check_options(options, app.count("--seed") > 0, app.count("--every") > 0);
-    return run(std::move(options));
-  } catch (const CLI::Success& help) {
-    return app.exit(help);
-  } catch (const CLI::ParseError& error) {
-    return fail(2, fmt::format("{}; see mlt-render --help", error.what()));
+    return run(parse(argc, argv));
   } catch (const RenderError& error) {
     return fail(3, error.what());
   } catch (const Error& error) {

@@ -1,43 +1,50 @@
 #include "app/options.h"
 
-#include <charconv>
-
 namespace mlt {
+namespace {
 
-void check_options(const Options& options, bool seed_given, bool every_given) {
-  if (options.scene.empty() && options.resume.empty())
-    throw UsageError("SCENE is required, or --resume FILE; see mlt-render --help");
-  if (every_given && options.checkpoint.empty() && options.resume.empty())
-    throw UsageError("--every needs --checkpoint FILE");
-  if (options.resume.empty()) return;
-  const std::pair<const char*, bool> fixed[] = {{"--integrator", !options.integrator.empty()},
-                                                {"-p", !options.parameters.empty()},
-                                                {"-D", !options.load.defines.empty()},
-                                                {"--size", options.load.size.has_value()},
-                                                {"--seed", seed_given}};
-  for (const auto& [flag, given] : fixed)
-    if (given)
-      throw UsageError(std::string(flag) +
-                       " cannot be given with --resume: the checkpoint says it");
+template <class T>
+std::vector<T> all(const FlagValues& given, const char* flag) {
+  std::vector<T> values;
+  if (const auto found = given.find(flag); found != given.end())
+    for (const FlagValue& value : found->second) values.push_back(std::get<T>(value));
+  return values;
 }
 
-std::pair<std::string, std::string> parse_assignment(const std::string& flag,
-                                                     const std::string& text) {
-  const size_t equals = text.find('=');
-  if (equals == std::string::npos || equals == 0)
-    throw UsageError(flag + " " + text + ": expected name=value");
-  return {text.substr(0, equals), text.substr(equals + 1)};
+/// The value of a flag, or what is there already.
+template <class T, class Target>
+void take(const FlagValues& given, const char* flag, Target& target) {
+  for (const T& value : all<T>(given, flag)) target = static_cast<Target>(value);
 }
 
-Vec2i parse_size(const std::string& text) {
-  Vec2i size{0};
-  const char* end = text.data() + text.size();
-  const auto width = std::from_chars(text.data(), end, size.x);
-  const bool cross = width.ec == std::errc() && width.ptr != end && *width.ptr == 'x';
-  const auto height = cross ? std::from_chars(width.ptr + 1, end, size.y) : width;
-  if (!cross || height.ec != std::errc() || height.ptr != end || size.x <= 0 || size.y <= 0)
-    throw UsageError("--size " + text + ": expected WIDTHxHEIGHT in pixels, such as 640x360");
-  return size;
+}  // namespace
+
+Options read_options(const FlagValues& given) {
+  Options options;
+  const auto text = [&](const char* flag, std::string& target) {
+    take<std::string>(given, flag, target);
+  };
+  text("scene", options.scene);
+  options.outputs = all<std::string>(given, "output");
+  text("stats", options.stats);
+  text("integrator", options.integrator);
+  options.parameters = all<Assignments::value_type>(given, "parameters");
+  for (const auto& [name, value] : all<Assignments::value_type>(given, "defines"))
+    options.load.defines[name] = value;
+  for (const auto& [width, height] : all<std::pair<int, int>>(given, "size"))
+    options.load.size = Vec2i(width, height);
+  RenderSettings& render = options.render;
+  take<double>(given, "spp", render.budget.spp);
+  take<double>(given, "time", render.budget.seconds);
+  take<double>(given, "error", render.budget.error);
+  take<uint64_t>(given, "seed", render.seed);
+  take<uint64_t>(given, "threads", render.threads);
+  take<double>(given, "every", render.autosave.every);
+  text("checkpoint", options.checkpoint);
+  text("resume", options.resume);
+  take<double>(given, "exposure", options.exposure);
+  options.quiet = given.count("quiet") > 0;
+  return options;
 }
 
 }  // namespace mlt

@@ -12,8 +12,6 @@ What is heavy (numpy, tqdm, ...) is imported where it is first used, so this imp
 import importlib as _importlib
 from typing import TYPE_CHECKING
 
-from . import integrators as _integrators
-from . import mutations as _mutations
 from . import scenes
 from ._core import (
     Error,
@@ -26,29 +24,23 @@ from ._core import (
     Vertex,
     __version__,
 )
+from .algorithms import integrators as _integrators
+from .algorithms import mutations as _mutations
+from .algorithms.integrator import Integrator
+from .algorithms.integrators import *  # noqa: F403 (the classes are made from the schemas)
+from .algorithms.mutation import Mutation
+from .algorithms.mutations import *  # noqa: F403
+from .algorithms.schemas import available, describe
+from .diagnostics.audit import Audit, audit
+from .diagnostics.metrics import compare
+from .diagnostics.mixing import Convergence, convergence
 from .images import read_image, read_metadata, write_image
-from .integrators import *  # noqa: F403 (the classes are made from the schemas)
-from .integrators import Integrator
-from .jobs import (
-    Groups,
-    Job,
-    Replay,
-    Result,
-    Technique,
-    render,
-    render_progressive,
-    replay,
-    resume,
-    start,
-)
-from .loading import load_dict, load_file, load_string
-from .merging import merge
-from .metrics import compare
-from .mixing import Convergence, convergence
-from .mutations import *  # noqa: F403
-from .mutations import Audit, Mutation, audit
-from .schemas import available, describe
-from .transforms import Transform
+from .rendering.job import Job
+from .rendering.merging import merge
+from .rendering.result import Groups, Replay, Result, Technique
+from .rendering.start import render, render_progressive, replay, resume, start
+from .scenes.loading import load_dict, load_file, load_string
+from .scenes.transforms import Transform
 
 if TYPE_CHECKING:
     from . import metropolis, quadrature

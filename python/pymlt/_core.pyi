@@ -4,8 +4,8 @@ from typing import Any, Literal, overload
 import numpy as np
 from numpy.typing import ArrayLike
 
+from .algorithms.mutation import Mutation
 from .metropolis import Start
-from .mutations import Mutation
 
 __version__: str
 
@@ -436,6 +436,33 @@ def audit(
     threads: int,
     significance: float,
 ) -> AuditReport: ...
+
+class Flag:
+    """A flag of `pymlt render` and mlt-render."""
+
+    @property
+    def name(self) -> str: ...
+    @property
+    def spelling(self) -> str:
+        """Such as -o,--output; or a name without a dash."""
+
+    @property
+    def metavar(self) -> str: ...
+    @property
+    def help(self) -> str: ...
+    @property
+    def has_value(self) -> bool: ...
+    @property
+    def required(self) -> bool: ...
+    @property
+    def repeatable(self) -> bool: ...
+    def read(self, text: str) -> str | int | float | tuple[int, int] | tuple[str, str]:
+        """What a text means as its value."""
+
+def render_flags() -> list[Flag]: ...
+def check_flags(given: set[str]) -> None:
+    """Raises UsageError if the flags with these names make no sense together."""
+
 def families() -> list[str]: ...
 def names(family: str) -> list[str]: ...
 def schema(family: str, name: str) -> dict: ...

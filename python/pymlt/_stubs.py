@@ -1,93 +1,61 @@
-"""The type stubs of the classes that are made from schemas: `python -m pymlt._stubs`.
+"""The type stubs of what is made from tables: `python -m pymlt._stubs`.
 
-Run it after a schema has changed; a test compares the stubs with what this makes.
+Run it after a schema or RenderOptions has changed; a test compares the stubs with what this makes.
 """
 
 from __future__ import annotations
 
+import inspect
 import json
 import textwrap
 from pathlib import Path
 
 from . import _core
-from .integrators import class_name, integrator_schema
-from .mutations import mutation_class_name, mutation_documentation
-from .schemas import documentation
+from .algorithms.integrators import class_name, integrator_schema
+from .algorithms.mutations import mutation_class_name, mutation_documentation
+from .algorithms.schemas import documentation
+from .rendering import start
 
-HEAD = "# Made by `python -m pymlt._stubs` from the schemas of the plug-ins. Do not edit.\n"
+HEAD = "# Made by `python -m pymlt._stubs`. Do not edit.\n"
 
-BASE = '''\
-class Integrator:
-    """A light transport algorithm: a name and its parameters."""
+INTEGRATORS = """\
+from collections.abc import Sequence
+from typing import Any, Literal
 
-    @property
-    def name(self) -> str: ...
-    def to_dict(self) -> dict[str, Any]: ...
+import numpy as np
+
+from .integrator import Integrator
+from .mutation import Mutation
 
 def class_name(plugin: str) -> str: ...
 def integrator_schema(plugin: str) -> dict[str, Any]: ...
-'''
+"""
 
-MUTATIONS = '''\
-class Mutation:
-    """A way of changing a light path. Subclass it to write one in Python."""
+MUTATIONS = """\
+from typing import Any
 
-    @property
-    def name(self) -> str: ...
-    def suitability(self, x: LightPath) -> float:
-        """The weight with which it takes part in the choice: 1, or 0 where it cannot act on x."""
+from .mutation import BuiltIn
 
-    def propose(self, x: LightPath, rng: np.random.Generator) -> LightPath | None:
-        """Another path y, made by `x.with_vertices(...)`, or None."""
-
-    def density(self, x: LightPath, y: LightPath) -> float:
-        """T(x -> y) in the product-area measure of the vertices that y has and x has not."""
+built_in: list[type[BuiltIn]]
 
 def mutation_class_name(name: str) -> str: ...
 def mutation_documentation(kind: dict[str, Any]) -> str: ...
-def weighted(
-    mutations: Sequence[Mutation | tuple[Mutation, float]],
-) -> dict[Mutation, float]: ...
-def parameters(
-    mutations: Sequence[Mutation | tuple[Mutation, float]],
-) -> dict[str, bool | float]: ...
-def parameter_names() -> list[str]: ...
-def written_in_python(
-    mutations: Sequence[Mutation | tuple[Mutation, float]],
-) -> list[tuple[Mutation, float]]: ...
+"""
 
-class AuditTest(NamedTuple):
-    function: str
-    expected: bool
-    change: float
-    error: float
-    z: float
-    p: float
-    adjusted_p: float
+START = """\
+import os
+from collections.abc import Callable, Iterator
+from typing import Any
 
-class Audit:
-    verdict: Literal["right", "wrong", "inconclusive"]
-    reason: str
-    tests: list[AuditTest]
-    steps: int
-    accepted: int
-    effective_samples: float
-    text: str
+import numpy as np
 
-    def __bool__(self) -> bool: ...
-    def summary(self) -> str: ...
+from ..algorithms.integrator import IntegratorLike
+from ..scenes.loading import SceneLike
+from .job import Job
+from .options import RenderOptions
+from .result import Replay, Result
 
-def audit(
-    what: Mutation | Integrator,
-    scene: Scene | dict[str, Any] | str | PathLike[str],
-    *,
-    paths: int = ...,
-    seed: int = ...,
-    threads: int = ...,
-    significance: float = ...,
-    max_depth: int | None = ...,
-) -> Audit: ...
-'''
+"""
 
 TYPES = {"boolean": "bool", "integer": "int", "float": "float", "string": "str"}
 SEQUENCES = {
@@ -124,51 +92,56 @@ def class_stub(schema: dict) -> str:
     return "\n".join(line.rstrip() for line in lines) + "\n"
 
 
-def imports(body: str) -> str:
-    """What the stubs use, sorted as ruff sorts it."""
-    lines = []
-    if "Sequence[" in body:
-        lines += ["from collections.abc import Sequence"]
-    if typing := [name for name in ("Any", "Literal", "NamedTuple") if name in body]:
-        lines += [f"from typing import {', '.join(typing)}"]
-    if "np." in body:
-        lines += ["", "import numpy as np"]
-    if "Mutation " in body and "class Mutation" not in body:
-        lines += ["", "from .mutations import Mutation"]
-    return "\n".join(lines) + "\n"
-
-
 def integrators_stub() -> str:
-    """All of integrators.pyi."""
+    """All of algorithms/integrators.pyi."""
     schemas = [integrator_schema(name) for name in _core.names("integrator")]
     names = sorted((class_name(s["name"]) for s in schemas), key=lambda n: (not n.isupper(), n))
     exported = "__all__ = [\n" + "".join(f'    "{name}",\n' for name in names) + "]\n"
-    body = "\n".join([BASE, *map(class_stub, schemas), exported])
-    return f"{HEAD}{imports(body)}\n{body}"
+    text = HEAD + "\n".join([INTEGRATORS, *map(class_stub, schemas), exported])
+    return text if "np." in text else text.replace("import numpy as np\n\n", "")
 
 
 def mutation_stub(kind: dict) -> str:
     """The stub of one mutation's class."""
     doc = textwrap.indent(mutation_documentation(kind), "    ").lstrip()
     end = '\n    """' if "\n" in doc else '"""'
-    return f'class {mutation_class_name(kind["name"])}(Mutation):\n    """{doc}{end}\n'
+    return f'class {mutation_class_name(kind["name"])}(BuiltIn):\n    """{doc}{end}\n'
 
 
 def mutations_stub() -> str:
-    """All of mutations.pyi."""
+    """All of algorithms/mutations.pyi."""
     kinds = _core.mutation_kinds()
     names = [mutation_class_name(kind["name"]) for kind in kinds]
     exported = "__all__ = [\n" + "".join(f'    "{n}",\n' for n in sorted(names)) + "]\n"
-    body = "\n".join([MUTATIONS, *map(mutation_stub, kinds), exported])
-    head = "from collections.abc import Sequence\nfrom os import PathLike\n"
-    head += "from typing import Any, Literal, NamedTuple\n\n"
-    head += "import numpy as np\n\nfrom ._core import LightPath, Scene\n"
-    head += "from .integrators import Integrator\n"
-    return f"{HEAD}{head}\n{body}"
+    return HEAD + "\n".join([MUTATIONS, *map(mutation_stub, kinds), exported])
 
 
-STUBS = {"integrators.pyi": integrators_stub, "mutations.pyi": mutations_stub}
+def function_stub(function) -> str:
+    """The stub of a function, with the signature that it shows."""
+    signature = inspect.signature(function)
+    lines = []
+    for p in signature.parameters.values():
+        if p.kind is p.KEYWORD_ONLY and "*" not in lines:
+            lines.append("*")
+        name = f"**{p.name}" if p.kind is p.VAR_KEYWORD else p.name
+        lines.append(f"{name}: {p.annotation}" + ("" if p.default is p.empty else " = ..."))
+    arguments = "".join(f"    {line},\n" for line in lines)
+    return f"def {function.__name__}(\n{arguments}) -> {signature.return_annotation}: ...\n"
+
+
+def start_stub() -> str:
+    """All of rendering/start.pyi."""
+    functions = [f for _, f in inspect.getmembers(start, inspect.isfunction)]
+    own = [f for f in functions if f.__module__ == start.__name__]
+    return HEAD + START + "".join(map(function_stub, own))
+
+
+STUBS = {
+    "algorithms/integrators.pyi": integrators_stub,
+    "algorithms/mutations.pyi": mutations_stub,
+    "rendering/start.pyi": start_stub,
+}
 
 if __name__ == "__main__":
     for name, make in STUBS.items():
-        Path(__file__).with_name(name).write_text(make())
+        (Path(__file__).parent / name).write_text(make())

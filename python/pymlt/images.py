@@ -17,7 +17,7 @@ def read_image(path, layer: str = "") -> np.ndarray:
     """Read an image as float32 of shape (height, width, channels), in linear light.
 
     EXR, PNG, JPEG, HDR, TGA and BMP are read natively, anything else by OpenImageIO. `layer` names
-    one of an EXR file's layers.
+    one of an EXR file's layers. Raises FileError for a file that cannot be read.
     """
     path = os.fspath(path)
     suffix = os.path.splitext(path)[1].lower()
@@ -58,14 +58,16 @@ def _decode_srgb(pixels: np.ndarray) -> np.ndarray:
 
 
 def read_metadata(path) -> dict[str, str]:
-    """The text attributes of an EXR file: how a render was made."""
+    """The text attributes of an EXR file: how a render was made. Raises FileError."""
     return _core.read_metadata(os.fspath(path))
 
 
 def write_image(path, image, *, exposure: float = 0, half: bool = False, metadata=None) -> None:
     """Write linear pixels to .exr, .png (sRGB, brightened by `exposure` stops) or .hdr.
 
-    `half` (16-bit samples) and `metadata` (a dict of texts) are for EXR.
+    `image` has the shape (height, width) or (height, width, channels), with at most 4 channels.
+    `half` (16-bit samples) and `metadata` (a dict of texts) are for EXR. Raises UsageError for
+    another shape or extension, FileError if the file cannot be written.
     """
     import numpy as np
 

@@ -7,9 +7,7 @@ meant to be read and changed; `pymlt lab NAME` runs one.
 from __future__ import annotations
 
 import ast
-import os
 import runpy
-import sys
 import warnings
 from pathlib import Path
 
@@ -38,7 +36,7 @@ def title(name: str) -> str:
 
 def style() -> None:
     """The look of the figures; each script calls it first."""
-    pyplot = _pyplot()
+    pyplot = pyplot_module()
     pyplot.rcParams.update(
         {
             "axes.grid": True,
@@ -58,7 +56,7 @@ def style() -> None:
 
 def draw(name: str):
     """Run a script and return its (last) figure."""
-    pyplot = _pyplot()
+    pyplot = pyplot_module()
     with pyplot.rc_context(), warnings.catch_warnings():
         warnings.filterwarnings("ignore", message=".*non-interactive")
         runpy.run_path(str(script(name)), run_name="__main__")
@@ -67,58 +65,7 @@ def draw(name: str):
         return pyplot.figure(pyplot.get_fignums()[-1])
 
 
-def add_command(commands, add) -> None:
-    """The subcommand `pymlt lab`."""
-    c = add(commands, "lab", _lab, "Run a script of the gallery: show its figure, or save it.")
-    c.add_argument("name", metavar="NAME", nargs="?", help="as --list names them")
-    c.add_argument("--list", action="store_true", help="list the scripts")
-    c.add_argument("-o", "--output", metavar="FILE", help="save the figure, such as figure.png")
-
-
-def _lab(args) -> int:
-    if args.list or args.name is None:
-        if args.name or args.output or not args.list:
-            raise _core.UsageError("lab needs --list or the name of a script; see pymlt lab --help")
-        print("\n".join(f"{name:15} {title(name)}" for name in names()))
-        return 0
-    script(args.name)  # known, before matplotlib is imported
-    output = args.output
-    if output:
-        _check_output(output)
-        _use_no_window()
-    figure = draw(args.name)
-    if not output and not _has_window():
-        output = f"{args.name}.png"
-    if output:
-        figure.savefig(output)
-        print(f"pymlt: {output}", file=sys.stderr)
-    _pyplot().close(figure)
-    return 0
-
-
-def _check_output(path: str) -> None:
-    _core.check_file_writable(path)
-    suffix = os.path.splitext(path)[1].lstrip(".").lower()
-    known = _pyplot().Figure().canvas.get_supported_filetypes()
-    if suffix not in known:
-        raise _core.UsageError(
-            f"{path}: a figure cannot be saved as {suffix!r}{_core.suggestion(suffix, list(known))}"
-        )
-
-
-def _use_no_window() -> None:
-    _pyplot().switch_backend("agg")
-
-
-def _has_window() -> bool:
-    from matplotlib import get_backend
-    from matplotlib.backends import BackendFilter, backend_registry
-
-    windows = backend_registry.list_builtin(BackendFilter.INTERACTIVE)
-    return get_backend().lower() in [name.lower() for name in windows]
-
-
-def _pyplot():
+def pyplot_module():
     try:
         from matplotlib import pyplot
     except ImportError:

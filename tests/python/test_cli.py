@@ -1,6 +1,7 @@
 """The command lines: `pymlt render` and `mlt-render` share one contract; pymlt can do more."""
 
 import json
+import re
 import shutil
 import signal
 import subprocess
@@ -101,6 +102,9 @@ USAGE = {
     "resume with -p": ([*OUT, "--resume", "x", "-p", "a=1"], "-p"),
     "resume with a size": ([*OUT, "--resume", "x", "--size", "3x4"], "--size"),
     "resume with an integrator": ([*OUT, "--resume", "x", "--integrator", "mlt"], "--integrator"),
+    "negative seed": (["scene.xml", *OUT, "--seed", "-1"], "'-1' is not an integer from 0 to 18"),
+    "large seed": (["scene.xml", *OUT, "--seed", str(2**64)], "is not an integer from 0 to 18"),
+    "seed 1.5": (["scene.xml", *OUT, "--seed", "1.5"], "'1.5' is not an integer from 0 to 18"),
     "error 0": (["scene.xml", *OUT, "--error", "0"], "error"),
     "size": (["scene.xml", *OUT, "--size", "3by4"], "3by4"),
     "size 0": (["scene.xml", *OUT, "--size", "0x4"], "0x4"),
@@ -124,6 +128,41 @@ USAGE = {
 def test_a_mistake_in_usage_is_one_line(program, scene, arguments, what):
     assert what in the_error(run(program, *arguments))
     assert not Path("a.exr").exists()
+
+
+RULES = ["no scene", "every alone", "every 0", "resume with a seed", "resume with -p", "size"]
+RULES += [
+    "negative seed",
+    "large seed",
+    "spp 0",
+    "spp is a word",
+    "negative threads",
+    "-D without value",
+]
+
+
+@pytest.mark.parametrize("name", RULES)
+def test_both_programs_refuse_in_the_same_words(scene, name):
+    binary = mlt_render() or pytest.skip("mlt-render is not installed beside this Python")
+    errors = [the_error(run(p, *USAGE[name][0])) for p in ([*PYMLT, "render"], binary)]
+    errors[0] = errors[0].replace("pymlt: ", "mlt-render: ").replace("pymlt render", "mlt-render")
+    assert errors[0] == errors[1]
+
+
+def test_the_largest_seed_is_a_seed(program, scene):
+    seed = 2**64 - 1
+    assert run(program, scene, *OUT, "--spp", 1, "--seed", seed).returncode == 0
+    assert mlt.read_metadata("a.exr")["seed"] == str(seed)
+
+
+def test_both_programs_have_the_same_flags():
+    binary = mlt_render() or pytest.skip("mlt-render is not installed beside this Python")
+    flags = [
+        set(re.findall(r"(?<![\w-])--?[a-zA-Z]+", run(command, "--help").stdout))
+        for command in ([*PYMLT, "render"], [*binary])
+    ]
+    assert flags[0] - flags[1] == {"--cluster"}
+    assert flags[1] - flags[0] == {"--version"}
 
 
 SCENE_MISTAKES = {

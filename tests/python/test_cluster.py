@@ -11,7 +11,7 @@ import pytest
 import tiny
 
 import pymlt as mlt
-import pymlt.cluster
+import pymlt.rendering.cluster.worker
 from pymlt.cli import main
 
 dask = pytest.importorskip("dask", reason="needs pymlt[cluster]")
@@ -93,8 +93,8 @@ def test_workers_need_none_of_the_scene_s_files(client, tmp_path):
 
 
 def leftovers(dask_worker):
-    bench = dask_worker.pymlt_bench
-    return len(bench.scenes) + len(bench.helpers) + len(bench.cancelled) + len(dask_worker.data)
+    state = dask_worker.pymlt_state
+    return len(state.scenes) + len(state.helpers) + len(state.cancelled) + len(dask_worker.data)
 
 
 def test_nothing_is_left_on_the_workers(client):
@@ -107,7 +107,7 @@ class SceneCounter(distributed.WorkerPlugin):
 
     def setup(self, worker):
         self.counts = worker.scenes = {"received": 0, "made": 0, "unpacked": 0}
-        pymlt.cluster.pickle = types.SimpleNamespace(loads=self.loads)
+        pymlt.rendering.cluster.worker.pickle = types.SimpleNamespace(loads=self.loads)
 
     def loads(self, packed):
         self.counts["unpacked"] += 1
@@ -121,10 +121,10 @@ class SceneCounter(distributed.WorkerPlugin):
 def test_the_scene_travels_once_to_each_worker(monkeypatch):
     """Also to one that comes late, and although dask drops copies that nobody waits for."""
     often = {"distributed.scheduler.active-memory-manager.interval": "20ms"}
-    monkeypatch.setattr("pymlt.cluster.SHORTEST_STAGE", 0.02)
-    monkeypatch.setattr("pymlt.cluster.GROWTH", 0)
-    monkeypatch.setattr("pymlt.cluster.WORKER_SHARE", 1)
-    monkeypatch.setattr("pymlt.cluster.OWNER_SHARE", 1)
+    monkeypatch.setattr("pymlt.rendering.cluster.executor.SHORTEST_STAGE", 0.02)
+    monkeypatch.setattr("pymlt.rendering.cluster.executor.GROWTH", 0)
+    monkeypatch.setattr("pymlt.rendering.cluster.executor.WORKER_SHARE", 1)
+    monkeypatch.setattr("pymlt.rendering.cluster.executor.OWNER_SHARE", 1)
     with (
         dask.config.set(often),
         processes(2, threads_per_worker=2) as cluster,
@@ -230,15 +230,15 @@ def test_an_error_in_the_render_is_reported(client):
 
 
 def test_a_worker_with_another_build_is_refused(client):
-    from pymlt.cluster import _carry_out
+    from pymlt.rendering.cluster.worker import run_task
 
-    future = client.submit(_carry_out, b"", "job", "scene", None, "another", b"")
+    future = client.submit(run_task, b"", "job", "scene", None, "another", b"")
     with pytest.raises(mlt.UsageError, match="another build of pymlt"):
         future.result()
 
 
 def test_a_cluster_that_goes_away_leaves_the_image():
-    from pymlt.cluster import local_cluster
+    from pymlt.rendering.cluster.connection import local_cluster
 
     with local_cluster("local:1") as cluster:
         job = mlt.start(scene(160, 120), spp=1e7, cluster=cluster)
@@ -259,7 +259,7 @@ def test_a_cluster_that_goes_away_leaves_the_image():
     ],
 )
 def test_a_cluster_that_is_none_is_refused(cluster, message, monkeypatch):
-    monkeypatch.setattr("pymlt.cluster.CONNECT_SECONDS", 1)
+    monkeypatch.setattr("pymlt.rendering.cluster.connection.CONNECT_SECONDS", 1)
     with pytest.raises(mlt.UsageError, match=message):
         mlt.start(scene(), cluster=cluster)
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 import pymlt as mlt
-from pymlt.cli import _parser
+from pymlt.cli import make_parser
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGES = [ROOT / "README.md", *ROOT.glob("docs/*.md"), *ROOT.glob("docs/mutations/*.md")]
@@ -34,7 +34,7 @@ def test_links_lead_somewhere(page):
 def test_commands_parse(page):
     """Every `pymlt ...` line in an indented or fenced block is one that pymlt understands."""
     for line in re.findall(r"^ *pymlt (.*?)(?: +#.*)?$", page.read_text(), re.MULTILINE):
-        args = _parser().parse_args(line.split())
+        args = make_parser().parse_args(line.split())
         if getattr(args, "scene", None) and not args.scene.endswith(".xml"):
             assert args.scene.replace("-", "_") in mlt.scenes.names()
         if getattr(args, "integrator", None):

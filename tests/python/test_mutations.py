@@ -8,7 +8,8 @@ import pytest
 import tiny
 
 import pymlt as mlt
-from pymlt import _core, mutations
+from pymlt import _core
+from pymlt.algorithms import mutations
 
 CLASSES = [getattr(mlt, name) for name in sorted(mutations.__all__)]
 ALL = [made() for made in CLASSES]

@@ -8,7 +8,8 @@ import pytest
 import tiny
 
 import pymlt as mlt
-from pymlt import jobs, metropolis
+from pymlt import metropolis
+from pymlt.algorithms.integrator import as_integrator
 
 
 class Nudge(mlt.Mutation):
@@ -485,7 +486,7 @@ def test_where_python_has_no_place_is_told(scene, tmp_path):
     with pytest.raises(mlt.UsageError, match="it has no checkpoint"):
         mlt.start(scene, algo, spp=1, checkpoint=tmp_path / "render.mlt")
     with pytest.raises(mlt.UsageError, match="stays in its process"):
-        pickle.dumps(jobs.as_integrator(scene, algo))
+        pickle.dumps(as_integrator(scene, algo))
     with pytest.raises(mlt.UsageError, match="must not be negative"):
         mlt.start(scene, mlt.MLT(mutations=[mlt.Lens(), (Nudge(), -1)]), spp=1)
 

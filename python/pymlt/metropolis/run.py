@@ -12,8 +12,8 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from .. import _core
-from ..mutations import Mutation
-from .moves import Discrete, Move
+from ..algorithms.mutation import Mutation
+from .moves import Discrete, Independent, Move
 from .samples import Samples
 from .start import Start
 from .targets import Target
@@ -226,8 +226,6 @@ class _Vectorized:
 
     @staticmethod
     def of(move):
-        from .moves import Independent
-
         return _Vectorized(move) if isinstance(move, Independent) else move
 
     def propose(self, x, rng):

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from .. import _core
-from .._arviz import import_arviz
+from ..diagnostics._arviz import import_arviz
 
 if TYPE_CHECKING:
     from ..quadrature import Estimate

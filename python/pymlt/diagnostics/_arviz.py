@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 
-from . import _core
+from .. import _core
 
 
 def import_arviz(what: str):

@@ -13,10 +13,11 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from . import _core
+from .. import _core
+from ..rendering.progress import progress_bar
+from ..rendering.result import Result
+from ..rendering.start import start
 from ._arviz import import_arviz
-from .jobs import Result, start
-from .progress import progress_bar
 
 if TYPE_CHECKING:
     import numpy as np

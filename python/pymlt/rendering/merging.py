@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from itertools import combinations
 from typing import TYPE_CHECKING
 
-from . import _core
-from .images import read_image, read_metadata
-from .jobs import Result
+from .. import _core
+from ..images import read_image, read_metadata
+from .result import Result
 
 if TYPE_CHECKING:
     import numpy as np

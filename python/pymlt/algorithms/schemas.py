@@ -2,11 +2,14 @@
 
 import textwrap
 
-from . import _core
+from .. import _core
 
 
 def available(family: str | None = None) -> dict[str, list[str]] | list[str]:
-    """The plug-ins of a family ("bsdf", "integrator", ...), or of all families as a dict."""
+    """The plug-ins of a family ("bsdf", "integrator", ...), or of all families as a dict.
+
+    Raises UsageError for an unknown family.
+    """
     families = _core.families()
     if family is None:
         return {name: _core.names(name) for name in families}
@@ -18,7 +21,10 @@ def available(family: str | None = None) -> dict[str, list[str]] | list[str]:
 
 
 def describe(family: str, name: str) -> str:
-    """What a plug-in models and which parameters it has, as text."""
+    """What a plug-in models and which parameters it has, as text.
+
+    Raises SceneError for one that does not exist.
+    """
     schema = _core.schema(family, name)
     return f"{family} {name!r}\n\n{documentation(schema)}"
 

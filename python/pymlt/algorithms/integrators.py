@@ -8,7 +8,9 @@ from __future__ import annotations
 
 import inspect
 
-from . import _core, mutations
+from .. import _core
+from . import mixture
+from .integrator import Integrator
 from .schemas import documentation
 
 # Names that are abbreviations; any other one is capitalised.
@@ -16,73 +18,18 @@ _SPELLING = {name: name.upper() for name in ("bdpt", "erpt", "mlt", "mmlt", "pss
 _SPELLING["ptracer"] = "PTracer"
 
 
-class Integrator:
-    """A light transport algorithm: a name and its parameters.
-
-    Parameters that were not given are attributes of the class: their defaults.
-    """
-
-    _name: str
-    _defaults: dict
-
-    def __init__(self, **parameters):
-        for name in parameters:
-            if name not in self._defaults:
-                raise TypeError(
-                    f"{type(self).__name__}() has no parameter {name!r}"
-                    + _core.suggestion(name, list(self._defaults)),
-                )
-        self.__dict__.update(parameters)
-
-    @property
-    def name(self) -> str:
-        """The plug-in's name, as scenes write it."""
-        return self._name
-
-    def to_dict(self) -> dict:
-        """The Mitsuba dict that means the same."""
-        given, written = self._parts()
-        if written:
-            raise _core.UsageError(
-                f"{written[0][0]!r} is written in Python, which a dict cannot say; use the "
-                f"{type(self).__name__} object itself"
-            )
-        return given
-
-    def _parts(self) -> tuple[dict, list]:
-        """The dict, and beside it the mutations that are written in Python, with their weights."""
-        given = {name: value for name, value in self.__dict__.items() if value is not None}
-        return {"type": self._name, **given}, []
-
-    def __repr__(self) -> str:
-        changed = [
-            f"{name}={value!r}"
-            for name, value in self.__dict__.items()
-            if name not in self._defaults or value != self._defaults[name]
-        ]
-        return f"{type(self).__name__}({', '.join(changed)})"
-
-    def __eq__(self, other) -> bool:
-        if not isinstance(other, Integrator):
-            return NotImplemented
-        mine, others = ({**x._defaults, **x.__dict__} for x in (self, other))
-        return type(self) is type(other) and mine == others
-
-    __hash__ = None
-
-
 class _WithMutations:
     """What `MLT` can do beside its plug-in: a list of mutations in place of their parameters."""
 
     def _parts(self) -> tuple[dict, list]:
         given, _ = super()._parts()
-        mixture = given.pop("mutations", None)
-        if mixture is None:
+        mutations = given.pop("mutations", None)
+        if mutations is None:
             return given, []
-        chosen = mutations.parameters(mixture)
-        if twice := [name for name in mutations.parameter_names() if name in given]:
+        chosen = mixture.parameters(mutations)
+        if twice := [name for name in mixture.parameter_names() if name in given]:
             raise _core.UsageError(f"{twice[0]} is given beside mutations; give one of the two")
-        return {"adaptive": False, **given, **chosen}, mutations.written_in_python(mixture)
+        return {"adaptive": False, **given, **chosen}, mixture.written_in_python(mutations)
 
 
 _MUTATIONS = {

@@ -5,20 +5,26 @@ from __future__ import annotations
 import inspect
 import os
 
-from . import _core, scenes
+from .. import _core, scenes
+
+SceneLike = _core.Scene | dict | str | os.PathLike
 
 
 def load_file(path, /, *, size=None, **defines) -> _core.Scene:
     """Load a Mitsuba XML scene.
 
     `defines` are values for the scene's <default> parameters (`resx=640`); `size` is the image's
-    (width, height) in place of the film's own.
+    (width, height) in pixels, in place of the film's own. Raises FileError for files that cannot be
+    read, SceneError (with file and line) for what is wrong in them, UsageError for the arguments.
     """
     return _core.load_file(os.fspath(path), _texts(defines), _size(size))
 
 
 def load_string(xml: str, /, *, directory=".", size=None, **defines) -> _core.Scene:
-    """Load a scene from a string of Mitsuba XML; file names in it are relative to `directory`."""
+    """Load a scene from a string of Mitsuba XML; file names in it are relative to `directory`.
+
+    Otherwise as `load_file`.
+    """
     return _core.load_string(xml, os.fspath(directory), _texts(defines), _size(size))
 
 
@@ -26,7 +32,7 @@ def load_dict(scene: dict, /, *, size=None) -> _core.Scene:
     """Load a scene from a Mitsuba 3 dict.
 
     Transforms may be `Transform`, Mitsuba's own, numpy arrays or nested lists; file names are
-    relative to the current directory.
+    relative to the current directory. `size` and errors are those of `load_file`.
     """
     if not isinstance(scene, dict):
         raise _core.UsageError(f"load_dict needs a dict, not a {type(scene).__name__}")
@@ -78,3 +84,14 @@ def _text(value) -> str:
     if isinstance(value, list | tuple):
         return ", ".join(map(_text, value))
     return str(value)
+
+
+def as_scene(scene) -> _core.Scene:
+    """What `scene` means: itself, a dict, or the path of a file."""
+    if isinstance(scene, _core.Scene):
+        return scene
+    if isinstance(scene, dict):
+        return load_dict(scene)
+    if isinstance(scene, str | os.PathLike):
+        return load_file(scene)
+    raise _core.UsageError(f"{scene!r} is not a scene, a dict, or the path of a file")

@@ -7,20 +7,17 @@ import tempfile
 from dataclasses import dataclass
 from html import escape
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import Any
 
-from . import _core
-from .images import write_image
-
-if TYPE_CHECKING:
-    from .jobs import Job
+from .. import _core
+from ..images import write_image
 
 
 @dataclass
 class Picture:
     """What a notebook shows of a render."""
 
-    job: Job
+    job: Any  #: the Job
     exposure: float
 
     def _repr_html_(self) -> str:
@@ -44,8 +41,8 @@ def _png(image, exposure: float) -> bytes:
         return path.read_bytes()
 
 
-def show(job: Job, interval: float, exposure: float) -> None:
-    """See `Job.show`."""
+def show(job, interval: float, exposure: float) -> None:
+    """Show the image of a Job; see `Job.show`."""
     try:
         from IPython.display import display
     except ImportError:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import os
 
-from . import _core
-from .images import read_image
+from .. import _core
+from ..images import read_image
 
 
 def compare(image, reference, *, flip: bool | None = None) -> dict[str, float]:
@@ -28,6 +28,8 @@ def compare(image, reference, *, flip: bool | None = None) -> dict[str, float]:
     flip
         mean perceptual error (HDR-FLIP, Andersson et al. 2021); needs flip-evaluator. None: if it
         is installed.
+
+    Raises UsageError for images of different sizes, FileError for files that cannot be read.
     """
     import numpy as np
 

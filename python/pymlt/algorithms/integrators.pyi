@@ -1,15 +1,9 @@
-# Made by `python -m pymlt._stubs` from the schemas of the plug-ins. Do not edit.
+# Made by `python -m pymlt._stubs`. Do not edit.
 from collections.abc import Sequence
 from typing import Any, Literal
 
-from .mutations import Mutation
-
-class Integrator:
-    """A light transport algorithm: a name and its parameters."""
-
-    @property
-    def name(self) -> str: ...
-    def to_dict(self) -> dict[str, Any]: ...
+from .integrator import Integrator
+from .mutation import Mutation
 
 def class_name(plugin: str) -> str: ...
 def integrator_schema(plugin: str) -> dict[str, Any]: ...

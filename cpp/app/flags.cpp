@@ -1,0 +1,122 @@
+#include "app/flags.h"
+
+#include "base/error.h"
+#include "io/text.h"
+
+#include <charconv>
+#include <limits>
+#include <optional>
+
+namespace mlt {
+namespace {
+
+using Kind = Flag::Kind;
+
+constexpr uint64_t highest_int = std::numeric_limits<int>::max();
+
+std::optional<uint64_t> parse_count(std::string_view text, uint64_t highest) {
+  uint64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || value > highest)
+    return std::nullopt;
+  return value;
+}
+
+std::optional<std::pair<int, int>> parse_size(std::string_view text) {
+  const size_t cross = text.find('x');
+  if (cross == std::string_view::npos) return std::nullopt;
+  const auto width = parse_count(text.substr(0, cross), highest_int);
+  const auto height = parse_count(text.substr(cross + 1), highest_int);
+  if (width.value_or(0) == 0 || height.value_or(0) == 0) return std::nullopt;
+  return std::pair(static_cast<int>(*width), static_cast<int>(*height));
+}
+
+std::optional<std::pair<std::string, std::string>> parse_assignment(const std::string& text) {
+  const size_t equals = text.find('=');
+  if (equals == std::string::npos || equals == 0) return std::nullopt;
+  return std::pair(text.substr(0, equals), text.substr(equals + 1));
+}
+
+template <class T>
+T found(const std::optional<T>& value, const std::string& text, const char* expected) {
+  if (!value) throw UsageError(quote(text) + " is not " + expected);
+  return *value;
+}
+
+/// "-o" of "-o,--output".
+std::string first_spelling(const Flag& flag) {
+  const std::string all = flag.spelling;
+  return all.substr(0, all.find(','));
+}
+
+}  // namespace
+
+const std::vector<Flag>& render_flags() {
+  static const std::vector<Flag> flags = {
+      {"scene", "scene", "SCENE", Kind::text,
+       "Mitsuba XML file; pymlt also takes the name of a built-in scene"},
+      {"output", "-o,--output", "FILE", Kind::text,
+       "image file: .exr, .png or .hdr; may be repeated", Flag::required | Flag::repeatable},
+      {"integrator", "--integrator", "NAME", Kind::text, "algorithm, in place of the scene's own",
+       Flag::fixed_by_resume},
+      {"parameters", "-p", "NAME=VALUE", Kind::assignment, "integrator parameter; may be repeated",
+       Flag::repeatable | Flag::fixed_by_resume},
+      {"defines", "-D", "NAME=VALUE", Kind::assignment,
+       "value for a <default> parameter of the scene; may be repeated",
+       Flag::repeatable | Flag::fixed_by_resume},
+      {"size", "--size", "WxH", Kind::size, "image size in pixels, such as 640x360",
+       Flag::fixed_by_resume},
+      {"spp", "--spp", "N", Kind::positive, "samples (or mutations) per pixel"},
+      {"time", "--time", "SECONDS", Kind::positive, "seconds to render"},
+      {"error", "--error", "E", Kind::positive, "relative error to reach, such as 0.02"},
+      {"seed", "--seed", "N", Kind::seed, "seed of all random numbers (0)", Flag::fixed_by_resume},
+      {"threads", "--threads", "N", Kind::count, "0: as many as the machine has"},
+      {"checkpoint", "--checkpoint", "FILE", Kind::text,
+       "keep the state of the render in this file"},
+      {"every", "--every", "SECONDS", Kind::positive, "between checkpoints (60)", 0, "checkpoint"},
+      {"resume", "--resume", "FILE", Kind::text,
+       "go on from a checkpoint, in place of SCENE; it is renewed, unless --checkpoint names "
+       "another file"},
+      {"cluster", "--cluster", "ADDRESS", Kind::text,
+       "render on a dask cluster, such as tcp://host:8786, or on local:N processes",
+       Flag::python_only},
+      {"stats", "--stats", "FILE", Kind::text, "write what the render tells about itself, as JSON"},
+      {"exposure", "--exposure", "STOPS", Kind::number, "brighten PNG files by so many stops"},
+      {"quiet", "--quiet", "", Kind::on, "say nothing but errors"}};
+  return flags;
+}
+
+FlagValue read_flag(const Flag& flag, const std::string& text) {
+  switch (flag.kind) {
+    case Kind::count:
+      return found(parse_count(text, highest_int), text, "an integer from 0 to 2147483647");
+    case Kind::seed:
+      return found(parse_count(text, UINT64_MAX), text,
+                   "an integer from 0 to 18446744073709551615");
+    case Kind::number: return found(parse_real(text), text, "a number");
+    case Kind::positive: {
+      const auto number = parse_real(text);
+      return found(number && *number > 0 ? number : std::nullopt, text, "a positive number");
+    }
+    case Kind::size:
+      return found(parse_size(text), text, "WIDTHxHEIGHT in pixels, such as 640x360");
+    case Kind::assignment: return found(parse_assignment(text), text, "NAME=VALUE");
+    default: return text;
+  }
+}
+
+void check_flags(const std::set<std::string>& given) {
+  const bool resumed = given.count("resume") > 0;
+  if (!resumed && !given.count("scene")) throw UsageError("SCENE is required, or --resume FILE");
+  for (const Flag& flag : render_flags()) {
+    if (!given.count(flag.name)) continue;
+    if (resumed && flag.is(Flag::fixed_by_resume))
+      throw UsageError(first_spelling(flag) +
+                       " cannot be given with --resume: the checkpoint says it");
+    // A resumed render renews its checkpoint anyway.
+    if (!resumed && *flag.needs && !given.count(flag.needs))
+      throw UsageError(first_spelling(flag) + " needs --" + flag.needs);
+  }
+}
+
+}  // namespace mlt

@@ -1,0 +1,61 @@
+// The flags of mlt-render and of `pymlt render`: one table, from which both programs make their
+// parsers, and the rules that both apply to what was given.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace mlt {
+
+struct Flag {
+  enum class Kind : uint8_t {
+    text,
+    count,     ///< An integer from 0 to 2^31 - 1.
+    seed,      ///< An integer from 0 to 2^64 - 1.
+    number,    ///< Any finite number.
+    positive,  ///< A finite number greater than 0.
+    size,      ///< Two positive integers: "640x360".
+    assignment,
+    on  ///< It has no value.
+  };
+  enum Trait : unsigned {
+    required = 1,
+    repeatable = 2,
+    fixed_by_resume = 4,  ///< A checkpoint says it, so it cannot be given beside --resume.
+    python_only = 8       ///< pymlt has it, mlt-render has not.
+  };
+
+  const char* name;      ///< Under which a program finds what was given.
+  const char* spelling;  ///< "-o,--output"; one that is known by its place has no dash.
+  const char* metavar;   ///< What help calls its value.
+  Kind kind;
+  const char* help;
+  unsigned traits = 0;
+  const char* needs = "";  ///< The name of another flag that has to be given with it.
+
+  bool is(Trait trait) const { return (traits & trait) != 0; }
+};
+
+/// In the order of --help.
+const std::vector<Flag>& render_flags();
+
+using FlagValue = std::variant<std::string, uint64_t, double, std::pair<int, int>,
+                               std::pair<std::string, std::string>>;
+
+/// What was given, by the names of the flags; one without a value has an empty text.
+using FlagValues = std::map<std::string, std::vector<FlagValue>>;
+
+/// What `text` means for a flag with a value. Throws UsageError.
+FlagValue read_flag(const Flag& flag, const std::string& text);
+
+/// Throws UsageError if the flags with these names, and no others, make no sense together. With
+/// --resume the checkpoint says what is rendered: only budgets, threads, outputs and the place of
+/// the scene may be given.
+void check_flags(const std::set<std::string>& given);
+
+}  // namespace mlt

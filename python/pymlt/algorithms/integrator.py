@@ -1,0 +1,83 @@
+"""What an integrator is in Python, and what users may write in its place."""
+
+from __future__ import annotations
+
+from .. import _core
+
+
+class Integrator:
+    """A light transport algorithm: a name and its parameters.
+
+    Parameters that were not given are attributes of the class: their defaults.
+    """
+
+    _name: str
+    _defaults: dict
+
+    def __init__(self, **parameters):
+        for name in parameters:
+            if name not in self._defaults:
+                raise TypeError(
+                    f"{type(self).__name__}() has no parameter {name!r}"
+                    + _core.suggestion(name, list(self._defaults)),
+                )
+        self.__dict__.update(parameters)
+
+    @property
+    def name(self) -> str:
+        """The plug-in's name, as scenes write it."""
+        return self._name
+
+    def to_dict(self) -> dict:
+        """The Mitsuba dict that means the same."""
+        given, written = self._parts()
+        if written:
+            raise _core.UsageError(
+                f"{written[0][0]!r} is written in Python, which a dict cannot say; use the "
+                f"{type(self).__name__} object itself"
+            )
+        return given
+
+    def _parts(self) -> tuple[dict, list]:
+        """The dict, and beside it the mutations that are written in Python, with their weights."""
+        given = {name: value for name, value in self.__dict__.items() if value is not None}
+        return {"type": self._name, **given}, []
+
+    def __repr__(self) -> str:
+        changed = [
+            f"{name}={value!r}"
+            for name, value in self.__dict__.items()
+            if name not in self._defaults or value != self._defaults[name]
+        ]
+        return f"{type(self).__name__}({', '.join(changed)})"
+
+    def __eq__(self, other) -> bool:
+        if not isinstance(other, Integrator):
+            return NotImplemented
+        mine, others = ({**x._defaults, **x.__dict__} for x in (self, other))
+        return type(self) is type(other) and mine == others
+
+    __hash__ = None
+
+
+IntegratorLike = Integrator | dict | str
+
+
+def as_integrator(
+    scene: _core.Scene, integrator: IntegratorLike | None, assignments=()
+) -> _core.Integrator:
+    """What `integrator` means for this scene; see `start`."""
+    if isinstance(integrator, _core.Integrator):
+        return integrator
+    if isinstance(integrator, Integrator):
+        integrator, written = integrator._parts()
+        if written:
+            made = _core.integrator_from_dict(integrator)
+            return _core.with_mutations(made, scene, written)
+    if isinstance(integrator, dict):
+        return _core.integrator_from_dict(integrator)
+    if integrator is None or isinstance(integrator, str):
+        return _core.integrator_by_name(scene, integrator or "", list(assignments))
+    if isinstance(integrator, type) and issubclass(integrator, Integrator):
+        raise _core.UsageError(f"integrator is a class; write {integrator.__name__}()")
+    raise _core.UsageError(f"{integrator!r} is not an integrator, a dict, or a name")

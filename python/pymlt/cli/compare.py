@@ -1,0 +1,52 @@
+"""`pymlt compare`: how far an image is from a reference."""
+
+from __future__ import annotations
+
+import json
+import math
+
+from .. import _core
+from ..diagnostics.metrics import compare
+from .common import FLAGS, reader, say
+
+HELP = "Print how far an image is from a reference."
+METRICS = ("mse", "rmse", "relmse", "relmse_trimmed", "mape", "bias_z", "flip")
+
+
+def add_arguments(command) -> None:
+    command.add_argument("image", metavar="A")
+    command.add_argument("reference", metavar="B")
+    command.add_argument("--json", action="store_true", help="print JSON")
+    command.add_argument(
+        "--fail-above",
+        metavar="METRIC=VALUE",
+        action="append",
+        default=[],
+        type=reader(limit),
+        help="exit with 1 if the metric (for bias_z: its size) is above; may be repeated",
+    )
+
+
+def limit(text: str) -> tuple[str, float]:
+    name, value = FLAGS["defines"].read(text)
+    if name not in METRICS:
+        raise _core.UsageError(f"unknown metric {name!r}{_core.suggestion(name, list(METRICS))}")
+    try:
+        return name, float(value)
+    except ValueError:
+        raise _core.UsageError(f"{value!r} is not a number") from None
+
+
+def run(args) -> int:
+    wanted = {name for name, _ in args.fail_above}
+    metrics = compare(args.image, args.reference, flip=True if "flip" in wanted else None)
+    if args.json:
+        finite = {k: v if math.isfinite(v) else None for k, v in metrics.items()}
+        print(json.dumps(finite, indent=2))
+    else:
+        for name, value in metrics.items():
+            print(f"{name:15} {value:.6g}")
+    above = [(n, limit) for n, limit in args.fail_above if not abs(metrics[n]) <= limit]
+    for name, limit in above:
+        say(f"{name} is {metrics[name]:.6g}, above {limit:g}")
+    return 1 if above else 0

@@ -1,0 +1,58 @@
+"""`pymlt lab`: the scripts of the gallery."""
+
+from __future__ import annotations
+
+import os
+
+from .. import _core
+from ..lab import draw, names, pyplot_module, script, title
+from .common import say
+
+HELP = "Run a script of the gallery: show its figure, or save it."
+
+
+def add_arguments(command) -> None:
+    command.add_argument("name", metavar="NAME", nargs="?", help="as --list names them")
+    command.add_argument("--list", action="store_true", help="list the scripts")
+    command.add_argument(
+        "-o", "--output", metavar="FILE", help="save the figure, such as figure.png"
+    )
+
+
+def run(args) -> int:
+    if args.list or args.name is None:
+        if args.name or args.output or not args.list:
+            raise _core.UsageError("lab needs --list or the name of a script; see pymlt lab --help")
+        print("\n".join(f"{name:15} {title(name)}" for name in names()))
+        return 0
+    script(args.name)  # known, before matplotlib is imported
+    output = args.output
+    if output:
+        check_output(output)
+        pyplot_module().switch_backend("agg")
+    figure = draw(args.name)
+    if not output and not has_window():
+        output = f"{args.name}.png"
+    if output:
+        figure.savefig(output)
+        say(output)
+    pyplot_module().close(figure)
+    return 0
+
+
+def check_output(path: str) -> None:
+    _core.check_file_writable(path)
+    suffix = os.path.splitext(path)[1].lstrip(".").lower()
+    known = pyplot_module().Figure().canvas.get_supported_filetypes()
+    if suffix not in known:
+        raise _core.UsageError(
+            f"{path}: a figure cannot be saved as {suffix!r}{_core.suggestion(suffix, list(known))}"
+        )
+
+
+def has_window() -> bool:
+    from matplotlib import get_backend
+    from matplotlib.backends import BackendFilter, backend_registry
+
+    windows = backend_registry.list_builtin(BackendFilter.INTERACTIVE)
+    return get_backend().lower() in [name.lower() for name in windows]

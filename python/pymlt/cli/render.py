@@ -1,0 +1,114 @@
+"""`pymlt render`: a scene to image files."""
+
+from __future__ import annotations
+
+import json
+import os
+from dataclasses import fields
+
+from .. import _core
+from ..algorithms.integrator import as_integrator
+from ..rendering.job import Job
+from ..rendering.options import RenderOptions
+from ..rendering.progress import progress_bar
+from ..rendering.result import Result
+from ..rendering.start import saved_job
+from .common import FLAGS, add_flag, load_scene, say, warn
+from .signals import Signals
+
+HELP = "Render a scene to image files."
+
+
+def add_arguments(command) -> None:
+    for flag in FLAGS.values():
+        add_flag(command, flag)
+
+
+def given(args) -> dict:
+    values = {name: getattr(args, name) for name in FLAGS}
+    return {name: v for name, v in values.items() if not (v is None or v is False or v == [])}
+
+
+def check(args) -> None:
+    try:
+        _core.check_flags(set(given(args)))
+    except _core.UsageError as error:
+        raise _core.UsageError(f"{error}; see pymlt render --help") from None
+
+
+def start(args, signals: Signals) -> Job:
+    values = given(args)
+    options = RenderOptions(
+        **{f.name: values[f.name] for f in fields(RenderOptions) if f.name in values}
+    )
+    if args.resume:
+        if args.scene and not os.path.exists(args.scene):
+            raise _core.FileError(f"{args.scene}: no such file")
+        return signals.abandonable(lambda: saved_job(args.resume, args.scene, options))._start()
+    scene = signals.abandonable(lambda: load_scene(args))
+    return Job(scene, as_integrator(scene, args.integrator, args.parameters), options)._start()
+
+
+def run(args) -> int:
+    check(args)
+    for path in args.output:
+        _core.check_image_writable(path)
+    if args.stats:
+        _core.check_file_writable(args.stats)
+    with Signals() as signals:
+        job = start(args, signals)
+        known = job.stats["warnings"]
+        if not args.quiet:
+            warn(known)
+        try:
+            wait(job, signals, args.quiet)
+        except _core.RenderError as error:
+            if hasattr(error, "result"):
+                save(args, error.result)
+            raise
+        code = 128 + signals.caught if signals.caught else 0
+        if code and job.stats["spp_done"] == 0:
+            say("interrupted before the first sample; nothing to save")
+            return code
+        result = job.result()
+        if not args.quiet:
+            warn(result.stats["warnings"][len(known) :])
+        save(args, result)
+    if not args.quiet:
+        say(("interrupted; " if code else "") + summary(result, args.output))
+    return code
+
+
+def wait(job: Job, signals: Signals, quiet: bool) -> None:
+    with progress_bar(False if quiet else None) as show:
+        while not job.wait(0.1):
+            if signals.caught:
+                job.cancel()
+            show(job.progress, {"spp": f"{job.stats['spp_done']:.4g}"})
+
+
+def save(args, result: Result) -> None:
+    """Every output is tried, and elsewhere if it fails, before any error is reported."""
+    failures = []
+    writers = [(path, lambda path: result.save(path, args.exposure or 0)) for path in args.output]
+    if args.stats:
+        text = json.dumps(result.stats, indent=2) + "\n"
+        writers.append((args.stats, lambda path: _core.write_text(path, text)))
+    for path, write in writers:
+        try:
+            written = write(path)
+        except _core.FileError as error:
+            failures.append(error)
+            continue
+        if written != path:
+            say(f"{path} could not be written; it is saved as {written}")
+    if failures:
+        raise failures[0]
+
+
+def summary(result: Result, outputs: list[str]) -> str:
+    stats = result.stats
+    width, height = stats["size"]
+    seconds = stats["seconds"]["bootstrap"] + stats["seconds"]["render"]
+    spp = stats["spp_done"]
+    return f"{width} x {height}, {spp:.4g} spp in {seconds:.1f} s: {', '.join(outputs)}"

@@ -1,0 +1,1 @@
+"""Rendering: jobs, what they leave behind, and several of them as one image."""

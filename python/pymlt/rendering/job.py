@@ -1,0 +1,188 @@
+"""A render in progress."""
+
+from __future__ import annotations
+
+import atexit
+import json
+import math
+import os
+import weakref
+from time import monotonic
+from typing import TYPE_CHECKING
+
+from .. import _core
+from .notebook import show
+from .options import RenderOptions, integer, number
+from .progress import progress_bar
+from .result import Groups, Replay, Result
+
+if TYPE_CHECKING:
+    import numpy as np
+
+_running: weakref.WeakSet[Job] = weakref.WeakSet()
+
+
+class Job:
+    """A render in progress; made by `start`."""
+
+    def __init__(self, scene: _core.Scene, integrator: _core.Integrator, options: RenderOptions):
+        self._scene = scene
+        self._integrator = integrator
+        self._cluster = options.cluster
+        self._job = _core.Job(
+            scene,
+            integrator,
+            options.spp,
+            options.time,
+            options.error,
+            options.seed,
+            options.threads,
+            options.checkpoint or "",
+            options.every,
+        )
+
+    def _start(self) -> Job:
+        if self._cluster is not None:
+            from .cluster.executor import ClusterExecutor
+
+            self._job.hire(ClusterExecutor(self._scene, self._integrator, self._cluster))
+        self._job.start()
+        _running.add(self)
+        return self
+
+    @property
+    def image(self) -> np.ndarray:
+        """The image so far: float32, (height, width, 3), linear, row 0 on top."""
+        return self._job.image()
+
+    @property
+    def stats(self) -> dict:
+        """What the render tells about itself so far, as `--stats` writes it; times in seconds."""
+        return json.loads(self._job.stats())
+
+    @property
+    def groups(self) -> Groups:
+        """What the independent groups have seen so far."""
+        return Groups(*self._job.groups())
+
+    @property
+    def error_map(self) -> np.ndarray | None:
+        """The standard error of each pixel so far; see `Result.error_map`."""
+        return self._job.layers().get("error")
+
+    def checkpoint(self, path) -> None:
+        """Save the state of the render, now, to a file that `resume` goes on from.
+
+        The units in flight are finished, and the render goes on. Raises FileError if the file
+        cannot be written, or exists and is no checkpoint.
+        """
+        self._job.checkpoint(os.fspath(path))
+
+    def extend(self, *, spp=None, time=None, error=None) -> None:
+        """After the end: go on to a larger budget, counted from the very beginning.
+
+        The image is the same as if the render had had this budget from the start. Raises UsageError
+        if the render has not ended, or the budget is not larger.
+        """
+        self._job.extend(number("spp", spp), number("time", time), number("error", error))
+
+    def replay(self, pixel: tuple[int, int], sample: int = 0) -> Replay:
+        """Repeat one sample of a pixel (x, y), whether it has been taken or not.
+
+        `sample` counts from 0. What is asked for again shows the same paths, those that the render
+        has added up. For integrators that sample pixel by pixel; raises UsageError for others, and
+        for a pixel outside of the image.
+        """
+        sample = integer("sample", sample, 2**36)
+        return Replay(*self._job.replay(pixel, sample))
+
+    @property
+    def progress(self) -> float:
+        """The share of the budget that is used up, 0 to 1."""
+        return self._job.progress
+
+    @property
+    def ended(self) -> bool:
+        """Whether nothing runs any more: the budget is used up, or the render was ended."""
+        return self._job.ended
+
+    @property
+    def cancelled(self) -> bool:
+        """Whether `cancel` was called."""
+        return self._job.cancelled
+
+    def cancel(self) -> None:
+        """End the render soon; what has been rendered stays."""
+        self._job.cancel()
+
+    def wait(
+        self, timeout: float | None = None, progress=False, *, callback=None, interval: float = 1
+    ) -> bool:
+        """Wait for the end, at most `timeout` seconds; True if the render has ended.
+
+        `callback` is called with a `snapshot` each `interval` seconds while the render runs; if it
+        returns True the render ends. Ctrl-C ends the waiting, not the render. Raises what went
+        wrong in the render; what had been rendered by then is the error's `result`.
+        """
+        with progress_bar(progress) as show:
+            end = math.inf if timeout is None else monotonic() + timeout
+            next_call = monotonic() + interval
+            while not self._ended(min(0.1, max(0.0, end - monotonic()))):
+                if monotonic() >= end:
+                    return False
+                if progress is not False:
+                    show(self.progress, {"spp": f"{self._job.spp_done:.4g}"})
+                if callback is not None and monotonic() >= next_call:
+                    if callback(self.snapshot()) is True:
+                        self.cancel()
+                    next_call = monotonic() + interval
+        return True
+
+    def _ended(self, seconds: float) -> bool:
+        try:
+            return self._job.wait(seconds)
+        except _core.RenderError as error:
+            if self._job.spp_done > 0:
+                error.result = self.snapshot()
+            raise
+
+    def result(self) -> Result:
+        """Wait for the end and return the image with everything known about it.
+
+        Raises what `wait` raises.
+        """
+        self.wait()
+        return self.snapshot()
+
+    def snapshot(self) -> Result:
+        """The image so far, with everything known about it."""
+        settings = json.loads(self._integrator.settings)
+        return Result(
+            self.image,
+            self.stats,
+            settings,
+            self._job.layers(),
+            self._job.metadata(),
+            self._scene.half,
+        )
+
+    def show(self, *, interval: float = 1, exposure: float = 0) -> None:
+        """Show the image in a notebook, and renew it each `interval` seconds until the render ends.
+
+        `exposure` brightens it by so many stops. Interrupting the cell ends the showing, not the
+        render. Needs IPython.
+        """
+        show(self, interval, exposure)
+
+    def __repr__(self) -> str:
+        state = "cancelled" if self.cancelled else "ended" if self.ended else "running"
+        return f"Job({state}, {100 * self.progress:.0f} %)"
+
+
+@atexit.register
+def _cancel_all() -> None:
+    """No thread may outlive the interpreter."""
+    for job in list(_running):
+        job.cancel()
+        while not job.ended:
+            job._job.wait(1.0)

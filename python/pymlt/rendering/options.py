@@ -1,0 +1,100 @@
+"""The options that all ways to start a render share."""
+
+from __future__ import annotations
+
+import functools
+import inspect
+import operator
+import os
+from collections.abc import Callable
+from dataclasses import dataclass, fields
+from typing import Any
+
+from .. import _core
+
+
+@dataclass
+class RenderOptions:
+    """How long to render, with which random numbers, and where.
+
+    spp, time, error
+        samples (for Metropolis integrators: mutations) per pixel, seconds, and the relative error
+        of the image (0.02: 2 %), as `stats["error"]` estimates it. The first one to be reached
+        ends the render; with none, the scene's own sample count counts, else 64.
+    seed, threads
+        The image depends on the seed (0 to 2**64 - 1) but not on the number of threads (0: all
+        there are).
+    checkpoint, every
+        a file that keeps the state of the render, renewed every so many seconds and at the end;
+        `resume` goes on from there.
+    cluster
+        where to render: a `dask.distributed` client or cluster, the address of one
+        ("tcp://host:8786"), or "local:N" for N processes of this machine. None is this process.
+        The bootstrap runs here. The pixels are the same. Needs `pymlt[cluster]`.
+    """
+
+    spp: float | None = None
+    time: float | None = None
+    error: float | None = None
+    seed: int = 0
+    threads: int = 0
+    checkpoint: str | os.PathLike | None = None
+    every: float = 60
+    cluster: Any = None
+
+    def __post_init__(self):
+        for name in ("spp", "time", "error", "every"):
+            setattr(self, name, number(name, getattr(self, name)))
+        self.seed = integer("seed", self.seed, 2**64)
+        self.threads = integer("threads", self.threads, 2**31)
+        if self.checkpoint is not None:
+            self.checkpoint = os.fspath(self.checkpoint)
+
+
+def takes_options(function: Callable, *, fixed: tuple[str, ...] = ()) -> Callable:
+    """A function whose keyword `options` is a RenderOptions, as one with a keyword for each option.
+
+    Those that are `fixed` cannot be given. What RenderOptions says about its fields takes the place
+    of a line <options> in the docstring.
+    """
+    signature = inspect.signature(function)
+    own = [p for p in signature.parameters.values() if p.name != "options"]
+    keyword = inspect.Parameter.KEYWORD_ONLY
+    added = [
+        inspect.Parameter(f.name, keyword, default=f.default, annotation=f.type)
+        for f in fields(RenderOptions)
+        if f.name not in fixed
+    ]
+    names = {p.name for p in added}
+    ordered = sorted([*added, *own], key=lambda p: p.kind)
+    signature = signature.replace(parameters=ordered)
+
+    @functools.wraps(function)
+    def call(*args, **kwargs):
+        try:
+            signature.bind(*args, **kwargs)
+        except TypeError as error:
+            raise TypeError(f"{function.__name__}() {error}") from None
+        options = {name: kwargs.pop(name) for name in names & kwargs.keys()}
+        return function(*args, **kwargs, options=RenderOptions(**options))
+
+    sections = inspect.getdoc(RenderOptions).partition("\n\n")[2]
+    call.__doc__ = (inspect.getdoc(function) or "").replace("<options>", sections)
+    call.__signature__ = signature
+    return call
+
+
+def number(name: str, value) -> float | None:
+    try:
+        return None if value is None else float(value)
+    except (TypeError, ValueError):
+        raise _core.UsageError(f"{name} is {value!r}, but should be a number") from None
+
+
+def integer(name: str, value, end: int) -> int:
+    try:
+        if not isinstance(value, bool) and 0 <= operator.index(value) < end:
+            return operator.index(value)
+    except TypeError:
+        pass
+    raise _core.UsageError(f"{name} is {value!r}, but should be an integer from 0 to {end - 1}")

@@ -1,0 +1,114 @@
+"""What a render leaves behind."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, NamedTuple
+
+from .. import _core
+
+if TYPE_CHECKING:
+    import numpy as np
+
+
+class Technique(NamedTuple):
+    """The image of one technique (s, t) of bidirectional path tracing."""
+
+    raw: np.ndarray  #: what it finds alone, without weights
+    weighted: np.ndarray  #: what it brings to the render
+
+
+@dataclass
+class Result:
+    """What a render left behind."""
+
+    image: np.ndarray  #: float32, (height, width, 3), linear Rec. 709, row 0 on top
+    stats: dict  #: the content of stats.json
+    integrator: dict  #: type and every parameter, given or default
+    layers: dict[str, np.ndarray] = field(repr=False)  #: further images that were kept, by name
+    metadata: dict[str, str] = field(repr=False)  #: what `write` puts into an EXR header
+    half: bool = field(default=False, repr=False)  #: EXR with 16-bit samples, as the film asks
+
+    @property
+    def seed(self) -> int:
+        """Of all random numbers."""
+        return self.stats["seed"]
+
+    @property
+    def error_map(self) -> np.ndarray | None:
+        """The standard error of each pixel, of the shape of `image`, or None if it is not known.
+
+        It is estimated from the spread of independent groups, and there must be two of them.
+        """
+        return self.layers.get("error")
+
+    @property
+    def block_error(self) -> np.ndarray | None:
+        """The standard errors of the means over blocks of 8 x 8 pixels, or None.
+
+        float32, (rows, columns, 3); the blocks at the right and the lower border may be smaller.
+        """
+        spread = self.layers.get("error_block")
+        return None if spread is None else spread[::8, ::8]
+
+    @property
+    def techniques(self) -> dict[tuple[int, int], Technique]:
+        """The images of the techniques (s, t), of a render by `BDPT(techniques=True)`.
+
+        A path of technique (s, t) has s vertices from the light and t from the camera.
+        """
+        found = {}
+        for name, weighted in self.layers.items():
+            kind, *numbers = name.split(".")
+            if kind == "weighted":
+                s, t = (int(number[1:]) for number in numbers)
+                found[s, t] = Technique(self.layers[f"raw.s{s}.t{t}"], weighted)
+        return found
+
+    def write(self, path, exposure: float = 0) -> None:
+        """Write the image to .exr (with settings, seed and version in its header), .png or .hdr.
+
+        An .exr holds the layers too; beside NAME.png, NAME.techniques.png shows the techniques.
+        `exposure` brightens .png by so many stops. Raises FileError if it cannot be written.
+        """
+        self._write(path, exposure, rescue=False)
+
+    def save(self, path, exposure: float = 0) -> str:
+        """The same, but if `path` fails try other places; returns where the image is."""
+        return self._write(path, exposure, rescue=True)
+
+    def _write(self, path, exposure: float, rescue: bool) -> str:
+        path = os.fspath(path)
+        return _core.write_image(
+            path, self.image, self.layers, self.metadata, self.half, exposure, rescue
+        )
+
+    def __repr__(self) -> str:
+        height, width = self.image.shape[:2]
+        spp = self.stats["spp_done"]
+        return f"Result({width} x {height}, {self.integrator['type']!r}, {spp:g} spp)"
+
+
+class Groups(NamedTuple):
+    """The independent groups of a render: the image is the mean of theirs.
+
+    Direct light that is rendered separately (`direct_samples` of `mlt`) is not in them.
+    """
+
+    images: np.ndarray  #: float32, (groups, height, width, 3)
+    weights: np.ndarray  #: of each in the mean, 0 for one that has nothing to say yet
+    b: np.ndarray  #: by which each image is scaled, for Metropolis integrators; else 0
+
+
+class Replay(NamedTuple):
+    """What one sample of a pixel has seen."""
+
+    raster: tuple[float, float]  #: where on the image, in pixels
+    radiance: np.ndarray  #: RGB, as the film got it there
+    paths: list[_core.LightPath]  #: what it found; `direct` does not tell
+
+    def __repr__(self) -> str:
+        x, y = self.raster
+        rgb = ", ".join(f"{c:.4g}" for c in self.radiance)
+        return f"Replay(({x:.2f}, {y:.2f}), rgb=({rgb}), {len(self.paths)} paths)"

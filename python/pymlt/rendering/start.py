@@ -1,0 +1,160 @@
+"""Start a render and look at it, or just wait for the image."""
+
+from __future__ import annotations
+
+import functools
+import os
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+from .. import _core
+from .._core import Scene
+from ..algorithms.integrator import IntegratorLike, as_integrator
+from ..scenes.loading import SceneLike, as_scene, load_built_in
+from .job import Job
+from .options import RenderOptions, takes_options
+from .result import Replay, Result
+
+if TYPE_CHECKING:
+    import numpy as np
+
+
+@takes_options
+def start(
+    scene: SceneLike,
+    integrator: IntegratorLike | None = None,
+    *,
+    options: RenderOptions,
+) -> Job:
+    """Start a render and return at once.
+
+    scene
+        a Scene, a dict, or the path of an XML file.
+    integrator
+        an object such as `Path(max_depth=8)`, a dict, or a name. None is the scene's own, else
+        `path`. A name keeps what the scene says about what is to be rendered (max_depth,
+        hide_emitters, strict_normals); an object or a dict means exactly what it says.
+    <options>
+
+    Raises UsageError for options that make no sense, SceneError for such a scene or integrator, and
+    FileError for files that cannot be read or a checkpoint that cannot be written. What goes wrong
+    later is raised by `Job.wait` and `Job.result`.
+    """
+    scene = as_scene(scene)
+    return Job(scene, as_integrator(scene, integrator), options)._start()
+
+
+@functools.partial(takes_options, fixed=("seed",))
+def resume(
+    path: str | os.PathLike,
+    *,
+    scene: SceneLike | None = None,
+    options: RenderOptions,
+) -> Job:
+    """Go on with a render that was saved in a checkpoint; the image ends with the same pixels.
+
+    path
+        the file. Raises FileError if it is foreign, truncated, damaged or of another build.
+    scene
+        None loads the scene from where it was. A Scene, a dict or another path for its XML file is
+        needed if it has moved or was made from a dict. SceneError if it differs.
+    spp, time, error
+        budgets in place of those in the file, each counted from the very beginning: a finished
+        render goes on if they are larger.
+    threads
+        as for `start`.
+    checkpoint, every
+        where the state is kept from now on; None means `path`.
+    cluster
+        where to render, as for `start`; it need not be where the render began.
+    """
+    return saved_job(os.fspath(path), scene, options)._start()
+
+
+def saved_job(path: str, scene: SceneLike | None, options: RenderOptions) -> Job:
+    """The job of a checkpoint, not yet started."""
+    saved = _core.Checkpoint(path)
+    if isinstance(scene, Scene | dict):
+        scene = as_scene(scene)
+        saved.check(scene)
+    elif scene is None and saved.built_in:
+        scene = load_built_in(*saved.built_in)
+        saved.check(scene)
+    else:
+        scene = saved.load_scene("" if scene is None else os.fspath(scene))
+    options = replace(options, seed=saved.seed, checkpoint=options.checkpoint or path)
+    job = Job(scene, saved.integrator, options)
+    saved.take_up(job._job)
+    return job
+
+
+@takes_options
+def render(
+    scene: SceneLike,
+    integrator: IntegratorLike | None = None,
+    *,
+    options: RenderOptions,
+    progress: bool | Callable[[float], object] | None = None,
+    callback: Callable[[Result], object] | None = None,
+    interval: float = 1,
+) -> np.ndarray:
+    """Render and return the image: float32, (height, width, 3), linear Rec. 709, row 0 on top.
+
+    The arguments are those of `start`. `progress` is True, False, None (a bar on a terminal and in
+    a notebook) or a function of the fraction that is done. `callback` is a function of the Result
+    so far, called each `interval` seconds; it ends the render by returning True. After Ctrl-C the
+    KeyboardInterrupt carries what there is so far, a Result, as `error.result`; so does a
+    RenderError, for a render that fails. Other errors are those of `start`.
+    """
+    scene = as_scene(scene)
+    job = Job(scene, as_integrator(scene, integrator), options)._start()
+    try:
+        job.wait(progress=progress, callback=callback, interval=interval)
+    except KeyboardInterrupt as interrupt:
+        job.cancel()
+        interrupt.result = job.result()
+        raise
+    except BaseException:
+        job.cancel()
+        raise
+    return job.image
+
+
+def render_progressive(
+    scene: SceneLike,
+    integrator: IntegratorLike | None = None,
+    *,
+    interval: float = 1,
+    **settings: Any,
+) -> Iterator[Result]:
+    """Render and look at it: `for snapshot in render_progressive(scene, spp=256): ...`.
+
+    Yields a Result each `interval` seconds, and at the end the finished one. The other arguments
+    are those of `start`. The render begins with the first step of the loop, and leaving the loop
+    ends it.
+    """
+    job = start(scene, integrator, **settings)
+    try:
+        while not job.wait(interval):
+            yield job.snapshot()
+        yield job.snapshot()
+    finally:
+        job.cancel()
+
+
+def replay(
+    scene: SceneLike,
+    integrator: IntegratorLike | None = None,
+    *,
+    pixel: tuple[int, int],
+    sample: int = 0,
+    seed: int = 0,
+) -> Replay:
+    """Repeat one sample of the pixel (x, y) of the render that these arguments mean.
+
+    See `Job.replay`.
+    """
+    scene = as_scene(scene)
+    options = RenderOptions(spp=1, seed=seed, threads=1)
+    return Job(scene, as_integrator(scene, integrator), options).replay(pixel, sample)

@@ -1,0 +1,74 @@
+# Made by `python -m pymlt._stubs`. Do not edit.
+import os
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import numpy as np
+
+from ..algorithms.integrator import IntegratorLike
+from ..scenes.loading import SceneLike
+from .job import Job
+from .options import RenderOptions
+from .result import Replay, Result
+
+def render(
+    scene: SceneLike,
+    integrator: IntegratorLike | None = ...,
+    *,
+    spp: float | None = ...,
+    time: float | None = ...,
+    error: float | None = ...,
+    seed: int = ...,
+    threads: int = ...,
+    checkpoint: str | os.PathLike | None = ...,
+    every: float = ...,
+    cluster: Any = ...,
+    progress: bool | Callable[[float], object] | None = ...,
+    callback: Callable[[Result], object] | None = ...,
+    interval: float = ...,
+) -> np.ndarray: ...
+def render_progressive(
+    scene: SceneLike,
+    integrator: IntegratorLike | None = ...,
+    *,
+    interval: float = ...,
+    **settings: Any,
+) -> Iterator[Result]: ...
+def replay(
+    scene: SceneLike,
+    integrator: IntegratorLike | None = ...,
+    *,
+    pixel: tuple[int, int],
+    sample: int = ...,
+    seed: int = ...,
+) -> Replay: ...
+def resume(
+    path: str | os.PathLike,
+    *,
+    spp: float | None = ...,
+    time: float | None = ...,
+    error: float | None = ...,
+    threads: int = ...,
+    checkpoint: str | os.PathLike | None = ...,
+    every: float = ...,
+    cluster: Any = ...,
+    scene: SceneLike | None = ...,
+) -> Job: ...
+def saved_job(
+    path: str,
+    scene: SceneLike | None,
+    options: RenderOptions,
+) -> Job: ...
+def start(
+    scene: SceneLike,
+    integrator: IntegratorLike | None = ...,
+    *,
+    spp: float | None = ...,
+    time: float | None = ...,
+    error: float | None = ...,
+    seed: int = ...,
+    threads: int = ...,
+    checkpoint: str | os.PathLike | None = ...,
+    every: float = ...,
+    cluster: Any = ...,
+) -> Job: ...

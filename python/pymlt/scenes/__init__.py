@@ -1,0 +1,60 @@
+"""Built-in scenes: functions that return a Mitsuba dict for `load_dict` or `render`.
+
+image = mlt.render(mlt.scenes.door_ajar(), "pssmlt", spp=64)
+
+The scenes are the folders of `scenes/`, each with a scene.xml (which `load_file` and mlt-render
+read as well) and a README.md. Here the XML is read into a dict, in which everything can be
+changed.
+"""
+
+from __future__ import annotations
+
+import inspect
+import sys
+
+from .xml_to_dict import load as _load
+
+
+def names() -> list[str]:
+    """The names of the built-in scenes."""
+    module = sys.modules[__name__]
+    return [
+        name
+        for name, function in inspect.getmembers(module, inspect.isfunction)
+        if function.__module__ == __name__ and name != "names" and not name.startswith("_")
+    ]
+
+
+def cornell_box() -> dict:
+    """The Cornell box (Goral et al. 1984) with the measures and colours of Mitsuba 3's own."""
+    return _load("cornell-box")
+
+
+def glass_ball() -> dict:
+    """The Cornell box with a glass ball and a light a tenth as wide: a caustic on the floor."""
+    return _load("glass-ball")
+
+
+def door_ajar(opening: float = 16) -> dict:
+    """A dark room and the light of the next one through a door, which is `opening` degrees open."""
+    return _load("door-ajar", opening=opening)
+
+
+def pool() -> dict:
+    """A tiled pool below a small light: all is seen and lit through rippled water."""
+    return _load("pool")
+
+
+def ring() -> dict:
+    """A gold ring on paper below a small light: the caustic of a cylindrical mirror."""
+    return _load("ring")
+
+
+def furnace() -> dict:
+    """A closed box that emits e and reflects a: the radiance is e / (1 - a) = 0.5 everywhere."""
+    return _load("furnace")
+
+
+def dof(aperture: float = 0.07) -> dict:
+    """Glass balls before a lens of radius `aperture`: caustics within the blur."""
+    return _load("dof", aperture=aperture)
