@@ -1,6 +1,6 @@
 // What mutations there are, and the audit of one or of a mixture.
 #include "python_mutation.h"
-#include "values.h"
+#include "scene_dict.h"
 
 #include "base/parallel.h"
 #include "mutation/audit.h"
