@@ -4,6 +4,7 @@
 
 #include "integrator/mlt.h"
 #include "io/load.h"
+#include "render/json.h"
 
 #include <string>
 #include <utility>
@@ -16,8 +17,8 @@ using Assignments = std::vector<std::pair<std::string, std::string>>;
 
 struct MadeIntegrator {
   IntegratorPtr integrator;
-  Node node;             ///< From which it was made.
-  std::string settings;  ///< Its type and every parameter, given or default, as a JSON object.
+  Node node;      ///< From which it was made.
+  Json settings;  ///< Its type and every parameter, given or default.
   std::vector<std::string> warnings;
   bool extra_mutations = false;  ///< Has mutations that the node does not tell.
 };
