@@ -10,4 +10,15 @@ Replay Rendering::replay(const Vec2i& /*pixel*/, uint64_t /*sample*/) {
       "ptracer and bdpt do");
 }
 
+Schema integrator_schema(const std::string& name, const std::string& doc,
+                         const std::vector<std::vector<Parameter>>& parameters) {
+  Schema schema;
+  schema.family = "integrator";
+  schema.name = name;
+  schema.doc = doc;
+  for (const std::vector<Parameter>& list : parameters)
+    schema.parameters.insert(schema.parameters.end(), list.begin(), list.end());
+  return schema;
+}
+
 }  // namespace mlt

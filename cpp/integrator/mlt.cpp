@@ -266,7 +266,7 @@ class MltIntegrator : public Integrator {
   }
   std::unique_ptr<Rendering> start(ScenePtr scene, uint64_t seed) const override {
     auto algorithm = std::make_unique<Mlt>(scene, settings_);
-    Aside direct;
+    SeparateDirect direct;
     if (direct_samples_ >= 0)
       direct = separate_direct(scene, seed, direct_samples_, settings_.paths.hide_emitters,
                                settings_.paths.strict_normals);

@@ -23,9 +23,10 @@ struct MadeIntegrator {
   bool extra_mutations = false;  ///< Has mutations that the node does not tell.
 };
 
-/// The integrator that `name` asks for; with "" the scene's own, and `path` if it has none. One that
-/// replaces the scene's own inherits what is to be rendered (max_depth, hide_emitters, strict_normals), but not how.
-/// Throws UsageError for an assignment that the integrator does not know.
+/// The integrator that `name` asks for; with "" the scene's own, and `path` if it has none. One
+/// that replaces the scene's own inherits what is to be rendered (max_depth, hide_emitters,
+/// strict_normals), but not how. Throws UsageError for an assignment that the integrator does not
+/// know.
 Node choose_integrator(const LoadedScene& loaded, const std::string& name,
                        const Assignments& assignments, const Registry& registry);
 

@@ -1,9 +1,9 @@
 """Rendering on many machines: a dask.distributed cluster runs the units, this process the rest.
 
-This process keeps the whole state of the render. It prepares it (bootstrap), and then sends orders,
-"take this part from here to there", which any worker can carry out, any number of times with the
-same outcome; so dask redoes elsewhere what a lost worker held. Each outcome is folded in once. The
-pixels have the same bits as those of one machine with the same seed and samples.
+This process keeps the whole state of the render. It prepares it (bootstrap), and then sends tasks,
+"take these shares from here to there", which any worker can run, any number of times with the same
+result; so dask redoes elsewhere what a lost worker held. Each result is merged once. The pixels
+have the same bits as those of one machine with the same seed and samples.
 """
 
 from __future__ import annotations
@@ -20,11 +20,11 @@ from time import monotonic
 
 from . import _core
 
-SHORTEST_STAGE = 1.0  #: seconds between two outcomes of a part, at the least
+SHORTEST_STAGE = 1.0  #: seconds between two results of a task, at the least
 LONGEST_STAGE = 60.0
 GROWTH = 0.3  #: a stage grows with the render: this share of the time so far
-OWNER_SHARE = 0.05  #: of the time, at most, the owner is to spend on gathering and folding
-#: The same, of the time of each worker; an order costs all processes three times what it costs the
+OWNER_SHARE = 0.05  #: of the time, at most, the owner is to spend on gathering and merging
+#: The same, of the time of each worker; a task costs all processes three times what it costs the
 #: owner, so dividing the render costs 2 %.
 WORKER_SHARE = 0.006
 CONNECT_SECONDS = 15
@@ -34,7 +34,7 @@ CONNECT_SECONDS = 15
 
 
 class _Bench:
-    """What a worker process keeps between orders; it hangs on dask's worker and ends with it."""
+    """What a worker process keeps between tasks; it hangs on dask's worker and ends with it."""
 
     def __init__(self):
         self.lock = threading.Lock()
@@ -97,10 +97,10 @@ def _hold(packed: bytes) -> bytes:
     return packed
 
 
-def _carry_out(packed, job, scene, integrator, build, order) -> bytes | str:
-    """The outcome of an order, on all threads of the worker: they share one film.
+def _run(packed, job, scene, integrator, build, task) -> bytes | str:
+    """The result of a task, on all threads of the worker: they share one film.
 
-    If the worker has not got the scene and it does not come with the order: its address. Orders
+    If the worker has not got the scene and it does not come with the task: its address. Tasks
     have it on request only, since dask drops copies and would bring a new one with each of them.
     """
     from distributed import get_worker
@@ -117,7 +117,7 @@ def _carry_out(packed, job, scene, integrator, build, order) -> bytes | str:
         return worker.address
     helper = _core.Helper(unpacked, integrator)
     with bench.at_work(job, helper):
-        return helper.run(order, worker.state.nthreads)
+        return helper.run(task, worker.state.nthreads)
 
 
 def _cancel(job: str, dask_worker) -> None:
@@ -214,8 +214,8 @@ def _environment(defaults: dict[str, str]):
             del os.environ[name]
 
 
-class Crew:
-    """Sends the orders of a job to a cluster and folds their outcomes; see `_core.Job.hire`."""
+class ClusterExecutor:
+    """Sends the tasks of a job to a cluster and merges their results; see `_core.Job.attach`."""
 
     def __init__(self, scene, integrator, cluster):
         self.cluster = cluster
@@ -231,28 +231,28 @@ class Crew:
         self.name = f"pymlt-{uuid.uuid4().hex}"
         self.scene = None
         self.finished: queue.SimpleQueue = queue.SimpleQueue()
-        self.at_work: dict = {}  #: part -> future
-        self.folding = 0.0  #: seconds spent on gathering and folding
-        self.folded = 0
+        self.at_work: dict = {}  #: task -> future
+        self.merging = 0.0  #: seconds spent on gathering and merging
+        self.merged = 0
         self.cancelling = False
         self.next_count = 0.0
 
-    def wanted_parts(self) -> int:
+    def wanted_tasks(self) -> int:
         if self.connection is None:  # the render was extended
             self._begin()
         return 2 * self._workers()
 
-    def advance(self, job, to: int) -> None:
+    def run(self, job, to: int) -> None:
         try:
-            self._advance(job, to)
+            self._run_until(job, to)
         except Exception as error:
             raise _core.RenderError(_reason(error)) from error
 
-    def _advance(self, job, to: int) -> None:
+    def _run_until(self, job, to: int) -> None:
         if self.scene is None:
             self.scene = self._submit(_hold, self.packed, key=f"{self.name}-scene")
             self.start, self.units_before = monotonic(), job.units_done
-            self.frontier = min(job.position(part) for part in range(job.parts))
+            self.frontier = min(job.position(task) for task in range(job.task_count))
         while True:
             if job.stopping and not self.cancelling:
                 self.cancelling = True
@@ -260,12 +260,12 @@ class Crew:
             elif job.interrupted and not self.cancelling:
                 return
             if not self.cancelling:
-                self._send_orders(job, to)
+                self._send_tasks(job, to)
             if not self.at_work:
                 return
-            self._fold_one(job)
+            self._merge_one(job)
 
-    def dismiss(self) -> None:
+    def close(self) -> None:
         """Whatever state the cluster is in by now: one that is gone has nothing to forget."""
         if self.connection is None:
             return
@@ -286,79 +286,79 @@ class Crew:
             self.next_count = monotonic() + 2
         return self.workers
 
-    def _send_orders(self, job, to: int) -> None:
-        """Keep every worker busy, with the parts that are behind; never far ahead of the others."""
+    def _send_tasks(self, job, to: int) -> None:
+        """Keep every worker busy, with the tasks that are behind; never far ahead of the others."""
         workers = self._workers()
         most = workers + max(1, workers // 2)
         while len(self.at_work) < most:
-            waiting = [part for part in range(job.parts) if part not in self.at_work]
+            waiting = [task for task in range(job.task_count) if task not in self.at_work]
             if not waiting:
                 return
-            part = min(waiting, key=job.position)
-            if job.position(part) >= self.frontier:
+            task = min(waiting, key=job.position)
+            if job.position(task) >= self.frontier:
                 if self.frontier >= to:
                     return
                 self.frontier = self._next_frontier(job, to)
-            if job.pass_over(part, self.frontier):
+            if job.skip(task, self.frontier):
                 continue
-            self._send(job, part)
+            self._send(job, task)
 
-    def _send(self, job, part: int, with_scene_to: str | None = None) -> None:
-        """An order, to any worker, or with the scene to the one that has asked for it."""
+    def _send(self, job, task: int, with_scene_to: str | None = None) -> None:
+        """A task, to any worker, or with the scene to the one that has asked for it."""
         place = {}
         if with_scene_to is not None:
             place = {"workers": [with_scene_to], "allow_other_workers": True}
         future = self._submit(
-            _carry_out,
+            _run,
             None if with_scene_to is None else self.scene,
             self.name,
             self.scene_name,
             self.integrator,
             self.build,
-            job.order(part, self.frontier),
-            key=f"{self.name}-{part}-{job.position(part)}-{with_scene_to}",
+            job.task(task, self.frontier),
+            key=f"{self.name}-{task}-{job.position(task)}-{with_scene_to}",
             **place,
         )
-        self.at_work[part] = future
-        future.add_done_callback(lambda _, part=part: self.finished.put(part))
+        self.at_work[task] = future
+        future.add_done_callback(lambda _, task=task: self.finished.put(task))
 
     def _next_frontier(self, job, to: int) -> int:
         """A stage ahead. Stages are long enough that the owner's work hardly counts."""
         elapsed = monotonic() - self.start
         seconds = max(SHORTEST_STAGE, min(LONGEST_STAGE, GROWTH * elapsed))
-        if self.folded:
+        if self.merged:
             share = min(OWNER_SHARE, WORKER_SHARE * self._workers())
-            seconds = max(seconds, self.folding / self.folded * job.parts / share)
+            seconds = max(seconds, self.merging / self.merged * job.task_count / share)
         rate = (job.units_done - self.units_before) / max(elapsed, 1e-3)
-        steps = max(1, round(rate * seconds / job.units_per_step))
-        return min(to, self.frontier + steps * job.units_per_step)
+        cycles = max(1, round(rate * seconds / job.units_per_cycle))
+        return min(to, self.frontier + cycles * job.units_per_cycle)
 
-    def _fold_one(self, job) -> None:
+    def _merge_one(self, job) -> None:
         try:
-            part = self.finished.get(timeout=0.1)
+            task = self.finished.get(timeout=0.1)
         except queue.Empty:
             return
         start = monotonic()
         try:
-            outcome = self.at_work[part].result(timeout=10)
+            result = self.at_work[task].result(timeout=10)
         except TimeoutError:  # its worker was lost in between: dask does it again
-            self.finished.put(part)
+            self.finished.put(task)
             return
-        del self.at_work[part]
-        if isinstance(outcome, str):
+        del self.at_work[task]
+        if isinstance(result, str):
             if not self.cancelling:
-                self._send(job, part, with_scene_to=outcome)
+                self._send(job, task, with_scene_to=result)
             return
-        job.fold(part, outcome)
-        if job.parts < self._workers():  # some have come
-            job.split(part)
-        self.folding += monotonic() - start
-        self.folded += 1
+        job.merge(task, result)
+        if job.task_count < self._workers():  # some have come
+            job.split(task)
+        self.merging += monotonic() - start
+        self.merged += 1
 
     def _submit(self, function, *arguments, key, **place):
         import dask
 
-        # Orders carry the state of their part; the scheduler keeps it in case a worker is lost.
+        # Tasks carry the state of their shares; the scheduler keeps it in case a worker is lost.
         with dask.config.set({"distributed.admin.large-graph-warning-threshold": "1TB"}):
             return self.client.submit(function, *arguments, key=key, pure=False, **place)
 
@@ -371,7 +371,7 @@ def _reason(error: BaseException) -> str:
     if isinstance(error, _core.Error):
         return str(error)
     if isinstance(error, KilledWorker):
-        return f"workers of the cluster died, each time with the same order: {error}"
+        return f"workers of the cluster died, each time with the same task: {error}"
     gone = isinstance(error, CancelledError | CommClosedError | OSError | TimeoutError)
     where = "the cluster is gone" if gone else "on the cluster"
     return f"{where}: {type(error).__name__}: {error}"

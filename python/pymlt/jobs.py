@@ -104,7 +104,7 @@ class Result:
 class Groups(NamedTuple):
     """The independent groups of a render: the image is the mean of theirs.
 
-    Light that is rendered aside (`direct_samples` of `mlt`) is not in them.
+    Direct light that is rendered separately (`direct_samples` of `mlt`) is not in them.
     """
 
     images: np.ndarray  #: float32, (groups, height, width, 3)
@@ -356,16 +356,16 @@ def prepare_resume(path, *, scene, spp, time, error, threads, checkpoint, every)
     budget = spp, time, error
     checkpoint = path if checkpoint is None else checkpoint
     job = _make(scene, saved.integrator, budget, saved.seed, threads, checkpoint, every)
-    saved.take_up(job._job)
+    saved.resume(job._job)
     return job
 
 
 def begin(job: Job, cluster=None) -> Job:
     """Start a job that was made."""
     if cluster is not None:
-        from .cluster import Crew
+        from .cluster import ClusterExecutor
 
-        job._job.hire(Crew(job._scene, job._integrator, cluster))
+        job._job.attach(ClusterExecutor(job._scene, job._integrator, cluster))
     job._job.start()
     _running.add(job)
     return job

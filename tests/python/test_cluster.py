@@ -230,9 +230,9 @@ def test_an_error_in_the_render_is_reported(client):
 
 
 def test_a_worker_with_another_build_is_refused(client):
-    from pymlt.cluster import _carry_out
+    from pymlt.cluster import _run
 
-    future = client.submit(_carry_out, b"", "job", "scene", None, "another", b"")
+    future = client.submit(_run, b"", "job", "scene", None, "another", b"")
     with pytest.raises(mlt.UsageError, match="another build of pymlt"):
         future.result()
 
