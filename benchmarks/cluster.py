@@ -1,8 +1,8 @@
-"""Rendering on many machines: bytes and CPU time of orders and outcomes, and 1, 2, 4 processes.
+"""Rendering on many machines: bytes and CPU time of tasks and results, and 1, 2, 4 processes.
 
-The constants of the cost model in docs/many-machines.md. A part of a render is ordered, carried out
-and folded within this process, so that nothing but that is measured; an order without work shows
-what one costs at least. Then a whole render on this process with one thread and on clusters of 1, 2
+The constants of the cost model in docs/many-machines.md. A task of a render is written, run and
+merged within this process, so that nothing but that is measured; a task without work shows what one
+costs at least. Then a whole render on this process with one thread and on clusters of 1, 2
 and 4 processes with one thread each, in turn: the quotient of their wall times is the speed-up,
 that of their CPU times (all processes of the cluster) what dividing the render costs. What dask's
 processes use while nothing is rendered is paid per second of wall time, so a machine that has other
@@ -29,54 +29,54 @@ def cpu(function, *arguments):
 
 
 class Measured:
-    """A crew that takes one part of the render some stages on and measures that."""
+    """An executor that takes one task of the render some stages on and measures that."""
 
-    def __init__(self, scene, integrator, parts: int, rounds: int, steps: float):
+    def __init__(self, scene, integrator, tasks: int, rounds: int, cycles: float):
         self.helper = _core.Helper(scene, integrator)
-        self.parts, self.rounds, self.steps = parts, rounds, steps
-        self.times = {"order": [], "empty": [], "fold": []}
+        self.tasks, self.rounds, self.cycles = tasks, rounds, cycles
+        self.times = {"task": [], "empty": [], "merge": []}
 
-    def wanted_parts(self) -> int:
-        return self.parts
+    def wanted_tasks(self) -> int:
+        return self.tasks
 
-    def advance(self, job, to: int) -> None:
-        step = round(self.steps * job.units_per_step)
+    def run(self, job, to: int) -> None:
+        units = round(self.cycles * job.units_per_cycle)
         for _ in range(self.rounds):
             position = job.position(0)
-            _, seconds = cpu(self.helper.run, job.order(0, position), 1)
+            _, seconds = cpu(self.helper.run, job.task(0, position), 1)
             self.times["empty"].append(seconds)
-            order, seconds = cpu(job.order, 0, position + step)
-            self.times["order"].append(seconds)
-            outcome = self.helper.run(order, 1)
-            _, seconds = cpu(job.fold, 0, outcome)
-            self.times["fold"].append(seconds)
-        self.order_bytes, self.outcome_bytes, self.cut_into = len(order), len(outcome), job.parts
+            task, seconds = cpu(job.task, 0, position + units)
+            self.times["task"].append(seconds)
+            result = self.helper.run(task, 1)
+            _, seconds = cpu(job.merge, 0, result)
+            self.times["merge"].append(seconds)
+        self.task_bytes, self.result_bytes, self.cut_into = len(task), len(result), job.task_count
         job.cancel()
 
-    def dismiss(self) -> None:
+    def close(self) -> None:
         pass
 
 
-def costs(scene, name: str, parts: int, rounds: int) -> dict:
-    """Of one part of a render, per order."""
+def costs(scene, name: str, tasks: int, rounds: int) -> dict:
+    """Of one task of a render."""
     integrator = as_integrator(scene, name)
     job = _core.Job(scene, integrator, 1e6, None, None, 1, 1)
-    # A step of bdpt is 128 passes over the image, 8 for each group; one is enough here.
-    measured = Measured(scene, integrator, parts, rounds, 1 / 128 if name == "bdpt" else 1)
-    job.hire(measured)
+    # A cycle of bdpt is 128 passes over the image, 8 for each group; one is enough here.
+    measured = Measured(scene, integrator, tasks, rounds, 1 / 128 if name == "bdpt" else 1)
+    job.attach(measured)
     job.start()
     job.wait(float("inf"))
     pixels = scene.width * scene.height
     return {
         "integrator": name,
         "size": f"{scene.width}x{scene.height}",
-        "parts": measured.cut_into,
-        "order bytes": measured.order_bytes,
-        "outcome bytes": measured.outcome_bytes,
-        "all outcomes, bytes/pixel": measured.outcome_bytes * measured.cut_into / pixels,
-        "order ms": 1e3 * median(measured.times["order"]),
+        "tasks": measured.cut_into,
+        "task bytes": measured.task_bytes,
+        "result bytes": measured.result_bytes,
+        "all results, bytes/pixel": measured.result_bytes * measured.cut_into / pixels,
+        "task ms": 1e3 * median(measured.times["task"]),
         "empty ms": 1e3 * median(measured.times["empty"]),
-        "fold ms": 1e3 * median(measured.times["fold"]),
+        "merge ms": 1e3 * median(measured.times["merge"]),
     }
 
 
@@ -150,13 +150,13 @@ def main() -> None:
     options = parser(__doc__)
     options.add_argument("--rounds", type=int, default=5)
     options.add_argument("--seconds", type=float, default=20, help="of one render, alone")
-    options.add_argument("--parts", type=int, default=64)
+    options.add_argument("--tasks", type=int, default=64)
     args = options.parse_args()
     box = mlt.scenes.cornell_box()
     small, large = (mlt.load_dict(box, size=size) for size in ((320, 180), (1920, 1080)))
     say(f"the scene travels as {len(pickle.dumps(small))} bytes")
     rows = [
-        costs(scene, name, args.parts, args.rounds)
+        costs(scene, name, args.tasks, args.rounds)
         for scene in (small, large)
         for name in ("path", "bdpt", "pssmlt", "mlt")
     ]
@@ -170,7 +170,7 @@ def main() -> None:
         speed_ups = scaling(small, name, round(64 * args.seconds / seconds), args.rounds)
         print_table(speed_ups)
         rows += speed_ups
-    settings = {"rounds": args.rounds, "seconds": args.seconds, "parts": args.parts}
+    settings = {"rounds": args.rounds, "seconds": args.seconds, "tasks": args.tasks}
     write_results(args.json, "cluster", settings, rows)
 
 

@@ -167,7 +167,7 @@ Measured measure(const NamedScene& scene, const std::string& integrator, double 
     if (stretch < 0) continue;  // warms the caches
     m.rays += static_cast<double>(recorded.rays.size());
     ratios.push_back(render / bare);
-    m.samples += (twin_b->spp_done(unit) - twin_b->spp_done(first)) *
+    m.samples += (twin_b->plan().spp_done(unit) - twin_b->plan().spp_done(first)) *
                  scene.loaded.scene->camera().raster().pixels();
     m.render_seconds += render;
     m.replay_seconds += bare;

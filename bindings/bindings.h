@@ -20,7 +20,7 @@ void bind_integrators(py::module_& m);
 void bind_flags(py::module_& m);
 void bind_render(py::module_& m);
 void bind_checkpoint(py::module_& m);
-void bind_crew(py::module_& m);
+void bind_executor(py::module_& m);
 void bind_metropolis(py::module_& m);
 
 /// A numpy array (height, width, channels) that owns the image's buffer.

@@ -1,4 +1,4 @@
-// Checkpoints, read and taken up.
+// Checkpoints, read and resumed.
 #include "bindings.h"
 #include "py_job.h"
 
@@ -26,7 +26,7 @@ struct PyCheckpoint {
     return std::make_shared<LoadedScene>(load_scene(saved, path, moved_to, plugins()));
   }
   void check(const LoadedScene& loaded) const { check_same_scene(saved, path, loaded); }
-  void take(PyJob& job) const { take_up(*job, saved, path); }
+  void resume(PyJob& job) const { mlt::resume(job, saved, path); }
 
   std::string path;
   Checkpoint saved;
@@ -47,7 +47,7 @@ void bind_checkpoint(py::module_& m) {
       .def("load_scene", &PyCheckpoint::load, py::arg("moved_to"), NoGil())
       .def("check", &PyCheckpoint::check, py::arg("scene"), NoGil(),
            "Raises SceneError unless it is the checkpoint's scene.")
-      .def("take_up", &PyCheckpoint::take, py::arg("job"), NoGil(),
+      .def("resume", &PyCheckpoint::resume, py::arg("job"), NoGil(),
            "Before start: the job goes on from here.");
 }
 

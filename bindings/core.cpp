@@ -15,6 +15,6 @@ PYBIND11_MODULE(_core, m) {
   mlt::python::bind_flags(m);
   mlt::python::bind_render(m);
   mlt::python::bind_checkpoint(m);
-  mlt::python::bind_crew(m);
+  mlt::python::bind_executor(m);
   mlt::python::bind_metropolis(m);
 }

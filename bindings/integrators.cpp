@@ -42,7 +42,8 @@ MadeIntegrator with_python_mutations(const MadeIntegrator& made, const LoadedPtr
 
 void bind_integrators(py::module_& m) {
   py::class_<MadeIntegrator>(m, "Integrator", "A light transport algorithm with its settings.")
-      .def_readonly("settings", &MadeIntegrator::settings, "As JSON.")
+      .def_property_readonly(
+          "settings", [](const MadeIntegrator& made) { return made.settings.text(); }, "As JSON.")
       .def_readonly("warnings", &MadeIntegrator::warnings)
       .def(py::pickle(
           [](const MadeIntegrator& made) { return py::bytes(pack(node_of(made))); },

@@ -13,28 +13,33 @@ namespace mlt::python {
 
 using LoadedPtr = std::shared_ptr<LoadedScene>;
 
+/// What `function` returns, called without the interpreter's lock.
+template <class Function>
+auto without_gil(const Function& function) {
+  const py::gil_scoped_release release;
+  return function();
+}
+
 /// A job and what it was made from.
-class PyJob {
+class PyJob : public Job {
  public:
-  PyJob(LoadedPtr loaded, MadeIntegrator made, const RenderSettings& settings)
-      : loaded_(std::move(loaded)),
-        made_(std::move(made)),
-        seed_(settings.seed),
-        job_(std::make_unique<Job>(loaded_->scene, made_.integrator, settings)) {}
+  PyJob(LoadedPtr loaded, const MadeIntegrator& made, const RenderSettings& settings)
+      : Job(loaded->scene, made.integrator, settings),
+        loaded_(std::move(loaded)),
+        made_(made),
+        seed_(settings.seed) {}
   ~PyJob() {
     py::gil_scoped_release release;
-    job_->stop();  // while a crew may still use this object
-    job_.reset();
+    stop();  // while an executor may still use this object
   }
 
-  Job& operator*() { return *job_; }
   const LoadedPtr& loaded() const { return loaded_; }
-  Stats stats() const { return render_stats(*job_, *loaded_, made_); }
+  Stats stats() const { return render_stats(*this, *loaded_, made_); }
   Metadata metadata() const { return render_metadata(stats(), *loaded_, made_); }
   void checkpoint(const std::string& path) {
     check_checkpoint_writable(path);
     Checkpoint checkpoint = checkpoint_of(*loaded_, made_, seed_);
-    checkpoint.state = job_->save();
+    checkpoint.state = save();
     write_checkpoint(path, checkpoint);
   }
 
@@ -42,7 +47,6 @@ class PyJob {
   LoadedPtr loaded_;
   MadeIntegrator made_;
   uint64_t seed_;
-  std::unique_ptr<Job> job_;
 };
 
 }  // namespace mlt::python

@@ -27,12 +27,11 @@ std::unique_ptr<PyJob> make_job(LoadedPtr loaded, const MadeIntegrator& made,
   return std::make_unique<PyJob>(std::move(loaded), made, settings);
 }
 
-/// Waits without the GIL, which mutations written in Python need. What went wrong in one of these is
-/// raised as Python knows it, each time anew: an error_already_set serves only once.
+/// Waits without the GIL, which mutations written in Python need. What went wrong in one of these
+/// is raised as Python knows it, each time anew: an error_already_set serves only once.
 bool wait(PyJob& job, double seconds) {
   try {
-    const py::gil_scoped_release release;
-    return (*job).wait(seconds);
+    return without_gil([&] { return job.wait(seconds); });
   } catch (const py::error_already_set& error) {
     PyErr_Restore(py::object(error.type()).release().ptr(),
                   py::object(error.value()).release().ptr(),
@@ -41,19 +40,10 @@ bool wait(PyJob& job, double seconds) {
   }
 }
 
-py::array_t<float> image(PyJob& job) {
-  Image image;
-  {
-    py::gil_scoped_release release;
-    image = (*job).image();
-  }
-  return to_array(std::move(image));
-}
-
 /// (images, weights, b): the independent groups of a render.
 py::tuple groups(PyJob& job) {
-  const Rendering& rendering = (*job).rendering();
-  const int count = rendering.group_count();
+  const Rendering& rendering = job.rendering();
+  const int count = Rendering::group_count;
   const Vec2i size = image_size(*job.loaded()->scene);
   py::array_t<float> images(std::vector<py::ssize_t>{count, size.y, size.x, 3});
   std::vector<double> weights(count), b(count);
@@ -71,21 +61,8 @@ py::tuple groups(PyJob& job) {
                         py::array_t<double>(count, b.data()));
 }
 
-py::bytes save(PyJob& job) {
-  std::string state;
-  {
-    py::gil_scoped_release release;
-    state = (*job).save();
-  }
-  return state;
-}
-
 py::dict layers(PyJob& job) {
-  std::vector<NamedImage> layers;
-  {
-    py::gil_scoped_release release;
-    layers = (*job).layers();
-  }
+  std::vector<NamedImage> layers = without_gil([&] { return job.layers(); });
   py::dict dict;
   for (NamedImage& layer : layers) dict[py::str(layer.name)] = to_array(std::move(layer.image));
   return dict;
@@ -94,7 +71,7 @@ py::dict layers(PyJob& job) {
 py::tuple replay(PyJob& job, const std::pair<int, int>& pixel, uint64_t sample) {
   const Vec2i at(pixel.first, pixel.second);
   check_pixel(*job.loaded()->scene, at);
-  Replay replay = (*job).replay(at, sample);
+  Replay replay = job.replay(at, sample);
   std::vector<PyLightPath> paths;
   for (FoundPath& found : replay.paths) paths.push_back(light_path(job.loaded(), std::move(found)));
   return py::make_tuple(py::make_tuple(replay.raster.x, replay.raster.y), to_array(replay.radiance),
@@ -102,13 +79,9 @@ py::tuple replay(PyJob& job, const std::pair<int, int>& pixel, uint64_t sample) 
 }
 
 py::dict metadata(PyJob& job) {
-  Metadata metadata;
-  {
-    py::gil_scoped_release release;
-    metadata = job.metadata();
-  }
   py::dict dict;
-  for (const auto& [name, value] : metadata) dict[py::str(name)] = value;
+  for (const auto& [name, value] : without_gil([&] { return job.metadata(); }))
+    dict[py::str(name)] = value;
   return dict;
 }
 
@@ -121,30 +94,29 @@ void bind_render(py::module_& m) {
       .def(py::init(&make_job), py::arg("scene"), py::arg("integrator"), py::arg("spp"),
            py::arg("time"), py::arg("error"), py::arg("seed"), py::arg("threads"),
            py::arg("checkpoint") = "", py::arg("every") = 60.0)
-      .def(
-          "start", [](PyJob& job) { (*job).start(); }, NoGil())
+      .def("start", &PyJob::start, NoGil())
       .def("wait", &wait, py::arg("seconds"))
+      .def("cancel", &PyJob::cancel, NoGil())
       .def(
-          "cancel", [](PyJob& job) { (*job).cancel(); }, NoGil())
-      .def("save", &save, "The whole state as bytes; the render goes on.")
-      .def(
-          "load", [](PyJob& job, const std::string& state) { (*job).load(state); },
-          py::arg("state"), NoGil(), "Before start: go on where the state was saved.")
+          "save", [](PyJob& job) -> py::bytes { return without_gil([&] { return job.save(); }); },
+          "The whole state as bytes; the render goes on.")
+      .def("load", &PyJob::load, py::arg("state"), NoGil(),
+           "Before start: go on where the state was saved.")
       .def(
           "extend",
           [](PyJob& job, std::optional<double> spp, std::optional<double> time,
-             std::optional<double> error) { (*job).extend({spp, time, error}); },
+             std::optional<double> error) { job.extend({spp, time, error}); },
           py::arg("spp"), py::arg("time"), py::arg("error"), NoGil(),
           "After the end: go on to a larger budget.")
       .def("checkpoint", &PyJob::checkpoint, py::arg("path"), NoGil())
       .def("groups", &groups,
            "(images, weights, b) of the independent groups: float32 (G, height, width, 3), float64 "
-           "(G,) and (G,); without light that is rendered aside.")
-      .def_property_readonly("ended", [](PyJob& job) { return (*job).ended(); })
-      .def_property_readonly("cancelled", [](PyJob& job) { return (*job).cancelled(); })
-      .def_property_readonly("progress", [](PyJob& job) { return (*job).progress(); })
-      .def_property_readonly("spp_done", [](PyJob& job) { return (*job).spp_done(); })
-      .def("image", &image)
+           "(G,) and (G,); without direct light that is rendered separately.")
+      .def_property_readonly("ended", &PyJob::ended)
+      .def_property_readonly("cancelled", &PyJob::cancelled)
+      .def_property_readonly("progress", &PyJob::progress)
+      .def_property_readonly("spp_done", &PyJob::spp_done)
+      .def("image", [](PyJob& job) { return to_array(without_gil([&] { return job.image(); })); })
       .def("replay", &replay, py::arg("pixel"), py::arg("sample"), "(raster, radiance, paths)")
       .def("layers", &layers, "Further images that the render was asked to keep, by name.")
       .def(

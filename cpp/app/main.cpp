@@ -135,7 +135,7 @@ int run(Options options) {
     options.render.autosave = autosave_to(options.checkpoint, options.render.autosave.every,
                                           checkpoint_of(loaded, made, options.render.seed));
   Job job(loaded.scene, made.integrator, options.render);
-  if (saved) take_up(job, *saved, options.resume);
+  if (saved) resume(job, *saved, options.resume);
   saved.reset();
   const size_t known = render_stats(job, loaded, made).warnings.size();
   if (!options.quiet) print_warnings(render_stats(job, loaded, made));

@@ -230,49 +230,42 @@ SampleFilm::Strand SampleFilm::read(ByteReader& bytes, const Strand& like) const
   return strand;
 }
 
-template <class F>
-void SampleFilm::for_each_strand(int share, const std::vector<int>& groups, const F& f) const {
-  for (const int group : groups) {
-    const int strand = splats_ ? 0 : share;
-    if (splats_ && share != group) continue;
-    const std::lock_guard lock(groups_[group]->mutex);
-    f(group, strand);
-  }
+SampleFilm::Selection SampleFilm::everything() const {
+  Selection all;
+  for (int g = 0; g < group_count(); ++g) all.groups.push_back(g);
+  return all;
 }
 
-std::string SampleFilm::save_share(int share, const std::vector<int>& groups) const {
+std::vector<std::pair<SampleFilm::Group*, int>> SampleFilm::strands_of(
+    const Selection& selection) const {
+  std::vector<std::pair<Group*, int>> strands;
+  const auto last = static_cast<int>(std::min<uint64_t>(selection.last, share_count()));
+  for (int share = static_cast<int>(selection.first); share < last; ++share)
+    for (const int group : selection.groups)
+      if (!splats_ || share == group)
+        strands.push_back({groups_.at(group).get(), splats_ ? 0 : share});
+  return strands;
+}
+
+std::string SampleFilm::save(const Selection& selection) const {
   ByteWriter bytes;
-  for_each_strand(share, groups, [&](int g, int s) { write(bytes, groups_[g]->strands[s]); });
-  return bytes.take();
-}
-
-void SampleFilm::load_share(int share, const std::vector<int>& groups, const std::string& saved) {
-  ByteReader bytes(saved);
-  for_each_strand(share, groups, [&](int g, int s) {
-    Strand& strand = groups_[g]->strands[s];
-    strand = read(bytes, strand);
-  });
-  bytes.finish();
-}
-
-std::string SampleFilm::save() const {
-  ByteWriter bytes;
-  for (const auto& group : groups_) {
+  for (const auto& [group, index] : strands_of(selection)) {
     const std::lock_guard lock(group->mutex);
-    for (const Strand& strand : group->strands) write(bytes, strand);
+    write(bytes, group->strands[index]);
   }
   return bytes.take();
 }
 
-void SampleFilm::load(const std::string& saved) {
+void SampleFilm::load(const std::string& saved, const Selection& selection) {
   ByteReader bytes(saved);
-  std::vector<std::unique_ptr<Group>> groups;
-  for (const auto& old : groups_) {
-    groups.push_back(std::make_unique<Group>());
-    for (const Strand& like : old->strands) groups.back()->strands.push_back(read(bytes, like));
-  }
+  const auto places = strands_of(selection);
+  std::vector<Strand> strands;
+  for (const auto& [group, index] : places) strands.push_back(read(bytes, group->strands[index]));
   bytes.finish();
-  groups_ = std::move(groups);
+  for (size_t i = 0; i < places.size(); ++i) {
+    const std::lock_guard lock(places[i].first->mutex);
+    places[i].first->strands[places[i].second] = std::move(strands[i]);
+  }
 }
 
 }  // namespace mlt

@@ -1,6 +1,6 @@
-// The film of integrators that sample pixel by pixel. Samples are recorded tile by tile, and tiles are
-// added in a fixed order, so the image has the same bits for any number of threads.
-// The groups are independent of each other: their spread tells how wrong the image is.
+// The film of integrators that sample pixel by pixel. Samples are recorded tile by tile, and tiles
+// are added in a fixed order, so the image has the same bits for any number of threads. The groups
+// are independent of each other: their spread tells how wrong the image is.
 #pragma once
 
 #include "base/bytes.h"
@@ -13,6 +13,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace mlt {
@@ -38,8 +39,9 @@ class SampleFilm {
     /// The cells to be sampled; those of border tiles may lie outside the image.
     const PixelRect& cells() const { return cells_; }
     void add(const Vec2& raster, const Color& color);
-    /// Adds what a walk from a light, one for each sample of a cell, leaves anywhere on the image. A
-    /// measurement contribution over its density, with importance that integrates to 1 over the image.
+    /// Adds what a walk from a light, one for each sample of a cell, leaves anywhere on the image.
+    /// A measurement contribution over its density, with importance that integrates to 1 over the
+    /// image.
     void splat(const Vec2& raster, const Color& contribution) {
       splats_.push_back({raster, contribution});
     }
@@ -54,6 +56,7 @@ class SampleFilm {
 
   int tile_count() const { return tiles_x_ * tiles_y_; }
   int group_count() const { return static_cast<int>(groups_.size()); }
+  bool has_splats() const { return splats_; }
   Tile begin(int tile) const;
 
   /// Hands in the tile that is the `order`-th of its group (0, 1, 2, ... without gaps). It is added
@@ -71,16 +74,19 @@ class SampleFilm {
   /// By what a sum of contributions over one light walk per sample is to be multiplied.
   double splat_scale() const;
 
-  std::string save() const;
-  void load(const std::string& bytes);
-
-  /// The sums come in shares that do not depend on each other: groups with splats, else places (tiles,
-  /// over all groups).
+  /// The sums come in shares that do not depend on each other: groups with splats, else places
+  /// (tiles, over all groups).
   int share_count() const { return splats_ ? group_count() : tile_count(); }
-  int share_of(int group, int tile) const { return splats_ ? group : tile; }
-  /// A share, as far as it belongs to these groups, and back in its place.
-  std::string save_share(int share, const std::vector<int>& groups) const;
-  void load_share(int share, const std::vector<int>& groups, const std::string& bytes);
+  /// Shares first ... last - 1, as far as they belong to these groups.
+  struct Selection {
+    std::vector<int> groups;
+    uint64_t first = 0, last = ~uint64_t{0};
+  };
+  Selection everything() const;
+  std::string save(const Selection& selection) const;
+  /// Replaces what is selected. Throws RenderError if the bytes do not fit, and changes nothing
+  /// then.
+  void load(const std::string& bytes, const Selection& selection);
 
  private:
   struct Pending {
@@ -106,9 +112,8 @@ class SampleFilm {
 
   void write(ByteWriter& bytes, const Strand& strand) const;
   Strand read(ByteReader& bytes, const Strand& like) const;
-  /// Calls f(group, number of the strand) for what the share has in these groups.
-  template <class F>
-  void for_each_strand(int share, const std::vector<int>& groups, const F& f) const;
+  /// What is selected: a group, and the number of the strand in it.
+  std::vector<std::pair<Group*, int>> strands_of(const Selection& selection) const;
   void add_samples(const Group& group, std::vector<uint64_t>& samples) const;
   PixelRect cells_of(int tile) const;
   PixelRect reach_of(const PixelRect& cells) const;

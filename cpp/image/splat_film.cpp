@@ -15,7 +15,7 @@ SplatFilm::SplatFilm(int width, int height, std::shared_ptr<const Filter> filter
       height_(height),
       groups_(groups),
       filter_(std::move(filter)),
-      cells_(static_cast<Cell*>(std::calloc(group_size() * groups, sizeof(Cell)))) {
+      cells_(static_cast<Cell*>(std::calloc(group_size() * groups + 1, sizeof(Cell)))) {
   static_assert(std::is_trivially_destructible_v<Cell> && sizeof(Cell) == sizeof(int64_t));
   if (!cells_) throw std::bad_alloc();
 }
@@ -53,7 +53,7 @@ Image SplatFilm::image(const std::vector<double>& scale) const {
   return image;
 }
 
-std::string SplatFilm::save_groups(int first, int last) const {
+std::string SplatFilm::save(int first, int last) const {
   const Cell* cells = &cells_[group_size() * first];
   std::vector<int64_t> sums(group_size() * (last - first));
   for (size_t i = 0; i < sums.size(); ++i) sums[i] = cells[i].load(std::memory_order_relaxed);
@@ -63,29 +63,17 @@ std::string SplatFilm::save_groups(int first, int last) const {
   return bytes.take();
 }
 
-std::vector<int64_t> SplatFilm::read_groups(int groups, const std::string& saved,
-                                            uint64_t& saturated) const {
+void SplatFilm::merge(int first, int last, const std::string& saved) {
   std::vector<int64_t> sums;
   ByteReader bytes(saved);
   bytes.read(sums);
-  saturated = bytes.read<uint64_t>();
+  const auto saturated = bytes.read<uint64_t>();
   bytes.finish();
-  if (sums.size() != group_size() * groups) throw RenderError("the saved film has another size");
-  return sums;
-}
-
-void SplatFilm::load(const std::string& saved) {
-  uint64_t saturated = 0;
-  const std::vector<int64_t> sums = read_groups(groups_, saved, saturated);
-  for (size_t i = 0; i < sums.size(); ++i) cells_[i].store(sums[i], std::memory_order_relaxed);
-  saturated_ = saturated;
-}
-
-void SplatFilm::add_groups(int first, int last, const std::string& saved) {
-  uint64_t saturated = 0;
-  const std::vector<int64_t> sums = read_groups(last - first, saved, saturated);
+  if (sums.size() != group_size() * (last - first))
+    throw RenderError("the saved film has another size");
   Cell* cells = &cells_[group_size() * first];
-  for (size_t i = 0; i < sums.size(); ++i) add(cells[i], sums[i]);
+  for (size_t i = 0; i < sums.size(); ++i)
+    if (sums[i] != 0) add(cells[i], sums[i]);
   saturated_ += saturated;
 }
 

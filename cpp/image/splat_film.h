@@ -33,13 +33,11 @@ class SplatFilm {
   /// How many additions were out of the range of fixed point, or went to a sum that was.
   uint64_t saturated() const { return saturated_; }
 
-  std::string save() const { return save_groups(0, groups_); }
-  void load(const std::string& bytes);
-
   /// The groups first ... last - 1.
-  std::string save_groups(int first, int last) const;
-  /// Adds what another film has saved of these groups.
-  void add_groups(int first, int last, const std::string& bytes);
+  std::string save(int first, int last) const;
+  /// Adds what another film has saved of these groups. Throws RenderError if the bytes do not fit,
+  /// and changes nothing then.
+  void merge(int first, int last, const std::string& bytes);
 
  private:
   static constexpr double one = 268435456.0;  // 2^28
@@ -50,7 +48,6 @@ class SplatFilm {
 
   void add(Cell& cell, int64_t step);
   size_t group_size() const { return size_t{3} * width_ * height_; }
-  std::vector<int64_t> read_groups(int groups, const std::string& bytes, uint64_t& saturated) const;
 
   int width_, height_, groups_;
   std::shared_ptr<const Filter> filter_;

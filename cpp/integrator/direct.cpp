@@ -1,6 +1,5 @@
 // direct: light that reaches the camera over at most one reflection, by any number of samples of
 // lights and of the BSDF, combined by the multi-sample power heuristic (Veach 1997, sec. 9.2).
-#include "base/registry.h"
 #include "integrator/path_params.h"
 #include "integrator/sampled_rendering.h"
 
@@ -12,24 +11,27 @@ struct DirectSettings {
   PathRules rules;
 };
 
-class DirectRendering : public SampledRendering {
+class DirectTaker : public SampleTaker {
  public:
-  DirectRendering(ScenePtr scene, uint64_t seed, const DirectSettings& settings)
-      : SampledRendering(std::move(scene), seed, false), settings_(settings) {}
-
- private:
-  class DirectWorker;
-  std::unique_ptr<Worker> make_worker() override;
-
-  DirectSettings settings_;
-};
-
-class DirectRendering::DirectWorker : public Worker {
- public:
-  DirectWorker(const Scene& scene, const DirectSettings& settings)
+  static DirectSettings settings(Params& params) {
+    const int64_t both = params.integer_in("shading_samples", 1, 1 << 20);
+    const auto count = [&](const char* name) {
+      return static_cast<int>(params.has(name) ? params.integer_in(name, 0, 1 << 20) : both);
+    };
+    DirectSettings settings;
+    settings.emitter_samples = count("emitter_samples");
+    settings.bsdf_samples = count("bsdf_samples");
+    if (settings.emitter_samples + settings.bsdf_samples == 0)
+      params.fail("needs at least one of emitter_samples and bsdf_samples to be positive");
+    settings.rules.hide_emitters = params.boolean("hide_emitters");
+    settings.rules.strict_normals = params.boolean("strict_normals");
+    return settings;
+  }
+  DirectTaker(const Scene& scene, const DirectSettings& settings)
       : scene_(&scene), settings_(settings) {}
 
-  void sample(const Vec2& raster, PixelSampler& sampler, Sink& sink, RayCounts& rays) override {
+  void sample(const Vec2& raster, PixelSampler& sampler, SampleSink& sink,
+              RayCounts& rays) override {
     const Ray ray = leave_lens(scene_->camera(), raster, sampler).ray;
     sink.add(raster, radiance(ray, sampler, rays));
   }
@@ -83,58 +85,26 @@ class DirectRendering::DirectWorker : public Worker {
   DirectSettings settings_;
 };
 
-std::unique_ptr<SampledRendering::Worker> DirectRendering::make_worker() {
-  return std::make_unique<DirectWorker>(scene(), settings_);
-}
-
-class DirectIntegrator : public Integrator {
- public:
-  explicit DirectIntegrator(Params& params) {
-    const int64_t both = params.integer_in("shading_samples", 1, 1 << 20);
-    const auto count = [&](const char* name) {
-      return static_cast<int>(params.has(name) ? params.integer_in(name, 0, 1 << 20) : both);
-    };
-    settings_.emitter_samples = count("emitter_samples");
-    settings_.bsdf_samples = count("bsdf_samples");
-    if (settings_.emitter_samples + settings_.bsdf_samples == 0)
-      params.fail("needs at least one of emitter_samples and bsdf_samples to be positive");
-    settings_.rules.hide_emitters = params.boolean("hide_emitters");
-    settings_.rules.strict_normals = params.boolean("strict_normals");
-  }
-  std::unique_ptr<Rendering> start(ScenePtr scene, uint64_t seed) const override {
-    return std::make_unique<DirectRendering>(std::move(scene), seed, settings_);
-  }
-
- private:
-  DirectSettings settings_;
-};
-
 }  // namespace
 
 Plugin integrator_direct() {
-  Schema schema;
-  schema.family = "integrator";
-  schema.name = "direct";
-  schema.doc =
+  Schema schema = integrator_schema(
+      "direct",
       "Direct light: one reflection at the most, sampled from lights and BSDFs (Veach 1997, sec. "
-      "9.2). "
-      "One spp is one camera ray per pixel.";
-  schema.parameters = {
-      {"shading_samples", ParamType::integer, int64_t{1}, "Sets both of the numbers below."},
-      {"emitter_samples",
-       ParamType::integer,
-       {},
-       "Samples of lights per camera ray (default: shading_samples)."},
-      {"bsdf_samples",
-       ParamType::integer,
-       {},
-       "Samples of the BSDF per camera ray (default: shading_samples)."},
-  };
+      "9.2). One spp is one camera ray per pixel.",
+      {{{"shading_samples", ParamType::integer, int64_t{1}, "Sets both of the numbers below."},
+        {"emitter_samples",
+         ParamType::integer,
+         {},
+         "Samples of lights per camera ray (default: shading_samples)."},
+        {"bsdf_samples",
+         ParamType::integer,
+         {},
+         "Samples of the BSDF per camera ray (default: shading_samples)."}}});
   for (const Parameter& shared : path_parameters())
     if (shared.name == "hide_emitters" || shared.name == "strict_normals")
       schema.parameters.push_back(shared);
-  return {schema,
-          [](Params& params) -> ObjectPtr { return std::make_shared<DirectIntegrator>(params); }};
+  return make_plugin<SampledIntegrator<DirectTaker>>(schema);
 }
 
 }  // namespace mlt

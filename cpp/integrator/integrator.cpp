@@ -14,4 +14,15 @@ IntegratorPtr Integrator::with_mutations(const std::vector<ExtraMutation>& /*ext
   throw UsageError("'" + name() + "' has no mixture of mutations; mlt has");
 }
 
+Schema integrator_schema(const std::string& name, const std::string& doc,
+                         const std::vector<std::vector<Parameter>>& parameters) {
+  Schema schema;
+  schema.family = "integrator";
+  schema.name = name;
+  schema.doc = doc;
+  for (const std::vector<Parameter>& list : parameters)
+    schema.parameters.insert(schema.parameters.end(), list.begin(), list.end());
+  return schema;
+}
+
 }  // namespace mlt

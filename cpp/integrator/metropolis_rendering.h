@@ -6,6 +6,7 @@
 
 #include "integrator/integrator.h"
 #include "integrator/metropolis_chain.h"
+#include "integrator/separate_direct.h"
 
 #include <condition_variable>
 #include <memory>
@@ -49,50 +50,29 @@ struct MetropolisSettings {
   int64_t luminance_samples = 100000;
 };
 
-/// Light that is rendered apart and added to what the chains make.
-struct Aside {
-  std::unique_ptr<Rendering> rendering;  ///< nullptr: there is none.
-  double spp = 0;
-};
-
 class MetropolisRendering : public Rendering {
  public:
   MetropolisRendering(ScenePtr scene, uint64_t seed, const MetropolisSettings& settings,
-                      std::unique_ptr<MetropolisAlgorithm> algorithm, Aside aside = {});
+                      std::unique_ptr<MetropolisAlgorithm> algorithm, SeparateDirect direct = {});
 
   void prepare(int threads, const std::atomic<bool>& cancelled) override;
-  uint64_t unit_count(double spp) const override;
-  /// One unit of each chain.
-  uint64_t units_per_share() const override { return lanes_.size(); }
   void run_unit(uint64_t unit) override;
-  double spp_done(uint64_t units) const override;
   Image image() const override;
-  int group_count() const override { return groups; }
   GroupImage group(int index) const override;
-  const Rendering* aside() const override { return aside_.rendering.get(); }
+  const Rendering* separate_direct() const override { return direct_.rendering.get(); }
   void add_stats(Stats& stats) const override;
-  std::string save() const override;
-  void load(const std::string& bytes) override;
-  /// A share is a chain.
-  uint64_t share_count() const override { return lanes_.size(); }
-  uint64_t share_of(uint64_t unit) const override { return unit % lanes_.size(); }
-  uint64_t units_per_step() const override { return lanes_.size(); }
-  /// Each lies within one group, so that it adds to one film only.
-  std::vector<Part> parts(int wanted) const override;
-  std::string lend(const Work& work) const override;
-  void borrow(const Work& work, const std::string& lent) override;
-  std::string give_back(const Work& work) const override;
-  void take_back(const Work& work, const std::string& given_back) override;
+  std::string save(const Task& task, Content content) const override;
+  void load(const std::string& state) override;
 
  private:
-  static constexpr int groups = 16;
   /// A unit ends within a fraction of a second, however few chains share a large image.
   static constexpr uint64_t most_steps_per_unit = 4096;
 
-  struct Lane {
+  /// A share of the render.
+  struct ChainShare {
     int group = 0, number = 0;
     std::unique_ptr<RenderChain> chain;
-    uint64_t round = 0;  ///< Units done.
+    uint64_t units = 0;  ///< That are done.
     mutable std::mutex mutex;
     std::condition_variable turn;
   };
@@ -103,21 +83,23 @@ class MetropolisRendering : public Rendering {
 
   double pixels() const { return scene_->camera().raster().pixels(); }
   int chains_of(int group) const;
-  void render_aside(int threads, const std::atomic<bool>& cancelled);
+  ChainId chain_id(const ChainShare& share) const;
+  void render_direct(int threads, const std::atomic<bool>& cancelled);
+  void lay_out();
   bool begun(const Group& group) const { return group.steps > 0 || group.b == 0; }
   double scale_of(const Group& group) const;
-  void save_lane(ByteWriter& bytes, const Lane& lane) const;
-  std::unique_ptr<Lane> load_lane(ByteReader& bytes) const;
-  ChainId chain_id(int group, int number) const { return {seed_, group, number, chains_of(group)}; }
+  ChainStats sum_of_stats(StuckChain& stuck) const;
+  std::string save_prepared() const;
+  void load_prepared(const std::string& prepared);
 
-  ScenePtr scene_;
-  uint64_t seed_;
   MetropolisSettings settings_;
   std::unique_ptr<MetropolisAlgorithm> algorithm_;
-  Aside aside_;
+  SeparateDirect direct_;
   SplatFilm film_;
-  std::vector<std::unique_ptr<Lane>> lanes_;  ///< The chains of groups that have found light.
-  std::vector<Group> groups_;
+  /// The chains of groups that have found light, group after group: the film of one group then
+  /// stays in the cache while its chains advance.
+  std::vector<std::unique_ptr<ChainShare>> chains_;
+  std::array<Group, group_count> groups_;
   uint64_t steps_per_unit_;
   RayCounts bootstrap_rays_;
 };

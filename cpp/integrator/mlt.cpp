@@ -44,7 +44,7 @@ class MltIntegrator : public Integrator {
   }
   std::unique_ptr<Rendering> start(ScenePtr scene, uint64_t seed) const override {
     auto algorithm = mlt_algorithm(scene, settings_);
-    Aside direct;
+    SeparateDirect direct;
     if (direct_samples_ >= 0)
       direct = separate_direct(scene, seed, direct_samples_, settings_.rules.hide_emitters,
                                settings_.rules.strict_normals);

@@ -2,31 +2,45 @@
 
 #include "base/bytes.h"
 
-#include <algorithm>
 #include <cmath>
 #include <set>
 
 namespace mlt {
+namespace {
 
-SampledRendering::SampledRendering(ScenePtr scene, uint64_t seed, bool splats)
-    : scene_(std::move(scene)),
-      seed_(seed),
-      splats_(splats),
-      film_(scene_->camera().raster().size.x, scene_->camera().raster().size.y,
-            scene_->film().filter, groups, splats) {}
-
-uint64_t SampledRendering::unit_count(double spp) const {
-  return static_cast<uint64_t>(std::ceil(spp)) * film_.tile_count();
+Plan plan_of(const SampleFilm& film, uint64_t passes_per_turn) {
+  const uint64_t tiles = film.tile_count();
+  Plan plan;
+  plan.units_per_pass = tiles;
+  plan.units_per_group_turn = passes_per_turn * tiles;
+  if (!film.has_splats()) {
+    plan.borders = {0, tiles};
+    return plan;
+  }
+  plan.units_per_share_turn = plan.units_per_group_turn;
+  plan.borders.clear();
+  for (uint64_t group = 0; group <= Rendering::group_count; ++group) plan.borders.push_back(group);
+  return plan;
 }
 
-double SampledRendering::spp_done(uint64_t units) const {
-  return static_cast<double>(units) / film_.tile_count();
+}  // namespace
+
+SampledRendering::SampledRendering(ScenePtr scene, uint64_t seed, const SampledSettings& settings,
+                                   MakeTaker make_taker)
+    : Rendering(std::move(scene), seed),
+      make_taker_(std::move(make_taker)),
+      film_(scene_->camera().raster().size.x, scene_->camera().raster().size.y,
+            scene_->film().filter, group_count, settings.splats),
+      layer_names_(settings.layers),
+      layers_(scene_->camera().raster().size.x, scene_->camera().raster().size.y,
+              scene_->film().filter, static_cast<int>(layer_names_.size())) {
+  plan_ = plan_of(film_, passes_per_turn);
 }
 
 SampledRendering::Place SampledRendering::place_of(uint64_t pass) {
-  const uint64_t block = pass / passes_of_block;
-  return {static_cast<int>(block % groups),
-          block / groups * passes_of_block + pass % passes_of_block};
+  const uint64_t turn = pass / passes_per_turn;
+  return {static_cast<int>(turn % group_count),
+          turn / group_count * passes_per_turn + pass % passes_per_turn};
 }
 
 PixelSampler SampledRendering::sampler(int x, int y, uint64_t pass) const {
@@ -38,12 +52,11 @@ PixelSampler SampledRendering::sampler(int x, int y, uint64_t pass) const {
 
 Replay SampledRendering::replay(const Vec2i& pixel, uint64_t sample) {
   Replay replay;
-  uint64_t invalid = 0;
   RayCounts rays;
-  Sink sink(replay, invalid);
+  SampleSink sink(replay);
   PixelSampler numbers = sampler(pixel.x, pixel.y, sample);
   replay.raster = Vec2(pixel) + numbers.next2();
-  make_worker()->sample(replay.raster, numbers, sink, rays);
+  make_taker_(scene())->sample(replay.raster, numbers, sink, rays);
   return replay;
 }
 
@@ -56,111 +69,70 @@ void SampledRendering::run_unit(uint64_t unit) {
   SampleFilm::Tile tile = film_.begin(tile_index);
   const PixelRect cells = tile.cells();
   RayCounts rays;
-  uint64_t invalid = 0;
-  Sink sink(tile, invalid);
-  const std::unique_ptr<Worker> worker = make_worker();
+  SampleSink sink(tile, layers_);
+  const std::unique_ptr<SampleTaker> taker = make_taker_(scene());
   for (int y = cells.y0; y < cells.y1; ++y)
     for (int x = cells.x0; x < cells.x1; ++x) {
       PixelSampler numbers = sampler(x, y, pass);
       const Vec2 raster = Vec2(x, y) + numbers.next2();
-      worker->sample(raster, numbers, sink, rays);
+      taker->sample(raster, numbers, sink, rays);
     }
   film_.commit(place.group, order, tile_index, std::move(tile), 1);
-  invalid_ += invalid;
+  invalid_ += sink.invalid();
   intersect_ += rays.intersect;
   occluded_ += rays.occluded;
+}
+
+std::vector<NamedImage> SampledRendering::layers() const {
+  std::vector<NamedImage> layers;
+  const double scale = film_.splat_scale();
+  for (size_t i = 0; i < layer_names_.size(); ++i) {
+    std::vector<double> scales(layer_names_.size(), 0.0);
+    scales[i] = scale;
+    layers.push_back({layer_names_[i], layers_.image(scales)});
+  }
+  return layers;
 }
 
 void SampledRendering::add_stats(Stats& stats) const {
   stats.rays_intersect = intersect_;
   stats.rays_occluded = occluded_;
   stats.invalid_samples = invalid_;
+  if (layers_.saturated() > 0)
+    stats.warnings.push_back(
+        "a layer of the image exceeded its fixed-point range; its brightest pixels are wrong");
 }
 
-std::string SampledRendering::save() const {
+/// The groups are those of the passes that the task begins, ends or goes through.
+SampleFilm::Selection SampledRendering::selection(const Task& task) const {
+  const uint64_t tiles = film_.tile_count();
+  std::set<int> groups;
+  for (uint64_t pass = task.from / tiles; pass * tiles < task.to && groups.size() < group_count;
+       ++pass)
+    groups.insert(place_of(pass).group);
+  return {{groups.begin(), groups.end()}, task.shares.first, task.shares.last};
+}
+
+std::string SampledRendering::save(const Task& task, Content content) const {
+  const bool sums = content != Content::task;
   ByteWriter bytes;
-  bytes.write(film_.save());
-  save_counts(bytes);
+  bytes.write(task);
+  bytes.write(film_.save(selection(task)));
+  bytes.write(sums ? Counts{intersect_, occluded_, invalid_} : Counts{});
+  bytes.write(sums ? layers_.save(0, layers_.group_count()) : std::string());
   return bytes.take();
 }
 
-void SampledRendering::load(const std::string& saved) {
-  ByteReader bytes(saved);
-  std::string film;
+void SampledRendering::load(const std::string& state) {
+  ByteReader bytes(state);
+  const auto task = bytes.read<Task>();
+  std::string film, layers;
   bytes.read(film);
-  const Counts counts = bytes.read<Counts>();
+  const auto counts = bytes.read<Counts>();
+  bytes.read(layers);
   bytes.finish();
-  film_.load(film);
-  intersect_ = counts[0];
-  occluded_ = counts[1];
-  invalid_ = counts[2];
-}
-
-void SampledRendering::save_counts(ByteWriter& bytes) const {
-  bytes.write(Counts{intersect_, occluded_, invalid_});
-}
-
-uint64_t SampledRendering::share_of(uint64_t unit) const {
-  const uint64_t tiles = film_.tile_count();
-  return film_.share_of(place_of(unit / tiles).group, static_cast<int>(unit % tiles));
-}
-
-uint64_t SampledRendering::units_per_step() const {
-  return splats_ ? groups * units_per_share() : film_.tile_count();
-}
-
-std::vector<Part> SampledRendering::parts(int wanted) const {
-  const uint64_t shares = share_count();
-  const uint64_t pieces = splats_ ? shares : std::clamp<uint64_t>(wanted, 1, shares);
-  std::vector<Part> parts;
-  for (uint64_t i = 0; i < pieces; ++i)
-    parts.push_back({shares * i / pieces, shares * (i + 1) / pieces});
-  return parts;
-}
-
-/// Those of the passes that the work begins, ends or goes through.
-std::vector<int> SampledRendering::groups_of(const Work& work) const {
-  const uint64_t tiles = film_.tile_count();
-  std::set<int> found;
-  for (uint64_t pass = work.from / tiles; pass * tiles < work.to && found.size() < groups; ++pass)
-    found.insert(place_of(pass).group);
-  return {found.begin(), found.end()};
-}
-
-std::string SampledRendering::lend(const Work& work) const {
-  const std::vector<int> groups = groups_of(work);
-  ByteWriter bytes;
-  for (uint64_t share = work.part.first; share < work.part.last; ++share)
-    bytes.write(film_.save_share(static_cast<int>(share), groups));
-  return bytes.take();
-}
-
-void SampledRendering::load_shares(const Work& work, ByteReader& bytes) {
-  const std::vector<int> groups = groups_of(work);
-  std::string share;
-  for (uint64_t i = work.part.first; i < work.part.last; ++i) {
-    bytes.read(share);
-    film_.load_share(static_cast<int>(i), groups, share);
-  }
-}
-
-void SampledRendering::borrow(const Work& work, const std::string& lent) {
-  ByteReader bytes(lent);
-  load_shares(work, bytes);
-  bytes.finish();
-}
-
-std::string SampledRendering::give_back(const Work& work) const {
-  ByteWriter bytes;
-  save_counts(bytes);
-  return bytes.take() + lend(work);
-}
-
-void SampledRendering::take_back(const Work& work, const std::string& given_back) {
-  ByteReader bytes(given_back);
-  const Counts counts = bytes.read<Counts>();
-  load_shares(work, bytes);
-  bytes.finish();
+  film_.load(film, selection(task));
+  if (!layers.empty()) layers_.merge(0, layers_.group_count(), layers);
   intersect_ += counts[0];
   occluded_ += counts[1];
   invalid_ += counts[2];

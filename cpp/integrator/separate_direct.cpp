@@ -6,8 +6,8 @@ namespace mlt {
 
 Plugin integrator_direct();
 
-Aside separate_direct(ScenePtr scene, uint64_t seed, int samples, bool hide_emitters,
-                      bool strict_normals) {
+SeparateDirect separate_direct(ScenePtr scene, uint64_t seed, int samples, bool hide_emitters,
+                               bool strict_normals) {
   if (samples == 0) return {};
   const Plugin plugin = integrator_direct();
   Params params(plugin.schema, {});

@@ -142,7 +142,7 @@ void check_checkpoint_writable(const std::string& path) {
   }
 }
 
-Autosave autosave_to(const std::string& path, double every, Checkpoint checkpoint) {
+AutosaveSettings autosave_to(const std::string& path, double every, Checkpoint checkpoint) {
   return {[path, checkpoint = std::move(checkpoint)](std::string state) mutable {
             checkpoint.state = std::move(state);
             write_checkpoint(path, checkpoint);
@@ -175,7 +175,7 @@ void check_same_scene(const Checkpoint& checkpoint, const std::string& path,
         "scene as it was");
 }
 
-void take_up(Job& job, const Checkpoint& checkpoint, const std::string& path) {
+void resume(Job& job, const Checkpoint& checkpoint, const std::string& path) {
   try {
     job.load(checkpoint.state);
   } catch (const RenderError& error) {

@@ -3,8 +3,9 @@
 //   "pymlt checkpoint" | size of the body: uint64 | CRC-32 of the body: uint32 | body
 //   body: version, build, scene source, scene hash, integrator, seed, state (Job::save)
 //
-// Numbers are little-endian, as the machine has them. Only the build that wrote a file reads it: the
-// same pixels are promised within one build, and states have no other description than its code.
+// Numbers are little-endian, as the machine has them. Only the build that wrote a file reads it:
+// the same pixels are promised within one build, and states have no other description than its
+// code.
 #pragma once
 
 #include "io/load.h"
@@ -23,8 +24,8 @@ struct Checkpoint {
   std::string state;  ///< See Job::save.
 };
 
-/// What a render of these settings puts into its checkpoints, but for the state. Throws UsageError for
-/// an integrator that its node does not tell.
+/// What a render of these settings puts into its checkpoints, but for the state. Throws UsageError
+/// for an integrator that its node does not tell.
 Checkpoint checkpoint_of(const LoadedScene& loaded, const MadeIntegrator& made, uint64_t seed);
 
 /// Throws FileError for a file that is missing, foreign, truncated, damaged or of another build.
@@ -38,10 +39,11 @@ void write_checkpoint(const std::string& path, const Checkpoint& checkpoint);
 void check_checkpoint_writable(const std::string& path);
 
 /// Writes the states of a render to one file.
-Autosave autosave_to(const std::string& path, double every, Checkpoint checkpoint);
+AutosaveSettings autosave_to(const std::string& path, double every, Checkpoint checkpoint);
 
-/// The scene of a checkpoint, from where it was; `moved_to` names another place for its XML file, or
-/// is "". Throws UsageError for a scene that only Python can make, SceneError for one that differs.
+/// The scene of a checkpoint, from where it was; `moved_to` names another place for its XML file,
+/// or is "". Throws UsageError for a scene that only Python can make, SceneError for one that
+/// differs.
 LoadedScene load_scene(const Checkpoint& checkpoint, const std::string& path,
                        const std::string& moved_to, const Registry& registry);
 
@@ -50,6 +52,6 @@ void check_same_scene(const Checkpoint& checkpoint, const std::string& path,
                       const LoadedScene& loaded);
 
 /// Makes a job that was just made go on from there. Throws FileError if the state does not fit it.
-void take_up(Job& job, const Checkpoint& checkpoint, const std::string& path);
+void resume(Job& job, const Checkpoint& checkpoint, const std::string& path);
 
 }  // namespace mlt

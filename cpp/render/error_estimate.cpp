@@ -2,6 +2,8 @@
 
 #include "math/color.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -81,7 +83,7 @@ std::vector<float> block_means(const std::vector<float>& values, const Vec2i& si
 /// All groups of one rendering, over its pixels and over its blocks.
 struct Groups {
   explicit Groups(const Rendering& rendering) {
-    for (int g = 0; g < rendering.group_count(); ++g) {
+    for (int g = 0; g < Rendering::group_count; ++g) {
       const GroupImage group = rendering.group(g);
       if (group.weight == 0) continue;
       size = Vec2i(group.image.width, group.image.height);
@@ -168,11 +170,11 @@ ErrorEstimate estimate_error(const Rendering& rendering) {
   Total pixels, blocks;
   pixels.add(groups.pixels);
   blocks.add(groups.blocks);
-  if (rendering.aside()) {
-    const Groups aside(*rendering.aside());
-    if (aside.pixels.count() < 2) return estimate;
-    pixels.add(aside.pixels);
-    blocks.add(aside.blocks);
+  if (rendering.separate_direct()) {
+    const Groups direct(*rendering.separate_direct());
+    if (direct.pixels.count() < 2) return estimate;
+    pixels.add(direct.pixels);
+    blocks.add(direct.blocks);
   }
   estimate.pixels = pixels.error(groups.size);
   estimate.blocks = blocks.error(groups.grid);
@@ -191,6 +193,22 @@ std::vector<NamedImage> error_layers(const ErrorEstimate& estimate) {
         spread.at(x, y, c) =
             estimate.blocks.at(x / ErrorEstimate::block_size, y / ErrorEstimate::block_size, c);
   return {{"error", estimate.pixels}, {"error_block", std::move(spread)}};
+}
+
+void add_error(const ErrorEstimate& estimate, Stats& stats) {
+  constexpr size_t most = 10;
+  stats.groups = estimate.groups;
+  stats.error = estimate.relative;
+  stats.block_error = estimate.relative_blocks;
+  const std::vector<Disagreement>& all = estimate.disagreements;
+  if (all.empty()) return;
+  for (size_t i = 0; i < std::min(most, all.size()); ++i)
+    stats.disagreements.push_back({all[i].pixel.x, all[i].pixel.y, all[i].share});
+  stats.warnings.push_back(fmt::format(
+      "in {} of {} blocks of 8 x 8 pixels one of {} independent groups has found most of the "
+      "light, the brightest at pixel ({}, {}); there neither the image nor its error is to be "
+      "believed yet",
+      all.size(), estimate.block_count(), estimate.groups, all[0].pixel.x, all[0].pixel.y));
 }
 
 }  // namespace mlt

@@ -1,7 +1,7 @@
 // How wrong an image is, told by the spread of the independent groups that it is the mean of: with
-// weights w_g, the standard error of the mean m is sqrt(sum_g w_g (x_g - m)^2 / ((G - 1) sum_g w_g)).
-// Chains of one group are correlated with each other and with themselves; groups are not, so this
-// holds for Metropolis as it does for path tracing.
+// weights w_g, the standard error of the mean m is sqrt(sum_g w_g (x_g - m)^2 / ((G - 1) sum_g
+// w_g)). Chains of one group are correlated with each other and with themselves; groups are not, so
+// this holds for Metropolis as it does for path tracing.
 #pragma once
 
 #include "integrator/integrator.h"
@@ -26,9 +26,10 @@ struct ErrorEstimate {
   Image pixels;    ///< Standard error of each pixel, RGB; empty if nothing is known.
   Image blocks;    ///< The same for the means of blocks of 8 x 8 pixels, one pixel for each.
   /// Relative error of the image: sqrt(mean over pixels of s^2 / (L^2 + 0.01 M^2)), with a pixel's
-  /// target luminance L, its standard error s, and M the mean of L over the image. It is an estimate
-  /// of the square root of relMSE. Since a pixel cannot be off by more than its own brightness, no
-  /// single bright speckle decides it, and 0.01 M^2 keeps black pixels from deciding it.
+  /// target luminance L, its standard error s, and M the mean of L over the image. It is an
+  /// estimate of the square root of relMSE. Since a pixel cannot be off by more than its own
+  /// brightness, no single bright speckle decides it, and 0.01 M^2 keeps black pixels from deciding
+  /// it.
   double relative = std::numeric_limits<double>::quiet_NaN();
   double relative_blocks = std::numeric_limits<double>::quiet_NaN();  ///< The same over blocks.
   std::vector<Disagreement> disagreements;  ///< The brightest block first.
@@ -41,5 +42,8 @@ ErrorEstimate estimate_error(const Rendering& rendering);
 /// The estimate as layers of the image: "error" for pixels and "error_block", where each pixel has
 /// the error of its block. None if nothing is known.
 std::vector<NamedImage> error_layers(const ErrorEstimate& estimate);
+
+/// What the estimate tells in stats.json, with a warning of disagreements.
+void add_error(const ErrorEstimate& estimate, Stats& stats);
 
 }  // namespace mlt

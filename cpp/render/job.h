@@ -1,72 +1,34 @@
-// Running a render: threads, progress, cancel, budgets, checkpoints. A render advances in stretches.
-// Between two of them no unit is running: then its state may be saved, and its error looked at.
+// A render that runs on a thread of its own: progress, cancel, budgets, checkpoints. Now and then
+// it pauses: no unit is running then, so its state may be saved, and its error looked at.
 #pragma once
 
-#include "image/image.h"
-#include "integrator/integrator.h"
-#include "render/division.h"
+#include "render/autosave.h"
 #include "render/error_estimate.h"
+#include "render/executor.h"
+#include "render/stop_rule.h"
 
-#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <exception>
-#include <functional>
-#include <future>
-#include <mutex>
-#include <optional>
 #include <thread>
 
 namespace mlt {
-
-/// When a render ends: at whichever comes first. With none, the scene's sample count, else 64. For a
-/// render that goes on after a break each counts from its very beginning.
-struct Budget {
-  std::optional<double> spp;
-  std::optional<double> seconds;  ///< Wall time, bootstrap included.
-  std::optional<double> error;    ///< Relative; see ErrorEstimate::relative.
-
-  bool empty() const { return !spp && !seconds && !error; }
-};
-
-/// Hands out the state of a render (see Job::save) when the bootstrap is over, then every so many
-/// seconds, and when the render ends, also because it was cancelled.
-struct Autosave {
-  std::function<void(std::string state)> write;  ///< May throw; the render goes on.
-  double every = 60;
-};
 
 struct RenderSettings {
   Budget budget;
   uint64_t seed = 0;
   int threads = 0;  ///< 0: as many as the machine has.
-  Autosave autosave;
-};
-
-class Job;
-
-/// Runs the units of a render elsewhere than on threads of this process. It is called by the thread
-/// that leads the render.
-class Crew {
- public:
-  virtual ~Crew() = default;
-  /// The render is cut into about so many parts.
-  virtual int wanted_parts() = 0;
-  /// Takes every part of the job's division from where it stands to the unit `to`. Returns early when
-  /// the job is interrupted; it will be called again.
-  virtual void advance(Job& job, uint64_t to) = 0;
-  /// The render has ended.
-  virtual void dismiss() = 0;
+  AutosaveSettings autosave;
 };
 
 class Job {
  public:
-  /// Throws UsageError for a budget that makes no sense, SceneError for a scene that does not suit.
+  /// Throws UsageError for settings that make no sense, SceneError for a scene that does not suit.
   Job(ScenePtr scene, IntegratorPtr integrator, const RenderSettings& settings);
   ~Job() { stop(); }
 
-  /// Before start(): units are run by this crew; the bootstrap is not.
-  void hire(std::unique_ptr<Crew> crew);
+  /// Before start(): who runs the units, in place of the threads of this process.
+  void attach(std::unique_ptr<Executor> executor);
   void start();
   /// Waits until the render has ended or `seconds` have passed; true if it has ended. Rethrows what
   /// went wrong inside the render.
@@ -78,13 +40,14 @@ class Job {
   bool cancelled() const { return cancel_; }
   bool ended() const { return phase_ == Phase::ended; }
 
-  /// The whole state as bytes: budget, units done, seconds spent, and Rendering::save. May be called at any
-  /// time from any thread: it waits for the bootstrap, then for the units that are running, and the
-  /// render goes on. Throws UsageError if the render has not been started, or ended in its bootstrap.
+  /// The whole state as bytes: budget, units done, seconds spent, and Rendering::save. May be
+  /// called at any time from any thread: it waits for the bootstrap, then for the units that are
+  /// running, and the render goes on. Throws UsageError if the render has not been started, or
+  /// ended in its bootstrap.
   std::string save();
   /// Before start(): goes on where a job with the same scene, integrator and seed was saved, to its
-  /// budget if this job was given none. However often a render is taken up again, the same samples
-  /// make the same pixels. Throws RenderError.
+  /// budget if this job was given none. However often a render is resumed, the same samples make
+  /// the same pixels. Throws RenderError.
   void load(const std::string& state);
   /// After the end: goes on until a larger budget is used up. Throws UsageError.
   void extend(const Budget& budget);
@@ -103,54 +66,45 @@ class Job {
   /// After the end with the error of the image.
   Stats stats() const;
 
-  // For a crew.
-  Division& division() { return *division_; }
-  /// Folds the outcome of an order of the division; see Division::fold.
-  void fold(size_t part, const std::string& outcome);
+  // For an executor.
   uint64_t units_done() const { return units_done_; }
-  uint64_t units_per_step() const { return rendering_->units_per_step(); }
   /// Is the render to end now?
-  bool stopping() const { return cancel_ || out_of_time(); }
+  bool stopping() const { return cancel_ || stop_rule_.out_of_time(seconds_so_far()); }
   /// Or does somebody want to look at its state?
-  bool interrupted() const { return stopping() || savers_ != 0 || autosave_due(); }
+  bool interrupted() const { return stopping() || savers_ != 0 || autosave_.due(); }
+  /// Runs the units before `to` on threads of this process, until interrupted.
+  void run_units(uint64_t to, int threads);
+  /// If the executor has asked for tasks.
+  TaskList& tasks() { return *tasks_; }
+  /// Takes in the result of a task; see TaskList::merge.
+  void merge(size_t task, const std::string& result);
 
  private:
   using Clock = std::chrono::steady_clock;
   enum class Phase { waiting, bootstrap, rendering, ended };
 
+  void check_waiting() const;
   void launch();
-  void run();
+  void lead();
   void render();
-  void check_goal() const;
-  std::string why_to_end();
-  void divide();
-  void work();
-  void open_gate();
+  void let_savers_in();
   std::string state() const;
-  bool autosave_due() const;
-  void autosave();
-  void autosave_at_end();
-  void try_to_write(std::string state);
-  uint64_t next_look(uint64_t units) const;
-  void add_error(Stats& stats) const;
   double seconds_so_far() const;
-  bool out_of_time() const;
 
   ScenePtr scene_;
   IntegratorPtr integrator_;
-  RenderSettings settings_;
-  bool default_budget_;  ///< None was asked for.
+  uint64_t seed_;
+  int threads_;
   std::unique_ptr<Rendering> rendering_;
-
-  std::unique_ptr<Crew> crew_;
-  std::optional<Division> division_;
-  mutable std::mutex folding_;  ///< Nobody looks at the image while an outcome is folded in.
+  std::unique_ptr<Executor> executor_;
+  std::optional<TaskList> tasks_;
+  mutable std::mutex merging_;  ///< Nobody looks at the image while a result is merged.
+  StopRule stop_rule_;
+  Autosave autosave_;
 
   std::atomic<bool> cancel_{false};
   std::atomic<Phase> phase_{Phase::waiting};
-  std::atomic<uint64_t> next_unit_{0}, units_done_{0};
-  std::atomic<uint64_t> unit_count_{0};
-  uint64_t stop_at_ = 0;   ///< The unit before which this stretch ends.
+  std::atomic<uint64_t> units_done_{0};
   bool prepared_ = false;  ///< The bootstrap is over.
   Clock::time_point started_;
   double seconds_before_ = 0;  ///< Of earlier runs of this render.
@@ -162,17 +116,10 @@ class Job {
   std::exception_ptr failure_;  ///< Guarded by mutex_ until the render has ended.
   std::string ended_by_;        ///< The same.
 
-  std::atomic<int> savers_{0};  ///< Who waits for the gap between two stretches.
-  bool between_stretches_ = false;
-  std::condition_variable gate_;
+  std::atomic<int> savers_{0};  ///< Who waits for a pause.
+  bool paused_ = false;
+  std::condition_variable pause_;
 
-  Clock::time_point next_autosave_;
-  std::optional<uint64_t> units_autosaved_;
-  std::future<void> writer_;
-  std::string autosave_failure_;  ///< Guarded by mutex_.
-
-  std::atomic<double> seen_error_{0};  ///< At the latest look, 0: none; and after how many units.
-  std::atomic<uint64_t> seen_units_{0};
   mutable std::mutex error_mutex_;
   mutable std::shared_ptr<const ErrorEstimate> final_error_;
 };

@@ -1,7 +1,5 @@
 #include "render/make_integrator.h"
 
-#include "render/json.h"
-
 #include <algorithm>
 
 namespace mlt {
@@ -69,7 +67,7 @@ MadeIntegrator make_integrator(const Node& node, const Registry& registry) {
   if (!made.integrator)
     throw SceneError(at(node.where, "'" + node.type + "' is not an integrator"));
   made.node = node;
-  made.settings = describe(node, registry).text();
+  made.settings = describe(node, registry);
   return made;
 }
 
@@ -86,8 +84,7 @@ MadeIntegrator with_mutations(MadeIntegrator made, const std::vector<ExtraMutati
   made.extra_mutations = true;
   Json weights;
   for (const ExtraMutation& mutation : extra) weights.add(mutation.name, mutation.weight);
-  made.settings.pop_back();  // the closing brace
-  made.settings += ", \"extra_mutations\": " + weights.text() + "}";
+  made.settings.add("extra_mutations", weights);
   return made;
 }
 

@@ -4,6 +4,7 @@
 
 #include "integrator/integrator.h"
 #include "io/load.h"
+#include "render/json.h"
 
 #include <string>
 #include <utility>
@@ -16,15 +17,16 @@ using Assignments = std::vector<std::pair<std::string, std::string>>;
 
 struct MadeIntegrator {
   IntegratorPtr integrator;
-  Node node;             ///< From which it was made.
-  std::string settings;  ///< Its type and every parameter, given or default, as a JSON object.
+  Node node;      ///< From which it was made.
+  Json settings;  ///< Its type and every parameter, given or default.
   std::vector<std::string> warnings;
   bool extra_mutations = false;  ///< Has mutations that the node does not tell.
 };
 
-/// The integrator that `name` asks for; with "" the scene's own, and `path` if it has none. One that
-/// replaces the scene's own inherits what is to be rendered (max_depth, hide_emitters, strict_normals), but not how.
-/// Throws UsageError for an assignment that the integrator does not know.
+/// The integrator that `name` asks for; with "" the scene's own, and `path` if it has none. One
+/// that replaces the scene's own inherits what is to be rendered (max_depth, hide_emitters,
+/// strict_normals), but not how. Throws UsageError for an assignment that the integrator does not
+/// know.
 Node choose_integrator(const LoadedScene& loaded, const std::string& name,
                        const Assignments& assignments, const Registry& registry);
 

@@ -70,7 +70,7 @@ Metadata render_metadata(const Stats& stats, const LoadedScene& loaded,
                          const MadeIntegrator& made) {
   return {{"software", "pymlt " MLT_VERSION},
           {"scene", fmt::format("{:016x}", loaded.hash)},
-          {"integrator", made.settings},
+          {"integrator", made.settings.text()},
           {"seed", fmt::format("{}", stats.seed)},
           {"spp", fmt::format("{}", stats.spp_done)}};
 }

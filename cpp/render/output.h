@@ -6,6 +6,7 @@
 #include "io/load.h"
 #include "render/job.h"
 #include "render/make_integrator.h"
+#include "render/stats_json.h"
 
 #include <string>
 
@@ -20,8 +21,8 @@ void check_pixel(const Scene& scene, const Vec2i& pixel);
 /// The job's, completed by what loading and the integrator had to say.
 Stats render_stats(const Job& job, const LoadedScene& loaded, const MadeIntegrator& made);
 
-/// The version, the scene's hash, the integrator's settings, the seed and the samples per pixel. No date, host or
-/// number of threads: equal renders are equal files.
+/// The version, the scene's hash, the integrator's settings, the seed and the samples per pixel. No
+/// date, host or number of threads: equal renders are equal files.
 Metadata render_metadata(const Stats& stats, const LoadedScene& loaded, const MadeIntegrator& made);
 
 /// What a render made: its image, and the further ones that it was asked to keep.

@@ -1,4 +1,4 @@
-"""Checkpoints: a render that is taken up again ends with the pixels of one that never stopped."""
+"""Checkpoints: a render that is resumed ends with the pixels of one that never stopped."""
 
 import json
 import os
@@ -22,7 +22,7 @@ INTEGRATORS = {
     **{name: {"type": name} for name in mlt.available("integrator")},
     "bdpt with techniques": {"type": "bdpt", "techniques": True, "max_depth": 3},
     "mlt, two stages": {"type": "mlt", "two_stage": True, "luminance_samples": 2000},
-    "mlt, direct light aside": {"type": "mlt", "direct_samples": 9, "adaptive": False},
+    "mlt, separate direct light": {"type": "mlt", "direct_samples": 9, "adaptive": False},
 }
 
 

@@ -91,13 +91,13 @@ def test_the_claim_follows_from_the_groups(integrator):
     assert (groups.b > 0).all() == (integrator == "mlt")
 
 
-def test_light_that_is_rendered_aside_has_its_error_too():
+def test_separate_direct_light_has_its_error_too():
     scene = load("cornell_box")
-    aside = mlt.start(scene, mlt.Direct(), spp=16, seed=1).result().error_map
+    alone = mlt.start(scene, mlt.Direct(), spp=16, seed=1).result().error_map
     direct = mlt.MLT(direct_samples=16, adaptive=False, max_depth=3)
     result = mlt.start(scene, direct, spp=64, seed=1).result()
-    assert (result.error_map >= 0.999 * aside).all()
-    assert (result.error_map > 1.001 * aside).mean() > 0.5  # and the chains have theirs
+    assert (result.error_map >= 0.999 * alone).all()
+    assert (result.error_map > 1.001 * alone).mean() > 0.5  # and the chains have theirs
 
 
 def test_the_error_is_in_the_file(tmp_path):

@@ -45,7 +45,7 @@ class Job:
         if self._cluster is not None:
             from .cluster.executor import ClusterExecutor
 
-            self._job.hire(ClusterExecutor(self._scene, self._integrator, self._cluster))
+            self._job.attach(ClusterExecutor(self._scene, self._integrator, self._cluster))
         self._job.start()
         _running.add(self)
         return self

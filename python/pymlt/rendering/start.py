@@ -85,7 +85,7 @@ def saved_job(path: str, scene: SceneLike | None, options: RenderOptions) -> Job
         scene = saved.load_scene("" if scene is None else os.fspath(scene))
     options = replace(options, seed=saved.seed, checkpoint=options.checkpoint or path)
     job = Job(scene, saved.integrator, options)
-    saved.take_up(job._job)
+    saved.resume(job._job)
     return job
 
 

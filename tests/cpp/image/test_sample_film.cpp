@@ -329,6 +329,8 @@ SampleFilm::Tile make(const SampleFilm& film, const Unit& unit) {
 
 SampleFilm test_film() { return SampleFilm(width, height, shared(mitchell_filter()), 2); }
 
+std::string bytes_of(const SampleFilm& film) { return film.save(film.everything()); }
+
 void commit(SampleFilm& film, const Unit& unit) {
   film.commit(unit.group, unit.order, unit.tile, make(film, unit), 1);
 }
@@ -347,7 +349,7 @@ TEST(SampleFilm, HasTheSameBitsInAnyOrder) {
     shuffle(units, stream);
     for (const Unit& unit : units) commit(film, unit);
     EXPECT_TRUE(film.image() == in_order.image());
-    EXPECT_EQ(film.save(), in_order.save());
+    EXPECT_EQ(bytes_of(film), bytes_of(in_order));
   }
 }
 
@@ -361,7 +363,7 @@ TEST(SampleFilm, HasTheSameBitsForAnyNumberOfThreads) {
       commit(film, units[i]);
       if (i % 7 == 0) film.image();  // a look in between does no harm
     });
-    EXPECT_EQ(film.save(), in_order.save());
+    EXPECT_EQ(bytes_of(film), bytes_of(in_order));
   }
 }
 
@@ -394,17 +396,17 @@ TEST(SampleFilm, GoesOnFromItsBytesAsIfNothingHadHappened) {
   for (const Unit& unit : units) commit(whole, unit);
   for (const Unit& unit : units)
     if (unit.order < 7) commit(first, unit);
-  second.load(first.save());
+  second.load(bytes_of(first), second.everything());
   EXPECT_TRUE(second.image() == first.image());
   for (const Unit& unit : units)
     if (unit.order >= 7) commit(second, unit);
   EXPECT_TRUE(second.image() == whole.image());
-  EXPECT_EQ(second.save(), whole.save());
+  EXPECT_EQ(bytes_of(second), bytes_of(whole));
 }
 
 TEST(SampleFilm, AnEmptyFilmCanBeSaved) {
   SampleFilm film = test_film();
-  film.load(test_film().save());
+  film.load(bytes_of(test_film()), film.everything());
   commit(film, {0, 0, 0});
   EXPECT_NE(film.image().at(5, 5, 0), 0);
 }
@@ -412,27 +414,27 @@ TEST(SampleFilm, AnEmptyFilmCanBeSaved) {
 TEST(SampleFilm, IsNotSavedWhileTilesAreMissing) {
   SampleFilm film = test_film();
   commit(film, {0, 1, 1});
-  EXPECT_THROW(film.save(), RenderError);
+  EXPECT_THROW(bytes_of(film), RenderError);
   commit(film, {0, 0, 0});
-  EXPECT_NO_THROW(film.save());
+  EXPECT_NO_THROW(bytes_of(film));
 }
 
 TEST(SampleFilm, RefusesDamagedBytesAndStaysAsItWas) {
   SampleFilm saved = test_film(), film = test_film();
   for (const Unit& unit : all_units(saved, 1)) commit(saved, unit);
   commit(film, {0, 0, 0});
-  const std::string bytes = saved.save(), before = film.save();
+  const std::string bytes = bytes_of(saved), before = bytes_of(film);
   const auto refuses = [&](const std::string& damaged) {
-    EXPECT_THROW(film.load(damaged), RenderError);
-    ASSERT_EQ(film.save(), before);
+    EXPECT_THROW(film.load(damaged, film.everything()), RenderError);
+    ASSERT_EQ(bytes_of(film), before);
   };
   refuses("");
   for (size_t size = 0; size < bytes.size(); size += 97) refuses(bytes.substr(0, size));
   refuses(bytes.substr(0, bytes.size() - 1));
   refuses(bytes + '\0');
-  refuses(SampleFilm(width + 1, height, shared(mitchell_filter()), 2).save());
-  refuses(SampleFilm(width, height, shared(mitchell_filter()), 1).save());
-  refuses(SampleFilm(width, height, shared(mitchell_filter()), 3).save());
+  refuses(bytes_of(SampleFilm(width + 1, height, shared(mitchell_filter()), 2)));
+  refuses(bytes_of(SampleFilm(width, height, shared(mitchell_filter()), 1)));
+  refuses(bytes_of(SampleFilm(width, height, shared(mitchell_filter()), 3)));
   // Each count, made too small and much too large.
   const size_t head = sizeof(PixelRect) + sizeof(uint64_t);
   size_t at = head;
@@ -447,8 +449,8 @@ TEST(SampleFilm, RefusesDamagedBytesAndStaysAsItWas) {
       }
       at += sizeof size + size * element;
     }
-  film.load(bytes);
-  EXPECT_EQ(film.save(), bytes);
+  film.load(bytes, film.everything());
+  EXPECT_EQ(bytes_of(film), bytes);
 }
 
 }  // namespace

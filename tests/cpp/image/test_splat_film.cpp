@@ -51,7 +51,7 @@ TEST(SplatFilm, HasTheSameBitsInAnyOrder) {
     for (size_t i = all.size(); i > 1; --i) std::swap(all[i - 1], all[rng.below(i)]);
     SplatFilm film(width, height, filter, groups);
     for (const Splat& s : all) add(film, s);
-    EXPECT_EQ(film.save(), in_order.save());
+    EXPECT_EQ(film.save(0, groups), in_order.save(0, groups));
     EXPECT_TRUE(film.image({0.3, 0.7}) == in_order.image({0.3, 0.7}));
   }
 }
@@ -64,7 +64,7 @@ TEST(SplatFilm, HasTheSameBitsForAnyNumberOfThreads) {
   for (const int threads : {1, 2, 3, 4}) {
     SplatFilm film(width, height, filter, groups);
     parallel_for(threads, all.size(), [&](uint64_t i) { add(film, all[i]); });
-    EXPECT_EQ(film.save(), in_order.save()) << threads;
+    EXPECT_EQ(film.save(0, groups), in_order.save(0, groups)) << threads;
   }
 }
 
@@ -162,15 +162,15 @@ TEST(SplatFilm, GoesOnFromItsBytes) {
       second(width, height, filter, groups);
   for (const Splat& s : all) add(whole, s);
   for (size_t i = 0; i < all.size() / 2; ++i) add(first, all[i]);
-  second.load(first.save());
+  second.merge(0, groups, first.save(0, groups));
   for (size_t i = all.size() / 2; i < all.size(); ++i) add(second, all[i]);
-  EXPECT_EQ(second.save(), whole.save());
+  EXPECT_EQ(second.save(0, groups), whole.save(0, groups));
 }
 
 TEST(SplatFilm, RemembersThatItsRangeWasLeft) {
   SplatFilm film(4, 4, shared(box_filter()), 1), again(4, 4, shared(box_filter()), 1);
   film.add(0, {1.5, 1.5}, Color(1e300));
-  again.load(film.save());
+  again.merge(0, 1, film.save(0, 1));
   EXPECT_EQ(again.saturated(), film.saturated());
 }
 
@@ -179,17 +179,18 @@ TEST(SplatFilm, RefusesDamagedBytesAndStaysAsItWas) {
   SplatFilm saved(width, height, filter, groups), film(width, height, filter, groups);
   for (const Splat& s : splats(100)) add(saved, s);
   film.add(0, {3, 3}, Color(1));
-  const std::string bytes = saved.save(), before = film.save();
+  const std::string bytes = saved.save(0, groups), before = film.save(0, groups);
   const auto refuses = [&](const std::string& damaged) {
-    EXPECT_THROW(film.load(damaged), RenderError);
-    ASSERT_EQ(film.save(), before);
+    EXPECT_THROW(film.merge(0, groups, damaged), RenderError);
+    ASSERT_EQ(film.save(0, groups), before);
   };
   for (size_t size = 0; size < bytes.size(); size += 31) refuses(bytes.substr(0, size));
   refuses(bytes + '\0');
-  refuses(SplatFilm(width, height + 1, filter, groups).save());
-  refuses(SplatFilm(width, height, filter, 1).save());
-  film.load(bytes);
-  EXPECT_EQ(film.save(), bytes);
+  refuses(SplatFilm(width, height + 1, filter, groups).save(0, groups));
+  refuses(SplatFilm(width, height, filter, 1).save(0, 1));
+  SplatFilm empty(width, height, filter, groups);
+  empty.merge(0, groups, bytes);
+  EXPECT_EQ(empty.save(0, groups), bytes);
 }
 
 }  // namespace

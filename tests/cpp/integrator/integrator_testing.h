@@ -32,7 +32,7 @@ inline std::unique_ptr<Rendering> prepared(const ScenePtr& scene, const Integrat
 inline std::unique_ptr<Rendering> rendered(const ScenePtr& scene, const IntegratorPtr& algorithm,
                                            uint64_t seed, double spp, int threads = 1) {
   auto rendering = prepared(scene, algorithm, seed, threads);
-  run_units(*rendering, 0, rendering->unit_count(spp), threads);
+  run_units(*rendering, 0, rendering->plan().unit_count(spp), threads);
   return rendering;
 }
 
@@ -67,7 +67,8 @@ inline std::vector<Algorithm> algorithms() {
           {"mlt", {{"max_depth", "6"}, {"chains", "40"}, {"luminance_samples", "4000"}}}};
 }
 
-/// All kinds of light, on more than one tile of the film, with a filter that reaches over their borders.
+/// All kinds of light, on more than one tile of the film, with a filter that reaches over their
+/// borders.
 inline ScenePtr lights_on_tiles() {
   static const ScenePtr made =
       make_scene("mixed_lights", {70, 40, "<rfilter type='gaussian'/>"}).scene;

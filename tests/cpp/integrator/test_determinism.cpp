@@ -1,4 +1,4 @@
-// The same pixels for any number of threads, and after a render has been saved and taken up again.
+// The same pixels for any number of threads, and after a render has been saved and resumed.
 #include <gtest/gtest.h>
 
 #include "integrator_testing.h"
@@ -35,14 +35,14 @@ TEST(Render, GoesOnAfterItHasBeenSaved) {
     SCOPED_TRACE(algorithm.name);
     const IntegratorPtr made = integrator(algorithm.name, algorithm.assignments);
     const auto straight = prepared(lights_on_tiles(), made, 7);
-    const uint64_t units = straight->unit_count(4);
+    const uint64_t units = straight->plan().unit_count(4);
     run_units(*straight, 0, units);
     for (const uint64_t stop : {uint64_t{0}, uint64_t{1}, units / 2 + 1, units}) {
       const auto first = prepared(lights_on_tiles(), made, 7);
       run_units(*first, 0, stop);
       const auto second = made->start(lights_on_tiles(), 7);
       second->load(first->save());
-      EXPECT_EQ(second->unit_count(4), units);
+      EXPECT_EQ(second->plan().unit_count(4), units);
       expect_equal(*first, *second);
       run_units(*second, stop, units, 2);
       expect_equal(*straight, *second);

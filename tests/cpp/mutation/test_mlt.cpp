@@ -1,8 +1,8 @@
 // mlt as a whole: its images are those of bdpt, its b is their mean, it does not matter how many samples its
 // bootstrap has, how many threads there are, and whether it was saved on the way.
 #include "integrator/integrator_testing.h"
+#include "integrator/stats.h"
 #include "mutation/mutation_scenes.h"
-#include "render/stats.h"
 
 namespace mlt::test {
 namespace {
@@ -180,7 +180,7 @@ TEST(MltBits, AreTheSameWhenARenderGoesOnAfterItWasSaved) {
   for (const Assignments& settings : variants()) {
     const IntegratorPtr made = integrator("mlt", settings);
     const auto straight = prepared(scene, made, 7);
-    const uint64_t units = straight->unit_count(20);
+    const uint64_t units = straight->plan().unit_count(20);
     run_units(*straight, 0, units);
     for (const uint64_t stop : {uint64_t{0}, uint64_t{1}, units / 2 + 1, units}) {
       const auto first = prepared(scene, made, 7);

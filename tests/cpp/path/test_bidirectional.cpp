@@ -47,12 +47,13 @@ class PathsOf : public testing::TestWithParam<std::string> {
       const BidirectionalSettings settings = settings_of(variant);
       PathTerms terms;
       int paths = 0;
-      for_each_path(
-          *scene_, settings, seed, samples, [&](const Connection& connection, const Path& path) {
-            ++paths;
-            compute_terms(*scene_, path, {settings.sample_direct, settings.rules.strict_normals}, terms);
-            found(connection, path, terms, settings);
-          });
+      for_each_path(*scene_, settings, seed, samples,
+                    [&](const Connection& connection, const Path& path) {
+                      ++paths;
+                      compute_terms(*scene_, path,
+                                    {settings.sample_direct, settings.rules.strict_normals}, terms);
+                      found(connection, path, terms, settings);
+                    });
       EXPECT_GT(paths, samples) << variant.name;
     }
   }

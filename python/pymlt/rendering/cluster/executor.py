@@ -22,7 +22,7 @@ WORKER_SHARE = 0.006
 
 
 class ClusterExecutor:
-    """Sends the tasks of a job to a cluster and merges their results; see `_core.Job.hire`."""
+    """Sends the tasks of a job to a cluster and merges their results; see `_core.Job.attach`."""
 
     def __init__(self, scene, integrator, cluster):
         self.cluster = cluster
@@ -44,12 +44,12 @@ class ClusterExecutor:
         self.cancelling = False
         self.next_count = 0.0
 
-    def wanted_parts(self) -> int:
+    def wanted_tasks(self) -> int:
         if self.connection is None:  # the render was extended
             self._begin()
         return 2 * self._workers()
 
-    def advance(self, job, to: int) -> None:
+    def run(self, job, to: int) -> None:
         try:
             self._run_until(job, to)
         except Exception as error:
@@ -59,7 +59,7 @@ class ClusterExecutor:
         if self.scene is None:
             self.scene = self._submit(worker.hold, self.packed, key=f"{self.name}-scene")
             self.start, self.units_before = monotonic(), job.units_done
-            self.frontier = min(job.position(task) for task in range(job.parts))
+            self.frontier = min(job.position(task) for task in range(job.task_count))
         while True:
             if job.stopping and not self.cancelling:
                 self.cancelling = True
@@ -72,7 +72,7 @@ class ClusterExecutor:
                 return
             self._merge_one(job)
 
-    def dismiss(self) -> None:
+    def close(self) -> None:
         """Whatever state the cluster is in by now: one that is gone has nothing to forget."""
         if self.connection is None:
             return
@@ -98,7 +98,7 @@ class ClusterExecutor:
         workers = self._workers()
         most = workers + max(1, workers // 2)
         while len(self.running) < most:
-            waiting = [task for task in range(job.parts) if task not in self.running]
+            waiting = [task for task in range(job.task_count) if task not in self.running]
             if not waiting:
                 return
             task = min(waiting, key=job.position)
@@ -106,7 +106,7 @@ class ClusterExecutor:
                 if self.frontier >= to:
                     return
                 self.frontier = self._next_frontier(job, to)
-            if job.pass_over(task, self.frontier):
+            if job.skip(task, self.frontier):
                 continue
             self._send(job, task)
 
@@ -122,7 +122,7 @@ class ClusterExecutor:
             self.scene_name,
             self.integrator,
             self.build,
-            job.order(task, self.frontier),
+            job.task(task, self.frontier),
             key=f"{self.name}-{task}-{job.position(task)}-{with_scene_to}",
             **place,
         )
@@ -135,10 +135,10 @@ class ClusterExecutor:
         seconds = max(SHORTEST_STAGE, min(LONGEST_STAGE, GROWTH * elapsed))
         if self.merged:
             share = min(OWNER_SHARE, WORKER_SHARE * self._workers())
-            seconds = max(seconds, self.merging / self.merged * job.parts / share)
+            seconds = max(seconds, self.merging / self.merged * job.task_count / share)
         rate = (job.units_done - self.units_before) / max(elapsed, 1e-3)
-        cycles = max(1, round(rate * seconds / job.units_per_step))
-        return min(to, self.frontier + cycles * job.units_per_step)
+        cycles = max(1, round(rate * seconds / job.units_per_cycle))
+        return min(to, self.frontier + cycles * job.units_per_cycle)
 
     def _merge_one(self, job) -> None:
         try:
@@ -156,8 +156,8 @@ class ClusterExecutor:
             if not self.cancelling:
                 self._send(job, task, with_scene_to=result)
             return
-        job.fold(task, result)
-        if job.parts < self._workers():  # some have come
+        job.merge(task, result)
+        if job.task_count < self._workers():  # some have come
             job.split(task)
         self.merging += monotonic() - start
         self.merged += 1

@@ -1,4 +1,4 @@
-#include "render/stats.h"
+#include "render/stats_json.h"
 
 #include "render/json.h"
 

@@ -1,4 +1,4 @@
-// What a render tells about itself (the schema of stats.json).
+// What a render tells about itself.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +16,8 @@ struct MutationStats {
   double image_distance = 0;  ///< Mean move on the image per proposal, in pixels.
   uint64_t rays = 0;
   double weight = 0;  ///< With which it takes part in the choice at this length.
-  double step_size =
-      0;  ///< Largest move on the image, as a share of its diagonal; 0: not a perturbation.
+  /// Largest move on the image, as a fraction of its diagonal; 0: not a perturbation.
+  double step_size = 0;
 };
 
 struct StuckChain {
@@ -46,14 +46,12 @@ struct Stats {
   double error = std::numeric_limits<double>::quiet_NaN();
   double block_error = std::numeric_limits<double>::quiet_NaN();
   std::vector<DisagreementStats> disagreements;  ///< The brightest blocks first, ten at the most.
-  double b = 0,
-         b_error = 0;  ///< Mean of L* over the image and its standard error; Metropolis only.
+  /// Mean of L* over the image and its standard error; Metropolis only.
+  double b = 0, b_error = 0;
   uint64_t invalid_samples = 0;
   std::vector<StuckChain> stuck;
   std::vector<MutationStats> mutations;
   std::vector<std::string> warnings;
 };
-
-std::string to_json(const Stats& stats);
 
 }  // namespace mlt

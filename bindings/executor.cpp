@@ -1,0 +1,109 @@
+// Units that are run elsewhere: a job's executor, and the other side, which runs its tasks.
+#include "bindings.h"
+#include "py_job.h"
+
+#include <atomic>
+
+namespace mlt::python {
+namespace {
+
+/// A Python object with the methods of Executor.
+class PyExecutor : public Executor {
+ public:
+  PyExecutor(PyJob& job, py::object executor) : job_(&job), executor_(std::move(executor)) {}
+  ~PyExecutor() override {
+    const py::gil_scoped_acquire acquire;
+    executor_ = py::object();
+  }
+
+  int wanted_tasks() override {
+    const py::gil_scoped_acquire acquire;
+    return call("wanted_tasks").cast<int>();
+  }
+  void run(Job& /*job*/, uint64_t to) override {
+    const py::gil_scoped_acquire acquire;
+    call("run", py::cast(job_, py::return_value_policy::reference), to);
+  }
+  void close() override {
+    const py::gil_scoped_acquire acquire;
+    call("close");
+  }
+
+ private:
+  /// With the interpreter's lock.
+  template <class... Arguments>
+  py::object call(const char* method, const Arguments&... arguments) {
+    try {
+      return executor_.attr(method)(arguments...);
+    } catch (const py::error_already_set& error) {
+      throw RenderError(py::str(error.value()));
+    }
+  }
+
+  PyJob* job_;
+  py::object executor_;
+};
+
+/// Runs tasks on a machine that is not the owner's.
+class Helper {
+ public:
+  Helper(LoadedPtr loaded, MadeIntegrator made)
+      : loaded_(std::move(loaded)), made_(std::move(made)) {}
+  py::bytes run(const std::string& task, int threads) {
+    return without_gil(
+        [&] { return mlt::run(task, loaded_->scene, *made_.integrator, threads, cancelled_); });
+  }
+  void cancel() { cancelled_ = true; }
+
+ private:
+  LoadedPtr loaded_;
+  MadeIntegrator made_;
+  std::atomic<bool> cancelled_{false};
+};
+
+}  // namespace
+
+void bind_executor(py::module_& m) {
+  using NoGil = py::call_guard<py::gil_scoped_release>;
+
+  static_cast<py::class_<PyJob>>(m.attr("Job"))
+      .def(
+          "attach",
+          [](PyJob& job, py::object executor) {
+            job.attach(std::make_unique<PyExecutor>(job, std::move(executor)));
+          },
+          py::arg("executor"),
+          "Before start: an object that runs the units, with the methods wanted_tasks(), "
+          "run(job, to) and close(); they are called by a thread of the job.")
+      .def_property_readonly("stopping", &PyJob::stopping)
+      .def_property_readonly("interrupted", &PyJob::interrupted)
+      .def_property_readonly("units_done", &PyJob::units_done)
+      .def_property_readonly(
+          "units_per_cycle", [](PyJob& job) { return job.rendering().plan().units_per_cycle(); },
+          "After so many units each share has had its turn.")
+      .def_property_readonly("task_count", [](PyJob& job) { return job.tasks().size(); })
+      .def(
+          "position", [](PyJob& job, size_t task) { return job.tasks().position(task); },
+          py::arg("task"), "Up to which unit the task's shares are done.")
+      .def(
+          "skip", [](PyJob& job, size_t task, uint64_t to) { return job.tasks().skip(task, to); },
+          py::arg("task"), py::arg("to"), "Move a task on that has nothing to do until there.")
+      .def(
+          "split", [](PyJob& job, size_t task) { return job.tasks().split(task); }, py::arg("task"),
+          "Cut a task in two; False if it has but one share.")
+      .def(
+          "task",
+          [](PyJob& job, size_t task, uint64_t to) -> py::bytes {
+            return without_gil([&] { return job.tasks().task(task, to); });
+          },
+          py::arg("task"), py::arg("to"), "What Helper.run needs to know.")
+      .def("merge", &PyJob::merge, py::arg("task"), py::arg("result"), NoGil(),
+           "Take in what Helper.run has returned.");
+
+  py::class_<Helper>(m, "Helper", "Runs units of a render that another process owns.")
+      .def(py::init<LoadedPtr, MadeIntegrator>(), py::arg("scene"), py::arg("integrator"))
+      .def("run", &Helper::run, py::arg("task"), py::arg("threads"))
+      .def("cancel", &Helper::cancel, "Whatever it runs now or later ends soon.");
+}
+
+}  // namespace mlt::python

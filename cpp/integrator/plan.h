@@ -1,0 +1,66 @@
+// How a render is cut into units, and which of them depend on each other. The words are explained
+// in docs/notation.md.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace mlt {
+
+/// Some of the shares of a render: first ... last - 1.
+struct Shares {
+  uint64_t first = 0, last = ~uint64_t{0};
+
+  bool has(uint64_t share) const { return first <= share && share < last; }
+};
+
+/// The units from ... to - 1 of some shares; by default all that there are.
+struct Task {
+  Shares shares;
+  uint64_t from = 0, to = ~uint64_t{0};
+};
+
+/// Units are numbered 0, 1, 2, ..., one pass after the other, and are started in that order.
+struct Plan {
+  uint64_t units_per_pass = 1;
+  /// After each multiple of so many units all groups are as far as they have begun.
+  uint64_t units_per_group_turn = 1;
+  /// So many units in a row belong to one share, the next ones to the next share, and so on.
+  uint64_t units_per_share_turn = 1;
+  /// Samples of one pass, and the pixels that they are spread over.
+  double samples_per_pass = 1, pixels = 1;
+  /// First shares of the sequences that no task reaches across, and the number of all shares.
+  std::vector<uint64_t> borders = {0, 1};
+
+  /// How many units `spp` samples per pixel take.
+  uint64_t unit_count(double spp) const {
+    return static_cast<uint64_t>(std::ceil(spp * pixels / samples_per_pass)) * units_per_pass;
+  }
+  double spp_done(uint64_t units) const {
+    return static_cast<double>(units) / static_cast<double>(units_per_pass) * samples_per_pass /
+           pixels;
+  }
+
+  uint64_t share_count() const { return borders.back(); }
+  uint64_t share_of(uint64_t unit) const { return unit / units_per_share_turn % share_count(); }
+  /// After so many units each share has had its turn.
+  uint64_t units_per_cycle() const { return units_per_share_turn * share_count(); }
+
+  /// All shares, cut into `wanted` sequences or as near to it as their borders allow.
+  std::vector<Shares> cut(int wanted) const {
+    const uint64_t sequences = std::max<uint64_t>(1, borders.size() - 1);
+    const uint64_t each = (std::max(1, wanted) + sequences - 1) / sequences;
+    std::vector<Shares> cut;
+    for (size_t i = 0; i + 1 < borders.size(); ++i) {
+      const uint64_t first = borders[i], size = borders[i + 1] - first;
+      const uint64_t count = std::min(each, size);
+      for (uint64_t j = 0; j < count; ++j)
+        cut.push_back({first + size * j / count, first + size * (j + 1) / count});
+    }
+    return cut;
+  }
+};
+
+}  // namespace mlt

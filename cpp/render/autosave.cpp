@@ -1,0 +1,57 @@
+#include "render/autosave.h"
+
+#include "base/error.h"
+
+#include <cmath>
+
+namespace mlt {
+
+Autosave::Autosave(AutosaveSettings settings) : settings_(std::move(settings)) {
+  if (!(settings_.every > 0 && std::isfinite(settings_.every)))
+    throw UsageError("every must be a positive number of seconds");
+}
+
+void Autosave::begin_saved(uint64_t units) {
+  units_saved_ = units;
+  postpone();
+}
+
+void Autosave::postpone() {
+  next_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                             std::chrono::duration<double>(settings_.every));
+}
+
+void Autosave::save(uint64_t units, const State& state) {
+  postpone();
+  const bool still_writing =
+      writer_.valid() && writer_.wait_for(std::chrono::seconds(0)) != std::future_status::ready;
+  if (still_writing || units_saved_ == units) return;
+  units_saved_ = units;
+  writer_ = std::async(std::launch::async,
+                       [this, bytes = state()]() mutable { try_to_write(std::move(bytes)); });
+}
+
+void Autosave::finish(uint64_t units, const State& state) {
+  if (!settings_.write) return;
+  if (writer_.valid()) writer_.wait();
+  if (units_saved_ != units || !failure().empty()) try_to_write(state());
+  units_saved_ = units;
+}
+
+std::string Autosave::failure() const {
+  const std::lock_guard lock(mutex_);
+  return failure_;
+}
+
+void Autosave::try_to_write(std::string state) {
+  std::string failure;
+  try {
+    settings_.write(std::move(state));
+  } catch (const std::exception& error) {
+    failure = error.what();
+  }
+  const std::lock_guard lock(mutex_);
+  failure_ = failure;
+}
+
+}  // namespace mlt
