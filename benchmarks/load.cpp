@@ -1,5 +1,5 @@
-// Loading a large mesh from a binary PLY file: the time to read it, without the hierarchy; the time of
-// a whole scene, whose difference is the hierarchy; and the memory that both leave behind.
+// Loading a large mesh from a binary PLY file: the time to read it, without the hierarchy; the time
+// of a whole scene, whose difference is the hierarchy; and the memory that both leave behind.
 #include "io/load.h"
 #include "render/plugins.h"
 

@@ -1,8 +1,8 @@
 // What a render costs over the rays it cannot do without.
 //
-// The rays of a stretch of rendering are recorded on their way to Embree, and then the very same rays
-// are traced again, in the same order, in the same hierarchy, in a loop that does nothing else. For
-// each stretch:
+// The rays of a stretch of rendering are recorded on their way to Embree, and then the very same
+// rays are traced again, in the same order, in the same hierarchy, in a loop that does nothing
+// else. For each stretch:
 //
 //   record   twin A of the rendering runs the stretch, and its rays are written down
 //   render   twin B, with the same seed, runs the same stretch; its time is T
@@ -113,7 +113,8 @@ double splat_seconds(const Scene& scene) {
 }
 
 Measured measure(const NamedScene& scene, const std::string& integrator, double seconds) {
-  // Analytic shapes want to see the ray in double precision, which is gone when a recording is replayed.
+  // Analytic shapes want to see the ray in double precision, which is gone when a recording is
+  // replayed.
   for (const ShapePtr& shape : scene.loaded.scene->shapes())
     if (!shape->as_mesh())
       throw UsageError("the scene " + scene.name + " has shapes that are not meshes");

@@ -86,7 +86,8 @@ inline void bare_occluded(RTCScene scene, RTCRay& ray) {
 #endif
 
 /// Traces the recorded rays. Which ray comes next depends on the hit before it (in truth it never
-/// does), as in any walk: without that the processor would overlap rays that no renderer can overlap.
+/// does), as in any walk: without that the processor would overlap rays that no renderer can
+/// overlap.
 inline uint64_t replay(const Recording& recorded) {
   uint64_t hits = 0;
   for (size_t i = 0; i < recorded.rays.size();) {

@@ -30,8 +30,8 @@ class PyPathTarget {
   PathTarget target_;
 };
 
-/// Chains of light paths, each with a random stream of its own. What Python gets is a value: a state
-/// that a chain stays in is one object.
+/// Chains of light paths, each with a random stream of its own. What Python gets is a value: a
+/// state that a chain stays in is one object.
 class PathChains {
  public:
   PathChains(const PyPathTarget& target, const WeightedObjects& moves,

@@ -1,5 +1,7 @@
 #include "python_mutation.h"
 
+#include "scene_dict.h"
+
 #include "mutation/evaluate_proposal.h"
 
 namespace mlt::python {
@@ -40,9 +42,8 @@ class PythonMutation::Borrowed {
 
 PythonMutation::PythonMutation(std::shared_ptr<LoadedScene> scene, const PathTarget& target,
                                py::object object)
-    : Mutation(object.attr("name").cast<std::string>()),
+    : Mutation(object.attr("name").cast<std::string>(), target),
       scene_(std::move(scene)),
-      target_(&target),
       held_(std::make_unique<Held>()) {
   held_->suitability = object.attr("suitability");
   held_->propose = object.attr("propose");
@@ -76,9 +77,9 @@ std::optional<Edit> PythonMutation::propose(const PathState& x, PathState& y,
   const auto& made = proposed.cast<const PyLightPath&>();
   if (made.scene->scene != scene_->scene)
     throw UsageError(name() + ".propose(x, rng) returned a path of another scene than x's");
-  if (made.path.edges() > target_->rules().most_edges()) return std::nullopt;
+  if (made.path.edges() > target().rules().most_edges()) return std::nullopt;
   y.path = made.path;
-  return evaluate_proposal(*target_, x, y, context.rays);
+  return evaluate_proposal(target(), x, y, context.rays);
 }
 
 double PythonMutation::density(const PathState& x, const PathState& y, const Edit&) const {
@@ -87,7 +88,7 @@ double PythonMutation::density(const PathState& x, const PathState& y, const Edi
 }
 
 py::object PythonMutation::wrap(const PathState& x) const {
-  return py::cast(light_path(scene_, x, target_->rules().strict_normals));
+  return py::cast(light_path(scene_, x, target().rules().strict_normals));
 }
 
 double PythonMutation::checked(const py::object& returned, const char* method,
@@ -119,7 +120,12 @@ MutationPtr to_mutation(const std::shared_ptr<LoadedScene>& scene, const PathTar
   }
   if (!object.attr("_built_in").cast<bool>())
     return std::make_shared<PythonMutation>(scene, target, object);
-  return make_mutation(object.attr("name").cast<std::string>(), target);
+  MutationValues own;
+  for (const auto& [name, value] : object.attr("_given")().cast<py::dict>()) {
+    const std::string parameter = py::str(name);
+    own.push_back({parameter, to_value(py::reinterpret_borrow<py::object>(value), parameter, {})});
+  }
+  return make_mutation(object.attr("name").cast<std::string>(), target, own);
 }
 
 std::pair<Mutations, MixtureWeights> to_mixture(const std::shared_ptr<LoadedScene>& scene,

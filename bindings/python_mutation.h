@@ -37,7 +37,6 @@ class PythonMutation final : public Mutation {
   double checked(const py::object& returned, const char* method, const PathState& x) const;
 
   std::shared_ptr<LoadedScene> scene_;
-  const PathTarget* target_;
   std::unique_ptr<Held> held_;
 };
 
@@ -56,7 +55,8 @@ std::pair<Mutations, MixtureWeights> to_mixture(const std::shared_ptr<LoadedScen
                                                 const PathTarget& target,
                                                 const WeightedObjects& objects);
 
-/// The paths of a scene that Python's arguments name. Throws UsageError for a max_depth that is none.
+/// The paths of a scene that Python's arguments name. Throws UsageError for a max_depth that is
+/// none.
 PathTarget path_target(const LoadedScene& scene, int max_depth, bool hide_emitters,
                        bool strict_normals, double near_specular);
 

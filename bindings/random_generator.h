@@ -1,5 +1,5 @@
-// numpy's Generator on top of our streams, so that a move written in Python draws from the stream of
-// its chain with all of numpy's distributions, and a run stays a function of its seed.
+// numpy's Generator on top of our streams, so that a move written in Python draws from the stream
+// of its chain with all of numpy's distributions, and a run stays a function of its seed.
 #pragma once
 
 #include "bindings.h"

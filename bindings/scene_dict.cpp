@@ -190,6 +190,10 @@ class Converter {
 
 }  // namespace
 
+Value to_value(const py::object& object, const std::string& parameter, const Location& where) {
+  return from_scalar_or_array(object, parameter, where);
+}
+
 py::object to_python(const Value& value) { return std::visit(ToPython{}, value); }
 
 Node to_node(const py::dict& dict, const std::string& family, const std::string& path,

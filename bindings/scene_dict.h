@@ -11,6 +11,8 @@
 namespace mlt::python {
 
 py::object to_python(const Value& value);
+/// A number, string, boolean or array as the value of a parameter. Throws SceneError for others.
+Value to_value(const py::object& object, const std::string& parameter, const Location& where);
 /// Family, name, doc, parameters (name, type, default, doc, choices) and ignored names.
 py::dict to_dict(const Schema& schema);
 

@@ -18,8 +18,8 @@ inline const std::atomic<bool> never_cancelled{false};
 /// stops the loop and is rethrown.
 void parallel_for(int threads, uint64_t count, const std::function<void(uint64_t)>& body);
 
-/// The same in blocks, for work that keeps its memory from index to index: calls body(first, end) for
-/// first = 0, 256, 512, ...
+/// The same in blocks, for work that keeps its memory from index to index: calls body(first, end)
+/// for first = 0, 256, 512, ...
 void parallel_blocks(int threads, uint64_t count,
                      const std::function<void(uint64_t, uint64_t)>& body);
 

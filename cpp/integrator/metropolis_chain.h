@@ -1,4 +1,5 @@
-// Chains that render: what they visit is recorded in a film, and what their steps came to is counted.
+// Chains that render: what they visit is recorded in a film, and what their steps came to is
+// counted.
 #pragma once
 
 #include "base/bytes.h"
@@ -13,8 +14,8 @@
 
 namespace mlt {
 
-/// Where a chain leaves what it visits: RGB / L* at a raster position, times an expected weight. Each
-/// splat waits for the next one, while its pixel comes from memory.
+/// Where a chain leaves what it visits: RGB / L* at a raster position, times an expected weight.
+/// Each splat waits for the next one, while its pixel comes from memory.
 class ChainRecorder {
  public:
   ChainRecorder(SplatFilm& film, int group) : film_(&film), group_(group) {}
@@ -36,8 +37,8 @@ class ChainRecorder {
   Color color_{0};
 };
 
-/// Records the states of a chain, each once: the weights of the current state add up until the chain
-/// leaves it. A State has raster, rgb and target.
+/// Records the states of a chain, each once: the weights of the current state add up until the
+/// chain leaves it. A State has raster, rgb and target.
 template <class State>
 class StepRecorder {
  public:
@@ -118,9 +119,9 @@ struct ChainId {
   Rng rng() const { return Rng(seed, purpose, (uint64_t(group) << 32) | uint32_t(number)); }
 };
 
-/// A chain of any kernel that has State; propose; generated(y); stats_row(), the row of the statistics that
-/// its last step belongs to, of stats_rows(); rays(), traced so far; signature(x), for messages; and
-/// save(bytes, x), load(bytes, x) for the state of the chain and its own.
+/// A chain of any kernel that has State; propose; generated(y); stats_row(), the row of the
+/// statistics that its last step belongs to, of stats_rows(); rays(), traced so far; signature(x),
+/// for messages; and save(bytes, x), load(bytes, x) for the state of the chain and its own.
 template <class Kernel>
 class RecordedChain : public RenderChain {
   using State = typename Kernel::State;

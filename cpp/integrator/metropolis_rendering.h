@@ -1,7 +1,7 @@
 // Rendering by Markov chains: what all Metropolis integrators share. A render is a fixed number of
-// chains, each with its own random stream; a unit is a stretch of steps of one chain, and chains are
-// visited in turn, so that every prefix of a render is a fair image. Chains form independent groups,
-// each with its own bootstrap and its own estimate of b.
+// chains, each with its own random stream; a unit is a stretch of steps of one chain, and chains
+// are visited in turn, so that every prefix of a render is a fair image. Chains form independent
+// groups, each with its own bootstrap and its own estimate of b.
 #pragma once
 
 #include "integrator/integrator.h"
@@ -29,8 +29,8 @@ class MetropolisAlgorithm {
     virtual const RayCounts& rays() const = 0;
   };
   virtual std::unique_ptr<Source> source() const = 0;
-  /// Starts a chain from the candidate that the same stream gave; `choice` is there to choose one of
-  /// several paths that the candidate consists of.
+  /// Starts a chain from the candidate that the same stream gave; `choice` is there to choose one
+  /// of several paths that the candidate consists of.
   virtual std::unique_ptr<RenderChain> start(const ChainId& id, Rng candidate,
                                              Rng choice) const = 0;
   /// A chain without a state, to be loaded from bytes.

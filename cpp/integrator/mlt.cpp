@@ -1,5 +1,5 @@
-// mlt: Metropolis light transport in path space. E. Veach and L. Guibas, "Metropolis light transport",
-// SIGGRAPH 1997; Veach 1997, ch. 11.
+// mlt: Metropolis light transport in path space. E. Veach and L. Guibas, "Metropolis light
+// transport", SIGGRAPH 1997; Veach 1997, ch. 11.
 #include "base/registry.h"
 #include "integrator/metropolis_params.h"
 #include "integrator/mlt_algorithm.h"

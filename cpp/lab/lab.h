@@ -1,5 +1,5 @@
-// The lecture's laboratory: Metropolis sampling of any function by any mixture of moves, by the step,
-// the mixture and the chain that light paths use.
+// The lecture's laboratory: Metropolis sampling of any function by any mixture of moves, by the
+// step, the mixture and the chain that light paths use.
 //
 // X is what a state is made of: numbers here, any Python object in the bindings.
 #pragma once
@@ -120,8 +120,8 @@ class Chain : public mlt::Chain<State<X>, Mixture<X>> {
     return finish(record);
   }
 
-  // The parts of a step, for chains that go in lockstep: choose; draw, or set_proposal; set_target if
-  // there is a proposal; finish.
+  // The parts of a step, for chains that go in lockstep: choose; draw, or set_proposal; set_target
+  // if there is a proposal; finish.
 
   bool choose() { return this->kernel_.choose(this->x_, this->rng_); }
   void draw() { this->kernel_.draw(this->x_, this->y_[0], this->rng_); }

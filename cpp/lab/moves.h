@@ -16,8 +16,8 @@ enum class WalkShape { uniform, normal };
 MovePtr random_walk(std::vector<double> size, WalkShape shape);
 
 /// How an adaptive walk learns (Robbins & Monro 1951; Andrieu & Thoms 2008): after its i-th
-/// proposal, log(scale) += rate i^-decay (acceptance - goal). With decay = 0 it never stops changing
-/// with where it has just been, and the target is no longer what the chain samples.
+/// proposal, log(scale) += rate i^-decay (acceptance - goal). With decay = 0 it never stops
+/// changing with where it has just been, and the target is no longer what the chain samples.
 struct Adaptation {
   double goal = 0.44, rate = 1, decay = 0.6;
 };

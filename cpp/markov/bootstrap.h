@@ -21,8 +21,8 @@ struct Bootstrap {
   std::vector<uint32_t> seeds;  ///< Index of the candidate that each chain starts from.
 };
 
-/// Systematic resampling of `chains` seeds: candidate i is chosen chains * w_i / sum(w) times in the
-/// mean. Without any positive weight, `seeds` is empty.
+/// Systematic resampling of `chains` seeds: candidate i is chosen chains * w_i / sum(w) times in
+/// the mean. Without any positive weight, `seeds` is empty.
 Bootstrap resample(const std::vector<double>& weights, uint32_t chains, Rng& rng);
 
 /// Candidates by number; each has a random stream of its own, and can be drawn again.
@@ -34,10 +34,10 @@ struct Candidates {
   Rng rng(uint64_t i) const { return Rng(seed, purpose, i); }
 };
 
-/// The weight of each candidate. `make_source()` returns a pointer to what draws them, and keeps its memory
-/// from one to the next; `source->weigh(rng)` draws one and returns its weight. What is not a positive
-/// number counts as 0; when `cancelled` the rest stays 0. `finished(*source)` is called by one thread after
-/// the other.
+/// The weight of each candidate. `make_source()` returns a pointer to what draws them, and keeps
+/// its memory from one to the next; `source->weigh(rng)` draws one and returns its weight. What is
+/// not a positive number counts as 0; when `cancelled` the rest stays 0. `finished(*source)` is
+/// called by one thread after the other.
 template <class MakeSource, class Finished>
 std::vector<double> candidate_weights(const Candidates& candidates, int threads,
                                       const std::atomic<bool>& cancelled, MakeSource&& make_source,

@@ -16,7 +16,8 @@ class Chain {
   StepResult step(Record&& record) {
     return metropolis_step(x_, y_, kernel_, rng_, record);
   }
-  /// A proposal that is neither accepted nor rejected: the probability with which it would be accepted.
+  /// A proposal that is neither accepted nor rejected: the probability with which it would be
+  /// accepted.
   double propose() { return acceptance(kernel_.propose(x_, y_, 0, rng_)); }
 
   const State& state() const { return x_; }

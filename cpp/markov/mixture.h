@@ -1,16 +1,17 @@
-// A mixture of moves as the kernel of the Metropolis-Hastings step. Of the moves that suit a state one is
-// chosen by weight, and the acceptance is that of the chosen move alone, with the probability of its
-// choice as a part of T: the reverse state may suit other moves (Veach 1997, sec. 11.4.1).
+// A mixture of moves as the kernel of the Metropolis-Hastings step. Of the moves that suit a state
+// one is chosen by weight, and the acceptance is that of the chosen move alone, with the
+// probability of its choice as a part of T: the reverse state may suit other moves (Veach 1997,
+// sec. 11.4.1).
 //
 // A move is a class with
 //
-//   State, Aids, Context{Rng&, Aids&}, Edit    types: what it moves, what chains have for it beside random
-//                                              numbers, both together, and what a proposal remembers
-//   static size_t row(const State&)            which row of weights is for this state
-//   double suitability(const State&) const     may it act on x? A factor of its weight
-//   std::optional<Edit> propose(x, y, context) makes y from x
-//   double density(x, y, edit)                 T(x -> y), without the probability of its choice
-//   void check(x, y, forward, backward)        throws if these densities cannot be
+//   State, Edit              types: what it moves, and what a proposal remembers
+//   Aids, Context{Rng&, Aids&}   what a chain has for it beside random numbers; both together
+//   static size_t row(const State&)   which row of weights is for this state
+//   double suitability(const State&) const   may it act on x? A factor of its weight
+//   std::optional<Edit> propose(x, y, context)   makes y from x
+//   double density(x, y, edit)    T(x -> y), without the probability of its choice
+//   void check(x, y, forward, backward)   throws if these densities cannot be
 //
 // where Edit has reversed(), and a State has its target L*, known at the latest when the step ends.
 #pragma once
@@ -78,7 +79,8 @@ class Mixture {
     typename Move::Context context{rng, aids_};
     edit_ = moves_[chosen_]->propose(x, y, context);
   }
-  /// Says that the chosen move has made its y elsewhere, and with which densities T(x -> y), T(y -> x).
+  /// Says that the chosen move has made its y elsewhere, and with which densities T(x -> y), T(y ->
+  /// x).
   void set_densities(double forward, double backward) {
     edit_.emplace();
     densities_ = {forward, backward};

@@ -1,6 +1,6 @@
-// THE Metropolis-Hastings step (Metropolis et al. 1953, Hastings 1970). Nothing else in pymlt accepts
-// or rejects: light paths, primary samples and the one-dimensional examples of the lecture are all
-// instances of this template.
+// THE Metropolis-Hastings step (Metropolis et al. 1953, Hastings 1970). Nothing else in pymlt
+// accepts or rejects: light paths, primary samples and the one-dimensional examples of the lecture
+// are all instances of this template.
 //
 // A kernel proposes y from x and tells the two quotients that the acceptance needs,
 //
@@ -10,9 +10,9 @@
 // each up to one factor that both share. Quotients, since factors that T and L* have in common can
 // then be cancelled before they overflow.
 //
-// Both states are recorded with their expected weights, a for y and 1 - a for x, which says the same
-// in the mean as recording the state that was chosen and says it with less noise (Veach & Guibas
-// 1997, sec. 5.1).
+// Both states are recorded with their expected weights, a for y and 1 - a for x, which says the
+// same in the mean as recording the state that was chosen and says it with less noise (Veach &
+// Guibas 1997, sec. 5.1).
 //
 // With several stages (delayed rejection, Tierney & Mira 1999) a rejected proposal is followed by
 // another; the kernel's quotients for stage 2 contain the probabilities of having been rejected

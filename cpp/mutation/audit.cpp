@@ -15,8 +15,9 @@ namespace {
 
 constexpr int batches = 128;
 constexpr double least_effective_samples = 1000;
-/// A function that hardly ever changes is not tested, since a t-test needs more than a few events; nor is
-/// one that is 0 for almost all starting paths, since the few that would leave that set are missing.
+/// A function that hardly ever changes is not tested, since a t-test needs more than a few events;
+/// nor is one that is 0 for almost all starting paths, since the few that would leave that set are
+/// missing.
 constexpr double least_effective_changes = 100;
 /// At grazing angles a walk's directions and those of its vertices differ by rounding.
 constexpr double most_lost = 1e-4;
@@ -55,8 +56,8 @@ class Auditor {
   }
 
  private:
-  /// Mean weight of a sample, roughly, in paths that a mutation suits: as a step's weight, it makes for one
-  /// step per sample.
+  /// Mean weight of a sample, roughly, in paths that a mutation suits: as a step's weight, it makes
+  /// for one step per sample.
   double pilot() const {
     PathSeeds seeds = target_->seeds();
     PathMixture mixture = mixture_;
@@ -225,8 +226,9 @@ class Auditor {
     return test;
   }
 
-  /// P(|T| > |t|) of Student's t, by the normal variable that Wallace 1959 ("Bounds on normal approximations to
-  /// Student's and the chi-square distributions") puts in its place: right to 1 % for n > 60.
+  /// P(|T| > |t|) of Student's t, by the normal variable that Wallace 1959 ("Bounds on normal
+  /// approximations to Student's and the chi-square distributions") puts in its place: right to 1 %
+  /// for n > 60.
   static double two_sided(double t, double n) {
     const double z = std::sqrt(n * std::log1p(sqr(t) / n)) * (8 * n + 1) / (8 * n + 3);
     return std::erfc(z * std::sqrt(0.5));

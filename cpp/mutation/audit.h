@@ -1,18 +1,20 @@
-// The invariance test: does one step of a kernel leave L* unchanged? A Markov kernel is right if and only if
-// it does, and that can be seen without waiting for a chain to converge.
+// The invariance test: does one step of a kernel leave L* unchanged? A Markov kernel is right if
+// and only if it does, and that can be seen without waiting for a chain to converge.
 //
-// Paths x are drawn by bidirectional path tracing, each with its weight w = L*(x) mis(x) / p(x); one step of
-// the kernel leads from x to y. For every function g of a path
+// Paths x are drawn by bidirectional path tracing, each with its weight w = L*(x) mis(x) / p(x);
+// one step of the kernel leads from x to y. For every function g of a path
 //
 //   E[w g(y)] = E[w g(x)],
 //
-// so the paired differences w (g(y) - g(x)) have the mean 0. They are summed over batches of samples, and the
-// batches enter a t-test; Holm's correction (Holm 1979) covers all functions. Each g is tested with the
-// state that was chosen, and with less noise with the expected one, a g(y) + (1 - a) g(x).
+// so the paired differences w (g(y) - g(x)) have the mean 0. They are summed over batches of
+// samples, and the batches enter a t-test; Holm's correction (Holm 1979) covers all functions. Each
+// g is tested with the state that was chosen, and with less noise with the expected one, a g(y) +
+// (1 - a) g(x).
 //
-// Weights have heavy tails: a path of weight w takes as many steps as w is large, all of one weight, with
-// the remainder left to chance. What chance there is in the pairs stays small, and a rare bright path is
-// not one outlier but many small ones. Paths that no mutation suits stay what they are and take none. What this cannot repair is too few samples: below 1000 effective ones
+// Weights have heavy tails: a path of weight w takes as many steps as w is large, all of one
+// weight, with the remainder left to chance. What chance there is in the pairs stays small, and a
+// rare bright path is not one outlier but many small ones. Paths that no mutation suits stay what
+// they are and take none. What this cannot repair is too few samples: below 1000 effective ones
 // nothing is concluded.
 #pragma once
 
@@ -72,8 +74,8 @@ struct AuditReport {
 
 const char* name_of(Verdict verdict);
 
-/// Tests one step of the mixture of `mutations`. Throws RenderError if no path carries light. A report that
-/// was cancelled says nothing.
+/// Tests one step of the mixture of `mutations`. Throws RenderError if no path carries light. A
+/// report that was cancelled says nothing.
 AuditReport audit(const PathTarget& target, const Mutations& mutations,
                   const MixtureWeights& weights, const AuditSettings& how,
                   const std::atomic<bool>& cancelled = never_cancelled);

@@ -1,5 +1,13 @@
-#include "mutation/bidirectional_mutation.h"
-
+// The bidirectional mutation (Veach & Guibas 1997, sec. 5.3.1; Veach 1997, sec. 11.3.1): delete a
+// piece of the path, grow new vertices from both ends of the gap, and connect them. It can change
+// anything, including the length, so it makes the chain ergodic on its own.
+//
+// With x_l and x_m the vertices that stay on both sides of the gap (l = -1 or m = k + 1: no vertex
+// stays there), c_d = m - l edges are deleted and c_a = s + t + 1 are added, of which s vertices
+// come from the light side and t from the camera side. All ways (s, t) of making the same vertices
+// are summed:
+//
+//   T(x -> y) = p_delete(l, m | x) p_length(c_a | c_d) sum_s p_way(s) p_s(inserted vertices)
 #include "mutation/join.h"
 #include "mutation/mutation_registry.h"
 
@@ -16,8 +24,9 @@ bool deletable(const PathState& x, int l, int m) {
   return (l < 0 || x.terms[l].connectable) && (m > k || x.terms[m].connectable);
 }
 
-/// How many edges a gap has: mostly two, that is one vertex (Veach 1997, sec. 11.3.1.1). 1/4, 1/2 and
-/// then 1/8, 1/16, ..., cut off at the k + 2 edges that a path of k edges has with its two open ends.
+/// How many edges a gap has: mostly two, that is one vertex (Veach 1997, sec. 11.3.1.1). 1/4, 1/2
+/// and then 1/8, 1/16, ..., cut off at the k + 2 edges that a path of k edges has with its two open
+/// ends.
 struct GapLength {
   static double probability(int edges, int k) {
     const double weight = edges == 1 ? 0.25 : edges == 2 ? 0.5 : power_of_half(edges);
@@ -30,7 +39,8 @@ struct GapLength {
   }
 };
 
-/// Where a gap of this many edges may begin: l = -1 ... k + 1 - edges, whether deletable there or not.
+/// Where a gap of this many edges may begin: l = -1 ... k + 1 - edges, whether deletable there or
+/// not.
 int gap_positions(int edges, int k) { return k + 3 - edges; }
 
 double deletion_probability(const PathState& x, int l, int m) {
@@ -39,8 +49,8 @@ double deletion_probability(const PathState& x, int l, int m) {
   return GapLength::probability(m - l, k) / gap_positions(m - l, k);
 }
 
-/// How many edges replace those of a gap: mostly as many (Veach 1997, sec. 11.3.1.2), but at least enough
-/// for the ends that are missing.
+/// How many edges replace those of a gap: mostly as many (Veach 1997, sec. 11.3.1.2), but at least
+/// enough for the ends that are missing.
 struct AddedLength {
   static constexpr int most_change = 12;
   int least, most, deleted;
@@ -71,8 +81,8 @@ struct AddedLength {
   }
 };
 
-/// How many of n inserted vertices may come from the light: not all, where the last one would have to
-/// hit a lens that is a point.
+/// How many of n inserted vertices may come from the light: not all, where the last one would have
+/// to hit a lens that is a point.
 int most_from_light(int n, bool lens_is_missing, const Scene& scene) {
   return lens_is_missing && scene.camera().delta_position() ? n - 1 : n;
 }
@@ -114,83 +124,93 @@ bool arrive(const Walker& walker, const Ray& ray, Path& path, int i, Rng& rng) {
   return walker.arrive_at_light(ray, any_background, path[0]);
 }
 
+class BidirectionalMutation final : public Mutation {
+ public:
+  BidirectionalMutation(const PathTarget& target, Params&) : Mutation("bidirectional", target) {}
+
+  double suitability(const PathState&) const override { return 1; }
+  bool ergodic() const override { return true; }
+
+  std::optional<Edit> propose(const PathState& x, PathState& y,
+                              MutationContext& context) const override {
+    const int k = x.edges();
+    const int gap = GapLength::sample(context.rng.next(), k);
+    const int l = static_cast<int>(context.rng.below(gap_positions(gap, k))) - 1, m = l + gap;
+    if (!deletable(x, l, m)) return std::nullopt;
+    const int added = AddedLength(k, l, m, most_edges()).sample(context.rng.next());
+    if (added == 0) return std::nullopt;
+
+    const int n = added - 1;
+    const Edit edit{l + 1, m - 1, n};
+    const int s = static_cast<int>(context.rng.below(most_from_light(n, m > k, scene()) + 1)),
+              t = n - s;
+    splice(x, edit, y);
+    if (l < 0 && m > k) y.path.time = scene().camera().time(context.rng.next());
+    // The emitter chosen to be seen from x_1 needs x_1: the camera side grows first.
+    if (!grow(y, edit.first + n - 1, t, -1, context)) return std::nullopt;
+    if (!grow(y, edit.first, s, 1, context)) return std::nullopt;
+    target().evaluate(edit.first, edit.first + n - 1, y);
+    const int joint = edit.first + s;
+    if (joint > 0 && joint <= y.edges()) join(scene(), joint, y, context.rays);
+    return edit;
+  }
+
+  double density(const PathState& x, const PathState& y, const Edit& edit) const override {
+    const int k = x.edges(), l = edit.first - 1, m = edit.last + 1, n = edit.inserted;
+    const double p_delete = deletion_probability(x, l, m);
+    if (p_delete == 0) return 0;
+    const double p_length = AddedLength(k, l, m, most_edges()).probability(n + 1);
+    const int most = most_from_light(n, m > k, scene());
+    double sum = 0;
+    for (int s = 0; s <= most; ++s) {
+      const int technique = edit.first + s;
+      if (!can_sample(y.terms, technique)) continue;
+      double p = 1;
+      if (technique == 0 && y[0].at.infinite())
+        p /= static_cast<double>(scene().backgrounds().size());
+      for (int i = edit.first; i < edit.first + n; ++i) {
+        if (i >= technique)
+          p *= y.terms[i].from_camera;
+        else
+          p *= i == 0 && technique == 1 ? y.terms.direct : y.terms[i].from_light;
+      }
+      sum += p;
+    }
+    return p_delete * p_length * sum / (most + 1);
+  }
+
+ private:
+  /// Fills `count` vertices from number `first` on, in steps of +1 by a walk from the light or of
+  /// -1 by one from the camera. The walk goes on from the vertex before, or begins where there is
+  /// none.
+  bool grow(PathState& y, int first, int count, int step, MutationContext& context) const {
+    Path& path = y.path;
+    Rng& rng = context.rng;
+    const Walker walker{scene(), path.time, context.rays};
+    const int begin = step > 0 ? 0 : path.edges();
+    for (int i = first; i != first + count * step; i += step) {
+      if (i == begin) {
+        if (!new_end(scene(), path, i, count == 1, rng)) return false;
+        continue;
+      }
+      Vertex& from = path[i - step];
+      std::optional<Ray> ray;
+      if (i - step == begin) {
+        ray = leave_end(walker, from, rng);
+      } else {
+        const Vec3 u{rng.next(), rng.next(), rng.next()};
+        ray = walker.scatter(from, direction(from.at, path[i - 2 * step].at), u);
+        if (i == first && from.delta()) return false;  // what stays must go on scattering smoothly
+      }
+      if (!ray || !arrive(walker, *ray, path, i, rng)) return false;
+    }
+    return true;
+  }
+
+  int most_edges() const { return target().rules().most_edges(); }
+};
+
 }  // namespace
-
-std::optional<Edit> BidirectionalMutation::propose(const PathState& x, PathState& y,
-                                                   MutationContext& context) const {
-  const int k = x.edges();
-  const int gap = GapLength::sample(context.rng.next(), k);
-  const int l = static_cast<int>(context.rng.below(gap_positions(gap, k))) - 1, m = l + gap;
-  if (!deletable(x, l, m)) return std::nullopt;
-  const int added = AddedLength(k, l, m, most_edges()).sample(context.rng.next());
-  if (added == 0) return std::nullopt;
-
-  const int n = added - 1;
-  const Edit edit{l + 1, m - 1, n};
-  const int s = static_cast<int>(context.rng.below(most_from_light(n, m > k, *scene_) + 1)),
-            t = n - s;
-  splice(x, edit, y);
-  if (l < 0 && m > k) y.path.time = scene_->camera().time(context.rng.next());
-  // The emitter chosen to be seen from x_1 needs x_1: the camera side grows first.
-  if (!grow(y, edit.first + n - 1, t, -1, context)) return std::nullopt;
-  if (!grow(y, edit.first, s, 1, context)) return std::nullopt;
-  target_->evaluate(edit.first, edit.first + n - 1, y);
-  const int joint = edit.first + s;
-  if (joint > 0 && joint <= y.edges()) join(*scene_, joint, y, context.rays);
-  return edit;
-}
-
-/// Fills `count` vertices from number `first` on, in steps of +1 by a walk from the light or of -1 by
-/// one from the camera. The walk goes on from the vertex before, or begins where there is none.
-bool BidirectionalMutation::grow(PathState& y, int first, int count, int step,
-                                 MutationContext& context) const {
-  Path& path = y.path;
-  Rng& rng = context.rng;
-  const Walker walker{*scene_, path.time, context.rays};
-  const int begin = step > 0 ? 0 : path.edges();
-  for (int i = first; i != first + count * step; i += step) {
-    if (i == begin) {
-      if (!new_end(*scene_, path, i, count == 1, rng)) return false;
-      continue;
-    }
-    Vertex& from = path[i - step];
-    std::optional<Ray> ray;
-    if (i - step == begin) {
-      ray = leave_end(walker, from, rng);
-    } else {
-      const Vec3 u{rng.next(), rng.next(), rng.next()};
-      ray = walker.scatter(from, direction(from.at, path[i - 2 * step].at), u);
-      if (i == first && from.delta()) return false;  // what stays must go on scattering smoothly
-    }
-    if (!ray || !arrive(walker, *ray, path, i, rng)) return false;
-  }
-  return true;
-}
-
-double BidirectionalMutation::density(const PathState& x, const PathState& y,
-                                      const Edit& edit) const {
-  const int k = x.edges(), l = edit.first - 1, m = edit.last + 1, n = edit.inserted;
-  const double p_delete = deletion_probability(x, l, m);
-  if (p_delete == 0) return 0;
-  const double p_length = AddedLength(k, l, m, most_edges()).probability(n + 1);
-  const int most = most_from_light(n, m > k, *scene_);
-  double sum = 0;
-  for (int s = 0; s <= most; ++s) {
-    const int technique = edit.first + s;
-    if (!can_sample(y.terms, technique)) continue;
-    double p = 1;
-    if (technique == 0 && y[0].at.infinite())
-      p /= static_cast<double>(scene_->backgrounds().size());
-    for (int i = edit.first; i < edit.first + n; ++i) {
-      if (i >= technique)
-        p *= y.terms[i].from_camera;
-      else
-        p *= i == 0 && technique == 1 ? y.terms.direct : y.terms[i].from_light;
-    }
-    sum += p;
-  }
-  return p_delete * p_length * sum / (most + 1);
-}
 
 MutationPlugin mutation_bidirectional() {
   return {
@@ -200,9 +220,7 @@ MutationPlugin mutation_bidirectional() {
        {}},
       "bidirectional_mutation",
       0.3,
-      [](const PathTarget& target, Params&) -> MutationPtr {
-        return std::make_shared<BidirectionalMutation>(target);
-      }};
+      make_shared_mutation<BidirectionalMutation>};
 }
 
 }  // namespace mlt

@@ -1,66 +1,88 @@
-#include "mutation/caustic.h"
-
+// The caustic perturbation (Veach & Guibas 1997, sec. 5.3.2.2; Veach 1997, sec. 11.3.3.2), for
+// paths of the form (L|D)S*DE: the direction that leaves the light-side vertex turns by a small
+// angle, the specular chain follows, and the diffuse vertex at its end is joined to the lens, at a
+// new image position.
+//
+// Where the chain starts at a light at infinity its direction x_0 stays and the ray moves across
+// the plane perpendicular to it. The angle (or the distance) is such that the image position moves
+// about as far as the lens perturbation would move it.
+#include "mutation/chain_perturbation.h"
 #include "mutation/join.h"
 #include "mutation/mutation_registry.h"
 
 namespace mlt {
+namespace {
 
-int CausticPerturbation::start(const PathState& x) const {
-  const int last = x.edges() - 1;
-  if (last < 1 || x.specular(last)) return -1;
-  int i = last - 1;
-  while (i > 0 && x.specular(i)) --i;
-  return i;
-}
+class CausticPerturbation final : public Mutation {
+ public:
+  CausticPerturbation(const PathTarget& target, Params& params)
+      : Mutation("caustic", target), chain_(target.scene(), step_sizes(params)) {}
 
-/// How far a ray from infinity moves: as far as a pixel is wide where the camera sees the chain's end.
-ExponentialRadius CausticPerturbation::offset_radius(const PathState& x) const {
-  const int k = x.edges();
-  const double cos_lens = abs_cos(x[k].at, direction(x[k].at, x[k - 1].at));
-  const double pixel_angle = std::sqrt(1 / (chain_.raster_per_direction(x) * cos_lens));
-  return chain_.image_radius() * (pixel_angle * length(x[k].at.p - x[k - 1].at.p));
-}
+  double suitability(const PathState& x) const override { return start(x) >= 0 ? 1 : 0; }
 
-std::optional<Edit> CausticPerturbation::propose(const PathState& x, PathState& y,
-                                                 MutationContext& context) const {
-  const int k = x.edges(), a = start(x);
-  const Edit edit{a + 1, k - 1, k - 1 - a};
-  Rng& rng = context.rng;
-  splice(x, edit, y);
-  Ray ray;
-  if (x[a].at.infinite()) {
-    const double r = offset_radius(x).sample(rng.next()), phi = 2 * pi * rng.next();
-    const Frame frame = Frame::around(x[0].at.p);
-    const Vec3 through = x[1].at.p + r * (std::cos(phi) * frame.s + std::sin(phi) * frame.t);
-    const Bounds& bounds = scene_->bounds();
-    const double back = dot(bounds.center - through, x[0].at.p) + bounds.radius;
-    ray = {through + back * x[0].at.p, -x[0].at.p, y.path.time};
-  } else {
-    const Vec3 w = direction(x[a].at, x[a + 1].at);
-    ray = scene_->spawn(x[a].at, ChainPerturbation::perturb(w, chain_.angle(x, a, k - 1, 1), rng),
-                        y.path.time);
+  std::optional<Edit> propose(const PathState& x, PathState& y,
+                              MutationContext& context) const override {
+    const int k = x.edges(), a = start(x);
+    const Edit edit{a + 1, k - 1, k - 1 - a};
+    Rng& rng = context.rng;
+    splice(x, edit, y);
+    Ray ray;
+    if (x[a].at.infinite()) {
+      const double r = offset_radius(x).sample(rng.next()), phi = 2 * pi * rng.next();
+      const Frame frame = Frame::around(x[0].at.p);
+      const Vec3 through = x[1].at.p + r * (std::cos(phi) * frame.s + std::sin(phi) * frame.t);
+      const Bounds& bounds = scene().bounds();
+      const double back = dot(bounds.center - through, x[0].at.p) + bounds.radius;
+      ray = {through + back * x[0].at.p, -x[0].at.p, y.path.time};
+    } else {
+      const Vec3 w = direction(x[a].at, x[a + 1].at);
+      ray = scene().spawn(x[a].at, ChainPerturbation::perturb(w, chain_.angle(x, a, k - 1, 1), rng),
+                          y.path.time);
+    }
+    if (!chain_.carry(x, {a, k - 1, 1}, ray, y, context)) return std::nullopt;
+    target().evaluate(a + 1, k - 1, y);
+    join(scene(), k, y, context.rays);
+    return edit;
   }
-  if (!chain_.carry(x, {a, k - 1, 1}, ray, y, context)) return std::nullopt;
-  target_->evaluate(a + 1, k - 1, y);
-  join(*scene_, k, y, context.rays);
-  return edit;
-}
 
-double CausticPerturbation::density(const PathState& x, const PathState& y,
-                                    const Edit& edit) const {
-  const int k = x.edges(), a = start(x);
-  if (a < 0 || a != start(y) || a + 1 != edit.first) return 0;
-  double first;
-  if (x[a].at.infinite()) {
-    const Vec3 d = y[1].at.p - x[1].at.p;
-    first = offset_radius(x).planar_pdf(length(d - dot(d, x[0].at.p) * x[0].at.p));
-  } else {
-    const Vec3 from = direction(x[a].at, x[a + 1].at), to = direction(y[a].at, y[a + 1].at);
-    first =
-        chain_.angle(x, a, k - 1, 1).angular_pdf(angle_between(from, to)) / abs_cos(y[a].at, to);
+  double density(const PathState& x, const PathState& y, const Edit& edit) const override {
+    const int k = x.edges(), a = start(x);
+    if (a < 0 || a != start(y) || a + 1 != edit.first) return 0;
+    double first;
+    if (x[a].at.infinite()) {
+      const Vec3 d = y[1].at.p - x[1].at.p;
+      first = offset_radius(x).planar_pdf(length(d - dot(d, x[0].at.p) * x[0].at.p));
+    } else {
+      const Vec3 from = direction(x[a].at, x[a + 1].at), to = direction(y[a].at, y[a + 1].at);
+      first =
+          chain_.angle(x, a, k - 1, 1).angular_pdf(angle_between(from, to)) / abs_cos(y[a].at, to);
+    }
+    return chain_.density(x, y, {a, k - 1, 1}, first);
   }
-  return chain_.density(x, y, {a, k - 1, 1}, first);
-}
+
+ private:
+  /// The vertex from which the chain to the last diffuse vertex starts; -1: another form.
+  int start(const PathState& x) const {
+    const int last = x.edges() - 1;
+    if (last < 1 || x.specular(last)) return -1;
+    int i = last - 1;
+    while (i > 0 && x.specular(i)) --i;
+    return i;
+  }
+
+  /// How far a ray from infinity moves: as far as a pixel is wide where the camera sees the chain's
+  /// end.
+  ExponentialRadius offset_radius(const PathState& x) const {
+    const int k = x.edges();
+    const double cos_lens = abs_cos(x[k].at, direction(x[k].at, x[k - 1].at));
+    const double pixel_angle = std::sqrt(1 / (chain_.raster_per_direction(x) * cos_lens));
+    return chain_.image_radius() * (pixel_angle * length(x[k].at.p - x[k - 1].at.p));
+  }
+
+  ChainPerturbation chain_;
+};
+
+}  // namespace
 
 MutationPlugin mutation_caustic() {
   return {{"mutation", "caustic",
@@ -68,9 +90,7 @@ MutationPlugin mutation_caustic() {
            step_size_parameters()},
           "caustic_perturbation",
           0.2,
-          [](const PathTarget& target, Params& params) -> MutationPtr {
-            return std::make_shared<CausticPerturbation>(target, step_sizes(params));
-          }};
+          make_shared_mutation<CausticPerturbation>};
 }
 
 }  // namespace mlt

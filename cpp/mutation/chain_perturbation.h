@@ -1,10 +1,11 @@
-// What lens, caustic and multi-chain perturbation share: an end of the path is moved a little, and the
-// move is carried from vertex to vertex (Veach & Guibas 1997, sec. 5.3.2; Veach 1997, sec. 11.3.3).
+// What lens, caustic and multi-chain perturbation share: an end of the path is moved a little, and
+// the move is carried from vertex to vertex (Veach & Guibas 1997, sec. 5.3.2; Veach 1997, sec.
+// 11.3.3).
 //
-// The path is walked from `start` in steps of `step` (-1: from the camera, +1: from the light) up to
-// `stop`; the vertices after `start` up to `stop` move. At a specular vertex the half vector is kept. At a
-// diffuse vertex in between (multi-chain) the direction is perturbed by a small angle. Where `stop` is the
-// light, the last ray has to hit one.
+// The path is walked from `start` in steps of `step` (-1: from the camera, +1: from the light) up
+// to `stop`; the vertices after `start` up to `stop` move. At a specular vertex the half vector is
+// kept. At a diffuse vertex in between (multi-chain) the direction is perturbed by a small angle.
+// Where `stop` is the light, the last ray has to hit one.
 #pragma once
 
 #include "base/params.h"
@@ -12,7 +13,8 @@
 
 namespace mlt {
 
-/// Radii between which the image position is perturbed: pixels, and a share of the image's diagonal.
+/// Radii between which the image position is perturbed: pixels, and a share of the image's
+/// diagonal.
 struct StepSizes {
   double smallest_pixels = 0.1, largest_share = 0.1;
 };
@@ -67,8 +69,9 @@ class ChainPerturbation {
   bool carry(const PathState& x, const Span& span, Ray ray, PathState& y,
              MutationContext& context) const;
 
-  /// Product of the densities of the moved vertices of y, in their area measure; `first_coefficient` is
-  /// the density of the first direction in projected solid angle at span.start.
+  /// Product of the densities of the moved vertices of y, in their area measure;
+  /// `first_coefficient` is the density of the first direction in projected solid angle at
+  /// span.start.
   double density(const PathState& x, const PathState& y, const Span& span,
                  double first_coefficient) const;
 
@@ -76,14 +79,15 @@ class ChainPerturbation {
   const ExponentialRadius& image_radius() const { return image_radius_; }
   /// d(raster area) / d(projected solid angle) at the lens, for the direction of x.
   double raster_per_direction(const PathState& x) const;
-  /// Angles at vertex i by which a direction is perturbed so that the end of the chain, which `span`
-  /// enters there and leaves at `stop`, moves as far as the image radius says.
+  /// Angles at vertex i by which a direction is perturbed so that the end of the chain, which
+  /// `span` enters there and leaves at `stop`, moves as far as the image radius says.
   ExponentialRadius angle(const PathState& x, int i, int stop, int step) const;
 
   /// A direction at an exponentially distributed angle from `w`.
   static Vec3 perturb(const Vec3& w, const ExponentialRadius& angle, Rng& rng);
 
-  /// The vertex that ends the specular chain from `start` on: the next diffuse one, or the path's end.
+  /// The vertex that ends the specular chain from `start` on: the next diffuse one, or the path's
+  /// end.
   static int chain_end(const PathState& x, int start, int step);
 
  private:

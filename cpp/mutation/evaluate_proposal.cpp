@@ -11,8 +11,8 @@ bool same(const Vertex& a, const Vertex& b) {
 }
 
 /// How far, as a sine, the directions at vertex i may be from what a delta prescribes. Vertices are
-/// where rays have arrived that started a little off a surface, so that the directions between them are
-/// not those of the rays; the less so, the shorter the edge.
+/// where rays have arrived that started a little off a surface, so that the directions between them
+/// are not those of the rays; the less so, the shorter the edge.
 double delta_tolerance(const Scene& scene, const Path& path, int i) {
   const double near = 1e-2 * scene.bounds().radius;
   double shortest = near;

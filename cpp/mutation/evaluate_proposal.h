@@ -10,15 +10,16 @@ namespace mlt {
 /// The smallest edit that makes y of x.
 Edit difference(const Path& x, const Path& y);
 
-/// Whether light can take the edges that touch vertices first ... last: nothing stands in the way, and
-/// each delta vertex at one of their ends scatters in the one direction that it can.
+/// Whether light can take the edges that touch vertices first ... last: nothing stands in the way,
+/// and each delta vertex at one of their ends scatters in the one direction that it can.
 bool passable(const Scene& scene, const Path& path, int first, int last, RayCounts& rays);
 
-/// Evaluates y, of which only the path is known; target = 0 also where light cannot take it. Returns
-/// the edit that has made it of x, whose edges are taken to be passable.
+/// Evaluates y, of which only the path is known; target = 0 also where light cannot take it.
+/// Returns the edit that has made it of x, whose edges are taken to be passable.
 Edit evaluate_proposal(const PathTarget& target, const PathState& x, PathState& y, RayCounts& rays);
 
-/// A path of which only the vertices are known, with its terms; target = 0 also where light cannot take it.
+/// A path of which only the vertices are known, with its terms; target = 0 also where light cannot
+/// take it.
 PathState evaluated(const PathTarget& target, const Path& path, RayCounts& rays);
 
 }  // namespace mlt

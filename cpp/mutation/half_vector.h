@@ -1,7 +1,8 @@
-// Scattering about a microfacet normal h: how a perturbation carries a (nearly) specular vertex along.
-// The half vector is kept and the arriving direction changed, so that the leaving direction follows
-// as it would at a mirror; for a delta vertex h is the shading normal itself. (The half-vector space
-// of Kaplanyan, Hanika & Dachsbacher 2014; Jacobians from Walter et al. 2007, eqs. 14 and 17.)
+// Scattering about a microfacet normal h: how a perturbation carries a (nearly) specular vertex
+// along. The half vector is kept and the arriving direction changed, so that the leaving direction
+// follows as it would at a mirror; for a delta vertex h is the shading normal itself. (The
+// half-vector space of Kaplanyan, Hanika & Dachsbacher 2014; Jacobians from Walter et al. 2007,
+// eqs. 14 and 17.)
 //
 // Directions are local and point away from the surface: `in` to where the walk comes from, `out` to
 // where it goes. eta = eta_in / eta_out.
@@ -13,8 +14,8 @@
 
 namespace mlt {
 
-/// The normal about which `in` is reflected or refracted into `out`, on the side of z > 0; nullopt if
-/// there is none.
+/// The normal about which `in` is reflected or refracted into `out`, on the side of z > 0; nullopt
+/// if there is none.
 inline std::optional<Vec3> half_vector(const Vec3& in, const Vec3& out, double eta) {
   const Vec3 sum = same_side(in, out) ? in + out : eta * in + out;
   const double l2 = length_squared(sum);

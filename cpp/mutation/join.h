@@ -6,7 +6,8 @@
 
 namespace mlt {
 
-/// Tests the edge between vertices i - 1 and i of y, which has been evaluated, for what stands in it.
+/// Tests the edge between vertices i - 1 and i of y, which has been evaluated, for what stands in
+/// it.
 inline void join(const Scene& scene, int i, PathState& y, RayCounts& rays) {
   if (!(y.target > 0)) return;
   const double seen = Walker{scene, y.path.time, rays}.join(y[i - 1].at, y[i].at);

@@ -1,7 +1,8 @@
 // The contract of a mutation of light paths (Veach 1997, sec. 11.2-11.3).
 //
-// A mutation proposes y from x with density T(x -> y) in the product-area measure of what it inserts.
-// It is right if it leaves L* unchanged, whatever else is mixed with it; the audit tests just that.
+// A mutation proposes y from x with density T(x -> y) in the product-area measure of what it
+// inserts. It is right if it leaves L* unchanged, whatever else is mixed with it; the audit tests
+// just that.
 #pragma once
 
 #include "base/rng.h"
@@ -24,7 +25,8 @@ struct MutationAids {
 struct MutationContext {
   MutationContext(Rng& rng, MutationAids& aids) : rng(rng), rays(aids.rays), aids_(&aids) {}
 
-  /// A raster position for a fresh lens subpath: uniform, and stratified where chains go side by side.
+  /// A raster position for a fresh lens subpath: uniform, and stratified where chains go side by
+  /// side.
   Vec2 raster_position(const Raster& raster) const {
     if (aids_->stratified) return aids_->stratified->position(raster);
     const double x = rng.next();
@@ -45,20 +47,22 @@ class Mutation {
   using Context = MutationContext;
   using Edit = mlt::Edit;
 
-  explicit Mutation(std::string name) : name_(std::move(name)) {}
+  /// The target must outlive it.
+  Mutation(std::string name, const PathTarget& target) : name_(std::move(name)), target_(&target) {}
   virtual ~Mutation() = default;
   const std::string& name() const { return name_; }
+  const PathTarget& target() const { return *target_; }
 
   /// Can it act on this path? Weight with which it takes part in the choice, 0 or 1.
   virtual double suitability(const PathState& x) const = 0;
 
-  /// Makes y from x, with its terms evaluated; nullopt if nothing was found. The connecting edge has
-  /// been tested for visibility if y.target > 0.
+  /// Makes y from x, with its terms evaluated; nullopt if nothing was found. The connecting edge
+  /// has been tested for visibility if y.target > 0.
   virtual std::optional<Edit> propose(const PathState& x, PathState& y,
                                       MutationContext& context) const = 0;
 
-  /// T(x -> y) for this edit, without the probability of having chosen this mutation. The reverse is
-  /// density(y, x, edit.reversed()).
+  /// T(x -> y) for this edit, without the probability of having chosen this mutation. The reverse
+  /// is density(y, x, edit.reversed()).
   virtual double density(const PathState& x, const PathState& y, const Edit& edit) const = 0;
 
   /// Whether it alone can make every path of every other.
@@ -68,8 +72,12 @@ class Mutation {
   static size_t row(const PathState& x) { return static_cast<size_t>(x.edges()); }
   void check(const PathState&, const PathState&, double, double) const {}
 
+ protected:
+  const Scene& scene() const { return target_->scene(); }
+
  private:
   std::string name_;
+  const PathTarget* target_;
 };
 
 }  // namespace mlt

@@ -1,5 +1,5 @@
-// The mutations by name. Each file of a mutation ends with the function that describes it, and has a line
-// in list.inc.
+// The mutations by name. Each file of a mutation ends with the function that describes it, and has
+// a line in list.inc.
 #pragma once
 
 #include "base/params.h"
@@ -26,6 +26,12 @@ struct MutationPlugin {
   /// Whether it moves by steps of a size that can be chosen.
   bool has_step_size() const { return schema.find("largest_share") != nullptr; }
 };
+
+/// How most of them are made.
+template <class M>
+MutationPtr make_shared_mutation(const PathTarget& target, Params& own) {
+  return std::make_shared<M>(target, own);
+}
 
 const std::vector<MutationPlugin>& mutation_plugins();
 /// Throws UsageError for an unknown name.

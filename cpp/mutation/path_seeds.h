@@ -1,5 +1,5 @@
-// Light paths to start chains from, drawn by bidirectional path tracing. One candidate is one sample of
-// it: several paths, each with the weight L*(x) mis(x) / p(x).
+// Light paths to start chains from, drawn by bidirectional path tracing. One candidate is one
+// sample of it: several paths, each with the weight L*(x) mis(x) / p(x).
 #pragma once
 
 #include "markov/bootstrap.h"
@@ -77,8 +77,8 @@ struct PathStarts {
   std::vector<PathState> paths;  ///< One for each chain; none if no path with light was found.
 };
 
-/// Paths to start `chains` chains from without start-up bias. Random streams of the candidates beyond
-/// candidates.count + chains are free for the chains.
+/// Paths to start `chains` chains from without start-up bias. Random streams of the candidates
+/// beyond candidates.count + chains are free for the chains.
 PathStarts bootstrap(const PathTarget& target, const Candidates& candidates, uint32_t chains,
                      int threads, const std::atomic<bool>& cancelled);
 

@@ -7,8 +7,8 @@
 
 namespace mlt {
 
-/// What a mutation does to a path: vertices first ... last are deleted (none if last = first - 1) and
-/// `inserted` new ones take their place.
+/// What a mutation does to a path: vertices first ... last are deleted (none if last = first - 1)
+/// and `inserted` new ones take their place.
 struct Edit {
   int first = 0, last = -1, inserted = 0;
 
@@ -29,7 +29,8 @@ struct PathState {
   bool specular(int i) const { return terms[i].specular; }  ///< S, not D, of inner vertex i.
 };
 
-/// y becomes x with the edit applied; the inserted vertices and their terms are yet to be filled in.
+/// y becomes x with the edit applied; the inserted vertices and their terms are yet to be filled
+/// in.
 void splice(const PathState& x, const Edit& edit, PathState& y);
 
 }  // namespace mlt

@@ -24,8 +24,8 @@ struct PrimaryState {
   double target = 0;  ///< L* of it; NaN if the estimator failed.
 };
 
-/// A small step: u + s, wrapped around, where |s| is distributed between 1/1024 and 1/64 with density
-/// proportional to 1/|s| (Kelemen et al. 2002, sec. 4.2). Symmetric.
+/// A small step: u + s, wrapped around, where |s| is distributed between 1/1024 and 1/64 with
+/// density proportional to 1/|s| (Kelemen et al. 2002, sec. 4.2). Symmetric.
 inline double small_step(double u, Rng& rng) {
   constexpr double smallest = 1.0 / 1024, largest = 1.0 / 64;
   const double sample = rng.next();
@@ -38,8 +38,8 @@ inline double small_step(double u, Rng& rng) {
 }
 
 /// Large steps draw all numbers afresh, small steps move each a little. Both are symmetric, so the
-/// quotients of the step are the targets alone. `evaluate(state, rng)` walks: it fills in raster, rgb
-/// and target, and trims the numbers to those used.
+/// quotients of the step are the targets alone. `evaluate(state, rng)` walks: it fills in raster,
+/// rgb and target, and trims the numbers to those used.
 template <class Evaluate>
 class PrimarySampleKernel {
  public:

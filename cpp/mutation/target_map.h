@@ -1,6 +1,6 @@
-// Two-stage sampling (Veach & Guibas 1997, sec. 5.4; Veach 1997, sec. 11.4.3): a coarse image tells how bright
-// each region is, and the target is divided by it, so that dark regions get their share of the
-// mutations. Any positive map is right; a good one spreads the noise evenly.
+// Two-stage sampling (Veach & Guibas 1997, sec. 5.4; Veach 1997, sec. 11.4.3): a coarse image tells
+// how bright each region is, and the target is divided by it, so that dark regions get their share
+// of the mutations. Any positive map is right; a good one spreads the noise evenly.
 #pragma once
 
 #include "math/color.h"
@@ -18,8 +18,8 @@ class TargetMap {
   /// Adds one sample of the coarse image.
   void add(const Vec2& raster, double brightness);
   void add(const TargetMap& other);
-  /// Smooths the coarse image and turns it into factors: 1 over the brightness, at least a share of the
-  /// mean.
+  /// Smooths the coarse image and turns it into factors: 1 over the brightness, at least a share of
+  /// the mean.
   void finish();
 
   /// The factor of the target at a raster position.

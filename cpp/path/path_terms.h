@@ -1,9 +1,9 @@
-// The terms of a finished path. Contribution, technique densities and MIS weights are short products
-// of these; each function below is one formula.
+// The terms of a finished path. Contribution, technique densities and MIS weights are short
+// products of these; each function below is one formula.
 //
-// Notation (Veach 1997, ch. 8 and 10): path x = x_0 ... x_k; technique (s, t) makes the first s vertices by
-// a walk from the light and the last t by a walk from the camera, s + t = k + 1, and connects
-// x_{s-1} with x_s.
+// Notation (Veach 1997, ch. 8 and 10): path x = x_0 ... x_k; technique (s, t) makes the first s
+// vertices by a walk from the light and the last t by a walk from the camera, s + t = k + 1, and
+// connects x_{s-1} with x_s.
 #pragma once
 
 #include "path/path.h"
@@ -48,8 +48,9 @@ struct TermSettings {
 void compute_terms(const Scene& scene, const Path& path, const TermSettings& settings,
                    PathTerms& terms);
 
-/// Brings the terms up to date after vertices first ... last, or a neighbour of theirs, have changed:
-/// computes anew the terms of these vertices, the edges between them, and the densities that follow.
+/// Brings the terms up to date after vertices first ... last, or a neighbour of theirs, have
+/// changed: computes anew the terms of these vertices, the edges between them, and the densities
+/// that follow.
 void update_terms(const Scene& scene, const Path& path, const TermSettings& settings, int first,
                   int last, PathTerms& terms);
 
@@ -73,8 +74,9 @@ enum class Heuristic { balance, power, maximum };
 /// The MIS weight of technique s (Veach 1997, eqs. 9.8, 9.13 with beta = 2, 9.12).
 double mis_weight(const PathTerms& terms, int s, Heuristic heuristic);
 
-/// The MIS weight from the densities x[0] ... x[edges]: r_i = p_i / p_s by the recurrence of Veach 1997,
-/// eq. 10.9, p_{i+1} / p_i = from_light / from_camera of x_i. `direct` is the density of x_0 in technique 1.
+/// The MIS weight from the densities x[0] ... x[edges]: r_i = p_i / p_s by the recurrence of Veach
+/// 1997, eq. 10.9, p_{i+1} / p_i = from_light / from_camera of x_i. `direct` is the density of x_0
+/// in technique 1.
 template <class Densities>
 double mis_weight(const Densities* x, int edges, int s, double direct, bool light_can_be_hit,
                   bool camera_can_be_hit, Heuristic heuristic);

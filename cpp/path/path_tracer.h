@@ -12,8 +12,8 @@ inline double power_heuristic(double pdf, double other) {
   return sqr(pdf) / (sqr(pdf) + sqr(other));
 }
 
-/// d(measure of x0) / d(solid angle of w at `from`): turns a density at x0 into one over directions.
-/// w points from `from` to x0.
+/// d(measure of x0) / d(solid angle of w at `from`): turns a density at x0 into one over
+/// directions. w points from `from` to x0.
 inline double per_solid_angle(const Vec3& from, const SurfacePoint& x0, const Vec3& w) {
   if (x0.infinite()) return 1;
   return length_squared(x0.p - from) / abs_cos(x0, w);
@@ -46,8 +46,8 @@ Color emission(const Scene& scene, const SurfacePoint* at, const Vec3& w, Weight
   return sum;
 }
 
-/// The light that a position on a light, chosen by next-event estimation, sends through `at` towards
-/// wc; `weight(pdf_light, pdf_bsdf)` is the MIS weight, of densities in solid angle.
+/// The light that a position on a light, chosen by next-event estimation, sends through `at`
+/// towards wc; `weight(pdf_light, pdf_bsdf)` is the MIS weight, of densities in solid angle.
 template <class Weight>
 Color direct_light(const Walker& walker, const SurfacePoint& at, const Vec3& wc, const Vec3& u,
                    bool strict, Weight&& weight) {
@@ -101,8 +101,8 @@ struct IgnorePaths {
   void hit(const Emitter&, const SurfacePoint& /*x0*/, const Vec3& /*w*/,
            const Color& /*throughput*/) {}
   void arrive(const SurfacePoint&) {}
-  /// A position on a light, which sample_direct_position finds by `u`, was seen from there, with this
-  /// result.
+  /// A position on a light, which sample_direct_position finds by `u`, was seen from there, with
+  /// this result.
   void connect(const Vec3& /*u*/, const Color& /*radiance*/) {}
   void scatter(Lobe) {}
 };

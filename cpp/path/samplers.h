@@ -1,4 +1,5 @@
-// Sources of uniform numbers for a walk. All have next() and next2(); walks are templates over them.
+// Sources of uniform numbers for a walk. All have next() and next2(); walks are templates over
+// them.
 #pragma once
 
 #include "base/rng.h"
@@ -23,8 +24,8 @@ class RandomSampler {
   Rng* rng_;
 };
 
-/// The samples of one pixel: the first pairs of numbers are stratified over the pixel's samples, the
-/// others are independent.
+/// The samples of one pixel: the first pairs of numbers are stratified over the pixel's samples,
+/// the others are independent.
 class PixelSampler {
  public:
   /// `stream` names the sequence (seed, group and pixel), `index` the sample in it.
@@ -47,8 +48,8 @@ class PixelSampler {
   Rng rng_;
 };
 
-/// A point of primary sample space (Kelemen et al. 2002): numbers that are given, continued by fresh
-/// ones where the walk asks for more.
+/// A point of primary sample space (Kelemen et al. 2002): numbers that are given, continued by
+/// fresh ones where the walk asks for more.
 class PrimarySampler {
  public:
   PrimarySampler(std::vector<double>& numbers, Rng& rng) : numbers_(&numbers), rng_(&rng) {}

@@ -43,9 +43,9 @@ class Subpath {
   /// direction.
   void start(const Vertex& end, double position_pdf);
 
-  /// Walks on from the first vertex until it is absorbed or has as many vertices as the longest path
-  /// needs. Camera walks end in a vertex at infinity when they leave the scene among lights that are
-  /// there.
+  /// Walks on from the first vertex until it is absorbed or has as many vertices as the longest
+  /// path needs. Camera walks end in a vertex at infinity when they leave the scene among lights
+  /// that are there.
   template <class Sampler>
   void walk(const Walker& walker, const PathRules& rules, const Departure& first,
             Sampler& sampler) {

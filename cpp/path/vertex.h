@@ -28,24 +28,24 @@ inline bool consistent_sides(const SurfacePoint& at, const Vec3& w, bool strict)
 ///
 /// `f` is the scattering factor f_i of the measurement contribution (Veach 1997, eq. 8.7): emitted
 /// radiance at x_0, the BSDF in between, importance at x_k. The densities are coefficients in
-/// projected solid angle at this vertex, of having sampled the next vertex from the light or from the
-/// camera; times G they are densities in the measure of the next vertex.
+/// projected solid angle at this vertex, of having sampled the next vertex from the light or from
+/// the camera; times G they are densities in the measure of the next vertex.
 ///
-/// With a shading normal ns beside the geometric one ng, f = f_s |wl.ns| / |wl.ng| (Veach 1997, sec.
-/// 5.3.2), so the same f serves walks from both ends.
+/// With a shading normal ns beside the geometric one ng, f = f_s |wl.ns| / |wl.ng| (Veach 1997,
+/// sec. 5.3.2), so the same f serves walks from both ends.
 ///
 /// At a delta vertex all three are coefficients of ONE delta, in the projected solid angle of the
-/// camera-side direction: f = F, pdf_from_light = P_l, pdf_from_camera = P_c (eta_l / eta_c)^2, where
-/// f and pdf_from_camera also carry S = |wl.ns| |wc.ng| / (|wc.ns| |wl.ng|), which is 1 without
-/// shading normals.
+/// camera-side direction: f = F, pdf_from_light = P_l, pdf_from_camera = P_c (eta_l / eta_c)^2,
+/// where f and pdf_from_camera also carry S = |wl.ns| |wc.ng| / (|wc.ns| |wl.ng|), which is 1
+/// without shading normals.
 struct VertexTerms {
   Color f{0};
   double pdf_from_light = 0;
   double pdf_from_camera = 0;
 };
 
-/// Terms of a vertex with the unit directions `wl` to the vertex on its light side and `wc` to the one
-/// on its camera side; x_0 has no wl and x_k no wc, they are not looked at.
+/// Terms of a vertex with the unit directions `wl` to the vertex on its light side and `wc` to the
+/// one on its camera side; x_0 has no wl and x_k no wc, they are not looked at.
 VertexTerms vertex_terms(const Scene& scene, const Vertex& x, const Vec3& wl, const Vec3& wc,
                          bool strict_normals);
 /// Terms of a vertex at which a path is joined, whatever its lobe: it scatters smoothly there.

@@ -70,7 +70,8 @@ class Bsdf : public Object {
   /// Whether any lobe leads to the other side of the surface.
   virtual bool has_transmission() const { return false; }
 
-  /// eta on the side that `w` is on, over eta on the other side; 1 for surfaces that do not refract.
+  /// eta on the side that `w` is on, over eta on the other side; 1 for surfaces that do not
+  /// refract.
   virtual double relative_eta(const SurfacePoint& /*at*/, const Vec3& /*w*/) const { return 1; }
 
   /// The roughness (Beckmann-equivalent alpha) of the narrowest smooth lobe that contributes to

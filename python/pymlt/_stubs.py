@@ -12,7 +12,7 @@ from pathlib import Path
 
 from . import _core
 from .algorithms.integrators import class_name, integrator_schema
-from .algorithms.mutations import mutation_class_name, mutation_documentation
+from .algorithms.mutations import mutation_class_name, mutation_schemas
 from .algorithms.schemas import documentation
 from .rendering import start
 
@@ -39,7 +39,7 @@ from .mutation import BuiltIn
 built_in: list[type[BuiltIn]]
 
 def mutation_class_name(name: str) -> str: ...
-def mutation_documentation(kind: dict[str, Any]) -> str: ...
+def mutation_schemas() -> list[dict[str, Any]]: ...
 """
 
 START = """\
@@ -73,22 +73,15 @@ def type_of(parameter: dict) -> str:
     return f"{kind} | None" if parameter["default"] is None and kind != "Any" else kind
 
 
-def class_stub(schema: dict) -> str:
-    """The stub of one integrator's class."""
+def class_stub(name: str, base: str, schema: dict) -> str:
+    """The stub of a class that is made from a schema."""
     doc = textwrap.indent(documentation(schema), "    ").lstrip()
-    lines = [f"class {class_name(schema['name'])}(Integrator):", f'    """{doc}', '    """', ""]
+    end = '\n    """' if "\n" in doc else '"""'
+    lines = [f"class {name}({base}):", f'    """{doc}{end}', ""]
     lines += [f"    {p['name']}: {type_of(p)}" for p in schema["parameters"]]
     arguments = [f"        {p['name']}: {type_of(p)} = ...," for p in schema["parameters"]]
-    if arguments:
-        lines += [
-            "    def __init__(",
-            "        self,",
-            "        *,",
-            *arguments,
-            "    ) -> None: ...",
-        ]
-    else:
-        lines += ["    def __init__(self) -> None: ..."]
+    head = ["        *,", *arguments] if arguments else []
+    lines += ["    def __init__(", "        self,", *head, "    ) -> None: ..."]
     return "\n".join(line.rstrip() for line in lines) + "\n"
 
 
@@ -97,23 +90,17 @@ def integrators_stub() -> str:
     schemas = [integrator_schema(name) for name in _core.names("integrator")]
     names = sorted((class_name(s["name"]) for s in schemas), key=lambda n: (not n.isupper(), n))
     exported = "__all__ = [\n" + "".join(f'    "{name}",\n' for name in names) + "]\n"
-    text = HEAD + "\n".join([INTEGRATORS, *map(class_stub, schemas), exported])
+    classes = [class_stub(class_name(s["name"]), "Integrator", s) for s in schemas]
+    text = HEAD + "\n".join([INTEGRATORS, *classes, exported])
     return text if "np." in text else text.replace("import numpy as np\n\n", "")
-
-
-def mutation_stub(kind: dict) -> str:
-    """The stub of one mutation's class."""
-    doc = textwrap.indent(mutation_documentation(kind), "    ").lstrip()
-    end = '\n    """' if "\n" in doc else '"""'
-    return f'class {mutation_class_name(kind["name"])}(BuiltIn):\n    """{doc}{end}\n'
 
 
 def mutations_stub() -> str:
     """All of algorithms/mutations.pyi."""
-    kinds = _core.mutation_kinds()
-    names = [mutation_class_name(kind["name"]) for kind in kinds]
+    names = {mutation_class_name(s["name"]): s for s in mutation_schemas()}
+    classes = [class_stub(name, "BuiltIn", schema) for name, schema in names.items()]
     exported = "__all__ = [\n" + "".join(f'    "{n}",\n' for n in sorted(names)) + "]\n"
-    return HEAD + "\n".join([MUTATIONS, *map(mutation_stub, kinds), exported])
+    return HEAD + "\n".join([MUTATIONS, *classes, exported])
 
 
 def function_stub(function) -> str:

@@ -3,25 +3,16 @@
 from __future__ import annotations
 
 from .. import _core
+from .parameters import WithParameters
 
 
-class Integrator:
+class Integrator(WithParameters):
     """A light transport algorithm: a name and its parameters.
 
     Parameters that were not given are attributes of the class: their defaults.
     """
 
     _name: str
-    _defaults: dict
-
-    def __init__(self, **parameters):
-        for name in parameters:
-            if name not in self._defaults:
-                raise TypeError(
-                    f"{type(self).__name__}() has no parameter {name!r}"
-                    + _core.suggestion(name, list(self._defaults)),
-                )
-        self.__dict__.update(parameters)
 
     @property
     def name(self) -> str:
@@ -40,24 +31,7 @@ class Integrator:
 
     def _parts(self) -> tuple[dict, list]:
         """The dict, and beside it the mutations that are written in Python, with their weights."""
-        given = {name: value for name, value in self.__dict__.items() if value is not None}
-        return {"type": self._name, **given}, []
-
-    def __repr__(self) -> str:
-        changed = [
-            f"{name}={value!r}"
-            for name, value in self.__dict__.items()
-            if name not in self._defaults or value != self._defaults[name]
-        ]
-        return f"{type(self).__name__}({', '.join(changed)})"
-
-    def __eq__(self, other) -> bool:
-        if not isinstance(other, Integrator):
-            return NotImplemented
-        mine, others = ({**x._defaults, **x.__dict__} for x in (self, other))
-        return type(self) is type(other) and mine == others
-
-    __hash__ = None
+        return {"type": self._name, **self._given()}, []
 
 
 IntegratorLike = Integrator | dict | str

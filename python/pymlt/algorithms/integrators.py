@@ -6,12 +6,10 @@ the C++ side. An object only stores its parameters; they are checked when a rend
 
 from __future__ import annotations
 
-import inspect
-
 from .. import _core
 from . import mixture
 from .integrator import Integrator
-from .schemas import documentation
+from .parameters import make_class
 
 # Names that are abbreviations; any other one is capitalised.
 _SPELLING = {name: name.upper() for name in ("bdpt", "erpt", "mlt", "mmlt", "pssmlt")}
@@ -55,29 +53,9 @@ def class_name(plugin: str) -> str:
     return _SPELLING.get(plugin) or "".join(part.capitalize() for part in plugin.split("_"))
 
 
-def _make_class(plugin: str) -> type:
-    schema = integrator_schema(plugin)
-    defaults = {p["name"]: p["default"] for p in schema["parameters"]}
-    keyword = inspect.Parameter.KEYWORD_ONLY
-    signature = inspect.Signature(
-        [inspect.Parameter(name, keyword, default=value) for name, value in defaults.items()],
-    )
-    return type(
-        class_name(plugin),
-        (_WithMutations, Integrator) if plugin == "mlt" else (Integrator,),
-        {
-            **defaults,
-            "__doc__": documentation(schema),
-            "__module__": __name__,
-            "__signature__": signature,
-            "_name": plugin,
-            "_defaults": defaults,
-        },
-    )
-
-
 __all__ = []
 for _plugin in _core.names("integrator"):
-    _class = _make_class(_plugin)
+    _bases = (_WithMutations, Integrator) if _plugin == "mlt" else (Integrator,)
+    _class = make_class(class_name(_plugin), _bases, __name__, integrator_schema(_plugin))
     globals()[_class.__name__] = _class
     __all__.append(_class.__name__)

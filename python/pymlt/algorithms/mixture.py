@@ -20,10 +20,15 @@ def weighted(mutations: Mixture) -> dict[Mutation, float]:
             is_class = isinstance(mutation, type) and issubclass(mutation, Mutation)
             hint = f"; write {mutation.__name__}()" if is_class else ""
             raise _core.UsageError(f"{mutation!r} in mutations is not a mutation{hint}")
-        if mutation in weights:
+        if any(_same(mutation, other) for other in weights):
             raise _core.UsageError(f"{mutation!r} is twice in mutations")
         weights[mutation] = _weight(mutation, weight)
     return weights
+
+
+def _same(a: Mutation, b: Mutation) -> bool:
+    """A built-in mutation takes part once, since the integrator has one set of its parameters."""
+    return type(a) is type(b) if a._built_in else a == b
 
 
 def _weight(mutation: Mutation, weight) -> float:
@@ -36,7 +41,11 @@ def _weight(mutation: Mutation, weight) -> float:
 
 def parameter_names() -> list[str]:
     """The parameters of the integrator that a list of mutations stands for."""
-    return [name for made in built_in for name in (made._switch, made._weight_name)]
+    return [
+        name
+        for made in built_in
+        for name in (made._switch, made._weight_name, *made.full_names().values())
+    ]
 
 
 def parameters(mutations: Mixture) -> dict[str, bool | float]:
@@ -44,12 +53,11 @@ def parameters(mutations: Mixture) -> dict[str, bool | float]:
 
     Those not listed are off.
     """
-    weights = weighted(mutations)
-    chosen: dict[str, bool | float] = {}
-    for made in built_in:
-        chosen[made._switch] = made() in weights
-        if made() in weights:
-            chosen[made._weight_name] = weights[made()]
+    chosen: dict[str, bool | float] = {made._switch: False for made in built_in}
+    for mutation, weight in weighted(mutations).items():
+        if mutation._built_in:
+            chosen |= {mutation._switch: True, mutation._weight_name: weight}
+            chosen |= {mutation.full_names()[own]: v for own, v in mutation._given().items()}
     return chosen
 
 

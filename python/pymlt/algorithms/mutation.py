@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from .parameters import WithParameters
+
 if TYPE_CHECKING:
     import numpy as np
 
@@ -58,8 +60,8 @@ class Mutation:
         return f"{type(self).__name__}()"
 
 
-class BuiltIn(Mutation):
-    """A mutation of the C++ side; it holds no state."""
+class BuiltIn(WithParameters, Mutation):
+    """A mutation of the C++ side, with the parameters of its own."""
 
     _built_in = True
     _name: str
@@ -72,8 +74,16 @@ class BuiltIn(Mutation):
         """As in `stats` and in the parameters of the integrator."""
         return self._name
 
-    def __eq__(self, other) -> bool:
-        return type(self) is type(other)
+    @classmethod
+    def full_names(cls) -> dict[str, str]:
+        """The parameters of the integrator that stand for its own: "lens_largest_share"."""
+        return {own: f"{cls._name}_{own}" for own in cls._defaults}
+
+    @classmethod
+    def of(cls, parameters: dict) -> BuiltIn:
+        """The one that these parameters of the integrator describe."""
+        names = cls.full_names()
+        return cls(**{own: parameters[name] for own, name in names.items() if name in parameters})
 
     def __hash__(self) -> int:
         return hash(type(self))

@@ -1,16 +1,15 @@
 """The mutations of `MLT` as classes, made from what the C++ side says about each.
 
-    algo = mlt.MLT(mutations=[(mlt.Bidirectional(), 0.4), (mlt.Lens(), 0.3), (mlt.Caustic(), 0.3)])
+    algo = mlt.MLT(mutations=[(mlt.Bidirectional(), 0.4), (mlt.Lens(largest_share=0.05), 0.6)])
 
 A mutation of your own is a subclass of `Mutation`.
 """
 
 from __future__ import annotations
 
-import textwrap
-
 from .. import _core
 from .mutation import BuiltIn
+from .parameters import make_class
 
 
 def mutation_class_name(name: str) -> str:
@@ -18,26 +17,22 @@ def mutation_class_name(name: str) -> str:
     return "".join(part.capitalize() for part in name.split("_"))
 
 
-def mutation_documentation(kind: dict) -> str:
-    """The docstring of the class of a mutation."""
-    return textwrap.fill(f"The {kind['doc']}", 88)
+def mutation_schemas() -> list[dict]:
+    """The schemas of all mutations, with their docs as sentences."""
+    return [{**schema, "doc": f"The {schema['doc']}"} for schema in _core.mutations()]
 
 
-def _make_class(kind: dict) -> type:
-    return type(
-        mutation_class_name(kind["name"]),
+built_in = [
+    make_class(
+        mutation_class_name(schema["name"]),
         (BuiltIn,),
-        {
-            "__doc__": mutation_documentation(kind),
-            "__module__": __name__,
-            "_name": kind["name"],
-            "_switch": kind["switch"],
-            "_weight_name": kind["weight_name"],
-            "_weight": kind["weight"],
-        },
+        __name__,
+        schema,
+        _switch=schema["switch"],
+        _weight_name=schema["weight_name"],
+        _weight=schema["weight"],
     )
-
-
-built_in = [_make_class(kind) for kind in _core.mutation_kinds()]
+    for schema in mutation_schemas()
+]
 globals().update({made.__name__: made for made in built_in})
 __all__ = [made.__name__ for made in built_in]

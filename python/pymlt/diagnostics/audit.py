@@ -78,7 +78,7 @@ def audit(
     elif isinstance(what, Integrator) and what.name == "mlt":
         given, written = what._parts()
         mixture = [
-            (made(), given.get(made._weight_name, made._weight))
+            (made.of(given), given.get(made._weight_name, made._weight))
             for made in built_in
             if given.get(made._switch, True)
         ] + written

@@ -158,10 +158,10 @@ struct CellBuilder {
   }
 };
 
-/// Integrates a density over a cell: 3 x 3 Gauss points against those of the two halves, either way;
-/// the cell is halved across the axis that differs more. So that a narrow peak in a large cell is not
-/// overlooked, pilot samples must also be seen, and the border must not stand out (cells are made at
-/// medians, which puts borders on peaks).
+/// Integrates a density over a cell: 3 x 3 Gauss points against those of the two halves, either
+/// way; the cell is halved across the axis that differs more. So that a narrow peak in a large cell
+/// is not overlooked, pilot samples must also be seen, and the border must not stand out (cells are
+/// made at medians, which puts borders on peaks).
 struct Quadrature {
   const Density2D& pdf;
   double tolerance;     // of one cell's integral

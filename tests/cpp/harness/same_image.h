@@ -1,7 +1,7 @@
-// Do two renderings converge to the same image? Each is made R times with different seeds. Per block
-// of pixels and channel, at three scales (the whole image, 4 x 3 blocks, 16 x 12 blocks), Welch's
-// t-test compares the means. Each scale has a third of the level, with Holm's correction inside, so
-// the chance of even one false rejection is below alpha.
+// Do two renderings converge to the same image? Each is made R times with different seeds. Per
+// block of pixels and channel, at three scales (the whole image, 4 x 3 blocks, 16 x 12 blocks),
+// Welch's t-test compares the means. Each scale has a third of the level, with Holm's correction
+// inside, so the chance of even one false rejection is below alpha.
 //
 // Noise must not pass for agreement: the harness also computes the difference that it would have
 // found with 90 % power. From a pilot it learns how many samples that takes, and it fails if they
@@ -208,8 +208,8 @@ class SameImageTest {
   uint64_t round_ = 0;
 };
 
-/// `b` may be a known image; `a` may not. Says what was found, since how much would have been seen is
-/// worth knowing of a test that passes, too.
+/// `b` may be a known image; `a` may not. Says what was found, since how much would have been seen
+/// is worth knowing of a test that passes, too.
 inline SameImage same_image(const Side& a, const Side& b, const SameImageSettings& settings = {}) {
   const SameImage found = SameImageTest(a, b, settings).run();
   std::puts(found.text.c_str());

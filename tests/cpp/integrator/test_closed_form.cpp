@@ -8,8 +8,8 @@ namespace {
 
 using namespace test;
 
-/// Samples per pixel of a first attempt. The pixels are few, and a chain's steps are to cost more than
-/// its bootstrap.
+/// Samples per pixel of a first attempt. The pixels are few, and a chain's steps are to cost more
+/// than its bootstrap.
 double first_spp(const std::string& integrator) {
   if (integrator == "pssmlt" || integrator == "mlt") return 1024;
   return integrator == "ptracer" ? 64 : 8;

@@ -1,6 +1,6 @@
-// path = ptracer = bdpt = pssmlt, by a test of significance, on every test scene that both sides of a
-// pair can see. The short suite would see a difference of 2 % of an image and 10 % of a block; the
-// long one takes all scenes and 1 % and 5 %.
+// path = ptracer = bdpt = pssmlt, by a test of significance, on every test scene that both sides of
+// a pair can see. The short suite would see a difference of 2 % of an image and 10 % of a block;
+// the long one takes all scenes and 1 % and 5 %.
 #include <gtest/gtest.h>
 
 #include "integrator_testing.h"

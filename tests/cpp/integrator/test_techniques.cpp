@@ -112,8 +112,8 @@ TEST(Techniques, EachAloneMakeTheImageOfDirectLight) {
   expect_same_techniques("cornell", make_scene("cornell", {8, 6}).scene, 2, {0});
 }
 
-/// A lamp in a hollow ball of radius R. Where surfaces meet, the G of a connection has no bound, and a
-/// single technique no variance; between two points inside of a ball it is 1 / (4 R^2).
+/// A lamp in a hollow ball of radius R. Where surfaces meet, the G of a connection has no bound,
+/// and a single technique no variance; between two points inside of a ball it is 1 / (4 R^2).
 ScenePtr hollow_ball(const std::string& sensor, const std::string& lens = "") {
   const std::string inwards = "<boolean name='flip_normals' value='true'/>";
   return load_scene(camera("0, -0.5, 1.2", "0, 0.2, 0", 90, film(8, 6), sensor, lens) +

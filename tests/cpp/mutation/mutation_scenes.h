@@ -1,5 +1,5 @@
-// Scenes for mutations beside those of all light transport: long specular chains, nearly specular surfaces,
-// caustics of lights that no walk can hit.
+// Scenes for mutations beside those of all light transport: long specular chains, nearly specular
+// surfaces, caustics of lights that no walk can hit.
 #pragma once
 
 #include "scenes.h"

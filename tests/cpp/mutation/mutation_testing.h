@@ -82,7 +82,9 @@ class BrokenTwin : public Mutation {
   using Factor = std::function<double(const PathState& x, const PathState& y, const Edit& edit)>;
 
   BrokenTwin(MutationPtr whole, Factor dropped)
-      : Mutation(whole->name()), whole_(std::move(whole)), dropped_(std::move(dropped)) {}
+      : Mutation(whole->name(), whole->target()),
+        whole_(std::move(whole)),
+        dropped_(std::move(dropped)) {}
 
   double suitability(const PathState& x) const override { return whole_->suitability(x); }
   std::optional<Edit> propose(const PathState& x, PathState& y,

@@ -1,5 +1,5 @@
-// Every mutation leaves L* unchanged, alone and in the mixture; that the images of mlt are right rests on
-// this.
+// Every mutation leaves L* unchanged, alone and in the mixture; that the images of mlt are right
+// rests on this.
 #include "mutation/mutation_testing.h"
 
 namespace mlt::test {
@@ -79,8 +79,8 @@ TEST_P(LongAudit, LeavesTheTargetUnchanged) {
 INSTANTIATE_TEST_SUITE_P(Mutations, LongAudit, testing::ValuesIn(cases(mutation_scene_names())),
                          name_of_case);
 
-/// What the render may do besides: other step sizes, weights for each path length, a target divided by a
-/// coarse image, short paths left to others.
+/// What the render may do besides: other step sizes, weights for each path length, a target divided
+/// by a coarse image, short paths left to others.
 AuditReport audit_variant(const std::string& name, bool two_stage, int min_depth, uint64_t paths) {
   const ScenePtr scene = make_mutation_scene(name).scene;
   PathRules rules;
@@ -167,7 +167,7 @@ TEST(AuditReport, SaysWhyNothingIsConcluded) {
 /// Proposes nothing, ever.
 class Idle : public Mutation {
  public:
-  Idle() : Mutation("idle") {}
+  explicit Idle(const PathTarget& target) : Mutation("idle", target) {}
   double suitability(const PathState&) const override { return 1; }
   std::optional<Edit> propose(const PathState&, PathState&, MutationContext&) const override {
     return std::nullopt;
@@ -177,9 +177,10 @@ class Idle : public Mutation {
 
 TEST(AuditReport, DoesNotCallAMutationRightThatNeverMoves) {
   const ScenePtr scene = make_scene("cornell").scene;
+  const PathTarget target = path_target(scene);
   AuditSettings how;
   how.paths = 5000;
-  const AuditReport report = audit(path_target(scene), std::make_shared<Idle>(), how);
+  const AuditReport report = audit(target, std::make_shared<Idle>(target), how);
   EXPECT_EQ(report.verdict, Verdict::inconclusive) << report.text();
   EXPECT_NE(report.reason.find("only 0 moves"), std::string::npos) << report.reason;
 }

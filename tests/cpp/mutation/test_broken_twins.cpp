@@ -1,5 +1,4 @@
 // The invariance test must fail where a mutation's density lacks a factor, or else it says nothing.
-#include "mutation/bidirectional_mutation.h"
 #include "mutation/chain_perturbation.h"
 #include "mutation/half_vector.h"
 #include "mutation/mutation_testing.h"

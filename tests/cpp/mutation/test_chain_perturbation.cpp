@@ -44,7 +44,8 @@ TEST(ExponentialRadius, FollowsItsDensityOnTheSphere) {
 }
 
 TEST(ChainPerturbation, TurnsALongChainLessThanAShortOne) {
-  // A path on the axis of a camera with pixels of 1/100 rad: L at 9, D at 3, E at 0, or with D close to L.
+  // A path on the axis of a camera with pixels of 1/100 rad: L at 9, D at 3, E at 0, or with D
+  // close to L.
   const ScenePtr scene = make_scene("cornell").scene;
   const PathTarget target = path_target(scene);
   const ChainPerturbation chain(*scene, StepSizes());
@@ -63,7 +64,8 @@ TEST(ChainPerturbation, TurnsALongChainLessThanAShortOne) {
 }
 
 TEST(ChainPerturbation, MovesTheImageAboutAsFarAsTheLensPerturbation) {
-  // Turning the direction that leaves the lamp by an angle moves the vertex, and so the image position.
+  // Turning the direction that leaves the lamp by an angle moves the vertex, and so the image
+  // position.
   const ScenePtr scene = make_scene("point").scene;
   const PathTarget target = path_target(scene);
   const auto caustic = make_mutation("caustic", target);
@@ -99,8 +101,8 @@ TEST(ChainPerturbation, FindsTheVertexThatEndsAChain) {
   EXPECT_EQ(ChainPerturbation::chain_end(x, 3, 1), 5);
 }
 
-/// Veach's forms, (L|D)DS*E, (L|D)S*DE and (L|D)(DS+)+DS*E, the light side of the joint not being specular;
-/// and those whose chains lead on to a light that can be hit, LS*E and L(S+D)+S*E.
+/// Veach's forms, (L|D)DS*E, (L|D)S*DE and (L|D)(DS+)+DS*E, the light side of the joint not being
+/// specular; and those whose chains lead on to a light that can be hit, LS*E and L(S+D)+S*E.
 TEST(Mutations, SuitTheirForms) {
   const ScenePtr scene = make_mutation_scene("mirrors").scene;
   const PathTarget target = path_target(scene);

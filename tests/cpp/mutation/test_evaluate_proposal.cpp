@@ -1,4 +1,5 @@
-// Paths that others have made: the edit is found, and light that could not take a path is not counted.
+// Paths that others have made: the edit is found, and light that could not take a path is not
+// counted.
 #include "mutation/evaluate_proposal.h"
 #include "mutation/mutation_testing.h"
 

@@ -1,5 +1,5 @@
-// The half vector carries a nearly specular vertex along: it goes back the same way, and its Jacobian is that
-// of the map from h to the leaving direction, by finite differences.
+// The half vector carries a nearly specular vertex along: it goes back the same way, and its
+// Jacobian is that of the map from h to the leaving direction, by finite differences.
 #include <gtest/gtest.h>
 
 #include "base/rng.h"

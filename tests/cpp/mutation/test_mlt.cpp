@@ -1,5 +1,5 @@
-// mlt as a whole: its images are those of bdpt, its b is their mean, it does not matter how many samples its
-// bootstrap has, how many threads there are, and whether it was saved on the way.
+// mlt as a whole: its images are those of bdpt, its b is their mean, it does not matter how many
+// samples its bootstrap has, how many threads there are, and whether it was saved on the way.
 #include "integrator/integrator_testing.h"
 #include "integrator/stats.h"
 #include "mutation/mutation_scenes.h"
@@ -21,8 +21,8 @@ Side mlt_side(const ScenePtr& scene, Assignments more = {}, double luminance_sam
 
 Side bdpt_side(const ScenePtr& scene) { return side(scene, "bdpt", {{"max_depth", "6"}}, 16); }
 
-/// What must not stay unseen: 5 % of the whole and 25 % of a block in the quick suite, 2 % and 10 % in
-/// the long one. Half as much takes four times as long.
+/// What must not stay unseen: 5 % of the whole and 25 % of a block in the quick suite, 2 % and 10 %
+/// in the long one. Half as much takes four times as long.
 SameImageSettings in_short() {
   SameImageSettings settings;
   settings.whole = 0.05;
@@ -38,7 +38,8 @@ SameImageSettings at_length() {
   return settings;
 }
 
-/// Light through water, seen through water: chains find it so rarely that 40 % of a block take minutes.
+/// Light through water, seen through water: chains find it so rarely that 40 % of a block take
+/// minutes.
 SameImageSettings under_water() {
   SameImageSettings settings = at_length();
   settings.whole = 0.05;

@@ -1,4 +1,5 @@
-// What a mutation's edit touched, computed anew, and all of the path computed afresh are the same bits.
+// What a mutation's edit touched, computed anew, and all of the path computed afresh are the same
+// bits.
 #include <cstring>
 
 #include "mutation/mutation_testing.h"

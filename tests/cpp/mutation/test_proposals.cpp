@@ -1,5 +1,5 @@
-// Proposals from one path follow the density T(x -> y) that the mutation claims: chi-square tests of where the
-// new vertex lies, as an image position, as a direction or as a point of the lens.
+// Proposals from one path follow the density T(x -> y) that the mutation claims: chi-square tests
+// of where the new vertex lies, as an image position, as a direction or as a point of the lens.
 #include "harness/chi_square.h"
 #include "mutation/chain_perturbation.h"
 #include "mutation/mutation_testing.h"
@@ -35,7 +35,8 @@ class Proposals {
     return edit && *edit == edit_ && y.target > 0;
   }
 
-  /// The density of the path whose one inserted (or moved) vertices are these, in the order of the path.
+  /// The density of the path whose one inserted (or moved) vertices are these, in the order of the
+  /// path.
   double density(const std::vector<Vertex>& inserted) {
     splice(x, edit_, y);
     for (size_t i = 0; i < inserted.size(); ++i) y.path[edit_.first + i] = inserted[i];
@@ -191,9 +192,11 @@ TEST(Proposals, LensPerturbationMovesThePointOnTheLens) {
   p.start("LDE", [](const PathState&) { return Edit{1, 2, 2}; });
   const SurfacePoint xk = p.x[2].at;
   const double radius = p.scene().camera().lens_radius();
-  // Half of the proposals stay; of the others, the part within the rim has a density of 1 / (2 pi r^2 ln).
+  // Half of the proposals stay; of the others, the part within the rim has a density of 1 / (2 pi
+  // r^2 ln).
   const auto sample = [&](Rng& rng) -> std::optional<Vec2> {
-    // Whether the rest of the path is found does not depend on the lens alone: all that move are counted.
+    // Whether the rest of the path is found does not depend on the lens alone: all that move are
+    // counted.
     p.propose(rng);
     const Vec3 d = p.y[2].at.p - xk.p;
     if (length_squared(d) == 0 || p.y[2].kind != VertexKind::camera) return std::nullopt;

@@ -249,7 +249,8 @@ INSTANTIATE_TEST_SUITE_P(Scenes, PathsOf, testing::ValuesIn(scene_names()),
 
 // ---- broken twins: what the tests above would find
 
-/// The largest excess of the difference between a weight and that of a naive implementation with a flaw.
+/// The largest excess of the difference between a weight and that of a naive implementation with a
+/// flaw.
 double worst_weight(const std::string& scene_name, Flaw flaw) {
   const ScenePtr scene = make_scene(scene_name).scene;
   const BidirectionalSettings settings = without_roulette(max_depth);
