@@ -75,7 +75,10 @@ def type_of(parameter: dict) -> str:
 
 def class_stub(name: str, base: str, schema: dict) -> str:
     """The stub of a class that is made from a schema."""
-    doc = textwrap.indent(documentation(schema), "    ").lstrip()
+    doc = documentation(schema)
+    if len(doc) > 88 and "\n" not in doc:
+        doc = textwrap.fill(doc, 88)
+    doc = textwrap.indent(doc, "    ").lstrip()
     end = '\n    """' if "\n" in doc else '"""'
     lines = [f"class {name}({base}):", f'    """{doc}{end}', ""]
     lines += [f"    {p['name']}: {type_of(p)}" for p in schema["parameters"]]

@@ -115,15 +115,27 @@ class MLT(Integrator):
         Use the lens perturbation of paths (L|D)DS*E and LS*E (Veach 1997, sec. 11.3.3.1).
     lens_weight : float, default 0.3
         Weight of the lens mutation among those that suit a path.
+    lens_smallest_pixels : float, default 0.1
+        Smallest move on the image, in pixels.
+    lens_largest_share : float, default 0.1
+        Largest move on the image, as a share of its diagonal.
     caustic_perturbation : boolean, default True
         Use the caustic perturbation of paths (L|D)S*DE (Veach 1997, sec. 11.3.3.2).
     caustic_weight : float, default 0.2
         Weight of the caustic mutation among those that suit a path.
+    caustic_smallest_pixels : float, default 0.1
+        Smallest move on the image, in pixels.
+    caustic_largest_share : float, default 0.1
+        Largest move on the image, as a share of its diagonal.
     multi_chain_perturbation : boolean, default True
         Use the multi-chain perturbation of paths (L|D)(DS+)+DS*E and L(S+D)+S*E (Veach 1997,
         sec. 11.3.3.3).
     multi_chain_weight : float, default 0.2
         Weight of the multi_chain mutation among those that suit a path.
+    multi_chain_smallest_pixels : float, default 0.1
+        Smallest move on the image, in pixels.
+    multi_chain_largest_share : float, default 0.1
+        Largest move on the image, as a share of its diagonal.
     lens_subpath_mutation : boolean, default True
         Use the lens subpath mutation, which draws a fresh camera end (Veach 1997, sec. 11.3.4).
     lens_subpath_weight : float, default 0.1
@@ -132,7 +144,7 @@ class MLT(Integrator):
         Smooth vertices below this roughness count as specular in perturbations.
     adaptive : boolean, default True
         Let pilot chains find the weights and step sizes of the mutations; by default only if no
-        weight is given.
+        weight is given, and never for a step size that is given.
     two_stage : boolean, default False
         Divide the target by a coarse image, so that dark regions get their share.
     direct_samples : integer, default -1
@@ -155,10 +167,16 @@ class MLT(Integrator):
     bidirectional_weight: float
     lens_perturbation: bool
     lens_weight: float
+    lens_smallest_pixels: float
+    lens_largest_share: float
     caustic_perturbation: bool
     caustic_weight: float
+    caustic_smallest_pixels: float
+    caustic_largest_share: float
     multi_chain_perturbation: bool
     multi_chain_weight: float
+    multi_chain_smallest_pixels: float
+    multi_chain_largest_share: float
     lens_subpath_mutation: bool
     lens_subpath_weight: float
     near_specular: float
@@ -180,10 +198,16 @@ class MLT(Integrator):
         bidirectional_weight: float = ...,
         lens_perturbation: bool = ...,
         lens_weight: float = ...,
+        lens_smallest_pixels: float = ...,
+        lens_largest_share: float = ...,
         caustic_perturbation: bool = ...,
         caustic_weight: float = ...,
+        caustic_smallest_pixels: float = ...,
+        caustic_largest_share: float = ...,
         multi_chain_perturbation: bool = ...,
         multi_chain_weight: float = ...,
+        multi_chain_smallest_pixels: float = ...,
+        multi_chain_largest_share: float = ...,
         lens_subpath_mutation: bool = ...,
         lens_subpath_weight: float = ...,
         near_specular: float = ...,
