@@ -1,5 +1,5 @@
 // Rendering by Markov chains: what all Metropolis integrators share. A render is a fixed number of
-// chains, each with its own random stream; a unit is a stretch of steps of one chain, and chains
+// chains, each with its own random stream; a unit is some steps of one chain, and chains
 // are visited in turn, so that every prefix of a render is a fair image. Chains form independent
 // groups, each with its own bootstrap and its own estimate of b.
 #pragma once

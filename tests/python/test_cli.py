@@ -314,6 +314,13 @@ def test_list_names_plug_ins_and_scenes():
     assert "did you mean 'bsdf'?" in the_error(run(PYMLT, "list", "bsfd"))
 
 
+def test_list_shows_the_parameters_of_a_plug_in():
+    shown = run(PYMLT, "list", "mlt").stdout
+    assert "lens_largest_share : float, default 0.1\n    Largest move on the image" in shown
+    assert "integrator 'path'" in run(PYMLT, "list", "path").stdout
+    assert "did you mean 'roughplastic'?" in the_error(run(PYMLT, "list", "roughplastik"))
+
+
 def test_a_closed_pipe_is_no_error():
     done = run(["sh", "-c", f"{sys.executable} -m pymlt list | true"])
     assert done.stderr == ""
