@@ -140,3 +140,28 @@ def test_the_lens_perturbation_scales_its_steps(scene):
     distances = np.linalg.norm([np.subtract(y.raster, x.raster) for y in proposals], axis=1)
     assert distances.min() >= 0.1
     assert distances.max() <= 0.1 * np.hypot(16, 12)
+
+
+def step_sizes(scene, algorithm):
+    stats = mlt.start(scene, algorithm, spp=4, seed=1).result().stats
+    return {m["step_size"] for m in stats["mutations"] if m["name"] == "lens"}
+
+
+def test_a_mutation_has_parameters_of_its_own():
+    scene = mlt.load_string(tiny.XML)
+    small = {"chains": 16, "luminance_samples": 1000}
+    lens = mlt.Lens(largest_share=0.05)
+    assert repr(lens) == "Lens(largest_share=0.05)"
+    assert lens != mlt.Lens() and lens == mlt.Lens(largest_share=0.05)
+    mixture = mlt.MLT(mutations=[(mlt.Bidirectional(), 0.5), (lens, 0.5)], **small)
+    assert mixture.to_dict()["lens_largest_share"] == 0.05
+    assert step_sizes(scene, mixture) == {0.05}
+    # Adaptation chooses among several sizes, but not where one is given.
+    assert len(step_sizes(scene, mlt.MLT(**small))) > 1
+    assert step_sizes(scene, mlt.MLT(lens_largest_share=0.3, **small)) == {0.3}
+    with pytest.raises(TypeError, match="has no parameter 'size'"):
+        mlt.Lens(size=1)
+    with pytest.raises(mlt.SceneError, match="'largest_share' is 2.0"):
+        mlt.audit(mlt.Lens(largest_share=2), scene, paths=500)
+    with pytest.raises(mlt.UsageError, match="twice in mutations"):
+        mlt.render(scene, mlt.MLT(mutations=[mlt.Lens(), lens]), spp=1)
