@@ -14,7 +14,7 @@ STAMPS := build/stamps
 CTEST := ctest --test-dir $(BUILD) --output-on-failure --no-tests=error
 
 # What the C++ build reads; folders too, whose time changes when a file is added or removed.
-SOURCES := $(shell find cpp bindings tests/cpp cmake CMakeLists.txt pyproject.toml \
+SOURCES := $(shell find cpp bindings tests/cpp docs/examples cmake CMakeLists.txt pyproject.toml \
              -not -name '.*' 2>/dev/null)
 CXX_FILES = $(shell git ls-files -- '*.h' '*.cpp')
 

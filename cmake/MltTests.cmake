@@ -1,11 +1,14 @@
 # One GoogleTest binary per folder of tests/cpp, made of the test_*.cpp in and below it. Every other
-# source there is a harness that the tests share. Tests run in the root of the repository.
+# source there is a harness that the tests share, and so are the examples of the documentation, which
+# the tests take like plug-ins of the library. Tests run in the root of the repository.
 #
 # A test is long when its suite's name starts with "Long"; ctest gives it the label `long`.
 include(GoogleTest)
 
 file(GLOB_RECURSE support_files CONFIGURE_DEPENDS tests/cpp/*.cpp tests/cpp/*.h)
 list(FILTER support_files EXCLUDE REGEX "/test_[^/]*\\.cpp$")
+file(GLOB example_files CONFIGURE_DEPENDS docs/examples/*.cpp)
+list(APPEND support_files ${example_files})
 add_library(mlt_test_support INTERFACE)
 # Tests write the files that the library reads.
 set(test_libraries mlt OpenEXR::OpenEXR pugixml::pugixml ZLIB::ZLIB GTest::gmock GTest::gtest)

@@ -8,6 +8,7 @@ namespace mlt {
 
 #define MLT_PLUGIN(family, name) Plugin family##_##name();
 #include "scene/bsdf/list.inc"
+MLT_PLUGIN(bsdf, minnaert)  // an example of the documentation
 #undef MLT_PLUGIN
 
 namespace test {
@@ -19,6 +20,7 @@ const Plugin& plugin(const std::string& name) {
   static const std::vector<Plugin> plugins = {
 #define MLT_PLUGIN(family, name) family##_##name(),
 #include "scene/bsdf/list.inc"
+      MLT_PLUGIN(bsdf, minnaert)
 #undef MLT_PLUGIN
   };
   for (const Plugin& p : plugins)
@@ -87,6 +89,7 @@ std::vector<Case> make_cases() {
   Maker maker;
   const Value pink = Triple{0.8, 0.3, 0.4};
   maker.add("diffuse", "diffuse", {{"reflectance", pink}}, 0, 1);
+  maker.add("minnaert", "minnaert", {{"reflectance", pink}, {"k", 2.5}}, 0, 1);
   maker.add("null", "null", {}, 0, 1, true);
   maker.add("conductor", "conductor", {{"material", "Cu"s}}, 0, 1);
   maker.add("dielectric", "dielectric", {}, 0, 1, true);
