@@ -1,7 +1,5 @@
 #include "io/node_bytes.h"
 
-#include "io/node_index.h"
-
 namespace mlt {
 namespace {
 
