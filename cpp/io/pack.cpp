@@ -7,21 +7,12 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <functional>
 #include <map>
 
 namespace mlt {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Calls f(name) for the name of every file that the tree reads, in order.
-void for_each_file(Node& node, const std::function<void(std::string&)>& f) {
-  for (Node::Property& property : node.properties)
-    if (auto* text = std::get_if<std::string>(&property.value); text && property.name == "filename")
-      f(*text);
-  for (Node& child : node.children) for_each_file(child, f);
-}
 
 class TemporaryFolder {
  public:
