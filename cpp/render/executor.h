@@ -21,14 +21,4 @@ class Executor {
   virtual void close() {}
 };
 
-/// Threads of this process.
-class ThreadExecutor : public Executor {
- public:
-  explicit ThreadExecutor(int threads) : threads_(threads) {}
-  void run(Job& job, uint64_t to) override;
-
- private:
-  int threads_;
-};
-
 }  // namespace mlt

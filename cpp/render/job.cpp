@@ -7,7 +7,16 @@
 
 namespace mlt {
 
-void ThreadExecutor::run(Job& job, uint64_t to) { job.run_units(to, threads_); }
+namespace {
+
+/// Threads of this process.
+struct ThreadExecutor : Executor {
+  explicit ThreadExecutor(int n) : threads(n) {}
+  void run(Job& job, uint64_t to) override { job.run_units(to, threads); }
+  int threads;
+};
+
+}  // namespace
 
 Job::Job(ScenePtr scene, IntegratorPtr integrator, const RenderSettings& settings)
     : scene_(std::move(scene)),
