@@ -27,33 +27,14 @@ void save(ByteWriter& bytes, const Value& value) {
   bytes.write(static_cast<uint64_t>(value.index()));
   with_type(value.index(), [&](const auto& type) {
     using T = std::decay_t<decltype(type)>;
-    const T& content = std::get<T>(value);
-    if constexpr (std::is_same_v<T, Spectrum>) {
-      bytes.write<uint64_t>(content.size());
-      for (const auto& [wavelength, x] : content) {
-        bytes.write(wavelength);
-        bytes.write(x);
-      }
-    } else {
-      bytes.write(content);
-    }
+    bytes.write(std::get<T>(value));
   });
 }
 
 Value load_value(ByteReader& bytes) {
   Value value;
   with_type(bytes.read<uint64_t>(), [&](auto content) {
-    using T = decltype(content);
-    if constexpr (std::is_same_v<T, Spectrum>) {
-      for (uint64_t left = bytes.read<uint64_t>(); left > 0; --left) {
-        const auto wavelength = bytes.read<double>(), x = bytes.read<double>();
-        content.push_back({wavelength, x});
-      }
-    } else if constexpr (std::is_same_v<T, std::string>) {
-      bytes.read(content);
-    } else {
-      content = bytes.read<T>();
-    }
+    bytes.read(content);
     value = std::move(content);
   });
   return value;
