@@ -7,23 +7,14 @@
 
 namespace mlt {
 
-namespace {
-
-/// Threads of this process.
-struct ThreadExecutor : Executor {
-  explicit ThreadExecutor(int n) : threads(n) {}
-  void run(Job& job, uint64_t to) override { job.run_units(to, threads); }
-  int threads;
-};
-
-}  // namespace
+void Executor::run(Job& job, uint64_t to) { job.run_units(to, job.threads()); }
 
 Job::Job(ScenePtr scene, IntegratorPtr integrator, const RenderSettings& settings)
     : scene_(std::move(scene)),
       integrator_(std::move(integrator)),
       seed_(settings.seed),
       threads_(settings.threads == 0 ? hardware_threads() : settings.threads),
-      executor_(std::make_unique<ThreadExecutor>(threads_)),
+      executor_(std::make_unique<Executor>()),
       stop_rule_(settings.budget, *scene_),
       autosave_(settings.autosave) {
   if (threads_ < 0) throw UsageError("threads must not be negative; 0 means all");

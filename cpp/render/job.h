@@ -72,6 +72,7 @@ class Job {
   bool stopping() const { return cancel_ || stop_rule_.out_of_time(seconds_so_far()); }
   /// Or does somebody want to look at its state?
   bool interrupted() const { return stopping() || savers_ != 0 || autosave_.due(); }
+  int threads() const { return threads_; }
   /// Runs the units before `to` on threads of this process, until interrupted.
   void run_units(uint64_t to, int threads);
   /// If the executor has asked for tasks.
