@@ -7,7 +7,7 @@
 
 namespace mlt {
 
-void Executor::run(Job& job, uint64_t to) { job.run_units(to, job.threads()); }
+void Executor::run(Job& job, uint64_t to) { job.run_units(to); }
 
 Job::Job(ScenePtr scene, IntegratorPtr integrator, const RenderSettings& settings)
     : scene_(std::move(scene)),
@@ -111,9 +111,9 @@ void Job::render() {
 }
 
 /// Each unit that was begun is finished, so the units 0 ... units_done_ - 1 are done in a pause.
-void Job::run_units(uint64_t to, int threads) {
+void Job::run_units(uint64_t to) {
   mlt::run_units(
-      *rendering_, {Shares(), units_done_, to}, threads, [this] { return interrupted(); },
+      *rendering_, {Shares(), units_done_, to}, threads_, [this] { return interrupted(); },
       units_done_);
 }
 
