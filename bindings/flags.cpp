@@ -13,8 +13,7 @@ void bind_flags(py::module_& m) {
       .def_readonly("spelling", &Flag::spelling, "Such as -o,--output; or a name without a dash.")
       .def_readonly("metavar", &Flag::metavar)
       .def_readonly("help", &Flag::help)
-      .def_property_readonly("has_value",
-                             [](const Flag& flag) { return flag.kind != Flag::Kind::on; })
+      .def_property_readonly("has_value", [](const Flag& flag) { return flag.type != nullptr; })
       .def_property_readonly("required", [](const Flag& flag) { return flag.is(Flag::required); })
       .def_property_readonly("repeatable",
                              [](const Flag& flag) { return flag.is(Flag::repeatable); })

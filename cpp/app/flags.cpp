@@ -10,7 +10,7 @@
 namespace mlt {
 namespace {
 
-using Kind = Flag::Kind;
+using Parsed = std::optional<FlagValue>;
 
 constexpr uint64_t highest_int = std::numeric_limits<int>::max();
 
@@ -22,26 +22,35 @@ std::optional<uint64_t> parse_count(std::string_view text, uint64_t highest) {
   return value;
 }
 
-std::optional<std::pair<int, int>> parse_size(std::string_view text) {
+Parsed parse_positive(const std::string& text) {
+  const auto number = parse_real(text);
+  return number && *number > 0 ? Parsed(*number) : std::nullopt;
+}
+
+Parsed parse_size(const std::string& text) {
   const size_t cross = text.find('x');
-  if (cross == std::string_view::npos) return std::nullopt;
+  if (cross == std::string::npos) return std::nullopt;
   const auto width = parse_count(text.substr(0, cross), highest_int);
   const auto height = parse_count(text.substr(cross + 1), highest_int);
   if (width.value_or(0) == 0 || height.value_or(0) == 0) return std::nullopt;
   return std::pair(static_cast<int>(*width), static_cast<int>(*height));
 }
 
-std::optional<std::pair<std::string, std::string>> parse_assignment(const std::string& text) {
+Parsed parse_assignment(const std::string& text) {
   const size_t equals = text.find('=');
   if (equals == std::string::npos || equals == 0) return std::nullopt;
   return std::pair(text.substr(0, equals), text.substr(equals + 1));
 }
 
-template <class T>
-T found(const std::optional<T>& value, const std::string& text, const char* expected) {
-  if (!value) throw UsageError(quote(text) + " is not " + expected);
-  return *value;
-}
+const FlagType any_text{"a text", [](const std::string& text) { return Parsed(text); }},
+    count{"an integer from 0 to 2147483647",
+          [](const std::string& text) -> Parsed { return parse_count(text, highest_int); }},
+    seed{"an integer from 0 to 18446744073709551615",
+         [](const std::string& text) -> Parsed { return parse_count(text, UINT64_MAX); }},
+    number{"a number", [](const std::string& text) -> Parsed { return parse_real(text); }},
+    positive{"a positive number", parse_positive},
+    image_size{"WIDTHxHEIGHT in pixels, such as 640x360", parse_size},
+    assignment{"NAME=VALUE", parse_assignment};
 
 /// "-o" of "-o,--output".
 std::string first_spelling(const Flag& flag) {
@@ -53,56 +62,42 @@ std::string first_spelling(const Flag& flag) {
 
 const std::vector<Flag>& render_flags() {
   static const std::vector<Flag> flags = {
-      {"scene", "scene", "SCENE", Kind::text,
+      {"scene", "scene", "SCENE", &any_text,
        "Mitsuba XML file; pymlt also takes the name of a built-in scene"},
-      {"output", "-o,--output", "FILE", Kind::text,
+      {"output", "-o,--output", "FILE", &any_text,
        "image file: .exr, .png or .hdr; may be repeated", Flag::required | Flag::repeatable},
-      {"integrator", "--integrator", "NAME", Kind::text, "algorithm, in place of the scene's own",
+      {"integrator", "--integrator", "NAME", &any_text, "algorithm, in place of the scene's own",
        Flag::fixed_by_resume},
-      {"parameters", "-p", "NAME=VALUE", Kind::assignment, "integrator parameter; may be repeated",
+      {"parameters", "-p", "NAME=VALUE", &assignment, "integrator parameter; may be repeated",
        Flag::repeatable | Flag::fixed_by_resume},
-      {"defines", "-D", "NAME=VALUE", Kind::assignment,
+      {"defines", "-D", "NAME=VALUE", &assignment,
        "value for a <default> parameter of the scene; may be repeated",
        Flag::repeatable | Flag::fixed_by_resume},
-      {"size", "--size", "WxH", Kind::size, "image size in pixels, such as 640x360",
+      {"size", "--size", "WxH", &image_size, "image size in pixels, such as 640x360",
        Flag::fixed_by_resume},
-      {"spp", "--spp", "N", Kind::positive, "samples (or mutations) per pixel"},
-      {"time", "--time", "SECONDS", Kind::positive, "seconds to render"},
-      {"error", "--error", "E", Kind::positive, "relative error to reach, such as 0.02"},
-      {"seed", "--seed", "N", Kind::seed, "seed of all random numbers (0)", Flag::fixed_by_resume},
-      {"threads", "--threads", "N", Kind::count, "0: as many as the machine has"},
-      {"checkpoint", "--checkpoint", "FILE", Kind::text,
+      {"spp", "--spp", "N", &positive, "samples (or mutations) per pixel"},
+      {"time", "--time", "SECONDS", &positive, "seconds to render"},
+      {"error", "--error", "E", &positive, "relative error to reach, such as 0.02"},
+      {"seed", "--seed", "N", &seed, "seed of all random numbers (0)", Flag::fixed_by_resume},
+      {"threads", "--threads", "N", &count, "0: as many as the machine has"},
+      {"checkpoint", "--checkpoint", "FILE", &any_text,
        "keep the state of the render in this file"},
-      {"every", "--every", "SECONDS", Kind::positive, "between checkpoints (60)", 0, "checkpoint"},
-      {"resume", "--resume", "FILE", Kind::text,
+      {"every", "--every", "SECONDS", &positive, "between checkpoints (60)", 0, "checkpoint"},
+      {"resume", "--resume", "FILE", &any_text,
        "go on from a checkpoint, in place of SCENE; it is renewed, unless --checkpoint names "
        "another file"},
-      {"cluster", "--cluster", "ADDRESS", Kind::text,
+      {"cluster", "--cluster", "ADDRESS", &any_text,
        "render on a dask cluster, such as tcp://host:8786, or on local:N processes",
        Flag::python_only},
-      {"stats", "--stats", "FILE", Kind::text, "write what the render tells about itself, as JSON"},
-      {"exposure", "--exposure", "STOPS", Kind::number, "brighten PNG files by so many stops"},
-      {"quiet", "--quiet", "", Kind::on, "say nothing but errors"}};
+      {"stats", "--stats", "FILE", &any_text, "write what the render tells about itself, as JSON"},
+      {"exposure", "--exposure", "STOPS", &number, "brighten PNG files by so many stops"},
+      {"quiet", "--quiet", "", nullptr, "say nothing but errors"}};
   return flags;
 }
 
 FlagValue read_flag(const Flag& flag, const std::string& text) {
-  switch (flag.kind) {
-    case Kind::count:
-      return found(parse_count(text, highest_int), text, "an integer from 0 to 2147483647");
-    case Kind::seed:
-      return found(parse_count(text, UINT64_MAX), text,
-                   "an integer from 0 to 18446744073709551615");
-    case Kind::number: return found(parse_real(text), text, "a number");
-    case Kind::positive: {
-      const auto number = parse_real(text);
-      return found(number && *number > 0 ? number : std::nullopt, text, "a positive number");
-    }
-    case Kind::size:
-      return found(parse_size(text), text, "WIDTHxHEIGHT in pixels, such as 640x360");
-    case Kind::assignment: return found(parse_assignment(text), text, "NAME=VALUE");
-    default: return text;
-  }
+  if (auto value = flag.type->parse(text)) return *std::move(value);
+  throw UsageError(quote(text) + " is not " + flag.type->expected);
 }
 
 void check_flags(const std::set<std::string>& given) {

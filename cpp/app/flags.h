@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -12,17 +13,16 @@
 
 namespace mlt {
 
+using FlagValue = std::variant<std::string, uint64_t, double, std::pair<int, int>,
+                               std::pair<std::string, std::string>>;
+
+/// What the value of a flag may be.
+struct FlagType {
+  const char* expected;  ///< For messages: "a positive number".
+  std::optional<FlagValue> (*parse)(const std::string& text);
+};
+
 struct Flag {
-  enum class Kind : uint8_t {
-    text,
-    count,     ///< An integer from 0 to 2^31 - 1.
-    seed,      ///< An integer from 0 to 2^64 - 1.
-    number,    ///< Any finite number.
-    positive,  ///< A finite number greater than 0.
-    size,      ///< Two positive integers: "640x360".
-    assignment,
-    on  ///< It has no value.
-  };
   enum Trait : unsigned {
     required = 1,
     repeatable = 2,
@@ -33,7 +33,7 @@ struct Flag {
   const char* name;      ///< Under which a program finds what was given.
   const char* spelling;  ///< "-o,--output"; one that is known by its place has no dash.
   const char* metavar;   ///< What help calls its value.
-  Kind kind;
+  const FlagType* type;  ///< Null for a flag without a value.
   const char* help;
   unsigned traits = 0;
   const char* needs = "";  ///< The name of another flag that has to be given with it.
@@ -43,9 +43,6 @@ struct Flag {
 
 /// In the order of --help.
 const std::vector<Flag>& render_flags();
-
-using FlagValue = std::variant<std::string, uint64_t, double, std::pair<int, int>,
-                               std::pair<std::string, std::string>>;
 
 /// What was given, by the names of the flags; one without a value has an empty text.
 using FlagValues = std::map<std::string, std::vector<FlagValue>>;

@@ -41,7 +41,7 @@ void declare(CLI::App& app, FlagValues& given) {
   using Texts = std::vector<std::string>;
   for (const Flag& flag : render_flags()) {
     if (flag.is(Flag::python_only)) continue;
-    if (flag.kind == Flag::Kind::on) {
+    if (!flag.type) {
       app.add_flag_callback(
           flag.spelling, [&flag, &given] { given[flag.name].emplace_back(); }, flag.help);
       continue;

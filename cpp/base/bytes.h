@@ -5,9 +5,11 @@
 
 #include <cstdint>
 #include <cstring>
+#include <map>
 #include <optional>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace mlt {
@@ -21,9 +23,20 @@ class ByteWriter {
   }
   template <class T>
   void write(const std::vector<T>& values) {
-    static_assert(std::is_trivially_copyable_v<T>);
     write<uint64_t>(values.size());
-    bytes_.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
+    if constexpr (std::is_trivially_copyable_v<T>)
+      bytes_.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
+    else
+      for (const T& value : values) write(value);
+  }
+  template <class First, class Second>
+  void write(const std::pair<First, Second>& pair) {
+    write(pair.first);
+    write(pair.second);
+  }
+  void write(const std::map<std::string, std::string>& texts) {
+    write<uint64_t>(texts.size());
+    for (const auto& named : texts) write(named);
   }
   template <class T>
   void write(const std::optional<T>& value) {
@@ -52,11 +65,31 @@ class ByteReader {
     return value;
   }
   template <class T>
+  void read(T& value) {
+    value = read<T>();
+  }
+  template <class T>
   void read(std::vector<T>& values) {
     const uint64_t size = read<uint64_t>();
-    if (size > (bytes_->size() - position_) / sizeof(T)) truncated();
-    values.resize(size);
-    copy(values.data(), size * sizeof(T));
+    if constexpr (std::is_trivially_copyable_v<T>) {
+      if (size > (bytes_->size() - position_) / sizeof(T)) truncated();
+      values.resize(size);
+      copy(values.data(), size * sizeof(T));
+    } else {
+      for (values.clear(); values.size() < size;) read(values.emplace_back());
+    }
+  }
+  template <class First, class Second>
+  void read(std::pair<First, Second>& pair) {
+    read(pair.first);
+    read(pair.second);
+  }
+  void read(std::map<std::string, std::string>& texts) {
+    for (auto left = read<uint64_t>(); left > 0; --left) {
+      std::pair<std::string, std::string> named;
+      read(named);
+      texts.insert(std::move(named));
+    }
   }
   template <class T>
   void read(std::optional<T>& value) {

@@ -1,44 +1,23 @@
 #include "image/filter.h"
 
-#include <functional>
-
 #include "base/error.h"
 #include "math/vec.h"
 
 namespace mlt {
 
-/// Builds a filter from the right half of its shape, which need not be normalised.
-class FilterTable {
- public:
-  static Filter make(const std::string& name, double radius,
-                     const std::function<double(double)>& shape) {
-    Filter filter;
-    filter.name_ = name;
-    filter.radius_ = radius;
-    filter.scale_ = Filter::intervals / radius;
-    for (int i = 0; i <= Filter::intervals; ++i)
-      filter.table_.push_back(shape(radius * i / Filter::intervals));
-    normalise(&filter);
-    return filter;
-  }
-
-  static Filter make_box(double radius) {
-    Filter filter = make("box", radius, [](double) { return 1.0; });
-    filter.box_ = radius == 0.5;
-    return filter;
-  }
-
- private:
-  static void normalise(Filter* filter) {
-    std::vector<double>& table = filter->table_;
-    double sum = 0.5 * (table.front() + table.back());
-    for (size_t i = 1; i + 1 < table.size(); ++i) sum += table[i];
-    const double integral = 2 * sum * filter->radius_ / Filter::intervals;
-    if (!(integral > 0) || !std::isfinite(integral))
-      throw UsageError("filter '" + filter->name_ + "': its parameters give it no positive weight");
-    for (double& value : table) value /= integral;
-  }
-};
+Filter::Filter(const std::string& name, double radius, const std::function<double(double)>& shape)
+    : name_(name),
+      radius_(radius),
+      scale_(intervals / radius),
+      box_(name == "box" && radius == 0.5) {
+  for (int i = 0; i <= intervals; ++i) table_.push_back(shape(radius * i / intervals));
+  double sum = 0.5 * (table_.front() + table_.back());
+  for (size_t i = 1; i + 1 < table_.size(); ++i) sum += table_[i];
+  const double integral = 2 * sum * radius / intervals;
+  if (!(integral > 0) || !std::isfinite(integral))
+    throw UsageError("filter '" + name + "': its parameters give it no positive weight");
+  for (double& value : table_) value /= integral;
+}
 
 namespace {
 
@@ -67,37 +46,35 @@ double sinc(double x) { return x == 0 ? 1 : std::sin(pi * x) / (pi * x); }
 
 Filter box_filter(double radius) {
   check_range("box", "radius", radius, 0.01, max_radius);
-  return FilterTable::make_box(radius);
+  return {"box", radius, [](double) { return 1.0; }};
 }
 
 Filter tent_filter(double radius) {
   check_range("tent", "radius", radius, 0.01, max_radius);
-  return FilterTable::make("tent", radius, [radius](double x) { return 1 - x / radius; });
+  return {"tent", radius, [radius](double x) { return 1 - x / radius; }};
 }
 
 Filter gaussian_filter(double stddev) {
   check_range("gaussian", "stddev", stddev, 0.01, max_radius / 4);
   const double radius = 4 * stddev, alpha = -1 / (2 * stddev * stddev);
   const double floor = std::exp(alpha * radius * radius);
-  return FilterTable::make("gaussian", radius, [alpha, floor](double x) {
-    return std::max(0.0, std::exp(alpha * x * x) - floor);
-  });
+  return {"gaussian", radius,
+          [alpha, floor](double x) { return std::max(0.0, std::exp(alpha * x * x) - floor); }};
 }
 
 Filter mitchell_filter(double b, double c) {
   check_range("mitchell", "B", b, -4, 4);
   check_range("mitchell", "C", c, -4, 4);
-  return FilterTable::make("mitchell", 2, [b, c](double x) { return mitchell_shape(x, b, c); });
+  return {"mitchell", 2, [b, c](double x) { return mitchell_shape(x, b, c); }};
 }
 
 Filter catmullrom_filter() {
-  return FilterTable::make("catmullrom", 2, [](double x) { return mitchell_shape(x, 0, 0.5); });
+  return {"catmullrom", 2, [](double x) { return mitchell_shape(x, 0, 0.5); }};
 }
 
 Filter lanczos_filter(int lobes) {
   check_range("lanczos", "lobes", lobes, 1, 16);
-  return FilterTable::make("lanczos", lobes,
-                           [lobes](double x) { return sinc(x) * sinc(x / lobes); });
+  return Filter("lanczos", lobes, [lobes](double x) { return sinc(x) * sinc(x / lobes); });
 }
 
 }  // namespace mlt

@@ -13,6 +13,7 @@
 #pragma once
 
 #include <cmath>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,10 @@ namespace mlt {
 
 class Filter {
  public:
+  /// `shape` is the right half of f, which need not be normalised. UsageError if it has no positive
+  /// weight.
+  Filter(const std::string& name, double radius, const std::function<double(double)>& shape);
+
   const std::string& name() const { return name_; }
   double radius() const { return radius_; }
 
@@ -37,12 +42,11 @@ class Filter {
   }
 
  private:
-  friend class FilterTable;
   static constexpr int intervals = 768;  // a multiple of 1, 2, 3, 4, 6, 8 lobes
 
   std::string name_;
-  double radius_ = 0, scale_ = 0;
-  bool box_ = false;
+  double radius_, scale_;
+  bool box_;
   std::vector<double> table_;
 };
 

@@ -3,7 +3,7 @@
 
 #include "base/registry.h"
 #include "io/load.h"
-#include "io/node_index.h"
+#include "io/node.h"
 
 #include <map>
 #include <memory>

@@ -2,7 +2,7 @@
 
 #include "io/builder.h"
 #include "io/families.h"
-#include "io/fingerprint.h"
+#include "io/node_bytes.h"
 
 #include <algorithm>
 #include <chrono>

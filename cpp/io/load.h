@@ -61,8 +61,4 @@ LoadedScene load_string(const std::string& xml, const std::string& directory,
 ObjectPtr build_object(const Node& node, const Registry& registry,
                        std::vector<std::string>& warnings);
 
-/// The value that `text` means for a parameter of this type ("8" for an integer, "true", ...), as
-/// in `-p name=value`. Throws UsageError.
-Value parse_value(const std::string& text, const Parameter& parameter);
-
 }  // namespace mlt

@@ -1,8 +1,10 @@
-// The one tree that every scene description becomes, whether it was XML or a dict.
+// The one tree that every scene description becomes, whether it was XML or a dict, and the names in
+// it: which node an id means.
 #pragma once
 
 #include "base/schema.h"
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -24,5 +26,17 @@ struct Node {
   std::vector<Property> properties;
   std::vector<Node> children;
 };
+
+/// Nodes, includes and references may be nested this deep; deeper is a mistake or an attack.
+constexpr int max_nesting = 100;
+
+using NodeIndex = std::map<std::string, const Node*>;
+
+/// All nodes with an id, at any depth. Throws SceneError for an id given twice and for runaway
+/// nesting. The tree must outlive the index and stay where it is.
+NodeIndex index_nodes(const Node& root);
+
+/// The node that `id` means; throws SceneError with a suggestion.
+const Node& find_node(const NodeIndex& index, const std::string& id, const Location& where);
 
 }  // namespace mlt

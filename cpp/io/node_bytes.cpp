@@ -1,6 +1,9 @@
 #include "io/node_bytes.h"
 
-#include "io/node_index.h"
+#include "base/rng.h"
+#include "image/atomic_file.h"
+
+#include <filesystem>
 
 namespace mlt {
 namespace {
@@ -24,33 +27,14 @@ void save(ByteWriter& bytes, const Value& value) {
   bytes.write(static_cast<uint64_t>(value.index()));
   with_type(value.index(), [&](const auto& type) {
     using T = std::decay_t<decltype(type)>;
-    const T& content = std::get<T>(value);
-    if constexpr (std::is_same_v<T, Spectrum>) {
-      bytes.write<uint64_t>(content.size());
-      for (const auto& [wavelength, x] : content) {
-        bytes.write(wavelength);
-        bytes.write(x);
-      }
-    } else {
-      bytes.write(content);
-    }
+    bytes.write(std::get<T>(value));
   });
 }
 
 Value load_value(ByteReader& bytes) {
   Value value;
   with_type(bytes.read<uint64_t>(), [&](auto content) {
-    using T = decltype(content);
-    if constexpr (std::is_same_v<T, Spectrum>) {
-      for (uint64_t left = bytes.read<uint64_t>(); left > 0; --left) {
-        const auto wavelength = bytes.read<double>(), x = bytes.read<double>();
-        content.push_back({wavelength, x});
-      }
-    } else if constexpr (std::is_same_v<T, std::string>) {
-      bytes.read(content);
-    } else {
-      content = bytes.read<T>();
-    }
+    bytes.read(content);
     value = std::move(content);
   });
   return value;
@@ -71,6 +55,17 @@ Node load_node(ByteReader& bytes, int depth) {
   return node;
 }
 
+/// A chain of bijective mixers: h' = mix(h ^ word), eight bytes at a time.
+uint64_t hash_of(const std::string& bytes) {
+  uint64_t hash = mix_bits(0x6d6c742d7363656eu ^ bytes.size());
+  for (size_t i = 0; i < bytes.size(); i += 8) {
+    uint64_t word = 0;
+    std::memcpy(&word, bytes.data() + i, std::min<size_t>(8, bytes.size() - i));
+    hash = mix_bits(hash ^ word);
+  }
+  return hash;
+}
+
 }  // namespace
 
 void save(ByteWriter& bytes, const Node& node) {
@@ -86,5 +81,27 @@ void save(ByteWriter& bytes, const Node& node) {
 }
 
 Node load_node(ByteReader& bytes) { return load_node(bytes, 1); }
+
+void for_each_file(Node& node, const std::function<void(std::string&)>& use) {
+  for (Node::Property& property : node.properties)
+    if (auto* text = std::get_if<std::string>(&property.value); text && property.name == "filename")
+      use(*text);
+  for (Node& child : node.children) for_each_file(child, use);
+}
+
+uint64_t fingerprint(Node tree, const std::optional<Vec2i>& size) {
+  std::map<std::string, std::string> contents;
+  for_each_file(tree, [&](std::string& path) {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(path, error)) return;
+    auto [known, is_new] = contents.try_emplace(path);
+    if (is_new) known->second = std::to_string(hash_of(read_file(path)));
+    path = known->second;
+  });
+  ByteWriter bytes;
+  save(bytes, tree);
+  bytes.write(size);
+  return hash_of(bytes.take());
+}
 
 }  // namespace mlt

@@ -1,8 +1,12 @@
-// A tree of nodes as bytes and back, so that what was asked for can be kept in a file.
+// A tree of nodes as bytes and back, so that what was asked for can be kept in a file, and a number
+// that tells one tree from another.
 #pragma once
 
 #include "base/bytes.h"
 #include "io/node.h"
+#include "math/vec.h"
+
+#include <functional>
 
 namespace mlt {
 
@@ -11,5 +15,14 @@ void save(ByteWriter& bytes, const Node& node);
 
 /// Throws RenderError for bytes that are no node.
 Node load_node(ByteReader& bytes);
+
+/// Calls use(path) for the name of every file that the tree reads, in order; and of those that do
+/// not exist, since a film's file name is one to write.
+void for_each_file(Node& node, const std::function<void(std::string& path)>& use);
+
+/// A number that tells one scene from another, so that a render is not resumed with the wrong one:
+/// of the tree's names and values and of the bytes of the files that it reads; where they lie does
+/// not count. Throws FileError.
+uint64_t fingerprint(Node tree, const std::optional<Vec2i>& size);
 
 }  // namespace mlt

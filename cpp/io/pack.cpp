@@ -7,21 +7,12 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <functional>
 #include <map>
 
 namespace mlt {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Calls f(name) for the name of every file that the tree reads, in order.
-void for_each_file(Node& node, const std::function<void(std::string&)>& f) {
-  for (Node::Property& property : node.properties)
-    if (auto* text = std::get_if<std::string>(&property.value); text && property.name == "filename")
-      f(*text);
-  for (Node& child : node.children) for_each_file(child, f);
-}
 
 class TemporaryFolder {
  public:
@@ -69,11 +60,7 @@ std::string pack(const LoadedScene& loaded) {
   ByteWriter bytes;
   save(bytes, tree);
   bytes.write(loaded.size.value_or(Vec2i(0)));
-  bytes.write<uint64_t>(files.size());
-  for (const auto& [path, text] : files) {
-    bytes.write(path);
-    bytes.write(text);
-  }
+  bytes.write(files);
   return bytes.take();
 }
 
@@ -82,18 +69,15 @@ LoadedScene unpack_scene(const std::string& packed, const Registry& registry) {
   const Node tree = load_node(bytes);
   LoadOptions options;
   if (const auto size = bytes.read<Vec2i>(); size.x > 0) options.size = size;
-  const TemporaryFolder folder;
-  std::map<std::string, std::string> here;
-  for (auto left = bytes.read<uint64_t>(); left > 0; --left) {
-    std::string path, text;
-    bytes.read(path);
-    bytes.read(text);
-    // The extension says what format it is.
-    const fs::path name = std::to_string(left) + fs::path(path).extension().string();
-    here[path] = (folder.path() / name).string();
-    write_file(here[path], text);
-  }
+  std::map<std::string, std::string> files, here;
+  bytes.read(files);
   bytes.finish();
+  const TemporaryFolder folder;
+  for (const auto& [path, text] : files) {
+    // The extension says what format it is.
+    const fs::path name = std::to_string(here.size()) + fs::path(path).extension().string();
+    write_file(here[path] = (folder.path() / name).string(), text);
+  }
   Node moved = tree;
   for_each_file(moved, [&](std::string& path) {
     if (const auto found = here.find(path); found != here.end()) path = found->second;

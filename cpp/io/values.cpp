@@ -24,15 +24,6 @@ const std::map<std::string, std::string>& examples() {
   return table;
 }
 
-/// What `parse` makes of the attribute `value`; an error if it is nothing.
-template <class Parse>
-auto read_as(const Element& element, Parse parse) {
-  const std::string& text = element.require("value");
-  auto value = parse(text);
-  if (!value) element.fail("is " + quote(text) + ", but should be " + example_of(element.tag));
-  return *value;
-}
-
 /// Three numbers, or one for all three.
 std::optional<Triple> parse_one_or_three(const std::string& text) {
   const auto numbers = parse_reals(text);
@@ -54,17 +45,68 @@ std::optional<Triple> parse_hex(std::string_view text) {
   return decode_srgb({(bits >> 16) / 255.0, (bits >> 8 & 255) / 255.0, (bits & 255) / 255.0});
 }
 
-Triple read_rgb(const Element& element) {
-  if (const auto linear = parse_hex(element.require("value"))) return *linear;
-  const Triple triple = read_as(element, parse_one_or_three);
-  return element.tag == "srgb" ? decode_srgb(triple) : triple;
-}
-
 std::optional<Spectrum> checked(Spectrum samples) {
   if (samples.size() < 2) return std::nullopt;
   for (size_t i = 1; i < samples.size(); ++i)
     if (!(samples[i - 1].first < samples[i].first)) return std::nullopt;
   return samples;
+}
+
+/// Samples (wavelength, value) from "400:0.1, 700:0.3": two or more, wavelengths increasing.
+std::optional<Spectrum> parse_spectrum(const std::string& text) {
+  Spectrum samples;
+  for (std::string_view word : split(text)) {
+    const size_t colon = word.find(':');
+    if (colon == std::string_view::npos) return std::nullopt;
+    const auto wavelength = parse_real(word.substr(0, colon));
+    const auto value = parse_real(word.substr(colon + 1));
+    if (!wavelength || !value) return std::nullopt;
+    samples.emplace_back(*wavelength, *value);
+  }
+  return checked(std::move(samples));
+}
+
+/// What an element with this tag means by this text.
+std::optional<Value> parse_as(const std::string& tag, const std::string& text) {
+  const auto as_value = [](const auto& parsed) {
+    return parsed ? std::optional<Value>(*parsed) : std::nullopt;
+  };
+  if (tag == "boolean") return as_value(parse_boolean(text));
+  if (tag == "integer") return as_value(parse_integer(text));
+  if (tag == "float") return as_value(parse_real(text));
+  if (tag == "string") return Value(text);
+  if (tag == "point" || tag == "vector") return as_value(parse_triple(text));
+  if (tag == "spectrum" && text.find(':') != std::string::npos)
+    return as_value(parse_spectrum(text));
+  if (const auto number = parse_real(text); number && tag == "spectrum") return Value(*number);
+  if (const auto linear = parse_hex(text)) return Value(*linear);
+  const auto triple = parse_one_or_three(text);
+  return as_value(triple && tag == "srgb" ? decode_srgb(*triple) : triple);
+}
+
+Value read_as_value(const Element& element) {
+  const std::string& text = element.require("value");
+  if (auto value = parse_as(element.tag, text)) return *std::move(value);
+  element.fail("is " + quote(text) + ", but should be " + examples().at(element.tag));
+}
+
+/// The XML element that would write a value of this type.
+std::string tag_of(ParamType type) {
+  switch (type) {
+    case ParamType::boolean: return "boolean";
+    case ParamType::integer: return "integer";
+    case ParamType::real: return "float";
+    case ParamType::text:
+    case ParamType::ior: return "string";
+    case ParamType::point: return "point";
+    case ParamType::reflectance:
+    case ParamType::radiance:
+    case ParamType::texture:
+    case ParamType::emission: return "spectrum";
+    case ParamType::transform:
+    case ParamType::object: break;
+  }
+  return "";
 }
 
 /// A table with a wavelength and a value on each line; '#' begins a comment.
@@ -96,38 +138,12 @@ Value read_spectrum(const Element& element, const SearchPath& search) {
       element.fail("has both a 'value' and a 'filename'; give one of them");
     return read_spectrum_file(element, search);
   }
-  return read_as(element, parse_color);
+  return read_as_value(element);
 }
 
 }  // namespace
 
 bool is_value_tag(const std::string& tag) { return examples().count(tag) > 0; }
-
-std::string example_of(const std::string& tag) { return examples().at(tag); }
-
-std::optional<Spectrum> parse_spectrum(const std::string& text) {
-  Spectrum samples;
-  for (std::string_view word : split(text)) {
-    const size_t colon = word.find(':');
-    if (colon == std::string_view::npos) return std::nullopt;
-    const auto wavelength = parse_real(word.substr(0, colon));
-    const auto value = parse_real(word.substr(colon + 1));
-    if (!wavelength || !value) return std::nullopt;
-    samples.emplace_back(*wavelength, *value);
-  }
-  return checked(std::move(samples));
-}
-
-std::optional<Value> parse_color(const std::string& text) {
-  if (text.find(':') != std::string::npos) {
-    auto samples = parse_spectrum(text);
-    return samples ? std::optional<Value>(std::move(*samples)) : std::nullopt;
-  }
-  if (const auto number = parse_real(text)) return Value(*number);
-  if (const auto linear = parse_hex(text)) return Value(*linear);
-  const auto triple = parse_one_or_three(text);
-  return triple ? std::optional<Value>(*triple) : std::nullopt;
-}
 
 Triple read_triple(const Element& element, double missing) {
   static const char* axes[] = {"x", "y", "z"};
@@ -162,14 +178,21 @@ Value read_value(const Element& element, const SearchPath& search) {
     return read_triple(element, 0);
   }
   element.expect_only({"name", "value"});
-  if (tag == "rgb" || tag == "srgb") return read_rgb(element);
-  if (tag == "string") {
-    if (!element.find("value")) element.require("value");
-    return element.get("value");
-  }
-  if (tag == "float") return read_as(element, parse_real);
-  if (tag == "integer") return read_as(element, parse_integer);
-  return read_as(element, parse_boolean);
+  if (tag != "string") return read_as_value(element);
+  if (!element.find("value")) element.require("value");
+  return element.get("value");
+}
+
+Value parse_value(const std::string& text, const Parameter& parameter) {
+  if (parameter.type == ParamType::ior)
+    if (const auto number = parse_real(text)) return *number;
+  const std::string tag = tag_of(parameter.type);
+  if (tag.empty())
+    throw UsageError("'" + parameter.name + "' is a " + to_string(parameter.type) +
+                     ", which cannot be written as one value; give it in the scene");
+  if (auto value = parse_as(tag, text)) return std::move(*value);
+  throw UsageError("'" + parameter.name + "' is " + quote(text) + ", but should be " +
+                   examples().at(tag));
 }
 
 }  // namespace mlt

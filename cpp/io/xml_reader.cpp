@@ -3,7 +3,6 @@
 #include "io/element.h"
 #include "io/families.h"
 #include "io/load.h"
-#include "io/node_index.h"
 #include "io/search_path.h"
 #include "io/text.h"
 #include "io/transform.h"

@@ -37,7 +37,6 @@ struct Frame {
 inline double cos_theta(const Vec3& w) { return w.z; }
 inline double abs_cos_theta(const Vec3& w) { return std::abs(w.z); }
 inline double sin2_theta(const Vec3& w) { return w.x * w.x + w.y * w.y; }
-inline double tan2_theta(const Vec3& w) { return sin2_theta(w) / (w.z * w.z); }
 inline bool same_side(const Vec3& a, const Vec3& b) { return a.z * b.z > 0; }
 
 inline Vec3 reflect(const Vec3& w) { return {-w.x, -w.y, w.z}; }

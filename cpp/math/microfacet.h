@@ -31,10 +31,6 @@ class Microfacet {
   double alpha_u() const { return alpha_u_; }
   double alpha_v() const { return alpha_v_; }
   bool sample_visible() const { return sample_visible_; }
-  /// The same distribution with both roughnesses multiplied by `factor`.
-  Microfacet scaled(double factor) const {
-    return {type_, alpha_u_ * factor, alpha_v_ * factor, sample_visible_};
-  }
 
   /// D(m), the density of microfacet area by normal; 0 below the surface.
   double D(const Vec3& m) const {
@@ -49,20 +45,6 @@ class Microfacet {
   /// the surface disagree on which side v is.
   double g1(const Vec3& v, const Vec3& m) const {
     return consistent(v, m) ? std::abs(v.z) * g1_over_cos(v) : 0;
-  }
-
-  /// Lambda(v) = 1 / G1 - 1 (Heitz 2014, eqs. 66 and 72), for either side.
-  double lambda(const Vec3& v) const {
-    const double a = std::abs(v.z) / rough_radius(v);
-    if (type_ == MicrofacetType::ggx) return 0.5 * (std::sqrt(1 + 1 / (a * a)) - 1);
-    if (a > 6) return 0;  // below 1e-18
-    return std::exp(-a * a) / (2 * sqrt_pi * a) - 0.5 * std::erfc(a);
-  }
-
-  /// Height-correlated masking and shadowing for reflection (Heitz 2014, eq. 99).
-  double g_correlated(const Vec3& wi, const Vec3& wo, const Vec3& m) const {
-    if (!consistent(wi, m) || !consistent(wo, m)) return 0;
-    return 1 / (1 + lambda(wi) + lambda(wo));
   }
 
   /// Separable masking and shadowing, with g1_fit: what Mitsuba computes, for BSDF values.

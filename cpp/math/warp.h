@@ -127,12 +127,6 @@ inline Vec2 invert_cone(const Vec3& w, double height) {
   return {std::min(h / height, 1 - 0x1p-53), turns(w.x, w.y)};
 }
 
-inline Vec3 sample_uniform_hemisphere(const Vec2& u) { return sample_cone(u, 1); }
-
-inline double uniform_hemisphere_pdf(const Vec3& w) { return w.z >= 0 ? 0.5 * inv_pi : 0; }
-
-inline Vec2 invert_uniform_hemisphere(const Vec3& w) { return invert_cone(w, 1); }
-
 // A lobe cos^n about the z axis, as in the Phong model (Lafortune & Willems 1994, "Using the
 // modified Phong reflectance model for physically based rendering").
 
@@ -183,15 +177,5 @@ inline Vec2 invert_triangle(const Vec2& b) {
   if (b.y > b.x) return {2 * b.x, b.y + b.x};
   return {b.x + b.y, 2 * b.y};
 }
-
-// The tent 1 - |x| on [-1, 1].
-
-inline double sample_tent(double u) {
-  return u < 0.5 ? std::sqrt(2 * u) - 1 : 1 - std::sqrt(2 - 2 * u);
-}
-
-inline double tent_pdf(double x) { return std::max(0.0, 1 - std::abs(x)); }
-
-inline double invert_tent(double x) { return x < 0 ? 0.5 * sqr(1 + x) : 1 - 0.5 * sqr(1 - x); }
 
 }  // namespace mlt

@@ -29,24 +29,16 @@ void save(ByteWriter& bytes, const SceneSource& scene) {
   bytes.write(scene.kind);
   bytes.write(scene.name);
   bytes.write(scene.directory);
-  bytes.write<uint64_t>(scene.options.defines.size());
-  for (const auto& [name, value] : scene.options.defines) {
-    bytes.write(name);
-    bytes.write(value);
-  }
+  bytes.write(scene.options.defines);
   bytes.write(scene.options.size);
 }
 
 SceneSource load_source(ByteReader& bytes) {
   SceneSource scene;
-  scene.kind = bytes.read<SceneSource::Kind>();
+  bytes.read(scene.kind);
   bytes.read(scene.name);
   bytes.read(scene.directory);
-  for (uint64_t left = bytes.read<uint64_t>(); left > 0; --left) {
-    std::string name;
-    bytes.read(name);
-    bytes.read(scene.options.defines[name]);
-  }
+  bytes.read(scene.options.defines);
   bytes.read(scene.options.size);
   return scene;
 }

@@ -1,4 +1,4 @@
-// Who runs the units of a render.
+// Who runs the units of a render: by default threads of this process.
 #pragma once
 
 #include "render/task.h"
@@ -16,19 +16,9 @@ class Executor {
   virtual int wanted_tasks() { return 0; }
   /// Takes the render to the unit `to`. Returns early when the job is interrupted; it will be
   /// called again.
-  virtual void run(Job& job, uint64_t to) = 0;
+  virtual void run(Job& job, uint64_t to);
   /// The render has ended; it may be extended later.
   virtual void close() {}
-};
-
-/// Threads of this process.
-class ThreadExecutor : public Executor {
- public:
-  explicit ThreadExecutor(int threads) : threads_(threads) {}
-  void run(Job& job, uint64_t to) override;
-
- private:
-  int threads_;
 };
 
 }  // namespace mlt

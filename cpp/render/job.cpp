@@ -7,14 +7,14 @@
 
 namespace mlt {
 
-void ThreadExecutor::run(Job& job, uint64_t to) { job.run_units(to, threads_); }
+void Executor::run(Job& job, uint64_t to) { job.run_units(to); }
 
 Job::Job(ScenePtr scene, IntegratorPtr integrator, const RenderSettings& settings)
     : scene_(std::move(scene)),
       integrator_(std::move(integrator)),
       seed_(settings.seed),
       threads_(settings.threads == 0 ? hardware_threads() : settings.threads),
-      executor_(std::make_unique<ThreadExecutor>(threads_)),
+      executor_(std::make_unique<Executor>()),
       stop_rule_(settings.budget, *scene_),
       autosave_(settings.autosave) {
   if (threads_ < 0) throw UsageError("threads must not be negative; 0 means all");
@@ -111,9 +111,9 @@ void Job::render() {
 }
 
 /// Each unit that was begun is finished, so the units 0 ... units_done_ - 1 are done in a pause.
-void Job::run_units(uint64_t to, int threads) {
+void Job::run_units(uint64_t to) {
   mlt::run_units(
-      *rendering_, {Shares(), units_done_, to}, threads, [this] { return interrupted(); },
+      *rendering_, {Shares(), units_done_, to}, threads_, [this] { return interrupted(); },
       units_done_);
 }
 

@@ -73,7 +73,7 @@ class Job {
   /// Or does somebody want to look at its state?
   bool interrupted() const { return stopping() || savers_ != 0 || autosave_.due(); }
   /// Runs the units before `to` on threads of this process, until interrupted.
-  void run_units(uint64_t to, int threads);
+  void run_units(uint64_t to);
   /// If the executor has asked for tasks.
   TaskList& tasks() { return *tasks_; }
   /// Takes in the result of a task; see TaskList::merge.

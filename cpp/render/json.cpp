@@ -27,6 +27,30 @@ struct Writer {
   }
 };
 
+template <class T, class Write>
+std::string array(const std::vector<T>& items, Write&& write) {
+  std::string out;
+  for (const T& item : items) out += (out.empty() ? "\n    " : ",\n    ") + write(item);
+  return "[" + out + (items.empty() ? "]" : "\n  ]");
+}
+
+std::string mutation(const MutationStats& m) {
+  return fmt::format(
+      R"({{"name": {}, "length": {}, "proposed": {}, "generated": {}, "accepted": {}, )"
+      R"("mean_acceptance": {}, "image_distance": {}, "rays": {}, "weight": {}, "step_size": {}}})",
+      json_string(m.name), m.length, m.proposed, m.generated, m.accepted, m.mean_acceptance,
+      m.image_distance, m.rays, m.weight, m.step_size);
+}
+
+std::string stuck_chain(const StuckChain& s) {
+  return fmt::format(R"({{"chain": {}, "rejections": {}, "x": {}, "y": {}, "signature": {}}})",
+                     s.chain, s.rejections, s.x, s.y, json_string(s.signature));
+}
+
+std::string disagreement(const DisagreementStats& d) {
+  return fmt::format(R"({{"x": {}, "y": {}, "share": {}}})", d.x, d.y, d.share);
+}
+
 }  // namespace
 
 std::string json_string(const std::string& text) {
@@ -48,6 +72,34 @@ std::string json_value(const Value& value) { return std::visit(Writer{}, value);
 
 void Json::add_text(const std::string& name, const std::string& value) {
   members_ += (members_.empty() ? "" : ", ") + json_string(name) + ": " + value;
+}
+
+std::string to_json(const Stats& s) {
+  std::string out = "{\n";
+  const auto line = [&](const char* name, const std::string& value) {
+    out += fmt::format("{}  \"{}\": {}", out.size() > 2 ? ",\n" : "", name, value);
+  };
+  line("version", json_string(s.version));
+  line("integrator", json_string(s.integrator));
+  line("seed", fmt::format("{}", s.seed));
+  line("size", fmt::format("[{}, {}]", s.width, s.height));
+  line("spp_done", fmt::format("{}", s.spp_done));
+  line("seconds", fmt::format(R"({{"load": {}, "bootstrap": {}, "render": {}}})", s.seconds_load,
+                              s.seconds_bootstrap, s.seconds_render));
+  line("rays",
+       fmt::format(R"({{"intersect": {}, "occluded": {}}})", s.rays_intersect, s.rays_occluded));
+  line("ended_by", json_string(s.ended_by));
+  line("groups", fmt::format("{}", s.groups));
+  line("error", json_value(s.error));
+  line("block_error", json_value(s.block_error));
+  line("disagreements", array(s.disagreements, disagreement));
+  line("b", fmt::format("{}", s.b));
+  line("b_error", fmt::format("{}", s.b_error));
+  line("invalid_samples", fmt::format("{}", s.invalid_samples));
+  line("stuck", array(s.stuck, stuck_chain));
+  line("mutations", array(s.mutations, mutation));
+  line("warnings", array(s.warnings, json_string));
+  return out + "\n}\n";
 }
 
 }  // namespace mlt

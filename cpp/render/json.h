@@ -1,7 +1,8 @@
-// Writing JSON: just enough for settings in image headers and for `info`.
+// Writing JSON: settings in image headers, `info`, and stats.json.
 #pragma once
 
 #include "base/schema.h"
+#include "integrator/stats.h"
 
 #include <string>
 
@@ -26,5 +27,8 @@ class Json {
 
   std::string members_;
 };
+
+/// The text of stats.json.
+std::string to_json(const Stats& stats);
 
 }  // namespace mlt

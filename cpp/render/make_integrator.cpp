@@ -1,5 +1,7 @@
 #include "render/make_integrator.h"
 
+#include "io/values.h"
+
 #include <algorithm>
 
 namespace mlt {

@@ -6,7 +6,6 @@
 #include "io/load.h"
 #include "render/job.h"
 #include "render/make_integrator.h"
-#include "render/stats_json.h"
 
 #include <string>
 

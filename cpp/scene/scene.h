@@ -41,8 +41,7 @@ class Scene {
 
   /// The nearest surface along the ray; false if there is none.
   bool intersect(const Ray& ray, SurfacePoint& at) const;
-  /// Whether nothing stands between two points (at most one of them infinite). Only masks and null
-  /// surfaces that carry `Bsdf::has_passage` and nothing else would let light through; they block.
+  /// Whether nothing stands between two points (at most one of them infinite). Null surfaces block.
   bool visible(const SurfacePoint& a, const SurfacePoint& b, double time) const;
   /// A ray that leaves `from` along w, moved off the surface it starts on.
   Ray spawn(const SurfacePoint& from, const Vec3& w, double time) const;

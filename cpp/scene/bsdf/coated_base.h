@@ -1,27 +1,32 @@
 // The diffuse base of a plastic, below a dielectric coating: how much light it scatters, with all
-// reflections between it and the coating.
+// reflections between it and the coating, and how often it is chosen.
 #pragma once
 
 #include "base/params.h"
+#include "scene/bsdf/lobes.h"
 #include "scene/texture.h"
 
 namespace mlt {
 
 class CoatedBase {
  public:
-  /// The parameters `diffuse_reflectance` and `nonlinear`, and `specular_reflectance`, which is for
-  /// the coating: the material itself reads it.
   static std::vector<Parameter> parameters();
 
-  /// `eta` of the coating against the outside; the mean reflectance of the coating from inside.
-  CoatedBase(Params& params, double eta, double internal_reflectance);
+  /// `eta` of the coating against the outside; for diffuse light, its mean reflectance from inside
+  /// and its mean transmittance from outside.
+  CoatedBase(Params& params, double eta, double internal_reflectance, double mean_transmittance);
 
   /// The BSDF without the transmittances of the coating in the two directions.
   Color eval(const SurfacePoint& at) const { return scattered(reflectance_->eval(at)); }
-  Color reflectance(const SurfacePoint& at) const { return reflectance_->eval(at); }
+  /// The factor on the coating's reflection.
+  Color specular(const SurfacePoint& at) const { return specular_->eval(at); }
+  Color albedo(const SurfacePoint& at) const;
 
-  /// pi times the mean of eval, as one number: for sampling probabilities.
-  double weight() const;
+  /// The coating's share of what it and the base reflect of light from one direction, of which it
+  /// reflects and transmits these fractions itself.
+  double specular_share(double reflectance, double transmittance) const {
+    return first_share(reflectance * specular_weight_, transmittance * diffuse_weight_);
+  }
 
  private:
   Color scattered(const Color& d) const {
@@ -29,10 +34,12 @@ class CoatedBase {
            (nonlinear_ ? Color(1) - d * internal_reflectance_ : Color(1 - internal_reflectance_));
   }
 
-  TexturePtr reflectance_;
+  double eta_;
+  TexturePtr reflectance_, specular_;
   bool nonlinear_;
   double internal_reflectance_;
   double scale_;  ///< 1 / (pi eta^2): radiance spreads when it leaves the denser medium.
+  double specular_weight_, diffuse_weight_;
 };
 
 }  // namespace mlt

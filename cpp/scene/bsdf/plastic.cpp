@@ -11,7 +11,6 @@
 #include "scene/bsdf.h"
 #include "scene/bsdf/coated_base.h"
 #include "scene/bsdf/ior_params.h"
-#include "scene/bsdf/lobes.h"
 
 namespace mlt {
 namespace {
@@ -20,17 +19,15 @@ class Plastic final : public Bsdf {
  public:
   explicit Plastic(Params& params)
       : eta_(relative_ior_param(params)),
-        base_(params, eta_, fresnel_diffuse_reflectance(1 / eta_)),
-        reflectance_(texture_param(params, "specular_reflectance")),
-        specular_weight_(target_luminance(reflectance_->mean())),
-        diffuse_weight_(base_.weight() * (1 - fresnel_diffuse_reflectance(eta_))) {}
+        base_(params, eta_, fresnel_diffuse_reflectance(1 / eta_),
+              1 - fresnel_diffuse_reflectance(eta_)) {}
 
   Scattering scattering(const SurfacePoint& at, const Vec3& wl, const Vec3& wc,
                         Lobe lobe) const override {
     if (!above(wl, wc)) return {};
     const double Fl = fresnel(wl), Fc = fresnel(wc);
     const double pl = specular_share(Fl), pc = specular_share(Fc);
-    if (lobe == Lobe::reflection) return {Fl * reflectance_->eval(at), pl, pc};
+    if (lobe == Lobe::reflection) return {Fl * base_.specular(at), pl, pc};
     if (lobe == Lobe::smooth)
       return {base_.eval(at) * ((1 - Fl) * (1 - Fc)), (1 - pl) * inv_pi * wc.z,
               (1 - pc) * inv_pi * wl.z};
@@ -56,23 +53,14 @@ class Plastic final : public Bsdf {
 
   bool has_delta() const override { return true; }
 
-  Color albedo(const SurfacePoint& at) const override {
-    const double F = fresnel_dielectric(1, eta_).reflectance;
-    return F * reflectance_->eval(at) + (1 - F) * base_.reflectance(at);
-  }
+  Color albedo(const SurfacePoint& at) const override { return base_.albedo(at); }
 
  private:
   double fresnel(const Vec3& w) const { return fresnel_dielectric(w.z, eta_).reflectance; }
-
-  /// The mirror's share of what both lobes reflect of light from a direction with this F.
-  double specular_share(double F) const {
-    return first_share(F * specular_weight_, (1 - F) * diffuse_weight_);
-  }
+  double specular_share(double F) const { return base_.specular_share(F, 1 - F); }
 
   double eta_;
   CoatedBase base_;
-  TexturePtr reflectance_;
-  double specular_weight_, diffuse_weight_;
 };
 
 }  // namespace

@@ -9,7 +9,6 @@
 #include "scene/bsdf.h"
 #include "scene/bsdf/coated_base.h"
 #include "scene/bsdf/ior_params.h"
-#include "scene/bsdf/lobes.h"
 #include "scene/bsdf/rough_coating.h"
 #include "scene/bsdf/rough_surface.h"
 
@@ -22,10 +21,7 @@ class RoughPlastic final : public Bsdf {
       : eta_(relative_ior_param(params)),
         microfacet_(microfacet_of(params)),
         coating_(microfacet_.type(), microfacet_.alpha_u(), eta_),
-        base_(params, eta_, coating_.internal_reflectance()),
-        reflectance_(texture_param(params, "specular_reflectance")),
-        specular_weight_(target_luminance(reflectance_->mean())),
-        diffuse_weight_(base_.weight() * coating_.mean_transmittance()) {}
+        base_(params, eta_, coating_.internal_reflectance(), coating_.mean_transmittance()) {}
 
   Scattering scattering(const SurfacePoint& at, const Vec3& wl, const Vec3& wc,
                         Lobe lobe) const override {
@@ -76,10 +72,7 @@ class RoughPlastic final : public Bsdf {
                                                                   : infinity;
   }
 
-  Color albedo(const SurfacePoint& at) const override {
-    const double F = fresnel_dielectric(1, eta_).reflectance;
-    return F * reflectance_->eval(at) + (1 - F) * base_.reflectance(at);
-  }
+  Color albedo(const SurfacePoint& at) const override { return base_.albedo(at); }
 
  private:
   static Microfacet microfacet_of(Params& params) {
@@ -90,7 +83,7 @@ class RoughPlastic final : public Bsdf {
   Color specular_part(const SurfacePoint& at, const Vec3& wl, const Vec3& wc, const Vec3& h,
                       double DG) const {
     const double F = fresnel_dielectric(dot(wl, h), eta_).reflectance;
-    return F * DG / (4 * wl.z * wc.z) * reflectance_->eval(at);
+    return F * DG / (4 * wl.z * wc.z) * base_.specular(at);
   }
 
   Color diffuse_part(const SurfacePoint& at, const RoughFresnel& light,
@@ -98,17 +91,14 @@ class RoughPlastic final : public Bsdf {
     return light.transmittance * camera.transmittance * base_.eval(at);
   }
 
-  /// The coating's share of what both lobes reflect of light from one direction.
   double specular_share(const RoughFresnel& coat) const {
-    return first_share(coat.reflectance * specular_weight_, coat.transmittance * diffuse_weight_);
+    return base_.specular_share(coat.reflectance, coat.transmittance);
   }
 
   double eta_;
   Microfacet microfacet_;
   RoughCoating coating_;
   CoatedBase base_;
-  TexturePtr reflectance_;
-  double specular_weight_, diffuse_weight_;
 };
 
 }  // namespace

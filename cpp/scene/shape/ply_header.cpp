@@ -131,11 +131,6 @@ int PlyElement::find(std::initializer_list<const char*> names) const {
   return -1;
 }
 
-bool PlyElement::has_lists() const {
-  return std::any_of(properties.begin(), properties.end(),
-                     [](const PlyProperty& p) { return p.list; });
-}
-
 size_t PlyElement::least_size() const {
   size_t size = 0;
   for (const PlyProperty& p : properties) size += size_of(p.list ? p.count_type : p.type);

@@ -30,7 +30,6 @@ struct PlyElement {
 
   /// The property with one of these names, or -1.
   int find(std::initializer_list<const char*> names) const;
-  bool has_lists() const;
   /// Bytes of one element in a binary file; lists count as empty.
   size_t least_size() const;
 };

@@ -45,7 +45,7 @@ TEST(ChiSquare, PValuesAreUniform) {
 }
 
 TEST(ChiSquare, RejectsAnotherDensity) {
-  const auto uniform = [](const Vec3& w) { return uniform_hemisphere_pdf(w); };
+  const auto uniform = [](const Vec3& w) { return cone_pdf(w, 1); };
   EXPECT_LT(chi_square_sphere(cosine_sample, uniform, n_samples, 1).p_value, 1e-9);
 }
 

@@ -1,4 +1,4 @@
-#include "io/node_index.h"
+#include "io/node.h"
 
 #include "io/text.h"
 
