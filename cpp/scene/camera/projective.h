@@ -16,6 +16,7 @@
 //   We(xk -> w) = 1 / (A_lens A c^4)       (without A_lens for the delta position of a pinhole).
 #pragma once
 
+#include "base/params.h"
 #include "scene/camera.h"
 
 namespace mlt {
@@ -66,5 +67,12 @@ class ProjectiveCamera final : public Camera {
   Vec2 to_raster_scale_{-1}, to_raster_offset_{0};
   double image_area_ = 1;  ///< A
 };
+
+/// The parameters that all projective cameras share.
+std::vector<Parameter> view_parameters();
+ProjectiveCamera::View read_view(Params& params);
+std::shared_ptr<ProjectiveCamera> make_projective(Params& params,
+                                                  const ProjectiveCamera::View& view,
+                                                  const ProjectiveCamera::Lens& lens);
 
 }  // namespace mlt

@@ -59,4 +59,19 @@ ObjectPtr mesh_from_file(Params& params, MeshData data, bool flat) {
                                 params.where());
 }
 
+Plugin flat_shape_plugin(const char* name, const char* doc, MeshData (*make)()) {
+  return {shape_schema(name, doc,
+                       {{"face_normals", ParamType::boolean, false,
+                         "Accepted for files that set it; the shape is flat anyway."}}),
+          [make](Params& params) {
+            params.boolean("face_normals");
+            MeshData data = make();
+            const Mat4 to_world = matrix_param(params, "to_world");
+            if (glm::determinant(Mat3(to_world)) < 0)
+              for (auto& corners : data.triangles) std::swap(corners[1], corners[2]);
+            return std::make_shared<Mesh>(std::move(data), to_world, true,
+                                          params.boolean("flip_normals"), params.where());
+          }};
+}
+
 }  // namespace mlt

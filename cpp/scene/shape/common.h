@@ -26,4 +26,8 @@ using MeshReader = MeshData (*)(std::string_view bytes, const std::string& name)
 Plugin mesh_file_plugin(const char* name, const char* doc, const char* filename_doc,
                         bool flip_tex_coords, MeshReader read);
 
+/// A mesh without vertex normals whose triangles turn counter-clockwise seen from outside; they do
+/// so too if `to_world` mirrors it.
+Plugin flat_shape_plugin(const char* name, const char* doc, MeshData (*make)());
+
 }  // namespace mlt

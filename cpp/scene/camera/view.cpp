@@ -1,6 +1,4 @@
-// The cameras that scenes name, with Mitsuba's parameters: a pinhole, and one with a circular lens
-// where only the plane at the focus distance is sharp.
-#include "base/registry.h"
+// The field of view and the placement of a projective camera, with Mitsuba's parameters.
 #include "scene/camera/projective.h"
 #include "scene/orientation.h"
 #include "scene/texture.h"
@@ -35,7 +33,8 @@ ProjectiveCamera::View::Axis read_axis(Params& params) {
   return Axis::x;
 }
 
-/// The parameters that both cameras share.
+}  // namespace
+
 std::vector<Parameter> view_parameters() {
   return {
       {"to_world", ParamType::transform, no_default,
@@ -76,55 +75,6 @@ std::shared_ptr<ProjectiveCamera> make_projective(Params& params,
   if (close < open) params.fail("shutter_close", "is before shutter_open");
   return std::make_shared<ProjectiveCamera>(transform_point(to_world, Vec3(0)), axes, view, lens,
                                             open, close);
-}
-
-double positive(Params& params, const std::string& name) {
-  const double x = params.real(name);
-  if (!(x > 0)) params.fail(name, fmt::format("is {:f}, but must be positive", x));
-  return x;
-}
-
-ObjectPtr create_perspective(Params& params) {
-  ProjectiveCamera::View view = read_view(params);
-  view.principal_offset = {params.real("principal_point_offset_x"),
-                           params.real("principal_point_offset_y")};
-  return make_projective(params, view, {});
-}
-
-ObjectPtr create_thinlens(Params& params) {
-  const ProjectiveCamera::View view = read_view(params);
-  const double far_clip = positive(params, "far_clip");
-  const double focus = params.has("focus_distance") ? positive(params, "focus_distance") : far_clip;
-  const double radius = params.real("aperture_radius");
-  if (radius < 0) params.fail("aperture_radius", "must not be negative");
-  return make_projective(params, view, {radius, focus});
-}
-
-}  // namespace
-
-Plugin sensor_perspective() {
-  std::vector<std::string> ignored = {"near_clip", "far_clip", "focus_distance"};
-  return {{"sensor", "perspective", "A pinhole camera: everything is in focus.",
-           concat({view_parameters(),
-                   {{"principal_point_offset_x", ParamType::real, 0.0,
-                     "Horizontal shift of the optical axis, as a fraction of the image's width."},
-                    {"principal_point_offset_y", ParamType::real, 0.0,
-                     "Vertical shift of the optical axis, as a fraction of the image's height."}}}),
-           std::move(ignored)},
-          create_perspective};
-}
-
-Plugin sensor_thinlens() {
-  return {{"sensor", "thinlens", "A camera with depth of field.",
-           concat({view_parameters(),
-                   {{"aperture_radius", ParamType::real, no_default,
-                     "Radius of the lens in scene units; 0 makes it a pinhole."},
-                    {"focus_distance", ParamType::real, no_default,
-                     "Distance of the plane in focus; far_clip if not given."},
-                    {"far_clip", ParamType::real, 1e4,
-                     "Only the default of focus_distance; nothing is clipped."}}}),
-           std::vector<std::string>{"near_clip"}},
-          create_thinlens};
 }
 
 }  // namespace mlt

@@ -1,0 +1,38 @@
+// A camera with a circular lens: only the plane at the focus distance is sharp.
+#include "base/registry.h"
+#include "scene/camera/projective.h"
+
+namespace mlt {
+namespace {
+
+double positive(Params& params, const std::string& name) {
+  const double x = params.real(name);
+  if (!(x > 0)) params.fail(name, fmt::format("is {:f}, but must be positive", x));
+  return x;
+}
+
+ObjectPtr create(Params& params) {
+  const ProjectiveCamera::View view = read_view(params);
+  const double far_clip = positive(params, "far_clip");
+  const double focus = params.has("focus_distance") ? positive(params, "focus_distance") : far_clip;
+  const double radius = params.real("aperture_radius");
+  if (radius < 0) params.fail("aperture_radius", "must not be negative");
+  return make_projective(params, view, {radius, focus});
+}
+
+}  // namespace
+
+Plugin sensor_thinlens() {
+  return {{"sensor", "thinlens", "A camera with depth of field.",
+           concat({view_parameters(),
+                   {{"aperture_radius", ParamType::real, no_default,
+                     "Radius of the lens in scene units; 0 makes it a pinhole."},
+                    {"focus_distance", ParamType::real, no_default,
+                     "Distance of the plane in focus; far_clip if not given."},
+                    {"far_clip", ParamType::real, 1e4,
+                     "Only the default of focus_distance; nothing is clipped."}}}),
+           std::vector<std::string>{"near_clip"}},
+          create};
+}
+
+}  // namespace mlt
