@@ -2,13 +2,20 @@
 #pragma once
 
 #include "image/image.h"
+#include "io/load.h"
 
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
+#include <memory>
+
 namespace mlt::python {
 
 namespace py = pybind11;
+
+using LoadedPtr = std::shared_ptr<LoadedScene>;
+using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
+using NoGil = py::call_guard<py::gil_scoped_release>;
 
 void bind_errors(py::module_& m);
 void bind_base(py::module_& m);
@@ -17,13 +24,29 @@ void bind_scene(py::module_& m);
 void bind_light_path(py::module_& m);
 void bind_mutations(py::module_& m);
 void bind_integrators(py::module_& m);
-void bind_flags(py::module_& m);
 void bind_render(py::module_& m);
 void bind_checkpoint(py::module_& m);
 void bind_executor(py::module_& m);
 void bind_metropolis(py::module_& m);
+void bind_path_target(py::module_& m);
 
 /// A numpy array (height, width, channels) that owns the image's buffer.
 py::array_t<float> to_array(Image image);
+
+/// What `function` returns, called without the interpreter's lock.
+template <class Function>
+auto without_gil(const Function& function) {
+  const py::gil_scoped_release release;
+  return function();
+}
+
+/// Python objects that may be dropped without the interpreter's lock.
+template <class Objects>
+std::shared_ptr<Objects> hold(Objects objects) {
+  return {new Objects(std::move(objects)), [](const Objects* held) {
+            const py::gil_scoped_acquire gil;
+            delete held;
+          }};
+}
 
 }  // namespace mlt::python

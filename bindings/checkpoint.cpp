@@ -36,8 +36,6 @@ struct PyCheckpoint {
 }  // namespace
 
 void bind_checkpoint(py::module_& m) {
-  using NoGil = py::call_guard<py::gil_scoped_release>;
-
   py::class_<PyCheckpoint>(m, "Checkpoint", "A render on disk, read and found whole.")
       .def(py::init<const std::string&>(), py::arg("path"), NoGil())
       .def_readonly("integrator", &PyCheckpoint::made)

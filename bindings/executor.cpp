@@ -10,38 +10,25 @@ namespace {
 /// A Python object with the methods of Executor.
 class PyExecutor : public Executor {
  public:
-  PyExecutor(PyJob& job, py::object executor) : job_(&job), executor_(std::move(executor)) {}
-  ~PyExecutor() override {
-    const py::gil_scoped_acquire acquire;
-    executor_ = py::object();
-  }
+  PyExecutor(PyJob& job, py::object executor) : job_(&job), executor_(hold(std::move(executor))) {}
 
-  int wanted_tasks() override {
-    const py::gil_scoped_acquire acquire;
-    return call("wanted_tasks").cast<int>();
-  }
-  void run(Job& /*job*/, uint64_t to) override {
-    const py::gil_scoped_acquire acquire;
-    call("run", py::cast(job_, py::return_value_policy::reference), to);
-  }
-  void close() override {
-    const py::gil_scoped_acquire acquire;
-    call("close");
-  }
+  int wanted_tasks() override { return call<int>("wanted_tasks"); }
+  void run(Job& /*job*/, uint64_t to) override { call<void>("run", job_, to); }
+  void close() override { call<void>("close"); }
 
  private:
-  /// With the interpreter's lock.
-  template <class... Arguments>
-  py::object call(const char* method, const Arguments&... arguments) {
+  template <class Result, class... Arguments>
+  Result call(const char* method, const Arguments&... arguments) {
+    const py::gil_scoped_acquire acquire;
     try {
-      return executor_.attr(method)(arguments...);
+      return executor_->attr(method)(arguments...).template cast<Result>();
     } catch (const py::error_already_set& error) {
       throw RenderError(py::str(error.value()));
     }
   }
 
   PyJob* job_;
-  py::object executor_;
+  std::shared_ptr<py::object> executor_;
 };
 
 /// Runs tasks on a machine that is not the owner's.
@@ -64,8 +51,6 @@ class Helper {
 }  // namespace
 
 void bind_executor(py::module_& m) {
-  using NoGil = py::call_guard<py::gil_scoped_release>;
-
   static_cast<py::class_<PyJob>>(m.attr("Job"))
       .def(
           "attach",

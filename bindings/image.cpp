@@ -51,10 +51,7 @@ py::array_t<float> read(const std::string& path, const std::string& layer) {
   return to_array(std::move(image));
 }
 
-std::map<std::string, std::string> metadata(const std::string& path) {
-  const Metadata found = read_exr_metadata(path);
-  return {found.begin(), found.end()};
-}
+py::dict metadata(const std::string& path) { return py::cast(read_exr_metadata(path)); }
 
 }  // namespace
 

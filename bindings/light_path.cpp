@@ -13,8 +13,6 @@
 namespace mlt::python {
 namespace {
 
-using LoadedPtr = std::shared_ptr<LoadedScene>;
-
 // ---- vertices
 
 py::tuple row(const Vertex& x) {
@@ -27,21 +25,13 @@ py::tuple row(const Vertex& x) {
 }
 
 py::object vertices(const PyLightPath& path) {
-  const auto field = [](const char* name, const char* type, const py::object& shape = py::tuple()) {
-    return py::make_tuple(name, type, shape);
-  };
-  py::list fields, rows;
-  fields.append(field("kind", "U7"));
-  for (const char* name : {"position", "normal", "shading_normal"})
-    fields.append(field(name, "f8", py::make_tuple(3)));
-  fields.append(field("uv", "f8", py::make_tuple(2)));
-  fields.append(field("lobe", "U12"));
-  fields.append(field("infinite", "?"));
-  fields.append(field("shape", "i8"));
-  fields.append(field("primitive", "u4"));
-  fields.append(field("emitter", "i8"));
+  py::dict type;
+  type["names"] = py::make_tuple("kind", "position", "normal", "shading_normal", "uv", "lobe",
+                                 "infinite", "shape", "primitive", "emitter");
+  type["formats"] = py::make_tuple("U7", "3f8", "3f8", "3f8", "2f8", "U12", "?", "i8", "u4", "i8");
+  py::list rows;
   for (const Vertex& x : path.path.vertices) rows.append(row(x));
-  return py::module_::import("numpy").attr("array")(rows, fields);
+  return py::module_::import("numpy").attr("array")(rows, type);
 }
 
 Vertex vertex_at(const PyLightPath& path, py::ssize_t i) {
@@ -70,7 +60,7 @@ PyLightPath with_vertices(const PyLightPath& x, std::vector<Vertex> vertices) {
         "a path should be one vertex on a light, any number on surfaces, and one on the lens");
   Path y{std::move(vertices), x.path.time};
   const Vec2 raster = raster_position(*x.scene->scene, y).value_or(Vec2(std::nan("")));
-  return {x.scene, std::move(y), raster, {}, {}, {}, x.strict_normals};
+  return {x.scene, std::move(y), raster, x.strict_normals, {}, {}, {}};
 }
 
 // ---- terms
@@ -81,23 +71,24 @@ PathTerms terms(const PyLightPath& path, bool sample_direct = true) {
   return terms;
 }
 
-/// One of the terms, of the first `count` vertices.
-py::array_t<double> column(const PathTerms& terms, int count, double TermsAt::* member) {
+template <class Value>
+py::array_t<double> array_of(int count, Value&& value) {
   py::array_t<double> values(count);
-  for (int i = 0; i < count; ++i) values.mutable_at(i) = terms[i].*member;
+  for (int i = 0; i < count; ++i) values.mutable_at(i) = value(i);
   return values;
 }
 
-template <class Value>
-py::array_t<double> for_each_technique(const PathTerms& terms, Value&& value) {
-  py::array_t<double> values(terms.edges() + 2);
-  for (int s = 0; s <= terms.edges() + 1; ++s) values.mutable_at(s) = value(s);
-  return values;
+/// Reads one of the terms, of the first k + `more` vertices.
+auto column(double TermsAt::* member, int more) {
+  return [=](const PyLightPath& path) {
+    const PathTerms t = terms(path);
+    return array_of(path.path.edges() + more, [&](int i) { return t[i].*member; });
+  };
 }
 
 py::array_t<double> densities(const PyLightPath& path, bool sample_direct) {
   const PathTerms t = terms(path, sample_direct);
-  return for_each_technique(t, [&](int s) { return technique_density(t, s); });
+  return array_of(t.edges() + 2, [&](int s) { return technique_density(t, s); });
 }
 
 py::array_t<double> weights(const PyLightPath& path, const std::string& heuristic,
@@ -108,7 +99,7 @@ py::array_t<double> weights(const PyLightPath& path, const std::string& heuristi
     throw UsageError("unknown heuristic '" + heuristic + "'" + suggestion(heuristic, names));
   const auto kind = static_cast<Heuristic>(found - names.begin());
   const PathTerms t = terms(path, sample_direct);
-  return for_each_technique(t, [&](int s) { return mis_weight(t, s, kind); });
+  return array_of(t.edges() + 2, [&](int s) { return mis_weight(t, s, kind); });
 }
 
 std::string signature_of(const PyLightPath& path, double near_specular) {
@@ -126,26 +117,16 @@ py::str describe(const PyLightPath& path) {
 
 // ---- where paths come from
 
-InspectSettings inspect_settings(uint64_t seed, int max_depth, bool strict_normals) {
-  if (max_depth == 0 || max_depth < -1)
-    throw UsageError("max_depth is " + std::to_string(max_depth) +
-                     ", but should be positive, or -1 for no limit");
-  InspectSettings settings{seed};
-  settings.rules.max_depth = max_depth;
-  settings.rules.strict_normals = strict_normals;
-  return settings;
-}
-
 PyLightPath trace(const LoadedPtr& scene, const std::pair<int, int>& pixel, uint64_t seed,
                   int max_depth, bool strict_normals) {
   const Vec2i at(pixel.first, pixel.second);
   check_pixel(*scene->scene, at);
-  const InspectSettings settings = inspect_settings(seed, max_depth, strict_normals);
+  const InspectSettings settings{seed, path_rules(max_depth, false, strict_normals)};
   return light_path(scene, trace_path_through(*scene->scene, at, settings), strict_normals);
 }
 
 PyLightPath sample(const LoadedPtr& scene, uint64_t seed, int max_depth, bool strict_normals) {
-  const InspectSettings settings = inspect_settings(seed, max_depth, strict_normals);
+  const InspectSettings settings{seed, path_rules(max_depth, false, strict_normals)};
   return light_path(scene, sample_path(*scene->scene, settings), strict_normals);
 }
 
@@ -153,7 +134,8 @@ std::vector<PyLightPath> proposals(const LoadedPtr& scene, const PyLightPath& x,
                                    const py::object& mutation, uint64_t seed, int count,
                                    int max_depth, double near_specular) {
   if (x.scene->scene != scene->scene) throw UsageError("the path is one of another scene");
-  const PathTarget target = path_target(*scene, max_depth, false, x.strict_normals, near_specular);
+  const PathTarget target(scene->scene, path_rules(max_depth, false, x.strict_normals),
+                          near_specular);
   const MutationPtr made = to_mutation(scene, target, mutation);
   std::vector<PyLightPath> result;
   for (const Proposal& y : propose(target, x.path, made, seed, count)) {
@@ -182,19 +164,13 @@ void bind_class(py::module_& m) {
            "Another path of the same scene and time, through these vertices.")
       .def_property_readonly("scene", [](const PyLightPath& p) { return p.scene; })
       .def_property_readonly(
-          "G", [](const PyLightPath& p) { return column(terms(p), p.path.edges(), &TermsAt::G); },
+          "G", column(&TermsAt::G, 0),
           "G(x_i, x_{i+1}) for i = 0 ... k - 1 (Veach 1997, eq. 8.2), without visibility.")
       .def_property_readonly(
-          "from_light",
-          [](const PyLightPath& p) {
-            return column(terms(p), p.path.edges() + 1, &TermsAt::from_light);
-          },
+          "from_light", column(&TermsAt::from_light, 1),
           "Density of each x_i when a walk from the light makes it, per unit of area.")
       .def_property_readonly(
-          "from_camera",
-          [](const PyLightPath& p) {
-            return column(terms(p), p.path.edges() + 1, &TermsAt::from_camera);
-          },
+          "from_camera", column(&TermsAt::from_camera, 1),
           "Density of each x_i when a walk from the camera makes it, per unit of area.")
       .def_property_readonly(
           "edges", [](const PyLightPath& p) { return p.path.edges(); }, "k")
@@ -226,22 +202,13 @@ void bind_class(py::module_& m) {
 }  // namespace
 
 const char* name_of(VertexKind kind) {
-  switch (kind) {
-    case VertexKind::light: return "light";
-    case VertexKind::camera: return "camera";
-    case VertexKind::surface: break;
-  }
-  return "surface";
+  constexpr const char* names[] = {"light", "surface", "camera"};
+  return names[static_cast<size_t>(kind)];
 }
 
 const char* name_of(Lobe lobe) {
-  switch (lobe) {
-    case Lobe::reflection: return "reflection";
-    case Lobe::transmission: return "transmission";
-    case Lobe::null: return "null";
-    case Lobe::smooth: break;
-  }
-  return "smooth";
+  constexpr const char* names[] = {"smooth", "reflection", "transmission", "null"};
+  return names[static_cast<size_t>(lobe)];
 }
 
 int64_t shape_of(const Vertex& x) {
@@ -249,31 +216,32 @@ int64_t shape_of(const Vertex& x) {
 }
 
 PyLightPath light_path(LoadedPtr scene, FoundPath found, bool strict_normals) {
-  return {std::move(scene), std::move(found.path),
-          found.raster,     std::make_pair(found.s, found.t),
-          found.estimate,   {},
-          strict_normals};
+  const std::pair technique(found.s, found.t);
+  return {std::move(scene),
+          std::move(found.path),
+          found.raster,
+          strict_normals,
+          technique,
+          found.estimate,
+          {}};
 }
 
 PyLightPath light_path(LoadedPtr scene, const PathState& x, bool strict_normals) {
-  return {std::move(scene), x.path, x.raster, {}, {}, {}, strict_normals};
+  return {std::move(scene), x.path, x.raster, strict_normals, {}, {}, {}};
 }
 
 py::array_t<double> to_array(const Color& color) {
-  py::array_t<double> array(3);
-  for (int i = 0; i < 3; ++i) array.mutable_at(i) = color[i];
-  return array;
+  return array_of(3, [&](int i) { return color[i]; });
 }
 
 void bind_light_path(py::module_& m) {
   bind_vertex(m);
   bind_class(m);
-  auto scene = py::class_<LoadedScene, std::shared_ptr<LoadedScene>>(m.attr("Scene"));
+  py::class_<LoadedScene, LoadedPtr> scene(m.attr("Scene"));
   scene.def("trace_path", &trace, py::kw_only(), py::arg("pixel"), py::arg("seed") = 0,
             py::arg("max_depth") = 10, py::arg("strict_normals") = false,
             "A light path through the pixel (x, y), found by path tracing (s = 0 or s = 1). "
-            "Samples are taken "
-            "until one finds light.");
+            "Samples are taken until one finds light.");
   scene.def(
       "sample_path", &sample, py::kw_only(), py::arg("seed") = 0, py::arg("max_depth") = 10,
       py::arg("strict_normals") = false,
@@ -282,8 +250,7 @@ void bind_light_path(py::module_& m) {
             py::arg("seed") = 0, py::arg("count") = 100, py::arg("max_depth") = 10,
             py::arg("near_specular") = 0.1,
             "What a mutation, alone, would make of a path in `count` tries: those that found a "
-            "path, each with "
-            "its `acceptance`.");
+            "path, each with its `acceptance`.");
 }
 
 }  // namespace mlt::python

@@ -3,7 +3,6 @@
 
 #include "bindings.h"
 
-#include "io/load.h"
 #include "mutation/path_state.h"
 #include "path/inspect.h"
 
@@ -12,18 +11,17 @@
 namespace mlt::python {
 
 struct PyLightPath {
-  std::shared_ptr<LoadedScene> scene;
+  LoadedPtr scene;
   Path path;
   Vec2 raster{0};
+  bool strict_normals = false;
   std::optional<std::pair<int, int>> technique;
   std::optional<Color> estimate;
   std::optional<double> acceptance;
-  bool strict_normals = false;
 };
 
-PyLightPath light_path(std::shared_ptr<LoadedScene> scene, FoundPath found,
-                       bool strict_normals = false);
-PyLightPath light_path(std::shared_ptr<LoadedScene> scene, const PathState& x, bool strict_normals);
+PyLightPath light_path(LoadedPtr scene, FoundPath found, bool strict_normals = false);
+PyLightPath light_path(LoadedPtr scene, const PathState& x, bool strict_normals);
 
 py::array_t<double> to_array(const Color& color);
 

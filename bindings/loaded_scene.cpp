@@ -2,7 +2,6 @@
 #include "bindings.h"
 #include "scene_dict.h"
 
-#include "io/load.h"
 #include "io/pack.h"
 #include "render/output.h"
 #include "render/plugins.h"
@@ -45,11 +44,6 @@ LoadedScene from_dict(const py::dict& dict, const Size& size, const std::string&
   return loaded;
 }
 
-py::object integrator_type(const LoadedScene& loaded) {
-  if (!loaded.integrator) return py::none();
-  return py::str(loaded.integrator->type);
-}
-
 py::dict info(const LoadedScene& loaded) {
   const Scene& scene = *loaded.scene;
   const Vec2i size = image_size(scene);
@@ -62,7 +56,8 @@ py::dict info(const LoadedScene& loaded) {
   info["emitters"] = scene.emitters().size();
   info["center"] = py::make_tuple(sphere.center.x, sphere.center.y, sphere.center.z);
   info["radius"] = sphere.radius;
-  info["integrator"] = integrator_type(loaded);
+  info["integrator"] =
+      loaded.integrator ? py::object(py::str(loaded.integrator->type)) : py::none();
   info["sample_count"] = scene.sample_count();
   info["filter"] =
       scene.film().filter ? py::object(py::str(scene.film().filter->name())) : py::none();
@@ -72,17 +67,16 @@ py::dict info(const LoadedScene& loaded) {
 }
 
 py::str describe(const LoadedScene& loaded) {
-  const Scene& scene = *loaded.scene;
-  const Vec2i size = image_size(scene);
-  return py::str("Scene({} x {}, {} shapes, {} triangles, {} emitters, integrator={!r})")
-      .format(size.x, size.y, scene.shapes().size(), scene.triangle_count(),
-              scene.emitters().size(), integrator_type(loaded));
+  return py::str(
+             "Scene({size[0]} x {size[1]}, {shapes} shapes, {triangles} triangles, {emitters} "
+             "emitters, integrator={integrator!r})")
+      .format(**info(loaded));
 }
 
 }  // namespace
 
 void bind_scene(py::module_& m) {
-  py::class_<LoadedScene, std::shared_ptr<LoadedScene>>(
+  py::class_<LoadedScene, LoadedPtr>(
       m, "Scene", "An immutable world, as load_file, load_string or load_dict made it.")
       .def_property_readonly("width", [](const LoadedScene& s) { return image_size(*s.scene).x; })
       .def_property_readonly("height", [](const LoadedScene& s) { return image_size(*s.scene).y; })
@@ -102,7 +96,6 @@ void bind_scene(py::module_& m) {
       .def("info", &info, "What the scene holds, as a dict.")
       .def("__repr__", &describe);
 
-  using NoGil = py::call_guard<py::gil_scoped_release>;
   m.def("load_file", &from_file, py::arg("path"), py::arg("defines"), py::arg("size"), NoGil());
   m.def("load_string", &from_string, py::arg("xml"), py::arg("directory"), py::arg("defines"),
         py::arg("size"), NoGil());

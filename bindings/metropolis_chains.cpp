@@ -19,16 +19,17 @@ Doubles checked(const py::object& returned, size_t count, const std::string& wha
 
 }  // namespace
 
-VectorChains::VectorChains(const Numbers& space, py::object target, const Moves& moves,
-                           std::vector<py::object> vectorized, const std::vector<Point>& starts,
-                           uint64_t seed)
-    : Chains(space),
+VectorChains::VectorChains(const Numbers& space, py::object target,
+                           const lab::Prototypes<Point>& moves, std::vector<py::object> vectorized,
+                           const std::vector<Point>& starts, uint64_t seed)
+    : space_(space),
       function_(std::move(target)),
       vectorized_(std::move(vectorized)),
-      generator_(Rng(seed, Purpose::chain, starts.size())) {
-  const Doubles values = evaluate(to_array(starts));
+      rng_(seed, Purpose::chain, starts.size()),
+      generators_(rng_) {
+  const std::vector<double> values = evaluate(starts);
   for (size_t c = 0; c < starts.size(); ++c)
-    chains_.emplace_back(starts[c], values.data()[c], moves, seed, c);
+    chains_.emplace_back(starts[c], values[c], moves, seed, c);
 }
 
 py::dict VectorChains::advance(size_t steps, bool expected_values) {
@@ -37,20 +38,11 @@ py::dict VectorChains::advance(size_t steps, bool expected_values) {
     if (!vectorized_[move].is_none()) return draw(vectorized_[move], group);
     for (const size_t c : group) chains_[c].draw();
   };
-  const auto evaluate_all = [&](const std::vector<Point>& points) {
-    const Doubles values = evaluate(to_array(points));
-    return std::vector<double>(values.data(), values.data() + values.size());
-  };
-  for (size_t i = 0; i < steps; ++i) {
-    check_signals(i + 1);
+  const auto evaluate_all = [&](const std::vector<Point>& points) { return evaluate(points); };
+  for (size_t i = 0; i < steps; ++i)
     lab::step_together(chains_, draw_all, evaluate_all, [&](size_t c, lab::Chain<Point>& chain) {
-      trace.begin(c, i, chain.state().x);
-      const StepResult result = chain.finish([&](const Point& state, double weight, bool proposal) {
-        trace.record(c, i, state, weight, proposal);
-      });
-      trace.end(c, i, chain, result);
+      trace.step(c, i, chain, [&](const auto& record) { return chain.finish(record); });
     });
-  }
   return trace.take();
 }
 
@@ -63,8 +55,9 @@ py::object VectorChains::to_array(const std::vector<Point>& points) const {
   return space_.form == Numbers::Form::number ? flat : flat.attr("astype")("int64");
 }
 
-Doubles VectorChains::evaluate(const py::object& points) const {
-  return checked(function_(points), py::len(points), "the target");
+std::vector<double> VectorChains::evaluate(const std::vector<Point>& points) const {
+  const Doubles values = checked(function_(to_array(points)), points.size(), "the target");
+  return {values.data(), values.data() + values.size()};
 }
 
 void VectorChains::draw(const py::object& move, const std::vector<size_t>& group) {
@@ -72,7 +65,7 @@ void VectorChains::draw(const py::object& move, const std::vector<size_t>& group
   std::vector<Point> states;
   for (const size_t c : group) states.push_back(chains_[c].state().x);
   const py::object x = to_array(states);
-  const py::object proposed = move.attr("propose")(x, generator_.generator());
+  const py::object proposed = move.attr("propose")(x, *RandomGenerators::Use(generators_, rng_));
   const Doubles y = Doubles::ensure(proposed);
   if (!y) PyErr_Clear();
   if (!y || static_cast<size_t>(y.size()) != count * width ||

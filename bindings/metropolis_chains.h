@@ -8,68 +8,60 @@
 
 namespace mlt::python {
 
-/// Lets Ctrl-C through.
-inline void check_signals(size_t step) {
-  if (step % 4096 != 0) return;
-  const py::gil_scoped_acquire acquire;
-  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+/// Chains as Python has them, whatever their states are.
+class AnyChains {
+ public:
+  virtual ~AnyChains() = default;
+  virtual py::dict advance(size_t steps, bool expected_values) = 0;
+};
+
+/// What happened in some steps of all chains, one chain after the other; `step(chain, record)` makes one.
+template <class Space, class Chain, class Step>
+py::dict advance_each(const Space& space, std::vector<Chain>& chains, size_t steps,
+                      bool expected_values, bool native, Step&& step) {
+  Trace<Space> trace(space, chains.size(), steps, expected_values);
+  {
+    std::optional<py::gil_scoped_release> release;
+    if (native) release.emplace();
+    for (size_t c = 0; c < chains.size(); ++c)
+      for (size_t i = 0; i < steps; ++i)
+        trace.step(c, i, chains[c], [&](const auto& record) { return step(chains[c], record); });
+  }
+  return trace.take();
 }
 
-/// Chains of one target and one mixture, each with a random stream of its own.
+/// Chains of one target and one mixture, each with a random stream of its own. `native` ones do
+/// without the interpreter's lock.
 template <class Space>
-class Chains {
+class Chains final : public AnyChains {
  public:
   using X = typename Space::State;
-  using Moves = lab::Prototypes<X>;
 
-  Chains(const Space& space, std::shared_ptr<const lab::Target<X>> target, const Moves& moves,
-         const std::vector<X>& starts, uint64_t seed, bool native)
+  Chains(const Space& space, std::shared_ptr<const lab::Target<X>> target,
+         const lab::Prototypes<X>& moves, const std::vector<X>& starts, uint64_t seed, bool native)
       : space_(space), target_(std::move(target)), native_(native) {
     for (size_t c = 0; c < starts.size(); ++c)
       chains_.emplace_back(starts[c], (*target_)(starts[c]), moves, seed, c);
   }
-  virtual ~Chains() = default;
 
-  virtual py::dict advance(size_t steps, bool expected_values) {
-    Trace<Space> trace(space_, chains_.size(), steps, expected_values);
-    {
-      std::optional<py::gil_scoped_release> release;
-      if (native_) release.emplace();
-      for (size_t c = 0; c < chains_.size(); ++c) advance_one(c, steps, trace);
-    }
-    return trace.take();
+  py::dict advance(size_t steps, bool expected_values) override {
+    return advance_each(
+        space_, chains_, steps, expected_values, native_,
+        [&](lab::Chain<X>& chain, const auto& record) { return chain.step(*target_, record); });
   }
 
- protected:
-  Chains(const Space& space) : space_(space), native_(false) {}
-
+ private:
   Space space_;
   std::shared_ptr<const lab::Target<X>> target_;
   bool native_;
   std::vector<lab::Chain<X>> chains_;
-
- private:
-  void advance_one(size_t c, size_t steps, Trace<Space>& trace) {
-    lab::Chain<X>& chain = chains_[c];
-    for (size_t i = 0; i < steps; ++i) {
-      check_signals(i + 1);
-      trace.begin(c, i, chain.state().x);
-      const StepResult result =
-          chain.step(*target_, [&](const X& state, double weight, bool proposal) {
-            trace.record(c, i, state, weight, proposal);
-          });
-      trace.end(c, i, chain, result);
-    }
-  }
 };
 
-using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
-
 /// Chains in lockstep: Python's functions get the states of many chains at once, as an array.
-class VectorChains final : public Chains<Numbers> {
+class VectorChains final : public AnyChains {
  public:
   /// `vectorized[i]` is the Python object of move i, or None if that one is built in.
-  VectorChains(const Numbers& space, py::object target, const Moves& moves,
+  VectorChains(const Numbers& space, py::object target, const lab::Prototypes<lab::Point>& moves,
                std::vector<py::object> vectorized, const std::vector<lab::Point>& starts,
                uint64_t seed);
 
@@ -77,12 +69,15 @@ class VectorChains final : public Chains<Numbers> {
 
  private:
   py::object to_array(const std::vector<lab::Point>& points) const;
-  Doubles evaluate(const py::object& points) const;
+  std::vector<double> evaluate(const std::vector<lab::Point>& points) const;
   void draw(const py::object& move, const std::vector<size_t>& group);
 
+  Numbers space_;
   py::object function_;
   std::vector<py::object> vectorized_;
-  RandomGenerator generator_;
+  Rng rng_;
+  RandomGenerators generators_;
+  std::vector<lab::Chain<lab::Point>> chains_;
 };
 
 }  // namespace mlt::python

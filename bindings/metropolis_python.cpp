@@ -19,11 +19,10 @@ std::string text_of(const py::object& object) {
 
 std::string describe(const Object& x) { return "x = " + text_of(x.value); }
 
-double to_number(const py::object& returned, const std::string& what, const std::string& x) {
-  const double value = PyFloat_AsDouble(returned.ptr());
-  if (value != -1 || !PyErr_Occurred()) return value;
+void not_a_number(const py::object& returned, const char* what, const std::string& x) {
   PyErr_Clear();
-  throw UsageError(what + " must be a number, but is " + text_of(returned) + " at " + x);
+  throw UsageError(std::string(what) + " must be a number, but is " + text_of(returned) + " at " +
+                   x);
 }
 
 py::object Numbers::to_python(const lab::Point& x) const {
@@ -36,21 +35,15 @@ py::object Numbers::to_python(const lab::Point& x) const {
 
 void Numbers::from_python(const py::object& object, lab::Point& x) const {
   if (form == Form::array) {
-    const auto array =
-        py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(object);
+    const Doubles array = Doubles::ensure(object);
     if (!array || array.ndim() != 1 || static_cast<size_t>(array.size()) != dimensions)
       not_a_state(object, "an array of " + std::to_string(dimensions) + " numbers");
     x.assign(array.data(), array.data() + dimensions);
   } else {
-    double value;
-    if (form == Form::number) {
-      value = PyFloat_AsDouble(object.ptr());
-    } else {
-      value = static_cast<double>(PyNumber_AsSsize_t(object.ptr(), nullptr));
-    }
-    if (value == -1 && PyErr_Occurred())
-      not_a_state(object, form == Form::number ? "a number" : "an integer");
-    x.assign(1, value);
+    const bool real = form == Form::number;
+    x.assign(1, real ? PyFloat_AsDouble(object.ptr())
+                     : static_cast<double>(PyNumber_AsSsize_t(object.ptr(), nullptr)));
+    if (x[0] == -1 && PyErr_Occurred()) not_a_state(object, real ? "a number" : "an integer");
   }
   for (const double coordinate : x)
     if (!std::isfinite(coordinate)) not_a_state(object, "finite");

@@ -6,7 +6,6 @@
 
 #include "lab/lab.h"
 
-#include <optional>
 #include <string>
 
 namespace mlt::python {
@@ -16,10 +15,18 @@ struct Object {
   py::object value;
 };
 std::string describe(const Object& x);
+inline std::string describe(const char* x) { return x; }
 using lab::describe;
 
-/// A number that a Python function has returned; `what` and `x` are for the message.
-double to_number(const py::object& returned, const std::string& what, const std::string& x);
+[[noreturn]] void not_a_number(const py::object& returned, const char* what, const std::string& x);
+
+/// A number that a Python function has returned at x; `what` is for the message.
+template <class X>
+double to_number(const py::object& returned, const char* what, const X& x) {
+  const double value = PyFloat_AsDouble(returned.ptr());
+  if (value == -1 && PyErr_Occurred()) not_a_number(returned, what, describe(x));
+  return value;
+}
 
 /// States of numbers: one, one that is an integer, or an array.
 struct Numbers {
@@ -49,9 +56,7 @@ class PythonTarget final : public lab::Target<typename Space::State> {
       : space_(space), function_(std::move(function)) {}
 
   double operator()(const X& x) const override {
-    const py::object returned = function_(space_.to_python(x));
-    const double value = PyFloat_AsDouble(returned.ptr());
-    return value == -1 && PyErr_Occurred() ? to_number(returned, "the target", describe(x)) : value;
+    return to_number(function_(space_.to_python(x)), "the target", x);
   }
 
  private:
@@ -59,66 +64,63 @@ class PythonTarget final : public lab::Target<typename Space::State> {
   py::object function_;
 };
 
-/// What a class of moves written in Python brings along.
-struct MoveTraits {
-  bool symmetric, suits_all, adapts;
-};
-
-/// An object with propose(x, rng) and, as its traits say, density(x, y), suitability(x), adapt(a).
+/// An object with propose(x, rng) and, as its attributes `symmetric`, `_suits_all` and `_adapts` say,
+/// density(x, y), suitability(x), adapt(acceptance).
 template <class Space>
 class PythonMove final : public lab::Move<typename Space::State> {
  public:
   using X = typename Space::State;
-  PythonMove(const Space& space, py::object object, const MoveTraits& traits,
-             std::shared_ptr<RandomGenerator> generator)
+  PythonMove(const Space& space, py::object object, std::shared_ptr<RandomGenerators> generators)
       : space_(space),
         object_(std::move(object)),
-        traits_(traits),
-        generator_(std::move(generator)) {
-    propose_ = object_.attr("propose");
-    if (!traits_.symmetric) density_ = object_.attr("density");
+        propose_(object_.attr("propose")),
+        symmetric_(truth("symmetric")),
+        suits_all_(truth("_suits_all")),
+        adapts_(truth("_adapts")),
+        generators_(std::move(generators)) {
+    if (!symmetric_) density_ = object_.attr("density");
   }
 
   std::shared_ptr<lab::Move<X>> clone() const override {
     py::object own = object_;
-    if (traits_.adapts) own = py::module_::import("copy").attr("deepcopy")(object_);
-    return std::make_shared<PythonMove>(space_, own, traits_, generator_);
+    if (adapts_) own = py::module_::import("copy").attr("deepcopy")(object_);
+    return std::make_shared<PythonMove>(space_, own, generators_);
   }
 
   double suitability(const X& x) const override {
-    if (traits_.suits_all) return 1;
-    return to_number(object_.attr("suitability")(space_.to_python(x)), "suitability(x)",
-                     describe(x));
+    if (suits_all_) return 1;
+    return to_number(object_.attr("suitability")(space_.to_python(x)), "suitability(x)", x);
   }
 
   bool propose(const X& x, X& y, Rng& rng) override {
-    const RandomGenerator::Use use(*generator_, rng);
-    const py::object proposed = propose_(space_.to_python(x), generator_->generator());
+    const RandomGenerators::Use generator(*generators_, rng);
+    const py::object proposed = propose_(space_.to_python(x), *generator);
     if (proposed.is_none()) return false;
     space_.from_python(proposed, y);
     return true;
   }
 
   double density(const X& x, const X& y) const override {
-    if (traits_.symmetric) return 1;
-    return to_number(density_(space_.to_python(x), space_.to_python(y)), "density(x, y)",
-                     describe(x));
+    if (symmetric_) return 1;
+    return to_number(density_(space_.to_python(x), space_.to_python(y)), "density(x, y)", x);
   }
 
   void adapt(double acceptance) override {
-    if (traits_.adapts) object_.attr("adapt")(acceptance);
+    if (adapts_) object_.attr("adapt")(acceptance);
   }
 
   double size() const override {
-    if (!traits_.adapts || !py::hasattr(object_, "size")) return std::nan("");
+    if (!adapts_ || !py::hasattr(object_, "size")) return std::nan("");
     return to_number(object_.attr("size"), "size", "any x");
   }
 
  private:
+  bool truth(const char* attribute) const { return object_.attr(attribute).template cast<bool>(); }
+
   Space space_;
   py::object object_, propose_, density_;
-  MoveTraits traits_;
-  std::shared_ptr<RandomGenerator> generator_;
+  bool symmetric_, suits_all_, adapts_;
+  std::shared_ptr<RandomGenerators> generators_;
 };
 
 }  // namespace mlt::python

@@ -22,11 +22,11 @@ py::list all_mutations() {
   return list;
 }
 
-AuditReport run_audit(const std::shared_ptr<LoadedScene>& loaded, const WeightedObjects& mixture,
-                      int max_depth, bool hide_emitters, bool strict_normals, double near_specular,
-                      uint64_t paths, uint64_t seed, int threads, double significance) {
-  const PathTarget target =
-      path_target(*loaded, max_depth, hide_emitters, strict_normals, near_specular);
+AuditReport run_audit(const LoadedPtr& loaded, const WeightedObjects& mixture, int max_depth,
+                      bool hide_emitters, bool strict_normals, double near_specular, uint64_t paths,
+                      uint64_t seed, int threads, double significance) {
+  const PathTarget target(loaded->scene, path_rules(max_depth, hide_emitters, strict_normals),
+                          near_specular);
   AuditSettings how;
   how.paths = paths;
   how.seed = seed;

@@ -1,79 +1,107 @@
-#include "path_chains.h"
-
+// The laboratory on the space of light paths: L* as a target, and chains of paths.
 #include "metropolis_chains.h"
+#include "python_mutation.h"
 
 #include "mutation/evaluate_proposal.h"
 #include "mutation/path_seeds.h"
 
 namespace mlt::python {
+namespace {
 
-PathState PyPathTarget::evaluated(const PyLightPath& x) const {
-  if (x.scene->scene != scene_->scene) throw UsageError("the path is one of another scene");
-  RayCounts rays;
-  return mlt::evaluated(target_, x.path, rays);
-}
+/// L*(x) of the light paths of a scene.
+struct PyPathTarget {
+  LoadedPtr scene;
+  PathTarget target;
 
-py::object PyPathTarget::bootstrap(uint64_t candidates, uint32_t chains, uint64_t seed) const {
+  /// x with its terms; target = 0 also where light cannot take it. Throws UsageError for a path of
+  /// another scene.
+  PathState evaluated(const PyLightPath& x) const {
+    if (x.scene->scene != scene->scene) throw UsageError("the path is one of another scene");
+    RayCounts rays;
+    return mlt::evaluated(target, x.path, rays);
+  }
+  Object to_python(const PathState& x) const {
+    return {py::cast(light_path(scene, x, target.rules().strict_normals))};
+  }
+};
+
+/// A metropolis.Start. Throws RenderError if no path carries light.
+py::object bootstrap_starts(const PyPathTarget& target, uint64_t candidates, uint32_t chains,
+                            uint64_t seed) {
   const PathStarts found = run_interruptibly([&](const std::atomic<bool>& cancelled) {
-    return mlt::bootstrap(target_, {seed, Purpose::bootstrap, candidates}, chains,
-                          hardware_threads(), cancelled);
+    return bootstrap(target.target, {seed, Purpose::bootstrap, candidates}, chains,
+                     hardware_threads(), cancelled);
   });
   if (found.paths.empty())
     throw RenderError("no light path was found among " + std::to_string(candidates) +
                       " candidates; is the image dark, or max_depth too small?");
   py::list starts;
-  for (const PathState& x : found.paths) starts.append(to_python(x));
+  for (const PathState& x : found.paths) starts.append(target.to_python(x).value);
   return py::module_::import("pymlt.metropolis").attr("Start")(found.b, found.b_error, starts);
 }
 
-PathChains::PathChains(const PyPathTarget& target, const WeightedObjects& moves,
-                       const std::vector<py::object>& starts, uint64_t seed)
-    : target_(target) {
-  const auto [mutations, weights] = to_mixture(target_.scene(), target_.target(), moves);
-  const auto shared = std::make_shared<MixtureWeights>(weights);
-  for (const py::object& start : starts) {
-    PathState x = target_.evaluated(start.cast<const PyLightPath&>());
-    if (!(x.target > 0))
-      throw UsageError("the target is 0 at the start " + std::string(py::repr(start)) +
-                       "; a chain must start where it is positive");
-    chains_.push_back(
-        {PathChain({mutations, shared}, Rng(seed, Purpose::chain, chains_.size()), std::move(x)),
-         {start}});
+/// A chain whose state Python sees as a value: a state that it stays in is one object.
+class ShownChain : private PathChain {
+ public:
+  ShownChain(PathChain chain, py::object start)
+      : PathChain(std::move(chain)), shown_{{std::move(start)}, PathChain::state().target} {}
+
+  const lab::State<Object>& state() const { return shown_; }
+  using PathChain::kernel;
+  static double move_size() { return std::nan(""); }
+
+  template <class Record>
+  StepResult step(const PyPathTarget& target, bool expected_values, const Record& record) {
+    Object y;
+    const auto record_shown = [&](const PathState& x, double weight) {
+      if (!expected_values) return;
+      const bool is_proposal = &x != &x_;
+      if (is_proposal) y = target.to_python(x);
+      record(is_proposal ? y : shown_.x, weight, is_proposal);
+    };
+    const StepResult result = PathChain::step(record_shown);
+    if (result.accepted >= 0) shown_.x = y.value ? y : target.to_python(x_);
+    return result;
   }
-}
 
-py::dict PathChains::advance(size_t steps, bool expected_values) {
-  Trace<Objects> trace(Objects{}, chains_.size(), steps, expected_values);
-  for (size_t c = 0; c < chains_.size(); ++c)
-    for (size_t i = 0; i < steps; ++i) {
-      check_signals(i + 1);
-      step(c, i, expected_values, trace);
+ private:
+  lab::State<Object> shown_;
+};
+
+/// Chains of light paths, each with a random stream of its own.
+class PathChains final : public AnyChains {
+ public:
+  PathChains(const PyPathTarget& target, const WeightedObjects& moves,
+             const std::vector<py::object>& starts, uint64_t seed)
+      : target_(target) {
+    const auto [mutations, weights] = to_mixture(target_.scene, target_.target, moves);
+    const auto shared = std::make_shared<MixtureWeights>(weights);
+    for (const py::object& start : starts) {
+      PathState x = target_.evaluated(start.cast<const PyLightPath&>());
+      if (!(x.target > 0))
+        throw UsageError("the target is 0 at the start " + std::string(py::repr(start)) +
+                         "; a chain must start where it is positive");
+      const Rng rng(seed, Purpose::chain, chains_.size());
+      chains_.emplace_back(PathChain({mutations, shared}, rng, std::move(x)), start);
     }
-  return trace.take();
-}
+  }
 
-void PathChains::step(size_t c, size_t i, bool expected_values, Trace<Objects>& trace) {
-  auto& [chain, shown] = chains_[c];
-  trace.begin(c, i, shown);
-  Object y;
-  const auto record = [&, &chain = chain, &shown = shown](const PathState& state, double weight) {
-    if (!expected_values) return;
-    const bool proposal = &state != &chain.state();
-    if (proposal) y.value = target_.to_python(state);
-    trace.record(c, i, proposal ? y : shown, weight, proposal);
-  };
-  const StepResult result = chain.step(record);
-  if (result.accepted >= 0) shown.value = y.value ? y.value : target_.to_python(chain.state());
-  trace.end(c, i, shown, chosen_move(chain), std::nan(""), result);
-}
+  py::dict advance(size_t steps, bool expected_values) override {
+    return advance_each(Objects{}, chains_, steps, expected_values, false,
+                        [&](ShownChain& chain, const auto& record) {
+                          return chain.step(target_, expected_values, record);
+                        });
+  }
 
-namespace {
-
-using LoadedPtr = std::shared_ptr<LoadedScene>;
+ private:
+  PyPathTarget target_;
+  std::vector<ShownChain> chains_;
+};
 
 PyPathTarget make_path_target(const LoadedPtr& scene, int max_depth, bool hide_emitters,
                               bool strict_normals, double near_specular) {
-  return {scene, path_target(*scene, max_depth, hide_emitters, strict_normals, near_specular)};
+  const PathRules rules = path_rules(max_depth, hide_emitters, strict_normals);
+  return {scene, PathTarget(scene->scene, rules, near_specular)};
 }
 
 /// One path for all chains, or a list with one for each.
@@ -92,35 +120,38 @@ std::vector<py::object> starts_of(const py::object& x0, const py::object& chains
 
 }  // namespace
 
-void bind_path_target(py::module_& core, py::module_& m) {
-  py::class_<PathChains>(m, "PathChains", "Chains of light paths.")
-      .def("advance", &PathChains::advance, py::arg("steps"), py::arg("expected_values"));
+void bind_path_target(py::module_& core) {
   py::class_<PyPathTarget>(
-      m, "PathTarget",
+      core.attr("metropolis"), "PathTarget",
       "L*(x), the brightness that a light path brings to the image: the target "
       "of Metropolis light transport, for `metropolis.run`.")
-      .def("__call__", &PyPathTarget::operator(), py::arg("path"),
-           "L*(x) = (luminance + mean of R, G, B of f(x)) / 2; 0 if light cannot take the path.")
+      .def(
+          "__call__",
+          [](const PyPathTarget& target, const PyLightPath& x) {
+            return target.evaluated(x).target;
+          },
+          py::arg("path"),
+          "L*(x) = (luminance + mean of R, G, B of f(x)) / 2; 0 if light cannot take the path.")
       .def("__repr__",
            [](const PyPathTarget& target) {
-             return "PathTarget(max_depth=" + std::to_string(target.target().rules().max_depth) +
-                    ")";
+             return "PathTarget(max_depth=" + std::to_string(target.target.rules().max_depth) + ")";
            })
-      .def("bootstrap", &PyPathTarget::bootstrap, py::arg("candidates") = 10000, py::kw_only(),
+      .def("bootstrap", &bootstrap_starts, py::arg("candidates") = 10000, py::kw_only(),
            py::arg("chains") = 1, py::arg("seed") = 0,
            "Paths to start chains from without start-up bias, as a `metropolis.Start` with b, the "
            "integral of L*: chosen among the candidates of bidirectional path tracing.")
       .def("metropolis_chains", [](const PyPathTarget& target, const WeightedObjects& moves,
                                    const py::object& x0, const py::object& chains, uint64_t seed) {
-        return py::make_tuple(
-            std::make_unique<PathChains>(target, moves, starts_of(x0, chains), seed), "object");
+        std::unique_ptr<AnyChains> made =
+            std::make_unique<PathChains>(target, moves, starts_of(x0, chains), seed);
+        return py::make_tuple(std::move(made), "object");
       });
-  auto scene = py::class_<LoadedScene, LoadedPtr>(core.attr("Scene"));
-  scene.def("path_target", &make_path_target, py::kw_only(), py::arg("max_depth") = 8,
-            py::arg("hide_emitters") = false, py::arg("strict_normals") = false,
-            py::arg("near_specular") = 0.1,
-            "L* of the paths of this scene as a target for `metropolis.run`, with mutations as its "
-            "moves.");
+  py::class_<LoadedScene, LoadedPtr>(core.attr("Scene"))
+      .def("path_target", &make_path_target, py::kw_only(), py::arg("max_depth") = 8,
+           py::arg("hide_emitters") = false, py::arg("strict_normals") = false,
+           py::arg("near_specular") = 0.1,
+           "L* of the paths of this scene as a target for `metropolis.run`, with mutations as its "
+           "moves.");
 }
 
 }  // namespace mlt::python

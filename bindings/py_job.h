@@ -6,19 +6,7 @@
 #include "render/checkpoint.h"
 #include "render/output.h"
 
-#include <memory>
-#include <string>
-
 namespace mlt::python {
-
-using LoadedPtr = std::shared_ptr<LoadedScene>;
-
-/// What `function` returns, called without the interpreter's lock.
-template <class Function>
-auto without_gil(const Function& function) {
-  const py::gil_scoped_release release;
-  return function();
-}
 
 /// A job and what it was made from.
 class PyJob : public Job {

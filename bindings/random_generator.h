@@ -6,44 +6,47 @@
 
 #include "base/rng.h"
 
-#include <memory>
+#include <vector>
 
 namespace mlt::python {
 
-/// A stream that numbers come from: usually that of a chain.
-struct RandomSource {
-  explicit RandomSource(const Rng& rng) : own(rng), current(&own) {}
-  RandomSource(const RandomSource&) = delete;
-  RandomSource& operator=(const RandomSource&) = delete;
+/// Generators for calls of Python. While one call waits for another thread, that thread gets another
+/// generator. What Python draws outside of a call comes from a stream that is equal to `own` at first.
+class RandomGenerators {
+  struct Generator {
+    py::object numpy;  ///< Keeps the stream alive.
+    Rng* stream;
+  };
 
-  Rng own;
-  Rng* current;
-};
-
-/// The `numpy.random.Generator` of a run; it draws from whichever stream it is pointed to.
-class RandomGenerator {
  public:
-  explicit RandomGenerator(const Rng& own);
+  explicit RandomGenerators(const Rng& own) : own_(own) {}
 
-  /// While an object of this class lives, numbers come from `rng`.
+  /// A `numpy.random.Generator` that draws from `rng` while this object lives.
   class Use {
    public:
-    Use(const RandomGenerator& generator, Rng& rng) : source_(generator.source_) {
-      source_->current = &rng;
+    Use(RandomGenerators& all, Rng& rng) : all_(all), rng_(rng), used_(all.take()) {
+      std::swap(*used_.stream, rng_);
     }
-    ~Use() { source_->current = &source_->own; }
+    ~Use() {
+      std::swap(*used_.stream, rng_);
+      all_.idle_.push_back(std::move(used_));
+    }
     Use(const Use&) = delete;
     Use& operator=(const Use&) = delete;
 
+    const py::object& operator*() const { return used_.numpy; }
+
    private:
-    std::shared_ptr<RandomSource> source_;
+    RandomGenerators& all_;
+    Rng& rng_;
+    Generator used_;
   };
 
-  const py::object& generator() const { return generator_; }
-
  private:
-  std::shared_ptr<RandomSource> source_;
-  py::object generator_;
+  Generator take();
+
+  Rng own_;
+  std::vector<Generator> idle_;
 };
 
 /// The class of the bit generator that numpy sees.

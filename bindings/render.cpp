@@ -79,17 +79,12 @@ py::tuple replay(PyJob& job, const std::pair<int, int>& pixel, uint64_t sample) 
 }
 
 py::dict metadata(PyJob& job) {
-  py::dict dict;
-  for (const auto& [name, value] : without_gil([&] { return job.metadata(); }))
-    dict[py::str(name)] = value;
-  return dict;
+  return py::cast(without_gil([&] { return job.metadata(); }));
 }
 
 }  // namespace
 
 void bind_render(py::module_& m) {
-  using NoGil = py::call_guard<py::gil_scoped_release>;
-
   py::class_<PyJob>(m, "Job")
       .def(py::init(&make_job), py::arg("scene"), py::arg("integrator"), py::arg("spp"),
            py::arg("time"), py::arg("error"), py::arg("seed"), py::arg("threads"),

@@ -1,14 +1,10 @@
 // Vertices of light paths as Python sees them, and how a mutation written in Python finds new ones.
 #include "light_path.h"
 
-#include "io/load.h"
-
 #include <pybind11/stl.h>
 
 namespace mlt::python {
 namespace {
-
-using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
 Vec3 to_vector(const Doubles& array, const char* what) {
   if (array.ndim() != 1 || array.size() != 3)
@@ -103,11 +99,10 @@ void bind_class(py::module_& m) {
 
 void bind_vertex(py::module_& m) {
   bind_class(m);
-  auto scene = py::class_<LoadedScene, std::shared_ptr<LoadedScene>>(m.attr("Scene"));
+  py::class_<LoadedScene, LoadedPtr> scene(m.attr("Scene"));
   const char* doc =
       "The surface that a ray meets first, as a (smooth) vertex; None if it meets none. It starts "
-      "at "
-      "a vertex or at a point.";
+      "at a vertex or at a point.";
   scene
       .def("intersect", &seen_from_vertex, py::arg("start"), py::arg("direction"),
            py::arg("time") = 0.0, doc)

@@ -7,7 +7,7 @@
 
 namespace mlt::lab {
 
-using MovePtr = std::shared_ptr<const Move<Point>>;
+using MovePtr = std::shared_ptr<Move<Point>>;
 
 enum class WalkShape { uniform, normal };
 

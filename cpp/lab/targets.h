@@ -7,7 +7,7 @@
 
 namespace mlt::lab {
 
-using TargetPtr = std::shared_ptr<const Target<Point>>;
+using TargetPtr = std::shared_ptr<Target<Point>>;
 
 /// The lecture's example: f(x) = (x - 1/2)^2 on [0, 1], 0 outside; its integral is 1/12.
 TargetPtr parabola();

@@ -248,18 +248,8 @@ class _MetropolisModule:
             seed: int,
         ) -> tuple[Any, str]: ...
 
-    class NumberChains:
-        """Chains of numbers or arrays."""
-
-        def advance(self, steps: int, expected_values: bool) -> dict[str, Any]: ...
-
-    class ObjectChains:
-        """Chains of any Python objects."""
-
-        def advance(self, steps: int, expected_values: bool) -> dict[str, Any]: ...
-
-    class PathChains:
-        """Chains of light paths."""
+    class Chains:
+        """Chains of numbers, of any Python objects, or of light paths."""
 
         def advance(self, steps: int, expected_values: bool) -> dict[str, Any]: ...
 
@@ -305,14 +295,14 @@ class _MetropolisModule:
         form: str,
         seed: int,
         vectorized: bool,
-    ) -> NumberChains: ...
+    ) -> Chains: ...
     @staticmethod
     def object_chains(
         target: Any,
         moves: list[tuple[Any, float]],
         starts: list[Any],
         seed: int,
-    ) -> ObjectChains: ...
+    ) -> Chains: ...
     @staticmethod
     def resample(
         weights: np.ndarray,
