@@ -64,48 +64,44 @@ class MltIntegrator : public Integrator {
   int direct_samples_ = -1;
 };
 
-void add_parameters_of(const MutationPlugin& plugin, std::vector<Parameter>& parameters) {
-  parameters.push_back(
-      {plugin.switch_name, ParamType::boolean, true, "Use the " + plugin.schema.doc});
-  parameters.push_back(
-      {plugin.weight_name(), ParamType::real, plugin.weight,
-       "Weight of the " + plugin.name() + " mutation among those that suit a path."});
-  for (Parameter own : plugin.schema.parameters) {
-    own.name = plugin.full_name(own.name);
-    parameters.push_back(own);
+std::vector<Parameter> mutation_parameters() {
+  std::vector<Parameter> parameters;
+  for (const MutationPlugin& plugin : mutation_plugins()) {
+    parameters.push_back(
+        {plugin.switch_name, ParamType::boolean, true, "Use the " + plugin.schema.doc});
+    parameters.push_back(
+        {plugin.weight_name(), ParamType::real, plugin.weight,
+         "Weight of the " + plugin.name() + " mutation among those that suit a path."});
+    for (Parameter own : plugin.schema.parameters) {
+      own.name = plugin.full_name(own.name);
+      parameters.push_back(own);
+    }
   }
+  return parameters;
 }
 
 }  // namespace
 
 Plugin integrator_mlt() {
-  Schema schema;
-  schema.family = "integrator";
-  schema.name = "mlt";
-  schema.doc =
+  return make_plugin<MltIntegrator>(integrator_schema(
+      "mlt",
       "Metropolis light transport in path space with Veach's mutations (Veach & Guibas 1997). One "
-      "spp is one mutation per pixel.";
-  schema.parameters = path_parameters();
-  for (const Parameter& shared : metropolis_parameters()) schema.parameters.push_back(shared);
-  for (const MutationPlugin& plugin : mutation_plugins())
-    add_parameters_of(plugin, schema.parameters);
-  schema.parameters.push_back(
-      {"near_specular", ParamType::real, 0.1,
-       "Smooth vertices below this roughness count as specular in perturbations."});
-  schema.parameters.push_back(
-      {"adaptive", ParamType::boolean, true,
-       "Let pilot chains find the weights and step sizes of the mutations; by default "
-       "only if no weight is given, and never for a step size that is given."});
-  schema.parameters.push_back(
-      {"two_stage", ParamType::boolean, false,
-       "Divide the target by a coarse image, so that dark regions get their share."});
-  schema.parameters.push_back(
-      {"direct_samples", ParamType::integer, int64_t{-1},
-       "Render light of at most one reflection apart with this many samples per pixel; "
-       "0 leaves it out, -1 leaves it to the chains."});
-  schema.parameters.push_back(
-      {"manifold_perturbation", ParamType::boolean, false, "Only false: it does not exist yet."});
-  return make_plugin<MltIntegrator>(std::move(schema));
+      "spp is one mutation per pixel.",
+      {path_parameters(),
+       metropolis_parameters(),
+       mutation_parameters(),
+       {{"near_specular", ParamType::real, 0.1,
+         "Smooth vertices below this roughness count as specular in perturbations."},
+        {"adaptive", ParamType::boolean, true,
+         "Let pilot chains find the weights and step sizes of the mutations; by default "
+         "only if no weight is given, and never for a step size that is given."},
+        {"two_stage", ParamType::boolean, false,
+         "Divide the target by a coarse image, so that dark regions get their share."},
+        {"direct_samples", ParamType::integer, int64_t{-1},
+         "Render light of at most one reflection apart with this many samples per pixel; "
+         "0 leaves it out, -1 leaves it to the chains."},
+        {"manifold_perturbation", ParamType::boolean, false,
+         "Only false: it does not exist yet."}}}));
 }
 
 }  // namespace mlt

@@ -147,10 +147,7 @@ class MltAlgorithm : public MetropolisAlgorithm {
 
   static double step_size(const std::string& name, const MutationValues& own) {
     const MutationPlugin& plugin = mutation_plugin(name);
-    if (!plugin.has_step_size()) return 0;
-    Params params(plugin.schema, {});
-    for (const auto& [parameter, value] : own) params.set(parameter, value, {});
-    return params.real("largest_share");
+    return plugin.has_step_size() ? own_parameters(plugin, own).real("largest_share") : 0;
   }
 
   std::unique_ptr<RenderChain> chain(const ChainId& id, PathState start) const {

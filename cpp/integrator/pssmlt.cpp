@@ -128,21 +128,16 @@ class PssmltIntegrator : public Integrator {
 }  // namespace
 
 Plugin integrator_pssmlt() {
-  Schema schema;
-  schema.family = "integrator";
-  schema.name = "pssmlt";
-  schema.doc =
+  return make_plugin<PssmltIntegrator>(integrator_schema(
+      "pssmlt",
       "Primary-sample-space Metropolis light transport over the path tracer (Kelemen et al. 2002). "
-      "One spp is one mutation per pixel.";
-  schema.parameters = path_parameters();
-  for (const Parameter& shared : metropolis_parameters()) schema.parameters.push_back(shared);
-  schema.parameters.push_back(
-      {"p_large", ParamType::real, 0.3,
-       "Probability of a large step, which draws a new path independently."});
-  schema.parameters.push_back(
-      {"bidirectional", ParamType::boolean, false,
-       "Only false: bidirectional estimators are not part of this integrator."});
-  return make_plugin<PssmltIntegrator>(std::move(schema));
+      "One spp is one mutation per pixel.",
+      {path_parameters(),
+       metropolis_parameters(),
+       {{"p_large", ParamType::real, 0.3,
+         "Probability of a large step, which draws a new path independently."},
+        {"bidirectional", ParamType::boolean, false,
+         "Only false: bidirectional estimators are not part of this integrator."}}}));
 }
 
 }  // namespace mlt

@@ -24,11 +24,16 @@ const MutationPlugin& mutation_plugin(const std::string& name) {
   throw UsageError("unknown mutation '" + name + "'" + suggestion(name, names));
 }
 
+Params own_parameters(const MutationPlugin& plugin, const MutationValues& values) {
+  Params params(plugin.schema, {});
+  for (const auto& [own, value] : values) params.set(own, value, {});
+  return params;
+}
+
 MutationPtr make_mutation(const std::string& name, const PathTarget& target,
                           const MutationValues& values) {
   const MutationPlugin& plugin = mutation_plugin(name);
-  Params params(plugin.schema, {});
-  for (const auto& [own, value] : values) params.set(own, value, {});
+  Params params = own_parameters(plugin, values);
   return plugin.make(target, params);
 }
 

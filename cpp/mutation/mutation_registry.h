@@ -40,6 +40,8 @@ const MutationPlugin& mutation_plugin(const std::string& name);
 /// Values for parameters of a mutation's own; the others have their defaults.
 using MutationValues = std::vector<std::pair<std::string, Value>>;
 
+/// Throws SceneError for a value that does not fit.
+Params own_parameters(const MutationPlugin& plugin, const MutationValues& values);
 /// Throws UsageError for an unknown name, SceneError for a value that does not fit.
 MutationPtr make_mutation(const std::string& name, const PathTarget& target,
                           const MutationValues& values = {});
