@@ -17,7 +17,9 @@ enum class Purpose : uint64_t {
   choice,
   map,
   pilot,
-  inspect
+  inspect,
+  allocation,
+  sample
 };
 
 /// SplitMix64 (Steele, Lea & Flood 2014): a bijective mixer of 64 bits.

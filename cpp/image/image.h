@@ -41,6 +41,12 @@ struct Image {
   std::vector<float> data;
 };
 
+/// Of the same size.
+inline Image& operator+=(Image& a, const Image& b) {
+  for (size_t i = 0; i < a.data.size(); ++i) a.data[i] += b.data[i];
+  return a;
+}
+
 inline bool operator==(const Image& a, const Image& b) {
   return a.width == b.width && a.height == b.height && a.channels == b.channels && a.data == b.data;
 }

@@ -5,6 +5,7 @@
 #include "base/bytes.h"
 #include "base/rng.h"
 #include "image/splat_film.h"
+#include "integrator/family_weights.h"
 #include "markov/chain.h"
 #include "path/ray_counts.h"
 
@@ -14,31 +15,49 @@
 
 namespace mlt {
 
-/// Where a chain leaves what it visits: RGB / L* at a raster position, times an expected weight.
-/// Each splat waits for the next one, while its pixel comes from memory.
+/// Where chains leave what they visit.
 class ChainRecorder {
  public:
-  ChainRecorder(SplatFilm& film, int group) : film_(&film), group_(group) {}
-  void record(const Vec2& raster, const Color& rgb_per_target, double weight) {
+  virtual ~ChainRecorder() = default;
+  /// RGB / T of a state, its expected weight, and its T / P (see FamilyWeights).
+  virtual void record(const Vec2& raster, const Color& rgb_per_target, double weight,
+                      double target_over_density) = 0;
+  /// Called when a chain pauses.
+  virtual void flush() {}
+};
+
+/// Records on a film what the chains are believed. Each splat waits for the next one, while its
+/// pixel comes from memory.
+class FilmRecorder : public ChainRecorder {
+ public:
+  FilmRecorder(SplatFilm& film, int group, const FamilyWeights& weights)
+      : film_(&film), group_(group), weights_(&weights) {}
+  void record(const Vec2& raster, const Color& rgb_per_target, double weight,
+              double target_over_density) override {
     film_->prefetch(group_, raster);
     flush();
     raster_ = raster;
-    color_ = rgb_per_target * weight;
+    color_ = rgb_per_target * (weight * weights_->of_chain(target_over_density));
+    brightness_ += target_luminance(color_);
   }
-  void flush() {
+  void flush() override {
     if (!is_black(color_)) film_->add(group_, raster_, color_);
     color_ = Color(0);
   }
+  /// Sum of L* of what was recorded.
+  double brightness() const { return brightness_; }
 
  private:
   SplatFilm* film_;
   int group_;
+  const FamilyWeights* weights_;
   Vec2 raster_{0};
   Color color_{0};
+  double brightness_ = 0;
 };
 
 /// Records the states of a chain, each once: the weights of the current state add up until the
-/// chain leaves it. A State has raster, rgb and target.
+/// chain leaves it. A State has raster, rgb and target, and target_over_density(state).
 template <class State>
 class StepRecorder {
  public:
@@ -66,7 +85,7 @@ class StepRecorder {
   void record(const State& state, double weight) {
     // A chain may start from a path whose light rounding has taken away.
     if (weight > 0 && state.target > 0)
-      recorder_->record(state.raster, state.rgb / state.target, weight);
+      recorder_->record(state.raster, state.rgb / state.target, weight, target_over_density(state));
   }
 
   ChainRecorder* recorder_;

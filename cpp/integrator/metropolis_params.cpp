@@ -4,10 +4,14 @@ namespace mlt {
 
 std::vector<Parameter> metropolis_parameters() {
   return {
-      {"luminance_samples", ParamType::integer, int64_t{100000},
-       "Paths drawn to estimate the image's mean brightness b and to start the chains from."},
+      {"luminance_samples", ParamType::integer, int64_t{50000},
+       "Paths drawn to start the chains from; a pilot before that draws about as many."},
       {"chains", ParamType::integer, int64_t{1024},
        "Number of Markov chains, whatever the budget: more samples make chains longer."},
+      {"independent_share", ParamType::real, no_default,
+       "Share of the time for samples that are independent of the chains, 0 to 1. They show what "
+       "they are good at, and tell the brightness b. By default a pilot finds the best one; 1: "
+       "there are no chains."},
   };
 }
 
@@ -15,6 +19,8 @@ MetropolisSettings metropolis_settings(Params& params) {
   MetropolisSettings settings;
   settings.luminance_samples = params.integer_in("luminance_samples", 16, int64_t{1} << 40);
   settings.chains = static_cast<int>(params.integer_in("chains", 16, 1 << 24));
+  if (params.has("independent_share"))
+    settings.independent_share = params.real_in("independent_share", 0, 1);
   return settings;
 }
 

@@ -1,12 +1,15 @@
-// Rendering by Markov chains: what all Metropolis integrators share. A render is a fixed number of
-// chains, each with its own random stream; a unit is some steps of one chain, and chains
-// are visited in turn, so that every prefix of a render is a fair image. Chains form independent
-// groups, each with its own bootstrap and its own estimate of b.
+// Rendering by Markov chains, with independent samples beside them: what all Metropolis integrators
+// share. A render is a fixed number of chains and of sequences of samples, each with its own random
+// numbers; a unit is some steps of one chain or some samples of one sequence, and these are visited
+// in turn, so that every prefix of a render is a fair image. They form independent groups, each with
+// its own bootstrap; GroupCombination tells how these add up.
 #pragma once
 
+#include "integrator/group_combination.h"
 #include "integrator/integrator.h"
-#include "integrator/metropolis_chain.h"
+#include "integrator/metropolis_pilot.h"
 #include "integrator/separate_direct.h"
+#include "markov/bootstrap.h"
 
 #include <condition_variable>
 #include <memory>
@@ -15,45 +18,18 @@
 
 namespace mlt {
 
-/// What distinguishes one Metropolis integrator from another.
-class MetropolisAlgorithm {
- public:
-  virtual ~MetropolisAlgorithm() = default;
-
-  /// Draws candidates for the starts of chains, and keeps its memory from one to the next.
-  class Source {
-   public:
-    virtual ~Source() = default;
-    /// Draws a candidate; returns its weight L* / p.
-    virtual double weigh(Rng& rng) = 0;
-    virtual const RayCounts& rays() const = 0;
-  };
-  virtual std::unique_ptr<Source> source() const = 0;
-  /// Starts a chain from the candidate that the same stream gave; `choice` is there to choose one
-  /// of several paths that the candidate consists of.
-  virtual std::unique_ptr<RenderChain> start(const ChainId& id, Rng candidate,
-                                             Rng choice) const = 0;
-  /// A chain without a state, to be loaded from bytes.
-  virtual std::unique_ptr<RenderChain> blank(const ChainId& id) const = 0;
-  /// Name and path length of each row of the statistics.
-  virtual std::vector<MutationStats> rows() const = 0;
-  /// Called once before the bootstrap, to prepare whatever is to be known by then.
-  virtual void prepare(uint64_t /*seed*/, int /*threads*/, const std::atomic<bool>& /*cancelled*/) {
-  }
-  virtual void add_stats(Stats& /*stats*/) const {}
-  virtual std::string save() const { return ""; }
-  virtual void load(const std::string& /*bytes*/) {}
-};
-
 struct MetropolisSettings {
   int chains = 1024;
-  int64_t luminance_samples = 100000;
+  int64_t luminance_samples = 50000;
+  std::optional<double> independent_share;  ///< Of the time; without, a pilot finds it.
 };
 
 class MetropolisRendering : public Rendering {
  public:
+  /// The algorithm has been prepared, or will be loaded with the rendering.
   MetropolisRendering(ScenePtr scene, uint64_t seed, const MetropolisSettings& settings,
-                      std::unique_ptr<MetropolisAlgorithm> algorithm, SeparateDirect direct = {});
+                      const Allocation& allocation, std::unique_ptr<MetropolisAlgorithm> algorithm,
+                      SeparateDirect direct = {});
 
   void prepare(int threads, const std::atomic<bool>& cancelled) override;
   void run_unit(uint64_t unit) override;
@@ -68,39 +44,48 @@ class MetropolisRendering : public Rendering {
   /// A unit ends within a fraction of a second, however few chains share a large image.
   static constexpr uint64_t most_steps_per_unit = 4096;
 
-  /// A share of the render.
-  struct ChainShare {
+  /// A share of the render: a chain, or a sequence of samples.
+  struct Share {
     int group = 0, number = 0;
     std::unique_ptr<RenderChain> chain;
+    double brightness = 0;  ///< Sum of L* of what the chain has recorded.
+    std::unique_ptr<IndependentSamples> samples;
     uint64_t units = 0;  ///< That are done.
     mutable std::mutex mutex;
     std::condition_variable turn;
   };
   struct Group {
-    double b = 0, b_error = 0;
+    SampleSums bootstrap;
     std::atomic<uint64_t> steps{0};
   };
 
   double pixels() const { return scene_->camera().raster().pixels(); }
   int chains_of(int group) const;
-  ChainId chain_id(const ChainShare& share) const;
+  ChainId chain_id(const Share& share) const;
+  SplatFilm make_film() const;
   void render_direct(int threads, const std::atomic<bool>& cancelled);
+  void divide_samples();
+  std::unique_ptr<IndependentSamples> samples_of(int group, int number) const;
   void lay_out();
-  bool begun(const Group& group) const { return group.steps > 0 || group.b == 0; }
-  double scale_of(const Group& group) const;
+  std::vector<std::vector<uint32_t>> run_bootstrap(const Candidates& candidates, int threads,
+                                                   const std::atomic<bool>& cancelled);
+  GroupCombination combination() const;
+  Image image(GroupScales scales) const;
   ChainStats sum_of_stats(StuckChain& stuck) const;
+  std::unique_ptr<Share> read_share(const Share& like, ByteReader& bytes) const;
   std::string save_prepared() const;
   void load_prepared(const std::string& prepared);
 
   MetropolisSettings settings_;
+  Allocation allocation_;
   std::unique_ptr<MetropolisAlgorithm> algorithm_;
   SeparateDirect direct_;
-  SplatFilm film_;
-  /// The chains of groups that have found light, group after group: the film of one group then
-  /// stays in the cache while its chains advance.
-  std::vector<std::unique_ptr<ChainShare>> chains_;
+  SplatFilm chain_film_, sample_film_;
+  /// Group after group: the film of one group then stays in the cache while its chains advance.
+  std::vector<std::unique_ptr<Share>> shares_;
   std::array<Group, group_count> groups_;
-  uint64_t steps_per_unit_;
+  uint64_t steps_per_unit_, samples_per_unit_ = 0;
+  int sequences_ = 0;  ///< Of samples, in each group.
   RayCounts bootstrap_rays_;
 };
 

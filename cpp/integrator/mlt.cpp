@@ -1,6 +1,7 @@
 // mlt: Metropolis light transport in path space. E. Veach and L. Guibas, "Metropolis light
 // transport", SIGGRAPH 1997; Veach 1997, ch. 11.
 #include "base/registry.h"
+#include "integrator/bdpt_params.h"
 #include "integrator/metropolis_params.h"
 #include "integrator/mlt_algorithm.h"
 #include "integrator/path_params.h"
@@ -29,7 +30,6 @@ class MltIntegrator : public Integrator {
       params.fail("manifold_perturbation",
                   "is true, but this mutation does not exist yet; leave it out");
     settings_.two_stage = params.boolean("two_stage");
-    settings_.luminance_samples = metropolis_.luminance_samples;
     direct_samples_ = static_cast<int>(params.integer_in("direct_samples", -1, 1 << 20));
     if (direct_samples_ >= 0) settings_.rules.min_depth = 3;
     bool chosen = false;  // by the user
@@ -43,13 +43,16 @@ class MltIntegrator : public Integrator {
       params.fail("needs at least one mutation with a positive weight");
   }
   std::unique_ptr<Rendering> start(ScenePtr scene, uint64_t seed) const override {
-    auto algorithm = mlt_algorithm(scene, settings_);
     SeparateDirect direct;
+    BidirectionalSettings alone;
+    alone.rules = settings_.rules;
     if (direct_samples_ >= 0)
       direct = separate_direct(scene, seed, direct_samples_, settings_.rules.hide_emitters,
                                settings_.rules.strict_normals);
-    return std::make_unique<MetropolisRendering>(std::move(scene), seed, metropolis_,
-                                                 std::move(algorithm), std::move(direct));
+    if (direct_samples_ > 0) alone.rules.min_depth = 1;
+    return std::make_unique<PilotedRendering>(
+        scene, seed, metropolis_, mlt_algorithm(scene, settings_),
+        [scene, seed, alone] { return bdpt_rendering(scene, seed, alone); }, std::move(direct));
   }
   std::shared_ptr<const Integrator> with_mutations(
       const std::vector<ExtraMutation>& extra) const override {
@@ -95,7 +98,7 @@ Plugin integrator_mlt() {
         {"adaptive", ParamType::boolean, true,
          "Let pilot chains find the weights and step sizes of the mutations; by default "
          "only if no weight is given, and never for a step size that is given."},
-        {"two_stage", ParamType::boolean, false,
+        {"two_stage", ParamType::boolean, true,
          "Divide the target by a coarse image, so that dark regions get their share."},
         {"direct_samples", ParamType::integer, int64_t{-1},
          "Render light of at most one reflection apart with this many samples per pixel; "

@@ -66,8 +66,9 @@ class MltAlgorithm : public MetropolisAlgorithm {
     weights_ = std::make_shared<MixtureWeights>(std::move(weights));
   }
 
-  void prepare(uint64_t seed, int threads, const std::atomic<bool>& cancelled) override {
-    if (settings_.two_stage) target_.set_map(draw_map(seed, threads, cancelled));
+  void prepare(const TargetMap& coarse, uint64_t seed, int threads,
+               const std::atomic<bool>& cancelled) override {
+    if (settings_.two_stage) target_.set_map(coarse);
     if (!settings_.adaptive || cancelled) return;
     AdaptationSettings adaptation;
     adaptation.seed = seed;
@@ -109,7 +110,7 @@ class MltAlgorithm : public MetropolisAlgorithm {
     std::vector<double> factors;
     bytes.read(factors);
     if (settings_.two_stage) {
-      TargetMap map = blank_map();
+      TargetMap map = blank_image(target_.scene().camera().raster());
       map.set_factors(std::move(factors));
       target_.set_map(std::move(map));
     }
@@ -126,9 +127,22 @@ class MltAlgorithm : public MetropolisAlgorithm {
  private:
   struct MltSource : Source {
     explicit MltSource(const PathTarget& target) : seeds(target) {}
-    double weigh(Rng& rng) override { return seeds.weigh(rng); }
+    const std::vector<FoundLight>& sample(PixelSampler sampler) override { return draw(sampler); }
+    const std::vector<FoundLight>& sample(RandomSampler sampler) override { return draw(sampler); }
     const RayCounts& rays() const override { return seeds.rays(); }
+
+    template <class Sampler>
+    const std::vector<FoundLight>& draw(Sampler sampler) {
+      found.clear();
+      seeds.draw(sampler, [&](const Connection& c, double weight) {
+        found.push_back({c.raster, c.contribution * c.weight, weight,
+                         weight / c.weight * c.own_share, c.t >= 2});
+      });
+      return found;
+    }
+
     PathSeeds seeds;
+    std::vector<FoundLight> found;
   };
 
   /// The mutation as it is, or once for each step size that adaptation chooses from.
@@ -153,30 +167,6 @@ class MltAlgorithm : public MetropolisAlgorithm {
   std::unique_ptr<RenderChain> chain(const ChainId& id, PathState start) const {
     return std::make_unique<RecordedChain<GroupMixture>>(
         GroupMixture(target_, {mutations_, weights_}, id), id, std::move(start));
-  }
-
-  TargetMap blank_map() const { return TargetMap(target_.scene().camera().raster(), 16); }
-
-  /// The first stage of two-stage sampling: a coarse image by bidirectional path tracing.
-  TargetMap draw_map(uint64_t seed, int threads, const std::atomic<bool>& cancelled) const {
-    const PathTarget plain(target_.scene_ptr(), settings_.rules, settings_.near_specular);
-    const auto count = static_cast<uint64_t>(settings_.luminance_samples);
-    const Candidates candidates{seed, Purpose::map, count};
-    constexpr uint64_t parts = 64;
-    std::vector<TargetMap> maps(parts, blank_map());
-    parallel_for(threads, parts, [&](uint64_t part) {
-      PathSeeds seeds(plain);
-      for (uint64_t i = count * part / parts; i < count * (part + 1) / parts && !cancelled; ++i) {
-        Rng rng = candidates.rng(i);
-        seeds.draw(rng, [&](const Connection& found, double weight) {
-          maps[part].add(found.raster, weight);
-        });
-      }
-    });
-    TargetMap sum = blank_map();
-    for (const TargetMap& map : maps) sum.add(map);
-    sum.finish();
-    return sum;
   }
 
   MltSettings settings_;

@@ -1,7 +1,7 @@
 // The chains of mlt: which mutations move them, with which weights, towards which target.
 #pragma once
 
-#include "integrator/metropolis_rendering.h"
+#include "integrator/metropolis_algorithm.h"
 #include "mutation/extra_mutation.h"
 #include "mutation/mutation_registry.h"
 
@@ -24,8 +24,7 @@ struct MltSettings {
   std::vector<MixedMutation> mixture;
   std::vector<ExtraMutation> extra;
   bool adaptive = true;
-  bool two_stage = false;
-  int64_t luminance_samples = 100000;
+  bool two_stage = true;
 };
 
 std::unique_ptr<MetropolisAlgorithm> mlt_algorithm(ScenePtr scene, const MltSettings& settings);

@@ -23,6 +23,11 @@ struct PrimaryWalk {
 
   void operator()(PrimaryState& state, Rng& rng) {
     PrimarySampler sampler(state.numbers, rng);
+    walk(state, sampler);
+    state.numbers.resize(sampler.used());
+  }
+  template <class Sampler>
+  void walk(PrimaryState& state, Sampler& sampler) {
     const Camera& camera = scene->camera();
     state.raster = camera.raster().sample(sampler.next2());
     const Ray ray = leave_lens(camera, state.raster, sampler).ray;
@@ -30,7 +35,6 @@ struct PrimaryWalk {
     const double importance = camera.raster().sampled_area() / camera.raster().pixels();
     state.rgb = trace_path(*scene, rules, ray, sampler, rays) * importance;
     state.target = target_luminance(state.rgb);
-    state.numbers.resize(sampler.used());
     if (!(std::isfinite(state.target) && min_component(state.rgb) >= 0))
       state.target = std::nan("");
   }
@@ -82,15 +86,21 @@ class Pssmlt : public MetropolisAlgorithm {
  private:
   struct PssmltSource : Source {
     explicit PssmltSource(const PrimaryWalk& w) : walk(w) {}
-    double weigh(Rng& rng) override {
-      state.numbers.clear();
-      walk(state, rng);
-      return state.target;
+    const std::vector<FoundLight>& sample(PixelSampler sampler) override { return draw(sampler); }
+    const std::vector<FoundLight>& sample(RandomSampler sampler) override { return draw(sampler); }
+    template <class Sampler>
+    const std::vector<FoundLight>& draw(Sampler sampler) {
+      walk.walk(state, sampler);
+      found.clear();
+      if (state.target != 0)
+        found.push_back({state.raster, state.rgb, state.target, state.target, true});
+      return found;
     }
     const RayCounts& rays() const override { return walk.rays; }
 
     PrimaryWalk walk;
     PrimaryState state;
+    std::vector<FoundLight> found;
   };
 
   PrimaryWalk walk() const { return {scene_.get(), settings_.path}; }
@@ -115,9 +125,9 @@ class PssmltIntegrator : public Integrator {
       params.fail("p_large", "is 0, but without large steps a chain cannot reach the whole image");
   }
   std::unique_ptr<Rendering> start(ScenePtr scene, uint64_t seed) const override {
-    auto algorithm = std::make_unique<Pssmlt>(scene, settings_);
-    return std::make_unique<MetropolisRendering>(std::move(scene), seed, metropolis_,
-                                                 std::move(algorithm));
+    return std::make_unique<PilotedRendering>(
+        scene, seed, metropolis_, std::make_unique<Pssmlt>(scene, settings_),
+        [scene, seed, rules = settings_.path] { return path_rendering(scene, seed, rules); });
   }
 
  private:

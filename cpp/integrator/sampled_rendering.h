@@ -118,7 +118,10 @@ class SampledRendering : public Rendering {
 template <class Taker>
 class SampledIntegrator : public Integrator {
  public:
+  using Settings = decltype(Taker::settings(std::declval<Params&>()));
+
   explicit SampledIntegrator(Params& params) : settings_(Taker::settings(params)) {}
+  explicit SampledIntegrator(const Settings& settings) : settings_(settings) {}
   std::unique_ptr<Rendering> start(ScenePtr scene, uint64_t seed) const override {
     return std::make_unique<SampledRendering>(std::move(scene), seed, Taker::film(settings_),
                                               [settings = settings_](const Scene& scene) {
@@ -127,7 +130,7 @@ class SampledIntegrator : public Integrator {
   }
 
  private:
-  decltype(Taker::settings(std::declval<Params&>())) settings_;
+  Settings settings_;
 };
 
 }  // namespace mlt

@@ -48,6 +48,10 @@ struct Stats {
   std::vector<DisagreementStats> disagreements;  ///< The brightest blocks first, ten at the most.
   /// Mean of L* over the image and its standard error; Metropolis only.
   double b = 0, b_error = 0;
+  /// Of the time, for samples that are independent of the chains; how many samples b was estimated
+  /// from, and how many of these, those of the highest weight, carry half of it. Metropolis only.
+  double independent_share = 0;
+  uint64_t independent_samples = 0, samples_carrying_half = 0;
   uint64_t invalid_samples = 0;
   std::vector<StuckChain> stuck;
   std::vector<MutationStats> mutations;

@@ -18,7 +18,7 @@ struct AdaptationSettings {
   int threads = 1;
   int chains = 64;
   int steps = 1000;
-  uint64_t candidates = 16384;
+  uint64_t candidates = 8192;
   double least_share = 0.05;            ///< What every mutation keeps.
   double least_share_of_ergodic = 0.1;  ///< One that makes the chain ergodic keeps more.
 };

@@ -66,7 +66,7 @@ class Auditor {
     double light = 0, suited = 0;
     PathState x;
     for (uint64_t i = 0; i < n && !*cancelled_; ++i)
-      seeds.draw(rng, [&](const Connection& connection, double weight) {
+      seeds.draw(RandomSampler(rng), [&](const Connection& connection, double weight) {
         light += weight;
         if (take(seeds, connection, mixture, x)) suited += weight;
       });
@@ -93,7 +93,7 @@ class Auditor {
     Scratch scratch;
     for (uint64_t i = 0; i < samples_ && !*cancelled_; ++i) {
       double weight_of_sample = 0;
-      seeds.draw(chain.rng(), [&](const Connection& connection, double weight) {
+      seeds.draw(RandomSampler(chain.rng()), [&](const Connection& connection, double weight) {
         sums.light += weight;
         if (!take(seeds, connection, chain.kernel(), x)) return;
         if (!(x.target > 0)) {

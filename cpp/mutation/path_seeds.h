@@ -17,7 +17,7 @@ class PathSeeds {
   /// Sum of the weights of a candidate's paths.
   double weigh(Rng& rng) {
     double sum = 0;
-    draw(rng, [&](const Connection&, double weight) { sum += weight; });
+    draw(RandomSampler(rng), [&](const Connection&, double weight) { sum += weight; });
     return sum;
   }
 
@@ -25,7 +25,7 @@ class PathSeeds {
   PathState pick(Rng rng, Rng choice) {
     PathState x;
     double sum = 0;
-    draw(rng, [&](const Connection& connection, double weight) {
+    draw(RandomSampler(rng), [&](const Connection& connection, double weight) {
       sum += weight;
       if (choice.next() * sum < weight) paths_.assemble(connection, x.path);
     });
@@ -34,19 +34,17 @@ class PathSeeds {
   }
 
   /// Calls found(connection, weight) for each path of a candidate.
-  template <class Found>
-  void draw(Rng& rng, Found&& found) {
-    draw_all(rng, [&](const Connection& c) {
-      double weight = target_luminance(c.contribution) * c.weight;
-      if (target_->map()) weight *= (*target_->map())(c.raster);
+  template <class Sampler, class Found>
+  void draw(Sampler sampler, Found&& found) {
+    draw_all(sampler, [&](const Connection& c) {
+      const double weight = target_->of(c.contribution, c.raster) * c.weight;
       if (std::isfinite(weight) && weight > 0) found(c, weight);
     });
   }
 
   /// The same, also for paths without a weight: calls found(connection).
-  template <class Found>
-  void draw_all(Rng& rng, Found&& found) {
-    RandomSampler sampler(rng);
+  template <class Sampler, class Found>
+  void draw_all(Sampler sampler, Found&& found) {
     paths_.sample(target_->scene().camera().raster().sample(sampler.next2()), sampler, rays_);
     paths_.connect_all(rays_, found);
   }

@@ -28,7 +28,7 @@ void PathTarget::evaluate_target(PathState& x) const {
   const auto raster = raster_position(*scene_, x.path);
   if (!raster) return;
   x.raster = *raster;
-  x.target = map_ ? target * (*map_)(x.raster) : target;
+  x.target = of(x.rgb, x.raster);
 }
 
 PathSeeds PathTarget::seeds() const { return PathSeeds(*this); }

@@ -26,6 +26,11 @@ class PathTarget {
   const TargetMap* map() const { return map_ ? &*map_ : nullptr; }
   void set_map(TargetMap map) { map_ = std::move(map); }
 
+  /// The target of light of this color, f or f / p, at a raster position.
+  double of(const Color& color, const Vec2& raster) const {
+    const double luminance = target_luminance(color);
+    return map_ ? luminance * (*map_)(raster) : luminance;
+  }
   /// Computes what depends on vertices first ... last and their neighbours, then f and L*. Without
   /// visibility. target = 0 if the path carries no light, misses the image or breaks the rules.
   void evaluate(int first, int last, PathState& x) const;

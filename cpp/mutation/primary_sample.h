@@ -24,6 +24,9 @@ struct PrimaryState {
   double target = 0;  ///< L* of it; NaN if the estimator failed.
 };
 
+/// T / P, where independent samples have the density 1.
+inline double target_over_density(const PrimaryState& x) { return x.target; }
+
 /// A small step: u + s, wrapped around, where |s| is distributed between 1/1024 and 1/64 with
 /// density proportional to 1/|s| (Kelemen et al. 2002, sec. 4.2). Symmetric.
 inline double small_step(double u, Rng& rng) {

@@ -36,4 +36,7 @@ class TargetMap {
   std::vector<double> factors_;
 };
 
+/// Without any sample yet, of 16 x 16 pixels a cell.
+inline TargetMap blank_image(const Raster& raster) { return TargetMap(raster, 16); }
+
 }  // namespace mlt

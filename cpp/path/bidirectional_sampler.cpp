@@ -14,15 +14,19 @@ void BidirectionalSampler::begin_densities(const WalkVertex* lights, int s,
     densities_[k - j] = {cameras[j].reverse, cameras[j].forward, connectable(cameras[j].vertex)};
 }
 
-double BidirectionalSampler::weight(int s, const Vertex& x0, const Vertex& xk,
-                                    const SurfacePoint& x1) {
+bool BidirectionalSampler::weigh(Connection& connection, double survival, const Vertex& x0,
+                                 const Vertex& xk, const SurfacePoint& x1) {
   const int k = static_cast<int>(densities_.size()) - 1;
   if (!settings_.light_image)
     densities_[k].connectable = false;  // t = 1 is not among the techniques
   const double direct =
       settings_.sample_direct ? direct_position_pdf(*scene_, x0, x1) : densities_[0].from_light;
-  return mis_weight(densities_.data(), k, s, direct, can_be_hit(*scene_, x0),
-                    settings_.light_image && can_be_hit(*scene_, xk), settings_.heuristic);
+  const MisWeights weights =
+      mis_weights(densities_.data(), k, connection.s, direct, can_be_hit(*scene_, x0),
+                  settings_.light_image && can_be_hit(*scene_, xk), settings_.heuristic);
+  connection.weight = weights.chosen;
+  connection.own_share = weights.balance * survival;
+  return connection.weight > 0;
 }
 
 /// s = 0: the camera walk has hit a light.
@@ -39,8 +43,7 @@ bool BidirectionalSampler::evaluate_hit_light(Connection& connection) {
   densities_[0].connectable = true;
   densities_[0].from_light = light_position_pdf(*scene_, x0);
   densities_[1].from_light = terms.pdf_from_light * end.G;
-  connection.weight = weight(0, x0, camera_[0].vertex, camera_[t - 2].vertex.at);
-  return connection.weight > 0;
+  return weigh(connection, end.survival, x0, camera_[0].vertex, camera_[t - 2].vertex.at);
 }
 
 /// s >= 1, t >= 1: the last vertices of the two subpaths see each other.
@@ -81,8 +84,7 @@ bool BidirectionalSampler::evaluate_connection(Connection& connection, RayCounts
   densities_[s - 1].from_camera = at_b.pdf_from_camera * G;
   if (s >= 2) densities_[s - 2].from_camera = at_a.pdf_from_camera * a.G;
   const SurfacePoint& x1 = s >= 2 ? light_[1].vertex.at : b.vertex.at;
-  connection.weight = weight(s, lights[0].vertex, camera_[0].vertex, x1);
-  return connection.weight > 0;
+  return weigh(connection, a.survival * b.survival, lights[0].vertex, camera_[0].vertex, x1);
 }
 
 bool BidirectionalSampler::choose_direct(const SurfacePoint& from, const Vec3& u) {
@@ -125,8 +127,7 @@ bool BidirectionalSampler::evaluate_hit_lens(Connection& connection, RayCounts& 
   densities_[k].from_light = last.next_coefficient * G;
   densities_[k - 1].from_camera = terms.pdf_from_camera * G;
   const SurfacePoint& x1 = k >= 2 ? light_[1].vertex.at : lens_.vertex.at;
-  connection.weight = weight(s, light_[0].vertex, lens_.vertex, x1);
-  return connection.weight > 0;
+  return weigh(connection, last.next_survival, light_[0].vertex, lens_.vertex, x1);
 }
 
 void BidirectionalSampler::assemble(const Connection& connection, Path& path) const {

@@ -23,6 +23,8 @@ struct Connection {
   Color contribution;  ///< f / p, without the weight.
   double weight;
   const Emitter* emitter = nullptr;  ///< The light of a path with s = 0.
+  /// Times the contribution: f / P, with P the density of all techniques together.
+  double own_share = 0;
 };
 
 /// A light and a camera subpath, and the connections between them. Keeps its memory from sample to
@@ -131,7 +133,9 @@ class BidirectionalSampler {
   bool choose_direct(const SurfacePoint& from, const Vec3& u);
 
   void begin_densities(const WalkVertex* lights, int s, const WalkVertex* cameras, int t);
-  double weight(int s, const Vertex& x0, const Vertex& xk, const SurfacePoint& x1);
+  /// Fills in the weights from `densities_`; false if this technique counts for nothing.
+  bool weigh(Connection& connection, double survival, const Vertex& x0, const Vertex& xk,
+             const SurfacePoint& x1);
 
   const Scene* scene_;
   BidirectionalSettings settings_;

@@ -70,15 +70,29 @@ double technique_density(const PathTerms& terms, int s) {
   return p;
 }
 
+double total_density(const PathTerms& terms) {
+  // sum_s e_s l_0 ... l_{s-1} c_s ... c_k as nested brackets, from the camera on; l and c are the
+  // densities of light and camera walks, and e_s tells whether technique s can make the path.
+  const int k = terms.edges();
+  double sum = can_sample(terms, k + 1) ? 1 : 0, camera = 1, direct = 0;
+  for (int i = k; i >= 0; --i) {
+    camera *= terms[i].from_camera;
+    sum *= terms[i].from_light;
+    if (can_sample(terms, i)) (i == 1 ? direct : sum) += camera;
+  }
+  return sum + terms.direct * direct;
+}
+
 double mis_weight(const PathTerms& terms, int s, Heuristic heuristic) {
   if (!can_sample(terms, s)) return 0;
-  return mis_weight(terms.at.data(), terms.edges(), s, terms.direct, terms.light_can_be_hit,
-                    terms.camera_can_be_hit, heuristic);
+  return mis_weights(terms.at.data(), terms.edges(), s, terms.direct, terms.light_can_be_hit,
+                     terms.camera_can_be_hit, heuristic)
+      .chosen;
 }
 
 template <class Densities>
-double mis_weight(const Densities* x, int edges, int s, double direct, bool light_can_be_hit,
-                  bool camera_can_be_hit, Heuristic heuristic) {
+MisWeights mis_weights(const Densities* x, int edges, int s, double direct, bool light_can_be_hit,
+                       bool camera_can_be_hit, Heuristic heuristic) {
   const int k = edges;
   const double direct_over_walk = direct / x[0].from_light;
   const double own =
@@ -101,15 +115,16 @@ double mis_weight(const Densities* x, int edges, int s, double direct, bool ligh
     ratio *= x[i - 1].from_light / x[i - 1].from_camera;
     if (i == k + 1 ? camera_can_be_hit : x[i - 1].connectable && x[i].connectable) add(ratio, i);
   }
+  const double balance = own / sum_balance;
   switch (heuristic) {
-    case Heuristic::balance: return own / sum_balance;
-    case Heuristic::power: return own * own / sum;
+    case Heuristic::balance: return {balance, balance};
+    case Heuristic::power: return {own * own / sum, balance};
     case Heuristic::maximum: break;
   }
-  return largest ? 1.0 : 0.0;
+  return {largest ? 1.0 : 0.0, balance};
 }
 
-template double mis_weight(const VertexDensities*, int, int, double, bool, bool, Heuristic);
-template double mis_weight(const TermsAt*, int, int, double, bool, bool, Heuristic);
+template MisWeights mis_weights(const VertexDensities*, int, int, double, bool, bool, Heuristic);
+template MisWeights mis_weights(const TermsAt*, int, int, double, bool, bool, Heuristic);
 
 }  // namespace mlt

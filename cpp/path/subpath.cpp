@@ -31,6 +31,7 @@ bool Subpath::trace(const Walker& walker, const Ray& ray) {
   WalkVertex next;
   next.vertex = surface_vertex(at);
   next.throughput = last.next_throughput;
+  next.survival = last.next_survival;
   next.towards_previous = -ray.d;
   next.G = geometry(last.vertex.at, at);
   next.forward = last.next_coefficient * next.G;
@@ -58,6 +59,7 @@ bool Subpath::scatter(const Walker& walker, const PathRules& rules, const Vec3& 
   x.towards_next = sample->w;
   x.next_coefficient = coefficient;
   x.next_throughput = x.throughput * ratio / survival;
+  x.next_survival = x.survival * survival;
   vertices_[size() - 2].reverse = back * x.G;
   return true;
 }

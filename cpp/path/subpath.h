@@ -14,6 +14,8 @@ struct WalkVertex {
   Vertex vertex;             ///< Its lobe is the one by which the walk went on.
   Color throughput{0};       ///< alpha: f / p of everything before this vertex scatters.
   Color next_throughput{0};  ///< alpha of the next vertex.
+  /// Probability that Russian roulette lets the walk come here, and to the next vertex.
+  double survival = 1, next_survival = 1;
   Vec3 towards_previous{0};
   Vec3 towards_next{0};  ///< As sampled; meaningless if `absorbed`.
   double G = 0;          ///< G between this vertex and the previous one.

@@ -95,6 +95,9 @@ std::string to_json(const Stats& s) {
   line("disagreements", array(s.disagreements, disagreement));
   line("b", fmt::format("{}", s.b));
   line("b_error", fmt::format("{}", s.b_error));
+  line("independent_share", fmt::format("{}", s.independent_share));
+  line("independent_samples", fmt::format("{}", s.independent_samples));
+  line("samples_carrying_half", fmt::format("{}", s.samples_carrying_half));
   line("invalid_samples", fmt::format("{}", s.invalid_samples));
   line("stuck", array(s.stuck, stuck_chain));
   line("mutations", array(s.mutations, mutation));

@@ -38,9 +38,10 @@ void StopRule::set(const Budget& budget) {
 void StopRule::begin(const Rendering& rendering) {
   unit_count_ = rendering.plan().unit_count(budget_.spp.value_or(endless_spp));
   if (!budget_.error || budget_.spp || budget_.seconds) return;
-  // However long the chains become, b stays as wrong as the bootstrap has left it.
+  // Without further samples b stays as wrong as the bootstrap has left it.
   Stats stats;
   rendering.add_stats(stats);
+  if (stats.independent_share > 0) return;
   if (const double least = stats.b_error / stats.b; stats.b > 0 && least >= *budget_.error)
     throw RenderError(fmt::format(
         "an error of {:g} cannot be reached, since the bootstrap leaves one of {:.2g}; give more "

@@ -38,7 +38,7 @@ inline void for_each_light_path(const PathTarget& target, uint64_t seed, int sam
   PathState x;
   for (int i = 0; i < samples; ++i) {
     Rng rng(seed, Purpose::test, static_cast<uint64_t>(i));
-    seeds.draw_all(rng, [&](const Connection& connection) {
+    seeds.draw_all(RandomSampler(rng), [&](const Connection& connection) {
       seeds.assemble(connection, x);
       found(x);
     });

@@ -49,17 +49,21 @@ SameImageSettings under_water() {
 
 // ---- the same image as bdpt
 
-class MltImage : public testing::TestWithParam<std::string> {};
+/// A scene, and the share of the time for independent samples.
+class MltImage : public testing::TestWithParam<std::tuple<std::string, std::string>> {};
 
 TEST_P(MltImage, IsThatOfBdpt) {
-  const ScenePtr scene = make_mutation_scene(GetParam()).scene;
+  const auto& [name, share] = GetParam();
+  const ScenePtr scene = make_mutation_scene(name).scene;
   const SameImage found =
-      same_image(mlt_side(scene, {{"adaptive", "false"}}), bdpt_side(scene), in_short());
+      same_image(mlt_side(scene, {{"adaptive", "false"}, {"independent_share", share}}),
+                 bdpt_side(scene), in_short());
   EXPECT_TRUE(found) << found.text;
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, MltImage, testing::Values("cornell", "caustic"),
-                         [](const auto& info) { return info.param; });
+INSTANTIATE_TEST_SUITE_P(Scenes, MltImage,
+                         testing::Combine(testing::Values("cornell", "caustic"),
+                                          testing::Values("0", "0.3")));
 
 /// Scenes that bdpt renders in reasonable time; in the others it hardly sees some features.
 std::vector<std::string> scenes_of_bdpt() {
@@ -70,18 +74,20 @@ std::vector<std::string> scenes_of_bdpt() {
   return names;
 }
 
-class LongMltImage : public testing::TestWithParam<std::string> {};
+class LongMltImage : public testing::TestWithParam<std::tuple<std::string, std::string>> {};
 
 TEST_P(LongMltImage, IsThatOfBdpt) {
-  const bool wet = GetParam().find("water") != std::string::npos;
-  const ScenePtr scene = make_mutation_scene(GetParam()).scene;
-  const SameImage found =
-      same_image(mlt_side(scene), bdpt_side(scene), wet ? under_water() : at_length());
+  const auto& [name, share] = GetParam();
+  const bool wet = name.find("water") != std::string::npos;
+  const ScenePtr scene = make_mutation_scene(name).scene;
+  const SameImage found = same_image(mlt_side(scene, {{"independent_share", share}}),
+                                     bdpt_side(scene), wet ? under_water() : at_length());
   EXPECT_TRUE(found) << found.text;
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, LongMltImage, testing::ValuesIn(scenes_of_bdpt()),
-                         [](const auto& info) { return info.param; });
+INSTANTIATE_TEST_SUITE_P(Scenes, LongMltImage,
+                         testing::Combine(testing::ValuesIn(scenes_of_bdpt()),
+                                          testing::Values("0", "0.3")));
 
 /// Each mutation alone with the bidirectional one, which makes the chain ergodic, and each variant.
 class LongMltVariant : public testing::TestWithParam<Assignments> {};
@@ -109,15 +115,16 @@ INSTANTIATE_TEST_SUITE_P(
         without({"lens_perturbation", "multi_chain_perturbation", "lens_subpath_mutation"}),
         without({"lens_perturbation", "caustic_perturbation", "lens_subpath_mutation"}),
         without({"lens_perturbation", "caustic_perturbation", "multi_chain_perturbation"}),
-        Assignments{{"two_stage", "true"}}, Assignments{{"direct_samples", "16"}}));
+        Assignments{{"two_stage", "false"}}, Assignments{{"direct_samples", "16"}}));
 
 // ---- two runs
 
 TEST(MltRuns, AgreeWhateverTheBootstrap) {
   // Start-up bias must vanish in the mean over seeds.
   const ScenePtr scene = make_mutation_scene("cornell").scene;
-  const SameImage found = same_image(mlt_side(scene, {{"adaptive", "false"}}, 2000),
-                                     mlt_side(scene, {{"adaptive", "false"}}, 16000), in_short());
+  const SameImage found = same_image(
+      mlt_side(scene, {{"adaptive", "false"}, {"independent_share", "0"}}, 2000),
+      mlt_side(scene, {{"adaptive", "false"}, {"independent_share", "0"}}, 16000), in_short());
   EXPECT_TRUE(found) << found.text;
 }
 
@@ -126,7 +133,11 @@ TEST(MltRuns, EstimateBAsTheMeanOfTheImage) {
   Moments b, errors, mean;
   for (uint64_t seed = 1; seed <= 16; ++seed) {
     Stats stats;
-    rendered(scene, integrator("mlt", mlt_settings(4000, {{"adaptive", "false"}})), seed, 1)
+    rendered(scene,
+             integrator("mlt", mlt_settings(4000, {{"adaptive", "false"},
+                                                   {"two_stage", "false"},
+                                                   {"independent_share", "0.2"}})),
+             seed, 1)
         ->add_stats(stats);
     b.add(stats.b);
     errors.add(stats.b_error);
@@ -160,9 +171,10 @@ TEST(MltRuns, MakeNoInvalidSteps) {
 // ---- determinism
 
 std::vector<Assignments> variants() {
-  return {mlt_settings(2000), mlt_settings(2000, {{"adaptive", "false"}}),
-          mlt_settings(2000, {{"two_stage", "true"}}),
-          mlt_settings(2000, {{"direct_samples", "4"}})};
+  return {mlt_settings(2000),
+          mlt_settings(2000, {{"adaptive", "false"}, {"independent_share", "0"}}),
+          mlt_settings(2000, {{"two_stage", "false"}, {"independent_share", "0.3"}}),
+          mlt_settings(2000, {{"direct_samples", "4"}, {"independent_share", "0.1"}})};
 }
 
 TEST(MltBits, AreTheSameForAnyNumberOfThreads) {

@@ -1,0 +1,64 @@
+// What distinguishes one Metropolis integrator from another.
+#pragma once
+
+#include "integrator/metropolis_chain.h"
+#include "integrator/stats.h"
+#include "mutation/target_map.h"
+#include "path/samplers.h"
+
+#include <atomic>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace mlt {
+
+/// A path that an independent sample has found.
+struct FoundLight {
+  Vec2 raster;
+  Color rgb;                   ///< What it adds to the image: f / p, weighted among techniques.
+  double weight;               ///< What it adds to b, the integral of the target: T / p.
+  double target_over_density;  ///< T / P, see FamilyWeights.
+  bool own_pixel;              ///< At the sample's own image position, not by light tracing.
+
+  bool valid() const {
+    return is_finite(rgb) && min_component(rgb) >= 0 && weight > 0 && std::isfinite(weight) &&
+           target_over_density > 0;
+  }
+};
+
+class MetropolisAlgorithm {
+ public:
+  virtual ~MetropolisAlgorithm() = default;
+
+  /// Draws independent samples, and keeps its memory from one to the next.
+  class Source {
+   public:
+    virtual ~Source() = default;
+    /// One sample of the whole image; valid until the next one. Of random numbers, it may become
+    /// the start of a chain.
+    virtual const std::vector<FoundLight>& sample(PixelSampler sampler) = 0;
+    virtual const std::vector<FoundLight>& sample(RandomSampler sampler) = 0;
+    virtual const RayCounts& rays() const = 0;
+
+    /// The sum of the weights of such a candidate.
+    double weigh(Rng& rng);
+  };
+  virtual std::unique_ptr<Source> source() const = 0;
+  /// Starts a chain from the candidate that the same stream gave; `choice` is there to choose one
+  /// of several paths that the candidate consists of.
+  virtual std::unique_ptr<RenderChain> start(const ChainId& id, Rng candidate,
+                                             Rng choice) const = 0;
+  /// A chain without a state, to be loaded from bytes.
+  virtual std::unique_ptr<RenderChain> blank(const ChainId& id) const = 0;
+  /// Name and path length of each row of the statistics.
+  virtual std::vector<MutationStats> rows() const = 0;
+  /// Called once before the first chain, to prepare whatever is to be known by then, with a coarse
+  /// image that may become a part of the target.
+  virtual void prepare(const TargetMap& /*coarse*/, uint64_t /*seed*/, int /*threads*/,
+                       const std::atomic<bool>& /*cancelled*/) {}
+  virtual std::string save() const { return ""; }
+  virtual void load(const std::string& /*bytes*/) {}
+};
+
+}  // namespace mlt

@@ -1,0 +1,42 @@
+// The pilot of a Metropolis render: a few independent samples and short chains tell how noisy the
+// two families are, and what they cost. Their paths are not used again, so nothing is biased.
+#pragma once
+
+#include "integrator/independent_samples.h"
+
+#include <optional>
+
+namespace mlt {
+
+/// How a render divides its time between chains and independent samples.
+/// A pilot may say this.
+struct Allocation {
+  double share = 0;       ///< Of the time, for independent samples; 1: there are no chains.
+  FamilyWeights weights;  ///< How far each family is believed.
+  double b0 = 1;          ///< A rough estimate of b.
+  double mutations_per_sample = 1;  ///< What an independent sample costs.
+};
+
+struct PilotSettings {
+  uint64_t seed = 0;
+  int threads = 1;
+  uint64_t coarse_samples = 16384;  ///< For the coarse image.
+  uint64_t samples = 8192;          ///< As candidates for the starts of chains, and once more.
+  int chains = 64;
+  uint64_t steps = 2000;  ///< Of each chain.
+  /// Within which the share of the independent samples stays, as long as there are chains.
+  double least_share = 0.05, greatest_share = 0.95;
+};
+
+/// The image as 16 x 16 blocks, made from independent samples.
+TargetMap coarse_image(const MetropolisAlgorithm& algorithm, const Raster& raster,
+                       const PilotSettings& pilot, const std::atomic<bool>& cancelled);
+
+/// Finds the division of time with the smallest expected noise, relative to the brightness of
+/// `coarse`. If a share is given, only how far the families are believed is found. A share of 1
+/// means that chains have nothing to win, or that no light was found for them to start from.
+Allocation allocate(const MetropolisAlgorithm& algorithm, const TargetMap& coarse,
+                    std::optional<double> share, const PilotSettings& pilot,
+                    const std::atomic<bool>& cancelled);
+
+}  // namespace mlt

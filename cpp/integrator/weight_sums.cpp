@@ -1,0 +1,97 @@
+#include "integrator/weight_sums.h"
+
+#include <algorithm>
+
+namespace mlt {
+namespace {
+
+constexpr double classes_per_octave = 4;
+
+double weight_of(int index) { return std::exp2((index + 0.5) / classes_per_octave); }
+
+}  // namespace
+
+void MeanSums::add(double value) {
+  ++count_;
+  sum_ += value;
+  squares_ += value * value;
+}
+
+MeanSums& MeanSums::operator+=(const MeanSums& other) {
+  count_ += other.count_;
+  sum_ += other.sum_;
+  squares_ += other.squares_;
+  return *this;
+}
+
+double MeanSums::variance_of_mean() const {
+  if (count_ < 2) return 0;
+  const double n = static_cast<double>(count_);
+  return std::max(0.0, squares_ / n - mean() * mean()) / (n - 1);
+}
+
+void WeightClasses::add(double weight) {
+  if (weight > 0 && std::isfinite(weight))
+    ++classes_[static_cast<int>(std::floor(classes_per_octave * std::log2(weight)))];
+}
+
+WeightClasses& WeightClasses::operator+=(const WeightClasses& other) {
+  for (const auto& [index, count] : other.classes_) classes_[index] += count;
+  return *this;
+}
+
+uint64_t WeightClasses::carrying_half() const {
+  double rest = 0;
+  for (const auto& [index, count] : classes_)
+    rest += 0.5 * weight_of(index) * static_cast<double>(count);
+  uint64_t carrying = 0;
+  for (auto it = classes_.rbegin(); it != classes_.rend() && rest > 0; ++it) {
+    const double weight = weight_of(it->first);
+    carrying += std::min(it->second, static_cast<uint64_t>(std::ceil(rest / weight)));
+    rest -= weight * static_cast<double>(it->second);
+  }
+  return carrying;
+}
+
+void WeightClasses::save(ByteWriter& bytes) const {
+  bytes.write<uint64_t>(classes_.size());
+  for (const auto& [index, count] : classes_) {
+    bytes.write(index);
+    bytes.write(count);
+  }
+}
+
+void WeightClasses::load(ByteReader& bytes) {
+  classes_.clear();
+  for (auto rest = bytes.read<uint64_t>(); rest > 0; --rest) {
+    const int index = bytes.read<int>();
+    classes_[index] = bytes.read<uint64_t>();
+  }
+}
+
+void SampleSums::add(double target_weight, double brightness_weight, double of_chains_weight) {
+  target.add(target_weight);
+  brightness.add(brightness_weight);
+  of_chains.add(of_chains_weight);
+  classes.add(brightness_weight);
+}
+
+SampleSums& SampleSums::operator+=(const SampleSums& other) {
+  target += other.target;
+  brightness += other.brightness;
+  of_chains += other.of_chains;
+  classes += other.classes;
+  return *this;
+}
+
+void SampleSums::save(ByteWriter& bytes) const {
+  for (const MeanSums* sums : {&target, &brightness, &of_chains}) bytes.write(*sums);
+  classes.save(bytes);
+}
+
+void SampleSums::load(ByteReader& bytes) {
+  for (MeanSums* sums : {&target, &brightness, &of_chains}) *sums = bytes.read<MeanSums>();
+  classes.load(bytes);
+}
+
+}  // namespace mlt
