@@ -64,7 +64,7 @@ void bind_executor(py::module_& m) {
       .def_property_readonly("interrupted", &PyJob::interrupted)
       .def_property_readonly("units_done", &PyJob::units_done)
       .def_property_readonly(
-          "units_per_cycle", [](PyJob& job) { return job.rendering().plan().units_per_cycle(); },
+          "units_per_cycle", [](PyJob& job) { return job.rendering().plan().units_per_cycle; },
           "After so many units each share has had its turn.")
       .def_property_readonly("task_count", [](PyJob& job) { return job.tasks().size(); })
       .def(

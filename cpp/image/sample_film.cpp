@@ -35,6 +35,7 @@ SampleFilm::SampleFilm(int width, int height, std::shared_ptr<const Filter> filt
     strands[i].reach =
         splats ? PixelRect{0, 0, width, height} : reach_of(cells_of(static_cast<int>(i)));
     strands[i].samples.resize(splats ? tile_count() : 1);
+    strands[i].sums.resize(strands[i].samples.size());
   }
   for (int g = 0; g < groups; ++g) {
     groups_.push_back(std::make_unique<Group>());
@@ -101,6 +102,7 @@ void SampleFilm::add(Strand& strand, const Pending& pending) {
     for (size_t i = 0; i < row; ++i) to[i] += from[i];
   }
   strand.samples[splats_ ? pending.tile : 0] += pending.samples;
+  strand.sums[splats_ ? pending.tile : 0] += pending.data.sums_;
   if (pending.data.splats_.empty()) return;
   strand.light.resize(strand.size());
   for (const Splat& one : pending.data.splats_)
@@ -113,6 +115,25 @@ void SampleFilm::add(Strand& strand, const Pending& pending) {
 void SampleFilm::add_samples(const Group& group, std::vector<uint64_t>& samples) const {
   for (size_t t = 0; t < samples.size(); ++t)
     samples[t] += splats_ ? group.strands[0].samples[t] : group.strands[t].samples[0];
+}
+
+std::vector<SampleSums> SampleFilm::sums() const {
+  std::vector<SampleSums> sums(tile_count());
+  for (const auto& group : groups_) {
+    const std::lock_guard lock(group->mutex);
+    for (size_t t = 0; t < sums.size(); ++t)
+      sums[t] += splats_ ? group->strands[0].sums[t] : group->strands[t].sums[0];
+  }
+  return sums;
+}
+
+std::vector<double> SampleFilm::tile_sizes() const {
+  std::vector<double> sizes;
+  for (int tile = 0; tile < tile_count(); ++tile) {
+    const PixelRect cells = cells_of(tile);
+    sizes.push_back(static_cast<double>(cells.width()) * cells.height());
+  }
+  return sizes;
 }
 
 Image SampleFilm::image() const {
@@ -211,6 +232,7 @@ void SampleFilm::write(ByteWriter& bytes, const Strand& strand) const {
   bytes.write(strand.rgb);
   bytes.write(strand.light);
   bytes.write(strand.samples);
+  for (const SampleSums& sums : strand.sums) sums.save(bytes);
 }
 
 SampleFilm::Strand SampleFilm::read(ByteReader& bytes, const Strand& like) const {
@@ -220,6 +242,8 @@ SampleFilm::Strand SampleFilm::read(ByteReader& bytes, const Strand& like) const
   bytes.read(strand.rgb);
   bytes.read(strand.light);
   bytes.read(strand.samples);
+  strand.sums.resize(like.sums.size());
+  for (SampleSums& sums : strand.sums) sums.load(bytes);
   const auto fit = [&](const std::vector<float>& sums) {
     return sums.empty() || sums.size() == like.size();
   };

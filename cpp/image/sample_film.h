@@ -7,6 +7,7 @@
 #include "image/image.h"
 #include "image/splat.h"
 #include "math/color.h"
+#include "math/weight_sums.h"
 
 #include <atomic>
 #include <map>
@@ -45,6 +46,7 @@ class SampleFilm {
     void splat(const Vec2& raster, const Color& contribution) {
       splats_.push_back({raster, contribution});
     }
+    SampleSums& sums() { return sums_; }
 
    private:
     friend class SampleFilm;
@@ -52,6 +54,7 @@ class SampleFilm {
     const Filter* filter_;
     std::vector<float> rgb_;
     std::vector<Splat> splats_;
+    SampleSums sums_;
   };
 
   int tile_count() const { return tiles_x_ * tiles_y_; }
@@ -71,6 +74,9 @@ class SampleFilm {
   Image group_image(int group) const;
   /// How many samples every cell has received from a group at least.
   uint64_t passes(int group) const;
+  /// What the samples of each tile have told, over all groups; and how many cells it has.
+  std::vector<SampleSums> sums() const;
+  std::vector<double> tile_sizes() const;
   /// By what a sum of contributions over one light walk per sample is to be multiplied.
   double splat_scale() const;
 
@@ -102,6 +108,7 @@ class SampleFilm {
     std::vector<float> rgb;         ///< Empty until there is a sample.
     std::vector<float> light;       ///< The splats; empty until there is one.
     std::vector<uint64_t> samples;  ///< Per cell of each tile.
+    std::vector<SampleSums> sums;   ///< Of each tile.
 
     size_t size() const { return size_t{3} * reach.width() * reach.height(); }
   };

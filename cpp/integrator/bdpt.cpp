@@ -67,11 +67,6 @@ class BdptTaker : public SampleTaker {
 
 }  // namespace
 
-std::unique_ptr<Rendering> bdpt_rendering(ScenePtr scene, uint64_t seed,
-                                          const BidirectionalSettings& settings) {
-  return SampledIntegrator<BdptTaker>({settings}).start(std::move(scene), seed);
-}
-
 Plugin integrator_bdpt() {
   return make_plugin<SampledIntegrator<BdptTaker>>(integrator_schema(
       "bdpt",

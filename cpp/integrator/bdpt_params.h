@@ -2,7 +2,6 @@
 #pragma once
 
 #include "base/params.h"
-#include "integrator/integrator.h"
 #include "path/bidirectional_sampler.h"
 
 namespace mlt {
@@ -10,9 +9,6 @@ namespace mlt {
 std::vector<Parameter> bidirectional_parameters();
 /// Reads these and the path parameters.
 BidirectionalSettings bidirectional_settings(Params& params);
-
-std::unique_ptr<Rendering> bdpt_rendering(ScenePtr scene, uint64_t seed,
-                                          const BidirectionalSettings& settings);
 
 /// Techniques (s, t) with s + t - 1 <= max_depth in a row: by length, then by s.
 inline int technique_index(int s, int t) {

@@ -2,54 +2,64 @@
 
 namespace mlt {
 
-GroupCombination::GroupCombination(std::vector<GroupProgress> groups) : groups_(std::move(groups)) {
+GroupCombination::GroupCombination(std::vector<GroupProgress> groups, const Estimate& of_chains)
+    : groups_(std::move(groups)), of_chains_(of_chains) {
+  MeanSums by_chains, bootstrap;
   for (int g = 0; g < count(); ++g) {
-    own_.push_back(groups_[g].bootstrap);
-    own_.back() += groups_[g].samples;
-    all_ += own_.back();
     chain_brightness_ += chain_brightness(g);
-    has_samples_ |= groups_[g].samples.count() > 0;
+    if (has_chains(g)) by_chains.add(chain_brightness(g));
+    bootstrap += groups_[g].bootstrap.of_chains;
   }
+  const double chains = by_chains.variance_of_mean(),
+               samples = pooled(estimate(bootstrap), of_chains_).variance;
+  if (chains > 0) lambda_ = chains / (chains + samples);
+}
+
+/// M_g
+Estimate GroupCombination::samples_of(int g) const {
+  return pooled(estimate(groups_[g].bootstrap.of_chains), of_chains_);
 }
 
 /// b_g D_g; 0 without chains.
 double GroupCombination::chain_brightness(int g) const {
-  return has_chains(g) ? b(g) * groups_[g].brightness / static_cast<double>(groups_[g].steps) : 0.0;
-}
-
-bool GroupCombination::begun(int g) const {
-  const bool waits_for_chains = b(g) > 0 && !has_chains(g);
-  const bool waits_for_samples = has_samples_ && groups_[g].samples.count() == 0;
-  return !waits_for_chains && !waits_for_samples;
+  const GroupProgress& group = groups_[g];
+  return has_chains(g) ? group.b * group.brightness / static_cast<double>(group.steps) : 0.0;
 }
 
 GroupScales GroupCombination::group(int g) const {
-  const GroupProgress& own = groups_[g];
-  GroupScales scales{std::vector<double>(count()), std::vector<double>(count())};
-  if (own.samples.count() > 0) scales.samples[g] = 1 / static_cast<double>(own.samples.count());
+  const double missing = lambda_ * (samples_of(g).mean - chain_brightness(g));
   const double others = chain_brightness_ - chain_brightness(g);
-  const double missing = own_[g].of_chains.mean() - chain_brightness(g);
-  for (int h = 0; h < count(); ++h)
-    if (has_chains(h)) {
-      const double factor = h == g ? 1.0 : others > 0 ? missing / others : 0.0;
-      scales.chains[h] = factor * b(h) / static_cast<double>(groups_[h].steps);
-    }
+  GroupScales scales(count());
+  for (int h = 0; h < count(); ++h) {
+    if (!has_chains(h)) continue;
+    const double factor = h == g ? 1.0 : others > 0 ? missing / others : 0.0;
+    scales[h] = factor * groups_[h].b / static_cast<double>(groups_[h].steps);
+  }
   return scales;
 }
 
 GroupScales GroupCombination::mean() const {
-  GroupScales mean{std::vector<double>(count()), std::vector<double>(count())};
+  GroupScales mean(count());
   int begun_groups = 0;
   for (int g = 0; g < count(); ++g) begun_groups += begun(g);
   for (int g = 0; g < count(); ++g) {
     if (!begun(g)) continue;
     const GroupScales own = group(g);
-    for (int h = 0; h < count(); ++h) {
-      mean.chains[h] += own.chains[h] / begun_groups;
-      mean.samples[h] += own.samples[h] / begun_groups;
-    }
+    for (int h = 0; h < count(); ++h) mean[h] += own[h] / begun_groups;
   }
   return mean;
+}
+
+GroupScales GroupCombination::common_error() const {
+  GroupScales scales(count());
+  if (of_chains_.count == 0 || !(chain_brightness_ > 0)) return scales;
+  const double share =
+      static_cast<double>(of_chains_.count) / static_cast<double>(samples_of(0).count);
+  const double error = lambda_ * share * std::sqrt(of_chains_.variance);
+  for (int h = 0; h < count(); ++h)
+    if (has_chains(h))
+      scales[h] = error / chain_brightness_ * groups_[h].b / static_cast<double>(groups_[h].steps);
+  return scales;
 }
 
 }  // namespace mlt

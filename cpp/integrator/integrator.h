@@ -40,7 +40,7 @@ class Rendering {
  public:
   /// The groups whose spread tells how wrong the image is: each has its own random numbers, and for
   /// Metropolis its own bootstrap. The image is their weighted mean (while some are behind others,
-  /// nearly so), plus the image of separate direct light.
+  /// nearly so), plus the images of the parts.
   static constexpr int group_count = 16;
 
   Rendering(ScenePtr scene, uint64_t seed) : scene_(std::move(scene)), seed_(seed) {}
@@ -57,8 +57,11 @@ class Rendering {
   /// The image after the units that have finished, linear RGB.
   virtual Image image() const = 0;
   virtual GroupImage group(int index) const = 0;
-  /// Direct light that is rendered separately, with groups of its own; usually nullptr.
-  virtual const Rendering* separate_direct() const { return nullptr; }
+  /// Other renderings, each with groups of its own, whose images are parts of this one's.
+  virtual std::vector<const Rendering*> parts() const { return {}; }
+  /// The standard error of what all groups have in common, which their spread does not show; may be
+  /// empty.
+  virtual Image common_error() const { return {}; }
   /// Further images that the render was asked to keep.
   virtual std::vector<NamedImage> layers() const { return {}; }
   virtual void add_stats(Stats& stats) const = 0;

@@ -35,14 +35,11 @@ class MetropolisAlgorithm {
   class Source {
    public:
     virtual ~Source() = default;
-    /// One sample of the whole image; valid until the next one. Of random numbers, it may become
-    /// the start of a chain.
-    virtual const std::vector<FoundLight>& sample(PixelSampler sampler) = 0;
-    virtual const std::vector<FoundLight>& sample(RandomSampler sampler) = 0;
+    /// What a sample at a raster position finds; valid until the next one. If random numbers have
+    /// given the position as well, the sample may become the start of a chain.
+    virtual const std::vector<FoundLight>& sample(const Vec2& raster, PixelSampler& sampler) = 0;
+    virtual const std::vector<FoundLight>& sample(const Vec2& raster, RandomSampler& sampler) = 0;
     virtual const RayCounts& rays() const = 0;
-
-    /// The sum of the weights of such a candidate.
-    double weigh(Rng& rng);
   };
   virtual std::unique_ptr<Source> source() const = 0;
   /// Starts a chain from the candidate that the same stream gave; `choice` is there to choose one
@@ -60,5 +57,27 @@ class MetropolisAlgorithm {
   virtual std::string save() const { return ""; }
   virtual void load(const std::string& /*bytes*/) {}
 };
+
+/// What a sample of the whole image weighs, over all its paths.
+struct SampleWeights {
+  double target = 0;      ///< T / p.
+  double brightness = 0;  ///< L* / p.
+  double of_chains = 0;   ///< w2 L* / p.
+};
+
+template <class Sampler>
+SampleWeights weigh(MetropolisAlgorithm::Source& source, const Raster& raster, Sampler sampler,
+                    const FamilyWeights& weights = {}) {
+  SampleWeights sum;
+  const Vec2 position = raster.sample(sampler.next2());
+  for (const FoundLight& found : source.sample(position, sampler)) {
+    if (!found.valid()) continue;
+    const double luminance = target_luminance(found.rgb);
+    sum.target += found.weight;
+    sum.brightness += luminance;
+    sum.of_chains += luminance * weights.of_chain(found.target_over_density);
+  }
+  return sum;
+}
 
 }  // namespace mlt

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/params.h"
-#include "integrator/piloted_rendering.h"
+#include "integrator/metropolis_rendering.h"
 
 namespace mlt {
 

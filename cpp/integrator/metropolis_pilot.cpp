@@ -44,14 +44,11 @@ class PixelSums {
 
 /// How noisy one family is, in units of the brightness of each pixel, and what it costs.
 struct Noise {
-  Squares squares{}, of_samples{};  ///< of_samples: see Pilot::run_chains.
+  Squares squares{};
   uint64_t count = 0, rays = 0;
 
   Noise& operator+=(const Noise& other) {
-    for (size_t i = 0; i < evens.size(); ++i) {
-      squares[i] += other.squares[i];
-      of_samples[i] += other.of_samples[i];
-    }
+    for (size_t i = 0; i < evens.size(); ++i) squares[i] += other.squares[i];
     count += other.count;
     rays += other.rays;
     return *this;
@@ -64,20 +61,18 @@ struct Noise {
 
 class Pilot {
  public:
-  Pilot(const MetropolisAlgorithm& algorithm, const TargetMap& coarse,
+  Pilot(const MetropolisAlgorithm& algorithm, const Raster& raster, const TargetMap& coarse,
         const PilotSettings& settings, const std::atomic<bool>& cancelled)
-      : algorithm_(algorithm), coarse_(coarse), settings_(settings), cancelled_(cancelled) {}
+      : algorithm_(algorithm),
+        raster_(raster),
+        coarse_(coarse),
+        settings_(settings),
+        cancelled_(cancelled) {}
 
   Allocation allocate(std::optional<double> wanted) {
     const Candidates candidates{settings_.seed, Purpose::allocation, settings_.samples};
-    const std::vector<double> weights = candidate_weights(
-        candidates, settings_.threads, cancelled_, [&] { return algorithm_.source(); },
-        [](const MetropolisAlgorithm::Source&) {});
-    Rng rng = candidates.rng(candidates.count);
-    const Bootstrap found = resample(weights, settings_.chains, rng);
-    Allocation without_chains;
-    without_chains.share = 1;
-    if (found.seeds.empty()) return without_chains;
+    const Bootstrap found = draw_candidates(candidates);
+    if (found.seeds.empty()) return samples_alone();
     b0_ = found.b;
     draw_samples();
     run_chains(candidates, found.seeds);
@@ -91,53 +86,60 @@ class Pilot {
   }
   FamilyWeights weights(size_t i) const { return FamilyWeights(b0_ * evens[i]); }
 
-  /// Samples come in pairs that have the image position in common. Alone they are stratified over
-  /// the pixels, and what a pair agrees on is no noise.
+  Bootstrap draw_candidates(const Candidates& candidates) const {
+    std::vector<double> weights(candidates.count);
+    in_parts(candidates.count, settings_.threads, [&](uint64_t, uint64_t i, uint64_t last) {
+      const auto source = algorithm_.source();
+      for (; i < last && !cancelled_; ++i) {
+        Rng rng = candidates.rng(i);
+        weights[i] = weigh(*source, raster_, RandomSampler(rng)).target;
+      }
+    });
+    Rng rng = candidates.rng(candidates.count);
+    return resample(weights, settings_.chains, rng);
+  }
+
+  /// Samples come in pairs that have the image position in common. Those of a render are stratified
+  /// over the pixels, so that what a pair agrees on is no noise.
   void draw_samples() {
     std::array<Noise, parts> noise;
-    std::array<double, parts> alone{};
     const uint64_t stream = mix_bits(settings_.seed ^ mix_bits(uint64_t(Purpose::allocation)));
-    in_parts(
-        settings_.samples / 2, settings_.threads, [&](uint64_t part, uint64_t i, uint64_t last) {
-          const auto source = algorithm_.source();
-          for (; i < last && !cancelled_; ++i) {
-            double own_pixel[2];
-            for (const int twin : {0, 1}) {
-              const PixelSampler sampler(stream, mix_bits(stream + twin), static_cast<uint32_t>(i));
-              own_pixel[twin] = add_sample(source->sample(sampler), noise[part], alone[part]);
-            }
-            alone[part] += sqr(own_pixel[0] - own_pixel[1]);
-          }
-          noise[part].rays = source->rays().total();
-        });
-    for (uint64_t part = 0; part < parts; ++part) {
-      samples_ += noise[part];
-      alone_ += alone[part];
-    }
+    in_parts(settings_.samples / 2, settings_.threads,
+             [&](uint64_t part, uint64_t i, uint64_t last) {
+               const auto source = algorithm_.source();
+               for (; i < last && !cancelled_; ++i) {
+                 PixelSampler first(stream, static_cast<uint32_t>(i)),
+                     second(mix_bits(stream), static_cast<uint32_t>(i));
+                 const Vec2 position = raster_.sample(first.next2());
+                 second.next2();
+                 const Squares a = add_sample(source->sample(position, first), noise[part]),
+                               b = add_sample(source->sample(position, second), noise[part]);
+                 for (size_t e = 0; e < evens.size(); ++e)
+                   noise[part].squares[e] += sqr(a[e] - b[e]);
+               }
+               noise[part].rays = source->rays().total();
+             });
+    for (const Noise& one : noise) samples_ += one;
   }
-  /// Returns what the sample adds to its own pixel; what it adds to others by light tracing is
+  /// Returns what the sample adds to its own pixel. All that it adds to others by light tracing is
   /// noise.
-  double add_sample(const std::vector<FoundLight>& found, Noise& noise, double& alone) const {
-    PixelSums pixels;
-    double own_pixel = 0;
+  Squares add_sample(const std::vector<FoundLight>& found, Noise& noise) const {
+    Squares own_pixel{};
     for (const FoundLight& one : found) {
       const double value = relative(one.rgb, one.raster);
-      pixels.add(one.raster, value,
-                 [&](size_t e) { return weights(e).of_sample(one.target_over_density); });
-      if (one.own_pixel)
-        own_pixel += value;
-      else
-        alone += sqr(value);
+      for (size_t e = 0; e < evens.size(); ++e) {
+        const double believed = value * weights(e).of_sample(one.target_over_density);
+        if (one.own_pixel)
+          own_pixel[e] += believed;
+        else
+          noise.squares[e] += sqr(believed);
+      }
     }
-    pixels.add_squares_to(noise.squares);
     ++noise.count;
     return own_pixel;
   }
 
   /// Squares of what a chain adds to a pixel in all: what it stays for makes the image noisier.
-  ///
-  /// Chains also tell about the noise of samples, E_P[(w1 L* / P)^2] = b E_T[w1^2 (L* / T)^2 T / P]:
-  /// they find the paths that samples find too rarely for the few of a pilot.
   void run_chains(const Candidates& candidates, const std::vector<uint32_t>& seeds) {
     struct Recorder : ChainRecorder {
       explicit Recorder(const Pilot& p) : pilot(p) {}
@@ -146,13 +148,9 @@ class Pilot {
         const double relative = pilot.relative(rgb_per_target, raster);
         pixels.add(raster, weight * pilot.b0_ * relative,
                    [&](size_t e) { return pilot.weights(e).of_chain(target_over_density); });
-        for (size_t e = 0; e < evens.size(); ++e)
-          of_samples[e] += weight * pilot.b0_ * target_over_density *
-                           sqr(relative * pilot.weights(e).of_sample(target_over_density));
       }
       const Pilot& pilot;
       PixelSums pixels;
-      Squares of_samples{};
     };
     std::vector<Noise> noise(seeds.size());
     parallel_for(settings_.threads, seeds.size(), [&](uint64_t i) {
@@ -164,7 +162,6 @@ class Pilot {
       Recorder recorder(*this);
       chain->advance(settings_.steps, recorder);
       recorder.pixels.add_squares_to(noise[i].squares);
-      noise[i].of_samples = recorder.of_samples;
       noise[i].count = settings_.steps;
       noise[i].rays = chain->stats().rays.total();
     });
@@ -179,45 +176,37 @@ class Pilot {
   Allocation choose(std::optional<double> wanted) const {
     Allocation best;
     if (samples_.count == 0 || chains_.count == 0) return best;  // cancelled
-    best.b0 = b0_;
     best.mutations_per_sample = samples_.cost() / chains_.cost();
+    const double greatest =
+        has_rare_light() ? settings_.greatest_share_with_rare_light : settings_.greatest_share;
     double least = std::numeric_limits<double>::infinity();
     for (size_t i = 0; i < evens.size(); ++i) {
-      const double v1 = samples_.cost() * square_of_sample(i),
+      const double v1 = samples_.cost() * samples_.square(i),
                    v2 = chains_.cost() * chains_.square(i);
-      const double share =
-          wanted.value_or(std::clamp(std::sqrt(v1) / (std::sqrt(v1) + std::sqrt(v2)),
-                                     settings_.least_share, settings_.greatest_share));
+      const double share = wanted.value_or(std::clamp(
+          std::sqrt(v1) / (std::sqrt(v1) + std::sqrt(v2)), settings_.least_share, greatest));
       const double variance = v1 / share + v2 / (1 - share);
-      if (getenv("PILOT"))
-        fprintf(stderr, "%g v1 %g v2 %g total %g\n", evens[i], v1 / sqr(b0_), v2 / sqr(b0_),
-                variance / sqr(b0_));
       if (!(variance < hardly * least)) continue;
       least = std::min(least, variance);
       best.share = share;
       best.weights = weights(i);
     }
-    const double alone = samples_.cost() * alone_ / samples_.n();
-    if (getenv("PILOT")) fprintf(stderr, "alone %g least %g\n", alone / sqr(b0_), least / sqr(b0_));
-    if (!wanted && samples_have_short_tail() && alone <= least) best.share = 1;
     return best;
   }
-  /// Whether paths of a T / P above 64 b hardly matter. Where they do, others are to be feared that
-  /// are rarer still and that the pilot has not seen: there samples alone would have fireflies.
-  bool samples_have_short_tail() const {
-    return square_of_sample(evens.size() - 1) < 1.05 * square_of_sample(evens.size() - 3);
-  }
-  double square_of_sample(size_t even) const {
-    return std::max(samples_.square(even), chains_.of_samples[even] / chains_.n());
+
+  /// Whether paths with a T / P above 64 b make most of the noise of samples. The chains of a pilot
+  /// have hardly found them, and seem less noisy than they will be.
+  bool has_rare_light() const {
+    return samples_.squares.back() > 2 * samples_.squares[evens.size() - 3];
   }
 
   const MetropolisAlgorithm& algorithm_;
+  const Raster& raster_;
   const TargetMap& coarse_;
   const PilotSettings& settings_;
   const std::atomic<bool>& cancelled_;
   double b0_ = 0;
   Noise samples_, chains_;
-  double alone_ = 0;  ///< Squares, if samples are believed alone.
 };
 
 }  // namespace
@@ -228,9 +217,12 @@ TargetMap coarse_image(const MetropolisAlgorithm& algorithm, const Raster& raste
   const uint64_t stream = mix_bits(pilot.seed ^ mix_bits(uint64_t(Purpose::map)));
   in_parts(pilot.coarse_samples, pilot.threads, [&](uint64_t part, uint64_t i, uint64_t last) {
     const auto source = algorithm.source();
-    for (; i < last && !cancelled; ++i)
-      for (const FoundLight& found : source->sample({stream, static_cast<uint32_t>(i)}))
+    for (; i < last && !cancelled; ++i) {
+      PixelSampler sampler(stream, static_cast<uint32_t>(i));
+      const Vec2 position = raster.sample(sampler.next2());
+      for (const FoundLight& found : source->sample(position, sampler))
         images[part].add(found.raster, found.weight);
+    }
   });
   TargetMap sum = blank_image(raster);
   for (const TargetMap& image : images) sum.add(image);
@@ -238,10 +230,10 @@ TargetMap coarse_image(const MetropolisAlgorithm& algorithm, const Raster& raste
   return sum;
 }
 
-Allocation allocate(const MetropolisAlgorithm& algorithm, const TargetMap& coarse,
-                    std::optional<double> share, const PilotSettings& pilot,
-                    const std::atomic<bool>& cancelled) {
-  return Pilot(algorithm, coarse, pilot, cancelled).allocate(share);
+Allocation allocate(const MetropolisAlgorithm& algorithm, const Raster& raster,
+                    const TargetMap& coarse, std::optional<double> share,
+                    const PilotSettings& pilot, const std::atomic<bool>& cancelled) {
+  return Pilot(algorithm, raster, coarse, pilot, cancelled).allocate(share);
 }
 
 }  // namespace mlt

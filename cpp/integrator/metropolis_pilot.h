@@ -2,18 +2,17 @@
 // two families are, and what they cost. Their paths are not used again, so nothing is biased.
 #pragma once
 
-#include "integrator/independent_samples.h"
+#include "integrator/metropolis_algorithm.h"
 
+#include <limits>
 #include <optional>
 
 namespace mlt {
 
 /// How a render divides its time between chains and independent samples.
-/// A pilot may say this.
 struct Allocation {
   double share = 0;       ///< Of the time, for independent samples; 1: there are no chains.
   FamilyWeights weights;  ///< How far each family is believed.
-  double b0 = 1;          ///< A rough estimate of b.
   double mutations_per_sample = 1;  ///< What an independent sample costs.
 };
 
@@ -25,18 +24,23 @@ struct PilotSettings {
   int chains = 64;
   uint64_t steps = 2000;  ///< Of each chain.
   /// Within which the share of the independent samples stays, as long as there are chains.
-  double least_share = 0.05, greatest_share = 0.95;
+  double least_share = 0.05, greatest_share = 0.95, greatest_share_with_rare_light = 0.2;
 };
+
+/// Without chains.
+inline Allocation samples_alone() {
+  return {1, FamilyWeights(std::numeric_limits<double>::max()), 1};
+}
 
 /// The image as 16 x 16 blocks, made from independent samples.
 TargetMap coarse_image(const MetropolisAlgorithm& algorithm, const Raster& raster,
                        const PilotSettings& pilot, const std::atomic<bool>& cancelled);
 
 /// Finds the division of time with the smallest expected noise, relative to the brightness of
-/// `coarse`. If a share is given, only how far the families are believed is found. A share of 1
-/// means that chains have nothing to win, or that no light was found for them to start from.
-Allocation allocate(const MetropolisAlgorithm& algorithm, const TargetMap& coarse,
-                    std::optional<double> share, const PilotSettings& pilot,
-                    const std::atomic<bool>& cancelled);
+/// `coarse`. If a share is given, only how far the families are believed is found. Without any light
+/// for chains to start from, samples are left alone.
+Allocation allocate(const MetropolisAlgorithm& algorithm, const Raster& raster,
+                    const TargetMap& coarse, std::optional<double> share,
+                    const PilotSettings& pilot, const std::atomic<bool>& cancelled);
 
 }  // namespace mlt

@@ -1,40 +1,34 @@
 #include "integrator/metropolis_rendering.h"
 
 #include "base/parallel.h"
-#include "markov/bootstrap.h"
+#include "integrator/family_taker.h"
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace mlt {
 
 MetropolisRendering::MetropolisRendering(ScenePtr scene, uint64_t seed,
                                          const MetropolisSettings& settings,
-                                         const Allocation& allocation,
                                          std::unique_ptr<MetropolisAlgorithm> algorithm,
                                          SeparateDirect direct)
     : Rendering(std::move(scene), seed),
       settings_(settings),
-      allocation_(allocation),
       algorithm_(std::move(algorithm)),
       direct_(std::move(direct)),
-      chain_film_(make_film()),
-      sample_film_(make_film()),
-      steps_per_unit_(std::min(most_steps_per_unit,
-                               static_cast<uint64_t>(std::ceil(pixels() / settings.chains)))) {}
-
-SplatFilm MetropolisRendering::make_film() const {
-  const Vec2i size = scene_->camera().raster().size;
-  return {size.x, size.y, scene_->film().filter, group_count};
-}
+      film_(scene_->camera().raster().size.x, scene_->camera().raster().size.y,
+            scene_->film().filter, group_count) {}
 
 int MetropolisRendering::chains_of(int group) const {
   return (settings_.chains + group_count - 1 - group) / group_count;
 }
 
-ChainId MetropolisRendering::chain_id(const Share& share) const {
+ChainId MetropolisRendering::chain_id(const ChainShare& share) const {
   return {seed_, share.group, share.number, chains_of(share.group)};
 }
+
+// ---- before the first unit --------------------------------------------------------------------
 
 void MetropolisRendering::render_direct(int threads, const std::atomic<bool>& cancelled) {
   Rendering& direct = *direct_.rendering;
@@ -46,19 +40,42 @@ void MetropolisRendering::render_direct(int threads, const std::atomic<bool>& ca
 
 void MetropolisRendering::prepare(int threads, const std::atomic<bool>& cancelled) {
   if (direct_.rendering) render_direct(threads, cancelled);
+  allocation_ = run_pilot(threads, cancelled);
+  if (cancelled) return;
+  if (allocation_.share == 1)
+    lay_out();
+  else
+    start_chains(threads, cancelled);
+}
+
+Allocation MetropolisRendering::run_pilot(int threads, const std::atomic<bool>& cancelled) {
+  if (settings_.independent_share == 1) return samples_alone();
+  PilotSettings pilot;
+  pilot.seed = seed_;
+  pilot.threads = threads;
+  pilot.coarse_samples = settings_.luminance_samples / 3;
+  pilot.samples = settings_.luminance_samples / 6;
+  pilot.chains = std::min(pilot.chains, settings_.chains);
+  const Raster& raster = scene_->camera().raster();
+  const TargetMap coarse = coarse_image(*algorithm_, raster, pilot, cancelled);
+  algorithm_->prepare(coarse, seed_, threads, cancelled);
+  if (settings_.independent_share == 0) return {};
+  return allocate(*algorithm_, raster, coarse, settings_.independent_share, pilot, cancelled);
+}
+
+void MetropolisRendering::start_chains(int threads, const std::atomic<bool>& cancelled) {
   const uint64_t per_group = (settings_.luminance_samples + group_count - 1) / group_count;
   const Candidates candidates{seed_, Purpose::bootstrap, per_group * group_count};
   const auto seeds = run_bootstrap(candidates, threads, cancelled);
   if (cancelled) return;
   lay_out();
-  if (std::none_of(shares_.begin(), shares_.end(), [](const auto& s) { return !s->samples; }))
+  if (chains_.empty() && !samples_)
     throw RenderError(
         "no light path was found among " + std::to_string(candidates.count) +
         " bootstrap samples; give more luminance_samples, or check that light can reach "
         "the camera");
-  parallel_for(threads, shares_.size(), [&](uint64_t i) {
-    Share& share = *shares_[i];
-    if (share.samples) return;
+  parallel_for(threads, chains_.size(), [&](uint64_t i) {
+    ChainShare& share = *chains_[i];
     const uint64_t candidate = share.group * per_group + seeds[share.group][share.number];
     share.chain =
         algorithm_->start(chain_id(share), candidates.rng(candidate),
@@ -76,125 +93,150 @@ std::vector<std::vector<uint32_t>> MetropolisRendering::run_bootstrap(
   parallel_for(threads, group_count, [&](uint64_t g) {
     const auto source = algorithm_->source();
     std::vector<double> weights;
-    SampleSums& sums = groups_[g].bootstrap;
     for (uint64_t i = g * per_group; i < (g + 1) * per_group && !cancelled; ++i) {
       Rng rng = candidates.rng(i);
-      double weight = 0;
-      take_sample(*source, RandomSampler(rng), allocation_.weights, sums,
-                  [&](const FoundLight& found) { weight += found.weight; });
-      weights.push_back(weight);
+      const SampleWeights sample =
+          weigh(*source, scene_->camera().raster(), RandomSampler(rng), allocation_.weights);
+      weights.push_back(sample.target);
+      groups_[g].bootstrap.add(sample.brightness, sample.of_chains);
     }
     Rng rng(seed_, Purpose::resample, g);
-    seeds[g] = resample(weights, chains_of(static_cast<int>(g)), rng).seeds;
+    Bootstrap bootstrap = resample(weights, chains_of(static_cast<int>(g)), rng);
+    groups_[g].b = bootstrap.b;
+    seeds[g] = std::move(bootstrap.seeds);
     const std::lock_guard lock(mutex);
     bootstrap_rays_ += source->rays();
   });
   return seeds;
 }
 
-/// Into how many sequences the samples of a group are divided, so that a unit of samples takes
-/// about as long as one of chains.
-void MetropolisRendering::divide_samples() {
-  if (allocation_.share == 0) return;
-  const double steps = static_cast<double>(steps_per_unit_) * settings_.chains / group_count;
-  const double samples =
-      steps / allocation_.mutations_per_sample * allocation_.share / (1 - allocation_.share);
-  const double unit =
-      std::max(1.0, static_cast<double>(steps_per_unit_) / allocation_.mutations_per_sample);
-  const double sequences = std::max(1.0, std::round(samples / unit));
-  sequences_ = static_cast<int>(sequences);
-  samples_per_unit_ = static_cast<uint64_t>(std::max(1.0, std::round(samples / sequences)));
-}
-
-std::unique_ptr<IndependentSamples> MetropolisRendering::samples_of(int group, int number) const {
-  const uint64_t stream = mix_bits(mix_bits(seed_ ^ mix_bits(uint64_t(Purpose::sample))) + group);
-  return std::make_unique<IndependentSamples>(*algorithm_, stream, number, sequences_);
-}
-
 /// Which shares there are, once b of each group is known.
 void MetropolisRendering::lay_out() {
-  shares_.clear();
-  plan_.borders = {0};
-  const auto add = [&](int group, int number) -> Share& {
-    shares_.push_back(std::make_unique<Share>());
-    shares_.back()->group = group;
-    shares_.back()->number = number;
-    return *shares_.back();
-  };
-  divide_samples();
-  uint64_t chains = 0;
+  samples_.reset();
+  if (allocation_.share > 0)
+    samples_ = std::make_unique<SampledRendering>(
+        scene_, seed_, SampledSettings{true, {}, allocation_.share > 0.5 ? 4u : 1u},
+        [this](const Scene& scene) {
+          return std::make_unique<FamilyTaker>(scene, *algorithm_, allocation_.weights);
+        });
+  plan_.borders.clear();
+  for (uint64_t share = 0; share <= sample_shares(); ++share) plan_.borders.push_back(share);
+  chains_.clear();
   for (int g = 0; g < group_count; ++g) {
-    for (int number = 0; number < sequences_; ++number)
-      add(g, number).samples = samples_of(g, number);
-    const int own = groups_[g].bootstrap.target.mean() > 0 ? chains_of(g) : 0;
-    for (int number = 0; number < own; ++number) add(g, number);
-    chains += own;
-    if (shares_.size() > plan_.borders.back()) plan_.borders.push_back(shares_.size());
+    for (int number = 0; groups_[g].b > 0 && number < chains_of(g); ++number) {
+      chains_.push_back(std::make_unique<ChainShare>());
+      chains_.back()->group = g;
+      chains_.back()->number = number;
+    }
+    if (sample_shares() + chains_.size() > plan_.borders.back())
+      plan_.borders.push_back(sample_shares() + chains_.size());
   }
-  plan_.units_per_pass = plan_.units_per_group_turn = shares_.size();
-  plan_.samples_per_pass =
-      static_cast<double>(chains * steps_per_unit_) +
-      allocation_.mutations_per_sample *
-          static_cast<double>(samples_per_unit_ * static_cast<uint64_t>(sequences_ * group_count));
-  plan_.pixels = pixels();
+  lay_out_units();
 }
 
+/// How the time is divided: while all cells get a sample, the chains do their share of the work.
+void MetropolisRendering::lay_out_units() {
+  const uint64_t tiles = samples_ ? samples_->film().tile_count() : 0;
+  double steps = pixels(), sampling = 0;
+  if (samples_) {
+    const std::vector<double> sizes = samples_->film().tile_sizes();
+    sampling = allocation_.mutations_per_sample * std::accumulate(sizes.begin(), sizes.end(), 0.0);
+    steps = sampling * (1 - allocation_.share) / allocation_.share;
+  }
+  const double count = static_cast<double>(chains_.size());
+  const double turns = std::ceil(steps / (std::max(1.0, count) * most_steps_per_unit));
+  uint64_t chain_units = 0;
+  if (!chains_.empty()) {
+    steps_per_unit_ = static_cast<uint64_t>(std::max(1.0, std::round(steps / (count * turns))));
+    chain_units = chains_.size() * static_cast<uint64_t>(std::max(1.0, turns));
+  }
+  interleaving_ = Interleaving(tiles, chain_units);
+
+  const uint64_t round = interleaving_.units_per_round();
+  plan_.least_units = tiles > 0 ? tiles + round : 0;
+  plan_.units_per_pass = samples_ ? 1 : chains_.size();
+  plan_.samples_per_pass = (sampling + static_cast<double>(chain_units * steps_per_unit_)) /
+                           static_cast<double>(round) * static_cast<double>(plan_.units_per_pass);
+  plan_.pixels = pixels();
+  plan_.units_per_cycle = plan_.units_per_group_turn =
+      (samples_ ? samples_->plan().units_per_cycle / tiles : 1) * round;
+  plan_.share_of = [this](uint64_t unit) {
+    const Interleaving::Place place = interleaving_.place_of(unit);
+    return place.sampled ? samples_->plan().share_of(place.number)
+                         : sample_shares() + place.number % chains_.size();
+  };
+}
+
+// ---- the units --------------------------------------------------------------------------------
+
 void MetropolisRendering::run_unit(uint64_t unit) {
-  Share& share = *shares_[unit % shares_.size()];
-  const uint64_t units_before = unit / shares_.size();
+  const Interleaving::Place place = interleaving_.place_of(unit);
+  if (place.sampled)
+    samples_->run_unit(place.number);
+  else
+    run_chain(place.number);
+}
+
+void MetropolisRendering::run_chain(uint64_t number) {
+  ChainShare& share = *chains_[number % chains_.size()];
+  const uint64_t units_before = number / chains_.size();
   std::unique_lock lock(share.mutex);
   share.turn.wait(lock, [&] { return share.units >= units_before; });
   if (share.units > units_before) return;
-  // Whatever happens, the thread that waits for the share's next unit must go on.
+  // Whatever happens, the thread that waits for the chain's next unit must go on.
   struct Done {
-    Share& share;
+    ChainShare& share;
     ~Done() {
       ++share.units;
       share.turn.notify_all();
     }
   } done{share};
-  if (share.samples) {
-    share.samples->advance(samples_per_unit_, sample_film_, share.group, allocation_.weights,
-                           1 / allocation_.b0);
-  } else {
-    FilmRecorder recorder(chain_film_, share.group, allocation_.weights);
-    share.chain->advance(steps_per_unit_, recorder);
-    share.brightness += recorder.brightness();
-    groups_[share.group].steps += steps_per_unit_;
-  }
+  FilmRecorder recorder(film_, share.group, allocation_.weights);
+  share.chain->advance(steps_per_unit_, recorder);
+  share.brightness += recorder.brightness();
+  groups_[share.group].steps += steps_per_unit_;
 }
+
+// ---- what has come of them --------------------------------------------------------------------
 
 GroupCombination MetropolisRendering::combination() const {
   std::vector<GroupProgress> groups;
-  for (const Group& group : groups_) groups.push_back({group.bootstrap, {}, group.steps});
-  for (const auto& share : shares_) {
+  for (const Group& group : groups_) groups.push_back({group.b, group.bootstrap, group.steps});
+  for (const auto& share : chains_) {
     const std::lock_guard lock(share->mutex);
     groups[share->group].brightness += share->brightness;
-    if (share->samples) groups[share->group].samples += share->samples->sums();
   }
-  return GroupCombination(std::move(groups));
+  return GroupCombination(std::move(groups), samples_ ? samples_->mean_of_chains() : Estimate());
 }
 
-/// Pixels are the pixel count times what falls into them; samples are recorded in units of b0.
-Image MetropolisRendering::image(GroupScales scales) const {
-  for (double& scale : scales.chains) scale *= pixels();
-  for (double& scale : scales.samples) scale *= pixels() * allocation_.b0;
-  Image image = chain_film_.image(scales.chains);
-  image += sample_film_.image(scales.samples);
-  return image;
+/// Pixels are the pixel count times what falls into them.
+Image MetropolisRendering::chain_image(GroupScales scales) const {
+  for (double& scale : scales) scale *= pixels();
+  return film_.image(scales);
+}
+
+std::vector<const Rendering*> MetropolisRendering::parts() const {
+  std::vector<const Rendering*> parts;
+  if (direct_.rendering) parts.push_back(direct_.rendering.get());
+  if (samples_) parts.push_back(samples_.get());
+  return parts;
 }
 
 Image MetropolisRendering::image() const {
-  Image image = this->image(combination().mean());
-  if (direct_.rendering) image += direct_.rendering->image();
+  Image image = chain_image(combination().mean());
+  for (const Rendering* part : parts()) image += part->image();
   return image;
 }
 
 GroupImage MetropolisRendering::group(int index) const {
   const GroupCombination groups = combination();
-  const MeanSums& b = groups.sums(index).brightness;
-  return {image(groups.group(index)), groups.begun(index) ? 1.0 : 0.0, b.mean(),
+  const MeanSums& b = groups_[index].bootstrap.brightness;
+  return {chain_image(groups.group(index)), groups.begun(index) ? 1.0 : 0.0, b.mean(),
           std::sqrt(b.variance_of_mean())};
+}
+
+Image MetropolisRendering::common_error() const {
+  return samples_ ? chain_image(combination().common_error()) : Image();
 }
 
 /// Of all chains; `stuck` becomes the one that has stood still for longest.
@@ -202,14 +244,9 @@ ChainStats MetropolisRendering::sum_of_stats(StuckChain& stuck) const {
   ChainStats sum;
   sum.rows.resize(algorithm_->rows().size());
   sum.rays = bootstrap_rays_;
-  for (size_t i = 0; i < shares_.size(); ++i) {
-    const std::lock_guard lock(shares_[i]->mutex);
-    if (const auto& samples = shares_[i]->samples) {
-      sum.rays += samples->rays();
-      sum.invalid += samples->invalid();
-      continue;
-    }
-    const ChainStats& s = shares_[i]->chain->stats();
+  for (size_t i = 0; i < chains_.size(); ++i) {
+    const std::lock_guard lock(chains_[i]->mutex);
+    const ChainStats& s = chains_[i]->chain->stats();
     for (size_t r = 0; r < sum.rows.size(); ++r) sum.rows[r] += s.rows[r];
     sum.rays += s.rays;
     sum.invalid += s.invalid;
@@ -221,19 +258,27 @@ ChainStats MetropolisRendering::sum_of_stats(StuckChain& stuck) const {
 }
 
 void MetropolisRendering::add_stats(Stats& stats) const {
-  const GroupCombination groups = combination();
-  stats.b = groups.sums().brightness.mean();
-  stats.b_error = std::sqrt(groups.sums().brightness.variance_of_mean());
+  SampleSums bootstrap;
+  for (const Group& group : groups_) bootstrap += group.bootstrap;
+  Estimate b = estimate(bootstrap.brightness);
+  WeightClasses classes = bootstrap.classes;
+  if (samples_) {
+    b = pooled(b, samples_->mean_brightness());
+    classes += samples_->classes();
+    samples_->add_stats(stats);
+  }
+  stats.b = b.mean;
+  stats.b_error = std::sqrt(b.variance);
   stats.independent_share = allocation_.share;
-  stats.independent_samples = groups.sums().count();
-  stats.samples_carrying_half = groups.sums().classes.carrying_half();
+  stats.independent_samples = b.count;
+  stats.samples_carrying_half = classes.carrying_half();
 
   StuckChain stuck;
   const ChainStats sum = sum_of_stats(stuck);
   if (stuck.rejections > 0) stats.stuck = {stuck};
   stats.invalid_samples += sum.invalid;
-  stats.rays_intersect = sum.rays.intersect;
-  stats.rays_occluded = sum.rays.occluded;
+  stats.rays_intersect += sum.rays.intersect;
+  stats.rays_occluded += sum.rays.occluded;
   const std::vector<MutationStats> names = algorithm_->rows();
   for (size_t r = 0; r < sum.rows.size(); ++r) {
     const ChainStats::Row& row = sum.rows[r];
@@ -248,7 +293,7 @@ void MetropolisRendering::add_stats(Stats& stats) const {
     m.image_distance = row.image_distance / n;
     stats.mutations.push_back(m);
   }
-  if (chain_film_.saturated() + sample_film_.saturated() > 0)
+  if (film_.saturated() > 0)
     stats.warnings.push_back(
         "the film's fixed-point range was exceeded; the brightest pixels are wrong");
 }

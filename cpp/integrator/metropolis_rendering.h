@@ -1,13 +1,16 @@
 // Rendering by Markov chains, with independent samples beside them: what all Metropolis integrators
-// share. A render is a fixed number of chains and of sequences of samples, each with its own random
-// numbers; a unit is some steps of one chain or some samples of one sequence, and these are visited
-// in turn, so that every prefix of a render is a fair image. They form independent groups, each with
-// its own bootstrap; GroupCombination tells how these add up.
+// share. Chains and samples find the same paths, and each path is believed by shares (FamilyWeights).
+//
+// A render is a fixed number of chains, each with its own random stream; a unit is some steps of one
+// chain, and chains are visited in turn. They form independent groups, each with its own bootstrap;
+// GroupCombination tells how these add up. The samples are a rendering of their own, whose units are
+// interleaved with those of the chains, so that every prefix of a render is a fair image.
 #pragma once
 
 #include "integrator/group_combination.h"
-#include "integrator/integrator.h"
+#include "integrator/interleaving.h"
 #include "integrator/metropolis_pilot.h"
+#include "integrator/sampled_rendering.h"
 #include "integrator/separate_direct.h"
 #include "markov/bootstrap.h"
 
@@ -26,16 +29,16 @@ struct MetropolisSettings {
 
 class MetropolisRendering : public Rendering {
  public:
-  /// The algorithm has been prepared, or will be loaded with the rendering.
   MetropolisRendering(ScenePtr scene, uint64_t seed, const MetropolisSettings& settings,
-                      const Allocation& allocation, std::unique_ptr<MetropolisAlgorithm> algorithm,
-                      SeparateDirect direct = {});
+                      std::unique_ptr<MetropolisAlgorithm> algorithm, SeparateDirect direct = {});
 
   void prepare(int threads, const std::atomic<bool>& cancelled) override;
   void run_unit(uint64_t unit) override;
   Image image() const override;
+  /// Of the chains.
   GroupImage group(int index) const override;
-  const Rendering* separate_direct() const override { return direct_.rendering.get(); }
+  std::vector<const Rendering*> parts() const override;
+  Image common_error() const override;
   void add_stats(Stats& stats) const override;
   std::string save(const Task& task, Content content) const override;
   void load(const std::string& state) override;
@@ -44,48 +47,53 @@ class MetropolisRendering : public Rendering {
   /// A unit ends within a fraction of a second, however few chains share a large image.
   static constexpr uint64_t most_steps_per_unit = 4096;
 
-  /// A share of the render: a chain, or a sequence of samples.
-  struct Share {
+  /// A share of the render, after those of the samples.
+  struct ChainShare {
     int group = 0, number = 0;
     std::unique_ptr<RenderChain> chain;
-    double brightness = 0;  ///< Sum of L* of what the chain has recorded.
-    std::unique_ptr<IndependentSamples> samples;
-    uint64_t units = 0;  ///< That are done.
+    double brightness = 0;  ///< Sum of L* of what it has recorded.
+    uint64_t units = 0;     ///< That are done.
     mutable std::mutex mutex;
     std::condition_variable turn;
   };
   struct Group {
+    double b = 0;
     SampleSums bootstrap;
     std::atomic<uint64_t> steps{0};
   };
 
   double pixels() const { return scene_->camera().raster().pixels(); }
   int chains_of(int group) const;
-  ChainId chain_id(const Share& share) const;
-  SplatFilm make_film() const;
+  ChainId chain_id(const ChainShare& share) const;
+  uint64_t sample_shares() const { return samples_ ? uint64_t{group_count} : 0; }
   void render_direct(int threads, const std::atomic<bool>& cancelled);
-  void divide_samples();
-  std::unique_ptr<IndependentSamples> samples_of(int group, int number) const;
-  void lay_out();
+  Allocation run_pilot(int threads, const std::atomic<bool>& cancelled);
   std::vector<std::vector<uint32_t>> run_bootstrap(const Candidates& candidates, int threads,
                                                    const std::atomic<bool>& cancelled);
+  void start_chains(int threads, const std::atomic<bool>& cancelled);
+  void lay_out();
+  void lay_out_units();
+  void run_chain(uint64_t number);
+  Image chain_image(GroupScales scales) const;
   GroupCombination combination() const;
-  Image image(GroupScales scales) const;
   ChainStats sum_of_stats(StuckChain& stuck) const;
-  std::unique_ptr<Share> read_share(const Share& like, ByteReader& bytes) const;
   std::string save_prepared() const;
   void load_prepared(const std::string& prepared);
+  void save_chains(const Shares& shares, Content content, ByteWriter& bytes) const;
+  void load_chains(ByteReader& bytes);
 
   MetropolisSettings settings_;
   Allocation allocation_;
   std::unique_ptr<MetropolisAlgorithm> algorithm_;
   SeparateDirect direct_;
-  SplatFilm chain_film_, sample_film_;
-  /// Group after group: the film of one group then stays in the cache while its chains advance.
-  std::vector<std::unique_ptr<Share>> shares_;
+  std::unique_ptr<SampledRendering> samples_;  ///< nullptr: there are none.
+  SplatFilm film_;
+  /// The chains of groups that have found light, group after group: the film of one group then
+  /// stays in the cache while its chains advance.
+  std::vector<std::unique_ptr<ChainShare>> chains_;
   std::array<Group, group_count> groups_;
-  uint64_t steps_per_unit_, samples_per_unit_ = 0;
-  int sequences_ = 0;  ///< Of samples, in each group.
+  uint64_t steps_per_unit_ = 1;
+  Interleaving interleaving_;
   RayCounts bootstrap_rays_;
 };
 

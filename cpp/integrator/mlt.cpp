@@ -1,7 +1,6 @@
 // mlt: Metropolis light transport in path space. E. Veach and L. Guibas, "Metropolis light
 // transport", SIGGRAPH 1997; Veach 1997, ch. 11.
 #include "base/registry.h"
-#include "integrator/bdpt_params.h"
 #include "integrator/metropolis_params.h"
 #include "integrator/mlt_algorithm.h"
 #include "integrator/path_params.h"
@@ -44,15 +43,11 @@ class MltIntegrator : public Integrator {
   }
   std::unique_ptr<Rendering> start(ScenePtr scene, uint64_t seed) const override {
     SeparateDirect direct;
-    BidirectionalSettings alone;
-    alone.rules = settings_.rules;
     if (direct_samples_ >= 0)
       direct = separate_direct(scene, seed, direct_samples_, settings_.rules.hide_emitters,
                                settings_.rules.strict_normals);
-    if (direct_samples_ > 0) alone.rules.min_depth = 1;
-    return std::make_unique<PilotedRendering>(
-        scene, seed, metropolis_, mlt_algorithm(scene, settings_),
-        [scene, seed, alone] { return bdpt_rendering(scene, seed, alone); }, std::move(direct));
+    return std::make_unique<MetropolisRendering>(
+        scene, seed, metropolis_, mlt_algorithm(scene, settings_), std::move(direct));
   }
   std::shared_ptr<const Integrator> with_mutations(
       const std::vector<ExtraMutation>& extra) const override {

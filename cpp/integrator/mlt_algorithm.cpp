@@ -127,14 +127,18 @@ class MltAlgorithm : public MetropolisAlgorithm {
  private:
   struct MltSource : Source {
     explicit MltSource(const PathTarget& target) : seeds(target) {}
-    const std::vector<FoundLight>& sample(PixelSampler sampler) override { return draw(sampler); }
-    const std::vector<FoundLight>& sample(RandomSampler sampler) override { return draw(sampler); }
+    const std::vector<FoundLight>& sample(const Vec2& raster, PixelSampler& sampler) override {
+      return draw(raster, sampler);
+    }
+    const std::vector<FoundLight>& sample(const Vec2& raster, RandomSampler& sampler) override {
+      return draw(raster, sampler);
+    }
     const RayCounts& rays() const override { return seeds.rays(); }
 
     template <class Sampler>
-    const std::vector<FoundLight>& draw(Sampler sampler) {
+    const std::vector<FoundLight>& draw(const Vec2& raster, Sampler& sampler) {
       found.clear();
-      seeds.draw(sampler, [&](const Connection& c, double weight) {
+      seeds.draw(raster, sampler, [&](const Connection& c, double weight) {
         found.push_back({c.raster, c.contribution * c.weight, weight,
                          weight / c.weight * c.own_share, c.t >= 2});
       });

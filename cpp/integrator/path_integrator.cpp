@@ -29,10 +29,6 @@ class PathTaker : public SampleTaker {
 
 }  // namespace
 
-std::unique_ptr<Rendering> path_rendering(ScenePtr scene, uint64_t seed, const PathRules& rules) {
-  return SampledIntegrator<PathTaker>(rules).start(std::move(scene), seed);
-}
-
 Plugin integrator_path() {
   Schema schema = integrator_schema(
       "path",

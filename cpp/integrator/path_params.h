@@ -2,7 +2,6 @@
 #pragma once
 
 #include "base/params.h"
-#include "integrator/integrator.h"
 #include "path/path_rules.h"
 #include "path/path_tracer.h"
 
@@ -10,7 +9,5 @@ namespace mlt {
 
 std::vector<Parameter> path_parameters();
 PathRules path_rules(Params& params);
-
-std::unique_ptr<Rendering> path_rendering(ScenePtr scene, uint64_t seed, const PathRules& rules);
 
 }  // namespace mlt

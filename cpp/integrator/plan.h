@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace mlt {
@@ -27,16 +28,26 @@ struct Plan {
   uint64_t units_per_pass = 1;
   /// After each multiple of so many units all groups are as far as they have begun.
   uint64_t units_per_group_turn = 1;
+  /// Which share a unit belongs to; after units_per_cycle each share has had its turn.
+  std::function<uint64_t(uint64_t)> share_of = [](uint64_t) { return 0; };
+  uint64_t units_per_cycle = 1;
   /// So many units in a row belong to one share, the next ones to the next share, and so on.
-  uint64_t units_per_share_turn = 1;
+  void take_turns(uint64_t shares, uint64_t units) {
+    share_of = [=](uint64_t unit) { return unit / units % shares; };
+    units_per_cycle = units * shares;
+  }
   /// Samples of one pass, and the pixels that they are spread over.
   double samples_per_pass = 1, pixels = 1;
   /// First shares of the sequences that no task reaches across, and the number of all shares.
   std::vector<uint64_t> borders = {0, 1};
 
+  /// No render ends with fewer units.
+  uint64_t least_units = 0;
+
   /// How many units `spp` samples per pixel take.
   uint64_t unit_count(double spp) const {
-    return static_cast<uint64_t>(std::ceil(spp * pixels / samples_per_pass)) * units_per_pass;
+    return std::max(least_units, static_cast<uint64_t>(std::ceil(spp * pixels / samples_per_pass)) *
+                                     units_per_pass);
   }
   double spp_done(uint64_t units) const {
     return static_cast<double>(units) / static_cast<double>(units_per_pass) * samples_per_pass /
@@ -44,9 +55,6 @@ struct Plan {
   }
 
   uint64_t share_count() const { return borders.back(); }
-  uint64_t share_of(uint64_t unit) const { return unit / units_per_share_turn % share_count(); }
-  /// After so many units each share has had its turn.
-  uint64_t units_per_cycle() const { return units_per_share_turn * share_count(); }
 
   /// All shares, cut into `wanted` sequences or as near to it as their borders allow.
   std::vector<Shares> cut(int wanted) const {

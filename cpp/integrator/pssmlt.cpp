@@ -23,13 +23,13 @@ struct PrimaryWalk {
 
   void operator()(PrimaryState& state, Rng& rng) {
     PrimarySampler sampler(state.numbers, rng);
-    walk(state, sampler);
+    walk(scene->camera().raster().sample(sampler.next2()), state, sampler);
     state.numbers.resize(sampler.used());
   }
   template <class Sampler>
-  void walk(PrimaryState& state, Sampler& sampler) {
+  void walk(const Vec2& raster, PrimaryState& state, Sampler& sampler) {
     const Camera& camera = scene->camera();
-    state.raster = camera.raster().sample(sampler.next2());
+    state.raster = raster;
     const Ray ray = leave_lens(camera, state.raster, sampler).ray;
     // Importance over the density of uniform raster positions.
     const double importance = camera.raster().sampled_area() / camera.raster().pixels();
@@ -86,11 +86,15 @@ class Pssmlt : public MetropolisAlgorithm {
  private:
   struct PssmltSource : Source {
     explicit PssmltSource(const PrimaryWalk& w) : walk(w) {}
-    const std::vector<FoundLight>& sample(PixelSampler sampler) override { return draw(sampler); }
-    const std::vector<FoundLight>& sample(RandomSampler sampler) override { return draw(sampler); }
+    const std::vector<FoundLight>& sample(const Vec2& raster, PixelSampler& sampler) override {
+      return draw(raster, sampler);
+    }
+    const std::vector<FoundLight>& sample(const Vec2& raster, RandomSampler& sampler) override {
+      return draw(raster, sampler);
+    }
     template <class Sampler>
-    const std::vector<FoundLight>& draw(Sampler sampler) {
-      walk.walk(state, sampler);
+    const std::vector<FoundLight>& draw(const Vec2& raster, Sampler& sampler) {
+      walk.walk(raster, state, sampler);
       found.clear();
       if (state.target != 0)
         found.push_back({state.raster, state.rgb, state.target, state.target, true});
@@ -125,9 +129,8 @@ class PssmltIntegrator : public Integrator {
       params.fail("p_large", "is 0, but without large steps a chain cannot reach the whole image");
   }
   std::unique_ptr<Rendering> start(ScenePtr scene, uint64_t seed) const override {
-    return std::make_unique<PilotedRendering>(
-        scene, seed, metropolis_, std::make_unique<Pssmlt>(scene, settings_),
-        [scene, seed, rules = settings_.path] { return path_rendering(scene, seed, rules); });
+    return std::make_unique<MetropolisRendering>(scene, seed, metropolis_,
+                                                 std::make_unique<Pssmlt>(scene, settings_));
   }
 
  private:

@@ -14,10 +14,11 @@ Plan plan_of(const SampleFilm& film, uint64_t passes_per_turn) {
   plan.units_per_pass = tiles;
   plan.units_per_group_turn = passes_per_turn * tiles;
   if (!film.has_splats()) {
+    plan.take_turns(tiles, 1);
     plan.borders = {0, tiles};
     return plan;
   }
-  plan.units_per_share_turn = plan.units_per_group_turn;
+  plan.take_turns(Rendering::group_count, plan.units_per_group_turn);
   plan.borders.clear();
   for (uint64_t group = 0; group <= Rendering::group_count; ++group) plan.borders.push_back(group);
   return plan;
@@ -29,18 +30,19 @@ SampledRendering::SampledRendering(ScenePtr scene, uint64_t seed, const SampledS
                                    MakeTaker make_taker)
     : Rendering(std::move(scene), seed),
       make_taker_(std::move(make_taker)),
+      passes_per_turn_(settings.passes_per_turn),
       film_(scene_->camera().raster().size.x, scene_->camera().raster().size.y,
             scene_->film().filter, group_count, settings.splats),
       layer_names_(settings.layers),
       layers_(scene_->camera().raster().size.x, scene_->camera().raster().size.y,
               scene_->film().filter, static_cast<int>(layer_names_.size())) {
-  plan_ = plan_of(film_, passes_per_turn);
+  plan_ = plan_of(film_, passes_per_turn_);
 }
 
-SampledRendering::Place SampledRendering::place_of(uint64_t pass) {
-  const uint64_t turn = pass / passes_per_turn;
+SampledRendering::Place SampledRendering::place_of(uint64_t pass) const {
+  const uint64_t turn = pass / passes_per_turn_;
   return {static_cast<int>(turn % group_count),
-          turn / group_count * passes_per_turn + pass % passes_per_turn};
+          turn / group_count * passes_per_turn_ + pass % passes_per_turn_};
 }
 
 PixelSampler SampledRendering::sampler(int x, int y, uint64_t pass) const {
@@ -81,6 +83,19 @@ void SampledRendering::run_unit(uint64_t unit) {
   invalid_ += sink.invalid();
   intersect_ += rays.intersect;
   occluded_ += rays.occluded;
+}
+
+/// Tile by tile, since some may have a sample more than others.
+Estimate SampledRendering::mean_of(MeanSums SampleSums::* sums) const {
+  std::vector<MeanSums> strata;
+  for (const SampleSums& tile : film_.sums()) strata.push_back(tile.*sums);
+  return stratified(strata, film_.tile_sizes());
+}
+
+WeightClasses SampledRendering::classes() const {
+  WeightClasses all;
+  for (const SampleSums& tile : film_.sums()) all += tile.classes;
+  return all;
 }
 
 std::vector<NamedImage> SampledRendering::layers() const {

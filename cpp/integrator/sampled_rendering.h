@@ -36,6 +36,11 @@ class SampleSink {
   void splat_layer(int layer, const Vec2& raster, const Color& contribution) {
     if (is_finite(contribution) && layers_) layers_->add(layer, raster, contribution);
   }
+  /// What a sample tells about the brightness.
+  void add_sums(double brightness, double of_chains) {
+    if (tile_) tile_->sums().add(brightness, of_chains);
+  }
+  void count_invalid() { ++invalid_; }
   /// Where found paths are to be told; usually nullptr.
   std::vector<FoundPath>* paths() { return replay_ ? &replay_->paths : nullptr; }
   uint64_t invalid() const { return invalid_; }
@@ -55,6 +60,10 @@ class SampleSink {
 struct SampledSettings {
   bool splats = false;  ///< Walks from lights leave something anywhere on the image.
   std::vector<std::string> layers = {};  ///< Further images to be kept.
+  /// So many passes go to a group, then as many to the next one; among them, samples are
+  /// stratified. The more, the better stratified is a render of few samples; the fewer, the sooner
+  /// it has several groups, whose spread tells its error.
+  uint64_t passes_per_turn = 8;
 };
 
 /// Takes samples one after the other; keeps its memory between them.
@@ -83,6 +92,11 @@ class SampledRendering : public Rendering {
   GroupImage group(int index) const override {
     return {film_.group_image(index), static_cast<double>(film_.passes(index))};
   }
+  const SampleFilm& film() const { return film_; }
+  /// What its samples tell about the brightness (SampleSums), if they do.
+  Estimate mean_brightness() const { return mean_of(&SampleSums::brightness); }
+  Estimate mean_of_chains() const { return mean_of(&SampleSums::of_chains); }
+  WeightClasses classes() const;
   std::vector<NamedImage> layers() const override;
   void add_stats(Stats& stats) const override;
   /// `direct` tells the radiance alone, the others the paths too.
@@ -91,23 +105,21 @@ class SampledRendering : public Rendering {
   void load(const std::string& state) override;
 
  private:
-  /// So many passes go to a group, then as many to the next one; among them, samples are
-  /// stratified. The more, the better stratified is a render of few samples; the fewer, the sooner
-  /// it has several groups, whose spread tells its error.
-  static constexpr uint64_t passes_per_turn = 8;
   using Counts = std::array<uint64_t, 3>;  ///< Rays, shadow rays, invalid samples.
 
   struct Place {
     int group;
     uint64_t index;  ///< Of the pass in its group.
   };
-  static Place place_of(uint64_t pass);
+  Place place_of(uint64_t pass) const;
+  Estimate mean_of(MeanSums SampleSums::* sums) const;
   /// The film's sums of a task.
   SampleFilm::Selection selection(const Task& task) const;
   /// The numbers of one sample of a cell: those of its group's stream for it.
   PixelSampler sampler(int x, int y, uint64_t pass) const;
 
   MakeTaker make_taker_;
+  uint64_t passes_per_turn_;
   SampleFilm film_;
   std::vector<std::string> layer_names_;
   SplatFilm layers_;  ///< A group for each layer.
@@ -118,10 +130,7 @@ class SampledRendering : public Rendering {
 template <class Taker>
 class SampledIntegrator : public Integrator {
  public:
-  using Settings = decltype(Taker::settings(std::declval<Params&>()));
-
   explicit SampledIntegrator(Params& params) : settings_(Taker::settings(params)) {}
-  explicit SampledIntegrator(const Settings& settings) : settings_(settings) {}
   std::unique_ptr<Rendering> start(ScenePtr scene, uint64_t seed) const override {
     return std::make_unique<SampledRendering>(std::move(scene), seed, Taker::film(settings_),
                                               [settings = settings_](const Scene& scene) {
@@ -130,7 +139,7 @@ class SampledIntegrator : public Integrator {
   }
 
  private:
-  Settings settings_;
+  decltype(Taker::settings(std::declval<Params&>())) settings_;
 };
 
 }  // namespace mlt

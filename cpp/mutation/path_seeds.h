@@ -36,16 +36,22 @@ class PathSeeds {
   /// Calls found(connection, weight) for each path of a candidate.
   template <class Sampler, class Found>
   void draw(Sampler sampler, Found&& found) {
-    draw_all(sampler, [&](const Connection& c) {
+    draw(position(sampler), sampler, found);
+  }
+  /// The same at a raster position.
+  template <class Sampler, class Found>
+  void draw(const Vec2& raster, Sampler& sampler, Found&& found) {
+    paths_.sample(raster, sampler, rays_);
+    paths_.connect_all(rays_, [&](const Connection& c) {
       const double weight = target_->of(c.contribution, c.raster) * c.weight;
       if (std::isfinite(weight) && weight > 0) found(c, weight);
     });
   }
 
-  /// The same, also for paths without a weight: calls found(connection).
+  /// Also for paths without a weight: calls found(connection).
   template <class Sampler, class Found>
   void draw_all(Sampler sampler, Found&& found) {
-    paths_.sample(target_->scene().camera().raster().sample(sampler.next2()), sampler, rays_);
+    paths_.sample(position(sampler), sampler, rays_);
     paths_.connect_all(rays_, found);
   }
 
@@ -59,6 +65,10 @@ class PathSeeds {
   const RayCounts& rays() const { return rays_; }
 
  private:
+  template <class Sampler>
+  Vec2 position(Sampler& sampler) const {
+    return target_->scene().camera().raster().sample(sampler.next2());
+  }
   static BidirectionalSettings settings(const PathRules& rules) {
     BidirectionalSettings settings;
     settings.rules = rules;

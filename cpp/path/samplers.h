@@ -29,17 +29,11 @@ class RandomSampler {
 class PixelSampler {
  public:
   /// `stream` names the sequence (seed, group and pixel), `index` the sample in it.
-  PixelSampler(uint64_t stream, uint32_t index) : PixelSampler(stream, stream, index) {}
-  /// With the image position of another sequence.
-  PixelSampler(uint64_t position_stream, uint64_t stream, uint32_t index)
-      : position_stream_(position_stream),
-        stream_(stream),
-        index_(index),
-        rng_(stream, Purpose::pixel, index) {}
+  PixelSampler(uint64_t stream, uint32_t index)
+      : stream_(stream), index_(index), rng_(stream, Purpose::pixel, index) {}
 
   double next() { return rng_.next(); }
   Vec2 next2() {
-    if (pair_ == 0) return scrambled_sobol(index_, position_stream_ + pair_++);
     if (pair_ < stratified_pairs) return scrambled_sobol(index_, stream_ + pair_++);
     const double x = rng_.next();
     return {x, rng_.next()};
@@ -48,7 +42,7 @@ class PixelSampler {
  private:
   /// Image position, lens, and the light and direction of the first vertices.
   static constexpr uint64_t stratified_pairs = 6;
-  uint64_t position_stream_, stream_;
+  uint64_t stream_;
   uint32_t index_;
   uint64_t pair_ = 0;
   Rng rng_;

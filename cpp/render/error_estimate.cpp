@@ -126,6 +126,10 @@ struct Total {
     }
   }
 
+  void add_error(const std::vector<float>& errors) {
+    for (size_t i = 0; i < errors.size(); ++i) variance[i] += errors[i] * errors[i];
+  }
+
   Image error(const Vec2i& size) const {
     Image image(size.x, size.y, 3);
     for (size_t i = 0; i < image.data.size(); ++i)
@@ -170,11 +174,16 @@ ErrorEstimate estimate_error(const Rendering& rendering) {
   Total pixels, blocks;
   pixels.add(groups.pixels);
   blocks.add(groups.blocks);
-  if (rendering.separate_direct()) {
-    const Groups direct(*rendering.separate_direct());
-    if (direct.pixels.count() < 2) return estimate;
-    pixels.add(direct.pixels);
-    blocks.add(direct.blocks);
+  for (const Rendering* part : rendering.parts()) {
+    const Groups groups_of_part(*part);
+    if (groups_of_part.pixels.count() < 2) return estimate;
+    pixels.add(groups_of_part.pixels);
+    blocks.add(groups_of_part.blocks);
+  }
+  if (const Image common = rendering.common_error(); !common.empty()) {
+    const std::vector<float> values = with_luminance(common);
+    pixels.add_error(values);
+    blocks.add_error(block_means(values, groups.size, groups.grid));
   }
   estimate.pixels = pixels.error(groups.size);
   estimate.blocks = blocks.error(groups.grid);

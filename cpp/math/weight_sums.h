@@ -40,18 +40,29 @@ class WeightClasses {
   std::map<int, uint64_t> classes_;  ///< How many there are in each quarter of an octave.
 };
 
-/// What independent samples of paths tell, each sample by the sums over its paths.
+/// What independent samples of an image tell about its brightness, that of L*.
 struct SampleSums {
-  MeanSums target;        ///< T / p: its mean is b.
-  MeanSums brightness;    ///< L* / p: its mean is the brightness of the image.
-  MeanSums of_chains;     ///< w2 L* / p: the brightness of the part that chains show.
-  WeightClasses classes;  ///< Of the brightness.
+  MeanSums brightness;    ///< L* / p.
+  MeanSums of_chains;     ///< w2 L* / p, where chains show the part w2 of each path.
+  WeightClasses classes;  ///< Of L* / p.
 
-  void add(double target_weight, double brightness_weight, double of_chains_weight);
+  void add(double brightness_weight, double of_chains_weight);
   SampleSums& operator+=(const SampleSums& other);
-  uint64_t count() const { return target.count(); }
+  uint64_t count() const { return brightness.count(); }
   void save(ByteWriter& bytes) const;
   void load(ByteReader& bytes);
 };
+
+/// A mean, its squared standard error, and the number of samples that it was made from.
+struct Estimate {
+  double mean = 0, variance = 0;
+  uint64_t count = 0;
+};
+
+Estimate estimate(const MeanSums& sums);
+/// Of strata of different sizes; no estimate as long as one of them has no sample.
+Estimate stratified(const std::vector<MeanSums>& strata, const std::vector<double>& sizes);
+/// The mean of two independent estimates, each counting as often as it has samples.
+Estimate pooled(const Estimate& a, const Estimate& b);
 
 }  // namespace mlt

@@ -1,4 +1,4 @@
-#include "integrator/weight_sums.h"
+#include "math/weight_sums.h"
 
 #include <algorithm>
 
@@ -69,15 +69,13 @@ void WeightClasses::load(ByteReader& bytes) {
   }
 }
 
-void SampleSums::add(double target_weight, double brightness_weight, double of_chains_weight) {
-  target.add(target_weight);
+void SampleSums::add(double brightness_weight, double of_chains_weight) {
   brightness.add(brightness_weight);
   of_chains.add(of_chains_weight);
   classes.add(brightness_weight);
 }
 
 SampleSums& SampleSums::operator+=(const SampleSums& other) {
-  target += other.target;
   brightness += other.brightness;
   of_chains += other.of_chains;
   classes += other.classes;
@@ -85,13 +83,40 @@ SampleSums& SampleSums::operator+=(const SampleSums& other) {
 }
 
 void SampleSums::save(ByteWriter& bytes) const {
-  for (const MeanSums* sums : {&target, &brightness, &of_chains}) bytes.write(*sums);
+  bytes.write(brightness);
+  bytes.write(of_chains);
   classes.save(bytes);
 }
 
 void SampleSums::load(ByteReader& bytes) {
-  for (MeanSums* sums : {&target, &brightness, &of_chains}) *sums = bytes.read<MeanSums>();
+  brightness = bytes.read<MeanSums>();
+  of_chains = bytes.read<MeanSums>();
   classes.load(bytes);
+}
+
+Estimate estimate(const MeanSums& sums) {
+  return {sums.mean(), sums.variance_of_mean(), sums.count()};
+}
+
+Estimate stratified(const std::vector<MeanSums>& strata, const std::vector<double>& sizes) {
+  Estimate sum;
+  double size = 0;
+  for (const double one : sizes) size += one;
+  for (size_t i = 0; i < strata.size(); ++i) {
+    if (strata[i].count() == 0) return {};
+    const double share = sizes[i] / size;
+    sum.mean += share * strata[i].mean();
+    sum.variance += share * share * strata[i].variance_of_mean();
+    sum.count += strata[i].count();
+  }
+  return sum;
+}
+
+Estimate pooled(const Estimate& a, const Estimate& b) {
+  if (a.count + b.count == 0) return {};
+  const double share = static_cast<double>(a.count) / static_cast<double>(a.count + b.count);
+  return {share * a.mean + (1 - share) * b.mean,
+          share * share * a.variance + (1 - share) * (1 - share) * b.variance, a.count + b.count};
 }
 
 }  // namespace mlt
