@@ -50,12 +50,19 @@ GroupScales GroupCombination::mean() const {
   return mean;
 }
 
+double GroupCombination::missing() const {
+  MeanSums missing;
+  for (int g = 0; g < count(); ++g)
+    if (begun(g)) missing.add(samples_of(g).mean - chain_brightness(g));
+  return (1 - lambda_) * missing.mean();
+}
+
 GroupScales GroupCombination::common_error() const {
   GroupScales scales(count());
   if (of_chains_.count == 0 || !(chain_brightness_ > 0)) return scales;
   const double share =
       static_cast<double>(of_chains_.count) / static_cast<double>(samples_of(0).count);
-  const double error = lambda_ * share * std::sqrt(of_chains_.variance);
+  const double error = std::hypot(lambda_ * share * std::sqrt(of_chains_.variance), missing());
   for (int h = 0; h < count(); ++h)
     if (has_chains(h))
       scales[h] = error / chain_brightness_ * groups_[h].b / static_cast<double>(groups_[h].steps);

@@ -46,9 +46,11 @@ class GroupCombination {
   GroupScales group(int g) const;
   /// The mean of the groups that have begun.
   GroupScales mean() const;
-  /// How an error of M that all groups have in common changes the image: R, times its standard
-  /// error.
+  /// What may be wrong with all groups alike: R, times the standard error of M, and times the light
+  /// that the samples say is missing.
   GroupScales common_error() const;
+  /// The brightness that the samples have found beyond what the image shows; negative if less.
+  double missing() const;
   /// Whether a group has anything to say.
   bool begun(int g) const { return groups_[g].b == 0 || has_chains(g); }
 

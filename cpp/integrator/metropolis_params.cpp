@@ -12,6 +12,8 @@ std::vector<Parameter> metropolis_parameters() {
        "Share of the time for samples that are independent of the chains, 0 to 1. They show what "
        "they are good at, and tell the brightness b. By default a pilot finds the best one; 1: "
        "there are no chains."},
+      {"parts", ParamType::boolean, false,
+       "Keep what chains and samples show of the image as layers `chains` and `samples`."},
   };
 }
 
@@ -21,6 +23,7 @@ MetropolisSettings metropolis_settings(Params& params) {
   settings.chains = static_cast<int>(params.integer_in("chains", 16, 1 << 24));
   if (params.has("independent_share"))
     settings.independent_share = params.real_in("independent_share", 0, 1);
+  settings.parts = params.boolean("parts");
   return settings;
 }
 

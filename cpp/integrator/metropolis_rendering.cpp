@@ -3,11 +3,19 @@
 #include "base/parallel.h"
 #include "integrator/family_taker.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
 namespace mlt {
+namespace {
+
+/// If half of the light comes from fewer samples, there may well be more that none has found.
+constexpr uint64_t few_samples = 100;
+
+}  // namespace
 
 MetropolisRendering::MetropolisRendering(ScenePtr scene, uint64_t seed,
                                          const MetropolisSettings& settings,
@@ -239,6 +247,13 @@ Image MetropolisRendering::common_error() const {
   return samples_ ? chain_image(combination().common_error()) : Image();
 }
 
+std::vector<NamedImage> MetropolisRendering::layers() const {
+  if (!settings_.parts) return {};
+  const Vec2i size = scene_->camera().raster().size;
+  return {{"chains", chain_image(combination().mean())},
+          {"samples", samples_ ? samples_->image() : Image(size.x, size.y, 3)}};
+}
+
 /// Of all chains; `stuck` becomes the one that has stood still for longest.
 ChainStats MetropolisRendering::sum_of_stats(StuckChain& stuck) const {
   ChainStats sum;
@@ -257,7 +272,8 @@ ChainStats MetropolisRendering::sum_of_stats(StuckChain& stuck) const {
   return sum;
 }
 
-void MetropolisRendering::add_stats(Stats& stats) const {
+/// Of the brightness.
+void MetropolisRendering::add_level(Stats& stats) const {
   SampleSums bootstrap;
   for (const Group& group : groups_) bootstrap += group.bootstrap;
   Estimate b = estimate(bootstrap.brightness);
@@ -265,13 +281,32 @@ void MetropolisRendering::add_stats(Stats& stats) const {
   if (samples_) {
     b = pooled(b, samples_->mean_brightness());
     classes += samples_->classes();
-    samples_->add_stats(stats);
   }
   stats.b = b.mean;
   stats.b_error = std::sqrt(b.variance);
   stats.independent_share = allocation_.share;
   stats.independent_samples = b.count;
   stats.samples_carrying_half = classes.carrying_half();
+  if (b.mean > 0) stats.level_error = std::hypot(stats.b_error, combination().missing()) / b.mean;
+  if (stats.level_error > 0.05)
+    stats.warnings.push_back(fmt::format(
+        "the image may be {:.0f} % too bright or too dark: some light is found so rarely that its "
+        "amount is not known yet; render for longer",
+        100 * stats.level_error));
+  if (b.count > 0 && stats.samples_carrying_half < few_samples)
+    stats.warnings.push_back(fmt::format(
+        "half of the light comes from {} of {} independent samples: there may be more that none "
+        "has found; render for longer",
+        stats.samples_carrying_half, b.count));
+  if (allocation_.share == 1 && settings_.independent_share != 1)
+    stats.warnings.push_back(
+        "no light was found for chains to start from; give more luminance_samples, or check that "
+        "light can reach the camera");
+}
+
+void MetropolisRendering::add_stats(Stats& stats) const {
+  if (samples_) samples_->add_stats(stats);
+  add_level(stats);
 
   StuckChain stuck;
   const ChainStats sum = sum_of_stats(stuck);

@@ -25,6 +25,7 @@ struct MetropolisSettings {
   int chains = 1024;
   int64_t luminance_samples = 50000;
   std::optional<double> independent_share;  ///< Of the time; without, a pilot finds it.
+  bool parts = false;                       ///< Keep the parts of both families as layers.
 };
 
 class MetropolisRendering : public Rendering {
@@ -39,6 +40,7 @@ class MetropolisRendering : public Rendering {
   GroupImage group(int index) const override;
   std::vector<const Rendering*> parts() const override;
   Image common_error() const override;
+  std::vector<NamedImage> layers() const override;
   void add_stats(Stats& stats) const override;
   std::string save(const Task& task, Content content) const override;
   void load(const std::string& state) override;
@@ -76,6 +78,7 @@ class MetropolisRendering : public Rendering {
   void run_chain(uint64_t number);
   Image chain_image(GroupScales scales) const;
   GroupCombination combination() const;
+  void add_level(Stats& stats) const;
   ChainStats sum_of_stats(StuckChain& stuck) const;
   std::string save_prepared() const;
   void load_prepared(const std::string& prepared);

@@ -51,6 +51,8 @@ struct Stats {
   /// Of the time, for samples that are independent of the chains; how many samples b was estimated
   /// from, and how many of these, those of the highest weight, carry half of it. Metropolis only.
   double independent_share = 0;
+  /// By how much, relatively, the brightness of the image may be wrong; NaN (null) if not known.
+  double level_error = std::numeric_limits<double>::quiet_NaN();
   uint64_t independent_samples = 0, samples_carrying_half = 0;
   uint64_t invalid_samples = 0;
   std::vector<StuckChain> stuck;

@@ -92,19 +92,17 @@ struct Groups {
       const std::vector<float> means = block_means(values, size, grid);
       pixels.add(values, group.weight);
       blocks.add(means, group.weight);
+      weight += group.weight;
       most.resize(means.size() / channels);
-      sum.resize(most.size());
-      for (size_t b = 0; b < most.size(); ++b) {
-        const double light = group.weight * std::max(0.0f, means[channels * b + 3]);
-        most[b] = std::max(most[b], light);
-        sum[b] += light;
-      }
+      for (size_t b = 0; b < most.size(); ++b)
+        most[b] = std::max(most[b], group.weight * means[channels * b + 3]);
     }
   }
 
   Vec2i size{0}, grid{0};
   Spread pixels, blocks;
-  std::vector<double> most, sum;  ///< Per block: light that one group found, and all of them.
+  double weight = 0;
+  std::vector<double> most;  ///< Per block: light that one group has found, times its weight.
 };
 
 double mean_luminance(const std::vector<float>& values) {
@@ -153,9 +151,10 @@ std::vector<Disagreement> disagreements(const Groups& groups, const Total& block
   std::vector<std::pair<float, Disagreement>> found;
   for (size_t b = 0; b < groups.most.size(); ++b) {
     const float light = blocks.mean[channels * b + 3];
-    if (!(light > least) || groups.most[b] <= largest_share * groups.sum[b]) continue;
+    const double share = groups.most[b] / (groups.weight * light);
+    if (!(light > least) || share <= largest_share) continue;
     const Vec2i block(b % groups.grid.x, b / groups.grid.x);
-    found.push_back({light, {ErrorEstimate::block_size * block, groups.most[b] / groups.sum[b]}});
+    found.push_back({light, {ErrorEstimate::block_size * block, std::min(1.0, share)}});
   }
   std::stable_sort(found.begin(), found.end(),
                    [](const auto& a, const auto& b) { return a.first > b.first; });

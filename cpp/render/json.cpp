@@ -95,6 +95,7 @@ std::string to_json(const Stats& s) {
   line("disagreements", array(s.disagreements, disagreement));
   line("b", fmt::format("{}", s.b));
   line("b_error", fmt::format("{}", s.b_error));
+  line("level_error", json_value(s.level_error));
   line("independent_share", fmt::format("{}", s.independent_share));
   line("independent_samples", fmt::format("{}", s.independent_samples));
   line("samples_carrying_half", fmt::format("{}", s.samples_carrying_half));

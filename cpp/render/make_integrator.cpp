@@ -53,7 +53,7 @@ Node choose_integrator(const LoadedScene& loaded, const std::string& name,
                        const Assignments& assignments, const Registry& registry) {
   Node node;
   node.family = "integrator";
-  node.type = name.empty() ? "path" : name;
+  node.type = name.empty() ? "mlt" : name;
   const std::optional<Node>& own = loaded.integrator;
   if (own && (name.empty() || name == own->type)) node = *own;
   const Schema& schema = registry.find("integrator", node.type, node.where).schema;

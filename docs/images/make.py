@@ -2,6 +2,7 @@
 
 door-ajar     the picture at the head of the README
 equal-time    the same scene by path, bdpt and mlt, with equal CPU time
+two-families  what independent samples and chains show of an image
 strategies    the techniques of bidirectional path tracing
 """
 
@@ -42,6 +43,13 @@ def equal_time():
     mlt.write_image(HERE / "equal-time.png", np.concatenate(images, axis=1))
 
 
+def two_families():
+    scene = mlt.load_dict(mlt.scenes.glass_ball(), size=(240, 240))
+    result = mlt.start(scene, mlt.MLT(max_depth=8, parts=True), spp=400).result()
+    parts = [result.layers["samples"], result.layers["chains"], result.image]
+    mlt.write_image(HERE / "two-families.png", np.concatenate(parts, axis=1))
+
+
 def strategies():
     scene = mlt.load_dict(mlt.scenes.glass_ball(), size=(96, 96))
     result = mlt.start(scene, mlt.BDPT(max_depth=5, techniques=True), spp=192).result()
@@ -54,6 +62,7 @@ if __name__ == "__main__":
     pictures = {
         "door-ajar": door_ajar,
         "equal-time": equal_time,
+        "two-families": two_families,
         "strategies": strategies,
     }
     for name in sys.argv[1:] or pictures:

@@ -102,10 +102,16 @@ class MLT(Integrator):
         Leave out lights that the camera sees directly.
     strict_normals : boolean, default False
         Refuse directions that the geometric and the shading normal see on different sides.
-    luminance_samples : integer, default 100000
-        Paths drawn to estimate the image's mean brightness b and to start the chains from.
+    luminance_samples : integer, default 50000
+        Paths drawn to start the chains from; a pilot before that draws about as many.
     chains : integer, default 1024
         Number of Markov chains, whatever the budget: more samples make chains longer.
+    independent_share : float
+        Share of the time for samples that are independent of the chains, 0 to 1. They show what
+        they are good at, and tell the brightness b. By default a pilot finds the best one; 1:
+        there are no chains.
+    parts : boolean, default False
+        Keep what chains and samples show of the image as layers `chains` and `samples`.
     bidirectional_mutation : boolean, default True
         Use the bidirectional mutation, which replaces any piece of the path (Veach 1997, sec.
         11.3.1).
@@ -145,7 +151,7 @@ class MLT(Integrator):
     adaptive : boolean, default True
         Let pilot chains find the weights and step sizes of the mutations; by default only if no
         weight is given, and never for a step size that is given.
-    two_stage : boolean, default False
+    two_stage : boolean, default True
         Divide the target by a coarse image, so that dark regions get their share.
     direct_samples : integer, default -1
         Render light of at most one reflection apart with this many samples per pixel; 0 leaves
@@ -163,6 +169,8 @@ class MLT(Integrator):
     strict_normals: bool
     luminance_samples: int
     chains: int
+    independent_share: float | None
+    parts: bool
     bidirectional_mutation: bool
     bidirectional_weight: float
     lens_perturbation: bool
@@ -194,6 +202,8 @@ class MLT(Integrator):
         strict_normals: bool = ...,
         luminance_samples: int = ...,
         chains: int = ...,
+        independent_share: float | None = ...,
+        parts: bool = ...,
         bidirectional_mutation: bool = ...,
         bidirectional_weight: float = ...,
         lens_perturbation: bool = ...,
@@ -263,10 +273,16 @@ class PSSMLT(Integrator):
         Leave out lights that the camera sees directly.
     strict_normals : boolean, default False
         Refuse directions that the geometric and the shading normal see on different sides.
-    luminance_samples : integer, default 100000
-        Paths drawn to estimate the image's mean brightness b and to start the chains from.
+    luminance_samples : integer, default 50000
+        Paths drawn to start the chains from; a pilot before that draws about as many.
     chains : integer, default 1024
         Number of Markov chains, whatever the budget: more samples make chains longer.
+    independent_share : float
+        Share of the time for samples that are independent of the chains, 0 to 1. They show what
+        they are good at, and tell the brightness b. By default a pilot finds the best one; 1:
+        there are no chains.
+    parts : boolean, default False
+        Keep what chains and samples show of the image as layers `chains` and `samples`.
     p_large : float, default 0.3
         Probability of a large step, which draws a new path independently.
     bidirectional : boolean, default False
@@ -279,6 +295,8 @@ class PSSMLT(Integrator):
     strict_normals: bool
     luminance_samples: int
     chains: int
+    independent_share: float | None
+    parts: bool
     p_large: float
     bidirectional: bool
     def __init__(
@@ -290,6 +308,8 @@ class PSSMLT(Integrator):
         strict_normals: bool = ...,
         luminance_samples: int = ...,
         chains: int = ...,
+        independent_share: float | None = ...,
+        parts: bool = ...,
         p_large: float = ...,
         bidirectional: bool = ...,
     ) -> None: ...

@@ -437,8 +437,11 @@ TEST(SampleFilm, RefusesDamagedBytesAndStaysAsItWas) {
   refuses(bytes_of(SampleFilm(width, height, shared(mitchell_filter()), 3)));
   // Each count, made too small and much too large.
   const size_t head = sizeof(PixelRect) + sizeof(uint64_t);
+  ByteWriter sums_of_tile;
+  SampleSums().save(sums_of_tile);
+  const size_t sums = saved.tile_count() * sums_of_tile.take().size();
   size_t at = head;
-  for (int group = 0; group < 2; ++group, at += head)
+  for (int group = 0; group < 2; ++group, at += sums + head)
     for (const size_t element : {sizeof(float), sizeof(float), sizeof(uint64_t)}) {
       uint64_t size;
       std::memcpy(&size, &bytes[at], sizeof size);
