@@ -44,7 +44,7 @@ py::object bootstrap_starts(const PyPathTarget& target, uint64_t candidates, uin
 class ShownChain : private PathChain {
  public:
   ShownChain(PathChain chain, py::object start)
-      : PathChain(std::move(chain)), shown_{{std::move(start)}, PathChain::state().target} {}
+      : PathChain(std::move(chain)), shown_{{std::move(start)}, PathChain::state().brightness()} {}
 
   const lab::State<Object>& state() const { return shown_; }
   using PathChain::kernel;
@@ -128,7 +128,7 @@ void bind_path_target(py::module_& core) {
       .def(
           "__call__",
           [](const PyPathTarget& target, const PyLightPath& x) {
-            return target.evaluated(x).target;
+            return target.evaluated(x).brightness();
           },
           py::arg("path"),
           "L*(x) = (luminance + mean of R, G, B of f(x)) / 2; 0 if light cannot take the path.")

@@ -67,7 +67,8 @@ class Move {
 
   using State = lab::State<X>;
   struct Edit {
-    Edit reversed() const { return {}; }
+    /// T(x -> y) and T(y -> x), if the move was made elsewhere.
+    std::optional<std::pair<double, double>> densities;
   };
   struct Aids {};
   struct Context {
@@ -81,14 +82,16 @@ class Move {
   std::optional<Edit> propose(const State& x, State& y, const Context& context) {
     return propose(x.x, y.x, context.rng) ? std::optional<Edit>(Edit()) : std::nullopt;
   }
-  double density(const State& x, const State& y, const Edit&) const { return density(x.x, y.x); }
-  void check(const State& x, const State& y, double forward, double backward) const {
+  Transition quotients(const State& x, const State& y, const Edit& edit) const {
+    const auto [forward, backward] =
+        edit.densities ? *edit.densities : std::pair(density(x.x, y.x), density(y.x, x.x));
     if (!(forward > 0))
       throw UsageError("a move proposed " + describe(y.x) + " from " + describe(x.x) +
                        " but its density T(x -> y) is " + describe(forward));
     if (!(backward >= 0))
       throw UsageError("a move's density T(x -> y) is " + describe(backward) + " from " +
                        describe(y.x) + " to " + describe(x.x));
+    return {forward / y.target, backward / x.target};
   }
 };
 
@@ -127,7 +130,7 @@ class Chain : public mlt::Chain<State<X>, Mixture<X>> {
   void draw() { this->kernel_.draw(this->x_, this->y_[0], this->rng_); }
   void set_proposal(X y, double forward, double backward) {
     this->y_[0].x = std::move(y);
-    this->kernel_.set_densities(forward, backward);
+    this->kernel_.set_edit({std::pair(forward, backward)});
   }
   void set_target(double value) {
     this->y_[0].target = checked("the target", value, this->y_[0].x);

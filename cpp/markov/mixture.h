@@ -10,10 +10,10 @@
 //   static size_t row(const State&)   which row of weights is for this state
 //   double suitability(const State&) const   may it act on x? A factor of its weight
 //   std::optional<Edit> propose(x, y, context)   makes y from x
-//   double density(x, y, edit)    T(x -> y), without the probability of its choice
-//   void check(x, y, forward, backward)   throws if these densities cannot be
+//   Transition quotients(x, y, edit)   T(x -> y) / L*(y) and T(y -> x) / L*(x), without the
+//                            probability of its choice
 //
-// where Edit has reversed(), and a State has its target L*, known at the latest when the step ends.
+// where a State has its target, known at the latest when the step ends; 0 if y is not to be had.
 #pragma once
 
 #include "markov/step.h"
@@ -62,7 +62,6 @@ class Mixture {
   /// Chooses a move for x; false if none suits it.
   bool choose(const State& x, Rng& rng) {
     edit_.reset();
-    densities_.reset();
     row_ = Move::row(x);
     const double sum = weigh(x);
     suited_ = sum > 0;
@@ -79,23 +78,14 @@ class Mixture {
     typename Move::Context context{rng, aids_};
     edit_ = moves_[chosen_]->propose(x, y, context);
   }
-  /// Says that the chosen move has made its y elsewhere, and with which densities T(x -> y), T(y ->
-  /// x).
-  void set_densities(double forward, double backward) {
-    edit_.emplace();
-    densities_ = {forward, backward};
-  }
+  /// Says that the chosen move has made its y elsewhere.
+  void set_edit(const typename Move::Edit& edit) { edit_ = edit; }
   /// Of the proposal y, whose target is known.
   Transition transition(const State& x, const State& y) {
     if (!generated(y)) return impossible;
-    Move& move = *moves_[chosen_];
-    const auto [forward, backward] =
-        densities_ ? *densities_
-                   : std::pair(move.density(x, y, *edit_), move.density(y, x, edit_->reversed()));
-    move.check(x, y, forward, backward);
-    if (forward == 0) return impossible;  // y has another form than the move makes
-    return {probability_ * forward / y.target,
-            backward == 0 ? 0 : probability(y) * backward / x.target};
+    const Transition own = moves_[chosen_]->quotients(x, y, *edit_);
+    if (own.forward == 0) return impossible;  // y has another form than the move makes
+    return {probability_ * own.forward, own.backward == 0 ? 0 : probability(y) * own.backward};
   }
 
   /// Whether any move suits x.
@@ -142,7 +132,6 @@ class Mixture {
   bool suited_ = false;
   double probability_ = 0;
   std::optional<typename Move::Edit> edit_;
-  std::optional<std::pair<double, double>> densities_;
 };
 
 }  // namespace mlt

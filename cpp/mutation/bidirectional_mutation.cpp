@@ -8,7 +8,11 @@
 // are summed:
 //
 //   T(x -> y) = p_delete(l, m | x) p_length(c_a | c_d) sum_s p_way(s) p_s(inserted vertices)
+//
+// Over |f| of what is inserted, p_s is 1 / C_s, with the unweighted contribution C_s of one
+// connection.
 #include "mutation/join.h"
+#include "mutation/measured_mutation.h"
 #include "mutation/mutation_registry.h"
 
 namespace mlt {
@@ -124,9 +128,10 @@ bool arrive(const Walker& walker, const Ray& ray, Path& path, int i, Rng& rng) {
   return walker.arrive_at_light(ray, any_background, path[0]);
 }
 
-class BidirectionalMutation final : public Mutation {
+class BidirectionalMutation final : public MeasuredMutation<BidirectionalMutation> {
  public:
-  BidirectionalMutation(const PathTarget& target, Params&) : Mutation("bidirectional", target) {}
+  BidirectionalMutation(const PathTarget& target, Params&)
+      : MeasuredMutation("bidirectional", target) {}
 
   double suitability(const PathState&) const override { return 1; }
   bool ergodic() const override { return true; }
@@ -155,28 +160,17 @@ class BidirectionalMutation final : public Mutation {
     return edit;
   }
 
-  double density(const PathState& x, const PathState& y, const Edit& edit) const override {
+  template <class Measure>
+  double density_in(const Measure& in, const PathState& x, const PathState& y,
+                    const Edit& edit) const {
     const int k = x.edges(), l = edit.first - 1, m = edit.last + 1, n = edit.inserted;
     const double p_delete = deletion_probability(x, l, m);
     if (p_delete == 0) return 0;
     const double p_length = AddedLength(k, l, m, most_edges()).probability(n + 1);
-    const int most = most_from_light(n, m > k, scene());
-    double sum = 0;
-    for (int s = 0; s <= most; ++s) {
-      const int technique = edit.first + s;
-      if (!can_sample(y.terms, technique)) continue;
-      double p = 1;
-      if (technique == 0 && y[0].at.infinite())
-        p /= static_cast<double>(scene().backgrounds().size());
-      for (int i = edit.first; i < edit.first + n; ++i) {
-        if (i >= technique)
-          p *= y.terms[i].from_camera;
-        else
-          p *= i == 0 && technique == 1 ? y.terms.direct : y.terms[i].from_light;
-      }
-      sum += p;
-    }
-    return p_delete * p_length * sum / (most + 1);
+    const size_t backgrounds = scene().backgrounds().size();
+    const double hit_light = y[0].at.infinite() && backgrounds > 0 ? 1.0 / backgrounds : 1.0;
+    return p_delete * p_length * total_density(in, edit.first, edit.first + n, hit_light) /
+           (most_from_light(n, m > k, scene()) + 1);
   }
 
  private:

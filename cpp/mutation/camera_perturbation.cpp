@@ -17,6 +17,7 @@
 // through glass.
 #include "mutation/chain_perturbation.h"
 #include "mutation/join.h"
+#include "mutation/measured_mutation.h"
 #include "mutation/mutation_registry.h"
 
 namespace mlt {
@@ -33,12 +34,12 @@ bool same_light_at_infinity(const PathState& x, const PathState& y) {
          (!x[0].at.infinite() || x[0].emitter == y[0].emitter);
 }
 
-class CameraPerturbation final : public Mutation {
+class CameraPerturbation final : public MeasuredMutation<CameraPerturbation> {
  public:
   enum class Chains { one, many };
 
   CameraPerturbation(std::string name, Chains chains, const PathTarget& target, Params& params)
-      : Mutation(std::move(name), target),
+      : MeasuredMutation(std::move(name), target),
         chains_(chains),
         chain_(target.scene(), step_sizes(params)) {}
 
@@ -72,7 +73,9 @@ class CameraPerturbation final : public Mutation {
     return edit;
   }
 
-  double density(const PathState& x, const PathState& y, const Edit& edit) const override {
+  template <class Measure>
+  double density_in(const Measure& in, const PathState& x, const PathState& y,
+                    const Edit& edit) const {
     const Form from = form(x), to = form(y);
     if (from.stop != to.stop || from.further_chains != to.further_chains || from.stop != edit.first)
       return 0;
@@ -86,7 +89,7 @@ class CameraPerturbation final : public Mutation {
     if (!scene().camera().delta_position())
       on_lens =
           lens_moves(x, y) ? 0.5 * lens_radius().planar_pdf(length(y[k].at.p - x[k].at.p)) : 0.5;
-    return on_lens * chain_.density(x, y, {k, from.stop, -1}, on_image);
+    return on_lens * chain_.density(in, x, y, {k, from.stop, -1}, on_image);
   }
 
  private:

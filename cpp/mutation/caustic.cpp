@@ -8,15 +8,16 @@
 // about as far as the lens perturbation would move it.
 #include "mutation/chain_perturbation.h"
 #include "mutation/join.h"
+#include "mutation/measured_mutation.h"
 #include "mutation/mutation_registry.h"
 
 namespace mlt {
 namespace {
 
-class CausticPerturbation final : public Mutation {
+class CausticPerturbation final : public MeasuredMutation<CausticPerturbation> {
  public:
   CausticPerturbation(const PathTarget& target, Params& params)
-      : Mutation("caustic", target), chain_(target.scene(), step_sizes(params)) {}
+      : MeasuredMutation("caustic", target), chain_(target.scene(), step_sizes(params)) {}
 
   double suitability(const PathState& x) const override { return start(x) >= 0 ? 1 : 0; }
 
@@ -45,7 +46,9 @@ class CausticPerturbation final : public Mutation {
     return edit;
   }
 
-  double density(const PathState& x, const PathState& y, const Edit& edit) const override {
+  template <class Measure>
+  double density_in(const Measure& in, const PathState& x, const PathState& y,
+                    const Edit& edit) const {
     const int k = x.edges(), a = start(x);
     if (a < 0 || a != start(y) || a + 1 != edit.first) return 0;
     double first;
@@ -57,7 +60,7 @@ class CausticPerturbation final : public Mutation {
       first =
           chain_.angle(x, a, k - 1, 1).angular_pdf(angle_between(from, to)) / abs_cos(y[a].at, to);
     }
-    return chain_.density(x, y, {a, k - 1, 1}, first);
+    return chain_.density(in, x, y, {a, k - 1, 1}, first);
   }
 
  private:

@@ -62,13 +62,6 @@ Vec3 ChainPerturbation::perturb(const Vec3& w, const ExponentialRadius& angle, R
       {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)});
 }
 
-int ChainPerturbation::chain_end(const PathState& x, int start, int step) {
-  const int end = step < 0 ? 0 : x.edges();
-  int i = start + step;
-  while (i != end && x.specular(i)) i += step;
-  return i;
-}
-
 bool ChainPerturbation::carry(const PathState& x, const Span& span, Ray ray, PathState& y,
                               MutationContext& context) const {
   const Walker walker{*scene_, y.path.time, context.rays};
@@ -113,16 +106,6 @@ std::optional<Vec3> ChainPerturbation::carried_direction(const PathState& x, con
   return at.shading.to_world(*y_out);
 }
 
-double ChainPerturbation::density(const PathState& x, const PathState& y, const Span& span,
-                                  double first_coefficient) const {
-  const auto G = [&](int i) { return y.terms[span.step < 0 ? i - 1 : i].G; };
-  double p = first_coefficient * G(span.start);
-  for (int i = span.start + span.step; i != span.stop; i += span.step)
-    p *= coefficient(x, y, i, span.step) * G(i);
-  return p;
-}
-
-/// Density with which y's vertex i is left, in projected solid angle, when x is perturbed.
 double ChainPerturbation::coefficient(const PathState& x, const PathState& y, int i,
                                       int step) const {
   const SurfacePoint& at = y[i].at;

@@ -10,6 +10,7 @@
 
 #include "base/params.h"
 #include "mutation/mutation.h"
+#include "path/measure.h"
 
 namespace mlt {
 
@@ -69,11 +70,18 @@ class ChainPerturbation {
   bool carry(const PathState& x, const Span& span, Ray ray, PathState& y,
              MutationContext& context) const;
 
-  /// Product of the densities of the moved vertices of y, in their area measure;
-  /// `first_coefficient` is the density of the first direction in projected solid angle at
-  /// span.start.
-  double density(const PathState& x, const PathState& y, const Span& span,
-                 double first_coefficient) const;
+  /// Product of the densities of the moved vertices of y; `first_coefficient` is the density of the
+  /// first direction in projected solid angle at span.start.
+  template <class Measure>
+  double density(const Measure& in, const PathState& x, const PathState& y, const Span& span,
+                 double first_coefficient) const {
+    const int s = span.step;
+    double p = first_coefficient * in.step(span.start, span.start + s) *
+               in.joint(s < 0 ? span.stop : span.stop + 1);
+    for (int i = span.start + s; i != span.stop; i += s)
+      p *= coefficient(x, y, i, s) * in.step(i, i + s);
+    return p;
+  }
 
   /// Radii of a move on the image, in pixels.
   const ExponentialRadius& image_radius() const { return image_radius_; }
@@ -88,11 +96,17 @@ class ChainPerturbation {
 
   /// The vertex that ends the specular chain from `start` on: the next diffuse one, or the path's
   /// end.
-  static int chain_end(const PathState& x, int start, int step);
+  static int chain_end(const PathState& x, int start, int step) {
+    const int end = step < 0 ? 0 : x.edges();
+    int i = start + step;
+    while (i != end && x.specular(i)) i += step;
+    return i;
+  }
 
  private:
   std::optional<Vec3> carried_direction(const PathState& x, const PathState& y, int i, int step,
                                         const Vec3& in, MutationContext& context) const;
+  /// Density with which y's vertex i is left, in projected solid angle, when x is perturbed.
   double coefficient(const PathState& x, const PathState& y, int i, int step) const;
 
   const Scene* scene_;

@@ -6,14 +6,16 @@
 // The image positions that the chains of one round use are stratified over the image; each by
 // itself is uniform, so nothing else changes.
 #include "mutation/join.h"
+#include "mutation/measured_mutation.h"
 #include "mutation/mutation_registry.h"
 
 namespace mlt {
 namespace {
 
-class LensSubpathMutation final : public Mutation {
+class LensSubpathMutation final : public MeasuredMutation<LensSubpathMutation> {
  public:
-  LensSubpathMutation(const PathTarget& target, Params&) : Mutation("lens_subpath", target) {}
+  LensSubpathMutation(const PathTarget& target, Params&)
+      : MeasuredMutation("lens_subpath", target) {}
 
   double suitability(const PathState& x) const override { return stop(x) > 0 ? 1 : 0; }
 
@@ -50,10 +52,12 @@ class LensSubpathMutation final : public Mutation {
     return edit;
   }
 
-  double density(const PathState& x, const PathState& y, const Edit& edit) const override {
+  template <class Measure>
+  double density_in(const Measure& in, const PathState& x, const PathState& y,
+                    const Edit& edit) const {
     if (stop(x) != edit.first || stop(y) != edit.first) return 0;
-    double p = 1;
-    for (int i = edit.first; i <= y.edges(); ++i) p *= y.terms[i].from_camera;
+    double p = in.joint(edit.first);
+    for (int i = edit.first; i <= y.edges(); ++i) p *= from_camera(in, i);
     for (int i = edit.first; i < y.edges(); ++i) {
       const double stops = stop_probability(y[i].at);
       p *= i == edit.first ? stops : 1 - stops;

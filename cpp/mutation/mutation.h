@@ -6,10 +6,12 @@
 #pragma once
 
 #include "base/rng.h"
+#include "markov/step.h"
 #include "mutation/path_target.h"
 #include "mutation/stratified_raster.h"
 #include "path/ray_counts.h"
 
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -65,12 +67,24 @@ class Mutation {
   /// is density(y, x, edit.reversed()).
   virtual double density(const PathState& x, const PathState& y, const Edit& edit) const = 0;
 
+  /// T(x -> y) / |f|, where |f| is that of the part of y that the edit changes: with its edges, its
+  /// vertices and their neighbours. By default the quotient of the two; MeasuredMutation cancels
+  /// what they have in common.
+  virtual double relative_density(const PathState& x, const PathState& y, const Edit& edit) const;
+
+  /// T(x -> y) / L*(y) and T(y -> x) / L*(x), up to |f| of what the edit leaves as it is.
+  Transition quotients(const PathState& x, const PathState& y, const Edit& edit) const {
+    const double forward = relative_density(x, y, edit) / y.target;
+    // Rounding may have taken the light of the path that a chain starts from: it leaves at once.
+    if (x.target == 0) return {forward, std::numeric_limits<double>::max()};
+    return {forward, relative_density(y, x, edit.reversed()) / x.target};
+  }
+
   /// Whether it alone can make every path of every other.
   virtual bool ergodic() const { return false; }
 
   /// Weights of the mutations go by path length.
   static size_t row(const PathState& x) { return static_cast<size_t>(x.edges()); }
-  void check(const PathState&, const PathState&, double, double) const {}
 
  protected:
   const Scene& scene() const { return target_->scene(); }

@@ -88,7 +88,7 @@ void collect(const Scene& scene, const PathState& x, Collector& g) {
   g.number("cosine at x_0", abs_cos(x[0].at, direction(x[0].at, x[1].at)));
   g.number("cosine at x_1", abs_cos(x[1].at, direction(x[1].at, x[0].at)));
   g.number("cosine at x_{k-1}", abs_cos(x[k - 1].at, direction(x[k - 1].at, x[k].at)));
-  g.number("log L*", bounded_log(x.target));
+  g.number("log L*", bounded_log(x.brightness()));
   g.number("share of red", x.rgb.x / x.target);
   g.number("share of blue", x.rgb.z / x.target);
 }

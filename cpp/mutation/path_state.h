@@ -1,7 +1,7 @@
 // The state of Metropolis light transport: a light path with its terms and its target L*.
 #pragma once
 
-#include "path/path_terms.h"
+#include "path/measure.h"
 
 #include <vector>
 
@@ -21,8 +21,11 @@ struct PathState {
   Path path;
   PathTerms terms;
   Vec2 raster{0};
-  Color rgb{0};       ///< f(x), Veach 1997, eq. 8.7
-  double target = 0;  ///< L*(x), times the factor of two-stage sampling
+  Color rgb{0};       ///< f(x) / |f(x)|, see relative_contribution.
+  double target = 0;  ///< L*(x) / |f(x)|, times the factor of two-stage sampling.
+
+  /// L*(x), times that factor. May overflow or underflow; chains do without it.
+  double brightness() const { return target * magnitude(terms, 0, edges()); }
 
   int edges() const { return path.edges(); }
   const Vertex& operator[](size_t i) const { return path[i]; }
@@ -30,7 +33,9 @@ struct PathState {
 };
 
 /// T(x) / P(x): the target over the density of all techniques of bidirectional path tracing.
-inline double target_over_density(const PathState& x) { return x.target / total_density(x.terms); }
+inline double target_over_density(const PathState& x) {
+  return x.target / total_density(ContributionMeasure{x.terms});
+}
 
 /// y becomes x with the edit applied; the inserted vertices and their terms are yet to be filled
 /// in.

@@ -19,7 +19,7 @@ void PathTarget::evaluate_target(PathState& x) const {
   x.target = 0;
   if (!rules_.wants(x.edges())) return;
   if (x.edges() == 1 && !(x.terms.light_can_be_hit || x.terms.camera_can_be_hit)) return;
-  x.rgb = contribution(x.terms);
+  x.rgb = relative_contribution(x.terms);
   const double target = target_luminance(x.rgb);
   if (!(target > 0)) {
     if (std::isnan(target)) x.target = target;

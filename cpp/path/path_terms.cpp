@@ -1,6 +1,12 @@
 #include "path/path_terms.h"
 
 namespace mlt {
+namespace {
+
+/// Less is black: the tail of a lobe, so far out that products of its inverse might overflow.
+constexpr double least_f = 1e-100;
+
+}  // namespace
 
 void compute_terms(const Scene& scene, const Path& path, const TermSettings& settings,
                    PathTerms& terms) {
@@ -21,6 +27,8 @@ void update_terms(const Scene& scene, const Path& path, const TermSettings& sett
     x.connectable = connectable(path[i]);
     x.specular = is_specular(scene, path[i], wl, wc, settings.near_specular);
     x.vertex = vertex_terms(scene, path[i], wl, wc, settings.strict_normals);
+    const double size = max_component(x.vertex.f);
+    x.inverse_f = size > least_f ? 1 / size : 0;
     if (i > 0) terms[i - 1].from_camera = x.vertex.pdf_from_camera * terms[i - 1].G;
     if (i < k) terms[i + 1].from_light = x.vertex.pdf_from_light * x.G;
     wl = -wc;
@@ -55,6 +63,18 @@ Color contribution(const PathTerms& terms) {
   return product;
 }
 
+double magnitude(const PathTerms& terms, int i, int j) {
+  double product = max_component(terms[i].vertex.f);
+  for (; i < j; ++i) product *= terms[i].G * max_component(terms[i + 1].vertex.f);
+  return product;
+}
+
+Color relative_contribution(const PathTerms& terms) {
+  Color product(1);
+  for (const TermsAt& x : terms.at) product *= x.vertex.f * x.inverse_f;
+  return product;
+}
+
 bool can_sample(const PathTerms& terms, int s) {
   const int k = terms.edges();
   if (s == 0) return terms.light_can_be_hit;
@@ -68,19 +88,6 @@ double technique_density(const PathTerms& terms, int s) {
   for (int i = 0; i < s; ++i) p *= i == 0 && s == 1 ? terms.direct : terms[i].from_light;
   for (int i = s; i <= terms.edges(); ++i) p *= terms[i].from_camera;
   return p;
-}
-
-double total_density(const PathTerms& terms) {
-  // sum_s e_s l_0 ... l_{s-1} c_s ... c_k as nested brackets, from the camera on; l and c are the
-  // densities of light and camera walks, and e_s tells whether technique s can make the path.
-  const int k = terms.edges();
-  double sum = can_sample(terms, k + 1) ? 1 : 0, camera = 1, direct = 0;
-  for (int i = k; i >= 0; --i) {
-    camera *= terms[i].from_camera;
-    sum *= terms[i].from_light;
-    if (can_sample(terms, i)) (i == 1 ? direct : sum) += camera;
-  }
-  return sum + terms.direct * direct;
 }
 
 double mis_weight(const PathTerms& terms, int s, Heuristic heuristic) {

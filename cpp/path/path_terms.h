@@ -22,9 +22,11 @@ struct VertexDensities {
 
 /// What the path's formulas need of x_i, and of the edge that leads on from it.
 struct TermsAt : VertexDensities {
-  VertexTerms vertex;     ///< f_i and the two coefficients.
-  double G = 0;           ///< G_i = G(x_i, x_{i+1}), without visibility; of i < k.
   bool specular = false;  ///< S or D (see signature) by `TermSettings::near_specular`.
+  VertexTerms vertex;     ///< f_i and the two coefficients.
+  /// 1 / |f_i|, where |f_i| is the largest component; 0 if that is (almost) 0.
+  double inverse_f = 0;
+  double G = 0;  ///< G_i = G(x_i, x_{i+1}), without visibility; of i < k.
 };
 
 struct PathTerms {
@@ -62,15 +64,17 @@ std::string signature(const Scene& scene, const Path& path, double near_specular
 /// f(x) = f_0 G_0 f_1 G_1 ... G_{k-1} f_k (Veach 1997, eq. 8.7), without visibility.
 Color contribution(const PathTerms& terms);
 
+/// |f_i| G_i |f_{i+1}| ... |f_j|; of a whole path it is |f(x)|, which may overflow or underflow.
+double magnitude(const PathTerms& terms, int i, int j);
+/// f(x) / |f(x)|: a colour, whatever the length of the path and the scale of the scene.
+Color relative_contribution(const PathTerms& terms);
+
 /// Can technique s make the path? Only if neither end of the connecting edge is a delta vertex;
 /// s = 0 needs a light, s = k + 1 a lens, that a walk can hit.
 bool can_sample(const PathTerms& terms, int s);
 
 /// p_{s,t}(x), the density of technique s in the product-area measure (Veach 1997, sec. 10.2).
 double technique_density(const PathTerms& terms, int s);
-
-/// P(x) = sum over s of p_{s,t}(x), the density of all techniques together.
-double total_density(const PathTerms& terms);
 
 enum class Heuristic { balance, power, maximum };
 

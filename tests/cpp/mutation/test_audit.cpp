@@ -89,8 +89,9 @@ AuditReport audit_variant(const std::string& name, bool two_stage, int min_depth
   PathTarget target(scene, rules);
   TargetMap map(scene->camera().raster(), 2);
   if (two_stage) {
-    for_each_light_path(target, 9, 2000,
-                        [&](const PathState& x) { map.add(x.raster, 1 + x.rgb.y); });
+    for_each_light_path(target, 9, 2000, [&](const PathState& x) {
+      map.add(x.raster, 1 + contribution(x.terms).y);
+    });
     map.finish();
     target.set_map(map);
   }

@@ -1,0 +1,71 @@
+// The two measures for densities of a path's vertices: the product-area measure dA, and |f| dA with
+//
+//   |f(x)| = |f_0| G_0 |f_1| ... G_{k-1} |f_k|,   |f_i| the largest component of f_i.
+//
+// In the second one a density is the quotient p / |f|, formed vertex by vertex: the G of an edge
+// that was sampled cancels, and a direction that was sampled by the BSDF leaves the quotient of its
+// density and its value. So the product does not overflow, whatever the scale of the scene and the
+// length of the path. Only the part of the path that was made needs to be looked at: |f| of the
+// rest is a factor that T(x -> y) / L*(y) and T(y -> x) / L*(x) share.
+//
+// In a measure the density of x_j, sampled from its neighbour x_i, is the coefficient at x_i times
+// step(i, j); the edge that technique s joins contributes the factor joint(s).
+#pragma once
+
+#include "path/path_terms.h"
+
+#include <algorithm>
+
+namespace mlt {
+
+struct AreaMeasure {
+  const PathTerms& x;
+
+  double step(int i, int j) const { return x[std::min(i, j)].G; }
+  double joint(int) const { return 1; }
+};
+
+struct ContributionMeasure {
+  const PathTerms& x;
+
+  double step(int i, int) const { return x[i].inverse_f; }
+  double joint(int s) const {
+    if (s == 0) return x[0].inverse_f;
+    if (s > x.edges()) return x[s - 1].inverse_f;
+    return x[s - 1].inverse_f * x[s].inverse_f / x[s - 1].G;
+  }
+};
+
+/// Density of x_i made by a light walk.
+template <class Measure>
+double from_light(const Measure& in, int i) {
+  return i == 0 ? in.x[0].from_light : in.x[i - 1].vertex.pdf_from_light * in.step(i - 1, i);
+}
+/// The same for a camera walk.
+template <class Measure>
+double from_camera(const Measure& in, int i) {
+  return i == in.x.edges() ? in.x[i].from_camera
+                           : in.x[i + 1].vertex.pdf_from_camera * in.step(i + 1, i);
+}
+
+/// Density of vertices first ... end - 1, summed over the techniques that join them to each other or
+/// to their neighbours: sum_s l_first ... l_{s-1} joint(s) c_s ... c_{end-1}, with the densities l
+/// and c of light and camera walks. Technique 0 counts `hit_light` times.
+template <class Measure>
+double total_density(const Measure& in, int first, int end, double hit_light = 1) {
+  const auto joint = [&](int s) { return can_sample(in.x, s) ? in.joint(s) : 0.0; };
+  double walk = 1;  // of the vertices before i
+  double sum = joint(first) * (first == 0 ? hit_light : 1);
+  for (int i = first; i < end; ++i) {
+    walk *= from_light(in, i);
+    sum = sum * from_camera(in, i) + (i == 0 ? in.x.direct : walk) * joint(i + 1);
+  }
+  return sum;
+}
+/// P(x) = sum over s of p_{s,t}(x), the density of all techniques together.
+template <class Measure>
+double total_density(const Measure& in) {
+  return total_density(in, 0, in.x.edges() + 1);
+}
+
+}  // namespace mlt
