@@ -4,13 +4,14 @@
 
 #include <array>
 #include <cmath>
+#include <map>
 
 namespace mlt {
 namespace {
 
 /// The c of FamilyWeights that are tried, in units of b.
 constexpr std::array<double, 8> evens = {1. / 16, 1. / 4, 1, 4, 16, 64, 256, 1024};
-using Squares = std::array<double, evens.size()>;
+using PerEven = std::array<double, evens.size()>;
 
 /// Samples are drawn in so many parts, one after the other in each.
 constexpr uint64_t parts = 64;
@@ -22,29 +23,12 @@ void in_parts(uint64_t count, int threads, Part&& part) {
                [&](uint64_t i) { part(i, count * i / parts, count * (i + 1) / parts); });
 }
 
-/// What one sample, or one chain, adds to the pixels, for each of `evens`.
-class PixelSums {
- public:
-  template <class Weight>
-  void add(const Vec2& raster, double value, Weight&& weight) {
-    Squares& sums =
-        pixels_[{static_cast<int>(std::floor(raster.x)), static_cast<int>(std::floor(raster.y))}];
-    for (size_t i = 0; i < evens.size(); ++i) sums[i] += value * weight(i);
-  }
-  /// Adds the sums of squares, and forgets.
-  void add_squares_to(Squares& squares) {
-    for (const auto& [pixel, sums] : pixels_)
-      for (size_t i = 0; i < evens.size(); ++i) squares[i] += sqr(sums[i]);
-    pixels_.clear();
-  }
-
- private:
-  std::map<std::pair<int, int>, Squares> pixels_;
-};
+/// What one chain adds to the pixels, for each of `evens`.
+using PixelSums = std::map<std::pair<int, int>, PerEven>;
 
 /// How noisy one family is, in units of the brightness of each pixel, and what it costs.
 struct Noise {
-  Squares squares{};
+  PerEven squares{};
   uint64_t count = 0, rays = 0;
 
   Noise& operator+=(const Noise& other) {
@@ -112,7 +96,7 @@ class Pilot {
                      second(mix_bits(stream), static_cast<uint32_t>(i));
                  const Vec2 position = raster_.sample(first.next2());
                  second.next2();
-                 const Squares a = add_sample(source->sample(position, first), noise[part]),
+                 const PerEven a = add_sample(source->sample(position, first), noise[part]),
                                b = add_sample(source->sample(position, second), noise[part]);
                  for (size_t e = 0; e < evens.size(); ++e)
                    noise[part].squares[e] += sqr(a[e] - b[e]);
@@ -123,8 +107,8 @@ class Pilot {
   }
   /// Returns what the sample adds to its own pixel. All that it adds to others by light tracing is
   /// noise.
-  Squares add_sample(const std::vector<FoundLight>& found, Noise& noise) const {
-    Squares own_pixel{};
+  PerEven add_sample(const std::vector<FoundLight>& found, Noise& noise) const {
+    PerEven own_pixel{};
     for (const FoundLight& one : found) {
       const double value = relative(one.rgb, one.raster);
       for (size_t e = 0; e < evens.size(); ++e) {
@@ -145,9 +129,11 @@ class Pilot {
       explicit Recorder(const Pilot& p) : pilot(p) {}
       void record(const Vec2& raster, const Color& rgb_per_target, double weight,
                   double target_over_density) override {
-        const double relative = pilot.relative(rgb_per_target, raster);
-        pixels.add(raster, weight * pilot.b0_ * relative,
-                   [&](size_t e) { return pilot.weights(e).of_chain(target_over_density); });
+        const double value = weight * pilot.b0_ * pilot.relative(rgb_per_target, raster);
+        PerEven& sums = pixels[{static_cast<int>(std::floor(raster.x)),
+                                static_cast<int>(std::floor(raster.y))}];
+        for (size_t e = 0; e < evens.size(); ++e)
+          sums[e] += value * pilot.weights(e).of_chain(target_over_density);
       }
       const Pilot& pilot;
       PixelSums pixels;
@@ -161,7 +147,8 @@ class Pilot {
           algorithm_.start(id, candidates.rng(seeds[i]), candidates.rng(candidates.count + 1 + i));
       Recorder recorder(*this);
       chain->advance(settings_.steps, recorder);
-      recorder.pixels.add_squares_to(noise[i].squares);
+      for (const auto& [pixel, sums] : recorder.pixels)
+        for (size_t e = 0; e < evens.size(); ++e) noise[i].squares[e] += sqr(sums[e]);
       noise[i].count = settings_.steps;
       noise[i].rays = chain->stats().rays.total();
     });

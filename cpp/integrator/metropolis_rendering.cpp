@@ -3,19 +3,11 @@
 #include "base/parallel.h"
 #include "integrator/family_taker.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
 namespace mlt {
-namespace {
-
-/// If half of the light comes from fewer samples, there may well be more that none has found.
-constexpr uint64_t few_samples = 100;
-
-}  // namespace
 
 MetropolisRendering::MetropolisRendering(ScenePtr scene, uint64_t seed,
                                          const MetropolisSettings& settings,
@@ -252,85 +244,6 @@ std::vector<NamedImage> MetropolisRendering::layers() const {
   const Vec2i size = scene_->camera().raster().size;
   return {{"chains", chain_image(combination().mean())},
           {"samples", samples_ ? samples_->image() : Image(size.x, size.y, 3)}};
-}
-
-/// Of all chains; `stuck` becomes the one that has stood still for longest.
-ChainStats MetropolisRendering::sum_of_stats(StuckChain& stuck) const {
-  ChainStats sum;
-  sum.rows.resize(algorithm_->rows().size());
-  sum.rays = bootstrap_rays_;
-  for (size_t i = 0; i < chains_.size(); ++i) {
-    const std::lock_guard lock(chains_[i]->mutex);
-    const ChainStats& s = chains_[i]->chain->stats();
-    for (size_t r = 0; r < sum.rows.size(); ++r) sum.rows[r] += s.rows[r];
-    sum.rays += s.rays;
-    sum.invalid += s.invalid;
-    if (s.longest.rejections > stuck.rejections)
-      stuck = {i, s.longest.rejections, s.longest.raster.x, s.longest.raster.y,
-               s.longest.signature};
-  }
-  return sum;
-}
-
-/// Of the brightness.
-void MetropolisRendering::add_level(Stats& stats) const {
-  SampleSums bootstrap;
-  for (const Group& group : groups_) bootstrap += group.bootstrap;
-  Estimate b = estimate(bootstrap.brightness);
-  WeightClasses classes = bootstrap.classes;
-  if (samples_) {
-    b = pooled(b, samples_->mean_brightness());
-    classes += samples_->classes();
-  }
-  stats.b = b.mean;
-  stats.b_error = std::sqrt(b.variance);
-  stats.independent_share = allocation_.share;
-  stats.independent_samples = b.count;
-  stats.samples_carrying_half = classes.carrying_half();
-  if (b.mean > 0) stats.level_error = std::hypot(stats.b_error, combination().missing()) / b.mean;
-  if (stats.level_error > 0.05)
-    stats.warnings.push_back(fmt::format(
-        "the image may be {:.0f} % too bright or too dark: some light is found so rarely that its "
-        "amount is not known yet; render for longer",
-        100 * stats.level_error));
-  if (b.count > 0 && stats.samples_carrying_half < few_samples)
-    stats.warnings.push_back(fmt::format(
-        "half of the light comes from {} of {} independent samples: there may be more that none "
-        "has found; render for longer",
-        stats.samples_carrying_half, b.count));
-  if (allocation_.share == 1 && settings_.independent_share != 1)
-    stats.warnings.push_back(
-        "no light was found for chains to start from; give more luminance_samples, or check that "
-        "light can reach the camera");
-}
-
-void MetropolisRendering::add_stats(Stats& stats) const {
-  if (samples_) samples_->add_stats(stats);
-  add_level(stats);
-
-  StuckChain stuck;
-  const ChainStats sum = sum_of_stats(stuck);
-  if (stuck.rejections > 0) stats.stuck = {stuck};
-  stats.invalid_samples += sum.invalid;
-  stats.rays_intersect += sum.rays.intersect;
-  stats.rays_occluded += sum.rays.occluded;
-  const std::vector<MutationStats> names = algorithm_->rows();
-  for (size_t r = 0; r < sum.rows.size(); ++r) {
-    const ChainStats::Row& row = sum.rows[r];
-    if (row.proposed == 0) continue;
-    MutationStats m = names[r];
-    const double n = static_cast<double>(row.proposed);
-    m.proposed = row.proposed;
-    m.generated = row.generated;
-    m.accepted = row.accepted;
-    m.rays = row.rays;
-    m.mean_acceptance = row.acceptance / n;
-    m.image_distance = row.image_distance / n;
-    stats.mutations.push_back(m);
-  }
-  if (film_.saturated() > 0)
-    stats.warnings.push_back(
-        "the film's fixed-point range was exceeded; the brightest pixels are wrong");
 }
 
 }  // namespace mlt
