@@ -167,8 +167,8 @@ class BidirectionalMutation final : public MeasuredMutation<BidirectionalMutatio
     const double p_delete = deletion_probability(x, l, m);
     if (p_delete == 0) return 0;
     const double p_length = AddedLength(k, l, m, most_edges()).probability(n + 1);
-    const size_t backgrounds = scene().backgrounds().size();
-    const double hit_light = y[0].at.infinite() && backgrounds > 0 ? 1.0 / backgrounds : 1.0;
+    const auto backgrounds = static_cast<double>(scene().backgrounds().size());
+    const double hit_light = y[0].at.infinite() && backgrounds > 0 ? 1 / backgrounds : 1.0;
     return p_delete * p_length * total_density(in, edit.first, edit.first + n, hit_light) /
            (most_from_light(n, m > k, scene()) + 1);
   }
