@@ -1,5 +1,7 @@
 #include "integrator/group_combination.h"
 
+#include "math/vec.h"
+
 namespace mlt {
 
 GroupCombination::GroupCombination(std::vector<GroupProgress> groups, const Estimate& of_chains)
@@ -7,12 +9,15 @@ GroupCombination::GroupCombination(std::vector<GroupProgress> groups, const Esti
   MeanSums by_chains, bootstrap;
   for (int g = 0; g < count(); ++g) {
     chain_brightness_ += chain_brightness(g);
-    if (has_chains(g)) by_chains.add(chain_brightness(g));
+    if (begun(g)) by_chains.add(chain_brightness(g));
     bootstrap += groups_[g].bootstrap.of_chains;
   }
   const double chains = by_chains.variance_of_mean(),
                samples = pooled(estimate(bootstrap), of_chains_).variance;
-  if (chains > 0) lambda_ = chains / (chains + samples);
+  if (!(chains > 0)) return;
+  lambda_ = chains / (chains + samples);
+  const double difference = pooled(estimate(bootstrap), of_chains_).mean - by_chains.mean();
+  if (sqr(difference) > sqr(2.5) * (chains + samples)) missing_ = (1 - lambda_) * difference;
 }
 
 /// M_g
@@ -50,19 +55,12 @@ GroupScales GroupCombination::mean() const {
   return mean;
 }
 
-double GroupCombination::missing() const {
-  MeanSums missing;
-  for (int g = 0; g < count(); ++g)
-    if (begun(g)) missing.add(samples_of(g).mean - chain_brightness(g));
-  return (1 - lambda_) * missing.mean();
-}
-
 GroupScales GroupCombination::common_error() const {
   GroupScales scales(count());
   if (of_chains_.count == 0 || !(chain_brightness_ > 0)) return scales;
   const double share =
       static_cast<double>(of_chains_.count) / static_cast<double>(samples_of(0).count);
-  const double error = std::hypot(lambda_ * share * std::sqrt(of_chains_.variance), missing());
+  const double error = std::hypot(lambda_ * share * std::sqrt(of_chains_.variance), missing_);
   for (int h = 0; h < count(); ++h)
     if (has_chains(h))
       scales[h] = error / chain_brightness_ * groups_[h].b / static_cast<double>(groups_[h].steps);

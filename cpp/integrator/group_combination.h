@@ -49,8 +49,9 @@ class GroupCombination {
   /// What may be wrong with all groups alike: R, times the standard error of M, and times the light
   /// that the samples say is missing.
   GroupScales common_error() const;
-  /// The brightness that the samples have found beyond what the image shows; negative if less.
-  double missing() const;
+  /// The brightness that the samples have found beyond what the image shows, or less than that, if
+  /// it is more than chance would make it: beyond 2.5 standard errors.
+  double missing() const { return missing_; }
   /// Whether a group has anything to say.
   bool begun(int g) const { return groups_[g].b == 0 || has_chains(g); }
 
@@ -63,7 +64,7 @@ class GroupCombination {
   std::vector<GroupProgress> groups_;
   Estimate of_chains_;
   double chain_brightness_ = 0;  ///< Sum of b_g D_g.
-  double lambda_ = 0;
+  double lambda_ = 0, missing_ = 0;
 };
 
 }  // namespace mlt
