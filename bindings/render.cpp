@@ -50,8 +50,11 @@ py::tuple groups(PyJob& job) {
   {
     float* to = images.mutable_data();
     py::gil_scoped_release release;
+    Image parts(size.x, size.y, 3);
+    for (const Rendering* part : rendering.parts()) parts += part->image();
     for (int g = 0; g < count; ++g) {
-      const GroupImage group = rendering.group(g);
+      GroupImage group = rendering.group(g);
+      group.image += parts;
       to = std::copy(group.image.data.begin(), group.image.data.end(), to);
       weights[g] = group.weight;
       b[g] = group.b;

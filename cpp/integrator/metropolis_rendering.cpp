@@ -158,8 +158,8 @@ void MetropolisRendering::lay_out_units() {
   plan_.samples_per_pass = (sampling + static_cast<double>(chain_units * steps_per_unit_)) /
                            static_cast<double>(round) * static_cast<double>(plan_.units_per_pass);
   plan_.pixels = pixels();
-  plan_.units_per_cycle = plan_.units_per_group_turn =
-      (samples_ ? samples_->plan().units_per_cycle / tiles : 1) * round;
+  plan_.units_per_group_turn = round;
+  plan_.units_per_cycle = (samples_ ? samples_->plan().units_per_cycle / tiles : 1) * round;
   plan_.share_of = [this](uint64_t unit) {
     const Interleaving::Place place = interleaving_.place_of(unit);
     return place.sampled ? samples_->plan().share_of(place.number)

@@ -52,7 +52,7 @@ void MetropolisRendering::add_level(Stats& stats) const {
         "the image may be {:.0f} % too bright or too dark: some light is found so rarely that its "
         "amount is not known yet; render for longer",
         100 * stats.level_error));
-  if (b.count > 0 && stats.samples_carrying_half < few_samples)
+  if (b.mean > 0 && stats.samples_carrying_half < few_samples)
     stats.warnings.push_back(fmt::format(
         "half of the light comes from {} of {} independent samples: there may be more that none "
         "has found; render for longer",

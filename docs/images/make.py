@@ -44,8 +44,8 @@ def equal_time():
 
 
 def two_families():
-    scene = mlt.load_dict(mlt.scenes.glass_ball(), size=(240, 240))
-    result = mlt.start(scene, mlt.MLT(max_depth=8, parts=True), spp=400).result()
+    scene = mlt.load_dict(mlt.scenes.ring(), size=(240, 180))
+    result = mlt.start(scene, mlt.MLT(max_depth=8, parts=True), spp=600).result()
     parts = [result.layers["samples"], result.layers["chains"], result.image]
     mlt.write_image(HERE / "two-families.png", np.concatenate(parts, axis=1))
 

@@ -90,10 +90,10 @@ def test_a_name_keeps_what_the_scene_says_and_an_object_does_not():
     assert [s["max_depth"] for s in settings] == [3, 3, 3, -1, -1]
 
 
-def test_a_scene_without_integrator_is_rendered_by_path():
+def test_a_scene_without_integrator_is_rendered_by_mlt():
     scene = tiny.scene()
     del scene["integrator"]
-    assert mlt.start(scene, spp=1).result().integrator["type"] == "path"
+    assert mlt.start(scene, spp=1).result().integrator["type"] == "mlt"
 
 
 @pytest.mark.parametrize("wrong", [mlt.Path, 3, "pthe", {"type": "diffuse"}])

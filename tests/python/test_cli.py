@@ -195,7 +195,8 @@ def test_an_unwritable_output_is_known_before_the_scene_is_read(program, scene):
 
 def test_a_render_that_fails_ends_with_3(program, scene):
     Path(scene).write_text(tiny.XML.replace("5, 6, 7", "0, 0, 0"))
-    assert "light" in the_error(run(program, scene, *OUT, "--integrator", "pssmlt"), code=3)
+    chains = ["--integrator", "pssmlt", "-p", "independent_share=0"]
+    assert "light" in the_error(run(program, scene, *OUT, *chains), code=3)
 
 
 def test_help_and_version_succeed(program):

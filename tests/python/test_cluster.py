@@ -226,7 +226,7 @@ def test_an_error_in_the_render_is_reported(client):
     dark = tiny.scene()
     dark["lamp"]["emitter"]["radiance"]["value"] = [0.0, 0.0, 0.0]
     with pytest.raises(mlt.RenderError, match="light"):
-        mlt.render(dark, "pssmlt", spp=1, cluster=client)
+        mlt.render(dark, mlt.PSSMLT(independent_share=0), spp=1, cluster=client)
 
 
 def test_a_worker_with_another_build_is_refused(client):

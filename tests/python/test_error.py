@@ -78,7 +78,8 @@ def luminance(image: np.ndarray) -> np.ndarray:
 
 @pytest.mark.parametrize("integrator", ["path", "mlt"])
 def test_the_claim_follows_from_the_groups(integrator):
-    job = mlt.start(load("cornell_box"), integrator, spp=128, seed=3)
+    algorithm = mlt.MLT(independent_share=0) if integrator == "mlt" else integrator
+    job = mlt.start(load("cornell_box"), algorithm, spp=128, seed=3)
     result, groups = job.result(), job.groups
     images = groups.images.astype(np.float64)
     assert groups.weights.tolist() == [8 if integrator == "path" else 1] * 16
@@ -89,6 +90,15 @@ def test_the_claim_follows_from_the_groups(integrator):
     assert np.allclose(result.block_error, blocks, rtol=1e-3, atol=1e-6)
     assert np.array_equal(job.error_map, result.error_map)
     assert (groups.b > 0).all() == (integrator == "mlt")
+
+
+def test_the_groups_of_chains_and_samples_have_the_image_as_their_mean():
+    algorithm = mlt.MLT(independent_share=0.5, parts=True)
+    job = mlt.start(load("cornell_box"), algorithm, spp=200, seed=3)
+    result = job.result()
+    assert np.allclose(job.groups.images.mean(axis=0), result.image, rtol=1e-4, atol=1e-6)
+    both = result.layers["chains"] + result.layers["samples"]
+    assert np.allclose(both, result.image, rtol=1e-5, atol=1e-6)
 
 
 def test_separate_direct_light_has_its_error_too():
@@ -158,7 +168,7 @@ def test_groups_that_agree_say_nothing():
 # ---- an error as a budget ------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(("integrator", "goal"), [("path", 0.05), ("pssmlt", 0.2)])
+@pytest.mark.parametrize(("integrator", "goal"), [("path", 0.05), ("pssmlt", 0.04)])
 def test_a_render_ends_when_its_error_is_small_enough(integrator, goal):
     scene = load("cornell_box")
     job = mlt.start(scene, integrator, error=goal, seed=2)
@@ -174,7 +184,7 @@ def test_a_render_ends_when_its_error_is_small_enough(integrator, goal):
 
 
 def test_an_error_that_chains_cannot_reach_is_refused():
-    few = mlt.PSSMLT(luminance_samples=2000)
+    few = mlt.PSSMLT(luminance_samples=2000, independent_share=0)
     with pytest.raises(mlt.RenderError, match="luminance_samples"):
         mlt.render(load("cornell_box"), few, error=1e-3)
     assert mlt.start(load("cornell_box"), few, error=1e-3, spp=2).result().stats["spp_done"] >= 2
@@ -217,15 +227,17 @@ def test_convergence_tells_good_chains_from_bad_ones():
     pytest.importorskip("arviz", reason="ArviZ is not installed (pip install arviz)")
     scene = load("cornell_box", (64, 48))
     settings = {"spp": 64, "draws": 16, "grid": (3, 4), "seed": 1}
-    good = mlt.convergence(scene, mlt.PSSMLT(chains=16), **settings)
-    bad = mlt.convergence(scene, mlt.PSSMLT(chains=1024, p_large=0.001), **settings)
+    good = mlt.convergence(scene, mlt.PSSMLT(chains=16, independent_share=0), **settings)
+    bad = mlt.convergence(
+        scene, mlt.PSSMLT(chains=1024, p_large=0.001, independent_share=0), **settings
+    )
     assert good.draws.shape == (16, 16, 3, 4)
     assert good.rhat.shape == good.ess.shape == (3, 4)
     assert np.median(good.rhat) < 1.03 < np.median(bad.rhat)
     assert np.median(bad.ess) < np.median(good.ess)
     assert "16 groups x 16 draws" in repr(good)
     assert good.to_arviz().posterior["light"].shape == (16, 16, 3, 4)
-    whole = mlt.render(scene, mlt.PSSMLT(chains=16), spp=64, seed=1)
+    whole = mlt.render(scene, mlt.PSSMLT(chains=16, independent_share=0), spp=64, seed=1)
     assert np.array_equal(good.result.image, whole)
 
 

@@ -384,7 +384,13 @@ def test_a_mixture_with_python_is_audited_as_a_whole(scene):
 
 
 def small(*mixture):
-    return mlt.MLT(max_depth=5, chains=32, luminance_samples=2000, mutations=list(mixture))
+    return mlt.MLT(
+        max_depth=5,
+        chains=32,
+        luminance_samples=2000,
+        independent_share=0.1,
+        mutations=list(mixture),
+    )
 
 
 def test_python_takes_part_in_a_render(scene):

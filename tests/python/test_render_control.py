@@ -144,6 +144,10 @@ def test_stats_have_the_promised_members(scene):
         "disagreements": list,
         "b": float,
         "b_error": float,
+        "level_error": float,
+        "independent_share": float,
+        "independent_samples": int,
+        "samples_carrying_half": int,
         "invalid_samples": int,
         "stuck": list,
         "mutations": list,
@@ -164,7 +168,15 @@ def test_a_render_that_fails_says_why():
     dark = tiny.scene()
     dark["lamp"]["emitter"]["radiance"]["value"] = [0.0, 0.0, 0.0]
     with pytest.raises(mlt.RenderError, match="light"):
-        mlt.render(dark, "pssmlt", spp=1)
+        mlt.render(dark, mlt.PSSMLT(independent_share=0), spp=1)
+
+
+def test_a_render_without_light_warns():
+    dark = tiny.scene()
+    dark["lamp"]["emitter"]["radiance"]["value"] = [0.0, 0.0, 0.0]
+    result = mlt.start(dark, "pssmlt", spp=1).result()
+    assert not result.image.any()
+    assert "no light" in " ".join(result.stats["warnings"])
 
 
 # ---- signals -----------------------------------------------------------------------------------
