@@ -29,17 +29,30 @@ Image to_image(const Floats& array) {
   return image;
 }
 
-std::string save(const std::string& path, const Floats& array,
-                 const std::map<std::string, Floats>& layers,
-                 const std::map<std::string, std::string>& metadata, bool half, double exposure,
-                 bool rescue) {
+using Layers = std::map<std::string, Floats>;
+using Texts = std::map<std::string, std::string>;
+
+/// What `function` (write_render or save_render) returns for these arrays.
+template <class Function>
+auto with_images(const Function& function, const std::string& path, const Floats& array,
+                 const Layers& layers, const Texts& metadata, bool half, double exposure) {
   RenderedImage render{to_image(array), {}};
   for (const auto& [name, pixels] : layers) render.layers.push_back({name, to_image(pixels)});
   const WriteOptions options{half, Metadata(metadata.begin(), metadata.end()), exposure};
   py::gil_scoped_release release;
-  if (rescue) return save_render(path, render, options);
-  write_render(path, render, options);
-  return path;
+  return function(path, render, options);
+}
+
+void write(const std::string& path, const Floats& array, const Layers& layers,
+           const Texts& metadata, bool half, double exposure) {
+  with_images(write_render, path, array, layers, metadata, half, exposure);
+}
+
+py::tuple to_tuple(const Saved& saved) { return py::make_tuple(saved.path, saved.problem); }
+
+py::tuple save(const std::string& path, const Floats& array, const Layers& layers,
+               const Texts& metadata, bool half, double exposure) {
+  return to_tuple(with_images(save_render, path, array, layers, metadata, half, exposure));
 }
 
 py::array_t<float> read(const std::string& path, const std::string& layer) {
@@ -67,11 +80,18 @@ py::array_t<float> to_array(Image image) {
 void bind_image(py::module_& m) {
   m.def("read_image", &read, py::arg("path"), py::arg("layer") = "");
   m.def("read_metadata", &metadata, py::arg("path"));
-  m.def("write_image", &save, py::arg("path"), py::arg("image"), py::arg("layers"),
-        py::arg("metadata"), py::arg("half"), py::arg("exposure"), py::arg("rescue"),
-        "With `rescue`, a failed write is tried again elsewhere. Returns where the image is.");
-  m.def("write_text", &save_text, py::arg("path"), py::arg("text"),
-        "A failed write is tried again elsewhere. Returns where the file is.");
+  m.def("write_image", &write, py::arg("path"), py::arg("image"), py::arg("layers"),
+        py::arg("metadata"), py::arg("half"), py::arg("exposure"));
+  m.def("save_image", &save, py::arg("path"), py::arg("image"), py::arg("layers"),
+        py::arg("metadata"), py::arg("half"), py::arg("exposure"),
+        "A failed write is tried again elsewhere. Returns (path, problem): where the image is, or "
+        "\"\"; and why it is not where it was asked for, or \"\".");
+  m.def(
+      "save_text",
+      [](const std::string& path, const std::string& text) {
+        return to_tuple(save_text(path, text));
+      },
+      py::arg("path"), py::arg("text"), "The same for a file of these bytes.");
   m.def("check_image_writable", &check_writable, py::arg("path"));
   m.def("check_file_writable", &check_file_writable, py::arg("path"));
 }

@@ -72,4 +72,4 @@ def write_image(path, image, *, exposure: float = 0, half: bool = False, metadat
     import numpy as np
 
     pixels = np.asarray(image, dtype=np.float32)
-    _core.write_image(os.fspath(path), pixels, {}, metadata or {}, half, exposure, rescue=False)
+    _core.write_image(os.fspath(path), pixels, {}, metadata or {}, half, exposure)

@@ -1,7 +1,9 @@
 """The command lines: `pymlt render` and `mlt-render` share one contract; pymlt can do more."""
 
 import json
+import os
 import re
+import resource
 import shutil
 import signal
 import subprocess
@@ -217,7 +219,9 @@ def start(command, *arguments) -> subprocess.Popen:
     return process
 
 
-@pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+@pytest.mark.parametrize(
+    ("number", "code"), [(signal.SIGHUP, 129), (signal.SIGINT, 130), (signal.SIGTERM, 143)]
+)
 def test_an_interrupted_render_saves_what_there_is(program, scene, number, code):
     flags = [scene, "--size", "320x240", "--spp", "1e7", "-o", "a.exr", "--stats", "a.json"]
     process = start(program, *flags)
@@ -231,15 +235,69 @@ def test_an_interrupted_render_saves_what_there_is(program, scene, number, code)
     assert 0 < json.loads(Path("a.json").read_text())["spp_done"] < 1e7
 
 
+def test_nohup_is_respected(program, scene):
+    command = ["nohup", *program, scene, "--spp", "1e7", "--time", "3", "-o", "a.exr"]
+    process = start(command)
+    process.send_signal(signal.SIGHUP)
+    process.communicate(timeout=20)
+    assert process.returncode == 0
+
+
+def saved_as(line: str) -> str:
+    return line.partition("it is saved as ")[2]
+
+
 def test_a_finished_image_is_never_lost(program, scene):
     Path("out").mkdir()
     process = start(program, scene, "--time", 3, "-o", "out/a.exr")
     shutil.rmtree("out")
     _, err = process.communicate(timeout=20)
-    assert process.returncode == 0
-    assert "out/a.exr could not be written; it is saved as " in err
-    saved = err.split("it is saved as ")[1].splitlines()[0]
-    assert mlt.read_image(saved).max() > 0
+    assert process.returncode == 3
+    problem, summary = err.splitlines()
+    assert ": out/a.exr: cannot write it: there is no folder 'out'; it is saved as " in problem
+    assert mlt.read_image(saved_as(problem)).max() > 0
+    assert summary.endswith(f": {saved_as(problem)}")
+
+
+def no_room_for(size: int) -> None:
+    """In a new process: a file that grows beyond `size` bytes is refused, as on a full disk."""
+    signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
+
+
+def test_a_full_disk_is_said_and_ends_with_3(program, scene):
+    flags = ["--size", "64x64", "--spp", 1, "-o", "a.exr", "-o", "a.png", "--stats", "a.json"]
+    done = run(program, scene, *flags, preexec_fn=lambda: no_room_for(16384))
+    assert done.returncode == 3
+    lines = [line.partition(": ")[2] for line in done.stderr.splitlines()]
+    full = "cannot write it: File too large; no other place would have it"
+    assert lines[:-1] == [f"a.exr: {full}"]
+    assert lines[-1].endswith(" s: a.png")
+    assert sorted(os.listdir()) == ["a.json", "a.png", "scene.xml"]
+
+
+@pytest.fixture
+def small_disk(tmp_path):
+    """A file system of 64 KiB."""
+    folder = tmp_path / "small"
+    folder.mkdir()
+    mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=64k", "small", folder])
+    if mounted.returncode != 0:
+        pytest.skip("only root mounts a small file system")
+    yield folder
+    subprocess.run(["umount", folder], check=True)
+
+
+def test_what_a_full_disk_does_not_hold_is_elsewhere(program, scene, small_disk):
+    flags = ["--size", "128x128", "--spp", 1, "-o", "small/a.exr", "--stats", "small/a.json"]
+    done = run(program, scene, *flags)
+    assert done.returncode == 3
+    problem, summary = done.stderr.splitlines()
+    assert "small/a.exr: cannot write it: No space left on device; it is saved as " in problem
+    assert saved_as(problem) == str(Path("rescued-a.exr").resolve())
+    assert summary.endswith(f": {saved_as(problem)}")
+    assert mlt.read_image("rescued-a.exr").shape == (128, 128, 3)
+    assert os.listdir("small") == ["a.json"]
 
 
 # ---- compare, info, list, built-in scenes ------------------------------------------------------

@@ -1,8 +1,9 @@
 """The command line: pymlt render | merge | compare | info | list | lab.
 
 Exit codes: 0 done; 1 `compare --fail-above` found more; 2 a mistake in usage or in the scene, or an
-output that cannot be written; 3 the render failed; 130 and 143 interrupted by SIGINT or SIGTERM,
-with what was rendered saved. Every error is one line on stderr.
+output that cannot be written, found before the work began; 3 the render failed, or an output at its
+end is not where it was asked for; 129, 130 and 143 interrupted by SIGHUP, SIGINT or SIGTERM, with
+what was rendered saved. Every error is one line on stderr.
 """
 
 from __future__ import annotations

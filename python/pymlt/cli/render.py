@@ -73,10 +73,10 @@ def run(args) -> int:
         result = job.result()
         if not args.quiet:
             warn(result.stats["warnings"][len(known) :])
-        save(args, result)
+        images, complete = save(args, result)
     if not args.quiet:
-        say(("interrupted; " if code else "") + summary(result, args.output))
-    return code
+        say(("interrupted; " if code else "") + summary(result, images))
+    return code if complete else 3
 
 
 def wait(job: Job, signals: Signals, quiet: bool) -> None:
@@ -87,28 +87,23 @@ def wait(job: Job, signals: Signals, quiet: bool) -> None:
             show(job.progress, {"spp": f"{job.stats['spp_done']:.4g}"})
 
 
-def save(args, result: Result) -> None:
-    """Every output is tried, and elsewhere if it fails, before any error is reported."""
-    failures = []
-    writers = [(path, lambda path: result.save(path, args.exposure or 0)) for path in args.output]
+def save(args, result: Result) -> tuple[list[str], bool]:
+    """Every output is tried, and elsewhere if it fails. Returns where the images are, and whether
+    everything is where it was asked for."""
+    files = [result._save(path, args.exposure or 0) for path in args.output]
+    images = [path for path, _ in files if path]
     if args.stats:
-        text = json.dumps(result.stats, indent=2) + "\n"
-        writers.append((args.stats, lambda path: _core.write_text(path, text)))
-    for path, write in writers:
-        try:
-            written = write(path)
-        except _core.FileError as error:
-            failures.append(error)
-            continue
-        if written != path:
-            say(f"{path} could not be written; it is saved as {written}")
-    if failures:
-        raise failures[0]
+        files.append(_core.save_text(args.stats, json.dumps(result.stats, indent=2) + "\n"))
+    problems = [problem for _, problem in files if problem]
+    for problem in problems:
+        say(problem)
+    return images, not problems
 
 
-def summary(result: Result, outputs: list[str]) -> str:
+def summary(result: Result, images: list[str]) -> str:
     stats = result.stats
     width, height = stats["size"]
     seconds = stats["seconds"]["bootstrap"] + stats["seconds"]["render"]
     spp = stats["spp_done"]
-    return f"{width} x {height}, {spp:.4g} spp in {seconds:.1f} s: {', '.join(outputs)}"
+    where = ", ".join(images) or "no image could be saved"
+    return f"{width} x {height}, {spp:.4g} spp in {seconds:.1f} s: {where}"
