@@ -1,9 +1,12 @@
 #include "app/flags.h"
 
 #include "base/error.h"
+#include "image/image_io.h"
 #include "io/text.h"
+#include "render/job.h"
 
 #include <charconv>
+#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -27,6 +30,16 @@ Parsed parse_positive(const std::string& text) {
   return number && *number > 0 ? Parsed(*number) : std::nullopt;
 }
 
+Parsed parse_spp(const std::string& text) {
+  const Parsed number = parse_positive(text);
+  return number && std::get<double>(*number) <= max_spp ? number : std::nullopt;
+}
+
+Parsed parse_stops(const std::string& text) {
+  const auto number = parse_real(text);
+  return number && std::abs(*number) <= max_exposure ? Parsed(*number) : std::nullopt;
+}
+
 Parsed parse_size(const std::string& text) {
   const size_t cross = text.find('x');
   if (cross == std::string::npos) return std::nullopt;
@@ -43,12 +56,12 @@ Parsed parse_assignment(const std::string& text) {
 }
 
 const FlagType any_text{"a text", [](const std::string& text) { return Parsed(text); }},
-    count{"an integer from 0 to 2147483647",
-          [](const std::string& text) -> Parsed { return parse_count(text, highest_int); }},
+    threads{"an integer from 0 to 4096",
+            [](const std::string& text) -> Parsed { return parse_count(text, max_threads); }},
     seed{"an integer from 0 to 18446744073709551615",
          [](const std::string& text) -> Parsed { return parse_count(text, UINT64_MAX); }},
-    number{"a number", [](const std::string& text) -> Parsed { return parse_real(text); }},
-    positive{"a positive number", parse_positive},
+    stops{"a number from -128 to 128", parse_stops}, positive{"a positive number", parse_positive},
+    spp{"a positive number up to 2147483647", parse_spp},
     image_size{"WIDTHxHEIGHT in pixels, such as 640x360", parse_size},
     assignment{"NAME=VALUE", parse_assignment};
 
@@ -75,11 +88,11 @@ const std::vector<Flag>& render_flags() {
        Flag::repeatable | Flag::fixed_by_resume},
       {"size", "--size", "WxH", &image_size, "image size in pixels, such as 640x360",
        Flag::fixed_by_resume},
-      {"spp", "--spp", "N", &positive, "samples (or mutations) per pixel"},
+      {"spp", "--spp", "N", &spp, "samples (or mutations) per pixel"},
       {"time", "--time", "SECONDS", &positive, "seconds to render"},
       {"error", "--error", "E", &positive, "relative error to reach, such as 0.02"},
       {"seed", "--seed", "N", &seed, "seed of all random numbers (0)", Flag::fixed_by_resume},
-      {"threads", "--threads", "N", &count, "0: as many as the machine has"},
+      {"threads", "--threads", "N", &threads, "0: as many as the machine has"},
       {"checkpoint", "--checkpoint", "FILE", &any_text,
        "keep the state of the render in this file"},
       {"every", "--every", "SECONDS", &positive, "between checkpoints (60)", 0, "checkpoint"},
@@ -90,7 +103,7 @@ const std::vector<Flag>& render_flags() {
        "render on a dask cluster, such as tcp://host:8786, or on local:N processes",
        Flag::python_only},
       {"stats", "--stats", "FILE", &any_text, "write what the render tells about itself, as JSON"},
-      {"exposure", "--exposure", "STOPS", &number, "brighten PNG files by so many stops"},
+      {"exposure", "--exposure", "STOPS", &stops, "brighten PNG files by so many stops"},
       {"quiet", "--quiet", "", nullptr, "say nothing but errors"}};
   return flags;
 }

@@ -114,6 +114,8 @@ void write_exr(const std::string& path, const Image& image, const WriteOptions& 
 
 void write_png(const std::string& path, const Image& image, double exposure) {
   check_channels(path, image);
+  if (!(std::abs(exposure) <= max_exposure))
+    throw UsageError(fmt::format("exposure is {}, but should lie between -128 and 128", exposure));
   const double scale = std::exp2(exposure);
   const size_t channels = static_cast<size_t>(image.channels);
   const size_t colours = channels - (channels % 2 == 0 ? 1 : 0);

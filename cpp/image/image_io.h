@@ -33,6 +33,9 @@ Image linear_image(ReadImage read);
 /// The text attributes of an EXR file, sorted by name.
 Metadata read_exr_metadata(const std::string& path);
 
+/// Stops by which an image may be brightened or darkened.
+constexpr double max_exposure = 128;
+
 struct WriteOptions {
   bool half = false;    // EXR: 16-bit samples
   Metadata metadata;    // EXR: text attributes

@@ -2,13 +2,14 @@
 
 #include "base/error.h"
 
-#include <cmath>
-
 namespace mlt {
+namespace {
+constexpr double longest = 1e9;  // seconds; the clock counts to 292 years
+}
 
 Autosave::Autosave(AutosaveSettings settings) : settings_(std::move(settings)) {
-  if (!(settings_.every > 0 && std::isfinite(settings_.every)))
-    throw UsageError("every must be a positive number of seconds");
+  if (!(settings_.every > 0 && settings_.every <= longest))
+    throw UsageError("every must be a positive number of seconds, at most 1e9");
 }
 
 void Autosave::begin_saved(uint64_t units) {

@@ -3,6 +3,8 @@
 #include "base/parallel.h"
 #include "mlt_version.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 namespace mlt {
@@ -17,7 +19,8 @@ Job::Job(ScenePtr scene, IntegratorPtr integrator, const RenderSettings& setting
       executor_(std::make_unique<Executor>()),
       stop_rule_(settings.budget, *scene_),
       autosave_(settings.autosave) {
-  if (threads_ < 0) throw UsageError("threads must not be negative; 0 means all");
+  if (threads_ < 0 || threads_ > max_threads)
+    throw UsageError(fmt::format("threads must lie between 0 and {}; 0 means all", max_threads));
   rendering_ = integrator_->start(scene_, seed_);
 }
 

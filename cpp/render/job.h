@@ -14,6 +14,8 @@
 
 namespace mlt {
 
+constexpr int max_threads = 4096;
+
 struct RenderSettings {
   Budget budget;
   uint64_t seed = 0;

@@ -10,6 +10,9 @@
 
 namespace mlt {
 
+/// More samples per pixel no render takes; up to here no number of units overflows.
+constexpr double max_spp = 2147483647;
+
 /// With none, the scene's sample count, else 64. For a render that goes on after a break each
 /// counts from its very beginning.
 struct Budget {

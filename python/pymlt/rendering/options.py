@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import inspect
+import numbers
 import operator
 import os
 from collections.abc import Callable
@@ -46,7 +47,7 @@ class RenderOptions:
         for name in ("spp", "time", "error", "every"):
             setattr(self, name, number(name, getattr(self, name)))
         self.seed = integer("seed", self.seed, 2**64)
-        self.threads = integer("threads", self.threads, 2**31)
+        self.threads = integer("threads", self.threads, 4097)
         if self.checkpoint is not None:
             self.checkpoint = os.fspath(self.checkpoint)
 
@@ -85,10 +86,14 @@ def takes_options(function: Callable, *, fixed: tuple[str, ...] = ()) -> Callabl
 
 
 def number(name: str, value) -> float | None:
+    if value is None:
+        return None
+    if not isinstance(value, numbers.Real) or isinstance(value, bool):
+        raise _core.UsageError(f"{name} is {value!r}, but should be a number")
     try:
-        return None if value is None else float(value)
-    except (TypeError, ValueError):
-        raise _core.UsageError(f"{name} is {value!r}, but should be a number") from None
+        return float(value)
+    except OverflowError:
+        raise _core.UsageError(f"{name} is too large a number") from None
 
 
 def integer(name: str, value, end: int) -> int:
