@@ -55,10 +55,13 @@ void bind_base(py::module_& m) {
       .def_readonly("help", &Flag::help)
       .def_property_readonly("has_value", [](const Flag& flag) { return flag.type != nullptr; })
       .def_property_readonly("required", [](const Flag& flag) { return flag.is(Flag::required); })
+      .def_property_readonly("is_file", [](const Flag& flag) { return flag.is(Flag::file); })
       .def_property_readonly("repeatable",
                              [](const Flag& flag) { return flag.is(Flag::repeatable); })
       .def("read", &read_flag, py::arg("text"), "What a text means as its value.");
   m.def("render_flags", &render_flags, "In the order of --help.");
+  m.def("check_files", &check_files, py::arg("given"),
+        "Raises UsageError if two flags name one file.");
   m.def("check_flags", &check_flags, py::arg("given"),
         "Raises UsageError if the flags with these names make no sense together.");
 }

@@ -7,11 +7,14 @@
 
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <optional>
 
 namespace mlt {
 namespace {
+
+namespace fs = std::filesystem;
 
 using Parsed = std::optional<FlagValue>;
 
@@ -76,9 +79,10 @@ std::string first_spelling(const Flag& flag) {
 const std::vector<Flag>& render_flags() {
   static const std::vector<Flag> flags = {
       {"scene", "scene", "SCENE", &any_text,
-       "Mitsuba XML file; pymlt also takes the name of a built-in scene"},
+       "Mitsuba XML file; pymlt also takes the name of a built-in scene", Flag::file},
       {"output", "-o,--output", "FILE", &any_text,
-       "image file: .exr, .png or .hdr; may be repeated", Flag::required | Flag::repeatable},
+       "image file: .exr, .png or .hdr; may be repeated",
+       Flag::required | Flag::repeatable | Flag::file},
       {"integrator", "--integrator", "NAME", &any_text, "algorithm, in place of the scene's own",
        Flag::fixed_by_resume},
       {"parameters", "-p", "NAME=VALUE", &assignment, "integrator parameter; may be repeated",
@@ -93,16 +97,20 @@ const std::vector<Flag>& render_flags() {
       {"error", "--error", "E", &positive, "relative error to reach, such as 0.02"},
       {"seed", "--seed", "N", &seed, "seed of all random numbers (0)", Flag::fixed_by_resume},
       {"threads", "--threads", "N", &threads, "0: as many as the machine has"},
-      {"checkpoint", "--checkpoint", "FILE", &any_text,
-       "keep the state of the render in this file"},
+      {"checkpoint", "--checkpoint", "FILE", &any_text, "keep the state of the render in this file",
+       Flag::file},
       {"every", "--every", "SECONDS", &positive, "between checkpoints (60)", 0, "checkpoint"},
+      {"overwrite", "--overwrite", "", nullptr,
+       "--checkpoint may replace the checkpoint of another render", 0, "checkpoint"},
       {"resume", "--resume", "FILE", &any_text,
        "go on from a checkpoint, in place of SCENE; it is renewed, unless --checkpoint names "
-       "another file"},
+       "another file",
+       Flag::file},
       {"cluster", "--cluster", "ADDRESS", &any_text,
        "render on a dask cluster, such as tcp://host:8786, or on local:N processes",
        Flag::python_only},
-      {"stats", "--stats", "FILE", &any_text, "write what the render tells about itself, as JSON"},
+      {"stats", "--stats", "FILE", &any_text, "write what the render tells about itself, as JSON",
+       Flag::file},
       {"exposure", "--exposure", "STOPS", &stops, "brighten PNG files by so many stops"},
       {"quiet", "--quiet", "", nullptr, "say nothing but errors"}};
   return flags;
@@ -111,6 +119,23 @@ const std::vector<Flag>& render_flags() {
 FlagValue read_flag(const Flag& flag, const std::string& text) {
   if (auto value = flag.type->parse(text)) return *std::move(value);
   throw UsageError(quote(text) + " is not " + flag.type->expected);
+}
+
+void check_files(const std::map<std::string, std::vector<std::string>>& given) {
+  std::map<fs::path, std::string> seen;
+  for (const Flag& flag : render_flags()) {
+    const auto texts = given.find(flag.name);
+    if (!flag.is(Flag::file) || texts == given.end()) continue;
+    for (const std::string& text : texts->second) {
+      std::error_code error;
+      const fs::path file = fs::weakly_canonical(fs::absolute(text), error);
+      if (error || (flag.spelling[0] != '-' && !fs::exists(file, error))) continue;
+      const auto [other, is_new] = seen.try_emplace(file, first_spelling(flag));
+      if (!is_new && !(other->second == "--checkpoint" && first_spelling(flag) == "--resume"))
+        throw UsageError(text + ": " + other->second + " and " + first_spelling(flag) +
+                         " name the same file");
+    }
+  }
 }
 
 void check_flags(const std::set<std::string>& given) {

@@ -133,18 +133,17 @@ int run(Options options) {
   if (!options.resume.empty()) {
     saved = read_checkpoint(options.resume);
     options.render.seed = saved->seed;
-    if (options.checkpoint.empty()) options.checkpoint = options.resume;
   }
-  if (!options.checkpoint.empty()) check_checkpoint_writable(options.checkpoint);
+  if (!options.checkpoint.path.empty()) check_checkpoint_writable(options.checkpoint.path);
   const LoadedScene loaded = saved ? load_scene(*saved, options.resume, options.scene, plugins())
                                    : load_file(options.scene, plugins(), options.load);
   const MadeIntegrator made = make_integrator(
       saved ? saved->integrator
             : choose_integrator(loaded, options.integrator, options.parameters, plugins()),
       plugins());
-  if (!options.checkpoint.empty())
-    options.render.autosave = autosave_to(options.checkpoint, options.render.autosave.every,
-                                          checkpoint_of(loaded, made, options.render.seed));
+  if (!options.checkpoint.path.empty())
+    options.render.autosave =
+        autosave_to(options.checkpoint, checkpoint_of(loaded, made, options.render.seed));
   Job job(loaded.scene, made.integrator, options.render);
   if (saved) resume(job, *saved, options.resume);
   saved.reset();

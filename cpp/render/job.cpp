@@ -163,6 +163,12 @@ std::string Job::state() const {
   return bytes.take();
 }
 
+uint64_t Job::units_of(const std::string& state) {
+  ByteReader bytes(state);
+  StopRule::read(bytes);
+  return bytes.read<uint64_t>();
+}
+
 void Job::load(const std::string& state) {
   check_waiting();
   ByteReader bytes(state);

@@ -47,6 +47,8 @@ class Job {
   /// running, and the render goes on. Throws UsageError if the render has not been started, or
   /// ended in its bootstrap.
   std::string save();
+  /// After how many units a state was saved. Throws RenderError.
+  static uint64_t units_of(const std::string& state);
   /// Before start(): goes on where a job with the same scene, integrator and seed was saved, to its
   /// budget if this job was given none. However often a render is resumed, the same samples make
   /// the same pixels. Throws RenderError.

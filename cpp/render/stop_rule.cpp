@@ -91,9 +91,14 @@ void StopRule::save(ByteWriter& bytes) const {
   for (const auto* limit : {&budget_.spp, &budget_.seconds, &budget_.error}) bytes.write(*limit);
 }
 
-void StopRule::load(ByteReader& bytes) {
+Budget StopRule::read(ByteReader& bytes) {
   Budget saved;
   for (auto* limit : {&saved.spp, &saved.seconds, &saved.error}) bytes.read(*limit);
+  return saved;
+}
+
+void StopRule::load(ByteReader& bytes) {
+  const Budget saved = read(bytes);
   if (default_) set(saved);
 }
 

@@ -41,7 +41,8 @@ class StopRule {
   double progress(uint64_t units, double seconds) const;
 
   void save(ByteWriter& bytes) const;
-  /// Takes the saved budget if none was given.
+  /// The saved budget; load() takes it if none was given.
+  static Budget read(ByteReader& bytes);
   void load(ByteReader& bytes);
 
  private:

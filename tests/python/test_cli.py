@@ -94,8 +94,17 @@ USAGE = {
     "checkpoint nowhere": (["scene.xml", *OUT, "--checkpoint", "no/x"], "no/x"),
     "checkpoint over a scene": (
         ["scene.xml", *OUT, "--checkpoint", "scene.xml"],
-        "scene.xml: is no",
+        "scene.xml: scene and --checkpoint name the same file",
     ),
+    "checkpoint and image": (["scene.xml", *OUT, "--checkpoint", "a.exr"], "same file"),
+    "checkpoint and stats": (
+        ["scene.xml", *OUT, "--checkpoint", "x", "--stats", "./x"],
+        "--checkpoint and --stats name the same file",
+    ),
+    "two images": (["scene.xml", *OUT, *OUT], "-o and -o name the same file"),
+    "scene and stats": (["scene.xml", *OUT, "--stats", "scene.xml"], "scene and --stats name"),
+    "resume and stats": ([*OUT, "--resume", "x", "--stats", "x"], "--resume and --stats name"),
+    "overwrite alone": (["scene.xml", *OUT, "--overwrite"], "--overwrite needs --checkpoint"),
     "every alone": (["scene.xml", *OUT, "--every", "5"], "--every"),
     "every 0": (["scene.xml", *OUT, "--checkpoint", "x", "--every", "0"], "every"),
     "resume nothing": ([*OUT, "--resume", "x"], "x: there is no such file"),
@@ -135,6 +144,13 @@ USAGE = {
 def test_a_mistake_in_usage_is_one_line(program, scene, arguments, what):
     assert what in the_error(run(program, *arguments))
     assert not Path("a.exr").exists()
+
+
+def test_a_checkpoint_replaces_no_other_file(program, scene):
+    Path("notes").write_text("not to be lost")
+    error = the_error(run(program, scene, *OUT, "--checkpoint", "notes", "--overwrite"))
+    assert "notes: is no checkpoint of pymlt" in error
+    assert Path("notes").read_text() == "not to be lost"
 
 
 RULES = ["no scene", "every alone", "every 0", "resume with a seed", "resume with -p", "size"]

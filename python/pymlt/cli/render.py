@@ -31,7 +31,10 @@ def given(args) -> dict:
 
 def check(args) -> None:
     try:
-        _core.check_flags(set(given(args)))
+        values = given(args)
+        _core.check_flags(set(values))
+        files = {name: values[name] for name in values if FLAGS[name].is_file}
+        _core.check_files({n: v if isinstance(v, list) else [v] for n, v in files.items()})
     except _core.UsageError as error:
         raise _core.UsageError(f"{error}; see pymlt render --help") from None
 

@@ -25,9 +25,10 @@ class RenderOptions:
     seed, threads
         The image depends on the seed (0 to 2**64 - 1) but not on the number of threads (0: all
         there are).
-    checkpoint, every
+    checkpoint, every, overwrite
         a file that keeps the state of the render, renewed every so many seconds and at the end;
-        `resume` goes on from there.
+        `resume` goes on from there. The checkpoint of another render is replaced only with
+        `overwrite`.
     cluster
         where to render: a `dask.distributed` client or cluster, the address of one
         ("tcp://host:8786"), or "local:N" for N processes of this machine. None is this process.
@@ -41,6 +42,7 @@ class RenderOptions:
     threads: int = 0
     checkpoint: str | os.PathLike | None = None
     every: float = 60
+    overwrite: bool = False
     cluster: Any = None
 
     def __post_init__(self):

@@ -64,7 +64,7 @@ def resume(
         render goes on if they are larger.
     threads
         as for `start`.
-    checkpoint, every
+    checkpoint, every, overwrite
         where the state is kept from now on; None means `path`.
     cluster
         where to render, as for `start`; it need not be where the render began.

@@ -22,6 +22,7 @@ def render(
     threads: int = ...,
     checkpoint: str | os.PathLike | None = ...,
     every: float = ...,
+    overwrite: bool = ...,
     cluster: Any = ...,
     progress: bool | Callable[[float], object] | None = ...,
     callback: Callable[[Result], object] | None = ...,
@@ -51,6 +52,7 @@ def resume(
     threads: int = ...,
     checkpoint: str | os.PathLike | None = ...,
     every: float = ...,
+    overwrite: bool = ...,
     cluster: Any = ...,
     scene: SceneLike | None = ...,
 ) -> Job: ...
@@ -70,5 +72,6 @@ def start(
     threads: int = ...,
     checkpoint: str | os.PathLike | None = ...,
     every: float = ...,
+    overwrite: bool = ...,
     cluster: Any = ...,
 ) -> Job: ...
