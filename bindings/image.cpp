@@ -1,5 +1,6 @@
 // Image files and numpy arrays.
 #include "bindings.h"
+#include "text.h"
 
 #include "image/atomic_file.h"
 #include "image/image_io.h"
@@ -43,19 +44,21 @@ auto with_images(const Function& function, const std::string& path, const Floats
   return function(path, render, options);
 }
 
-void write(const std::string& path, const Floats& array, const Layers& layers,
-           const Texts& metadata, bool half, double exposure) {
+void write(const Text& path, const Floats& array, const Layers& layers, const Texts& metadata,
+           bool half, double exposure) {
   with_images(write_render, path, array, layers, metadata, half, exposure);
 }
 
-py::tuple to_tuple(const Saved& saved) { return py::make_tuple(saved.path, saved.problem); }
+py::tuple to_tuple(const Saved& saved) {
+  return py::make_tuple(to_str(saved.path), to_str(saved.problem));
+}
 
-py::tuple save(const std::string& path, const Floats& array, const Layers& layers,
-               const Texts& metadata, bool half, double exposure) {
+py::tuple save(const Text& path, const Floats& array, const Layers& layers, const Texts& metadata,
+               bool half, double exposure) {
   return to_tuple(with_images(save_render, path, array, layers, metadata, half, exposure));
 }
 
-py::array_t<float> read(const std::string& path, const std::string& layer) {
+py::array_t<float> read(const Text& path, const std::string& layer) {
   Image image;
   {
     py::gil_scoped_release release;
@@ -64,7 +67,7 @@ py::array_t<float> read(const std::string& path, const std::string& layer) {
   return to_array(std::move(image));
 }
 
-py::dict metadata(const std::string& path) { return py::cast(read_exr_metadata(path)); }
+py::dict metadata(const Text& path) { return py::cast(read_exr_metadata(path)); }
 
 }  // namespace
 
@@ -79,6 +82,7 @@ py::array_t<float> to_array(Image image) {
 
 void bind_image(py::module_& m) {
   m.def("read_image", &read, py::arg("path"), py::arg("layer") = "");
+  m.def("is_known_image", [](const Text& path) { return is_known_image(path); }, py::arg("path"));
   m.def("read_metadata", &metadata, py::arg("path"));
   m.def("write_image", &write, py::arg("path"), py::arg("image"), py::arg("layers"),
         py::arg("metadata"), py::arg("half"), py::arg("exposure"));
@@ -88,12 +92,11 @@ void bind_image(py::module_& m) {
         "\"\"; and why it is not where it was asked for, or \"\".");
   m.def(
       "save_text",
-      [](const std::string& path, const std::string& text) {
-        return to_tuple(save_text(path, text));
-      },
+      [](const Text& path, const std::string& text) { return to_tuple(save_text(path, text)); },
       py::arg("path"), py::arg("text"), "The same for a file of these bytes.");
-  m.def("check_image_writable", &check_writable, py::arg("path"));
-  m.def("check_file_writable", &check_file_writable, py::arg("path"));
+  m.def("check_image_writable", [](const Text& path) { check_writable(path); }, py::arg("path"));
+  m.def(
+      "check_file_writable", [](const Text& path) { check_file_writable(path); }, py::arg("path"));
 }
 
 }  // namespace mlt::python

@@ -3,6 +3,7 @@
 #include "light_path.h"
 #include "py_job.h"
 #include "scene_dict.h"
+#include "text.h"
 
 #include <pybind11/stl.h>
 
@@ -84,7 +85,7 @@ py::dict metadata(PyJob& job) {
 
 void bind_render(py::module_& m) {
   py::class_<CheckpointFile>(m, "CheckpointFile", "Where a render keeps its state.")
-      .def(py::init([](const std::string& path, double every, bool overwrite) {
+      .def(py::init([](const Text& path, double every, bool overwrite) {
              return CheckpointFile{path, every, overwrite};
            }),
            py::arg("path"), py::arg("every"), py::arg("overwrite"));
@@ -107,7 +108,12 @@ void bind_render(py::module_& m) {
              std::optional<double> error) { job.extend({spp, time, error}); },
           py::arg("spp"), py::arg("time"), py::arg("error"), NoGil(),
           "After the end: go on to a larger budget.")
-      .def("checkpoint", &PyJob::checkpoint, py::arg("path"), py::arg("overwrite"), NoGil())
+      .def(
+          "checkpoint",
+          [](PyJob& job, const Text& path, bool overwrite) {
+            without_gil([&] { job.checkpoint(path, overwrite); });
+          },
+          py::arg("path"), py::arg("overwrite"))
       .def("groups", &groups,
            "(images, weights, b) of the independent groups: float32 (G, height, width, 3), float64 "
            "(G,) and (G,); without direct light that is rendered separately.")

@@ -78,8 +78,8 @@ std::string first_spelling(const Flag& flag) {
 
 const std::vector<Flag>& render_flags() {
   static const std::vector<Flag> flags = {
-      {"scene", "scene", "SCENE", &any_text,
-       "Mitsuba XML file; pymlt also takes the name of a built-in scene", Flag::file},
+      {"scene", "scene", "SCENE", &any_text, "Mitsuba XML file, or the name of a built-in scene",
+       Flag::file},
       {"output", "-o,--output", "FILE", &any_text,
        "image file: .exr, .png or .hdr; may be repeated",
        Flag::required | Flag::repeatable | Flag::file},

@@ -4,6 +4,7 @@
 // found before the work began; 3 the render failed, or an output at its end is not where it was
 // asked for; 129, 130 and 143 interrupted by SIGHUP, SIGINT or SIGTERM, with what was rendered saved.
 
+#include "app/built_in_scenes.h"
 #include "app/flags.h"
 #include "app/options.h"
 #include "app/progress_line.h"
@@ -36,6 +37,7 @@ void catch_signals() {
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
   if (std::signal(SIGHUP, on_signal) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
+  for (const int broken_output : {SIGPIPE, SIGXFSZ}) std::signal(broken_output, SIG_IGN);
 }
 
 FlagValue read(const Flag& flag, const std::string& text) {
@@ -84,16 +86,20 @@ Options parse(int argc, char** argv) {
   return read_options(given);
 }
 
-/// Renders until the budget is used up or a signal arrives; returns the signal, or 0.
-int render(Job& job, bool quiet) {
+/// Renders until the budget is used up, a signal arrives, or it fails; returns what went wrong.
+std::exception_ptr render(Job& job, bool quiet) {
   ProgressLine line(quiet);
   something_to_save = 1;
-  job.start();
-  while (!job.wait(0.1)) {
-    if (caught_signal) job.cancel();
-    line.update(job.progress(), job.spp_done());
+  try {
+    job.start();
+    while (!job.wait(0.1)) {
+      if (caught_signal) job.cancel();
+      line.update(job.progress(), job.spp_done());
+    }
+    return nullptr;
+  } catch (const RenderError&) {
+    return std::current_exception();
   }
-  return caught_signal;
 }
 
 /// Every output is tried, and elsewhere if it fails; what could not be had is said.
@@ -129,6 +135,7 @@ void print_warnings(const Stats& stats, size_t known = 0) {
 int run(Options options) {
   for (const std::string& path : options.outputs) check_writable(path);
   if (!options.stats.empty()) check_file_writable(options.stats);
+  if (!options.scene.empty()) options.scene = scene_file(options.scene);
   std::optional<Checkpoint> saved;
   if (!options.resume.empty()) {
     saved = read_checkpoint(options.resume);
@@ -150,8 +157,10 @@ int run(Options options) {
   const size_t known = render_stats(job, loaded, made).warnings.size();
   if (!options.quiet) print_warnings(render_stats(job, loaded, made));
 
-  const int signal = render(job, options.quiet);
+  const std::exception_ptr failure = render(job, options.quiet);
+  const int signal = caught_signal;
   const Stats stats = render_stats(job, loaded, made);
+  if (failure && stats.spp_done == 0) std::rethrow_exception(failure);
   if (!options.quiet) print_warnings(stats, known);
   if (signal && stats.spp_done == 0) {
     say("interrupted before the first sample; nothing to save");
@@ -161,6 +170,7 @@ int run(Options options) {
   write.half = loaded.scene->film().half_precision;
   write.metadata = render_metadata(stats, loaded, made);
   const Outputs outputs = save(options, {job.image(), job.layers()}, stats, write);
+  if (failure) std::rethrow_exception(failure);
   if (!options.quiet)
     say("{}{} x {}, {:.4g} spp in {:.1f} s: {}", signal ? "interrupted; " : "", stats.width,
         stats.height, stats.spp_done, stats.seconds_bootstrap + stats.seconds_render,
@@ -184,6 +194,8 @@ int main(int argc, char** argv) {
     return fail(3, error.what());
   } catch (const Error& error) {
     return fail(2, error.what());
+  } catch (const std::bad_alloc&) {
+    return fail(3, "there is not memory enough");
   } catch (const std::exception& error) {
     return fail(3, error.what());
   }

@@ -23,9 +23,12 @@ struct ReadImage {
 /// the file. EXR samples may be NaN or infinite, as in the file.
 ReadImage read_image(const std::string& path, const std::string& layer = "");
 
-/// The same for the bytes of a file; `name` is for messages, and its extension tells TGA.
+/// The same for the bytes of a file; `name` is for messages.
 ReadImage read_image_memory(std::string_view bytes, const std::string& name,
                             const std::string& layer = "");
+
+/// Whether the content of a file begins as one of these formats does. Throws FileError.
+bool is_known_image(const std::string& path);
 
 /// The image in linear light, decoded if it was encoded.
 Image linear_image(ReadImage read);

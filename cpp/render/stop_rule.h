@@ -30,6 +30,9 @@ class StopRule {
   /// Not while the render is going on.
   void set(const Budget& budget);
 
+  /// More than these will not be taken.
+  double most_spp() const { return budget_.spp.value_or(max_spp); }
+
   /// Once the rendering is prepared. Throws RenderError for an error that it cannot reach.
   void begin(const Rendering& rendering);
   /// Why the render is to end after so many units: "spp", "time", "error", or "" if it is not.

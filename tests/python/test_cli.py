@@ -4,6 +4,7 @@ import json
 import os
 import re
 import resource
+import shlex
 import shutil
 import signal
 import subprocess
@@ -282,7 +283,6 @@ def test_a_finished_image_is_never_lost(program, scene):
 
 def no_room_for(size: int) -> None:
     """In a new process: a file that grows beyond `size` bytes is refused, as on a full disk."""
-    signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
     resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
 
 
@@ -405,5 +405,166 @@ def test_a_closed_pipe_is_no_error():
     assert done.stderr == ""
 
 
-def test_without_a_command_there_is_one_line():
-    assert "render" in the_error(run(PYMLT))
+def test_without_a_command_there_is_help():
+    shown = run(PYMLT)
+    assert shown.returncode == 0
+    assert shown.stdout.startswith("usage: pymlt")
+    assert "Render a scene to image files." in shown.stdout
+
+
+# ---- streams that are closed or full, names that are not UTF-8, short memory --------------------
+
+
+def shell(command, redirection: str, *arguments):
+    """With streams redirected: 2>&- closes stderr."""
+    words = " ".join(shlex.quote(str(word)) for word in [*command, *arguments])
+    return run(["bash", "-c", f"exec {words} {redirection}"])
+
+
+@pytest.mark.parametrize("redirection", ["2>&-", "2>/dev/full", ">&- 2>&- <&-"])
+def test_a_render_does_not_need_its_streams(program, scene, redirection):
+    done = shell(program, redirection, scene, "--spp", 1, "-o", "a.exr", "-o", "a.png")
+    assert done.returncode == 0
+    assert np.array_equal(mlt.read_image("a.exr"), mlt.render(scene, spp=1))
+    assert mlt.read_image("a.png").max() > 0
+
+
+@pytest.mark.parametrize("redirection", ["2>&-", "2>/dev/full"])
+def test_without_stderr_a_mistake_still_has_its_code(program, scene, redirection):
+    assert shell(program, redirection, scene, "-o", "a.gif").returncode == 2
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [["list"], ["--help"], ["render", "--help"], ["info", "furnace", "--json"], ["lab", "--list"]],
+    ids=" ".join,
+)
+@pytest.mark.parametrize(
+    ("redirection", "why"), [(">&-", "it is closed"), (">/dev/full", "No space left on device")]
+)
+def test_what_was_asked_for_and_cannot_be_written_is_an_error(arguments, redirection, why):
+    error = the_error(shell(PYMLT, redirection, *arguments))
+    assert error == f"pymlt: stdout: cannot write it: {why}"
+
+
+def test_a_figure_that_the_disk_does_not_hold_is_an_error(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    flags = ["lab", "expected_values", "-o", "a.png"]
+    done = run(PYMLT, *flags, preexec_fn=lambda: no_room_for(4096))
+    assert done.returncode == 3
+    assert "pymlt: a.png: cannot write it: File too large" in done.stderr
+    assert len(done.stderr.splitlines()) == 1
+    assert os.listdir() == []
+
+
+def test_names_need_not_be_utf_8(program, scene):
+    name = os.fsdecode(b"caf\xe9")
+    os.rename(scene, f"{name}.xml")
+    text = Path(f"{name}.xml").read_text()
+    Path(f"{name}.xml").write_text(text.replace("</scene>", "<unheard/></scene>"))
+    flags = ["--spp", 1, "-o", f"{name}.exr", "--checkpoint", name, "--stats", f"{name}.json"]
+    done = run(program, f"{name}.xml", *flags, errors="surrogateescape")
+    assert done.returncode == 0, done.stderr
+    assert sorted(os.listdir(b"."))[:4] == [
+        b"caf\xe9",
+        b"caf\xe9.exr",
+        b"caf\xe9.json",
+        b"caf\xe9.xml",
+    ]
+    assert f"{name}.xml" in json.loads(Path(f"{name}.json").read_text())["warnings"][0]
+    done = run(program, "--resume", name, "-o", "b.exr", errors="surrogateescape")
+    assert done.returncode == 0, done.stderr
+    missing = run(program, f"x{name}.xml", "-o", "b.exr", errors="surrogateescape")
+    assert "there is no such file" in the_error(missing)
+    neither = run(program, f"x{name}", "-o", "b.exr", errors="surrogateescape")
+    assert "xcaf" in the_error(neither)
+    assert mlt.read_image(f"{name}.exr").shape == (12, 16, 3)
+
+
+@pytest.mark.parametrize("kilobytes", [100_000, 200_000])
+def test_embree_is_not_blamed_for_short_memory(scene, kilobytes):
+    binary = mlt_render() or pytest.skip("mlt-render is not installed beside this Python")
+    error = the_error(run(binary, scene, *OUT, preexec_fn=lambda: little_memory(kilobytes)), code=3)
+    assert "memory" in error
+    assert "does not start" not in error
+
+
+def little_memory(kilobytes: int) -> None:
+    resource.setrlimit(resource.RLIMIT_AS, (1024 * kilobytes, 1024 * kilobytes))
+
+
+def test_a_size_that_memory_does_not_hold_is_refused_before_the_work(program, scene):
+    flags = [scene, "--size", "4000x4000", "--spp", 1, "-o", "a.exr"]
+    before = time.perf_counter()
+    error = the_error(run(program, *flags, preexec_fn=lambda: little_memory(2_000_000)), code=3)
+    assert "an image of 4000 x 4000 pixels needs about 2.5 GB of memory" in error
+    assert time.perf_counter() - before < 10
+
+
+@pytest.mark.parametrize("integrator", ["path", "bdpt", "pssmlt"])
+def test_a_render_ends_in_an_image_or_is_refused_whatever_memory_there_is(scene, integrator):
+    binary = mlt_render() or pytest.skip("mlt-render is not installed beside this Python")
+    flags = ["--integrator", integrator, "-p", "max_depth=2", "--size", "500x500", "--spp", "0.05"]
+    outcomes = set()
+    for megabytes in range(220, 420, 20):
+        limit = 1024 * megabytes
+        done = run(binary, scene, *flags, *OUT, preexec_fn=lambda limit=limit: little_memory(limit))
+        outcomes.add(done.returncode)
+        if done.returncode == 0:
+            assert mlt.read_image("a.exr").max() > 0
+            Path("a.exr").unlink()
+        else:
+            assert "memory" in the_error(done, code=3)
+    assert outcomes == {0, 3}
+
+
+def test_no_time_for_a_sample_is_an_error(program, scene):
+    error = the_error(run(program, scene, "--time", "1e-9", *OUT), code=3)
+    assert "the time was used up before the first sample" in error
+    assert not Path("a.exr").exists()
+
+
+def test_merge_says_what_it_has_made(scene):
+    for seed in 1, 2:
+        run([*PYMLT, "render"], scene, "--seed", seed, "--spp", 4, "-o", f"{seed}.exr")
+    merged = run(PYMLT, "merge", "1.exr", "2.exr", "-o", "both.exr")
+    assert merged.stderr == "pymlt: 2 renders of 16 x 12, 8 spp together: both.exr\n"
+
+
+def test_info_says_that_the_integrator_cannot_render(scene):
+    Path(scene).write_text(tiny.XML.replace('type="path"', 'type="photonmapper"'))
+    told = run(PYMLT, "info", scene)
+    assert told.returncode == 0
+    assert "scene.xml:4: integrator 'photonmapper' is not supported" in told.stderr
+    assert "cannot be rendered unless another is named" in told.stderr
+    assert run([*PYMLT, "render"], scene, "--integrator", "path", *OUT).returncode == 0
+
+
+def test_mlt_render_knows_the_built_in_scenes(tmp_path, monkeypatch):
+    binary = mlt_render() or pytest.skip("mlt-render is not installed beside this Python")
+    monkeypatch.chdir(tmp_path)
+    flags = ["door_ajar", "-D", "opening=25", "--size", "16x12", "--spp", 2]
+    assert run([*PYMLT, "render"], *flags, "-o", "a.exr").returncode == 0
+    assert run(binary, *flags, "-o", "b.exr").returncode == 0
+    a, b = mlt.read_image("a.exr"), mlt.read_image("b.exr")
+    assert np.allclose(a, b, rtol=1e-4, atol=1e-6)
+    assert "nowhere" in the_error(run(binary, "nowhere", *OUT))
+
+
+def test_a_scene_may_come_through_a_pipe(program, scene):
+    text = Path(scene).read_text()
+    flags = ["/dev/stdin", "--spp", 2, "--checkpoint", "a.mlt", "-o", "a.exr"]
+    done = run(program, *flags, input=text)
+    assert done.returncode == 0, done.stderr
+    assert np.array_equal(mlt.read_image("a.exr"), mlt.render(scene, spp=2))
+    done = run(program, "--resume", "a.mlt", "--spp", 3, "-o", "a.exr")
+    assert done.returncode == 0, done.stderr
+    assert np.array_equal(mlt.read_image("a.exr"), mlt.render(scene, spp=3))
+
+
+def test_a_built_in_scene_may_be_named_with_resume(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    flags = ["door-ajar", "-o", "a.exr", "--spp", 1]
+    run([*PYMLT, "render"], *flags, "--size", "16x12", "--checkpoint", "a.mlt")
+    done = run([*PYMLT, "render"], *flags, "--resume", "a.mlt")
+    assert done.returncode == 0, done.stderr

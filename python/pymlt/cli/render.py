@@ -13,7 +13,7 @@ from ..rendering.options import RenderOptions
 from ..rendering.progress import progress_bar
 from ..rendering.result import Result
 from ..rendering.start import saved_job
-from .common import FLAGS, add_flag, load_scene, say, warn
+from .common import FLAGS, add_flag, built_in_name, load_scene, say, warn
 from .signals import Signals
 
 HELP = "Render a scene to image files."
@@ -45,8 +45,8 @@ def start(args, signals: Signals) -> Job:
         **{f.name: values[f.name] for f in fields(RenderOptions) if f.name in values}
     )
     if args.resume:
-        if args.scene and not os.path.exists(args.scene):
-            raise _core.FileError(f"{args.scene}: no such file")
+        if args.scene and not os.path.exists(args.scene) and not built_in_name(args.scene):
+            raise _core.FileError(f"{args.scene}: there is no such file")
         return signals.abandonable(lambda: saved_job(args.resume, args.scene, options))._start()
     scene = signals.abandonable(lambda: load_scene(args))
     return Job(scene, as_integrator(scene, args.integrator, args.parameters), options)._start()
@@ -58,6 +58,8 @@ def run(args) -> int:
         _core.check_image_writable(path)
     if args.stats:
         _core.check_file_writable(args.stats)
+    import numpy  # noqa: F401 (what writing needs is there before the work begins)
+
     with Signals() as signals:
         job = start(args, signals)
         known = job.stats["warnings"]

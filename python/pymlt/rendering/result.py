@@ -81,7 +81,7 @@ class Result:
             raise _core.FileError(problem)
         return where
 
-    def _save(self, path, exposure: float) -> tuple[str, str]:
+    def _save(self, path, exposure: float = 0) -> tuple[str, str]:
         """Where the image is, or ""; and why it is not at `path`, or ""."""
         return _core.save_image(*self._file(path, exposure))
 

@@ -72,13 +72,17 @@ def resume(
     return saved_job(os.fspath(path), scene, options)._start()
 
 
+def names_built_in(scene: str | os.PathLike | None, name: str) -> bool:
+    return scene is None or (not os.path.exists(scene) and str(scene).replace("-", "_") == name)
+
+
 def saved_job(path: str, scene: SceneLike | None, options: RenderOptions) -> Job:
     """The job of a checkpoint, not yet started."""
     saved = _core.Checkpoint(path)
     if isinstance(scene, Scene | dict):
         scene = as_scene(scene)
         saved.check(scene)
-    elif scene is None and saved.built_in:
+    elif saved.built_in and names_built_in(scene, saved.built_in[0]):
         scene = load_built_in(*saved.built_in)
         saved.check(scene)
     else:

@@ -11,6 +11,10 @@ from .job import Job
 from .options import RenderOptions
 from .result import Replay, Result
 
+def names_built_in(
+    scene: str | os.PathLike | None,
+    name: str,
+) -> bool: ...
 def render(
     scene: SceneLike,
     integrator: IntegratorLike | None = ...,
