@@ -1,4 +1,4 @@
-"""Print what a pyproject.toml asks for: build requirements, dependencies and, if it is named, an extra.
+"""Print what a pyproject.toml asks for: build requirements, dependencies and an extra, if named.
 
 `make setup` installs these before the first build, because the build runs without isolation and
 pip cannot install a project's requirements without building the project.
