@@ -1,5 +1,5 @@
 # Two commands: `make demo` renders a picture, `make test` runs every test. Both first install and
-# build what is missing. On Debian and Ubuntu nothing but git, make and python3 needs to be there.
+# build what is missing; `make demo` leaves out what only tests and documentation need. On Debian and Ubuntu nothing but git, make and python3 needs to be there.
 
 PYTHON ?= python3
 JOBS ?= $(shell nproc)
@@ -29,43 +29,58 @@ export PIP_DISABLE_PIP_VERSION_CHECK = 1
 .PHONY: setup build demo docs test test-long asan lint format clean distclean
 
 # ---- set-up ------------------------------------------------------------------------------------
-setup: $(VENV)/.stamp
+setup: $(STAMPS)/dev
 
-$(STAMPS)/apt: cmake/apt-packages.txt cmake/install-apt-packages.sh
+$(STAMPS)/apt $(STAMPS)/apt-test: $(STAMPS)/apt%: cmake/apt-packages%.txt
 	cmake/install-apt-packages.sh $<
 	@mkdir -p $(@D) && touch $@
 
 $(VENV)/.stamp: requirements/constraints.txt pyproject.toml | $(STAMPS)/apt
 	test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
 	$(BIN)/python -c 'import sys; assert sys.version_info >= (3, 11), "pymlt needs Python 3.11"'
-	$(BIN)/pip install -q -c $< $$($(BIN)/python cmake/list_dependencies.py pyproject.toml dev)
+	$(call install_for,)
 	@touch $@
 
-# ---- one build: library, mlt-render, C++ tests, and the extension, installed editable ------------
+# What `pip install .[$(1)]` would install, but for the package itself.
+install_for = $(BIN)/pip install -q -c requirements/constraints.txt \
+  $$($(BIN)/python cmake/list_dependencies.py pyproject.toml $(1))
+
+$(STAMPS)/dev $(STAMPS)/docs: $(STAMPS)/%: $(VENV)/.stamp | $(STAMPS)/apt-test
+	$(call install_for,$*)
+	@mkdir -p $(@D) && touch $@
+
+# ---- one build: library, mlt-render and the extension, installed editable; and the C++ tests ------
 build: $(STAMPS)/build
 
-# The stamp bears the time of the start: a file that changes during the build is built the next time.
-$(STAMPS)/build: $(SOURCES) $(VENV)/.stamp
-	@mkdir -p $(@D) && touch $@.begun
-	$(BIN)/pip install -v --no-build-isolation --no-deps -e . \
-	  --config-settings=build-dir=$(BUILD) \
-	  --config-settings=cmake.define.PYMLT_TESTS=ON
-	@mv $@.begun $@
+# A stamp bears the time of the start: a file that changes during the build is built the next time.
+$(STAMPS)/program: $(SOURCES) $(VENV)/.stamp
+	$(call install_editable,$(if $(wildcard $(STAMPS)/build),ON,OFF))
+
+$(STAMPS)/build: $(SOURCES) $(STAMPS)/dev
+	$(call install_editable,ON)
+	@cp -p $@ $(STAMPS)/program
+
+define install_editable
+@mkdir -p $(@D) && touch $@.begun
+$(BIN)/pip install -v --no-build-isolation --no-deps -e . \
+  --config-settings=build-dir=$(BUILD) \
+  --config-settings=cmake.define.PYMLT_TESTS=$(1)
+@mv $@.begun $@
+endef
 
 # ---- run it --------------------------------------------------------------------------------------
-demo: build
+demo: $(STAMPS)/program
 	@mkdir -p out
 	$(BIN)/python -m pymlt render $(DEMO_SCENE) $(DEMO_FLAGS) \
 	  -o out/demo.exr -o out/demo.png
-	@echo "Look at out/demo.png (and out/demo.exr)."
+	@echo
+	@echo "Look at out/demo.png (and out/demo.exr). To render more:"
+	@echo "  source $(BIN)/activate"
+	@echo "  pymlt render cornell-box --spp 64 -o out/box.png"
 
 # The documentation, with the gallery's figures: open build/docs/index.html.
 docs: build $(STAMPS)/docs
 	$(BIN)/python -m sphinx -b html docs build/docs
-
-$(STAMPS)/docs: requirements/constraints.txt pyproject.toml $(VENV)/.stamp
-	$(BIN)/pip install -q -c $< $$($(BIN)/python cmake/list_dependencies.py pyproject.toml docs)
-	@mkdir -p $(@D) && touch $@
 
 # Both suites run, whatever the first one says.
 test: build
@@ -82,18 +97,18 @@ test-long: build
 	exit $$status
 comma := ,
 
-asan: | $(STAMPS)/apt
+asan: | $(STAMPS)/apt $(STAMPS)/apt-test
 	cmake --preset asan
 	cmake --build --preset asan
 	ctest --preset asan -j $(JOBS)
 
 # ---- style ---------------------------------------------------------------------------------------
-lint: $(VENV)/.stamp
+lint: $(STAMPS)/dev
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/clang-format --dry-run --Werror $(CXX_FILES)
 
-format: $(VENV)/.stamp
+format: $(STAMPS)/dev
 	$(BIN)/ruff check --fix-only .
 	$(BIN)/ruff format .
 	$(BIN)/clang-format -i $(CXX_FILES)

@@ -3,13 +3,25 @@
 #include "bindings.h"
 
 #include "base/error.h"
+#include "text.h"
+
+#include <exception>
 
 namespace mlt::python {
 namespace {
 
 template <class Exception>
 py::object add_class(py::module_& m, const char* name, const char* doc, const py::handle& bases) {
-  py::object made = py::register_exception<Exception>(m, name, bases);
+  static PyObject* type = nullptr;
+  py::object made = py::exception<Exception>(m, name, bases);
+  type = made.inc_ref().ptr();
+  py::register_exception_translator([](std::exception_ptr pointer) {
+    try {
+      if (pointer) std::rethrow_exception(pointer);
+    } catch (const Exception& error) {
+      PyErr_SetObject(type, to_str(error.what()).ptr());
+    }
+  });
   made.attr("__module__") = "pymlt";
   made.attr("__doc__") = doc;
   return made;

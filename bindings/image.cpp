@@ -1,5 +1,6 @@
 // Image files and numpy arrays.
 #include "bindings.h"
+#include "text.h"
 
 #include "image/atomic_file.h"
 #include "image/image_io.h"
@@ -29,20 +30,35 @@ Image to_image(const Floats& array) {
   return image;
 }
 
-std::string save(const std::string& path, const Floats& array,
-                 const std::map<std::string, Floats>& layers,
-                 const std::map<std::string, std::string>& metadata, bool half, double exposure,
-                 bool rescue) {
+using Layers = std::map<std::string, Floats>;
+using Texts = std::map<std::string, std::string>;
+
+/// What `function` (write_render or save_render) returns for these arrays.
+template <class Function>
+auto with_images(const Function& function, const std::string& path, const Floats& array,
+                 const Layers& layers, const Texts& metadata, bool half, double exposure) {
   RenderedImage render{to_image(array), {}};
   for (const auto& [name, pixels] : layers) render.layers.push_back({name, to_image(pixels)});
   const WriteOptions options{half, Metadata(metadata.begin(), metadata.end()), exposure};
   py::gil_scoped_release release;
-  if (rescue) return save_render(path, render, options);
-  write_render(path, render, options);
-  return path;
+  return function(path, render, options);
 }
 
-py::array_t<float> read(const std::string& path, const std::string& layer) {
+void write(const Text& path, const Floats& array, const Layers& layers, const Texts& metadata,
+           bool half, double exposure) {
+  with_images(write_render, path, array, layers, metadata, half, exposure);
+}
+
+py::tuple to_tuple(const Saved& saved) {
+  return py::make_tuple(to_str(saved.path), to_str(saved.problem));
+}
+
+py::tuple save(const Text& path, const Floats& array, const Layers& layers, const Texts& metadata,
+               bool half, double exposure) {
+  return to_tuple(with_images(save_render, path, array, layers, metadata, half, exposure));
+}
+
+py::array_t<float> read(const Text& path, const std::string& layer) {
   Image image;
   {
     py::gil_scoped_release release;
@@ -51,7 +67,7 @@ py::array_t<float> read(const std::string& path, const std::string& layer) {
   return to_array(std::move(image));
 }
 
-py::dict metadata(const std::string& path) { return py::cast(read_exr_metadata(path)); }
+py::dict metadata(const Text& path) { return py::cast(read_exr_metadata(path)); }
 
 }  // namespace
 
@@ -66,14 +82,21 @@ py::array_t<float> to_array(Image image) {
 
 void bind_image(py::module_& m) {
   m.def("read_image", &read, py::arg("path"), py::arg("layer") = "");
+  m.def("is_known_image", [](const Text& path) { return is_known_image(path); }, py::arg("path"));
   m.def("read_metadata", &metadata, py::arg("path"));
-  m.def("write_image", &save, py::arg("path"), py::arg("image"), py::arg("layers"),
-        py::arg("metadata"), py::arg("half"), py::arg("exposure"), py::arg("rescue"),
-        "With `rescue`, a failed write is tried again elsewhere. Returns where the image is.");
-  m.def("write_text", &save_text, py::arg("path"), py::arg("text"),
-        "A failed write is tried again elsewhere. Returns where the file is.");
-  m.def("check_image_writable", &check_writable, py::arg("path"));
-  m.def("check_file_writable", &check_file_writable, py::arg("path"));
+  m.def("write_image", &write, py::arg("path"), py::arg("image"), py::arg("layers"),
+        py::arg("metadata"), py::arg("half"), py::arg("exposure"));
+  m.def("save_image", &save, py::arg("path"), py::arg("image"), py::arg("layers"),
+        py::arg("metadata"), py::arg("half"), py::arg("exposure"),
+        "A failed write is tried again elsewhere. Returns (path, problem): where the image is, or "
+        "\"\"; and why it is not where it was asked for, or \"\".");
+  m.def(
+      "save_text",
+      [](const Text& path, const std::string& text) { return to_tuple(save_text(path, text)); },
+      py::arg("path"), py::arg("text"), "The same for a file of these bytes.");
+  m.def("check_image_writable", [](const Text& path) { check_writable(path); }, py::arg("path"));
+  m.def(
+      "check_file_writable", [](const Text& path) { check_file_writable(path); }, py::arg("path"));
 }
 
 }  // namespace mlt::python

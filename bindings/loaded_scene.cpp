@@ -1,8 +1,10 @@
 // Loading, and what a scene tells about itself.
 #include "bindings.h"
 #include "scene_dict.h"
+#include "text.h"
 
 #include "io/pack.h"
+#include "render/make_integrator.h"
 #include "render/output.h"
 #include "render/plugins.h"
 
@@ -13,22 +15,29 @@ namespace mlt::python {
 namespace {
 
 using Size = std::optional<std::pair<int, int>>;
-using Defines = std::map<std::string, std::string>;
+using Defines = std::map<std::string, Text>;
 
 LoadOptions load_options(const Size& size, const Defines& defines = {}) {
   LoadOptions options;
-  options.defines = defines;
+  options.defines.insert(defines.begin(), defines.end());
   if (size) options.size = Vec2i(size->first, size->second);
   return options;
 }
 
-LoadedScene from_file(const std::string& path, const Defines& defines, const Size& size) {
-  return load_file(path, plugins(), load_options(size, defines));
+/// A file may be for another renderer, and then needs another integrator here.
+LoadedScene warned(LoadedScene loaded) {
+  if (const std::string problem = integrator_problem(loaded, plugins()); !problem.empty())
+    loaded.warnings.push_back(problem + "; the scene cannot be rendered unless another is named");
+  return loaded;
 }
 
-LoadedScene from_string(const std::string& xml, const std::string& directory,
-                        const Defines& defines, const Size& size) {
-  return load_string(xml, directory, plugins(), load_options(size, defines));
+LoadedScene from_file(const Text& path, const Defines& defines, const Size& size) {
+  return warned(load_file(path, plugins(), load_options(size, defines)));
+}
+
+LoadedScene from_string(const Text& xml, const Text& directory, const Defines& defines,
+                        const Size& size) {
+  return warned(load_string(xml, directory, plugins(), load_options(size, defines)));
 }
 
 /// `built_in` and `defines` name a scene of the Python package, so that a checkpoint can.
@@ -39,6 +48,8 @@ LoadedScene from_dict(const py::dict& dict, const Size& size, const std::string&
     throw SceneError("scene: 'type' is '" + node.type + "', but should be 'scene'");
   py::gil_scoped_release release;
   LoadedScene loaded = build_scene(node, plugins(), load_options(size));
+  if (const std::string problem = integrator_problem(loaded, plugins()); !problem.empty())
+    throw SceneError(problem);
   if (!built_in.empty())
     loaded.source = {SceneSource::Kind::built_in, built_in, "", load_options(size, defines)};
   return loaded;
@@ -62,7 +73,7 @@ py::dict info(const LoadedScene& loaded) {
   info["filter"] =
       scene.film().filter ? py::object(py::str(scene.film().filter->name())) : py::none();
   info["seconds"] = loaded.seconds;
-  info["warnings"] = loaded.warnings;
+  info["warnings"] = to_list(loaded.warnings);
   return info;
 }
 
@@ -80,7 +91,9 @@ void bind_scene(py::module_& m) {
       m, "Scene", "An immutable world, as load_file, load_string or load_dict made it.")
       .def_property_readonly("width", [](const LoadedScene& s) { return image_size(*s.scene).x; })
       .def_property_readonly("height", [](const LoadedScene& s) { return image_size(*s.scene).y; })
-      .def_readonly("warnings", &LoadedScene::warnings, "One line each, with file and line.")
+      .def_property_readonly(
+          "warnings", [](const LoadedScene& s) { return to_list(s.warnings); },
+          "One line each, with file and line.")
       .def_property_readonly(
           "half", [](const LoadedScene& s) { return s.scene->film().half_precision; },
           "Whether the film asks for 16-bit EXR samples.")

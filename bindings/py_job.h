@@ -3,6 +3,7 @@
 
 #include "bindings.h"
 
+#include "image/file_lock.h"
 #include "render/checkpoint.h"
 #include "render/output.h"
 
@@ -24,9 +25,11 @@ class PyJob : public Job {
   const LoadedPtr& loaded() const { return loaded_; }
   Stats stats() const { return render_stats(*this, *loaded_, made_); }
   Metadata metadata() const { return render_metadata(stats(), *loaded_, made_); }
-  void checkpoint(const std::string& path) {
+  void checkpoint(const std::string& path, bool overwrite) {
     check_checkpoint_writable(path);
     Checkpoint checkpoint = checkpoint_of(*loaded_, made_, seed_);
+    const auto lock = FileLock::of(path);
+    if (!overwrite) check_same_render(path, checkpoint);
     checkpoint.state = save();
     write_checkpoint(path, checkpoint);
   }

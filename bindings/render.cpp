@@ -3,6 +3,7 @@
 #include "light_path.h"
 #include "py_job.h"
 #include "scene_dict.h"
+#include "text.h"
 
 #include <pybind11/stl.h>
 
@@ -14,16 +15,14 @@ namespace {
 std::unique_ptr<PyJob> make_job(LoadedPtr loaded, const MadeIntegrator& made,
                                 std::optional<double> spp, std::optional<double> time,
                                 std::optional<double> error, uint64_t seed, int threads,
-                                const std::string& checkpoint, double every) {
+                                const CheckpointFile& checkpoint) {
   RenderSettings settings;
   settings.budget = {spp, time, error};
   settings.seed = seed;
   settings.threads = threads;
-  settings.autosave.every = every;
-  if (!checkpoint.empty()) {
-    check_checkpoint_writable(checkpoint);
-    settings.autosave = autosave_to(checkpoint, every, checkpoint_of(*loaded, made, seed));
-  }
+  settings.autosave.every = checkpoint.every;
+  if (!checkpoint.path.empty())
+    settings.autosave = autosave_to(checkpoint, checkpoint_of(*loaded, made, seed));
   return std::make_unique<PyJob>(std::move(loaded), made, settings);
 }
 
@@ -88,10 +87,16 @@ py::dict metadata(PyJob& job) {
 }  // namespace
 
 void bind_render(py::module_& m) {
+  py::class_<CheckpointFile>(m, "CheckpointFile", "Where a render keeps its state.")
+      .def(py::init([](const Text& path, double every, bool overwrite) {
+             return CheckpointFile{path, every, overwrite};
+           }),
+           py::arg("path"), py::arg("every"), py::arg("overwrite"));
+
   py::class_<PyJob>(m, "Job")
       .def(py::init(&make_job), py::arg("scene"), py::arg("integrator"), py::arg("spp"),
            py::arg("time"), py::arg("error"), py::arg("seed"), py::arg("threads"),
-           py::arg("checkpoint") = "", py::arg("every") = 60.0)
+           py::arg("checkpoint"))
       .def("start", &PyJob::start, NoGil())
       .def("wait", &wait, py::arg("seconds"))
       .def("cancel", &PyJob::cancel, NoGil())
@@ -106,7 +111,12 @@ void bind_render(py::module_& m) {
              std::optional<double> error) { job.extend({spp, time, error}); },
           py::arg("spp"), py::arg("time"), py::arg("error"), NoGil(),
           "After the end: go on to a larger budget.")
-      .def("checkpoint", &PyJob::checkpoint, py::arg("path"), NoGil())
+      .def(
+          "checkpoint",
+          [](PyJob& job, const Text& path, bool overwrite) {
+            without_gil([&] { job.checkpoint(path, overwrite); });
+          },
+          py::arg("path"), py::arg("overwrite"))
       .def("groups", &groups,
            "(images, weights, b) of the independent groups: float32 (G, height, width, 3), float64 "
            "(G,) and (G,); without direct light that is rendered separately.")

@@ -1,6 +1,7 @@
 // Checkpoints, read and resumed.
 #include "bindings.h"
 #include "py_job.h"
+#include "text.h"
 
 #include "render/plugins.h"
 
@@ -11,8 +12,8 @@ namespace {
 
 /// A checkpoint, its path, and the integrator that it names.
 struct PyCheckpoint {
-  explicit PyCheckpoint(const std::string& file)
-      : path(file),
+  explicit PyCheckpoint(const Text& file)
+      : path(file.bytes),
         saved(read_checkpoint(file)),
         made(make_integrator(saved.integrator, plugins())) {}
 
@@ -22,7 +23,7 @@ struct PyCheckpoint {
     if (const auto& asked = saved.scene.options.size) size = {asked->x, asked->y};
     return py::make_tuple(saved.scene.name, saved.scene.options.defines, size);
   }
-  LoadedPtr load(const std::string& moved_to) const {
+  LoadedPtr load(const Text& moved_to) const {
     return std::make_shared<LoadedScene>(load_scene(saved, path, moved_to, plugins()));
   }
   void check(const LoadedScene& loaded) const { check_same_scene(saved, path, loaded); }
@@ -37,7 +38,7 @@ struct PyCheckpoint {
 
 void bind_checkpoint(py::module_& m) {
   py::class_<PyCheckpoint>(m, "Checkpoint", "A render on disk, read and found whole.")
-      .def(py::init<const std::string&>(), py::arg("path"), NoGil())
+      .def(py::init<const Text&>(), py::arg("path"), NoGil())
       .def_readonly("integrator", &PyCheckpoint::made)
       .def_property_readonly("seed", [](const PyCheckpoint& c) { return c.saved.seed; })
       .def_property_readonly("built_in", &PyCheckpoint::built_in,

@@ -4,6 +4,8 @@
 // id.
 #include "scene_dict.h"
 
+#include "text.h"
+
 #include <pybind11/stl.h>
 
 #include <algorithm>
@@ -37,6 +39,15 @@ std::string kind_of(const py::handle& object) {
   throw SceneError(at(where, "'" + key + "' " + message));
 }
 
+/// A str as bytes; file names need not be UTF-8.
+std::string str_of(const py::handle& text, const std::string& key, const Location& where) {
+  try {
+    return bytes_of(text);
+  } catch (const UsageError& error) {
+    refuse(where, key, std::string("cannot be read: ") + error.what());
+  }
+}
+
 Value from_array(const py::object& object, const std::string& key, const Location& where) {
   const auto array = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(object);
   if (!array) {
@@ -67,7 +78,7 @@ Value from_scalar_or_array(py::object object, const std::string& key, const Loca
   if (py::hasattr(object, "ndim") && py::object(object.attr("ndim")).equal(py::int_(0)))
     object = object.attr("item")();  // a numpy scalar
   if (object.is_none()) refuse(where, key, "is None; leave it out to get its default");
-  if (py::isinstance<py::str>(object)) return object.cast<std::string>();
+  if (py::isinstance<py::str>(object)) return str_of(object, key, where);
   if (PyBool_Check(object.ptr())) return object.cast<bool>();
   if (PyLong_Check(object.ptr()) || PyFloat_Check(object.ptr()))
     return from_number(object, key, where);
@@ -80,14 +91,14 @@ std::string text_of(const py::dict& dict, const char* key, const Location& where
   const py::object value = dict[key];
   if (!py::isinstance<py::str>(value))
     refuse(where, key, "is " + kind_of(value) + ", but should be a string");
-  return value.cast<std::string>();
+  return str_of(value, key, where);
 }
 
 /// {"type": "rgb", "value": [...]} and its like: a value that is written as a dict.
 Value from_color(const py::dict& dict, const std::string& type, const std::string& key,
                  const Location& where) {
   for (const auto& item : dict) {
-    const std::string name = py::str(item.first);
+    const std::string name = str_of(py::str(item.first), key, where);
     if (name != "type" && name != "value")
       refuse(where, key, "has an unknown '" + name + "'; valid are: type, value");
   }
@@ -142,7 +153,7 @@ class Converter {
     for (const auto& [key_object, value] : dict) {
       if (!py::isinstance<py::str>(key_object))
         throw SceneError(at(node.where, "a key is " + kind_of(key_object) + ", not a string"));
-      const std::string key = key_object.cast<std::string>();
+      const std::string key = str_of(key_object, "a key", node.where);
       if (key != "type" && key != "id") add(node, key, py::reinterpret_borrow<py::object>(value));
     }
     --depth_;

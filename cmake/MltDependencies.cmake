@@ -1,11 +1,16 @@
 # Every library we build on, with one error that says what to install.
 file(STRINGS "${PROJECT_SOURCE_DIR}/cmake/apt-packages.txt" apt_packages)
+file(STRINGS "${PROJECT_SOURCE_DIR}/cmake/apt-packages-test.txt" apt_test_packages)
 list(JOIN apt_packages " " apt_line)
-set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS cmake/apt-packages.txt)
+if(PYMLT_TESTS)
+  list(JOIN apt_test_packages " " apt_test_line)
+endif()
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS cmake/apt-packages.txt
+                                       cmake/apt-packages-test.txt)
 
 function(mlt_missing what)
   message(FATAL_ERROR "${what} was not found. On Debian and Ubuntu this installs everything:\n"
-                      "  apt-get install ${apt_line}\n")
+                      "  apt-get install ${apt_line} ${apt_test_line}\n")
 endfunction()
 
 # mlt_require(<what> <found>): stops with the apt line unless the variable <found> is true.
@@ -36,6 +41,10 @@ unset(CMAKE_MESSAGE_LOG_LEVEL)
 mlt_require("OpenEXR" OpenEXR_FOUND)
 find_package(ZLIB QUIET)
 mlt_require("zlib" ZLIB_FOUND)
+find_package(JPEG QUIET)
+mlt_require("libjpeg-turbo" JPEG_FOUND)
+find_package(PNG QUIET)
+mlt_require("libpng" PNG_FOUND)
 find_package(CLI11 CONFIG QUIET)
 mlt_require("CLI11" CLI11_FOUND)
 find_path(MLT_STB_DIR stb/stb_image.h)

@@ -1,4 +1,4 @@
-"""Print what a pyproject.toml asks for: build requirements, dependencies and one extra.
+"""Print what a pyproject.toml asks for: build requirements, dependencies and an extra, if named.
 
 `make setup` installs these before the first build, because the build runs without isolation and
 pip cannot install a project's requirements without building the project.
@@ -13,7 +13,7 @@ def requirements(table: dict, extra: str) -> list[str]:
     project = table["project"]
     nested = {f"{project['name']}[{name}]": name for name in project["optional-dependencies"]}
     found = list(table["build-system"]["requires"]) + list(project["dependencies"])
-    todo = [extra]
+    todo = [extra] if extra else []
     while todo:
         for requirement in project["optional-dependencies"][todo.pop()]:
             if requirement in nested:
@@ -24,5 +24,5 @@ def requirements(table: dict, extra: str) -> list[str]:
 
 
 if __name__ == "__main__":
-    path, extra = sys.argv[1:]
+    path, extra = sys.argv[1], "".join(sys.argv[2:])
     print("\n".join(requirements(tomllib.loads(Path(path).read_text()), extra)))

@@ -1,14 +1,20 @@
 #include "app/flags.h"
 
 #include "base/error.h"
+#include "image/image_io.h"
 #include "io/text.h"
+#include "render/job.h"
 
 #include <charconv>
+#include <cmath>
+#include <filesystem>
 #include <limits>
 #include <optional>
 
 namespace mlt {
 namespace {
+
+namespace fs = std::filesystem;
 
 using Parsed = std::optional<FlagValue>;
 
@@ -27,6 +33,16 @@ Parsed parse_positive(const std::string& text) {
   return number && *number > 0 ? Parsed(*number) : std::nullopt;
 }
 
+Parsed parse_spp(const std::string& text) {
+  const Parsed number = parse_positive(text);
+  return number && std::get<double>(*number) <= max_spp ? number : std::nullopt;
+}
+
+Parsed parse_stops(const std::string& text) {
+  const auto number = parse_real(text);
+  return number && std::abs(*number) <= max_exposure ? Parsed(*number) : std::nullopt;
+}
+
 Parsed parse_size(const std::string& text) {
   const size_t cross = text.find('x');
   if (cross == std::string::npos) return std::nullopt;
@@ -43,12 +59,12 @@ Parsed parse_assignment(const std::string& text) {
 }
 
 const FlagType any_text{"a text", [](const std::string& text) { return Parsed(text); }},
-    count{"an integer from 0 to 2147483647",
-          [](const std::string& text) -> Parsed { return parse_count(text, highest_int); }},
+    threads{"an integer from 0 to 4096",
+            [](const std::string& text) -> Parsed { return parse_count(text, max_threads); }},
     seed{"an integer from 0 to 18446744073709551615",
          [](const std::string& text) -> Parsed { return parse_count(text, UINT64_MAX); }},
-    number{"a number", [](const std::string& text) -> Parsed { return parse_real(text); }},
-    positive{"a positive number", parse_positive},
+    stops{"a number from -128 to 128", parse_stops}, positive{"a positive number", parse_positive},
+    spp{"a positive number up to 2147483647", parse_spp},
     image_size{"WIDTHxHEIGHT in pixels, such as 640x360", parse_size},
     assignment{"NAME=VALUE", parse_assignment};
 
@@ -62,10 +78,11 @@ std::string first_spelling(const Flag& flag) {
 
 const std::vector<Flag>& render_flags() {
   static const std::vector<Flag> flags = {
-      {"scene", "scene", "SCENE", &any_text,
-       "Mitsuba XML file; pymlt also takes the name of a built-in scene"},
+      {"scene", "scene", "SCENE", &any_text, "Mitsuba XML file, or the name of a built-in scene",
+       Flag::file},
       {"output", "-o,--output", "FILE", &any_text,
-       "image file: .exr, .png or .hdr; may be repeated", Flag::required | Flag::repeatable},
+       "image file: .exr, .png or .hdr; may be repeated",
+       Flag::required | Flag::repeatable | Flag::file},
       {"integrator", "--integrator", "NAME", &any_text, "algorithm, in place of the scene's own",
        Flag::fixed_by_resume},
       {"parameters", "-p", "NAME=VALUE", &assignment, "integrator parameter; may be repeated",
@@ -75,22 +92,26 @@ const std::vector<Flag>& render_flags() {
        Flag::repeatable | Flag::fixed_by_resume},
       {"size", "--size", "WxH", &image_size, "image size in pixels, such as 640x360",
        Flag::fixed_by_resume},
-      {"spp", "--spp", "N", &positive, "samples (or mutations) per pixel"},
+      {"spp", "--spp", "N", &spp, "samples (or mutations) per pixel"},
       {"time", "--time", "SECONDS", &positive, "seconds to render"},
       {"error", "--error", "E", &positive, "relative error to reach, such as 0.02"},
       {"seed", "--seed", "N", &seed, "seed of all random numbers (0)", Flag::fixed_by_resume},
-      {"threads", "--threads", "N", &count, "0: as many as the machine has"},
-      {"checkpoint", "--checkpoint", "FILE", &any_text,
-       "keep the state of the render in this file"},
+      {"threads", "--threads", "N", &threads, "0: as many as the machine has"},
+      {"checkpoint", "--checkpoint", "FILE", &any_text, "keep the state of the render in this file",
+       Flag::file},
       {"every", "--every", "SECONDS", &positive, "between checkpoints (60)", 0, "checkpoint"},
+      {"overwrite", "--overwrite", "", nullptr,
+       "--checkpoint may replace the checkpoint of another render", 0, "checkpoint"},
       {"resume", "--resume", "FILE", &any_text,
        "go on from a checkpoint, in place of SCENE; it is renewed, unless --checkpoint names "
-       "another file"},
+       "another file",
+       Flag::file},
       {"cluster", "--cluster", "ADDRESS", &any_text,
        "render on a dask cluster, such as tcp://host:8786, or on local:N processes",
        Flag::python_only},
-      {"stats", "--stats", "FILE", &any_text, "write what the render tells about itself, as JSON"},
-      {"exposure", "--exposure", "STOPS", &number, "brighten PNG files by so many stops"},
+      {"stats", "--stats", "FILE", &any_text, "write what the render tells about itself, as JSON",
+       Flag::file},
+      {"exposure", "--exposure", "STOPS", &stops, "brighten PNG files by so many stops"},
       {"quiet", "--quiet", "", nullptr, "say nothing but errors"}};
   return flags;
 }
@@ -98,6 +119,23 @@ const std::vector<Flag>& render_flags() {
 FlagValue read_flag(const Flag& flag, const std::string& text) {
   if (auto value = flag.type->parse(text)) return *std::move(value);
   throw UsageError(quote(text) + " is not " + flag.type->expected);
+}
+
+void check_files(const std::map<std::string, std::vector<std::string>>& given) {
+  std::map<fs::path, std::string> seen;
+  for (const Flag& flag : render_flags()) {
+    const auto texts = given.find(flag.name);
+    if (!flag.is(Flag::file) || texts == given.end()) continue;
+    for (const std::string& text : texts->second) {
+      std::error_code error;
+      const fs::path file = fs::weakly_canonical(fs::absolute(text), error);
+      if (error || (flag.spelling[0] != '-' && !fs::exists(file, error))) continue;
+      const auto [other, is_new] = seen.try_emplace(file, first_spelling(flag));
+      if (!is_new && !(other->second == "--checkpoint" && first_spelling(flag) == "--resume"))
+        throw UsageError(text + ": " + other->second + " and " + first_spelling(flag) +
+                         " name the same file");
+    }
+  }
 }
 
 void check_flags(const std::set<std::string>& given) {

@@ -27,7 +27,8 @@ struct Flag {
     required = 1,
     repeatable = 2,
     fixed_by_resume = 4,  ///< A checkpoint says it, so it cannot be given beside --resume.
-    python_only = 8       ///< pymlt has it, mlt-render has not.
+    python_only = 8,      ///< pymlt has it, mlt-render has not.
+    file = 16             ///< Its value is the name of a file.
   };
 
   const char* name;      ///< Under which a program finds what was given.
@@ -49,6 +50,10 @@ using FlagValues = std::map<std::string, std::vector<FlagValue>>;
 
 /// What `text` means for a flag with a value. Throws UsageError.
 FlagValue read_flag(const Flag& flag, const std::string& text);
+
+/// Throws UsageError if two flags with Flag::file, with these texts, name one file. A render that is
+/// resumed may renew its checkpoint.
+void check_files(const std::map<std::string, std::vector<std::string>>& given);
 
 /// Throws UsageError if the flags with these names, and no others, make no sense together. With
 /// --resume the checkpoint says what is rendered: only budgets, threads, outputs and the place of

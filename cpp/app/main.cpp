@@ -1,11 +1,14 @@
 // mlt-render: the flags of `pymlt render`, without Python on the machine.
 //
-// Exit codes: 0 done; 2 a mistake in usage or in the scene, or an output that cannot be written;
-// 3 the render failed; 130 and 143 interrupted by SIGINT or SIGTERM, with what was rendered saved.
+// Exit codes: 0 done; 2 a mistake in usage or in the scene, or an output that cannot be written,
+// found before the work began; 3 the render failed, or an output at its end is not where it was
+// asked for; 129, 130 and 143 interrupted by SIGHUP, SIGINT or SIGTERM, with what was rendered saved.
 
+#include "app/built_in_scenes.h"
 #include "app/flags.h"
 #include "app/options.h"
 #include "app/progress_line.h"
+#include "app/streams.h"
 #include "image/atomic_file.h"
 #include "mlt_version.h"
 #include "render/checkpoint.h"
@@ -27,6 +30,14 @@ volatile std::sig_atomic_t something_to_save = 0;
 void on_signal(int signal) {
   if (!something_to_save) _exit(128 + signal);
   caught_signal = signal;
+}
+
+/// A program started by nohup goes on without its terminal.
+void catch_signals() {
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+  if (std::signal(SIGHUP, on_signal) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
+  for (const int broken_output : {SIGPIPE, SIGXFSZ}) std::signal(broken_output, SIG_IGN);
 }
 
 FlagValue read(const Flag& flag, const std::string& text) {
@@ -75,103 +86,116 @@ Options parse(int argc, char** argv) {
   return read_options(given);
 }
 
-/// Renders until the budget is used up or a signal arrives; returns the signal, or 0.
-int render(Job& job, bool quiet) {
+/// Renders until the budget is used up, a signal arrives, or it fails; returns what went wrong.
+std::exception_ptr render(Job& job, bool quiet) {
   ProgressLine line(quiet);
   something_to_save = 1;
-  job.start();
-  while (!job.wait(0.1)) {
-    if (caught_signal) job.cancel();
-    line.update(job.progress(), job.spp_done());
+  try {
+    job.start();
+    while (!job.wait(0.1)) {
+      if (caught_signal) job.cancel();
+      line.update(job.progress(), job.spp_done());
+    }
+    return nullptr;
+  } catch (const RenderError&) {
+    return std::current_exception();
   }
-  return caught_signal;
 }
 
-/// Every output is tried, and elsewhere if it fails, before any error is reported.
-void save(const Options& options, const RenderedImage& render, const Stats& stats,
-          WriteOptions write) {
+/// Every output is tried, and elsewhere if it fails; what could not be had is said.
+struct Outputs {
+  std::vector<std::string> images;  ///< Where they are.
+  bool complete = true;             ///< Everything is where it was asked for.
+
+  void add(const Saved& saved) {
+    if (saved.problem.empty()) return;
+    say("{}", saved.problem);
+    complete = false;
+  }
+};
+
+Outputs save(const Options& options, const RenderedImage& render, const Stats& stats,
+             WriteOptions write) {
   write.exposure = options.exposure;
-  std::exception_ptr failure;
-  const auto attempt = [&](const std::string& path, const auto& save_as) {
-    try {
-      const std::string written = save_as();
-      if (written != path)
-        fmt::print(stderr, "mlt-render: {} could not be written; it is saved as {}\n", path,
-                   written);
-    } catch (const FileError&) {
-      if (!failure) failure = std::current_exception();
-    }
-  };
-  for (const std::string& path : options.outputs)
-    attempt(path, [&] { return save_render(path, render, write); });
-  if (!options.stats.empty())
-    attempt(options.stats, [&] { return save_text(options.stats, to_json(stats)); });
-  if (failure) std::rethrow_exception(failure);
+  Outputs outputs;
+  for (const std::string& path : options.outputs) {
+    const Saved saved = save_render(path, render, write);
+    outputs.add(saved);
+    if (!saved.path.empty()) outputs.images.push_back(saved.path);
+  }
+  if (!options.stats.empty()) outputs.add(save_text(options.stats, to_json(stats)));
+  return outputs;
 }
 
 /// All but the first `known` warnings.
 void print_warnings(const Stats& stats, size_t known = 0) {
-  for (size_t i = known; i < stats.warnings.size(); ++i)
-    fmt::print(stderr, "mlt-render: warning: {}\n", stats.warnings[i]);
+  for (size_t i = known; i < stats.warnings.size(); ++i) say("warning: {}", stats.warnings[i]);
 }
 
 int run(Options options) {
   for (const std::string& path : options.outputs) check_writable(path);
   if (!options.stats.empty()) check_file_writable(options.stats);
+  if (!options.scene.empty()) options.scene = scene_file(options.scene);
   std::optional<Checkpoint> saved;
   if (!options.resume.empty()) {
     saved = read_checkpoint(options.resume);
     options.render.seed = saved->seed;
-    if (options.checkpoint.empty()) options.checkpoint = options.resume;
   }
-  if (!options.checkpoint.empty()) check_checkpoint_writable(options.checkpoint);
+  if (!options.checkpoint.path.empty()) check_checkpoint_writable(options.checkpoint.path);
   const LoadedScene loaded = saved ? load_scene(*saved, options.resume, options.scene, plugins())
                                    : load_file(options.scene, plugins(), options.load);
   const MadeIntegrator made = make_integrator(
       saved ? saved->integrator
             : choose_integrator(loaded, options.integrator, options.parameters, plugins()),
       plugins());
-  if (!options.checkpoint.empty())
-    options.render.autosave = autosave_to(options.checkpoint, options.render.autosave.every,
-                                          checkpoint_of(loaded, made, options.render.seed));
+  if (!options.checkpoint.path.empty())
+    options.render.autosave =
+        autosave_to(options.checkpoint, checkpoint_of(loaded, made, options.render.seed));
   Job job(loaded.scene, made.integrator, options.render);
   if (saved) resume(job, *saved, options.resume);
   saved.reset();
   const size_t known = render_stats(job, loaded, made).warnings.size();
   if (!options.quiet) print_warnings(render_stats(job, loaded, made));
 
-  const int signal = render(job, options.quiet);
+  const std::exception_ptr failure = render(job, options.quiet);
+  const int signal = caught_signal;
   const Stats stats = render_stats(job, loaded, made);
+  if (failure && stats.spp_done == 0) std::rethrow_exception(failure);
   if (!options.quiet) print_warnings(stats, known);
   if (signal && stats.spp_done == 0) {
-    fmt::print(stderr, "mlt-render: interrupted before the first sample; nothing to save\n");
+    say("interrupted before the first sample; nothing to save");
     return 128 + signal;
   }
   WriteOptions write;
   write.half = loaded.scene->film().half_precision;
   write.metadata = render_metadata(stats, loaded, made);
-  save(options, {job.image(), job.layers()}, stats, write);
+  const Outputs outputs = save(options, {job.image(), job.layers()}, stats, write);
+  if (failure) std::rethrow_exception(failure);
   if (!options.quiet)
-    fmt::print(stderr, "mlt-render: {}{} x {}, {:.4g} spp in {:.1f} s: {}\n",
-               signal ? "interrupted; " : "", stats.width, stats.height, stats.spp_done,
-               stats.seconds_bootstrap + stats.seconds_render, fmt::join(options.outputs, ", "));
+    say("{}{} x {}, {:.4g} spp in {:.1f} s: {}", signal ? "interrupted; " : "", stats.width,
+        stats.height, stats.spp_done, stats.seconds_bootstrap + stats.seconds_render,
+        outputs.images.empty() ? "no image could be saved"
+                               : fmt::format("{}", fmt::join(outputs.images, ", ")));
+  if (!outputs.complete) return 3;
   return signal ? 128 + signal : 0;
 }
 
 int fail(int code, const std::string& message) {
-  fmt::print(stderr, "mlt-render: {}\n", message);
+  say("{}", message);
   return code;
 }
 
 int main(int argc, char** argv) {
-  std::signal(SIGINT, on_signal);
-  std::signal(SIGTERM, on_signal);
+  open_standard_streams();
+  catch_signals();
   try {
     return run(parse(argc, argv));
   } catch (const RenderError& error) {
     return fail(3, error.what());
   } catch (const Error& error) {
     return fail(2, error.what());
+  } catch (const std::bad_alloc&) {
+    return fail(3, "there is not memory enough");
   } catch (const std::exception& error) {
     return fail(3, error.what());
   }

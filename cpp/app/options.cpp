@@ -17,6 +17,13 @@ void take(const FlagValues& given, const char* flag, Target& target) {
   for (const T& value : all<T>(given, flag)) target = static_cast<Target>(value);
 }
 
+std::map<std::string, std::vector<std::string>> files_of(const FlagValues& given) {
+  std::map<std::string, std::vector<std::string>> files;
+  for (const Flag& flag : render_flags())
+    if (flag.is(Flag::file)) files[flag.name] = all<std::string>(given, flag.name);
+  return files;
+}
+
 }  // namespace
 
 Options read_options(const FlagValues& given) {
@@ -39,11 +46,14 @@ Options read_options(const FlagValues& given) {
   take<double>(given, "error", render.budget.error);
   take<uint64_t>(given, "seed", render.seed);
   take<uint64_t>(given, "threads", render.threads);
-  take<double>(given, "every", render.autosave.every);
-  text("checkpoint", options.checkpoint);
+  text("checkpoint", options.checkpoint.path);
+  take<double>(given, "every", options.checkpoint.every);
+  options.checkpoint.overwrite = given.count("overwrite") > 0;
   text("resume", options.resume);
+  if (options.checkpoint.path.empty()) options.checkpoint.path = options.resume;
   take<double>(given, "exposure", options.exposure);
   options.quiet = given.count("quiet") > 0;
+  check_files(files_of(given));
   return options;
 }
 

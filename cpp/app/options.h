@@ -3,6 +3,7 @@
 
 #include "app/flags.h"
 #include "io/load.h"
+#include "render/checkpoint.h"
 #include "render/job.h"
 #include "render/make_integrator.h"
 
@@ -19,12 +20,13 @@ struct Options {
   Assignments parameters;
   LoadOptions load;
   RenderSettings render;
-  std::string checkpoint;  ///< A file to be renewed while it renders, or "".
-  std::string resume;      ///< A file to go on from, or "".
+  CheckpointFile checkpoint;  ///< To be renewed while it renders, or with the path "".
+  std::string resume;         ///< A file to go on from, or "".
   double exposure = 0;
   bool quiet = false;
 };
 
+/// Throws UsageError if two flags name one file.
 Options read_options(const FlagValues& given);
 
 }  // namespace mlt

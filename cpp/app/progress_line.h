@@ -1,11 +1,12 @@
 // One line on a terminal that is written over and over: " 42 % |████      | 12.5 spp, 3.1 s".
 #pragma once
 
+#include "app/streams.h"
+
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <chrono>
-#include <cstdio>
 #include <string>
 
 namespace mlt {
@@ -21,14 +22,13 @@ class ProgressLine {
     const int filled = static_cast<int>(progress * width);
     std::string bar;
     for (int i = 0; i < width; ++i) bar += i < filled ? "█" : " ";
-    fmt::print(stderr, "\r{:3.0f} % |{}| {:.4g} spp, {:.1f} s\x1b[K", 100 * progress, bar, spp,
-               elapsed.count());
-    std::fflush(stderr);
+    write_to_stderr(fmt::format("\r{:3.0f} % |{}| {:.4g} spp, {:.1f} s\x1b[K", 100 * progress, bar,
+                                spp, elapsed.count()));
     dirty_ = true;
   }
 
   void clear() {
-    if (dirty_) fmt::print(stderr, "\r\x1b[K");
+    if (dirty_) write_to_stderr("\r\x1b[K");
     dirty_ = false;
   }
 

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <system_error>
+#include <utility>
 
 #include "base/error.h"
 
@@ -20,79 +21,79 @@ namespace fs = std::filesystem;
   throw FileError(path + ": " + what + ": " + std::strerror(error));
 }
 
-/// A new file in the folder of its target: moved there by commit(), removed otherwise.
-class Partial {
- public:
-  explicit Partial(const std::string& path) : path_(path), target_(resolve(path)) {
-    const fs::path folder = target_.has_parent_path() ? target_.parent_path() : fs::path(".");
-    if (!fs::is_directory(folder))
-      throw FileError(path + ": cannot write it: there is no folder '" + folder.string() + "'");
-    const std::string stem = ".partial-" + std::to_string(::getpid()) + "-";
-    for (int attempt = 0; file_ < 0 && attempt < 1000; ++attempt) {
-      name_ = (folder / (stem + std::to_string(attempt))).string();
-      file_ = ::open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-      if (file_ < 0 && errno != EEXIST) break;
-    }
-    if (file_ < 0) fail(path, "cannot write into folder '" + folder.string() + "'", errno);
+/// The file that `path` means: links are followed, and what is there must be replaceable.
+fs::path resolve(const std::string& path) {
+  if (path.empty()) throw FileError("cannot write a file whose name is empty");
+  std::error_code error;
+  const fs::file_status link = fs::symlink_status(path, error);
+  if (link.type() == fs::file_type::not_found) {
+    if (path.back() == '/') throw FileError(path + ": cannot write it: it names a folder");
+    return path;
   }
-
-  ~Partial() {
-    if (file_ >= 0) ::close(file_);
-    if (!committed_) ::unlink(name_.c_str());
-  }
-  Partial(const Partial&) = delete;
-  Partial& operator=(const Partial&) = delete;
-
-  void write(std::string_view bytes) {
-    while (!bytes.empty()) {
-      const ssize_t count = ::write(file_, bytes.data(), bytes.size());
-      if (count < 0 && errno == EINTR) continue;
-      if (count < 0) fail(path_, "cannot write it", errno);
-      bytes.remove_prefix(static_cast<size_t>(count));
-    }
-  }
-
-  void commit() {
-    if (::fsync(file_) != 0 && errno != EINVAL && errno != EROFS)
-      fail(path_, "cannot write it", errno);
-    const int closed = ::close(file_);
-    file_ = -1;
-    if (closed != 0) fail(path_, "cannot write it", errno);
-    if (::rename(name_.c_str(), target_.c_str()) != 0) fail(path_, "cannot write it", errno);
-    committed_ = true;
-  }
-
- private:
-  /// The file that `path` means: links are followed, and what is there must be replaceable.
-  static fs::path resolve(const std::string& path) {
-    if (path.empty()) throw FileError("cannot write a file whose name is empty");
-    std::error_code error;
-    const fs::file_status link = fs::symlink_status(path, error);
-    if (link.type() == fs::file_type::not_found) {
-      if (path.back() == '/') throw FileError(path + ": cannot write it: it names a folder");
-      return path;
-    }
-    if (error) fail(path, "cannot write it", error.value());
-    const fs::file_status status = fs::status(path, error);
-    if (status.type() == fs::file_type::directory)
-      throw FileError(path + ": cannot write it: it is a folder");
-    if (status.type() == fs::file_type::not_found)
-      throw FileError(path + ": cannot write it: it is a link that leads nowhere");
-    if (status.type() != fs::file_type::regular)
-      throw FileError(path + ": cannot write it: it exists and is not a regular file");
-    if (::access(path.c_str(), W_OK) != 0) fail(path, "cannot replace it", errno);
-    const fs::path target = fs::canonical(path, error);
-    if (error) fail(path, "cannot write it", error.value());
-    return target;
-  }
-
-  std::string path_, name_;
-  fs::path target_;
-  int file_ = -1;
-  bool committed_ = false;
-};
+  if (error) mlt::fail(path, "cannot write it", error.value());
+  const fs::file_status status = fs::status(path, error);
+  if (status.type() == fs::file_type::directory)
+    throw FileError(path + ": cannot write it: it is a folder");
+  if (status.type() == fs::file_type::not_found)
+    throw FileError(path + ": cannot write it: it is a link that leads nowhere");
+  if (status.type() != fs::file_type::regular)
+    throw FileError(path + ": cannot write it: it exists and is not a regular file");
+  if (::access(path.c_str(), W_OK) != 0) mlt::fail(path, "cannot replace it", errno);
+  const fs::path target = fs::canonical(path, error);
+  if (error) mlt::fail(path, "cannot write it", error.value());
+  return target;
+}
 
 }  // namespace
+
+AtomicFile::AtomicFile(const std::string& path) : path_(path), target_(resolve(path)) {
+  const fs::path folder = target_.has_parent_path() ? target_.parent_path() : fs::path(".");
+  if (!fs::is_directory(folder))
+    throw FileError(path + ": cannot write it: there is no folder '" + folder.string() + "'");
+  const std::string stem = ".partial-" + std::to_string(::getpid()) + "-";
+  int file = -1;
+  for (int attempt = 0; file < 0 && attempt < 1000; ++attempt) {
+    name_ = (folder / (stem + std::to_string(attempt))).string();
+    file = ::open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (file < 0 && errno != EEXIST) break;
+  }
+  if (file < 0) mlt::fail(path, "cannot write into folder '" + folder.string() + "'", errno);
+  file_ = ::fdopen(file, "wb");
+  if (!file_) {
+    ::close(file);
+    ::unlink(name_.c_str());
+    fail();
+  }
+}
+
+AtomicFile::~AtomicFile() {
+  if (file_) std::fclose(file_);
+  if (!name_.empty()) ::unlink(name_.c_str());
+}
+
+void AtomicFile::fail() const { mlt::fail(path_, "cannot write it", errno); }
+
+void AtomicFile::write(std::string_view bytes) {
+  if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) fail();
+}
+
+void AtomicFile::seek(uint64_t position) {
+  if (::fseeko(file_, static_cast<off_t>(position), SEEK_SET) != 0) fail();
+}
+
+uint64_t AtomicFile::position() {
+  const off_t position = ::ftello(file_);
+  if (position < 0) fail();
+  return static_cast<uint64_t>(position);
+}
+
+void AtomicFile::commit() {
+  if (std::fflush(file_) != 0) fail();
+  if (::fsync(::fileno(file_)) != 0 && errno != EINVAL && errno != EROFS) fail();
+  if (std::fclose(std::exchange(file_, nullptr)) != 0) fail();
+  if (::rename(name_.c_str(), target_.c_str()) != 0) fail();
+  name_.clear();
+}
 
 std::string read_file(const std::string& path) {
   std::error_code error;
@@ -114,12 +115,31 @@ std::string read_file(const std::string& path) {
   return bytes;
 }
 
+bool is_stream(const std::string& path) {
+  std::error_code error;
+  const fs::file_type type = fs::status(path, error).type();
+  return type == fs::file_type::fifo || type == fs::file_type::character ||
+         type == fs::file_type::socket;
+}
+
+std::string read_stream(const std::string& path) {
+  constexpr size_t most = size_t{1} << 30;
+  std::ifstream file(path, std::ios::binary);
+  if (!file) fail(path, "cannot read it", errno);
+  std::string bytes;
+  for (char block[65536]; file.read(block, sizeof block), file.gcount() > 0;) {
+    bytes.append(block, static_cast<size_t>(file.gcount()));
+    if (bytes.size() > most) throw FileError(path + ": cannot read it: it does not end");
+  }
+  return bytes;
+}
+
 void write_file(const std::string& path, std::string_view bytes) {
-  Partial file(path);
+  AtomicFile file(path);
   file.write(bytes);
   file.commit();
 }
 
-void check_file_writable(const std::string& path) { Partial probe(path); }
+void check_file_writable(const std::string& path) { AtomicFile probe(path); }
 
 }  // namespace mlt

@@ -2,13 +2,45 @@
 // incomplete file is ever visible, and an older file stays until the new one is complete.
 #pragma once
 
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
 #include <string>
 #include <string_view>
 
 namespace mlt {
 
+/// A file while it is written: a new one in the folder of its target, moved there by commit() and
+/// removed otherwise. Everything throws FileError.
+class AtomicFile {
+ public:
+  explicit AtomicFile(const std::string& path);
+  ~AtomicFile();
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+
+  void write(std::string_view bytes);
+  void seek(uint64_t position);
+  uint64_t position();
+  void commit();
+
+ private:
+  [[noreturn]] void fail() const;
+
+  std::string path_, name_;
+  std::filesystem::path target_;
+  std::FILE* file_ = nullptr;
+};
+
 /// The bytes of a regular file; a FileError if it cannot be read.
 std::string read_file(const std::string& path);
+
+/// A pipe, a terminal or the like, such as /dev/stdin.
+bool is_stream(const std::string& path);
+
+/// What comes out of it up to its end; a FileError if it cannot be read, or if that is more than
+/// 1 GiB.
+std::string read_stream(const std::string& path);
 
 /// Replaces `path` by these bytes, at once or not at all; a FileError if it cannot.
 void write_file(const std::string& path, std::string_view bytes);

@@ -1,5 +1,5 @@
-// OpenEXR: linear floats, any number of named layers, and text attributes in the header. Files are
-// read from and written to memory, so that a file's bytes depend on nothing but its content.
+// OpenEXR: linear floats, any number of named layers, and text attributes in the header. A file's
+// bytes depend on nothing but its content.
 #pragma once
 
 #include <string>
@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "image/atomic_file.h"
 #include "image/image.h"
 
 namespace mlt {
@@ -26,6 +27,10 @@ struct ExrLayer {
 /// The bytes of a scanline file, ZIP-compressed, with nothing in it that was not passed in. Halfs
 /// are clamped to their finite range. A UsageError if layers do not fit together.
 std::string encode_exr(const std::vector<ExrLayer>& layers, bool half, const Metadata& metadata);
+
+/// The same into a file, by a few rows at a time.
+void encode_exr(AtomicFile& file, const std::vector<ExrLayer>& layers, bool half,
+                const Metadata& metadata);
 
 /// The named layer of the first part; with "" the colour of the file: R, G, B (A), else Y (A), else
 /// a single channel, else the first layer (by name) that has these. Deep data and subsampled

@@ -35,6 +35,20 @@ class MemoryOutput : public Imf::OStream {
   size_t position_ = 0;
 };
 
+class FileOutput : public Imf::OStream {
+ public:
+  explicit FileOutput(AtomicFile& file) : Imf::OStream("file"), file_(file) {}
+
+  void write(const char* source, int count) override {
+    file_.write({source, static_cast<size_t>(count)});
+  }
+  uint64_t tellp() override { return file_.position(); }
+  void seekp(uint64_t position) override { file_.seek(position); }
+
+ private:
+  AtomicFile& file_;
+};
+
 std::vector<std::string> channel_names(const ExrLayer& layer) {
   static const char* const defaults[] = {"Y", "YA", "RGB", "RGBA"};
   const int count = layer.image.channels;
@@ -81,46 +95,86 @@ void check_layers(const std::vector<ExrLayer>& layers) {
   }
 }
 
-}  // namespace
+/// The channels of all layers, as samples of the file's type for some rows at a time.
+class Rows {
+ public:
+  static constexpr int most = 16;  ///< As many as ZIP compresses together.
 
-std::string encode_exr(const std::vector<ExrLayer>& layers, bool half_floats,
-                       const Metadata& metadata) {
+  Rows(const std::vector<ExrLayer>& layers, bool halfs) : layers_(layers), halfs_(halfs) {
+    if (!halfs) return;
+    for (const ExrLayer& layer : layers)
+      buffers_.emplace_back(static_cast<size_t>(most) * row_size(layer));
+  }
+
+  Imf::PixelType type() const { return halfs_ ? Imf::HALF : Imf::FLOAT; }
+
+  /// Where `count` rows from y on are found.
+  Imf::FrameBuffer frame(int y, int count) {
+    const size_t sample = halfs_ ? sizeof(half) : sizeof(float);
+    Imf::FrameBuffer frame;
+    for (size_t l = 0; l < layers_.size(); ++l) {
+      const Image& image = layers_[l].image;
+      const size_t row = row_size(layers_[l]), first = row * static_cast<size_t>(y);
+      const char* base = reinterpret_cast<const char*>(image.data.data());
+      if (halfs_) {
+        const auto from = image.data.begin() + static_cast<std::ptrdiff_t>(first);
+        std::transform(from, from + static_cast<std::ptrdiff_t>(row) * count, buffers_[l].begin(),
+                       to_half);
+        base = reinterpret_cast<const char*>(buffers_[l].data()) - sample * first;
+      }
+      for (const std::string& name : channel_names(layers_[l])) {
+        frame.insert(name, Imf::Slice(type(), const_cast<char*>(base),
+                                      sample * static_cast<size_t>(image.channels), sample * row));
+        base += sample;
+      }
+    }
+    return frame;
+  }
+
+ private:
+  static size_t row_size(const ExrLayer& layer) {
+    return static_cast<size_t>(layer.image.width) * static_cast<size_t>(layer.image.channels);
+  }
+
+  const std::vector<ExrLayer>& layers_;
+  bool halfs_;
+  std::vector<std::vector<half>> buffers_;
+};
+
+void encode(Imf::OStream& stream, const std::vector<ExrLayer>& layers, bool halfs,
+            const Metadata& metadata) {
   check_layers(layers);
   const int width = layers.front().image.width, height = layers.front().image.height;
+  Rows rows(layers, halfs);
   Imf::Header header(width, height);
   header.compression() = Imf::ZIP_COMPRESSION;
   insert_metadata(metadata, &header);
-
-  const Imf::PixelType type = half_floats ? Imf::HALF : Imf::FLOAT;
-  const size_t sample_size = half_floats ? sizeof(half) : sizeof(float);
-  Imf::FrameBuffer frame;
-  std::vector<std::vector<half>> halfs(layers.size());
-  for (size_t l = 0; l < layers.size(); ++l) {
-    const Image& image = layers[l].image;
-    const char* base = reinterpret_cast<const char*>(image.data.data());
-    if (half_floats) {
-      halfs[l].resize(image.data.size());
-      std::transform(image.data.begin(), image.data.end(), halfs[l].begin(), to_half);
-      base = reinterpret_cast<const char*>(halfs[l].data());
-    }
-    const size_t stride = sample_size * static_cast<size_t>(image.channels);
-    for (const std::string& name : channel_names(layers[l])) {
+  for (const ExrLayer& layer : layers)
+    for (const std::string& name : channel_names(layer)) {
       if (header.channels().findChannel(name))
         throw UsageError("EXR channel '" + name + "' is written twice");
-      header.channels().insert(name, Imf::Channel(type));
-      frame.insert(name, Imf::Slice(type, const_cast<char*>(base), stride,
-                                    stride * static_cast<size_t>(width)));
-      base += sample_size;
+      header.channels().insert(name, Imf::Channel(rows.type()));
     }
+  Imf::OutputFile file(stream, header, 0);
+  for (int y = 0; y < height; y += Rows::most) {
+    const int count = std::min(Rows::most, height - y);
+    file.setFrameBuffer(rows.frame(y, count));
+    file.writePixels(count);
   }
+}
 
+}  // namespace
+
+std::string encode_exr(const std::vector<ExrLayer>& layers, bool half, const Metadata& metadata) {
   MemoryOutput stream;
-  {
-    Imf::OutputFile file(stream, header, 0);
-    file.setFrameBuffer(frame);
-    file.writePixels(height);
-  }
+  encode(stream, layers, half, metadata);
   return std::move(stream.bytes);
+}
+
+void encode_exr(AtomicFile& file, const std::vector<ExrLayer>& layers, bool half,
+                const Metadata& metadata) {
+  FileOutput stream(file);
+  encode(stream, layers, half, metadata);
 }
 
 }  // namespace mlt

@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "image/atomic_file.h"
+#include "image/jpeg_format.h"
+#include "image/png_format.h"
 #include "image/srgb.h"
 #include "image/stb_formats.h"
 
@@ -23,17 +25,49 @@ bool starts_with(std::string_view bytes, std::string_view magic) {
   return bytes.substr(0, magic.size()) == magic;
 }
 
-StbFormat stb_format(std::string_view bytes, const std::string& name) {
-  if (starts_with(bytes, "\x89PNG\r\n\x1a\n")) return StbFormat::png;
-  if (starts_with(bytes, "\xff\xd8\xff")) return StbFormat::jpeg;
-  if (starts_with(bytes, "#?RADIANCE\n") || starts_with(bytes, "#?RGBE\n")) return StbFormat::hdr;
+/// TGA has no magic number, so every field of its header that can be wrong is looked at, and the
+/// footer of version 2 (Truevision TGA File Format Specification 2.0, fields 2 to 5).
+bool is_tga(std::string_view bytes) {
+  constexpr std::string_view footer("TRUEVISION-XFILE.\0", 18);
+  if (bytes.size() < 18) return false;
+  if (bytes.substr(bytes.size() - footer.size()) == footer) return true;
+  const auto byte = [&](size_t i) { return static_cast<unsigned char>(bytes[i]); };
+  const int map = byte(1), type = byte(2), map_bits = byte(7), bits = byte(16);
+  const bool mapped = type == 1 || type == 9, grey = type == 3 || type == 11;
+  const bool color = type == 2 || type == 10;
+  const auto is_one_of = [](int n, std::initializer_list<int> known) {
+    return std::find(known.begin(), known.end(), n) != known.end();
+  };
+  if (mapped ? map != 1 || !is_one_of(map_bits, {15, 16, 24, 32}) : map > 1) return false;
+  if (mapped || grey) return is_one_of(bits, {8, 16});
+  return color && is_one_of(bits, {15, 16, 24, 32});
+}
+
+enum class Format { exr, png, jpeg, hdr, bmp, tga, unknown };
+
+Format format_of(std::string_view bytes) {
+  if (starts_with(bytes, "\x76\x2f\x31\x01")) return Format::exr;
+  if (starts_with(bytes, "\x89PNG\r\n\x1a\n")) return Format::png;
+  if (starts_with(bytes, "\xff\xd8\xff")) return Format::jpeg;
+  if (starts_with(bytes, "#?RADIANCE\n") || starts_with(bytes, "#?RGBE\n")) return Format::hdr;
   // "BM" could begin a TGA as well: its image ID would be 66 bytes long, of a colour-mapped
   // type 77.
-  if (starts_with(bytes, "BM")) return StbFormat::bmp;
-  if (extension_of(name) == ".tga") return StbFormat::tga;
-  throw FileError(name + (bytes.empty() ? ": the file is empty"
-                                        : ": this is no image in a known format; use EXR, PNG, "
-                                          "JPEG, HDR, TGA or BMP"));
+  if (starts_with(bytes, "BM")) return Format::bmp;
+  return is_tga(bytes) ? Format::tga : Format::unknown;
+}
+
+DecodedImage decode(std::string_view bytes, Format format, const std::string& name) {
+  switch (format) {
+    case Format::png: return decode_png(bytes, name);
+    case Format::jpeg: return decode_jpeg(bytes, name);
+    case Format::hdr: return decode_stb(bytes, StbFormat::hdr, name);
+    case Format::bmp: return decode_stb(bytes, StbFormat::bmp, name);
+    case Format::tga: return decode_stb(bytes, StbFormat::tga, name);
+    default:
+      throw FileError(name + (bytes.empty() ? ": the file is empty"
+                                            : ": this is no image in a known format; use EXR, PNG, "
+                                              "JPEG, HDR, TGA or BMP"));
+  }
 }
 
 /// floor(255 v + 1/2) of the encoded sample; NaN becomes 0.
@@ -65,13 +99,13 @@ Target target_of(const std::string& path) {
 ReadImage read_image_memory(std::string_view bytes, const std::string& name,
                             const std::string& layer) {
   ReadImage read;
-  if (starts_with(bytes, "\x76\x2f\x31\x01")) {
+  const Format format = format_of(bytes);
+  if (format == Format::exr) {
     read.image = decode_exr(bytes, name, layer);
   } else {
-    const StbFormat format = stb_format(bytes, name);
+    DecodedImage decoded = decode(bytes, format, name);
     if (!layer.empty())
       throw FileError(name + ": has no layer '" + layer + "'; only EXR files have layers");
-    StbImage decoded = decode_stb(bytes, format, name);
     read.image = std::move(decoded.image);
     read.bits = decoded.bits;
     read.srgb_encoded = decoded.bits < 32;
@@ -82,6 +116,10 @@ ReadImage read_image_memory(std::string_view bytes, const std::string& name,
 
 ReadImage read_image(const std::string& path, const std::string& layer) {
   return read_image_memory(read_file(path), path, layer);
+}
+
+bool is_known_image(const std::string& path) {
+  return format_of(read_file(path)) != Format::unknown;
 }
 
 Image linear_image(ReadImage read) {
@@ -105,7 +143,9 @@ Metadata read_exr_metadata(const std::string& path) {
 
 void write_exr(const std::string& path, const std::vector<ExrLayer>& layers,
                const WriteOptions& options) {
-  write_file(path, encode_exr(layers, options.half, options.metadata));
+  AtomicFile file(path);
+  encode_exr(file, layers, options.half, options.metadata);
+  file.commit();
 }
 
 void write_exr(const std::string& path, const Image& image, const WriteOptions& options) {
@@ -114,15 +154,21 @@ void write_exr(const std::string& path, const Image& image, const WriteOptions& 
 
 void write_png(const std::string& path, const Image& image, double exposure) {
   check_channels(path, image);
+  if (!(std::abs(exposure) <= max_exposure))
+    throw UsageError(fmt::format("exposure is {}, but should lie between -128 and 128", exposure));
   const double scale = std::exp2(exposure);
   const size_t channels = static_cast<size_t>(image.channels);
   const size_t colours = channels - (channels % 2 == 0 ? 1 : 0);
-  std::vector<unsigned char> samples(image.data.size());
-  for (size_t i = 0; i < samples.size(); ++i) {
-    const double v = image.data[i];
-    samples[i] = to_byte(i % channels < colours ? linear_to_srgb(scale * v) : v);
-  }
-  write_file(path, encode_png(samples, image.width, image.height, image.channels));
+  const size_t row = channels * static_cast<size_t>(image.width);
+  std::vector<unsigned char> samples(row);
+  AtomicFile file(path);
+  encode_png(file, image.width, image.height, image.channels, [&](int y) {
+    const float* from = &image.data[static_cast<size_t>(y) * row];
+    for (size_t i = 0; i < row; ++i)
+      samples[i] = to_byte(i % channels < colours ? linear_to_srgb(scale * from[i]) : from[i]);
+    return samples.data();
+  });
+  file.commit();
 }
 
 void write_hdr(const std::string& path, const Image& image) {

@@ -23,15 +23,21 @@ struct ReadImage {
 /// the file. EXR samples may be NaN or infinite, as in the file.
 ReadImage read_image(const std::string& path, const std::string& layer = "");
 
-/// The same for the bytes of a file; `name` is for messages, and its extension tells TGA.
+/// The same for the bytes of a file; `name` is for messages.
 ReadImage read_image_memory(std::string_view bytes, const std::string& name,
                             const std::string& layer = "");
+
+/// Whether the content of a file begins as one of these formats does. Throws FileError.
+bool is_known_image(const std::string& path);
 
 /// The image in linear light, decoded if it was encoded.
 Image linear_image(ReadImage read);
 
 /// The text attributes of an EXR file, sorted by name.
 Metadata read_exr_metadata(const std::string& path);
+
+/// Stops by which an image may be brightened or darkened.
+constexpr double max_exposure = 128;
 
 struct WriteOptions {
   bool half = false;    // EXR: 16-bit samples

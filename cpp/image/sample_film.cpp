@@ -68,6 +68,12 @@ PixelRect SampleFilm::reach_of(const PixelRect& cells) const {
           std::min(width_, cells.x1 + border_), std::min(height_, cells.y1 + border_)};
 }
 
+size_t SampleFilm::bytes_per_group() const {
+  size_t samples = 0;
+  for (const Strand& strand : groups_.front()->strands) samples += strand.size();
+  return samples * sizeof(float) * (splats_ ? 2 : 1);
+}
+
 SampleFilm::Tile SampleFilm::begin(int tile) const {
   const PixelRect cells = cells_of(tile);
   return Tile(cells, reach_of(cells), *filter_);

@@ -60,6 +60,8 @@ class SampleFilm {
   int tile_count() const { return tiles_x_ * tiles_y_; }
   int group_count() const { return static_cast<int>(groups_.size()); }
   bool has_splats() const { return splats_; }
+  /// Of memory that a group takes once all its places have samples.
+  size_t bytes_per_group() const;
   Tile begin(int tile) const;
 
   /// Hands in the tile that is the `order`-th of its group (0, 1, 2, ... without gaps). It is added

@@ -6,8 +6,6 @@
 #include <memory>
 #include <stdexcept>
 
-#include "image/validate.h"
-
 // A failed assertion inside stb is a bad file, not a reason to abort; memory that a short file
 // leaves unwritten is zero, not whatever was there.
 #define STBI_ASSERT(x) ((x) ? void() : throw std::runtime_error("it is corrupt"))
@@ -16,8 +14,6 @@
 #define STBI_FREE(pointer) std::free(pointer)
 #define STB_IMAGE_STATIC
 #define STB_IMAGE_IMPLEMENTATION
-#define STBI_ONLY_PNG
-#define STBI_ONLY_JPEG
 #define STBI_ONLY_BMP
 #define STBI_ONLY_TGA
 #define STBI_ONLY_HDR
@@ -86,16 +82,6 @@ struct Free {
   void operator()(void* pointer) const { std::free(pointer); }
 };
 
-/// Refuses a size for which the file is not large enough. Per byte of file, deflate holds at
-/// most 8 * 1032 one-bit pixels; a progressive JPEG 8 blocks of 64; the others far fewer.
-void check_size(int width, int height, StbFormat format, size_t file_size) {
-  const int64_t pixels = int64_t{width} * height;
-  const int64_t per_byte = format == StbFormat::png ? 8 * 1032 : 1024;
-  if (width <= 0 || height <= 0) throw std::runtime_error("its header says that it has no pixels");
-  if (pixels > max_image_pixels || pixels / per_byte > static_cast<int64_t>(file_size))
-    throw std::runtime_error(too_many_pixels(width, height));
-}
-
 template <class Sample>
 void copy_samples(const Sample* samples, double scale, std::vector<float>* data) {
   for (size_t i = 0; i < data->size(); ++i)
@@ -108,38 +94,28 @@ void copy_samples(const Sample* samples, double scale, std::vector<float>* data)
                            "'");
 }
 
-StbImage decode(std::string_view bytes, StbFormat format) {
-  if (format == StbFormat::png) check_png_chunks(bytes);
-  if (format == StbFormat::jpeg) check_jpeg_tables(bytes);
+DecodedImage decode(std::string_view bytes, StbFormat format) {
   const stbi_io_callbacks callbacks = Reader::callbacks();
   int width = 0, height = 0, channels = 0;
   Reader info_reader(bytes);
   if (!stbi_info_from_callbacks(&callbacks, &info_reader, &width, &height, &channels))
     fail_as_stb();
-  check_size(width, height, format, bytes.size());
+  constexpr int64_t per_byte = 1024;  // more than any run of these formats
+  check_size(width, height, per_byte, bytes.size());
 
-  StbImage result;
-  if (format == StbFormat::hdr) result.bits = 32;
-  Reader depth_reader(bytes);
-  if (format == StbFormat::png && stbi_is_16_bit_from_callbacks(&callbacks, &depth_reader))
-    result.bits = 16;
-
+  const bool hdr = format == StbFormat::hdr;
   Reader reader(bytes);
   std::unique_ptr<void, Free> samples;
-  if (result.bits == 32)
+  if (hdr)
     samples.reset(stbi_loadf_from_callbacks(&callbacks, &reader, &width, &height, &channels, 0));
-  else if (result.bits == 16)
-    samples.reset(stbi_load_16_from_callbacks(&callbacks, &reader, &width, &height, &channels, 0));
   else
     samples.reset(stbi_load_from_callbacks(&callbacks, &reader, &width, &height, &channels, 0));
   if (reader.ended_early()) throw std::runtime_error("the file ends early");
   if (!samples) fail_as_stb();
 
-  result.image = Image(width, height, channels);
-  if (result.bits == 32)
+  DecodedImage result{Image(width, height, channels), hdr ? 32 : 8};
+  if (hdr)
     copy_samples(static_cast<const float*>(samples.get()), 1, &result.image.data);
-  else if (result.bits == 16)
-    copy_samples(static_cast<const stbi_us*>(samples.get()), 65535, &result.image.data);
   else
     copy_samples(static_cast<const stbi_uc*>(samples.get()), 255, &result.image.data);
   return result;
@@ -152,29 +128,9 @@ void append(void* target, void* data, int size) {
 
 }  // namespace
 
-StbImage decode_stb(std::string_view bytes, StbFormat format, const std::string& name) {
-  static const char* const names[] = {"PNG", "JPEG", "BMP", "TGA", "HDR"};
-  const std::string what =
-      name + ": cannot be read as " + names[static_cast<size_t>(format)] + ": ";
-  try {
-    return decode(bytes, format);
-  } catch (const std::bad_alloc&) {
-    throw FileError(what + "it needs more memory than there is");
-  } catch (const std::exception& error) {
-    throw FileError(what + error.what());
-  }
-}
-
-std::string encode_png(const std::vector<unsigned char>& samples, int width, int height,
-                       int channels) {
-  if (Image::sample_count(width, height, channels) + static_cast<size_t>(height) > size_t{1} << 30)
-    throw UsageError(fmt::format("an image of {} x {} pixels is too large for PNG; write it as EXR",
-                                 width, height));
-  std::string bytes;
-  if (!stbi_write_png_to_func(append, &bytes, width, height, channels, samples.data(),
-                              width * channels))
-    throw FileError("PNG: encoding failed for want of memory");
-  return bytes;
+DecodedImage decode_stb(std::string_view bytes, StbFormat format, const std::string& name) {
+  static const char* const names[] = {"BMP", "TGA", "HDR"};
+  return decode_as(names[static_cast<size_t>(format)], name, [&] { return decode(bytes, format); });
 }
 
 std::string encode_hdr(const Image& image) {

@@ -1,29 +1,16 @@
-// The formats that stb decodes and encodes: PNG, JPEG, BMP, TGA and Radiance HDR. Everything works
-// on memory; the one translation unit behind this header is the only one that sees stb.
+// The formats that stb decodes and encodes: BMP, TGA and Radiance HDR. Everything works on memory;
+// the one translation unit behind this header is the only one that sees stb.
 #pragma once
 
-#include <string>
-#include <string_view>
-#include <vector>
-
-#include "image/image.h"
+#include "image/decoded_image.h"
 
 namespace mlt {
 
-enum class StbFormat { png, jpeg, bmp, tga, hdr };
-
-struct StbImage {
-  Image image;
-  int bits = 8;  // 8 or 16: integers, scaled to [0, 1]; 32: linear radiance
-};
+enum class StbFormat { bmp, tga, hdr };
 
 /// Throws a FileError that begins with `name`, also when a file ends early or is too small for its
 /// size.
-StbImage decode_stb(std::string_view bytes, StbFormat format, const std::string& name);
-
-/// 8-bit samples, interleaved, of 1 to 4 channels.
-std::string encode_png(const std::vector<unsigned char>& samples, int width, int height,
-                       int channels);
+DecodedImage decode_stb(std::string_view bytes, StbFormat format, const std::string& name);
 
 /// Radiance RGBE of an image with 1 to 4 channels. What the format cannot hold becomes the nearest
 /// it can: negative and NaN samples 0, large ones 1e38; alpha is dropped.

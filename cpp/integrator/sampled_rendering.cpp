@@ -52,6 +52,13 @@ PixelSampler SampledRendering::sampler(int x, int y, uint64_t pass) const {
   return {stream, static_cast<uint32_t>(place.index)};
 }
 
+/// Sums begin with the first sample of their group.
+Rendering::Memory SampledRendering::memory(double spp) const {
+  const double turns = std::ceil(spp / static_cast<double>(passes_per_turn_));
+  const auto groups = static_cast<size_t>(std::min(turns, double{group_count}));
+  return {groups * film_.bytes_per_group(), groups * film_.bytes_per_group()};
+}
+
 Replay SampledRendering::replay(const Vec2i& pixel, uint64_t sample) {
   Replay replay;
   RayCounts rays;

@@ -86,6 +86,7 @@ class SampledRendering : public Rendering {
   SampledRendering(ScenePtr scene, uint64_t seed, const SampledSettings& settings,
                    MakeTaker make_taker);
 
+  Memory memory(double spp) const override;
   /// One sample for each cell of one tile.
   void run_unit(uint64_t unit) override;
   Image image() const override { return film_.image(); }

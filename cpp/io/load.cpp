@@ -1,5 +1,6 @@
 #include "io/load.h"
 
+#include "image/atomic_file.h"
 #include "io/builder.h"
 #include "io/families.h"
 #include "io/node_bytes.h"
@@ -149,6 +150,7 @@ LoadedScene load(SceneSource source, const Read& read, const Registry& registry,
 
 LoadedScene load_file(const std::string& path, const Registry& registry,
                       const LoadOptions& options) {
+  if (is_stream(path)) return load_string(read_stream(path), ".", registry, options);
   std::error_code ignored;
   const std::string absolute = std::filesystem::absolute(path, ignored).string();
   return load(

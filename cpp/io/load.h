@@ -52,6 +52,7 @@ Node read_xml_string(const std::string& xml, const std::string& directory,
 /// Builds the scene that a tree describes.
 LoadedScene build_scene(const Node& scene, const Registry& registry, const LoadOptions& options);
 
+/// Of a pipe such as /dev/stdin it takes the text, in which file names begin at the current folder.
 LoadedScene load_file(const std::string& path, const Registry& registry,
                       const LoadOptions& options);
 LoadedScene load_string(const std::string& xml, const std::string& directory,

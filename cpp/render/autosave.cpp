@@ -2,13 +2,14 @@
 
 #include "base/error.h"
 
-#include <cmath>
-
 namespace mlt {
+namespace {
+constexpr double longest = 1e9;  // seconds; the clock counts to 292 years
+}
 
 Autosave::Autosave(AutosaveSettings settings) : settings_(std::move(settings)) {
-  if (!(settings_.every > 0 && std::isfinite(settings_.every)))
-    throw UsageError("every must be a positive number of seconds");
+  if (!(settings_.every > 0 && settings_.every <= longest))
+    throw UsageError("every must be a positive number of seconds, at most 1e9");
 }
 
 void Autosave::begin_saved(uint64_t units) {
@@ -27,14 +28,17 @@ void Autosave::save(uint64_t units, const State& state) {
       writer_.valid() && writer_.wait_for(std::chrono::seconds(0)) != std::future_status::ready;
   if (still_writing || units_saved_ == units) return;
   units_saved_ = units;
-  writer_ = std::async(std::launch::async,
-                       [this, bytes = state()]() mutable { try_to_write(std::move(bytes)); });
+  attempt([&] {
+    writer_ = std::async(std::launch::async, [this, bytes = state()]() mutable {
+      attempt([&] { settings_.write(std::move(bytes)); });
+    });
+  });
 }
 
 void Autosave::finish(uint64_t units, const State& state) {
   if (!settings_.write) return;
   if (writer_.valid()) writer_.wait();
-  if (units_saved_ != units || !failure().empty()) try_to_write(state());
+  if (units_saved_ != units || !failure().empty()) attempt([&] { settings_.write(state()); });
   units_saved_ = units;
 }
 
@@ -43,10 +47,12 @@ std::string Autosave::failure() const {
   return failure_;
 }
 
-void Autosave::try_to_write(std::string state) {
+void Autosave::attempt(const std::function<void()>& save) {
   std::string failure;
   try {
-    settings_.write(std::move(state));
+    save();
+  } catch (const std::bad_alloc&) {
+    failure = "there is not memory enough";
   } catch (const std::exception& error) {
     failure = error.what();
   }

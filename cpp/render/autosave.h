@@ -37,7 +37,8 @@ class Autosave {
  private:
   using Clock = std::chrono::steady_clock;
   void postpone();
-  void try_to_write(std::string state);
+  /// Notes why it failed, or that it did not.
+  void attempt(const std::function<void()>& save);
 
   AutosaveSettings settings_;
   Clock::time_point next_{};  ///< At once.

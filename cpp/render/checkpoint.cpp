@@ -2,6 +2,7 @@
 
 #include "base/bytes.h"
 #include "image/atomic_file.h"
+#include "image/file_lock.h"
 #include "io/node_bytes.h"
 #include "mlt_build_id.h"
 #include "mlt_version.h"
@@ -134,12 +135,39 @@ void check_checkpoint_writable(const std::string& path) {
   }
 }
 
-AutosaveSettings autosave_to(const std::string& path, double every, Checkpoint checkpoint) {
-  return {[path, checkpoint = std::move(checkpoint)](std::string state) mutable {
+uint64_t check_same_render(const std::string& path, const Checkpoint& checkpoint) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored) || std::filesystem::is_empty(path, ignored)) return 0;
+  Checkpoint there;
+  try {
+    there = read_checkpoint(path);
+  } catch (const FileError& error) {
+    throw FileError(std::string(error.what()) + "; to replace it all the same, say --overwrite");
+  }
+  const char* difference =
+      there.scene_hash != checkpoint.scene_hash                                     ? "scene"
+      : there.seed != checkpoint.seed                                               ? "seed"
+      : fingerprint(there.integrator, {}) != fingerprint(checkpoint.integrator, {}) ? "integrator"
+                                                                                    : nullptr;
+  if (difference)
+    throw FileError(
+        fmt::format("{}: is the checkpoint of another render, with another {}; go on "
+                    "with that by --resume, or replace it by --overwrite",
+                    path, difference));
+  return Job::units_of(there.state);
+}
+
+AutosaveSettings autosave_to(const CheckpointFile& file, Checkpoint checkpoint) {
+  check_checkpoint_writable(file.path);
+  auto lock = FileLock::of(file.path);
+  const uint64_t units = file.overwrite ? 0 : check_same_render(file.path, checkpoint);
+  return {[path = file.path, lock = std::move(lock), units,
+           checkpoint = std::move(checkpoint)](std::string state) mutable {
+            if (Job::units_of(state) < units) return;
             checkpoint.state = std::move(state);
             write_checkpoint(path, checkpoint);
           },
-          every};
+          file.every};
 }
 
 LoadedScene load_scene(const Checkpoint& checkpoint, const std::string& path,

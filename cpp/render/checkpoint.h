@@ -38,8 +38,20 @@ void write_checkpoint(const std::string& path, const Checkpoint& checkpoint);
 /// checkpoint, so that a slip does not cost a scene or an image.
 void check_checkpoint_writable(const std::string& path);
 
-/// Writes the states of a render to one file.
-AutosaveSettings autosave_to(const std::string& path, double every, Checkpoint checkpoint);
+/// Throws FileError if there is the checkpoint of another render, or one that cannot be read.
+/// Returns after how many units the checkpoint that is there was taken, or 0.
+uint64_t check_same_render(const std::string& path, const Checkpoint& checkpoint);
+
+struct CheckpointFile {
+  std::string path;
+  double every = 60;       ///< Seconds.
+  bool overwrite = false;  ///< Whatever checkpoint is there.
+};
+
+/// Writes the states of a render to one file, which no other process may use meanwhile. One that
+/// this render has written before is kept until there is a later state. Throws FileError if there
+/// is another render's.
+AutosaveSettings autosave_to(const CheckpointFile& file, Checkpoint checkpoint);
 
 /// The scene of a checkpoint, from where it was; `moved_to` names another place for its XML file,
 /// or is "". Throws UsageError for a scene that only Python can make, SceneError for one that

@@ -214,8 +214,8 @@ void add_error(const ErrorEstimate& estimate, Stats& stats) {
     stats.disagreements.push_back({all[i].pixel.x, all[i].pixel.y, all[i].share});
   stats.warnings.push_back(fmt::format(
       "in {} of {} blocks of 8 x 8 pixels one of {} independent groups has found most of the "
-      "light, the brightest at pixel ({}, {}); there neither the image nor its error is to be "
-      "believed yet",
+      "light, the brightest at pixel ({}, {}); to have these right too, give the render more time, "
+      "or look whether another integrator finds this light more easily",
       all.size(), estimate.block_count(), estimate.groups, all[0].pixel.x, all[0].pixel.y));
 }
 

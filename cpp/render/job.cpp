@@ -3,6 +3,8 @@
 #include "base/parallel.h"
 #include "mlt_version.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 namespace mlt {
@@ -17,8 +19,13 @@ Job::Job(ScenePtr scene, IntegratorPtr integrator, const RenderSettings& setting
       executor_(std::make_unique<Executor>()),
       stop_rule_(settings.budget, *scene_),
       autosave_(settings.autosave) {
-  if (threads_ < 0) throw UsageError("threads must not be negative; 0 means all");
-  rendering_ = integrator_->start(scene_, seed_);
+  if (threads_ < 0 || threads_ > max_threads)
+    throw UsageError(fmt::format("threads must lie between 0 and {}; 0 means all", max_threads));
+  try {
+    rendering_ = integrator_->start(scene_, seed_);
+  } catch (const std::bad_alloc&) {
+    fail_for_memory();
+  }
 }
 
 void Job::stop() {
@@ -55,9 +62,49 @@ void Job::extend(const Budget& budget) {
 }
 
 void Job::launch() {
+  take_memory();
   phase_ = prepared_ ? Phase::rendering : Phase::bootstrap;
   started_ = Clock::now();
-  thread_ = std::thread(&Job::lead, this);
+  try {
+    thread_ = std::thread(&Job::lead, this);
+  } catch (const std::system_error&) {
+    throw RenderError("there is not memory enough for a thread, or there are too many threads");
+  }
+}
+
+// ---- memory -------------------------------------------------------------------------------------
+
+namespace {
+
+/// Developing the image, estimating its error and writing both take no more than this, beside what
+/// the sums take: bytes per pixel (float images of 3 channels have 12), and on the whole.
+constexpr size_t end_per_pixel = 144, end_at_least = size_t{16} << 20;
+
+size_t bytes_for_the_end(const Scene& scene) {
+  const Vec2i size = scene.camera().raster().size;
+  return end_at_least + end_per_pixel * size.x * size.y;
+}
+
+}  // namespace
+
+size_t Job::bytes_needed() const {
+  const Vec2i size = scene_->camera().raster().size;
+  const size_t sums = rendering_ ? rendering_->memory(stop_rule_.most_spp()).bytes
+                                 : size_t{24} * Rendering::group_count * size.x * size.y;
+  return sums + bytes_for_the_end(*scene_);
+}
+
+void Job::fail_for_memory() const {
+  const Vec2i size = scene_->camera().raster().size;
+  throw RenderError(
+      fmt::format("an image of {} x {} pixels needs about {} of memory, which is not to be had; "
+                  "ask for a smaller one",
+                  size.x, size.y, in_words(bytes_needed())));
+}
+
+void Job::take_memory() {
+  const size_t to_come = rendering_->memory(stop_rule_.most_spp()).to_come;
+  if (!reserve_.take(bytes_for_the_end(*scene_), to_come)) fail_for_memory();
 }
 
 // ---- the thread that leads the others ---------------------------------------------------------
@@ -71,9 +118,12 @@ void Job::lead() {
       prepared_ = !cancel_;
     }
     if (prepared_) render();
+  } catch (const std::bad_alloc&) {
+    failure = std::make_exception_ptr(RenderError("there is not memory enough to go on"));
   } catch (...) {
     failure = std::current_exception();
   }
+  reserve_.release();
   try {
     executor_->close();
     total_seconds_ = seconds_so_far();
@@ -81,6 +131,9 @@ void Job::lead() {
   } catch (...) {
     if (!failure) failure = std::current_exception();
   }
+  if (!failure && units_done_ == 0 && ended_by_ == "time")
+    failure = std::make_exception_ptr(
+        RenderError("the time was used up before the first sample; give more"));
   const std::lock_guard lock(mutex_);
   failure_ = failure;
   if (ended_by_.empty()) ended_by_ = "cancel";
@@ -160,6 +213,12 @@ std::string Job::state() const {
   return bytes.take();
 }
 
+uint64_t Job::units_of(const std::string& state) {
+  ByteReader bytes(state);
+  StopRule::read(bytes);
+  return bytes.read<uint64_t>();
+}
+
 void Job::load(const std::string& state) {
   check_waiting();
   ByteReader bytes(state);
@@ -236,23 +295,24 @@ Stats Job::stats() const {
   stats.seed = seed_;
   stats.width = scene_->camera().raster().size.x;
   stats.height = scene_->camera().raster().size.y;
+  if (const size_t needed = bytes_needed(); available_ > 0 && needed > available_)
+    stats.warnings.push_back(fmt::format("the render needs about {} of memory, and {} are free",
+                                         in_words(needed), in_words(available_)));
   const Phase phase = phase_;
   if (phase == Phase::rendering || phase == Phase::ended) {
     stats.spp_done = spp_done();
     stats.seconds_bootstrap = bootstrap_seconds_;
     stats.seconds_render =
         (phase == Phase::ended ? total_seconds_.load() : seconds_so_far()) - bootstrap_seconds_;
-    rendering_->add_stats(stats);
+    // A bootstrap that failed has left nothing that could be asked.
+    if (prepared_ || phase != Phase::ended || !failure_) rendering_->add_stats(stats);
   }
   const std::lock_guard lock(mutex_);
   if (const std::string failure = autosave_.failure(); !failure.empty())
     stats.warnings.push_back("the checkpoint could not be written: " + failure);
   if (phase != Phase::ended || failure_) return stats;
   stats.ended_by = ended_by_;
-  if (units_done_ > 0)
-    add_error(*error(), stats);
-  else if (ended_by_ == "time")
-    stats.warnings.push_back("the time was used up by the bootstrap");
+  if (units_done_ > 0) add_error(*error(), stats);
   return stats;
 }
 

@@ -5,6 +5,7 @@
 #include "render/autosave.h"
 #include "render/error_estimate.h"
 #include "render/executor.h"
+#include "render/memory_reserve.h"
 #include "render/stop_rule.h"
 
 #include <chrono>
@@ -13,6 +14,8 @@
 #include <thread>
 
 namespace mlt {
+
+constexpr int max_threads = 4096;
 
 struct RenderSettings {
   Budget budget;
@@ -23,13 +26,14 @@ struct RenderSettings {
 
 class Job {
  public:
-  /// Throws UsageError for settings that make no sense, SceneError for a scene that does not suit.
+  /// Throws UsageError for settings that make no sense, SceneError for a scene that does not suit,
+  /// RenderError for an image that is too large for the memory.
   Job(ScenePtr scene, IntegratorPtr integrator, const RenderSettings& settings);
   ~Job() { stop(); }
 
   /// Before start(): who runs the units, in place of the threads of this process.
   void attach(std::unique_ptr<Executor> executor);
-  void start();
+  void start();  ///< Throws RenderError if there is not memory enough.
   /// Waits until the render has ended or `seconds` have passed; true if it has ended. Rethrows what
   /// went wrong inside the render.
   bool wait(double seconds);
@@ -45,6 +49,8 @@ class Job {
   /// running, and the render goes on. Throws UsageError if the render has not been started, or
   /// ended in its bootstrap.
   std::string save();
+  /// After how many units a state was saved. Throws RenderError.
+  static uint64_t units_of(const std::string& state);
   /// Before start(): goes on where a job with the same scene, integrator and seed was saved, to its
   /// budget if this job was given none. However often a render is resumed, the same samples make
   /// the same pixels. Throws RenderError.
@@ -84,6 +90,9 @@ class Job {
   enum class Phase { waiting, bootstrap, rendering, ended };
 
   void check_waiting() const;
+  void take_memory();
+  size_t bytes_needed() const;
+  [[noreturn]] void fail_for_memory() const;
   void launch();
   void lead();
   void render();
@@ -101,6 +110,8 @@ class Job {
   mutable std::mutex merging_;  ///< Nobody looks at the image while a result is merged.
   StopRule stop_rule_;
   Autosave autosave_;
+  size_t available_ = available_memory();
+  MemoryReserve reserve_;  ///< For what comes after the last unit; held while units run.
 
   std::atomic<bool> cancel_{false};
   std::atomic<Phase> phase_{Phase::waiting};

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace mlt {
@@ -51,19 +52,38 @@ std::string disagreement(const DisagreementStats& d) {
   return fmt::format(R"({{"x": {}, "y": {}, "share": {}}})", d.x, d.y, d.share);
 }
 
+/// How many bytes the character at this place has, or 0 if it is no UTF-8 (RFC 3629).
+size_t utf8_size(const std::string& text, size_t at) {
+  const auto byte = [&](size_t i) {
+    return at + i < text.size() ? static_cast<unsigned char>(text[at + i]) : 0u;
+  };
+  const unsigned first = byte(0), second = byte(1);
+  if (first < 0x80) return 1;
+  const size_t size = first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : 2;
+  if (first < 0xc2 || first > 0xf4 || (first == 0xe0 && second < 0xa0) ||
+      (first == 0xed && second > 0x9f) || (first == 0xf0 && second < 0x90) ||
+      (first == 0xf4 && second > 0x8f))
+    return 0;
+  for (size_t i = 1; i < size; ++i)
+    if ((byte(i) & 0xc0) != 0x80) return 0;
+  return size;
+}
+
 }  // namespace
 
 std::string json_string(const std::string& text) {
   std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') {
-      out += '\\';
-      out += c;
-    } else if (static_cast<unsigned char>(c) < 0x20) {
-      out += fmt::format("\\u{:04x}", static_cast<int>(c));
-    } else {
-      out += c;
-    }
+  for (size_t i = 0, size = 1; i < text.size(); i += size) {
+    const auto c = static_cast<unsigned char>(text[i]);
+    size = std::max<size_t>(1, utf8_size(text, i));
+    if (c == '"' || c == '\\')
+      out += {'\\', text[i]};
+    else if (c < 0x20)
+      out += fmt::format("\\u{:04x}", c);
+    else if (utf8_size(text, i) == 0)
+      out += fmt::format("\\udc{:02x}", c);
+    else
+      out += text.substr(i, size);
   }
   return out + "\"";
 }

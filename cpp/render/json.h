@@ -9,6 +9,7 @@
 namespace mlt {
 
 /// "text" with quotes, and with what JSON does not allow in a string escaped.
+/// Bytes that are no UTF-8, as file names may have them, become lone surrogates, as in Python.
 std::string json_string(const std::string& text);
 
 /// Numbers in the shortest form that reads back as the same number; "null" for what JSON cannot say

@@ -73,6 +73,15 @@ MadeIntegrator make_integrator(const Node& node, const Registry& registry) {
   return made;
 }
 
+std::string integrator_problem(const LoadedScene& loaded, const Registry& registry) {
+  try {
+    make_integrator(choose_integrator(loaded, "", {}, registry), registry);
+    return "";
+  } catch (const SceneError& error) {
+    return error.what();
+  }
+}
+
 const Node& node_of(const MadeIntegrator& made) {
   if (made.extra_mutations)
     throw UsageError(

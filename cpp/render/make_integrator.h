@@ -30,6 +30,9 @@ struct MadeIntegrator {
 Node choose_integrator(const LoadedScene& loaded, const std::string& name,
                        const Assignments& assignments, const Registry& registry);
 
+/// Why the scene's own integrator cannot render, or "".
+std::string integrator_problem(const LoadedScene& loaded, const Registry& registry);
+
 MadeIntegrator make_integrator(const Node& node, const Registry& registry);
 /// The node that makes it again. Throws UsageError for one with mutations that no node can tell.
 const Node& node_of(const MadeIntegrator& made);

@@ -8,6 +8,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <system_error>
 
 namespace mlt {
 namespace {
@@ -24,23 +25,31 @@ std::string free_name(const fs::path& folder, const fs::path& wanted) {
   return name.string();
 }
 
-std::string save(const std::string& path, const std::function<void(const std::string&)>& write) {
+using Write = std::function<void(const std::string& path)>;
+
+/// Writes it elsewhere; returns where, or "" if no place would have it.
+std::string rescue(const std::string& path, const Write& write) {
+  std::error_code no_folder;
+  for (const fs::path& folder : {fs::current_path(no_folder), fs::temp_directory_path(no_folder)}) {
+    if (folder.empty()) continue;
+    try {
+      std::string other = free_name(folder, path);
+      write(other);
+      return other;
+    } catch (const FileError&) {
+    }
+  }
+  return "";
+}
+
+Saved save(const std::string& path, const Write& write) {
   try {
     write(path);
-    return path;
-  } catch (const FileError&) {
-    std::error_code no_folder;
-    for (const fs::path& folder :
-         {fs::current_path(no_folder), fs::temp_directory_path(no_folder)}) {
-      if (folder.empty()) continue;
-      try {
-        const std::string other = free_name(folder, path);
-        write(other);
-        return other;
-      } catch (const FileError&) {
-      }
-    }
-    throw;
+    return {path, ""};
+  } catch (const FileError& error) {
+    const std::string other = rescue(path, write);
+    const std::string where = other.empty() ? "no other place would have it" : "it is saved as ";
+    return {other, fmt::format("{}; {}{}", error.what(), where, other)};
   }
 }
 
@@ -86,12 +95,12 @@ void write_render(const std::string& path, const RenderedImage& render,
     write_png(beside.replace_extension(".techniques.png").string(), *pyramid);
 }
 
-std::string save_render(const std::string& path, const RenderedImage& render,
-                        const WriteOptions& options) {
+Saved save_render(const std::string& path, const RenderedImage& render,
+                  const WriteOptions& options) {
   return save(path, [&](const std::string& where) { write_render(where, render, options); });
 }
 
-std::string save_text(const std::string& path, const std::string& text) {
+Saved save_text(const std::string& path, const std::string& text) {
   return save(path, [&](const std::string& where) { write_file(where, text); });
 }
 

@@ -35,12 +35,18 @@ struct RenderedImage {
 void write_render(const std::string& path, const RenderedImage& render,
                   const WriteOptions& options);
 
+/// Where a file is after all.
+struct Saved {
+  std::string path;     ///< "" if no place would have it.
+  std::string problem;  ///< Why it is not where it was asked for, and where it is; "" if it is.
+};
+
 /// The same, or, if that fails, in the current or the temporary folder under a name that is not
-/// taken. Returns where it is; throws the first FileError if no place would have it.
-std::string save_render(const std::string& path, const RenderedImage& render,
-                        const WriteOptions& options);
+/// taken. Throws no FileError.
+Saved save_render(const std::string& path, const RenderedImage& render,
+                  const WriteOptions& options);
 
 /// The same for a text file.
-std::string save_text(const std::string& path, const std::string& text);
+Saved save_text(const std::string& path, const std::string& text);
 
 }  // namespace mlt

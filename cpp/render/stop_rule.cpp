@@ -10,9 +10,6 @@
 namespace mlt {
 namespace {
 
-/// A budget of time or error alone still needs an end: more samples than any render will make.
-constexpr double endless_spp = 1e9;
-
 /// The error is first looked at after this many samples per pixel, when at least eight groups have
 /// had their turn, and then whenever the work has grown by this factor: who peeks often stops too
 /// early.
@@ -27,6 +24,9 @@ void check(const std::optional<double>& value, const char* name) {
 
 void StopRule::set(const Budget& budget) {
   check(budget.spp, "spp");
+  if (budget.spp > max_spp)
+    throw UsageError(
+        fmt::format("spp is {:g}, but should be at most {:.0f}", *budget.spp, max_spp));
   check(budget.seconds, "time");
   check(budget.error, "error");
   budget_ = budget;
@@ -36,7 +36,7 @@ void StopRule::set(const Budget& budget) {
 }
 
 void StopRule::begin(const Rendering& rendering) {
-  unit_count_ = rendering.plan().unit_count(budget_.spp.value_or(endless_spp));
+  unit_count_ = rendering.plan().unit_count(budget_.spp.value_or(max_spp));
   if (!budget_.error || budget_.spp || budget_.seconds) return;
   // Without further samples b stays as wrong as the bootstrap has left it.
   Stats stats;
@@ -91,9 +91,14 @@ void StopRule::save(ByteWriter& bytes) const {
   for (const auto* limit : {&budget_.spp, &budget_.seconds, &budget_.error}) bytes.write(*limit);
 }
 
-void StopRule::load(ByteReader& bytes) {
+Budget StopRule::read(ByteReader& bytes) {
   Budget saved;
   for (auto* limit : {&saved.spp, &saved.seconds, &saved.error}) bytes.read(*limit);
+  return saved;
+}
+
+void StopRule::load(ByteReader& bytes) {
+  const Budget saved = read(bytes);
   if (default_) set(saved);
 }
 

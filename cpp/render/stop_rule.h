@@ -10,6 +10,9 @@
 
 namespace mlt {
 
+/// More samples per pixel no render takes; up to here no number of units overflows.
+constexpr double max_spp = 2147483647;
+
 /// With none, the scene's sample count, else 64. For a render that goes on after a break each
 /// counts from its very beginning.
 struct Budget {
@@ -27,6 +30,9 @@ class StopRule {
   /// Not while the render is going on.
   void set(const Budget& budget);
 
+  /// More than these will not be taken.
+  double most_spp() const { return budget_.spp.value_or(max_spp); }
+
   /// Once the rendering is prepared. Throws RenderError for an error that it cannot reach.
   void begin(const Rendering& rendering);
   /// Why the render is to end after so many units: "spp", "time", "error", or "" if it is not.
@@ -38,7 +44,8 @@ class StopRule {
   double progress(uint64_t units, double seconds) const;
 
   void save(ByteWriter& bytes) const;
-  /// Takes the saved budget if none was given.
+  /// The saved budget; load() takes it if none was given.
+  static Budget read(ByteReader& bytes);
   void load(ByteReader& bytes);
 
  private:

@@ -97,6 +97,15 @@ RTCGeometry mesh_geometry(RTCDevice device, const Mesh& mesh) {
   return geometry;
 }
 
+/// Of address space: what Embree and its threads take at the least.
+constexpr size_t least_memory = size_t{128} << 20;
+
+bool can_allocate(size_t bytes) {
+  void* start = std::malloc(bytes);
+  std::free(start);
+  return start != nullptr;
+}
+
 RTCGeometry analytic_geometry(RTCDevice device, const AnalyticShape& shape) {
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
   rtcSetGeometryUserPrimitiveCount(geometry, 1);
@@ -105,6 +114,16 @@ RTCGeometry analytic_geometry(RTCDevice device, const AnalyticShape& shape) {
   rtcSetGeometryIntersectFunction(geometry, analytic_intersect);
   rtcSetGeometryOccludedFunction(geometry, analytic_occluded);
   return geometry;
+}
+
+/// The device's error in words, or ""; without a device, why there is none. Where memory is short
+/// Embree often fails before it can say so; then it is a thread or a library that it lacks.
+std::string why_not(RTCDevice device, const char* what) {
+  const RTCError error = rtcGetDeviceError(device);
+  if (device && error == RTC_ERROR_NONE) return "";
+  if (error == RTC_ERROR_OUT_OF_MEMORY || !can_allocate(least_memory))
+    return "there is not memory enough for Embree";
+  return std::string("Embree ") + what;
 }
 
 }  // namespace
@@ -124,7 +143,7 @@ Accel::Accel(const std::vector<ShapePtr>& shapes, int build_threads)
   // A fixed instruction set, so that the bits do not depend on the machine's vector width.
   const std::string config = "max_isa=avx2,threads=" + std::to_string(build_threads);
   impl_->device = rtcNewDevice(config.c_str());
-  if (!impl_->device) throw RenderError("Embree does not start on this machine");
+  if (!impl_->device) throw RenderError(why_not(nullptr, "does not start on this machine"));
   impl_->scene = rtcNewScene(impl_->device);
   rtcSetSceneBuildQuality(impl_->scene, RTC_BUILD_QUALITY_MEDIUM);
   for (size_t i = 0; i < shapes.size(); ++i) {
@@ -136,8 +155,8 @@ Accel::Accel(const std::vector<ShapePtr>& shapes, int build_threads)
     rtcReleaseGeometry(geometry);
   }
   rtcCommitScene(impl_->scene);
-  if (rtcGetDeviceError(impl_->device) != RTC_ERROR_NONE)
-    throw RenderError("Embree could not build the acceleration structure");
+  const std::string problem = why_not(impl_->device, "could not build the acceleration structure");
+  if (!problem.empty()) throw RenderError(problem);
 }
 
 Accel::~Accel() = default;

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import warnings
 from typing import TYPE_CHECKING
 
 from . import _core
@@ -10,18 +11,16 @@ from . import _core
 if TYPE_CHECKING:
     import numpy as np
 
-_NATIVE = {".exr", ".png", ".jpg", ".jpeg", ".hdr", ".tga", ".bmp"}
-
 
 def read_image(path, layer: str = "") -> np.ndarray:
     """Read an image as float32 of shape (height, width, channels), in linear light.
 
-    EXR, PNG, JPEG, HDR, TGA and BMP are read natively, anything else by OpenImageIO. `layer` names
-    one of an EXR file's layers. Raises FileError for a file that cannot be read.
+    EXR, PNG, JPEG, HDR, TGA and BMP are read natively, whatever the file is called, anything else
+    by OpenImageIO. `layer` names one of an EXR file's layers. Raises FileError for a file that
+    cannot be read.
     """
     path = os.fspath(path)
-    suffix = os.path.splitext(path)[1].lower()
-    if suffix in _NATIVE or layer:
+    if layer or _core.is_known_image(path):
         return _core.read_image(path, layer)
     return _read_with_openimageio(path)
 
@@ -67,9 +66,17 @@ def write_image(path, image, *, exposure: float = 0, half: bool = False, metadat
 
     `image` has the shape (height, width) or (height, width, channels), with at most 4 channels.
     `half` (16-bit samples) and `metadata` (a dict of texts) are for EXR. Raises UsageError for
-    another shape or extension, FileError if the file cannot be written.
+    another shape, type or extension, FileError if the file cannot be written.
     """
     import numpy as np
 
-    pixels = np.asarray(image, dtype=np.float32)
-    _core.write_image(os.fspath(path), pixels, {}, metadata or {}, half, exposure, rescue=False)
+    given = np.asarray(image)
+    if given.dtype.kind != "f":
+        raise _core.UsageError(
+            f"an image of {given.dtype} was given, but linear floats are written, in which 1 is "
+            "white; divide integers by their largest value, and decode sRGB"
+        )
+    pixels = given.astype(np.float32)
+    if not os.fspath(path).lower().endswith(".exr") and (bad := int(np.isnan(pixels).sum())):
+        warnings.warn(f"{path}: {bad} samples are not numbers and become 0", stacklevel=2)
+    _core.write_image(os.fspath(path), pixels, {}, metadata or {}, half, exposure)

@@ -261,3 +261,39 @@ def test_transforms_without_a_direction_are_refused():
         mlt.Transform.look_at([0, 0, 0], [0, 1, 0], [0, 1, 0])
     with pytest.raises(ValueError, match="4 x 4"):
         mlt.Transform(np.eye(3))
+
+
+@pytest.mark.parametrize("kind", [np.uint8, np.int64, bool])
+def test_integers_are_no_linear_image(tmp_path, kind):
+    with pytest.raises(mlt.UsageError, match="linear floats"):
+        mlt.write_image(tmp_path / "a.png", np.ones((2, 2, 3), kind))
+    assert not (tmp_path / "a.png").exists()
+
+
+def test_what_is_not_a_number_is_said(tmp_path):
+    image = np.full((2, 2, 3), 0.5)
+    image[0, 0] = np.nan
+    for name in "a.png", "a.hdr":
+        with pytest.warns(UserWarning, match=f"{name}: 3 samples are not numbers and become 0"):
+            mlt.write_image(tmp_path / name, image)
+    mlt.write_image(tmp_path / "a.exr", image)  # which can hold them
+    assert np.isnan(mlt.read_image(tmp_path / "a.exr")).sum() == 3
+
+
+def test_look_at_needs_two_points():
+    with pytest.raises(ValueError, match="'origin' and 'target'"):
+        mlt.Transform.look_at([1, 2, 3], [1, 2, 3], [0, 1, 0])
+    with pytest.raises(ValueError, match="'up'"):
+        mlt.Transform.look_at([0, 0, 0], [0, 1, 0], [0, 1, 0])
+
+
+def test_the_content_of_a_file_decides_who_reads_it(tmp_path):
+    image = np.random.default_rng(1).random((5, 4, 3)).astype(np.float32)
+    mlt.write_image(tmp_path / "a.exr", image)
+    (tmp_path / "a.exr").rename(tmp_path / "a.tiff")
+    assert np.array_equal(mlt.read_image(tmp_path / "a.tiff"), image)
+
+
+def test_a_lone_surrogate_is_no_file_name():
+    with pytest.raises(mlt.UsageError, match="surrogate"):
+        mlt.load_file("\ud800")

@@ -267,6 +267,78 @@ def test_a_signal_leaves_a_checkpoint(program, scene, number, code):
     assert np.array_equal(mlt.read_image("a.exr"), mlt.read_image("b.exr"))
 
 
+OTHERS = {
+    "scene": ["-D", "depth=3"],
+    "seed": ["--seed", 8],
+    "integrator": ["--integrator", "direct"],
+}
+
+
+@pytest.mark.parametrize(("what", "other"), OTHERS.items(), ids=OTHERS)
+def test_the_checkpoint_of_another_render_is_kept(program, scene, what, other):
+    flags = [scene, "--size", "16x12", "--spp", 2, "-o", "a.exr", "--checkpoint", "a.mlt"]
+    run(program, *flags)
+    before = Path("a.mlt").read_bytes()
+    error = the_error(run(program, *flags, *other))
+    assert f"a.mlt: is the checkpoint of another render, with another {what};" in error
+    assert "--overwrite" in error
+    assert Path("a.mlt").read_bytes() == before
+    assert run(program, *flags, *other, "--overwrite").returncode == 0
+    assert Path("a.mlt").read_bytes() != before
+
+
+def test_what_cannot_be_read_is_replaced_only_when_asked_to(program, scene):
+    flags = [scene, "--size", "16x12", "--spp", 2, "-o", "a.exr", "--checkpoint", "a.mlt"]
+    run(program, *flags)
+    whole = Path("a.mlt").read_bytes()
+    Path("a.mlt").write_bytes(whole[:-9])
+    error = the_error(run(program, *flags))
+    assert "truncated" in error
+    assert "--overwrite" in error
+    assert run(program, *flags, "--overwrite").returncode == 0
+    assert len(Path("a.mlt").read_bytes()) == len(whole)
+
+
+def test_a_forgotten_resume_costs_no_sample(program, scene):
+    flags = [scene, "--size", "16x12", "-o", "a.exr", "--checkpoint", "a.mlt"]
+    run(program, *flags, "--spp", 9)
+    before = Path("a.mlt").read_bytes()
+    assert run(program, *flags, "--spp", 4).returncode == 0
+    assert Path("a.mlt").read_bytes() == before
+    assert run(program, *flags, "--spp", 11).returncode == 0
+    assert Path("a.mlt").read_bytes() != before
+
+
+def test_python_keeps_the_checkpoint_of_another_render(small, tmp_path):
+    path = tmp_path / "a.mlt"
+    job = mlt.start(small, spp=2, checkpoint=path)
+    job.wait()
+    for other in (
+        lambda **options: mlt.start(small, spp=2, seed=1, checkpoint=path, **options),
+        lambda **options: mlt.start(small, "direct", spp=2).checkpoint(path, **options),
+    ):
+        with pytest.raises(mlt.FileError, match="is the checkpoint of another render"):
+            other()
+        other(overwrite=True)
+        job.checkpoint(path, overwrite=True)
+
+
+def test_two_processes_do_not_share_a_checkpoint(program, scene, small):
+    flags = [scene, "--size", "64x48", "--spp", "1e7", "--quiet", "-o", "a.exr"]
+    first = subprocess.Popen([*program, *flags, "--checkpoint", "a.mlt"])
+    wait_for(Path("a.mlt"))
+    for second in [*flags, "--checkpoint", "a.mlt"], ["--resume", "a.mlt", "-o", "b.exr"]:
+        assert "a.mlt: another render keeps its state there" in the_error(run(program, *second))
+    with pytest.raises(mlt.FileError, match="another render keeps its state there"):
+        mlt.start(small, spp=1).checkpoint("a.mlt")
+    first.kill()
+    first.wait()
+    assert Path("a.mlt.lock").exists()
+    done = run(program, "--resume", "a.mlt", "--spp", 1, "-o", "b.exr")
+    assert done.returncode == 0, done.stderr
+    assert not Path("a.mlt.lock").exists()
+
+
 def wait_for(path: Path) -> None:
     deadline = time.monotonic() + 30
     while not path.exists():

@@ -1,7 +1,10 @@
 """The command lines: `pymlt render` and `mlt-render` share one contract; pymlt can do more."""
 
 import json
+import os
 import re
+import resource
+import shlex
 import shutil
 import signal
 import subprocess
@@ -92,8 +95,17 @@ USAGE = {
     "checkpoint nowhere": (["scene.xml", *OUT, "--checkpoint", "no/x"], "no/x"),
     "checkpoint over a scene": (
         ["scene.xml", *OUT, "--checkpoint", "scene.xml"],
-        "scene.xml: is no",
+        "scene.xml: scene and --checkpoint name the same file",
     ),
+    "checkpoint and image": (["scene.xml", *OUT, "--checkpoint", "a.exr"], "same file"),
+    "checkpoint and stats": (
+        ["scene.xml", *OUT, "--checkpoint", "x", "--stats", "./x"],
+        "--checkpoint and --stats name the same file",
+    ),
+    "two images": (["scene.xml", *OUT, *OUT], "-o and -o name the same file"),
+    "scene and stats": (["scene.xml", *OUT, "--stats", "scene.xml"], "scene and --stats name"),
+    "resume and stats": ([*OUT, "--resume", "x", "--stats", "x"], "--resume and --stats name"),
+    "overwrite alone": (["scene.xml", *OUT, "--overwrite"], "--overwrite needs --checkpoint"),
     "every alone": (["scene.xml", *OUT, "--every", "5"], "--every"),
     "every 0": (["scene.xml", *OUT, "--checkpoint", "x", "--every", "0"], "every"),
     "resume nothing": ([*OUT, "--resume", "x"], "x: there is no such file"),
@@ -109,6 +121,11 @@ USAGE = {
     "size": (["scene.xml", *OUT, "--size", "3by4"], "3by4"),
     "size 0": (["scene.xml", *OUT, "--size", "0x4"], "0x4"),
     "spp is a word": (["scene.xml", *OUT, "--spp", "many"], "many"),
+    "spp beyond counting": (["scene.xml", *OUT, "--spp", "2e19"], "up to 2147483647"),
+    "endless spp": (["scene.xml", *OUT, "--spp", "inf"], "up to 2147483647"),
+    "many threads": (["scene.xml", *OUT, "--threads", "4097"], "from 0 to 4096"),
+    "every for ever": (["scene.xml", *OUT, "--checkpoint", "x", "--every", "1e300"], "at most 1e9"),
+    "exposure": (["scene.xml", *OUT, "--exposure", "1e300"], "from -128 to 128"),
     "spp 0": (["scene.xml", *OUT, "--spp", "0"], "spp"),
     "negative time": (["scene.xml", *OUT, "--time=-1"], "time"),
     "negative threads": (["scene.xml", *OUT, "--threads=-1"], "threads"),
@@ -128,6 +145,13 @@ USAGE = {
 def test_a_mistake_in_usage_is_one_line(program, scene, arguments, what):
     assert what in the_error(run(program, *arguments))
     assert not Path("a.exr").exists()
+
+
+def test_a_checkpoint_replaces_no_other_file(program, scene):
+    Path("notes").write_text("not to be lost")
+    error = the_error(run(program, scene, *OUT, "--checkpoint", "notes", "--overwrite"))
+    assert "notes: is no checkpoint of pymlt" in error
+    assert Path("notes").read_text() == "not to be lost"
 
 
 RULES = ["no scene", "every alone", "every 0", "resume with a seed", "resume with -p", "size"]
@@ -218,7 +242,9 @@ def start(command, *arguments) -> subprocess.Popen:
     return process
 
 
-@pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+@pytest.mark.parametrize(
+    ("number", "code"), [(signal.SIGHUP, 129), (signal.SIGINT, 130), (signal.SIGTERM, 143)]
+)
 def test_an_interrupted_render_saves_what_there_is(program, scene, number, code):
     flags = [scene, "--size", "320x240", "--spp", "1e7", "-o", "a.exr", "--stats", "a.json"]
     process = start(program, *flags)
@@ -232,15 +258,68 @@ def test_an_interrupted_render_saves_what_there_is(program, scene, number, code)
     assert 0 < json.loads(Path("a.json").read_text())["spp_done"] < 1e7
 
 
+def test_nohup_is_respected(program, scene):
+    command = ["nohup", *program, scene, "--spp", "1e7", "--time", "3", "-o", "a.exr"]
+    process = start(command)
+    process.send_signal(signal.SIGHUP)
+    process.communicate(timeout=20)
+    assert process.returncode == 0
+
+
+def saved_as(line: str) -> str:
+    return line.partition("it is saved as ")[2]
+
+
 def test_a_finished_image_is_never_lost(program, scene):
     Path("out").mkdir()
     process = start(program, scene, "--time", 3, "-o", "out/a.exr")
     shutil.rmtree("out")
     _, err = process.communicate(timeout=20)
-    assert process.returncode == 0
-    assert "out/a.exr could not be written; it is saved as " in err
-    saved = err.split("it is saved as ")[1].splitlines()[0]
-    assert mlt.read_image(saved).max() > 0
+    assert process.returncode == 3
+    problem, summary = err.splitlines()
+    assert ": out/a.exr: cannot write it: there is no folder 'out'; it is saved as " in problem
+    assert mlt.read_image(saved_as(problem)).max() > 0
+    assert summary.endswith(f": {saved_as(problem)}")
+
+
+def no_room_for(size: int) -> None:
+    """In a new process: a file that grows beyond `size` bytes is refused, as on a full disk."""
+    resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
+
+
+def test_a_full_disk_is_said_and_ends_with_3(program, scene):
+    flags = ["--size", "64x64", "--spp", 1, "-o", "a.exr", "-o", "a.png", "--stats", "a.json"]
+    done = run(program, scene, *flags, preexec_fn=lambda: no_room_for(16384))
+    assert done.returncode == 3
+    lines = [line.partition(": ")[2] for line in done.stderr.splitlines()]
+    full = "cannot write it: File too large; no other place would have it"
+    assert lines[:-1] == [f"a.exr: {full}"]
+    assert lines[-1].endswith(" s: a.png")
+    assert sorted(os.listdir()) == ["a.json", "a.png", "scene.xml"]
+
+
+@pytest.fixture
+def small_disk(tmp_path):
+    """A file system of 64 KiB."""
+    folder = tmp_path / "small"
+    folder.mkdir()
+    mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=64k", "small", folder])
+    if mounted.returncode != 0:
+        pytest.skip("only root mounts a small file system")
+    yield folder
+    subprocess.run(["umount", folder], check=True)
+
+
+def test_what_a_full_disk_does_not_hold_is_elsewhere(program, scene, small_disk):
+    flags = ["--size", "128x128", "--spp", 1, "-o", "small/a.exr", "--stats", "small/a.json"]
+    done = run(program, scene, *flags)
+    assert done.returncode == 3
+    problem, summary = done.stderr.splitlines()
+    assert "small/a.exr: cannot write it: No space left on device; it is saved as " in problem
+    assert saved_as(problem) == str(Path("rescued-a.exr").resolve())
+    assert summary.endswith(f": {saved_as(problem)}")
+    assert mlt.read_image("rescued-a.exr").shape == (128, 128, 3)
+    assert os.listdir("small") == ["a.json"]
 
 
 # ---- compare, info, list, built-in scenes ------------------------------------------------------
@@ -327,5 +406,166 @@ def test_a_closed_pipe_is_no_error():
     assert done.stderr == ""
 
 
-def test_without_a_command_there_is_one_line():
-    assert "render" in the_error(run(PYMLT))
+def test_without_a_command_there_is_help():
+    shown = run(PYMLT)
+    assert shown.returncode == 0
+    assert shown.stdout.startswith("usage: pymlt")
+    assert "Render a scene to image files." in shown.stdout
+
+
+# ---- streams that are closed or full, names that are not UTF-8, short memory --------------------
+
+
+def shell(command, redirection: str, *arguments):
+    """With streams redirected: 2>&- closes stderr."""
+    words = " ".join(shlex.quote(str(word)) for word in [*command, *arguments])
+    return run(["bash", "-c", f"exec {words} {redirection}"])
+
+
+@pytest.mark.parametrize("redirection", ["2>&-", "2>/dev/full", ">&- 2>&- <&-"])
+def test_a_render_does_not_need_its_streams(program, scene, redirection):
+    done = shell(program, redirection, scene, "--spp", 1, "-o", "a.exr", "-o", "a.png")
+    assert done.returncode == 0
+    assert np.array_equal(mlt.read_image("a.exr"), mlt.render(scene, spp=1))
+    assert mlt.read_image("a.png").max() > 0
+
+
+@pytest.mark.parametrize("redirection", ["2>&-", "2>/dev/full"])
+def test_without_stderr_a_mistake_still_has_its_code(program, scene, redirection):
+    assert shell(program, redirection, scene, "-o", "a.gif").returncode == 2
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [["list"], ["--help"], ["render", "--help"], ["info", "furnace", "--json"], ["lab", "--list"]],
+    ids=" ".join,
+)
+@pytest.mark.parametrize(
+    ("redirection", "why"), [(">&-", "it is closed"), (">/dev/full", "No space left on device")]
+)
+def test_what_was_asked_for_and_cannot_be_written_is_an_error(arguments, redirection, why):
+    error = the_error(shell(PYMLT, redirection, *arguments))
+    assert error == f"pymlt: stdout: cannot write it: {why}"
+
+
+def test_a_figure_that_the_disk_does_not_hold_is_an_error(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    flags = ["lab", "expected_values", "-o", "a.png"]
+    done = run(PYMLT, *flags, preexec_fn=lambda: no_room_for(4096))
+    assert done.returncode == 3
+    assert "pymlt: a.png: cannot write it: File too large" in done.stderr
+    assert len(done.stderr.splitlines()) == 1
+    assert os.listdir() == []
+
+
+def test_names_need_not_be_utf_8(program, scene):
+    name = os.fsdecode(b"caf\xe9")
+    os.rename(scene, f"{name}.xml")
+    text = Path(f"{name}.xml").read_text()
+    Path(f"{name}.xml").write_text(text.replace("</scene>", "<unheard/></scene>"))
+    flags = ["--spp", 1, "-o", f"{name}.exr", "--checkpoint", name, "--stats", f"{name}.json"]
+    done = run(program, f"{name}.xml", *flags, errors="surrogateescape")
+    assert done.returncode == 0, done.stderr
+    assert sorted(os.listdir(b"."))[:4] == [
+        b"caf\xe9",
+        b"caf\xe9.exr",
+        b"caf\xe9.json",
+        b"caf\xe9.xml",
+    ]
+    assert f"{name}.xml" in json.loads(Path(f"{name}.json").read_text())["warnings"][0]
+    done = run(program, "--resume", name, "-o", "b.exr", errors="surrogateescape")
+    assert done.returncode == 0, done.stderr
+    missing = run(program, f"x{name}.xml", "-o", "b.exr", errors="surrogateescape")
+    assert "there is no such file" in the_error(missing)
+    neither = run(program, f"x{name}", "-o", "b.exr", errors="surrogateescape")
+    assert "xcaf" in the_error(neither)
+    assert mlt.read_image(f"{name}.exr").shape == (12, 16, 3)
+
+
+@pytest.mark.parametrize("kilobytes", [100_000, 200_000])
+def test_embree_is_not_blamed_for_short_memory(scene, kilobytes):
+    binary = mlt_render() or pytest.skip("mlt-render is not installed beside this Python")
+    error = the_error(run(binary, scene, *OUT, preexec_fn=lambda: little_memory(kilobytes)), code=3)
+    assert "memory" in error
+    assert "does not start" not in error
+
+
+def little_memory(kilobytes: int) -> None:
+    resource.setrlimit(resource.RLIMIT_AS, (1024 * kilobytes, 1024 * kilobytes))
+
+
+def test_a_size_that_memory_does_not_hold_is_refused_before_the_work(program, scene):
+    flags = [scene, "--size", "4000x4000", "--spp", 1, "-o", "a.exr"]
+    before = time.perf_counter()
+    error = the_error(run(program, *flags, preexec_fn=lambda: little_memory(2_000_000)), code=3)
+    assert "an image of 4000 x 4000 pixels needs about 2.5 GB of memory" in error
+    assert time.perf_counter() - before < 10
+
+
+@pytest.mark.parametrize("integrator", ["path", "bdpt", "pssmlt"])
+def test_a_render_ends_in_an_image_or_is_refused_whatever_memory_there_is(scene, integrator):
+    binary = mlt_render() or pytest.skip("mlt-render is not installed beside this Python")
+    flags = ["--integrator", integrator, "-p", "max_depth=2", "--size", "500x500", "--spp", "0.05"]
+    outcomes = set()
+    for megabytes in range(220, 420, 20):
+        limit = 1024 * megabytes
+        done = run(binary, scene, *flags, *OUT, preexec_fn=lambda limit=limit: little_memory(limit))
+        outcomes.add(done.returncode)
+        if done.returncode == 0:
+            assert mlt.read_image("a.exr").max() > 0
+            Path("a.exr").unlink()
+        else:
+            assert "memory" in the_error(done, code=3)
+    assert outcomes == {0, 3}
+
+
+def test_no_time_for_a_sample_is_an_error(program, scene):
+    error = the_error(run(program, scene, "--time", "1e-9", *OUT), code=3)
+    assert "the time was used up before the first sample" in error
+    assert not Path("a.exr").exists()
+
+
+def test_merge_says_what_it_has_made(scene):
+    for seed in 1, 2:
+        run([*PYMLT, "render"], scene, "--seed", seed, "--spp", 4, "-o", f"{seed}.exr")
+    merged = run(PYMLT, "merge", "1.exr", "2.exr", "-o", "both.exr")
+    assert merged.stderr == "pymlt: 2 renders of 16 x 12, 8 spp together: both.exr\n"
+
+
+def test_info_says_that_the_integrator_cannot_render(scene):
+    Path(scene).write_text(tiny.XML.replace('type="path"', 'type="photonmapper"'))
+    told = run(PYMLT, "info", scene)
+    assert told.returncode == 0
+    assert "scene.xml:4: integrator 'photonmapper' is not supported" in told.stderr
+    assert "cannot be rendered unless another is named" in told.stderr
+    assert run([*PYMLT, "render"], scene, "--integrator", "path", *OUT).returncode == 0
+
+
+def test_mlt_render_knows_the_built_in_scenes(tmp_path, monkeypatch):
+    binary = mlt_render() or pytest.skip("mlt-render is not installed beside this Python")
+    monkeypatch.chdir(tmp_path)
+    flags = ["door_ajar", "-D", "opening=25", "--size", "16x12", "--spp", 2]
+    assert run([*PYMLT, "render"], *flags, "-o", "a.exr").returncode == 0
+    assert run(binary, *flags, "-o", "b.exr").returncode == 0
+    a, b = mlt.read_image("a.exr"), mlt.read_image("b.exr")
+    assert np.allclose(a, b, rtol=1e-4, atol=1e-6)
+    assert "nowhere" in the_error(run(binary, "nowhere", *OUT))
+
+
+def test_a_scene_may_come_through_a_pipe(program, scene):
+    text = Path(scene).read_text()
+    flags = ["/dev/stdin", "--spp", 2, "--checkpoint", "a.mlt", "-o", "a.exr"]
+    done = run(program, *flags, input=text)
+    assert done.returncode == 0, done.stderr
+    assert np.array_equal(mlt.read_image("a.exr"), mlt.render(scene, spp=2))
+    done = run(program, "--resume", "a.mlt", "--spp", 3, "-o", "a.exr")
+    assert done.returncode == 0, done.stderr
+    assert np.array_equal(mlt.read_image("a.exr"), mlt.render(scene, spp=3))
+
+
+def test_a_built_in_scene_may_be_named_with_resume(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    flags = ["door-ajar", "-o", "a.exr", "--spp", 1]
+    run([*PYMLT, "render"], *flags, "--size", "16x12", "--checkpoint", "a.mlt")
+    done = run([*PYMLT, "render"], *flags, "--resume", "a.mlt")
+    assert done.returncode == 0, done.stderr

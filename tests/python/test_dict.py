@@ -145,6 +145,24 @@ MISTAKES = {
     ),
     "number in a scene": (change([], x=3), "scene: ", "'x'"),
     "key is a number": (lambda s: s.update({3: 4}), "scene: ", "of type int"),
+    "lone surrogate": (
+        change(FILM, pixel_format="\ud800"),
+        "scene['sensor']['film']: ",
+        "surrogate",
+    ),
+    "surrogate in a key": (lambda s: s.update({"a\ud800": {}}), "scene: ", "surrogate"),
+    "surrogate in a type": (change(["ball"], type="\ud800"), "scene['ball']: ", "surrogate"),
+    "integrator": (
+        change(["integrator"], max_dpeth=3),
+        "scene['integrator']: ",
+        "did you mean 'max_depth'?",
+    ),
+    "unknown integrator": (change(["integrator"], type="pssmtl"), "scene", "'pssmlt'"),
+    "integrator that does nothing": (
+        change([], integrator={"type": "direct", "emitter_samples": 0, "bsdf_samples": 0}),
+        "scene['integrator']: ",
+        "needs at least one",
+    ),
     "not a scene": (change([], type="scne"), "scene: ", "'scene'"),
     "no sensor": (lambda s: s.pop("sensor"), "scene: ", "sensor"),
     "no light": (lambda s: s.pop("lamp"), "scene: ", "no emitter"),
@@ -174,6 +192,24 @@ def test_a_dict_that_contains_itself_is_refused():
     scene["clay"]["again"] = scene["clay"]
     with pytest.raises(mlt.SceneError, match="too deeply"):
         mlt.load_dict(scene)
+
+
+def test_dicts_that_are_nested_deeply_are_refused_in_a_short_line():
+    scene = tiny.scene()
+    inner = scene["ball"]["bsdf"]
+    for _ in range(3000):
+        inner = {"type": "twosided", "bsdf": inner}
+    scene["ball"]["bsdf"] = inner
+    with pytest.raises(mlt.SceneError, match="too deeply") as error:
+        mlt.load_dict(scene)
+    assert len(str(error.value)) < 400
+    for nested in [], (), {}:
+        for _ in range(3000):
+            nested = [nested]
+        scene["ball"]["bsdf"] = nested
+        with pytest.raises(mlt.SceneError) as error:
+            mlt.load_dict(scene)
+        assert len(str(error.value)) < 400
 
 
 def test_something_else_than_a_dict_is_refused():

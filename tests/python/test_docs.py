@@ -2,6 +2,8 @@
 
 import importlib.util
 import re
+import subprocess
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -27,6 +29,48 @@ def test_the_tables_of_parameters_are_those_of_the_schemas():
     text = module.PAGE.read_text()
     assert set(re.findall("<!-- parameters: (.*) -->", text)) == set(mlt.available("integrator"))
     assert text == module.page(text), "run: python docs/make_integrators.py"
+
+
+def test_the_table_of_flags_is_that_of_the_programs():
+    module = script("make_command_line.py")
+    text = module.PAGE.read_text()
+    assert "| `-o, --output FILE` |" in text
+    assert text == module.page(text), "run: python docs/make_command_line.py"
+
+
+def test_the_demo_builds_and_installs_nothing_for_tests(tmp_path):
+    """And its last lines say what to type next."""
+    places = [f"STAMPS={tmp_path}/stamps", f"VENV={tmp_path}/venv", f"BIN={tmp_path}/venv/bin"]
+    plan = subprocess.run(
+        ["make", "-n", *places, "demo"], cwd=ROOT, capture_output=True, text=True, check=True
+    ).stdout
+    assert "PYMLT_TESTS=OFF" in plan
+    assert "apt-packages.txt" in plan
+    assert "apt-packages-test.txt" not in plan
+    assert "pyproject.toml dev" not in plan
+    assert "activate" in plan.splitlines()[-2]
+    assert "pymlt render" in plan.splitlines()[-1]
+    everything = subprocess.run(
+        ["make", "-n", *places, "build"], cwd=ROOT, capture_output=True, text=True, check=True
+    ).stdout
+    for what in "PYMLT_TESTS=ON", "apt-packages-test.txt", "pyproject.toml dev":
+        assert what in everything
+
+
+def test_extras_are_those_that_are_used():
+    extras = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    assert not {"view", "denoise"} & set(extras["optional-dependencies"])
+
+
+def test_no_two_pages_have_one_title():
+    titles = [re.search(r"^# (.*)$", page.read_text(), re.MULTILINE)[1] for page in PAGES[1:]]
+    titles.append((ROOT / "docs" / "gallery" / "GALLERY_HEADER.rst").read_text().splitlines()[0])
+    assert len(titles) == len(set(titles))
+
+
+def test_the_documentation_needs_no_network():
+    """Formulas are drawn by a copy of MathJax that is built in."""
+    assert '"sphinx-mathjax-offline"' in (ROOT / "docs" / "conf.py").read_text()
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda p: str(p.relative_to(ROOT)))
@@ -125,12 +169,13 @@ def test_the_mutation_of_the_page_on_prototypes_is_right(capsys):
     assert "right: none of" in capsys.readouterr().out
 
 
-def test_the_python_examples_of_the_readme_run(tmp_path, monkeypatch):
+@pytest.mark.parametrize("page", ["README.md", "docs/quick-start.md"])
+def test_the_python_examples_of_the_first_pages_run(page, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    code = python_of("README.md")
+    code = python_of(page)
     assert "mlt.render(" in code
     # The same statements on small images, so that they take no time.
-    code = re.sub(r"(spp|time)=[\d.]+", r"\1=1", code)
+    code = re.sub(r"(spp|time)=[\d.]+", "spp=1", code)
     load_dict = mlt.load_dict
-    monkeypatch.setattr(mlt, "load_dict", lambda scene: load_dict(scene, size=(24, 16)))
-    exec(compile(code, "README.md", "exec"), {})
+    monkeypatch.setattr(mlt, "load_dict", lambda scene, size=None: load_dict(scene, size=(24, 16)))
+    exec(compile(code, page, "exec"), {})

@@ -3,13 +3,16 @@
 #include "base/registry.h"
 #include "scene/film_settings.h"
 
+#include <limits>
+
 namespace mlt {
 namespace {
 
 ObjectPtr create(Params& params) {
   auto sampler = std::make_shared<SamplerSettings>();
   if (params.has("sample_count"))
-    sampler->sample_count = params.integer_in("sample_count", 1, int64_t{1} << 40);
+    sampler->sample_count =
+        params.integer_in("sample_count", 1, std::numeric_limits<int32_t>::max());
   return sampler;
 }
 

@@ -1,20 +1,20 @@
 """The command line: pymlt render | merge | compare | info | list | lab.
 
 Exit codes: 0 done; 1 `compare --fail-above` found more; 2 a mistake in usage or in the scene, or an
-output that cannot be written; 3 the render failed; 130 and 143 interrupted by SIGINT or SIGTERM,
-with what was rendered saved. Every error is one line on stderr.
+output that cannot be written, found before the work began; 3 the render failed, or an output at its
+end is not where it was asked for; 129, 130 and 143 interrupted by SIGHUP, SIGINT or SIGTERM, with
+what was rendered saved. Every error is one line on stderr.
 """
 
 from __future__ import annotations
 
-import os
 import signal
 import sys
 import traceback
 
 from .. import _core
 from . import compare, info, lab, listing, merge, render
-from .common import Parser, say
+from .common import Parser, open_standard_streams, say
 
 COMMANDS = {
     "render": render,
@@ -27,22 +27,21 @@ COMMANDS = {
 
 
 def main(arguments: list[str] | None = None) -> int:
+    open_standard_streams()
     try:
         args = make_parser().parse_args(arguments)
-        code = args.command(args)
-        sys.stdout.flush()
-        return code
+        return args.command(args)
     except (_core.SceneError, _core.UsageError, _core.FileError) as error:
         return fail(2, error)
     except (_core.Error, MemoryError) as error:
         return fail(3, error)
-    except BrokenPipeError:  # the reader of our output (`| head`) has seen enough
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return 0
+    except ImportError as error:  # numpy has more to load than there is memory
+        return fail(3, str(error).strip().splitlines()[-1])
     except KeyboardInterrupt:
         return 128 + signal.SIGINT
     except Exception:  # a bug: say where
-        traceback.print_exc()
+        if sys.stderr is not None:
+            traceback.print_exc()
         return 3
 
 
@@ -58,9 +57,8 @@ def make_parser() -> Parser:
         allow_abbrev=False,
     )
     parser.add_argument("--version", action="version", version=f"pymlt {_core.__version__}")
-    commands = parser.add_subparsers(
-        required=True, metavar=f"{{{','.join(COMMANDS)}}}", parser_class=Parser
-    )
+    parser.set_defaults(command=lambda _: parser.print_help() or 0)
+    commands = parser.add_subparsers(metavar=f"{{{','.join(COMMANDS)}}}", parser_class=Parser)
     for name, module in COMMANDS.items():
         help = module.HELP
         command = commands.add_parser(name, help=help, description=help, allow_abbrev=False)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import os
 import sys
 from collections.abc import Callable
@@ -16,12 +17,45 @@ FLAGS = {flag.name: flag for flag in _core.render_flags()}
 class Parser(argparse.ArgumentParser):
     """Its errors are one line."""
 
+    def _print_message(self, message, file=None):
+        emit(message.rstrip("\n"))
+
     def error(self, message):
         raise _core.UsageError(f"{message}; see {self.prog} --help")
 
 
+def open_standard_streams() -> None:
+    """Opens those that are closed, so that no file of ours takes the number of one."""
+    for stream in range(3):
+        try:
+            os.fstat(stream)
+        except OSError:
+            os.open(os.devnull, os.O_RDWR)
+
+
 def say(message) -> None:
-    print("pymlt:", " ".join(str(message).split("\n")), file=sys.stderr, flush=True)
+    """One line on stderr, if that can be written to; what is rendered does not depend on it."""
+    if sys.stderr is not None:
+        with contextlib.suppress(OSError):
+            print("pymlt:", " ".join(str(message).split("\n")), file=sys.stderr, flush=True)
+
+
+def emit(text: str) -> None:
+    """What a command is asked for, on stdout. Raises FileError if that cannot be written to."""
+    if sys.stdout is None:
+        raise _core.FileError("stdout: cannot write it: it is closed")
+    try:
+        print(text, flush=True)
+    except BrokenPipeError:  # the reader of our output (`| head`) has seen enough
+        drop_stdout()
+    except OSError as error:
+        drop_stdout()
+        raise _core.FileError(f"stdout: cannot write it: {error.strerror}") from None
+
+
+def drop_stdout() -> None:
+    """What is left in its buffer goes nowhere when Python ends."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def warn(warnings: list[str]) -> None:
@@ -56,17 +90,22 @@ def reader(read: Callable[[str], object]) -> Callable[[str], object]:
     return call
 
 
+def built_in_name(text: str) -> str | None:
+    """The name of the built-in scene that somebody means, who may have written door-ajar."""
+    name = text.replace("-", "_")
+    return name if name in scenes.names() else None
+
+
 def load_scene(args) -> _core.Scene:
     """The file or the built-in scene that the arguments `scene`, `defines` and `size` mean."""
     defines, size = dict(args.defines), getattr(args, "size", None)
-    name = args.scene.replace("-", "_")
     if os.path.exists(args.scene):
         return load_file(args.scene, size=size, **defines)
-    if name in scenes.names():
+    if name := built_in_name(args.scene):
         return load_built_in(name, defines, size)
-    if "." in name or os.sep in name:
-        raise _core.FileError(f"{args.scene}: no such file")
+    if "." in args.scene or os.sep in args.scene:
+        raise _core.FileError(f"{args.scene}: there is no such file")
     raise _core.UsageError(
         f"{args.scene!r} is neither a file nor a built-in scene"
-        + _core.suggestion(name, scenes.names()),
+        + _core.suggestion(args.scene.replace("-", "_"), scenes.names()),
     )

@@ -7,7 +7,7 @@ import math
 
 from .. import _core
 from ..diagnostics.metrics import compare
-from .common import FLAGS, reader, say
+from .common import FLAGS, emit, reader, say
 
 HELP = "Print how far an image is from a reference."
 METRICS = ("mse", "rmse", "relmse", "relmse_trimmed", "mape", "bias_z", "flip")
@@ -42,10 +42,9 @@ def run(args) -> int:
     metrics = compare(args.image, args.reference, flip=True if "flip" in wanted else None)
     if args.json:
         finite = {k: v if math.isfinite(v) else None for k, v in metrics.items()}
-        print(json.dumps(finite, indent=2))
+        emit(json.dumps(finite, indent=2))
     else:
-        for name, value in metrics.items():
-            print(f"{name:15} {value:.6g}")
+        emit("\n".join(f"{name:15} {value:.6g}" for name, value in metrics.items()))
     above = [(n, limit) for n, limit in args.fail_above if not abs(metrics[n]) <= limit]
     for name, limit in above:
         say(f"{name} is {metrics[name]:.6g}, above {limit:g}")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 
-from .common import FLAGS, add_flag, load_scene, warn
+from .common import FLAGS, add_flag, emit, load_scene, warn
 
 HELP = "Print what a scene holds."
 
@@ -18,12 +18,10 @@ def add_arguments(command) -> None:
 def run(args) -> int:
     info = load_scene(args).info()
     if args.json:
-        print(json.dumps(info, indent=2))
+        emit(json.dumps(info, indent=2))
         return 0
-    for name, value in info.items():
-        if name == "warnings":
-            continue
-        text = " x ".join(map(str, value)) if name == "size" else value
-        print(f"{name:13} {text}")
+    shown = {name: value for name, value in info.items() if name != "warnings"}
+    shown["size"] = " x ".join(map(str, info["size"]))
+    emit("\n".join(f"{name:13} {value}" for name, value in shown.items()))
     warn(info["warnings"])
     return 0

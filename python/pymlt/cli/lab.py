@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import io
 import os
 
 from .. import _core
 from ..lab import draw, names, pyplot_module, script, title
-from .common import say
+from .common import emit, say
 
 HELP = "Run a script of the gallery: show its figure, or save it."
 
@@ -23,7 +24,7 @@ def run(args) -> int:
     if args.list or args.name is None:
         if args.name or args.output or not args.list:
             raise _core.UsageError("lab needs --list or the name of a script; see pymlt lab --help")
-        print("\n".join(f"{name:15} {title(name)}" for name in names()))
+        emit("\n".join(f"{name:15} {title(name)}" for name in names()))
         return 0
     script(args.name)  # known, before matplotlib is imported
     output = args.output
@@ -33,11 +34,17 @@ def run(args) -> int:
     figure = draw(args.name)
     if not output and not has_window():
         output = f"{args.name}.png"
-    if output:
-        figure.savefig(output)
-        say(output)
+    code = save(figure, output) if output else 0
     pyplot_module().close(figure)
-    return 0
+    return code
+
+
+def save(figure, path: str) -> int:
+    picture = io.BytesIO()
+    figure.savefig(picture, format=os.path.splitext(path)[1][1:].lower())
+    saved, problem = _core.save_text(path, picture.getvalue())
+    say(problem or saved)
+    return 3 if problem else 0
 
 
 def check_output(path: str) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from .. import _core, scenes
 from ..algorithms.schemas import available, describe
+from .common import emit
 
 HELP = "List plug-ins, the parameters of one, or the built-in scenes."
 
@@ -18,7 +19,7 @@ def add_arguments(command) -> None:
 
 
 def run(args) -> int:
-    print("\n".join(_lines(args.name)))
+    emit("\n".join(_lines(args.name)))
     return 0
 
 

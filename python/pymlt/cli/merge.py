@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from .. import _core
 from ..rendering.merging import merge
+from .common import say
 
 HELP = "Merge renders of one scene with different seeds."
 
@@ -20,5 +21,11 @@ def add_arguments(command) -> None:
 
 def run(args) -> int:
     _core.check_image_writable(args.output)
-    merge(args.renders, force=args.force).write(args.output)
-    return 0
+    merged = merge(args.renders, force=args.force)
+    path, problem = merged._save(args.output)
+    if problem:
+        say(problem)
+    width, height = merged.stats["size"]
+    count, spp = merged.stats["renders"], merged.stats["spp_done"]
+    say(f"{count} renders of {width} x {height}, {spp:.4g} spp together: {path or 'not saved'}")
+    return 3 if problem else 0

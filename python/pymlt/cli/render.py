@@ -13,7 +13,7 @@ from ..rendering.options import RenderOptions
 from ..rendering.progress import progress_bar
 from ..rendering.result import Result
 from ..rendering.start import saved_job
-from .common import FLAGS, add_flag, load_scene, say, warn
+from .common import FLAGS, add_flag, built_in_name, load_scene, say, warn
 from .signals import Signals
 
 HELP = "Render a scene to image files."
@@ -31,7 +31,10 @@ def given(args) -> dict:
 
 def check(args) -> None:
     try:
-        _core.check_flags(set(given(args)))
+        values = given(args)
+        _core.check_flags(set(values))
+        files = {name: values[name] for name in values if FLAGS[name].is_file}
+        _core.check_files({n: v if isinstance(v, list) else [v] for n, v in files.items()})
     except _core.UsageError as error:
         raise _core.UsageError(f"{error}; see pymlt render --help") from None
 
@@ -42,8 +45,8 @@ def start(args, signals: Signals) -> Job:
         **{f.name: values[f.name] for f in fields(RenderOptions) if f.name in values}
     )
     if args.resume:
-        if args.scene and not os.path.exists(args.scene):
-            raise _core.FileError(f"{args.scene}: no such file")
+        if args.scene and not os.path.exists(args.scene) and not built_in_name(args.scene):
+            raise _core.FileError(f"{args.scene}: there is no such file")
         return signals.abandonable(lambda: saved_job(args.resume, args.scene, options))._start()
     scene = signals.abandonable(lambda: load_scene(args))
     return Job(scene, as_integrator(scene, args.integrator, args.parameters), options)._start()
@@ -55,6 +58,8 @@ def run(args) -> int:
         _core.check_image_writable(path)
     if args.stats:
         _core.check_file_writable(args.stats)
+    import numpy  # noqa: F401 (what writing needs is there before the work begins)
+
     with Signals() as signals:
         job = start(args, signals)
         known = job.stats["warnings"]
@@ -73,10 +78,10 @@ def run(args) -> int:
         result = job.result()
         if not args.quiet:
             warn(result.stats["warnings"][len(known) :])
-        save(args, result)
+        images, complete = save(args, result)
     if not args.quiet:
-        say(("interrupted; " if code else "") + summary(result, args.output))
-    return code
+        say(("interrupted; " if code else "") + summary(result, images))
+    return code if complete else 3
 
 
 def wait(job: Job, signals: Signals, quiet: bool) -> None:
@@ -87,28 +92,23 @@ def wait(job: Job, signals: Signals, quiet: bool) -> None:
             show(job.progress, {"spp": f"{job.stats['spp_done']:.4g}"})
 
 
-def save(args, result: Result) -> None:
-    """Every output is tried, and elsewhere if it fails, before any error is reported."""
-    failures = []
-    writers = [(path, lambda path: result.save(path, args.exposure or 0)) for path in args.output]
+def save(args, result: Result) -> tuple[list[str], bool]:
+    """Every output is tried, and elsewhere if it fails. Returns where the images are, and whether
+    everything is where it was asked for."""
+    files = [result._save(path, args.exposure or 0) for path in args.output]
+    images = [path for path, _ in files if path]
     if args.stats:
-        text = json.dumps(result.stats, indent=2) + "\n"
-        writers.append((args.stats, lambda path: _core.write_text(path, text)))
-    for path, write in writers:
-        try:
-            written = write(path)
-        except _core.FileError as error:
-            failures.append(error)
-            continue
-        if written != path:
-            say(f"{path} could not be written; it is saved as {written}")
-    if failures:
-        raise failures[0]
+        files.append(_core.save_text(args.stats, json.dumps(result.stats, indent=2) + "\n"))
+    problems = [problem for _, problem in files if problem]
+    for problem in problems:
+        say(problem)
+    return images, not problems
 
 
-def summary(result: Result, outputs: list[str]) -> str:
+def summary(result: Result, images: list[str]) -> str:
     stats = result.stats
     width, height = stats["size"]
     seconds = stats["seconds"]["bootstrap"] + stats["seconds"]["render"]
     spp = stats["spp_done"]
-    return f"{width} x {height}, {spp:.4g} spp in {seconds:.1f} s: {', '.join(outputs)}"
+    where = ", ".join(images) or "no image could be saved"
+    return f"{width} x {height}, {spp:.4g} spp in {seconds:.1f} s: {where}"

@@ -1,4 +1,4 @@
-"""SIGINT and SIGTERM during a render."""
+"""The signals that end a render early."""
 
 from __future__ import annotations
 
@@ -8,14 +8,18 @@ import threading
 
 
 class Signals:
-    """SIGINT and SIGTERM while there is something to save: remembered in `caught`, not raised."""
+    """SIGINT, SIGTERM and SIGHUP (of a terminal that was closed, unless nohup had it ignored) while
+    there is something to save: remembered in `caught`, not raised."""
 
     def __init__(self):
         self.caught = 0
 
     def __enter__(self):
         if threading.current_thread() is threading.main_thread():
-            self._old = {n: signal.signal(n, self._catch) for n in (signal.SIGINT, signal.SIGTERM)}
+            numbers = [signal.SIGINT, signal.SIGTERM]
+            if signal.getsignal(signal.SIGHUP) != signal.SIG_IGN:
+                numbers.append(signal.SIGHUP)
+            self._old = {n: signal.signal(n, self._catch) for n in numbers}
         else:
             self._old = {}
         return self

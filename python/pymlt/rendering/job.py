@@ -37,8 +37,7 @@ class Job:
             options.error,
             options.seed,
             options.threads,
-            options.checkpoint or "",
-            options.every,
+            _core.CheckpointFile(options.checkpoint or "", options.every, options.overwrite),
         )
 
     def _start(self) -> Job:
@@ -70,13 +69,14 @@ class Job:
         """The standard error of each pixel so far; see `Result.error_map`."""
         return self._job.layers().get("error")
 
-    def checkpoint(self, path) -> None:
+    def checkpoint(self, path, *, overwrite: bool = False) -> None:
         """Save the state of the render, now, to a file that `resume` goes on from.
 
         The units in flight are finished, and the render goes on. Raises FileError if the file
-        cannot be written, or exists and is no checkpoint.
+        cannot be written, exists and is no checkpoint, or is that of another render, unless
+        `overwrite` is given.
         """
-        self._job.checkpoint(os.fspath(path))
+        self._job.checkpoint(os.fspath(path), overwrite)
 
     def extend(self, *, spp=None, time=None, error=None) -> None:
         """After the end: go on to a larger budget, counted from the very beginning.

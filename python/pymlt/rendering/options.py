@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import inspect
+import numbers
 import operator
 import os
 from collections.abc import Callable
@@ -24,9 +25,10 @@ class RenderOptions:
     seed, threads
         The image depends on the seed (0 to 2**64 - 1) but not on the number of threads (0: all
         there are).
-    checkpoint, every
+    checkpoint, every, overwrite
         a file that keeps the state of the render, renewed every so many seconds and at the end;
-        `resume` goes on from there.
+        `resume` goes on from there. The checkpoint of another render is replaced only with
+        `overwrite`.
     cluster
         where to render: a `dask.distributed` client or cluster, the address of one
         ("tcp://host:8786"), or "local:N" for N processes of this machine. None is this process.
@@ -40,13 +42,14 @@ class RenderOptions:
     threads: int = 0
     checkpoint: str | os.PathLike | None = None
     every: float = 60
+    overwrite: bool = False
     cluster: Any = None
 
     def __post_init__(self):
         for name in ("spp", "time", "error", "every"):
             setattr(self, name, number(name, getattr(self, name)))
         self.seed = integer("seed", self.seed, 2**64)
-        self.threads = integer("threads", self.threads, 2**31)
+        self.threads = integer("threads", self.threads, 4097)
         if self.checkpoint is not None:
             self.checkpoint = os.fspath(self.checkpoint)
 
@@ -85,10 +88,14 @@ def takes_options(function: Callable, *, fixed: tuple[str, ...] = ()) -> Callabl
 
 
 def number(name: str, value) -> float | None:
+    if value is None:
+        return None
+    if not isinstance(value, numbers.Real) or isinstance(value, bool):
+        raise _core.UsageError(f"{name} is {value!r}, but should be a number")
     try:
-        return None if value is None else float(value)
-    except (TypeError, ValueError):
-        raise _core.UsageError(f"{name} is {value!r}, but should be a number") from None
+        return float(value)
+    except OverflowError:
+        raise _core.UsageError(f"{name} is too large a number") from None
 
 
 def integer(name: str, value, end: int) -> int:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import sys
-from contextlib import contextmanager
+import warnings
+from contextlib import contextmanager, suppress
 
 _FORMAT = "{desc}{percentage:3.0f}%|{bar}| {elapsed}<{remaining}{postfix}"
 
@@ -19,16 +20,34 @@ def progress_bar(progress):
         yield lambda done, _: progress(done)
         return
     if progress is None:
-        progress = sys.stderr.isatty() or "ipykernel" in sys.modules
+        progress = _is_shown() or "ipykernel" in sys.modules
     if not progress:
         yield lambda done, numbers: None
         return
-    from tqdm.auto import tqdm
+    bar = _bar()
 
-    with tqdm(total=1.0, bar_format=_FORMAT, leave=False) as bar:
-
-        def update(done, numbers):
+    def update(done, numbers):
+        with suppress(OSError):  # of a terminal that has gone
             bar.set_postfix(numbers, refresh=False)
             bar.update(max(0.0, done - bar.n))
 
+    try:
         yield update
+    finally:
+        with suppress(OSError):
+            bar.close()
+
+
+def _is_shown() -> bool:
+    return sys.stderr is not None and sys.stderr.isatty()
+
+
+def _bar():
+    """A widget where ipywidgets has one, else a line of text; tqdm would warn of the latter."""
+    from tqdm import TqdmWarning
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", TqdmWarning)
+        from tqdm.auto import tqdm
+
+        return tqdm(total=1.0, bar_format=_FORMAT, leave=False)

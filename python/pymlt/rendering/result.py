@@ -72,17 +72,21 @@ class Result:
         An .exr holds the layers too; beside NAME.png, NAME.techniques.png shows the techniques.
         `exposure` brightens .png by so many stops. Raises FileError if it cannot be written.
         """
-        self._write(path, exposure, rescue=False)
+        _core.write_image(*self._file(path, exposure))
 
     def save(self, path, exposure: float = 0) -> str:
         """The same, but if `path` fails try other places; returns where the image is."""
-        return self._write(path, exposure, rescue=True)
+        where, problem = self._save(path, exposure)
+        if not where:
+            raise _core.FileError(problem)
+        return where
 
-    def _write(self, path, exposure: float, rescue: bool) -> str:
-        path = os.fspath(path)
-        return _core.write_image(
-            path, self.image, self.layers, self.metadata, self.half, exposure, rescue
-        )
+    def _save(self, path, exposure: float = 0) -> tuple[str, str]:
+        """Where the image is, or ""; and why it is not at `path`, or ""."""
+        return _core.save_image(*self._file(path, exposure))
+
+    def _file(self, path, exposure: float) -> tuple:
+        return os.fspath(path), self.image, self.layers, self.metadata, self.half, exposure
 
     def __repr__(self) -> str:
         height, width = self.image.shape[:2]

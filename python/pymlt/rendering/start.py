@@ -64,12 +64,16 @@ def resume(
         render goes on if they are larger.
     threads
         as for `start`.
-    checkpoint, every
+    checkpoint, every, overwrite
         where the state is kept from now on; None means `path`.
     cluster
         where to render, as for `start`; it need not be where the render began.
     """
     return saved_job(os.fspath(path), scene, options)._start()
+
+
+def names_built_in(scene: str | os.PathLike | None, name: str) -> bool:
+    return scene is None or (not os.path.exists(scene) and str(scene).replace("-", "_") == name)
 
 
 def saved_job(path: str, scene: SceneLike | None, options: RenderOptions) -> Job:
@@ -78,7 +82,7 @@ def saved_job(path: str, scene: SceneLike | None, options: RenderOptions) -> Job
     if isinstance(scene, Scene | dict):
         scene = as_scene(scene)
         saved.check(scene)
-    elif scene is None and saved.built_in:
+    elif saved.built_in and names_built_in(scene, saved.built_in[0]):
         scene = load_built_in(*saved.built_in)
         saved.check(scene)
     else:

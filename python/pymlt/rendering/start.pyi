@@ -11,6 +11,10 @@ from .job import Job
 from .options import RenderOptions
 from .result import Replay, Result
 
+def names_built_in(
+    scene: str | os.PathLike | None,
+    name: str,
+) -> bool: ...
 def render(
     scene: SceneLike,
     integrator: IntegratorLike | None = ...,
@@ -22,6 +26,7 @@ def render(
     threads: int = ...,
     checkpoint: str | os.PathLike | None = ...,
     every: float = ...,
+    overwrite: bool = ...,
     cluster: Any = ...,
     progress: bool | Callable[[float], object] | None = ...,
     callback: Callable[[Result], object] | None = ...,
@@ -51,6 +56,7 @@ def resume(
     threads: int = ...,
     checkpoint: str | os.PathLike | None = ...,
     every: float = ...,
+    overwrite: bool = ...,
     cluster: Any = ...,
     scene: SceneLike | None = ...,
 ) -> Job: ...
@@ -70,5 +76,6 @@ def start(
     threads: int = ...,
     checkpoint: str | os.PathLike | None = ...,
     every: float = ...,
+    overwrite: bool = ...,
     cluster: Any = ...,
 ) -> Job: ...

@@ -50,6 +50,8 @@ def _look_at(origin, target, up):
 
     origin, target, up = (np.array(_vector([v])) for v in (origin, target, up))
     forward = target - origin
+    if not np.any(forward):
+        raise ValueError("look_at: 'origin' and 'target' must not be the same point")
     left = np.cross(up, forward)
     if not np.any(left):
         raise ValueError("look_at: 'up' must not be parallel to the direction of view")

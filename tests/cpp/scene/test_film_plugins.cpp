@@ -118,7 +118,8 @@ TEST(SamplerPlugins, CarryTheSampleCount) {
     EXPECT_EQ(plugin.schema.family, "sampler");
     EXPECT_EQ(make<SamplerSettings>(plugin)->sample_count, 0);
     EXPECT_EQ(make<SamplerSettings>(plugin, {{"sampleCount", int64_t{17}}})->sample_count, 17);
-    EXPECT_THAT(error_in(plugin, {{"sample_count", int64_t{0}}}), HasSubstr("sample_count"));
+    for (const int64_t count : {int64_t{0}, int64_t{1} << 31})
+      EXPECT_THAT(error_in(plugin, {{"sample_count", count}}), HasSubstr("sample_count"));
   }
 }
 

@@ -1,0 +1,12 @@
+// The scenes that are installed with the program, by name.
+#pragma once
+
+#include <string>
+
+namespace mlt {
+
+/// The XML file that `scene` means: itself, or that of the built-in scene with this name, which may
+/// be written door-ajar or door_ajar.
+std::string scene_file(const std::string& scene);
+
+}  // namespace mlt
