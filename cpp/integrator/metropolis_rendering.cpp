@@ -167,6 +167,16 @@ void MetropolisRendering::lay_out_units() {
   };
 }
 
+/// The sums of the samples come beside those of the chains: six floats a pixel for each group, that
+/// is as much.
+Rendering::Memory MetropolisRendering::memory(double spp) const {
+  Memory memory = Rendering::memory(spp);
+  if (settings_.independent_share == 0) return memory;
+  memory.to_come = memory.bytes;
+  memory.bytes *= 2;
+  return memory;
+}
+
 // ---- the units --------------------------------------------------------------------------------
 
 void MetropolisRendering::run_unit(uint64_t unit) {

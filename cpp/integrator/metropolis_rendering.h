@@ -34,6 +34,7 @@ class MetropolisRendering : public Rendering {
                       std::unique_ptr<MetropolisAlgorithm> algorithm, SeparateDirect direct = {});
 
   void prepare(int threads, const std::atomic<bool>& cancelled) override;
+  Memory memory(double spp) const override;
   void run_unit(uint64_t unit) override;
   Image image() const override;
   /// Of the chains.
