@@ -18,7 +18,7 @@ struct FoundLight {
   Vec2 raster;
   Color rgb;                   ///< What it adds to the image: f / p, weighted among techniques.
   double weight;               ///< What it adds to b, the integral of the target: T / p.
-  double target_over_density;  ///< T / P, or less where chains stay for long, see FamilyWeights.
+  double target_over_density;  ///< T / P, see FamilyWeights.
   bool own_pixel;              ///< At the sample's own image position, not by light tracing.
 
   bool valid() const {

@@ -126,7 +126,7 @@ class MltAlgorithm : public MetropolisAlgorithm {
 
  private:
   struct MltSource : Source {
-    explicit MltSource(const PathTarget& t) : target(&t), seeds(t) {}
+    explicit MltSource(const PathTarget& target) : seeds(target) {}
     const std::vector<FoundLight>& sample(const Vec2& raster, PixelSampler& sampler) override {
       return draw(raster, sampler);
     }
@@ -140,12 +140,11 @@ class MltAlgorithm : public MetropolisAlgorithm {
       found.clear();
       seeds.draw(raster, sampler, [&](const Connection& c, double weight) {
         found.push_back({c.raster, c.contribution * c.weight, weight,
-                         weight / c.weight * c.own_share / target->stay(c.largest_G), c.t >= 2});
+                         weight / c.weight * c.own_share, c.t >= 2});
       });
       return found;
     }
 
-    const PathTarget* target;
     PathSeeds seeds;
     std::vector<FoundLight> found;
   };

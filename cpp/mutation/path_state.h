@@ -24,8 +24,6 @@ struct PathState {
   Color rgb{0};       ///< f(x) / |f(x)|, see relative_contribution.
   double target = 0;  ///< L*(x) / |f(x)|, times the factor of two-stage sampling.
 
-  double stay = 1;  ///< See PathTarget::stay.
-
   /// L*(x), times that factor. May overflow or underflow; chains do without it.
   double brightness() const { return target * magnitude(terms, 0, edges()); }
 
@@ -34,10 +32,9 @@ struct PathState {
   bool specular(int i) const { return terms[i].specular; }  ///< S, not D, of inner vertex i.
 };
 
-/// T(x) / P(x), the target over the density of all techniques of bidirectional path tracing, over
-/// the factor by which chains stay there for longer.
+/// T(x) / P(x): the target over the density of all techniques of bidirectional path tracing.
 inline double target_over_density(const PathState& x) {
-  return x.target / (x.stay * total_density(ContributionMeasure{x.terms}));
+  return x.target / total_density(ContributionMeasure{x.terms});
 }
 
 /// y becomes x with the edit applied; the inserted vertices and their terms are yet to be filled

@@ -29,7 +29,6 @@ void PathTarget::evaluate_target(PathState& x) const {
   if (!raster) return;
   x.raster = *raster;
   x.target = of(x.rgb, x.raster);
-  x.stay = stay(largest_G(x.terms));
 }
 
 PathSeeds PathTarget::seeds() const { return PathSeeds(*this); }

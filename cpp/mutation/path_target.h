@@ -31,13 +31,6 @@ class PathTarget {
     const double luminance = target_luminance(color);
     return map_ ? luminance * (*map_)(raster) : luminance;
   }
-  /// For how long chains stay at a path, as a factor: for long where an edge between two surfaces is
-  /// short, since moves of the usual size then leave the narrow peak of its G.
-  double stay(double largest_G) const {
-    constexpr double move = 0.02;  // of the scene's radius
-    return 1 + largest_G * sqr(move * scene_->bounds().radius);
-  }
-
   /// Computes what depends on vertices first ... last and their neighbours, then f and L*. Without
   /// visibility. target = 0 if the path carries no light, misses the image or breaks the rules.
   void evaluate(int first, int last, PathState& x) const;

@@ -14,19 +14,6 @@ void BidirectionalSampler::begin_densities(const WalkVertex* lights, int s,
     densities_[k - j] = {cameras[j].reverse, cameras[j].forward, connectable(cameras[j].vertex)};
 }
 
-/// Over the edges x_i x_{i+1} between surfaces that scatter smoothly; `joint` is that of the
-/// connecting edge. As largest_G(terms) of the finished path.
-double BidirectionalSampler::largest_G(const WalkVertex* lights, int s, double joint) const {
-  const int k = static_cast<int>(densities_.size()) - 1;
-  double largest = 0;
-  for (int i = 1; i + 1 < k; ++i) {
-    if (!densities_[i].connectable || !densities_[i + 1].connectable) continue;
-    const double G = i + 1 < s ? lights[i + 1].G : i >= s ? camera_[k - i].G : joint;
-    largest = std::max(largest, G);
-  }
-  return largest;
-}
-
 bool BidirectionalSampler::weigh(Connection& connection, double survival, const Vertex& x0,
                                  const Vertex& xk, const SurfacePoint& x1) {
   const int k = static_cast<int>(densities_.size()) - 1;
@@ -56,7 +43,6 @@ bool BidirectionalSampler::evaluate_hit_light(Connection& connection) {
   densities_[0].connectable = true;
   densities_[0].from_light = light_position_pdf(*scene_, x0);
   densities_[1].from_light = terms.pdf_from_light * end.G;
-  connection.largest_G = largest_G(nullptr, 0, 0);
   return weigh(connection, end.survival, x0, camera_[0].vertex, camera_[t - 2].vertex.at);
 }
 
@@ -98,7 +84,6 @@ bool BidirectionalSampler::evaluate_connection(Connection& connection, RayCounts
   densities_[s - 1].from_camera = at_b.pdf_from_camera * G;
   if (s >= 2) densities_[s - 2].from_camera = at_a.pdf_from_camera * a.G;
   const SurfacePoint& x1 = s >= 2 ? light_[1].vertex.at : b.vertex.at;
-  connection.largest_G = largest_G(lights, s, G);
   return weigh(connection, a.survival * b.survival, lights[0].vertex, camera_[0].vertex, x1);
 }
 
@@ -142,7 +127,6 @@ bool BidirectionalSampler::evaluate_hit_lens(Connection& connection, RayCounts& 
   densities_[k].from_light = last.next_coefficient * G;
   densities_[k - 1].from_camera = terms.pdf_from_camera * G;
   const SurfacePoint& x1 = k >= 2 ? light_[1].vertex.at : lens_.vertex.at;
-  connection.largest_G = largest_G(light_.data(), k, G);
   return weigh(connection, last.next_survival, light_[0].vertex, lens_.vertex, x1);
 }
 

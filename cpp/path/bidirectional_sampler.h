@@ -25,7 +25,6 @@ struct Connection {
   const Emitter* emitter = nullptr;  ///< The light of a path with s = 0.
   /// Times the contribution: f / P, with P the density of all techniques together.
   double own_share = 0;
-  double largest_G = 0;  ///< Of the edges between two surfaces that scatter smoothly.
 };
 
 /// A light and a camera subpath, and the connections between them. Keeps its memory from sample to
@@ -133,7 +132,6 @@ class BidirectionalSampler {
   bool evaluate_hit_lens(Connection& connection, RayCounts& rays);
   bool choose_direct(const SurfacePoint& from, const Vec3& u);
 
-  double largest_G(const WalkVertex* lights, int s, double joint) const;
   void begin_densities(const WalkVertex* lights, int s, const WalkVertex* cameras, int t);
   /// Fills in the weights from `densities_`; false if this technique counts for nothing.
   bool weigh(Connection& connection, double survival, const Vertex& x0, const Vertex& xk,

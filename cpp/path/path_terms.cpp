@@ -75,13 +75,6 @@ Color relative_contribution(const PathTerms& terms) {
   return product;
 }
 
-double largest_G(const PathTerms& terms) {
-  double largest = 0;
-  for (int i = 1; i + 1 < terms.edges(); ++i)
-    if (terms[i].connectable && terms[i + 1].connectable) largest = std::max(largest, terms[i].G);
-  return largest;
-}
-
 bool can_sample(const PathTerms& terms, int s) {
   const int k = terms.edges();
   if (s == 0) return terms.light_can_be_hit;

@@ -69,9 +69,6 @@ double magnitude(const PathTerms& terms, int i, int j);
 /// f(x) / |f(x)|: a colour, whatever the length of the path and the scale of the scene.
 Color relative_contribution(const PathTerms& terms);
 
-/// The largest G_i of the edges x_i x_{i+1} between two surfaces that scatter smoothly.
-double largest_G(const PathTerms& terms);
-
 /// Can technique s make the path? Only if neither end of the connecting edge is a delta vertex;
 /// s = 0 needs a light, s = k + 1 a lens, that a walk can hit.
 bool can_sample(const PathTerms& terms, int s);

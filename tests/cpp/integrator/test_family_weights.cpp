@@ -37,7 +37,7 @@ TEST_P(TargetOverDensity, IsTheSameForSamplesAndChains) {
     seeds.draw(RandomSampler(rng), [&](const Connection& c, double weight) {
       seeds.assemble(c, x);
       if (!(x.target > 0)) return;  // rounding: a path through an edge of the image, say
-      const double q = weight / c.weight * c.own_share / target.stay(c.largest_G);
+      const double q = weight / c.weight * c.own_share;
       errors.push_back(std::abs(q / target_over_density(x) - 1));
       roulette += x.edges() > 6;
     });
