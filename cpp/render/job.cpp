@@ -1,11 +1,8 @@
 #include "render/job.h"
 
 #include "base/parallel.h"
-#include "mlt_version.h"
 
 #include <fmt/format.h>
-
-#include <cmath>
 
 namespace mlt {
 
@@ -234,86 +231,6 @@ void Job::load(const std::string& state) {
   autosave_.begin_saved(units);
   bootstrap_seconds_ = bootstrap;
   total_seconds_ = seconds_before_ = total;
-}
-
-// ---- looking at it ----------------------------------------------------------------------------
-
-bool Job::wait(double seconds) {
-  std::unique_lock lock(mutex_);
-  if (std::isfinite(seconds))
-    ended_.wait_for(lock, std::chrono::duration<double>(seconds), [this] { return ended(); });
-  else
-    ended_.wait(lock, [this] { return ended(); });
-  if (!ended()) return false;
-  if (failure_) std::rethrow_exception(failure_);
-  return true;
-}
-
-double Job::seconds_so_far() const {
-  return seconds_before_ + std::chrono::duration<double>(Clock::now() - started_).count();
-}
-
-double Job::progress() const {
-  if (phase_ == Phase::waiting) return 0;
-  return ended() ? 1 : stop_rule_.progress(units_done_, seconds_so_far());
-}
-
-Image Job::image() const {
-  const std::lock_guard lock(merging_);
-  return rendering_->image();
-}
-
-std::shared_ptr<const ErrorEstimate> Job::error() const {
-  const std::lock_guard no_merging(merging_);
-  if (!ended()) return std::make_shared<ErrorEstimate>(estimate_error(*rendering_));
-  const std::lock_guard lock(error_mutex_);
-  if (!final_error_) final_error_ = std::make_shared<ErrorEstimate>(estimate_error(*rendering_));
-  return final_error_;
-}
-
-std::vector<NamedImage> Job::layers() const {
-  std::vector<NamedImage> layers;
-  {
-    const std::lock_guard lock(merging_);
-    layers = rendering_->layers();
-  }
-  for (NamedImage& layer : error_layers(*error())) layers.push_back(std::move(layer));
-  return layers;
-}
-
-double Job::spp_done() const {
-  // A render that is resumed counts what it has once it has begun.
-  const Phase phase = phase_;
-  const bool begun = phase == Phase::rendering || phase == Phase::ended;
-  return begun ? rendering_->plan().spp_done(units_done_) : 0.0;
-}
-
-Stats Job::stats() const {
-  Stats stats;
-  stats.version = MLT_VERSION;
-  stats.integrator = integrator_->name();
-  stats.seed = seed_;
-  stats.width = scene_->camera().raster().size.x;
-  stats.height = scene_->camera().raster().size.y;
-  if (const size_t needed = bytes_needed(); available_ > 0 && needed > available_)
-    stats.warnings.push_back(fmt::format("the render needs about {} of memory, and {} are free",
-                                         in_words(needed), in_words(available_)));
-  const Phase phase = phase_;
-  if (phase == Phase::rendering || phase == Phase::ended) {
-    stats.spp_done = spp_done();
-    stats.seconds_bootstrap = bootstrap_seconds_;
-    stats.seconds_render =
-        (phase == Phase::ended ? total_seconds_.load() : seconds_so_far()) - bootstrap_seconds_;
-    // A bootstrap that failed has left nothing that could be asked.
-    if (prepared_ || phase != Phase::ended || !failure_) rendering_->add_stats(stats);
-  }
-  const std::lock_guard lock(mutex_);
-  if (const std::string failure = autosave_.failure(); !failure.empty())
-    stats.warnings.push_back("the checkpoint could not be written: " + failure);
-  if (phase != Phase::ended || failure_) return stats;
-  stats.ended_by = ended_by_;
-  if (units_done_ > 0) add_error(*error(), stats);
-  return stats;
 }
 
 }  // namespace mlt
