@@ -74,6 +74,20 @@ TEST_P(Quotients, OfAMutationThatKnowsItsDensityAloneAreTheSame) {
   for_each_proposal(target, all, 4, 500, compare);
 }
 
+TEST_P(Quotients, OfTheTargetAndTheDensityOfAllTechniquesAreThoseOfTheFullProducts) {
+  const ScenePtr scene = make_mutation_scene(GetParam()).scene;
+  const PathTarget target = path_target(scene);
+  int compared = 0;
+  for_each_light_path(target, 6, 500, [&](const PathState& x) {
+    if (!(x.target > 0) || has_underflowed(x)) return;
+    double all = 0;
+    for (int s = 0; s <= x.edges() + 1; ++s) all += technique_density(x.terms, s);
+    ASSERT_LT(relative_difference(target_over_density(x), x.brightness() / all), 1e-11);
+    ++compared;
+  });
+  EXPECT_GT(compared, 100);
+}
+
 INSTANTIATE_TEST_SUITE_P(Scenes, Quotients, testing::ValuesIn(mutation_scene_names()),
                          [](const auto& info) { return info.param; });
 
