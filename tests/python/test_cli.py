@@ -507,7 +507,7 @@ def test_a_render_ends_in_an_image_or_is_refused_whatever_memory_there_is(scene,
     binary = mlt_render() or pytest.skip("mlt-render is not installed beside this Python")
     flags = ["--integrator", integrator, "-p", "max_depth=2", "--size", "500x500", "--spp", "0.05"]
     outcomes = set()
-    for megabytes in range(220, 420, 20):
+    for megabytes in range(220, 620, 40):
         limit = 1024 * megabytes
         done = run(binary, scene, *flags, *OUT, preexec_fn=lambda limit=limit: little_memory(limit))
         outcomes.add(done.returncode)

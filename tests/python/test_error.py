@@ -8,7 +8,7 @@ import tiny
 
 import pymlt as mlt
 
-SEEDS = 20
+SEEDS = 60
 SEEN_BY = 0.9  # of the groups, in blocks where the claim counts
 LOWEST, HIGHEST = 0.8, 1.25  # claimed over true
 
