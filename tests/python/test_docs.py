@@ -42,7 +42,11 @@ def test_the_demo_builds_and_installs_nothing_for_tests(tmp_path):
     """And its last lines say what to type next."""
     places = [f"STAMPS={tmp_path}/stamps", f"VENV={tmp_path}/venv", f"BIN={tmp_path}/venv/bin"]
     plan = subprocess.run(
-        ["make", "-n", *places, "demo"], cwd=ROOT, capture_output=True, text=True, check=True
+        ["make", "-n", "--no-print-directory", *places, "demo"],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        check=True,
     ).stdout
     assert "PYMLT_TESTS=OFF" in plan
     assert "apt-packages.txt" in plan
