@@ -9,9 +9,9 @@
 namespace mlt {
 namespace {
 
-/// The c of FamilyWeights that are tried, in units of b.
-constexpr std::array<double, 8> evens = {1. / 16, 1. / 4, 1, 4, 16, 64, 256, 1024};
-using PerEven = std::array<double, evens.size()>;
+/// The thresholds c of FamilyWeights that are tried, in units of b.
+constexpr std::array<double, 8> thresholds = {1. / 16, 1. / 4, 1, 4, 16, 64, 256, 1024};
+using PerThreshold = std::array<double, thresholds.size()>;
 
 /// Samples are drawn in so many parts, one after the other in each.
 constexpr uint64_t parts = 64;
@@ -23,16 +23,16 @@ void in_parts(uint64_t count, int threads, Part&& part) {
                [&](uint64_t i) { part(i, count * i / parts, count * (i + 1) / parts); });
 }
 
-/// What one chain adds to the pixels, for each of `evens`.
-using PixelSums = std::map<std::pair<int, int>, PerEven>;
+/// What one chain adds to the pixels, for each of `thresholds`.
+using PixelSums = std::map<std::pair<int, int>, PerThreshold>;
 
 /// How noisy one family is, in units of the brightness of each pixel, and what it costs.
 struct Noise {
-  PerEven squares{};
+  PerThreshold squares{};
   uint64_t count = 0, rays = 0;
 
   Noise& operator+=(const Noise& other) {
-    for (size_t i = 0; i < evens.size(); ++i) squares[i] += other.squares[i];
+    for (size_t i = 0; i < thresholds.size(); ++i) squares[i] += other.squares[i];
     count += other.count;
     rays += other.rays;
     return *this;
@@ -40,7 +40,7 @@ struct Noise {
   double n() const { return static_cast<double>(count); }
   /// In rays; all the rest costs about as much again as one ray.
   double cost() const { return 1 + static_cast<double>(rays) / n(); }
-  double square(size_t even) const { return squares[even] / n(); }
+  double square(size_t threshold) const { return squares[threshold] / n(); }
 };
 
 class Pilot {
@@ -55,7 +55,7 @@ class Pilot {
 
   Allocation allocate(std::optional<double> wanted) {
     const Candidates candidates{settings_.seed, Purpose::allocation, settings_.samples};
-    const Bootstrap found = draw_candidates(candidates);
+    const Bootstrap found = bootstrap(candidates);
     if (found.seeds.empty()) return samples_alone();
     b0_ = found.b;
     draw_samples();
@@ -68,17 +68,15 @@ class Pilot {
   double relative(const Color& rgb, const Vec2& raster) const {
     return target_luminance(rgb) * coarse_(raster);
   }
-  FamilyWeights weights(size_t i) const { return FamilyWeights(b0_ * evens[i]); }
+  FamilyWeights weights(size_t i) const { return FamilyWeights(b0_ * thresholds[i]); }
 
-  Bootstrap draw_candidates(const Candidates& candidates) const {
-    std::vector<double> weights(candidates.count);
-    in_parts(candidates.count, settings_.threads, [&](uint64_t, uint64_t i, uint64_t last) {
-      const auto source = algorithm_.source();
-      for (; i < last && !cancelled_; ++i) {
-        Rng rng = candidates.rng(i);
-        weights[i] = weigh(*source, raster_, RandomSampler(rng)).target;
-      }
-    });
+  Bootstrap bootstrap(const Candidates& candidates) const {
+    const std::vector<double> weights = draw_candidates(
+        candidates, settings_.threads, cancelled_, [&] { return algorithm_.source(); },
+        [&](MetropolisAlgorithm::Source& source, Rng& rng) {
+          return weigh(source, raster_, RandomSampler(rng)).target;
+        },
+        [](const MetropolisAlgorithm::Source&) {});
     Rng rng = candidates.rng(candidates.count);
     return resample(weights, settings_.chains, rng);
   }
@@ -96,10 +94,10 @@ class Pilot {
                      second(mix_bits(stream), static_cast<uint32_t>(i));
                  const Vec2 position = raster_.sample(first.next2());
                  second.next2();
-                 const PerEven a = add_sample(source->sample(position, first), noise[part]),
-                               b = add_sample(source->sample(position, second), noise[part]);
-                 for (size_t e = 0; e < evens.size(); ++e)
-                   noise[part].squares[e] += sqr(a[e] - b[e]);
+                 const PerThreshold a = add_sample(source->sample(position, first), noise[part]),
+                                    b = add_sample(source->sample(position, second), noise[part]);
+                 for (size_t t = 0; t < thresholds.size(); ++t)
+                   noise[part].squares[t] += sqr(a[t] - b[t]);
                }
                noise[part].rays = source->rays().total();
              });
@@ -107,16 +105,16 @@ class Pilot {
   }
   /// Returns what the sample adds to its own pixel. All that it adds to others by light tracing is
   /// noise.
-  PerEven add_sample(const std::vector<FoundLight>& found, Noise& noise) const {
-    PerEven own_pixel{};
+  PerThreshold add_sample(const std::vector<FoundLight>& found, Noise& noise) const {
+    PerThreshold own_pixel{};
     for (const FoundLight& one : found) {
       const double value = relative(one.rgb, one.raster);
-      for (size_t e = 0; e < evens.size(); ++e) {
-        const double believed = value * weights(e).of_sample(one.target_over_density);
+      for (size_t t = 0; t < thresholds.size(); ++t) {
+        const double weighted = value * weights(t).of_sample(one.target_over_density);
         if (one.own_pixel)
-          own_pixel[e] += believed;
+          own_pixel[t] += weighted;
         else
-          noise.squares[e] += sqr(believed);
+          noise.squares[t] += sqr(weighted);
       }
     }
     ++noise.count;
@@ -130,10 +128,10 @@ class Pilot {
       void record(const Vec2& raster, const Color& rgb_per_target, double weight,
                   double target_over_density) override {
         const double value = weight * pilot.b0_ * pilot.relative(rgb_per_target, raster);
-        PerEven& sums = pixels[{static_cast<int>(std::floor(raster.x)),
-                                static_cast<int>(std::floor(raster.y))}];
-        for (size_t e = 0; e < evens.size(); ++e)
-          sums[e] += value * pilot.weights(e).of_chain(target_over_density);
+        PerThreshold& sums = pixels[{static_cast<int>(std::floor(raster.x)),
+                                     static_cast<int>(std::floor(raster.y))}];
+        for (size_t t = 0; t < thresholds.size(); ++t)
+          sums[t] += value * pilot.weights(t).of_chain(target_over_density);
       }
       const Pilot& pilot;
       PixelSums pixels;
@@ -148,7 +146,7 @@ class Pilot {
       Recorder recorder(*this);
       chain->advance(settings_.steps, recorder);
       for (const auto& [pixel, sums] : recorder.pixels)
-        for (size_t e = 0; e < evens.size(); ++e) noise[i].squares[e] += sqr(sums[e]);
+        for (size_t t = 0; t < thresholds.size(); ++t) noise[i].squares[t] += sqr(sums[t]);
       noise[i].count = settings_.steps;
       noise[i].rays = chain->stats().rays.total();
     });
@@ -167,7 +165,7 @@ class Pilot {
     const double greatest =
         has_rare_light() ? settings_.greatest_share_with_rare_light : settings_.greatest_share;
     double least = std::numeric_limits<double>::infinity();
-    for (size_t i = 0; i < evens.size(); ++i) {
+    for (size_t i = 0; i < thresholds.size(); ++i) {
       const double v1 = samples_.cost() * samples_.square(i),
                    v2 = chains_.cost() * chains_.square(i);
       const double share = wanted.value_or(std::clamp(
@@ -184,7 +182,7 @@ class Pilot {
   /// Whether paths with a T / P above 64 b make most of the noise of samples. The chains of a pilot
   /// have hardly found them, and seem less noisy than they will be.
   bool has_rare_light() const {
-    return samples_.squares.back() > 2 * samples_.squares[evens.size() - 3];
+    return samples_.squares.back() > 2 * samples_.squares[thresholds.size() - 3];
   }
 
   const MetropolisAlgorithm& algorithm_;

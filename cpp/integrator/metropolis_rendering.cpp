@@ -87,26 +87,25 @@ void MetropolisRendering::start_chains(int threads, const std::atomic<bool>& can
 /// Each group has its own part of the candidates, and resamples the starts of its chains from them.
 std::vector<std::vector<uint32_t>> MetropolisRendering::run_bootstrap(
     const Candidates& candidates, int threads, const std::atomic<bool>& cancelled) {
-  const uint64_t per_group = candidates.count / group_count;
+  const std::vector<SampleWeights> weights = draw_candidates(
+      candidates, threads, cancelled, [&] { return algorithm_->source(); },
+      [&](MetropolisAlgorithm::Source& source, Rng& rng) {
+        return weigh(source, scene_->camera().raster(), RandomSampler(rng), allocation_.weights);
+      },
+      [&](const MetropolisAlgorithm::Source& source) { bootstrap_rays_ += source.rays(); });
   std::vector<std::vector<uint32_t>> seeds(group_count);
-  std::mutex mutex;
-  parallel_for(threads, group_count, [&](uint64_t g) {
-    const auto source = algorithm_->source();
-    std::vector<double> weights;
-    for (uint64_t i = g * per_group; i < (g + 1) * per_group && !cancelled; ++i) {
-      Rng rng = candidates.rng(i);
-      const SampleWeights sample =
-          weigh(*source, scene_->camera().raster(), RandomSampler(rng), allocation_.weights);
-      weights.push_back(sample.target);
-      groups_[g].bootstrap.add(sample.brightness, sample.of_chains);
+  const uint64_t per_group = candidates.count / group_count;
+  for (int g = 0; g < group_count; ++g) {
+    std::vector<double> targets;
+    for (uint64_t i = g * per_group; i < (g + 1) * per_group; ++i) {
+      targets.push_back(weights[i].target);
+      groups_[g].bootstrap.add(weights[i].brightness, weights[i].of_chains);
     }
     Rng rng(seed_, Purpose::resample, g);
-    Bootstrap bootstrap = resample(weights, chains_of(static_cast<int>(g)), rng);
+    Bootstrap bootstrap = resample(targets, chains_of(g), rng);
     groups_[g].b = bootstrap.b;
     seeds[g] = std::move(bootstrap.seeds);
-    const std::lock_guard lock(mutex);
-    bootstrap_rays_ += source->rays();
-  });
+  }
   return seeds;
 }
 
@@ -167,14 +166,13 @@ void MetropolisRendering::lay_out_units() {
   };
 }
 
-/// The sums of the samples come beside those of the chains: six floats a pixel for each group, that
-/// is as much.
-Rendering::Memory MetropolisRendering::memory(double spp) const {
-  Memory memory = Rendering::memory(spp);
-  if (settings_.independent_share == 0) return memory;
-  memory.to_come = memory.bytes;
-  memory.bytes *= 2;
-  return memory;
+/// Every group of chains has a sum of 64 bits for each channel, from the beginning. Those of the
+/// samples come beside them: six floats a pixel for each group, that is as much.
+Rendering::Memory MetropolisRendering::memory(double /*spp*/) const {
+  const Vec2i size = scene().camera().raster().size;
+  const size_t chains = size_t{24} * group_count * size.x * size.y;
+  const size_t samples = settings_.independent_share == 0 ? 0 : chains;
+  return {chains + samples, samples};
 }
 
 // ---- the units --------------------------------------------------------------------------------

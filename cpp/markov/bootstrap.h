@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdint>
 #include <mutex>
+#include <utility>
 #include <vector>
 
 namespace mlt {
@@ -34,27 +35,25 @@ struct Candidates {
   Rng rng(uint64_t i) const { return Rng(seed, purpose, i); }
 };
 
-/// The weight of each candidate. `make_source()` returns a pointer to what draws them, and keeps
-/// its memory from one to the next; `source->weigh(rng)` draws one and returns its weight. What is
-/// not a positive number counts as 0; when `cancelled` the rest stays 0. `finished(*source)` is
-/// called by one thread after the other.
-template <class MakeSource, class Finished>
-std::vector<double> candidate_weights(const Candidates& candidates, int threads,
-                                      const std::atomic<bool>& cancelled, MakeSource&& make_source,
-                                      Finished&& finished) {
-  std::vector<double> weights(candidates.count);
+/// What `draw(*source, rng)` returns for each candidate. `make_source()` returns a pointer to what
+/// draws them, and keeps its memory from one to the next. When `cancelled` the rest stays as it is
+/// by default. `finished(*source)` is called by one thread after the other.
+template <class MakeSource, class Draw, class Finished>
+auto draw_candidates(const Candidates& candidates, int threads, const std::atomic<bool>& cancelled,
+                     MakeSource&& make_source, Draw&& draw, Finished&& finished) {
+  using Drawn = decltype(draw(*make_source(), std::declval<Rng&>()));
+  std::vector<Drawn> drawn(candidates.count);
   std::mutex mutex;
   parallel_blocks(threads, candidates.count, [&](uint64_t first, uint64_t last) {
     const auto source = make_source();
     for (uint64_t i = first; i < last && !cancelled; ++i) {
       Rng rng = candidates.rng(i);
-      const double weight = source->weigh(rng);
-      if (std::isfinite(weight) && weight > 0) weights[i] = weight;
+      drawn[i] = draw(*source, rng);
     }
     const std::lock_guard lock(mutex);
     finished(*source);
   });
-  return weights;
+  return drawn;
 }
 
 }  // namespace mlt

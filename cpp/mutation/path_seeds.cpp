@@ -4,9 +4,9 @@ namespace mlt {
 
 PathStarts bootstrap(const PathTarget& target, const Candidates& candidates, uint32_t chains,
                      int threads, const std::atomic<bool>& cancelled) {
-  const std::vector<double> weights = candidate_weights(
+  const std::vector<double> weights = draw_candidates(
       candidates, threads, cancelled, [&] { return std::make_unique<PathSeeds>(target); },
-      [](const PathSeeds&) {});
+      [](PathSeeds& seeds, Rng& rng) { return seeds.weigh(rng); }, [](const PathSeeds&) {});
   Rng rng = candidates.rng(candidates.count);
   const Bootstrap found = resample(weights, chains, rng);
   PathStarts starts{found.b, found.b_error, std::vector<PathState>(found.seeds.size())};
