@@ -1,4 +1,5 @@
-// The independent samples of a Metropolis render: what they are believed goes to the image.
+// The independent samples of a Metropolis render: each path that they find goes to the image with its
+// weight w1 (FamilyWeights).
 #pragma once
 
 #include "integrator/family_weights.h"
@@ -17,23 +18,21 @@ class FamilyTaker : public SampleTaker {
   void sample(const Vec2& raster, PixelSampler& sampler, SampleSink& sink,
               RayCounts& rays) override {
     Color own_pixel(0);
-    double brightness = 0, of_chains = 0;
+    SampleWeights sum;
     for (const FoundLight& found : source_->sample(raster, sampler)) {
       if (!found.valid()) {
         sink.count_invalid();
         continue;
       }
-      const Color believed = found.rgb * weights_.of_sample(found.target_over_density);
+      const Color weighted = found.rgb * weights_.of_sample(found.target_over_density);
       if (found.own_pixel)
-        own_pixel += believed;
+        own_pixel += weighted;
       else
-        sink.splat(found.raster, believed);
-      const double luminance = target_luminance(found.rgb);
-      brightness += luminance;
-      of_chains += luminance * weights_.of_chain(found.target_over_density);
+        sink.splat(found.raster, weighted);
+      sum.add(found, weights_);
     }
     sink.add(raster, own_pixel * scale_);
-    sink.add_sums(brightness, of_chains);
+    sink.add_sums(sum.brightness, sum.of_chains);
     rays = source_->rays();  // a taker counts the rays of all its samples
   }
 

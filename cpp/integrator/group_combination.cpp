@@ -12,12 +12,12 @@ GroupCombination::GroupCombination(std::vector<GroupProgress> groups, const Esti
     if (begun(g)) by_chains.add(chain_brightness(g));
     bootstrap += groups_[g].bootstrap.of_chains;
   }
-  const double chains = by_chains.variance_of_mean(),
-               samples = pooled(estimate(bootstrap), of_chains_).variance;
-  if (!(chains > 0)) return;
-  lambda_ = chains / (chains + samples);
-  const double difference = pooled(estimate(bootstrap), of_chains_).mean - by_chains.mean();
-  if (sqr(difference) > sqr(2.5) * (chains + samples)) missing_ = (1 - lambda_) * difference;
+  const Estimate chains = estimate(by_chains), samples = pooled(estimate(bootstrap), of_chains_);
+  if (!(chains.variance > 0)) return;
+  lambda_ = chains.variance / (chains.variance + samples.variance);
+  const double difference = samples.mean - chains.mean;
+  if (sqr(difference) > sqr(2.5) * (chains.variance + samples.variance))
+    missing_ = (1 - lambda_) * difference;
 }
 
 /// M_g

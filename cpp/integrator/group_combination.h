@@ -15,9 +15,10 @@
 //   I_g = b_g C_g + lambda (M_g - b_g D_g) R_g,
 //   R_g = sum_{h != g} b_h C_h / sum_{h != g} b_h D_h,   lambda = Var b D / (Var b D + Var M)
 //
-// R_g, the image at brightness 1, comes from the other groups. It is independent of its factor, so
-// that the expectation remains right. The brightness is then the mean of what chains and samples
-// say, each weighted by how well it is known.
+// R_g, the image at brightness 1, comes from the other groups, independent of M_g - b_g D_g: for any
+// fixed lambda the expectation remains right. The brightness is then the mean of what chains and
+// samples say, weighted by how well each is known. These variances are estimated from the same
+// render, which leaves a bias that vanishes as the render goes on.
 #pragma once
 
 #include "math/weight_sums.h"

@@ -55,11 +55,7 @@ class Rendering {
   struct Memory {
     size_t bytes = 0, to_come = 0;  ///< All of it, and what is not yet set aside.
   };
-  /// As chains have it: every group has a sum of 64 bits for each channel, from the beginning.
-  virtual Memory memory(double /*spp*/) const {
-    const Vec2i size = scene().camera().raster().size;
-    return {size_t{24} * group_count * size.x * size.y, 0};
-  }
+  virtual Memory memory(double spp) const = 0;
   /// Does nothing if the unit has been done already.
   virtual void run_unit(uint64_t unit) = 0;
 

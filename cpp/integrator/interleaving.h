@@ -2,7 +2,6 @@
 // of another pass and so many units of chains.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 
 namespace mlt {
@@ -27,10 +26,8 @@ class Interleaving {
   }
   /// How many units of samples there are before this unit.
   uint64_t sampled_before(uint64_t unit) const {
-    if (unit < tiles_) return unit;
-    const uint64_t round = (unit - tiles_) / units_per_round(),
-                   k = (unit - tiles_) % units_per_round();
-    return (1 + round) * tiles_ + std::min(k, tiles_);
+    const Place place = place_of(unit);
+    return place.sampled ? place.number : unit - place.number;
   }
   uint64_t units_per_round() const { return tiles_ + chain_units_; }
 

@@ -63,6 +63,13 @@ struct SampleWeights {
   double target = 0;      ///< T / p.
   double brightness = 0;  ///< L* / p.
   double of_chains = 0;   ///< w2 L* / p.
+
+  void add(const FoundLight& found, const FamilyWeights& weights) {
+    const double luminance = target_luminance(found.rgb);
+    target += found.weight;
+    brightness += luminance;
+    of_chains += luminance * weights.of_chain(found.target_over_density);
+  }
 };
 
 template <class Sampler>
@@ -70,13 +77,8 @@ SampleWeights weigh(MetropolisAlgorithm::Source& source, const Raster& raster, S
                     const FamilyWeights& weights = {}) {
   SampleWeights sum;
   const Vec2 position = raster.sample(sampler.next2());
-  for (const FoundLight& found : source.sample(position, sampler)) {
-    if (!found.valid()) continue;
-    const double luminance = target_luminance(found.rgb);
-    sum.target += found.weight;
-    sum.brightness += luminance;
-    sum.of_chains += luminance * weights.of_chain(found.target_over_density);
-  }
+  for (const FoundLight& found : source.sample(position, sampler))
+    if (found.valid()) sum.add(found, weights);
   return sum;
 }
 

@@ -26,7 +26,7 @@ class ChainRecorder {
   virtual void flush() {}
 };
 
-/// Records on a film what the chains are believed. Each splat waits for the next one, while its
+/// Records states on a film with their weights w2. Each splat waits for the next one, while its
 /// pixel comes from memory.
 class FilmRecorder : public ChainRecorder {
  public:

@@ -12,15 +12,15 @@ namespace mlt {
 /// How a render divides its time between chains and independent samples.
 struct Allocation {
   double share = 0;       ///< Of the time, for independent samples; 1: there are no chains.
-  FamilyWeights weights;  ///< How far each family is believed.
+  FamilyWeights weights;  ///< Of both families.
   double mutations_per_sample = 1;  ///< What an independent sample costs.
 };
 
 struct PilotSettings {
   uint64_t seed = 0;
   int threads = 1;
-  uint64_t coarse_samples = 16384;  ///< For the coarse image.
-  uint64_t samples = 8192;          ///< As candidates for the starts of chains, and once more.
+  uint64_t coarse_samples = 0;  ///< For the coarse image.
+  uint64_t samples = 0;         ///< As candidates for the starts of chains, and once more.
   int chains = 64;
   uint64_t steps = 2000;  ///< Of each chain.
   /// Within which the share of the independent samples stays, as long as there are chains.
@@ -37,7 +37,7 @@ TargetMap coarse_image(const MetropolisAlgorithm& algorithm, const Raster& raste
                        const PilotSettings& pilot, const std::atomic<bool>& cancelled);
 
 /// Finds the division of time with the smallest expected noise, relative to the brightness of
-/// `coarse`. If a share is given, only how far the families are believed is found. Without any light
+/// `coarse`. If a share is given, only the weights of the families are found. Without any light
 /// for chains to start from, samples are left alone.
 Allocation allocate(const MetropolisAlgorithm& algorithm, const Raster& raster,
                     const TargetMap& coarse, std::optional<double> share,

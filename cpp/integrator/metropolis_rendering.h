@@ -1,5 +1,5 @@
 // Rendering by Markov chains, with independent samples beside them: what all Metropolis integrators
-// share. Chains and samples find the same paths, and each path is believed by shares (FamilyWeights).
+// share. Chains and samples find the same paths; FamilyWeights has the weights of both.
 //
 // A render is a fixed number of chains, each with its own random stream; a unit is some steps of one
 // chain, and chains are visited in turn. They form independent groups, each with its own bootstrap;
