@@ -22,7 +22,7 @@
 namespace mlt {
 
 struct MetropolisSettings {
-  int chains = 1024;
+  int chains = 128;
   int64_t luminance_samples = 50000;
   std::optional<double> independent_share;  ///< Of the time; without, a pilot finds it.
   bool parts = false;                       ///< Keep the parts of both families as layers.

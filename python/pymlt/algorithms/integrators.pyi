@@ -104,8 +104,10 @@ class MLT(Integrator):
         Refuse directions that the geometric and the shading normal see on different sides.
     luminance_samples : integer, default 50000
         Paths drawn to start the chains from; a pilot before that draws about as many.
-    chains : integer, default 1024
-        Number of Markov chains, whatever the budget: more samples make chains longer.
+    chains : integer, default 128
+        Number of Markov chains, whatever the budget. The fewer there are, the longer each is,
+        and the farther it gets from where it started; but no more threads than chains have
+        work.
     independent_share : float
         Share of the time for samples that are independent of the chains, 0 to 1. They show what
         they are good at, and tell the brightness b. By default a pilot finds the best one; 1:
@@ -275,8 +277,10 @@ class PSSMLT(Integrator):
         Refuse directions that the geometric and the shading normal see on different sides.
     luminance_samples : integer, default 50000
         Paths drawn to start the chains from; a pilot before that draws about as many.
-    chains : integer, default 1024
-        Number of Markov chains, whatever the budget: more samples make chains longer.
+    chains : integer, default 128
+        Number of Markov chains, whatever the budget. The fewer there are, the longer each is,
+        and the farther it gets from where it started; but no more threads than chains have
+        work.
     independent_share : float
         Share of the time for samples that are independent of the chains, 0 to 1. They show what
         they are good at, and tell the brightness b. By default a pilot finds the best one; 1:
