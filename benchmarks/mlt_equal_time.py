@@ -45,7 +45,7 @@ class Case:
     trimmed_error: float
 
 
-def integrator(name: str, max_depth: int = 8):
+def integrator(name: str, max_depth: int = 8, **parameters):
     import pymlt as mlt
 
     kind, _, chains = name.partition(", ")
@@ -53,14 +53,16 @@ def integrator(name: str, max_depth: int = 8):
     alone = {"independent_share": 0} if chains else {}
     if name == "mlt, chains":
         alone["two_stage"] = False
-    return made(max_depth=max_depth, **alone)
+    return made(max_depth=max_depth, **alone, **parameters)
 
 
 def own_reference(name: str, scene, args, algorithm: str) -> Case:
+    # Light that one candidate in 100,000 finds must be there as well.
+    many = {"luminance_samples": 1_000_000, "independent_share": 0.3} if algorithm == "mlt" else {}
     reference = Reference(
         name,
         scene,
-        integrator(algorithm),
+        integrator(algorithm, **many),
         args.reference_seconds,
         threads=args.threads,
         folder=args.cache,
