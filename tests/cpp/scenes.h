@@ -198,7 +198,9 @@ inline std::vector<std::string> scene_names() {
           "smooth_glass",
           "null_surface",
           "mirror",
-          "sphere_light"};
+          "sphere_light",
+          "spot",
+          "materials"};
 }
 
 inline TestScene make_scene(const std::string& name, const SceneSettings& settings = {}) {
@@ -299,6 +301,26 @@ inline TestScene make_scene(const std::string& name, const SceneSettings& settin
     return done(pinhole + room() + block +
                     sphere(0.2, 0.3, 0, 0.3, diffuse("0.4 0.4 0.4") + area_light("4 5 6")),
                 true, true);
+  if (name == "spot")
+    return done(pinhole + room() + ball + block +
+                    "<emitter type='spot'><float name='cutoff_angle' value='50'/>" +
+                    to_world("<lookat origin='0, 0.9, 0.8' target='0, -1, -0.2' up='0, 0, 1'/>") +
+                    "<rgb name='intensity' value='8 6 4'/></emitter>\n",
+                true, true);
+  if (name == "materials") {
+    const std::string clay = "<bsdf type='roughdiffuse'><float name='alpha' value='0.6'/></bsdf>";
+    const std::string veil =
+        "<bsdf type='mask'><float name='opacity' value='0.6'/><bsdf type='twosided'>" + red +
+        "</bsdf></bsdf>";
+    const std::string misted_glass =
+        "<bsdf type='blendbsdf'><float name='weight' value='0.4'/>" + glass + white + "</bsdf>";
+    return done(pinhole + room(clay) + ceiling_lamp(0.7) +
+                    sphere(0.35, -0.5, 0.2, 0.4, misted_glass) +
+                    cube(scale(0.25) + translate(-0.5, -0.6, 0.1), veil) +
+                    rectangle(scale(0.4) + rotate("y", 40) + translate(-0.1, 0, 0.3),
+                              "<bsdf type='thindielectric'/>"),
+                true, false);
+  }
   throw UsageError("there is no test scene '" + name + "'");
 }
 

@@ -24,6 +24,7 @@ FILES = {
     "test_roughplastic_nonlinear_path": ("bsdf_spheres", "test_roughplastic_nonlinear", TWO),
     "test_textured_diffuse_path": ("bsdf_spheres", "test_textured_diffuse", TWO),
     "test_directional_direct": ("floating_sphere", "test_directional", DIRECT),
+    "test_spot_direct": ("spot_light", "test_spot", DIRECT),
     "scene_path": ("infinite_mirrors", "scene", EIGHT),
     "test_texture_interp_direct": ("texture_interp", "test_texture_interp", DIRECT),
 }

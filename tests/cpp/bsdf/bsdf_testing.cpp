@@ -2,6 +2,7 @@
 
 #include "scene/texture.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace mlt {
@@ -85,6 +86,12 @@ void add_rough(Maker& maker, const std::string& distribution) {
             true);
 }
 
+const BsdfPtr& find(const Maker& maker, const std::string& label) {
+  return std::find_if(maker.made.begin(), maker.made.end(),
+                      [&](const Case& c) { return c.label == label; })
+      ->bsdf;
+}
+
 std::vector<Case> make_cases() {
   Maker maker;
   const Value pink = Triple{0.8, 0.3, 0.4};
@@ -106,6 +113,19 @@ std::vector<Case> make_cases() {
   maker.add("twosided", "twosided", {}, 1, gray, true,
             {maker.made.back().bsdf, make_bsdf("roughconductor", {{"alpha", 0.3}})});
   maker.add("twosided plastic", "twosided", {}, 0, gray, true, {make_bsdf("plastic")});
+  maker.add("roughdiffuse", "roughdiffuse", {{"reflectance", pink}, {"alpha", 0.7}}, 0, infinity);
+  maker.add("roughdiffuse fast", "roughdiffuse",
+            {{"reflectance", pink}, {"alpha", ramp_texture(0.2, 1)}, {"use_fast_approx", true}}, 0,
+            infinity);
+  maker.add("thindielectric", "thindielectric", {{"specular_transmittance", pink}}, 0, gray, true);
+  maker.add("mask of phong", "mask", {{"opacity", ramp_texture(0.4, 0.8)}}, 1, gray, true,
+            {find(maker, "phong")});
+  maker.add("mask of dielectric", "mask", {{"opacity", pink}}, 0, gray, true,
+            {find(maker, "dielectric")});
+  maker.add("blend", "blendbsdf", {{"weight", ramp_texture(0, 0.6)}}, 1, gray, false,
+            {find(maker, "phong"), find(maker, "plastic")});
+  maker.add("blend of glass and twosided", "blendbsdf", {{"weight", 0.25}}, 1, gray, true,
+            {find(maker, "dielectric"), find(maker, "twosided")});
   add_rough(maker, "beckmann");
   add_rough(maker, "ggx");
   return maker.made;

@@ -152,5 +152,54 @@ TEST(BsdfParameters, EveryParameterIsDocumented) {
 #undef MLT_PLUGIN
 }
 
+TEST(BsdfParameters, MaskSharesLightBetweenTheNestedOneAndAPassage) {
+  const BsdfPtr mask = make_bsdf("mask", {{"opacity", 0.25}}, {make_bsdf("diffuse")});
+  EXPECT_DOUBLE_EQ(value_at_normal(mask, Lobe::smooth), 0.25 * 0.5 * inv_pi);
+  EXPECT_DOUBLE_EQ(mask->eval(point(), normal, -normal, Lobe::null).x, 0.75);
+  EXPECT_DOUBLE_EQ(mask->pdf(point(), normal, -normal, Lobe::null), 0.75);
+  const BsdfPtr twice = make_bsdf("mask", {{"opacity", 0.5}}, {mask});
+  EXPECT_DOUBLE_EQ(twice->eval(point(), normal, -normal, Lobe::null).x, 0.5 + 0.5 * 0.75);
+  EXPECT_THAT(error_of("mask", {}), HasSubstr("needs one nested bsdf, but has 0"));
+}
+
+TEST(BsdfParameters, ABlendIsBetweenItsParts) {
+  const BsdfPtr white = make_bsdf("diffuse", {{"reflectance", 1.0}});
+  const BsdfPtr blend = make_bsdf("blendbsdf", {{"weight", 0.25}}, {white, make_bsdf("diffuse")});
+  EXPECT_DOUBLE_EQ(value_at_normal(blend, Lobe::smooth), (0.75 + 0.25 * 0.5) * inv_pi);
+  EXPECT_THAT(error_of("blendbsdf", {}, {white}), HasSubstr("needs two nested bsdfs, but has 1"));
+  EXPECT_THAT(error_of("blendbsdf", {},
+                       {make_bsdf("dielectric"), make_bsdf("dielectric", {{"int_ior", 1.2}})}),
+              HasSubstr("refract light differently"));
+  EXPECT_EQ(error_of("blendbsdf", {}, {make_bsdf("dielectric"), make_bsdf("null")}), "");
+}
+
+/// The sum over the reflections within the pane, term by term.
+TEST(BsdfParameters, AThinPaneReflectsFromBothItsSides) {
+  const BsdfPtr pane = make_bsdf("thindielectric", {{"int_ior", 1.5}, {"ext_ior", 1.0}});
+  const double F = reflectance_at_normal(1.5);
+  double sum = F;
+  for (int n = 0; n < 20; ++n) sum += sqr(1 - F) * std::pow(F, 2 * n + 1);
+  EXPECT_NEAR(value_at_normal(pane, Lobe::reflection), sum, 1e-12);
+  EXPECT_NEAR(pane->eval(point(), normal, -normal, Lobe::null).x, 1 - sum, 1e-12);
+}
+
+/// Oren & Nayar 1994: without slopes Lambert's; with them more light goes back where it came from.
+TEST(BsdfParameters, ARoughMatteSurfaceScattersBack) {
+  const Vec3 w = normalize(Vec3(1, 0, 0.5)), mirrored = normalize(Vec3(-1, 0, 0.5));
+  for (const bool fast : {false, true}) {
+    const BsdfPtr flat = make_bsdf("roughdiffuse", {{"alpha", 0.0}, {"use_fast_approx", fast}});
+    EXPECT_NEAR(flat->eval(point(), w, mirrored, Lobe::smooth).x, 0.5 * inv_pi, 1e-12);
+    const BsdfPtr clay = make_bsdf("roughdiffuse", {{"alpha", 0.6}, {"use_fast_approx", fast}});
+    const double back = clay->eval(point(), w, w, Lobe::smooth).x,
+                 forward = clay->eval(point(), w, mirrored, Lobe::smooth).x;
+    EXPECT_GT(back, 1.5 * forward);
+    // eq. 30 at sigma^2 = 0.18: A = 1 - 0.09 / 0.51, B = 0.081 / 0.27, sin a tan b = 4 / sqrt(5)
+    if (fast) {
+      EXPECT_NEAR(back, 0.5 * inv_pi * (1 - 0.09 / 0.51 + 0.3 * 4 / std::sqrt(5.)), 1e-12);
+      EXPECT_NEAR(forward, 0.5 * inv_pi * (1 - 0.09 / 0.51), 1e-12);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace mlt::test

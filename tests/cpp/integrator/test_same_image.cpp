@@ -57,7 +57,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Pair{"thin_lens", "path"}, Pair{"thin_lens_sky", "path"},
                     Pair{"camera_in_glass", "path"}, Pair{"light_under_water", "path"},
                     Pair{"smooth_normals", "path"}, Pair{"smooth_normals", "ptracer"},
-                    Pair{"smooth_glass", "path"}),
+                    Pair{"smooth_glass", "path"}, Pair{"spot", "ptracer"},
+                    Pair{"materials", "path"}, Pair{"materials", "pssmlt"}),
     pair_name);
 
 class LongSameImageOf : public testing::TestWithParam<Pair> {};

@@ -16,6 +16,7 @@ Plugin emitter_constant();
 Plugin emitter_directional();
 Plugin emitter_envmap();
 Plugin emitter_point();
+Plugin emitter_spot();
 Plugin shape_rectangle();
 Plugin shape_sphere();
 Plugin texture_checkerboard();
@@ -88,6 +89,9 @@ Light area_light(const std::string& name, const Plugin& plugin, const Matrix& to
   return {name, emitter, shape};
 }
 
+/// Looks down from (0.2, 0, 2).
+const Matrix downwards = {1, 0, 0, 0.2, 0, -1, 0, 0, 0, 0, -1, 2, 0, 0, 0, 1};
+
 std::vector<Light> all_lights() {
   Matrix small = turned;
   for (size_t i = 0; i < 12; ++i) small[i] *= 0.4;
@@ -99,6 +103,13 @@ std::vector<Light> all_lights() {
       area_light("sphere", shape_sphere(), small, rgb),
       {"point",
        make<Emitter>(emitter_point(), {{"intensity", rgb}, {"position", Triple{0, 0, 2}}}),
+       {}},
+      {"spot", make<Emitter>(emitter_spot(), {{"intensity", rgb}, {"to_world", downwards}}), {}},
+      {"spot with a sharp edge",
+       make<Emitter>(emitter_spot(), {{"intensity", rgb},
+                                      {"to_world", downwards},
+                                      {"cutoff_angle", 120.0},
+                                      {"beam_width", 120.0}}),
        {}},
       {"directional",
        make<Emitter>(emitter_directional(), {{"irradiance", rgb}, {"to_world", turned}}),
@@ -274,6 +285,25 @@ TEST(Point, IsWhereItIsPut) {
   }
   EXPECT_THAT(error_in(emitter_point(), {{"position", Triple{1, 2, 3}}, {"to_world", moved}}),
               HasSubstr("exclude"));
+}
+
+TEST(Spot, FallsOffLinearlyWithTheAngle) {
+  const auto light = make<Emitter>(
+      emitter_spot(), {{"intensity", 2.0}, {"cutoff_angle", 40.0}, {"to_world", downwards}});
+  const SurfacePoint x0 = light->sample_position({0.1, 0.2}).at;
+  EXPECT_EQ(x0.p, Vec3(0.2, 0, 2));
+  const auto at = [&](double degrees) {
+    const double angle = degrees * pi / 180;
+    return light->eval(x0, {std::sin(angle), 0, -std::cos(angle)}).x;
+  };
+  EXPECT_EQ(at(0), 2);
+  EXPECT_EQ(at(29.9), 2);
+  EXPECT_NEAR(at(35), 1, 1e-12);
+  EXPECT_EQ(at(40.1), 0);
+  EXPECT_EQ(at(180), 0);
+  EXPECT_TRUE(light->delta());
+  EXPECT_THAT(error_in(emitter_spot(), {{"cutoff_angle", 20.0}, {"beam_width", 30.0}}),
+              HasSubstr("beam_width"));
 }
 
 TEST(Directional, ShinesAsInMitsuba) {

@@ -1,0 +1,81 @@
+// A rough matte surface: V-shaped grooves of Lambertian facets, which shadow, mask and light each
+// other (Oren & Nayar 1994, "Generalization of Lambert's reflectance model"). sigma is the standard
+// deviation of the facets' slope angle; at 0 the surface is Lambert's.
+#include "base/registry.h"
+#include "math/warp.h"
+#include "scene/bsdf.h"
+#include "scene/bsdf/lobes.h"
+#include "scene/texture.h"
+
+namespace mlt {
+namespace {
+
+class RoughDiffuse final : public Bsdf {
+ public:
+  explicit RoughDiffuse(Params& params)
+      : reflectance_(texture_param(params, "reflectance")),
+        alpha_(texture_param(params, "alpha")),
+        fast_(params.boolean("use_fast_approx")) {}
+
+  Scattering scattering(const SurfacePoint& at, const Vec3& wl, const Vec3& wc,
+                        Lobe lobe) const override {
+    if (lobe != Lobe::smooth || !above(wl, wc)) return {};
+    return {value(at, wl, wc), wc.z * inv_pi, wl.z * inv_pi};
+  }
+
+  std::optional<BsdfSample> sample(const SurfacePoint&, const Vec3& from,
+                                   const Vec3& u) const override {
+    const Vec3 to = sample_cosine_hemisphere(direction_part(u));
+    if (!above(from, to)) return std::nullopt;
+    return BsdfSample{to, Lobe::smooth};
+  }
+
+  std::optional<Vec3> invert(const SurfacePoint&, const Vec3& from, const Vec3& to,
+                             Lobe lobe) const override {
+    if (lobe != Lobe::smooth || !above(from, to)) return std::nullopt;
+    return u_of(0.5, invert_cosine_hemisphere(to));
+  }
+
+  Color albedo(const SurfacePoint& at) const override { return reflectance_->eval(at); }
+
+ private:
+  /// Slopes whose root mean square along one axis is alpha / sqrt(2), as Beckmann's are: sigma.
+  Color value(const SurfacePoint& at, const Vec3& wl, const Vec3& wc) const {
+    const Color rho = reflectance_->eval(at);
+    const double sigma2 = 0.5 * sqr(alpha_->eval_scalar(at));
+    const double sin_l = std::sqrt(sin2_theta(wl)), sin_c = std::sqrt(sin2_theta(wc));
+    const double across = sin_l * sin_c;
+    const double cos_phi =
+        across > 0 ? std::clamp((wl.x * wc.x + wl.y * wc.y) / across, -1., 1.) : 0;
+    const double sin_a = std::max(sin_l, sin_c), tan_b = std::min(sin_l / wl.z, sin_c / wc.z);
+    const double a = 1 - 0.5 * sigma2 / (sigma2 + 0.33), b = 0.45 * sigma2 / (sigma2 + 0.09);
+    if (fast_)  // eq. 30
+      return rho * (inv_pi * (a + b * std::max(0., cos_phi) * sin_a * tan_b));
+
+    const double angle_a = std::asin(std::min(1., sin_a)), angle_b = std::atan(tan_b);
+    const double far = 2 * angle_b * inv_pi, both = 4 * angle_a * angle_b * sqr(inv_pi);
+    const double c2 = b * (cos_phi >= 0 ? sin_a : sin_a - far * far * far);
+    const double c3 = 0.125 * sigma2 / (sigma2 + 0.09) * sqr(both);
+    const double once = a + cos_phi * c2 * tan_b +
+                        (1 - std::abs(cos_phi)) * c3 * std::tan(0.5 * (angle_a + angle_b));  // 27
+    const double twice = 0.17 * sigma2 / (sigma2 + 0.13) * (1 - cos_phi * far * far);        // 28
+    return rho * inv_pi * (Color(once) + rho * twice);
+  }
+
+  TexturePtr reflectance_, alpha_;
+  bool fast_;
+};
+
+}  // namespace
+
+Plugin bsdf_roughdiffuse() {
+  return make_plugin<RoughDiffuse>(
+      "bsdf", "roughdiffuse", "A rough matte surface (Oren & Nayar 1994), such as clay.",
+      {{"reflectance", ParamType::texture, 0.5, "Fraction of the light that is scattered."},
+       {"alpha", ParamType::texture, 0.2,
+        "Roughness: sqrt(2) times the standard deviation of the facets' slope."},
+       {"use_fast_approx", ParamType::boolean, false,
+        "Leave out light between facets, and approximate the rest."}});
+}
+
+}  // namespace mlt

@@ -1,0 +1,100 @@
+// A light of no size that shines into a cone about its z axis: with full intensity up to the angle
+// `beam_width`, from there on falling linearly with the angle to 0 at `cutoff_angle`.
+#include "base/registry.h"
+#include "math/warp.h"
+#include "scene/emitter.h"
+#include "scene/texture.h"
+
+namespace mlt {
+namespace {
+
+constexpr double degree = pi / 180;
+
+class Spot final : public Emitter {
+ public:
+  explicit Spot(Params& params)
+      : intensity_(color_param(params, "intensity")), texture_(texture_param(params, "texture")) {
+    const double cutoff = params.real_in("cutoff_angle", 1e-3, 179.999);
+    const double beam =
+        params.has("beam_width") ? params.real_in("beam_width", 0, cutoff) : 0.75 * cutoff;
+    cutoff_ = cutoff * degree;
+    beam_ = beam * degree;
+    height_ = 2 * sqr(std::sin(cutoff_ / 2));
+    const Mat4 to_world = matrix_param(params, "to_world");
+    position_ = transform_point(to_world, Vec3(0));
+    const Vec3 axis = transform_vector(to_world, Vec3(0, 0, 1));
+    if (!(length(axis) > 0)) params.fail("to_world", "leaves no direction to shine in");
+    frame_ = Frame::around(normalize(axis), transform_vector(to_world, Vec3(1, 0, 0)));
+    if (params.has("texture") && cutoff >= 90)
+      params.fail("texture", "needs a cutoff_angle below 90 degrees");
+  }
+
+  Color eval(const SurfacePoint&, const Vec3& w) const override {
+    const double theta = std::atan2(length(cross(frame_.n, w)), dot(frame_.n, w));
+    if (theta >= cutoff_) return Color(0);
+    const double share = theta <= beam_ ? 1 : (cutoff_ - theta) / (cutoff_ - beam_);
+    return intensity_ * texture(w) * share;
+  }
+
+  PositionSample sample_position(const Vec2&) const override {
+    SurfacePoint at;
+    at.p = position_;
+    at.ng = frame_.n;
+    at.kind = PointKind::isolated;
+    return {at, 1};
+  }
+  double pdf_position(const SurfacePoint&) const override { return 1; }
+  Vec2 invert_position(const SurfacePoint&) const override { return Vec2(0.5); }
+
+  RaySample sample_ray(const SurfacePoint& x0, const Vec2& u) const override {
+    return {x0.p, frame_.to_world(sample_cone(u, height_)), cone_pdf(height_)};
+  }
+  double pdf_ray(const SurfacePoint&, const Vec3& w) const override {
+    return 1 - dot(frame_.n, w) <= height_ * (1 + 1e-12) ? cone_pdf(height_) : 0;
+  }
+  Vec2 invert_ray(const SurfacePoint& x0, const Vec3& x1) const override {
+    return invert_cone(frame_.to_local(normalize(x1 - x0.p)), height_);
+  }
+
+  bool delta() const override { return true; }
+  /// The integral of the intensity over the cone, with the mean of the texture.
+  Color power() const override {
+    const double width = cutoff_ - beam_;
+    const double slope =
+        width > 0 ? (std::sin(cutoff_) - std::sin(beam_)) / width : std::cos(beam_);
+    return intensity_ * texture_->mean() * (2 * pi * (1 - slope));
+  }
+
+ private:
+  /// Projected on a plane across the axis, of which the cone fills the unit square.
+  Color texture(const Vec3& w) const {
+    const Vec3 local = frame_.to_local(w);
+    SurfacePoint at;
+    at.uv = Vec2(0.5) + 0.5 * Vec2(local) / (local.z * std::tan(cutoff_));
+    return texture_->eval(at);
+  }
+
+  Color intensity_;
+  TexturePtr texture_;
+  double cutoff_, beam_;  ///< In radians.
+  double height_;         ///< 1 - cos(cutoff)
+  Vec3 position_{0};
+  Frame frame_;
+};
+
+}  // namespace
+
+Plugin emitter_spot() {
+  return make_plugin<Spot>(
+      "emitter", "spot", "A light of no size that shines into a cone about its z axis.",
+      {{"intensity", ParamType::radiance, 1.0, "Power per solid angle within the beam."},
+       {"cutoff_angle", ParamType::real, 20.0,
+        "Beyond this angle from the axis it is dark, degrees."},
+       {"beam_width", ParamType::real, no_default,
+        "Up to this angle it has its full intensity, degrees; by default 3/4 of cutoff_angle."},
+       {"texture", ParamType::emission, 1.0, "A factor of the intensity, such as a slide."},
+       {"to_world", ParamType::transform, no_default, "Moves and turns it."}},
+      {"sampling_weight"});
+}
+
+}  // namespace mlt
