@@ -7,7 +7,8 @@ std::vector<Parameter> metropolis_parameters() {
       {"luminance_samples", ParamType::integer, int64_t{50000},
        "Paths drawn to start the chains from; a pilot before that draws about as many."},
       {"chains", ParamType::integer, int64_t{128},
-       "Number of Markov chains, whatever the budget. The fewer there are, the longer each is, and the "
+       "Number of Markov chains, whatever the budget. The fewer there are, the longer each is, and "
+       "the "
        "farther it gets from where it started; but no more threads than chains have work."},
       {"independent_share", ParamType::real, no_default,
        "Share of the time for samples that are independent of the chains, 0 to 1. They show what "
