@@ -6,6 +6,8 @@ JOBS ?= $(shell nproc)
 DEMO_SCENE ?= scenes/door-ajar/scene.xml
 DEMO_FLAGS ?= --integrator mlt --spp 256 --seed 1
 SHARD ?= 1/1
+MINUTES ?= 1
+HOURS ?= 1
 
 BUILD := build/default
 VENV := .venv
@@ -15,7 +17,8 @@ CTEST := ctest --test-dir $(BUILD) --output-on-failure --no-tests=error
 
 # What the C++ build reads; folders too, whose time changes when a file is added or removed.
 SOURCES := $(shell find cpp bindings tests/cpp docs/examples cmake CMakeLists.txt pyproject.toml \
-             -not -name '.*' 2>/dev/null)
+             -not -name '.*' 2>/dev/null) $(wildcard tests/fuzz/*.h tests/fuzz/*.cpp)
+FUZZ_TARGETS := $(patsubst tests/fuzz/fuzz_%.cpp,%,$(wildcard tests/fuzz/fuzz_*.cpp))
 CXX_FILES = $(shell git ls-files -- '*.h' '*.cpp')
 
 # Without this, make would link cpp/scene/texture.cpp into the folder of that name.
@@ -26,12 +29,12 @@ export PIP_DISABLE_PIP_VERSION_CHECK = 1
 
 .DEFAULT_GOAL := build
 .DELETE_ON_ERROR:
-.PHONY: setup build demo docs test test-long asan lint format clean distclean
+.PHONY: setup build demo docs test test-long asan fuzz soak lint format clean distclean
 
 # ---- set-up ------------------------------------------------------------------------------------
 setup: $(STAMPS)/dev
 
-$(STAMPS)/apt $(STAMPS)/apt-test: $(STAMPS)/apt%: cmake/apt-packages%.txt
+$(STAMPS)/apt $(STAMPS)/apt-test $(STAMPS)/apt-fuzz: $(STAMPS)/apt%: cmake/apt-packages%.txt
 	cmake/install-apt-packages.sh $<
 	@mkdir -p $(@D) && touch $@
 
@@ -101,6 +104,25 @@ asan: | $(STAMPS)/apt $(STAMPS)/apt-test
 	cmake --preset asan
 	cmake --build --preset asan
 	ctest --preset asan -j $(JOBS)
+
+# Hostile files for every reader, MINUTES for each; it fails if one of them crashes, takes ten seconds
+# or a gigabyte. Targets that are named by FUZZ_TARGETS="obj ply" run alone.
+fuzz: | $(STAMPS)/apt $(STAMPS)/apt-fuzz
+	cmake --preset fuzz
+	cmake --build --preset fuzz
+	@printf '%s\n' $(FUZZ_TARGETS) | xargs -P $(JOBS) -I NAME tests/fuzz/run.sh NAME $(MINUTES)
+
+# Random scenes that are stopped, killed and resumed, for HOURS, by a build of its own with the address
+# sanitizer. That build is no editable one, so the Python that imports it is not the one of $(VENV).
+SOAK := build/soak
+soak: build
+	$(BIN)/pip install -q --no-build-isolation --no-deps --upgrade --target $(SOAK)/site . \
+	  --config-settings=build-dir=$(SOAK)/cmake --config-settings=cmake.build-type=Debug \
+	  --config-settings=cmake.define.PYMLT_SANITIZE=ON
+	PYTHONPATH=$(SOAK)/site:$$(echo $(VENV)/lib/python3*/site-packages) \
+	  LD_PRELOAD="$$($(CXX) -print-file-name=libasan.so) $$($(CXX) -print-file-name=libstdc++.so)" \
+	  ASAN_OPTIONS=detect_leaks=0:quarantine_size_mb=16 \
+	  $(PYTHON) tests/soak.py --minutes $$(($(HOURS) * 60))
 
 # ---- style ---------------------------------------------------------------------------------------
 lint: $(STAMPS)/dev

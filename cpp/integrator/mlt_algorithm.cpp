@@ -2,6 +2,7 @@
 
 #include "mutation/adaptation.h"
 #include "mutation/path_seeds.h"
+#include "path/possible_path.h"
 
 namespace mlt {
 namespace {
@@ -36,7 +37,8 @@ class GroupMixture : public PathMixture {
   void load(ByteReader& bytes, PathState& x) {
     step_ = bytes.read<uint64_t>();
     mlt::load(bytes, x.path);
-    if (x.path.vertices.size() < 2) throw RenderError("the saved state has a chain without a path");
+    if (!possible(target_->scene(), x.path))
+      throw RenderError("the saved state has a path that the scene cannot have");
     target_->evaluate(x);
   }
 

@@ -58,6 +58,8 @@ class PssmltKernel : public PrimarySampleKernel<PrimaryWalk> {
   }
   void load(ByteReader& bytes, PrimaryState& x) const {
     bytes.read(x.numbers);
+    for (const double u : x.numbers)
+      if (!(u >= 0 && u < 1)) throw RenderError("the saved state has a number outside of [0, 1)");
     x.raster = bytes.read<Vec2>();
     x.rgb = bytes.read<Color>();
     x.target = bytes.read<double>();

@@ -45,8 +45,7 @@ SceneSource load_source(ByteReader& bytes) {
 }
 
 /// The body of the file; the checks stand in the order in which they can tell most.
-std::string checked_body(const std::string& path) {
-  const std::string file = read_file(path);
+std::string checked_body(const std::string& file, const std::string& path) {
   if (file.compare(0, magic_size, magic, std::min(magic_size, file.size())) != 0 || file.empty())
     throw FileError(path + ": is no checkpoint of pymlt");
   uint64_t size = 0;
@@ -80,7 +79,11 @@ Checkpoint checkpoint_of(const LoadedScene& loaded, const MadeIntegrator& made, 
 }
 
 Checkpoint read_checkpoint(const std::string& path) {
-  const std::string body = checked_body(path);
+  return decode_checkpoint(read_file(path), path);
+}
+
+Checkpoint decode_checkpoint(const std::string& file, const std::string& path) {
+  const std::string body = checked_body(file, path);
   ByteReader bytes(body);
   Checkpoint checkpoint;
   try {

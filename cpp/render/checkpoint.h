@@ -30,6 +30,8 @@ Checkpoint checkpoint_of(const LoadedScene& loaded, const MadeIntegrator& made, 
 
 /// Throws FileError for a file that is missing, foreign, truncated, damaged or of another build.
 Checkpoint read_checkpoint(const std::string& path);
+/// The same for the bytes of a file; `path` is for messages.
+Checkpoint decode_checkpoint(const std::string& file, const std::string& path);
 
 /// Replaces an older one at once or not at all. Throws FileError.
 void write_checkpoint(const std::string& path, const Checkpoint& checkpoint);

@@ -1,8 +1,10 @@
-// Whatever the bytes are, the reader must return a mesh or throw a typed error. The first byte
-// chooses the mesh; an input marked "raw" is compressed first, so that the fuzzer can get behind zlib.
-#include <zlib.h>
+// The first byte chooses the mesh; an input marked "raw" is compressed first, so that the fuzzer can
+// get behind zlib.
+#include "fuzz.h"
 
 #include "scene/shape/readers.h"
+
+#include <zlib.h>
 
 namespace {
 
@@ -18,17 +20,12 @@ std::string compressed(std::string_view body) {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-  if (size == 0) return 0;
-  const std::string_view rest(reinterpret_cast<const char*>(data) + 1, size - 1);
-  try {
-    mlt::SerializedMesh read =
-        rest.substr(0, 3) == "raw"
-            ? mlt::read_serialized(compressed(rest.substr(3)), 0, "input")
-            : mlt::read_serialized(rest, static_cast<int8_t>(data[0]), "input");
-    mlt::check_mesh(read.mesh, {"input"});
-    mlt::add_smooth_normals(read.mesh);
-  } catch (const mlt::SceneError&) {
-  }
-  return 0;
+void mlt::fuzz::read(std::string_view bytes) {
+  if (bytes.empty()) return;
+  const std::string_view rest = bytes.substr(1);
+  SerializedMesh read = rest.substr(0, 3) == "raw"
+                            ? read_serialized(compressed(rest.substr(3)), 0, "input")
+                            : read_serialized(rest, static_cast<int8_t>(bytes[0]), "input");
+  check_mesh(read.mesh, {"input"});
+  add_smooth_normals(read.mesh);
 }

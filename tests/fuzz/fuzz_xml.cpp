@@ -1,19 +1,10 @@
-// Any text read as a scene ends in a scene or in one of our errors, on one line.
-#include <cstdint>
-#include <cstdlib>
-#include <string>
+#include "fuzz.h"
 
 #include "io/load.h"
 #include "render/plugins.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-  mlt::LoadOptions options;
+void mlt::fuzz::read(std::string_view bytes) {
+  LoadOptions options;
   options.defines["name"] = "value";
-  const std::string text(reinterpret_cast<const char*>(data), size);
-  try {
-    mlt::load_string(text, "/nonexistent", mlt::plugins(), options);
-  } catch (const mlt::Error& error) {
-    if (std::string(error.what()).find('\n') != std::string::npos) std::abort();
-  }
-  return 0;
+  load_string(std::string(bytes), "tests/python/scenes", plugins(), options);
 }

@@ -1,0 +1,38 @@
+#include "path/possible_path.h"
+
+#include "scene/mesh.h"
+
+namespace mlt {
+namespace {
+
+/// Whether there is what the vertex says it lies on.
+bool in_scene(const Scene& scene, const Vertex& x) {
+  const bool on_shape = x.at.shape != SurfacePoint::no_shape;
+  if (on_shape) {
+    if (x.at.shape >= scene.shapes().size()) return false;
+    const Mesh* mesh = scene.shapes()[x.at.shape]->as_mesh();
+    if (mesh && x.at.primitive >= mesh->data().triangles.size()) return false;
+  }
+  if (x.kind != VertexKind::light) return on_shape == (x.kind == VertexKind::surface);
+  if (x.emitter >= scene.emitters().size()) return false;
+  const Emitter* emitter = scene.emitters()[x.emitter].get();
+  return on_shape ? scene.emitter(x.at) == emitter : emitter->infinite() || emitter->delta();
+}
+
+}  // namespace
+
+bool possible(const Scene& scene, const Path& path) {
+  const size_t count = path.vertices.size();
+  for (size_t i = 0; i < count; ++i) {
+    const Vertex& x = path[i];
+    const VertexKind expected = i == 0           ? VertexKind::light
+                                : i == count - 1 ? VertexKind::camera
+                                                 : VertexKind::surface;
+    if (x.kind != expected || x.lobe > Lobe::null || x.at.kind > PointKind::infinite ||
+        !in_scene(scene, x))
+      return false;
+  }
+  return count >= 2;
+}
+
+}  // namespace mlt

@@ -1,0 +1,186 @@
+"""Make the seeds in tests/fuzz/corpus, one folder for each target, and the words of scene.dict.
+
+    .venv/bin/python tests/fuzz/make_corpus.py
+
+Seeds are small files of every kind that a reader takes. Checkpoints and packed scenes are what this
+build writes: run it again when what these hold has changed.
+"""
+
+import struct
+import sys
+import tempfile
+import zlib
+from pathlib import Path
+
+import numpy as np
+import OpenImageIO
+
+import pymlt as mlt
+from pymlt import _core
+
+COMPRESSIONS = ("none", "rle", "zips", "zip", "piz", "pxr24", "b44", "b44a", "dwaa", "dwab")
+FOLDER = Path(__file__).resolve().parent
+sys.path.insert(0, str(FOLDER.parent / "python"))
+from random_scene import FOLDER as SCENES  # noqa: E402
+from random_scene import random_scene  # noqa: E402
+
+
+def write(target: str, name: str, content: bytes | str) -> None:
+    path = FOLDER / "corpus" / target / name
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_bytes(content.encode() if isinstance(content, str) else content)
+
+
+# ---- images --------------------------------------------------------------------------------------
+
+
+def image_file(extension: str, channels: int, type: str, tile: int = 0, **attributes) -> bytes:
+    """A ramp of 9 x 7 pixels as OpenImageIO writes it."""
+    spec = OpenImageIO.ImageSpec(9, 7, channels, type)
+    if tile:
+        spec.tile_width = spec.tile_height = tile
+    for name, value in attributes.items():
+        spec.attribute(name.replace("_", ":", 1), value)
+    with tempfile.TemporaryDirectory() as folder:
+        path = str(Path(folder) / f"a.{extension}")
+        out = OpenImageIO.ImageOutput.create(path)
+        assert out.open(path, spec), out.geterror()
+        ramp = np.linspace(0, 1, 9 * 7 * channels, dtype=np.float32).reshape(7, 9, channels)
+        assert out.write_image(ramp), out.geterror()
+        out.close()
+        return Path(path).read_bytes()
+
+
+def make_images() -> None:
+    for channels, name in ((1, "grey"), (3, "rgb"), (4, "rgba")):
+        write("image", f"{name}.png", image_file("png", channels, "uint8"))
+        write("image", f"{name}.tga", image_file("tga", channels, "uint8"))
+        write("image", f"{name}16.png", image_file("png", channels, "uint16"))
+    write("image", "baseline.jpg", image_file("jpg", 3, "uint8"))
+    write("image", "grey.jpg", image_file("jpg", 1, "uint8"))
+    write("image", "progressive.jpg", image_file("jpg", 3, "uint8", jpeg_progressive=1))
+    write("image", "rle.tga", image_file("tga", 3, "uint8", compression="rle"))
+    write("image", "rgb.bmp", image_file("bmp", 3, "uint8"))
+    write("image", "rgb.hdr", image_file("hdr", 3, "float"))
+    write("image", "half.exr", image_file("exr", 3, "half"))
+
+
+def make_exr() -> None:
+    for compression in COMPRESSIONS:
+        write("exr", f"{compression}.exr", image_file("exr", 3, "half", compression=compression))
+    write("exr", "tiled.exr", image_file("exr", 4, "half", tile=16))
+    write("exr", "uint.exr", image_file("exr", 1, "uint"))
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "a.exr"
+        image = np.linspace(0, 1, 60, dtype=np.float32).reshape(4, 5, 3)
+        mlt.write_image(path, image, metadata={"scene": "a"})
+        write("exr", "own.exr", path.read_bytes())
+
+
+# ---- meshes --------------------------------------------------------------------------------------
+
+CORNERS = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0.5)]
+
+
+def make_obj() -> None:
+    vertices = "".join(f"v {x} {y} {z}\n" for x, y, z in CORNERS)
+    more = "vt 0 0\nvt 1 0\nvt 1 1\nvn 0 0 1\n"
+    write("obj", "plain.obj", vertices + "f 1 2 3\nf 1 3 4\n")
+    write("obj", "all.obj", f"# a comment\no a\ng b\ns 1\n{vertices}{more}f 1/1/1 2/2/1 3/3/1\n")
+    write("obj", "normals.obj", f"{vertices}{more}f 1//1 2//1 3//1 4//1\n")
+    write("obj", "from-the-end.obj", f"{vertices}{more}f -4/-3 -3/-2 -2/-1\nusemtl x\nmtllib y\n")
+
+
+def ply_header(form: str) -> str:
+    return (
+        f"ply\nformat {form} 1.0\ncomment x\nelement vertex 4\n"
+        + "".join(f"property float {name}\n" for name in ("x", "y", "z", "nx", "ny", "nz"))
+        + "property float u\nproperty float v\nproperty uchar red\n"
+        + "element face 2\nproperty list uchar int vertex_indices\nend_header\n"
+    )
+
+
+def make_ply() -> None:
+    faces = [(0, 1, 2), (0, 1, 2, 3)]
+    lines = [f"{x} {y} {z} 0 0 1 {x} {y} 7" for x, y, z in CORNERS]
+    lines += [f"{len(face)} {' '.join(map(str, face))}" for face in faces]
+    write("ply", "ascii.ply", ply_header("ascii") + "\n".join(lines) + "\n")
+    for form, order in (("binary_little_endian", "<"), ("binary_big_endian", ">")):
+        body = b"".join(struct.pack(f"{order}8fB", *p, 0, 0, 1, *p[:2], 7) for p in CORNERS)
+        body += b"".join(struct.pack(f"{order}B{len(f)}i", len(f), *f) for f in faces)
+        write("ply", f"{form}.ply", ply_header(form).encode() + body)
+
+
+def make_serialized() -> None:
+    """The bytes before the file are those of the target: which mesh, or that it is compressed."""
+    for version, flags, real in ((3, 0x1001, "f"), (4, 0x1013, "f"), (4, 0x202B, "d")):
+        body = struct.pack("<I", flags) + (b"name\0" if version == 4 else b"")
+        body += struct.pack("<QQ", 4, 2)
+        extra = bool(flags & 1) * 3 + bool(flags & 2) * 2 + bool(flags & 8) * 3
+        body += struct.pack(f"<12{real}", *np.ravel(CORNERS))
+        body += struct.pack(f"<{4 * extra}{real}", *[0.5] * (4 * extra))
+        body += struct.pack("<6I", 0, 1, 2, 0, 2, 3)
+        mesh = struct.pack("<HH", 0x041C, version) + zlib.compress(body)
+        table = struct.pack("<QI" if version == 4 else "<II", 0, 1)
+        write("serialized", f"v{version}-{flags:x}", b"\0" + mesh + table)
+        write("serialized", f"raw-v{version}-{flags:x}", b"\0raw" + body)
+
+
+# ---- scenes --------------------------------------------------------------------------------------
+
+
+def make_scenes() -> None:
+    for name in ("stage", "light-spectrum", "mitsuba-cornell-box", "glass-ball"):
+        write("xml", f"{name}.xml", (SCENES / f"{name}.xml").read_text())
+    for seed in range(20):
+        text = random_scene(seed, size=(4, 4))
+        write("scene", f"{seed}.xml", text)
+        if seed < 6:
+            write("xml", f"{seed}.xml", text)
+        packed = mlt.load_string(text, directory=SCENES).__getstate__()
+        if len(packed) < 8000:  # with the files that it names
+            write("dict", str(seed), packed)
+
+
+def make_checkpoints() -> None:
+    """Without their heads, which the target makes."""
+    scene = mlt.load_file(FOLDER / "scene.xml", size=(4, 4))
+    for name in mlt.available("integrator"):
+        settings = {"type": name}
+        if name in ("mlt", "pssmlt"):
+            settings |= {"chains": 16, "luminance_samples": 16, "independent_share": 0.3}
+        if name == "mlt":  # each mutation makes it longer
+            settings |= {"adaptive": False, "multi_chain_perturbation": False}
+            settings |= {"caustic_perturbation": False, "lens_subpath_mutation": False}
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "a"
+            mlt.start(scene, settings, spp=1, seed=1, checkpoint=path).wait()
+            body = path.read_bytes()[28:]
+        for _ in ("version", "build"):
+            body = body[8 + int.from_bytes(body[:8], "little") :]
+        write("checkpoint", name, body)
+
+
+def make_words() -> None:
+    """Names of plug-ins, parameters and choices, for libFuzzer to put into scenes."""
+    words = set(_core.families())
+    for family in _core.families():
+        for name in _core.names(family):
+            words.add(name)
+            for parameter in _core.schema(family, name)["parameters"]:
+                words |= {parameter["name"], *parameter["choices"]}
+    tags = "default include ref alias scene shape rgb spectrum transform translate rotate lookat"
+    words |= set(tags.split())
+    text = "# Made by make_corpus.py.\n" + "".join(f'"{word}"\n' for word in sorted(words))
+    (FOLDER / "scene.dict").write_text(text)
+
+
+if __name__ == "__main__":
+    make_images()
+    make_exr()
+    make_obj()
+    make_ply()
+    make_serialized()
+    make_scenes()
+    make_checkpoints()
+    make_words()

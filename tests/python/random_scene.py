@@ -1,0 +1,201 @@
+"""Small scenes drawn at random, with every plug-in among them: `random_scene(seed)` is XML.
+
+File names in it are relative to FOLDER.
+"""
+
+import random
+from pathlib import Path
+
+FOLDER = Path(__file__).parent / "scenes"
+
+
+def tag(element: str, *content: str, **attributes) -> str:
+    words = "".join(f' {key}="{value}"' for key, value in attributes.items())
+    inner = "".join(content)
+    return f"<{element}{words}>{inner}</{element}>\n" if inner else f"<{element}{words}/>\n"
+
+
+def value(kind: str, name: str, *numbers) -> str:
+    text = ", ".join(f"{n:.4g}" if isinstance(n, float) else str(n) for n in numbers)
+    return tag(kind, name=name, value=text)
+
+
+def point(name: str, xyz) -> str:
+    return tag("point", name=name, **{k: f"{v:.4g}" for k, v in zip("xyz", xyz, strict=True)})
+
+
+def random_scene(seed: int, size=(8, 6)) -> str:
+    """A room of which walls may be missing, with some things and lights in it."""
+    return Draw(seed).scene(*size)
+
+
+class Draw:
+    def __init__(self, seed: int):
+        self.random = random.Random(seed)
+        self.between = self.random.uniform
+
+    def one_of(self, *choices) -> str:
+        """What one of these makes; each is a text or makes one."""
+        chosen = self.random.choice(choices)
+        return chosen if isinstance(chosen, str) else chosen()
+
+    def maybe(self, make, chance=0.5) -> str:
+        return make() if self.random.random() < chance else ""
+
+    def triple(self, low, high) -> list[float]:
+        return [self.between(low, high) for _ in range(3)]
+
+    # ---- the whole -------------------------------------------------------------------------------
+
+    def scene(self, width: int, height: int) -> str:
+        things = [self.thing() for _ in range(self.random.randint(1, 4))]
+        lights = [self.lamp()] + [self.light() for _ in range(self.random.randint(0, 2))]
+        return tag("scene", self.integrator(), self.sensor(width, height), self.room(), *things,
+                   *lights, version="3.0.0")  # fmt: skip
+
+    def integrator(self) -> str:
+        depth = value("integer", "max_depth", self.random.choice([-1, -1, 2, 3, 8]))
+        hide = self.maybe(lambda: value("boolean", "hide_emitters", "true"), 0.2)
+        strict = self.maybe(lambda: value("boolean", "strict_normals", "true"), 0.2)
+        return tag("integrator", depth, hide, strict, type="path")
+
+    def sensor(self, width: int, height: int) -> str:
+        eye = f"{self.between(-0.5, 0.5):.3g}, {self.between(-0.5, 0.5):.3g}, 3.6"
+        at = tag("lookat", origin=eye, target="0, -0.2, 0", up="0, 1, 0")
+        sides = value("integer", "width", width) + value("integer", "height", height)
+        names = ("box", "tent", "gaussian", "mitchell", "catmullrom", "lanczos")
+        film = tag("film", sides, tag("rfilter", type=self.one_of(*names)), type="hdrfilm")
+        common = tag("transform", at, name="to_world") + film + value("float", "fov", 45)
+        lens = value("float", "aperture_radius", self.between(0.05, 0.5))
+        lens += value("float", "focus_distance", self.between(2.0, 5.0))
+        return self.one_of(
+            tag("sensor", common, type="perspective"), tag("sensor", common, lens, type="thinlens")
+        )
+
+    def room(self) -> str:
+        """Each wall is a rectangle that looks inwards."""
+        turns = [("x", -90), ("x", 90), ("x", 0), ("y", 90), ("y", -90)]
+        chances = [1, 0.7, 0.8, 0.7, 0.7]
+        places = [(0, -1, 0), (0, 1, 0), (0, 0, -1), (-1, 0, 0), (1, 0, 0)]
+
+        def wall(turn, place):
+            steps = tag("rotate", **{turn[0]: 1, "angle": turn[1]})
+            steps += tag("translate", **dict(zip("xyz", place, strict=True)))
+            frame = tag("transform", steps, name="to_world")
+            return tag("shape", frame, self.matt(), type="rectangle")
+
+        walls = zip(turns, places, chances, strict=True)
+        return "".join(self.maybe(lambda t=t, p=p: wall(t, p), c) for t, p, c in walls)
+
+    # ---- things ----------------------------------------------------------------------------------
+
+    def placed(self) -> str:
+        x, y, z = self.triple(-0.6, 0.6)
+        axis = dict(zip("xyz", self.triple(-1, 1), strict=True))
+        scale = dict(zip("xyz", self.triple(0.2, 0.5), strict=True))
+        steps = tag("scale", **{k: f"{v:.3g}" for k, v in scale.items()})
+        steps += tag("rotate", angle=self.random.randrange(360),
+                     **{k: f"{v:.3g}" for k, v in axis.items()})  # fmt: skip
+        steps += tag("translate", x=f"{x:.3g}", y=f"{y:.3g}", z=f"{z:.3g}")
+        return tag("transform", steps, name="to_world")
+
+    def ball(self, radius: float, *nested: str) -> str:
+        centre = point("center", self.triple(-0.6, 0.6))
+        return tag("shape", centre, value("float", "radius", radius), *nested, type="sphere")
+
+    def thing(self) -> str:
+        def shape(name):
+            return lambda: tag("shape", self.placed(), self.bsdf(), type=name)
+
+        def mesh(name):
+            file = value("string", "filename", f"bump.{name}")
+            flat = self.maybe(lambda: value("boolean", "face_normals", "true"), 0.3)
+            return lambda: tag("shape", file, flat, self.placed(), self.bsdf(), type=name)
+
+        def cylinder():
+            ends = point("p0", self.triple(-0.6, 0.6)) + point("p1", self.triple(-0.6, 0.6))
+            return tag("shape", ends, value("float", "radius", 0.2), self.bsdf(), type="cylinder")
+
+        return self.one_of(
+            lambda: self.ball(self.between(0.2, 0.5), self.bsdf()), shape("cube"), shape("disk"),
+            shape("rectangle"), cylinder, mesh("obj"), mesh("ply"), mesh("serialized"),
+        )  # fmt: skip
+
+    # ---- materials -------------------------------------------------------------------------------
+
+    def reflectance(self, name: str) -> str:
+        def colour(name):
+            return value("rgb", name, *self.triple(0.1, 0.9))
+
+        def bitmap():
+            file = value("string", "filename", "colours.png")
+            wrap = value("string", "wrap_mode", self.one_of("repeat", "mirror", "clamp"))
+            return tag("texture", file, wrap, name=name, type="bitmap")
+
+        def checkerboard():
+            colours = colour("color0") + colour("color1")
+            scale = value("float", "uvscale", self.between(1, 5))
+            return tag("texture", colours, scale, name=name, type="checkerboard")
+
+        spectrum = tag("spectrum", name=name, value="400:0.1, 500:0.7, 600:0.2, 700:0.4")
+        return self.one_of(lambda: colour(name), lambda: colour(name), bitmap, checkerboard,
+                           spectrum)  # fmt: skip
+
+    def matt(self) -> str:
+        return tag("bsdf", self.reflectance("reflectance"), type="diffuse")
+
+    def rough(self) -> str:
+        kind = value("string", "distribution", self.one_of("ggx", "beckmann"))
+        return kind + value("float", "alpha", self.between(0.02, 0.6))
+
+    def phong(self) -> str:
+        exponent = value("float", "exponent", self.between(1, 300))
+        return tag("bsdf", exponent, self.reflectance("diffuse_reflectance"), type="phong")
+
+    def opaque(self) -> str:
+        metal = value("string", "material", self.one_of("Ag", "Au", "Cu", "none"))
+        coated = self.reflectance("diffuse_reflectance")
+        return self.one_of(
+            self.matt,
+            self.phong,
+            tag("bsdf", metal, type="conductor"),
+            lambda: tag("bsdf", metal, self.rough(), type="roughconductor"),
+            tag("bsdf", coated, type="plastic"),
+            lambda: tag("bsdf", coated, self.rough(), type="roughplastic"),
+        )
+
+    def bsdf(self) -> str:
+        index = value("float", "int_ior", self.between(1.1, 2.2))
+        return self.one_of(
+            self.opaque,
+            self.opaque,
+            lambda: tag("bsdf", self.opaque(), type="twosided"),
+            tag("bsdf", index, type="dielectric"),
+            lambda: tag("bsdf", index, self.rough(), type="roughdielectric"),
+            lambda: self.maybe(lambda: tag("bsdf", type="null"), 0.3),
+        )
+
+    # ---- lights ----------------------------------------------------------------------------------
+
+    def glow(self) -> str:
+        return tag("emitter", value("rgb", "radiance", *self.triple(1, 12)), type="area")
+
+    def lamp(self) -> str:
+        """Above the floor, so that no image is black."""
+        steps = tag("scale", value=f"{self.between(0.1, 0.5):.3g}")
+        steps += tag("rotate", x=1, angle=90) + tag("translate", y=0.98)
+        frame = tag("transform", steps, name="to_world")
+        return tag("shape", frame, self.glow(), type="rectangle")
+
+    def light(self) -> str:
+        colour = self.triple(0.2, 3)
+        sky = value("string", "filename", "sky.exr")
+        place = point("position", self.triple(-0.8, 0.8)) + value("rgb", "intensity", *colour)
+        sun = tag("vector", name="direction", x=-0.3, y=-0.7, z=-1)
+        return self.one_of(
+            lambda: self.ball(self.between(0.05, 0.2), self.matt(), self.glow()),
+            tag("emitter", place, type="point"),
+            tag("emitter", sun, value("rgb", "irradiance", *colour), type="directional"),
+            tag("emitter", value("rgb", "radiance", *colour), type="constant"),
+            tag("emitter", sky, type="envmap"),
+        )
