@@ -1,0 +1,206 @@
+"""Random scenes, rendered by random integrators, stopped and killed at random, for hours.
+
+    make soak HOURS=1                                  with the address sanitizer
+    .venv/bin/python tests/soak.py --minutes 5         with the build that is installed
+    .venv/bin/python tests/soak.py --seed 7 --first 31 --rounds 1      one round again
+
+Each round renders a scene in one go, and again with interruptions: jobs that are cancelled and
+resumed, processes that are killed with SIGKILL, workers of a cluster that are. Both must end with
+the same bits, none of them NaN, and the memory of this process must not grow. Everything is drawn
+from the seed and the number of the round, which are printed with a failure.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import random
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).parent / "python"))
+import random_scene
+
+import pymlt as mlt
+
+SETTINGS = {
+    "mlt": [{}, {"two_stage": False}, {"adaptive": False}, {"direct_samples": 4}, {"parts": True}],
+    "pssmlt": [{}, {"independent_share": 0.2}],
+    "bdpt": [{}, {"techniques": True, "max_depth": 3}],
+}
+GROWTH = 64 << 20  # bytes that may come after the first third of the rounds: caches, fragments
+
+
+class SoakError(Exception):
+    pass
+
+
+class Round:
+    """One scene and one integrator, with what is to happen to them."""
+
+    def __init__(self, seed: int, number: int):
+        self.draw = random.Random(f"{seed} {number}")
+        self.seed, self.number = seed, number
+        self.name = self.draw.choice(mlt.available("integrator"))
+        self.integrator = {"type": self.name, **self.draw.choice(SETTINGS.get(self.name, [{}]))}
+        if self.name in ("mlt", "pssmlt"):
+            self.integrator |= {"chains": 64, "luminance_samples": 1000}
+        self.options = {"spp": self.draw.randint(2, 60), "seed": self.draw.randrange(1000)}
+        size = self.draw.randint(4, 20), self.draw.randint(4, 16)
+        self.xml = random_scene.random_scene(self.draw.randrange(2**32), size)
+        self.scene = mlt.load_string(self.xml, directory=random_scene.FOLDER)
+
+    def start(self, **options) -> mlt.Job:
+        return mlt.start(self.scene, self.integrator, **self.options, **options)
+
+    def resume(self, path: Path, **options) -> mlt.Job:
+        return mlt.resume(path, scene=self.scene, spp=self.options["spp"], **options)
+
+    def sleep(self, longest: float) -> None:
+        time.sleep(self.draw.uniform(0, longest))
+
+    def check(self, folder: Path, interrupt) -> str:
+        """How it went, in a word; SoakError if it went wrong."""
+        before = time.monotonic()
+        try:
+            whole = self.start().result()
+        except mlt.Error as error:
+            return f"refused: {error}"
+        seconds = time.monotonic() - before
+        again = interrupt(self, folder / "state.mlt", seconds)
+        layers = {"image": (whole.image, again.image)}
+        layers |= {name: (layer, again.layers[name]) for name, layer in whole.layers.items()}
+        for name, (expected, found) in layers.items():
+            if np.isnan(expected).any() and name != "error":  # an error that is not known is NaN
+                raise SoakError(f"{name} has NaN")
+            if not np.array_equal(expected, found, equal_nan=True):
+                raise SoakError(f"{name} differs after {interrupt.__name__}")
+        return interrupt.__name__
+
+
+# ---- interruptions -------------------------------------------------------------------------------
+
+
+def pauses(work: Round, path: Path, seconds: float) -> mlt.Result:
+    """Cancelled here and resumed here, with other numbers of threads."""
+    job = work.start(threads=2)
+    for _ in range(work.draw.randint(1, 3)):
+        work.sleep(seconds / 2)
+        job.checkpoint(path)
+        job.cancel()
+        job.wait()
+        job = work.resume(path, threads=work.draw.randint(1, 3))
+    return job.result()
+
+
+CHILD = "import sys; sys.path.insert(0, {folder!r}); import soak; soak.child({arguments})"
+
+
+def child(seed: int, number: int, path: str) -> None:
+    """In a process of its own: goes on with a checkpoint, or begins it."""
+    work = Round(seed, number)
+    keep = {"checkpoint": path, "every": 0.01}
+    job = work.resume(Path(path), **keep) if os.path.exists(path) else work.start(**keep)
+    job.wait()
+
+
+def kills(work: Round, path: Path, seconds: float) -> mlt.Result:
+    """Killed in the middle, several times."""
+    arguments = f"{work.seed}, {work.number}, {str(path)!r}"
+    code = CHILD.format(folder=str(Path(__file__).parent), arguments=arguments)
+    for _ in range(work.draw.randint(1, 3)):
+        process = subprocess.Popen([sys.executable, "-c", code], stderr=subprocess.PIPE, text=True)
+        work.sleep(1 + seconds)
+        process.send_signal(signal.SIGKILL)
+        _, errors = process.communicate()
+        if process.returncode not in (0, -signal.SIGKILL):
+            raise SoakError(f"the child ended with {process.returncode}: {errors}")
+    Path(f"{path}.lock").unlink(missing_ok=True)
+    return (work.resume(path) if path.exists() else work.start()).result()
+
+
+class Workers:
+    """A cluster of two processes; one that dies is replaced."""
+
+    def __enter__(self):
+        import distributed
+
+        self.cluster = distributed.LocalCluster(
+            n_workers=2, threads_per_worker=1, processes=True, memory_limit=0,
+            dashboard_address="127.0.0.1:0", silence_logs=60,
+        )  # fmt: skip
+        self.client = distributed.Client(self.cluster)
+        return self
+
+    def __exit__(self, *_):
+        self.client.close()
+        self.cluster.close()
+
+    def deaths(self, work: Round, path: Path, seconds: float) -> mlt.Result:
+        """A worker is killed, the render is cancelled and resumed on the cluster or here."""
+        job = work.start(cluster=self.client, checkpoint=path, every=0.1)
+        for _ in range(work.draw.randint(1, 2)):
+            work.sleep(0.5 + seconds)
+            nannies = self.cluster.workers.values()
+            if processes := [nanny.pid for nanny in nannies if nanny.pid]:
+                os.kill(work.draw.choice(processes), signal.SIGKILL)
+        work.sleep(seconds)
+        job.cancel()
+        job.wait()
+        return work.resume(path, cluster=work.draw.choice([None, self.client])).result()
+
+
+# ---- the soak ------------------------------------------------------------------------------------
+
+
+def memory() -> int:
+    """Bytes that this process has in memory."""
+    pages = int(Path("/proc/self/statm").read_text().split()[1])
+    return pages * os.sysconf("SC_PAGE_SIZE")
+
+
+def soak(seed: int, first: int, rounds: int | None, seconds: float, cluster: bool) -> None:
+    """Prints a line for each round. Raises SoakError at the first that goes wrong."""
+    end = time.monotonic() + seconds
+    sizes = []
+    counts: dict[str, int] = {}
+    with Workers() if cluster else open(os.devnull) as workers:
+        number = first
+        while number - first != rounds and time.monotonic() < end:
+            work = Round(seed, number)
+            ways = [pauses, kills, *([workers.deaths] if cluster else [])]
+            with tempfile.TemporaryDirectory() as folder:
+                try:
+                    how = work.check(Path(folder), work.draw.choice(ways))
+                except Exception as error:
+                    raise SoakError(f"seed {seed}, round {number}: {error}") from error
+            sizes.append(memory())
+            counts[how.split(":")[0]] = counts.get(how.split(":")[0], 0) + 1
+            print(f"{number}: {work.integrator}, {how}, {sizes[-1] >> 20} MiB", flush=True)
+            number += 1
+    print(f"seed {seed}: {counts}, {sizes[0] >> 20} to {sizes[-1] >> 20} MiB")
+    if sizes[-1] > sizes[len(sizes) // 3] + GROWTH:
+        raise SoakError("memory grows")
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--minutes", type=float, default=60)
+    parser.add_argument("--seed", type=int, default=random.randrange(2**32))
+    parser.add_argument("--first", type=int, default=0, help="number of the first round")
+    parser.add_argument("--rounds", type=int, help="no more than these")
+    parser.add_argument("--no-cluster", action="store_true")
+    args = parser.parse_args()
+    print(f"seed {args.seed}", flush=True)
+    soak(args.seed, args.first, args.rounds, 60 * args.minutes, not args.no_cluster)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
