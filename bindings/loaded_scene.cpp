@@ -17,8 +17,10 @@ namespace {
 using Size = std::optional<std::pair<int, int>>;
 using Defines = std::map<std::string, Text>;
 
-LoadOptions load_options(const Size& size, const Defines& defines = {}) {
+LoadOptions load_options(const Size& size, const Defines& defines = {},
+                         std::optional<bool> lenient = {}) {
   LoadOptions options;
+  options.lenient = lenient;
   options.defines.insert(defines.begin(), defines.end());
   if (size) options.size = Vec2i(size->first, size->second);
   return options;
@@ -31,13 +33,14 @@ LoadedScene warned(LoadedScene loaded) {
   return loaded;
 }
 
-LoadedScene from_file(const Text& path, const Defines& defines, const Size& size) {
-  return warned(load_file(path, plugins(), load_options(size, defines)));
+LoadedScene from_file(const Text& path, const Defines& defines, const Size& size,
+                      std::optional<bool> lenient) {
+  return warned(load_file(path, plugins(), load_options(size, defines, lenient)));
 }
 
 LoadedScene from_string(const Text& xml, const Text& directory, const Defines& defines,
-                        const Size& size) {
-  return warned(load_string(xml, directory, plugins(), load_options(size, defines)));
+                        const Size& size, std::optional<bool> lenient) {
+  return warned(load_string(xml, directory, plugins(), load_options(size, defines, lenient)));
 }
 
 /// `built_in` and `defines` name a scene of the Python package, so that a checkpoint can.
@@ -109,9 +112,10 @@ void bind_scene(py::module_& m) {
       .def("info", &info, "What the scene holds, as a dict.")
       .def("__repr__", &describe);
 
-  m.def("load_file", &from_file, py::arg("path"), py::arg("defines"), py::arg("size"), NoGil());
+  m.def("load_file", &from_file, py::arg("path"), py::arg("defines"), py::arg("size"),
+        py::arg("lenient"), NoGil());
   m.def("load_string", &from_string, py::arg("xml"), py::arg("directory"), py::arg("defines"),
-        py::arg("size"), NoGil());
+        py::arg("size"), py::arg("lenient"), NoGil());
   m.def("load_dict", &from_dict, py::arg("dict"), py::arg("size"), py::arg("built_in") = "",
         py::arg("defines") = Defines());
 }

@@ -40,6 +40,10 @@ Options read_options(const FlagValues& given) {
     options.load.defines[name] = value;
   for (const auto& [width, height] : all<std::pair<int, int>>(given, "size"))
     options.load.size = Vec2i(width, height);
+  if (given.count("lenient") && given.count("strict"))
+    throw UsageError("--lenient and --strict exclude each other");
+  if (given.count("lenient")) options.load.lenient = true;
+  if (given.count("strict")) options.load.lenient = false;
   RenderSettings& render = options.render;
   take<double>(given, "spp", render.budget.spp);
   take<double>(given, "time", render.budget.seconds);

@@ -3,6 +3,7 @@
 #include "image/splat.h"
 
 #include "io/families.h"
+#include "io/leniency.h"
 #include "io/text.h"
 #include "scene/mesh.h"
 #include "scene/texture.h"
@@ -11,14 +12,6 @@
 
 namespace mlt {
 namespace {
-
-/// Names that Mitsuba's own upgrade from 0.6 to 2 changes and that snake_case does not cover.
-std::string current_name(const Node& node, const std::string& name, const Schema& schema) {
-  if (node.family == "bsdf" && node.type == "diffuse" &&
-      snake_case(name) == "diffuse_reflectance" && !schema.find("diffuse_reflectance"))
-    return "reflectance";
-  return name;
-}
 
 /// What the builder itself takes out of a plug-in's parameters, whatever name it was given.
 bool is_part(const std::string& parent, const std::string& child) {

@@ -3,6 +3,7 @@
 #include "image/atomic_file.h"
 #include "io/builder.h"
 #include "io/families.h"
+#include "io/leniency.h"
 #include "io/node_bytes.h"
 
 #include <algorithm>
@@ -137,7 +138,8 @@ LoadedScene load(SceneSource source, const Read& read, const Registry& registry,
                  const LoadOptions& options) {
   const auto start = Clock::now();
   std::vector<std::string> warnings;
-  const Node tree = read(warnings);
+  Node tree = read(warnings);
+  if (options.lenient.value_or(!tree.modern)) leave_out_unknown(tree, registry, warnings);
   LoadedScene loaded = build_scene(tree, registry, options);
   loaded.warnings.insert(loaded.warnings.begin(), warnings.begin(), warnings.end());
   source.options = options;

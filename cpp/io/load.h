@@ -15,6 +15,9 @@ namespace mlt {
 struct LoadOptions {
   std::map<std::string, std::string> defines;  ///< Values for the scene's <default> parameters.
   std::optional<Vec2i> size;                   ///< Replaces the film's width and height.
+  /// Whether unknown parameters and integrators are left out with a warning, rather than refused;
+  /// without, they are in files of Mitsuba 0.x.
+  std::optional<bool> lenient;
 };
 
 /// How a scene was asked for, so that a checkpoint can ask for it again.

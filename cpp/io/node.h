@@ -25,6 +25,7 @@ struct Node {
   Location where;
   std::vector<Property> properties;
   std::vector<Node> children;
+  bool modern = true;  ///< Of a scene: its file is in the format of Mitsuba 2 or later.
 };
 
 /// Nodes, includes and references may be nested this deep; deeper is a mistake or an attack.

@@ -91,6 +91,7 @@ class XmlReader {
       root.fail("is not a scene; the root element should be <scene>");
     }
     Node node = read_plugin(document.root(), root, source, 1);
+    node.modern = is_modern(root.get("version"));
     resolve_aliases(node);
     variables_.expect_all_used();
     return node;

@@ -32,6 +32,7 @@ void save(ByteWriter& bytes, const SceneSource& scene) {
   bytes.write(scene.directory);
   bytes.write(scene.options.defines);
   bytes.write(scene.options.size);
+  bytes.write(scene.options.lenient);
 }
 
 SceneSource load_source(ByteReader& bytes) {
@@ -41,6 +42,7 @@ SceneSource load_source(ByteReader& bytes) {
   bytes.read(scene.directory);
   bytes.read(scene.options.defines);
   bytes.read(scene.options.size);
+  bytes.read(scene.options.lenient);
   return scene;
 }
 

@@ -100,7 +100,10 @@ def load_scene(args) -> _core.Scene:
     """The file or the built-in scene that the arguments `scene`, `defines` and `size` mean."""
     defines, size = dict(args.defines), getattr(args, "size", None)
     if os.path.exists(args.scene):
-        return load_file(args.scene, size=size, **defines)
+        if args.lenient and args.strict:
+            raise _core.UsageError("--lenient and --strict exclude each other")
+        lenient = args.lenient or (False if args.strict else None)
+        return load_file(args.scene, size=size, lenient=lenient, **defines)
     if name := built_in_name(args.scene):
         return load_built_in(name, defines, size)
     if "." in args.scene or os.sep in args.scene:

@@ -11,7 +11,8 @@ HELP = "Print what a scene holds."
 
 def add_arguments(command) -> None:
     command.add_argument("scene", metavar="SCENE", help=FLAGS["scene"].help)
-    add_flag(command, FLAGS["defines"])
+    for name in ("defines", "lenient", "strict"):
+        add_flag(command, FLAGS[name])
     command.add_argument("--json", action="store_true", help="print JSON")
 
 

@@ -10,22 +10,24 @@ from .. import _core, scenes
 SceneLike = _core.Scene | dict | str | os.PathLike
 
 
-def load_file(path, /, *, size=None, **defines) -> _core.Scene:
+def load_file(path, /, *, size=None, lenient=None, **defines) -> _core.Scene:
     """Load a Mitsuba XML scene.
 
     `defines` are values for the scene's <default> parameters (`resx=640`); `size` is the image's
-    (width, height) in pixels, in place of the film's own. Raises FileError for files that cannot be
+    (width, height) in pixels, in place of the film's own. Unknown parameters and integrators are
+    left out with a warning if `lenient`, refused if not; by default (None) the former in files of
+    Mitsuba 0.x, the latter in files of Mitsuba 2 and 3. Raises FileError for files that cannot be
     read, SceneError (with file and line) for what is wrong in them, UsageError for the arguments.
     """
-    return _core.load_file(os.fspath(path), _texts(defines), _size(size))
+    return _core.load_file(os.fspath(path), _texts(defines), _size(size), lenient)
 
 
-def load_string(xml: str, /, *, directory=".", size=None, **defines) -> _core.Scene:
+def load_string(xml: str, /, *, directory=".", size=None, lenient=None, **defines) -> _core.Scene:
     """Load a scene from a string of Mitsuba XML; file names in it are relative to `directory`.
 
     Otherwise as `load_file`.
     """
-    return _core.load_string(xml, os.fspath(directory), _texts(defines), _size(size))
+    return _core.load_string(xml, os.fspath(directory), _texts(defines), _size(size), lenient)
 
 
 def load_dict(scene: dict, /, *, size=None) -> _core.Scene:

@@ -312,9 +312,9 @@ TEST_F(SceneFileTest, ABrokenFileNamesTheSceneAndTheFile) {
 TEST(SceneIntegrator, IsHandedOnAsItIsWritten) {
   const LoadedScene loaded =
       load(sensor + point_light +
-           "<integrator type='theirs'><integer name='maxDepth' value='3'/></integrator>");
+           "<integrator type='bdpt'><integer name='maxDepth' value='3'/></integrator>");
   ASSERT_TRUE(loaded.integrator);
-  EXPECT_EQ(loaded.integrator->type, "theirs");
+  EXPECT_EQ(loaded.integrator->type, "bdpt");
   EXPECT_EQ(loaded.integrator->properties.at(0).name, "maxDepth");
 }
 
