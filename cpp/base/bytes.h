@@ -60,6 +60,7 @@ class ByteReader {
   template <class T>
   T read() {
     static_assert(std::is_trivially_copyable_v<T>);
+    if constexpr (std::is_same_v<T, bool>) return read_bool();
     T value;
     copy(&value, sizeof(T));
     return value;
@@ -109,6 +110,12 @@ class ByteReader {
   }
 
  private:
+  bool read_bool() {
+    const auto byte = read<uint8_t>();
+    if (byte > 1)
+      throw RenderError("the saved state has something else where it should say yes or no");
+    return byte == 1;
+  }
   void copy(void* to, size_t size) {
     if (size > bytes_->size() - position_) truncated();
     if (size > 0) std::memcpy(to, bytes_->data() + position_, size);

@@ -1,5 +1,7 @@
 #include "image/validate.h"
 
+#include "image/exr_attributes.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -72,11 +74,12 @@ void check_exr_headers(std::string_view bytes) {
     while (true) {
       const std::string_view name = take_text(bytes, &position);
       if (name.empty()) break;
-      take_text(bytes, &position);  // its type
+      const std::string_view type = take_text(bytes, &position);
       const size_t size = little_endian(bytes, position);
       position += 4;
       if (position > bytes.size() || size > bytes.size() - position)
         throw std::runtime_error("the file ends early");
+      check_exr_attribute(type, bytes.substr(position, size));
       chunks.see(name, bytes, position);
       position += size;
     }

@@ -11,6 +11,9 @@
 namespace mlt::fuzz {
 namespace {
 
+/// A pilot, and an adaptation, take longer than everything else.
+const Assignments no_pilot = {{"independent_share", "0"}, {"adaptive", "false"}};
+
 void render(const ScenePtr& scene, const Integrator& integrator) {
   const auto rendering = integrator.start(scene, 1);
   rendering->prepare(1, never_cancelled);
@@ -28,7 +31,7 @@ void read(std::string_view bytes) {
       load_string(std::string(bytes), "tests/python/scenes", plugins(), small_film());
   for (const std::string& name : plugins().names("integrator")) {
     try {
-      render(loaded.scene, *small_integrator(loaded, name));
+      render(loaded.scene, *small_integrator(loaded, name, no_pilot));
     } catch (const Error&) {  // some scenes suit only some integrators
     }
   }

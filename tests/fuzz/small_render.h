@@ -16,14 +16,16 @@ inline LoadOptions small_film() {
   return options;
 }
 
-/// With the scene's own settings, but no more than a few of anything.
-inline IntegratorPtr small_integrator(const LoadedScene& loaded, const std::string& name) {
+/// With the scene's own settings and `more` where they exist, but no more than a few of anything.
+inline IntegratorPtr small_integrator(const LoadedScene& loaded, const std::string& name,
+                                      Assignments more = {}) {
   constexpr int64_t few = 16;
-  Assignments counts;
   const Schema& schema = plugins().find("integrator", name, {}).schema;
   for (const char* count : {"chains", "luminance_samples"})
-    if (schema.find(count)) counts.emplace_back(count, std::to_string(few));
-  Node node = choose_integrator(loaded, name, counts, plugins());
+    more.emplace_back(count, std::to_string(few));
+  const auto unknown = [&](const auto& assignment) { return !schema.find(assignment.first); };
+  more.erase(std::remove_if(more.begin(), more.end(), unknown), more.end());
+  Node node = choose_integrator(loaded, name, more, plugins());
   for (Node::Property& property : node.properties)
     if (auto* count = std::get_if<int64_t>(&property.value)) *count = std::min(*count, few);
   return make_integrator(node, plugins()).integrator;
