@@ -122,7 +122,7 @@ soak: build
 	PYTHONPATH=$(SOAK)/site:$$(echo $(VENV)/lib/python3*/site-packages) \
 	  LD_PRELOAD="$$($(CXX) -print-file-name=libasan.so) $$($(CXX) -print-file-name=libstdc++.so)" \
 	  ASAN_OPTIONS=detect_leaks=0:quarantine_size_mb=16 \
-	  $(PYTHON) tests/soak.py --minutes $$(($(HOURS) * 60))
+	  $(PYTHON) tests/soak.py --hours $(HOURS)
 
 # ---- style ---------------------------------------------------------------------------------------
 lint: $(STAMPS)/dev

@@ -1,7 +1,7 @@
 """Random scenes, rendered by random integrators, stopped and killed at random, for hours.
 
     make soak HOURS=1                                  with the address sanitizer
-    .venv/bin/python tests/soak.py --minutes 5         with the build that is installed
+    .venv/bin/python tests/soak.py --hours 0.1         with the build that is installed
     .venv/bin/python tests/soak.py --seed 7 --first 31 --rounds 1      one round again
 
 Each round renders a scene in one go, and again with interruptions: jobs that are cancelled and
@@ -191,14 +191,14 @@ def soak(seed: int, first: int, rounds: int | None, seconds: float, cluster: boo
 
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--minutes", type=float, default=60)
+    parser.add_argument("--hours", type=float, default=1)
     parser.add_argument("--seed", type=int, default=random.randrange(2**32))
     parser.add_argument("--first", type=int, default=0, help="number of the first round")
     parser.add_argument("--rounds", type=int, help="no more than these")
     parser.add_argument("--no-cluster", action="store_true")
     args = parser.parse_args()
     print(f"seed {args.seed}", flush=True)
-    soak(args.seed, args.first, args.rounds, 60 * args.minutes, not args.no_cluster)
+    soak(args.seed, args.first, args.rounds, 3600 * args.hours, not args.no_cluster)
     return 0
 
 

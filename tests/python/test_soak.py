@@ -11,7 +11,7 @@ import pytest
 def test_a_few_rounds_of_the_soak_find_nothing(repository):
     script = repository / "tests" / "soak.py"
     done = subprocess.run(
-        [sys.executable, script, "--seed", "3", "--rounds", "6", "--minutes", "0.5"],
+        [sys.executable, script, "--seed", "3", "--rounds", "6", "--hours", "0.01"],
         capture_output=True,
         text=True,
         timeout=250,
