@@ -34,11 +34,18 @@ void splat(const Filter& filter, const Vec2& at, const PixelRect& rect, Add&& ad
   const int y0 = std::max(rect.y0, static_cast<int>(std::ceil(at.y - r - 0.5)));
   const int x1 = std::min(rect.x1 - 1, static_cast<int>(std::floor(at.x + r - 0.5)));
   const int y1 = std::min(rect.y1 - 1, static_cast<int>(std::floor(at.y + r - 0.5)));
-  for (int y = y0; y <= y1; ++y) {
-    const double wy = filter.eval(y + 0.5 - at.y);
-    if (wy == 0) continue;
-    for (int x = x0; x <= x1; ++x)
-      if (const double w = wy * filter.eval(x + 0.5 - at.x); w != 0) add(x, y, w);
+  // The weights of a row are those of all rows: they are looked up once, for some columns at a time.
+  constexpr int columns = 16;
+  for (int first = x0; first <= x1; first += columns) {
+    const int count = std::min(columns, x1 + 1 - first);
+    double wx[columns];
+    for (int i = 0; i < count; ++i) wx[i] = filter.eval(first + i + 0.5 - at.x);
+    for (int y = y0; y <= y1; ++y) {
+      const double wy = filter.eval(y + 0.5 - at.y);
+      if (wy == 0) continue;
+      for (int i = 0; i < count; ++i)
+        if (const double w = wy * wx[i]; w != 0) add(first + i, y, w);
+    }
   }
 }
 

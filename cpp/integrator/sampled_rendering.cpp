@@ -45,9 +45,8 @@ SampledRendering::Place SampledRendering::place_of(uint64_t pass) const {
           turn / group_count * passes_per_turn_ + pass % passes_per_turn_};
 }
 
-PixelSampler SampledRendering::sampler(int x, int y, uint64_t pass) const {
+PixelSampler SampledRendering::sampler(int x, int y, const Place& place) const {
   const uint64_t cell = (uint64_t(uint32_t(y)) << 32) | uint32_t(x);
-  const Place place = place_of(pass);
   const uint64_t stream = mix_bits(mix_bits(mix_bits(seed_) ^ cell) + place.group);
   return {stream, static_cast<uint32_t>(place.index)};
 }
@@ -63,7 +62,7 @@ Replay SampledRendering::replay(const Vec2i& pixel, uint64_t sample) {
   Replay replay;
   RayCounts rays;
   SampleSink sink(replay);
-  PixelSampler numbers = sampler(pixel.x, pixel.y, sample);
+  PixelSampler numbers = sampler(pixel.x, pixel.y, place_of(sample));
   replay.raster = Vec2(pixel) + numbers.next2();
   make_taker_(scene())->sample(replay.raster, numbers, sink, rays);
   return replay;
@@ -82,7 +81,7 @@ void SampledRendering::run_unit(uint64_t unit) {
   const std::unique_ptr<SampleTaker> taker = make_taker_(scene());
   for (int y = cells.y0; y < cells.y1; ++y)
     for (int x = cells.x0; x < cells.x1; ++x) {
-      PixelSampler numbers = sampler(x, y, pass);
+      PixelSampler numbers = sampler(x, y, place);
       const Vec2 raster = Vec2(x, y) + numbers.next2();
       taker->sample(raster, numbers, sink, rays);
     }

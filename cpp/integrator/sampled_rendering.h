@@ -117,7 +117,7 @@ class SampledRendering : public Rendering {
   /// The film's sums of a task.
   SampleFilm::Selection selection(const Task& task) const;
   /// The numbers of one sample of a cell: those of its group's stream for it.
-  PixelSampler sampler(int x, int y, uint64_t pass) const;
+  PixelSampler sampler(int x, int y, const Place& place) const;
 
   MakeTaker make_taker_;
   uint64_t passes_per_turn_;

@@ -6,6 +6,7 @@
 #include "base/rng.h"
 #include "math/vec.h"
 
+#include <array>
 #include <cstdint>
 
 namespace mlt {
@@ -38,16 +39,32 @@ inline uint32_t sobol_1_reversed(uint32_t index) {
   return index;
 }
 
-/// Point `index` of the sequence that `seed` names, in [0, 1)^2. Every power-of-two block of a
-/// sequence is stratified in all elementary intervals.
+/// Point `index` of the sequences that `seed`, `seed` + 1, ... name, in [0, 1)^2. Every power-of-two
+/// block of a sequence is stratified in all elementary intervals. The sequences are independent, so
+/// the middle loop does as many at a time as the processor's vectors hold.
+template <size_t count>
+std::array<Vec2, count> scrambled_sobol(uint32_t index, uint64_t seed) {
+  constexpr size_t lanes = (count + 7) / 8 * 8;
+  uint32_t key_shuffle[lanes] = {}, key_x[lanes] = {}, key_y[lanes] = {}, x[lanes], y[lanes];
+  for (size_t i = 0; i < count; ++i) {
+    const uint64_t keys = mix_bits(seed + i);
+    key_shuffle[i] = static_cast<uint32_t>(keys);
+    key_x[i] = static_cast<uint32_t>(keys >> 32);
+    key_y[i] = static_cast<uint32_t>(mix_bits(keys));
+  }
+  const uint32_t reversed = reverse_bits(index);
+  for (size_t i = 0; i < lanes; ++i) {
+    const uint32_t shuffled = reverse_bits(scramble_reversed(reversed, key_shuffle[i]));
+    x[i] = reverse_bits(scramble_reversed(shuffled, key_x[i]));
+    y[i] = reverse_bits(scramble_reversed(sobol_1_reversed(shuffled), key_y[i]));
+  }
+  std::array<Vec2, count> points;
+  for (size_t i = 0; i < count; ++i) points[i] = {x[i] * 0x1p-32, y[i] * 0x1p-32};
+  return points;
+}
+
 inline Vec2 scrambled_sobol(uint32_t index, uint64_t seed) {
-  const uint64_t keys = mix_bits(seed), more_keys = mix_bits(keys);
-  const uint32_t shuffled =
-      reverse_bits(scramble_reversed(reverse_bits(index), static_cast<uint32_t>(keys)));
-  const uint32_t x = reverse_bits(scramble_reversed(shuffled, static_cast<uint32_t>(keys >> 32)));
-  const uint32_t y =
-      reverse_bits(scramble_reversed(sobol_1_reversed(shuffled), static_cast<uint32_t>(more_keys)));
-  return {x * 0x1p-32, y * 0x1p-32};
+  return scrambled_sobol<1>(index, seed)[0];
 }
 
 }  // namespace mlt

@@ -30,21 +30,21 @@ class PixelSampler {
  public:
   /// `stream` names the sequence (seed, group and pixel), `index` the sample in it.
   PixelSampler(uint64_t stream, uint32_t index)
-      : stream_(stream), index_(index), rng_(stream, Purpose::pixel, index) {}
+      : stratified_(scrambled_sobol<stratified_pairs>(index, stream)),
+        rng_(stream, Purpose::pixel, index) {}
 
   double next() { return rng_.next(); }
   Vec2 next2() {
-    if (pair_ < stratified_pairs) return scrambled_sobol(index_, stream_ + pair_++);
+    if (pair_ < stratified_pairs) return stratified_[pair_++];
     const double x = rng_.next();
     return {x, rng_.next()};
   }
 
  private:
   /// Image position, lens, and the light and direction of the first vertices.
-  static constexpr uint64_t stratified_pairs = 6;
-  uint64_t stream_;
-  uint32_t index_;
-  uint64_t pair_ = 0;
+  static constexpr size_t stratified_pairs = 6;
+  std::array<Vec2, stratified_pairs> stratified_;
+  size_t pair_ = 0;
   Rng rng_;
 };
 
