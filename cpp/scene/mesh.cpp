@@ -6,6 +6,26 @@
 #include "math/warp.h"
 
 namespace mlt {
+namespace {
+
+float reach(const Vec3f& p) {
+  return std::max(std::max(std::fabs(p.x), std::fabs(p.y)), std::fabs(p.z));
+}
+
+TriangleRecord record_of(const MeshData& data, const std::array<uint32_t, 3>& corners,
+                         double side) {
+  TriangleRecord record;
+  record.p0 = data.positions[corners[0]];
+  record.p1 = data.positions[corners[1]];
+  record.p2 = data.positions[corners[2]];
+  record.extent = std::max({reach(record.p0), reach(record.p1), reach(record.p2)});
+  const Vec3 normal = data.triangle(corners).normal;
+  const double l2 = length_squared(normal);
+  record.ng = l2 > 0 ? normal * (side / std::sqrt(l2)) : Vec3(0, 0, side);
+  return record;
+}
+
+}  // namespace
 
 Mesh::Mesh(MeshData data, const Mat4& to_world, bool face_normals, bool flip_normals,
            const Location& location)
@@ -17,36 +37,31 @@ Mesh::Mesh(MeshData data, const Mat4& to_world, bool face_normals, bool flip_nor
   if (to_world != Mat4(1)) check_mesh(data_, where);
   repair_normals(data_);
   data_.positions.reserve(data_.positions.size() + 1);  // See data().
-  for (uint32_t i = 0; i < data_.triangles.size(); ++i) area_ += 0.5 * length(triangle(i).normal);
+  records_.reserve(data_.triangles.size());
+  for (const auto& corners : data_.triangles) {
+    records_.push_back(record_of(data_, corners, side_));
+    area_ += 0.5 * length(data_.triangle(corners).normal);
+  }
 }
 
 size_t Mesh::bytes() const {
   const auto size = [](const auto& buffer) { return buffer.size() * sizeof(buffer[0]); };
   return size(data_.positions) + size(data_.normals) + size(data_.uvs) + size(data_.triangles) +
-         (triangle_areas_.size() + 1) * sizeof(double);
-}
-
-inline Mesh::Triangle Mesh::triangle(uint32_t index) const {
-  return data_.triangle(data_.triangles[index]);
-}
-
-/// The largest coordinate of a vertex, without its sign.
-inline float Mesh::reach(uint32_t vertex) const {
-  const Vec3f& p = data_.positions[vertex];
-  return std::max(std::max(std::fabs(p.x), std::fabs(p.y)), std::fabs(p.z));
+         size(records_) + (triangle_areas_.size() + 1) * sizeof(double);
 }
 
 void Mesh::surface_point(const Ray& ray, const Hit& hit, SurfacePoint& at) const {
   // p0 + b1 e1 + b2 e2 = o + t d, solved by triple products of s = o - p0.
-  const Triangle tri = triangle(hit.primitive);
+  const Edges tri = records_[hit.primitive].edges();
+  const Vec3 normal = cross(tri.e1, tri.e2);
   const Vec3 s = ray.o - tri.p0;
   const Vec3 moment = cross(s, ray.d);
-  const double scale = -1 / dot(ray.d, tri.normal);
+  const double scale = -1 / dot(ray.d, normal);
   double b1 = dot(tri.e2, moment) * scale;
   double b2 = -dot(tri.e1, moment) * scale;
   const double u = hit.u, v = hit.v;
   if (std::abs(b1 - u) < 0.1 && std::abs(b2 - v) < 0.1) {
-    at.p = ray.o + ray.d * (dot(s, tri.normal) * scale);
+    at.p = ray.o + ray.d * (dot(s, normal) * scale);
   } else {  // The ray is too nearly parallel to the triangle.
     b1 = u;
     b2 = v;
@@ -55,13 +70,21 @@ void Mesh::surface_point(const Ray& ray, const Hit& hit, SurfacePoint& at) const
   fill(tri, hit.primitive, b1, b2, at);
 }
 
-inline void Mesh::fill(const Triangle& tri, uint32_t index, double b1, double b2,
+inline void Mesh::fill(const Edges& tri, uint32_t index, double b1, double b2,
                        SurfacePoint& at) const {
+  const TriangleRecord& record = records_[index];
+  at.ng = record.ng;
+  at.extent = record.extent;
+  at.shape = index_;
+  at.primitive = index;
+  at.kind = PointKind::surface;
+  if (data_.normals.empty() && data_.uvs.empty()) {
+    at.uv = {b1, b2};
+    at.shading = Frame::around(record.ng);
+    return;
+  }
   const auto& corners = data_.triangles[index];
-  const double l2 = length_squared(tri.normal);
-  const Vec3 ng = l2 > 0 ? tri.normal * (side_ / std::sqrt(l2)) : Vec3(0, 0, side_);
-  at.ng = ng;
-  Vec3 n = ng, m = tri.normal * side_;  // The shading normal, and a multiple of it.
+  Vec3 n = record.ng, m = cross(tri.e1, tri.e2) * side_;  // The shading normal, and a multiple.
   if (!data_.normals.empty()) {
     const Vec3 sum = Vec3(data_.normals[corners[0]]) * (1 - b1 - b2) +
                      Vec3(data_.normals[corners[1]]) * b1 + Vec3(data_.normals[corners[2]]) * b2;
@@ -70,31 +93,28 @@ inline void Mesh::fill(const Triangle& tri, uint32_t index, double b1, double b2
       n = sum * (side_ / std::sqrt(sum2));
       m = sum * side_;
     }
-    at.ng = ng * std::copysign(1.0, dot(ng, n));
+    at.ng = record.ng * std::copysign(1.0, dot(record.ng, n));
   }
   if (data_.uvs.empty()) {
     at.uv = {b1, b2};
     at.shading = Frame::around(n);
-  } else {
-    const Vec2 uv0(data_.uvs[corners[0]]);
-    const Vec2 d1 = Vec2(data_.uvs[corners[1]]) - uv0;
-    const Vec2 d2 = Vec2(data_.uvs[corners[2]]) - uv0;
-    at.uv = uv0 + d1 * b1 + d2 * b2;
-    // Solves e1 = d1.x dp/du + d1.y dp/dv and e2 likewise, up to a positive factor.
-    const Vec3 dp_du =
-        (tri.e1 * d2.y - tri.e2 * d1.y) * std::copysign(1.0, d1.x * d2.y - d1.y * d2.x);
-    at.shading = Frame::around(n, m, dp_du);
+    return;
   }
-  at.extent = std::max({reach(corners[0]), reach(corners[1]), reach(corners[2])});
-  at.shape = index_;
-  at.primitive = index;
-  at.kind = PointKind::surface;
+  const Vec2 uv0(data_.uvs[corners[0]]);
+  const Vec2 d1 = Vec2(data_.uvs[corners[1]]) - uv0;
+  const Vec2 d2 = Vec2(data_.uvs[corners[2]]) - uv0;
+  at.uv = uv0 + d1 * b1 + d2 * b2;
+  // Solves e1 = d1.x dp/du + d1.y dp/dv and e2 likewise, up to a positive factor.
+  const Vec3 dp_du =
+      (tri.e1 * d2.y - tri.e2 * d1.y) * std::copysign(1.0, d1.x * d2.y - d1.y * d2.x);
+  at.shading = Frame::around(n, m, dp_du);
 }
 
 void Mesh::prepare_sampling() {
   if (!(area_ > 0)) throw SceneError(at(where, "a mesh without area cannot emit light"));
   std::vector<double> areas(data_.triangles.size());
-  for (uint32_t i = 0; i < areas.size(); ++i) areas[i] = length(triangle(i).normal);
+  for (uint32_t i = 0; i < areas.size(); ++i)
+    areas[i] = length(data_.triangle(data_.triangles[i]).normal);
   triangle_areas_ = Discrete(areas);
 }
 
@@ -102,7 +122,7 @@ PositionSample Mesh::sample_position(const Vec2& u) const {
   const Discrete::Sample chosen = triangle_areas_.sample_reuse(u.x);
   const auto index = static_cast<uint32_t>(chosen.index);
   const Vec2 b = sample_triangle({chosen.remainder, u.y});
-  const Triangle tri = triangle(index);
+  const Edges tri = records_[index].edges();
   PositionSample sample;
   sample.at.p = tri.p0 + tri.e1 * b.x + tri.e2 * b.y;
   fill(tri, index, b.x, b.y, sample.at);
@@ -111,7 +131,7 @@ PositionSample Mesh::sample_position(const Vec2& u) const {
 }
 
 Vec2 Mesh::invert_position(const SurfacePoint& at) const {
-  const Triangle tri = triangle(at.primitive);
+  const MeshData::Triangle tri = data_.triangle(data_.triangles[at.primitive]);
   const Vec3 q = at.p - tri.p0;
   const double scale = 1 / length_squared(tri.normal);
   const Vec2 b(dot(cross(q, tri.e2), tri.normal) * scale,

@@ -7,6 +7,22 @@
 
 namespace mlt {
 
+/// What every hit on a triangle needs, in one cache line; normals and uvs stay in their buffers.
+struct alignas(64) TriangleRecord {
+  Vec3f p0, p1, p2;
+  float extent;  ///< Largest coordinate, without its sign.
+  Vec3 ng;  ///< Unit; (0, 0, 1) of a triangle without area. The mesh's `flip_normals` is in it.
+
+  /// The edges, and p0, in double precision.
+  struct Edges {
+    Vec3 p0, e1, e2;
+  };
+  Edges edges() const {
+    const Vec3 p(p0);
+    return {p, Vec3(p1) - p, Vec3(p2) - p};
+  }
+};
+
 class Mesh : public Shape {
  public:
   /// Takes buffers in object space and moves them to world space.
@@ -33,13 +49,12 @@ class Mesh : public Shape {
   void prepare_sampling();
 
  private:
-  using Triangle = MeshData::Triangle;
-  Triangle triangle(uint32_t index) const;
-  float reach(uint32_t vertex) const;
-  void fill(const Triangle& triangle, uint32_t index, double b1, double b2, SurfacePoint& at) const;
+  using Edges = TriangleRecord::Edges;
+  void fill(const Edges& edges, uint32_t index, double b1, double b2, SurfacePoint& at) const;
 
   MeshData data_;
-  double side_;  ///< -1 with flip_normals, else 1.
+  std::vector<TriangleRecord> records_;  ///< One for each triangle.
+  double side_;                          ///< -1 with flip_normals, else 1.
   double area_ = 0;
   Discrete triangle_areas_;  ///< Built only for meshes that emit (see prepare_sampling).
 };

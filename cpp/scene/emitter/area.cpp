@@ -19,7 +19,7 @@ class AreaLight final : public Emitter {
   }
 
   PositionSample sample_position(const Vec2& u) const override {
-    return here(shape_->sample_position(u));
+    return shape_->sample_position(u);
   }
   double pdf_position(const SurfacePoint&) const override { return 1 / shape_->area(); }
   Vec2 invert_position(const SurfacePoint& x0) const override {
@@ -27,7 +27,7 @@ class AreaLight final : public Emitter {
   }
 
   PositionSample sample_direct(const Vec3& from, const Vec2& u) const override {
-    return here(shape_->sample_direct(from, u));
+    return shape_->sample_direct(from, u);
   }
   double pdf_direct(const Vec3& from, const SurfacePoint& x0) const override {
     return shape_->pdf_direct(from, x0);
@@ -54,11 +54,6 @@ class AreaLight final : public Emitter {
   const Shape* shape() const override { return shape_; }
 
  private:
-  PositionSample here(PositionSample sample) const {
-    sample.at.shape = shape_->index();
-    return sample;
-  }
-
   TexturePtr radiance_;
   const Shape* shape_ = nullptr;
 };
