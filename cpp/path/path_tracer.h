@@ -57,15 +57,13 @@ Color direct_light(const Walker& walker, const SurfacePoint& at, const Vec3& wc,
   if (!consistent_sides(at, wl, strict)) return Color(0);
   const Color radiance = light.emitter->eval(light.x0, -wl);
   if (is_black(radiance)) return Color(0);
-  const Vec3 local_l = at.shading.to_local(wl);
-  const Scattering s =
-      walker.scene.bsdf(at).scattering(at, local_l, at.shading.to_local(wc), Lobe::smooth);
+  const WorldScattering s = scattering(walker.scene.bsdf(at), at, wl, wc, Lobe::smooth);
   if (is_black(s.f)) return Color(0);
   const double seen = walker.join(at, light.x0);
   if (seen == 0) return Color(0);
   const double pdf = light.pdf * per_solid_angle(at.p, light.x0, wl);
   const double mis = light.emitter->delta() ? 1.0 : weight(pdf, s.pdf_from_camera);
-  return radiance * s.f * (seen * abs_cos_theta(local_l) * mis / pdf);
+  return radiance * s.f * (seen * std::abs(s.cos_l) * mis / pdf);
 }
 
 /// One scattering event of a walk from the camera.
@@ -85,7 +83,9 @@ inline std::optional<ScatterSample> scatter_to_light(const Walker& walker, const
   const auto& [w, local_c, local_l, lobe] = *sample;
   if (lobe != Lobe::null && !consistent_sides(at, w, strict)) return std::nullopt;
   const Bsdf& bsdf = walker.scene.bsdf(at);
-  const Scattering s = bsdf.scattering(at, local_l, local_c, lobe);
+  const Matte* matte = bsdf.matte();
+  const Scattering s = matte ? matte->scattering(local_l.z, local_c.z, lobe)
+                             : bsdf.scattering(at, local_l, local_c, lobe);
   if (!(s.pdf_from_camera > 0) || is_black(s.f)) return std::nullopt;
 
   const bool refracted =

@@ -28,15 +28,14 @@ VertexTerms surface_terms(const Scene& scene, const SurfacePoint& at, Lobe lobe,
       !(consistent_sides(at, wl, strict_normals) && consistent_sides(at, wc, strict_normals)))
     return {};
   const Bsdf& bsdf = scene.bsdf(at);
-  const Vec3 local_l = at.shading.to_local(wl), local_c = at.shading.to_local(wc);
-  const Scattering s = bsdf.scattering(at, local_l, local_c, lobe);
+  const WorldScattering s = scattering(bsdf, at, wl, wc, lobe);
   if (lobe == Lobe::smooth)
-    return {s.f * (abs_cos_theta(local_l) / geometric_l), s.pdf_from_light / geometric_c,
+    return {s.f * (std::abs(s.cos_l) / geometric_l), s.pdf_from_light / geometric_c,
             s.pdf_from_camera / geometric_l};
   if (lobe == Lobe::null) return {s.f, s.pdf_from_light, s.pdf_from_camera};
-  const double adjoint =
-      abs_cos_theta(local_l) * geometric_c / (abs_cos_theta(local_c) * geometric_l);
-  const double eta2 = lobe == Lobe::transmission ? sqr(bsdf.relative_eta(at, local_l)) : 1.0;
+  const double adjoint = std::abs(s.cos_l) * geometric_c / (std::abs(s.cos_c) * geometric_l);
+  const double eta2 =
+      lobe == Lobe::transmission ? sqr(bsdf.relative_eta(at, at.shading.to_local(wl))) : 1.0;
   return {s.f * adjoint, s.pdf_from_light, s.pdf_from_camera * eta2 * adjoint};
 }
 

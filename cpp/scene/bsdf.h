@@ -3,39 +3,17 @@
 #pragma once
 
 #include "base/object.h"
-#include "math/color.h"
 #include "math/frame.h"
+#include "scene/matte.h"
 #include "scene/surface_point.h"
 
 #include <optional>
 
 namespace mlt {
 
-/// What a path vertex remembers of how it scatters: by a density over directions, or by which
-/// delta distribution.
-enum class Lobe : uint8_t {
-  smooth,        ///< All non-delta lobes, summed.
-  reflection,    ///< Perfect mirror reflection.
-  transmission,  ///< Perfect refraction.
-  null           ///< Straight on, without a change.
-};
-
 struct BsdfSample {
   Vec3 to;  ///< The sampled direction, local.
   Lobe lobe;
-};
-
-/// Everything that a path needs to know of one scattering event.
-///
-/// smooth: `f` is the BSDF for radiance that flows from wl to wc (without a cosine; for refraction
-/// it includes the factor (eta_c / eta_l)^2 of radiance, Veach 1997, eq. 5.12), the densities are
-/// in solid angle.
-/// delta: `f` is the fraction F of power that this lobe carries (without the eta^2 of radiance: see
-/// `relative_eta`), the densities are the discrete probabilities of choosing this delta.
-struct Scattering {
-  Color f{0};
-  double pdf_from_light = 0;   ///< Density of wc, given wl.
-  double pdf_from_camera = 0;  ///< Density of wl, given wc.
 };
 
 class Bsdf : public Object {
@@ -83,8 +61,28 @@ class Bsdf : public Object {
 
   /// Average reflectance, for previews and sampling weights.
   virtual Color albedo(const SurfacePoint& at) const = 0;
+
+  /// What the functions above amount to if the surface is plainly matte; else nullptr.
+  const Matte* matte() const { return matte_ ? &*matte_ : nullptr; }
+
+ protected:
+  std::optional<Matte> matte_;  ///< Set by the constructor, or never.
 };
 
 using BsdfPtr = std::shared_ptr<const Bsdf>;
+
+/// Scattering between two directions in the world, and their cosines against the shading normal.
+struct WorldScattering : Scattering {
+  double cos_l, cos_c;
+};
+inline WorldScattering scattering(const Bsdf& bsdf, const SurfacePoint& at, const Vec3& wl,
+                                  const Vec3& wc, Lobe lobe) {
+  if (const Matte* matte = bsdf.matte()) {
+    const double cos_l = dot(wl, at.shading.n), cos_c = dot(wc, at.shading.n);
+    return {matte->scattering(cos_l, cos_c, lobe), cos_l, cos_c};
+  }
+  const Vec3 local_l = at.shading.to_local(wl), local_c = at.shading.to_local(wc);
+  return {bsdf.scattering(at, local_l, local_c, lobe), local_l.z, local_c.z};
+}
 
 }  // namespace mlt

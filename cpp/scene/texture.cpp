@@ -9,6 +9,7 @@ class Constant final : public Texture {
  public:
   explicit Constant(const Color& color) : color_(color) {}
   Color eval(const SurfacePoint&) const override { return color_; }
+  bool is_constant() const override { return true; }
   Color mean() const override { return color_; }
   Color maximum() const override { return color_; }
 

@@ -13,6 +13,7 @@ class Texture : public Object {
   /// The mean of the channels, for textures that steer a scalar such as roughness.
   virtual double eval_scalar(const SurfacePoint& at) const;
 
+  virtual bool is_constant() const { return false; }
   virtual Color mean() const = 0;     ///< Average over the texture, for sampling probabilities.
   virtual Color maximum() const = 0;  ///< Upper bound, for energy conservation.
 };

@@ -11,7 +11,9 @@ namespace {
 
 class Diffuse final : public Bsdf {
  public:
-  explicit Diffuse(Params& params) : reflectance_(texture_param(params, "reflectance")) {}
+  explicit Diffuse(Params& params) : reflectance_(texture_param(params, "reflectance")) {
+    if (reflectance_->is_constant()) matte_ = Matte{reflectance_->mean() * inv_pi};
+  }
 
   Scattering scattering(const SurfacePoint& at, const Vec3& wl, const Vec3& wc,
                         Lobe lobe) const override {

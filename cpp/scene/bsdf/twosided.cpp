@@ -18,6 +18,8 @@ class TwoSided final : public Bsdf {
         params.fail("cannot hold a bsdf that transmits light: it is two-sided already");
     front_ = nested.front();
     back_ = nested.back();
+    if (front_->matte() && back_->matte())
+      matte_ = Matte{front_->matte()->front, back_->matte()->front, true};
   }
 
   Scattering scattering(const SurfacePoint& at, const Vec3& wl, const Vec3& wc,

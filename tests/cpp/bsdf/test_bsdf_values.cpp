@@ -222,6 +222,38 @@ TEST(BsdfValues, AreFiniteAndNotNegative) {
     }
 }
 
+TEST(BsdfValues, OfMatteSurfacesAreThoseOfThePlugIn) {
+  const BsdfPtr pink = make_bsdf("diffuse", {{"reflectance", Triple{0.9, 0.5, 0.3}}});
+  const BsdfPtr gray = make_bsdf("diffuse", {{"reflectance", 0.4}});
+  Rng rng(8, Purpose::test, 0);
+  for (const BsdfPtr& bsdf :
+       {pink, gray, make_bsdf("twosided", {}, {pink}), make_bsdf("twosided", {}, {pink, gray})}) {
+    const Matte* matte = bsdf->matte();
+    ASSERT_TRUE(matte) << bsdf->type;
+    for (int i = 0; i < 1000; ++i) {
+      const Vec3 wl = random_direction(rng), wc = random_direction(rng), u = random_u(rng);
+      for (const Lobe lobe : lobes) {
+        const Scattering a = matte->scattering(wl.z, wc.z, lobe),
+                         b = bsdf->scattering(point(), wl, wc, lobe);
+        EXPECT_EQ(a.f, b.f);
+        EXPECT_EQ(a.pdf_from_light, b.pdf_from_light);
+        EXPECT_EQ(a.pdf_from_camera, b.pdf_from_camera);
+      }
+      const auto a = matte->sample(wl.z, {u.y, u.z});
+      const auto b = bsdf->sample(point(), wl, u);
+      ASSERT_EQ(a.has_value(), b.has_value());
+      if (a) EXPECT_EQ(*a, b->to);
+    }
+  }
+}
+
+TEST(BsdfValues, ThatVaryOrDependOnMoreThanTheCosinesAreNoMatteSurface) {
+  const BsdfPtr ramp = make_bsdf("diffuse", {{"reflectance", ramp_texture(0.1, 0.9)}});
+  EXPECT_FALSE(ramp->matte());
+  EXPECT_FALSE(make_bsdf("twosided", {}, {make_bsdf("diffuse"), ramp})->matte());
+  EXPECT_FALSE(make_bsdf("twosided", {}, {make_bsdf("phong")})->matte());
+}
+
 TEST(BsdfValues, OneSidedMaterialsAreBlackFromBelow) {
   for (const Case& c : cases()) {
     if (c.two_sided) continue;

@@ -1,0 +1,30 @@
+// What a path needs to know of one scattering event at a surface.
+#pragma once
+
+#include "math/color.h"
+
+#include <cstdint>
+
+namespace mlt {
+
+/// What a path vertex remembers of how it scatters: by a density over directions, or by which
+/// delta distribution.
+enum class Lobe : uint8_t {
+  smooth,        ///< All non-delta lobes, summed.
+  reflection,    ///< Perfect mirror reflection.
+  transmission,  ///< Perfect refraction.
+  null           ///< Straight on, without a change.
+};
+
+/// smooth: `f` is the BSDF for radiance that flows from wl to wc (without a cosine; for refraction
+/// it includes the factor (eta_c / eta_l)^2 of radiance, Veach 1997, eq. 5.12), the densities are
+/// in solid angle.
+/// delta: `f` is the fraction F of power that this lobe carries (without the eta^2 of radiance: see
+/// `relative_eta`), the densities are the discrete probabilities of choosing this delta.
+struct Scattering {
+  Color f{0};
+  double pdf_from_light = 0;   ///< Density of wc, given wl.
+  double pdf_from_camera = 0;  ///< Density of wl, given wc.
+};
+
+}  // namespace mlt
