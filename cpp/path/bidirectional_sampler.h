@@ -2,7 +2,8 @@
 // Willems 1993), each with its multiple importance sampling weight.
 #pragma once
 
-#include "path/path_terms.h"
+#include "path/mis.h"
+#include "path/path.h"
 #include "path/subpath.h"
 
 #include <vector>
@@ -45,6 +46,7 @@ class BidirectionalSampler {
                  {ray, scene_->camera().pdf_direction(lens.at, ray.d)}, sampler);
     walk_from_light(walker(rays), settings_.rules, sampler, light_);
     draw_direct(sampler);
+    sum_techniques();
   }
 
   /// Draws a light subpath and a point on the lens alone.
@@ -55,6 +57,7 @@ class BidirectionalSampler {
     camera_.start(camera_vertex(lens.at), lens.pdf);
     walk_from_light(walker(rays), settings_.rules, sampler, light_);
     draw_direct(sampler);
+    sum_techniques();
   }
 
   /// Calls found(connection) for each path with a positive contribution.
@@ -132,10 +135,18 @@ class BidirectionalSampler {
   bool evaluate_hit_lens(Connection& connection, RayCounts& rays);
   bool choose_direct(const SurfacePoint& from, const Vec3& u);
 
-  void begin_densities(const WalkVertex* lights, int s, const WalkVertex* cameras, int t);
-  /// Fills in the weights from `densities_`; false if this technique counts for nothing.
-  bool weigh(Connection& connection, double survival, const Vertex& x0, const Vertex& xk,
-             const SurfacePoint& x1);
+  // The techniques that could have made a path of these subpaths, by the vertex of a subpath (its
+  // end is number 0) that a joint has moved over.
+  void sum_techniques();
+  double light_technique(int i, bool joined = false) const;
+  double camera_technique(int i, bool joined = false) const;
+  TechniqueSums below_light(int i, double reverse) const;
+  TechniqueSums above_camera(int i, double reverse) const;
+  double direct_over_walk(const Vertex& x0, double from_light, const SurfacePoint& x1) const;
+
+  /// Fills in the weights; false if this technique counts for nothing.
+  bool weigh(Connection& connection, double own, const TechniqueSums& below,
+             const TechniqueSums& above, double survival) const;
 
   const Scene* scene_;
   BidirectionalSettings settings_;
@@ -143,8 +154,13 @@ class BidirectionalSampler {
   Vec2 raster_{0};
   double time_ = 0;
   std::vector<Vec3> direct_u_;  ///< Numbers for s = 1, one triple for each camera vertex.
-  WalkVertex direct_, lens_;    ///< The end chosen for s = 1 as seen from x_1, or hit for t = 0.
-  std::vector<VertexDensities> densities_;
+  WalkVertex direct_;           ///< The end chosen for s = 1 as seen from x_1,
+  double direct_pdf_ = 0;       ///< and the density of choosing it so.
+  Vertex lens_;                 ///< The end that was hit for t = 0.
+  /// Techniques whose joint is in one of the subpaths, up to vertex i of it: their densities over
+  /// that of the technique which joins behind vertex i.
+  std::vector<TechniqueSums> light_sums_, camera_sums_;
+  double light_direct_over_walk_ = 1;  ///< If x_0 and x_1 are the first vertices of `light_`.
 };
 
 }  // namespace mlt

@@ -92,46 +92,15 @@ double technique_density(const PathTerms& terms, int s) {
 
 double mis_weight(const PathTerms& terms, int s, Heuristic heuristic) {
   if (!can_sample(terms, s)) return 0;
-  return mis_weights(terms.at.data(), terms.edges(), s, terms.direct, terms.light_can_be_hit,
-                     terms.camera_can_be_hit, heuristic)
-      .chosen;
-}
-
-template <class Densities>
-MisWeights mis_weights(const Densities* x, int edges, int s, double direct, bool light_can_be_hit,
-                       bool camera_can_be_hit, Heuristic heuristic) {
-  const int k = edges;
-  const double direct_over_walk = direct / x[0].from_light;
-  const double own =
-      s == 1 ? direct_over_walk : 1.0;  // p_s, in units of its density by walks alone
-  double sum = own * own, sum_balance = own;
-  bool largest = true;
-  const auto add = [&](double ratio, int i) {
-    if (i == 1) ratio *= direct_over_walk;
-    sum += ratio * ratio;
-    sum_balance += ratio;
-    if (ratio > own || (ratio == own && i < s)) largest = false;
+  const auto technique = [&](int i) {
+    return !can_sample(terms, i) ? 0 : i == 1 ? terms.direct / terms[0].from_light : 1.0;
   };
-  double ratio = 1;  // p_i / p_s
-  for (int i = s - 1; i >= 0 && ratio > 0; --i) {
-    ratio *= x[i].from_camera / x[i].from_light;
-    if (i == 0 ? light_can_be_hit : x[i - 1].connectable && x[i].connectable) add(ratio, i);
-  }
-  ratio = 1;
-  for (int i = s + 1; i <= k + 1 && ratio > 0; ++i) {
-    ratio *= x[i - 1].from_light / x[i - 1].from_camera;
-    if (i == k + 1 ? camera_can_be_hit : x[i - 1].connectable && x[i].connectable) add(ratio, i);
-  }
-  const double balance = own / sum_balance;
-  switch (heuristic) {
-    case Heuristic::balance: return {balance, balance};
-    case Heuristic::power: return {own * own / sum, balance};
-    case Heuristic::maximum: break;
-  }
-  return {largest ? 1.0 : 0.0, balance};
+  TechniqueSums below, above;
+  for (int i = 0; i < s; ++i)
+    below = below.over(terms[i].from_camera / terms[i].from_light, technique(i));
+  for (int i = terms.edges(); i >= s; --i)
+    above = above.over(terms[i].from_light / terms[i].from_camera, technique(i + 1));
+  return mis_weights(technique(s), below, above, heuristic).chosen;
 }
-
-template MisWeights mis_weights(const VertexDensities*, int, int, double, bool, bool, Heuristic);
-template MisWeights mis_weights(const TermsAt*, int, int, double, bool, bool, Heuristic);
 
 }  // namespace mlt

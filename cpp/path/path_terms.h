@@ -6,6 +6,7 @@
 // connects x_{s-1} with x_s.
 #pragma once
 
+#include "path/mis.h"
 #include "path/path.h"
 
 #include <string>
@@ -76,22 +77,7 @@ bool can_sample(const PathTerms& terms, int s);
 /// p_{s,t}(x), the density of technique s in the product-area measure (Veach 1997, sec. 10.2).
 double technique_density(const PathTerms& terms, int s);
 
-enum class Heuristic { balance, power, maximum };
-
 /// The MIS weight of technique s (Veach 1997, eqs. 9.8, 9.13 with beta = 2, 9.12).
 double mis_weight(const PathTerms& terms, int s, Heuristic heuristic);
-
-/// The weights of one technique: by the heuristic that was asked for, and p_s / P, which is that of
-/// the balance heuristic.
-struct MisWeights {
-  double chosen, balance;
-};
-
-/// The MIS weights from the densities x[0] ... x[edges]: r_i = p_i / p_s by the recurrence of Veach
-/// 1997, eq. 10.9, p_{i+1} / p_i = from_light / from_camera of x_i. `direct` is the density of x_0
-/// in technique 1.
-template <class Densities>
-MisWeights mis_weights(const Densities* x, int edges, int s, double direct, bool light_can_be_hit,
-                       bool camera_can_be_hit, Heuristic heuristic);
 
 }  // namespace mlt

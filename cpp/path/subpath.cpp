@@ -20,22 +20,24 @@ void Subpath::leave(const Scene& scene, const Vec3& w, double coefficient) {
 }
 
 bool Subpath::trace(const Walker& walker, const Ray& ray) {
-  const WalkVertex& last = vertices_.back();
-  if (is_black(last.next_throughput)) return false;
-  SurfacePoint at;
+  if (is_black(vertices_.back().next_throughput)) return false;
+  vertices_.emplace_back();
+  const WalkVertex& last = vertices_[size() - 2];
+  WalkVertex& next = vertices_.back();
+  SurfacePoint& at = next.vertex.at;
   const bool hit = walker.arrive(ray, at);
   if (!hit) {
-    if (from_ == From::light || walker.scene.infinite_emitters().empty()) return false;
+    if (from_ == From::light || walker.scene.infinite_emitters().empty()) {
+      vertices_.pop_back();
+      return false;
+    }
     at = Scene::point_at_infinity(ray.d);
   }
-  WalkVertex next;
-  next.vertex = surface_vertex(at);
   next.throughput = last.next_throughput;
   next.survival = last.next_survival;
   next.towards_previous = -ray.d;
   next.G = geometry(last.vertex.at, at);
   next.forward = last.next_coefficient * next.G;
-  vertices_.push_back(next);
   return hit;
 }
 

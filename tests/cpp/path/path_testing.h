@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "path/bidirectional_sampler.h"
+#include "path/path_terms.h"
 #include "path/samplers.h"
 #include "scenes.h"
 

@@ -1,0 +1,57 @@
+// Multiple importance sampling over the techniques that can make a path (Veach 1997, ch. 9 and
+// sec. 10.2).
+#pragma once
+
+#include "math/vec.h"
+
+#include <algorithm>
+
+namespace mlt {
+
+enum class Heuristic { balance, power, maximum };
+
+/// The weights of one technique: by the heuristic that was asked for, and p_s / P, which is that of
+/// the balance heuristic.
+struct MisWeights {
+  double chosen, balance;
+};
+
+/// The quotients r_i = p_i / p_s of the techniques on one side of s: their sum, that of their
+/// squares, and the largest. By the recurrence of Veach 1997, eq. 10.9,
+///
+///   p_{i+1} / p_i = from_light / from_camera of x_i,
+///
+/// all of them are multiplied by one factor when the joint moves over a vertex. So the sums grow
+/// from the end of a path inwards, and the part of them that lies within a subpath is the same for
+/// all its connections (van Antwerpen 2011, "Recursive MIS computation for streaming BDPT on the
+/// GPU"; Georgiev 2012, "Implementing vertex connection and merging").
+struct TechniqueSums {
+  double sum = 0, squares = 0, largest = 0;
+
+  /// The sums after the joint has moved inwards over a vertex, which multiplies densities by
+  /// 1 / `quotient`. The technique that it leaves counts `technique` times: 1; 0 if it cannot make
+  /// the path; direct / from_light of x_0 if it is s = 1.
+  TechniqueSums over(double quotient, double technique) const {
+    if (!(quotient > 0)) return {};
+    // 0 stays 0, also where the quotient is infinite.
+    const auto times = [](double q, double x) { return x > 0 ? q * x : 0; };
+    return {times(quotient, technique + sum), times(sqr(quotient), sqr(technique) + squares),
+            times(quotient, std::max(technique, largest))};
+  }
+};
+
+/// The weights of technique s (Veach 1997, eqs. 9.8, 9.13 with beta = 2, 9.12), which counts `own`
+/// times, from the sums over the techniques below s and above it.
+inline MisWeights mis_weights(double own, const TechniqueSums& below, const TechniqueSums& above,
+                              Heuristic heuristic) {
+  const double balance = own / (own + below.sum + above.sum);
+  switch (heuristic) {
+    case Heuristic::balance: break;
+    case Heuristic::power: return {sqr(own) / (sqr(own) + below.squares + above.squares), balance};
+    case Heuristic::maximum:  // Of equal techniques the first one.
+      return {below.largest < own && above.largest <= own ? 1.0 : 0.0, balance};
+  }
+  return {balance, balance};
+}
+
+}  // namespace mlt
