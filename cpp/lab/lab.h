@@ -76,6 +76,7 @@ class Move {
     Aids& aids;
   };
   static size_t row(const State&) { return 0; }
+  static MoveChoice* kept_choice(const State&) { return nullptr; }
   double suitability(const State& x) const {
     return checked("a move's suitability", suitability(x.x), x.x);
   }

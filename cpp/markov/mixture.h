@@ -8,6 +8,8 @@
 //   State, Edit              types: what it moves, and what a proposal remembers
 //   Aids, Context{Rng&, Aids&}   what a chain has for it beside random numbers; both together
 //   static size_t row(const State&)   which row of weights is for this state
+//   static MoveChoice* kept_choice(const State&)   where the state keeps the choice at it, until
+//                            the state changes; nullptr if it keeps none
 //   double suitability(const State&) const   may it act on x? A factor of its weight
 //   std::optional<Edit> propose(x, y, context)   makes y from x
 //   Transition quotients(x, y, edit)   T(x -> y) / L*(y) and T(y -> x) / L*(x), without the
@@ -19,6 +21,7 @@
 #include "markov/step.h"
 
 #include <algorithm>
+#include <atomic>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -41,6 +44,13 @@ class MixtureWeights {
   std::vector<std::vector<double>> rows_;
 };
 
+/// The choice of a move at a state: each one's share, and their sum.
+struct MoveChoice {
+  uint64_t mixture = 0;  ///< Whose moves they are; 0: nothing is kept.
+  double sum = 0;
+  std::vector<double> shares;
+};
+
 template <class Move>
 class Mixture {
  public:
@@ -49,7 +59,7 @@ class Mixture {
   using Moves = std::vector<std::shared_ptr<Move>>;
 
   Mixture(Moves moves, std::shared_ptr<const MixtureWeights> weights)
-      : moves_(std::move(moves)), weights_(std::move(weights)), shares_(moves_.size()) {}
+      : moves_(std::move(moves)), weights_(std::move(weights)), id_(++mixtures) {}
 
   /// As metropolis_step calls it, where the moves find the target of what they propose.
   Transition propose(const State& x, std::array<State, 1>& proposals, size_t, Rng& rng) {
@@ -63,14 +73,14 @@ class Mixture {
   bool choose(const State& x, Rng& rng) {
     edit_.reset();
     row_ = Move::row(x);
-    const double sum = weigh(x);
+    const auto& [_, sum, shares] = choice(x);
     suited_ = sum > 0;
     chosen_ = 0;
     if (!suited_) return false;
     double u = rng.next() * sum;
-    while (chosen_ + 1 < shares_.size() && (u -= shares_[chosen_]) >= 0) ++chosen_;
-    while (shares_[chosen_] == 0) --chosen_;  // u was rounded past the last share
-    probability_ = shares_[chosen_] / sum;
+    while (chosen_ + 1 < shares.size() && (u -= shares[chosen_]) >= 0) ++chosen_;
+    while (shares[chosen_] == 0) --chosen_;  // u was rounded past the last share
+    probability_ = shares[chosen_] / sum;
     return true;
   }
   /// Lets the chosen move make y.
@@ -89,7 +99,7 @@ class Mixture {
   }
 
   /// Whether any move suits x.
-  bool suits(const State& x) { return weigh(x) > 0; }
+  bool suits(const State& x) { return choice(x).sum > 0; }
 
   // Of the last step:
 
@@ -108,26 +118,33 @@ class Mixture {
   const Aids& aids() const { return aids_; }
 
  private:
-  /// Fills in each move's share of the choice at x; returns their sum.
-  double weigh(const State& x) {
+  const MoveChoice& choice(const State& x) {
+    MoveChoice* kept = Move::kept_choice(x);
+    if (kept && kept->mixture == id_) return *kept;
+    MoveChoice& choice = kept ? *kept : scratch_;
     const std::vector<double>& weights = (*weights_)[Move::row(x)];
-    double sum = 0;
+    choice.mixture = id_;
+    choice.sum = 0;
+    choice.shares.resize(moves_.size());
     for (size_t i = 0; i < moves_.size(); ++i) {
-      shares_[i] = weights[i] > 0 ? weights[i] * moves_[i]->suitability(x) : 0.0;
-      sum += shares_[i];
+      choice.shares[i] = weights[i] > 0 ? weights[i] * moves_[i]->suitability(x) : 0.0;
+      choice.sum += choice.shares[i];
     }
-    return sum;
+    return choice;
   }
   /// P_choose of the chosen move at y.
   double probability(const State& y) {
-    const double sum = weigh(y);
-    return shares_[chosen_] > 0 ? shares_[chosen_] / sum : 0.0;
+    const auto& [_, sum, shares] = choice(y);
+    return shares[chosen_] > 0 ? shares[chosen_] / sum : 0.0;
   }
+
+  inline static std::atomic<uint64_t> mixtures{0};
 
   Moves moves_;
   std::shared_ptr<const MixtureWeights> weights_;
+  uint64_t id_ = 0;  ///< The same for copies, since their moves and weights are.
   Aids aids_{};
-  std::vector<double> shares_;
+  MoveChoice scratch_;  ///< For states that keep none.
   size_t chosen_ = 0, row_ = 0;
   bool suited_ = false;
   double probability_ = 0;

@@ -85,6 +85,7 @@ class Mutation {
 
   /// Weights of the mutations go by path length.
   static size_t row(const PathState& x) { return static_cast<size_t>(x.edges()); }
+  static MoveChoice* kept_choice(const PathState& x) { return &x.choice; }
 
  protected:
   const Scene& scene() const { return target_->scene(); }

@@ -1,6 +1,7 @@
 // The state of Metropolis light transport: a light path with its terms and its target L*.
 #pragma once
 
+#include "markov/mixture.h"
 #include "path/measure.h"
 
 #include <vector>
@@ -23,6 +24,7 @@ struct PathState {
   Vec2 raster{0};
   Color rgb{0};       ///< f(x) / |f(x)|, see relative_contribution.
   double target = 0;  ///< L*(x) / |f(x)|, times the factor of two-stage sampling.
+  mutable MoveChoice choice;  ///< Kept by the mixture that moves the path.
 
   /// L*(x), times that factor. May overflow or underflow; chains do without it.
   double brightness() const { return target * magnitude(terms, 0, edges()); }

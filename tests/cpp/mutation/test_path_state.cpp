@@ -66,6 +66,23 @@ INSTANTIATE_TEST_SUITE_P(Scenes, LightPaths,
                                          "light_under_water", "smooth_normals", "null_surface"),
                          [](const auto& info) { return info.param; });
 
+TEST(LightPaths, KeepTheChoiceOfTheMutationsThatSuitThem) {
+  const PathTarget target = path_target(make_mutation_scene("mirrors").scene);
+  const Mutations all = all_mutations(target);
+  const std::vector<double> weights = default_weights()[0];
+  PathChain chain(path_mixture(all, weights), Rng(5, Purpose::test, 0), find_path(target, "LDDE"));
+  int moved = 0;
+  for (int step = 0; step < 5000; ++step) {
+    moved += chain.step([](const PathState&, double) {}).accepted >= 0;
+    const PathState& x = chain.state();
+    const bool suits = chain.kernel().suits(x);
+    EXPECT_EQ(suits, x.choice.sum > 0);
+    for (size_t i = 0; i < all.size(); ++i)
+      ASSERT_EQ(x.choice.shares[i], weights[i] * all[i]->suitability(x)) << all[i]->name();
+  }
+  EXPECT_GT(moved, 500);
+}
+
 TEST(LightPaths, ReverseAnEdit) {
   const Edit edit{2, 4, 1};
   EXPECT_EQ(edit.deleted(), 3);
