@@ -18,6 +18,7 @@ void splice(const PathState& x, const Edit& edit, PathState& y) {
   y.path.time = x.path.time;
   splice(x.terms.at, edit, y.terms.at);
   y.terms.direct = x.terms.direct;
+  y.terms.raster = x.terms.raster;
   y.terms.light_can_be_hit = x.terms.light_can_be_hit;
   y.terms.camera_can_be_hit = x.terms.camera_can_be_hit;
 }

@@ -26,9 +26,8 @@ void PathTarget::evaluate_target(PathState& x) const {
     if (std::isnan(target)) x.target = target;
     return;
   }
-  const auto raster = raster_position(*scene_, x.path);
-  if (!raster) return;
-  x.raster = *raster;
+  if (!x.terms.raster) return;
+  x.raster = *x.terms.raster;
   x.target = of(x.rgb, x.raster);
 }
 

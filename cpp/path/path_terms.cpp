@@ -26,7 +26,13 @@ void update_terms(const Scene& scene, const Path& path, const TermSettings& sett
     if (i < last) x.G = geometry(path[i].at, path[i + 1].at, wc);
     x.connectable = connectable(path[i]);
     x.specular = is_specular(scene, path[i], wl, wc, settings.near_specular);
-    x.vertex = vertex_terms(scene, path[i], wl, wc, settings.strict_normals);
+    if (i < k) {
+      x.vertex = vertex_terms(scene, path[i], wl, wc, settings.strict_normals);
+    } else {
+      const LensTerms lens = lens_terms(scene, path[k].at, wl);
+      x.vertex = lens.vertex;
+      terms.raster = lens.raster;
+    }
     const double size = max_component(x.vertex.f);
     x.inverse_f = size > least_f ? 1 / size : 0;
     if (i > 0) terms[i - 1].from_camera = x.vertex.pdf_from_camera * terms[i - 1].G;

@@ -35,6 +35,7 @@ struct PathTerms {
   bool light_can_be_hit = false, camera_can_be_hit = false;
   /// Density of x_0 in the technique s = 1, which may choose it to be seen from x_1.
   double direct = 0;
+  std::optional<Vec2> raster;  ///< Where the path meets the image; nullopt if it does not.
 
   int edges() const { return static_cast<int>(at.size()) - 1; }  ///< k
   TermsAt& operator[](size_t i) { return at[i]; }

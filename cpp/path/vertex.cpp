@@ -11,8 +11,7 @@ VertexTerms terms_by_lobe(const Scene& scene, const Vertex& x, Lobe lobe, const 
       const Emitter& emitter = *scene.emitters()[x.emitter];
       return {emitter.eval(x.at, wc), emitter.pdf_ray(x.at, wc), 0};
     }
-    case VertexKind::camera:
-      return {Color(scene.camera().eval(x.at, wl)), 0, scene.camera().pdf_direction(x.at, wl)};
+    case VertexKind::camera: return lens_terms(scene, x.at, wl).vertex;
     case VertexKind::surface: break;
   }
   return surface_terms(scene, x.at, lobe, wl, wc, strict_normals);
@@ -42,6 +41,12 @@ VertexTerms surface_terms(const Scene& scene, const SurfacePoint& at, Lobe lobe,
 VertexTerms vertex_terms(const Scene& scene, const Vertex& x, const Vec3& wl, const Vec3& wc,
                          bool strict_normals) {
   return terms_by_lobe(scene, x, x.lobe, wl, wc, strict_normals);
+}
+
+LensTerms lens_terms(const Scene& scene, const SurfacePoint& xk, const Vec3& wl) {
+  const auto projection = scene.camera().project(xk, wl);
+  if (!projection) return {};
+  return {{Color(projection->importance), 0, projection->pdf_direction}, projection->raster};
 }
 
 VertexTerms joint_terms(const Scene& scene, const Vertex& x, const Vec3& wl, const Vec3& wc,

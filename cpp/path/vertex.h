@@ -48,6 +48,12 @@ struct VertexTerms {
 /// one on its camera side; x_0 has no wl and x_k no wc, they are not looked at.
 VertexTerms vertex_terms(const Scene& scene, const Vertex& x, const Vec3& wl, const Vec3& wc,
                          bool strict_normals);
+/// The same for x_k, and where the path meets the image; nullopt if it does not.
+struct LensTerms {
+  VertexTerms vertex;
+  std::optional<Vec2> raster;
+};
+LensTerms lens_terms(const Scene& scene, const SurfacePoint& xk, const Vec3& wl);
 /// Terms of a vertex at which a path is joined, whatever its lobe: it scatters smoothly there.
 VertexTerms joint_terms(const Scene& scene, const Vertex& x, const Vec3& wl, const Vec3& wc,
                         bool strict_normals);

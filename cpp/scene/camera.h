@@ -36,25 +36,41 @@ struct Raster {
   }
 };
 
-class Camera : public Object {
- public:
+/// What a direction means at a point on the lens.
+struct Projection {
+  Vec2 raster;  ///< The raster position that it belongs to: the inverse of Camera::direction.
   /// Importance We(xk -> w) that the camera emits from xk along w, normalised so that its integral
   /// over the lens and the projected solid angle of the *image* (size.x x size.y, without border)
-  /// is 1. For a pinhole: the coefficient of the delta position. 0 outside the sampled domain.
-  virtual double eval(const SurfacePoint& xk, const Vec3& w) const = 0;
+  /// is 1. For a pinhole: the coefficient of the delta position.
+  double importance;
+  /// Density of w in projected solid angle at xk, when raster positions are uniform over the
+  /// sampled domain.
+  double pdf_direction;
+};
 
+class Camera : public Object {
+ public:
   virtual PositionSample sample_position(const Vec2& u) const = 0;
   virtual double pdf_position(const SurfacePoint& xk) const = 0;
   virtual Vec2 invert_position(const SurfacePoint& xk) const = 0;
 
   /// The direction that leaves the lens at xk for a raster position.
   virtual Vec3 direction(const SurfacePoint& xk, const Vec2& raster) const = 0;
-  /// The raster position that a direction belongs to; nullopt behind the camera or outside the
-  /// sampled domain. The inverse of `direction`.
-  virtual std::optional<Vec2> raster_position(const SurfacePoint& xk, const Vec3& w) const = 0;
-  /// Density of w in projected solid angle at xk, when raster positions are uniform over the
-  /// sampled domain. 0 outside.
-  virtual double pdf_direction(const SurfacePoint& xk, const Vec3& w) const = 0;
+  /// nullopt behind the camera or outside the sampled domain.
+  virtual std::optional<Projection> project(const SurfacePoint& xk, const Vec3& w) const = 0;
+  /// Its members; the importance and the density are 0 where there is none.
+  std::optional<Vec2> raster_position(const SurfacePoint& xk, const Vec3& w) const {
+    const auto projection = project(xk, w);
+    return projection ? std::optional(projection->raster) : std::nullopt;
+  }
+  double eval(const SurfacePoint& xk, const Vec3& w) const {
+    const auto projection = project(xk, w);
+    return projection ? projection->importance : 0;
+  }
+  double pdf_direction(const SurfacePoint& xk, const Vec3& w) const {
+    const auto projection = project(xk, w);
+    return projection ? projection->pdf_direction : 0;
+  }
 
   /// A pinhole: no walk can hit the lens.
   virtual bool delta_position() const = 0;

@@ -69,22 +69,15 @@ Vec3 ProjectiveCamera::direction(const SurfacePoint& xk, const Vec2& raster) con
   return axes_.to_world(normalize(Vec3(slope, 1)));
 }
 
-std::optional<Vec2> ProjectiveCamera::raster_position(const SurfacePoint& xk, const Vec3& w) const {
+std::optional<Projection> ProjectiveCamera::project(const SurfacePoint& xk, const Vec3& w) const {
   const Vec3 local = axes_.to_local(w);
   if (!(local.z > 0)) return std::nullopt;
   const Vec2 plane = Vec2(local) / local.z + lens_point(xk) / lens_.focus_distance;
   const Vec2 raster = plane * to_raster_scale_ + to_raster_offset_;
   if (!raster_.contains(raster)) return std::nullopt;
-  return raster;
-}
-
-double ProjectiveCamera::image_density(const SurfacePoint& xk, const Vec3& w) const {
-  if (!raster_position(xk, w)) return 0;
-  return 1 / (image_area_ * sqr(sqr(dot(w, axes_.n))));
-}
-
-double ProjectiveCamera::eval(const SurfacePoint& xk, const Vec3& w) const {
-  return image_density(xk, w) * pdf_position(xk);  // pdf_position = 1 / A_lens
+  const double image_density = 1 / (image_area_ * sqr(sqr(local.z)));  // 1 / (A c^4)
+  return Projection{raster, image_density * pdf_position(xk),  // pdf_position = 1 / A_lens
+                    image_density * (raster_.pixels() / raster_.sampled_area())};
 }
 
 std::optional<SurfacePoint> ProjectiveCamera::move_on_lens(const SurfacePoint& xk,
@@ -100,10 +93,6 @@ std::optional<SurfacePoint> ProjectiveCamera::hit_lens(const Ray& ray) const {
   const Vec3 p = ray.o + ray.d * t;
   if (!(length_squared(p - position_) < sqr(lens_.radius))) return std::nullopt;
   return point_at(p);
-}
-
-double ProjectiveCamera::pdf_direction(const SurfacePoint& xk, const Vec3& w) const {
-  return image_density(xk, w) * (raster_.pixels() / raster_.sampled_area());
 }
 
 }  // namespace mlt

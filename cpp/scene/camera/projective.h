@@ -40,13 +40,11 @@ class ProjectiveCamera final : public Camera {
 
   void set_raster(const Raster& raster) override;
 
-  double eval(const SurfacePoint& xk, const Vec3& w) const override;
   PositionSample sample_position(const Vec2& u) const override;
   double pdf_position(const SurfacePoint& xk) const override;
   Vec2 invert_position(const SurfacePoint& xk) const override;
   Vec3 direction(const SurfacePoint& xk, const Vec2& raster) const override;
-  std::optional<Vec2> raster_position(const SurfacePoint& xk, const Vec3& w) const override;
-  double pdf_direction(const SurfacePoint& xk, const Vec3& w) const override;
+  std::optional<Projection> project(const SurfacePoint& xk, const Vec3& w) const override;
   bool delta_position() const override { return lens_.radius == 0; }
   std::optional<SurfacePoint> move_on_lens(const SurfacePoint& xk, const Vec2& by) const override;
   double lens_radius() const override { return lens_.radius; }
@@ -56,8 +54,6 @@ class ProjectiveCamera final : public Camera {
   SurfacePoint point_at(const Vec3& p) const;
   /// Where on the lens xk lies, in camera space; 0 for a pinhole.
   Vec2 lens_point(const SurfacePoint& xk) const;
-  /// 1 / (A c^4) with A the area of the image; 0 outside the sampled domain.
-  double image_density(const SurfacePoint& xk, const Vec3& w) const;
 
   Vec3 position_;
   Frame axes_;
