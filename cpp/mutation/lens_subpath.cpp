@@ -27,26 +27,28 @@ class LensSubpathMutation final : public MeasuredMutation<LensSubpathMutation> {
     const Walker walker{scene(), x.path.time, context.rays};
     Ray ray = leave_lens(camera, lens.at, context.raster_position(camera.raster()), x.path.time);
 
-    // The walk comes first: only then is the length of the path known.
+    // The walk comes first, backwards: only then is the length of the path known.
     constexpr int most_vertices = 32;
-    Vertex walk[most_vertices];
+    const int first = stop(x);
+    std::vector<Vertex>& vertices = y.path.vertices;
     int count = 0;
     for (;; ++count) {
-      if (count == most_vertices || !walker.arrive(ray, walk[count])) return std::nullopt;
-      Vertex& end = walk[count];
+      if (count == most_vertices) return std::nullopt;
+      vertices.resize(first + count + 1);
+      Vertex& end = vertices.back();
+      if (!walker.arrive(ray, end)) return std::nullopt;
       const double stops = stop_probability(end.at);
       if (rng.next() < stops) break;
       const auto next = walker.scatter(end, -ray.d, {rng.next(), rng.next(), rng.next()});
       if (!next || (stops > 0 && !end.delta())) return std::nullopt;
       ray = *next;
     }
-    const int first = stop(x);
     const Edit edit{first, x.edges(), count + 2};
     if (x.edges() + edit.shift() > target().rules().most_edges()) return std::nullopt;
     splice(x, edit, y);
     const int k = y.edges();
     y.path[k] = camera_vertex(lens.at);
-    for (int i = 0; i <= count; ++i) y.path[k - 1 - i] = walk[i];
+    std::reverse(vertices.begin() + first, vertices.end() - 1);
     target().evaluate(first, k, y);
     join(scene(), first, y, context.rays);
     return edit;
