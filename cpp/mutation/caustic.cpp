@@ -36,8 +36,8 @@ class CausticPerturbation final : public MeasuredMutation<CausticPerturbation> {
       const double back = dot(bounds.center - through, x[0].at.p) + bounds.radius;
       ray = {through + back * x[0].at.p, -x[0].at.p, y.path.time};
     } else {
-      const Vec3 w = direction(x[a].at, x[a + 1].at);
-      ray = scene().spawn(x[a].at, ChainPerturbation::perturb(w, chain_.angle(x, a, k - 1, 1), rng),
+      const ExponentialRadius angle = chain_.angle(x, a, k - 1, 1);
+      ray = scene().spawn(x[a].at, ChainPerturbation::perturb(x.terms[a].w, angle, rng),
                           y.path.time);
     }
     if (!chain_.carry(x, {a, k - 1, 1}, ray, y, context)) return std::nullopt;
@@ -56,7 +56,7 @@ class CausticPerturbation final : public MeasuredMutation<CausticPerturbation> {
       const Vec3 d = y[1].at.p - x[1].at.p;
       first = offset_radius(x).planar_pdf(length(d - dot(d, x[0].at.p) * x[0].at.p));
     } else {
-      const Vec3 from = direction(x[a].at, x[a + 1].at), to = direction(y[a].at, y[a + 1].at);
+      const Vec3 from = x.terms[a].w, to = y.terms[a].w;
       first =
           chain_.angle(x, a, k - 1, 1).angular_pdf(angle_between(from, to)) / abs_cos(y[a].at, to);
     }
@@ -76,10 +76,7 @@ class CausticPerturbation final : public MeasuredMutation<CausticPerturbation> {
   /// How far a ray from infinity moves: as far as a pixel is wide where the camera sees the chain's
   /// end.
   ExponentialRadius offset_radius(const PathState& x) const {
-    const int k = x.edges();
-    const double cos_lens = abs_cos(x[k].at, direction(x[k].at, x[k - 1].at));
-    const double pixel_angle = std::sqrt(1 / (chain_.raster_per_direction(x) * cos_lens));
-    return chain_.image_radius() * (pixel_angle * length(x[k].at.p - x[k - 1].at.p));
+    return chain_.image_radius() * (chain_.pixel_angle(x) * x.terms[x.edges() - 1].distance);
   }
 
   ChainPerturbation chain_;

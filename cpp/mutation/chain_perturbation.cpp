@@ -4,17 +4,6 @@
 #include "path/walk.h"
 
 namespace mlt {
-namespace {
-
-/// Directions at vertex i to where a walk with this step comes from and to where it goes.
-Vec3 direction_in(const PathState& x, int i, int step) {
-  return direction(x[i].at, x[i - step].at);
-}
-Vec3 direction_out(const PathState& x, int i, int step) {
-  return direction(x[i].at, x[i + step].at);
-}
-
-}  // namespace
 
 std::vector<Parameter> step_size_parameters() {
   const StepSizes steps;
@@ -39,18 +28,21 @@ double ChainPerturbation::raster_per_direction(const PathState& x) const {
   return x.terms[x.edges()].vertex.pdf_from_camera * scene_->camera().raster().sampled_area();
 }
 
+double ChainPerturbation::pixel_angle(const PathState& x) const {
+  const int k = x.edges();
+  const double cos_lens = abs_cos(x[k].at, x.terms.direction(k, -1));
+  return std::sqrt(1 / (raster_per_direction(x) * cos_lens));
+}
+
 /// Veach 1997, eq. 11.11: the angle that a move of one pixel is seen under from the lens, times the
 /// length of the path between the lens and the chain's near end over the length of the chain.
 ExponentialRadius ChainPerturbation::angle(const PathState& x, int i, int stop, int step) const {
   const int k = x.edges();
-  const double cos_lens = abs_cos(x[k].at, direction(x[k].at, x[k - 1].at));
-  const double pixel_angle = std::sqrt(1 / (raster_per_direction(x) * cos_lens));
-  const auto edge = [&](int a, int b) { return length(x[a].at.p - x[b].at.p); };
   double seen = 0, chain = 0;
-  for (int j = step > 0 ? stop : i; j < k; ++j) seen += edge(j, j + 1);
+  for (int j = step > 0 ? stop : i; j < k; ++j) seen += x.terms[j].distance;
   for (int j = i; j != stop; j += step)
-    if (!x[j].at.infinite() && !x[j + step].at.infinite()) chain += edge(j, j + step);
-  const ExponentialRadius radius = image_radius_ * (pixel_angle * seen / chain);
+    if (const double edge = x.terms[std::min(j, j + step)].distance; edge < infinity) chain += edge;
+  const ExponentialRadius radius = image_radius_ * (pixel_angle(x) * seen / chain);
   if (radius.largest <= 0.5 * pi) return radius;
   return {std::min(radius.smallest, 0.25 * pi), 0.5 * pi};
 }
@@ -87,13 +79,13 @@ std::optional<Vec3> ChainPerturbation::carried_direction(const PathState& x, con
                                                          MutationContext& context) const {
   if (!x.specular(i)) {
     const int stop = chain_end(x, i, step);
-    return perturb(direction_out(x, i, step), angle(x, i, stop, step), context.rng);
+    return perturb(x.terms.direction(i, step), angle(x, i, stop, step), context.rng);
   }
   const SurfacePoint& from = x[i].at;
   const SurfacePoint& at = y[i].at;
   if (x[i].lobe == Lobe::null) return -in;
-  const Vec3 x_in = from.shading.to_local(direction_in(x, i, step));
-  const Vec3 x_out = from.shading.to_local(direction_out(x, i, step));
+  const Vec3 x_in = from.shading.to_local(x.terms.direction(i, -step));
+  const Vec3 x_out = from.shading.to_local(x.terms.direction(i, step));
   const Vec3 y_in = at.shading.to_local(in);
   if (!same_side(x_in, y_in) && !x[i].delta()) return std::nullopt;
   std::optional<Vec3> h = Vec3(0, 0, 1);
@@ -109,10 +101,10 @@ std::optional<Vec3> ChainPerturbation::carried_direction(const PathState& x, con
 double ChainPerturbation::coefficient(const PathState& x, const PathState& y, int i,
                                       int step) const {
   const SurfacePoint& at = y[i].at;
-  const Vec3 in = direction_in(y, i, step), out = direction_out(y, i, step);
+  const Vec3 in = y.terms.direction(i, -step), out = y.terms.direction(i, step);
   if (!x.specular(i)) {
     const int stop = chain_end(x, i, step);
-    const double theta = angle_between(out, direction_out(x, i, step));
+    const double theta = angle_between(out, x.terms.direction(i, step));
     return angle(x, i, stop, step).angular_pdf(theta) / abs_cos(at, out);
   }
   const Bsdf& bsdf = scene_->bsdf(at);

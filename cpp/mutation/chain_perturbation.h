@@ -87,6 +87,8 @@ class ChainPerturbation {
   const ExponentialRadius& image_radius() const { return image_radius_; }
   /// d(raster area) / d(projected solid angle) at the lens, for the direction of x.
   double raster_per_direction(const PathState& x) const;
+  /// The angle that a pixel is seen under from the lens of x.
+  double pixel_angle(const PathState& x) const;
   /// Angles at vertex i by which a direction is perturbed so that the end of the chain, which
   /// `span` enters there and leaves at `stop`, moves as far as the image radius says.
   ExponentialRadius angle(const PathState& x, int i, int stop, int step) const;

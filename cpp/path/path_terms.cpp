@@ -8,6 +8,17 @@ constexpr double least_f = 1e-100;
 
 }  // namespace
 
+Edge edge_between(const SurfacePoint& a, const SurfacePoint& b) {
+  if (a.infinite() || b.infinite()) {
+    const Vec3 w = direction(a, b);
+    return {w, infinity, geometry(a, b, w)};
+  }
+  const Vec3 ab = b.p - a.p;
+  const double distance2 = length_squared(ab), distance = std::sqrt(distance2);
+  const Vec3 w = ab * (1 / distance);
+  return {w, distance, abs_cos(a, w) * abs_cos(b, w) / distance2};
+}
+
 void compute_terms(const Scene& scene, const Path& path, const TermSettings& settings,
                    PathTerms& terms) {
   const int k = path.edges();
@@ -18,12 +29,11 @@ void compute_terms(const Scene& scene, const Path& path, const TermSettings& set
 void update_terms(const Scene& scene, const Path& path, const TermSettings& settings, int first,
                   int last, PathTerms& terms) {
   const int k = path.edges();
-  // Each direction is computed once, for the vertices at both of its ends.
-  Vec3 wl = first > 0 ? direction(path[first].at, path[first - 1].at) : Vec3(0);
+  Vec3 wl = first > 0 ? terms.direction(first, -1) : Vec3(0);
   for (int i = first; i <= last; ++i) {
-    const Vec3 wc = i < k ? direction(path[i].at, path[i + 1].at) : Vec3(0);
     TermsAt& x = terms[i];
-    if (i < last) x.G = geometry(path[i].at, path[i + 1].at, wc);
+    if (i < last) static_cast<Edge&>(x) = edge_between(path[i].at, path[i + 1].at);
+    const Vec3 wc = i < k ? x.w : Vec3(0);
     x.connectable = connectable(path[i]);
     x.specular = is_specular(scene, path[i], wl, wc, settings.near_specular);
     if (i < k) {
@@ -79,13 +89,6 @@ Color relative_contribution(const PathTerms& terms) {
   Color product(1);
   for (const TermsAt& x : terms.at) product *= x.vertex.f * x.inverse_f;
   return product;
-}
-
-bool can_sample(const PathTerms& terms, int s) {
-  const int k = terms.edges();
-  if (s == 0) return terms.light_can_be_hit;
-  if (s == k + 1) return terms.camera_can_be_hit;
-  return terms[s - 1].connectable && terms[s].connectable;
 }
 
 double technique_density(const PathTerms& terms, int s) {

@@ -21,13 +21,20 @@ struct VertexDensities {
   bool connectable = false;  ///< Whether an edge may be made by connection at x_i.
 };
 
-/// What the path's formulas need of x_i, and of the edge that leads on from it.
-struct TermsAt : VertexDensities {
+/// An edge, seen from its end on the light side.
+struct Edge {
+  Vec3 w{0};            ///< Unit direction.
+  double distance = 0;  ///< Not known where one end is at infinity.
+  double G = 0;         ///< G(a, b), without visibility.
+};
+Edge edge_between(const SurfacePoint& a, const SurfacePoint& b);
+
+/// What the path's formulas need of x_i, and of the edge that leads on from it (i < k).
+struct TermsAt : VertexDensities, Edge {
   bool specular = false;  ///< S or D (see signature) by `TermSettings::near_specular`.
   VertexTerms vertex;     ///< f_i and the two coefficients.
   /// 1 / |f_i|, where |f_i| is the largest component; 0 if that is (almost) 0.
   double inverse_f = 0;
-  double G = 0;  ///< G_i = G(x_i, x_{i+1}), without visibility; of i < k.
 };
 
 struct PathTerms {
@@ -38,6 +45,8 @@ struct PathTerms {
   std::optional<Vec2> raster;  ///< Where the path meets the image; nullopt if it does not.
 
   int edges() const { return static_cast<int>(at.size()) - 1; }  ///< k
+  /// Unit direction at x_i towards x_{i + step}, where step is 1 or -1.
+  Vec3 direction(int i, int step) const { return step > 0 ? at[i].w : -at[i - 1].w; }
   TermsAt& operator[](size_t i) { return at[i]; }
   const TermsAt& operator[](size_t i) const { return at[i]; }
 };
@@ -73,7 +82,11 @@ Color relative_contribution(const PathTerms& terms);
 
 /// Can technique s make the path? Only if neither end of the connecting edge is a delta vertex;
 /// s = 0 needs a light, s = k + 1 a lens, that a walk can hit.
-bool can_sample(const PathTerms& terms, int s);
+inline bool can_sample(const PathTerms& terms, int s) {
+  if (s == 0) return terms.light_can_be_hit;
+  if (s > terms.edges()) return terms.camera_can_be_hit;
+  return terms[s - 1].connectable && terms[s].connectable;
+}
 
 /// p_{s,t}(x), the density of technique s in the product-area measure (Veach 1997, sec. 10.2).
 double technique_density(const PathTerms& terms, int s);
