@@ -37,8 +37,8 @@ class CausticPerturbation final : public MeasuredMutation<CausticPerturbation> {
       ray = {through + back * x[0].at.p, -x[0].at.p, y.path.time};
     } else {
       const ExponentialRadius angle = chain_.angle(x, a, k - 1, 1);
-      ray = scene().spawn(x[a].at, ChainPerturbation::perturb(x.terms[a].w, angle, rng),
-                          y.path.time);
+      ray =
+          scene().spawn(x[a].at, ChainPerturbation::perturb(x.terms[a].w, angle, rng), y.path.time);
     }
     if (!chain_.carry(x, {a, k - 1, 1}, ray, y, context)) return std::nullopt;
     target().evaluate(a + 1, k - 1, y);

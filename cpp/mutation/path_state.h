@@ -22,8 +22,8 @@ struct PathState {
   Path path;
   PathTerms terms;
   Vec2 raster{0};
-  Color rgb{0};       ///< f(x) / |f(x)|, see relative_contribution.
-  double target = 0;  ///< L*(x) / |f(x)|, times the factor of two-stage sampling.
+  Color rgb{0};               ///< f(x) / |f(x)|, see relative_contribution.
+  double target = 0;          ///< L*(x) / |f(x)|, times the factor of two-stage sampling.
   mutable MoveChoice choice;  ///< Kept by the mixture that moves the path.
 
   /// L*(x), times that factor. May overflow or underflow; chains do without it.

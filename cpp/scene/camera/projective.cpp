@@ -76,7 +76,8 @@ std::optional<Projection> ProjectiveCamera::project(const SurfacePoint& xk, cons
   const Vec2 raster = plane * to_raster_scale_ + to_raster_offset_;
   if (!raster_.contains(raster)) return std::nullopt;
   const double image_density = 1 / (image_area_ * sqr(sqr(local.z)));  // 1 / (A c^4)
-  return Projection{raster, image_density * pdf_position(xk),  // pdf_position = 1 / A_lens
+  // pdf_position = 1 / A_lens
+  return Projection{raster, image_density * pdf_position(xk),
                     image_density * (raster_.pixels() / raster_.sampled_area())};
 }
 
