@@ -242,7 +242,9 @@ TEST(BsdfValues, OfMatteSurfacesAreThoseOfThePlugIn) {
       const auto a = matte->sample(wl.z, {u.y, u.z});
       const auto b = bsdf->sample(point(), wl, u);
       ASSERT_EQ(a.has_value(), b.has_value());
-      if (a) EXPECT_EQ(*a, b->to);
+      if (a) {
+        EXPECT_EQ(*a, b->to);
+      }
     }
   }
 }
