@@ -13,6 +13,7 @@ from the seed and the number of the round, which are printed with a failure.
 from __future__ import annotations
 
 import argparse
+import faulthandler
 import os
 import random
 import signal
@@ -34,6 +35,7 @@ SETTINGS = {
     "pssmlt": [{}, {"independent_share": 0.2}],
     "bdpt": [{}, {"techniques": True, "max_depth": 3}],
 }
+HANG = 600  # seconds of one round, after which it says where it stands, and ends
 GROWTH = 64 << 20  # bytes that may come after the first third of the rounds: caches, fragments
 
 
@@ -144,12 +146,14 @@ class Workers:
 
     def deaths(self, work: Round, path: Path, seconds: float) -> mlt.Result:
         """A worker is killed, the render is cancelled and resumed on the cluster or here."""
+        self.cluster.scale(2)  # also where dask has given a worker up
         job = work.start(cluster=self.client, checkpoint=path, every=0.1)
         for _ in range(work.draw.randint(1, 2)):
             work.sleep(0.5 + seconds)
             nannies = self.cluster.workers.values()
             if processes := [nanny.pid for nanny in nannies if nanny.pid]:
                 os.kill(work.draw.choice(processes), signal.SIGKILL)
+        self.cluster.scale(2)
         work.sleep(seconds)
         job.cancel()
         job.wait()
@@ -174,6 +178,7 @@ def soak(seed: int, first: int, rounds: int | None, seconds: float, cluster: boo
         number = first
         while number - first != rounds and time.monotonic() < end:
             work = Round(seed, number)
+            faulthandler.dump_traceback_later(HANG, exit=True)
             ways = [pauses, kills, *([workers.deaths] if cluster else [])]
             with tempfile.TemporaryDirectory() as folder:
                 try:
@@ -181,6 +186,7 @@ def soak(seed: int, first: int, rounds: int | None, seconds: float, cluster: boo
                 except Exception as error:
                     raise SoakError(f"seed {seed}, round {number}: {error}") from error
             sizes.append(memory())
+            faulthandler.cancel_dump_traceback_later()
             counts[how.split(":")[0]] = counts.get(how.split(":")[0], 0) + 1
             print(f"{number}: {work.integrator}, {how}, {sizes[-1] >> 20} MiB", flush=True)
             number += 1
