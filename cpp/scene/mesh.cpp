@@ -84,7 +84,7 @@ inline void Mesh::fill(const Edges& tri, uint32_t index, double b1, double b2,
     return;
   }
   const auto& corners = data_.triangles[index];
-  Vec3 n = record.ng, m = cross(tri.e1, tri.e2) * side_;  // The shading normal, and a multiple.
+  Vec3 n = record.ng, m = n;  // The shading normal, and a multiple of it.
   if (!data_.normals.empty()) {
     const Vec3 sum = Vec3(data_.normals[corners[0]]) * (1 - b1 - b2) +
                      Vec3(data_.normals[corners[1]]) * b1 + Vec3(data_.normals[corners[2]]) * b2;
@@ -95,15 +95,14 @@ inline void Mesh::fill(const Edges& tri, uint32_t index, double b1, double b2,
     }
     at.ng = record.ng * std::copysign(1.0, dot(record.ng, n));
   }
-  if (data_.uvs.empty()) {
-    at.uv = {b1, b2};
-    at.shading = Frame::around(n);
-    return;
-  }
+  at.uv = {b1, b2};
+  at.shading = Frame::around(n);
+  if (data_.uvs.empty()) return;
   const Vec2 uv0(data_.uvs[corners[0]]);
   const Vec2 d1 = Vec2(data_.uvs[corners[1]]) - uv0;
   const Vec2 d2 = Vec2(data_.uvs[corners[2]]) - uv0;
   at.uv = uv0 + d1 * b1 + d2 * b2;
+  if (bsdf_ && bsdf_->matte()) return;  // It looks the same in any frame.
   // Solves e1 = d1.x dp/du + d1.y dp/dv and e2 likewise, up to a positive factor.
   const Vec3 dp_du =
       (tri.e1 * d2.y - tri.e2 * d1.y) * std::copysign(1.0, d1.x * d2.y - d1.y * d2.x);

@@ -17,7 +17,7 @@ enum class PointKind : uint8_t {
 struct SurfacePoint {
   Vec3 p{0};                  ///< Position; for an infinite point, the unit direction towards it.
   Vec3 ng{0};                 ///< Geometric normal, on the same side as the shading normal.
-  Frame shading{};            ///< shading.n is the shading normal, shading.s follows dp/du.
+  Frame shading{};            ///< n: the shading normal; s follows dp/du, unless it is matte.
   Vec2 uv{0};                 ///< Texture coordinates.
   uint32_t shape = no_shape;  ///< Index into Scene::shapes().
   uint32_t primitive = 0;     ///< Triangle of a mesh.
