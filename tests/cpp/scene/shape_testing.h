@@ -63,9 +63,11 @@ inline std::optional<Hit> nearest_hit(const AnalyticShape& shape, const Ray& ray
 }
 
 inline std::optional<SurfacePoint> trace(const Shape& shape, const Ray& ray) {
-  const Mesh* mesh = shape.as_mesh();
-  const std::optional<Hit> hit =
-      mesh ? nearest_hit(*mesh, ray) : nearest_hit(*shape.as_analytic(), ray);
+  std::optional<Hit> hit;
+  if (const Mesh* mesh = shape.as_mesh())
+    hit = nearest_hit(*mesh, ray);
+  else if (const AnalyticShape* analytic = shape.as_analytic())
+    hit = nearest_hit(*analytic, ray);
   if (!hit) return std::nullopt;
   SurfacePoint at;
   shape.surface_point(ray, *hit, at);
