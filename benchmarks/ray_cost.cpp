@@ -120,7 +120,10 @@ Measured measure(const NamedScene& scene, const std::string& integrator, double 
       throw UsageError("the scene " + scene.name + " has shapes that are not meshes");
   Assignments settings{{"max_depth", "8"}};
   const bool metropolis = integrator == "mlt" || integrator == "pssmlt";
-  if (metropolis) settings.push_back({"luminance_samples", "20000"});
+  if (metropolis) {
+    settings.push_back({"luminance_samples", "20000"});
+    settings.push_back({"independent_share", "0"});
+  }
   const MadeIntegrator made =
       make_integrator(choose_integrator(scene.loaded, integrator, settings, plugins()), plugins());
   const std::unique_ptr<Rendering> twin_a = made.integrator->start(scene.loaded.scene, 1);
