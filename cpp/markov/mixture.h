@@ -21,7 +21,6 @@
 #include "markov/step.h"
 
 #include <algorithm>
-#include <atomic>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -46,7 +45,8 @@ class MixtureWeights {
 
 /// The choice of a move at a state: each one's share, and their sum.
 struct MoveChoice {
-  uint64_t mixture = 0;  ///< Whose moves they are; 0: nothing is kept.
+  bool known = false;
+  std::shared_ptr<const MixtureWeights> weights;  ///< By which it was made, with the same moves.
   double sum = 0;
   std::vector<double> shares;
 };
@@ -59,7 +59,7 @@ class Mixture {
   using Moves = std::vector<std::shared_ptr<Move>>;
 
   Mixture(Moves moves, std::shared_ptr<const MixtureWeights> weights)
-      : moves_(std::move(moves)), weights_(std::move(weights)), id_(++mixtures) {}
+      : moves_(std::move(moves)), weights_(std::move(weights)) {}
 
   /// As metropolis_step calls it, where the moves find the target of what they propose.
   Transition propose(const State& x, std::array<State, 1>& proposals, size_t, Rng& rng) {
@@ -73,7 +73,7 @@ class Mixture {
   bool choose(const State& x, Rng& rng) {
     edit_.reset();
     row_ = Move::row(x);
-    const auto& [_, sum, shares] = choice(x);
+    const auto& [known, by, sum, shares] = choice(x);
     suited_ = sum > 0;
     chosen_ = 0;
     if (!suited_) return false;
@@ -120,10 +120,11 @@ class Mixture {
  private:
   const MoveChoice& choice(const State& x) {
     MoveChoice* kept = Move::kept_choice(x);
-    if (kept && kept->mixture == id_) return *kept;
+    if (kept && kept->known && kept->weights == weights_) return *kept;
     MoveChoice& choice = kept ? *kept : scratch_;
     const std::vector<double>& weights = (*weights_)[Move::row(x)];
-    choice.mixture = id_;
+    choice.known = true;
+    if (choice.weights != weights_) choice.weights = weights_;
     choice.sum = 0;
     choice.shares.resize(moves_.size());
     for (size_t i = 0; i < moves_.size(); ++i) {
@@ -134,15 +135,12 @@ class Mixture {
   }
   /// P_choose of the chosen move at y.
   double probability(const State& y) {
-    const auto& [_, sum, shares] = choice(y);
+    const auto& [known, by, sum, shares] = choice(y);
     return shares[chosen_] > 0 ? shares[chosen_] / sum : 0.0;
   }
 
-  inline static std::atomic<uint64_t> mixtures{0};
-
   Moves moves_;
   std::shared_ptr<const MixtureWeights> weights_;
-  uint64_t id_ = 0;  ///< The same for copies, since their moves and weights are.
   Aids aids_{};
   MoveChoice scratch_;  ///< For states that keep none.
   size_t chosen_ = 0, row_ = 0;
