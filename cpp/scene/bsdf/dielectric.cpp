@@ -3,36 +3,29 @@
 #include "base/registry.h"
 #include "math/fresnel.h"
 #include "scene/bsdf.h"
-#include "scene/bsdf/ior_params.h"
-#include "scene/bsdf/lobes.h"
-#include "scene/texture.h"
+#include "scene/bsdf/dielectric_interface.h"
 
 namespace mlt {
 namespace {
 
 class Dielectric final : public Bsdf {
  public:
-  explicit Dielectric(Params& params)
-      : eta_(relative_ior_param(params)),
-        reflectance_(texture_param(params, "specular_reflectance")),
-        transmittance_(texture_param(params, "specular_transmittance")),
-        reflection_weight_(target_luminance(reflectance_->mean())),
-        transmission_weight_(target_luminance(transmittance_->mean())) {}
+  explicit Dielectric(Params& params) : interface_(params) {}
 
   Scattering scattering(const SurfacePoint& at, const Vec3& wl, const Vec3& wc,
                         Lobe lobe) const override {
     if (!matches(wl, wc, lobe)) return {};
     const double F = fresnel(wl, wc);
-    const double p = reflection_probability(F);
-    if (lobe == Lobe::reflection) return {F * reflectance_->eval(at), p, p};
-    return {(1 - F) * transmittance_->eval(at), 1 - p, 1 - p};
+    const double p = interface_.reflection_probability(F);
+    if (lobe == Lobe::reflection) return {F * interface_.reflectance->eval(at), p, p};
+    return {(1 - F) * interface_.transmittance->eval(at), 1 - p, 1 - p};
   }
 
   std::optional<BsdfSample> sample(const SurfacePoint&, const Vec3& from,
                                    const Vec3& u) const override {
     if (from.z == 0) return std::nullopt;
-    const Fresnel fresnel = fresnel_dielectric(from.z, eta_);
-    if (u.x < reflection_probability(fresnel.reflectance))
+    const Fresnel fresnel = fresnel_dielectric(from.z, interface_.eta);
+    if (u.x < interface_.reflection_probability(fresnel.reflectance))
       return BsdfSample{reflect(from), Lobe::reflection};
     if (fresnel.cos_t == 0) return std::nullopt;
     return BsdfSample{refract(from, fresnel.cos_t, fresnel.eta_ti), Lobe::transmission};
@@ -41,7 +34,7 @@ class Dielectric final : public Bsdf {
   std::optional<Vec3> invert(const SurfacePoint&, const Vec3& from, const Vec3& to,
                              Lobe lobe) const override {
     if (!matches(from, to, lobe)) return std::nullopt;
-    const double p = reflection_probability(fresnel(from, to));
+    const double p = interface_.reflection_probability(fresnel(from, to));
     if (!((lobe == Lobe::reflection ? p : 1 - p) > 0)) return std::nullopt;
     return Vec3(lobe == Lobe::reflection ? u_of_first(p) : u_of_second(p), 0.5, 0.5);
   }
@@ -50,13 +43,13 @@ class Dielectric final : public Bsdf {
   bool has_delta() const override { return true; }
   bool has_transmission() const override { return true; }
   double relative_eta(const SurfacePoint&, const Vec3& w) const override {
-    return w.z > 0 ? 1 / eta_ : eta_;
+    return w.z > 0 ? 1 / interface_.eta : interface_.eta;
   }
   double roughness(const SurfacePoint&, const Vec3&, const Vec3&) const override { return 0; }
 
   Color albedo(const SurfacePoint& at) const override {
-    const double F = fresnel_dielectric(1, eta_).reflectance;
-    return F * reflectance_->eval(at) + (1 - F) * transmittance_->eval(at);
+    const double F = fresnel_dielectric(1, interface_.eta).reflectance;
+    return interface_.albedo(at, F);
   }
 
  private:
@@ -69,17 +62,11 @@ class Dielectric final : public Bsdf {
   /// F of a reflection or refraction from a to b. For a refraction it comes from the direction in
   /// the thinner medium: F is the same from both, but there it is well conditioned up to grazing.
   double fresnel(const Vec3& a, const Vec3& b) const {
-    const bool thin_is_above = eta_ >= 1;
-    return fresnel_dielectric((a.z > 0) == thin_is_above ? a.z : b.z, eta_).reflectance;
+    const bool thin_is_above = interface_.eta >= 1;
+    return fresnel_dielectric((a.z > 0) == thin_is_above ? a.z : b.z, interface_.eta).reflectance;
   }
 
-  double reflection_probability(double F) const {
-    return first_share(F * reflection_weight_, (1 - F) * transmission_weight_);
-  }
-
-  double eta_;
-  TexturePtr reflectance_, transmittance_;
-  double reflection_weight_, transmission_weight_;
+  DielectricInterface interface_;
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
-// A surface with holes: where its opacity is o, light meets the nested material with the weight o, and
-// goes straight on with 1 - o. The passage is a null lobe, and so a vertex of the path: every
+// A surface with holes: where its opacity is o, light meets the nested material with the weight o,
+// and goes straight on with 1 - o. The passage is a null lobe, and so a vertex of the path: every
 // integrator knows its probability, and none has to look through surfaces.
 #include "base/registry.h"
 #include "scene/bsdf.h"

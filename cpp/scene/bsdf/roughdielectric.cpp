@@ -4,8 +4,7 @@
 #include "base/registry.h"
 #include "math/fresnel.h"
 #include "scene/bsdf.h"
-#include "scene/bsdf/ior_params.h"
-#include "scene/bsdf/lobes.h"
+#include "scene/bsdf/dielectric_interface.h"
 #include "scene/bsdf/rough_surface.h"
 
 namespace mlt {
@@ -13,14 +12,8 @@ namespace {
 
 class RoughDielectric final : public Bsdf {
  public:
-  explicit RoughDielectric(Params& params)
-      : surface_(params),
-        eta_(relative_ior_param(params)),
-        reflectance_(texture_param(params, "specular_reflectance")),
-        transmittance_(texture_param(params, "specular_transmittance")),
-        reflection_weight_(target_luminance(reflectance_->mean())),
-        transmission_weight_(target_luminance(transmittance_->mean())) {
-    if (eta_ == 1) params.fail("needs an int_ior that differs from ext_ior");
+  explicit RoughDielectric(Params& params) : surface_(params), interface_(params) {
+    if (interface_.eta == 1) params.fail("needs an int_ior that differs from ext_ior");
   }
 
   Scattering scattering(const SurfacePoint& at, const Vec3& wl, const Vec3& wc,
@@ -42,8 +35,8 @@ class RoughDielectric final : public Bsdf {
     const Vec3 h = surface_.at(at).sample(upwards(from), direction_part(u));
     const double cos_h = dot(from, h);
     if (cos_h * from.z <= 0) return std::nullopt;
-    const Fresnel fresnel = fresnel_dielectric(cos_h, eta_);
-    const bool reflects = u.x < reflection_probability(fresnel.reflectance);
+    const Fresnel fresnel = fresnel_dielectric(cos_h, interface_.eta);
+    const bool reflects = u.x < interface_.reflection_probability(fresnel.reflectance);
     if (!reflects && fresnel.cos_t == 0) return std::nullopt;
     const Vec3 to = reflects ? reflect(from, h) : refract(from, h, fresnel.cos_t, fresnel.eta_ti);
     if (to.z == 0 || same_side(from, to) != reflects) return std::nullopt;
@@ -54,7 +47,7 @@ class RoughDielectric final : public Bsdf {
                              Lobe lobe) const override {
     if (!(pdf(at, from, to, lobe) > 0)) return std::nullopt;
     const Facet facet = facet_between(from, to, lobe);
-    const double p = reflection_probability(facet.F);
+    const double p = interface_.reflection_probability(facet.F);
     return u_of(facet.reflects ? u_of_first(p) : u_of_second(p),
                 surface_.at(at).invert(upwards(from), facet.h));
   }
@@ -66,8 +59,8 @@ class RoughDielectric final : public Bsdf {
   }
 
   Color albedo(const SurfacePoint& at) const override {
-    const double F = fresnel_dielectric(1, eta_).reflectance;
-    return F * reflectance_->eval(at) + (1 - F) * transmittance_->eval(at);
+    const double F = fresnel_dielectric(1, interface_.eta).reflectance;
+    return interface_.albedo(at, F);
   }
 
  private:
@@ -84,26 +77,26 @@ class RoughDielectric final : public Bsdf {
     if (lobe != Lobe::smooth || a.z * b.z == 0) return {};
     const bool reflects = same_side(a, b);
     // Walter et al. 2007, eqs. 13 and 16, up to the sign and length.
-    const Vec3 sum = reflects ? a + b : a.z > 0 ? a + eta_ * b : b + eta_ * a;
+    const Vec3 sum = reflects ? a + b : a.z > 0 ? a + interface_.eta * b : b + interface_.eta * a;
     if (sum.z == 0) return {};
     const Vec3 h = normalize(sum.z < 0 ? -sum : sum);
     const double cos_a = dot(a, h), cos_b = dot(b, h);
     if (cos_a * a.z <= 0 || cos_b * b.z <= 0) return {};
     // Refraction: in the thinner medium F is well conditioned up to grazing.
-    const bool thin_is_above = eta_ > 1;
+    const bool thin_is_above = interface_.eta > 1;
     const double cosine = reflects ? 0.5 * dot(sum, h) : (a.z > 0) == thin_is_above ? cos_a : cos_b;
-    return {true, reflects, h, fresnel_dielectric(cosine, eta_).reflectance};
+    return {true, reflects, h, fresnel_dielectric(cosine, interface_.eta).reflectance};
   }
 
   /// Value of the BSDF, given D G.
   Color value(const SurfacePoint& at, const Vec3& wl, const Vec3& wc, const Facet& facet,
               double DG) const {
     const double cosines = std::abs(wl.z * wc.z);
-    if (facet.reflects) return facet.F * DG / (4 * cosines) * reflectance_->eval(at);
+    if (facet.reflects) return facet.F * DG / (4 * cosines) * interface_.reflectance->eval(at);
     const double l = dot(wl, facet.h), c = dot(wc, facet.h);
     // eq. 21, both eta divided by eta_c.
     const double jacobian = std::abs(l * c) / sqr(l * eta_on_side(wl) + c);
-    return (1 - facet.F) * DG * jacobian / cosines * transmittance_->eval(at);
+    return (1 - facet.F) * DG * jacobian / cosines * interface_.transmittance->eval(at);
   }
 
   /// Density of `to` if this kind of facet (reflecting or refracting) is chosen.
@@ -117,21 +110,15 @@ class RoughDielectric final : public Bsdf {
   }
 
   double probability(const Facet& facet) const {
-    const double p = reflection_probability(facet.F);
+    const double p = interface_.reflection_probability(facet.F);
     return facet.reflects ? p : 1 - p;
   }
 
-  double reflection_probability(double F) const {
-    return first_share(F * reflection_weight_, (1 - F) * transmission_weight_);
-  }
-
-  double eta_on_side(const Vec3& w) const { return w.z > 0 ? 1 / eta_ : eta_; }
+  double eta_on_side(const Vec3& w) const { return w.z > 0 ? 1 / interface_.eta : interface_.eta; }
   static Vec3 upwards(const Vec3& w) { return w.z < 0 ? -w : w; }
 
   RoughSurface surface_;
-  double eta_;
-  TexturePtr reflectance_, transmittance_;
-  double reflection_weight_, transmission_weight_;
+  DielectricInterface interface_;
 };
 
 }  // namespace

@@ -2,45 +2,24 @@
 // other (Oren & Nayar 1994, "Generalization of Lambert's reflectance model"). sigma is the standard
 // deviation of the facets' slope angle; at 0 the surface is Lambert's.
 #include "base/registry.h"
-#include "math/warp.h"
-#include "scene/bsdf.h"
-#include "scene/bsdf/lobes.h"
+#include "scene/bsdf/cosine_sampled.h"
 #include "scene/texture.h"
 
 namespace mlt {
 namespace {
 
-class RoughDiffuse final : public Bsdf {
+class RoughDiffuse final : public CosineSampled {
  public:
   explicit RoughDiffuse(Params& params)
       : reflectance_(texture_param(params, "reflectance")),
         alpha_(texture_param(params, "alpha")),
         fast_(params.boolean("use_fast_approx")) {}
 
-  Scattering scattering(const SurfacePoint& at, const Vec3& wl, const Vec3& wc,
-                        Lobe lobe) const override {
-    if (lobe != Lobe::smooth || !above(wl, wc)) return {};
-    return {value(at, wl, wc), wc.z * inv_pi, wl.z * inv_pi};
-  }
-
-  std::optional<BsdfSample> sample(const SurfacePoint&, const Vec3& from,
-                                   const Vec3& u) const override {
-    const Vec3 to = sample_cosine_hemisphere(direction_part(u));
-    if (!above(from, to)) return std::nullopt;
-    return BsdfSample{to, Lobe::smooth};
-  }
-
-  std::optional<Vec3> invert(const SurfacePoint&, const Vec3& from, const Vec3& to,
-                             Lobe lobe) const override {
-    if (lobe != Lobe::smooth || !above(from, to)) return std::nullopt;
-    return u_of(0.5, invert_cosine_hemisphere(to));
-  }
-
   Color albedo(const SurfacePoint& at) const override { return reflectance_->eval(at); }
 
  private:
   /// Slopes whose root mean square along one axis is alpha / sqrt(2), as Beckmann's are: sigma.
-  Color value(const SurfacePoint& at, const Vec3& wl, const Vec3& wc) const {
+  Color value(const SurfacePoint& at, const Vec3& wl, const Vec3& wc) const override {
     const Color rho = reflectance_->eval(at);
     const double sigma2 = 0.5 * sqr(alpha_->eval_scalar(at));
     const double sin_l = std::sqrt(sin2_theta(wl)), sin_c = std::sqrt(sin2_theta(wc));

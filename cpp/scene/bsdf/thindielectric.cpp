@@ -5,40 +5,33 @@
 #include "base/registry.h"
 #include "math/fresnel.h"
 #include "scene/bsdf.h"
-#include "scene/bsdf/ior_params.h"
-#include "scene/bsdf/lobes.h"
-#include "scene/texture.h"
+#include "scene/bsdf/dielectric_interface.h"
 
 namespace mlt {
 namespace {
 
 class ThinDielectric final : public Bsdf {
  public:
-  explicit ThinDielectric(Params& params)
-      : eta_(relative_ior_param(params)),
-        reflectance_(texture_param(params, "specular_reflectance")),
-        transmittance_(texture_param(params, "specular_transmittance")),
-        reflection_weight_(target_luminance(reflectance_->mean())),
-        transmission_weight_(target_luminance(transmittance_->mean())) {}
+  explicit ThinDielectric(Params& params) : interface_(params) {}
 
   Scattering scattering(const SurfacePoint& at, const Vec3& wl, const Vec3&,
                         Lobe lobe) const override {
-    const double R = reflected(wl), p = reflection_probability(R);
-    if (lobe == Lobe::reflection) return {R * reflectance_->eval(at), p, p};
-    if (lobe == Lobe::null) return {(1 - R) * transmittance_->eval(at), 1 - p, 1 - p};
+    const double R = reflected(wl), p = interface_.reflection_probability(R);
+    if (lobe == Lobe::reflection) return {R * interface_.reflectance->eval(at), p, p};
+    if (lobe == Lobe::null) return {(1 - R) * interface_.transmittance->eval(at), 1 - p, 1 - p};
     return {};
   }
 
   std::optional<BsdfSample> sample(const SurfacePoint&, const Vec3& from,
                                    const Vec3& u) const override {
-    if (u.x < reflection_probability(reflected(from)))
+    if (u.x < interface_.reflection_probability(reflected(from)))
       return BsdfSample{reflect(from), Lobe::reflection};
     return BsdfSample{-from, Lobe::null};
   }
 
   std::optional<Vec3> invert(const SurfacePoint&, const Vec3& from, const Vec3&,
                              Lobe lobe) const override {
-    const double p = reflection_probability(reflected(from));
+    const double p = interface_.reflection_probability(reflected(from));
     if (lobe == Lobe::reflection && p > 0) return Vec3(u_of_first(p), 0.5, 0.5);
     if (lobe == Lobe::null && p < 1) return Vec3(u_of_second(p), 0.5, 0.5);
     return std::nullopt;
@@ -50,22 +43,17 @@ class ThinDielectric final : public Bsdf {
   double roughness(const SurfacePoint&, const Vec3&, const Vec3&) const override { return 0; }
   Color albedo(const SurfacePoint& at) const override {
     const double R = reflected({0, 0, 1});
-    return R * reflectance_->eval(at) + (1 - R) * transmittance_->eval(at);
+    return interface_.albedo(at, R);
   }
 
  private:
   /// The same from both sides.
   double reflected(const Vec3& w) const {
-    const double F = fresnel_dielectric(std::abs(w.z), eta_).reflectance;
+    const double F = fresnel_dielectric(std::abs(w.z), interface_.eta).reflectance;
     return 2 * F / (1 + F);
   }
-  double reflection_probability(double R) const {
-    return first_share(R * reflection_weight_, (1 - R) * transmission_weight_);
-  }
 
-  double eta_;
-  TexturePtr reflectance_, transmittance_;
-  double reflection_weight_, transmission_weight_;
+  DielectricInterface interface_;
 };
 
 }  // namespace

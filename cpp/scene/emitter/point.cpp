@@ -1,13 +1,13 @@
 // A light of no size that shines equally in all directions.
 #include "base/registry.h"
 #include "math/warp.h"
-#include "scene/emitter.h"
+#include "scene/emitter/isolated.h"
 #include "scene/texture.h"
 
 namespace mlt {
 namespace {
 
-class PointLight final : public Emitter {
+class PointLight final : public IsolatedEmitter {
  public:
   explicit PointLight(Params& params) : intensity_(color_param(params, "intensity")) {
     if (params.has("position")) {
@@ -20,16 +20,6 @@ class PointLight final : public Emitter {
 
   Color eval(const SurfacePoint&, const Vec3&) const override { return intensity_; }
 
-  PositionSample sample_position(const Vec2&) const override {
-    SurfacePoint at;
-    at.p = position_;
-    at.ng = {0, 0, 1};
-    at.kind = PointKind::isolated;
-    return {at, 1};
-  }
-  double pdf_position(const SurfacePoint&) const override { return 1; }
-  Vec2 invert_position(const SurfacePoint&) const override { return Vec2(0.5); }
-
   RaySample sample_ray(const SurfacePoint& x0, const Vec2& u) const override {
     return {x0.p, sample_uniform_sphere(u), uniform_sphere_pdf()};
   }
@@ -38,12 +28,10 @@ class PointLight final : public Emitter {
     return invert_uniform_sphere(normalize(x1 - x0.p));
   }
 
-  bool delta() const override { return true; }
   Color power() const override { return intensity_ * (4 * pi); }
 
  private:
   Color intensity_;
-  Vec3 position_{0};
 };
 
 }  // namespace

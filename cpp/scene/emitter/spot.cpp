@@ -2,7 +2,7 @@
 // `beam_width`, from there on falling linearly with the angle to 0 at `cutoff_angle`.
 #include "base/registry.h"
 #include "math/warp.h"
-#include "scene/emitter.h"
+#include "scene/emitter/isolated.h"
 #include "scene/texture.h"
 
 namespace mlt {
@@ -10,7 +10,7 @@ namespace {
 
 constexpr double degree = pi / 180;
 
-class Spot final : public Emitter {
+class Spot final : public IsolatedEmitter {
  public:
   explicit Spot(Params& params)
       : intensity_(color_param(params, "intensity")), texture_(texture_param(params, "texture")) {
@@ -36,16 +36,6 @@ class Spot final : public Emitter {
     return intensity_ * texture(w) * share;
   }
 
-  PositionSample sample_position(const Vec2&) const override {
-    SurfacePoint at;
-    at.p = position_;
-    at.ng = frame_.n;
-    at.kind = PointKind::isolated;
-    return {at, 1};
-  }
-  double pdf_position(const SurfacePoint&) const override { return 1; }
-  Vec2 invert_position(const SurfacePoint&) const override { return Vec2(0.5); }
-
   RaySample sample_ray(const SurfacePoint& x0, const Vec2& u) const override {
     return {x0.p, frame_.to_world(sample_cone(u, height_)), cone_pdf(height_)};
   }
@@ -56,7 +46,6 @@ class Spot final : public Emitter {
     return invert_cone(frame_.to_local(normalize(x1 - x0.p)), height_);
   }
 
-  bool delta() const override { return true; }
   /// The integral of the intensity over the cone, with the mean of the texture.
   Color power() const override {
     const double width = cutoff_ - beam_;
@@ -78,7 +67,6 @@ class Spot final : public Emitter {
   TexturePtr texture_;
   double cutoff_, beam_;  ///< In radians.
   double height_;         ///< 1 - cos(cutoff)
-  Vec3 position_{0};
   Frame frame_;
 };
 
