@@ -41,6 +41,13 @@ const Plugin& Registry::find(const std::string& family, const std::string& name,
   throw SceneError(at(where, "unknown {} '{}'{}", family, name, suggestion(name, known)));
 }
 
+bool Registry::has(const std::string& family, const std::string& name) const {
+  const auto members = entries_.find(family);
+  if (members == entries_.end()) return false;
+  const auto found = members->second.find(name);
+  return found != members->second.end() && found->second.plugin.create;
+}
+
 std::vector<std::string> Registry::families() const {
   std::vector<std::string> found;
   for (const auto& [family, members] : entries_)

@@ -45,6 +45,8 @@ class Registry {
   const Plugin& find(const std::string& family, const std::string& name,
                      const Location& where) const;
 
+  /// Whether there is such a plug-in; not if its name is refused.
+  bool has(const std::string& family, const std::string& name) const;
   std::vector<std::string> families() const;
   std::vector<std::string> names(const std::string& family) const;
   /// The families in which `name` is known or refused; normally one.

@@ -1,7 +1,5 @@
 #include "image/exr_attributes.h"
 
-#include <cstdint>
-#include <cstring>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -38,14 +36,6 @@ const std::map<std::string_view, size_t>& fixed_sizes() {
   return sizes;
 }
 
-/// The next four bytes as a number; the file is little-endian, as the machine is.
-uint32_t number_at(std::string_view value, size_t position) {
-  uint32_t number = 0;
-  if (position > value.size() || value.size() - position < sizeof number) return 0;
-  std::memcpy(&number, value.data() + position, sizeof number);
-  return number;
-}
-
 /// Names that end in 0, each followed by 16 bytes, and an empty name.
 bool is_channel_list(std::string_view value) {
   for (size_t begin = 0;;) {
@@ -61,15 +51,15 @@ bool is_channel_list(std::string_view value) {
 bool is_text_list(std::string_view value) {
   for (size_t position = 0; position != value.size();) {
     const size_t rest = value.size() - position;
-    if (rest < 4 || rest - 4 < number_at(value, position)) return false;
-    position += 4 + number_at(value, position);
+    if (rest < 4 || rest - 4 < little_endian(value, position)) return false;
+    position += 4 + little_endian(value, position);
   }
   return true;
 }
 
 /// Width, height, and four bytes for each pixel.
 bool is_preview(std::string_view value) {
-  const uint64_t width = number_at(value, 0), height = number_at(value, 4);
+  const uint64_t width = little_endian(value, 0), height = little_endian(value, 4);
   return value.size() >= 8 && (width == 0 || height <= value.size() / width) &&
          value.size() == 8 + 4 * width * height;
 }
@@ -85,6 +75,14 @@ bool is_whole(std::string_view type, std::string_view value) {
 }
 
 }  // namespace
+
+uint32_t little_endian(std::string_view bytes, size_t position) {
+  uint32_t value = 0;
+  for (size_t i = 4; i-- > 0;)
+    value = value << 8 |
+            (position + i < bytes.size() ? static_cast<unsigned char>(bytes[position + i]) : 0);
+  return value;
+}
 
 void check_exr_attribute(std::string_view type, std::string_view value) {
   if (!is_whole(type, value))

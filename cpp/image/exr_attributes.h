@@ -2,9 +2,13 @@
 // What follows could then be read in a way that no check has seen, with sizes of any magnitude.
 #pragma once
 
+#include <cstdint>
 #include <string_view>
 
 namespace mlt {
+
+/// The four bytes from `position` on as a number; what lies beyond the end counts as 0.
+uint32_t little_endian(std::string_view bytes, size_t position);
 
 /// Throws std::runtime_error unless OpenEXR takes exactly the bytes of `value` for an attribute of
 /// this type, and allocates no more memory than these are worth.

@@ -10,16 +10,6 @@
 namespace mlt {
 namespace {
 
-uint32_t byte_at(std::string_view bytes, size_t i) {
-  return i < bytes.size() ? static_cast<unsigned char>(bytes[i]) : 0;
-}
-
-uint32_t little_endian(std::string_view bytes, size_t position) {
-  uint32_t value = 0;
-  for (size_t i = 4; i-- > 0;) value = value << 8 | byte_at(bytes, position + i);
-  return value;
-}
-
 /// The text up to the next 0, and the position after it.
 std::string_view take_text(std::string_view bytes, size_t* position) {
   const size_t begin = *position, end = bytes.find('\0', begin);
@@ -69,7 +59,7 @@ void check_exr_headers(std::string_view bytes) {
   const bool several_parts = (little_endian(bytes, 4) & 0x1000) != 0;
   size_t position = 8;
   do {
-    if (several_parts && byte_at(bytes, position) == 0) break;
+    if (several_parts && (position >= bytes.size() || bytes[position] == 0)) break;
     ExrChunks chunks;
     while (true) {
       const std::string_view name = take_text(bytes, &position);

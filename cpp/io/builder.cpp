@@ -48,11 +48,6 @@ std::shared_ptr<SamplerSettings> foreign_sampler(const Node& node) {
   return sampler;
 }
 
-bool is_known(const Registry& registry, const Node& node) {
-  const std::vector<std::string> names = registry.names(node.family);
-  return std::find(names.begin(), names.end(), node.type) != names.end();
-}
-
 }  // namespace
 
 Builder::Builder(const Node& root, const Registry& registry, std::vector<std::string>& warnings)
@@ -76,7 +71,7 @@ ObjectPtr Builder::make(const Node& node) {
   if (in_progress_.size() >= static_cast<size_t>(max_nesting))
     throw SceneError(at(node.where, "references are nested more than {} deep", max_nesting));
   refuse_element(node.family, node.type, node.where);
-  if (node.family == "sampler" && !is_known(registry_, node)) {
+  if (node.family == "sampler" && !registry_.has(node.family, node.type)) {
     warnings_.push_back(at(node.where,
                            "sampler {} is not known here; only its sample_count is used",
                            quote(node.type)));

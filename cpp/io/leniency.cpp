@@ -16,7 +16,7 @@ class Pruner {
       : registry_(registry), warnings_(warnings) {}
 
   void visit(Node& node) {
-    if (is_known(node.family, node.type))
+    if (registry_.has(node.family, node.type))
       prune_parameters(node, registry_.find(node.family, node.type, node.where).schema);
     remove(node.children, [&](const Node& child) {
       if (child.family != "integrator" || holds_integrator(child) ||
@@ -50,10 +50,6 @@ class Pruner {
   static bool holds_integrator(const Node& node) {
     return std::any_of(node.children.begin(), node.children.end(),
                        [](const Node& child) { return child.family == "integrator"; });
-  }
-  bool is_known(const std::string& family, const std::string& type) const {
-    const std::vector<std::string> names = registry_.names(family);
-    return std::find(names.begin(), names.end(), type) != names.end();
   }
 
   void prune_parameters(Node& node, const Schema& schema) {

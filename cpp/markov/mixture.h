@@ -73,14 +73,15 @@ class Mixture {
   bool choose(const State& x, Rng& rng) {
     edit_.reset();
     row_ = Move::row(x);
-    const auto& [known, by, sum, shares] = choice(x);
-    suited_ = sum > 0;
+    const MoveChoice& at_x = choice(x);
+    const std::vector<double>& shares = at_x.shares;
+    suited_ = at_x.sum > 0;
     chosen_ = 0;
     if (!suited_) return false;
-    double u = rng.next() * sum;
+    double u = rng.next() * at_x.sum;
     while (chosen_ + 1 < shares.size() && (u -= shares[chosen_]) >= 0) ++chosen_;
     while (shares[chosen_] == 0) --chosen_;  // u was rounded past the last share
-    probability_ = shares[chosen_] / sum;
+    probability_ = shares[chosen_] / at_x.sum;
     return true;
   }
   /// Lets the chosen move make y.
@@ -135,8 +136,9 @@ class Mixture {
   }
   /// P_choose of the chosen move at y.
   double probability(const State& y) {
-    const auto& [known, by, sum, shares] = choice(y);
-    return shares[chosen_] > 0 ? shares[chosen_] / sum : 0.0;
+    const MoveChoice& at_y = choice(y);
+    const double share = at_y.shares[chosen_];
+    return share > 0 ? share / at_y.sum : 0.0;
   }
 
   Moves moves_;

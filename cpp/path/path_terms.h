@@ -24,7 +24,7 @@ struct VertexDensities {
 /// An edge, seen from its end on the light side.
 struct Edge {
   Vec3 w{0};            ///< Unit direction.
-  double distance = 0;  ///< Not known where one end is at infinity.
+  double distance = 0;  ///< Infinite where one end is at infinity.
   double G = 0;         ///< G(a, b), without visibility.
 };
 Edge edge_between(const SurfacePoint& a, const SurfacePoint& b);
