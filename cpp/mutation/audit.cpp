@@ -15,9 +15,9 @@ namespace {
 
 constexpr int batches = 128;
 constexpr double least_effective_samples = 1000;
-/// A function that hardly ever changes is not tested, since a t-test needs more than a few events;
-/// nor is one that is 0 for almost all starting paths, since the few that would leave that set are
-/// missing.
+/// A function that hardly ever changes is not tested, since a t-test needs more than a few events:
+/// many small changes one way may wait for a few large ones the other way. Nor is one that is 0 for
+/// almost all starting paths, since the few that would leave that set are missing.
 constexpr double least_effective_changes = 100;
 /// At grazing angles a walk's directions and those of its vertices differ by rounding.
 constexpr double most_lost = 1e-4;
@@ -31,6 +31,7 @@ struct Batch {
   double weight = 0, weight_squared = 0;   ///< Of those that a mutation suits, sample by sample.
   std::vector<double> expected, chosen;    ///< Of w (g(y) - g(x)), for each function.
   std::vector<double> size, size_squared;  ///< Of |w (g(y) - g(x))| with expected weights.
+  std::vector<double> largest;             ///< Of |w (g(y) - g(x))| if every y were accepted.
   std::vector<uint64_t> seen;              ///< Steps from an x with g(x) != 0.
   std::map<RowKey, AuditRow> rows;
   double lost = 0;  ///< Weight of paths without a target.
@@ -84,7 +85,8 @@ class Auditor {
 
   Batch batch(uint64_t index) const {
     Batch sums;
-    for (auto* values : {&sums.expected, &sums.chosen, &sums.size, &sums.size_squared})
+    for (auto* values :
+         {&sums.expected, &sums.chosen, &sums.size, &sums.size_squared, &sums.largest})
       values->assign(functions_.size(), 0);
     sums.seen.assign(functions_.size(), 0);
     PathSeeds seeds = target_->seeds();
@@ -122,7 +124,11 @@ class Auditor {
     s.mean.assign(functions_.size(), 0);
     const auto record = [&](const PathState& state, double share) {
       functions_.evaluate(state, s.after);
-      for (size_t g = 0; g < s.mean.size(); ++g) s.mean[g] += share * (s.after[g] - s.before[g]);
+      for (size_t g = 0; g < s.mean.size(); ++g) {
+        const double change = s.after[g] - s.before[g];
+        s.mean[g] += share * change;
+        if (share > 0) sums.largest[g] = std::max(sums.largest[g], weight * std::abs(change));
+      }
     };
     chain.restart(x);
     const StepResult result = chain.step(record);
@@ -186,14 +192,16 @@ class Auditor {
 
   void add_tests(const std::vector<Batch>& done, double weight, AuditReport& report) const {
     for (size_t g = 0; g < functions_.size(); ++g) {
-      double size = 0, size_squared = 0;
+      double size = 0, size_squared = 0, largest = 0;
       uint64_t seen = 0;
       for (const Batch& batch : done) {
+        largest = std::max(largest, batch.largest[g]);
         size += batch.size[g];
         size_squared += batch.size_squared[g];
         seen += batch.seen[g];
       }
       if (!(sqr(size) >= least_effective_changes * size_squared) || size == 0) continue;
+      if (size < least_effective_changes * largest) continue;
       if (static_cast<double>(seen) < least_effective_changes) continue;
       for (const bool expected : {true, false}) {
         AuditTest test = t_test(done, expected ? &Batch::expected : &Batch::chosen, g, weight);
