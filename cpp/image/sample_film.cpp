@@ -18,6 +18,14 @@ std::vector<double> cell_weights(const Filter& filter, int border) {
   return weights;
 }
 
+/// Adds runs of pixels to an image of the pixels `reach`.
+auto adder(std::vector<float>& image, const PixelRect& reach) {
+  return [&image, reach](int x, int y, int count, const double* values) {
+    float* pixel = &image[3 * (size_t(y - reach.y0) * reach.width() + (x - reach.x0))];
+    for (int i = 0; i < count; ++i) pixel[i] += static_cast<float>(values[i]);
+  };
+}
+
 }  // namespace
 
 SampleFilm::SampleFilm(int width, int height, std::shared_ptr<const Filter> filter, int groups,
@@ -50,10 +58,7 @@ SampleFilm::Tile::Tile(const PixelRect& cells, const PixelRect& reach, const Fil
       rgb_(size_t{3} * reach.width() * reach.height()) {}
 
 void SampleFilm::Tile::add(const Vec2& raster, const Color& color) {
-  mlt::splat(*filter_, raster, reach_, [&](int x, int y, double weight) {
-    float* pixel = &rgb_[3 * (size_t(y - reach_.y0) * reach_.width() + (x - reach_.x0))];
-    for (int c = 0; c < 3; ++c) pixel[c] += static_cast<float>(color[c] * weight);
-  });
+  mlt::splat(*filter_, raster, color, reach_, adder(rgb_, reach_));
 }
 
 PixelRect SampleFilm::cells_of(int tile) const {
@@ -112,10 +117,7 @@ void SampleFilm::add(Strand& strand, const Pending& pending) {
   if (pending.data.splats_.empty()) return;
   strand.light.resize(strand.size());
   for (const Splat& one : pending.data.splats_)
-    splat(*filter_, one.raster, all, [&](int x, int y, double weight) {
-      float* pixel = &strand.light[3 * (size_t(y) * all.width() + x)];
-      for (int c = 0; c < 3; ++c) pixel[c] += static_cast<float>(one.color[c] * weight);
-    });
+    splat(*filter_, one.raster, one.color, all, adder(strand.light, all));
 }
 
 void SampleFilm::add_samples(const Group& group, std::vector<uint64_t>& samples) const {

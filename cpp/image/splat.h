@@ -2,6 +2,7 @@
 #pragma once
 
 #include "image/filter.h"
+#include "math/color.h"
 #include "math/vec.h"
 
 #include <algorithm>
@@ -16,17 +17,22 @@ struct PixelRect {
   int height() const { return y1 - y0; }
 };
 
+/// How many pixels a run has at most.
+inline constexpr int run_pixels = 16;
+
 /// How far outside the image samples still reach a pixel, in whole pixels.
 inline int filter_border(const Filter& filter) {
   return static_cast<int>(std::ceil(filter.radius() - 0.5));
 }
 
-/// Calls add(x, y, weight) for each pixel of `rect` whose filter covers the raster position `at`.
+/// Calls add(x, y, count, values) for each run of pixels of `rect`, from (x, y) on, whose filter
+/// covers the raster position `at`: `count` values, three channels a pixel, of color times filter.
 template <class Add>
-void splat(const Filter& filter, const Vec2& at, const PixelRect& rect, Add&& add) {
+void splat(const Filter& filter, const Vec2& at, const Color& color, const PixelRect& rect,
+           Add&& add) {
   if (filter.is_box()) {
     const int x = static_cast<int>(std::floor(at.x)), y = static_cast<int>(std::floor(at.y));
-    if (x >= rect.x0 && x < rect.x1 && y >= rect.y0 && y < rect.y1) add(x, y, 1.0);
+    if (x >= rect.x0 && x < rect.x1 && y >= rect.y0 && y < rect.y1) add(x, y, 3, &color[0]);
     return;
   }
   const double r = filter.radius();
@@ -35,16 +41,18 @@ void splat(const Filter& filter, const Vec2& at, const PixelRect& rect, Add&& ad
   const int x1 = std::min(rect.x1 - 1, static_cast<int>(std::floor(at.x + r - 0.5)));
   const int y1 = std::min(rect.y1 - 1, static_cast<int>(std::floor(at.y + r - 0.5)));
   // The weights of a row are those of all rows: they are looked up once, for some columns at a time.
-  constexpr int columns = 16;
-  for (int first = x0; first <= x1; first += columns) {
-    const int count = std::min(columns, x1 + 1 - first);
-    double wx[columns];
-    for (int i = 0; i < count; ++i) wx[i] = filter.eval(first + i + 0.5 - at.x);
+  for (int first = x0; first <= x1; first += run_pixels) {
+    const int pixels = std::min(run_pixels, x1 + 1 - first);
+    double row[3 * run_pixels], values[3 * run_pixels];
+    for (int i = 0; i < pixels; ++i) {
+      const double wx = filter.eval(first + i + 0.5 - at.x);
+      for (int c = 0; c < 3; ++c) row[3 * i + c] = color[c] * wx;
+    }
     for (int y = y0; y <= y1; ++y) {
       const double wy = filter.eval(y + 0.5 - at.y);
       if (wy == 0) continue;
-      for (int i = 0; i < count; ++i)
-        if (const double w = wy * wx[i]; w != 0) add(first + i, y, w);
+      for (int i = 0; i < 3 * pixels; ++i) values[i] = row[i] * wy;
+      add(first, y, 3 * pixels, values);
     }
   }
 }

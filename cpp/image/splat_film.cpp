@@ -2,61 +2,111 @@
 
 #include "base/bytes.h"
 
+#include <cstring>
 #include <new>
-#include <type_traits>
+#include <thread>
 
 namespace mlt {
 namespace {
-constexpr int64_t largest = int64_t{1} << 62;  // of a sum, or of one splat
+
+constexpr double one = 0x1p28;                 ///< Steps of fixed point in 1.
+constexpr int64_t largest = int64_t{1} << 62;  ///< Of a sum, or of one splat.
+constexpr double largest_exact = 0x1p51;       ///< Of what round_small rounds.
+constexpr int run_values = 3 * run_pixels;
+
+bool all_small(const double* steps, int count) {
+  bool small = true;
+  for (int i = 0; i < count; ++i) small &= std::abs(steps[i]) < largest_exact;
+  return small;
 }
+
+/// To the nearest integers. Between 2^52 and 2^53 the last bit of a double counts ones, so the sum
+/// with 1.5 * 2^52 has them in its low bits; compilers can do this for several numbers at a time.
+void round_small(const double* steps, int count, int64_t* rounded) {
+  constexpr double shift = 0x1.8p52;
+  double shifted[run_values];
+  for (int i = 0; i < count; ++i) shifted[i] = steps[i] + shift;
+  int64_t base;
+  std::memcpy(&base, &shift, sizeof(base));
+  std::memcpy(rounded, shifted, count * sizeof(*rounded));
+  for (int i = 0; i < count; ++i) rounded[i] -= base;
+}
+
+/// The same for numbers of any size; returns how many are too large, or not numbers.
+int round_large(const double* steps, int count, int64_t* rounded) {
+  int refused = 0;
+  for (int i = 0; i < count; ++i) {
+    const bool fits = std::abs(steps[i]) < static_cast<double>(largest);
+    rounded[i] = fits ? std::llrint(steps[i]) : 0;
+    refused += !fits;
+  }
+  return refused;
+}
+
+/// Returns to how many sums nothing could be added safely.
+int add_steps(const int64_t* steps, int count, int64_t* sums) {
+  int64_t full = 0;
+  for (int i = 0; i < count; ++i) {
+    full += sums[i] > largest || sums[i] < -largest;
+    sums[i] =
+        static_cast<int64_t>(static_cast<uint64_t>(sums[i]) + static_cast<uint64_t>(steps[i]));
+  }
+  return static_cast<int>(full);
+}
+
+}  // namespace
 
 SplatFilm::SplatFilm(int width, int height, std::shared_ptr<const Filter> filter, int groups)
     : width_(width),
       height_(height),
       groups_(groups),
       filter_(std::move(filter)),
-      cells_(static_cast<Cell*>(std::calloc(group_size() * groups + 1, sizeof(Cell)))) {
-  static_assert(std::is_trivially_destructible_v<Cell> && sizeof(Cell) == sizeof(int64_t));
+      cells_(static_cast<int64_t*>(std::calloc(group_size() * groups + 1, sizeof(int64_t)))),
+      locks_(new Lock[size_t(groups) * height]()) {
   if (!cells_) throw std::bad_alloc();
 }
 
-void SplatFilm::add(Cell& cell, int64_t step) {
-  const int64_t before = cell.fetch_add(step, std::memory_order_relaxed);
-  if (before > largest || before < -largest) ++saturated_;
+template <class Use>
+void SplatFilm::with_row(int group, int y, Use&& use) const {
+  Lock& lock = locks_[size_t(group) * height_ + y];
+  while (lock.exchange(true, std::memory_order_acquire)) std::this_thread::yield();
+  use(&cells_[group_size() * group + size_t{3} * y * width_]);
+  lock.store(false, std::memory_order_release);
 }
 
 void SplatFilm::add(int group, const Vec2& raster, const Color& color) {
-  Cell* cells = &cells_[group_size() * group];
-  splat(*filter_, raster, {0, 0, width_, height_}, [&](int x, int y, double weight) {
-    Cell* pixel = cells + 3 * (size_t(y) * width_ + x);
-    for (int c = 0; c < 3; ++c) {
-      const double value = color[c] * weight * one;
-      if (!(std::abs(value) < largest)) {  // or not a number
-        ++saturated_;
-        continue;
-      }
-      const auto step = static_cast<int64_t>(std::llrint(value));
-      add(pixel[c], step);
-    }
-  });
+  const auto add = [&](int x, int y, int count, const double* values) {
+    int64_t steps[run_values];
+    const int refused = all_small(values, count) ? (round_small(values, count, steps), 0)
+                                                 : round_large(values, count, steps);
+    int full = 0;
+    with_row(group, y, [&](int64_t* row) { full = add_steps(steps, count, row + 3 * x); });
+    if (refused + full > 0) saturated_ += refused + full;
+  };
+  splat(*filter_, raster, color * one, {0, 0, width_, height_}, add);
 }
 
 Image SplatFilm::image(const std::vector<double>& scale) const {
-  const size_t count = group_size();
-  std::vector<double> sum(count);
+  const size_t row = size_t{3} * width_;
+  std::vector<double> sum(group_size());
   for (int g = 0; g < groups_; ++g)
-    for (size_t i = 0; scale[g] != 0 && i < count; ++i)
-      sum[i] += scale[g] / one *
-                static_cast<double>(cells_[g * count + i].load(std::memory_order_relaxed));
+    for (int y = 0; scale[g] != 0 && y < height_; ++y)
+      with_row(g, y, [&](const int64_t* cells) {
+        for (size_t i = 0; i < row; ++i)
+          sum[y * row + i] += scale[g] / one * static_cast<double>(cells[i]);
+      });
   Image image(width_, height_, 3);
-  for (size_t i = 0; i < count; ++i) image.data[i] = static_cast<float>(sum[i]);
+  for (size_t i = 0; i < sum.size(); ++i) image.data[i] = static_cast<float>(sum[i]);
   return image;
 }
 
 std::string SplatFilm::save(int first, int last) const {
-  const Cell* cells = &cells_[group_size() * first];
-  std::vector<int64_t> sums(group_size() * (last - first));
-  for (size_t i = 0; i < sums.size(); ++i) sums[i] = cells[i].load(std::memory_order_relaxed);
+  const size_t row = size_t{3} * width_;
+  std::vector<int64_t> sums;
+  sums.reserve(group_size() * (last - first));
+  for (int g = first; g < last; ++g)
+    for (int y = 0; y < height_; ++y)
+      with_row(g, y, [&](const int64_t* cells) { sums.insert(sums.end(), cells, cells + row); });
   ByteWriter bytes;
   bytes.write(sums);
   bytes.write(saturated_.load());
@@ -71,9 +121,12 @@ void SplatFilm::merge(int first, int last, const std::string& saved) {
   bytes.finish();
   if (sums.size() != group_size() * (last - first))
     throw RenderError("the saved film has another size");
-  Cell* cells = &cells_[group_size() * first];
-  for (size_t i = 0; i < sums.size(); ++i)
-    if (sums[i] != 0) add(cells[i], sums[i]);
+  const int row = 3 * width_;
+  const int64_t* from = sums.data();
+  for (int g = first; g < last; ++g)
+    for (int y = 0; y < height_; ++y, from += row)
+      if (std::any_of(from, from + row, [](int64_t step) { return step != 0; }))
+        with_row(g, y, [&](int64_t* cells) { saturated_ += add_steps(from, row, cells); });
   saturated_ += saturated;
 }
 

@@ -40,19 +40,21 @@ class SplatFilm {
   void merge(int first, int last, const std::string& bytes);
 
  private:
-  static constexpr double one = 268435456.0;  // 2^28
-  using Cell = std::atomic<int64_t>;
   struct Free {
-    void operator()(Cell* cells) const { std::free(cells); }
+    void operator()(int64_t* cells) const { std::free(cells); }
   };
+  using Lock = std::atomic<bool>;
 
-  void add(Cell& cell, int64_t step);
   size_t group_size() const { return size_t{3} * width_ * height_; }
+  /// Calls use(cells) with a row of a group, which nobody else touches meanwhile.
+  template <class Use>
+  void with_row(int group, int y, Use&& use) const;
 
   int width_, height_, groups_;
   std::shared_ptr<const Filter> filter_;
   /// [group][pixel][channel]; takes memory only where something has been added.
-  std::unique_ptr<Cell[], Free> cells_;
+  std::unique_ptr<int64_t[], Free> cells_;
+  std::unique_ptr<Lock[]> locks_;  ///< [group][row]
   std::atomic<uint64_t> saturated_{0};
 };
 

@@ -11,6 +11,9 @@ void PathTarget::evaluate(int first, int last, PathState& x) const {
 }
 
 void PathTarget::evaluate(PathState& x) const {
+  for (Vertex& vertex : x.path.vertices)
+    if (vertex.kind == VertexKind::surface)
+      vertex.at.matte = scene_->bsdf(vertex.at).matte(vertex.at);
   compute_terms(*scene_, x.path, term_settings(), x.terms);
   evaluate_target(x);
 }

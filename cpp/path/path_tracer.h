@@ -83,9 +83,8 @@ inline std::optional<ScatterSample> scatter_to_light(const Walker& walker, const
   const auto& [w, local_c, local_l, lobe] = *sample;
   if (lobe != Lobe::null && !consistent_sides(at, w, strict)) return std::nullopt;
   const Bsdf& bsdf = walker.scene.bsdf(at);
-  const Matte* matte = bsdf.matte();
-  const Scattering s = matte ? matte->scattering(local_l.z, local_c.z, lobe)
-                             : bsdf.scattering(at, local_l, local_c, lobe);
+  const Scattering s = at.matte.known() ? at.matte.scattering(local_l.z, local_c.z, lobe)
+                                        : bsdf.scattering(at, local_l, local_c, lobe);
   if (!(s.pdf_from_camera > 0) || is_black(s.f)) return std::nullopt;
 
   const bool refracted =
@@ -135,7 +134,7 @@ Color trace_path(const Scene& scene, const PathRules& rules, Ray ray, Sampler& s
     if (!consistent_sides(at, wc, rules.strict_normals)) break;
     const Vec2 u_light = sampler.next2(), u_direction = sampler.next2();
     const double u_choice = sampler.next(), u_lobe = sampler.next(), u_roulette = sampler.next();
-    if (scene.bsdf(at).has_smooth() && rules.wants(depth + 1)) {
+    if ((at.matte.known() || scene.bsdf(at).has_smooth()) && rules.wants(depth + 1)) {
       const Vec3 u(u_choice, u_light);
       const Color direct =
           throughput * direct_light(walker, at, wc, u, rules.strict_normals, power_heuristic);

@@ -75,15 +75,14 @@ struct Walker {
   /// u.x chooses the lobe, (u.y, u.z) the direction; nullopt if nothing is scattered.
   std::optional<ScatteredDirection> scatter(const SurfacePoint& at, const Vec3& towards_previous,
                                             const Vec3& u) const {
-    const Bsdf& bsdf = scene.bsdf(at);
-    if (const Matte* matte = bsdf.matte()) {
+    if (at.matte.known()) {
       const double cos_from = dot(towards_previous, at.shading.n);
-      const auto to = matte->sample(cos_from, {u.y, u.z});
+      const auto to = at.matte.sample(cos_from, {u.y, u.z});
       if (!to) return std::nullopt;
       return ScatteredDirection{at.shading.to_world(*to), {0, 0, cos_from}, *to, Lobe::smooth};
     }
     const Vec3 from = at.shading.to_local(towards_previous);
-    const auto sample = bsdf.sample(at, from, u);
+    const auto sample = scene.bsdf(at).sample(at, from, u);
     if (!sample) return std::nullopt;
     return ScatteredDirection{at.shading.to_world(sample->to), from, sample->to, sample->lobe};
   }

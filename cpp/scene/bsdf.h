@@ -4,7 +4,6 @@
 
 #include "base/object.h"
 #include "math/frame.h"
-#include "scene/matte.h"
 #include "scene/surface_point.h"
 
 #include <optional>
@@ -62,11 +61,15 @@ class Bsdf : public Object {
   /// Average reflectance, for previews and sampling weights.
   virtual Color albedo(const SurfacePoint& at) const = 0;
 
-  /// What the functions above amount to if the surface is plainly matte; else nullptr.
-  const Matte* matte() const { return matte_ ? &*matte_ : nullptr; }
+  /// What the functions above amount to where the surface is matte; unknown where it is not.
+  Matte matte(const SurfacePoint& at) const { return matte_.known() ? matte_ : matte_at(at); }
+  /// Whether it is matte everywhere.
+  bool is_matte() const { return is_matte_; }
 
  protected:
-  std::optional<Matte> matte_;  ///< Set by the constructor, or never.
+  virtual Matte matte_at(const SurfacePoint& /*at*/) const { return {}; }
+  bool is_matte_ = false;  ///< Set by the constructor;
+  Matte matte_;            ///< and this too, if it is the same everywhere.
 };
 
 using BsdfPtr = std::shared_ptr<const Bsdf>;
@@ -77,9 +80,9 @@ struct WorldScattering : Scattering {
 };
 inline WorldScattering scattering(const Bsdf& bsdf, const SurfacePoint& at, const Vec3& wl,
                                   const Vec3& wc, Lobe lobe) {
-  if (const Matte* matte = bsdf.matte()) {
+  if (at.matte.known()) {
     const double cos_l = dot(wl, at.shading.n), cos_c = dot(wc, at.shading.n);
-    return {matte->scattering(cos_l, cos_c, lobe), cos_l, cos_c};
+    return {at.matte.scattering(cos_l, cos_c, lobe), cos_l, cos_c};
   }
   const Vec3 local_l = at.shading.to_local(wl), local_c = at.shading.to_local(wc);
   return {bsdf.scattering(at, local_l, local_c, lobe), local_l.z, local_c.z};

@@ -76,6 +76,7 @@ bool Scene::intersect(const Ray& ray, SurfacePoint& at) const {
   at.shape = hit.shape;
   at.primitive = hit.primitive;
   shapes_[hit.shape]->surface_point(ray, hit, at);
+  at.matte = bsdf(at).matte(at);
   return true;
 }
 

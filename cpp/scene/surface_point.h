@@ -2,6 +2,7 @@
 #pragma once
 
 #include "math/frame.h"
+#include "scene/matte.h"
 
 #include <cstdint>
 
@@ -22,8 +23,9 @@ struct SurfacePoint {
   uint32_t shape = no_shape;  ///< Index into Scene::shapes().
   uint32_t primitive = 0;     ///< Triangle of a mesh.
   PointKind kind = PointKind::surface;
-  double extent =
-      0;  ///< Largest coordinate of the primitive: the scale of float rounding in the accelerator.
+  /// Largest coordinate of the primitive: the scale of float rounding in the accelerator.
+  double extent = 0;
+  Matte matte{};  ///< How it scatters light, if it is matte and a ray has arrived there.
 
   static constexpr uint32_t no_shape = ~0u;
   bool infinite() const { return kind == PointKind::infinite; }

@@ -18,8 +18,7 @@ class TwoSided final : public Bsdf {
         params.fail("cannot hold a bsdf that transmits light: it is two-sided already");
     front_ = nested.front();
     back_ = nested.back();
-    if (front_->matte() && back_->matte())
-      matte_ = Matte{front_->matte()->front, back_->matte()->front, true};
+    is_matte_ = front_->is_matte() && back_->is_matte();
   }
 
   Scattering scattering(const SurfacePoint& at, const Vec3& wl, const Vec3& wc,
@@ -53,6 +52,12 @@ class TwoSided final : public Bsdf {
   }
 
  private:
+  Matte matte_at(const SurfacePoint& at) const override {
+    if (front_ != back_) return {};
+    Matte matte = front_->matte(at);
+    if (matte.known()) matte.sides = Matte::Sides::both;
+    return matte;
+  }
   const Bsdf& nested(const Vec3& w) const { return w.z < 0 ? *back_ : *front_; }
   static Vec3 to_front(const Vec3& w) { return {w.x, w.y, std::abs(w.z)}; }
 
