@@ -80,8 +80,10 @@ void build_contents(const Node& scene, Builder& builder, std::vector<ShapePtr>& 
       throw SceneError(
           at(child.where, "a <ref> at the top of a scene has no effect; put it inside a shape"));
     if (child.family == "shape") {
-      shapes.push_back(builder.shape(child));
-      if (const EmitterPtr& light = shapes.back()->emitter_ptr()) emitters.push_back(light);
+      const ShapePtr shape = builder.shape(child);
+      if (!shape) continue;  // A group, which is there only by way of its instances.
+      shapes.push_back(shape);
+      if (const EmitterPtr& light = shape->emitter_ptr()) emitters.push_back(light);
     } else if (child.family == "emitter") {
       const auto emitter = std::dynamic_pointer_cast<Emitter>(builder.object(child));
       if (emitter->infinite() || emitter->delta())

@@ -37,9 +37,7 @@ const std::vector<Refusal>& refusals() {
   static const char* polarised = "polarised rendering is not supported";
   static const char* curves = "hair and curves are not supported";
   static const std::vector<Refusal> table{
-      {"shape",
-       not_yet,
-       {"instance", "shapegroup", "animatedinstance", "heightfield", "deformable"}},
+      {"shape", not_yet, {"animatedinstance", "heightfield", "deformable"}},
       {"shape", curves, {"hair", "bsplinecurve", "linearcurve"}},
       {"shape",
        "volumetric primitives are not supported",

@@ -1,9 +1,11 @@
 #include "scene/scene.h"
 
 #include "scene/emitter/infinite.h"
+#include "scene/instance.h"
 #include "scene/mesh.h"
 
 #include <algorithm>
+#include <set>
 
 namespace mlt {
 namespace {
@@ -44,6 +46,17 @@ Discrete choose_by_power(const std::vector<EmitterPtr>& emitters) {
   return Discrete(weights);
 }
 
+/// The shapes of all groups of which there are instances.
+std::vector<ShapePtr> grouped_shapes(const std::vector<ShapePtr>& shapes) {
+  std::vector<ShapePtr> grouped;
+  std::set<const ShapeGroup*> seen;
+  for (const ShapePtr& shape : shapes)
+    if (const Instance* instance = shape->as_instance())
+      if (const ShapeGroup& group = instance->group(); seen.insert(&group).second)
+        grouped.insert(grouped.end(), group.shapes().begin(), group.shapes().end());
+  return grouped;
+}
+
 }  // namespace
 
 Scene::Scene(std::vector<ShapePtr> shapes, std::vector<EmitterPtr> emitters, CameraPtr camera,
@@ -56,7 +69,6 @@ Scene::Scene(std::vector<ShapePtr> shapes, std::vector<EmitterPtr> emitters, Cam
   if (!camera_) throw SceneError("the scene has no sensor; add <sensor type=\"perspective\">");
   if (emitters_.empty())
     throw SceneError("the scene has no emitter; add a light, or everything is black");
-  for (size_t i = 0; i < shapes_.size(); ++i) shapes_[i]->set_index(static_cast<uint32_t>(i));
   bounds_ = enclosing_sphere(shapes_, *camera_);
   for (size_t i = 0; i < emitters_.size(); ++i) {
     emitters_[i]->set_bounds(bounds_);
@@ -67,6 +79,9 @@ Scene::Scene(std::vector<ShapePtr> shapes, std::vector<EmitterPtr> emitters, Cam
   }
   emitter_choice_ = choose_by_power(emitters_);
   accel_ = std::make_unique<Accel>(shapes_);
+  const std::vector<ShapePtr> grouped = grouped_shapes(shapes_);
+  shapes_.insert(shapes_.end(), grouped.begin(), grouped.end());
+  for (size_t i = 0; i < shapes_.size(); ++i) shapes_[i]->set_index(static_cast<uint32_t>(i));
 }
 
 bool Scene::intersect(const Ray& ray, SurfacePoint& at) const {

@@ -28,6 +28,7 @@ class Scene {
   Scene(std::vector<ShapePtr> shapes, std::vector<EmitterPtr> emitters, CameraPtr camera,
         std::shared_ptr<FilmSettings> film, int64_t sample_count);
 
+  /// Those that the scene was made of, then those of which there are instances.
   const std::vector<ShapePtr>& shapes() const { return shapes_; }
   const std::vector<EmitterPtr>& emitters() const { return emitters_; }
   const Camera& camera() const { return *camera_; }
