@@ -56,7 +56,7 @@ const std::vector<Refusal>& refusals() {
       {"emitter",
        not_yet,
        {"projector", "directionalarea", "sunsky", "timed_sunsky", "sun", "sky", "collimated"}},
-      {"sensor", not_yet, {"orthographic", "telecentric", "spherical", "perspective_rdist"}},
+      {"sensor", not_yet, {"telecentric", "spherical", "perspective_rdist"}},
       {"sensor",
        "sensors that measure a single value are not supported",
        {"irradiancemeter", "radiancemeter", "fluencemeter", "distant"}},

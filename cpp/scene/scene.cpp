@@ -14,14 +14,9 @@ namespace {
 /// primitive: 16 units in the last place of the accelerator's floats.
 constexpr double ray_offset = 0x1p-20;
 
-/// The point moved off its surface, to the side that w points to.
-Vec3 offset(const SurfacePoint& at, const Vec3& w) {
-  if (at.shape == SurfacePoint::no_shape) return at.p;
-  return at.p + at.ng * std::copysign(ray_offset * at.extent, dot(at.ng, w));
-}
-
 Bounds enclosing_sphere(const std::vector<ShapePtr>& shapes, const Camera& camera) {
-  const Vec3 lens = camera.sample_position({0.5, 0.5}).at.p;
+  const SurfacePoint middle = camera.sample_position({0.5, 0.5}).at;
+  const Vec3 lens = camera.entrance(middle, middle.ng);
   Vec3 low = lens, high = lens;
   for (const ShapePtr& shape : shapes) {
     Vec3 l, h;
@@ -70,6 +65,7 @@ Scene::Scene(std::vector<ShapePtr> shapes, std::vector<EmitterPtr> emitters, Cam
   if (emitters_.empty())
     throw SceneError("the scene has no emitter; add a light, or everything is black");
   bounds_ = enclosing_sphere(shapes_, *camera_);
+  camera_->set_bounds(bounds_);
   for (size_t i = 0; i < emitters_.size(); ++i) {
     emitters_[i]->set_bounds(bounds_);
     emitters_[i]->set_index(static_cast<uint32_t>(i));
@@ -94,15 +90,23 @@ bool Scene::intersect(const Ray& ray, SurfacePoint& at) const {
   return true;
 }
 
+Vec3 Scene::departure(const SurfacePoint& at, const Vec3& w) const {
+  if (at.shape != SurfacePoint::no_shape)
+    return at.p + at.ng * std::copysign(ray_offset * at.extent, dot(at.ng, w));
+  return at.kind == PointKind::surface ? camera_->entrance(at, w) : at.p;
+}
+
 Ray Scene::spawn(const SurfacePoint& from, const Vec3& w, double time) const {
-  return {offset(from, w), w, time};
+  return {departure(from, w), w, time};
 }
 
 bool Scene::visible(const SurfacePoint& a, const SurfacePoint& b, double time) const {
   if (a.infinite()) return visible(b, a, time);
   if (b.infinite()) return !accel_->occluded(spawn(a, b.p, time));
   const Vec3 ab = b.p - a.p;
-  const Vec3 start = offset(a, ab), end = offset(b, -ab);
+  const Vec3 start = departure(a, ab), end = departure(b, -ab);
+  const bool has_end = a.shape == SurfacePoint::no_shape || b.shape == SurfacePoint::no_shape;
+  if (has_end && !(dot(end - start, ab) > 0)) return false;  // It is behind the camera.
   const double distance = length(end - start);
   const Vec3 w = (end - start) * (1 / distance);
   return !accel_->occluded({start, w, time, distance * (1 - ray_offset)});

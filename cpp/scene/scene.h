@@ -62,6 +62,9 @@ class Scene {
   size_t bytes() const;  ///< Of the shapes' buffers.
 
  private:
+  /// Where a ray that leaves the point along w, of any length, begins: off its surface.
+  Vec3 departure(const SurfacePoint& at, const Vec3& w) const;
+
   std::vector<ShapePtr> shapes_;
   std::vector<EmitterPtr> emitters_;
   CameraPtr camera_;
