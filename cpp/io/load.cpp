@@ -5,6 +5,7 @@
 #include "io/families.h"
 #include "io/leniency.h"
 #include "io/node_bytes.h"
+#include "scene/emitter/daylight.h"
 
 #include <algorithm>
 #include <chrono>
@@ -108,7 +109,12 @@ void build_contents(const Node& scene, Builder& builder, std::vector<ShapePtr>& 
       shapes.push_back(shape);
       if (const EmitterPtr& light = shape->emitter_ptr()) emitters.push_back(light);
     } else if (child.family == "emitter") {
-      const auto emitter = std::dynamic_pointer_cast<Emitter>(builder.object(child));
+      const ObjectPtr object = builder.object(child);
+      if (const auto lights = std::dynamic_pointer_cast<Lights>(object)) {
+        emitters.insert(emitters.end(), lights->all.begin(), lights->all.end());
+        continue;
+      }
+      const auto emitter = std::dynamic_pointer_cast<Emitter>(object);
       if (emitter->infinite() || emitter->delta())
         emitters.push_back(emitter);
       else

@@ -29,7 +29,7 @@ Bounds enclosing_sphere(const std::vector<ShapePtr>& shapes, const Camera& camer
 }
 
 /// Half of the choices are uniform, half in proportion to power: a light that is weak as a whole
-/// may be the only one in a room.
+/// may be the only one in a room. The sampling weights are factors of that.
 Discrete choose_by_power(const std::vector<EmitterPtr>& emitters) {
   std::vector<double> weights;
   double total = 0;
@@ -37,7 +37,13 @@ Discrete choose_by_power(const std::vector<EmitterPtr>& emitters) {
     weights.push_back(std::max(0.0, target_luminance(emitter->power())));
     total += weights.back();
   }
-  for (double& weight : weights) weight = (total > 0 ? weight / total : 0.0) + 1.0 / weights.size();
+  bool any = false;
+  for (size_t i = 0; i < weights.size(); ++i) {
+    weights[i] = (total > 0 ? weights[i] / total : 0.0) + 1.0 / weights.size();
+    weights[i] *= emitters[i]->sampling_weight();
+    any = any || weights[i] > 0;
+  }
+  if (!any) throw SceneError("the sampling_weight of every emitter is 0; make one positive");
   return Discrete(weights);
 }
 
