@@ -4,6 +4,7 @@
 #include "io/builder.h"
 #include "io/families.h"
 #include "io/leniency.h"
+#include "io/missing.h"
 #include "io/node_bytes.h"
 #include "scene/emitter/daylight.h"
 
@@ -143,6 +144,7 @@ LoadedScene build_scene(const Node& tree, const Registry& registry, const LoadOp
     throw SceneError(at(scene.where, "the root is a {}, but should be a scene", scene.family));
   if (options.size) check_size(*options.size);
 
+  refuse_missing(scene, registry);
   const Node& sensor = chosen_sensor(scene, loaded.warnings);
   loaded.integrator = only_integrator(scene, loaded.warnings);
   Builder builder(scene, registry, loaded.warnings);

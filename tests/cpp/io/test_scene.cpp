@@ -295,6 +295,19 @@ TEST(SceneMistake, PluginsOfMitsubaAreRefusedByName) {
             std::string::npos);
 }
 
+TEST(SceneMistake, AllThatIsMissingIsNamedAtOnce) {
+  EXPECT_EQ(error_of(sensor + point_light + R"(
+<shape type='hair'/>
+<shape type='sphere'><bsdf type='hapke'/><float name='raduis' value='1'/></shape>
+<shape type='sphere'><bsdf type='hapke'/></shape>
+<medium type='homogeneous'/>)"),
+            "<string>:3: shape 'hair' is not supported: hair and curves are not supported; "
+            "line 4: unknown parameter 'raduis' for shape 'sphere'; did you mean 'radius'?; "
+            "line 4: bsdf 'hapke' is not supported: layered and measured materials are not "
+            "supported; "
+            "line 6: medium 'homogeneous' is not supported: participating media are not supported");
+}
+
 TEST(Sensors, AreChosenByNumber) {
   const auto of_size = [](int width, int height) {
     return fmt::format(
