@@ -30,6 +30,9 @@ class Scene:
     def hash(self) -> str:
         """Of the description and of the files that it names, wherever they lie."""
 
+    def with_sensor(self, sensor: int) -> Scene:
+        """The same scene, seen by another of its sensors."""
+
     def info(self) -> dict: ...
     def trace_path(
         self,

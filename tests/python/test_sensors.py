@@ -43,7 +43,9 @@ def test_a_dict_may_have_several_sensors():
 
 @pytest.mark.parametrize("sensor", [2, -1])
 def test_a_sensor_that_is_not_there_is_an_error(sensor):
-    with pytest.raises(mlt.UsageError, match=f"there is no sensor {sensor}: the scene's are 0 to 1"):
+    with pytest.raises(
+        mlt.UsageError, match=f"there is no sensor {sensor}: the scene's are 0 to 1"
+    ):
         mlt.load_string(TWO, sensor=sensor)
     with pytest.raises(mlt.UsageError, match="there is no sensor"):
         rendered(mlt.load_string(TWO), sensor=sensor)

@@ -21,9 +21,7 @@ def load_file(path, /, *, size=None, lenient=None, sensor=None, **defines) -> _c
     meant, counted from 0; None is the first one. Raises FileError for files that cannot be read,
     SceneError (with file and line) for what is wrong in them, UsageError for the arguments.
     """
-    return _core.load_file(
-        os.fspath(path), _texts(defines), _size(size), lenient, _sensor(sensor)
-    )
+    return _core.load_file(os.fspath(path), _texts(defines), _size(size), lenient, _sensor(sensor))
 
 
 def load_string(
