@@ -15,11 +15,13 @@ namespace mlt::python {
 namespace {
 
 using Size = std::optional<std::pair<int, int>>;
+using Sensor = std::optional<int64_t>;
 using Defines = std::map<std::string, Text>;
 
-LoadOptions load_options(const Size& size, const Defines& defines = {},
+LoadOptions load_options(const Size& size, const Sensor& sensor, const Defines& defines = {},
                          std::optional<bool> lenient = {}) {
   LoadOptions options;
+  options.sensor = sensor;
   options.lenient = lenient;
   options.defines.insert(defines.begin(), defines.end());
   if (size) options.size = Vec2i(size->first, size->second);
@@ -34,27 +36,29 @@ LoadedScene warned(LoadedScene loaded) {
 }
 
 LoadedScene from_file(const Text& path, const Defines& defines, const Size& size,
-                      std::optional<bool> lenient) {
-  return warned(load_file(path, plugins(), load_options(size, defines, lenient)));
+                      std::optional<bool> lenient, const Sensor& sensor) {
+  return warned(load_file(path, plugins(), load_options(size, sensor, defines, lenient)));
 }
 
 LoadedScene from_string(const Text& xml, const Text& directory, const Defines& defines,
-                        const Size& size, std::optional<bool> lenient) {
-  return warned(load_string(xml, directory, plugins(), load_options(size, defines, lenient)));
+                        const Size& size, std::optional<bool> lenient, const Sensor& sensor) {
+  return warned(
+      load_string(xml, directory, plugins(), load_options(size, sensor, defines, lenient)));
 }
 
 /// `built_in` and `defines` name a scene of the Python package, so that a checkpoint can.
-LoadedScene from_dict(const py::dict& dict, const Size& size, const std::string& built_in,
-                      const Defines& defines) {
+LoadedScene from_dict(const py::dict& dict, const Size& size, const Sensor& sensor,
+                      const std::string& built_in, const Defines& defines) {
   const Node node = to_node(dict, "scene", "scene", plugins());
   if (node.type != "scene")
     throw SceneError("scene: 'type' is '" + node.type + "', but should be 'scene'");
   py::gil_scoped_release release;
-  LoadedScene loaded = build_scene(node, plugins(), load_options(size));
+  LoadedScene loaded = build_scene(node, plugins(), load_options(size, sensor));
   if (const std::string problem = integrator_problem(loaded, plugins()); !problem.empty())
     throw SceneError(problem);
   if (!built_in.empty())
-    loaded.source = {SceneSource::Kind::built_in, built_in, "", load_options(size, defines)};
+    loaded.source = {SceneSource::Kind::built_in, built_in, "",
+                     load_options(size, sensor, defines)};
   return loaded;
 }
 
@@ -109,15 +113,19 @@ void bind_scene(py::module_& m) {
                         py::gil_scoped_release release;
                         return std::make_shared<LoadedScene>(unpack_scene(packed, plugins()));
                       }))
+      .def(
+          "with_sensor",
+          [](const LoadedScene& s, int64_t sensor) { return with_sensor(s, sensor, plugins()); },
+          py::arg("sensor"), NoGil(), "The same scene, seen by another of its sensors.")
       .def("info", &info, "What the scene holds, as a dict.")
       .def("__repr__", &describe);
 
   m.def("load_file", &from_file, py::arg("path"), py::arg("defines"), py::arg("size"),
-        py::arg("lenient"), NoGil());
+        py::arg("lenient"), py::arg("sensor"), NoGil());
   m.def("load_string", &from_string, py::arg("xml"), py::arg("directory"), py::arg("defines"),
-        py::arg("size"), py::arg("lenient"), NoGil());
-  m.def("load_dict", &from_dict, py::arg("dict"), py::arg("size"), py::arg("built_in") = "",
-        py::arg("defines") = Defines());
+        py::arg("size"), py::arg("lenient"), py::arg("sensor"), NoGil());
+  m.def("load_dict", &from_dict, py::arg("dict"), py::arg("size"), py::arg("sensor"),
+        py::arg("built_in") = "", py::arg("defines") = Defines());
 }
 
 }  // namespace mlt::python

@@ -21,7 +21,8 @@ struct PyCheckpoint {
     if (saved.scene.kind != SceneSource::Kind::built_in) return py::none();
     std::optional<std::pair<int, int>> size;
     if (const auto& asked = saved.scene.options.size) size = {asked->x, asked->y};
-    return py::make_tuple(saved.scene.name, saved.scene.options.defines, size);
+    return py::make_tuple(saved.scene.name, saved.scene.options.defines, size,
+                          saved.scene.options.sensor);
   }
   LoadedPtr load(const Text& moved_to) const {
     return std::make_shared<LoadedScene>(load_scene(saved, path, moved_to, plugins()));
@@ -42,7 +43,7 @@ void bind_checkpoint(py::module_& m) {
       .def_readonly("integrator", &PyCheckpoint::made)
       .def_property_readonly("seed", [](const PyCheckpoint& c) { return c.saved.seed; })
       .def_property_readonly("built_in", &PyCheckpoint::built_in,
-                             "(name, defines, size) of a scene of the package, or None.")
+                             "(name, defines, size, sensor) of a scene of the package, or None.")
       .def("load_scene", &PyCheckpoint::load, py::arg("moved_to"), NoGil())
       .def("check", &PyCheckpoint::check, py::arg("scene"), NoGil(),
            "Raises SceneError unless it is the checkpoint's scene.")

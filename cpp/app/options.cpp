@@ -40,6 +40,8 @@ Options read_options(const FlagValues& given) {
     options.load.defines[name] = value;
   for (const auto& [width, height] : all<std::pair<int, int>>(given, "size"))
     options.load.size = Vec2i(width, height);
+  for (const uint64_t sensor : all<uint64_t>(given, "sensor"))
+    options.load.sensor = static_cast<int64_t>(sensor);
   if (given.count("lenient") && given.count("strict"))
     throw UsageError("--lenient and --strict exclude each other");
   if (given.count("lenient")) options.load.lenient = true;

@@ -21,7 +21,7 @@ class Builder {
   /// The object of a node, made at the first call: what several places refer to is one object.
   ObjectPtr object(const Node& node);
 
-  /// A shape with its BSDF and its light attached.
+  /// A shape with its BSDF and its light attached; nullptr for a group of shapes.
   ShapePtr shape(const Node& node);
 
   struct View {

@@ -18,7 +18,9 @@ bool is_plugin_family(const std::string& tag) {
   return std::find(families.begin(), families.end(), tag) != families.end();
 }
 
-void refuse_element(const std::string& tag, const std::string& type, const Location& where) {
+namespace {
+
+const std::map<std::string, std::string>& refused_elements() {
   static const std::string media = "participating media are not supported";
   static const std::map<std::string, std::string> reasons{
       {"medium", media},
@@ -30,8 +32,16 @@ void refuse_element(const std::string& tag, const std::string& type, const Locat
       {"animation", "animated transforms are not supported"},
       {"camera", "this is the syntax of Mitsuba before 0.4; write <sensor>"},
       {"luminaire", "this is the syntax of Mitsuba before 0.4; write <emitter>"}};
-  const auto reason = reasons.find(tag);
-  if (reason == reasons.end()) return;
+  return reasons;
+}
+
+}  // namespace
+
+bool is_refused_element(const std::string& tag) { return refused_elements().count(tag) > 0; }
+
+void refuse_element(const std::string& tag, const std::string& type, const Location& where) {
+  const auto reason = refused_elements().find(tag);
+  if (reason == refused_elements().end()) return;
   const std::string title = type.empty() ? "<" + tag + ">" : tag + " " + quote(type);
   throw SceneError(at(where, "{} is not supported: {}", title, reason->second));
 }

@@ -12,6 +12,8 @@ namespace mlt {
 const std::vector<std::string>& plugin_families();
 bool is_plugin_family(const std::string& tag);
 
+/// Whether it is such an element as this one refuses.
+bool is_refused_element(const std::string& tag);
 /// Throws SceneError, in one line with the reason, for an element that Mitsuba has and this
 /// renderer refuses (participating media, spectra as plug-ins, ...). `type` may be "".
 void refuse_element(const std::string& tag, const std::string& type, const Location& where);

@@ -4,7 +4,9 @@
 #include "io/builder.h"
 #include "io/families.h"
 #include "io/leniency.h"
+#include "io/missing.h"
 #include "io/node_bytes.h"
+#include "scene/emitter/daylight.h"
 
 #include <algorithm>
 #include <chrono>
@@ -29,19 +31,42 @@ void check_size(const Vec2i& size) {
         size.x, size.y, max_side));
 }
 
-const Node& only_sensor(const Node& scene, std::vector<std::string>& warnings) {
-  const Node* sensor = nullptr;
-  for (const Node& child : scene.children) {
-    if (child.family != "sensor") continue;
-    if (sensor)
-      warnings.push_back(
-          at(child.where, "this scene has several sensors; only the first one is used"));
-    else
-      sensor = &child;
-  }
-  if (!sensor)
+/// The property of a scene's node that says which of its sensors is meant.
+constexpr char sensor_property[] = "sensor";
+
+std::optional<int64_t> asked_sensor(const Node& scene) {
+  for (const Node::Property& property : scene.properties)
+    if (property.name == sensor_property)
+      if (const auto* index = std::get_if<int64_t>(&property.value)) return *index;
+  return std::nullopt;
+}
+
+Node asking_for(Node scene, int64_t sensor) {
+  auto& all = scene.properties;
+  all.erase(std::remove_if(all.begin(), all.end(),
+                           [](const auto& property) { return property.name == sensor_property; }),
+            all.end());
+  all.push_back({sensor_property, sensor, scene.where});
+  return scene;
+}
+
+const Node& chosen_sensor(const Node& scene, std::vector<std::string>& warnings) {
+  std::vector<const Node*> sensors;
+  for (const Node& child : scene.children)
+    if (child.family == "sensor") sensors.push_back(&child);
+  if (sensors.empty())
     throw SceneError(at(scene.where, "the scene has no sensor; add <sensor type=\"perspective\">"));
-  return *sensor;
+  const auto asked = asked_sensor(scene);
+  const auto last = static_cast<int64_t>(sensors.size()) - 1;
+  if (asked && (*asked < 0 || *asked > last))
+    throw UsageError(
+        last == 0 ? fmt::format("there is no sensor {}: the scene has one, number 0", *asked)
+                  : fmt::format("there is no sensor {}: the scene's are 0 to {}", *asked, last));
+  if (!asked && last > 0)
+    warnings.push_back(at(sensors[1]->where,
+                          "this scene has {} sensors; the first one is used, since none was named",
+                          sensors.size()));
+  return *sensors[static_cast<size_t>(asked.value_or(0))];
 }
 
 /// Mitsuba's integrators that only add statistics or channels to the one nested in them.
@@ -80,10 +105,17 @@ void build_contents(const Node& scene, Builder& builder, std::vector<ShapePtr>& 
       throw SceneError(
           at(child.where, "a <ref> at the top of a scene has no effect; put it inside a shape"));
     if (child.family == "shape") {
-      shapes.push_back(builder.shape(child));
-      if (const EmitterPtr& light = shapes.back()->emitter_ptr()) emitters.push_back(light);
+      const ShapePtr shape = builder.shape(child);
+      if (!shape) continue;  // A group, which is there only by way of its instances.
+      shapes.push_back(shape);
+      if (const EmitterPtr& light = shape->emitter_ptr()) emitters.push_back(light);
     } else if (child.family == "emitter") {
-      const auto emitter = std::dynamic_pointer_cast<Emitter>(builder.object(child));
+      const ObjectPtr object = builder.object(child);
+      if (const auto lights = std::dynamic_pointer_cast<Lights>(object)) {
+        emitters.insert(emitters.end(), lights->all.begin(), lights->all.end());
+        continue;
+      }
+      const auto emitter = std::dynamic_pointer_cast<Emitter>(object);
       if (emitter->infinite() || emitter->delta())
         emitters.push_back(emitter);
       else
@@ -103,14 +135,17 @@ void build_contents(const Node& scene, Builder& builder, std::vector<ShapePtr>& 
 
 }  // namespace
 
-LoadedScene build_scene(const Node& scene, const Registry& registry, const LoadOptions& options) {
+LoadedScene build_scene(const Node& tree, const Registry& registry, const LoadOptions& options) {
   const auto start = Clock::now();
+  LoadedScene loaded;
+  loaded.tree = options.sensor ? asking_for(tree, *options.sensor) : tree;
+  const Node& scene = loaded.tree;
   if (scene.family != "scene")
     throw SceneError(at(scene.where, "the root is a {}, but should be a scene", scene.family));
   if (options.size) check_size(*options.size);
 
-  LoadedScene loaded;
-  const Node& sensor = only_sensor(scene, loaded.warnings);
+  refuse_missing(scene, registry);
+  const Node& sensor = chosen_sensor(scene, loaded.warnings);
   loaded.integrator = only_integrator(scene, loaded.warnings);
   Builder builder(scene, registry, loaded.warnings);
   const Builder::View view = builder.view(sensor, options.size);
@@ -119,11 +154,20 @@ LoadedScene build_scene(const Node& scene, const Registry& registry, const LoadO
   build_contents(scene, builder, shapes, emitters);
   loaded.scene = std::make_shared<Scene>(std::move(shapes), std::move(emitters), view.camera,
                                          view.film, view.sample_count);
-  loaded.tree = scene;
   loaded.size = options.size;
   loaded.hash = fingerprint(scene, options.size);
   loaded.seconds = seconds_since(start);
   return loaded;
+}
+
+LoadedScene with_sensor(const LoadedScene& loaded, int64_t sensor, const Registry& registry) {
+  LoadOptions options;
+  options.size = loaded.size;
+  options.sensor = sensor;
+  LoadedScene other = build_scene(loaded.tree, registry, options);
+  other.source = loaded.source;
+  other.source.options.sensor = sensor;
+  return other;
 }
 
 ObjectPtr build_object(const Node& node, const Registry& registry,

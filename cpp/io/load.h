@@ -18,6 +18,7 @@ struct LoadOptions {
   /// Whether unknown parameters and integrators are left out with a warning, rather than refused;
   /// without, they are in files of Mitsuba 0.x.
   std::optional<bool> lenient;
+  std::optional<int64_t> sensor;  ///< Which of several sensors, counted from 0; else the first.
 };
 
 /// How a scene was asked for, so that a checkpoint can ask for it again.
@@ -53,7 +54,10 @@ Node read_xml_string(const std::string& xml, const std::string& directory,
                      const LoadOptions& options, std::vector<std::string>& warnings);
 
 /// Builds the scene that a tree describes.
-LoadedScene build_scene(const Node& scene, const Registry& registry, const LoadOptions& options);
+LoadedScene build_scene(const Node& tree, const Registry& registry, const LoadOptions& options);
+
+/// The same scene, seen by another of its sensors.
+LoadedScene with_sensor(const LoadedScene& loaded, int64_t sensor, const Registry& registry);
 
 /// Of a pipe such as /dev/stdin it takes the text, in which file names begin at the current folder.
 LoadedScene load_file(const std::string& path, const Registry& registry,

@@ -144,12 +144,16 @@ class XmlReader {
     const bool known = is_plugin_family(tag) || is_value_tag(tag) || is_transform_tag(tag) ||
                        std::count(scene_tags().begin(), scene_tags().end(), tag) || tag == "scene";
     if (!known) {
-      refuse_element(tag, xml.attribute("type").value(), where);
-      return skip_foreign({tag, where, {}}, parent);
+      if (!is_refused_element(tag)) return skip_foreign({tag, where, {}}, parent);
+      parent.children.push_back({tag, xml.attribute("type").value(), "", "", where, {}, {}});
+      return;
     }
 
     const Element e = element(xml, source);
-    if (tag == "spectrum" && e.find("type")) refuse_element(tag, e.get("type"), where);
+    if (tag == "spectrum" && e.find("type")) {
+      parent.children.push_back({tag, e.get("type"), "", "", where, {}, {}});
+      return;
+    }
     if (is_plugin_family(tag)) {
       parent.children.push_back(read_plugin(xml, e, source, depth));
       return;

@@ -39,7 +39,8 @@ struct Departure {
 /// The ray from a point on the lens through a raster position.
 inline Ray leave_lens(const Camera& camera, const SurfacePoint& xk, const Vec2& raster,
                       double time) {
-  return {xk.p, camera.direction(xk, raster), time};
+  const Vec3 w = camera.direction(xk, raster);
+  return {camera.entrance(xk, w), w, time};
 }
 
 struct LensDeparture {

@@ -33,6 +33,7 @@ void save(ByteWriter& bytes, const SceneSource& scene) {
   bytes.write(scene.options.defines);
   bytes.write(scene.options.size);
   bytes.write(scene.options.lenient);
+  bytes.write(scene.options.sensor);
 }
 
 SceneSource load_source(ByteReader& bytes) {
@@ -43,6 +44,7 @@ SceneSource load_source(ByteReader& bytes) {
   bytes.read(scene.options.defines);
   bytes.read(scene.options.size);
   bytes.read(scene.options.lenient);
+  bytes.read(scene.options.sensor);
   return scene;
 }
 

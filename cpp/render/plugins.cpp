@@ -37,9 +37,7 @@ const std::vector<Refusal>& refusals() {
   static const char* polarised = "polarised rendering is not supported";
   static const char* curves = "hair and curves are not supported";
   static const std::vector<Refusal> table{
-      {"shape",
-       not_yet,
-       {"instance", "shapegroup", "animatedinstance", "heightfield", "deformable"}},
+      {"shape", not_yet, {"animatedinstance", "heightfield", "deformable"}},
       {"shape", curves, {"hair", "bsplinecurve", "linearcurve"}},
       {"shape",
        "volumetric primitives are not supported",
@@ -55,10 +53,8 @@ const std::vector<Refusal>& refusals() {
        {"measured", "coating", "roughcoating", "irawan", "hapke"}},
       {"bsdf", "subsurface scattering is not supported", {"hk", "sss", "dipole"}},
       {"bsdf", curves, {"hair"}},
-      {"emitter",
-       not_yet,
-       {"projector", "directionalarea", "sunsky", "timed_sunsky", "sun", "sky", "collimated"}},
-      {"sensor", not_yet, {"orthographic", "telecentric", "spherical", "perspective_rdist"}},
+      {"emitter", not_yet, {"directionalarea", "timed_sunsky", "collimated"}},
+      {"sensor", not_yet, {"telecentric", "spherical", "perspective_rdist"}},
       {"sensor",
        "sensors that measure a single value are not supported",
        {"irradiancemeter", "radiancemeter", "fluencemeter", "distant"}},

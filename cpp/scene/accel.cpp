@@ -1,8 +1,10 @@
 // The ray accelerator on Embree 3 or 4. Meshes go to Embree as they are; analytic shapes are
-// user geometry, intersected in double precision with the ray as it was given.
+// user geometry, intersected in double precision with the ray as it was given. Groups of shapes are
+// scenes of their own, of which there are instances.
 #include "scene/accel.h"
 
 #include "scene/analytic_shape.h"
+#include "scene/instance.h"
 #include "scene/mesh.h"
 
 #if MLT_EMBREE_MAJOR >= 4
@@ -11,6 +13,7 @@
 #include <embree3/rtcore.h>
 #endif
 
+#include <map>
 #include <string>
 
 namespace mlt {
@@ -64,26 +67,37 @@ void analytic_bounds(const RTCBoundsFunctionArguments* args) {
                      up(high.x),  up(high.y),  up(high.z),  0};
 }
 
-std::optional<double> analytic_hit(void* shape, const Context* context, float t_max) {
-  const Ray& ray = *reinterpret_cast<const Query*>(context)->ray;
-  return static_cast<const AnalyticShape*>(shape)->intersect(ray.o, ray.d, 0, t_max);
+/// In an instance the ray is the accelerator's, whose direction has any length.
+std::optional<double> analytic_hit(void* user_data, const Context* context, const RTCRay& moved) {
+  const auto& shape = *static_cast<const AnalyticShape*>(user_data);
+  if (context->instID[0] == RTC_INVALID_GEOMETRY_ID) {
+    const Ray& ray = *reinterpret_cast<const Query*>(context)->ray;
+    return shape.intersect(ray.o, ray.d, 0, moved.tfar);
+  }
+  const Vec3 d(moved.dir_x, moved.dir_y, moved.dir_z);
+  const double stretch = length(d);
+  auto t = shape.intersect({moved.org_x, moved.org_y, moved.org_z}, d / stretch, 0,
+                           moved.tfar * stretch);
+  if (t) *t /= stretch;
+  return t;
 }
 
 void analytic_intersect(const RTCIntersectFunctionNArguments* args) {
   if (!args->valid[0]) return;
   RTCRayHit& rayhit = *reinterpret_cast<RTCRayHit*>(args->rayhit);
-  const auto t = analytic_hit(args->geometryUserPtr, args->context, rayhit.ray.tfar);
+  const auto t = analytic_hit(args->geometryUserPtr, args->context, rayhit.ray);
   if (!t) return;
   rayhit.ray.tfar = static_cast<float>(*t);
   rayhit.hit.u = rayhit.hit.v = 0;
   rayhit.hit.geomID = args->geomID;
   rayhit.hit.primID = args->primID;
+  rayhit.hit.instID[0] = args->context->instID[0];
 }
 
 void analytic_occluded(const RTCOccludedFunctionNArguments* args) {
   if (!args->valid[0]) return;
   RTCRay& ray = *reinterpret_cast<RTCRay*>(args->ray);
-  if (analytic_hit(args->geometryUserPtr, args->context, ray.tfar))
+  if (analytic_hit(args->geometryUserPtr, args->context, ray))
     ray.tfar = -std::numeric_limits<float>::infinity();
 }
 
@@ -131,12 +145,47 @@ std::string why_not(RTCDevice device, const char* what) {
 struct Accel::Impl {
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
+  std::map<const ShapeGroup*, RTCScene> groups;
 
   ~Impl() {
     if (scene) rtcReleaseScene(scene);
+    for (const auto& [group, built] : groups) rtcReleaseScene(built);
     if (device) rtcReleaseDevice(device);
   }
+
+  RTCScene build(const std::vector<ShapePtr>& shapes);
+  RTCGeometry geometry(const Shape& shape);
+  RTCGeometry instance_geometry(const Instance& instance);
 };
+
+RTCScene Accel::Impl::build(const std::vector<ShapePtr>& shapes) {
+  RTCScene built = rtcNewScene(device);
+  rtcSetSceneBuildQuality(built, RTC_BUILD_QUALITY_MEDIUM);
+  for (size_t i = 0; i < shapes.size(); ++i) {
+    RTCGeometry made = geometry(*shapes[i]);
+    rtcCommitGeometry(made);
+    rtcAttachGeometryByID(built, made, static_cast<unsigned>(i));
+    rtcReleaseGeometry(made);
+  }
+  rtcCommitScene(built);
+  return built;
+}
+
+RTCGeometry Accel::Impl::geometry(const Shape& shape) {
+  if (const Mesh* mesh = shape.as_mesh()) return mesh_geometry(device, *mesh);
+  if (const Instance* instance = shape.as_instance()) return instance_geometry(*instance);
+  return analytic_geometry(device, *shape.as_analytic());
+}
+
+RTCGeometry Accel::Impl::instance_geometry(const Instance& instance) {
+  RTCScene& group = groups[&instance.group()];
+  if (!group) group = build(instance.group().shapes());
+  RTCGeometry made = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
+  rtcSetGeometryInstancedScene(made, group);
+  const glm::mat4 to_world(instance.to_world());
+  rtcSetGeometryTransform(made, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, &to_world);
+  return made;
+}
 
 Accel::Accel(const std::vector<ShapePtr>& shapes, int build_threads)
     : impl_(std::make_unique<Impl>()) {
@@ -144,17 +193,7 @@ Accel::Accel(const std::vector<ShapePtr>& shapes, int build_threads)
   const std::string config = "max_isa=avx2,threads=" + std::to_string(build_threads);
   impl_->device = rtcNewDevice(config.c_str());
   if (!impl_->device) throw RenderError(why_not(nullptr, "does not start on this machine"));
-  impl_->scene = rtcNewScene(impl_->device);
-  rtcSetSceneBuildQuality(impl_->scene, RTC_BUILD_QUALITY_MEDIUM);
-  for (size_t i = 0; i < shapes.size(); ++i) {
-    const Shape& shape = *shapes[i];
-    RTCGeometry geometry = shape.as_mesh() ? mesh_geometry(impl_->device, *shape.as_mesh())
-                                           : analytic_geometry(impl_->device, *shape.as_analytic());
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometryByID(impl_->scene, geometry, static_cast<unsigned>(i));
-    rtcReleaseGeometry(geometry);
-  }
-  rtcCommitScene(impl_->scene);
+  impl_->scene = impl_->build(shapes);
   const std::string problem = why_not(impl_->device, "could not build the acceleration structure");
   if (!problem.empty()) throw RenderError(problem);
 }
@@ -177,7 +216,10 @@ bool Accel::intersect(const Ray& ray, Hit& hit) const {
   rtcIntersect1(impl_->scene, &query.base, &rayhit);
 #endif
   if (rayhit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
-  hit = {rayhit.ray.tfar, rayhit.hit.geomID, rayhit.hit.primID, rayhit.hit.u, rayhit.hit.v};
+  const unsigned instance = rayhit.hit.instID[0], geometry = rayhit.hit.geomID;
+  hit = {rayhit.ray.tfar,   instance == RTC_INVALID_GEOMETRY_ID ? geometry : instance,
+         rayhit.hit.primID, rayhit.hit.u,
+         rayhit.hit.v,      geometry};
   return true;
 }
 

@@ -56,6 +56,8 @@ class Camera : public Object {
 
   /// The direction that leaves the lens at xk for a raster position.
   virtual Vec3 direction(const SurfacePoint& xk, const Vec2& raster) const = 0;
+  /// Where a ray that leaves xk along w enters the scene: at xk, unless the camera stands far away.
+  virtual Vec3 entrance(const SurfacePoint& xk, const Vec3& /*w*/) const { return xk.p; }
   /// nullopt behind the camera or outside the sampled domain.
   virtual std::optional<Projection> project(const SurfacePoint& xk, const Vec3& w) const = 0;
   /// Its members; the importance and the density are 0 where there is none.
@@ -89,6 +91,8 @@ class Camera : public Object {
 
   /// Called once by the scene builder; `raster` comes from the film.
   virtual void set_raster(const Raster& raster) { raster_ = raster; }
+  /// Tells the camera, once and before rendering, how large the scene is.
+  virtual void set_bounds(const Bounds&) {}
 
  protected:
   Raster raster_;

@@ -74,12 +74,17 @@ class Emitter : public Object {
   virtual void set_shape(const Shape*) {}
   virtual const Shape* shape() const { return nullptr; }
 
+  /// A factor of the probability with which it is chosen.
+  double sampling_weight() const { return sampling_weight_; }
+  void set_sampling_weight(double weight) { sampling_weight_ = weight; }
+
   /// Position in Scene::emitters().
   uint32_t index() const { return index_; }
   void set_index(uint32_t index) { index_ = index; }
 
  private:
   uint32_t index_ = 0;
+  double sampling_weight_ = 1;
 };
 
 using EmitterPtr = std::shared_ptr<Emitter>;

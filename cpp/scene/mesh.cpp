@@ -129,13 +129,27 @@ PositionSample Mesh::sample_position(const Vec2& u) const {
   return sample;
 }
 
-Vec2 Mesh::invert_position(const SurfacePoint& at) const {
+Vec2 Mesh::barycentrics(const SurfacePoint& at) const {
   const MeshData::Triangle tri = data_.triangle(data_.triangles[at.primitive]);
   const Vec3 q = at.p - tri.p0;
   const double scale = 1 / length_squared(tri.normal);
-  const Vec2 b(dot(cross(q, tri.e2), tri.normal) * scale,
-               dot(cross(tri.e1, q), tri.normal) * scale);
-  const Vec2 u = invert_triangle(b);
+  return {dot(cross(q, tri.e2), tri.normal) * scale, dot(cross(tri.e1, q), tri.normal) * scale};
+}
+
+std::optional<Vec3> Mesh::moved_normal(const SurfacePoint& at, const Mat3& inverse) const {
+  if (data_.normals.empty()) return std::nullopt;
+  const auto& corners = data_.triangles[at.primitive];
+  const Vec2 b = barycentrics(at);
+  const double weights[3] = {1 - b.x - b.y, b.x, b.y};
+  Vec3 sum(0);
+  for (int i = 0; i < 3; ++i)
+    sum += normalize(Vec3(data_.normals[corners[i]]) * inverse) * weights[i];
+  if (!(length_squared(sum) > 1e-12)) return std::nullopt;
+  return normalize(sum) * side_;
+}
+
+Vec2 Mesh::invert_position(const SurfacePoint& at) const {
+  const Vec2 u = invert_triangle(barycentrics(at));
   const auto clamp = [](double x) { return std::min(std::max(x, 0.0), 1 - 0x1p-53); };
   return {triangle_areas_.invert(at.primitive, clamp(u.x)), clamp(u.y)};
 }

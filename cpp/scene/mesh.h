@@ -5,6 +5,8 @@
 #include "scene/mesh_data.h"
 #include "scene/shape.h"
 
+#include <optional>
+
 namespace mlt {
 
 /// What every hit on a triangle needs, in one cache line; normals and uvs stay in their buffers.
@@ -37,7 +39,12 @@ class Mesh : public Shape {
   const MeshData& data() const { return data_; }
   size_t bytes() const;
 
+  /// The shading normal in a space to which normals are moved by the transpose of `inverse`, as if
+  /// the vertices' were moved and then interpolated; nullopt if it is the geometric normal.
+  std::optional<Vec3> moved_normal(const SurfacePoint& at, const Mat3& inverse) const;
+
   void surface_point(const Ray& ray, const Hit& hit, SurfacePoint& at) const override;
+  bool has_tangent() const override { return !data_.uvs.empty() && !(bsdf_ && bsdf_->matte()); }
   double area() const override { return area_; }
   PositionSample sample_position(const Vec2& u) const override;
   Vec2 invert_position(const SurfacePoint& at) const override;
@@ -50,6 +57,7 @@ class Mesh : public Shape {
 
  private:
   using Edges = TriangleRecord::Edges;
+  Vec2 barycentrics(const SurfacePoint& at) const;
   void fill(const Edges& edges, uint32_t index, double b1, double b2, SurfacePoint& at) const;
 
   MeshData data_;

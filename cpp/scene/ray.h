@@ -19,6 +19,7 @@ struct Hit {
   uint32_t shape;
   uint32_t primitive;
   float u, v;
+  uint32_t member = 0;  ///< Of an instance: which shape of its group.
 };
 
 }  // namespace mlt

@@ -1,9 +1,11 @@
 #include "scene/scene.h"
 
 #include "scene/emitter/infinite.h"
+#include "scene/instance.h"
 #include "scene/mesh.h"
 
 #include <algorithm>
+#include <set>
 
 namespace mlt {
 namespace {
@@ -12,14 +14,9 @@ namespace {
 /// primitive: 16 units in the last place of the accelerator's floats.
 constexpr double ray_offset = 0x1p-20;
 
-/// The point moved off its surface, to the side that w points to.
-Vec3 offset(const SurfacePoint& at, const Vec3& w) {
-  if (at.shape == SurfacePoint::no_shape) return at.p;
-  return at.p + at.ng * std::copysign(ray_offset * at.extent, dot(at.ng, w));
-}
-
 Bounds enclosing_sphere(const std::vector<ShapePtr>& shapes, const Camera& camera) {
-  const Vec3 lens = camera.sample_position({0.5, 0.5}).at.p;
+  const SurfacePoint middle = camera.sample_position({0.5, 0.5}).at;
+  const Vec3 lens = camera.entrance(middle, middle.ng);
   Vec3 low = lens, high = lens;
   for (const ShapePtr& shape : shapes) {
     Vec3 l, h;
@@ -32,7 +29,7 @@ Bounds enclosing_sphere(const std::vector<ShapePtr>& shapes, const Camera& camer
 }
 
 /// Half of the choices are uniform, half in proportion to power: a light that is weak as a whole
-/// may be the only one in a room.
+/// may be the only one in a room. The sampling weights are factors of that.
 Discrete choose_by_power(const std::vector<EmitterPtr>& emitters) {
   std::vector<double> weights;
   double total = 0;
@@ -40,8 +37,25 @@ Discrete choose_by_power(const std::vector<EmitterPtr>& emitters) {
     weights.push_back(std::max(0.0, target_luminance(emitter->power())));
     total += weights.back();
   }
-  for (double& weight : weights) weight = (total > 0 ? weight / total : 0.0) + 1.0 / weights.size();
+  bool any = false;
+  for (size_t i = 0; i < weights.size(); ++i) {
+    weights[i] = (total > 0 ? weights[i] / total : 0.0) + 1.0 / weights.size();
+    weights[i] *= emitters[i]->sampling_weight();
+    any = any || weights[i] > 0;
+  }
+  if (!any) throw SceneError("the sampling_weight of every emitter is 0; make one positive");
   return Discrete(weights);
+}
+
+/// The shapes of all groups of which there are instances.
+std::vector<ShapePtr> grouped_shapes(const std::vector<ShapePtr>& shapes) {
+  std::vector<ShapePtr> grouped;
+  std::set<const ShapeGroup*> seen;
+  for (const ShapePtr& shape : shapes)
+    if (const Instance* instance = shape->as_instance())
+      if (const ShapeGroup& group = instance->group(); seen.insert(&group).second)
+        grouped.insert(grouped.end(), group.shapes().begin(), group.shapes().end());
+  return grouped;
 }
 
 }  // namespace
@@ -56,8 +70,8 @@ Scene::Scene(std::vector<ShapePtr> shapes, std::vector<EmitterPtr> emitters, Cam
   if (!camera_) throw SceneError("the scene has no sensor; add <sensor type=\"perspective\">");
   if (emitters_.empty())
     throw SceneError("the scene has no emitter; add a light, or everything is black");
-  for (size_t i = 0; i < shapes_.size(); ++i) shapes_[i]->set_index(static_cast<uint32_t>(i));
   bounds_ = enclosing_sphere(shapes_, *camera_);
+  camera_->set_bounds(bounds_);
   for (size_t i = 0; i < emitters_.size(); ++i) {
     emitters_[i]->set_bounds(bounds_);
     emitters_[i]->set_index(static_cast<uint32_t>(i));
@@ -67,6 +81,9 @@ Scene::Scene(std::vector<ShapePtr> shapes, std::vector<EmitterPtr> emitters, Cam
   }
   emitter_choice_ = choose_by_power(emitters_);
   accel_ = std::make_unique<Accel>(shapes_);
+  const std::vector<ShapePtr> grouped = grouped_shapes(shapes_);
+  shapes_.insert(shapes_.end(), grouped.begin(), grouped.end());
+  for (size_t i = 0; i < shapes_.size(); ++i) shapes_[i]->set_index(static_cast<uint32_t>(i));
 }
 
 bool Scene::intersect(const Ray& ray, SurfacePoint& at) const {
@@ -80,15 +97,23 @@ bool Scene::intersect(const Ray& ray, SurfacePoint& at) const {
   return true;
 }
 
+Vec3 Scene::departure(const SurfacePoint& at, const Vec3& w) const {
+  if (at.shape != SurfacePoint::no_shape)
+    return at.p + at.ng * std::copysign(ray_offset * at.extent, dot(at.ng, w));
+  return at.kind == PointKind::surface ? camera_->entrance(at, w) : at.p;
+}
+
 Ray Scene::spawn(const SurfacePoint& from, const Vec3& w, double time) const {
-  return {offset(from, w), w, time};
+  return {departure(from, w), w, time};
 }
 
 bool Scene::visible(const SurfacePoint& a, const SurfacePoint& b, double time) const {
   if (a.infinite()) return visible(b, a, time);
   if (b.infinite()) return !accel_->occluded(spawn(a, b.p, time));
   const Vec3 ab = b.p - a.p;
-  const Vec3 start = offset(a, ab), end = offset(b, -ab);
+  const Vec3 start = departure(a, ab), end = departure(b, -ab);
+  const bool has_end = a.shape == SurfacePoint::no_shape || b.shape == SurfacePoint::no_shape;
+  if (has_end && !(dot(end - start, ab) > 0)) return false;  // It is behind the camera.
   const double distance = length(end - start);
   const Vec3 w = (end - start) * (1 / distance);
   return !accel_->occluded({start, w, time, distance * (1 - ray_offset)});

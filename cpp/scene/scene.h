@@ -28,6 +28,7 @@ class Scene {
   Scene(std::vector<ShapePtr> shapes, std::vector<EmitterPtr> emitters, CameraPtr camera,
         std::shared_ptr<FilmSettings> film, int64_t sample_count);
 
+  /// Those that the scene was made of, then those of which there are instances.
   const std::vector<ShapePtr>& shapes() const { return shapes_; }
   const std::vector<EmitterPtr>& emitters() const { return emitters_; }
   const Camera& camera() const { return *camera_; }
@@ -61,6 +62,9 @@ class Scene {
   size_t bytes() const;  ///< Of the shapes' buffers.
 
  private:
+  /// Where a ray that leaves the point along w, of any length, begins: off its surface.
+  Vec3 departure(const SurfacePoint& at, const Vec3& w) const;
+
   std::vector<ShapePtr> shapes_;
   std::vector<EmitterPtr> emitters_;
   CameraPtr camera_;

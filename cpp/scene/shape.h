@@ -12,6 +12,7 @@
 namespace mlt {
 
 class AnalyticShape;
+class Instance;
 class Mesh;
 
 class Shape : public Object {
@@ -19,6 +20,8 @@ class Shape : public Object {
   /// The full description of a hit: position (refined in double precision along the ray), normals,
   /// frame and uv. `at.shape` is set by the caller.
   virtual void surface_point(const Ray& ray, const Hit& hit, SurfacePoint& at) const = 0;
+  /// Whether the frame's s axis follows dp/du; else it is Frame::around the normal.
+  virtual bool has_tangent() const { return true; }
 
   virtual double area() const = 0;
   /// Uniform over the area; pdf = 1 / area().
@@ -39,9 +42,10 @@ class Shape : public Object {
   /// Axis-aligned bounding box.
   virtual void bounds(Vec3& low, Vec3& high) const = 0;
 
-  // Which of the two kinds that the accelerator supports it is.
+  // Which of the kinds that the accelerator supports it is.
   virtual const Mesh* as_mesh() const { return nullptr; }
   virtual const AnalyticShape* as_analytic() const { return nullptr; }
+  virtual const Instance* as_instance() const { return nullptr; }
 
   const Bsdf& bsdf() const { return *bsdf_; }
   const Emitter* emitter() const { return emitter_.get(); }

@@ -13,6 +13,8 @@ class Texture : public Object {
   /// The mean of the channels, for textures that steer a scalar such as roughness.
   virtual double eval_scalar(const SurfacePoint& at) const;
 
+  /// Of an image, in texels.
+  virtual Vec2i resolution() const { return Vec2i(1); }
   virtual bool is_constant() const { return false; }
   virtual Color mean() const = 0;     ///< Average over the texture, for sampling probabilities.
   virtual Color maximum() const = 0;  ///< Upper bound, for energy conservation.

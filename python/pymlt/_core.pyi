@@ -30,6 +30,9 @@ class Scene:
     def hash(self) -> str:
         """Of the description and of the files that it names, wherever they lie."""
 
+    def with_sensor(self, sensor: int) -> Scene:
+        """The same scene, seen by another of its sensors."""
+
     def info(self) -> dict: ...
     def trace_path(
         self,
@@ -389,7 +392,7 @@ class Checkpoint:
     @property
     def seed(self) -> int: ...
     @property
-    def built_in(self) -> tuple[str, dict[str, str], tuple[int, int] | None] | None: ...
+    def built_in(self) -> tuple[str, dict[str, str], tuple[int, int] | None, int | None] | None: ...
     def load_scene(self, moved_to: str) -> Scene: ...
     def check(self, scene: Scene) -> None: ...
     def resume(self, job: Job) -> None: ...
@@ -463,7 +466,11 @@ def names(family: str) -> list[str]: ...
 def schema(family: str, name: str) -> dict: ...
 def suggestion(word: str, candidates: list[str]) -> str: ...
 def load_file(
-    path: str, defines: dict[str, str], size: tuple[int, int] | None, lenient: bool | None
+    path: str,
+    defines: dict[str, str],
+    size: tuple[int, int] | None,
+    lenient: bool | None,
+    sensor: int | None,
 ) -> Scene: ...
 def load_string(
     xml: str,
@@ -471,10 +478,12 @@ def load_string(
     defines: dict[str, str],
     size: tuple[int, int] | None,
     lenient: bool | None,
+    sensor: int | None,
 ) -> Scene: ...
 def load_dict(
     dict: dict,
     size: tuple[int, int] | None,
+    sensor: int | None,
     built_in: str = "",
     defines: dict[str, str] = {},
 ) -> Scene: ...

@@ -200,7 +200,11 @@ inline std::vector<std::string> scene_names() {
           "mirror",
           "sphere_light",
           "spot",
-          "materials"};
+          "materials",
+          "instances",
+          "orthographic",
+          "projector",
+          "daylight"};
 }
 
 inline TestScene make_scene(const std::string& name, const SceneSettings& settings = {}) {
@@ -321,6 +325,41 @@ inline TestScene make_scene(const std::string& name, const SceneSettings& settin
                               "<bsdf type='thindielectric'/>"),
                 true, false);
   }
+  if (name == "instances") {
+    const auto instance = [](const std::string& steps) {
+      return "<shape type='instance'><ref id='things'/>" + to_world(steps) + "</shape>\n";
+    };
+    const std::string uneven = "<scale x='-0.4' y='0.7' z='0.4'/>";
+    return done(pinhole + room() + lamp + "<shape type='shapegroup' id='things'>" +
+                    sphere(0.35, -0.6, 0.2, 0.4, glass) + block + "</shape>\n" + instance("") +
+                    instance(uneven + rotate("z", 20) + translate(0.1, 0.3, 0.1)),
+                true, false);
+  }
+  if (name == "orthographic")
+    return done(
+        "<sensor type='orthographic'>" +
+            to_world("<scale x='1.2' y='1.1'/><lookat origin='0.3, 0.2, 0.8' target='0, 0, 0' "
+                     "up='0, 1, 0'/>") +
+            image + "</sensor>\n" + room() + lamp + ball + block + before_lens,
+        true, true);
+  if (name == "projector")
+    return done(pinhole + room() + ball + block +
+                    "<emitter type='projector'><float name='fov' value='60'/><float name='scale' "
+                    "value='4'/>" +
+                    "<texture name='irradiance' type='checkerboard'>"
+                    "<rgb name='color0' value='0.6 0.2 0.2'/><rgb name='color1' value='0.2 0.4 "
+                    "1'/></texture>" +
+                    to_world("<lookat origin='0.7, 0.6, 0.9' target='-0.2, -0.6, -0.5' "
+                             "up='0, 1, 0'/>") +
+                    "</emitter>\n",
+                true, true);
+  if (name == "daylight")
+    return done(pinhole +
+                    "<emitter type='sunsky'><vector name='sun_direction' x='1' y='2' z='3'/>"
+                    "<integer name='resolution' value='32'/><float name='turbidity' value='4'/>"
+                    "<float name='sun_radius_scale' value='30'/></emitter>\n" +
+                    table + ball + block,
+                true, true);
   throw UsageError("there is no test scene '" + name + "'");
 }
 

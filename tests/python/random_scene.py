@@ -66,10 +66,13 @@ class Draw:
         names = ("box", "tent", "gaussian", "mitchell", "catmullrom", "lanczos")
         film = tag("film", sides, tag("rfilter", type=self.one_of(*names)), type="hdrfilm")
         common = tag("transform", at, name="to_world") + film + value("float", "fov", 45)
+        parallel = tag("transform", tag("scale", x=1.2, y=1.2), at, name="to_world")
         lens = value("float", "aperture_radius", self.between(0.05, 0.5))
         lens += value("float", "focus_distance", self.between(2.0, 5.0))
         return self.one_of(
-            tag("sensor", common, type="perspective"), tag("sensor", common, lens, type="thinlens")
+            tag("sensor", common, type="perspective"),
+            tag("sensor", common, lens, type="thinlens"),
+            tag("sensor", parallel, film, type="orthographic"),
         )
 
     def room(self) -> str:
@@ -103,6 +106,17 @@ class Draw:
         centre = point("center", self.triple(-0.6, 0.6))
         return tag("shape", centre, value("float", "radius", radius), *nested, type="sphere")
 
+    def copies(self) -> str:
+        """Instances of a group of one or two things."""
+        name = f"group{self.random.randrange(2**30)}"
+        members = [self.thing() for _ in range(self.random.randint(1, 2))]
+        if any("instance" in member for member in members):
+            return "".join(members)
+        places = [self.placed() for _ in range(self.random.randint(1, 3))]
+        return tag("shape", *members, id=name, type="shapegroup") + "".join(
+            tag("shape", tag("ref", id=name), place, type="instance") for place in places
+        )
+
     def thing(self) -> str:
         def shape(name):
             return lambda: tag("shape", self.placed(), self.bsdf(), type=name)
@@ -118,7 +132,7 @@ class Draw:
 
         return self.one_of(
             lambda: self.ball(self.between(0.2, 0.5), self.bsdf()), shape("cube"), shape("disk"),
-            shape("rectangle"), cylinder, mesh("obj"), mesh("ply"), mesh("serialized"),
+            shape("rectangle"), cylinder, mesh("obj"), mesh("ply"), mesh("serialized"), self.copies,
         )  # fmt: skip
 
     # ---- materials -------------------------------------------------------------------------------
@@ -192,10 +206,20 @@ class Draw:
         sky = value("string", "filename", "sky.exr")
         place = point("position", self.triple(-0.8, 0.8)) + value("rgb", "intensity", *colour)
         sun = tag("vector", name="direction", x=-0.3, y=-0.7, z=-1)
+        day = tag("vector", name="sun_direction", x=0.3, y=0.7, z=1)
+        day += value("float", "turbidity", self.between(1, 10))
+        map_size = value("integer", "resolution", 16)
+        above = tag("lookat", origin="0.3, 0.9, 0.8", target="0, -1, -0.2", up="0, 0, 1")
+        down = tag("transform", above, name="to_world")
         return self.one_of(
             lambda: self.ball(self.between(0.05, 0.2), self.matt(), self.glow()),
             tag("emitter", place, type="point"),
             tag("emitter", sun, value("rgb", "irradiance", *colour), type="directional"),
             tag("emitter", value("rgb", "radiance", *colour), type="constant"),
             tag("emitter", sky, type="envmap"),
+            tag("emitter", down, value("rgb", "intensity", *colour), type="spot"),
+            lambda: tag("emitter", down, self.reflectance("irradiance"), type="projector"),
+            tag("emitter", day, map_size, type="sky"),
+            tag("emitter", day, type="sun"),
+            tag("emitter", day, map_size, type="sunsky"),
         )

@@ -4,31 +4,37 @@
 
 namespace mlt {
 
-ProjectiveCamera::ProjectiveCamera(const Vec3& position, const Frame& axes, const View& view,
-                                   const Lens& lens, double shutter_open, double shutter_close)
-    : position_(position), axes_(axes), view_(view), lens_(lens) {
-  shutter_open_ = shutter_open;
-  shutter_close_ = shutter_close;
+ProjectiveCamera::ProjectiveCamera(const Placement& placement, const View& view, const Lens& lens)
+    : position_(placement.position), axes_(placement.axes), view_(view), lens_(lens) {
+  shutter_open_ = placement.shutter_open;
+  shutter_close_ = placement.shutter_close;
+}
+
+Vec2 ProjectiveCamera::View::half_size(double aspect) const {
+  const double t = std::tan(fov / 2);
+  double half_width = t;
+  switch (axis) {
+    case Axis::x: break;
+    case Axis::y: half_width = t * aspect; break;
+    case Axis::smaller: half_width = t * std::max(aspect, 1.0); break;
+    case Axis::larger: half_width = t * std::min(aspect, 1.0); break;
+    case Axis::diagonal: half_width = t / std::sqrt(1 + 1 / sqr(aspect)); break;
+  }
+  return {half_width, half_width / aspect};
 }
 
 void ProjectiveCamera::set_raster(const Raster& raster) {
   raster_ = raster;
   const Vec2 full(raster.full_size);
-  const double aspect = full.x / full.y;
-  const double t = std::tan(view_.fov / 2);
-  double half_width = t;  // of the full image at unit distance
-  switch (view_.axis) {
-    case View::Axis::x: break;
-    case View::Axis::y: half_width = t * aspect; break;
-    case View::Axis::smaller: half_width = t * std::max(aspect, 1.0); break;
-    case View::Axis::larger: half_width = t * std::min(aspect, 1.0); break;
-    case View::Axis::diagonal: half_width = t / std::sqrt(1 + 1 / sqr(aspect)); break;
-  }
+  set_image_plane(view_.half_size(full.x / full.y));
+}
+
+void ProjectiveCamera::set_image_plane(const Vec2& half) {
   // (X, Y) = half * (1 - 2 (s + principal offset)), s = (raster + crop offset) / full size.
-  const Vec2 half(half_width, half_width / aspect);
+  const Vec2 full(raster_.full_size);
   to_raster_scale_ = -full / (2.0 * half);
-  to_raster_offset_ = full * (0.5 - view_.principal_offset) - Vec2(raster.crop_offset);
-  image_area_ = 4 * half.x * half.y * raster.pixels() / (full.x * full.y);
+  to_raster_offset_ = full * (0.5 - view_.principal_offset) - Vec2(raster_.crop_offset);
+  image_area_ = 4 * half.x * half.y * raster_.pixels() / (full.x * full.y);
 }
 
 Vec2 ProjectiveCamera::lens_point(const SurfacePoint& xk) const {

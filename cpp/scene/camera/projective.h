@@ -21,7 +21,14 @@
 
 namespace mlt {
 
-class ProjectiveCamera final : public Camera {
+/// Where a camera is, and when its shutter is open.
+struct Placement {
+  Vec3 position;
+  Frame axes;
+  double shutter_open = 0, shutter_close = 0;
+};
+
+class ProjectiveCamera : public Camera {
  public:
   /// What the scene says about the field of view.
   struct View {
@@ -29,14 +36,16 @@ class ProjectiveCamera final : public Camera {
     double fov = 0;  ///< Full angle in radians, along `axis`.
     Axis axis = Axis::x;
     Vec2 principal_offset{0};  ///< Shift of the optical axis, as a fraction of the image size.
+
+    /// Half the image's width and height at unit distance; `aspect` is width / height.
+    Vec2 half_size(double aspect) const;
   };
   struct Lens {
     double radius = 0;  ///< 0: a pinhole.
     double focus_distance = 1;
   };
 
-  ProjectiveCamera(const Vec3& position, const Frame& axes, const View& view, const Lens& lens,
-                   double shutter_open, double shutter_close);
+  ProjectiveCamera(const Placement& placement, const View& view, const Lens& lens);
 
   void set_raster(const Raster& raster) override;
 
@@ -50,13 +59,19 @@ class ProjectiveCamera final : public Camera {
   double lens_radius() const override { return lens_.radius; }
   std::optional<SurfacePoint> hit_lens(const Ray& ray) const override;
 
+ protected:
+  /// The full image reaches from -half to half on the plane at unit distance, before the principal
+  /// offset.
+  void set_image_plane(const Vec2& half);
+
+  Vec3 position_;
+  Frame axes_;
+
  private:
   SurfacePoint point_at(const Vec3& p) const;
   /// Where on the lens xk lies, in camera space; 0 for a pinhole.
   Vec2 lens_point(const SurfacePoint& xk) const;
 
-  Vec3 position_;
-  Frame axes_;
   View view_;
   Lens lens_;
   // raster = (X, Y) * to_raster_scale_ + to_raster_offset_
@@ -64,7 +79,13 @@ class ProjectiveCamera final : public Camera {
   double image_area_ = 1;  ///< A
 };
 
-/// The parameters that all projective cameras share.
+/// The parameters that say where a camera is.
+std::vector<Parameter> placement_parameters();
+Placement read_placement(Params& params);
+
+/// Those that say what it sees.
+std::vector<Parameter> field_of_view_parameters();
+/// Both.
 std::vector<Parameter> view_parameters();
 ProjectiveCamera::View read_view(Params& params);
 std::shared_ptr<ProjectiveCamera> make_projective(Params& params,

@@ -35,19 +35,26 @@ ProjectiveCamera::View::Axis read_axis(Params& params) {
 
 }  // namespace
 
-std::vector<Parameter> view_parameters() {
+std::vector<Parameter> placement_parameters() {
   return {
       {"to_world", ParamType::transform, no_default,
        "Camera space to world space: the camera looks along +z, +y is up and +x is to the left. "
        "Identity if not given."},
-      {"fov", ParamType::real, no_default,
-       "Field of view in degrees; if not given, focal_length counts."},
-      choice_parameter("fov_axis", "x", "The image axis that fov is measured along.",
-                       {"x", "y", "diagonal", "smaller", "larger"}),
-      {"focal_length", ParamType::text, std::string("50mm"),
-       "Focal length on 35 mm film, of which the image has the same diagonal field of view."},
       {"shutter_open", ParamType::real, 0.0, "Time at which the shutter opens."},
       {"shutter_close", ParamType::real, 0.0, "Time at which the shutter closes."}};
+}
+
+std::vector<Parameter> field_of_view_parameters() {
+  return {{"fov", ParamType::real, no_default,
+           "Field of view in degrees; if not given, focal_length counts."},
+          choice_parameter("fov_axis", "x", "The image axis that fov is measured along.",
+                           {"x", "y", "diagonal", "smaller", "larger"}),
+          {"focal_length", ParamType::text, std::string("50mm"),
+           "Focal length on 35 mm film, of which the image has the same diagonal field of view."}};
+}
+
+std::vector<Parameter> view_parameters() {
+  return concat({placement_parameters(), field_of_view_parameters()});
 }
 
 ProjectiveCamera::View read_view(Params& params) {
@@ -66,15 +73,18 @@ ProjectiveCamera::View read_view(Params& params) {
   return view;
 }
 
+Placement read_placement(Params& params) {
+  const Mat4 to_world = matrix_param(params, "to_world");
+  const double open = params.real("shutter_open"), close = params.real("shutter_close");
+  if (close < open) params.fail("shutter_close", "is before shutter_open");
+  return {transform_point(to_world, Vec3(0)), orientation(params, "to_world", to_world), open,
+          close};
+}
+
 std::shared_ptr<ProjectiveCamera> make_projective(Params& params,
                                                   const ProjectiveCamera::View& view,
                                                   const ProjectiveCamera::Lens& lens) {
-  const Mat4 to_world = matrix_param(params, "to_world");
-  const Frame axes = orientation(params, "to_world", to_world);
-  const double open = params.real("shutter_open"), close = params.real("shutter_close");
-  if (close < open) params.fail("shutter_close", "is before shutter_open");
-  return std::make_shared<ProjectiveCamera>(transform_point(to_world, Vec3(0)), axes, view, lens,
-                                            open, close);
+  return std::make_shared<ProjectiveCamera>(read_placement(params), view, lens);
 }
 
 }  // namespace mlt

@@ -1,8 +1,8 @@
 // A surface that glows with the same radiance in all directions on its front side, that of the
 // geometric normal.
-#include "base/registry.h"
 #include "math/warp.h"
 #include "scene/emitter.h"
+#include "scene/emitter/emitter_plugin.h"
 #include "scene/shape.h"
 #include "scene/texture.h"
 
@@ -61,10 +61,10 @@ class AreaLight final : public Emitter {
 }  // namespace
 
 Plugin emitter_area() {
-  return make_plugin<AreaLight>(
-      "emitter", "area", "Makes the shape that it is nested in glow on its front side.",
+  return make_emitter_plugin<AreaLight>(
+      "area", "Makes the shape that it is nested in glow on its front side.",
       {{"radiance", ParamType::emission, 1.0, "Emitted radiance, which may be textured."}},
-      {"sampling_weight", "caustic_emitter_single", "caustic_emitter_multi"});
+      {"caustic_emitter_single", "caustic_emitter_multi"});
 }
 
 }  // namespace mlt

@@ -1,5 +1,5 @@
 // A sky of the same radiance in all directions.
-#include "base/registry.h"
+#include "scene/emitter/emitter_plugin.h"
 #include "scene/emitter/infinite.h"
 #include "scene/texture.h"
 
@@ -29,10 +29,9 @@ class ConstantSky final : public InfiniteEmitter {
 }  // namespace
 
 Plugin emitter_constant() {
-  return make_plugin<ConstantSky>("emitter", "constant",
-                                  "A sky of the same radiance in all directions.",
-                                  {{"radiance", ParamType::radiance, 1.0, "Radiance of the sky."}},
-                                  {"sampling_weight", "to_world"});
+  return make_emitter_plugin<ConstantSky>(
+      "constant", "A sky of the same radiance in all directions.",
+      {{"radiance", ParamType::radiance, 1.0, "Radiance of the sky."}}, {"to_world"});
 }
 
 }  // namespace mlt

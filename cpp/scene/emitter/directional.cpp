@@ -1,6 +1,6 @@
 // Parallel light from infinitely far away, as from a sun of no size. Its radiance is a delta of
 // direction, whose coefficient is the irradiance on a surface that faces it.
-#include "base/registry.h"
+#include "scene/emitter/emitter_plugin.h"
 #include "scene/emitter/infinite.h"
 #include "scene/texture.h"
 
@@ -43,13 +43,12 @@ class DirectionalLight final : public InfiniteEmitter {
 }  // namespace
 
 Plugin emitter_directional() {
-  return make_plugin<DirectionalLight>(
-      "emitter", "directional", "Parallel light from infinitely far away.",
+  return make_emitter_plugin<DirectionalLight>(
+      "directional", "Parallel light from infinitely far away.",
       {{"irradiance", ParamType::radiance, 1.0, "Power per area perpendicular to the light."},
        {"direction", ParamType::point, no_default, "The direction in which light travels."},
        {"to_world", ParamType::transform, no_default,
-        "Instead of direction: light travels along the image of the z axis."}},
-      {"sampling_weight"});
+        "Instead of direction: light travels along the image of the z axis."}});
 }
 
 }  // namespace mlt

@@ -1,6 +1,6 @@
 // A light of no size that shines equally in all directions.
-#include "base/registry.h"
 #include "math/warp.h"
+#include "scene/emitter/emitter_plugin.h"
 #include "scene/emitter/isolated.h"
 #include "scene/texture.h"
 
@@ -37,13 +37,12 @@ class PointLight final : public IsolatedEmitter {
 }  // namespace
 
 Plugin emitter_point() {
-  return make_plugin<PointLight>(
-      "emitter", "point", "A light of no size that shines equally in all directions.",
+  return make_emitter_plugin<PointLight>(
+      "point", "A light of no size that shines equally in all directions.",
       {{"intensity", ParamType::radiance, 1.0, "Power per solid angle."},
        {"position", ParamType::point, no_default, "Where it is; the origin if not given."},
        {"to_world", ParamType::transform, no_default,
-        "Moves the origin there, instead of position."}},
-      {"sampling_weight"});
+        "Moves the origin there, instead of position."}});
 }
 
 }  // namespace mlt

@@ -1,7 +1,7 @@
 // A light of no size that shines into a cone about its z axis: with full intensity up to the angle
 // `beam_width`, from there on falling linearly with the angle to 0 at `cutoff_angle`.
-#include "base/registry.h"
 #include "math/warp.h"
+#include "scene/emitter/emitter_plugin.h"
 #include "scene/emitter/isolated.h"
 #include "scene/texture.h"
 
@@ -73,16 +73,15 @@ class Spot final : public IsolatedEmitter {
 }  // namespace
 
 Plugin emitter_spot() {
-  return make_plugin<Spot>(
-      "emitter", "spot", "A light of no size that shines into a cone about its z axis.",
+  return make_emitter_plugin<Spot>(
+      "spot", "A light of no size that shines into a cone about its z axis.",
       {{"intensity", ParamType::radiance, 1.0, "Power per solid angle within the beam."},
        {"cutoff_angle", ParamType::real, 20.0,
         "Beyond this angle from the axis it is dark, degrees."},
        {"beam_width", ParamType::real, no_default,
         "Up to this angle it has its full intensity, degrees; by default 3/4 of cutoff_angle."},
        {"texture", ParamType::emission, 1.0, "A factor of the intensity, such as a slide."},
-       {"to_world", ParamType::transform, no_default, "Moves and turns it."}},
-      {"sampling_weight"});
+       {"to_world", ParamType::transform, no_default, "Moves and turns it."}});
 }
 
 }  // namespace mlt

@@ -70,6 +70,7 @@ class Bitmap final : public Texture {
            b * ((1 - a) * lookup(left, high) + a * lookup(right, high));
   }
 
+  Vec2i resolution() const override { return {image_.width, image_.height}; }
   Color mean() const override { return mean_; }
   Color maximum() const override { return maximum_; }
 

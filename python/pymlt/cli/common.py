@@ -97,15 +97,16 @@ def built_in_name(text: str) -> str | None:
 
 
 def load_scene(args) -> _core.Scene:
-    """The file or the built-in scene that the arguments `scene`, `defines` and `size` mean."""
+    """The file or the built-in scene that the arguments `scene`, `defines` and so on mean."""
     defines, size = dict(args.defines), getattr(args, "size", None)
+    sensor = getattr(args, "sensor", None)
     if os.path.exists(args.scene):
         if args.lenient and args.strict:
             raise _core.UsageError("--lenient and --strict exclude each other")
         lenient = args.lenient or (False if args.strict else None)
-        return load_file(args.scene, size=size, lenient=lenient, **defines)
+        return load_file(args.scene, size=size, lenient=lenient, sensor=sensor, **defines)
     if name := built_in_name(args.scene):
-        return load_built_in(name, defines, size)
+        return load_built_in(name, defines, size, sensor)
     if "." in args.scene or os.sep in args.scene:
         raise _core.FileError(f"{args.scene}: there is no such file")
     raise _core.UsageError(

@@ -25,6 +25,7 @@ def start(
     scene: SceneLike,
     integrator: IntegratorLike | None = None,
     *,
+    sensor: int | None = None,
     options: RenderOptions,
 ) -> Job:
     """Start a render and return at once.
@@ -35,13 +36,16 @@ def start(
         an object such as `Path(max_depth=8)`, a dict, or a name. None is the scene's own, else
         `path`. A name keeps what the scene says about what is to be rendered (max_depth,
         hide_emitters, strict_normals); an object or a dict means exactly what it says.
+    sensor
+        which of the scene's sensors sees it, counted from 0; None is the first one, or that with
+        which `scene` was loaded.
     <options>
 
     Raises UsageError for options that make no sense, SceneError for such a scene or integrator, and
     FileError for files that cannot be read or a checkpoint that cannot be written. What goes wrong
     later is raised by `Job.wait` and `Job.result`.
     """
-    scene = as_scene(scene)
+    scene = as_scene(scene, sensor)
     return Job(scene, as_integrator(scene, integrator), options)._start()
 
 
@@ -98,6 +102,7 @@ def render(
     scene: SceneLike,
     integrator: IntegratorLike | None = None,
     *,
+    sensor: int | None = None,
     options: RenderOptions,
     progress: bool | Callable[[float], object] | None = None,
     callback: Callable[[Result], object] | None = None,
@@ -111,7 +116,7 @@ def render(
     KeyboardInterrupt carries what there is so far, a Result, as `error.result`; so does a
     RenderError, for a render that fails. Other errors are those of `start`.
     """
-    scene = as_scene(scene)
+    scene = as_scene(scene, sensor)
     job = Job(scene, as_integrator(scene, integrator), options)._start()
     try:
         job.wait(progress=progress, callback=callback, interval=interval)
@@ -154,11 +159,12 @@ def replay(
     pixel: tuple[int, int],
     sample: int = 0,
     seed: int = 0,
+    sensor: int | None = None,
 ) -> Replay:
     """Repeat one sample of the pixel (x, y) of the render that these arguments mean.
 
     See `Job.replay`.
     """
-    scene = as_scene(scene)
+    scene = as_scene(scene, sensor)
     options = RenderOptions(spp=1, seed=seed, threads=1)
     return Job(scene, as_integrator(scene, integrator), options).replay(pixel, sample)

@@ -28,6 +28,7 @@ def render(
     every: float = ...,
     overwrite: bool = ...,
     cluster: Any = ...,
+    sensor: int | None = ...,
     progress: bool | Callable[[float], object] | None = ...,
     callback: Callable[[Result], object] | None = ...,
     interval: float = ...,
@@ -46,6 +47,7 @@ def replay(
     pixel: tuple[int, int],
     sample: int = ...,
     seed: int = ...,
+    sensor: int | None = ...,
 ) -> Replay: ...
 def resume(
     path: str | os.PathLike,
@@ -78,4 +80,5 @@ def start(
     every: float = ...,
     overwrite: bool = ...,
     cluster: Any = ...,
+    sensor: int | None = ...,
 ) -> Job: ...

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import operator
 import os
 
 from .. import _core, scenes
@@ -10,38 +11,43 @@ from .. import _core, scenes
 SceneLike = _core.Scene | dict | str | os.PathLike
 
 
-def load_file(path, /, *, size=None, lenient=None, **defines) -> _core.Scene:
+def load_file(path, /, *, size=None, lenient=None, sensor=None, **defines) -> _core.Scene:
     """Load a Mitsuba XML scene.
 
     `defines` are values for the scene's <default> parameters (`resx=640`); `size` is the image's
     (width, height) in pixels, in place of the film's own. Unknown parameters and integrators are
     left out with a warning if `lenient`, refused if not; by default (None) the former in files of
-    Mitsuba 0.x, the latter in files of Mitsuba 2 and 3. Raises FileError for files that cannot be
-    read, SceneError (with file and line) for what is wrong in them, UsageError for the arguments.
+    Mitsuba 0.x, the latter in files of Mitsuba 2 and 3. `sensor` says which of several sensors is
+    meant, counted from 0; None is the first one. Raises FileError for files that cannot be read,
+    SceneError (with file and line) for what is wrong in them, UsageError for the arguments.
     """
-    return _core.load_file(os.fspath(path), _texts(defines), _size(size), lenient)
+    return _core.load_file(os.fspath(path), _texts(defines), _size(size), lenient, _sensor(sensor))
 
 
-def load_string(xml: str, /, *, directory=".", size=None, lenient=None, **defines) -> _core.Scene:
+def load_string(
+    xml: str, /, *, directory=".", size=None, lenient=None, sensor=None, **defines
+) -> _core.Scene:
     """Load a scene from a string of Mitsuba XML; file names in it are relative to `directory`.
 
     Otherwise as `load_file`.
     """
-    return _core.load_string(xml, os.fspath(directory), _texts(defines), _size(size), lenient)
+    return _core.load_string(
+        xml, os.fspath(directory), _texts(defines), _size(size), lenient, _sensor(sensor)
+    )
 
 
-def load_dict(scene: dict, /, *, size=None) -> _core.Scene:
+def load_dict(scene: dict, /, *, size=None, sensor=None) -> _core.Scene:
     """Load a scene from a Mitsuba 3 dict.
 
     Transforms may be `Transform`, Mitsuba's own, numpy arrays or nested lists; file names are
-    relative to the current directory. `size` and errors are those of `load_file`.
+    relative to the current directory. `size`, `sensor` and errors are those of `load_file`.
     """
     if not isinstance(scene, dict):
         raise _core.UsageError(f"load_dict needs a dict, not a {type(scene).__name__}")
-    return _core.load_dict(scene, _size(size))
+    return _core.load_dict(scene, _size(size), _sensor(sensor))
 
 
-def load_built_in(name: str, defines: dict[str, str], size=None) -> _core.Scene:
+def load_built_in(name: str, defines: dict[str, str], size=None, sensor=None) -> _core.Scene:
     """Load a scene of this package by its name; `defines` are its parameters, as texts."""
     function = getattr(scenes, name)
     known = inspect.signature(function).parameters
@@ -52,7 +58,7 @@ def load_built_in(name: str, defines: dict[str, str], size=None) -> _core.Scene:
                 + _core.suggestion(define, list(known)),
             )
     scene = function(**{key: _number(value) for key, value in defines.items()})
-    return _core.load_dict(scene, _size(size), name, defines)
+    return _core.load_dict(scene, _size(size), _sensor(sensor), name, defines)
 
 
 def _number(text: str) -> int | float | str:
@@ -76,6 +82,17 @@ def _size(size) -> tuple[int, int] | None:
     raise _core.UsageError(f"size is {size!r}, but should be (width, height)")
 
 
+def _sensor(sensor) -> int | None:
+    if sensor is None:
+        return None
+    try:
+        if not isinstance(sensor, bool):
+            return operator.index(sensor)
+    except TypeError:
+        pass
+    raise _core.UsageError(f"sensor is {sensor!r}, but should be an integer")
+
+
 def _texts(defines: dict) -> dict[str, str]:
     return {name: _text(value) for name, value in defines.items()}
 
@@ -88,12 +105,12 @@ def _text(value) -> str:
     return str(value)
 
 
-def as_scene(scene) -> _core.Scene:
+def as_scene(scene, sensor=None) -> _core.Scene:
     """What `scene` means: itself, a dict, or the path of a file."""
     if isinstance(scene, _core.Scene):
-        return scene
+        return scene if sensor is None else scene.with_sensor(_sensor(sensor))
     if isinstance(scene, dict):
-        return load_dict(scene)
+        return load_dict(scene, sensor=sensor)
     if isinstance(scene, str | os.PathLike):
-        return load_file(scene)
+        return load_file(scene, sensor=sensor)
     raise _core.UsageError(f"{scene!r} is not a scene, a dict, or the path of a file")

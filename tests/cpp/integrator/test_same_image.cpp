@@ -51,14 +51,16 @@ TEST_P(SameImageOf, TwoIntegrators) { expect_same(GetParam(), short_test()); }
 
 INSTANTIATE_TEST_SUITE_P(
     Pairs, SameImageOf,
-    testing::Values(Pair{"cornell", "ptracer"}, Pair{"caustic", "path"},
-                    Pair{"rough_glass", "path"}, Pair{"sky", "path"}, Pair{"sky", "pssmlt"},
-                    Pair{"sky_map", "path"}, Pair{"sun", "path"}, Pair{"point", "ptracer"},
-                    Pair{"thin_lens", "path"}, Pair{"thin_lens_sky", "path"},
-                    Pair{"camera_in_glass", "path"}, Pair{"light_under_water", "path"},
-                    Pair{"smooth_normals", "path"}, Pair{"smooth_normals", "ptracer"},
-                    Pair{"smooth_glass", "path"}, Pair{"spot", "ptracer"},
-                    Pair{"materials", "path"}, Pair{"materials", "pssmlt"}),
+    testing::Values(
+        Pair{"cornell", "ptracer"}, Pair{"caustic", "path"}, Pair{"rough_glass", "path"},
+        Pair{"sky", "path"}, Pair{"sky", "pssmlt"}, Pair{"sky_map", "path"}, Pair{"sun", "path"},
+        Pair{"point", "ptracer"}, Pair{"thin_lens", "path"}, Pair{"thin_lens_sky", "path"},
+        Pair{"camera_in_glass", "path"}, Pair{"light_under_water", "path"},
+        Pair{"smooth_normals", "path"}, Pair{"smooth_normals", "ptracer"},
+        Pair{"smooth_glass", "path"}, Pair{"spot", "ptracer"}, Pair{"materials", "path"},
+        Pair{"materials", "pssmlt"}, Pair{"instances", "path"}, Pair{"instances", "pssmlt"},
+        Pair{"orthographic", "path"}, Pair{"orthographic", "ptracer"},
+        Pair{"orthographic", "pssmlt"}, Pair{"projector", "ptracer"}, Pair{"daylight", "path"}),
     pair_name);
 
 class LongSameImageOf : public testing::TestWithParam<Pair> {};

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "io/load.h"
+#include "io/pack.h"
 #include "render/plugins.h"
 #include "scene/texture.h"
 #include "scene_files.h"
@@ -126,7 +127,7 @@ TEST(SceneFilm, UsesTheFirstOfSeveralSensors) {
   EXPECT_EQ(loaded.scene->camera().raster().full_size, Vec2i(80, 60));
   ASSERT_EQ(loaded.warnings.size(), 1u);
   EXPECT_EQ(loaded.warnings[0],
-            "<string>:8: this scene has several sensors; only the first one is used");
+            "<string>:8: this scene has 2 sensors; the first one is used, since none was named");
 }
 
 TEST(SceneFilm, CanBeGivenOnce) {
@@ -283,15 +284,59 @@ TEST(SceneMistake, InAnUnusedMaterialIsFoundToo) {
 
 TEST(SceneMistake, PluginsOfMitsubaAreRefusedByName) {
   for (const char* element :
-       {"shape type='heightfield'", "shape type='shapegroup'", "bsdf type='principled'",
-        "bsdf type='hapke'", "emitter type='projector'", "texture type='mesh_attribute'"}) {
+       {"shape type='heightfield'", "shape type='animatedinstance'", "bsdf type='irawan'",
+        "bsdf type='hapke'", "emitter type='collimated'", "texture type='mesh_attribute'"}) {
     const std::string message = error_of(sensor + point_light + "<" + element + "/>");
     EXPECT_NE(message.find("is not supported: "), std::string::npos) << message;
     EXPECT_EQ(message.substr(0, 10), "<string>:2") << message;
   }
-  EXPECT_NE(error_of("<sensor type='orthographic'/>" + point_light)
-                .find("sensor 'orthographic' is not supported"),
+  EXPECT_NE(error_of("<sensor type='spherical'/>" + point_light)
+                .find("sensor 'spherical' is not supported"),
             std::string::npos);
+}
+
+TEST(SceneMistake, AllThatIsMissingIsNamedAtOnce) {
+  EXPECT_EQ(error_of(sensor + point_light + R"(
+<shape type='hair'/>
+<shape type='sphere'><bsdf type='hapke'/><float name='raduis' value='1'/></shape>
+<shape type='sphere'><bsdf type='hapke'/></shape>
+<medium type='homogeneous'/>)"),
+            "<string>:3: shape 'hair' is not supported: hair and curves are not supported; "
+            "line 4: unknown parameter 'raduis' for shape 'sphere'; did you mean 'radius'?; "
+            "line 4: bsdf 'hapke' is not supported: layered and measured materials are not "
+            "supported; "
+            "line 6: medium 'homogeneous' is not supported: participating media are not supported");
+}
+
+TEST(Sensors, AreChosenByNumber) {
+  const auto of_size = [](int width, int height) {
+    return fmt::format(
+        "<sensor type='perspective'><film type='hdrfilm'><integer name='width' value='{}'/>"
+        "<integer name='height' value='{}'/></film></sensor>",
+        width, height);
+  };
+  const std::string wide = of_size(64, 16), tall = of_size(16, 64);
+  const std::string three = sensor + wide + tall + point_light;
+  EXPECT_EQ(load(three).warnings,
+            std::vector<std::string>{"<string>:2: this scene has 3 sensors; the first one is used, "
+                                     "since none was named"});
+  LoadOptions options;
+  options.sensor = 2;
+  const LoadedScene third = load(three, options);
+  EXPECT_TRUE(third.warnings.empty());
+  EXPECT_EQ(third.scene->camera().raster().size, Vec2i(16, 64));
+  const LoadedScene second = with_sensor(third, 1, plugins());
+  EXPECT_EQ(second.scene->camera().raster().size, Vec2i(64, 16));
+  EXPECT_EQ(second.source.options.sensor, 1);
+  EXPECT_NE(second.hash, third.hash);
+  EXPECT_EQ(unpack_scene(pack(second), plugins()).hash, second.hash);
+  for (const int64_t wrong : {-1, 3}) {
+    options.sensor = wrong;
+    EXPECT_EQ(error_of(three, options),
+              "there is no sensor " + std::to_string(wrong) + ": the scene's are 0 to 2");
+  }
+  EXPECT_EQ(error_of(sensor + point_light, options),
+            "there is no sensor 3: the scene has one, number 0");
 }
 
 class SceneFileTest : public test::SceneFiles {};

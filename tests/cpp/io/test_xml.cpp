@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "io/load.h"
+#include "io/missing.h"
+#include "render/plugins.h"
 #include "scene_files.h"
 
 namespace mlt {
@@ -94,7 +96,9 @@ TEST(Xml, TakesAMisspeltElementForAMistake) {
 }
 
 TEST(Xml, RefusesByNameWhatMitsubaHas) {
-  const auto refused = [](const std::string& element) { return error_of(in_scene(element)); };
+  const auto refused = [](const std::string& element) {
+    return message_of([&] { refuse_missing(read(in_scene(element)).scene, plugins()); });
+  };
   EXPECT_EQ(
       refused("<medium type='homogeneous'/>"),
       "<string>:2: medium 'homogeneous' is not supported: participating media are not supported");

@@ -8,6 +8,7 @@
 
 namespace mlt {
 
+Plugin sensor_orthographic();
 Plugin sensor_perspective();
 Plugin sensor_thinlens();
 
@@ -73,7 +74,8 @@ std::vector<CameraPtr> all_cameras() {
              {{"fov", 60.0},
               {"aperture_radius", 2.0},
               {"to_world", with_scaled_axes(placed, 1, -1, 1)}},
-             whole(20, 30, 2))};
+             whole(20, 30, 2)),
+      camera(sensor_orthographic(), {{"to_world", with_scaled_axes(placed, 3, -2, 1)}}, odd)};
 }
 
 struct Sight {
@@ -231,7 +233,9 @@ TEST(Camera, SeesNothingOutsideOfTheSampledDomain) {
 
 /// |d omega / d raster| of the map `direction`, by central differences.
 double solid_angle_per_pixel(const Camera& camera, const SurfacePoint& xk, const Vec2& raster) {
-  const double h = 1e-4;
+  // Nearly parallel rays differ little, and linearly.
+  const bool parallel = camera.entrance(xk, xk.ng) != xk.p;
+  const double h = parallel ? 1 : 1e-4;
   const Vec3 dx =
       camera.direction(xk, raster + Vec2(h, 0)) - camera.direction(xk, raster - Vec2(h, 0));
   const Vec3 dy =
@@ -345,6 +349,37 @@ TEST(ThinLens, WithoutExtentIsAPinhole) {
   const Vec3 w = made->direction(lens_center(*made), {3, 4});
   EXPECT_EQ(w, pinhole->direction(lens_center(*pinhole), {3, 4}));
   EXPECT_EQ(made->eval(lens_center(*made), w), pinhole->eval(lens_center(*pinhole), w));
+}
+
+/// Where the rays of a raster position enter the scene, and where they go.
+Ray ray_through(const Camera& camera, const Vec2& raster) {
+  const SurfacePoint xk = lens_center(camera);
+  const Vec3 w = camera.direction(xk, raster);
+  return {camera.entrance(xk, w), w};
+}
+
+TEST(Orthographic, RaysAreParallelAndStartOnItsPlane) {
+  const CameraPtr made =
+      camera(sensor_orthographic(), {{"to_world", with_scaled_axes(placed, 3, 2, 7)}},
+             {{40, 20}, {4, 2}, {30, 10}, 0});
+  made->set_bounds({{1, 2, 3}, 5});
+  const auto axis = [](size_t i) { return Vec3(placed[i], placed[4 + i], placed[8 + i]); };
+  for (const Vec2& raster : {Vec2(0, 0), Vec2(30, 10), Vec2(3.25, 7.5)}) {
+    const Vec2 s = (raster + Vec2(4, 2)) / Vec2(40, 20);
+    const Ray ray = ray_through(*made, raster);
+    // x runs from 1 to -1 over the image, y over half of that: it is twice as wide as high.
+    const Vec3 expected =
+        Vec3(1, 2, 3) + 3 * (1 - 2 * s.x) * axis(0) + 2 * 0.5 * (1 - 2 * s.y) * axis(1);
+    expect_close(ray.o, expected, 1e-6);
+    expect_close(ray.d, axis(2), 1e-6);
+  }
+  const auto seen = made->project(lens_center(*made), axis(2));
+  ASSERT_TRUE(seen);
+  // We G: 1 over the area of what the crop window shows.
+  const Vec3 x = Vec3(1, 2, 3) + 4.0 * axis(2);
+  const double G = 1 / length_squared(x - lens_center(*made).p);
+  const double area = (6 * 30 / 40.0) * (2 * 10 / 20.0);
+  EXPECT_NEAR(seen->importance * G * area, 1, 1e-6);
 }
 
 TEST(Camera, TimeRunsWhileTheShutterIsOpen) {

@@ -16,7 +16,11 @@ Plugin emitter_constant();
 Plugin emitter_directional();
 Plugin emitter_envmap();
 Plugin emitter_point();
+Plugin emitter_projector();
+Plugin emitter_sky();
 Plugin emitter_spot();
+Plugin emitter_sun();
+Plugin emitter_sunsky();
 Plugin shape_rectangle();
 Plugin shape_sphere();
 Plugin texture_checkerboard();
@@ -110,6 +114,21 @@ std::vector<Light> all_lights() {
                                       {"to_world", downwards},
                                       {"cutoff_angle", 120.0},
                                       {"beam_width", 120.0}}),
+       {}},
+      {"projector",
+       make<Emitter>(emitter_projector(), {{"irradiance", board}, {"to_world", downwards}}),
+       {}},
+      {"sun",
+       make<Emitter>(
+           emitter_sun(),
+           {{"sun_direction", Triple{1, 2, 3}}, {"to_world", turned}, {"sun_radius_scale", 20.0}}),
+       {}},
+      {"sun of no size",
+       make<Emitter>(emitter_sun(),
+                     {{"sun_direction", Triple{1, 2, 3}}, {"sun_radius_scale", 0.0}}),
+       {}},
+      {"sky",
+       make<Emitter>(emitter_sky(), {{"resolution", int64_t{12}}, {"to_world", turned}}),
        {}},
       {"directional",
        make<Emitter>(emitter_directional(), {{"irradiance", rgb}, {"to_world", turned}}),
@@ -467,6 +486,159 @@ TEST(Emitters, RefuseNegativeLight) {
   EXPECT_THAT(error_in(emitter_point(), {{"intensity", Triple{0, -1, 0}}}), HasSubstr("negative"));
   EXPECT_THAT(error_in(emitter_constant(), {{"radiance", -1.0}}), HasSubstr("negative"));
   EXPECT_THAT(error_in(emitter_directional(), {{"irradiance", -1.0}}), HasSubstr("negative"));
+}
+
+// ---- projector
+
+TEST(Projector, ShowsItsImageOnAWhitePlaneAcrossItsAxis) {
+  const ObjectPtr board = make<Texture>(texture_checkerboard(), {{"color0", 0.9}, {"color1", 0.3}});
+  const auto light = make<Emitter>(
+      emitter_projector(),
+      {{"irradiance", board}, {"fov", 90.0}, {"scale", 2.0}, {"to_world", downwards}});
+  const SurfacePoint x0 = light->sample_position({0.5, 0.5}).at;
+  // Camera space is x to the left, y up: here (x, -y) about (0.2, 0) at z = 1.
+  const auto shown = [&](double x, double y, double distance) {
+    const Vec3 to = Vec3(0.2, 0, 2) + distance * Vec3(x, -y, -1);
+    const Vec3 w = normalize(to - x0.p);
+    return light->eval(x0, w).x * inv_pi * -w.z / length_squared(to - x0.p);
+  };
+  for (const double distance : {1.0, 3.0}) {
+    const double falloff = 1 / (distance * distance);
+    EXPECT_NEAR(shown(0.75, 0.75, distance), 1.8 * falloff, 1e-12);    // upper left
+    EXPECT_NEAR(shown(-0.75, 0.75, distance), 0.6 * falloff, 1e-12);   // upper right
+    EXPECT_NEAR(shown(-0.25, -0.75, distance), 1.8 * falloff, 1e-12);  // lower right
+    EXPECT_EQ(shown(1.01, 0, distance), 0);
+  }
+}
+
+// ---- daylight
+
+/// Of a light at infinity, in the direction that looks up to it.
+Color radiance(const Emitter& light, const Vec3& up) {
+  SurfacePoint x0;
+  x0.p = normalize(up);
+  x0.kind = PointKind::infinite;
+  return light.eval(x0, -x0.p);
+}
+
+TEST(Sun, StandsWhereMitsubaHasIt) {
+  const auto integer = [](int64_t x) { return Value(x); };
+  // South, west and up, as Mitsuba 3.9.1 gives it for the same place and time.
+  const std::vector<std::pair<Given, Vec3>> cases = {{{}, {0.0513854, 0.691748, 0.720308}},
+                                                     {{{"latitude", 40.0},
+                                                       {"longitude", -105.0},
+                                                       {"timezone", -7.0},
+                                                       {"month", integer(6)},
+                                                       {"day", integer(21)},
+                                                       {"hour", 12.0}},
+                                                      {0.285061, -0.00726833, 0.958482}},
+                                                     {{{"latitude", -33.9},
+                                                       {"longitude", 151.2},
+                                                       {"timezone", 10.0},
+                                                       {"year", integer(2003)},
+                                                       {"month", integer(12)},
+                                                       {"day", integer(3)},
+                                                       {"hour", 8.0},
+                                                       {"minute", 30.0},
+                                                       {"second", 15.0}},
+                                                      {-0.0309198, -0.6955, 0.717861}}};
+  for (auto [given, mitsuba] : cases) {
+    given["sun_radius_scale"] = 0.0;
+    const auto sun = make<Emitter>(emitter_sun(), given);
+    expect_close(sun->sample_position({0.5, 0.5}).at.p, {-mitsuba.y, mitsuba.z, mitsuba.x}, 2e-4);
+  }
+}
+
+/// Radiances of Mitsuba 0.6's sky, whose images have 16 bits.
+TEST(Sky, IsThatOfMitsuba) {
+  const std::array<Vec3, 3> up = {Vec3(1, 3, 2), Vec3(-2, 1, 0.5), Vec3(0.3, 0.4, -0.5)};
+  struct Case {
+    double turbidity, albedo;
+    Triple sun;
+    std::array<Color, 3> seen;
+  };
+  const std::vector<Case> cases = {{3,
+                                    0.2,
+                                    {1, 2, 3},
+                                    {{{0.05789185, 0.07919312, 0.11514282},
+                                      {0.03736115, 0.06646729, 0.11463928},
+                                      {0.02801514, 0.05239868, 0.09576416}}}},
+                                   {6.3,
+                                    0.5,
+                                    {0.3, 0.1, -0.8},
+                                    {{{0.01664734, 0.02461243, 0.0322876},
+                                      {0.03503418, 0.04570007, 0.05038452},
+                                      {0.08779907, 0.07861328, 0.06214905}}}},
+                                   {1.7,
+                                    0.9,
+                                    {-1, 5, 0.5},
+                                    {{{0.0425415, 0.08331299, 0.16455078},
+                                      {0.07818604, 0.14501953, 0.2541504},
+                                      {0.0554657, 0.10693359, 0.19824219}}}}};
+  for (const Case& c : cases) {
+    const auto sky = make<Emitter>(emitter_sky(), {{"turbidity", c.turbidity},
+                                                   {"albedo", c.albedo},
+                                                   {"sun_direction", c.sun},
+                                                   {"resolution", int64_t{2048}}});
+    for (size_t i = 0; i < up.size(); ++i)
+      for (int channel = 0; channel < 3; ++channel)
+        EXPECT_NEAR(radiance(*sky, up[i])[channel] / c.seen[i][channel], 1, 2e-3) << i;
+  }
+}
+
+TEST(Sky, EndsAtTheHorizonUnlessItIsStretchedOrGoesOn) {
+  const Vec3 below(1, -0.5, 0);
+  const auto sky = [](const Given& given) { return make<Emitter>(emitter_sky(), given); };
+  EXPECT_EQ(radiance(*sky({}), below), Color(0));
+  EXPECT_GT(radiance(*sky({{"extend", true}}), below).y, 0);
+  EXPECT_GT(radiance(*sky({{"stretch", 2.0}}), below).y, 0);
+  EXPECT_EQ(radiance(*sky({{"extend", true}}), {0, -1, 0}), Color(0));
+}
+
+/// What Mitsuba 0.6 shows of a white plane in the sun alone.
+TEST(Sun, IsAsBrightAsMitsubas) {
+  struct Case {
+    double turbidity;
+    Triple towards;
+    Color shown;
+  };
+  for (const Case& c : {Case{3, {1, 2, 3}, {0.19848633, 0.15734863, 0.11773682}},
+                        Case{6.3, {0.3, 0.1, -0.8}, {9.33170e-4, 2.63929e-4, 1.15633e-5}}}) {
+    const auto sun = make<Emitter>(
+        emitter_sun(),
+        {{"turbidity", c.turbidity}, {"sun_direction", c.towards}, {"sun_radius_scale", 0.0}});
+    const SurfacePoint x0 = sun->sample_position({0.5, 0.5}).at;
+    const Color shown = sun->eval(x0, {}) * (inv_pi * x0.p.y);
+    for (int channel = 0; channel < 3; ++channel)
+      EXPECT_NEAR(shown[channel], c.shown[channel], 0.003 * c.shown.x) << channel;
+  }
+}
+
+TEST(Sun, HasTheSameIrradianceWhateverItsSize) {
+  const auto irradiance = [](double size) {
+    const auto sun = make<Emitter>(
+        emitter_sun(), {{"sun_direction", Triple{0, 1, 0}}, {"sun_radius_scale", size}});
+    const PositionSample sample = sun->sample_position({0.5, 0.5});
+    return sun->eval(sample.at, {}).y / sample.pdf;
+  };
+  EXPECT_NEAR(irradiance(1) / irradiance(0), 1, 1e-12);
+  EXPECT_NEAR(irradiance(20) / irradiance(0), 1, 1e-12);
+}
+
+TEST(Daylight, RefusesWhatTheModelDoesNotKnow) {
+  EXPECT_THAT(error_in(emitter_sky(), {{"hour", 23.0}}), HasSubstr("below the horizon"));
+  EXPECT_THAT(error_in(emitter_sun(), {{"sun_direction", Triple{0, -1, 0}}}),
+              HasSubstr("below the horizon"));
+  EXPECT_THAT(error_in(emitter_sky(), {{"turbidity", 11.0}}), HasSubstr("between 1"));
+  EXPECT_THAT(error_in(emitter_sky(), {{"sun_direction", Triple{0, 0, 0}}}), HasSubstr("length"));
+}
+
+// ---- choosing among lights
+
+TEST(Emitters, HaveAPositiveWeightForBeingSampled) {
+  EXPECT_EQ(make<Emitter>(emitter_point(), {})->sampling_weight(), 1);
+  EXPECT_EQ(make<Emitter>(emitter_sky(), {{"sampling_weight", 3.0}})->sampling_weight(), 3);
+  EXPECT_THAT(error_in(emitter_constant(), {{"sampling_weight", -1.0}}), HasSubstr("between 0"));
 }
 
 }  // namespace

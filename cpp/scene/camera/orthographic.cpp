@@ -1,0 +1,73 @@
+// A camera whose rays are parallel. The image lies on the plane z = 0 of camera space, which it
+// fills from x = -1 to 1; `to_world` scales it.
+//
+// It is a pinhole so far behind that plane that its rays differ from parallel ones by less than the
+// single precision in which meshes are held: at 2^24 times the size of the scene. So directions are
+// a delta as nearly as positions are known, and every formula of a pinhole holds: with the distance
+// D, A = A_image / D^2 and c = 1 to 2^-48,
+//
+//   We G = D^2 / A_image * cos / D^2 = cos / A_image,
+//
+// which is the importance of a delta of direction: uniform over the image's area (Veach 1997,
+// sec. 8.3). What is behind the plane is not seen, and blocks nothing.
+#include "base/registry.h"
+#include "scene/camera/projective.h"
+#include "scene/texture.h"
+
+namespace mlt {
+namespace {
+
+constexpr double distance_in_sizes = 0x1p24;
+
+class Orthographic final : public ProjectiveCamera {
+ public:
+  Orthographic(const Placement& placement, const Vec2& half)
+      : ProjectiveCamera(placement, {}, {}), middle_(placement.position), half_(half) {}
+
+  void set_raster(const Raster& raster) override {
+    raster_ = raster;
+    stand_back(std::max(half_.x, half_.y));
+  }
+  void set_bounds(const Bounds& bounds) override {
+    stand_back(std::max({bounds.radius + length(middle_ - bounds.center), half_.x, half_.y}));
+  }
+
+  Vec3 entrance(const SurfacePoint& xk, const Vec3& w) const override {
+    return xk.p + w * (distance_ / dot(w, axes_.n));
+  }
+
+ private:
+  void stand_back(double size) {
+    distance_ = distance_in_sizes * size;
+    position_ = middle_ - axes_.n * distance_;
+    const double aspect = static_cast<double>(raster_.full_size.x) / raster_.full_size.y;
+    set_image_plane(Vec2(half_.x, half_.y / aspect) / distance_);
+  }
+
+  Vec3 middle_;          ///< Of the image.
+  Vec2 half_;            ///< Half the width and height of a square image.
+  double distance_ = 1;  ///< From the pinhole to the image.
+};
+
+ObjectPtr create(Params& params) {
+  const Mat4 to_world = matrix_param(params, "to_world");
+  const Placement placement = read_placement(params);
+  const Vec2 half(length(Vec3(to_world[0])), length(Vec3(to_world[1])));
+  constexpr double most = 1e30;
+  if (!(std::min(half.x, half.y) > 1 / most && std::max(half.x, half.y) < most))
+    params.fail("to_world", "scales the image to nothing, or to more than 1e30");
+  return std::make_shared<Orthographic>(placement, half);
+}
+
+}  // namespace
+
+Plugin sensor_orthographic() {
+  return {{"sensor",
+           "orthographic",
+           "A camera whose rays are parallel.",
+           placement_parameters(),
+           {"near_clip", "far_clip", "focus_distance"}},
+          create};
+}
+
+}  // namespace mlt

@@ -1,0 +1,114 @@
+#include "scene/emitter/environment_map.h"
+
+#include "scene/texture/load_texels.h"
+
+namespace mlt {
+namespace {
+
+/// Polar angle against the y axis, exact near the poles too.
+double theta_of(const Vec3& d) { return std::atan2(std::hypot(d.x, d.z), d.y); }
+
+}  // namespace
+
+EnvironmentMap::EnvironmentMap(Image image, const Frame& axes, double scale)
+    : axes_(axes), scale_(scale), image_(std::move(image)) {
+  tabulate();
+}
+
+Color EnvironmentMap::eval(const SurfacePoint& x0, const Vec3&) const {
+  const Vec3 d = axes_.to_local(x0.p);
+  const double x = column_at(d) * image_.width;
+  const double y = theta_of(d) * inv_pi * cell_rows();
+  const int i = std::min(static_cast<int>(x), image_.width - 1);
+  const int j = std::min(static_cast<int>(y), cell_rows() - 1);
+  const double a = x - i, b = y - j;
+  return scale_ * ((1 - b) * ((1 - a) * texel(i, j) + a * texel(i + 1, j)) +
+                   b * ((1 - a) * texel(i, j + 1) + a * texel(i + 1, j + 1)));
+}
+
+PositionSample EnvironmentMap::sample_position(const Vec2& u) const {
+  const SurfacePoint at = point_towards(axes_.to_world(direction_of(table_.sample(u))));
+  return {at, pdf_position(at)};
+}
+
+double EnvironmentMap::pdf_position(const SurfacePoint& x0) const {
+  const Vec2 p = place_of(axes_.to_local(x0.p));
+  const double cells = static_cast<double>(image_.width) * cell_rows();
+  return table_.pdf(p) / (cells * cell_solid_angle(row_at(p.y)));
+}
+
+Vec2 EnvironmentMap::invert_position(const SurfacePoint& x0) const {
+  return table_.invert(place_of(axes_.to_local(x0.p)));
+}
+
+Color EnvironmentMap::texel(int i, int j) const {
+  return mlt::texel(image_, i >= image_.width ? i - image_.width : i, j);
+}
+
+/// How far d is, in turns, from the first column's azimuth; in [0, 1).
+double EnvironmentMap::column_at(const Vec3& d) const {
+  const double x = turns(-d.z, d.x) - 0.5 / image_.width;
+  return x < 0 ? x + 1 : x;
+}
+
+/// The weights of the cells, and the integral of the interpolated radiance over the sphere.
+void EnvironmentMap::tabulate() {
+  const int w = image_.width, h = cell_rows();
+  for (int j = 0; j <= h; ++j) cos_rows_.push_back(std::cos(pi * j / h));
+  std::vector<float> weights;
+  weights.reserve(image_.pixel_count());
+  bool black = true;
+  for (int j = 0; j < h; ++j)
+    for (int i = 0; i < w; ++i) {
+      const Color mean =
+          0.25 * (texel(i, j) + texel(i + 1, j) + texel(i, j + 1) + texel(i + 1, j + 1));
+      weights.push_back(static_cast<float>(luminance(mean) * cell_solid_angle(j)));
+      black = black && !(weights.back() > 0);
+    }
+  if (black)
+    for (size_t k = 0; k < weights.size(); ++k)
+      weights[k] = static_cast<float>(cell_solid_angle(static_cast<int>(k / size_t(w))));
+  table_ = Piecewise2D(weights, size_t(w), size_t(h));
+  integrate();
+}
+
+/// The tent of row j in theta, integrated with sin theta: with d the distance of rows it is
+/// 2 sin theta_j (1 - cos d) / d inside, and 1 - sin(d) / d at a pole.
+void EnvironmentMap::integrate() {
+  const double d = pi / cell_rows();
+  for (int j = 0; j < image_.height; ++j) {
+    Color row(0);
+    for (int i = 0; i < image_.width; ++i) row += texel(i, j);
+    const bool pole = j == 0 || j == cell_rows();
+    const double tent = pole ? 1 - std::sin(d) / d : 2 * std::sin(j * d) * (1 - std::cos(d)) / d;
+    integral_ += row * (tent * 2 * pi / image_.width);
+  }
+}
+
+double EnvironmentMap::cell_solid_angle(int row) const {
+  return 2 * pi / image_.width * (cos_rows_[size_t(row)] - cos_rows_[size_t(row) + 1]);
+}
+
+// The table's unit square: x is column_at; within each row y is linear in cos theta.
+int EnvironmentMap::row_at(double y) const {
+  return std::clamp(static_cast<int>(y * cell_rows()), 0, cell_rows() - 1);
+}
+
+Vec3 EnvironmentMap::direction_of(const Vec2& p) const {
+  const int j = row_at(p.y);
+  const double t = p.y * cell_rows() - j;
+  const double top = cos_rows_[size_t(j)], bottom = cos_rows_[size_t(j) + 1];
+  const double cos_theta = top + t * (bottom - top);
+  const double sin_theta = safe_sqrt((1 - cos_theta) * (1 + cos_theta));
+  const SinCos phi = sincos_turns(p.x + 0.5 / image_.width);
+  return {sin_theta * phi.sin, cos_theta, -sin_theta * phi.cos};
+}
+
+Vec2 EnvironmentMap::place_of(const Vec3& d) const {
+  const int j = row_at(theta_of(d) * inv_pi);
+  const double top = cos_rows_[size_t(j)], bottom = cos_rows_[size_t(j) + 1];
+  const double t = std::clamp((top - d.y) / (top - bottom), 0.0, 1 - 0x1p-40);
+  return {column_at(d), (j + t) / cell_rows()};
+}
+
+}  // namespace mlt

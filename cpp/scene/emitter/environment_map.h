@@ -1,0 +1,56 @@
+// Light from infinitely far away that an image describes, in the latitude-longitude layout of
+// Mitsuba 3 (release 3.9): in the map's own space y is up, and the direction with polar angle theta
+// and azimuth phi,
+//
+//   w = (sin theta sin phi, cos theta, -sin theta cos phi),
+//
+// is at u = phi / 2 pi, v = theta / pi. Column i lies at u = (i + 1/2) / width and row j at
+// v = j / (height - 1), so that the first and the last row are the poles; between them values are
+// interpolated bilinearly.
+//
+// Directions are drawn with a density that is constant in solid angle over each cell between four
+// texels, proportional to their mean luminance times the cell's solid angle. It is positive
+// wherever the interpolated radiance is. (Pharr et al., PBRT 3rd ed., sec. 14.2.4, tabulate
+// sin theta at texel centres instead; drawing cos theta uniformly within a row needs no such
+// approximation and keeps the density finite at the poles.)
+#pragma once
+
+#include "image/image.h"
+#include "math/distribution.h"
+#include "scene/emitter/infinite.h"
+
+#include <vector>
+
+namespace mlt {
+
+class EnvironmentMap : public InfiniteEmitter {
+ public:
+  /// At least 2 x 3 pixels; `axes` are those of the map's own space.
+  EnvironmentMap(Image image, const Frame& axes, double scale);
+
+  Color eval(const SurfacePoint& x0, const Vec3& w) const final;
+  PositionSample sample_position(const Vec2& u) const final;
+  double pdf_position(const SurfacePoint& x0) const final;
+  Vec2 invert_position(const SurfacePoint& x0) const final;
+  Color power() const final { return integral_ * (scale_ * disk_area()); }
+
+ private:
+  int cell_rows() const { return image_.height - 1; }
+  Color texel(int i, int j) const;
+  double column_at(const Vec3& d) const;
+  void tabulate();
+  void integrate();
+  double cell_solid_angle(int row) const;
+  int row_at(double y) const;
+  Vec3 direction_of(const Vec2& p) const;
+  Vec2 place_of(const Vec3& d) const;
+
+  Frame axes_;
+  double scale_;
+  Image image_;
+  std::vector<double> cos_rows_;  ///< cos theta of each row of texels.
+  Piecewise2D table_;
+  Color integral_{0};
+};
+
+}  // namespace mlt
