@@ -119,6 +119,7 @@ LoadedScene build_scene(const Node& scene, const Registry& registry, const LoadO
   build_contents(scene, builder, shapes, emitters);
   loaded.scene = std::make_shared<Scene>(std::move(shapes), std::move(emitters), view.camera,
                                          view.film, view.sample_count);
+  builder.show_shapes(loaded.scene->shapes());
   loaded.tree = scene;
   loaded.size = options.size;
   loaded.hash = fingerprint(scene, options.size);

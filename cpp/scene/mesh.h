@@ -41,8 +41,12 @@ class Mesh : public Shape {
   double area() const override { return area_; }
   PositionSample sample_position(const Vec2& u) const override;
   Vec2 invert_position(const SurfacePoint& at) const override;
+  UvTangents uv_tangents(const SurfacePoint& at) const override;
   void bounds(Vec3& low, Vec3& high) const override;
   const Mesh* as_mesh() const override { return this; }
+
+  /// Of the corners after the first one, at a point of this mesh.
+  Vec2 barycentrics(const SurfacePoint& at) const;
 
   /// Builds the table that sample_position needs; called for meshes that carry an emitter.
   /// Throws SceneError if the mesh has no area.
