@@ -58,7 +58,9 @@ INSTANTIATE_TEST_SUITE_P(
                     Pair{"camera_in_glass", "path"}, Pair{"light_under_water", "path"},
                     Pair{"smooth_normals", "path"}, Pair{"smooth_normals", "ptracer"},
                     Pair{"smooth_glass", "path"}, Pair{"spot", "ptracer"},
-                    Pair{"materials", "path"}, Pair{"materials", "pssmlt"}),
+                    Pair{"materials", "path"}, Pair{"materials", "pssmlt"},
+                    Pair{"bent_normals", "path"}, Pair{"bent_normals", "pssmlt"},
+                    Pair{"more_materials", "path"}, Pair{"more_materials", "pssmlt"}),
     pair_name);
 
 class LongSameImageOf : public testing::TestWithParam<Pair> {};
