@@ -67,6 +67,7 @@ struct Schema {
   std::vector<std::string> ignored = {};  ///< Known and without effect here: one warning, no error.
   bool conserves_energy = true;           ///< BSDFs: is the white-furnace albedo <= 1 promised?
   bool reciprocal = true;                 ///< BSDFs: is f(a, b) = f(b, a) promised?
+  bool unnamed_texture = false;           ///< Is a nested texture meant whatever its name?
 
   const Parameter* find(const std::string& parameter) const;
   std::vector<std::string> parameter_names() const;

@@ -25,7 +25,7 @@ bool is_given_by_name(const Schema& schema, const std::string& name, const std::
   if (name.empty()) return false;
   const std::string current = snake_case(name);
   const auto& ignored = schema.ignored;
-  return schema.find(current) || family == "texture" ||
+  return schema.find(current) || (family == "texture" && !schema.unnamed_texture) ||
          std::find(ignored.begin(), ignored.end(), current) != ignored.end();
 }
 
@@ -90,6 +90,8 @@ ObjectPtr Builder::make(const Node& node) {
   object->type = node.type;
   object->id = node.id;
   object->where = node.where;
+  if (auto reader = std::dynamic_pointer_cast<ShapeReader>(object))
+    shape_readers_.push_back(std::move(reader));
   if (const auto shape = std::dynamic_pointer_cast<Shape>(object))
     attach(*shape, params, params.objects<Bsdf>(), params.objects<Emitter>());
   if (const auto camera = std::dynamic_pointer_cast<Camera>(object)) {

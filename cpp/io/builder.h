@@ -4,6 +4,7 @@
 #include "base/registry.h"
 #include "io/load.h"
 #include "io/node.h"
+#include "scene/shape_reader.h"
 
 #include <map>
 #include <memory>
@@ -33,6 +34,11 @@ class Builder {
   /// window.
   View view(const Node& sensor, const std::optional<Vec2i>& size);
 
+  /// Shows the shapes of the finished scene to what asks for them.
+  void show_shapes(const std::vector<ShapePtr>& shapes) const {
+    for (const auto& reader : shape_readers_) reader->read_shapes(shapes);
+  }
+
   /// Has some shape taken this node as its light?
   bool on_a_shape(const Node& emitter) const { return lights_of_shapes_.count(&emitter) > 0; }
 
@@ -52,6 +58,7 @@ class Builder {
   std::set<const Node*> lights_of_shapes_;
   std::map<const Object*, View> views_;
   BsdfPtr default_bsdf_[2];
+  std::vector<std::shared_ptr<ShapeReader>> shape_readers_;
 };
 
 }  // namespace mlt

@@ -64,7 +64,8 @@ class Pruner {
     remove(node.properties,
            [&](const Node::Property& property) { return unwanted(property.name, property.where); });
     remove(node.children, [&](const Node& child) {
-      return child.family == "texture" && !child.name.empty() && unwanted(child.name, child.where);
+      return child.family == "texture" && !schema.unnamed_texture && !child.name.empty() &&
+             unwanted(child.name, child.where);
     });
   }
 

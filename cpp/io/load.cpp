@@ -154,6 +154,7 @@ LoadedScene build_scene(const Node& tree, const Registry& registry, const LoadOp
   build_contents(scene, builder, shapes, emitters);
   loaded.scene = std::make_shared<Scene>(std::move(shapes), std::move(emitters), view.camera,
                                          view.film, view.sample_count);
+  builder.show_shapes(loaded.scene->shapes());
   loaded.size = options.size;
   loaded.hash = fingerprint(scene, options.size);
   loaded.seconds = seconds_since(start);

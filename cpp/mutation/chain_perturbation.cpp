@@ -88,8 +88,9 @@ std::optional<Vec3> ChainPerturbation::carried_direction(const PathState& x, con
   const Vec3 x_out = from.shading.to_local(x.terms.direction(i, step));
   const Vec3 y_in = at.shading.to_local(in);
   if (!same_side(x_in, y_in) && !x[i].delta()) return std::nullopt;
-  std::optional<Vec3> h = Vec3(0, 0, 1);
-  if (!x[i].delta()) h = half_vector(x_in, x_out, scene_->bsdf(from).relative_eta(from, x_in));
+  const std::optional<Vec3> h =
+      x[i].delta() ? scene_->bsdf(at).delta_normal(at, y_in)
+                   : half_vector(x_in, x_out, scene_->bsdf(from).relative_eta(from, x_in));
   if (!h) return std::nullopt;
   const bool reflected = x[i].delta() ? x[i].lobe == Lobe::reflection : same_side(x_in, x_out);
   const auto y_out = reflected ? reflect_about(y_in, *h)

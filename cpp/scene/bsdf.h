@@ -58,6 +58,13 @@ class Bsdf : public Object {
     return infinity;
   }
 
+  /// The normal about which delta lobes reflect and refract what comes from the direction w.
+  virtual Vec3 delta_normal(const SurfacePoint& /*at*/, const Vec3& /*w*/) const {
+    return {0, 0, 1};
+  }
+  /// Whether delta_normal() may be another than the shading normal.
+  virtual bool bends_normal() const { return false; }
+
   /// Average reflectance, for previews and sampling weights.
   virtual Color albedo(const SurfacePoint& at) const = 0;
 
@@ -74,7 +81,8 @@ class Bsdf : public Object {
 
 using BsdfPtr = std::shared_ptr<const Bsdf>;
 
-/// Scattering between two directions in the world, and their cosines against the shading normal.
+/// Scattering between two directions in the world, and their cosines against the shading normal;
+/// for a delta lobe, against the normal about which it reflects or refracts.
 struct WorldScattering : Scattering {
   double cos_l, cos_c;
 };
@@ -85,7 +93,10 @@ inline WorldScattering scattering(const Bsdf& bsdf, const SurfacePoint& at, cons
     return {at.matte.scattering(cos_l, cos_c, lobe), cos_l, cos_c};
   }
   const Vec3 local_l = at.shading.to_local(wl), local_c = at.shading.to_local(wc);
-  return {bsdf.scattering(at, local_l, local_c, lobe), local_l.z, local_c.z};
+  const Scattering s = bsdf.scattering(at, local_l, local_c, lobe);
+  if (lobe == Lobe::smooth || !bsdf.bends_normal()) return {s, local_l.z, local_c.z};
+  const Vec3 n = bsdf.delta_normal(at, local_l);
+  return {s, dot(local_l, n), dot(local_c, n)};
 }
 
 }  // namespace mlt

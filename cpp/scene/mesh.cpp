@@ -46,8 +46,10 @@ Mesh::Mesh(MeshData data, const Mat4& to_world, bool face_normals, bool flip_nor
 
 size_t Mesh::bytes() const {
   const auto size = [](const auto& buffer) { return buffer.size() * sizeof(buffer[0]); };
-  return size(data_.positions) + size(data_.normals) + size(data_.uvs) + size(data_.triangles) +
-         size(records_) + (triangle_areas_.size() + 1) * sizeof(double);
+  size_t attributes = 0;
+  for (const MeshAttribute& attribute : data_.attributes) attributes += size(attribute.values);
+  return attributes + size(data_.positions) + size(data_.normals) + size(data_.uvs) +
+         size(data_.triangles) + size(records_) + (triangle_areas_.size() + 1) * sizeof(double);
 }
 
 void Mesh::surface_point(const Ray& ray, const Hit& hit, SurfacePoint& at) const {
@@ -152,6 +154,17 @@ Vec2 Mesh::invert_position(const SurfacePoint& at) const {
   const Vec2 u = invert_triangle(barycentrics(at));
   const auto clamp = [](double x) { return std::min(std::max(x, 0.0), 1 - 0x1p-53); };
   return {triangle_areas_.invert(at.primitive, clamp(u.x)), clamp(u.y)};
+}
+
+Shape::UvTangents Mesh::uv_tangents(const SurfacePoint& at) const {
+  const Edges tri = records_[at.primitive].edges();
+  if (data_.uvs.empty()) return {tri.e1, tri.e2};  // uv are the barycentrics.
+  const auto& corners = data_.triangles[at.primitive];
+  const Vec2 uv0(data_.uvs[corners[0]]);
+  const Vec2 d1 = Vec2(data_.uvs[corners[1]]) - uv0, d2 = Vec2(data_.uvs[corners[2]]) - uv0;
+  const double det = d1.x * d2.y - d1.y * d2.x;
+  if (det == 0) return {at.shading.s, at.shading.t};
+  return {(tri.e1 * d2.y - tri.e2 * d1.y) / det, (tri.e2 * d1.x - tri.e1 * d2.x) / det};
 }
 
 void Mesh::bounds(Vec3& low, Vec3& high) const {

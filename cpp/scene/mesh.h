@@ -44,12 +44,16 @@ class Mesh : public Shape {
   std::optional<Vec3> moved_normal(const SurfacePoint& at, const Mat3& inverse) const;
 
   void surface_point(const Ray& ray, const Hit& hit, SurfacePoint& at) const override;
-  bool has_tangent() const override { return !data_.uvs.empty() && !(bsdf_ && bsdf_->matte()); }
+  bool has_tangent() const override { return !data_.uvs.empty() && !(bsdf_ && bsdf_->is_matte()); }
   double area() const override { return area_; }
   PositionSample sample_position(const Vec2& u) const override;
   Vec2 invert_position(const SurfacePoint& at) const override;
+  UvTangents uv_tangents(const SurfacePoint& at) const override;
   void bounds(Vec3& low, Vec3& high) const override;
   const Mesh* as_mesh() const override { return this; }
+
+  /// Of the corners after the first one, at a point of this mesh.
+  Vec2 barycentrics(const SurfacePoint& at) const;
 
   /// Builds the table that sample_position needs; called for meshes that carry an emitter.
   /// Throws SceneError if the mesh has no area.

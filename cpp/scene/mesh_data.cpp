@@ -18,6 +18,18 @@ bool is_usable(const Vec3& normal) {
   return l2 > 0 && std::isfinite(l2);
 }
 
+void check_attributes(const MeshData& data, const Location& where) {
+  for (const MeshAttribute& attribute : data.attributes) {
+    const size_t count = attribute.on_faces ? data.triangles.size() : data.positions.size();
+    if (attribute.values.size() != count * attribute.channels)
+      throw SceneError(at(where, "the attribute '{}' has {} values, but needs {}", attribute.name,
+                          attribute.values.size(), count * attribute.channels));
+    for (const float value : attribute.values)
+      if (!std::isfinite(value))
+        throw SceneError(at(where, "the attribute '{}' is not finite", attribute.name));
+  }
+}
+
 }  // namespace
 
 void check_mesh(const MeshData& data, const Location& where) {
@@ -39,6 +51,7 @@ void check_mesh(const MeshData& data, const Location& where) {
   for (size_t i = 0; i < data.uvs.size(); ++i)
     if (!is_finite(data.uvs[i]))
       throw SceneError(at(where, "the texture coordinates of vertex {} are not finite", i));
+  check_attributes(data, where);
 }
 
 bool is_singular(const Mat4& m) {

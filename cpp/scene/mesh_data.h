@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <vector>
 
 #include "base/error.h"
@@ -9,12 +10,28 @@
 
 namespace mlt {
 
+/// Numbers at the vertices of a mesh or on its triangles, such as colours.
+struct MeshAttribute {
+  std::string name;  ///< Begins with "vertex_" or "face_".
+  bool on_faces = false;
+  uint32_t channels = 0;
+  std::vector<float> values;  ///< `channels` for each vertex or triangle.
+};
+
 /// The buffers of a mesh; normals and uvs are empty or as many as the positions.
 struct MeshData {
   std::vector<Vec3f> positions;
   std::vector<Vec3f> normals;
   std::vector<Vec2f> uvs;
   std::vector<std::array<uint32_t, 3>> triangles;
+  std::vector<MeshAttribute> attributes = {};
+
+  /// nullptr if there is none of this name.
+  const MeshAttribute* find_attribute(const std::string& name) const {
+    for (const MeshAttribute& attribute : attributes)
+      if (attribute.name == name) return &attribute;
+    return nullptr;
+  }
 
   /// A triangle in double precision: a corner, the edges to the two others, and their cross
   /// product, whose length is twice the area.
@@ -38,6 +55,12 @@ void transform_mesh(MeshData& data, const Mat4& to_world, const Location& where)
 /// Gives every vertex the mean of the normals of its triangles, weighted by their angles at it
 /// (Thuermer & Wuethrich 1998, "Computing vertex normals from polygonal facets").
 void add_smooth_normals(MeshData& data);
+
+/// Makes the mesh smooth except where the normals of neighbours differ by more than `angle`
+/// degrees: the triangles at a vertex are divided into groups, of those that differ by less from
+/// the first one, and every group gets a vertex of its own (the rule of Mitsuba 0.6). Vertices at
+/// the same position with the same texture coordinates count as one.
+void add_creased_normals(MeshData& data, double angle);
 
 /// Replaces normals that are zero or not finite by the normal of a triangle they belong to, and
 /// makes the others unit vectors.

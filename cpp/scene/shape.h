@@ -39,6 +39,14 @@ class Shape : public Object {
     return invert_position(at);
   }
 
+  /// How the position changes with the texture coordinates, in the world.
+  struct UvTangents {
+    Vec3 du, dv;
+  };
+  virtual UvTangents uv_tangents(const SurfacePoint& at) const {
+    return {at.shading.s, at.shading.t};
+  }
+
   /// Axis-aligned bounding box.
   virtual void bounds(Vec3& low, Vec3& high) const = 0;
 

@@ -17,8 +17,6 @@ class Constant final : public Texture {
   Color color_;
 };
 
-bool emits(ParamType type) { return type == ParamType::radiance || type == ParamType::emission; }
-
 Color spectrum_color(Params& params, const std::string& name, const Spectrum& spectrum,
                      SpectrumUse use) {
   if (spectrum.size() == 1) return uniform_spectrum_to_rgb(spectrum[0].second, use);
@@ -51,24 +49,48 @@ Color to_color(Params& params, const std::string& name, SpectrumUse use) {
   return Color(params.real(name));
 }
 
-Color color_param(Params& params, const std::string& name) {
-  const bool emission = emits(params.schema().find(name)->type);
+namespace {
+
+bool is_emission(const Params& params, const std::string& name) {
+  const ParamType type = params.schema().find(name)->type;
+  return type == ParamType::radiance || type == ParamType::emission;
+}
+
+Color color_from_0(Params& params, const std::string& name) {
+  const bool emission = is_emission(params, name);
   const Color color =
       to_color(params, name, emission ? SpectrumUse::emission : SpectrumUse::reflectance);
   if (min_component(color) < 0) params.fail(name, "must not be negative");
-  if (!emission && max_component(color) > 1)
+  return color;
+}
+
+/// The nested texture of this name; nullptr if a colour is given instead.
+TexturePtr nested_texture(Params& params, const std::string& name) {
+  const ObjectPtr* object = std::get_if<ObjectPtr>(&params.value(name));
+  if (!object) return nullptr;
+  TexturePtr texture = std::dynamic_pointer_cast<const Texture>(*object);
+  if (!texture) params.fail(name, "is an object, but not a texture");
+  return texture;
+}
+
+}  // namespace
+
+Color color_param(Params& params, const std::string& name) {
+  const Color color = color_from_0(params, name);
+  if (!is_emission(params, name) && max_component(color) > 1)
     params.fail(name,
                 fmt::format("reaches {:f}, but must lie between 0 and 1", max_component(color)));
   return color;
 }
 
 TexturePtr texture_param(Params& params, const std::string& name) {
-  if (const ObjectPtr* object = std::get_if<ObjectPtr>(&params.value(name))) {
-    TexturePtr texture = std::dynamic_pointer_cast<const Texture>(*object);
-    if (!texture) params.fail(name, "is an object, but not a texture");
-    return texture;
-  }
-  return constant_texture(color_param(params, name));
+  const TexturePtr texture = nested_texture(params, name);
+  return texture ? texture : constant_texture(color_param(params, name));
+}
+
+TexturePtr unbounded_texture_param(Params& params, const std::string& name) {
+  const TexturePtr texture = nested_texture(params, name);
+  return texture ? texture : constant_texture(color_from_0(params, name));
 }
 
 Vec3 vector_param(Params& params, const std::string& name) {

@@ -12,6 +12,8 @@ class Texture : public Object {
   virtual Color eval(const SurfacePoint& at) const = 0;
   /// The mean of the channels, for textures that steer a scalar such as roughness.
   virtual double eval_scalar(const SurfacePoint& at) const;
+  /// The derivatives of the luminance by u and v, for bump maps; 0 where there are only steps.
+  virtual Vec2 gradient(const SurfacePoint& /*at*/) const { return Vec2(0); }
 
   /// Of an image, in texels.
   virtual Vec2i resolution() const { return Vec2i(1); }
@@ -27,6 +29,8 @@ TexturePtr constant_texture(const Color& color);
 /// The texture parameter `name`: a nested Texture, or a constant from a number, rgb or spectrum.
 /// `texture` parameters are bounded to [0, 1] (SceneError otherwise), `emission` ones must be >= 0.
 TexturePtr texture_param(Params& params, const std::string& name);
+/// The same, with a constant that may be larger than 1.
+TexturePtr unbounded_texture_param(Params& params, const std::string& name);
 /// The colour parameter `name` (type reflectance or radiance).
 Color color_param(Params& params, const std::string& name);
 /// A number, rgb or spectrum as the colour that `use` makes of it, whatever its range.

@@ -152,6 +152,18 @@ inline void write_sky(const std::string& path) {
   write_image(path, image);
 }
 
+/// Waves: as heights, and as normals that lean a little, since (0.5, 0.5, 1) is upright.
+inline void write_waves(const std::string& path) {
+  Image image(16, 16, 3);
+  for (int y = 0; y < 16; ++y)
+    for (int x = 0; x < 16; ++x) {
+      image.at(x, y, 0) = static_cast<float>(0.5 + 0.25 * std::sin(0.8 * x + 0.3 * y));
+      image.at(x, y, 1) = static_cast<float>(0.5 + 0.25 * std::cos(0.5 * x - 0.9 * y));
+      image.at(x, y, 2) = 0.9f;
+    }
+  write_image(path, image);
+}
+
 inline ScenePtr load_scene(const std::string& content) {
   const LoadedScene loaded = load_string("<scene>\n" + content + "</scene>", "", plugins(), {});
   EXPECT_TRUE(loaded.warnings.empty()) << loaded.warnings.front();
@@ -204,7 +216,9 @@ inline std::vector<std::string> scene_names() {
           "instances",
           "orthographic",
           "projector",
-          "daylight"};
+          "daylight",
+          "bent_normals",
+          "more_materials"};
 }
 
 inline TestScene make_scene(const std::string& name, const SceneSettings& settings = {}) {
@@ -360,6 +374,44 @@ inline TestScene make_scene(const std::string& name, const SceneSettings& settin
                     "<float name='sun_radius_scale' value='30'/></emitter>\n" +
                     table + ball + block,
                 true, true);
+  if (name == "bent_normals") {
+    write_waves(map.path());
+    const std::string waves = "<texture type='bitmap'><string name='filename' value='" +
+                              map.path() + "'/><boolean name='raw' value='true'/></texture>";
+    const auto bump = [&](double scale, const std::string& nested) {
+      return "<bsdf type='bumpmap'><float name='scale' value='" + std::to_string(scale) + "'/>" +
+             waves + nested + "</bsdf>";
+    };
+    const std::string tilted = "<bsdf type='twosided'><bsdf type='normalmap'>" + waves +
+                               "<bsdf type='roughconductor'><float name='alpha' value='0.4'/>"
+                               "</bsdf></bsdf></bsdf>";
+    return done(pinhole + room(bump(0.25, "<bsdf type='plastic'/>")) + ceiling_lamp(0.7) +
+                    sphere(0.4, -0.5, 0.2, 0.4, bump(0.1, glass)) +
+                    sphere(-0.5, -0.3, -0.2, 0.35, bump(0.1, mirror)) +
+                    cube(scale(0.25) + rotate("y", 30) + translate(-0.3, -0.7, 0.5), tilted),
+                true, false);
+  }
+  if (name == "more_materials") {
+    const std::string car =
+        "<bsdf type='coating'><rgb name='sigma_a' value='0.1 0.5 0.9'/>"
+        "<bsdf type='roughconductor'><float name='alpha' value='0.3'/></bsdf></bsdf>";
+    const std::string clear =
+        "<bsdf type='principled'><float name='spec_trans' value='0.7'/>"
+        "<float name='roughness' value='0.5'/><float name='clearcoat' value='0.5'/>"
+        "<rgb name='base_color' value='0.4 0.6 0.8'/></bsdf>";
+    const std::string leaf =
+        "<bsdf type='principledthin'><float name='spec_trans' value='0.4'/>"
+        "<float name='diff_trans' value='0.9'/><float name='roughness' value='0.7'/></bsdf>";
+    const std::string brushed =
+        "<bsdf type='mixturebsdf'><string name='weights' value='0.6, 0.3'/>"
+        "<bsdf type='ward'><float name='alpha_u' value='0.15'/>"
+        "<float name='alpha_v' value='0.4'/></bsdf>" +
+        white + "</bsdf>";
+    return done(pinhole + room(brushed) + ceiling_lamp(0.7) + sphere(0.4, -0.5, 0.2, 0.4, clear) +
+                    sphere(-0.5, -0.6, -0.2, 0.35, car) +
+                    rectangle(scale(0.4) + rotate("y", 30) + translate(-0.2, 0, 0.4), leaf),
+                true, false);
+  }
   throw UsageError("there is no test scene '" + name + "'");
 }
 

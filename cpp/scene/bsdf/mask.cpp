@@ -4,6 +4,7 @@
 #include "base/registry.h"
 #include "scene/bsdf.h"
 #include "scene/bsdf/lobes.h"
+#include "scene/nested.h"
 #include "scene/texture.h"
 
 namespace mlt {
@@ -11,12 +12,8 @@ namespace {
 
 class Mask final : public Bsdf {
  public:
-  explicit Mask(Params& params) : opacity_(texture_param(params, "opacity")) {
-    const auto nested = params.objects<Bsdf>();
-    if (nested.size() != 1)
-      params.fail("needs one nested bsdf, but has " + std::to_string(nested.size()));
-    nested_ = nested.front();
-  }
+  explicit Mask(Params& params)
+      : opacity_(texture_param(params, "opacity")), nested_(only_nested<Bsdf>(params, "bsdf")) {}
 
   Scattering scattering(const SurfacePoint& at, const Vec3& wl, const Vec3& wc,
                         Lobe lobe) const override {
@@ -56,6 +53,10 @@ class Mask final : public Bsdf {
   double relative_eta(const SurfacePoint& at, const Vec3& w) const override {
     return nested_->relative_eta(at, w);
   }
+  Vec3 delta_normal(const SurfacePoint& at, const Vec3& w) const override {
+    return nested_->delta_normal(at, w);
+  }
+  bool bends_normal() const override { return nested_->bends_normal(); }
   double roughness(const SurfacePoint& at, const Vec3& wl, const Vec3& wc) const override {
     return nested_->roughness(at, wl, wc);
   }

@@ -43,6 +43,12 @@ class TwoSided final : public Bsdf {
   bool has_smooth() const override { return front_->has_smooth() || back_->has_smooth(); }
   bool has_delta() const override { return front_->has_delta() || back_->has_delta(); }
 
+  Vec3 delta_normal(const SurfacePoint& at, const Vec3& w) const override {
+    const Vec3 n = nested(w).delta_normal(at, to_front(w));
+    return w.z < 0 ? Vec3(n.x, n.y, -n.z) : n;
+  }
+  bool bends_normal() const override { return front_->bends_normal() || back_->bends_normal(); }
+
   double roughness(const SurfacePoint& at, const Vec3& wl, const Vec3& wc) const override {
     return nested(wl).roughness(at, to_front(wl), to_front(wc));
   }

@@ -24,18 +24,20 @@ Parameter filename_parameter(const char* doc) {
   return {"filename", ParamType::text, no_default, doc};
 }
 
-Parameter face_normals_parameter() {
-  return {"face_normals", ParamType::boolean, false,
-          "Shade every triangle flat, even if there are vertex normals."};
+std::vector<Parameter> normals_parameters() {
+  return {{"face_normals", ParamType::boolean, false,
+           "Shade every triangle flat, even if there are vertex normals."},
+          {"max_smooth_angle", ParamType::real, no_default,
+           "Make normals anew, smooth except where neighbours differ by more than these degrees."}};
 }
 
 Plugin mesh_file_plugin(const char* name, const char* doc, const char* filename_doc,
                         bool flip_tex_coords, MeshReader read) {
   return {shape_schema(name, doc,
-                       {filename_parameter(filename_doc),
-                        face_normals_parameter(),
-                        {"flip_tex_coords", ParamType::boolean, flip_tex_coords,
-                         "Turn the texture upside down: v becomes 1 - v."}}),
+                       concat({{filename_parameter(filename_doc)},
+                               normals_parameters(),
+                               {{"flip_tex_coords", ParamType::boolean, flip_tex_coords,
+                                 "Turn the texture upside down: v becomes 1 - v."}}})),
           [read](Params& params) {
             const std::string path = params.text("filename");
             MeshData data = read(read_file(path), path);
@@ -47,12 +49,18 @@ Plugin mesh_file_plugin(const char* name, const char* doc, const char* filename_
 
 ObjectPtr mesh_from_file(Params& params, MeshData data, bool flat) {
   check_mesh(data, {params.text("filename")});
-  flat = params.boolean("face_normals") || flat;
+  const bool creased = params.has("max_smooth_angle");
+  if (creased && params.boolean("face_normals"))
+    params.fail("max_smooth_angle", "and 'face_normals' exclude each other");
+  flat = (params.boolean("face_normals") || flat) && !creased;
   Mat4 to_world = matrix_param(params, "to_world");
-  if (data.normals.empty() && !flat) {
+  if (creased || (data.normals.empty() && !flat)) {
     // In world space: uneven scaling changes the angles that the normals are weighted with.
     transform_mesh(data, to_world, params.where());
-    add_smooth_normals(data);
+    if (creased)
+      add_creased_normals(data, params.real_in("max_smooth_angle", 0, 180));
+    else
+      add_smooth_normals(data);
     to_world = Mat4(1);
   }
   return std::make_shared<Mesh>(std::move(data), to_world, flat, params.boolean("flip_normals"),

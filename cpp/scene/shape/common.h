@@ -15,7 +15,8 @@ Schema shape_schema(const std::string& name, const std::string& doc,
                     std::vector<Parameter> parameters);
 
 Parameter filename_parameter(const char* doc);
-Parameter face_normals_parameter();
+/// `face_normals` and `max_smooth_angle`, which mesh_from_file reads.
+std::vector<Parameter> normals_parameters();
 
 /// A Mesh from what a file holds. Without vertex normals in the file the surface is smooth, as in
 /// Mitsuba, unless `flat` or the parameter `face_normals` says otherwise.

@@ -56,6 +56,10 @@ SurfacePoint Cylinder::point(const Vec2& outward, double z) const {
                   {turns(outward.x, outward.y), z / length_});
 }
 
+Shape::UvTangents Cylinder::uv_tangents(const SurfacePoint& at) const {
+  return {at.shading.s * (2 * pi * radius_), frame_.n * length_};
+}
+
 PositionSample Cylinder::sample_position(const Vec2& u) const {
   const SinCos phi = sincos_turns(u.y);
   return {point({phi.cos, phi.sin}, u.x * length_), 1 / area()};

@@ -23,6 +23,7 @@ class Cylinder : public AnalyticShape {
   double area() const override { return 2 * pi * radius_ * length_; }
   PositionSample sample_position(const Vec2& u) const override;
   Vec2 invert_position(const SurfacePoint& at) const override;
+  UvTangents uv_tangents(const SurfacePoint& at) const override;
   void bounds(Vec3& low, Vec3& high) const override;
 
  private:

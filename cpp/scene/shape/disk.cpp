@@ -54,6 +54,13 @@ SurfacePoint Disk::point(const Vec3& p, const Vec2& q) const {
                   {r, turns(q.x, q.y)});
 }
 
+Shape::UvTangents Disk::uv_tangents(const SurfacePoint& at) const {
+  const Vec2 q = to_disk(at.p);
+  const double r = std::sqrt(q.x * q.x + q.y * q.y);
+  const Vec2 outward = r > 0 ? q / r : Vec2(1, 0);
+  return {x_ * outward.x + y_ * outward.y, (y_ * q.x - x_ * q.y) * (2 * pi)};
+}
+
 PositionSample Disk::sample_position(const Vec2& u) const {
   const Vec2 q = sample_disk(u);
   return {point(center_ + x_ * q.x + y_ * q.y, q), 1 / area_};

@@ -21,6 +21,7 @@ class Disk : public AnalyticShape {
   double area() const override { return area_; }
   PositionSample sample_position(const Vec2& u) const override;
   Vec2 invert_position(const SurfacePoint& at) const override;
+  UvTangents uv_tangents(const SurfacePoint& at) const override;
   void bounds(Vec3& low, Vec3& high) const override;
 
  private:

@@ -1,7 +1,7 @@
 // The elements of a PLY file that make a mesh: positions, normals and texture coordinates of
-// `vertex`, and the index lists of `face`. Everything else is passed over.
+// `vertex`, the index lists of `face`, and attributes of both. Everything else is passed over.
 #include "scene/shape/common.h"
-#include "scene/shape/ply_header.h"
+#include "scene/shape/ply_attributes.h"
 #include "scene/shape/readers.h"
 #include "scene/shape/text_scanner.h"
 
@@ -133,7 +133,8 @@ class PlyBody {
         faces = true;
         read_faces(element);
       } else if (!element.properties.empty()) {
-        for (uint64_t i = 0; i < element.count; ++i) skip_properties(element, -1);
+        for (uint64_t i = 0; i < element.count; ++i)
+          for (const PlyProperty& property : element.properties) skip_property(element, property);
       }
     }
     if (!vertices) source_.fail("the PLY file has no element 'vertex'");
@@ -156,20 +157,26 @@ class PlyBody {
     mesh_.positions.resize(count);
     if (normals) mesh_.normals.resize(count);
     if (uvs) mesh_.uvs.resize(count);
-    double value[slot_count + 1] = {};
+    PlyAttributes attributes(element, "vertex_");
+    double value[slot_count] = {};
     for (size_t i = 0; i < count; ++i) {
       for (size_t k = 0; k < slots.size(); ++k) {
-        const PlyProperty& property = element.properties[k];
-        if (property.list) {
-          skip_property(element, property);
-        } else {
-          value[slots[k]] = source_.real(property.type, element.name);
-        }
+        if (slots[k] == slot_count)
+          read_other(element, k, attributes);
+        else
+          value[slots[k]] = source_.real(element.properties[k].type, element.name);
       }
+      attributes.end_row(1);
       mesh_.positions[i] = Vec3(value[x], value[y], value[z]);
       if (normals) mesh_.normals[i] = Vec3(value[nx], value[ny], value[nz]);
       if (uvs) mesh_.uvs[i] = Vec2(value[u], value[v]);
     }
+    keep(attributes);
+  }
+
+  void keep(const PlyAttributes& read) {
+    const auto& all = read.attributes();
+    mesh_.attributes.insert(mesh_.attributes.end(), all.begin(), all.end());
   }
 
   static bool has(const std::vector<int>& slots, Slot slot) {
@@ -202,19 +209,27 @@ class PlyBody {
     if (!is_integer(element.properties[static_cast<size_t>(list)].type))
       source_.fail("'vertex_indices' must be integers");
     mesh_.triangles.reserve(static_cast<size_t>(element.count));
-    for (uint64_t i = 0; i < element.count; ++i) skip_properties(element, list);
+    PlyAttributes attributes(element, "face_");
+    for (uint64_t i = 0; i < element.count; ++i) {
+      const size_t before = mesh_.triangles.size();
+      for (size_t k = 0; k < element.properties.size(); ++k) {
+        if (static_cast<int>(k) == list)
+          read_polygon(element, element.properties[k]);
+        else
+          read_other(element, k, attributes);
+      }
+      attributes.end_row(mesh_.triangles.size() - before);
+    }
+    keep(attributes);
   }
 
-  /// Passes over one element; property number `face`, if any, is read as a polygon.
-  void skip_properties(const PlyElement& element, int face) {
-    for (size_t k = 0; k < element.properties.size(); ++k) {
-      const PlyProperty& property = element.properties[k];
-      if (static_cast<int>(k) == face) {
-        read_polygon(element, property);
-      } else {
-        skip_property(element, property);
-      }
-    }
+  /// A property that is an attribute's, or of no use.
+  void read_other(const PlyElement& element, size_t index, PlyAttributes& attributes) {
+    const PlyProperty& property = element.properties[index];
+    if (attributes.takes(index))
+      attributes.put(index, source_.real(property.type, element.name));
+    else
+      skip_property(element, property);
   }
 
   void skip_property(const PlyElement& element, const PlyProperty& property) {

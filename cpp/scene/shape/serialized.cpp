@@ -159,10 +159,10 @@ SerializedMesh read_serialized(std::string_view bytes, int64_t index, const std:
 
 Plugin shape_serialized() {
   return {shape_schema("serialized", "A mesh from a Mitsuba .serialized file.",
-                       {filename_parameter("The .serialized file."),
-                        {"shape_index", ParamType::integer, int64_t{0},
-                         "Which mesh of the file, counted from 0."},
-                        face_normals_parameter()}),
+                       concat({{filename_parameter("The .serialized file."),
+                                {"shape_index", ParamType::integer, int64_t{0},
+                                 "Which mesh of the file, counted from 0."}},
+                               normals_parameters()})),
           [](Params& params) {
             const std::string path = params.text("filename");
             SerializedMesh read =

@@ -81,6 +81,14 @@ SurfacePoint Sphere::point(const Vec3& outward) const {
       {turns(local.x, local.y), std::atan2(std::hypot(local.x, local.y), local.z) * inv_pi});
 }
 
+Shape::UvTangents Sphere::uv_tangents(const SurfacePoint& at) const {
+  const Vec3 local = to_object_ * ((at.p - center_) / radius_);
+  const double r = std::hypot(local.x, local.y);
+  const Vec3 along(-local.y, local.x, 0);
+  const Vec3 down = r > 0 ? Vec3(local.x * local.z / r, local.y * local.z / r, -r) : Vec3(0);
+  return {along * to_object_ * (2 * pi * radius_), down * to_object_ * (pi * radius_)};
+}
+
 double Sphere::area() const { return 4 * pi * sqr(radius_); }
 
 PositionSample Sphere::sample_position(const Vec2& u) const {

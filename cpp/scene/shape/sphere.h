@@ -28,6 +28,7 @@ class Sphere : public AnalyticShape {
   PositionSample sample_direct(const Vec3& from, const Vec2& u) const override;
   double pdf_direct(const Vec3& from, const SurfacePoint& at) const override;
   Vec2 invert_direct(const Vec3& from, const SurfacePoint& at) const override;
+  UvTangents uv_tangents(const SurfacePoint& at) const override;
   void bounds(Vec3& low, Vec3& high) const override;
 
  private:

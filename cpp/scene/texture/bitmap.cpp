@@ -62,12 +62,22 @@ class Bitmap final : public Texture {
     if (!std::isfinite(x) || !std::isfinite(y)) return mean_;
     if (nearest_)
       return lookup(column(static_cast<int>(std::floor(x))), row(static_cast<int>(std::floor(y))));
-    const double fx = std::floor(x - 0.5), fy = std::floor(y - 0.5);
-    const int i = static_cast<int>(fx), j = static_cast<int>(fy);
-    const int left = column(i), right = column(i + 1), low = row(j), high = row(j + 1);
-    const double a = x - 0.5 - fx, b = y - 0.5 - fy;
-    return (1 - b) * ((1 - a) * lookup(left, low) + a * lookup(right, low)) +
-           b * ((1 - a) * lookup(left, high) + a * lookup(right, high));
+    const Cell c = cell(x, y);
+    return (1 - c.b) * ((1 - c.a) * c.corner[0] + c.a * c.corner[1]) +
+           c.b * ((1 - c.a) * c.corner[2] + c.a * c.corner[3]);
+  }
+
+  Vec2 gradient(const SurfacePoint& at) const override {
+    const Vec2 uv = to_uv_(at.uv);
+    const double x = reduce(uv.x, wrap_u_) * image_.width;
+    const double y = reduce(uv.y, wrap_v_) * image_.height;
+    if (nearest_ || !std::isfinite(x) || !std::isfinite(y)) return Vec2(0);
+    const Cell c = cell(x, y);
+    double value[4];
+    for (int i = 0; i < 4; ++i) value[i] = luminance(c.corner[i]);
+    const double along_x = (1 - c.b) * (value[1] - value[0]) + c.b * (value[3] - value[2]);
+    const double along_y = (1 - c.a) * (value[2] - value[0]) + c.a * (value[3] - value[1]);
+    return to_uv_.pull_back({along_x * image_.width, along_y * image_.height});
   }
 
   Vec2i resolution() const override { return {image_.width, image_.height}; }
@@ -75,6 +85,20 @@ class Bitmap final : public Texture {
   Color maximum() const override { return maximum_; }
 
  private:
+  /// The four texels around a position, row by row, and where it lies between them.
+  struct Cell {
+    Color corner[4];
+    double a, b;
+  };
+  Cell cell(double x, double y) const {
+    const double fx = std::floor(x - 0.5), fy = std::floor(y - 0.5);
+    const int i = static_cast<int>(fx), j = static_cast<int>(fy);
+    const int left = column(i), right = column(i + 1), low = row(j), high = row(j + 1);
+    return {{lookup(left, low), lookup(right, low), lookup(left, high), lookup(right, high)},
+            x - 0.5 - fx,
+            y - 0.5 - fy};
+  }
+
   int column(int i) const { return wrapped(i, image_.width, wrap_u_); }
   int row(int j) const { return wrapped(j, image_.height, wrap_v_); }
   /// Of a column and a row, or the border's value.

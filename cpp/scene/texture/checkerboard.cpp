@@ -9,8 +9,8 @@ namespace {
 class Checkerboard final : public Texture {
  public:
   explicit Checkerboard(Params& params)
-      : color0_(texture_param(params, "color0")),
-        color1_(texture_param(params, "color1")),
+      : color0_(unbounded_texture_param(params, "color0")),
+        color1_(unbounded_texture_param(params, "color1")),
         to_uv_(params) {}
 
   Color eval(const SurfacePoint& at) const override {

@@ -15,6 +15,10 @@ class UvTransform {
   Vec2 operator()(const Vec2& uv) const {
     return {u_.x * uv.x + u_.y * uv.y + u_.z, v_.x * uv.x + v_.y * uv.y + v_.z};
   }
+  /// From the derivatives by the mapped coordinates to those by the given ones.
+  Vec2 pull_back(const Vec2& gradient) const {
+    return {u_.x * gradient.x + v_.x * gradient.y, u_.y * gradient.x + v_.y * gradient.y};
+  }
 
  private:
   Vec3 u_{1, 0, 0}, v_{0, 1, 0};  // rows of the map

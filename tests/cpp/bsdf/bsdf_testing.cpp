@@ -86,6 +86,65 @@ void add_rough(Maker& maker, const std::string& distribution) {
             true);
 }
 
+/// Bent normals, by the same amount everywhere, of these materials that the maker has already.
+void add_bent(Maker& maker) {
+  const Given tilted = {{"normalmap", Triple{0.7, 0.4, 0.9}}};
+  for (const char* nested : {"diffuse", "plastic", "dielectric", "twosided"}) {
+    const Case c = *std::find_if(maker.made.begin(), maker.made.end(),
+                                 [&](const Case& other) { return other.label == nested; });
+    const std::string label = nested == "diffuse"s ? "normalmap" : "normalmap of "s + nested;
+    maker.add(label, "normalmap", tilted, 1, infinity, c.two_sided, {c.bsdf});
+    maker.made.back().symmetric = false;
+  }
+  const BsdfPtr gold =
+      make_bsdf("roughconductor", {{"alpha_u", 0.2}, {"alpha_v", 0.5}, {"material", "Au"s}});
+  maker.add("normalmap of roughconductor", "normalmap", tilted, 1, infinity, false, {gold});
+  maker.made.back().symmetric = false;
+}
+
+void add_principled(Maker& maker) {
+  const Value pink = Triple{0.8, 0.3, 0.4};
+  const auto add = [&](const std::string& kind, Given given, bool two_sided) {
+    given.push_back({"base_color", pink});
+    const std::string name = kind.substr(0, kind.find(' '));
+    maker.add(kind, name, given, 1, infinity, two_sided);
+    maker.made.back().symmetric = name == "principled";  // As Mitsuba 3 has the thin one.
+  };
+  add("principled", {}, false);
+  add("principled metal",
+      {{"metallic", 0.7}, {"roughness", 0.3}, {"anisotropic", 0.8}, {"spec_tint", 0.4}}, false);
+  add("principled cloth",
+      {{"sheen", 0.8},
+       {"sheen_tint", 0.6},
+       {"flatness", 0.4},
+       {"roughness", 0.9},
+       {"specular", 0.2}},
+      false);
+  add("principled coated",
+      {{"clearcoat", 0.9}, {"clearcoat_gloss", 0.3}, {"roughness", 0.6}, {"eta", 1.7}}, false);
+  add("principled glass",
+      {{"spec_trans", 0.8}, {"metallic", 0.1}, {"eta", 1.4}, {"spec_tint", 0.5}}, true);
+  add("principled sharp glass",
+      {{"spec_trans", ramp_texture(0, 1)},
+       {"roughness", 0.2},
+       {"clearcoat", 0.5},
+       {"clearcoat_gloss", 1.0},
+       {"eta", 0.7}},
+      true);
+  add("principledthin", {}, true);
+  add("principledthin leaf",
+      {{"spec_trans", 0.4},
+       {"diff_trans", 0.7},
+       {"eta", 1.3},
+       {"anisotropic", 0.5},
+       {"roughness", 0.6},
+       {"spec_tint", 0.3},
+       {"sheen", 0.5},
+       {"sheen_tint", 0.7},
+       {"flatness", 0.6}},
+      true);
+}
+
 const BsdfPtr& find(const Maker& maker, const std::string& label) {
   return std::find_if(maker.made.begin(), maker.made.end(),
                       [&](const Case& c) { return c.label == label; })
@@ -126,6 +185,20 @@ std::vector<Case> make_cases() {
             {find(maker, "phong"), find(maker, "plastic")});
   maker.add("blend of glass and twosided", "blendbsdf", {{"weight", 0.25}}, 1, gray, true,
             {find(maker, "dielectric"), find(maker, "twosided")});
+  maker.add("mixture", "mixturebsdf", {{"weights", "0.3, 0.5 0.1"s}}, 1, gray / 0.9, false,
+            {find(maker, "phong"), find(maker, "plastic"), find(maker, "diffuse")});
+  for (const char* variant : {"ward", "ward-duer", "balanced"})
+    maker.add(
+        "ward "s + variant, "ward",
+        {{"variant", std::string(variant)}, {"alpha_u", 0.2}, {"alpha_v", ramp_texture(0.3, 0.5)}},
+        1, infinity);
+  maker.add("coating", "coating", {{"sigma_a", pink}, {"thickness", 0.4}}, 1, infinity, true,
+            {make_bsdf("roughconductor", {{"alpha", 0.3}})});
+  maker.add("coating of conductor", "coating", {}, 0, gray, true, {find(maker, "conductor")});
+  maker.add("coating of twosided", "coating", {{"int_ior", 1.2}}, 1, infinity, true,
+            {find(maker, "twosided")});
+  add_bent(maker);
+  add_principled(maker);
   add_rough(maker, "beckmann");
   add_rough(maker, "ggx");
   return maker.made;

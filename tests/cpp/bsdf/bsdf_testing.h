@@ -27,9 +27,10 @@ struct Case {
   BsdfPtr bsdf;
   bool conserves_energy;
   bool reciprocal;
-  bool two_sided;       ///< Scatters light from below, too.
-  double lost_samples;  ///< The largest share of samples that may come to nothing.
-  double max_weight;    ///< Bound of f cos / pdf, where the sampling promises one.
+  bool two_sided;         ///< Scatters light from below, too.
+  double lost_samples;    ///< The largest share of samples that may come to nothing.
+  double max_weight;      ///< Bound of f cos / pdf, where the sampling promises one.
+  bool symmetric = true;  ///< Is f(wl, wc) / eta_c^2 the same with wl and wc exchanged?
 };
 
 /// Every model, with several parameters.

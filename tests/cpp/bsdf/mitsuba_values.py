@@ -13,6 +13,8 @@ import numpy as np
 mi.set_variant("scalar_rgb")
 
 PINK = {"type": "rgb", "value": [0.8, 0.3, 0.4]}
+PINK_DIFFUSE = {"type": "diffuse", "reflectance": PINK}
+TILTED = {"type": "rgb", "value": [0.7, 0.4, 0.9]}
 
 
 def cases():
@@ -58,6 +60,51 @@ def cases():
                 "diffuse_reflectance": 0.9,
             },
         )
+    yield "normalmap", {"type": "normalmap", "normalmap": TILTED, "nested": PINK_DIFFUSE}
+    yield (
+        "normalmap of roughconductor",
+        {
+            "type": "normalmap",
+            "normalmap": TILTED,
+            "nested": {"type": "roughconductor", "alpha_u": 0.2, "alpha_v": 0.5, "material": "Au"},
+        },
+    )
+    principled = {"type": "principled", "base_color": PINK}
+    yield "principled", dict(principled)
+    yield (
+        "principled metal",
+        principled | {"metallic": 0.7, "roughness": 0.3, "anisotropic": 0.8, "spec_tint": 0.4},
+    )
+    yield (
+        "principled cloth",
+        principled
+        | {"sheen": 0.8, "sheen_tint": 0.6, "flatness": 0.4, "roughness": 0.9, "specular": 0.2},
+    )
+    yield (
+        "principled coated",
+        principled | {"clearcoat": 0.9, "clearcoat_gloss": 0.3, "roughness": 0.6, "eta": 1.7},
+    )
+    yield (
+        "principled glass",
+        principled | {"spec_trans": 0.8, "metallic": 0.1, "eta": 1.4, "spec_tint": 0.5},
+    )
+    thin = {"type": "principledthin", "base_color": PINK}
+    yield "principledthin", dict(thin)
+    yield (
+        "principledthin leaf",
+        thin
+        | {
+            "spec_trans": 0.4,
+            "diff_trans": 0.7,
+            "eta": 1.3,
+            "anisotropic": 0.5,
+            "roughness": 0.6,
+            "spec_tint": 0.3,
+            "sheen": 0.5,
+            "sheen_tint": 0.7,
+            "flatness": 0.6,
+        },
+    )
 
 
 def unit(v):
@@ -78,7 +125,9 @@ def rows(label, scene_dict, rng):
     bsdf = mi.load_dict(scene_dict)
     context = mi.BSDFContext()
     interaction = mi.SurfaceInteraction3f()
-    two_sided = "dielectric" in label
+    interaction.n = [0, 0, 1]
+    interaction.sh_frame = mi.Frame3f([1, 0, 0], [0, 1, 0], [0, 0, 1])
+    two_sided = any(name in label for name in ("dielectric", "glass", "thin"))
     for wc in ([0.3, -0.2, 0.9], [-0.8, 0.3, 0.35], [0.2, 0.4, -0.8]):
         wc = unit(wc)
         if wc[2] < 0 and not two_sided:

@@ -3,7 +3,7 @@
 // for the internal reflectance; its Beckmann densities use the rational fit of G1 (Walter et al.
 // 2007, sec. 5.2), ours the exact one. Lobe probabilities of the plastics are our own, and where
 // all normals are sampled Mitsuba widens the distribution of a roughdielectric (Walter et al., sec.
-// 5.3).
+// 5.3). Samples of a bent normal are shared with the normal turned around.
 #include "bsdf/bsdf_testing.h"
 
 #include <gtest/gtest.h>
@@ -44,7 +44,9 @@ TEST(BsdfMitsuba, ValuesAgree) {
 TEST(BsdfMitsuba, DensitiesAgreeWhereSamplingIsAlike) {
   for (const Row& row : rows) {
     const Case& c = find_case(row.label);
-    if (contains(row.label, "plastic") || contains(row.label, "all normals")) continue;
+    if (contains(row.label, "plastic") || contains(row.label, "all normals") ||
+        contains(row.label, "normalmap"))
+      continue;
     const double pdf = c.bsdf->pdf(point(), normalize(row.wc), normalize(row.wl), Lobe::smooth);
     const double bound = contains(row.label, "beckmann") ? masking_fit : single_precision;
     EXPECT_NEAR(pdf, row.pdf, bound * row.pdf) << row.label;

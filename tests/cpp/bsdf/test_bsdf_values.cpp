@@ -41,6 +41,7 @@ TEST(BsdfValues, DensitiesAreTheSameFromBothSides) {
 /// f(wl, wc) / eta_c^2 is symmetric (Veach 1997, sec. 5.2), which is plain reciprocity on one side.
 TEST(BsdfValues, SmoothLobesAreReciprocal) {
   for (const Case& c : cases()) {
+    if (!c.symmetric) continue;
     Rng rng(2, Purpose::test, 0);
     int compared = 0;
     for (int i = 0; i < 4000; ++i) {
@@ -60,6 +61,7 @@ TEST(BsdfValues, SmoothLobesAreReciprocal) {
 
 TEST(BsdfValues, DeltaLobesCarryTheSameFractionBothWays) {
   for (const Case& c : cases()) {
+    if (!c.symmetric) continue;
     Rng rng(3, Purpose::test, 0);
     for (int i = 0; i < 1000; ++i) {
       const Vec3 a = random_direction(rng);

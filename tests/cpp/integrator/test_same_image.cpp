@@ -60,7 +60,9 @@ INSTANTIATE_TEST_SUITE_P(
         Pair{"smooth_glass", "path"}, Pair{"spot", "ptracer"}, Pair{"materials", "path"},
         Pair{"materials", "pssmlt"}, Pair{"instances", "path"}, Pair{"instances", "pssmlt"},
         Pair{"orthographic", "path"}, Pair{"orthographic", "ptracer"},
-        Pair{"orthographic", "pssmlt"}, Pair{"projector", "ptracer"}, Pair{"daylight", "path"}),
+        Pair{"orthographic", "pssmlt"}, Pair{"projector", "ptracer"}, Pair{"daylight", "path"},
+        Pair{"bent_normals", "path"}, Pair{"bent_normals", "pssmlt"},
+        Pair{"more_materials", "path"}, Pair{"more_materials", "pssmlt"}),
     pair_name);
 
 class LongSameImageOf : public testing::TestWithParam<Pair> {};

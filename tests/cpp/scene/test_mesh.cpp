@@ -32,6 +32,48 @@ MeshData random_triangles(int count, uint64_t seed) {
   return data;
 }
 
+/// Eight corners, six quads.
+MeshData closed_cube() {
+  MeshData data;
+  for (int i = 0; i < 8; ++i)
+    data.positions.push_back(Vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1));
+  for (const auto& q : {std::array<uint32_t, 4>{0, 2, 3, 1},
+                        {4, 5, 7, 6},
+                        {0, 1, 5, 4},
+                        {2, 6, 7, 3},
+                        {0, 4, 6, 2},
+                        {1, 3, 7, 5}}) {
+    data.triangles.push_back({q[0], q[1], q[2]});
+    data.triangles.push_back({q[0], q[2], q[3]});
+  }
+  return data;
+}
+
+TEST(Mesh, CreasesStayWhereNeighboursDifferByMoreThanTheAngle) {
+  MeshData sharp = closed_cube(), smooth = closed_cube(), expected = closed_cube();
+  sharp.attributes = {{"vertex_i", false, 1, {0, 1, 2, 3, 4, 5, 6, 7}}};
+  add_creased_normals(sharp, 80);
+  ASSERT_EQ(sharp.positions.size(), 24u);
+  ASSERT_EQ(sharp.normals.size(), 24u);
+  for (const auto& corners : sharp.triangles) {
+    const Vec3 n = normalize(sharp.triangle(corners).normal);
+    for (const uint32_t i : corners) {
+      expect_near(Vec3(sharp.normals[i]), n, 1e-6);
+      EXPECT_EQ(sharp.positions[i],
+                smooth.positions[static_cast<size_t>(sharp.attributes[0].values[i])]);
+    }
+  }
+  add_creased_normals(smooth, 100);
+  add_smooth_normals(expected);
+  ASSERT_EQ(smooth.positions.size(), 8u);
+  for (size_t t = 0; t < expected.triangles.size(); ++t)
+    for (size_t k = 0; k < 3; ++k) {
+      const uint32_t a = smooth.triangles[t][k], b = expected.triangles[t][k];
+      EXPECT_EQ(smooth.positions[a], expected.positions[b]);
+      expect_near(Vec3(smooth.normals[a]), Vec3(expected.normals[b]), 1e-6);
+    }
+}
+
 SurfacePoint hit_from_above(const Mesh& mesh, double x, double y) {
   const auto at = trace(mesh, {{x, y, 5}, {0, 0, -1}});
   EXPECT_TRUE(at.has_value());

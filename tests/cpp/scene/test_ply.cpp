@@ -87,6 +87,31 @@ TEST(Ply, ReadsAllThreeFormatsAlike) {
   }
 }
 
+TEST(Ply, ReadsAttributesOfVerticesAndFaces) {
+  const std::string header =
+      "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float flow_x\n"
+      "property float flow_y\nproperty float flow_z\nproperty float y\nproperty float z\n"
+      "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty float heat\n"
+      "element face 2\nproperty float my_weight_0\n"
+      "property list uchar int vertex_indices\nproperty short k_0\nend_header\n";
+  const MeshData mesh = read(header +
+                             "0 .1 .2 .3 0 0 255 0 51 9\n1 .4 .5 .6 0 0 0 0 0 9\n"
+                             "1 0 0 0 1 0 0 0 0 9\n0 0 0 0 1 0 0 0 0 9\n"
+                             "0.5 4 0 1 2 3 7\n0.75 3 0 1 2 -8\n");
+  ASSERT_EQ(mesh.attributes.size(), 4u);
+  const MeshAttribute& flow = *mesh.find_attribute("vertex_flow");
+  EXPECT_EQ(flow.channels, 3u);
+  EXPECT_EQ(flow.values[4], 0.5f);
+  EXPECT_FALSE(flow.on_faces);
+  const MeshAttribute& colour = *mesh.find_attribute("vertex_color");
+  EXPECT_EQ(colour.values[0], 1);
+  EXPECT_EQ(colour.values[2], 0.2f);
+  EXPECT_EQ(mesh.find_attribute("face_my_weight")->values, (std::vector<float>{0.5, 0.5, 0.75}));
+  EXPECT_EQ(mesh.find_attribute("face_k")->values, (std::vector<float>{7, 7, -8}));
+  EXPECT_TRUE(mesh.find_attribute("face_k")->on_faces);
+  EXPECT_FALSE(mesh.find_attribute("vertex_heat"));
+}
+
 TEST(Ply, TruncatedFilesAreSafe) {
   for (const std::string& format : formats) expect_truncations_are_safe(sample_file(format), read);
 }

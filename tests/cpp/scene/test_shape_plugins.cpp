@@ -173,8 +173,11 @@ TEST(ShapePlugins, ErrorsNameTheFile) {
   EXPECT_THAT(error("obj", {{"filename", good.path}, {"to_world", Matrix{}}}),
               HasSubstr("scene.xml:7: 'to_world' is singular"));
   EXPECT_THAT(error("rectangle", {{"to_world", Matrix{}}}), HasSubstr("singular"));
-  EXPECT_THAT(error("obj", {{"filename", good.path}, {"max_smooth_angle", 30.0}}),
-              HasSubstr("unknown parameter 'max_smooth_angle'"));
+  EXPECT_THAT(error("obj", {{"filename", good.path}, {"smooth_angle", 30.0}}),
+              HasSubstr("unknown parameter 'smooth_angle'"));
+  EXPECT_THAT(
+      error("obj", {{"filename", good.path}, {"max_smooth_angle", 30.0}, {"face_normals", true}}),
+      HasSubstr("exclude each other"));
 }
 
 TEST(ShapePlugins, AllTakeAMaterialAndALight) {

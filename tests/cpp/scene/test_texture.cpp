@@ -10,6 +10,7 @@ namespace mlt {
 
 Plugin texture_bitmap();
 Plugin texture_checkerboard();
+Plugin texture_scale();
 
 namespace {
 
@@ -289,6 +290,42 @@ TEST(ColourParameters, TakeNumbersTriplesAndSpectra) {
   // ... and for <spectrum name="radiance" value="2"/>.
   expect_close(colour("glow", Spectrum{{0, 2}}), {2.40959, 1.89658, 1.81783}, 1e-3);
   EXPECT_EQ(colour("map", Spectrum{{0, 0.5}}), Color(0.5));
+}
+
+TEST(Bitmap, GradientIsThatOfTheLuminance) {
+  const Matrix turned{1.5, 0.4, 0, 0.1, -0.3, 2, 0, 0.2, 0, 0, 1, 0, 0, 0, 0, 1};
+  for (const char* wrap : {"repeat", "mirror", "clamp"}) {
+    const auto texture = make<Texture>(
+        texture_bitmap(), bitmap_of("gradient.exr", twelve_texels(),
+                                    {{"wrap_mode", std::string(wrap)}, {"to_uv", turned}}));
+    Rng rng(1, Purpose::test, 0);
+    int compared = 0;
+    for (int i = 0; i < 200; ++i) {
+      SurfacePoint at;
+      at.uv = {4 * rng.next() - 2, 4 * rng.next() - 2};
+      const Vec2 gradient = texture->gradient(at);
+      const double h = 1e-6, u = at.uv.x, v = at.uv.y;
+      const auto value = [&](double a, double b) { return luminance(look_up(*texture, a, b)); };
+      const Vec2 slope((value(u + h, v) - value(u - h, v)) / (2 * h),
+                       (value(u, v + h) - value(u, v - h)) / (2 * h));
+      compared += glm::length(gradient - slope) < 1e-6;
+    }
+    EXPECT_GE(compared, 199) << wrap;  // The slope may change on the way.
+  }
+}
+
+TEST(ScaleTexture, MultipliesWhatIsNested) {
+  const Plugin plugin = texture_scale();
+  Params params(plugin.schema, {"scene.xml", 7});
+  params.set("scale", -2.0, {"scene.xml", 8});
+  const auto inner = make<Texture>(texture_bitmap(), bitmap_of("scaled.exr", twelve_texels()));
+  params.add("texture", inner, {"scene.xml", 9});
+  const auto scaled = std::dynamic_pointer_cast<Texture>(make_object(plugin, params));
+  SurfacePoint at;
+  at.uv = {0.3, 0.6};
+  EXPECT_EQ(scaled->eval(at), -2.0 * inner->eval(at));
+  EXPECT_EQ(scaled->gradient(at), -2.0 * inner->gradient(at));
+  EXPECT_EQ(scaled->mean(), -2.0 * inner->mean());
 }
 
 TEST(ColourParameters, AreBounded) {

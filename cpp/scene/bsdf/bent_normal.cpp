@@ -1,0 +1,128 @@
+#include "scene/bsdf/bent_normal.h"
+
+#include "scene/bsdf/lobes.h"
+#include "scene/nested.h"
+
+namespace mlt {
+namespace {
+
+/// Whether w is on the same side of the surface and of the surface with the normal n.
+bool faces(const Vec3& n, const Vec3& w) { return w.z * dot(w, n) > 0; }
+
+/// Conty Estevez et al. 2019, eq. 4, with the roughness of eq. 5: G1 of GGX.
+double shadowing(const Vec3& n, const Vec3& wl) {
+  const double alpha2 = std::min(0.125 * sin2_theta(n) / sqr(n.z), 1.0);
+  return 2 / (1 + std::sqrt(1 + alpha2 * sin2_theta(wl) / sqr(wl.z)));
+}
+
+bool is_mirror(Lobe lobe) { return lobe == Lobe::reflection || lobe == Lobe::transmission; }
+
+}  // namespace
+
+/// The surface at one point, with N or with N turned around.
+class BentNormal::Bend {
+ public:
+  Bend(const SurfacePoint& at, const Vec3& n, bool turned)
+      : frame_(Frame::around(turned ? Vec3(-n.x, -n.y, n.z) : n, {1, 0, 0})), at_(at) {
+    const Frame& outer = at.shading;
+    at_.shading = {outer.to_world(frame_.s), outer.to_world(frame_.t), outer.to_world(frame_.n)};
+  }
+  const SurfacePoint& at() const { return at_; }
+  const Vec3& n() const { return frame_.n; }
+  Vec3 to_inner(const Vec3& w) const { return frame_.to_local(w); }
+  Vec3 to_outer(const Vec3& w) const { return frame_.to_world(w); }
+
+ private:
+  Frame frame_;
+  SurfacePoint at_;
+};
+
+BentNormal::BentNormal(Params& params)
+    : nested_(only_nested<Bsdf>(params, "bsdf")),
+      flips_(params.boolean("flip_invalid_normals")),
+      shadows_(params.boolean("use_shadowing_function")) {}
+
+double BentNormal::turned_share(const Vec3& n, const Vec3& w) const {
+  if (!flips_) return 0;
+  if (!faces(n, w)) return 1;
+  return faces({-n.x, -n.y, n.z}, w) ? 0.5 * (1 - n.z) : 0;
+}
+
+bool BentNormal::scatters(const Vec3& n, bool turned, const Vec3& a, const Vec3& b,
+                          Lobe lobe) const {
+  if (turned != !(faces(n, a) && faces(n, b))) return false;
+  if (turned && (!flips_ || is_mirror(lobe))) return false;
+  const Vec3 h = turned ? Vec3(-n.x, -n.y, n.z) : n;
+  return faces(h, a) && faces(h, b);
+}
+
+Scattering BentNormal::scattering(const SurfacePoint& at, const Vec3& wl, const Vec3& wc,
+                                  Lobe lobe) const {
+  const Vec3 n = normal(at);
+  const bool turned = !(faces(n, wl) && faces(n, wc));
+  if (!scatters(n, turned, wl, wc, lobe)) return {};
+  const Bend bend(at, n, turned);
+  const Vec3 l = bend.to_inner(wl), c = bend.to_inner(wc);
+  Scattering s = nested_->scattering(bend.at(), l, c, lobe);
+  const double share_l = turned_share(n, wl), share_c = turned_share(n, wc);
+  s.pdf_from_light *= turned ? share_l : 1 - share_l;
+  s.pdf_from_camera *= turned ? share_c : 1 - share_c;
+  if (turned && faces(n, wc)) s.f = Color(0);  // The camera side sees N as it is.
+  if (lobe == Lobe::smooth) s.f *= std::abs(l.z / wl.z);
+  if (lobe != Lobe::null && shadows_) s.f *= shadowing(bend.n(), wl);
+  return s;
+}
+
+std::optional<BsdfSample> BentNormal::sample(const SurfacePoint& at, const Vec3& from,
+                                             const Vec3& u) const {
+  const Vec3 n = normal(at);
+  const double share = turned_share(n, from);
+  const bool turned = u.x < share;
+  const Bend bend(at, n, turned);
+  if (!faces(bend.n(), from)) return std::nullopt;
+  const double rest = turned ? u.x / share : (u.x - share) / (1 - share);
+  auto sampled = nested_->sample(bend.at(), bend.to_inner(from), {rest, u.y, u.z});
+  if (!sampled) return std::nullopt;
+  sampled->to = sampled->lobe == Lobe::null ? -from : bend.to_outer(sampled->to);
+  if (!scatters(n, turned, from, sampled->to, sampled->lobe)) return std::nullopt;
+  return sampled;
+}
+
+std::optional<Vec3> BentNormal::invert(const SurfacePoint& at, const Vec3& from, const Vec3& to,
+                                       Lobe lobe) const {
+  const Vec3 n = normal(at);
+  const double share = turned_share(n, from);
+  const bool turned = !(faces(n, from) && faces(n, to));
+  if (!scatters(n, turned, from, to, lobe) || !((turned ? share : 1 - share) > 0))
+    return std::nullopt;
+  const Bend bend(at, n, turned);
+  auto u = nested_->invert(bend.at(), bend.to_inner(from), bend.to_inner(to), lobe);
+  if (u) u->x = turned ? u->x * share : std::min(share + u->x * (1 - share), 1 - 0x1p-53);
+  return u;
+}
+
+double BentNormal::roughness(const SurfacePoint& at, const Vec3& wl, const Vec3& wc) const {
+  const Vec3 n = normal(at);
+  const Bend bend(at, n, !(faces(n, wl) && faces(n, wc)));
+  return nested_->roughness(bend.at(), bend.to_inner(wl), bend.to_inner(wc));
+}
+
+Vec3 BentNormal::delta_normal(const SurfacePoint& at, const Vec3& w) const {
+  const Bend bend(at, normal(at), false);
+  return bend.to_outer(nested_->delta_normal(bend.at(), bend.to_inner(w)));
+}
+
+Schema bent_normal_schema(const std::string& name, const std::string& doc,
+                          std::vector<Parameter> parameters) {
+  parameters.push_back({"flip_invalid_normals", ParamType::boolean, true,
+                        "Turn a bent normal around that would be seen from behind."});
+  parameters.push_back({"use_shadowing_function", ParamType::boolean, true,
+                        "Dim light that grazes the surface, where the normal is bent."});
+  Schema schema{"bsdf", name, doc, std::move(parameters)};
+  schema.conserves_energy = false;
+  schema.reciprocal = false;
+  schema.unnamed_texture = true;
+  return schema;
+}
+
+}  // namespace mlt

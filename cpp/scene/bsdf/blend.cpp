@@ -1,0 +1,81 @@
+#include "scene/bsdf/blend.h"
+
+#include "scene/bsdf/lobes.h"
+
+namespace mlt {
+namespace {
+
+/// Rather than letting light straight through.
+bool refracts(const Bsdf& part) {
+  const Vec3 up(0, 0, 1);
+  return part.has_transmission() &&
+         (part.relative_eta({}, up) != 1 || part.pdf({}, up, -up, Lobe::transmission) > 0);
+}
+
+}  // namespace
+
+Blend::Blend(BsdfPtr first, BsdfPtr second, TexturePtr weight, double scale, const Params& params)
+    : first_(std::move(first)),
+      second_(std::move(second)),
+      weight_(std::move(weight)),
+      scale_(scale) {
+  const Vec3 up(0, 0, 1);
+  if (refracts(*first_) && refracts(*second_) &&
+      first_->relative_eta({}, up) != second_->relative_eta({}, up))
+    params.fail("cannot blend two bsdfs that refract light differently");
+  if (first_ != second_ && first_->has_delta() && second_->has_delta() && bends_normal())
+    params.fail("cannot blend two bsdfs that reflect light like mirrors of different normals");
+}
+
+Scattering Blend::scattering(const SurfacePoint& at, const Vec3& wl, const Vec3& wc,
+                             Lobe lobe) const {
+  const Scattering a = first_->scattering(at, wl, wc, lobe);
+  const Scattering b = second_->scattering(at, wl, wc, lobe);
+  const double w = weight(at);
+  const auto blend = [&](const auto& x, const auto& y) { return (1 - w) * x + w * y; };
+  return {scale_ * blend(a.f, b.f), blend(a.pdf_from_light, b.pdf_from_light),
+          blend(a.pdf_from_camera, b.pdf_from_camera)};
+}
+
+std::optional<BsdfSample> Blend::sample(const SurfacePoint& at, const Vec3& from,
+                                        const Vec3& u) const {
+  const double p = 1 - weight(at);
+  if (u.x < p) return first_->sample(at, from, {u.x / p, u.y, u.z});
+  return second_->sample(at, from, {(u.x - p) / (1 - p), u.y, u.z});
+}
+
+std::optional<Vec3> Blend::invert(const SurfacePoint& at, const Vec3& from, const Vec3& to,
+                                  Lobe lobe) const {
+  const double p = 1 - weight(at);
+  if (p > 0)
+    if (const auto u = first_->invert(at, from, to, lobe)) return Vec3(u->x * p, u->y, u->z);
+  if (p < 1)
+    if (const auto u = second_->invert(at, from, to, lobe))
+      return u_of(std::min(p + u->x * (1 - p), 1 - 0x1p-53), {u->y, u->z});
+  return std::nullopt;
+}
+
+double Blend::relative_eta(const SurfacePoint& at, const Vec3& w) const {
+  return (refracts(*first_) ? *first_ : *second_).relative_eta(at, w);
+}
+
+Vec3 Blend::delta_normal(const SurfacePoint& at, const Vec3& w) const {
+  return (first_->has_delta() ? *first_ : *second_).delta_normal(at, w);
+}
+
+/// Of the part that scatters more between these directions.
+double Blend::roughness(const SurfacePoint& at, const Vec3& wl, const Vec3& wc) const {
+  const auto strength = [&](const Bsdf& part) {
+    return target_luminance(part.eval(at, wl, wc, Lobe::smooth));
+  };
+  const double w = weight(at);
+  return ((1 - w) * strength(*first_) >= w * strength(*second_) ? *first_ : *second_)
+      .roughness(at, wl, wc);
+}
+
+Color Blend::albedo(const SurfacePoint& at) const {
+  const double w = weight(at);
+  return scale_ * ((1 - w) * first_->albedo(at) + w * second_->albedo(at));
+}
+
+}  // namespace mlt

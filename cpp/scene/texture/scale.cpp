@@ -1,0 +1,39 @@
+// Another texture, multiplied: what Mitsuba 0.6 has for heights and brightness.
+#include "base/registry.h"
+#include "scene/nested.h"
+#include "scene/texture.h"
+
+namespace mlt {
+namespace {
+
+class Scale final : public Texture {
+ public:
+  explicit Scale(Params& params)
+      : scale_(to_color(params, "scale", SpectrumUse::unbounded)),
+        nested_(only_nested<Texture>(params, "texture")) {}
+
+  Color eval(const SurfacePoint& at) const override { return scale_ * nested_->eval(at); }
+  /// Of what is multiplied by the same number in all channels.
+  Vec2 gradient(const SurfacePoint& at) const override {
+    return luminance(scale_) * nested_->gradient(at);
+  }
+  bool is_constant() const override { return nested_->is_constant(); }
+  Color mean() const override { return scale_ * nested_->mean(); }
+  Color maximum() const override { return scale_ * nested_->maximum(); }
+
+ private:
+  Color scale_;
+  TexturePtr nested_;
+};
+
+}  // namespace
+
+Plugin texture_scale() {
+  Plugin plugin = make_plugin<Scale>(
+      "texture", "scale", "Multiplies the one nested texture, whatever its name.",
+      {{"scale", ParamType::radiance, 1.0, "The factor: a number or a colour."}});
+  plugin.schema.unnamed_texture = true;
+  return plugin;
+}
+
+}  // namespace mlt
