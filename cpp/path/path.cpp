@@ -19,6 +19,7 @@ void for_each_member(V& x, Visit&& visit) {
   visit(at.uv);
   visit(at.shape);
   visit(at.primitive);
+  visit(at.instance);
   visit(at.kind);
   visit(at.extent);
 }

@@ -71,6 +71,7 @@ void Instance::surface_point(const Ray& ray, const Hit& hit, SurfacePoint& at) c
   shape.surface_point({inverse_ * (ray.o - offset_), d / stretch, ray.time},
                       {hit.t * stretch, shape.index(), hit.primitive, hit.u, hit.v}, at);
   at.shape = shape.index();
+  at.instance = index();
   move_to_world(shape, at);
 }
 
@@ -86,6 +87,13 @@ void Instance::move_to_world(const Shape& shape, SurfacePoint& at) const {
   at.ng = ng * std::copysign(1.0, dot(ng, n));
   at.p = linear_ * at.p + offset_;
   at.extent = extent_;
+}
+
+SurfacePoint Instance::in_group(SurfacePoint at) const {
+  at.p = inverse_ * (at.p - offset_);
+  at.ng = normalize(at.ng * linear_);
+  at.shading = Frame::around(normalize(at.shading.n * linear_), inverse_ * at.shading.s);
+  return at;
 }
 
 /// To which coordinates the accelerator's rounding is relative: it computes inverse (o - offset) in

@@ -35,8 +35,13 @@ class Instance final : public Shape {
 
   const ShapeGroup& group() const { return *group_; }
   const Mat4& to_world() const { return to_world_; }
+  const Mat3& linear() const { return linear_; }
+  /// A point that surface_point has found, back in the group's space, as far as Shape::uv_tangents
+  /// and Mesh::barycentrics look at it.
+  SurfacePoint in_group(SurfacePoint at) const;
 
-  /// `at.shape` becomes the shape of the group that was hit: it has the material.
+  /// `at.shape` becomes the shape of the group that was hit, which has the material, and
+  /// `at.instance` this.
   void surface_point(const Ray& ray, const Hit& hit, SurfacePoint& at) const override;
   void bounds(Vec3& low, Vec3& high) const override;
   const Instance* as_instance() const override { return this; }

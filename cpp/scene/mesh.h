@@ -61,7 +61,6 @@ class Mesh : public Shape {
 
  private:
   using Edges = TriangleRecord::Edges;
-  Vec2 barycentrics(const SurfacePoint& at) const;
   void fill(const Edges& edges, uint32_t index, double b1, double b2, SurfacePoint& at) const;
 
   MeshData data_;

@@ -92,6 +92,7 @@ bool Scene::intersect(const Ray& ray, SurfacePoint& at) const {
   at.kind = PointKind::surface;
   at.shape = hit.shape;
   at.primitive = hit.primitive;
+  at.instance = SurfacePoint::no_shape;
   shapes_[hit.shape]->surface_point(ray, hit, at);
   at.matte = bsdf(at).matte(at);
   return true;

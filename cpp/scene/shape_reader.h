@@ -2,7 +2,8 @@
 // shapes are known when the whole scene has been made.
 #pragma once
 
-#include "scene/shape.h"
+#include "scene/instance.h"
+#include "scene/mesh.h"
 
 #include <vector>
 
@@ -16,12 +17,30 @@ class ShapeReader {
   virtual void read_shapes(const std::vector<ShapePtr>& shapes) { shapes_ = &shapes; }
 
  protected:
-  /// nullptr for a point outside of any scene.
-  const Shape* shape_of(const SurfacePoint& at) const {
-    return shapes_ && at.shape < shapes_->size() ? (*shapes_)[at.shape].get() : nullptr;
+  /// How the position changes with the texture coordinates; the frame's axes outside of any scene.
+  Shape::UvTangents uv_tangents(const SurfacePoint& at) const {
+    const Shape* shape = find(at.shape);
+    if (!shape) return {at.shading.s, at.shading.t};
+    const Instance* instance = instance_of(at);
+    if (!instance) return shape->uv_tangents(at);
+    const auto [du, dv] = shape->uv_tangents(instance->in_group(at));
+    return {instance->linear() * du, instance->linear() * dv};
+  }
+  /// Of the corners of a mesh after the first one.
+  Vec2 barycentrics(const Mesh& mesh, const SurfacePoint& at) const {
+    const Instance* instance = instance_of(at);
+    return mesh.barycentrics(instance ? instance->in_group(at) : at);
   }
 
  private:
+  const Shape* find(uint32_t index) const {
+    return shapes_ && index < shapes_->size() ? (*shapes_)[index].get() : nullptr;
+  }
+  const Instance* instance_of(const SurfacePoint& at) const {
+    const Shape* shape = find(at.instance);
+    return shape ? shape->as_instance() : nullptr;
+  }
+
   const std::vector<ShapePtr>* shapes_ = nullptr;
 };
 

@@ -22,6 +22,7 @@ struct SurfacePoint {
   Vec2 uv{0};                 ///< Texture coordinates.
   uint32_t shape = no_shape;  ///< Index into Scene::shapes().
   uint32_t primitive = 0;     ///< Triangle of a mesh.
+  uint32_t instance = no_shape;  ///< Index of the Instance that the shape is seen through, if any.
   PointKind kind = PointKind::surface;
   /// Largest coordinate of the primitive: the scale of float rounding in the accelerator.
   double extent = 0;

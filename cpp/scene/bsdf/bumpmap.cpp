@@ -20,10 +20,8 @@ class BumpMap final : public BentNormal, public ShapeReader {
  private:
   Vec3 normal(const SurfacePoint& at) const override {
     const Vec2 by_uv = scale_ * height_->gradient(at);
-    const Shape* shape = shape_of(at);
     const Frame& frame = at.shading;
-    const Shape::UvTangents d =
-        shape ? shape->uv_tangents(at) : Shape::UvTangents{frame.s, frame.t};
+    const Shape::UvTangents d = uv_tangents(at);
     const Vec2 du(dot(d.du, frame.s), dot(d.du, frame.t)),
         dv(dot(d.dv, frame.s), dot(d.dv, frame.t));
     const double det = du.x * dv.y - du.y * dv.x;

@@ -16,6 +16,7 @@ class MeshAttributeTexture final : public Texture, public ShapeReader {
   }
 
   void read_shapes(const std::vector<ShapePtr>& shapes) override {
+    ShapeReader::read_shapes(shapes);
     bool any = false;
     for (const ShapePtr& shape : shapes) {
       const Mesh* mesh = shape->as_mesh();
@@ -41,7 +42,7 @@ class MeshAttributeTexture final : public Texture, public ShapeReader {
       value = element(*attribute, at.primitive);
     } else {
       const auto& corners = mesh->data().triangles[at.primitive];
-      const Vec2 b = mesh->barycentrics(at);
+      const Vec2 b = barycentrics(*mesh, at);
       value = (1 - b.x - b.y) * element(*attribute, corners[0]) +
               b.x * element(*attribute, corners[1]) + b.y * element(*attribute, corners[2]);
     }

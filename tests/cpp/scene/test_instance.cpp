@@ -93,6 +93,57 @@ void expect_same_points(const ScenePtr& a, const ScenePtr& b) {
   EXPECT_LT(differences, 20);
 }
 
+/// How what the same rays hit in two scenes scatters light.
+void expect_same_scattering(const ScenePtr& a, const ScenePtr& b) {
+  Rng rng(4, Purpose::test, 0);
+  int hits = 0;
+  for (int i = 0; i < 5000; ++i) {
+    const Vec3 o = random_point(rng, 2);
+    const Ray ray{o, normalize(0.3 * random_point(rng) - o)};
+    SurfacePoint x, y;
+    if (!a->intersect(ray, x) || !b->intersect(ray, y) || length(x.p - y.p) > 1e-4) continue;
+    ++hits;
+    const Vec3 wl = x.shading.to_world(normalize(Vec3(0.3, 0.2, 0.9))),
+               wc = x.shading.to_world(normalize(Vec3(-0.1, -0.4, 0.8)));
+    const Color f = scattering(a->bsdf(x), x, wl, wc, Lobe::smooth).f;
+    expect_near(f, scattering(b->bsdf(y), y, wl, wc, Lobe::smooth).f, 1e-3);
+  }
+  EXPECT_GT(hits, 500);
+}
+
+TEST(Instance, HasTheBumpsOfTheShapeWrittenOut) {
+  const TemporaryFile mesh("textured.obj"), waves("waves.exr");
+  write_textured_ball(mesh.path());
+  write_waves(waves.path());
+  const std::string bumpy =
+      "<bsdf type='bumpmap'><float name='scale' value='0.1'/><texture type='bitmap'><string "
+      "name='filename' value='" +
+      waves.path() + "'/><boolean name='raw' value='true'/></texture>" + white + "</bsdf>";
+  for (const std::string& steps : {tilt + shift, scale(0.4) + tilt, uneven + tilt + shift})
+    expect_same_scattering(
+        load_scene(lens + light + group(obj(mesh.path(), "", bumpy)) + instance(steps)),
+        load_scene(lens + light + obj(mesh.path(), steps, bumpy)));
+}
+
+TEST(Instance, HasTheAttributesOfTheMeshWrittenOut) {
+  const TemporaryFile file("colours.ply");
+  std::ofstream(file.path())
+      << "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+         "property float z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n"
+         "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+         "-1 -1 0 255 0 0\n1 -1 0.2 0 255 0\n0 1 0 0 0 255\n3 0 1 2\n";
+  const auto triangle = [&](const std::string& steps) {
+    return "<shape type='ply'><string name='filename' value='" + file.path() + "'/>" +
+           to_world(steps) +
+           "<bsdf type='twosided'><bsdf type='diffuse'><texture type='mesh_attribute' "
+           "name='reflectance'><string name='name' value='vertex_color'/></texture></bsdf></bsdf>"
+           "</shape>\n";
+  };
+  for (const std::string& steps : {tilt + shift, uneven + tilt})
+    expect_same_scattering(load_scene(lens + light + group(triangle("")) + instance(steps)),
+                           load_scene(lens + light + triangle(steps)));
+}
+
 TEST(Instance, IsTheShapeWrittenOut) {
   const TemporaryFile file("textured.obj");
   write_textured_ball(file.path());
