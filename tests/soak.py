@@ -127,36 +127,53 @@ def kills(work: Round, path: Path, seconds: float) -> mlt.Result:
     return (work.resume(path) if path.exists() else work.start()).result()
 
 
+WORKER = "-m distributed.cli.dask_worker --no-nanny --no-dashboard --nthreads 1 --memory-limit 0"
+
+
 class Workers:
-    """A cluster of two processes; one that dies is replaced."""
+    """A cluster of two processes. Without dask's guards, which give up a process that is killed
+    while it starts."""
 
     def __enter__(self):
         import distributed
 
         self.cluster = distributed.LocalCluster(
-            n_workers=2, threads_per_worker=1, processes=True, memory_limit=0,
-            dashboard_address="127.0.0.1:0", silence_logs=60,
-        )  # fmt: skip
+            n_workers=0, dashboard_address="127.0.0.1:0", silence_logs=60
+        )
         self.client = distributed.Client(self.cluster)
+        self.processes: list[subprocess.Popen] = []
+        self.complete()
         return self
 
     def __exit__(self, *_):
+        for process in self.processes:
+            process.kill()
+            process.wait()
         self.client.close()
         self.cluster.close()
 
+    def complete(self) -> None:
+        """There are two again; SoakError if one has ended of itself."""
+        ended = [process for process in self.processes if process.poll() is not None]
+        if any(process.returncode != -signal.SIGKILL for process in ended):
+            raise SoakError("a worker has ended of itself")
+        self.processes = [process for process in self.processes if process not in ended]
+        command = [sys.executable, *WORKER.split(), self.cluster.scheduler_address]
+        quiet = os.environ | {"DASK_LOGGING__DISTRIBUTED": "critical"}
+        while len(self.processes) < 2:
+            self.processes.append(subprocess.Popen(command, env=quiet))
+
     def deaths(self, work: Round, path: Path, seconds: float) -> mlt.Result:
-        """A worker is killed, the render is cancelled and resumed on the cluster or here."""
-        self.cluster.scale(2)  # also where dask has given a worker up
+        """Workers are killed, the render is cancelled and resumed on the cluster or here."""
         job = work.start(cluster=self.client, checkpoint=path, every=0.1)
-        for _ in range(work.draw.randint(1, 2)):
+        for _ in range(work.draw.randint(1, 3)):
             work.sleep(0.5 + seconds)
-            nannies = self.cluster.workers.values()
-            if processes := [nanny.pid for nanny in nannies if nanny.pid]:
-                os.kill(work.draw.choice(processes), signal.SIGKILL)
-        self.cluster.scale(2)
-        work.sleep(seconds)
+            work.draw.choice(self.processes).kill()
+            if work.draw.random() < 0.5:
+                self.complete()
         job.cancel()
         job.wait()
+        self.complete()
         return work.resume(path, cluster=work.draw.choice([None, self.client])).result()
 
 
