@@ -64,6 +64,10 @@ class Round:
     def resume(self, path: Path, **options) -> mlt.Job:
         return mlt.resume(path, scene=self.scene, spp=self.options["spp"], **options)
 
+    def go_on(self, path: Path, **options) -> mlt.Job:
+        """With the checkpoint, if there was time to write one."""
+        return self.resume(path, **options) if path.exists() else self.start(**options)
+
     def sleep(self, longest: float) -> None:
         time.sleep(self.draw.uniform(0, longest))
 
@@ -107,9 +111,7 @@ CHILD = "import sys; sys.path.insert(0, {folder!r}); import soak; soak.child({ar
 def child(seed: int, number: int, path: str) -> None:
     """In a process of its own: goes on with a checkpoint, or begins it."""
     work = Round(seed, number)
-    keep = {"checkpoint": path, "every": 0.01}
-    job = work.resume(Path(path), **keep) if os.path.exists(path) else work.start(**keep)
-    job.wait()
+    work.go_on(Path(path), checkpoint=path, every=0.01).wait()
 
 
 def kills(work: Round, path: Path, seconds: float) -> mlt.Result:
@@ -124,7 +126,7 @@ def kills(work: Round, path: Path, seconds: float) -> mlt.Result:
         if process.returncode not in (0, -signal.SIGKILL):
             raise SoakError(f"the child ended with {process.returncode}: {errors}")
     Path(f"{path}.lock").unlink(missing_ok=True)
-    return (work.resume(path) if path.exists() else work.start()).result()
+    return work.go_on(path).result()
 
 
 WORKER = "-m distributed.cli.dask_worker --no-nanny --no-dashboard --nthreads 1 --memory-limit 0"
@@ -174,7 +176,7 @@ class Workers:
         job.cancel()
         job.wait()
         self.complete()
-        return work.resume(path, cluster=work.draw.choice([None, self.client])).result()
+        return work.go_on(path, cluster=work.draw.choice([None, self.client])).result()
 
 
 # ---- the soak ------------------------------------------------------------------------------------
