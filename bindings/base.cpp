@@ -11,7 +11,7 @@
 namespace mlt::python {
 namespace {
 
-py::dict to_dict(const Parameter& parameter) {
+py::dict parameter_dict(const Parameter& parameter) {
   py::dict dict;
   dict["name"] = parameter.name;
   dict["type"] = to_string(parameter.type);
@@ -25,7 +25,7 @@ py::dict to_dict(const Parameter& parameter) {
 
 py::dict to_dict(const Schema& schema) {
   py::list parameters;
-  for (const Parameter& parameter : schema.parameters) parameters.append(to_dict(parameter));
+  for (const Parameter& parameter : schema.parameters) parameters.append(parameter_dict(parameter));
   py::dict dict;
   dict["family"] = schema.family;
   dict["name"] = schema.name;

@@ -17,7 +17,7 @@ MadeIntegrator by_name(const LoadedScene& loaded, const std::string& name,
   return make_integrator(choose_integrator(loaded, name, assignments, plugins()), plugins());
 }
 
-MadeIntegrator from_dict(const py::dict& dict) {
+MadeIntegrator integrator_from_dict(const py::dict& dict) {
   return make_integrator(to_node(dict, "integrator", "integrator", plugins()), plugins());
 }
 
@@ -49,7 +49,7 @@ void bind_integrators(py::module_& m) {
           [](const MadeIntegrator& made) { return py::bytes(pack(node_of(made))); },
           [](const py::bytes& packed) { return make_integrator(unpack_node(packed), plugins()); }));
   m.def("integrator_by_name", &by_name, py::arg("scene"), py::arg("name"), py::arg("assignments"));
-  m.def("integrator_from_dict", &from_dict, py::arg("dict"));
+  m.def("integrator_from_dict", &integrator_from_dict, py::arg("dict"));
   m.def("with_mutations", &with_python_mutations, py::arg("integrator"), py::arg("scene"),
         py::arg("mutations"));
 }

@@ -106,7 +106,7 @@ std::string signature_of(const PyLightPath& path, double near_specular) {
   return signature(*path.scene->scene, path.path, near_specular);
 }
 
-py::str describe(const PyLightPath& path) {
+py::str describe_path(const PyLightPath& path) {
   py::str text = py::str("LightPath({!r}, raster=({:.2f}, {:.2f})")
                      .format(signature_of(path, 0), path.raster.x, path.raster.y);
   if (path.technique)
@@ -145,7 +145,7 @@ std::vector<PyLightPath> proposals(const LoadedPtr& scene, const PyLightPath& x,
   return result;
 }
 
-void bind_class(py::module_& m) {
+void bind_path_class(py::module_& m) {
   py::class_<PyLightPath>(
       m, "LightPath",
       "A light path: x_0 on a light ... x_k on the camera's lens, whichever way it was made.")
@@ -196,7 +196,7 @@ void bind_class(py::module_& m) {
       .def("weights", &weights, py::arg("heuristic") = "power", py::arg("sample_direct") = true,
            "The weights of multiple importance sampling, for s = 0 ... k + 1.")
       .def("__len__", [](const PyLightPath& p) { return p.path.vertices.size(); })
-      .def("__repr__", &describe);
+      .def("__repr__", &describe_path);
 }
 
 }  // namespace
@@ -236,7 +236,7 @@ py::array_t<double> to_array(const Color& color) {
 
 void bind_light_path(py::module_& m) {
   bind_vertex(m);
-  bind_class(m);
+  bind_path_class(m);
   py::class_<LoadedScene, LoadedPtr> scene(m.attr("Scene"));
   scene.def("trace_path", &trace, py::kw_only(), py::arg("pixel"), py::arg("seed") = 0,
             py::arg("max_depth") = 10, py::arg("strict_normals") = false,

@@ -47,8 +47,8 @@ LoadedScene from_string(const Text& xml, const Text& directory, const Defines& d
 }
 
 /// `built_in` and `defines` name a scene of the Python package, so that a checkpoint can.
-LoadedScene from_dict(const py::dict& dict, const Size& size, const Sensor& sensor,
-                      const std::string& built_in, const Defines& defines) {
+LoadedScene scene_from_dict(const py::dict& dict, const Size& size, const Sensor& sensor,
+                            const std::string& built_in, const Defines& defines) {
   const Node node = to_node(dict, "scene", "scene", plugins());
   if (node.type != "scene")
     throw SceneError("scene: 'type' is '" + node.type + "', but should be 'scene'");
@@ -84,7 +84,7 @@ py::dict info(const LoadedScene& loaded) {
   return info;
 }
 
-py::str describe(const LoadedScene& loaded) {
+py::str describe_scene(const LoadedScene& loaded) {
   return py::str(
              "Scene({size[0]} x {size[1]}, {shapes} shapes, {triangles} triangles, {emitters} "
              "emitters, integrator={integrator!r})")
@@ -118,13 +118,13 @@ void bind_scene(py::module_& m) {
           [](const LoadedScene& s, int64_t sensor) { return with_sensor(s, sensor, plugins()); },
           py::arg("sensor"), NoGil(), "The same scene, seen by another of its sensors.")
       .def("info", &info, "What the scene holds, as a dict.")
-      .def("__repr__", &describe);
+      .def("__repr__", &describe_scene);
 
   m.def("load_file", &from_file, py::arg("path"), py::arg("defines"), py::arg("size"),
         py::arg("lenient"), py::arg("sensor"), NoGil());
   m.def("load_string", &from_string, py::arg("xml"), py::arg("directory"), py::arg("defines"),
         py::arg("size"), py::arg("lenient"), py::arg("sensor"), NoGil());
-  m.def("load_dict", &from_dict, py::arg("dict"), py::arg("size"), py::arg("sensor"),
+  m.def("load_dict", &scene_from_dict, py::arg("dict"), py::arg("size"), py::arg("sensor"),
         py::arg("built_in") = "", py::arg("defines") = Defines());
 }
 

@@ -97,18 +97,18 @@ py::tuple resample_starts(const std::vector<double>& weights, uint32_t chains, u
   return py::make_tuple(bootstrap.b, bootstrap.b_error, bootstrap.seeds);
 }
 
-lab::WalkShape shape_of(const std::string& name) {
+lab::WalkShape walk_shape(const std::string& name) {
   return name == "normal" ? lab::WalkShape::normal : lab::WalkShape::uniform;
 }
 
 void bind_moves(py::module_& m) {
   py::class_<lab::Move<Point>, lab::MovePtr>(m, "Move", "A built-in move.");
   m.def("random_walk", [](const std::vector<double>& size, const std::string& shape) {
-    return lab::random_walk(size, shape_of(shape));
+    return lab::random_walk(size, walk_shape(shape));
   });
   m.def("adaptive_walk", [](const std::vector<double>& size, const std::string& shape, double goal,
                             double rate, double decay) {
-    return lab::adaptive_walk(size, shape_of(shape), {goal, rate, decay});
+    return lab::adaptive_walk(size, walk_shape(shape), {goal, rate, decay});
   });
   m.def("uniform", &lab::uniform);
   m.def("discrete", &lab::discrete);

@@ -64,7 +64,7 @@ py::object camera_direction(const LoadedScene& loaded, const Vertex& lens, const
   return to_array(camera.direction(lens.at, at));
 }
 
-void bind_class(py::module_& m) {
+void bind_vertex_class(py::module_& m) {
   py::class_<Vertex>(m, "Vertex", "A vertex of a light path; it belongs to the scene of its path.")
       .def_property_readonly(
           "kind", [](const Vertex& x) { return name_of(x.kind); },
@@ -98,7 +98,7 @@ void bind_class(py::module_& m) {
 }  // namespace
 
 void bind_vertex(py::module_& m) {
-  bind_class(m);
+  bind_vertex_class(m);
   py::class_<LoadedScene, LoadedPtr> scene(m.attr("Scene"));
   const char* doc =
       "The surface that a ray meets first, as a (smooth) vertex; None if it meets none. It starts "

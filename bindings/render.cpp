@@ -80,7 +80,7 @@ py::tuple replay(PyJob& job, const std::pair<int, int>& pixel, uint64_t sample) 
                         paths);
 }
 
-py::dict metadata(PyJob& job) {
+py::dict job_metadata(PyJob& job) {
   return py::cast(without_gil([&] { return job.metadata(); }));
 }
 
@@ -129,7 +129,7 @@ void bind_render(py::module_& m) {
       .def("layers", &layers, "Further images that the render was asked to keep, by name.")
       .def(
           "stats", [](PyJob& job) { return to_json(job.stats()); }, NoGil(), "As JSON.")
-      .def("metadata", &metadata);
+      .def("metadata", &job_metadata);
 }
 
 }  // namespace mlt::python

@@ -64,6 +64,10 @@ class Round:
     def resume(self, path: Path, **options) -> mlt.Job:
         return mlt.resume(path, scene=self.scene, spp=self.options["spp"], **options)
 
+    def go_on(self, path: Path, **options) -> mlt.Job:
+        """With the checkpoint, if there was time to write one."""
+        return self.resume(path, **options) if path.exists() else self.start(**options)
+
     def sleep(self, longest: float) -> None:
         time.sleep(self.draw.uniform(0, longest))
 
@@ -107,9 +111,7 @@ CHILD = "import sys; sys.path.insert(0, {folder!r}); import soak; soak.child({ar
 def child(seed: int, number: int, path: str) -> None:
     """In a process of its own: goes on with a checkpoint, or begins it."""
     work = Round(seed, number)
-    keep = {"checkpoint": path, "every": 0.01}
-    job = work.resume(Path(path), **keep) if os.path.exists(path) else work.start(**keep)
-    job.wait()
+    work.go_on(Path(path), checkpoint=path, every=0.01).wait()
 
 
 def kills(work: Round, path: Path, seconds: float) -> mlt.Result:
@@ -124,40 +126,57 @@ def kills(work: Round, path: Path, seconds: float) -> mlt.Result:
         if process.returncode not in (0, -signal.SIGKILL):
             raise SoakError(f"the child ended with {process.returncode}: {errors}")
     Path(f"{path}.lock").unlink(missing_ok=True)
-    return (work.resume(path) if path.exists() else work.start()).result()
+    return work.go_on(path).result()
+
+
+WORKER = "-m distributed.cli.dask_worker --no-nanny --no-dashboard --nthreads 1 --memory-limit 0"
 
 
 class Workers:
-    """A cluster of two processes; one that dies is replaced."""
+    """A cluster of two processes. Without dask's guards, which give up a process that is killed
+    while it starts."""
 
     def __enter__(self):
         import distributed
 
         self.cluster = distributed.LocalCluster(
-            n_workers=2, threads_per_worker=1, processes=True, memory_limit=0,
-            dashboard_address="127.0.0.1:0", silence_logs=60,
-        )  # fmt: skip
+            n_workers=0, dashboard_address="127.0.0.1:0", silence_logs=60
+        )
         self.client = distributed.Client(self.cluster)
+        self.processes: list[subprocess.Popen] = []
+        self.complete()
         return self
 
     def __exit__(self, *_):
+        for process in self.processes:
+            process.kill()
+            process.wait()
         self.client.close()
         self.cluster.close()
 
+    def complete(self) -> None:
+        """There are two again; SoakError if one has ended of itself."""
+        ended = [process for process in self.processes if process.poll() is not None]
+        if any(process.returncode != -signal.SIGKILL for process in ended):
+            raise SoakError("a worker has ended of itself")
+        self.processes = [process for process in self.processes if process not in ended]
+        command = [sys.executable, *WORKER.split(), self.cluster.scheduler_address]
+        quiet = os.environ | {"DASK_LOGGING__DISTRIBUTED": "critical"}
+        while len(self.processes) < 2:
+            self.processes.append(subprocess.Popen(command, env=quiet))
+
     def deaths(self, work: Round, path: Path, seconds: float) -> mlt.Result:
-        """A worker is killed, the render is cancelled and resumed on the cluster or here."""
-        self.cluster.scale(2)  # also where dask has given a worker up
+        """Workers are killed, the render is cancelled and resumed on the cluster or here."""
         job = work.start(cluster=self.client, checkpoint=path, every=0.1)
-        for _ in range(work.draw.randint(1, 2)):
+        for _ in range(work.draw.randint(1, 3)):
             work.sleep(0.5 + seconds)
-            nannies = self.cluster.workers.values()
-            if processes := [nanny.pid for nanny in nannies if nanny.pid]:
-                os.kill(work.draw.choice(processes), signal.SIGKILL)
-        self.cluster.scale(2)
-        work.sleep(seconds)
+            work.draw.choice(self.processes).kill()
+            if work.draw.random() < 0.5:
+                self.complete()
         job.cancel()
         job.wait()
-        return work.resume(path, cluster=work.draw.choice([None, self.client])).result()
+        self.complete()
+        return work.go_on(path, cluster=work.draw.choice([None, self.client])).result()
 
 
 # ---- the soak ------------------------------------------------------------------------------------

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <regex>
+#include <cstdio>
 
 namespace mlt {
 namespace {
@@ -105,10 +105,14 @@ class Pyramid {
 }  // namespace
 
 std::optional<TechniqueName> parse_technique(const std::string& layer) {
-  static const std::regex pattern("(raw|weighted)\\.s(\\d{1,9})\\.t(\\d{1,9})");
-  std::smatch parts;
-  if (!std::regex_match(layer, parts, pattern)) return std::nullopt;
-  return TechniqueName{std::stoi(parts[2]), std::stoi(parts[3]), parts[1] == "weighted"};
+  for (const char* const kind : {"raw", "weighted"}) {
+    const std::string pattern = fmt::format("{}.s%9d.t%9d", kind);
+    int s, t;
+    if (std::sscanf(layer.c_str(), pattern.c_str(), &s, &t) == 2 && s >= 0 && t >= 0 &&
+        layer == fmt::format("{}.s{}.t{}", kind, s, t))
+      return TechniqueName{s, t, kind == std::string("weighted")};
+  }
+  return std::nullopt;
 }
 
 std::optional<Image> technique_pyramid(const std::vector<NamedImage>& layers, double exposure,

@@ -174,6 +174,44 @@ def test_a_render_can_be_cancelled_and_keeps_its_image(client):
     wait_until(lambda: not any(client.processing().values()))
 
 
+def ends_when_it_is_to_cancel():
+    pymlt.rendering.cluster.worker.cancel = lambda job, dask_worker: os._exit(1)
+
+
+def test_a_worker_that_dies_in_the_middle_of_a_message_does_not_end_the_render(tmp_path):
+    world, file = scene(72, 48), tmp_path / "state.mlt"
+    with processes(2, threads_per_worker=1) as cluster, distributed.Client(cluster) as client:
+        job = mlt.start(world, "mlt", spp=80, seed=3, cluster=client, checkpoint=file)
+        wait_until(lambda: job.stats["spp_done"] > 1)
+        client.run(ends_when_it_is_to_cancel, workers=[next(iter(client.nthreads()))])
+        job.cancel()
+        assert job.wait(20)
+    assert job.stats["ended_by"] == "cancel"
+    there = mlt.resume(file, scene=world).result()
+    assert np.array_equal(there.image, mlt.render(world, "mlt", spp=80, seed=3))
+
+
+def test_without_workers_a_render_waits_and_can_be_cancelled():
+    with processes(1, threads_per_worker=1) as cluster, distributed.Client(cluster) as client:
+        job = mlt.start(scene(120, 90), "mlt", spp=1e7, cluster=client)
+
+        def goes_on():
+            done = job.stats["spp_done"]
+            wait_until(lambda: job.stats["spp_done"] > done)
+
+        goes_on()
+        cluster.scale(0)
+        wait_until(lambda: not client.nthreads())
+        assert not job.wait(1)
+        cluster.scale(1)
+        goes_on()
+        cluster.scale(0)
+        wait_until(lambda: not client.nthreads())
+        job.cancel()
+        assert job.wait(20)
+        assert job.result().image.max() > 0
+
+
 def test_an_error_budget_ends_a_render_where_it_ends_on_one_machine(client):
     here, there = (
         mlt.start(scene(), "mlt", error=0.2, seed=3, cluster=cluster).result()

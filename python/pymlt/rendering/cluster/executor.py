@@ -41,8 +41,8 @@ class ClusterExecutor:
         self.running: dict = {}  #: task -> future
         self.merging = 0.0  #: seconds spent on gathering and merging
         self.merged = 0
-        self.cancelling = False
         self.next_count = 0.0
+        self.next_cancel = 0.0
 
     def wanted_tasks(self) -> int:
         if self.connection is None:  # the render was extended
@@ -61,12 +61,11 @@ class ClusterExecutor:
             self.start, self.units_before = monotonic(), job.units_done
             self.frontier = min(job.position(task) for task in range(job.task_count))
         while True:
-            if job.stopping and not self.cancelling:
-                self.cancelling = True
-                self.client.run(worker.cancel, self.name)
-            elif job.interrupted and not self.cancelling:
+            if job.stopping:
+                self._cancel_tasks()
+            elif job.interrupted:
                 return
-            if not self.cancelling:
+            else:
                 self._send_tasks(job, to)
             if not self.running:
                 return
@@ -77,10 +76,8 @@ class ClusterExecutor:
         if self.connection is None:
             return
         with suppress(Exception):
-            for future in self.running.values():
-                future.cancel()
+            self._drop_tasks()
             self.client.run(worker.forget, self.name, self.scene_name, on_error="ignore")
-        self.running.clear()
         self.scene = None
         with suppress(Exception):
             self.connection.close()
@@ -127,7 +124,25 @@ class ClusterExecutor:
             **place,
         )
         self.running[task] = future
-        future.add_done_callback(lambda _, task=task: self.finished.put(task))
+        finished = self.finished  # of this run: a task that was dropped may still tell it
+        future.add_done_callback(lambda _: finished.put(task))
+
+    def _cancel_tasks(self) -> None:
+        """Their workers return them early; those of lost workers begin again on others, or never.
+
+        So it is said again and again, to the workers that there are, until no task is running.
+        """
+        if monotonic() < self.next_cancel:
+            return
+        self.client.run(worker.cancel, self.name, on_error="ignore")
+        if not self.client.nthreads():
+            self._drop_tasks()
+        self.next_cancel = monotonic() + 1
+
+    def _drop_tasks(self) -> None:
+        dropped, self.running = self.running, {}
+        for future in dropped.values():
+            future.cancel()
 
     def _next_frontier(self, job, to: int) -> int:
         """A stage ahead. Stages are long enough that the owner's work hardly counts."""
@@ -153,7 +168,7 @@ class ClusterExecutor:
             return
         del self.running[task]
         if isinstance(result, str):
-            if not self.cancelling:
+            if not job.stopping:
                 self._send(job, task, with_scene_to=result)
             return
         job.merge(task, result)
