@@ -143,17 +143,14 @@ class XmlReader {
       throw SceneError(at(where, "elements are nested more than {} deep", max_nesting));
     const bool known = is_plugin_family(tag) || is_value_tag(tag) || is_transform_tag(tag) ||
                        std::count(scene_tags().begin(), scene_tags().end(), tag) || tag == "scene";
-    if (!known) {
-      if (!is_refused_element(tag)) return skip_foreign({tag, where, {}}, parent);
+    const auto refuse_later = [&] {
       parent.children.push_back({tag, xml.attribute("type").value(), "", "", where, {}, {}});
-      return;
-    }
+    };
+    if (!known)
+      return is_refused_element(tag) ? refuse_later() : skip_foreign({tag, where, {}}, parent);
 
     const Element e = element(xml, source);
-    if (tag == "spectrum" && e.find("type")) {
-      parent.children.push_back({tag, e.get("type"), "", "", where, {}, {}});
-      return;
-    }
+    if (tag == "spectrum" && e.find("type")) return refuse_later();
     if (is_plugin_family(tag)) {
       parent.children.push_back(read_plugin(xml, e, source, depth));
       return;
