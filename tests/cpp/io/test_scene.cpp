@@ -285,7 +285,7 @@ TEST(SceneMistake, InAnUnusedMaterialIsFoundToo) {
 TEST(SceneMistake, PluginsOfMitsubaAreRefusedByName) {
   for (const char* element :
        {"shape type='heightfield'", "shape type='animatedinstance'", "bsdf type='irawan'",
-        "bsdf type='hapke'", "emitter type='collimated'", "texture type='mesh_attribute'"}) {
+        "bsdf type='hapke'", "emitter type='collimated'", "texture type='wireframe'"}) {
     const std::string message = error_of(sensor + point_light + "<" + element + "/>");
     EXPECT_NE(message.find("is not supported: "), std::string::npos) << message;
     EXPECT_EQ(message.substr(0, 10), "<string>:2") << message;

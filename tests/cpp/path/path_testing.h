@@ -104,12 +104,14 @@ inline NaiveDensities naive_densities(const Scene& scene, const Path& path, Flaw
       p.from_camera[i - 1] = to_light * back;
     } else {
       // One delta, in projected solid angle of the camera side: the other side's carries the ratio
-      // of projected solid angles, n_l^2 |cos l| d(wl) = n_c^2 |cos c| d(wc) in the shading frame.
+      // of projected solid angles, n_l^2 |cos l| d(wl) = n_c^2 |cos c| d(wc), with cosines against
+      // the normal about which it reflects or refracts.
       const double gl = std::abs(dot(at.ng, world_l)), gc = std::abs(dot(at.ng, world_c));
       double ratio = 1;
       if (lobe == Lobe::transmission && flaw != Flaw::no_eta)
         ratio = sqr(bsdf.relative_eta(at, wl));
-      if (lobe != Lobe::null) ratio *= std::abs(wl.z) / std::abs(wc.z) * (gc / gl);
+      const Vec3 n = bsdf.delta_normal(at, wl);
+      if (lobe != Lobe::null) ratio *= std::abs(dot(wl, n) / dot(wc, n)) * (gc / gl);
       p.from_light[i + 1] = to_camera * gc * out;
       p.from_camera[i - 1] = to_light * ratio * gl * back;
     }
