@@ -283,8 +283,8 @@ TEST(SceneMistake, InAnUnusedMaterialIsFoundToo) {
 
 TEST(SceneMistake, PluginsOfMitsubaAreRefusedByName) {
   for (const char* element :
-       {"shape type='heightfield'", "shape type='shapegroup'", "bsdf type='principled'",
-        "bsdf type='hapke'", "emitter type='projector'", "texture type='mesh_attribute'"}) {
+       {"shape type='heightfield'", "shape type='shapegroup'", "bsdf type='measured'",
+        "bsdf type='hapke'", "emitter type='projector'", "texture type='wireframe'"}) {
     const std::string message = error_of(sensor + point_light + "<" + element + "/>");
     EXPECT_NE(message.find("is not supported: "), std::string::npos) << message;
     EXPECT_EQ(message.substr(0, 10), "<string>:2") << message;
