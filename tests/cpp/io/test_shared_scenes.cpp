@@ -1,6 +1,5 @@
 // Scenes of other people, if they lie beside the repository: each one loads, or is refused in one
 // line that names what is missing.
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -43,8 +42,11 @@ TEST(SharedScenes, LoadOrAreRefusedByName) {
     } catch (const Error& error) {
       const std::string message = error.what();
       EXPECT_NE(message.find(".xml:"), std::string::npos) << message;
-      EXPECT_THAT(message, testing::AnyOf(testing::HasSubstr("' is not supported: "),
-                                          testing::HasSubstr("unknown parameter")));
+      // One is of a program whose normal maps name their image themselves.
+      const std::string foreign = "unknown parameter 'filename' for bsdf 'normalmap'";
+      EXPECT_TRUE(message.find("' is not supported: ") != std::string::npos ||
+                  message.find(foreign) != std::string::npos)
+          << message;
       EXPECT_EQ(message.find('\n'), std::string::npos) << message;
     }
   }
