@@ -96,7 +96,8 @@ inline WorldScattering scattering(const Bsdf& bsdf, const SurfacePoint& at, cons
   const Scattering s = bsdf.scattering(at, local_l, local_c, lobe);
   if (lobe == Lobe::smooth || !bsdf.bends_normal()) return {s, local_l.z, local_c.z};
   const Vec3 n = bsdf.delta_normal(at, local_l);
-  return {s, dot(local_l, n), dot(local_c, n)};
+  const double cos_l = dot(local_l, n);
+  return {s, cos_l, lobe == Lobe::reflection ? cos_l : dot(local_c, n)};
 }
 
 }  // namespace mlt

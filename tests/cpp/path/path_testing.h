@@ -173,9 +173,9 @@ inline double relative_difference(const Color& a, const Color& b) {
 
 /// How far `values` are from f(path), in units of what rounding explains. Rays start off their
 /// surface by a small offset, so a walk's own directions belong to vertices that are moved by that
-/// offset: the tolerance is 1e-9 plus what ten times such moves, one by one, change in f (moves of
-/// neighbours may cancel where the walk's mixture of both does not, and close to total reflection f
-/// is steep). Above 1 it is an error.
+/// offset, or to neighbours that are: the tolerance is 1e-9 plus what ten times such moves, one by
+/// one, change in f (moves of neighbours may cancel where the walk's mixture of both does not, and
+/// close to total reflection f is steep). Above 1 it is an error.
 template <class F>
 double excess(const Scene& scene, const Path& path, F&& f, const std::vector<double>& values) {
   const std::vector<double> expected = f(path);
@@ -189,12 +189,14 @@ double excess(const Scene& scene, const Path& path, F&& f, const std::vector<dou
   for (int v = 0; v <= path.edges(); ++v) {
     const SurfacePoint& at = path[v].at;
     if (at.infinite()) continue;
-    for (const double side : {-1.0, 1.0}) {
-      Path moved = path;
-      moved[v].at.p += 10.0 * (scene.spawn(at, side * at.ng, path.time).o - at.p);
-      const std::vector<double> other = f(moved);
-      for (size_t i = 0; i < other.size(); ++i) tolerance[i] += std::abs(other[i] - expected[i]);
-    }
+    for (const double side : {-1.0, 1.0})
+      for (int next = std::max(v - 1, 0); next <= std::min(v + 1, path.edges()); ++next) {
+        if (path[next].at.infinite()) continue;
+        Path moved = path;
+        moved[next].at.p += 10.0 * (scene.spawn(at, side * at.ng, path.time).o - at.p);
+        const std::vector<double> other = f(moved);
+        for (size_t i = 0; i < other.size(); ++i) tolerance[i] += std::abs(other[i] - expected[i]);
+      }
   }
   double worst = 0;
   for (size_t i = 0; i < values.size(); ++i) {
