@@ -236,7 +236,12 @@ def test_help_and_version_succeed(program):
 
 def start(command, *arguments) -> subprocess.Popen:
     process = subprocess.Popen(
-        [*command, *map(str, arguments)], text=True, stderr=subprocess.PIPE, stdout=subprocess.PIPE
+        [*command, *map(str, arguments)],
+        text=True,
+        stderr=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        # These tests may themselves run under nohup.
+        preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_DFL),
     )
     time.sleep(1.5)  # to load the program and render a little
     return process
