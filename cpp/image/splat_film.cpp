@@ -43,6 +43,12 @@ int round_large(const double* steps, int count, int64_t* rounded) {
   return refused;
 }
 
+int round_steps(const double* steps, int count, int64_t* rounded) {
+  if (!all_small(steps, count)) return round_large(steps, count, rounded);
+  round_small(steps, count, rounded);
+  return 0;
+}
+
 /// Returns to how many sums nothing could be added safely.
 int add_steps(const int64_t* steps, int count, int64_t* sums) {
   int64_t full = 0;
@@ -77,8 +83,7 @@ void SplatFilm::with_row(int group, int y, Use&& use) const {
 void SplatFilm::add(int group, const Vec2& raster, const Color& color) {
   const auto add = [&](int x, int y, int count, const double* values) {
     int64_t steps[run_values];
-    const int refused = all_small(values, count) ? (round_small(values, count, steps), 0)
-                                                 : round_large(values, count, steps);
+    const int refused = round_steps(values, count, steps);
     int full = 0;
     with_row(group, y, [&](int64_t* row) { full = add_steps(steps, count, row + 3 * x); });
     if (refused + full > 0) saturated_ += refused + full;

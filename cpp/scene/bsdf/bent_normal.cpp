@@ -23,7 +23,7 @@ bool is_mirror(Lobe lobe) { return lobe == Lobe::reflection || lobe == Lobe::tra
 class BentNormal::Bend {
  public:
   Bend(const SurfacePoint& at, const Vec3& n, bool turned)
-      : frame_(Frame::around(turned ? Vec3(-n.x, -n.y, n.z) : n, {1, 0, 0})), at_(at) {
+      : frame_(Frame::around(turned ? reflect(n) : n, {1, 0, 0})), at_(at) {
     const Frame& outer = at.shading;
     at_.shading = {outer.to_world(frame_.s), outer.to_world(frame_.t), outer.to_world(frame_.n)};
   }
@@ -45,14 +45,14 @@ BentNormal::BentNormal(Params& params)
 double BentNormal::turned_share(const Vec3& n, const Vec3& w) const {
   if (!flips_) return 0;
   if (!faces(n, w)) return 1;
-  return faces({-n.x, -n.y, n.z}, w) ? 0.5 * (1 - n.z) : 0;
+  return faces(reflect(n), w) ? 0.5 * (1 - n.z) : 0;
 }
 
 bool BentNormal::scatters(const Vec3& n, bool turned, const Vec3& a, const Vec3& b,
                           Lobe lobe) const {
   if (turned != !(faces(n, a) && faces(n, b))) return false;
   if (turned && (!flips_ || is_mirror(lobe))) return false;
-  const Vec3 h = turned ? Vec3(-n.x, -n.y, n.z) : n;
+  const Vec3 h = turned ? reflect(n) : n;
   return faces(h, a) && faces(h, b);
 }
 

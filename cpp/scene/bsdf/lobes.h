@@ -13,6 +13,9 @@ namespace mlt {
 /// Both directions are above a one-sided surface.
 inline bool above(const Vec3& a, const Vec3& b) { return a.z > 0 && b.z > 0; }
 
+/// w, or its opposite, whichever is above the surface.
+inline Vec3 upwards(const Vec3& w) { return w.z < 0 ? -w : w; }
+
 inline Vec2 direction_part(const Vec3& u) { return {u.y, u.z}; }
 
 // A first lobe that is taken where u.x < p, else a second. The middle of a lobe's interval is the

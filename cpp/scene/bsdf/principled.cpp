@@ -228,7 +228,6 @@ class Principled final : public Bsdf {
     if (to.z == 0 || same_side(from, to) != reflects) return std::nullopt;
     return BsdfSample{to, Lobe::smooth};
   }
-  static Vec3 upwards(const Vec3& w) { return w.z < 0 ? -w : w; }
   double eta_on_side(const Vec3& w) const { return w.z > 0 ? 1 / eta_ : eta_; }
 
   TexturePtr base_color_, roughness_, anisotropic_, metallic_, spec_trans_, spec_tint_, sheen_,

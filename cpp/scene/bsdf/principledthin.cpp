@@ -112,7 +112,6 @@ class PrincipledThin final : public Bsdf {
                                     (1 - s) * t * rate_[diffuse_through]})};
   }
 
-  static Vec3 upwards(const Vec3& w) { return w.z < 0 ? -w : w; }
   /// Between wi, which is above, and wo or what it is the turned one of.
   static Vec3 half(const Vec3& wi, const Vec3& wo) {
     return normalize(wi + Vec3(wo.x, wo.y, std::abs(wo.z)));

@@ -115,7 +115,6 @@ class RoughDielectric final : public Bsdf {
   }
 
   double eta_on_side(const Vec3& w) const { return w.z > 0 ? 1 / interface_.eta : interface_.eta; }
-  static Vec3 upwards(const Vec3& w) { return w.z < 0 ? -w : w; }
 
   RoughSurface surface_;
   DielectricInterface interface_;
