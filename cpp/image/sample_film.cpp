@@ -18,12 +18,11 @@ std::vector<double> cell_weights(const Filter& filter, int border) {
   return weights;
 }
 
-/// Adds runs of pixels to an image of the pixels `reach`.
-auto adder(std::vector<float>& image, const PixelRect& reach) {
-  return [&image, reach](int x, int y, int count, const double* values) {
-    float* pixel = &image[3 * (size_t(y - reach.y0) * reach.width() + (x - reach.x0))];
-    for (int i = 0; i < count; ++i) pixel[i] += static_cast<float>(values[i]);
-  };
+/// Behind the pixels of a tile, so that zeros can be added after the last one.
+constexpr size_t spare_values = 8;
+
+float* pixel(std::vector<float>& image, const PixelRect& reach, int x, int y) {
+  return &image[3 * (size_t(y - reach.y0) * reach.width() + (x - reach.x0))];
 }
 
 }  // namespace
@@ -55,10 +54,14 @@ SampleFilm::Tile::Tile(const PixelRect& cells, const PixelRect& reach, const Fil
     : cells_(cells),
       reach_(reach),
       filter_(&filter),
-      rgb_(size_t{3} * reach.width() * reach.height()) {}
+      rgb_(size_t{3} * reach.width() * reach.height() + spare_values) {}
 
 void SampleFilm::Tile::add(const Vec2& raster, const Color& color) {
-  mlt::splat(*filter_, raster, color, reach_, adder(rgb_, reach_));
+  mlt::splat(*filter_, raster, color, reach_, [&](int x, int y, int count, const double* values) {
+    float* to = pixel(rgb_, reach_, x, y);
+    const int padded = whole_vectors(count);
+    for (int i = 0; i < padded; ++i) to[i] += static_cast<float>(values[i]);
+  });
 }
 
 PixelRect SampleFilm::cells_of(int tile) const {
@@ -109,7 +112,7 @@ void SampleFilm::add(Strand& strand, const Pending& pending) {
   strand.rgb.resize(strand.size());
   for (int y = reach.y0; y < reach.y1; ++y) {
     const float* from = &pending.data.rgb_[(y - reach.y0) * row];
-    float* to = &strand.rgb[3 * (size_t(y - all.y0) * all.width() + (reach.x0 - all.x0))];
+    float* to = pixel(strand.rgb, all, reach.x0, y);
     for (size_t i = 0; i < row; ++i) to[i] += from[i];
   }
   strand.samples[splats_ ? pending.tile : 0] += pending.samples;
@@ -117,7 +120,10 @@ void SampleFilm::add(Strand& strand, const Pending& pending) {
   if (pending.data.splats_.empty()) return;
   strand.light.resize(strand.size());
   for (const Splat& one : pending.data.splats_)
-    splat(*filter_, one.raster, one.color, all, adder(strand.light, all));
+    splat(*filter_, one.raster, one.color, all, [&](int x, int y, int count, const double* values) {
+      float* to = pixel(strand.light, all, x, y);
+      for (int i = 0; i < count; ++i) to[i] += static_cast<float>(values[i]);
+    });
 }
 
 void SampleFilm::add_samples(const Group& group, std::vector<uint64_t>& samples) const {

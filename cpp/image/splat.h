@@ -19,6 +19,8 @@ struct PixelRect {
 
 /// How many pixels a run has at most.
 inline constexpr int run_pixels = 16;
+/// A number of values, rounded up to one that loops take without a rest.
+inline int whole_vectors(int values) { return (values + 7) / 8 * 8; }
 
 /// How far outside the image samples still reach a pixel, in whole pixels.
 inline int filter_border(const Filter& filter) {
@@ -26,13 +28,17 @@ inline int filter_border(const Filter& filter) {
 }
 
 /// Calls add(x, y, count, values) for each run of pixels of `rect`, from (x, y) on, whose filter
-/// covers the raster position `at`: `count` values, three channels a pixel, of color times filter.
+/// covers the raster position `at`: `count` values, three channels a pixel, of color times filter,
+/// and zeros up to whole_vectors(count).
 template <class Add>
 void splat(const Filter& filter, const Vec2& at, const Color& color, const PixelRect& rect,
            Add&& add) {
   if (filter.is_box()) {
     const int x = static_cast<int>(std::floor(at.x)), y = static_cast<int>(std::floor(at.y));
-    if (x >= rect.x0 && x < rect.x1 && y >= rect.y0 && y < rect.y1) add(x, y, 3, &color[0]);
+    if (x >= rect.x0 && x < rect.x1 && y >= rect.y0 && y < rect.y1) {
+      const double values[8] = {color.x, color.y, color.z};
+      add(x, y, 3, values);
+    }
     return;
   }
   const double r = filter.radius();
@@ -43,7 +49,8 @@ void splat(const Filter& filter, const Vec2& at, const Color& color, const Pixel
   // The weights of a row are those of all rows: they are looked up once, for some columns at a time.
   for (int first = x0; first <= x1; first += run_pixels) {
     const int pixels = std::min(run_pixels, x1 + 1 - first);
-    double row[3 * run_pixels], values[3 * run_pixels];
+    const int count = 3 * pixels, padded = whole_vectors(count);
+    double row[3 * run_pixels] = {}, values[3 * run_pixels];
     for (int i = 0; i < pixels; ++i) {
       const double wx = filter.eval(first + i + 0.5 - at.x);
       for (int c = 0; c < 3; ++c) row[3 * i + c] = color[c] * wx;
@@ -51,8 +58,8 @@ void splat(const Filter& filter, const Vec2& at, const Color& color, const Pixel
     for (int y = y0; y <= y1; ++y) {
       const double wy = filter.eval(y + 0.5 - at.y);
       if (wy == 0) continue;
-      for (int i = 0; i < 3 * pixels; ++i) values[i] = row[i] * wy;
-      add(first, y, 3 * pixels, values);
+      for (int i = 0; i < padded; ++i) values[i] = row[i] * wy;
+      add(first, y, count, values);
     }
   }
 }

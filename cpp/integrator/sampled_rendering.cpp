@@ -85,6 +85,7 @@ void SampledRendering::run_unit(uint64_t unit) {
       const Vec2 raster = Vec2(x, y) + numbers.next2();
       taker->sample(raster, numbers, sink, rays);
     }
+  taker->finish(sink, rays);
   film_.commit(place.group, order, tile_index, std::move(tile), 1);
   invalid_ += sink.invalid();
   intersect_ += rays.intersect;

@@ -73,6 +73,8 @@ class SampleTaker {
   /// The sampler has given the raster position and goes on with the lens and the time.
   virtual void sample(const Vec2& raster, PixelSampler& sampler, SampleSink& sink,
                       RayCounts& rays) = 0;
+  /// Ends the samples that it has only begun, in the order in which they were.
+  virtual void finish(SampleSink& /*sink*/, RayCounts& /*rays*/) {}
   /// What film its settings ask for.
   template <class Settings>
   static SampledSettings film(const Settings&) {

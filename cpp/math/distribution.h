@@ -30,6 +30,11 @@ class Discrete {
   double total() const { return total_; }
 
   size_t sample(double u) const {
+    if (const size_t n = size(); n <= few) {  // Without branches that would be guessed wrong.
+      size_t index = 0;
+      for (size_t i = 1; i < n; ++i) index += u >= cdf_[i];
+      return index;
+    }
     return static_cast<size_t>(std::upper_bound(cdf_.begin() + 1, cdf_.end() - 1, u) -
                                cdf_.begin()) -
            1;
@@ -46,6 +51,7 @@ class Discrete {
   }
 
  private:
+  static constexpr size_t few = 8;
   std::vector<double> cdf_;  // n + 1 values from exactly 0 to exactly 1
   double total_ = 0;
 };

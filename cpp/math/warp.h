@@ -167,8 +167,8 @@ inline Vec2 invert_lobe(const Vec3& w, const Vec3& axis, double n) {
 // low-distortion map between triangle and square"). Divide by the area for a density on a surface.
 
 inline Vec2 sample_triangle(const Vec2& u) {
-  if (u.y > u.x) return {0.5 * u.x, u.y - 0.5 * u.x};
-  return {u.x - 0.5 * u.y, 0.5 * u.y};
+  const double half = 0.5 * std::min(u.x, u.y), rest = std::max(u.x, u.y) - half;
+  return u.y > u.x ? Vec2(half, rest) : Vec2(rest, half);
 }
 
 inline double triangle_pdf() { return 2; }

@@ -37,33 +37,46 @@ Color emission(const Scene& scene, const SurfacePoint* at, const Vec3& w, Weight
     return is_black(radiance) ? Color(0) : radiance * weight(*emitter, *at);
   }
   Color sum(0);
+  if (scene.backgrounds().empty()) return sum;
   const SurfacePoint x0 = Scene::point_at_infinity(w);
-  for (const uint32_t index : scene.infinite_emitters()) {
+  for (const uint32_t index : scene.backgrounds()) {
     const Emitter& emitter = *scene.emitters()[index];
-    if (emitter.delta()) continue;
     sum += emitter.eval(x0, -w) * weight(emitter, x0);
   }
   return sum;
 }
 
-/// The light that a position on a light, chosen by next-event estimation, sends through `at`
-/// towards wc; `weight(pdf_light, pdf_bsdf)` is the MIS weight, of densities in solid angle.
+/// What a position on a light, chosen by next-event estimation, sends through a point if nothing
+/// stands between them.
+struct DirectLight {
+  SurfacePoint x0;
+  Color radiance{0};
+};
+
+/// The light that arrives at `at` and goes on towards wc; `weight(pdf_light, pdf_bsdf)` is the MIS
+/// weight, of densities in solid angle.
+template <class Weight>
+DirectLight unshadowed_light(const Scene& scene, const SurfacePoint& at, const Vec3& wc,
+                             const Vec3& u, bool strict, Weight&& weight) {
+  const LightSample light = sample_direct_position(scene, at.p, u);
+  if (!(light.pdf > 0)) return {};
+  const Vec3 wl = direction(at, light.x0);
+  if (!consistent_sides(at, wl, strict)) return {};
+  const Color radiance = light.emitter->eval(light.x0, -wl);
+  if (is_black(radiance)) return {};
+  const WorldScattering s = scattering(scene.bsdf(at), at, wl, wc, Lobe::smooth);
+  if (is_black(s.f)) return {};
+  const double pdf = light.pdf * per_solid_angle(at.p, light.x0, wl);
+  const double mis = light.emitter->delta() ? 1.0 : weight(pdf, s.pdf_from_camera);
+  return {light.x0, radiance * s.f * (std::abs(s.cos_l) * mis / pdf)};
+}
+
+/// The same, as far as it is seen.
 template <class Weight>
 Color direct_light(const Walker& walker, const SurfacePoint& at, const Vec3& wc, const Vec3& u,
                    bool strict, Weight&& weight) {
-  const LightSample light = sample_direct_position(walker.scene, at.p, u);
-  if (!(light.pdf > 0)) return Color(0);
-  const Vec3 wl = direction(at, light.x0);
-  if (!consistent_sides(at, wl, strict)) return Color(0);
-  const Color radiance = light.emitter->eval(light.x0, -wl);
-  if (is_black(radiance)) return Color(0);
-  const WorldScattering s = scattering(walker.scene.bsdf(at), at, wl, wc, Lobe::smooth);
-  if (is_black(s.f)) return Color(0);
-  const double seen = walker.join(at, light.x0);
-  if (seen == 0) return Color(0);
-  const double pdf = light.pdf * per_solid_angle(at.p, light.x0, wl);
-  const double mis = light.emitter->delta() ? 1.0 : weight(pdf, s.pdf_from_camera);
-  return radiance * s.f * (seen * std::abs(s.cos_l) * mis / pdf);
+  const DirectLight light = unshadowed_light(walker.scene, at, wc, u, strict, weight);
+  return is_black(light.radiance) ? Color(0) : light.radiance * walker.join(at, light.x0);
 }
 
 /// One scattering event of a walk from the camera.
@@ -106,59 +119,109 @@ struct IgnorePaths {
   void scatter(Lobe) {}
 };
 
+/// A path that grows from the camera, and what it has found.
+struct CameraWalk {
+  explicit CameraWalk(const Ray& first) : ray(first), previous(first.o) {}
+
+  Ray ray;  ///< Along which it goes on.
+  Color radiance{0}, throughput{1};
+  Vec3 previous;           ///< Its last vertex.
+  double scatter_pdf = 0;  ///< With which that one chose the ray, in solid angle,
+  bool delta = true;       ///< or by a delta lobe, or it is the lens.
+  double eta2 = 1;         ///< The factor of the throughput that undoes refraction.
+};
+
+/// The numbers that a vertex takes.
+struct VertexNumbers {
+  template <class Sampler>
+  explicit VertexNumbers(Sampler& sampler)
+      : light(sampler.next2()),
+        direction(sampler.next2()),
+        choice(sampler.next()),
+        lobe(sampler.next()),
+        roulette(sampler.next()) {}
+  Vec2 light, direction;
+  double choice, lobe, roulette;
+
+  Vec3 for_light() const { return {choice, light}; }
+  Vec3 for_scattering() const { return {lobe, direction}; }
+};
+
+/// Adds what is emitted where the ray ends: at the surface `at`, or (nullptr) outside the scene.
+template <class Watcher = IgnorePaths>
+void find_light(const Scene& scene, CameraWalk& walk, const SurfacePoint* at,
+                Watcher&& watcher = Watcher()) {
+  const Vec3& w = walk.ray.d;
+  const auto weight = [&](const Emitter& emitter, const SurfacePoint& x0) {
+    const double weight =
+        walk.delta
+            ? 1.0
+            : power_heuristic(walk.scatter_pdf, direct_pdf(scene, emitter, walk.previous, x0, w));
+    watcher.hit(emitter, x0, -w, walk.throughput * weight);
+    return weight;
+  };
+  walk.radiance += walk.throughput * emission(scene, at, w, weight);
+}
+
+/// Russian roulette with the throughput, from rr_depth on; false ends the walk.
+inline bool survive(const PathRules& rules, int depth, double u, CameraWalk& walk) {
+  if (depth < rules.rr_depth) return true;
+  const double survival = std::min(max_component(walk.throughput) * walk.eta2, 0.95);
+  if (!(u < survival)) return false;
+  walk.throughput /= survival;
+  return true;
+}
+
+/// Goes on from the surface that is the depth-th vertex after the lens; false ends the walk.
+template <class Watcher = IgnorePaths>
+bool scatter(const Walker& walker, const PathRules& rules, int depth, const SurfacePoint& at,
+             const VertexNumbers& numbers, CameraWalk& walk, Watcher&& watcher = Watcher()) {
+  const auto sample =
+      scatter_to_light(walker, at, -walk.ray.d, numbers.for_scattering(), rules.strict_normals);
+  if (!sample) return false;
+  watcher.scatter(sample->lobe);
+  walk.throughput *= sample->weight;
+  walk.scatter_pdf = sample->pdf;
+  walk.delta = sample->lobe != Lobe::smooth;
+  walk.eta2 /= sample->eta2;
+  if (!survive(rules, depth, numbers.roulette, walk)) return false;
+  walk.previous = at.p;
+  walk.ray = walker.leave(at, sample->w);
+  return true;
+}
+
+/// Whether lights are to be sampled from the depth-th vertex after the lens.
+inline bool wants_direct_light(const Scene& scene, const PathRules& rules, int depth,
+                               const SurfacePoint& at) {
+  return (at.matte.known() || scene.bsdf(at).has_smooth()) && rules.wants(depth + 1);
+}
+
 /// The radiance that arrives along `ray` from the scene. Every vertex draws the same number of
 /// numbers from the sampler, so that a small change of the numbers is a small change of the path.
 template <class Sampler, class Watcher = IgnorePaths>
-Color trace_path(const Scene& scene, const PathRules& rules, Ray ray, Sampler& sampler,
+Color trace_path(const Scene& scene, const PathRules& rules, const Ray& ray, Sampler& sampler,
                  RayCounts& rays, Watcher&& watcher = Watcher()) {
   const Walker walker{scene, ray.time, rays};
-  Color radiance(0), throughput(1);
-  Vec3 previous = ray.o;
-  double scatter_pdf = 0, eta2 = 1;
-  bool delta = true;
-  const auto found_by_scattering = [&](const Emitter& emitter, const SurfacePoint& x0) {
-    const double weight =
-        delta ? 1.0 : power_heuristic(scatter_pdf, direct_pdf(scene, emitter, previous, x0, ray.d));
-    watcher.hit(emitter, x0, -ray.d, throughput * weight);
-    return weight;
-  };
+  CameraWalk walk(ray);
   for (int depth = 1;; ++depth) {
     SurfacePoint at;
-    const bool hit = walker.arrive(ray, at);
-    if (rules.wants(depth))
-      radiance += throughput * emission(scene, hit ? &at : nullptr, ray.d, found_by_scattering);
+    const bool hit = walker.arrive(walk.ray, at);
+    if (rules.wants(depth)) find_light(scene, walk, hit ? &at : nullptr, watcher);
     if (!hit || depth == rules.most_edges()) break;
     watcher.arrive(at);
 
-    const Vec3 wc = -ray.d;
+    const Vec3 wc = -walk.ray.d;
     if (!consistent_sides(at, wc, rules.strict_normals)) break;
-    const Vec2 u_light = sampler.next2(), u_direction = sampler.next2();
-    const double u_choice = sampler.next(), u_lobe = sampler.next(), u_roulette = sampler.next();
-    if ((at.matte.known() || scene.bsdf(at).has_smooth()) && rules.wants(depth + 1)) {
-      const Vec3 u(u_choice, u_light);
-      const Color direct =
-          throughput * direct_light(walker, at, wc, u, rules.strict_normals, power_heuristic);
-      watcher.connect(u, direct);
-      radiance += direct;
+    const VertexNumbers numbers(sampler);
+    if (wants_direct_light(scene, rules, depth, at)) {
+      const Color direct = walk.throughput * direct_light(walker, at, wc, numbers.for_light(),
+                                                          rules.strict_normals, power_heuristic);
+      watcher.connect(numbers.for_light(), direct);
+      walk.radiance += direct;
     }
-
-    const auto sample =
-        scatter_to_light(walker, at, wc, {u_lobe, u_direction}, rules.strict_normals);
-    if (!sample) break;
-    watcher.scatter(sample->lobe);
-    throughput *= sample->weight;
-    scatter_pdf = sample->pdf;
-    delta = sample->lobe != Lobe::smooth;
-    eta2 /= sample->eta2;
-    if (depth >= rules.rr_depth) {
-      const double survival = std::min(max_component(throughput) * eta2, 0.95);
-      if (!(u_roulette < survival)) break;
-      throughput /= survival;
-    }
-    previous = at.p;
-    ray = walker.leave(at, sample->w);
+    if (!scatter(walker, rules, depth, at, numbers, walk, watcher)) break;
   }
-  return radiance;
+  return walk.radiance;
 }
 
 }  // namespace mlt

@@ -13,6 +13,7 @@
 #include <embree3/rtcore.h>
 #endif
 
+#include <cstring>
 #include <map>
 #include <string>
 
@@ -25,19 +26,27 @@ using Context = RTCRayQueryContext;
 using Context = RTCIntersectContext;
 #endif
 
-/// The context of a query, with the ray in double precision for the analytic shapes.
+/// The context of a query, with the rays in double precision for the analytic shapes, if there are
+/// any; a ray of the accelerator names one by its `id`.
 struct Query {
   Context base;
-  const Ray* ray;
+  const Ray* const* rays;
+#if MLT_EMBREE_MAJOR >= 4
+  RTCIntersectArguments intersect;
+  RTCOccludedArguments occluded;
+#endif
 };
 
-void init(Query& query, const Ray& ray) {
+void init(Query& query, const Ray* const* rays) {
 #if MLT_EMBREE_MAJOR >= 4
   rtcInitRayQueryContext(&query.base);
+  rtcInitIntersectArguments(&query.intersect);
+  rtcInitOccludedArguments(&query.occluded);
+  query.intersect.context = query.occluded.context = &query.base;
 #else
   rtcInitIntersectContext(&query.base);
 #endif
-  query.ray = &ray;
+  query.rays = rays;
 }
 
 RTCRay embree_ray(const Ray& ray) {
@@ -67,38 +76,46 @@ void analytic_bounds(const RTCBoundsFunctionArguments* args) {
                      up(high.x),  up(high.y),  up(high.z),  0};
 }
 
-/// In an instance the ray is the accelerator's, whose direction has any length.
-std::optional<double> analytic_hit(void* user_data, const Context* context, const RTCRay& moved) {
+/// Where lane i of the accelerator's rays meets the shape. In an instance, or without the exact ray,
+/// it is found by the accelerator's ray, whose direction has any length.
+std::optional<double> analytic_hit(void* user_data, const Context* context, RTCRayN* rays,
+                                   unsigned lanes, unsigned i) {
   const auto& shape = *static_cast<const AnalyticShape*>(user_data);
-  if (context->instID[0] == RTC_INVALID_GEOMETRY_ID) {
-    const Ray& ray = *reinterpret_cast<const Query*>(context)->ray;
-    return shape.intersect(ray.o, ray.d, 0, moved.tfar);
+  const float t_max = RTCRayN_tfar(rays, lanes, i);
+  const Query& query = *reinterpret_cast<const Query*>(context);
+  if (query.rays && context->instID[0] == RTC_INVALID_GEOMETRY_ID) {
+    const Ray& ray = *query.rays[RTCRayN_id(rays, lanes, i)];
+    return shape.intersect(ray.o, ray.d, 0, t_max);
   }
-  const Vec3 d(moved.dir_x, moved.dir_y, moved.dir_z);
+  const Vec3 o(RTCRayN_org_x(rays, lanes, i), RTCRayN_org_y(rays, lanes, i),
+               RTCRayN_org_z(rays, lanes, i));
+  const Vec3 d(RTCRayN_dir_x(rays, lanes, i), RTCRayN_dir_y(rays, lanes, i),
+               RTCRayN_dir_z(rays, lanes, i));
   const double stretch = length(d);
-  auto t = shape.intersect({moved.org_x, moved.org_y, moved.org_z}, d / stretch, 0,
-                           moved.tfar * stretch);
+  auto t = shape.intersect(o, d / stretch, 0, t_max * stretch);
   if (t) *t /= stretch;
   return t;
 }
 
 void analytic_intersect(const RTCIntersectFunctionNArguments* args) {
-  if (!args->valid[0]) return;
-  RTCRayHit& rayhit = *reinterpret_cast<RTCRayHit*>(args->rayhit);
-  const auto t = analytic_hit(args->geometryUserPtr, args->context, rayhit.ray);
-  if (!t) return;
-  rayhit.ray.tfar = static_cast<float>(*t);
-  rayhit.hit.u = rayhit.hit.v = 0;
-  rayhit.hit.geomID = args->geomID;
-  rayhit.hit.primID = args->primID;
-  rayhit.hit.instID[0] = args->context->instID[0];
+  RTCRayN* rays = RTCRayHitN_RayN(args->rayhit, args->N);
+  RTCHitN* hits = RTCRayHitN_HitN(args->rayhit, args->N);
+  for (unsigned i = 0; i < args->N; ++i) {
+    if (!args->valid[i]) continue;
+    const auto t = analytic_hit(args->geometryUserPtr, args->context, rays, args->N, i);
+    if (!t) continue;
+    RTCRayN_tfar(rays, args->N, i) = static_cast<float>(*t);
+    RTCHitN_u(hits, args->N, i) = RTCHitN_v(hits, args->N, i) = 0;
+    RTCHitN_geomID(hits, args->N, i) = args->geomID;
+    RTCHitN_primID(hits, args->N, i) = args->primID;
+    RTCHitN_instID(hits, args->N, i, 0) = args->context->instID[0];
+  }
 }
 
 void analytic_occluded(const RTCOccludedFunctionNArguments* args) {
-  if (!args->valid[0]) return;
-  RTCRay& ray = *reinterpret_cast<RTCRay*>(args->ray);
-  if (analytic_hit(args->geometryUserPtr, args->context, ray))
-    ray.tfar = -std::numeric_limits<float>::infinity();
+  for (unsigned i = 0; i < args->N; ++i)
+    if (args->valid[i] && analytic_hit(args->geometryUserPtr, args->context, args->ray, args->N, i))
+      RTCRayN_tfar(args->ray, args->N, i) = -std::numeric_limits<float>::infinity();
 }
 
 RTCGeometry mesh_geometry(RTCDevice device, const Mesh& mesh) {
@@ -200,42 +217,112 @@ Accel::Accel(const std::vector<ShapePtr>& shapes, int build_threads)
 
 Accel::~Accel() = default;
 
+namespace {
+
+Hit made_hit(float t, unsigned geometry, unsigned primitive, unsigned instance, float u, float v) {
+  return {t, instance == RTC_INVALID_GEOMETRY_ID ? geometry : instance, primitive, u, v, geometry};
+}
+
+void unhit(RTCRayHit& ray) {
+  ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+}
+
+/// The lanes that are in use.
+void fill_valid(int count, int valid[RayPacket::size]) {
+  for (int i = 0; i < RayPacket::size; ++i) valid[i] = i < count ? -1 : 0;
+}
+
+void fill(const RayPacket& packet, RTCRay8& rays) {
+  constexpr size_t bytes = sizeof(packet.ox);
+  std::memcpy(rays.org_x, packet.ox, bytes);
+  std::memcpy(rays.org_y, packet.oy, bytes);
+  std::memcpy(rays.org_z, packet.oz, bytes);
+  std::memcpy(rays.dir_x, packet.dx, bytes);
+  std::memcpy(rays.dir_y, packet.dy, bytes);
+  std::memcpy(rays.dir_z, packet.dz, bytes);
+  std::memcpy(rays.tfar, packet.t_max, bytes);
+  for (int i = 0; i < RayPacket::size; ++i) {
+    rays.tnear[i] = rays.time[i] = 0;
+    rays.mask[i] = ~0u;
+    rays.id[i] = i;
+    rays.flags[i] = 0;
+  }
+}
+
+}  // namespace
+
 bool Accel::intersect(const Ray& ray, Hit& hit) const {
+  const Ray* rays = &ray;
   Query query;
-  init(query, ray);
+  init(query, &rays);
   RTCRayHit rayhit;
   rayhit.ray = embree_ray(ray);
-  rayhit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  rayhit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  unhit(rayhit);
 #if MLT_EMBREE_MAJOR >= 4
-  RTCIntersectArguments arguments;
-  rtcInitIntersectArguments(&arguments);
-  arguments.context = &query.base;
-  rtcIntersect1(impl_->scene, &rayhit, &arguments);
+  rtcIntersect1(impl_->scene, &rayhit, &query.intersect);
 #else
   rtcIntersect1(impl_->scene, &query.base, &rayhit);
 #endif
   if (rayhit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
-  const unsigned instance = rayhit.hit.instID[0], geometry = rayhit.hit.geomID;
-  hit = {rayhit.ray.tfar,   instance == RTC_INVALID_GEOMETRY_ID ? geometry : instance,
-         rayhit.hit.primID, rayhit.hit.u,
-         rayhit.hit.v,      geometry};
+  hit = made_hit(rayhit.ray.tfar, rayhit.hit.geomID, rayhit.hit.primID, rayhit.hit.instID[0],
+                 rayhit.hit.u, rayhit.hit.v);
   return true;
 }
 
 bool Accel::occluded(const Ray& ray) const {
+  const Ray* rays = &ray;
   Query query;
-  init(query, ray);
+  init(query, &rays);
   RTCRay r = embree_ray(ray);
 #if MLT_EMBREE_MAJOR >= 4
-  RTCOccludedArguments arguments;
-  rtcInitOccludedArguments(&arguments);
-  arguments.context = &query.base;
-  rtcOccluded1(impl_->scene, &r, &arguments);
+  rtcOccluded1(impl_->scene, &r, &query.occluded);
 #else
   rtcOccluded1(impl_->scene, &query.base, &r);
 #endif
   return r.tfar < 0;
+}
+
+void Accel::intersect(const Ray* const* rays, int count, Hit* hits) const {
+  RayPacket packet;
+  for (int i = 0; i < count; ++i) packet.add(*rays[i]);
+  Query query;
+  init(query, rays);
+  alignas(32) int valid[RayPacket::size];
+  fill_valid(count, valid);
+  RTCRayHit8 rayhit;
+  fill(packet, rayhit.ray);
+  for (int i = 0; i < RayPacket::size; ++i)
+    rayhit.hit.geomID[i] = rayhit.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+#if MLT_EMBREE_MAJOR >= 4
+  rtcIntersect8(valid, impl_->scene, &rayhit, &query.intersect);
+#else
+  rtcIntersect8(valid, impl_->scene, &query.base, &rayhit);
+#endif
+  for (int i = 0; i < count; ++i) {
+    if (rayhit.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID)
+      hits[i].shape = SurfacePoint::no_shape;
+    else
+      hits[i] = made_hit(rayhit.ray.tfar[i], rayhit.hit.geomID[i], rayhit.hit.primID[i],
+                         rayhit.hit.instID[0][i], rayhit.hit.u[i], rayhit.hit.v[i]);
+  }
+}
+
+unsigned Accel::occluded(const RayPacket& packet) const {
+  Query query;
+  init(query, nullptr);
+  alignas(32) int valid[RayPacket::size];
+  fill_valid(packet.count, valid);
+  RTCRay8 rays;
+  fill(packet, rays);
+#if MLT_EMBREE_MAJOR >= 4
+  rtcOccluded8(valid, impl_->scene, &rays, &query.occluded);
+#else
+  rtcOccluded8(valid, impl_->scene, &query.base, &rays);
+#endif
+  unsigned blocked = 0;
+  for (int i = 0; i < packet.count; ++i) blocked |= unsigned{rays.tfar[i] < 0} << i;
+  return blocked;
 }
 
 }  // namespace mlt

@@ -9,6 +9,25 @@
 
 namespace mlt {
 
+/// Rays side by side, in single precision.
+struct alignas(32) RayPacket {
+  static constexpr int size = 8;
+  float ox[size], oy[size], oz[size], dx[size], dy[size], dz[size], t_max[size];
+  int count = 0;
+
+  void add(const Vec3f& o, const Vec3f& d, float most) {
+    ox[count] = o.x;
+    oy[count] = o.y;
+    oz[count] = o.z;
+    dx[count] = d.x;
+    dy[count] = d.y;
+    dz[count] = d.z;
+    t_max[count++] = most;
+  }
+  void add(const Ray& ray) { add(Vec3f(ray.o), Vec3f(ray.d), static_cast<float>(ray.t_max)); }
+  bool full() const { return count == size; }
+};
+
 class Accel {
  public:
   /// Builds the hierarchy; the result does not depend on `build_threads`.
@@ -17,6 +36,11 @@ class Accel {
 
   bool intersect(const Ray& ray, Hit& hit) const;
   bool occluded(const Ray& ray) const;
+
+  /// The same of up to RayPacket::size rays; a hit on nothing has the shape SurfacePoint::no_shape.
+  void intersect(const Ray* const* rays, int count, Hit* hits) const;
+  /// Bit i is set if something is in the way of ray i.
+  unsigned occluded(const RayPacket& packet) const;
 
  private:
   struct Impl;

@@ -70,6 +70,8 @@ class Bsdf : public Object {
 
   /// What the functions above amount to where the surface is matte; unknown where it is not.
   Matte matte(const SurfacePoint& at) const { return matte_.known() ? matte_ : matte_at(at); }
+  /// The same if it does not depend on the point, else nullptr.
+  const Matte* uniform_matte() const { return matte_.known() ? &matte_ : nullptr; }
   /// Whether it is matte everywhere.
   bool is_matte() const { return is_matte_; }
 

@@ -61,6 +61,10 @@ class Emitter : public Object {
     return invert_position(x0);
   }
 
+  /// The radiance of a mesh that glows the same everywhere on its front side; nullptr for any other
+  /// light.
+  virtual const Color* uniform_radiance() const { return nullptr; }
+
   virtual bool infinite() const { return false; }
   /// A point or directional light: no walk can hit it, its position (or direction) is a delta.
   virtual bool delta() const { return false; }

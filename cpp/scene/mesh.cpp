@@ -119,16 +119,53 @@ void Mesh::prepare_sampling() {
   triangle_areas_ = Discrete(areas);
 }
 
-PositionSample Mesh::sample_position(const Vec2& u) const {
+Mesh::Barycentrics Mesh::sample_barycentrics(const Vec2& u) const {
   const Discrete::Sample chosen = triangle_areas_.sample_reuse(u.x);
-  const auto index = static_cast<uint32_t>(chosen.index);
-  const Vec2 b = sample_triangle({chosen.remainder, u.y});
+  return {static_cast<uint32_t>(chosen.index), sample_triangle({chosen.remainder, u.y})};
+}
+
+PositionSample Mesh::sample_position(const Vec2& u) const {
+  const auto [index, b] = sample_barycentrics(u);
   const Edges tri = records_[index].edges();
   PositionSample sample;
   sample.at.p = tri.p0 + tri.e1 * b.x + tri.e2 * b.y;
   fill(tri, index, b.x, b.y, sample.at);
   sample.pdf = 1 / area_;
   return sample;
+}
+
+MeshPoint Mesh::point(uint32_t triangle, const Vec2f& b) const {
+  const TriangleRecord& record = records_[triangle];
+  const float b0 = 1 - b.x - b.y;
+  const Vec3f p = record.p0 * b0 + record.p1 * b.x + record.p2 * b.y, ng(record.ng);
+  MeshPoint point{p, ng, ng, record.extent, triangle, b};
+  if (data_.normals.empty()) return point;
+  const auto& corners = data_.triangles[triangle];
+  const Vec3f sum = data_.normals[corners[0]] * b0 + data_.normals[corners[1]] * b.x +
+                    data_.normals[corners[2]] * b.y;
+  const float sum2 = dot(sum, sum);
+  if (!(sum2 > 1e-12f)) return point;
+  point.n = sum * (static_cast<float>(side_) / std::sqrt(sum2));
+  point.ng = ng * std::copysign(1.0f, dot(ng, point.n));
+  return point;
+}
+
+SurfacePoint Mesh::textured_point(const MeshPoint& point) const {
+  SurfacePoint at;
+  at.p = Vec3(point.p);
+  at.uv = Vec2(point.b);
+  at.shape = index_;
+  at.primitive = point.triangle;
+  if (data_.uvs.empty()) return at;
+  const auto& corners = data_.triangles[point.triangle];
+  at.uv = Vec2(data_.uvs[corners[0]]) * (1 - at.uv.x - at.uv.y) +
+          Vec2(data_.uvs[corners[1]]) * at.uv.x + Vec2(data_.uvs[corners[2]]) * at.uv.y;
+  return at;
+}
+
+MeshPoint Mesh::sample_point(const Vec2& u) const {
+  const auto [index, b] = sample_barycentrics(u);
+  return point(index, Vec2f(b));
 }
 
 Vec2 Mesh::barycentrics(const SurfacePoint& at) const {

@@ -25,6 +25,15 @@ struct alignas(64) TriangleRecord {
   }
 };
 
+/// A point of a mesh in single precision: enough for light that is scattered diffusely.
+struct MeshPoint {
+  Vec3f p;
+  Vec3f ng, n;  ///< The geometric and the shading normal, on the same side.
+  float extent;
+  uint32_t triangle;
+  Vec2f b;  ///< Barycentrics of the corners after the first one.
+};
+
 class Mesh : public Shape {
  public:
   /// Takes buffers in object space and moves them to world space.
@@ -43,6 +52,11 @@ class Mesh : public Shape {
   /// the vertices' were moved and then interpolated; nullopt if it is the geometric normal.
   std::optional<Vec3> moved_normal(const SurfacePoint& at, const Mat3& inverse) const;
 
+  MeshPoint point(uint32_t triangle, const Vec2f& b) const;
+  /// The same point for textures: position, texture coordinates, what it is part of; no frame.
+  SurfacePoint textured_point(const MeshPoint& point) const;
+  /// Uniform over the area; the same point as that of sample_position.
+  MeshPoint sample_point(const Vec2& u) const;
   void surface_point(const Ray& ray, const Hit& hit, SurfacePoint& at) const override;
   bool has_tangent() const override { return !data_.uvs.empty() && !(bsdf_ && bsdf_->is_matte()); }
   double area() const override { return area_; }
@@ -61,6 +75,11 @@ class Mesh : public Shape {
 
  private:
   using Edges = TriangleRecord::Edges;
+  struct Barycentrics {
+    uint32_t triangle;
+    Vec2 b;
+  };
+  Barycentrics sample_barycentrics(const Vec2& u) const;
   void fill(const Edges& edges, uint32_t index, double b1, double b2, SurfacePoint& at) const;
 
   MeshData data_;

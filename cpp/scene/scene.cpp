@@ -10,10 +10,6 @@
 namespace mlt {
 namespace {
 
-/// Rays start and end this far off their surfaces, relative to the largest coordinate of the
-/// primitive: 16 units in the last place of the accelerator's floats.
-constexpr double ray_offset = 0x1p-20;
-
 Bounds enclosing_sphere(const std::vector<ShapePtr>& shapes, const Camera& camera) {
   const SurfacePoint middle = camera.sample_position({0.5, 0.5}).at;
   const Vec3 lens = camera.entrance(middle, middle.ng);
@@ -89,13 +85,23 @@ Scene::Scene(std::vector<ShapePtr> shapes, std::vector<EmitterPtr> emitters, Cam
 bool Scene::intersect(const Ray& ray, SurfacePoint& at) const {
   Hit hit;
   if (!accel_->intersect(ray, hit)) return false;
+  arrive(ray, hit, at);
+  return true;
+}
+
+inline void Scene::arrive(const Ray& ray, const Hit& hit, SurfacePoint& at) const {
   at.kind = PointKind::surface;
   at.shape = hit.shape;
   at.primitive = hit.primitive;
   at.instance = SurfacePoint::no_shape;
   shapes_[hit.shape]->surface_point(ray, hit, at);
   at.matte = bsdf(at).matte(at);
-  return true;
+}
+
+SurfacePoint Scene::surface_point(const Ray& ray, const Hit& hit) const {
+  SurfacePoint at;
+  arrive(ray, hit, at);
+  return at;
 }
 
 Vec3 Scene::departure(const SurfacePoint& at, const Vec3& w) const {
@@ -108,16 +114,21 @@ Ray Scene::spawn(const SurfacePoint& from, const Vec3& w, double time) const {
   return {departure(from, w), w, time};
 }
 
-bool Scene::visible(const SurfacePoint& a, const SurfacePoint& b, double time) const {
-  if (a.infinite()) return visible(b, a, time);
-  if (b.infinite()) return !accel_->occluded(spawn(a, b.p, time));
+std::optional<Ray> Scene::segment(const SurfacePoint& a, const SurfacePoint& b, double time) const {
+  if (a.infinite()) return segment(b, a, time);
+  if (b.infinite()) return spawn(a, b.p, time);
   const Vec3 ab = b.p - a.p;
   const Vec3 start = departure(a, ab), end = departure(b, -ab);
   const bool has_end = a.shape == SurfacePoint::no_shape || b.shape == SurfacePoint::no_shape;
-  if (has_end && !(dot(end - start, ab) > 0)) return false;  // It is behind the camera.
+  if (has_end && !(dot(end - start, ab) > 0)) return std::nullopt;  // It is behind the camera.
   const double distance = length(end - start);
   const Vec3 w = (end - start) * (1 / distance);
-  return !accel_->occluded({start, w, time, distance * (1 - ray_offset)});
+  return Ray{start, w, time, distance * (1 - ray_offset)};
+}
+
+bool Scene::visible(const SurfacePoint& a, const SurfacePoint& b, double time) const {
+  const auto ray = segment(a, b, time);
+  return ray && !accel_->occluded(*ray);
 }
 
 SurfacePoint Scene::point_at_infinity(const Vec3& w) { return InfiniteEmitter::point_towards(w); }

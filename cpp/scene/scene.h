@@ -40,10 +40,18 @@ class Scene {
   /// The light that the surface point belongs to, or nullptr.
   const Emitter* emitter(const SurfacePoint& at) const { return shapes_[at.shape]->emitter(); }
 
+  const Accel& accel() const { return *accel_; }
+  /// The point in which the ray hit a surface.
+  SurfacePoint surface_point(const Ray& ray, const Hit& hit) const;
   /// The nearest surface along the ray; false if there is none.
   bool intersect(const Ray& ray, SurfacePoint& at) const;
   /// Whether nothing stands between two points (at most one of them infinite). Null surfaces block.
   bool visible(const SurfacePoint& a, const SurfacePoint& b, double time) const;
+  /// The ray that finds out; nullopt if they cannot see each other.
+  std::optional<Ray> segment(const SurfacePoint& a, const SurfacePoint& b, double time) const;
+  /// How far rays start and end off their surfaces, relative to the largest coordinate of the
+  /// primitive: 16 units in the last place of the accelerator's floats.
+  static constexpr double ray_offset = 0x1p-20;
   /// A ray that leaves `from` along w, moved off the surface it starts on.
   Ray spawn(const SurfacePoint& from, const Vec3& w, double time) const;
 
@@ -62,6 +70,7 @@ class Scene {
   size_t bytes() const;  ///< Of the shapes' buffers.
 
  private:
+  void arrive(const Ray& ray, const Hit& hit, SurfacePoint& at) const;
   /// Where a ray that leaves the point along w, of any length, begins: off its surface.
   Vec3 departure(const SurfacePoint& at, const Vec3& w) const;
 

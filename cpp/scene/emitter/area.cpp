@@ -48,14 +48,21 @@ class AreaLight final : public Emitter {
     return invert_cosine_hemisphere(Frame::around(x0.ng).to_local(normalize(x1 - x0.p)));
   }
 
+  const Color* uniform_radiance() const override { return uniform_ ? &*uniform_ : nullptr; }
+
   Color power() const override { return radiance_->mean() * (pi * shape_->area()); }
 
-  void set_shape(const Shape* shape) override { shape_ = shape; }
+  void set_shape(const Shape* shape) override {
+    shape_ = shape;
+    if (shape->as_mesh() && radiance_->is_constant())
+      uniform_ = glm::max(radiance_->mean(), Color(0));
+  }
   const Shape* shape() const override { return shape_; }
 
  private:
   TexturePtr radiance_;
   const Shape* shape_ = nullptr;
+  std::optional<Color> uniform_;
 };
 
 }  // namespace

@@ -56,5 +56,36 @@ TEST(Accel, FindsAnalyticShapesAsTheirEquationsDo) {
   EXPECT_LE(differences, 2);
 }
 
+TEST(Accel, FindsTheSameInPackets) {
+  Rng rng(2, Purpose::test, 0);
+  const std::vector<ShapePtr> shapes = random_shapes(60, rng);
+  const Accel accel(shapes);
+  int hits = 0;
+  for (int n = 0; n < 2000; ++n) {
+    std::vector<Ray> rays;
+    RayPacket packet;
+    for (int i = 0; i < 1 + n % RayPacket::size; ++i) {
+      rays.push_back({random_point(rng, 3), random_direction(rng), 0, 5});
+      packet.add(rays.back());
+    }
+    std::vector<const Ray*> pointers;
+    for (const Ray& ray : rays) pointers.push_back(&ray);
+    std::vector<Hit> found(rays.size());
+    accel.intersect(pointers.data(), static_cast<int>(rays.size()), found.data());
+    const unsigned blocked = accel.occluded(packet);
+    for (size_t i = 0; i < rays.size(); ++i) {
+      Hit hit;
+      const bool one = accel.intersect(rays[i], hit);
+      hits += one;
+      ASSERT_EQ(found[i].shape, one ? hit.shape : SurfacePoint::no_shape);
+      if (one) {
+        EXPECT_EQ(found[i].t, hit.t);
+      }
+      EXPECT_EQ(blocked >> i & 1, unsigned{one});
+    }
+  }
+  EXPECT_GT(hits, 500);
+}
+
 }  // namespace
 }  // namespace mlt
