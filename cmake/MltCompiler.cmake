@@ -18,20 +18,26 @@ if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_CXX_COMPILER_LAUNCHER "${CCACHE_PROGRAM}")
 endif()
 
-# A wheel may travel to another machine, so it is built for the architecture's baseline; any other
-# build is for this machine, which gains from AVX2 and FMA when it has them.
+# A wheel may travel to another machine, so it holds two builds: one for the architecture's baseline,
+# and one for processors that have AVX2 and FMA. Any other build is for this machine.
 set(default_arch "")
-if(NOT SKBUILD_STATE STREQUAL "wheel" AND NOT CMAKE_CROSSCOMPILING
-   AND CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
-  check_cxx_source_runs(
-    "int main() { return !(__builtin_cpu_supports(\"avx2\") && __builtin_cpu_supports(\"fma\") &&
-                           __builtin_cpu_supports(\"bmi2\")); }"
-    MLT_HOST_HAS_AVX2)
-  if(MLT_HOST_HAS_AVX2)
-    set(default_arch x86-64-v3)
+set(default_wide_arch "")
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+  if(SKBUILD_STATE STREQUAL "wheel")
+    set(default_wide_arch x86-64-v3)
+  elseif(NOT CMAKE_CROSSCOMPILING)
+    check_cxx_source_runs(
+      "int main() { return !(__builtin_cpu_supports(\"avx2\") && __builtin_cpu_supports(\"fma\") &&
+                             __builtin_cpu_supports(\"bmi2\")); }"
+      MLT_HOST_HAS_AVX2)
+    if(MLT_HOST_HAS_AVX2)
+      set(default_arch x86-64-v3)
+    endif()
   endif()
 endif()
 set(PYMLT_ARCH "${default_arch}" CACHE STRING "Value of -march=; empty: the compiler's default")
+set(PYMLT_WIDE_ARCH "${default_wide_arch}" CACHE STRING
+    "Value of -march= of a second build in a wheel, for processors that have it; empty: none")
 if(PYMLT_ARCH)
   add_compile_options(-march=${PYMLT_ARCH})
 endif()

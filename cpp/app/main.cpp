@@ -18,8 +18,12 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <unistd.h>
+
 #include <csignal>
+#include <cstdlib>
 #include <exception>
+#include <filesystem>
 
 namespace mlt {
 namespace {
@@ -185,7 +189,22 @@ int fail(int code, const std::string& message) {
   return code;
 }
 
+/// A wheel has this program twice. This one, for every processor, gives way to the one for wide
+/// vectors where the processor has them; not with PYMLT_BUILD=baseline (python/pymlt/_processor.py).
+void give_way_to_wide_build([[maybe_unused]] char** argv) {
+#ifdef MLT_WIDE_PROGRAM
+  const char* asked = std::getenv("PYMLT_BUILD");
+  const bool wide = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
+                    __builtin_cpu_supports("bmi2");
+  if (!wide || (asked && std::string(asked) == "baseline")) return;
+  std::error_code error;
+  const auto self = std::filesystem::read_symlink("/proc/self/exe", error);
+  if (!error) execv((self.parent_path() / MLT_WIDE_PROGRAM).c_str(), argv);
+#endif
+}
+
 int main(int argc, char** argv) {
+  give_way_to_wide_build(argv);
   open_standard_streams();
   catch_signals();
   try {

@@ -1,7 +1,5 @@
 #include "scene/emitter/environment_map.h"
 
-#include "scene/texture/load_texels.h"
-
 namespace mlt {
 namespace {
 
@@ -42,7 +40,8 @@ Vec2 EnvironmentMap::invert_position(const SurfacePoint& x0) const {
 }
 
 Color EnvironmentMap::texel(int i, int j) const {
-  return mlt::texel(image_, i >= image_.width ? i - image_.width : i, j);
+  const float* c = &image_.data[image_.index(i >= image_.width ? i - image_.width : i, j, 0)];
+  return image_.channels == 1 ? Color(c[0]) : Color(c[0], c[1], c[2]);
 }
 
 /// How far d is, in turns, from the first column's azimuth; in [0, 1).

@@ -9,7 +9,7 @@ namespace mlt {
 namespace {
 
 Image load_map(Params& params) {
-  Image image = load_texels(params, {});
+  Image image = load_image(params, {});
   if (image.width < 2 || image.height < 3)
     params.fail("filename",
                 fmt::format("is an image of {} x {} pixels; an environment map needs at least "

@@ -38,27 +38,27 @@ double border_value(Wrap wrap) { return wrap == Wrap::one ? 1 : 0; }
 
 class Bitmap final : public Texture {
  public:
-  Bitmap(Image image, bool nearest, Wrap wrap_u, Wrap wrap_v, const UvTransform& to_uv)
-      : image_(std::move(image)),
+  Bitmap(Texels texels, bool nearest, Wrap wrap_u, Wrap wrap_v, const UvTransform& to_uv)
+      : texels_(std::move(texels)),
         nearest_(nearest),
         wrap_u_(wrap_u),
         wrap_v_(wrap_v),
         to_uv_(to_uv) {
     Color sum(0);
-    for (int y = 0; y < image_.height; ++y)
-      for (int x = 0; x < image_.width; ++x) {
-        const Color c = texel(image_, x, y);
+    for (int y = 0; y < texels_.height(); ++y)
+      for (int x = 0; x < texels_.width(); ++x) {
+        const Color c = texels_(x, y);
         sum += c;
         maximum_ = glm::max(maximum_, c);
       }
-    mean_ = sum / static_cast<double>(image_.pixel_count());
+    mean_ = sum / (double{1} * texels_.width() * texels_.height());
     maximum_ = glm::max(maximum_, Color(std::max(border_value(wrap_u), border_value(wrap_v))));
   }
 
   Color eval(const SurfacePoint& at) const override {
     const Vec2 uv = to_uv_(at.uv);
-    const double x = reduce(uv.x, wrap_u_) * image_.width;
-    const double y = reduce(uv.y, wrap_v_) * image_.height;
+    const double x = reduce(uv.x, wrap_u_) * texels_.width();
+    const double y = reduce(uv.y, wrap_v_) * texels_.height();
     if (!std::isfinite(x) || !std::isfinite(y)) return mean_;
     if (nearest_)
       return lookup(column(static_cast<int>(std::floor(x))), row(static_cast<int>(std::floor(y))));
@@ -69,18 +69,18 @@ class Bitmap final : public Texture {
 
   Vec2 gradient(const SurfacePoint& at) const override {
     const Vec2 uv = to_uv_(at.uv);
-    const double x = reduce(uv.x, wrap_u_) * image_.width;
-    const double y = reduce(uv.y, wrap_v_) * image_.height;
+    const double x = reduce(uv.x, wrap_u_) * texels_.width();
+    const double y = reduce(uv.y, wrap_v_) * texels_.height();
     if (nearest_ || !std::isfinite(x) || !std::isfinite(y)) return Vec2(0);
     const Cell c = cell(x, y);
     double value[4];
     for (int i = 0; i < 4; ++i) value[i] = luminance(c.corner[i]);
     const double along_x = (1 - c.b) * (value[1] - value[0]) + c.b * (value[3] - value[2]);
     const double along_y = (1 - c.a) * (value[2] - value[0]) + c.a * (value[3] - value[1]);
-    return to_uv_.pull_back({along_x * image_.width, along_y * image_.height});
+    return to_uv_.pull_back({along_x * texels_.width(), along_y * texels_.height()});
   }
 
-  Vec2i resolution() const override { return {image_.width, image_.height}; }
+  Vec2i resolution() const override { return {texels_.width(), texels_.height()}; }
   Color mean() const override { return mean_; }
   Color maximum() const override { return maximum_; }
 
@@ -99,16 +99,16 @@ class Bitmap final : public Texture {
             y - 0.5 - fy};
   }
 
-  int column(int i) const { return wrapped(i, image_.width, wrap_u_); }
-  int row(int j) const { return wrapped(j, image_.height, wrap_v_); }
+  int column(int i) const { return wrapped(i, texels_.width(), wrap_u_); }
+  int row(int j) const { return wrapped(j, texels_.height(), wrap_v_); }
   /// Of a column and a row, or the border's value.
   Color lookup(int x, int y) const {
     if (x < 0) return Color(border_value(wrap_u_));
     if (y < 0) return Color(border_value(wrap_v_));
-    return texel(image_, x, y);
+    return texels_(x, y);
   }
 
-  Image image_;
+  Texels texels_;
   bool nearest_;
   Wrap wrap_u_, wrap_v_;
   UvTransform to_uv_;

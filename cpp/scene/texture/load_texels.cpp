@@ -19,26 +19,27 @@ Image colour_channels(Image image) {
   return kept;
 }
 
-void decode(Image& image, const Decoding& decoding, bool srgb_encoded) {
+/// What a stored value means.
+double decoded(double v, const Decoding& decoding, bool srgb_encoded) {
   const bool srgb = decoding.kind == Decoding::Kind::srgb ||
                     (decoding.kind == Decoding::Kind::by_format && srgb_encoded);
-  if (srgb) {
-    for (float& v : image.data) v = static_cast<float>(srgb_to_linear(v));
-  } else if (decoding.kind == Decoding::Kind::power) {
-    for (float& v : image.data)
-      v = static_cast<float>(std::copysign(std::pow(std::abs(double{v}), decoding.gamma), v));
-  }
+  if (srgb) return srgb_to_linear(v);
+  if (decoding.kind == Decoding::Kind::power)
+    return std::copysign(std::pow(std::abs(v), decoding.gamma), v);
+  return v;
 }
 
-}  // namespace
+ReadImage read_colours(Params& params) {
+  ReadImage file = read_image(params.text("filename"));
+  file.image = colour_channels(std::move(file.image));
+  return file;
+}
 
-Image load_texels(Params& params, const Decoding& decoding) {
+Image decode_floats(Params& params, ReadImage&& file, const Decoding& decoding) {
   const std::string path = params.text("filename");
-  ReadImage file = read_image(path);
-  Image image = colour_channels(std::move(file.image));
-  decode(image, decoding, file.srgb_encoded);
   bool negative = false;
-  for (float& v : image.data) {
+  for (float& v : file.image.data) {
+    v = static_cast<float>(decoded(v, decoding, file.srgb_encoded));
     if (!std::isfinite(v)) throw FileError(path + ": holds NaN or infinite pixels");
     if (v < 0 && !decoding.keep_negative) {
       v = 0;
@@ -46,7 +47,23 @@ Image load_texels(Params& params, const Decoding& decoding) {
     }
   }
   if (negative) params.warn(path + ": negative values were set to 0");
-  return image;
+  return std::move(file.image);
+}
+
+}  // namespace
+
+Image load_image(Params& params, const Decoding& decoding) {
+  return decode_floats(params, read_colours(params), decoding);
+}
+
+Texels load_texels(Params& params, const Decoding& decoding) {
+  ReadImage file = read_colours(params);
+  if (file.bits != 8) return Texels(decode_floats(params, std::move(file), decoding));
+  Texels::Meaning meaning;
+  for (size_t i = 0; i < meaning.size(); ++i)
+    meaning[i] =
+        static_cast<float>(decoded(static_cast<float>(i / 255.0), decoding, file.srgb_encoded));
+  return {file.image, meaning};
 }
 
 }  // namespace mlt

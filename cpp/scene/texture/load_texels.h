@@ -2,8 +2,7 @@
 #pragma once
 
 #include "base/params.h"
-#include "image/image.h"
-#include "math/color.h"
+#include "scene/texture/texels.h"
 
 namespace mlt {
 
@@ -22,11 +21,8 @@ struct Decoding {
 
 /// Reads the image that the parameter `filename` names, as 1 (grey) or 3 (RGB) linear channels;
 /// alpha is dropped. Throws FileError for a file that cannot be read or holds NaN or infinity.
-Image load_texels(Params& params, const Decoding& decoding);
-
-inline Color texel(const Image& image, int x, int y) {
-  const float* c = &image.data[image.index(x, y, 0)];
-  return image.channels == 1 ? Color(c[0]) : Color(c[0], c[1], c[2]);
-}
+Image load_image(Params& params, const Decoding& decoding);
+/// The same for a texture.
+Texels load_texels(Params& params, const Decoding& decoding);
 
 }  // namespace mlt
