@@ -15,11 +15,12 @@ namespace {
 std::unique_ptr<PyJob> make_job(LoadedPtr loaded, const MadeIntegrator& made,
                                 std::optional<double> spp, std::optional<double> time,
                                 std::optional<double> error, uint64_t seed, int threads,
-                                const CheckpointFile& checkpoint) {
+                                const CheckpointFile& checkpoint, const std::optional<Text>& aovs) {
   RenderSettings settings;
   settings.budget = {spp, time, error};
   settings.seed = seed;
   settings.threads = threads;
+  settings.aovs = parse_aovs(aovs ? std::string(*aovs) : loaded->aovs);
   settings.autosave.every = checkpoint.every;
   if (!checkpoint.path.empty())
     settings.autosave = autosave_to(checkpoint, checkpoint_of(*loaded, made, seed));
@@ -96,7 +97,7 @@ void bind_render(py::module_& m) {
   py::class_<PyJob>(m, "Job")
       .def(py::init(&make_job), py::arg("scene"), py::arg("integrator"), py::arg("spp"),
            py::arg("time"), py::arg("error"), py::arg("seed"), py::arg("threads"),
-           py::arg("checkpoint"))
+           py::arg("checkpoint"), py::arg("aovs"))
       .def("start", &PyJob::start, NoGil())
       .def("wait", &wait, py::arg("seconds"))
       .def("cancel", &PyJob::cancel, NoGil())

@@ -105,6 +105,9 @@ const std::vector<Flag>& render_flags() {
       {"spp", "--spp", "N", &spp, "samples (or mutations) per pixel"},
       {"time", "--time", "SECONDS", &positive, "seconds to render"},
       {"error", "--error", "E", &positive, "relative error to reach, such as 0.02"},
+      {"aovs", "--aov", "LIST", &any_text,
+       "layers of what the camera sees first: albedo, depth, position, uv, geo_normal, sh_normal, "
+       "shape_index, prim_index; each may have a name, as in n:sh_normal"},
       {"seed", "--seed", "N", &seed, "seed of all random numbers (0)", Flag::fixed_by_resume},
       {"threads", "--threads", "N", &threads, "0: as many as the machine has"},
       {"checkpoint", "--checkpoint", "FILE", &any_text, "keep the state of the render in this file",

@@ -152,6 +152,7 @@ int run(Options options) {
       saved ? saved->integrator
             : choose_integrator(loaded, options.integrator, options.parameters, plugins()),
       plugins());
+  options.render.aovs = parse_aovs(options.aovs.empty() ? loaded.aovs : options.aovs);
   if (!options.checkpoint.path.empty())
     options.render.autosave =
         autosave_to(options.checkpoint, checkpoint_of(loaded, made, options.render.seed));

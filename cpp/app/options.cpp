@@ -52,6 +52,7 @@ Options read_options(const FlagValues& given) {
   take<double>(given, "error", render.budget.error);
   take<uint64_t>(given, "seed", render.seed);
   take<uint64_t>(given, "threads", render.threads);
+  text("aovs", options.aovs);
   text("checkpoint", options.checkpoint.path);
   take<double>(given, "every", options.checkpoint.every);
   options.checkpoint.overwrite = given.count("overwrite") > 0;

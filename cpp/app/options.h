@@ -22,6 +22,7 @@ struct Options {
   RenderSettings render;
   CheckpointFile checkpoint;  ///< To be renewed while it renders, or with the path "".
   std::string resume;         ///< A file to go on from, or "".
+  std::string aovs;           ///< Layers, in place of the scene's own.
   double exposure = 0;
   bool quiet = false;
 };

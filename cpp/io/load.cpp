@@ -69,21 +69,33 @@ const Node& chosen_sensor(const Node& scene, std::vector<std::string>& warnings)
   return *sensors[static_cast<size_t>(asked.value_or(0))];
 }
 
-/// Mitsuba's integrators that only add statistics or channels to the one nested in them.
-const Node& unwrapped(const Node& integrator, std::vector<std::string>& warnings) {
+/// The property `aovs` of Mitsuba's integrator of that name.
+std::string asked_aovs(const Node& integrator) {
+  for (const Node::Property& property : integrator.properties)
+    if (property.name == "aovs")
+      if (const auto* list = std::get_if<std::string>(&property.value)) return *list;
+  throw SceneError(at(integrator.where,
+                      "integrator 'aov' needs a string 'aovs', such as "
+                      "'albedo:albedo, nn:sh_normal'"));
+}
+
+/// Mitsuba's integrators that only add channels or statistics to the one nested in them.
+const Node& unwrapped(const Node& integrator, LoadedScene& loaded) {
   if (integrator.type != "moment" && integrator.type != "aov") return integrator;
+  if (integrator.type == "aov") loaded.aovs = asked_aovs(integrator);
   for (const Node& child : integrator.children)
     if (child.family == "integrator") {
-      warnings.push_back(at(integrator.where,
-                            "integrator '{}' is not supported; the '{}' inside it is used",
-                            integrator.type, child.type));
-      return unwrapped(child, warnings);
+      if (integrator.type == "moment")
+        loaded.warnings.push_back(
+            at(integrator.where, "integrator 'moment' is not supported; the '{}' inside it is used",
+               child.type));
+      return unwrapped(child, loaded);
     }
   throw SceneError(
       at(integrator.where, "integrator '{}' has no integrator inside", integrator.type));
 }
 
-std::optional<Node> only_integrator(const Node& scene, std::vector<std::string>& warnings) {
+void find_integrator(const Node& scene, LoadedScene& loaded) {
   const Node* integrator = nullptr;
   for (const Node& child : scene.children) {
     if (child.family != "integrator") continue;
@@ -91,8 +103,7 @@ std::optional<Node> only_integrator(const Node& scene, std::vector<std::string>&
       throw SceneError(at(child.where, "the scene has a second integrator; keep one"));
     integrator = &child;
   }
-  if (!integrator) return std::nullopt;
-  return unwrapped(*integrator, warnings);
+  if (integrator) loaded.integrator = unwrapped(*integrator, loaded);
 }
 
 /// Shapes and lights in the order of the scene; everything else is made too, and so checked.
@@ -146,7 +157,7 @@ LoadedScene build_scene(const Node& tree, const Registry& registry, const LoadOp
 
   refuse_missing(scene, registry);
   const Node& sensor = chosen_sensor(scene, loaded.warnings);
-  loaded.integrator = only_integrator(scene, loaded.warnings);
+  find_integrator(scene, loaded);
   Builder builder(scene, registry, loaded.warnings);
   const Builder::View view = builder.view(sensor, options.size);
   std::vector<ShapePtr> shapes;

@@ -40,6 +40,7 @@ struct LoadedScene {
   Node tree;                          ///< What it was built from,
   std::optional<Vec2i> size;          ///< and the size that was asked for.
   std::optional<Node> integrator;     ///< As the scene describes it, not yet made.
+  std::string aovs;                   ///< The layers that its integrator `aov` asks for.
   std::vector<std::string> warnings;  ///< One line each, with file and line.
   double seconds = 0;                 ///< Wall time of loading.
   uint64_t hash =

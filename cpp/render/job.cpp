@@ -15,7 +15,8 @@ Job::Job(ScenePtr scene, IntegratorPtr integrator, const RenderSettings& setting
       threads_(settings.threads == 0 ? hardware_threads() : settings.threads),
       executor_(std::make_unique<Executor>()),
       stop_rule_(settings.budget, *scene_),
-      autosave_(settings.autosave) {
+      autosave_(settings.autosave),
+      aovs_(settings.aovs) {
   if (threads_ < 0 || threads_ > max_threads)
     throw UsageError(fmt::format("threads must lie between 0 and {}; 0 means all", max_threads));
   try {
@@ -75,11 +76,12 @@ namespace {
 
 /// Developing the image, estimating its error and writing both take no more than this, beside what
 /// the sums take: bytes per pixel (float images of 3 channels have 12), and on the whole.
-constexpr size_t end_per_pixel = 144, end_at_least = size_t{16} << 20;
+/// A layer of what the camera sees is kept once, and handed out once.
+constexpr size_t end_per_pixel = 144, end_at_least = size_t{16} << 20, aov_per_pixel = 24;
 
-size_t bytes_for_the_end(const Scene& scene) {
+size_t bytes_for_the_end(const Scene& scene, size_t aovs) {
   const Vec2i size = scene.camera().raster().size;
-  return end_at_least + end_per_pixel * size.x * size.y;
+  return end_at_least + (end_per_pixel + aov_per_pixel * aovs) * size.x * size.y;
 }
 
 }  // namespace
@@ -88,7 +90,7 @@ size_t Job::bytes_needed() const {
   const Vec2i size = scene_->camera().raster().size;
   const size_t sums = rendering_ ? rendering_->memory(stop_rule_.most_spp()).bytes
                                  : size_t{24} * Rendering::group_count * size.x * size.y;
-  return sums + bytes_for_the_end(*scene_);
+  return sums + bytes_for_the_end(*scene_, aovs_.size());
 }
 
 void Job::fail_for_memory() const {
@@ -101,7 +103,7 @@ void Job::fail_for_memory() const {
 
 void Job::take_memory() {
   const size_t to_come = rendering_->memory(stop_rule_.most_spp()).to_come;
-  if (!reserve_.take(bytes_for_the_end(*scene_), to_come)) fail_for_memory();
+  if (!reserve_.take(bytes_for_the_end(*scene_, aovs_.size()), to_come)) fail_for_memory();
 }
 
 // ---- the thread that leads the others ---------------------------------------------------------

@@ -2,6 +2,7 @@
 // it pauses: no unit is running then, so its state may be saved, and its error looked at.
 #pragma once
 
+#include "integrator/aov.h"
 #include "render/autosave.h"
 #include "render/error_estimate.h"
 #include "render/executor.h"
@@ -22,6 +23,7 @@ struct RenderSettings {
   uint64_t seed = 0;
   int threads = 0;  ///< 0: as many as the machine has.
   AutosaveSettings autosave;
+  std::vector<Aov> aovs;  ///< Layers to be rendered beside the image.
 };
 
 class Job {
@@ -61,7 +63,8 @@ class Job {
   double progress() const;  ///< 0 ... 1 of the budget.
   double spp_done() const;  ///< Samples per pixel so far.
   Image image() const;      ///< So far: linear RGB, row 0 on top.
-  /// Further images that the render was asked to keep, and its error, so far.
+  /// Further images that the render was asked to keep, what the camera sees first, and the error of
+  /// the image, so far.
   std::vector<NamedImage> layers() const;
   /// How wrong the image is, so far; after the end it is worked out but once.
   std::shared_ptr<const ErrorEstimate> error() const;
@@ -130,6 +133,10 @@ class Job {
   std::atomic<int> savers_{0};  ///< Who waits for a pause.
   bool paused_ = false;
   std::condition_variable pause_;
+
+  std::vector<Aov> aovs_;
+  mutable std::mutex aov_mutex_;
+  mutable std::vector<NamedImage> aov_layers_;  ///< Empty until somebody asks for them.
 
   mutable std::mutex error_mutex_;
   mutable std::shared_ptr<const ErrorEstimate> final_error_;

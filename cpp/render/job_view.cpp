@@ -47,6 +47,11 @@ std::vector<NamedImage> Job::layers() const {
     const std::lock_guard lock(merging_);
     layers = rendering_->layers();
   }
+  {
+    const std::lock_guard lock(aov_mutex_);
+    if (aov_layers_.empty()) aov_layers_ = render_aovs(*scene_, aovs_, seed_, threads_);
+    layers.insert(layers.end(), aov_layers_.begin(), aov_layers_.end());
+  }
   for (NamedImage& layer : error_layers(*error())) layers.push_back(std::move(layer));
   return layers;
 }

@@ -337,6 +337,7 @@ class Job:
         seed: int,
         threads: int,
         checkpoint: CheckpointFile,
+        aovs: str | None,
     ) -> None: ...
     @property
     def ended(self) -> bool: ...

@@ -38,6 +38,7 @@ class Job:
             options.seed,
             options.threads,
             _core.CheckpointFile(options.checkpoint or "", options.every, options.overwrite),
+            options.aovs,
         )
 
     def _start(self) -> Job:

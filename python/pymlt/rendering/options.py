@@ -7,7 +7,7 @@ import inspect
 import numbers
 import operator
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields
 from typing import Any
 
@@ -29,6 +29,12 @@ class RenderOptions:
         a file that keeps the state of the render, renewed every so many seconds and at the end;
         `resume` goes on from there. The checkpoint of another render is replaced only with
         `overwrite`.
+    aovs
+        layers of what the camera sees first, in `result.layers`: "albedo", "depth", "position",
+        "uv", "geo_normal", "sh_normal", "shape_index", "prim_index". A list, or one string with
+        commas; "n:sh_normal" calls the layer "n". Means over 16 camera rays per pixel (indices:
+        of the ray through its middle; -1 where there is nothing). float32, (height, width, 3);
+        depth and indices (height, width, 1). None are those of the scene's integrator `aov`.
     cluster
         where to render: a `dask.distributed` client or cluster, the address of one
         ("tcp://host:8786"), or "local:N" for N processes of this machine. None is this process.
@@ -43,6 +49,7 @@ class RenderOptions:
     checkpoint: str | os.PathLike | None = None
     every: float = 60
     overwrite: bool = False
+    aovs: str | Sequence[str] | None = None
     cluster: Any = None
 
     def __post_init__(self):
@@ -52,6 +59,8 @@ class RenderOptions:
         self.threads = integer("threads", self.threads, 4097)
         if self.checkpoint is not None:
             self.checkpoint = os.fspath(self.checkpoint)
+        if self.aovs is not None and not isinstance(self.aovs, str):
+            self.aovs = ",".join(self.aovs)
 
 
 def takes_options(function: Callable, *, fixed: tuple[str, ...] = ()) -> Callable:

@@ -27,6 +27,7 @@ def render(
     checkpoint: str | os.PathLike | None = ...,
     every: float = ...,
     overwrite: bool = ...,
+    aovs: str | Sequence[str] | None = ...,
     cluster: Any = ...,
     sensor: int | None = ...,
     progress: bool | Callable[[float], object] | None = ...,
@@ -59,6 +60,7 @@ def resume(
     checkpoint: str | os.PathLike | None = ...,
     every: float = ...,
     overwrite: bool = ...,
+    aovs: str | Sequence[str] | None = ...,
     cluster: Any = ...,
     scene: SceneLike | None = ...,
 ) -> Job: ...
@@ -79,6 +81,7 @@ def start(
     checkpoint: str | os.PathLike | None = ...,
     every: float = ...,
     overwrite: bool = ...,
+    aovs: str | Sequence[str] | None = ...,
     cluster: Any = ...,
     sensor: int | None = ...,
 ) -> Job: ...

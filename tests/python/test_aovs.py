@@ -1,0 +1,127 @@
+"""Layers that show what the camera sees first."""
+
+import numpy as np
+import pytest
+import tiny
+from command_line import PYMLT, mlt_render, run, the_error
+
+import pymlt as mlt
+
+KINDS = "albedo,depth,position,uv,geo_normal,sh_normal,shape_index,prim_index"
+
+
+def layers(scene, aovs=KINDS, integrator="path", **options) -> dict[str, np.ndarray]:
+    return mlt.start(scene, integrator, spp=1, aovs=aovs, **options).result().layers
+
+
+def wall() -> dict:
+    """A red wall at z = 0, seen straight on from z = 2; it ends in the right half of the image."""
+    return {
+        "type": "scene",
+        "sensor": {
+            "type": "perspective",
+            "fov": 90.0,
+            "to_world": mlt.Transform.look_at([0, 0, 2], [0, 0, 0], [0, 1, 0]),
+            "film": {"type": "hdrfilm", "width": 20, "height": 10},
+        },
+        "light": {"type": "constant"},
+        "wall": {
+            "type": "rectangle",
+            "to_world": mlt.Transform().translate([-5, 0, 0]).scale([5.45, 5, 1]),
+            "bsdf": {"type": "diffuse", "reflectance": {"type": "rgb", "value": [0.8, 0.2, 0.1]}},
+        },
+    }
+
+
+def test_layers_of_a_wall_are_what_geometry_says():
+    found = layers(wall())
+    assert {name: image.shape[2] for name, image in found.items() if name in KINDS} == {
+        **dict.fromkeys(["albedo", "position", "uv", "geo_normal", "sh_normal"], 3),
+        **dict.fromkeys(["depth", "shape_index", "prim_index"], 1),
+    }
+    seen = found["shape_index"][..., 0] == 0
+    # One pixel is 0.2 wide at a distance of 2: the edge, x = 0.45, lies in column 12.
+    np.testing.assert_array_equal(seen, np.arange(20) < 12 + np.zeros((10, 1)))
+    np.testing.assert_array_equal(found["prim_index"][~seen], -1)
+    inside = np.zeros_like(seen)
+    inside[:, :12] = True
+    np.testing.assert_allclose(found["albedo"][inside], [[0.8, 0.2, 0.1]] * 120, rtol=1e-6)
+    for kind in ("geo_normal", "sh_normal"):
+        np.testing.assert_allclose(found[kind][inside], [[0, 0, 1]] * 120, atol=1e-6)
+    y, x = np.mgrid[0:10, 0:20] + 0.5
+    middle = np.stack([(x - 10) / 5, (5 - y) / 5, np.zeros_like(x)], -1)
+    # The mean of 16 stratified samples of a pixel that is 0.2 wide.
+    np.testing.assert_allclose(found["position"][inside], middle[inside], atol=0.025)
+    distance = np.linalg.norm(middle - [0, 0, 2], axis=-1)
+    np.testing.assert_allclose(found["depth"][inside, 0], distance[inside], atol=0.03)
+    for name in ("albedo", "depth", "position", "geo_normal"):
+        assert not found[name][:, 13:].any()
+
+
+@pytest.mark.parametrize("integrator", ["direct", "ptracer", "bdpt", "pssmlt", "mlt"])
+def test_layers_do_not_depend_on_the_integrator_or_on_threads(integrator):
+    expected = layers(tiny.scene(), seed=3, threads=1)
+    found = layers(tiny.scene(), integrator=integrator, seed=3, threads=2)
+    for name in KINDS.split(","):
+        np.testing.assert_array_equal(found[name], expected[name])
+    other = layers(tiny.scene(), seed=4)
+    assert (other["position"] != expected["position"]).any()
+    np.testing.assert_array_equal(other["shape_index"], expected["shape_index"])
+
+
+def test_layers_have_names_of_their_own():
+    found = layers(tiny.scene(), ["n:sh_normal", " depth "])
+    np.testing.assert_array_equal(found["n"], layers(tiny.scene())["sh_normal"])
+    assert "depth" in found
+    assert "sh_normal" not in found
+
+
+def test_instances_count_as_one_shape():
+    scene = wall()
+    del scene["wall"]
+    scene["group"] = {
+        "type": "shapegroup",
+        "first": {"type": "rectangle"},
+        "second": {"type": "sphere", "radius": 0.3},
+    }
+    scene["instance"] = {"type": "instance", "shapegroup": {"type": "ref", "id": "group"}}
+    assert set(np.unique(layers(scene)["shape_index"])) == {-1, 0}
+
+
+def test_integrator_aov_is_understood():
+    scene = tiny.scene()
+    scene["integrator"] = {"type": "aov", "aovs": "nn:sh_normal", "inner": scene["integrator"]}
+    result = mlt.start(scene, spp=1).result()
+    np.testing.assert_array_equal(result.layers["nn"], layers(tiny.scene())["sh_normal"])
+    assert result.stats["integrator"] == "path"
+    assert not result.stats["warnings"]
+    assert "nn" not in mlt.start(scene, spp=1, aovs="depth").result().layers
+    del scene["integrator"]["aovs"]
+    with pytest.raises(mlt.SceneError, match="'aov' needs a string 'aovs'"):
+        mlt.load_dict(scene)
+
+
+def test_layers_are_written_and_survive_a_resumption(tmp_path):
+    (tmp_path / "tiny.xml").write_text(tiny.XML)
+    flags = ["tiny.xml", "--spp", "1", "--aov", "depth,a:albedo", "-o"]
+    for command, name in (([*PYMLT, "render"], "p.exr"), (mlt_render(), "m.exr")):
+        done = run(command, *flags, name, cwd=tmp_path)
+        assert done.returncode == 0, done.stderr
+    error = the_error(run([*PYMLT, "render"], *flags, "x.exr", "--aov", "z", cwd=tmp_path))
+    assert "'z' is not a layer" in error
+    for layer in ("depth", "a"):
+        np.testing.assert_array_equal(
+            mlt.read_image(tmp_path / "p.exr", layer), mlt.read_image(tmp_path / "m.exr", layer)
+        )
+    mlt.start(tiny.scene(), "path", spp=1, checkpoint=tmp_path / "c").result()
+    again = mlt.resume(tmp_path / "c", scene=tiny.scene(), aovs="depth").result()
+    np.testing.assert_array_equal(again.layers["depth"], layers(tiny.scene())["depth"])
+
+
+def test_mistakes_are_named():
+    with pytest.raises(mlt.UsageError, match=r"'albdo' is not a layer.*did you mean 'albedo'"):
+        layers(tiny.scene(), "albdo")
+    with pytest.raises(mlt.UsageError, match="'depth' is asked for twice"):
+        layers(tiny.scene(), "depth,depth")
+    with pytest.raises(mlt.UsageError, match="has no name"):
+        layers(tiny.scene(), ":depth")
