@@ -79,6 +79,7 @@ Value from_scalar_or_array(py::object object, const std::string& key, const Loca
     object = object.attr("item")();  // a numpy scalar
   if (object.is_none()) refuse(where, key, "is None; leave it out to get its default");
   if (py::isinstance<py::str>(object)) return str_of(object, key, where);
+  if (py::isinstance<py::bytes>(object)) return object.cast<std::string>();  // buffers of arrays
   if (PyBool_Check(object.ptr())) return object.cast<bool>();
   if (PyLong_Check(object.ptr()) || PyFloat_Check(object.ptr()))
     return from_number(object, key, where);

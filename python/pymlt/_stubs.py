@@ -44,7 +44,7 @@ def mutation_schemas() -> list[dict[str, Any]]: ...
 
 START = """\
 import os
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 import numpy as np

@@ -11,7 +11,7 @@ namespace {
 Image load_map(Params& params) {
   Image image = load_image(params, {});
   if (image.width < 2 || image.height < 3)
-    params.fail("filename",
+    params.fail(params.has("data") ? "data" : "filename",
                 fmt::format("is an image of {} x {} pixels; an environment map needs at least "
                             "2 x 3",
                             image.width, image.height));
@@ -37,9 +37,10 @@ class EnvironmentFile final : public EnvironmentMap {
 Plugin emitter_envmap() {
   return make_emitter_plugin<EnvironmentFile>(
       "envmap", "Light from infinitely far away, given as a latitude-longitude image.",
-      {{"filename", ParamType::text, no_default, "Image file, preferably EXR or HDR."},
-       {"scale", ParamType::real, 1.0, "Multiplies the image."},
-       {"to_world", ParamType::transform, no_default, "Turns the map; identity if not given."}},
+      concat({image_parameters("Image file, preferably EXR or HDR."),
+              {{"scale", ParamType::real, 1.0, "Multiplies the image."},
+               {"to_world", ParamType::transform, no_default,
+                "Turns the map; identity if not given."}}}),
       {"mis_compensation", "cache"});
 }
 

@@ -49,6 +49,10 @@ Plugin mesh_file_plugin(const char* name, const char* doc, const char* filename_
 
 ObjectPtr mesh_from_file(Params& params, MeshData data, bool flat) {
   check_mesh(data, {params.text("filename")});
+  return mesh_from_data(params, std::move(data), flat);
+}
+
+ObjectPtr mesh_from_data(Params& params, MeshData data, bool flat) {
   const bool creased = params.has("max_smooth_angle");
   if (creased && params.boolean("face_normals"))
     params.fail("max_smooth_angle", "and 'face_normals' exclude each other");

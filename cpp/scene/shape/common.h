@@ -15,11 +15,13 @@ Schema shape_schema(const std::string& name, const std::string& doc,
                     std::vector<Parameter> parameters);
 
 Parameter filename_parameter(const char* doc);
-/// `face_normals` and `max_smooth_angle`, which mesh_from_file reads.
+/// `face_normals` and `max_smooth_angle`, which mesh_from_data reads.
 std::vector<Parameter> normals_parameters();
 
-/// A Mesh from what a file holds. Without vertex normals in the file the surface is smooth, as in
-/// Mitsuba, unless `flat` or the parameter `face_normals` says otherwise.
+/// A Mesh from checked buffers. Without vertex normals the surface is smooth, as in Mitsuba, unless
+/// `flat` or the parameter `face_normals` says otherwise.
+ObjectPtr mesh_from_data(Params& params, MeshData data, bool flat = false);
+/// The same from what the file `filename` holds, which is checked.
 ObjectPtr mesh_from_file(Params& params, MeshData data, bool flat = false);
 
 using MeshReader = MeshData (*)(std::string_view bytes, const std::string& name);

@@ -163,17 +163,18 @@ ObjectPtr create(Params& params) {
 std::vector<Parameter> parameters() {
   const std::vector<std::string> wraps = {"repeat", "mirror", "clamp", "zero",
                                           "one",    "black",  "white"};
-  return {{"filename", ParamType::text, no_default, "Image file: PNG, JPEG, HDR, EXR, TGA or BMP."},
-          choice_parameter("filter_type", "bilinear",
-                           "How texels are interpolated; trilinear and ewa are read as bilinear.",
-                           {"bilinear", "nearest", "trilinear", "ewa"}),
-          choice_parameter("wrap_mode", "repeat", "What lies outside of [0, 1].", wraps),
-          {"wrap_mode_u", ParamType::text, no_default, "wrap_mode along u, if different.", wraps},
-          {"wrap_mode_v", ParamType::text, no_default, "wrap_mode along v, if different.", wraps},
-          {"raw", ParamType::boolean, false,
-           "Take the stored values as they are, without sRGB decoding."},
-          {"gamma", ParamType::real, no_default,
-           "Gamma of the stored values: 1 is linear, -1 sRGB; by the file's format if not given."}};
+  return concat(
+      {image_parameters("Image file: PNG, JPEG, HDR, EXR, TGA or BMP."),
+       {choice_parameter("filter_type", "bilinear",
+                         "How texels are interpolated; trilinear and ewa are read as bilinear.",
+                         {"bilinear", "nearest", "trilinear", "ewa"}),
+        choice_parameter("wrap_mode", "repeat", "What lies outside of [0, 1].", wraps),
+        {"wrap_mode_u", ParamType::text, no_default, "wrap_mode along u, if different.", wraps},
+        {"wrap_mode_v", ParamType::text, no_default, "wrap_mode along v, if different.", wraps},
+        {"raw", ParamType::boolean, false,
+         "Take the stored values as they are, without sRGB decoding."},
+        {"gamma", ParamType::real, no_default,
+         "Gamma of the stored values: 1 is linear, -1 sRGB; by the file's format if not given."}}});
 }
 
 }  // namespace

@@ -2,8 +2,11 @@
 
 #include "image/image_io.h"
 #include "image/srgb.h"
+#include "scene/texture.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace mlt {
 namespace {
@@ -29,14 +32,43 @@ double decoded(double v, const Decoding& decoding, bool srgb_encoded) {
   return v;
 }
 
+/// The array that a scene holds in place of a file.
+ReadImage held_image(Params& params) {
+  if (params.has("filename")) params.fail("data", "and 'filename' exclude each other");
+  const std::string bytes = params.text("data"), type = params.text("data_type");
+  const Vec3 shape = vector_param(params, "data_shape");
+  const auto length = [&](int i) {
+    return static_cast<int>(std::clamp(shape[i], 0.0, double{1 << 30}));
+  };
+  ReadImage held;
+  held.image = Image(length(1), length(0), length(2));
+  held.srgb_encoded = type == "uint8";
+  held.bits = held.srgb_encoded ? 8 : 32;
+  std::vector<float>& values = held.image.data;
+  if (bytes.size() != values.size() * held.bits / 8)
+    params.fail("data",
+                "has another number of bytes than its shape says; give it as an array "
+                "from Python");
+  if (held.srgb_encoded)
+    for (size_t i = 0; i < values.size(); ++i)
+      values[i] = static_cast<float>(static_cast<uint8_t>(bytes[i]) / 255.0);
+  else
+    std::memcpy(values.data(), bytes.data(), bytes.size());
+  return held;
+}
+
+std::string name_of(Params& params) {
+  return params.has("data") ? "the array 'data'" : params.text("filename");
+}
+
 ReadImage read_colours(Params& params) {
-  ReadImage file = read_image(params.text("filename"));
+  ReadImage file = params.has("data") ? held_image(params) : read_image(params.text("filename"));
   file.image = colour_channels(std::move(file.image));
   return file;
 }
 
 Image decode_floats(Params& params, ReadImage&& file, const Decoding& decoding) {
-  const std::string path = params.text("filename");
+  const std::string path = name_of(params);
   bool negative = false;
   for (float& v : file.image.data) {
     v = static_cast<float>(decoded(v, decoding, file.srgb_encoded));
@@ -51,6 +83,17 @@ Image decode_floats(Params& params, ReadImage&& file, const Decoding& decoding) 
 }
 
 }  // namespace
+
+std::vector<Parameter> image_parameters(const char* filename_doc) {
+  return {{"filename", ParamType::text, no_default, filename_doc},
+          {"data",
+           ParamType::text,
+           {},
+           "In place of a file: an array, which a Python dict can give. (height, width), or with 1 "
+           "to 4 channels; uint8 is sRGB, float32 is linear."},
+          {"data_shape", ParamType::point, no_default, "Height, width and channels of `data`."},
+          choice_parameter("data_type", "float32", "Of `data`.", {"float32", "uint8"})};
+}
 
 Image load_image(Params& params, const Decoding& decoding) {
   return decode_floats(params, read_colours(params), decoding);

@@ -19,7 +19,10 @@ struct Decoding {
   bool keep_negative = false;  ///< Otherwise negative values become 0, with a warning.
 };
 
-/// Reads the image that the parameter `filename` names, as 1 (grey) or 3 (RGB) linear channels;
+/// Those that name an image file, or hold an image.
+std::vector<Parameter> image_parameters(const char* filename_doc);
+
+/// Reads the image that the parameter `filename` names, or takes the one in `data`, as 1 (grey) or 3 (RGB) linear channels;
 /// alpha is dropped. Throws FileError for a file that cannot be read or holds NaN or infinity.
 Image load_image(Params& params, const Decoding& decoding);
 /// The same for a texture.

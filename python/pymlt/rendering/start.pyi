@@ -1,6 +1,6 @@
 # Made by `python -m pymlt._stubs`. Do not edit.
 import os
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 import numpy as np

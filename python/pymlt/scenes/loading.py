@@ -7,6 +7,7 @@ import operator
 import os
 
 from .. import _core, scenes
+from .arrays import with_bytes
 
 SceneLike = _core.Scene | dict | str | os.PathLike
 
@@ -40,11 +41,12 @@ def load_dict(scene: dict, /, *, size=None, sensor=None) -> _core.Scene:
     """Load a scene from a Mitsuba 3 dict.
 
     Transforms may be `Transform`, Mitsuba's own, numpy arrays or nested lists; file names are
-    relative to the current directory. `size`, `sensor` and errors are those of `load_file`.
+    relative to the current directory. Meshes, textures and environment maps may be arrays; see
+    `pymlt.scenes.arrays`. `size`, `sensor` and errors are those of `load_file`.
     """
     if not isinstance(scene, dict):
         raise _core.UsageError(f"load_dict needs a dict, not a {type(scene).__name__}")
-    return _core.load_dict(scene, _size(size), _sensor(sensor))
+    return _core.load_dict(with_bytes(scene), _size(size), _sensor(sensor))
 
 
 def load_built_in(name: str, defines: dict[str, str], size=None, sensor=None) -> _core.Scene:

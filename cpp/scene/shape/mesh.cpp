@@ -1,0 +1,47 @@
+// A mesh whose buffers the scene holds, as bytes in the machine's order: a Python dict gives arrays.
+#include "scene/shape/common.h"
+
+#include <cstring>
+
+namespace mlt {
+namespace {
+
+/// The bytes of a parameter as elements of type T; none if it is not given.
+template <class T>
+std::vector<T> buffer(Params& params, const char* name) {
+  if (!params.has(name)) return {};
+  const std::string bytes = params.text(name);
+  if (bytes.size() % sizeof(T) != 0)
+    params.fail(name, fmt::format("has {} bytes, which is no multiple of {}; give it as an array "
+                                  "from Python",
+                                  bytes.size(), sizeof(T)));
+  std::vector<T> elements(bytes.size() / sizeof(T));
+  std::memcpy(elements.data(), bytes.data(), bytes.size());
+  return elements;
+}
+
+ObjectPtr create(Params& params) {
+  MeshData data;
+  data.positions = buffer<Vec3f>(params, "vertices");
+  data.triangles = buffer<std::array<uint32_t, 3>>(params, "faces");
+  data.normals = buffer<Vec3f>(params, "normals");
+  data.uvs = buffer<Vec2f>(params, "uv");
+  check_mesh(data, params.where());
+  return mesh_from_data(params, std::move(data));
+}
+
+}  // namespace
+
+Plugin shape_mesh() {
+  return {
+      shape_schema(
+          "mesh", "A triangle mesh from arrays in memory, which a Python dict can give.",
+          concat({{{"vertices", ParamType::text, no_default, "Positions: float32, (n, 3)."},
+                   {"faces", ParamType::text, no_default, "Corners: uint32, (m, 3)."},
+                   {"normals", ParamType::text, no_default, "Of the vertices: float32, (n, 3)."},
+                   {"uv", ParamType::text, no_default, "Texture coordinates: float32, (n, 2)."}},
+                  normals_parameters()})),
+      create};
+}
+
+}  // namespace mlt
