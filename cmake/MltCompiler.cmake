@@ -58,5 +58,5 @@ if(PYMLT_FUZZ)
     message(FATAL_ERROR "PYMLT_FUZZ needs clang's libFuzzer: use `cmake --preset fuzz`, "
                         "after `apt-get install clang` and the libclang-rt-*-dev beside it.")
   endif()
-  add_compile_options(-fsanitize=fuzzer-no-link)
+  add_compile_options(-fsanitize=fuzzer-no-link -DFUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION)
 endif()

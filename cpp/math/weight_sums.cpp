@@ -5,7 +5,9 @@
 namespace mlt {
 namespace {
 
-constexpr double classes_per_octave = 4;
+constexpr int classes_per_octave = 4;
+// Those of the smallest and of the largest positive number.
+constexpr int first_class = classes_per_octave * -1074, last_class = classes_per_octave * 1024;
 
 double weight_of(int index) { return std::exp2((index + 0.5) / classes_per_octave); }
 
@@ -46,9 +48,10 @@ uint64_t WeightClasses::carrying_half() const {
     rest += 0.5 * weight_of(index) * static_cast<double>(count);
   uint64_t carrying = 0;
   for (auto it = classes_.rbegin(); it != classes_.rend() && rest > 0; ++it) {
-    const double weight = weight_of(it->first);
-    carrying += std::min(it->second, static_cast<uint64_t>(std::ceil(rest / weight)));
-    rest -= weight * static_cast<double>(it->second);
+    const double weight = weight_of(it->first), most = static_cast<double>(it->second);
+    const double needed = std::ceil(rest / weight);
+    carrying += needed < most ? static_cast<uint64_t>(needed) : it->second;
+    rest -= weight * most;
   }
   return carrying;
 }
@@ -65,6 +68,8 @@ void WeightClasses::load(ByteReader& bytes) {
   classes_.clear();
   for (auto rest = bytes.read<uint64_t>(); rest > 0; --rest) {
     const int index = bytes.read<int>();
+    if (index < first_class || index > last_class)
+      throw RenderError("the saved state has a weight that no number can have");
     classes_[index] = bytes.read<uint64_t>();
   }
 }

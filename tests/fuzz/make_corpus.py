@@ -6,10 +6,13 @@ Seeds are small files of every kind that a reader takes. Checkpoints and packed 
 build writes: run it again when what these hold has changed.
 """
 
+import re
+import shutil
 import struct
 import sys
 import tempfile
 import zlib
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import numpy as np
@@ -19,6 +22,7 @@ import pymlt as mlt
 from pymlt import _core
 
 COMPRESSIONS = ("none", "rle", "zips", "zip", "piz", "pxr24", "b44", "b44a", "dwaa", "dwab")
+LONGEST = 4096  # bytes of a scene; tests/fuzz/run.sh has libFuzzer cut off what is longer
 FOLDER = Path(__file__).resolve().parent
 sys.path.insert(0, str(FOLDER.parent / "python"))
 from random_scene import FOLDER as SCENES  # noqa: E402
@@ -130,17 +134,33 @@ def make_serialized() -> None:
 # ---- scenes --------------------------------------------------------------------------------------
 
 
+def scenes_of_every_kind(encode: Callable[[str], bytes]) -> Iterator[tuple[int, bytes]]:
+    """Random scenes that are short enough, each with a plug-in that those before it lack."""
+    known: set[str] = set()
+    for seed in range(500):
+        text = random_scene(seed, size=(4, 4))
+        used = set(re.findall(r'type="(\w+)"', text))
+        if used <= known:
+            continue
+        content = encode(text)
+        if len(content) <= LONGEST:
+            known |= used
+            yield seed, content
+
+
 def make_scenes() -> None:
     for name in ("stage", "light-spectrum", "mitsuba-cornell-box", "glass-ball"):
         write("xml", f"{name}.xml", (SCENES / f"{name}.xml").read_text())
-    for seed in range(20):
-        text = random_scene(seed, size=(4, 4))
+    for seed, text in scenes_of_every_kind(str.encode):
         write("scene", f"{seed}.xml", text)
-        if seed < 6:
-            write("xml", f"{seed}.xml", text)
-        packed = mlt.load_string(text, directory=SCENES).__getstate__()
-        if len(packed) < 8000:  # with the files that it names
-            write("dict", str(seed), packed)
+        write("xml", f"{seed}.xml", text)
+
+    def packed(text: str) -> bytes:
+        """With the files that it names."""
+        return mlt.load_string(text, directory=SCENES).__getstate__()
+
+    for seed, tree in scenes_of_every_kind(packed):
+        write("dict", str(seed), tree)
 
 
 def make_checkpoints() -> None:
@@ -177,6 +197,7 @@ def make_words() -> None:
 
 
 if __name__ == "__main__":
+    shutil.rmtree(FOLDER / "corpus", ignore_errors=True)
     make_images()
     make_exr()
     make_obj()

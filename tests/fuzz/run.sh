@@ -13,12 +13,16 @@ case $name in xml | scene | dict) words=-dict=tests/fuzz/scene.dict ;; esac
 length=4096 # longer inputs are slower, and need not be
 [ "$name" = checkpoint ] && length=65536
 
+# Packed scenes are unpacked into files.
+[ -d /dev/shm ] && export TMPDIR=/dev/shm
+
 log=$work/$name.log
-# Memory that was freed is not to be kept long: it would count.
+# Memory that was freed is not to be kept long: it would count. Entropic scheduling takes longer than
+# what it schedules: without it there are six times as many packed scenes a second.
 status=0
 ASAN_OPTIONS=quarantine_size_mb=16 "$work/fuzz_$name" \
-  -max_total_time=$((minutes * 60)) -timeout=10 -rss_limit_mb=1024 -max_len=$length $words \
-  -print_final_stats=1 -artifact_prefix="$work/found/$name-" \
+  -entropic=0 -max_total_time=$((minutes * 60)) -timeout=10 -rss_limit_mb=1024 -max_len=$length \
+  $words -print_final_stats=1 -artifact_prefix="$work/found/$name-" \
   "$work/corpus/$name" "$corpus" "$regressions" >"$log" 2>&1 || status=$?
 
 runs=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")

@@ -50,8 +50,9 @@ class Draw:
     def scene(self, width: int, height: int) -> str:
         things = [self.thing() for _ in range(self.random.randint(1, 4))]
         lights = [self.lamp()] + [self.light() for _ in range(self.random.randint(0, 2))]
-        return tag("scene", self.integrator(), self.sensor(width, height), self.room(), *things,
-                   *lights, version="3.0.0")  # fmt: skip
+        sensors = self.sensor(width, height) + self.maybe(lambda: self.sensor(width, height), 0.2)
+        return tag("scene", self.integrator(), sensors, self.room(), *things, *lights,
+                   version="3.0.0")  # fmt: skip
 
     def integrator(self) -> str:
         depth = value("integer", "max_depth", self.random.choice([-1, -1, 2, 3, 8]))
@@ -126,13 +127,21 @@ class Draw:
             flat = self.maybe(lambda: value("boolean", "face_normals", "true"), 0.3)
             return lambda: tag("shape", file, flat, self.placed(), self.bsdf(), type=name)
 
+        def painted():
+            attribute = value("string", "name", "vertex_color")
+            colours = tag("texture", attribute, name="reflectance", type="mesh_attribute")
+            file = value("string", "filename", "painted.ply")
+            return tag("shape", file, self.placed(), tag("bsdf", colours, type="diffuse"),
+                       type="ply")  # fmt: skip
+
         def cylinder():
             ends = point("p0", self.triple(-0.6, 0.6)) + point("p1", self.triple(-0.6, 0.6))
             return tag("shape", ends, value("float", "radius", 0.2), self.bsdf(), type="cylinder")
 
         return self.one_of(
             lambda: self.ball(self.between(0.2, 0.5), self.bsdf()), shape("cube"), shape("disk"),
-            shape("rectangle"), cylinder, mesh("obj"), mesh("ply"), mesh("serialized"), self.copies,
+            shape("rectangle"), cylinder, mesh("obj"), mesh("ply"), mesh("serialized"), painted,
+            self.copies,
         )  # fmt: skip
 
     # ---- materials -------------------------------------------------------------------------------
@@ -151,9 +160,21 @@ class Draw:
             scale = value("float", "uvscale", self.between(1, 5))
             return tag("texture", colours, scale, name=name, type="checkerboard")
 
+        def scaled():
+            factor = value("float", "scale", self.between(0.2, 1.1))
+            nested = self.one_of(bitmap, checkerboard).replace(f'name="{name}" ', "")
+            return tag("texture", nested, factor, name=name, type="scale")
+
         spectrum = tag("spectrum", name=name, value="400:0.1, 500:0.7, 600:0.2, 700:0.4")
         return self.one_of(lambda: colour(name), lambda: colour(name), bitmap, checkerboard,
-                           spectrum)  # fmt: skip
+                           spectrum, scaled)  # fmt: skip
+
+    def share(self, name: str) -> str:
+        """A number from 0 to 1, or a texture of such."""
+        number = value("float", name, self.between(0, 1))
+        constant = number.replace(f'name="{name}"', 'name="value"')
+        constant = tag("texture", constant, name=name, type="rawconstant")
+        return self.one_of(number, number, constant, lambda: self.reflectance(name))
 
     def matt(self) -> str:
         return tag("bsdf", self.reflectance("reflectance"), type="diffuse")
@@ -166,16 +187,58 @@ class Draw:
         exponent = value("float", "exponent", self.between(1, 300))
         return tag("bsdf", exponent, self.reflectance("diffuse_reflectance"), type="phong")
 
+    def ward(self) -> str:
+        variant = value("string", "variant", self.one_of("ward", "ward-duer", "balanced"))
+        alphas = "".join(value("float", f"alpha_{k}", self.between(0.03, 0.6)) for k in "uv")
+        return tag("bsdf", variant, alphas, self.reflectance("diffuse_reflectance"), type="ward")
+
+    def clay(self) -> str:
+        alpha = value("float", "alpha", self.between(0, 0.8))
+        return tag("bsdf", self.reflectance("reflectance"), alpha, type="roughdiffuse")
+
+    def principled(self, name: str, *shares: str) -> str:
+        """With some of these parameters."""
+        chosen = self.random.sample(shares, self.random.randint(0, 4))
+        content = [self.share(parameter) for parameter in chosen]
+        return tag("bsdf", self.reflectance("base_color"), *content, type=name)
+
+    def sheet(self) -> str:
+        diffuse = value("float", "diff_trans", self.between(0, 2))
+        sheet = self.principled("principledthin", "roughness", "anisotropic", "spec_trans", "sheen")
+        return sheet.replace("</bsdf>", diffuse + "</bsdf>")
+
     def opaque(self) -> str:
         metal = value("string", "material", self.one_of("Ag", "Au", "Cu", "none"))
         coated = self.reflectance("diffuse_reflectance")
         return self.one_of(
             self.matt,
             self.phong,
+            self.ward,
+            self.clay,
+            lambda: self.principled("principled", "roughness", "anisotropic", "metallic",
+                                    "spec_tint", "sheen", "flatness", "clearcoat"),
             tag("bsdf", metal, type="conductor"),
             lambda: tag("bsdf", metal, self.rough(), type="roughconductor"),
             tag("bsdf", coated, type="plastic"),
             lambda: tag("bsdf", coated, self.rough(), type="roughplastic"),
+        )  # fmt: skip
+
+    def around(self) -> str:
+        """A material around others."""
+        bump = tag("texture", value("string", "filename", "colours.png"), type="bitmap")
+        normals = bump.replace("<texture", '<texture name="normalmap"')
+        height = value("float", "scale", self.between(0.01, 0.2))
+        weights = value("string", "weights", self.between(0.1, 1), self.between(0.1, 1))
+        absorbed = value("float", "sigma_a", self.between(0, 1))
+        return self.one_of(
+            lambda: tag(
+                "bsdf", self.share("weight"), self.opaque(), self.opaque(), type="blendbsdf"
+            ),
+            lambda: tag("bsdf", weights, self.opaque(), self.opaque(), type="mixturebsdf"),
+            lambda: tag("bsdf", self.share("opacity"), self.opaque(), type="mask"),
+            lambda: tag("bsdf", bump, height, self.opaque(), type="bumpmap"),
+            lambda: tag("bsdf", normals, self.opaque(), type="normalmap"),
+            lambda: tag("bsdf", absorbed, self.opaque(), type="coating"),
         )
 
     def bsdf(self) -> str:
@@ -183,7 +246,12 @@ class Draw:
         return self.one_of(
             self.opaque,
             self.opaque,
+            self.around,
+            self.around,
             lambda: tag("bsdf", self.opaque(), type="twosided"),
+            self.sheet,
+            lambda: self.principled("principled", "roughness", "spec_trans", "metallic", "sheen"),
+            tag("bsdf", index, type="thindielectric"),
             tag("bsdf", index, type="dielectric"),
             lambda: tag("bsdf", index, self.rough(), type="roughdielectric"),
             lambda: self.maybe(lambda: tag("bsdf", type="null"), 0.3),

@@ -27,7 +27,7 @@ def mesh(**changes) -> dict:
 
 
 def write_ply(path) -> str:
-    rows = [" ".join(map(repr, [*map(float, v), *map(float, t)])) for v, t in zip(VERTICES, UV, strict=True)]
+    rows = [" ".join(map(str, row)) for row in np.hstack([VERTICES, UV]).tolist()]
     faces = [f"3 {a} {b} {c}" for a, b, c in FACES]
     path.write_text(
         "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"

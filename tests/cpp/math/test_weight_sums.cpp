@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 namespace mlt::test {
 namespace {
 
@@ -12,6 +14,41 @@ TEST(WeightClasses, TellHowManyCarryHalf) {
   EXPECT_NEAR(static_cast<double>(classes.carrying_half()), 500, 1);
   for (int i = 0; i < 20; ++i) classes.add(100);  // 2000 of 3000
   EXPECT_NEAR(static_cast<double>(classes.carrying_half()), 15, 1);
+}
+
+/// One class of so many weights, as a file has it.
+WeightClasses loaded(int index, uint64_t count) {
+  ByteWriter writer;
+  writer.write<uint64_t>(1);
+  writer.write(index);
+  writer.write(count);
+  const std::string bytes = writer.take();
+  ByteReader reader(bytes);
+  WeightClasses classes;
+  classes.load(reader);
+  return classes;
+}
+
+TEST(WeightClasses, OfEveryNumberAreReadAgain) {
+  using Limits = std::numeric_limits<double>;
+  for (const double weight : {Limits::min(), 1.0, Limits::max()}) {
+    WeightClasses classes;
+    classes.add(weight);
+    ByteWriter writer;
+    classes.save(writer);
+    const std::string bytes = writer.take();
+    ByteReader reader(bytes);
+    classes.load(reader);
+    EXPECT_EQ(classes.carrying_half(), 1u);
+  }
+  EXPECT_NO_THROW(loaded(static_cast<int>(4 * std::log2(Limits::denorm_min())), 1));
+  constexpr auto most = std::numeric_limits<uint64_t>::max();
+  EXPECT_EQ(loaded(4096, most).carrying_half(), most);  // its sum is infinite
+}
+
+TEST(WeightClasses, OfNoNumberAreRefused) {
+  for (const int index : {-4297, 4097, 1 << 30, -(1 << 30)})
+    EXPECT_THROW(loaded(index, 5), RenderError) << index;
 }
 
 TEST(Estimates, OfStrataWeighThemByTheirSize) {
