@@ -1,5 +1,6 @@
 // Vertices of light paths as Python sees them, and how a mutation written in Python finds new ones.
 #include "light_path.h"
+#include "ray_arrays.h"
 
 #include <pybind11/stl.h>
 
@@ -33,9 +34,11 @@ std::optional<Vertex> seen_from_vertex(const LoadedScene& loaded, const Vertex& 
   return first_hit(loaded, loaded.scene->spawn(from.at, w, time));
 }
 
-std::optional<Vertex> seen_from_point(const LoadedScene& loaded, const Doubles& from,
-                                      const Doubles& direction, double time) {
-  return first_hit(loaded, {to_vector(from, "start"), to_direction(direction, "direction"), time});
+py::object seen_from_point(const LoadedScene& loaded, const Doubles& from, const Doubles& direction,
+                           double time) {
+  if (from.ndim() == 2) return intersect_rays(loaded, from, direction, time);
+  const Ray ray{to_vector(from, "start"), to_direction(direction, "direction"), time};
+  return py::cast(first_hit(loaded, ray));
 }
 
 bool visible(const LoadedScene& loaded, const Vertex& a, const Vertex& b, double time) {
@@ -102,12 +105,21 @@ void bind_vertex(py::module_& m) {
   py::class_<LoadedScene, LoadedPtr> scene(m.attr("Scene"));
   const char* doc =
       "The surface that a ray meets first, as a (smooth) vertex; None if it meets none. It starts "
-      "at a vertex or at a point.";
+      "at a vertex or at a point. For arrays (n, 3) of points and directions: a dict of arrays "
+      "with "
+      "n rows: distance, position, geo_normal, sh_normal, uv, shape_index and prim_index; NaN, an "
+      "infinite distance and -1 for rays that meet nothing. Raises UsageError for other shapes, "
+      "and "
+      "for numbers that are no ray.";
   scene
       .def("intersect", &seen_from_vertex, py::arg("start"), py::arg("direction"),
            py::arg("time") = 0.0, doc)
       .def("intersect", &seen_from_point, py::arg("start"), py::arg("direction"),
            py::arg("time") = 0.0, doc)
+      .def(
+          "camera_rays", &camera_rays, py::arg("raster"), py::arg("time") = 0.0,
+          "Rays from the middle of the lens through raster positions (n, 2), in pixels: two arrays "
+          "(n, 3), starts and unit directions, as `intersect` takes them.")
       .def("visible", &visible, py::arg("a"), py::arg("b"), py::arg("time") = 0.0,
            "Whether nothing stands between two vertices.")
       .def(

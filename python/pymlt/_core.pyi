@@ -81,13 +81,26 @@ class Scene:
     ) -> _MetropolisModule.PathTarget:
         """L* of the paths of this scene as a target for `metropolis.run`."""
 
+    @overload
     def intersect(
-        self,
-        start: Vertex | ArrayLike,
-        direction: ArrayLike,
-        time: float = 0.0,
-    ) -> Vertex | None:
-        """The surface that a ray meets first, as a (smooth) vertex; None if it meets none."""
+        self, start: Vertex, direction: ArrayLike, time: float = 0.0
+    ) -> Vertex | None: ...
+    @overload
+    def intersect(
+        self, start: ArrayLike, direction: ArrayLike, time: float = 0.0
+    ) -> Vertex | dict[str, np.ndarray] | None:
+        """The surface that a ray meets first, as a (smooth) vertex; None if it meets none.
+
+        For arrays (n, 3) of points and directions: a dict of arrays with n rows: distance,
+        position, geo_normal, sh_normal, uv, shape_index and prim_index; NaN, an infinite distance
+        and -1 for rays that meet nothing.
+        """
+
+    def camera_rays(self, raster: ArrayLike, time: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
+        """Rays from the middle of the lens through raster positions (n, 2), in pixels.
+
+        Two arrays (n, 3), starts and unit directions, as `intersect` takes them.
+        """
 
     def visible(self, a: Vertex, b: Vertex, time: float = 0.0) -> bool:
         """Whether nothing stands between two vertices."""
