@@ -86,7 +86,9 @@ void expect_same_points(const ScenePtr& a, const ScenePtr& b) {
     for (const double side : {1.0, -1.0}) {
       const Vec3 w = normalize(side * x.ng + 0.5 * random_direction(rng));
       SurfacePoint next;
-      if (a->intersect(a->spawn(x, w, 0), next)) EXPECT_GT(length(next.p - x.p), 1e-5);
+      if (a->intersect(a->spawn(x, w, 0), next)) {
+        EXPECT_GT(length(next.p - x.p), 1e-5);
+      }
     }
   }
   EXPECT_GT(hits, 500);
