@@ -36,7 +36,7 @@ std::string canonical(const std::string& path) {
 const std::vector<std::string>& scene_tags() {
   static const std::vector<std::string> tags = [] {
     std::vector<std::string> all = plugin_families();
-    all.insert(all.end(), {"default", "include", "path", "alias", "ref", "transform"});
+    all.insert(all.end(), {"default", "include", "path", "alias", "ref", "transform", "animation"});
     return all;
   }();
   return tags;
@@ -156,6 +156,7 @@ class XmlReader {
       return;
     }
     if (tag == "transform") return read_transform_property(xml, e, parent, source);
+    if (tag == "animation") return read_animation_property(xml, e, parent, source);
     for (const pugi::xml_node& child : xml.children())
       if (child.type() != pugi::node_comment) e.fail("should be empty, but has something inside");
 
@@ -202,15 +203,47 @@ class XmlReader {
   void read_transform_property(const pugi::xml_node& xml, const Element& element, Node& parent,
                                const Source& source) {
     element.expect_only({"name"});
-    std::vector<Element> steps;
-    for (const pugi::xml_node& child : xml.children()) {
-      if (child.type() == pugi::node_element) steps.push_back(this->element(child, source));
-      if (child.type() == pugi::node_pcdata || child.type() == pugi::node_cdata)
-        element.fail("contains a text; only steps such as <translate> are expected here");
-    }
+    const Matrix matrix = transform_in(xml, element, source);
     if (parent.family == "scene")
       element.fail("has no effect at the top of a scene; put it inside a shape");
-    parent.properties.push_back({element.require("name"), read_transform(steps), element.where});
+    parent.properties.push_back({element.require("name"), matrix, element.where});
+  }
+
+  void read_animation_property(const pugi::xml_node& xml, const Element& element, Node& parent,
+                               const Source& source) {
+    element.expect_only({"name"});
+    if (parent.family == "scene")
+      element.fail("has no effect at the top of a scene; put it inside a shape");
+    Animation animation;
+    for (const auto& [key_xml, key] : inside(xml, element, "<transform>s with a time", source)) {
+      if (key.tag != "transform") key.fail("does not belong in an <animation>; give <transform>s");
+      key.expect_only({"time"});
+      const auto time = parse_real(key.require("time"));
+      if (!time) key.fail("has the time " + quote(key.get("time")) + ", but it should be a number");
+      animation.push_back({*time, transform_in(key_xml, key, source)});
+    }
+    parent.properties.push_back({element.require("name"), std::move(animation), element.where});
+  }
+
+  /// The elements inside of one that should have no text.
+  std::vector<std::pair<pugi::xml_node, Element>> inside(const pugi::xml_node& xml,
+                                                         const Element& element,
+                                                         const char* expected,
+                                                         const Source& source) {
+    std::vector<std::pair<pugi::xml_node, Element>> found;
+    for (const pugi::xml_node& child : xml.children()) {
+      if (child.type() == pugi::node_element) found.emplace_back(child, this->element(child, source));
+      if (child.type() == pugi::node_pcdata || child.type() == pugi::node_cdata)
+        element.fail(fmt::format("contains a text; only {} are expected here", expected));
+    }
+    return found;
+  }
+
+  Matrix transform_in(const pugi::xml_node& xml, const Element& element, const Source& source) {
+    std::vector<Element> steps;
+    for (auto& [ignored, step] : inside(xml, element, "steps such as <translate>", source))
+      steps.push_back(std::move(step));
+    return read_transform(steps);
   }
 
   void read_include(const Element& element, Node& parent, const Source& source, int depth) {

@@ -51,7 +51,7 @@ Color emission(const Scene& scene, const SurfacePoint* at, const Vec3& w, Weight
 template <class Weight>
 Color direct_light(const Walker& walker, const SurfacePoint& at, const Vec3& wc, const Vec3& u,
                    bool strict, Weight&& weight) {
-  const LightSample light = sample_direct_position(walker.scene, at.p, u);
+  const LightSample light = sample_direct_position(walker.scene, at, u);
   if (!(light.pdf > 0)) return Color(0);
   const Vec3 wl = direction(at, light.x0);
   if (!consistent_sides(at, wl, strict)) return Color(0);

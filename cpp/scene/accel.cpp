@@ -1,6 +1,7 @@
 // The ray accelerator on Embree 3 or 4. Meshes go to Embree as they are; analytic shapes are
 // user geometry, intersected in double precision with the ray as it was given. Groups of shapes are
-// scenes of their own, of which there are instances.
+// scenes of their own, of which there are instances. What moves is an instance whose transform is
+// linear between steps of time, by Embree's own interpolation.
 #include "scene/accel.h"
 
 #include "scene/analytic_shape.h"
@@ -13,6 +14,7 @@
 #include <embree3/rtcore.h>
 #endif
 
+#include <algorithm>
 #include <map>
 #include <string>
 
@@ -40,7 +42,8 @@ void init(Query& query, const Ray& ray) {
   query.ray = &ray;
 }
 
-RTCRay embree_ray(const Ray& ray) {
+/// `time` is Embree's own, in [0, 1].
+RTCRay embree_ray(const Ray& ray, double time) {
   RTCRay r;
   r.org_x = static_cast<float>(ray.o.x);
   r.org_y = static_cast<float>(ray.o.y);
@@ -50,7 +53,7 @@ RTCRay embree_ray(const Ray& ray) {
   r.dir_z = static_cast<float>(ray.d.z);
   r.tnear = 0;
   r.tfar = static_cast<float>(ray.t_max);
-  r.time = 0;
+  r.time = static_cast<float>(time);
   r.mask = ~0u;
   r.id = 0;
   r.flags = 0;
@@ -130,6 +133,11 @@ RTCGeometry analytic_geometry(RTCDevice device, const AnalyticShape& shape) {
   return geometry;
 }
 
+bool moves(const ShapePtr& shape) {
+  const Instance* instance = shape->as_instance();
+  return instance && instance->motion().moves();
+}
+
 /// The device's error in words, or ""; without a device, why there is none. Where memory is short
 /// Embree often fails before it can say so; then it is a thread or a library that it lacks.
 std::string why_not(RTCDevice device, const char* what) {
@@ -145,6 +153,7 @@ std::string why_not(RTCDevice device, const char* what) {
 struct Accel::Impl {
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
+  double open = 0, per_time = 0;  ///< From times to Embree's; per_time is 0 if nothing moves.
   std::map<const ShapeGroup*, RTCScene> groups;
 
   ~Impl() {
@@ -156,6 +165,10 @@ struct Accel::Impl {
   RTCScene build(const std::vector<ShapePtr>& shapes);
   RTCGeometry geometry(const Shape& shape);
   RTCGeometry instance_geometry(const Instance& instance);
+
+  double embree_time(double time) const {
+    return std::min(std::max(0.0, (time - open) * per_time), 1.0);  // Also of what is no number.
+  }
 };
 
 RTCScene Accel::Impl::build(const std::vector<ShapePtr>& shapes) {
@@ -182,13 +195,21 @@ RTCGeometry Accel::Impl::instance_geometry(const Instance& instance) {
   if (!group) group = build(instance.group().shapes());
   RTCGeometry made = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
   rtcSetGeometryInstancedScene(made, group);
-  const glm::mat4 to_world(instance.to_world());
-  rtcSetGeometryTransform(made, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, &to_world);
+  const std::vector<Mat4>& steps = instance.motion().steps();
+  rtcSetGeometryTimeStepCount(made, static_cast<unsigned>(steps.size()));
+  for (unsigned i = 0; i < steps.size(); ++i) {
+    const glm::mat4 to_world(steps[i]);
+    rtcSetGeometryTransform(made, i, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, &to_world);
+  }
   return made;
 }
 
-Accel::Accel(const std::vector<ShapePtr>& shapes, int build_threads)
+Accel::Accel(const std::vector<ShapePtr>& shapes, const Shutter& shutter, int build_threads)
     : impl_(std::make_unique<Impl>()) {
+  if (std::any_of(shapes.begin(), shapes.end(), moves)) {
+    impl_->open = shutter.open;
+    impl_->per_time = 1 / (shutter.close - shutter.open);
+  }
   // A fixed instruction set, so that the bits do not depend on the machine's vector width.
   const std::string config = "max_isa=avx2,threads=" + std::to_string(build_threads);
   impl_->device = rtcNewDevice(config.c_str());
@@ -204,7 +225,7 @@ bool Accel::intersect(const Ray& ray, Hit& hit) const {
   Query query;
   init(query, ray);
   RTCRayHit rayhit;
-  rayhit.ray = embree_ray(ray);
+  rayhit.ray = embree_ray(ray, impl_->embree_time(ray.time));
   rayhit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   rayhit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
 #if MLT_EMBREE_MAJOR >= 4
@@ -226,7 +247,7 @@ bool Accel::intersect(const Ray& ray, Hit& hit) const {
 bool Accel::occluded(const Ray& ray) const {
   Query query;
   init(query, ray);
-  RTCRay r = embree_ray(ray);
+  RTCRay r = embree_ray(ray, impl_->embree_time(ray.time));
 #if MLT_EMBREE_MAJOR >= 4
   RTCOccludedArguments arguments;
   rtcInitOccludedArguments(&arguments);

@@ -12,7 +12,8 @@ namespace mlt {
 class Accel {
  public:
   /// Builds the hierarchy; the result does not depend on `build_threads`.
-  explicit Accel(const std::vector<ShapePtr>& shapes, int build_threads = 1);
+  explicit Accel(const std::vector<ShapePtr>& shapes, const Shutter& shutter = {},
+                 int build_threads = 1);
   ~Accel();
 
   bool intersect(const Ray& ray, Hit& hit) const;

@@ -85,12 +85,12 @@ class Scene:
         self,
         start: Vertex | ArrayLike,
         direction: ArrayLike,
-        time: float = 0.0,
+        time: float | None = None,
     ) -> Vertex | None:
         """The surface that a ray meets first, as a (smooth) vertex; None if it meets none."""
 
-    def visible(self, a: Vertex, b: Vertex, time: float = 0.0) -> bool:
-        """Whether nothing stands between two vertices."""
+    def visible(self, a: Vertex, b: Vertex, time: float | None = None) -> bool:
+        """Whether nothing stands between two vertices; at the time of the first if none is given."""
 
     def scatter(
         self,
