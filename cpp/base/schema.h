@@ -25,6 +25,10 @@ inline Spectrum constant_spectrum(double value) { return {{550, value}}; }
 struct Keyframe {
   double time;
   Matrix transform;
+
+  bool operator==(const Keyframe& other) const {
+    return time == other.time && transform == other.transform;
+  }
 };
 using Animation = std::vector<Keyframe>;
 

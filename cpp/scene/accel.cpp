@@ -42,8 +42,7 @@ void init(Query& query, const Ray& ray) {
   query.ray = &ray;
 }
 
-/// `time` is Embree's own, in [0, 1].
-RTCRay embree_ray(const Ray& ray, double time) {
+RTCRay embree_ray(const Ray& ray) {
   RTCRay r;
   r.org_x = static_cast<float>(ray.o.x);
   r.org_y = static_cast<float>(ray.o.y);
@@ -53,7 +52,7 @@ RTCRay embree_ray(const Ray& ray, double time) {
   r.dir_z = static_cast<float>(ray.d.z);
   r.tnear = 0;
   r.tfar = static_cast<float>(ray.t_max);
-  r.time = static_cast<float>(time);
+  r.time = 0;
   r.mask = ~0u;
   r.id = 0;
   r.flags = 0;
@@ -153,7 +152,8 @@ std::string why_not(RTCDevice device, const char* what) {
 struct Accel::Impl {
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
-  double open = 0, per_time = 0;  ///< From times to Embree's; per_time is 0 if nothing moves.
+  bool moves = false;
+  Shutter shutter;
   std::map<const ShapeGroup*, RTCScene> groups;
 
   ~Impl() {
@@ -166,8 +166,10 @@ struct Accel::Impl {
   RTCGeometry geometry(const Shape& shape);
   RTCGeometry instance_geometry(const Instance& instance);
 
-  double embree_time(double time) const {
-    return std::min(std::max(0.0, (time - open) * per_time), 1.0);  // Also of what is no number.
+  /// In [0, 1], also of what is no number.
+  float embree_time(double time) const {
+    const double share = (time - shutter.open) / (shutter.close - shutter.open);
+    return static_cast<float>(std::min(std::max(0.0, share), 1.0));
   }
 };
 
@@ -206,10 +208,8 @@ RTCGeometry Accel::Impl::instance_geometry(const Instance& instance) {
 
 Accel::Accel(const std::vector<ShapePtr>& shapes, const Shutter& shutter, int build_threads)
     : impl_(std::make_unique<Impl>()) {
-  if (std::any_of(shapes.begin(), shapes.end(), moves)) {
-    impl_->open = shutter.open;
-    impl_->per_time = 1 / (shutter.close - shutter.open);
-  }
+  impl_->moves = std::any_of(shapes.begin(), shapes.end(), moves);
+  impl_->shutter = shutter;
   // A fixed instruction set, so that the bits do not depend on the machine's vector width.
   const std::string config = "max_isa=avx2,threads=" + std::to_string(build_threads);
   impl_->device = rtcNewDevice(config.c_str());
@@ -225,7 +225,8 @@ bool Accel::intersect(const Ray& ray, Hit& hit) const {
   Query query;
   init(query, ray);
   RTCRayHit rayhit;
-  rayhit.ray = embree_ray(ray, impl_->embree_time(ray.time));
+  rayhit.ray = embree_ray(ray);
+  if (impl_->moves) rayhit.ray.time = impl_->embree_time(ray.time);
   rayhit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   rayhit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
 #if MLT_EMBREE_MAJOR >= 4
@@ -247,7 +248,8 @@ bool Accel::intersect(const Ray& ray, Hit& hit) const {
 bool Accel::occluded(const Ray& ray) const {
   Query query;
   init(query, ray);
-  RTCRay r = embree_ray(ray, impl_->embree_time(ray.time));
+  RTCRay r = embree_ray(ray);
+  if (impl_->moves) r.time = impl_->embree_time(ray.time);
 #if MLT_EMBREE_MAJOR >= 4
   RTCOccludedArguments arguments;
   rtcInitOccludedArguments(&arguments);

@@ -46,8 +46,7 @@ void ProjectiveCamera::set_image_plane(const Vec2& half) {
   image_area_ = 4 * half.x * half.y * raster_.pixels() / (full.x * full.y);
 }
 
-Vec2 ProjectiveCamera::lens_point(const SurfacePoint& xk) const {
-  if (delta_position()) return Vec2(0);
+Vec2 ProjectiveCamera::lens_offset(const SurfacePoint& xk) const {
   const Vec3 offset = xk.p - (motion_.moves() ? moved_pose(xk.time) : pose_).position;
   return {dot(offset, xk.shading.s), dot(offset, xk.shading.t)};
 }

@@ -83,7 +83,10 @@ class ProjectiveCamera : public Camera {
   Pose moved_pose(double time) const;
   static SurfacePoint point_at(const Vec3& p, const Frame& axes, double time);
   /// Where on the lens xk lies, in camera space; 0 for a pinhole.
-  Vec2 lens_point(const SurfacePoint& xk) const;
+  Vec2 lens_point(const SurfacePoint& xk) const {
+    return lens_.radius == 0 ? Vec2(0) : lens_offset(xk);
+  }
+  Vec2 lens_offset(const SurfacePoint& xk) const;
 
   View view_;
   Lens lens_;

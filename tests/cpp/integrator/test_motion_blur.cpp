@@ -103,7 +103,7 @@ TEST(ClosedShutter, IsAStillBitForBit) {
 }
 
 TEST(OpenShutter, ChangesNothingWhereNothingMoves) {
-  for (const std::string& name : {"moving_ball", "moving_lamp", "spinning_instance"})
+  for (const char* name : {"moving_ball", "moving_lamp", "spinning_instance"})
     expect_same_bits(moving_scene(name, -2, -1), without_animations(moving_scene(name, -2, -1)));
 }
 

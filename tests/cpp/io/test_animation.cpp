@@ -8,6 +8,8 @@
 #include "scene/instance.h"
 #include "scene_files.h"
 
+#include <array>
+
 namespace mlt {
 namespace {
 
@@ -66,7 +68,7 @@ TEST(Animation, MovesAShapeWhileTheShutterIsOpen) {
 }
 
 TEST(Animation, IsAStillWhereNothingMoves) {
-  for (const auto& [open, close, y] : std::vector<Vec3>{{0.5, 0.5, 1}, {-2, 0, 0}, {1, 4, 2}}) {
+  for (const auto& [open, close, y] : std::vector<std::array<double, 3>>{{0.5, 0.5, 1}, {-2, 0, 0}, {1, 4, 2}}) {
     const LoadedScene loaded = load(sensor(open, close) + light + sphere(animation(up)));
     ASSERT_FALSE(loaded.scene->shapes().at(0)->as_instance());
     Vec3 low, high;

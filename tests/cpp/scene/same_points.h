@@ -38,7 +38,9 @@ inline void expect_same_points(const ScenePtr& a, const ScenePtr& b, double time
     for (const double side : {1.0, -1.0}) {
       const Vec3 w = normalize(side * x.ng + 0.5 * shape_testing::random_direction(rng));
       SurfacePoint next;
-      if (a->intersect(a->spawn(x, w, time), next)) EXPECT_GT(length(next.p - x.p), 1e-5);
+      if (a->intersect(a->spawn(x, w, time), next)) {
+        EXPECT_GT(length(next.p - x.p), 1e-5);
+      }
     }
   }
   EXPECT_GT(hits, 500);
