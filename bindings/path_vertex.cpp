@@ -109,9 +109,9 @@ void bind_vertex(py::module_& m) {
            py::arg("time") = py::none(), doc)
       .def("intersect", &seen_from_point, py::arg("start"), py::arg("direction"),
            py::arg("time") = 0.0, doc)
-      .def("visible", &visible, py::arg("a"), py::arg("b"),
-           py::arg("time") = py::none(),
-           "Whether nothing stands between two vertices; at the time of the first one, if not given.")
+      .def("visible", &visible, py::arg("a"), py::arg("b"), py::arg("time") = py::none(),
+           "Whether nothing stands between two vertices; at the time of the first one, if not "
+           "given.")
       .def(
           "scatter", &scatter, py::arg("vertex"), py::arg("direction"), py::arg("u"),
           "Samples the BSDF of a surface vertex for light or a camera in `direction`, with three "

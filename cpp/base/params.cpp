@@ -55,7 +55,7 @@ bool fits(const Value& value, ParamType type) {
 }
 
 std::string kind_of(const Value& value) {
-  static const char* names[] = {"nothing",  "a boolean", "an integer", "a float",  "a string",
+  static const char* names[] = {"nothing",  "a boolean", "an integer", "a float",      "a string",
                                 "a triple", "a matrix",  "a spectrum", "an animation", "an object"};
   return names[value.index()];
 }

@@ -9,6 +9,7 @@
 #include "io/values.h"
 #include "io/variables.h"
 #include "io/xml_document.h"
+#include "io/xml_transform.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -155,8 +156,8 @@ class XmlReader {
       parent.children.push_back(read_plugin(xml, e, source, depth));
       return;
     }
-    if (tag == "transform") return read_transform_property(xml, e, parent, source);
-    if (tag == "animation") return read_animation_property(xml, e, parent, source);
+    if (tag == "transform") return read_placement(xml, e, parent, source, read_xml_transform);
+    if (tag == "animation") return read_placement(xml, e, parent, source, read_xml_animation);
     for (const pugi::xml_node& child : xml.children())
       if (child.type() != pugi::node_comment) e.fail("should be empty, but has something inside");
 
@@ -200,50 +201,15 @@ class XmlReader {
     parent.properties.push_back({name, std::move(value), element.where});
   }
 
-  void read_transform_property(const pugi::xml_node& xml, const Element& element, Node& parent,
-                               const Source& source) {
-    element.expect_only({"name"});
-    const Matrix matrix = transform_in(xml, element, source);
+  /// <transform> and <animation>.
+  template <class Read>
+  void read_placement(const pugi::xml_node& xml, const Element& e, Node& parent,
+                      const Source& source, Read&& read) {
+    e.expect_only({"name"});
+    Value value = read(xml, e, [&](const pugi::xml_node& inner) { return element(inner, source); });
     if (parent.family == "scene")
-      element.fail("has no effect at the top of a scene; put it inside a shape");
-    parent.properties.push_back({element.require("name"), matrix, element.where});
-  }
-
-  void read_animation_property(const pugi::xml_node& xml, const Element& element, Node& parent,
-                               const Source& source) {
-    element.expect_only({"name"});
-    if (parent.family == "scene")
-      element.fail("has no effect at the top of a scene; put it inside a shape");
-    Animation animation;
-    for (const auto& [key_xml, key] : inside(xml, element, "<transform>s with a time", source)) {
-      if (key.tag != "transform") key.fail("does not belong in an <animation>; give <transform>s");
-      key.expect_only({"time"});
-      const auto time = parse_real(key.require("time"));
-      if (!time) key.fail("has the time " + quote(key.get("time")) + ", but it should be a number");
-      animation.push_back({*time, transform_in(key_xml, key, source)});
-    }
-    parent.properties.push_back({element.require("name"), std::move(animation), element.where});
-  }
-
-  /// The elements inside of one that should have no text.
-  std::vector<std::pair<pugi::xml_node, Element>> inside(const pugi::xml_node& xml,
-                                                         const Element& element,
-                                                         const char* expected,
-                                                         const Source& source) {
-    std::vector<std::pair<pugi::xml_node, Element>> found;
-    for (const pugi::xml_node& child : xml.children()) {
-      if (child.type() == pugi::node_element) found.emplace_back(child, this->element(child, source));
-      if (child.type() == pugi::node_pcdata || child.type() == pugi::node_cdata)
-        element.fail(fmt::format("contains a text; only {} are expected here", expected));
-    }
-    return found;
-  }
-
-  Matrix transform_in(const pugi::xml_node& xml, const Element& element, const Source& source) {
-    std::vector<Element> steps;
-    for (auto& [ignored, step] : inside(xml, element, "steps such as <translate>", source))
-      steps.push_back(std::move(step));
-    return read_transform(steps);
+      e.fail("has no effect at the top of a scene; put it inside a shape");
+    parent.properties.push_back({e.require("name"), std::move(value), e.where});
   }
 
   void read_include(const Element& element, Node& parent, const Source& source, int depth) {

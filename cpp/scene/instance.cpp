@@ -70,8 +70,7 @@ void ShapeGroup::add(const ShapePtr& shape) {
   shapes_.push_back(shape);
 }
 
-Instance::Instance(Params& params)
-    : Instance(only_group(params), checked_motion(params)) {}
+Instance::Instance(Params& params) : Instance(only_group(params), checked_motion(params)) {}
 
 Instance::Instance(const ShapePtr& shape, const Motion& motion)
     : Instance(std::make_shared<ShapeGroup>(shape), motion) {

@@ -119,7 +119,6 @@ std::string animation_problem(const Animation& animation) {
 }
 
 Value during(const Animation& animation, const Shutter& shutter) {
-
   const Curve curve(animation);
   const auto key_at = [&](double time) { return Keyframe{time, to_rows(curve.at(time))}; };
   Animation keys = {key_at(shutter.open)};

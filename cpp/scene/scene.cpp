@@ -18,7 +18,8 @@ Bounds enclosing_sphere(const std::vector<ShapePtr>& shapes, const Camera& camer
   Vec3 low(infinity), high(-infinity);
   constexpr int moments = 128;  // The steps of a motion are among them.
   for (int i = 0; i <= moments; ++i) {
-    const SurfacePoint middle = camera.sample_position({0.5, 0.5}, camera.time(1.0 * i / moments)).at;
+    const SurfacePoint middle =
+        camera.sample_position({0.5, 0.5}, camera.time(1.0 * i / moments)).at;
     const Vec3 lens = camera.entrance(middle, middle.ng);
     low = glm::min(low, lens);
     high = glm::max(high, lens);
@@ -98,8 +99,8 @@ bool Scene::intersect(const Ray& ray, SurfacePoint& at) const {
   at.shape = hit.shape;
   at.primitive = hit.primitive;
   at.instance = SurfacePoint::no_shape;
-  at.time = ray.time;
   shapes_[hit.shape]->surface_point(ray, hit, at);
+  at.time = ray.time;
   at.matte = bsdf(at).matte(at);
   return true;
 }

@@ -90,7 +90,7 @@ class Scene:
         """The surface that a ray meets first, as a (smooth) vertex; None if it meets none."""
 
     def visible(self, a: Vertex, b: Vertex, time: float | None = None) -> bool:
-        """Whether nothing stands between two vertices; at the time of the first if none is given."""
+        """Whether nothing stands between two vertices; by default at the time of the first."""
 
     def scatter(
         self,

@@ -25,8 +25,8 @@ inline std::string moving(const std::string& type, const Keys& keys, const std::
 }
 
 inline std::vector<std::string> moving_scene_names() {
-  return {"moving_ball", "moving_lamp", "moving_mirror", "moving_camera", "moving_lens",
-          "spinning_instance", "moving_spot"};
+  return {"moving_ball", "moving_lamp",       "moving_mirror", "moving_camera",
+          "moving_lens", "spinning_instance", "moving_spot"};
 }
 
 /// The scene while the shutter is open; everything moves from time 0 to 1.
@@ -46,7 +46,8 @@ inline std::string moving_scene(const std::string& name, double open = 0, double
   const Keys across = {{0, scale(0.35) + translate(-0.5, -0.6, 0.3)},
                        {1, scale(0.35) + translate(0.6, -0.2, -0.2)}};
 
-  if (name == "moving_ball") return pinhole + room() + lamp + block + moving("sphere", across, white);
+  if (name == "moving_ball")
+    return pinhole + room() + lamp + block + moving("sphere", across, white);
   if (name == "moving_mirror")
     return pinhole + room() + lamp + block + moving("sphere", across, mirror);
   if (name == "moving_lamp")  // It grows unevenly, and turns.
@@ -58,25 +59,25 @@ inline std::string moving_scene(const std::string& name, double open = 0, double
                   diffuse("0.2 0.2 0.2") + area_light("6 5 4"));
   const std::string ball = sphere(0.35, -0.6, 0.2, 0.4, white);
   if (name == "moving_camera")
-    return eye("perspective", {{0, look("-0.4, 0, 3.6", "0, 0.1, 0")},
-                               {1, look("0.5, 0.2, 3.2", "0.1, -0.3, 0")}},
+    return eye("perspective",
+               {{0, look("-0.4, 0, 3.6", "0, 0.1, 0")}, {1, look("0.5, 0.2, 3.2", "0.1, -0.3, 0")}},
                "") +
            room() + lamp + ball + block;
   if (name == "moving_lens")
-    return eye("thinlens", {{0, look("-0.2, 0, 2.4", "0, 0.1, 0")},
-                            {1, look("0.3, 0.2, 2.2", "0.1, -0.3, 0")}},
+    return eye("thinlens",
+               {{0, look("-0.2, 0, 2.4", "0, 0.1, 0")}, {1, look("0.3, 0.2, 2.2", "0.1, -0.3, 0")}},
                "<float name='aperture_radius' value='0.4'/>"
                "<float name='focus_distance' value='2.4'/>") +
            room() + lamp + ball + moving("cube", across, red);
   if (name == "spinning_instance")
     return pinhole + room() + lamp + "<shape type='shapegroup' id='things'>" +
            sphere(0.35, -0.3, 0.2, 0.3, glass) + block + "</shape>\n" +
-           moving("instance",
-                  {{0, translate(0, 0.3, 0)},
-                   {0.5, "<scale x='0.8' y='1' z='1.2'/>" + rotate("y", 150) +
-                             translate(0, 0.2, 0)},
-                   {1, scale(1.2) + rotate("y", 300) + translate(0, 0.4, 0)}},
-                  "<ref id='things'/>");
+           moving(
+               "instance",
+               {{0, translate(0, 0.3, 0)},
+                {0.5, "<scale x='0.8' y='1' z='1.2'/>" + rotate("y", 150) + translate(0, 0.2, 0)},
+                {1, scale(1.2) + rotate("y", 300) + translate(0, 0.4, 0)}},
+               "<ref id='things'/>");
   if (name == "moving_spot")
     return pinhole + room() + ball + block + "<emitter type='spot'>" +
            animation({{0, look("0, 0.9, 0.8", "0.4, -1, -0.2")},

@@ -254,12 +254,15 @@ def test_an_animation_is_a_dict_of_times():
 
 
 @pytest.mark.parametrize(
-    "keys, message",
+    ("keys", "message"),
     [
         ({"0": np.eye(4)}, "shape 'sphere': 'to_world' has 1 transform, but"),
         ({"0": np.eye(4), "soon": np.eye(4)}, "'to_world' has the key 'soon', which is not a time"),
         ({"0": np.eye(4), "1": [1, 2, 3]}, "'to_world' should have a 4 x 4 matrix at each time"),
-        ({"0": np.eye(4), "1": np.diag([1, 0, 1, 1])}, "is singular or has a perspective at time 1"),
+        (
+            {"0": np.eye(4), "1": np.diag([1, 0, 1, 1])},
+            "is singular or has a perspective at time 1",
+        ),
         ({"0": np.eye(4), 0: np.eye(4)}, "times must increase"),
     ],
 )

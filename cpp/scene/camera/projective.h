@@ -76,7 +76,7 @@ class ProjectiveCamera : public Camera {
     return moved_pose(time);
   }
 
-  Pose pose_;            ///< When the shutter opens.
+  Pose pose_;           ///< When the shutter opens.
   double setback_ = 0;  ///< How far the lens is behind the origin of camera space.
 
  private:

@@ -44,8 +44,8 @@ void expect_mean_of_stills(const std::string& name, const std::string& algorithm
                            const SameImageSettings& settings) {
   const ScenePtr scene = load_scene(moving_scene(name));
   const double spp = algorithm == "mlt" || algorithm == "pssmlt" ? 128 : 32;
-  const SameImage found = same_image(side(scene, algorithm, {{"max_depth", "5"}}, spp),
-                                     mean_of_stills(name), settings);
+  const SameImage found =
+      same_image(side(scene, algorithm, {{"max_depth", "5"}}, spp), mean_of_stills(name), settings);
   EXPECT_TRUE(found) << name << " by " << algorithm << ": " << found.text;
 }
 
@@ -58,11 +58,12 @@ TEST_P(LongMotionBlur, IsTheMeanOfStills) {
   const auto& [name, algorithm] = GetParam();
   expect_mean_of_stills(name, algorithm, precision(0.02, 0.1, 10000));
 }
-INSTANTIATE_TEST_SUITE_P(
-    Scenes, LongMotionBlur,
-    testing::Combine(testing::ValuesIn(moving_scene_names()),
-                     testing::Values("path", "bdpt", "pssmlt", "mlt")),
-    [](const auto& info) { return std::get<0>(info.param) + "_" + std::get<1>(info.param); });
+INSTANTIATE_TEST_SUITE_P(Scenes, LongMotionBlur,
+                         testing::Combine(testing::ValuesIn(moving_scene_names()),
+                                          testing::Values("path", "bdpt", "pssmlt", "mlt")),
+                         [](const auto& info) {
+                           return std::get<0>(info.param) + "_" + std::get<1>(info.param);
+                         });
 
 /// Light walks alone see no mirrors and no glass.
 TEST(LongLightTracing, SeesMotionToo) {

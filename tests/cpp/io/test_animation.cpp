@@ -40,9 +40,10 @@ std::string error_of(const std::string& content) {
 TEST(Animation, IsReadAsTimesAndMatrices) {
   std::vector<std::string> warnings;
   const Node scene = read_xml_string(
-      "<scene>" + sphere(animation("<transform time='-0.5'><scale value='2'/><translate x='1'/>"
-                                   "</transform><transform time='2'/>",
-                                   "toWorld")) +
+      "<scene>" +
+          sphere(animation("<transform time='-0.5'><scale value='2'/><translate x='1'/>"
+                           "</transform><transform time='2'/>",
+                           "toWorld")) +
           "</scene>",
       "", {}, warnings);
   const Node::Property& property = scene.children[0].properties.at(0);
@@ -68,7 +69,8 @@ TEST(Animation, MovesAShapeWhileTheShutterIsOpen) {
 }
 
 TEST(Animation, IsAStillWhereNothingMoves) {
-  for (const auto& [open, close, y] : std::vector<std::array<double, 3>>{{0.5, 0.5, 1}, {-2, 0, 0}, {1, 4, 2}}) {
+  for (const auto& [open, close, y] :
+       std::vector<std::array<double, 3>>{{0.5, 0.5, 1}, {-2, 0, 0}, {1, 4, 2}}) {
     const LoadedScene loaded = load(sensor(open, close) + light + sphere(animation(up)));
     ASSERT_FALSE(loaded.scene->shapes().at(0)->as_instance());
     Vec3 low, high;
@@ -94,9 +96,9 @@ TEST(Animation, MovesCamerasAndLights) {
 }
 
 TEST(Animation, OfAnInstanceMovesItsGroup) {
-  const LoadedScene loaded = load(sensor(0, 1) + light + "<shape type='shapegroup' id='a'>" +
-                                  sphere("") + sphere("") + "</shape><shape type='instance'>" +
-                                  animation(up) + "<ref id='a'/></shape>");
+  const LoadedScene loaded =
+      load(sensor(0, 1) + light + "<shape type='shapegroup' id='a'>" + sphere("") + sphere("") +
+           "</shape><shape type='instance'>" + animation(up) + "<ref id='a'/></shape>");
   const Instance* instance = loaded.scene->shapes().at(0)->as_instance();
   ASSERT_TRUE(instance);
   EXPECT_TRUE(instance->motion().moves());
@@ -120,7 +122,8 @@ TEST(Animation, IsRefusedWithItsLine) {
   const auto starts = [](const std::string& message, const std::string& start) {
     EXPECT_EQ(message.substr(0, start.size()), start);
   };
-  starts(error_of(sphere(animation(""))), "<string>:2: shape 'sphere': 'to_world' has 0 transforms");
+  starts(error_of(sphere(animation(""))),
+         "<string>:2: shape 'sphere': 'to_world' has 0 transforms");
   starts(error_of(sphere(animation("<transform time='0'/>"))),
          "<string>:2: shape 'sphere': 'to_world' has 1 transform, but an animation needs two");
   starts(error_of(sphere(animation("<transform time='1'/><transform time='1'/>"))),
@@ -155,7 +158,8 @@ TEST(Animation, IsRefusedWhereNothingCanMove) {
   EXPECT_NE(error_of("<shape type='shapegroup' id='a'>" + sphere(animation(up)) + "</shape>")
                 .find("a shape that moves cannot be in a group"),
             std::string::npos);
-  const std::string zoom = "<transform time='0'/><transform time='1'><scale value='2'/></transform>";
+  const std::string zoom =
+      "<transform time='0'/><transform time='1'><scale value='2'/></transform>";
   EXPECT_NE(message_of([&] {
               load("<sensor type='orthographic'><float name='shutter_close' value='1'/>" +
                    animation(zoom) + "</sensor>" + light);

@@ -545,7 +545,8 @@ TEST(Sun, StandsWhereMitsubaHasIt) {
   for (auto [given, mitsuba] : cases) {
     given["sun_radius_scale"] = 0.0;
     const auto sun = make<Emitter>(emitter_sun(), given);
-    expect_close(sun->sample_position({0.5, 0.5}, 0).at.p, {-mitsuba.y, mitsuba.z, mitsuba.x}, 2e-4);
+    expect_close(sun->sample_position({0.5, 0.5}, 0).at.p, {-mitsuba.y, mitsuba.z, mitsuba.x},
+                 2e-4);
   }
 }
 

@@ -47,16 +47,16 @@ TEST(Motion, StretchesAlongTheAxesOfTheObject) {
 }
 
 TEST(Motion, MayMirror) {
-  const Motion motion({key(0, stretched(-1, 1, 1)), key(1, turned(90, {0, 0, 1}) *
-                                                               stretched(-2, 2, 2))});
+  const Motion motion(
+      {key(0, stretched(-1, 1, 1)), key(1, turned(90, {0, 0, 1}) * stretched(-2, 2, 2))});
   for (const Mat4& step : motion.steps()) EXPECT_LT(glm::determinant(Mat3(step)), -0.9);
 }
 
 TEST(Motion, HasOneStepWhereItIsLinear) {
   EXPECT_EQ(Motion({key(0, Mat4(1)), key(1, moved(1, 2, 3))}).steps().size(), 2u);
   EXPECT_EQ(Motion({key(0, Mat4(1)), key(3, stretched(1, 2, 3))}).steps().size(), 2u);
-  EXPECT_EQ(Motion({key(0, Mat4(1)), key(1, moved(1, 0, 0)), key(2, moved(0, 2, 0))}).steps().size(),
-            3u);
+  EXPECT_EQ(
+      Motion({key(0, Mat4(1)), key(1, moved(1, 0, 0)), key(2, moved(0, 2, 0))}).steps().size(), 3u);
   EXPECT_LE(Motion({key(0, Mat4(1)), key(1, turned(170, {1, 1, 1}))}).steps().size(), 129u);
 }
 
@@ -81,7 +81,8 @@ TEST(Animation, IsRefusedInOneLine) {
   EXPECT_THAT(animation_problem({}), HasSubstr("0 transforms"));
   EXPECT_THAT(animation_problem({key(0, one)}), HasSubstr("1 transform,"));
   EXPECT_THAT(animation_problem({key(0, one), key(0, one)}), HasSubstr("must increase"));
-  EXPECT_THAT(animation_problem({key(1, one), key(0, one)}), HasSubstr("time 0 after one at time 1"));
+  EXPECT_THAT(animation_problem({key(1, one), key(0, one)}),
+              HasSubstr("time 0 after one at time 1"));
   EXPECT_THAT(animation_problem({key(0, one), key(1, flat)}), HasSubstr("singular"));
   EXPECT_THAT(animation_problem({key(0, one), key(1, mirrored)}), HasSubstr("mirrors"));
 }
@@ -132,8 +133,9 @@ Animation mirrored(Animation keys) {
 
 TEST(MovingShape, IsMetWhereItIs) {
   expect_moves("cube", "", spin);
-  expect_moves("cube", "", {key(0, stretched(0.3, 0.9, 0.5)),
-                            key(1, turned(70, {0, 1, 0}) * stretched(0.9, 0.4, 0.5))});
+  expect_moves(
+      "cube", "",
+      {key(0, stretched(0.3, 0.9, 0.5)), key(1, turned(70, {0, 1, 0}) * stretched(0.9, 0.4, 0.5))});
 }
 
 /// A sphere that moves in a straight line stays one between the steps too.
@@ -157,13 +159,23 @@ TEST(MovingShape, IsWithinTheBoundsOfItsScene) {
   // Q turns the object, and T goes straight: from x = 5 to x = -5.
   for (const double x : {-5.0, 0.0, 5.0})
     EXPECT_LT(length(Vec3(x, 0, 0) - scene->bounds().center), scene->bounds().radius) << x;
-  const ScenePtr turning = load_scene(
-      lens + light + "<shape type='sphere'><point name='center' x='5' y='0' z='0'/>" +
-      animated({key(0, Mat4(1)), key(1, turned(179, {0, 0, 1}))}) + "</shape>");
+  const ScenePtr turning =
+      load_scene(lens + light + "<shape type='sphere'><point name='center' x='5' y='0' z='0'/>" +
+                 animated({key(0, Mat4(1)), key(1, turned(179, {0, 0, 1}))}) + "</shape>");
   for (const double angle : {0.0, 45.0, 90.0, 179.0})
     EXPECT_LT(length(Vec3(turned(angle, {0, 0, 1}) * Vec4(6, 0, 0, 1)) - turning->bounds().center),
               turning->bounds().radius)
         << angle;
+}
+
+TEST(SurfacePoint, HasTheTimeOfItsRay) {
+  for (const std::string type : {"sphere", "cylinder", "disk", "cube"}) {
+    const ScenePtr scene = load_scene(lens + light + "<shape type='" + type + "'>" +
+                                      to_world(rotate("y", 20)) + "</shape>");
+    SurfacePoint at;
+    ASSERT_TRUE(scene->intersect({{0.1, 0.1, 4}, {0, 0, -1}, 0.3}, at)) << type;
+    EXPECT_EQ(at.time, 0.3) << type;
+  }
 }
 
 // ---- a light that moves
@@ -183,8 +195,9 @@ const Animation uneven = {key(0, moved(0, 0, 1) * stretched(0.5, 1, 2)),
                           key(1, moved(1, 0, 0) * turned(80, {1, 0, 2}) * stretched(2, 1.5, 0.7))};
 
 std::vector<MovingLight> moving_lights() {
-  return {{"rectangle", spin}, {"sphere", spin}, {"cube", uneven}, {"sphere", uneven},
-          {"cylinder", uneven}, {"disk", uneven}, {"sphere", mirrored(uneven)}};
+  return {{"rectangle", spin},         {"sphere", spin},     {"cube", uneven},
+          {"sphere", uneven},          {"cylinder", uneven}, {"disk", uneven},
+          {"sphere", mirrored(uneven)}};
 }
 
 TEST(MovingLight, SamplesAreATriple) {
