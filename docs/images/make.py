@@ -1,6 +1,7 @@
 """Makes the pictures of the README and the docs: python docs/images/make.py [NAME ...]
 
 door-ajar     the picture at the head of the README
+motion        the scene of the page on motion blur
 equal-time    the same scene by path, bdpt and mlt, with equal CPU time
 two-families  what independent samples and chains show of an image
 strategies    the techniques of bidirectional path tracing
@@ -35,6 +36,11 @@ def render(name, integrator, cpu_seconds, size, seed=1):
 def door_ajar():
     image = render("door_ajar", mlt.MLT(max_depth=10), 240, (640, 360))
     mlt.write_image(HERE / "door-ajar.png", image)
+
+
+def motion():
+    image = mlt.render(mlt.load_dict(mlt.scenes.motion()), mlt.BDPT(max_depth=8), spp=100, seed=1)
+    mlt.write_image(HERE / "motion.png", image)
 
 
 def equal_time():
