@@ -67,6 +67,7 @@ def strategies():
 if __name__ == "__main__":
     pictures = {
         "door-ajar": door_ajar,
+        "motion": motion,
         "equal-time": equal_time,
         "two-families": two_families,
         "strategies": strategies,
