@@ -1,4 +1,4 @@
-"""Motion blur from Python: checkpoints, light paths and mutations of scenes in which things move."""
+"""Motion blur from Python: checkpoints, light paths and mutations where things move."""
 
 import pickle
 from pathlib import Path
