@@ -171,7 +171,7 @@ TEST(MovingShape, IsWithinTheBoundsOfItsScene) {
 TEST(SurfacePoint, HasTheTimeOfItsRay) {
   for (const std::string type : {"sphere", "cylinder", "disk", "cube"}) {
     const ScenePtr scene = load_scene(lens + light + "<shape type='" + type + "'>" +
-                                      to_world(rotate("y", 20)) + "</shape>");
+                                      to_world(rotate("y", 60)) + "</shape>");
     SurfacePoint at;
     ASSERT_TRUE(scene->intersect({{0.1, 0.1, 4}, {0, 0, -1}, 0.3}, at)) << type;
     EXPECT_EQ(at.time, 0.3) << type;
