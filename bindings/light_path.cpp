@@ -58,7 +58,8 @@ PyLightPath with_vertices(const PyLightPath& x, std::vector<Vertex> vertices) {
   if (!right)
     throw UsageError(
         "a path should be one vertex on a light, any number on surfaces, and one on the lens");
-  Path y{std::move(vertices), x.path.time};
+  Path y{std::move(vertices)};
+  y.set_time(x.path.time);
   const Vec2 raster = raster_position(*x.scene->scene, y).value_or(Vec2(std::nan("")));
   return {x.scene, std::move(y), raster, x.strict_normals, {}, {}, {}};
 }

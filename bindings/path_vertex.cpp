@@ -28,10 +28,10 @@ std::optional<Vertex> first_hit(const LoadedScene& loaded, const Ray& ray) {
 }
 
 std::optional<Vertex> seen_from_vertex(const LoadedScene& loaded, const Vertex& from,
-                                       const Doubles& direction, double time) {
+                                       const Doubles& direction, std::optional<double> time) {
   if (from.at.infinite()) throw UsageError("no ray can start from a vertex at infinity");
   const Vec3 w = to_direction(direction, "direction");
-  return first_hit(loaded, loaded.scene->spawn(from.at, w, time));
+  return first_hit(loaded, loaded.scene->spawn(from.at, w, time.value_or(from.at.time)));
 }
 
 py::object seen_from_point(const LoadedScene& loaded, const Doubles& from, const Doubles& direction,
@@ -41,10 +41,11 @@ py::object seen_from_point(const LoadedScene& loaded, const Doubles& from, const
   return py::cast(first_hit(loaded, ray));
 }
 
-bool visible(const LoadedScene& loaded, const Vertex& a, const Vertex& b, double time) {
+bool visible(const LoadedScene& loaded, const Vertex& a, const Vertex& b,
+             std::optional<double> time) {
   if (a.at.infinite() && b.at.infinite())
     throw UsageError("both vertices are at infinity; nothing is between them");
-  return loaded.scene->visible(a.at, b.at, time);
+  return loaded.scene->visible(a.at, b.at, time.value_or(a.at.time));
 }
 
 py::object scatter(const LoadedScene& loaded, const Vertex& at, const Doubles& from,
@@ -105,23 +106,24 @@ void bind_vertex(py::module_& m) {
   py::class_<LoadedScene, LoadedPtr> scene(m.attr("Scene"));
   const char* doc =
       "The surface that a ray meets first, as a (smooth) vertex; None if it meets none. It starts "
-      "at a vertex or at a point. For arrays (n, 3) of points and directions: a dict of arrays "
-      "with "
-      "n rows: distance, position, geo_normal, sh_normal, uv, shape_index and prim_index; NaN, an "
-      "infinite distance and -1 for rays that meet nothing. Raises UsageError for other shapes, "
-      "and "
-      "for numbers that are no ray.";
+      "at a vertex (at the time of its path, if none is given) or at a point. For arrays (n, 3) of "
+      "points and directions: a dict of arrays with n rows: distance, position, geo_normal, "
+      "sh_normal, "
+      "uv, shape_index and prim_index; NaN, an infinite distance and -1 for rays that meet "
+      "nothing. "
+      "Raises UsageError for other shapes, and for numbers that are no ray.";
   scene
       .def("intersect", &seen_from_vertex, py::arg("start"), py::arg("direction"),
-           py::arg("time") = 0.0, doc)
+           py::arg("time") = py::none(), doc)
       .def("intersect", &seen_from_point, py::arg("start"), py::arg("direction"),
            py::arg("time") = 0.0, doc)
       .def(
           "camera_rays", &camera_rays, py::arg("raster"), py::arg("time") = 0.0,
           "Rays from the middle of the lens through raster positions (n, 2), in pixels: two arrays "
           "(n, 3), starts and unit directions, as `intersect` takes them.")
-      .def("visible", &visible, py::arg("a"), py::arg("b"), py::arg("time") = 0.0,
-           "Whether nothing stands between two vertices.")
+      .def("visible", &visible, py::arg("a"), py::arg("b"), py::arg("time") = py::none(),
+           "Whether nothing stands between two vertices; at the time of the first one, if not "
+           "given.")
       .def(
           "scatter", &scatter, py::arg("vertex"), py::arg("direction"), py::arg("u"),
           "Samples the BSDF of a surface vertex for light or a camera in `direction`, with three "

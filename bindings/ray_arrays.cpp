@@ -120,10 +120,10 @@ py::tuple camera_rays(const LoadedScene& loaded, const Doubles& rasters, double 
   const py::ssize_t n = rows_of(rasters, 2, "raster");
   py::array_t<double> starts({n, py::ssize_t{3}}), directions({n, py::ssize_t{3}});
   const Camera& camera = loaded.scene->camera();
-  const SurfacePoint lens = camera.sample_position({0.5, 0.5}).at;
+  const SurfacePoint lens = camera.sample_position({0.5, 0.5}, time).at;
   for (py::ssize_t i = 0; i < n; ++i) {
     const double* raster = rasters.data() + 2 * i;
-    const Ray ray = leave_lens(camera, lens, {raster[0], raster[1]}, time);
+    const Ray ray = leave_lens(camera, lens, {raster[0], raster[1]});
     for (int c = 0; c < 3; ++c) {
       starts.mutable_data()[3 * i + c] = ray.o[c];
       directions.mutable_data()[3 * i + c] = ray.d[c];

@@ -1,10 +1,12 @@
 // The Mitsuba 3 dict: every plug-in is a dict with its name under "type"; colours, spectra and
 // references are dicts with types of their own ("rgb", "spectrum", "uniform", "ref"); transforms
-// are 4 x 4 matrices. A nested plug-in's key is the parameter it is given for, or, in a scene, its
+// are 4 x 4 matrices, or animations of them. A nested plug-in's key is the parameter it is given for, or, in a scene, its
 // id.
 #include "scene_dict.h"
 
 #include "text.h"
+
+#include "io/text.h"
 
 #include <pybind11/stl.h>
 
@@ -22,6 +24,11 @@ struct ToPython {
     for (size_t i = 0; i < 16; i += 4)
       rows.append(py::make_tuple(m[i], m[i + 1], m[i + 2], m[i + 3]));
     return rows;
+  }
+  py::object operator()(const Animation& animation) const {
+    py::dict keys;
+    for (const Keyframe& key : animation) keys[py::float_(key.time)] = (*this)(key.transform);
+    return keys;
   }
   py::object operator()(const Triple& t) const { return py::make_tuple(t[0], t[1], t[2]); }
   template <class T>
@@ -120,6 +127,24 @@ Value from_color(const py::dict& dict, const std::string& type, const std::strin
   return given;
 }
 
+/// {"type": "animation", "0": matrix, "1": matrix}: the other keys are times, as text or numbers.
+Animation from_animation(const py::dict& dict, const std::string& key, const Location& where) {
+  Animation animation;
+  for (const auto& [time, value] : dict) {
+    const std::string text = str_of(py::str(time), key, where);
+    if (text == "type") continue;
+    const auto number = parse_real(text);
+    if (!number) refuse(where, key, "has the key '" + text + "', which is not a time");
+    const Value given = from_scalar_or_array(py::reinterpret_borrow<py::object>(value), key, where);
+    const auto* matrix = std::get_if<Matrix>(&given);
+    if (!matrix) refuse(where, key, "should have a 4 x 4 matrix at each time");
+    animation.push_back({*number, *matrix});
+  }
+  std::sort(animation.begin(), animation.end(),
+            [](const Keyframe& a, const Keyframe& b) { return a.time < b.time; });
+  return animation;
+}
+
 bool is_color(const std::string& type) {
   return type == "rgb" || type == "spectrum" || type == "uniform";
 }
@@ -177,6 +202,10 @@ class Converter {
     const std::string type = text_of(dict, "type", {path, 0});
     if (is_color(type)) {
       node.properties.push_back({key, from_color(dict, type, key, node.where), node.where});
+      return;
+    }
+    if (type == "animation") {
+      node.properties.push_back({key, from_animation(dict, key, node.where), node.where});
       return;
     }
     node.children.push_back(type == "ref" ? reference(dict, path) : nested(dict, type, key, path));

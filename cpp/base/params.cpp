@@ -28,6 +28,10 @@ bool is_finite(const Value& value) {
     return std::all_of(s->begin(), s->end(), [](const auto& sample) {
       return std::isfinite(sample.first) && std::isfinite(sample.second);
     });
+  if (const Animation* a = std::get_if<Animation>(&value))
+    return std::all_of(a->begin(), a->end(), [&](const Keyframe& key) {
+      return std::isfinite(key.time) && all_finite(key.transform);
+    });
   return true;
 }
 
@@ -39,6 +43,7 @@ bool fits(const Value& value, ParamType type) {
     case ParamType::text: return is<std::string>(value);
     case ParamType::point: return is<Triple>(value);
     case ParamType::transform: return is<Matrix>(value);
+    case ParamType::motion: return is<Matrix>(value) || is<Animation>(value);
     case ParamType::reflectance:
     case ParamType::radiance: return is_color(value);
     case ParamType::texture:
@@ -50,8 +55,8 @@ bool fits(const Value& value, ParamType type) {
 }
 
 std::string kind_of(const Value& value) {
-  static const char* names[] = {"nothing",  "a boolean", "an integer", "a float",  "a string",
-                                "a triple", "a matrix",  "a spectrum", "an object"};
+  static const char* names[] = {"nothing",  "a boolean", "an integer", "a float",      "a string",
+                                "a triple", "a matrix",  "a spectrum", "an animation", "an object"};
   return names[value.index()];
 }
 
@@ -91,6 +96,10 @@ void Params::set(const std::string& given_name, Value value, const Location& whe
 
 void Params::add(const std::string& family, ObjectPtr object, const Location& where) {
   nested_.push_back({family, std::move(object), where});
+}
+
+void Params::replace(const std::string& name, Value value) {
+  given_.at(name).value = std::move(value);
 }
 
 bool Params::has(const std::string& name) const {

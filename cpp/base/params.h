@@ -19,6 +19,9 @@ class Params {
   /// value outside the choices, or a second value; a known but ignored name adds a warning.
   void set(const std::string& name, Value value, const Location& where);
 
+  /// Puts another value in the place of one that has been given.
+  void replace(const std::string& name, Value value);
+
   /// Adds an unnamed nested object of the given family ("bsdf", "emitter", "texture", ...).
   void add(const std::string& family, ObjectPtr object, const Location& where);
 

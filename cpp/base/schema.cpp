@@ -12,6 +12,7 @@ std::string to_string(ParamType type) {
     case ParamType::text: return "string";
     case ParamType::point: return "point or vector";
     case ParamType::transform: return "transform";
+    case ParamType::motion: return "transform or animation";
     case ParamType::reflectance: return "reflectance (number, rgb or spectrum)";
     case ParamType::radiance: return "radiance (number, rgb or spectrum)";
     case ParamType::texture: return "reflectance or texture";

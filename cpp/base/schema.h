@@ -21,9 +21,19 @@ using Matrix = std::array<double, 16>;
 /// Samples (wavelength in nm, value) of a spectrum. A single one stands for all wavelengths.
 using Spectrum = std::vector<std::pair<double, double>>;
 inline Spectrum constant_spectrum(double value) { return {{550, value}}; }
+/// A transform at a moment, and several of them in the order of time.
+struct Keyframe {
+  double time;
+  Matrix transform;
+
+  bool operator==(const Keyframe& other) const {
+    return time == other.time && transform == other.transform;
+  }
+};
+using Animation = std::vector<Keyframe>;
 
 using Value = std::variant<std::monostate, bool, int64_t, double, std::string, Triple, Matrix,
-                           Spectrum, ObjectPtr>;
+                           Spectrum, Animation, ObjectPtr>;
 
 enum class ParamType {
   boolean,
@@ -32,6 +42,7 @@ enum class ParamType {
   text,
   point,        ///< Triple: a position or direction.
   transform,    ///< Matrix.
+  motion,       ///< Matrix, or Animation.
   reflectance,  ///< A number, RGB or spectrum in [0, 1].
   radiance,     ///< A number, RGB or spectrum, unbounded.
   texture,      ///< A reflectance, or a Texture.

@@ -75,8 +75,8 @@ class PixelAovs {
  private:
   Ray middle_ray(const Vec2i& pixel) const {
     const Camera& camera = scene_.camera();
-    const SurfacePoint lens = camera.sample_position({0.5, 0.5}).at;
-    return leave_lens(camera, lens, Vec2(pixel) + 0.5, camera.time(0.5));
+    const SurfacePoint lens = camera.sample_position({0.5, 0.5}, camera.time(0.5)).at;
+    return leave_lens(camera, lens, Vec2(pixel) + 0.5);
   }
   void add(const Ray& ray) {
     SurfacePoint at;

@@ -5,7 +5,9 @@
 #include "io/families.h"
 #include "io/leniency.h"
 #include "io/text.h"
+#include "scene/emitter/moving.h"
 #include "scene/mesh.h"
+#include "scene/motion.h"
 #include "scene/texture.h"
 
 #include <algorithm>
@@ -37,6 +39,18 @@ std::shared_ptr<T> only_one(const std::vector<std::shared_ptr<T>>& found, const 
   if (found.size() > 1)
     params.fail(fmt::format("has {} nested elements <{}>, but can have one", found.size(), family));
   return found.empty() ? nullptr : found.front();
+}
+
+/// The shape, or an instance that moves it if its transform is an animation.
+ShapePtr moving(const ShapePtr& shape, Params& params) {
+  const Animation* animation = animation_param(params, "to_world");
+  if (!animation) return shape;
+  const Motion motion = Motion(*animation).after(glm::inverse(at_rest(*animation)));
+  const auto instance = std::make_shared<Instance>(shape, motion);
+  if (!shape->emitter()) return instance;
+  shape->set_emitter(std::make_shared<MovingEmitter>(shape->emitter_ptr(), *instance));
+  instance->set_emitter(shape->emitter_ptr());
+  return instance;
 }
 
 /// Other programs have samplers of their own; only their number of samples matters here.
@@ -79,8 +93,12 @@ ObjectPtr Builder::make(const Node& node) {
   }
   const Plugin& plugin = registry_.find(node.family, node.type, node.where);
   Params params(plugin.schema, node.where, node.id);
-  for (const Node::Property& property : node.properties)
-    params.set(current_name(node, property.name, plugin.schema), property.value, property.where);
+  for (const Node::Property& property : node.properties) {
+    const std::string name = current_name(node, property.name, plugin.schema);
+    params.set(name, property.value, property.where);
+    if (std::holds_alternative<Animation>(property.value))
+      take_animation(params, snake_case(name), node.family != "sensor");
+  }
 
   in_progress_.push_back(&node);
   for (const Node& child : node.children) give(params, node, child);
@@ -92,8 +110,10 @@ ObjectPtr Builder::make(const Node& node) {
   object->where = node.where;
   if (auto reader = std::dynamic_pointer_cast<ShapeReader>(object))
     shape_readers_.push_back(std::move(reader));
-  if (const auto shape = std::dynamic_pointer_cast<Shape>(object))
+  if (const auto shape = std::dynamic_pointer_cast<Shape>(object)) {
     attach(*shape, params, params.objects<Bsdf>(), params.objects<Emitter>());
+    if (!shape->as_instance()) object = moving(shape, params);
+  }
   if (const auto camera = std::dynamic_pointer_cast<Camera>(object)) {
     const auto sampler = only_one(params.objects<SamplerSettings>(), "sampler", params);
     views_[object.get()] = {camera, only_one(params.objects<FilmSettings>(), "film", params),
@@ -140,6 +160,15 @@ void Builder::attach(Shape& shape, const Params& params, std::vector<std::shared
   shape.set_emitter(emitter);
 }
 
+/// Checks it, and leaves what the shutter sees of it.
+void Builder::take_animation(Params& params, const std::string& name, bool by_shutter) const {
+  const Animation* animation = animation_param(params, name);
+  if (!animation) return;  // It has no effect there.
+  const std::string problem = animation_problem(*animation);
+  if (!problem.empty()) params.fail(name, problem);
+  if (by_shutter) params.replace(name, during(*animation, shutter_));
+}
+
 /// As in Mitsuba: what shines reflects nothing, anything else is a grey diffuse surface.
 BsdfPtr Builder::default_bsdf(bool on_light, const Location& where) {
   BsdfPtr& bsdf = default_bsdf_[on_light];
@@ -154,6 +183,7 @@ ShapePtr Builder::shape(const Node& node) { return std::dynamic_pointer_cast<Sha
 
 Builder::View Builder::view(const Node& sensor, const std::optional<Vec2i>& size) {
   View view = views_.at(object(sensor).get());
+  shutter_ = view.camera->shutter();
   if (!view.film)
     view.film = std::dynamic_pointer_cast<FilmSettings>(
         make({"film", "hdrfilm", "", "", sensor.where, {}, {}}));

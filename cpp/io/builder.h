@@ -48,9 +48,11 @@ class Builder {
   void give(Params& params, const Node& parent, const Node& child);
   void attach(Shape& shape, const Params& params, std::vector<std::shared_ptr<Bsdf>> bsdfs,
               std::vector<EmitterPtr> emitters);
+  void take_animation(Params& params, const std::string& name, bool by_shutter) const;
   BsdfPtr default_bsdf(bool on_light, const Location& where);
 
   NodeIndex index_;
+  Shutter shutter_;  ///< Of the view, once it is made.
   const Registry& registry_;
   std::vector<std::string>& warnings_;
   std::map<const Node*, ObjectPtr> made_;

@@ -29,7 +29,6 @@ const std::map<std::string, std::string>& refused_elements() {
       {"subsurface", "subsurface scattering is not supported"},
       {"spectrum", "spectra are values here, not plug-ins; give rgb or wavelength:value pairs"},
       {"blackbody", "colour temperatures are not supported; give rgb or wavelength:value pairs"},
-      {"animation", "animated transforms are not supported"},
       {"camera", "this is the syntax of Mitsuba before 0.4; write <sensor>"},
       {"luminaire", "this is the syntax of Mitsuba before 0.4; write <emitter>"}};
   return reasons;

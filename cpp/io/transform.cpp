@@ -3,6 +3,7 @@
 #include "io/text.h"
 #include "io/values.h"
 #include "math/frame.h"
+#include "scene/matrix_rows.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -92,10 +93,7 @@ Matrix read_transform(const std::vector<Element>& steps) {
       step.fail("does not belong in a <transform>" + suggestion(step.tag, tags()));
     product = matrix_of(step) * product;
   }
-  Matrix rows;
-  for (size_t i = 0; i < 16; ++i)
-    rows[i] = product[static_cast<int>(i % 4)][static_cast<int>(i / 4)];
-  return rows;
+  return to_rows(product);
 }
 
 }  // namespace mlt

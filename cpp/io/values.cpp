@@ -104,6 +104,7 @@ std::string tag_of(ParamType type) {
     case ParamType::texture:
     case ParamType::emission: return "spectrum";
     case ParamType::transform:
+    case ParamType::motion:
     case ParamType::object: break;
   }
   return "";

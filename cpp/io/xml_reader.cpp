@@ -9,6 +9,7 @@
 #include "io/values.h"
 #include "io/variables.h"
 #include "io/xml_document.h"
+#include "io/xml_transform.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -36,7 +37,7 @@ std::string canonical(const std::string& path) {
 const std::vector<std::string>& scene_tags() {
   static const std::vector<std::string> tags = [] {
     std::vector<std::string> all = plugin_families();
-    all.insert(all.end(), {"default", "include", "path", "alias", "ref", "transform"});
+    all.insert(all.end(), {"default", "include", "path", "alias", "ref", "transform", "animation"});
     return all;
   }();
   return tags;
@@ -155,7 +156,8 @@ class XmlReader {
       parent.children.push_back(read_plugin(xml, e, source, depth));
       return;
     }
-    if (tag == "transform") return read_transform_property(xml, e, parent, source);
+    if (tag == "transform") return read_placement(xml, e, parent, source, read_xml_transform);
+    if (tag == "animation") return read_placement(xml, e, parent, source, read_xml_animation);
     for (const pugi::xml_node& child : xml.children())
       if (child.type() != pugi::node_comment) e.fail("should be empty, but has something inside");
 
@@ -199,18 +201,15 @@ class XmlReader {
     parent.properties.push_back({name, std::move(value), element.where});
   }
 
-  void read_transform_property(const pugi::xml_node& xml, const Element& element, Node& parent,
-                               const Source& source) {
-    element.expect_only({"name"});
-    std::vector<Element> steps;
-    for (const pugi::xml_node& child : xml.children()) {
-      if (child.type() == pugi::node_element) steps.push_back(this->element(child, source));
-      if (child.type() == pugi::node_pcdata || child.type() == pugi::node_cdata)
-        element.fail("contains a text; only steps such as <translate> are expected here");
-    }
+  /// <transform> and <animation>.
+  template <class Read>
+  void read_placement(const pugi::xml_node& xml, const Element& e, Node& parent,
+                      const Source& source, Read&& read) {
+    e.expect_only({"name"});
+    Value value = read(xml, e, [&](const pugi::xml_node& inner) { return element(inner, source); });
     if (parent.family == "scene")
-      element.fail("has no effect at the top of a scene; put it inside a shape");
-    parent.properties.push_back({element.require("name"), read_transform(steps), element.where});
+      e.fail("has no effect at the top of a scene; put it inside a shape");
+    parent.properties.push_back({e.require("name"), std::move(value), e.where});
   }
 
   void read_include(const Element& element, Node& parent, const Source& source, int depth) {

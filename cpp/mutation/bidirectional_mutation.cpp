@@ -95,12 +95,12 @@ int most_from_light(int n, bool lens_is_missing, const Scene& scene) {
 /// chosen to be seen from x_1.
 bool new_end(const Scene& scene, Path& path, int i, bool alone, Rng& rng) {
   if (i > 0) {
-    path[i] = camera_vertex(scene.camera().sample_position({rng.next(), rng.next()}).at);
+    path[i] = camera_vertex(scene.camera().sample_position({rng.next(), rng.next()}, path.time).at);
     return true;
   }
   const Vec3 u{rng.next(), rng.next(), rng.next()};
-  const LightSample light =
-      alone ? sample_direct_position(scene, path[1].at.p, u) : sample_light_position(scene, u);
+  const LightSample light = alone ? sample_direct_position(scene, path[1].at, u)
+                                  : sample_light_position(scene, u, path.time);
   if (!(light.pdf > 0)) return false;
   path[0] = light_vertex(*light.emitter, light.x0);
   return true;
@@ -109,8 +109,7 @@ bool new_end(const Scene& scene, Path& path, int i, bool alone, Rng& rng) {
 std::optional<Ray> leave_end(const Walker& walker, const Vertex& end, Rng& rng) {
   const Vec2 u{rng.next(), rng.next()};
   const Camera& camera = walker.scene.camera();
-  if (end.kind == VertexKind::camera)
-    return leave_lens(camera, end.at, camera.raster().sample(u), walker.time);
+  if (end.kind == VertexKind::camera) return leave_lens(camera, end.at, camera.raster().sample(u));
   const Departure first = walker.leave_light(end, u);
   if (!(first.pdf > 0)) return std::nullopt;
   return first.ray;

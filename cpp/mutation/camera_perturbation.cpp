@@ -66,7 +66,7 @@ class CameraPerturbation final : public MeasuredMutation<CameraPerturbation> {
     const Vec2 raster = x.raster + r * Vec2(std::cos(phi), std::sin(phi));
     if (!camera.raster().contains(raster)) return std::nullopt;
 
-    const Ray ray = leave_lens(camera, y[k].at, raster, y.path.time);
+    const Ray ray = leave_lens(camera, y[k].at, raster);
     if (!chain_.carry(x, {k, stop, -1}, ray, y, context)) return std::nullopt;
     target().evaluate(stop, k, y);
     if (stop > 0) join(scene(), stop, y, context.rays);

@@ -23,9 +23,9 @@ class LensSubpathMutation final : public MeasuredMutation<LensSubpathMutation> {
                               MutationContext& context) const override {
     const Camera& camera = scene().camera();
     Rng& rng = context.rng;
-    const PositionSample lens = camera.sample_position({rng.next(), rng.next()});
+    const PositionSample lens = camera.sample_position({rng.next(), rng.next()}, x.path.time);
     const Walker walker{scene(), x.path.time, context.rays};
-    Ray ray = leave_lens(camera, lens.at, context.raster_position(camera.raster()), x.path.time);
+    Ray ray = leave_lens(camera, lens.at, context.raster_position(camera.raster()));
 
     // The walk comes first, backwards: only then is the length of the path known.
     constexpr int most_vertices = 32;

@@ -11,6 +11,7 @@ void PathTarget::evaluate(int first, int last, PathState& x) const {
 }
 
 void PathTarget::evaluate(PathState& x) const {
+  x.path.set_time(x.path.time);
   for (Vertex& vertex : x.path.vertices)
     if (vertex.kind == VertexKind::surface)
       vertex.at.matte = scene_->bsdf(vertex.at).matte(vertex.at);

@@ -118,7 +118,7 @@ bool BidirectionalSampler::evaluate_connection(Connection& connection, RayCounts
 }
 
 bool BidirectionalSampler::choose_direct(const SurfacePoint& from, const Vec3& u) {
-  const LightSample chosen = sample_direct_position(*scene_, from.p, u);
+  const LightSample chosen = sample_direct_position(*scene_, from, u);
   if (!(chosen.pdf > 0)) return false;
   direct_.vertex = light_vertex(*chosen.emitter, chosen.x0);
   direct_.throughput = Color(1 / chosen.pdf);

@@ -52,8 +52,9 @@ class BidirectionalSampler {
   /// Draws a light subpath and a point on the lens alone.
   template <class Sampler>
   void sample_light(Sampler& sampler, RayCounts& rays) {
-    const PositionSample lens = scene_->camera().sample_position(sampler.next2());
+    const Vec2 u = sampler.next2();
     time_ = scene_->camera().time(sampler.next());
+    const PositionSample lens = scene_->camera().sample_position(u, time_);
     camera_.start(camera_vertex(lens.at), lens.pdf);
     walk_from_light(walker(rays), settings_.rules, sampler, light_);
     draw_direct(sampler);

@@ -65,12 +65,13 @@ void MatteVertices::set_light(int i, const MeshPoint& point, const Color& emitte
   light_pdf[i] = static_cast<float>(pdf);
 }
 
-SurfacePoint MatteVertices::point(int i) const {
+SurfacePoint MatteVertices::point(int i, double time) const {
   SurfacePoint at;
   at.p = Vec3(p[i]);
   at.ng = normalize(Vec3(ng[i]));
   at.shading = Frame::around(normalize(Vec3(n[i])));
   at.shape = shape[i];
+  at.time = time;
   at.extent = extent[i];
   at.matte = {f[i], back[i] > 0 ? Matte::Sides::both : Matte::Sides::front};
   return at;

@@ -57,7 +57,7 @@ struct MatteVertices {
   void set_light(int i, const MeshPoint& point, const Color& emitted, double pdf);
   void set_no_light(int i) { light_pdf[i] = 0; }
   /// The i-th of them, for what is not computed side by side.
-  SurfacePoint point(int i) const;
+  SurfacePoint point(int i, double time) const;
 
   void unshadowed_lights(bool strict_normals);
   void sample_directions(bool strict_normals);

@@ -41,7 +41,7 @@ void load(ByteReader& bytes, Path& path) {
     for_each_member(path.vertices.back(),
                     [&](auto& member) { member = bytes.read<std::decay_t<decltype(member)>>(); });
   }
-  path.time = bytes.read<double>();
+  path.set_time(bytes.read<double>());
 }
 
 std::optional<Vec2> raster_position(const Scene& scene, const Path& path) {

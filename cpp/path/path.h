@@ -13,6 +13,12 @@ struct Path {
   std::vector<Vertex> vertices;
   double time = 0;
 
+  /// What moves is not moved along.
+  void set_time(double moment) {
+    time = moment;
+    for (Vertex& x : vertices) x.at.time = moment;
+  }
+
   int edges() const { return static_cast<int>(vertices.size()) - 1; }  ///< k
   Vertex& operator[](size_t i) { return vertices[i]; }
   const Vertex& operator[](size_t i) const { return vertices[i]; }

@@ -58,7 +58,7 @@ struct DirectLight {
 template <class Weight>
 DirectLight unshadowed_light(const Scene& scene, const SurfacePoint& at, const Vec3& wc,
                              const Vec3& u, bool strict, Weight&& weight) {
-  const LightSample light = sample_direct_position(scene, at.p, u);
+  const LightSample light = sample_direct_position(scene, at, u);
   if (!(light.pdf > 0)) return {};
   const Vec3 wl = direction(at, light.x0);
   if (!consistent_sides(at, wl, strict)) return {};

@@ -84,7 +84,8 @@ void walk_from_light(const Walker& walker, const PathRules& rules, Sampler& samp
                      Subpath& subpath) {
   subpath.clear();
   const Vec2 u_position = sampler.next2(), u_direction = sampler.next2();
-  const LightSample light = sample_light_position(walker.scene, {sampler.next(), u_position});
+  const LightSample light =
+      sample_light_position(walker.scene, {sampler.next(), u_position}, walker.time);
   if (!(light.pdf > 0)) return;
   const Vertex x0 = light_vertex(*light.emitter, light.x0);
   subpath.start(x0, light.pdf);

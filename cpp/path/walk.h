@@ -18,15 +18,15 @@ struct LightSample {
 };
 
 /// Where a walk from the light begins. u.x chooses the light, (u.y, u.z) the position on it.
-inline LightSample sample_light_position(const Scene& scene, Vec3 u) {
+inline LightSample sample_light_position(const Scene& scene, Vec3 u, double time) {
   const EmitterChoice choice = scene.choose_emitter(u.x);
-  const PositionSample position = choice.emitter->sample_position({u.y, u.z});
+  const PositionSample position = choice.emitter->sample_position({u.y, u.z}, time);
   return {choice.emitter, position.at, choice.probability * position.pdf};
 }
-/// The same, to be seen from the point `from` (next-event estimation).
-inline LightSample sample_direct_position(const Scene& scene, const Vec3& from, Vec3 u) {
+/// The same, to be seen from the point `from` at its time (next-event estimation).
+inline LightSample sample_direct_position(const Scene& scene, const SurfacePoint& from, Vec3 u) {
   const EmitterChoice choice = scene.choose_emitter(u.x);
-  const PositionSample position = choice.emitter->sample_direct(from, {u.y, u.z});
+  const PositionSample position = choice.emitter->sample_direct(from.p, {u.y, u.z}, from.time);
   return {choice.emitter, position.at, choice.probability * position.pdf};
 }
 
@@ -36,11 +36,10 @@ struct Departure {
   double pdf;  ///< Coefficient in projected solid angle; 0: failed.
 };
 
-/// The ray from a point on the lens through a raster position.
-inline Ray leave_lens(const Camera& camera, const SurfacePoint& xk, const Vec2& raster,
-                      double time) {
+/// The ray from a point on the lens, at its time, through a raster position.
+inline Ray leave_lens(const Camera& camera, const SurfacePoint& xk, const Vec2& raster) {
   const Vec3 w = camera.direction(xk, raster);
-  return {camera.entrance(xk, w), w, time};
+  return {camera.entrance(xk, w), w, xk.time};
 }
 
 struct LensDeparture {
@@ -51,8 +50,9 @@ struct LensDeparture {
 /// The same from a random point on the lens, at a random moment.
 template <class Sampler>
 LensDeparture leave_lens(const Camera& camera, const Vec2& raster, Sampler& sampler) {
-  const PositionSample lens = camera.sample_position(sampler.next2());
-  return {lens, leave_lens(camera, lens.at, raster, camera.time(sampler.next()))};
+  const Vec2 u = sampler.next2();
+  const PositionSample lens = camera.sample_position(u, camera.time(sampler.next()));
+  return {lens, leave_lens(camera, lens.at, raster)};
 }
 
 /// A direction that a BSDF has sampled, and its lobe.

@@ -94,8 +94,8 @@ void Wavefront::choose_light(int i, const Vec3& u, RayCounts& rays) {
     return;
   }
   matte_.set_no_light(i);
-  const SurfacePoint at = matte_.point(i);
   const int walk = matte_.walk[i];
+  const SurfacePoint at = matte_.point(i, walks_[walk].ray.time);
   queue_shadow(
       walk,
       unshadowed_light(*scene_, at, -walks_[walk].ray.d, u, rules_.strict_normals, power_heuristic),
@@ -108,7 +108,8 @@ void Wavefront::queue_lights(RayCounts& rays) {
     if (matte_.light_weight[i] > 0)
       queue_shadow(matte_.walk[i],
                    matte_.radiance[i] * matte_.f[i] * double{matte_.light_weight[i]}, rays,
-                   matte_.shadow_o[i], matte_.shadow_w[i], matte_.shadow_length[i]);
+                   matte_.shadow_o[i], matte_.shadow_w[i], matte_.shadow_length[i],
+                   walks_[matte_.walk[i]].ray.time);
 }
 
 void Wavefront::queue_shadow(int index, const DirectLight& light, const SurfacePoint& at,

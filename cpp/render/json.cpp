@@ -20,6 +20,9 @@ struct Writer {
   std::string operator()(const std::pair<double, double>& sample) const {
     return "[" + (*this)(sample.first) + ", " + (*this)(sample.second) + "]";
   }
+  std::string operator()(const Keyframe& key) const {
+    return "[" + (*this)(key.time) + ", " + (*this)(key.transform) + "]";
+  }
   template <class Sequence>
   std::string operator()(const Sequence& sequence) const {
     std::string list;

@@ -1,6 +1,7 @@
 // The ray accelerator on Embree 3 or 4. Meshes go to Embree as they are; analytic shapes are
 // user geometry, intersected in double precision with the ray as it was given. Groups of shapes are
-// scenes of their own, of which there are instances.
+// scenes of their own, of which there are instances. What moves is an instance whose transform is
+// linear between steps of time, by Embree's own interpolation.
 #include "scene/accel.h"
 
 #include "scene/analytic_shape.h"
@@ -13,6 +14,7 @@
 #include <embree3/rtcore.h>
 #endif
 
+#include <algorithm>
 #include <cstring>
 #include <map>
 #include <string>
@@ -147,6 +149,11 @@ RTCGeometry analytic_geometry(RTCDevice device, const AnalyticShape& shape) {
   return geometry;
 }
 
+bool moves(const ShapePtr& shape) {
+  const Instance* instance = shape->as_instance();
+  return instance && instance->motion().moves();
+}
+
 /// The device's error in words, or ""; without a device, why there is none. Where memory is short
 /// Embree often fails before it can say so; then it is a thread or a library that it lacks.
 std::string why_not(RTCDevice device, const char* what) {
@@ -162,6 +169,8 @@ std::string why_not(RTCDevice device, const char* what) {
 struct Accel::Impl {
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
+  bool moves = false;
+  Shutter shutter;
   std::map<const ShapeGroup*, RTCScene> groups;
 
   ~Impl() {
@@ -173,6 +182,16 @@ struct Accel::Impl {
   RTCScene build(const std::vector<ShapePtr>& shapes);
   RTCGeometry geometry(const Shape& shape);
   RTCGeometry instance_geometry(const Instance& instance);
+
+  /// In [0, 1], also of what is no number.
+  float embree_time(double time) const {
+    const double share = (time - shutter.open) / (shutter.close - shutter.open);
+    return static_cast<float>(std::min(std::max(0.0, share), 1.0));
+  }
+  void set_times(const RayPacket& packet, RTCRay8& rays) const {
+    if (!moves) return;
+    for (int i = 0; i < packet.count; ++i) rays.time[i] = embree_time(packet.time[i]);
+  }
 };
 
 RTCScene Accel::Impl::build(const std::vector<ShapePtr>& shapes) {
@@ -199,13 +218,19 @@ RTCGeometry Accel::Impl::instance_geometry(const Instance& instance) {
   if (!group) group = build(instance.group().shapes());
   RTCGeometry made = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
   rtcSetGeometryInstancedScene(made, group);
-  const glm::mat4 to_world(instance.to_world());
-  rtcSetGeometryTransform(made, 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, &to_world);
+  const std::vector<Mat4>& steps = instance.motion().steps();
+  rtcSetGeometryTimeStepCount(made, static_cast<unsigned>(steps.size()));
+  for (unsigned i = 0; i < steps.size(); ++i) {
+    const glm::mat4 to_world(steps[i]);
+    rtcSetGeometryTransform(made, i, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, &to_world);
+  }
   return made;
 }
 
-Accel::Accel(const std::vector<ShapePtr>& shapes, int build_threads)
+Accel::Accel(const std::vector<ShapePtr>& shapes, const Shutter& shutter, int build_threads)
     : impl_(std::make_unique<Impl>()) {
+  impl_->moves = std::any_of(shapes.begin(), shapes.end(), moves);
+  impl_->shutter = shutter;
   // A fixed instruction set, so that the bits do not depend on the machine's vector width.
   const std::string config = "max_isa=avx2,threads=" + std::to_string(build_threads);
   impl_->device = rtcNewDevice(config.c_str());
@@ -258,6 +283,7 @@ bool Accel::intersect(const Ray& ray, Hit& hit) const {
   init(query, &rays);
   RTCRayHit rayhit;
   rayhit.ray = embree_ray(ray);
+  if (impl_->moves) rayhit.ray.time = impl_->embree_time(ray.time);
   unhit(rayhit);
 #if MLT_EMBREE_MAJOR >= 4
   rtcIntersect1(impl_->scene, &rayhit, &query.intersect);
@@ -275,6 +301,7 @@ bool Accel::occluded(const Ray& ray) const {
   Query query;
   init(query, &rays);
   RTCRay r = embree_ray(ray);
+  if (impl_->moves) r.time = impl_->embree_time(ray.time);
 #if MLT_EMBREE_MAJOR >= 4
   rtcOccluded1(impl_->scene, &r, &query.occluded);
 #else
@@ -292,6 +319,7 @@ void Accel::intersect(const Ray* const* rays, int count, Hit* hits) const {
   fill_valid(count, valid);
   RTCRayHit8 rayhit;
   fill(packet, rayhit.ray);
+  impl_->set_times(packet, rayhit.ray);
   for (int i = 0; i < RayPacket::size; ++i)
     rayhit.hit.geomID[i] = rayhit.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
 #if MLT_EMBREE_MAJOR >= 4
@@ -315,6 +343,7 @@ unsigned Accel::occluded(const RayPacket& packet) const {
   fill_valid(packet.count, valid);
   RTCRay8 rays;
   fill(packet, rays);
+  impl_->set_times(packet, rays);
 #if MLT_EMBREE_MAJOR >= 4
   rtcOccluded8(valid, impl_->scene, &rays, &query.occluded);
 #else

@@ -13,25 +13,30 @@ namespace mlt {
 struct alignas(32) RayPacket {
   static constexpr int size = 8;
   float ox[size], oy[size], oz[size], dx[size], dy[size], dz[size], t_max[size];
+  double time[size];
   int count = 0;
 
-  void add(const Vec3f& o, const Vec3f& d, float most) {
+  void add(const Vec3f& o, const Vec3f& d, float most, double at) {
     ox[count] = o.x;
     oy[count] = o.y;
     oz[count] = o.z;
     dx[count] = d.x;
     dy[count] = d.y;
     dz[count] = d.z;
+    time[count] = at;
     t_max[count++] = most;
   }
-  void add(const Ray& ray) { add(Vec3f(ray.o), Vec3f(ray.d), static_cast<float>(ray.t_max)); }
+  void add(const Ray& ray) {
+    add(Vec3f(ray.o), Vec3f(ray.d), static_cast<float>(ray.t_max), ray.time);
+  }
   bool full() const { return count == size; }
 };
 
 class Accel {
  public:
   /// Builds the hierarchy; the result does not depend on `build_threads`.
-  explicit Accel(const std::vector<ShapePtr>& shapes, int build_threads = 1);
+  explicit Accel(const std::vector<ShapePtr>& shapes, const Shutter& shutter = {},
+                 int build_threads = 1);
   ~Accel();
 
   bool intersect(const Ray& ray, Hit& hit) const;

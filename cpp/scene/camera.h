@@ -50,7 +50,8 @@ struct Projection {
 
 class Camera : public Object {
  public:
-  virtual PositionSample sample_position(const Vec2& u) const = 0;
+  /// A point on the lens, where it is at this time.
+  virtual PositionSample sample_position(const Vec2& u, double time) const = 0;
   virtual double pdf_position(const SurfacePoint& xk) const = 0;
   virtual Vec2 invert_position(const SurfacePoint& xk) const = 0;
 
@@ -87,7 +88,8 @@ class Camera : public Object {
 
   const Raster& raster() const { return raster_; }
   /// Camera time: uniform between shutter open and shutter close.
-  double time(double u) const { return shutter_open_ + u * (shutter_close_ - shutter_open_); }
+  double time(double u) const { return shutter_.open + u * (shutter_.close - shutter_.open); }
+  const Shutter& shutter() const { return shutter_; }
 
   /// Called once by the scene builder; `raster` comes from the film.
   virtual void set_raster(const Raster& raster) { raster_ = raster; }
@@ -96,7 +98,7 @@ class Camera : public Object {
 
  protected:
   Raster raster_;
-  double shutter_open_ = 0, shutter_close_ = 0;
+  Shutter shutter_;
 };
 
 using CameraPtr = std::shared_ptr<Camera>;

@@ -38,7 +38,8 @@ class Emitter : public Object {
   /// along w. For a delta position: the coefficient of the delta.
   virtual Color eval(const SurfacePoint& x0, const Vec3& w) const = 0;
 
-  virtual PositionSample sample_position(const Vec2& u) const = 0;
+  /// The densities and inverses below are those at the time of x0.
+  virtual PositionSample sample_position(const Vec2& u, double time) const = 0;
   virtual double pdf_position(const SurfacePoint& x0) const = 0;
   virtual Vec2 invert_position(const SurfacePoint& x0) const = 0;
 
@@ -51,8 +52,8 @@ class Emitter : public Object {
 
   /// Draws a position to be seen from the point `from` (next-event estimation); the density may
   /// depend on `from`. By default the same as sample_position.
-  virtual PositionSample sample_direct(const Vec3& /*from*/, const Vec2& u) const {
-    return sample_position(u);
+  virtual PositionSample sample_direct(const Vec3& /*from*/, const Vec2& u, double time) const {
+    return sample_position(u, time);
   }
   virtual double pdf_direct(const Vec3& /*from*/, const SurfacePoint& x0) const {
     return pdf_position(x0);

@@ -33,66 +33,101 @@ ShapeGroupPtr only_group(Params& params) {
   return groups.front();
 }
 
+Motion checked_motion(Params& params) {
+  const Motion motion = motion_param(params, "to_world");
+  for (const Mat4& m : motion.steps())
+    if (!is_affine(m) || is_singular(m))
+      params.fail("to_world", "is singular or has a perspective");
+  return motion;
+}
+
 }  // namespace
 
-ShapeGroup::ShapeGroup(Params& params) : shapes_(params.objects<Shape>()) {
+ShapeGroup::ShapeGroup(Params& params) {
+  const auto shapes = params.objects<Shape>();
   if (!params.objects<ShapeGroup>().empty())
     params.fail("contains another group, but groups cannot be nested");
-  if (shapes_.empty()) params.fail("contains no shapes");
-  for (const ShapePtr& shape : shapes_) {
+  if (shapes.empty()) params.fail("contains no shapes");
+  for (const ShapePtr& shape : shapes) {
     if (shape->as_instance())
-      throw SceneError(at(shape->where, "an instance cannot be in a group: they cannot be nested"));
+      throw SceneError(at(shape->where, shape->type == "instance"
+                                            ? "an instance cannot be in a group: they cannot be "
+                                              "nested"
+                                            : "a shape that moves cannot be in a group; move the "
+                                              "instances of the group"));
     if (shape->emitter())
       throw SceneError(
           at(shape->where, "a shape that emits cannot be in a group; put it beside it"));
-    Vec3 low, high;
-    shape->bounds(low, high);
-    low_ = glm::min(low_, low);
-    high_ = glm::max(high_, high);
+    add(shape);
   }
 }
 
-Instance::Instance(Params& params)
-    : group_(only_group(params)),
-      to_world_(matrix_param(params, "to_world")),
-      linear_(to_world_),
-      inverse_(glm::inverse(linear_)),
-      offset_(to_world_[3]) {
-  if (!is_affine(to_world_) || is_singular(to_world_))
-    params.fail("to_world", "is singular or has a perspective");
-  keeps_angles_ = is_similarity(linear_);
+void ShapeGroup::add(const ShapePtr& shape) {
+  Vec3 low, high;
+  shape->bounds(low, high);
+  low_ = glm::min(low_, low);
+  high_ = glm::max(high_, high);
+  shapes_.push_back(shape);
+}
+
+Instance::Instance(Params& params) : Instance(only_group(params), checked_motion(params)) {}
+
+Instance::Instance(const ShapePtr& shape, const Motion& motion)
+    : Instance(std::make_shared<ShapeGroup>(shape), motion) {
+  type = shape->type;
+  id = shape->id;
+  where = shape->where;
+  bsdf_ = shape->bsdf_ptr();
+}
+
+Instance::Instance(ShapeGroupPtr group, const Motion& motion)
+    : group_(std::move(group)), motion_(motion), at_rest_(motion.steps()[0]) {
+  keeps_angles_ = is_similarity(at_rest_.linear);
+  for (const Mat4& step : motion_.steps())
+    keeps_angles_ = keeps_angles_ && Mat3(step) == at_rest_.linear;
   extent_ = rounding_scale();
 }
 
 void Instance::surface_point(const Ray& ray, const Hit& hit, SurfacePoint& at) const {
-  const Shape& shape = *group_->shapes()[hit.member];
-  const Vec3 d = inverse_ * ray.d;
-  const double stretch = length(d);
-  shape.surface_point({inverse_ * (ray.o - offset_), d / stretch, ray.time},
-                      {hit.t * stretch, shape.index(), hit.primitive, hit.u, hit.v}, at);
-  at.shape = shape.index();
-  at.instance = index();
-  move_to_world(shape, at);
+  if (motion_.moves())
+    surface_point(AffineMap(motion_.at(ray.time)), ray, hit, at);
+  else
+    surface_point(at_rest_, ray, hit, at);
 }
 
-void Instance::move_to_world(const Shape& shape, SurfacePoint& at) const {
+inline void Instance::surface_point(const AffineMap& map, const Ray& ray, const Hit& hit,
+                                    SurfacePoint& at) const {
+  const Shape& shape = *group_->shapes()[hit.member];
+  const Vec3 d = map.inverse * ray.d;
+  const double stretch = length(d);
+  shape.surface_point({map.point_back(ray.o), d / stretch, ray.time},
+                      {hit.t * stretch, shape.index(), hit.primitive, hit.u, hit.v}, at);
+  place(map, shape, ray.time, at);
+}
+
+void Instance::place(const AffineMap& map, const Shape& shape, double time,
+                     SurfacePoint& at) const {
   // dp/du, of which the frame has the part across n, lies in the surface, across ng.
   const Frame& f = at.shading;
   const Vec3 dp_du = f.s - f.n * (dot(at.ng, f.s) / dot(at.ng, f.n));
-  const Vec3 ng = normalize(at.ng * inverse_);
-  Vec3 n = normalize(f.n * inverse_);
+  const Vec3 ng = normalize(at.ng * map.inverse);
+  Vec3 n = normalize(f.n * map.inverse);
   if (const Mesh* mesh = shape.as_mesh(); mesh && !keeps_angles_)
-    n = mesh->moved_normal(at, inverse_).value_or(ng);
-  at.shading = shape.has_tangent() ? Frame::around(n, linear_ * dp_du) : Frame::around(n);
+    n = mesh->moved_normal(at, map.inverse).value_or(ng);
+  at.shading = shape.has_tangent() ? Frame::around(n, map.linear * dp_du) : Frame::around(n);
   at.ng = ng * std::copysign(1.0, dot(ng, n));
-  at.p = linear_ * at.p + offset_;
+  at.p = map.point(at.p);
   at.extent = extent_;
+  at.shape = shape.index();
+  at.instance = index();
+  at.time = time;
 }
 
 SurfacePoint Instance::in_group(SurfacePoint at) const {
-  at.p = inverse_ * (at.p - offset_);
-  at.ng = normalize(at.ng * linear_);
-  at.shading = Frame::around(normalize(at.shading.n * linear_), inverse_ * at.shading.s);
+  const AffineMap map = map_at(at.time);
+  at.p = map.point_back(at.p);
+  at.ng = normalize(at.ng * map.linear);
+  at.shading = Frame::around(normalize(at.shading.n * map.linear), map.inverse * at.shading.s);
   return at;
 }
 
@@ -101,15 +136,27 @@ SurfacePoint Instance::in_group(SurfacePoint at) const {
 double Instance::rounding_scale() const {
   Vec3 low, high;
   bounds(low, high);
-  const Vec3 moved = absolute(inverse_) * glm::max(largest(low, high), glm::abs(offset_));
-  return max_component(absolute(linear_) * glm::max(largest(group_->low(), group_->high()), moved));
+  double scale = 0;
+  for (const Mat4& step : motion_.steps()) {
+    const AffineMap map(step);
+    const Vec3 moved = absolute(map.inverse) * glm::max(largest(low, high), glm::abs(map.offset));
+    scale = std::max(scale, max_component(absolute(map.linear) *
+                                          glm::max(largest(group_->low(), group_->high()), moved)));
+  }
+  return scale;
 }
 
+/// Between two steps of a motion every point goes in a straight line.
 void Instance::bounds(Vec3& low, Vec3& high) const {
-  const Vec3 center = linear_ * (0.5 * (group_->low() + group_->high())) + offset_;
-  const Vec3 half = absolute(linear_) * (0.5 * (group_->high() - group_->low()));
-  low = center - half;
-  high = center + half;
+  low = Vec3(infinity);
+  high = Vec3(-infinity);
+  for (const Mat4& step : motion_.steps()) {
+    const AffineMap map(step);
+    const Vec3 center = map.point(0.5 * (group_->low() + group_->high()));
+    const Vec3 half = absolute(map.linear) * (0.5 * (group_->high() - group_->low()));
+    low = glm::min(low, center - half);
+    high = glm::max(high, center + half);
+  }
 }
 
 }  // namespace mlt

@@ -1,7 +1,9 @@
 // Copies of shapes: a group is held once, in a space of its own, and each instance of it is one
-// transform. Rays are moved into the group's space, and the points that they hit back.
+// transform, or a motion. Rays are moved into the group's space, and the points that they hit back.
+// A shape that moves is an instance too, of a group of its own.
 #pragma once
 
+#include "scene/motion.h"
 #include "scene/shape.h"
 
 #include <vector>
@@ -15,6 +17,8 @@ class ShapeGroup : public Object {
  public:
   /// Throws SceneError if there are none, or if one emits or is an instance.
   explicit ShapeGroup(Params& params);
+  /// Of one shape, which may emit.
+  explicit ShapeGroup(const ShapePtr& shape) { add(shape); }
 
   const std::vector<ShapePtr>& shapes() const { return shapes_; }
   /// Axis-aligned bounding box, in the group's space.
@@ -22,23 +26,45 @@ class ShapeGroup : public Object {
   const Vec3& high() const { return high_; }
 
  private:
+  void add(const ShapePtr& shape);
+
   std::vector<ShapePtr> shapes_;
   Vec3 low_{infinity}, high_{-infinity};
 };
 
 using ShapeGroupPtr = std::shared_ptr<const ShapeGroup>;
 
+/// From a group's space to the world, and back.
+struct AffineMap {
+  Mat3 linear, inverse;
+  Vec3 offset;
+
+  explicit AffineMap(const Mat4& to_world)
+      : linear(to_world), inverse(glm::inverse(linear)), offset(to_world[3]) {}
+
+  Vec3 point(const Vec3& p) const { return linear * p + offset; }
+  Vec3 point_back(const Vec3& p) const { return inverse * (p - offset); }
+};
+
 class Instance final : public Shape {
  public:
   /// Throws SceneError if there is not one group, or if `to_world` is singular or not affine.
   explicit Instance(Params& params);
+  /// A shape that moves.
+  Instance(const ShapePtr& shape, const Motion& motion);
 
   const ShapeGroup& group() const { return *group_; }
-  const Mat4& to_world() const { return to_world_; }
-  const Mat3& linear() const { return linear_; }
+  const Motion& motion() const { return motion_; }
+  AffineMap map_at(double time) const {
+    return motion_.moves() ? AffineMap(motion_.at(time)) : at_rest_;
+  }
   /// A point that surface_point has found, back in the group's space, as far as Shape::uv_tangents
-  /// and Mesh::barycentrics look at it.
+  /// and the densities and inverses of samples look at it.
   SurfacePoint in_group(SurfacePoint at) const;
+  /// A point of a shape of the group, where it is in the world at this time.
+  void move_to_world(const Shape& shape, double time, SurfacePoint& at) const {
+    place(map_at(time), shape, time, at);
+  }
 
   /// `at.shape` becomes the shape of the group that was hit, which has the material, and
   /// `at.instance` this.
@@ -52,13 +78,15 @@ class Instance final : public Shape {
   Vec2 invert_position(const SurfacePoint&) const override { return Vec2(0.5); }
 
  private:
-  void move_to_world(const Shape& shape, SurfacePoint& at) const;
+  Instance(ShapeGroupPtr group, const Motion& motion);
+
+  void surface_point(const AffineMap& map, const Ray& ray, const Hit& hit, SurfacePoint& at) const;
+  void place(const AffineMap& map, const Shape& shape, double time, SurfacePoint& at) const;
   double rounding_scale() const;
 
   ShapeGroupPtr group_;
-  Mat4 to_world_;
-  Mat3 linear_, inverse_;  ///< Of to_world, without its translation.
-  Vec3 offset_;            ///< Its translation.
+  Motion motion_;
+  AffineMap at_rest_;  ///< When the shutter opens.
   bool keeps_angles_;
   double extent_;
 };

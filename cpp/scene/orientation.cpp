@@ -13,6 +13,12 @@ Vec3 axis(const Params& params, const std::string& name, const Vec3& column) {
   return column / l;
 }
 
+/// `volume` has the sign of the determinant.
+Frame perpendicular(const Vec3& x, const Vec3& z, double volume) {
+  const Vec3 s = normalize(x - z * dot(x, z));
+  return {s, cross(z, s) * std::copysign(1.0, volume), z};
+}
+
 }  // namespace
 
 Frame orientation(const Params& params, const std::string& name, const Mat4& to_world) {
@@ -25,8 +31,12 @@ Frame orientation(const Params& params, const std::string& name, const Mat4& to_
   const double shear = std::max({std::abs(dot(x, y)), std::abs(dot(y, z)), std::abs(dot(z, x))});
   if (shear > max_shear)
     params.fail(name, "shears; here it may only rotate, mirror, move and scale along its axes");
-  const Vec3 s = normalize(x - z * dot(x, z));
-  return {s, cross(z, s) * std::copysign(1.0, volume), z};
+  return perpendicular(x, z, volume);
+}
+
+Frame turned_axes(const Mat4& to_world) {
+  const Vec3 x = normalize(Vec3(to_world[0])), z = normalize(Vec3(to_world[2]));
+  return perpendicular(x, z, glm::determinant(Mat3(to_world)));
 }
 
 }  // namespace mlt

@@ -12,4 +12,7 @@ namespace mlt {
 /// SceneError about the parameter `name` if the transform is singular or shears.
 Frame orientation(const Params& params, const std::string& name, const Mat4& to_world);
 
+/// The same of a transform that is neither singular nor shears.
+Frame turned_axes(const Mat4& to_world);
+
 }  // namespace mlt

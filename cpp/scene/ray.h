@@ -13,6 +13,11 @@ struct Ray {
   double t_max = infinity;
 };
 
+/// When it opens and closes.
+struct Shutter {
+  double open = 0, close = 0;
+};
+
 /// What the accelerator found: which primitive, and where on it (barycentrics of Embree).
 struct Hit {
   double t;

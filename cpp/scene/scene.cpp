@@ -11,9 +11,15 @@ namespace mlt {
 namespace {
 
 Bounds enclosing_sphere(const std::vector<ShapePtr>& shapes, const Camera& camera) {
-  const SurfacePoint middle = camera.sample_position({0.5, 0.5}).at;
-  const Vec3 lens = camera.entrance(middle, middle.ng);
-  Vec3 low = lens, high = lens;
+  Vec3 low(infinity), high(-infinity);
+  constexpr int moments = 128;  // The steps of a motion are among them.
+  for (int i = 0; i <= moments; ++i) {
+    const SurfacePoint middle =
+        camera.sample_position({0.5, 0.5}, camera.time(1.0 * i / moments)).at;
+    const Vec3 lens = camera.entrance(middle, middle.ng);
+    low = glm::min(low, lens);
+    high = glm::max(high, lens);
+  }
   for (const ShapePtr& shape : shapes) {
     Vec3 l, h;
     shape->bounds(l, h);
@@ -76,7 +82,7 @@ Scene::Scene(std::vector<ShapePtr> shapes, std::vector<EmitterPtr> emitters, Cam
     if (!emitters_[i]->delta()) backgrounds_.push_back(static_cast<uint32_t>(i));
   }
   emitter_choice_ = choose_by_power(emitters_);
-  accel_ = std::make_unique<Accel>(shapes_);
+  accel_ = std::make_unique<Accel>(shapes_, camera_->shutter());
   const std::vector<ShapePtr> grouped = grouped_shapes(shapes_);
   shapes_.insert(shapes_.end(), grouped.begin(), grouped.end());
   for (size_t i = 0; i < shapes_.size(); ++i) shapes_[i]->set_index(static_cast<uint32_t>(i));
@@ -95,6 +101,7 @@ inline void Scene::arrive(const Ray& ray, const Hit& hit, SurfacePoint& at) cons
   at.primitive = hit.primitive;
   at.instance = SurfacePoint::no_shape;
   shapes_[hit.shape]->surface_point(ray, hit, at);
+  at.time = ray.time;
   at.matte = bsdf(at).matte(at);
 }
 

@@ -56,6 +56,7 @@ class Shape : public Object {
   virtual const Instance* as_instance() const { return nullptr; }
 
   const Bsdf& bsdf() const { return *bsdf_; }
+  const BsdfPtr& bsdf_ptr() const { return bsdf_; }
   const Emitter* emitter() const { return emitter_.get(); }
   const EmitterPtr& emitter_ptr() const { return emitter_; }
   void set_bsdf(BsdfPtr bsdf) { bsdf_ = std::move(bsdf); }

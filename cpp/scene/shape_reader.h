@@ -24,7 +24,8 @@ class ShapeReader {
     const Instance* instance = instance_of(at);
     if (!instance) return shape->uv_tangents(at);
     const auto [du, dv] = shape->uv_tangents(instance->in_group(at));
-    return {instance->linear() * du, instance->linear() * dv};
+    const Mat3 linear = instance->map_at(at.time).linear;
+    return {linear * du, linear * dv};
   }
   /// Of the corners of a mesh after the first one.
   Vec2 barycentrics(const Mesh& mesh, const SurfacePoint& at) const {

@@ -24,6 +24,7 @@ struct SurfacePoint {
   uint32_t primitive = 0;     ///< Triangle of a mesh.
   uint32_t instance = no_shape;  ///< Index of the Instance that the shape is seen through, if any.
   PointKind kind = PointKind::surface;
+  double time = 0;  ///< When it is there, on what moves.
   /// Largest coordinate of the primitive: the scale of float rounding in the accelerator.
   double extent = 0;
   Matte matte{};  ///< How it scatters light, if it is matte and a ray has arrived there.

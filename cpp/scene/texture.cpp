@@ -1,6 +1,8 @@
 #include "scene/texture.h"
 
 #include "math/spectrum.h"
+#include "scene/matrix_rows.h"
+#include "scene/motion.h"
 
 namespace mlt {
 namespace {
@@ -102,12 +104,9 @@ Mat4 matrix_param(Params& params, const std::string& name) {
   const Parameter* parameter = params.schema().find(name);
   const bool has_default = !std::holds_alternative<std::monostate>(parameter->default_value);
   if (!has_default && !params.has(name)) return Mat4(1);
-  const Matrix rows = params.matrix(name);
-  Mat4 m;
-  for (int row = 0; row < 4; ++row)
-    for (int column = 0; column < 4; ++column)
-      m[column][row] = rows[static_cast<size_t>(4 * row + column)];
-  return m;
+  if (const auto* animation = std::get_if<Animation>(&params.value(name)))
+    return at_rest(*animation);
+  return from_rows(params.matrix(name));
 }
 
 }  // namespace mlt

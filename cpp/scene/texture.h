@@ -36,7 +36,7 @@ Color color_param(Params& params, const std::string& name);
 /// A number, rgb or spectrum as the colour that `use` makes of it, whatever its range.
 Color to_color(Params& params, const std::string& name, SpectrumUse use);
 Vec3 vector_param(Params& params, const std::string& name);
-/// A transform; the identity if it has no default and is not given.
+/// A transform; the identity if it has no default and is not given. Of what moves, at_rest.
 Mat4 matrix_param(Params& params, const std::string& name);
 
 }  // namespace mlt

@@ -24,7 +24,7 @@ class Nudge final : public Mutation {
     splice(x, edit, y);
     const double u = context.rng.next() - 0.5, v = context.rng.next() - 0.5;
     const Vec2 raster = x.raster + side_ * Vec2(u, v);
-    const Ray ray = leave_lens(scene().camera(), x[k].at, raster, x.path.time);
+    const Ray ray = leave_lens(scene().camera(), x[k].at, raster);
     if (!Walker{scene(), ray.time, context.rays}.arrive(ray, y.path[k - 1])) return std::nullopt;
     target().evaluate(k - 1, k - 1, y);
     join(scene(), k - 1, y, context.rays);

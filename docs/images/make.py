@@ -1,6 +1,7 @@
 """Makes the pictures of the README and the docs: python docs/images/make.py [NAME ...]
 
 door-ajar     the picture at the head of the README
+motion        the scene of the page on motion blur
 equal-time    the same scene by path, bdpt and mlt, with equal CPU time
 two-families  what independent samples and chains show of an image
 strategies    the techniques of bidirectional path tracing
@@ -37,6 +38,11 @@ def door_ajar():
     mlt.write_image(HERE / "door-ajar.png", image)
 
 
+def motion():
+    image = mlt.render(mlt.load_dict(mlt.scenes.motion()), mlt.BDPT(max_depth=8), spp=100, seed=1)
+    mlt.write_image(HERE / "motion.png", image)
+
+
 def equal_time():
     integrators = [mlt.Path(max_depth=10), mlt.BDPT(max_depth=10), mlt.MLT(max_depth=10)]
     images = [render("door_ajar", i, 30, (240, 135)) for i in integrators]
@@ -61,6 +67,7 @@ def strategies():
 if __name__ == "__main__":
     pictures = {
         "door-ajar": door_ajar,
+        "motion": motion,
         "equal-time": equal_time,
         "two-families": two_families,
         "strategies": strategies,

@@ -83,7 +83,7 @@ class Scene:
 
     @overload
     def intersect(
-        self, start: Vertex, direction: ArrayLike, time: float = 0.0
+        self, start: Vertex, direction: ArrayLike, time: float | None = None
     ) -> Vertex | None: ...
     @overload
     def intersect(
@@ -102,8 +102,8 @@ class Scene:
         Two arrays (n, 3), starts and unit directions, as `intersect` takes them.
         """
 
-    def visible(self, a: Vertex, b: Vertex, time: float = 0.0) -> bool:
-        """Whether nothing stands between two vertices."""
+    def visible(self, a: Vertex, b: Vertex, time: float | None = None) -> bool:
+        """Whether nothing stands between two vertices; by default at the time of the first."""
 
     def scatter(
         self,

@@ -61,6 +61,7 @@ TYPES = {"boolean": "bool", "integer": "int", "float": "float", "string": "str"}
 SEQUENCES = {
     "point or vector": "tuple[float, float, float] | list[float] | np.ndarray",
     "transform": "np.ndarray | list[list[float]]",
+    "transform or animation": "np.ndarray | list[list[float]] | dict",
     "list of mutations": "Sequence[Mutation | tuple[Mutation, float]]",
 }
 

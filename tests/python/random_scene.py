@@ -33,6 +33,9 @@ class Draw:
     def __init__(self, seed: int):
         self.random = random.Random(seed)
         self.between = self.random.uniform
+        # Numbers of its own, so that the scenes without motion are what they were before it.
+        self.motion = random.Random(f"motion {seed}")
+        self.moves = self.motion.random() < 0.4
 
     def one_of(self, *choices) -> str:
         """What one of these makes; each is a text or makes one."""
@@ -66,8 +69,9 @@ class Draw:
         sides = value("integer", "width", width) + value("integer", "height", height)
         names = ("box", "tent", "gaussian", "mitchell", "catmullrom", "lanczos")
         film = tag("film", sides, tag("rfilter", type=self.one_of(*names)), type="hdrfilm")
-        common = tag("transform", at, name="to_world") + film + value("float", "fov", 45)
-        parallel = tag("transform", tag("scale", x=1.2, y=1.2), at, name="to_world")
+        film += value("float", "shutter_close", 1) if self.moves else ""
+        common = self.to_world(at) + film + value("float", "fov", 45)
+        parallel = self.to_world(tag("scale", x=1.2, y=1.2), at)
         lens = value("float", "aperture_radius", self.between(0.05, 0.5))
         lens += value("float", "focus_distance", self.between(2.0, 5.0))
         return self.one_of(
@@ -101,7 +105,24 @@ class Draw:
         steps += tag("rotate", angle=self.random.randrange(360),
                      **{k: f"{v:.3g}" for k, v in axis.items()})  # fmt: skip
         steps += tag("translate", x=f"{x:.3g}", y=f"{y:.3g}", z=f"{z:.3g}")
-        return tag("transform", steps, name="to_world")
+        return self.to_world(steps)
+
+    def to_world(self, *steps: str) -> str:
+        """A transform; in a scene with motion half of them go on to another place."""
+        if not self.moves or self.motion.random() < 0.5:
+            return tag("transform", *steps, name="to_world")
+        between = self.motion.uniform
+        axis = {k: f"{between(-1, 1):.3g}" for k in "xyz"}
+        scale = {k: f"{between(0.7, 1.4):.3g}" for k in "xyz"}
+        if "lookat" in "".join(steps):
+            scale = {"value": 1}
+        on = tag("scale", **scale)
+        turn = tag("rotate", angle=self.motion.randrange(90), **axis)
+        shift = tag("translate", **{k: f"{between(-0.3, 0.3):.3g}" for k in "xyz"})
+        later = on + "".join(steps) + ("" if "lookat" in "".join(steps) else turn) + shift
+        return tag("animation", tag("transform", *steps, time=0),
+                   tag("transform", later, time=f"{between(0.5, 2):.3g}"),
+                   name="to_world")  # fmt: skip
 
     def ball(self, radius: float, *nested: str) -> str:
         centre = point("center", self.triple(-0.6, 0.6))
@@ -110,7 +131,9 @@ class Draw:
     def copies(self) -> str:
         """Instances of a group of one or two things."""
         name = f"group{self.random.randrange(2**30)}"
+        self.moves, moves = False, self.moves  # members of a group stand still in it
         members = [self.thing() for _ in range(self.random.randint(1, 2))]
+        self.moves = moves
         if any("instance" in member for member in members):
             return "".join(members)
         places = [self.placed() for _ in range(self.random.randint(1, 3))]
@@ -266,8 +289,7 @@ class Draw:
         """Above the floor, so that no image is black."""
         steps = tag("scale", value=f"{self.between(0.1, 0.5):.3g}")
         steps += tag("rotate", x=1, angle=90) + tag("translate", y=0.98)
-        frame = tag("transform", steps, name="to_world")
-        return tag("shape", frame, self.glow(), type="rectangle")
+        return tag("shape", self.to_world(steps), self.glow(), type="rectangle")
 
     def light(self) -> str:
         colour = self.triple(0.2, 3)
@@ -278,7 +300,7 @@ class Draw:
         day += value("float", "turbidity", self.between(1, 10))
         map_size = value("integer", "resolution", 16)
         above = tag("lookat", origin="0.3, 0.9, 0.8", target="0, -1, -0.2", up="0, 0, 1")
-        down = tag("transform", above, name="to_world")
+        down = self.to_world(above)
         return self.one_of(
             lambda: self.ball(self.between(0.05, 0.2), self.matt(), self.glow()),
             tag("emitter", place, type="point"),

@@ -1,5 +1,8 @@
 """The Mitsuba dict: the same scenes as XML, and errors that name the place in the dict."""
 
+import pickle
+import re
+
 import numpy as np
 import pytest
 import tiny
@@ -227,3 +230,44 @@ def test_mitsubas_own_cornell_box_loads_and_is_ours():
     a, b = (mlt.render(s, spp=16, seed=1) for s in (theirs, ours))
     # Their matrices are in single precision, so a few rays may differ.
     assert np.isclose(a, b, rtol=1e-3).mean() > 0.98
+
+
+def test_an_animation_is_a_dict_of_times():
+    moved = mlt.Transform.translate((0, 0.5, 0))
+
+    def scene(**keys):
+        tree = tiny.scene()
+        tree["sensor"]["shutter_close"] = 1
+        tree["ball"]["to_world"] = {"type": "animation", **keys}
+        return tree
+
+    from_dict = mlt.load_dict(scene(**{"0": mlt.Transform(), "1": moved.matrix.tolist()}))
+    numbers = scene()
+    numbers["ball"]["to_world"] |= {1.0: moved, 0: np.eye(4)}
+    assert np.array_equal(pixels(from_dict), pixels(numbers))
+    still = tiny.scene()
+    still["sensor"]["shutter_close"] = 1
+    assert not np.array_equal(pixels(from_dict), pixels(still))
+    assert np.array_equal(pixels(scene(**{"0": mlt.Transform(), "2": mlt.Transform()})),
+                          pixels(still))  # fmt: skip
+    assert np.array_equal(pixels(pickle.loads(pickle.dumps(from_dict))), pixels(from_dict))
+
+
+@pytest.mark.parametrize(
+    ("keys", "message"),
+    [
+        ({"0": np.eye(4)}, "shape 'sphere': 'to_world' has 1 transform, but"),
+        ({"0": np.eye(4), "soon": np.eye(4)}, "'to_world' has the key 'soon', which is not a time"),
+        ({"0": np.eye(4), "1": [1, 2, 3]}, "'to_world' should have a 4 x 4 matrix at each time"),
+        (
+            {"0": np.eye(4), "1": np.diag([1, 0, 1, 1])},
+            "is singular or has a perspective at time 1",
+        ),
+        ({"0": np.eye(4), 0: np.eye(4)}, "times must increase"),
+    ],
+)
+def test_an_animation_that_is_wrong_is_refused(keys, message):
+    tree = tiny.scene()
+    tree["ball"]["to_world"] = {"type": "animation"} | keys
+    with pytest.raises(mlt.SceneError, match=re.escape(message)):
+        mlt.load_dict(tree)

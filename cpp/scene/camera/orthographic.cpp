@@ -33,26 +33,32 @@ class Orthographic final : public ProjectiveCamera {
   }
 
   Vec3 entrance(const SurfacePoint& xk, const Vec3& w) const override {
-    return xk.p + w * (distance_ / dot(w, axes_.n));
+    return xk.p + w * (setback_ / dot(w, xk.ng));
   }
 
  private:
   void stand_back(double size) {
-    distance_ = distance_in_sizes * size;
-    position_ = middle_ - axes_.n * distance_;
+    setback_ = distance_in_sizes * size;
+    pose_.position = middle_ - pose_.axes.n * setback_;
     const double aspect = static_cast<double>(raster_.full_size.x) / raster_.full_size.y;
-    set_image_plane(Vec2(half_.x, half_.y / aspect) / distance_);
+    set_image_plane(Vec2(half_.x, half_.y / aspect) / setback_);
   }
 
-  Vec3 middle_;          ///< Of the image.
-  Vec2 half_;            ///< Half the width and height of a square image.
-  double distance_ = 1;  ///< From the pinhole to the image.
+  Vec3 middle_;  ///< Of the image, when the shutter opens.
+  Vec2 half_;    ///< Half the width and height of a square image.
 };
 
+Vec2 half_size(const Mat4& to_world) {
+  return {length(Vec3(to_world[0])), length(Vec3(to_world[1]))};
+}
+
 ObjectPtr create(Params& params) {
-  const Mat4 to_world = matrix_param(params, "to_world");
   const Placement placement = read_placement(params);
-  const Vec2 half(length(Vec3(to_world[0])), length(Vec3(to_world[1])));
+  const std::vector<Mat4>& steps = placement.motion.steps();
+  const Vec2 half = half_size(steps[0]);
+  for (const Mat4& step : steps)
+    if (glm::length(half_size(step) - half) > 1e-6 * glm::length(half))
+      params.fail("to_world", "zooms; the image of an orthographic camera has one size");
   constexpr double most = 1e30;
   if (!(std::min(half.x, half.y) > 1 / most && std::max(half.x, half.y) < most))
     params.fail("to_world", "scales the image to nothing, or to more than 1e30");

@@ -1,13 +1,22 @@
 #include "scene/camera/projective.h"
 
 #include "math/warp.h"
+#include "scene/orientation.h"
 
 namespace mlt {
 
 ProjectiveCamera::ProjectiveCamera(const Placement& placement, const View& view, const Lens& lens)
-    : position_(placement.position), axes_(placement.axes), view_(view), lens_(lens) {
-  shutter_open_ = placement.shutter_open;
-  shutter_close_ = placement.shutter_close;
+    : pose_{placement.position, placement.axes},
+      view_(view),
+      lens_(lens),
+      motion_(placement.motion) {
+  shutter_ = placement.shutter;
+}
+
+ProjectiveCamera::Pose ProjectiveCamera::moved_pose(double time) const {
+  const Mat4 to_world = motion_.at(time);
+  const Frame axes = turned_axes(to_world);
+  return {Vec3(to_world[3]) - axes.n * setback_, axes};
 }
 
 Vec2 ProjectiveCamera::View::half_size(double aspect) const {
@@ -37,27 +46,29 @@ void ProjectiveCamera::set_image_plane(const Vec2& half) {
   image_area_ = 4 * half.x * half.y * raster_.pixels() / (full.x * full.y);
 }
 
-Vec2 ProjectiveCamera::lens_point(const SurfacePoint& xk) const {
-  if (delta_position()) return Vec2(0);
-  const Vec3 offset = xk.p - position_;
-  return {dot(offset, axes_.s), dot(offset, axes_.t)};
+Vec2 ProjectiveCamera::lens_offset(const SurfacePoint& xk) const {
+  const Vec3 offset = xk.p - (motion_.moves() ? moved_pose(xk.time) : pose_).position;
+  return {dot(offset, xk.shading.s), dot(offset, xk.shading.t)};
 }
 
-SurfacePoint ProjectiveCamera::point_at(const Vec3& p) const {
+/// The point has the axes of camera space at its time.
+SurfacePoint ProjectiveCamera::point_at(const Vec3& p, const Frame& axes, double time) {
   SurfacePoint at;
   at.p = p;
-  at.ng = axes_.n;
-  at.shading = axes_;
+  at.ng = axes.n;
+  at.shading = axes;
+  at.time = time;
   return at;
 }
 
-PositionSample ProjectiveCamera::sample_position(const Vec2& u) const {
-  Vec3 p = position_;
+PositionSample ProjectiveCamera::sample_position(const Vec2& u, double time) const {
+  const auto [position, axes] = pose(time);
+  Vec3 p = position;
   if (!delta_position()) {
     const Vec2 offset = sample_disk(u) * lens_.radius;
-    p += axes_.s * offset.x + axes_.t * offset.y;
+    p += axes.s * offset.x + axes.t * offset.y;
   }
-  const SurfacePoint at = point_at(p);
+  const SurfacePoint at = point_at(p, axes, time);
   return {at, pdf_position(at)};
 }
 
@@ -72,11 +83,11 @@ Vec2 ProjectiveCamera::invert_position(const SurfacePoint& xk) const {
 Vec3 ProjectiveCamera::direction(const SurfacePoint& xk, const Vec2& raster) const {
   const Vec2 plane = (raster - to_raster_offset_) / to_raster_scale_;
   const Vec2 slope = plane - lens_point(xk) / lens_.focus_distance;
-  return axes_.to_world(normalize(Vec3(slope, 1)));
+  return xk.shading.to_world(normalize(Vec3(slope, 1)));
 }
 
 std::optional<Projection> ProjectiveCamera::project(const SurfacePoint& xk, const Vec3& w) const {
-  const Vec3 local = axes_.to_local(w);
+  const Vec3 local = xk.shading.to_local(w);
   if (!(local.z > 0)) return std::nullopt;
   const Vec2 plane = Vec2(local) / local.z + lens_point(xk) / lens_.focus_distance;
   const Vec2 raster = plane * to_raster_scale_ + to_raster_offset_;
@@ -89,17 +100,18 @@ std::optional<Projection> ProjectiveCamera::project(const SurfacePoint& xk, cons
 
 std::optional<SurfacePoint> ProjectiveCamera::move_on_lens(const SurfacePoint& xk,
                                                            const Vec2& by) const {
-  const Vec3 p = xk.p + axes_.s * by.x + axes_.t * by.y;
-  if (!(length_squared(p - position_) < sqr(lens_.radius))) return std::nullopt;
-  return point_at(p);
+  const Vec3 p = xk.p + xk.shading.s * by.x + xk.shading.t * by.y;
+  if (!(length_squared(p - pose(xk.time).position) < sqr(lens_.radius))) return std::nullopt;
+  return point_at(p, xk.shading, xk.time);
 }
 
 std::optional<SurfacePoint> ProjectiveCamera::hit_lens(const Ray& ray) const {
-  const double t = dot(position_ - ray.o, axes_.n) / dot(ray.d, axes_.n);
+  const auto [position, axes] = pose(ray.time);
+  const double t = dot(position - ray.o, axes.n) / dot(ray.d, axes.n);
   if (!(t > 0 && t < ray.t_max)) return std::nullopt;
   const Vec3 p = ray.o + ray.d * t;
-  if (!(length_squared(p - position_) < sqr(lens_.radius))) return std::nullopt;
-  return point_at(p);
+  if (!(length_squared(p - position) < sqr(lens_.radius))) return std::nullopt;
+  return point_at(p, axes, ray.time);
 }
 
 }  // namespace mlt

@@ -18,14 +18,16 @@
 
 #include "base/params.h"
 #include "scene/camera.h"
+#include "scene/motion.h"
 
 namespace mlt {
 
 /// Where a camera is, and when its shutter is open.
 struct Placement {
-  Vec3 position;
+  Vec3 position;  ///< This and the axes: when the shutter opens.
   Frame axes;
-  double shutter_open = 0, shutter_close = 0;
+  Shutter shutter;
+  Motion motion;
 };
 
 class ProjectiveCamera : public Camera {
@@ -49,7 +51,7 @@ class ProjectiveCamera : public Camera {
 
   void set_raster(const Raster& raster) override;
 
-  PositionSample sample_position(const Vec2& u) const override;
+  PositionSample sample_position(const Vec2& u, double time) const override;
   double pdf_position(const SurfacePoint& xk) const override;
   Vec2 invert_position(const SurfacePoint& xk) const override;
   Vec3 direction(const SurfacePoint& xk, const Vec2& raster) const override;
@@ -64,16 +66,31 @@ class ProjectiveCamera : public Camera {
   /// offset.
   void set_image_plane(const Vec2& half);
 
-  Vec3 position_;
-  Frame axes_;
+  /// The middle of the lens and the axes of camera space.
+  struct Pose {
+    Vec3 position;
+    Frame axes;
+  };
+  Pose pose(double time) const {
+    if (!motion_.moves()) return pose_;
+    return moved_pose(time);
+  }
+
+  Pose pose_;           ///< When the shutter opens.
+  double setback_ = 0;  ///< How far the lens is behind the origin of camera space.
 
  private:
-  SurfacePoint point_at(const Vec3& p) const;
+  Pose moved_pose(double time) const;
+  static SurfacePoint point_at(const Vec3& p, const Frame& axes, double time);
   /// Where on the lens xk lies, in camera space; 0 for a pinhole.
-  Vec2 lens_point(const SurfacePoint& xk) const;
+  Vec2 lens_point(const SurfacePoint& xk) const {
+    return lens_.radius == 0 ? Vec2(0) : lens_offset(xk);
+  }
+  Vec2 lens_offset(const SurfacePoint& xk) const;
 
   View view_;
   Lens lens_;
+  Motion motion_;
   // raster = (X, Y) * to_raster_scale_ + to_raster_offset_
   Vec2 to_raster_scale_{-1}, to_raster_offset_{0};
   double image_area_ = 1;  ///< A

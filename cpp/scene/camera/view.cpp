@@ -37,7 +37,7 @@ ProjectiveCamera::View::Axis read_axis(Params& params) {
 
 std::vector<Parameter> placement_parameters() {
   return {
-      {"to_world", ParamType::transform, no_default,
+      {"to_world", ParamType::motion, no_default,
        "Camera space to world space: the camera looks along +z, +y is up and +x is to the left. "
        "Identity if not given."},
       {"shutter_open", ParamType::real, 0.0, "Time at which the shutter opens."},
@@ -74,11 +74,13 @@ ProjectiveCamera::View read_view(Params& params) {
 }
 
 Placement read_placement(Params& params) {
-  const Mat4 to_world = matrix_param(params, "to_world");
-  const double open = params.real("shutter_open"), close = params.real("shutter_close");
-  if (close < open) params.fail("shutter_close", "is before shutter_open");
-  return {transform_point(to_world, Vec3(0)), orientation(params, "to_world", to_world), open,
-          close};
+  const Shutter shutter{params.real("shutter_open"), params.real("shutter_close")};
+  if (shutter.close < shutter.open) params.fail("shutter_close", "is before shutter_open");
+  const Motion motion = motion_param(params, "to_world", shutter);
+  for (const Mat4& step : motion.steps()) orientation(params, "to_world", step);
+  const Mat4& to_world = motion.steps()[0];
+  return {transform_point(to_world, Vec3(0)), orientation(params, "to_world", to_world), shutter,
+          motion};
 }
 
 std::shared_ptr<ProjectiveCamera> make_projective(Params& params,

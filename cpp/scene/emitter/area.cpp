@@ -18,7 +18,7 @@ class AreaLight final : public Emitter {
     return glm::max(radiance_->eval(x0), Color(0));
   }
 
-  PositionSample sample_position(const Vec2& u) const override {
+  PositionSample sample_position(const Vec2& u, double) const override {
     return shape_->sample_position(u);
   }
   double pdf_position(const SurfacePoint&) const override { return 1 / shape_->area(); }
@@ -26,7 +26,7 @@ class AreaLight final : public Emitter {
     return shape_->invert_position(x0);
   }
 
-  PositionSample sample_direct(const Vec3& from, const Vec2& u) const override {
+  PositionSample sample_direct(const Vec3& from, const Vec2& u, double) const override {
     return shape_->sample_direct(from, u);
   }
   double pdf_direct(const Vec3& from, const SurfacePoint& x0) const override {

@@ -12,7 +12,7 @@ class ConstantSky final : public InfiniteEmitter {
 
   Color eval(const SurfacePoint&, const Vec3&) const override { return radiance_; }
 
-  PositionSample sample_position(const Vec2& u) const override {
+  PositionSample sample_position(const Vec2& u, double) const override {
     return {point_towards(sample_uniform_sphere(u)), uniform_sphere_pdf()};
   }
   double pdf_position(const SurfacePoint&) const override { return uniform_sphere_pdf(); }

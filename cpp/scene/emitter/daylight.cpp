@@ -70,7 +70,7 @@ Color Sun::eval(const SurfacePoint& x0, const Vec3&) const {
   return contains(x0) ? irradiance_ * cone_pdf(height_) : Color(0);
 }
 
-PositionSample Sun::sample_position(const Vec2& u) const {
+PositionSample Sun::sample_position(const Vec2& u, double) const {
   if (delta()) return {point_towards(axes_.n), 1};
   return {point_towards(axes_.to_world(sample_cone(u, height_))), cone_pdf(height_)};
 }

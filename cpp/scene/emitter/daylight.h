@@ -17,7 +17,7 @@ class Sun final : public InfiniteEmitter {
   Sun(Params& params, const char* scale);
 
   Color eval(const SurfacePoint& x0, const Vec3& w) const override;
-  PositionSample sample_position(const Vec2& u) const override;
+  PositionSample sample_position(const Vec2& u, double time) const override;
   double pdf_position(const SurfacePoint& x0) const override;
   Vec2 invert_position(const SurfacePoint& x0) const override;
   bool delta() const override { return height_ == 0; }

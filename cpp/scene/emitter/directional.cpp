@@ -26,7 +26,7 @@ class DirectionalLight final : public InfiniteEmitter {
 
   Color eval(const SurfacePoint&, const Vec3&) const override { return irradiance_; }
 
-  PositionSample sample_position(const Vec2&) const override {
+  PositionSample sample_position(const Vec2&, double) const override {
     return {point_towards(towards_), 1};
   }
   double pdf_position(const SurfacePoint&) const override { return 1; }

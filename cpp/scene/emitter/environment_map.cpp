@@ -24,7 +24,7 @@ Color EnvironmentMap::eval(const SurfacePoint& x0, const Vec3&) const {
                    b * ((1 - a) * texel(i, j + 1) + a * texel(i + 1, j + 1)));
 }
 
-PositionSample EnvironmentMap::sample_position(const Vec2& u) const {
+PositionSample EnvironmentMap::sample_position(const Vec2& u, double) const {
   const SurfacePoint at = point_towards(axes_.to_world(direction_of(table_.sample(u))));
   return {at, pdf_position(at)};
 }

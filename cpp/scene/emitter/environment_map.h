@@ -29,7 +29,7 @@ class EnvironmentMap : public InfiniteEmitter {
   EnvironmentMap(Image image, const Frame& axes, double scale);
 
   Color eval(const SurfacePoint& x0, const Vec3& w) const final;
-  PositionSample sample_position(const Vec2& u) const final;
+  PositionSample sample_position(const Vec2& u, double time) const final;
   double pdf_position(const SurfacePoint& x0) const final;
   Vec2 invert_position(const SurfacePoint& x0) const final;
   Color power() const final { return integral_ * (scale_ * disk_area()); }

@@ -2,16 +2,21 @@
 #pragma once
 
 #include "scene/emitter.h"
+#include "scene/motion.h"
 
 namespace mlt {
 
 class IsolatedEmitter : public Emitter {
  public:
-  PositionSample sample_position(const Vec2&) const override {
+  explicit IsolatedEmitter(const Motion& motion)
+      : motion_(motion), at_rest_(position(motion.steps()[0])) {}
+
+  PositionSample sample_position(const Vec2&, double time) const override {
     SurfacePoint at;
-    at.p = position_;
+    at.p = motion_.moves() ? position(motion_.at(time)) : at_rest_;
     at.ng = {0, 0, 1};
     at.kind = PointKind::isolated;
+    at.time = time;
     return {at, 1};
   }
   double pdf_position(const SurfacePoint&) const override { return 1; }
@@ -20,7 +25,28 @@ class IsolatedEmitter : public Emitter {
   bool delta() const override { return true; }
 
  protected:
-  Vec3 position_{0};
+  Motion motion_;
+
+ private:
+  static Vec3 position(const Mat4& to_world) { return transform_point(to_world, Vec3(0)); }
+
+  Vec3 at_rest_;
+};
+
+/// One that shines into some directions more than into others, about axes of its own. `axes_of`
+/// finds these in its transform.
+class TurnedEmitter : public IsolatedEmitter {
+ public:
+  using AxesOf = Frame (*)(const Mat4& to_world);
+  TurnedEmitter(const Motion& motion, AxesOf axes_of)
+      : IsolatedEmitter(motion), axes_of_(axes_of), at_rest_(axes_of(motion.steps()[0])) {}
+
+ protected:
+  Frame axes(double time) const { return motion_.moves() ? axes_of_(motion_.at(time)) : at_rest_; }
+
+ private:
+  AxesOf axes_of_;
+  Frame at_rest_;
 };
 
 }  // namespace mlt

@@ -9,14 +9,8 @@ namespace {
 
 class PointLight final : public IsolatedEmitter {
  public:
-  explicit PointLight(Params& params) : intensity_(color_param(params, "intensity")) {
-    if (params.has("position")) {
-      if (params.has("to_world")) params.fail("to_world", "and 'position' exclude each other");
-      position_ = vector_param(params, "position");
-    } else {
-      position_ = transform_point(matrix_param(params, "to_world"), Vec3(0));
-    }
-  }
+  explicit PointLight(Params& params)
+      : IsolatedEmitter(read_motion(params)), intensity_(color_param(params, "intensity")) {}
 
   Color eval(const SurfacePoint&, const Vec3&) const override { return intensity_; }
 
@@ -31,6 +25,14 @@ class PointLight final : public IsolatedEmitter {
   Color power() const override { return intensity_ * (4 * pi); }
 
  private:
+  static Motion read_motion(Params& params) {
+    if (!params.has("position")) return motion_param(params, "to_world");
+    if (params.has("to_world")) params.fail("to_world", "and 'position' exclude each other");
+    Mat4 to_world(1);
+    to_world[3] = Vec4(vector_param(params, "position"), 1);
+    return Motion(to_world);
+  }
+
   Color intensity_;
 };
 
@@ -41,7 +43,7 @@ Plugin emitter_point() {
       "point", "A light of no size that shines equally in all directions.",
       {{"intensity", ParamType::radiance, 1.0, "Power per solid angle."},
        {"position", ParamType::point, no_default, "Where it is; the origin if not given."},
-       {"to_world", ParamType::transform, no_default,
+       {"to_world", ParamType::motion, no_default,
         "Moves the origin there, instead of position."}});
 }
 

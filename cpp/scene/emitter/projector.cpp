@@ -10,19 +10,18 @@
 namespace mlt {
 namespace {
 
-class Projector final : public IsolatedEmitter {
+class Projector final : public TurnedEmitter {
  public:
   explicit Projector(Params& params)
-      : irradiance_(texture_param(params, "irradiance")), scale_(params.real_in("scale", 0, 1e9)) {
-    const Mat4 to_world = matrix_param(params, "to_world");
-    position_ = transform_point(to_world, Vec3(0));
-    axes_ = orientation(params, "to_world", to_world);
+      : TurnedEmitter(read_motion(params), turned_axes),
+        irradiance_(texture_param(params, "irradiance")),
+        scale_(params.real_in("scale", 0, 1e9)) {
     const Vec2 size(irradiance_->resolution());
     half_ = read_view(params).half_size(size.x / size.y);
   }
 
-  Color eval(const SurfacePoint&, const Vec3& w) const override {
-    const Vec3 local = axes_.to_local(w);
+  Color eval(const SurfacePoint& x0, const Vec3& w) const override {
+    const Vec3 local = axes(x0.time).to_local(w);
     const auto u = place(local);
     if (!u) return Color(0);
     SurfacePoint at;
@@ -33,19 +32,24 @@ class Projector final : public IsolatedEmitter {
   /// Uniform over the image.
   RaySample sample_ray(const SurfacePoint& x0, const Vec2& u) const override {
     const Vec3 local = normalize(Vec3(half_ * (1.0 - 2.0 * u), 1));
-    return {x0.p, axes_.to_world(local), density(local)};
+    return {x0.p, axes(x0.time).to_world(local), density(local)};
   }
-  double pdf_ray(const SurfacePoint&, const Vec3& w) const override {
-    const Vec3 local = axes_.to_local(w);
+  double pdf_ray(const SurfacePoint& x0, const Vec3& w) const override {
+    const Vec3 local = axes(x0.time).to_local(w);
     return place(local) ? density(local) : 0;
   }
   Vec2 invert_ray(const SurfacePoint& x0, const Vec3& x1) const override {
-    return place(axes_.to_local(normalize(x1 - x0.p))).value_or(Vec2(0.5));
+    return place(axes(x0.time).to_local(normalize(x1 - x0.p))).value_or(Vec2(0.5));
   }
 
   Color power() const override { return irradiance_->mean() * (pi * scale_ * area()); }
 
  private:
+  static Motion read_motion(Params& params) {
+    const Motion motion = motion_param(params, "to_world");
+    for (const Mat4& step : motion.steps()) orientation(params, "to_world", step);
+    return motion;
+  }
   static double cube(double x) { return x * x * x; }
   double area() const { return 4 * half_.x * half_.y; }
   double density(const Vec3& local) const { return 1 / (area() * cube(local.z)); }
@@ -61,7 +65,6 @@ class Projector final : public IsolatedEmitter {
 
   TexturePtr irradiance_;
   double scale_;
-  Frame axes_;
   Vec2 half_;  ///< Half the image's width and height at unit distance.
 };
 
@@ -73,7 +76,7 @@ Plugin emitter_projector() {
       concat({{{"irradiance", ParamType::emission, 1.0,
                 "The image: what a white plane shows, at unit distance across the axis."},
                {"scale", ParamType::real, 1.0, "Multiplies the image."},
-               {"to_world", ParamType::transform, no_default,
+               {"to_world", ParamType::motion, no_default,
                 "Moves and turns it: it shines along +z, +y is up and +x is to the left."}},
               field_of_view_parameters()}),
       {}, [](Params& params) { return std::make_shared<Projector>(params); });

@@ -10,40 +10,46 @@ namespace {
 
 constexpr double degree = pi / 180;
 
-class Spot final : public IsolatedEmitter {
+Frame beam_axes(const Mat4& to_world) {
+  return Frame::around(normalize(transform_vector(to_world, Vec3(0, 0, 1))),
+                       transform_vector(to_world, Vec3(1, 0, 0)));
+}
+
+class Spot final : public TurnedEmitter {
  public:
   explicit Spot(Params& params)
-      : intensity_(color_param(params, "intensity")), texture_(texture_param(params, "texture")) {
+      : TurnedEmitter(motion_param(params, "to_world"), beam_axes),
+        intensity_(color_param(params, "intensity")),
+        texture_(texture_param(params, "texture")) {
     const double cutoff = params.real_in("cutoff_angle", 1e-3, 179.999);
     const double beam =
         params.has("beam_width") ? params.real_in("beam_width", 0, cutoff) : 0.75 * cutoff;
     cutoff_ = cutoff * degree;
     beam_ = beam * degree;
     height_ = 2 * sqr(std::sin(cutoff_ / 2));
-    const Mat4 to_world = matrix_param(params, "to_world");
-    position_ = transform_point(to_world, Vec3(0));
-    const Vec3 axis = transform_vector(to_world, Vec3(0, 0, 1));
-    if (!(length(axis) > 0)) params.fail("to_world", "leaves no direction to shine in");
-    frame_ = Frame::around(normalize(axis), transform_vector(to_world, Vec3(1, 0, 0)));
+    for (const Mat4& step : motion_.steps())
+      if (!(length(transform_vector(step, Vec3(0, 0, 1))) > 0))
+        params.fail("to_world", "leaves no direction to shine in");
     if (params.has("texture") && cutoff >= 90)
       params.fail("texture", "needs a cutoff_angle below 90 degrees");
   }
 
-  Color eval(const SurfacePoint&, const Vec3& w) const override {
-    const double theta = std::atan2(length(cross(frame_.n, w)), dot(frame_.n, w));
+  Color eval(const SurfacePoint& x0, const Vec3& w) const override {
+    const Frame frame = axes(x0.time);
+    const double theta = std::atan2(length(cross(frame.n, w)), dot(frame.n, w));
     if (theta >= cutoff_) return Color(0);
     const double share = theta <= beam_ ? 1 : (cutoff_ - theta) / (cutoff_ - beam_);
-    return intensity_ * texture(w) * share;
+    return intensity_ * texture(frame.to_local(w)) * share;
   }
 
   RaySample sample_ray(const SurfacePoint& x0, const Vec2& u) const override {
-    return {x0.p, frame_.to_world(sample_cone(u, height_)), cone_pdf(height_)};
+    return {x0.p, axes(x0.time).to_world(sample_cone(u, height_)), cone_pdf(height_)};
   }
-  double pdf_ray(const SurfacePoint&, const Vec3& w) const override {
-    return 1 - dot(frame_.n, w) <= height_ * (1 + 1e-12) ? cone_pdf(height_) : 0;
+  double pdf_ray(const SurfacePoint& x0, const Vec3& w) const override {
+    return 1 - dot(axes(x0.time).n, w) <= height_ * (1 + 1e-12) ? cone_pdf(height_) : 0;
   }
   Vec2 invert_ray(const SurfacePoint& x0, const Vec3& x1) const override {
-    return invert_cone(frame_.to_local(normalize(x1 - x0.p)), height_);
+    return invert_cone(axes(x0.time).to_local(normalize(x1 - x0.p)), height_);
   }
 
   /// The integral of the intensity over the cone, with the mean of the texture.
@@ -56,8 +62,7 @@ class Spot final : public IsolatedEmitter {
 
  private:
   /// Projected on a plane across the axis, of which the cone fills the unit square.
-  Color texture(const Vec3& w) const {
-    const Vec3 local = frame_.to_local(w);
+  Color texture(const Vec3& local) const {
     SurfacePoint at;
     at.uv = Vec2(0.5) + 0.5 * Vec2(local) / (local.z * std::tan(cutoff_));
     return texture_->eval(at);
@@ -67,7 +72,6 @@ class Spot final : public IsolatedEmitter {
   TexturePtr texture_;
   double cutoff_, beam_;  ///< In radians.
   double height_;         ///< 1 - cos(cutoff)
-  Frame frame_;
 };
 
 }  // namespace
@@ -81,7 +85,7 @@ Plugin emitter_spot() {
        {"beam_width", ParamType::real, no_default,
         "Up to this angle it has its full intensity, degrees; by default 3/4 of cutoff_angle."},
        {"texture", ParamType::emission, 1.0, "A factor of the intensity, such as a slide."},
-       {"to_world", ParamType::transform, no_default, "Moves and turns it."}});
+       {"to_world", ParamType::motion, no_default, "Moves and turns it."}});
 }
 
 }  // namespace mlt

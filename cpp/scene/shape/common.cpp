@@ -9,7 +9,7 @@ namespace mlt {
 Schema shape_schema(const std::string& name, const std::string& doc,
                     std::vector<Parameter> parameters) {
   const Matrix identity{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-  parameters.push_back({"to_world", ParamType::transform, identity, "From object to world space."});
+  parameters.push_back({"to_world", ParamType::motion, identity, "From object to world space."});
   parameters.push_back({"flip_normals", ParamType::boolean, false, "Turn all normals around."});
   parameters.push_back({"bsdf", ParamType::object, no_default, "The material; optional."});
   parameters.push_back({"emitter", ParamType::object, no_default, "An area light; optional."});

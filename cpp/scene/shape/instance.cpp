@@ -8,7 +8,7 @@ namespace mlt {
 Plugin shape_instance() {
   return make_plugin<Instance>(
       "shape", "instance", "A copy of a group of shapes, which takes hardly any memory.",
-      {{"to_world", ParamType::transform, no_default,
+      {{"to_world", ParamType::motion, no_default,
         "From the group's space to world space; identity if not given. May mirror and shear."},
        {"shape", ParamType::object, no_default, "The shapegroup, or a reference to it."}});
 }

@@ -58,3 +58,8 @@ def furnace() -> dict:
 def dof(aperture: float = 0.07) -> dict:
     """Glass balls before a lens of radius `aperture`: caustics within the blur."""
     return _load("dof", aperture=aperture)
+
+
+def motion(shutter: float = 1) -> dict:
+    """A lamp, a glass ball and a fan that move until the shutter closes at time `shutter`."""
+    return _load("motion", shutter=shutter)

@@ -60,6 +60,8 @@ def _value(element, folder: Path):
             return [float(element.get(axis, 0)) for axis in "xyz"]
         case "transform":
             return _transform(element)
+        case "animation":
+            return {"type": "animation"} | {key.get("time"): _transform(key) for key in element}
         case "ref":
             return {"type": "ref", "id": element.get("id")}
     return {"type": element.get("type")} | _children(element, folder)

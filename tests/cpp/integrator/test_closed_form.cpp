@@ -122,7 +122,7 @@ ScenePtr plane_below(const std::string& light) {
 template <class Irradiance>
 Image image_of_plane(const Scene& scene, Irradiance&& irradiance) {
   const Camera& camera = scene.camera();
-  const SurfacePoint lens = camera.sample_position({0.5, 0.5}).at;
+  const SurfacePoint lens = camera.sample_position({0.5, 0.5}, 0).at;
   const Vec2i size = camera.raster().size;
   Image image(size.x, size.y, 3);
   constexpr int n = 16;

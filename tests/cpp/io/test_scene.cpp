@@ -195,7 +195,7 @@ TEST(SceneLight, OfAShapeKnowsItsShape) {
   const Shape& shape = *loaded.scene->shapes()[1];
   EXPECT_EQ(shape.emitter(), loaded.scene->emitters()[0].get());
   EXPECT_EQ(shape.emitter()->shape(), &shape);
-  const PositionSample sample = shape.emitter()->sample_position({0.5, 0.5});
+  const PositionSample sample = shape.emitter()->sample_position({0.5, 0.5}, 0);
   EXPECT_DOUBLE_EQ(sample.pdf, 0.25);
   EXPECT_EQ(sample.at.shape, 1u);
 }

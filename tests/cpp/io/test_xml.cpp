@@ -112,8 +112,6 @@ TEST(Xml, RefusesByNameWhatMitsubaHas) {
   EXPECT_NE(refused("<bsdf type='diffuse'><spectrum name='a' type='d65'/></bsdf>").find("'d65'"),
             std::string::npos);
   EXPECT_NE(refused("<camera type='perspective'/>").find("write <sensor>"), std::string::npos);
-  EXPECT_NE(refused("<shape type='cube'><animation name='toWorld'/></shape>").find("<animation>"),
-            std::string::npos);
 }
 
 TEST(Xml, ChecksAttributes) {

@@ -2,7 +2,7 @@
 // surfaces, caustics of lights that no walk can hit.
 #pragma once
 
-#include "scenes.h"
+#include "moving_scenes.h"
 
 namespace mlt::test {
 
@@ -15,8 +15,9 @@ inline const std::string nearly_mirror =
 
 inline std::vector<std::string> mutation_scene_names() {
   std::vector<std::string> names = scene_names();
-  for (const char* name : {"mirrors", "near_specular", "near_specular_mirrors", "sun_caustic",
-                           "point_caustic", "lens_through_mirror"})
+  for (const char* name :
+       {"mirrors", "near_specular", "near_specular_mirrors", "sun_caustic", "point_caustic",
+        "lens_through_mirror", "moving_mirror", "moving_lamp", "moving_lens", "spinning_instance"})
     names.push_back(name);
   return names;
 }
@@ -58,6 +59,8 @@ inline TestScene make_mutation_scene(const std::string& name) {
             "<float name='aperture_radius' value='0.8'/><float name='focus_distance' value='1'/>") +
         point_lamp + rectangle(rotate("x", -90) + translate(0, -1, 0), white) +
         rectangle(translate(0, 0, -1), mirror));
+  const std::vector<std::string> moving = moving_scene_names();
+  if (std::count(moving.begin(), moving.end(), name)) return done(moving_scene(name));
   return make_scene(name);
 }
 

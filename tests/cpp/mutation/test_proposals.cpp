@@ -121,7 +121,7 @@ TEST(Proposals, BidirectionalMutationMovesTheEndOnTheLens) {
   p.start("LE", [](const PathState&) { return Edit{1, 1, 1}; });
   const Camera& camera = p.scene().camera();
   const SurfacePoint& xk = p.x[1].at;
-  const SurfacePoint center = camera.sample_position(Vec2(0.5)).at;
+  const SurfacePoint center = camera.sample_position(Vec2(0.5), 0).at;
   const double radius = camera.lens_radius();
   const auto sample = [&](Rng& rng) -> std::optional<Vec2> {
     if (!p.propose(rng)) return std::nullopt;
@@ -152,7 +152,7 @@ TEST(Proposals, BidirectionalMutationDrawsAFreshLightEnd) {
     return lamp.invert_position(p.y[0].at);
   };
   const auto pdf = [&](const Vec2& u) {
-    const PositionSample x0 = lamp.sample_position(u);
+    const PositionSample x0 = lamp.sample_position(u, 0);
     return p.density({light_vertex(lamp, x0.at)}) / x0.pdf;
   };
   const ChiSquareResult result = chi_square_rect(sample, pdf, {0, 0}, {1, 1}, proposals, 4);

@@ -57,7 +57,7 @@ CameraPtr camera(const Plugin& plugin, const Given& given, const Raster& raster)
   return made;
 }
 
-SurfacePoint lens_center(const Camera& camera) { return camera.sample_position({0.5, 0.5}).at; }
+SurfacePoint lens_center(const Camera& camera) { return camera.sample_position({0.5, 0.5}, 0).at; }
 
 std::vector<CameraPtr> all_cameras() {
   const Raster odd{{57, 83}, {11, 7}, {31, 23}, 1.5};
@@ -203,7 +203,7 @@ TEST(Camera, RasterPositionInvertsDirection) {
   Rng rng(1, Purpose::test, 0);
   for (const CameraPtr& made : all_cameras())
     for (int i = 0; i < 1000; ++i) {
-      const SurfacePoint xk = made->sample_position({rng.next(), rng.next()}).at;
+      const SurfacePoint xk = made->sample_position({rng.next(), rng.next()}, 0).at;
       const Vec2 raster = made->raster().sample({rng.next(), rng.next()});
       const Vec3 w = made->direction(xk, raster);
       EXPECT_NEAR(length(w), 1, 1e-14);
@@ -215,7 +215,7 @@ TEST(Camera, RasterPositionInvertsDirection) {
 
 TEST(Camera, SeesNothingOutsideOfTheSampledDomain) {
   for (const CameraPtr& made : all_cameras()) {
-    const SurfacePoint xk = made->sample_position({0.3, 0.8}).at;
+    const SurfacePoint xk = made->sample_position({0.3, 0.8}, 0).at;
     const Raster& r = made->raster();
     const Vec2 inside[] = {{-r.border + 1e-6, -r.border + 1e-6},
                            {r.size.x + r.border - 1e-6, r.size.y + r.border - 1e-6}};
@@ -250,7 +250,7 @@ TEST(Camera, DirectionsHaveTheDensityThatItReports) {
   Rng rng(2, Purpose::test, 0);
   for (const CameraPtr& made : all_cameras())
     for (int i = 0; i < 200; ++i) {
-      const SurfacePoint xk = made->sample_position({rng.next(), rng.next()}).at;
+      const SurfacePoint xk = made->sample_position({rng.next(), rng.next()}, 0).at;
       const Vec2 raster = made->raster().sample({rng.next(), rng.next()});
       const Vec3 w = made->direction(xk, raster);
       // Uniform in raster space: 1 / area = pdf * |cos| * |d omega / d raster|.
@@ -269,7 +269,7 @@ TEST(Camera, ImportanceIntegratesToOneOverTheImage) {
     for (int i = 0; i < n; ++i)
       for (int j = 0; j < n; ++j) {
         // One stratum of the image each, with a random point on the lens.
-        const PositionSample lens = made->sample_position({rng.next(), rng.next()});
+        const PositionSample lens = made->sample_position({rng.next(), rng.next()}, 0);
         const Vec2 raster((i + rng.next()) * r.size.x / n, (j + rng.next()) * r.size.y / n);
         const Vec3 w = made->direction(lens.at, raster);
         integral += made->eval(lens.at, w) * abs_cos(lens.at, w) / lens.pdf *
@@ -284,7 +284,7 @@ TEST(Camera, PositionsAreATriple) {
   for (const CameraPtr& made : all_cameras()) {
     for (int i = 0; i < 200; ++i) {
       const Vec2 u(rng.next(), rng.next());
-      const PositionSample sample = made->sample_position(u);
+      const PositionSample sample = made->sample_position(u, 0);
       EXPECT_EQ(sample.at.kind, PointKind::surface);
       EXPECT_EQ(sample.pdf, made->pdf_position(sample.at));
       if (made->delta_position()) {
@@ -301,7 +301,7 @@ TEST(ThinLens, PositionsFillTheLensUniformly) {
   const CameraPtr made = camera(sensor_thinlens(), {{"aperture_radius", radius}}, whole(4, 4));
   const auto result = test::chi_square_rect(
       [&](Rng& rng) -> std::optional<Vec2> {
-        const Vec3 p = made->sample_position({rng.next(), rng.next()}).at.p;
+        const Vec3 p = made->sample_position({rng.next(), rng.next()}, 0).at.p;
         return Vec2(length(p), std::atan2(p.y, p.x));
       },
       [&](const Vec2& polar) { return made->pdf_position({}) * polar.x; }, {0, -pi}, {radius, pi},
@@ -317,7 +317,7 @@ TEST(ThinLens, IsSharpAtTheFocusDistance) {
   const Vec3 target(0.4, -0.3, 4);
   Rng rng(6, Purpose::test, 0);
   const auto seen = [&](const Vec2& u) {
-    const SurfacePoint xk = made->sample_position(u).at;
+    const SurfacePoint xk = made->sample_position(u, 0).at;
     return *made->raster_position(xk, normalize(target - xk.p));
   };
   const Vec2 first = seen({0.5, 0.5});
@@ -329,7 +329,7 @@ TEST(ThinLens, FindsTheRaysThatPassThroughIt) {
       camera(sensor_thinlens(), {{"to_world", placed}, {"aperture_radius", 0.5}}, whole(64, 36));
   Rng rng(7, Purpose::test, 0);
   for (int i = 0; i < 200; ++i) {
-    const SurfacePoint xk = made->sample_position({rng.next(), rng.next()}).at;
+    const SurfacePoint xk = made->sample_position({rng.next(), rng.next()}, 0).at;
     const Vec3 w = made->direction(xk, made->raster().sample({rng.next(), rng.next()}));
     Ray ray{xk.p + 3.0 * w, -w};
     const auto hit = made->hit_lens(ray);

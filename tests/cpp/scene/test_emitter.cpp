@@ -148,7 +148,7 @@ TEST(Emitters, PositionsAreATriple) {
     Rng rng(1, Purpose::test, 0);
     for (int i = 0; i < 500; ++i) {
       const Vec2 u(rng.next(), rng.next());
-      const PositionSample sample = light.emitter->sample_position(u);
+      const PositionSample sample = light.emitter->sample_position(u, 0);
       EXPECT_GT(sample.pdf, 0) << light.name;
       EXPECT_EQ(sample.pdf, light.emitter->pdf_position(sample.at)) << light.name;
       EXPECT_EQ(sample.at.infinite(), light.emitter->infinite()) << light.name;
@@ -172,7 +172,7 @@ TEST(Emitters, DirectSamplesAreATriple) {
     Rng rng(2, Purpose::test, 0);
     for (int i = 0; i < 500; ++i) {
       const Vec2 u(rng.next(), rng.next());
-      const PositionSample sample = light.emitter->sample_direct(from, u);
+      const PositionSample sample = light.emitter->sample_direct(from, u, 0);
       EXPECT_NEAR(sample.pdf, light.emitter->pdf_direct(from, sample.at), 1e-9 * sample.pdf)
           << light.name;
       if (!light.emitter->delta()) {
@@ -186,7 +186,7 @@ TEST(Emitters, RaysAreATriple) {
   for (const Light& light : all_lights()) {
     Rng rng(3, Purpose::test, 0);
     for (int i = 0; i < 500; ++i) {
-      const SurfacePoint x0 = light.emitter->sample_position({rng.next(), rng.next()}).at;
+      const SurfacePoint x0 = light.emitter->sample_position({rng.next(), rng.next()}, 0).at;
       const Vec2 u(rng.next(), rng.next());
       const RaySample ray = light.emitter->sample_ray(x0, u);
       EXPECT_GT(ray.pdf, 0);
@@ -216,7 +216,7 @@ TEST(Emitters, CoefficientTimesGIsTheDensityOfTheNextVertex) {
     Rng rng(4, Purpose::test, 0);
     // A position from which the parallelogram can be seen, if the light has a front side.
     SurfacePoint x0;
-    do x0 = emitter.sample_position({rng.next(), rng.next()}).at;
+    do x0 = emitter.sample_position({rng.next(), rng.next()}, 0).at;
     while (x0.kind == PointKind::surface && dot(x0.ng, corner + 0.5 * (a + b) - x0.p) < 0.3);
     double expected = 0;
     const int n = 200;
@@ -248,7 +248,7 @@ TEST(Emitters, PowerIsWhatTheirRaysCarry) {
     Rng rng(5, Purpose::test, 0);
     test::Moments channels[3];
     for (int i = 0; i < 40'000; ++i) {
-      const PositionSample x0 = emitter.sample_position({rng.next(), rng.next()});
+      const PositionSample x0 = emitter.sample_position({rng.next(), rng.next()}, 0);
       const RaySample ray = emitter.sample_ray(x0.at, {rng.next(), rng.next()});
       const Color power = emitter.eval(x0.at, ray.direction) / (x0.pdf * ray.pdf);
       for (int c = 0; c < 3; ++c) channels[c].add(power[c]);
@@ -269,7 +269,7 @@ TEST(Emitters, PowerIsWhatTheirRaysCarry) {
 TEST(Area, ShinesOnItsFrontOnly) {
   const Light light =
       area_light("rectangle", shape_rectangle(), test::identity_rows, Triple{1, 2, 3});
-  const SurfacePoint x0 = light.emitter->sample_position({0.3, 0.6}).at;
+  const SurfacePoint x0 = light.emitter->sample_position({0.3, 0.6}, 0).at;
   EXPECT_EQ(light.emitter->eval(x0, normalize(Vec3(1, 1, 0.1))), Color(1, 2, 3));
   EXPECT_EQ(light.emitter->eval(x0, normalize(Vec3(1, 1, -0.1))), Color(0));
   EXPECT_EQ(light.emitter->pdf_ray(x0, {0, 0, -1}), 0);
@@ -283,7 +283,7 @@ TEST(Area, MayBeTextured) {
   const Light light = area_light("textured", shape_rectangle(), test::identity_rows, board);
   Rng rng(6, Purpose::test, 0);
   for (int i = 0; i < 100; ++i) {
-    const SurfacePoint x0 = light.emitter->sample_position({rng.next(), rng.next()}).at;
+    const SurfacePoint x0 = light.emitter->sample_position({rng.next(), rng.next()}, 0).at;
     const bool bright = (x0.uv.x > 0.5) == (x0.uv.y > 0.5);
     EXPECT_EQ(light.emitter->eval(x0, {0, 0, 1}), Color(bright ? 1 : 0));
   }
@@ -296,7 +296,7 @@ TEST(Point, IsWhereItIsPut) {
   moved[11] = 3;
   for (const Given& given : {Given{{"position", Triple{1, 2, 3}}}, Given{{"to_world", moved}}}) {
     const auto light = make<Emitter>(emitter_point(), given);
-    const PositionSample x0 = light->sample_position({0.1, 0.2});
+    const PositionSample x0 = light->sample_position({0.1, 0.2}, 0);
     EXPECT_EQ(x0.at.p, Vec3(1, 2, 3));
     EXPECT_EQ(x0.at.kind, PointKind::isolated);
     EXPECT_EQ(x0.pdf, 1);
@@ -309,7 +309,7 @@ TEST(Point, IsWhereItIsPut) {
 TEST(Spot, FallsOffLinearlyWithTheAngle) {
   const auto light = make<Emitter>(
       emitter_spot(), {{"intensity", 2.0}, {"cutoff_angle", 40.0}, {"to_world", downwards}});
-  const SurfacePoint x0 = light->sample_position({0.1, 0.2}).at;
+  const SurfacePoint x0 = light->sample_position({0.1, 0.2}, 0).at;
   EXPECT_EQ(x0.p, Vec3(0.2, 0, 2));
   const auto at = [&](double degrees) {
     const double angle = degrees * pi / 180;
@@ -327,7 +327,7 @@ TEST(Spot, FallsOffLinearlyWithTheAngle) {
 
 TEST(Directional, ShinesAsInMitsuba) {
   const auto towards = [](const Given& given) {
-    return make<Emitter>(emitter_directional(), given)->sample_position({0.5, 0.5}).at.p;
+    return make<Emitter>(emitter_directional(), given)->sample_position({0.5, 0.5}, 0).at.p;
   };
   // Mitsuba 3.9.1: sample_direction(...).d.
   expect_close(towards({}), {0, 0, -1}, 1e-6);
@@ -399,7 +399,7 @@ TEST(Environment, MayBeMirrored) {
   const auto other = environment("thirty.exr", thirty_texels(), {{"to_world", mirrored}});
   Rng rng(7, Purpose::test, 0);
   for (int i = 0; i < 200; ++i) {
-    const PositionSample x0 = other->sample_position({rng.next(), rng.next()});
+    const PositionSample x0 = other->sample_position({rng.next(), rng.next()}, 0);
     const Vec3 reflected(-x0.at.p.x, x0.at.p.y, x0.at.p.z);
     expect_close(other->eval(x0.at, x0.at.ng), radiance_from(*plain, reflected), 1e-12);
   }
@@ -416,7 +416,7 @@ TEST(Environment, SamplesFollowTheirDensity) {
       options.y_breaks.push_back(std::cos(pi * j / (image.height - 1)));
     const auto result = test::chi_square_rect(
         [&](Rng& rng) -> std::optional<Vec2> {
-          const Vec3 w = light->sample_position({rng.next(), rng.next()}).at.p;
+          const Vec3 w = light->sample_position({rng.next(), rng.next()}, 0).at.p;
           const double turn = std::atan2(w.x, -w.z) / (2 * pi);
           return Vec2(turn - std::floor(turn), w.y);
         },
@@ -457,12 +457,12 @@ TEST(Environment, CanSampleWhateverShines) {
 TEST(Environment, MayBeBlackOrGrey) {
   const auto black = environment("black.exr", Image(4, 4, 3));
   EXPECT_TRUE(is_black(black->power()));
-  EXPECT_GT(black->sample_position({0.3, 0.4}).pdf, 0);
+  EXPECT_GT(black->sample_position({0.3, 0.4}, 0).pdf, 0);
   Image grey(4, 4, 1);
   for (float& v : grey.data) v = 2;
   const auto light = environment("grey.exr", grey);
   expect_close(light->power(), Color(2 * 4 * pi * pi * sqr(bounds.radius)), 1e-9);
-  const PositionSample x0 = light->sample_position({0.3, 0.4});
+  const PositionSample x0 = light->sample_position({0.3, 0.4}, 0);
   EXPECT_NEAR(x0.pdf, 1 / (4 * pi), 1e-7);
   EXPECT_EQ(light->eval(x0.at, x0.at.ng), Color(2));
 }
@@ -495,7 +495,7 @@ TEST(Projector, ShowsItsImageOnAWhitePlaneAcrossItsAxis) {
   const auto light = make<Emitter>(
       emitter_projector(),
       {{"irradiance", board}, {"fov", 90.0}, {"scale", 2.0}, {"to_world", downwards}});
-  const SurfacePoint x0 = light->sample_position({0.5, 0.5}).at;
+  const SurfacePoint x0 = light->sample_position({0.5, 0.5}, 0).at;
   // Camera space is x to the left, y up: here (x, -y) about (0.2, 0) at z = 1.
   const auto shown = [&](double x, double y, double distance) {
     const Vec3 to = Vec3(0.2, 0, 2) + distance * Vec3(x, -y, -1);
@@ -545,7 +545,8 @@ TEST(Sun, StandsWhereMitsubaHasIt) {
   for (auto [given, mitsuba] : cases) {
     given["sun_radius_scale"] = 0.0;
     const auto sun = make<Emitter>(emitter_sun(), given);
-    expect_close(sun->sample_position({0.5, 0.5}).at.p, {-mitsuba.y, mitsuba.z, mitsuba.x}, 2e-4);
+    expect_close(sun->sample_position({0.5, 0.5}, 0).at.p, {-mitsuba.y, mitsuba.z, mitsuba.x},
+                 2e-4);
   }
 }
 
@@ -607,7 +608,7 @@ TEST(Sun, IsAsBrightAsMitsubas) {
     const auto sun = make<Emitter>(
         emitter_sun(),
         {{"turbidity", c.turbidity}, {"sun_direction", c.towards}, {"sun_radius_scale", 0.0}});
-    const SurfacePoint x0 = sun->sample_position({0.5, 0.5}).at;
+    const SurfacePoint x0 = sun->sample_position({0.5, 0.5}, 0).at;
     const Color shown = sun->eval(x0, {}) * (inv_pi * x0.p.y);
     for (int channel = 0; channel < 3; ++channel)
       EXPECT_NEAR(shown[channel], c.shown[channel], 0.003 * c.shown.x) << channel;
@@ -618,7 +619,7 @@ TEST(Sun, HasTheSameIrradianceWhateverItsSize) {
   const auto irradiance = [](double size) {
     const auto sun = make<Emitter>(
         emitter_sun(), {{"sun_direction", Triple{0, 1, 0}}, {"sun_radius_scale", size}});
-    const PositionSample sample = sun->sample_position({0.5, 0.5});
+    const PositionSample sample = sun->sample_position({0.5, 0.5}, 0);
     return sun->eval(sample.at, {}).y / sample.pdf;
   };
   EXPECT_NEAR(irradiance(1) / irradiance(0), 1, 1e-12);

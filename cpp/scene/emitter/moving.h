@@ -1,0 +1,53 @@
+// A light on a shape that moves. Positions are drawn on the shape at rest and moved to where they
+// are at the time of the path. An area there becomes larger by the factor
+//
+//   dA / dA_rest = |det M| |M^-T n|
+//
+// with the linear part M of the transform and the unit normal n at rest, by which densities per area
+// are divided.
+#pragma once
+
+#include "scene/instance.h"
+
+namespace mlt {
+
+class MovingEmitter final : public Emitter {
+ public:
+  /// `light` is that of the one shape that `instance` moves.
+  MovingEmitter(EmitterPtr light, const Instance& instance)
+      : light_(std::move(light)), instance_(&instance) {
+    set_sampling_weight(light_->sampling_weight());
+  }
+
+  Color eval(const SurfacePoint& x0, const Vec3& w) const override { return light_->eval(x0, w); }
+
+  PositionSample sample_position(const Vec2& u, double time) const override;
+  double pdf_position(const SurfacePoint& x0) const override;
+  Vec2 invert_position(const SurfacePoint& x0) const override;
+
+  PositionSample sample_direct(const Vec3& from, const Vec2& u, double time) const override;
+  double pdf_direct(const Vec3& from, const SurfacePoint& x0) const override;
+  Vec2 invert_direct(const Vec3& from, const SurfacePoint& x0) const override;
+
+  RaySample sample_ray(const SurfacePoint& x0, const Vec2& u) const override {
+    return light_->sample_ray(x0, u);
+  }
+  double pdf_ray(const SurfacePoint& x0, const Vec3& w) const override {
+    return light_->pdf_ray(x0, w);
+  }
+  Vec2 invert_ray(const SurfacePoint& x0, const Vec3& x1) const override {
+    return light_->invert_ray(x0, x1);
+  }
+
+  /// With the mean area, as if the shape were scaled evenly.
+  Color power() const override;
+  const Shape* shape() const override { return light_->shape(); }
+
+ private:
+  PositionSample moved(PositionSample at_rest, double time) const;
+
+  EmitterPtr light_;
+  const Instance* instance_;
+};
+
+}  // namespace mlt
