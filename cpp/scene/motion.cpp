@@ -11,6 +11,8 @@ namespace {
 
 constexpr int most_steps = 128;
 constexpr double tolerance = 1e-4;
+/// Of an animation: the accelerator's rays, moved to the object's space, stay within its floats.
+constexpr double most_scale = 1e9;
 
 double largest_entry(const Mat3& m) {
   return std::max({max_component(glm::abs(m[0])), max_component(glm::abs(m[1])),
@@ -111,6 +113,9 @@ std::string animation_problem(const Animation& animation) {
                          key.time, animation[i - 1].time);
     if (!is_affine(m) || is_singular(m))
       return fmt::format("is singular or has a perspective at time {:g}", key.time);
+    if (!(std::max({largest_entry(Mat3(m)), max_component(glm::abs(Vec3(m[3]))),
+                    largest_entry(glm::inverse(Mat3(m)))}) < most_scale))
+      return fmt::format("moves or scales by more than {:g} at time {:g}", most_scale, key.time);
     if (mirrors(key) != mirrors(animation[0]))
       return fmt::format("mirrors at one of the times {:g} and {:g}, but not at both",
                          animation[0].time, key.time);

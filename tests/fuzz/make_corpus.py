@@ -190,7 +190,8 @@ def make_words() -> None:
             words.add(name)
             for parameter in _core.schema(family, name)["parameters"]:
                 words |= {parameter["name"], *parameter["choices"]}
-    tags = "default include ref alias scene shape rgb spectrum transform translate rotate lookat"
+    tags = "default include ref alias scene shape rgb spectrum animation transform translate rotate"
+    tags += " lookat"
     words |= set(tags.split())
     text = "# Made by make_corpus.py.\n" + "".join(f'"{word}"\n' for word in sorted(words))
     (FOLDER / "scene.dict").write_text(text)

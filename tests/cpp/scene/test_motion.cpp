@@ -85,6 +85,9 @@ TEST(Animation, IsRefusedInOneLine) {
               HasSubstr("time 0 after one at time 1"));
   EXPECT_THAT(animation_problem({key(0, one), key(1, flat)}), HasSubstr("singular"));
   EXPECT_THAT(animation_problem({key(0, one), key(1, mirrored)}), HasSubstr("mirrors"));
+  EXPECT_THAT(animation_problem({key(0, one), key(1, moved(0, 2e9, 0))}), HasSubstr("1e+09"));
+  EXPECT_THAT(animation_problem({key(0, one), key(1, stretched(1e-10, 1, 1))}),
+              HasSubstr("moves or scales"));
 }
 
 // ---- what rays meet
