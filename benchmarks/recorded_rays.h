@@ -1,5 +1,5 @@
 // Stands between the library and Embree, to write down the rays that pass. Every ray of the library
-// goes through two functions of Embree's shared library; a program that defines both gets the calls
+// goes through four functions of Embree's shared library; a program that defines them gets the calls
 // of everything linked into it. To be included once.
 #pragma once
 
@@ -35,6 +35,25 @@ void record(RTCScene scene, const RTCRay& ray, bool shadow) {
   recording->rays.push_back({ray, shadow});
 }
 
+/// The rays of a packet, one by one.
+void record(const int* valid, RTCScene scene, const RTCRay8& rays, bool shadow) {
+  for (int i = 0; i < 8; ++i) {
+    if (!valid[i]) continue;
+    RTCRay ray = {};
+    ray.org_x = rays.org_x[i];
+    ray.org_y = rays.org_y[i];
+    ray.org_z = rays.org_z[i];
+    ray.dir_x = rays.dir_x[i];
+    ray.dir_y = rays.dir_y[i];
+    ray.dir_z = rays.dir_z[i];
+    ray.tnear = rays.tnear[i];
+    ray.tfar = rays.tfar[i];
+    ray.time = rays.time[i];
+    ray.mask = rays.mask[i];
+    record(scene, ray, shadow);
+  }
+}
+
 template <class Function>
 Function embree_function(const char* name) {
   if (void* address = dlsym(RTLD_NEXT, name)) return reinterpret_cast<Function>(address);
@@ -44,6 +63,8 @@ Function embree_function(const char* name) {
 
 const auto embree_intersect = embree_function<decltype(&rtcIntersect1)>("rtcIntersect1");
 const auto embree_occluded = embree_function<decltype(&rtcOccluded1)>("rtcOccluded1");
+const auto embree_intersect8 = embree_function<decltype(&rtcIntersect8)>("rtcIntersect8");
+const auto embree_occluded8 = embree_function<decltype(&rtcOccluded8)>("rtcOccluded8");
 
 }  // namespace
 
@@ -56,6 +77,15 @@ void rtcIntersect1(RTCScene scene, RTCRayHit* rayhit, RTCIntersectArguments* arg
 void rtcOccluded1(RTCScene scene, RTCRay* ray, RTCOccludedArguments* arguments) {
   if (recording) record(scene, *ray, true);
   embree_occluded(scene, ray, arguments);
+}
+void rtcIntersect8(const int* valid, RTCScene scene, RTCRayHit8* rayhit,
+                   RTCIntersectArguments* arguments) {
+  if (recording) record(valid, scene, rayhit->ray, false);
+  embree_intersect8(valid, scene, rayhit, arguments);
+}
+void rtcOccluded8(const int* valid, RTCScene scene, RTCRay8* ray, RTCOccludedArguments* arguments) {
+  if (recording) record(valid, scene, *ray, true);
+  embree_occluded8(valid, scene, ray, arguments);
 }
 inline void bare_intersect(RTCScene scene, RTCRayHit& rayhit) {
   embree_intersect(scene, &rayhit, nullptr);
@@ -71,6 +101,15 @@ void rtcIntersect1(RTCScene scene, RTCIntersectContext* context, RTCRayHit* rayh
 void rtcOccluded1(RTCScene scene, RTCIntersectContext* context, RTCRay* ray) {
   if (recording) record(scene, *ray, true);
   embree_occluded(scene, context, ray);
+}
+void rtcIntersect8(const int* valid, RTCScene scene, RTCIntersectContext* context,
+                   RTCRayHit8* rayhit) {
+  if (recording) record(valid, scene, rayhit->ray, false);
+  embree_intersect8(valid, scene, context, rayhit);
+}
+void rtcOccluded8(const int* valid, RTCScene scene, RTCIntersectContext* context, RTCRay8* ray) {
+  if (recording) record(valid, scene, *ray, true);
+  embree_occluded8(valid, scene, context, ray);
 }
 inline void bare_intersect(RTCScene scene, RTCRayHit& rayhit) {
   RTCIntersectContext context;
