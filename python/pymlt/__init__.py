@@ -32,11 +32,14 @@ from .algorithms.mutation import Mutation
 from .algorithms.mutations import *  # noqa: F403
 from .algorithms.schemas import available, describe
 from .diagnostics.audit import Audit, audit
+from .diagnostics.comparison import comparison_figure
 from .diagnostics.metrics import compare
 from .diagnostics.mixing import Convergence, convergence
 from .images import read_image, read_metadata, write_image
+from .pictures.tonemapping import tonemap
 from .rendering.job import Job
 from .rendering.merging import merge
+from .rendering.preview import preview as _preview
 from .rendering.result import Groups, Replay, Result, Technique
 from .rendering.start import render, render_progressive, replay, resume, start
 from .scenes.loading import load_dict, load_file, load_string
@@ -68,6 +71,7 @@ __all__ = [
     "audit",
     "available",
     "compare",
+    "comparison_figure",
     "convergence",
     "describe",
     "load_dict",
@@ -84,8 +88,10 @@ __all__ = [
     "resume",
     "scenes",
     "start",
+    "tonemap",
     "write_image",
 ]
+Scene._repr_html_ = _preview
 __all__ += _integrators.__all__ + _mutations.__all__
 
 

@@ -34,6 +34,9 @@ class Scene:
         """The same scene, seen by another of its sensors."""
 
     def info(self) -> dict: ...
+    def _repr_html_(self) -> str:
+        """A quick render, for notebooks; see `pymlt.rendering.preview`."""
+
     def trace_path(
         self,
         *,

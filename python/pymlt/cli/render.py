@@ -8,20 +8,30 @@ from dataclasses import fields
 
 from .. import _core
 from ..algorithms.integrator import as_integrator
+from ..pictures.output import EXTENSIONS, check_writable
 from ..rendering.job import Job
 from ..rendering.options import RenderOptions
 from ..rendering.progress import progress_bar
 from ..rendering.result import Result
 from ..rendering.start import saved_job
 from .common import FLAGS, add_flag, built_in_name, load_scene, say, warn
+from .display import add_tonemap, exposure
 from .signals import Signals
 
 HELP = "Render a scene to image files."
 
 
+# Where pymlt can do more than mlt-render.
+HELP_HERE = {
+    "output": f"image file: {', '.join(EXTENSIONS)}; may be repeated",
+    "exposure": "brighten PNG and JPEG files by so many stops",
+}
+
+
 def add_arguments(command) -> None:
-    for flag in FLAGS.values():
-        add_flag(command, flag)
+    for name, flag in FLAGS.items():
+        add_flag(command, flag, HELP_HERE.get(name, ""))
+    add_tonemap(command)
 
 
 def given(args) -> dict:
@@ -55,7 +65,7 @@ def start(args, signals: Signals) -> Job:
 def run(args) -> int:
     check(args)
     for path in args.output:
-        _core.check_image_writable(path)
+        check_writable(path)
     if args.stats:
         _core.check_file_writable(args.stats)
     import numpy  # noqa: F401 (what writing needs is there before the work begins)
@@ -95,7 +105,7 @@ def wait(job: Job, signals: Signals, quiet: bool) -> None:
 def save(args, result: Result) -> tuple[list[str], bool]:
     """Every output is tried, and elsewhere if it fails. Returns where the images are, and whether
     everything is where it was asked for."""
-    files = [result._save(path, args.exposure or 0) for path in args.output]
+    files = [result._save(path, exposure(args), args.tonemap) for path in args.output]
     images = [path for path, _ in files if path]
     if args.stats:
         files.append(_core.save_text(args.stats, json.dumps(result.stats, indent=2) + "\n"))

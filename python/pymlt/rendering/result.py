@@ -7,6 +7,8 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, NamedTuple
 
 from .. import _core
+from ..pictures.notebook import figure, png
+from ..pictures.output import OutputFile
 
 if TYPE_CHECKING:
     import numpy as np
@@ -66,27 +68,39 @@ class Result:
                 found[s, t] = Technique(self.layers[f"raw.s{s}.t{t}"], weighted)
         return found
 
-    def write(self, path, exposure: float = 0) -> None:
-        """Write the image to .exr (with settings, seed and version in its header), .png or .hdr.
+    def write(self, path: str | os.PathLike, exposure: float = 0, *, tonemap: str = "srgb") -> None:
+        """Write the image to .exr (settings, seed and version in its header), .hdr, .png or .jpg.
 
         An .exr holds the layers too; beside NAME.png, NAME.techniques.png shows the techniques.
-        `exposure` brightens .png by so many stops. Raises FileError if it cannot be written.
+        `exposure` brightens .png and .jpg by so many stops, `tonemap` names their curve ("srgb",
+        "reinhard", "filmic"; see `pymlt.tonemap`). Raises FileError if it cannot be written,
+        UsageError for an unknown curve or extension.
         """
-        _core.write_image(*self._file(path, exposure))
+        self._file(path, exposure, tonemap).write()
 
-    def save(self, path, exposure: float = 0) -> str:
+    def save(self, path: str | os.PathLike, exposure: float = 0, *, tonemap: str = "srgb") -> str:
         """The same, but if `path` fails try other places; returns where the image is."""
-        where, problem = self._save(path, exposure)
+        where, problem = self._save(path, exposure, tonemap)
         if not where:
             raise _core.FileError(problem)
         return where
 
-    def _save(self, path, exposure: float = 0) -> tuple[str, str]:
+    def _save(
+        self, path: str | os.PathLike, exposure: float = 0, tonemap: str = "srgb"
+    ) -> tuple[str, str]:
         """Where the image is, or ""; and why it is not at `path`, or ""."""
-        return _core.save_image(*self._file(path, exposure))
+        return self._file(path, exposure, tonemap).save()
 
-    def _file(self, path, exposure: float) -> tuple:
-        return os.fspath(path), self.image, self.layers, self.metadata, self.half, exposure
+    def _file(self, path: str | os.PathLike, exposure: float, tonemap: str) -> OutputFile:
+        return OutputFile(
+            os.fspath(path), self.image, self.layers, self.metadata, self.half, exposure, tonemap
+        )
+
+    def _repr_png_(self) -> bytes:
+        return png(self.image)
+
+    def _repr_html_(self) -> str:
+        return figure(self.image, repr(self))
 
     def __repr__(self) -> str:
         height, width = self.image.shape[:2]
