@@ -36,6 +36,7 @@ from .diagnostics.comparison import comparison_figure
 from .diagnostics.metrics import compare
 from .diagnostics.mixing import Convergence, convergence
 from .images import read_image, read_metadata, write_image
+from .pictures.denoising import denoise
 from .pictures.tonemapping import tonemap
 from .rendering.job import Job
 from .rendering.merging import merge
@@ -73,6 +74,7 @@ __all__ = [
     "compare",
     "comparison_figure",
     "convergence",
+    "denoise",
     "describe",
     "load_dict",
     "load_file",

@@ -58,6 +58,21 @@ def _decode_srgb(pixels: np.ndarray) -> np.ndarray:
     return linear.astype(np.float32)
 
 
+def layer_names(path: str | os.PathLike) -> list[str]:
+    """The names of the layers of an EXR file, but for the unnamed one; of other files none.
+
+    Raises FileError for a file that cannot be read.
+    """
+    import OpenImageIO
+
+    file = OpenImageIO.ImageInput.open(os.fspath(path))
+    if file is None:
+        raise _core.FileError(f"{path}: {OpenImageIO.geterror().strip() or 'cannot be read'}")
+    channels = file.spec().channelnames if file.format_name() == "openexr" else ()
+    file.close()
+    return sorted({name.rpartition(".")[0] for name in channels if "." in name})
+
+
 def read_metadata(path) -> dict[str, str]:
     """The text attributes of an EXR file: how a render was made. Raises FileError."""
     return _core.read_metadata(os.fspath(path))

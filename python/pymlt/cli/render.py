@@ -7,6 +7,7 @@ import os
 from dataclasses import fields
 
 from .. import _core
+from .._extras import import_extra
 from ..algorithms.integrator import as_integrator
 from ..pictures.output import EXTENSIONS, check_writable
 from ..rendering.job import Job
@@ -32,6 +33,11 @@ def add_arguments(command) -> None:
     for name, flag in FLAGS.items():
         add_flag(command, flag, HELP_HERE.get(name, ""))
     add_tonemap(command)
+    command.add_argument(
+        "--denoise",
+        action="store_true",
+        help="remove noise by Open Image Denoise; an .exr keeps the image as its layer noisy",
+    )
 
 
 def given(args) -> dict:
@@ -70,6 +76,9 @@ def run(args) -> int:
         _core.check_file_writable(args.stats)
     import numpy  # noqa: F401 (what writing needs is there before the work begins)
 
+    if args.denoise:
+        import_extra("pyoidn", "denoise", "--denoise")
+
     with Signals() as signals:
         job = start(args, signals)
         known = job.stats["warnings"]
@@ -105,6 +114,11 @@ def wait(job: Job, signals: Signals, quiet: bool) -> None:
 def save(args, result: Result) -> tuple[list[str], bool]:
     """Every output is tried, and elsewhere if it fails. Returns where the images are, and whether
     everything is where it was asked for."""
+    if args.denoise:
+        try:
+            result = result.denoise()
+        except _core.Error as error:
+            say(f"{error}; the image is saved as it was rendered")
     files = [result._save(path, exposure(args), args.tonemap) for path in args.output]
     images = [path for path, _ in files if path]
     if args.stats:
