@@ -35,6 +35,7 @@ from .diagnostics.audit import Audit, audit
 from .diagnostics.comparison import comparison_figure
 from .diagnostics.metrics import compare
 from .diagnostics.mixing import Convergence, convergence
+from .formats.files import convert
 from .images import read_image, read_metadata, write_image
 from .pictures.denoising import denoise
 from .pictures.tonemapping import tonemap
@@ -43,7 +44,7 @@ from .rendering.merging import merge
 from .rendering.preview import preview as _preview
 from .rendering.result import Groups, Replay, Result, Technique
 from .rendering.start import render, render_progressive, replay, resume, start
-from .scenes.loading import load_dict, load_file, load_string
+from .scenes.loading import load, load_dict, load_file, load_string
 from .scenes.transforms import Transform
 
 if TYPE_CHECKING:
@@ -74,8 +75,10 @@ __all__ = [
     "compare",
     "comparison_figure",
     "convergence",
+    "convert",
     "denoise",
     "describe",
+    "load",
     "load_dict",
     "load_file",
     "load_string",

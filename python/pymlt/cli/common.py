@@ -9,6 +9,7 @@ import sys
 from collections.abc import Callable
 
 from .. import _core, scenes
+from ..formats.files import is_foreign, load_foreign
 from ..scenes.loading import load_built_in, load_file
 
 FLAGS = {flag.name: flag for flag in _core.render_flags()}
@@ -101,6 +102,12 @@ def load_scene(args) -> _core.Scene:
     """The file or the built-in scene that the arguments `scene`, `defines` and so on mean."""
     defines, size = dict(args.defines), getattr(args, "size", None)
     sensor = getattr(args, "sensor", None)
+    if os.path.exists(args.scene) and is_foreign(args.scene):
+        if args.lenient or args.strict or defines:
+            raise _core.UsageError(f"{args.scene}: -D, --lenient and --strict are for Mitsuba XML")
+        scene, found = load_foreign(args.scene, size, sensor)
+        warn([f"{args.scene}: {text}" for text in found])
+        return scene
     if os.path.exists(args.scene):
         if args.lenient and args.strict:
             raise _core.UsageError("--lenient and --strict exclude each other")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from .. import _core
+from .._extras import import_extra
 from ..pictures.notebook import figure
 
 
@@ -28,10 +28,7 @@ class Picture:
 
 def show(job, interval: float, exposure: float) -> None:
     """Show the image of a Job; see `Job.show`."""
-    try:
-        from IPython.display import display
-    except ImportError:
-        raise _core.UsageError("showing a render needs IPython; pip install ipython") from None
+    display = import_extra("IPython.display", "notebook", "showing a render").display
     picture = Picture(job, exposure)
     handle = display(picture, display_id=True)
     ended = False

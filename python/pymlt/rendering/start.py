@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 from .. import _core
 from .._core import Scene
 from ..algorithms.integrator import IntegratorLike, as_integrator
+from ..formats.files import is_foreign, load_foreign
 from ..scenes.loading import SceneLike, as_scene, load_built_in
 from .job import Job
 from .options import RenderOptions, takes_options
@@ -85,6 +86,10 @@ def saved_job(path: str, scene: SceneLike | None, options: RenderOptions) -> Job
     saved = _core.Checkpoint(path)
     if isinstance(scene, Scene | dict):
         scene = as_scene(scene)
+        saved.check(scene)
+    elif saved.built_in and is_foreign(saved.built_in[0]):
+        name, _, size, sensor = saved.built_in
+        scene, _ = load_foreign(name if scene is None else scene, size, sensor)
         saved.check(scene)
     elif saved.built_in and names_built_in(scene, saved.built_in[0]):
         scene = load_built_in(*saved.built_in)
