@@ -2,7 +2,8 @@
 
 Each integrator renders a scene with several seeds. Against a reference, the relMSE of the images
 and of the denoised images are compared, both trimmed of the worst thousandth of the pixels, and
-HDR-FLIP. The columns are means over the seeds:
+HDR-FLIP. A filter wider than a pixel makes the noise of neighbours alike, so both kinds of filter
+are measured. The columns are means over the seeds:
 
 correlation   of the relative errors of neighbouring pixels, clipped at +-1: 0 for independent noise
 noisy         relMSE as it was rendered
@@ -15,6 +16,7 @@ flip, flip_denoised   what somebody would notice
 
 from __future__ import annotations
 
+from itertools import product
 from pathlib import Path
 
 import numpy as np
@@ -34,6 +36,7 @@ import pymlt as mlt
 
 DEPTH = 8
 INTEGRATORS = [mlt.Path, mlt.BDPT, mlt.PSSMLT, mlt.MLT]
+FILTERS = ("box", "gaussian")
 SCENES = {"cornell_box": mlt.BDPT, "door_ajar": mlt.MLT}  # with what renders the reference
 
 
@@ -54,7 +57,17 @@ def common_share(images: list[np.ndarray], reference: np.ndarray) -> float:
     return max(0.0, trimmed_mean(total.mean(axis=2) / (n * (n - 1))) / one)
 
 
-def measure(name: str, scene, integrator, reference: np.ndarray, args) -> tuple[dict, list]:
+def scene_with_filter(name: str, filter: str, width: int):
+    """A built-in scene, square if it is the Cornell box."""
+    scene = getattr(mlt.scenes, name)()
+    for plugin in scene.values():
+        if "film" in plugin:
+            plugin["film"]["rfilter"] = {"type": filter}
+    height = width if name == "cornell_box" else width * 9 // 16
+    return mlt.load_dict(scene, size=(width, height))
+
+
+def measure(scene, integrator, reference: np.ndarray, args) -> tuple[dict, list]:
     noisy = [
         render_for(scene, integrator, args.seconds, seed=seed, threads=args.threads)[0].image
         for seed in range(1, args.seeds + 1)
@@ -72,7 +85,6 @@ def measure(name: str, scene, integrator, reference: np.ndarray, args) -> tuple[
 
     before, after = mean(relmse, noisy), mean(relmse, clean)
     row = {
-        "scene": name,
         "integrator": integrator.to_dict()["type"],
         "correlation": mean(correlation, noisy),
         "noisy": before,
@@ -95,23 +107,23 @@ def main() -> None:
     options.add_argument("--picture", type=Path, help="images above, denoised ones below")
     args = options.parse_args()
     rows, columns = [], []
-    for name, best in SCENES.items():
-        height = args.width if name == "cornell_box" else args.width * 9 // 16
-        scene = mlt.load_dict(getattr(mlt.scenes, name)(), size=(args.width, height))
+    for name, filter in product(SCENES, FILTERS):
+        best = SCENES[name]
+        scene = scene_with_filter(name, filter, args.width)
         reference = Reference(
-            f"denoising-{name}-{args.width}",
+            f"denoising-{name}-{filter}-{args.width}",
             scene,
             best(max_depth=DEPTH),
             args.reference_seconds,
             threads=args.threads,
             folder=REPOSITORY / "build" / "references",
         )
-        say(f"{name}: relMSE of the reference {trimmed_mean(reference.errors()):.3g}")
+        say(f"{name}, {filter}: relMSE of the reference {trimmed_mean(reference.errors()):.3g}")
         for integrator in INTEGRATORS:
             say(f"{name}, {integrator.__name__} ...")
-            row, pair = measure(name, scene, integrator(max_depth=DEPTH), reference.image, args)
-            rows.append(row)
-            if name == "door_ajar":
+            row, pair = measure(scene, integrator(max_depth=DEPTH), reference.image, args)
+            rows.append({"scene": name, "filter": filter} | row)
+            if (name, filter) == ("door_ajar", "box"):
                 columns.append(np.concatenate(pair))
     print_table(rows)
     if args.picture:

@@ -36,6 +36,9 @@ def _value(parent: ET.Element, name: str, value: Any, folder: Path) -> None:
         numbers = value["value"]
         text = _numbers(numbers) if isinstance(numbers, list) else repr(numbers)
         ET.SubElement(parent, "rgb", name=name, value=text)
+    elif isinstance(value, dict) and value["type"] == "spectrum":
+        text = ", ".join(f"{wave!r}:{power!r}" for wave, power in value["value"])
+        ET.SubElement(parent, "spectrum", name=name, value=text)
     elif isinstance(value, dict):
         _plugin(parent, name, value, folder, named="name")
     elif isinstance(value, list):
