@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
 
-def read_image(path, layer: str = "") -> np.ndarray:
+def read_image(path: str | os.PathLike[str], layer: str = "") -> np.ndarray:
     """Read an image as float32 of shape (height, width, channels), in linear light.
 
     EXR, PNG, JPEG, HDR, TGA and BMP are read natively, whatever the file is called, anything else
@@ -58,7 +58,7 @@ def _decode_srgb(pixels: np.ndarray) -> np.ndarray:
     return linear.astype(np.float32)
 
 
-def layer_names(path: str | os.PathLike) -> list[str]:
+def layer_names(path: str | os.PathLike[str]) -> list[str]:
     """The names of the layers of an EXR file, but for the unnamed one; of other files none.
 
     Raises FileError for a file that cannot be read.
@@ -73,13 +73,13 @@ def layer_names(path: str | os.PathLike) -> list[str]:
     return sorted({name.rpartition(".")[0] for name in channels if "." in name})
 
 
-def read_metadata(path) -> dict[str, str]:
+def read_metadata(path: str | os.PathLike[str]) -> dict[str, str]:
     """The text attributes of an EXR file: how a render was made. Raises FileError."""
     return _core.read_metadata(os.fspath(path))
 
 
 def write_image(
-    path: str | os.PathLike,
+    path: str | os.PathLike[str],
     image: ArrayLike,
     *,
     exposure: float = 0,

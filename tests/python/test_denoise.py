@@ -1,6 +1,7 @@
 """Denoising: what goes into the filter, what comes out, and what a file says about it."""
 
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -113,6 +114,9 @@ def test_the_layers_of_a_result_guide_the_filter():
     expected = mlt.denoise(result.image, albedo=albedo, normal=2 * albedo - 1)
     assert np.array_equal(guided.image, expected)
     assert guided.metadata["denoised"].endswith("guided by albedo and normal")
+    del result.layers["albedo"]
+    assert np.array_equal(result.denoise().image, mlt.denoise(result.image))
+    assert np.array_equal(result.denoise(albedo=albedo).image, expected)
     other = result.denoise(albedo=1 - albedo)
     assert not np.array_equal(other.image, expected)
 
@@ -141,3 +145,12 @@ def test_mistakes_are_one_line(scene, capsys):
     assert cli.main(["denoise", "none.exr", "-o", "a.exr"]) == 2
     assert cli.main(["denoise", "none.exr", "-o", "a.gif"]) == 2
     assert capsys.readouterr().err.count("\n") == 2
+
+
+def test_a_wide_filter_is_warned_of(scene, capsys):
+    assert cli.main(["render", scene, "--spp", "1", "--denoise", "-o", "a.png"]) == 0
+    assert "filter" not in capsys.readouterr().err
+    wide = Path(scene).read_text().replace('<rfilter type="box"/>', '<rfilter type="gaussian"/>')
+    Path("wide.xml").write_text(wide)
+    assert cli.main(["render", "wide.xml", "--spp", "1", "--denoise", "-o", "a.png"]) == 0
+    assert "warning: the filter 'gaussian' spreads noise" in capsys.readouterr().err

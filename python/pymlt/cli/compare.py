@@ -65,6 +65,6 @@ def run(args) -> int:
 
 def draw(args) -> int:
     figure = comparison_figure(
-        args.image, args.reference, exposure=exposure(args), curve=args.tonemap
+        args.image, args.reference, exposure=exposure(args), tonemap=args.tonemap
     )
     return save_figure(figure, args.picture)

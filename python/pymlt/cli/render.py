@@ -83,7 +83,7 @@ def run(args) -> int:
         job = start(args, signals)
         known = job.stats["warnings"]
         if not args.quiet:
-            warn(known)
+            warn(known + doubts(args, job))
         try:
             wait(job, signals, args.quiet)
         except _core.RenderError as error:
@@ -101,6 +101,16 @@ def run(args) -> int:
     if not args.quiet:
         say(("interrupted; " if code else "") + summary(result, images))
     return code if complete else 3
+
+
+def doubts(args, job: Job) -> list[str]:
+    """What is to be said of the flags, once the scene is known."""
+    if args.denoise and job.filter != "box":
+        return [
+            f"the filter {job.filter!r} spreads noise over several pixels, and --denoise leaves "
+            "such noise; use the filter 'box'"
+        ]
+    return []
 
 
 def wait(job: Job, signals: Signals, quiet: bool) -> None:

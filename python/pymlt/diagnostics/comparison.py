@@ -6,7 +6,8 @@ import os
 from typing import TYPE_CHECKING, Any
 
 from .._extras import import_extra
-from ..pictures.tonemapping import encode_srgb, tonemap
+from ..pictures.tonemapping import encode_srgb
+from ..pictures.tonemapping import tonemap as tone_mapped
 from .metrics import compare, flip_map, image_pair, relative_error
 
 if TYPE_CHECKING:
@@ -19,18 +20,18 @@ SHARE = 0.99  #: of the pixels that lie within the range of a map's colours
 
 
 def comparison_figure(
-    image: ArrayLike | str | os.PathLike,
-    reference: ArrayLike | str | os.PathLike,
+    image: ArrayLike | str | os.PathLike[str],
+    reference: ArrayLike | str | os.PathLike[str],
     *,
     exposure: float = 0,
-    curve: str = "srgb",
+    tonemap: str = "srgb",
 ) -> Figure:
     """A matplotlib figure of an image a, its reference r, and how they differ.
 
     image, reference
         arrays, results or file names, of one size, as `compare` takes them.
-    exposure, curve
-        how both are shown, as `tonemap` has them; the maps and numbers are of linear light.
+    exposure, tonemap
+        how both are shown, as `write_image` has them; the maps and numbers are of linear light.
 
     The maps are a - r (the mean of the channels; red is too bright, blue too dark), the relative
     error `|a - r| / (|r| + 0.01)`, and HDR-FLIP (Andersson et al. 2021) from 0 to 1. The colours of
@@ -43,12 +44,14 @@ def comparison_figure(
     a, r = image_pair(image, reference)
     flip, _ = flip_map(a, r)
     height, width = a.shape[:2]
-    figure = figures.Figure(figsize=(13, 1.2 + 7.4 * min(2, height / width)), layout="constrained")
+    figure: Figure = figures.Figure(
+        figsize=(13, 1.2 + 7.4 * min(2, height / width)), layout="constrained"
+    )
     axes = list(figure.subplots(2, 3).flat)
     for cell in axes:
         cell.set_axis_off()
     for cell, pixels, title in zip(axes, (a, r), ("image", "reference"), strict=False):
-        shown = encode_srgb(tonemap(pixels, curve, exposure=exposure))
+        shown = encode_srgb(tone_mapped(pixels, tonemap, exposure=exposure))
         _show(cell, title, shown.repeat(3 // shown.shape[2], axis=2))
     axes[2].text(0, 1, _numbers(compare(a, r)), family="monospace", va="top", fontsize=12)
     difference, relative = (a - r).mean(axis=2), relative_error(a, r)

@@ -3,25 +3,27 @@
 from __future__ import annotations
 
 import os
-import tempfile
 import warnings
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from .. import _core
-from .imported import Imported
-from .xml_writer import to_xml
+
+if TYPE_CHECKING:
+    from .imported import Imported
 
 EXTENSIONS = (".gltf", ".glb", ".pbrt")
 
 
-def is_foreign(path: str | os.PathLike) -> bool:
+def is_foreign(path: str | os.PathLike[str]) -> bool:
     """Whether a file of this name is a scene of another program."""
     return os.fspath(path).lower().endswith(EXTENSIONS)
 
 
-def read_foreign(path: str | os.PathLike, folder: Path, stem: str) -> Imported:
+def read_foreign(path: str | os.PathLike[str], folder: Path, stem: str) -> Imported:
     """A scene of another program; its meshes and images are written to a folder."""
+    from .imported import Imported
+
     source = Path(os.fspath(path))
     if not source.exists():
         raise _core.FileError(f"{source}: there is no such file")
@@ -38,9 +40,11 @@ def read_foreign(path: str | os.PathLike, folder: Path, stem: str) -> Imported:
 
 
 def load_foreign(
-    path: str | os.PathLike, size: tuple[int, int] | None = None, sensor: int | None = None
+    path: str | os.PathLike[str], size: tuple[int, int] | None = None, sensor: int | None = None
 ) -> tuple[_core.Scene, list[str]]:
     """The Scene of a file of another program, and what of it has no counterpart."""
+    import tempfile
+
     with tempfile.TemporaryDirectory(prefix="pymlt-") as folder:
         made = read_foreign(path, Path(folder), "scene")
         # A checkpoint knows the scene by this name.
@@ -48,7 +52,7 @@ def load_foreign(
         return _core.load_dict(made.scene, size, sensor, name, {}), made.warnings
 
 
-def convert(path: str | os.PathLike, output: str | os.PathLike) -> list[str]:
+def convert(path: str | os.PathLike[str], output: str | os.PathLike[str]) -> list[str]:
     """Write a scene of another program (.gltf, .glb, .pbrt) as Mitsuba XML.
 
     Meshes (.ply) and images are written beside `output`, with names that begin as its own does.
@@ -56,6 +60,8 @@ def convert(path: str | os.PathLike, output: str | os.PathLike) -> list[str]:
     or written, SceneError for what is wrong in them, UsageError for another extension or without
     the extra that reading needs.
     """
+    from .xml_writer import to_xml
+
     target = Path(os.fspath(output))
     if not is_foreign(path):
         raise _core.UsageError(

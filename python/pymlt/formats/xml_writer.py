@@ -20,7 +20,9 @@ def to_xml(scene: dict[str, Any], folder: Path) -> str:
     return ET.tostring(root, encoding="unicode") + "\n"
 
 
-def _plugin(parent: ET.Element, name: str, plugin: dict, folder: Path, *, named: str) -> None:
+def _plugin(
+    parent: ET.Element, name: str, plugin: dict[str, Any], folder: Path, *, named: str
+) -> None:
     if plugin["type"] == "ref":
         ET.SubElement(parent, "ref", {"id": plugin["id"], "name": name})
         return

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from importlib.metadata import version
 from typing import TYPE_CHECKING, NamedTuple
 
 from .. import _core
@@ -77,7 +76,7 @@ def guides_of(layers: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
         present = [layers[name] for name in names if name in layers]
         if present:
             found[guide] = present[0]
-    return found if "albedo" in found else {}
+    return found
 
 
 class Denoised(NamedTuple):
@@ -92,15 +91,22 @@ def denoise_with_layers(
     image: np.ndarray,
     layers: dict[str, np.ndarray],
     metadata: dict[str, str],
-    **guides: ArrayLike | None,
+    *,
+    albedo: ArrayLike | None = None,
+    normal: ArrayLike | None = None,
 ) -> Denoised:
-    """The same for what a file or a render holds: its layers guide the filter, unless `guides` do.
+    """The same for what a file or a render holds: its layers guide the filter, or what is given.
 
     The image itself becomes the layer "noisy". Its errors (layers "error", "error_block") are left
     out, since those of the denoised image are not known; `metadata` say that it is one.
     """
-    chosen = guides_of(layers) | {name: g for name, g in guides.items() if g is not None}
-    clean = denoise(image, **chosen)
+    from importlib.metadata import version
+
+    chosen: dict[str, ArrayLike] = {**guides_of(layers)}
+    chosen |= {k: g for k, g in (("albedo", albedo), ("normal", normal)) if g is not None}
+    if "albedo" not in chosen and normal is None:
+        chosen.clear()  # a layer of normals alone does not help
+    clean = denoise(image, albedo=chosen.get("albedo"), normal=chosen.get("normal"))
     kept = {name: layer for name, layer in layers.items() if not name.startswith("error")}
     how = f"Open Image Denoise, pyoidn {version('pyoidn')}"
     if chosen:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -27,6 +26,8 @@ def encode_jpeg(image: np.ndarray, curve: str, exposure: float) -> bytes:
 
     Raises UsageError for an image that JPEG cannot hold, such as one with alpha.
     """
+    import tempfile
+
     import numpy as np
     import OpenImageIO
 
@@ -44,8 +45,8 @@ def encode_jpeg(image: np.ndarray, curve: str, exposure: float) -> bytes:
     with tempfile.TemporaryDirectory() as folder:
         path = str(Path(folder) / "image.jpg")
         file = OpenImageIO.ImageOutput.create(path)
-        written = file and file.open(path, spec) and file.write_image(samples.astype(np.uint8))
-        if not (written and file.close()):
+        codes = samples.astype(np.uint8)
+        if not (file and file.open(path, spec) and file.write_image(codes) and file.close()):
             raise _core.FileError(f"{path}: {OpenImageIO.geterror().strip()}")
         return Path(path).read_bytes()
 

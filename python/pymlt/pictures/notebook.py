@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import base64
-import tempfile
 from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -25,6 +24,8 @@ def figure(image: np.ndarray, caption: str, exposure: float = 0) -> str:
 
 def png(image: np.ndarray, exposure: float = 0) -> bytes:
     """A PNG file of a linear image."""
+    import tempfile
+
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "image.png"
         _core.write_image(str(path), image, {}, {}, False, exposure)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from .. import _core
 from .jpeg import encode_jpeg, is_jpeg, replace_file
@@ -43,7 +43,7 @@ class OutputFile(NamedTuple):
             return _core.save_text(self.path, content)
         return _core.save_image(*self._arguments())
 
-    def _arguments(self) -> tuple:
+    def _arguments(self) -> tuple[Any, ...]:
         check_extension(self.path)
         image, exposure = self.image, self.exposure
         check_tonemap(self.curve)

@@ -43,7 +43,7 @@ def tonemap(image: ArrayLike, curve: str = "filmic", *, exposure: float = 0) -> 
             "an image should have the shape (height, width, channels) or (height, width)"
         )
     light, alpha = split_alpha(pixels if pixels.ndim == 3 else pixels[..., None])
-    largest = np.finfo(np.float32).max
+    largest = float(np.finfo(np.float32).max)
     light = np.nan_to_num(light * 2.0**exposure, nan=0, posinf=largest).clip(0, largest)
     shown = np.concatenate([CURVES[curve](light).clip(0, 1), alpha], axis=2)
     return shown.reshape(pixels.shape).astype(np.float32)
@@ -79,7 +79,8 @@ def _reinhard(light: np.ndarray) -> np.ndarray:
     import numpy as np
 
     weights = np.array([0.2126, 0.7152, 0.0722] if light.shape[2] == 3 else [1.0])
-    return light / (1 + (light @ weights)[..., None])
+    shown: np.ndarray = light / (1 + (light @ weights)[..., None])
+    return shown
 
 
 def _filmic(light: np.ndarray) -> np.ndarray:

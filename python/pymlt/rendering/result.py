@@ -87,7 +87,9 @@ class Result:
         )
         return replace(self, image=image, layers=layers, metadata=metadata)
 
-    def write(self, path: str | os.PathLike, exposure: float = 0, *, tonemap: str = "srgb") -> None:
+    def write(
+        self, path: str | os.PathLike[str], exposure: float = 0, *, tonemap: str = "srgb"
+    ) -> None:
         """Write the image to .exr (settings, seed and version in its header), .hdr, .png or .jpg.
 
         An .exr holds the layers too; beside NAME.png, NAME.techniques.png shows the techniques.
@@ -97,7 +99,9 @@ class Result:
         """
         self._file(path, exposure, tonemap).write()
 
-    def save(self, path: str | os.PathLike, exposure: float = 0, *, tonemap: str = "srgb") -> str:
+    def save(
+        self, path: str | os.PathLike[str], exposure: float = 0, *, tonemap: str = "srgb"
+    ) -> str:
         """The same, but if `path` fails try other places; returns where the image is."""
         where, problem = self._save(path, exposure, tonemap)
         if not where:
@@ -105,12 +109,12 @@ class Result:
         return where
 
     def _save(
-        self, path: str | os.PathLike, exposure: float = 0, tonemap: str = "srgb"
+        self, path: str | os.PathLike[str], exposure: float = 0, tonemap: str = "srgb"
     ) -> tuple[str, str]:
         """Where the image is, or ""; and why it is not at `path`, or ""."""
         return self._file(path, exposure, tonemap).save()
 
-    def _file(self, path: str | os.PathLike, exposure: float, tonemap: str) -> OutputFile:
+    def _file(self, path: str | os.PathLike[str], exposure: float, tonemap: str) -> OutputFile:
         return OutputFile(
             os.fspath(path), self.image, self.layers, self.metadata, self.half, exposure, tonemap
         )

@@ -74,4 +74,5 @@ def sampled(image: np.ndarray, at: np.ndarray) -> np.ndarray:
     fx, fy = part[..., :1], part[..., 1:]
     above = image[y0, x0] * (1 - fx) + image[y0, x1] * fx
     under = image[y1, x0] * (1 - fx) + image[y1, x1] * fx
-    return above * (1 - fy) + under * fy
+    between: np.ndarray = above * (1 - fy) + under * fy
+    return between

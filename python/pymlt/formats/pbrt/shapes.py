@@ -14,7 +14,9 @@ if TYPE_CHECKING:
     import numpy as np
 
 
-def shape(params: Params, folder: Path, to_world: np.ndarray, reversed: bool) -> dict | None:
+def shape(
+    params: Params, folder: Path, to_world: np.ndarray, reversed: bool
+) -> dict[str, Any] | None:
     """A shape without its material; None, with a warning, for those without a counterpart.
 
     `reversed` is pbrt's ReverseOrientation. The outside of a mesh without normals is where its

@@ -41,7 +41,8 @@ class Textures:
         given = params.get(name)
         if given is not None and given.kind == "texture":
             return self._find(given.values[0], params)
-        return params.colour(name, default)
+        value: Value = params.colour(name, default)
+        return value
 
     def number(self, params: Params, name: str, default: Value) -> Value:
         """A number or a texture."""
