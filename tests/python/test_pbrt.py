@@ -173,6 +173,16 @@ def test_instances_are_copies_of_their_object():
     assert_same(a, b)
 
 
+def test_ellipsoids_become_meshes():
+    ball = 'Translate 0 .5 0 Scale %s Shape "sphere" "float radius" .4\n'
+    flat = read(VIEW, LAMP, FLOOR, ball % "1 1.0001 1")
+    assert flat.warnings == ["ellipsoids become meshes"]
+    scenes = (mlt.load_dict(flat.scene), mlt.load(written(VIEW, LAMP, FLOOR, ball % "1 1 1")))
+    images = [mlt.render(scene, mlt.Path(max_depth=2), spp=64) for scene in scenes]
+    assert images[0].mean() == pytest.approx(images[1].mean(), rel=0.01)
+    assert np.median(abs(images[0] - images[1])) < 0.01 * images[1].mean()
+
+
 def test_transforms_and_attributes_are_saved():
     made = read(
         'Translate 1 0 0 CoordinateSystem "here"\n' + VIEW,

@@ -29,6 +29,8 @@ def shape(
         params.made.warn(f"the shape {params.type!r} has no counterpart")
         return None
     made = make(params, folder)
+    if params.type == "sphere" and not is_similarity(to_world):
+        made = ellipsoid(params, made["radius"])
     local = made.pop("local", np.eye(4))
     mirrored = np.linalg.det(to_world[:3, :3]) < 0
     has_normals = made.pop("has_normals", False)
@@ -72,6 +74,34 @@ def sphere(params: Params, folder: Path) -> dict[str, Any]:
     if low > -radius or high < radius or params.number("phimax", 360) < 360:
         params.made.warn("parts of spheres are left out: they become whole")
     return {"type": "sphere", "radius": radius}
+
+
+def ellipsoid(params: Params, radius: float) -> dict[str, Any]:
+    """A sphere of triangles, for transforms that stretch it."""
+    import numpy as np
+
+    rows, columns = 48, 96
+    theta, phi = np.meshgrid(
+        np.linspace(0, np.pi, rows + 1), np.linspace(0, 2 * np.pi, columns + 1), indexing="ij"
+    )
+    ring = np.sin(theta)
+    normals = np.stack([ring * np.cos(phi), ring * np.sin(phi), np.cos(theta)], 2).reshape(-1, 3)
+    uvs = np.stack([phi / (2 * np.pi), 1 - theta / np.pi], 2).reshape(-1, 2)
+    a = (np.arange(rows)[:, None] * (columns + 1) + np.arange(columns)).ravel()
+    b, c, d = a + columns + 1, a + columns + 2, a + 1
+    triangles = np.concatenate([np.stack([a, b, c], 1), np.stack([a, c, d], 1)])
+    params.made.warn("ellipsoids become meshes")
+    mesh = params.made.mesh("ellipsoid", Mesh(radius * normals, triangles, normals, uvs))
+    return mesh | {"has_normals": True}
+
+
+def is_similarity(matrix: np.ndarray) -> bool:
+    """Whether it moves, turns, mirrors and scales evenly only."""
+    import numpy as np
+
+    products = matrix[:3, :3].T @ matrix[:3, :3]
+    scale = np.trace(products) / 3
+    return bool(np.allclose(products, scale * np.eye(3), atol=1e-6 * scale))
 
 
 def disk(params: Params, folder: Path) -> dict[str, Any]:
