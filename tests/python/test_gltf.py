@@ -1,6 +1,7 @@
 """glTF files, compared with the same scenes written as dicts."""
 
 import json
+import pickle
 import sys
 from pathlib import Path
 
@@ -275,6 +276,14 @@ def test_what_has_no_counterpart_is_named():
     for word in ("points and lines", "COLOR_0", "animations", "no camera", "no light"):
         assert word in said
     assert (mlt.render(scene, "path", spp=4) > 0.1).any()
+
+
+def test_a_scene_can_be_sent_to_other_processes():
+    file = floor_file(baseColorTexture=None)
+    file.node(mesh=file.mesh(file.material(baseColorTexture=file.texture(CODES))))
+    file.light({"type": "point"}, translation=[0, 2, 0])
+    scene = mlt.load(file.save("a.glb"), size=SIZE)
+    assert pickle.loads(pickle.dumps(scene)).hash == scene.hash
 
 
 @pytest.mark.parametrize("name", ["a.glb", "a.gltf"])

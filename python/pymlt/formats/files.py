@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import atexit
 import os
 import warnings
 from pathlib import Path
@@ -42,14 +43,19 @@ def read_foreign(path: str | os.PathLike[str], folder: Path, stem: str) -> Impor
 def load_foreign(
     path: str | os.PathLike[str], size: tuple[int, int] | None = None, sensor: int | None = None
 ) -> tuple[_core.Scene, list[str]]:
-    """The Scene of a file of another program, and what of it has no counterpart."""
+    """The Scene of a file of another program, and what of it has no counterpart.
+
+    Its meshes and images lie in a temporary folder until this process ends.
+    """
     import tempfile
 
-    with tempfile.TemporaryDirectory(prefix="pymlt-") as folder:
-        made = read_foreign(path, Path(folder), "scene")
-        # A checkpoint knows the scene by this name.
-        name = os.path.abspath(path)
-        return _core.load_dict(made.scene, size, sensor, name, {}), made.warnings
+    folder = tempfile.TemporaryDirectory(prefix="pymlt-")
+    # Other processes of a cluster, and pickle, read the files again.
+    atexit.register(folder.cleanup)
+    made = read_foreign(path, Path(folder.name), "scene")
+    # A checkpoint knows the scene by this name.
+    name = os.path.abspath(path)
+    return _core.load_dict(made.scene, size, sensor, name, {}), made.warnings
 
 
 def convert(path: str | os.PathLike[str], output: str | os.PathLike[str]) -> list[str]:
