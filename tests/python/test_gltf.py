@@ -309,6 +309,9 @@ def test_files_that_contradict_themselves_are_refused():
     missing = floor_file()
     missing.gltf.nodes[0].mesh = 7
     missing.save("missing.glb")
+    turn = floor_file()
+    turn.gltf.nodes[0].rotation = [0, 0, 1]
+    turn.save("turn.glb")
     circle = floor_file()
     circle.gltf.nodes[0].children = [1]
     circle.save("circle.glb")
@@ -316,6 +319,7 @@ def test_files_that_contradict_themselves_are_refused():
         "required": "KHR_draco",
         "short": "beyond its buffer",
         "missing": "contradicts itself",
+        "turn": "contradicts itself",
         "circle": "below itself",
     }
     for name, message in messages.items():

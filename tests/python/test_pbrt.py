@@ -413,6 +413,8 @@ def test_what_has_no_counterpart_is_named():
         ('"float x" 1', "a directive is expected"),
         ("Translate 1 x 0", "'x' is not a number"),
         ("Translate 1 2", "the file ends here"),
+        ("Translate 1 nan 2", "'nan' is not a number"),
+        ('LightSource "infinite" "blackbody L" 0', r"a\.pbrt:1: LightSource makes no sense"),
         ("Shape sphere", "a text in quotes"),
         ('Shape "sphere" "float radius" [ 1', "the file ends here"),
         ('Shape "sphere" "radius" 1', "a type and a name"),

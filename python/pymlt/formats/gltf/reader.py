@@ -43,7 +43,9 @@ def read_gltf(path: Path, made: Imported) -> None:
         raise _core.SceneError(f"{path}: needs {', '.join(unknown)}, which is not supported")
     try:
         Reader(gltf, path, made).read()
-    except (IndexError, KeyError, TypeError, AttributeError) as error:
+    except _core.Error:
+        raise
+    except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
         raise _core.SceneError(f"{path}: the file contradicts itself: {error!r}") from None
 
 

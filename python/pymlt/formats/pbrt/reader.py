@@ -7,6 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ... import _core
 from ..imported import Imported
 from ..views import complete
 from . import views
@@ -63,17 +64,13 @@ class Reader:
 
     def read(self) -> None:
         while self._words.peek() is not None:
-            directive = self._words.take()
-            self._last = directive
-            if directive.quoted:
-                raise directive.error(f"a directive is expected, not {directive.text!r}")
-            if directive.text in TRANSFORMS:
-                self._state.transform(directive, self._words)
-            elif directive.text in VIEWS:
-                params = self._params(directive)
-                self._views[directive.text] = VIEWS[directive.text](params) or {}
-            else:
+            self._last = directive = self._words.take()
+            try:
                 self._directive(directive)
+            except _core.Error:
+                raise
+            except (ArithmeticError, LookupError, TypeError, ValueError) as error:
+                raise directive.error(f"{directive.text} makes no sense: {error}") from None
         if self._saved and self._last is not None:
             raise self._last.error("an AttributeBegin has no AttributeEnd")
         self._view()
@@ -82,7 +79,13 @@ class Reader:
     def _directive(self, directive: Token) -> None:
         name = directive.text
         method = getattr(self, f"_on_{re.sub('(?<!^)(?=[A-Z])', '_', name).lower()}", None)
-        if name in BEGIN:
+        if directive.quoted:
+            raise directive.error(f"a directive is expected, not {name!r}")
+        if name in TRANSFORMS:
+            self._state.transform(directive, self._words)
+        elif name in VIEWS:
+            self._views[name] = VIEWS[name](self._params(directive)) or {}
+        elif name in BEGIN:
             self._saved.append(self._state.copy())
         elif name in END:
             self._end(directive)

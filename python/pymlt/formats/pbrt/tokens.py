@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gzip
+import math
 import re
 from collections.abc import Iterator
 from pathlib import Path
@@ -136,6 +137,9 @@ class Words:
 def to_number(token: Token) -> float:
     """Raises SceneError for anything else."""
     try:
-        return float(token.text)
+        number = float(token.text)
     except ValueError:
-        raise token.error(f"{token.text!r} is not a number") from None
+        number = math.nan
+    if not math.isfinite(number):
+        raise token.error(f"{token.text!r} is not a number")
+    return number
