@@ -1,4 +1,4 @@
-"""Brings the table of flags in command-line.md up to date with cpp/app/flags.cpp.
+"""Brings the table of flags in command-line.md up to date with `pymlt render`.
 
 Run it after one has changed (python docs/make_command_line.py); a test compares the page with what
 this makes.
@@ -7,17 +7,21 @@ this makes.
 import re
 from pathlib import Path
 
-from pymlt import _core
+from pymlt.cli import render
+from pymlt.cli.common import FLAGS, Parser
 
 PAGE = Path(__file__).with_name("command-line.md")
 
 
 def table() -> str:
+    parser = Parser(add_help=False)
+    render.add_arguments(parser)
     lines = ["| flag | |", "|---|---|"]
-    for flag in _core.render_flags():
-        if flag.spelling.startswith("-"):
-            spelling = f"{flag.spelling.replace(',', ', ')} {flag.metavar}".strip()
-            lines.append(f"| `{spelling}` | {flag.help.replace('|', chr(92) + '|')} |")
+    for action in parser._actions:
+        if action.option_strings:
+            spelling = f"{', '.join(action.option_strings)} {action.metavar or ''}".strip()
+            only = "" if action.dest in FLAGS else " (`pymlt` only)"
+            lines.append(f"| `{spelling}` | {action.help.replace('|', chr(92) + '|')}{only} |")
     return "\n".join(lines)
 
 

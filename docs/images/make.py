@@ -5,6 +5,8 @@ motion        the scene of the page on motion blur
 equal-time    the same scene by path, bdpt and mlt, with equal CPU time
 two-families  what independent samples and chains show of an image
 strategies    the techniques of bidirectional path tracing
+tone-curves   one render by the three tone curves
+comparison    what pymlt compare --picture draws
 """
 
 import sys
@@ -64,6 +66,18 @@ def strategies():
         (HERE / "strategies.png").write_bytes((Path(folder) / "table.techniques.png").read_bytes())
 
 
+def tone_curves():
+    image = render("glass_ball", mlt.BDPT(max_depth=8), 20, (200, 200))
+    shown = [mlt.tonemap(image, curve, exposure=1) for curve in ("srgb", "reinhard", "filmic")]
+    mlt.write_image(HERE / "tone-curves.png", np.concatenate(shown, axis=1))
+
+
+def comparison():
+    image = render("glass_ball", mlt.Path(max_depth=8), 3, (200, 200))
+    reference = render("glass_ball", mlt.BDPT(max_depth=8), 30, (200, 200), seed=2)
+    mlt.comparison_figure(image, reference).savefig(HERE / "comparison.png", dpi=60)
+
+
 if __name__ == "__main__":
     pictures = {
         "door-ajar": door_ajar,
@@ -71,6 +85,8 @@ if __name__ == "__main__":
         "equal-time": equal_time,
         "two-families": two_families,
         "strategies": strategies,
+        "tone-curves": tone_curves,
+        "comparison": comparison,
     }
     for name in sys.argv[1:] or pictures:
         pictures[name]()

@@ -33,14 +33,19 @@ from .algorithms.mutation import Mutation
 from .algorithms.mutations import *  # noqa: F403
 from .algorithms.schemas import available, describe
 from .diagnostics.audit import Audit, audit
+from .diagnostics.comparison import comparison_figure
 from .diagnostics.metrics import compare
 from .diagnostics.mixing import Convergence, convergence
+from .formats.files import convert
 from .images import read_image, read_metadata, write_image
+from .pictures.denoising import denoise
+from .pictures.tonemapping import tonemap
 from .rendering.job import Job
 from .rendering.merging import merge
+from .rendering.preview import preview as _preview
 from .rendering.result import Groups, Replay, Result, Technique
 from .rendering.start import render, render_progressive, replay, resume, start
-from .scenes.loading import load_dict, load_file, load_string
+from .scenes.loading import load, load_dict, load_file, load_string
 from .scenes.transforms import Transform
 
 if TYPE_CHECKING:
@@ -69,8 +74,12 @@ __all__ = [
     "audit",
     "available",
     "compare",
+    "comparison_figure",
     "convergence",
+    "convert",
+    "denoise",
     "describe",
+    "load",
     "load_dict",
     "load_file",
     "load_string",
@@ -85,8 +94,10 @@ __all__ = [
     "resume",
     "scenes",
     "start",
+    "tonemap",
     "write_image",
 ]
+Scene._repr_html_ = _preview
 __all__ += _integrators.__all__ + _mutations.__all__
 
 

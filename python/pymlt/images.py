@@ -7,12 +7,14 @@ import warnings
 from typing import TYPE_CHECKING
 
 from . import _core
+from .pictures.output import OutputFile
 
 if TYPE_CHECKING:
     import numpy as np
+    from numpy.typing import ArrayLike
 
 
-def read_image(path, layer: str = "") -> np.ndarray:
+def read_image(path: str | os.PathLike[str], layer: str = "") -> np.ndarray:
     """Read an image as float32 of shape (height, width, channels), in linear light.
 
     EXR, PNG, JPEG, HDR, TGA and BMP are read natively, whatever the file is called, anything else
@@ -56,17 +58,48 @@ def _decode_srgb(pixels: np.ndarray) -> np.ndarray:
     return linear.astype(np.float32)
 
 
-def read_metadata(path) -> dict[str, str]:
+def layer_names(path: str | os.PathLike[str]) -> list[str]:
+    """The names of the layers of an EXR file, but for the unnamed one; of other files none.
+
+    Raises FileError for a file that cannot be read.
+    """
+    import OpenImageIO
+
+    file = OpenImageIO.ImageInput.open(os.fspath(path))
+    if file is None:
+        raise _core.FileError(f"{path}: {OpenImageIO.geterror().strip() or 'cannot be read'}")
+    channels = file.spec().channelnames if file.format_name() == "openexr" else ()
+    file.close()
+    return sorted({name.rpartition(".")[0] for name in channels if "." in name})
+
+
+def read_metadata(path: str | os.PathLike[str]) -> dict[str, str]:
     """The text attributes of an EXR file: how a render was made. Raises FileError."""
     return _core.read_metadata(os.fspath(path))
 
 
-def write_image(path, image, *, exposure: float = 0, half: bool = False, metadata=None) -> None:
-    """Write linear pixels to .exr, .png (sRGB, brightened by `exposure` stops) or .hdr.
+def write_image(
+    path: str | os.PathLike[str],
+    image: ArrayLike,
+    *,
+    exposure: float = 0,
+    tonemap: str = "srgb",
+    half: bool = False,
+    metadata: dict[str, str] | None = None,
+) -> None:
+    """Write linear pixels to .exr, .hdr, or a picture to look at: .png, .jpg.
 
-    `image` has the shape (height, width) or (height, width, channels), with at most 4 channels.
-    `half` (16-bit samples) and `metadata` (a dict of texts) are for EXR. Raises UsageError for
-    another shape, type or extension, FileError if the file cannot be written.
+    image
+        floats of shape (height, width) or (height, width, channels), with at most 4 channels; 1 is
+        white. What is not a number becomes 0, with a warning, in all files but .exr.
+    exposure, tonemap
+        for pictures, which are sRGB-encoded: stops by which they are brightened, and the curve, as
+        `pymlt.tonemap` has them.
+    half, metadata
+        for .exr: 16-bit samples, and texts for the header.
+
+    Raises UsageError for another shape, type, curve or extension, FileError if the file cannot be
+    written.
     """
     import numpy as np
 
@@ -77,6 +110,7 @@ def write_image(path, image, *, exposure: float = 0, half: bool = False, metadat
             "white; divide integers by their largest value, and decode sRGB"
         )
     pixels = given.astype(np.float32)
-    if not os.fspath(path).lower().endswith(".exr") and (bad := int(np.isnan(pixels).sum())):
+    name = os.fspath(path)
+    if not name.lower().endswith(".exr") and (bad := int(np.isnan(pixels).sum())):
         warnings.warn(f"{path}: {bad} samples are not numbers and become 0", stacklevel=2)
-    _core.write_image(os.fspath(path), pixels, {}, metadata or {}, half, exposure)
+    OutputFile(name, pixels, {}, metadata or {}, half, exposure, tonemap).write()

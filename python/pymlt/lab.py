@@ -10,8 +10,10 @@ import ast
 import runpy
 import warnings
 from pathlib import Path
+from typing import Any
 
 from . import _core
+from ._extras import import_extra
 
 BLUE, ORANGE, GREEN, RED, GREY = "#2f6db5", "#d9822b", "#3a9a62", "#c23b34", "#7a7a7a"
 
@@ -65,12 +67,8 @@ def draw(name: str):
         return pyplot.figure(pyplot.get_fignums()[-1])
 
 
-def pyplot_module():
-    try:
-        from matplotlib import pyplot
-    except ImportError:
-        raise _core.UsageError("the gallery needs matplotlib: pip install 'pymlt[plots]'") from None
-    return pyplot
+def pyplot_module() -> Any:
+    return import_extra("matplotlib.pyplot", "plots", "the gallery")
 
 
 def _directory() -> Path:

@@ -9,6 +9,7 @@ import sys
 from collections.abc import Callable
 
 from .. import _core, scenes
+from ..formats.files import is_foreign, load_foreign
 from ..scenes.loading import load_built_in, load_file
 
 FLAGS = {flag.name: flag for flag in _core.render_flags()}
@@ -63,12 +64,13 @@ def warn(warnings: list[str]) -> None:
         say(f"warning: {warning}")
 
 
-def add_flag(command: Parser, flag: _core.Flag) -> None:
+def add_flag(command: Parser, flag: _core.Flag, help: str = "") -> None:
     """A flag of the table that mlt-render shares; None (or []) if it is not given."""
+    help = help or flag.help
     if not flag.has_value:
-        command.add_argument(flag.spelling, action="store_true", help=flag.help)
+        command.add_argument(flag.spelling, action="store_true", help=help)
         return
-    settings = {"metavar": flag.metavar, "help": flag.help, "type": reader(flag.read)}
+    settings = {"metavar": flag.metavar, "help": help, "type": reader(flag.read)}
     if flag.repeatable:
         settings |= {"action": "append", "default": []}
     if flag.spelling.startswith("-"):
@@ -100,6 +102,12 @@ def load_scene(args) -> _core.Scene:
     """The file or the built-in scene that the arguments `scene`, `defines` and so on mean."""
     defines, size = dict(args.defines), getattr(args, "size", None)
     sensor = getattr(args, "sensor", None)
+    if os.path.exists(args.scene) and is_foreign(args.scene):
+        if args.lenient or args.strict or defines:
+            raise _core.UsageError(f"{args.scene}: -D, --lenient and --strict are for Mitsuba XML")
+        scene, found = load_foreign(args.scene, size, sensor)
+        warn([f"{args.scene}: {text}" for text in found])
+        return scene
     if os.path.exists(args.scene):
         if args.lenient and args.strict:
             raise _core.UsageError("--lenient and --strict exclude each other")

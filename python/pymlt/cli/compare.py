@@ -6,8 +6,11 @@ import json
 import math
 
 from .. import _core
+from ..diagnostics.comparison import comparison_figure
 from ..diagnostics.metrics import compare
 from .common import FLAGS, emit, reader, say
+from .display import add_display_flags, exposure
+from .figures import check_figure_file, save_figure
 
 HELP = "Print how far an image is from a reference."
 METRICS = ("mse", "rmse", "relmse", "relmse_trimmed", "mape", "bias_z", "flip")
@@ -17,6 +20,12 @@ def add_arguments(command) -> None:
     command.add_argument("image", metavar="A")
     command.add_argument("reference", metavar="B")
     command.add_argument("--json", action="store_true", help="print JSON")
+    command.add_argument(
+        "--picture",
+        metavar="FILE",
+        help="draw both, their difference, their relative error and FLIP, such as picture.png",
+    )
+    add_display_flags(command)
     command.add_argument(
         "--fail-above",
         metavar="METRIC=VALUE",
@@ -38,6 +47,8 @@ def limit(text: str) -> tuple[str, float]:
 
 
 def run(args) -> int:
+    if args.picture:
+        check_figure_file(args.picture)
     wanted = {name for name, _ in args.fail_above}
     metrics = compare(args.image, args.reference, flip=True if "flip" in wanted else None)
     if args.json:
@@ -48,4 +59,12 @@ def run(args) -> int:
     above = [(n, limit) for n, limit in args.fail_above if not abs(metrics[n]) <= limit]
     for name, limit in above:
         say(f"{name} is {metrics[name]:.6g}, above {limit:g}")
-    return 1 if above else 0
+    code = draw(args) if args.picture else 0
+    return code or (1 if above else 0)
+
+
+def draw(args) -> int:
+    figure = comparison_figure(
+        args.image, args.reference, exposure=exposure(args), tonemap=args.tonemap
+    )
+    return save_figure(figure, args.picture)

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import io
-import os
-
 from .. import _core
 from ..lab import draw, names, pyplot_module, script, title
-from .common import emit, say
+from .common import emit
+from .figures import check_figure_file, save_figure
 
 HELP = "Run a script of the gallery: show its figure, or save it."
 
@@ -29,32 +27,14 @@ def run(args) -> int:
     script(args.name)  # known, before matplotlib is imported
     output = args.output
     if output:
-        check_output(output)
+        check_figure_file(output)
         pyplot_module().switch_backend("agg")
     figure = draw(args.name)
     if not output and not has_window():
         output = f"{args.name}.png"
-    code = save(figure, output) if output else 0
+    code = save_figure(figure, output) if output else 0
     pyplot_module().close(figure)
     return code
-
-
-def save(figure, path: str) -> int:
-    picture = io.BytesIO()
-    figure.savefig(picture, format=os.path.splitext(path)[1][1:].lower())
-    saved, problem = _core.save_text(path, picture.getvalue())
-    say(problem or saved)
-    return 3 if problem else 0
-
-
-def check_output(path: str) -> None:
-    _core.check_file_writable(path)
-    suffix = os.path.splitext(path)[1].lstrip(".").lower()
-    known = pyplot_module().Figure().canvas.get_supported_filetypes()
-    if suffix not in known:
-        raise _core.UsageError(
-            f"{path}: a figure cannot be saved as {suffix!r}{_core.suggestion(suffix, list(known))}"
-        )
 
 
 def has_window() -> bool:

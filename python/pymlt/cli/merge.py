@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from .. import _core
+from ..pictures.output import EXTENSIONS, check_writable
 from ..rendering.merging import merge
 from .common import say
+from .display import add_display_flags, exposure
 
 HELP = "Merge renders of one scene with different seeds."
 
@@ -13,16 +14,19 @@ def add_arguments(command) -> None:
     command.add_argument(
         "renders", metavar="FILE", nargs="+", help=".exr files that pymlt has written"
     )
-    command.add_argument("-o", "--output", metavar="FILE", required=True, help=".exr, .png or .hdr")
+    command.add_argument(
+        "-o", "--output", metavar="FILE", required=True, help=", ".join(EXTENSIONS)
+    )
     command.add_argument(
         "--force", action="store_true", help="whether or not they have the same scene and settings"
     )
+    add_display_flags(command)
 
 
 def run(args) -> int:
-    _core.check_image_writable(args.output)
+    check_writable(args.output)
     merged = merge(args.renders, force=args.force)
-    path, problem = merged._save(args.output)
+    path, problem = merged._save(args.output, exposure(args), args.tonemap)
     if problem:
         say(problem)
     width, height = merged.stats["size"]

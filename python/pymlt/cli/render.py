@@ -7,21 +7,38 @@ import os
 from dataclasses import fields
 
 from .. import _core
+from .._extras import import_extra
 from ..algorithms.integrator import as_integrator
+from ..pictures.output import EXTENSIONS, check_writable
 from ..rendering.job import Job
 from ..rendering.options import RenderOptions
 from ..rendering.progress import progress_bar
 from ..rendering.result import Result
 from ..rendering.start import saved_job
 from .common import FLAGS, add_flag, built_in_name, load_scene, say, warn
+from .display import add_tonemap, exposure
 from .signals import Signals
 
 HELP = "Render a scene to image files."
 
 
+# Where pymlt can do more than mlt-render.
+HELP_HERE = {
+    "scene": "Mitsuba XML, glTF 2.0 or pbrt-v4 file, or the name of a built-in scene",
+    "output": f"image file: {', '.join(EXTENSIONS)}; may be repeated",
+    "exposure": "brighten PNG and JPEG files by so many stops",
+}
+
+
 def add_arguments(command) -> None:
-    for flag in FLAGS.values():
-        add_flag(command, flag)
+    for name, flag in FLAGS.items():
+        add_flag(command, flag, HELP_HERE.get(name, ""))
+    add_tonemap(command)
+    command.add_argument(
+        "--denoise",
+        action="store_true",
+        help="remove noise by Open Image Denoise; an .exr keeps the image as its layer noisy",
+    )
 
 
 def given(args) -> dict:
@@ -55,16 +72,19 @@ def start(args, signals: Signals) -> Job:
 def run(args) -> int:
     check(args)
     for path in args.output:
-        _core.check_image_writable(path)
+        check_writable(path)
     if args.stats:
         _core.check_file_writable(args.stats)
     import numpy  # noqa: F401 (what writing needs is there before the work begins)
+
+    if args.denoise:
+        import_extra("pyoidn", "denoise", "--denoise")
 
     with Signals() as signals:
         job = start(args, signals)
         known = job.stats["warnings"]
         if not args.quiet:
-            warn(known)
+            warn(known + doubts(args, job))
         try:
             wait(job, signals, args.quiet)
         except _core.RenderError as error:
@@ -84,6 +104,16 @@ def run(args) -> int:
     return code if complete else 3
 
 
+def doubts(args, job: Job) -> list[str]:
+    """What is to be said of the flags, once the scene is known."""
+    if args.denoise and job.filter != "box":
+        return [
+            f"the filter {job.filter!r} spreads noise over several pixels, and --denoise leaves "
+            "such noise; use the filter 'box'"
+        ]
+    return []
+
+
 def wait(job: Job, signals: Signals, quiet: bool) -> None:
     with progress_bar(False if quiet else None) as show:
         while not job.wait(0.1):
@@ -95,7 +125,12 @@ def wait(job: Job, signals: Signals, quiet: bool) -> None:
 def save(args, result: Result) -> tuple[list[str], bool]:
     """Every output is tried, and elsewhere if it fails. Returns where the images are, and whether
     everything is where it was asked for."""
-    files = [result._save(path, args.exposure or 0) for path in args.output]
+    if args.denoise:
+        try:
+            result = result.denoise()
+        except _core.Error as error:
+            say(f"{error}; the image is saved as it was rendered")
+    files = [result._save(path, exposure(args), args.tonemap) for path in args.output]
     images = [path for path, _ in files if path]
     if args.stats:
         files.append(_core.save_text(args.stats, json.dumps(result.stats, indent=2) + "\n"))

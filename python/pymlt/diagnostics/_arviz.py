@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 import warnings
+from typing import Any
 
-from .. import _core
+from .._extras import import_extra
 
 
-def import_arviz(what: str):
+def import_arviz(what: str) -> Any:
     """The module; `what` needs it."""
-    try:
-        with warnings.catch_warnings():  # it announces its next version
-            warnings.simplefilter("ignore", FutureWarning)
-            import arviz
-    except ImportError:
-        raise _core.UsageError(f"{what} needs `pip install 'pymlt[arviz]'`") from None
-    return arviz
+    with warnings.catch_warnings():  # it announces its next version
+        warnings.simplefilter("ignore", FutureWarning)
+        return import_extra("arviz", "arviz", what)

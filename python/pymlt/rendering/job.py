@@ -61,6 +61,11 @@ class Job:
         return json.loads(self._job.stats())
 
     @property
+    def filter(self) -> str:
+        """The reconstruction filter of the scene's film, such as "box"."""
+        return self._scene.info()["filter"]
+
+    @property
     def groups(self) -> Groups:
         """What the independent groups have seen so far."""
         return Groups(*self._job.groups())

@@ -9,7 +9,7 @@ from itertools import combinations
 from typing import TYPE_CHECKING
 
 from .. import _core
-from ..images import read_image, read_metadata
+from ..images import layer_names, read_image, read_metadata
 from .result import Result
 
 if TYPE_CHECKING:
@@ -102,17 +102,8 @@ def _render(render) -> _Render:
                 f"{path}: has no {name!r} in its header; only EXR files that pymlt has rendered "
                 "can be merged"
             )
-    layers = {name: read_image(path, name) for name in _layer_names(path)}
+    layers = {name: read_image(path, name) for name in layer_names(path)}
     return _Render(path, read_image(path), layers, metadata)
-
-
-def _layer_names(path: str) -> list[str]:
-    import OpenImageIO
-
-    file = OpenImageIO.ImageInput.open(path)
-    channels = file.spec().channelnames
-    file.close()
-    return sorted({name.rpartition(".")[0] for name in channels if "." in name})
 
 
 def _check(renders: list[_Render], force: bool) -> None:
@@ -137,6 +128,8 @@ def _check(renders: list[_Render], force: bool) -> None:
     for render in renders:
         if not render.spp > 0:
             raise _core.UsageError(f"{render.name} has no samples")
+        if "denoised" in render.metadata:
+            raise _core.UsageError(f"{render.name} is denoised; merge its layer 'noisy'")
 
 
 def _size(render: _Render) -> str:

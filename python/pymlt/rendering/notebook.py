@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-import base64
-import tempfile
 from dataclasses import dataclass
-from html import escape
-from pathlib import Path
 from typing import Any
 
-from .. import _core
-from ..images import write_image
+from .._extras import import_extra
+from ..pictures.notebook import figure
 
 
 @dataclass
@@ -21,11 +17,7 @@ class Picture:
     exposure: float
 
     def _repr_html_(self) -> str:
-        data = base64.b64encode(_png(self.job.image, self.exposure)).decode()
-        return (
-            f'<figure><img src="data:image/png;base64,{data}"/>'
-            f"<figcaption>{escape(repr(self))}</figcaption></figure>"
-        )
+        return figure(self.job.image, repr(self), self.exposure)
 
     def __repr__(self) -> str:
         stats = self.job.stats
@@ -34,19 +26,9 @@ class Picture:
         return f"{stats['integrator']}, {width} x {height}, {stats['spp_done']:.4g} spp{done}"
 
 
-def _png(image, exposure: float) -> bytes:
-    with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / "image.png"
-        write_image(path, image, exposure=exposure)
-        return path.read_bytes()
-
-
 def show(job, interval: float, exposure: float) -> None:
     """Show the image of a Job; see `Job.show`."""
-    try:
-        from IPython.display import display
-    except ImportError:
-        raise _core.UsageError("showing a render needs IPython; pip install ipython") from None
+    display = import_extra("IPython.display", "notebook", "showing a render").display
     picture = Picture(job, exposure)
     handle = display(picture, display_id=True)
     ended = False

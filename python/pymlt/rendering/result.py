@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, NamedTuple
 
 from .. import _core
+from ..pictures.denoising import denoise_with_layers
+from ..pictures.notebook import figure, png
+from ..pictures.output import OutputFile
 
 if TYPE_CHECKING:
     import numpy as np
+    from numpy.typing import ArrayLike
 
 
 class Technique(NamedTuple):
@@ -66,27 +70,60 @@ class Result:
                 found[s, t] = Technique(self.layers[f"raw.s{s}.t{t}"], weighted)
         return found
 
-    def write(self, path, exposure: float = 0) -> None:
-        """Write the image to .exr (with settings, seed and version in its header), .png or .hdr.
+    def denoise(
+        self, *, albedo: ArrayLike | None = None, normal: ArrayLike | None = None
+    ) -> Result:
+        """The same without most of its noise: a guess of Open Image Denoise, which is biased.
+
+        albedo, normal
+            of what each pixel sees first, float, (height, width, 3), to guide the filter; see
+            `pymlt.denoise`. None: the layers "albedo" and "normal", if there are such.
+
+        The image as it was is the layer "noisy"; the errors are left out. `merge` refuses the
+        result. Raises UsageError without the extra `denoise`, and for arrays of other shapes.
+        """
+        image, layers, metadata = denoise_with_layers(
+            self.image, self.layers, self.metadata, albedo=albedo, normal=normal
+        )
+        return replace(self, image=image, layers=layers, metadata=metadata)
+
+    def write(
+        self, path: str | os.PathLike[str], exposure: float = 0, *, tonemap: str = "srgb"
+    ) -> None:
+        """Write the image to .exr (settings, seed and version in its header), .hdr, .png or .jpg.
 
         An .exr holds the layers too; beside NAME.png, NAME.techniques.png shows the techniques.
-        `exposure` brightens .png by so many stops. Raises FileError if it cannot be written.
+        `exposure` brightens .png and .jpg by so many stops, `tonemap` names their curve ("srgb",
+        "reinhard", "filmic"; see `pymlt.tonemap`). Raises FileError if it cannot be written,
+        UsageError for an unknown curve or extension.
         """
-        _core.write_image(*self._file(path, exposure))
+        self._file(path, exposure, tonemap).write()
 
-    def save(self, path, exposure: float = 0) -> str:
+    def save(
+        self, path: str | os.PathLike[str], exposure: float = 0, *, tonemap: str = "srgb"
+    ) -> str:
         """The same, but if `path` fails try other places; returns where the image is."""
-        where, problem = self._save(path, exposure)
+        where, problem = self._save(path, exposure, tonemap)
         if not where:
             raise _core.FileError(problem)
         return where
 
-    def _save(self, path, exposure: float = 0) -> tuple[str, str]:
+    def _save(
+        self, path: str | os.PathLike[str], exposure: float = 0, tonemap: str = "srgb"
+    ) -> tuple[str, str]:
         """Where the image is, or ""; and why it is not at `path`, or ""."""
-        return _core.save_image(*self._file(path, exposure))
+        return self._file(path, exposure, tonemap).save()
 
-    def _file(self, path, exposure: float) -> tuple:
-        return os.fspath(path), self.image, self.layers, self.metadata, self.half, exposure
+    def _file(self, path: str | os.PathLike[str], exposure: float, tonemap: str) -> OutputFile:
+        return OutputFile(
+            os.fspath(path), self.image, self.layers, self.metadata, self.half, exposure, tonemap
+        )
+
+    def _repr_png_(self) -> bytes:
+        return png(self.image)
+
+    def _repr_html_(self) -> str:
+        return figure(self.image, repr(self))
 
     def __repr__(self) -> str:
         height, width = self.image.shape[:2]

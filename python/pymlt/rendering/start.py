@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 from .. import _core
 from .._core import Scene
 from ..algorithms.integrator import IntegratorLike, as_integrator
+from ..formats.files import is_foreign, load_foreign
 from ..scenes.loading import SceneLike, as_scene, load_built_in
 from .job import Job
 from .options import RenderOptions, takes_options
@@ -31,7 +32,7 @@ def start(
     """Start a render and return at once.
 
     scene
-        a Scene, a dict, or the path of an XML file.
+        a Scene, a dict, or the path of a file, of any format that `load` knows.
     integrator
         an object such as `Path(max_depth=8)`, a dict, or a name. None is the scene's own, else
         `path`. A name keeps what the scene says about what is to be rendered (max_depth,
@@ -85,6 +86,10 @@ def saved_job(path: str, scene: SceneLike | None, options: RenderOptions) -> Job
     saved = _core.Checkpoint(path)
     if isinstance(scene, Scene | dict):
         scene = as_scene(scene)
+        saved.check(scene)
+    elif saved.built_in and is_foreign(saved.built_in[0]):
+        name, _, size, sensor = saved.built_in
+        scene, _ = load_foreign(name if scene is None else scene, size, sensor)
         saved.check(scene)
     elif saved.built_in and names_built_in(scene, saved.built_in[0]):
         scene = load_built_in(*saved.built_in)

@@ -12,6 +12,31 @@ from .arrays import with_bytes
 SceneLike = _core.Scene | dict | str | os.PathLike
 
 
+def load(path, /, *, size=None, lenient=None, sensor=None, **defines) -> _core.Scene:
+    """Load a scene from a file of any known format, which its extension tells.
+
+    .gltf, .glb
+        glTF 2.0; needs the extra `gltf`.
+    .pbrt
+        pbrt-v4.
+    anything else
+        Mitsuba XML; see `load_file` for `lenient` and `defines`, which only these files have.
+
+    `size` is the image's (width, height) in pixels, `sensor` says which of several cameras is
+    meant. What a file of another program has and a Mitsuba scene cannot say is named in a warning
+    of Python. Raises FileError, SceneError and UsageError, as `load_file` and `convert` do.
+    """
+    from ..formats.files import is_foreign, load_foreign, warn_all
+
+    if not is_foreign(path):
+        return load_file(path, size=size, lenient=lenient, sensor=sensor, **defines)
+    if defines or lenient is not None:
+        raise _core.UsageError(f"{os.fspath(path)}: only Mitsuba XML has defines and is lenient")
+    scene, found = load_foreign(path, _size(size), _sensor(sensor))
+    warn_all(path, found)
+    return scene
+
+
 def load_file(path, /, *, size=None, lenient=None, sensor=None, **defines) -> _core.Scene:
     """Load a Mitsuba XML scene.
 
@@ -114,5 +139,5 @@ def as_scene(scene, sensor=None) -> _core.Scene:
     if isinstance(scene, dict):
         return load_dict(scene, sensor=sensor)
     if isinstance(scene, str | os.PathLike):
-        return load_file(scene, sensor=sensor)
+        return load(scene, sensor=sensor)
     raise _core.UsageError(f"{scene!r} is not a scene, a dict, or the path of a file")

@@ -1,0 +1,28 @@
+"""How pictures are shown: the flags of the commands that write them."""
+
+from __future__ import annotations
+
+from ..pictures.tonemapping import CURVES, check_tonemap
+from .common import FLAGS, Parser, add_flag, reader
+
+TONEMAP_HELP = f"tone curve of pictures (PNG, JPEG): {', '.join(CURVES)} (srgb: clip at 1)"
+
+
+def add_tonemap(command: Parser) -> None:
+    command.add_argument(
+        "--tonemap",
+        metavar="CURVE",
+        default="srgb",
+        type=reader(check_tonemap),
+        help=TONEMAP_HELP,
+    )
+
+
+def add_display_flags(command: Parser) -> None:
+    add_flag(command, FLAGS["exposure"])
+    add_tonemap(command)
+
+
+def exposure(args) -> float:
+    """In stops."""
+    return args.exposure or 0

@@ -1,0 +1,87 @@
+"""Which reader a file needs, and scenes of other programs as scenes of ours."""
+
+from __future__ import annotations
+
+import atexit
+import os
+import warnings
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from .. import _core
+
+if TYPE_CHECKING:
+    from .imported import Imported
+
+EXTENSIONS = (".gltf", ".glb", ".pbrt")
+
+
+def is_foreign(path: str | os.PathLike[str]) -> bool:
+    """Whether a file of this name is a scene of another program."""
+    return os.fspath(path).lower().endswith(EXTENSIONS)
+
+
+def read_foreign(path: str | os.PathLike[str], folder: Path, stem: str) -> Imported:
+    """A scene of another program; its meshes and images are written to a folder."""
+    from .imported import Imported
+
+    source = Path(os.fspath(path))
+    if not source.exists():
+        raise _core.FileError(f"{source}: there is no such file")
+    made = Imported(folder, stem)
+    if source.suffix.lower() == ".pbrt":
+        from .pbrt import read_pbrt
+
+        read_pbrt(source, made)
+    else:
+        from .gltf import read_gltf
+
+        read_gltf(source, made)
+    return made
+
+
+def load_foreign(
+    path: str | os.PathLike[str], size: tuple[int, int] | None = None, sensor: int | None = None
+) -> tuple[_core.Scene, list[str]]:
+    """The Scene of a file of another program, and what of it has no counterpart.
+
+    Its meshes and images lie in a temporary folder until this process ends.
+    """
+    import tempfile
+
+    folder = tempfile.TemporaryDirectory(prefix="pymlt-")
+    # Other processes of a cluster, and pickle, read the files again.
+    atexit.register(folder.cleanup)
+    made = read_foreign(path, Path(folder.name), "scene")
+    # A checkpoint knows the scene by this name.
+    name = os.path.abspath(path)
+    return _core.load_dict(made.scene, size, sensor, name, {}), made.warnings
+
+
+def convert(path: str | os.PathLike[str], output: str | os.PathLike[str]) -> list[str]:
+    """Write a scene of another program (.gltf, .glb, .pbrt) as Mitsuba XML.
+
+    Meshes (.ply) and images are written beside `output`, with names that begin as its own does.
+    Returns what has no counterpart, one line each. Raises FileError for files that cannot be read
+    or written, SceneError for what is wrong in them, UsageError for another extension or without
+    the extra that reading needs.
+    """
+    from .xml_writer import to_xml
+
+    target = Path(os.fspath(output))
+    if not is_foreign(path):
+        raise _core.UsageError(
+            f"{os.fspath(path)}: cannot be converted; valid are: {', '.join(EXTENSIONS)}"
+        )
+    if target.suffix.lower() != ".xml":
+        raise _core.UsageError(f"{target}: a scene is written as .xml")
+    _core.check_file_writable(str(target))
+    made = read_foreign(path, target.parent, target.stem)
+    target.write_text(to_xml(made.scene, target.parent), encoding="utf-8")
+    return made.warnings
+
+
+def warn_all(path: Any, texts: list[str]) -> None:
+    """As warnings of Python."""
+    for text in texts:
+        warnings.warn(f"{os.fspath(path)}: {text}", stacklevel=3)

@@ -1,0 +1,69 @@
+"""Cameras (glTF 2.0, sec. 3.10) and lights (KHR_lights_punctual): both look along -z, y is up."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+from ..imported import Imported, rgb
+from ..views import film
+
+if TYPE_CHECKING:
+    import numpy as np
+
+
+def sensor(camera: Any, to_world: np.ndarray) -> dict[str, Any]:
+    """A perspective or orthographic camera, with a film of its aspect ratio."""
+    import numpy as np
+
+    placed = looking(to_world)
+    if camera.type == "orthographic":
+        view = camera.orthographic
+        aspect = view.xmag / view.ymag
+        placed = placed @ np.diag([view.xmag, view.xmag, 1, 1])
+        return {"type": "orthographic", "to_world": placed, "film": film(aspect)}
+    view = camera.perspective
+    return {
+        "type": "perspective",
+        "fov": math.degrees(view.yfov),
+        "fov_axis": "y",
+        "to_world": placed,
+        "film": film(view.aspectRatio or 16 / 9),
+    }
+
+
+def light(given: dict[str, Any], to_world: np.ndarray, made: Imported) -> dict[str, Any]:
+    """A light without size. Lux and candela are taken as power per area and per solid angle."""
+    power = [given.get("intensity", 1) * c for c in given.get("color", (1, 1, 1))]
+    if given.get("range"):
+        made.warn("the range of lights is left out: they obey the inverse square")
+    placed = looking(to_world)
+    if given["type"] == "directional":
+        direction = placed[:3, 2].tolist()
+        return {"type": "directional", "irradiance": rgb(power), "direction": direction}
+    if given["type"] == "point":
+        position = placed[:3, 3].tolist()
+        return {"type": "point", "intensity": rgb(power), "position": position}
+    cone = given.get("spot", {})
+    made.warn("the edge of a spot light falls off linearly with the angle")
+    return {
+        "type": "spot",
+        "intensity": rgb(power),
+        "cutoff_angle": math.degrees(cone.get("outerConeAngle", math.pi / 4)),
+        "beam_width": math.degrees(cone.get("innerConeAngle", 0)),
+        "to_world": placed,
+    }
+
+
+def looking(to_world: np.ndarray) -> np.ndarray:
+    """Where something that looks along its -z is, as a frame without scale that looks along +z."""
+    import numpy as np
+
+    placed = np.eye(4)
+    forward, up = -to_world[:3, 2], to_world[:3, 1]
+    placed[:3, 2] = forward / np.linalg.norm(forward)
+    left = np.cross(up, placed[:3, 2])
+    placed[:3, 0] = left / np.linalg.norm(left)
+    placed[:3, 1] = np.cross(placed[:3, 2], placed[:3, 0])
+    placed[:3, 3] = to_world[:3, 3]
+    return placed

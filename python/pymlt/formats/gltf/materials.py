@@ -1,0 +1,88 @@
+"""Materials of glTF as `principled`, which has the same microfacets (glTF 2.0, appendix B).
+
+Roughness is the root of alpha in both; a dielectric has the index 1.5, hence `eta`.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ..imported import Imported, rgb
+from .textures import Textures
+
+KNOWN = {
+    "KHR_materials_clearcoat",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",
+    "KHR_materials_transmission",
+}
+
+
+def bsdf(material: Any, textures: Textures, made: Imported) -> dict[str, Any]:
+    """The BSDF of a material."""
+    extensions = material.extensions or {}
+    for name in sorted(set(extensions) - KNOWN):
+        made.warn(f"{name} is left out")
+    if material.occlusionTexture is not None:
+        made.warn("occlusion textures are left out: what they stand for is rendered")
+    surface = principled(material, extensions, textures)
+    transmits = "spec_trans" in surface
+    if material.normalTexture is not None:
+        if (material.normalTexture.scale or 1) != 1:
+            made.warn("the scale of normal textures is left out")
+        normals = textures.raw(material.normalTexture)
+        surface = {"type": "normalmap", "normalmap": normals, "bsdf": surface}
+    if not transmits:
+        surface = {"type": "twosided", "bsdf": surface}
+    return masked(surface, material, textures)
+
+
+def principled(material: Any, extensions: dict[str, Any], textures: Textures) -> dict[str, Any]:
+    """Metal, roughness, transmission and clear coat."""
+    pbr = material.pbrMetallicRoughness
+    given: dict[str, Any] = {"type": "principled", "eta": 1.5}
+    if ior := extensions.get("KHR_materials_ior"):
+        given["eta"] = max(float(ior.get("ior", 1.5)), 1.001)
+    packed = pbr.metallicRoughnessTexture if pbr else None
+    factor = list(pbr.baseColorFactor or [1, 1, 1, 1]) if pbr else [1, 1, 1, 1]
+    given["base_color"] = textures.colour(pbr.baseColorTexture if pbr else None, factor)
+    given["roughness"] = textures.channel(packed, 1, _number(pbr, "roughnessFactor"))
+    given["metallic"] = textures.channel(packed, 2, _number(pbr, "metallicFactor"))
+    if transmission := extensions.get("KHR_materials_transmission", {}).get("transmissionFactor"):
+        given["spec_trans"] = float(transmission)
+    if coat := extensions.get("KHR_materials_clearcoat", {}).get("clearcoatFactor"):
+        given["clearcoat"] = float(coat)
+        roughness = extensions["KHR_materials_clearcoat"].get("clearcoatRoughnessFactor", 0)
+        given["clearcoat_gloss"] = 1 - float(roughness)
+    return given
+
+
+def masked(surface: dict[str, Any], material: Any, textures: Textures) -> dict[str, Any]:
+    """With the transparency of its alpha."""
+    if (material.alphaMode or "OPAQUE") == "OPAQUE":
+        return surface
+    pbr = material.pbrMetallicRoughness
+    factor = (pbr.baseColorFactor or [1, 1, 1, 1])[3] if pbr else 1
+    cutoff = None
+    if material.alphaMode == "MASK":
+        cutoff = 0.5 if material.alphaCutoff is None else material.alphaCutoff
+    opacity = textures.opacity(pbr.baseColorTexture if pbr else None, factor, cutoff)
+    return {"type": "mask", "opacity": opacity, "bsdf": surface}
+
+
+def emission(material: Any, textures: Textures) -> dict[str, Any] | None:
+    """The area light of a material that glows; its factor in nits is taken as radiance."""
+    factor = list(material.emissiveFactor or [0, 0, 0])
+    extension = (material.extensions or {}).get("KHR_materials_emissive_strength", {})
+    strength = extension.get("emissiveStrength", 1)
+    if not any(factor) or not strength:
+        return None
+    radiance = [strength * value for value in factor]
+    if material.emissiveTexture is None:
+        return {"type": "area", "radiance": rgb(radiance)}
+    return {"type": "area", "radiance": textures.colour(material.emissiveTexture, radiance)}
+
+
+def _number(pbr: Any, name: str) -> float:
+    value = getattr(pbr, name, None)
+    return 1.0 if value is None else float(value)

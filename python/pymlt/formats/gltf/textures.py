@@ -1,0 +1,108 @@
+"""Textures of glTF as bitmaps; channels that glTF packs into one image become images of their own.
+
+Row 0 of an image is at v = 0 in glTF and in `bitmap` alike (glTF 2.0, sec. 3.8.3).
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ...images import read_image
+from ..imported import Imported, rgb
+from .buffers import Buffers
+
+if TYPE_CHECKING:
+    import numpy as np
+
+WRAP = {33071: "clamp", 33648: "mirror", 10497: "repeat"}
+NEAREST = 9728
+SUFFIXES = {b"\x89PNG": ".png", b"\xff\xd8\xff\xe0": ".jpg"}
+
+
+class Textures:
+    """The textures of a file, each image written once."""
+
+    def __init__(self, buffers: Buffers, made: Imported):
+        self._gltf = buffers.gltf
+        self._buffers = buffers
+        self._made = made
+        self._files: dict[int, Path] = {}
+
+    def colour(self, info: Any, factor: list[float]) -> dict[str, Any]:
+        """A colour texture (sRGB-encoded) times a factor, or the factor alone."""
+        if info is None:
+            return rgb(factor[:3])
+        bitmap = self._bitmap(info, self._file(info))
+        if factor[:3] == [1, 1, 1]:
+            return bitmap
+        return {"type": "scale", "scale": rgb(factor[:3]), "texture": bitmap}
+
+    def raw(self, info: Any) -> dict[str, Any]:
+        """A texture of numbers, such as normals."""
+        return self._bitmap(info, self._file(info)) | {"raw": True}
+
+    def channel(self, info: Any, channel: int, factor: float) -> float | dict[str, Any]:
+        """One channel of a texture of numbers times a factor, or the factor alone."""
+        if info is None:
+            return factor
+        encoded = self._file(info)
+        path = encoded.with_name(f"{encoded.stem}-{'rgba'[channel]}-{factor:g}.exr")
+        if not path.exists():
+            self._write(path, factor * stored_samples(encoded)[..., channel])
+        return self._bitmap(info, path) | {"raw": True}
+
+    def opacity(self, info: Any, factor: float, cutoff: float | None) -> float | dict[str, Any]:
+        """Alpha times a factor; with a cutoff it is 0 or 1."""
+        alpha: Any = factor
+        if info is not None and (samples := stored_samples(self._file(info))).shape[2] in (2, 4):
+            alpha = factor * samples[..., -1]
+        if cutoff is not None:
+            alpha = (alpha >= cutoff) * 1.0
+        if not hasattr(alpha, "shape"):
+            return float(alpha)
+        encoded = self._file(info)
+        path = encoded.with_name(f"{encoded.stem}-alpha-{factor:g}-{cutoff}.exr")
+        self._write(path, alpha)
+        return self._bitmap(info, path) | {"raw": True}
+
+    def _write(self, path: Path, samples: np.ndarray) -> None:
+        from ...images import write_image
+
+        write_image(path, samples)
+
+    def _file(self, info: Any) -> Path:
+        index = self._gltf.textures[info.index].source
+        if index not in self._files:
+            content = self._buffers.image(index)
+            suffix = SUFFIXES.get(content[:4], ".jpg" if content[:2] == b"\xff\xd8" else ".img")
+            path = self._made.file(f"image-{index}{suffix}")
+            path.write_bytes(content)
+            self._files[index] = path
+        return self._files[index]
+
+    def _bitmap(self, info: Any, path: Path) -> dict[str, Any]:
+        if info.texCoord:
+            self._made.warn("second texture coordinates are left out; the first are taken")
+        if "KHR_texture_transform" in (info.extensions or {}):
+            self._made.warn("KHR_texture_transform is left out")
+        bitmap: dict[str, Any] = {"type": "bitmap", "filename": str(path)}
+        index = self._gltf.textures[info.index].sampler
+        if index is not None:
+            sampler = self._gltf.samplers[index]
+            for axis, wrap in (("u", sampler.wrapS), ("v", sampler.wrapT)):
+                if WRAP.get(wrap, "repeat") != "repeat":
+                    bitmap[f"wrap_mode_{axis}"] = WRAP[wrap]
+            if sampler.magFilter == NEAREST:
+                bitmap["filter_type"] = "nearest"
+        return bitmap
+
+
+def stored_samples(path: Path) -> np.ndarray:
+    """The samples of an integer format as they are stored, 0 to 1: (height, width, channels)."""
+    import numpy as np
+
+    from ...pictures.tonemapping import encode_srgb, split_alpha
+
+    colours, alpha = split_alpha(read_image(path))
+    return np.concatenate([encode_srgb(colours), alpha], axis=2)

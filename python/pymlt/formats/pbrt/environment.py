@@ -1,0 +1,78 @@
+"""Environment maps: pbrt-v4 has octahedral ones, we have latitude and longitude."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ...images import read_image, write_image
+from .params import Params
+
+if TYPE_CHECKING:
+    import numpy as np
+
+
+def environment(params: Params, path: Path, to_world: np.ndarray, scale: float) -> dict[str, Any]:
+    """An `envmap` of the same light, with as many rows as the octahedral map has."""
+    import numpy as np
+
+    given = read_image(path)[..., :3]
+    if given.shape[0] != given.shape[1]:
+        raise params.where.error(f"{path.name}: an environment map of pbrt-v4 is square")
+    rows = given.shape[0]
+    found = sampled(given, square_of(directions(rows)))
+    target = params.made.file(params.made.name(f"{path.stem}-latlong") + ".exr")
+    write_image(target, found.astype(np.float32))
+    # The y axis of our maps, up, is the z axis of theirs.
+    turn = np.array([[1.0, 0, 0, 0], [0, 0, -1, 0], [0, 1, 0, 0], [0, 0, 0, 1]])
+    return {
+        "type": "envmap",
+        "filename": str(target),
+        "scale": scale,
+        "to_world": to_world @ turn,
+    }
+
+
+def directions(rows: int) -> np.ndarray:
+    """The directions of our pixels in pbrt's light space, (rows, 2 rows, 3).
+
+    Ours: phi = 2 pi u, direction (sin phi sin theta, cos theta, -cos phi sin theta) with y up.
+    """
+    import numpy as np
+
+    theta = np.pi * (np.arange(rows) + 0.5)[:, None] / rows
+    phi = np.pi * (np.arange(2 * rows) + 0.5)[None, :] / rows
+    y = np.broadcast_to(np.cos(theta), (rows, 2 * rows))
+    x, z = np.sin(phi) * np.sin(theta), -np.cos(phi) * np.sin(theta)
+    return np.stack([x, -z, y], axis=-1)
+
+
+def square_of(d: np.ndarray) -> np.ndarray:
+    """EqualAreaSphereToSquare of pbrt-v4, after Clarberg 2008: (..., 3) to (..., 2) in [0, 1]."""
+    import numpy as np
+
+    x, y, z = abs(np.moveaxis(d, -1, 0))
+    r = np.sqrt(np.maximum(0, 1 - z))
+    v = r * np.arctan2(np.minimum(x, y), np.maximum(x, y)) * 2 / np.pi
+    v = np.where(x < y, r - v, v)
+    u = r - v
+    below = d[..., 2] < 0
+    u, v = np.where(below, 1 - v, u), np.where(below, 1 - u, v)
+    u, v = np.copysign(u, d[..., 0]), np.copysign(v, d[..., 1])
+    return np.stack([(u + 1) / 2, (v + 1) / 2], axis=-1)
+
+
+def sampled(image: np.ndarray, at: np.ndarray) -> np.ndarray:
+    """Between the nearest four pixels; beyond the border the nearest one."""
+    import numpy as np
+
+    place = at * image.shape[0] - 0.5
+    low = np.floor(place).astype(int)
+    part = place - low
+    x0, y0 = np.moveaxis(low.clip(0, image.shape[0] - 1), -1, 0)
+    x1, y1 = np.moveaxis((low + 1).clip(0, image.shape[0] - 1), -1, 0)
+    fx, fy = part[..., :1], part[..., 1:]
+    above = image[y0, x0] * (1 - fx) + image[y0, x1] * fx
+    under = image[y1, x0] * (1 - fx) + image[y1, x1] * fx
+    between: np.ndarray = above * (1 - fy) + under * fy
+    return between

@@ -1,0 +1,67 @@
+"""Lights of pbrt-v4 (Pharr, Jakob & Humphreys 2023, ch. 12)."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from .params import Params
+from .spectra import scaled
+
+if TYPE_CHECKING:
+    import numpy as np
+
+
+def light(params: Params, folder: Path, to_world: np.ndarray) -> dict[str, Any] | None:
+    """A light that is no shape; None, with a warning, for those without a counterpart."""
+    import numpy as np
+
+    scale = params.number("scale", 1)
+    if params.type == "infinite":
+        if filename := params.text("filename"):
+            from .environment import environment
+
+            return environment(params, folder / filename, to_world, scale)
+        return {"type": "constant", "radiance": scaled(params.colour("L", 1.0), scale)}
+    start, end = (_point(params, n, d) for n, d in (("from", (0, 0, 0)), ("to", (0, 0, 1))))
+    placed = to_world[:3, :3] @ start + to_world[:3, 3]
+    axis = to_world[:3, :3] @ (end - start)
+    if params.type == "distant":
+        power = scaled(params.colour("L", 1.0), scale)
+        return {"type": "directional", "irradiance": power, "direction": axis.tolist()}
+    power = scaled(params.colour("I", 1.0), scale)
+    if params.type == "point":
+        return {"type": "point", "intensity": power, "position": placed.tolist()}
+    if params.type == "spot":
+        from ...scenes.transforms import Transform
+
+        params.made.warn("the edge of a spot light falls off linearly with the angle")
+        cone = params.number("coneangle", 30)
+        up = np.eye(3)[np.argmin(abs(axis))]
+        return {
+            "type": "spot",
+            "intensity": power,
+            "cutoff_angle": cone,
+            "beam_width": max(0.0, cone - params.number("conedeltaangle", 5)),
+            "to_world": Transform.look_at(placed, placed + axis, up).matrix,
+        }
+    params.made.warn(f"the light {params.type!r} has no counterpart")
+    return None
+
+
+def area(params: Params) -> dict[str, Any]:
+    """The light of the shapes that follow."""
+    if params.flag("twosided"):
+        params.made.warn("lights that shine on both sides shine on their outside only")
+    if params.type != "diffuse":
+        params.made.warn(f"the area light {params.type!r} is taken as 'diffuse'")
+    radiance = scaled(params.colour("L", 1.0), params.number("scale", 1))
+    params.finish()
+    return {"type": "area", "radiance": radiance}
+
+
+def _point(params: Params, name: str, default: tuple[float, ...]) -> np.ndarray:
+    import numpy as np
+
+    found = params.array(name, 3)
+    return np.array(default, dtype=float) if found is None else found[0]

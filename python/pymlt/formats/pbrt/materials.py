@@ -1,0 +1,131 @@
+"""Materials of pbrt-v4 as BSDFs (Pharr, Jakob & Humphreys 2023, ch. 9 and 10)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+from .params import Params
+from .textures import Textures
+
+Named = dict[str, dict[str, Any]]
+
+
+def bsdf(params: Params, textures: Textures, named: Named) -> dict[str, Any]:
+    """The BSDF of a material; what is not known becomes diffuse, with a warning."""
+    if params.type in ("", "interface", "none"):
+        return {"type": "null"}
+    if params.type == "mix":
+        return mix(params, textures, named)
+    make = MATERIALS.get(params.type)
+    if make is None:
+        params.made.warn(f"the material {params.type!r} has no counterpart; it becomes diffuse")
+        make = diffuse
+    surface = make(params, textures)
+    if image := params.text("normalmap"):
+        normals = textures.bitmap(image) | {"raw": True}
+        surface = {"type": "normalmap", "normalmap": normals, "bsdf": surface}
+    params.finish(ignored=("thickness", "maxdepth", "nsamples"))
+    if params.type in ("dielectric", "thindielectric"):
+        return surface
+    return {"type": "twosided", "bsdf": surface}
+
+
+def diffuse(params: Params, textures: Textures) -> dict[str, Any]:
+    return {"type": "diffuse", "reflectance": textures.colour(params, "reflectance", 0.5)}
+
+
+def coated_diffuse(params: Params, textures: Textures) -> dict[str, Any]:
+    """The analytic model of (rough)plastic in place of a random walk between the layers."""
+    surface = rough(params, textures, "plastic", 0.0)
+    surface["diffuse_reflectance"] = textures.colour(params, "reflectance", 0.5)
+    return surface | {"int_ior": index(params, 1.5), "nonlinear": True}
+
+
+def conductor(params: Params, textures: Textures, prefix: str = "") -> dict[str, Any]:
+    surface = rough(params, textures, "conductor", 0.0, prefix)
+    if params.get("reflectance"):
+        return surface | {"specular_reflectance": textures.colour(params, "reflectance", 1.0)}
+    given = params.get(f"{prefix}eta")
+    params.get(f"{prefix}k")
+    name = given.values[0] if given else "metal-Cu-eta"
+    if isinstance(name, str):
+        return surface | {"material": name.split("-")[1] if name.startswith("metal-") else name}
+    eta, k = (params.colour(f"{prefix}{part}", 1.0) for part in ("eta", "k"))
+    return surface | {"eta": eta, "k": k}
+
+
+def coated_conductor(params: Params, textures: Textures) -> dict[str, Any]:
+    if params.number("interface.roughness", 0):
+        params.made.warn("the roughness of coatings of conductors is left out")
+    metal = conductor(params, textures, "conductor.")
+    given = params.get("interface.eta")
+    eta = given.values[0] if given and isinstance(given.values[0], float) else 1.5
+    return {"type": "coating", "int_ior": eta, "bsdf": metal}
+
+
+def dielectric(params: Params, textures: Textures) -> dict[str, Any]:
+    return rough(params, textures, "dielectric", 0.0) | {"int_ior": index(params, 1.5)}
+
+
+def thin_dielectric(params: Params, textures: Textures) -> dict[str, Any]:
+    return {"type": "thindielectric", "int_ior": index(params, 1.5)}
+
+
+def mix(params: Params, textures: Textures, named: Named) -> dict[str, Any]:
+    """`amount` is the share of the second material."""
+    given = params.get("materials")
+    names = given.values if given else []
+    if len(names) != 2 or any(name not in named for name in names):
+        raise params.where.error("a mix needs the names of two materials that stand above it")
+    parts = [named[name] for name in names]
+    two_sided = all(part["type"] == "twosided" for part in parts)
+    inner = {f"bsdf_{i}": part["bsdf"] if two_sided else part for i, part in enumerate(parts)}
+    weight = textures.number(params, "amount", 0.5)
+    blend = {"type": "blendbsdf", "weight": weight} | inner
+    return {"type": "twosided", "bsdf": blend} if two_sided else blend
+
+
+def rough(
+    params: Params, textures: Textures, plugin: str, default: float, prefix: str = ""
+) -> dict[str, Any]:
+    """The smooth or the rough plug-in, with GGX; alpha is the root of a roughness that is remapped
+    (pbrt-v4, TrowbridgeReitzDistribution::RoughnessToAlpha)."""
+    remap = params.flag("remaproughness", True)
+    both = textures.number(params, f"{prefix}roughness", default)
+    found = [textures.number(params, f"{prefix}{axis}roughness", both) for axis in "uv"]
+    if remap and any(isinstance(value, dict) for value in found):
+        params.made.warn("textures of roughness are taken as alpha, not remapped")
+    alphas = [math.sqrt(v) if remap and isinstance(v, float) and v > 0 else v for v in found]
+    if all(alpha == 0 for alpha in alphas):
+        return {"type": plugin}
+    surface = {"type": f"rough{plugin}", "distribution": "ggx"}
+    if alphas[0] == alphas[1]:
+        return surface | {"alpha": alphas[0]}
+    if plugin == "plastic":
+        params.made.warn("anisotropic coatings are left out")
+        return surface | {"alpha": alphas[0]}
+    return surface | {"alpha_u": alphas[0], "alpha_v": alphas[1]}
+
+
+def index(params: Params, default: float) -> float:
+    """Of refraction."""
+    found = params.colour("eta", default)
+    if isinstance(found, dict):
+        params.made.warn("dispersion is left out: one index of refraction for all wavelengths")
+        values = found["value"]
+        found = values[len(values) // 2]
+        found = found[1] if isinstance(found, tuple) else found
+    return float(found)
+
+
+MATERIALS: dict[str, Callable[[Params, Textures], dict[str, Any]]]
+MATERIALS = {
+    "coatedconductor": coated_conductor,
+    "coateddiffuse": coated_diffuse,
+    "conductor": conductor,
+    "dielectric": dielectric,
+    "diffuse": diffuse,
+    "thindielectric": thin_dielectric,
+}

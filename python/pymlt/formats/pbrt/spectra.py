@@ -1,0 +1,67 @@
+"""Colours and spectra of pbrt as those of a scene dict."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from ..imported import Imported, rgb
+from .tokens import Parameter, Token
+
+GLASSES = {"glass-BK7": 1.5046, "glass-BAF10": 1.67, "glass-F11": 1.62066, "glass-SF11": 1.7847}
+GLASSES |= {"glass-FK51A": 1.48656, "glass-LASF9": 1.8502, "glass-SF5": 1.67270}
+WAVELENGTHS = range(360, 831, 5)  #: nm
+
+
+def colour(given: Parameter, where: Token, made: Imported) -> Any:
+    """The value of a parameter of type rgb, spectrum, float or blackbody."""
+    if given.kind == "rgb":
+        return rgb(given.values)
+    if given.kind == "float":
+        return given.values[0]
+    if given.kind == "blackbody":
+        return blackbody(given.values[0])
+    if isinstance(given.values[0], float):
+        pairs = list(zip(given.values[::2], given.values[1::2], strict=True))
+        return {"type": "spectrum", "value": pairs}
+    name = given.values[0]
+    if name.startswith("stdillum"):
+        return 1.0
+    if name in GLASSES:
+        return GLASSES[name]
+    made.warn(f"the spectrum {name!r} is not known; it is taken as 1")
+    return 1.0
+
+
+def scaled(value: Any, factor: float) -> Any:
+    """A colour times a number."""
+    if not isinstance(value, dict):
+        return value * factor
+    if value["type"] == "rgb":
+        return rgb([factor * v for v in value["value"]])
+    return value | {"value": [(wave, factor * v) for wave, v in value["value"]]}
+
+
+def blackbody(kelvin: float) -> dict[str, Any]:
+    """Planck's spectrum with the luminance of an even spectrum of 1, as pbrt-v4 has it."""
+    values = [planck(wave, kelvin) for wave in WAVELENGTHS]
+    weights = [luminous(wave) for wave in WAVELENGTHS]
+    mean = sum(v * w for v, w in zip(values, weights, strict=True)) / sum(weights)
+    pairs = [(float(wave), v / mean) for wave, v in zip(WAVELENGTHS, values, strict=True)]
+    return {"type": "spectrum", "value": pairs}
+
+
+def planck(nanometres: float, kelvin: float) -> float:
+    """Up to a factor."""
+    wave = nanometres * 1e-9
+    return (500 / nanometres) ** 5 / math.expm1(0.014387769 / (wave * kelvin))
+
+
+def luminous(nanometres: float) -> float:
+    """The CIE 1931 function y, by the fit of Wyman, Sloan & Shirley 2013, eq. 4."""
+
+    def lobe(height: float, centre: float, below: float, above: float) -> float:
+        width = below if nanometres < centre else above
+        return height * math.exp(-0.5 * ((nanometres - centre) / width) ** 2)
+
+    return lobe(0.821, 568.8, 46.9, 40.5) + lobe(0.286, 530.9, 16.3, 31.1)

@@ -1,0 +1,73 @@
+"""The graphics state of a pbrt file: what AttributeBegin saves and AttributeEnd restores."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+from .tokens import Token, Words
+
+if TYPE_CHECKING:
+    import numpy as np
+
+TRANSFORMS = {
+    "ConcatTransform": 16,
+    "Identity": 0,
+    "LookAt": 9,
+    "Rotate": 4,
+    "Scale": 3,
+    "Transform": 16,
+    "Translate": 3,
+}
+
+
+@dataclass
+class State:
+    """What directives change for those that follow."""
+
+    matrix: np.ndarray  #: object space (or world space, before WorldBegin) to the outer space
+    material: dict[str, Any] | None = None  #: as the scene refers to it
+    area_light: dict[str, Any] | None = None
+    reversed: bool = False
+
+    def copy(self) -> State:
+        return replace(self, matrix=self.matrix.copy())
+
+    def transform(self, directive: Token, words: Words) -> None:
+        """Applies one of TRANSFORMS; the numbers of a matrix stand column by column."""
+        import numpy as np
+
+        from ...scenes.transforms import Transform
+
+        given = words.numbers(TRANSFORMS[directive.text], directive)
+        match directive.text:
+            case "Identity":
+                self.matrix = np.eye(4)
+            case "Transform":
+                self.matrix = np.array(given).reshape(4, 4).T
+            case "ConcatTransform":
+                self.matrix = self.matrix @ np.array(given).reshape(4, 4).T
+            case "Translate":
+                self.matrix = self.matrix @ Transform.translate(given).matrix
+            case "Scale":
+                self.matrix = self.matrix @ Transform.scale(given).matrix
+            case "Rotate":
+                self.matrix = self.matrix @ Transform.rotate(given[1:], given[0]).matrix
+            case "LookAt":
+                self.matrix = self.matrix @ look_at(given, directive)
+
+
+def look_at(numbers: list[float], where: Token) -> np.ndarray:
+    """World space to that of a camera whose x axis points to the right (pbrt-v4, LookAt)."""
+    import numpy as np
+
+    eye, target, up = np.array(numbers).reshape(3, 3)
+    forward = target - eye
+    right = np.cross(up, forward)
+    if not np.any(right):
+        raise where.error("LookAt: 'up' is parallel to the direction of view")
+    forward, right = forward / np.linalg.norm(forward), right / np.linalg.norm(right)
+    world_from_camera = np.eye(4)
+    columns = [right, np.cross(forward, right), forward, eye]
+    world_from_camera[:3] = np.stack(columns, axis=1)
+    return np.linalg.inv(world_from_camera)

@@ -1,0 +1,112 @@
+"""Textures of pbrt-v4, by name. Its images have row 0 at v = 1, ours at v = 0."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from .params import Params
+
+WRAP = {"repeat": "repeat", "black": "black", "clamp": "clamp", "octahedralsphere": "clamp"}
+Value = float | dict[str, Any]
+
+
+class Textures:
+    """What has been declared, and what parameters refer to."""
+
+    def __init__(self, folder: Path):
+        self._folder = folder
+        self._known: dict[str, Value] = {}
+
+    def declare(self, name: str, kind: str, params: Params) -> None:
+        """Texture "name" "spectrum" "imagemap" ..."""
+        value: Value
+        if params.type == "constant":
+            value = params.colour("value", 1.0)
+        elif params.type == "imagemap":
+            value = self._image(params, kind)
+        elif params.type == "scale":
+            value = self._scale(params)
+        elif params.type == "checkerboard":
+            value = self._checkerboard(params)
+        else:
+            params.made.warn(f"the texture {params.type!r} has no counterpart; it becomes 0.5")
+            self._known[name] = 0.5
+            return
+        params.finish(ignored=("mapping", "filter", "maxanisotropy"))
+        self._known[name] = value
+
+    def colour(self, params: Params, name: str, default: float) -> Value:
+        """A colour, a spectrum or a texture, for a scene dict."""
+        given = params.get(name)
+        if given is not None and given.kind == "texture":
+            return self._find(given.values[0], params)
+        value: Value = params.colour(name, default)
+        return value
+
+    def number(self, params: Params, name: str, default: Value) -> Value:
+        """A number or a texture."""
+        given = params.get(name)
+        if given is not None and given.kind == "texture":
+            return self._find(given.values[0], params)
+        return default if given is None else float(given.values[0])
+
+    def bitmap(self, filename: str) -> dict[str, Any]:
+        """An image of a file."""
+        path = str((self._folder / filename).resolve())
+        return {"type": "bitmap", "filename": path, "vscale": -1.0, "voffset": 1.0}
+
+    def _find(self, name: str, params: Params) -> Value:
+        if name not in self._known:
+            raise params.where.error(f"there is no texture {name!r} above this line")
+        return self._known[name]
+
+    def _image(self, params: Params, kind: str) -> Value:
+        bitmap = self.bitmap(params.text("filename")) | placement(params, 1.0)
+        bitmap["voffset"], bitmap["vscale"] = 1 - bitmap["voffset"], -bitmap["vscale"]
+        bitmap["wrap_mode"] = WRAP.get(params.text("wrap", "repeat"), "repeat")
+        encoding = params.text("encoding", "")
+        if encoding.startswith("gamma"):
+            bitmap["gamma"] = float(encoding.split()[1])
+        elif encoding == "linear":
+            bitmap["raw"] = True
+        if params.flag("invert"):
+            params.made.warn("'invert' of image textures is left out")
+        return multiplied(bitmap, params.number("scale", 1.0))
+
+    def _scale(self, params: Params) -> Value:
+        inner, factor = (self.colour(params, name, 1.0) for name in ("tex", "scale"))
+        if isinstance(factor, dict) and factor["type"] not in ("rgb", "spectrum"):
+            inner, factor = factor, inner
+        if isinstance(factor, dict) and factor["type"] not in ("rgb", "spectrum"):
+            params.made.warn("a product of two textures is left out; the first is taken")
+            return inner
+        return multiplied(inner, factor)
+
+    def _checkerboard(self, params: Params) -> Value:
+        """A period of two squares, where ours has one."""
+        if params.number("dimension", 2) != 2:
+            params.made.warn("checkerboards in space are left out; they follow u and v")
+        colours = {f"color{i}": self.colour(params, f"tex{i + 1}", 1.0 - i) for i in range(2)}
+        return {"type": "checkerboard"} | colours | placement(params, 0.5)
+
+
+def placement(params: Params, factor: float) -> dict[str, float]:
+    """uscale, vscale, udelta and vdelta of the mapping "uv"."""
+    if params.text("mapping", "uv") != "uv":
+        params.made.warn(f"the mapping {params.text('mapping')!r} is left out")
+    return {
+        "uscale": factor * params.number("uscale", 1),
+        "vscale": factor * params.number("vscale", 1),
+        "uoffset": factor * params.number("udelta", 0),
+        "voffset": factor * params.number("vdelta", 0),
+    }
+
+
+def multiplied(inner: Value, factor: Any) -> Value:
+    """A texture times a factor."""
+    if factor == 1:
+        return inner
+    if isinstance(inner, float) and isinstance(factor, float):
+        return inner * factor
+    return {"type": "scale", "scale": factor, "texture": inner}

@@ -1,0 +1,75 @@
+"""The camera, film, filter, sampler and integrator of a pbrt-v4 file."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from .params import Params
+
+if TYPE_CHECKING:
+    import numpy as np
+
+INTEGRATORS = {
+    "bdpt": "bdpt",
+    "lightpath": "ptracer",
+    "mlt": "pssmlt",
+    "path": "path",
+    "simplepath": "path",
+    "volpath": "path",
+}
+
+
+def camera(params: Params, camera_from_world: np.ndarray) -> dict[str, Any]:
+    """Its x axis points to the right, ours to the left."""
+    import numpy as np
+
+    to_world = np.linalg.inv(camera_from_world) @ np.diag([-1.0, 1, 1, 1])
+    if params.type == "orthographic":
+        window = params.array("screenwindow", 4)
+        width = 1.0 if window is None else (window[0, 1] - window[0, 0]) / 2
+        return {"type": "orthographic", "to_world": to_world @ np.diag([width, width, 1, 1])}
+    if params.type != "perspective":
+        params.made.warn(f"the camera {params.type!r} is taken as 'perspective'")
+    view = {
+        "type": "perspective",
+        "fov": params.number("fov", 90),
+        "fov_axis": "smaller",
+        "to_world": to_world,
+    }
+    if radius := params.number("lensradius", 0):
+        distance = params.number("focaldistance", 1e6)
+        view |= {"type": "thinlens", "aperture_radius": radius, "focus_distance": distance}
+    params.finish(ignored=("shutteropen", "shutterclose"))
+    return view
+
+
+def film(params: Params) -> dict[str, Any]:
+    size = {
+        "width": int(params.number("xresolution", 1280)),
+        "height": int(params.number("yresolution", 720)),
+    }
+    params.finish(ignored=("filename", "diagonal", "savefp16"))
+    return {"type": "hdrfilm"} | size
+
+
+def rfilter(params: Params) -> dict[str, Any]:
+    names = {"box": "box", "gaussian": "gaussian", "mitchell": "mitchell", "triangle": "tent"}
+    if params.type == "gaussian":
+        return {"type": "gaussian", "stddev": params.number("sigma", 0.5)}
+    if params.type == "sinc":
+        return {"type": "lanczos", "lobes": int(params.number("tau", 3))}
+    return {"type": names.get(params.type, "gaussian")}
+
+
+def sampler(params: Params) -> dict[str, Any]:
+    samples = params.number("pixelsamples", 16)
+    return {"type": "independent", "sample_count": int(samples)}
+
+
+def integrator(params: Params) -> dict[str, Any] | None:
+    """pbrt counts bounces, we count edges: one more."""
+    name = INTEGRATORS.get(params.type)
+    if name is None:
+        params.made.warn(f"the integrator {params.type!r} has no counterpart")
+        return None
+    return {"type": name, "max_depth": int(params.number("maxdepth", 5)) + 1}

@@ -1,0 +1,42 @@
+"""Meshes as PLY files: binary, little-endian, with the names of properties that `ply` reads."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
+
+from .. import _core
+
+if TYPE_CHECKING:
+    import numpy as np
+
+
+class Mesh(NamedTuple):
+    """Triangles."""
+
+    positions: np.ndarray  #: (vertices, 3)
+    triangles: np.ndarray  #: indices of vertices, (triangles, 3)
+    normals: np.ndarray | None = None  #: (vertices, 3)
+    uvs: np.ndarray | None = None  #: (vertices, 2)
+
+
+def write_ply(path: Path, mesh: Mesh) -> None:
+    """Raises FileError if the file cannot be written, SceneError for indices without a vertex."""
+    import numpy as np
+
+    columns = {"xyz": mesh.positions, ("nx", "ny", "nz"): mesh.normals, "uv": mesh.uvs}
+    present = {names: values for names, values in columns.items() if values is not None}
+    count = len(mesh.positions)
+    if mesh.triangles.size and not 0 <= mesh.triangles.min() <= mesh.triangles.max() < count:
+        raise _core.SceneError(f"{path.name}: a triangle has a vertex that does not exist")
+    header = ["ply", "format binary_little_endian 1.0", f"element vertex {count}"]
+    header += [f"property float {name}" for names in present for name in names]
+    header += [f"element face {len(mesh.triangles)}"]
+    header += ["property list uchar int vertex_indices", "end_header", ""]
+    faces = np.empty(len(mesh.triangles), np.dtype([("n", "u1"), ("v", "<i4", 3)]))
+    faces["n"], faces["v"] = 3, mesh.triangles
+    vertices = np.concatenate([np.asarray(v, "<f4") for v in present.values()], axis=1)
+    try:
+        path.write_bytes("\n".join(header).encode() + vertices.tobytes() + faces.tobytes())
+    except OSError as error:
+        raise _core.FileError(f"{path}: cannot write it: {error.strerror}") from None

@@ -1,0 +1,1 @@
+"""From linear light to what a display or another program shows: tone curves, files, denoising."""

@@ -1,0 +1,71 @@
+"""An image and what is known about it, as a file of any format."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from .. import _core
+from .jpeg import encode_jpeg, is_jpeg, replace_file
+from .tonemapping import check_tonemap, tonemap
+
+if TYPE_CHECKING:
+    import numpy as np
+
+EXTENSIONS = (".exr", ".png", ".jpg", ".jpeg", ".hdr")
+
+
+class OutputFile(NamedTuple):
+    """What is to be written, and where."""
+
+    path: str
+    image: np.ndarray  #: float32, (height, width) or (height, width, channels), linear
+    layers: dict[str, np.ndarray]  #: for .exr
+    metadata: dict[str, str]  #: for .exr
+    half: bool  #: for .exr
+    exposure: float  #: for pictures
+    curve: str  #: for pictures
+
+    def write(self) -> None:
+        """Raises FileError if it cannot be written, UsageError for what the format cannot hold."""
+        if is_jpeg(self.path):
+            replace_file(self.path, encode_jpeg(self.image, self.curve, self.exposure))
+        else:
+            _core.write_image(*self._arguments())
+
+    def save(self) -> tuple[str, str]:
+        """The same, elsewhere if that fails.
+
+        Returns where the file is, or ""; and why it is not at `path`, or "".
+        """
+        if is_jpeg(self.path):
+            content = encode_jpeg(self.image, self.curve, self.exposure)
+            return _core.save_text(self.path, content)
+        return _core.save_image(*self._arguments())
+
+    def _arguments(self) -> tuple[Any, ...]:
+        check_extension(self.path)
+        image, exposure = self.image, self.exposure
+        check_tonemap(self.curve)
+        if self.curve != "srgb" and self.path.lower().endswith(".png"):
+            # C++ brightens again, also the picture of the techniques beside it; powers of 2 are
+            # exact.
+            image = tonemap(image, self.curve, exposure=exposure) * 2.0**-exposure
+            image = image.astype("float32")
+        return self.path, image, self.layers, self.metadata, self.half, exposure
+
+
+def check_extension(path: str) -> None:
+    """Raises UsageError unless the name is that of an image that can be written."""
+    extension = os.path.splitext(path)[1]
+    if extension.lower() not in EXTENSIONS:
+        raise _core.UsageError(
+            f"{path}: cannot write an image with the extension '{extension}'; "
+            f"valid are: {', '.join(EXTENSIONS)}"
+        )
+
+
+def check_writable(path: str) -> None:
+    """Before the work: the UsageError or FileError that writing an image would end in."""
+    check_extension(path)
+    _core.check_file_writable(path)

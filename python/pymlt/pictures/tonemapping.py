@@ -1,0 +1,96 @@
+"""Tone curves: from radiance, which has no upper end, to the light of a display, which has."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from .. import _core
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import ArrayLike
+
+MAX_EXPOSURE = 128  #: stops, as for PNG files in C++
+
+
+def tonemap(image: ArrayLike, curve: str = "filmic", *, exposure: float = 0) -> np.ndarray:
+    """The light of a display that shows an image: linear, each sample from 0 to 1.
+
+    image
+        linear radiance of shape (height, width) or (height, width, channels); a second or fourth
+        channel is alpha and stays. NaN becomes 0.
+    curve
+        "srgb" clips at 1. "reinhard" is L / (1 + L) of the luminance L, which keeps hue and
+        saturation of what is not clipped (Reinhard et al. 2002, Photographic Tone Reproduction for
+        Digital Images, eq. 3). "filmic" is an S-shaped curve for each channel, which turns bright
+        colours white: the fit by Narkowicz (2016, ACES Filmic Tone Mapping Curve) to the reference
+        transform of the Academy Color Encoding System. It shows 0.18 as 0.27, 1 as 0.80.
+    exposure
+        stops by which the image is brightened before; -128 to 128.
+
+    Returns float32 of the same shape; `write_image(path, tonemap(image))` encodes it. Raises
+    UsageError for an unknown curve, another shape, or an exposure out of range.
+    """
+    import numpy as np
+
+    check_tonemap(curve)
+    if not abs(exposure) <= MAX_EXPOSURE:
+        raise _core.UsageError(f"exposure is {exposure}, but should lie between -128 and 128")
+    pixels = np.asarray(image, dtype=np.float64)
+    if pixels.ndim not in (2, 3):
+        raise _core.UsageError(
+            "an image should have the shape (height, width, channels) or (height, width)"
+        )
+    light, alpha = split_alpha(pixels if pixels.ndim == 3 else pixels[..., None])
+    largest = float(np.finfo(np.float32).max)
+    light = np.nan_to_num(light * 2.0**exposure, nan=0, posinf=largest).clip(0, largest)
+    shown = np.concatenate([CURVES[curve](light).clip(0, 1), alpha], axis=2)
+    return shown.reshape(pixels.shape).astype(np.float32)
+
+
+def check_tonemap(curve: str) -> str:
+    """The name of a curve. Raises UsageError if there is none of that name."""
+    if curve not in CURVES:
+        near = _core.suggestion(curve, list(CURVES))
+        raise _core.UsageError(f"unknown tone curve {curve!r}{near or f'; use {_names()}'}")
+    return curve
+
+
+def split_alpha(pixels: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The colours, and alpha (with no channels if there is none), of (height, width, channels)."""
+    colours = pixels.shape[2] - (pixels.shape[2] in (2, 4))
+    return pixels[..., :colours], pixels[..., colours:]
+
+
+def encode_srgb(linear: np.ndarray) -> np.ndarray:
+    """IEC 61966-2-1, from 0 to 1."""
+    import numpy as np
+
+    return np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
+
+
+def _srgb(light: np.ndarray) -> np.ndarray:
+    return light
+
+
+def _reinhard(light: np.ndarray) -> np.ndarray:
+    """Luminance: Rec. 709."""
+    import numpy as np
+
+    weights = np.array([0.2126, 0.7152, 0.0722] if light.shape[2] == 3 else [1.0])
+    shown: np.ndarray = light / (1 + (light @ weights)[..., None])
+    return shown
+
+
+def _filmic(light: np.ndarray) -> np.ndarray:
+    x = light.clip(0, 1e6)  # whose square is finite; the curve is flat long before
+    return x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14)
+
+
+CURVES: dict[str, Callable[[np.ndarray], np.ndarray]]
+CURVES = {"srgb": _srgb, "reinhard": _reinhard, "filmic": _filmic}
+
+
+def _names() -> str:
+    return ", ".join(CURVES)

@@ -1,0 +1,156 @@
+"""Denoising: what goes into the filter, what comes out, and what a file says about it."""
+
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+import tiny
+
+import pymlt as mlt
+from pymlt import cli
+
+pytest.importorskip("pyoidn", reason="needs pymlt[denoise]")
+
+
+def clean_image():
+    """Smooth, with one edge and a stripe that only the albedo knows."""
+    y, x = np.mgrid[0:64, 0:80] / 64
+    grey = np.where(x > 0.6, 0.2, 0.5 + 0.3 * y)
+    return np.repeat(grey[..., None], 3, axis=2).astype(np.float32)
+
+
+@pytest.fixture(scope="module")
+def noisy():
+    rng = np.random.default_rng(1)
+    clean = clean_image()
+    return (clean * rng.gamma(4, 0.25, clean.shape)).astype(np.float32)
+
+
+def rmse(a, b) -> float:
+    return float(np.sqrt(np.mean((a - b) ** 2)))
+
+
+def test_independent_noise_is_removed(noisy):
+    found = mlt.denoise(noisy)
+    assert found.shape == noisy.shape
+    assert found.dtype == np.float32
+    assert rmse(found, clean_image()) < 0.2 * rmse(noisy, clean_image())
+
+
+def test_an_albedo_keeps_what_the_noise_hides():
+    rng = np.random.default_rng(2)
+    stripes = np.tile(np.where(np.arange(80) % 4 < 2, 0.2, 0.8), (64, 1))
+    albedo = np.repeat(stripes[..., None], 3, axis=2)
+    noise = rng.exponential(1, albedo.shape)
+    normal = np.broadcast_to([0.0, 0.0, 1.0], albedo.shape)
+    plain = rmse(mlt.denoise(albedo * noise), albedo)
+    guided = rmse(mlt.denoise(albedo * noise, albedo=albedo), albedo)
+    both = mlt.denoise(albedo * noise, albedo=albedo, normal=normal, clean_guides=True)
+    assert guided < 0.5 * plain
+    assert rmse(both, albedo) < 0.5 * plain
+
+
+def test_grey_and_alpha_keep_their_shape(noisy):
+    assert mlt.denoise(noisy[..., 0]).shape == noisy.shape[:2]
+    rgba = np.dstack([noisy, np.linspace(0, 1, noisy[..., 0].size).reshape(noisy.shape[:2])])
+    found = mlt.denoise(rgba)
+    assert np.array_equal(found[..., 3], rgba[..., 3].astype(np.float32))
+    assert found[..., :3] == pytest.approx(mlt.denoise(noisy), abs=1e-6)
+
+
+def test_what_is_no_number_stays_where_it_is(noisy):
+    broken = noisy.copy()
+    broken[10, 10], broken[20, 20] = np.nan, np.inf
+    found = mlt.denoise(broken)
+    assert np.isfinite(found).all()
+    assert rmse(found, clean_image()) < 0.3 * rmse(noisy, clean_image())
+
+
+@pytest.mark.parametrize(
+    ("guides", "message"),
+    [
+        ({"albedo": np.zeros((3, 3, 3))}, r"albedo has the shape \(3, 3, 3\)"),
+        ({"albedo": np.zeros((64, 80))}, "albedo has the shape"),
+        ({"normal": np.zeros((64, 80, 3))}, "only beside an albedo"),
+    ],
+)
+def test_guides_that_do_not_fit_are_refused(noisy, guides, message):
+    with pytest.raises(mlt.UsageError, match=message):
+        mlt.denoise(noisy, **guides)
+
+
+def test_without_the_package_it_says_what_to_install(noisy, scene, monkeypatch, capsys, tmp_path):
+    monkeypatch.setitem(sys.modules, "pyoidn", None)
+    with pytest.raises(mlt.UsageError, match=r"pip install 'pymlt\[denoise\]'"):
+        mlt.denoise(noisy)
+    assert cli.main(["render", scene, "-o", "a.exr", "--denoise"]) == 2
+    assert capsys.readouterr().err.count("\n") == 1
+    assert not (tmp_path / "a.exr").exists()
+
+
+# ---- results and files -------------------------------------------------------------------------
+
+
+def test_a_denoised_result_keeps_the_image_and_cannot_be_merged(tmp_path):
+    result = mlt.start(tiny.scene(), "path", spp=16, seed=1).result()
+    assert "error" in result.layers
+    clean = result.denoise()
+    assert np.array_equal(clean.image, mlt.denoise(result.image))
+    assert np.array_equal(clean.layers["noisy"], result.image)
+    assert clean.error_map is None
+    assert "denoised" not in result.metadata
+    clean.write(tmp_path / "a.exr")
+    assert "Open Image Denoise" in mlt.read_metadata(tmp_path / "a.exr")["denoised"]
+    with pytest.raises(mlt.UsageError, match="denoised"):
+        mlt.merge([tmp_path / "a.exr"])
+
+
+def test_the_layers_of_a_result_guide_the_filter():
+    result = mlt.start(tiny.scene(), "path", spp=4, seed=1).result()
+    albedo = np.random.default_rng(1).random(result.image.shape).astype(np.float32)
+    result.layers.update(albedo=albedo, sh_normal=2 * albedo - 1)
+    guided = result.denoise()
+    expected = mlt.denoise(result.image, albedo=albedo, normal=2 * albedo - 1)
+    assert np.array_equal(guided.image, expected)
+    assert guided.metadata["denoised"].endswith("guided by albedo and normal")
+    del result.layers["albedo"]
+    assert np.array_equal(result.denoise().image, mlt.denoise(result.image))
+    assert np.array_equal(result.denoise(albedo=albedo).image, expected)
+    other = result.denoise(albedo=1 - albedo)
+    assert not np.array_equal(other.image, expected)
+
+
+def test_the_command_line_denoises_renders_and_files(scene, tmp_path):
+    assert cli.main(["render", scene, "--spp", "16", "--denoise", "-o", "a.exr"]) == 0
+    assert cli.main(["render", scene, "--spp", "16", "-o", "b.exr"]) == 0
+    assert cli.main(["denoise", "b.exr", "-o", "c.exr"]) == 0
+    assert (tmp_path / "a.exr").read_bytes() == (tmp_path / "c.exr").read_bytes()
+    assert np.array_equal(mlt.read_image("c.exr", "noisy"), mlt.read_image("b.exr"))
+
+
+def test_files_guide_the_filter(scene, noisy, capsys):
+    mlt.write_image("a.exr", noisy)
+    mlt.write_image("b.exr", clean_image())
+    assert cli.main(["denoise", "a.exr", "--albedo", "b.exr", "-o", "c.exr"]) == 0
+    assert "guided by albedo: c.exr" in capsys.readouterr().err
+    expected = mlt.denoise(noisy, albedo=clean_image())
+    assert np.array_equal(mlt.read_image("c.exr"), expected)
+    assert cli.main(["denoise", "c.exr", "-o", "d.jpg", "--tonemap", "filmic"]) == 0
+    assert mlt.read_image("d.jpg").shape == noisy.shape
+    assert cli.main(["denoise", "d.jpg", "-o", "e.png"]) == 0
+
+
+def test_mistakes_are_one_line(scene, capsys):
+    assert cli.main(["denoise", "none.exr", "-o", "a.exr"]) == 2
+    assert cli.main(["denoise", "none.exr", "-o", "a.gif"]) == 2
+    assert capsys.readouterr().err.count("\n") == 2
+
+
+def test_a_wide_filter_is_warned_of(scene, capsys):
+    assert cli.main(["render", scene, "--spp", "1", "--denoise", "-o", "a.png"]) == 0
+    assert "filter" not in capsys.readouterr().err
+    wide = Path(scene).read_text().replace('<rfilter type="box"/>', '<rfilter type="gaussian"/>')
+    Path("wide.xml").write_text(wide)
+    assert cli.main(["render", "wide.xml", "--spp", "1", "--denoise", "-o", "a.png"]) == 0
+    assert "warning: the filter 'gaussian' spreads noise" in capsys.readouterr().err

@@ -1,0 +1,341 @@
+"""glTF files, compared with the same scenes written as dicts."""
+
+import json
+import pickle
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import pymlt as mlt
+from pymlt import cli
+from pymlt.formats.files import read_foreign
+
+gl = pytest.importorskip("pygltflib", reason="needs pymlt[gltf]")
+
+from gltf_files import GltfFile  # noqa: E402
+
+T = mlt.Transform
+SIZE = (40, 30)
+HALF = np.sqrt(0.5)
+DOWN = [-HALF, 0, 0, HALF]  # a quarter turn about x: +z becomes +y, -z becomes -y
+DIRECT = mlt.Path(max_depth=2)
+
+
+@pytest.fixture(autouse=True)
+def folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+
+
+def colour(*values) -> dict:
+    return {"type": "rgb", "value": list(values)}
+
+
+def surface(**values) -> dict:
+    given = {"type": "principled", "eta": 1.5, "roughness": 1.0, "metallic": 0.0}
+    return {"type": "twosided", "bsdf": given | values}
+
+
+def scene_dict(**more) -> dict:
+    """A floor below a camera 4 behind and 1 above it, and what else there is."""
+    sensor = {
+        "type": "perspective",
+        "fov": 40.0,
+        "fov_axis": "y",
+        "to_world": T.look_at(origin=[0, 1, 4], target=[0, 1, 0], up=[0, 1, 0]),
+        "film": {"type": "hdrfilm", "width": 960, "height": 720},
+    }
+    floor = {
+        "type": "rectangle",
+        "to_world": T().translate(0, 0.2, 0).rotate([1, 0, 0], -90).scale(2, 1.5, 1),
+        "bsdf": surface(base_color=colour(0.8, 0.5, 0.2), roughness=0.4),
+    }
+    return {"type": "scene", "sensor": sensor, "floor": floor} | more
+
+
+def floor_file(**material) -> GltfFile:
+    file = GltfFile()
+    paint = {"colour": (0.8, 0.5, 0.2, 1), "roughness": 0.4} | material
+    mesh = file.mesh(file.material(**paint))
+    child = file.node(root=False, mesh=mesh, scale=[2, 1.5, 1])
+    file.node(translation=[0, 0.2, 0], rotation=DOWN, children=[child])
+    file.camera(translation=[0, 1, 4], scale=[3, 3, 3])
+    return file
+
+
+def assert_same(a, b, spp=4, integrator=DIRECT):
+    images = [mlt.render(scene, integrator, spp=spp, seed=1) for scene in (a, b)]
+    assert images[1].max() > 0.05
+    # The two meshes may round a ray at an edge differently.
+    differ = ~np.isclose(*images, rtol=2e-3, atol=1e-5).all(axis=2)
+    assert differ.mean() < 0.01
+
+
+LIGHTS = {
+    "point": (
+        {"type": "point", "color": [1, 0.5, 0.2], "intensity": 6},
+        {"translation": [0.5, 1.5, 0]},
+        {"type": "point", "intensity": colour(6, 3, 1.2), "position": [0.5, 1.5, 0]},
+    ),
+    "directional": (
+        {"type": "directional", "intensity": 2},
+        {"rotation": DOWN},
+        {"type": "directional", "irradiance": 2.0, "direction": [0, -1, 0]},
+    ),
+    "spot": (
+        {
+            "type": "spot",
+            "intensity": 9,
+            "spot": {"outerConeAngle": np.radians(35), "innerConeAngle": np.radians(20)},
+        },
+        {"translation": [0, 2, 0], "rotation": DOWN},
+        {
+            "type": "spot",
+            "intensity": 9.0,
+            "cutoff_angle": 35.0,
+            "beam_width": 20.0,
+            "to_world": T.look_at(origin=[0, 2, 0], target=[0, 0, 0], up=[0, 0, 1]),
+        },
+    ),
+}
+
+
+@pytest.mark.parametrize("name", LIGHTS)
+def test_lights_cameras_and_nodes_are_placed(name, recwarn):
+    given, place, expected = LIGHTS[name]
+    file = floor_file()
+    file.light(given, **place)
+    read = mlt.load(file.save("a.glb"), size=SIZE)
+    assert_same(read, mlt.load_dict(scene_dict(lamp=expected), size=SIZE))
+    assert len(recwarn) == (name == "spot")
+    assert (mlt.load("a.glb").width, mlt.load("a.glb").height) == (960, 720)
+
+
+def test_emission_and_indirect_light():
+    file = floor_file()
+    extension = {"KHR_materials_emissive_strength": {"emissiveStrength": 8}}
+    glow = file.material(emissiveFactor=[1, 0.8, 0.5], colour=(0, 0, 0, 1), extensions=extension)
+    half = [HALF, 0, 0, HALF]
+    file.node(mesh=file.mesh(glow), translation=[0, 2, 0], rotation=half, scale=[0.5, 0.5, 0.5])
+    lamp = {
+        "type": "rectangle",
+        "to_world": T().translate(0, 2, 0).rotate([1, 0, 0], 90).scale(0.5),
+        "bsdf": surface(base_color=colour(0, 0, 0)),
+        "emitter": {"type": "area", "radiance": colour(8, 6.4, 4)},
+    }
+    a, b = mlt.load(file.save("a.glb"), size=SIZE), mlt.load_dict(scene_dict(lamp=lamp), size=SIZE)
+    images = [mlt.render(scene, "path", spp=400, seed=seed) for seed, scene in enumerate((a, b))]
+    assert images[0].mean(axis=(0, 1)) == pytest.approx(images[1].mean(axis=(0, 1)), rel=0.01)
+    blocks = [image.reshape(3, 10, 4, 10, 3).mean(axis=(1, 3)) for image in images]
+    assert blocks[0] == pytest.approx(blocks[1], rel=0.05, abs=1e-3)
+
+
+CODES = np.array([[[255, 0, 0, 255], [0, 255, 0, 255]], [[0, 0, 255, 0], [128, 128, 128, 255]]])
+
+
+def test_textures_are_the_right_way_up_and_tinted():
+    file = GltfFile()
+    info = file.texture(CODES, magFilter=gl.NEAREST, wrapS=gl.CLAMP_TO_EDGE)
+    file.node(mesh=file.mesh(file.material(colour=(0.5, 1, 1, 1), baseColorTexture=info)))
+    file.camera(translation=[0, 0, 4])
+    file.light({"type": "directional", "intensity": 3})
+    image = mlt.render(mlt.load(file.save("a.glb"), size=(41, 41)), DIRECT, spp=16)
+    # v = 0 is the first row of the image; the rectangle has v = 0 below, u = 0 on the left.
+    corners = {(28, 12): 0, (28, 28): 1, (12, 12): 2}
+    for (y, x), channel in corners.items():
+        assert image[y, x].argmax() == channel
+        others = np.delete(image[y, x], channel)
+        assert others.max() < 0.5 * image[y, x].max()  # white is what the surface reflects
+    grey = image[12, 28] - image[12, 28].min()
+    assert grey[0] < 0.1 * grey[1] == pytest.approx(0.1 * grey[2], rel=1e-3)
+
+
+def converted(file: GltfFile):
+    return read_foreign(file.save("a.glb"), Path(), "b")
+
+
+def test_packed_textures_are_taken_apart():
+    file = GltfFile()
+    codes = np.zeros((2, 2, 4), np.uint8)
+    codes[..., 1], codes[..., 2], codes[..., 3] = 51, 255, 255
+    packed = file.texture(codes)
+    file.node(mesh=file.mesh(file.material(packed=packed, roughness=0.5, metallic=1.0)))
+    bsdf = converted(file).scene["material-0"]["bsdf"]
+    for name, value in {"roughness": 0.1, "metallic": 1.0}.items():
+        assert bsdf[name]["raw"] is True
+        assert mlt.read_image(bsdf[name]["filename"]) == pytest.approx(value, abs=1e-5)
+
+
+def test_normals_alpha_and_extensions_of_materials():
+    file = GltfFile()
+    base, normals = file.texture(CODES), file.texture(np.full((2, 2, 4), 128))
+    bent = gl.NormalMaterialTexture(index=normals.index, scale=2.0)
+    extensions = {
+        "KHR_materials_ior": {"ior": 1.33},
+        "KHR_materials_transmission": {"transmissionFactor": 0.75},
+        "KHR_materials_clearcoat": {"clearcoatFactor": 0.5, "clearcoatRoughnessFactor": 0.25},
+        "KHR_materials_sheen": {},
+    }
+    file.material(baseColorTexture=base, normalTexture=bent, alphaMode="MASK", alphaCutoff=0.4)
+    file.material(extensions=extensions, alphaMode="BLEND", colour=(1, 1, 1, 0.5))
+    for index in range(2):
+        file.node(mesh=file.mesh(index))
+    made = converted(file)
+    cut, clear = made.scene["material-0"], made.scene["material-1"]
+    assert cut["type"] == "mask"
+    assert cut["bsdf"]["bsdf"]["type"] == "normalmap"
+    alpha = mlt.read_image(cut["opacity"]["filename"])
+    assert alpha[..., 0].tolist() == [[1, 1], [0, 1]]
+    assert clear["opacity"] == 0.5
+    assert (
+        clear["bsdf"].items()
+        >= {
+            "type": "principled",
+            "eta": 1.33,
+            "spec_trans": 0.75,
+            "clearcoat": 0.5,
+            "clearcoat_gloss": 0.75,
+        }.items()
+    )
+    assert "KHR_materials_sheen is left out" in made.warnings
+    assert "the scale of normal textures is left out" in made.warnings
+    mlt.render(mlt.load_dict(made.scene, size=SIZE), spp=1)
+
+
+@pytest.mark.parametrize(
+    ("mode", "indices"), [(gl.TRIANGLE_STRIP, (0, 1, 3, 2)), (gl.TRIANGLE_FAN, None)]
+)
+def test_strips_and_fans_and_numbers_of_all_kinds(mode, indices):
+    whole, other = floor_file(), floor_file()
+    uvs = np.array([[0, 0], [255, 0], [255, 255], [0, 255]], np.uint8)
+    mesh = other.mesh(0, mode=mode, indices=indices, uvs=other.accessor(uvs, normalized=True))
+    other.gltf.nodes[0].mesh = mesh
+    lamp = {"type": "directional", "intensity": 2}
+    for name, file in {"a.glb": whole, "b.gltf": other}.items():
+        file.light(lamp, rotation=DOWN)
+        file.save(name)
+    assert json.loads(Path("b.gltf").read_text())["asset"]["version"] == "2.0"
+    assert_same(mlt.load("a.glb", size=SIZE), mlt.load("b.gltf", size=SIZE))
+
+
+def test_sparse_accessors():
+    whole, other = floor_file(), floor_file()
+    rows = other.view(np.array([2], np.uint16).tobytes())
+    values = other.view(np.array([3, 3, 0], np.float32).tobytes())
+    other.gltf.accessors[0].sparse = gl.Sparse(
+        count=1,
+        indices=gl.AccessorSparseIndices(bufferView=rows, componentType=gl.UNSIGNED_SHORT),
+        values=gl.AccessorSparseValues(bufferView=values),
+    )
+    for name, file in {"a.glb": whole, "b.glb": other}.items():
+        made = read_foreign(file.save(name), Path(), name[0])
+        assert made.scene["node-0"]["type"] == "ply"
+    a, b = (mlt.load_dict(read_foreign(f"{n}.glb", Path(), n).scene) for n in "ab")
+    assert b.info()["radius"] > a.info()["radius"]
+
+
+# ---- the rest of the interface -----------------------------------------------------------------
+
+
+def test_a_converted_scene_is_the_same_scene(capsys):
+    file = floor_file(baseColorTexture=None)
+    file.light(LIGHTS["spot"][0], translation=[0, 2, 0], rotation=DOWN)
+    file.save("a.glb")
+    assert cli.main(["convert", "a.glb", "b.xml"]) == 0
+    assert "spot light falls off" in capsys.readouterr().err
+    with pytest.warns(UserWarning, match="spot"):
+        assert mlt.load_file("b.xml").hash == mlt.load("a.glb").hash
+    assert "/" not in Path("b.xml").read_text().split("<shape")[1].split("/>")[0]
+
+
+def test_the_command_line_renders_it_and_resumes(capsys):
+    floor_file().save("a.glb")
+    flags = ["--spp", "2", "--integrator", "path", "--size", "16x12"]
+    checkpoint = ["--checkpoint", "c.ckpt"]
+    assert cli.main(["render", "a.glb", *flags, *checkpoint, "-o", "a.exr"]) == 0
+    assert "a.glb: there is no light; an even one" in capsys.readouterr().err
+    assert mlt.read_image("a.exr").mean() > 0.1
+    assert cli.main(["info", "a.glb"]) == 0
+    more = ["--resume", "c.ckpt", "--spp", "4", "-o", "b.exr"]
+    assert cli.main(["render", "a.glb", *more]) == 0
+    with pytest.warns(UserWarning, match="no light"):
+        expected = mlt.render(mlt.load("a.glb", size=(16, 12)), "path", spp=4)
+    assert np.array_equal(mlt.read_image("b.exr"), expected.astype(np.float16))
+
+
+def test_what_has_no_counterpart_is_named():
+    file = GltfFile()
+    file.node(mesh=file.mesh(None, mode=gl.LINES))
+    colours = file.accessor(np.ones((4, 3), np.float32))
+    file.node(mesh=file.mesh(file.material(), COLOR_0=colours))
+    file.gltf.animations.append(gl.Animation())
+    with pytest.warns(UserWarning, match=r"a\.glb: ") as found:
+        scene = mlt.load(file.save("a.glb"), size=SIZE)
+    said = " ".join(str(warning.message) for warning in found)
+    for word in ("points and lines", "COLOR_0", "animations", "no camera", "no light"):
+        assert word in said
+    assert (mlt.render(scene, "path", spp=4) > 0.1).any()
+
+
+def test_a_scene_can_be_sent_to_other_processes():
+    file = floor_file(baseColorTexture=None)
+    file.node(mesh=file.mesh(file.material(baseColorTexture=file.texture(CODES))))
+    file.light({"type": "point"}, translation=[0, 2, 0])
+    scene = mlt.load(file.save("a.glb"), size=SIZE)
+    assert pickle.loads(pickle.dumps(scene)).hash == scene.hash
+
+
+@pytest.mark.parametrize("name", ["a.glb", "a.gltf"])
+def test_other_files_are_refused(name, capsys):
+    Path(name).write_bytes(b"This is no scene.")
+    with pytest.raises(mlt.SceneError, match="no glTF"):
+        mlt.load(name)
+    with pytest.raises(mlt.FileError, match="no such file"):
+        mlt.load(f"none-{name}")
+    assert cli.main(["convert", name, "b.xml"]) == 2
+    assert not Path("b.xml").exists()
+    assert cli.main(["render", name, "-o", "b.exr", "-D", "a=1"]) == 2
+    assert capsys.readouterr().err.count("\n") == 2
+
+
+def test_files_that_contradict_themselves_are_refused():
+    required = floor_file()
+    required.gltf.extensionsRequired = ["KHR_draco_mesh_compression"]
+    required.save("required.glb")
+    short = floor_file()
+    short.gltf.accessors[0].count = 10_000
+    short.save("short.glb")
+    missing = floor_file()
+    missing.gltf.nodes[0].mesh = 7
+    missing.save("missing.glb")
+    turn = floor_file()
+    turn.gltf.nodes[0].rotation = [0, 0, 1]
+    turn.save("turn.glb")
+    circle = floor_file()
+    circle.gltf.nodes[0].children = [1]
+    circle.save("circle.glb")
+    messages = {
+        "required": "KHR_draco",
+        "short": "beyond its buffer",
+        "missing": "contradicts itself",
+        "turn": "contradicts itself",
+        "circle": "below itself",
+    }
+    for name, message in messages.items():
+        with pytest.raises(mlt.SceneError, match=message):
+            mlt.load(f"{name}.glb")
+
+
+@pytest.mark.parametrize(("source", "target"), [("a.obj", "b.xml"), ("a.glb", "b.json")])
+def test_only_known_formats_are_converted(source, target):
+    floor_file().save("a.glb")
+    with pytest.raises(mlt.UsageError):
+        mlt.convert(source, target)
+
+
+def test_without_the_package_it_says_what_to_install(monkeypatch):
+    floor_file().save("a.glb")
+    monkeypatch.setitem(sys.modules, "pygltflib", None)
+    with pytest.raises(mlt.UsageError, match=r"pip install 'pymlt\[gltf\]'"):
+        mlt.load("a.glb")

@@ -1,0 +1,447 @@
+"""pbrt-v4 files, compared with the same scenes written as dicts."""
+
+import gzip
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import pymlt as mlt
+from pymlt import cli
+from pymlt.formats.files import read_foreign
+from pymlt.formats.pbrt.environment import directions, sampled, square_of
+from pymlt.formats.pbrt.spectra import luminous
+from pymlt.formats.ply import Mesh, write_ply
+
+T = mlt.Transform
+VIEW = """
+LookAt 0 1 4  0 1 0  0 1 0
+Camera "perspective" "float fov" 40
+Sampler "halton" "integer pixelsamples" [ 8 ]
+Integrator "path" "integer maxdepth" 3
+PixelFilter "box"
+Film "rgb" "integer xresolution" 40 "integer yresolution" 30
+WorldBegin
+"""
+FLOOR = """
+Material "diffuse" "rgb reflectance" [ .8 .5 .2 ]
+Shape "trianglemesh" "point3 P" [ -2 0 -1.5  2 0 -1.5  2 0 1.5  -2 0 1.5 ]
+    "integer indices" [0 2 1 0 3 2]
+"""
+LAMP = 'LightSource "point" "rgb I" [ 6 3 1.2 ] "point3 from" [ .5 1.5 0 ]\n'
+
+
+@pytest.fixture(autouse=True)
+def folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+
+
+def written(*parts: str, name: str = "a.pbrt") -> str:
+    Path(name).write_text("".join(parts))
+    return name
+
+
+def read(*parts: str):
+    """The dict, and what was said about it."""
+    return read_foreign(written(*parts), Path(), "b")
+
+
+def colour(*values) -> dict:
+    return {"type": "rgb", "value": list(values)}
+
+
+def both_sides(bsdf: dict) -> dict:
+    return {"type": "twosided", "bsdf": bsdf}
+
+
+def right_handed_scene() -> dict:
+    """What VIEW, LAMP and FLOOR say, seen by a camera with right-handed axes."""
+    clay = {"type": "diffuse", "reflectance": colour(0.8, 0.5, 0.2)}
+    return {
+        "type": "scene",
+        "sensor": {
+            "type": "perspective",
+            "fov": 40.0,
+            "fov_axis": "smaller",
+            "to_world": T.look_at(origin=[0, 1, 4], target=[0, 1, 0], up=[0, 1, 0]),
+            "film": {"type": "hdrfilm", "width": 40, "height": 30, "rfilter": {"type": "box"}},
+        },
+        "floor": {
+            "type": "rectangle",
+            "to_world": T().rotate([1, 0, 0], -90).scale(2, 1.5, 1),
+            "bsdf": both_sides(clay),
+        },
+        "lamp": POINT,
+    }
+
+
+def assert_same(a, b):
+    images = [mlt.render(scene, mlt.Path(max_depth=2), spp=4, seed=1) for scene in (a, b)]
+    assert images[1].max() > 0.05
+    differ = ~np.isclose(*images, rtol=2e-3, atol=1e-5).all(axis=2)
+    assert differ.mean() < 0.01
+
+
+# ---- scenes ------------------------------------------------------------------------------------
+
+POINT = {"type": "point", "intensity": colour(6, 3, 1.2), "position": [0.5, 1.5, 0]}
+
+
+def test_a_scene_is_what_its_dict_is():
+    scene = mlt.load(written(VIEW, LAMP, FLOOR))
+    info = scene.info()
+    assert info["size"] == (40, 30)
+    assert info["sample_count"] == 8
+    assert info["filter"] == "box"
+    assert '"max_depth": 4' in str(mlt.start(scene, spp=1).result().metadata["integrator"])
+    # +x, where the lamp is, is on the left of somebody who looks along -z with left-handed axes.
+    image = mlt.render(scene, spp=16)
+    assert image[:, :20].sum() > 1.2 * image[:, 20:].sum()
+
+
+def test_the_image_is_that_of_left_handed_axes():
+    """A camera at +z that looks along -z has +x on its left; one of ours has it on its right."""
+    scenes = (mlt.load(written(VIEW, LAMP, FLOOR)), right_handed_scene())
+    images = [mlt.render(scene, "path", spp=400) for scene in scenes]
+    blocks = [image.reshape(3, 10, 4, 10, 3).mean(axis=(1, 3)) for image in images]
+    assert blocks[0][:, ::-1] == pytest.approx(blocks[1], rel=0.03, abs=1e-3)
+
+
+LIGHTS = {
+    'LightSource "distant" "rgb L" [2 2 1] "float scale" 1.5 "point3 to" [0 -1 0]': {
+        "type": "directional",
+        "irradiance": colour(3, 3, 1.5),
+        "direction": [0, -1, 0],
+    },
+    'Translate 0 2 0 Rotate 90 1 0 0 LightSource "spot" "float coneangle" 35 "rgb I" [9 9 9]': {
+        "type": "spot",
+        "intensity": 9.0,
+        "cutoff_angle": 35.0,
+        "beam_width": 30.0,
+        "to_world": T.look_at(origin=[0, 2, 0], target=[0, 0, 0], up=[0, 0, 1]),
+    },
+    'LightSource "infinite" "spectrum L" [ 300 .5 900 .5 ]': {
+        "type": "constant",
+        "radiance": {"type": "spectrum", "value": [(300, 0.5), (900, 0.5)]},
+    },
+    LAMP: POINT,
+}
+
+
+@pytest.mark.parametrize("text", LIGHTS)
+def test_lights(text):
+    made = read(VIEW, "AttributeBegin\n", text, "\nAttributeEnd\n", FLOOR)
+    plain = mlt.load_dict(made.scene)
+    light = LIGHTS[text]
+    other = mlt.load_dict({k: v for k, v in made.scene.items() if "light" not in k} | {"l": light})
+    assert_same(plain, other)
+
+
+AREA = 'AttributeBegin AreaLightSource "diffuse" "rgb L" [8 8 8] Translate 0 2 0 %s AttributeEnd\n'
+
+
+@pytest.mark.parametrize(
+    ("shape", "lit"),
+    [
+        ('Rotate 90 1 0 0 Shape "disk" "float radius" .5', True),
+        ('Rotate -90 1 0 0 Shape "disk" "float radius" .5', False),
+        ('Rotate -90 1 0 0 ReverseOrientation Shape "disk" "float radius" .5', True),
+        ('Shape "trianglemesh" "point3 P" [-1 0 -1 1 0 -1 0 0 1]', True),
+        ('Shape "trianglemesh" "point3 P" [-1 0 -1 0 0 1 1 0 -1]', False),
+        ('Scale -1 1 1 Shape "trianglemesh" "point3 P" [-1 0 -1 1 0 -1 0 0 1]', True),
+        ('Shape "sphere" "float radius" .3', True),
+        ('ReverseOrientation Shape "sphere" "float radius" .3', False),
+        ('Shape "cylinder" "float radius" .3', True),
+    ],
+)
+def test_area_lights_shine_from_the_outside(shape, lit):
+    scene = mlt.load(written(VIEW, AREA % shape, FLOOR))
+    image = mlt.render(scene, mlt.Path(max_depth=2, hide_emitters=True), spp=16)
+    assert (image[22:].mean() > 0.05) == lit
+
+
+def test_instances_are_copies_of_their_object():
+    ball = 'Translate 0 .2 0 Shape "sphere" "float radius" .3\n'
+    places = ["Translate -.6 .3 0", "Translate .6 .3 0 Scale .5 .5 .5"]
+    plain = "".join(f"AttributeBegin {place} {ball} AttributeEnd\n" for place in places)
+    copies = "".join(
+        f'AttributeBegin {place} ObjectInstance "ball" AttributeEnd\n' for place in places
+    )
+    group = f'ObjectBegin "ball"\n{ball}ObjectEnd\n'
+    a = mlt.load(written(VIEW, LAMP, FLOOR, plain))
+    b = mlt.load(written(VIEW, LAMP, FLOOR, group, copies, name="b.pbrt"))
+    assert_same(a, b)
+
+
+def test_ellipsoids_become_meshes():
+    ball = 'Translate 0 .5 0 Scale %s Shape "sphere" "float radius" .4\n'
+    flat = read(VIEW, LAMP, FLOOR, ball % "1 1.0001 1")
+    assert flat.warnings == ["ellipsoids become meshes"]
+    scenes = (mlt.load_dict(flat.scene), mlt.load(written(VIEW, LAMP, FLOOR, ball % "1 1 1")))
+    images = [mlt.render(scene, mlt.Path(max_depth=2), spp=64) for scene in scenes]
+    assert images[0].mean() == pytest.approx(images[1].mean(), rel=0.01)
+    assert np.median(abs(images[0] - images[1])) < 0.01 * images[1].mean()
+
+
+def test_transforms_and_attributes_are_saved():
+    made = read(
+        'Translate 1 0 0 CoordinateSystem "here"\n' + VIEW,
+        'AttributeBegin Translate 0 1 0 Scale 2 2 2 Shape "sphere"\n AttributeEnd\n',
+        'TransformBegin Transform [1 0 0 0 0 1 0 0 0 0 1 0 5 6 7 1] Shape "sphere" TransformEnd\n',
+        'ConcatTransform [0 1 0 0 -1 0 0 0 0 0 1 0 0 0 0 1] Shape "sphere"\n',
+        'Identity CoordSysTransform "here" Shape "sphere" "float radius" 2\n',
+    )
+    found = [v for k, v in made.scene.items() if k.startswith("sphere")]
+    assert found[0]["to_world"] == pytest.approx(np.array(T.translate(0, 1, 0) @ T.scale(2)))
+    assert found[1]["to_world"][:3, 3] == pytest.approx([5, 6, 7])
+    assert found[2]["to_world"] == pytest.approx(np.array(T.rotate([0, 0, 1], 90)))
+    assert found[3]["to_world"] == pytest.approx(np.array(T.translate(1, 0, 0)))
+
+
+# ---- materials, textures -----------------------------------------------------------------------
+
+MATERIALS = {
+    'Material "conductor" "spectrum eta" "metal-Au-eta" "float roughness" .09': both_sides(
+        {"type": "roughconductor", "distribution": "ggx", "alpha": 0.3, "material": "Au"}
+    ),
+    'Material "conductor" "rgb reflectance" [.9 .8 .7]': both_sides(
+        {"type": "conductor", "specular_reflectance": colour(0.9, 0.8, 0.7)}
+    ),
+    'Material "dielectric" "float eta" 1.4': {"type": "dielectric", "int_ior": 1.4},
+    'Material "dielectric" "float roughness" .2 "bool remaproughness" false': {
+        "type": "roughdielectric",
+        "distribution": "ggx",
+        "alpha": 0.2,
+        "int_ior": 1.5,
+    },
+    'Material "dielectric" "spectrum eta" "glass-BK7"': {"type": "dielectric", "int_ior": 1.5046},
+    'Material "thindielectric"': {"type": "thindielectric", "int_ior": 1.5},
+    'Material "coateddiffuse" "rgb reflectance" [.1 .2 .3] "float roughness" .04': both_sides(
+        {
+            "type": "roughplastic",
+            "distribution": "ggx",
+            "alpha": 0.2,
+            "diffuse_reflectance": colour(0.1, 0.2, 0.3),
+            "int_ior": 1.5,
+            "nonlinear": True,
+        }
+    ),
+    'Material "coatedconductor" "float conductor.roughness" .01': both_sides(
+        {
+            "type": "coating",
+            "int_ior": 1.5,
+            "bsdf": {
+                "type": "roughconductor",
+                "distribution": "ggx",
+                "alpha": 0.1,
+                "material": "Cu",
+            },
+        }
+    ),
+    'Material "interface"': {"type": "null"},
+}
+
+
+@pytest.mark.parametrize("text", MATERIALS)
+def test_materials(text):
+    made = read(VIEW, LAMP, text, '\nShape "sphere"\n')
+    name = made.scene["sphere"]["bsdf"]["id"]
+    expected = MATERIALS[text]
+    found = made.scene[name]
+    alphas = [x.get("bsdf", x).pop("alpha", 0) for x in (found, expected)]
+    assert found == expected or found["bsdf"]["bsdf"].pop("alpha") == pytest.approx(0.1)
+    assert alphas[0] == pytest.approx(alphas[1])
+    assert made.warnings == []
+
+
+def test_every_material_renders():
+    for text in MATERIALS:
+        mlt.render(mlt.load(written(VIEW, LAMP, text, ' Shape "sphere" "float radius" .5')), spp=1)
+
+
+def test_mixtures_and_named_materials():
+    made = read(
+        VIEW,
+        'MakeNamedMaterial "red" "string type" "diffuse" "rgb reflectance" [.5 0 0]\n',
+        'MakeNamedMaterial "gold" "string type" "conductor" "spectrum eta" "metal-Au-eta"\n',
+        'Material "mix" "string materials" ["red" "gold"] "float amount" .25 Shape "sphere"\n',
+        'NamedMaterial "gold" Shape "sphere" ',
+        LAMP,
+    )
+    blend = made.scene[made.scene["sphere"]["bsdf"]["id"]]["bsdf"]
+    assert (blend["type"], blend["weight"]) == ("blendbsdf", 0.25)
+    assert made.scene["sphere_2"]["bsdf"] == {"type": "ref", "id": "gold"}
+    mlt.render(mlt.load_dict(made.scene), spp=1)
+
+
+def test_images_are_the_right_way_up():
+    pixels = np.zeros((2, 2, 3), np.float32)
+    pixels[0, 0], pixels[1, 1] = [1, 0, 0], [0, 1, 0]  # above on the left, below on the right
+    mlt.write_image("image.png", pixels)
+    text = (
+        'Texture "image" "spectrum" "imagemap" "string filename" "image.png"\n'
+        'Material "diffuse" "texture reflectance" "image"\n'
+        'Shape "bilinearmesh" "point3 P" [-1 0 0 1 0 0 -1 2 0 1 2 0]'
+        ' "point2 uv" [0 0 1 0 0 1 1 1]\n'
+    )
+    made = read(VIEW, 'LightSource "infinite"\n', text)
+    image = mlt.render(mlt.load_dict(made.scene), mlt.Path(max_depth=2), spp=16)
+    # +x is on the left, so the picture is seen from behind.
+    assert image[9, 25].argmax() == 0
+    assert image[9, 25, 0] > 0.3
+    assert image[21, 14].argmax() == 1
+    assert image[21, 14, 1] > 0.3
+
+
+def test_textures_are_scaled_and_checked():
+    made = read(
+        'Texture "a" "spectrum" "constant" "rgb value" [.2 .4 .6]\n',
+        'Texture "b" "spectrum" "checkerboard" "texture tex1" "a" "float tex2" .5'
+        ' "float uscale" 4\n',
+        'Texture "c" "spectrum" "scale" "texture tex" "b" "float scale" .5\n',
+        'Texture "d" "spectrum" "wrinkled"\n',
+        'Material "diffuse" "texture reflectance" "c" Shape "sphere"\n',
+        'Material "diffuse" "texture reflectance" "d" Shape "sphere" "float alpha" .5',
+    )
+    scaled = made.scene["diffuse-material"]["bsdf"]["reflectance"]
+    assert (scaled["type"], scaled["scale"]) == ("scale", 0.5)
+    assert scaled["texture"]["color0"] == colour(0.2, 0.4, 0.6)
+    assert scaled["texture"]["uscale"] == 2
+    assert made.scene["sphere_2"]["bsdf"]["type"] == "mask"
+    assert "the texture 'wrinkled' has no counterpart; it becomes 0.5" in made.warnings
+    mlt.render(mlt.load_dict(made.scene, size=(8, 8)), spp=1)
+
+
+def test_a_black_body_has_luminance_one():
+    made = read('LightSource "infinite" "blackbody L" 3000')
+    pairs = np.array(made.scene["infinite-light"]["radiance"]["value"])
+    weights = np.array([luminous(wave) for wave in pairs[:, 0]])
+    assert (pairs[:, 1] * weights).sum() / weights.sum() == pytest.approx(1)
+    red, blue = (np.interp(wave, *pairs.T) for wave in (650, 450))
+    assert red > 3 * blue
+
+
+# ---- environment maps --------------------------------------------------------------------------
+
+
+def test_the_octahedral_map_has_equal_areas():
+    """Clarberg 2008: each square of the map is an equal part of the sphere."""
+    rng = np.random.default_rng(1)
+    d = rng.normal(size=(200_000, 3))
+    d /= np.linalg.norm(d, axis=1, keepdims=True)
+    at = square_of(d)
+    counts = np.histogram2d(*at.T, bins=8, range=[[0, 1], [0, 1]])[0]
+    assert counts == pytest.approx(200_000 / 64, rel=0.1)
+    assert square_of(np.eye(3)) == pytest.approx(np.array([[1, 0.5], [0.5, 1], [0.5, 0.5]]))
+
+
+def test_an_environment_map_lights_from_where_it_did():
+    n = 64
+    centres = (np.arange(n) + 0.5) / n
+    u, v = np.meshgrid(centres, centres)
+    found = directions(n)
+    # An image that says of each direction where it is: the map is inverted by a search.
+    target = square_of(found).reshape(-1, 2)
+    ramp = sampled(np.stack([u, v, 0 * u], axis=-1), target)
+    inside = (target > 1 / n).all(axis=1) & (target < 1 - 1 / n).all(axis=1)
+    assert ramp[inside, :2] == pytest.approx(target[inside], abs=1e-9)
+    # A spot around -y in pbrt's axes shines on what looks there.
+    spot = (np.hypot(u - 0.5, v - 0.0) < 0.1).astype(np.float32)
+    mlt.write_image("map.exr", np.repeat(spot[..., None], 3, axis=2))
+    made = read(VIEW, 'LightSource "infinite" "string filename" "map.exr"\n', FLOOR)
+    scene = mlt.load_dict(made.scene)
+    assert mlt.render(scene, mlt.Path(max_depth=2), spp=16)[22:].mean() < 0.01
+    turned = 'AttributeBegin Rotate 180 1 0 0 LightSource "infinite" "string filename" "map.exr" '
+    lit = mlt.load(written(VIEW, turned, "AttributeEnd\n", FLOOR))
+    assert mlt.render(lit, mlt.Path(max_depth=2), spp=64)[22:].mean() > 0.01
+
+
+# ---- files -------------------------------------------------------------------------------------
+
+
+def test_files_include_others_and_meshes(tmp_path):
+    Path("parts").mkdir()
+    with gzip.open("parts/floor.pbrt.gz", "wt") as file:
+        file.write(FLOOR + 'Include "parts/lamp.pbrt"\n')
+    Path("parts/lamp.pbrt").write_text("# a lamp\n" + LAMP)
+    corners = np.array([[-2, 0, -1.5], [2, 0, -1.5], [2, 0, 1.5], [-2, 0, 1.5]])
+    triangles = np.array([[0, 2, 1], [0, 3, 2]])
+    write_ply(tmp_path / "mesh.ply", Mesh(corners, triangles))
+    Path("mesh.ply.gz").write_bytes(gzip.compress(Path("mesh.ply").read_bytes()))
+    clay = 'Material "diffuse" "rgb reflectance" [ .8 .5 .2 ] '
+    whole = mlt.load(written(VIEW, LAMP, FLOOR))
+    for name, text in {
+        "b": 'Include "parts/floor.pbrt.gz"\n',
+        "c": LAMP + clay + 'Shape "plymesh" "string filename" "mesh.ply"',
+        "d": LAMP + clay + 'Shape "plymesh" "string filename" "mesh.ply.gz"',
+    }.items():
+        assert_same(whole, mlt.load(written(VIEW, text, name=f"{name}.pbrt")))
+
+
+def test_a_converted_scene_is_the_same_scene(capsys):
+    area = AREA % 'Rotate 90 1 0 0 Shape "disk" "float radius" .5'
+    infinite = 'LightSource "infinite" "blackbody L" 5000 "float scale" .1\n'
+    group = 'ObjectBegin "b" Shape "sphere" ObjectEnd Scale .2 .2 .2 ObjectInstance "b"\n'
+    path = written(VIEW, area, infinite, FLOOR, group)
+    assert cli.main(["convert", path, "b.xml"]) == 0
+    assert capsys.readouterr().err == "pymlt: b.xml\n"
+    assert mlt.load("b.xml").hash == mlt.load(path).hash
+    assert cli.main(["render", path, "--spp", "1", "-o", "a.exr", "--quiet"]) == 0
+
+
+def test_what_has_no_counterpart_is_named():
+    made = read(
+        VIEW.replace('"box"', '"box" "float xradius" 1'),
+        'MakeNamedMedium "fog" "string type" "homogeneous" "rgb sigma_a" [1 1 1]\n',
+        'MediumInterface "" "fog"\n',
+        'Material "hair" Shape "curve" Shape "sphere" "float zmax" .5 "float beauty" 1\n',
+        'LightSource "goniometric"\n',
+    )
+    said = " ".join(made.warnings)
+    for word in ("MakeNamedMedium", "MediumInterface", "'hair'", "'curve'", "parts of spheres"):
+        assert word in said
+    assert "Shape 'sphere': 'beauty' is left out" in made.warnings
+    assert "there is no light" in said
+    mlt.render(mlt.load_dict(made.scene), spp=1)
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("\nAttributeEnd", r"a\.pbrt:2: AttributeEnd ends nothing"),
+        ("AttributeBegin", "no AttributeEnd"),
+        ('"float x" 1', "a directive is expected"),
+        ("Translate 1 x 0", "'x' is not a number"),
+        ("Translate 1 2", "the file ends here"),
+        ("Translate 1 nan 2", "'nan' is not a number"),
+        ('LightSource "infinite" "blackbody L" 0', r"a\.pbrt:1: LightSource makes no sense"),
+        ("Shape sphere", "a text in quotes"),
+        ('Shape "sphere" "float radius" [ 1', "the file ends here"),
+        ('Shape "sphere" "radius" 1', "a type and a name"),
+        ('Shape "sphere" "point3 p" [1 2]', "has 2 numbers"),
+        ('Shape "trianglemesh"', "needs 'P'"),
+        ('Shape "trianglemesh" "point3 P" [0 0 0] "integer indices" [0 1 2]', "does not exist"),
+        ('Shape "trianglemesh" "point3 P" [0 0 0] "point2 uv" [0 0 1 1]', "2 'uv'"),
+        ('NamedMaterial "x"', "no material 'x'"),
+        ('Material "diffuse" "texture reflectance" "x"', "no texture 'x'"),
+        ('Material "mix" "string materials" ["a"]', "two materials"),
+        ('MakeNamedMaterial "x"', "string type"),
+        ('ObjectInstance "x"', "no object 'x'"),
+        ("ObjectEnd", "ends nothing"),
+        ('CoordSysTransform "x"', "no coordinate system 'x'"),
+        ("LookAt 0 0 0 0 1 0 0 1 0", "parallel"),
+        ('Shape "sphere', "ends on this line"),
+    ],
+)
+def test_mistakes_are_named_with_their_line(text, message):
+    with pytest.raises(mlt.SceneError, match=message):
+        mlt.load(written(text))
+
+
+def test_missing_and_endless_files_are_refused():
+    with pytest.raises(mlt.FileError, match="none"):
+        mlt.load(written('Include "none.pbrt"'))
+    with pytest.raises(mlt.SceneError, match="15 deep"):
+        mlt.load(written('Include "a.pbrt"'))
+    with pytest.raises(mlt.UsageError, match="only Mitsuba XML"):
+        mlt.load(written(VIEW), depth=3)
