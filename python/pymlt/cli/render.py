@@ -30,6 +30,10 @@ HELP_HERE = {
 }
 
 
+# The layers that guide the denoiser.
+GUIDES = "albedo,sh_normal"
+
+
 def add_arguments(command) -> None:
     for name, flag in FLAGS.items():
         add_flag(command, flag, HELP_HERE.get(name, ""))
@@ -61,6 +65,8 @@ def start(args, signals: Signals) -> Job:
     options = RenderOptions(
         **{f.name: values[f.name] for f in fields(RenderOptions) if f.name in values}
     )
+    if args.denoise and options.aovs is None:
+        options.aovs = GUIDES
     if args.resume:
         if args.scene and not os.path.exists(args.scene) and not built_in_name(args.scene):
             raise _core.FileError(f"{args.scene}: there is no such file")
