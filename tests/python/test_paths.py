@@ -153,8 +153,9 @@ def test_replays_of_all_pixels_are_the_render(scene, integrator):
     replays = [job.replay(pixel) for pixel in pixels]
     assert box_image(scene, replays) == pytest.approx(image, rel=1e-5, abs=1e-7)
     if integrator.name == "path":
+        # A render computes matte vertices in single precision, a replay in double.
         seen = np.reshape([r.radiance for r in replays], image.shape)
-        assert seen == pytest.approx(image, rel=1e-6)
+        assert seen == pytest.approx(image, rel=1e-5)
     for replay in replays:
         of_sample = [p.estimate for p in replay.paths if p.technique[1] >= 2]
         assert sum(of_sample, np.zeros(3)) == pytest.approx(replay.radiance, rel=1e-9)
