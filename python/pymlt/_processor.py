@@ -45,6 +45,8 @@ def load_core() -> None:
     module = importlib.util.module_from_spec(spec)
     sys.modules["pymlt._core"] = module
     loader.exec_module(module)
+    # The import system does this for a submodule that it has found by itself.
+    setattr(sys.modules["pymlt"], "_core", module)  # noqa: B010
 
 
 load_core()

@@ -1,6 +1,7 @@
 """A wheel holds two builds of the core, of which the processor has one chosen."""
 
 import os
+import shutil
 import subprocess
 import sys
 import venv
@@ -8,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from pymlt import _processor
+from pymlt import _core, _processor
 
 REPOSITORY = Path(__file__).parents[2]
 
@@ -40,6 +41,33 @@ def test_baseline_can_be_asked_for(package, monkeypatch):
     set_flags(monkeypatch, _processor.LEVEL_3)
     monkeypatch.setenv("PYMLT_BUILD", "baseline")
     assert _processor.wide_core() is None
+
+
+def test_chosen_build_is_the_extension_of_the_package(tmp_path):
+    package = tmp_path / "pymlt"
+    shutil.copytree(
+        Path(_processor.__file__).parent, package, ignore=shutil.ignore_patterns("_core.*.so")
+    )
+    (package / "wide").mkdir()
+    shutil.copy(_core.__file__, package / "wide")
+    (package / "_processor_flags.txt").write_text("flags : " + " ".join(_processor.LEVEL_3))
+    text = (package / "_processor.py").read_text()
+    chosen = text.replace("/proc/cpuinfo", str(package / "_processor_flags.txt"))
+    assert chosen != text
+    (package / "_processor.py").write_text(chosen)
+    done = subprocess.run(
+        [
+            # Without the site: an editable installation would find its own.
+            *(sys.executable, "-S", "-c"),
+            f"import sys; sys.path.insert(0, {str(tmp_path)!r})\n"
+            "import pymlt; from pymlt import _core\n"
+            "assert pymlt._core is _core; print(_core.__file__)",
+        ],
+        capture_output=True,
+        text=True,
+    )
+    assert done.returncode == 0, done.stderr
+    assert Path(done.stdout.strip()).parent == package / "wide"
 
 
 def test_there_may_be_no_wide_build(package, monkeypatch):

@@ -96,8 +96,8 @@ class Job:
         """Repeat one sample of a pixel (x, y), whether it has been taken or not.
 
         `sample` counts from 0. What is asked for again shows the same paths, those that the render
-        has added up (by `path` in single precision, here in double). For integrators that sample pixel by pixel; raises UsageError for others, and
-        for a pixel outside of the image.
+        has added up (by `path` in single precision, here in double). For integrators that sample
+        pixel by pixel; raises UsageError for others, and for a pixel outside of the image.
         """
         sample = integer("sample", sample, 2**36)
         return Replay(*self._job.replay(pixel, sample))
