@@ -16,10 +16,6 @@ Vec3f departure(const Vec3f& p, const Vec3f& ng, const Vec3f& w, float extent) {
   return p + ng * std::copysign(ray_offset * extent, dot(ng, w));
 }
 
-bool consistent_sides(const Vec3f& ng, const Vec3f& n, const Vec3f& w, bool strict) {
-  return !strict | (dot(ng, w) * dot(n, w) > 0);
-}
-
 /// sample_cosine_hemisphere without branches.
 Vec3f cosine_hemisphere(float u_x, float u_y) {
   const float a = 2 * u_x - 1, b = 2 * u_y - 1;

@@ -7,6 +7,11 @@
 
 namespace mlt {
 
+/// consistent_sides of vertex.h, in single precision and without branches.
+inline bool consistent_sides(const Vec3f& ng, const Vec3f& n, const Vec3f& w, bool strict) {
+  return !strict | (dot(ng, w) * dot(n, w) > 0);
+}
+
 struct MatteVertices {
   static constexpr int capacity = 256;
 

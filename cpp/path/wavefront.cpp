@@ -51,7 +51,7 @@ void Wavefront::find_vertex(int index, const Hit& hit, int depth, RayCounts& ray
 void Wavefront::find_matte_vertex(int index, const Mesh& mesh, const Hit& hit) {
   const MeshPoint point = mesh.point(hit.primitive, {hit.u, hit.v});
   const Vec3f wc(-walks_[index].ray.d);
-  if (rules_.strict_normals && !(dot(point.ng, wc) * dot(point.n, wc) > 0)) return;
+  if (!consistent_sides(point.ng, point.n, wc, rules_.strict_normals)) return;
   const Matte* uniform = mesh.bsdf().uniform_matte();
   matte_.add(index, hit.shape, point, wc,
              uniform ? *uniform : mesh.bsdf().matte(mesh.textured_point(point)));
@@ -131,6 +131,7 @@ void Wavefront::queue_shadow(int index, const Color& radiance, RayCounts& rays,
 }
 
 void Wavefront::find_shadows() {
+  if (shadows_.packet.count == 0) return;
   const unsigned blocked = scene_->accel().occluded(shadows_.packet);
   for (int i = 0; i < shadows_.packet.count; ++i)
     if (!(blocked >> i & 1)) walks_[shadows_.walk[i]].radiance += shadows_.radiance[i];

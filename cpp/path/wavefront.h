@@ -27,9 +27,9 @@ class Wavefront {
   }
   size_t size() const { return walks_.size(); }
   bool full() const { return size() == capacity; }
-  /// To their ends.
+  /// Traces all of them to their ends.
   void trace(RayCounts& rays);
-  /// That the i-th path has found.
+  /// What the i-th path has found.
   const Color& radiance(size_t i) const { return walks_[i].radiance; }
   void clear() {
     walks_.clear();
