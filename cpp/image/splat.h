@@ -1,6 +1,7 @@
 // Which pixels a sample at a continuous raster position reaches, and with which filter weight.
 #pragma once
 
+#include "base/whole_vectors.h"
 #include "image/filter.h"
 #include "math/color.h"
 #include "math/vec.h"
@@ -19,8 +20,6 @@ struct PixelRect {
 
 /// How many pixels a run has at most.
 inline constexpr int run_pixels = 16;
-/// A number of values, rounded up to one that loops take without a rest.
-inline int whole_vectors(int values) { return (values + 7) / 8 * 8; }
 
 /// How far outside the image samples still reach a pixel, in whole pixels.
 inline int filter_border(const Filter& filter) {

@@ -1,5 +1,6 @@
 #include "integrator/aov.h"
 
+#include "io/text.h"
 #include "path/samplers.h"
 #include "path/walk.h"
 
@@ -19,13 +20,6 @@ constexpr KindName kinds[] = {
     {"position", AovKind::position},       {"uv", AovKind::uv},
     {"geo_normal", AovKind::geo_normal},   {"sh_normal", AovKind::sh_normal},
     {"shape_index", AovKind::shape_index}, {"prim_index", AovKind::prim_index}};
-
-std::string trimmed(const std::string& text) {
-  const size_t first = text.find_first_not_of(" \t\n");
-  return first == std::string::npos
-             ? ""
-             : text.substr(first, text.find_last_not_of(" \t\n") + 1 - first);
-}
 
 AovKind kind_of(const std::string& name) {
   std::vector<std::string> names;
@@ -104,12 +98,13 @@ std::vector<Aov> parse_aovs(const std::string& list) {
   std::set<std::string> names;
   for (size_t begin = 0; begin <= list.size();) {
     const size_t end = std::min(list.find(',', begin), list.size());
-    const std::string item = trimmed(list.substr(begin, end - begin));
+    const std::string item(trim(std::string_view(list).substr(begin, end - begin)));
     begin = end + 1;
     if (item.empty()) continue;
     const size_t colon = item.find(':');
-    const std::string name = trimmed(item.substr(0, colon));
-    const std::string kind = colon == std::string::npos ? name : trimmed(item.substr(colon + 1));
+    const std::string name(trim(std::string_view(item).substr(0, colon)));
+    const std::string kind(
+        colon == std::string::npos ? name : trim(std::string_view(item).substr(colon + 1)));
     if (name.empty()) throw UsageError("the layer '" + item + "' has no name before its colon");
     if (!names.insert(name).second)
       throw UsageError("the layer '" + name + "' is asked for twice; give it two names");

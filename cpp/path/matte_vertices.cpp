@@ -1,5 +1,6 @@
 #include "path/matte_vertices.h"
 
+#include "base/whole_vectors.h"
 #include "scene/scene.h"
 
 namespace mlt {
@@ -7,9 +8,6 @@ namespace {
 
 constexpr auto pi_f = static_cast<float>(pi);
 constexpr auto ray_offset = static_cast<float>(Scene::ray_offset);
-
-/// `count` rounded up to whole vectors, so that no loop has a rest of single steps.
-int whole_vectors(int count) { return (count + 7) / 8 * 8; }
 
 /// Where a ray along w begins: off its surface.
 Vec3f departure(const Vec3f& p, const Vec3f& ng, const Vec3f& w, float extent) {
