@@ -27,6 +27,12 @@ struct FoundLight {
   }
 };
 
+/// What independent samples tell before a render.
+struct CoarseImage {
+  TargetMap map;  ///< The image as 16 x 16 blocks.
+  double b = 0;   ///< Mean of the weights T / p.
+};
+
 class MetropolisAlgorithm {
  public:
   virtual ~MetropolisAlgorithm() = default;
@@ -52,7 +58,7 @@ class MetropolisAlgorithm {
   virtual std::vector<MutationStats> rows() const = 0;
   /// Called once before the first chain, to prepare whatever is to be known by then, with a coarse
   /// image that may become a part of the target.
-  virtual void prepare(const TargetMap& /*coarse*/, uint64_t /*seed*/, int /*threads*/,
+  virtual void prepare(const CoarseImage& /*coarse*/, uint64_t /*seed*/, int /*threads*/,
                        const std::atomic<bool>& /*cancelled*/) {}
   virtual std::string save() const { return ""; }
   virtual void load(const std::string& /*bytes*/) {}

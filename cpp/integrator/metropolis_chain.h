@@ -57,11 +57,14 @@ class FilmRecorder : public ChainRecorder {
 };
 
 /// Records the states of a chain, each once: the weights of the current state add up until the
-/// chain leaves it. A State has raster, rgb and target, and target_over_density(state).
-template <class State>
+/// chain leaves it.
+template <class Kernel>
 class StepRecorder {
+  using State = typename Kernel::State;
+
  public:
-  StepRecorder(ChainRecorder& recorder, const State& x) : recorder_(&recorder), x_(&x) {}
+  StepRecorder(ChainRecorder& recorder, const Kernel& kernel, const State& x)
+      : recorder_(&recorder), kernel_(&kernel), x_(&x) {}
 
   /// As metropolis_step calls it.
   void operator()(const State& state, double weight) {
@@ -70,6 +73,7 @@ class StepRecorder {
 
   /// After a step; on acceptance `other` is the state that x has left, otherwise the proposal.
   void settle(const StepResult& result, const State& other) {
+    weight_y_ += kernel_->proposal_weight();
     if (result.accepted >= 0) std::swap(weight_x_, weight_y_);
     record(other, weight_y_);
     weight_y_ = 0;
@@ -84,11 +88,11 @@ class StepRecorder {
  private:
   void record(const State& state, double weight) {
     // A chain may start from a path whose light rounding has taken away.
-    if (weight > 0 && state.target > 0)
-      recorder_->record(state.raster, state.rgb / state.target, weight, target_over_density(state));
+    if (weight > 0 && state.target > 0) kernel_->record(*recorder_, state, weight);
   }
 
   ChainRecorder* recorder_;
+  const Kernel* kernel_;
   const State* x_;
   double weight_x_ = 0, weight_y_ = 0;
 };
@@ -133,14 +137,17 @@ class RenderChain {
 struct ChainId {
   uint64_t seed;
   int group, number, count;
+  double b;  ///< Of the candidates that the chains of its group start from.
   Purpose purpose = Purpose::chain;
 
   Rng rng() const { return Rng(seed, purpose, (uint64_t(group) << 32) | uint32_t(number)); }
 };
 
-/// A chain of any kernel that has State; propose; generated(y); stats_row(), the row of the
-/// statistics that its last step belongs to, of stats_rows(); rays(), traced so far; signature(x),
-/// for messages; and save(bytes, x), load(bytes, x) for the state of the chain and its own.
+/// A chain of any kernel that has State; propose; generated(y); record(recorder, x, weight) of a
+/// state with a target; proposal_weight(), with which the last proposal is recorded beside that of
+/// the step; raster_of(x); stats_row(), the row of the statistics that its last step belongs to, of
+/// stats_rows(); rays(), traced so far; signature(x), for messages; and save(bytes, x), load(bytes,
+/// x) for the state of the chain and its own.
 template <class Kernel>
 class RecordedChain : public RenderChain {
   using State = typename Kernel::State;
@@ -153,18 +160,20 @@ class RecordedChain : public RenderChain {
 
   void advance(uint64_t steps, ChainRecorder& recorder) override {
     Kernel& kernel = chain_.kernel();
-    StepRecorder<State> record(recorder, chain_.state());
+    StepRecorder<Kernel> record(recorder, kernel, chain_.state());
     for (uint64_t i = 0; i < steps; ++i) {
-      const Vec2 from = chain_.state().raster;
+      const Vec2 from = kernel.raster_of(chain_.state());
       const uint64_t rays_before = kernel.rays().total();
       const StepResult result = chain_.step(record);
       record.settle(result, chain_.other());
       const State& y = result.accepted < 0 ? chain_.other() : chain_.state();
       ChainStats::Row& row = stats_.rows[kernel.stats_row()];
-      stats_.count(row, result, kernel.generated(y), glm::length(chain_.state().raster - from));
+      stats_.count(row, result, kernel.generated(y),
+                   glm::length(kernel.raster_of(chain_.state()) - from));
       row.rays += kernel.rays().total() - rays_before;
       if (stats_.run > stats_.longest.rejections && stats_.run % 64 == 0)
-        stats_.longest = {stats_.run, chain_.state().raster, kernel.signature(chain_.state())};
+        stats_.longest = {stats_.run, kernel.raster_of(chain_.state()),
+                          kernel.signature(chain_.state())};
     }
     record.finish();
     stats_.rays = kernel.rays();

@@ -139,8 +139,9 @@ class Pilot {
     std::vector<Noise> noise(seeds.size());
     parallel_for(settings_.threads, seeds.size(), [&](uint64_t i) {
       if (cancelled_) return;
-      const ChainId id{settings_.seed, 0, static_cast<int>(i), static_cast<int>(seeds.size()),
-                       Purpose::allocation};
+      const ChainId id{
+          settings_.seed,     0, static_cast<int>(i), static_cast<int>(seeds.size()), b0_,
+          Purpose::allocation};
       const auto chain =
           algorithm_.start(id, candidates.rng(seeds[i]), candidates.rng(candidates.count + 1 + i));
       Recorder recorder(*this);
@@ -196,22 +197,28 @@ class Pilot {
 
 }  // namespace
 
-TargetMap coarse_image(const MetropolisAlgorithm& algorithm, const Raster& raster,
-                       const PilotSettings& pilot, const std::atomic<bool>& cancelled) {
-  std::vector<TargetMap> images(parts, blank_image(raster));
+CoarseImage coarse_image(const MetropolisAlgorithm& algorithm, const Raster& raster,
+                         const PilotSettings& pilot, const std::atomic<bool>& cancelled) {
+  std::vector<CoarseImage> images(parts, {blank_image(raster)});
   const uint64_t stream = mix_bits(pilot.seed ^ mix_bits(uint64_t(Purpose::map)));
   in_parts(pilot.coarse_samples, pilot.threads, [&](uint64_t part, uint64_t i, uint64_t last) {
     const auto source = algorithm.source();
     for (; i < last && !cancelled; ++i) {
       PixelSampler sampler(stream, static_cast<uint32_t>(i));
       const Vec2 position = raster.sample(sampler.next2());
-      for (const FoundLight& found : source->sample(position, sampler))
-        images[part].add(found.raster, found.weight);
+      for (const FoundLight& found : source->sample(position, sampler)) {
+        if (!found.valid()) continue;
+        images[part].map.add(found.raster, found.weight);
+        images[part].b += found.weight / static_cast<double>(pilot.coarse_samples);
+      }
     }
   });
-  TargetMap sum = blank_image(raster);
-  for (const TargetMap& image : images) sum.add(image);
-  sum.finish();
+  CoarseImage sum{blank_image(raster)};
+  for (const CoarseImage& image : images) {
+    sum.map.add(image.map);
+    sum.b += image.b;
+  }
+  sum.map.finish();
   return sum;
 }
 

@@ -32,9 +32,8 @@ inline Allocation samples_alone() {
   return {1, FamilyWeights(std::numeric_limits<double>::max()), 1};
 }
 
-/// The image as 16 x 16 blocks, made from independent samples.
-TargetMap coarse_image(const MetropolisAlgorithm& algorithm, const Raster& raster,
-                       const PilotSettings& pilot, const std::atomic<bool>& cancelled);
+CoarseImage coarse_image(const MetropolisAlgorithm& algorithm, const Raster& raster,
+                         const PilotSettings& pilot, const std::atomic<bool>& cancelled);
 
 /// Finds the division of time with the smallest expected noise, relative to the brightness of
 /// `coarse`. If a share is given, only the weights of the families are found. Without any light

@@ -25,7 +25,7 @@ int MetropolisRendering::chains_of(int group) const {
 }
 
 ChainId MetropolisRendering::chain_id(const ChainShare& share) const {
-  return {seed_, share.group, share.number, chains_of(share.group)};
+  return {seed_, share.group, share.number, chains_of(share.group), groups_[share.group].b};
 }
 
 // ---- before the first unit --------------------------------------------------------------------
@@ -57,10 +57,10 @@ Allocation MetropolisRendering::run_pilot(int threads, const std::atomic<bool>& 
   pilot.samples = settings_.luminance_samples / 6;
   pilot.chains = std::min(pilot.chains, settings_.chains);
   const Raster& raster = scene_->camera().raster();
-  const TargetMap coarse = coarse_image(*algorithm_, raster, pilot, cancelled);
+  const CoarseImage coarse = coarse_image(*algorithm_, raster, pilot, cancelled);
   algorithm_->prepare(coarse, seed_, threads, cancelled);
   if (settings_.independent_share == 0) return {};
-  return allocate(*algorithm_, raster, coarse, settings_.independent_share, pilot, cancelled);
+  return allocate(*algorithm_, raster, coarse.map, settings_.independent_share, pilot, cancelled);
 }
 
 void MetropolisRendering::start_chains(int threads, const std::atomic<bool>& cancelled) {

@@ -29,6 +29,11 @@ class GroupMixture : public PathMixture {
   size_t stats_rows() const { return moves().size() * (longest_row + 1); }
   RayCounts& rays() { return aids().rays; }
   std::string signature(const PathState& x) const { return mlt::signature(x.terms); }
+  Vec2 raster_of(const PathState& x) const { return x.raster; }
+  void record(ChainRecorder& recorder, const PathState& x, double weight) const {
+    recorder.record(x.raster, x.rgb / x.target, weight, target_over_density(x));
+  }
+  double proposal_weight() const { return 0; }
 
   void save(ByteWriter& bytes, const PathState& x) const {
     bytes.write(step_);
@@ -68,9 +73,9 @@ class MltAlgorithm : public MetropolisAlgorithm {
     weights_ = std::make_shared<MixtureWeights>(std::move(weights));
   }
 
-  void prepare(const TargetMap& coarse, uint64_t seed, int threads,
+  void prepare(const CoarseImage& coarse, uint64_t seed, int threads,
                const std::atomic<bool>& cancelled) override {
-    if (settings_.two_stage) target_.set_map(coarse);
+    if (settings_.two_stage) target_.set_map(coarse.map);
     if (!settings_.adaptive || cancelled) return;
     AdaptationSettings adaptation;
     adaptation.seed = seed;

@@ -1,80 +1,113 @@
-// pssmlt: Metropolis light transport in primary sample space over the path tracer. C. Kelemen,
-// L. Szirmay-Kalos, G. Antal, F. Csonka, "A simple and robust mutation strategy for the Metropolis
-// light transport algorithm", Eurographics 2002.
+// pssmlt: Metropolis light transport in primary sample space. C. Kelemen, L. Szirmay-Kalos,
+// G. Antal, F. Csonka, "A simple and robust mutation strategy for the Metropolis light transport
+// algorithm", Eurographics 2002.
 #include "base/registry.h"
 #include "integrator/metropolis_params.h"
 #include "integrator/path_params.h"
-#include "mutation/primary_sample.h"
-#include "path/samplers.h"
+#include "integrator/primary_estimators.h"
 
 namespace mlt {
 namespace {
 
 struct PssmltSettings {
   PathRules path;
+  SmallStep small_step;
   double large_probability = 0.3;
 };
 
-/// Walks from the camera as the numbers say, over the whole image plane.
-struct PrimaryWalk {
-  const Scene* scene;
-  PathRules rules;
+/// The proposals of large steps are independent samples, with the density 1 of the numbers: none of
+/// them is to be lost. A step of a chain shows states with the density T / b, and p_large times
+/// others with the density 1; weighted as samples of both (Kelemen et al. 2002, sec. 4.4), a state
+/// counts rgb / (T + p_large b). Any fixed number in the place of b is right: it is that of the
+/// pilot.
+struct LargeStepWeights {
+  double share = 0;  ///< p_large times that number.
+
+  double denominator(double target) const { return target + share; }
+};
+
+/// Makes paths from numbers.
+template <class Estimator>
+struct PrimaryPaths {
+  const Raster* image;
+  SmallStep small_step;
+  Estimator estimator;
   RayCounts rays = {};
 
   void operator()(PrimaryState& state, Rng& rng) {
-    PrimarySampler sampler(state.numbers, rng);
-    walk(scene->camera().raster().sample(sampler.next2()), state, sampler);
-    state.numbers.resize(sampler.used());
+    PrimarySampler sampler(state.numbers, small_step, rng);
+    sample(image->sample(sampler.next2()), sampler, state);
   }
   template <class Sampler>
-  void walk(const Vec2& raster, PrimaryState& state, Sampler& sampler) {
-    const Camera& camera = scene->camera();
-    state.raster = raster;
-    const Ray ray = leave_lens(camera, state.raster, sampler).ray;
-    // Importance over the density of uniform raster positions.
-    const double importance = camera.raster().sampled_area() / camera.raster().pixels();
-    state.rgb = trace_path(*scene, rules, ray, sampler, rays) * importance;
-    state.target = target_luminance(state.rgb);
-    if (!(std::isfinite(state.target) && min_component(state.rgb) >= 0))
-      state.target = std::nan("");
+  void sample(const Vec2& raster, Sampler& sampler, PrimaryState& state) {
+    state.light.clear();
+    estimator(raster, sampler, state.light, rays);
+    state.target = 0;
+    for (const ImageLight& light : state.light)
+      state.target += min_component(light.rgb) >= 0 ? target_luminance(light.rgb) : std::nan("");
+    if (!std::isfinite(state.target)) state.target = std::nan("");
   }
 };
 
 /// Moves a chain that renders.
-class PssmltKernel : public PrimarySampleKernel<PrimaryWalk> {
- public:
-  using PrimarySampleKernel::PrimarySampleKernel;
+template <class Estimator>
+class PssmltKernel : public PrimaryStep<PrimaryState, PrimaryPaths<Estimator>> {
+  using Step = PrimaryStep<PrimaryState, PrimaryPaths<Estimator>>;
 
-  size_t stats_row() const { return last(); }
+ public:
+  /// `b`: that of the group of chains.
+  PssmltKernel(const PssmltSettings& settings, const PrimaryPaths<Estimator>& paths,
+               const LargeStepWeights& weights, double b)
+      : Step(settings.large_probability, paths),
+        weights_(weights),
+        large_step_weight_(weights.share / (settings.large_probability * b)) {}
+
+  void record(ChainRecorder& recorder, const PrimaryState& x, double weight) const {
+    const double denominator = weights_.denominator(x.target);
+    for (const ImageLight& light : x.light)
+      recorder.record(light.raster, light.rgb / denominator, weight, denominator);
+  }
+  double proposal_weight() const { return this->last() == Step::large ? large_step_weight_ : 0; }
+
+  size_t stats_row() const { return this->last(); }
   size_t stats_rows() const { return 2; }
-  RayCounts& rays() { return evaluate().rays; }
+  RayCounts& rays() { return this->evaluate().rays; }
   std::string signature(const PrimaryState&) const { return ""; }
+  Vec2 raster_of(const PrimaryState& x) const {
+    return x.light.empty() ? Vec2(0) : x.light[0].raster;
+  }
 
   void save(ByteWriter& bytes, const PrimaryState& x) const {
-    bytes.write(x.numbers);
-    bytes.write(x.raster);
-    bytes.write(x.rgb);
+    x.numbers.save(bytes);
+    bytes.write(x.light);
     bytes.write(x.target);
   }
   void load(ByteReader& bytes, PrimaryState& x) const {
-    bytes.read(x.numbers);
-    for (const double u : x.numbers)
-      if (!(u >= 0 && u < 1)) throw RenderError("the saved state has a number outside of [0, 1)");
-    x.raster = bytes.read<Vec2>();
-    x.rgb = bytes.read<Color>();
+    x.numbers.load(bytes);
+    bytes.read(x.light);
     x.target = bytes.read<double>();
   }
+
+ private:
+  LargeStepWeights weights_;
+  double large_step_weight_;
 };
 
+template <class Estimator>
 class Pssmlt : public MetropolisAlgorithm {
  public:
   Pssmlt(ScenePtr scene, const PssmltSettings& settings)
       : scene_(std::move(scene)), settings_(settings) {}
 
-  std::unique_ptr<Source> source() const override { return std::make_unique<PssmltSource>(walk()); }
+  void prepare(const CoarseImage& coarse, uint64_t, int, const std::atomic<bool>&) override {
+    weights_.share = settings_.large_probability * coarse.b;
+  }
+  std::unique_ptr<Source> source() const override {
+    return std::make_unique<PssmltSource>(paths(), weights_);
+  }
   std::unique_ptr<RenderChain> start(const ChainId& id, Rng candidate, Rng) const override {
     PrimaryState x;
-    walk()(x, candidate);
+    paths()(x, candidate);
     return chain(id, std::move(x));
   }
   std::unique_ptr<RenderChain> blank(const ChainId& id) const override { return chain(id, {}); }
@@ -84,10 +117,21 @@ class Pssmlt : public MetropolisAlgorithm {
     small.name = "small_step";
     return {large, small};
   }
+  std::string save() const override {
+    ByteWriter bytes;
+    bytes.write(weights_);
+    return bytes.take();
+  }
+  void load(const std::string& saved) override {
+    ByteReader bytes(saved);
+    weights_ = bytes.read<LargeStepWeights>();
+    bytes.finish();
+  }
 
  private:
   struct PssmltSource : Source {
-    explicit PssmltSource(const PrimaryWalk& w) : walk(w) {}
+    PssmltSource(const PrimaryPaths<Estimator>& p, const LargeStepWeights& w)
+        : paths(p), weights(w) {}
     const std::vector<FoundLight>& sample(const Vec2& raster, PixelSampler& sampler) override {
       return draw(raster, sampler);
     }
@@ -96,47 +140,69 @@ class Pssmlt : public MetropolisAlgorithm {
     }
     template <class Sampler>
     const std::vector<FoundLight>& draw(const Vec2& raster, Sampler& sampler) {
-      walk.walk(raster, state, sampler);
+      paths.sample(raster, sampler, state);
       found.clear();
-      if (state.target != 0)
-        found.push_back({state.raster, state.rgb, state.target, state.target, true});
+      for (const ImageLight& light : state.light)
+        found.push_back({light.raster, light.rgb, target_luminance(light.rgb),
+                         weights.denominator(state.target), light.own_pixel});
       return found;
     }
-    const RayCounts& rays() const override { return walk.rays; }
+    const RayCounts& rays() const override { return paths.rays; }
 
-    PrimaryWalk walk;
+    PrimaryPaths<Estimator> paths;
+    LargeStepWeights weights;
     PrimaryState state;
     std::vector<FoundLight> found;
   };
 
-  PrimaryWalk walk() const { return {scene_.get(), settings_.path}; }
+  PrimaryPaths<Estimator> paths() const {
+    return {&scene_->camera().raster(), settings_.small_step, {*scene_, settings_.path}};
+  }
   std::unique_ptr<RenderChain> chain(const ChainId& id, PrimaryState start) const {
-    return std::make_unique<RecordedChain<PssmltKernel>>(
-        PssmltKernel(settings_.large_probability, walk()), id, std::move(start));
+    return std::make_unique<RecordedChain<PssmltKernel<Estimator>>>(
+        PssmltKernel<Estimator>(settings_, paths(), weights_, id.b), id, std::move(start));
   }
 
   ScenePtr scene_;
   PssmltSettings settings_;
+  LargeStepWeights weights_;
 };
 
 class PssmltIntegrator : public Integrator {
  public:
   explicit PssmltIntegrator(Params& params)
       : metropolis_(metropolis_settings(params)),
-        settings_{path_rules(params), params.real_in("p_large", 0, 1)} {
-    if (params.boolean("bidirectional"))
-      params.fail("bidirectional",
-                  "is true, but pssmlt works over the path tracer only; leave it out");
+        estimator_(params.text("estimator")),
+        settings_{path_rules(params), small_step(params), params.real_in("p_large", 0, 1)} {
+    if (params.has("bidirectional")) {
+      const bool bidirectional = params.boolean("bidirectional");
+      if (params.has("estimator") && bidirectional != (estimator_ == "bdpt"))
+        params.fail("bidirectional", "contradicts 'estimator'; leave it out");
+      if (bidirectional) estimator_ = "bdpt";
+    }
     if (settings_.large_probability == 0)
       params.fail("p_large", "is 0, but without large steps a chain cannot reach the whole image");
   }
   std::unique_ptr<Rendering> start(ScenePtr scene, uint64_t seed) const override {
-    return std::make_unique<MetropolisRendering>(scene, seed, metropolis_,
-                                                 std::make_unique<Pssmlt>(scene, settings_));
+    return std::make_unique<MetropolisRendering>(scene, seed, metropolis_, algorithm(scene));
   }
 
  private:
+  static SmallStep small_step(Params& params) {
+    SmallStep step;
+    if (params.text("small_step") == "gaussian") step = {SmallStep::Shape::gaussian, 0.01};
+    if (params.has("step_size")) step.size = params.real_in("step_size", 1e-9, 0.5);
+    return step;
+  }
+  std::unique_ptr<MetropolisAlgorithm> algorithm(const ScenePtr& scene) const {
+    if (estimator_ == "bdpt")
+      return std::make_unique<Pssmlt<BidirectionalEstimator>>(scene, settings_);
+    if (estimator_ == "ptracer") return std::make_unique<Pssmlt<LightEstimator>>(scene, settings_);
+    return std::make_unique<Pssmlt<PathEstimator>>(scene, settings_);
+  }
+
   MetropolisSettings metropolis_;
+  std::string estimator_;
   PssmltSettings settings_;
 };
 
@@ -145,14 +211,29 @@ class PssmltIntegrator : public Integrator {
 Plugin integrator_pssmlt() {
   return make_plugin<PssmltIntegrator>(integrator_schema(
       "pssmlt",
-      "Primary-sample-space Metropolis light transport over the path tracer (Kelemen et al. 2002). "
-      "One spp is one mutation per pixel.",
+      "Primary-sample-space Metropolis light transport (Kelemen et al. 2002): mutates the random "
+      "numbers of another integrator. One spp is one mutation per pixel.",
       {path_parameters(),
        metropolis_parameters(),
-       {{"p_large", ParamType::real, 0.3,
+       {{"estimator",
+         ParamType::text,
+         std::string("path"),
+         "The integrator whose numbers are mutated: `path`, `bdpt`, or `ptracer`, which does not "
+         "see lights directly or in mirrors.",
+         {"path", "bdpt", "ptracer"}},
+        {"bidirectional", ParamType::boolean, no_default,
+         "True stands for the estimator `bdpt`, as in Mitsuba 0.6."},
+        {"p_large", ParamType::real, 0.3,
          "Probability of a large step, which draws a new path independently."},
-        {"bidirectional", ParamType::boolean, false,
-         "Only false: bidirectional estimators are not part of this integrator."}}}));
+        {"small_step",
+         ParamType::text,
+         std::string("kelemen"),
+         "How a small step moves a number: `kelemen` by 1/16 of the step size up to all of it, or "
+         "`gaussian`.",
+         {"kelemen", "gaussian"}},
+        {"step_size", ParamType::real, no_default,
+         "The largest move of a small step, by default 1/64, or the standard deviation of a "
+         "Gaussian one, by default 0.01."}}}));
 }
 
 }  // namespace mlt

@@ -39,6 +39,7 @@ class BidirectionalSampler {
   template <class Sampler>
   void sample(const Vec2& raster, Sampler& sampler, RayCounts& rays) {
     raster_ = raster;
+    sampler.begin(Stream::camera);
     const auto [lens, ray] = leave_lens(scene_->camera(), raster, sampler);
     time_ = ray.time;
     camera_.start(camera_vertex(lens.at), lens.pdf);
@@ -52,6 +53,7 @@ class BidirectionalSampler {
   /// Draws a light subpath and a point on the lens alone.
   template <class Sampler>
   void sample_light(Sampler& sampler, RayCounts& rays) {
+    sampler.begin(Stream::camera);
     const Vec2 u = sampler.next2();
     time_ = scene_->camera().time(sampler.next());
     const PositionSample lens = scene_->camera().sample_position(u, time_);
@@ -94,6 +96,7 @@ class BidirectionalSampler {
 
   template <class Sampler>
   void draw_direct(Sampler& sampler) {
+    sampler.begin(Stream::direct);
     direct_u_.clear();
     for (size_t i = 0; i < camera_.size(); ++i) {
       const Vec2 u = sampler.next2();

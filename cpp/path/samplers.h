@@ -1,19 +1,25 @@
-// Sources of uniform numbers for a walk. All have next() and next2(); walks are templates over
-// them.
+// Sources of uniform numbers for a walk. All have next(), next2(), and begin(stream), which says what
+// the numbers that follow are for; walks are templates over them.
 #pragma once
 
 #include "base/rng.h"
 #include "math/low_discrepancy.h"
 #include "math/vec.h"
 
-#include <vector>
+#include <array>
 
 namespace mlt {
+
+/// What numbers are for: the walk from the camera, that from the light, and the choice of lights as
+/// seen from the vertices of the former.
+enum class Stream { camera, light, direct };
+inline constexpr size_t stream_count = 3;
 
 /// Independent random numbers.
 class RandomSampler {
  public:
   explicit RandomSampler(Rng& rng) : rng_(&rng) {}
+  void begin(Stream) {}
   double next() { return rng_->next(); }
   Vec2 next2() {
     const double x = rng_->next();
@@ -33,6 +39,7 @@ class PixelSampler {
       : stratified_(scrambled_sobol<stratified_pairs>(index, stream)),
         rng_(stream, Purpose::pixel, index) {}
 
+  void begin(Stream) {}
   double next() { return rng_.next(); }
   Vec2 next2() {
     if (pair_ < stratified_pairs) return stratified_[pair_++];
@@ -46,27 +53,6 @@ class PixelSampler {
   std::array<Vec2, stratified_pairs> stratified_;
   size_t pair_ = 0;
   Rng rng_;
-};
-
-/// A point of primary sample space (Kelemen et al. 2002): numbers that are given, continued by
-/// fresh ones where the walk asks for more.
-class PrimarySampler {
- public:
-  PrimarySampler(std::vector<double>& numbers, Rng& rng) : numbers_(&numbers), rng_(&rng) {}
-  double next() {
-    if (used_ == numbers_->size()) numbers_->push_back(rng_->next());
-    return (*numbers_)[used_++];
-  }
-  Vec2 next2() {
-    const double x = next();
-    return {x, next()};
-  }
-  size_t used() const { return used_; }
-
- private:
-  std::vector<double>* numbers_;
-  Rng* rng_;
-  size_t used_ = 0;
 };
 
 }  // namespace mlt

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "path/path_rules.h"
+#include "path/samplers.h"
 #include "path/walk.h"
 
 #include <vector>
@@ -83,6 +84,7 @@ template <class Sampler>
 void walk_from_light(const Walker& walker, const PathRules& rules, Sampler& sampler,
                      Subpath& subpath) {
   subpath.clear();
+  sampler.begin(Stream::light);
   const Vec2 u_position = sampler.next2(), u_direction = sampler.next2();
   const LightSample light =
       sample_light_position(walker.scene, {sampler.next(), u_position}, walker.time);

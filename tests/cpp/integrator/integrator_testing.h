@@ -36,18 +36,35 @@ inline std::unique_ptr<Rendering> rendered(const ScenePtr& scene, const Integrat
   return rendering;
 }
 
+/// An integrator with some of its parameters, under a name for both.
+struct Variant {
+  std::string integrator;
+  Assignments assignments;
+};
+inline Variant variant(const std::string& name) {
+  if (name == "pssmlt_bdpt") return {"pssmlt", {{"estimator", "bdpt"}}};
+  if (name == "pssmlt_ptracer") return {"pssmlt", {{"estimator", "ptracer"}}};
+  if (name == "pssmlt_gaussian") return {"pssmlt", {{"small_step", "gaussian"}}};
+  return {name, {}};
+}
+inline bool has_chains(const std::string& integrator) {
+  return integrator == "pssmlt" || integrator == "mlt";
+}
+
 /// An integrator as a side of a comparison. Metropolis integrators scale their bootstrap with the
 /// samples, so that its error vanishes with theirs.
 inline Side side(const ScenePtr& scene, const std::string& name, const Assignments& assignments,
                  double spp, double luminance_samples = 5000) {
   return {name, [=](uint64_t seed, double effort) {
+            const auto [integrator_name, own] = variant(name);
             Assignments all = assignments;
-            if (name == "pssmlt" || name == "mlt") {
+            all.insert(all.end(), own.begin(), own.end());
+            if (has_chains(integrator_name)) {
               const auto samples = static_cast<int>(luminance_samples * effort);
               all.push_back({"chains", "64"});
               all.push_back({"luminance_samples", std::to_string(samples)});
             }
-            return rendered(scene, integrator(name, all), seed, spp * effort)->image();
+            return rendered(scene, integrator(integrator_name, all), seed, spp * effort)->image();
           }};
 }
 
@@ -64,6 +81,11 @@ inline std::vector<Algorithm> algorithms() {
           {"bdpt", {{"max_depth", "6"}}},
           {"bdpt", {{"max_depth", "3"}, {"techniques", "true"}}},
           {"pssmlt", {{"max_depth", "6"}, {"chains", "40"}, {"luminance_samples", "4000"}}},
+          {"pssmlt",
+           {{"estimator", "bdpt"},
+            {"max_depth", "4"},
+            {"chains", "40"},
+            {"luminance_samples", "4000"}}},
           {"mlt", {{"max_depth", "6"}, {"chains", "40"}, {"luminance_samples", "4000"}}}};
 }
 

@@ -40,7 +40,8 @@ void expect_same(const Pair& pair, const SameImageSettings& settings) {
   const ScenePtr scene = make_scene(pair.scene).scene;
   const Assignments depth{{"max_depth", "6"}};
   const SameImage found =
-      same_image(side(scene, pair.integrator, depth, pair.integrator == "pssmlt" ? 64 : 16),
+      same_image(side(scene, pair.integrator, depth,
+                      has_chains(variant(pair.integrator).integrator) ? 64 : 16),
                  side(scene, "bdpt", depth, 16), settings);
   EXPECT_TRUE(found) << pair.scene << ": " << found.text;
 }
@@ -58,7 +59,9 @@ INSTANTIATE_TEST_SUITE_P(
         Pair{"camera_in_glass", "path"}, Pair{"light_under_water", "path"},
         Pair{"smooth_normals", "path"}, Pair{"smooth_normals", "ptracer"},
         Pair{"smooth_glass", "path"}, Pair{"spot", "ptracer"}, Pair{"materials", "path"},
-        Pair{"materials", "pssmlt"}, Pair{"instances", "path"}, Pair{"orthographic", "path"},
+        Pair{"materials", "pssmlt"}, Pair{"point", "pssmlt_bdpt"},
+        Pair{"thin_lens_sky", "pssmlt_bdpt"}, Pair{"cornell", "pssmlt_ptracer"},
+        Pair{"sky", "pssmlt_gaussian"}, Pair{"instances", "path"}, Pair{"orthographic", "path"},
         Pair{"orthographic", "ptracer"}, Pair{"projector", "ptracer"}, Pair{"daylight", "path"},
         Pair{"bent_normals", "path"}, Pair{"more_materials", "path"}),
     pair_name);
@@ -74,6 +77,8 @@ std::vector<Pair> all_pairs() {
     if (made.path_sees_all) pairs.push_back({name, "path"});
     if (made.path_sees_all) pairs.push_back({name, "pssmlt"});
     if (made.light_sees_all) pairs.push_back({name, "ptracer"});
+    if (made.light_sees_all) pairs.push_back({name, "pssmlt_ptracer"});
+    pairs.push_back({name, "pssmlt_bdpt"});
   }
   return pairs;
 }

@@ -1,0 +1,308 @@
+// Primary-sample-space mutations leave their target unchanged, also where a walk uses more or fewer
+// numbers after the step than before. The invariance test: weighted starts, one step, and paired
+// differences against mean zero.
+#include "primary/primary_step.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "harness/chi_square.h"
+#include "markov/lecture_examples.h"
+
+namespace mlt {
+namespace {
+
+using namespace test;
+
+constexpr double alpha = 1e-5;
+
+// ---- the small step
+
+TEST(SmallStep, IsSymmetricAndFollowsItsDensity) {
+  // |s| has a density proportional to 1 / |s|, so log |s| is uniform.
+  constexpr int cells = 64, n = 200'000;
+  constexpr double smallest = 1. / 1024, largest = 1. / 64, rounding = 1e-15;
+  for (const double u : {0.25, 0.5, 0.999, 0.0001}) {
+    std::vector<double> observed(2 * cells), expected(2 * cells, n / (2.0 * cells));
+    Rng rng(51, Purpose::test, 0);
+    for (int i = 0; i < n; ++i) {
+      const double v = SmallStep()(u, 1, rng);
+      ASSERT_GE(v, 0);
+      ASSERT_LT(v, 1);
+      double s = v - u;
+      if (std::abs(s) > 0.5) s -= std::copysign(1.0, s);
+      const double size = std::abs(s);
+      ASSERT_GE(size, smallest - rounding);
+      ASSERT_LE(size, largest + rounding);
+      const int cell =
+          static_cast<int>(cells * std::log(size / smallest) / std::log(largest / smallest));
+      observed[(s > 0 ? cells : 0) + std::min(cells - 1, std::max(0, cell))] += 1;
+    }
+    EXPECT_GT(chi_square_counts(observed, expected).p_value, alpha) << u;
+  }
+}
+
+TEST(SmallStep, NeverReachesOne) {
+  // Just less than 0 wraps to what is rounded to 1.
+  for (uint64_t stream = 0; stream < 1000; ++stream) {
+    Rng rng(52, Purpose::test, stream), same = rng;
+    const double from_zero = SmallStep()(0, 1, same);
+    if (from_zero < 0.5) continue;  // a step upwards
+    Rng probe = rng;
+    const double sample = probe.next();
+    double u = 1. / 64 * std::exp(-std::log(16.0) * (2 * sample - 1));
+    for (int i = 0; i < 4; ++i, u = std::nextafter(u, 0)) {
+      Rng again = rng;
+      const double v = SmallStep()(u, 1, again);
+      ASSERT_GE(v, 0);
+      ASSERT_LT(v, 1);
+    }
+  }
+}
+
+// ---- one step of a kernel
+
+/// A state that also knows the numbers that it has used.
+struct WalkState {
+  PrimaryNumbers numbers;
+  std::vector<double> used;
+  double target = 0;
+};
+
+constexpr SmallStep steps[] = {{}, {SmallStep::Shape::gaussian, 0.02}};
+
+/// A walk that uses two more numbers per bounce, of two streams, and ends when one of them says so.
+/// Its value may be 0.
+void walk_with(const SmallStep& step, WalkState& state, Rng& rng) {
+  PrimarySampler sampler(state.numbers, step, rng);
+  state.used.clear();
+  const auto next = [&](Stream stream) {
+    sampler.begin(stream);
+    state.used.push_back(sampler.next());
+    return state.used.back();
+  };
+  double throughput = 1 + next(Stream::camera), value = 0;
+  for (int bounce = 0; bounce < 8; ++bounce) {
+    const double u = next(Stream::light);
+    throughput *= 0.4 + u * u;
+    if (u > 0.3) value += throughput;
+    if (next(Stream::camera) > 0.5 + 0.3 * u) break;
+  }
+  state.target = value;
+}
+void walk(WalkState& state, Rng& rng) { walk_with({}, state, rng); }
+
+using Kernel = PrimaryStep<WalkState, std::function<void(WalkState&, Rng&)>>;
+
+/// What is observed of a state.
+std::vector<double> observe(const WalkState& s) {
+  const double count = static_cast<double>(s.used.size());
+  return {std::cos(2 * pi * s.used[0]),
+          std::sin(2 * pi * s.used[0]),
+          s.used[0] < 0.25 ? 1. : 0.,
+          count,
+          count == 3 ? 1. : 0.,
+          count == 5 ? 1. : 0.,
+          s.used.back(),
+          std::cos(2 * pi * s.used.back()),
+          s.used[1],
+          std::sin(2 * pi * s.used[1]),
+          std::log(s.target),
+          s.target < 0.5 ? 1. : 0.};
+}
+
+struct Invariance {
+  double p_value;
+  int accepted = 0, dimension_changed = 0;
+};
+
+/// E[w g(y)] = E[w g(x)] for some steps x -> ... -> y of a kernel, for all g.
+template <class Kernel>
+Invariance invariance(Kernel kernel, int n = 300'000, int steps = 1) {
+  Invariance out{};
+  std::vector<Moments> differences;
+  Rng rng(53, Purpose::test, 0);
+  for (int i = 0; i < n; ++i) {
+    WalkState x;
+    walk(x, rng);
+    const double weight = x.target;  // the numbers' density is 1
+    std::vector<double> change(observe(x).size());
+    if (weight > 0) {
+      const size_t before = x.used.size();
+      std::array<WalkState, 1> y;
+      const std::vector<double> g = observe(x);
+      for (int k = 0; k < steps; ++k) {
+        const StepResult step = metropolis_step(x, y, kernel, rng, forget);
+        EXPECT_FALSE(step.invalid);
+        if (step.accepted >= 0) ++out.accepted;
+      }
+      if (x.used.size() != before) ++out.dimension_changed;
+      const std::vector<double> h = observe(x);
+      for (size_t k = 0; k < g.size(); ++k) change[k] = weight * (h[k] - g[k]);
+    }
+    differences.resize(change.size());
+    for (size_t k = 0; k < change.size(); ++k) differences[k].add(change[k]);
+  }
+  out.p_value = smallest_p_value(differences, std::vector<double>(differences.size(), 0.0));
+  return out;
+}
+
+TEST(PrimaryStep, LeavesItsTargetUnchanged) {
+  for (const SmallStep& step : steps)
+    for (const double large : {1.0, 0.3, 0.0}) {
+      const Kernel kernel(large, [&](WalkState& state, Rng& rng) { walk_with(step, state, rng); });
+      const Invariance result = invariance(kernel);
+      EXPECT_GT(result.p_value, alpha) << large;
+      EXPECT_GT(result.accepted, 50'000) << large;
+      EXPECT_GT(result.dimension_changed, 1000) << large;
+    }
+}
+
+/// Several steps: numbers that were not used in between have to catch up.
+TEST(PrimaryStep, LeavesItsTargetUnchangedWhenNumbersAreMovedLater) {
+  for (const double large : {0.2, 0.0}) {
+    const Invariance result = invariance(Kernel(large, walk), 60'000, 12);
+    EXPECT_GT(result.p_value, alpha) << large;
+    EXPECT_GT(result.dimension_changed, 1000) << large;
+  }
+}
+
+/// The right kernel with something done to its quotients.
+template <class Spoil>
+struct SpoiltQuotient {
+  Kernel kernel;
+  Spoil spoil;
+  Transition propose(const WalkState& x, std::array<WalkState, 1>& y, size_t stage, Rng& rng) {
+    const Transition t = kernel.propose(x, y, stage, rng);
+    return y[0].target == 0 ? t : spoil(t, x, y[0]);
+  }
+};
+template <class Spoil>
+SpoiltQuotient<Spoil> spoilt(double large, Spoil spoil) {
+  return {Kernel(large, walk), spoil};
+}
+
+TEST(PrimaryStep, WithAWrongQuotientIsFound) {
+  for (const double large : {1.0, 0.0}) {
+    EXPECT_LT(invariance(
+                  spoilt(large, [](Transition t, auto&,
+                                   auto&) { return Transition{t.forward, std::sqrt(t.backward)}; }))
+                  .p_value,
+              alpha);
+    // Counting the numbers as if they were not of density 1.
+    EXPECT_LT(invariance(spoilt(large,
+                                [](Transition t, const WalkState& x, const WalkState& y) {
+                                  return Transition{t.forward * std::pow(1.1, y.used.size()),
+                                                    t.backward * std::pow(1.1, x.used.size())};
+                                }))
+                  .p_value,
+              alpha);
+  }
+}
+
+/// Small steps with a flaw: flaw(x's numbers) gives those of y.
+template <class Flaw>
+struct Flawed {
+  Flaw flaw;
+  Transition propose(const WalkState& x, std::array<WalkState, 1>& proposals, size_t, Rng& rng) {
+    WalkState& y = proposals[0];
+    y.numbers = x.numbers;
+    flaw(x, y, rng);
+    walk(y, rng);
+    if (y.target == 0) return impossible;
+    return {1 / y.target, 1 / x.target};
+  }
+};
+template <class Flaw>
+Flawed<Flaw> flawed(Flaw flaw) {
+  return {flaw};
+}
+
+TEST(PrimaryStep, WithALopsidedStepIsFound) {
+  EXPECT_LT(invariance(flawed([](const WalkState& x, WalkState& y, Rng& rng) {
+              for (size_t i = 0; i < x.used.size() / 2; ++i) {
+                const double u = x.used[2 * i + 1];
+                const double v = SmallStep()(u, 1, rng);
+                const bool down = v < u && u - v < 0.5;
+                y.numbers.set(Stream::light, i, down && rng.next() < 0.2 ? u : v);
+              }
+            })).p_value,
+            alpha);
+}
+
+TEST(PrimaryStep, ThatContinuesWithNumbersThatAreNotUniformIsFound) {
+  EXPECT_LT(invariance(flawed([](const WalkState& x, WalkState& y, Rng& rng) {
+              y.numbers = {};
+              for (size_t i = 0; i < 10; ++i)
+                y.numbers.set(Stream::light, i,
+                              2 * i + 1 < x.used.size() ? SmallStep()(x.used[2 * i + 1], 1, rng)
+                                                        : std::sqrt(rng.next()));
+            })).p_value,
+            alpha);
+}
+
+TEST(PrimaryStep, MovesEveryNumberALittleOrDrawsAllAfresh) {
+  Rng rng(54, Purpose::test, 0);
+  WalkState x;
+  do walk(x, rng);
+  while (x.target == 0);
+  std::array<WalkState, 1> y;
+  Kernel kernel(0.3, walk);
+  int large = 0;
+  for (int i = 0; i < 10'000; ++i) {
+    kernel.propose(x, y, 0, rng);
+    if (kernel.last() == kernel.large) {
+      ++large;
+      continue;
+    }
+    for (size_t k = 0; k < std::min(x.used.size(), y[0].used.size()); ++k) {
+      const double distance = std::abs(x.used[k] - y[0].used[k]);
+      EXPECT_LE(std::min(distance, 1 - distance), 1. / 64 + 1e-15);
+    }
+  }
+  EXPECT_GT(chi_square_counts({large + 0., 10'000. - large}, {3000, 7000}).p_value, alpha);
+}
+
+TEST(PrimaryStep, RejectsWhatIsBlack) {
+  Kernel kernel(1, [](WalkState& state, Rng&) { state.target = 0; });
+  WalkState x;
+  x.target = 1;
+  std::array<WalkState, 1> y;
+  Rng rng(55, Purpose::test, 0);
+  EXPECT_EQ(acceptance(kernel.propose(x, y, 0, rng)), 0);
+}
+
+// ---- numbers
+
+TEST(PrimaryNumbers, CatchUpWithTheStepsThatTheyHaveMissed) {
+  Rng rng(56, Purpose::test, 0);
+  const SmallStep gaussian = steps[1];
+  Moments squares;
+  for (int i = 0; i < 20'000; ++i) {
+    PrimaryNumbers numbers;
+    numbers.set(Stream::camera, 0, 0.5);
+    for (int k = 0; k < 9; ++k) numbers.step(false);
+    squares.add(sqr(numbers.get(Stream::camera, 0, gaussian, rng) - 0.5));
+  }
+  EXPECT_NEAR(squares.mean(), 9 * sqr(gaussian.size), 5 * std::sqrt(squares.variance_of_mean()));
+}
+
+TEST(PrimaryNumbers, AreReadBackAsTheyWere) {
+  Rng rng(57, Purpose::test, 0);
+  PrimaryNumbers numbers;
+  for (size_t i = 0; i < 5; ++i) numbers.get(Stream::direct, i, {}, rng);
+  numbers.step(false);
+  ByteWriter bytes;
+  numbers.save(bytes);
+  PrimaryNumbers same;
+  const std::string saved = bytes.take();
+  ByteReader reader(saved);
+  same.load(reader);
+  Rng twin = rng;
+  for (size_t i = 0; i < 5; ++i)
+    EXPECT_EQ(numbers.get(Stream::direct, i, {}, rng), same.get(Stream::direct, i, {}, twin));
+}
+
+}  // namespace
+}  // namespace mlt
