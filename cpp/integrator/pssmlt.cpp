@@ -5,6 +5,7 @@
 #include "integrator/metropolis_params.h"
 #include "integrator/path_params.h"
 #include "integrator/primary_estimators.h"
+#include "integrator/small_step_params.h"
 
 namespace mlt {
 namespace {
@@ -173,27 +174,19 @@ class PssmltIntegrator : public Integrator {
   explicit PssmltIntegrator(Params& params)
       : metropolis_(metropolis_settings(params)),
         estimator_(params.text("estimator")),
-        settings_{path_rules(params), small_step(params), params.real_in("p_large", 0, 1)} {
+        settings_{path_rules(params), small_step(params), large_probability(params)} {
     if (params.has("bidirectional")) {
       const bool bidirectional = params.boolean("bidirectional");
       if (params.has("estimator") && bidirectional != (estimator_ == "bdpt"))
         params.fail("bidirectional", "contradicts 'estimator'; leave it out");
       if (bidirectional) estimator_ = "bdpt";
     }
-    if (settings_.large_probability == 0)
-      params.fail("p_large", "is 0, but without large steps a chain cannot reach the whole image");
   }
   std::unique_ptr<Rendering> start(ScenePtr scene, uint64_t seed) const override {
     return std::make_unique<MetropolisRendering>(scene, seed, metropolis_, algorithm(scene));
   }
 
  private:
-  static SmallStep small_step(Params& params) {
-    SmallStep step;
-    if (params.text("small_step") == "gaussian") step = {SmallStep::Shape::gaussian, 0.01};
-    if (params.has("step_size")) step.size = params.real_in("step_size", 1e-9, 0.5);
-    return step;
-  }
   std::unique_ptr<MetropolisAlgorithm> algorithm(const ScenePtr& scene) const {
     if (estimator_ == "bdpt")
       return std::make_unique<Pssmlt<BidirectionalEstimator>>(scene, settings_);
@@ -215,6 +208,7 @@ Plugin integrator_pssmlt() {
       "numbers of another integrator. One spp is one mutation per pixel.",
       {path_parameters(),
        metropolis_parameters(),
+       primary_step_parameters(),
        {{"estimator",
          ParamType::text,
          std::string("path"),
@@ -222,18 +216,7 @@ Plugin integrator_pssmlt() {
          "see lights directly or in mirrors.",
          {"path", "bdpt", "ptracer"}},
         {"bidirectional", ParamType::boolean, no_default,
-         "True stands for the estimator `bdpt`, as in Mitsuba 0.6."},
-        {"p_large", ParamType::real, 0.3,
-         "Probability of a large step, which draws a new path independently."},
-        {"small_step",
-         ParamType::text,
-         std::string("kelemen"),
-         "How a small step moves a number: `kelemen` by 1/16 of the step size up to all of it, or "
-         "`gaussian`.",
-         {"kelemen", "gaussian"}},
-        {"step_size", ParamType::real, no_default,
-         "The largest move of a small step, by default 1/64, or the standard deviation of a "
-         "Gaussian one, by default 0.01."}}}));
+         "True stands for the estimator `bdpt`, as in Mitsuba 0.6."}}}));
 }
 
 }  // namespace mlt

@@ -147,7 +147,7 @@ bool BidirectionalSampler::evaluate_hit_lens(Connection& connection, RayCounts& 
   connection.raster = *raster;
   connection.contribution = last.next_throughput * terms.f;
   if (is_black(connection.contribution)) return false;
-  if (k == settings_.rules.most_edges()) {  // The walk has not followed its last direction.
+  if (light_.goes_on() && s - 1 == static_cast<int>(light_.size())) {  // Nobody has looked yet.
     const double seen = walker(rays).join(last.vertex.at, *hit);
     if (seen == 0) return false;
     connection.contribution *= seen;

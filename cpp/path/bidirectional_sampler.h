@@ -17,6 +17,13 @@ struct BidirectionalSettings {
   Heuristic heuristic = Heuristic::power;
 };
 
+/// How a path is made: s vertices by a walk from the light, t by one from the camera.
+struct Technique {
+  int s = 0, t = 0;
+
+  int edges() const { return s + t - 1; }
+};
+
 /// One path found by technique (s, t).
 struct Connection {
   int s, t;
@@ -38,16 +45,36 @@ class BidirectionalSampler {
   /// Draws both subpaths for a raster position.
   template <class Sampler>
   void sample(const Vec2& raster, Sampler& sampler, RayCounts& rays) {
-    raster_ = raster;
+    const int edges = settings_.rules.most_edges();
     sampler.begin(Stream::camera);
-    const auto [lens, ray] = leave_lens(scene_->camera(), raster, sampler);
-    time_ = ray.time;
-    camera_.start(camera_vertex(lens.at), lens.pdf);
-    camera_.walk(walker(rays), settings_.rules,
-                 {ray, scene_->camera().pdf_direction(lens.at, ray.d)}, sampler);
-    walk_from_light(walker(rays), settings_.rules, sampler, light_);
+    walk_from_camera(raster, {edges + 1, false}, sampler, rays);
+    walk_from_light(walker(rays), settings_.rules, longest_light_walk(), sampler, light_);
     draw_direct(sampler);
     sum_techniques();
+  }
+
+  /// Draws a raster position, and what the technique needs of both subpaths; then calls
+  /// found(connection), at most once. Of several lights at infinity, technique s = 0 chooses one.
+  template <class Sampler, class Found>
+  void sample_technique(const Technique& technique, Sampler& sampler, RayCounts& rays,
+                        Found&& found) {
+    const auto [s, t] = technique;
+    sampler.begin(Stream::camera);
+    walk_from_camera(scene_->camera().raster().sample(sampler.next2()), {t, false}, sampler, rays);
+    if (static_cast<int>(camera_.size()) < t) return;
+    light_.clear();
+    const WalkLength most = t == 0 ? WalkLength{s - 1, true} : WalkLength{s, false};
+    const bool direct = s == 1 && t > 0 && settings_.sample_direct;
+    if (s > 0 && !direct) walk_from_light(walker(rays), settings_.rules, most, sampler, light_);
+    if (!direct && static_cast<int>(light_.size()) < most.vertices) return;
+    sampler.begin(Stream::direct);
+    sum_techniques();
+    if (s == 0)
+      hit_one_light(t, sampler, found);
+    else if (t == 0)
+      hit_lens(s, rays, found);
+    else
+      connect_one(s, t, direct, sampler, rays, found);
   }
 
   /// Draws a light subpath and a point on the lens alone.
@@ -58,7 +85,7 @@ class BidirectionalSampler {
     time_ = scene_->camera().time(sampler.next());
     const PositionSample lens = scene_->camera().sample_position(u, time_);
     camera_.start(camera_vertex(lens.at), lens.pdf);
-    walk_from_light(walker(rays), settings_.rules, sampler, light_);
+    walk_from_light(walker(rays), settings_.rules, longest_light_walk(), sampler, light_);
     draw_direct(sampler);
     sum_techniques();
   }
@@ -93,15 +120,51 @@ class BidirectionalSampler {
  private:
   bool wanted(int s, int t) const { return settings_.rules.wants(s + t - 1); }
   Walker walker(RayCounts& rays) const { return {*scene_, time_, rays}; }
+  /// A light walk may still hit the lens from its last vertex.
+  WalkLength longest_light_walk() const { return {settings_.rules.most_edges(), true}; }
+
+  template <class Sampler>
+  void walk_from_camera(const Vec2& raster, const WalkLength& most, Sampler& sampler,
+                        RayCounts& rays) {
+    raster_ = raster;
+    const auto [lens, ray] = leave_lens(scene_->camera(), raster, sampler);
+    time_ = ray.time;
+    camera_.start(camera_vertex(lens.at), lens.pdf);
+    camera_.walk(walker(rays), settings_.rules,
+                 {ray, scene_->camera().pdf_direction(lens.at, ray.d)}, most, sampler);
+  }
 
   template <class Sampler>
   void draw_direct(Sampler& sampler) {
     sampler.begin(Stream::direct);
     direct_u_.clear();
-    for (size_t i = 0; i < camera_.size(); ++i) {
-      const Vec2 u = sampler.next2();
-      direct_u_.push_back({sampler.next(), u});
+    for (size_t i = 0; i < camera_.size(); ++i) direct_u_.push_back(next_direct(sampler));
+  }
+  template <class Sampler>
+  static Vec3 next_direct(Sampler& sampler) {
+    const Vec2 u = sampler.next2();
+    return {sampler.next(), u};
+  }
+
+  template <class Sampler, class Found>
+  void connect_one(int s, int t, bool direct, Sampler& sampler, RayCounts& rays, Found& found) {
+    if (direct) {
+      direct_u_.resize(t);
+      direct_u_.back() = next_direct(sampler);
     }
+    connect(s, t, rays, found);
+  }
+
+  template <class Sampler, class Found>
+  void hit_one_light(int t, Sampler& sampler, Found& found) {
+    const std::vector<uint32_t>& infinite = scene_->infinite_emitters();
+    if (!camera_[t - 1].vertex.at.infinite() || infinite.size() == 1) return hit_light(t, found);
+    const double count = static_cast<double>(infinite.size());
+    const auto chosen = static_cast<size_t>(sampler.next() * count);
+    emit(*scene_->emitters()[infinite[chosen]], t, [&](Connection& connection) {
+      connection.contribution *= count;
+      found(connection);
+    });
   }
 
   template <class Found>
@@ -117,7 +180,7 @@ class BidirectionalSampler {
   }
 
   template <class Found>
-  void emit(const Emitter& emitter, int t, Found& found) {
+  void emit(const Emitter& emitter, int t, Found&& found) {
     Connection connection{0, t, raster_, Color(0), 0, &emitter};
     if (evaluate_hit_light(connection)) found(connection);
   }

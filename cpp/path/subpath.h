@@ -28,6 +28,12 @@ struct WalkVertex {
   bool absorbed() const { return next_coefficient == 0; }  ///< No direction was sampled here.
 };
 
+/// How far a walk goes at most.
+struct WalkLength {
+  int vertices;
+  bool goes_on;  ///< A direction is drawn at the last vertex, too.
+};
+
 class Subpath {
  public:
   enum class From { light, camera };
@@ -46,25 +52,29 @@ class Subpath {
   /// direction.
   void start(const Vertex& end, double position_pdf);
 
-  /// Walks on from the first vertex until it is absorbed or has as many vertices as the longest
-  /// path needs. Camera walks end in a vertex at infinity when they leave the scene among lights
-  /// that are there.
+  /// Walks on from the first vertex until it is absorbed or long enough. Camera walks end in a
+  /// vertex at infinity when they leave the scene among lights that are there.
   template <class Sampler>
   void walk(const Walker& walker, const PathRules& rules, const Departure& first,
-            Sampler& sampler) {
-    const int most = rules.most_edges() + (from_ == From::camera ? 1 : 0);
+            const WalkLength& most, Sampler& sampler) {
     first_ray_ = first.ray;
     leave(walker.scene, first.ray.d, first.pdf);
     Ray ray = first.ray;
-    while (static_cast<int>(size()) < most && trace(walker, ray)) {
-      // A light walk may still hit the lens from its last vertex.
-      if (from_ == From::camera && static_cast<int>(size()) == most) break;
+    goes_on_ = true;
+    while (static_cast<int>(size()) < most.vertices) {
+      goes_on_ = false;
+      if (!trace(walker, ray)) return;
+      if (static_cast<int>(size()) == most.vertices && !most.goes_on) return;
       const Vec2 u_direction = sampler.next2();
-      const double u_lobe = sampler.next(), u_roulette = sampler.next();
-      if (!scatter(walker, rules, {u_lobe, u_direction}, u_roulette)) break;
+      const double u_lobe = sampler.next();
+      const double u_roulette = rules.rr_depth == PathRules::no_roulette ? 0 : sampler.next();
+      if (!scatter(walker, rules, {u_lobe, u_direction}, u_roulette)) return;
       ray = walker.leave(vertices_.back().vertex.at, vertices_.back().towards_next);
+      goes_on_ = true;
     }
   }
+  /// Whether a direction was drawn at the last vertex, but not followed.
+  bool goes_on() const { return goes_on_; }
 
  private:
   /// Adds the vertex that the ray ends in; false if the walk ends there or finds none.
@@ -76,13 +86,14 @@ class Subpath {
 
   From from_;
   Ray first_ray_{};
+  bool goes_on_ = false;
   std::vector<WalkVertex> vertices_;
 };
 
 /// A subpath from a random point of a light.
 template <class Sampler>
-void walk_from_light(const Walker& walker, const PathRules& rules, Sampler& sampler,
-                     Subpath& subpath) {
+void walk_from_light(const Walker& walker, const PathRules& rules, const WalkLength& most,
+                     Sampler& sampler, Subpath& subpath) {
   subpath.clear();
   sampler.begin(Stream::light);
   const Vec2 u_position = sampler.next2(), u_direction = sampler.next2();
@@ -92,7 +103,7 @@ void walk_from_light(const Walker& walker, const PathRules& rules, Sampler& samp
   const Vertex x0 = light_vertex(*light.emitter, light.x0);
   subpath.start(x0, light.pdf);
   const Departure first = walker.leave_light(x0, u_direction);
-  if (first.pdf > 0) subpath.walk(walker, rules, first, sampler);
+  if (first.pdf > 0) subpath.walk(walker, rules, first, most, sampler);
 }
 
 }  // namespace mlt

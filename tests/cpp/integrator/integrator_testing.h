@@ -44,11 +44,12 @@ struct Variant {
 inline Variant variant(const std::string& name) {
   if (name == "pssmlt_bdpt") return {"pssmlt", {{"estimator", "bdpt"}}};
   if (name == "pssmlt_ptracer") return {"pssmlt", {{"estimator", "ptracer"}}};
+  if (name == "mmlt_chains") return {"mmlt", {{"independent_share", "0"}}};
   if (name == "pssmlt_gaussian") return {"pssmlt", {{"small_step", "gaussian"}}};
   return {name, {}};
 }
 inline bool has_chains(const std::string& integrator) {
-  return integrator == "pssmlt" || integrator == "mlt";
+  return integrator == "pssmlt" || integrator == "mmlt" || integrator == "mlt";
 }
 
 /// An integrator as a side of a comparison. Metropolis integrators scale their bootstrap with the
@@ -86,6 +87,7 @@ inline std::vector<Algorithm> algorithms() {
             {"max_depth", "4"},
             {"chains", "40"},
             {"luminance_samples", "4000"}}},
+          {"mmlt", {{"max_depth", "6"}, {"chains", "40"}, {"luminance_samples", "4000"}}},
           {"mlt", {{"max_depth", "6"}, {"chains", "40"}, {"luminance_samples", "4000"}}}};
 }
 

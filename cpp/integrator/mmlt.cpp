@@ -1,0 +1,227 @@
+// mmlt: multiplexed Metropolis light transport. T. Hachisuka, A. Kaplanyan, C. Dachsbacher,
+// "Multiplexed Metropolis light transport", SIGGRAPH 2014.
+#include "base/registry.h"
+#include "integrator/metropolis_params.h"
+#include "integrator/path_params.h"
+#include "integrator/small_step_params.h"
+#include "markov/bootstrap.h"
+#include "primary/multiplexed_step.h"
+#include "primary/technique_numbers.h"
+
+namespace mlt {
+namespace {
+
+struct MmltSettings {
+  PathRules rules;
+  SmallStep small_step;
+  double large_probability = 0.3, technique_probability = 0.1;
+};
+
+/// Moves a chain that renders.
+class MmltKernel : public MultiplexedStep {
+ public:
+  using MultiplexedStep::MultiplexedStep;
+
+  void record(ChainRecorder& recorder, const MultiplexedState& x, double weight) const {
+    recorder.record(x.raster, x.rgb / x.target, weight, x.target_over_density);
+  }
+  double proposal_weight() const { return 0; }
+  Vec2 raster_of(const MultiplexedState& x) const { return x.raster; }
+
+  size_t stats_row() const { return last(); }
+  size_t stats_rows() const { return 3; }
+  RayCounts& rays() { return paths().rays; }
+  std::string signature(const MultiplexedState& x) const {
+    return "s" + std::to_string(x.technique.s) + ".t" + std::to_string(x.technique.t);
+  }
+
+  void save(ByteWriter& bytes, const MultiplexedState& x) const {
+    x.numbers.save(bytes);
+    bytes.write(x.technique);
+    bytes.write(x.raster);
+    bytes.write(x.rgb);
+    bytes.write(x.target);
+    bytes.write(x.target_over_density);
+  }
+  void load(ByteReader& bytes, MultiplexedState& x) const {
+    x.numbers.load(bytes);
+    x.technique = bytes.read<Technique>();
+    if (x.technique.s < 0 || x.technique.t < 0 || x.technique.edges() < 1 ||
+        x.technique.edges() > 1 << 16)
+      throw RenderError("the saved state has a technique that does not exist");
+    x.raster = bytes.read<Vec2>();
+    x.rgb = bytes.read<Color>();
+    x.target = bytes.read<double>();
+    x.target_over_density = bytes.read<double>();
+  }
+};
+
+/// Paths of bidirectional path tracing, with L* mis / p of each.
+struct Candidate {
+  explicit Candidate(const Scene& scene, const PathRules& rules) : paths(scene, {rules}) {}
+
+  /// Calls found(connection, weight).
+  template <class Sampler, class Found>
+  void draw(const Vec2& raster, Sampler& sampler, Found&& found) {
+    paths.sample(raster, sampler, rays);
+    paths.connect_all(
+        rays, [&](const Connection& c) { found(c, target_luminance(c.contribution * c.weight)); });
+  }
+
+  BidirectionalSampler paths;
+  RayCounts rays = {};
+};
+
+class Mmlt : public MetropolisAlgorithm {
+ public:
+  Mmlt(ScenePtr scene, const MmltSettings& settings)
+      : scene_(std::move(scene)), settings_(settings), choice_(settings.rules) {}
+
+  /// Finds out which techniques bring the light.
+  void prepare(const CoarseImage&, uint64_t seed, int threads,
+               const std::atomic<bool>& cancelled) override {
+    using Light = std::vector<std::pair<Technique, double>>;
+    const auto found = draw_candidates(
+        Candidates{seed, Purpose::pilot, 8192}, threads, cancelled,
+        [&] { return std::make_unique<Candidate>(*scene_, settings_.rules); },
+        [&](Candidate& candidate, Rng& rng) {
+          Light light;
+          RandomSampler sampler(rng);
+          candidate.draw(
+              scene_->camera().raster().sample(sampler.next2()), sampler,
+              [&](const Connection& c, double weight) { light.push_back({{c.s, c.t}, weight}); });
+          return light;
+        },
+        [](const Candidate&) {});
+    std::vector<std::vector<double>> sums;
+    for (const Light& light : found)
+      for (const auto& [technique, weight] : light) {
+        const size_t k = technique.edges();
+        while (sums.size() <= k) sums.emplace_back(sums.size() + 2);
+        if (std::isfinite(weight)) sums[k][technique.s] += weight;
+      }
+    choice_.learn(std::move(sums));
+  }
+
+  std::unique_ptr<Source> source() const override {
+    return std::make_unique<MmltSource>(*scene_, settings_.rules);
+  }
+  /// From one of the candidate's paths, chosen in proportion to its weight.
+  std::unique_ptr<RenderChain> start(const ChainId& id, Rng candidate, Rng choice) const override {
+    PrimaryNumbers drawn;
+    PrimarySampler sampler(drawn, {}, candidate);
+    const Vec2 raster = scene_->camera().raster().sample(sampler.next2());
+    MultiplexedState x;
+    double sum = 0;
+    Candidate(*scene_, settings_.rules)
+        .draw(raster, sampler, [&](const Connection& c, double weight) {
+          if (!(weight > 0 && std::isfinite(weight))) return;
+          sum += weight;
+          if (choice.next() * sum < weight) x.technique = {c.s, c.t};
+        });
+    x.numbers = TechniqueNumbers(drawn, candidate).of(x.technique, settings_.rules);
+    paths()(x, choice);
+    return chain(id, std::move(x));
+  }
+  std::unique_ptr<RenderChain> blank(const ChainId& id) const override { return chain(id, {}); }
+
+  std::vector<MutationStats> rows() const override {
+    MutationStats large, small, technique;
+    large.name = "large_step";
+    small.name = "small_step";
+    technique.name = "technique_step";
+    return {large, small, technique};
+  }
+  std::string save() const override {
+    ByteWriter bytes;
+    bytes.write<uint64_t>(choice_.light().size());
+    for (const auto& row : choice_.light()) bytes.write(row);
+    return bytes.take();
+  }
+  void load(const std::string& saved) override {
+    ByteReader bytes(saved);
+    std::vector<std::vector<double>> light(std::min<uint64_t>(bytes.read<uint64_t>(), 1 << 17));
+    for (size_t k = 0; k < light.size(); ++k) {
+      bytes.read(light[k]);
+      const auto right = [](double x) { return x >= 0 && std::isfinite(x); };
+      if (light[k].size() != k + 2 || !std::all_of(light[k].begin(), light[k].end(), right))
+        throw RenderError("the saved state has techniques that do not exist");
+    }
+    bytes.finish();
+    choice_.learn(std::move(light));
+  }
+
+ private:
+  struct MmltSource : Source {
+    MmltSource(const Scene& scene, const PathRules& rules) : candidate(scene, rules) {}
+    const std::vector<FoundLight>& sample(const Vec2& raster, PixelSampler& sampler) override {
+      return draw(raster, sampler);
+    }
+    const std::vector<FoundLight>& sample(const Vec2& raster, RandomSampler& sampler) override {
+      return draw(raster, sampler);
+    }
+    template <class Sampler>
+    const std::vector<FoundLight>& draw(const Vec2& raster, Sampler& sampler) {
+      found.clear();
+      candidate.draw(raster, sampler, [&](const Connection& c, double weight) {
+        found.push_back({c.raster, c.contribution * c.weight, weight,
+                         target_luminance(c.contribution) * c.own_share, c.t >= 2});
+      });
+      return found;
+    }
+    const RayCounts& rays() const override { return candidate.rays; }
+
+    Candidate candidate;
+    std::vector<FoundLight> found;
+  };
+
+  MultiplexedPaths paths() const {
+    PathRules rules = settings_.rules;
+    rules.rr_depth = PathRules::no_roulette;
+    return {{*scene_, {rules}}, settings_.small_step};
+  }
+  std::unique_ptr<RenderChain> chain(const ChainId& id, MultiplexedState start) const {
+    return std::make_unique<RecordedChain<MmltKernel>>(
+        MmltKernel(settings_.large_probability, settings_.technique_probability, paths(), choice_),
+        id, std::move(start));
+  }
+
+  ScenePtr scene_;
+  MmltSettings settings_;
+  TechniqueChoice choice_;
+};
+
+class MmltIntegrator : public Integrator {
+ public:
+  explicit MmltIntegrator(Params& params)
+      : metropolis_(metropolis_settings(params)),
+        settings_{path_rules(params), small_step(params), large_probability(params),
+                  params.real_in("p_technique", 0, 1)} {
+    if (settings_.large_probability + settings_.technique_probability > 1)
+      params.fail("p_technique", "and 'p_large' are more than 1 together");
+  }
+  std::unique_ptr<Rendering> start(ScenePtr scene, uint64_t seed) const override {
+    return std::make_unique<MetropolisRendering>(scene, seed, metropolis_,
+                                                 std::make_unique<Mmlt>(scene, settings_));
+  }
+
+ private:
+  MetropolisSettings metropolis_;
+  MmltSettings settings_;
+};
+
+}  // namespace
+
+Plugin integrator_mmlt() {
+  return make_plugin<MmltIntegrator>(integrator_schema(
+      "mmlt",
+      "Multiplexed Metropolis light transport (Hachisuka et al. 2014): mutates the random numbers "
+      "of one path and the technique (s, t) that makes it. One spp is one mutation per pixel.",
+      {path_parameters(),
+       metropolis_parameters(),
+       primary_step_parameters(),
+       {{"p_technique", ParamType::real, 0.1,
+         "Probability of a small step that also draws another technique for the same length."}}}));
+}
+
+}  // namespace mlt

@@ -1,0 +1,176 @@
+// The step of multiplexed Metropolis light transport leaves its target unchanged; a technique makes
+// the same path from the same numbers, whether it is alone or one of all.
+#include "primary/multiplexed_step.h"
+
+#include <gtest/gtest.h>
+
+#include "harness/chi_square.h"
+#include "markov/lecture_examples.h"
+#include "primary/technique_numbers.h"
+#include "scenes.h"
+
+namespace mlt {
+namespace {
+
+using namespace test;
+
+constexpr double alpha = 1e-5;
+
+PathRules rules_of(int max_depth, int rr_depth = PathRules::no_roulette) {
+  PathRules rules;
+  rules.max_depth = max_depth;
+  rules.rr_depth = rr_depth;
+  return rules;
+}
+MultiplexedPaths paths_of(const Scene& scene, int max_depth) {
+  return {{scene, {rules_of(max_depth)}}, {}};
+}
+
+// ---- the numbers of one technique
+
+class TechniqueNumbersOn : public testing::TestWithParam<std::string> {};
+
+TEST_P(TechniqueNumbersOn, MakeThePathThatItHasFoundAmongAll) {
+  const ScenePtr scene = make_scene(GetParam()).scene;
+  const bool one_sky = scene->infinite_emitters().size() < 2;
+  MultiplexedPaths alone = paths_of(*scene, 5);
+  int found = 0;
+  for (const int rr_depth : {PathRules::no_roulette, 2}) {
+    const PathRules rules = rules_of(5, rr_depth);
+    BidirectionalSampler all(*scene, {rules});
+    for (int i = 0; i < 200; ++i) {
+      Rng rng(61, Purpose::test, i);
+      PrimaryNumbers drawn;
+      PrimarySampler sampler(drawn, {}, rng);
+      RayCounts rays;
+      all.sample(scene->camera().raster().sample(sampler.next2()), sampler, rays);
+      all.connect_all(rays, [&](const Connection& c) {
+        if (c.s == 0 && !one_sky) return;  // One of them is chosen by a further number.
+        MultiplexedState state;
+        state.technique = {c.s, c.t};
+        state.numbers = TechniqueNumbers(drawn, rng).of(state.technique, rules);
+        alone(state, rng);
+        ++found;
+        EXPECT_EQ(state.raster.x, c.raster.x) << c.s << ", " << c.t;
+        EXPECT_EQ(state.raster.y, c.raster.y) << c.s << ", " << c.t;
+        if (rr_depth != PathRules::no_roulette) return;  // f / p has another p.
+        EXPECT_NEAR(state.target / target_luminance(c.contribution * c.weight), 1, 1e-12);
+        EXPECT_NEAR(state.target_over_density / (target_luminance(c.contribution) * c.own_share), 1,
+                    1e-12);
+      });
+    }
+  }
+  EXPECT_GT(found, 300);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, TechniqueNumbersOn,
+                         testing::Values("cornell", "caustic", "mixed_lights", "thin_lens_sky",
+                                         "light_in_glass"));
+
+// ---- the choice of a technique
+
+TEST(TechniqueChoice, HasTheProbabilitiesThatItTells) {
+  PathRules unbounded = rules_of(-1);
+  unbounded.hide_emitters = true;
+  for (const PathRules& rules : {rules_of(4), unbounded})
+    for (const bool learned : {false, true}) {
+      TechniqueChoice choice(rules);
+      if (learned) choice.learn({{}, {0, 0, 0}, {0, 3, 1, 0}, {0, 0, 0, 0, 0}, {1, 0, 0, 0, 0, 1}});
+      constexpr int n = 100'000, longest = 12;
+      std::vector<double> observed(longest * longest), expected(longest * longest);
+      Rng rng(62, Purpose::test, learned);
+      for (int i = 0; i < n; ++i) {
+        const double u = rng.next();
+        const Technique drawn = choice.sample_technique(choice.sample_length(u), rng.next());
+        ASSERT_TRUE(rules.wants(drawn.edges()) || drawn.edges() > 4);
+        if (drawn.edges() < longest - 2) observed[drawn.edges() * longest + drawn.s] += 1;
+      }
+      double sum = 0;
+      for (int k = 1; k < longest - 2; ++k)
+        for (int s = 0; s <= k + 1; ++s) {
+          const double p = choice.pdf_length(k) * choice.pdf_technique({s, k + 1 - s});
+          expected[k * longest + s] = n * p;
+          sum += p;
+        }
+      observed[0] = n - std::accumulate(observed.begin(), observed.end(), 0.0);
+      expected[0] = n * (1 - sum);
+      if (expected[0] < 1e-6) observed[0] = expected[0] = 0;
+      EXPECT_GT(chi_square_counts(observed, expected).p_value, alpha);
+    }
+}
+
+// ---- one step
+
+std::vector<double> observe(const MultiplexedState& x, const Raster& raster) {
+  const Vec2 u = raster.invert(x.raster);
+  const auto [s, t] = x.technique;
+  return {u.x,
+          u.y,
+          u.x < 0.3 ? 1. : 0.,
+          std::log(x.target),
+          s == 0 ? 1. : 0.,
+          s == 1 ? 1. : 0.,
+          t == 1 ? 1. : 0.,
+          static_cast<double>(s),
+          static_cast<double>(x.technique.edges()),
+          x.technique.edges() == 2 ? 1. : 0.,
+          x.target_over_density / (1 + x.target_over_density)};
+}
+
+/// E[w g(y)] = E[w g(x)] for one step x -> y, for all g. `spoil` may change the quotients.
+template <class Spoil>
+double invariance_p_value(const std::string& name, double large, double technique, Spoil spoil) {
+  const ScenePtr scene = make_scene(name).scene;
+  TechniqueChoice choice(rules_of(4));
+  choice.learn({{}, {1, 0, 0}, {1, 3, 1, 0}, {1, 2, 2, 1, 0}, {1, 2, 2, 2, 1, 0}});
+  MultiplexedPaths paths = paths_of(*scene, 4);
+  struct Kernel {
+    MultiplexedStep step;
+    Spoil spoil;
+    Transition propose(const MultiplexedState& x, std::array<MultiplexedState, 1>& y, size_t stage,
+                       Rng& rng) {
+      const Transition t = step.propose(x, y, stage, rng);
+      return MultiplexedStep::generated(y[0]) ? spoil(t, x, y[0]) : t;
+    }
+  } kernel{{large, technique, paths, choice}, spoil};
+  std::vector<Moments> differences;
+  int accepted = 0;
+  Rng rng(63, Purpose::test, 0);
+  for (int i = 0; i < 300'000; ++i) {
+    MultiplexedState x;
+    const double u = rng.next();
+    x.technique = choice.sample_technique(choice.sample_length(u), rng.next());
+    paths(x, rng);
+    if (!(x.target > 0)) continue;
+    const double weight =
+        x.target / (choice.pdf_length(x.technique.edges()) * choice.pdf_technique(x.technique));
+    std::array<MultiplexedState, 1> y;
+    const std::vector<double> before = observe(x, scene->camera().raster());
+    accepted += metropolis_step(x, y, kernel, rng, forget).accepted >= 0;
+    const std::vector<double> after = observe(x, scene->camera().raster());
+    differences.resize(before.size());
+    for (size_t k = 0; k < before.size(); ++k) differences[k].add(weight * (after[k] - before[k]));
+  }
+  EXPECT_GT(accepted, 1000);
+  return smallest_p_value(differences, std::vector<double>(differences.size(), 0.0));
+}
+
+constexpr auto right = [](const Transition& t, auto&, auto&) { return t; };
+
+TEST(MultiplexedStep, LeavesItsTargetUnchanged) {
+  for (const char* scene : {"cornell", "mixed_lights", "thin_lens_sky"})
+    for (const auto& [large, technique] : {std::pair{1.0, 0.0}, {0.0, 1.0}, {0.0, 0.0}, {0.3, 0.3}})
+      EXPECT_GT(invariance_p_value(scene, large, technique, right), alpha)
+          << scene << ", " << large << ", " << technique;
+}
+
+TEST(MultiplexedStep, ThatForgetsHowOftenTechniquesAreChosenIsFound) {
+  const auto forgets = [](const Transition&, const MultiplexedState& x, const MultiplexedState& y) {
+    return Transition{1 / y.target, 1 / x.target};
+  };
+  EXPECT_LT(invariance_p_value("cornell", 1, 0, forgets), alpha);
+  EXPECT_LT(invariance_p_value("cornell", 0, 1, forgets), alpha);
+}
+
+}  // namespace
+}  // namespace mlt
