@@ -48,4 +48,27 @@ void ChainStats::load(ByteReader& bytes) {
   bytes.read(longest.signature);
 }
 
+void add_rows(const std::vector<MutationStats>& names, const std::vector<ChainStats::Row>& rows,
+              Stats& stats) {
+  for (size_t r = 0; r < rows.size(); ++r) {
+    const ChainStats::Row& row = rows[r];
+    if (row.proposed == 0) continue;
+    MutationStats m = names[r];
+    const double n = static_cast<double>(row.proposed);
+    m.proposed = row.proposed;
+    m.generated = row.generated;
+    m.accepted = row.accepted;
+    m.rays = row.rays;
+    m.mean_acceptance = row.acceptance / n;
+    m.image_distance = row.image_distance / n;
+    stats.mutations.push_back(m);
+  }
+}
+
+RenderError no_light_found(uint64_t samples) {
+  return RenderError("no light path was found among " + std::to_string(samples) +
+                     " bootstrap samples; give more luminance_samples, or check that light can "
+                     "reach the camera");
+}
+
 }  // namespace mlt

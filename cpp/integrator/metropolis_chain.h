@@ -3,9 +3,11 @@
 #pragma once
 
 #include "base/bytes.h"
+#include "base/error.h"
 #include "base/rng.h"
 #include "image/splat_film.h"
 #include "integrator/family_weights.h"
+#include "integrator/stats.h"
 #include "markov/chain.h"
 #include "path/ray_counts.h"
 
@@ -123,6 +125,13 @@ struct ChainStats {
   void load(ByteReader& bytes);
 };
 
+/// Adds the rows that have any steps; `names` has what else is known of them.
+void add_rows(const std::vector<MutationStats>& names, const std::vector<ChainStats::Row>& rows,
+              Stats& stats);
+
+/// What to say when there is nothing to start chains from.
+RenderError no_light_found(uint64_t samples);
+
 /// One Markov chain of a render.
 class RenderChain {
  public:
@@ -179,6 +188,12 @@ class RecordedChain : public RenderChain {
     stats_.rays = kernel.rays();
   }
 
+  /// Goes on from another state with another stream; the statistics go on.
+  void restart(const State& start, const Rng& rng) {
+    chain_.rng() = rng;
+    chain_.restart(start);
+    stats_.run = 0;
+  }
   const ChainStats& stats() const override { return stats_; }
 
   void save(ByteWriter& bytes) const override {

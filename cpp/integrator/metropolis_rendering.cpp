@@ -69,11 +69,7 @@ void MetropolisRendering::start_chains(int threads, const std::atomic<bool>& can
   const auto seeds = run_bootstrap(candidates, threads, cancelled);
   if (cancelled) return;
   lay_out();
-  if (chains_.empty() && !samples_)
-    throw RenderError(
-        "no light path was found among " + std::to_string(candidates.count) +
-        " bootstrap samples; give more luminance_samples, or check that light can reach "
-        "the camera");
+  if (chains_.empty() && !samples_) throw no_light_found(candidates.count);
   parallel_for(threads, chains_.size(), [&](uint64_t i) {
     ChainShare& share = *chains_[i];
     const uint64_t candidate = share.group * per_group + seeds[share.group][share.number];

@@ -73,20 +73,7 @@ void MetropolisRendering::add_stats(Stats& stats) const {
   stats.invalid_samples += sum.invalid;
   stats.rays_intersect += sum.rays.intersect;
   stats.rays_occluded += sum.rays.occluded;
-  const std::vector<MutationStats> names = algorithm_->rows();
-  for (size_t r = 0; r < sum.rows.size(); ++r) {
-    const ChainStats::Row& row = sum.rows[r];
-    if (row.proposed == 0) continue;
-    MutationStats m = names[r];
-    const double n = static_cast<double>(row.proposed);
-    m.proposed = row.proposed;
-    m.generated = row.generated;
-    m.accepted = row.accepted;
-    m.rays = row.rays;
-    m.mean_acceptance = row.acceptance / n;
-    m.image_distance = row.image_distance / n;
-    stats.mutations.push_back(m);
-  }
+  add_rows(algorithm_->rows(), sum.rows, stats);
   if (film_.saturated() > 0)
     stats.warnings.push_back(
         "the film's fixed-point range was exceeded; the brightest pixels are wrong");

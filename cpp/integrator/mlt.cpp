@@ -2,23 +2,13 @@
 // transport", SIGGRAPH 1997; Veach 1997, ch. 11.
 #include "base/registry.h"
 #include "integrator/metropolis_params.h"
+#include "integrator/mixture_params.h"
 #include "integrator/mlt_algorithm.h"
 #include "integrator/path_params.h"
 #include "integrator/separate_direct.h"
 
 namespace mlt {
 namespace {
-
-/// What the parameters say of one mutation: its weight, or 0 if it is off, and its own parameters.
-MixedMutation read_mutation(const MutationPlugin& plugin, Params& params) {
-  MixedMutation mixed{plugin.name(), 0};
-  if (params.boolean(plugin.switch_name))
-    mixed.weight = params.real_in(plugin.weight_name(), 0, 1e9);
-  for (const Parameter& own : plugin.schema.parameters)
-    if (const std::string name = plugin.full_name(own.name); params.has(name))
-      mixed.values.push_back({own.name, params.value(name)});
-  return mixed;
-}
 
 class MltIntegrator : public Integrator {
  public:
@@ -31,15 +21,11 @@ class MltIntegrator : public Integrator {
     settings_.two_stage = params.boolean("two_stage");
     direct_samples_ = static_cast<int>(params.integer_in("direct_samples", -1, 1 << 20));
     if (direct_samples_ >= 0) settings_.rules.min_depth = 3;
-    bool chosen = false;  // by the user
-    for (const MutationPlugin& plugin : mutation_plugins()) {
-      const MixedMutation mixed = read_mutation(plugin, params);
-      if (mixed.weight > 0) settings_.mixture.push_back(mixed);
-      chosen = chosen || params.has(plugin.weight_name());
-    }
+    settings_.mixture = read_mixture(params, mutation_plugins());
+    const bool chosen =
+        std::any_of(mutation_plugins().begin(), mutation_plugins().end(),
+                    [&](const MutationPlugin& plugin) { return params.has(plugin.weight_name()); });
     settings_.adaptive = params.has("adaptive") ? params.boolean("adaptive") : !chosen;
-    if (settings_.mixture.empty())
-      params.fail("needs at least one mutation with a positive weight");
   }
   std::unique_ptr<Rendering> start(ScenePtr scene, uint64_t seed) const override {
     SeparateDirect direct;
@@ -62,22 +48,6 @@ class MltIntegrator : public Integrator {
   int direct_samples_ = -1;
 };
 
-std::vector<Parameter> mutation_parameters() {
-  std::vector<Parameter> parameters;
-  for (const MutationPlugin& plugin : mutation_plugins()) {
-    parameters.push_back(
-        {plugin.switch_name, ParamType::boolean, true, "Use the " + plugin.schema.doc});
-    parameters.push_back(
-        {plugin.weight_name(), ParamType::real, plugin.weight,
-         "Weight of the " + plugin.name() + " mutation among those that suit a path."});
-    for (Parameter own : plugin.schema.parameters) {
-      own.name = plugin.full_name(own.name);
-      parameters.push_back(own);
-    }
-  }
-  return parameters;
-}
-
 }  // namespace
 
 Plugin integrator_mlt() {
@@ -87,7 +57,7 @@ Plugin integrator_mlt() {
       "spp is one mutation per pixel.",
       {path_parameters(),
        metropolis_parameters(),
-       mutation_parameters(),
+       mixture_parameters(mutation_plugins()),
        {{"near_specular", ParamType::real, 0.1,
          "Smooth vertices below this roughness count as specular in perturbations."},
         {"adaptive", ParamType::boolean, true,

@@ -1,8 +1,8 @@
 #include "integrator/mlt_algorithm.h"
 
+#include "integrator/path_kernel.h"
 #include "mutation/adaptation.h"
 #include "mutation/path_seeds.h"
-#include "path/possible_path.h"
 
 namespace mlt {
 namespace {
@@ -11,44 +11,29 @@ namespace {
 constexpr double adaptive_shares[] = {0.02, 0.1};
 
 /// Moves one chain of a group; its fresh lens subpaths are stratified over all chains of the group.
-class GroupMixture : public PathMixture {
+class GroupMixture : public PathKernel {
  public:
   GroupMixture(const PathTarget& target, const PathMixture& mixture, const ChainId& id)
-      : PathMixture(mixture),
-        target_(&target),
+      : PathKernel(target, mixture),
         id_(id),
         key_(mix_bits(id.seed ^ mix_bits(static_cast<uint64_t>(id.group)))) {}
 
   Transition propose(const PathState& x, std::array<PathState, 1>& y, size_t stage, Rng& rng) {
     aids().stratified = {static_cast<uint32_t>(id_.number), static_cast<uint32_t>(id_.count),
                          mix_bits(key_ + step_++)};
-    return PathMixture::propose(x, y, stage, rng);
+    return PathKernel::propose(x, y, stage, rng);
   }
-
-  size_t stats_row() const { return chosen() * (longest_row + 1) + std::min(row(), longest_row); }
-  size_t stats_rows() const { return moves().size() * (longest_row + 1); }
-  RayCounts& rays() { return aids().rays; }
-  std::string signature(const PathState& x) const { return mlt::signature(x.terms); }
-  Vec2 raster_of(const PathState& x) const { return x.raster; }
-  void record(ChainRecorder& recorder, const PathState& x, double weight) const {
-    recorder.record(x.raster, x.rgb / x.target, weight, target_over_density(x));
-  }
-  double proposal_weight() const { return 0; }
 
   void save(ByteWriter& bytes, const PathState& x) const {
     bytes.write(step_);
-    mlt::save(bytes, x.path);
+    PathKernel::save(bytes, x);
   }
   void load(ByteReader& bytes, PathState& x) {
     step_ = bytes.read<uint64_t>();
-    mlt::load(bytes, x.path);
-    if (!possible(target_->scene(), x.path))
-      throw RenderError("the saved state has a path that the scene cannot have");
-    target_->evaluate(x);
+    PathKernel::load(bytes, x);
   }
 
  private:
-  const PathTarget* target_;
   ChainId id_;
   uint64_t key_;  ///< Names the steps of the group's chains.
   uint64_t step_ = 0;
@@ -92,16 +77,8 @@ class MltAlgorithm : public MetropolisAlgorithm {
   std::unique_ptr<RenderChain> blank(const ChainId& id) const override { return chain(id, {}); }
 
   std::vector<MutationStats> rows() const override {
-    std::vector<MutationStats> rows;
-    for (size_t i = 0; i < mutations_.size(); ++i)
-      for (size_t k = 0; k <= longest_row; ++k) {
-        MutationStats row;
-        row.name = mutations_[i]->name();
-        row.length = static_cast<int>(k);
-        row.step_size = step_sizes_[i];
-        row.weight = (*weights_)[k][i];
-        rows.push_back(row);
-      }
+    std::vector<MutationStats> rows = path_kernel_rows(mutations_, *weights_);
+    for (size_t i = 0; i < rows.size(); ++i) rows[i].step_size = step_sizes_[i / (longest_row + 1)];
     return rows;
   }
 

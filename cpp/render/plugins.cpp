@@ -69,7 +69,7 @@ const std::vector<Refusal>& refusals() {
       {"spectrum",
        "give rgb or wavelength:value pairs",
        {"blackbody", "d65", "uniform", "regular", "irregular", "rawconstant"}},
-      {"integrator", not_yet, {"erpt", "ao", "depth", "field", "aov", "moment"}},
+      {"integrator", not_yet, {"ao", "depth", "field", "aov", "moment"}},
       {"integrator", media, {"volpath", "volpath_simple", "volpathmis"}},
       {"integrator",
        "photon mapping and virtual point lights are not supported (they are biased)",

@@ -45,6 +45,7 @@ inline Variant variant(const std::string& name) {
   if (name == "pssmlt_bdpt") return {"pssmlt", {{"estimator", "bdpt"}}};
   if (name == "pssmlt_ptracer") return {"pssmlt", {{"estimator", "ptracer"}}};
   if (name == "mmlt_chains") return {"mmlt", {{"independent_share", "0"}}};
+  if (name == "erpt") return {"erpt", {{"chain_length", "8"}}};
   if (name == "pssmlt_gaussian") return {"pssmlt", {{"small_step", "gaussian"}}};
   return {name, {}};
 }
@@ -88,6 +89,7 @@ inline std::vector<Algorithm> algorithms() {
             {"chains", "40"},
             {"luminance_samples", "4000"}}},
           {"mmlt", {{"max_depth", "6"}, {"chains", "40"}, {"luminance_samples", "4000"}}},
+          {"erpt", {{"max_depth", "6"}, {"chain_length", "4"}, {"luminance_samples", "4000"}}},
           {"mlt", {{"max_depth", "6"}, {"chains", "40"}, {"luminance_samples", "4000"}}}};
 }
 
