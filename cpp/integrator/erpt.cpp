@@ -98,11 +98,19 @@ class ErptTaker : public SampleTaker {
     const std::lock_guard lock(chains_->mutex);
     chains_->counts.resize(chains_->rows.size());
     for (size_t r = 0; r < chains_->counts.size(); ++r)
-      chains_->counts[r] += chain_.stats().rows[r];
+      chains_->counts[r] += exactly_summed(chain_.stats().rows[r]);
     chains_->invalid += chain_.stats().invalid;
   }
 
  private:
+  /// Sums of such numbers are exact, in whatever order threads add them.
+  static ChainStats::Row exactly_summed(ChainStats::Row row) {
+    constexpr double parts = 0x1p16;
+    row.acceptance = std::round(row.acceptance * parts) / parts;
+    row.image_distance = std::round(row.image_distance * parts) / parts;
+    return row;
+  }
+
   /// Each sample names streams for its chains.
   Rng next_stream() { return {key_, Purpose::chain, streams_++}; }
 

@@ -1,5 +1,8 @@
 // mmlt: multiplexed Metropolis light transport. T. Hachisuka, A. Kaplanyan, C. Dachsbacher,
 // "Multiplexed Metropolis light transport", SIGGRAPH 2014.
+//
+// rjmlt: the same with changes of technique that keep the path. B. Bitterli, W. Jakob, J. Novak,
+// W. Jarosz, "Reversible jump Metropolis light transport using inverse mappings", TOG 2018.
 #include "base/registry.h"
 #include "integrator/metropolis_params.h"
 #include "integrator/path_params.h"
@@ -15,6 +18,7 @@ struct MmltSettings {
   PathRules rules;
   SmallStep small_step;
   double large_probability = 0.3, technique_probability = 0.1;
+  TechniqueChange change = TechniqueChange::keeps_numbers;
 };
 
 /// Moves a chain that renders.
@@ -178,11 +182,12 @@ class Mmlt : public MetropolisAlgorithm {
   MultiplexedPaths paths() const {
     PathRules rules = settings_.rules;
     rules.rr_depth = PathRules::no_roulette;
-    return {{*scene_, {rules}}, settings_.small_step};
+    return {scene_.get(), {*scene_, {rules}}, settings_.small_step};
   }
   std::unique_ptr<RenderChain> chain(const ChainId& id, MultiplexedState start) const {
     return std::make_unique<RecordedChain<MmltKernel>>(
-        MmltKernel(settings_.large_probability, settings_.technique_probability, paths(), choice_),
+        MmltKernel(settings_.large_probability, settings_.technique_probability, settings_.change,
+                   paths(), choice_),
         id, std::move(start));
   }
 
@@ -191,12 +196,13 @@ class Mmlt : public MetropolisAlgorithm {
   TechniqueChoice choice_;
 };
 
-class MmltIntegrator : public Integrator {
+template <TechniqueChange change>
+class MultiplexedIntegrator : public Integrator {
  public:
-  explicit MmltIntegrator(Params& params)
+  explicit MultiplexedIntegrator(Params& params)
       : metropolis_(metropolis_settings(params)),
         settings_{path_rules(params), small_step(params), large_probability(params),
-                  params.real_in("p_technique", 0, 1)} {
+                  params.real_in("p_technique", 0, 1), change} {
     if (settings_.large_probability + settings_.technique_probability > 1)
       params.fail("p_technique", "and 'p_large' are more than 1 together");
   }
@@ -210,18 +216,29 @@ class MmltIntegrator : public Integrator {
   MmltSettings settings_;
 };
 
+std::vector<Parameter> technique_probability(const char* doc) {
+  return {{"p_technique", ParamType::real, 0.1, doc}};
+}
+
 }  // namespace
 
 Plugin integrator_mmlt() {
-  return make_plugin<MmltIntegrator>(integrator_schema(
+  return make_plugin<MultiplexedIntegrator<TechniqueChange::keeps_numbers>>(integrator_schema(
       "mmlt",
       "Multiplexed Metropolis light transport (Hachisuka et al. 2014): mutates the random numbers "
       "of one path and the technique (s, t) that makes it. One spp is one mutation per pixel.",
-      {path_parameters(),
-       metropolis_parameters(),
-       primary_step_parameters(),
-       {{"p_technique", ParamType::real, 0.1,
-         "Probability of a small step that also draws another technique for the same length."}}}));
+      {path_parameters(), metropolis_parameters(), primary_step_parameters(),
+       technique_probability(
+           "Probability of a small step that also draws another technique for the same length.")}));
+}
+
+Plugin integrator_rjmlt() {
+  return make_plugin<MultiplexedIntegrator<TechniqueChange::keeps_path>>(integrator_schema(
+      "rjmlt",
+      "Reversible jump Metropolis light transport (Bitterli et al. 2018): as mmlt, but a step that "
+      "changes the technique keeps the path. One spp is one mutation per pixel.",
+      {path_parameters(), metropolis_parameters(), primary_step_parameters(),
+       technique_probability("Probability of a step that changes the technique, not the path.")}));
 }
 
 }  // namespace mlt

@@ -27,7 +27,7 @@ bool obeys_delta(const Scene& scene, const Path& path, int i) {
   const Bsdf& bsdf = scene.bsdf(x.at);
   const Vec3 from = x.at.shading.to_local(direction(x.at, path[i - 1].at));
   const Vec3 to = x.at.shading.to_local(direction(x.at, path[i + 1].at));
-  const auto u = bsdf.invert(x.at, from, to, x.lobe);
+  const auto u = bsdf.invert(x.at, from, to, x.lobe, Vec3(0.5));
   if (!u) return false;
   const auto sample = bsdf.sample(x.at, from, *u);
   return sample && sample->lobe == x.lobe &&

@@ -113,6 +113,7 @@ class BidirectionalSampler {
   /// The path of a connection that was just found, as a value.
   void assemble(const Connection& connection, Path& path) const;
 
+  const BidirectionalSettings& settings() const { return settings_; }
   const Subpath& light() const { return light_; }
   const Subpath& camera() const { return camera_; }
   double time() const { return time_; }
@@ -163,6 +164,7 @@ class BidirectionalSampler {
     const auto chosen = static_cast<size_t>(sampler.next() * count);
     emit(*scene_->emitters()[infinite[chosen]], t, [&](Connection& connection) {
       connection.contribution *= count;
+      connection.own_share /= count;
       found(connection);
     });
   }

@@ -8,6 +8,7 @@
 #pragma once
 
 #include "markov/step.h"
+#include "path/path_terms.h"
 #include "primary/primary_numbers.h"
 #include "primary/technique_choice.h"
 
@@ -37,35 +38,56 @@ struct MultiplexedState {
 
 /// Makes the path that the numbers stand for.
 struct MultiplexedPaths {
+  const Scene* scene;
   BidirectionalSampler paths;  ///< Without Russian roulette: the technique says where walks end.
   SmallStep small_step;
   RayCounts rays = {};
 
   void operator()(MultiplexedState& state, Rng& rng) {
+    make(state, rng, [](const Connection&) {});
+  }
+  /// The path as well.
+  void operator()(MultiplexedState& state, Rng& rng, Path& path) {
+    make(state, rng, [&](const Connection& c) { paths.assemble(c, path); });
+  }
+
+ private:
+  template <class Found>
+  void make(MultiplexedState& state, Rng& rng, Found&& found) {
     PrimarySampler sampler(state.numbers, small_step, rng);
     state.clear();
-    paths.sample_technique(state.technique, sampler, rays,
-                           [&](const Connection& c) { state.show(c); });
+    paths.sample_technique(state.technique, sampler, rays, [&](const Connection& c) {
+      state.show(c);
+      found(c);
+    });
   }
 };
 
-/// Large steps draw technique and numbers afresh; small steps move the numbers a little; and some
-/// of these also draw another technique for the same length.
+/// How a chain changes the technique, beside large steps.
+enum class TechniqueChange {
+  keeps_numbers,  ///< They make another path, and move a little (Hachisuka et al. 2014).
+  keeps_path      ///< Its numbers are found by inversion (Bitterli et al. 2018).
+};
+
+/// Large steps draw technique and numbers afresh, small steps move the numbers a little, and others
+/// change the technique for the same length.
 class MultiplexedStep {
  public:
   using State = MultiplexedState;
   enum Move { large = 0, small = 1, technique = 2 };
 
-  MultiplexedStep(double large_probability, double technique_probability, MultiplexedPaths paths,
-                  const TechniqueChoice& choice)
+  MultiplexedStep(double large_probability, double technique_probability, TechniqueChange change,
+                  MultiplexedPaths paths, const TechniqueChoice& choice)
       : large_probability_(large_probability),
         technique_probability_(technique_probability),
+        change_(change),
         paths_(std::move(paths)),
         choice_(&choice) {}
 
   Transition propose(const State& x, std::array<State, 1>& proposals, size_t, Rng& rng) {
     State& y = proposals[0];
     last_ = choose_move(rng.next());
+    if (last_ == technique && change_ == TechniqueChange::keeps_path) return keep_path(x, y, rng);
     y.technique = x.technique;
     if (last_ != small) {
       const int edges = last_ == large ? choice_->sample_length(rng.next()) : x.technique.edges();
@@ -83,6 +105,8 @@ class MultiplexedStep {
   MultiplexedPaths& paths() { return paths_; }
 
  private:
+  Transition keep_path(const State& x, State& y, Rng& rng);
+
   Move choose_move(double u) const {
     if (u < large_probability_) return large;
     return u < large_probability_ + technique_probability_ ? technique : small;
@@ -100,9 +124,12 @@ class MultiplexedStep {
   }
 
   double large_probability_, technique_probability_;
+  TechniqueChange change_;
   MultiplexedPaths paths_;
   const TechniqueChoice* choice_;
   Move last_ = large;
+  Path path_;  ///< Memory of keep_path.
+  PathTerms terms_;
 };
 
 }  // namespace mlt

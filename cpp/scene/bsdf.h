@@ -35,10 +35,11 @@ class Bsdf : public Object {
   virtual std::optional<BsdfSample> sample(const SurfacePoint& at, const Vec3& from,
                                            const Vec3& u) const = 0;
 
-  /// A u for which sample(at, from, u) gives (to, lobe); components that carry no information are
-  /// 1/2. nullopt where pdf is 0.
+  /// A u for which sample(at, from, u) gives (to, lobe); nullopt where pdf is 0. There may be many:
+  /// v chooses one, and if v is uniform they are as likely as when u is uniform and has given (to,
+  /// lobe).
   virtual std::optional<Vec3> invert(const SurfacePoint& at, const Vec3& from, const Vec3& to,
-                                     Lobe lobe) const = 0;
+                                     Lobe lobe, const Vec3& v) const = 0;
 
   /// Whether the smooth lobes are present, and whether a delta lobe is.
   virtual bool has_smooth() const { return true; }

@@ -65,6 +65,8 @@ class Scene {
   /// Chooses a light; u is rescaled so that it can be used again.
   EmitterChoice choose_emitter(double& u) const;
   double emitter_probability(uint32_t index) const { return emitter_choice_.pdf(index); }
+  /// A u that chooses this one and leaves v.
+  double invert_choice(uint32_t index, double v) const { return emitter_choice_.invert(index, v); }
 
   size_t triangle_count() const;
   size_t bytes() const;  ///< Of the shapes' buffers.

@@ -28,9 +28,9 @@ class Minnaert final : public Bsdf {
     return above(from, to) ? std::optional(BsdfSample{to, Lobe::smooth}) : std::nullopt;
   }
   std::optional<Vec3> invert(const SurfacePoint&, const Vec3& from, const Vec3& to,
-                             Lobe lobe) const override {
+                             Lobe lobe, const Vec3& v) const override {
     if (lobe != Lobe::smooth || !above(from, to)) return std::nullopt;
-    return u_of(0.5, invert_cosine_power(to, k_));
+    return u_of(v.x, invert_cosine_power(to, k_));
   }
   Color albedo(const SurfacePoint& at) const override { return 2 / (k_ + 1) * rho_->eval(at); }
 

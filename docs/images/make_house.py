@@ -18,6 +18,7 @@ FLOORS = [  # from the ground up
     ("scene", "shapes, materials, lights, camera, rays"),
     ("io", "scene files read and built"),
     ("path", "walks, light paths and their densities"),
+    ("primary", "random numbers as the state of chains"),
     ("mutation", "the target L*, mutations, the audit"),
     ("integrator", "algorithms, cut into units of work"),
     ("render", "jobs, budgets, checkpoints, outputs"),

@@ -89,15 +89,15 @@ std::optional<BsdfSample> BentNormal::sample(const SurfacePoint& at, const Vec3&
 }
 
 std::optional<Vec3> BentNormal::invert(const SurfacePoint& at, const Vec3& from, const Vec3& to,
-                                       Lobe lobe) const {
+                                       Lobe lobe, const Vec3& v) const {
   const Vec3 n = normal(at);
   const double share = turned_share(n, from);
   const bool turned = !(faces(n, from) && faces(n, to));
   if (!scatters(n, turned, from, to, lobe) || !((turned ? share : 1 - share) > 0))
     return std::nullopt;
   const Bend bend(at, n, turned);
-  auto u = nested_->invert(bend.at(), bend.to_inner(from), bend.to_inner(to), lobe);
-  if (u) u->x = turned ? u->x * share : std::min(share + u->x * (1 - share), 1 - 0x1p-53);
+  auto u = nested_->invert(bend.at(), bend.to_inner(from), bend.to_inner(to), lobe, v);
+  if (u) u->x = turned ? u_of_first(share, u->x) : u_of_second(share, u->x);
   return u;
 }
 

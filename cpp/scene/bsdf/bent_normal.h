@@ -24,8 +24,8 @@ class BentNormal : public Bsdf {
                         Lobe lobe) const final;
   std::optional<BsdfSample> sample(const SurfacePoint& at, const Vec3& from,
                                    const Vec3& u) const final;
-  std::optional<Vec3> invert(const SurfacePoint& at, const Vec3& from, const Vec3& to,
-                             Lobe lobe) const final;
+  std::optional<Vec3> invert(const SurfacePoint& at, const Vec3& from, const Vec3& to, Lobe lobe,
+                             const Vec3& v) const final;
 
   bool has_smooth() const final { return nested_->has_smooth(); }
   bool has_delta() const final { return nested_->has_delta(); }

@@ -45,14 +45,15 @@ std::optional<BsdfSample> Blend::sample(const SurfacePoint& at, const Vec3& from
 }
 
 std::optional<Vec3> Blend::invert(const SurfacePoint& at, const Vec3& from, const Vec3& to,
-                                  Lobe lobe) const {
+                                  Lobe lobe, const Vec3& v) const {
   const double p = 1 - weight(at);
-  if (p > 0)
-    if (const auto u = first_->invert(at, from, to, lobe)) return Vec3(u->x * p, u->y, u->z);
-  if (p < 1)
-    if (const auto u = second_->invert(at, from, to, lobe))
-      return u_of(std::min(p + u->x * (1 - p), 1 - 0x1p-53), {u->y, u->z});
-  return std::nullopt;
+  const double first = p * first_->pdf(at, from, to, lobe),
+               second = (1 - p) * second_->pdf(at, from, to, lobe);
+  if (!(first + second > 0)) return std::nullopt;
+  const LobeGuess guess = guess_lobe(first, second, v.x);
+  auto u = (guess.first ? first_ : second_)->invert(at, from, to, lobe, {guess.rest, v.y, v.z});
+  if (u) u->x = guess.first ? u_of_first(p, u->x) : u_of_second(p, u->x);
+  return u;
 }
 
 double Blend::relative_eta(const SurfacePoint& at, const Vec3& w) const {

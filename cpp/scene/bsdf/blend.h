@@ -17,8 +17,8 @@ class Blend final : public Bsdf {
                         Lobe lobe) const override;
   std::optional<BsdfSample> sample(const SurfacePoint& at, const Vec3& from,
                                    const Vec3& u) const override;
-  std::optional<Vec3> invert(const SurfacePoint& at, const Vec3& from, const Vec3& to,
-                             Lobe lobe) const override;
+  std::optional<Vec3> invert(const SurfacePoint& at, const Vec3& from, const Vec3& to, Lobe lobe,
+                             const Vec3& v) const override;
 
   bool has_smooth() const override { return first_->has_smooth() || second_->has_smooth(); }
   bool has_delta() const override { return first_->has_delta() || second_->has_delta(); }

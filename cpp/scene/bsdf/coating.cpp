@@ -69,14 +69,16 @@ class Coating final : public Bsdf {
     return sampled;
   }
 
-  std::optional<Vec3> invert(const SurfacePoint& at, const Vec3& from, const Vec3& to,
-                             Lobe lobe) const override {
-    if (!(pdf(at, from, to, lobe) > 0)) return std::nullopt;
+  std::optional<Vec3> invert(const SurfacePoint& at, const Vec3& from, const Vec3& to, Lobe lobe,
+                             const Vec3& v) const override {
+    const double total = pdf(at, from, to, lobe);
+    if (!(total > 0)) return std::nullopt;
     const Inside in = inside(from);
-    const double p = specular_share(in.F);
-    if (lobe == Lobe::reflection && p > 0) return Vec3(u_of_first(p), 0.5, 0.5);
-    auto u = nested_->invert(at, in.w, inside(to).w, lobe);
-    if (u) u->x = std::min(p + u->x * (1 - p), 1 - 0x1p-53);
+    const double p = specular_share(in.F), first = lobe == Lobe::reflection ? p : 0;
+    const LobeGuess guess = guess_lobe(first, std::max(0.0, total - first), v.x);
+    if (guess.first) return Vec3(u_of_first(p, guess.rest), v.y, v.z);
+    auto u = nested_->invert(at, in.w, inside(to).w, lobe, {guess.rest, v.y, v.z});
+    if (u) u->x = u_of_second(p, u->x);
     return u;
   }
 

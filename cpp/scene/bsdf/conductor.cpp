@@ -29,10 +29,10 @@ class Conductor final : public Bsdf {
     return BsdfSample{reflect(from), Lobe::reflection};
   }
 
-  std::optional<Vec3> invert(const SurfacePoint&, const Vec3& from, const Vec3& to,
-                             Lobe lobe) const override {
+  std::optional<Vec3> invert(const SurfacePoint&, const Vec3& from, const Vec3& to, Lobe lobe,
+                             const Vec3& v) const override {
     if (lobe != Lobe::reflection || !above(from, to)) return std::nullopt;
-    return u_of_only_delta;
+    return v;
   }
 
   bool has_smooth() const override { return false; }

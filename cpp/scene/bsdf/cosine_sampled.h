@@ -23,10 +23,10 @@ class CosineSampled : public Bsdf {
     return BsdfSample{to, Lobe::smooth};
   }
 
-  std::optional<Vec3> invert(const SurfacePoint&, const Vec3& from, const Vec3& to,
-                             Lobe lobe) const final {
+  std::optional<Vec3> invert(const SurfacePoint&, const Vec3& from, const Vec3& to, Lobe lobe,
+                             const Vec3& v) const final {
     if (lobe != Lobe::smooth || !above(from, to)) return std::nullopt;
-    return u_of(0.5, invert_cosine_hemisphere(to));
+    return u_of(v.x, invert_cosine_hemisphere(to));
   }
 
  protected:

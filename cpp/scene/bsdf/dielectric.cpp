@@ -31,12 +31,12 @@ class Dielectric final : public Bsdf {
     return BsdfSample{refract(from, fresnel.cos_t, fresnel.eta_ti), Lobe::transmission};
   }
 
-  std::optional<Vec3> invert(const SurfacePoint&, const Vec3& from, const Vec3& to,
-                             Lobe lobe) const override {
+  std::optional<Vec3> invert(const SurfacePoint&, const Vec3& from, const Vec3& to, Lobe lobe,
+                             const Vec3& v) const override {
     if (!matches(from, to, lobe)) return std::nullopt;
     const double p = interface_.reflection_probability(fresnel(from, to));
     if (!((lobe == Lobe::reflection ? p : 1 - p) > 0)) return std::nullopt;
-    return Vec3(lobe == Lobe::reflection ? u_of_first(p) : u_of_second(p), 0.5, 0.5);
+    return Vec3(lobe == Lobe::reflection ? u_of_first(p, v.x) : u_of_second(p, v.x), v.y, v.z);
   }
 
   bool has_smooth() const override { return false; }

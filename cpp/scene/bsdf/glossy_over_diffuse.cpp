@@ -51,13 +51,14 @@ std::optional<BsdfSample> GlossyOverDiffuse::sample(const SurfacePoint& at, cons
 }
 
 std::optional<Vec3> GlossyOverDiffuse::invert(const SurfacePoint& at, const Vec3& from,
-                                              const Vec3& to, Lobe lobe) const {
+                                              const Vec3& to, Lobe lobe, const Vec3& v) const {
   if (lobe != Lobe::smooth || !above(from, to)) return std::nullopt;
   const double glossy = specular_share_ * gloss(at, from, to).pdf_from_light;
   const double matte = diffuse_pdf(to);
   if (!(glossy + matte > 0)) return std::nullopt;
-  if (glossy > matte) return u_of(u_of_first(specular_share_), invert_gloss(at, from, to));
-  return u_of(u_of_second(specular_share_), invert_cosine_hemisphere(to));
+  const LobeGuess guess = guess_lobe(glossy, matte, v.x);
+  if (guess.first) return u_of(u_of_first(specular_share_, guess.rest), invert_gloss(at, from, to));
+  return u_of(u_of_second(specular_share_, guess.rest), invert_cosine_hemisphere(to));
 }
 
 /// Where the diffuse part is the larger one, the surface counts as diffuse.

@@ -17,8 +17,8 @@ class GlossyOverDiffuse : public Bsdf {
                         Lobe lobe) const final;
   std::optional<BsdfSample> sample(const SurfacePoint& at, const Vec3& from,
                                    const Vec3& u) const final;
-  std::optional<Vec3> invert(const SurfacePoint& at, const Vec3& from, const Vec3& to,
-                             Lobe lobe) const final;
+  std::optional<Vec3> invert(const SurfacePoint& at, const Vec3& from, const Vec3& to, Lobe lobe,
+                             const Vec3& v) const final;
   double roughness(const SurfacePoint& at, const Vec3& wl, const Vec3& wc) const final;
   Color albedo(const SurfacePoint& at) const final;
 

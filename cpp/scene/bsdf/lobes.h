@@ -18,19 +18,26 @@ inline Vec3 upwards(const Vec3& w) { return w.z < 0 ? -w : w; }
 
 inline Vec2 direction_part(const Vec3& u) { return {u.y, u.z}; }
 
-// A first lobe that is taken where u.x < p, else a second. The middle of a lobe's interval is the
-// u.x that stands for it; the whole interval chooses the same lobe.
+// A first lobe that is taken where u.x < p, else a second: v in [0, 1) as the u.x of one of them.
 
-inline double u_of_first(double p) { return 0.5 * p; }
-inline double u_of_second(double p) { return std::min(0.5 * (1 + p), 1 - 0x1p-53); }
+inline double u_of_first(double p, double v) { return v * p; }
+inline double u_of_second(double p, double v) { return std::min(p + v * (1 - p), 1 - 0x1p-53); }
+
+/// Which of two lobes has sampled a direction, if v is uniform; `rest` is v once more.
+struct LobeGuess {
+  bool first;
+  double rest;
+};
+inline LobeGuess guess_lobe(double first, double second, double v) {
+  const double share = first / (first + second);
+  if (v < share) return {true, std::min(v / share, 1 - 0x1p-53)};
+  return {false, std::min((v - share) / (1 - share), 1 - 0x1p-53)};
+}
 
 /// A u in [0, 1)^3 from its lobe part and direction part: inverses may round up to 1.
 inline Vec3 u_of(double lobe, const Vec2& direction) {
   return {lobe, glm::clamp(direction, 0.0, 1 - 0x1p-53)};
 }
-
-/// The u that stands for a delta lobe when it is the only one.
-constexpr Vec3 u_of_only_delta{0.5, 0.5, 0.5};
 
 /// a / (a + b), the probability of the first lobe; 0 where both weights are 0.
 inline double first_share(double a, double b) { return a > 0 ? a / (a + b) : 0; }

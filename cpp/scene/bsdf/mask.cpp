@@ -38,13 +38,17 @@ class Mask final : public Bsdf {
     return nested_->sample(at, from, {u.x / p, u.y, u.z});
   }
 
-  std::optional<Vec3> invert(const SurfacePoint& at, const Vec3& from, const Vec3& to,
-                             Lobe lobe) const override {
+  std::optional<Vec3> invert(const SurfacePoint& at, const Vec3& from, const Vec3& to, Lobe lobe,
+                             const Vec3& v) const override {
     const double p = target_luminance(opacity_->eval(at));
-    if (lobe == Lobe::null && p < 1) return Vec3(u_of_second(p), 0.5, 0.5);
-    const auto u = nested_->invert(at, from, to, lobe);
-    if (!u || !(p > 0)) return std::nullopt;
-    return Vec3(u->x * p, u->y, u->z);
+    const double first = p * nested_->pdf(at, from, to, lobe),
+                 second = lobe == Lobe::null ? 1 - p : 0;
+    if (!(first + second > 0)) return std::nullopt;
+    const LobeGuess guess = guess_lobe(first, second, v.x);
+    if (!guess.first) return Vec3(u_of_second(p, guess.rest), v.y, v.z);
+    auto u = nested_->invert(at, from, to, lobe, {guess.rest, v.y, v.z});
+    if (u) u->x = u_of_first(p, u->x);
+    return u;
   }
 
   bool has_smooth() const override { return nested_->has_smooth(); }

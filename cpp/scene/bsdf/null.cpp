@@ -19,10 +19,10 @@ class Null final : public Bsdf {
     return BsdfSample{-from, Lobe::null};
   }
 
-  std::optional<Vec3> invert(const SurfacePoint&, const Vec3&, const Vec3&,
-                             Lobe lobe) const override {
+  std::optional<Vec3> invert(const SurfacePoint&, const Vec3&, const Vec3&, Lobe lobe,
+                             const Vec3& v) const override {
     if (lobe != Lobe::null) return std::nullopt;
-    return u_of_only_delta;
+    return v;
   }
 
   bool has_smooth() const override { return false; }

@@ -43,12 +43,12 @@ class Plastic final : public Bsdf {
     return BsdfSample{to, Lobe::smooth};
   }
 
-  std::optional<Vec3> invert(const SurfacePoint& at, const Vec3& from, const Vec3& to,
-                             Lobe lobe) const override {
+  std::optional<Vec3> invert(const SurfacePoint& at, const Vec3& from, const Vec3& to, Lobe lobe,
+                             const Vec3& v) const override {
     if (!(pdf(at, from, to, lobe) > 0)) return std::nullopt;
     const double p = specular_share(fresnel(from));
-    if (lobe == Lobe::reflection) return Vec3(u_of_first(p), 0.5, 0.5);
-    return u_of(u_of_second(p), invert_cosine_hemisphere(to));
+    if (lobe == Lobe::reflection) return Vec3(u_of_first(p, v.x), v.y, v.z);
+    return u_of(u_of_second(p, v.x), invert_cosine_hemisphere(to));
   }
 
   bool has_delta() const override { return true; }

@@ -71,19 +71,20 @@ class Principled final : public Bsdf {
                   reflects);
   }
 
-  std::optional<Vec3> invert(const SurfacePoint& at, const Vec3& from, const Vec3& to,
-                             Lobe lobe) const override {
+  std::optional<Vec3> invert(const SurfacePoint& at, const Vec3& from, const Vec3& to, Lobe lobe,
+                             const Vec3& v) const override {
     const Half half = half_between(from, to, lobe);
     if (!half.exists) return std::nullopt;
     const Point p = point(at);
     const Densities d = densities(p, from, to, half);
     if (!(sum(d) > 0)) return std::nullopt;
-    const auto widest = static_cast<size_t>(std::max_element(d.begin(), d.end()) - d.begin());
+    double rest = v.x;
+    const size_t guess = LobeShares<lobe_count>::guess(d, rest);
     const LobeShares<lobe_count> chosen = shares(p, from);
-    if (widest == diffuse) return u_of(chosen.invert(diffuse, 0.5), invert_cosine_hemisphere(to));
-    if (widest == clearcoat) return u_of(chosen.invert(clearcoat, 0.5), p.coat.invert(half.h));
+    if (guess == diffuse) return u_of(chosen.invert(diffuse, rest), invert_cosine_hemisphere(to));
+    if (guess == clearcoat) return u_of(chosen.invert(clearcoat, rest), p.coat.invert(half.h));
     const double reflected = reflected_share(p, from, half.F);
-    const double u = half.reflects ? u_of_first(reflected) : u_of_second(reflected);
+    const double u = half.reflects ? u_of_first(reflected, rest) : u_of_second(reflected, rest);
     return u_of(chosen.invert(specular, u), p.microfacet.invert(upwards(from), half.h));
   }
 

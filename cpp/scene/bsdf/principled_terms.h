@@ -109,6 +109,14 @@ struct LobeShares {
     u = std::clamp((u - before) / share[last], 0.0, 1 - 0x1p-53);
     return last;
   }
+  /// Which lobe has sampled a direction that they have these densities for, if v is uniform; what is
+  /// left of v.
+  template <class Densities>
+  static size_t guess(const Densities& densities, double& v) {
+    double weights[n];
+    std::copy(std::begin(densities), std::end(densities), weights);
+    return LobeShares(weights).choose(v);
+  }
   /// A number that chooses lobe i and leaves u.
   double invert(size_t i, double u) const {
     double before = 0;

@@ -61,18 +61,19 @@ class PrincipledThin final : public Bsdf {
     return BsdfSample{from.z < 0 ? -to : to, Lobe::smooth};
   }
 
-  std::optional<Vec3> invert(const SurfacePoint& at, const Vec3& from, const Vec3& to,
-                             Lobe lobe) const override {
+  std::optional<Vec3> invert(const SurfacePoint& at, const Vec3& from, const Vec3& to, Lobe lobe,
+                             const Vec3& v) const override {
     if (lobe != Lobe::smooth || from.z * to.z == 0) return std::nullopt;
     const Point p = point(at);
     const Densities d = densities(p, from, to);
     if (!(sum(d) > 0)) return std::nullopt;
-    const auto widest = static_cast<size_t>(std::max_element(d.begin(), d.end()) - d.begin());
+    double rest = v.x;
+    const size_t guess = LobeShares<lobe_count>::guess(d, rest);
     const Vec3 wi = upwards(from), wo = from.z < 0 ? -to : to;
-    const double x = p.shares.invert(widest, 0.5);
-    if (widest == diffuse) return u_of(x, invert_cosine_hemisphere(wo));
-    if (widest == diffuse_through) return u_of(x, invert_cosine_hemisphere(-wo));
-    return u_of(x, p.microfacet(widest == through).invert(wi, half(wi, wo)));
+    const double x = p.shares.invert(guess, rest);
+    if (guess == diffuse) return u_of(x, invert_cosine_hemisphere(wo));
+    if (guess == diffuse_through) return u_of(x, invert_cosine_hemisphere(-wo));
+    return u_of(x, p.microfacet(guess == through).invert(wi, half(wi, wo)));
   }
 
   bool has_transmission() const override { return true; }

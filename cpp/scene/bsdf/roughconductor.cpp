@@ -39,10 +39,10 @@ class RoughConductor final : public Bsdf {
     return BsdfSample{to, Lobe::smooth};
   }
 
-  std::optional<Vec3> invert(const SurfacePoint& at, const Vec3& from, const Vec3& to,
-                             Lobe lobe) const override {
+  std::optional<Vec3> invert(const SurfacePoint& at, const Vec3& from, const Vec3& to, Lobe lobe,
+                             const Vec3& v) const override {
     if (!(pdf(at, from, to, lobe) > 0)) return std::nullopt;
-    return u_of(0.5, surface_.at(at).invert(from, normalize(from + to)));
+    return u_of(v.x, surface_.at(at).invert(from, normalize(from + to)));
   }
 
   double roughness(const SurfacePoint& at, const Vec3&, const Vec3&) const override {

@@ -43,12 +43,12 @@ class RoughDielectric final : public Bsdf {
     return BsdfSample{to, Lobe::smooth};
   }
 
-  std::optional<Vec3> invert(const SurfacePoint& at, const Vec3& from, const Vec3& to,
-                             Lobe lobe) const override {
+  std::optional<Vec3> invert(const SurfacePoint& at, const Vec3& from, const Vec3& to, Lobe lobe,
+                             const Vec3& v) const override {
     if (!(pdf(at, from, to, lobe) > 0)) return std::nullopt;
     const Facet facet = facet_between(from, to, lobe);
     const double p = interface_.reflection_probability(facet.F);
-    return u_of(facet.reflects ? u_of_first(p) : u_of_second(p),
+    return u_of(facet.reflects ? u_of_first(p, v.x) : u_of_second(p, v.x),
                 surface_.at(at).invert(upwards(from), facet.h));
   }
 

@@ -51,14 +51,16 @@ class RoughPlastic final : public Bsdf {
     return BsdfSample{to, Lobe::smooth};
   }
 
-  std::optional<Vec3> invert(const SurfacePoint& at, const Vec3& from, const Vec3& to,
-                             Lobe lobe) const override {
+  std::optional<Vec3> invert(const SurfacePoint& at, const Vec3& from, const Vec3& to, Lobe lobe,
+                             const Vec3& v) const override {
     const double total = pdf(at, from, to, lobe);
     if (!(total > 0)) return std::nullopt;
     const double p = specular_share(coating_.at(from.z));
-    if ((1 - p) * inv_pi * to.z >= 0.5 * total)
-      return u_of(u_of_second(p), invert_cosine_hemisphere(to));
-    return u_of(u_of_first(p), microfacet_.invert(from, normalize(from + to)));
+    const double matte = (1 - p) * inv_pi * to.z;
+    const LobeGuess guess = guess_lobe(std::max(0.0, total - matte), matte, v.x);
+    if (guess.first)
+      return u_of(u_of_first(p, guess.rest), microfacet_.invert(from, normalize(from + to)));
+    return u_of(u_of_second(p, guess.rest), invert_cosine_hemisphere(to));
   }
 
   /// The lobe that contributes more between the two directions decides.

@@ -29,11 +29,11 @@ class ThinDielectric final : public Bsdf {
     return BsdfSample{-from, Lobe::null};
   }
 
-  std::optional<Vec3> invert(const SurfacePoint&, const Vec3& from, const Vec3&,
-                             Lobe lobe) const override {
+  std::optional<Vec3> invert(const SurfacePoint&, const Vec3& from, const Vec3&, Lobe lobe,
+                             const Vec3& v) const override {
     const double p = interface_.reflection_probability(reflected(from));
-    if (lobe == Lobe::reflection && p > 0) return Vec3(u_of_first(p), 0.5, 0.5);
-    if (lobe == Lobe::null && p < 1) return Vec3(u_of_second(p), 0.5, 0.5);
+    if (lobe == Lobe::reflection && p > 0) return Vec3(u_of_first(p, v.x), v.y, v.z);
+    if (lobe == Lobe::null && p < 1) return Vec3(u_of_second(p, v.x), v.y, v.z);
     return std::nullopt;
   }
 

@@ -34,10 +34,10 @@ class TwoSided final : public Bsdf {
     return sampled;
   }
 
-  std::optional<Vec3> invert(const SurfacePoint& at, const Vec3& from, const Vec3& to,
-                             Lobe lobe) const override {
+  std::optional<Vec3> invert(const SurfacePoint& at, const Vec3& from, const Vec3& to, Lobe lobe,
+                             const Vec3& v) const override {
     if (!same_side(from, to)) return std::nullopt;
-    return nested(from).invert(at, to_front(from), to_front(to), lobe);
+    return nested(from).invert(at, to_front(from), to_front(to), lobe, v);
   }
 
   bool has_smooth() const override { return front_->has_smooth() || back_->has_smooth(); }

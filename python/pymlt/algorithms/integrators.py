@@ -12,7 +12,7 @@ from .integrator import Integrator
 from .parameters import make_class
 
 # Names that are abbreviations; any other one is capitalised.
-_SPELLING = {name: name.upper() for name in ("bdpt", "erpt", "mlt", "mmlt", "pssmlt")}
+_SPELLING = {name: name.upper() for name in ("bdpt", "erpt", "mlt", "mmlt", "pssmlt", "rjmlt")}
 _SPELLING["ptracer"] = "PTracer"
 
 

@@ -97,7 +97,7 @@ TEST(BsdfSampling, InverseLeadsToTheSameDirection) {
       for (int i = 0; i < 2000; ++i) {
         const auto s = c.bsdf->sample(point(), from, random_u(rng));
         if (!s) continue;
-        const auto u = c.bsdf->invert(point(), from, s->to, s->lobe);
+        const auto u = c.bsdf->invert(point(), from, s->to, s->lobe, random_u(rng));
         ASSERT_TRUE(u) << c.label;
         ASSERT_GE(min_component(*u), 0) << c.label;
         ASSERT_LT(max_component(*u), 1) << c.label;
@@ -108,6 +108,39 @@ TEST(BsdfSampling, InverseLeadsToTheSameDirection) {
       }
       EXPECT_LT(worst, 1e-6) << c.label << ", cos " << from.z;
     }
+}
+
+/// Of all numbers that give a direction, the inverse draws one as likely as it has given it: over
+/// all directions these numbers are as those that were drawn.
+TEST(BsdfSampling, InverseDrawsNumbersAsTheyWere) {
+  std::vector<double> p_values;
+  std::vector<std::string> messages;
+  for (const Case& c : cases())
+    for (const Vec3& from : incident_directions(c)) {
+      Rng rng(14, Purpose::test, 0);
+      std::vector<Moments> differences(12);
+      for (int i = 0; i < 20'000; ++i) {
+        const Vec3 u = random_u(rng);
+        const auto s = c.bsdf->sample(point(), from, u);
+        if (!s) continue;
+        const auto v = c.bsdf->invert(point(), from, s->to, s->lobe, random_u(rng));
+        ASSERT_TRUE(v) << c.label;
+        size_t k = 0;
+        for (int axis = 0; axis < 3; ++axis)
+          for (int frequency = 1; frequency <= 2; ++frequency) {
+            const double a = 2 * pi * frequency * (*v)[axis], b = 2 * pi * frequency * u[axis];
+            differences[k++].add(std::cos(a) - std::cos(b));
+            differences[k++].add(std::sin(a) - std::sin(b));
+          }
+      }
+      if (differences[0].count() < 1000) continue;
+      p_values.push_back(
+          smallest_p_value(differences, std::vector<double>(differences.size(), 0.0)));
+      messages.push_back(c.label + ", cos " + std::to_string(from.z));
+    }
+  const std::vector<bool> rejected = holm(p_values, level);
+  for (size_t i = 0; i < rejected.size(); ++i)
+    EXPECT_FALSE(rejected[i]) << messages[i] << ", p " << p_values[i];
 }
 
 /// Models whose directions come from one map each, so that the random numbers themselves return.
@@ -124,7 +157,8 @@ TEST(BsdfSampling, InverseGivesTheRandomNumbersBack) {
         const Vec3 u = random_u(rng);
         const auto s = c.bsdf->sample(point(), from, u);
         if (!s || s->lobe != Lobe::smooth) continue;
-        const Vec3 d = glm::abs(c.bsdf->invert(point(), from, s->to, s->lobe).value() - u);
+        const Vec3 d =
+            glm::abs(c.bsdf->invert(point(), from, s->to, s->lobe, Vec3(0.5)).value() - u);
         worst = std::max({worst, std::min(d.y, 1 - d.y), std::min(d.z, 1 - d.z)});
       }
       EXPECT_LT(worst, 1e-4) << c.label << ", cos " << from.z;
@@ -134,13 +168,14 @@ TEST(BsdfSampling, InverseGivesTheRandomNumbersBack) {
 
 TEST(BsdfSampling, AnImpossibleDirectionHasNoInverse) {
   const Vec3 up = normalize(Vec3(0.1, 0.2, 1)), down = normalize(Vec3(0.3, 0, -1));
-  EXPECT_FALSE(make_bsdf("diffuse")->invert(point(), up, down, Lobe::smooth));
-  EXPECT_FALSE(make_bsdf("diffuse")->invert(point(), up, up, Lobe::reflection));
-  EXPECT_FALSE(make_bsdf("conductor")->invert(point(), up, up, Lobe::smooth));
-  EXPECT_FALSE(make_bsdf("plastic")->invert(point(), down, down, Lobe::smooth));
-  EXPECT_FALSE(make_bsdf("dielectric")->invert(point(), up, up, Lobe::transmission));
-  EXPECT_FALSE(make_bsdf("roughdielectric")->invert(point(), up, up, Lobe::transmission));
-  EXPECT_FALSE(make_bsdf("null")->invert(point(), up, up, Lobe::smooth));
+  EXPECT_FALSE(make_bsdf("diffuse")->invert(point(), up, down, Lobe::smooth, Vec3(0.5)));
+  EXPECT_FALSE(make_bsdf("diffuse")->invert(point(), up, up, Lobe::reflection, Vec3(0.5)));
+  EXPECT_FALSE(make_bsdf("conductor")->invert(point(), up, up, Lobe::smooth, Vec3(0.5)));
+  EXPECT_FALSE(make_bsdf("plastic")->invert(point(), down, down, Lobe::smooth, Vec3(0.5)));
+  EXPECT_FALSE(make_bsdf("dielectric")->invert(point(), up, up, Lobe::transmission, Vec3(0.5)));
+  EXPECT_FALSE(
+      make_bsdf("roughdielectric")->invert(point(), up, up, Lobe::transmission, Vec3(0.5)));
+  EXPECT_FALSE(make_bsdf("null")->invert(point(), up, up, Lobe::smooth, Vec3(0.5)));
 }
 
 }  // namespace

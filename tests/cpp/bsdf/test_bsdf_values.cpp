@@ -218,7 +218,7 @@ TEST(BsdfValues, AreFiniteAndNotNegative) {
       ASSERT_NEAR(length(s->to), 1, 1e-9) << c.label;
       expect_sound(*c.bsdf, wl, s->to, s->lobe, c.label);
       if (HasFatalFailure()) return;
-      const auto u = c.bsdf->invert(point(), wl, s->to, s->lobe);
+      const auto u = c.bsdf->invert(point(), wl, s->to, s->lobe, Vec3(0.5));
       if (!u) continue;
       ASSERT_TRUE(min_component(*u) >= 0 && max_component(*u) < 1) << c.label;
     }

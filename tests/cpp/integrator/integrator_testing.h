@@ -45,12 +45,14 @@ inline Variant variant(const std::string& name) {
   if (name == "pssmlt_bdpt") return {"pssmlt", {{"estimator", "bdpt"}}};
   if (name == "pssmlt_ptracer") return {"pssmlt", {{"estimator", "ptracer"}}};
   if (name == "mmlt_chains") return {"mmlt", {{"independent_share", "0"}}};
+  if (name == "rjmlt_chains") return {"rjmlt", {{"independent_share", "0"}}};
   if (name == "erpt") return {"erpt", {{"chain_length", "8"}}};
   if (name == "pssmlt_gaussian") return {"pssmlt", {{"small_step", "gaussian"}}};
   return {name, {}};
 }
 inline bool has_chains(const std::string& integrator) {
-  return integrator == "pssmlt" || integrator == "mmlt" || integrator == "mlt";
+  return integrator == "pssmlt" || integrator == "mmlt" || integrator == "rjmlt" ||
+         integrator == "mlt";
 }
 
 /// An integrator as a side of a comparison. Metropolis integrators scale their bootstrap with the
@@ -89,6 +91,7 @@ inline std::vector<Algorithm> algorithms() {
             {"chains", "40"},
             {"luminance_samples", "4000"}}},
           {"mmlt", {{"max_depth", "6"}, {"chains", "40"}, {"luminance_samples", "4000"}}},
+          {"rjmlt", {{"max_depth", "6"}, {"chains", "40"}, {"luminance_samples", "4000"}}},
           {"erpt", {{"max_depth", "6"}, {"chain_length", "4"}, {"luminance_samples", "4000"}}},
           {"mlt", {{"max_depth", "6"}, {"chains", "40"}, {"luminance_samples", "4000"}}}};
 }

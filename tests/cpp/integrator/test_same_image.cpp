@@ -62,10 +62,10 @@ INSTANTIATE_TEST_SUITE_P(
         Pair{"materials", "pssmlt"}, Pair{"point", "pssmlt_bdpt"},
         Pair{"thin_lens_sky", "pssmlt_bdpt"}, Pair{"cornell", "pssmlt_ptracer"},
         Pair{"sky", "pssmlt_gaussian"}, Pair{"thin_lens_sky", "mmlt_chains"}, Pair{"sky", "mmlt"},
-        Pair{"cornell", "erpt"}, Pair{"thin_lens_sky", "erpt"}, Pair{"point", "mmlt_chains"},
-        Pair{"instances", "path"}, Pair{"orthographic", "path"}, Pair{"orthographic", "ptracer"},
-        Pair{"projector", "ptracer"}, Pair{"daylight", "path"}, Pair{"bent_normals", "path"},
-        Pair{"more_materials", "path"}),
+        Pair{"thin_lens_sky", "rjmlt_chains"}, Pair{"point", "rjmlt"}, Pair{"cornell", "erpt"},
+        Pair{"thin_lens_sky", "erpt"}, Pair{"point", "mmlt_chains"}, Pair{"instances", "path"},
+        Pair{"orthographic", "path"}, Pair{"orthographic", "ptracer"}, Pair{"projector", "ptracer"},
+        Pair{"daylight", "path"}, Pair{"bent_normals", "path"}, Pair{"more_materials", "path"}),
     pair_name);
 
 class LongSameImageOf : public testing::TestWithParam<Pair> {};
@@ -82,6 +82,7 @@ std::vector<Pair> all_pairs() {
     if (made.light_sees_all) pairs.push_back({name, "pssmlt_ptracer"});
     pairs.push_back({name, "pssmlt_bdpt"});
     pairs.push_back({name, "mmlt"});
+    pairs.push_back({name, "rjmlt"});
     pairs.push_back({name, "erpt"});
   }
   return pairs;

@@ -6,6 +6,7 @@
 
 #include "harness/chi_square.h"
 #include "markov/lecture_examples.h"
+#include "primary/invert_path.h"
 #include "primary/technique_numbers.h"
 #include "scenes.h"
 
@@ -23,7 +24,7 @@ PathRules rules_of(int max_depth, int rr_depth = PathRules::no_roulette) {
   return rules;
 }
 MultiplexedPaths paths_of(const Scene& scene, int max_depth) {
-  return {{scene, {rules_of(max_depth)}}, {}};
+  return {&scene, {scene, {rules_of(max_depth)}}, {}};
 }
 
 // ---- the numbers of one technique
@@ -66,6 +67,57 @@ TEST_P(TechniqueNumbersOn, MakeThePathThatItHasFoundAmongAll) {
 INSTANTIATE_TEST_SUITE_P(Scenes, TechniqueNumbersOn,
                          testing::Values("cornell", "caustic", "mixed_lights", "thin_lens_sky",
                                          "light_in_glass"));
+
+// ---- the numbers of another technique
+
+class InvertPathOn : public testing::TestWithParam<std::string> {};
+
+/// Every technique that can make a path makes it again from the numbers that inversion gives.
+TEST_P(InvertPathOn, GivesNumbersOfEveryTechniqueThatCanMakeThePath) {
+  const ScenePtr scene = make_scene(GetParam()).scene;
+  MultiplexedPaths alone = paths_of(*scene, 5);
+  BidirectionalSampler all(*scene, {rules_of(5)});
+  int found = 0, lost = 0, changed = 0;
+  for (int i = 0; i < 150; ++i) {
+    Rng rng(64, Purpose::test, i);
+    RandomSampler sampler(rng);
+    RayCounts rays;
+    all.sample(scene->camera().raster().sample(sampler.next2()), sampler, rays);
+    all.connect_all(rays, [&](const Connection& c) {
+      Path path;
+      all.assemble(c, path);
+      PathTerms terms;
+      compute_terms(*scene, path, {}, terms);
+      const double expected = target_luminance(c.contribution) * c.own_share;
+      for (int s = 0; s <= c.s + c.t; ++s) {
+        if (!(mis_weight(terms, s, Heuristic::power) > 1e-12)) continue;
+        MultiplexedState state;
+        state.technique = {s, c.s + c.t - s};
+        ++found;
+        changed += s != c.s;
+        if (!invert_path(*scene, path, state.technique, rng, state.numbers)) {
+          ++lost;
+          continue;
+        }
+        alone(state, rng);
+        const bool same = std::abs(state.target_over_density / expected - 1) < 0.01 &&
+                          glm::length(state.raster - c.raster) < 0.05;
+        lost += !same;
+      }
+    });
+  }
+  EXPECT_GT(found, 200);
+  EXPECT_GT(changed, 50);
+  // Grazing directions and silhouettes, where rounding decides whether vertices see each other.
+  EXPECT_LE(lost, 0.005 * found);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, InvertPathOn,
+                         testing::Values("cornell", "caustic", "mixed_lights", "thin_lens_sky",
+                                         "light_in_glass", "sky_map", "sun", "point", "spot",
+                                         "projector", "sphere_light", "smooth_normals", "materials",
+                                         "more_materials", "bent_normals", "instances",
+                                         "orthographic", "daylight"));
 
 // ---- the choice of a technique
 
@@ -117,9 +169,12 @@ std::vector<double> observe(const MultiplexedState& x, const Raster& raster) {
           x.target_over_density / (1 + x.target_over_density)};
 }
 
+constexpr double rounding = 1e-6;  ///< Of a path that is kept.
+
 /// E[w g(y)] = E[w g(x)] for one step x -> y, for all g. `spoil` may change the quotients.
 template <class Spoil>
-double invariance_p_value(const std::string& name, double large, double technique, Spoil spoil) {
+double invariance_p_value(const std::string& name, double large, double technique,
+                          TechniqueChange change, int steps, Spoil spoil) {
   const ScenePtr scene = make_scene(name).scene;
   TechniqueChoice choice(rules_of(4));
   choice.learn({{}, {1, 0, 0}, {1, 3, 1, 0}, {1, 2, 2, 1, 0}, {1, 2, 2, 2, 1, 0}});
@@ -132,7 +187,7 @@ double invariance_p_value(const std::string& name, double large, double techniqu
       const Transition t = step.propose(x, y, stage, rng);
       return MultiplexedStep::generated(y[0]) ? spoil(t, x, y[0]) : t;
     }
-  } kernel{{large, technique, paths, choice}, spoil};
+  } kernel{{large, technique, change, paths, choice}, spoil};
   std::vector<Moments> differences;
   int accepted = 0;
   Rng rng(63, Purpose::test, 0);
@@ -146,10 +201,14 @@ double invariance_p_value(const std::string& name, double large, double techniqu
         x.target / (choice.pdf_length(x.technique.edges()) * choice.pdf_technique(x.technique));
     std::array<MultiplexedState, 1> y;
     const std::vector<double> before = observe(x, scene->camera().raster());
-    accepted += metropolis_step(x, y, kernel, rng, forget).accepted >= 0;
+    for (int k = 0; k < steps; ++k)
+      accepted += metropolis_step(x, y, kernel, rng, forget).accepted >= 0;
     const std::vector<double> after = observe(x, scene->camera().raster());
     differences.resize(before.size());
-    for (size_t k = 0; k < before.size(); ++k) differences[k].add(weight * (after[k] - before[k]));
+    for (size_t k = 0; k < before.size(); ++k) {
+      const double difference = after[k] - before[k];
+      differences[k].add(std::abs(difference) < rounding ? 0 : weight * difference);
+    }
   }
   EXPECT_GT(accepted, 1000);
   return smallest_p_value(differences, std::vector<double>(differences.size(), 0.0));
@@ -160,16 +219,36 @@ constexpr auto right = [](const Transition& t, auto&, auto&) { return t; };
 TEST(MultiplexedStep, LeavesItsTargetUnchanged) {
   for (const char* scene : {"cornell", "mixed_lights", "thin_lens_sky"})
     for (const auto& [large, technique] : {std::pair{1.0, 0.0}, {0.0, 1.0}, {0.0, 0.0}, {0.3, 0.3}})
-      EXPECT_GT(invariance_p_value(scene, large, technique, right), alpha)
+      EXPECT_GT(
+          invariance_p_value(scene, large, technique, TechniqueChange::keeps_numbers, 1, right),
+          alpha)
           << scene << ", " << large << ", " << technique;
+}
+
+TEST(MultiplexedStep, LeavesItsTargetUnchangedWhereItKeepsThePath) {
+  for (const char* scene : {"cornell", "mixed_lights", "thin_lens_sky", "materials"})
+    for (const auto& [technique, steps] : {std::pair{1.0, 1}, {0.5, 3}})
+      EXPECT_GT(invariance_p_value(scene, 0, technique, TechniqueChange::keeps_path, steps, right),
+                alpha)
+          << scene << ", " << technique;
+}
+
+TEST(MultiplexedStep, ThatKeepsThePathButAsksWhetherToIsFound) {
+  // As if the technique had been drawn from equal ones and not by its weight.
+  const auto wrong = [](const Transition& t, const MultiplexedState& x, const MultiplexedState& y) {
+    return Transition{t.forward * x.target, t.backward * y.target};
+  };
+  EXPECT_LT(invariance_p_value("cornell", 0, 1, TechniqueChange::keeps_path, 1, wrong), alpha);
 }
 
 TEST(MultiplexedStep, ThatForgetsHowOftenTechniquesAreChosenIsFound) {
   const auto forgets = [](const Transition&, const MultiplexedState& x, const MultiplexedState& y) {
     return Transition{1 / y.target, 1 / x.target};
   };
-  EXPECT_LT(invariance_p_value("cornell", 1, 0, forgets), alpha);
-  EXPECT_LT(invariance_p_value("cornell", 0, 1, forgets), alpha);
+  for (const auto& [large, technique] : {std::pair{1.0, 0.0}, {0.0, 1.0}})
+    EXPECT_LT(
+        invariance_p_value("cornell", large, technique, TechniqueChange::keeps_numbers, 1, forgets),
+        alpha);
 }
 
 }  // namespace
