@@ -27,14 +27,12 @@ void TechniqueChoice::learn(std::vector<std::vector<double>> light) {
 }
 
 int TechniqueChoice::blind_length(double u) const {
-  if (rules_.max_depth < 0)
-    return shortest() + static_cast<int>(std::log1p(-u) / std::log(one_edge_more));
+  if (may_be_long()) return shortest() + static_cast<int>(std::log1p(-u) / std::log(one_edge_more));
   return shortest() + static_cast<int>(u * (rules_.max_depth - shortest() + 1));
 }
 double TechniqueChoice::blind_pdf(int edges) const {
   if (edges < shortest()) return 0;
-  if (rules_.max_depth < 0)
-    return (1 - one_edge_more) * std::pow(one_edge_more, edges - shortest());
+  if (may_be_long()) return (1 - one_edge_more) * std::pow(one_edge_more, edges - shortest());
   return edges <= rules_.max_depth ? 1.0 / (rules_.max_depth - shortest() + 1) : 0;
 }
 

@@ -28,9 +28,11 @@ class TechniqueChoice {
  private:
   /// So many of the choices do not depend on what has been found up to now.
   static constexpr double blind_share = 0.1;
-  /// Where paths may be of any length: how likely one edge more is in such choices.
+  /// How likely one edge more is in such choices, where paths may be long.
   static constexpr double one_edge_more = 0.75;
+  static constexpr int long_path = 64;
 
+  bool may_be_long() const { return rules_.max_depth < 0 || rules_.max_depth > long_path; }
   int shortest() const { return rules_.min_depth == 1 && !rules_.wants(1) ? 2 : rules_.min_depth; }
   int blind_length(double u) const;
   double blind_pdf(int edges) const;

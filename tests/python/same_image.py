@@ -132,13 +132,32 @@ def _names(scales) -> list[str]:
     ]
 
 
+def visible_beside(reference: Blocks) -> float:
+    """The relative difference of the whole image that would be noticed if the other side were known
+    exactly."""
+    exact = Blocks(reference.scales, reference.mean, np.zeros_like(reference.error), reference.runs)
+    return compare(exact, reference).whole_image
+
+
 Side = Blocks | Callable[[float, int], np.ndarray]
 
 
 def assert_same_image(
-    a: Side, b: Side, *, spp: float, runs: int = 16, scales=FULL, systematic: float = 0.0, seed=1
+    a: Side,
+    b: Side,
+    *,
+    spp: float,
+    runs: int = 16,
+    scales=FULL,
+    systematic: float = 0.0,
+    whole_image: float = WHOLE_IMAGE,
+    seed=1,
 ) -> Verdict:
-    """Fail unless both sides show the same image; each is known blocks or `render(spp, seed)`."""
+    """Fail unless both sides show the same image; each is known blocks or `render(spp, seed)`.
+
+    whole_image
+        the largest relative difference of the whole image that may go unnoticed.
+    """
 
     def measured(side, spp, seed, stream):
         if isinstance(side, Blocks):
@@ -152,6 +171,6 @@ def assert_same_image(
         if not verdict.rejected:
             break
     assert not verdict.rejected, str(verdict)
-    assert verdict.whole_image <= WHOLE_IMAGE, f"too noisy to tell: {verdict}"
+    assert verdict.whole_image <= whole_image, f"too noisy to tell: {verdict}"
     assert verdict.median_block <= MEDIAN_BLOCK, f"too noisy to tell: {verdict}"
     return verdict

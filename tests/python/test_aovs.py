@@ -58,7 +58,9 @@ def test_layers_of_a_wall_are_what_geometry_says():
         assert not found[name][:, 13:].any()
 
 
-@pytest.mark.parametrize("integrator", ["direct", "ptracer", "bdpt", "pssmlt", "mlt"])
+@pytest.mark.parametrize(
+    "integrator", ["direct", "ptracer", "bdpt", "pssmlt", "mmlt", "rjmlt", "erpt", "mlt"]
+)
 def test_layers_do_not_depend_on_the_integrator_or_on_threads(integrator):
     expected = layers(tiny.scene(), seed=3, threads=1)
     found = layers(tiny.scene(), integrator=integrator, seed=3, threads=2)

@@ -5,7 +5,15 @@ import re
 import numpy as np
 import pytest
 from mitsuba_cases import COATING
-from same_image import FULL, Blocks, assert_same_image, block_means, block_sizes
+from same_image import (
+    FULL,
+    WHOLE_IMAGE,
+    Blocks,
+    assert_same_image,
+    block_means,
+    block_sizes,
+    visible_beside,
+)
 
 import pymlt as mlt
 
@@ -55,12 +63,14 @@ FILES = {
     "scene_path": ("infinite_mirrors", "scene", EIGHT),
     "test_texture_interp_direct": ("texture_interp", "test_texture_interp", DIRECT),
 }
-# Known differences: a coating's inner reflectance (see mitsuba_cases), and a white that was once
-# (1.0011, 0.9997, 0.9997).
+# Known differences: a coating's inner reflectance (see mitsuba_cases), a white that was once
+# (1.0011, 0.9997, 0.9997), and edges between faces of different colours that single precision moves
+# by 3e-4 of a pixel.
 SYSTEMATIC = {
     "test_roughplastic_linear_path": COATING,
     "test_roughplastic_nonlinear_path": COATING,
     "test_constant_path": 0.0005,
+    "test_mesh_attributes_1_face_direct": 0.0005,
 }
 NOISY = {"test_normalmap_roughconductor_path"}
 REFERENCE_SAMPLES = 12000
@@ -115,9 +125,13 @@ def test_mitsubas_own_tests(file, shared):
     def render(spp, seed):
         return mlt.render(scene, integrator, spp=spp, seed=seed) @ TO_XYZ.T
 
+    known = xyz_reference(folder, reference)
     assert_same_image(
         render,
-        xyz_reference(folder, reference),
+        known,
+        # In some a single highlight makes all of the reference's noise: no more can be asked of the
+        # test than half as much again as that alone would hide.
+        whole_image=max(WHOLE_IMAGE, 1.5 * visible_beside(known)),
         spp=256 if file in NOISY else 128,
         runs=96,
         systematic=SYSTEMATIC.get(file, 0),

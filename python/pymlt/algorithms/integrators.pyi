@@ -87,6 +87,106 @@ class Direct(Integrator):
         strict_normals: bool = ...,
     ) -> None: ...
 
+class ERPT(Integrator):
+    """Energy redistribution path tracing (Cline et al. 2005): short chains from the paths of
+    bidirectional path tracing, moved by the perturbations of mlt. One spp is one sample per
+    pixel, with its chains.
+
+    Parameters
+    ----------
+    max_depth : integer, default -1
+        Edges of the longest path: 1 shows the lights alone, 2 adds direct light, -1 is
+        unbounded.
+    rr_depth : integer, default 5
+        Depth from which on Russian roulette may end a path.
+    hide_emitters : boolean, default False
+        Leave out lights that the camera sees directly.
+    strict_normals : boolean, default False
+        Refuse directions that the geometric and the shading normal see on different sides.
+    lens_perturbation : boolean, default True
+        Use the lens perturbation of paths (L|D)DS*E and LS*E (Veach 1997, sec. 11.3.3.1).
+    lens_weight : float, default 0.3
+        Weight of the lens mutation among those that suit a path.
+    lens_smallest_pixels : float, default 0.1
+        Smallest move on the image, in pixels.
+    lens_largest_share : float, default 0.1
+        Largest move on the image, as a share of its diagonal.
+    caustic_perturbation : boolean, default True
+        Use the caustic perturbation of paths (L|D)S*DE (Veach 1997, sec. 11.3.3.2).
+    caustic_weight : float, default 0.2
+        Weight of the caustic mutation among those that suit a path.
+    caustic_smallest_pixels : float, default 0.1
+        Smallest move on the image, in pixels.
+    caustic_largest_share : float, default 0.1
+        Largest move on the image, as a share of its diagonal.
+    multi_chain_perturbation : boolean, default True
+        Use the multi-chain perturbation of paths (L|D)(DS+)+DS*E and L(S+D)+S*E (Veach 1997,
+        sec. 11.3.3.3).
+    multi_chain_weight : float, default 0.2
+        Weight of the multi_chain mutation among those that suit a path.
+    multi_chain_smallest_pixels : float, default 0.1
+        Smallest move on the image, in pixels.
+    multi_chain_largest_share : float, default 0.1
+        Largest move on the image, as a share of its diagonal.
+    near_specular : float, default 0.1
+        Smooth vertices below this roughness count as specular in perturbations.
+    chains : float, default 1.0
+        Chains per sample, in the mean.
+    chain_length : integer, default 100
+        Mutations of each chain.
+    max_chains : integer, default 64
+        Most chains from one path; if it is brighter than these would show, they leave more.
+    luminance_samples : integer, default 50000
+        Paths drawn to know how bright the image is, and so how much a chain is to leave.
+    """
+
+    max_depth: int
+    rr_depth: int
+    hide_emitters: bool
+    strict_normals: bool
+    lens_perturbation: bool
+    lens_weight: float
+    lens_smallest_pixels: float
+    lens_largest_share: float
+    caustic_perturbation: bool
+    caustic_weight: float
+    caustic_smallest_pixels: float
+    caustic_largest_share: float
+    multi_chain_perturbation: bool
+    multi_chain_weight: float
+    multi_chain_smallest_pixels: float
+    multi_chain_largest_share: float
+    near_specular: float
+    chains: float
+    chain_length: int
+    max_chains: int
+    luminance_samples: int
+    def __init__(
+        self,
+        *,
+        max_depth: int = ...,
+        rr_depth: int = ...,
+        hide_emitters: bool = ...,
+        strict_normals: bool = ...,
+        lens_perturbation: bool = ...,
+        lens_weight: float = ...,
+        lens_smallest_pixels: float = ...,
+        lens_largest_share: float = ...,
+        caustic_perturbation: bool = ...,
+        caustic_weight: float = ...,
+        caustic_smallest_pixels: float = ...,
+        caustic_largest_share: float = ...,
+        multi_chain_perturbation: bool = ...,
+        multi_chain_weight: float = ...,
+        multi_chain_smallest_pixels: float = ...,
+        multi_chain_largest_share: float = ...,
+        near_specular: float = ...,
+        chains: float = ...,
+        chain_length: int = ...,
+        max_chains: int = ...,
+        luminance_samples: int = ...,
+    ) -> None: ...
+
 class MLT(Integrator):
     """Metropolis light transport in path space with Veach's mutations (Veach & Guibas 1997). One
     spp is one mutation per pixel.
@@ -230,6 +330,74 @@ class MLT(Integrator):
         mutations: Sequence[Mutation | tuple[Mutation, float]] | None = ...,
     ) -> None: ...
 
+class MMLT(Integrator):
+    """Multiplexed Metropolis light transport (Hachisuka et al. 2014): mutates the random numbers
+    of one path and the technique (s, t) that makes it. One spp is one mutation per pixel.
+
+    Parameters
+    ----------
+    max_depth : integer, default -1
+        Edges of the longest path: 1 shows the lights alone, 2 adds direct light, -1 is
+        unbounded.
+    rr_depth : integer, default 5
+        Depth from which on Russian roulette may end a path.
+    hide_emitters : boolean, default False
+        Leave out lights that the camera sees directly.
+    strict_normals : boolean, default False
+        Refuse directions that the geometric and the shading normal see on different sides.
+    luminance_samples : integer, default 50000
+        Paths drawn to start the chains from; a pilot before that draws about as many.
+    chains : integer, default 128
+        Number of Markov chains, whatever the budget. The fewer there are, the longer each is,
+        and the farther it gets from where it started; but no more threads than chains have
+        work.
+    independent_share : float
+        Share of the time for samples that are independent of the chains, 0 to 1. They show what
+        they are good at, and tell the brightness b. By default a pilot finds the best one; 1:
+        there are no chains.
+    parts : boolean, default False
+        Keep what chains and samples show of the image as layers `chains` and `samples`.
+    p_large : float, default 0.3
+        Probability of a large step, which draws a new path independently.
+    small_step : string, default 'kelemen'
+        How a small step moves a number: `kelemen` by 1/16 of the step size up to all of it, or
+        `gaussian`. One of: kelemen, gaussian.
+    step_size : float
+        The largest move of a small step, by default 1/64, or the standard deviation of a
+        Gaussian one, by default 0.01.
+    p_technique : float, default 0.1
+        Probability of a small step that also draws another technique for the same length.
+    """
+
+    max_depth: int
+    rr_depth: int
+    hide_emitters: bool
+    strict_normals: bool
+    luminance_samples: int
+    chains: int
+    independent_share: float | None
+    parts: bool
+    p_large: float
+    small_step: Literal["kelemen", "gaussian"]
+    step_size: float | None
+    p_technique: float
+    def __init__(
+        self,
+        *,
+        max_depth: int = ...,
+        rr_depth: int = ...,
+        hide_emitters: bool = ...,
+        strict_normals: bool = ...,
+        luminance_samples: int = ...,
+        chains: int = ...,
+        independent_share: float | None = ...,
+        parts: bool = ...,
+        p_large: float = ...,
+        small_step: Literal["kelemen", "gaussian"] = ...,
+        step_size: float | None = ...,
+        p_technique: float = ...,
+    ) -> None: ...
+
 class Path(Integrator):
     """Path tracing from the camera with next-event estimation and multiple importance sampling
     (Kajiya 1986; Veach & Guibas 1995). One spp is one camera path per pixel.
@@ -261,8 +429,8 @@ class Path(Integrator):
     ) -> None: ...
 
 class PSSMLT(Integrator):
-    """Primary-sample-space Metropolis light transport over the path tracer (Kelemen et al. 2002).
-    One spp is one mutation per pixel.
+    """Primary-sample-space Metropolis light transport (Kelemen et al. 2002): mutates the random
+    numbers of another integrator. One spp is one mutation per pixel.
 
     Parameters
     ----------
@@ -289,8 +457,17 @@ class PSSMLT(Integrator):
         Keep what chains and samples show of the image as layers `chains` and `samples`.
     p_large : float, default 0.3
         Probability of a large step, which draws a new path independently.
-    bidirectional : boolean, default False
-        Only false: bidirectional estimators are not part of this integrator.
+    small_step : string, default 'kelemen'
+        How a small step moves a number: `kelemen` by 1/16 of the step size up to all of it, or
+        `gaussian`. One of: kelemen, gaussian.
+    step_size : float
+        The largest move of a small step, by default 1/64, or the standard deviation of a
+        Gaussian one, by default 0.01.
+    estimator : string, default 'path'
+        The integrator whose numbers are mutated: `path`, `bdpt`, or `ptracer`, which does not
+        see lights directly or in mirrors. One of: path, bdpt, ptracer.
+    bidirectional : boolean
+        True stands for the estimator `bdpt`, as in Mitsuba 0.6.
     """
 
     max_depth: int
@@ -302,7 +479,10 @@ class PSSMLT(Integrator):
     independent_share: float | None
     parts: bool
     p_large: float
-    bidirectional: bool
+    small_step: Literal["kelemen", "gaussian"]
+    step_size: float | None
+    estimator: Literal["path", "bdpt", "ptracer"]
+    bidirectional: bool | None
     def __init__(
         self,
         *,
@@ -315,7 +495,10 @@ class PSSMLT(Integrator):
         independent_share: float | None = ...,
         parts: bool = ...,
         p_large: float = ...,
-        bidirectional: bool = ...,
+        small_step: Literal["kelemen", "gaussian"] = ...,
+        step_size: float | None = ...,
+        estimator: Literal["path", "bdpt", "ptracer"] = ...,
+        bidirectional: bool | None = ...,
     ) -> None: ...
 
 class PTracer(Integrator):
@@ -348,10 +531,81 @@ class PTracer(Integrator):
         strict_normals: bool = ...,
     ) -> None: ...
 
+class RJMLT(Integrator):
+    """Reversible jump Metropolis light transport (Bitterli et al. 2018): as mmlt, but a step that
+    changes the technique keeps the path. One spp is one mutation per pixel.
+
+    Parameters
+    ----------
+    max_depth : integer, default -1
+        Edges of the longest path: 1 shows the lights alone, 2 adds direct light, -1 is
+        unbounded.
+    rr_depth : integer, default 5
+        Depth from which on Russian roulette may end a path.
+    hide_emitters : boolean, default False
+        Leave out lights that the camera sees directly.
+    strict_normals : boolean, default False
+        Refuse directions that the geometric and the shading normal see on different sides.
+    luminance_samples : integer, default 50000
+        Paths drawn to start the chains from; a pilot before that draws about as many.
+    chains : integer, default 128
+        Number of Markov chains, whatever the budget. The fewer there are, the longer each is,
+        and the farther it gets from where it started; but no more threads than chains have
+        work.
+    independent_share : float
+        Share of the time for samples that are independent of the chains, 0 to 1. They show what
+        they are good at, and tell the brightness b. By default a pilot finds the best one; 1:
+        there are no chains.
+    parts : boolean, default False
+        Keep what chains and samples show of the image as layers `chains` and `samples`.
+    p_large : float, default 0.3
+        Probability of a large step, which draws a new path independently.
+    small_step : string, default 'kelemen'
+        How a small step moves a number: `kelemen` by 1/16 of the step size up to all of it, or
+        `gaussian`. One of: kelemen, gaussian.
+    step_size : float
+        The largest move of a small step, by default 1/64, or the standard deviation of a
+        Gaussian one, by default 0.01.
+    p_technique : float, default 0.1
+        Probability of a step that changes the technique, not the path.
+    """
+
+    max_depth: int
+    rr_depth: int
+    hide_emitters: bool
+    strict_normals: bool
+    luminance_samples: int
+    chains: int
+    independent_share: float | None
+    parts: bool
+    p_large: float
+    small_step: Literal["kelemen", "gaussian"]
+    step_size: float | None
+    p_technique: float
+    def __init__(
+        self,
+        *,
+        max_depth: int = ...,
+        rr_depth: int = ...,
+        hide_emitters: bool = ...,
+        strict_normals: bool = ...,
+        luminance_samples: int = ...,
+        chains: int = ...,
+        independent_share: float | None = ...,
+        parts: bool = ...,
+        p_large: float = ...,
+        small_step: Literal["kelemen", "gaussian"] = ...,
+        step_size: float | None = ...,
+        p_technique: float = ...,
+    ) -> None: ...
+
 __all__ = [
     "BDPT",
+    "ERPT",
     "MLT",
+    "MMLT",
     "PSSMLT",
+    "RJMLT",
     "Direct",
     "PTracer",
     "Path",

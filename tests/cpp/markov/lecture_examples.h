@@ -86,14 +86,4 @@ std::vector<State> end_states(Kernel kernel, const Start& start, int chains, int
   return states;
 }
 
-/// The smallest of Holm's adjusted p-values of one-sample t-tests, each of one quantity.
-inline double smallest_p_value(const std::vector<Moments>& quantities,
-                               const std::vector<double>& expected) {
-  std::vector<double> p;
-  for (size_t i = 0; i < quantities.size(); ++i)
-    p.push_back(one_sample_t_test(quantities[i], expected[i]).p_value);
-  const std::vector<double> adjusted = holm_adjusted(p);
-  return *std::min_element(adjusted.begin(), adjusted.end());
-}
-
 }  // namespace mlt::test

@@ -124,7 +124,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, InvertPathOn,
 TEST(TechniqueChoice, HasTheProbabilitiesThatItTells) {
   PathRules unbounded = rules_of(-1);
   unbounded.hide_emitters = true;
-  for (const PathRules& rules : {rules_of(4), unbounded})
+  for (const PathRules& rules : {rules_of(4), unbounded, rules_of(std::numeric_limits<int>::max())})
     for (const bool learned : {false, true}) {
       TechniqueChoice choice(rules);
       if (learned) choice.learn({{}, {0, 0, 0}, {0, 3, 1, 0}, {0, 0, 0, 0, 0}, {1, 0, 0, 0, 0, 1}});
@@ -135,6 +135,7 @@ TEST(TechniqueChoice, HasTheProbabilitiesThatItTells) {
         const double u = rng.next();
         const Technique drawn = choice.sample_technique(choice.sample_length(u), rng.next());
         ASSERT_TRUE(rules.wants(drawn.edges()) || drawn.edges() > 4);
+        ASSERT_LT(drawn.edges(), 1000);
         if (drawn.edges() < longest - 2) observed[drawn.edges() * longest + drawn.s] += 1;
       }
       double sum = 0;
