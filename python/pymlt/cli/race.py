@@ -1,0 +1,190 @@
+"""`pymlt race`: which algorithm has the smallest error after equal CPU time?"""
+
+from __future__ import annotations
+
+import io
+import json
+import os
+
+from .. import _core
+from ..algorithms.integrator import as_integrator
+from ..race.algorithm import parse_algorithm
+from ..race.equal_time import equal_time, scene_name
+from ..race.program import Program
+from ..race.result import Race
+from ..rendering.progress import progress_bar
+from .common import FLAGS, add_flag, emit, load_scene, reader, say, warn
+from .display import add_display_flags
+from .figures import check_figure_file
+from .signals import Signals
+
+HELP = "Compare algorithms, and other programs, after equal CPU time."
+SHARED = ("parameters", "defines", "size", "sensor", "lenient", "strict")
+HELP_HERE = {"parameters": "parameter of every --algorithm; may be repeated"}
+
+
+def add_arguments(command) -> None:
+    command.add_argument("scenes", metavar="SCENE", nargs="+", help="files or built-in scenes")
+    command.add_argument(
+        "--algorithm",
+        dest="algorithms",
+        metavar="NAME[:P=V,...]",
+        action="append",
+        default=[],
+        help="an integrator, such as mlt or pssmlt:p_large=0.5; may be repeated",
+    )
+    command.add_argument(
+        "--program",
+        dest="programs",
+        metavar="LABEL=COMMAND",
+        action="append",
+        default=[],
+        type=reader(program),
+        help="another renderer: a command with {output}, and {scene}, {seed}, {threads}, {width}, "
+        "{height}, and {seconds} or {spp}; may be repeated",
+    )
+    for name in SHARED:
+        add_flag(command, FLAGS[name], HELP_HERE.get(name, ""))
+    command.add_argument(
+        "--reference",
+        dest="references",
+        metavar="FILE[,FILE...]",
+        action="append",
+        default=[],
+        help="an image without noise, or independent ones with noise; one for each scene, - for "
+        "none; without it seeds are compared with each other",
+    )
+    numbers = {
+        "seconds": (float, 10, "CPU seconds for each thread of each image (10)"),
+        "repeats": (int, 3, "images of each algorithm, with different seeds (3)"),
+        "seed": (int, 0, "of the first images (0)"),
+        "threads": (int, 0, "of each render; 0: as many as the machine has"),
+    }
+    for name, (kind, default, help) in numbers.items():
+        metavar = "SECONDS" if name == "seconds" else "N"
+        command.add_argument(f"--{name}", metavar=metavar, type=kind, default=default, help=help)
+    command.add_argument(
+        "--inset",
+        dest="insets",
+        metavar="X,Y,W,H",
+        action="append",
+        default=[],
+        type=reader(inset),
+        help="part of the image to enlarge, in pixels; may be repeated (where algorithms differ)",
+    )
+    command.add_argument(
+        "-o",
+        "--output",
+        metavar="FILE",
+        action="append",
+        default=[],
+        help="a page (.html), the numbers (.json), or the pictures beside each other (.png, .pdf); "
+        "may be repeated",
+    )
+    add_display_flags(command)
+    command.add_argument("--quiet", action="store_true", help="print no table")
+
+
+def program(text: str) -> Program:
+    label, equals, command = text.partition("=")
+    if not (equals and label.strip() and command.strip()):
+        raise _core.UsageError(f"{text!r} should be LABEL=COMMAND")
+    return Program(command.strip(), label.strip())
+
+
+def inset(text: str) -> tuple[int, ...]:
+    try:
+        x, y, width, height = map(int, text.split(","))
+    except ValueError:
+        raise _core.UsageError(f"{text!r} should be X,Y,WIDTH,HEIGHT in pixels") from None
+    return x, y, width, height
+
+
+def run(args) -> int:
+    check(args)
+    race, code = Race([]), 0
+    with Signals() as signals:
+        for i in range(len(args.scenes)):
+            if signals.caught:
+                break
+            try:
+                race.results.append(race_on(args, i, signals))
+            except KeyboardInterrupt:
+                break
+        code = 128 + signals.caught if signals.caught else 0
+    if not race.results:
+        say("interrupted before the first image; nothing to save")
+        return code
+    if not args.quiet:
+        emit(race.table())
+    saved = [save(race, path, args) for path in args.output]
+    if code:
+        say("interrupted; what there is has been compared")
+    return code if all(saved) else 3
+
+
+def check(args) -> None:
+    if not (args.algorithms or args.programs):
+        raise _core.UsageError("a race needs --algorithm or --program; see pymlt race --help")
+    if args.references and len(args.references) != len(args.scenes):
+        raise _core.UsageError(
+            f"there are {len(args.scenes)} scenes and {len(args.references)} references; give one "
+            "for each scene, - for none"
+        )
+    for path in args.output:
+        if path.lower().endswith((".html", ".json")):
+            _core.check_file_writable(path)
+        else:
+            check_figure_file(path)
+
+
+def race_on(args, index: int, signals: Signals):
+    """The race on one of the scenes."""
+    args.scene = args.scenes[index]
+    scene = signals.abandonable(lambda: load_scene(args))
+    warn([f"{args.scene}: {text}" for text in scene.warnings])
+    algorithms = []
+    for text in args.algorithms:
+        name, own = parse_algorithm(text)
+        algorithms.append((text, as_integrator(scene, name, [*args.parameters, *own])))
+    given = args.references[index] if args.references else "-"
+    file = os.path.exists(args.scene)
+    with progress_bar(False if args.quiet else None) as show:
+
+        def progress(done: float) -> None:
+            if signals.caught:
+                raise KeyboardInterrupt
+            show(done, {"scene": args.scene})
+
+        result = equal_time(
+            [*algorithms, *args.programs],
+            scene,
+            None if given == "-" else given.split(","),
+            seconds=args.seconds,
+            repeats=args.repeats,
+            threads=args.threads,
+            seed=args.seed,
+            insets=args.insets or 2,
+            name=scene_name(args.scene) if file else args.scene,
+            scene_file=args.scene if file else None,
+            progress=progress,
+        )
+    warn([f"{e.label} has left the race: {e.problem}" for e in result.entries if e.problem])
+    return result
+
+
+def save(race: Race, path: str, args) -> bool:
+    """Whether the file is where it was asked for; says where it is."""
+    kind = os.path.splitext(path)[1][1:].lower()
+    shown = {"exposure": args.exposure, "tonemap": args.tonemap}
+    if kind == "html":
+        content = race.html(**shown).encode()
+    elif kind == "json":
+        content = json.dumps(race.to_dict(), indent=1).encode() + b"\n"
+    else:
+        picture = io.BytesIO()
+        race.figure(**shown).savefig(picture, format=kind, dpi=150)
+        content = picture.getvalue()
+    saved, problem = _core.save_text(path, content)
+    say(problem or saved)
+    return not problem
