@@ -142,7 +142,7 @@ def flip_map(a: np.ndarray, r: np.ndarray) -> tuple[np.ndarray, float]:
 
     def prepare(x: np.ndarray) -> np.ndarray:
         rgb = np.broadcast_to(np.maximum(x, 0), (*x.shape[:2], 3))
-        return np.ascontiguousarray(rgb, dtype=np.float32)
+        return np.array(rgb, dtype=np.float32, order="C")  # one that may be written to
 
     errors, mean, _ = flip.evaluate(prepare(r), prepare(a), "HDR", applyMagma=False)
     return np.asarray(errors).reshape(a.shape[:2]), float(mean)

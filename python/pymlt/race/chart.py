@@ -46,7 +46,7 @@ def error_chart(series: Sequence[Series], title: str) -> str:
     return _figure(title, parts, HEIGHT)
 
 
-def level_chart(series: Sequence[Series], title: str) -> str:
+def level_chart(series: Sequence[Series], title: str, axis: str) -> str:
     """Levels of single images, one row for each algorithm; the bar is the mean and its error.
 
     Points are (seed, level, None), but the last one: (0, mean, standard error).
@@ -69,7 +69,7 @@ def level_chart(series: Sequence[Series], title: str) -> str:
     ]
     for row, s in enumerate(series):
         parts.append(_levels(s, TOP + 22 * row + 11, place))
-    parts.append(_text((LEFT + WIDTH - RIGHT) / 2, height - 3, "mean of the image / reference"))
+    parts.append(_text((LEFT + WIDTH - RIGHT) / 2, height - 3, axis))
     return _figure(title, parts, height)
 
 
@@ -118,8 +118,9 @@ class _Axis:
     end: float
 
     def place(self, value: float) -> float:
-        """Where a value lies; those that are too small lie at the beginning."""
-        share = (log10(max(value, self.low)) - log10(self.low)) / log10(self.high / self.low)
+        """Where a value lies; those that are too small or too large lie at an end."""
+        inside = min(max(value, self.low), self.high)
+        share = log10(inside / self.low) / log10(self.high / self.low)
         return self.begin + share * (self.end - self.begin)
 
 

@@ -64,10 +64,12 @@ def _draw_scene(row: SubFigure, result: RaceResult, columns: int, shown: Any) ->
     for i, (label, image) in enumerate(images):
         whole = row.add_subplot(grid[0, i * count : (i + 1) * count])
         whole.set_title(f"{label}\n{captions[i]}".rstrip(), fontsize=8)
+        whole.set_anchor("S")
         _show(whole, shown(image))
         for k, inset in enumerate(result.insets):
             _outline(whole, inset, FRAMES[k % len(FRAMES)])
             part = row.add_subplot(grid[1, i * count + k])
+            part.set_anchor("N")
             _show(part, shown(inset.crop(image)), FRAMES[k % len(FRAMES)])
 
 

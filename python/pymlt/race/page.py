@@ -118,7 +118,13 @@ def _charts(result: RaceResult) -> str:
     ]
     mean = float(result.scale.mean())
     levels = [_levels(i, entry, mean) for i, entry in ranked]
-    return "".join([*found, level_chart(levels, "level of each image")])
+    axis = "mean of the image / mean of the " + _standard(result)
+    return "".join([*found, level_chart(levels, "level of each image", axis)])
+
+
+def _standard(result: RaceResult) -> str:
+    """What images are compared with."""
+    return "reference" if result.reference_error is not None else "median of the algorithms"
 
 
 def _errors(index: int, entry: Entry, metric: str) -> Series:
@@ -141,8 +147,7 @@ def _levels(index: int, entry: Entry, mean: float) -> Series:
 
 def _pictures(result: RaceResult, curve: str, stops: float) -> str:
     kind = "FLIP" if shows_flip(result) else "relative error, 0 to 1"
-    whole = "reference" if result.reference_error is not None else "median of the algorithms"
-    cards = [_card(result, result.scale, escape(whole), None, (curve, stops))]
+    cards = [_card(result, result.scale, _standard(result), None, (curve, stops))]
     for entry in result.ranked:
         caption = _badge(result.entries.index(entry)) + escape(entry.label)
         shown = error_map(result, entry)
