@@ -55,7 +55,7 @@ sphinx_gallery_conf = {
     "plot_gallery": True,
 }
 
-MODULES = ("metropolis", "quadrature")
+MODULES = ("metropolis", "quadrature", "race")
 
 
 def write(path: Path, text: str) -> None:
@@ -71,7 +71,7 @@ def directive(kind: str, name: str, *options: str) -> str:
 
 
 def python_pages() -> None:
-    """One page for the package, one for each module of the lab."""
+    """One page for the package, one for each module of the lab, one for races."""
     functions, classes = [], []
     for name in pymlt.__all__:
         value = getattr(pymlt, name)

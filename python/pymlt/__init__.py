@@ -49,7 +49,7 @@ from .scenes.loading import load, load_dict, load_file, load_string
 from .scenes.transforms import Transform
 
 if TYPE_CHECKING:
-    from . import metropolis, quadrature
+    from . import metropolis, quadrature, race
     from .race import Program, Race, RaceResult, equal_time
 
 __all__ = [
@@ -91,6 +91,7 @@ __all__ = [
     "merge",
     "metropolis",
     "quadrature",
+    "race",
     "read_image",
     "read_metadata",
     "render",
@@ -111,7 +112,7 @@ _RACE = ("Program", "Race", "RaceResult", "equal_time")
 
 def __getattr__(name: str):
     """What not every program needs."""
-    if name in ("metropolis", "quadrature"):
+    if name in ("metropolis", "quadrature", "race"):
         return _importlib.import_module(f"{__name__}.{name}")
     if name in _RACE:
         return getattr(_importlib.import_module(f"{__name__}.race"), name)

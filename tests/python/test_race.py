@@ -512,3 +512,20 @@ def test_a_mistake_on_the_command_line_is_one_line(arguments, what, tmp_path, mo
     monkeypatch.chdir(tmp_path)
     (tmp_path / "scene.xml").write_text(tiny.XML)
     assert what in the_error(run([*PYMLT, "race", "scene.xml"], *arguments))
+
+
+def test_an_interrupted_command_writes_what_there_is(painter, tmp_path, monkeypatch):
+    """The program itself interrupts the race, in its second run."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "scene.xml").write_text(tiny.XML)
+    kill = "test {seed} = 0 || kill -INT $PPID; sleep 0.2; "
+    outcome = run(
+        [*PYMLT, "race", "scene.xml", "--program", f"painter={painter(0.1, kill)}"],
+        *("--seconds", 100, "-o", "race.json", "--quiet"),
+    )
+    assert outcome.returncode == 130
+    assert outcome.stdout == ""
+    assert outcome.stderr.splitlines()[-1].startswith("pymlt: interrupted")
+    (race,) = json.loads((tmp_path / "race.json").read_text())["races"]
+    assert race["interrupted"]
+    assert len(race["algorithms"][0]["runs"]) in (1, 2)

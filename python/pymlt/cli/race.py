@@ -14,13 +14,17 @@ from ..race.program import Program
 from ..race.result import Race
 from ..rendering.progress import progress_bar
 from .common import FLAGS, add_flag, emit, load_scene, reader, say, warn
-from .display import add_display_flags
+from .display import add_tonemap
 from .figures import check_figure_file
 from .signals import Signals
 
 HELP = "Compare algorithms, and other programs, after equal CPU time."
 SHARED = ("parameters", "defines", "size", "sensor", "lenient", "strict")
-HELP_HERE = {"parameters": "parameter of every --algorithm; may be repeated"}
+HELP_HERE = {
+    "parameters": "parameter of every --algorithm; may be repeated",
+    "seed": "seed of the first image of each algorithm (0); others count on from it",
+    "exposure": "brighten pictures by so many stops (as suits the scene)",
+}
 
 
 def add_arguments(command) -> None:
@@ -54,15 +58,22 @@ def add_arguments(command) -> None:
         help="an image without noise, or independent ones with noise; one for each scene, - for "
         "none; without it seeds are compared with each other",
     )
-    numbers = {
-        "seconds": (float, 10, "CPU seconds for each thread of each image (10)"),
-        "repeats": (int, 3, "images of each algorithm, with different seeds (3)"),
-        "seed": (int, 0, "of the first images (0)"),
-        "threads": (int, 0, "of each render; 0: as many as the machine has"),
-    }
-    for name, (kind, default, help) in numbers.items():
-        metavar = "SECONDS" if name == "seconds" else "N"
-        command.add_argument(f"--{name}", metavar=metavar, type=kind, default=default, help=help)
+    command.add_argument(
+        "--seconds",
+        metavar="SECONDS",
+        type=float,
+        default=10.0,
+        help="CPU seconds for each thread of each image (10)",
+    )
+    command.add_argument(
+        "--repeats",
+        metavar="N",
+        type=int,
+        default=3,
+        help="images of each algorithm, with different seeds (3)",
+    )
+    for name in ("seed", "threads"):
+        add_flag(command, FLAGS[name], HELP_HERE.get(name, ""))
     command.add_argument(
         "--inset",
         dest="insets",
@@ -81,8 +92,11 @@ def add_arguments(command) -> None:
         help="a page (.html), the numbers (.json), or the pictures beside each other (.png, .pdf); "
         "may be repeated",
     )
-    add_display_flags(command)
-    command.add_argument("--quiet", action="store_true", help="print no table")
+    add_flag(command, FLAGS["exposure"], HELP_HERE["exposure"])
+    add_tonemap(command)
+    command.add_argument(
+        "--quiet", action="store_true", help="say nothing but errors, and print no table"
+    )
 
 
 def program(text: str) -> Program:
@@ -142,7 +156,8 @@ def race_on(args, index: int, signals: Signals):
     """The race on one of the scenes."""
     args.scene = args.scenes[index]
     scene = signals.abandonable(lambda: load_scene(args))
-    warn([f"{args.scene}: {text}" for text in scene.warnings])
+    if not args.quiet:
+        warn(scene.warnings)
     algorithms = []
     for text in args.algorithms:
         name, own = parse_algorithm(text)
@@ -162,14 +177,15 @@ def race_on(args, index: int, signals: Signals):
             None if given == "-" else given.split(","),
             seconds=args.seconds,
             repeats=args.repeats,
-            threads=args.threads,
-            seed=args.seed,
+            threads=args.threads or 0,
+            seed=args.seed or 0,
             insets=args.insets or 2,
             name=scene_name(args.scene) if file else args.scene,
             scene_file=args.scene if file else None,
             progress=progress,
         )
-    warn([f"{e.label} has left the race: {e.problem}" for e in result.entries if e.problem])
+    if not args.quiet:
+        warn([f"{e.label} has left the race: {e.problem}" for e in result.entries if e.problem])
     return result
 
 

@@ -9,6 +9,7 @@ For example::
 
 from .equal_time import equal_time
 from .program import Program
+from .report import Report
 from .result import Entry, Race, RaceResult
 from .run import Run, Snapshot
 from .score import Mean, Score
@@ -19,6 +20,7 @@ __all__ = [
     "Program",
     "Race",
     "RaceResult",
+    "Report",
     "Run",
     "Score",
     "Snapshot",

@@ -91,7 +91,9 @@ def equal_time(
     racers = contestants(algorithms, loaded)
     file = scene_file or (scene if isinstance(scene, str | os.PathLike) else None)
     with progress_bar(progress) as show:
-        entries, interrupted = _race(racers, loaded, file and os.path.abspath(file), settings, show)
+        entries, interrupted = _race(
+            racers, loaded, None if file is None else str(os.path.abspath(file)), settings, show
+        )
     return judged(settings, entries, references, given, interrupted)
 
 

@@ -62,7 +62,7 @@ class Entry:
 class RaceResult(Report):
     """A race on one scene, as `equal_time` returns it.
 
-    `print` shows its table, a notebook its page.
+    `print` shows its table, a notebook its page; `Report` has what else there is to see.
     """
 
     settings: Settings
@@ -95,7 +95,7 @@ class RaceResult(Report):
 
 @dataclass
 class Race(Report):
-    """Races on several scenes, for one table and one page."""
+    """Races on several scenes, for one table and one page; see `Report`."""
 
     results: list[RaceResult]
 
