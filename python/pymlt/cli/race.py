@@ -5,18 +5,20 @@ from __future__ import annotations
 import io
 import json
 import os
+from collections.abc import Callable
+from functools import partial
+from typing import TYPE_CHECKING, NamedTuple
 
 from .. import _core
 from ..algorithms.integrator import as_integrator
-from ..race.algorithm import parse_algorithm
-from ..race.equal_time import equal_time, scene_name
-from ..race.program import Program
-from ..race.result import Race
 from ..rendering.progress import progress_bar
 from .common import FLAGS, add_flag, emit, load_scene, reader, say, warn
 from .display import add_tonemap
 from .figures import check_figure_file
 from .signals import Signals
+
+if TYPE_CHECKING:
+    from ..race import Program, Race, RaceResult
 
 HELP = "Compare algorithms, and other programs, after equal CPU time."
 SHARED = ("parameters", "defines", "size", "sensor", "lenient", "strict")
@@ -100,6 +102,8 @@ def add_arguments(command) -> None:
 
 
 def program(text: str) -> Program:
+    from ..race.program import Program
+
     label, equals, command = text.partition("=")
     if not (equals and label.strip() and command.strip()):
         raise _core.UsageError(f"{text!r} should be LABEL=COMMAND")
@@ -115,25 +119,53 @@ def inset(text: str) -> tuple[int, ...]:
 
 
 def run(args) -> int:
+    from ..race.result import Race
+
     check(args)
     race, code = Race([]), 0
     with Signals() as signals:
-        for i in range(len(args.scenes)):
-            if signals.caught:
-                break
-            try:
-                race.results.append(race_on(args, i, signals))
-            except KeyboardInterrupt:
-                break
-        code = 128 + signals.caught if signals.caught else 0
+        races = signals.abandonable(lambda: [prepared(args, i) for i in range(len(args.scenes))])
+        with progress_bar(False if args.quiet else None) as show:
+            for i, start in enumerate(races):
+                numbers = {"scene": args.scenes[i]}
+                watch = Watch(
+                    signals, lambda done, i=i, n=numbers: show((i + done) / len(races), n)
+                )
+                try:
+                    watch(0)
+                    race.results.append(start(progress=watch))
+                except KeyboardInterrupt:
+                    break
+                except _core.RenderError as error:  # other scenes are not lost
+                    say(error)
+                    code = 3
+        code = 128 + signals.caught if signals.caught else code
+    return finish(race, args, code)
+
+
+class Watch(NamedTuple):
+    """Shows how far a race is, and raises KeyboardInterrupt once a signal has come."""
+
+    signals: Signals
+    show: Callable[[float], object]
+
+    def __call__(self, done: float) -> None:
+        if self.signals.caught:
+            raise KeyboardInterrupt
+        self.show(done)
+
+
+def finish(race: Race, args, code: int) -> int:
+    """Say and write what was found; the exit code."""
+    if code > 128:
+        say(f"interrupted; {'what there is is compared' if race.results else 'nothing to save'}")
     if not race.results:
-        say("interrupted before the first image; nothing to save")
         return code
+    entries = [entry for result in race.results for entry in result.entries]
     if not args.quiet:
+        warn([f"{e.label} has left the race: {e.problem}" for e in entries if e.problem])
         emit(race.table())
     saved = [save(race, path, args) for path in args.output]
-    if code:
-        say("interrupted; what there is has been compared")
     return code if all(saved) else 3
 
 
@@ -152,41 +184,37 @@ def check(args) -> None:
             check_figure_file(path)
 
 
-def race_on(args, index: int, signals: Signals):
-    """The race on one of the scenes."""
+def prepared(args, index: int) -> Callable[..., RaceResult]:
+    """The race on one of the scenes, with everything that it needs."""
+    from ..race.algorithm import parse_algorithm
+    from ..race.equal_time import equal_time, scene_name
+    from ..race.insets import check_insets
+    from ..race.score import reference_images
+
     args.scene = args.scenes[index]
-    scene = signals.abandonable(lambda: load_scene(args))
+    scene = load_scene(args)
     if not args.quiet:
         warn(scene.warnings)
     algorithms = []
     for text in args.algorithms:
         name, own = parse_algorithm(text)
         algorithms.append((text, as_integrator(scene, name, [*args.parameters, *own])))
+    size = (scene.width, scene.height)
     given = args.references[index] if args.references else "-"
-    file = os.path.exists(args.scene)
-    with progress_bar(False if args.quiet else None) as show:
-
-        def progress(done: float) -> None:
-            if signals.caught:
-                raise KeyboardInterrupt
-            show(done, {"scene": args.scene})
-
-        result = equal_time(
-            [*algorithms, *args.programs],
-            scene,
-            None if given == "-" else given.split(","),
-            seconds=args.seconds,
-            repeats=args.repeats,
-            threads=args.threads or 0,
-            seed=args.seed or 0,
-            insets=args.insets or 2,
-            name=scene_name(args.scene) if file else args.scene,
-            scene_file=args.scene if file else None,
-            progress=progress,
-        )
-    if not args.quiet:
-        warn([f"{e.label} has left the race: {e.problem}" for e in result.entries if e.problem])
-    return result
+    file = args.scene if os.path.exists(args.scene) else None
+    return partial(
+        equal_time,
+        [*algorithms, *args.programs],
+        scene,
+        None if given == "-" else reference_images(given.split(","), size),
+        seconds=args.seconds,
+        repeats=args.repeats,
+        threads=args.threads or 0,
+        seed=args.seed or 0,
+        insets=check_insets(args.insets, size) or 2,
+        name=scene_name(file) if file else args.scene,
+        scene_file=file,
+    )
 
 
 def save(race: Race, path: str, args) -> bool:
@@ -202,5 +230,6 @@ def save(race: Race, path: str, args) -> bool:
         race.figure(**shown).savefig(picture, format=kind, dpi=150)
         content = picture.getvalue()
     saved, problem = _core.save_text(path, content)
-    say(problem or saved)
+    if problem or not args.quiet:
+        say(problem or saved)
     return not problem
