@@ -79,7 +79,7 @@ def race():
     result = mlt.equal_time(
         [(text.partition(":")[0], text) for text in algorithms],
         scene,
-        render("glass_ball", mlt.BDPT(max_depth=8), 60, (160, 160), seed=9),
+        render("glass_ball", mlt.MLT(max_depth=8), 60, (160, 160), seed=9),
         seconds=4,
         name="glass-ball",
     )

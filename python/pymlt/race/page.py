@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from html import escape
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -147,40 +147,51 @@ def _levels(index: int, entry: Entry, mean: float) -> Series:
 
 def _pictures(result: RaceResult, curve: str, stops: float) -> str:
     kind = "FLIP" if shows_flip(result) else "relative error, 0 to 1"
-    cards = [_card(result, result.scale, _standard(result), None, (curve, stops))]
+    other = _Views.of(result, result.scale, curve, stops)
+    addresses = {"whole": other.whole} | {f"part{i}": part for i, part in enumerate(other.parts)}
+    style = ";".join(f"--{name}:url({address})" for name, address in addresses.items())
+    cards = [_card(result, other, _standard(result), "")]
     for entry in result.ranked:
         caption = _badge(result.entries.index(entry)) + escape(entry.label)
-        shown = error_map(result, entry)
-        cards.append(_card(result, entry.image, caption, shown, (curve, stops)))
+        views = _Views.of(result, entry.image, curve, stops)
+        cards.append(_card(result, views, caption, drawing(error_map(result, entry))))
+    parts = "enlarged parts and " if result.insets else ""
     return (
-        f"<p>The image with the median error of each; below it {_parts(result)}the map of its "
-        f"error ({kind}). Shown with {stops:+.1f} stops, curve {escape(curve)}.</p>"
-        f'<div class="cards">{"".join(cards)}</div>'
+        f"<p>The image with the median error of each; below it {parts}the map of its error "
+        f"({kind}). Point at an image to see the {_standard(result)} in its place. Shown with "
+        f"{stops:+.1f} stops, curve {escape(curve)}.</p>"
+        f'<div class="cards" style="{style}">{"".join(cards)}</div>'
     )
 
 
-def _parts(result: RaceResult) -> str:
-    return "enlarged parts and " if result.insets else ""
+class _Views(NamedTuple):
+    """The addresses of an image and of its enlarged parts."""
+
+    whole: str
+    parts: list[str]
+
+    @classmethod
+    def of(cls, result: RaceResult, image: np.ndarray, curve: str, stops: float) -> _Views:
+        parts = [exact(inset.crop(image), curve, stops) for inset in result.insets]
+        return cls(photograph(image, curve, stops), parts)
 
 
-def _card(
-    result: RaceResult,
-    image: np.ndarray,
-    caption: str,
-    errors: np.ndarray | None,
-    shown: tuple[str, float],
-) -> str:
+def _card(result: RaceResult, views: _Views, caption: str, errors: str) -> str:
+    """One image; what images are compared with has no map of errors, and nothing lies below it."""
+    below = "over" if errors else ""
     frames = "".join(
         _frame(i, inset, result.settings.size) for i, inset in enumerate(result.insets)
     )
     crops = "".join(
-        f'<img class="crop f{i % 3}" alt="" src="{exact(inset.crop(image), *shown)}">'
-        for i, inset in enumerate(result.insets)
+        f'<span class="crop f{i % 3} {below}" style="--other:var(--part{i})">'
+        f'<img alt="" src="{part}"></span>'
+        for i, part in enumerate(views.parts)
     )
-    bottom = f'<img alt="map of the error" src="{drawing(errors)}">' if errors is not None else ""
+    bottom = f'<img alt="map of the error" src="{errors}">' if errors else ""
     return (
         f"<figure><figcaption>{caption}</figcaption>"
-        f'<div class="whole"><img alt="" src="{photograph(image, *shown)}">{frames}</div>'
+        f'<div class="whole {below}" style="--other:var(--whole)">'
+        f'<img alt="" src="{views.whole}">{frames}</div>'
         f'<div class="crops">{crops}</div>{bottom}</figure>'
     )
 
