@@ -66,7 +66,10 @@ def write(path: Path, text: str) -> None:
 
 
 def directive(kind: str, name: str, *options: str) -> str:
-    lines = [f".. {kind}:: {name}", *(f"   :{option}:" for option in options)]
+    lines = [f".. {kind}:: {name}"]
+    for option in options:
+        key, _, value = option.partition(": ")
+        lines.append(f"   :{key}: {value}".rstrip())
     return "\n".join(["```{eval-rst}", *lines, "```"]) + "\n"
 
 
@@ -82,9 +85,9 @@ def python_pages() -> None:
     sections = ["# The package", "## Functions", *functions, "## Classes", *classes]
     write(HERE / "auto_api" / "pymlt.md", "\n\n".join(sections))
     for module in MODULES:
-        text = f"# pymlt.{module}\n\n" + directive(
-            "automodule", f"pymlt.{module}", "members", "imported-members"
-        )
+        shown = sorted(set(getattr(pymlt, module).__all__) & set(pymlt.__all__))
+        options = ["members", "imported-members", f"exclude-members: {', '.join(shown)}"]
+        text = f"# pymlt.{module}\n\n" + directive("automodule", f"pymlt.{module}", *options)
         write(HERE / "auto_api" / f"{module}.md", text)
 
 
