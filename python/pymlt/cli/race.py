@@ -31,6 +31,16 @@ HELP_HERE = {
 
 def add_arguments(command) -> None:
     command.add_argument("scenes", metavar="SCENE", nargs="+", help="files or built-in scenes")
+    add_contestants(command)
+    for name in SHARED:
+        add_flag(command, FLAGS[name], HELP_HERE.get(name, ""))
+    add_measure(command)
+    for name in ("seed", "threads"):
+        add_flag(command, FLAGS[name], HELP_HERE.get(name, ""))
+    add_output(command)
+
+
+def add_contestants(command) -> None:
     command.add_argument(
         "--algorithm",
         dest="algorithms",
@@ -49,8 +59,9 @@ def add_arguments(command) -> None:
         help="another renderer: a command with {output}, and {scene}, {seed}, {threads}, {width}, "
         "{height}, and {seconds} or {spp}; may be repeated",
     )
-    for name in SHARED:
-        add_flag(command, FLAGS[name], HELP_HERE.get(name, ""))
+
+
+def add_measure(command) -> None:
     command.add_argument(
         "--reference",
         dest="references",
@@ -74,8 +85,9 @@ def add_arguments(command) -> None:
         default=3,
         help="images of each algorithm, with different seeds (3)",
     )
-    for name in ("seed", "threads"):
-        add_flag(command, FLAGS[name], HELP_HERE.get(name, ""))
+
+
+def add_output(command) -> None:
     command.add_argument(
         "--inset",
         dest="insets",

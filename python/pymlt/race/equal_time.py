@@ -113,10 +113,10 @@ def _race(
 
     def attempt(racer: Contestant, entry: Entry, seed: int | None) -> None:
         """A run, or with no seed what comes before the first one."""
+        told = partial(watch, racer.label)
         conditions = Conditions(
-            scene, file, settings.seconds, settings.threads, settings.times,
-            partial(watch, racer.label),
-        )  # fmt: skip
+            scene, file, settings.seconds, settings.threads, settings.times, told
+        )
         try:
             if seed is None:
                 racer.prepare(conditions)
