@@ -27,6 +27,7 @@ ALGORITHMS = {
     "bdpt": "bdpt",
     "pssmlt, chains": f"pssmlt:{ALONE}",
     "pssmlt": "pssmlt",
+    "pssmlt over bdpt": "pssmlt:bidirectional=true",
     "mmlt": "mmlt",
     "rjmlt": "rjmlt",
     "erpt": "erpt",
