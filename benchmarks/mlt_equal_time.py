@@ -20,6 +20,7 @@ from peers import MissingError
 from race_page import write_page
 
 import pymlt as mlt
+from pymlt.race.algorithm import contestants
 
 ALONE = "independent_share=0"
 ALGORITHMS = {
@@ -58,6 +59,15 @@ CASES = {
     "door-ajar": Case("scenes/door-ajar/scene.xml", (320, 240), "mlt"),
     "pool": Case("scenes/pool/scene.xml", (320, 240), "mlt"),
 }
+
+
+def is_known(text: str) -> bool:
+    """Whether this build has the algorithm, with these parameters."""
+    try:
+        contestants([text], mlt.load_dict(mlt.scenes.furnace()))
+    except mlt.SceneError:
+        return False
+    return True
 
 
 def reference(name: str, scene: mlt.Scene, case: Case, args):
@@ -105,8 +115,7 @@ def race_on(name: str, args) -> mlt.RaceResult:
 
 
 def main() -> None:
-    known = mlt.available("integrator")
-    there = [label for label, text in ALGORITHMS.items() if text.partition(":")[0] in known]
+    there = [label for label, text in ALGORITHMS.items() if is_known(text)]
     options = parser(__doc__)
     options.add_argument("--seconds", type=float, default=20, help="for each image and thread")
     options.add_argument("--threads", type=int, default=2)
