@@ -206,7 +206,8 @@ def test_algorithms_take_turns(painter, scene, tmp_path):
         mlt.Program(painter(0.1, f"echo {label} {{seed}} {{seconds}} >> {log}; "), label)
         for label in "ab"
     ]
-    mlt.equal_time(programs, scene, seconds=8, repeats=2, seed=7, times=(0.5,))
+    race = mlt.equal_time(programs, scene, seconds=8, repeats=2, seed=7, times=(0.5,))
+    assert re.search(r"- a took \S+ CPU seconds instead of \d+\.", race.table())
     turns = [f"{label} {seed} {s}" for seed in (7, 8) for label in "ab" for s in (4, 8)]
     assert log.read_text().splitlines() == turns
 
@@ -374,6 +375,7 @@ def test_the_table_has_a_line_for_each_algorithm(result):
     assert re.match(r"path +0\.0\d+ ± 0\.0\d+ +1 ", lines[2])
     assert lines[3].startswith("<b>& ")
     assert str(result) == result.table()
+    assert "CPU seconds instead of" not in result.table()
     assert ("bias is not seen" in result.table()) == (result.reference_error is None)
 
 

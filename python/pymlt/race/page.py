@@ -155,11 +155,12 @@ def _pictures(result: RaceResult, curve: str, stops: float) -> str:
         caption = _badge(result.entries.index(entry)) + escape(entry.label)
         views = _Views.of(result, entry.image, curve, stops)
         cards.append(_card(result, views, caption, drawing(error_map(result, entry))))
+    brightened = f"{stops:+.1f}".replace("-", "−")
     parts = "enlarged parts and " if result.insets else ""
     return (
         f"<p>The image with the median error of each; below it {parts}the map of its error "
         f"({kind}). Point at an image to see the {_standard(result)} in its place. Shown with "
-        f"{stops:+.1f} stops, curve {escape(curve)}.</p>"
+        f"{brightened} stops, curve {escape(curve)}.</p>"
         f'<div class="cards" style="{style}">{"".join(cards)}</div>'
     )
 

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from .result import Entry, RaceResult
 
 EMPTY = "–"
+UNEQUAL = 0.1  #: of the budget: a time that is farther from it is remarked upon
 
 
 @dataclass(frozen=True)
@@ -86,6 +87,12 @@ def notes(result: RaceResult) -> list[str]:
     for entry in result.entries:
         if invalid := sum(run.invalid for run in entry.runs):
             made.append(f"{entry.label}: {invalid} samples are not numbers and count as 0.")
+    budget = result.settings.seconds * result.settings.threads
+    made += [
+        f"{entry.label} took {entry.score.seconds:.3g} CPU seconds instead of {budget:g}."
+        for entry in result.ranked
+        if entry.score and abs(entry.score.seconds / budget - 1) > UNEQUAL
+    ]
     if result.reference_error is None:
         made.append(
             "Without a reference errors are variances between seeds: a bias is not seen. Level is "
