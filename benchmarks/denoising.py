@@ -25,14 +25,13 @@ from common import (
     Reference,
     parser,
     print_table,
-    relative_errors,
-    render_for,
     say,
-    trimmed_mean,
     write_results,
 )
 
 import pymlt as mlt
+from pymlt.diagnostics.metrics import relative_square, trimmed_mean
+from pymlt.race.cpu_time import render_for
 
 DEPTH = 8
 INTEGRATORS = [mlt.Path, mlt.BDPT, mlt.PSSMLT, mlt.MLT]
@@ -69,7 +68,7 @@ def scene_with_filter(name: str, filter: str, width: int):
 
 def measure(scene, integrator, reference: np.ndarray, args) -> tuple[dict, list]:
     noisy = [
-        render_for(scene, integrator, args.seconds, seed=seed, threads=args.threads)[0].image
+        render_for(scene, integrator, args.seconds, seed=seed, threads=args.threads).result.image
         for seed in range(1, args.seeds + 1)
     ]
     clean = [mlt.denoise(image) for image in noisy]
@@ -78,7 +77,7 @@ def measure(scene, integrator, reference: np.ndarray, args) -> tuple[dict, list]
         return float(np.mean([metric(image, reference) for image in images]))
 
     def relmse(image, reference):
-        return trimmed_mean(relative_errors(image, reference))
+        return trimmed_mean(relative_square(image, reference))
 
     def flip(image, reference):
         return mlt.compare(image, reference)["flip"]

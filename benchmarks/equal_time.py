@@ -20,7 +20,8 @@ from pathlib import Path
 from statistics import median
 
 import numpy as np
-from common import MissingError, Worker, parser, print_table, say, write_results
+from common import parser, print_table, say, write_results
+from peers import MissingError, Worker
 
 PEERS = {
     "Mitsuba scalar_rgb": ("scalar_rgb", "independent"),

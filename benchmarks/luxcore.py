@@ -19,17 +19,16 @@ from statistics import median
 import numpy as np
 from common import (
     REPOSITORY,
-    MissingError,
     Reference,
-    Worker,
     parser,
     print_table,
-    relative_errors,
-    render_for,
     say,
-    trimmed_mean,
     write_results,
 )
+from peers import MissingError, Worker
+
+from pymlt.diagnostics.metrics import relative_square, trimmed_mean
+from pymlt.race.cpu_time import render_for
 
 CAMERA = {"origin": [0, 0, 3.9], "target": [0, 0, 0], "up": [0, 1, 0], "fov": 39.3077}
 
@@ -134,7 +133,7 @@ def luxcore_image(path) -> np.ndarray:
 
 def row_of(name: str, images, seconds, samples, reference, pixels) -> dict:
     known = reference.errors()[pixels]
-    errors = [relative_errors(image, reference.image)[pixels] for image in images]
+    errors = [relative_square(image, reference.image)[pixels] for image in images]
     bright = np.mean([image[pixels].mean() for image in images])
     return {
         "renderer": name,
@@ -198,7 +197,7 @@ def main() -> None:
             folder=args.cache,
         )
         for seed in range(args.repeats):
-            result, seconds = render_for(scene, bdpt, args.seconds, seed=seed, threads=1)
+            result, seconds, _ = render_for(scene, bdpt, args.seconds, seed=seed, threads=1)
             for values, value in zip(
                 ours, (result.image, seconds, result.stats["spp_done"]), strict=True
             ):

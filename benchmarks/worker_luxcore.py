@@ -7,7 +7,7 @@ import sys
 from time import process_time, sleep
 
 import numpy as np
-from common import serve
+from peers import serve
 
 
 def settings(size: int, max_depth: int, seed: int) -> dict:

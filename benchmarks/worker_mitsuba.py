@@ -7,7 +7,7 @@ import sys
 from time import process_time
 
 import numpy as np
-from common import serve
+from peers import serve
 
 
 def main(size: int, max_depth: int, variant: str, sampler: str) -> None:

@@ -6,7 +6,7 @@ import sys
 from time import process_time
 
 import numpy as np
-from common import serve
+from peers import serve
 
 import pymlt as mlt
 

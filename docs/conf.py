@@ -55,7 +55,7 @@ sphinx_gallery_conf = {
     "plot_gallery": True,
 }
 
-MODULES = ("metropolis", "quadrature")
+MODULES = ("metropolis", "quadrature", "race")
 
 
 def write(path: Path, text: str) -> None:
@@ -66,12 +66,15 @@ def write(path: Path, text: str) -> None:
 
 
 def directive(kind: str, name: str, *options: str) -> str:
-    lines = [f".. {kind}:: {name}", *(f"   :{option}:" for option in options)]
+    lines = [f".. {kind}:: {name}"]
+    for option in options:
+        key, _, value = option.partition(": ")
+        lines.append(f"   :{key}: {value}".rstrip())
     return "\n".join(["```{eval-rst}", *lines, "```"]) + "\n"
 
 
 def python_pages() -> None:
-    """One page for the package, one for each module of the lab."""
+    """One page for the package, one for each module of the lab, one for races."""
     functions, classes = [], []
     for name in pymlt.__all__:
         value = getattr(pymlt, name)
@@ -82,9 +85,9 @@ def python_pages() -> None:
     sections = ["# The package", "## Functions", *functions, "## Classes", *classes]
     write(HERE / "auto_api" / "pymlt.md", "\n\n".join(sections))
     for module in MODULES:
-        text = f"# pymlt.{module}\n\n" + directive(
-            "automodule", f"pymlt.{module}", "members", "imported-members"
-        )
+        shown = sorted(set(getattr(pymlt, module).__all__) & set(pymlt.__all__))
+        options = ["members", "imported-members", f"exclude-members: {', '.join(shown)}"]
+        text = f"# pymlt.{module}\n\n" + directive("automodule", f"pymlt.{module}", *options)
         write(HERE / "auto_api" / f"{module}.md", text)
 
 

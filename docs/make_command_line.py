@@ -1,4 +1,4 @@
-"""Brings the table of flags in command-line.md up to date with `pymlt render`.
+"""Brings the tables of flags in command-line.md up to date with `pymlt render` and `pymlt race`.
 
 Run it after one has changed (python docs/make_command_line.py); a test compares the page with what
 this makes.
@@ -7,29 +7,30 @@ this makes.
 import re
 from pathlib import Path
 
-from pymlt.cli import render
+from pymlt.cli import COMMANDS
 from pymlt.cli.common import FLAGS, Parser
 
 PAGE = Path(__file__).with_name("command-line.md")
 
 
-def table() -> str:
+def table(command: str) -> str:
     parser = Parser(add_help=False)
-    render.add_arguments(parser)
+    COMMANDS[command].add_arguments(parser)
     lines = ["| flag | |", "|---|---|"]
     for action in parser._actions:
         if action.option_strings:
             spelling = f"{', '.join(action.option_strings)} {action.metavar or ''}".strip()
-            only = "" if action.dest in FLAGS else " (`pymlt` only)"
+            shared = command != "render" or action.dest in FLAGS
+            only = "" if shared else " (`pymlt` only)"
             lines.append(f"| `{spelling}` | {action.help.replace('|', chr(92) + '|')}{only} |")
     return "\n".join(lines)
 
 
 def page(text: str) -> str:
-    """The page with a fresh table between the marks."""
+    """The page with fresh tables between the marks."""
     return re.sub(
-        r"(<!-- flags -->\n).*?(<!-- end -->)",
-        lambda m: f"{m[1]}{table()}\n{m[2]}",
+        r"(<!-- flags: (\w+) -->\n).*?(<!-- end -->)",
+        lambda m: f"{m[1]}{table(m[2])}\n{m[3]}",
         text,
         flags=re.DOTALL,
     )

@@ -7,16 +7,17 @@ two-families  what independent samples and chains show of an image
 strategies    the techniques of bidirectional path tracing
 tone-curves   one render by the three tone curves
 comparison    what pymlt compare --picture draws
+race          what pymlt race -o race.png draws
 """
 
 import sys
 import tempfile
-import time
 from pathlib import Path
 
 import numpy as np
 
 import pymlt as mlt
+from pymlt.race.cpu_time import render_for
 
 HERE = Path(__file__).parent
 
@@ -24,13 +25,7 @@ HERE = Path(__file__).parent
 def render(name, integrator, cpu_seconds, size, seed=1):
     """Renders for so many seconds of CPU time, over all threads and with all preparations."""
     scene = mlt.load_dict(getattr(mlt.scenes, name)(), size=size)
-    start = time.process_time()
-    job = mlt.start(scene, integrator, time=1e6, seed=seed)
-    while time.process_time() - start < cpu_seconds:
-        job.wait(0.05)
-    job.cancel()
-    job.wait()
-    result = job.result()
+    result = render_for(scene, integrator, cpu_seconds, seed=seed, threads=0).result
     print(f"{name}, {result.integrator['type']}: {result.stats['spp_done']:.1f} spp", flush=True)
     return result.image
 
@@ -78,6 +73,19 @@ def comparison():
     mlt.comparison_figure(image, reference).savefig(HERE / "comparison.png", dpi=60)
 
 
+def race():
+    scene = mlt.load_dict(mlt.scenes.glass_ball(), size=(160, 160))
+    algorithms = [f"{name}:max_depth=8" for name in ("path", "bdpt", "mlt")]
+    result = mlt.equal_time(
+        [(text.partition(":")[0], text) for text in algorithms],
+        scene,
+        render("glass_ball", mlt.MLT(max_depth=8), 60, (160, 160), seed=9),
+        seconds=4,
+        name="glass-ball",
+    )
+    result.figure().savefig(HERE / "race.png", dpi=80)
+
+
 if __name__ == "__main__":
     pictures = {
         "door-ajar": door_ajar,
@@ -87,6 +95,7 @@ if __name__ == "__main__":
         "strategies": strategies,
         "tone-curves": tone_curves,
         "comparison": comparison,
+        "race": race,
     }
     for name in sys.argv[1:] or pictures:
         pictures[name]()

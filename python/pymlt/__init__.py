@@ -49,7 +49,8 @@ from .scenes.loading import load, load_dict, load_file, load_string
 from .scenes.transforms import Transform
 
 if TYPE_CHECKING:
-    from . import metropolis, quadrature
+    from . import metropolis, quadrature, race
+    from .race import Program, Race, RaceResult, equal_time
 
 __all__ = [
     "Audit",
@@ -61,6 +62,9 @@ __all__ = [
     "Job",
     "LightPath",
     "Mutation",
+    "Program",
+    "Race",
+    "RaceResult",
     "RenderError",
     "Replay",
     "Result",
@@ -79,6 +83,7 @@ __all__ = [
     "convert",
     "denoise",
     "describe",
+    "equal_time",
     "load",
     "load_dict",
     "load_file",
@@ -86,6 +91,7 @@ __all__ = [
     "merge",
     "metropolis",
     "quadrature",
+    "race",
     "read_image",
     "read_metadata",
     "render",
@@ -101,8 +107,13 @@ Scene._repr_html_ = _preview
 __all__ += _integrators.__all__ + _mutations.__all__
 
 
+_RACE = ("Program", "Race", "RaceResult", "equal_time")
+
+
 def __getattr__(name: str):
-    """Submodules that not every program needs."""
-    if name in ("metropolis", "quadrature"):
+    """What not every program needs."""
+    if name in ("metropolis", "quadrature", "race"):
         return _importlib.import_module(f"{__name__}.{name}")
+    if name in _RACE:
+        return getattr(_importlib.import_module(f"{__name__}.race"), name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

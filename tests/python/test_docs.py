@@ -2,6 +2,7 @@
 
 import importlib.util
 import re
+import shlex
 import subprocess
 import tomllib
 from pathlib import Path
@@ -90,7 +91,7 @@ def test_links_lead_somewhere(page):
 def test_commands_parse(page):
     """Every `pymlt ...` line in an indented or fenced block is one that pymlt understands."""
     for line in re.findall(r"^ *pymlt (.*?)(?: +#.*)?$", page.read_text(), re.MULTILINE):
-        args = make_parser().parse_args(line.split())
+        args = make_parser().parse_args(shlex.split(line))
         if getattr(args, "scene", None) and not args.scene.endswith(".xml"):
             assert args.scene.replace("-", "_") in mlt.scenes.names()
         if getattr(args, "integrator", None):

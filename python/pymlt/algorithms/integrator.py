@@ -34,7 +34,7 @@ class Integrator(WithParameters):
         return {"type": self._name, **self._given()}, []
 
 
-IntegratorLike = Integrator | dict | str
+IntegratorLike = Integrator | _core.Integrator | dict | str
 
 
 def as_integrator(

@@ -1,4 +1,4 @@
-"""The command line: pymlt render | merge | compare | denoise | convert | info | list | lab.
+"""The command line: pymlt render | merge | compare | denoise | convert | info | list | lab | race.
 
 Exit codes: 0 done; 1 `compare --fail-above` found more; 2 a mistake in usage or in the scene, or an
 output that cannot be written, found before the work began; 3 the render failed, or an output at its
@@ -13,7 +13,7 @@ import sys
 import traceback
 
 from .. import _core
-from . import compare, convert, denoise, info, lab, listing, merge, render
+from . import compare, convert, denoise, info, lab, listing, merge, race, render
 from .common import Parser, open_standard_streams, say
 
 COMMANDS = {
@@ -25,6 +25,7 @@ COMMANDS = {
     "info": info,
     "list": listing,
     "lab": lab,
+    "race": race,
 }
 
 

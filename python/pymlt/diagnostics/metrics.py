@@ -42,13 +42,12 @@ def compare(image, reference, *, flip: bool | None = None) -> dict[str, float]:
     a, r = image_pair(image, reference)
     error = a - r
     squared = error**2
-    relative = (squared / (r**2 + 0.01)).mean(axis=2).ravel()
-    kept = np.sort(relative)[: max(1, int(np.floor(0.999 * relative.size)))]
+    relative = relative_square(a, r)
     metrics = {
         "mse": squared.mean(),
         "rmse": np.sqrt(squared.mean()),
         "relmse": relative.mean(),
-        "relmse_trimmed": kept.mean(),
+        "relmse_trimmed": trimmed_mean(relative),
         "mape": relative_error(a, r).mean(),
         "bias_z": _bias_z(error.mean(axis=2)),
     }
@@ -90,6 +89,22 @@ def relative_error(a: np.ndarray, r: np.ndarray) -> np.ndarray:
     return (abs(a - r) / (abs(r) + 0.01)).mean(axis=2)
 
 
+def relative_square(a: np.ndarray, r: np.ndarray, scale: np.ndarray | None = None) -> np.ndarray:
+    """(a - r)^2 / (s^2 + 0.01) of each pixel, the mean of its channels: (height, width).
+
+    s is `scale`, by default r.
+    """
+    return ((a - r) ** 2 / ((r if scale is None else scale) ** 2 + 0.01)).mean(axis=2)
+
+
+def trimmed_mean(errors: np.ndarray, dropped: float = 0.001) -> float:
+    """The mean without the share of the errors that are largest; one stays at least."""
+    import numpy as np
+
+    kept = max(1, int(np.floor((1 - dropped) * errors.size)))
+    return float(np.sort(errors, axis=None)[:kept].mean())
+
+
 def _describe(shape) -> str:
     return f"{shape[1]} x {shape[0]} with {shape[2]} channels"
 
@@ -127,7 +142,7 @@ def flip_map(a: np.ndarray, r: np.ndarray) -> tuple[np.ndarray, float]:
 
     def prepare(x: np.ndarray) -> np.ndarray:
         rgb = np.broadcast_to(np.maximum(x, 0), (*x.shape[:2], 3))
-        return np.ascontiguousarray(rgb, dtype=np.float32)
+        return np.array(rgb, dtype=np.float32, order="C")  # one that may be written to
 
     errors, mean, _ = flip.evaluate(prepare(r), prepare(a), "HDR", applyMagma=False)
     return np.asarray(errors).reshape(a.shape[:2]), float(mean)
