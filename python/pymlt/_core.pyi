@@ -1,4 +1,4 @@
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any, Literal, overload
 
 import numpy as np
@@ -226,6 +226,7 @@ class LightPath:
 
     @overload
     def __getitem__(self, i: slice) -> list[Vertex]: ...
+    def __iter__(self) -> Iterator[Vertex]: ...
     def with_vertices(self, vertices: Sequence[Vertex]) -> LightPath:
         """Another path of the same scene and time, through these vertices."""
 
