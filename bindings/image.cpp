@@ -67,6 +67,10 @@ py::array_t<float> read(const Text& path, const std::string& layer) {
   return to_array(std::move(image));
 }
 
+py::array_t<float> decode(const std::string& bytes, const std::string& name) {
+  return to_array(without_gil([&] { return linear_image(read_image_memory(bytes, name)); }));
+}
+
 py::dict metadata(const Text& path) { return py::cast(read_exr_metadata(path)); }
 
 }  // namespace
@@ -82,6 +86,8 @@ py::array_t<float> to_array(Image image) {
 
 void bind_image(py::module_& m) {
   m.def("read_image", &read, py::arg("path"), py::arg("layer") = "");
+  m.def("decode_image", &decode, py::arg("bytes"), py::arg("name"),
+        "The pixels of an image file's bytes, in linear light; errors call it by the name.");
   m.def("is_known_image", [](const Text& path) { return is_known_image(path); }, py::arg("path"));
   m.def("read_metadata", &metadata, py::arg("path"));
   m.def("write_image", &write, py::arg("path"), py::arg("image"), py::arg("layers"),

@@ -1,6 +1,7 @@
 // Loading, and what a scene tells about itself.
 #include "bindings.h"
 #include "scene_dict.h"
+#include "scene_editing.h"
 #include "text.h"
 
 #include "io/pack.h"
@@ -117,6 +118,19 @@ void bind_scene(py::module_& m) {
           "with_sensor",
           [](const LoadedScene& s, int64_t sensor) { return with_sensor(s, sensor, plugins()); },
           py::arg("sensor"), NoGil(), "The same scene, seen by another of its sensors.")
+      .def("parameters", &scene_parameters, "What can be changed, by name, with its current value.")
+      .def(
+          "updated",
+          [](const LoadedScene& s, const py::dict& values) {
+            return warned(updated_scene(s, values));
+          },
+          py::arg("values"),
+          "The scene with other values of some of its parameters.\n\n"
+          "`values` maps names such as \"camera.to_world\" to values as a scene dict has them. "
+          "What "
+          "stays\nthe same is shared with this scene, which does not change. Raises UsageError for "
+          "a "
+          "name that\nthe scene does not have, SceneError for a value that does not fit.")
       .def("info", &info, "What the scene holds, as a dict.")
       .def("__repr__", &describe_scene);
 

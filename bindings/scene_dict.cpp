@@ -30,6 +30,7 @@ struct ToPython {
     for (const Keyframe& key : animation) keys[py::float_(key.time)] = (*this)(key.transform);
     return keys;
   }
+  py::object operator()(const Buffer& buffer) const { return py::bytes(buffer.bytes()); }
   py::object operator()(const Triple& t) const { return py::make_tuple(t[0], t[1], t[2]); }
   template <class T>
   py::object operator()(const T& value) const {
@@ -86,7 +87,7 @@ Value from_scalar_or_array(py::object object, const std::string& key, const Loca
     object = object.attr("item")();  // a numpy scalar
   if (object.is_none()) refuse(where, key, "is None; leave it out to get its default");
   if (py::isinstance<py::str>(object)) return str_of(object, key, where);
-  if (py::isinstance<py::bytes>(object)) return object.cast<std::string>();  // buffers of arrays
+  if (py::isinstance<py::bytes>(object)) return Buffer(object.cast<std::string>());
   if (PyBool_Check(object.ptr())) return object.cast<bool>();
   if (PyLong_Check(object.ptr()) || PyFloat_Check(object.ptr()))
     return from_number(object, key, where);

@@ -12,6 +12,9 @@ class Object {
  public:
   virtual ~Object() = default;
 
+  /// The same for another scene; nullptr if it has to be made anew.
+  virtual std::shared_ptr<Object> copy() const { return nullptr; }
+
   std::string type;  ///< Name of the plug-in that made it, or "".
   std::string id;    ///< The scene's name for it, or "".
   Location where;    ///< Where the scene describes it.

@@ -1,5 +1,7 @@
 #include "base/params.h"
 
+#include "base/bytes.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -48,6 +50,7 @@ bool fits(const Value& value, ParamType type) {
     case ParamType::radiance: return is_color(value);
     case ParamType::texture:
     case ParamType::emission: return is_color(value) || is<ObjectPtr>(value);
+    case ParamType::buffer: return is<Buffer>(value);
     case ParamType::ior: return is_number(value) || is<std::string>(value);
     case ParamType::object: return is<ObjectPtr>(value);
   }
@@ -55,8 +58,9 @@ bool fits(const Value& value, ParamType type) {
 }
 
 std::string kind_of(const Value& value) {
-  static const char* names[] = {"nothing",  "a boolean", "an integer", "a float",      "a string",
-                                "a triple", "a matrix",  "a spectrum", "an animation", "an object"};
+  static const char* names[] = {"nothing",      "a boolean", "an integer", "a float",
+                                "a string",     "a triple",  "a matrix",   "a spectrum",
+                                "an animation", "an object", "an array"};
   return names[value.index()];
 }
 
@@ -124,6 +128,7 @@ const Value& Params::read(const std::string& name) {
 bool Params::boolean(const std::string& name) { return std::get<bool>(read(name)); }
 int64_t Params::integer(const std::string& name) { return std::get<int64_t>(read(name)); }
 std::string Params::text(const std::string& name) { return std::get<std::string>(read(name)); }
+Buffer Params::buffer(const std::string& name) { return std::get<Buffer>(read(name)); }
 Triple Params::triple(const std::string& name) { return std::get<Triple>(read(name)); }
 Matrix Params::matrix(const std::string& name) { return std::get<Matrix>(read(name)); }
 const Value& Params::value(const std::string& name) { return read(name); }
@@ -160,6 +165,51 @@ ObjectPtr Params::find_object(const std::string& name) {
       return nested.object;
     }
   return nullptr;
+}
+
+namespace {
+
+struct KeyWriter {
+  ByteWriter& bytes;
+
+  void operator()(std::monostate) const {}
+  void operator()(const Buffer& buffer) const {
+    bytes.write(buffer.hash());
+    bytes.write<uint64_t>(buffer.bytes().size());
+  }
+  void operator()(const ObjectPtr& object) const { bytes.write<const Object*>(object.get()); }
+  template <class T>
+  void operator()(const T& value) const {
+    bytes.write(value);
+  }
+};
+
+}  // namespace
+
+std::string Params::key(const std::vector<std::string>& aside) const {
+  ByteWriter bytes;
+  bytes.write(title());
+  bytes.write(id_);
+  bytes.write(describe(where_));
+  for (const auto& [name, given] : given_) {
+    bytes.write(name);
+    bytes.write<uint64_t>(given.value.index());
+    std::visit(KeyWriter{bytes}, given.value);
+  }
+  for (const Nested& nested : nested_) {
+    if (std::count(aside.begin(), aside.end(), nested.family)) continue;
+    bytes.write(nested.family);
+    bytes.write<const Object*>(nested.object.get());
+  }
+  return bytes.take();
+}
+
+std::vector<ObjectPtr> Params::nested() const {
+  std::vector<ObjectPtr> all;
+  for (const auto& [name, given] : given_)
+    if (const auto* object = std::get_if<ObjectPtr>(&given.value)) all.push_back(*object);
+  for (const Nested& nested : nested_) all.push_back(nested.object);
+  return all;
 }
 
 std::string Params::title() const { return schema_->family + " '" + schema_->name + "'"; }

@@ -33,6 +33,7 @@ class Params {
   int64_t integer(const std::string& name);
   double real(const std::string& name);
   std::string text(const std::string& name);
+  Buffer buffer(const std::string& name);
   Triple triple(const std::string& name);
   Matrix matrix(const std::string& name);  ///< Row by row.
   /// The raw value of a reflectance, radiance, texture or emission parameter.
@@ -63,6 +64,12 @@ class Params {
       }
     return found;
   }
+
+  /// Bytes that are the same for what was given here and elsewhere if equal objects are made of both:
+  /// nested objects are equal if they are one, and those of the families `aside` do not count.
+  std::string key(const std::vector<std::string>& aside) const;
+  /// All nested objects, named or not.
+  std::vector<ObjectPtr> nested() const;
 
   /// Throws SceneError about one parameter: "file:line: diffuse: 'name' <message>".
   [[noreturn]] void fail(const std::string& name, const std::string& message) const;

@@ -2,6 +2,7 @@
 // The loader, the Python classes, the docs and the error messages all read this one description.
 #pragma once
 
+#include "base/buffer.h"
 #include "base/object.h"
 
 #include <array>
@@ -33,7 +34,7 @@ struct Keyframe {
 using Animation = std::vector<Keyframe>;
 
 using Value = std::variant<std::monostate, bool, int64_t, double, std::string, Triple, Matrix,
-                           Spectrum, Animation, ObjectPtr>;
+                           Spectrum, Animation, ObjectPtr, Buffer>;
 
 enum class ParamType {
   boolean,
@@ -47,6 +48,7 @@ enum class ParamType {
   radiance,     ///< A number, RGB or spectrum, unbounded.
   texture,      ///< A reflectance, or a Texture.
   emission,     ///< A radiance, or a Texture.
+  buffer,       ///< The bytes of an array.
   ior,          ///< An index of refraction: a number, or the name of a material.
   object  ///< Another plug-in, of the family that the parameter is named after or its doc names.
 };

@@ -31,6 +31,12 @@ bool is_given_by_name(const Schema& schema, const std::string& name, const std::
          std::find(ignored.begin(), ignored.end(), current) != ignored.end();
 }
 
+/// The families of what a shape is only told of, once it is made.
+std::vector<std::string> attached(const std::string& family) {
+  if (family != "shape") return {};
+  return {"bsdf", "emitter"};
+}
+
 bool needs_a_shape(const Emitter& emitter) { return !emitter.infinite() && !emitter.delta(); }
 
 template <class T>
@@ -64,8 +70,13 @@ std::shared_ptr<SamplerSettings> foreign_sampler(const Node& node) {
 
 }  // namespace
 
-Builder::Builder(const Node& root, const Registry& registry, std::vector<std::string>& warnings)
-    : index_(index_nodes(root)), registry_(registry), warnings_(warnings) {}
+Builder::Builder(const Node& root, const Registry& registry, std::vector<std::string>& warnings,
+                 const Known* known)
+    : index_(index_nodes(root)),
+      registry_(registry),
+      warnings_(warnings),
+      known_(known),
+      known_parts_(known ? known->parts.get() : nullptr) {}
 
 const Node& Builder::resolve(const Node& child) const {
   return child.family == "ref" ? find_node(index_, child.type, child.where) : child;
@@ -104,10 +115,15 @@ ObjectPtr Builder::make(const Node& node) {
   for (const Node& child : node.children) give(params, node, child);
   in_progress_.pop_back();
 
-  ObjectPtr object = make_object(plugin, params);
-  object->type = node.type;
-  object->id = node.id;
-  object->where = node.where;
+  const std::string key = params.key(attached(node.family));
+  const Part* known = known_parts_.take(key);
+  const Part part = known ? *known : new_part(node, plugin, params);
+  warnings_.insert(warnings_.end(), part.warnings.begin(), part.warnings.end());
+  ObjectPtr object = for_scene(part.object);
+  if (object)
+    parts_.emplace(key, Part{part.object, params.nested(), part.warnings});
+  else
+    object = part.object;
   if (auto reader = std::dynamic_pointer_cast<ShapeReader>(object))
     shape_readers_.push_back(std::move(reader));
   if (const auto shape = std::dynamic_pointer_cast<Shape>(object)) {
@@ -119,9 +135,25 @@ ObjectPtr Builder::make(const Node& node) {
     views_[object.get()] = {camera, only_one(params.objects<FilmSettings>(), "film", params),
                             sampler ? sampler->sample_count : 0};
   }
-  params.expect_all_read();
-  warnings_.insert(warnings_.end(), params.warnings().begin(), params.warnings().end());
+  if (!known) params.expect_all_read();
   return object;
+}
+
+Part Builder::new_part(const Node& node, const Plugin& plugin, Params& params) {
+  if (params.has("filename")) {
+    const std::string name = params.text("filename");
+    files_.insert(name);
+    if (known_ && known_->moved_files.count(name))
+      params.replace("filename", known_->moved_files.at(name));
+  }
+  const ObjectPtr object = make_object(plugin, params);
+  object->type = node.type;
+  object->id = node.id;
+  object->where = node.where;
+  // For all copies of it.
+  if (auto mesh = std::dynamic_pointer_cast<Mesh>(object); mesh && params.has("emitter"))
+    mesh->prepare_sampling();
+  return {object, {}, params.warnings()};
 }
 
 void Builder::give(Params& params, const Node& parent, const Node& child) {

@@ -4,6 +4,7 @@
 #include "base/registry.h"
 #include "io/load.h"
 #include "io/node.h"
+#include "io/parts.h"
 #include "scene/shape_reader.h"
 
 #include <map>
@@ -16,8 +17,9 @@ namespace mlt {
 
 class Builder {
  public:
-  /// References are looked up in `root`, which must outlive the builder.
-  Builder(const Node& root, const Registry& registry, std::vector<std::string>& warnings);
+  /// References are looked up in `root`, which must outlive the builder, as `known` must.
+  Builder(const Node& root, const Registry& registry, std::vector<std::string>& warnings,
+          const Known* known = nullptr);
 
   /// The object of a node, made at the first call: what several places refer to is one object.
   ObjectPtr object(const Node& node);
@@ -39,12 +41,18 @@ class Builder {
     for (const auto& reader : shape_readers_) reader->read_shapes(shapes);
   }
 
+  /// What was made, for scenes that are nearly the same.
+  Parts take_parts() { return std::move(parts_); }
+  /// The names of the files that were read.
+  const std::set<std::string>& files() const { return files_; }
+
   /// Has some shape taken this node as its light?
   bool on_a_shape(const Node& emitter) const { return lights_of_shapes_.count(&emitter) > 0; }
 
  private:
   const Node& resolve(const Node& child) const;
   ObjectPtr make(const Node& node);
+  Part new_part(const Node& node, const Plugin& plugin, Params& params);
   void give(Params& params, const Node& parent, const Node& child);
   void attach(Shape& shape, const Params& params, std::vector<std::shared_ptr<Bsdf>> bsdfs,
               std::vector<EmitterPtr> emitters);
@@ -55,6 +63,10 @@ class Builder {
   Shutter shutter_;  ///< Of the view, once it is made.
   const Registry& registry_;
   std::vector<std::string>& warnings_;
+  const Known* known_;
+  PartSource known_parts_;
+  Parts parts_;
+  std::set<std::string> files_;
   std::map<const Node*, ObjectPtr> made_;
   std::vector<const Node*> in_progress_;
   std::set<const Node*> lights_of_shapes_;

@@ -144,9 +144,21 @@ void build_contents(const Node& scene, Builder& builder, std::vector<ShapePtr>& 
         at(scene.where, "the scene has no emitter, so the image would be black; add a light"));
 }
 
+Known known_of(Builder& builder, const Known* before, std::shared_ptr<const Accel> accel) {
+  Known known;
+  known.parts = std::make_shared<const Parts>(builder.take_parts());
+  known.accel = std::move(accel);
+  if (!before) return known;
+  known.file_hashes = before->file_hashes;
+  for (const std::string& name : builder.files()) known.file_hashes.erase(name);
+  for (const auto& [name, moved] : before->moved_files) known.file_hashes[name] = file_hash(moved);
+  return known;
+}
+
 }  // namespace
 
-LoadedScene build_scene(const Node& tree, const Registry& registry, const LoadOptions& options) {
+LoadedScene build_scene(const Node& tree, const Registry& registry, const LoadOptions& options,
+                        const Known* known) {
   const auto start = Clock::now();
   LoadedScene loaded;
   loaded.tree = options.sensor ? asking_for(tree, *options.sensor) : tree;
@@ -158,25 +170,34 @@ LoadedScene build_scene(const Node& tree, const Registry& registry, const LoadOp
   refuse_missing(scene, registry);
   const Node& sensor = chosen_sensor(scene, loaded.warnings);
   find_integrator(scene, loaded);
-  Builder builder(scene, registry, loaded.warnings);
+  Builder builder(scene, registry, loaded.warnings, known);
   const Builder::View view = builder.view(sensor, options.size);
   std::vector<ShapePtr> shapes;
   std::vector<EmitterPtr> emitters;
   build_contents(scene, builder, shapes, emitters);
-  loaded.scene = std::make_shared<Scene>(std::move(shapes), std::move(emitters), view.camera,
-                                         view.film, view.sample_count);
+  loaded.scene =
+      std::make_shared<Scene>(std::move(shapes), std::move(emitters), view.camera, view.film,
+                              view.sample_count, known ? known->accel : nullptr);
   builder.show_shapes(loaded.scene->shapes());
   loaded.size = options.size;
-  loaded.hash = fingerprint(scene, options.size);
+  loaded.known = known_of(builder, known, loaded.scene->accel_ptr());
+  loaded.hash = fingerprint(scene, options.size, loaded.known.file_hashes);
   loaded.seconds = seconds_since(start);
   return loaded;
 }
 
-LoadedScene with_sensor(const LoadedScene& loaded, int64_t sensor, const Registry& registry) {
+LoadedScene build_again(const LoadedScene& loaded, const Node& tree, const Registry& registry) {
   LoadOptions options;
   options.size = loaded.size;
-  options.sensor = sensor;
-  LoadedScene other = build_scene(loaded.tree, registry, options);
+  LoadedScene other = build_scene(tree, registry, options, &loaded.known);
+  other.reading_warnings = loaded.reading_warnings;
+  other.warnings.insert(other.warnings.begin(), other.reading_warnings.begin(),
+                        other.reading_warnings.end());
+  return other;
+}
+
+LoadedScene with_sensor(const LoadedScene& loaded, int64_t sensor, const Registry& registry) {
+  LoadedScene other = build_again(loaded, asking_for(loaded.tree, sensor), registry);
   other.source = loaded.source;
   other.source.options.sensor = sensor;
   return other;
@@ -198,6 +219,7 @@ LoadedScene load(SceneSource source, const Read& read, const Registry& registry,
   if (options.lenient.value_or(!tree.modern)) leave_out_unknown(tree, registry, warnings);
   LoadedScene loaded = build_scene(tree, registry, options);
   loaded.warnings.insert(loaded.warnings.begin(), warnings.begin(), warnings.end());
+  loaded.reading_warnings = std::move(warnings);
   source.options = options;
   loaded.source = std::move(source);
   loaded.seconds = seconds_since(start);

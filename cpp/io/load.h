@@ -3,6 +3,7 @@
 
 #include "base/registry.h"
 #include "io/node.h"
+#include "io/parts.h"
 #include "scene/scene.h"
 
 #include <map>
@@ -34,15 +35,25 @@ struct SceneSource {
   LoadOptions options;
 };
 
+/// What of a scene is there already when it is built again, with few changes.
+struct Known {
+  std::shared_ptr<const Parts> parts;
+  std::shared_ptr<const Accel> accel;
+  std::map<std::string, std::string> file_hashes;  ///< Of what it has read, by name.
+  std::map<std::string, std::string> moved_files;  ///< Where they are, if not where the tree says.
+};
+
 struct LoadedScene {
   ScenePtr scene;
+  Known known;  ///< For scenes that are made of this one.
   SceneSource source;
-  Node tree;                          ///< What it was built from,
-  std::optional<Vec2i> size;          ///< and the size that was asked for.
-  std::optional<Node> integrator;     ///< As the scene describes it, not yet made.
-  std::string aovs;                   ///< The layers that its integrator `aov` asks for.
-  std::vector<std::string> warnings;  ///< One line each, with file and line.
-  double seconds = 0;                 ///< Wall time of loading.
+  Node tree;                                  ///< What it was built from,
+  std::optional<Vec2i> size;                  ///< and the size that was asked for.
+  std::optional<Node> integrator;             ///< As the scene describes it, not yet made.
+  std::string aovs;                           ///< The layers that its integrator `aov` asks for.
+  std::vector<std::string> warnings;          ///< One line each, with file and line.
+  std::vector<std::string> reading_warnings;  ///< Those that came of reading the tree.
+  double seconds = 0;                         ///< Wall time of loading.
   uint64_t hash =
       0;  ///< Of everything that was read (scene, meshes, textures by content or size+name).
 };
@@ -55,7 +66,11 @@ Node read_xml_string(const std::string& xml, const std::string& directory,
                      const LoadOptions& options, std::vector<std::string>& warnings);
 
 /// Builds the scene that a tree describes.
-LoadedScene build_scene(const Node& tree, const Registry& registry, const LoadOptions& options);
+LoadedScene build_scene(const Node& tree, const Registry& registry, const LoadOptions& options,
+                        const Known* known = nullptr);
+
+/// The scene of another tree, built of the same parts as far as that can be.
+LoadedScene build_again(const LoadedScene& loaded, const Node& tree, const Registry& registry);
 
 /// The same scene, seen by another of its sensors.
 LoadedScene with_sensor(const LoadedScene& loaded, int64_t sensor, const Registry& registry);

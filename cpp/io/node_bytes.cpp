@@ -1,8 +1,8 @@
 #include "io/node_bytes.h"
 
-#include "base/rng.h"
 #include "image/atomic_file.h"
 
+#include <algorithm>
 #include <filesystem>
 
 namespace mlt {
@@ -27,15 +27,24 @@ void save(ByteWriter& bytes, const Value& value) {
   bytes.write(static_cast<uint64_t>(value.index()));
   with_type(value.index(), [&](const auto& type) {
     using T = std::decay_t<decltype(type)>;
-    bytes.write(std::get<T>(value));
+    if constexpr (std::is_same_v<T, Buffer>)
+      bytes.write(std::get<T>(value).bytes());
+    else
+      bytes.write(std::get<T>(value));
   });
 }
 
 Value load_value(ByteReader& bytes) {
   Value value;
   with_type(bytes.read<uint64_t>(), [&](auto content) {
-    bytes.read(content);
-    value = std::move(content);
+    if constexpr (std::is_same_v<decltype(content), Buffer>) {
+      std::string held;
+      bytes.read(held);
+      value = Buffer(std::move(held));
+    } else {
+      bytes.read(content);
+      value = std::move(content);
+    }
   });
   return value;
 }
@@ -65,15 +74,14 @@ Node load_node(ByteReader& bytes, int depth) {
   return node;
 }
 
-/// A chain of bijective mixers: h' = mix(h ^ word), eight bytes at a time.
-uint64_t hash_of(const std::string& bytes) {
-  uint64_t hash = mix_bits(0x6d6c742d7363656eu ^ bytes.size());
-  for (size_t i = 0; i < bytes.size(); i += 8) {
-    uint64_t word = 0;
-    std::memcpy(&word, bytes.data() + i, std::min<size_t>(8, bytes.size() - i));
-    hash = mix_bits(hash ^ word);
-  }
-  return hash;
+/// The order of properties does not count, and a number stands for the bytes of an array.
+void simplify(Node& node) {
+  std::stable_sort(node.properties.begin(), node.properties.end(),
+                   [](const auto& a, const auto& b) { return a.name < b.name; });
+  for (Node::Property& property : node.properties)
+    if (const auto* buffer = std::get_if<Buffer>(&property.value))
+      property.value = std::to_string(buffer->hash());
+  for (Node& child : node.children) simplify(child);
 }
 
 }  // namespace
@@ -99,15 +107,20 @@ void for_each_file(Node& node, const std::function<void(std::string&)>& use) {
   for (Node& child : node.children) for_each_file(child, use);
 }
 
-uint64_t fingerprint(Node tree, const std::optional<Vec2i>& size) {
-  std::map<std::string, std::string> contents;
+std::string file_hash(const std::string& path) { return std::to_string(hash_of(read_file(path))); }
+
+uint64_t fingerprint(Node tree, const std::optional<Vec2i>& size,
+                     std::map<std::string, std::string>& file_hashes) {
   for_each_file(tree, [&](std::string& path) {
     std::error_code error;
-    if (!std::filesystem::is_regular_file(path, error)) return;
-    auto [known, is_new] = contents.try_emplace(path);
-    if (is_new) known->second = std::to_string(hash_of(read_file(path)));
+    auto known = file_hashes.find(path);
+    if (known == file_hashes.end()) {
+      if (!std::filesystem::is_regular_file(path, error)) return;
+      known = file_hashes.emplace(path, file_hash(path)).first;
+    }
     path = known->second;
   });
+  simplify(tree);
   ByteWriter bytes;
   save(bytes, tree);
   bytes.write(size);

@@ -7,6 +7,7 @@
 #include "math/vec.h"
 
 #include <functional>
+#include <map>
 
 namespace mlt {
 
@@ -20,9 +21,13 @@ Node load_node(ByteReader& bytes);
 /// not exist, since a film's file name is one to write.
 void for_each_file(Node& node, const std::function<void(std::string& path)>& use);
 
+/// Of a file's content. Throws FileError.
+std::string file_hash(const std::string& path);
+
 /// A number that tells one scene from another, so that a render is not resumed with the wrong one:
 /// of the tree's names and values and of the bytes of the files that it reads; where they lie does
-/// not count. Throws FileError.
-uint64_t fingerprint(Node tree, const std::optional<Vec2i>& size);
+/// not count. `file_hashes` are those known, and become those of all. Throws FileError.
+uint64_t fingerprint(Node tree, const std::optional<Vec2i>& size,
+                     std::map<std::string, std::string>& file_hashes);
 
 }  // namespace mlt

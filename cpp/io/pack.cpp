@@ -69,22 +69,18 @@ LoadedScene unpack_scene(const std::string& packed, const Registry& registry) {
   const Node tree = load_node(bytes);
   LoadOptions options;
   if (const auto size = bytes.read<Vec2i>(); size.x > 0) options.size = size;
-  std::map<std::string, std::string> files, here;
+  std::map<std::string, std::string> files;
+  Known known;
   bytes.read(files);
   bytes.finish();
   const TemporaryFolder folder;
   for (const auto& [path, text] : files) {
     // The extension says what format it is.
-    const fs::path name = std::to_string(here.size()) + fs::path(path).extension().string();
-    write_file(here[path] = (folder.path() / name).string(), text);
+    auto& moved = known.moved_files;
+    const fs::path name = std::to_string(moved.size()) + fs::path(path).extension().string();
+    write_file(moved[path] = (folder.path() / name).string(), text);
   }
-  Node moved = tree;
-  for_each_file(moved, [&](std::string& path) {
-    if (const auto found = here.find(path); found != here.end()) path = found->second;
-  });
-  LoadedScene loaded = build_scene(moved, registry, options);
-  loaded.tree = tree;
-  return loaded;
+  return build_scene(tree, registry, options, &known);
 }
 
 }  // namespace mlt

@@ -105,6 +105,7 @@ std::string tag_of(ParamType type) {
     case ParamType::emission: return "spectrum";
     case ParamType::transform:
     case ParamType::motion:
+    case ParamType::buffer:
     case ParamType::object: break;
   }
   return "";

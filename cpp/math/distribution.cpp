@@ -34,19 +34,21 @@ void fill_row(const float* weights, size_t n, double total, uint32_t full, uint3
 
 Discrete::Discrete(const std::vector<double>& weights) {
   if (weights.empty()) throw UsageError("a distribution needs at least one weight");
-  cdf_.reserve(weights.size() + 1);
-  cdf_.push_back(0);
+  std::vector<double> cdf;
+  cdf.reserve(weights.size() + 1);
+  cdf.push_back(0);
   size_t last_positive = 0;
   for (size_t i = 0; i < weights.size(); ++i) {
     check_weight(weights[i], i);
     if (weights[i] > 0) last_positive = i;
     total_ += weights[i];
-    cdf_.push_back(total_);
+    cdf.push_back(total_);
   }
   if (!(total_ > 0)) throw UsageError("a distribution needs at least one weight above zero");
   if (!std::isfinite(total_)) throw UsageError("the weights of a distribution overflow their sum");
-  for (double& c : cdf_) c /= total_;
-  for (size_t i = last_positive + 1; i < cdf_.size(); ++i) cdf_[i] = 1;
+  for (double& c : cdf) c /= total_;
+  for (size_t i = last_positive + 1; i < cdf.size(); ++i) cdf[i] = 1;
+  cdf_ = std::move(cdf);
 }
 
 Piecewise2D::Piecewise2D(const std::vector<float>& weights, size_t width, size_t height)
@@ -62,11 +64,12 @@ Piecewise2D::Piecewise2D(const std::vector<float>& weights, size_t width, size_t
   rows_ = Discrete(sums);
   integral_ = rows_.total() / (static_cast<double>(width) * static_cast<double>(height));
 
-  starts_.resize(weights.size());
+  std::vector<uint32_t> starts(weights.size());
   for (size_t y = 0; y < height; ++y) {
     if (sums[y] == 0) continue;
-    fill_row(weights.data() + y * width, width, sums[y], full, starts_.data() + y * width);
+    fill_row(weights.data() + y * width, width, sums[y], full, starts.data() + y * width);
   }
+  starts_ = std::move(starts);
 }
 
 Vec2 Piecewise2D::sample(const Vec2& u) const {

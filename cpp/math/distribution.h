@@ -4,6 +4,7 @@
 // cannot bias an estimate.
 #pragma once
 
+#include "base/shared_array.h"
 #include "math/vec.h"
 
 #include <cstddef>
@@ -52,7 +53,7 @@ class Discrete {
 
  private:
   static constexpr size_t few = 8;
-  std::vector<double> cdf_;  // n + 1 values from exactly 0 to exactly 1
+  SharedArray<double> cdf_;  // n + 1 values from exactly 0 to exactly 1
   double total_ = 0;
 };
 
@@ -90,7 +91,7 @@ class Piecewise2D {
   static constexpr uint32_t full = 0xffffffffu;
   size_t width_ = 0, height_ = 0;
   Discrete rows_;
-  std::vector<uint32_t> starts_;  // for each row: where each column's share of [0, full) begins
+  SharedArray<uint32_t> starts_;  // for each row: where each column's share of [0, full) begins
   double integral_ = 0;
 };
 

@@ -4,6 +4,7 @@
 #include "image/atomic_file.h"
 #include "image/file_lock.h"
 #include "io/node_bytes.h"
+#include "io/pack.h"
 #include "mlt_build_id.h"
 #include "mlt_version.h"
 
@@ -151,11 +152,10 @@ uint64_t check_same_render(const std::string& path, const Checkpoint& checkpoint
   } catch (const FileError& error) {
     throw FileError(std::string(error.what()) + "; to replace it all the same, say --overwrite");
   }
-  const char* difference =
-      there.scene_hash != checkpoint.scene_hash                                     ? "scene"
-      : there.seed != checkpoint.seed                                               ? "seed"
-      : fingerprint(there.integrator, {}) != fingerprint(checkpoint.integrator, {}) ? "integrator"
-                                                                                    : nullptr;
+  const char* difference = there.scene_hash != checkpoint.scene_hash               ? "scene"
+                           : there.seed != checkpoint.seed                         ? "seed"
+                           : pack(there.integrator) != pack(checkpoint.integrator) ? "integrator"
+                                                                                   : nullptr;
   if (difference)
     throw FileError(
         fmt::format("{}: is the checkpoint of another render, with another {}; go on "

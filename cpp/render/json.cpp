@@ -11,6 +11,7 @@ namespace {
 struct Writer {
   std::string operator()(std::monostate) const { return "null"; }
   std::string operator()(const ObjectPtr&) const { return "null"; }
+  std::string operator()(const Buffer&) const { return "null"; }
   std::string operator()(bool value) const { return value ? "true" : "false"; }
   std::string operator()(int64_t value) const { return fmt::format("{}", value); }
   std::string operator()(double value) const {

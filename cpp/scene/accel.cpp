@@ -5,7 +5,6 @@
 #include "scene/accel.h"
 
 #include "scene/analytic_shape.h"
-#include "scene/instance.h"
 #include "scene/mesh.h"
 
 #if MLT_EMBREE_MAJOR >= 4
@@ -16,7 +15,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <map>
 #include <string>
 
 namespace mlt {
@@ -149,11 +147,6 @@ RTCGeometry analytic_geometry(RTCDevice device, const AnalyticShape& shape) {
   return geometry;
 }
 
-bool moves(const ShapePtr& shape) {
-  const Instance* instance = shape->as_instance();
-  return instance && instance->motion().moves();
-}
-
 /// The device's error in words, or ""; without a device, why there is none. Where memory is short
 /// Embree often fails before it can say so; then it is a thread or a library that it lacks.
 std::string why_not(RTCDevice device, const char* what) {
@@ -171,17 +164,20 @@ struct Accel::Impl {
   RTCScene scene = nullptr;
   bool moves = false;
   Shutter shutter;
-  std::map<const ShapeGroup*, RTCScene> groups;
+  Placements placements;  ///< Embree reads the buffers of their forms.
+  std::vector<RTCScene> groups;
 
   ~Impl() {
     if (scene) rtcReleaseScene(scene);
-    for (const auto& [group, built] : groups) rtcReleaseScene(built);
+    for (RTCScene group : groups) rtcReleaseScene(group);
     if (device) rtcReleaseDevice(device);
   }
 
-  RTCScene build(const std::vector<ShapePtr>& shapes);
-  RTCGeometry geometry(const Shape& shape);
-  RTCGeometry instance_geometry(const Instance& instance);
+  void build();
+  template <class Elements, class MakeGeometry>
+  RTCScene build(const Elements& elements, const MakeGeometry& make);
+  RTCGeometry form_geometry(const Shape& form) const;
+  RTCGeometry instance_geometry(const Placement& instance) const;
 
   /// In [0, 1], also of what is no number.
   float embree_time(double time) const {
@@ -194,11 +190,12 @@ struct Accel::Impl {
   }
 };
 
-RTCScene Accel::Impl::build(const std::vector<ShapePtr>& shapes) {
+template <class Elements, class MakeGeometry>
+RTCScene Accel::Impl::build(const Elements& elements, const MakeGeometry& make) {
   RTCScene built = rtcNewScene(device);
   rtcSetSceneBuildQuality(built, RTC_BUILD_QUALITY_MEDIUM);
-  for (size_t i = 0; i < shapes.size(); ++i) {
-    RTCGeometry made = geometry(*shapes[i]);
+  for (size_t i = 0; i < elements.size(); ++i) {
+    RTCGeometry made = make(elements[i]);
     rtcCommitGeometry(made);
     rtcAttachGeometryByID(built, made, static_cast<unsigned>(i));
     rtcReleaseGeometry(made);
@@ -207,18 +204,23 @@ RTCScene Accel::Impl::build(const std::vector<ShapePtr>& shapes) {
   return built;
 }
 
-RTCGeometry Accel::Impl::geometry(const Shape& shape) {
-  if (const Mesh* mesh = shape.as_mesh()) return mesh_geometry(device, *mesh);
-  if (const Instance* instance = shape.as_instance()) return instance_geometry(*instance);
-  return analytic_geometry(device, *shape.as_analytic());
+void Accel::Impl::build() {
+  for (const auto& group : placements.groups)
+    groups.push_back(build(group, [&](const FormPtr& form) { return form_geometry(*form); }));
+  scene = build(placements.all, [&](const Placement& placed) {
+    return placed.form ? form_geometry(*placed.form) : instance_geometry(placed);
+  });
 }
 
-RTCGeometry Accel::Impl::instance_geometry(const Instance& instance) {
-  RTCScene& group = groups[&instance.group()];
-  if (!group) group = build(instance.group().shapes());
+RTCGeometry Accel::Impl::form_geometry(const Shape& form) const {
+  const Mesh* mesh = form.as_mesh();
+  return mesh ? mesh_geometry(device, *mesh) : analytic_geometry(device, *form.as_analytic());
+}
+
+RTCGeometry Accel::Impl::instance_geometry(const Placement& instance) const {
   RTCGeometry made = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
-  rtcSetGeometryInstancedScene(made, group);
-  const std::vector<Mat4>& steps = instance.motion().steps();
+  rtcSetGeometryInstancedScene(made, groups[instance.group]);
+  const std::vector<Mat4>& steps = instance.steps;
   rtcSetGeometryTimeStepCount(made, static_cast<unsigned>(steps.size()));
   for (unsigned i = 0; i < steps.size(); ++i) {
     const glm::mat4 to_world(steps[i]);
@@ -229,18 +231,25 @@ RTCGeometry Accel::Impl::instance_geometry(const Instance& instance) {
 
 Accel::Accel(const std::vector<ShapePtr>& shapes, const Shutter& shutter, int build_threads)
     : impl_(std::make_unique<Impl>()) {
-  impl_->moves = std::any_of(shapes.begin(), shapes.end(), moves);
+  impl_->placements = Placements(shapes);
+  impl_->moves = impl_->placements.moves();
   impl_->shutter = shutter;
   // A fixed instruction set, so that the bits do not depend on the machine's vector width.
   const std::string config = "max_isa=avx2,threads=" + std::to_string(build_threads);
   impl_->device = rtcNewDevice(config.c_str());
   if (!impl_->device) throw RenderError(why_not(nullptr, "does not start on this machine"));
-  impl_->scene = impl_->build(shapes);
+  impl_->build();
   const std::string problem = why_not(impl_->device, "could not build the acceleration structure");
   if (!problem.empty()) throw RenderError(problem);
 }
 
 Accel::~Accel() = default;
+
+bool Accel::serves(const std::vector<ShapePtr>& shapes, const Shutter& shutter) const {
+  const bool same_times = !impl_->moves || (shutter.open == impl_->shutter.open &&
+                                            shutter.close == impl_->shutter.close);
+  return same_times && Placements(shapes) == impl_->placements;
+}
 
 namespace {
 

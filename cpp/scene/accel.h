@@ -1,6 +1,7 @@
 // The ray accelerator. accel.cpp is the only file that uses Embree.
 #pragma once
 
+#include "scene/placement.h"
 #include "scene/ray.h"
 #include "scene/shape.h"
 
@@ -38,6 +39,9 @@ class Accel {
   explicit Accel(const std::vector<ShapePtr>& shapes, const Shutter& shutter = {},
                  int build_threads = 1);
   ~Accel();
+
+  /// Whether a hierarchy of these would be the same.
+  bool serves(const std::vector<ShapePtr>& shapes, const Shutter& shutter) const;
 
   bool intersect(const Ray& ray, Hit& hit) const;
   bool occluded(const Ray& ray) const;

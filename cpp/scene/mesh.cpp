@@ -25,31 +25,48 @@ TriangleRecord record_of(const MeshData& data, const std::array<uint32_t, 3>& co
   return record;
 }
 
+void bound(const std::vector<Vec3f>& positions, Vec3& low, Vec3& high) {
+  Vec3f least = positions[0], most = least;
+  for (const Vec3f& p : positions) {
+    least = glm::min(least, p);
+    most = glm::max(most, p);
+  }
+  low = Vec3(least);
+  high = Vec3(most);
+}
+
 }  // namespace
 
 Mesh::Mesh(MeshData data, const Mat4& to_world, bool face_normals, bool flip_normals,
            const Location& location)
-    : data_(std::move(data)), side_(flip_normals ? -1 : 1) {
+    : side_(flip_normals ? -1 : 1) {
   where = location;
-  if (face_normals) data_.normals = {};
-  check_mesh(data_, where);
-  transform_mesh(data_, to_world, where);
-  if (to_world != Mat4(1)) check_mesh(data_, where);
-  repair_normals(data_);
-  data_.positions.reserve(data_.positions.size() + 1);  // See data().
-  records_.reserve(data_.triangles.size());
-  for (const auto& corners : data_.triangles) {
-    records_.push_back(record_of(data_, corners, side_));
-    area_ += 0.5 * length(data_.triangle(corners).normal);
+  if (face_normals) data.normals = {};
+  check_mesh(data, where);
+  transform_mesh(data, to_world, where);
+  if (to_world != Mat4(1)) check_mesh(data, where);
+  repair_normals(data);
+  data.positions.reserve(data.positions.size() + 1);  // See data().
+  std::vector<TriangleRecord> records;
+  records.reserve(data.triangles.size());
+  for (const auto& corners : data.triangles) {
+    records.push_back(record_of(data, corners, side_));
+    area_ += 0.5 * length(data.triangle(corners).normal);
   }
+  records_ = std::move(records);
+  bound(data.positions, low_, high_);
+  data_ = std::make_shared<const MeshData>(std::move(data));
+  triangles_ = data_->triangles.data();
+  normals_ = data_->normals.empty() ? nullptr : data_->normals.data();
+  uvs_ = data_->uvs.empty() ? nullptr : data_->uvs.data();
 }
 
 size_t Mesh::bytes() const {
   const auto size = [](const auto& buffer) { return buffer.size() * sizeof(buffer[0]); };
   size_t attributes = 0;
-  for (const MeshAttribute& attribute : data_.attributes) attributes += size(attribute.values);
-  return attributes + size(data_.positions) + size(data_.normals) + size(data_.uvs) +
-         size(data_.triangles) + size(records_) + (triangle_areas_.size() + 1) * sizeof(double);
+  for (const MeshAttribute& attribute : data_->attributes) attributes += size(attribute.values);
+  return attributes + size(data_->positions) + size(data_->normals) + size(data_->uvs) +
+         size(data_->triangles) + size(records_) + (triangle_areas_.size() + 1) * sizeof(double);
 }
 
 void Mesh::surface_point(const Ray& ray, const Hit& hit, SurfacePoint& at) const {
@@ -80,16 +97,16 @@ inline void Mesh::fill(const Edges& tri, uint32_t index, double b1, double b2,
   at.shape = index_;
   at.primitive = index;
   at.kind = PointKind::surface;
-  if (data_.normals.empty() && data_.uvs.empty()) {
+  if (!normals_ && !uvs_) {
     at.uv = {b1, b2};
     at.shading = Frame::around(record.ng);
     return;
   }
-  const auto& corners = data_.triangles[index];
+  const auto& corners = triangles_[index];
   Vec3 n = record.ng, m = n;  // The shading normal, and a multiple of it.
-  if (!data_.normals.empty()) {
-    const Vec3 sum = Vec3(data_.normals[corners[0]]) * (1 - b1 - b2) +
-                     Vec3(data_.normals[corners[1]]) * b1 + Vec3(data_.normals[corners[2]]) * b2;
+  if (normals_) {
+    const Vec3 sum = Vec3(normals_[corners[0]]) * (1 - b1 - b2) + Vec3(normals_[corners[1]]) * b1 +
+                     Vec3(normals_[corners[2]]) * b2;
     const double sum2 = length_squared(sum);
     if (sum2 > 1e-12) {
       n = sum * (side_ / std::sqrt(sum2));
@@ -99,10 +116,10 @@ inline void Mesh::fill(const Edges& tri, uint32_t index, double b1, double b2,
   }
   at.uv = {b1, b2};
   at.shading = Frame::around(n);
-  if (data_.uvs.empty()) return;
-  const Vec2 uv0(data_.uvs[corners[0]]);
-  const Vec2 d1 = Vec2(data_.uvs[corners[1]]) - uv0;
-  const Vec2 d2 = Vec2(data_.uvs[corners[2]]) - uv0;
+  if (!uvs_) return;
+  const Vec2 uv0(uvs_[corners[0]]);
+  const Vec2 d1 = Vec2(uvs_[corners[1]]) - uv0;
+  const Vec2 d2 = Vec2(uvs_[corners[2]]) - uv0;
   at.uv = uv0 + d1 * b1 + d2 * b2;
   if (bsdf_ && bsdf_->is_matte()) return;  // It looks the same in any frame.
   // Solves e1 = d1.x dp/du + d1.y dp/dv and e2 likewise, up to a positive factor.
@@ -112,10 +129,11 @@ inline void Mesh::fill(const Edges& tri, uint32_t index, double b1, double b2,
 }
 
 void Mesh::prepare_sampling() {
+  if (!triangle_areas_.empty()) return;
   if (!(area_ > 0)) throw SceneError(at(where, "a mesh without area cannot emit light"));
-  std::vector<double> areas(data_.triangles.size());
+  std::vector<double> areas(data_->triangles.size());
   for (uint32_t i = 0; i < areas.size(); ++i)
-    areas[i] = length(data_.triangle(data_.triangles[i]).normal);
+    areas[i] = length(data_->triangle(triangles_[i]).normal);
   triangle_areas_ = Discrete(areas);
 }
 
@@ -139,10 +157,10 @@ MeshPoint Mesh::point(uint32_t triangle, const Vec2f& b) const {
   const float b0 = 1 - b.x - b.y;
   const Vec3f p = record.p0 * b0 + record.p1 * b.x + record.p2 * b.y, ng(record.ng);
   MeshPoint point{p, ng, ng, record.extent, triangle, b};
-  if (data_.normals.empty()) return point;
-  const auto& corners = data_.triangles[triangle];
-  const Vec3f sum = data_.normals[corners[0]] * b0 + data_.normals[corners[1]] * b.x +
-                    data_.normals[corners[2]] * b.y;
+  if (!normals_) return point;
+  const auto& corners = triangles_[triangle];
+  const Vec3f sum =
+      normals_[corners[0]] * b0 + normals_[corners[1]] * b.x + normals_[corners[2]] * b.y;
   const float sum2 = dot(sum, sum);
   if (!(sum2 > 1e-12f)) return point;
   point.n = sum * (static_cast<float>(side_) / std::sqrt(sum2));
@@ -156,10 +174,10 @@ SurfacePoint Mesh::textured_point(const MeshPoint& point) const {
   at.uv = Vec2(point.b);
   at.shape = index_;
   at.primitive = point.triangle;
-  if (data_.uvs.empty()) return at;
-  const auto& corners = data_.triangles[point.triangle];
-  at.uv = Vec2(data_.uvs[corners[0]]) * (1 - at.uv.x - at.uv.y) +
-          Vec2(data_.uvs[corners[1]]) * at.uv.x + Vec2(data_.uvs[corners[2]]) * at.uv.y;
+  if (!uvs_) return at;
+  const auto& corners = triangles_[point.triangle];
+  at.uv = Vec2(uvs_[corners[0]]) * (1 - at.uv.x - at.uv.y) + Vec2(uvs_[corners[1]]) * at.uv.x +
+          Vec2(uvs_[corners[2]]) * at.uv.y;
   return at;
 }
 
@@ -169,20 +187,19 @@ MeshPoint Mesh::sample_point(const Vec2& u) const {
 }
 
 Vec2 Mesh::barycentrics(const SurfacePoint& at) const {
-  const MeshData::Triangle tri = data_.triangle(data_.triangles[at.primitive]);
-  const Vec3 q = at.p - tri.p0;
-  const double scale = 1 / length_squared(tri.normal);
-  return {dot(cross(q, tri.e2), tri.normal) * scale, dot(cross(tri.e1, q), tri.normal) * scale};
+  const Edges tri = records_[at.primitive].edges();
+  const Vec3 q = at.p - tri.p0, normal = cross(tri.e1, tri.e2);
+  const double scale = 1 / length_squared(normal);
+  return {dot(cross(q, tri.e2), normal) * scale, dot(cross(tri.e1, q), normal) * scale};
 }
 
 std::optional<Vec3> Mesh::moved_normal(const SurfacePoint& at, const Mat3& inverse) const {
-  if (data_.normals.empty()) return std::nullopt;
-  const auto& corners = data_.triangles[at.primitive];
+  if (!normals_) return std::nullopt;
+  const auto& corners = triangles_[at.primitive];
   const Vec2 b = barycentrics(at);
   const double weights[3] = {1 - b.x - b.y, b.x, b.y};
   Vec3 sum(0);
-  for (int i = 0; i < 3; ++i)
-    sum += normalize(Vec3(data_.normals[corners[i]]) * inverse) * weights[i];
+  for (int i = 0; i < 3; ++i) sum += normalize(Vec3(normals_[corners[i]]) * inverse) * weights[i];
   if (!(length_squared(sum) > 1e-12)) return std::nullopt;
   return normalize(sum) * side_;
 }
@@ -195,23 +212,13 @@ Vec2 Mesh::invert_position(const SurfacePoint& at) const {
 
 Shape::UvTangents Mesh::uv_tangents(const SurfacePoint& at) const {
   const Edges tri = records_[at.primitive].edges();
-  if (data_.uvs.empty()) return {tri.e1, tri.e2};  // uv are the barycentrics.
-  const auto& corners = data_.triangles[at.primitive];
-  const Vec2 uv0(data_.uvs[corners[0]]);
-  const Vec2 d1 = Vec2(data_.uvs[corners[1]]) - uv0, d2 = Vec2(data_.uvs[corners[2]]) - uv0;
+  if (!uvs_) return {tri.e1, tri.e2};  // uv are the barycentrics.
+  const auto& corners = triangles_[at.primitive];
+  const Vec2 uv0(uvs_[corners[0]]);
+  const Vec2 d1 = Vec2(uvs_[corners[1]]) - uv0, d2 = Vec2(uvs_[corners[2]]) - uv0;
   const double det = d1.x * d2.y - d1.y * d2.x;
   if (det == 0) return {at.shading.s, at.shading.t};
   return {(tri.e1 * d2.y - tri.e2 * d1.y) / det, (tri.e2 * d1.x - tri.e1 * d2.x) / det};
-}
-
-void Mesh::bounds(Vec3& low, Vec3& high) const {
-  Vec3f least = data_.positions[0], most = least;
-  for (const Vec3f& p : data_.positions) {
-    least = glm::min(least, p);
-    most = glm::max(most, p);
-  }
-  low = Vec3(least);
-  high = Vec3(most);
 }
 
 }  // namespace mlt

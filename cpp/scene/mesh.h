@@ -1,10 +1,12 @@
 // A triangle mesh: float buffers, as Embree wants them, in world space.
 #pragma once
 
+#include "base/shared_array.h"
 #include "math/distribution.h"
 #include "scene/mesh_data.h"
 #include "scene/shape.h"
 
+#include <memory>
 #include <optional>
 
 namespace mlt {
@@ -42,10 +44,10 @@ class Mesh : public Shape {
   Mesh(MeshData data, const Mat4& to_world, bool face_normals, bool flip_normals,
        const Location& where);
 
-  Mesh(const Mesh&) = delete;
+  ObjectPtr copy() const override { return std::make_shared<Mesh>(*this); }
 
   /// There is room for 16 bytes at every position, also the last: the accelerator reads so many.
-  const MeshData& data() const { return data_; }
+  const MeshData& data() const { return *data_; }
   size_t bytes() const;
 
   /// The shading normal in a space to which normals are moved by the transpose of `inverse`, as if
@@ -58,18 +60,21 @@ class Mesh : public Shape {
   /// Uniform over the area; the same point as that of sample_position.
   MeshPoint sample_point(const Vec2& u) const;
   void surface_point(const Ray& ray, const Hit& hit, SurfacePoint& at) const override;
-  bool has_tangent() const override { return !data_.uvs.empty() && !(bsdf_ && bsdf_->is_matte()); }
+  bool has_tangent() const override { return uvs_ && !(bsdf_ && bsdf_->is_matte()); }
   double area() const override { return area_; }
   PositionSample sample_position(const Vec2& u) const override;
   Vec2 invert_position(const SurfacePoint& at) const override;
   UvTangents uv_tangents(const SurfacePoint& at) const override;
-  void bounds(Vec3& low, Vec3& high) const override;
+  void bounds(Vec3& low, Vec3& high) const override {
+    low = low_;
+    high = high_;
+  }
   const Mesh* as_mesh() const override { return this; }
 
   /// Of the corners after the first one, at a point of this mesh.
   Vec2 barycentrics(const SurfacePoint& at) const;
 
-  /// Builds the table that sample_position needs; called for meshes that carry an emitter.
+  /// Builds the table that sample_position needs, once; called for meshes that carry an emitter.
   /// Throws SceneError if the mesh has no area.
   void prepare_sampling();
 
@@ -82,10 +87,15 @@ class Mesh : public Shape {
   Barycentrics sample_barycentrics(const Vec2& u) const;
   void fill(const Edges& edges, uint32_t index, double b1, double b2, SurfacePoint& at) const;
 
-  MeshData data_;
-  std::vector<TriangleRecord> records_;  ///< One for each triangle.
+  std::shared_ptr<const MeshData> data_;
+  // Its buffers; nullptr where there are no normals or uvs.
+  const std::array<uint32_t, 3>* triangles_;
+  const Vec3f* normals_;
+  const Vec2f* uvs_;
+  SharedArray<TriangleRecord> records_;  ///< One for each triangle.
   double side_;                          ///< -1 with flip_normals, else 1.
   double area_ = 0;
+  Vec3 low_, high_;
   Discrete triangle_areas_;  ///< Built only for meshes that emit (see prepare_sampling).
 };
 

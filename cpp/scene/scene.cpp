@@ -63,7 +63,8 @@ std::vector<ShapePtr> grouped_shapes(const std::vector<ShapePtr>& shapes) {
 }  // namespace
 
 Scene::Scene(std::vector<ShapePtr> shapes, std::vector<EmitterPtr> emitters, CameraPtr camera,
-             std::shared_ptr<FilmSettings> film, int64_t sample_count)
+             std::shared_ptr<FilmSettings> film, int64_t sample_count,
+             const std::shared_ptr<const Accel>& known)
     : shapes_(std::move(shapes)),
       emitters_(std::move(emitters)),
       camera_(std::move(camera)),
@@ -82,7 +83,9 @@ Scene::Scene(std::vector<ShapePtr> shapes, std::vector<EmitterPtr> emitters, Cam
     if (!emitters_[i]->delta()) backgrounds_.push_back(static_cast<uint32_t>(i));
   }
   emitter_choice_ = choose_by_power(emitters_);
-  accel_ = std::make_unique<Accel>(shapes_, camera_->shutter());
+  accel_ = known && known->serves(shapes_, camera_->shutter())
+               ? known
+               : std::make_shared<const Accel>(shapes_, camera_->shutter());
   const std::vector<ShapePtr> grouped = grouped_shapes(shapes_);
   shapes_.insert(shapes_.end(), grouped.begin(), grouped.end());
   for (size_t i = 0; i < shapes_.size(); ++i) shapes_[i]->set_index(static_cast<uint32_t>(i));

@@ -24,9 +24,11 @@ struct EmitterChoice {
 
 class Scene {
  public:
-  /// Throws SceneError if there is no sensor or nothing that emits.
+  /// Throws SceneError if there is no sensor or nothing that emits. `known` is the accelerator of
+  /// another scene, which this one uses too if the same shapes are in the same places.
   Scene(std::vector<ShapePtr> shapes, std::vector<EmitterPtr> emitters, CameraPtr camera,
-        std::shared_ptr<FilmSettings> film, int64_t sample_count);
+        std::shared_ptr<FilmSettings> film, int64_t sample_count,
+        const std::shared_ptr<const Accel>& known = nullptr);
 
   /// Those that the scene was made of, then those of which there are instances.
   const std::vector<ShapePtr>& shapes() const { return shapes_; }
@@ -41,6 +43,7 @@ class Scene {
   const Emitter* emitter(const SurfacePoint& at) const { return shapes_[at.shape]->emitter(); }
 
   const Accel& accel() const { return *accel_; }
+  const std::shared_ptr<const Accel>& accel_ptr() const { return accel_; }
   /// The point in which the ray hit a surface.
   SurfacePoint surface_point(const Ray& ray, const Hit& hit) const;
   /// The nearest surface along the ray; false if there is none.
@@ -82,7 +85,7 @@ class Scene {
   std::shared_ptr<FilmSettings> film_;
   int64_t sample_count_;
   Bounds bounds_;
-  std::unique_ptr<Accel> accel_;
+  std::shared_ptr<const Accel> accel_;
   std::vector<uint32_t> infinite_, backgrounds_;
   Discrete emitter_choice_;
 };

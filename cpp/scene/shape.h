@@ -61,6 +61,9 @@ class Shape : public Object {
   const EmitterPtr& emitter_ptr() const { return emitter_; }
   void set_bsdf(BsdfPtr bsdf) { bsdf_ = std::move(bsdf); }
   void set_emitter(EmitterPtr emitter) { emitter_ = std::move(emitter); }
+  /// The shape that this one is a copy of, or nullptr.
+  const std::shared_ptr<const Shape>& form() const { return form_; }
+  void set_form(std::shared_ptr<const Shape> form) { form_ = std::move(form); }
   uint32_t index() const { return index_; }
   void set_index(uint32_t index) { index_ = index; }
 
@@ -68,6 +71,9 @@ class Shape : public Object {
   BsdfPtr bsdf_;
   EmitterPtr emitter_;
   uint32_t index_ = SurfacePoint::no_shape;
+
+ private:
+  std::shared_ptr<const Shape> form_;
 };
 
 using ShapePtr = std::shared_ptr<Shape>;

@@ -75,7 +75,8 @@ def table(n, seed):
 
 methods = {"uniform points": uniform, "Metropolis": chain, "importance, from a table": table}
 counts = [500, 1000, 2000, 4000, 8000, 16_000]
-pictures, errors = {}, {name: [] for name in methods}
+pictures = {}
+errors: dict[str, list[float]] = {name: [] for name in methods}
 for name, method in methods.items():
     for n in counts:
         pictures[name] = method(n, seed=n)

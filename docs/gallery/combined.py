@@ -8,6 +8,8 @@ other one is narrow. Weights that sum to one combine both so that the better one
 Guibas 1995).
 """
 
+from typing import Any
+
 import matplotlib.pyplot as plt
 import numpy as np
 
@@ -36,7 +38,8 @@ def problem(width):
 
 
 widths = np.geomspace(0.005, 5, 25)
-curves = {name: [] for name in ("sample the lamp", "sample the lobe", *quadrature.HEURISTICS)}
+names = ("sample the lamp", "sample the lobe", *quadrature.HEURISTICS)
+curves: dict[str, list[float]] = {name: [] for name in names}
 for width in widths:
     f, techniques = problem(width)
     for technique, name in zip(techniques, curves, strict=False):
@@ -68,7 +71,7 @@ left.plot(x, lobe.pdf(x) / lobe.pdf(x).max(), color=lab.ORANGE)
 left.text(-0.11, 0.6, "B", color=lab.ORANGE, ha="right", fontsize=12)
 left.set(xlabel="x", yticks=[], title="The lamp L and the lobe B, scaled to 1", ylim=(0, 1.05))
 
-styles = [
+styles: list[dict[str, Any]] = [
     {"color": lab.BLUE, "ls": "--"},
     {"color": lab.ORANGE, "ls": "--"},
     {"color": lab.GREEN, "lw": 2.5},

@@ -117,7 +117,12 @@ def repeated(estimate, repetitions):
 
 N, REPETITIONS = 1024, 64
 exponents = 2.0 ** np.arange(0, 11, 2)
-errors = {"Metropolis": [], "the lobe": [], "a table of the sky": [], "both, combined": []}
+errors: dict[str, list[float]] = {
+    "Metropolis": [],
+    "the lobe": [],
+    "a table of the sky": [],
+    "both, combined": [],
+}
 for exponent in exponents:
     g, technique = lobe(exponent), phong(exponent)
 

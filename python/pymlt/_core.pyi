@@ -1,4 +1,4 @@
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any, Literal, overload
 
 import numpy as np
@@ -32,6 +32,17 @@ class Scene:
 
     def with_sensor(self, sensor: int) -> Scene:
         """The same scene, seen by another of its sensors."""
+
+    def parameters(self) -> dict[str, Any]:
+        """What can be changed, by name, with its current value."""
+
+    def updated(self, values: dict[str, Any]) -> Scene:
+        """The scene with other values of some of its parameters.
+
+        `values` maps names such as "camera.to_world" to values as a scene dict has them. What stays
+        the same is shared with this scene, which does not change. Raises UsageError for a name that
+        the scene does not have, SceneError for a value that does not fit.
+        """
 
     def info(self) -> dict: ...
     def _repr_html_(self) -> str:
@@ -215,6 +226,7 @@ class LightPath:
 
     @overload
     def __getitem__(self, i: slice) -> list[Vertex]: ...
+    def __iter__(self) -> Iterator[Vertex]: ...
     def with_vertices(self, vertices: Sequence[Vertex]) -> LightPath:
         """Another path of the same scene and time, through these vertices."""
 
@@ -516,6 +528,7 @@ def with_mutations(
     mutations: list[tuple[Mutation, float]],
 ) -> Integrator: ...
 def read_image(path: str, layer: str = "") -> np.ndarray: ...
+def decode_image(bytes: bytes, name: str) -> np.ndarray: ...
 def is_known_image(path: str) -> bool: ...
 def read_metadata(path: str) -> dict[str, str]: ...
 def write_image(

@@ -127,3 +127,29 @@ def test_mistakes_are_named():
         layers(tiny.scene(), "depth,depth")
     with pytest.raises(mlt.UsageError, match="has no name"):
         layers(tiny.scene(), ":depth")
+
+
+@pytest.mark.peer
+def test_layers_are_those_of_mitsuba():
+    import mitsuba
+
+    mitsuba.set_variant("scalar_rgb")
+    kinds = ["albedo", "depth", "position", "uv", "geo_normal", "sh_normal"]
+    # Mitsuba's albedo of glass is 0, ours 1: what does not darken a denoiser's colours.
+    xml = tiny.XML.replace('"dielectric"', '"diffuse"')
+    path = '<integrator type="path"><integer name="max_depth" value="$depth"/></integrator>'
+    names = ",".join(f"{kind}:{kind}" for kind in kinds)
+    aov = f'<integrator type="aov"><string name="aovs" value="{names}"/>{path}</integrator>'
+    scene = mitsuba.load_string(xml.replace(path, aov))
+    theirs = np.array(mitsuba.render(scene, spp=256))
+    channels = [name.split(".")[0] for name in scene.integrator().aov_names()]
+    found = layers(mlt.load_string(xml), kinds)
+    for kind in kinds:
+        # What the image itself has of channels comes first.
+        here = [i - len(channels) for i, name in enumerate(channels) if name == kind]
+        expected, ours = theirs[..., here], found[kind][..., : len(here)]
+        difference, scale = abs(ours - expected).max(axis=2), abs(expected).max()
+        # Within a pixel at an edge the mean of 16 rays is rough.
+        assert np.median(difference) < 0.005 * scale, kind
+        assert np.quantile(difference, 0.9) < 0.06 * scale, kind
+        assert abs((ours - expected).mean(axis=(0, 1))).max() < 0.01 * scale, kind

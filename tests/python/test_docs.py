@@ -177,7 +177,7 @@ def test_the_mutation_of_the_page_on_prototypes_is_right(capsys):
     assert "right: none of" in capsys.readouterr().out
 
 
-@pytest.mark.parametrize("page", ["README.md", "docs/quick-start.md"])
+@pytest.mark.parametrize("page", ["README.md", "docs/quick-start.md", "docs/editing.md"])
 def test_the_python_examples_of_the_first_pages_run(page, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     code = python_of(page)

@@ -9,12 +9,16 @@ namespace mlt {
 class Sky final : public EnvironmentMap {
  public:
   Sky(Params& params, const char* scale);
+
+  ObjectPtr copy() const override { return std::make_shared<Sky>(*this); }
 };
 
 /// A disk of constant radiance at infinity; without a radius, a delta of direction.
 class Sun final : public InfiniteEmitter {
  public:
   Sun(Params& params, const char* scale);
+
+  ObjectPtr copy() const override { return std::make_shared<Sun>(*this); }
 
   Color eval(const SurfacePoint& x0, const Vec3& w) const override;
   PositionSample sample_position(const Vec2& u, double time) const override;
@@ -34,6 +38,12 @@ class Sun final : public InfiniteEmitter {
 /// Several lights that one plug-in describes.
 struct Lights : Object {
   std::vector<EmitterPtr> all;
+
+  ObjectPtr copy() const override {
+    auto copied = std::make_shared<Lights>(*this);
+    for (EmitterPtr& light : copied->all) light = std::dynamic_pointer_cast<Emitter>(light->copy());
+    return copied;
+  }
 };
 
 }  // namespace mlt

@@ -9,15 +9,20 @@ double theta_of(const Vec3& d) { return std::atan2(std::hypot(d.x, d.z), d.y); }
 }  // namespace
 
 EnvironmentMap::EnvironmentMap(Image image, const Frame& axes, double scale)
-    : axes_(axes), scale_(scale), image_(std::move(image)) {
+    : axes_(axes),
+      scale_(scale),
+      width_(image.width),
+      height_(image.height),
+      channels_(image.channels),
+      texels_(std::move(image.data)) {
   tabulate();
 }
 
 Color EnvironmentMap::eval(const SurfacePoint& x0, const Vec3&) const {
   const Vec3 d = axes_.to_local(x0.p);
-  const double x = column_at(d) * image_.width;
+  const double x = column_at(d) * width_;
   const double y = theta_of(d) * inv_pi * cell_rows();
-  const int i = std::min(static_cast<int>(x), image_.width - 1);
+  const int i = std::min(static_cast<int>(x), width_ - 1);
   const int j = std::min(static_cast<int>(y), cell_rows() - 1);
   const double a = x - i, b = y - j;
   return scale_ * ((1 - b) * ((1 - a) * texel(i, j) + a * texel(i + 1, j)) +
@@ -31,7 +36,7 @@ PositionSample EnvironmentMap::sample_position(const Vec2& u, double) const {
 
 double EnvironmentMap::pdf_position(const SurfacePoint& x0) const {
   const Vec2 p = place_of(axes_.to_local(x0.p));
-  const double cells = static_cast<double>(image_.width) * cell_rows();
+  const double cells = static_cast<double>(width_) * cell_rows();
   return table_.pdf(p) / (cells * cell_solid_angle(row_at(p.y)));
 }
 
@@ -40,22 +45,25 @@ Vec2 EnvironmentMap::invert_position(const SurfacePoint& x0) const {
 }
 
 Color EnvironmentMap::texel(int i, int j) const {
-  const float* c = &image_.data[image_.index(i >= image_.width ? i - image_.width : i, j, 0)];
-  return image_.channels == 1 ? Color(c[0]) : Color(c[0], c[1], c[2]);
+  const size_t index = size_t(j) * size_t(width_) + size_t(i >= width_ ? i - width_ : i);
+  const float* c = &texels_[index * size_t(channels_)];
+  return channels_ == 1 ? Color(c[0]) : Color(c[0], c[1], c[2]);
 }
 
 /// How far d is, in turns, from the first column's azimuth; in [0, 1).
 double EnvironmentMap::column_at(const Vec3& d) const {
-  const double x = turns(-d.z, d.x) - 0.5 / image_.width;
+  const double x = turns(-d.z, d.x) - 0.5 / width_;
   return x < 0 ? x + 1 : x;
 }
 
 /// The weights of the cells, and the integral of the interpolated radiance over the sphere.
 void EnvironmentMap::tabulate() {
-  const int w = image_.width, h = cell_rows();
-  for (int j = 0; j <= h; ++j) cos_rows_.push_back(std::cos(pi * j / h));
+  const int w = width_, h = cell_rows();
+  std::vector<double> cos_rows;
+  for (int j = 0; j <= h; ++j) cos_rows.push_back(std::cos(pi * j / h));
+  cos_rows_ = std::move(cos_rows);
   std::vector<float> weights;
-  weights.reserve(image_.pixel_count());
+  weights.reserve(pixel_count());
   bool black = true;
   for (int j = 0; j < h; ++j)
     for (int i = 0; i < w; ++i) {
@@ -75,17 +83,17 @@ void EnvironmentMap::tabulate() {
 /// 2 sin theta_j (1 - cos d) / d inside, and 1 - sin(d) / d at a pole.
 void EnvironmentMap::integrate() {
   const double d = pi / cell_rows();
-  for (int j = 0; j < image_.height; ++j) {
+  for (int j = 0; j < height_; ++j) {
     Color row(0);
-    for (int i = 0; i < image_.width; ++i) row += texel(i, j);
+    for (int i = 0; i < width_; ++i) row += texel(i, j);
     const bool pole = j == 0 || j == cell_rows();
     const double tent = pole ? 1 - std::sin(d) / d : 2 * std::sin(j * d) * (1 - std::cos(d)) / d;
-    integral_ += row * (tent * 2 * pi / image_.width);
+    integral_ += row * (tent * 2 * pi / width_);
   }
 }
 
 double EnvironmentMap::cell_solid_angle(int row) const {
-  return 2 * pi / image_.width * (cos_rows_[size_t(row)] - cos_rows_[size_t(row) + 1]);
+  return 2 * pi / width_ * (cos_rows_[size_t(row)] - cos_rows_[size_t(row) + 1]);
 }
 
 // The table's unit square: x is column_at; within each row y is linear in cos theta.
@@ -99,7 +107,7 @@ Vec3 EnvironmentMap::direction_of(const Vec2& p) const {
   const double top = cos_rows_[size_t(j)], bottom = cos_rows_[size_t(j) + 1];
   const double cos_theta = top + t * (bottom - top);
   const double sin_theta = safe_sqrt((1 - cos_theta) * (1 + cos_theta));
-  const SinCos phi = sincos_turns(p.x + 0.5 / image_.width);
+  const SinCos phi = sincos_turns(p.x + 0.5 / width_);
   return {sin_theta * phi.sin, cos_theta, -sin_theta * phi.cos};
 }
 

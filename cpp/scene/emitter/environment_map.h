@@ -15,6 +15,7 @@
 // approximation and keeps the density finite at the poles.)
 #pragma once
 
+#include "base/shared_array.h"
 #include "image/image.h"
 #include "math/distribution.h"
 #include "scene/emitter/infinite.h"
@@ -35,7 +36,8 @@ class EnvironmentMap : public InfiniteEmitter {
   Color power() const final { return integral_ * (scale_ * disk_area()); }
 
  private:
-  int cell_rows() const { return image_.height - 1; }
+  int cell_rows() const { return height_ - 1; }
+  size_t pixel_count() const { return texels_.size() / size_t(channels_); }
   Color texel(int i, int j) const;
   double column_at(const Vec3& d) const;
   void tabulate();
@@ -47,8 +49,9 @@ class EnvironmentMap : public InfiniteEmitter {
 
   Frame axes_;
   double scale_;
-  Image image_;
-  std::vector<double> cos_rows_;  ///< cos theta of each row of texels.
+  int width_, height_, channels_;
+  SharedArray<float> texels_;
+  SharedArray<double> cos_rows_;  ///< cos theta of each row of texels.
   Piecewise2D table_;
   Color integral_{0};
 };

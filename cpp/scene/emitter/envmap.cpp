@@ -30,6 +30,8 @@ class EnvironmentFile final : public EnvironmentMap {
       : EnvironmentMap(load_map(params),
                        orientation(params, "to_world", matrix_param(params, "to_world")),
                        read_scale(params)) {}
+
+  ObjectPtr copy() const override { return std::make_shared<EnvironmentFile>(*this); }
 };
 
 }  // namespace

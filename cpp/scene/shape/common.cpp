@@ -31,16 +31,27 @@ std::vector<Parameter> normals_parameters() {
            "Make normals anew, smooth except where neighbours differ by more than these degrees."}};
 }
 
+namespace {
+
+std::string name_of_mesh(Params& params) {
+  return params.has("data") ? "'data'" : params.text("filename");
+}
+
+}  // namespace
+
 Plugin mesh_file_plugin(const char* name, const char* doc, const char* filename_doc,
                         bool flip_tex_coords, MeshReader read) {
   return {shape_schema(name, doc,
-                       concat({{filename_parameter(filename_doc)},
+                       concat({{filename_parameter(filename_doc),
+                                {"data", ParamType::buffer, no_default,
+                                 "In place of `filename`: the bytes of such a file."}},
                                normals_parameters(),
                                {{"flip_tex_coords", ParamType::boolean, flip_tex_coords,
                                  "Turn the texture upside down: v becomes 1 - v."}}})),
           [read](Params& params) {
-            const std::string path = params.text("filename");
-            MeshData data = read(read_file(path), path);
+            const std::string path = name_of_mesh(params);
+            MeshData data = params.has("data") ? read(params.buffer("data").bytes(), path)
+                                               : read(read_file(path), path);
             if (params.boolean("flip_tex_coords"))
               for (Vec2f& uv : data.uvs) uv.y = 1 - uv.y;
             return mesh_from_file(params, std::move(data));
@@ -48,7 +59,7 @@ Plugin mesh_file_plugin(const char* name, const char* doc, const char* filename_
 }
 
 ObjectPtr mesh_from_file(Params& params, MeshData data, bool flat) {
-  check_mesh(data, {params.text("filename")});
+  check_mesh(data, {name_of_mesh(params)});
   return mesh_from_data(params, std::move(data), flat);
 }
 

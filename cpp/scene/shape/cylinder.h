@@ -17,6 +17,8 @@ class Cylinder : public AnalyticShape {
   double radius() const { return radius_; }
   double length() const { return length_; }
 
+  ObjectPtr copy() const override { return std::make_shared<Cylinder>(*this); }
+
   std::optional<double> intersect(const Vec3& o, const Vec3& d, double t_min,
                                   double t_max) const override;
   void surface_point(const Ray& ray, const Hit& hit, SurfacePoint& at) const override;

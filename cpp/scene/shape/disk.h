@@ -15,6 +15,8 @@ class Disk : public AnalyticShape {
 
   explicit Disk(Params& params);
 
+  ObjectPtr copy() const override { return std::make_shared<Disk>(*this); }
+
   std::optional<double> intersect(const Vec3& o, const Vec3& d, double t_min,
                                   double t_max) const override;
   void surface_point(const Ray& ray, const Hit& hit, SurfacePoint& at) const override;

@@ -10,7 +10,8 @@ namespace {
 template <class T>
 std::vector<T> buffer(Params& params, const char* name) {
   if (!params.has(name)) return {};
-  const std::string bytes = params.text(name);
+  const Buffer held = params.buffer(name);
+  const std::string& bytes = held.bytes();
   if (bytes.size() % sizeof(T) != 0)
     params.fail(name, fmt::format("has {} bytes, which is no multiple of {}; give it as an array "
                                   "from Python",
@@ -36,10 +37,10 @@ Plugin shape_mesh() {
   return {
       shape_schema(
           "mesh", "A triangle mesh from arrays in memory, which a Python dict can give.",
-          concat({{{"vertices", ParamType::text, no_default, "Positions: float32, (n, 3)."},
-                   {"faces", ParamType::text, no_default, "Corners: uint32, (m, 3)."},
-                   {"normals", ParamType::text, no_default, "Of the vertices: float32, (n, 3)."},
-                   {"uv", ParamType::text, no_default, "Texture coordinates: float32, (n, 2)."}},
+          concat({{{"vertices", ParamType::buffer, no_default, "Positions: float32, (n, 3)."},
+                   {"faces", ParamType::buffer, no_default, "Corners: uint32, (m, 3)."},
+                   {"normals", ParamType::buffer, no_default, "Of the vertices: float32, (n, 3)."},
+                   {"uv", ParamType::buffer, no_default, "Texture coordinates: float32, (n, 2)."}},
                   normals_parameters()})),
       create};
 }

@@ -18,6 +18,8 @@ class Sphere : public AnalyticShape {
   const Vec3& center() const { return center_; }
   double radius() const { return radius_; }
 
+  ObjectPtr copy() const override { return std::make_shared<Sphere>(*this); }
+
   std::optional<double> intersect(const Vec3& o, const Vec3& d, double t_min,
                                   double t_max) const override;
   void surface_point(const Ray& ray, const Hit& hit, SurfacePoint& at) const override;

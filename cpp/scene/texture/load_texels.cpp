@@ -35,7 +35,9 @@ double decoded(double v, const Decoding& decoding, bool srgb_encoded) {
 /// The array that a scene holds in place of a file.
 ReadImage held_image(Params& params) {
   if (params.has("filename")) params.fail("data", "and 'filename' exclude each other");
-  const std::string bytes = params.text("data"), type = params.text("data_type");
+  const Buffer data = params.buffer("data");
+  const std::string &bytes = data.bytes(), type = params.text("data_type");
+  if (type == "file") return read_image_memory(bytes, "the image 'data'");
   const Vec3 shape = vector_param(params, "data_shape");
   const auto length = [&](int i) {
     return static_cast<int>(std::clamp(shape[i], 0.0, double{1 << 30}));
@@ -87,12 +89,12 @@ Image decode_floats(Params& params, ReadImage&& file, const Decoding& decoding) 
 std::vector<Parameter> image_parameters(const char* filename_doc) {
   return {{"filename", ParamType::text, no_default, filename_doc},
           {"data",
-           ParamType::text,
+           ParamType::buffer,
            {},
            "In place of a file: an array, which a Python dict can give. (height, width), or with 1 "
-           "to 4 channels; uint8 is sRGB, float32 is linear."},
+           "to 4 channels; uint8 is sRGB, float32 is linear. Or the bytes of an image file."},
           {"data_shape", ParamType::point, no_default, "Height, width and channels of `data`."},
-          choice_parameter("data_type", "float32", "Of `data`.", {"float32", "uint8"})};
+          choice_parameter("data_type", "float32", "Of `data`.", {"float32", "uint8", "file"})};
 }
 
 Image load_image(Params& params, const Decoding& decoding) {

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import atexit
 import os
 import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from .. import _core
+from ..scenes.arrays import with_bytes
 
 if TYPE_CHECKING:
     from .imported import Imported
@@ -21,14 +21,14 @@ def is_foreign(path: str | os.PathLike[str]) -> bool:
     return os.fspath(path).lower().endswith(EXTENSIONS)
 
 
-def read_foreign(path: str | os.PathLike[str], folder: Path, stem: str) -> Imported:
-    """A scene of another program; its meshes and images are written to a folder."""
+def read_foreign(path: str | os.PathLike[str]) -> Imported:
+    """A scene of another program, with its meshes and images as arrays."""
     from .imported import Imported
 
     source = Path(os.fspath(path))
     if not source.exists():
         raise _core.FileError(f"{source}: there is no such file")
-    made = Imported(folder, stem)
+    made = Imported()
     if source.suffix.lower() == ".pbrt":
         from .pbrt import read_pbrt
 
@@ -43,19 +43,11 @@ def read_foreign(path: str | os.PathLike[str], folder: Path, stem: str) -> Impor
 def load_foreign(
     path: str | os.PathLike[str], size: tuple[int, int] | None = None, sensor: int | None = None
 ) -> tuple[_core.Scene, list[str]]:
-    """The Scene of a file of another program, and what of it has no counterpart.
-
-    Its meshes and images lie in a temporary folder until this process ends.
-    """
-    import tempfile
-
-    folder = tempfile.TemporaryDirectory(prefix="pymlt-")
-    # Other processes of a cluster, and pickle, read the files again.
-    atexit.register(folder.cleanup)
-    made = read_foreign(path, Path(folder.name), "scene")
+    """The Scene of a file of another program, and what of it has no counterpart."""
+    made = read_foreign(path)
     # A checkpoint knows the scene by this name.
     name = os.path.abspath(path)
-    return _core.load_dict(made.scene, size, sensor, name, {}), made.warnings
+    return _core.load_dict(with_bytes(made.scene), size, sensor, name, {}), made.warnings
 
 
 def convert(path: str | os.PathLike[str], output: str | os.PathLike[str]) -> list[str]:
@@ -66,6 +58,7 @@ def convert(path: str | os.PathLike[str], output: str | os.PathLike[str]) -> lis
     or written, SceneError for what is wrong in them, UsageError for another extension or without
     the extra that reading needs.
     """
+    from .written import Written
     from .xml_writer import to_xml
 
     target = Path(os.fspath(output))
@@ -76,8 +69,9 @@ def convert(path: str | os.PathLike[str], output: str | os.PathLike[str]) -> lis
     if target.suffix.lower() != ".xml":
         raise _core.UsageError(f"{target}: a scene is written as .xml")
     _core.check_file_writable(str(target))
-    made = read_foreign(path, target.parent, target.stem)
-    target.write_text(to_xml(made.scene, target.parent), encoding="utf-8")
+    made = read_foreign(path)
+    scene = Written(target.parent, target.stem).scene(made.scene)
+    target.write_text(to_xml(scene, target.parent), encoding="utf-8")
     return made.warnings
 
 

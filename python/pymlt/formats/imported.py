@@ -1,21 +1,19 @@
-"""A scene while it is read: the dict so far, its files, and what has no counterpart."""
+"""A scene while it is read: the dict so far, and what has no counterpart."""
 
 from __future__ import annotations
 
 import re
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import Any
 
-from .ply import Mesh, write_ply
+from .. import _core
+from .ply import Mesh
 
 
 @dataclass
 class Imported:
     """What a reader has made of a file."""
 
-    folder: Path  #: where meshes and images are written
-    stem: str  #: with which their names begin
     scene: dict[str, Any] = field(default_factory=lambda: {"type": "scene"})
     warnings: list[str] = field(default_factory=list)
     _names: set[str] = field(default_factory=set)
@@ -39,18 +37,21 @@ class Imported:
         """Adds a plug-in to the scene; returns its id."""
         name = self.name(wanted)
         # No negative zeros, so that XML says the same.
-        self.scene[name] = {k: v + 0.0 if hasattr(v, "shape") else v for k, v in plugin.items()}
+        self.scene[name] = {k: v + 0.0 if is_matrix(v) else v for k, v in plugin.items()}
         return name
 
-    def file(self, name: str) -> Path:
-        """Where a file of the scene is to be written."""
-        return self.folder / f"{self.stem}-{name}"
-
     def mesh(self, wanted: str, mesh: Mesh) -> dict[str, Any]:
-        """A shape; its file is written."""
-        path = self.file(f"{self.name(f'{wanted}-mesh')}.ply")
-        write_ply(path, mesh)
-        return {"type": "ply", "filename": str(path)}
+        """A shape of arrays. Raises SceneError for indices without a vertex."""
+        faces, count = mesh.triangles, len(mesh.positions)
+        if faces.size and not 0 <= faces.min() <= faces.max() < count:
+            raise _core.SceneError(f"{wanted}: a triangle has a vertex that does not exist")
+        shape = {"type": "mesh", "vertices": mesh.positions, "faces": faces}
+        optional = {"normals": mesh.normals, "uv": mesh.uvs}
+        return shape | {key: given for key, given in optional.items() if given is not None}
+
+
+def is_matrix(value: Any) -> bool:
+    return getattr(value, "shape", None) == (4, 4)
 
 
 def rgb(values: Any) -> dict[str, Any]:

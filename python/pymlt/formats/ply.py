@@ -21,14 +21,12 @@ class Mesh(NamedTuple):
 
 
 def write_ply(path: Path, mesh: Mesh) -> None:
-    """Raises FileError if the file cannot be written, SceneError for indices without a vertex."""
+    """Raises FileError if the file cannot be written."""
     import numpy as np
 
     columns = {"xyz": mesh.positions, ("nx", "ny", "nz"): mesh.normals, "uv": mesh.uvs}
     present = {names: values for names, values in columns.items() if values is not None}
     count = len(mesh.positions)
-    if mesh.triangles.size and not 0 <= mesh.triangles.min() <= mesh.triangles.max() < count:
-        raise _core.SceneError(f"{path.name}: a triangle has a vertex that does not exist")
     header = ["ply", "format binary_little_endian 1.0", f"element vertex {count}"]
     header += [f"property float {name}" for names in present for name in names]
     header += [f"element face {len(mesh.triangles)}"]

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from .. import _core
+from ..scenes.loading import load_dict
 from ..scenes.transforms import Transform
 from .imported import Imported
 
@@ -36,9 +37,9 @@ def overview(scene: dict[str, Any]) -> dict[str, Any]:
 
     draft = {"type": "perspective", "fov": 40.0, "film": film(16 / 9)}
     center, radius = np.zeros(3), 1.0
+    seen = load_dict(scene | {"camera": draft})
     for _ in range(3):  # the bounds of a scene hold its camera, which moves into them
-        camera = draft | {"to_world": Transform.translate(center)}
-        info = _core.load_dict(scene | {"camera": camera}, None, None).info()
+        info = seen.updated({"camera.to_world": Transform.translate(center)}).info()
         center, radius = np.array(info["center"]), max(info["radius"], 1e-6)
     away = np.array([0.5, 0.4, 1.0])
     origin = center + 1.1 * radius / np.sin(np.radians(20)) * away / np.linalg.norm(away)

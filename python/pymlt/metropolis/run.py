@@ -22,7 +22,7 @@ _lab = _core.metropolis
 
 
 def run(
-    target: Callable[[Any], float],
+    target: Callable[[Any], Any],
     moves: Any,
     x0: Any = None,
     n: int = 1000,

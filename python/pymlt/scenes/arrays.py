@@ -2,9 +2,9 @@
 
 A mesh is `{"type": "mesh", "vertices": (n, 3), "faces": (m, 3), "normals": (n, 3), "uv": (n, 2)}`,
 or an object with `vertices` and `faces`, such as a `trimesh.Trimesh`, in the place of a shape. An
-image is `{"type": "bitmap", "data": (height, width[, channels])}`; `envmap` takes `data` too. The
-core gets them as bytes: so they are part of the scene where it is hashed, pickled, saved in a
-checkpoint or sent to a cluster.
+image is `{"type": "bitmap", "data": (height, width[, channels])}`; `envmap` takes `data` too. Both
+also take the bytes of an image file. The core gets arrays as bytes: so they are part of the scene
+where it is hashed, pickled, saved in a checkpoint or sent to a cluster.
 """
 
 from __future__ import annotations
@@ -39,8 +39,25 @@ def with_bytes(scene: dict, path: str = "scene") -> dict:
     if scene.get("type") == "mesh":
         changed |= {k: mesh_buffer(scene[k], k, path) for k in MESH_BUFFERS if k in scene}
     elif scene.get("type") in IMAGES and "data" in scene:
-        changed |= image_buffer(scene["data"], path)
+        changed |= image_buffer(scene, path)
     return scene | changed if changed else scene
+
+
+def with_arrays(values: dict) -> dict:
+    """The parameters of a plug-in with arrays in the place of their bytes."""
+    import numpy as np
+
+    arrays: dict[str, Any] = {}
+    for key, value in values.items():
+        if not isinstance(value, bytes):
+            continue
+        if key in MESH_BUFFERS:
+            dtype = np.uint32 if key == "faces" else np.float32
+            arrays[key] = np.frombuffer(value, dtype).reshape(-1, MESH_BUFFERS[key])
+        elif key == "data" and values.get("data_type") in ("uint8", "float32"):
+            shape = [int(length) for length in values["data_shape"]]
+            arrays[key] = np.frombuffer(value, values["data_type"]).reshape(shape)
+    return values | arrays
 
 
 def is_mesh_object(value: Any) -> bool:
@@ -97,10 +114,10 @@ def mesh_buffer(value: Any, key: str, path: str) -> bytes:
     return np.ascontiguousarray(array, np.uint32).tobytes()
 
 
-def image_buffer(value: Any, path: str) -> dict:
-    if isinstance(value, bytes):
-        return {}
-    array = as_array(value, "data", path)
+def image_buffer(image: dict, path: str) -> dict:
+    if isinstance(image["data"], bytes):
+        return {} if "data_type" in image else {"data_type": "file"}
+    array = as_array(image["data"], "data", path)
     if array.ndim not in (2, 3) or (array.ndim == 3 and not 1 <= array.shape[2] <= 4):
         raise _core.SceneError(
             f"{path}: 'data' has the shape {array.shape}, but should have (height, width), or with "

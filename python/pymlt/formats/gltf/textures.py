@@ -5,10 +5,9 @@ Row 0 of an image is at v = 0 in glTF and in `bitmap` alike (glTF 2.0, sec. 3.8.
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ...images import read_image
+from ... import _core
 from ..imported import Imported, rgb
 from .buffers import Buffers
 
@@ -17,76 +16,64 @@ if TYPE_CHECKING:
 
 WRAP = {33071: "clamp", 33648: "mirror", 10497: "repeat"}
 NEAREST = 9728
-SUFFIXES = {b"\x89PNG": ".png", b"\xff\xd8\xff\xe0": ".jpg"}
 
 
 class Textures:
-    """The textures of a file, each image written once."""
+    """The textures of a file."""
 
     def __init__(self, buffers: Buffers, made: Imported):
         self._gltf = buffers.gltf
         self._buffers = buffers
         self._made = made
-        self._files: dict[int, Path] = {}
+        self._images: dict[int, bytes] = {}
+        self._channels: dict[tuple[Any, ...], np.ndarray] = {}
 
     def colour(self, info: Any, factor: list[float]) -> dict[str, Any]:
         """A colour texture (sRGB-encoded) times a factor, or the factor alone."""
         if info is None:
             return rgb(factor[:3])
-        bitmap = self._bitmap(info, self._file(info))
+        bitmap = self._bitmap(info, self._image(info))
         if factor[:3] == [1, 1, 1]:
             return bitmap
         return {"type": "scale", "scale": rgb(factor[:3]), "texture": bitmap}
 
     def raw(self, info: Any) -> dict[str, Any]:
         """A texture of numbers, such as normals."""
-        return self._bitmap(info, self._file(info)) | {"raw": True}
+        return self._bitmap(info, self._image(info)) | {"raw": True}
 
     def channel(self, info: Any, channel: int, factor: float) -> float | dict[str, Any]:
         """One channel of a texture of numbers times a factor, or the factor alone."""
         if info is None:
             return factor
-        encoded = self._file(info)
-        path = encoded.with_name(f"{encoded.stem}-{'rgba'[channel]}-{factor:g}.exr")
-        if not path.exists():
-            self._write(path, factor * stored_samples(encoded)[..., channel])
-        return self._bitmap(info, path) | {"raw": True}
+        key = (self._gltf.textures[info.index].source, channel, factor)
+        if key not in self._channels:
+            self._channels[key] = factor * stored_samples(self._image(info))[..., channel]
+        return self._bitmap(info, self._channels[key]) | {"raw": True}
 
     def opacity(self, info: Any, factor: float, cutoff: float | None) -> float | dict[str, Any]:
         """Alpha times a factor; with a cutoff it is 0 or 1."""
         alpha: Any = factor
-        if info is not None and (samples := stored_samples(self._file(info))).shape[2] in (2, 4):
+        if info is not None and (samples := stored_samples(self._image(info))).shape[2] in (2, 4):
             alpha = factor * samples[..., -1]
         if cutoff is not None:
             alpha = (alpha >= cutoff) * 1.0
         if not hasattr(alpha, "shape"):
             return float(alpha)
-        encoded = self._file(info)
-        path = encoded.with_name(f"{encoded.stem}-alpha-{factor:g}-{cutoff}.exr")
-        self._write(path, alpha)
-        return self._bitmap(info, path) | {"raw": True}
+        return self._bitmap(info, alpha) | {"raw": True}
 
-    def _write(self, path: Path, samples: np.ndarray) -> None:
-        from ...images import write_image
-
-        write_image(path, samples)
-
-    def _file(self, info: Any) -> Path:
+    def _image(self, info: Any) -> bytes:
+        """The content of the texture's file."""
         index = self._gltf.textures[info.index].source
-        if index not in self._files:
-            content = self._buffers.image(index)
-            suffix = SUFFIXES.get(content[:4], ".jpg" if content[:2] == b"\xff\xd8" else ".img")
-            path = self._made.file(f"image-{index}{suffix}")
-            path.write_bytes(content)
-            self._files[index] = path
-        return self._files[index]
+        if index not in self._images:
+            self._images[index] = bytes(self._buffers.image(index))
+        return self._images[index]
 
-    def _bitmap(self, info: Any, path: Path) -> dict[str, Any]:
+    def _bitmap(self, info: Any, data: bytes | np.ndarray) -> dict[str, Any]:
         if info.texCoord:
             self._made.warn("second texture coordinates are left out; the first are taken")
         if "KHR_texture_transform" in (info.extensions or {}):
             self._made.warn("KHR_texture_transform is left out")
-        bitmap: dict[str, Any] = {"type": "bitmap", "filename": str(path)}
+        bitmap: dict[str, Any] = {"type": "bitmap", "data": data}
         index = self._gltf.textures[info.index].sampler
         if index is not None:
             sampler = self._gltf.samplers[index]
@@ -98,11 +85,11 @@ class Textures:
         return bitmap
 
 
-def stored_samples(path: Path) -> np.ndarray:
+def stored_samples(content: bytes) -> np.ndarray:
     """The samples of an integer format as they are stored, 0 to 1: (height, width, channels)."""
     import numpy as np
 
     from ...pictures.tonemapping import encode_srgb, split_alpha
 
-    colours, alpha = split_alpha(read_image(path))
+    colours, alpha = split_alpha(_core.decode_image(content, "an image"))
     return np.concatenate([encode_srgb(colours), alpha], axis=2)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ...images import read_image, write_image
+from ...images import read_image
 from .params import Params
 
 if TYPE_CHECKING:
@@ -21,13 +21,11 @@ def environment(params: Params, path: Path, to_world: np.ndarray, scale: float) 
         raise params.where.error(f"{path.name}: an environment map of pbrt-v4 is square")
     rows = given.shape[0]
     found = sampled(given, square_of(directions(rows)))
-    target = params.made.file(params.made.name(f"{path.stem}-latlong") + ".exr")
-    write_image(target, found.astype(np.float32))
     # The y axis of our maps, up, is the z axis of theirs.
     turn = np.array([[1.0, 0, 0, 0], [0, 0, -1, 0], [0, 1, 0, 0], [0, 0, 0, 1]])
     return {
         "type": "envmap",
-        "filename": str(target),
+        "data": found.astype(np.float32),
         "scale": scale,
         "to_world": to_world @ turn,
     }

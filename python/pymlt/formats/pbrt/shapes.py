@@ -62,9 +62,7 @@ def bilinear_mesh(params: Params, folder: Path) -> dict[str, Any]:
 def ply_mesh(params: Params, folder: Path) -> dict[str, Any]:
     path = folder / params.text("filename")
     if path.suffix == ".gz":
-        target = params.made.file(params.made.name(path.stem.removesuffix(".ply")) + ".ply")
-        target.write_bytes(gzip.decompress(path.read_bytes()))
-        path = target
+        return {"type": "ply", "data": gzip.decompress(path.read_bytes())}
     return {"type": "ply", "filename": str(path.resolve())}
 
 

@@ -1,0 +1,76 @@
+// Arrays become bytes, and bytes arrays, in pymlt.scenes.arrays.
+#include "scene_editing.h"
+
+#include "scene_dict.h"
+#include "text.h"
+
+#include "io/editing.h"
+#include "render/plugins.h"
+
+namespace mlt::python {
+namespace {
+
+py::object arrays() { return py::module_::import("pymlt.scenes.arrays"); }
+
+/// What stands for a plug-in where a value is expected.
+py::dict stand_in(const Node& node) {
+  py::dict dict;
+  dict["type"] = node.family == "ref" ? "ref" : node.type;
+  if (node.family == "ref") dict["id"] = to_str(node.type);
+  return dict;
+}
+
+/// The current values of a plug-in's parameters; None where nothing is given and there is no default.
+py::dict values_of(const NamedNode& plugin) {
+  py::dict values;
+  for (const Parameter* parameter : plugin.parameters()) {
+    const py::str name(parameter->name);
+    if (const Node::Property* property = plugin.property(parameter->name))
+      values[name] = to_python(property->value);
+    else if (const Node* child = plugin.child(parameter->name))
+      values[name] = stand_in(*child);
+    else
+      values[name] = to_python(parameter->default_value);
+  }
+  return arrays().attr("with_arrays")(values);
+}
+
+/// The parameter as the scene's description would give it. Errors begin with its full name.
+Node given(const NamedParameter& named, const std::string& name, const py::handle& value) {
+  py::dict dict;
+  dict["type"] = named.plugin->node->type;
+  dict[py::str(named.parameter->name)] = value;
+  dict = arrays().attr("with_bytes")(dict, to_str(name));
+  Node node = to_node(dict, named.plugin->node->family, name, plugins());
+  for (Node::Property& property : node.properties) property.where = {name, 0};
+  for (Node& child : node.children) child.where = {name, 0};
+  return node;
+}
+
+}  // namespace
+
+py::dict scene_parameters(const LoadedScene& loaded) {
+  Node tree = loaded.tree;
+  py::dict all;
+  for (const NamedNode& plugin : name_nodes(tree, plugins()))
+    for (const auto& [parameter, value] : values_of(plugin))
+      all[to_str(plugin.name + "." + std::string(py::str(parameter)))] = value;
+  return all;
+}
+
+LoadedScene updated_scene(const LoadedScene& loaded, const py::dict& values) {
+  Node tree = loaded.tree;
+  const std::vector<NamedNode> nodes = name_nodes(tree, plugins());
+  std::vector<Change> changes;
+  for (const auto& [key, value] : values) {
+    if (!py::isinstance<py::str>(key)) throw UsageError("a parameter's name should be a string");
+    const std::string name = bytes_of(key);
+    const NamedParameter named = find_parameter(nodes, name);
+    changes.push_back({named.plugin, given(named, name, value)});
+  }
+  const py::gil_scoped_release release;
+  apply(std::move(changes));
+  return build_again(loaded, tree, plugins());
+}
+
+}  // namespace mlt::python

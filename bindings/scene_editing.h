@@ -1,0 +1,14 @@
+// What of a scene can be changed, and the scene with other values.
+#pragma once
+
+#include "bindings.h"
+
+namespace mlt::python {
+
+/// Names and current values.
+py::dict scene_parameters(const LoadedScene& loaded);
+
+/// Throws UsageError for a name that the scene does not have, SceneError for a value.
+LoadedScene updated_scene(const LoadedScene& loaded, const py::dict& values);
+
+}  // namespace mlt::python
