@@ -330,20 +330,22 @@ def test_a_program_that_does_not_end_is_ended(tmp_path):
         os.kill(int((tmp_path / "pid").read_text()), 0)
 
 
-def test_samples_are_found_that_fit_the_budget():
-    tried = []
+@pytest.mark.parametrize(
+    ("fixed", "each", "samples"),
+    [(2, 0.01, 9800), (2, 1e-6, 98_000_000), (60, 0.01, 4000), (0, 30, 3), (95, 1, 5), (99, 9, 1)],
+)
+def test_samples_are_found_that_fit_the_budget(fixed, each, samples):
+    """Of programs that take some time for all samples together, and some for each."""
+    trials = []
 
     def seconds(n):
-        tried.append(n)
-        return 2 + 0.01 * n
+        trials.append(fixed + each * n)
+        return trials[-1]
 
     found = calibrate(seconds, 100)
-    assert found.samples(100) == 9800
-    assert found.samples(50) == 4800
+    assert found.samples(100) == samples
     assert found.samples(1) == 1
-    assert seconds(tried[-1]) < 50  # trials are short
-    assert calibrate(lambda n: 30.0 * n, 100).samples(100) == 3
-    assert calibrate(lambda n: 300.0 * n, 100).samples(100) == 1
+    assert max(trials) < 110
 
 
 # ---- what is shown

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 from .. import _core
 
-ENOUGH = 1 / 8  #: of the budget, for the longest trial
-GROWTH = 4.0  #: from one trial to the next, at least
+ENOUGH = 1 / 8  #: of what the budget leaves for samples: how long they take in the last trial
+SLOWEST, FASTEST = 2, 8  #: growth from one trial to the next
 MOST = 10**9  #: samples per pixel
 
 
@@ -25,22 +25,21 @@ class Calibration:
 
 
 def calibrate(seconds_of: Callable[[int], float], budget: float) -> Calibration:
-    """Try growing numbers of samples until one run takes an eighth of the budget.
+    """Try growing numbers of samples until they take an eighth of what they are to take.
 
-    `seconds_of` runs a program with a number of samples and returns its CPU seconds. The last trial
-    and the first one, of a single sample, tell the two coefficients. Raises RenderError if the time
-    does not grow.
+    `seconds_of` runs a program with a number of samples and returns its CPU seconds. The first
+    trial, of a single sample, and the last one tell the two coefficients. Raises RenderError if the
+    time does not grow.
     """
-    n, first = 1, seconds_of(1)
-    last = first
-    while last < ENOUGH * budget:
-        per_sample = (last - first) / (n - 1) if n > 1 else last
-        goal = n + (2 * ENOUGH * budget - last) / max(per_sample, 1e-9)
-        n = int(max(GROWTH * n, min(goal, 64 * n)))
+    first = seconds_of(1)
+    if first >= budget:
+        return Calibration(0.0, first)
+    goal = ENOUGH * (budget - first)
+    n = max(SLOWEST, min(64, int(budget / 2 / max(first, 1e-9))))
+    while (grown := seconds_of(n) - first) < goal:
+        factor = 2 * goal / grown if grown > 0 else FASTEST
+        n = int(n * min(max(factor, SLOWEST), FASTEST))
         if n > MOST:
             raise _core.RenderError("its time does not grow with {spp}")
-        last = seconds_of(n)
-    if n == 1:
-        return Calibration(0.0, max(first, 1e-9))
-    each = max(last - first, 1e-6 * last) / (n - 1)
+    each = grown / (n - 1)
     return Calibration(max(0.0, first - each), each)
