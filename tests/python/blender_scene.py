@@ -1,0 +1,74 @@
+"""Run by Python with `bpy`: exports a scene as glTF, and writes what its camera sees by Blender."""
+
+import json
+import sys
+from pathlib import Path
+
+import bpy
+from mathutils import Vector
+
+WIDTH, HEIGHT = 32, 18
+
+
+def material(name, **inputs):
+    made = bpy.data.materials.new(name)
+    made.use_nodes = True
+    for key, value in inputs.items():
+        made.node_tree.nodes["Principled BSDF"].inputs[key.replace("_", " ")].default_value = value
+    return made
+
+
+def add(make, *, surface, **options):
+    make(**options)
+    bpy.context.object.data.materials.append(surface)
+    bpy.ops.object.shade_smooth()
+
+
+def build():
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    mesh = bpy.ops.mesh
+    add(mesh.primitive_plane_add, size=6, surface=material("floor", Base_Color=(0.8, 0.5, 0.2, 1)))
+    metal = material("metal", Metallic=1.0, Roughness=0.2)
+    add(mesh.primitive_uv_sphere_add, location=(0, 0, 1), surface=metal)
+    glass = material("glass", Transmission_Weight=1.0, Roughness=0.0, IOR=1.5)
+    add(mesh.primitive_cube_add, location=(1.8, 0.3, 0.6), rotation=(0.1, 0.2, 0.3), surface=glass)
+    bpy.context.object.scale = (0.6, 0.4, 0.5)
+    glow = material("glow", Emission_Color=(1, 0.8, 0.5, 1), Emission_Strength=2.0)
+    add(mesh.primitive_monkey_add, size=1.4, location=(-1.8, 0.3, 0.7), surface=glow)
+    for kind in ("POINT", "SUN", "SPOT"):
+        bpy.ops.object.light_add(type=kind, location=(1, -2, 4))
+    bpy.ops.object.camera_add(location=(0.5, -7, 3), rotation=(1.2, 0, 0.05))
+    bpy.context.scene.camera = bpy.context.object
+    bpy.context.scene.render.resolution_x = 640
+    bpy.context.scene.render.resolution_y = 360
+    bpy.context.view_layer.update()
+
+
+def seen():
+    """Where the rays through the middles of the pixels end; None where nothing is."""
+    scene, camera = bpy.context.scene, bpy.context.scene.camera
+    corners = [camera.matrix_world @ corner for corner in camera.data.view_frame(scene=scene)]
+    right_top, _, left_bottom, left_top = corners
+    origin = camera.matrix_world.translation
+    found = []
+    for y in range(HEIGHT):
+        for x in range(WIDTH):
+            across = left_top + (right_top - left_top) * ((x + 0.5) / WIDTH)
+            down = (left_bottom - left_top) * ((y + 0.5) / HEIGHT)
+            ray = Vector(across + down - origin).normalized()
+            graph = bpy.context.evaluated_depsgraph_get()
+            hit, place, *_ = scene.ray_cast(graph, origin, ray)
+            found.append(list(place) if hit else None)
+    return found
+
+
+def main(folder: Path) -> None:
+    build()
+    for kind, name in (("GLB", "scene.glb"), ("GLTF_SEPARATE", "scene.gltf")):
+        bpy.ops.export_scene.gltf(
+            filepath=str(folder / name), export_format=kind, export_cameras=True, export_lights=True
+        )
+    (folder / "seen.json").write_text(json.dumps(seen()))
+
+
+main(Path(sys.argv[1]))

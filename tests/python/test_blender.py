@@ -1,0 +1,51 @@
+"""glTF files that Blender exports, compared with what Blender itself sees."""
+
+import importlib.util
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import pymlt as mlt
+
+pytestmark = [
+    pytest.mark.skipif(not importlib.util.find_spec("bpy"), reason="needs bpy (pip install bpy)"),
+    pytest.mark.skipif(not importlib.util.find_spec("pygltflib"), reason="needs pymlt[gltf]"),
+]
+
+
+@pytest.fixture(scope="module")
+def exported(tmp_path_factory) -> Path:
+    folder = tmp_path_factory.mktemp("blender")
+    script = Path(__file__).with_name("blender_scene.py")
+    done = subprocess.run(
+        [sys.executable, script, folder], capture_output=True, text=True, timeout=250
+    )
+    assert done.returncode == 0, done.stderr
+    return folder
+
+
+@pytest.mark.parametrize("name", ["scene.glb", "scene.gltf"])
+@pytest.mark.filterwarnings("ignore:.*spot light falls off")
+def test_a_scene_of_blender_is_seen_as_blender_sees_it(exported, name):
+    width, height = 32, 18
+    scene = mlt.load(exported / name, size=(width, height))
+    assert scene.info()["emitters"] == 4
+    y, x = np.mgrid[0:height, 0:width] + 0.5
+    rays = scene.camera_rays(np.stack([x.ravel(), y.ravel()], axis=1))
+    found = scene.intersect(*rays)
+    expected = json.loads((exported / "seen.json").read_text())
+    hit = np.array([place is not None for place in expected])
+    # Rays that graze an edge may end on either side of it.
+    assert (np.isfinite(found["distance"]) == hit).mean() > 0.99
+    both = hit & np.isfinite(found["distance"])
+    theirs = np.array([place for place, there in zip(expected, both, strict=True) if there])
+    # z is up in Blender, y in glTF.
+    theirs = theirs[:, [0, 2, 1]] * [1, 1, -1]
+    close = np.linalg.norm(found["position"][both] - theirs, axis=1) < 1e-3
+    assert both.sum() > 200
+    assert close.mean() > 0.99
+    assert (mlt.render(scene, "path", spp=1) > 0).any()
