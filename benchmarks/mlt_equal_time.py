@@ -155,11 +155,11 @@ def main() -> None:
         race.save_json(args.json or HERE / "results" / "mlt_equal_time.json")  # hours of work
         if args.html:
             race.save_html(args.html)
+        if args.page:
+            write_page(race, args.page)
     if not race.results:
         raise SystemExit("no scene to measure")
     print(race.table())
-    if args.page:
-        write_page(race, args.page)
 
 
 if __name__ == "__main__":
