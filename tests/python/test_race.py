@@ -13,7 +13,7 @@ import tiny
 from command_line import PYMLT, run, the_error
 
 import pymlt as mlt
-from pymlt.race.calibration import calibrate
+from pymlt.race.calibration import Calibration, calibrate
 from pymlt.race.child import run_child
 from pymlt.race.insets import choose_insets
 from pymlt.race.result import Entry, Settings, judged
@@ -346,6 +346,14 @@ def test_samples_are_found_that_fit_the_budget(fixed, each, samples):
     assert found.samples(100) == samples
     assert found.samples(1) == 1
     assert max(trials) < 110
+
+
+def test_a_longer_run_tells_better_how_long_a_sample_takes():
+    known = Calibration(10.0, 1.0, known=20)
+    assert known.samples(100) == 90
+    assert known.after(90, 190.0).samples(100) == 45
+    assert known.after(10, 190.0) == known  # too short
+    assert known.after(90, 9.0) == known  # less than nothing
 
 
 # ---- what is shown

@@ -18,10 +18,17 @@ class Calibration:
 
     fixed: float
     each: float
+    known: int = 1  #: samples of the run that told
 
     def samples(self, seconds: float) -> int:
         """That fit into so many CPU seconds; at least one."""
         return max(1, round((seconds - self.fixed) / self.each))
+
+    def after(self, n: int, seconds: float) -> Calibration:
+        """What is known after a further run of n samples: a longer one tells better."""
+        if n < 0.9 * self.known or seconds <= self.fixed:
+            return self
+        return Calibration(self.fixed, (seconds - self.fixed) / n, n)
 
 
 def calibrate(seconds_of: Callable[[int], float], budget: float) -> Calibration:
@@ -42,4 +49,4 @@ def calibrate(seconds_of: Callable[[int], float], budget: float) -> Calibration:
         if n > MOST:
             raise _core.RenderError("its time does not grow with {spp}")
     each = grown / (n - 1)
-    return Calibration(max(0.0, first - each), each)
+    return Calibration(max(0.0, first - each), each, n)

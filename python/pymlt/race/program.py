@@ -86,6 +86,8 @@ class OutsideRenderer:
                 spp = self.calibration.samples(share * conditions.budget)
             before = spent
             snapshot = self._render(conditions, seed, share, spp, (before / total, share / total))
+            if self.calibration is not None and spp is not None:
+                self.calibration = self.calibration.after(spp, snapshot.seconds)
             image, invalid = finite(snapshot.image)
             snapshots.append(Snapshot(snapshot.seconds, image))
             spent += share
