@@ -167,7 +167,8 @@ LoadedScene build_scene(const Node& tree, const Registry& registry, const LoadOp
     throw SceneError(at(scene.where, "the root is a {}, but should be a scene", scene.family));
   if (options.size) check_size(*options.size);
 
-  refuse_missing(scene, registry);
+  // Of a scene that has been built before, what is new is refused by the builder.
+  if (!known || !known->parts) refuse_missing(scene, registry);
   const Node& sensor = chosen_sensor(scene, loaded.warnings);
   find_integrator(scene, loaded);
   Builder builder(scene, registry, loaded.warnings, known);

@@ -5,9 +5,9 @@
 
 #include "base/params.h"
 
-#include <map>
-#include <set>
 #include <string>
+#include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 namespace mlt {
@@ -19,7 +19,7 @@ struct Part {
 };
 
 /// By Params::key.
-using Parts = std::multimap<std::string, Part>;
+using Parts = std::unordered_multimap<std::string, Part>;
 
 /// Hands out parts, each once: equal ones may be several objects.
 class PartSource {
@@ -31,7 +31,7 @@ class PartSource {
 
  private:
   const Parts* parts_;
-  std::set<const Part*> taken_;
+  std::unordered_set<const Part*> taken_;
 };
 
 /// What stands for the object in another scene, or in the first one: itself, a copy if the scene
