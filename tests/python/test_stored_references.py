@@ -70,7 +70,14 @@ SYSTEMATIC = {
     "test_roughplastic_linear_path": COATING,
     "test_roughplastic_nonlinear_path": COATING,
     "test_constant_path": 0.0005,
+    "test_orthographic_path": 0.0005,
+    "test_projector_constant_direct": 0.0005,
+    "test_projector_textured_direct": 0.0005,
     "test_mesh_attributes_1_face_direct": 0.0005,
+}
+DIFFERENT = {
+    "test_texture_interp_direct": "its texels are interpolated with another rounding: edges of the "
+    "image lie about 0.02 pixels away"
 }
 NOISY = {"test_normalmap_roughconductor_path"}
 REFERENCE_SAMPLES = 12000
@@ -116,7 +123,15 @@ def load(path):
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("file", FILES)
+@pytest.mark.parametrize(
+    "file",
+    [
+        pytest.param(file, marks=pytest.mark.xfail(reason=DIFFERENT[file], strict=True))
+        if file in DIFFERENT
+        else file
+        for file in FILES
+    ],
+)
 def test_mitsubas_own_tests(file, shared):
     folder_name, reference, integrator = FILES[file]
     folder = shared / "scenes" / "mitsuba-tests" / "tests" / "scenes" / folder_name
