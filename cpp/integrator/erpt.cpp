@@ -21,7 +21,7 @@ struct ErptSettings {
   PathRules rules;
   double near_specular = 0.1;
   std::vector<MixedMutation> mixture;
-  double chains = 1;         ///< Per sample, in the mean.
+  double chains = 0.1;       ///< Per sample, in the mean.
   int64_t mutations = 100;   ///< Of each chain: m.
   int64_t most_chains = 64;  ///< From one path; more energy makes these deposit more.
   int64_t luminance_samples = 50000;
@@ -236,7 +236,8 @@ Plugin integrator_erpt() {
        mixture_parameters(perturbations()),
        {{"near_specular", ParamType::real, 0.1,
          "Smooth vertices below this roughness count as specular in perturbations."},
-        {"chains", ParamType::real, 1.0, "Chains per sample, in the mean."},
+        {"chains", ParamType::real, 0.1,
+         "Chains per sample, in the mean. The fewer, the more samples they start from."},
         {"chain_length", ParamType::integer, int64_t{100}, "Mutations of each chain."},
         {"max_chains", ParamType::integer, int64_t{64},
          "Most chains from one path; if it is brighter than these would show, they leave more."},

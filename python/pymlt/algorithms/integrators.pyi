@@ -130,8 +130,8 @@ class ERPT(Integrator):
         Largest move on the image, as a share of its diagonal.
     near_specular : float, default 0.1
         Smooth vertices below this roughness count as specular in perturbations.
-    chains : float, default 1.0
-        Chains per sample, in the mean.
+    chains : float, default 0.1
+        Chains per sample, in the mean. The fewer, the more samples they start from.
     chain_length : integer, default 100
         Mutations of each chain.
     max_chains : integer, default 64
