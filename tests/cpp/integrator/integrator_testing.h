@@ -46,7 +46,7 @@ inline Variant variant(const std::string& name) {
   if (name == "pssmlt_ptracer") return {"pssmlt", {{"estimator", "ptracer"}}};
   if (name == "mmlt_chains") return {"mmlt", {{"independent_share", "0"}}};
   if (name == "rjmlt_chains") return {"rjmlt", {{"independent_share", "0"}}};
-  if (name == "erpt") return {"erpt", {{"chain_length", "8"}}};
+  if (name == "erpt") return {"erpt", {{"chains", "1"}, {"chain_length", "8"}}};
   if (name == "pssmlt_gaussian") return {"pssmlt", {{"small_step", "gaussian"}}};
   return {name, {}};
 }
