@@ -52,7 +52,7 @@ def write_page(race: mlt.Race, path: Path) -> None:
             f"relMSE over that of the best algorithm:\n\n{markdown(summary(race.results))}\n"
         )
     for result in race.results:
-        name = f"race-{result.settings.name}.png"
-        result.figure(tonemap="filmic").savefig(folder / name, dpi=80)
+        name = f"race-{result.settings.name}.jpg"
+        result.figure(tonemap="filmic").savefig(folder / name, dpi=80, pil_kwargs={"quality": 85})
         parts.append(section(result, f"images/{name}"))
     path.write_text("\n".join(parts))
