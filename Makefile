@@ -119,7 +119,7 @@ SOAK := build/soak
 soak: build
 	$(BIN)/pip install -q --no-build-isolation --no-deps --upgrade --target $(SOAK)/site . \
 	  --config-settings=build-dir=$(SOAK)/cmake --config-settings=cmake.build-type=Debug \
-	  --config-settings=cmake.define.PYMLT_SANITIZE=ON
+	  --config-settings=cmake.define.PYMLT_SANITIZE=ON --config-settings=cmake.define.PYMLT_WIDE_ARCH=
 	PYTHONPATH=$(SOAK)/site:$$(echo $(VENV)/lib/python3*/site-packages) \
 	  LD_PRELOAD="$$($(CXX) -print-file-name=libasan.so) $$($(CXX) -print-file-name=libstdc++.so)" \
 	  ASAN_OPTIONS=detect_leaks=0:quarantine_size_mb=16 \
