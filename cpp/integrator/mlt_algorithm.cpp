@@ -1,8 +1,8 @@
 #include "integrator/mlt_algorithm.h"
 
 #include "integrator/path_kernel.h"
+#include "integrator/path_source.h"
 #include "mutation/adaptation.h"
-#include "mutation/path_seeds.h"
 
 namespace mlt {
 namespace {
@@ -69,7 +69,7 @@ class MltAlgorithm : public MetropolisAlgorithm {
         adapt(target_, mutations_, *weights_, adaptation, cancelled));
   }
 
-  std::unique_ptr<Source> source() const override { return std::make_unique<MltSource>(target_); }
+  std::unique_ptr<Source> source() const override { return std::make_unique<PathSource>(target_); }
 
   std::unique_ptr<RenderChain> start(const ChainId& id, Rng candidate, Rng choice) const override {
     return chain(id, target_.seeds().pick(candidate, choice));
@@ -109,30 +109,6 @@ class MltAlgorithm : public MetropolisAlgorithm {
   }
 
  private:
-  struct MltSource : Source {
-    explicit MltSource(const PathTarget& target) : seeds(target) {}
-    const std::vector<FoundLight>& sample(const Vec2& raster, PixelSampler& sampler) override {
-      return draw(raster, sampler);
-    }
-    const std::vector<FoundLight>& sample(const Vec2& raster, RandomSampler& sampler) override {
-      return draw(raster, sampler);
-    }
-    const RayCounts& rays() const override { return seeds.rays(); }
-
-    template <class Sampler>
-    const std::vector<FoundLight>& draw(const Vec2& raster, Sampler& sampler) {
-      found.clear();
-      seeds.draw(raster, sampler, [&](const Connection& c, double weight) {
-        found.push_back({c.raster, c.contribution * c.weight, weight,
-                         weight / c.weight * c.own_share, c.t >= 2});
-      });
-      return found;
-    }
-
-    PathSeeds seeds;
-    std::vector<FoundLight> found;
-  };
-
   /// The mutation as it is, or once for each step size that adaptation chooses from.
   std::vector<std::pair<MutationValues, double>> in_all_sizes(const MixedMutation& mixed) const {
     const auto has_size = [](const auto& value) { return value.first == "largest_share"; };

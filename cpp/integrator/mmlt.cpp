@@ -6,8 +6,8 @@
 #include "base/registry.h"
 #include "integrator/metropolis_params.h"
 #include "integrator/path_params.h"
+#include "integrator/path_source.h"
 #include "integrator/small_step_params.h"
-#include "markov/bootstrap.h"
 #include "primary/multiplexed_step.h"
 #include "primary/technique_numbers.h"
 
@@ -60,26 +60,10 @@ class MmltKernel : public MultiplexedStep {
   }
 };
 
-/// Paths of bidirectional path tracing, with L* mis / p of each.
-struct Candidate {
-  explicit Candidate(const Scene& scene, const PathRules& rules) : paths(scene, {rules}) {}
-
-  /// Calls found(connection, weight).
-  template <class Sampler, class Found>
-  void draw(const Vec2& raster, Sampler& sampler, Found&& found) {
-    paths.sample(raster, sampler, rays);
-    paths.connect_all(
-        rays, [&](const Connection& c) { found(c, target_luminance(c.contribution * c.weight)); });
-  }
-
-  BidirectionalSampler paths;
-  RayCounts rays = {};
-};
-
 class Mmlt : public MetropolisAlgorithm {
  public:
   Mmlt(ScenePtr scene, const MmltSettings& settings)
-      : scene_(std::move(scene)), settings_(settings), choice_(settings.rules) {}
+      : target_(std::move(scene), settings.rules), settings_(settings), choice_(settings.rules) {}
 
   /// Finds out which techniques bring the light.
   void prepare(const CoarseImage&, uint64_t seed, int threads,
@@ -87,42 +71,37 @@ class Mmlt : public MetropolisAlgorithm {
     using Light = std::vector<std::pair<Technique, double>>;
     const auto found = draw_candidates(
         Candidates{seed, Purpose::pilot, 8192}, threads, cancelled,
-        [&] { return std::make_unique<Candidate>(*scene_, settings_.rules); },
-        [&](Candidate& candidate, Rng& rng) {
+        [&] { return std::make_unique<PathSeeds>(target_); },
+        [](PathSeeds& seeds, Rng& rng) {
           Light light;
-          RandomSampler sampler(rng);
-          candidate.draw(
-              scene_->camera().raster().sample(sampler.next2()), sampler,
-              [&](const Connection& c, double weight) { light.push_back({{c.s, c.t}, weight}); });
+          seeds.draw(RandomSampler(rng), [&](const Connection& c, double weight) {
+            light.push_back({{c.s, c.t}, weight});
+          });
           return light;
         },
-        [](const Candidate&) {});
+        [](const PathSeeds&) {});
     std::vector<std::vector<double>> sums;
     for (const Light& light : found)
       for (const auto& [technique, weight] : light) {
         const size_t k = technique.edges();
         while (sums.size() <= k) sums.emplace_back(sums.size() + 2);
-        if (std::isfinite(weight)) sums[k][technique.s] += weight;
+        sums[k][technique.s] += weight;
       }
     choice_.learn(std::move(sums));
   }
 
-  std::unique_ptr<Source> source() const override {
-    return std::make_unique<MmltSource>(*scene_, settings_.rules);
-  }
+  std::unique_ptr<Source> source() const override { return std::make_unique<PathSource>(target_); }
   /// From one of the candidate's paths, chosen in proportion to its weight.
   std::unique_ptr<RenderChain> start(const ChainId& id, Rng candidate, Rng choice) const override {
     PrimaryNumbers drawn;
     PrimarySampler sampler(drawn, {}, candidate);
-    const Vec2 raster = scene_->camera().raster().sample(sampler.next2());
+    const Vec2 raster = target_.scene().camera().raster().sample(sampler.next2());
     MultiplexedState x;
     double sum = 0;
-    Candidate(*scene_, settings_.rules)
-        .draw(raster, sampler, [&](const Connection& c, double weight) {
-          if (!(weight > 0 && std::isfinite(weight))) return;
-          sum += weight;
-          if (choice.next() * sum < weight) x.technique = {c.s, c.t};
-        });
+    PathSeeds(target_).draw(raster, sampler, [&](const Connection& c, double weight) {
+      sum += weight;
+      if (choice.next() * sum < weight) x.technique = {c.s, c.t};
+    });
     x.numbers = TechniqueNumbers(drawn, candidate).of(x.technique, settings_.rules);
     paths()(x, choice);
     return chain(id, std::move(x));
@@ -156,33 +135,10 @@ class Mmlt : public MetropolisAlgorithm {
   }
 
  private:
-  struct MmltSource : Source {
-    MmltSource(const Scene& scene, const PathRules& rules) : candidate(scene, rules) {}
-    const std::vector<FoundLight>& sample(const Vec2& raster, PixelSampler& sampler) override {
-      return draw(raster, sampler);
-    }
-    const std::vector<FoundLight>& sample(const Vec2& raster, RandomSampler& sampler) override {
-      return draw(raster, sampler);
-    }
-    template <class Sampler>
-    const std::vector<FoundLight>& draw(const Vec2& raster, Sampler& sampler) {
-      found.clear();
-      candidate.draw(raster, sampler, [&](const Connection& c, double weight) {
-        found.push_back({c.raster, c.contribution * c.weight, weight,
-                         target_luminance(c.contribution) * c.own_share, c.t >= 2});
-      });
-      return found;
-    }
-    const RayCounts& rays() const override { return candidate.rays; }
-
-    Candidate candidate;
-    std::vector<FoundLight> found;
-  };
-
   MultiplexedPaths paths() const {
     PathRules rules = settings_.rules;
     rules.rr_depth = PathRules::no_roulette;
-    return {scene_.get(), {*scene_, {rules}}, settings_.small_step};
+    return {&target_.scene(), {target_.scene(), {rules}}, settings_.small_step};
   }
   std::unique_ptr<RenderChain> chain(const ChainId& id, MultiplexedState start) const {
     return std::make_unique<RecordedChain<MmltKernel>>(
@@ -191,7 +147,7 @@ class Mmlt : public MetropolisAlgorithm {
         id, std::move(start));
   }
 
-  ScenePtr scene_;
+  PathTarget target_;
   MmltSettings settings_;
   TechniqueChoice choice_;
 };
