@@ -40,6 +40,8 @@ PICTURES = [
     Picture(mlt.Lens(), "glass_ball", "LDSSE", ("z", "y"), (0.33, 0.66)),
     Picture(mlt.Caustic(), "glass_ball", "LSSDE", ("x", "y"), (0.32, 0.85)),
     Picture(mlt.MultiChain(), "glass_ball", "LDSSDE", ("x", "y"), (0.3, 0.8)),
+    Picture(mlt.Multiplexed(), "glass_ball", "LSSDE", ("x", "y"), (0.32, 0.85)),
+    Picture(mlt.Manifold(), "glass_ball", "LDSSDE", ("x", "y"), (0.3, 0.8)),
     Picture(mlt.LensSubpath(), "cornell_box", "LDDE", ("x", "y"), (0.4, 0.9), shortest=0.8),
 ]
 

@@ -9,6 +9,8 @@ ChainStats::Row& ChainStats::Row::operator+=(const Row& other) {
   rays += other.rays;
   acceptance += other.acceptance;
   image_distance += other.image_distance;
+  failed_walks += other.failed_walks;
+  failed_returns += other.failed_returns;
   return *this;
 }
 
@@ -59,6 +61,8 @@ void add_rows(const std::vector<MutationStats>& names, const std::vector<ChainSt
     m.generated = row.generated;
     m.accepted = row.accepted;
     m.rays = row.rays;
+    m.failed_walks = row.failed_walks;
+    m.failed_returns = row.failed_returns;
     m.mean_acceptance = row.acceptance / n;
     m.image_distance = row.image_distance / n;
     stats.mutations.push_back(m);

@@ -63,22 +63,25 @@ class FilmRecorder : public ChainRecorder {
 template <class Kernel>
 class StepRecorder {
   using State = typename Kernel::State;
+  using Others = std::array<State, Kernel::stages>;
 
  public:
-  StepRecorder(ChainRecorder& recorder, const Kernel& kernel, const State& x)
-      : recorder_(&recorder), kernel_(&kernel), x_(&x) {}
+  /// `others` is the scratch of the steps.
+  StepRecorder(ChainRecorder& recorder, const Kernel& kernel, const State& x, const Others& others)
+      : recorder_(&recorder), kernel_(&kernel), x_(&x), others_(&others) {}
 
   /// As metropolis_step calls it.
   void operator()(const State& state, double weight) {
-    (&state == x_ ? weight_x_ : weight_y_) += weight;
+    (&state == x_ ? weight_x_ : weights_[&state - others_->data()]) += weight;
   }
 
-  /// After a step; on acceptance `other` is the state that x has left, otherwise the proposal.
-  void settle(const StepResult& result, const State& other) {
-    weight_y_ += kernel_->proposal_weight();
-    if (result.accepted >= 0) std::swap(weight_x_, weight_y_);
-    record(other, weight_y_);
-    weight_y_ = 0;
+  /// After a step.
+  void settle(const StepResult& result) {
+    weights_[0] += kernel_->proposal_weight();
+    if (result.accepted >= 0) std::swap(weight_x_, weights_[result.accepted]);
+    for (size_t stage = 0; stage < Kernel::stages; ++stage)
+      record((*others_)[stage], weights_[stage]);
+    weights_ = {};
   }
   /// Records what the current state has gathered.
   void finish() {
@@ -96,7 +99,9 @@ class StepRecorder {
   ChainRecorder* recorder_;
   const Kernel* kernel_;
   const State* x_;
-  double weight_x_ = 0, weight_y_ = 0;
+  const Others* others_;
+  double weight_x_ = 0;
+  std::array<double, Kernel::stages> weights_{};
 };
 
 /// What a chain tells about its steps; sums, so that chains can be merged.
@@ -104,6 +109,8 @@ struct ChainStats {
   struct Row {
     uint64_t proposed = 0, generated = 0, accepted = 0, rays = 0;
     double acceptance = 0, image_distance = 0;
+    /// Walks of mutations that failed, and that could not be undone.
+    uint64_t failed_walks = 0, failed_returns = 0;
 
     Row& operator+=(const Row& other);
   };
@@ -152,11 +159,12 @@ struct ChainId {
   Rng rng() const { return Rng(seed, purpose, (uint64_t(group) << 32) | uint32_t(number)); }
 };
 
-/// A chain of any kernel that has State; propose; generated(y); record(recorder, x, weight) of a
+/// A chain of any kernel that has State; stages; propose; generated(y); record(recorder, x, weight) of a
 /// state with a target; proposal_weight(), with which the last proposal is recorded beside that of
 /// the step; raster_of(x); stats_row(), the row of the statistics that its last step belongs to, of
 /// stats_rows(); rays(), traced so far; signature(x), for messages; and save(bytes, x), load(bytes,
-/// x) for the state of the chain and its own.
+/// x) for the state of the chain and its own. It may have count_own(row), for what else it knows of
+/// its last step.
 template <class Kernel>
 class RecordedChain : public RenderChain {
   using State = typename Kernel::State;
@@ -169,17 +177,18 @@ class RecordedChain : public RenderChain {
 
   void advance(uint64_t steps, ChainRecorder& recorder) override {
     Kernel& kernel = chain_.kernel();
-    StepRecorder<Kernel> record(recorder, kernel, chain_.state());
+    StepRecorder<Kernel> record(recorder, kernel, chain_.state(), chain_.others());
     for (uint64_t i = 0; i < steps; ++i) {
       const Vec2 from = kernel.raster_of(chain_.state());
       const uint64_t rays_before = kernel.rays().total();
       const StepResult result = chain_.step(record);
-      record.settle(result, chain_.other());
-      const State& y = result.accepted < 0 ? chain_.other() : chain_.state();
+      record.settle(result);
+      const State& y = chain_.proposal(result, 0);
       ChainStats::Row& row = stats_.rows[kernel.stats_row()];
       stats_.count(row, result, kernel.generated(y),
                    glm::length(kernel.raster_of(chain_.state()) - from));
       row.rays += kernel.rays().total() - rays_before;
+      count_own(kernel, row, 0);
       if (stats_.run > stats_.longest.rejections && stats_.run % 64 == 0)
         stats_.longest = {stats_.run, kernel.raster_of(chain_.state()),
                           kernel.signature(chain_.state())};
@@ -211,7 +220,14 @@ class RecordedChain : public RenderChain {
   }
 
  private:
-  Chain<State, Kernel> chain_;
+  template <class K>
+  static auto count_own(K& kernel, ChainStats::Row& row, int) -> decltype(kernel.count_own(row)) {
+    kernel.count_own(row);
+  }
+  template <class K>
+  static void count_own(K&, ChainStats::Row&, long) {}
+
+  Chain<State, Kernel, Kernel::stages> chain_;
   ChainStats stats_;
 };
 

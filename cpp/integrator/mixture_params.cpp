@@ -20,7 +20,7 @@ std::vector<Parameter> mixture_parameters(const std::vector<MutationPlugin>& plu
   std::vector<Parameter> parameters;
   for (const MutationPlugin& plugin : plugins) {
     parameters.push_back(
-        {plugin.switch_name, ParamType::boolean, true, "Use the " + plugin.schema.doc});
+        {plugin.switch_name, ParamType::boolean, plugin.on, "Use the " + plugin.schema.doc});
     parameters.push_back(
         {plugin.weight_name(), ParamType::real, plugin.weight,
          "Weight of the " + plugin.name() + " mutation among those that suit a path."});

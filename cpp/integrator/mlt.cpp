@@ -15,10 +15,8 @@ class MltIntegrator : public Integrator {
   explicit MltIntegrator(Params& params) : metropolis_(metropolis_settings(params)) {
     settings_.rules = path_rules(params);
     settings_.near_specular = params.real_in("near_specular", 0, 1);
-    if (params.boolean("manifold_perturbation"))
-      params.fail("manifold_perturbation",
-                  "is true, but this mutation does not exist yet; leave it out");
     settings_.two_stage = params.boolean("two_stage");
+    settings_.delayed_rejection = params.boolean("delayed_rejection");
     direct_samples_ = static_cast<int>(params.integer_in("direct_samples", -1, 1 << 20));
     if (direct_samples_ >= 0) settings_.rules.min_depth = 3;
     settings_.mixture = read_mixture(params, mutation_plugins());
@@ -65,11 +63,11 @@ Plugin integrator_mlt() {
          "only if no weight is given, and never for a step size that is given."},
         {"two_stage", ParamType::boolean, true,
          "Divide the target by a coarse image, so that dark regions get their share."},
+        {"delayed_rejection", ParamType::boolean, false,
+         "Let a smaller step follow where a perturbation's proposal was rejected."},
         {"direct_samples", ParamType::integer, int64_t{-1},
          "Render light of at most one reflection apart with this many samples per pixel; "
-         "0 leaves it out, -1 leaves it to the chains."},
-        {"manifold_perturbation", ParamType::boolean, false,
-         "Only false: it does not exist yet."}}}));
+         "0 leaves it out, -1 leaves it to the chains."}}}));
 }
 
 }  // namespace mlt

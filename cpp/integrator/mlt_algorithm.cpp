@@ -7,8 +7,23 @@
 namespace mlt {
 namespace {
 
-/// Step sizes among which adaptation chooses: largest moves, as shares of the image's diagonal.
-constexpr double adaptive_shares[] = {0.02, 0.1};
+/// The step of a second stage over that of the first.
+constexpr double timid_share = 0.1;
+
+/// A mutation's own parameter for its step size, and the values among which adaptation chooses.
+struct StepSizeChoice {
+  const char* parameter;
+  double values[2];
+};
+constexpr StepSizeChoice step_size_choices[] = {{"largest_share", {0.02, 0.1}},
+                                                {"step_size", {1. / 256, 1. / 32}}};
+
+/// nullptr if it has no step size.
+const StepSizeChoice* step_size_choice(const MutationPlugin& plugin) {
+  for (const StepSizeChoice& choice : step_size_choices)
+    if (plugin.schema.find(choice.parameter)) return &choice;
+  return nullptr;
+}
 
 /// Moves one chain of a group; its fresh lens subpaths are stratified over all chains of the group.
 class GroupMixture : public PathKernel {
@@ -18,9 +33,8 @@ class GroupMixture : public PathKernel {
         id_(id),
         key_(mix_bits(id.seed ^ mix_bits(static_cast<uint64_t>(id.group)))) {}
 
-  Transition propose(const PathState& x, std::array<PathState, 1>& y, size_t stage, Rng& rng) {
-    aids().stratified = {static_cast<uint32_t>(id_.number), static_cast<uint32_t>(id_.count),
-                         mix_bits(key_ + step_++)};
+  Transition propose(const PathState& x, std::array<PathState, stages>& y, size_t stage, Rng& rng) {
+    if (stage == 0) stratify();
     return PathKernel::propose(x, y, stage, rng);
   }
 
@@ -34,10 +48,21 @@ class GroupMixture : public PathKernel {
   }
 
  private:
+  void stratify() {
+    aids().stratified = {static_cast<uint32_t>(id_.number), static_cast<uint32_t>(id_.count),
+                         mix_bits(key_ + step_++)};
+  }
+
   ChainId id_;
   uint64_t key_;  ///< Names the steps of the group's chains.
   uint64_t step_ = 0;
 };
+
+/// A second stage asks for the density of what was rejected, from another path. A walk along a
+/// manifold may lead elsewhere from there, which its density does not say.
+bool can_be_retried(const MutationPlugin& plugin) {
+  return plugin.has_step_size() && plugin.name() != "manifold";
+}
 
 class MltAlgorithm : public MetropolisAlgorithm {
  public:
@@ -48,6 +73,7 @@ class MltAlgorithm : public MetropolisAlgorithm {
       for (const auto& [own, weight] : in_all_sizes(mixed)) {
         mutations_.push_back(make_mutation(mixed.name, target_, own));
         step_sizes_.push_back(step_size(mixed.name, own));
+        timid_.push_back(settings_.delayed_rejection ? timid(mixed.name, own) : nullptr);
         weights.push_back(weight);
       }
     for (const ExtraMutation& extra : settings_.extra) {
@@ -111,32 +137,46 @@ class MltAlgorithm : public MetropolisAlgorithm {
  private:
   /// The mutation as it is, or once for each step size that adaptation chooses from.
   std::vector<std::pair<MutationValues, double>> in_all_sizes(const MixedMutation& mixed) const {
-    const auto has_size = [](const auto& value) { return value.first == "largest_share"; };
-    if (!settings_.adaptive || !mutation_plugin(mixed.name).has_step_size() ||
-        std::any_of(mixed.values.begin(), mixed.values.end(), has_size))
+    const StepSizeChoice* choice = step_size_choice(mutation_plugin(mixed.name));
+    const auto is_given = [&](const auto& value) { return value.first == choice->parameter; };
+    if (!settings_.adaptive || !choice ||
+        std::any_of(mixed.values.begin(), mixed.values.end(), is_given))
       return {{mixed.values, mixed.weight}};
     std::vector<std::pair<MutationValues, double>> sizes;
-    for (const double share : adaptive_shares) {
-      sizes.push_back({mixed.values, mixed.weight / std::size(adaptive_shares)});
-      sizes.back().first.push_back({"largest_share", share});
+    for (const double size : choice->values) {
+      sizes.push_back({mixed.values, mixed.weight / std::size(choice->values)});
+      sizes.back().first.push_back({choice->parameter, size});
     }
     return sizes;
   }
 
+  /// The same perturbation with a step so small that it is likely to be accepted.
+  MutationPtr timid(const std::string& name, const MutationValues& own) const {
+    const MutationPlugin& plugin = mutation_plugin(name);
+    if (!can_be_retried(plugin)) return nullptr;
+    const double size = timid_share * step_size(name, own);
+    MutationValues smaller{{"largest_share", size}};
+    for (const auto& value : own)
+      if (value.first != "largest_share") smaller.push_back(value);
+    return make_mutation(name, target_, smaller);
+  }
+
   static double step_size(const std::string& name, const MutationValues& own) {
     const MutationPlugin& plugin = mutation_plugin(name);
-    return plugin.has_step_size() ? own_parameters(plugin, own).real("largest_share") : 0;
+    const StepSizeChoice* choice = step_size_choice(plugin);
+    return choice ? own_parameters(plugin, own).real(choice->parameter) : 0;
   }
 
   std::unique_ptr<RenderChain> chain(const ChainId& id, PathState start) const {
     return std::make_unique<RecordedChain<GroupMixture>>(
-        GroupMixture(target_, {mutations_, weights_}, id), id, std::move(start));
+        GroupMixture(target_, {mutations_, weights_, timid_}, id), id, std::move(start));
   }
 
   MltSettings settings_;
   PathTarget target_;
   Mutations mutations_;
   std::vector<double> step_sizes_;
+  Mutations timid_;  ///< What follows a rejected proposal.
   std::shared_ptr<const MixtureWeights> weights_;
 };
 

@@ -25,6 +25,7 @@ struct MltSettings {
   std::vector<ExtraMutation> extra;
   bool adaptive = true;
   bool two_stage = true;
+  bool delayed_rejection = false;
 };
 
 std::unique_ptr<MetropolisAlgorithm> mlt_algorithm(ScenePtr scene, const MltSettings& settings);

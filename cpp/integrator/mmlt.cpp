@@ -17,8 +17,7 @@ namespace {
 struct MmltSettings {
   PathRules rules;
   SmallStep small_step;
-  double large_probability = 0.3, technique_probability = 0.1;
-  TechniqueChange change = TechniqueChange::keeps_numbers;
+  MultiplexedStep::Moves moves;
 };
 
 /// Moves a chain that renders.
@@ -142,9 +141,7 @@ class Mmlt : public MetropolisAlgorithm {
   }
   std::unique_ptr<RenderChain> chain(const ChainId& id, MultiplexedState start) const {
     return std::make_unique<RecordedChain<MmltKernel>>(
-        MmltKernel(settings_.large_probability, settings_.technique_probability, settings_.change,
-                   paths(), choice_),
-        id, std::move(start));
+        MmltKernel(settings_.moves, paths(), choice_), id, std::move(start));
   }
 
   PathTarget target_;
@@ -157,9 +154,11 @@ class MultiplexedIntegrator : public Integrator {
  public:
   explicit MultiplexedIntegrator(Params& params)
       : metropolis_(metropolis_settings(params)),
-        settings_{path_rules(params), small_step(params), large_probability(params),
-                  params.real_in("p_technique", 0, 1), change} {
-    if (settings_.large_probability + settings_.technique_probability > 1)
+        settings_{path_rules(params),
+                  small_step(params),
+                  {large_probability(params), params.real_in("p_technique", 0, 1), change,
+                   params.boolean("delayed_rejection")}} {
+    if (settings_.moves.large_probability + settings_.moves.technique_probability > 1)
       params.fail("p_technique", "and 'p_large' are more than 1 together");
   }
   std::unique_ptr<Rendering> start(ScenePtr scene, uint64_t seed) const override {

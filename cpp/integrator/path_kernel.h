@@ -23,6 +23,12 @@ class PathKernel : public PathMixture {
   size_t stats_row() const { return chosen() * (longest_row + 1) + std::min(row(), longest_row); }
   size_t stats_rows() const { return moves().size() * (longest_row + 1); }
   RayCounts& rays() { return aids().rays; }
+  void count_own(ChainStats::Row& row) {
+    WalkFailures& failures = aids().failures;
+    row.failed_walks += failures.there;
+    row.failed_returns += failures.back;
+    failures = {};
+  }
   std::string signature(const PathState& x) const { return mlt::signature(x.terms); }
 
   void save(ByteWriter& bytes, const PathState& x) const { mlt::save(bytes, x.path); }

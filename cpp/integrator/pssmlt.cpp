@@ -14,6 +14,7 @@ struct PssmltSettings {
   PathRules path;
   SmallStep small_step;
   double large_probability = 0.3;
+  bool delayed_rejection = false;
 };
 
 /// The proposals of large steps are independent samples, with the density 1 of the numbers: none of
@@ -59,7 +60,7 @@ class PssmltKernel : public PrimaryStep<PrimaryState, PrimaryPaths<Estimator>> {
   /// `b`: that of the group of chains.
   PssmltKernel(const PssmltSettings& settings, const PrimaryPaths<Estimator>& paths,
                const LargeStepWeights& weights, double b)
-      : Step(settings.large_probability, paths),
+      : Step(settings.large_probability, settings.delayed_rejection, paths),
         weights_(weights),
         large_step_weight_(weights.share / (settings.large_probability * b)) {}
 
@@ -174,7 +175,8 @@ class PssmltIntegrator : public Integrator {
   explicit PssmltIntegrator(Params& params)
       : metropolis_(metropolis_settings(params)),
         estimator_(params.text("estimator")),
-        settings_{path_rules(params), small_step(params), large_probability(params)} {
+        settings_{path_rules(params), small_step(params), large_probability(params),
+                  params.boolean("delayed_rejection")} {
     if (params.has("bidirectional")) {
       const bool bidirectional = params.boolean("bidirectional");
       if (params.has("estimator") && bidirectional != (estimator_ == "bdpt"))

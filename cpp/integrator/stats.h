@@ -15,6 +15,8 @@ struct MutationStats {
   double mean_acceptance = 0;
   double image_distance = 0;  ///< Mean move on the image per proposal, in pixels.
   uint64_t rays = 0;
+  /// Proposals given up since a manifold walk did not get there, or not back.
+  uint64_t failed_walks = 0, failed_returns = 0;
   double weight = 0;  ///< With which it takes part in the choice at this length.
   /// Largest move on the image, as a fraction of its diagonal; 0: not a perturbation.
   double step_size = 0;

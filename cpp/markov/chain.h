@@ -5,7 +5,7 @@
 
 namespace mlt {
 
-template <class State, class Kernel>
+template <class State, class Kernel, size_t stages = 1>
 class Chain {
  public:
   Chain(Kernel kernel, const Rng& rng, State start = {})
@@ -21,8 +21,14 @@ class Chain {
   double propose() { return acceptance(kernel_.propose(x_, y_, 0, rng_)); }
 
   const State& state() const { return x_; }
-  /// After a proposal, that one; after a step, the state that the chain is not in.
+  /// After a proposal, that one; after a step of one stage, the state that the chain is not in.
   const State& other() const { return y_[0]; }
+  /// What a stage of the last step proposed.
+  const State& proposal(const StepResult& last, size_t stage) const {
+    return last.accepted == static_cast<int>(stage) ? x_ : y_[stage];
+  }
+  /// The scratch of the stages: what they proposed, but for the state that the chain has left.
+  const std::array<State, stages>& others() const { return y_; }
   /// Goes on from another state, with the same stream.
   void restart(const State& x) { x_ = x; }
 
@@ -35,7 +41,7 @@ class Chain {
   Kernel kernel_;
   Rng rng_;
   State x_;
-  std::array<State, 1> y_{};
+  std::array<State, stages> y_{};
 };
 
 }  // namespace mlt

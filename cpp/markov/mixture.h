@@ -112,11 +112,20 @@ class Mixture {
   /// Whether there is a proposal, and whether one with this state can be accepted at all.
   bool proposed() const { return edit_.has_value(); }
   bool generated(const State& y) const { return proposed() && y.target != 0; }
+  const typename Move::Edit& edit() const { return *edit_; }
 
   Move& operator[](size_t i) const { return *moves_[i]; }
   const Moves& moves() const { return moves_; }
   Aids& aids() { return aids_; }
   const Aids& aids() const { return aids_; }
+
+ protected:
+  /// P_choose of the chosen move at a state.
+  double probability(const State& at) {
+    const MoveChoice& choices = choice(at);
+    const double share = choices.shares[chosen_];
+    return share > 0 ? share / choices.sum : 0.0;
+  }
 
  private:
   const MoveChoice& choice(const State& x) {
@@ -133,12 +142,6 @@ class Mixture {
       choice.sum += choice.shares[i];
     }
     return choice;
-  }
-  /// P_choose of the chosen move at y.
-  double probability(const State& y) {
-    const MoveChoice& at_y = choice(y);
-    const double share = at_y.shares[chosen_];
-    return share > 0 ? share / at_y.sum : 0.0;
   }
 
   Moves moves_;

@@ -44,6 +44,15 @@ inline double acceptance(const Transition& t) {
   return ratio >= 1 ? 1.0 : ratio;
 }
 
+/// The second stage's quotients (Tierney & Mira 1999, sec. 3): `own` are those without the first
+/// stage's rejection, `first` those of y1 proposed from x, and `reverse` those of y1 from y2. The
+/// densities T1(x -> y1) and T1(y2 -> y1) are factors of `own`, or equal.
+inline Transition after_rejection(const Transition& own, const Transition& first,
+                                  const Transition& reverse) {
+  if (own.forward == std::numeric_limits<double>::infinity()) return impossible;
+  return {own.forward * (1 - acceptance(first)), own.backward * (1 - acceptance(reverse))};
+}
+
 struct StepResult {
   double acceptance = 0;  ///< Of the first stage.
   int accepted = -1;      ///< Stage whose proposal was accepted, or -1.
@@ -67,7 +76,8 @@ StepResult metropolis_step(State& x, std::array<State, stages>& y, Kernel& kerne
     if (stage == 0) result.acceptance = a;
     if (a > 0) record(std::as_const(y[stage]), rest * a);
     rest *= 1 - a;
-    const bool accept = rng.next() < a;
+    // A stage without a proposal draws nothing: whether it is reached may hang on rounding.
+    const bool accept = (stage == 0 || a > 0) && rng.next() < a;
     if (accept && result.accepted < 0) result.accepted = static_cast<int>(stage);
   }
   if (rest > 0) record(std::as_const(x), rest);

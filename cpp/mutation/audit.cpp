@@ -40,10 +40,10 @@ struct Batch {
 
 class Auditor {
  public:
-  Auditor(const PathTarget& target, const Mutations& mutations, const MixtureWeights& weights,
-          const AuditSettings& how, const std::atomic<bool>& cancelled)
+  Auditor(const PathTarget& target, const PathMixture& mixture, const AuditSettings& how,
+          const std::atomic<bool>& cancelled)
       : target_(&target),
-        mixture_(mutations, std::make_shared<MixtureWeights>(weights)),
+        mixture_(mixture),
         how_(how),
         cancelled_(&cancelled),
         functions_(target.scene()),
@@ -135,7 +135,7 @@ class Auditor {
     ++sums.steps;
     AuditRow& row = sums.rows[{chain.kernel().chosen(), signature(x.terms)}];
     ++row.steps;
-    row.generated += chain.kernel().generated(result.accepted < 0 ? chain.other() : chain.state());
+    row.generated += chain.kernel().generated(chain.proposal(result, 0));
     row.accepted += result.accepted >= 0;
     row.invalid += result.invalid;
     row.acceptance += result.acceptance;
@@ -287,10 +287,16 @@ class Auditor {
 
 }  // namespace
 
+AuditReport audit(const PathTarget& target, const PathMixture& mixture, const AuditSettings& how,
+                  const std::atomic<bool>& cancelled) {
+  return Auditor(target, mixture, how, cancelled).run();
+}
+
 AuditReport audit(const PathTarget& target, const Mutations& mutations,
                   const MixtureWeights& weights, const AuditSettings& how,
                   const std::atomic<bool>& cancelled) {
-  return Auditor(target, mutations, weights, how, cancelled).run();
+  return audit(target, PathMixture(mutations, std::make_shared<MixtureWeights>(weights)), how,
+               cancelled);
 }
 
 AuditReport audit(const PathTarget& target, const MutationPtr& mutation, const AuditSettings& how) {

@@ -74,8 +74,11 @@ struct AuditReport {
 
 const char* name_of(Verdict verdict);
 
-/// Tests one step of the mixture of `mutations`. Throws RenderError if no path carries light. A
-/// report that was cancelled says nothing.
+/// Tests one step of a mixture. Throws RenderError if no path carries light. A report that was
+/// cancelled says nothing.
+AuditReport audit(const PathTarget& target, const PathMixture& mixture, const AuditSettings& how,
+                  const std::atomic<bool>& cancelled = never_cancelled);
+/// The same without delayed rejection.
 AuditReport audit(const PathTarget& target, const Mutations& mutations,
                   const MixtureWeights& weights, const AuditSettings& how,
                   const std::atomic<bool>& cancelled = never_cancelled);

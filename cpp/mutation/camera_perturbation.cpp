@@ -16,17 +16,13 @@
 // hit a light again: so a lamp is explored in a mirror, and what it lights through glass, seen
 // through glass.
 #include "mutation/chain_perturbation.h"
+#include "mutation/image_move.h"
 #include "mutation/join.h"
 #include "mutation/measured_mutation.h"
 #include "mutation/mutation_registry.h"
 
 namespace mlt {
 namespace {
-
-/// Both ways of the lens point are equally likely: to stay, or to move.
-bool lens_moves(const PathState& x, const PathState& y) {
-  return x[x.edges()].at.p != y[y.edges()].at.p;
-}
 
 /// A perturbation does not go from one light at infinity to another, nor to or from a surface.
 bool same_light_at_infinity(const PathState& x, const PathState& y) {
@@ -41,7 +37,8 @@ class CameraPerturbation final : public MeasuredMutation<CameraPerturbation> {
   CameraPerturbation(std::string name, Chains chains, const PathTarget& target, Params& params)
       : MeasuredMutation(std::move(name), target),
         chains_(chains),
-        chain_(target.scene(), step_sizes(params)) {}
+        chain_(target.scene(), step_sizes(params)),
+        image_(target.scene(), chain_) {}
 
   double suitability(const PathState& x) const override {
     const Form f = form(x);
@@ -52,22 +49,9 @@ class CameraPerturbation final : public MeasuredMutation<CameraPerturbation> {
                               MutationContext& context) const override {
     const int k = x.edges(), stop = form(x).stop;
     const Edit edit{stop, k, k - stop + 1};
-    Rng& rng = context.rng;
-    const Camera& camera = scene().camera();
     splice(x, edit, y);
-    y.path[k] = x[k];
-    if (!camera.delta_position() && rng.next() < 0.5) {
-      const double r = lens_radius().sample(rng.next()), phi = 2 * pi * rng.next();
-      const auto moved = camera.move_on_lens(x[k].at, {r * std::cos(phi), r * std::sin(phi)});
-      if (!moved) return std::nullopt;
-      y.path[k].at = *moved;
-    }
-    const double r = chain_.image_radius().sample(rng.next()), phi = 2 * pi * rng.next();
-    const Vec2 raster = x.raster + r * Vec2(std::cos(phi), std::sin(phi));
-    if (!camera.raster().contains(raster)) return std::nullopt;
-
-    const Ray ray = leave_lens(camera, y[k].at, raster);
-    if (!chain_.carry(x, {k, stop, -1}, ray, y, context)) return std::nullopt;
+    const auto ray = image_.move(x, y, context.rng);
+    if (!ray || !chain_.carry(x, {k, stop, -1}, *ray, y, context)) return std::nullopt;
     target().evaluate(stop, k, y);
     if (stop > 0) join(scene(), stop, y, context.rays);
     return edit;
@@ -82,14 +66,7 @@ class CameraPerturbation final : public MeasuredMutation<CameraPerturbation> {
     if (from.stop == 0 && !same_light_at_infinity(x, y)) return 0;
     for (int i = from.stop; i < x.edges(); ++i)
       if (x.specular(i) != y.specular(i)) return 0;
-    const int k = x.edges();
-    const double on_image = chain_.image_radius().planar_pdf(glm::length(y.raster - x.raster)) *
-                            chain_.raster_per_direction(y);
-    double on_lens = 1;
-    if (!scene().camera().delta_position())
-      on_lens =
-          lens_moves(x, y) ? 0.5 * lens_radius().planar_pdf(length(y[k].at.p - x[k].at.p)) : 0.5;
-    return on_lens * chain_.density(in, x, y, {k, from.stop, -1}, on_image);
+    return chain_.density(in, x, y, {x.edges(), from.stop, -1}, image_.density(x, y));
   }
 
  private:
@@ -108,14 +85,9 @@ class CameraPerturbation final : public MeasuredMutation<CameraPerturbation> {
     return form;
   }
 
-  /// Radii on the lens: a thousandth and a third of its own radius.
-  ExponentialRadius lens_radius() const {
-    const double radius = scene().camera().lens_radius();
-    return {1e-3 * radius, radius / 3};
-  }
-
   Chains chains_;
   ChainPerturbation chain_;
+  ImageMove image_;
 };
 
 }  // namespace

@@ -5,8 +5,9 @@
 //
 // Where the chain starts at a light at infinity its direction x_0 stays and the ray moves across
 // the plane perpendicular to it. The angle (or the distance) is such that the image position moves
-// about as far as the lens perturbation would move it.
-#include "mutation/chain_perturbation.h"
+// about as far as the lens perturbation would move it: by the path's lengths, or as the derivatives of
+// the chain say (`anisotropic`).
+#include "mutation/image_footprint.h"
 #include "mutation/join.h"
 #include "mutation/measured_mutation.h"
 #include "mutation/mutation_registry.h"
@@ -17,7 +18,9 @@ namespace {
 class CausticPerturbation final : public MeasuredMutation<CausticPerturbation> {
  public:
   CausticPerturbation(const PathTarget& target, Params& params)
-      : MeasuredMutation("caustic", target), chain_(target.scene(), step_sizes(params)) {}
+      : MeasuredMutation("caustic", target),
+        chain_(target.scene(), step_sizes(params)),
+        anisotropic_(params.boolean("anisotropic")) {}
 
   double suitability(const PathState& x) const override { return start(x) >= 0 ? 1 : 0; }
 
@@ -36,9 +39,7 @@ class CausticPerturbation final : public MeasuredMutation<CausticPerturbation> {
       const double back = dot(bounds.center - through, x[0].at.p) + bounds.radius;
       ray = {through + back * x[0].at.p, -x[0].at.p, y.path.time};
     } else {
-      const ExponentialRadius angle = chain_.angle(x, a, k - 1, 1);
-      ray =
-          scene().spawn(x[a].at, ChainPerturbation::perturb(x.terms[a].w, angle, rng), y.path.time);
+      ray = scene().spawn(x[a].at, perturbed(x, a, rng), y.path.time);
     }
     if (!chain_.carry(x, {a, k - 1, 1}, ray, y, context)) return std::nullopt;
     target().evaluate(a + 1, k - 1, y);
@@ -56,9 +57,7 @@ class CausticPerturbation final : public MeasuredMutation<CausticPerturbation> {
       const Vec3 d = y[1].at.p - x[1].at.p;
       first = offset_radius(x).planar_pdf(length(d - dot(d, x[0].at.p) * x[0].at.p));
     } else {
-      const Vec3 from = x.terms[a].w, to = y.terms[a].w;
-      first =
-          chain_.angle(x, a, k - 1, 1).angular_pdf(angle_between(from, to)) / abs_cos(y[a].at, to);
+      first = perturbed_pdf(x, a, y.terms[a].w) / abs_cos(y[a].at, y.terms[a].w);
     }
     return chain_.density(in, x, y, {a, k - 1, 1}, first);
   }
@@ -73,6 +72,19 @@ class CausticPerturbation final : public MeasuredMutation<CausticPerturbation> {
     return i;
   }
 
+  std::optional<ImageFootprint> footprint(const PathState& x, int a) const {
+    if (!anisotropic_) return std::nullopt;
+    return ImageFootprint::of(scene(), x, a, chain_.pixel_angle(x));
+  }
+  Vec3 perturbed(const PathState& x, int a, Rng& rng) const {
+    if (const auto ellipse = footprint(x, a)) return ellipse->perturb(chain_.image_radius(), rng);
+    return ChainPerturbation::perturb(x.terms[a].w, chain_.angle(x, a, x.edges() - 1, 1), rng);
+  }
+  double perturbed_pdf(const PathState& x, int a, const Vec3& w) const {
+    if (const auto ellipse = footprint(x, a)) return ellipse->pdf(w, chain_.image_radius());
+    return chain_.angle(x, a, x.edges() - 1, 1).angular_pdf(angle_between(x.terms[a].w, w));
+  }
+
   /// How far a ray from infinity moves: as far as a pixel is wide where the camera sees the chain's
   /// end.
   ExponentialRadius offset_radius(const PathState& x) const {
@@ -80,14 +92,21 @@ class CausticPerturbation final : public MeasuredMutation<CausticPerturbation> {
   }
 
   ChainPerturbation chain_;
+  bool anisotropic_;
 };
+
+std::vector<Parameter> parameters() {
+  std::vector<Parameter> all = step_size_parameters();
+  all.push_back({"anisotropic", ParamType::boolean, true,
+                 "Turn the direction by an ellipse whose image is round, not by a circle."});
+  return all;
+}
 
 }  // namespace
 
 MutationPlugin mutation_caustic() {
   return {{"mutation", "caustic",
-           "caustic perturbation of paths (L|D)S*DE (Veach 1997, sec. 11.3.3.2).",
-           step_size_parameters()},
+           "caustic perturbation of paths (L|D)S*DE (Veach 1997, sec. 11.3.3.2).", parameters()},
           "caustic_perturbation",
           0.2,
           make_shared_mutation<CausticPerturbation>};

@@ -75,9 +75,15 @@ class ChainPerturbation {
   template <class Measure>
   double density(const Measure& in, const PathState& x, const PathState& y, const Span& span,
                  double first_coefficient) const {
+    return walked_density(in, x, y, span, first_coefficient) *
+           in.joint(span.step < 0 ? span.stop : span.stop + 1);
+  }
+  /// The same up to how `stop` is joined to the rest.
+  template <class Measure>
+  double walked_density(const Measure& in, const PathState& x, const PathState& y, const Span& span,
+                        double first_coefficient) const {
     const int s = span.step;
-    double p = first_coefficient * in.step(span.start, span.start + s) *
-               in.joint(s < 0 ? span.stop : span.stop + 1);
+    double p = first_coefficient * in.step(span.start, span.start + s);
     for (int i = span.start + s; i != span.stop; i += s)
       p *= coefficient(x, y, i, s) * in.step(i, i + s);
     return p;

@@ -9,7 +9,9 @@
 #include "markov/step.h"
 #include "mutation/path_target.h"
 #include "mutation/stratified_raster.h"
+#include "path/bidirectional_sampler.h"
 #include "path/ray_counts.h"
+#include "primary/primary_numbers.h"
 
 #include <limits>
 #include <optional>
@@ -17,15 +19,29 @@
 
 namespace mlt {
 
+/// Paths made of primary samples, and the samples; both keep their memory.
+struct PrimaryWalks {
+  PrimaryNumbers numbers;
+  BidirectionalSampler paths;
+};
+
+/// Proposals that came to nothing since a walk along a manifold failed, by which of the two.
+struct WalkFailures {
+  uint64_t there = 0, back = 0;
+};
+
 /// What a chain has for its mutations beside random numbers.
 struct MutationAids {
   RayCounts rays;                              ///< Traced by its mutations so far.
+  WalkFailures failures;                       ///< Since somebody has last counted them.
   std::optional<StratifiedRaster> stratified;  ///< For a fresh lens subpath in this step.
+  std::optional<PrimaryWalks> primary_walks;   ///< Made at their first use.
 };
 
 /// What a proposal may draw on.
 struct MutationContext {
-  MutationContext(Rng& rng, MutationAids& aids) : rng(rng), rays(aids.rays), aids_(&aids) {}
+  MutationContext(Rng& rng, MutationAids& aids)
+      : rng(rng), rays(aids.rays), failures(aids.failures), aids_(&aids) {}
 
   /// A raster position for a fresh lens subpath: uniform, and stratified where chains go side by
   /// side.
@@ -35,11 +51,23 @@ struct MutationContext {
     return raster.sample({x, rng.next()});
   }
 
+  /// Without Russian roulette.
+  PrimaryWalks& primary_walks(const Scene& scene, const PathRules& rules) {
+    if (!aids_->primary_walks) {
+      BidirectionalSettings settings;
+      settings.rules = rules;
+      settings.rules.rr_depth = PathRules::no_roulette;
+      aids_->primary_walks = {{}, {scene, settings}};
+    }
+    return *aids_->primary_walks;
+  }
+
   Rng& rng;
   RayCounts& rays;
+  WalkFailures& failures;
 
  private:
-  const MutationAids* aids_;
+  MutationAids* aids_;
 };
 
 class Mutation {

@@ -18,6 +18,7 @@ struct MutationPlugin {
   std::string switch_name;  ///< The parameter of mlt that turns it on: Mitsuba's, where it has one.
   double weight;            ///< The default.
   MutationPtr (*make)(const PathTarget& target, Params& own);
+  bool on = true;  ///< By default.
 
   const std::string& name() const { return schema.name; }
   std::string weight_name() const { return name() + "_weight"; }

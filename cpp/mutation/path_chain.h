@@ -3,21 +3,14 @@
 #pragma once
 
 #include "markov/chain.h"
-#include "markov/mixture.h"
-#include "mutation/mutation.h"
-
-#include <memory>
-#include <vector>
+#include "mutation/path_mixture.h"
 
 namespace mlt {
 
 /// Paths of more edges than this share a row of weights and of statistics.
 constexpr size_t longest_row = 16;
 
-using MutationPtr = std::shared_ptr<const Mutation>;
-using Mutations = std::vector<MutationPtr>;
-using PathMixture = Mixture<const Mutation>;
-using PathChain = Chain<PathState, PathMixture>;
+using PathChain = Chain<PathState, PathMixture, PathMixture::stages>;
 
 /// The mixture of mutations with one weight each.
 inline PathMixture path_mixture(const Mutations& mutations, std::vector<double> weights) {

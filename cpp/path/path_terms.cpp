@@ -112,4 +112,15 @@ double mis_weight(const PathTerms& terms, int s, Heuristic heuristic) {
   return mis_weights(technique(s), below, above, heuristic).chosen;
 }
 
+int sample_technique(const PathTerms& terms, Heuristic heuristic, double u) {
+  int last = -1;
+  for (int s = 0; s <= terms.edges() + 1; ++s) {
+    const double weight = mis_weight(terms, s, heuristic);
+    if (!(weight > 0)) continue;
+    last = s;
+    if ((u -= weight) < 0) break;
+  }
+  return last;
+}
+
 }  // namespace mlt

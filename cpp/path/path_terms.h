@@ -93,5 +93,7 @@ double technique_density(const PathTerms& terms, int s);
 
 /// The MIS weight of technique s (Veach 1997, eqs. 9.8, 9.13 with beta = 2, 9.12).
 double mis_weight(const PathTerms& terms, int s, Heuristic heuristic);
+/// A technique s with the probability of its MIS weight; -1 if none can make the path.
+int sample_technique(const PathTerms& terms, Heuristic heuristic, double u);
 
 }  // namespace mlt

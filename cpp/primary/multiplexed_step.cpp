@@ -14,19 +14,6 @@ bool same_path(const MultiplexedState& x, const MultiplexedState& y) {
          std::abs(y.target_over_density - x.target_over_density) < rounding * x.target_over_density;
 }
 
-/// The technique s with the probability of its MIS weight; -1 if none can make the path.
-int sample_weights(const PathTerms& terms, double u) {
-  const int k = terms.edges();
-  int last = -1;
-  for (int s = 0; s <= k + 1; ++s) {
-    const double weight = mis_weight(terms, s, Heuristic::power);
-    if (!(weight > 0)) continue;
-    last = s;
-    if ((u -= weight) < 0) break;
-  }
-  return last;
-}
-
 }  // namespace
 
 /// The state's technique and numbers are one of the ways to make its path. Over all of them the
@@ -44,16 +31,22 @@ Transition MultiplexedStep::keep_path(const State& x, State& y, Rng& rng) {
   if (!found) return impossible;
   const bool strict = paths_.paths.settings().rules.strict_normals;
   compute_terms(*paths_.scene, path_, {true, strict}, terms_);
-  const int k = path_.edges(), s = sample_weights(terms_, rng.next());
+  const int k = path_.edges(), s = sample_technique(terms_, Heuristic::power, rng.next());
   if (s < 0) return impossible;
-  y.technique = {s, k + 1 - s};
-  y.numbers.step(false);
-  if (!invert_path(*paths_.scene, path_, y.technique, rng, y.numbers)) return impossible;
-  paths_(y, rng);
-  // Where rounding has made another path of it, the chain stays where it is.
-  if (same_path(x, y)) return {1, 1};
+  const Technique technique{s, k + 1 - s};
+  if (remake(x, x.technique, y, rng) && remake(x, technique, y, rng)) return {1, 1};
   y.clear();
   return impossible;
+}
+
+/// Makes y the same path by a technique; false if rounding has made another path of it. A step to a
+/// technique that has no way back would not leave the target unchanged, so that of x is tried too.
+bool MultiplexedStep::remake(const State& x, const Technique& technique, State& y, Rng& rng) {
+  y.technique = technique;
+  y.numbers.step(false);
+  if (!invert_path(*paths_.scene, path_, technique, rng, y.numbers)) return false;
+  paths_(y, rng);
+  return same_path(x, y);
 }
 
 }  // namespace mlt

@@ -74,30 +74,31 @@ enum class TechniqueChange {
 class MultiplexedStep {
  public:
   using State = MultiplexedState;
+  static constexpr size_t stages = 2;
   enum Move { large = 0, small = 1, technique = 2 };
 
-  MultiplexedStep(double large_probability, double technique_probability, TechniqueChange change,
-                  MultiplexedPaths paths, const TechniqueChoice& choice)
-      : large_probability_(large_probability),
-        technique_probability_(technique_probability),
-        change_(change),
-        paths_(std::move(paths)),
-        choice_(&choice) {}
+  /// With delayed rejection a small step follows a large one that was rejected, as in PrimaryStep.
+  struct Moves {
+    double large_probability, technique_probability;
+    TechniqueChange change;
+    bool delayed_rejection = false;
+  };
 
-  Transition propose(const State& x, std::array<State, 1>& proposals, size_t, Rng& rng) {
-    State& y = proposals[0];
+  MultiplexedStep(const Moves& moves, MultiplexedPaths paths, const TechniqueChoice& choice)
+      : moves_(moves), paths_(std::move(paths)), choice_(&choice) {}
+
+  Transition propose(const State& x, std::array<State, stages>& y, size_t stage, Rng& rng) {
+    if (stage > 0) return propose_again(x, y[0], y[1], rng);
     last_ = choose_move(rng.next());
-    if (last_ == technique && change_ == TechniqueChange::keeps_path) return keep_path(x, y, rng);
-    y.technique = x.technique;
+    if (last_ == technique && moves_.change == TechniqueChange::keeps_path)
+      return keep_path(x, y[0], rng);
+    Technique chosen = x.technique;
     if (last_ != small) {
-      const int edges = last_ == large ? choice_->sample_length(rng.next()) : x.technique.edges();
-      y.technique = choice_->sample_technique(edges, rng.next());
+      const int edges = last_ == large ? choice_->sample_length(rng.next()) : chosen.edges();
+      chosen = choice_->sample_technique(edges, rng.next());
     }
-    y.numbers = x.numbers;
-    y.numbers.step(last_ == large);
-    paths_(y, rng);
-    if (!generated(y)) return impossible;
-    return {density(y.technique) / y.target, density(x.technique) / x.target};
+    make(x, chosen, last_ == large, y[0], rng);
+    return quotients(last_, x, y[0]);
   }
 
   Move last() const { return last_; }
@@ -106,14 +107,32 @@ class MultiplexedStep {
 
  private:
   Transition keep_path(const State& x, State& y, Rng& rng);
+  bool remake(const State& x, const Technique& technique, State& y, Rng& rng);
 
   Move choose_move(double u) const {
-    if (u < large_probability_) return large;
-    return u < large_probability_ + technique_probability_ ? technique : small;
+    if (u < moves_.large_probability) return large;
+    return u < moves_.large_probability + moves_.technique_probability ? technique : small;
   }
-  /// With which the last move chooses a technique; all else that it does is symmetric.
-  double density(const Technique& technique_of_state) const {
-    switch (last_) {
+  void make(const State& x, const Technique& chosen, bool is_large, State& y, Rng& rng) {
+    y.technique = chosen;
+    y.numbers = x.numbers;
+    y.numbers.step(is_large);
+    paths_(y, rng);
+  }
+  Transition quotients(Move of, const State& x, const State& y) const {
+    if (!generated(y)) return impossible;
+    return {density(of, y.technique) / y.target, density(of, x.technique) / x.target};
+  }
+  Transition propose_again(const State& x, const State& y1, State& y2, Rng& rng) {
+    if (!moves_.delayed_rejection || last_ != large) return impossible;
+    make(x, x.technique, false, y2, rng);
+    const Transition own = quotients(small, x, y2);
+    return after_rejection(own, quotients(large, x, y1), quotients(large, y2, y1));
+  }
+
+  /// With which a move chooses a technique; all else that it does is symmetric.
+  double density(Move of, const Technique& technique_of_state) const {
+    switch (of) {
       case large:
         return choice_->pdf_length(technique_of_state.edges()) *
                choice_->pdf_technique(technique_of_state);
@@ -123,8 +142,7 @@ class MultiplexedStep {
     return 1;
   }
 
-  double large_probability_, technique_probability_;
-  TechniqueChange change_;
+  Moves moves_;
   MultiplexedPaths paths_;
   const TechniqueChoice* choice_;
   Move last_ = large;

@@ -26,6 +26,12 @@ class PrimaryNumbers {
     if (large) last_large_ = now_;
   }
 
+  /// Forgets all numbers; keeps its memory.
+  void clear() {
+    for (auto& numbers : streams_) numbers.clear();
+    now_ = last_large_ = 0;
+  }
+
   /// Number i of a stream, i being at most how many there are.
   double get(Stream stream, size_t i, const SmallStep& small_step, Rng& rng) {
     std::vector<Number>& numbers = streams_[static_cast<size_t>(stream)];

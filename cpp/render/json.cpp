@@ -42,9 +42,10 @@ std::string array(const std::vector<T>& items, Write&& write) {
 std::string mutation(const MutationStats& m) {
   return fmt::format(
       R"({{"name": {}, "length": {}, "proposed": {}, "generated": {}, "accepted": {}, )"
-      R"("mean_acceptance": {}, "image_distance": {}, "rays": {}, "weight": {}, "step_size": {}}})",
+      R"("mean_acceptance": {}, "image_distance": {}, "rays": {}, "failed_walks": {}, )"
+      R"("failed_returns": {}, "weight": {}, "step_size": {}}})",
       json_string(m.name), m.length, m.proposed, m.generated, m.accepted, m.mean_acceptance,
-      m.image_distance, m.rays, m.weight, m.step_size);
+      m.image_distance, m.rays, m.failed_walks, m.failed_returns, m.weight, m.step_size);
 }
 
 std::string stuck_chain(const StuckChain& s) {

@@ -27,8 +27,8 @@ class Minnaert final : public Bsdf {
     const Vec3 to = sample_cosine_power(direction_part(u), k_);
     return above(from, to) ? std::optional(BsdfSample{to, Lobe::smooth}) : std::nullopt;
   }
-  std::optional<Vec3> invert(const SurfacePoint&, const Vec3& from, const Vec3& to,
-                             Lobe lobe, const Vec3& v) const override {
+  std::optional<Vec3> invert(const SurfacePoint&, const Vec3& from, const Vec3& to, Lobe lobe,
+                             const Vec3& v) const override {
     if (lobe != Lobe::smooth || !above(from, to)) return std::nullopt;
     return u_of(v.x, invert_cosine_power(to, k_));
   }

@@ -44,6 +44,12 @@ class Scene:
         the scene does not have, SceneError for a value that does not fit.
         """
 
+    def triangles(self) -> list[dict[str, Any]]:
+        """The shapes as triangles, to be drawn: a list of dicts with shape (as
+        LightPath.vertices counts them), positions (n, 3), faces (m, 3), albedo (RGB, at one point)
+        and emits. A shape that is an equation is a grid of 32 x 32 cells; one that moves is where
+        it is at time 0."""
+
     def info(self) -> dict: ...
     def _repr_html_(self) -> str:
         """A quick render, for notebooks; see `pymlt.rendering.preview`."""

@@ -376,7 +376,7 @@ def test_an_audit_of_python_is_a_function_of_its_seed(scene):
 def test_a_mixture_with_python_is_audited_as_a_whole(scene):
     for broken, verdict in ((False, "right"), (True, "wrong")):
         mixture = [(mlt.Bidirectional(), 0.3), (Nudge(broken=broken), 0.7)]
-        audit = mlt.audit(mlt.MLT(max_depth=5, mutations=mixture), scene, paths=6000)
+        audit = mlt.audit(mlt.MLT(max_depth=5, mutations=mixture), scene, paths=9000)
         assert audit.verdict == verdict, audit.summary()
 
 

@@ -119,6 +119,8 @@ class ERPT(Integrator):
         Smallest move on the image, in pixels.
     caustic_largest_share : float, default 0.1
         Largest move on the image, as a share of its diagonal.
+    caustic_anisotropic : boolean, default True
+        Turn the direction by an ellipse whose image is round, not by a circle.
     multi_chain_perturbation : boolean, default True
         Use the multi-chain perturbation of paths (L|D)(DS+)+DS*E and L(S+D)+S*E (Veach 1997,
         sec. 11.3.3.3).
@@ -127,6 +129,15 @@ class ERPT(Integrator):
     multi_chain_smallest_pixels : float, default 0.1
         Smallest move on the image, in pixels.
     multi_chain_largest_share : float, default 0.1
+        Largest move on the image, as a share of its diagonal.
+    manifold_perturbation : boolean, default True
+        Use the manifold perturbation of what is lit through specular chains (Jakob & Marschner
+        2012, sec. 5).
+    manifold_weight : float, default 0.2
+        Weight of the manifold mutation among those that suit a path.
+    manifold_smallest_pixels : float, default 0.1
+        Smallest move on the image, in pixels.
+    manifold_largest_share : float, default 0.1
         Largest move on the image, as a share of its diagonal.
     near_specular : float, default 0.1
         Smooth vertices below this roughness count as specular in perturbations.
@@ -152,10 +163,15 @@ class ERPT(Integrator):
     caustic_weight: float
     caustic_smallest_pixels: float
     caustic_largest_share: float
+    caustic_anisotropic: bool
     multi_chain_perturbation: bool
     multi_chain_weight: float
     multi_chain_smallest_pixels: float
     multi_chain_largest_share: float
+    manifold_perturbation: bool
+    manifold_weight: float
+    manifold_smallest_pixels: float
+    manifold_largest_share: float
     near_specular: float
     chains: float
     chain_length: int
@@ -176,10 +192,15 @@ class ERPT(Integrator):
         caustic_weight: float = ...,
         caustic_smallest_pixels: float = ...,
         caustic_largest_share: float = ...,
+        caustic_anisotropic: bool = ...,
         multi_chain_perturbation: bool = ...,
         multi_chain_weight: float = ...,
         multi_chain_smallest_pixels: float = ...,
         multi_chain_largest_share: float = ...,
+        manifold_perturbation: bool = ...,
+        manifold_weight: float = ...,
+        manifold_smallest_pixels: float = ...,
+        manifold_largest_share: float = ...,
         near_specular: float = ...,
         chains: float = ...,
         chain_length: int = ...,
@@ -235,6 +256,8 @@ class MLT(Integrator):
         Smallest move on the image, in pixels.
     caustic_largest_share : float, default 0.1
         Largest move on the image, as a share of its diagonal.
+    caustic_anisotropic : boolean, default True
+        Turn the direction by an ellipse whose image is round, not by a circle.
     multi_chain_perturbation : boolean, default True
         Use the multi-chain perturbation of paths (L|D)(DS+)+DS*E and L(S+D)+S*E (Veach 1997,
         sec. 11.3.3.3).
@@ -248,6 +271,22 @@ class MLT(Integrator):
         Use the lens subpath mutation, which draws a fresh camera end (Veach 1997, sec. 11.3.4).
     lens_subpath_weight : float, default 0.1
         Weight of the lens_subpath mutation among those that suit a path.
+    multiplexed_perturbation : boolean, default False
+        Use the small step in primary sample space, by a technique that can make the path (Otsu
+        et al. 2017).
+    multiplexed_weight : float, default 0.1
+        Weight of the multiplexed mutation among those that suit a path.
+    multiplexed_step_size : float, default 0.015625
+        Largest move of a number in [0, 1).
+    manifold_perturbation : boolean, default True
+        Use the manifold perturbation of what is lit through specular chains (Jakob & Marschner
+        2012, sec. 5).
+    manifold_weight : float, default 0.2
+        Weight of the manifold mutation among those that suit a path.
+    manifold_smallest_pixels : float, default 0.1
+        Smallest move on the image, in pixels.
+    manifold_largest_share : float, default 0.1
+        Largest move on the image, as a share of its diagonal.
     near_specular : float, default 0.1
         Smooth vertices below this roughness count as specular in perturbations.
     adaptive : boolean, default True
@@ -255,11 +294,11 @@ class MLT(Integrator):
         weight is given, and never for a step size that is given.
     two_stage : boolean, default True
         Divide the target by a coarse image, so that dark regions get their share.
+    delayed_rejection : boolean, default False
+        Let a smaller step follow where a perturbation's proposal was rejected.
     direct_samples : integer, default -1
         Render light of at most one reflection apart with this many samples per pixel; 0 leaves
         it out, -1 leaves it to the chains.
-    manifold_perturbation : boolean, default False
-        Only false: it does not exist yet.
     mutations : list of mutations
         Those that take part, such as [(Bidirectional(), 0.4), (Lens(), 0.6)], in place of the
         parameters for each; others are off, and so is `adaptive` unless it is given.
@@ -283,17 +322,25 @@ class MLT(Integrator):
     caustic_weight: float
     caustic_smallest_pixels: float
     caustic_largest_share: float
+    caustic_anisotropic: bool
     multi_chain_perturbation: bool
     multi_chain_weight: float
     multi_chain_smallest_pixels: float
     multi_chain_largest_share: float
     lens_subpath_mutation: bool
     lens_subpath_weight: float
+    multiplexed_perturbation: bool
+    multiplexed_weight: float
+    multiplexed_step_size: float
+    manifold_perturbation: bool
+    manifold_weight: float
+    manifold_smallest_pixels: float
+    manifold_largest_share: float
     near_specular: float
     adaptive: bool
     two_stage: bool
+    delayed_rejection: bool
     direct_samples: int
-    manifold_perturbation: bool
     mutations: Sequence[Mutation | tuple[Mutation, float]] | None
     def __init__(
         self,
@@ -316,17 +363,25 @@ class MLT(Integrator):
         caustic_weight: float = ...,
         caustic_smallest_pixels: float = ...,
         caustic_largest_share: float = ...,
+        caustic_anisotropic: bool = ...,
         multi_chain_perturbation: bool = ...,
         multi_chain_weight: float = ...,
         multi_chain_smallest_pixels: float = ...,
         multi_chain_largest_share: float = ...,
         lens_subpath_mutation: bool = ...,
         lens_subpath_weight: float = ...,
+        multiplexed_perturbation: bool = ...,
+        multiplexed_weight: float = ...,
+        multiplexed_step_size: float = ...,
+        manifold_perturbation: bool = ...,
+        manifold_weight: float = ...,
+        manifold_smallest_pixels: float = ...,
+        manifold_largest_share: float = ...,
         near_specular: float = ...,
         adaptive: bool = ...,
         two_stage: bool = ...,
+        delayed_rejection: bool = ...,
         direct_samples: int = ...,
-        manifold_perturbation: bool = ...,
         mutations: Sequence[Mutation | tuple[Mutation, float]] | None = ...,
     ) -> None: ...
 
@@ -365,6 +420,8 @@ class MMLT(Integrator):
     step_size : float
         The largest move of a small step, by default 1/64, or the standard deviation of a
         Gaussian one, by default 0.01.
+    delayed_rejection : boolean, default False
+        Let a small step follow a large one that was rejected.
     p_technique : float, default 0.1
         Probability of a small step that also draws another technique for the same length.
     """
@@ -380,6 +437,7 @@ class MMLT(Integrator):
     p_large: float
     small_step: Literal["kelemen", "gaussian"]
     step_size: float | None
+    delayed_rejection: bool
     p_technique: float
     def __init__(
         self,
@@ -395,6 +453,7 @@ class MMLT(Integrator):
         p_large: float = ...,
         small_step: Literal["kelemen", "gaussian"] = ...,
         step_size: float | None = ...,
+        delayed_rejection: bool = ...,
         p_technique: float = ...,
     ) -> None: ...
 
@@ -463,6 +522,8 @@ class PSSMLT(Integrator):
     step_size : float
         The largest move of a small step, by default 1/64, or the standard deviation of a
         Gaussian one, by default 0.01.
+    delayed_rejection : boolean, default False
+        Let a small step follow a large one that was rejected.
     estimator : string, default 'path'
         The integrator whose numbers are mutated: `path`, `bdpt`, or `ptracer`, which does not
         see lights directly or in mirrors. One of: path, bdpt, ptracer.
@@ -481,6 +542,7 @@ class PSSMLT(Integrator):
     p_large: float
     small_step: Literal["kelemen", "gaussian"]
     step_size: float | None
+    delayed_rejection: bool
     estimator: Literal["path", "bdpt", "ptracer"]
     bidirectional: bool | None
     def __init__(
@@ -497,6 +559,7 @@ class PSSMLT(Integrator):
         p_large: float = ...,
         small_step: Literal["kelemen", "gaussian"] = ...,
         step_size: float | None = ...,
+        delayed_rejection: bool = ...,
         estimator: Literal["path", "bdpt", "ptracer"] = ...,
         bidirectional: bool | None = ...,
     ) -> None: ...
@@ -566,6 +629,8 @@ class RJMLT(Integrator):
     step_size : float
         The largest move of a small step, by default 1/64, or the standard deviation of a
         Gaussian one, by default 0.01.
+    delayed_rejection : boolean, default False
+        Let a small step follow a large one that was rejected.
     p_technique : float, default 0.1
         Probability of a step that changes the technique, not the path.
     """
@@ -581,6 +646,7 @@ class RJMLT(Integrator):
     p_large: float
     small_step: Literal["kelemen", "gaussian"]
     step_size: float | None
+    delayed_rejection: bool
     p_technique: float
     def __init__(
         self,
@@ -596,6 +662,7 @@ class RJMLT(Integrator):
         p_large: float = ...,
         small_step: Literal["kelemen", "gaussian"] = ...,
         step_size: float | None = ...,
+        delayed_rejection: bool = ...,
         p_technique: float = ...,
     ) -> None: ...
 

@@ -46,15 +46,19 @@ class Caustic(BuiltIn):
         Smallest move on the image, in pixels.
     largest_share : float, default 0.1
         Largest move on the image, as a share of its diagonal.
+    anisotropic : boolean, default True
+        Turn the direction by an ellipse whose image is round, not by a circle.
     """
 
     smallest_pixels: float
     largest_share: float
+    anisotropic: bool
     def __init__(
         self,
         *,
         smallest_pixels: float = ...,
         largest_share: float = ...,
+        anisotropic: bool = ...,
     ) -> None: ...
 
 class MultiChain(BuiltIn):
@@ -85,10 +89,50 @@ class LensSubpath(BuiltIn):
         self,
     ) -> None: ...
 
+class Multiplexed(BuiltIn):
+    """The small step in primary sample space, by a technique that can make the path (Otsu et al.
+    2017).
+
+    Parameters
+    ----------
+    step_size : float, default 0.015625
+        Largest move of a number in [0, 1).
+    """
+
+    step_size: float
+    def __init__(
+        self,
+        *,
+        step_size: float = ...,
+    ) -> None: ...
+
+class Manifold(BuiltIn):
+    """The manifold perturbation of what is lit through specular chains (Jakob & Marschner 2012,
+    sec. 5).
+
+    Parameters
+    ----------
+    smallest_pixels : float, default 0.1
+        Smallest move on the image, in pixels.
+    largest_share : float, default 0.1
+        Largest move on the image, as a share of its diagonal.
+    """
+
+    smallest_pixels: float
+    largest_share: float
+    def __init__(
+        self,
+        *,
+        smallest_pixels: float = ...,
+        largest_share: float = ...,
+    ) -> None: ...
+
 __all__ = [
     "Bidirectional",
     "Caustic",
     "Lens",
     "LensSubpath",
+    "Manifold",
     "MultiChain",
+    "Multiplexed",
 ]

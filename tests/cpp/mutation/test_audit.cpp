@@ -29,15 +29,18 @@ AuditReport audit_case(const Case& c, uint64_t paths) {
   AuditSettings how;
   how.paths = paths;
   how.significance = 1e-5;  // of each of many cases
-  if (c.mutation != "mixture") return audit(target, make_mutation(c.mutation, target), how);
+  if (c.mutation != "mixture")
+    return audit(target, make_bold_mutation(mutation_plugin(c.mutation), target), how);
   return audit(target, all_mutations(target), default_weights(), how);
 }
 
 class Audit : public testing::TestWithParam<Case> {};
 
-/// In caustics samples are worth less.
+/// Of caustics, and behind specular surfaces, samples are worth less.
 uint64_t paths_for(const Case& c, uint64_t paths) {
-  return c.mutation == "multi_chain" || c.scene == "sun_caustic" ? 5 * paths : paths;
+  if (c.mutation == "multi_chain" || c.scene == "sun_caustic" || c.scene == "glass_torus")
+    return 5 * paths;
+  return c.mutation == "multiplexed" || c.mutation == "manifold" ? 2 * paths : paths;
 }
 
 TEST_P(Audit, LeavesTheTargetUnchanged) {
@@ -51,10 +54,11 @@ INSTANTIATE_TEST_SUITE_P(Mutations, Audit, testing::ValuesIn(cases({"mirrors", "
 /// Whether the scene has enough paths for something to be said.
 bool has_paths(const Case& c) {
   if (c.mutation == "caustic") return c.scene != "camera_in_glass" && c.scene != "both_in_glass";
-  if (c.mutation != "multi_chain") return true;
+  if (c.mutation != "multi_chain" && c.mutation != "manifold" && c.mutation != "multiplexed")
+    return true;
   for (const char* scene : {"caustic", "plastic", "camera_under_water", "light_under_water",
                             "smooth_glass", "null_surface", "mirror", "mirrors", "near_specular",
-                            "near_specular_mirrors", "sun_caustic", "point_caustic"})
+                            "near_specular_mirrors", "sun_caustic", "point_caustic", "glass_torus"})
     if (c.scene == scene) return true;
   return false;
 }
@@ -100,7 +104,7 @@ AuditReport audit_variant(const std::string& name, bool two_stage, int min_depth
     for (const MutationPlugin& plugin : mutation_plugins()) {
       MutationValues own;
       if (plugin.has_step_size()) own.push_back({"largest_share", share});
-      all.push_back(make_mutation(plugin.name(), target, own));
+      all.push_back(make_bold_mutation(plugin, target, own));
     }
   std::vector<std::vector<double>> rows;
   for (int k = 0; k < 6; ++k) {
@@ -115,6 +119,16 @@ AuditReport audit_variant(const std::string& name, bool two_stage, int min_depth
 
 TEST(AuditOfTheMixture, HoldsForWeightsByLengthAndManyStepSizes) {
   const AuditReport report = audit_variant("mirrors", false, 1, 20000);
+  EXPECT_EQ(report.verdict, Verdict::right) << report.text();
+}
+
+TEST(AuditOfCaustics, HoldsForRoundMovesOfTheDirection) {
+  const ScenePtr scene = make_mutation_scene("caustic").scene;
+  const PathTarget target = path_target(scene);
+  AuditSettings how;
+  how.paths = 20000;
+  const AuditReport report =
+      audit(target, make_mutation("caustic", target, {{"anisotropic", false}}), how);
   EXPECT_EQ(report.verdict, Verdict::right) << report.text();
 }
 

@@ -2,6 +2,7 @@
 #include "mutation/chain_perturbation.h"
 #include "mutation/half_vector.h"
 #include "mutation/mutation_testing.h"
+#include "mutation/specular_chain.h"
 
 namespace mlt::test {
 namespace {
@@ -90,6 +91,16 @@ std::vector<Twin> twins() {
       twin("G_from_infinity", "caustic", "sun", [](auto&, const PathState& y, const Edit& edit) {
         return edit.first == 1 ? y.terms[0].G : 1.0;
       }));
+  all.push_back({"density_of_the_chain", "manifold", "point_caustic",
+                 [](const Scene& scene, const Mutations&) {
+                   return BrokenTwin::Factor(
+                       [&scene](const PathState&, const PathState& y, const Edit& edit) {
+                         const int c = edit.first - 1;
+                         const int b = ChainPerturbation::chain_end(y, c, 1);
+                         return SpecularChain(scene, &y[c], b - c - 1).density();
+                       });
+                 },
+                 100000});
   all.push_back(twin("G_of_the_first_edge", "lens_subpath", "cornell",
                      [](auto&, const PathState& y, auto&) { return y.terms[y.edges() - 1].G; }));
   all.push_back({"stop_probability", "lens_subpath", "plastic",
@@ -125,6 +136,9 @@ std::vector<Twin> twins() {
                      [](auto&, const PathState& y, const Edit& edit) {
                        return edit.inserted > 0 && edit.first > 0 ? y.terms[edit.first - 1].G : 1.0;
                      }));
+  all.push_back(twin("P", "multiplexed", "mirrors", [](auto&, const PathState& y, auto&) {
+    return total_density(AreaMeasure{y.terms});
+  }));
   all.push_back({"P_choose", "mixture", "caustic",
                  [](const Scene&, const Mutations& all) {
                    return BrokenTwin::Factor([&all](const PathState& x, auto&, auto&) {

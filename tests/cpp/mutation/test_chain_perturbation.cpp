@@ -122,6 +122,10 @@ TEST(Mutations, SuitTheirForms) {
     EXPECT_TRUE(suits("multi_chain", form)) << form;
   for (const char* form : {"LE", "LSE", "LDE", "LDSE", "LDDE", "LSDDE"})
     EXPECT_FALSE(suits("multi_chain", form)) << form;
+  for (const char* form : {"LSDE", "LDSDE", "LSDSE", "LSDDE"})
+    EXPECT_TRUE(suits("manifold", form)) << form;
+  for (const char* form : {"LE", "LSE", "LDE", "LDDE", "LDSE", "LDDSE"})
+    EXPECT_FALSE(suits("manifold", form)) << form;
   for (const char* form : {"LDE", "LDSE", "LDDSSE"})
     EXPECT_TRUE(suits("lens_subpath", form)) << form;
   for (const char* form : {"LE", "LSE", "LSDE", "LDSDE"})

@@ -2,6 +2,7 @@
 // samples its bootstrap has, how many threads there are, and whether it was saved on the way.
 #include "integrator/integrator_testing.h"
 #include "integrator/stats.h"
+#include "mutation/mutation_registry.h"
 #include "mutation/mutation_scenes.h"
 
 namespace mlt::test {
@@ -93,29 +94,34 @@ INSTANTIATE_TEST_SUITE_P(Scenes, LongMltImage,
 class LongMltVariant : public testing::TestWithParam<Assignments> {};
 
 TEST_P(LongMltVariant, HasTheSameImage) {
-  for (const char* name : {"cornell", "mirrors"}) {
+  for (const char* name : {"cornell", "mirrors", "glass_torus"}) {
     const ScenePtr scene = make_mutation_scene(name).scene;
     const SameImage found = same_image(mlt_side(scene, GetParam()), bdpt_side(scene), at_length());
     EXPECT_TRUE(found) << name << ": " << found.text;
   }
 }
 
-Assignments without(std::vector<std::string> switches) {
+/// Beside the bidirectional mutation only this one, or none.
+Assignments only(const std::string& name) {
   Assignments all;
-  for (const std::string& name : switches) all.push_back({name, "false"});
+  for (const MutationPlugin& plugin : mutation_plugins()) {
+    const bool on = plugin.name() == name || plugin.name() == "bidirectional";
+    all.push_back({plugin.switch_name, on ? "true" : "false"});
+  }
   return all;
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Variants, LongMltVariant,
-    testing::Values(
-        without({"lens_perturbation", "caustic_perturbation", "multi_chain_perturbation",
-                 "lens_subpath_mutation"}),
-        without({"caustic_perturbation", "multi_chain_perturbation", "lens_subpath_mutation"}),
-        without({"lens_perturbation", "multi_chain_perturbation", "lens_subpath_mutation"}),
-        without({"lens_perturbation", "caustic_perturbation", "lens_subpath_mutation"}),
-        without({"lens_perturbation", "caustic_perturbation", "multi_chain_perturbation"}),
-        Assignments{{"two_stage", "false"}}, Assignments{{"direct_samples", "16"}}));
+std::vector<Assignments> long_variants() {
+  std::vector<Assignments> all;
+  for (const MutationPlugin& plugin : mutation_plugins()) all.push_back(only(plugin.name()));
+  all.push_back({{"two_stage", "false"}});
+  all.push_back({{"direct_samples", "16"}});
+  all.push_back({{"delayed_rejection", "true"}});
+  all.push_back({{"caustic_anisotropic", "false"}});
+  return all;
+}
+
+INSTANTIATE_TEST_SUITE_P(Variants, LongMltVariant, testing::ValuesIn(long_variants()));
 
 // ---- two runs
 

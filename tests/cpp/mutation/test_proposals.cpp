@@ -17,10 +17,11 @@ bool operator==(const Edit& a, const Edit& b) {
 /// One path and one mutation, whose proposals of one edit are looked at.
 class Proposals {
  public:
-  Proposals(const std::string& scene, const std::string& mutation, int max_depth = 8)
+  Proposals(const std::string& scene, const std::string& mutation, int max_depth = 8,
+            const MutationValues& values = {})
       : scene_(make_mutation_scene(scene).scene),
         target_(path_target(scene_, max_depth)),
-        mutation_(make_mutation(mutation, target_)) {}
+        mutation_(make_mutation(mutation, target_, values)) {}
 
   void start(const std::string& signature, const std::function<Edit(const PathState&)>& edit,
              const std::function<bool(const PathState&)>& suits = nullptr) {
@@ -215,10 +216,10 @@ TEST(Proposals, LensPerturbationMovesThePointOnTheLens) {
   EXPECT_GT(result.p_value, alpha) << result;
 }
 
-/// The direction that leaves x_0 or a diffuse vertex, around that of x.
+/// The direction that leaves x_0 or a diffuse vertex, around that of x; as far to all sides.
 void expect_caustic_follows_density(const std::string& scene, const std::string& signature,
                                     uint64_t seed) {
-  Proposals p(scene, "caustic");
+  Proposals p(scene, "caustic", 8, {{"anisotropic", false}});
   p.start(signature, [](const PathState& x) { return Edit{x.edges() - 1, x.edges() - 1, 1}; });
   const int k = p.x.edges();
   const SurfacePoint from = p.x[k - 2].at;

@@ -130,7 +130,7 @@ Invariance invariance(Kernel kernel, int n = 300'000, int steps = 1) {
     std::vector<double> change(observe(x).size());
     if (weight > 0) {
       const size_t before = x.used.size();
-      std::array<WalkState, 1> y;
+      std::array<WalkState, 2> y;
       const std::vector<double> g = observe(x);
       for (int k = 0; k < steps; ++k) {
         const StepResult step = metropolis_step(x, y, kernel, rng, forget);
@@ -151,7 +151,8 @@ Invariance invariance(Kernel kernel, int n = 300'000, int steps = 1) {
 TEST(PrimaryStep, LeavesItsTargetUnchanged) {
   for (const SmallStep& step : steps)
     for (const double large : {1.0, 0.3, 0.0}) {
-      const Kernel kernel(large, [&](WalkState& state, Rng& rng) { walk_with(step, state, rng); });
+      const Kernel kernel(large, false,
+                          [&](WalkState& state, Rng& rng) { walk_with(step, state, rng); });
       const Invariance result = invariance(kernel);
       EXPECT_GT(result.p_value, alpha) << large;
       EXPECT_GT(result.accepted, 50'000) << large;
@@ -162,10 +163,38 @@ TEST(PrimaryStep, LeavesItsTargetUnchanged) {
 /// Several steps: numbers that were not used in between have to catch up.
 TEST(PrimaryStep, LeavesItsTargetUnchangedWhenNumbersAreMovedLater) {
   for (const double large : {0.2, 0.0}) {
-    const Invariance result = invariance(Kernel(large, walk), 60'000, 12);
+    const Invariance result = invariance(Kernel(large, false, walk), 60'000, 12);
     EXPECT_GT(result.p_value, alpha) << large;
     EXPECT_GT(result.dimension_changed, 1000) << large;
   }
+}
+
+TEST(PrimaryStep, LeavesItsTargetUnchangedWithDelayedRejection) {
+  for (const double large : {1.0, 0.4}) {
+    const Invariance one = invariance(Kernel(large, false, walk));
+    const Invariance two = invariance(Kernel(large, true, walk));
+    EXPECT_GT(two.p_value, alpha) << large;
+    EXPECT_GT(two.accepted, one.accepted + 10'000) << large;
+  }
+}
+
+/// A second stage that forgets that the first was rejected.
+struct Forgetful {
+  Kernel kernel{1, true, walk};
+  Kernel small{0, false, [](WalkState& state, Rng& rng) {
+                 walk_with({SmallStep::Shape::gaussian, 0.2}, state, rng);
+               }};
+  Transition propose(const WalkState& x, std::array<WalkState, 2>& y, size_t stage, Rng& rng) {
+    if (stage == 0) return kernel.propose(x, y, 0, rng);
+    std::array<WalkState, 2> own;
+    const Transition t = small.propose(x, own, 0, rng);
+    y[1] = own[0];
+    return t;
+  }
+};
+
+TEST(PrimaryStep, ThatForgetsTheRejectionIsFound) {
+  EXPECT_LT(invariance(Forgetful()).p_value, alpha);
 }
 
 /// The right kernel with something done to its quotients.
@@ -173,14 +202,14 @@ template <class Spoil>
 struct SpoiltQuotient {
   Kernel kernel;
   Spoil spoil;
-  Transition propose(const WalkState& x, std::array<WalkState, 1>& y, size_t stage, Rng& rng) {
+  Transition propose(const WalkState& x, std::array<WalkState, 2>& y, size_t stage, Rng& rng) {
     const Transition t = kernel.propose(x, y, stage, rng);
-    return y[0].target == 0 ? t : spoil(t, x, y[0]);
+    return stage > 0 || y[0].target == 0 ? t : spoil(t, x, y[0]);
   }
 };
 template <class Spoil>
 SpoiltQuotient<Spoil> spoilt(double large, Spoil spoil) {
-  return {Kernel(large, walk), spoil};
+  return {Kernel(large, false, walk), spoil};
 }
 
 TEST(PrimaryStep, WithAWrongQuotientIsFound) {
@@ -205,7 +234,9 @@ TEST(PrimaryStep, WithAWrongQuotientIsFound) {
 template <class Flaw>
 struct Flawed {
   Flaw flaw;
-  Transition propose(const WalkState& x, std::array<WalkState, 1>& proposals, size_t, Rng& rng) {
+  Transition propose(const WalkState& x, std::array<WalkState, 2>& proposals, size_t stage,
+                     Rng& rng) {
+    if (stage > 0) return impossible;
     WalkState& y = proposals[0];
     y.numbers = x.numbers;
     flaw(x, y, rng);
@@ -247,8 +278,8 @@ TEST(PrimaryStep, MovesEveryNumberALittleOrDrawsAllAfresh) {
   WalkState x;
   do walk(x, rng);
   while (x.target == 0);
-  std::array<WalkState, 1> y;
-  Kernel kernel(0.3, walk);
+  std::array<WalkState, 2> y;
+  Kernel kernel(0.3, false, walk);
   int large = 0;
   for (int i = 0; i < 10'000; ++i) {
     kernel.propose(x, y, 0, rng);
@@ -265,10 +296,10 @@ TEST(PrimaryStep, MovesEveryNumberALittleOrDrawsAllAfresh) {
 }
 
 TEST(PrimaryStep, RejectsWhatIsBlack) {
-  Kernel kernel(1, [](WalkState& state, Rng&) { state.target = 0; });
+  Kernel kernel(1, false, [](WalkState& state, Rng&) { state.target = 0; });
   WalkState x;
   x.target = 1;
-  std::array<WalkState, 1> y;
+  std::array<WalkState, 2> y;
   Rng rng(55, Purpose::test, 0);
   EXPECT_EQ(acceptance(kernel.propose(x, y, 0, rng)), 0);
 }

@@ -1,0 +1,53 @@
+// How a perturbation that starts at the lens begins: the image position moves by a small distance
+// and, with a lens of finite aperture, half of the time the point on the lens too.
+#pragma once
+
+#include "mutation/chain_perturbation.h"
+#include "path/walk.h"
+
+namespace mlt {
+
+class ImageMove {
+ public:
+  ImageMove(const Scene& scene, const ChainPerturbation& chain)
+      : camera_(&scene.camera()), chain_(chain) {}
+
+  /// Places the end of y, and returns the ray that leaves it; nullopt if it misses the image.
+  std::optional<Ray> move(const PathState& x, PathState& y, Rng& rng) const {
+    const int k = x.edges();
+    y.path[k] = x[k];
+    if (!camera_->delta_position() && rng.next() < 0.5) {
+      const auto moved = camera_->move_on_lens(x[k].at, offset(lens_radius(), rng));
+      if (!moved) return std::nullopt;
+      y.path[k].at = *moved;
+    }
+    const Vec2 raster = x.raster + offset(chain_.image_radius(), rng);
+    if (!camera_->raster().contains(raster)) return std::nullopt;
+    return leave_lens(*camera_, y[k].at, raster);
+  }
+
+  /// Density of the point on the lens of y, times that of the direction in projected solid angle.
+  double density(const PathState& x, const PathState& y) const {
+    const double on_image = chain_.image_radius().planar_pdf(glm::length(y.raster - x.raster)) *
+                            chain_.raster_per_direction(y);
+    if (camera_->delta_position()) return on_image;
+    const Vec3 from = x[x.edges()].at.p, to = y[y.edges()].at.p;
+    return on_image * 0.5 * (from == to ? 1 : lens_radius().planar_pdf(length(to - from)));
+  }
+
+ private:
+  static Vec2 offset(const ExponentialRadius& radius, Rng& rng) {
+    const double r = radius.sample(rng.next()), phi = 2 * pi * rng.next();
+    return r * Vec2(std::cos(phi), std::sin(phi));
+  }
+
+  /// Radii on the lens: a thousandth and a third of its own radius.
+  ExponentialRadius lens_radius() const {
+    return {1e-3 * camera_->lens_radius(), camera_->lens_radius() / 3};
+  }
+
+  const Camera* camera_;
+  ChainPerturbation chain_;
+};
+
+}  // namespace mlt

@@ -1,0 +1,73 @@
+#include "mutation/manifold_walk.h"
+
+namespace mlt {
+
+bool ManifoldWalk::start(const Scene& scene, const PathState& x, int c, int b) {
+  scene_ = &scene;
+  count_ = b - c - 1;
+  if (count_ > most) return false;
+  chain_.assign(x.path.vertices.begin() + c, x.path.vertices.begin() + b + 1);
+  next_.resize(chain_.size());
+  for (int i = 0; i < count_; ++i) {
+    const auto kept = specular_scattering(scene, chain_[i].at, chain_[i + 1], chain_[i + 2].at);
+    if (!kept) return false;
+    kept_[i] = *kept;
+  }
+  return true;
+}
+
+bool ManifoldWalk::go(const SurfacePoint& end, double time, RayCounts& rays) {
+  /// As an angle, seen from the last vertex.
+  constexpr double tolerance = 1e-7;
+  next_[0] = chain_[0];
+  Vec3 move(0);
+  double share = 1;
+  bool moved = true;
+  for (int step = 0; step < most_steps; ++step) {
+    const Vec3 missing = end.p - chain_[count_ + 1].at.p;
+    const double distance = length(missing);
+    if (distance <= tolerance * length(end.p - chain_[count_].at.p))
+      return Walker{*scene_, time, rays}.join(chain_[count_].at, end) > 0;
+    if (moved) {
+      const SpecularChain chain(*scene_, chain_.data(), count_);
+      if (!(chain.density() > 0)) return false;
+      move = chain.first_move(missing);
+    }
+    moved = trace(chain_[1].at.p + share * move, end, time, rays, next_) &&
+            length(end.p - next_[count_ + 1].at.p) < distance;
+    if (moved) std::swap(chain_, next_);
+    share = moved ? std::min(1.0, 2 * share) : 0.5 * share;
+    if (share < least_step) return false;
+  }
+  return false;
+}
+
+Ray ManifoldWalk::first_ray(const Vec3& p, double time) const {
+  const SurfacePoint& from = chain_[0].at;
+  if (!from.infinite()) {
+    // It starts a little off the surface, but has to meet p.
+    const Vec3 start = scene_->spawn(from, normalize(p - from.p), time).o;
+    return {start, normalize(p - start), time};
+  }
+  const Bounds& bounds = scene_->bounds();
+  const double back = dot(bounds.center - p, from.p) + bounds.radius;
+  return {p + back * from.p, -from.p, time};
+}
+
+bool ManifoldWalk::trace(const Vec3& p, const SurfacePoint& end, double time, RayCounts& rays,
+                         Chain& chain) const {
+  const Walker walker{*scene_, time, rays};
+  Ray ray = first_ray(p, time);
+  for (int i = 1; i <= count_; ++i) {
+    if (!walker.arrive(ray, chain[i]) || !has_constraint(*scene_, chain[i])) return false;
+    chain[i].lobe = chain_[i].lobe;
+    const auto out = scattered_direction(*scene_, chain[i], kept_[i - 1], -ray.d);
+    if (!out) return false;
+    ray = walker.leave(chain[i].at, *out);
+  }
+  const double along = dot(end.p - ray.o, ray.d);
+  chain[count_ + 1].at.p = ray.o + along * ray.d;
+  return along > 0;
+}
+
+}  // namespace mlt

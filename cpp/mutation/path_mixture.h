@@ -1,0 +1,50 @@
+// The mixture of mutations that moves a light path, with delayed rejection: after a bold proposal
+// that was rejected comes a timid one (Tierney & Mira 1999; for light transport Rioux-Lavoie et al.
+// 2020, "Delayed rejection Metropolis light transport").
+//
+// With T1 and T2 the densities of both stages and a1 the acceptance of the first, the second accepts
+// y2 with
+//
+//   min(1, L*(y2) T2(y2 -> x) T1(y2 -> y1) (1 - a1(y2 -> y1))
+//          / (L*(x) T2(x -> y2) T1(x -> y1) (1 - a1(x -> y1)))).
+//
+// The second stage comes only where the first has made a path, with or without light: without one
+// T1 is not known.
+#pragma once
+
+#include "markov/mixture.h"
+#include "mutation/mutation.h"
+
+#include <memory>
+#include <vector>
+
+namespace mlt {
+
+using MutationPtr = std::shared_ptr<const Mutation>;
+using Mutations = std::vector<MutationPtr>;
+
+class PathMixture : public Mixture<const Mutation> {
+ public:
+  static constexpr size_t stages = 2;
+
+  /// After a rejected proposal of mutation i comes one of timid[i]; without, or where that is
+  /// nullptr, none.
+  PathMixture(Mutations moves, std::shared_ptr<const MixtureWeights> weights, Mutations timid = {})
+      : Mixture(std::move(moves), std::move(weights)), timid_(std::move(timid)) {}
+
+  Transition propose(const PathState& x, std::array<PathState, stages>& y, size_t stage, Rng& rng) {
+    if (stage > 0) return propose_again(x, y[0], y[1], rng);
+    if (choose(x, rng)) draw(x, y[0], rng);
+    return first_ = transition(x, y[0]);
+  }
+
+ private:
+  Transition propose_again(const PathState& x, const PathState& y1, PathState& y2, Rng& rng);
+  /// Of the mutation that was chosen, from any state.
+  Transition bold_transition(const PathState& x, const PathState& y);
+
+  Mutations timid_;
+  Transition first_;  ///< Of the first stage.
+};
+
+}  // namespace mlt

@@ -1,0 +1,88 @@
+// Delayed rejection leaves L* unchanged, and the audit would see it if it did not.
+#include "mutation/mutation_testing.h"
+
+namespace mlt::test {
+namespace {
+
+MutationPtr perturbation(const std::string& name, const PathTarget& target, double share) {
+  return make_mutation(name, target, {{"largest_share", share}});
+}
+
+/// Says T(x -> y) wrongly where a second stage asks for it, but not where its own proposal is judged.
+class WrongInSecondStage : public Mutation {
+ public:
+  explicit WrongInSecondStage(MutationPtr whole)
+      : Mutation(whole->name(), whole->target()), whole_(std::move(whole)) {}
+
+  double suitability(const PathState& x) const override { return whole_->suitability(x); }
+  std::optional<Edit> propose(const PathState& x, PathState& y,
+                              MutationContext& context) const override {
+    return whole_->propose(x, y, context);
+  }
+  double density(const PathState& x, const PathState& y, const Edit& edit) const override {
+    return whole_->density(x, y, edit) * std::exp(5 * x.raster.x);
+  }
+  double relative_density(const PathState& x, const PathState& y, const Edit& edit) const override {
+    return whole_->relative_density(x, y, edit);
+  }
+
+ private:
+  MutationPtr whole_;
+};
+
+AuditReport audit_two_stages(const PathTarget& target, const MutationPtr& bold,
+                             const std::string& timid, uint64_t paths, double significance = 1e-5) {
+  AuditSettings how;
+  how.paths = paths;
+  how.significance = significance;
+  const auto weights = std::make_shared<MixtureWeights>(std::vector<double>{1.0});
+  // Not very timid: T(y2 -> y1) is to differ from T(x -> y1).
+  return audit(target, PathMixture({bold}, weights, {perturbation(timid, target, 0.3)}), how);
+}
+
+struct Case {
+  std::string scene, mutation;
+};
+void PrintTo(const Case& c, std::ostream* out) { *out << c.mutation << " on " << c.scene; }
+
+class DelayedRejectionOfPaths : public testing::TestWithParam<Case> {};
+
+TEST_P(DelayedRejectionOfPaths, LeavesTheTargetUnchanged) {
+  const ScenePtr scene = make_mutation_scene(GetParam().scene).scene;
+  const PathTarget target = path_target(scene);
+  const std::string& name = GetParam().mutation;
+  const AuditReport report = audit_two_stages(target, perturbation(name, target, 0.5), name, 60000);
+  EXPECT_EQ(report.verdict, Verdict::right) << report.text();
+}
+
+INSTANTIATE_TEST_SUITE_P(Mutations, DelayedRejectionOfPaths,
+                         testing::Values(Case{"cornell", "lens"}, Case{"mirrors", "lens"},
+                                         Case{"near_specular", "lens"}, Case{"cornell", "caustic"},
+                                         Case{"caustic", "caustic"}, Case{"sun", "caustic"},
+                                         Case{"mirrors", "multi_chain"}),
+                         [](const auto& info) {
+                           return info.param.scene + "_" + info.param.mutation;
+                         });
+
+TEST(DelayedRejectionOfPaths, NeedsTheDensityOfTheFirstStage) {
+  const ScenePtr scene = make_mutation_scene("near_specular").scene;
+  const PathTarget target = path_target(scene);
+  const auto wrong = std::make_shared<WrongInSecondStage>(perturbation("lens", target, 0.5));
+  const AuditReport report = audit_two_stages(target, wrong, "lens", 200000, 1e-4);
+  EXPECT_EQ(report.verdict, Verdict::wrong) << report.text();
+}
+
+TEST(DelayedRejectionOfPaths, FindsMovesWhereTheFirstStageFails) {
+  const ScenePtr scene = make_mutation_scene("cornell").scene;
+  const PathTarget target = path_target(scene);
+  const auto bold = perturbation("lens", target, 0.5);
+  AuditSettings how;
+  how.paths = 20000;
+  const AuditReport one = audit(target, bold, how);
+  const AuditReport two = audit_two_stages(target, bold, "lens", how.paths);
+  const auto rejected = [](const AuditReport& report) { return report.steps - report.accepted; };
+  EXPECT_LT(static_cast<double>(rejected(two)), 0.9 * static_cast<double>(rejected(one)));
+}
+
+}  // namespace
+}  // namespace mlt::test
