@@ -2,6 +2,7 @@
 #include "bindings.h"
 #include "scene_dict.h"
 #include "scene_editing.h"
+#include "shape_triangles.h"
 #include "text.h"
 
 #include "io/pack.h"
@@ -131,6 +132,12 @@ void bind_scene(py::module_& m) {
           "stays\nthe same is shared with this scene, which does not change. Raises UsageError for "
           "a "
           "name that\nthe scene does not have, SceneError for a value that does not fit.")
+      .def(
+          "triangles", &shape_triangles,
+          "The shapes as triangles, to be drawn: a list of dicts with shape (as LightPath.vertices "
+          "counts\nthem), positions (n, 3), faces (m, 3), albedo (RGB, at one point) and emits. A "
+          "shape that is an\nequation is a grid of 32 x 32 cells; one that moves is where it is at "
+          "time 0.")
       .def("info", &info, "What the scene holds, as a dict.")
       .def("__repr__", &describe_scene);
 

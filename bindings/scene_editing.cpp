@@ -47,6 +47,16 @@ Node given(const NamedParameter& named, const std::string& name, const py::handl
   return node;
 }
 
+/// The size that the film is asked for, which is edited like its own.
+std::optional<Vec2i> edited_size(std::optional<Vec2i> size, const NamedParameter& named,
+                                 const py::handle& value) {
+  if (!size || named.plugin->node->family != "film" || !py::isinstance<py::int_>(value))
+    return size;
+  if (named.parameter->name == "width") size->x = value.cast<int>();
+  if (named.parameter->name == "height") size->y = value.cast<int>();
+  return size;
+}
+
 }  // namespace
 
 py::dict scene_parameters(const LoadedScene& loaded) {
@@ -62,15 +72,20 @@ LoadedScene updated_scene(const LoadedScene& loaded, const py::dict& values) {
   Node tree = loaded.tree;
   const std::vector<NamedNode> nodes = name_nodes(tree, plugins());
   std::vector<Change> changes;
+  std::optional<Vec2i> size = loaded.size;
   for (const auto& [key, value] : values) {
     if (!py::isinstance<py::str>(key)) throw UsageError("a parameter's name should be a string");
     const std::string name = bytes_of(key);
     const NamedParameter named = find_parameter(nodes, name);
     changes.push_back({named.plugin, given(named, name, value)});
+    size = edited_size(size, named, value);
   }
   const py::gil_scoped_release release;
   apply(std::move(changes));
-  return build_again(loaded, tree, plugins());
+  if (size == loaded.size) return build_again(loaded, tree, plugins());
+  LoadedScene resized = loaded;
+  resized.size = size;
+  return build_again(resized, tree, plugins());
 }
 
 }  // namespace mlt::python

@@ -1,4 +1,4 @@
-"""Brings the tables of flags in command-line.md up to date with `pymlt render` and `pymlt race`.
+"""Brings the tables of flags in command-line.md up to date with what the commands take.
 
 Run it after one has changed (python docs/make_command_line.py); a test compares the page with what
 this makes.

@@ -47,6 +47,7 @@ from .rendering.result import Groups, Replay, Result, Technique
 from .rendering.start import render, render_progressive, replay, resume, start
 from .scenes.loading import load, load_dict, load_file, load_string
 from .scenes.transforms import Transform
+from .viewing.start import view
 
 if TYPE_CHECKING:
     from . import metropolis, quadrature, race
@@ -101,6 +102,7 @@ __all__ = [
     "scenes",
     "start",
     "tonemap",
+    "view",
     "write_image",
 ]
 Scene._repr_html_ = _preview

@@ -137,6 +137,16 @@ def value_of(scene, name):
     return scene
 
 
+def test_the_size_of_a_film_is_edited_whatever_size_was_asked_for():
+    scene = mlt.load_dict(mlt.scenes.cornell_box(), size=(64, 32))
+    half = scene.updated({"sensor.film.width": 32})
+    assert (half.width, half.height) == (32, 32)
+    small = scene.updated({"sensor.film.width": 16, "sensor.film.height": 8})
+    same = mlt.load_dict(mlt.scenes.cornell_box(), size=(16, 8))
+    images = [mlt.render(s, "path", spp=2) for s in (small, same)]
+    np.testing.assert_array_equal(*images)
+
+
 def test_edits_one_after_the_other_are_edits_at_once():
     scene = mlt.load_dict(house())
     for name, value in EDITS.items():

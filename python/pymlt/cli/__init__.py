@@ -1,4 +1,5 @@
-"""The command line: pymlt render | merge | compare | denoise | convert | info | list | lab | race.
+"""The command line: pymlt render | merge | compare | denoise | convert | info | list | lab | race |
+view.
 
 Exit codes: 0 done; 1 `compare --fail-above` found more; 2 a mistake in usage or in the scene, or an
 output that cannot be written, found before the work began; 3 the render failed, or an output at its
@@ -13,7 +14,7 @@ import sys
 import traceback
 
 from .. import _core
-from . import compare, convert, denoise, info, lab, listing, merge, race, render
+from . import compare, convert, denoise, info, lab, listing, merge, race, render, view
 from .common import Parser, open_standard_streams, say
 
 COMMANDS = {
@@ -26,6 +27,7 @@ COMMANDS = {
     "list": listing,
     "lab": lab,
     "race": race,
+    "view": view,
 }
 
 

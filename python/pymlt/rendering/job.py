@@ -103,6 +103,11 @@ class Job:
         return Replay(*self._job.replay(pixel, sample))
 
     @property
+    def samples(self) -> float:
+        """Samples (or mutations) per pixel so far."""
+        return self._job.spp_done
+
+    @property
     def progress(self) -> float:
         """The share of the budget that is used up, 0 to 1."""
         return self._job.progress

@@ -1,0 +1,154 @@
+"""The first page of the panel: what is rendered, and how it is shown."""
+
+from __future__ import annotations
+
+import time
+from html import escape
+from typing import Any
+
+from .. import _core
+from ..algorithms.integrators import integrator_schema
+from ..pictures.output import OutputFile
+from ..pictures.tonemapping import CURVES
+from . import shown
+from .live import Algorithm
+from .page import STYLE, table
+
+NONE = "none"
+SECONDS = 600
+
+
+class Controls:
+    """Of a session, within the container that is open."""
+
+    def __init__(self, session: Any, algorithm: Algorithm):
+        self._session, gui = session, session.client.gui
+        self._began = time.monotonic()
+        names = sorted(_core.names("integrator"))
+        self._status = gui.add_html(STYLE)
+        with gui.add_form("What is rendered") as form:
+            self._name = gui.add_dropdown("Integrator", names, initial_value=algorithm.name)
+            hint = "NAME=VALUE, ...; press Enter. The table below names them all."
+            self._parameters = gui.add_text("Parameters", algorithm.parameters, hint=hint)
+            self._other = gui.add_dropdown("Beside it", [NONE, *names], initial_value=NONE)
+            self._others = gui.add_text("Its parameters", "", hint=hint, visible=False)
+            self._seconds = gui.add_text("Seconds", str(SECONDS), hint="The render ends then.")
+            apply = gui.add_button("Render")
+        self._share = gui.add_slider("Left / right", 0, 100, 1, 50, visible=False)
+        self._buttons = gui.add_button_group("", ["Stop", "Resume", "Scene's view"])
+        with gui.add_folder("How it is shown"):
+            self._exposure = gui.add_slider("Exposure", -8.0, 8.0, 0.25, 0.0, hint="in stops")
+            self._curve = gui.add_dropdown("Tone curve", list(CURVES))
+            self._layer = gui.add_dropdown("Layer", list(shown.LAYERS))
+        self._save = gui.add_button_group("Save as", ["EXR", "PNG", "JPEG"])
+        with gui.add_folder("Parameters of the integrator", expand_by_default=False):
+            self._help = gui.add_html("")
+        self._explain()
+        self._connect(form, apply)
+
+    def _connect(self, form: Any, apply: Any) -> None:
+        post = self._session.post
+        form.on_submit(lambda _: post(self._session.restart))
+        apply.on_click(lambda _: form.submit())
+        self._name.on_update(lambda _: post(self._chosen))
+        self._other.on_update(lambda _: post(self._chosen))
+        self._buttons.on_click(lambda event: post(lambda: self._press(event.target.value)))
+        self._save.on_click(lambda event: post(lambda: self._download(event.target.value)))
+        for field in (self._exposure, self._curve, self._layer, self._share):
+            field.on_update(lambda _: post(self._session.renew))
+
+    # ---- what the session asks
+
+    def algorithms(self) -> list[Algorithm]:
+        """Raises UsageError, sooner or later, for what makes no sense."""
+        self._began = time.monotonic()
+        chosen = [Algorithm(self._name.value, self._parameters.value)]
+        if self._other.value != NONE:
+            chosen.append(Algorithm(self._other.value, self._others.value))
+        return chosen
+
+    def seconds(self) -> float:
+        """Raises UsageError."""
+        try:
+            seconds = float(self._seconds.value)
+        except ValueError:
+            seconds = 0.0
+        if not 0 < seconds < 1e9:
+            raise _core.UsageError(
+                f"Seconds is {self._seconds.value!r}, but should be a number above 0"
+            )
+        return seconds
+
+    def look(self) -> shown.Look:
+        return shown.Look(self._layer.value, float(self._exposure.value), self._curve.value)
+
+    def share(self) -> float | None:
+        """Of the width that the first of two renders has; None for one."""
+        return self._share.value / 100 if self._other.value != NONE else None
+
+    def show_status(self) -> None:
+        live = self._session.live
+        rows = [
+            [escape(name), f"{job.samples:.4g} spp"]
+            for name, job in zip(self._names(), live.jobs, strict=False)
+        ] or [["first pictures", ""]]
+        state = "running" if live.running else "ended"
+        width, height = self._session.camera.size
+        text = f"{width} x {height}, {state}, {time.monotonic() - self._began:.0f} s"
+        said = [] if live.running else [w for job in live.jobs for w in job.stats["warnings"]]
+        rows += [["note", escape(warning)] for warning in said]
+        self._status.content = (
+            STYLE + f'<p class="mlt" data-state="{state}">{text}</p>' + table(rows)
+        )
+
+    def _names(self) -> list[str]:
+        return [self._name.value, self._other.value]
+
+    # ---- what the page asks
+
+    def _chosen(self) -> None:
+        """Another integrator has other parameters."""
+        two = self._other.value != NONE
+        self._share.visible = self._others.visible = two
+        self._explain()
+        self._session.restart()
+
+    def _explain(self) -> None:
+        rows = [["name", "default", "meaning"]]
+        for row in integrator_schema(self._name.value)["parameters"]:
+            rows.append([escape(str(row.get(k, ""))) for k in ("name", "default", "doc")])
+        self._help.content = table(rows, head=True)
+
+    def _press(self, button: str) -> None:
+        live = self._session.live
+        if button == "Stop":
+            live.stop()
+        elif button == "Resume":
+            if not live.running and not live.resume(self.seconds()):
+                self._session.restart()
+        else:
+            self._session.camera.place(self._session.client.camera)
+        self._session.renew()
+
+    def _download(self, kind: str) -> None:
+        """Through the browser: the page writes no file on the machine that renders."""
+        import tempfile
+        from pathlib import Path
+
+        jobs = self._session.live.jobs
+        if not jobs or jobs[0].samples == 0:
+            raise _core.UsageError("there is nothing to save yet")
+        result, look = jobs[0].snapshot(), self.look()
+        name = f"{result.integrator['type']}.{kind.lower()}"
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / name
+            OutputFile(
+                str(path),
+                result.image,
+                result.layers,
+                result.metadata,
+                result.half,
+                look.exposure,
+                look.curve,
+            ).write()
+            self._session.client.send_file_download(name, path.read_bytes())

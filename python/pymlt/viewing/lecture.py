@@ -1,0 +1,82 @@
+"""The third page of the panel: the lecture's examples, each with its sliders."""
+
+from __future__ import annotations
+
+from html import escape
+from typing import Any
+
+from .lecture_examples import EXAMPLES, Chart, Example
+
+STROKES = ("#4aa3ff", "#ff9f43", "#3ecf8e", "#ff6b6b", "#bbbbbb")
+INK = "#c8c8c8"
+
+
+class Lecture:
+    """Of a session, within the container that is open."""
+
+    def __init__(self, session: Any):
+        self._session, self._gui = session, session.client.gui
+        names = [example.name for example in EXAMPLES]
+        self._choice = self._gui.add_dropdown("Example", names)
+        self._place = self._gui.add_folder(None)
+        self._parts: list[Any] = []
+        self._sliders: list[Any] = []
+        self._charts: list[Any] = []
+        self._text: Any = None
+        self._example: Example | None = None
+        self._choice.on_update(lambda _: session.post(self._open))
+        session.post(self._open)
+
+    def _open(self) -> None:
+        """Show the example that was chosen."""
+        for part in self._parts:
+            part.remove()
+        self._example = next(e for e in EXAMPLES if e.name == self._choice.value)
+        post = self._session.post
+        with self._place:
+            intro = self._gui.add_html(f'<p class="mlt">{escape(self._example.text)}</p>')
+            self._sliders = [
+                self._gui.add_slider(s.name, float(s.low), float(s.high), s.step, float(s.value))
+                for s in self._example.sliders
+            ]
+            self._text = self._gui.add_html("")
+            shown = self._run()
+            self._charts = [self._gui.add_uplot(**_uplot(chart)) for chart in shown.charts]
+        for slider in self._sliders:
+            slider.on_update(lambda _: post(self._renew))
+        self._parts = [intro, *self._sliders, self._text, *self._charts]
+
+    def _run(self) -> Any:
+        assert self._example is not None
+        shown = self._example.run(*(float(slider.value) for slider in self._sliders))
+        self._text.content = f'<p class="mlt" data-example="1">{escape(shown.text)}</p>'
+        return shown
+
+    def _renew(self) -> None:
+        for handle, chart in zip(self._charts, self._run().charts, strict=True):
+            handle.data = _data(chart)
+
+
+def _data(chart: Chart) -> tuple[Any, ...]:
+    return (chart.x.astype(float), *(curve.y.astype(float) for curve in chart.curves))
+
+
+def _uplot(chart: Chart) -> dict[str, Any]:
+    """The arguments of a chart of uPlot."""
+    series: list[dict[str, Any]] = [{"label": "x"}]
+    for i, curve in enumerate(chart.curves):
+        one = {"label": curve.name, "stroke": STROKES[i % len(STROKES)], "width": 1.5}
+        if curve.dots:
+            one |= {"width": 0, "points": {"show": True, "size": 6}}
+        else:
+            one["points"] = {"show": False}
+        series.append(one)
+    axis = {"stroke": INK, "grid": {"stroke": "rgba(128, 128, 128, 0.25)", "width": 1}}
+    return {
+        "data": _data(chart),
+        "series": tuple(series),
+        "title": chart.title,
+        "scales": {"x": {"time": False}},
+        "axes": (axis, axis),
+        "aspect": 1.4,
+    }

@@ -1,0 +1,60 @@
+"""The picture of a tab: the image or a layer, of one render or of two."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from ..rendering.start import start
+from . import shown
+
+if TYPE_CHECKING:
+    import numpy as np
+
+QUALITY = 90  #: of JPEG, of 100
+
+
+class Pictures:
+    """Makes them for a session."""
+
+    def __init__(self, session: Any):
+        self._session = session
+        self._layers: dict[str, np.ndarray] = {}
+
+    def forget(self) -> None:
+        """What the camera sees has changed."""
+        self._layers.clear()
+
+    def make(self, look: shown.Look, share: float | None) -> np.ndarray | None:
+        """What is to be seen now, or None if there is nothing yet; `share` divides two renders."""
+        if look.layer in shown.AOVS:
+            return self._layer(look.layer)
+        left = self._render(look, 0)
+        if left is None or share is None:
+            return left
+        right = self._render(look, 1)
+        return left if right is None else shown.split(left, right, share)
+
+    def _render(self, look: shown.Look, index: int) -> np.ndarray | None:
+        live = self._session.live
+        image = live.image(index)
+        if image is None:
+            small = live.small
+            if small is None:
+                return None
+            return shown.enlarged(shown.picture(small, look.exposure, look.curve), self._size)
+        if look.layer == shown.ERROR:
+            error = live.jobs[index].error_map
+            if error is not None:
+                return shown.error_picture(image, error)
+        return shown.picture(image, look.exposure, look.curve)
+
+    @property
+    def _size(self) -> tuple[int, int]:
+        return self._session.camera.size
+
+    def _layer(self, name: str) -> np.ndarray:
+        """Of a render of its own, with one sample a pixel."""
+        if name not in self._layers:
+            job = start(self._session.scene(), "direct", spp=1, aovs=name)
+            self._layers[name] = shown.layer_picture(name, job.result().layers[name])
+        return self._layers[name]

@@ -1,0 +1,202 @@
+"""One tab of the browser: its camera, its render, its controls.
+
+All of it is done by one thread, which takes actions that the page's callbacks post.
+"""
+
+from __future__ import annotations
+
+import os
+import queue
+import threading
+import time
+import traceback
+from collections.abc import Callable
+from typing import Any
+
+from .. import _core
+from .camera import Pose, SceneCamera
+from .controls import Controls
+from .frame import Frame
+from .inspector import Inspector
+from .lecture import Lecture
+from .live import Algorithm, LiveRender
+from .pictures import Pictures
+
+# A picture costs CPU time that the render does not get: so many seconds between two of them, and at
+# most this share of what the processors have.
+INTERVAL = 0.3
+SHARE = 0.015
+
+
+class Session:
+    """A tab. `post` may be called by any thread; the rest belongs to the session's own."""
+
+    def __init__(self, camera: SceneCamera, client: Any, algorithm: Algorithm, threads: int):
+        self.camera, self.client = camera, client
+        self.pose: Pose | None = None  #: of the camera; None is the scene's own
+        self.live = LiveRender(threads)
+        self.pictures = Pictures(self)
+        self._actions: queue.SimpleQueue[Callable[[], object] | None] = queue.SimpleQueue()
+        self._moved, self._open = threading.Event(), True
+        self._due, self._final = 0.0, False
+        self._canvas = 0.0
+        self.post(self.restart)
+        tabs = client.gui.add_tab_group()
+        with tabs.add_tab("Render"):
+            self.controls = Controls(self, algorithm)
+        with tabs.add_tab("Paths"):
+            self.inspector = Inspector(self)
+        with tabs.add_tab("Lecture"):
+            self.lecture = Lecture(self)
+        self._thread = threading.Thread(target=self._run, name="pymlt view: tab", daemon=True)
+        self._thread.start()
+        client.camera.on_update(self._camera_moved)
+        client.scene.on_click()(self._clicked)
+
+    # ---- from other threads
+
+    def post(self, action: Callable[[], object]) -> None:
+        """Have the session's thread do it; what goes wrong is shown in the tab."""
+        self._actions.put(action)
+
+    def close(self) -> None:
+        """End the render and the thread."""
+        self._open = False
+        self._actions.put(None)
+
+    def wait(self, seconds: float) -> None:
+        self._thread.join(seconds)
+
+    def _camera_moved(self, _: Any) -> None:
+        if not self._moved.is_set():
+            self._moved.set()
+            self.post(self._follow)
+
+    def _clicked(self, event: Any) -> None:
+        place = self.frame().place(*event.screen_pos)
+        if place is not None:
+            self.post(lambda: self.inspector.inspect(self.camera.pixel(place)))
+
+    # ---- the session's thread
+
+    def _run(self) -> None:
+        try:
+            while self._take(self._pause()):
+                if self.live.is_early:
+                    if self.live.advance(0.02):
+                        self._show()
+                elif self._is_due():
+                    self._show()
+                self._try(self.inspector.walk_on)
+        finally:
+            self.live.discard()
+
+    def _pause(self) -> float | None:
+        if self.live.is_early:
+            return 0.0
+        pauses = [self.inspector.pause()]
+        if not self._final:
+            pauses.append(max(0.05, min(0.5, self._due - time.monotonic())))
+        return min((pause for pause in pauses if pause is not None), default=None)
+
+    def _take(self, seconds: float | None) -> bool:
+        """Does what was posted, waiting at most so long for the first; False at the end."""
+        try:
+            action = (
+                self._actions.get(timeout=seconds) if seconds != 0 else self._actions.get_nowait()
+            )
+            while True:
+                if action is None:
+                    return False
+                self._try(action)
+                action = self._actions.get_nowait()
+        except queue.Empty:
+            return True
+
+    def _try(self, action: Callable[[], object]) -> None:
+        try:
+            action()
+        except (_core.Error, ValueError, OverflowError) as error:
+            self.say("This does not work", str(error))
+        except Exception as error:  # a bug: say where
+            if not self._open:
+                return  # nobody listens any more
+            traceback.print_exc()
+            self.say("Something went wrong in pymlt", repr(error))
+
+    def say(self, title: str, text: str, color: str = "red") -> None:
+        """A message at the corner of the page."""
+        self.client.add_notification(title, text, color=color, auto_close_seconds=15)
+
+    def frame(self) -> Frame:
+        """Where the image lies in the window."""
+        return self.camera.frame(self._aspect())
+
+    def _aspect(self) -> float:
+        """Of the window, which may have no height for a moment."""
+        camera = self.client.camera
+        return camera.image_width / camera.image_height if camera.image_height else 1.0
+
+    def _follow(self) -> None:
+        """The camera has moved, or the window has another shape."""
+        self._moved.clear()
+        camera = self.client.camera
+        fov = self.frame().fov(self.camera.fov)
+        if abs(camera.fov - fov) > 1e-4:
+            camera.fov = fov
+        if self._canvas != self._aspect():
+            self._canvas = self._aspect()
+            self.renew()
+        pose: Pose | None = Pose.of(camera)
+        if pose.is_near(self.camera.pose, self.camera.radius):
+            pose = None
+        same = pose == self.pose or (
+            pose and self.pose and pose.is_near(self.pose, self.camera.radius)
+        )
+        if not same and not self.inspector.shows_meshes:
+            self.pose = pose
+            self.restart()
+
+    def scene(self, divisor: int = 1) -> _core.Scene:
+        """The scene as the camera of the tab sees it."""
+        return self.camera.scene(self.pose, divisor)
+
+    def restart(self) -> None:
+        """Render anew, since something has changed."""
+        self.live.start(self.scene, self.controls.algorithms(), self.controls.seconds())
+        self.pictures.forget()
+        self.renew()
+
+    def return_to_picture(self) -> None:
+        """After the page has shown shapes: the picture from where the camera is now."""
+        self.renew()
+        self._follow()
+
+    def renew(self) -> None:
+        """Show a picture soon."""
+        self._due, self._final = 0.0, False
+
+    def _is_due(self) -> bool:
+        if self._final or time.monotonic() < self._due:
+            return False
+        return self.live.image() is not None or not self.live.running
+
+    def _show(self) -> None:
+        ended = not self.live.running
+        spent = time.thread_time()
+        self._try(self.live.check)
+        self._try(self._send)
+        spent = time.thread_time() - spent
+        self._due = time.monotonic() + max(INTERVAL, spent / (SHARE * (os.cpu_count() or 1)))
+        self._final = ended
+        if self.live.is_early:
+            self._due = 0.0
+
+    def _send(self) -> None:
+        self.controls.show_status()
+        if self.inspector.shows_meshes:
+            return
+        picture = self.pictures.make(self.controls.look(), self.controls.share())
+        if picture is not None:
+            self.client.scene.set_background_image(self.frame().fill(picture), format="jpeg")
+            self.client.flush()

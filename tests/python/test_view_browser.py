@@ -1,0 +1,297 @@
+"""The live view in a browser: Debian's chromium without a window, driven by playwright."""
+
+import contextlib
+import os
+import re
+import shutil
+import threading
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import pymlt as mlt
+
+pytest.importorskip("viser", reason="the view needs viser (pip install 'pymlt[view]')")
+playwright = pytest.importorskip("playwright.sync_api", reason="playwright drives the browser")
+
+CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
+FLAGS = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+PATIENCE = 100  #: seconds: WebGL in software, on a machine that may have more to do
+LEFT = {"x": 0, "y": 180, "width": 600, "height": 370}  #: of the window, without messages and panel
+
+pytestmark = [
+    pytest.mark.skipif(CHROMIUM is None, reason="there is no chromium (apt-get install chromium)"),
+    pytest.mark.filterwarnings("ignore:Queued a .* on a closed connection"),
+]
+
+
+@pytest.fixture(scope="module")
+def browser():
+    with playwright.sync_playwright() as play:
+        made = play.chromium.launch(executable_path=CHROMIUM, args=FLAGS)
+        yield made
+        made.close()
+
+
+class Tab:
+    """A page of the view, and the session that belongs to it."""
+
+    def __init__(self, browser, view, width=1000, height=560):
+        known = view.sessions
+        self.page = browser.new_page(viewport={"width": width, "height": height})
+        self.page.set_default_timeout(1000 * PATIENCE)
+        self.errors = []
+        self.page.on("pageerror", lambda error: self.errors.append(str(error)))
+        self.page.goto(view.url)
+        self.page.wait_for_selector("p.mlt[data-state]", state="attached")
+        (self.session,) = [session for session in view.sessions if session not in known]
+
+    def until(self, condition, what: str):
+        end = time.monotonic() + PATIENCE
+        while not condition():
+            assert time.monotonic() < end, what
+            self.page.wait_for_timeout(50)
+
+    def open(self, name: str):
+        self.page.get_by_role("tab", name=name).click()
+
+    def press(self, name: str):
+        self.page.get_by_role("button", name=name, exact=True).click()
+
+    def drag(self, x: int, y: int):
+        mouse = self.page.mouse
+        mouse.move(300, 300)
+        mouse.down()
+        mouse.move(300 + x, 300 + y, steps=3)
+        mouse.up()
+
+    def message(self, text: str):
+        """Waits for a message with this text."""
+        self.page.get_by_text(re.compile(re.escape(text))).first.wait_for()
+
+    def picture(self) -> np.ndarray:
+        """The pixels of the left part of the window, linear."""
+        return mlt._core.decode_image(self.page.screenshot(clip=LEFT), "screenshot.png")
+
+    def samples(self) -> float:
+        jobs = self.session.live.jobs
+        return jobs[0].samples if jobs else 0.0
+
+
+@pytest.fixture(scope="module")
+def view():
+    with mlt.view(mlt.load_dict(mlt.scenes.glass_ball(), size=(96, 96)), "path", port=0) as made:
+        yield made
+
+
+@pytest.fixture(scope="module")
+def tab(browser, view):
+    return Tab(browser, view)
+
+
+def neighbours(picture: np.ndarray) -> float:
+    """The mean difference of neighbouring pixels: noise, mostly."""
+    return float(abs(picture[:, 1:] - picture[:, :-1]).mean())
+
+
+def test_the_page_opens_and_the_image_refines(tab):
+    tab.until(lambda: tab.picture().mean() > 0.02, "the window stays dark")
+    tab.session.post(tab.session.restart)
+    tab.until(lambda: tab.session.live.small is not None, "no first picture")
+    noisy = neighbours(tab.session.live.small)
+    early = tab.picture()
+    tab.until(lambda: tab.samples() > 30, "no samples")
+    assert neighbours(tab.session.live.image()) < 0.8 * noisy
+    tab.until(lambda: (tab.picture() != early).any(), "the picture stays as it is")
+    assert "spp" in tab.page.locator("p.mlt[data-state] + div").first.inner_text()
+    assert not tab.errors
+
+
+def test_a_move_restarts_the_render_with_a_picture_at_once(tab):
+    session, moves = tab.session, []
+    restart, send = session.restart, session._send
+    session.restart = lambda: (moves.append([time.monotonic(), None]), restart())
+
+    def sent():
+        send()
+        if moves and moves[-1][1] is None:
+            moves[-1][1] = time.monotonic()
+
+    session._send = sent
+    before, scene = tab.picture(), session.scene()
+    for step in range(3):
+        tab.drag(60 + 10 * step, 25)
+        tab.until(lambda: tab.samples() > 1, "no render after the move")
+    assert session.pose is not None
+    assert session.scene().info()["triangles"] == scene.info()["triangles"]
+    tab.until(lambda: abs(tab.picture() - before).mean() > 0.005, "the picture is the same")
+    waits = [end - start for start, end in moves if end is not None]
+    assert waits, "no move had a picture"
+    session.restart, session._send = restart, send
+    tab.press("Scene's view")
+    tab.until(lambda: session.pose is None, "the camera does not come back")
+
+
+def test_a_click_shows_the_paths_through_a_pixel(tab):
+    tab.open("Paths")
+    tab.page.mouse.click(300, 400)
+    tab.until(lambda: tab.session.inspector._found is not None, "no click arrived")
+    found = tab.session.inspector._found
+    tab.until(lambda: tab.session.inspector._path is not None, "no path")
+    x, y = tab.session.camera.pixel(tab.session.frame().place(300 / 616, 400 / 560))
+    assert abs(found.pixel[0] - x) <= 2
+    assert abs(found.pixel[1] - y) <= 2
+    tab.page.get_by_text(tab.session.inspector._path.signature).first.wait_for()
+    tab.page.get_by_text("found it").first.wait_for()
+    tab.session.live.stop()
+    with_paths = tab.picture()
+    tab.session.post(lambda: [tab.session.inspector._lines.clear(n) for n in ("all", "chosen")])
+    tab.until(lambda: abs(tab.picture() - with_paths).mean() > 1e-3, "the path is not drawn")
+
+
+def test_shapes_can_be_turned_with_the_paths(tab):
+    picture = tab.picture()
+    tab.page.get_by_role("checkbox").first.check(force=True)
+    tab.until(lambda: tab.session.inspector.shows_meshes, "the box has no effect")
+    tab.until(lambda: abs(tab.picture() - picture).mean() > 0.01, "no shapes")
+    still = tab.picture()
+    tab.drag(80, 40)
+    tab.until(lambda: abs(tab.picture() - still).mean() > 0.005, "they do not turn")
+    tab.page.get_by_role("checkbox").first.uncheck(force=True)
+    tab.until(lambda: tab.session.live.running, "the render does not come back")
+
+
+def test_a_chain_walks_and_is_watched(tab):
+    inspector = tab.session.inspector
+    tab.press("Run")
+    tab.until(lambda: inspector._walk is not None and inspector._walk.steps > 3, "no steps")
+    tab.press("Pause")
+    tab.until(lambda: inspector.pause() is None, "no pause")
+    steps = inspector._walk.steps
+    tab.press("Step")
+    tab.until(lambda: inspector._walk.steps == steps + 1, "no step")
+    tab.page.get_by_text(f"Step {steps + 1}.").wait_for()
+
+
+def test_what_makes_no_sense_gives_a_message(tab):
+    fields = tab.page.locator("form input").locator("visible=true")
+    field = fields.nth(0)
+    field.fill("1000, 2")
+    tab.press("Find its paths")
+    tab.message("is beside the image")
+    field.fill("here")
+    tab.press("Find its paths")
+    tab.message("two whole numbers")
+    tab.press("The chain that was stuck longest")
+    tab.message("no chain was stuck")
+    tab.open("Render")
+    fields.nth(1).fill("max_depht=3")
+    fields.nth(1).press("Enter")
+    tab.message("max_depth")
+    assert not tab.errors
+
+
+def test_the_lecture_follows_its_sliders(tab):
+    tab.open("Lecture")
+    said = tab.page.locator("p[data-example]")
+    said.wait_for()
+    assert "90 %" in said.inner_text()
+    tab.page.locator("canvas").nth(1).wait_for()  # the chart
+    slider = tab.session.lecture._sliders[0]
+    number = tab.page.locator(".mantine-NumberInput-input").locator("visible=true").first
+    number.fill("4")
+    number.press("Enter")
+    tab.until(lambda: slider.value == 4, "the slider does not follow")
+    tab.until(lambda: "80 %" in said.inner_text(), "the text does not follow")
+
+
+def cpu_seconds() -> float:
+    """Of this process's Python threads but the one that tests: what serves the view."""
+    total = 0
+    for thread in threading.enumerate():
+        if thread is not threading.main_thread():
+            with contextlib.suppress(OSError):
+                fields = Path(f"/proc/self/task/{thread.native_id}/stat").read_text()
+                total += sum(map(int, fields.rpartition(")")[2].split()[11:13]))
+    return total / os.sysconf("SC_CLK_TCK")
+
+
+@pytest.mark.long
+def test_the_view_costs_the_render_little(browser):
+    """Less than 3 % of the time that all processors have; a larger image, as it costs more."""
+    scene = mlt.load_dict(mlt.scenes.ring(), size=(640, 360))
+    with mlt.view(scene, "path", port=0) as view:
+        tab = Tab(browser, view)
+        tab.until(lambda: tab.samples() > 1, "no render")
+        tab.page.wait_for_timeout(2000)
+        before, start = cpu_seconds(), time.monotonic()
+        tab.page.wait_for_timeout(10_000)
+        spent, passed = cpu_seconds() - before, time.monotonic() - start
+        assert tab.session.live.running
+        assert spent < 0.03 * passed * os.cpu_count()
+        tab.page.close()
+
+
+@pytest.mark.parametrize("width", [1280, 400])
+def test_text_is_readable(browser, view, width):
+    """Letters of 11 pixels and more, and nothing is cut off at the right."""
+    tab = Tab(browser, view, width)
+    tab.session.post(lambda: tab.session.inspector.inspect((48, 60)))
+    for name in ("Render", "Paths", "Lecture"):
+        tab.open(name)
+        tab.page.wait_for_timeout(500)
+        sizes = tab.page.evaluate(
+            """() => [...document.querySelectorAll('.mlt, .mlt td, label, button')]
+                .filter(e => e.offsetParent && e.innerText.trim())
+                .map(e => parseFloat(getComputedStyle(e).fontSize))"""
+        )
+        assert sizes
+        assert min(sizes) >= 11, name
+        cut = tab.page.evaluate(
+            """() => [...document.querySelectorAll('.mlt')].filter(e => e.offsetParent)
+                .filter(e => e.getBoundingClientRect().right > innerWidth
+                    || e.scrollWidth > e.clientWidth + 60).map(e => e.innerText)"""
+        )
+        assert not cut, name
+    panel = tab.page.get_by_role("tab", name="Render").bounding_box()
+    assert 0 <= panel["x"] < width
+    tab.page.close()
+
+
+def test_a_closed_tab_ends_its_render(browser, view):
+    tab = Tab(browser, view)
+    tab.until(lambda: tab.samples() > 1, "no render")
+    session, job = tab.session, tab.session.live.jobs[0]
+    tab.page.close()
+    end = time.monotonic() + PATIENCE
+    while session in view.sessions or not job.ended:
+        assert time.monotonic() < end
+        time.sleep(0.05)
+    session.wait(10)
+    assert not session._thread.is_alive()
+
+
+def test_a_token_opens_the_page_in_a_browser(browser):
+    scene = mlt.load_dict(mlt.scenes.cornell_box(), size=(32, 32))
+    with mlt.view(scene, port=0, token="let me in") as view:
+        page = browser.new_page()
+        page.goto(view.url.split("?")[0])
+        assert "token is needed" in page.content()
+        page.close()
+        tab = Tab(browser, view)
+        tab.until(lambda: tab.samples() > 1, "no render")
+        assert "let" not in tab.page.url
+        tab.page.close()
+
+
+def test_two_integrators_stand_side_by_side(browser, view):
+    tab = Tab(browser, view)
+    controls = tab.session.controls
+    tab.session.post(lambda: setattr(controls._other, "value", "mlt"))
+    tab.until(lambda: len(tab.session.live.jobs) == 2, "no second render")
+    tab.until(lambda: tab.session.live.image(1) is not None, "it shows nothing")
+    assert controls.share() == 0.5
+    tab.page.get_by_text("Left / right").wait_for()
+    tab.page.close()
