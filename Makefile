@@ -9,6 +9,8 @@ DEMO_FLAGS ?= --integrator mlt -p max_depth=3 --spp 200 --seed 1
 SHARD ?= 1/1
 MINUTES ?= 1
 HOURS ?= 1
+# The Pythons that `make wheel` makes wheels for: PYTHONS="python3.11 python3.12 python3.13".
+PYTHONS ?= $(PYTHON)
 
 BUILD := build/default
 VENV := .venv
@@ -30,7 +32,8 @@ export PIP_DISABLE_PIP_VERSION_CHECK = 1
 
 .DEFAULT_GOAL := build
 .DELETE_ON_ERROR:
-.PHONY: setup build demo docs test test-long asan fuzz soak lint format clean distclean
+.PHONY: setup build demo docs test test-long asan fuzz soak wheel release-check lint format clean \
+        distclean
 
 # ---- set-up ------------------------------------------------------------------------------------
 setup: $(STAMPS)/dev
@@ -124,6 +127,14 @@ soak: build
 	  LD_PRELOAD="$$($(CXX) -print-file-name=libasan.so) $$($(CXX) -print-file-name=libstdc++.so)" \
 	  ASAN_OPTIONS=detect_leaks=0:quarantine_size_mb=16 \
 	  $(PYTHON) tests/soak.py --hours $(HOURS)
+
+# ---- the release: dist/*.whl and dist/*.tar.gz ----------------------------------------------------
+wheel: $(STAMPS)/dev
+	$(BIN)/python release/make_wheels.py $(PYTHONS)
+
+# Where debootstrap runs (as root), in fresh systems; else in fresh virtual environments.
+release-check: build
+	$(BIN)/python release/check.py
 
 # ---- style ---------------------------------------------------------------------------------------
 lint: $(STAMPS)/dev

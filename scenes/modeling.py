@@ -61,6 +61,16 @@ def _spline(points, pieces):
     return np.concatenate(curve), np.concatenate(tangents)
 
 
+def smooth_normals(positions, triangles):
+    """Normals of vertices: the mean of those of the triangles about them, by area."""
+    corners = positions[triangles]
+    faces = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normals = np.zeros_like(positions)
+    for k in range(3):
+        np.add.at(normals, triangles[:, k], faces)
+    return normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12)
+
+
 def boxes(corners):
     """Boxes given as (lowest corner, highest corner); u runs along y, v across, in metres."""
     positions, normals, uvs, triangles = [], [], [], []
@@ -134,3 +144,25 @@ def write_png(path: Path, rgb) -> None:
     header = struct.pack(">IIBBBBB", columns, rows, 8, 2, 0, 0, 0)
     body = chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(raw, 9)) + chunk(b"IEND", b"")
     path.write_bytes(b"\x89PNG\r\n\x1a\n" + body)
+
+
+def waves(trains):
+    """(height, slope) of a sea; each train has direction (degrees), length, height (m), phase."""
+
+    def each(x, z):
+        for degrees, length, amplitude, phase in trains:
+            k = (
+                2
+                * np.pi
+                / length
+                * np.array([np.cos(np.radians(degrees)), np.sin(np.radians(degrees))])
+            )
+            yield k, amplitude, k[0] * x + k[1] * z + phase
+
+    def height(x, z):
+        return sum(a * np.sin(t) for _, a, t in each(x, z))
+
+    def slope(x, z):
+        return tuple(sum(a * k[i] * np.cos(t) for k, a, t in each(x, z)) for i in (0, 1))
+
+    return height, slope

@@ -9,16 +9,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Where the scenes may be: installed beside the program, by CMake or in the Python package, or in
-/// the sources that it was built from.
+/// Where the scenes may be: installed beside the program, by CMake or in the Python package, which
+/// may hold the program too; or in the sources that it was built from.
 std::vector<fs::path> folders() {
   std::error_code error;
   const fs::path root = fs::read_symlink("/proc/self/exe", error).parent_path().parent_path();
-  std::vector<fs::path> found = {root / "share" / "pymlt" / "scenes"};
+  std::vector<fs::path> found = {root / "share" / "pymlt" / "scenes",
+                                 root / "pymlt" / "scene_files"};
   for (const auto& entry : fs::directory_iterator(root / "lib", error))
     if (entry.path().filename().string().rfind("python", 0) == 0)
       found.push_back(entry.path() / "site-packages" / "pymlt" / "scene_files");
+#ifdef MLT_SCENES
   found.emplace_back(MLT_SCENES);
+#endif
   return found;
 }
 

@@ -3,35 +3,16 @@
 import sys
 from pathlib import Path
 
-import numpy as np
-
 HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE.parent))
 
-from modeling import height_field, write_ply  # noqa: E402
+from modeling import height_field, waves, write_ply  # noqa: E402
 
 # Waves: direction (degrees), length (m), height (m), phase.
 WAVES = [(20, 1.7, 0.018, 0.3), (75, 1.15, 0.013, 1.9), (-40, 0.83, 0.009, 4.0),
          (130, 0.62, 0.006, 2.2), (5, 0.47, 0.004, 5.1), (-75, 0.55, 0.004, 0.9)]  # fmt: skip
 
-
-def _each(x, z):
-    for degrees, length, amplitude, phase in WAVES:
-        k = (
-            2
-            * np.pi
-            / length
-            * np.array([np.cos(np.radians(degrees)), np.sin(np.radians(degrees))])
-        )
-        yield k, amplitude, k[0] * x + k[1] * z + phase
-
-
-def height(x, z):
-    return sum(a * np.sin(t) for _, a, t in _each(x, z))
-
-
-def slope(x, z):
-    return tuple(sum(a * k[i] * np.cos(t) for k, a, t in _each(x, z)) for i in (0, 1))
+height, slope = waves(WAVES)
 
 
 if __name__ == "__main__":

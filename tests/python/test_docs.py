@@ -39,6 +39,28 @@ def test_the_table_of_flags_is_that_of_the_programs():
     assert text == module.page(text), "run: python docs/make_command_line.py"
 
 
+@pytest.mark.parametrize("command", ["render", "race"])
+def test_every_flag_has_an_example(command):
+    text = (ROOT / "docs" / "command-line.md").read_text()
+    table = re.search(rf"<!-- flags: {command} -->(.*?)<!-- end -->", text, re.DOTALL)[1]
+    examples = re.findall(rf"^pymlt ({command} .*)$", text, re.MULTILINE)
+    used = {word for line in examples for word in line.split() if word.startswith("-")}
+    for spelling in re.findall(r"^\| `([^`]*)`", table, re.MULTILINE):
+        assert used & set(re.findall(r"-+[a-zA-Z]+", spelling)), spelling
+
+
+def test_the_figures_of_the_readme_are_those_of_the_comparison():
+    table = (ROOT / "docs" / "comparison.md").read_text()
+    means = dict(re.findall(r"^\| (\w+)[^|]*\|.*\| \**([\d.]+)\** \|$", table, re.MULTILINE)[:8])
+    said = " ".join((ROOT / "README.md").read_text().split())
+    for figure in (
+        f"error is {means['mlt']} times",
+        f"`path` has {means['path']} times, `bdpt` {means['bdpt']} times",
+        f"(`rjmlt`) {means['rjmlt']} times",
+    ):
+        assert figure in said, figure
+
+
 def test_the_demo_builds_and_installs_nothing_for_tests(tmp_path):
     """And its last lines say what to type next."""
     places = [f"STAMPS={tmp_path}/stamps", f"VENV={tmp_path}/venv", f"BIN={tmp_path}/venv/bin"]
@@ -67,7 +89,6 @@ def test_extras_are_those_that_are_used():
     package = "\n".join(path.read_text() for path in (ROOT / "python").rglob("*.py"))
     for extra in set(project["optional-dependencies"]) - {"test", "dev", "docs"}:
         assert f"pymlt[{extra}]" in package or f'"{extra}"' in package, extra
-    assert "view" not in project["optional-dependencies"]
 
 
 def test_no_two_pages_have_one_title():

@@ -45,7 +45,12 @@ def test_the_dict_is_the_file(name):
 
 @pytest.mark.parametrize(
     ("name", "define", "value"),
-    [("door-ajar", "opening", 60), ("dof", "aperture", 0.3), ("motion", "shutter", 0.0)],
+    [
+        ("door-ajar", "opening", 60),
+        ("dof", "aperture", 0.3),
+        ("motion", "shutter", 0.0),
+        ("orrery", "shutter", 0.0),
+    ],
 )
 def test_a_parameter_of_the_dict_is_that_of_the_file(name, define, value):
     path = ROOT / "scenes" / name / "scene.xml"

@@ -63,3 +63,23 @@ def dof(aperture: float = 0.07) -> dict:
 def motion(shutter: float = 1) -> dict:
     """A lamp, a glass ball and a fan that move until the shutter closes at time `shutter`."""
     return _load("motion", shutter=shutter)
+
+
+def goblets() -> dict:
+    """Coloured glass in the light of a low lamp, and what it does to that light on the table."""
+    return _load("goblets")
+
+
+def bulb() -> dict:
+    """A ribbed bulb, whose glass draws lines with the light of its filament."""
+    return _load("bulb")
+
+
+def orrery(shutter: float = 1) -> dict:
+    """Planets that go round a lamp until the shutter closes at time `shutter`."""
+    return _load("orrery", shutter=shutter)
+
+
+def temple() -> dict:
+    """A round temple by a lake, below a low sun and its sky."""
+    return _load("temple")

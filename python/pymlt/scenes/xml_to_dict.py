@@ -14,7 +14,8 @@ def load(folder: str, **values) -> dict:
     path = _folder() / folder / "scene.xml"
     root = ElementTree.parse(path).getroot()
     defaults = {e.get("name"): e.get("value") for e in root.findall("default")}
-    assert values.keys() == defaults.keys()
+    assert values.keys() <= defaults.keys()
+    values = defaults | values
     for element in root.iter():
         for key, text in element.attrib.items():
             if text.startswith("$"):
@@ -56,7 +57,7 @@ def _value(element, folder: Path):
         case "rgb":
             numbers = _numbers(element.get("value"))
             return {"type": "rgb", "value": numbers if len(numbers) == 3 else numbers[0]}
-        case "point":
+        case "point" | "vector":
             return [float(element.get(axis, 0)) for axis in "xyz"]
         case "transform":
             return _transform(element)

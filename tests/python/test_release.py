@@ -1,0 +1,88 @@
+"""What a release consists of: one version, wheels with everything in them, workflows that parse."""
+
+import importlib.util
+import re
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+import pytest
+
+import pymlt as mlt
+
+ROOT = Path(__file__).resolve().parents[2]
+WORKFLOWS = sorted((ROOT / ".github" / "workflows").glob("*.yml"))
+
+
+@pytest.fixture
+def check(monkeypatch):
+    """The script of `make release-check`."""
+    monkeypatch.syspath_prepend(str(ROOT / "release"))
+    spec = importlib.util.spec_from_file_location("check", ROOT / "release" / "check.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    yield module
+    sys.modules.pop("make_wheels", None)
+
+
+def test_all_files_name_one_version(check):
+    assert check.version() == mlt.__version__
+
+
+def wheel_of(check, tmp_path, leave_out=()):
+    names = ["pymlt/_core.so", "pymlt/wide/_core.so", "pymlt/scene_files/ring/scene.xml"]
+    names += ["pymlt/py.typed", "pymlt.libs/libpng16-01234567.so.16"]
+    names += ["pymlt-1.dist-info/licenses/bundled/libpng16-16.txt"]
+    path = tmp_path / f"pymlt-{check.version()}-cp311-cp311-manylinux_2_34_x86_64.whl"
+    with zipfile.ZipFile(path, "w") as file:
+        for name in names:
+            if name not in leave_out:
+                file.writestr(name, "")
+    return path
+
+
+def test_a_wheel_with_everything_passes(check, tmp_path):
+    check.check_files(wheel_of(check, tmp_path))
+
+
+@pytest.mark.parametrize(
+    "missing", ["pymlt/wide/_core.so", "pymlt-1.dist-info/licenses/bundled/libpng16-16.txt"]
+)
+def test_a_wheel_in_which_something_is_missing_does_not_pass(check, tmp_path, missing):
+    with pytest.raises(AssertionError):
+        check.check_files(wheel_of(check, tmp_path, leave_out=[missing]))
+
+
+def test_a_wheel_names_no_folder_of_the_machine_that_made_it(check, tmp_path):
+    path = wheel_of(check, tmp_path)
+    with zipfile.ZipFile(path, "a") as file:
+        file.writestr("pymlt/other", f"found in {ROOT}/scenes")
+    with pytest.raises(AssertionError, match="names"):
+        check.check_files(path)
+
+
+@pytest.mark.parametrize("path", WORKFLOWS, ids=lambda p: p.stem)
+def test_workflows_are_complete_and_call_targets_of_the_makefile(path):
+    yaml = pytest.importorskip("yaml")
+    workflow = yaml.safe_load(path.read_text())
+    # YAML 1.1 reads the key `on` as a truth value.
+    assert workflow["name"] == path.stem
+    assert workflow.get("on") or workflow[True]
+    targets = set(re.findall(r"^([a-z-]+):(?!=)", (ROOT / "Makefile").read_text(), re.MULTILINE))
+    for job in workflow["jobs"].values():
+        assert job["runs-on"]
+        assert job["steps"]
+        for step in job["steps"]:
+            assert ("run" in step) != ("uses" in step), step
+            for target in re.findall(r"^make ([a-z-]+)", step.get("run", ""), re.MULTILINE):
+                assert target in targets, target
+
+
+@pytest.mark.parametrize("target", ["wheel", "release-check"])
+def test_the_makefile_says_what_a_release_runs(target):
+    plan = subprocess.run(
+        ["make", "-n", target], cwd=ROOT, capture_output=True, text=True, check=True
+    ).stdout
+    script = {"wheel": "release/make_wheels.py", "release-check": "release/check.py"}[target]
+    assert script in plan
