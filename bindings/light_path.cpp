@@ -161,6 +161,13 @@ void bind_path_class(py::module_& m) {
           "primitive, emitter. At infinity, position is the direction towards the vertex.")
       .def("__getitem__", &vertex_at, "Vertex i, counted from the light.")
       .def("__getitem__", &vertices_at)
+      .def(
+          "__iter__",
+          [](const PyLightPath& p) {
+            return py::make_iterator<py::return_value_policy::copy>(p.path.vertices.begin(),
+                                                                    p.path.vertices.end());
+          },
+          py::keep_alive<0, 1>())
       .def("with_vertices", &with_vertices, py::arg("vertices"),
            "Another path of the same scene and time, through these vertices.")
       .def_property_readonly("scene", [](const PyLightPath& p) { return p.scene; })

@@ -235,15 +235,18 @@ def test_help_and_version_succeed(program):
 
 
 def start(command, *arguments) -> subprocess.Popen:
+    """A program that has begun to render: its first checkpoint is there."""
+    checkpoints = ["--checkpoint", "begun", "--every", 0.2]
     process = subprocess.Popen(
-        [*command, *map(str, arguments)],
+        [*command, *map(str, [*arguments, *checkpoints])],
         text=True,
         stderr=subprocess.PIPE,
         stdout=subprocess.PIPE,
         # These tests may themselves run under nohup.
         preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_DFL),
     )
-    time.sleep(1.5)  # to load the program and render a little
+    while not Path("begun").exists() and process.poll() is None:
+        time.sleep(0.02)
     return process
 
 
@@ -454,6 +457,8 @@ def test_what_was_asked_for_and_cannot_be_written_is_an_error(arguments, redirec
 
 
 def test_a_figure_that_the_disk_does_not_hold_is_an_error(tmp_path, monkeypatch):
+    import matplotlib.font_manager  # noqa: F401 (its first import writes a cache)
+
     monkeypatch.chdir(tmp_path)
     flags = ["lab", "expected_values", "-o", "a.png"]
     done = run(PYMLT, *flags, preexec_fn=lambda: no_room_for(4096))

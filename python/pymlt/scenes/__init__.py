@@ -4,7 +4,7 @@ image = mlt.render(mlt.scenes.door_ajar(), "pssmlt", spp=64)
 
 The scenes are the folders of `scenes/`, each with a scene.xml (which `load_file` and mlt-render
 read as well) and a README.md. Here the XML is read into a dict, in which everything can be
-changed.
+changed. `filter` is the film's reconstruction filter: "box" where the image is to be denoised.
 """
 
 from __future__ import annotations
@@ -35,19 +35,19 @@ def glass_ball() -> dict:
     return _load("glass-ball")
 
 
-def door_ajar(opening: float = 16) -> dict:
+def door_ajar(opening: float = 16, filter: str = "gaussian") -> dict:
     """A dark room and the light of the next one through a door, which is `opening` degrees open."""
-    return _load("door-ajar", opening=opening)
+    return _load("door-ajar", opening=opening, filter=filter)
 
 
-def pool() -> dict:
+def pool(filter: str = "gaussian") -> dict:
     """A tiled pool below a small light: all is seen and lit through rippled water."""
-    return _load("pool")
+    return _load("pool", filter=filter)
 
 
-def ring() -> dict:
+def ring(filter: str = "gaussian") -> dict:
     """A gold ring on paper below a small light: the caustic of a cylindrical mirror."""
-    return _load("ring")
+    return _load("ring", filter=filter)
 
 
 def furnace() -> dict:
@@ -55,9 +55,9 @@ def furnace() -> dict:
     return _load("furnace")
 
 
-def dof(aperture: float = 0.07) -> dict:
+def dof(aperture: float = 0.07, filter: str = "gaussian") -> dict:
     """Glass balls before a lens of radius `aperture`: caustics within the blur."""
-    return _load("dof", aperture=aperture)
+    return _load("dof", aperture=aperture, filter=filter)
 
 
 def motion(shutter: float = 1) -> dict:
