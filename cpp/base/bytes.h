@@ -14,20 +14,27 @@
 
 namespace mlt {
 
+/// What lies between the members of a struct is not part of its value: equal values have equal bytes.
+template <class T>
+void clear_padding([[maybe_unused]] T& value) {
+#if __has_builtin(__builtin_clear_padding)
+  __builtin_clear_padding(&value);
+#endif
+}
+
 class ByteWriter {
  public:
   template <class T>
   void write(const T& value) {
     static_assert(std::is_trivially_copyable_v<T>);
-    bytes_.append(reinterpret_cast<const char*>(&value), sizeof(T));
+    T copy = value;
+    clear_padding(copy);
+    bytes_.append(reinterpret_cast<const char*>(&copy), sizeof(T));
   }
   template <class T>
   void write(const std::vector<T>& values) {
     write<uint64_t>(values.size());
-    if constexpr (std::is_trivially_copyable_v<T>)
-      bytes_.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
-    else
-      for (const T& value : values) write(value);
+    for (const T& value : values) write(value);
   }
   template <class First, class Second>
   void write(const std::pair<First, Second>& pair) {

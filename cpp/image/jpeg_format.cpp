@@ -13,9 +13,9 @@ namespace {
 /// More scans than any encoder makes: each costs as much as the whole image, and few bytes.
 constexpr int most_scans = 500;
 
-class Reader {
+class JpegReader {
  public:
-  explicit Reader(std::string_view bytes) : size_(bytes.size()) {
+  explicit JpegReader(std::string_view bytes) : size_(bytes.size()) {
     info_.err = jpeg_std_error(&errors_);
     info_.client_data = this;
     errors_.error_exit = [](j_common_ptr info) { self(info).leave(info); };
@@ -37,9 +37,9 @@ class Reader {
                    static_cast<unsigned long>(bytes.size()));
     });
   }
-  ~Reader() { jpeg_destroy_decompress(&info_); }
-  Reader(const Reader&) = delete;
-  Reader& operator=(const Reader&) = delete;
+  ~JpegReader() { jpeg_destroy_decompress(&info_); }
+  JpegReader(const JpegReader&) = delete;
+  JpegReader& operator=(const JpegReader&) = delete;
 
   DecodedImage read() {
     run([&] { jpeg_read_header(&info_, TRUE); });
@@ -64,7 +64,9 @@ class Reader {
   }
 
  private:
-  static Reader& self(j_common_ptr info) { return *static_cast<Reader*>(info->client_data); }
+  static JpegReader& self(j_common_ptr info) {
+    return *static_cast<JpegReader*>(info->client_data);
+  }
 
   [[noreturn]] void leave(j_common_ptr info) {
     char reason[JMSG_LENGTH_MAX];
@@ -105,7 +107,7 @@ class Reader {
 }  // namespace
 
 DecodedImage decode_jpeg(std::string_view bytes, const std::string& name) {
-  return decode_as("JPEG", name, [&] { return Reader(bytes).read(); });
+  return decode_as("JPEG", name, [&] { return JpegReader(bytes).read(); });
 }
 
 }  // namespace mlt

@@ -40,9 +40,9 @@ struct Source {
   }
 };
 
-class Reader {
+class PngReader {
  public:
-  explicit Reader(std::string_view bytes)
+  explicit PngReader(std::string_view bytes)
       : size_(bytes.size()),
         source_{bytes},
         png_(png_create_read_struct(PNG_LIBPNG_VER_STRING, &guard_, Guard::error, Guard::ignore)),
@@ -54,9 +54,9 @@ class Reader {
     png_set_read_fn(png_, &source_, Source::read);
     png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX);  // see check_size
   }
-  ~Reader() { png_destroy_read_struct(&png_, &info_, nullptr); }
-  Reader(const Reader&) = delete;
-  Reader& operator=(const Reader&) = delete;
+  ~PngReader() { png_destroy_read_struct(&png_, &info_, nullptr); }
+  PngReader(const PngReader&) = delete;
+  PngReader& operator=(const PngReader&) = delete;
 
   DecodedImage read() {
     guard_.run(png_, [&] { png_read_info(png_, info_); });
@@ -119,7 +119,7 @@ void flush_nothing(png_structp) {}
 }  // namespace
 
 DecodedImage decode_png(std::string_view bytes, const std::string& name) {
-  return decode_as("PNG", name, [&] { return Reader(bytes).read(); });
+  return decode_as("PNG", name, [&] { return PngReader(bytes).read(); });
 }
 
 void encode_png(AtomicFile& file, int width, int height, int channels,

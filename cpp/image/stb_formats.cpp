@@ -32,18 +32,18 @@ namespace mlt {
 namespace {
 
 /// Feeds stb and remembers whether it asked for more than there is: stb itself reads on in zeros.
-class Reader {
+class StbReader {
  public:
-  explicit Reader(std::string_view bytes) : bytes_(bytes) {}
+  explicit StbReader(std::string_view bytes) : bytes_(bytes) {}
 
   bool ended_early() const { return ended_early_; }
 
   static constexpr stbi_io_callbacks callbacks() {
     return {[](void* self, char* target, int count) {
-              return static_cast<Reader*>(self)->read(target, count);
+              return static_cast<StbReader*>(self)->read(target, count);
             },
-            [](void* self, int count) { static_cast<Reader*>(self)->skip(count); },
-            [](void* self) { return static_cast<Reader*>(self)->at_end(); }};
+            [](void* self, int count) { static_cast<StbReader*>(self)->skip(count); },
+            [](void* self) { return static_cast<StbReader*>(self)->at_end(); }};
   }
 
  private:
@@ -95,16 +95,16 @@ void copy_samples(const Sample* samples, double scale, std::vector<float>* data)
 }
 
 DecodedImage decode(std::string_view bytes, StbFormat format) {
-  const stbi_io_callbacks callbacks = Reader::callbacks();
+  const stbi_io_callbacks callbacks = StbReader::callbacks();
   int width = 0, height = 0, channels = 0;
-  Reader info_reader(bytes);
+  StbReader info_reader(bytes);
   if (!stbi_info_from_callbacks(&callbacks, &info_reader, &width, &height, &channels))
     fail_as_stb();
   constexpr int64_t per_byte = 1024;  // more than any run of these formats
   check_size(width, height, per_byte, bytes.size());
 
   const bool hdr = format == StbFormat::hdr;
-  Reader reader(bytes);
+  StbReader reader(bytes);
   std::unique_ptr<void, Free> samples;
   if (hdr)
     samples.reset(stbi_loadf_from_callbacks(&callbacks, &reader, &width, &height, &channels, 0));

@@ -32,6 +32,7 @@ using glm::normalize;
 
 constexpr double pi = 3.14159265358979323846;
 constexpr double inv_pi = 1 / pi;
+constexpr double degree = pi / 180;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 inline double sqr(double x) { return x * x; }

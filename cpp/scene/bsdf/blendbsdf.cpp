@@ -5,7 +5,7 @@
 namespace mlt {
 namespace {
 
-ObjectPtr create(Params& params) {
+ObjectPtr create_blend(Params& params) {
   const auto nested = params.objects<Bsdf>();
   if (nested.size() != 2)
     params.fail("needs two nested bsdfs, but has " + std::to_string(nested.size()));
@@ -21,7 +21,7 @@ Plugin bsdf_blendbsdf() {
                 {{"weight", ParamType::texture, 0.5,
                   "Share of the second bsdf; that of the first is 1 less it."}}};
   schema.reciprocal = false;  // one of them may refract
-  return {schema, create};
+  return {schema, create_blend};
 }
 
 }  // namespace mlt

@@ -22,7 +22,7 @@ std::vector<double> weights_param(Params& params) {
   return weights;
 }
 
-ObjectPtr create(Params& params) {
+ObjectPtr create_mixture(Params& params) {
   const auto nested = params.objects<Bsdf>();
   const std::vector<double> weights = weights_param(params);
   if (nested.empty() || nested.size() != weights.size())
@@ -56,7 +56,7 @@ Plugin bsdf_mixturebsdf() {
         "One number for each nested bsdf, in their order. If they add up to less than 1, "
         "the rest of the light is absorbed; if to more, they are divided by their sum."}}};
   schema.reciprocal = false;  // one of them may refract
-  return {schema, create};
+  return {schema, create_mixture};
 }
 
 }  // namespace mlt

@@ -9,9 +9,9 @@
 namespace mlt {
 namespace {
 
-enum PrincipledLobe : size_t { diffuse, clearcoat, specular, lobe_count };
-
 class Principled final : public Bsdf {
+  enum PrincipledLobe : size_t { diffuse, clearcoat, specular, lobe_count };
+
  public:
   explicit Principled(Params& params)
       : base_color_(texture_param(params, "base_color")),
@@ -238,7 +238,7 @@ class Principled final : public Bsdf {
   double eta_;
 };
 
-std::vector<Parameter> parameters() {
+std::vector<Parameter> principled_parameters() {
   return {
       {"base_color", ParamType::texture, 0.5, "Colour of the material."},
       {"roughness", ParamType::texture, 0.5, "Roughness of the main lobe; alpha is its square."},
@@ -265,7 +265,7 @@ Plugin bsdf_principled() {
   Plugin plugin = make_plugin<Principled>("bsdf", "principled",
                                           "A material for many purposes (Burley 2012, 2015): "
                                           "matte, metallic, clear, coated, with sheen.",
-                                          parameters());
+                                          principled_parameters());
   plugin.schema.conserves_energy = false;
   plugin.schema.reciprocal = false;
   return plugin;

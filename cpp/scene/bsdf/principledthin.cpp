@@ -10,9 +10,9 @@
 namespace mlt {
 namespace {
 
-enum ThinLobe : size_t { mirrored, through, diffuse, diffuse_through, lobe_count };
-
 class PrincipledThin final : public Bsdf {
+  enum ThinLobe : size_t { mirrored, through, diffuse, diffuse_through, lobe_count };
+
  public:
   explicit PrincipledThin(Params& params)
       : base_color_(texture_param(params, "base_color")),
@@ -176,7 +176,7 @@ class PrincipledThin final : public Bsdf {
   double rate_[lobe_count];
 };
 
-std::vector<Parameter> parameters() {
+std::vector<Parameter> thin_parameters() {
   return {
       {"base_color", ParamType::texture, 0.5, "Colour of the material."},
       {"roughness", ParamType::texture, 0.5, "Roughness of the glossy lobes; alpha is its square."},
@@ -200,7 +200,7 @@ std::vector<Parameter> parameters() {
 Plugin bsdf_principledthin() {
   Plugin plugin = make_plugin<PrincipledThin>(
       "bsdf", "principledthin",
-      "A thin sheet for many purposes (Burley 2015): leaves, paper, bubbles.", parameters());
+      "A thin sheet for many purposes (Burley 2015): leaves, paper, bubbles.", thin_parameters());
   plugin.schema.conserves_energy = false;
   plugin.schema.reciprocal = false;
   return plugin;

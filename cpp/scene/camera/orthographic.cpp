@@ -52,7 +52,7 @@ Vec2 half_size(const Mat4& to_world) {
   return {length(Vec3(to_world[0])), length(Vec3(to_world[1]))};
 }
 
-ObjectPtr create(Params& params) {
+ObjectPtr create_orthographic(Params& params) {
   const Placement placement = read_placement(params);
   const std::vector<Mat4>& steps = placement.motion.steps();
   const Vec2 half = half_size(steps[0]);
@@ -73,7 +73,7 @@ Plugin sensor_orthographic() {
            "A camera whose rays are parallel.",
            placement_parameters(),
            {"near_clip", "far_clip", "focus_distance"}},
-          create};
+          create_orthographic};
 }
 
 }  // namespace mlt

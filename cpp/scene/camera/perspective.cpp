@@ -5,7 +5,7 @@
 namespace mlt {
 namespace {
 
-ObjectPtr create(Params& params) {
+ObjectPtr create_perspective(Params& params) {
   ProjectiveCamera::View view = read_view(params);
   view.principal_offset = {params.real("principal_point_offset_x"),
                            params.real("principal_point_offset_y")};
@@ -23,7 +23,7 @@ Plugin sensor_perspective() {
                     {"principal_point_offset_y", ParamType::real, 0.0,
                      "Vertical shift of the optical axis, as a fraction of the image's height."}}}),
            std::move(ignored)},
-          create};
+          create_perspective};
 }
 
 }  // namespace mlt

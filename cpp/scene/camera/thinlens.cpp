@@ -11,7 +11,7 @@ double positive(Params& params, const std::string& name) {
   return x;
 }
 
-ObjectPtr create(Params& params) {
+ObjectPtr create_thin_lens(Params& params) {
   const ProjectiveCamera::View view = read_view(params);
   const double far_clip = positive(params, "far_clip");
   const double focus = params.has("focus_distance") ? positive(params, "focus_distance") : far_clip;
@@ -32,7 +32,7 @@ Plugin sensor_thinlens() {
                     {"far_clip", ParamType::real, 1e4,
                      "Only the default of focus_distance; nothing is clipped."}}}),
            std::vector<std::string>{"near_clip"}},
-          create};
+          create_thin_lens};
 }
 
 }  // namespace mlt

@@ -64,7 +64,7 @@ ProjectiveCamera::View read_view(Params& params) {
     const double degrees = params.real("fov");
     if (!(degrees > 0 && degrees < 180))
       params.fail("fov", fmt::format("is {:f}, but must lie between 0 and 180 degrees", degrees));
-    view.fov = degrees * (pi / 180);
+    view.fov = degrees * degree;
     view.axis = read_axis(params);
   } else {
     view.fov = 2 * std::atan(film_diagonal / (2 * focal_length_mm(params)));

@@ -8,8 +8,6 @@
 namespace mlt {
 namespace {
 
-constexpr double degree = pi / 180;
-
 Frame beam_axes(const Mat4& to_world) {
   return Frame::around(normalize(transform_vector(to_world, Vec3(0, 0, 1))),
                        transform_vector(to_world, Vec3(1, 0, 0)));

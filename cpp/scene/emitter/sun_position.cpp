@@ -8,8 +8,6 @@
 namespace mlt {
 namespace {
 
-constexpr double degree = pi / 180;
-
 struct Moment {
   int64_t year, month, day;
   double hours;  ///< Universal time, since midnight.

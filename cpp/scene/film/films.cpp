@@ -45,7 +45,7 @@ void read_format(Params& params, FilmSettings& film) {
   if (params.has("file_format")) params.text("file_format");  // the output's extension decides
 }
 
-ObjectPtr create(Params& params) {
+ObjectPtr create_film(Params& params) {
   auto film = std::make_shared<FilmSettings>();
   read_size(params, *film);
   read_crop(params, *film);
@@ -77,7 +77,7 @@ Plugin film(const std::string& name, const std::string& doc) {
       "banner",        "gamma",    "filename",       "label", "attach_log", "high_quality_edges",
       "sample_border", "exposure", "tonemap_method", "key",   "burn",       "compensate",
       "has_alpha"};
-  return {{"film", name, doc, parameters(), std::move(ignored)}, create};
+  return {{"film", name, doc, parameters(), std::move(ignored)}, create_film};
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 namespace mlt {
 namespace {
 
-ObjectPtr create(Params& params) {
+ObjectPtr create_sampler(Params& params) {
   auto sampler = std::make_shared<SamplerSettings>();
   if (params.has("sample_count"))
     sampler->sample_count =
@@ -24,7 +24,7 @@ Plugin sampler(const char* name) {
              std::vector<Parameter>{{"sample_count", ParamType::integer, no_default,
                                      "Samples per pixel, if the render is given no other budget."}},
              {"seed", "jitter", "scramble", "dimension", "depth", "strength"}},
-      create};
+      create_sampler};
 }
 
 }  // namespace

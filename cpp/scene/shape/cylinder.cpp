@@ -82,7 +82,7 @@ namespace {
 /// A circle whose two radii differ by more than this is an ellipse, and none that was rounded.
 constexpr double max_eccentricity = 1e-3;
 
-ObjectPtr create(Params& params) {
+ObjectPtr create_cylinder(Params& params) {
   const Mat4 to_world = matrix_param(params, "to_world");
   const Vec3 p0 = vector_param(params, "p0"), p1 = vector_param(params, "p1");
   const double radius = params.real("radius");
@@ -117,7 +117,7 @@ Plugin shape_cylinder() {
               {{"p0", ParamType::point, Triple{0, 0, 0}, "Where its axis begins, in object space."},
                {"p1", ParamType::point, Triple{0, 0, 1}, "Where its axis ends."},
                {"radius", ParamType::real, 1.0, "In object space."}}),
-          create};
+          create_cylinder};
 }
 
 }  // namespace mlt

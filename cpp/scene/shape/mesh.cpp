@@ -21,7 +21,7 @@ std::vector<T> buffer(Params& params, const char* name) {
   return elements;
 }
 
-ObjectPtr create(Params& params) {
+ObjectPtr create_mesh(Params& params) {
   MeshData data;
   data.positions = buffer<Vec3f>(params, "vertices");
   data.triangles = buffer<std::array<uint32_t, 3>>(params, "faces");
@@ -42,7 +42,7 @@ Plugin shape_mesh() {
                    {"normals", ParamType::buffer, no_default, "Of the vertices: float32, (n, 3)."},
                    {"uv", ParamType::buffer, no_default, "Texture coordinates: float32, (n, 2)."}},
                   normals_parameters()})),
-      create};
+      create_mesh};
 }
 
 }  // namespace mlt

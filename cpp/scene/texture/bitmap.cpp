@@ -152,7 +152,7 @@ Decoding read_decoding(Params& params) {
   return decoding;
 }
 
-ObjectPtr create(Params& params) {
+ObjectPtr create_bitmap(Params& params) {
   const Wrap wrap_u = read_wrap(params, "wrap_mode_u"), wrap_v = read_wrap(params, "wrap_mode_v");
   const bool nearest = read_nearest(params);
   const UvTransform to_uv(params);
@@ -183,7 +183,7 @@ Plugin texture_bitmap() {
   std::vector<std::string> ignored = {"format", "accel", "cache", "max_anisotropy"};
   return {{"texture", "bitmap", "An image, interpolated between its texels.",
            concat({parameters(), uv_parameters()}), std::move(ignored)},
-          create};
+          create_bitmap};
 }
 
 }  // namespace mlt

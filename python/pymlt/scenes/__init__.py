@@ -30,9 +30,9 @@ def cornell_box() -> dict:
     return _load("cornell-box")
 
 
-def glass_ball() -> dict:
+def glass_ball(filter: str = "gaussian") -> dict:
     """The Cornell box with a glass ball and a light a tenth as wide: a caustic on the floor."""
-    return _load("glass-ball")
+    return _load("glass-ball", filter=filter)
 
 
 def door_ajar(opening: float = 16, filter: str = "gaussian") -> dict:
@@ -60,9 +60,9 @@ def dof(aperture: float = 0.07, filter: str = "gaussian") -> dict:
     return _load("dof", aperture=aperture, filter=filter)
 
 
-def motion(shutter: float = 1) -> dict:
+def motion(shutter: float = 1, filter: str = "gaussian") -> dict:
     """A lamp, a glass ball and a fan that move until the shutter closes at time `shutter`."""
-    return _load("motion", shutter=shutter)
+    return _load("motion", shutter=shutter, filter=filter)
 
 
 def goblets() -> dict:

@@ -61,6 +61,25 @@ TEST(Bytes, ASizeThatCannotBeIsRefusedBeforeMemoryIsTaken) {
   }
 }
 
+TEST(Bytes, OfEqualValuesAreEqualWhateverLiesBetweenTheirMembers) {
+  struct Padded {
+    bool flag;
+    double number;
+  };
+  std::string written[2];
+  for (const int fill : {0, 1}) {
+    alignas(Padded) unsigned char memory[sizeof(Padded)];
+    std::memset(memory, fill, sizeof memory);
+    auto* value = reinterpret_cast<Padded*>(memory);
+    value->flag = true;
+    value->number = 2;
+    ByteWriter writer;
+    writer.write(*value);
+    written[fill] = writer.take();
+  }
+  EXPECT_EQ(written[0], written[1]);
+}
+
 TEST(Bytes, NothingIsNothing) {
   const std::string bytes = ByteWriter().take();
   EXPECT_TRUE(bytes.empty());
