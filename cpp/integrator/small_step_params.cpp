@@ -12,7 +12,7 @@ std::vector<Parameter> primary_step_parameters() {
            "or `gaussian`.",
            {"kelemen", "gaussian"}},
           {"step_size", ParamType::real, no_default,
-           "The largest move of a small step, by default 1/64, or the standard deviation of a "
+           "The largest move of a small step, by default 1/32, or the standard deviation of a "
            "Gaussian one, by default 0.01."},
           {"delayed_rejection", ParamType::boolean, false,
            "Let a small step follow a large one that was rejected."}};

@@ -418,7 +418,7 @@ class MMLT(Integrator):
         How a small step moves a number: `kelemen` by 1/16 of the step size up to all of it, or
         `gaussian`. One of: kelemen, gaussian.
     step_size : float
-        The largest move of a small step, by default 1/64, or the standard deviation of a
+        The largest move of a small step, by default 1/32, or the standard deviation of a
         Gaussian one, by default 0.01.
     delayed_rejection : boolean, default False
         Let a small step follow a large one that was rejected.
@@ -520,7 +520,7 @@ class PSSMLT(Integrator):
         How a small step moves a number: `kelemen` by 1/16 of the step size up to all of it, or
         `gaussian`. One of: kelemen, gaussian.
     step_size : float
-        The largest move of a small step, by default 1/64, or the standard deviation of a
+        The largest move of a small step, by default 1/32, or the standard deviation of a
         Gaussian one, by default 0.01.
     delayed_rejection : boolean, default False
         Let a small step follow a large one that was rejected.
@@ -627,7 +627,7 @@ class RJMLT(Integrator):
         How a small step moves a number: `kelemen` by 1/16 of the step size up to all of it, or
         `gaussian`. One of: kelemen, gaussian.
     step_size : float
-        The largest move of a small step, by default 1/64, or the standard deviation of a
+        The largest move of a small step, by default 1/32, or the standard deviation of a
         Gaussian one, by default 0.01.
     delayed_rejection : boolean, default False
         Let a small step follow a large one that was rejected.

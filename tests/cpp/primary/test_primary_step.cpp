@@ -22,7 +22,7 @@ constexpr double alpha = 1e-5;
 TEST(SmallStep, IsSymmetricAndFollowsItsDensity) {
   // |s| has a density proportional to 1 / |s|, so log |s| is uniform.
   constexpr int cells = 64, n = 200'000;
-  constexpr double smallest = 1. / 1024, largest = 1. / 64, rounding = 1e-15;
+  constexpr double smallest = 1. / 512, largest = 1. / 32, rounding = 1e-15;
   for (const double u : {0.25, 0.5, 0.999, 0.0001}) {
     std::vector<double> observed(2 * cells), expected(2 * cells, n / (2.0 * cells));
     Rng rng(51, Purpose::test, 0);
@@ -51,7 +51,7 @@ TEST(SmallStep, NeverReachesOne) {
     if (from_zero < 0.5) continue;  // a step upwards
     Rng probe = rng;
     const double sample = probe.next();
-    double u = 1. / 64 * std::exp(-std::log(16.0) * (2 * sample - 1));
+    double u = 1. / 32 * std::exp(-std::log(16.0) * (2 * sample - 1));
     for (int i = 0; i < 4; ++i, u = std::nextafter(u, 0)) {
       Rng again = rng;
       const double v = SmallStep()(u, 1, again);
@@ -289,7 +289,7 @@ TEST(PrimaryStep, MovesEveryNumberALittleOrDrawsAllAfresh) {
     }
     for (size_t k = 0; k < std::min(x.used.size(), y[0].used.size()); ++k) {
       const double distance = std::abs(x.used[k] - y[0].used[k]);
-      EXPECT_LE(std::min(distance, 1 - distance), 1. / 64 + 1e-15);
+      EXPECT_LE(std::min(distance, 1 - distance), 1. / 32 + 1e-15);
     }
   }
   EXPECT_GT(chi_square_counts({large + 0., 10'000. - large}, {3000, 7000}).p_value, alpha);
