@@ -18,8 +18,8 @@ class TargetMap {
   /// Adds one sample of the coarse image.
   void add(const Vec2& raster, double brightness);
   void add(const TargetMap& other);
-  /// Smooths the coarse image and turns it into factors: 1 over the brightness, at least a share of
-  /// the mean.
+  /// Smooths the coarse image, without single bright cells, and turns it into factors: 1 over the
+  /// brightness, at least a share of the mean.
   void finish();
 
   /// The factor of the target at a raster position.
@@ -30,6 +30,9 @@ class TargetMap {
 
  private:
   size_t cell_at(const Vec2& raster) const;
+  size_t index(int x, int y) const { return static_cast<size_t>(y) * columns_ + x; }
+  double brightest_neighbour(int x, int y) const;
+  double smoothed(const std::vector<double>& cells, int x, int y) const;
 
   Raster raster_;
   int columns_, rows_;
