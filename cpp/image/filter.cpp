@@ -16,7 +16,10 @@ Filter::Filter(const std::string& name, double radius, const std::function<doubl
   const double integral = 2 * sum * radius / intervals;
   if (!(integral > 0) || !std::isfinite(integral))
     throw UsageError("filter '" + name + "': its parameters give it no positive weight");
-  for (double& value : table_) value /= integral;
+  for (double& value : table_) {
+    value /= integral;
+    largest_ = std::max(largest_, std::abs(value));
+  }
 }
 
 namespace {

@@ -12,6 +12,7 @@
 // partition of unity stays one.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <string>
@@ -36,16 +37,19 @@ class Filter {
   double eval(double x) const {
     if (!(x > -radius_ && x <= radius_)) return 0;
     const double t = std::abs(x) * scale_;
-    const int i = t < intervals ? static_cast<int>(t) : intervals - 1;
-    const double low = table_[static_cast<size_t>(i)], high = table_[static_cast<size_t>(i) + 1];
-    return low + (t - i) * (high - low);
+    const int i = std::min(static_cast<int>(t), intervals - 1);
+    const double* low = table_.data() + i;
+    return low[0] + (t - i) * (low[1] - low[0]);
   }
+  /// No |f(x)| is larger.
+  double largest() const { return largest_; }
 
  private:
   static constexpr int intervals = 768;  // a multiple of 1, 2, 3, 4, 6, 8 lobes
 
   std::string name_;
   double radius_, scale_;
+  double largest_ = 0;
   bool box_;
   std::vector<double> table_;
 };

@@ -57,11 +57,12 @@ SampleFilm::Tile::Tile(const PixelRect& cells, const PixelRect& reach, const Fil
       rgb_(size_t{3} * reach.width() * reach.height() + spare_values) {}
 
 void SampleFilm::Tile::add(const Vec2& raster, const Color& color) {
-  mlt::splat(*filter_, raster, color, reach_, [&](int x, int y, int count, const double* values) {
-    float* to = pixel(rgb_, reach_, x, y);
-    const int padded = whole_vectors(count);
-    for (int i = 0; i < padded; ++i) to[i] += static_cast<float>(values[i]);
-  });
+  mlt::splat(*filter_, raster, color, reach_,
+             [&](int x, int y, int count, const double* values, double weight) {
+               float* to = pixel(rgb_, reach_, x, y);
+               const int padded = whole_vectors(count);
+               for (int i = 0; i < padded; ++i) to[i] += static_cast<float>(values[i] * weight);
+             });
 }
 
 PixelRect SampleFilm::cells_of(int tile) const {
@@ -120,10 +121,11 @@ void SampleFilm::add(Strand& strand, const Pending& pending) {
   if (pending.data.splats_.empty()) return;
   strand.light.resize(strand.size());
   for (const Splat& one : pending.data.splats_)
-    splat(*filter_, one.raster, one.color, all, [&](int x, int y, int count, const double* values) {
-      float* to = pixel(strand.light, all, x, y);
-      for (int i = 0; i < count; ++i) to[i] += static_cast<float>(values[i]);
-    });
+    splat(*filter_, one.raster, one.color, all,
+          [&](int x, int y, int count, const double* values, double weight) {
+            float* to = pixel(strand.light, all, x, y);
+            for (int i = 0; i < count; ++i) to[i] += static_cast<float>(values[i] * weight);
+          });
 }
 
 void SampleFilm::add_samples(const Group& group, std::vector<uint64_t>& samples) const {

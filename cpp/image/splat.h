@@ -26,9 +26,9 @@ inline int filter_border(const Filter& filter) {
   return static_cast<int>(std::ceil(filter.radius() - 0.5));
 }
 
-/// Calls add(x, y, count, values) for each run of pixels of `rect`, from (x, y) on, whose filter
-/// covers the raster position `at`: `count` values, three channels a pixel, of color times filter,
-/// and zeros up to whole_vectors(count).
+/// Calls add(x, y, count, values, weight) for each run of pixels of `rect`, from (x, y) on, whose
+/// filter covers the raster position `at`: color times filter is `weight` times `count` values, three
+/// channels a pixel, with zeros up to whole_vectors(count).
 template <class Add>
 void splat(const Filter& filter, const Vec2& at, const Color& color, const PixelRect& rect,
            Add&& add) {
@@ -36,7 +36,7 @@ void splat(const Filter& filter, const Vec2& at, const Color& color, const Pixel
     const int x = static_cast<int>(std::floor(at.x)), y = static_cast<int>(std::floor(at.y));
     if (x >= rect.x0 && x < rect.x1 && y >= rect.y0 && y < rect.y1) {
       const double values[8] = {color.x, color.y, color.z};
-      add(x, y, 3, values);
+      add(x, y, 3, values, 1.0);
     }
     return;
   }
@@ -49,17 +49,14 @@ void splat(const Filter& filter, const Vec2& at, const Color& color, const Pixel
   for (int first = x0; first <= x1; first += run_pixels) {
     const int pixels = std::min(run_pixels, x1 + 1 - first);
     const int count = 3 * pixels, padded = whole_vectors(count);
-    double row[3 * run_pixels] = {}, values[3 * run_pixels];
+    double row[3 * run_pixels];
     for (int i = 0; i < pixels; ++i) {
       const double wx = filter.eval(first + i + 0.5 - at.x);
       for (int c = 0; c < 3; ++c) row[3 * i + c] = color[c] * wx;
     }
-    for (int y = y0; y <= y1; ++y) {
-      const double wy = filter.eval(y + 0.5 - at.y);
-      if (wy == 0) continue;
-      for (int i = 0; i < padded; ++i) values[i] = row[i] * wy;
-      add(first, y, count, values);
-    }
+    for (int i = count; i < padded; ++i) row[i] = 0;
+    for (int y = y0; y <= y1; ++y)
+      if (const double wy = filter.eval(y + 0.5 - at.y); wy != 0) add(first, y, count, row, wy);
   }
 }
 

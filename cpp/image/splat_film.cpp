@@ -14,39 +14,31 @@ constexpr int64_t largest = int64_t{1} << 62;  ///< Of a sum, or of one splat.
 constexpr double largest_exact = 0x1p51;       ///< Of what round_small rounds.
 constexpr int run_values = 3 * run_pixels;
 
-bool all_small(const double* steps, int count) {
-  bool small = true;
-  for (int i = 0; i < count; ++i) small &= std::abs(steps[i]) < largest_exact;
-  return small;
-}
-
-/// To the nearest integers. Between 2^52 and 2^53 the last bit of a double counts ones, so the sum
-/// with 1.5 * 2^52 has them in its low bits; compilers can do this for several numbers at a time.
-void round_small(const double* steps, int count, int64_t* rounded) {
+/// `weight` times `values`, to the nearest integers. Between 2^52 and 2^53 the last bit of a double
+/// counts ones, so the sum with 1.5 * 2^52 has them in its low bits; compilers can do this for several
+/// numbers at a time.
+void round_small(const double* values, double weight, int count, int64_t* rounded) {
   constexpr double shift = 0x1.8p52;
   double shifted[run_values];
-  for (int i = 0; i < count; ++i) shifted[i] = steps[i] + shift;
+  for (int i = 0; i < count; ++i) shifted[i] = values[i] * weight + shift;
   int64_t base;
   std::memcpy(&base, &shift, sizeof(base));
-  std::memcpy(rounded, shifted, count * sizeof(*rounded));
-  for (int i = 0; i < count; ++i) rounded[i] -= base;
+  for (int i = 0; i < count; ++i) {
+    std::memcpy(&rounded[i], &shifted[i], sizeof(base));
+    rounded[i] -= base;
+  }
 }
 
 /// The same for numbers of any size; returns how many are too large, or not numbers.
-int round_large(const double* steps, int count, int64_t* rounded) {
+int round_large(const double* values, double weight, int count, int64_t* rounded) {
   int refused = 0;
   for (int i = 0; i < count; ++i) {
-    const bool fits = std::abs(steps[i]) < static_cast<double>(largest);
-    rounded[i] = fits ? std::llrint(steps[i]) : 0;
+    const double step = values[i] * weight;
+    const bool fits = std::abs(step) < static_cast<double>(largest);
+    rounded[i] = fits ? std::llrint(step) : 0;
     refused += !fits;
   }
   return refused;
-}
-
-int round_steps(const double* steps, int count, int64_t* rounded) {
-  if (!all_small(steps, count)) return round_large(steps, count, rounded);
-  round_small(steps, count, rounded);
-  return 0;
 }
 
 /// Returns to how many sums nothing could be added safely.
@@ -74,21 +66,29 @@ SplatFilm::SplatFilm(int width, int height, std::shared_ptr<const Filter> filter
 
 template <class Use>
 void SplatFilm::with_row(int group, int y, Use&& use) const {
-  Lock& lock = locks_[size_t(group) * height_ + y];
+  const size_t row = size_t(group) * height_ + y;
+  Lock& lock = locks_[row];
   while (lock.exchange(true, std::memory_order_acquire)) std::this_thread::yield();
-  use(&cells_[group_size() * group + size_t{3} * y * width_]);
+  use(&cells_[3 * row * width_]);
   lock.store(false, std::memory_order_release);
 }
 
 void SplatFilm::add(int group, const Vec2& raster, const Color& color) {
-  const auto add = [&](int x, int y, int count, const double* values) {
+  const Color steps_in_color = color * one;
+  const double filter = std::max(1.0, sqr(filter_->largest()));  // The box filter's weight is 1.
+  const Color size = glm::abs(steps_in_color) * filter;
+  const bool small = size.x < largest_exact && size.y < largest_exact && size.z < largest_exact;
+  const auto add = [&](int x, int y, int count, const double* values, double weight) {
     int64_t steps[run_values];
-    const int refused = round_steps(values, count, steps);
-    int full = 0;
+    int refused = 0, full = 0;
+    if (small)
+      round_small(values, weight, whole_vectors(count), steps);
+    else
+      refused = round_large(values, weight, count, steps);
     with_row(group, y, [&](int64_t* row) { full = add_steps(steps, count, row + 3 * x); });
     if (refused + full > 0) saturated_ += refused + full;
   };
-  splat(*filter_, raster, color * one, {0, 0, width_, height_}, add);
+  splat(*filter_, raster, steps_in_color, {0, 0, width_, height_}, add);
 }
 
 Image SplatFilm::image(const std::vector<double>& scale) const {
