@@ -15,6 +15,8 @@
 #include "mutation/measured_mutation.h"
 #include "mutation/mutation_registry.h"
 
+#include <array>
+
 namespace mlt {
 namespace {
 
@@ -58,27 +60,40 @@ double deletion_probability(const PathState& x, int l, int m) {
 struct AddedLength {
   static constexpr int most_change = 12;
   int least, most, deleted;
+  double total = 0;  ///< Of the weights from least to most.
 
   AddedLength(int k, int l, int m, int most_edges) : deleted(m - l) {
     least = std::max(1 + (l < 0) + (m > k), deleted - most_change);
     most = std::min(deleted + most_change, most_edges - k + deleted);
+    if (least > most) return;
+    total = sums()[most - deleted + most_change] - sums()[least - deleted + most_change] +
+            weight_of_change(least - deleted);
+    if (deleted == 1 && least == 1) total -= weight_of_change(0);
+  }
+  static double weight_of_change(int change) {
+    change = std::abs(change);
+    return change == 0 ? 0.5 : change == 1 ? 0.15 : 0.2 * power_of_half(change);
+  }
+  /// Of the weights of all changes from -most_change on.
+  static const std::array<double, 2 * most_change + 1>& sums() {
+    static const auto sums = [] {
+      std::array<double, 2 * most_change + 1> sums;
+      double sum = 0;
+      for (int i = 0; i <= 2 * most_change; ++i) sums[i] = sum += weight_of_change(i - most_change);
+      return sums;
+    }();
+    return sums;
   }
   double weight(int added) const {
     if (added == 1 && deleted == 1) return 0;  // one edge for one edge would change nothing
-    const int change = std::abs(added - deleted);
-    return change == 0 ? 0.5 : change == 1 ? 0.15 : 0.2 * power_of_half(change);
-  }
-  double total() const {
-    double sum = 0;
-    for (int c = least; c <= most; ++c) sum += weight(c);
-    return sum;
+    return weight_of_change(added - deleted);
   }
   double probability(int added) const {
-    return added < least || added > most ? 0.0 : weight(added) / total();
+    return added < least || added > most ? 0.0 : weight(added) / total;
   }
   /// 0 if nothing may be added.
   int sample(double u) const {
-    u *= total();
+    u *= total;
     int added = least;
     while (added < most && (u -= weight(added)) >= 0) ++added;
     return added <= most && weight(added) > 0 ? added : 0;
