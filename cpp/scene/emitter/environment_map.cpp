@@ -4,7 +4,7 @@ namespace mlt {
 namespace {
 
 /// Polar angle against the y axis, exact near the poles too.
-double theta_of(const Vec3& d) { return std::atan2(std::hypot(d.x, d.z), d.y); }
+double theta_of(const Vec3& d) { return std::atan2(std::sqrt(sqr(d.x) + sqr(d.z)), d.y); }
 
 }  // namespace
 
@@ -30,12 +30,15 @@ Color EnvironmentMap::eval(const SurfacePoint& x0, const Vec3&) const {
 }
 
 PositionSample EnvironmentMap::sample_position(const Vec2& u, double) const {
-  const SurfacePoint at = point_towards(axes_.to_world(direction_of(table_.sample(u))));
-  return {at, pdf_position(at)};
+  const Vec2 p = table_.sample(u);
+  return {point_towards(axes_.to_world(direction_of(p))), pdf_at(p)};
 }
 
 double EnvironmentMap::pdf_position(const SurfacePoint& x0) const {
-  const Vec2 p = place_of(axes_.to_local(x0.p));
+  return pdf_at(place_of(axes_.to_local(x0.p)));
+}
+
+double EnvironmentMap::pdf_at(const Vec2& p) const {
   const double cells = static_cast<double>(width_) * cell_rows();
   return table_.pdf(p) / (cells * cell_solid_angle(row_at(p.y)));
 }

@@ -44,6 +44,8 @@ class EnvironmentMap : public InfiniteEmitter {
   void integrate();
   double cell_solid_angle(int row) const;
   int row_at(double y) const;
+  /// Density in solid angle of the direction at this place of the table.
+  double pdf_at(const Vec2& p) const;
   Vec3 direction_of(const Vec2& p) const;
   Vec2 place_of(const Vec3& d) const;
 
