@@ -116,8 +116,8 @@ bool new_end(const Scene& scene, Path& path, int i, bool alone, Rng& rng) {
   const Vec3 u{rng.next(), rng.next(), rng.next()};
   const LightSample light = alone ? sample_direct_position(scene, path[1].at, u)
                                   : sample_light_position(scene, u, path.time);
-  if (!(light.pdf > 0)) return false;
-  path[0] = light_vertex(*light.emitter, light.x0);
+  if (!(light.x0.pdf > 0)) return false;
+  path[0] = light_vertex(*light.emitter, light.x0.at);
   return true;
 }
 

@@ -1,6 +1,44 @@
 #include "path/bidirectional_sampler.h"
 
 namespace mlt {
+namespace {
+
+/// What an edge finds at the vertex of a subpath that it joins to the other one.
+struct JointEnd {
+  Color value{0};      ///< Throughput times f.
+  double onwards = 0;  ///< Density of the edge's direction in projected solid angle,
+  double back = 0;     ///< and that of the direction to the previous vertex.
+};
+
+JointEnd any_end(const Scene& scene, const WalkVertex& x, Subpath::From from, const Vec3& w,
+                 bool strict) {
+  if (from == Subpath::From::light) {
+    const VertexTerms terms = joint_terms(scene, x.vertex, x.towards_previous, w, strict);
+    return {x.throughput * terms.f, terms.pdf_from_light, terms.pdf_from_camera};
+  }
+  const VertexTerms terms = joint_terms(scene, x.vertex, w, x.towards_previous, strict);
+  return {x.throughput * terms.f, terms.pdf_from_camera, terms.pdf_from_light};
+}
+
+/// Where the edge leaves the vertex along w; false if no light does.
+inline bool find_end(const Scene& scene, const WalkVertex& x, Subpath::From from, const Vec3& w,
+                     bool strict, JointEnd& end) {
+  const SurfacePoint& at = x.vertex.at;
+  if (!at.matte.known()) {
+    end = any_end(scene, x, from, w, strict);
+    return !is_black(end.value);
+  }
+  const double geometric = std::abs(dot(at.ng, w)), cosine = dot(at.shading.n, w);
+  if (geometric == 0 || !(cosine * x.matte.cosine > 0) || !consistent_sides(at, w, strict))
+    return false;
+  const double quotient = std::abs(cosine) / geometric;
+  end.value = from == Subpath::From::light ? x.matte.value : x.matte.value * quotient;
+  end.onwards = quotient * inv_pi;
+  end.back = x.matte.back;
+  return true;
+}
+
+}  // namespace
 
 /// How much more often technique s = 1 makes x_0 than a walk from it does.
 double BidirectionalSampler::direct_over_walk(const Vertex& x0, double from_light,
@@ -20,32 +58,24 @@ double BidirectionalSampler::light_technique(int i, bool joined) const {
 /// The same for technique t = i and the camera subpath.
 double BidirectionalSampler::camera_technique(int i, bool joined) const {
   if (i <= 1 && !settings_.light_image) return 0;
-  if (i == 0) return can_be_hit(*scene_, camera_[0].vertex) ? 1 : 0;
+  if (i == 0) return lens_can_be_hit_ ? 1 : 0;
   return connectable(camera_[i - 1].vertex) && (joined || connectable(camera_[i].vertex)) ? 1 : 0;
 }
 
-/// Techniques with a joint before or at vertex i of the light subpath, whose density as made by a
-/// camera walk is `reverse`.
-TechniqueSums BidirectionalSampler::below_light(int i, double reverse) const {
-  const TechniqueSums before = i > 0 ? light_sums_[i - 1] : TechniqueSums();
-  return before.over(reverse / light_[i].forward, light_technique(i));
-}
-TechniqueSums BidirectionalSampler::above_camera(int i, double reverse) const {
-  const TechniqueSums before = i > 0 ? camera_sums_[i - 1] : TechniqueSums();
-  return before.over(reverse / camera_[i].forward, camera_technique(i));
-}
-
-/// Up to the last vertex but one: the density that the other walk gives it is known.
+/// Up to each vertex: those before it have the density that the other walk gives them.
 void BidirectionalSampler::sum_techniques() {
   light_sums_.clear();
   camera_sums_.clear();
-  if (light_.size() >= 2)
+  const int lights = static_cast<int>(light_.size()), cameras = static_cast<int>(camera_.size());
+  if (lights >= 2)
     light_direct_over_walk_ =
         direct_over_walk(light_[0].vertex, light_[0].forward, light_[1].vertex.at);
-  for (int i = 0; i + 1 < static_cast<int>(light_.size()); ++i)
-    light_sums_.push_back(below_light(i, light_[i].reverse));
-  for (int i = 0; i + 1 < static_cast<int>(camera_.size()); ++i)
-    camera_sums_.push_back(above_camera(i, camera_[i].reverse));
+  for (int i = 0; i < lights; ++i)
+    light_sums_.push_back((i > 0 ? below_light(i - 1, light_[i - 1].reverse) : TechniqueSums())
+                              .with(light_technique(i)));
+  for (int i = 0; i < cameras; ++i)
+    camera_sums_.push_back((i > 0 ? above_camera(i - 1, camera_[i - 1].reverse) : TechniqueSums())
+                               .with(camera_technique(i)));
 }
 
 bool BidirectionalSampler::weigh(Connection& connection, double own, const TechniqueSums& below,
@@ -68,62 +98,71 @@ bool BidirectionalSampler::evaluate_hit_light(Connection& connection) {
   if (is_black(connection.contribution)) return false;
   const double from_light = light_position_pdf(*scene_, x0);
   const double direct = direct_over_walk(x0, from_light, camera_[t - 2].vertex.at);
-  const TechniqueSums above =
-      above_camera(t - 2, terms.pdf_from_light * end.G)
-          .over(from_light / end.forward, direct * camera_technique(t - 1, true));
+  const TechniqueSums above = above_camera(t - 2, terms.pdf_from_light * end.G)
+                                  .with(direct * camera_technique(t - 1, true))
+                                  .over(from_light / end.forward);
   return weigh(connection, 1, {}, above, end.survival);
+}
+
+/// A matte vertex knows the density of going back from it: the walk has summed up already.
+inline TechniqueSums BidirectionalSampler::below_joint(int i, const WalkVertex& x,
+                                                       double back) const {
+  if (x.vertex.at.matte.known()) return light_sums_[i];
+  if (i == 0) return TechniqueSums().with(can_be_hit(*scene_, x.vertex) ? 1 : 0);
+  return below_light(i - 1, back * x.G).with(light_technique(i, true));
+}
+inline TechniqueSums BidirectionalSampler::above_joint(int i, const WalkVertex& x,
+                                                       double back) const {
+  if (x.vertex.at.matte.known()) return camera_sums_[i];
+  const TechniqueSums before = i > 0 ? above_camera(i - 1, back * x.G) : TechniqueSums();
+  return before.with(camera_technique(i, true));
 }
 
 /// s >= 1, t >= 1: the last vertices of the two subpaths see each other.
 bool BidirectionalSampler::evaluate_connection(Connection& connection, RayCounts& rays) {
   const int s = connection.s, t = connection.t, k = s + t - 1;
+  const bool direct = is_direct(s), strict = settings_.rules.strict_normals;
   const WalkVertex& b = camera_[t - 1];
   if (b.vertex.at.infinite()) return false;
-  const bool direct = s == 1 && settings_.sample_direct;
   if (direct ? !choose_direct(b.vertex.at, direct_u_[t - 1]) : s > static_cast<int>(light_.size()))
     return false;
-  const WalkVertex* lights = direct ? &direct_ : light_.data();
-  const WalkVertex& a = lights[s - 1];
-  if (k == 1 && !can_be_hit(*scene_, a.vertex) && !can_be_hit(*scene_, b.vertex)) return false;
+  const WalkVertex& a = direct ? direct_ : light_[s - 1];
+  if (k == 1 && !lens_can_be_hit_ && !can_be_hit(*scene_, a.vertex)) return false;
 
-  const Vec3 ab = direction(a.vertex.at, b.vertex.at);
-  const VertexTerms at_a =
-      joint_terms(*scene_, a.vertex, a.towards_previous, ab, settings_.rules.strict_normals);
-  if (is_black(at_a.f)) return false;
-  const VertexTerms at_b =
-      joint_terms(*scene_, b.vertex, -ab, b.towards_previous, settings_.rules.strict_normals);
-  if (is_black(at_b.f)) return false;
-  const double G = geometry(a.vertex.at, b.vertex.at, ab);
-  connection.contribution = a.throughput * at_a.f * G * at_b.f * b.throughput;
-  if (is_black(connection.contribution)) return false;
+  const Edge edge = edge_between(a.vertex.at, b.vertex.at);
+  JointEnd at_a, at_b;
+  if (!find_end(*scene_, a, Subpath::From::light, edge.w, strict, at_a)) return false;
   if (t == 1) {
-    const auto raster = scene_->camera().raster_position(b.vertex.at, -ab);
+    const auto [terms, raster] = lens_terms(*scene_, b.vertex.at, -edge.w);
     if (!raster) return false;
     connection.raster = *raster;
+    at_b = {b.throughput * terms.f, terms.pdf_from_camera, 0};
+  } else if (!find_end(*scene_, b, Subpath::From::camera, -edge.w, strict, at_b)) {
+    return false;
   }
+  connection.contribution = at_a.value * at_b.value * edge.G;
+  if (is_black(connection.contribution)) return false;
   const double seen = walker(rays).join(a.vertex.at, b.vertex.at);
   if (seen == 0) return false;
   connection.contribution *= seen;
 
-  TechniqueSums below, above;
-  if (s >= 2) below = below_light(s - 2, at_a.pdf_from_camera * a.G);
-  if (t >= 2) above = above_camera(t - 2, at_b.pdf_from_light * b.G);
-  const double before_a = s >= 2                          ? light_technique(s - 1, true)
-                          : can_be_hit(*scene_, a.vertex) ? 1
-                                                          : 0;
-  below = below.over(at_b.pdf_from_camera * G / a.forward, before_a);
-  above = above.over(at_a.pdf_from_light * G / b.forward, camera_technique(t - 1, true));
+  const TechniqueSums below =
+      below_joint(s - 1, a, at_a.back).over(at_b.onwards * edge.G / a.forward);
+  const TechniqueSums above =
+      above_joint(t - 1, b, at_b.back).over(at_a.onwards * edge.G / b.forward);
   return weigh(connection, direct ? direct_pdf_ / a.forward : 1, below, above,
                a.survival * b.survival);
 }
 
 bool BidirectionalSampler::choose_direct(const SurfacePoint& from, const Vec3& u) {
   const LightSample chosen = sample_direct_position(*scene_, from, u);
-  if (!(chosen.pdf > 0)) return false;
-  direct_.vertex = light_vertex(*chosen.emitter, chosen.x0);
-  direct_.throughput = Color(1 / chosen.pdf);
-  direct_pdf_ = chosen.pdf;
-  direct_.forward = light_position_pdf(*scene_, direct_.vertex);
+  direct_pdf_ = chosen.x0.pdf;
+  if (!(direct_pdf_ > 0)) return false;
+  direct_.vertex = light_vertex(*chosen.emitter, chosen.x0.at);
+  direct_.throughput = Color(1 / direct_pdf_);
+  // A light at infinity looks the same from everywhere.
+  direct_.forward =
+      chosen.emitter->infinite() ? direct_pdf_ : light_position_pdf(*scene_, direct_.vertex);
   return true;
 }
 
@@ -140,9 +179,7 @@ bool BidirectionalSampler::evaluate_hit_lens(Connection& connection, RayCounts& 
       length_squared(hit->p - ray.o) >= length_squared(light_[s - 1].vertex.at.p - ray.o))
     return false;
   lens_ = camera_vertex(*hit);
-  const VertexTerms terms = vertex_terms(*scene_, lens_, -last.towards_next, -last.towards_next,
-                                         settings_.rules.strict_normals);
-  const auto raster = scene_->camera().raster_position(*hit, -last.towards_next);
+  const auto [terms, raster] = lens_terms(*scene_, *hit, -last.towards_next);
   if (is_black(terms.f) || !raster) return false;
   connection.raster = *raster;
   connection.contribution = last.next_throughput * terms.f;
@@ -158,7 +195,8 @@ bool BidirectionalSampler::evaluate_hit_lens(Connection& connection, RayCounts& 
                                       : 1;
   const TechniqueSums below =
       below_light(k - 1, terms.pdf_from_camera * G)
-          .over(camera_position_pdf(*scene_, lens_) / (last.next_coefficient * G), before_lens);
+          .with(before_lens)
+          .over(camera_position_pdf(*scene_, lens_) / (last.next_coefficient * G));
   return weigh(connection, 1, below, {}, last.next_survival);
 }
 
@@ -166,10 +204,9 @@ void BidirectionalSampler::assemble(const Connection& connection, Path& path) co
   const int s = connection.s, t = connection.t;
   path.vertices.clear();
   path.time = time_;
-  const bool direct = s == 1 && settings_.sample_direct;
   const int lights = t == 0 ? s - 1 : s;
   for (int i = 0; i < lights; ++i)
-    path.vertices.push_back(direct ? direct_.vertex : light_[i].vertex);
+    path.vertices.push_back(is_direct(s) ? direct_.vertex : light_[i].vertex);
   if (t == 0) path.vertices.push_back(lens_);
   for (int j = t - 1; j >= 0; --j) path.vertices.push_back(camera_[j].vertex);
   if (s == 0)

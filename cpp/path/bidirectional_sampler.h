@@ -3,7 +3,7 @@
 #pragma once
 
 #include "path/mis.h"
-#include "path/path.h"
+#include "path/path_terms.h"
 #include "path/subpath.h"
 
 #include <vector>
@@ -40,7 +40,7 @@ struct Connection {
 class BidirectionalSampler {
  public:
   BidirectionalSampler(const Scene& scene, const BidirectionalSettings& settings)
-      : scene_(&scene), settings_(settings) {}
+      : scene_(&scene), settings_(settings), lens_can_be_hit_(!scene.camera().delta_position()) {}
 
   /// Draws both subpaths for a raster position.
   template <class Sampler>
@@ -64,7 +64,7 @@ class BidirectionalSampler {
     if (static_cast<int>(camera_.size()) < t) return;
     light_.clear();
     const WalkLength most = t == 0 ? WalkLength{s - 1, true} : WalkLength{s, false};
-    const bool direct = s == 1 && t > 0 && settings_.sample_direct;
+    const bool direct = t > 0 && is_direct(s);
     if (s > 0 && !direct) walk_from_light(walker(rays), settings_.rules, most, sampler, light_);
     if (!direct && static_cast<int>(light_.size()) < most.vertices) return;
     sampler.begin(Stream::direct);
@@ -99,7 +99,7 @@ class BidirectionalSampler {
       for (int s = 1; s <= std::max(1, static_cast<int>(light_.size())); ++s)
         connect(s, t, rays, found);
     }
-    if (settings_.light_image && !scene_->camera().delta_position())
+    if (settings_.light_image && lens_can_be_hit_)
       for (int s = 2; s <= static_cast<int>(light_.size()) + 1; ++s) hit_lens(s, rays, found);
   }
 
@@ -120,6 +120,8 @@ class BidirectionalSampler {
 
  private:
   bool wanted(int s, int t) const { return settings_.rules.wants(s + t - 1); }
+  /// Whether x_0 is chosen as seen from x_1.
+  bool is_direct(int s) const { return s == 1 && settings_.sample_direct; }
   Walker walker(RayCounts& rays) const { return {*scene_, time_, rays}; }
   /// A light walk may still hit the lens from its last vertex.
   WalkLength longest_light_walk() const { return {settings_.rules.most_edges(), true}; }
@@ -199,6 +201,12 @@ class BidirectionalSampler {
     if (wanted(s, 0) && evaluate_hit_lens(connection, rays)) found(connection);
   }
 
+  /// The techniques whose joint lies beyond vertex i of a subpath, or one that was chosen in place of
+  /// it, if the path is joined there; `back` is the density of going back from it, in projected solid
+  /// angle.
+  TechniqueSums below_joint(int i, const WalkVertex& x, double back) const;
+  TechniqueSums above_joint(int i, const WalkVertex& x, double back) const;
+
   bool evaluate_hit_light(Connection& connection);
   bool evaluate_connection(Connection& connection, RayCounts& rays);
   bool evaluate_hit_lens(Connection& connection, RayCounts& rays);
@@ -209,8 +217,14 @@ class BidirectionalSampler {
   void sum_techniques();
   double light_technique(int i, bool joined = false) const;
   double camera_technique(int i, bool joined = false) const;
-  TechniqueSums below_light(int i, double reverse) const;
-  TechniqueSums above_camera(int i, double reverse) const;
+  /// Techniques with a joint before or at vertex i of a subpath, whose density as made by a walk from
+  /// the other end is `reverse`.
+  TechniqueSums below_light(int i, double reverse) const {
+    return light_sums_[i].over(reverse / light_[i].forward);
+  }
+  TechniqueSums above_camera(int i, double reverse) const {
+    return camera_sums_[i].over(reverse / camera_[i].forward);
+  }
   double direct_over_walk(const Vertex& x0, double from_light, const SurfacePoint& x1) const;
 
   /// Fills in the weights; false if this technique counts for nothing.
@@ -219,6 +233,7 @@ class BidirectionalSampler {
 
   const Scene* scene_;
   BidirectionalSettings settings_;
+  bool lens_can_be_hit_;
   Subpath light_{Subpath::From::light}, camera_{Subpath::From::camera};
   Vec2 raster_{0};
   double time_ = 0;
@@ -227,7 +242,7 @@ class BidirectionalSampler {
   double direct_pdf_ = 0;       ///< and the density of choosing it so.
   Vertex lens_;                 ///< The end that was hit for t = 0.
   /// Techniques whose joint is in one of the subpaths, up to vertex i of it: their densities over
-  /// that of the technique which joins behind vertex i.
+  /// that of the technique which joins before vertex i.
   std::vector<TechniqueSums> light_sums_, camera_sums_;
   double light_direct_over_walk_ = 1;  ///< If x_0 and x_1 are the first vertices of `light_`.
 };

@@ -92,7 +92,7 @@ void PathRecorder::hit(const Emitter& emitter, const SurfacePoint& x0, const Vec
 
 void PathRecorder::connect(const Vec3& u_light, const Color& estimate) {
   const LightSample light = sample_direct_position(*scene_, walk_.back().at, u_light);
-  if (light.pdf > 0) keep(light_vertex(*light.emitter, light.x0), true, estimate);
+  if (light.x0.pdf > 0) keep(light_vertex(*light.emitter, light.x0.at), true, estimate);
 }
 
 void PathRecorder::keep(const Vertex& x0, bool connected, const Color& estimate) {

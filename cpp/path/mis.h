@@ -28,15 +28,16 @@ struct MisWeights {
 struct TechniqueSums {
   double sum = 0, squares = 0, largest = 0;
 
+  /// The sums with one technique more, which counts `technique` times: 1; 0 if it cannot make the
+  /// path; direct / from_light of x_0 if it is s = 1.
+  TechniqueSums with(double technique) const {
+    return {technique + sum, sqr(technique) + squares, std::max(technique, largest)};
+  }
   /// The sums after the joint has moved inwards over a vertex, which multiplies densities by
-  /// 1 / `quotient`. The technique that it leaves counts `technique` times: 1; 0 if it cannot make
-  /// the path; direct / from_light of x_0 if it is s = 1.
-  TechniqueSums over(double quotient, double technique) const {
-    if (!(quotient > 0)) return {};
-    // 0 stays 0, also where the quotient is infinite.
-    const auto times = [](double q, double x) { return x > 0 ? q * x : 0; };
-    return {times(quotient, technique + sum), times(sqr(quotient), sqr(technique) + squares),
-            times(quotient, std::max(technique, largest))};
+  /// 1 / `quotient`.
+  TechniqueSums over(double quotient) const {
+    if (!(quotient > 0) || sum == 0) return {};  // 0 stays 0, also where the quotient is infinite.
+    return {quotient * sum, squares > 0 ? sqr(quotient) * squares : 0, quotient * largest};
   }
 };
 

@@ -49,12 +49,4 @@ std::optional<Vec2> raster_position(const Scene& scene, const Path& path) {
   return scene.camera().raster_position(path[k].at, direction(path[k].at, path[k - 1].at));
 }
 
-bool is_specular(const Scene& scene, const Vertex& x, const Vec3& wl, const Vec3& wc,
-                 double near_specular) {
-  if (x.delta()) return true;
-  if (x.kind != VertexKind::surface || x.at.matte.known() || near_specular <= 0) return false;
-  const Frame& frame = x.at.shading;
-  return scene.bsdf(x.at).roughness(x.at, frame.to_local(wl), frame.to_local(wc)) < near_specular;
-}
-
 }  // namespace mlt

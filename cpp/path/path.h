@@ -33,7 +33,12 @@ std::optional<Vec2> raster_position(const Scene& scene, const Path& path);
 
 /// Whether vertex i scatters (almost) in one direction: a delta, or rougher than nothing but below
 /// the threshold. A function of the BSDF, the position and the two directions alone.
-bool is_specular(const Scene& scene, const Vertex& x, const Vec3& wl, const Vec3& wc,
-                 double near_specular);
+inline bool is_specular(const Scene& scene, const Vertex& x, const Vec3& wl, const Vec3& wc,
+                        double near_specular) {
+  if (x.delta()) return true;
+  if (x.kind != VertexKind::surface || x.at.matte.known() || near_specular <= 0) return false;
+  const Frame& frame = x.at.shading;
+  return scene.bsdf(x.at).roughness(x.at, frame.to_local(wl), frame.to_local(wc)) < near_specular;
+}
 
 }  // namespace mlt

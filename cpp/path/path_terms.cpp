@@ -8,17 +8,6 @@ constexpr double least_f = 1e-100;
 
 }  // namespace
 
-Edge edge_between(const SurfacePoint& a, const SurfacePoint& b) {
-  if (a.infinite() || b.infinite()) {
-    const Vec3 w = direction(a, b);
-    return {w, infinity, geometry(a, b, w)};
-  }
-  const Vec3 ab = b.p - a.p;
-  const double distance2 = length_squared(ab), distance = std::sqrt(distance2);
-  const Vec3 w = ab * (1 / distance);
-  return {w, distance, abs_cos(a, w) * abs_cos(b, w) / distance2};
-}
-
 void compute_terms(const Scene& scene, const Path& path, const TermSettings& settings,
                    PathTerms& terms) {
   const int k = path.edges();
@@ -106,9 +95,9 @@ double mis_weight(const PathTerms& terms, int s, Heuristic heuristic) {
   };
   TechniqueSums below, above;
   for (int i = 0; i < s; ++i)
-    below = below.over(terms[i].from_camera / terms[i].from_light, technique(i));
+    below = below.with(technique(i)).over(terms[i].from_camera / terms[i].from_light);
   for (int i = terms.edges(); i >= s; --i)
-    above = above.over(terms[i].from_light / terms[i].from_camera, technique(i + 1));
+    above = above.with(technique(i + 1)).over(terms[i].from_light / terms[i].from_camera);
   return mis_weights(technique(s), below, above, heuristic).chosen;
 }
 

@@ -27,7 +27,16 @@ struct Edge {
   double distance = 0;  ///< Infinite where one end is at infinity.
   double G = 0;         ///< G(a, b), without visibility.
 };
-Edge edge_between(const SurfacePoint& a, const SurfacePoint& b);
+inline Edge edge_between(const SurfacePoint& a, const SurfacePoint& b) {
+  if (a.infinite() || b.infinite()) {
+    const Vec3 w = direction(a, b);
+    return {w, infinity, geometry(a, b, w)};
+  }
+  const Vec3 ab = b.p - a.p;
+  const double distance2 = length_squared(ab), distance = std::sqrt(distance2);
+  const Vec3 w = ab * (1 / distance);
+  return {w, distance, abs_cos(a, w) * abs_cos(b, w) / distance2};
+}
 
 /// What the path's formulas need of x_i, and of the edge that leads on from it (i < k).
 struct TermsAt : VertexDensities, Edge {

@@ -59,16 +59,16 @@ template <class Weight>
 DirectLight unshadowed_light(const Scene& scene, const SurfacePoint& at, const Vec3& wc,
                              const Vec3& u, bool strict, Weight&& weight) {
   const LightSample light = sample_direct_position(scene, at, u);
-  if (!(light.pdf > 0)) return {};
-  const Vec3 wl = direction(at, light.x0);
+  if (!(light.x0.pdf > 0)) return {};
+  const Vec3 wl = direction(at, light.x0.at);
   if (!consistent_sides(at, wl, strict)) return {};
-  const Color radiance = light.emitter->eval(light.x0, -wl);
+  const Color radiance = light.emitter->eval(light.x0.at, -wl);
   if (is_black(radiance)) return {};
   const WorldScattering s = scattering(scene.bsdf(at), at, wl, wc, Lobe::smooth);
   if (is_black(s.f)) return {};
-  const double pdf = light.pdf * per_solid_angle(at.p, light.x0, wl);
+  const double pdf = light.x0.pdf * per_solid_angle(at.p, light.x0.at, wl);
   const double mis = light.emitter->delta() ? 1.0 : weight(pdf, s.pdf_from_camera);
-  return {light.x0, radiance * s.f * (std::abs(s.cos_l) * mis / pdf)};
+  return {light.x0.at, radiance * s.f * (std::abs(s.cos_l) * mis / pdf)};
 }
 
 /// The same, as far as it is seen.

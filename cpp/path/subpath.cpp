@@ -3,12 +3,20 @@
 namespace mlt {
 
 void Subpath::start(const Vertex& end, double position_pdf) {
-  vertices_.clear();
-  WalkVertex first;
+  clear();
+  WalkVertex& first = add();
   first.vertex = end;
   first.throughput = Color(1 / position_pdf);
   first.forward = position_pdf;
-  vertices_.push_back(first);
+}
+
+WalkVertex& Subpath::add() {
+  if (size_ == vertices_.size()) vertices_.emplace_back();
+  WalkVertex& added = vertices_[size_++];
+  added.survival = added.next_survival = 1;
+  added.towards_previous = Vec3(0);
+  added.G = added.reverse = added.next_coefficient = 0;
+  return added;
 }
 
 void Subpath::leave(const Scene& scene, const Vec3& w, double coefficient) {
@@ -19,50 +27,90 @@ void Subpath::leave(const Scene& scene, const Vec3& w, double coefficient) {
       end.throughput * vertex_terms(scene, end.vertex, w, w, false).f / coefficient;
 }
 
-bool Subpath::trace(const Walker& walker, const Ray& ray) {
-  if (is_black(vertices_.back().next_throughput)) return false;
-  vertices_.emplace_back();
-  const WalkVertex& last = vertices_[size() - 2];
-  WalkVertex& next = vertices_.back();
+bool Subpath::trace(const Walker& walker, const PathRules& rules, const Ray& ray) {
+  if (is_black(last().next_throughput)) return false;
+  WalkVertex& next = add();
+  WalkVertex& previous = vertices_[size() - 2];
+  next.vertex = {};
   SurfacePoint& at = next.vertex.at;
   const bool hit = walker.arrive(ray, at);
   if (!hit) {
     if (from_ == From::light || walker.scene.infinite_emitters().empty()) {
-      vertices_.pop_back();
+      --size_;
       return false;
     }
     at = Scene::point_at_infinity(ray.d);
   }
-  next.throughput = last.next_throughput;
-  next.survival = last.next_survival;
+  next.throughput = previous.next_throughput;
+  next.survival = previous.next_survival;
   next.towards_previous = -ray.d;
-  next.G = geometry(last.vertex.at, at);
-  next.forward = last.next_coefficient * next.G;
-  return hit;
+  next.G = geometry(previous.vertex.at, at);
+  next.forward = previous.next_coefficient * next.G;
+  if (!at.matte.known()) return hit;
+  prepare_joints(next, rules.strict_normals);
+  previous.reverse = next.matte.back * next.G;
+  return true;
+}
+
+void Subpath::prepare_joints(WalkVertex& x, bool strict_normals) const {
+  const SurfacePoint& at = x.vertex.at;
+  const Vec3& w = x.towards_previous;
+  const double geometric = std::abs(dot(at.ng, w)), cosine = dot(at.shading.n, w);
+  x.matte = {};
+  if (geometric == 0 || !at.matte.scatters(cosine) || !consistent_sides(at, w, strict_normals))
+    return;
+  x.matte.cosine = cosine;
+  x.matte.value = x.throughput * at.matte.f;
+  if (from_ == From::light) x.matte.value *= std::abs(cosine) / geometric;
+  x.matte.back = std::abs(cosine) * inv_pi / geometric;
 }
 
 bool Subpath::scatter(const Walker& walker, const PathRules& rules, const Vec3& u,
                       double u_roulette) {
-  WalkVertex& x = vertices_.back();
+  WalkVertex& x = last();
+  Step step;
+  if (!(x.vertex.at.matte.known() ? scatter_matte(x, {u.y, u.z}, rules.strict_normals, step)
+                                  : scatter(walker, x, u, rules.strict_normals, step)))
+    return false;
+  double survival = 1;
+  if (static_cast<int>(size()) > rules.rr_depth)
+    survival = std::min(max_component(step.ratio), 0.95);
+  if (!(u_roulette < survival)) return false;
+  x.towards_next = step.w;
+  x.next_coefficient = step.coefficient;
+  x.next_throughput = x.throughput * step.ratio / survival;
+  x.next_survival = x.survival * survival;
+  return true;
+}
+
+bool Subpath::scatter(const Walker& walker, WalkVertex& x, const Vec3& u, bool strict, Step& step) {
   const auto sample = walker.scatter(x.vertex.at, x.towards_previous, u);
   if (!sample) return false;
   const bool from_light = from_ == From::light;
-  const VertexTerms terms = surface_terms(
-      walker.scene, x.vertex.at, sample->lobe, from_light ? x.towards_previous : sample->w,
-      from_light ? sample->w : x.towards_previous, rules.strict_normals);
+  const VertexTerms terms = surface_terms(walker.scene, x.vertex.at, sample->lobe,
+                                          from_light ? x.towards_previous : sample->w,
+                                          from_light ? sample->w : x.towards_previous, strict);
   const double coefficient = from_light ? terms.pdf_from_light : terms.pdf_from_camera;
   const double back = from_light ? terms.pdf_from_camera : terms.pdf_from_light;
   if (!(coefficient > 0) || is_black(terms.f)) return false;
-  const Color ratio = terms.f / coefficient;
-  double survival = 1;
-  if (static_cast<int>(size()) > rules.rr_depth) survival = std::min(max_component(ratio), 0.95);
-  if (!(u_roulette < survival)) return false;
+  step = {sample->w, coefficient, terms.f / coefficient};
   x.vertex.lobe = sample->lobe;
-  x.towards_next = sample->w;
-  x.next_coefficient = coefficient;
-  x.next_throughput = x.throughput * ratio / survival;
-  x.next_survival = x.survival * survival;
   vertices_[size() - 2].reverse = back * x.G;
+  return true;
+}
+
+/// The same where the surface is matte: the coefficient is |w.ns| / (pi |w.ng|), and f has the same
+/// quotient of cosines, of the direction on the light side (see VertexTerms).
+bool Subpath::scatter_matte(const WalkVertex& x, const Vec2& u, bool strict, Step& step) const {
+  const SurfacePoint& at = x.vertex.at;
+  const auto to = at.matte.sample(x.matte.cosine, u);
+  if (!to) return false;
+  const Vec3 w = at.shading.to_world(*to);
+  const double geometric = std::abs(dot(at.ng, w)), cosine = std::abs(to->z);
+  if (geometric == 0 || !consistent_sides(at, w, strict) || is_black(at.matte.f)) return false;
+  const double coefficient = cosine * inv_pi / geometric;
+  step = {w, coefficient,
+          at.matte.f * (from_ == From::light ? x.matte.back * pi / coefficient : pi)};
   return true;
 }
 

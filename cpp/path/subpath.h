@@ -25,6 +25,15 @@ struct WalkVertex {
   /// Density of towards_next in projected solid angle, for this walk.
   double next_coefficient = 0;
 
+  /// Where a path may be joined to a matte vertex, what all its joints have in common.
+  struct MatteJoint {
+    /// Of towards_previous against the shading normal; 0: nothing is scattered to or from there.
+    double cosine = 0;
+    Color value{0};   ///< Throughput times f, for joints of a camera walk without |w.ns| / |w.ng|.
+    double back = 0;  ///< Density of towards_previous in projected solid angle.
+  };
+  MatteJoint matte;
+
   bool absorbed() const { return next_coefficient == 0; }  ///< No direction was sampled here.
 };
 
@@ -40,14 +49,13 @@ class Subpath {
 
   explicit Subpath(From from) : from_(from) {}
 
-  size_t size() const { return vertices_.size(); }
+  size_t size() const { return size_; }
   const WalkVertex& operator[](size_t i) const { return vertices_[i]; }
-  const WalkVertex* data() const { return vertices_.data(); }
   From from() const { return from_; }
   /// With which the walk left its end; for a light at infinity it starts outside the scene.
   const Ray& first_ray() const { return first_ray_; }
 
-  void clear() { vertices_.clear(); }
+  void clear() { size_ = 0; }
   /// Starts at an end whose position has this density; returns the vertex to be given its first
   /// direction.
   void start(const Vertex& end, double position_pdf);
@@ -63,13 +71,13 @@ class Subpath {
     goes_on_ = true;
     while (static_cast<int>(size()) < most.vertices) {
       goes_on_ = false;
-      if (!trace(walker, ray)) return;
+      if (!trace(walker, rules, ray)) return;
       if (static_cast<int>(size()) == most.vertices && !most.goes_on) return;
       const Vec2 u_direction = sampler.next2();
       const double u_lobe = sampler.next();
       const double u_roulette = rules.rr_depth == PathRules::no_roulette ? 0 : sampler.next();
       if (!scatter(walker, rules, {u_lobe, u_direction}, u_roulette)) return;
-      ray = walker.leave(vertices_.back().vertex.at, vertices_.back().towards_next);
+      ray = walker.leave(last().vertex.at, last().towards_next);
       goes_on_ = true;
     }
   }
@@ -78,16 +86,30 @@ class Subpath {
 
  private:
   /// Adds the vertex that the ray ends in; false if the walk ends there or finds none.
-  bool trace(const Walker& walker, const Ray& ray);
+  bool trace(const Walker& walker, const PathRules& rules, const Ray& ray);
+  /// Where the walk has arrived at a matte surface.
+  void prepare_joints(WalkVertex& x, bool strict_normals) const;
   /// Samples a direction at the last vertex; false if the walk ends there.
   bool scatter(const Walker& walker, const PathRules& rules, const Vec3& u, double u_roulette);
+  struct Step {
+    Vec3 w;              ///< The direction that was sampled,
+    double coefficient;  ///< its density in projected solid angle,
+    Color ratio;         ///< and f over that.
+  };
+  bool scatter(const Walker& walker, WalkVertex& x, const Vec3& u, bool strict, Step& step);
+  bool scatter_matte(const WalkVertex& x, const Vec2& u, bool strict, Step& step) const;
   /// Fixes the direction in which the end vertex is left.
   void leave(const Scene& scene, const Vec3& w, double coefficient);
+
+  WalkVertex& last() { return vertices_[size_ - 1]; }
+  /// A new vertex, absorbed until more is known.
+  WalkVertex& add();
 
   From from_;
   Ray first_ray_{};
   bool goes_on_ = false;
-  std::vector<WalkVertex> vertices_;
+  size_t size_ = 0;
+  std::vector<WalkVertex> vertices_;  ///< Those after the first size_ only keep memory.
 };
 
 /// A subpath from a random point of a light.
@@ -99,9 +121,9 @@ void walk_from_light(const Walker& walker, const PathRules& rules, const WalkLen
   const Vec2 u_position = sampler.next2(), u_direction = sampler.next2();
   const LightSample light =
       sample_light_position(walker.scene, {sampler.next(), u_position}, walker.time);
-  if (!(light.pdf > 0)) return;
-  const Vertex x0 = light_vertex(*light.emitter, light.x0);
-  subpath.start(x0, light.pdf);
+  if (!(light.x0.pdf > 0)) return;
+  const Vertex x0 = light_vertex(*light.emitter, light.x0.at);
+  subpath.start(x0, light.x0.pdf);
   const Departure first = walker.leave_light(x0, u_direction);
   if (first.pdf > 0) subpath.walk(walker, rules, first, most, sampler);
 }

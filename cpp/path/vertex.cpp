@@ -2,25 +2,8 @@
 
 namespace mlt {
 
-namespace {
-
-VertexTerms terms_by_lobe(const Scene& scene, const Vertex& x, Lobe lobe, const Vec3& wl,
-                          const Vec3& wc, bool strict_normals) {
-  switch (x.kind) {
-    case VertexKind::light: {
-      const Emitter& emitter = *scene.emitters()[x.emitter];
-      return {emitter.eval(x.at, wc), emitter.pdf_ray(x.at, wc), 0};
-    }
-    case VertexKind::camera: return lens_terms(scene, x.at, wl).vertex;
-    case VertexKind::surface: break;
-  }
-  return surface_terms(scene, x.at, lobe, wl, wc, strict_normals);
-}
-
-}  // namespace
-
-VertexTerms surface_terms(const Scene& scene, const SurfacePoint& at, Lobe lobe, const Vec3& wl,
-                          const Vec3& wc, bool strict_normals) {
+VertexTerms plugin_terms(const Scene& scene, const SurfacePoint& at, Lobe lobe, const Vec3& wl,
+                         const Vec3& wc, bool strict_normals) {
   const double geometric_l = std::abs(dot(at.ng, wl)), geometric_c = std::abs(dot(at.ng, wc));
   if (geometric_l == 0 || geometric_c == 0) return {};
   if (lobe != Lobe::null &&
@@ -38,20 +21,16 @@ VertexTerms surface_terms(const Scene& scene, const SurfacePoint& at, Lobe lobe,
   return {s.f * adjoint, s.pdf_from_light, s.pdf_from_camera * eta2 * adjoint};
 }
 
-VertexTerms vertex_terms(const Scene& scene, const Vertex& x, const Vec3& wl, const Vec3& wc,
-                         bool strict_normals) {
-  return terms_by_lobe(scene, x, x.lobe, wl, wc, strict_normals);
+VertexTerms end_terms(const Scene& scene, const Vertex& x, const Vec3& wl, const Vec3& wc) {
+  if (x.kind == VertexKind::camera) return lens_terms(scene, x.at, wl).vertex;
+  const Emitter& emitter = *scene.emitters()[x.emitter];
+  return {emitter.eval(x.at, wc), emitter.pdf_ray(x.at, wc), 0};
 }
 
 LensTerms lens_terms(const Scene& scene, const SurfacePoint& xk, const Vec3& wl) {
   const auto projection = scene.camera().project(xk, wl);
   if (!projection) return {};
   return {{Color(projection->importance), 0, projection->pdf_direction}, projection->raster};
-}
-
-VertexTerms joint_terms(const Scene& scene, const Vertex& x, const Vec3& wl, const Vec3& wc,
-                        bool strict_normals) {
-  return terms_by_lobe(scene, x, Lobe::smooth, wl, wc, strict_normals);
 }
 
 double light_position_pdf(const Scene& scene, const Vertex& x0) {
@@ -70,16 +49,6 @@ double camera_position_pdf(const Scene& scene, const Vertex& xk) {
 bool can_be_hit(const Scene& scene, const Vertex& end) {
   return end.kind == VertexKind::light ? !scene.emitters()[end.emitter]->delta()
                                        : !scene.camera().delta_position();
-}
-
-Vertex light_vertex(const Emitter& emitter, const SurfacePoint& at) {
-  return {VertexKind::light, Lobe::smooth, emitter.index(), at};
-}
-
-Vertex camera_vertex(const SurfacePoint& at) { return {VertexKind::camera, Lobe::smooth, 0, at}; }
-
-Vertex surface_vertex(const SurfacePoint& at, Lobe lobe) {
-  return {VertexKind::surface, lobe, 0, at};
 }
 
 }  // namespace mlt

@@ -44,22 +44,51 @@ struct VertexTerms {
   double pdf_from_camera = 0;
 };
 
-/// Terms of a vertex with the unit directions `wl` to the vertex on its light side and `wc` to the
-/// one on its camera side; x_0 has no wl and x_k no wc, they are not looked at.
-VertexTerms vertex_terms(const Scene& scene, const Vertex& x, const Vec3& wl, const Vec3& wc,
-                         bool strict_normals);
-/// The same for x_k, and where the path meets the image; nullopt if it does not.
+/// What the terms of an end vertex depend on beside its position: x_0 has no wl and x_k no wc, they are
+/// not looked at.
+VertexTerms end_terms(const Scene& scene, const Vertex& x, const Vec3& wl, const Vec3& wc);
+/// Those of x_k, and where the path meets the image; nullopt if it does not.
 struct LensTerms {
   VertexTerms vertex;
   std::optional<Vec2> raster;
 };
 LensTerms lens_terms(const Scene& scene, const SurfacePoint& xk, const Vec3& wl);
+
+/// Those of a smooth vertex on a matte surface.
+inline VertexTerms matte_terms(const SurfacePoint& at, const Vec3& wl, const Vec3& wc,
+                               bool strict_normals) {
+  const double geometric_l = std::abs(dot(at.ng, wl)), geometric_c = std::abs(dot(at.ng, wc));
+  if (geometric_l == 0 || geometric_c == 0) return {};
+  if (!(consistent_sides(at, wl, strict_normals) && consistent_sides(at, wc, strict_normals)))
+    return {};
+  const double cos_l = dot(wl, at.shading.n), cos_c = dot(wc, at.shading.n);
+  const Scattering s = at.matte.scattering(cos_l, cos_c, Lobe::smooth);
+  return {s.f * (std::abs(cos_l) / geometric_l), s.pdf_from_light / geometric_c,
+          s.pdf_from_camera / geometric_l};
+}
+/// Those of a vertex on any surface, by its plug-in.
+VertexTerms plugin_terms(const Scene& scene, const SurfacePoint& at, Lobe lobe, const Vec3& wl,
+                         const Vec3& wc, bool strict_normals);
+/// Those of a surface vertex that scatters by `lobe`.
+inline VertexTerms surface_terms(const Scene& scene, const SurfacePoint& at, Lobe lobe,
+                                 const Vec3& wl, const Vec3& wc, bool strict_normals) {
+  if (lobe == Lobe::smooth && at.matte.known()) return matte_terms(at, wl, wc, strict_normals);
+  return plugin_terms(scene, at, lobe, wl, wc, strict_normals);
+}
+
+/// Terms of a vertex with the unit directions `wl` to the vertex on its light side and `wc` to the
+/// one on its camera side.
+inline VertexTerms vertex_terms(const Scene& scene, const Vertex& x, const Vec3& wl, const Vec3& wc,
+                                bool strict_normals) {
+  if (x.kind != VertexKind::surface) return end_terms(scene, x, wl, wc);
+  return surface_terms(scene, x.at, x.lobe, wl, wc, strict_normals);
+}
 /// Terms of a vertex at which a path is joined, whatever its lobe: it scatters smoothly there.
-VertexTerms joint_terms(const Scene& scene, const Vertex& x, const Vec3& wl, const Vec3& wc,
-                        bool strict_normals);
-/// The same for a surface vertex that scatters by `lobe`.
-VertexTerms surface_terms(const Scene& scene, const SurfacePoint& at, Lobe lobe, const Vec3& wl,
-                          const Vec3& wc, bool strict_normals);
+inline VertexTerms joint_terms(const Scene& scene, const Vertex& x, const Vec3& wl, const Vec3& wc,
+                               bool strict_normals) {
+  if (x.kind != VertexKind::surface) return end_terms(scene, x, wl, wc);
+  return surface_terms(scene, x.at, Lobe::smooth, wl, wc, strict_normals);
+}
 
 /// Density with which a light walk starts at x_0, the choice of the light included.
 double light_position_pdf(const Scene& scene, const Vertex& x0);
@@ -74,8 +103,14 @@ bool can_be_hit(const Scene& scene, const Vertex& end);
 /// Whether an edge may be made by connection at this vertex.
 inline bool connectable(const Vertex& x) { return !x.delta(); }
 
-Vertex light_vertex(const Emitter& emitter, const SurfacePoint& at);
-Vertex camera_vertex(const SurfacePoint& at);
-Vertex surface_vertex(const SurfacePoint& at, Lobe lobe = Lobe::smooth);
+inline Vertex light_vertex(const Emitter& emitter, const SurfacePoint& at) {
+  return {VertexKind::light, Lobe::smooth, emitter.index(), at};
+}
+inline Vertex camera_vertex(const SurfacePoint& at) {
+  return {VertexKind::camera, Lobe::smooth, 0, at};
+}
+inline Vertex surface_vertex(const SurfacePoint& at, Lobe lobe = Lobe::smooth) {
+  return {VertexKind::surface, lobe, 0, at};
+}
 
 }  // namespace mlt

@@ -18,10 +18,8 @@ std::optional<Ray> Walker::scatter(Vertex& x, const Vec3& towards_previous, cons
 }
 
 bool Walker::arrive(const Ray& ray, Vertex& next) const {
-  SurfacePoint at;
-  if (!arrive(ray, at)) return false;
-  next = surface_vertex(at);
-  return true;
+  next = {};
+  return arrive(ray, next.at);
 }
 
 bool Walker::arrive_at_lens(const Ray& ray, Vertex& xk) const {

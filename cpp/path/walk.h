@@ -12,22 +12,23 @@ namespace mlt {
 
 /// A position on a light, as the end of a path.
 struct LightSample {
-  const Emitter* emitter = nullptr;
-  SurfacePoint x0;
-  double pdf = 0;  ///< In the measure of x0, the choice of the light included. 0: failed.
+  const Emitter* emitter;
+  PositionSample x0;  ///< Its density includes the choice of the light. 0: failed.
 };
 
 /// Where a walk from the light begins. u.x chooses the light, (u.y, u.z) the position on it.
 inline LightSample sample_light_position(const Scene& scene, Vec3 u, double time) {
   const EmitterChoice choice = scene.choose_emitter(u.x);
-  const PositionSample position = choice.emitter->sample_position({u.y, u.z}, time);
-  return {choice.emitter, position.at, choice.probability * position.pdf};
+  LightSample light{choice.emitter, choice.emitter->sample_position({u.y, u.z}, time)};
+  light.x0.pdf *= choice.probability;
+  return light;
 }
 /// The same, to be seen from the point `from` at its time (next-event estimation).
 inline LightSample sample_direct_position(const Scene& scene, const SurfacePoint& from, Vec3 u) {
   const EmitterChoice choice = scene.choose_emitter(u.x);
-  const PositionSample position = choice.emitter->sample_direct(from.p, {u.y, u.z}, from.time);
-  return {choice.emitter, position.at, choice.probability * position.pdf};
+  LightSample light{choice.emitter, choice.emitter->sample_direct(from.p, {u.y, u.z}, from.time)};
+  light.x0.pdf *= choice.probability;
+  return light;
 }
 
 /// The first ray of a walk.

@@ -32,7 +32,7 @@ struct Matte {
     return to;
   }
 
- private:
+  /// Whether there is light in directions of this cosine.
   bool scatters(double cos) const { return cos > 0 || (sides == Sides::both && cos < 0); }
 };
 

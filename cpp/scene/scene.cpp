@@ -114,7 +114,7 @@ SurfacePoint Scene::surface_point(const Ray& ray, const Hit& hit) const {
   return at;
 }
 
-Vec3 Scene::departure(const SurfacePoint& at, const Vec3& w) const {
+inline Vec3 Scene::departure(const SurfacePoint& at, const Vec3& w) const {
   if (at.shape != SurfacePoint::no_shape)
     return at.p + at.ng * std::copysign(ray_offset * at.extent, dot(at.ng, w));
   return at.kind == PointKind::surface ? camera_->entrance(at, w) : at.p;

@@ -26,9 +26,9 @@ struct Techniques {
   }
   MisWeights weights(int s, Heuristic heuristic) const {
     TechniqueSums below, above;
-    for (int i = 0; i < s; ++i) below = below.over(from_camera[i] / from_light[i], count[i]);
+    for (int i = 0; i < s; ++i) below = below.with(count[i]).over(from_camera[i] / from_light[i]);
     for (int i = edges(); i >= s; --i)
-      above = above.over(from_light[i] / from_camera[i], count[i + 1]);
+      above = above.with(count[i + 1]).over(from_light[i] / from_camera[i]);
     return mis_weights(count[s], below, above, heuristic);
   }
 };
@@ -84,7 +84,7 @@ TEST(Mis, WalksThatCannotBeLeaveTheOtherTechniques) {
     EXPECT_EQ(t.weights(2, heuristic).balance, 1);
   }
   // A technique that cannot be counts for nothing, even over a walk that is impossible.
-  const TechniqueSums none = TechniqueSums().over(infinity, 0);
+  const TechniqueSums none = TechniqueSums().with(0).over(infinity);
   EXPECT_EQ(none.sum, 0);
   EXPECT_EQ(none.squares, 0);
   EXPECT_EQ(none.largest, 0);
