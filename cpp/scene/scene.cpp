@@ -124,21 +124,29 @@ Ray Scene::spawn(const SurfacePoint& from, const Vec3& w, double time) const {
   return {departure(from, w), w, time};
 }
 
-std::optional<Ray> Scene::segment(const SurfacePoint& a, const SurfacePoint& b, double time) const {
-  if (a.infinite()) return segment(b, a, time);
-  if (b.infinite()) return spawn(a, b.p, time);
+inline bool Scene::find_segment(const SurfacePoint& a, const SurfacePoint& b, double time,
+                                Ray& ray) const {
+  if (a.infinite() || b.infinite()) {
+    ray = a.infinite() ? spawn(b, a.p, time) : spawn(a, b.p, time);
+    return true;
+  }
   const Vec3 ab = b.p - a.p;
-  const Vec3 start = departure(a, ab), end = departure(b, -ab);
+  const Vec3 start = departure(a, ab), between = departure(b, -ab) - start;
   const bool has_end = a.shape == SurfacePoint::no_shape || b.shape == SurfacePoint::no_shape;
-  if (has_end && !(dot(end - start, ab) > 0)) return std::nullopt;  // It is behind the camera.
-  const double distance = length(end - start);
-  const Vec3 w = (end - start) * (1 / distance);
-  return Ray{start, w, time, distance * (1 - ray_offset)};
+  if (has_end && !(dot(between, ab) > 0)) return false;  // It is behind the camera.
+  const double distance = length(between);
+  ray = {start, between * (1 / distance), time, distance * (1 - ray_offset)};
+  return true;
+}
+
+std::optional<Ray> Scene::segment(const SurfacePoint& a, const SurfacePoint& b, double time) const {
+  Ray ray;
+  return find_segment(a, b, time, ray) ? std::optional(ray) : std::nullopt;
 }
 
 bool Scene::visible(const SurfacePoint& a, const SurfacePoint& b, double time) const {
-  const auto ray = segment(a, b, time);
-  return ray && !accel_->occluded(*ray);
+  Ray ray;
+  return find_segment(a, b, time, ray) && !accel_->occluded(ray);
 }
 
 SurfacePoint Scene::point_at_infinity(const Vec3& w) { return InfiniteEmitter::point_towards(w); }

@@ -76,6 +76,7 @@ class Scene {
 
  private:
   void arrive(const Ray& ray, const Hit& hit, SurfacePoint& at) const;
+  bool find_segment(const SurfacePoint& a, const SurfacePoint& b, double time, Ray& ray) const;
   /// Where a ray that leaves the point along w, of any length, begins: off its surface.
   Vec3 departure(const SurfacePoint& at, const Vec3& w) const;
 
