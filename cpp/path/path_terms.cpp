@@ -18,35 +18,38 @@ void compute_terms(const Scene& scene, const Path& path, const TermSettings& set
 void update_terms(const Scene& scene, const Path& path, const TermSettings& settings, int first,
                   int last, PathTerms& terms) {
   const int k = path.edges();
+  const Vertex* vertices = path.vertices.data();
+  TermsAt* at = terms.at.data();
   Vec3 wl = first > 0 ? terms.direction(first, -1) : Vec3(0);
   for (int i = first; i <= last; ++i) {
-    TermsAt& x = terms[i];
-    if (i < last) static_cast<Edge&>(x) = edge_between(path[i].at, path[i + 1].at);
+    const Vertex& vertex = vertices[i];
+    TermsAt& x = at[i];
+    if (i < last) static_cast<Edge&>(x) = edge_between(vertex.at, vertices[i + 1].at);
     const Vec3 wc = i < k ? x.w : Vec3(0);
-    x.connectable = connectable(path[i]);
-    x.specular = is_specular(scene, path[i], wl, wc, settings.near_specular);
+    x.connectable = connectable(vertex);
+    x.specular = is_specular(scene, vertex, wl, wc, settings.near_specular);
     if (i < k) {
-      x.vertex = vertex_terms(scene, path[i], wl, wc, settings.strict_normals);
+      x.vertex = vertex_terms(scene, vertex, wl, wc, settings.strict_normals);
     } else {
-      const LensTerms lens = lens_terms(scene, path[k].at, wl);
+      const LensTerms lens = lens_terms(scene, vertex.at, wl);
       x.vertex = lens.vertex;
       terms.raster = lens.raster;
     }
     const double size = max_component(x.vertex.f);
     x.inverse_f = size > least_f ? 1 / size : 0;
-    if (i > 0) terms[i - 1].from_camera = x.vertex.pdf_from_camera * terms[i - 1].G;
-    if (i < k) terms[i + 1].from_light = x.vertex.pdf_from_light * x.G;
+    if (i > 0) at[i - 1].from_camera = x.vertex.pdf_from_camera * at[i - 1].G;
+    if (i < k) at[i + 1].from_light = x.vertex.pdf_from_light * x.G;
     wl = -wc;
   }
-  if (first <= 1) {
-    terms[0].from_light = light_position_pdf(scene, path[0]);
-    terms.direct = settings.sample_direct ? direct_position_pdf(scene, path[0], path[1].at)
-                                          : terms[0].from_light;
-    terms.light_can_be_hit = can_be_hit(scene, path[0]);
+  if (first == 0) {
+    at[0].from_light = light_position_pdf(scene, vertices[0]);
+    terms.direct = settings.sample_direct ? direct_position_pdf(scene, vertices[0], vertices[1].at)
+                                          : at[0].from_light;
+    terms.light_can_be_hit = can_be_hit(scene, vertices[0]);
   }
   if (last == k) {
-    terms[k].from_camera = camera_position_pdf(scene, path[k]);
-    terms.camera_can_be_hit = can_be_hit(scene, path[k]);
+    at[k].from_camera = camera_position_pdf(scene, vertices[k]);
+    terms.camera_can_be_hit = can_be_hit(scene, vertices[k]);
   }
 }
 
