@@ -228,9 +228,8 @@ def test_convergence_tells_good_chains_from_bad_ones():
     scene = load("cornell_box", (64, 48))
     settings = {"spp": 64, "draws": 16, "grid": (3, 4), "seed": 1}
     good = mlt.convergence(scene, mlt.PSSMLT(chains=16, independent_share=0), **settings)
-    bad = mlt.convergence(
-        scene, mlt.PSSMLT(chains=1024, p_large=0.001, independent_share=0), **settings
-    )
+    stuck = mlt.PSSMLT(chains=1024, p_large=0.001, step_size=1 / 64, independent_share=0)
+    bad = mlt.convergence(scene, stuck, **settings)
     assert good.draws.shape == (16, 16, 3, 4)
     assert good.rhat.shape == good.ess.shape == (3, 4)
     # Over six seeds 1.01 to 1.06, and 2.3 to 2.4.
