@@ -168,11 +168,12 @@ def make_checkpoints() -> None:
     scene = mlt.load_file(FOLDER / "scene.xml", size=(4, 4))
     for name in mlt.available("integrator"):
         settings = {"type": name}
-        if name in ("mlt", "pssmlt"):
+        if name in ("mlt", "pssmlt", "mmlt", "rjmlt"):
             settings |= {"chains": 16, "luminance_samples": 16, "independent_share": 0.3}
         if name == "mlt":  # each mutation makes it longer
             settings |= {"adaptive": False, "multi_chain_perturbation": False}
             settings |= {"caustic_perturbation": False, "lens_subpath_mutation": False}
+            settings |= {"manifold_perturbation": False}
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "a"
             mlt.start(scene, settings, spp=1, seed=1, checkpoint=path).wait()
