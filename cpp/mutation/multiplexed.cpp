@@ -37,14 +37,15 @@ class MultiplexedMutation final : public MeasuredMutation<MultiplexedMutation> {
     const int k = x.edges(), s = sample_technique(x.terms, Heuristic::balance, context.rng.next());
     if (s < 0) return std::nullopt;
     const Technique technique{s, k + 1 - s};
-    auto& [numbers, paths] = context.primary_walks(scene(), target().rules());
+    PrimaryWalks& walks = context.primary_walks(scene(), target().rules());
+    PrimaryNumbers& numbers = walks.numbers;
     numbers.clear();
     if (!invert_path(scene(), x.path, technique, context.rng, numbers)) return std::nullopt;
     numbers.step(false);
     PrimarySampler sampler(numbers, small_step_, context.rng);
     bool found = false;
-    paths.sample_technique(technique, sampler, context.rays, [&](const Connection& connection) {
-      paths.assemble(connection, y.path);
+    walks.paths.sample_technique(technique, sampler, context.rays, [&](const Connection& c) {
+      walks.paths.assemble(c, y.path);
       found = true;
     });
     if (!found) return std::nullopt;
