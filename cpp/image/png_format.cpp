@@ -52,6 +52,8 @@ class PngReader {
       throw std::bad_alloc();
     }
     png_set_read_fn(png_, &source_, Source::read);
+    // Only pixels are wanted. Other chunks may claim any length, and get memory for it.
+    png_set_keep_unknown_chunks(png_, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
     png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX);  // see check_size
   }
   ~PngReader() { png_destroy_read_struct(&png_, &info_, nullptr); }
