@@ -2,7 +2,8 @@
 
     python docs/images/make_gallery.py [NAME ...] [-- FLAG ...]
 
-All of them take some hours of CPU time. Flags are added to each command, such as -- --size 320x180.
+All of them take more than an hour of CPU time. Flags are added to each command, such as
+-- --size 320x180.
 """
 
 import shlex
