@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <numeric>
 
 namespace mlt {
@@ -27,6 +28,12 @@ size_t edit_distance(const std::string& a, const std::string& b) {
 }
 
 }  // namespace
+
+std::string on_one_line(std::string_view text) {
+  std::string line(text);
+  std::replace_if(line.begin(), line.end(), [](unsigned char c) { return std::iscntrl(c); }, ' ');
+  return line;
+}
 
 std::string describe(const Location& location) {
   if (location.file.empty()) return "";

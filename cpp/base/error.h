@@ -1,17 +1,21 @@
-// Typed exceptions. Every message says what was wrong, where, and what would be right.
+// Typed exceptions. Every message says, on one line, what was wrong, where, and what would be right.
 #pragma once
 
 #include <fmt/core.h>
 
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace mlt {
 
+/// `text` with a space for each control character, which a file's name may hold too.
+std::string on_one_line(std::string_view text);
+
 class Error : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  explicit Error(const std::string& message) : std::runtime_error(on_one_line(message)) {}
 };
 
 /// A mistake in a scene, a file it names, or a parameter. Exit code 2.

@@ -195,10 +195,7 @@ auto with_file(std::string_view bytes, const std::string& name, const Read& read
   } catch (const std::bad_alloc&) {
     fail(name, "it needs more memory than there is");
   } catch (const std::exception& error) {
-    std::string message = error.what();  // with names from the file, which may break the line
-    std::replace_if(
-        message.begin(), message.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
-    fail(name, message);
+    fail(name, error.what());
   }
 }
 

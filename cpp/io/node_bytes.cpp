@@ -49,23 +49,14 @@ Value load_value(ByteReader& bytes) {
   return value;
 }
 
-/// Names come up in messages, which are one line.
-std::string load_name(ByteReader& bytes) {
-  std::string name;
-  bytes.read(name);
-  if (name.find_first_of("\r\n") != std::string::npos)
-    throw RenderError("the saved state has a name of more than one line");
-  return name;
-}
-
 Node load_node(ByteReader& bytes, int depth) {
   if (depth > max_nesting) throw RenderError("the saved state is nested too deeply");
   Node node;
   for (std::string* text : {&node.family, &node.type, &node.id, &node.name})
-    *text = load_name(bytes);
+    bytes.read(*text);
   for (uint64_t left = bytes.read<uint64_t>(); left > 0; --left) {
     Node::Property property;
-    property.name = load_name(bytes);
+    bytes.read(property.name);
     property.value = load_value(bytes);
     node.properties.push_back(std::move(property));
   }

@@ -21,10 +21,7 @@ std::string_view without_plus(std::string_view text) {
 
 std::string quote(std::string_view text) {
   constexpr size_t longest = 80;
-  std::string out = "'";
-  for (char c : text.substr(0, longest))
-    out += std::iscntrl(static_cast<unsigned char>(c)) ? ' ' : c;
-  return out + (text.size() > longest ? "...'" : "'");
+  return "'" + on_one_line(text.substr(0, longest)) + (text.size() > longest ? "...'" : "'");
 }
 
 std::string_view trim(std::string_view text) {

@@ -21,6 +21,12 @@ TEST(Error, EachKindIsAnError) {
   EXPECT_THROW(throw Error("a"), std::runtime_error);
 }
 
+// A file's name may hold any byte but '/' and 0.
+TEST(Error, IsOneLineWhateverItTellsOf) {
+  EXPECT_STREQ(FileError("no\r\nsuch\x1b[1m.exr: there is no such file").what(),
+               "no  such [1m.exr: there is no such file");
+}
+
 const std::vector<std::string> names{"max_depth", "rr_depth", "hide_emitters"};
 
 TEST(Closest, FindsAMisspeltWord) {
