@@ -11,9 +11,10 @@ namespace mlt {
 
 class FamilyTaker : public SampleTaker {
  public:
-  FamilyTaker(const Scene& scene, const MetropolisAlgorithm& algorithm,
-              const FamilyWeights& weights)
-      : scale_(radiance_scale(scene)), source_(algorithm.source()), weights_(weights) {}
+  FamilyTaker(const MetropolisAlgorithm& algorithm, const FamilyWeights& weights)
+      : scale_(radiance_scale(algorithm.scene())),
+        source_(algorithm.sample_source()),
+        weights_(weights) {}
 
   void sample(const Vec2& raster, PixelSampler& sampler, SampleSink& sink,
               RayCounts& rays) override {

@@ -19,6 +19,8 @@ class FamilyWeights {
   /// `threshold` is c: both weights of a path with this T / P are one half.
   explicit FamilyWeights(double threshold) : threshold_(threshold) {}
 
+  double threshold() const { return threshold_; }
+
   double of_sample(double target_over_density) const {
     return threshold_ / (threshold_ + target_over_density);
   }

@@ -13,7 +13,7 @@ GroupCombination::GroupCombination(std::vector<GroupProgress> groups, const Esti
     bootstrap += groups_[g].bootstrap.of_chains;
   }
   const Estimate chains = estimate(by_chains), samples = pooled(estimate(bootstrap), of_chains_);
-  if (!(chains.variance > 0)) return;
+  if (!(chains.variance > 0) || samples.count == 0) return;
   lambda_ = chains.variance / (chains.variance + samples.variance);
   const double difference = samples.mean - chains.mean;
   if (sqr(difference) > sqr(2.5) * (chains.variance + samples.variance))

@@ -2,8 +2,9 @@
 #pragma once
 
 #include "integrator/metropolis_chain.h"
+#include "integrator/sampled_rendering.h"
 #include "integrator/stats.h"
-#include "mutation/target_map.h"
+#include "mutation/path_target.h"
 #include "path/samplers.h"
 
 #include <atomic>
@@ -46,8 +47,23 @@ class MetropolisAlgorithm {
     virtual const std::vector<FoundLight>& sample(const Vec2& raster, PixelSampler& sampler) = 0;
     virtual const std::vector<FoundLight>& sample(const Vec2& raster, RandomSampler& sampler) = 0;
     virtual const RayCounts& rays() const = 0;
+    /// What a ray costs in all, over what a ray of a chain costs.
+    virtual double cost_of_ray() const { return 1; }
   };
+  /// Of candidates from which chains start.
   virtual std::unique_ptr<Source> source() const = 0;
+  /// Whether those samples, or the ones of path tracing, go to the image beside the chains; false if
+  /// there are none of these techniques.
+  virtual bool set_techniques(SampleTechniques techniques) {
+    return techniques == SampleTechniques::all;
+  }
+  /// What the chosen samples are called, where there is a choice.
+  virtual std::string samples_name() const { return ""; }
+  /// Of what goes to the image, for the pilot,
+  virtual std::unique_ptr<Source> sample_source() const { return source(); }
+  /// and for the render.
+  virtual std::unique_ptr<SampleTaker> sample_taker(const FamilyWeights& weights) const;
+  virtual const Scene& scene() const = 0;
   /// Starts a chain from the candidate that the same stream gave; `choice` is there to choose one
   /// of several paths that the candidate consists of.
   virtual std::unique_ptr<RenderChain> start(const ChainId& id, Rng candidate,

@@ -30,65 +30,65 @@ using PixelSums = std::map<std::pair<int, int>, PerThreshold>;
 struct Noise {
   PerThreshold squares{};
   uint64_t count = 0, rays = 0;
+  double cost_of_ray = 1;
 
   Noise& operator+=(const Noise& other) {
     for (size_t i = 0; i < thresholds.size(); ++i) squares[i] += other.squares[i];
     count += other.count;
     rays += other.rays;
+    cost_of_ray = other.cost_of_ray;
     return *this;
   }
   double n() const { return static_cast<double>(count); }
   /// In rays; all the rest costs about as much again as one ray.
-  double cost() const { return 1 + static_cast<double>(rays) / n(); }
+  double cost() const { return cost_of_ray * (1 + static_cast<double>(rays) / n()); }
   double square(size_t threshold) const { return squares[threshold] / n(); }
 };
 
+struct Forecast {
+  Allocation allocation;
+  double variance = 0;  ///< That is to be expected, times the time.
+};
+
+/// Where the choice hardly matters more is left to the samples: their noise is known better.
+constexpr double hardly = 1.15;
+
 class Pilot {
  public:
-  Pilot(const MetropolisAlgorithm& algorithm, const Raster& raster, const TargetMap& coarse,
+  Pilot(MetropolisAlgorithm& algorithm, const Raster& raster, const TargetMap& coarse,
         const PilotSettings& settings, const std::atomic<bool>& cancelled)
       : algorithm_(algorithm),
         raster_(raster),
         coarse_(coarse),
         settings_(settings),
-        cancelled_(cancelled) {}
+        cancelled_(cancelled),
+        candidates_{settings.seed, Purpose::allocation, settings.samples} {}
 
-  Allocation allocate(std::optional<double> wanted) {
-    const Candidates candidates{settings_.seed, Purpose::allocation, settings_.samples};
-    const Bootstrap found = bootstrap(candidates);
-    if (found.seeds.empty()) return samples_alone();
-    b0_ = found.b;
-    draw_samples();
-    run_chains(candidates, found.seeds);
-    return choose(wanted);
-  }
-
- private:
-  /// What light counts for: its share of the brightness of its pixel.
-  double relative(const Color& rgb, const Vec2& raster) const {
-    return target_luminance(rgb) * coarse_(raster);
-  }
-  FamilyWeights weights(size_t i) const { return FamilyWeights(b0_ * thresholds[i]); }
-
-  Bootstrap bootstrap(const Candidates& candidates) const {
+  /// Whether there is light for chains to start from.
+  bool find_starts() {
     const std::vector<double> weights = draw_candidates(
-        candidates, settings_.threads, cancelled_, [&] { return algorithm_.source(); },
+        candidates_, settings_.threads, cancelled_, [&] { return algorithm_.source(); },
         [&](MetropolisAlgorithm::Source& source, Rng& rng) {
           return weigh(source, raster_, RandomSampler(rng)).target;
         },
         [](const MetropolisAlgorithm::Source&) {});
-    Rng rng = candidates.rng(candidates.count);
-    return resample(weights, settings_.chains, rng);
+    Rng rng = candidates_.rng(candidates_.count);
+    starts_ = resample(weights, settings_.chains, rng);
+    return !starts_.seeds.empty();
   }
 
   /// Samples come in pairs that have the image position in common. Those of a render are stratified
   /// over the pixels, so that what a pair agrees on is no noise.
-  void draw_samples() {
+  /// Returns false if the algorithm has none of these techniques.
+  bool draw_samples(SampleTechniques techniques) {
+    if (!algorithm_.set_techniques(techniques)) return false;
+    techniques_ = techniques;
+    samples_ = {};
     std::array<Noise, parts> noise;
     const uint64_t stream = mix_bits(settings_.seed ^ mix_bits(uint64_t(Purpose::allocation)));
     in_parts(settings_.samples / 2, settings_.threads,
              [&](uint64_t part, uint64_t i, uint64_t last) {
-               const auto source = algorithm_.source();
+               const auto source = algorithm_.sample_source();
                for (; i < last && !cancelled_; ++i) {
                  PixelSampler first(stream, static_cast<uint32_t>(i)),
                      second(mix_bits(stream), static_cast<uint32_t>(i));
@@ -100,9 +100,53 @@ class Pilot {
                    noise[part].squares[t] += sqr(a[t] - b[t]);
                }
                noise[part].rays = source->rays().total();
+               noise[part].cost_of_ray = source->cost_of_ray();
              });
     for (const Noise& one : noise) samples_ += one;
+    return true;
   }
+  /// Of samples alone: variance times cost.
+  double noise_of_samples() const {
+    return samples_.cost() * samples_.square(thresholds.size() - 1);
+  }
+  /// Whether paths with a T / P above 64 b make most of the noise of samples. The chains of a pilot
+  /// have hardly found them, and seem less noisy than they will be.
+  bool has_rare_light() const {
+    return samples_.squares.back() > 2 * samples_.squares[thresholds.size() - 3];
+  }
+
+  /// With a share s of the time the variance is v1 c1 / s + v2 c2 / (1 - s); it is least, and (sqrt
+  /// (v1 c1) + sqrt(v2 c2))^2, for s / (1 - s) = sqrt(v1 c1) / sqrt(v2 c2).
+  Forecast forecast() {
+    run_chains();
+    Allocation best;
+    best.techniques = techniques_;
+    if (samples_.count == 0 || chains_.count == 0) return {best};  // cancelled
+    best.mutations_per_sample = samples_.cost() / chains_.cost();
+    const double greatest =
+        has_rare_light() ? settings_.greatest_share_with_rare_light : settings_.greatest_share;
+    double least = std::numeric_limits<double>::infinity();
+    for (size_t i = 0; i < thresholds.size(); ++i) {
+      const double v1 = samples_.cost() * samples_.square(i),
+                   v2 = chains_.cost() * chains_.square(i);
+      const double share = settings_.share.value_or(std::clamp(
+          std::sqrt(v1) / (std::sqrt(v1) + std::sqrt(v2)), settings_.least_share, greatest));
+      const double variance = v1 / share + v2 / (1 - share);
+      if (!(variance < hardly * least)) continue;
+      least = std::min(least, variance);
+      best.share = share;
+      best.weights = weights(i);
+    }
+    return {best, least};
+  }
+
+ private:
+  /// What light counts for: its share of the brightness of its pixel.
+  double relative(const Color& rgb, const Vec2& raster) const {
+    return target_luminance(rgb) * coarse_(raster);
+  }
+  FamilyWeights weights(size_t i) const { return FamilyWeights(starts_.b * thresholds[i]); }
+
   /// Returns what the sample adds to its own pixel. All that it adds to others by light tracing is
   /// noise.
   PerThreshold add_sample(const std::vector<FoundLight>& found, Noise& noise) const {
@@ -122,12 +166,14 @@ class Pilot {
   }
 
   /// Squares of what a chain adds to a pixel in all: what it stays for makes the image noisier.
-  void run_chains(const Candidates& candidates, const std::vector<uint32_t>& seeds) {
+  void run_chains() {
+    chains_ = {};
+    const std::vector<uint32_t>& seeds = starts_.seeds;
     struct Recorder : ChainRecorder {
       explicit Recorder(const Pilot& p) : pilot(p) {}
       void record(const Vec2& raster, const Color& rgb_per_target, double weight,
                   double target_over_density) override {
-        const double value = weight * pilot.b0_ * pilot.relative(rgb_per_target, raster);
+        const double value = weight * pilot.starts_.b * pilot.relative(rgb_per_target, raster);
         PerThreshold& sums = pixels[{static_cast<int>(std::floor(raster.x)),
                                      static_cast<int>(std::floor(raster.y))}];
         for (size_t t = 0; t < thresholds.size(); ++t)
@@ -139,11 +185,11 @@ class Pilot {
     std::vector<Noise> noise(seeds.size());
     parallel_for(settings_.threads, seeds.size(), [&](uint64_t i) {
       if (cancelled_) return;
-      const ChainId id{
-          settings_.seed,     0, static_cast<int>(i), static_cast<int>(seeds.size()), b0_,
-          Purpose::allocation};
-      const auto chain =
-          algorithm_.start(id, candidates.rng(seeds[i]), candidates.rng(candidates.count + 1 + i));
+      const ChainId id{settings_.seed,      0,
+                       static_cast<int>(i), static_cast<int>(seeds.size()),
+                       starts_.b,           Purpose::allocation};
+      const auto chain = algorithm_.start(id, candidates_.rng(seeds[i]),
+                                          candidates_.rng(candidates_.count + 1 + i));
       Recorder recorder(*this);
       chain->advance(settings_.steps, recorder);
       for (const auto& [pixel, sums] : recorder.pixels)
@@ -154,44 +200,14 @@ class Pilot {
     for (const Noise& one : noise) chains_ += one;
   }
 
-  /// Where the choice hardly matters more is left to the samples: their noise is known better.
-  static constexpr double hardly = 1.15;
-
-  /// With a share s of the time the variance is v1 c1 / s + v2 c2 / (1 - s); it is least, and (sqrt
-  /// (v1 c1) + sqrt(v2 c2))^2, for s / (1 - s) = sqrt(v1 c1) / sqrt(v2 c2).
-  Allocation choose(std::optional<double> wanted) const {
-    Allocation best;
-    if (samples_.count == 0 || chains_.count == 0) return best;  // cancelled
-    best.mutations_per_sample = samples_.cost() / chains_.cost();
-    const double greatest =
-        has_rare_light() ? settings_.greatest_share_with_rare_light : settings_.greatest_share;
-    double least = std::numeric_limits<double>::infinity();
-    for (size_t i = 0; i < thresholds.size(); ++i) {
-      const double v1 = samples_.cost() * samples_.square(i),
-                   v2 = chains_.cost() * chains_.square(i);
-      const double share = wanted.value_or(std::clamp(
-          std::sqrt(v1) / (std::sqrt(v1) + std::sqrt(v2)), settings_.least_share, greatest));
-      const double variance = v1 / share + v2 / (1 - share);
-      if (!(variance < hardly * least)) continue;
-      least = std::min(least, variance);
-      best.share = share;
-      best.weights = weights(i);
-    }
-    return best;
-  }
-
-  /// Whether paths with a T / P above 64 b make most of the noise of samples. The chains of a pilot
-  /// have hardly found them, and seem less noisy than they will be.
-  bool has_rare_light() const {
-    return samples_.squares.back() > 2 * samples_.squares[thresholds.size() - 3];
-  }
-
-  const MetropolisAlgorithm& algorithm_;
+  MetropolisAlgorithm& algorithm_;
   const Raster& raster_;
   const TargetMap& coarse_;
   const PilotSettings& settings_;
   const std::atomic<bool>& cancelled_;
-  double b0_ = 0;
+  Candidates candidates_;
+  Bootstrap starts_;
+  SampleTechniques techniques_ = SampleTechniques::all;
   Noise samples_, chains_;
 };
 
@@ -222,10 +238,22 @@ CoarseImage coarse_image(const MetropolisAlgorithm& algorithm, const Raster& ras
   return sum;
 }
 
-Allocation allocate(const MetropolisAlgorithm& algorithm, const Raster& raster,
-                    const TargetMap& coarse, std::optional<double> share,
-                    const PilotSettings& pilot, const std::atomic<bool>& cancelled) {
-  return Pilot(algorithm, raster, coarse, pilot, cancelled).allocate(share);
+Allocation allocate(MetropolisAlgorithm& algorithm, const Raster& raster, const TargetMap& coarse,
+                    const PilotSettings& settings, const std::atomic<bool>& cancelled) {
+  Pilot pilot(algorithm, raster, coarse, settings, cancelled);
+  const SampleTechniques first = settings.techniques.value_or(SampleTechniques::all);
+  algorithm.set_techniques(first);
+  if (!pilot.find_starts()) return samples_alone(first);
+  pilot.draw_samples(first);
+  const Forecast best = pilot.forecast();
+  const double noise = pilot.noise_of_samples();
+  if (!settings.techniques && pilot.draw_samples(SampleTechniques::path_tracing) &&
+      pilot.noise_of_samples() < noise && !pilot.has_rare_light()) {
+    const Forecast other = pilot.forecast();
+    if (hardly * other.variance < best.variance) return other.allocation;
+  }
+  algorithm.set_techniques(first);
+  return best.allocation;
 }
 
 }  // namespace mlt

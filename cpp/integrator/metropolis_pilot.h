@@ -13,7 +13,8 @@ namespace mlt {
 struct Allocation {
   double share = 0;       ///< Of the time, for independent samples; 1: there are no chains.
   FamilyWeights weights;  ///< Of both families.
-  double mutations_per_sample = 1;  ///< What an independent sample costs.
+  double mutations_per_sample = 1;                      ///< What an independent sample costs.
+  SampleTechniques techniques = SampleTechniques::all;  ///< Of the independent samples.
 };
 
 struct PilotSettings {
@@ -22,24 +23,24 @@ struct PilotSettings {
   uint64_t coarse_samples = 0;  ///< For the coarse image.
   uint64_t samples = 0;         ///< As candidates for the starts of chains, and once more.
   int chains = 64;
-  uint64_t steps = 2000;  ///< Of each chain.
+  uint64_t steps = 2000;                       ///< Of each chain.
+  std::optional<double> share;                 ///< See Allocation. What is given stays.
+  std::optional<SampleTechniques> techniques;  ///< The same.
   /// Within which the share of the independent samples stays, as long as there are chains.
   double least_share = 0.05, greatest_share = 0.95, greatest_share_with_rare_light = 0.2;
 };
 
 /// Without chains.
-inline Allocation samples_alone() {
-  return {1, FamilyWeights(std::numeric_limits<double>::max()), 1};
+inline Allocation samples_alone(SampleTechniques techniques) {
+  return {1, FamilyWeights(std::numeric_limits<double>::max()), 1, techniques};
 }
 
 CoarseImage coarse_image(const MetropolisAlgorithm& algorithm, const Raster& raster,
                          const PilotSettings& pilot, const std::atomic<bool>& cancelled);
 
 /// Finds the division of time with the smallest expected noise, relative to the brightness of
-/// `coarse`. If a share is given, only the weights of the families are found. Without any light
-/// for chains to start from, samples are left alone.
-Allocation allocate(const MetropolisAlgorithm& algorithm, const Raster& raster,
-                    const TargetMap& coarse, std::optional<double> share,
-                    const PilotSettings& pilot, const std::atomic<bool>& cancelled);
+/// `coarse`. Without any light for chains to start from, samples are left alone.
+Allocation allocate(MetropolisAlgorithm& algorithm, const Raster& raster, const TargetMap& coarse,
+                    const PilotSettings& settings, const std::atomic<bool>& cancelled);
 
 }  // namespace mlt

@@ -1,7 +1,6 @@
 #include "integrator/metropolis_rendering.h"
 
 #include "base/parallel.h"
-#include "integrator/family_taker.h"
 
 #include <algorithm>
 #include <cmath>
@@ -49,18 +48,24 @@ void MetropolisRendering::prepare(int threads, const std::atomic<bool>& cancelle
 }
 
 Allocation MetropolisRendering::run_pilot(int threads, const std::atomic<bool>& cancelled) {
-  if (settings_.independent_share == 1) return samples_alone();
+  if (settings_.independent_share == 1) {
+    const SampleTechniques techniques = settings_.techniques.value_or(SampleTechniques::all);
+    algorithm_->set_techniques(techniques);
+    return samples_alone(techniques);
+  }
   PilotSettings pilot;
   pilot.seed = seed_;
   pilot.threads = threads;
   pilot.coarse_samples = settings_.luminance_samples / 3;
   pilot.samples = settings_.luminance_samples / 6;
   pilot.chains = std::min(pilot.chains, settings_.chains);
+  pilot.share = settings_.independent_share;
+  pilot.techniques = settings_.techniques;
   const Raster& raster = scene_->camera().raster();
   const CoarseImage coarse = coarse_image(*algorithm_, raster, pilot, cancelled);
   algorithm_->prepare(coarse, seed_, threads, cancelled);
   if (settings_.independent_share == 0) return {};
-  return allocate(*algorithm_, raster, coarse.map, settings_.independent_share, pilot, cancelled);
+  return allocate(*algorithm_, raster, coarse.map, pilot, cancelled);
 }
 
 void MetropolisRendering::start_chains(int threads, const std::atomic<bool>& cancelled) {
@@ -95,7 +100,10 @@ std::vector<std::vector<uint32_t>> MetropolisRendering::run_bootstrap(
     std::vector<double> targets;
     for (uint64_t i = g * per_group; i < (g + 1) * per_group; ++i) {
       targets.push_back(weights[i].target);
-      groups_[g].bootstrap.add(weights[i].brightness, weights[i].of_chains);
+      groups_[g].bootstrap.brightness.add(weights[i].brightness);
+      groups_[g].bootstrap.classes.add(weights[i].brightness);
+      if (allocation_.techniques == SampleTechniques::all)
+        groups_[g].bootstrap.of_chains.add(weights[i].of_chains);
     }
     Rng rng(seed_, Purpose::resample, g);
     Bootstrap bootstrap = resample(targets, chains_of(g), rng);
@@ -111,9 +119,7 @@ void MetropolisRendering::lay_out() {
   if (allocation_.share > 0)
     samples_ = std::make_unique<SampledRendering>(
         scene_, seed_, SampledSettings{true, {}, allocation_.share > 0.5 ? 4u : 1u},
-        [this](const Scene& scene) {
-          return std::make_unique<FamilyTaker>(scene, *algorithm_, allocation_.weights);
-        });
+        [this](const Scene&) { return algorithm_->sample_taker(allocation_.weights); });
   plan_.borders.clear();
   for (uint64_t share = 0; share <= sample_shares(); ++share) plan_.borders.push_back(share);
   chains_.clear();

@@ -24,8 +24,9 @@ namespace mlt {
 struct MetropolisSettings {
   int chains = 128;
   int64_t luminance_samples = 50000;
-  std::optional<double> independent_share;  ///< Of the time; without, a pilot finds it.
-  bool parts = false;                       ///< Keep the parts of both families as layers.
+  std::optional<double> independent_share;     ///< Of the time; without, a pilot finds it.
+  std::optional<SampleTechniques> techniques;  ///< Of the independent samples; the same.
+  bool parts = false;                          ///< Keep the parts of both families as layers.
 };
 
 class MetropolisRendering : public Rendering {

@@ -29,6 +29,8 @@ std::string MetropolisRendering::save_prepared() const {
 void MetropolisRendering::load_prepared(const std::string& prepared) {
   ByteReader bytes(prepared);
   allocation_ = bytes.read<Allocation>();
+  if (!algorithm_->set_techniques(allocation_.techniques))
+    throw RenderError("the saved state has techniques that do not exist");
   for (Group& group : groups_) {
     group.b = bytes.read<double>();
     group.bootstrap.load(bytes);

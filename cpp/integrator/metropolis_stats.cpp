@@ -44,6 +44,7 @@ void MetropolisRendering::add_level(Stats& stats) const {
   stats.b = b.mean;
   stats.b_error = std::sqrt(b.variance);
   stats.independent_share = allocation_.share;
+  if (samples_) stats.independent = algorithm_->samples_name();
   stats.independent_samples = b.count;
   stats.samples_carrying_half = classes.carrying_half();
   if (b.mean > 0) stats.level_error = std::hypot(stats.b_error, combination().missing()) / b.mean;

@@ -14,6 +14,9 @@ class MltIntegrator : public Integrator {
  public:
   explicit MltIntegrator(Params& params) : metropolis_(metropolis_settings(params)) {
     settings_.rules = path_rules(params);
+    const std::string independent = params.text("independent");
+    if (independent == "bdpt") metropolis_.techniques = SampleTechniques::all;
+    if (independent == "path") metropolis_.techniques = SampleTechniques::path_tracing;
     settings_.near_specular = params.real_in("near_specular", 0, 1);
     settings_.two_stage = params.boolean("two_stage");
     settings_.delayed_rejection = params.boolean("delayed_rejection");
@@ -65,6 +68,11 @@ Plugin integrator_mlt() {
          "Divide the target by a coarse image, so that dark regions get their share."},
         {"delayed_rejection", ParamType::boolean, false,
          "Let a smaller step follow where a perturbation's proposal was rejected."},
+        choice_parameter(
+            "independent", "auto",
+            "What the independent samples are: those of bidirectional path tracing, or "
+            "of path tracing, which are cheaper; by default a pilot chooses.",
+            {"auto", "bdpt", "path"}),
         {"direct_samples", ParamType::integer, int64_t{-1},
          "Render light of at most one reflection apart with this many samples per pixel; "
          "0 leaves it out, -1 leaves it to the chains."}}}));

@@ -2,6 +2,7 @@
 
 #include "integrator/path_kernel.h"
 #include "integrator/path_source.h"
+#include "integrator/traced_source.h"
 #include "mutation/adaptation.h"
 
 namespace mlt {
@@ -95,7 +96,22 @@ class MltAlgorithm : public MetropolisAlgorithm {
         adapt(target_, mutations_, *weights_, adaptation, cancelled));
   }
 
+  const Scene& scene() const override { return target_.scene(); }
   std::unique_ptr<Source> source() const override { return std::make_unique<PathSource>(target_); }
+  bool set_techniques(SampleTechniques techniques) override {
+    if (techniques > SampleTechniques::path_tracing) return false;
+    target_.set_techniques(techniques);
+    return true;
+  }
+  std::string samples_name() const override { return are_traced() ? "path" : "bdpt"; }
+  std::unique_ptr<Source> sample_source() const override {
+    if (are_traced()) return std::make_unique<TracedSource>(target_);
+    return source();
+  }
+  std::unique_ptr<SampleTaker> sample_taker(const FamilyWeights& weights) const override {
+    if (are_traced()) return std::make_unique<TracedTaker>(target_, weights);
+    return MetropolisAlgorithm::sample_taker(weights);
+  }
 
   std::unique_ptr<RenderChain> start(const ChainId& id, Rng candidate, Rng choice) const override {
     return chain(id, target_.seeds().pick(candidate, choice));
@@ -135,6 +151,7 @@ class MltAlgorithm : public MetropolisAlgorithm {
   }
 
  private:
+  bool are_traced() const { return target_.techniques() == SampleTechniques::path_tracing; }
   /// The mutation as it is, or once for each step size that adaptation chooses from.
   std::vector<std::pair<MutationValues, double>> in_all_sizes(const MixedMutation& mixed) const {
     const StepSizeChoice* choice = step_size_choice(mutation_plugin(mixed.name));

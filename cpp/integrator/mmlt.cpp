@@ -89,6 +89,7 @@ class Mmlt : public MetropolisAlgorithm {
     choice_.learn(std::move(sums));
   }
 
+  const Scene& scene() const override { return target_.scene(); }
   std::unique_ptr<Source> source() const override { return std::make_unique<PathSource>(target_); }
   /// From one of the candidate's paths, chosen in proportion to its weight.
   std::unique_ptr<RenderChain> start(const ChainId& id, Rng candidate, Rng choice) const override {

@@ -14,7 +14,7 @@ class PathKernel : public PathMixture {
       : PathMixture(mixture), target_(&target) {}
 
   void record(ChainRecorder& recorder, const PathState& x, double weight) const {
-    recorder.record(x.raster, x.rgb / x.target, weight, target_over_density(x));
+    recorder.record(x.raster, x.rgb / x.target, weight, target_->over_density(x));
   }
   double proposal_weight() const { return 0; }
   Vec2 raster_of(const PathState& x) const { return x.raster; }

@@ -104,6 +104,7 @@ class Pssmlt : public MetropolisAlgorithm {
   void prepare(const CoarseImage& coarse, uint64_t, int, const std::atomic<bool>&) override {
     weights_.share = settings_.large_probability * coarse.b;
   }
+  const Scene& scene() const override { return *scene_; }
   std::unique_ptr<Source> source() const override {
     return std::make_unique<PssmltSource>(paths(), weights_);
   }

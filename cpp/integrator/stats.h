@@ -53,6 +53,7 @@ struct Stats {
   /// Of the time, for samples that are independent of the chains; how many samples b was estimated
   /// from, and how many of these, those of the highest weight, carry half of it. Metropolis only.
   double independent_share = 0;
+  std::string independent;  ///< Of mlt: what these samples are, "bdpt" or "path".
   /// By how much, relatively, the brightness of the image may be wrong; NaN (null) if not known.
   double level_error = std::numeric_limits<double>::quiet_NaN();
   uint64_t independent_samples = 0, samples_carrying_half = 0;

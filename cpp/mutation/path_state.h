@@ -34,11 +34,6 @@ struct PathState {
   bool specular(int i) const { return terms[i].specular; }  ///< S, not D, of inner vertex i.
 };
 
-/// T(x) / P(x): the target over the density of all techniques of bidirectional path tracing.
-inline double target_over_density(const PathState& x) {
-  return x.target / total_density(ContributionMeasure{x.terms});
-}
-
 /// y becomes x with the edit applied; the inserted vertices and their terms are yet to be filled
 /// in.
 void splice(const PathState& x, const Edit& edit, PathState& y);

@@ -12,6 +12,10 @@ namespace mlt {
 
 class PathSeeds;
 
+/// The techniques of independent samples: all of bidirectional path tracing, or those two of them that
+/// path tracing has.
+enum class SampleTechniques : uint8_t { all, path_tracing };
+
 class PathTarget {
  public:
   /// Smooth vertices below the roughness `near_specular` count as specular in signatures.
@@ -26,10 +30,21 @@ class PathTarget {
   const TargetMap* map() const { return map_ ? &*map_ : nullptr; }
   void set_map(TargetMap map) { map_ = std::move(map); }
 
+  /// Which samples find the paths of chains, too.
+  SampleTechniques techniques() const { return techniques_; }
+  void set_techniques(SampleTechniques techniques) { techniques_ = techniques; }
+
+  /// The factor of two-stage sampling.
+  double factor(const Vec2& raster) const { return map_ ? (*map_)(raster) : 1.0; }
   /// The target of light of this color, f or f / p, at a raster position.
   double of(const Color& color, const Vec2& raster) const {
-    const double luminance = target_luminance(color);
-    return map_ ? luminance * (*map_)(raster) : luminance;
+    return target_luminance(color) * factor(raster);
+  }
+  /// T(x) / P(x), where P is the density of the techniques together (see FamilyWeights).
+  double over_density(const PathState& x) const {
+    const ContributionMeasure in{x.terms};
+    return x.target /
+           (techniques_ == SampleTechniques::all ? total_density(in) : path_tracing_density(in));
   }
   /// Computes what depends on vertices first ... last and their neighbours, then f and L*. Without
   /// visibility. target = 0 if the path carries no light, misses the image or breaks the rules.
@@ -53,6 +68,7 @@ class PathTarget {
   PathRules rules_;
   double near_specular_;
   std::optional<TargetMap> map_;
+  SampleTechniques techniques_ = SampleTechniques::all;
 };
 
 }  // namespace mlt

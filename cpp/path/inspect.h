@@ -36,7 +36,7 @@ FoundPath found_path(const Scene& scene, const BidirectionalSampler& paths,
                      const Connection& connection);
 
 /// Watches trace_path (see IgnorePaths) and keeps the paths that it finds.
-class PathRecorder {
+class PathRecorder : public IgnorePaths {
  public:
   PathRecorder(const Scene& scene, const Vec2& raster, const SurfacePoint& lens, double time,
                std::vector<FoundPath>& found);

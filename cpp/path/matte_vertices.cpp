@@ -72,7 +72,8 @@ SurfacePoint MatteVertices::point(int i, double time) const {
 }
 
 /// direct_light() of path_tracer.h.
-void MatteVertices::unshadowed_lights(bool strict_normals) {
+void MatteVertices::unshadowed_lights(bool strict_normals, Heuristic heuristic) {
+  const bool balance = heuristic == Heuristic::balance;
   const int end = whole_vectors(count);
   for (int i = 0; i < end; ++i) {
     const Vec3f to_light = y[i] - p[i];
@@ -85,7 +86,7 @@ void MatteVertices::unshadowed_lights(bool strict_normals) {
     const float pdf = light_pdf[i] * distance2 / cos_y;
     const float abs_cos = std::fabs(cos_l);
     const float quotient = abs_cos * (1 / pi_f) / pdf;
-    const float weight = abs_cos / (pdf * (1 + quotient * quotient));
+    const float weight = abs_cos / (pdf * (1 + quotient * (balance ? 1 : quotient)));
     light_weight[i] = lit ? weight : 0;
     const Vec3f start = departure(p[i], ng[i], to_light, extent[i]);
     const Vec3f between = departure(y[i], ny[i], -to_light, y_extent[i]) - start;

@@ -2,6 +2,7 @@
 // each quantity, so that the compiler makes vector instructions of the loops over them.
 #pragma once
 
+#include "path/mis.h"
 #include "scene/matte.h"
 #include "scene/mesh.h"
 
@@ -64,7 +65,7 @@ struct MatteVertices {
   /// The i-th of them, for what is not computed side by side.
   SurfacePoint point(int i, double time) const;
 
-  void unshadowed_lights(bool strict_normals);
+  void unshadowed_lights(bool strict_normals, Heuristic heuristic);
   void sample_directions(bool strict_normals);
 };
 

@@ -68,4 +68,15 @@ double total_density(const Measure& in) {
   return total_density(in, 0, in.x.edges() + 1);
 }
 
+/// p_{0,k+1}(x) + p_{1,k}(x): of the two techniques of path tracing. It does not join the lens to a
+/// light.
+template <class Measure>
+double path_tracing_density(const Measure& in) {
+  const PathTerms& x = in.x;
+  double sum = can_sample(x, 0) ? in.joint(0) * from_camera(in, 0) : 0;
+  if (x.edges() > 1 && can_sample(x, 1)) sum += x.direct * in.joint(1);
+  for (int i = 1; i <= x.edges(); ++i) sum *= from_camera(in, i);
+  return sum;
+}
+
 }  // namespace mlt

@@ -2,6 +2,7 @@
 // multiple importance sampling (Veach & Guibas 1995, power heuristic).
 #pragma once
 
+#include "path/mis.h"
 #include "path/path_rules.h"
 #include "path/walk.h"
 
@@ -26,23 +27,33 @@ inline double direct_pdf(const Scene& scene, const Emitter& emitter, const Vec3&
          per_solid_angle(from, x0, w);
 }
 
-/// Emission towards the camera of everything at infinity, or of the surface `at` that was hit;
-/// `weight(emitter, x0)` is the MIS weight of having found it this way.
-template <class Weight>
-Color emission(const Scene& scene, const SurfacePoint* at, const Vec3& w, Weight&& weight) {
+/// What is emitted towards the camera where a ray along w ends: calls visit(emitter, x0, radiance)
+/// for the surface `at` that was hit, or (nullptr) for everything at infinity.
+template <class Visit>
+void visit_emission(const Scene& scene, const SurfacePoint* at, const Vec3& w, Visit&& visit) {
   if (at) {
     const Emitter* emitter = scene.emitter(*at);
-    if (!emitter) return Color(0);
+    if (!emitter) return;
     const Color radiance = emitter->eval(*at, -w);
-    return is_black(radiance) ? Color(0) : radiance * weight(*emitter, *at);
+    if (!is_black(radiance)) visit(*emitter, *at, radiance);
+    return;
   }
-  Color sum(0);
-  if (scene.backgrounds().empty()) return sum;
+  if (scene.backgrounds().empty()) return;
   const SurfacePoint x0 = Scene::point_at_infinity(w);
   for (const uint32_t index : scene.backgrounds()) {
     const Emitter& emitter = *scene.emitters()[index];
-    sum += emitter.eval(x0, -w) * weight(emitter, x0);
+    visit(emitter, x0, emitter.eval(x0, -w));
   }
+}
+
+/// The sum of it; `weight(emitter, x0)` is the MIS weight of having found x0 this way.
+template <class Weight>
+Color emission(const Scene& scene, const SurfacePoint* at, const Vec3& w, Weight&& weight) {
+  Color sum(0);
+  visit_emission(scene, at, w,
+                 [&](const Emitter& emitter, const SurfacePoint& x0, const Color& radiance) {
+                   sum += radiance * weight(emitter, x0);
+                 });
   return sum;
 }
 
@@ -107,8 +118,12 @@ inline std::optional<ScatterSample> scatter_to_light(const Walker& walker, const
   return ScatterSample{w, s.f * (factor / s.pdf_from_camera), s.pdf_from_camera, lobe, eta2};
 }
 
+struct CameraWalk;
+
 /// Who watches trace_path is told of each step, in this order; this one is not interested.
 struct IgnorePaths {
+  /// Before either of them: a path was found that brings this radiance to the camera.
+  void find(const CameraWalk&, const Color& /*radiance*/) {}
   /// A light was hit at x0; its radiance towards w is to be multiplied by `throughput`.
   void hit(const Emitter&, const SurfacePoint& /*x0*/, const Vec3& /*w*/,
            const Color& /*throughput*/) {}
@@ -121,7 +136,7 @@ struct IgnorePaths {
 
 /// A path that grows from the camera, and what it has found.
 struct CameraWalk {
-  explicit CameraWalk(const Ray& first) : ray(first), previous(first.o) {}
+  CameraWalk(const Ray& first) : ray(first), previous(first.o) {}
 
   Ray ray;  ///< Along which it goes on.
   Color radiance{0}, throughput{1};
@@ -129,6 +144,27 @@ struct CameraWalk {
   double scatter_pdf = 0;  ///< With which that one chose the ray, in solid angle,
   bool delta = true;       ///< or by a delta lobe, or it is the lens.
   double eta2 = 1;         ///< The factor of the throughput that undoes refraction.
+  double survival = 1;     ///< Probability that Russian roulette has let it come here.
+
+  Heuristic heuristic = Heuristic::power;  ///< Of light sampling and scattering.
+  /// Where chains find the same paths (FamilyWeights): T / P of a path over c, for an L* of f / P that
+  /// is 1. With the balance heuristic f / P is the radiance that the path has brought here, without
+  /// roulette.
+  double chain_factor = 0;
+  double of_chains = 0;  ///< L* of the light that is left to chains.
+
+  /// The MIS weight of one of the two techniques.
+  double mis(double pdf, double other) const {
+    return heuristic == Heuristic::balance ? pdf / (pdf + other) : power_heuristic(pdf, other);
+  }
+  /// w1 of a path that brings this radiance.
+  double own_share(const Color& found) const {
+    return chain_factor > 0 ? 1 / (1 + chain_factor * survival * target_luminance(found)) : 1.0;
+  }
+  void take(const Color& found, double share) {
+    radiance += found * share;
+    if (chain_factor > 0) of_chains += target_luminance(found) * (1 - share);
+  }
 };
 
 /// The numbers that a vertex takes.
@@ -152,15 +188,16 @@ template <class Watcher = IgnorePaths>
 void find_light(const Scene& scene, CameraWalk& walk, const SurfacePoint* at,
                 Watcher&& watcher = Watcher()) {
   const Vec3& w = walk.ray.d;
-  const auto weight = [&](const Emitter& emitter, const SurfacePoint& x0) {
+  const auto take = [&](const Emitter& emitter, const SurfacePoint& x0, const Color& emitted) {
     const double weight =
-        walk.delta
-            ? 1.0
-            : power_heuristic(walk.scatter_pdf, direct_pdf(scene, emitter, walk.previous, x0, w));
-    watcher.hit(emitter, x0, -w, walk.throughput * weight);
-    return weight;
+        walk.delta ? 1.0
+                   : walk.mis(walk.scatter_pdf, direct_pdf(scene, emitter, walk.previous, x0, w));
+    const Color weighted = walk.throughput * weight, found = weighted * emitted;
+    watcher.find(walk, found);
+    watcher.hit(emitter, x0, -w, weighted);
+    walk.take(found, walk.own_share(found));
   };
-  walk.radiance += walk.throughput * emission(scene, at, w, weight);
+  visit_emission(scene, at, w, take);
 }
 
 /// Russian roulette with the throughput, from rr_depth on; false ends the walk.
@@ -169,6 +206,7 @@ inline bool survive(const PathRules& rules, int depth, double u, CameraWalk& wal
   const double survival = std::min(max_component(walk.throughput) * walk.eta2, 0.95);
   if (!(u < survival)) return false;
   walk.throughput /= survival;
+  walk.survival *= survival;
   return true;
 }
 
@@ -196,13 +234,13 @@ inline bool wants_direct_light(const Scene& scene, const PathRules& rules, int d
   return (at.matte.known() || scene.bsdf(at).has_smooth()) && rules.wants(depth + 1);
 }
 
-/// The radiance that arrives along `ray` from the scene. Every vertex draws the same number of
-/// numbers from the sampler, so that a small change of the numbers is a small change of the path.
+/// The radiance that arrives from the scene along the ray of a walk. Every vertex draws the same
+/// number of numbers from the sampler, so that a small change of the numbers is a small change of
+/// the path.
 template <class Sampler, class Watcher = IgnorePaths>
-Color trace_path(const Scene& scene, const PathRules& rules, const Ray& ray, Sampler& sampler,
+Color trace_path(const Scene& scene, const PathRules& rules, CameraWalk walk, Sampler& sampler,
                  RayCounts& rays, Watcher&& watcher = Watcher()) {
-  const Walker walker{scene, ray.time, rays};
-  CameraWalk walk(ray);
+  const Walker walker{scene, walk.ray.time, rays};
   for (int depth = 1;; ++depth) {
     SurfacePoint at;
     const bool hit = walker.arrive(walk.ray, at);
@@ -214,10 +252,12 @@ Color trace_path(const Scene& scene, const PathRules& rules, const Ray& ray, Sam
     if (!consistent_sides(at, wc, rules.strict_normals)) break;
     const VertexNumbers numbers(sampler);
     if (wants_direct_light(scene, rules, depth, at)) {
+      const auto mis = [&](double light, double bsdf) { return walk.mis(light, bsdf); };
       const Color direct = walk.throughput * direct_light(walker, at, wc, numbers.for_light(),
-                                                          rules.strict_normals, power_heuristic);
+                                                          rules.strict_normals, mis);
+      watcher.find(walk, direct);
       watcher.connect(numbers.for_light(), direct);
-      walk.radiance += direct;
+      walk.take(direct, walk.own_share(direct));
     }
     if (!scatter(walker, rules, depth, at, numbers, walk, watcher)) break;
   }

@@ -63,10 +63,7 @@ void Wavefront::find_other_vertex(int index, const SurfacePoint& at, int depth, 
   if (!consistent_sides(at, wc, rules_.strict_normals)) return;
   const VertexNumbers numbers(samplers_[index]);
   if (wants_direct_light(*scene_, rules_, depth, at))
-    queue_shadow(index,
-                 unshadowed_light(*scene_, at, wc, numbers.for_light(), rules_.strict_normals,
-                                  power_heuristic),
-                 at, rays);
+    queue_light(index, at, numbers.for_light(), rays);
   const Walker walker{*scene_, walk.ray.time, rays};
   goes_on_[index] = scatter(walker, rules_, depth, at, numbers, walk);
 }
@@ -95,15 +92,11 @@ void Wavefront::choose_light(int i, const Vec3& u, RayCounts& rays) {
   }
   matte_.set_no_light(i);
   const int walk = matte_.walk[i];
-  const SurfacePoint at = matte_.point(i, walks_[walk].ray.time);
-  queue_shadow(
-      walk,
-      unshadowed_light(*scene_, at, -walks_[walk].ray.d, u, rules_.strict_normals, power_heuristic),
-      at, rays);
+  queue_light(walk, matte_.point(i, walks_[walk].ray.time), u, rays);
 }
 
 void Wavefront::queue_lights(RayCounts& rays) {
-  matte_.unshadowed_lights(rules_.strict_normals);
+  matte_.unshadowed_lights(rules_.strict_normals, heuristic_);
   for (int i = 0; i < matte_.count; ++i)
     if (matte_.light_weight[i] > 0)
       queue_shadow(matte_.walk[i],
@@ -112,10 +105,14 @@ void Wavefront::queue_lights(RayCounts& rays) {
                    walks_[matte_.walk[i]].ray.time);
 }
 
-void Wavefront::queue_shadow(int index, const DirectLight& light, const SurfacePoint& at,
-                             RayCounts& rays) {
+/// direct_light() of path_tracer.h.
+void Wavefront::queue_light(int index, const SurfacePoint& at, const Vec3& u, RayCounts& rays) {
+  const CameraWalk& walk = walks_[index];
+  const auto mis = [&](double light, double bsdf) { return walk.mis(light, bsdf); };
+  const DirectLight light =
+      unshadowed_light(*scene_, at, -walk.ray.d, u, rules_.strict_normals, mis);
   if (is_black(light.radiance)) return;
-  if (const auto ray = scene_->segment(at, light.x0, walks_[index].ray.time))
+  if (const auto ray = scene_->segment(at, light.x0, walk.ray.time))
     queue_shadow(index, light.radiance, rays, *ray);
 }
 
@@ -125,6 +122,7 @@ void Wavefront::queue_shadow(int index, const Color& radiance, RayCounts& rays,
   const int i = shadows_.packet.count;
   shadows_.walk[i] = index;
   shadows_.radiance[i] = walks_[index].throughput * radiance;
+  shadows_.own_share[i] = walks_[index].own_share(shadows_.radiance[i]);
   shadows_.packet.add(segment...);
   ++rays.occluded;
   if (shadows_.packet.full()) find_shadows();
@@ -134,7 +132,8 @@ void Wavefront::find_shadows() {
   if (shadows_.packet.count == 0) return;
   const unsigned blocked = scene_->accel().occluded(shadows_.packet);
   for (int i = 0; i < shadows_.packet.count; ++i)
-    if (!(blocked >> i & 1)) walks_[shadows_.walk[i]].radiance += shadows_.radiance[i];
+    if (!(blocked >> i & 1))
+      walks_[shadows_.walk[i]].take(shadows_.radiance[i], shadows_.own_share[i]);
   shadows_.packet.count = 0;
 }
 

@@ -15,22 +15,25 @@ class Wavefront {
  public:
   static constexpr size_t capacity = MatteVertices::capacity;
 
-  Wavefront(const Scene& scene, const PathRules& rules) : scene_(&scene), rules_(rules) {
+  Wavefront(const Scene& scene, const PathRules& rules, Heuristic heuristic = Heuristic::power)
+      : scene_(&scene), rules_(rules), heuristic_(heuristic) {
     walks_.reserve(capacity);
     samplers_.reserve(capacity);
   }
 
-  /// A path that begins with `ray`; `sampler` goes on from there.
-  void add(const Ray& ray, const PixelSampler& sampler) {
+  /// A path that begins with `ray`; `sampler` goes on from there. For `chain_factor` see CameraWalk.
+  void add(const Ray& ray, const PixelSampler& sampler, double chain_factor = 0) {
     walks_.emplace_back(ray);
+    walks_.back().heuristic = heuristic_;
+    walks_.back().chain_factor = chain_factor;
     samplers_.push_back(sampler);
   }
   size_t size() const { return walks_.size(); }
   bool full() const { return size() == capacity; }
   /// Traces all of them to their ends.
   void trace(RayCounts& rays);
-  /// What the i-th path has found.
-  const Color& radiance(size_t i) const { return walks_[i].radiance; }
+  /// With what it has found.
+  const CameraWalk& operator[](size_t i) const { return walks_[i]; }
   void clear() {
     walks_.clear();
     samplers_.clear();
@@ -42,6 +45,7 @@ class Wavefront {
     RayPacket packet;
     std::array<int, RayPacket::size> walk;
     std::array<Color, RayPacket::size> radiance;
+    std::array<double, RayPacket::size> own_share;
   };
 
   void find_hits(RayCounts& rays);
@@ -51,7 +55,7 @@ class Wavefront {
   void scatter_matte(int depth, RayCounts& rays);
   void choose_light(int i, const Vec3& u, RayCounts& rays);
   void queue_lights(RayCounts& rays);
-  void queue_shadow(int walk, const DirectLight& light, const SurfacePoint& at, RayCounts& rays);
+  void queue_light(int walk, const SurfacePoint& at, const Vec3& u, RayCounts& rays);
   template <class... Segment>
   void queue_shadow(int walk, const Color& radiance, RayCounts& rays, const Segment&... segment);
   void find_shadows();
@@ -59,6 +63,7 @@ class Wavefront {
 
   const Scene* scene_;
   PathRules rules_;
+  Heuristic heuristic_;
   std::vector<CameraWalk> walks_;
   std::vector<PixelSampler> samplers_;
   std::vector<int> live_;               ///< The walks that take this step;

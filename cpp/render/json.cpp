@@ -122,6 +122,7 @@ std::string to_json(const Stats& s) {
   line("b_error", fmt::format("{}", s.b_error));
   line("level_error", json_value(s.level_error));
   line("independent_share", fmt::format("{}", s.independent_share));
+  line("independent", json_string(s.independent));
   line("independent_samples", fmt::format("{}", s.independent_samples));
   line("samples_carrying_half", fmt::format("{}", s.samples_carrying_half));
   line("invalid_samples", fmt::format("{}", s.invalid_samples));

@@ -154,6 +154,7 @@ def test_stats_have_the_promised_members(scene):
         "b_error": float,
         "level_error": float,
         "independent_share": float,
+        "independent": str,
         "independent_samples": int,
         "samples_carrying_half": int,
         "invalid_samples": int,

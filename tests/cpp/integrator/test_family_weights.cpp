@@ -1,5 +1,7 @@
 // Chains and independent samples see the same T / P of a path, so that their weights sum to one.
+#include "integrator/family_taker.h"
 #include "integrator/family_weights.h"
+#include "integrator/traced_source.h"
 #include "mutation/mutation_scenes.h"
 #include "mutation/path_seeds.h"
 
@@ -19,15 +21,26 @@ TEST(FamilyWeights, SumToOne) {
     }
 }
 
-class TargetOverDensity : public testing::TestWithParam<std::string> {};
-
-TEST_P(TargetOverDensity, IsTheSameForSamplesAndChains) {
-  const TestScene made = make_mutation_scene(GetParam());
+/// With a map that tells regions apart.
+PathTarget target_of(const TestScene& made) {
   PathTarget target(made.scene, {8});
   TargetMap map = blank_image(made.scene->camera().raster());
   map.add({3, 4}, 1);
   map.finish();
   target.set_map(map);
+  return target;
+}
+
+double median(std::vector<double>& values) {
+  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
+  return values[values.size() / 2];
+}
+
+class TargetOverDensity : public testing::TestWithParam<std::string> {};
+
+TEST_P(TargetOverDensity, IsTheSameForSamplesAndChains) {
+  const TestScene made = make_mutation_scene(GetParam());
+  const PathTarget target = target_of(made);
   PathSeeds seeds(target);
   PathState x;
   std::vector<double> errors;
@@ -38,17 +51,100 @@ TEST_P(TargetOverDensity, IsTheSameForSamplesAndChains) {
       seeds.assemble(c, x);
       if (!(x.target > 0)) return;  // rounding: a path through an edge of the image, say
       const double q = weight / c.weight * c.own_share;
-      errors.push_back(std::abs(q / target_over_density(x) - 1));
+      errors.push_back(std::abs(q / target.over_density(x) - 1));
       roulette += x.edges() > 6;
     });
   ASSERT_GT(errors.size(), 1000u);
-  std::nth_element(errors.begin(), errors.begin() + errors.size() / 2, errors.end());
   // The directions between points that were rounded are not quite those that were sampled, which
   // nearly specular BSDFs magnify.
-  EXPECT_LT(errors[errors.size() / 2], 1e-6);
+  EXPECT_LT(median(errors), 1e-6);
   if (GetParam() == "cornell") {
     EXPECT_GT(roulette, 0);
   }
+}
+
+TEST_P(TargetOverDensity, IsTheSameForSamplesOfPathTracingAndChains) {
+  const TestScene made = make_mutation_scene(GetParam());
+  PathTarget target = target_of(made);
+  target.set_techniques(SampleTechniques::path_tracing);
+  const Scene& scene = *made.scene;
+  TracedSource source(target);
+  PathState x;
+  std::vector<double> errors;
+  int roulette = 0;
+  RayCounts rays;
+  for (uint64_t i = 0; i < 20000; ++i) {
+    Rng rng(1, Purpose::test, i);
+    RandomSampler sampler(rng);
+    const Vec2 raster = scene.camera().raster().sample(sampler.next2());
+    Rng again = rng;
+    const std::vector<FoundLight>& found = source.sample(raster, sampler);
+    RandomSampler same(again);
+    const auto [lens, ray] = leave_lens(scene.camera(), raster, same);
+    std::vector<FoundPath> paths;
+    trace_path(scene, target.rules(), ray, same, rays,
+               PathRecorder(scene, raster, lens.at, ray.time, paths));
+    ASSERT_EQ(found.size(), paths.size());
+    for (size_t k = 0; k < found.size(); ++k) {
+      x.path = paths[k].path;
+      target.evaluate(x);
+      if (!(x.target > 0)) continue;  // as above
+      errors.push_back(std::abs(found[k].target_over_density / target.over_density(x) - 1));
+      roulette += x.edges() > 6;
+    }
+  }
+  if (errors.empty()) GTEST_SKIP() << "path tracing finds no light here";
+  EXPECT_LT(median(errors), 1e-6);
+  if (GetParam() == "cornell") {
+    EXPECT_GT(roulette, 0);
+  }
+}
+
+/// What the samples of path tracing leave to chains, and show.
+struct Shown {
+  Image image;
+  Estimate brightness, of_chains;
+};
+
+template <class MakeTaker>
+Shown shown_by(const ScenePtr& scene, MakeTaker&& make_taker) {
+  SampledRendering rendering(scene, 3, {true}, make_taker);
+  const std::atomic<bool> cancelled{false};
+  rendering.prepare(1, cancelled);
+  for (uint64_t unit = 0; unit < rendering.plan().unit_count(4); ++unit) rendering.run_unit(unit);
+  return {rendering.image(), rendering.mean_brightness(), rendering.mean_of_chains()};
+}
+
+TEST(TracedTaker, ShowsWhatItsSourceFindsWithTheWeightsOfSamples) {
+  const TestScene made = make_mutation_scene("cornell");
+  const PathTarget target = target_of(made);
+  struct Traced : MetropolisAlgorithm {
+    explicit Traced(const PathTarget& t) : target(t) {}
+    const Scene& scene() const override { return target.scene(); }
+    std::unique_ptr<Source> source() const override {
+      return std::make_unique<TracedSource>(target);
+    }
+    std::unique_ptr<RenderChain> start(const ChainId&, Rng, Rng) const override { return nullptr; }
+    std::unique_ptr<RenderChain> blank(const ChainId&) const override { return nullptr; }
+    std::vector<MutationStats> rows() const override { return {}; }
+    const PathTarget& target;
+  };
+  const Traced algorithm(target);
+  const FamilyWeights weights(0.3);
+  const Shown one_by_one = shown_by(
+      made.scene, [&](const Scene&) { return std::make_unique<FamilyTaker>(algorithm, weights); });
+  const Shown side_by_side = shown_by(
+      made.scene, [&](const Scene&) { return std::make_unique<TracedTaker>(target, weights); });
+  EXPECT_GT(one_by_one.of_chains.mean, 0.1 * one_by_one.brightness.mean);
+  EXPECT_LT(one_by_one.of_chains.mean, 0.9 * one_by_one.brightness.mean);
+  EXPECT_NEAR(side_by_side.of_chains.mean / one_by_one.of_chains.mean, 1, 1e-3);
+  EXPECT_NEAR(side_by_side.brightness.mean / one_by_one.brightness.mean, 1, 1e-3);
+  double difference = 0, sum = 0;
+  for (size_t i = 0; i < one_by_one.image.data.size(); ++i) {
+    difference += std::abs(side_by_side.image.data[i] - one_by_one.image.data[i]);
+    sum += one_by_one.image.data[i];
+  }
+  EXPECT_LT(difference, 0.01 * sum);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, TargetOverDensity, testing::ValuesIn(mutation_scene_names()),

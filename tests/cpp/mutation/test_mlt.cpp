@@ -50,21 +50,27 @@ SameImageSettings under_water() {
 
 // ---- the same image as bdpt
 
-/// A scene, and the share of the time for independent samples.
+/// A scene, and what independent samples there are.
 class MltImage : public testing::TestWithParam<std::tuple<std::string, std::string>> {};
 
+Assignments with_samples(const std::string& kind, Assignments settings = {}) {
+  settings.push_back({"independent_share", kind == "none" ? "0" : "0.3"});
+  if (kind != "none") settings.push_back({"independent", kind});
+  return settings;
+}
+
 TEST_P(MltImage, IsThatOfBdpt) {
-  const auto& [name, share] = GetParam();
+  const auto& [name, samples] = GetParam();
   const ScenePtr scene = make_mutation_scene(name).scene;
   const SameImage found =
-      same_image(mlt_side(scene, {{"adaptive", "false"}, {"independent_share", share}}),
-                 bdpt_side(scene), in_short());
+      same_image(mlt_side(scene, with_samples(samples, {{"adaptive", "false"}})), bdpt_side(scene),
+                 in_short());
   EXPECT_TRUE(found) << found.text;
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, MltImage,
                          testing::Combine(testing::Values("cornell", "caustic"),
-                                          testing::Values("0", "0.3")));
+                                          testing::Values("none", "bdpt", "path")));
 
 /// Scenes that bdpt renders in reasonable time; in the others it hardly sees some features.
 std::vector<std::string> scenes_of_bdpt() {
@@ -78,17 +84,17 @@ std::vector<std::string> scenes_of_bdpt() {
 class LongMltImage : public testing::TestWithParam<std::tuple<std::string, std::string>> {};
 
 TEST_P(LongMltImage, IsThatOfBdpt) {
-  const auto& [name, share] = GetParam();
+  const auto& [name, samples] = GetParam();
   const bool wet = name.find("water") != std::string::npos;
   const ScenePtr scene = make_mutation_scene(name).scene;
-  const SameImage found = same_image(mlt_side(scene, {{"independent_share", share}}),
-                                     bdpt_side(scene), wet ? under_water() : at_length());
+  const SameImage found = same_image(mlt_side(scene, with_samples(samples)), bdpt_side(scene),
+                                     wet ? under_water() : at_length());
   EXPECT_TRUE(found) << found.text;
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, LongMltImage,
                          testing::Combine(testing::ValuesIn(scenes_of_bdpt()),
-                                          testing::Values("0", "0.3")));
+                                          testing::Values("none", "bdpt", "path")));
 
 /// Each mutation alone with the bidirectional one, which makes the chain ergodic, and each variant.
 class LongMltVariant : public testing::TestWithParam<Assignments> {};
@@ -181,6 +187,7 @@ std::vector<Assignments> variants() {
   return {mlt_settings(2000),
           mlt_settings(2000, {{"adaptive", "false"}, {"independent_share", "0"}}),
           mlt_settings(2000, {{"two_stage", "false"}, {"independent_share", "0.3"}}),
+          mlt_settings(2000, {{"independent", "path"}, {"independent_share", "0.5"}}),
           mlt_settings(2000, {{"direct_samples", "4"}, {"independent_share", "0.1"}})};
 }
 

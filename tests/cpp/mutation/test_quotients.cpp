@@ -76,13 +76,21 @@ TEST_P(Quotients, OfAMutationThatKnowsItsDensityAloneAreTheSame) {
 
 TEST_P(Quotients, OfTheTargetAndTheDensityOfAllTechniquesAreThoseOfTheFullProducts) {
   const ScenePtr scene = make_mutation_scene(GetParam()).scene;
-  const PathTarget target = path_target(scene);
+  PathTarget target = path_target(scene);
   int compared = 0;
   for_each_light_path(target, 6, 500, [&](const PathState& x) {
     if (!(x.target > 0) || has_underflowed(x)) return;
     double all = 0;
     for (int s = 0; s <= x.edges() + 1; ++s) all += technique_density(x.terms, s);
-    ASSERT_LT(relative_difference(target_over_density(x), x.brightness() / all), 1e-11);
+    target.set_techniques(SampleTechniques::all);
+    ASSERT_LT(relative_difference(target.over_density(x), x.brightness() / all), 1e-11);
+    const double traced =
+        technique_density(x.terms, 0) + (x.edges() > 1 ? technique_density(x.terms, 1) : 0);
+    target.set_techniques(SampleTechniques::path_tracing);
+    if (traced > 0)
+      ASSERT_LT(relative_difference(target.over_density(x), x.brightness() / traced), 1e-11);
+    else
+      ASSERT_EQ(target.over_density(x), std::numeric_limits<double>::infinity());
     ++compared;
   });
   EXPECT_GT(compared, 100);

@@ -1,0 +1,81 @@
+// The independent samples beside chains of light paths, where they are those of path tracing.
+#pragma once
+
+#include "integrator/metropolis_algorithm.h"
+#include "integrator/wave_taker.h"
+#include "path/inspect.h"
+
+namespace mlt {
+
+/// Each path that a sample finds, one sample after the other: for the pilot.
+class TracedSource : public MetropolisAlgorithm::Source {
+ public:
+  explicit TracedSource(const PathTarget& target)
+      : target_(&target), scale_(radiance_scale(target.scene())) {}
+
+  const std::vector<FoundLight>& sample(const Vec2& raster, PixelSampler& sampler) override {
+    return trace(raster, sampler);
+  }
+  const std::vector<FoundLight>& sample(const Vec2& raster, RandomSampler& sampler) override {
+    return trace(raster, sampler);
+  }
+  const RayCounts& rays() const override { return rays_; }
+  /// TracedTaker takes about half the time of a chain for a ray.
+  double cost_of_ray() const override { return 0.5; }
+
+ private:
+  struct Finder : IgnorePaths {
+    Finder(TracedSource& of, const Vec2& at) : source(of), raster(at) {}
+    void find(const CameraWalk& walk, const Color& radiance) {
+      const Color rgb = radiance / source.scale_;
+      const double weight = source.target_->of(rgb, raster);
+      if (weight > 0) source.found_.push_back({raster, rgb, weight, weight * walk.survival, true});
+    }
+    TracedSource& source;
+    Vec2 raster;
+  };
+
+  template <class Sampler>
+  const std::vector<FoundLight>& trace(const Vec2& raster, Sampler& sampler) {
+    found_.clear();
+    const Scene& scene = target_->scene();
+    CameraWalk walk(leave_lens(scene.camera(), raster, sampler).ray);
+    walk.heuristic = Heuristic::balance;
+    trace_path(scene, target_->rules(), walk, sampler, rays_, Finder(*this, raster));
+    return found_;
+  }
+
+  const PathTarget* target_;
+  double scale_;
+  RayCounts rays_;
+  std::vector<FoundLight> found_;
+};
+
+/// Gives what the samples find to the image, with the weights w1 (FamilyWeights), side by side: for
+/// the render.
+class TracedTaker : public WaveTaker {
+ public:
+  TracedTaker(const PathTarget& target, const FamilyWeights& weights)
+      : WaveTaker(target.scene(), target.rules(), Heuristic::balance),
+        target_(&target),
+        scale_(radiance_scale(target.scene())),
+        threshold_(weights.threshold()) {}
+
+  void sample(const Vec2& raster, PixelSampler& sampler, SampleSink& sink,
+              RayCounts& rays) override {
+    begin(raster, leave_lens(scene().camera(), raster, sampler).ray, sampler,
+          target_->factor(raster) / (scale_ * threshold_), sink, rays);
+  }
+
+ private:
+  void add(const Vec2& raster, const CameraWalk& walk, SampleSink& sink) override {
+    sink.add(raster, walk.radiance);
+    sink.add_sums((target_luminance(walk.radiance) + walk.of_chains) / scale_,
+                  walk.of_chains / scale_);
+  }
+
+  const PathTarget* target_;
+  double scale_, threshold_;
+};
+
+}  // namespace mlt
