@@ -250,7 +250,8 @@ Allocation allocate(MetropolisAlgorithm& algorithm, const Raster& raster, const 
   if (!settings.techniques && pilot.draw_samples(SampleTechniques::path_tracing) &&
       pilot.noise_of_samples() < noise && !pilot.has_rare_light()) {
     const Forecast other = pilot.forecast();
-    if (hardly * other.variance < best.variance) return other.allocation;
+    if (other.allocation.share > 0.5 && hardly * other.variance < best.variance)
+      return other.allocation;
   }
   algorithm.set_techniques(first);
   return best.allocation;
