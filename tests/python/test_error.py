@@ -92,8 +92,18 @@ def test_the_claim_follows_from_the_groups(integrator):
     assert (groups.b > 0).all() == (integrator == "mlt")
 
 
-def test_the_groups_of_chains_and_samples_have_the_image_as_their_mean():
-    algorithm = mlt.MLT(independent_share=0.5, parts=True)
+@pytest.mark.parametrize(("name", "samples"), [("cornell_box", "path"), ("door_ajar", "bdpt")])
+def test_the_pilot_takes_the_samples_that_the_scene_is_best_served_with(name, samples):
+    scene = load(name, (64, 64))
+    stats = mlt.start(scene, mlt.MLT(max_depth=8), spp=1, seed=1).result().stats
+    assert stats["independent"] == samples
+    given = mlt.start(scene, mlt.MLT(max_depth=8, independent="path"), spp=1, seed=1).result()
+    assert given.stats["independent"] == "path"
+
+
+@pytest.mark.parametrize("independent", ["bdpt", "path"])
+def test_the_groups_of_chains_and_samples_have_the_image_as_their_mean(independent):
+    algorithm = mlt.MLT(independent_share=0.5, parts=True, independent=independent)
     job = mlt.start(load("cornell_box"), algorithm, spp=200, seed=3)
     result = job.result()
     assert np.allclose(job.groups.images.mean(axis=0), result.image, rtol=1e-4, atol=1e-6)

@@ -296,6 +296,9 @@ class MLT(Integrator):
         Divide the target by a coarse image, so that dark regions get their share.
     delayed_rejection : boolean, default False
         Let a smaller step follow where a perturbation's proposal was rejected.
+    independent : string, default 'auto'
+        What the independent samples are: those of bidirectional path tracing, or of path
+        tracing, which are cheaper; by default a pilot chooses. One of: auto, bdpt, path.
     direct_samples : integer, default -1
         Render light of at most one reflection apart with this many samples per pixel; 0 leaves
         it out, -1 leaves it to the chains.
@@ -340,6 +343,7 @@ class MLT(Integrator):
     adaptive: bool
     two_stage: bool
     delayed_rejection: bool
+    independent: Literal["auto", "bdpt", "path"]
     direct_samples: int
     mutations: Sequence[Mutation | tuple[Mutation, float]] | None
     def __init__(
@@ -381,6 +385,7 @@ class MLT(Integrator):
         adaptive: bool = ...,
         two_stage: bool = ...,
         delayed_rejection: bool = ...,
+        independent: Literal["auto", "bdpt", "path"] = ...,
         direct_samples: int = ...,
         mutations: Sequence[Mutation | tuple[Mutation, float]] | None = ...,
     ) -> None: ...
