@@ -6,7 +6,7 @@
 
 namespace mlt {
 
-std::vector<Parameter> metropolis_parameters();
+std::vector<Parameter> metropolis_parameters(int64_t chains = 128);
 MetropolisSettings metropolis_settings(Params& params);
 
 }  // namespace mlt

@@ -145,7 +145,7 @@ void MetropolisRendering::lay_out_units() {
     steps = sampling * (1 - allocation_.share) / allocation_.share;
   }
   const double count = static_cast<double>(chains_.size());
-  const double turns = std::ceil(steps / (std::max(1.0, count) * most_steps_per_unit));
+  const double turns = std::ceil(steps / most_steps_per_turn);
   uint64_t chain_units = 0;
   if (!chains_.empty()) {
     steps_per_unit_ = static_cast<uint64_t>(std::max(1.0, std::round(steps / (count * turns))));

@@ -48,8 +48,8 @@ class MetropolisRendering : public Rendering {
   void load(const std::string& state) override;
 
  private:
-  /// A unit ends within a fraction of a second, however few chains share a large image.
-  static constexpr uint64_t most_steps_per_unit = 4096;
+  /// Each chain has had its turn within about a second, however large the image.
+  static constexpr double most_steps_per_turn = 1 << 19;
 
   /// A share of the render, after those of the samples.
   struct ChainShare {

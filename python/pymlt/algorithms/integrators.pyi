@@ -225,10 +225,10 @@ class MLT(Integrator):
         Refuse directions that the geometric and the shading normal see on different sides.
     luminance_samples : integer, default 50000
         Paths drawn to start the chains from; a pilot before that draws about as many.
-    chains : integer, default 128
+    chains : integer, default 512
         Number of Markov chains, whatever the budget. The fewer there are, the longer each is,
-        and the farther it gets from where it started; but no more threads than chains have
-        work.
+        and the farther it gets from where it started; but one that stands still leaves a
+        brighter spot, and no more threads than chains have work.
     independent_share : float
         Share of the time for samples that are independent of the chains, 0 to 1. They show what
         they are good at, and tell the brightness b. By default a pilot finds the best one; 1:
@@ -409,8 +409,8 @@ class MMLT(Integrator):
         Paths drawn to start the chains from; a pilot before that draws about as many.
     chains : integer, default 128
         Number of Markov chains, whatever the budget. The fewer there are, the longer each is,
-        and the farther it gets from where it started; but no more threads than chains have
-        work.
+        and the farther it gets from where it started; but one that stands still leaves a
+        brighter spot, and no more threads than chains have work.
     independent_share : float
         Share of the time for samples that are independent of the chains, 0 to 1. They show what
         they are good at, and tell the brightness b. By default a pilot finds the best one; 1:
@@ -511,8 +511,8 @@ class PSSMLT(Integrator):
         Paths drawn to start the chains from; a pilot before that draws about as many.
     chains : integer, default 128
         Number of Markov chains, whatever the budget. The fewer there are, the longer each is,
-        and the farther it gets from where it started; but no more threads than chains have
-        work.
+        and the farther it gets from where it started; but one that stands still leaves a
+        brighter spot, and no more threads than chains have work.
     independent_share : float
         Share of the time for samples that are independent of the chains, 0 to 1. They show what
         they are good at, and tell the brightness b. By default a pilot finds the best one; 1:
@@ -618,8 +618,8 @@ class RJMLT(Integrator):
         Paths drawn to start the chains from; a pilot before that draws about as many.
     chains : integer, default 128
         Number of Markov chains, whatever the budget. The fewer there are, the longer each is,
-        and the farther it gets from where it started; but no more threads than chains have
-        work.
+        and the farther it gets from where it started; but one that stands still leaves a
+        brighter spot, and no more threads than chains have work.
     independent_share : float
         Share of the time for samples that are independent of the chains, 0 to 1. They show what
         they are good at, and tell the brightness b. By default a pilot finds the best one; 1:
