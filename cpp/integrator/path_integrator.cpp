@@ -18,28 +18,56 @@ class PathTaker : public SampleTaker {
   void sample(const Vec2& raster, PixelSampler& sampler, SampleSink& sink,
               RayCounts& rays) override {
     const auto [lens, ray] = leave_lens(scene_->camera(), raster, sampler);
-    if (std::vector<FoundPath>* paths = sink.paths()) {
-      sink.add(raster, trace_path(*scene_, rules_, ray, sampler, rays,
-                                  PathRecorder(*scene_, raster, lens.at, ray.time, *paths)));
-      return;
-    }
-    wave_.add(ray, sampler);
-    rasters_.push_back(raster);
-    if (wave_.full()) finish(sink, rays);
+    std::vector<FoundPath> unwatched, &paths = sink.paths() ? *sink.paths() : unwatched;
+    sink.add(raster, trace_path(*scene_, rules_, ray, sampler, rays,
+                                PathRecorder(*scene_, raster, lens.at, ray.time, paths)));
   }
 
-  void finish(SampleSink& sink, RayCounts& rays) override {
+  void sample_cells(const PixelRect& cells, const CellStreams& streams, SampleSink& sink,
+                    RayCounts& rays) override {
+    for (int y = cells.y0; y < cells.y1; ++y)
+      for (int x = cells.x0; x < cells.x1; ++x) {
+        wave_.numbers().add(streams.stream(x, y), streams.index);
+        rasters_.push_back(Vec2(x, y));
+        if (rasters_.size() == Wavefront::capacity) trace_wave(sink, rays);
+      }
+    trace_wave(sink, rays);
+  }
+
+ private:
+  /// The paths through all cells in rasters_.
+  void trace_wave(SampleSink& sink, RayCounts& rays) {
+    start_wave();
     wave_.trace(rays);
     for (size_t i = 0; i < wave_.size(); ++i) sink.add(rasters_[i], wave_.radiance(i));
     wave_.clear();
     rasters_.clear();
   }
 
- private:
+  /// The numbers are those that sample() takes.
+  void start_wave() {
+    const Camera& camera = scene_->camera();
+    const Shutter& shutter = camera.shutter();
+    WaveNumbers& numbers = wave_.numbers();
+    numbers.next2(0, numbers.count(), &u_x_[0], &u_y_[0]);
+    for (size_t i = 0; i < rasters_.size(); ++i) rasters_[i] += Vec2(u_x_[i], u_y_[i]);
+    if (camera.delta_position())
+      numbers.skip2();
+    else
+      numbers.next2(0, numbers.count(), &u_x_[0], &u_y_[0]);
+    if (shutter.open == shutter.close)
+      numbers.skip(1);
+    else
+      numbers.next(0, numbers.count(), &u_time_[0]);
+    for (size_t i = 0; i < rasters_.size(); ++i)
+      wave_.add(camera.ray(rasters_[i], {u_x_[i], u_y_[i]}, camera.time(u_time_[i])));
+  }
+
   const Scene* scene_;
   PathRules rules_;
   Wavefront wave_;
-  std::vector<Vec2> rasters_;  ///< Of the paths in it.
+  std::vector<Vec2> rasters_;  ///< Of the paths in it; at first, their cells.
+  Wave<double> u_x_, u_y_, u_time_;
 };
 
 }  // namespace

@@ -168,7 +168,8 @@ inline Vec2 invert_lobe(const Vec3& w, const Vec3& axis, double n) {
 
 inline Vec2 sample_triangle(const Vec2& u) {
   const double half = 0.5 * std::min(u.x, u.y), rest = std::max(u.x, u.y) - half;
-  return u.y > u.x ? Vec2(half, rest) : Vec2(rest, half);
+  const bool upper = u.y > u.x;  // Chosen without a branch, which would be guessed wrong.
+  return {upper ? half : rest, upper ? rest : half};
 }
 
 inline double triangle_pdf() { return 2; }

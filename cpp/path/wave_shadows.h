@@ -1,0 +1,51 @@
+// Light that arrives at the vertices of many paths where nothing is in its way.
+#pragma once
+
+#include "path/lanes.h"
+#include "scene/scene.h"
+
+#include <array>
+
+namespace mlt {
+
+class WaveShadows {
+ public:
+  int count() const { return count_; }
+  /// `radiance` reaches this path unless something stands between the ends of the ray.
+  void add(int path, const Color& radiance, const Vec3f& o, const Vec3f& w, float length,
+           double time) {
+    o_.set(count_, o);
+    w_.set(count_, w);
+    length_[count_] = length;
+    time_[count_] = time;
+    path_[count_] = path;
+    radiance_[count_++] = radiance;
+  }
+
+  /// Calls receive(path, radiance) for the light that arrives, and begins anew.
+  template <class Receive>
+  void trace(const Accel& accel, Receive&& receive) {
+    for (int begin = 0; begin < count_; begin += RayPacket::size) {
+      RayPacket packet(std::min(RayPacket::size, count_ - begin));
+      packet.set_lines(&o_.x[begin], &o_.y[begin], &o_.z[begin], &w_.x[begin], &w_.y[begin],
+                       &w_.z[begin]);
+      for (int i = 0; i < RayPacket::size; ++i) packet.t_max[i] = length_[begin + i];
+      if (accel.moves())
+        for (int i = 0; i < RayPacket::size; ++i) packet.time[i] = time_[begin + i];
+      const unsigned blocked = accel.occluded(packet);
+      for (int i = 0; i < packet.count; ++i)
+        if (!(blocked >> i & 1)) receive(path_[begin + i], radiance_[begin + i]);
+    }
+    count_ = 0;
+  }
+
+ private:
+  int count_ = 0;
+  VectorWave o_, w_;
+  Wave<float> length_;
+  Wave<double> time_;
+  Wave<int> path_;
+  Wave<Color> radiance_;
+};
+
+}  // namespace mlt
