@@ -31,6 +31,14 @@ inline uint64_t mix_bits(uint64_t x) {
   return x ^ (x >> 31);
 }
 
+/// The finaliser of MurmurHash3 (Appleby 2011), after an offset: a bijective mixer of 32 bits.
+inline uint32_t mix_bits_32(uint32_t x) {
+  x += 0x9e3779b9u;
+  x = (x ^ (x >> 16)) * 0x85ebca6bu;
+  x = (x ^ (x >> 13)) * 0xc2b2ae35u;
+  return x ^ (x >> 16);
+}
+
 /// The n-th number of SplitMix64's sequence from `key` on.
 inline uint64_t nth_bits(uint64_t key, uint64_t n) {
   return mix_bits(key + n * 0x9e3779b97f4a7c15u);

@@ -43,18 +43,17 @@ inline uint32_t sobol_1_reversed(uint32_t index) {
 /// independent, so the loops do as many at a time as the processor's vectors hold.
 template <int count>
 void scrambled_sobol(const uint32_t* indices, const uint64_t* seeds, double* x, double* y) {
-  uint32_t key_shuffle[count], key_x[count], key_y[count];
+  uint32_t low[count], high[count];
   for (int i = 0; i < count; ++i) {
-    const uint64_t keys = mix_bits(seeds[i]);
-    key_shuffle[i] = static_cast<uint32_t>(keys);
-    key_x[i] = static_cast<uint32_t>(keys >> 32);
-    key_y[i] = static_cast<uint32_t>(mix_bits(keys));
+    low[i] = static_cast<uint32_t>(seeds[i]);
+    high[i] = static_cast<uint32_t>(seeds[i] >> 32);
   }
   for (int i = 0; i < count; ++i) {
-    const uint32_t shuffled =
-        reverse_bits(scramble_reversed(reverse_bits(indices[i]), key_shuffle[i]));
-    x[i] = reverse_bits(scramble_reversed(shuffled, key_x[i])) * 0x1p-32;
-    y[i] = reverse_bits(scramble_reversed(sobol_1_reversed(shuffled), key_y[i])) * 0x1p-32;
+    const uint32_t key = mix_bits_32(mix_bits_32(low[i]) ^ high[i]);
+    const uint32_t key_x = mix_bits_32(key + low[i]), key_y = mix_bits_32(key_x + low[i]);
+    const uint32_t shuffled = reverse_bits(scramble_reversed(reverse_bits(indices[i]), key));
+    x[i] = reverse_bits(scramble_reversed(shuffled, key_x)) * 0x1p-32;
+    y[i] = reverse_bits(scramble_reversed(sobol_1_reversed(shuffled), key_y)) * 0x1p-32;
   }
 }
 

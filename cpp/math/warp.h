@@ -167,9 +167,7 @@ inline Vec2 invert_lobe(const Vec3& w, const Vec3& axis, double n) {
 // low-distortion map between triangle and square"). Divide by the area for a density on a surface.
 
 inline Vec2 sample_triangle(const Vec2& u) {
-  const double half = 0.5 * std::min(u.x, u.y), rest = std::max(u.x, u.y) - half;
-  const bool upper = u.y > u.x;  // Chosen without a branch, which would be guessed wrong.
-  return {upper ? half : rest, upper ? rest : half};
+  return u - 0.5 * std::min(u.x, u.y);
 }
 
 inline double triangle_pdf() { return 2; }

@@ -6,9 +6,10 @@
 
 namespace mlt {
 
+/// Not set at first: a wave is made for every tile, and most of its lanes are written anyway.
 template <class T, int size>
 struct alignas(32) Lanes {
-  T values[size] = {};
+  T values[size];
   T& operator[](int i) { return values[i]; }
   const T& operator[](int i) const { return values[i]; }
 };

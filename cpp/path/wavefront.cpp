@@ -51,8 +51,9 @@ void Wavefront::find_hits(bool coherent, RayCounts& rays) {
 
 void Wavefront::find_shadows(RayCounts& rays) {
   rays.occluded += shadows_.count();
-  shadows_.trace(scene_->accel(),
-                 [&](int path, const Color& radiance) { walks_[path].radiance += radiance; });
+  shadows_.trace(
+      scene_->accel(), [&](int path) { return walks_[path].ray.time; },
+      [&](int path, const Color& radiance) { walks_[path].radiance += radiance; });
 }
 
 /// One step of trace_path.
@@ -63,8 +64,7 @@ void Wavefront::shade_block(int depth, RayCounts& rays) {
   if (last) return;
   matte_.find_points(count_, &d_.x[begin_], &d_.y[begin_], &d_.z[begin_], rules_.strict_normals);
   if (rules_.wants(depth + 1)) {
-    for (int i = 0; i < count_; ++i)
-      if (matte_.f[i]) choose_light(i);
+    choose_lights();
     queue_lights();
   }
   matte_.sample_directions(count_, rules_.strict_normals);
@@ -80,7 +80,7 @@ void Wavefront::draw_numbers(int depth) {
   numbers_.next2(begin_, count_, &matte_.u_x[0], &matte_.u_y[0]);
 }
 
-void Wavefront::find_vertex(int i, int depth, RayCounts& rays) {
+inline void Wavefront::find_vertex(int i, int depth, RayCounts& rays) {
   const PacketHits& hits = this->hits(i);
   const int lane = i % RayPacket::size;
   const uint32_t shape = hits.shape[lane];
@@ -91,14 +91,18 @@ void Wavefront::find_vertex(int i, int depth, RayCounts& rays) {
     return;
   }
   const MatteMesh& matte = scene_->matte_mesh(shape);
-  const bool last = depth == rules_.most_edges();
-  if (matte.emits || !matte.mesh) {
-    CameraWalk& walk = exact_walk(begin_ + i);
-    const SurfacePoint at = scene_->surface_point(walk.ray, hits.hit(lane));
-    if (rules_.wants(depth)) find_light(*scene_, walk, &at);
-    if (!last && !matte.mesh) find_other_vertex(i, at, depth, rays);
-  }
-  if (!last && matte.mesh) matte_.set(i, matte, hits.primitive[lane], hits.u[lane], hits.v[lane]);
+  if (matte.emits || !matte.mesh) find_bright_or_other(i, hits.hit(lane), depth, rays);
+  if (depth < rules_.most_edges() && matte.mesh)
+    matte_.set(i, matte, hits.primitive[lane], hits.u[lane], hits.v[lane]);
+}
+
+/// At a surface that glows, or is not matte.
+void Wavefront::find_bright_or_other(int i, const Hit& hit, int depth, RayCounts& rays) {
+  CameraWalk& walk = exact_walk(begin_ + i);
+  const SurfacePoint at = scene_->surface_point(walk.ray, hit);
+  if (rules_.wants(depth)) find_light(*scene_, walk, &at);
+  if (depth < rules_.most_edges() && !scene_->matte_mesh(hit.shape).mesh)
+    find_other_vertex(i, at, depth, rays);
 }
 
 void Wavefront::find_other_vertex(int i, const SurfacePoint& at, int depth, RayCounts& rays) {
@@ -119,21 +123,25 @@ void Wavefront::find_other_vertex(int i, const SurfacePoint& at, int depth, RayC
   goes_on_[i] = scatter(walker, rules_, depth, at, numbers, walk);
 }
 
-void Wavefront::choose_light(int i) {
-  const Vec2 position(u_light_x_[i], u_light_y_[i]);
-  const double u_choice = scene_->emitters().size() > 1 ? numbers_.peek(begin_ + i, 0) : 0;
-  if (const MeshLight& light = scene_->choose_mesh_light(u_choice); light.mesh) {
-    matte_.set_light(i, light, position);
-    return;
+void Wavefront::choose_lights() {
+  const bool several = scene_->emitters().size() > 1;
+  for (int i = 0; i < count_; ++i) {
+    if (!matte_.f[i]) continue;
+    const Vec3 u(several ? numbers_.peek(begin_ + i, 0) : 0, u_light_x_[i], u_light_y_[i]);
+    if (const MeshLight& light = scene_->choose_mesh_light(u.x); light.mesh)
+      matte_.set_light(i, light, {u.y, u.z});
+    else
+      choose_other_light(i, u);
   }
+}
+
+/// One that is no glowing mesh.
+void Wavefront::choose_other_light(int i, const Vec3& u) {
   matte_.light_pdf[i] = 0;
   if (!(matte_.sides[i] > 0)) return;
   const SurfacePoint at = matte_.point(i, hits(i).shape[i % RayPacket::size], walk(i).ray.time);
   const Vec3 wc = -Vec3(d_[begin_ + i]);
-  queue_shadow(i,
-               unshadowed_light(*scene_, at, wc, {u_choice, position}, rules_.strict_normals,
-                                power_heuristic),
-               at);
+  queue_shadow(i, unshadowed_light(*scene_, at, wc, u, rules_.strict_normals, power_heuristic), at);
 }
 
 void Wavefront::queue_lights() {
@@ -144,7 +152,7 @@ void Wavefront::queue_lights() {
     shadows_.add(
         path_[begin_ + i],
         walk.throughput * (*matte_.radiance[i] * *matte_.f[i]) * double{matte_.light_weight[i]},
-        matte_.shadow_o[i], matte_.shadow_w[i], matte_.shadow_length[i], walk.ray.time);
+        matte_.shadow_o[i], matte_.shadow_w[i], matte_.shadow_length[i]);
   }
 }
 
@@ -153,7 +161,7 @@ void Wavefront::queue_shadow(int i, const DirectLight& light, const SurfacePoint
   const CameraWalk& walk = this->walk(i);
   if (const auto ray = scene_->segment(at, light.x0, walk.ray.time))
     shadows_.add(path_[begin_ + i], walk.throughput * light.radiance, Vec3f(ray->o), Vec3f(ray->d),
-                 static_cast<float>(ray->t_max), ray->time);
+                 static_cast<float>(ray->t_max));
 }
 
 void Wavefront::take_step(int depth) {

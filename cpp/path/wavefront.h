@@ -50,8 +50,10 @@ class Wavefront {
   void shade_block(int depth, RayCounts& rays);
   void draw_numbers(int depth);
   void find_vertex(int i, int depth, RayCounts& rays);
+  void find_bright_or_other(int i, const Hit& hit, int depth, RayCounts& rays);
   void find_other_vertex(int i, const SurfacePoint& at, int depth, RayCounts& rays);
-  void choose_light(int i);
+  void choose_lights();
+  void choose_other_light(int i, const Vec3& u);
   void queue_lights();
   void queue_shadow(int i, const DirectLight& light, const SurfacePoint& at);
   void take_step(int depth);

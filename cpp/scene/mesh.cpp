@@ -55,8 +55,20 @@ Mesh::Mesh(MeshData data, const Mat4& to_world, bool face_normals, bool flip_nor
   bound(data.positions, low_, high_);
   data_ = std::make_shared<const MeshData>(std::move(data));
   triangles_ = data_->triangles.data();
-  normals_ = data_->normals.empty() ? nullptr : data_->normals.data();
+  normals_ = has_smooth_normals() ? data_->normals.data() : nullptr;
   uvs_ = data_->uvs.empty() ? nullptr : data_->uvs.data();
+}
+
+bool Mesh::has_smooth_normals() const {
+  if (data_->normals.empty()) return false;
+  for (size_t i = 0; i < records_.size(); ++i) {
+    const Vec3f flat(records_[i].ng * side_);
+    for (const uint32_t corner : data_->triangles[i]) {
+      const Vec3f difference = glm::abs(data_->normals[corner] - flat);
+      if (!(std::max({difference.x, difference.y, difference.z}) < 1e-6f)) return true;
+    }
+  }
+  return false;
 }
 
 size_t Mesh::bytes() const {

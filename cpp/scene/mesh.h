@@ -90,10 +90,12 @@ class Mesh : public Shape {
 
  private:
   using Edges = TriangleRecord::Edges;
+  /// Whether the vertices have normals that are not those of the triangles.
+  bool has_smooth_normals() const;
   void fill(const Edges& edges, uint32_t index, double b1, double b2, SurfacePoint& at) const;
 
   std::shared_ptr<const MeshData> data_;
-  // Its buffers; nullptr where there are no normals or uvs.
+  // Its buffers; nullptr where there are no smooth normals or uvs.
   const std::array<uint32_t, 3>* triangles_;
   const Vec3f* normals_;
   const Vec2f* uvs_;

@@ -16,7 +16,7 @@ from command_line import mlt_render
 SIZE = 32
 # For each case: its arguments, samples per pixel of the two renders, and instructions per sample.
 CASES = {
-    "path": ([], (2, 10), 8148),
+    "path": ([], (2, 10), 5737),
     "bdpt": ([], (1, 3), 37744),
     "mlt": (["independent_share=0", "luminance_samples=1000", "adaptive=false"], (4, 12), 4590),
 }
