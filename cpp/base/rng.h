@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <cstring>
 
 namespace mlt {
 
@@ -28,6 +29,27 @@ inline uint64_t mix_bits(uint64_t x) {
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
   x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
   return x ^ (x >> 31);
+}
+
+/// The finaliser of MurmurHash3 (Appleby 2011), after an offset: a bijective mixer of 32 bits.
+inline uint32_t mix_bits_32(uint32_t x) {
+  x += 0x9e3779b9u;
+  x = (x ^ (x >> 16)) * 0x85ebca6bu;
+  x = (x ^ (x >> 13)) * 0xc2b2ae35u;
+  return x ^ (x >> 16);
+}
+
+/// The n-th number of SplitMix64's sequence from `key` on.
+inline uint64_t nth_bits(uint64_t key, uint64_t n) {
+  return mix_bits(key + n * 0x9e3779b97f4a7c15u);
+}
+
+/// Random bits as a number in [0, 1), a multiple of 2^-52, without a branch or a conversion.
+inline double unit_interval(uint64_t bits) {
+  const uint64_t exponent_of_one = 0x3ff0000000000000u, number = exponent_of_one | bits >> 12;
+  double x;
+  std::memcpy(&x, &number, sizeof(x));
+  return x - 1;
 }
 
 /// xoshiro256++ (Blackman & Vigna 2019). Its state is a value: it can be copied, stored, compared.

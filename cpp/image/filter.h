@@ -41,6 +41,13 @@ class Filter {
     const double* low = table_.data() + i;
     return low[0] + (t - i) * (low[1] - low[0]);
   }
+  /// f is linear between so many places in each pixel, the integers among them; 0: they are others
+  /// in every pixel.
+  int knots_per_pixel() const {
+    return scale_ == std::floor(scale_) ? static_cast<int>(scale_) : 0;
+  }
+  /// f at the i-th of them from the middle.
+  double knot(double i) const { return table_[static_cast<size_t>(i)]; }
   /// No |f(x)| is larger.
   double largest() const { return largest_; }
 

@@ -33,7 +33,8 @@ SampleFilm::SampleFilm(int width, int height, std::shared_ptr<const Filter> filt
       height_(height),
       border_(filter_border(*filter)),
       splats_(splats),
-      filter_(std::move(filter)) {
+      filter_(std::move(filter)),
+      rows_(*filter_) {
   tiles_x_ = (width + 2 * border_ + tile_size - 1) / tile_size;
   tiles_y_ = (height + 2 * border_ + tile_size - 1) / tile_size;
   cell_weight_ = cell_weights(*filter_, border_);
@@ -50,19 +51,40 @@ SampleFilm::SampleFilm(int width, int height, std::shared_ptr<const Filter> filt
   }
 }
 
-SampleFilm::Tile::Tile(const PixelRect& cells, const PixelRect& reach, const Filter& filter)
+SampleFilm::Tile::Tile(const PixelRect& cells, const PixelRect& reach, const Filter& filter,
+                       const FilterRows& rows)
     : cells_(cells),
       reach_(reach),
       filter_(&filter),
+      rows_(&rows),
       rgb_(size_t{3} * reach.width() * reach.height() + spare_values) {}
 
 void SampleFilm::Tile::add(const Vec2& raster, const Color& color) {
+  if (rows_->pixels() > 0 && add_whole(raster, color)) return;
   mlt::splat(*filter_, raster, color, reach_,
              [&](int x, int y, int count, const double* values, double weight) {
                float* to = pixel(rgb_, reach_, x, y);
                const int padded = whole_vectors(count);
                for (int i = 0; i < padded; ++i) to[i] += static_cast<float>(values[i] * weight);
              });
+}
+
+/// In single precision, as the sums are; false if not all pixels that the filter covers are there.
+bool SampleFilm::Tile::add_whole(const Vec2& raster, const Color& color) {
+  const int n = rows_->pixels();
+  const FilterRows::Weights across = rows_->weights(raster.x), down = rows_->weights(raster.y);
+  const int x = across.first, y = down.first;
+  if (x < reach_.x0 || y < reach_.y0 || x + n > reach_.x1 || y + n > reach_.y1) return false;
+  float row[3 * FilterRows::most_pixels];
+  const Vec3f value(color);
+  for (int i = 0; i < FilterRows::most_pixels; ++i)
+    for (int c = 0; c < 3; ++c) row[3 * i + c] = value[c] * across.at[i];
+  float* to = pixel(rgb_, reach_, x, y);
+  const int vectors = whole_vectors(3 * n) / 8;
+  for (int j = 0; j < n; ++j, to += 3 * reach_.width())
+    for (int v = 0; v < vectors; ++v)
+      for (int i = 0; i < 8; ++i) to[8 * v + i] += row[8 * v + i] * down.at[j];
+  return true;
 }
 
 PixelRect SampleFilm::cells_of(int tile) const {
@@ -85,7 +107,7 @@ size_t SampleFilm::bytes_per_group() const {
 
 SampleFilm::Tile SampleFilm::begin(int tile) const {
   const PixelRect cells = cells_of(tile);
-  return Tile(cells, reach_of(cells), *filter_);
+  return Tile(cells, reach_of(cells), *filter_, rows_);
 }
 
 void SampleFilm::commit(int group_index, uint64_t order, int tile, Tile&& data, int samples) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "base/bytes.h"
+#include "image/filter_rows.h"
 #include "image/image.h"
 #include "image/splat.h"
 #include "math/color.h"
@@ -36,7 +37,8 @@ class SampleFilm {
   /// The samples of one tile, over the pixels that its filter footprints reach.
   class Tile {
    public:
-    Tile(const PixelRect& cells, const PixelRect& reach, const Filter& filter);
+    Tile(const PixelRect& cells, const PixelRect& reach, const Filter& filter,
+         const FilterRows& rows);
     /// The cells to be sampled; those of border tiles may lie outside the image.
     const PixelRect& cells() const { return cells_; }
     void add(const Vec2& raster, const Color& color);
@@ -50,8 +52,11 @@ class SampleFilm {
 
    private:
     friend class SampleFilm;
+    bool add_whole(const Vec2& raster, const Color& color);
+
     PixelRect cells_, reach_;
     const Filter* filter_;
+    const FilterRows* rows_;
     std::vector<float> rgb_;
     std::vector<Splat> splats_;
     SampleSums sums_;
@@ -134,6 +139,7 @@ class SampleFilm {
   int width_, height_, border_, tiles_x_, tiles_y_;
   bool splats_;
   std::shared_ptr<const Filter> filter_;
+  FilterRows rows_;
   std::vector<double>
       cell_weight_;  ///< Expected weight of a uniform sample in a cell at distance d.
   std::vector<std::unique_ptr<Group>> groups_;

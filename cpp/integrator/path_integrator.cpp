@@ -16,12 +16,9 @@ class PathTaker : public WaveTaker {
   void sample(const Vec2& raster, PixelSampler& sampler, SampleSink& sink,
               RayCounts& rays) override {
     const auto [lens, ray] = leave_lens(scene().camera(), raster, sampler);
-    if (std::vector<FoundPath>* paths = sink.paths()) {
-      sink.add(raster, trace_path(scene(), rules(), ray, sampler, rays,
-                                  PathRecorder(scene(), raster, lens.at, ray.time, *paths)));
-      return;
-    }
-    begin(raster, ray, sampler, 0, sink, rays);
+    std::vector<FoundPath> unwatched, &paths = sink.paths() ? *sink.paths() : unwatched;
+    sink.add(raster, trace_path(scene(), rules(), ray, sampler, rays,
+                                PathRecorder(scene(), raster, lens.at, ray.time, paths)));
   }
 };
 

@@ -45,12 +45,6 @@ SampledRendering::Place SampledRendering::place_of(uint64_t pass) const {
           turn / group_count * passes_per_turn_ + pass % passes_per_turn_};
 }
 
-PixelSampler SampledRendering::sampler(int x, int y, const Place& place) const {
-  const uint64_t cell = (uint64_t(uint32_t(y)) << 32) | uint32_t(x);
-  const uint64_t stream = mix_bits(mix_bits(mix_bits(seed_) ^ cell) + place.group);
-  return {stream, static_cast<uint32_t>(place.index)};
-}
-
 /// Sums begin with the first sample of their group.
 Rendering::Memory SampledRendering::memory(double spp) const {
   const double turns = std::ceil(spp / static_cast<double>(passes_per_turn_));
@@ -62,7 +56,7 @@ Replay SampledRendering::replay(const Vec2i& pixel, uint64_t sample) {
   Replay replay;
   RayCounts rays;
   SampleSink sink(replay);
-  PixelSampler numbers = sampler(pixel.x, pixel.y, place_of(sample));
+  PixelSampler numbers = streams(place_of(sample)).sampler(pixel.x, pixel.y);
   replay.raster = Vec2(pixel) + numbers.next2();
   make_taker_(scene())->sample(replay.raster, numbers, sink, rays);
   return replay;
@@ -75,16 +69,10 @@ void SampledRendering::run_unit(uint64_t unit) {
   const uint64_t order = place.index * tiles + tile_index;
   if (film_.has(place.group, order, tile_index)) return;
   SampleFilm::Tile tile = film_.begin(tile_index);
-  const PixelRect cells = tile.cells();
   RayCounts rays;
   SampleSink sink(tile, layers_);
   const std::unique_ptr<SampleTaker> taker = make_taker_(scene());
-  for (int y = cells.y0; y < cells.y1; ++y)
-    for (int x = cells.x0; x < cells.x1; ++x) {
-      PixelSampler numbers = sampler(x, y, place);
-      const Vec2 raster = Vec2(x, y) + numbers.next2();
-      taker->sample(raster, numbers, sink, rays);
-    }
+  taker->sample_cells(tile.cells(), streams(place), sink, rays);
   taker->finish(sink, rays);
   film_.commit(place.group, order, tile_index, std::move(tile), 1);
   invalid_ += sink.invalid();

@@ -66,14 +66,37 @@ struct SampledSettings {
   uint64_t passes_per_turn = 8;
 };
 
+/// The numbers of one sample of each cell: those of its group's stream for it.
+struct CellStreams {
+  uint64_t seed;  ///< Mixed.
+  int group;
+  uint32_t index;
+
+  uint64_t stream(int x, int y) const {
+    const uint64_t cell = (uint64_t(uint32_t(y)) << 32) | uint32_t(x);
+    return mix_bits(mix_bits(seed ^ cell) + group);
+  }
+  PixelSampler sampler(int x, int y) const { return {stream(x, y), index}; }
+};
+
 /// Takes samples one after the other; keeps its memory between them.
 class SampleTaker {
  public:
   virtual ~SampleTaker() = default;
+  /// One sample for each of these cells.
+  virtual void sample_cells(const PixelRect& cells, const CellStreams& streams, SampleSink& sink,
+                            RayCounts& rays) {
+    for (int y = cells.y0; y < cells.y1; ++y)
+      for (int x = cells.x0; x < cells.x1; ++x) {
+        PixelSampler numbers = streams.sampler(x, y);
+        const Vec2 raster = Vec2(x, y) + numbers.next2();
+        sample(raster, numbers, sink, rays);
+      }
+  }
   /// The sampler has given the raster position and goes on with the lens and the time.
   virtual void sample(const Vec2& raster, PixelSampler& sampler, SampleSink& sink,
                       RayCounts& rays) = 0;
-  /// Ends the samples that it has only begun, in the order in which they were.
+  /// After the last sample.
   virtual void finish(SampleSink& /*sink*/, RayCounts& /*rays*/) {}
   /// What film its settings ask for.
   template <class Settings>
@@ -118,8 +141,9 @@ class SampledRendering : public Rendering {
   Estimate mean_of(MeanSums SampleSums::* sums) const;
   /// The film's sums of a task.
   SampleFilm::Selection selection(const Task& task) const;
-  /// The numbers of one sample of a cell: those of its group's stream for it.
-  PixelSampler sampler(int x, int y, const Place& place) const;
+  CellStreams streams(const Place& place) const {
+    return {mix_bits(seed_), place.group, static_cast<uint32_t>(place.index)};
+  }
 
   MakeTaker make_taker_;
   uint64_t passes_per_turn_;

@@ -61,13 +61,19 @@ class TracedTaker : public WaveTaker {
         scale_(radiance_scale(target.scene())),
         threshold_(weights.threshold()) {}
 
+  /// One by one, for who looks at a sample.
   void sample(const Vec2& raster, PixelSampler& sampler, SampleSink& sink,
               RayCounts& rays) override {
-    begin(raster, leave_lens(scene().camera(), raster, sampler).ray, sampler,
-          target_->factor(raster) / (scale_ * threshold_), sink, rays);
+    CameraWalk walk(leave_lens(scene().camera(), raster, sampler).ray);
+    walk.heuristic = Heuristic::balance;
+    walk.chain_factor = chain_factor(raster);
+    sink.add(raster, trace_path(scene(), rules(), walk, sampler, rays));
   }
 
  private:
+  double chain_factor(const Vec2& raster) const override {
+    return target_->factor(raster) / (scale_ * threshold_);
+  }
   void add(const Vec2& raster, const CameraWalk& walk, SampleSink& sink) override {
     sink.add(raster, walk.radiance);
     sink.add_sums((target_luminance(walk.radiance) + walk.of_chains) / scale_,

@@ -12,35 +12,66 @@ class WaveTaker : public SampleTaker {
   WaveTaker(const Scene& scene, const PathRules& rules, Heuristic heuristic)
       : scene_(&scene), rules_(rules), wave_(scene, rules, heuristic) {}
 
-  void finish(SampleSink& sink, RayCounts& rays) override {
-    wave_.trace(rays);
-    for (size_t i = 0; i < wave_.size(); ++i) add(rasters_[i], wave_[i], sink);
-    wave_.clear();
-    rasters_.clear();
+  void sample_cells(const PixelRect& cells, const CellStreams& streams, SampleSink& sink,
+                    RayCounts& rays) override {
+    // A packet of rays has 4 x 2 cells.
+    for (int y0 = cells.y0; y0 < cells.y1; y0 += 2)
+      for (int x0 = cells.x0; x0 < cells.x1; x0 += 4)
+        for (int y = y0; y < std::min(y0 + 2, cells.y1); ++y)
+          for (int x = x0; x < std::min(x0 + 4, cells.x1); ++x) {
+            wave_.numbers().add(streams.stream(x, y), streams.index);
+            rasters_.emplace_back(x, y);
+            if (rasters_.size() == Wavefront::capacity) trace_wave(sink, rays);
+          }
+    trace_wave(sink, rays);
   }
 
  protected:
   const Scene& scene() const { return *scene_; }
   const PathRules& rules() const { return rules_; }
 
-  /// Begins a path; for `chain_factor` see CameraWalk.
-  void begin(const Vec2& raster, const Ray& ray, const PixelSampler& sampler, double chain_factor,
-             SampleSink& sink, RayCounts& rays) {
-    wave_.add(ray, sampler, chain_factor);
-    rasters_.push_back(raster);
-    if (wave_.full()) finish(sink, rays);
-  }
-
  private:
+  /// See CameraWalk.
+  virtual double chain_factor(const Vec2& /*raster*/) const { return 0; }
   /// What has come of one of them.
   virtual void add(const Vec2& raster, const CameraWalk& walk, SampleSink& sink) {
     sink.add(raster, walk.radiance);
   }
 
+  /// The paths through all cells in rasters_.
+  void trace_wave(SampleSink& sink, RayCounts& rays) {
+    start_wave();
+    wave_.trace(rays);
+    for (size_t i = 0; i < wave_.size(); ++i) add(rasters_[i], wave_[i], sink);
+    wave_.clear();
+    rasters_.clear();
+  }
+
+  /// The numbers are those that sample() takes.
+  void start_wave() {
+    const Camera& camera = scene_->camera();
+    const Shutter& shutter = camera.shutter();
+    WaveNumbers& numbers = wave_.numbers();
+    numbers.next2(0, numbers.count(), &u_x_[0], &u_y_[0]);
+    for (size_t i = 0; i < rasters_.size(); ++i) rasters_[i] += Vec2(u_x_[i], u_y_[i]);
+    if (camera.delta_position())
+      numbers.skip2();
+    else
+      numbers.next2(0, numbers.count(), &u_x_[0], &u_y_[0]);
+    if (shutter.open == shutter.close)
+      numbers.skip(1);
+    else
+      numbers.next(0, numbers.count(), &u_time_[0]);
+    for (size_t i = 0; i < rasters_.size(); ++i)
+      wave_.add(camera.ray(rasters_[i], {u_x_[i], u_y_[i]}, camera.time(u_time_[i])),
+                chain_factor(rasters_[i]));
+  }
+
   const Scene* scene_;
   PathRules rules_;
   Wavefront wave_;
-  std::vector<Vec2> rasters_;  ///< Of the paths in it.
+  std::vector<Vec2> rasters_;  ///< Of the paths in it; at first, their cells.
+  Wave<double> u_x_, u_y_, u_time_;
 };
 
 }  // namespace mlt

@@ -6,7 +6,6 @@
 #include "base/rng.h"
 #include "math/vec.h"
 
-#include <array>
 #include <cstdint>
 
 namespace mlt {
@@ -39,32 +38,29 @@ inline uint32_t sobol_1_reversed(uint32_t index) {
   return index;
 }
 
-/// Point `index` of the sequences that `seed`, `seed` + 1, ... name, in [0, 1)^2. Every power-of-two
-/// block of a sequence is stratified in all elementary intervals. The sequences are independent, so
-/// the middle loop does as many at a time as the processor's vectors hold.
-template <size_t count>
-std::array<Vec2, count> scrambled_sobol(uint32_t index, uint64_t seed) {
-  constexpr size_t lanes = (count + 7) / 8 * 8;
-  uint32_t key_shuffle[lanes] = {}, key_x[lanes] = {}, key_y[lanes] = {}, x[lanes], y[lanes];
-  for (size_t i = 0; i < count; ++i) {
-    const uint64_t keys = mix_bits(seed + i);
-    key_shuffle[i] = static_cast<uint32_t>(keys);
-    key_x[i] = static_cast<uint32_t>(keys >> 32);
-    key_y[i] = static_cast<uint32_t>(mix_bits(keys));
+/// For each of `count` sequences that seeds[i] names, its point indices[i] in [0, 1)^2. Every
+/// power-of-two block of a sequence is stratified in all elementary intervals. Sequences are
+/// independent, so the loops do as many at a time as the processor's vectors hold.
+template <int count>
+void scrambled_sobol(const uint32_t* indices, const uint64_t* seeds, double* x, double* y) {
+  uint32_t low[count], high[count];
+  for (int i = 0; i < count; ++i) {
+    low[i] = static_cast<uint32_t>(seeds[i]);
+    high[i] = static_cast<uint32_t>(seeds[i] >> 32);
   }
-  const uint32_t reversed = reverse_bits(index);
-  for (size_t i = 0; i < lanes; ++i) {
-    const uint32_t shuffled = reverse_bits(scramble_reversed(reversed, key_shuffle[i]));
-    x[i] = reverse_bits(scramble_reversed(shuffled, key_x[i]));
-    y[i] = reverse_bits(scramble_reversed(sobol_1_reversed(shuffled), key_y[i]));
+  for (int i = 0; i < count; ++i) {
+    const uint32_t key = mix_bits_32(mix_bits_32(low[i]) ^ high[i]);
+    const uint32_t key_x = mix_bits_32(key + low[i]), key_y = mix_bits_32(key_x + low[i]);
+    const uint32_t shuffled = reverse_bits(scramble_reversed(reverse_bits(indices[i]), key));
+    x[i] = reverse_bits(scramble_reversed(shuffled, key_x)) * 0x1p-32;
+    y[i] = reverse_bits(scramble_reversed(sobol_1_reversed(shuffled), key_y)) * 0x1p-32;
   }
-  std::array<Vec2, count> points;
-  for (size_t i = 0; i < count; ++i) points[i] = {x[i] * 0x1p-32, y[i] * 0x1p-32};
-  return points;
 }
 
 inline Vec2 scrambled_sobol(uint32_t index, uint64_t seed) {
-  return scrambled_sobol<1>(index, seed)[0];
+  Vec2 point;
+  scrambled_sobol<1>(&index, &seed, &point.x, &point.y);
+  return point;
 }
 
 }  // namespace mlt

@@ -166,10 +166,7 @@ inline Vec2 invert_lobe(const Vec3& w, const Vec3& axis, double n) {
 // Barycentric coordinates (b1, b2) uniform in a triangle; b0 = 1 - b1 - b2 (Heitz 2019, "A
 // low-distortion map between triangle and square"). Divide by the area for a density on a surface.
 
-inline Vec2 sample_triangle(const Vec2& u) {
-  const double half = 0.5 * std::min(u.x, u.y), rest = std::max(u.x, u.y) - half;
-  return u.y > u.x ? Vec2(half, rest) : Vec2(rest, half);
-}
+inline Vec2 sample_triangle(const Vec2& u) { return u - 0.5 * std::min(u.x, u.y); }
 
 inline double triangle_pdf() { return 2; }
 

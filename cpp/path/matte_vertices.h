@@ -1,10 +1,12 @@
-// Matte vertices of many paths from the camera, side by side in single precision: one array for
-// each quantity, so that the compiler makes vector instructions of the loops over them.
+// Matte vertices of many paths from the camera, side by side in single precision. Lanes of paths that
+// have none are computed along and not looked at.
 #pragma once
 
+#include "path/lanes.h"
 #include "path/mis.h"
 #include "scene/matte.h"
 #include "scene/mesh.h"
+#include "scene/scene.h"
 
 namespace mlt {
 
@@ -13,60 +15,86 @@ inline bool consistent_sides(const Vec3f& ng, const Vec3f& n, const Vec3f& w, bo
   return !strict | (dot(ng, w) * dot(n, w) > 0);
 }
 
+/// Points on triangles.
+struct TriangleBlock {
+  VectorBlock p0, p1, p2, ng;
+  Block<float> b1, b2, extent;
+
+  void set(int i, const TriangleRecord& record, float b_1, float b_2) {
+    p0.set(i, record.p0);
+    p1.set(i, record.p1);
+    p2.set(i, record.p2);
+    ng.set(i, Vec3f(record.ng));
+    b1[i] = b_1;
+    b2[i] = b_2;
+    extent[i] = record.extent;
+  }
+  Vec3f position(int i) const {
+    return p0[i] * (1 - b1[i] - b2[i]) + p1[i] * b1[i] + p2[i] * b2[i];
+  }
+};
+
 struct MatteVertices {
-  static constexpr int capacity = 256;
-
-  template <class T>
-  struct alignas(32) Array {
-    T values[capacity] = {};
-    T& operator[](int i) { return values[i]; }
-    const T& operator[](int i) const { return values[i]; }
-  };
-  struct Vectors {
-    Array<float> x, y, z;
-    Vec3f operator[](int i) const { return {x[i], y[i], z[i]}; }
-    void set(int i, const Vec3f& v) {
-      x[i] = v.x;
-      y[i] = v.y;
-      z[i] = v.z;
-    }
-  };
-
-  int count = 0;
-
-  // The surface, and the direction in which light goes on towards the camera.
-  Vectors p, ng, n, wc;
-  Array<float> extent;
-  Array<float> back;  ///< 1 if the back side scatters light too, else 0.
-  Array<Color> f;     ///< The BSDF.
-  Array<int> walk;    ///< Whose vertex it is.
-  Array<uint32_t> shape;
+  TriangleBlock surface;
+  VectorBlock p, n;       ///< n: until find_points(), a multiple of it.
+  Block<float> back;      ///< 1 if the back side scatters light too, else 0.
+  Block<float> sides;     ///< 0 if strict normals refuse the ray that has arrived, else 1.
+  Block<const Color*> f;  ///< The BSDF; nullptr: there is no matte vertex.
 
   // A point on a glowing mesh, chosen by next-event estimation.
-  Vectors y, ny;
-  Array<float> y_extent;
-  Array<float> light_pdf;  ///< Area measure; 0: there is none.
-  Array<Color> radiance;   ///< That the point emits.
+  TriangleBlock light;
+  Block<float> light_pdf;        ///< Area measure; 0: there is none.
+  Block<const Color*> radiance;  ///< That the point emits.
 
   // What unshadowed_lights() makes of it: the ray between the two, and |cos| mis / pdf.
-  Vectors shadow_o, shadow_w;
-  Array<float> shadow_length, light_weight;
+  VectorBlock shadow_o, shadow_w;
+  Block<float> shadow_length, light_weight;
 
-  // The numbers for sample_directions(), and what it makes of them: the ray that goes on.
-  Array<float> u_x, u_y;
-  Array<double> u_roulette;
-  Vectors o, w;
-  Array<float> scatter_pdf;  ///< Solid angle; 0: there is none.
+  // What sample_directions() makes of two numbers: the ray that goes on.
+  Block<double> u_x, u_y;
+  VectorBlock o, w;
+  Block<float> scatter_pdf;  ///< Solid angle; 0: there is none.
 
-  void add(int of_walk, uint32_t of_shape, const MeshPoint& point, const Vec3f& towards_camera,
-           const Matte& matte);
-  void set_light(int i, const MeshPoint& point, const Color& emitted, double pdf);
-  void set_no_light(int i) { light_pdf[i] = 0; }
+  /// The i-th path has arrived at these barycentrics of a triangle.
+  void set(int i, const MatteMesh& shape, uint32_t triangle, float b1, float b2) {
+    const Mesh& mesh = *shape.mesh;
+    const TriangleRecord& record = mesh.record(triangle);
+    surface.set(i, record, b1, b2);
+    n.set(i, mesh.has_normals() ? mesh.normal_sum(triangle, {b1, b2}) : Vec3f(record.ng));
+    if (shape.uniform) {
+      f[i] = &shape.uniform->f;
+      back[i] = shape.uniform->sides == Matte::Sides::both ? 1 : 0;
+      return;
+    }
+    const Matte matte = mesh.bsdf().matte(mesh.textured_point(triangle, {b1, b2}));
+    textured_[i] = matte.f;
+    f[i] = &textured_[i];
+    back[i] = matte.sides == Matte::Sides::both ? 1 : 0;
+  }
+  /// It looks at the point of this light that sample_position(u) gives.
+  void set_light(int i, const MeshLight& chosen, const Vec2& u) {
+    const Mesh& mesh = *chosen.mesh;
+    const auto [triangle, b] = mesh.sample_barycentrics(u);
+    light.set(i, mesh.record(triangle), static_cast<float>(b.x), static_cast<float>(b.y));
+    if (mesh.has_normals()) {
+      const Vec3f ng = light.ng[i];
+      light.ng.set(i, ng * std::copysign(1.0f, dot(ng, mesh.normal_sum(triangle, Vec2f(b)))));
+    }
+    light_pdf[i] = static_cast<float>(chosen.pdf);
+    radiance[i] = chosen.radiance;
+  }
   /// The i-th of them, for what is not computed side by side.
-  SurfacePoint point(int i, double time) const;
+  SurfacePoint point(int i, uint32_t shape, double time) const;
 
-  void unshadowed_lights(bool strict_normals, Heuristic heuristic);
-  void sample_directions(bool strict_normals);
+  // Each works on the first `count` paths; d are the directions in which their rays have arrived.
+  void find_points(int count, const float* d_x, const float* d_y, const float* d_z,
+                   bool strict_normals);
+  void unshadowed_lights(int count, bool strict_normals, Heuristic heuristic);
+  void sample_directions(int count, bool strict_normals);
+
+ private:
+  VectorBlock wc_;  ///< Towards the camera.
+  Block<Color> textured_;
 };
 
 }  // namespace mlt

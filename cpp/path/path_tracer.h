@@ -169,13 +169,6 @@ struct CameraWalk {
 
 /// The numbers that a vertex takes.
 struct VertexNumbers {
-  template <class Sampler>
-  explicit VertexNumbers(Sampler& sampler)
-      : light(sampler.next2()),
-        direction(sampler.next2()),
-        choice(sampler.next()),
-        lobe(sampler.next()),
-        roulette(sampler.next()) {}
   Vec2 light, direction;
   double choice, lobe, roulette;
 
@@ -250,7 +243,8 @@ Color trace_path(const Scene& scene, const PathRules& rules, CameraWalk walk, Sa
 
     const Vec3 wc = -walk.ray.d;
     if (!consistent_sides(at, wc, rules.strict_normals)) break;
-    const VertexNumbers numbers(sampler);
+    const VertexNumbers numbers{sampler.next2(), sampler.next2(), sampler.next(), sampler.next(),
+                                sampler.next()};
     if (wants_direct_light(scene, rules, depth, at)) {
       const auto mis = [&](double light, double bsdf) { return walk.mis(light, bsdf); };
       const Color direct = walk.throughput * direct_light(walker, at, wc, numbers.for_light(),

@@ -6,8 +6,6 @@
 #include "math/low_discrepancy.h"
 #include "math/vec.h"
 
-#include <array>
-
 namespace mlt {
 
 /// What numbers are for: the walk from the camera, that from the light, and the choice of lights as
@@ -31,28 +29,54 @@ class RandomSampler {
 };
 
 /// The samples of one pixel: the first pairs of numbers are stratified over the pixel's samples,
-/// the others are independent.
+/// the others are independent. Each is found directly from its position.
 class PixelSampler {
  public:
+  /// Image position, lens, and the light and direction of the first vertices.
+  static constexpr uint32_t stratified_pairs = 6;
+  struct Position {
+    uint32_t pairs = 0;  ///< Of the stratified ones, that have been taken;
+    uint32_t words = 0;  ///< of the independent numbers.
+  };
+
   /// `stream` names the sequence (seed, group and pixel), `index` the sample in it.
   PixelSampler(uint64_t stream, uint32_t index)
-      : stratified_(scrambled_sobol<stratified_pairs>(index, stream)),
-        rng_(stream, Purpose::pixel, index) {}
+      : stream_(stream), key_(key_of(stream, index)), index_(index) {
+    uint32_t indices[lanes];
+    uint64_t seeds[lanes];
+    for (uint32_t i = 0; i < lanes; ++i) {
+      indices[i] = index;
+      seeds[i] = stream + i;
+    }
+    scrambled_sobol<lanes>(indices, seeds, x_, y_);
+  }
 
   void begin(Stream) {}
-  double next() { return rng_.next(); }
+  double next() { return unit_interval(nth_bits(key_, at_.words++)); }
   Vec2 next2() {
-    if (pair_ < stratified_pairs) return stratified_[pair_++];
-    const double x = rng_.next();
-    return {x, rng_.next()};
+    if (at_.pairs < stratified_pairs) {
+      const uint32_t i = at_.pairs++;
+      return {x_[i], y_[i]};
+    }
+    const double x = next();
+    return {x, next()};
+  }
+
+  uint64_t stream() const { return stream_; }
+  uint32_t index() const { return index_; }
+  const Position& position() const { return at_; }
+  /// Of the independent numbers.
+  static uint64_t key_of(uint64_t stream, uint32_t index) {
+    return mix_bits(mix_bits(mix_bits(stream) ^ static_cast<uint64_t>(Purpose::pixel)) ^ index);
   }
 
  private:
-  /// Image position, lens, and the light and direction of the first vertices.
-  static constexpr size_t stratified_pairs = 6;
-  std::array<Vec2, stratified_pairs> stratified_;
-  size_t pair_ = 0;
-  Rng rng_;
+  static constexpr uint32_t lanes = 8;  ///< Enough for the stratified pairs, and whole vectors.
+
+  uint64_t stream_, key_;
+  uint32_t index_;
+  Position at_;
+  double x_[lanes], y_[lanes];  ///< The stratified pairs.
 };
 
 }  // namespace mlt

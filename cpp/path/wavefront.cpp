@@ -1,153 +1,195 @@
 #include "path/wavefront.h"
 
-#include <numeric>
-
 namespace mlt {
 
+void Wavefront::add(const Ray& ray, double chain_factor) {
+  path_[live_] = live_;
+  exact_[live_] = true;
+  o_.set(live_, Vec3f(ray.o));
+  d_.set(live_++, Vec3f(ray.d));
+  walks_.emplace_back(ray);
+  walks_.back().heuristic = heuristic_;
+  walks_.back().chain_factor = chain_factor;
+}
+
 void Wavefront::trace(RayCounts& rays) {
-  live_.resize(size());
-  std::iota(live_.begin(), live_.end(), 0);
-  for (int depth = 1; !live_.empty(); ++depth) {
-    find_hits(rays);
-    matte_.count = 0;
-    goes_on_.fill(false);
-    for (size_t k = 0; k < live_.size(); ++k) find_vertex(live_[k], hits_[k], depth, rays);
-    scatter_matte(depth, rays);
-    find_shadows();
-    const auto ended = [&](int walk) { return !goes_on_[walk]; };
-    live_.erase(std::remove_if(live_.begin(), live_.end(), ended), live_.end());
+  for (int depth = 1; live_ > 0; ++depth) {
+    find_hits(depth == 1, rays);
+    next_ = 0;
+    const PixelSampler::Position at = numbers_.position();
+    for (begin_ = 0; begin_ < live_; begin_ += block_size) {
+      count_ = std::min(block_size, live_ - begin_);
+      numbers_.set_position(at);
+      shade_block(depth, rays);
+    }
+    find_shadows(rays);
+    live_ = next_;
   }
 }
 
-void Wavefront::find_hits(RayCounts& rays) {
-  hits_.resize(live_.size());
-  for (size_t begin = 0; begin < live_.size(); begin += RayPacket::size) {
-    const int count = static_cast<int>(std::min<size_t>(RayPacket::size, live_.size() - begin));
-    const Ray* packet[RayPacket::size];
-    for (int i = 0; i < count; ++i) packet[i] = &walks_[live_[begin + i]].ray;
-    scene_->accel().intersect(packet, count, &hits_[begin]);
-  }
-  rays.intersect += live_.size();
+CameraWalk& Wavefront::exact_walk(int place) {
+  CameraWalk& walk = walks_[path_[place]];
+  if (!exact_[place]) walk.ray = {Vec3(o_[place]), Vec3(d_[place]), walk.ray.time};
+  exact_[place] = true;
+  return walk;
 }
 
-/// One step of trace_path, up to where light is scattered.
-void Wavefront::find_vertex(int index, const Hit& hit, int depth, RayCounts& rays) {
-  CameraWalk& walk = walks_[index];
-  if (hit.shape == SurfacePoint::no_shape) {
-    if (rules_.wants(depth)) find_light(*scene_, walk, nullptr);
+void Wavefront::find_hits(bool coherent, RayCounts& rays) {
+  const Accel& accel = scene_->accel();
+  const bool exact = accel.wants_exact_rays(), moves = accel.moves();
+  for (int begin = 0; begin < live_; begin += RayPacket::size) {
+    RayPacket packet(std::min(RayPacket::size, live_ - begin));
+    packet.set_lines(&o_.x[begin], &o_.y[begin], &o_.z[begin], &d_.x[begin], &d_.y[begin],
+                     &d_.z[begin]);
+    packet.set_endless();
+    const Ray* exact_rays[RayPacket::size];
+    for (int i = 0; exact && i < packet.count; ++i) exact_rays[i] = &exact_walk(begin + i).ray;
+    for (int i = 0; moves && i < packet.count; ++i)
+      packet.time[i] = walks_[path_[begin + i]].ray.time;
+    accel.intersect(packet, exact_rays, coherent, hits_[begin / RayPacket::size]);
+  }
+  rays.intersect += live_;
+}
+
+void Wavefront::find_shadows(RayCounts& rays) {
+  rays.occluded += shadows_.count();
+  shadows_.trace(
+      scene_->accel(), [&](int path) { return walks_[path].ray.time; },
+      [&](int path, const Color& radiance, double share) { walks_[path].take(radiance, share); });
+}
+
+/// One step of trace_path.
+void Wavefront::shade_block(int depth, RayCounts& rays) {
+  const bool last = depth == rules_.most_edges();
+  if (!last) draw_numbers(depth);
+  for (int i = 0; i < count_; ++i) find_vertex(i, depth, rays);
+  if (last) return;
+  matte_.find_points(count_, &d_.x[begin_], &d_.y[begin_], &d_.z[begin_], rules_.strict_normals);
+  if (rules_.wants(depth + 1)) {
+    choose_lights();
+    queue_lights();
+  }
+  matte_.sample_directions(count_, rules_.strict_normals);
+  take_step(depth);
+}
+
+/// VertexNumbers of path_tracer.h, but for the last three.
+void Wavefront::draw_numbers(int depth) {
+  if (rules_.wants(depth + 1))
+    numbers_.next2(begin_, count_, &u_light_x_[0], &u_light_y_[0]);
+  else
+    numbers_.skip2();
+  numbers_.next2(begin_, count_, &matte_.u_x[0], &matte_.u_y[0]);
+}
+
+inline void Wavefront::find_vertex(int i, int depth, RayCounts& rays) {
+  const PacketHits& hits = this->hits(i);
+  const int lane = i % RayPacket::size;
+  const uint32_t shape = hits.shape[lane];
+  matte_.f[i] = nullptr;
+  goes_on_[i] = false;
+  if (shape == SurfacePoint::no_shape) {
+    if (rules_.wants(depth)) find_light(*scene_, exact_walk(begin_ + i), nullptr);
     return;
   }
-  const Shape& shape = *scene_->shapes()[hit.shape];
-  const Mesh* mesh = shape.as_mesh();
-  const bool matte = mesh && shape.bsdf().is_matte();
-  if (shape.emitter() || !matte) {
-    const SurfacePoint at = scene_->surface_point(walk.ray, hit);
-    if (rules_.wants(depth)) find_light(*scene_, walk, &at);
-    if (depth < rules_.most_edges() && !matte) find_other_vertex(index, at, depth, rays);
-  }
-  if (depth < rules_.most_edges() && matte) find_matte_vertex(index, *mesh, hit);
+  const MatteMesh& matte = scene_->matte_mesh(shape);
+  if (matte.emits || !matte.mesh) find_bright_or_other(i, hits.hit(lane), depth, rays);
+  if (depth < rules_.most_edges() && matte.mesh)
+    matte_.set(i, matte, hits.primitive[lane], hits.u[lane], hits.v[lane]);
 }
 
-void Wavefront::find_matte_vertex(int index, const Mesh& mesh, const Hit& hit) {
-  const MeshPoint point = mesh.point(hit.primitive, {hit.u, hit.v});
-  const Vec3f wc(-walks_[index].ray.d);
-  if (!consistent_sides(point.ng, point.n, wc, rules_.strict_normals)) return;
-  const Matte* uniform = mesh.bsdf().uniform_matte();
-  matte_.add(index, hit.shape, point, wc,
-             uniform ? *uniform : mesh.bsdf().matte(mesh.textured_point(point)));
+/// At a surface that glows, or is not matte.
+void Wavefront::find_bright_or_other(int i, const Hit& hit, int depth, RayCounts& rays) {
+  CameraWalk& walk = exact_walk(begin_ + i);
+  const SurfacePoint at = scene_->surface_point(walk.ray, hit);
+  if (rules_.wants(depth)) find_light(*scene_, walk, &at);
+  if (depth < rules_.most_edges() && !scene_->matte_mesh(hit.shape).mesh)
+    find_other_vertex(i, at, depth, rays);
 }
 
-void Wavefront::find_other_vertex(int index, const SurfacePoint& at, int depth, RayCounts& rays) {
-  CameraWalk& walk = walks_[index];
+void Wavefront::find_other_vertex(int i, const SurfacePoint& at, int depth, RayCounts& rays) {
+  CameraWalk& walk = this->walk(i);
   const Vec3 wc = -walk.ray.d;
   if (!consistent_sides(at, wc, rules_.strict_normals)) return;
-  const VertexNumbers numbers(samplers_[index]);
-  if (wants_direct_light(*scene_, rules_, depth, at))
-    queue_light(index, at, numbers.for_light(), rays);
+  const VertexNumbers numbers{{u_light_x_[i], u_light_y_[i]},
+                              {matte_.u_x[i], matte_.u_y[i]},
+                              numbers_.peek(begin_ + i, 0),
+                              numbers_.peek(begin_ + i, 1),
+                              numbers_.peek(begin_ + i, 2)};
+  if (wants_direct_light(*scene_, rules_, depth, at)) queue_light(i, at, wc, numbers.for_light());
   const Walker walker{*scene_, walk.ray.time, rays};
-  goes_on_[index] = scatter(walker, rules_, depth, at, numbers, walk);
+  goes_on_[i] = scatter(walker, rules_, depth, at, numbers, walk);
 }
 
-void Wavefront::scatter_matte(int depth, RayCounts& rays) {
-  const bool direct = rules_.wants(depth + 1);
-  for (int i = 0; i < matte_.count; ++i) {
-    const VertexNumbers numbers(samplers_[matte_.walk[i]]);
-    matte_.u_x[i] = static_cast<float>(numbers.direction.x);
-    matte_.u_y[i] = static_cast<float>(numbers.direction.y);
-    matte_.u_roulette[i] = numbers.roulette;
-    if (direct) choose_light(i, numbers.for_light(), rays);
+void Wavefront::choose_lights() {
+  const bool several = scene_->emitters().size() > 1;
+  for (int i = 0; i < count_; ++i) {
+    if (!matte_.f[i]) continue;
+    const Vec3 u(several ? numbers_.peek(begin_ + i, 0) : 0, u_light_x_[i], u_light_y_[i]);
+    if (const MeshLight& light = scene_->choose_mesh_light(u.x); light.mesh)
+      matte_.set_light(i, light, {u.y, u.z});
+    else
+      choose_other_light(i, u);
   }
-  if (direct) queue_lights(rays);
-  matte_.sample_directions(rules_.strict_normals);
-  for (int i = 0; i < matte_.count; ++i) goes_on_[matte_.walk[i]] = go_on(i, depth);
 }
 
-void Wavefront::choose_light(int i, const Vec3& u, RayCounts& rays) {
-  double u_choice = u.x;
-  const EmitterChoice choice = scene_->choose_emitter(u_choice);
-  if (const Color* radiance = choice.emitter->uniform_radiance()) {
-    const Mesh& mesh = *choice.emitter->shape()->as_mesh();
-    matte_.set_light(i, mesh.sample_point({u.y, u.z}), *radiance, choice.probability / mesh.area());
-    return;
-  }
-  matte_.set_no_light(i);
-  const int walk = matte_.walk[i];
-  queue_light(walk, matte_.point(i, walks_[walk].ray.time), u, rays);
+/// One that is no glowing mesh.
+void Wavefront::choose_other_light(int i, const Vec3& u) {
+  matte_.light_pdf[i] = 0;
+  if (!(matte_.sides[i] > 0)) return;
+  const SurfacePoint at = matte_.point(i, hits(i).shape[i % RayPacket::size], walk(i).ray.time);
+  queue_light(i, at, -Vec3(d_[begin_ + i]), u);
 }
 
-void Wavefront::queue_lights(RayCounts& rays) {
-  matte_.unshadowed_lights(rules_.strict_normals, heuristic_);
-  for (int i = 0; i < matte_.count; ++i)
-    if (matte_.light_weight[i] > 0)
-      queue_shadow(matte_.walk[i],
-                   matte_.radiance[i] * matte_.f[i] * double{matte_.light_weight[i]}, rays,
-                   matte_.shadow_o[i], matte_.shadow_w[i], matte_.shadow_length[i],
-                   walks_[matte_.walk[i]].ray.time);
+void Wavefront::queue_lights() {
+  matte_.unshadowed_lights(count_, rules_.strict_normals, heuristic_);
+  for (int i = 0; i < count_; ++i)
+    if (matte_.f[i] && matte_.light_weight[i] > 0)
+      queue_shadow(i, *matte_.radiance[i] * *matte_.f[i] * double{matte_.light_weight[i]},
+                   matte_.shadow_o[i], matte_.shadow_w[i], matte_.shadow_length[i]);
 }
 
 /// direct_light() of path_tracer.h.
-void Wavefront::queue_light(int index, const SurfacePoint& at, const Vec3& u, RayCounts& rays) {
-  const CameraWalk& walk = walks_[index];
+void Wavefront::queue_light(int i, const SurfacePoint& at, const Vec3& wc, const Vec3& u) {
+  const CameraWalk& walk = this->walk(i);
   const auto mis = [&](double light, double bsdf) { return walk.mis(light, bsdf); };
-  const DirectLight light =
-      unshadowed_light(*scene_, at, -walk.ray.d, u, rules_.strict_normals, mis);
+  const DirectLight light = unshadowed_light(*scene_, at, wc, u, rules_.strict_normals, mis);
   if (is_black(light.radiance)) return;
   if (const auto ray = scene_->segment(at, light.x0, walk.ray.time))
-    queue_shadow(index, light.radiance, rays, *ray);
+    queue_shadow(i, light.radiance, Vec3f(ray->o), Vec3f(ray->d), static_cast<float>(ray->t_max));
 }
 
-template <class... Segment>
-void Wavefront::queue_shadow(int index, const Color& radiance, RayCounts& rays,
-                             const Segment&... segment) {
-  const int i = shadows_.packet.count;
-  shadows_.walk[i] = index;
-  shadows_.radiance[i] = walks_[index].throughput * radiance;
-  shadows_.own_share[i] = walks_[index].own_share(shadows_.radiance[i]);
-  shadows_.packet.add(segment...);
-  ++rays.occluded;
-  if (shadows_.packet.full()) find_shadows();
+void Wavefront::queue_shadow(int i, const Color& radiance, const Vec3f& o, const Vec3f& w,
+                             float length) {
+  const CameraWalk& walk = this->walk(i);
+  const Color found = walk.throughput * radiance;
+  shadows_.add(path_[begin_ + i], found, walk.own_share(found), o, w, length);
 }
 
-void Wavefront::find_shadows() {
-  if (shadows_.packet.count == 0) return;
-  const unsigned blocked = scene_->accel().occluded(shadows_.packet);
-  for (int i = 0; i < shadows_.packet.count; ++i)
-    if (!(blocked >> i & 1))
-      walks_[shadows_.walk[i]].take(shadows_.radiance[i], shadows_.own_share[i]);
-  shadows_.packet.count = 0;
+void Wavefront::take_step(int depth) {
+  for (int i = 0; i < count_; ++i) {
+    CameraWalk& walk = this->walk(i);
+    const bool matte = matte_.f[i];
+    if (!(matte ? scatter_matte(i, depth, walk) : goes_on_[i])) continue;
+    o_.set(next_, matte ? matte_.o[i] : Vec3f(walk.ray.o));
+    d_.set(next_, matte ? matte_.w[i] : Vec3f(walk.ray.d));
+    exact_[next_] = !matte;
+    path_[next_] = path_[begin_ + i];
+    numbers_.move(next_++, begin_ + i);
+  }
+  numbers_.skip(3);
 }
 
 /// scatter() of path_tracer.h for a matte vertex.
-bool Wavefront::go_on(int i, int depth) {
+bool Wavefront::scatter_matte(int i, int depth, CameraWalk& walk) {
   const double pdf = matte_.scatter_pdf[i];
-  CameraWalk& walk = walks_[matte_.walk[i]];
-  walk.throughput *= matte_.f[i] * pi;
+  walk.throughput *= *matte_.f[i] * pi;
   if (!(pdf > 0) || is_black(walk.throughput)) return false;
-  if (!survive(rules_, depth, matte_.u_roulette[i], walk)) return false;
+  if (depth >= rules_.rr_depth && !survive(rules_, depth, numbers_.peek(begin_ + i, 2), walk))
+    return false;
   walk.scatter_pdf = pdf;
   walk.delta = false;
   walk.previous = Vec3(matte_.p[i]);
-  walk.ray = {Vec3(matte_.o[i]), Vec3(matte_.w[i]), walk.ray.time};
   return true;
 }
 

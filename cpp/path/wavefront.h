@@ -7,26 +7,30 @@
 
 #include "path/matte_vertices.h"
 #include "path/path_tracer.h"
-#include "path/samplers.h"
+#include "path/wave_numbers.h"
+#include "path/wave_shadows.h"
 
 namespace mlt {
 
 class Wavefront {
  public:
-  static constexpr size_t capacity = MatteVertices::capacity;
+  static constexpr size_t capacity = wave_size;
 
   Wavefront(const Scene& scene, const PathRules& rules, Heuristic heuristic = Heuristic::power)
       : scene_(&scene), rules_(rules), heuristic_(heuristic) {
     walks_.reserve(capacity);
-    samplers_.reserve(capacity);
   }
 
-  /// A path that begins with `ray`; `sampler` goes on from there. For `chain_factor` see CameraWalk.
-  void add(const Ray& ray, const PixelSampler& sampler, double chain_factor = 0) {
-    walks_.emplace_back(ray);
-    walks_.back().heuristic = heuristic_;
-    walks_.back().chain_factor = chain_factor;
-    samplers_.push_back(sampler);
+  /// The numbers of the paths that are added.
+  WaveNumbers& numbers() { return numbers_; }
+  /// A path that begins with `ray`, and takes the numbers of the sample that was added last. For
+  /// `chain_factor` see CameraWalk.
+  void add(const Ray& ray, double chain_factor = 0);
+  /// A path that begins with `ray`; `sampler` goes on from there.
+  void add(const Ray& ray, const PixelSampler& sampler) {
+    numbers_.add(sampler.stream(), sampler.index());
+    numbers_.set_position(sampler.position());
+    add(ray);
   }
   size_t size() const { return walks_.size(); }
   bool full() const { return size() == capacity; }
@@ -36,41 +40,53 @@ class Wavefront {
   const CameraWalk& operator[](size_t i) const { return walks_[i]; }
   void clear() {
     walks_.clear();
-    samplers_.clear();
+    numbers_.clear();
+    live_ = 0;
   }
 
  private:
-  /// Light that arrives where nothing is in its way.
-  struct Shadows {
-    RayPacket packet;
-    std::array<int, RayPacket::size> walk;
-    std::array<Color, RayPacket::size> radiance;
-    std::array<double, RayPacket::size> own_share;
-  };
+  void find_hits(bool coherent, RayCounts& rays);
+  void find_shadows(RayCounts& rays);
 
-  void find_hits(RayCounts& rays);
-  void find_vertex(int walk, const Hit& hit, int depth, RayCounts& rays);
-  void find_matte_vertex(int walk, const Mesh& mesh, const Hit& hit);
-  void find_other_vertex(int walk, const SurfacePoint& at, int depth, RayCounts& rays);
-  void scatter_matte(int depth, RayCounts& rays);
-  void choose_light(int i, const Vec3& u, RayCounts& rays);
-  void queue_lights(RayCounts& rays);
-  void queue_light(int walk, const SurfacePoint& at, const Vec3& u, RayCounts& rays);
-  template <class... Segment>
-  void queue_shadow(int walk, const Color& radiance, RayCounts& rays, const Segment&... segment);
-  void find_shadows();
-  bool go_on(int i, int depth);
+  // Of the `count_` paths from the begin_-th one on:
+  void shade_block(int depth, RayCounts& rays);
+  void draw_numbers(int depth);
+  void find_vertex(int i, int depth, RayCounts& rays);
+  void find_bright_or_other(int i, const Hit& hit, int depth, RayCounts& rays);
+  void find_other_vertex(int i, const SurfacePoint& at, int depth, RayCounts& rays);
+  void choose_lights();
+  void choose_other_light(int i, const Vec3& u);
+  void queue_lights();
+  void queue_light(int i, const SurfacePoint& at, const Vec3& wc, const Vec3& u);
+  void queue_shadow(int i, const Color& radiance, const Vec3f& o, const Vec3f& w, float length);
+  void take_step(int depth);
+  bool scatter_matte(int i, int depth, CameraWalk& walk);
+
+  /// The walk at this place of the wave, with its ray in double precision.
+  CameraWalk& exact_walk(int place);
+  CameraWalk& walk(int i) { return walks_[path_[begin_ + i]]; }
+  const PacketHits& hits(int i) const { return hits_[(begin_ + i) / RayPacket::size]; }
 
   const Scene* scene_;
   PathRules rules_;
   Heuristic heuristic_;
   std::vector<CameraWalk> walks_;
-  std::vector<PixelSampler> samplers_;
-  std::vector<int> live_;               ///< The walks that take this step;
-  std::array<bool, capacity> goes_on_;  ///< those that take the next one.
-  std::vector<Hit> hits_;               ///< Of the live ones.
+  WaveShadows shadows_;
+
+  // Of each path that takes this step:
+  int live_ = 0;
+  Wave<int> path_;    ///< Which one it is.
+  VectorWave o_, d_;  ///< Its ray.
+  Wave<bool> exact_;  ///< Whether its walk knows the ray, in double precision.
+  PacketHits hits_[wave_size / RayPacket::size];
+  WaveNumbers numbers_;
+  int next_ = 0;  ///< How many take the next step; they are moved together.
+
+  // Of each path of the block:
+  int begin_ = 0, count_ = 0;
+  Block<double> u_light_x_, u_light_y_;
   MatteVertices matte_;
-  Shadows shadows_;
+  Block<bool> goes_on_;  ///< From a vertex that is not matte, along the walk's ray.
 };
 
 }  // namespace mlt

@@ -22,9 +22,12 @@ namespace {
 
 #if MLT_EMBREE_MAJOR >= 4
 using Context = RTCRayQueryContext;
+constexpr auto coherent_flag = RTC_RAY_QUERY_FLAG_COHERENT;
 #else
 using Context = RTCIntersectContext;
+constexpr auto coherent_flag = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
 #endif
+static_assert(SurfacePoint::no_shape == RTC_INVALID_GEOMETRY_ID);
 
 /// The context of a query, with the rays in double precision for the analytic shapes, if there are
 /// any; a ray of the accelerator names one by its `id`.
@@ -163,6 +166,7 @@ struct Accel::Impl {
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
   bool moves = false;
+  bool analytic = false;  ///< There are analytic shapes outside groups.
   Shutter shutter;
   Placements placements;  ///< Embree reads the buffers of their forms.
   std::vector<RTCScene> groups;
@@ -233,6 +237,8 @@ Accel::Accel(const std::vector<ShapePtr>& shapes, const Shutter& shutter, int bu
     : impl_(std::make_unique<Impl>()) {
   impl_->placements = Placements(shapes);
   impl_->moves = impl_->placements.moves();
+  for (const Placement& placed : impl_->placements.all)
+    impl_->analytic |= placed.form && placed.form->as_analytic();
   impl_->shutter = shutter;
   // A fixed instruction set, so that the bits do not depend on the machine's vector width.
   const std::string config = "max_isa=avx2,threads=" + std::to_string(build_threads);
@@ -319,31 +325,37 @@ bool Accel::occluded(const Ray& ray) const {
   return r.tfar < 0;
 }
 
-void Accel::intersect(const Ray* const* rays, int count, Hit* hits) const {
-  RayPacket packet;
-  for (int i = 0; i < count; ++i) packet.add(*rays[i]);
+void Accel::intersect(const RayPacket& packet, const Ray* const* exact, bool coherent,
+                      PacketHits& hits) const {
   Query query;
-  init(query, rays);
+  init(query, exact);
   alignas(32) int valid[RayPacket::size];
-  fill_valid(count, valid);
+  fill_valid(packet.count, valid);
   RTCRayHit8 rayhit;
   fill(packet, rayhit.ray);
   impl_->set_times(packet, rayhit.ray);
   for (int i = 0; i < RayPacket::size; ++i)
     rayhit.hit.geomID[i] = rayhit.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
 #if MLT_EMBREE_MAJOR >= 4
+  if (coherent) query.intersect.flags = coherent_flag;
   rtcIntersect8(valid, impl_->scene, &rayhit, &query.intersect);
 #else
+  if (coherent) query.base.flags = coherent_flag;
   rtcIntersect8(valid, impl_->scene, &query.base, &rayhit);
 #endif
-  for (int i = 0; i < count; ++i) {
-    if (rayhit.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID)
-      hits[i].shape = SurfacePoint::no_shape;
-    else
-      hits[i] = made_hit(rayhit.ray.tfar[i], rayhit.hit.geomID[i], rayhit.hit.primID[i],
-                         rayhit.hit.instID[0][i], rayhit.hit.u[i], rayhit.hit.v[i]);
+  for (int i = 0; i < RayPacket::size; ++i) {
+    const unsigned geometry = rayhit.hit.geomID[i], instance = rayhit.hit.instID[0][i];
+    hits.shape[i] = instance == RTC_INVALID_GEOMETRY_ID ? geometry : instance;
+    hits.member[i] = geometry;
+    hits.primitive[i] = rayhit.hit.primID[i];
+    hits.t[i] = rayhit.ray.tfar[i];
+    hits.u[i] = rayhit.hit.u[i];
+    hits.v[i] = rayhit.hit.v[i];
   }
 }
+
+bool Accel::wants_exact_rays() const { return impl_->analytic; }
+bool Accel::moves() const { return impl_->moves; }
 
 unsigned Accel::occluded(const RayPacket& packet) const {
   Query query;

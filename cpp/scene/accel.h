@@ -15,8 +15,25 @@ struct alignas(32) RayPacket {
   static constexpr int size = 8;
   float ox[size], oy[size], oz[size], dx[size], dy[size], dz[size], t_max[size];
   double time[size];
-  int count = 0;
+  int count;
 
+  explicit RayPacket(int rays = 0) : count(rays) {}
+
+  /// All lines at once, from arrays of `size` numbers.
+  void set_lines(const float* o_x, const float* o_y, const float* o_z, const float* d_x,
+                 const float* d_y, const float* d_z) {
+    for (int i = 0; i < size; ++i) {
+      ox[i] = o_x[i];
+      oy[i] = o_y[i];
+      oz[i] = o_z[i];
+      dx[i] = d_x[i];
+      dy[i] = d_y[i];
+      dz[i] = d_z[i];
+    }
+  }
+  void set_endless() {
+    for (float& most : t_max) most = std::numeric_limits<float>::infinity();
+  }
   void add(const Vec3f& o, const Vec3f& d, float most, double at) {
     ox[count] = o.x;
     oy[count] = o.y;
@@ -30,7 +47,14 @@ struct alignas(32) RayPacket {
   void add(const Ray& ray) {
     add(Vec3f(ray.o), Vec3f(ray.d), static_cast<float>(ray.t_max), ray.time);
   }
-  bool full() const { return count == size; }
+};
+
+/// What they hit, side by side as well; on nothing, the shape is SurfacePoint::no_shape.
+struct alignas(32) PacketHits {
+  float t[RayPacket::size], u[RayPacket::size], v[RayPacket::size];
+  uint32_t shape[RayPacket::size], primitive[RayPacket::size], member[RayPacket::size];
+
+  Hit hit(int i) const { return {t[i], shape[i], primitive[i], u[i], v[i], member[i]}; }
 };
 
 class Accel {
@@ -46,10 +70,17 @@ class Accel {
   bool intersect(const Ray& ray, Hit& hit) const;
   bool occluded(const Ray& ray) const;
 
-  /// The same of up to RayPacket::size rays; a hit on nothing has the shape SurfacePoint::no_shape.
-  void intersect(const Ray* const* rays, int count, Hit* hits) const;
+  /// The same of up to RayPacket::size rays; `exact` has them in double precision, if
+  /// wants_exact_rays(). Rays from one place in nearly one direction are `coherent`.
+  void intersect(const RayPacket& packet, const Ray* const* exact, bool coherent,
+                 PacketHits& hits) const;
   /// Bit i is set if something is in the way of ray i.
   unsigned occluded(const RayPacket& packet) const;
+
+  /// Whether there are analytic shapes, which want rays in double precision.
+  bool wants_exact_rays() const;
+  /// Whether the time of a ray matters.
+  bool moves() const;
 
  private:
   struct Impl;

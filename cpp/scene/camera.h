@@ -59,6 +59,12 @@ class Camera : public Object {
   virtual Vec3 direction(const SurfacePoint& xk, const Vec2& raster) const = 0;
   /// Where a ray that leaves xk along w enters the scene: at xk, unless the camera stands far away.
   virtual Vec3 entrance(const SurfacePoint& xk, const Vec3& /*w*/) const { return xk.p; }
+  /// The ray that sample_position, direction and entrance make for a raster position.
+  virtual Ray ray(const Vec2& raster, const Vec2& u_lens, double time) const {
+    const SurfacePoint xk = sample_position(u_lens, time).at;
+    const Vec3 w = direction(xk, raster);
+    return {entrance(xk, w), w, time};
+  }
   /// nullopt behind the camera or outside the sampled domain.
   virtual std::optional<Projection> project(const SurfacePoint& xk, const Vec3& w) const = 0;
   /// Its members; the importance and the density are 0 where there is none.

@@ -3,8 +3,6 @@
 // Moeller & Trumbore 1997, "Fast, minimum storage ray/triangle intersection", with the normal kept.
 #include "scene/mesh.h"
 
-#include "math/warp.h"
-
 namespace mlt {
 namespace {
 
@@ -57,8 +55,20 @@ Mesh::Mesh(MeshData data, const Mat4& to_world, bool face_normals, bool flip_nor
   bound(data.positions, low_, high_);
   data_ = std::make_shared<const MeshData>(std::move(data));
   triangles_ = data_->triangles.data();
-  normals_ = data_->normals.empty() ? nullptr : data_->normals.data();
+  normals_ = has_smooth_normals() ? data_->normals.data() : nullptr;
   uvs_ = data_->uvs.empty() ? nullptr : data_->uvs.data();
+}
+
+bool Mesh::has_smooth_normals() const {
+  if (data_->normals.empty()) return false;
+  for (size_t i = 0; i < records_.size(); ++i) {
+    const Vec3f flat(records_[i].ng * side_);
+    for (const uint32_t corner : data_->triangles[i]) {
+      const Vec3f difference = glm::abs(data_->normals[corner] - flat);
+      if (!(std::max({difference.x, difference.y, difference.z}) < 1e-6f)) return true;
+    }
+  }
+  return false;
 }
 
 size_t Mesh::bytes() const {
@@ -137,11 +147,6 @@ void Mesh::prepare_sampling() {
   triangle_areas_ = Discrete(areas);
 }
 
-Mesh::Barycentrics Mesh::sample_barycentrics(const Vec2& u) const {
-  const Discrete::Sample chosen = triangle_areas_.sample_reuse(u.x);
-  return {static_cast<uint32_t>(chosen.index), sample_triangle({chosen.remainder, u.y})};
-}
-
 PositionSample Mesh::sample_position(const Vec2& u) const {
   const auto [index, b] = sample_barycentrics(u);
   const Edges tri = records_[index].edges();
@@ -152,38 +157,18 @@ PositionSample Mesh::sample_position(const Vec2& u) const {
   return sample;
 }
 
-MeshPoint Mesh::point(uint32_t triangle, const Vec2f& b) const {
+SurfacePoint Mesh::textured_point(uint32_t triangle, const Vec2& b) const {
   const TriangleRecord& record = records_[triangle];
-  const float b0 = 1 - b.x - b.y;
-  const Vec3f p = record.p0 * b0 + record.p1 * b.x + record.p2 * b.y, ng(record.ng);
-  MeshPoint point{p, ng, ng, record.extent, triangle, b};
-  if (!normals_) return point;
-  const auto& corners = triangles_[triangle];
-  const Vec3f sum =
-      normals_[corners[0]] * b0 + normals_[corners[1]] * b.x + normals_[corners[2]] * b.y;
-  const float sum2 = dot(sum, sum);
-  if (!(sum2 > 1e-12f)) return point;
-  point.n = sum * (static_cast<float>(side_) / std::sqrt(sum2));
-  point.ng = ng * std::copysign(1.0f, dot(ng, point.n));
-  return point;
-}
-
-SurfacePoint Mesh::textured_point(const MeshPoint& point) const {
+  const double b0 = 1 - b.x - b.y;
   SurfacePoint at;
-  at.p = Vec3(point.p);
-  at.uv = Vec2(point.b);
+  at.p = Vec3(record.p0) * b0 + Vec3(record.p1) * b.x + Vec3(record.p2) * b.y;
+  at.uv = b;
   at.shape = index_;
-  at.primitive = point.triangle;
+  at.primitive = triangle;
   if (!uvs_) return at;
-  const auto& corners = triangles_[point.triangle];
-  at.uv = Vec2(uvs_[corners[0]]) * (1 - at.uv.x - at.uv.y) + Vec2(uvs_[corners[1]]) * at.uv.x +
-          Vec2(uvs_[corners[2]]) * at.uv.y;
+  const auto& corners = triangles_[triangle];
+  at.uv = Vec2(uvs_[corners[0]]) * b0 + Vec2(uvs_[corners[1]]) * b.x + Vec2(uvs_[corners[2]]) * b.y;
   return at;
-}
-
-MeshPoint Mesh::sample_point(const Vec2& u) const {
-  const auto [index, b] = sample_barycentrics(u);
-  return point(index, Vec2f(b));
 }
 
 Vec2 Mesh::barycentrics(const SurfacePoint& at) const {

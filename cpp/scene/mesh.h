@@ -3,6 +3,7 @@
 
 #include "base/shared_array.h"
 #include "math/distribution.h"
+#include "math/warp.h"
 #include "scene/mesh_data.h"
 #include "scene/shape.h"
 
@@ -27,15 +28,6 @@ struct alignas(64) TriangleRecord {
   }
 };
 
-/// A point of a mesh in single precision: enough for light that is scattered diffusely.
-struct MeshPoint {
-  Vec3f p;
-  Vec3f ng, n;  ///< The geometric and the shading normal, on the same side.
-  float extent;
-  uint32_t triangle;
-  Vec2f b;  ///< Barycentrics of the corners after the first one.
-};
-
 class Mesh : public Shape {
  public:
   /// Takes buffers in object space and moves them to world space.
@@ -54,11 +46,29 @@ class Mesh : public Shape {
   /// the vertices' were moved and then interpolated; nullopt if it is the geometric normal.
   std::optional<Vec3> moved_normal(const SurfacePoint& at, const Mat3& inverse) const;
 
-  MeshPoint point(uint32_t triangle, const Vec2f& b) const;
-  /// The same point for textures: position, texture coordinates, what it is part of; no frame.
-  SurfacePoint textured_point(const MeshPoint& point) const;
-  /// Uniform over the area; the same point as that of sample_position.
-  MeshPoint sample_point(const Vec2& u) const;
+  const TriangleRecord& record(uint32_t triangle) const { return records_[triangle]; }
+  bool has_normals() const { return normals_ != nullptr; }
+  /// In single precision, a multiple of the shading normal; the geometric normal where there is none.
+  Vec3f normal_sum(uint32_t triangle, const Vec2f& b) const {
+    const Vec3f ng(records_[triangle].ng);
+    if (!normals_) return ng;
+    const auto& corners = triangles_[triangle];
+    const Vec3f sum = normals_[corners[0]] * (1 - b.x - b.y) + normals_[corners[1]] * b.x +
+                      normals_[corners[2]] * b.y;
+    return dot(sum, sum) > 1e-12f ? sum * static_cast<float>(side_) : ng;
+  }
+  /// A point for textures: position, texture coordinates, what it is part of; no frame.
+  SurfacePoint textured_point(uint32_t triangle, const Vec2& b) const;
+
+  struct Barycentrics {
+    uint32_t triangle;
+    Vec2 b;
+  };
+  /// Where sample_position() finds the point.
+  Barycentrics sample_barycentrics(const Vec2& u) const {
+    const Discrete::Sample chosen = triangle_areas_.sample_reuse(u.x);
+    return {static_cast<uint32_t>(chosen.index), sample_triangle({chosen.remainder, u.y})};
+  }
   void surface_point(const Ray& ray, const Hit& hit, SurfacePoint& at) const override;
   bool has_tangent() const override { return uvs_ && !(bsdf_ && bsdf_->is_matte()); }
   double area() const override { return area_; }
@@ -80,15 +90,12 @@ class Mesh : public Shape {
 
  private:
   using Edges = TriangleRecord::Edges;
-  struct Barycentrics {
-    uint32_t triangle;
-    Vec2 b;
-  };
-  Barycentrics sample_barycentrics(const Vec2& u) const;
+  /// Whether the vertices have normals that are not those of the triangles.
+  bool has_smooth_normals() const;
   void fill(const Edges& edges, uint32_t index, double b1, double b2, SurfacePoint& at) const;
 
   std::shared_ptr<const MeshData> data_;
-  // Its buffers; nullptr where there are no normals or uvs.
+  // Its buffers; nullptr where there are no smooth normals or uvs.
   const std::array<uint32_t, 3>* triangles_;
   const Vec3f* normals_;
   const Vec2f* uvs_;

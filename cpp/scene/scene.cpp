@@ -49,6 +49,19 @@ Discrete choose_by_power(const std::vector<EmitterPtr>& emitters) {
   return Discrete(weights);
 }
 
+MatteMesh matte_mesh(const Shape& shape) {
+  const Mesh* mesh = shape.as_mesh();
+  if (!mesh || !mesh->bsdf().is_matte()) return {};
+  return {mesh, mesh->bsdf().uniform_matte(), shape.emitter() != nullptr};
+}
+
+MeshLight mesh_light(const Emitter& emitter, double probability) {
+  const Color* radiance = emitter.uniform_radiance();
+  if (!radiance) return {};
+  const Mesh* mesh = emitter.shape()->as_mesh();
+  return {mesh, radiance, probability / mesh->area()};
+}
+
 /// The shapes of all groups of which there are instances.
 std::vector<ShapePtr> grouped_shapes(const std::vector<ShapePtr>& shapes) {
   std::vector<ShapePtr> grouped;
@@ -83,12 +96,15 @@ Scene::Scene(std::vector<ShapePtr> shapes, std::vector<EmitterPtr> emitters, Cam
     if (!emitters_[i]->delta()) backgrounds_.push_back(static_cast<uint32_t>(i));
   }
   emitter_choice_ = choose_by_power(emitters_);
+  for (size_t i = 0; i < emitters_.size(); ++i)
+    mesh_lights_.push_back(mesh_light(*emitters_[i], emitter_choice_.pdf(i)));
   accel_ = known && known->serves(shapes_, camera_->shutter())
                ? known
                : std::make_shared<const Accel>(shapes_, camera_->shutter());
   const std::vector<ShapePtr> grouped = grouped_shapes(shapes_);
   shapes_.insert(shapes_.end(), grouped.begin(), grouped.end());
   for (size_t i = 0; i < shapes_.size(); ++i) shapes_[i]->set_index(static_cast<uint32_t>(i));
+  for (const ShapePtr& shape : shapes_) matte_meshes_.push_back(mlt::matte_mesh(*shape));
 }
 
 bool Scene::intersect(const Ray& ray, SurfacePoint& at) const {

@@ -22,6 +22,20 @@ struct EmitterChoice {
   double probability;
 };
 
+/// A mesh that glows the same everywhere on its front side, as next-event estimation needs it.
+struct MeshLight {
+  const Mesh* mesh = nullptr;  ///< nullptr: this light is of another kind.
+  const Color* radiance = nullptr;
+  double pdf = 0;  ///< Area measure, the choice of the light included.
+};
+
+/// A mesh that is matte everywhere.
+struct MatteMesh {
+  const Mesh* mesh = nullptr;      ///< nullptr: this shape is something else.
+  const Matte* uniform = nullptr;  ///< nullptr: it depends on the point.
+  bool emits = false;
+};
+
 class Scene {
  public:
   /// Throws SceneError if there is no sensor or nothing that emits. `known` is the accelerator of
@@ -68,6 +82,12 @@ class Scene {
   /// Chooses a light; u is rescaled so that it can be used again.
   EmitterChoice choose_emitter(double& u) const;
   double emitter_probability(uint32_t index) const { return emitter_choice_.pdf(index); }
+  /// The shape at this place in shapes(), if it is a matte mesh.
+  const MatteMesh& matte_mesh(uint32_t shape) const { return matte_meshes_[shape]; }
+  /// The light that choose_emitter(u) chooses, if it is a glowing mesh.
+  const MeshLight& choose_mesh_light(double u) const {
+    return mesh_lights_[mesh_lights_.size() > 1 ? emitter_choice_.sample(u) : 0];
+  }
   /// A u that chooses this one and leaves v.
   double invert_choice(uint32_t index, double v) const { return emitter_choice_.invert(index, v); }
 
@@ -89,6 +109,8 @@ class Scene {
   std::shared_ptr<const Accel> accel_;
   std::vector<uint32_t> infinite_, backgrounds_;
   Discrete emitter_choice_;
+  std::vector<MeshLight> mesh_lights_;   ///< One for each emitter.
+  std::vector<MatteMesh> matte_meshes_;  ///< One for each shape.
 };
 
 using ScenePtr = std::shared_ptr<const Scene>;

@@ -16,9 +16,9 @@ from command_line import mlt_render
 SIZE = 32
 # For each case: its arguments, samples per pixel of the two renders, and instructions per sample.
 CASES = {
-    "path": ([], (2, 10), 8148),
-    "bdpt": ([], (1, 3), 37744),
-    "mlt": (["independent_share=0", "luminance_samples=1000", "adaptive=false"], (4, 12), 4590),
+    "path": ([], (2, 10), 5797),
+    "bdpt": ([], (1, 3), 38215),
+    "mlt": (["chains=128", "independent_share=0", "luminance_samples=1000", "adaptive=false"], (4, 12), 4623),
 }
 
 

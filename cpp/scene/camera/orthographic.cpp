@@ -35,6 +35,9 @@ class Orthographic final : public ProjectiveCamera {
   Vec3 entrance(const SurfacePoint& xk, const Vec3& w) const override {
     return xk.p + w * (setback_ / dot(w, xk.ng));
   }
+  Ray ray(const Vec2& raster, const Vec2& u_lens, double time) const override {
+    return Camera::ray(raster, u_lens, time);
+  }
 
  private:
   void stand_back(double size) {

@@ -42,6 +42,7 @@ void ProjectiveCamera::set_image_plane(const Vec2& half) {
   // (X, Y) = half * (1 - 2 (s + principal offset)), s = (raster + crop offset) / full size.
   const Vec2 full(raster_.full_size);
   to_raster_scale_ = -full / (2.0 * half);
+  from_raster_scale_ = 1.0 / to_raster_scale_;
   to_raster_offset_ = full * (0.5 - view_.principal_offset) - Vec2(raster_.crop_offset);
   image_area_ = 4 * half.x * half.y * raster_.pixels() / (full.x * full.y);
 }

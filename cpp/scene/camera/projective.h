@@ -55,6 +55,11 @@ class ProjectiveCamera : public Camera {
   double pdf_position(const SurfacePoint& xk) const override;
   Vec2 invert_position(const SurfacePoint& xk) const override;
   Vec3 direction(const SurfacePoint& xk, const Vec2& raster) const override;
+  Ray ray(const Vec2& raster, const Vec2& u_lens, double time) const override {
+    if (lens_.radius > 0 || motion_.moves()) return Camera::ray(raster, u_lens, time);
+    const Vec2 plane = (raster - to_raster_offset_) * from_raster_scale_;
+    return {pose_.position, pose_.axes.to_world(normalize(Vec3(plane, 1))), time};
+  }
   std::optional<Projection> project(const SurfacePoint& xk, const Vec3& w) const override;
   bool delta_position() const override { return lens_.radius == 0; }
   std::optional<SurfacePoint> move_on_lens(const SurfacePoint& xk, const Vec2& by) const override;
@@ -92,7 +97,7 @@ class ProjectiveCamera : public Camera {
   Lens lens_;
   Motion motion_;
   // raster = (X, Y) * to_raster_scale_ + to_raster_offset_
-  Vec2 to_raster_scale_{-1}, to_raster_offset_{0};
+  Vec2 to_raster_scale_{-1}, to_raster_offset_{0}, from_raster_scale_{-1};
   double image_area_ = 1;  ///< A
 };
 

@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "base/rng.h"
 #include "filters.h"
-#include "image/filter.h"
+#include "image/filter_rows.h"
 #include "math/vec.h"
 
 namespace mlt {
@@ -120,6 +120,26 @@ TEST(Filter, HasTheShapeOfItsFormula) {
   EXPECT_NEAR(catmullrom_filter().eval(1.5), -0.0625, 1e-5);
   EXPECT_NEAR(ratio(lanczos_filter(), 0.5), 6 / (pi * pi), 1e-5);
   EXPECT_NEAR(ratio(lanczos_filter(), 1.5), -0.13509491, 1e-5);
+}
+
+TEST(FilterRows, AreTheFilterAtConsecutivePixels) {
+  Rng rng(1, Purpose::test, 0);
+  int narrow = 0;
+  for (const Filter& filter : all_filters()) {
+    const FilterRows rows(filter);
+    if (rows.pixels() == 0) continue;
+    ++narrow;
+    for (int n = 0; n < 10'000; ++n) {
+      const double at = n % 10 == 0 ? 0.5 * (n / 10 - 300) : 40 * rng.next() - 20;
+      const FilterRows::Weights weights = rows.weights(at);
+      EXPECT_EQ(filter.eval(weights.first - 0.5 - at), 0);
+      EXPECT_EQ(filter.eval(weights.first + rows.pixels() + 0.5 - at), 0);
+      for (int k = 0; k < FilterRows::most_pixels; ++k)
+        ASSERT_NEAR(weights.at[k], filter.eval(weights.first + k + 0.5 - at), 1e-6)
+            << filter.name() << " at " << at << ", pixel " << k;
+    }
+  }
+  EXPECT_GE(narrow, 5);
 }
 
 TEST(Filter, HasMitsubasDefaults) {

@@ -70,16 +70,16 @@ TEST(Accel, FindsTheSameInPackets) {
     }
     std::vector<const Ray*> pointers;
     for (const Ray& ray : rays) pointers.push_back(&ray);
-    std::vector<Hit> found(rays.size());
-    accel.intersect(pointers.data(), static_cast<int>(rays.size()), found.data());
+    PacketHits found;
+    accel.intersect(packet, pointers.data(), n % 2 == 0, found);
     const unsigned blocked = accel.occluded(packet);
     for (size_t i = 0; i < rays.size(); ++i) {
       Hit hit;
       const bool one = accel.intersect(rays[i], hit);
       hits += one;
-      ASSERT_EQ(found[i].shape, one ? hit.shape : SurfacePoint::no_shape);
+      ASSERT_EQ(found.shape[i], one ? hit.shape : SurfacePoint::no_shape);
       if (one) {
-        EXPECT_EQ(found[i].t, hit.t);
+        EXPECT_NEAR(found.t[i], hit.t, 1e-5 * hit.t);
       }
       EXPECT_EQ(blocked >> i & 1, unsigned{one});
     }

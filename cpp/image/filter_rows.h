@@ -1,0 +1,55 @@
+// The weights of a narrow filter at the consecutive pixels of a row that it covers, from a table of
+// such rows. Where the filter's knots fall on the same places of every pixel, they lie on one straight
+// line between two rows of the table.
+#pragma once
+
+#include "image/filter.h"
+
+#include <array>
+
+namespace mlt {
+
+class FilterRows {
+ public:
+  static constexpr int most_pixels = 8;
+  struct Weights {
+    int first;                          ///< Pixel.
+    std::array<float, most_pixels> at;  ///< Of it and those that follow; 0 where there is none.
+  };
+
+  explicit FilterRows(const Filter& filter) : radius_(filter.radius()) {
+    const int phases = filter.knots_per_pixel();
+    const double pixels = 2 * radius_;
+    if (filter.is_box() || phases == 0 || pixels > most_pixels || pixels != std::floor(pixels))
+      return;
+    pixels_ = static_cast<int>(pixels);
+    phases_ = phases;
+    rows_.resize(phases + 1);
+    for (int j = 0; j <= phases; ++j)
+      for (int k = 0; k < pixels_; ++k)
+        rows_[j][k] = static_cast<float>(filter.knot(std::abs(j + phases * (k - 0.5 * pixels_))));
+  }
+
+  /// How many pixels of a row the filter covers; 0: it is none of those that have such a table.
+  int pixels() const { return pixels_; }
+
+  /// Of a sample at this place of the row.
+  Weights weights(double at) const {
+    const double low = at - radius_ - 0.5, floor = std::floor(low);
+    const double t = (1 - (low - floor)) * phases_;
+    const int j = std::min(static_cast<int>(t), phases_ - 1);
+    const auto share = static_cast<float>(t - j);
+    Weights weights;
+    weights.first = static_cast<int>(floor) + 1;
+    const float *a = rows_[j].data(), *b = rows_[j + 1].data();
+    for (int k = 0; k < most_pixels; ++k) weights.at[k] = a[k] + share * (b[k] - a[k]);
+    return weights;
+  }
+
+ private:
+  double radius_;
+  int pixels_ = 0, phases_ = 0;
+  std::vector<std::array<float, most_pixels>> rows_;  ///< Zeros behind the pixels.
+};
+
+}  // namespace mlt

@@ -1,0 +1,40 @@
+// Values of the paths that are traced side by side: one array for each quantity, so that the compiler
+// makes vector instructions of the loops over them.
+#pragma once
+
+#include "math/vec.h"
+
+namespace mlt {
+
+/// Not set at first: a wave is made for every tile, and most of its lanes are written anyway.
+template <class T, int size>
+struct alignas(32) Lanes {
+  T values[size];
+  T& operator[](int i) { return values[i]; }
+  const T& operator[](int i) const { return values[i]; }
+};
+
+template <int size>
+struct VectorLanes {
+  Lanes<float, size> x, y, z;
+  Vec3f operator[](int i) const { return {x[i], y[i], z[i]}; }
+  void set(int i, const Vec3f& v) {
+    x[i] = v.x;
+    y[i] = v.y;
+    z[i] = v.z;
+  }
+};
+
+/// So many paths are traced together,
+inline constexpr int wave_size = 512;
+template <class T>
+using Wave = Lanes<T, wave_size>;
+using VectorWave = VectorLanes<wave_size>;
+
+/// and so many are shaded together, in the processor's first cache.
+inline constexpr int block_size = 64;
+template <class T>
+using Block = Lanes<T, block_size>;
+using VectorBlock = VectorLanes<block_size>;
+
+}  // namespace mlt
