@@ -5,7 +5,8 @@ through water), some are caustics, and in some, as the Cornell box, chains alone
 win. `mlt` and `pssmlt` are also measured without independent samples, as "chains". Each image gets
 `--seconds` on each of `--threads` threads, measured as CPU time; see docs/race.md for what is
 measured. References are two long halves of our own, whose error is subtracted, but for veachdoor's,
-which has a relMSE of about 0.002, and those of a folder that is given.
+which has a relMSE of about 0.002, and those of a folder that is given. With --reference-seconds 0
+there are no others, and the seeds tell.
 
 --page also writes a page of the documentation, with a picture for each scene beside it.
 """
@@ -80,6 +81,8 @@ def reference(name: str, scene: mlt.Scene, case: Case, args):
         return kept
     if case.reference.endswith(".exr"):
         return shared(f"references/{case.reference}")
+    if not args.reference_seconds:
+        return None
     # Light that one candidate in 100,000 finds must be there as well.
     many = {"luminance_samples": 1_000_000, "independent_share": 0.3}
     made = mlt.MLT(max_depth=8, **many) if case.reference == "mlt" else mlt.BDPT(max_depth=8)

@@ -67,7 +67,8 @@ class Search {
       return true;
     } catch (const SceneError& error) {
       std::string what = error.what();
-      if (const std::string place = on_one_line(at(where, "")); what.compare(0, place.size(), place) == 0)
+      if (const std::string place = on_one_line(at(where, ""));
+          what.compare(0, place.size(), place) == 0)
         what.erase(0, place.size());
       const bool known = std::any_of(found_.begin(), found_.end(),
                                      [&](const Found& other) { return other.what == what; });
