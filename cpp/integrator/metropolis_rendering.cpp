@@ -113,12 +113,18 @@ std::vector<std::vector<uint32_t>> MetropolisRendering::run_bootstrap(
   return seeds;
 }
 
+/// As many as samples alone would have, if they are the greater part.
+uint64_t MetropolisRendering::passes_per_turn() const {
+  if (allocation_.share <= 0.5) return 1;
+  return allocation_.techniques == SampleTechniques::path_tracing ? 8 : 4;
+}
+
 /// Which shares there are, once b of each group is known.
 void MetropolisRendering::lay_out() {
   samples_.reset();
   if (allocation_.share > 0)
     samples_ = std::make_unique<SampledRendering>(
-        scene_, seed_, SampledSettings{true, {}, allocation_.share > 0.5 ? 4u : 1u},
+        scene_, seed_, SampledSettings{true, {}, passes_per_turn()},
         [this](const Scene&) { return algorithm_->sample_taker(allocation_.weights); });
   plan_.borders.clear();
   for (uint64_t share = 0; share <= sample_shares(); ++share) plan_.borders.push_back(share);

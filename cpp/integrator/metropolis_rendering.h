@@ -75,6 +75,7 @@ class MetropolisRendering : public Rendering {
   std::vector<std::vector<uint32_t>> run_bootstrap(const Candidates& candidates, int threads,
                                                    const std::atomic<bool>& cancelled);
   void start_chains(int threads, const std::atomic<bool>& cancelled);
+  uint64_t passes_per_turn() const;
   void lay_out();
   void lay_out_units();
   void run_chain(uint64_t number);

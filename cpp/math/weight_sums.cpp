@@ -9,6 +9,15 @@ constexpr int classes_per_octave = 4;
 // Those of the smallest and of the largest positive number.
 constexpr int first_class = classes_per_octave * -1074, last_class = classes_per_octave * 1024;
 
+/// floor(classes_per_octave log2(weight)).
+int class_of(double weight) {
+  int octave;
+  const double fraction = std::frexp(weight, &octave);  // of the octave's end, from 1/2 on
+  const int quarters = (fraction >= 0.5946035575013605) + (fraction >= 0.7071067811865476) +
+                       (fraction >= 0.8408964152537145);  // 2^-3/4, 2^-1/2, 2^-1/4
+  return classes_per_octave * (octave - 1) + quarters;
+}
+
 double weight_of(int index) { return std::exp2((index + 0.5) / classes_per_octave); }
 
 }  // namespace
@@ -34,7 +43,7 @@ double MeanSums::variance_of_mean() const {
 
 void WeightClasses::add(double weight) {
   if (weight > 0 && std::isfinite(weight))
-    ++classes_[static_cast<int>(std::floor(classes_per_octave * std::log2(weight)))];
+    ++classes_[class_of(weight)];
 }
 
 WeightClasses& WeightClasses::operator+=(const WeightClasses& other) {
