@@ -52,7 +52,7 @@ class TracedSource : public MetropolisAlgorithm::Source {
 };
 
 /// Gives what the samples find to the image, with the weights w1 (FamilyWeights), side by side: for
-/// the render.
+/// the render. They do not tell the brightness, since there may be light that they cannot find.
 class TracedTaker : public WaveTaker {
  public:
   TracedTaker(const PathTarget& target, const FamilyWeights& weights)
@@ -74,12 +74,6 @@ class TracedTaker : public WaveTaker {
   double chain_factor(const Vec2& raster) const override {
     return target_->factor(raster) / (scale_ * threshold_);
   }
-  void add(const Vec2& raster, const CameraWalk& walk, SampleSink& sink) override {
-    sink.add(raster, walk.radiance);
-    sink.add_sums((target_luminance(walk.radiance) + walk.of_chains) / scale_,
-                  walk.of_chains / scale_);
-  }
-
   const PathTarget* target_;
   double scale_, threshold_;
 };

@@ -33,16 +33,11 @@ class WaveTaker : public SampleTaker {
  private:
   /// See CameraWalk.
   virtual double chain_factor(const Vec2& /*raster*/) const { return 0; }
-  /// What has come of one of them.
-  virtual void add(const Vec2& raster, const CameraWalk& walk, SampleSink& sink) {
-    sink.add(raster, walk.radiance);
-  }
-
   /// The paths through all cells in rasters_.
   void trace_wave(SampleSink& sink, RayCounts& rays) {
     start_wave();
     wave_.trace(rays);
-    for (size_t i = 0; i < wave_.size(); ++i) add(rasters_[i], wave_[i], sink);
+    for (size_t i = 0; i < wave_.size(); ++i) sink.add(rasters_[i], wave_.radiance(i));
     wave_.clear();
     rasters_.clear();
   }

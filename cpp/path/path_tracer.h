@@ -151,7 +151,6 @@ struct CameraWalk {
   /// is 1. With the balance heuristic f / P is the radiance that the path has brought here, without
   /// roulette.
   double chain_factor = 0;
-  double of_chains = 0;  ///< L* of the light that is left to chains.
 
   /// The MIS weight of one of the two techniques.
   double mis(double pdf, double other) const {
@@ -161,10 +160,7 @@ struct CameraWalk {
   double own_share(const Color& found) const {
     return chain_factor > 0 ? 1 / (1 + chain_factor * survival * target_luminance(found)) : 1.0;
   }
-  void take(const Color& found, double share) {
-    radiance += found * share;
-    if (chain_factor > 0) of_chains += target_luminance(found) * (1 - share);
-  }
+  void take(const Color& found, double share) { radiance += found * share; }
 };
 
 /// The numbers that a vertex takes.

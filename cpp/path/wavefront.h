@@ -36,8 +36,8 @@ class Wavefront {
   bool full() const { return size() == capacity; }
   /// Traces all of them to their ends.
   void trace(RayCounts& rays);
-  /// With what it has found.
-  const CameraWalk& operator[](size_t i) const { return walks_[i]; }
+  /// What the i-th path has found.
+  const Color& radiance(size_t i) const { return walks_[i].radiance; }
   void clear() {
     walks_.clear();
     numbers_.clear();

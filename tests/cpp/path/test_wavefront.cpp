@@ -46,7 +46,7 @@ Traced side_by_side(const Scene& scene, const PathRules& rules) {
     });
     EXPECT_TRUE(wavefront.full());
     wavefront.trace(traced.rays);
-    for (size_t i = 0; i < wavefront.size(); ++i) traced.radiance.push_back(wavefront[i].radiance);
+    for (size_t i = 0; i < wavefront.size(); ++i) traced.radiance.push_back(wavefront.radiance(i));
     wavefront.clear();
   }
   return traced;
@@ -98,7 +98,7 @@ TEST(Wavefront, TracesAnIncompleteWave) {
   wavefront.add(ray, sampler);
   wavefront.trace(rays);
   RayCounts single;
-  EXPECT_TRUE(close(wavefront[0].radiance, trace_path(*scene, {}, ray, again, single)));
+  EXPECT_TRUE(close(wavefront.radiance(0), trace_path(*scene, {}, ray, again, single)));
   EXPECT_EQ(rays.total(), single.total());
 }
 
