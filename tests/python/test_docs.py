@@ -56,7 +56,7 @@ def test_the_figures_of_the_readme_are_those_of_the_comparison():
     for figure in (
         f"error is {means['mlt']} times",
         f"`path` has {means['path']} times, `bdpt` {means['bdpt']} times",
-        f"(`rjmlt`) {means['rjmlt']} times",
+        f"(`mmlt`) {means['mmlt']} times",
     ):
         assert figure in said, figure
 
