@@ -102,6 +102,7 @@ std::vector<std::vector<uint32_t>> MetropolisRendering::run_bootstrap(
       targets.push_back(weights[i].target);
       groups_[g].bootstrap.brightness.add(weights[i].brightness);
       groups_[g].bootstrap.classes.add(weights[i].brightness);
+      // The weights of a candidate are those of all techniques.
       if (allocation_.techniques == SampleTechniques::all)
         groups_[g].bootstrap.of_chains.add(weights[i].of_chains);
     }

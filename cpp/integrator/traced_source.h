@@ -74,6 +74,7 @@ class TracedTaker : public WaveTaker {
   double chain_factor(const Vec2& raster) const override {
     return target_->factor(raster) / (scale_ * threshold_);
   }
+
   const PathTarget* target_;
   double scale_, threshold_;
 };
