@@ -52,8 +52,7 @@ Value load_value(ByteReader& bytes) {
 Node load_node(ByteReader& bytes, int depth) {
   if (depth > max_nesting) throw RenderError("the saved state is nested too deeply");
   Node node;
-  for (std::string* text : {&node.family, &node.type, &node.id, &node.name})
-    bytes.read(*text);
+  for (std::string* text : {&node.family, &node.type, &node.id, &node.name}) bytes.read(*text);
   for (uint64_t left = bytes.read<uint64_t>(); left > 0; --left) {
     Node::Property property;
     bytes.read(property.name);
