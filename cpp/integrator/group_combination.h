@@ -18,7 +18,8 @@
 // R_g, the image at brightness 1, comes from the other groups, independent of M_g - b_g D_g: for any
 // fixed lambda the expectation remains right. The brightness is then the mean of what chains and
 // samples say, weighted by how well each is known. These variances are estimated from the same
-// render, which leaves a bias that vanishes as the render goes on.
+// render, which leaves a bias that vanishes as the render goes on. Where no samples tell M, as those of
+// path tracing do not, lambda is 0.
 #pragma once
 
 #include "math/weight_sums.h"
