@@ -2,6 +2,7 @@
 // sums do not depend on their order, and the image has the same bits for any number of threads.
 #pragma once
 
+#include "image/filter_rows.h"
 #include "image/image.h"
 #include "image/splat.h"
 #include "math/color.h"
@@ -44,17 +45,24 @@ class SplatFilm {
     void operator()(int64_t* cells) const { std::free(cells); }
   };
   using Lock = std::atomic<bool>;
+  /// How many rows share a lock.
+  static constexpr int band_rows = 8;
 
   size_t group_size() const { return size_t{3} * width_ * height_; }
-  /// Calls use(cells) with a row of a group, which nobody else touches meanwhile.
+  size_t bands() const { return (height_ + band_rows - 1) / band_rows; }
+  /// Calls use(cells, y) with rows first ... end - 1 of a group, which nobody else touches meanwhile.
   template <class Use>
-  void with_row(int group, int y, Use&& use) const;
+  void with_rows(int group, int first, int end, Use&& use) const;
+  /// Adds it, in steps of fixed point; false if not all pixels that the filter covers are there, or
+  /// it is none of those in a table.
+  bool add_whole(int group, const Vec2& raster, const Color& steps);
 
   int width_, height_, groups_;
   std::shared_ptr<const Filter> filter_;
+  FilterRows<double> rows_;
   /// [group][pixel][channel]; takes memory only where something has been added.
   std::unique_ptr<int64_t[], Free> cells_;
-  std::unique_ptr<Lock[]> locks_;  ///< [group][row]
+  std::unique_ptr<Lock[]> locks_;  ///< [group][band]
   std::atomic<uint64_t> saturated_{0};
 };
 
