@@ -86,14 +86,11 @@ SplatFilm::SplatFilm(int width, int height, std::shared_ptr<const Filter> filter
 }
 
 template <class Use>
-void SplatFilm::with_rows(int group, int first, int end, Use&& use) const {
-  for (int y = first; y < end;) {
-    const int band = y / band_rows, band_end = std::min(end, (band + 1) * band_rows);
-    Lock& lock = locks_[group * bands() + band];
-    while (lock.exchange(true, std::memory_order_acquire)) std::this_thread::yield();
-    for (; y < band_end; ++y) use(&cells_[3 * ((size_t(group) * height_ + y) * width_)], y);
-    lock.store(false, std::memory_order_release);
-  }
+void SplatFilm::with_band(int group, int y, Use&& use) const {
+  Lock& lock = locks_[group * bands() + y / band_rows];
+  while (lock.exchange(true, std::memory_order_acquire)) std::this_thread::yield();
+  use();
+  lock.store(false, std::memory_order_release);
 }
 
 void SplatFilm::add(int group, const Vec2& raster, const Color& color) {
@@ -109,8 +106,7 @@ void SplatFilm::add(int group, const Vec2& raster, const Color& color) {
       round_small(values, weight, whole_vectors(count), steps);
     else
       refused = round_large(values, weight, count, steps);
-    with_rows(group, y, y + 1,
-              [&](int64_t* row, int) { full = add_steps(steps, count, row + 3 * x); });
+    with_band(group, y, [&] { full = add_steps(steps, count, row(group, y) + 3 * x); });
     if (refused + full > 0) saturated_ += refused + full;
   };
   splat(*filter_, raster, steps_in_color, {0, 0, width_, height_}, add);
@@ -122,25 +118,29 @@ bool SplatFilm::add_whole(int group, const Vec2& raster, const Color& steps) {
   const auto across = rows_.weights(raster.x), down = rows_.weights(raster.y);
   const int x = across.first, y = down.first;
   if (x < 0 || y < 0 || x + pixels > width_ || y + pixels > height_) return false;
-  double row[3 * FilterRows<double>::most_pixels];
+  double values[3 * FilterRows<double>::most_pixels];
   for (int i = 0; i < FilterRows<double>::most_pixels; ++i)
-    for (int c = 0; c < 3; ++c) row[3 * i + c] = steps[c] * across.at[i];
+    for (int c = 0; c < 3; ++c) values[3 * i + c] = steps[c] * across.at[i];
   int full = 0;
-  with_rows(group, y, y + pixels, [&](int64_t* cells, int at) {
-    full += add_small(row, down.at[at - y], count, cells + 3 * x);
-  });
+  for (int i = 0; i < pixels;) {
+    const int end = std::min(pixels, i + band_rows - (y + i) % band_rows);
+    with_band(group, y + i, [&] {
+      for (; i < end; ++i) full += add_small(values, down.at[i], count, row(group, y + i) + 3 * x);
+    });
+  }
   if (full > 0) saturated_ += full;
   return true;
 }
 
 Image SplatFilm::image(const std::vector<double>& scale) const {
-  const size_t row = size_t{3} * width_;
+  const size_t values = size_t{3} * width_;
   std::vector<double> sum(group_size());
   for (int g = 0; g < groups_; ++g)
-    if (scale[g] != 0)
-      with_rows(g, 0, height_, [&](const int64_t* cells, int y) {
-        for (size_t i = 0; i < row; ++i)
-          sum[y * row + i] += scale[g] / one * static_cast<double>(cells[i]);
+    for (int y = 0; scale[g] != 0 && y < height_; ++y)
+      with_band(g, y, [&] {
+        const int64_t* cells = row(g, y);
+        for (size_t i = 0; i < values; ++i)
+          sum[y * values + i] += scale[g] / one * static_cast<double>(cells[i]);
       });
   Image image(width_, height_, 3);
   for (size_t i = 0; i < sum.size(); ++i) image.data[i] = static_cast<float>(sum[i]);
@@ -148,12 +148,12 @@ Image SplatFilm::image(const std::vector<double>& scale) const {
 }
 
 std::string SplatFilm::save(int first, int last) const {
-  const size_t row = size_t{3} * width_;
+  const int values = 3 * width_;
   std::vector<int64_t> sums;
   sums.reserve(group_size() * (last - first));
   for (int g = first; g < last; ++g)
-    with_rows(g, 0, height_,
-              [&](const int64_t* cells, int) { sums.insert(sums.end(), cells, cells + row); });
+    for (int y = 0; y < height_; ++y)
+      with_band(g, y, [&] { sums.insert(sums.end(), row(g, y), row(g, y) + values); });
   ByteWriter bytes;
   bytes.write(sums);
   bytes.write(saturated_.load());
@@ -168,13 +168,12 @@ void SplatFilm::merge(int first, int last, const std::string& saved) {
   bytes.finish();
   if (sums.size() != group_size() * (last - first))
     throw RenderError("the saved film has another size");
-  const int row = 3 * width_;
+  const int values = 3 * width_;
   const int64_t* from = sums.data();
   for (int g = first; g < last; ++g)
-    for (int y = 0; y < height_; ++y, from += row)
-      if (std::any_of(from, from + row, [](int64_t step) { return step != 0; }))
-        with_rows(g, y, y + 1,
-                  [&](int64_t* cells, int) { saturated_ += add_steps(from, row, cells); });
+    for (int y = 0; y < height_; ++y, from += values)
+      if (std::any_of(from, from + values, [](int64_t step) { return step != 0; }))
+        with_band(g, y, [&] { saturated_ += add_steps(from, values, row(g, y)); });
   saturated_ += saturated;
 }
 

@@ -50,9 +50,12 @@ class SplatFilm {
 
   size_t group_size() const { return size_t{3} * width_ * height_; }
   size_t bands() const { return (height_ + band_rows - 1) / band_rows; }
-  /// Calls use(cells, y) with rows first ... end - 1 of a group, which nobody else touches meanwhile.
+  int64_t* row(int group, int y) const {
+    return &cells_[3 * (size_t(group) * height_ + y) * width_];
+  }
+  /// Calls use() while nobody else touches the rows of the band that y is in.
   template <class Use>
-  void with_rows(int group, int first, int end, Use&& use) const;
+  void with_band(int group, int y, Use&& use) const;
   /// Adds it, in steps of fixed point; false if not all pixels that the filter covers are there, or
   /// it is none of those in a table.
   bool add_whole(int group, const Vec2& raster, const Color& steps);

@@ -1,5 +1,6 @@
 #include "mutation/image_footprint.h"
 
+#include "mutation/path_state.h"
 #include "mutation/specular_chain.h"
 
 namespace mlt {

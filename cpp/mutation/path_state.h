@@ -1,7 +1,9 @@
 // The state of Metropolis light transport: a light path with its terms and its target L*.
 #pragma once
 
+#include "base/kept.h"
 #include "markov/mixture.h"
+#include "mutation/image_footprint.h"
 #include "path/measure.h"
 
 #include <vector>
@@ -22,9 +24,13 @@ struct PathState {
   Path path;
   PathTerms terms;
   Vec2 raster{0};
-  Color rgb{0};               ///< f(x) / |f(x)|, see relative_contribution.
-  double target = 0;          ///< L*(x) / |f(x)|, times the factor of two-stage sampling.
-  mutable MoveChoice choice;  ///< Kept by the mixture that moves the path.
+  Color rgb{0};       ///< f(x) / |f(x)|, see relative_contribution.
+  double target = 0;  ///< L*(x) / |f(x)|, times the factor of two-stage sampling.
+
+  // Functions of the path, kept by those who ask for them:
+  mutable MoveChoice choice;                              ///< Of the mixture that moves it.
+  mutable Kept<double> over_density;                      ///< See PathTarget.
+  mutable Kept<std::optional<ImageFootprint>> footprint;  ///< Of its caustic perturbation.
 
   /// L*(x), times that factor. May overflow or underflow; chains do without it.
   double brightness() const { return target * magnitude(terms, 0, edges()); }
