@@ -21,11 +21,11 @@ class SplatFilm {
 
   /// Adds `color` times the filter at a raster position. Thread-safe.
   void add(int group, const Vec2& raster, const Color& color);
-  /// Says that something will be added there soon, so that memory has time.
-  void prefetch(int group, const Vec2& raster) const {
+  /// Where the pixel is in memory, for prefetching; nullptr outside of the image.
+  const void* address(int group, const Vec2& raster) const {
     const int x = static_cast<int>(raster.x), y = static_cast<int>(raster.y);
-    if (x >= 0 && x < width_ && y >= 0 && y < height_)
-      __builtin_prefetch(&cells_[group_size() * group + 3 * (size_t(y) * width_ + x)], 1);
+    if (x < 0 || x >= width_ || y < 0 || y >= height_) return nullptr;
+    return row(group, y) + 3 * x;
   }
 
   int group_count() const { return groups_; }
