@@ -21,9 +21,12 @@ class SplatFilm {
 
   /// Adds `color` times the filter at a raster position. Thread-safe.
   void add(int group, const Vec2& raster, const Color& color);
-  /// Where the pixel is in memory, for prefetching; nullptr outside of the image.
-  const void* address(int group, const Vec2& raster) const {
-    const int x = static_cast<int>(raster.x), y = static_cast<int>(raster.y);
+  /// To so many rows something is added,
+  int splat_rows() const { return std::max(1, rows_.pixels()); }
+  /// and where the i-th of them is in memory, for prefetching; nullptr outside of the image.
+  const void* splat_row(int group, const Vec2& raster, int i) const {
+    const double before = 0.5 * (splat_rows() - 1);
+    const int x = static_cast<int>(raster.x - before), y = static_cast<int>(raster.y - before) + i;
     if (x < 0 || x >= width_ || y < 0 || y >= height_) return nullptr;
     return row(group, y) + 3 * x;
   }
