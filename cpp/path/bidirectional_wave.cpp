@@ -11,16 +11,18 @@ struct LensEdges {
 /// In double precision: an orthographic camera is far away.
 void find_edges(const JointLanes& a, const SurfacePoint& lens, bool strict,
                 LensEdges& __restrict edges) {
+  const Vec3 p = lens.p, axis = lens.ng;
   for (int i = 0; i < JointLanes::size; ++i) {
-    const Vec3 to_lens = lens.p - Vec3(a.p[i]);
+    const Vec3 to_lens = p - Vec3(a.p[i]);
     const double distance2 = dot(to_lens, to_lens);
     const Vec3 w = to_lens * (1 / std::sqrt(distance2));
     const double geometric = dot(Vec3(a.ng[i]), w), cosine = dot(Vec3(a.n[i]), w);
     const bool possible = (cosine * a.cosine[i] > 0) & (!strict | (geometric * cosine > 0));
+    const double G = std::fabs(geometric * dot(axis, w)) / distance2;
     edges.x[i] = w.x;
     edges.y[i] = w.y;
     edges.z[i] = w.z;
-    edges.G[i] = possible ? std::fabs(geometric * dot(lens.ng, w)) / distance2 : 0;
+    edges.G[i] = possible ? G : 0;
   }
 }
 
