@@ -4,6 +4,7 @@
 #include "integrator/bdpt_params.h"
 #include "integrator/path_params.h"
 #include "integrator/sampled_rendering.h"
+#include "path/bidirectional_wave.h"
 
 namespace mlt {
 namespace {
@@ -35,7 +36,22 @@ class BdptTaker : public SampleTaker {
       : scene_(&scene),
         scale_(radiance_scale(scene)),
         bidirectional_(scene, settings.paths),
-        techniques_(settings.techniques) {}
+        techniques_(settings.techniques) {
+    if (!techniques_ && BidirectionalWave::serves(scene, settings.paths))
+      wave_ = std::make_unique<BidirectionalWave>(scene, settings.paths);
+  }
+
+  void sample_cells(const PixelRect& cells, const CellStreams& streams, SampleSink& sink,
+                    RayCounts& rays) override {
+    if (!wave_) return SampleTaker::sample_cells(cells, streams, sink, rays);
+    for_each_packet_cell(cells, [&](const Vec2i& cell) {
+      if (!wave_pays_) return sample_cell(cell, streams, sink, rays);
+      wave_->add(streams.stream(cell.x, cell.y), streams.index, cell);
+      cells_.push_back(cell);
+      if (wave_->full()) trace_wave(streams, sink, rays);
+    });
+    trace_wave(streams, sink, rays);
+  }
 
   void sample(const Vec2& raster, PixelSampler& sampler, SampleSink& sink,
               RayCounts& rays) override {
@@ -59,10 +75,30 @@ class BdptTaker : public SampleTaker {
   }
 
  private:
+  void trace_wave(const CellStreams& streams, SampleSink& sink, RayCounts& rays) {
+    int left = 0;
+    wave_->trace(rays);
+    for (const BidirectionalWave::Splat& splat : wave_->splats())
+      sink.splat(splat.raster, splat.weighted);
+    for (int i = 0; i < wave_->size(); ++i) {
+      if (wave_->left(i))
+        sample_cell(cells_[i], streams, sink, rays);
+      else
+        sink.add(wave_->raster(i), wave_->seen(i) * scale_);
+      left += wave_->left(i);
+    }
+    wave_pays_ = 2 * left <= wave_->size();
+    wave_->clear();
+    cells_.clear();
+  }
+
   const Scene* scene_;
   double scale_;
   BidirectionalSampler bidirectional_;
   bool techniques_;
+  std::unique_ptr<BidirectionalWave> wave_;  ///< If it serves here.
+  std::vector<Vec2i> cells_;                 ///< Of the samples in it.
+  bool wave_pays_ = true;  ///< Unless most samples of the wave before it had to be taken again.
 };
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "path/ray_counts.h"
 #include "path/samplers.h"
 
+#include <algorithm>
 #include <array>
 #include <functional>
 
@@ -79,6 +80,16 @@ struct CellStreams {
   PixelSampler sampler(int x, int y) const { return {stream(x, y), index}; }
 };
 
+/// Calls take(cell) in an order in which those that follow each other are near: a packet of rays has
+/// 4 x 2 cells.
+template <class Take>
+void for_each_packet_cell(const PixelRect& cells, Take&& take) {
+  for (int y0 = cells.y0; y0 < cells.y1; y0 += 2)
+    for (int x0 = cells.x0; x0 < cells.x1; x0 += 4)
+      for (int y = y0; y < std::min(y0 + 2, cells.y1); ++y)
+        for (int x = x0; x < std::min(x0 + 4, cells.x1); ++x) take(Vec2i(x, y));
+}
+
 /// Takes samples one after the other; keeps its memory between them.
 class SampleTaker {
  public:
@@ -87,15 +98,17 @@ class SampleTaker {
   virtual void sample_cells(const PixelRect& cells, const CellStreams& streams, SampleSink& sink,
                             RayCounts& rays) {
     for (int y = cells.y0; y < cells.y1; ++y)
-      for (int x = cells.x0; x < cells.x1; ++x) {
-        PixelSampler numbers = streams.sampler(x, y);
-        const Vec2 raster = Vec2(x, y) + numbers.next2();
-        sample(raster, numbers, sink, rays);
-      }
+      for (int x = cells.x0; x < cells.x1; ++x) sample_cell({x, y}, streams, sink, rays);
   }
   /// The sampler has given the raster position and goes on with the lens and the time.
   virtual void sample(const Vec2& raster, PixelSampler& sampler, SampleSink& sink,
                       RayCounts& rays) = 0;
+  void sample_cell(const Vec2i& cell, const CellStreams& streams, SampleSink& sink,
+                   RayCounts& rays) {
+    PixelSampler numbers = streams.sampler(cell.x, cell.y);
+    const Vec2 raster = Vec2(cell) + numbers.next2();
+    sample(raster, numbers, sink, rays);
+  }
   /// After the last sample.
   virtual void finish(SampleSink& /*sink*/, RayCounts& /*rays*/) {}
   /// What film its settings ask for.

@@ -14,15 +14,11 @@ class WaveTaker : public SampleTaker {
 
   void sample_cells(const PixelRect& cells, const CellStreams& streams, SampleSink& sink,
                     RayCounts& rays) override {
-    // A packet of rays has 4 x 2 cells.
-    for (int y0 = cells.y0; y0 < cells.y1; y0 += 2)
-      for (int x0 = cells.x0; x0 < cells.x1; x0 += 4)
-        for (int y = y0; y < std::min(y0 + 2, cells.y1); ++y)
-          for (int x = x0; x < std::min(x0 + 4, cells.x1); ++x) {
-            wave_.numbers().add(streams.stream(x, y), streams.index);
-            rasters_.emplace_back(x, y);
-            if (rasters_.size() == Wavefront::capacity) trace_wave(sink, rays);
-          }
+    for_each_packet_cell(cells, [&](const Vec2i& cell) {
+      wave_.numbers().add(streams.stream(cell.x, cell.y), streams.index);
+      rasters_.emplace_back(cell);
+      if (rasters_.size() == Wavefront::capacity) trace_wave(sink, rays);
+    });
     trace_wave(sink, rays);
   }
 

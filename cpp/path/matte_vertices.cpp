@@ -9,11 +9,6 @@ namespace {
 constexpr auto pi_f = static_cast<float>(pi);
 constexpr auto ray_offset = static_cast<float>(Scene::ray_offset);
 
-/// Where a ray along w begins: off its surface.
-Vec3f departure(const Vec3f& p, const Vec3f& ng, const Vec3f& w, float extent) {
-  return p + ng * std::copysign(ray_offset * extent, dot(ng, w));
-}
-
 /// sample_cosine_hemisphere without branches.
 Vec3f cosine_hemisphere(float u_x, float u_y) {
   const float a = 2 * u_x - 1, b = 2 * u_y - 1;

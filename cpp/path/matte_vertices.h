@@ -17,6 +17,12 @@ inline bool consistent_sides(const Vec3f& ng, const Vec3f& n, const Vec3f& w, bo
   return !strict | (dot(ng, w) * dot(n, w) > 0);
 }
 
+/// Where a ray along w begins: off its surface.
+inline Vec3f departure(const Vec3f& p, const Vec3f& ng, const Vec3f& w, float extent) {
+  constexpr auto offset = static_cast<float>(Scene::ray_offset);
+  return p + ng * std::copysign(offset * extent, dot(ng, w));
+}
+
 /// Points on triangles.
 struct TriangleBlock {
   VectorBlock p0, p1, p2, ng;

@@ -37,6 +37,20 @@ class PixelSampler {
   struct Position {
     uint32_t pairs = 0;  ///< Of the stratified ones, that have been taken;
     uint32_t words = 0;  ///< of the independent numbers.
+    uint32_t last_pair = stratified_pairs;
+
+    /// Where the numbers of a stream begin, whatever the others have taken: those of the camera after
+    /// the image position, those of the light with its position and direction, and direct light
+    /// with the lens and the vertex after it.
+    Position begin(Stream stream) const {
+      constexpr uint32_t words_of_stream = 1 << 20;  // A walk has most_edges() vertices at most.
+      switch (stream) {
+        case Stream::camera: break;
+        case Stream::light: return {4, words_of_stream, 6};
+        case Stream::direct: return {6, 2 * words_of_stream, 8};
+      }
+      return {pairs, words, 4};
+    }
   };
 
   /// `stream` names the sequence (seed, group and pixel), `index` the sample in it.
@@ -51,10 +65,10 @@ class PixelSampler {
     scrambled_sobol<lanes>(indices, seeds, x_, y_);
   }
 
-  void begin(Stream) {}
+  void begin(Stream stream) { at_ = at_.begin(stream); }
   double next() { return unit_interval(nth_bits(key_, at_.words++)); }
   Vec2 next2() {
-    if (at_.pairs < stratified_pairs) {
+    if (at_.pairs < at_.last_pair) {
       const uint32_t i = at_.pairs++;
       return {x_[i], y_[i]};
     }
@@ -71,7 +85,7 @@ class PixelSampler {
   }
 
  private:
-  static constexpr uint32_t lanes = 8;  ///< Enough for the stratified pairs, and whole vectors.
+  static constexpr uint32_t lanes = 8;  ///< Enough for the stratified pairs of all streams.
 
   uint64_t stream_, key_;
   uint32_t index_;

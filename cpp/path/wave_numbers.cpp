@@ -11,7 +11,7 @@ void WaveNumbers::next(int begin, int count, double* x) {
 }
 
 void WaveNumbers::next2(int begin, int count, double* x, double* y) {
-  if (at_.pairs == PixelSampler::stratified_pairs) {
+  if (at_.pairs == at_.last_pair) {
     next(begin, count, x);
     next(begin, count, y);
     return;
@@ -26,7 +26,7 @@ void WaveNumbers::next2(int begin, int count, double* x, double* y) {
 }
 
 void WaveNumbers::skip2() {
-  if (at_.pairs == PixelSampler::stratified_pairs)
+  if (at_.pairs == at_.last_pair)
     at_.words += 2;
   else
     ++at_.pairs;

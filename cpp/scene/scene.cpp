@@ -97,7 +97,7 @@ Scene::Scene(std::vector<ShapePtr> shapes, std::vector<EmitterPtr> emitters, Cam
   }
   emitter_choice_ = choose_by_power(emitters_);
   for (size_t i = 0; i < emitters_.size(); ++i)
-    mesh_lights_.push_back(mesh_light(*emitters_[i], emitter_choice_.pdf(i)));
+    mesh_lights_.push_back(mlt::mesh_light(*emitters_[i], emitter_choice_.pdf(i)));
   accel_ = known && known->serves(shapes_, camera_->shutter())
                ? known
                : std::make_shared<const Accel>(shapes_, camera_->shutter());

@@ -84,6 +84,8 @@ class Scene {
   double emitter_probability(uint32_t index) const { return emitter_choice_.pdf(index); }
   /// The shape at this place in shapes(), if it is a matte mesh.
   const MatteMesh& matte_mesh(uint32_t shape) const { return matte_meshes_[shape]; }
+  /// The light at this place in emitters(), if it is a glowing mesh.
+  const MeshLight& mesh_light(uint32_t index) const { return mesh_lights_[index]; }
   /// The light that choose_emitter(u) chooses, if it is a glowing mesh.
   const MeshLight& choose_mesh_light(double u) const {
     return mesh_lights_[mesh_lights_.size() > 1 ? emitter_choice_.sample(u) : 0];

@@ -17,7 +17,7 @@ SIZE = 32
 # For each case: its arguments, samples per pixel of the two renders, and instructions per sample.
 CASES = {
     "path": ([], (2, 10), 5797),
-    "bdpt": ([], (1, 3), 38215),
+    "bdpt": ([], (1, 3), 24748),
     "mlt": (
         ["chains=128", "independent_share=0", "luminance_samples=1000", "adaptive=false"],
         (4, 12),
