@@ -81,6 +81,7 @@ void SubpathWave::find_hits(bool coherent, RayCounts& rays) {
 void SubpathWave::shade(int place, bool last) {
   if (!last) numbers_.next2(begin_, count_, &matte_.u_x[0], &matte_.u_y[0]);
   for (int i = 0; i < count_; ++i) find_vertex(i);
+  matte_.find_textures();
   matte_.find_points(count_, &d_.x[begin_], &d_.y[begin_], &d_.z[begin_], rules_.strict_normals);
   if (!last) matte_.sample_directions(count_, rules_.strict_normals);
   arrive(place);
