@@ -7,7 +7,7 @@
 #include "base/bytes.h"
 #include "base/error.h"
 #include "path/samplers.h"
-#include "primary/small_step.h"
+#include "primary/number_rows.h"
 
 #include <algorithm>
 #include <vector>
@@ -24,16 +24,12 @@ class WalkNumbers {
     values_[size_++] = value;
   }
 
-  /// Draws `count` numbers from `first` on, by the random numbers of `key`: afresh, or near those of
-  /// `from`, which has all of them or none.
-  void draw(size_t first, size_t count, uint64_t key, const WalkNumbers* from,
-            const SmallStep& step) {
+  /// The row of them that begins there, if they go on so far; it may have more than there are.
+  const double* row(size_t first) const { return first < size_ ? &values_[first] : nullptr; }
+  /// Ends with `count` numbers from `first` on, the first ones of this row.
+  void end_with(const double* row, size_t first, size_t count) {
     make_room(size_ = first + count);
-    double* y = &values_[first];
-    if (!from || first >= from->size_)
-      for (size_t i = 0; i < row; ++i) y[i] = unit_interval(nth_bits(key, first + i));
-    else
-      move(&from->values_[first], first, key, step, y);
+    std::memcpy(&values_[first], row, NumberRows::row * sizeof(double));
   }
 
   void save(ByteWriter& bytes) const {
@@ -49,22 +45,10 @@ class WalkNumbers {
   }
 
  private:
-  static void move(const double* x, size_t first, uint64_t key, const SmallStep& step, double* y) {
-    if (step.shape == SmallStep::Shape::gaussian) {
-      for (size_t i = 0; i < row; ++i)
-        y[i] = step.gaussian(x[i], 1, unit_interval(nth_bits(key, 2 * (first + i))),
-                             unit_interval(nth_bits(key, 2 * (first + i) + 1)));
-      return;
-    }
-    for (size_t i = 0; i < row; ++i)
-      y[i] = step.kelemen(x[i], unit_interval(nth_bits(key, first + i)));
-  }
   void make_room(size_t count) {
-    if (values_.size() < count + row) values_.resize(std::max(count + row, 2 * values_.size()));
+    const size_t wanted = count + NumberRows::row;
+    if (values_.size() < wanted) values_.resize(std::max(wanted, 2 * values_.size()));
   }
-
-  /// So many are drawn at once, in whole vectors; what is more than was asked for is overwritten.
-  static constexpr size_t row = 8;
 
   std::vector<double> values_;  ///< And room for another row.
   size_t size_ = 0;

@@ -7,18 +7,31 @@ WalkWave::WalkWave(const Scene& scene, const PathRules& rules, const SmallStep& 
   wave_.numbers().set_source(*this);
 }
 
-void WalkWave::draw(const int* paths, int count, size_t first, const double** numbers) {
+template <class Get>
+void WalkWave::draw(int count, size_t first, size_t numbers, Get&& get) {
+  Block<int> row;
+  rows_.begin(first);
   for (int i = 0; i < count; ++i) {
-    const Proposal& proposal = proposals_[paths[i]];
-    draw(proposal, first, DrawnNumbers::of_vertex);
-    numbers[i] = proposal.y->numbers.data();
+    const Proposal& proposal = get(i);
+    row[i] = rows_.add(proposal.key, proposal.from ? proposal.from->row(first) : nullptr);
   }
+  rows_.draw(small_step_);
+  for (int i = 0; i < count; ++i) get(i).y->numbers.end_with(rows_[row[i]], first, numbers);
+}
+
+void WalkWave::draw(const int* paths, int count, size_t first, const double** numbers) {
+  const auto get = [&](int i) -> const Proposal& { return proposals_[paths[i]]; };
+  draw(count, first, DrawnNumbers::of_vertex, get);
+  for (int i = 0; i < count; ++i) numbers[i] = get(i).y->numbers.data();
 }
 
 void WalkWave::leave_camera() {
+  const int all = static_cast<int>(proposals_.size());
+  for (int begin = 0; begin < all; begin += block_size)
+    draw(std::min(block_size, all - begin), 0, of_camera,
+         [&](int i) -> const Proposal& { return proposals_[begin + i]; });
   rasters_.clear();
   for (const Proposal& proposal : proposals_) {
-    draw(proposal, 0, of_camera);
     const double* u = proposal.y->numbers.data();
     rasters_.push_back(camera_->raster().sample({u[0], u[1]}));
     wave_.numbers().add();

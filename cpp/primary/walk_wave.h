@@ -39,14 +39,15 @@ class WalkWave : private DrawnNumbers::Source {
 
   void leave_camera();
   void draw(const int* paths, int count, size_t first, const double** numbers) override;
-  void draw(const Proposal& proposal, size_t first, size_t count) {
-    proposal.y->numbers.draw(first, count, proposal.key, proposal.from, small_step_);
-  }
+  /// So many numbers of the proposals get(0), ..., get(count - 1).
+  template <class Get>
+  void draw(int count, size_t first, size_t numbers, Get&& get);
 
   const Camera* camera_;
   SmallStep small_step_;
   BasicWavefront<DrawnNumbers> wave_;
   std::vector<Proposal> proposals_;
+  NumberRows rows_;
   std::vector<Vec2> rasters_;
 };
 
