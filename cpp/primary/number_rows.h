@@ -29,6 +29,7 @@ class NumberRows {
     }
     return i;
   }
+  int size() const { return moving_ + capacity - fresh_; }
   void draw(const SmallStep& step);
   /// What has come of it.
   const double* operator[](int i) const { return &u_[row * i]; }
