@@ -9,12 +9,13 @@
 
 namespace mlt {
 
+template <class Real>
 class FilterRows {
  public:
   static constexpr int most_pixels = 8;
   struct Weights {
-    int first;                          ///< Pixel.
-    std::array<float, most_pixels> at;  ///< Of it and those that follow; 0 where there is none.
+    int first;                         ///< Pixel.
+    std::array<Real, most_pixels> at;  ///< Of it and those that follow; 0 where there is none.
   };
 
   explicit FilterRows(const Filter& filter) : radius_(filter.radius()) {
@@ -27,7 +28,7 @@ class FilterRows {
     rows_.resize(phases + 1);
     for (int j = 0; j <= phases; ++j)
       for (int k = 0; k < pixels_; ++k)
-        rows_[j][k] = static_cast<float>(filter.knot(std::abs(j + phases * (k - 0.5 * pixels_))));
+        rows_[j][k] = static_cast<Real>(filter.knot(std::abs(j + phases * (k - 0.5 * pixels_))));
   }
 
   /// How many pixels of a row the filter covers; 0: it is none of those that have such a table.
@@ -38,10 +39,10 @@ class FilterRows {
     const double low = at - radius_ - 0.5, floor = std::floor(low);
     const double t = (1 - (low - floor)) * phases_;
     const int j = std::min(static_cast<int>(t), phases_ - 1);
-    const auto share = static_cast<float>(t - j);
+    const auto share = static_cast<Real>(t - j);
     Weights weights;
     weights.first = static_cast<int>(floor) + 1;
-    const float *a = rows_[j].data(), *b = rows_[j + 1].data();
+    const Real *a = rows_[j].data(), *b = rows_[j + 1].data();
     for (int k = 0; k < most_pixels; ++k) weights.at[k] = a[k] + share * (b[k] - a[k]);
     return weights;
   }
@@ -49,7 +50,7 @@ class FilterRows {
  private:
   double radius_;
   int pixels_ = 0, phases_ = 0;
-  std::vector<std::array<float, most_pixels>> rows_;  ///< Zeros behind the pixels.
+  std::vector<std::array<Real, most_pixels>> rows_;  ///< Zeros behind the pixels.
 };
 
 }  // namespace mlt

@@ -52,7 +52,7 @@ SampleFilm::SampleFilm(int width, int height, std::shared_ptr<const Filter> filt
 }
 
 SampleFilm::Tile::Tile(const PixelRect& cells, const PixelRect& reach, const Filter& filter,
-                       const FilterRows& rows)
+                       const FilterRows<float>& rows)
     : cells_(cells),
       reach_(reach),
       filter_(&filter),
@@ -72,12 +72,13 @@ void SampleFilm::Tile::add(const Vec2& raster, const Color& color) {
 /// In single precision, as the sums are; false if not all pixels that the filter covers are there.
 bool SampleFilm::Tile::add_whole(const Vec2& raster, const Color& color) {
   const int n = rows_->pixels();
-  const FilterRows::Weights across = rows_->weights(raster.x), down = rows_->weights(raster.y);
+  const FilterRows<float>::Weights across = rows_->weights(raster.x),
+                                   down = rows_->weights(raster.y);
   const int x = across.first, y = down.first;
   if (x < reach_.x0 || y < reach_.y0 || x + n > reach_.x1 || y + n > reach_.y1) return false;
-  float row[3 * FilterRows::most_pixels];
+  float row[3 * FilterRows<float>::most_pixels];
   const Vec3f value(color);
-  for (int i = 0; i < FilterRows::most_pixels; ++i)
+  for (int i = 0; i < FilterRows<float>::most_pixels; ++i)
     for (int c = 0; c < 3; ++c) row[3 * i + c] = value[c] * across.at[i];
   float* to = pixel(rgb_, reach_, x, y);
   const int vectors = whole_vectors(3 * n) / 8;

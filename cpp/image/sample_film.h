@@ -38,7 +38,7 @@ class SampleFilm {
   class Tile {
    public:
     Tile(const PixelRect& cells, const PixelRect& reach, const Filter& filter,
-         const FilterRows& rows);
+         const FilterRows<float>& rows);
     /// The cells to be sampled; those of border tiles may lie outside the image.
     const PixelRect& cells() const { return cells_; }
     void add(const Vec2& raster, const Color& color);
@@ -56,7 +56,7 @@ class SampleFilm {
 
     PixelRect cells_, reach_;
     const Filter* filter_;
-    const FilterRows* rows_;
+    const FilterRows<float>* rows_;
     std::vector<float> rgb_;
     std::vector<Splat> splats_;
     SampleSums sums_;
@@ -139,7 +139,7 @@ class SampleFilm {
   int width_, height_, border_, tiles_x_, tiles_y_;
   bool splats_;
   std::shared_ptr<const Filter> filter_;
-  FilterRows rows_;
+  FilterRows<float> rows_;
   std::vector<double>
       cell_weight_;  ///< Expected weight of a uniform sample in a cell at distance d.
   std::vector<std::unique_ptr<Group>> groups_;

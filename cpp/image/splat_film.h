@@ -2,6 +2,7 @@
 // sums do not depend on their order, and the image has the same bits for any number of threads.
 #pragma once
 
+#include "image/filter_rows.h"
 #include "image/image.h"
 #include "image/splat.h"
 #include "math/color.h"
@@ -20,11 +21,14 @@ class SplatFilm {
 
   /// Adds `color` times the filter at a raster position. Thread-safe.
   void add(int group, const Vec2& raster, const Color& color);
-  /// Says that something will be added there soon, so that memory has time.
-  void prefetch(int group, const Vec2& raster) const {
-    const int x = static_cast<int>(raster.x), y = static_cast<int>(raster.y);
-    if (x >= 0 && x < width_ && y >= 0 && y < height_)
-      __builtin_prefetch(&cells_[group_size() * group + 3 * (size_t(y) * width_ + x)], 1);
+  /// To so many rows something is added,
+  int splat_rows() const { return std::max(1, rows_.pixels()); }
+  /// and where the i-th of them is in memory, for prefetching; nullptr outside of the image.
+  const void* splat_row(int group, const Vec2& raster, int i) const {
+    const double before = 0.5 * (splat_rows() - 1);
+    const int x = static_cast<int>(raster.x - before), y = static_cast<int>(raster.y - before) + i;
+    if (x < 0 || x >= width_ || y < 0 || y >= height_) return nullptr;
+    return row(group, y) + 3 * x;
   }
 
   int group_count() const { return groups_; }
@@ -44,17 +48,27 @@ class SplatFilm {
     void operator()(int64_t* cells) const { std::free(cells); }
   };
   using Lock = std::atomic<bool>;
+  /// How many rows share a lock.
+  static constexpr int band_rows = 8;
 
   size_t group_size() const { return size_t{3} * width_ * height_; }
-  /// Calls use(cells) with a row of a group, which nobody else touches meanwhile.
+  size_t bands() const { return (height_ + band_rows - 1) / band_rows; }
+  int64_t* row(int group, int y) const {
+    return &cells_[3 * (size_t(group) * height_ + y) * width_];
+  }
+  /// Calls use() while nobody else touches the rows of the band that y is in.
   template <class Use>
-  void with_row(int group, int y, Use&& use) const;
+  void with_band(int group, int y, Use&& use) const;
+  /// Adds it, in steps of fixed point; false if not all pixels that the filter covers are there, or
+  /// it is none of those in a table.
+  bool add_whole(int group, const Vec2& raster, const Color& steps);
 
   int width_, height_, groups_;
   std::shared_ptr<const Filter> filter_;
+  FilterRows<double> rows_;
   /// [group][pixel][channel]; takes memory only where something has been added.
   std::unique_ptr<int64_t[], Free> cells_;
-  std::unique_ptr<Lock[]> locks_;  ///< [group][row]
+  std::unique_ptr<Lock[]> locks_;  ///< [group][band]
   std::atomic<uint64_t> saturated_{0};
 };
 

@@ -36,7 +36,8 @@ class FilmRecorder : public ChainRecorder {
       : film_(&film), group_(group), weights_(&weights) {}
   void record(const Vec2& raster, const Color& rgb_per_target, double weight,
               double target_over_density) override {
-    film_->prefetch(group_, raster);
+    for (int i = 0; i < film_->splat_rows(); ++i)
+      __builtin_prefetch(film_->splat_row(group_, raster, i), 1);
     flush();
     raster_ = raster;
     color_ = rgb_per_target * (weight * weights_->of_chain(target_over_density));

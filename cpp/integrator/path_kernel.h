@@ -14,7 +14,8 @@ class PathKernel : public PathMixture {
       : PathMixture(mixture), target_(&target) {}
 
   void record(ChainRecorder& recorder, const PathState& x, double weight) const {
-    recorder.record(x.raster, x.rgb / x.target, weight, target_->over_density(x));
+    const double over_density = x.known.over_density.get([&] { return target_->over_density(x); });
+    recorder.record(x.raster, x.rgb / x.target, weight, over_density);
   }
   double proposal_weight() const { return 0; }
   Vec2 raster_of(const PathState& x) const { return x.raster; }

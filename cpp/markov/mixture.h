@@ -132,15 +132,16 @@ class Mixture {
     MoveChoice* kept = Move::kept_choice(x);
     if (kept && kept->known && kept->weights == weights_) return *kept;
     MoveChoice& choice = kept ? *kept : scratch_;
-    const std::vector<double>& weights = (*weights_)[Move::row(x)];
     choice.known = true;
     if (choice.weights != weights_) choice.weights = weights_;
-    choice.sum = 0;
     choice.shares.resize(moves_.size());
-    for (size_t i = 0; i < moves_.size(); ++i) {
-      choice.shares[i] = weights[i] > 0 ? weights[i] * moves_[i]->suitability(x) : 0.0;
-      choice.sum += choice.shares[i];
+    const double* weights = (*weights_)[Move::row(x)].data();
+    double *shares = choice.shares.data(), sum = 0;
+    for (const auto& move : moves_) {
+      const double weight = *weights++;
+      sum += * shares++ = weight > 0 ? weight * move->suitability(x) : 0.0;
     }
+    choice.sum = sum;
     return choice;
   }
 

@@ -40,6 +40,7 @@ inline double safe_sqrt(double x) { return std::sqrt(std::max(0.0, x)); }
 inline double length_squared(const Vec3& v) { return dot(v, v); }
 inline double max_component(const Vec3& v) { return std::max(v.x, std::max(v.y, v.z)); }
 inline double min_component(const Vec3& v) { return std::min(v.x, std::min(v.y, v.z)); }
+inline bool is_finite(const Vec2& v) { return std::isfinite(v.x) && std::isfinite(v.y); }
 inline bool is_finite(const Vec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }

@@ -34,13 +34,15 @@ bool deletable(const PathState& x, int l, int m) {
 /// and then 1/8, 1/16, ..., cut off at the k + 2 edges that a path of k edges has with its two open
 /// ends.
 struct GapLength {
-  static double probability(int edges, int k) {
-    const double weight = edges == 1 ? 0.25 : edges == 2 ? 0.5 : power_of_half(edges);
-    return weight / (1 - power_of_half(k + 2));
+  static double weight(int edges) {
+    return edges == 1 ? 0.25 : edges == 2 ? 0.5 : power_of_half(edges);
   }
+  static double total(int k) { return 1 - power_of_half(k + 2); }
+  static double probability(int edges, int k) { return weight(edges) / total(k); }
   static int sample(double u, int k) {
+    u *= total(k);
     int edges = 1;
-    while (edges < k + 2 && (u -= probability(edges, k)) >= 0) ++edges;
+    while (edges < k + 2 && (u -= weight(edges)) >= 0) ++edges;
     return edges;
   }
 };

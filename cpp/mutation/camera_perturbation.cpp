@@ -30,6 +30,14 @@ bool same_light_at_infinity(const PathState& x, const PathState& y) {
          (!x[0].at.infinite() || x[0].emitter == y[0].emitter);
 }
 
+CameraChains camera_chains(const PathState& x) {
+  CameraChains chains;
+  int i = ChainPerturbation::chain_end(x, x.edges(), -1);
+  for (; i > 1 && x.specular(i - 1); i = ChainPerturbation::chain_end(x, i, -1)) ++chains.further;
+  if (i > 0 || x.terms.light_can_be_hit) chains.stop = i;
+  return chains;
+}
+
 class CameraPerturbation final : public MeasuredMutation<CameraPerturbation> {
  public:
   enum class Chains { one, many };
@@ -41,13 +49,13 @@ class CameraPerturbation final : public MeasuredMutation<CameraPerturbation> {
         image_(target.scene(), chain_) {}
 
   double suitability(const PathState& x) const override {
-    const Form f = form(x);
-    return f.stop >= 0 && (f.further_chains > 0) == (chains_ == Chains::many) ? 1 : 0;
+    const CameraChains& found = chains(x);
+    return found.stop >= 0 && (found.further > 0) == (chains_ == Chains::many) ? 1 : 0;
   }
 
   std::optional<Edit> propose(const PathState& x, PathState& y,
                               MutationContext& context) const override {
-    const int k = x.edges(), stop = form(x).stop;
+    const int k = x.edges(), stop = chains(x).stop;
     const Edit edit{stop, k, k - stop + 1};
     splice(x, edit, y);
     const auto ray = image_.move(x, y, context.rng);
@@ -60,29 +68,17 @@ class CameraPerturbation final : public MeasuredMutation<CameraPerturbation> {
   template <class Measure>
   double density_in(const Measure& in, const PathState& x, const PathState& y,
                     const Edit& edit) const {
-    const Form from = form(x), to = form(y);
-    if (from.stop != to.stop || from.further_chains != to.further_chains || from.stop != edit.first)
-      return 0;
-    if (from.stop == 0 && !same_light_at_infinity(x, y)) return 0;
-    for (int i = from.stop; i < x.edges(); ++i)
+    const int k = x.edges(), stop = chains(x).stop;
+    if (!(chains(x) == chains(y)) || stop != edit.first) return 0;
+    if (stop == 0 && !same_light_at_infinity(x, y)) return 0;
+    for (int i = stop; i < k; ++i)
       if (x.specular(i) != y.specular(i)) return 0;
-    return chain_.density(in, x, y, {x.edges(), from.stop, -1}, image_.density(x, y));
+    return chain_.density(in, x, y, {k, stop, -1}, image_.density(x, y));
   }
 
  private:
-  struct Form {
-    /// The diffuse vertex that is joined to the rest; 0: a light that is hit; -1: neither.
-    int stop = -1;
-    int further_chains = 0;
-  };
-
-  Form form(const PathState& x) const {
-    Form form;
-    int i = ChainPerturbation::chain_end(x, x.edges(), -1);
-    for (; i > 1 && x.specular(i - 1); i = ChainPerturbation::chain_end(x, i, -1))
-      ++form.further_chains;
-    if (i > 0 || x.terms.light_can_be_hit) form.stop = i;
-    return form;
+  static const CameraChains& chains(const PathState& x) {
+    return x.known.camera_chains.get([&] { return camera_chains(x); });
   }
 
   Chains chains_;

@@ -74,7 +74,8 @@ class CausticPerturbation final : public MeasuredMutation<CausticPerturbation> {
 
   std::optional<ImageFootprint> footprint(const PathState& x, int a) const {
     if (!anisotropic_) return std::nullopt;
-    return ImageFootprint::of(scene(), x, a, chain_.pixel_angle(x));
+    return x.known.footprint.get(
+        [&] { return ImageFootprint::of(scene(), x, a, chain_.pixel_angle(x)); });
   }
   Vec3 perturbed(const PathState& x, int a, Rng& rng) const {
     if (const auto ellipse = footprint(x, a)) return ellipse->perturb(chain_.image_radius(), rng);

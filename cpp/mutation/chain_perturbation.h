@@ -9,6 +9,7 @@
 #pragma once
 
 #include "base/params.h"
+#include "mutation/exponential_radius.h"
 #include "mutation/mutation.h"
 #include "path/measure.h"
 
@@ -22,35 +23,6 @@ struct StepSizes {
 /// The same as parameters of a perturbation.
 std::vector<Parameter> step_size_parameters();
 StepSizes step_sizes(Params& params);
-
-/// A distance distributed with density proportional to 1 / R between two radii (Veach 1997, sec.
-/// 11.3.3.1): R = R_2 exp(-ln(R_2 / R_1) u).
-struct ExponentialRadius {
-  double smallest = 0, largest = 0;
-  double log_ratio = 0;  ///< ln(R_2 / R_1)
-
-  ExponentialRadius() = default;
-  ExponentialRadius(double smallest, double largest)
-      : smallest(smallest), largest(largest), log_ratio(std::log(largest / smallest)) {}
-
-  double sample(double u) const { return largest * std::exp(-log_ratio * u); }
-  /// Density of an offset of length r in the plane.
-  double planar_pdf(double r) const {
-    if (!(r > smallest && r < largest)) return 0;
-    return 1 / (2 * pi * r * r * log_ratio);
-  }
-  /// Density in solid angle of a direction at angle r from another.
-  double angular_pdf(double r) const {
-    if (!(r > smallest && r < largest)) return 0;
-    return 1 / (2 * pi * r * std::sin(r) * log_ratio);
-  }
-  ExponentialRadius operator*(double s) const {
-    ExponentialRadius scaled = *this;
-    scaled.smallest *= s;
-    scaled.largest *= s;
-    return scaled;
-  }
-};
 
 /// Of two unit vectors; exact for small angles too.
 inline double angle_between(const Vec3& a, const Vec3& b) {

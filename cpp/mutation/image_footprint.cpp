@@ -1,5 +1,6 @@
 #include "mutation/image_footprint.h"
 
+#include "mutation/path_state.h"
 #include "mutation/specular_chain.h"
 
 namespace mlt {
@@ -21,10 +22,11 @@ bool has_constraints(const Scene& scene, const PathState& x, int first, int end)
   return end - first <= SpecularChain::most_vertices;
 }
 
-double stretch(const Vec2& a, const Vec2& b) {
-  const double aa = glm::dot(a, a), bb = glm::dot(b, b), ab = glm::dot(a, b);
-  const double mean = (aa + bb) / 2, half = std::sqrt(sqr((aa - bb) / 2) + sqr(ab));
-  return std::sqrt((mean + half) / (mean - half));
+/// Whether the ellipse a cos t + b sin t is not too far from round: for its axes p and q,
+/// p / q + q / p = (|a|^2 + |b|^2) / |det(a, b)|.
+bool nearly_round(const Vec2& a, const Vec2& b) {
+  return glm::dot(a, a) + glm::dot(b, b) <
+         (most_anisotropy + 1 / most_anisotropy) * std::abs(a.x * b.y - a.y * b.x);
 }
 
 }  // namespace
@@ -43,7 +45,7 @@ std::optional<ImageFootprint> ImageFootprint::of(const Scene& scene, const PathS
     return Vec2(dot(around.s, first), dot(around.t, first)) / x.terms[a].distance;
   };
   const Vec2 s = turn(view.s), t = turn(view.t);
-  if (!(stretch(s, t) < most_anisotropy)) return std::nullopt;
+  if (!nearly_round(s, t)) return std::nullopt;
   return ImageFootprint(around, {s, t});
 }
 

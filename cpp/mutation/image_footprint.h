@@ -7,11 +7,18 @@
 // The path alone says what it is, so that a step can be judged from either side.
 #pragma once
 
-#include "mutation/chain_perturbation.h"
+#include "base/rng.h"
+#include "math/frame.h"
+#include "mutation/exponential_radius.h"
 
 #include <glm/mat2x2.hpp>
 
+#include <optional>
+
 namespace mlt {
+
+class Scene;
+struct PathState;
 
 class ImageFootprint {
  public:
@@ -25,13 +32,15 @@ class ImageFootprint {
   /// Density of a direction, in solid angle.
   double pdf(const Vec3& w, const ExponentialRadius& pixels) const;
 
+  ImageFootprint() = default;
+
  private:
   ImageFootprint(const Frame& around, const glm::dmat2& turn)
       : around_(around), turn_(turn), pixels_(glm::inverse(turn)) {}
 
-  Frame around_;       ///< The direction of x.
-  glm::dmat2 turn_;    ///< Tangent of the turn by pixels,
-  glm::dmat2 pixels_;  ///< and the other way round.
+  Frame around_{};       ///< The direction of x.
+  glm::dmat2 turn_{};    ///< Tangent of the turn by pixels,
+  glm::dmat2 pixels_{};  ///< and the other way round.
 };
 
 }  // namespace mlt

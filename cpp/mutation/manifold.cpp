@@ -109,9 +109,11 @@ class ManifoldPerturbation final : public MeasuredMutation<ManifoldPerturbation>
   }
 
   int count_triples(const PathState& x) const {
-    int count = 0;
-    for_each_triple(x, [&](const Triple&) { ++count; });
-    return count;
+    return x.known.triples.get([&] {
+      int count = 0;
+      for_each_triple(x, [&](const Triple&) { ++count; });
+      return count;
+    });
   }
   Triple triple(const PathState& x, int number) const {
     Triple found{-1, -1, -1};

@@ -4,19 +4,20 @@ namespace mlt {
 namespace {
 
 template <class T>
-void splice(const std::vector<T>& x, const Edit& edit, std::vector<T>& y) {
-  y.resize(x.size() + edit.shift());
-  std::copy(x.begin(), x.begin() + std::min<size_t>(edit.first, x.size()), y.begin());
-  std::copy(x.begin() + std::min<size_t>(edit.last + 1, x.size()), x.end(),
-            y.begin() + std::min<size_t>(edit.first + edit.inserted, y.size()));
+void splice(const std::vector<T>& x, int count, const Edit& edit, std::vector<T>& y) {
+  y.resize(count + edit.shift());
+  const int after = edit.last + 1;
+  std::copy_n(x.data(), std::min(edit.first, count), y.data());
+  if (after < count) std::copy_n(x.data() + after, count - after, y.data() + after + edit.shift());
 }
 
 }  // namespace
 
 void splice(const PathState& x, const Edit& edit, PathState& y) {
-  splice(x.path.vertices, edit, y.path.vertices);
+  const int count = x.edges() + 1;
+  splice(x.path.vertices, count, edit, y.path.vertices);
   y.path.time = x.path.time;
-  splice(x.terms.at, edit, y.terms.at);
+  splice(x.terms.at, count, edit, y.terms.at);
   y.terms.direct = x.terms.direct;
   y.terms.raster = x.terms.raster;
   y.terms.light_can_be_hit = x.terms.light_can_be_hit;

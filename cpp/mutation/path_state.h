@@ -1,7 +1,9 @@
 // The state of Metropolis light transport: a light path with its terms and its target L*.
 #pragma once
 
+#include "base/kept.h"
 #include "markov/mixture.h"
+#include "mutation/image_footprint.h"
 #include "path/measure.h"
 
 #include <vector>
@@ -18,12 +20,39 @@ struct Edit {
   Edit reversed() const { return {first, first + inserted - 1, deleted()}; }
 };
 
+/// The specular chains that the lens is at the end of: where a perturbation of the image position leads.
+struct CameraChains {
+  /// The diffuse vertex that is joined to the rest; 0: a light that is hit; -1: neither.
+  int stop = -1;
+  int further = 0;  ///< Chains behind the first diffuse vertex.
+
+  bool operator==(const CameraChains& other) const {
+    return stop == other.stop && further == other.further;
+  }
+};
+
 struct PathState {
   Path path;
   PathTerms terms;
   Vec2 raster{0};
-  Color rgb{0};               ///< f(x) / |f(x)|, see relative_contribution.
-  double target = 0;          ///< L*(x) / |f(x)|, times the factor of two-stage sampling.
+  Color rgb{0};       ///< f(x) / |f(x)|, see relative_contribution.
+  double target = 0;  ///< L*(x) / |f(x)|, times the factor of two-stage sampling.
+
+  /// Functions of the path that are kept by those who ask for them.
+  struct Known {
+    Kept<double> over_density;                      ///< PathTarget::over_density.
+    Kept<std::optional<ImageFootprint>> footprint;  ///< Of the caustic perturbation.
+    Kept<CameraChains> camera_chains;
+    Kept<int> triples;  ///< That the manifold perturbation may move.
+
+    void forget() {
+      over_density.forget();
+      footprint.forget();
+      camera_chains.forget();
+      triples.forget();
+    }
+  };
+  mutable Known known;
   mutable MoveChoice choice;  ///< Kept by the mixture that moves the path.
 
   /// L*(x), times that factor. May overflow or underflow; chains do without it.

@@ -22,6 +22,7 @@ void PathTarget::evaluate(PathState& x) const {
 void PathTarget::evaluate_target(PathState& x) const {
   x.target = 0;
   x.choice.known = false;
+  x.known.forget();
   if (!rules_.wants(x.edges())) return;
   if (x.edges() == 1 && !(x.terms.light_can_be_hit || x.terms.camera_can_be_hit)) return;
   x.rgb = relative_contribution(x.terms);

@@ -8,6 +8,8 @@
 #include "scene/mesh.h"
 #include "scene/scene.h"
 
+#include <array>
+
 namespace mlt {
 
 /// consistent_sides of vertex.h, in single precision and without branches.
@@ -61,15 +63,23 @@ struct MatteVertices {
     const TriangleRecord& record = mesh.record(triangle);
     surface.set(i, record, b1, b2);
     n.set(i, mesh.has_normals() ? mesh.normal_sum(triangle, {b1, b2}) : Vec3f(record.ng));
-    if (shape.uniform) {
-      f[i] = &shape.uniform->f;
-      back[i] = shape.uniform->sides == Matte::Sides::both ? 1 : 0;
+    back[i] = shape.matte->matte.sides == Matte::Sides::both ? 1 : 0;
+    if (shape.matte->uniform()) {
+      f[i] = &shape.matte->matte.f;
       return;
     }
-    const Matte matte = mesh.bsdf().matte(mesh.textured_point(triangle, {b1, b2}));
-    textured_[i] = matte.f;
-    f[i] = &textured_[i];
-    back[i] = matte.sides == Matte::Sides::both ? 1 : 0;
+    f[i] = &textured_f_[i];
+    TexturedPoint& point = textured_[textured_count_++];
+    point = {i, shape.matte, mesh.textured_point(triangle, {b1, b2})};
+    point.matte->reflectance->prefetch(point.at);
+  }
+  /// Looks up the textures of all that were set.
+  void find_textures() {
+    for (int j = 0; j < textured_count_; ++j) {
+      const TexturedPoint& point = textured_[j];
+      textured_f_[point.path] = point.matte->at(point.at).f;
+    }
+    textured_count_ = 0;
   }
   /// It looks at the point of this light that sample_position(u) gives.
   void set_light(int i, const MeshLight& chosen, const Vec2& u) {
@@ -94,7 +104,16 @@ struct MatteVertices {
 
  private:
   VectorBlock wc_;  ///< Towards the camera.
-  Block<Color> textured_;
+
+  /// A point whose texture is still to be looked up.
+  struct TexturedPoint {
+    int path;
+    const MatteSurface* matte;
+    SurfacePoint at;
+  };
+  int textured_count_ = 0;
+  std::array<TexturedPoint, block_size> textured_;
+  Block<Color> textured_f_;
 };
 
 }  // namespace mlt

@@ -24,7 +24,7 @@ void update_terms(const Scene& scene, const Path& path, const TermSettings& sett
   for (int i = first; i <= last; ++i) {
     const Vertex& vertex = vertices[i];
     TermsAt& x = at[i];
-    if (i < last) static_cast<Edge&>(x) = edge_between(vertex.at, vertices[i + 1].at);
+    if (i < last) find_edge(vertex.at, vertices[i + 1].at, x);
     const Vec3 wc = i < k ? x.w : Vec3(0);
     x.connectable = connectable(vertex);
     x.specular = is_specular(scene, vertex, wl, wc, settings.near_specular);

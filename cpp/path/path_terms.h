@@ -27,15 +27,25 @@ struct Edge {
   double distance = 0;  ///< Infinite where one end is at infinity.
   double G = 0;         ///< G(a, b), without visibility.
 };
-inline Edge edge_between(const SurfacePoint& a, const SurfacePoint& b) {
+/// In place: a struct that is copied at once has to wait for its parts.
+inline void find_edge(const SurfacePoint& a, const SurfacePoint& b, Edge& edge) {
   if (a.infinite() || b.infinite()) {
-    const Vec3 w = direction(a, b);
-    return {w, infinity, geometry(a, b, w)};
+    edge.w = direction(a, b);
+    edge.distance = infinity;
+    edge.G = geometry(a, b, edge.w);
+    return;
   }
   const Vec3 ab = b.p - a.p;
   const double distance2 = length_squared(ab), distance = std::sqrt(distance2);
   const Vec3 w = ab * (1 / distance);
-  return {w, distance, abs_cos(a, w) * abs_cos(b, w) / distance2};
+  edge.w = w;
+  edge.distance = distance;
+  edge.G = abs_cos(a, w) * abs_cos(b, w) / distance2;
+}
+inline Edge edge_between(const SurfacePoint& a, const SurfacePoint& b) {
+  Edge edge;
+  find_edge(a, b, edge);
+  return edge;
 }
 
 /// What the path's formulas need of x_i, and of the edge that leads on from it (i < k).

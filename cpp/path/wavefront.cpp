@@ -71,6 +71,7 @@ void BasicWavefront<Numbers>::shade_block(int depth, RayCounts& rays) {
   if (!last) draw_numbers(depth);
   for (int i = 0; i < count_; ++i) find_vertex(i, depth, rays);
   if (last) return;
+  matte_.find_textures();
   matte_.find_points(count_, &d_.x[begin_], &d_.y[begin_], &d_.z[begin_], rules_.strict_normals);
   if (rules_.wants(depth + 1)) {
     choose_lights();

@@ -5,6 +5,7 @@
 #include "base/object.h"
 #include "math/frame.h"
 #include "scene/surface_point.h"
+#include "scene/texture.h"
 
 #include <optional>
 
@@ -13,6 +14,18 @@ namespace mlt {
 struct BsdfSample {
   Vec3 to;  ///< The sampled direction, local.
   Lobe lobe;
+};
+
+/// A surface that is matte everywhere.
+struct MatteSurface {
+  Matte matte;  ///< Unknown: the surface is none. Its f is that of all points, or without meaning
+  const Texture* reflectance = nullptr;  ///< if it is pi times this.
+
+  bool known() const { return matte.known(); }
+  bool uniform() const { return known() && !reflectance; }
+  Matte at(const SurfacePoint& at) const {
+    return reflectance ? Matte{reflectance->eval(at) * inv_pi, matte.sides} : matte;
+  }
 };
 
 class Bsdf : public Object {
@@ -70,16 +83,11 @@ class Bsdf : public Object {
   virtual Color albedo(const SurfacePoint& at) const = 0;
 
   /// What the functions above amount to where the surface is matte; unknown where it is not.
-  Matte matte(const SurfacePoint& at) const { return matte_.known() ? matte_ : matte_at(at); }
-  /// The same if it does not depend on the point, else nullptr.
-  const Matte* uniform_matte() const { return matte_.known() ? &matte_ : nullptr; }
-  /// Whether it is matte everywhere.
-  bool is_matte() const { return is_matte_; }
+  Matte matte(const SurfacePoint& at) const { return matte_.at(at); }
+  const MatteSurface& matte() const { return matte_; }
 
  protected:
-  virtual Matte matte_at(const SurfacePoint& /*at*/) const { return {}; }
-  bool is_matte_ = false;  ///< Set by the constructor;
-  Matte matte_;            ///< and this too, if it is the same everywhere.
+  MatteSurface matte_;  ///< Set by the constructor.
 };
 
 using BsdfPtr = std::shared_ptr<const Bsdf>;

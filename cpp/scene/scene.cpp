@@ -51,8 +51,8 @@ Discrete choose_by_power(const std::vector<EmitterPtr>& emitters) {
 
 MatteMesh matte_mesh(const Shape& shape) {
   const Mesh* mesh = shape.as_mesh();
-  if (!mesh || !mesh->bsdf().is_matte()) return {};
-  return {mesh, mesh->bsdf().uniform_matte(), shape.emitter() != nullptr};
+  if (!mesh || !mesh->bsdf().matte().known()) return {};
+  return {mesh, &mesh->bsdf().matte(), shape.emitter() != nullptr};
 }
 
 MeshLight mesh_light(const Emitter& emitter, double probability) {

@@ -31,8 +31,8 @@ struct MeshLight {
 
 /// A mesh that is matte everywhere.
 struct MatteMesh {
-  const Mesh* mesh = nullptr;      ///< nullptr: this shape is something else.
-  const Matte* uniform = nullptr;  ///< nullptr: it depends on the point.
+  const Mesh* mesh = nullptr;  ///< nullptr: this shape is something else.
+  const MatteSurface* matte = nullptr;
   bool emits = false;
 };
 

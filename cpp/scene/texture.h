@@ -10,6 +10,8 @@ namespace mlt {
 class Texture : public Object {
  public:
   virtual Color eval(const SurfacePoint& at) const = 0;
+  /// Says that eval() is about to be called there, so that memory has time.
+  virtual void prefetch(const SurfacePoint& /*at*/) const {}
   /// The mean of the channels, for textures that steer a scalar such as roughness.
   virtual double eval_scalar(const SurfacePoint& at) const;
   /// The derivatives of the luminance by u and v, for bump maps; 0 where there are only steps.

@@ -335,6 +335,8 @@ inline TestScene make_scene(const std::string& name, const SceneSettings& settin
     return done(pinhole + room(clay) + ceiling_lamp(0.7) +
                     sphere(0.35, -0.5, 0.2, 0.4, misted_glass) +
                     cube(scale(0.25) + translate(-0.5, -0.6, 0.1), veil) +
+                    rectangle(scale(0.3) + rotate("y", -60) + translate(0.1, 0.5, -0.2),
+                              "<bsdf type='twosided'>" + red + green + "</bsdf>") +
                     rectangle(scale(0.4) + rotate("y", 40) + translate(-0.1, 0, 0.3),
                               "<bsdf type='thindielectric'/>"),
                 true, false);

@@ -10,16 +10,13 @@ namespace {
 class Diffuse final : public CosineSampled {
  public:
   explicit Diffuse(Params& params) : reflectance_(texture_param(params, "reflectance")) {
-    is_matte_ = true;
-    if (reflectance_->is_constant()) matte_ = {reflectance_->mean() * inv_pi, Matte::Sides::front};
+    matte_.matte = {reflectance_->mean() * inv_pi, Matte::Sides::front};
+    if (!reflectance_->is_constant()) matte_.reflectance = reflectance_.get();
   }
 
   Color albedo(const SurfacePoint& at) const override { return reflectance_->eval(at); }
 
  private:
-  Matte matte_at(const SurfacePoint& at) const override {
-    return {reflectance_->eval(at) * inv_pi, Matte::Sides::front};
-  }
   Color value(const SurfacePoint& at, const Vec3&, const Vec3&) const override {
     return reflectance_->eval(at) * inv_pi;
   }

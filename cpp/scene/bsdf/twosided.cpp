@@ -18,7 +18,10 @@ class TwoSided final : public Bsdf {
         params.fail("cannot hold a bsdf that transmits light: it is two-sided already");
     front_ = nested.front();
     back_ = nested.back();
-    is_matte_ = front_->is_matte() && back_->is_matte();
+    if (front_ == back_ && front_->matte().known()) {
+      matte_ = front_->matte();
+      matte_.matte.sides = Matte::Sides::both;
+    }
   }
 
   Scattering scattering(const SurfacePoint& at, const Vec3& wl, const Vec3& wc,
@@ -58,12 +61,6 @@ class TwoSided final : public Bsdf {
   }
 
  private:
-  Matte matte_at(const SurfacePoint& at) const override {
-    if (front_ != back_) return {};
-    Matte matte = front_->matte(at);
-    if (matte.known()) matte.sides = Matte::Sides::both;
-    return matte;
-  }
   const Bsdf& nested(const Vec3& w) const { return w.z < 0 ? *back_ : *front_; }
   static Vec3 to_front(const Vec3& w) { return {w.x, w.y, std::abs(w.z)}; }
 

@@ -55,24 +55,29 @@ class Bitmap final : public Texture {
     maximum_ = glm::max(maximum_, Color(std::max(border_value(wrap_u), border_value(wrap_v))));
   }
 
+  void prefetch(const SurfacePoint& at) const override {
+    const Vec2 p = position(at);
+    if (!is_finite(p)) return;
+    const int x = column(static_cast<int>(p.x - 0.5)), y = static_cast<int>(p.y - 0.5);
+    for (const int j : {row(y), row(y + 1)})
+      if (x >= 0 && j >= 0) texels_.prefetch(x, j);
+  }
+
   Color eval(const SurfacePoint& at) const override {
-    const Vec2 uv = to_uv_(at.uv);
-    const double x = reduce(uv.x, wrap_u_) * texels_.width();
-    const double y = reduce(uv.y, wrap_v_) * texels_.height();
-    if (!std::isfinite(x) || !std::isfinite(y)) return mean_;
+    const Vec2 p = position(at);
+    if (!is_finite(p)) return mean_;
     if (nearest_)
-      return lookup(column(static_cast<int>(std::floor(x))), row(static_cast<int>(std::floor(y))));
-    const Cell c = cell(x, y);
+      return lookup(column(static_cast<int>(std::floor(p.x))),
+                    row(static_cast<int>(std::floor(p.y))));
+    const Cell c = cell(p);
     return (1 - c.b) * ((1 - c.a) * c.corner[0] + c.a * c.corner[1]) +
            c.b * ((1 - c.a) * c.corner[2] + c.a * c.corner[3]);
   }
 
   Vec2 gradient(const SurfacePoint& at) const override {
-    const Vec2 uv = to_uv_(at.uv);
-    const double x = reduce(uv.x, wrap_u_) * texels_.width();
-    const double y = reduce(uv.y, wrap_v_) * texels_.height();
-    if (nearest_ || !std::isfinite(x) || !std::isfinite(y)) return Vec2(0);
-    const Cell c = cell(x, y);
+    const Vec2 p = position(at);
+    if (nearest_ || !is_finite(p)) return Vec2(0);
+    const Cell c = cell(p);
     double value[4];
     for (int i = 0; i < 4; ++i) value[i] = luminance(c.corner[i]);
     const double along_x = (1 - c.b) * (value[1] - value[0]) + c.b * (value[3] - value[2]);
@@ -85,18 +90,24 @@ class Bitmap final : public Texture {
   Color maximum() const override { return maximum_; }
 
  private:
+  /// In texels; not finite where uv is not.
+  Vec2 position(const SurfacePoint& at) const {
+    const Vec2 uv = to_uv_(at.uv);
+    return {reduce(uv.x, wrap_u_) * texels_.width(), reduce(uv.y, wrap_v_) * texels_.height()};
+  }
+
   /// The four texels around a position, row by row, and where it lies between them.
   struct Cell {
     Color corner[4];
     double a, b;
   };
-  Cell cell(double x, double y) const {
-    const double fx = std::floor(x - 0.5), fy = std::floor(y - 0.5);
+  Cell cell(const Vec2& p) const {
+    const double fx = std::floor(p.x - 0.5), fy = std::floor(p.y - 0.5);
     const int i = static_cast<int>(fx), j = static_cast<int>(fy);
     const int left = column(i), right = column(i + 1), low = row(j), high = row(j + 1);
     return {{lookup(left, low), lookup(right, low), lookup(left, high), lookup(right, high)},
-            x - 0.5 - fx,
-            y - 0.5 - fy};
+            p.x - 0.5 - fx,
+            p.y - 0.5 - fy};
   }
 
   int column(int i) const { return wrapped(i, texels_.width(), wrap_u_); }

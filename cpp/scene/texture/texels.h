@@ -25,13 +25,21 @@ class Texels {
   int width() const { return size_.width; }
   int height() const { return size_.height; }
 
+  void prefetch(int x, int y) const {
+    const size_t i = place(x, y);
+    __builtin_prefetch(bytes_.empty() ? static_cast<const void*>(&floats_[i]) : &bytes_[i]);
+  }
+
   Color operator()(int x, int y) const {
-    const size_t i = size_.channels * (static_cast<size_t>(y) * size_.width + x);
+    const size_t i = place(x, y);
     if (bytes_.empty()) return color([&](int c) { return floats_[i + c]; });
     return color([&](int c) { return meaning_[bytes_[i + c]]; });
   }
 
  private:
+  size_t place(int x, int y) const {
+    return size_.channels * (static_cast<size_t>(y) * size_.width + x);
+  }
   struct Size {
     explicit Size(const Image& image)
         : width(image.width), height(image.height), channels(image.channels) {}

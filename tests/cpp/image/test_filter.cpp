@@ -126,15 +126,15 @@ TEST(FilterRows, AreTheFilterAtConsecutivePixels) {
   Rng rng(1, Purpose::test, 0);
   int narrow = 0;
   for (const Filter& filter : all_filters()) {
-    const FilterRows rows(filter);
+    const FilterRows<float> rows(filter);
     if (rows.pixels() == 0) continue;
     ++narrow;
     for (int n = 0; n < 10'000; ++n) {
       const double at = n % 10 == 0 ? 0.5 * (n / 10 - 300) : 40 * rng.next() - 20;
-      const FilterRows::Weights weights = rows.weights(at);
+      const FilterRows<float>::Weights weights = rows.weights(at);
       EXPECT_EQ(filter.eval(weights.first - 0.5 - at), 0);
       EXPECT_EQ(filter.eval(weights.first + rows.pixels() + 0.5 - at), 0);
-      for (int k = 0; k < FilterRows::most_pixels; ++k)
+      for (int k = 0; k < FilterRows<float>::most_pixels; ++k)
         ASSERT_NEAR(weights.at[k], filter.eval(weights.first + k + 0.5 - at), 1e-6)
             << filter.name() << " at " << at << ", pixel " << k;
     }

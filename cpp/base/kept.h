@@ -1,0 +1,24 @@
+// A value that is found when it is first asked for, and kept until it is forgotten.
+#pragma once
+
+#include <utility>
+
+namespace mlt {
+
+template <class T>
+class Kept {
+ public:
+  template <class Find>
+  const T& get(Find&& find) {
+    if (!known_) value_ = std::forward<Find>(find)();
+    known_ = true;
+    return value_;
+  }
+  void forget() { known_ = false; }
+
+ private:
+  bool known_ = false;
+  T value_{};
+};
+
+}  // namespace mlt
