@@ -144,6 +144,7 @@ RenderError no_light_found(uint64_t samples);
 class RenderChain {
  public:
   virtual ~RenderChain() = default;
+  /// Alone; see MetropolisAlgorithm::advance.
   virtual void advance(uint64_t steps, ChainRecorder& recorder) = 0;
   virtual const ChainStats& stats() const = 0;
   virtual void save(ByteWriter& bytes) const = 0;
