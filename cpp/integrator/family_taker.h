@@ -9,18 +9,16 @@
 
 namespace mlt {
 
-class FamilyTaker : public SampleTaker {
+/// Shows all that one sample has found.
+class FamilyWeighting {
  public:
-  FamilyTaker(const MetropolisAlgorithm& algorithm, const FamilyWeights& weights)
-      : scale_(radiance_scale(algorithm.scene())),
-        source_(algorithm.sample_source()),
-        weights_(weights) {}
+  FamilyWeighting(const Scene& scene, const FamilyWeights& weights)
+      : scale_(radiance_scale(scene)), weights_(weights) {}
 
-  void sample(const Vec2& raster, PixelSampler& sampler, SampleSink& sink,
-              RayCounts& rays) override {
+  void show(const Vec2& raster, const std::vector<FoundLight>& all, SampleSink& sink) const {
     Color own_pixel(0);
     SampleWeights sum;
-    for (const FoundLight& found : source_->sample(raster, sampler)) {
+    for (const FoundLight& found : all) {
       if (!found.valid()) {
         sink.count_invalid();
         continue;
@@ -34,13 +32,27 @@ class FamilyTaker : public SampleTaker {
     }
     sink.add(raster, own_pixel * scale_);
     sink.add_sums(sum.brightness, sum.of_chains);
-    rays = source_->rays();  // a taker counts the rays of all its samples
   }
 
  private:
   double scale_;
-  std::unique_ptr<MetropolisAlgorithm::Source> source_;
   FamilyWeights weights_;
+};
+
+class FamilyTaker : public SampleTaker {
+ public:
+  FamilyTaker(const MetropolisAlgorithm& algorithm, const FamilyWeights& weights)
+      : source_(algorithm.sample_source()), weighting_(algorithm.scene(), weights) {}
+
+  void sample(const Vec2& raster, PixelSampler& sampler, SampleSink& sink,
+              RayCounts& rays) override {
+    weighting_.show(raster, source_->sample(raster, sampler), sink);
+    rays = source_->rays();  // a taker counts the rays of all its samples
+  }
+
+ private:
+  std::unique_ptr<MetropolisAlgorithm::Source> source_;
+  FamilyWeighting weighting_;
 };
 
 }  // namespace mlt

@@ -70,6 +70,12 @@ class MetropolisAlgorithm {
                                              Rng choice) const = 0;
   /// A chain without a state, to be loaded from bytes.
   virtual std::unique_ptr<RenderChain> blank(const ChainId& id) const = 0;
+  /// So many chains of a group advance together,
+  virtual int chains_together() const { return 1; }
+  /// which is done here; each chain goes where it would go alone, up to rounding.
+  virtual void advance(const std::vector<ChainVisit>& chains, uint64_t steps) const {
+    for (const ChainVisit& visit : chains) visit.chain->advance(steps, *visit.recorder);
+  }
   /// Name and path length of each row of the statistics.
   virtual std::vector<MutationStats> rows() const = 0;
   /// Called once before the first chain, to prepare whatever is to be known by then, with a coarse

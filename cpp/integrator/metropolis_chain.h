@@ -144,10 +144,17 @@ RenderError no_light_found(uint64_t samples);
 class RenderChain {
  public:
   virtual ~RenderChain() = default;
+  /// Alone; see MetropolisAlgorithm::advance.
   virtual void advance(uint64_t steps, ChainRecorder& recorder) = 0;
   virtual const ChainStats& stats() const = 0;
   virtual void save(ByteWriter& bytes) const = 0;
   virtual void load(ByteReader& bytes) = 0;
+};
+
+/// A chain that is to advance, and where it leaves what it visits.
+struct ChainVisit {
+  RenderChain* chain;
+  ChainRecorder* recorder;
 };
 
 /// Which chain it is: by its group, and by its number in the group.
@@ -177,25 +184,36 @@ class RecordedChain : public RenderChain {
   }
 
   void advance(uint64_t steps, ChainRecorder& recorder) override {
-    Kernel& kernel = chain_.kernel();
-    StepRecorder<Kernel> record(recorder, kernel, chain_.state(), chain_.others());
-    for (uint64_t i = 0; i < steps; ++i) {
-      const Vec2 from = kernel.raster_of(chain_.state());
-      const uint64_t rays_before = kernel.rays().total();
-      const StepResult result = chain_.step(record);
-      record.settle(result);
-      const State& y = chain_.proposal(result, 0);
-      ChainStats::Row& row = stats_.rows[kernel.stats_row()];
-      stats_.count(row, result, kernel.generated(y),
-                   glm::length(kernel.raster_of(chain_.state()) - from));
-      row.rays += kernel.rays().total() - rays_before;
-      count_own(kernel, row, 0);
-      if (stats_.run > stats_.longest.rejections && stats_.run % 64 == 0)
-        stats_.longest = {stats_.run, kernel.raster_of(chain_.state()),
-                          kernel.signature(chain_.state())};
-    }
+    StepRecorder<Kernel> record = begin(recorder);
+    for (uint64_t i = 0; i < steps; ++i) step(record);
     record.finish();
+  }
+
+  // The same, step by step:
+  StepRecorder<Kernel> begin(ChainRecorder& recorder) {
+    stats_.rays = chain_.kernel().rays();
+    return {recorder, chain_.kernel(), chain_.state(), chain_.others()};
+  }
+  /// See Chain.
+  template <class... Arguments>
+  void prepare(size_t stage, Arguments&&... arguments) {
+    chain_.prepare(stage, arguments...);
+  }
+  void step(StepRecorder<Kernel>& record) {
+    Kernel& kernel = chain_.kernel();
+    const Vec2 from = kernel.raster_of(chain_.state());
+    const StepResult result = chain_.step(record);
+    record.settle(result);
+    const State& y = chain_.proposal(result, 0);
+    ChainStats::Row& row = stats_.rows[kernel.stats_row()];
+    stats_.count(row, result, kernel.generated(y),
+                 glm::length(kernel.raster_of(chain_.state()) - from));
+    row.rays += kernel.rays().total() - stats_.rays.total();
     stats_.rays = kernel.rays();
+    count_own(kernel, row, 0);
+    if (stats_.run > stats_.longest.rejections && stats_.run % 64 == 0)
+      stats_.longest = {stats_.run, kernel.raster_of(chain_.state()),
+                        kernel.signature(chain_.state())};
   }
 
   /// Goes on from another state with another stream; the statistics go on.

@@ -182,20 +182,29 @@ class Pilot {
       const Pilot& pilot;
       PixelSums pixels;
     };
-    std::vector<Noise> noise(seeds.size());
-    parallel_for(settings_.threads, seeds.size(), [&](uint64_t i) {
+    const auto together = static_cast<size_t>(algorithm_.chains_together());
+    std::vector<Noise> noise((seeds.size() + together - 1) / together);
+    parallel_for(settings_.threads, noise.size(), [&](uint64_t team) {
       if (cancelled_) return;
-      const ChainId id{settings_.seed,      0,
-                       static_cast<int>(i), static_cast<int>(seeds.size()),
-                       starts_.b,           Purpose::allocation};
-      const auto chain = algorithm_.start(id, candidates_.rng(seeds[i]),
-                                          candidates_.rng(candidates_.count + 1 + i));
-      Recorder recorder(*this);
-      chain->advance(settings_.steps, recorder);
-      for (const auto& [pixel, sums] : recorder.pixels)
-        for (size_t t = 0; t < thresholds.size(); ++t) noise[i].squares[t] += sqr(sums[t]);
-      noise[i].count = settings_.steps;
-      noise[i].rays = chain->stats().rays.total();
+      const size_t first = team * together, last = std::min(first + together, seeds.size());
+      std::vector<std::unique_ptr<RenderChain>> chains;
+      std::vector<Recorder> recorders(last - first, Recorder(*this));
+      std::vector<ChainVisit> visits;
+      for (size_t i = first; i < last; ++i) {
+        const ChainId id{settings_.seed,      0,
+                         static_cast<int>(i), static_cast<int>(seeds.size()),
+                         starts_.b,           Purpose::allocation};
+        chains.push_back(algorithm_.start(id, candidates_.rng(seeds[i]),
+                                          candidates_.rng(candidates_.count + 1 + i)));
+        visits.push_back({chains.back().get(), &recorders[i - first]});
+      }
+      algorithm_.advance(visits, settings_.steps);
+      Noise& sum = noise[team];
+      for (const Recorder& recorder : recorders)
+        for (const auto& [pixel, sums] : recorder.pixels)
+          for (size_t t = 0; t < thresholds.size(); ++t) sum.squares[t] += sqr(sums[t]);
+      sum.count = settings_.steps * chains.size();
+      for (const auto& chain : chains) sum.rays += chain->stats().rays.total();
     });
     for (const Noise& one : noise) chains_ += one;
   }

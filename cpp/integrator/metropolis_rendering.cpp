@@ -23,8 +23,9 @@ int MetropolisRendering::chains_of(int group) const {
   return (settings_.chains + group_count - 1 - group) / group_count;
 }
 
-ChainId MetropolisRendering::chain_id(const ChainShare& share) const {
-  return {seed_, share.group, share.number, chains_of(share.group), groups_[share.group].b};
+ChainId MetropolisRendering::chain_id(const ChainTeam& team, size_t chain) const {
+  return {seed_, team.group, team.first + static_cast<int>(chain), chains_of(team.group),
+          groups_[team.group].b};
 }
 
 // ---- before the first unit --------------------------------------------------------------------
@@ -74,14 +75,16 @@ void MetropolisRendering::start_chains(int threads, const std::atomic<bool>& can
   const auto seeds = run_bootstrap(candidates, threads, cancelled);
   if (cancelled) return;
   lay_out();
-  if (chains_.empty() && !samples_) throw no_light_found(candidates.count);
-  parallel_for(threads, chains_.size(), [&](uint64_t i) {
-    ChainShare& share = *chains_[i];
-    const uint64_t candidate = share.group * per_group + seeds[share.group][share.number];
-    share.chain =
-        algorithm_->start(chain_id(share), candidates.rng(candidate),
-                          Rng(seed_, Purpose::choice,
-                              static_cast<uint64_t>(share.number) * group_count + share.group));
+  if (teams_.empty() && !samples_) throw no_light_found(candidates.count);
+  parallel_for(threads, teams_.size(), [&](uint64_t i) {
+    ChainTeam& team = *teams_[i];
+    for (size_t k = 0; k < team.chains.size(); ++k) {
+      const ChainId id = chain_id(team, k);
+      const uint64_t candidate = id.group * per_group + seeds[id.group][id.number];
+      team.chains[k] = algorithm_->start(
+          id, candidates.rng(candidate),
+          Rng(seed_, Purpose::choice, static_cast<uint64_t>(id.number) * group_count + id.group));
+    }
   });
 }
 
@@ -129,17 +132,32 @@ void MetropolisRendering::lay_out() {
         [this](const Scene&) { return algorithm_->sample_taker(allocation_.weights); });
   plan_.borders.clear();
   for (uint64_t share = 0; share <= sample_shares(); ++share) plan_.borders.push_back(share);
-  chains_.clear();
+  teams_.clear();
   for (int g = 0; g < group_count; ++g) {
-    for (int number = 0; groups_[g].b > 0 && number < chains_of(g); ++number) {
-      chains_.push_back(std::make_unique<ChainShare>());
-      chains_.back()->group = g;
-      chains_.back()->number = number;
-    }
-    if (sample_shares() + chains_.size() > plan_.borders.back())
-      plan_.borders.push_back(sample_shares() + chains_.size());
+    if (groups_[g].b > 0) form_teams(g);
+    if (sample_shares() + teams_.size() > plan_.borders.back())
+      plan_.borders.push_back(sample_shares() + teams_.size());
   }
   lay_out_units();
+}
+
+/// Of about the same size.
+void MetropolisRendering::form_teams(int group) {
+  const int chains = chains_of(group), most = algorithm_->chains_together(),
+            count = (chains + most - 1) / most;
+  for (int i = 0; i < count; ++i) {
+    const int first = chains * i / count, last = chains * (i + 1) / count;
+    teams_.push_back(std::make_unique<ChainTeam>());
+    teams_.back()->group = group;
+    teams_.back()->first = first;
+    teams_.back()->chains.resize(last - first);
+  }
+}
+
+uint64_t MetropolisRendering::chain_count() const {
+  uint64_t count = 0;
+  for (const auto& team : teams_) count += team->chains.size();
+  return count;
 }
 
 /// How the time is divided: while all cells get a sample, the chains do their share of the work.
@@ -151,19 +169,19 @@ void MetropolisRendering::lay_out_units() {
     sampling = allocation_.mutations_per_sample * std::accumulate(sizes.begin(), sizes.end(), 0.0);
     steps = sampling * (1 - allocation_.share) / allocation_.share;
   }
-  const double count = static_cast<double>(chains_.size());
+  const double count = static_cast<double>(chain_count());
   const double turns = std::ceil(steps / most_steps_per_turn);
-  uint64_t chain_units = 0;
-  if (!chains_.empty()) {
+  uint64_t rounds = 0;  // of all chains
+  if (!teams_.empty()) {
     steps_per_unit_ = static_cast<uint64_t>(std::max(1.0, std::round(steps / (count * turns))));
-    chain_units = chains_.size() * static_cast<uint64_t>(std::max(1.0, turns));
+    rounds = static_cast<uint64_t>(std::max(1.0, turns));
   }
-  interleaving_ = Interleaving(tiles, chain_units);
+  interleaving_ = Interleaving(tiles, rounds * teams_.size());
 
   const uint64_t round = interleaving_.units_per_round();
   plan_.least_units = tiles > 0 ? tiles + round : 0;
-  plan_.units_per_pass = samples_ ? 1 : chains_.size();
-  plan_.samples_per_pass = (sampling + static_cast<double>(chain_units * steps_per_unit_)) /
+  plan_.units_per_pass = samples_ ? 1 : teams_.size();
+  plan_.samples_per_pass = (sampling + static_cast<double>(rounds * steps_per_unit_) * count) /
                            static_cast<double>(round) * static_cast<double>(plan_.units_per_pass);
   plan_.pixels = pixels();
   plan_.units_per_group_turn = round;
@@ -171,7 +189,7 @@ void MetropolisRendering::lay_out_units() {
   plan_.share_of = [this](uint64_t unit) {
     const Interleaving::Place place = interleaving_.place_of(unit);
     return place.sampled ? samples_->plan().share_of(place.number)
-                         : sample_shares() + place.number % chains_.size();
+                         : sample_shares() + place.number % teams_.size();
   };
 }
 
@@ -191,27 +209,29 @@ void MetropolisRendering::run_unit(uint64_t unit) {
   if (place.sampled)
     samples_->run_unit(place.number);
   else
-    run_chain(place.number);
+    run_team(place.number);
 }
 
-void MetropolisRendering::run_chain(uint64_t number) {
-  ChainShare& share = *chains_[number % chains_.size()];
-  const uint64_t units_before = number / chains_.size();
-  std::unique_lock lock(share.mutex);
-  share.turn.wait(lock, [&] { return share.units >= units_before; });
-  if (share.units > units_before) return;
-  // Whatever happens, the thread that waits for the chain's next unit must go on.
+void MetropolisRendering::run_team(uint64_t number) {
+  ChainTeam& team = *teams_[number % teams_.size()];
+  const uint64_t units_before = number / teams_.size();
+  std::unique_lock lock(team.mutex);
+  team.turn.wait(lock, [&] { return team.units >= units_before; });
+  if (team.units > units_before) return;
+  // Whatever happens, the thread that waits for the team's next unit must go on.
   struct Done {
-    ChainShare& share;
+    ChainTeam& team;
     ~Done() {
-      ++share.units;
-      share.turn.notify_all();
+      ++team.units;
+      team.turn.notify_all();
     }
-  } done{share};
-  FilmRecorder recorder(film_, share.group, allocation_.weights);
-  share.chain->advance(steps_per_unit_, recorder);
-  share.brightness += recorder.brightness();
-  groups_[share.group].steps += steps_per_unit_;
+  } done{team};
+  FilmRecorder recorder(film_, team.group, allocation_.weights);
+  std::vector<ChainVisit> visits;
+  for (const auto& chain : team.chains) visits.push_back({chain.get(), &recorder});
+  algorithm_->advance(visits, steps_per_unit_);
+  team.brightness += recorder.brightness();
+  groups_[team.group].steps += steps_per_unit_ * team.chains.size();
 }
 
 // ---- what has come of them --------------------------------------------------------------------
@@ -219,9 +239,9 @@ void MetropolisRendering::run_chain(uint64_t number) {
 GroupCombination MetropolisRendering::combination() const {
   std::vector<GroupProgress> groups;
   for (const Group& group : groups_) groups.push_back({group.b, group.bootstrap, group.steps});
-  for (const auto& share : chains_) {
-    const std::lock_guard lock(share->mutex);
-    groups[share->group].brightness += share->brightness;
+  for (const auto& team : teams_) {
+    const std::lock_guard lock(team->mutex);
+    groups[team->group].brightness += team->brightness;
   }
   return GroupCombination(std::move(groups), samples_ ? samples_->mean_of_chains() : Estimate());
 }

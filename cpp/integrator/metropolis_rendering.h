@@ -2,7 +2,7 @@
 // share. Chains and samples find the same paths; FamilyWeights has the weights of both.
 //
 // A render is a fixed number of chains, each with its own random stream; a unit is some steps of one
-// chain, and chains are visited in turn. They form independent groups, each with its own bootstrap;
+// chain or of a few that advance together, and these are visited in turn. They form independent groups, each with its own bootstrap;
 // GroupCombination tells how these add up. The samples are a rendering of their own, whose units are
 // interleaved with those of the chains, so that every prefix of a render is a fair image.
 #pragma once
@@ -51,11 +51,11 @@ class MetropolisRendering : public Rendering {
   /// Each chain has had its turn within about a second, however large the image.
   static constexpr double most_steps_per_turn = 1 << 19;
 
-  /// A share of the render, after those of the samples.
-  struct ChainShare {
-    int group = 0, number = 0;
-    std::unique_ptr<RenderChain> chain;
-    double brightness = 0;  ///< Sum of L* of what it has recorded.
+  /// Chains of a group that advance together: a share of the render, after those of the samples.
+  struct ChainTeam {
+    int group, first;  ///< Number of its first chain in the group.
+    std::vector<std::unique_ptr<RenderChain>> chains;
+    double brightness = 0;  ///< Sum of L* of what they have recorded.
     uint64_t units = 0;     ///< That are done.
     mutable std::mutex mutex;
     std::condition_variable turn;
@@ -68,7 +68,8 @@ class MetropolisRendering : public Rendering {
 
   double pixels() const { return scene_->camera().raster().pixels(); }
   int chains_of(int group) const;
-  ChainId chain_id(const ChainShare& share) const;
+  ChainId chain_id(const ChainTeam& share, size_t chain) const;
+  uint64_t chain_count() const;
   uint64_t sample_shares() const { return samples_ ? uint64_t{group_count} : 0; }
   void render_direct(int threads, const std::atomic<bool>& cancelled);
   Allocation run_pilot(int threads, const std::atomic<bool>& cancelled);
@@ -77,8 +78,9 @@ class MetropolisRendering : public Rendering {
   void start_chains(int threads, const std::atomic<bool>& cancelled);
   uint64_t passes_per_turn() const;
   void lay_out();
+  void form_teams(int group);
   void lay_out_units();
-  void run_chain(uint64_t number);
+  void run_team(uint64_t number);
   Image chain_image(GroupScales scales) const;
   GroupCombination combination() const;
   void add_level(Stats& stats) const;
@@ -96,7 +98,7 @@ class MetropolisRendering : public Rendering {
   SplatFilm film_;
   /// The chains of groups that have found light, group after group: the film of one group then
   /// stays in the cache while its chains advance.
-  std::vector<std::unique_ptr<ChainShare>> chains_;
+  std::vector<std::unique_ptr<ChainTeam>> teams_;
   std::array<Group, group_count> groups_;
   uint64_t steps_per_unit_ = 1;
   Interleaving interleaving_;

@@ -54,7 +54,7 @@ std::string MetropolisRendering::save(const Task& task, Content content) const {
     samples = samples_->save(own, content);
   }
   bytes.write(samples);
-  const uint64_t before = sample_shares(), all = chains_.size();
+  const uint64_t before = sample_shares(), all = teams_.size();
   save_chains({std::clamp(task.shares.first, before, before + all) - before,
                std::clamp(task.shares.last, before, before + all) - before},
               content, bytes);
@@ -67,15 +67,15 @@ void MetropolisRendering::save_chains(const Shares& shares, Content content,
                                       ByteWriter& bytes) const {
   bytes.write(shares);
   for (uint64_t i = shares.first; i < shares.last; ++i) {
-    const ChainShare& share = *chains_[i];
-    const std::lock_guard lock(share.mutex);
-    bytes.write(share.units);
-    bytes.write(share.brightness);
-    share.chain->save(bytes);
+    const ChainTeam& team = *teams_[i];
+    const std::lock_guard lock(team.mutex);
+    bytes.write(team.units);
+    bytes.write(team.brightness);
+    for (const auto& chain : team.chains) chain->save(bytes);
   }
   GroupRange groups{0, 0};
   if (content != Content::task && shares.first < shares.last)
-    groups = {chains_[shares.first]->group, chains_[shares.last - 1]->group + 1};
+    groups = {teams_[shares.first]->group, teams_[shares.last - 1]->group + 1};
   bytes.write(groups);
   for (int g = groups.first; g < groups.last; ++g) bytes.write(groups_[g].steps.load());
   bytes.write(content != Content::task ? film_.save(groups.first, groups.last) : std::string());
@@ -96,18 +96,21 @@ void MetropolisRendering::load(const std::string& state) {
 
 void MetropolisRendering::load_chains(ByteReader& bytes) {
   const auto shares = bytes.read<Shares>();
-  if (shares.last > chains_.size()) throw RenderError("the saved state has too many chains");
+  if (shares.last > teams_.size()) throw RenderError("the saved state has too many chains");
   struct Loaded {
     uint64_t units;
     double brightness;
-    std::unique_ptr<RenderChain> chain;
+    std::vector<std::unique_ptr<RenderChain>> chains;
   };
-  std::vector<Loaded> chains;
+  std::vector<Loaded> teams;
   for (uint64_t i = shares.first; i < shares.last; ++i) {
     const auto units = bytes.read<uint64_t>();
     const auto brightness = bytes.read<double>();
-    chains.push_back({units, brightness, algorithm_->blank(chain_id(*chains_[i]))});
-    chains.back().chain->load(bytes);
+    teams.push_back({units, brightness, {}});
+    for (size_t k = 0; k < teams_[i]->chains.size(); ++k) {
+      teams.back().chains.push_back(algorithm_->blank(chain_id(*teams_[i], k)));
+      teams.back().chains.back()->load(bytes);
+    }
   }
   const auto groups = bytes.read<GroupRange>();
   if (groups.first < 0 || groups.last > group_count)
@@ -119,12 +122,12 @@ void MetropolisRendering::load_chains(ByteReader& bytes) {
   if (!film.empty()) film_.merge(groups.first, groups.last, film);
   for (size_t i = 0; i < steps.size(); ++i) groups_[groups.first + i].steps += steps[i];
   for (uint64_t i = shares.first; i < shares.last; ++i) {
-    ChainShare& share = *chains_[i];
-    Loaded& from = chains[i - shares.first];
-    const std::lock_guard lock(share.mutex);
-    share.units = from.units;
-    share.brightness = from.brightness;
-    share.chain = std::move(from.chain);
+    ChainTeam& team = *teams_[i];
+    Loaded& from = teams[i - shares.first];
+    const std::lock_guard lock(team.mutex);
+    team.units = from.units;
+    team.brightness = from.brightness;
+    team.chains = std::move(from.chains);
   }
 }
 

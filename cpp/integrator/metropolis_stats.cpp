@@ -18,15 +18,19 @@ ChainStats MetropolisRendering::sum_of_stats(StuckChain& stuck) const {
   ChainStats sum;
   sum.rows.resize(algorithm_->rows().size());
   sum.rays = bootstrap_rays_;
-  for (size_t i = 0; i < chains_.size(); ++i) {
-    const std::lock_guard lock(chains_[i]->mutex);
-    const ChainStats& s = chains_[i]->chain->stats();
-    for (size_t r = 0; r < sum.rows.size(); ++r) sum.rows[r] += s.rows[r];
-    sum.rays += s.rays;
-    sum.invalid += s.invalid;
-    if (s.longest.rejections > stuck.rejections)
-      stuck = {i, s.longest.rejections, s.longest.raster.x, s.longest.raster.y,
-               s.longest.signature};
+  uint64_t number = 0;
+  for (const auto& team : teams_) {
+    const std::lock_guard lock(team->mutex);
+    for (const auto& chain : team->chains) {
+      const ChainStats& s = chain->stats();
+      for (size_t r = 0; r < sum.rows.size(); ++r) sum.rows[r] += s.rows[r];
+      sum.rays += s.rays;
+      sum.invalid += s.invalid;
+      if (s.longest.rejections > stuck.rejections)
+        stuck = {number, s.longest.rejections, s.longest.raster.x, s.longest.raster.y,
+                 s.longest.signature};
+      ++number;
+    }
   }
   return sum;
 }

@@ -2,10 +2,13 @@
 // G. Antal, F. Csonka, "A simple and robust mutation strategy for the Metropolis light transport
 // algorithm", Eurographics 2002.
 #include "base/registry.h"
+#include "integrator/large_step_weights.h"
 #include "integrator/metropolis_params.h"
 #include "integrator/path_params.h"
 #include "integrator/primary_estimators.h"
 #include "integrator/small_step_params.h"
+#include "integrator/walk_taker.h"
+#include "primary/walk_step.h"
 
 namespace mlt {
 namespace {
@@ -15,17 +18,6 @@ struct PssmltSettings {
   SmallStep small_step;
   double large_probability = 0.3;
   bool delayed_rejection = false;
-};
-
-/// The proposals of large steps are independent samples, with the density 1 of the numbers: none of
-/// them is to be lost. A step of a chain shows states with the density T / b, and p_large times
-/// others with the density 1; weighted as samples of both (Kelemen et al. 2002, sec. 4.4), a state
-/// counts rgb / (T + p_large b). Any fixed number in the place of b is right: it is that of the
-/// pilot.
-struct LargeStepWeights {
-  double share = 0;  ///< p_large times that number.
-
-  double denominator(double target) const { return target + share; }
 };
 
 /// Makes paths from numbers.
@@ -40,31 +32,35 @@ struct PrimaryPaths {
     PrimarySampler sampler(state.numbers, small_step, rng);
     sample(image->sample(sampler.next2()), sampler, state);
   }
-  template <class Sampler>
-  void sample(const Vec2& raster, Sampler& sampler, PrimaryState& state) {
+  template <class Sampler, class State>
+  void sample(const Vec2& raster, Sampler& sampler, State& state) {
     state.light.clear();
     estimator(raster, sampler, state.light, rays);
-    state.target = 0;
-    for (const ImageLight& light : state.light)
-      state.target += min_component(light.rgb) >= 0 ? target_luminance(light.rgb) : std::nan("");
-    if (!std::isfinite(state.target)) state.target = std::nan("");
+    state.find_target();
   }
 };
 
-/// Moves a chain that renders.
+/// Steps of one chain after the other.
 template <class Estimator>
-class PssmltKernel : public PrimaryStep<PrimaryState, PrimaryPaths<Estimator>> {
-  using Step = PrimaryStep<PrimaryState, PrimaryPaths<Estimator>>;
-
+class SingleStep : public PrimaryStep<PrimaryState, PrimaryPaths<Estimator>> {
  public:
-  /// `b`: that of the group of chains.
-  PssmltKernel(const PssmltSettings& settings, const PrimaryPaths<Estimator>& paths,
-               const LargeStepWeights& weights, double b)
-      : Step(settings.large_probability, settings.delayed_rejection, paths),
-        weights_(weights),
-        large_step_weight_(weights.share / (settings.large_probability * b)) {}
+  using PrimaryStep<PrimaryState, PrimaryPaths<Estimator>>::PrimaryStep;
+  RayCounts& rays() { return this->evaluate().rays; }
+};
 
-  void record(ChainRecorder& recorder, const PrimaryState& x, double weight) const {
+/// Moves a chain that renders.
+template <class Step>
+class PssmltKernel : public Step {
+ public:
+  using State = typename Step::State;
+
+  /// `b`: that of the group of chains.
+  PssmltKernel(const Step& step, const LargeStepWeights& weights, double b)
+      : Step(step),
+        weights_(weights),
+        large_step_weight_(weights.share / (step.large_probability() * b)) {}
+
+  void record(ChainRecorder& recorder, const State& x, double weight) const {
     const double denominator = weights_.denominator(x.target);
     for (const ImageLight& light : x.light)
       recorder.record(light.raster, light.rgb / denominator, weight, denominator);
@@ -73,18 +69,15 @@ class PssmltKernel : public PrimaryStep<PrimaryState, PrimaryPaths<Estimator>> {
 
   size_t stats_row() const { return this->last(); }
   size_t stats_rows() const { return 2; }
-  RayCounts& rays() { return this->evaluate().rays; }
-  std::string signature(const PrimaryState&) const { return ""; }
-  Vec2 raster_of(const PrimaryState& x) const {
-    return x.light.empty() ? Vec2(0) : x.light[0].raster;
-  }
+  std::string signature(const State&) const { return ""; }
+  Vec2 raster_of(const State& x) const { return x.light.empty() ? Vec2(0) : x.light[0].raster; }
 
-  void save(ByteWriter& bytes, const PrimaryState& x) const {
+  void save(ByteWriter& bytes, const State& x) const {
     x.numbers.save(bytes);
     bytes.write(x.light);
     bytes.write(x.target);
   }
-  void load(ByteReader& bytes, PrimaryState& x) const {
+  void load(ByteReader& bytes, State& x) const {
     x.numbers.load(bytes);
     bytes.read(x.light);
     x.target = bytes.read<double>();
@@ -95,6 +88,7 @@ class PssmltKernel : public PrimaryStep<PrimaryState, PrimaryPaths<Estimator>> {
   double large_step_weight_;
 };
 
+/// Over any estimator.
 template <class Estimator>
 class Pssmlt : public MetropolisAlgorithm {
  public:
@@ -108,12 +102,6 @@ class Pssmlt : public MetropolisAlgorithm {
   std::unique_ptr<Source> source() const override {
     return std::make_unique<PssmltSource>(paths(), weights_);
   }
-  std::unique_ptr<RenderChain> start(const ChainId& id, Rng candidate, Rng) const override {
-    PrimaryState x;
-    paths()(x, candidate);
-    return chain(id, std::move(x));
-  }
-  std::unique_ptr<RenderChain> blank(const ChainId& id) const override { return chain(id, {}); }
   std::vector<MutationStats> rows() const override {
     MutationStats large, small;
     large.name = "large_step";
@@ -131,6 +119,18 @@ class Pssmlt : public MetropolisAlgorithm {
     bytes.finish();
   }
 
+ protected:
+  PrimaryPaths<Estimator> paths() const {
+    return {&scene_->camera().raster(), settings_.small_step, {*scene_, settings_.path}};
+  }
+  const PssmltSettings& settings() const { return settings_; }
+  const LargeStepWeights& weights() const { return weights_; }
+  template <class Step, class State>
+  std::unique_ptr<RenderChain> chain(const ChainId& id, const Step& step, State start) const {
+    return std::make_unique<RecordedChain<PssmltKernel<Step>>>(
+        PssmltKernel<Step>(step, weights_, id.b), id, std::move(start));
+  }
+
  private:
   struct PssmltSource : Source {
     PssmltSource(const PrimaryPaths<Estimator>& p, const LargeStepWeights& w)
@@ -146,11 +146,14 @@ class Pssmlt : public MetropolisAlgorithm {
       paths.sample(raster, sampler, state);
       found.clear();
       for (const ImageLight& light : state.light)
-        found.push_back({light.raster, light.rgb, target_luminance(light.rgb),
-                         weights.denominator(state.target), light.own_pixel});
+        found.push_back(weights.found(light, state.target));
       return found;
     }
     const RayCounts& rays() const override { return paths.rays; }
+    /// As WalkTaker takes them: .56 to .8 in bench_ray_cost.
+    double cost_of_ray() const override {
+      return std::is_same_v<Estimator, PathEstimator> ? 0.65 : 1;
+    }
 
     PrimaryPaths<Estimator> paths;
     LargeStepWeights weights;
@@ -158,17 +161,73 @@ class Pssmlt : public MetropolisAlgorithm {
     std::vector<FoundLight> found;
   };
 
-  PrimaryPaths<Estimator> paths() const {
-    return {&scene_->camera().raster(), settings_.small_step, {*scene_, settings_.path}};
-  }
-  std::unique_ptr<RenderChain> chain(const ChainId& id, PrimaryState start) const {
-    return std::make_unique<RecordedChain<PssmltKernel<Estimator>>>(
-        PssmltKernel<Estimator>(settings_, paths(), weights_, id.b), id, std::move(start));
-  }
-
   ScenePtr scene_;
   PssmltSettings settings_;
   LargeStepWeights weights_;
+};
+
+/// Chains that advance one after the other.
+template <class Estimator>
+class SinglePssmlt : public Pssmlt<Estimator> {
+ public:
+  using Pssmlt<Estimator>::Pssmlt;
+
+  std::unique_ptr<RenderChain> start(const ChainId& id, Rng candidate, Rng) const override {
+    PrimaryState x;
+    this->paths()(x, candidate);
+    return this->chain(id, step(), std::move(x));
+  }
+  std::unique_ptr<RenderChain> blank(const ChainId& id) const override {
+    return this->chain(id, step(), PrimaryState());
+  }
+
+ private:
+  SingleStep<Estimator> step() const {
+    const PssmltSettings& settings = this->settings();
+    return {settings.large_probability, settings.delayed_rejection, this->paths()};
+  }
+};
+
+/// Over path tracing: the proposals of many chains are traced side by side.
+class WalkPssmlt : public Pssmlt<PathEstimator> {
+ public:
+  using Pssmlt::Pssmlt;
+
+  std::unique_ptr<RenderChain> start(const ChainId& id, Rng candidate, Rng) const override {
+    WalkState x;
+    WalkNumbersSampler sampler(x.numbers, candidate);
+    const Vec2 raster = scene().camera().raster().sample(sampler.next2());
+    paths().sample(raster, sampler, x);
+    return chain(id, step(), std::move(x));
+  }
+  std::unique_ptr<RenderChain> blank(const ChainId& id) const override {
+    return chain(id, step(), WalkState());
+  }
+  std::unique_ptr<SampleTaker> sample_taker(const FamilyWeights& weights) const override {
+    return std::make_unique<WalkTaker>(scene(), settings().path, this->weights(), weights);
+  }
+  int chains_together() const override { return 32; }
+  void advance(const std::vector<ChainVisit>& visits, uint64_t steps) const override {
+    using Kernel = PssmltKernel<WalkStep>;
+    WalkWave wave(scene(), settings().path, settings().small_step);
+    std::vector<RecordedChain<Kernel>*> chains;
+    std::vector<StepRecorder<Kernel>> recorders;
+    for (const ChainVisit& visit : visits) {
+      chains.push_back(static_cast<RecordedChain<Kernel>*>(visit.chain));
+      recorders.push_back(chains.back()->begin(*visit.recorder));
+    }
+    for (; steps > 0; --steps) {
+      for (size_t stage = 0; stage < Kernel::stages; ++stage) {
+        for (RecordedChain<Kernel>* chain : chains) chain->prepare(stage, wave);
+        wave.trace();
+      }
+      for (size_t i = 0; i < chains.size(); ++i) chains[i]->step(recorders[i]);
+    }
+    for (StepRecorder<Kernel>& recorder : recorders) recorder.finish();
+  }
+
+ private:
+  WalkStep step() const { return {settings().large_probability, settings().delayed_rejection}; }
 };
 
 class PssmltIntegrator : public Integrator {
@@ -192,9 +251,10 @@ class PssmltIntegrator : public Integrator {
  private:
   std::unique_ptr<MetropolisAlgorithm> algorithm(const ScenePtr& scene) const {
     if (estimator_ == "bdpt")
-      return std::make_unique<Pssmlt<BidirectionalEstimator>>(scene, settings_);
-    if (estimator_ == "ptracer") return std::make_unique<Pssmlt<LightEstimator>>(scene, settings_);
-    return std::make_unique<Pssmlt<PathEstimator>>(scene, settings_);
+      return std::make_unique<SinglePssmlt<BidirectionalEstimator>>(scene, settings_);
+    if (estimator_ == "ptracer")
+      return std::make_unique<SinglePssmlt<LightEstimator>>(scene, settings_);
+    return std::make_unique<WalkPssmlt>(scene, settings_);
   }
 
   MetropolisSettings metropolis_;
@@ -210,7 +270,7 @@ Plugin integrator_pssmlt() {
       "Primary-sample-space Metropolis light transport (Kelemen et al. 2002): mutates the random "
       "numbers of another integrator. One spp is one mutation per pixel.",
       {path_parameters(),
-       metropolis_parameters(),
+       metropolis_parameters(1024),
        primary_step_parameters(),
        {{"estimator",
          ParamType::text,

@@ -29,11 +29,15 @@ class WaveTaker : public SampleTaker {
  private:
   /// See CameraWalk.
   virtual double chain_factor(const Vec2& /*raster*/) const { return 0; }
+  /// What a path has found.
+  virtual void show(const Vec2& raster, const Color& radiance, SampleSink& sink) {
+    sink.add(raster, radiance);
+  }
   /// The paths through all cells in rasters_.
   void trace_wave(SampleSink& sink, RayCounts& rays) {
     start_wave();
     wave_.trace(rays);
-    for (size_t i = 0; i < wave_.size(); ++i) sink.add(rasters_[i], wave_.radiance(i));
+    for (size_t i = 0; i < wave_.size(); ++i) show(rasters_[i], wave_.radiance(i), sink);
     wave_.clear();
     rasters_.clear();
   }

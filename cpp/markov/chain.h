@@ -16,6 +16,11 @@ class Chain {
   StepResult step(Record&& record) {
     return metropolis_step(x_, y_, kernel_, rng_, record);
   }
+  /// Lets a kernel prepare its next proposals, where it cannot make them at once.
+  template <class... Arguments>
+  void prepare(size_t stage, Arguments&&... arguments) {
+    kernel_.prepare(std::as_const(x_), y_, stage, rng_, arguments...);
+  }
   /// A proposal that is neither accepted nor rejected: the probability with which it would be
   /// accepted.
   double propose() { return acceptance(kernel_.propose(x_, y_, 0, rng_)); }

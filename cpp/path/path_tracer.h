@@ -145,6 +145,7 @@ struct CameraWalk {
   bool delta = true;       ///< or by a delta lobe, or it is the lens.
   double eta2 = 1;         ///< The factor of the throughput that undoes refraction.
   double survival = 1;     ///< Probability that Russian roulette has let it come here.
+  RayCounts rays;          ///< That a Wavefront has traced for it.
 
   Heuristic heuristic = Heuristic::power;  ///< Of light sampling and scattering.
   /// Where chains find the same paths (FamilyWeights): T / P of a path over c, for an L* of f / P that

@@ -22,6 +22,8 @@ class WaveNumbers {
   void set_position(const PixelSampler::Position& at) { at_ = at; }
 
   const PixelSampler::Position& position() const { return at_; }
+  /// Before the numbers of a vertex.
+  void begin_vertex(int /*begin*/, int /*count*/) {}
 
   /// The next numbers of the `count` samples from the begin-th on; `position` goes on, as with a
   /// sampler.

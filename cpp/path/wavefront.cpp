@@ -2,7 +2,8 @@
 
 namespace mlt {
 
-void Wavefront::add(const Ray& ray, double chain_factor) {
+template <class Numbers>
+void BasicWavefront<Numbers>::add(const Ray& ray, double chain_factor) {
   path_[live_] = live_;
   exact_[live_] = true;
   o_.set(live_, Vec3f(ray.o));
@@ -10,13 +11,15 @@ void Wavefront::add(const Ray& ray, double chain_factor) {
   walks_.emplace_back(ray);
   walks_.back().heuristic = heuristic_;
   walks_.back().chain_factor = chain_factor;
+  walks_.back().rays.intersect = 1;
 }
 
-void Wavefront::trace(RayCounts& rays) {
+template <class Numbers>
+void BasicWavefront<Numbers>::trace(RayCounts& rays, bool coherent) {
   for (int depth = 1; live_ > 0; ++depth) {
-    find_hits(depth == 1, rays);
+    find_hits(coherent && depth == 1, rays);
     next_ = 0;
-    const PixelSampler::Position at = numbers_.position();
+    const auto at = numbers_.position();
     for (begin_ = 0; begin_ < live_; begin_ += block_size) {
       count_ = std::min(block_size, live_ - begin_);
       numbers_.set_position(at);
@@ -27,14 +30,16 @@ void Wavefront::trace(RayCounts& rays) {
   }
 }
 
-CameraWalk& Wavefront::exact_walk(int place) {
+template <class Numbers>
+CameraWalk& BasicWavefront<Numbers>::exact_walk(int place) {
   CameraWalk& walk = walks_[path_[place]];
   if (!exact_[place]) walk.ray = {Vec3(o_[place]), Vec3(d_[place]), walk.ray.time};
   exact_[place] = true;
   return walk;
 }
 
-void Wavefront::find_hits(bool coherent, RayCounts& rays) {
+template <class Numbers>
+void BasicWavefront<Numbers>::find_hits(bool coherent, RayCounts& rays) {
   const Accel& accel = scene_->accel();
   const bool exact = accel.wants_exact_rays(), moves = accel.moves();
   for (int begin = 0; begin < live_; begin += RayPacket::size) {
@@ -51,7 +56,8 @@ void Wavefront::find_hits(bool coherent, RayCounts& rays) {
   rays.intersect += live_;
 }
 
-void Wavefront::find_shadows(RayCounts& rays) {
+template <class Numbers>
+void BasicWavefront<Numbers>::find_shadows(RayCounts& rays) {
   rays.occluded += shadows_.count();
   shadows_.trace(
       scene_->accel(), [&](int path) { return walks_[path].ray.time; },
@@ -59,7 +65,8 @@ void Wavefront::find_shadows(RayCounts& rays) {
 }
 
 /// One step of trace_path.
-void Wavefront::shade_block(int depth, RayCounts& rays) {
+template <class Numbers>
+void BasicWavefront<Numbers>::shade_block(int depth, RayCounts& rays) {
   const bool last = depth == rules_.most_edges();
   if (!last) draw_numbers(depth);
   for (int i = 0; i < count_; ++i) find_vertex(i, depth, rays);
@@ -75,7 +82,9 @@ void Wavefront::shade_block(int depth, RayCounts& rays) {
 }
 
 /// VertexNumbers of path_tracer.h, but for the last three.
-void Wavefront::draw_numbers(int depth) {
+template <class Numbers>
+void BasicWavefront<Numbers>::draw_numbers(int depth) {
+  numbers_.begin_vertex(begin_, count_);
   if (rules_.wants(depth + 1))
     numbers_.next2(begin_, count_, &u_light_x_[0], &u_light_y_[0]);
   else
@@ -83,7 +92,8 @@ void Wavefront::draw_numbers(int depth) {
   numbers_.next2(begin_, count_, &matte_.u_x[0], &matte_.u_y[0]);
 }
 
-inline void Wavefront::find_vertex(int i, int depth, RayCounts& rays) {
+template <class Numbers>
+inline void BasicWavefront<Numbers>::find_vertex(int i, int depth, RayCounts& rays) {
   const PacketHits& hits = this->hits(i);
   const int lane = i % RayPacket::size;
   const uint32_t shape = hits.shape[lane];
@@ -100,7 +110,9 @@ inline void Wavefront::find_vertex(int i, int depth, RayCounts& rays) {
 }
 
 /// At a surface that glows, or is not matte.
-void Wavefront::find_bright_or_other(int i, const Hit& hit, int depth, RayCounts& rays) {
+template <class Numbers>
+void BasicWavefront<Numbers>::find_bright_or_other(int i, const Hit& hit, int depth,
+                                                   RayCounts& rays) {
   CameraWalk& walk = exact_walk(begin_ + i);
   const SurfacePoint at = scene_->surface_point(walk.ray, hit);
   if (rules_.wants(depth)) find_light(*scene_, walk, &at);
@@ -108,7 +120,9 @@ void Wavefront::find_bright_or_other(int i, const Hit& hit, int depth, RayCounts
     find_other_vertex(i, at, depth, rays);
 }
 
-void Wavefront::find_other_vertex(int i, const SurfacePoint& at, int depth, RayCounts& rays) {
+template <class Numbers>
+void BasicWavefront<Numbers>::find_other_vertex(int i, const SurfacePoint& at, int depth,
+                                                RayCounts& rays) {
   CameraWalk& walk = this->walk(i);
   const Vec3 wc = -walk.ray.d;
   if (!consistent_sides(at, wc, rules_.strict_normals)) return;
@@ -122,7 +136,8 @@ void Wavefront::find_other_vertex(int i, const SurfacePoint& at, int depth, RayC
   goes_on_[i] = scatter(walker, rules_, depth, at, numbers, walk);
 }
 
-void Wavefront::choose_lights() {
+template <class Numbers>
+void BasicWavefront<Numbers>::choose_lights() {
   const bool several = scene_->emitters().size() > 1;
   for (int i = 0; i < count_; ++i) {
     if (!matte_.f[i]) continue;
@@ -135,14 +150,16 @@ void Wavefront::choose_lights() {
 }
 
 /// One that is no glowing mesh.
-void Wavefront::choose_other_light(int i, const Vec3& u) {
+template <class Numbers>
+void BasicWavefront<Numbers>::choose_other_light(int i, const Vec3& u) {
   matte_.light_pdf[i] = 0;
   if (!(matte_.sides[i] > 0)) return;
   const SurfacePoint at = matte_.point(i, hits(i).shape[i % RayPacket::size], walk(i).ray.time);
   queue_light(i, at, -Vec3(d_[begin_ + i]), u);
 }
 
-void Wavefront::queue_lights() {
+template <class Numbers>
+void BasicWavefront<Numbers>::queue_lights() {
   matte_.unshadowed_lights(count_, rules_.strict_normals, heuristic_);
   for (int i = 0; i < count_; ++i)
     if (matte_.f[i] && matte_.light_weight[i] > 0)
@@ -151,7 +168,9 @@ void Wavefront::queue_lights() {
 }
 
 /// direct_light() of path_tracer.h.
-void Wavefront::queue_light(int i, const SurfacePoint& at, const Vec3& wc, const Vec3& u) {
+template <class Numbers>
+void BasicWavefront<Numbers>::queue_light(int i, const SurfacePoint& at, const Vec3& wc,
+                                          const Vec3& u) {
   const CameraWalk& walk = this->walk(i);
   const auto mis = [&](double light, double bsdf) { return walk.mis(light, bsdf); };
   const DirectLight light = unshadowed_light(*scene_, at, wc, u, rules_.strict_normals, mis);
@@ -160,20 +179,24 @@ void Wavefront::queue_light(int i, const SurfacePoint& at, const Vec3& wc, const
     queue_shadow(i, light.radiance, Vec3f(ray->o), Vec3f(ray->d), static_cast<float>(ray->t_max));
 }
 
-void Wavefront::queue_shadow(int i, const Color& radiance, const Vec3f& o, const Vec3f& w,
-                             float length) {
-  const CameraWalk& walk = this->walk(i);
+template <class Numbers>
+void BasicWavefront<Numbers>::queue_shadow(int i, const Color& radiance, const Vec3f& o,
+                                           const Vec3f& w, float length) {
+  CameraWalk& walk = this->walk(i);
   const Color found = walk.throughput * radiance;
+  ++walk.rays.occluded;
   shadows_.add(path_[begin_ + i], found, walk.own_share(found), o, w, length);
 }
 
-void Wavefront::take_step(int depth) {
+template <class Numbers>
+void BasicWavefront<Numbers>::take_step(int depth) {
   for (int i = 0; i < count_; ++i) {
     CameraWalk& walk = this->walk(i);
     const bool matte = matte_.f[i];
     if (!(matte ? scatter_matte(i, depth, walk) : goes_on_[i])) continue;
     o_.set(next_, matte ? matte_.o[i] : Vec3f(walk.ray.o));
     d_.set(next_, matte ? matte_.w[i] : Vec3f(walk.ray.d));
+    ++walk.rays.intersect;
     exact_[next_] = !matte;
     path_[next_] = path_[begin_ + i];
     numbers_.move(next_++, begin_ + i);
@@ -182,7 +205,8 @@ void Wavefront::take_step(int depth) {
 }
 
 /// scatter() of path_tracer.h for a matte vertex.
-bool Wavefront::scatter_matte(int i, int depth, CameraWalk& walk) {
+template <class Numbers>
+bool BasicWavefront<Numbers>::scatter_matte(int i, int depth, CameraWalk& walk) {
   const double pdf = matte_.scatter_pdf[i];
   walk.throughput *= *matte_.f[i] * pi;
   if (!(pdf > 0) || is_black(walk.throughput)) return false;
@@ -193,5 +217,8 @@ bool Wavefront::scatter_matte(int i, int depth, CameraWalk& walk) {
   walk.previous = Vec3(matte_.p[i]);
   return true;
 }
+
+template class BasicWavefront<WaveNumbers>;
+template class BasicWavefront<DrawnNumbers>;
 
 }  // namespace mlt

@@ -5,6 +5,7 @@
 // High-Performance Graphics 2013.
 #pragma once
 
+#include "path/drawn_numbers.h"
 #include "path/matte_vertices.h"
 #include "path/path_tracer.h"
 #include "path/wave_numbers.h"
@@ -12,32 +13,37 @@
 
 namespace mlt {
 
-class Wavefront {
+/// `Numbers` is where paths take their numbers from: WaveNumbers or DrawnNumbers.
+template <class Numbers>
+class BasicWavefront {
  public:
   static constexpr size_t capacity = wave_size;
 
-  Wavefront(const Scene& scene, const PathRules& rules, Heuristic heuristic = Heuristic::power)
+  BasicWavefront(const Scene& scene, const PathRules& rules, Heuristic heuristic = Heuristic::power)
       : scene_(&scene), rules_(rules), heuristic_(heuristic) {
     walks_.reserve(capacity);
   }
 
   /// The numbers of the paths that are added.
-  WaveNumbers& numbers() { return numbers_; }
+  Numbers& numbers() { return numbers_; }
   /// A path that begins with `ray`, and takes the numbers of the sample that was added last. For
   /// `chain_factor` see CameraWalk.
   void add(const Ray& ray, double chain_factor = 0);
-  /// A path that begins with `ray`; `sampler` goes on from there.
-  void add(const Ray& ray, const PixelSampler& sampler) {
+  /// A path that begins with `ray`; `sampler`, a PixelSampler, goes on from there.
+  template <class Sampler>
+  void add(const Ray& ray, const Sampler& sampler) {
     numbers_.add(sampler.stream(), sampler.index());
     numbers_.set_position(sampler.position());
     add(ray);
   }
   size_t size() const { return walks_.size(); }
   bool full() const { return size() == capacity; }
-  /// Traces all of them to their ends.
-  void trace(RayCounts& rays);
+  /// Traces all of them to their ends. `coherent`: those that stand side by side begin alike.
+  void trace(RayCounts& rays, bool coherent = true);
   /// What the i-th path has found.
   const Color& radiance(size_t i) const { return walks_[i].radiance; }
+  /// The rays that it took.
+  const RayCounts& rays(size_t i) const { return walks_[i].rays; }
   void clear() {
     walks_.clear();
     numbers_.clear();
@@ -79,7 +85,7 @@ class Wavefront {
   VectorWave o_, d_;  ///< Its ray.
   Wave<bool> exact_;  ///< Whether its walk knows the ray, in double precision.
   PacketHits hits_[wave_size / RayPacket::size];
-  WaveNumbers numbers_;
+  Numbers numbers_;
   int next_ = 0;  ///< How many take the next step; they are moved together.
 
   // Of each path of the block:
@@ -88,5 +94,7 @@ class Wavefront {
   MatteVertices matte_;
   Block<bool> goes_on_;  ///< From a vertex that is not matte, along the walk's ray.
 };
+
+using Wavefront = BasicWavefront<WaveNumbers>;
 
 }  // namespace mlt

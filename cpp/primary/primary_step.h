@@ -6,6 +6,7 @@
 #include "math/color.h"
 #include "primary/primary_numbers.h"
 
+#include <cmath>
 #include <vector>
 
 namespace mlt {
@@ -17,63 +18,86 @@ struct ImageLight {
   bool own_pixel = true;  ///< Where the walk from the camera left the image, not by light tracing.
 };
 
-struct PrimaryState {
-  PrimaryNumbers numbers;
+template <class Numbers>
+struct StateOf {
+  Numbers numbers;
   std::vector<ImageLight> light;  ///< All that the paths of these numbers add to the image.
   double target = 0;              ///< Sum of L* of it; NaN if the estimator failed.
+
+  void find_target() {
+    target = 0;
+    for (const ImageLight& one : light)
+      target += min_component(one.rgb) >= 0 ? target_luminance(one.rgb) : std::nan("");
+    if (!std::isfinite(target)) target = std::nan("");
+  }
 };
+using PrimaryState = StateOf<PrimaryNumbers>;
 
 /// Large steps draw all numbers afresh, small steps move each a little. Both are symmetric, so the
-/// quotients of the step are the targets alone. `evaluate(state, rng)` makes the state's paths.
+/// quotients of the step are the targets alone.
 ///
 /// With delayed rejection (Tierney & Mira 1999) a small step follows a large one that was rejected.
 /// What a large step proposes does not depend on where it starts, so its density cancels in the
 /// second stage's quotient, and the probabilities of having been rejected remain.
-template <class PrimaryState, class Evaluate>
-class PrimaryStep {
+template <class PrimaryState>
+class PrimaryMoves {
  public:
   using State = PrimaryState;
   static constexpr size_t stages = 2;
   enum Move { large = 0, small = 1 };
 
-  PrimaryStep(double large_probability, bool delayed_rejection, Evaluate evaluate)
-      : large_probability_(large_probability),
-        delayed_rejection_(delayed_rejection),
-        evaluate_(std::move(evaluate)) {}
-
-  Transition propose(const State& x, std::array<State, stages>& y, size_t stage, Rng& rng) {
-    if (stage > 0) return propose_again(x, y[0], y[1], rng);
-    last_ = rng.next() < large_probability_ ? large : small;
-    make(x, last_ == large, y[0], rng);
-    return quotients(x, y[0]);
-  }
+  PrimaryMoves(double large_probability, bool delayed_rejection)
+      : large_probability_(large_probability), delayed_rejection_(delayed_rejection) {}
 
   Move last() const { return last_; }
   static bool generated(const State& y) { return y.target != 0; }
   double large_probability() const { return large_probability_; }
-  Evaluate& evaluate() { return evaluate_; }
 
- private:
-  void make(const State& x, bool is_large, State& y, Rng& rng) {
-    y.numbers = x.numbers;
-    y.numbers.step(is_large);
-    evaluate_(y, rng);
+ protected:
+  using Proposals = std::array<State, stages>;
+
+  /// Chooses the step of this stage. Returns whether there is one.
+  bool choose(size_t stage, Rng& rng) {
+    if (stage > 0) return delayed_rejection_ && last_ == large;
+    last_ = rng.next() < large_probability_ ? large : small;
+    return true;
+  }
+  /// Once its proposal is known.
+  static Transition quotients(const State& x, const Proposals& y, size_t stage) {
+    if (stage == 0) return quotients(x, y[0]);
+    return after_rejection(quotients(x, y[1]), quotients(x, y[0]), quotients(y[1], y[0]));
   }
   static Transition quotients(const State& x, const State& y) {
     if (!generated(y)) return impossible;
     return {1 / y.target, 1 / x.target};
   }
-  Transition propose_again(const State& x, const State& y1, State& y2, Rng& rng) {
-    if (!delayed_rejection_ || last_ != large) return impossible;
-    make(x, false, y2, rng);
-    const Transition own = quotients(x, y2);
-    return after_rejection(own, quotients(x, y1), quotients(y2, y1));
-  }
 
+ private:
   double large_probability_;
   bool delayed_rejection_;
-  Evaluate evaluate_;
   Move last_ = large;
+};
+
+/// `evaluate(state, rng)` makes the state's paths.
+template <class PrimaryState, class Evaluate>
+class PrimaryStep : public PrimaryMoves<PrimaryState> {
+  using Moves = PrimaryMoves<PrimaryState>;
+
+ public:
+  PrimaryStep(double large_probability, bool delayed_rejection, Evaluate evaluate)
+      : Moves(large_probability, delayed_rejection), evaluate_(std::move(evaluate)) {}
+
+  Transition propose(const PrimaryState& x, typename Moves::Proposals& y, size_t stage, Rng& rng) {
+    if (!Moves::choose(stage, rng)) return impossible;
+    y[stage].numbers = x.numbers;
+    y[stage].numbers.step(stage == 0 && Moves::last() == Moves::large);
+    evaluate_(y[stage], rng);
+    return Moves::quotients(x, y, stage);
+  }
+  Evaluate& evaluate() { return evaluate_; }
+
+ private:
+  Evaluate evaluate_;
 };
 
 }  // namespace mlt

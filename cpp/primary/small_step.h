@@ -29,25 +29,41 @@ struct SmallStep {
 
   /// `count` steps in a row.
   double operator()(double u, uint64_t count, Rng& rng) const {
-    if (shape == Shape::gaussian)
-      return wrapped(u + size * std::sqrt(static_cast<double>(count)) * normal(rng));
-    for (; count > 0; --count) u = wrapped(u + kelemen_move(rng));
+    if (shape == Shape::gaussian) {
+      const double sample = rng.next();
+      return gaussian(u, std::sqrt(static_cast<double>(count)), sample, rng.next());
+    }
+    for (; count > 0; --count) u = kelemen(u, rng.next());
     return u;
   }
 
- private:
-  /// |s| lies between the smallest and the largest move, with a density proportional to 1 / |s|.
-  double kelemen_move(Rng& rng) const {
-    const double sample = rng.next();
+  /// One step by the random number `sample`; |s| lies between the smallest and the largest move, with
+  /// a density proportional to 1 / |s|. Without branches, for many numbers side by side.
+  double kelemen(double u, double sample) const {
     const bool up = sample < 0.5;
-    const double move =
-        size * std::exp(std::log(smallest_share) * (up ? 2 * sample : 2 * sample - 1));
-    return up ? move : -move;
+    const double move = size * power_of_smallest_share(up ? 2 * sample : 2 * sample - 1);
+    return wrapped(u + (up ? move : -move));
   }
-  /// Of variance 1 (Box & Muller 1958).
-  static double normal(Rng& rng) {
-    const double radius = std::sqrt(-2 * std::log(1 - rng.next()));
-    return radius * std::cos(2 * pi * rng.next());
+  /// One that is `times` as large, by two random numbers (Box & Muller 1958).
+  double gaussian(double u, double times, double sample, double angle) const {
+    const double radius = std::sqrt(-2 * std::log(1 - sample));
+    return wrapped(u + size * times * radius * std::cos(2 * pi * angle));
+  }
+
+ private:
+  /// smallest_share^t, t in [0, 1), to 1e-13: the Taylor series of its 16th root.
+  static double power_of_smallest_share(double t) {
+    const double x = std::log(smallest_share) / 16 * t;
+    const double root =
+        1 +
+        x * (1 +
+             x * (1. / 2 +
+                  x * (1. / 6 +
+                       x * (1. / 24 +
+                            x * (1. / 120 +
+                                 x * (1. / 720 +
+                                      x * (1. / 5040 + x * (1. / 40320 + x * (1. / 362880)))))))));
+    return sqr(sqr(sqr(sqr(root))));
   }
 };
 

@@ -1,13 +1,16 @@
 // Chains and independent samples see the same T / P of a path, so that their weights sum to one.
 #include "integrator/family_taker.h"
 #include "integrator/family_weights.h"
+#include "integrator/primary_estimators.h"
 #include "integrator/traced_source.h"
+#include "integrator/walk_taker.h"
 #include "mutation/mutation_scenes.h"
 #include "mutation/path_seeds.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 
 namespace mlt::test {
 namespace {
@@ -109,26 +112,26 @@ std::unique_ptr<SampledRendering> shown_by(const ScenePtr& scene, MakeTaker&& ma
   return rendering;
 }
 
-TEST(TracedTaker, ShowsWhatItsSourceFindsWithTheWeightsOfSamples) {
-  const TestScene made = make_mutation_scene("cornell");
-  const PathTarget target = target_of(made);
-  struct Traced : MetropolisAlgorithm {
-    explicit Traced(const PathTarget& t) : target(t) {}
-    const Scene& scene() const override { return target.scene(); }
-    std::unique_ptr<Source> source() const override {
-      return std::make_unique<TracedSource>(target);
-    }
-    std::unique_ptr<RenderChain> start(const ChainId&, Rng, Rng) const override { return nullptr; }
-    std::unique_ptr<RenderChain> blank(const ChainId&) const override { return nullptr; }
-    std::vector<MutationStats> rows() const override { return {}; }
-    const PathTarget& target;
-  };
-  const Traced algorithm(target);
-  const FamilyWeights weights(0.3);
+/// An algorithm without chains.
+struct SamplesOnly : MetropolisAlgorithm {
+  SamplesOnly(const Scene& s, std::function<std::unique_ptr<Source>()> m)
+      : of(s), make_source(std::move(m)) {}
+  const Scene& scene() const override { return of; }
+  std::unique_ptr<Source> source() const override { return make_source(); }
+  std::unique_ptr<RenderChain> start(const ChainId&, Rng, Rng) const override { return nullptr; }
+  std::unique_ptr<RenderChain> blank(const ChainId&) const override { return nullptr; }
+  std::vector<MutationStats> rows() const override { return {}; }
+  const Scene& of;
+  std::function<std::unique_ptr<Source>()> make_source;
+};
+
+/// What a source finds, and what a taker of its own shows, which has half of the light or so.
+template <class MakeTaker>
+void expect_the_same(const ScenePtr& scene, const SamplesOnly& algorithm,
+                     const FamilyWeights& weights, MakeTaker&& make_taker) {
   const auto one_by_one = shown_by(
-      made.scene, [&](const Scene&) { return std::make_unique<FamilyTaker>(algorithm, weights); });
-  const auto side_by_side = shown_by(
-      made.scene, [&](const Scene&) { return std::make_unique<TracedTaker>(target, weights); });
+      scene, [&](const Scene&) { return std::make_unique<FamilyTaker>(algorithm, weights); });
+  const auto side_by_side = shown_by(scene, make_taker);
   const double brightness = one_by_one->mean_brightness().mean;
   EXPECT_GT(one_by_one->mean_of_chains().mean, 0.1 * brightness);
   EXPECT_LT(one_by_one->mean_of_chains().mean, 0.9 * brightness);
@@ -139,6 +142,56 @@ TEST(TracedTaker, ShowsWhatItsSourceFindsWithTheWeightsOfSamples) {
     sum += a.data[i];
   }
   EXPECT_LT(difference, 0.01 * sum);
+}
+
+TEST(TracedTaker, ShowsWhatItsSourceFindsWithTheWeightsOfSamples) {
+  const TestScene made = make_mutation_scene("cornell");
+  const PathTarget target = target_of(made);
+  const SamplesOnly algorithm(*made.scene, [&] { return std::make_unique<TracedSource>(target); });
+  const FamilyWeights weights(0.3);
+  expect_the_same(made.scene, algorithm, weights,
+                  [&](const Scene&) { return std::make_unique<TracedTaker>(target, weights); });
+}
+
+/// Samples of pssmlt, one by one.
+struct WalkSource : MetropolisAlgorithm::Source {
+  WalkSource(const Scene& scene, const PathRules& rules, const LargeStepWeights& w)
+      : estimator(scene, rules), weights(w) {}
+  const std::vector<FoundLight>& sample(const Vec2& raster, PixelSampler& sampler) override {
+    light.clear();
+    found.clear();
+    estimator(raster, sampler, light, counts);
+    for (const ImageLight& one : light)
+      found.push_back(weights.found(one, target_luminance(one.rgb)));
+    return found;
+  }
+  const std::vector<FoundLight>& sample(const Vec2&, RandomSampler&) override { return found; }
+  const RayCounts& rays() const override { return counts; }
+
+  PathEstimator estimator;
+  LargeStepWeights weights;
+  RayCounts counts;
+  std::vector<ImageLight> light;
+  std::vector<FoundLight> found;
+};
+
+TEST(WalkTaker, ShowsWhatSingleSamplesFindWithTheWeightsOfSamples) {
+  const TestScene made = make_mutation_scene("cornell");
+  const PathRules rules{8};
+  const LargeStepWeights large_steps{0.1};
+  const SamplesOnly algorithm(
+      *made.scene, [&] { return std::make_unique<WalkSource>(*made.scene, rules, large_steps); });
+  const FamilyWeights weights(0.3);
+  expect_the_same(made.scene, algorithm, weights, [&](const Scene& scene) {
+    return std::make_unique<WalkTaker>(scene, rules, large_steps, weights);
+  });
+  // With all the light, it tells the brightness.
+  const FamilyWeights all(std::numeric_limits<double>::max());
+  const auto shown = shown_by(made.scene, [&](const Scene& scene) {
+    return std::make_unique<WalkTaker>(scene, rules, large_steps, all);
+  });
+  EXPECT_GT(shown->mean_brightness().mean, 0);
+  EXPECT_LT(shown->mean_of_chains().mean, 1e-100);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, TargetOverDensity, testing::ValuesIn(mutation_scene_names()),
