@@ -1,5 +1,6 @@
 // A move of the caustic perturbation that is to be so many pixels long is so long on the image.
 #include "harness/statistics.h"
+#include "mutation/chain_perturbation.h"
 #include "mutation/image_footprint.h"
 #include "mutation/mutation_testing.h"
 
