@@ -206,7 +206,7 @@ class WalkPssmlt : public Pssmlt<PathEstimator> {
   std::unique_ptr<SampleTaker> sample_taker(const FamilyWeights& weights) const override {
     return std::make_unique<WalkTaker>(scene(), settings().path, this->weights(), weights);
   }
-  int chains_together() const override { return 32; }
+  int chains_together() const override { return 8; }
   void advance(const std::vector<ChainVisit>& visits, uint64_t steps) const override {
     using Kernel = PssmltKernel<WalkStep>;
     WalkWave wave(scene(), settings().path, settings().small_step);
@@ -270,7 +270,7 @@ Plugin integrator_pssmlt() {
       "Primary-sample-space Metropolis light transport (Kelemen et al. 2002): mutates the random "
       "numbers of another integrator. One spp is one mutation per pixel.",
       {path_parameters(),
-       metropolis_parameters(1024),
+       metropolis_parameters(256),
        primary_step_parameters(),
        {{"estimator",
          ParamType::text,

@@ -509,7 +509,7 @@ class PSSMLT(Integrator):
         Refuse directions that the geometric and the shading normal see on different sides.
     luminance_samples : integer, default 50000
         Paths drawn to start the chains from; a pilot before that draws about as many.
-    chains : integer, default 1024
+    chains : integer, default 256
         Number of Markov chains, whatever the budget. The fewer there are, the longer each is,
         and the farther it gets from where it started; but one that stands still leaves a
         brighter spot, and no more threads than chains have work.
