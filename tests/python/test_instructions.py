@@ -18,7 +18,7 @@ SIZE = 32
 CASES = {
     "path": ([], (2, 10), 5827),
     "bdpt": ([], (1, 3), 24779),
-    "pssmlt": (["chains=512", "independent_share=0", "luminance_samples=1000"], (4, 12), 8043),
+    "pssmlt": (["chains=512", "independent_share=0", "luminance_samples=1000"], (4, 12), 8967),
     "mlt": (
         ["chains=128", "independent_share=0", "luminance_samples=1000", "adaptive=false"],
         (4, 12),
