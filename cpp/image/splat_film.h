@@ -21,7 +21,7 @@ class SplatFilm {
 
   /// Adds `color` times the filter at a raster position. Thread-safe.
   void add(int group, const Vec2& raster, const Color& color);
-  /// To so many rows something is added,
+  /// How many rows a splat reaches,
   int splat_rows() const { return std::max(1, rows_.pixels()); }
   /// and where the i-th of them is in memory, for prefetching; nullptr outside of the image.
   const void* splat_row(int group, const Vec2& raster, int i) const {

@@ -20,7 +20,7 @@ struct Edit {
   Edit reversed() const { return {first, first + inserted - 1, deleted()}; }
 };
 
-/// The specular chains that the lens is at the end of: where a perturbation of the image position leads.
+/// The specular chains next to the lens, along which a perturbation of the image position moves.
 struct CameraChains {
   /// The diffuse vertex that is joined to the rest; 0: a light that is hit; -1: neither.
   int stop = -1;

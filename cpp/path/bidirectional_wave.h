@@ -16,10 +16,9 @@ class BidirectionalWave {
  public:
   static constexpr int capacity = SubpathWave::capacity;
 
-  /// Whether it can trace anything there. Its lights are glowing meshes, its camera is a pinhole,
-  /// and nothing moves.
+  /// Whether all lights are glowing meshes, the camera has no aperture, and nothing moves.
   static bool serves(const Scene& scene, const BidirectionalSettings& settings);
-  /// For what it serves.
+  /// serves(scene, settings) must hold.
   BidirectionalWave(const Scene& scene, const BidirectionalSettings& settings);
 
   /// A sample of the numbers of PixelSampler(stream, index): the first two tell where in this pixel.

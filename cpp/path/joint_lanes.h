@@ -55,7 +55,7 @@ struct JoiningRays {
 };
 
 /// Joins vertices of light subpaths to those of camera subpaths; `weighted` is f w / p. The results are
-/// two, since the compiler does not see that numbers of two kinds in one place are apart.
+/// two parameters that do not overlap, so that the compiler makes vector instructions of the loop.
 inline void join(const JointLanes& from_light, const JointLanes& from_camera, bool strict,
                  const Exponent& beta, JoiningRays& __restrict rays,
                  ColorLanes& __restrict weighted) {

@@ -27,7 +27,7 @@ struct Edge {
   double distance = 0;  ///< Infinite where one end is at infinity.
   double G = 0;         ///< G(a, b), without visibility.
 };
-/// In place: a struct that is copied at once has to wait for its parts.
+/// Written in place: copying the struct right after its members are stored stalls the processor.
 inline void find_edge(const SurfacePoint& a, const SurfacePoint& b, Edge& edge) {
   if (a.infinite() || b.infinite()) {
     edge.w = direction(a, b);

@@ -51,7 +51,7 @@ class SubpathWave {
   int last_place() const { return last_place_; }
   /// Whether the sample has to be traced by itself.
   bool left(int sample) const { return left_[sample]; }
-  /// Takes it out.
+  /// Lets it be traced by itself: nothing is joined to its vertices.
   void leave(int sample);
   const std::vector<Hit>& hits() const { return hits_; }
 

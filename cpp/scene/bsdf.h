@@ -18,8 +18,9 @@ struct BsdfSample {
 
 /// A surface that is matte everywhere.
 struct MatteSurface {
-  Matte matte;  ///< Unknown: the surface is none. Its f is that of all points, or without meaning
-  const Texture* reflectance = nullptr;  ///< if it is pi times this.
+  /// Unknown sides: the surface is not matte. f is that of all points, unless there is a texture.
+  Matte matte;
+  const Texture* reflectance = nullptr;  ///< pi f, where it depends on the point.
 
   bool known() const { return matte.known(); }
   bool uniform() const { return known() && !reflectance; }
