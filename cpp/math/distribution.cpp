@@ -48,6 +48,7 @@ Discrete::Discrete(const std::vector<double>& weights) {
   if (!std::isfinite(total_)) throw UsageError("the weights of a distribution overflow their sum");
   for (double& c : cdf) c /= total_;
   for (size_t i = last_positive + 1; i < cdf.size(); ++i) cdf[i] = 1;
+  if (const size_t n = weights.size(); n > few) starts_ = {{cdf.begin(), cdf.end() - 1}, n, 1};
   cdf_ = std::move(cdf);
 }
 
@@ -69,15 +70,13 @@ Piecewise2D::Piecewise2D(const std::vector<float>& weights, size_t width, size_t
     if (sums[y] == 0) continue;
     fill_row(weights.data() + y * width, width, sums[y], full, starts.data() + y * width);
   }
-  starts_ = std::move(starts);
+  starts_ = {std::move(starts), width, full};
 }
 
 Vec2 Piecewise2D::sample(const Vec2& u) const {
   const Discrete::Sample row = rows_.sample_reuse(u.y);
-  const uint32_t* starts = starts_.data() + row.index * width_;
   const double share = u.x * full;
-  const auto column = static_cast<size_t>(
-      std::upper_bound(starts + 1, starts + width_, static_cast<uint32_t>(share)) - starts - 1);
+  const size_t column = starts_.last_up_to(row.index, static_cast<uint32_t>(share));
   const Cell cell{row.index, column, row.remainder, 0};
   const double low = begin(cell), high = end(cell);
   const double x = std::min((share - low) / (high - low), 1 - 0x1p-53);

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "base/shared_array.h"
+#include "math/sorted_rows.h"
 #include "math/vec.h"
 
 #include <cstddef>
@@ -36,9 +37,7 @@ class Discrete {
       for (size_t i = 1; i < n; ++i) index += u >= cdf_[i];
       return index;
     }
-    return static_cast<size_t>(std::upper_bound(cdf_.begin() + 1, cdf_.end() - 1, u) -
-                               cdf_.begin()) -
-           1;
+    return starts_.last_up_to(0, u);
   }
   double pdf(size_t index) const { return cdf_[index + 1] - cdf_[index]; }
 
@@ -53,7 +52,8 @@ class Discrete {
 
  private:
   static constexpr size_t few = 8;
-  SharedArray<double> cdf_;  // n + 1 values from exactly 0 to exactly 1
+  SharedArray<double> cdf_;    // n + 1 values from exactly 0 to exactly 1
+  SortedRows<double> starts_;  // the first n of them, if they are not few
   double total_ = 0;
 };
 
@@ -73,6 +73,10 @@ class Piecewise2D {
   double integral() const { return integral_; }
 
   Vec2 sample(const Vec2& u) const;
+  /// What sample(u) waits for, for prefetching.
+  const void* address(const Vec2& u) const {
+    return starts_.address(rows_.sample(u.y), static_cast<uint32_t>(u.x * full));
+  }
   double pdf(const Vec2& p) const;
   /// The u that sample maps to p; meaningful where pdf(p) > 0.
   Vec2 invert(const Vec2& p) const;
@@ -83,15 +87,13 @@ class Piecewise2D {
     double y, x;  // place within the cell, in [0, 1]
   };
   Cell locate(const Vec2& p) const;
-  uint32_t begin(const Cell& c) const { return starts_[c.row * width_ + c.column]; }
-  uint32_t end(const Cell& c) const {
-    return c.column + 1 < width_ ? starts_[c.row * width_ + c.column + 1] : full;
-  }
+  uint32_t begin(const Cell& c) const { return starts_.at(c.row, c.column); }
+  uint32_t end(const Cell& c) const { return starts_.at(c.row, c.column + 1); }
 
   static constexpr uint32_t full = 0xffffffffu;
   size_t width_ = 0, height_ = 0;
   Discrete rows_;
-  SharedArray<uint32_t> starts_;  // for each row: where each column's share of [0, full) begins
+  SortedRows<uint32_t> starts_;  // for each row: where each column's share of [0, full) begins
   double integral_ = 0;
 };
 

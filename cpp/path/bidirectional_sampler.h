@@ -141,7 +141,10 @@ class BidirectionalSampler {
   void draw_direct(Sampler& sampler) {
     sampler.begin(Stream::direct);
     direct_u_.clear();
-    for (size_t i = 0; i < camera_.size(); ++i) direct_u_.push_back(next_direct(sampler));
+    for (size_t i = 0; i < camera_.size(); ++i) {
+      direct_u_.push_back(next_direct(sampler));
+      scene_->prefetch_light(direct_u_.back());
+    }
   }
   template <class Sampler>
   static Vec3 next_direct(Sampler& sampler) {

@@ -67,9 +67,8 @@ struct DirectLight {
 /// The light that arrives at `at` and goes on towards wc; `weight(pdf_light, pdf_bsdf)` is the MIS
 /// weight, of densities in solid angle.
 template <class Weight>
-DirectLight unshadowed_light(const Scene& scene, const SurfacePoint& at, const Vec3& wc,
-                             const Vec3& u, bool strict, Weight&& weight) {
-  const LightSample light = sample_direct_position(scene, at, u);
+DirectLight unshadowed_light(const Scene& scene, const LightSample& light, const SurfacePoint& at,
+                             const Vec3& wc, bool strict, Weight&& weight) {
   if (!(light.x0.pdf > 0)) return {};
   const Vec3 wl = direction(at, light.x0.at);
   if (!consistent_sides(at, wl, strict)) return {};
@@ -82,11 +81,12 @@ DirectLight unshadowed_light(const Scene& scene, const SurfacePoint& at, const V
   return {light.x0.at, radiance * s.f * (std::abs(s.cos_l) * mis / pdf)};
 }
 
-/// The same, as far as it is seen.
+/// The same of the light that u chooses, as far as it is seen.
 template <class Weight>
 Color direct_light(const Walker& walker, const SurfacePoint& at, const Vec3& wc, const Vec3& u,
                    bool strict, Weight&& weight) {
-  const DirectLight light = unshadowed_light(walker.scene, at, wc, u, strict, weight);
+  const LightSample chosen = sample_direct_position(walker.scene, at, u);
+  const DirectLight light = unshadowed_light(walker.scene, chosen, at, wc, strict, weight);
   return is_black(light.radiance) ? Color(0) : light.radiance * walker.join(at, light.x0);
 }
 

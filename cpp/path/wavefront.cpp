@@ -69,16 +69,16 @@ template <class Numbers>
 void BasicWavefront<Numbers>::shade_block(int depth, RayCounts& rays) {
   const bool last = depth == rules_.most_edges();
   if (!last) draw_numbers(depth);
-  for (int i = 0; i < count_; ++i) find_vertex(i, depth, rays);
+  for (int i = 0; i < count_; ++i) find_vertex(i, depth);
   if (last) return;
   matte_.find_textures();
   matte_.find_points(count_, &d_.x[begin_], &d_.y[begin_], &d_.z[begin_], rules_.strict_normals);
   if (rules_.wants(depth + 1)) {
-    choose_lights();
+    choose_lights(depth);
     queue_lights();
   }
   matte_.sample_directions(count_, rules_.strict_normals);
-  take_step(depth);
+  take_step(depth, rays);
 }
 
 /// VertexNumbers of path_tracer.h, but for the last three.
@@ -90,72 +90,69 @@ void BasicWavefront<Numbers>::draw_numbers(int depth) {
   else
     numbers_.skip2();
   numbers_.next2(begin_, count_, &matte_.u_x[0], &matte_.u_y[0]);
+  if (scene_->backgrounds().empty()) return;
+  for (int i = 0; i < count_; ++i) scene_->prefetch_light(numbers_for_light(i));
 }
 
 template <class Numbers>
-inline void BasicWavefront<Numbers>::find_vertex(int i, int depth, RayCounts& rays) {
+Vec3 BasicWavefront<Numbers>::numbers_for_light(int i) const {
+  const bool several = scene_->emitters().size() > 1;
+  return {several ? numbers_.peek(begin_ + i, 0) : 0, u_light_x_[i], u_light_y_[i]};
+}
+
+template <class Numbers>
+inline void BasicWavefront<Numbers>::find_vertex(int i, int depth) {
   const PacketHits& hits = this->hits(i);
   const int lane = i % RayPacket::size;
   const uint32_t shape = hits.shape[lane];
   matte_.f[i] = nullptr;
-  goes_on_[i] = false;
+  other_[i] = false;
   if (shape == SurfacePoint::no_shape) {
     if (rules_.wants(depth)) find_light(*scene_, exact_walk(begin_ + i), nullptr);
     return;
   }
   const MatteMesh& matte = scene_->matte_mesh(shape);
-  if (matte.emits || !matte.mesh) find_bright_or_other(i, hits.hit(lane), depth, rays);
+  if (matte.emits || !matte.mesh) find_bright_or_other(i, hits.hit(lane), depth);
   if (depth < rules_.most_edges() && matte.mesh)
     matte_.set(i, matte, hits.primitive[lane], hits.u[lane], hits.v[lane]);
 }
 
 /// At a surface that glows, or is not matte.
 template <class Numbers>
-void BasicWavefront<Numbers>::find_bright_or_other(int i, const Hit& hit, int depth,
-                                                   RayCounts& rays) {
+void BasicWavefront<Numbers>::find_bright_or_other(int i, const Hit& hit, int depth) {
   CameraWalk& walk = exact_walk(begin_ + i);
   const SurfacePoint at = scene_->surface_point(walk.ray, hit);
   if (rules_.wants(depth)) find_light(*scene_, walk, &at);
-  if (depth < rules_.most_edges() && !scene_->matte_mesh(hit.shape).mesh)
-    find_other_vertex(i, at, depth, rays);
+  if (scene_->matte_mesh(hit.shape).mesh) return;
+  other_[i] = consistent_sides(at, -walk.ray.d, rules_.strict_normals);
+  point_[i] = at;
 }
 
 template <class Numbers>
-void BasicWavefront<Numbers>::find_other_vertex(int i, const SurfacePoint& at, int depth,
-                                                RayCounts& rays) {
-  CameraWalk& walk = this->walk(i);
-  const Vec3 wc = -walk.ray.d;
-  if (!consistent_sides(at, wc, rules_.strict_normals)) return;
-  const VertexNumbers numbers{{u_light_x_[i], u_light_y_[i]},
-                              {matte_.u_x[i], matte_.u_y[i]},
-                              numbers_.peek(begin_ + i, 0),
-                              numbers_.peek(begin_ + i, 1),
-                              numbers_.peek(begin_ + i, 2)};
-  if (wants_direct_light(*scene_, rules_, depth, at)) queue_light(i, at, wc, numbers.for_light());
-  const Walker walker{*scene_, walk.ray.time, rays};
-  goes_on_[i] = scatter(walker, rules_, depth, at, numbers, walk);
-}
-
-template <class Numbers>
-void BasicWavefront<Numbers>::choose_lights() {
-  const bool several = scene_->emitters().size() > 1;
+void BasicWavefront<Numbers>::choose_lights(int depth) {
+  other_lit_count_ = 0;
   for (int i = 0; i < count_; ++i) {
-    if (!matte_.f[i]) continue;
-    const Vec3 u(several ? numbers_.peek(begin_ + i, 0) : 0, u_light_x_[i], u_light_y_[i]);
-    if (const MeshLight& light = scene_->choose_mesh_light(u.x); light.mesh)
+    if (!matte_.f[i] && !(other_[i] && wants_direct_light(*scene_, rules_, depth, point_[i])))
+      continue;
+    const Vec3 u = numbers_for_light(i);
+    const MeshLight& light = scene_->choose_mesh_light(u.x);
+    if (matte_.f[i] && light.mesh)
       matte_.set_light(i, light, {u.y, u.z});
     else
       choose_other_light(i, u);
   }
 }
 
-/// One that is no glowing mesh.
+/// One that is no glowing mesh, or is seen from a vertex that is not matte.
 template <class Numbers>
 void BasicWavefront<Numbers>::choose_other_light(int i, const Vec3& u) {
-  matte_.light_pdf[i] = 0;
-  if (!(matte_.sides[i] > 0)) return;
-  const SurfacePoint at = matte_.point(i, hits(i).shape[i % RayPacket::size], walk(i).ray.time);
-  queue_light(i, at, -Vec3(d_[begin_ + i]), u);
+  if (!other_[i]) {
+    matte_.light_pdf[i] = 0;
+    if (!(matte_.sides[i] > 0)) return;
+    point_[i] = matte_.point(i, hits(i).shape[i % RayPacket::size], walk(i).ray.time);
+  }
+  light_[i] = sample_direct_position(*scene_, point_[i], u);
+  other_lit_[other_lit_count_++] = i;
 }
 
 template <class Numbers>
@@ -165,15 +162,18 @@ void BasicWavefront<Numbers>::queue_lights() {
     if (matte_.f[i] && matte_.light_weight[i] > 0)
       queue_shadow(i, *matte_.radiance[i] * *matte_.f[i] * double{matte_.light_weight[i]},
                    matte_.shadow_o[i], matte_.shadow_w[i], matte_.shadow_length[i]);
+  for (int j = 0; j < other_lit_count_; ++j) queue_other_light(other_lit_[j]);
 }
 
 /// direct_light() of path_tracer.h.
 template <class Numbers>
-void BasicWavefront<Numbers>::queue_light(int i, const SurfacePoint& at, const Vec3& wc,
-                                          const Vec3& u) {
+void BasicWavefront<Numbers>::queue_other_light(int i) {
   const CameraWalk& walk = this->walk(i);
+  const SurfacePoint& at = point_[i];
+  const Vec3 wc = other_[i] ? -walk.ray.d : -Vec3(d_[begin_ + i]);
   const auto mis = [&](double light, double bsdf) { return walk.mis(light, bsdf); };
-  const DirectLight light = unshadowed_light(*scene_, at, wc, u, rules_.strict_normals, mis);
+  const DirectLight light =
+      unshadowed_light(*scene_, light_[i], at, wc, rules_.strict_normals, mis);
   if (is_black(light.radiance)) return;
   if (const auto ray = scene_->segment(at, light.x0, walk.ray.time))
     queue_shadow(i, light.radiance, Vec3f(ray->o), Vec3f(ray->d), static_cast<float>(ray->t_max));
@@ -189,11 +189,11 @@ void BasicWavefront<Numbers>::queue_shadow(int i, const Color& radiance, const V
 }
 
 template <class Numbers>
-void BasicWavefront<Numbers>::take_step(int depth) {
+void BasicWavefront<Numbers>::take_step(int depth, RayCounts& rays) {
   for (int i = 0; i < count_; ++i) {
     CameraWalk& walk = this->walk(i);
     const bool matte = matte_.f[i];
-    if (!(matte ? scatter_matte(i, depth, walk) : goes_on_[i])) continue;
+    if (!(matte ? scatter_matte(i, depth, walk) : scatter_other(i, depth, walk, rays))) continue;
     o_.set(next_, matte ? matte_.o[i] : Vec3f(walk.ray.o));
     d_.set(next_, matte ? matte_.w[i] : Vec3f(walk.ray.d));
     ++walk.rays.intersect;
@@ -216,6 +216,18 @@ bool BasicWavefront<Numbers>::scatter_matte(int i, int depth, CameraWalk& walk) 
   walk.delta = false;
   walk.previous = Vec3(matte_.p[i]);
   return true;
+}
+
+/// The same for another vertex, if there is one.
+template <class Numbers>
+bool BasicWavefront<Numbers>::scatter_other(int i, int depth, CameraWalk& walk, RayCounts& rays) {
+  if (!other_[i]) return false;
+  const VertexNumbers numbers{{u_light_x_[i], u_light_y_[i]},
+                              {matte_.u_x[i], matte_.u_y[i]},
+                              numbers_.peek(begin_ + i, 0),
+                              numbers_.peek(begin_ + i, 1),
+                              numbers_.peek(begin_ + i, 2)};
+  return scatter(Walker{*scene_, walk.ray.time, rays}, rules_, depth, point_[i], numbers, walk);
 }
 
 template class BasicWavefront<WaveNumbers>;

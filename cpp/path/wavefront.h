@@ -57,16 +57,17 @@ class BasicWavefront {
   // Of the `count_` paths from the begin_-th one on:
   void shade_block(int depth, RayCounts& rays);
   void draw_numbers(int depth);
-  void find_vertex(int i, int depth, RayCounts& rays);
-  void find_bright_or_other(int i, const Hit& hit, int depth, RayCounts& rays);
-  void find_other_vertex(int i, const SurfacePoint& at, int depth, RayCounts& rays);
-  void choose_lights();
+  Vec3 numbers_for_light(int i) const;
+  void find_vertex(int i, int depth);
+  void find_bright_or_other(int i, const Hit& hit, int depth);
+  void choose_lights(int depth);
   void choose_other_light(int i, const Vec3& u);
   void queue_lights();
-  void queue_light(int i, const SurfacePoint& at, const Vec3& wc, const Vec3& u);
+  void queue_other_light(int i);
   void queue_shadow(int i, const Color& radiance, const Vec3f& o, const Vec3f& w, float length);
-  void take_step(int depth);
+  void take_step(int depth, RayCounts& rays);
   bool scatter_matte(int i, int depth, CameraWalk& walk);
+  bool scatter_other(int i, int depth, CameraWalk& walk, RayCounts& rays);
 
   /// The walk at this place of the wave, with its ray in double precision.
   CameraWalk& exact_walk(int place);
@@ -92,7 +93,11 @@ class BasicWavefront {
   int begin_ = 0, count_ = 0;
   Block<double> u_light_x_, u_light_y_;
   MatteVertices matte_;
-  Block<bool> goes_on_;  ///< From a vertex that is not matte, along the walk's ray.
+  Block<bool> other_;          ///< Whether there is a vertex that is not matte.
+  Block<SurfacePoint> point_;  ///< The vertex, where it or its light is not computed side by side,
+  Block<LightSample> light_;   ///< and the light that it looks at.
+  Block<int> other_lit_;       ///< Which paths have such a light.
+  int other_lit_count_ = 0;
 };
 
 using Wavefront = BasicWavefront<WaveNumbers>;

@@ -31,6 +31,10 @@ Color EnvironmentMap::eval(const SurfacePoint& x0, const Vec3&) const {
 
 PositionSample EnvironmentMap::sample_position(const Vec2& u, double) const {
   const Vec2 p = table_.sample(u);
+  // Its radiance will be asked for.
+  const int i = static_cast<int>(p.x * width_), j = row_at(p.y);
+  __builtin_prefetch(texel_data(i, j));
+  __builtin_prefetch(texel_data(i, j + 1));
   return {point_towards(axes_.to_world(direction_of(p))), pdf_at(p)};
 }
 
@@ -47,9 +51,13 @@ Vec2 EnvironmentMap::invert_position(const SurfacePoint& x0) const {
   return table_.invert(place_of(axes_.to_local(x0.p)));
 }
 
-Color EnvironmentMap::texel(int i, int j) const {
+const float* EnvironmentMap::texel_data(int i, int j) const {
   const size_t index = size_t(j) * size_t(width_) + size_t(i >= width_ ? i - width_ : i);
-  const float* c = &texels_[index * size_t(channels_)];
+  return &texels_[index * size_t(channels_)];
+}
+
+Color EnvironmentMap::texel(int i, int j) const {
+  const float* c = texel_data(i, j);
   return channels_ == 1 ? Color(c[0]) : Color(c[0], c[1], c[2]);
 }
 

@@ -30,6 +30,7 @@ class EnvironmentMap : public InfiniteEmitter {
   EnvironmentMap(Image image, const Frame& axes, double scale);
 
   Color eval(const SurfacePoint& x0, const Vec3& w) const final;
+  void prefetch_position(const Vec2& u) const final { __builtin_prefetch(table_.address(u)); }
   PositionSample sample_position(const Vec2& u, double time) const final;
   double pdf_position(const SurfacePoint& x0) const final;
   Vec2 invert_position(const SurfacePoint& x0) const final;
@@ -38,6 +39,7 @@ class EnvironmentMap : public InfiniteEmitter {
  private:
   int cell_rows() const { return height_ - 1; }
   size_t pixel_count() const { return texels_.size() / size_t(channels_); }
+  const float* texel_data(int i, int j) const;
   Color texel(int i, int j) const;
   double column_at(const Vec3& d) const;
   void tabulate();

@@ -1,0 +1,83 @@
+// Rows of sorted numbers, in each of which another number can be looked for. A tree without pointers
+// stands above every row: one cache line of its numbers, a line with the first of each of those lines, and
+// so on. So a search reads one line for each level, where one by halves waits for memory at almost every
+// step, and it does not branch.
+#pragma once
+
+#include "base/shared_array.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace mlt {
+
+template <class T>
+class SortedRows {
+ public:
+  SortedRows() = default;
+  /// `numbers` are rows of `width` that never fall; `end` is above all that will be looked for.
+  SortedRows(std::vector<T> numbers, size_t width, T end) : width_(width), end_(end) {
+    all_ = Level(numbers, width, end);
+    for (const Level* below = &all_; width > per_line; below = &above_.back()) {
+      width = below->lines_per_row;
+      numbers.clear();
+      for (const Line& line : below->lines) numbers.push_back(line.numbers[0]);
+      above_.emplace_back(numbers, width, end);
+    }
+    std::reverse(above_.begin(), above_.end());
+  }
+
+  /// The i-th number of a row; `end` for i = width.
+  T at(size_t row, size_t i) const {
+    return i == width_ ? end_ : all_.row(row)[i / per_line].numbers[i % per_line];
+  }
+  /// The last i with at(row, i) <= x, which holds for i = 0.
+  size_t last_up_to(size_t row, T x) const {
+    const size_t i = line_of(row, x);
+    return i * per_line + all_.row(row)[i].last_up_to(x);
+  }
+  /// Where in memory it is, for prefetching.
+  const void* address(size_t row, T x) const { return &all_.row(row)[line_of(row, x)]; }
+
+ private:
+  static constexpr size_t per_line = 64 / sizeof(T);
+  struct alignas(64) Line {
+    T numbers[per_line];
+
+    size_t last_up_to(T x) const {
+      size_t count = 0;
+      for (const T number : numbers) count += number <= x;
+      return count - 1;
+    }
+  };
+  struct Level {
+    Level() = default;
+    /// The rows, filled up with `end` to whole lines.
+    Level(const std::vector<T>& numbers, size_t width, T end)
+        : lines_per_row((width + per_line - 1) / per_line) {
+      std::vector<Line> filled(numbers.size() / width * lines_per_row);
+      for (size_t row = 0, next = 0; next < numbers.size(); ++row)
+        for (size_t i = 0; i < lines_per_row * per_line; ++i)
+          filled[row * lines_per_row + i / per_line].numbers[i % per_line] =
+              i < width ? numbers[next++] : end;
+      lines = std::move(filled);
+    }
+    const Line* row(size_t row) const { return lines.data() + row * lines_per_row; }
+
+    size_t lines_per_row = 0;
+    SharedArray<Line> lines;
+  };
+
+  size_t line_of(size_t row, T x) const {
+    size_t i = 0;
+    for (const Level& level : above_) i = i * per_line + level.row(row)[i].last_up_to(x);
+    return i;
+  }
+
+  size_t width_ = 0;
+  T end_{};
+  Level all_;
+  std::vector<Level> above_;  ///< From the top.
+};
+
+}  // namespace mlt
