@@ -5,8 +5,7 @@
 namespace mlt {
 
 void PathTarget::evaluate(int first, int last, PathState& x) const {
-  const int k = x.edges(), from = std::max(0, first - 1), to = std::min(k, last + 1);
-  update_terms(*scene_, x.path, term_settings(), from, to, x.terms);
+  update_terms(*scene_, x.path, term_settings(), first, last, x.terms);
   evaluate_target(x);
 }
 

@@ -37,8 +37,10 @@ inline bool is_specular(const Scene& scene, const Vertex& x, const Vec3& wl, con
                         double near_specular) {
   if (x.delta()) return true;
   if (x.kind != VertexKind::surface || x.at.matte.known() || near_specular <= 0) return false;
+  const Bsdf& bsdf = scene.bsdf(x.at);
+  if (bsdf.least_roughness() >= near_specular) return false;
   const Frame& frame = x.at.shading;
-  return scene.bsdf(x.at).roughness(x.at, frame.to_local(wl), frame.to_local(wc)) < near_specular;
+  return bsdf.roughness(x.at, frame.to_local(wl), frame.to_local(wc)) < near_specular;
 }
 
 }  // namespace mlt

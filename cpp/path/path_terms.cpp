@@ -17,36 +17,42 @@ void compute_terms(const Scene& scene, const Path& path, const TermSettings& set
 
 void update_terms(const Scene& scene, const Path& path, const TermSettings& settings, int first,
                   int last, PathTerms& terms) {
-  const int k = path.edges();
+  const int k = path.edges(), begin = std::max(0, first - 1), end = std::min(k, last + 1);
   const Vertex* vertices = path.vertices.data();
   TermsAt* at = terms.at.data();
-  Vec3 wl = first > 0 ? terms.direction(first, -1) : Vec3(0);
-  for (int i = first; i <= last; ++i) {
+  // A light at infinity is the same whatever is next to it.
+  const bool same_light = first > 0 && vertices[0].at.infinite();
+  Vec3 wl = begin > 0 ? terms.direction(begin, -1) : Vec3(0);
+  for (int i = begin; i <= end; ++i) {
     const Vertex& vertex = vertices[i];
     TermsAt& x = at[i];
-    if (i < last) find_edge(vertex.at, vertices[i + 1].at, x);
+    if (i < end) find_edge(vertex.at, vertices[i + 1].at, x);
     const Vec3 wc = i < k ? x.w : Vec3(0);
-    x.connectable = connectable(vertex);
-    x.specular = is_specular(scene, vertex, wl, wc, settings.near_specular);
-    if (i < k) {
-      x.vertex = vertex_terms(scene, vertex, wl, wc, settings.strict_normals);
-    } else {
-      const LensTerms lens = lens_terms(scene, vertex.at, wl);
-      x.vertex = lens.vertex;
-      terms.raster = lens.raster;
+    if (i > 0 || !same_light) {
+      x.connectable = connectable(vertex);
+      x.specular = is_specular(scene, vertex, wl, wc, settings.near_specular);
+      if (i < k) {
+        x.vertex = vertex_terms(scene, vertex, wl, wc, settings.strict_normals);
+      } else {
+        const LensTerms lens = lens_terms(scene, vertex.at, wl);
+        x.vertex = lens.vertex;
+        terms.raster = lens.raster;
+      }
+      const double size = max_component(x.vertex.f);
+      x.inverse_f = size > least_f ? 1 / size : 0;
     }
-    const double size = max_component(x.vertex.f);
-    x.inverse_f = size > least_f ? 1 / size : 0;
     if (i > 0) at[i - 1].from_camera = x.vertex.pdf_from_camera * at[i - 1].G;
     if (i < k) at[i + 1].from_light = x.vertex.pdf_from_light * x.G;
     wl = -wc;
   }
   if (first == 0) {
     at[0].from_light = light_position_pdf(scene, vertices[0]);
-    terms.direct = settings.sample_direct ? direct_position_pdf(scene, vertices[0], vertices[1].at)
-                                          : at[0].from_light;
     terms.light_can_be_hit = can_be_hit(scene, vertices[0]);
   }
+  if (begin == 0 && !same_light)
+    terms.direct = settings.sample_direct && !vertices[0].at.infinite()
+                       ? direct_position_pdf(scene, vertices[0], vertices[1].at)
+                       : at[0].from_light;
   if (last == k) {
     at[k].from_camera = camera_position_pdf(scene, vertices[k]);
     terms.camera_can_be_hit = can_be_hit(scene, vertices[k]);

@@ -80,9 +80,9 @@ struct TermSettings {
 void compute_terms(const Scene& scene, const Path& path, const TermSettings& settings,
                    PathTerms& terms);
 
-/// Brings the terms up to date after vertices first ... last, or a neighbour of theirs, have
-/// changed: computes anew the terms of these vertices, the edges between them, and the densities
-/// that follow.
+/// Brings the terms up to date after vertices first ... last (none if last = first - 1: an edge) have
+/// changed: computes anew what depends on these vertices, on the edges that touch them, and on the
+/// densities that follow.
 void update_terms(const Scene& scene, const Path& path, const TermSettings& settings, int first,
                   int last, PathTerms& terms);
 

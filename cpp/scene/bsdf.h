@@ -72,6 +72,8 @@ class Bsdf : public Object {
                            const Vec3& /*wc*/) const {
     return infinity;
   }
+  /// Nowhere is roughness() less.
+  virtual double least_roughness() const { return 0; }
 
   /// The normal about which delta lobes reflect and refract what comes from the direction w.
   virtual Vec3 delta_normal(const SurfacePoint& /*at*/, const Vec3& /*w*/) const {

@@ -74,6 +74,8 @@ class RoughPlastic final : public Bsdf {
                                                                   : infinity;
   }
 
+  double least_roughness() const override { return microfacet_.alpha_u(); }
+
   Color albedo(const SurfacePoint& at) const override { return base_.albedo(at); }
 
  private:

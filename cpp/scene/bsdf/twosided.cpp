@@ -56,6 +56,10 @@ class TwoSided final : public Bsdf {
     return nested(wl).roughness(at, to_front(wl), to_front(wc));
   }
 
+  double least_roughness() const override {
+    return std::min(front_->least_roughness(), back_->least_roughness());
+  }
+
   Color albedo(const SurfacePoint& at) const override {
     return 0.5 * (front_->albedo(at) + back_->albedo(at));
   }
