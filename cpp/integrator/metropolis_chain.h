@@ -24,6 +24,8 @@ class ChainRecorder {
   /// RGB / T of a state, its expected weight, and its T / P (see FamilyWeights).
   virtual void record(const Vec2& raster, const Color& rgb_per_target, double weight,
                       double target_over_density) = 0;
+  /// Whether T / P makes a difference.
+  virtual bool wants_density() const { return true; }
   /// Called when a chain pauses.
   virtual void flush() {}
 };
@@ -47,6 +49,7 @@ class FilmRecorder : public ChainRecorder {
     if (!is_black(color_)) film_->add(group_, raster_, color_);
     color_ = Color(0);
   }
+  bool wants_density() const override { return weights_->threshold() > 0; }
   /// Sum of L* of what was recorded.
   double brightness() const { return brightness_; }
 

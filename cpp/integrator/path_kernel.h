@@ -14,8 +14,9 @@ class PathKernel : public PathMixture {
       : PathMixture(mixture), target_(&target) {}
 
   void record(ChainRecorder& recorder, const PathState& x, double weight) const {
-    const double over_density = x.known.over_density.get([&] { return target_->over_density(x); });
-    recorder.record(x.raster, x.rgb / x.target, weight, over_density);
+    const auto over_density = [&] { return target_->over_density(x); };
+    recorder.record(x.raster, x.rgb / x.target, weight,
+                    recorder.wants_density() ? x.known.over_density.get(over_density) : 1);
   }
   double proposal_weight() const { return 0; }
   Vec2 raster_of(const PathState& x) const { return x.raster; }
