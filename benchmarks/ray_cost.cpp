@@ -73,17 +73,17 @@ NamedScene cornell_box(const std::string& scenes, int dents) {
   return scene;
 }
 
-std::optional<NamedScene> veachdoor() {
+std::optional<NamedScene> external_scene(const std::string& name, const Vec2i& size) {
   const char* shared = std::getenv("PYMLT_SHARED");
   const std::string path =
-      std::string(shared ? shared : "../shared") + "/scenes/veachdoor/scene.xml";
+      std::string(shared ? shared : "../shared") + "/scenes/" + name + "/scene.xml";
   if (!std::filesystem::exists(path)) {
-    fmt::print("veachdoor: skipped, {} is not there (PYMLT_SHARED names the folder)\n", path);
+    fmt::print("{}: skipped, {} is not there (PYMLT_SHARED names the folder)\n", name, path);
     return std::nullopt;
   }
   LoadOptions options;
-  options.size = Vec2i(320, 180);
-  return NamedScene{"veachdoor", load_file(path, plugins(), options)};
+  options.size = size;
+  return NamedScene{name, load_file(path, plugins(), options)};
 }
 
 // ---- one measurement ---------------------------------------------------------------------------
@@ -224,7 +224,7 @@ usage: bench_ray_cost [--seconds S] [--scenes FOLDER] [--only WORD] [--json FILE
   --scenes FOLDER  where cornell-box/scene.xml lies (scenes)
   --only WORD      lines whose scene or integrator is WORD
   --json FILE      write the numbers there as well
-veachdoor is looked for in $PYMLT_SHARED/scenes, or in ../shared/scenes.
+veachdoor and living-room are looked for in $PYMLT_SHARED/scenes, or in ../shared/scenes.
 A sample is a camera path (path), a camera and a light path (bdpt), or a mutation.
 )";
 
@@ -257,7 +257,8 @@ int run(const Options& options) {
   std::vector<NamedScene> scenes;
   scenes.push_back(cornell_box(options.scenes, 0));
   scenes.push_back(cornell_box(options.scenes, 160));
-  if (auto door = veachdoor()) scenes.push_back(std::move(*door));
+  for (const char* name : {"veachdoor", "living-room"})
+    if (auto external = external_scene(name, {320, 180})) scenes.push_back(std::move(*external));
   fmt::print("{:12} {:>10} {:10} {:>8} {:>8} {:>10} {:>9} {:>10}\n", "scene", "triangles",
              "integrator", "Msmp/s", "rays/smp", "bare Mr/s", "time/bare", "rays/bare");
   std::string json;
