@@ -69,6 +69,7 @@ template <class Numbers>
 void BasicWavefront<Numbers>::shade_block(int depth, RayCounts& rays) {
   const bool last = depth == rules_.most_edges();
   if (!last) draw_numbers(depth);
+  singles_.clear();
   for (int i = 0; i < count_; ++i) find_vertex(i, depth);
   if (last) return;
   matte_.find_textures();
@@ -106,7 +107,7 @@ inline void BasicWavefront<Numbers>::find_vertex(int i, int depth) {
   const int lane = i % RayPacket::size;
   const uint32_t shape = hits.shape[lane];
   matte_.f[i] = nullptr;
-  other_[i] = false;
+  single_[i] = -1;
   if (shape == SurfacePoint::no_shape) {
     if (rules_.wants(depth)) find_light(*scene_, exact_walk(begin_ + i), nullptr);
     return;
@@ -124,16 +125,23 @@ void BasicWavefront<Numbers>::find_bright_or_other(int i, const Hit& hit, int de
   const SurfacePoint at = scene_->surface_point(walk.ray, hit);
   if (rules_.wants(depth)) find_light(*scene_, walk, &at);
   if (scene_->matte_mesh(hit.shape).mesh) return;
-  other_[i] = consistent_sides(at, -walk.ray.d, rules_.strict_normals);
-  point_[i] = at;
+  if (consistent_sides(at, -walk.ray.d, rules_.strict_normals)) add_single(i, at);
+}
+
+template <class Numbers>
+void BasicWavefront<Numbers>::add_single(int i, const SurfacePoint& at) {
+  single_[i] = static_cast<int>(singles_.size());
+  singles_.push_back({i, at, {}});
 }
 
 template <class Numbers>
 void BasicWavefront<Numbers>::choose_lights(int depth) {
-  other_lit_count_ = 0;
+  const auto wants_light = [&](int i) {
+    return matte_.f[i] ||
+           (single_[i] >= 0 && wants_direct_light(*scene_, rules_, depth, singles_[single_[i]].at));
+  };
   for (int i = 0; i < count_; ++i) {
-    if (!matte_.f[i] && !(other_[i] && wants_direct_light(*scene_, rules_, depth, point_[i])))
-      continue;
+    if (!wants_light(i)) continue;
     const Vec3 u = numbers_for_light(i);
     const MeshLight& light = scene_->choose_mesh_light(u.x);
     if (matte_.f[i] && light.mesh)
@@ -146,13 +154,13 @@ void BasicWavefront<Numbers>::choose_lights(int depth) {
 /// One that is no glowing mesh, or is seen from a vertex that is not matte.
 template <class Numbers>
 void BasicWavefront<Numbers>::choose_other_light(int i, const Vec3& u) {
-  if (!other_[i]) {
+  if (matte_.f[i]) {
     matte_.light_pdf[i] = 0;
     if (!(matte_.sides[i] > 0)) return;
-    point_[i] = matte_.point(i, hits(i).shape[i % RayPacket::size], walk(i).ray.time);
+    add_single(i, matte_.point(i, hits(i).shape[i % RayPacket::size], walk(i).ray.time));
   }
-  light_[i] = sample_direct_position(*scene_, point_[i], u);
-  other_lit_[other_lit_count_++] = i;
+  SingleVertex& single = singles_[single_[i]];
+  single.light = sample_direct_position(*scene_, single.at, u);
 }
 
 template <class Numbers>
@@ -162,18 +170,18 @@ void BasicWavefront<Numbers>::queue_lights() {
     if (matte_.f[i] && matte_.light_weight[i] > 0)
       queue_shadow(i, *matte_.radiance[i] * *matte_.f[i] * double{matte_.light_weight[i]},
                    matte_.shadow_o[i], matte_.shadow_w[i], matte_.shadow_length[i]);
-  for (int j = 0; j < other_lit_count_; ++j) queue_other_light(other_lit_[j]);
+  for (const SingleVertex& single : singles_)
+    if (single.light.emitter) queue_other_light(single);
 }
 
 /// direct_light() of path_tracer.h.
 template <class Numbers>
-void BasicWavefront<Numbers>::queue_other_light(int i) {
+void BasicWavefront<Numbers>::queue_other_light(const SingleVertex& single) {
+  const auto& [i, at, chosen] = single;
   const CameraWalk& walk = this->walk(i);
-  const SurfacePoint& at = point_[i];
-  const Vec3 wc = other_[i] ? -walk.ray.d : -Vec3(d_[begin_ + i]);
+  const Vec3 wc = matte_.f[i] ? -Vec3(d_[begin_ + i]) : -walk.ray.d;
   const auto mis = [&](double light, double bsdf) { return walk.mis(light, bsdf); };
-  const DirectLight light =
-      unshadowed_light(*scene_, light_[i], at, wc, rules_.strict_normals, mis);
+  const DirectLight light = unshadowed_light(*scene_, chosen, at, wc, rules_.strict_normals, mis);
   if (is_black(light.radiance)) return;
   if (const auto ray = scene_->segment(at, light.x0, walk.ray.time))
     queue_shadow(i, light.radiance, Vec3f(ray->o), Vec3f(ray->d), static_cast<float>(ray->t_max));
@@ -221,13 +229,14 @@ bool BasicWavefront<Numbers>::scatter_matte(int i, int depth, CameraWalk& walk) 
 /// The same for another vertex, if there is one.
 template <class Numbers>
 bool BasicWavefront<Numbers>::scatter_other(int i, int depth, CameraWalk& walk, RayCounts& rays) {
-  if (!other_[i]) return false;
+  if (single_[i] < 0) return false;
   const VertexNumbers numbers{{u_light_x_[i], u_light_y_[i]},
                               {matte_.u_x[i], matte_.u_y[i]},
                               numbers_.peek(begin_ + i, 0),
                               numbers_.peek(begin_ + i, 1),
                               numbers_.peek(begin_ + i, 2)};
-  return scatter(Walker{*scene_, walk.ray.time, rays}, rules_, depth, point_[i], numbers, walk);
+  return scatter(Walker{*scene_, walk.ray.time, rays}, rules_, depth, singles_[single_[i]].at,
+                 numbers, walk);
 }
 
 template class BasicWavefront<WaveNumbers>;

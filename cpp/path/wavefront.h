@@ -51,6 +51,13 @@ class BasicWavefront {
   }
 
  private:
+  /// A vertex that is not matte, or looks at a light that is no glowing mesh.
+  struct SingleVertex {
+    int path;
+    SurfacePoint at;
+    LightSample light;  ///< Without an emitter: it looks at none.
+  };
+
   void find_hits(bool coherent, RayCounts& rays);
   void find_shadows(RayCounts& rays);
 
@@ -62,8 +69,9 @@ class BasicWavefront {
   void find_bright_or_other(int i, const Hit& hit, int depth);
   void choose_lights(int depth);
   void choose_other_light(int i, const Vec3& u);
+  void add_single(int i, const SurfacePoint& at);
   void queue_lights();
-  void queue_other_light(int i);
+  void queue_other_light(const SingleVertex& single);
   void queue_shadow(int i, const Color& radiance, const Vec3f& o, const Vec3f& w, float length);
   void take_step(int depth, RayCounts& rays);
   bool scatter_matte(int i, int depth, CameraWalk& walk);
@@ -93,11 +101,8 @@ class BasicWavefront {
   int begin_ = 0, count_ = 0;
   Block<double> u_light_x_, u_light_y_;
   MatteVertices matte_;
-  Block<bool> other_;          ///< Whether there is a vertex that is not matte.
-  Block<SurfacePoint> point_;  ///< The vertex, where it or its light is not computed side by side,
-  Block<LightSample> light_;   ///< and the light that it looks at.
-  Block<int> other_lit_;       ///< Which paths have such a light.
-  int other_lit_count_ = 0;
+  std::vector<SingleVertex> singles_;
+  Block<int> single_;  ///< Which of them belongs to the path; -1: none.
 };
 
 using Wavefront = BasicWavefront<WaveNumbers>;
