@@ -30,7 +30,9 @@ class EnvironmentMap : public InfiniteEmitter {
   EnvironmentMap(Image image, const Frame& axes, double scale);
 
   Color eval(const SurfacePoint& x0, const Vec3& w) const final;
-  void prefetch_position(const Vec2& u) const final { __builtin_prefetch(table_.address(u)); }
+  void prefetch_position(const Vec2& u) const final {
+    if (is_large_) __builtin_prefetch(table_.address(u));
+  }
   PositionSample sample_position(const Vec2& u, double time) const final;
   double pdf_position(const SurfacePoint& x0) const final;
   Vec2 invert_position(const SurfacePoint& x0) const final;
@@ -57,6 +59,7 @@ class EnvironmentMap : public InfiniteEmitter {
   SharedArray<float> texels_;
   SharedArray<double> cos_rows_;  ///< cos theta of each row of texels.
   Piecewise2D table_;
+  bool is_large_;  ///< The table is larger than a processor's second cache.
   Color integral_{0};
 };
 
