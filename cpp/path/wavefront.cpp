@@ -69,7 +69,7 @@ template <class Numbers>
 void BasicWavefront<Numbers>::shade_block(int depth, RayCounts& rays) {
   const bool last = depth == rules_.most_edges();
   if (!last) draw_numbers(depth);
-  singles_.clear();
+  single_count_ = 0;
   for (int i = 0; i < count_; ++i) find_vertex(i, depth);
   if (last) return;
   matte_.find_textures();
@@ -130,8 +130,12 @@ void BasicWavefront<Numbers>::find_bright_or_other(int i, const Hit& hit, int de
 
 template <class Numbers>
 void BasicWavefront<Numbers>::add_single(int i, const SurfacePoint& at) {
-  single_[i] = static_cast<int>(singles_.size());
-  singles_.push_back({i, at, {}});
+  single_[i] = single_count_;
+  if (single_count_ == static_cast<int>(singles_.size())) singles_.emplace_back();
+  SingleVertex& single = singles_[single_count_++];
+  single.path = i;
+  single.at = at;
+  single.light.emitter = nullptr;
 }
 
 template <class Numbers>
@@ -170,8 +174,8 @@ void BasicWavefront<Numbers>::queue_lights() {
     if (matte_.f[i] && matte_.light_weight[i] > 0)
       queue_shadow(i, *matte_.radiance[i] * *matte_.f[i] * double{matte_.light_weight[i]},
                    matte_.shadow_o[i], matte_.shadow_w[i], matte_.shadow_length[i]);
-  for (const SingleVertex& single : singles_)
-    if (single.light.emitter) queue_other_light(single);
+  for (int j = 0; j < single_count_; ++j)
+    if (singles_[j].light.emitter) queue_other_light(singles_[j]);
 }
 
 /// direct_light() of path_tracer.h.

@@ -101,7 +101,8 @@ class BasicWavefront {
   int begin_ = 0, count_ = 0;
   Block<double> u_light_x_, u_light_y_;
   MatteVertices matte_;
-  std::vector<SingleVertex> singles_;
+  std::vector<SingleVertex> singles_;  ///< The first `single_count_` of them; it keeps its memory.
+  int single_count_ = 0;
   Block<int> single_;  ///< Which of them belongs to the path; -1: none.
 };
 
