@@ -86,12 +86,13 @@ void BasicWavefront<Numbers>::shade_block(int depth, RayCounts& rays) {
 template <class Numbers>
 void BasicWavefront<Numbers>::draw_numbers(int depth) {
   numbers_.begin_vertex(begin_, count_);
-  if (rules_.wants(depth + 1))
+  const bool lit = rules_.wants(depth + 1);
+  if (lit)
     numbers_.next2(begin_, count_, &u_light_x_[0], &u_light_y_[0]);
   else
     numbers_.skip2();
   numbers_.next2(begin_, count_, &matte_.u_x[0], &matte_.u_y[0]);
-  if (scene_->backgrounds().empty()) return;
+  if (!lit || scene_->backgrounds().empty()) return;
   for (int i = 0; i < count_; ++i) scene_->prefetch_light(numbers_for_light(i));
 }
 
