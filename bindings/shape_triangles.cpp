@@ -70,7 +70,7 @@ py::dict described(const Shape& shape, uint32_t index) {
   const Shape& part = shown_part(shape);
   PositionSample sample;
   if (const Mesh* mesh = part.as_mesh())
-    sample.at = mesh->textured_point(0, Vec2(1 / 3.0));
+    mesh->textured_point(0, Vec2(1 / 3.0), sample.at);
   else
     sample = part.sample_position({0.5, 0.5});
   const Color albedo = part.bsdf().albedo(sample.at);

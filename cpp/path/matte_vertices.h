@@ -76,7 +76,9 @@ struct MatteVertices {
     }
     f[i] = &textured_f_[i];
     TexturedPoint& point = textured_[textured_count_++];
-    point = {i, shape.matte, mesh.textured_point(triangle, {b1, b2})};
+    point.path = i;
+    point.matte = shape.matte;
+    mesh.textured_point(triangle, {b1, b2}, point.at);
     point.matte->reflectance->prefetch(point.at);
   }
   /// Looks up the textures of all that were set.

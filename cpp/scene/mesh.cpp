@@ -157,18 +157,16 @@ PositionSample Mesh::sample_position(const Vec2& u) const {
   return sample;
 }
 
-SurfacePoint Mesh::textured_point(uint32_t triangle, const Vec2& b) const {
+void Mesh::textured_point(uint32_t triangle, const Vec2& b, SurfacePoint& at) const {
   const TriangleRecord& record = records_[triangle];
   const double b0 = 1 - b.x - b.y;
-  SurfacePoint at;
   at.p = Vec3(record.p0) * b0 + Vec3(record.p1) * b.x + Vec3(record.p2) * b.y;
   at.uv = b;
   at.shape = index_;
   at.primitive = triangle;
-  if (!uvs_) return at;
+  if (!uvs_) return;
   const auto& corners = triangles_[triangle];
   at.uv = Vec2(uvs_[corners[0]]) * b0 + Vec2(uvs_[corners[1]]) * b.x + Vec2(uvs_[corners[2]]) * b.y;
-  return at;
 }
 
 Vec2 Mesh::barycentrics(const SurfacePoint& at) const {

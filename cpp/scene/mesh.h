@@ -57,8 +57,8 @@ class Mesh : public Shape {
                       normals_[corners[2]] * b.y;
     return dot(sum, sum) > 1e-12f ? sum * static_cast<float>(side_) : ng;
   }
-  /// A point for textures: position, texture coordinates, what it is part of; no frame.
-  SurfacePoint textured_point(uint32_t triangle, const Vec2& b) const;
+  /// Writes what textures ask of a point: position, texture coordinates, what it is part of.
+  void textured_point(uint32_t triangle, const Vec2& b, SurfacePoint& at) const;
 
   struct Barycentrics {
     uint32_t triangle;

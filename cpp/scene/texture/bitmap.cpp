@@ -69,17 +69,18 @@ class Bitmap final : public Texture {
     if (nearest_)
       return lookup(column(static_cast<int>(std::floor(p.x))),
                     row(static_cast<int>(std::floor(p.y))));
-    const Cell c = cell(p);
-    return (1 - c.b) * ((1 - c.a) * c.corner[0] + c.a * c.corner[1]) +
-           c.b * ((1 - c.a) * c.corner[2] + c.a * c.corner[3]);
+    const Texels::Cell c = cell(p);
+    if (std::min({c.x[0], c.x[1], c.y[0], c.y[1]}) >= 0) return texels_.bilinear(c);
+    return (1 - c.b) * ((1 - c.a) * corner(c, 0, 0) + c.a * corner(c, 1, 0)) +
+           c.b * ((1 - c.a) * corner(c, 0, 1) + c.a * corner(c, 1, 1));
   }
 
   Vec2 gradient(const SurfacePoint& at) const override {
     const Vec2 p = position(at);
     if (nearest_ || !is_finite(p)) return Vec2(0);
-    const Cell c = cell(p);
+    const Texels::Cell c = cell(p);
     double value[4];
-    for (int i = 0; i < 4; ++i) value[i] = luminance(c.corner[i]);
+    for (int i = 0; i < 4; ++i) value[i] = luminance(corner(c, i % 2, i / 2));
     const double along_x = (1 - c.b) * (value[1] - value[0]) + c.b * (value[3] - value[2]);
     const double along_y = (1 - c.a) * (value[2] - value[0]) + c.a * (value[3] - value[1]);
     return to_uv_.pull_back({along_x * texels_.width(), along_y * texels_.height()});
@@ -96,18 +97,14 @@ class Bitmap final : public Texture {
     return {reduce(uv.x, wrap_u_) * texels_.width(), reduce(uv.y, wrap_v_) * texels_.height()};
   }
 
-  /// The four texels around a position, row by row, and where it lies between them.
-  struct Cell {
-    Color corner[4];
-    double a, b;
-  };
-  Cell cell(const Vec2& p) const {
+  /// The texels around a position; -1 for columns and rows where the border value counts.
+  Texels::Cell cell(const Vec2& p) const {
     const double fx = std::floor(p.x - 0.5), fy = std::floor(p.y - 0.5);
     const int i = static_cast<int>(fx), j = static_cast<int>(fy);
-    const int left = column(i), right = column(i + 1), low = row(j), high = row(j + 1);
-    return {{lookup(left, low), lookup(right, low), lookup(left, high), lookup(right, high)},
-            p.x - 0.5 - fx,
-            p.y - 0.5 - fy};
+    return {{column(i), column(i + 1)}, {row(j), row(j + 1)}, p.x - 0.5 - fx, p.y - 0.5 - fy};
+  }
+  Color corner(const Texels::Cell& cell, int column, int row) const {
+    return lookup(cell.x[column], cell.y[row]);
   }
 
   int column(int i) const { return wrapped(i, texels_.width(), wrap_u_); }

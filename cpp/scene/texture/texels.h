@@ -36,6 +36,25 @@ class Texels {
     return color([&](int c) { return meaning_[bytes_[i + c]]; });
   }
 
+  /// Two columns and two rows, and the share of the second one of each.
+  struct Cell {
+    int x[2], y[2];
+    double a, b;
+  };
+  /// Between the four texels of a cell.
+  Color bilinear(const Cell& cell) const {
+    const size_t i = place(cell.x[0], cell.y[0]), j = place(cell.x[1], cell.y[0]),
+                 k = place(cell.x[0], cell.y[1]), l = place(cell.x[1], cell.y[1]);
+    const auto between = [&](const auto& value) {
+      return color([&](int c) {
+        return (1 - cell.b) * ((1 - cell.a) * value(i + c) + cell.a * value(j + c)) +
+               cell.b * ((1 - cell.a) * value(k + c) + cell.a * value(l + c));
+      });
+    };
+    if (bytes_.empty()) return between([&](size_t n) { return floats_[n]; });
+    return between([&](size_t n) { return meaning_[bytes_[n]]; });
+  }
+
  private:
   size_t place(int x, int y) const {
     return size_.channels * (static_cast<size_t>(y) * size_.width + x);
