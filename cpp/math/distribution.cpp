@@ -73,15 +73,33 @@ Piecewise2D::Piecewise2D(const std::vector<float>& weights, size_t width, size_t
   starts_ = {std::move(starts), width, full};
 }
 
-Vec2 Piecewise2D::sample(const Vec2& u) const {
+Piecewise2D::Sample Piecewise2D::sample(const Vec2& u) const {
   const Discrete::Sample row = rows_.sample_reuse(u.y);
-  const double share = u.x * full;
-  const size_t column = starts_.last_up_to(row.index, static_cast<uint32_t>(share));
+  return sample_in(row, starts_.last_up_to(row.index, static_cast<uint32_t>(u.x * full)), u.x);
+}
+
+void Piecewise2D::sample(const Vec2* u, int count, Sample* samples) const {
+  Discrete::Sample chosen[most_together];
+  size_t rows[most_together], columns[most_together];
+  uint32_t shares[most_together];
+  for (int i = 0; i < count; ++i) {
+    chosen[i] = rows_.sample_reuse(u[i].y);
+    rows[i] = chosen[i].index;
+    shares[i] = static_cast<uint32_t>(u[i].x * full);
+  }
+  starts_.last_up_to(rows, shares, count, columns);
+  for (int i = 0; i < count; ++i) samples[i] = sample_in(chosen[i], columns[i], u[i].x);
+}
+
+/// In a row and a column that have been found; u is the number that has chosen the column.
+Piecewise2D::Sample Piecewise2D::sample_in(const Discrete::Sample& row, size_t column,
+                                           double u) const {
   const Cell cell{row.index, column, row.remainder, 0};
   const double low = begin(cell), high = end(cell);
-  const double x = std::min((share - low) / (high - low), 1 - 0x1p-53);
-  return {(static_cast<double>(column) + x) / static_cast<double>(width_),
-          (static_cast<double>(row.index) + row.remainder) / static_cast<double>(height_)};
+  const double x = std::min((u * full - low) / (high - low), 1 - 0x1p-53);
+  return {{(static_cast<double>(column) + x) / static_cast<double>(width_),
+           (static_cast<double>(row.index) + row.remainder) / static_cast<double>(height_)},
+          pdf_in(cell)};
 }
 
 Piecewise2D::Cell Piecewise2D::locate(const Vec2& p) const {
@@ -92,11 +110,7 @@ Piecewise2D::Cell Piecewise2D::locate(const Vec2& p) const {
   return {row, column, y - static_cast<double>(row), x - static_cast<double>(column)};
 }
 
-double Piecewise2D::pdf(const Vec2& p) const {
-  const Cell cell = locate(p);
-  const double in_row = (static_cast<double>(end(cell)) - begin(cell)) / full;
-  return rows_.pdf(cell.row) * in_row * static_cast<double>(width_) * static_cast<double>(height_);
-}
+double Piecewise2D::pdf(const Vec2& p) const { return pdf_in(locate(p)); }
 
 Vec2 Piecewise2D::invert(const Vec2& p) const {
   const Cell cell = locate(p);

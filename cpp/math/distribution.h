@@ -72,7 +72,14 @@ class Piecewise2D {
   /// The mean of the weights: the integral of the tabulated function over the unit square.
   double integral() const { return integral_; }
 
-  Vec2 sample(const Vec2& u) const;
+  struct Sample {
+    Vec2 at;
+    double pdf;
+  };
+  Sample sample(const Vec2& u) const;
+  /// The same for many numbers, at most `most_together`; much faster where the table is large.
+  void sample(const Vec2* u, int count, Sample* samples) const;
+  static constexpr int most_together = 64;
   /// What sample(u) waits for, for prefetching.
   const void* address(const Vec2& u) const {
     return starts_.address(rows_.sample(u.y), static_cast<uint32_t>(u.x * full));
@@ -87,6 +94,13 @@ class Piecewise2D {
     double y, x;  // place within the cell, in [0, 1]
   };
   Cell locate(const Vec2& p) const;
+  Sample sample_in(const Discrete::Sample& row, size_t column, double u) const;
+  double pdf_in(const Cell& cell) const {
+    return rows_.pdf(cell.row) * share(cell) * static_cast<double>(width_) *
+           static_cast<double>(height_);
+  }
+  /// Of its row.
+  double share(const Cell& c) const { return (static_cast<double>(end(c)) - begin(c)) / full; }
   uint32_t begin(const Cell& c) const { return starts_.at(c.row, c.column); }
   uint32_t end(const Cell& c) const { return starts_.at(c.row, c.column + 1); }
 

@@ -36,6 +36,20 @@ class SortedRows {
     const size_t i = line_of(row, x);
     return i * per_line + all_.row(row)[i].last_up_to(x);
   }
+  /// The same for many numbers, each in a row of its own. All of them go down the tree together: while
+  /// memory brings the line of one, the others are compared.
+  void last_up_to(const size_t* row, const T* x, int count, size_t* found) const {
+    std::fill_n(found, count, 0);
+    for (size_t l = 0; l < above_.size(); ++l) {
+      const Level& below = l + 1 < above_.size() ? above_[l + 1] : all_;
+      for (int i = 0; i < count; ++i) {
+        found[i] = found[i] * per_line + above_[l].row(row[i])[found[i]].last_up_to(x[i]);
+        __builtin_prefetch(&below.row(row[i])[found[i]]);
+      }
+    }
+    for (int i = 0; i < count; ++i)
+      found[i] = found[i] * per_line + all_.row(row[i])[found[i]].last_up_to(x[i]);
+  }
   /// Where in memory it is, for prefetching.
   const void* address(size_t row, T x) const { return &all_.row(row)[line_of(row, x)]; }
 

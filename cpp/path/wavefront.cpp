@@ -92,8 +92,6 @@ void BasicWavefront<Numbers>::draw_numbers(int depth) {
   else
     numbers_.skip2();
   numbers_.next2(begin_, count_, &matte_.u_x[0], &matte_.u_y[0]);
-  if (!lit || scene_->backgrounds().empty()) return;
-  for (int i = 0; i < count_; ++i) scene_->prefetch_light(numbers_for_light(i));
 }
 
 template <class Numbers>
@@ -154,18 +152,40 @@ void BasicWavefront<Numbers>::choose_lights(int depth) {
     else
       choose_other_light(i, u);
   }
+  sample_backgrounds();
 }
 
 /// One that is no glowing mesh, or is seen from a vertex that is not matte.
 template <class Numbers>
-void BasicWavefront<Numbers>::choose_other_light(int i, const Vec3& u) {
+void BasicWavefront<Numbers>::choose_other_light(int i, Vec3 u) {
   if (matte_.f[i]) {
     matte_.light_pdf[i] = 0;
     if (!(matte_.sides[i] > 0)) return;
     add_single(i, matte_.point(i, hits(i).shape[i % RayPacket::size], walk(i).ray.time));
   }
   SingleVertex& single = singles_[single_[i]];
-  single.light = sample_direct_position(*scene_, single.at, u);
+  const EmitterChoice choice = scene_->choose_emitter(u.x);
+  if (!choice.emitter->infinite()) {
+    single.light = sample_direct_position(choice, single.at, {u.y, u.z});
+    return;
+  }
+  single.light.emitter = choice.emitter;
+  single.u = {u.y, u.z};
+}
+
+/// Their tables are large: positions for all vertices are looked up together.
+template <class Numbers>
+void BasicWavefront<Numbers>::sample_backgrounds() {
+  for (const uint32_t index : scene_->infinite_emitters()) {
+    const Emitter* emitter = scene_->emitters()[index].get();
+    requests_.clear();
+    for (int j = 0; j < single_count_; ++j)
+      if (singles_[j].light.emitter == emitter)
+        requests_.push_back({singles_[j].u, &singles_[j].light.x0});
+    emitter->sample_positions(requests_.data(), static_cast<int>(requests_.size()));
+    for (const PositionRequest& request : requests_)
+      request.sample->pdf *= scene_->emitter_probability(index);
+  }
 }
 
 template <class Numbers>
@@ -182,11 +202,13 @@ void BasicWavefront<Numbers>::queue_lights() {
 /// direct_light() of path_tracer.h.
 template <class Numbers>
 void BasicWavefront<Numbers>::queue_other_light(const SingleVertex& single) {
-  const auto& [i, at, chosen] = single;
+  const int i = single.path;
+  const SurfacePoint& at = single.at;
   const CameraWalk& walk = this->walk(i);
   const Vec3 wc = matte_.f[i] ? -Vec3(d_[begin_ + i]) : -walk.ray.d;
   const auto mis = [&](double light, double bsdf) { return walk.mis(light, bsdf); };
-  const DirectLight light = unshadowed_light(*scene_, chosen, at, wc, rules_.strict_normals, mis);
+  const DirectLight light =
+      unshadowed_light(*scene_, single.light, at, wc, rules_.strict_normals, mis);
   if (is_black(light.radiance)) return;
   if (const auto ray = scene_->segment(at, light.x0, walk.ray.time))
     queue_shadow(i, light.radiance, Vec3f(ray->o), Vec3f(ray->d), static_cast<float>(ray->t_max));

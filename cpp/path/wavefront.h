@@ -56,6 +56,7 @@ class BasicWavefront {
     int path;
     SurfacePoint at;
     LightSample light;  ///< Without an emitter: it looks at none.
+    Vec2 u;             ///< The position on a background, that is not yet sampled.
   };
 
   void find_hits(bool coherent, RayCounts& rays);
@@ -68,8 +69,9 @@ class BasicWavefront {
   void find_vertex(int i, int depth);
   void find_bright_or_other(int i, const Hit& hit, int depth);
   void choose_lights(int depth);
-  void choose_other_light(int i, const Vec3& u);
+  void choose_other_light(int i, Vec3 u);
   void add_single(int i, const SurfacePoint& at);
+  void sample_backgrounds();
   void queue_lights();
   void queue_other_light(const SingleVertex& single);
   void queue_shadow(int i, const Color& radiance, const Vec3f& o, const Vec3f& w, float length);
@@ -104,6 +106,7 @@ class BasicWavefront {
   std::vector<SingleVertex> singles_;  ///< The first `single_count_` of them; it keeps its memory.
   int single_count_ = 0;
   Block<int> single_;  ///< Which of them belongs to the path; -1: none.
+  std::vector<PositionRequest> requests_;
 };
 
 using Wavefront = BasicWavefront<WaveNumbers>;

@@ -17,6 +17,12 @@ struct PositionSample {
   double pdf;  ///< In the measure of `at`; 0 means that sampling failed.
 };
 
+/// Asks for a position: what sample_position(u) gives goes to `sample`.
+struct PositionRequest {
+  Vec2 u;
+  PositionSample* sample;
+};
+
 /// A direction that leaves a given position, together with where it starts (for a light at infinity
 /// that is a point on a disk outside the scene).
 struct RaySample {
@@ -43,6 +49,10 @@ class Emitter : public Object {
 
   /// The densities and inverses below are those at the time of x0.
   virtual PositionSample sample_position(const Vec2& u, double time) const = 0;
+  /// Many positions on a light at infinity, to which `time` makes no difference.
+  virtual void sample_positions(const PositionRequest* requests, int count) const {
+    for (int i = 0; i < count; ++i) *requests[i].sample = sample_position(requests[i].u, 0);
+  }
   virtual double pdf_position(const SurfacePoint& x0) const = 0;
   virtual Vec2 invert_position(const SurfacePoint& x0) const = 0;
 

@@ -34,21 +34,37 @@ Color EnvironmentMap::eval(const SurfacePoint& x0, const Vec3&) const {
 }
 
 PositionSample EnvironmentMap::sample_position(const Vec2& u, double) const {
-  const Vec2 p = table_.sample(u);
+  return position_of(table_.sample(u));
+}
+
+void EnvironmentMap::sample_positions(const PositionRequest* requests, int count) const {
+  constexpr int most = Piecewise2D::most_together;
+  for (; count > 0; requests += most, count -= most) {
+    const int together = std::min(count, most);
+    Vec2 u[most];
+    Piecewise2D::Sample samples[most];
+    for (int i = 0; i < together; ++i) u[i] = requests[i].u;
+    table_.sample(u, together, samples);
+    for (int i = 0; i < together; ++i) *requests[i].sample = position_of(samples[i]);
+  }
+}
+
+PositionSample EnvironmentMap::position_of(const Piecewise2D::Sample& sample) const {
   // Its radiance will be asked for.
-  const int i = static_cast<int>(p.x * width_), j = row_at(p.y);
+  const int i = static_cast<int>(sample.at.x * width_), j = row_at(sample.at.y);
   __builtin_prefetch(texel_data(i, j));
   __builtin_prefetch(texel_data(i, j + 1));
-  return {point_towards(axes_.to_world(direction_of(p))), pdf_at(p)};
+  return {point_towards(axes_.to_world(direction_of(sample.at))), pdf_of(sample)};
 }
 
 double EnvironmentMap::pdf_position(const SurfacePoint& x0) const {
-  return pdf_at(place_of(axes_.to_local(x0.p)));
+  const Vec2 place = place_of(axes_.to_local(x0.p));
+  return pdf_of({place, table_.pdf(place)});
 }
 
-double EnvironmentMap::pdf_at(const Vec2& p) const {
+double EnvironmentMap::pdf_of(const Piecewise2D::Sample& sample) const {
   const double cells = static_cast<double>(width_) * cell_rows();
-  return table_.pdf(p) / (cells * cell_solid_angle(row_at(p.y)));
+  return sample.pdf / (cells * cell_solid_angle(row_at(sample.at.y)));
 }
 
 Vec2 EnvironmentMap::invert_position(const SurfacePoint& x0) const {

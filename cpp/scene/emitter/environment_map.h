@@ -34,6 +34,7 @@ class EnvironmentMap : public InfiniteEmitter {
     if (is_large_) __builtin_prefetch(table_.address(u));
   }
   PositionSample sample_position(const Vec2& u, double time) const final;
+  void sample_positions(const PositionRequest* requests, int count) const final;
   double pdf_position(const SurfacePoint& x0) const final;
   Vec2 invert_position(const SurfacePoint& x0) const final;
   Color power() const final { return integral_ * (scale_ * disk_area()); }
@@ -48,8 +49,9 @@ class EnvironmentMap : public InfiniteEmitter {
   void integrate();
   double cell_solid_angle(int row) const;
   int row_at(double y) const;
-  /// Density in solid angle of the direction at this place of the table.
-  double pdf_at(const Vec2& p) const;
+  PositionSample position_of(const Piecewise2D::Sample& sample) const;
+  /// Density in solid angle of a direction, by that of its place in the table.
+  double pdf_of(const Piecewise2D::Sample& sample) const;
   Vec3 direction_of(const Vec2& p) const;
   Vec2 place_of(const Vec3& d) const;
 

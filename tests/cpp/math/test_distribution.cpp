@@ -80,7 +80,7 @@ TEST(Piecewise2D, SamplesFollowItsDensity) {
     for (size_t i = 1; i < width; ++i) options.x_breaks.push_back(double(i) / double(width));
     for (size_t i = 1; i < height; ++i) options.y_breaks.push_back(double(i) / double(height));
     const ChiSquareResult r = chi_square_rect(
-        [&](Rng& rng) -> std::optional<Vec2> { return d.sample(uniform2(rng)); },
+        [&](Rng& rng) -> std::optional<Vec2> { return d.sample(uniform2(rng)).at; },
         [&](const Vec2& p) { return d.pdf(p); }, {0, 0}, {1, 1}, 200000, 5, options);
     EXPECT_GT(r.p_value, 1e-3) << r;
     EXPECT_NEAR(r.integral, 1, 1e-9) << r;
@@ -105,11 +105,31 @@ TEST(Piecewise2D, Inverts) {
   const Piecewise2D d(environment(64, 32), 64, 32);
   Rng rng(3, Purpose::test, 0);
   for (int i = 0; i < 100000; ++i) {
-    const Vec2 u = uniform2(rng), p = d.sample(u);
+    const Vec2 u = uniform2(rng), p = d.sample(u).at;
     ASSERT_GT(d.pdf(p), 0);
     const Vec2 v = d.invert(p);
     ASSERT_NEAR(v.x, u.x, 1e-9);
     ASSERT_NEAR(v.y, u.y, 1e-9);
+  }
+}
+
+TEST(Piecewise2D, SamplesManyTogetherAsAlone) {
+  for (const size_t width : {3, 40, 700}) {
+    const Piecewise2D d(environment(width, 60), width, 60);
+    Rng rng(4, Purpose::test, width);
+    for (int round = 0; round < 100; ++round) {
+      const int count = static_cast<int>(rng.below(Piecewise2D::most_together + 1));
+      Vec2 u[Piecewise2D::most_together];
+      Piecewise2D::Sample together[Piecewise2D::most_together];
+      for (int i = 0; i < count; ++i) u[i] = uniform2(rng);
+      d.sample(u, count, together);
+      for (int i = 0; i < count; ++i) {
+        const Piecewise2D::Sample alone = d.sample(u[i]);
+        ASSERT_EQ(together[i].at, alone.at);
+        ASSERT_EQ(together[i].pdf, alone.pdf);
+        ASSERT_EQ(alone.pdf, d.pdf(alone.at));
+      }
+    }
   }
 }
 
@@ -119,8 +139,8 @@ TEST(Piecewise2D, HandlesOneCellAndTheEdges) {
   EXPECT_EQ(one.pdf({1, 1}), 1);
   EXPECT_EQ(one.pdf({0, 0}), 1);
   const Piecewise2D last({0, 0, 0, 1}, 2, 2);
-  EXPECT_EQ(last.pdf(last.sample({0, 0})), 4);
-  EXPECT_EQ(last.pdf(last.sample({1 - 0x1p-53, 1 - 0x1p-53})), 4);
+  EXPECT_EQ(last.pdf(last.sample({0, 0}).at), 4);
+  EXPECT_EQ(last.pdf(last.sample({1 - 0x1p-53, 1 - 0x1p-53}).at), 4);
   EXPECT_EQ(last.pdf({1, 1}), 4);
 }
 

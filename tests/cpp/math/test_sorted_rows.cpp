@@ -41,6 +41,23 @@ TEST(SortedRows, FindWhatASearchByHalvesFinds) {
   }
 }
 
+TEST(SortedRows, FindManyTogether) {
+  Rng rng(2, Purpose::test, 0);
+  for (const size_t width : {5, 16, 300, 5000}) {
+    const SortedRows<uint32_t> sorted(random_rows(4, width, rng), width, 1u << 31);
+    constexpr int count = 50;
+    size_t rows[count], found[count];
+    uint32_t numbers[count];
+    for (int i = 0; i < count; ++i) {
+      rows[i] = rng.below(4);
+      numbers[i] = static_cast<uint32_t>(rng.below(width));
+    }
+    sorted.last_up_to(rows, numbers, count, found);
+    for (int i = 0; i < count; ++i)
+      EXPECT_EQ(found[i], sorted.last_up_to(rows[i], numbers[i])) << width;
+  }
+}
+
 TEST(SortedRows, HaveRoomForNumbersOfAnySize) {
   std::vector<double> numbers;
   for (int i = 0; i < 1000; ++i) numbers.push_back(i / 1000.0);

@@ -166,6 +166,24 @@ TEST(Emitters, PositionsAreATriple) {
   }
 }
 
+TEST(Emitters, ManyPositionsAreThoseOfSingleOnes) {
+  constexpr int count = 150;
+  for (const Light& light : all_lights()) {
+    if (!light.emitter->infinite()) continue;
+    Rng rng(5, Purpose::test, 0);
+    std::vector<PositionSample> samples(count);
+    std::vector<PositionRequest> requests;
+    for (PositionSample& sample : samples) requests.push_back({{rng.next(), rng.next()}, &sample});
+    light.emitter->sample_positions(requests.data(), count);
+    for (const PositionRequest& request : requests) {
+      const PositionSample alone = light.emitter->sample_direct({0, 0, 0}, request.u, 0.3);
+      EXPECT_EQ(request.sample->at.p, alone.at.p) << light.name;
+      EXPECT_TRUE(request.sample->at.infinite()) << light.name;
+      EXPECT_EQ(request.sample->pdf, alone.pdf) << light.name;
+    }
+  }
+}
+
 TEST(Emitters, DirectSamplesAreATriple) {
   const Vec3 from(1, 2.5, -2);
   for (const Light& light : all_lights()) {
