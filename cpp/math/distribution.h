@@ -80,10 +80,6 @@ class Piecewise2D {
   /// The same for many numbers, at most `most_together`; much faster where the table is large.
   void sample(const Vec2* u, int count, Sample* samples) const;
   static constexpr int most_together = 64;
-  /// What sample(u) waits for, for prefetching.
-  const void* address(const Vec2& u) const {
-    return starts_.address(rows_.sample(u.y), static_cast<uint32_t>(u.x * full));
-  }
   double pdf(const Vec2& p) const;
   /// The u that sample maps to p; meaningful where pdf(p) > 0.
   Vec2 invert(const Vec2& p) const;

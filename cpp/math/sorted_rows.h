@@ -33,7 +33,8 @@ class SortedRows {
   }
   /// The last i with at(row, i) <= x, which holds for i = 0.
   size_t last_up_to(size_t row, T x) const {
-    const size_t i = line_of(row, x);
+    size_t i = 0;
+    for (const Level& level : above_) i = i * per_line + level.row(row)[i].last_up_to(x);
     return i * per_line + all_.row(row)[i].last_up_to(x);
   }
   /// The same for many numbers, each in a row of its own. All of them go down the tree together: while
@@ -50,8 +51,6 @@ class SortedRows {
     for (int i = 0; i < count; ++i)
       found[i] = found[i] * per_line + all_.row(row[i])[found[i]].last_up_to(x[i]);
   }
-  /// Where in memory it is, for prefetching.
-  const void* address(size_t row, T x) const { return &all_.row(row)[line_of(row, x)]; }
 
  private:
   static constexpr size_t per_line = 64 / sizeof(T);
@@ -81,12 +80,6 @@ class SortedRows {
     size_t lines_per_row = 0;
     SharedArray<Line> lines;
   };
-
-  size_t line_of(size_t row, T x) const {
-    size_t i = 0;
-    for (const Level& level : above_) i = i * per_line + level.row(row)[i].last_up_to(x);
-    return i;
-  }
 
   size_t width_ = 0;
   T end_{};

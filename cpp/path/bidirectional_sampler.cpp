@@ -124,8 +124,7 @@ bool BidirectionalSampler::evaluate_connection(Connection& connection, RayCounts
   const bool direct = is_direct(s), strict = settings_.rules.strict_normals;
   const WalkVertex& b = camera_[t - 1];
   if (b.vertex.at.infinite()) return false;
-  if (direct ? !choose_direct(b.vertex.at, direct_u_[t - 1]) : s > static_cast<int>(light_.size()))
-    return false;
+  if (direct ? !choose_direct(t) : s > static_cast<int>(light_.size())) return false;
   const WalkVertex& a = direct ? direct_ : light_[s - 1];
   if (k == 1 && !lens_can_be_hit_ && !can_be_hit(*scene_, a.vertex)) return false;
 
@@ -154,8 +153,21 @@ bool BidirectionalSampler::evaluate_connection(Connection& connection, RayCounts
                a.survival * b.survival);
 }
 
-bool BidirectionalSampler::choose_direct(const SurfacePoint& from, const Vec3& u) {
-  const LightSample chosen = sample_direct_position(*scene_, from, u);
+void BidirectionalSampler::sample_backgrounds() {
+  direct_backgrounds_.resize(camera_.size());
+  for (size_t i = 0; i < camera_.size(); ++i) {
+    LightSample& light = direct_backgrounds_[i];
+    if (!backgrounds_.add(*scene_, direct_u_[i], light)) light.emitter = nullptr;
+  }
+  backgrounds_.sample_all(*scene_);
+}
+
+/// The end x_0 that is seen from camera vertex t - 1.
+bool BidirectionalSampler::choose_direct(int t) {
+  const bool sampled = !direct_backgrounds_.empty() && direct_backgrounds_[t - 1].emitter;
+  const LightSample chosen =
+      sampled ? direct_backgrounds_[t - 1]
+              : sample_direct_position(*scene_, camera_[t - 1].vertex.at, direct_u_[t - 1]);
   direct_pdf_ = chosen.x0.pdf;
   if (!(direct_pdf_ > 0)) return false;
   direct_.vertex = light_vertex(*chosen.emitter, chosen.x0.at);

@@ -2,6 +2,7 @@
 // Willems 1993), each with its multiple importance sampling weight.
 #pragma once
 
+#include "path/background_positions.h"
 #include "path/mis.h"
 #include "path/path_terms.h"
 #include "path/subpath.h"
@@ -141,10 +142,8 @@ class BidirectionalSampler {
   void draw_direct(Sampler& sampler) {
     sampler.begin(Stream::direct);
     direct_u_.clear();
-    for (size_t i = 0; i < camera_.size(); ++i) {
-      direct_u_.push_back(next_direct(sampler));
-      scene_->prefetch_light(direct_u_.back());
-    }
+    for (size_t i = 0; i < camera_.size(); ++i) direct_u_.push_back(next_direct(sampler));
+    if (!scene_->infinite_emitters().empty()) sample_backgrounds();
   }
   template <class Sampler>
   static Vec3 next_direct(Sampler& sampler) {
@@ -157,6 +156,7 @@ class BidirectionalSampler {
     if (direct) {
       direct_u_.resize(t);
       direct_u_.back() = next_direct(sampler);
+      direct_backgrounds_.clear();
     }
     connect(s, t, rays, found);
   }
@@ -213,7 +213,8 @@ class BidirectionalSampler {
   bool evaluate_hit_light(Connection& connection);
   bool evaluate_connection(Connection& connection, RayCounts& rays);
   bool evaluate_hit_lens(Connection& connection, RayCounts& rays);
-  bool choose_direct(const SurfacePoint& from, const Vec3& u);
+  void sample_backgrounds();
+  bool choose_direct(int t);
 
   // The techniques that could have made a path of these subpaths, by the vertex of a subpath (its
   // end is number 0) that a joint has moved over.
@@ -241,9 +242,12 @@ class BidirectionalSampler {
   Vec2 raster_{0};
   double time_ = 0;
   std::vector<Vec3> direct_u_;  ///< Numbers for s = 1, one triple for each camera vertex.
-  WalkVertex direct_;           ///< The end chosen for s = 1 as seen from x_1,
-  double direct_pdf_ = 0;       ///< and the density of choosing it so.
-  Vertex lens_;                 ///< The end that was hit for t = 0.
+  BackgroundPositions backgrounds_;
+  /// The lights that these numbers give, without an emitter where it is not at infinity; or empty.
+  std::vector<LightSample> direct_backgrounds_;
+  WalkVertex direct_;      ///< The end chosen for s = 1 as seen from x_1,
+  double direct_pdf_ = 0;  ///< and the density of choosing it so.
+  Vertex lens_;            ///< The end that was hit for t = 0.
   /// Techniques whose joint is in one of the subpaths, up to vertex i of it: their densities over
   /// that of the technique which joins before vertex i.
   std::vector<TechniqueSums> light_sums_, camera_sums_;

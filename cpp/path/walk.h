@@ -24,15 +24,11 @@ inline LightSample sample_light_position(const Scene& scene, Vec3 u, double time
   return light;
 }
 /// The same, to be seen from the point `from` at its time (next-event estimation).
-inline LightSample sample_direct_position(const EmitterChoice& choice, const SurfacePoint& from,
-                                          const Vec2& u) {
-  LightSample light{choice.emitter, choice.emitter->sample_direct(from.p, u, from.time)};
-  light.x0.pdf *= choice.probability;
-  return light;
-}
 inline LightSample sample_direct_position(const Scene& scene, const SurfacePoint& from, Vec3 u) {
   const EmitterChoice choice = scene.choose_emitter(u.x);
-  return sample_direct_position(choice, from, {u.y, u.z});
+  LightSample light{choice.emitter, choice.emitter->sample_direct(from.p, {u.y, u.z}, from.time)};
+  light.x0.pdf *= choice.probability;
+  return light;
 }
 
 /// The first ray of a walk.

@@ -134,7 +134,7 @@ void BasicWavefront<Numbers>::add_single(int i, const SurfacePoint& at) {
   SingleVertex& single = singles_[single_count_++];
   single.path = i;
   single.at = at;
-  single.light.emitter = nullptr;
+  single.looks = false;
 }
 
 template <class Numbers>
@@ -152,40 +152,30 @@ void BasicWavefront<Numbers>::choose_lights(int depth) {
     else
       choose_other_light(i, u);
   }
-  sample_backgrounds();
+  sample_other_lights();
 }
 
 /// One that is no glowing mesh, or is seen from a vertex that is not matte.
 template <class Numbers>
-void BasicWavefront<Numbers>::choose_other_light(int i, Vec3 u) {
+void BasicWavefront<Numbers>::choose_other_light(int i, const Vec3& u) {
   if (matte_.f[i]) {
     matte_.light_pdf[i] = 0;
     if (!(matte_.sides[i] > 0)) return;
     add_single(i, matte_.point(i, hits(i).shape[i % RayPacket::size], walk(i).ray.time));
   }
   SingleVertex& single = singles_[single_[i]];
-  const EmitterChoice choice = scene_->choose_emitter(u.x);
-  if (!choice.emitter->infinite()) {
-    single.light = sample_direct_position(choice, single.at, {u.y, u.z});
-    return;
-  }
-  single.light.emitter = choice.emitter;
-  single.u = {u.y, u.z};
+  single.looks = true;
+  single.u = u;
 }
 
-/// Their tables are large: positions for all vertices are looked up together.
 template <class Numbers>
-void BasicWavefront<Numbers>::sample_backgrounds() {
-  for (const uint32_t index : scene_->infinite_emitters()) {
-    const Emitter* emitter = scene_->emitters()[index].get();
-    requests_.clear();
-    for (int j = 0; j < single_count_; ++j)
-      if (singles_[j].light.emitter == emitter)
-        requests_.push_back({singles_[j].u, &singles_[j].light.x0});
-    emitter->sample_positions(requests_.data(), static_cast<int>(requests_.size()));
-    for (const PositionRequest& request : requests_)
-      request.sample->pdf *= scene_->emitter_probability(index);
+void BasicWavefront<Numbers>::sample_other_lights() {
+  for (int j = 0; j < single_count_; ++j) {
+    SingleVertex& single = singles_[j];
+    if (single.looks && !backgrounds_.add(*scene_, single.u, single.light))
+      single.light = sample_direct_position(*scene_, single.at, single.u);
   }
+  backgrounds_.sample_all(*scene_);
 }
 
 template <class Numbers>
@@ -196,7 +186,7 @@ void BasicWavefront<Numbers>::queue_lights() {
       queue_shadow(i, *matte_.radiance[i] * *matte_.f[i] * double{matte_.light_weight[i]},
                    matte_.shadow_o[i], matte_.shadow_w[i], matte_.shadow_length[i]);
   for (int j = 0; j < single_count_; ++j)
-    if (singles_[j].light.emitter) queue_other_light(singles_[j]);
+    if (singles_[j].looks) queue_other_light(singles_[j]);
 }
 
 /// direct_light() of path_tracer.h.

@@ -5,6 +5,7 @@
 // High-Performance Graphics 2013.
 #pragma once
 
+#include "path/background_positions.h"
 #include "path/drawn_numbers.h"
 #include "path/matte_vertices.h"
 #include "path/path_tracer.h"
@@ -55,8 +56,9 @@ class BasicWavefront {
   struct SingleVertex {
     int path;
     SurfacePoint at;
-    LightSample light;  ///< Without an emitter: it looks at none.
-    Vec2 u;             ///< The position on a background, that is not yet sampled.
+    bool looks;         ///< At a light; then,
+    Vec3 u;             ///< by these numbers,
+    LightSample light;  ///< at this one.
   };
 
   void find_hits(bool coherent, RayCounts& rays);
@@ -69,9 +71,9 @@ class BasicWavefront {
   void find_vertex(int i, int depth);
   void find_bright_or_other(int i, const Hit& hit, int depth);
   void choose_lights(int depth);
-  void choose_other_light(int i, Vec3 u);
+  void choose_other_light(int i, const Vec3& u);
   void add_single(int i, const SurfacePoint& at);
-  void sample_backgrounds();
+  void sample_other_lights();
   void queue_lights();
   void queue_other_light(const SingleVertex& single);
   void queue_shadow(int i, const Color& radiance, const Vec3f& o, const Vec3f& w, float length);
@@ -106,7 +108,7 @@ class BasicWavefront {
   std::vector<SingleVertex> singles_;  ///< The first `single_count_` of them; it keeps its memory.
   int single_count_ = 0;
   Block<int> single_;  ///< Which of them belongs to the path; -1: none.
-  std::vector<PositionRequest> requests_;
+  BackgroundPositions backgrounds_;
 };
 
 using Wavefront = BasicWavefront<WaveNumbers>;

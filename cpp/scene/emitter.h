@@ -44,9 +44,6 @@ class Emitter : public Object {
   /// along w. For a delta position: the coefficient of the delta.
   virtual Color eval(const SurfacePoint& x0, const Vec3& w) const = 0;
 
-  /// Fetches from memory what sample_position() and sample_direct() are going to read.
-  virtual void prefetch_position(const Vec2& /*u*/) const {}
-
   /// The densities and inverses below are those at the time of x0.
   virtual PositionSample sample_position(const Vec2& u, double time) const = 0;
   /// Many positions on a light at infinity, to which `time` makes no difference.

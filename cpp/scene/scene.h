@@ -81,13 +81,6 @@ class Scene {
 
   /// Chooses a light; u is rescaled so that it can be used again.
   EmitterChoice choose_emitter(double& u) const;
-  /// Fetches from memory what the light that u.x chooses needs to draw a position by (u.y, u.z). Only
-  /// lights at infinity need much.
-  void prefetch_light(Vec3 u) const {
-    if (backgrounds_.empty()) return;
-    const EmitterChoice choice = choose_emitter(u.x);
-    choice.emitter->prefetch_position({u.y, u.z});
-  }
   double emitter_probability(uint32_t index) const { return emitter_choice_.pdf(index); }
   /// The shape at this place in shapes(), if it is a matte mesh.
   const MatteMesh& matte_mesh(uint32_t shape) const { return matte_meshes_[shape]; }

@@ -3,9 +3,6 @@
 namespace mlt {
 namespace {
 
-/// Texels of a map that is large.
-constexpr size_t large = size_t{1} << 18;
-
 /// Polar angle against the y axis, exact near the poles too.
 double theta_of(const Vec3& d) { return std::atan2(std::sqrt(sqr(d.x) + sqr(d.z)), d.y); }
 
@@ -17,8 +14,7 @@ EnvironmentMap::EnvironmentMap(Image image, const Frame& axes, double scale)
       width_(image.width),
       height_(image.height),
       channels_(image.channels),
-      texels_(std::move(image.data)),
-      is_large_(pixel_count() >= large) {
+      texels_(std::move(image.data)) {
   tabulate();
 }
 

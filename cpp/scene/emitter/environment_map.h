@@ -30,9 +30,6 @@ class EnvironmentMap : public InfiniteEmitter {
   EnvironmentMap(Image image, const Frame& axes, double scale);
 
   Color eval(const SurfacePoint& x0, const Vec3& w) const final;
-  void prefetch_position(const Vec2& u) const final {
-    if (is_large_) __builtin_prefetch(table_.address(u));
-  }
   PositionSample sample_position(const Vec2& u, double time) const final;
   void sample_positions(const PositionRequest* requests, int count) const final;
   double pdf_position(const SurfacePoint& x0) const final;
@@ -61,7 +58,6 @@ class EnvironmentMap : public InfiniteEmitter {
   SharedArray<float> texels_;
   SharedArray<double> cos_rows_;  ///< cos theta of each row of texels.
   Piecewise2D table_;
-  bool is_large_;  ///< The table is larger than a processor's second cache.
   Color integral_{0};
 };
 

@@ -1,0 +1,44 @@
+// Positions on lights at infinity, sampled for many vertices together: the tables of environment maps
+// are large, so one alone would wait for memory.
+#pragma once
+
+#include "path/walk.h"
+
+#include <vector>
+
+namespace mlt {
+
+class BackgroundPositions {
+ public:
+  /// The position that (u.y, u.z) gives on the light that u.x chooses goes to `light` when
+  /// sample_all() is called, if that light is at infinity; false if it is not. `light` stays where it is.
+  bool add(const Scene& scene, Vec3 u, LightSample& light) {
+    const EmitterChoice choice = scene.choose_emitter(u.x);
+    if (!choice.emitter->infinite()) return false;
+    light.emitter = choice.emitter;
+    waiting_.push_back({choice, {{u.y, u.z}, &light.x0}});
+    return true;
+  }
+  void sample_all(const Scene& scene) {
+    for (const uint32_t index : scene.infinite_emitters()) {
+      requests_.clear();
+      for (const Waiting& waiting : waiting_)
+        if (waiting.choice.index == index) requests_.push_back(waiting.request);
+      scene.emitters()[index]->sample_positions(requests_.data(),
+                                                static_cast<int>(requests_.size()));
+    }
+    for (const Waiting& waiting : waiting_)
+      waiting.request.sample->pdf *= waiting.choice.probability;
+    waiting_.clear();
+  }
+
+ private:
+  struct Waiting {
+    EmitterChoice choice;
+    PositionRequest request;
+  };
+  std::vector<Waiting> waiting_;
+  std::vector<PositionRequest> requests_;
+};
+
+}  // namespace mlt
