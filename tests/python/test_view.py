@@ -22,7 +22,7 @@ viser = pytest.importorskip("viser", reason="the view needs viser (pip install '
 from pymlt.viewing import lecture_examples, path_tables, shown, walk, world  # noqa: E402
 from pymlt.viewing.camera import Pose, SceneCamera  # noqa: E402
 from pymlt.viewing.frame import Frame  # noqa: E402
-from pymlt.viewing.gate import Request, is_local, listening_socket  # noqa: E402
+from pymlt.viewing.gate import Gate, Request, is_local, listening_socket  # noqa: E402
 from pymlt.viewing.live import Algorithm, LiveRender  # noqa: E402
 from pymlt.viewing.pixel_paths import brightness, paths_through  # noqa: E402
 
@@ -70,6 +70,13 @@ def test_the_page_is_there_and_goes_away(page):
     with pytest.raises(OSError):  # noqa: PT011 (refused, whichever way)
         urllib.request.urlopen(view.url, timeout=2)
     assert not [t for t in threading.enumerate() if t.name.startswith("pymlt view")]
+
+
+def test_a_gate_that_has_just_opened_can_be_closed():
+    for _ in range(50):
+        gate = Gate("localhost", 0, to_port=1, token=None)
+        gate.close()
+        assert not gate._thread.is_alive()
 
 
 def test_only_pages_of_the_view_may_talk_to_it(page):

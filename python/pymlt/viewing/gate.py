@@ -91,23 +91,24 @@ class Gate:
         self.host, self.port = host, self._socket.getsockname()[1]
         self._to_port, self._token = to_port, token
         self._cookie, self._word = f"pymlt_view_{self.port}", secrets.token_urlsafe(16)
-        self._loop = asyncio.new_event_loop()
+        self._loop, self._closing = asyncio.new_event_loop(), asyncio.Event()
         self._thread = threading.Thread(target=self._run, name="pymlt view: gate", daemon=True)
         self._thread.start()
 
     def close(self) -> None:
         with contextlib.suppress(RuntimeError):
-            self._loop.call_soon_threadsafe(self._loop.stop)
+            self._loop.call_soon_threadsafe(self._closing.set)
         self._thread.join(2)
 
     def _run(self) -> None:
-        loop = self._loop
-        start = asyncio.start_server(self._relay, sock=self._socket, limit=LONGEST_HEAD)
-        server = loop.run_until_complete(start)
-        loop.run_forever()
+        with contextlib.closing(self._loop) as loop:
+            loop.run_until_complete(self._serve())
+
+    async def _serve(self) -> None:
+        server = await asyncio.start_server(self._relay, sock=self._socket, limit=LONGEST_HEAD)
+        await self._closing.wait()
         server.close()
-        loop.run_until_complete(_cancel_all())
-        loop.close()
+        await _cancel_all()
 
     async def _relay(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
         with contextlib.closing(writer), contextlib.suppress(*GONE):
