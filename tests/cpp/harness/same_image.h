@@ -85,8 +85,8 @@ class SameImageTest {
   SameImage run() {
     // Rejected or not, the number of samples follows from the variances alone.
     run_all();
-    for (int attempt = 0; attempt < 3 && !powerful(); ++attempt)
-      if (!raise_efforts()) break;
+    while (!powerful() && raise_efforts()) {
+    }
     SameImage result{least_p() > settings_.alpha, powerful(), describe()};
     if (result.powerful && !result.same) {
       for (double& effort : efforts_) effort *= 4;
@@ -163,10 +163,12 @@ class SameImageTest {
     return detectable_whole() < settings_.whole && detectable_block() < settings_.block;
   }
 
-  /// More samples, and more where there is more noise; false if it would take too many.
+  /// More samples, and more where there is more noise; false if it would take too many, or if the
+  /// images are no numbers.
   bool raise_efforts() {
     const double lack =
         sqr(std::max(detectable_whole() / settings_.whole, detectable_block() / settings_.block));
+    if (!(lack >= 1)) return false;
     const double noise[2] = {noise_of(0), noise_of(1)};
     for (int side = 0; side < 2; ++side) {
       // Half of the variance for each side that has any, with a margin for chance.
