@@ -1,6 +1,8 @@
 // The Python extension pymlt._core: one small file per floor of the house, and no algorithm here.
 #pragma once
 
+#include "gil.h"
+
 #include "image/image.h"
 #include "io/load.h"
 
@@ -15,7 +17,7 @@ namespace py = pybind11;
 
 using LoadedPtr = std::shared_ptr<LoadedScene>;
 using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
-using NoGil = py::call_guard<py::gil_scoped_release>;
+using NoGil = py::call_guard<ReleasedGil>;
 
 void bind_errors(py::module_& m);
 void bind_base(py::module_& m);
@@ -36,7 +38,7 @@ py::array_t<float> to_array(Image image);
 /// What `function` returns, called without the interpreter's lock.
 template <class Function>
 auto without_gil(const Function& function) {
-  const py::gil_scoped_release release;
+  const ReleasedGil release;
   return function();
 }
 
@@ -44,7 +46,7 @@ auto without_gil(const Function& function) {
 template <class Objects>
 std::shared_ptr<Objects> hold(Objects objects) {
   return {new Objects(std::move(objects)), [](const Objects* held) {
-            const py::gil_scoped_acquire gil;
+            const AcquiredGil gil;
             delete held;
           }};
 }

@@ -19,7 +19,7 @@ class PyExecutor : public Executor {
  private:
   template <class Result, class... Arguments>
   Result call(const char* method, const Arguments&... arguments) {
-    const py::gil_scoped_acquire acquire;
+    const AcquiredGil acquire;
     try {
       return executor_->attr(method)(arguments...).template cast<Result>();
     } catch (const py::error_already_set& error) {

@@ -40,7 +40,7 @@ auto with_images(const Function& function, const std::string& path, const Floats
   RenderedImage render{to_image(array), {}};
   for (const auto& [name, pixels] : layers) render.layers.push_back({name, to_image(pixels)});
   const WriteOptions options{half, Metadata(metadata.begin(), metadata.end()), exposure};
-  py::gil_scoped_release release;
+  const ReleasedGil release;
   return function(path, render, options);
 }
 
@@ -61,7 +61,7 @@ py::tuple save(const Text& path, const Floats& array, const Layers& layers, cons
 py::array_t<float> read(const Text& path, const std::string& layer) {
   Image image;
   {
-    py::gil_scoped_release release;
+    const ReleasedGil release;
     image = linear_image(read_image(path, layer));
   }
   return to_array(std::move(image));

@@ -30,7 +30,7 @@ MadeIntegrator with_python_mutations(const MadeIntegrator& made, const LoadedPtr
     const auto make = [loaded, held](const PathTarget& target) {
       if (target.scene_ptr() != loaded->scene)
         throw UsageError("an integrator with mutations written in Python serves one scene only");
-      const py::gil_scoped_acquire gil;
+      const AcquiredGil gil;
       return to_mutation(loaded, target, *held);
     };
     extra.push_back({object.attr("name").cast<std::string>(), weight, make});

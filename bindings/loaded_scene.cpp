@@ -54,7 +54,7 @@ LoadedScene scene_from_dict(const py::dict& dict, const Size& size, const Sensor
   const Node node = to_node(dict, "scene", "scene", plugins());
   if (node.type != "scene")
     throw SceneError("scene: 'type' is '" + node.type + "', but should be 'scene'");
-  py::gil_scoped_release release;
+  const ReleasedGil release;
   LoadedScene loaded = build_scene(node, plugins(), load_options(size, sensor));
   if (const std::string problem = integrator_problem(loaded, plugins()); !problem.empty())
     throw SceneError(problem);
@@ -112,7 +112,7 @@ void bind_scene(py::module_& m) {
       .def(py::pickle([](const LoadedScene& s) { return py::bytes(pack(s)); },
                       [](const py::bytes& bytes) {
                         const std::string packed = bytes;
-                        py::gil_scoped_release release;
+                        const ReleasedGil release;
                         return std::make_shared<LoadedScene>(unpack_scene(packed, plugins()));
                       }))
       .def(

@@ -21,7 +21,7 @@ py::dict advance_each(const Space& space, std::vector<Chain>& chains, size_t ste
                       bool expected_values, bool native, Step&& step) {
   Trace<Space> trace(space, chains.size(), steps, expected_values);
   {
-    std::optional<py::gil_scoped_release> release;
+    std::optional<ReleasedGil> release;
     if (native) release.emplace();
     for (size_t c = 0; c < chains.size(); ++c)
       for (size_t i = 0; i < steps; ++i)

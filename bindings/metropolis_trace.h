@@ -13,7 +13,7 @@ namespace mlt::python {
 /// Lets Ctrl-C through.
 inline void check_signals(size_t step) {
   if (step % 4096 != 0) return;
-  const py::gil_scoped_acquire acquire;
+  const AcquiredGil acquire;
   if (PyErr_CheckSignals() != 0) throw py::error_already_set();
 }
 

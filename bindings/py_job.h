@@ -18,7 +18,7 @@ class PyJob : public Job {
         made_(made),
         seed_(settings.seed) {}
   ~PyJob() {
-    py::gil_scoped_release release;
+    const ReleasedGil release;
     stop();  // while an executor may still use this object
   }
 

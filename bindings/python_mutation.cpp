@@ -13,12 +13,12 @@ std::string repr(const py::object& object) { return py::repr(object); }
 /// Python's state of a thread of the renderer, kept from its first call to its end: making one costs
 /// as much as a short call.
 struct ThreadState {
-  ThreadState() { py::gil_scoped_acquire().inc_ref(); }
-  ~ThreadState() { py::gil_scoped_acquire().dec_ref(); }
+  ThreadState() { AcquiredGil()->inc_ref(); }
+  ~ThreadState() { AcquiredGil()->dec_ref(); }
 };
 
 /// The GIL. A thread that Python has started has a state already.
-py::gil_scoped_acquire acquire_gil() {
+AcquiredGil acquire_gil() {
   if (!PyGILState_GetThisThreadState()) thread_local const ThreadState kept;
   return {};
 }
@@ -34,13 +34,13 @@ class PythonMutation final : public Mutation {
             Held{object.attr("suitability"), object.attr("propose"), object.attr("density")})) {}
 
   double suitability(const PathState& x) const override {
-    const py::gil_scoped_acquire gil = acquire_gil();
+    const AcquiredGil gil = acquire_gil();
     return checked(held_->suitability(wrap(x)), "suitability(x)", x);
   }
 
   std::optional<Edit> propose(const PathState& x, PathState& y,
                               MutationContext& context) const override {
-    const py::gil_scoped_acquire gil = acquire_gil();
+    const AcquiredGil gil = acquire_gil();
     const py::object proposed =
         held_->propose(wrap(x), *RandomGenerators::Use(held_->generators, context.rng));
     if (proposed.is_none()) return std::nullopt;
@@ -56,7 +56,7 @@ class PythonMutation final : public Mutation {
   }
 
   double density(const PathState& x, const PathState& y, const Edit& /*edit*/) const override {
-    const py::gil_scoped_acquire gil = acquire_gil();
+    const AcquiredGil gil = acquire_gil();
     return checked(held_->density(wrap(x), wrap(y)), "density(x, y)", x);
   }
 

@@ -30,15 +30,15 @@ PathRules path_rules(int max_depth, bool hide_emitters, bool strict_normals);
 template <class Work>
 auto run_interruptibly(Work&& work) {
   std::atomic<bool> cancelled{false};
-  const py::gil_scoped_release release;
+  const ReleasedGil release;
   auto running = std::async(std::launch::async, [&] { return work(cancelled); });
   while (running.wait_for(std::chrono::milliseconds(50)) != std::future_status::ready) {
-    const py::gil_scoped_acquire acquire;
+    const AcquiredGil acquire;
     if (PyErr_CheckSignals() == 0) continue;
     const py::error_already_set interrupt;
     cancelled = true;
     {
-      const py::gil_scoped_release waiting;
+      const ReleasedGil waiting;
       running.wait();
     }
     throw interrupt;

@@ -49,7 +49,7 @@ py::tuple groups(PyJob& job) {
   std::vector<double> weights(count), b(count);
   {
     float* to = images.mutable_data();
-    py::gil_scoped_release release;
+    const ReleasedGil release;
     Image parts(size.x, size.y, 3);
     for (const Rendering* part : rendering.parts()) parts += part->image();
     for (int g = 0; g < count; ++g) {

@@ -80,7 +80,7 @@ LoadedScene updated_scene(const LoadedScene& loaded, const py::dict& values) {
     changes.push_back({named.plugin, given(named, name, value)});
     size = edited_size(size, named, value);
   }
-  const py::gil_scoped_release release;
+  const ReleasedGil release;
   apply(std::move(changes));
   if (size == loaded.size) return build_again(loaded, tree, plugins());
   LoadedScene resized = loaded;
