@@ -3,6 +3,7 @@
 
 #include "light_path.h"
 
+#include "base/abandon.h"
 #include "mutation/mutation_registry.h"
 
 #include <atomic>
@@ -31,7 +32,10 @@ template <class Work>
 auto run_interruptibly(Work&& work) {
   std::atomic<bool> cancelled{false};
   const ReleasedGil release;
-  auto running = std::async(std::launch::async, [&] { return work(cancelled); });
+  auto running = std::async(std::launch::async, [&] {
+    const Abandonable abandonable(&cancelled);
+    return work(cancelled);
+  });
   while (running.wait_for(std::chrono::milliseconds(50)) != std::future_status::ready) {
     const AcquiredGil acquire;
     if (PyErr_CheckSignals() == 0) continue;

@@ -1,5 +1,7 @@
 #include "base/parallel.h"
 
+#include "base/abandon.h"
+
 #include <algorithm>
 #include <atomic>
 #include <exception>
@@ -16,7 +18,9 @@ void parallel_for(int threads, uint64_t count, const std::function<void(uint64_t
   std::atomic<uint64_t> next{0};
   std::exception_ptr failure;
   std::mutex failure_mutex;
+  const std::atomic<bool>* flag = Abandonable::current();
   const auto work = [&] {
+    const Abandonable abandonable(flag);
     for (uint64_t i = next++; i < count; i = next++) {
       try {
         body(i);

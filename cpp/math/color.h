@@ -3,11 +3,18 @@
 
 #include "math/vec.h"
 
+#include <limits>
+
 namespace mlt {
 
 using Color = Vec3;
 
 inline bool is_black(const Color& c) { return c.x == 0 && c.y == 0 && c.z == 0; }
+
+/// Whether light of this throughput is none in single precision, in which images are.
+inline bool vanishes(const Color& throughput) {
+  return max_component(throughput) < double{std::numeric_limits<float>::min()};
+}
 
 /// Rec. 709 luminance (ITU-R BT.709, sec. 3).
 inline double luminance(const Color& c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }

@@ -245,7 +245,7 @@ void BidirectionalWave::connect_to_lens(const JointLanes& a, int block, RayCount
 }
 
 void BidirectionalWave::find_shadows(RayCounts& rays) {
-  rays.occluded += shadows_.count();
+  rays.count_occluded(shadows_.count());
   shadows_.trace(
       scene_->accel(), [](int) { return 0.0; },
       [&](int target, const Color& weighted, double) {

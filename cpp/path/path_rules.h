@@ -1,6 +1,7 @@
 // What a light path may be, whichever method makes it.
 #pragma once
 
+#include <algorithm>
 #include <limits>
 
 namespace mlt {
@@ -13,7 +14,9 @@ struct PathRules {
   bool hide_emitters = false;   ///< Leave out lights that the camera sees directly.
   bool strict_normals = false;  ///< See `consistent_sides`.
 
-  int most_edges() const { return max_depth < 0 ? 1 << 16 : max_depth; }
+  /// Longer paths are never found: their vertices would take too much memory.
+  static constexpr int longest = 1 << 16;
+  int most_edges() const { return max_depth < 0 ? longest : std::min(max_depth, longest); }
   /// Whether paths of this many edges are to be found.
   bool wants(int edges) const {
     return edges >= min_depth && edges <= most_edges() && !(edges == 1 && hide_emitters);

@@ -192,6 +192,7 @@ void find_light(const Scene& scene, CameraWalk& walk, const SurfacePoint* at,
 
 /// Russian roulette with the throughput, from rr_depth on; false ends the walk.
 inline bool survive(const PathRules& rules, int depth, double u, CameraWalk& walk) {
+  if (vanishes(walk.throughput)) return false;
   if (depth < rules.rr_depth) return true;
   const double survival = std::min(max_component(walk.throughput) * walk.eta2, 0.95);
   if (!(u < survival)) return false;

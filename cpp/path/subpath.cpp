@@ -28,7 +28,7 @@ void Subpath::leave(const Scene& scene, const Vec3& w, double coefficient) {
 }
 
 bool Subpath::trace(const Walker& walker, const PathRules& rules, const Ray& ray) {
-  if (is_black(last().next_throughput)) return false;
+  if (vanishes(last().next_throughput * vertices_[0].forward)) return false;
   WalkVertex& next = add();
   WalkVertex& previous = vertices_[size() - 2];
   next.vertex = {};

@@ -75,7 +75,7 @@ void SubpathWave::find_hits(bool coherent, RayCounts& rays) {
     packet.set_endless();
     scene_->accel().intersect(packet, nullptr, coherent, found_[begin / RayPacket::size]);
   }
-  rays.intersect += live_;
+  rays.count_intersect(live_);
 }
 
 void SubpathWave::shade(int place, bool last) {

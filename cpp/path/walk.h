@@ -93,7 +93,7 @@ struct Walker {
 
   /// At the surface that the ray hits.
   bool arrive(const Ray& ray, SurfacePoint& at) const {
-    ++rays.intersect;
+    rays.count_intersect();
     return scene.intersect(ray, at);
   }
   bool arrive(const Ray& ray, Vertex& next) const;
@@ -114,7 +114,7 @@ struct Walker {
 
   /// The share of the light that gets from one vertex to the other.
   double join(const SurfacePoint& a, const SurfacePoint& b) const {
-    ++rays.occluded;
+    rays.count_occluded();
     return scene.visible(a, b, time) ? 1 : 0;
   }
 };

@@ -53,12 +53,12 @@ void BasicWavefront<Numbers>::find_hits(bool coherent, RayCounts& rays) {
       packet.time[i] = walks_[path_[begin + i]].ray.time;
     accel.intersect(packet, exact_rays, coherent, hits_[begin / RayPacket::size]);
   }
-  rays.intersect += live_;
+  rays.count_intersect(live_);
 }
 
 template <class Numbers>
 void BasicWavefront<Numbers>::find_shadows(RayCounts& rays) {
-  rays.occluded += shadows_.count();
+  rays.count_occluded(shadows_.count());
   shadows_.trace(
       scene_->accel(), [&](int path) { return walks_[path].ray.time; },
       [&](int path, const Color& radiance, double share) { walks_[path].take(radiance, share); });
@@ -234,7 +234,7 @@ template <class Numbers>
 bool BasicWavefront<Numbers>::scatter_matte(int i, int depth, CameraWalk& walk) {
   const double pdf = matte_.scatter_pdf[i];
   walk.throughput *= *matte_.f[i] * pi;
-  if (!(pdf > 0) || is_black(walk.throughput)) return false;
+  if (!(pdf > 0) || vanishes(walk.throughput)) return false;
   if (depth >= rules_.rr_depth && !survive(rules_, depth, numbers_.peek(begin_ + i, 2), walk))
     return false;
   walk.scatter_pdf = pdf;

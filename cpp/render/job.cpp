@@ -1,6 +1,7 @@
 #include "render/job.h"
 
 #include "base/parallel.h"
+#include "render/watchdog.h"
 
 #include <fmt/format.h>
 
@@ -51,6 +52,7 @@ void Job::extend(const Budget& budget) {
   if (failure_) std::rethrow_exception(failure_);
   if (!prepared_)
     throw UsageError("a render that was cancelled in its bootstrap cannot be extended");
+  if (abandoned_) throw UsageError("a render that gave up a light path cannot be extended");
   stop_rule_.set(budget);
   cancel_ = false;
   seconds_before_ = total_seconds_;
@@ -111,12 +113,10 @@ void Job::take_memory() {
 void Job::lead() {
   std::exception_ptr failure;
   try {
-    if (!prepared_) {
-      rendering_->prepare(threads_, cancel_);
-      bootstrap_seconds_ = seconds_so_far();
-      prepared_ = !cancel_;
-    }
+    if (!prepared_) prepare();
     if (prepared_) render();
+  } catch (const Abandoned&) {
+    abandoned_ = true;
   } catch (const std::bad_alloc&) {
     failure = std::make_exception_ptr(RenderError("there is not memory enough to go on"));
   } catch (...) {
@@ -126,22 +126,32 @@ void Job::lead() {
   try {
     executor_->close();
     total_seconds_ = seconds_so_far();
-    if (!failure && prepared_) autosave_.finish(units_done_, [this] { return state(); });
+    if (!failure && prepared_ && !abandoned_)
+      autosave_.finish(units_done_, [this] { return state(); });
   } catch (...) {
     if (!failure) failure = std::current_exception();
   }
+  if (ended_by_.empty()) ended_by_ = cancel_ ? "cancel" : "time";
   if (!failure && units_done_ == 0 && ended_by_ == "time")
     failure = std::make_exception_ptr(
         RenderError("the time was used up before the first sample; give more"));
   const std::lock_guard lock(mutex_);
   failure_ = failure;
-  if (ended_by_.empty()) ended_by_ = "cancel";
   phase_ = Phase::ended;
   ended_.notify_all();
   pause_.notify_all();
 }
 
+/// There is nothing in it that would be lost if it is given up at once.
+void Job::prepare() {
+  const Watchdog watchdog([this] { return stopping(); }, 0);
+  rendering_->prepare(threads_, watchdog.stop());
+  bootstrap_seconds_ = seconds_so_far();
+  prepared_ = !watchdog.stop();
+}
+
 void Job::render() {
+  const Watchdog watchdog([this] { return stopping(); });
   stop_rule_.begin(*rendering_);
   if (tasks_) units_done_ = tasks_->done();  // in an earlier run, tasks came to different ends
   tasks_.reset();
@@ -199,6 +209,7 @@ std::string Job::save() {
   pause_.wait(lock, [this] { return paused_ || phase_ == Phase::ended; });
   if (!prepared_ || failure_)
     throw UsageError("the render ended before there was anything to save");
+  if (abandoned_) throw UsageError("a render that gave up a light path cannot be saved");
   return state();
 }
 

@@ -98,6 +98,7 @@ class Job {
   [[noreturn]] void fail_for_memory() const;
   void launch();
   void lead();
+  void prepare();
   void render();
   void let_savers_in();
   std::string state() const;
@@ -119,7 +120,8 @@ class Job {
   std::atomic<bool> cancel_{false};
   std::atomic<Phase> phase_{Phase::waiting};
   std::atomic<uint64_t> units_done_{0};
-  bool prepared_ = false;  ///< The bootstrap is over.
+  bool prepared_ = false;   ///< The bootstrap is over.
+  bool abandoned_ = false;  ///< A unit was given up: no image of the same samples can follow.
   Clock::time_point started_;
   double seconds_before_ = 0;  ///< Of earlier runs of this render.
   std::atomic<double> bootstrap_seconds_{0}, total_seconds_{0};

@@ -1,6 +1,7 @@
 // Looking at a render: while it goes on, and when it has ended.
 #include "mlt_version.h"
 #include "render/job.h"
+#include "render/watchdog.h"
 
 #include <fmt/format.h>
 
@@ -87,6 +88,11 @@ Stats Job::stats() const {
     stats.warnings.push_back("the checkpoint could not be written: " + failure);
   if (phase != Phase::ended || failure_) return stats;
   stats.ended_by = ended_by_;
+  if (abandoned_)
+    stats.warnings.push_back(fmt::format(
+        "a light path had not ended {:g} s after the render was to end, and was given up; with a "
+        "max_depth, or a smaller rr_depth, paths end",
+        Watchdog::patience));
   if (units_done_ > 0) add_error(*error(), stats);
   return stats;
 }

@@ -2,6 +2,7 @@
 
 #include "base/bytes.h"
 #include "base/parallel.h"
+#include "render/watchdog.h"
 
 #include <algorithm>
 
@@ -106,7 +107,13 @@ std::string run(const std::string& bytes, ScenePtr scene, const Integrator& inte
 
   std::atomic<uint64_t> units{0};
   Result result{task, 0};
-  result.task.to = run_units(*rendering, task, threads, [&] { return cancelled.load(); }, units);
+  const auto stopping = [&] { return cancelled.load(); };
+  try {
+    const Watchdog watchdog(stopping);
+    result.task.to = run_units(*rendering, task, threads, stopping, units);
+  } catch (const Abandoned&) {
+    throw RenderError("a light path did not end after the render was to end, and was given up");
+  }
   result.units = units;
   ByteWriter writer;
   writer.write(result);

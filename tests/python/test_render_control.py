@@ -238,3 +238,60 @@ def test_leaving_python_ends_running_jobs():
     assert process.stdout.readline() == "started\n"
     process.communicate(timeout=20)
     assert process.returncode == 0
+
+
+# ---- paths that do not end -----------------------------------------------------------------------
+
+
+def white_room():
+    """A closed room where nothing is absorbed: only Russian roulette or max_depth end a path."""
+    scene = mlt.scenes.furnace()
+    scene["shape"]["bsdf"]["reflectance"]["value"] = [1, 1, 1]
+    return mlt.load_dict(scene, size=(64, 48))
+
+
+def endless(name: str) -> dict:
+    roulette = {"rr_depth": 2**31 - 1} if name in ("path", "bdpt", "ptracer") else {}
+    return {"type": name, "max_depth": 2**31 - 1, **roulette}
+
+
+ALGORITHMS = ["path", "bdpt", "ptracer", "pssmlt", "mlt"]
+
+
+@pytest.mark.parametrize("name", ALGORITHMS)
+def test_time_ends_a_render_whose_paths_do_not_end(name):
+    job = mlt.start(white_room(), endless(name), time=0.3)
+    with pytest.raises(mlt.RenderError, match="before the first sample"):
+        job.result()
+
+
+@pytest.mark.parametrize("name", ALGORITHMS)
+def test_cancel_ends_a_render_whose_paths_do_not_end(name):
+    job = mlt.start(white_room(), endless(name), spp=64)
+    assert not job.wait(0.5)
+    job.cancel()
+    job.wait()
+    assert job.ended
+
+
+def test_a_render_that_gave_up_a_path_says_so_and_does_not_go_on(tmp_path):
+    job = mlt.start(white_room(), endless("path"), spp=64)
+    assert not job.wait(0.5)
+    job.cancel()
+    (warning,) = job.result().stats["warnings"]
+    assert "had not ended" in warning
+    assert "max_depth" in warning
+    for action in lambda: job.extend(spp=65), lambda: job.checkpoint(tmp_path / "a.mlt"):
+        with pytest.raises(mlt.UsageError, match="gave up a light path"):
+            action()
+
+
+@pytest.mark.parametrize("name", ["path", "ptracer", "bdpt"])
+def test_a_path_without_light_ends(name):
+    """Of the furnace's albedo of 0.8, less than 1e-37 is left after 390 vertices."""
+    scene = mlt.scenes.furnace()
+    scene["sensor"]["film"]["rfilter"] = {"type": "box"}
+    scene = mlt.load_dict(scene, size=(2, 2))
+    stats = mlt.start(scene, {"type": name, "rr_depth": 10**6}, spp=4, seed=1).result().stats
+    samples = 4 * 4
+    assert 100 < stats["rays"]["intersect"] / samples < 1000  # bdpt has two subpaths
