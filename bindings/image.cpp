@@ -100,6 +100,9 @@ void bind_image(py::module_& m) {
       "save_text",
       [](const Text& path, const std::string& text) { return to_tuple(save_text(path, text)); },
       py::arg("path"), py::arg("text"), "The same for a file of these bytes.");
+  m.def(
+      "replace_file", [](const Text& path, const std::string& bytes) { write_file(path, bytes); },
+      py::arg("path"), py::arg("bytes"), NoGil(), "At once or not at all. Raises FileError.");
   m.def("check_image_writable", [](const Text& path) { check_writable(path); }, py::arg("path"));
   m.def(
       "check_file_writable", [](const Text& path) { check_file_writable(path); }, py::arg("path"));

@@ -141,7 +141,9 @@ void check_files(const std::map<std::string, std::vector<std::string>>& given) {
     if (!flag.is(Flag::file) || texts == given.end()) continue;
     for (const std::string& text : texts->second) {
       std::error_code error;
-      const fs::path file = fs::weakly_canonical(fs::absolute(text), error);
+      const fs::path absolute = fs::absolute(text, error);
+      if (error) throw UsageError(text + ": the current folder is gone; go to another one");
+      const fs::path file = fs::weakly_canonical(absolute, error);
       if (error || (flag.spelling[0] != '-' && !fs::exists(file, error))) continue;
       const auto [other, is_new] = seen.try_emplace(file, first_spelling(flag));
       if (!is_new && !(other->second == "--checkpoint" && first_spelling(flag) == "--resume"))

@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <map>
@@ -70,6 +71,7 @@ class ByteReader {
     if constexpr (std::is_same_v<T, bool>) return read_bool();
     T value;
     copy(&value, sizeof(T));
+    check_finite(value);
     return value;
   }
   template <class T>
@@ -83,6 +85,7 @@ class ByteReader {
       if (size > (bytes_->size() - position_) / sizeof(T)) truncated();
       values.resize(size);
       copy(values.data(), size * sizeof(T));
+      for (const T& value : values) check_finite(value);
     } else {
       for (values.clear(); values.size() < size;) read(values.emplace_back());
     }
@@ -122,6 +125,13 @@ class ByteReader {
     if (byte > 1)
       throw RenderError("the saved state has something else where it should say yes or no");
     return byte == 1;
+  }
+  /// Sums and times are finite, whatever has happened.
+  template <class T>
+  static void check_finite([[maybe_unused]] const T& value) {
+    if constexpr (std::is_floating_point_v<T>)
+      if (!std::isfinite(value))
+        throw RenderError("the saved state has a number that is not finite");
   }
   void copy(void* to, size_t size) {
     if (size > bytes_->size() - position_) truncated();

@@ -1,6 +1,8 @@
 #include "image/atomic_file.h"
 
 #include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -44,18 +46,48 @@ fs::path resolve(const std::string& path) {
   return target;
 }
 
+constexpr std::string_view partial = ".partial-";
+
+/// Whether the file, which was just made, is this process's own: locked, and not removed meanwhile by
+/// another one that took it for a remnant.
+bool claim(int file) {
+  struct stat status;
+  return ::flock(file, LOCK_EX | LOCK_NB) == 0 && ::fstat(file, &status) == 0 &&
+         status.st_nlink > 0;
+}
+
+/// Removes what processes that were killed have left: who writes such a file holds its lock.
+void remove_remnants(const fs::path& folder) {
+  std::error_code ignored;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
+    if (entry.path().filename().string().compare(0, partial.size(), partial) != 0) continue;
+    const int file = ::open(entry.path().c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    if (file < 0) continue;
+    struct stat status;
+    if (::fstat(file, &status) == 0 && S_ISREG(status.st_mode) &&
+        ::flock(file, LOCK_EX | LOCK_NB) == 0)
+      ::unlink(entry.path().c_str());
+    ::close(file);
+  }
+}
+
 }  // namespace
 
 AtomicFile::AtomicFile(const std::string& path) : path_(path), target_(resolve(path)) {
   const fs::path folder = target_.has_parent_path() ? target_.parent_path() : fs::path(".");
   if (!fs::is_directory(folder))
     throw FileError(path + ": cannot write it: there is no folder '" + folder.string() + "'");
-  const std::string stem = ".partial-" + std::to_string(::getpid()) + "-";
+  remove_remnants(folder);
+  struct stat old;
+  const bool replaces = ::stat(target_.c_str(), &old) == 0;
+  const std::string stem = std::string(partial) + std::to_string(::getpid()) + "-";
   int file = -1;
   for (int attempt = 0; file < 0 && attempt < 1000; ++attempt) {
     name_ = (folder / (stem + std::to_string(attempt))).string();
-    file = ::open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    file = ::open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC,
+                  replaces ? old.st_mode & 0777 : 0666);
     if (file < 0 && errno != EEXIST) break;
+    if (file >= 0 && !claim(file)) ::close(std::exchange(file, -1));
   }
   if (file < 0) mlt::fail(path, "cannot write into folder '" + folder.string() + "'", errno);
   file_ = ::fdopen(file, "wb");
@@ -64,6 +96,7 @@ AtomicFile::AtomicFile(const std::string& path) : path_(path), target_(resolve(p
     ::unlink(name_.c_str());
     fail();
   }
+  if (replaces) ::fchmod(file, old.st_mode & 0777);
 }
 
 AtomicFile::~AtomicFile() {
@@ -90,9 +123,9 @@ uint64_t AtomicFile::position() {
 void AtomicFile::commit() {
   if (std::fflush(file_) != 0) fail();
   if (::fsync(::fileno(file_)) != 0 && errno != EINVAL && errno != EROFS) fail();
-  if (std::fclose(std::exchange(file_, nullptr)) != 0) fail();
   if (::rename(name_.c_str(), target_.c_str()) != 0) fail();
   name_.clear();
+  if (std::fclose(std::exchange(file_, nullptr)) != 0) fail();
 }
 
 std::string read_file(const std::string& path) {

@@ -11,7 +11,7 @@
 namespace mlt {
 
 /// A file while it is written: a new one in the folder of its target, moved there by commit() and
-/// removed otherwise. Everything throws FileError.
+/// removed otherwise. One that replaces another has its permissions. Everything throws FileError.
 class AtomicFile {
  public:
   explicit AtomicFile(const std::string& path);

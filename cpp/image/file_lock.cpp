@@ -29,7 +29,8 @@ std::shared_ptr<FileLock> FileLock::of(const std::string& path) {
   static std::mutex mutex;
   static std::map<std::string, std::weak_ptr<FileLock>> held;  // a lock belongs to a process
   std::error_code ignored;
-  const auto file = std::filesystem::weakly_canonical(std::filesystem::absolute(path), ignored);
+  const auto file =
+      std::filesystem::weakly_canonical(std::filesystem::absolute(path, ignored), ignored);
   const std::string name = (file.empty() ? path : file.string()) + ".lock";
   const std::lock_guard lock(mutex);
   std::shared_ptr<FileLock> found = held[name].lock();

@@ -27,6 +27,7 @@ class DirectTaker : public SampleTaker {
     settings.rules.strict_normals = params.boolean("strict_normals");
     return settings;
   }
+  static SampledSettings film(const DirectSettings&) { return camera_walks(); }
   DirectTaker(const Scene& scene, const DirectSettings& settings)
       : scene_(&scene), settings_(settings) {}
 

@@ -27,6 +27,7 @@ struct MetropolisSettings {
   std::optional<double> independent_share;     ///< Of the time; without, a pilot finds it.
   std::optional<SampleTechniques> techniques;  ///< Of the independent samples; the same.
   bool parts = false;                          ///< Keep the parts of both families as layers.
+  bool only_camera_walks = false;              ///< See warn_of_hidden_lights.
 };
 
 class MetropolisRendering : public Rendering {

@@ -1,4 +1,5 @@
 // What a render of chains and samples tells about itself.
+#include "integrator/hidden_lights.h"
 #include "integrator/metropolis_rendering.h"
 
 #include <fmt/format.h>
@@ -70,6 +71,7 @@ void MetropolisRendering::add_level(Stats& stats) const {
 
 void MetropolisRendering::add_stats(Stats& stats) const {
   if (samples_) samples_->add_stats(stats);
+  if (settings_.only_camera_walks) warn_of_hidden_lights(scene(), stats);
   add_level(stats);
 
   StuckChain stuck;

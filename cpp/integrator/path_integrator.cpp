@@ -10,6 +10,7 @@ namespace {
 class PathTaker : public WaveTaker {
  public:
   static PathRules settings(Params& params) { return path_rules(params); }
+  static SampledSettings film(const PathRules&) { return camera_walks(); }
   PathTaker(const Scene& scene, const PathRules& rules)
       : WaveTaker(scene, rules, Heuristic::power) {}
 

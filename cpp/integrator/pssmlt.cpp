@@ -243,6 +243,7 @@ class PssmltIntegrator : public Integrator {
         params.fail("bidirectional", "contradicts 'estimator'; leave it out");
       if (bidirectional) estimator_ = "bdpt";
     }
+    metropolis_.only_camera_walks = estimator_ == "path";
   }
   std::unique_ptr<Rendering> start(ScenePtr scene, uint64_t seed) const override {
     return std::make_unique<MetropolisRendering>(scene, seed, metropolis_, algorithm(scene));

@@ -1,6 +1,7 @@
 #include "integrator/sampled_rendering.h"
 
 #include "base/bytes.h"
+#include "integrator/hidden_lights.h"
 
 #include <cmath>
 #include <set>
@@ -31,6 +32,7 @@ SampledRendering::SampledRendering(ScenePtr scene, uint64_t seed, const SampledS
     : Rendering(std::move(scene), seed),
       make_taker_(std::move(make_taker)),
       passes_per_turn_(settings.passes_per_turn),
+      only_camera_walks_(settings.only_camera_walks),
       film_(scene_->camera().raster().size.x, scene_->camera().raster().size.y,
             scene_->film().filter, group_count, settings.splats),
       layer_names_(settings.layers),
@@ -108,6 +110,7 @@ void SampledRendering::add_stats(Stats& stats) const {
   stats.rays_intersect = intersect_;
   stats.rays_occluded = occluded_;
   stats.invalid_samples = invalid_;
+  if (only_camera_walks_) warn_of_hidden_lights(scene(), stats);
   if (layers_.saturated() > 0)
     stats.warnings.push_back(
         "a layer of the image exceeded its fixed-point range; its brightest pixels are wrong");

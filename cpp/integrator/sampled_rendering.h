@@ -65,7 +65,15 @@ struct SampledSettings {
   /// stratified. The more, the better stratified is a render of few samples; the fewer, the sooner
   /// it has several groups, whose spread tells its error.
   uint64_t passes_per_turn = 8;
+  bool only_camera_walks = false;  ///< See warn_of_hidden_lights.
 };
+
+/// Of algorithms whose walks begin at the camera.
+inline SampledSettings camera_walks() {
+  SampledSettings settings;
+  settings.only_camera_walks = true;
+  return settings;
+}
 
 /// The numbers of one sample of each cell: those of its group's stream for it.
 struct CellStreams {
@@ -160,6 +168,7 @@ class SampledRendering : public Rendering {
 
   MakeTaker make_taker_;
   uint64_t passes_per_turn_;
+  bool only_camera_walks_;
   SampleFilm film_;
   std::vector<std::string> layer_names_;
   SplatFilm layers_;  ///< A group for each layer.

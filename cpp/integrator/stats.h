@@ -47,6 +47,8 @@ struct Stats {
   /// Estimated relative error of the image and of its 8 x 8 block means; NaN (null) if not known.
   double error = std::numeric_limits<double>::quiet_NaN();
   double block_error = std::numeric_limits<double>::quiet_NaN();
+  /// How many pixels carry the error; see RelativeError.
+  double pixels_carrying_error = std::numeric_limits<double>::quiet_NaN();
   std::vector<DisagreementStats> disagreements;  ///< The brightest blocks first, ten at the most.
   /// Mean of L* over the image and its standard error; Metropolis only.
   double b = 0, b_error = 0;

@@ -8,6 +8,7 @@
 #include "scene/emitter/moving.h"
 #include "scene/mesh.h"
 #include "scene/motion.h"
+#include "scene/shape/sphere.h"
 #include "scene/texture.h"
 
 #include <algorithm>
@@ -110,6 +111,8 @@ ObjectPtr Builder::make(const Node& node) {
     if (std::holds_alternative<Animation>(property.value))
       take_animation(params, snake_case(name), node.family != "sensor");
   }
+
+  if (node.family == "shape" && node.type == "sphere") place_ellipsoid(params);
 
   in_progress_.push_back(&node);
   for (const Node& child : node.children) give(params, node, child);

@@ -1,6 +1,7 @@
 #include "render/error_estimate.h"
 
 #include "math/color.h"
+#include "render/brightness_pyramid.h"
 
 #include <fmt/format.h>
 
@@ -12,37 +13,12 @@ namespace {
 
 constexpr int channels = 4;            // R, G, B and the target luminance L of each pixel or block
 constexpr int fewest_groups = 8;       // to speak of a disagreement
+constexpr double few_pixels = 20;      // that carry the error: it is not to be relied on
 constexpr double largest_share = 0.5;  // of a block's light from one of them
 constexpr double dark = 0.1;           // of the image's mean: below, blocks and pixels matter less
-
-/// Weighted mean and variance, value by value. D. West, "Updating mean and variance estimates: an
-/// improved method", CACM 1979.
-class Spread {
- public:
-  void add(const std::vector<float>& values, double weight) {
-    if (mean_.empty()) {
-      mean_.resize(values.size());
-      squares_.resize(values.size());
-    }
-    weight_ += weight;
-    ++count_;
-    for (size_t i = 0; i < values.size(); ++i) {
-      const double difference = values[i] - mean_[i];
-      mean_[i] += static_cast<float>(difference * weight / weight_);
-      squares_[i] += static_cast<float>(weight * difference * (values[i] - mean_[i]));
-    }
-  }
-
-  int count() const { return count_; }
-  const std::vector<float>& mean() const { return mean_; }
-  /// Squared standard error of the mean.
-  double variance(size_t i) const { return std::max(0.0f, squares_[i]) / ((count_ - 1) * weight_); }
-
- private:
-  int count_ = 0;
-  double weight_ = 0;
-  std::vector<float> mean_, squares_;
-};
+/// A pixel is at least this part as bright as it looks: it may be a light that a group in eight has
+/// found, in a dark place.
+constexpr double least_of_seen = 0.125;
 
 std::vector<float> with_luminance(const Image& image) {
   std::vector<float> values;
@@ -53,6 +29,13 @@ std::vector<float> with_luminance(const Image& image) {
     values.push_back(static_cast<float>(target_luminance(rgb)));
   }
   return values;
+}
+
+std::vector<float> luminance_of(const std::vector<float>& values) {
+  std::vector<float> luminance;
+  luminance.reserve(values.size() / channels);
+  for (size_t i = 3; i < values.size(); i += channels) luminance.push_back(values[i]);
+  return luminance;
 }
 
 Vec2i block_grid(const Image& image) {
@@ -80,9 +63,18 @@ std::vector<float> block_means(const std::vector<float>& values, const Vec2i& si
   return means;
 }
 
-/// All groups of one rendering, over its pixels and over its blocks.
+/// All groups of one rendering, over its pixels or over its blocks.
 struct Groups {
-  explicit Groups(const Rendering& rendering) {
+  void add(const std::vector<float>& values, const Vec2i& size, double weight) {
+    spread.add(values, weight);
+    brightness.add(luminance_of(values), size, weight);
+  }
+  Spread spread;
+  BrightnessPyramid brightness;
+};
+
+struct GroupsOfRendering {
+  explicit GroupsOfRendering(const Rendering& rendering) {
     for (int g = 0; g < Rendering::group_count; ++g) {
       const GroupImage group = rendering.group(g);
       if (group.weight == 0) continue;
@@ -90,17 +82,18 @@ struct Groups {
       grid = block_grid(group.image);
       const std::vector<float> values = with_luminance(group.image);
       const std::vector<float> means = block_means(values, size, grid);
-      pixels.add(values, group.weight);
-      blocks.add(means, group.weight);
+      pixels.add(values, size, group.weight);
+      blocks.add(means, grid, group.weight);
       weight += group.weight;
       most.resize(means.size() / channels);
       for (size_t b = 0; b < most.size(); ++b)
         most[b] = std::max(most[b], group.weight * means[channels * b + 3]);
     }
   }
+  int count() const { return pixels.spread.count(); }
 
   Vec2i size{0}, grid{0};
-  Spread pixels, blocks;
+  Groups pixels, blocks;
   double weight = 0;
   std::vector<double> most;  ///< Per block: light that one group has found, times its weight.
 };
@@ -112,45 +105,62 @@ double mean_luminance(const std::vector<float>& values) {
 }
 
 /// Mean and squared standard error of what several independent sets of groups add up to.
-struct Total {
-  std::vector<float> mean, variance;
-
-  void add(const Spread& spread) {
-    mean.resize(spread.mean().size());
-    variance.resize(mean.size());
-    for (size_t i = 0; i < mean.size(); ++i) {
-      mean[i] += spread.mean()[i];
-      variance[i] += static_cast<float>(spread.variance(i));
+class Total {
+ public:
+  explicit Total(const std::vector<const Groups*>& parts) {
+    for (const Groups* part : parts) {
+      add(part->spread);
+      brightness_.push_back(&part->brightness);
     }
   }
-
   void add_error(const std::vector<float>& errors) {
-    for (size_t i = 0; i < errors.size(); ++i) variance[i] += errors[i] * errors[i];
+    for (size_t i = 0; i < errors.size(); ++i) variance_[i] += errors[i] * errors[i];
   }
 
+  const std::vector<float>& mean() const { return mean_; }
   Image error(const Vec2i& size) const {
     Image image(size.x, size.y, 3);
     for (size_t i = 0; i < image.data.size(); ++i)
-      image.data[i] = std::sqrt(variance[i / 3 * channels + i % 3]);
+      image.data[i] = std::sqrt(variance_[i / 3 * channels + i % 3]);
     return image;
   }
 
-  double relative() const {
-    const double floor = sqr(dark * mean_luminance(mean));
-    if (!(floor > 0)) return std::numeric_limits<double>::quiet_NaN();  // no light was found yet
-    double sum = 0;
-    for (size_t i = 3; i < mean.size(); i += channels)
-      if (variance[i] > 0) sum += variance[i] / (sqr(double(mean[i])) + floor);
-    return std::sqrt(channels * sum / static_cast<double>(mean.size()));
+  RelativeError relative() const {
+    const double floor = sqr(dark * mean_luminance(mean_));
+    if (!(floor > 0)) return {};  // no light was found yet
+    const std::vector<float> known = known_brightness(brightness_);
+    double sum = 0, sum_of_squares = 0;
+    for (size_t p = 0; p < known.size(); ++p) {
+      const size_t i = channels * p + 3;
+      const double brightness = std::max(double{known[p]}, least_of_seen * mean_[i]);
+      const double term = variance_[i] / (sqr(brightness) + floor);
+      sum += term;
+      sum_of_squares += sqr(term);
+    }
+    return {std::sqrt(sum / static_cast<double>(known.size())),
+            sum > 0 ? sqr(sum) / sum_of_squares : static_cast<double>(known.size())};
   }
+
+ private:
+  void add(const Spread& spread) {
+    mean_.resize(spread.size());
+    variance_.resize(spread.size());
+    for (size_t i = 0; i < spread.size(); ++i) {
+      mean_[i] += spread.mean()[i];
+      variance_[i] += static_cast<float>(spread.variance(i));
+    }
+  }
+
+  std::vector<float> mean_, variance_;
+  std::vector<const BrightnessPyramid*> brightness_;
 };
 
-std::vector<Disagreement> disagreements(const Groups& groups, const Total& blocks) {
-  if (groups.pixels.count() < fewest_groups) return {};
-  const double least = dark * mean_luminance(blocks.mean);
+std::vector<Disagreement> disagreements(const GroupsOfRendering& groups, const Total& blocks) {
+  if (groups.count() < fewest_groups) return {};
+  const double least = dark * mean_luminance(blocks.mean());
   std::vector<std::pair<float, Disagreement>> found;
   for (size_t b = 0; b < groups.most.size(); ++b) {
-    const float light = blocks.mean[channels * b + 3];
+    const float light = blocks.mean()[channels * b + 3];
     const double share = groups.most[b] / (groups.weight * light);
     if (!(light > least) || share <= largest_share) continue;
     const Vec2i block(b % groups.grid.x, b / groups.grid.x);
@@ -166,19 +176,19 @@ std::vector<Disagreement> disagreements(const Groups& groups, const Total& block
 }  // namespace
 
 ErrorEstimate estimate_error(const Rendering& rendering) {
-  const Groups groups(rendering);
+  std::vector<GroupsOfRendering> all;
+  all.emplace_back(rendering);
+  for (const Rendering* part : rendering.parts()) all.emplace_back(*part);
+  const GroupsOfRendering& groups = all[0];
   ErrorEstimate estimate;
-  estimate.groups = groups.pixels.count();
-  if (estimate.groups < 2) return estimate;
-  Total pixels, blocks;
-  pixels.add(groups.pixels);
-  blocks.add(groups.blocks);
-  for (const Rendering* part : rendering.parts()) {
-    const Groups groups_of_part(*part);
-    if (groups_of_part.pixels.count() < 2) return estimate;
-    pixels.add(groups_of_part.pixels);
-    blocks.add(groups_of_part.blocks);
+  estimate.groups = groups.count();
+  std::vector<const Groups*> parts_of_pixels, parts_of_blocks;
+  for (const GroupsOfRendering& part : all) {
+    if (part.count() < 2) return estimate;
+    parts_of_pixels.push_back(&part.pixels);
+    parts_of_blocks.push_back(&part.blocks);
   }
+  Total pixels(parts_of_pixels), blocks(parts_of_blocks);
   if (const Image common = rendering.common_error(); !common.empty()) {
     const std::vector<float> values = with_luminance(common);
     pixels.add_error(values);
@@ -206,8 +216,17 @@ std::vector<NamedImage> error_layers(const ErrorEstimate& estimate) {
 void add_error(const ErrorEstimate& estimate, Stats& stats) {
   constexpr size_t most = 10;
   stats.groups = estimate.groups;
-  stats.error = estimate.relative;
-  stats.block_error = estimate.relative_blocks;
+  stats.error = estimate.relative.value;
+  stats.block_error = estimate.relative_blocks.value;
+  stats.pixels_carrying_error = estimate.relative.carrying;
+  if (estimate.relative.carrying < few_pixels)
+    stats.warnings.push_back(fmt::format(
+        "the error of {:.2g} is that of {:.0f} pixel{}: some light is found so rarely that the "
+        "true "
+        "error may be several times larger; render for longer, or look whether another integrator "
+        "finds this light more easily",
+        estimate.relative.value, std::ceil(estimate.relative.carrying),
+        estimate.relative.carrying > 1 ? "s" : ""));
   const std::vector<Disagreement>& all = estimate.disagreements;
   if (all.empty()) return;
   for (size_t i = 0; i < std::min(most, all.size()); ++i)

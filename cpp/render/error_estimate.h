@@ -19,19 +19,23 @@ struct Disagreement {
   double share = 0;  ///< Of the block's light, what the group that found most of it has found.
 };
 
+/// sqrt(mean over pixels of s^2 / (L^2 + 0.01 M^2)), with a pixel's standard error s, its brightness L
+/// as far as the groups agree about it (known_brightness), and the mean M of the brightness over the
+/// image. It is an estimate of the square root of relMSE; 0.01 M^2 keeps black pixels from deciding it.
+struct RelativeError {
+  double value = std::numeric_limits<double>::quiet_NaN();  ///< NaN if nothing is known.
+  /// How many pixels carry it: (sum of their terms)^2 / (sum of the terms' squares). With few, rarely
+  /// found light decides it, and as long as that is not found the error seems too small.
+  double carrying = std::numeric_limits<double>::quiet_NaN();
+};
+
 struct ErrorEstimate {
   static constexpr int block_size = 8;
 
   int groups = 0;  ///< That have something to say; with fewer than two nothing is known.
   Image pixels;    ///< Standard error of each pixel, RGB; empty if nothing is known.
   Image blocks;    ///< The same for the means of blocks of 8 x 8 pixels, one pixel for each.
-  /// Relative error of the image: sqrt(mean over pixels of s^2 / (L^2 + 0.01 M^2)), with a pixel's
-  /// target luminance L, its standard error s, and M the mean of L over the image. It is an
-  /// estimate of the square root of relMSE. Since a pixel cannot be off by more than its own
-  /// brightness, no single bright speckle decides it, and 0.01 M^2 keeps black pixels from deciding
-  /// it.
-  double relative = std::numeric_limits<double>::quiet_NaN();
-  double relative_blocks = std::numeric_limits<double>::quiet_NaN();  ///< The same over blocks.
+  RelativeError relative, relative_blocks;  ///< Of pixels, and of blocks.
   std::vector<Disagreement> disagreements;  ///< The brightest block first.
   int block_count() const { return blocks.width * blocks.height; }
 };

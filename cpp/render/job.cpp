@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <unistd.h>
+
 namespace mlt {
 
 void Executor::run(Job& job, uint64_t to) { job.run_units(to); }
@@ -29,8 +31,14 @@ Job::Job(ScenePtr scene, IntegratorPtr integrator, const RenderSettings& setting
 
 void Job::stop() {
   cancel();
-  if (thread_.joinable()) thread_.join();
+  if (!thread_.joinable()) return;
+  if (elsewhere())
+    thread_.detach();
+  else
+    thread_.join();
 }
+
+bool Job::elsewhere() const { return process_ != 0 && process_ != ::getpid(); }
 
 void Job::check_waiting() const {
   if (phase_ != Phase::waiting) throw UsageError("the render has been started already");
@@ -65,6 +73,7 @@ void Job::launch() {
   take_memory();
   phase_ = prepared_ ? Phase::rendering : Phase::bootstrap;
   started_ = Clock::now();
+  process_ = ::getpid();
   try {
     thread_ = std::thread(&Job::lead, this);
   } catch (const std::system_error&) {

@@ -14,6 +14,8 @@
 #include <exception>
 #include <thread>
 
+#include <sys/types.h>
+
 namespace mlt {
 
 constexpr int max_threads = 4096;
@@ -37,7 +39,8 @@ class Job {
   void attach(std::unique_ptr<Executor> executor);
   void start();  ///< Throws RenderError if there is not memory enough.
   /// Waits until the render has ended or `seconds` have passed; true if it has ended. Rethrows what
-  /// went wrong inside the render.
+  /// went wrong inside the render. Throws RenderError in a process that was forked from the one that
+  /// renders.
   bool wait(double seconds);
   /// Ends the render soon; what has been rendered stays.
   void cancel() { cancel_ = true; }
@@ -45,6 +48,8 @@ class Job {
   void stop();
   bool cancelled() const { return cancel_; }
   bool ended() const { return phase_ == Phase::ended; }
+  /// Whether it was started by another process, of which this one is a fork.
+  bool elsewhere() const;
 
   /// The whole state as bytes: budget, units done, seconds spent, and Rendering::save. May be
   /// called at any time from any thread: it waits for the bootstrap, then for the units that are
@@ -127,6 +132,7 @@ class Job {
   std::atomic<double> bootstrap_seconds_{0}, total_seconds_{0};
 
   std::thread thread_;
+  pid_t process_ = 0;  ///< In which it runs; those that are forked from that have no such thread.
   mutable std::mutex mutex_;
   std::condition_variable ended_;
   std::exception_ptr failure_;  ///< Guarded by mutex_ until the render has ended.

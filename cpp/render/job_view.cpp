@@ -10,6 +10,8 @@
 namespace mlt {
 
 bool Job::wait(double seconds) {
+  if (!ended() && elsewhere())
+    throw RenderError("the render goes on in the process that started it, not in this fork of it");
   std::unique_lock lock(mutex_);
   if (std::isfinite(seconds))
     ended_.wait_for(lock, std::chrono::duration<double>(seconds), [this] { return ended(); });

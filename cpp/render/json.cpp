@@ -39,22 +39,26 @@ std::string array(const std::vector<T>& items, Write&& write) {
   return "[" + out + (items.empty() ? "]" : "\n  ]");
 }
 
+/// JSON has neither infinity nor NaN.
+std::string number(double value) { return Writer{}(value); }
+
 std::string mutation(const MutationStats& m) {
   return fmt::format(
       R"({{"name": {}, "length": {}, "proposed": {}, "generated": {}, "accepted": {}, )"
       R"("mean_acceptance": {}, "image_distance": {}, "rays": {}, "failed_walks": {}, )"
       R"("failed_returns": {}, "weight": {}, "step_size": {}}})",
-      json_string(m.name), m.length, m.proposed, m.generated, m.accepted, m.mean_acceptance,
-      m.image_distance, m.rays, m.failed_walks, m.failed_returns, m.weight, m.step_size);
+      json_string(m.name), m.length, m.proposed, m.generated, m.accepted, number(m.mean_acceptance),
+      number(m.image_distance), m.rays, m.failed_walks, m.failed_returns, number(m.weight),
+      number(m.step_size));
 }
 
 std::string stuck_chain(const StuckChain& s) {
   return fmt::format(R"({{"chain": {}, "rejections": {}, "x": {}, "y": {}, "signature": {}}})",
-                     s.chain, s.rejections, s.x, s.y, json_string(s.signature));
+                     s.chain, s.rejections, number(s.x), number(s.y), json_string(s.signature));
 }
 
 std::string disagreement(const DisagreementStats& d) {
-  return fmt::format(R"({{"x": {}, "y": {}, "share": {}}})", d.x, d.y, d.share);
+  return fmt::format(R"({{"x": {}, "y": {}, "share": {}}})", d.x, d.y, number(d.share));
 }
 
 /// How many bytes the character at this place has, or 0 if it is no UTF-8 (RFC 3629).
@@ -108,20 +112,22 @@ std::string to_json(const Stats& s) {
   line("integrator", json_string(s.integrator));
   line("seed", fmt::format("{}", s.seed));
   line("size", fmt::format("[{}, {}]", s.width, s.height));
-  line("spp_done", fmt::format("{}", s.spp_done));
-  line("seconds", fmt::format(R"({{"load": {}, "bootstrap": {}, "render": {}}})", s.seconds_load,
-                              s.seconds_bootstrap, s.seconds_render));
+  line("spp_done", number(s.spp_done));
+  line("seconds",
+       fmt::format(R"({{"load": {}, "bootstrap": {}, "render": {}}})", number(s.seconds_load),
+                   number(s.seconds_bootstrap), number(s.seconds_render)));
   line("rays",
        fmt::format(R"({{"intersect": {}, "occluded": {}}})", s.rays_intersect, s.rays_occluded));
   line("ended_by", json_string(s.ended_by));
   line("groups", fmt::format("{}", s.groups));
-  line("error", json_value(s.error));
-  line("block_error", json_value(s.block_error));
+  line("error", number(s.error));
+  line("block_error", number(s.block_error));
+  line("pixels_carrying_error", number(s.pixels_carrying_error));
   line("disagreements", array(s.disagreements, disagreement));
-  line("b", fmt::format("{}", s.b));
-  line("b_error", fmt::format("{}", s.b_error));
-  line("level_error", json_value(s.level_error));
-  line("independent_share", fmt::format("{}", s.independent_share));
+  line("b", number(s.b));
+  line("b_error", number(s.b_error));
+  line("level_error", number(s.level_error));
+  line("independent_share", number(s.independent_share));
   line("independent", json_string(s.independent));
   line("independent_samples", fmt::format("{}", s.independent_samples));
   line("samples_carrying_half", fmt::format("{}", s.samples_carrying_half));

@@ -15,6 +15,13 @@ namespace {
 /// early.
 constexpr double first_look_spp = 64, look_growth = 1.3;
 
+/// An error that is carried by few pixels is known badly itself, and who stops when it happens to be
+/// small stops too early: its square counts with two of its standard errors, as if the terms of the
+/// pixels were independent and exponentially distributed.
+double bound(const RelativeError& error) {
+  return error.value * std::sqrt(1 + 2 / std::sqrt(error.carrying));
+}
+
 void check(const std::optional<double>& value, const char* name) {
   if (value && !(*value > 0 && std::isfinite(*value)))
     throw UsageError(std::string(name) + " must be a positive number");
@@ -51,7 +58,7 @@ void StopRule::begin(const Rendering& rendering) {
 
 std::string StopRule::why_to_end(const Rendering& rendering, uint64_t units, double seconds) {
   if (budget_.error && units > 0 && units == next_look(rendering, units - 1)) {
-    seen_error_ = estimate_error(rendering).relative;
+    seen_error_ = bound(estimate_error(rendering).relative);
     seen_units_ = units;
     if (seen_error_ <= *budget_.error) return "error";
   }

@@ -143,6 +143,10 @@ Mat4 at_rest(const Animation& animation) {
 }
 
 Motion::Motion(const Animation& animation) : open_(animation.front().time) {
+  if (animation.size() == 1) {
+    steps_ = {from_rows(animation[0].transform)};
+    return;
+  }
   const Curve curve(animation);
   for (int n = 1; n <= most_steps; n *= 2) {
     steps_.clear();

@@ -36,7 +36,7 @@ class Motion {
  public:
   /// It stands still.
   explicit Motion(const Mat4& rest = Mat4(1)) : steps_{rest} {}
-  /// From the first key to the last one.
+  /// From the first key to the last one; with one key nothing moves.
   explicit Motion(const Animation& animation);
 
   bool moves() const { return steps_.size() > 1; }

@@ -1,6 +1,8 @@
 """The Python face: classes from schemas, scenes, images, errors."""
 
+import fcntl
 import inspect
+import os
 import pickle
 import subprocess
 import sys
@@ -297,3 +299,49 @@ def test_the_content_of_a_file_decides_who_reads_it(tmp_path):
 def test_a_lone_surrogate_is_no_file_name():
     with pytest.raises(mlt.UsageError, match="surrogate"):
         mlt.load_file("\ud800")
+
+
+# ---- files ---------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", ["a.exr", "a.png", "a.jpg"])
+def test_a_file_that_is_replaced_keeps_its_permissions(name, tmp_path):
+    image = np.ones((4, 4, 3), dtype=np.float32)
+    mlt.write_image(tmp_path / name, image)
+    new = (tmp_path / name).stat().st_mode
+    (tmp_path / "other").touch()
+    assert new == (tmp_path / "other").stat().st_mode
+    for mode in 0o600, 0o664:
+        (tmp_path / name).chmod(mode)
+        mlt.write_image(tmp_path / name, image)
+        assert (tmp_path / name).stat().st_mode & 0o777 == mode
+
+
+def test_what_a_killed_process_has_left_is_removed(tmp_path):
+    image = np.ones((4, 4, 3), dtype=np.float32)
+    (tmp_path / ".partial-1-0").touch()
+    (tmp_path / ".partial").mkdir()
+    with open(tmp_path / ".partial-2-0", "w") as busy:
+        fcntl.flock(busy, fcntl.LOCK_EX)
+        mlt.write_image(tmp_path / "a.exr", image)
+        assert sorted(os.listdir(tmp_path)) == [".partial", ".partial-2-0", "a.exr"]
+
+
+# ---- objects of the extension --------------------------------------------------------------------
+
+
+def test_an_object_without_a_value_is_refused():
+    """Whatever type: `cls.__new__(cls)` makes an object that holds nothing."""
+    bound = [kind for kind in vars(mlt._core).values() if isinstance(kind, type)]
+    empty = 0
+    for kind in bound:
+        if issubclass(kind, BaseException):
+            continue
+        for name, member in vars(kind).items():
+            if isinstance(member, property):
+                with pytest.raises(TypeError, match="is empty"):
+                    getattr(kind.__new__(kind), name)
+                empty += 1
+    assert empty > 20
+    with pytest.raises(TypeError, match="is empty"):
+        mlt._core.Scene.__new__(mlt._core.Scene).info()

@@ -5,6 +5,7 @@ import os
 import random
 import shutil
 import signal
+import struct
 import subprocess
 import sys
 import time
@@ -133,7 +134,8 @@ def test_a_checkpoint_that_cannot_be_written_is_a_warning(small, tmp_path):
     shutil.rmtree(folder, ignore_errors=True)
     while folder.exists():
         shutil.rmtree(folder, ignore_errors=True)
-    time.sleep(0.1)
+    while not job.stats["warnings"]:
+        time.sleep(0.01)
     job.cancel()
     warnings = job.result().stats["warnings"]
     assert len(warnings) == 1
@@ -204,6 +206,28 @@ def test_a_state_that_does_not_fit_is_refused(good, tmp_path):
         reason = refusal(tmp_path / "a.mlt", sealed(body[:size]))
         assert "damaged" in reason or "was written by" in reason
     assert "damaged" in refusal(tmp_path / "a.mlt", sealed(body + b"\0"))
+
+
+@pytest.mark.parametrize("integrator", ["path", "mlt"])
+def test_numbers_that_are_none_are_refused_or_do_no_harm(small, integrator, tmp_path):
+    mlt.start(small, integrator, spp=2, seed=1, checkpoint=tmp_path / "a.mlt").wait()
+    body = (tmp_path / "a.mlt").read_bytes()[28:]
+    draw = random.Random(4)
+    refused = 0
+    for _ in range(60):
+        value = draw.choice([float("nan"), float("inf"), -float("inf")])
+        forged = struct.pack(*draw.choice([("<f", value), ("<d", value)]))
+        place = draw.choice([draw.randrange(len(body) // 4), draw.randrange(2000)]) * 4
+        damaged = body[:place] + forged + body[place + len(forged) :]
+        (tmp_path / "a.mlt").write_bytes(sealed(damaged))
+        try:
+            result = mlt.resume(tmp_path / "a.mlt").result()
+        except (mlt.FileError, mlt.SceneError, mlt.UsageError):
+            refused += 1
+        else:
+            assert np.isfinite(result.image).all()
+            assert result.stats["spp_done"] > 0
+    assert refused > 0
 
 
 # ---- the command lines ---------------------------------------------------------------------------

@@ -579,3 +579,11 @@ def test_a_built_in_scene_may_be_named_with_resume(tmp_path, monkeypatch):
     run([*PYMLT, "render"], *flags, "--size", "16x12", "--checkpoint", "a.mlt")
     done = run([*PYMLT, "render"], *flags, "--resume", "a.mlt")
     assert done.returncode == 0, done.stderr
+
+
+def test_a_folder_that_is_gone_is_one_line(program, tmp_path):
+    folder = tmp_path / "gone"
+    folder.mkdir()
+    render = f"{shlex.join(program)} ring -o a.exr"
+    script = f"cd {shlex.quote(str(folder))} && rmdir ../gone && {render}"
+    assert "the current folder is gone" in the_error(run(["sh", "-c", script]))

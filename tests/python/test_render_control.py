@@ -1,5 +1,6 @@
 """Jobs: determinism, budgets, progress, cancelling, Ctrl-C."""
 
+import os
 import signal
 import subprocess
 import sys
@@ -295,3 +296,19 @@ def test_a_path_without_light_ends(name):
     stats = mlt.start(scene, {"type": name, "rr_depth": 10**6}, spp=4, seed=1).result().stats
     samples = 4 * 4
     assert 100 < stats["rays"]["intersect"] / samples < 1000  # bdpt has two subpaths
+
+
+def test_a_forked_process_does_not_wait_for_its_parents_render(scene):
+    job = mlt.start(scene, spp=1e9)
+    child = os.fork()
+    if child == 0:
+        status = 1
+        try:
+            job.result()
+        except mlt.RenderError as error:
+            status = 0 if "in the process that started it" in str(error) else 2
+        del job
+        os._exit(status)
+    assert os.waitpid(child, 0)[1] == 0
+    job.cancel()
+    job.wait()

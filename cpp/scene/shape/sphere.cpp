@@ -5,6 +5,8 @@
 #include "scene/shape/sphere.h"
 
 #include "math/warp.h"
+#include "scene/matrix_rows.h"
+#include "scene/mesh_data.h"
 #include "scene/shape/common.h"
 #include "scene/texture.h"
 
@@ -19,21 +21,41 @@ struct Sphere::Cone {
   double one_minus_cos;  ///< 1 - cos theta_max
 };
 
-Sphere::Sphere(const Vec3& center, double radius, const Mat4& to_world, bool flip_normals,
-               const Location& location) {
-  where = location;
-  const Mat3 linear(to_world);
-  const double scale = std::cbrt(std::abs(glm::determinant(linear)));
-  if (!(radius > 0) || !std::isfinite(radius))
-    throw SceneError(at(where, "the radius of a sphere must be positive"));
-  if (!(scale > 0) || !std::isfinite(scale))
-    throw SceneError(at(where, "'to_world' is singular: it flattens the sphere"));
-  // linear = scale * Q with orthogonal Q, to the few digits that scene files carry.
+namespace {
+
+/// Whether linear = scale * Q with orthogonal Q, to the few digits that scene files carry.
+bool is_round(const Mat3& linear, double scale) {
   const Mat3 gram = glm::transpose(linear) * linear / (scale * scale);
   double deviation = 0;
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) deviation = std::max(deviation, std::abs(gram[i][j] - (i == j)));
-  if (!(deviation < 1e-3) || !is_affine(to_world))
+  return deviation < 1e-3;
+}
+
+double mean_scale(const Mat3& linear) { return std::cbrt(std::abs(glm::determinant(linear))); }
+
+}  // namespace
+
+void place_ellipsoid(Params& params) {
+  if (!params.has("to_world")) return;
+  const auto* matrix = std::get_if<Matrix>(&params.value("to_world"));
+  if (!matrix) return;
+  const Mat4 to_world = from_rows(*matrix);
+  if (!is_affine(to_world) || is_singular(to_world)) return;  // Sphere refuses them.
+  const Mat3 linear(to_world);
+  if (!is_round(linear, mean_scale(linear))) params.replace("to_world", Animation{{0, *matrix}});
+}
+
+Sphere::Sphere(const Vec3& center, double radius, const Mat4& to_world, bool flip_normals,
+               const Location& location) {
+  where = location;
+  const Mat3 linear(to_world);
+  const double scale = mean_scale(linear);
+  if (!(radius > 0) || !std::isfinite(radius))
+    throw SceneError(at(where, "the radius of a sphere must be positive"));
+  if (!(scale > 0) || !std::isfinite(scale))
+    throw SceneError(at(where, "'to_world' is singular: it flattens the sphere"));
+  if (!is_round(linear, scale) || !is_affine(to_world))
     throw SceneError(at(where,
                         "'to_world' makes this sphere an ellipsoid; only translation, rotation "
                         "and one scale for all axes are possible (use a mesh instead)"));

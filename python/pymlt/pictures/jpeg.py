@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -49,16 +48,3 @@ def encode_jpeg(image: np.ndarray, curve: str, exposure: float) -> bytes:
         if not (file and file.open(path, spec) and file.write_image(codes) and file.close()):
             raise _core.FileError(f"{path}: {OpenImageIO.geterror().strip()}")
         return Path(path).read_bytes()
-
-
-def replace_file(path: str, content: bytes) -> None:
-    """Write a file, at once or not at all. Raises FileError."""
-    _core.check_file_writable(path)
-    target = os.path.realpath(path)
-    part = Path(f"{target}.{os.getpid()}.part")
-    try:
-        part.write_bytes(content)
-        os.replace(part, target)
-    except OSError as error:
-        part.unlink(missing_ok=True)
-        raise _core.FileError(f"{path}: cannot write it: {error.strerror}") from None

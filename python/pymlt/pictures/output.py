@@ -6,7 +6,7 @@ import os
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from .. import _core
-from .jpeg import encode_jpeg, is_jpeg, replace_file
+from .jpeg import encode_jpeg, is_jpeg
 from .tonemapping import check_tonemap, tonemap
 
 if TYPE_CHECKING:
@@ -29,7 +29,7 @@ class OutputFile(NamedTuple):
     def write(self) -> None:
         """Raises FileError if it cannot be written, UsageError for what the format cannot hold."""
         if is_jpeg(self.path):
-            replace_file(self.path, encode_jpeg(self.image, self.curve, self.exposure))
+            _core.replace_file(self.path, encode_jpeg(self.image, self.curve, self.exposure))
         else:
             _core.write_image(*self._arguments())
 

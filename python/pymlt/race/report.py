@@ -9,8 +9,8 @@ from collections.abc import Sequence
 from html import escape
 from typing import TYPE_CHECKING, Any
 
+from .. import _core
 from .._extras import import_extra
-from ..pictures.jpeg import replace_file
 from .table import notes, summary_table, table
 
 if TYPE_CHECKING:
@@ -52,7 +52,7 @@ class Report:
     def save_json(self, path: str | os.PathLike[str]) -> None:
         """Write settings and numbers, without images. Raises FileError."""
         text = json.dumps(self.to_dict(), indent=1, allow_nan=False)
-        replace_file(os.fspath(path), (text + "\n").encode())
+        _core.replace_file(os.fspath(path), (text + "\n").encode())
 
     def html(self, *, exposure: float | None = None, tonemap: str = "srgb") -> str:
         """A page of its own, with everything in it: tables, plots, pictures.
@@ -73,7 +73,7 @@ class Report:
     ) -> None:
         """Write the page that `html` makes. Raises FileError, and UsageError for a wrong curve."""
         page = self.html(exposure=exposure, tonemap=tonemap)
-        replace_file(os.fspath(path), page.encode())
+        _core.replace_file(os.fspath(path), page.encode())
 
     def figure(self, *, exposure: float | None = None, tonemap: str = "srgb") -> Figure:
         """The images beside each other with their insets, as a figure of matplotlib.

@@ -190,6 +190,9 @@ class Job:
         return f"Job({state}, {100 * self.progress:.0f} %)"
 
 
+os.register_at_fork(after_in_child=_running.clear)
+
+
 @atexit.register
 def _cancel_all() -> None:
     """No thread may outlive the interpreter."""
