@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import warnings
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -14,6 +15,9 @@ if TYPE_CHECKING:
     from .imported import Imported
 
 EXTENSIONS = (".gltf", ".glb", ".pbrt")
+#: What a file raises that does not say what it should.
+CONTRADICTIONS = (ArithmeticError, AttributeError, LookupError, MemoryError, RecursionError)
+CONTRADICTIONS += (TypeError, ValueError)
 
 
 def is_foreign(path: str | os.PathLike[str]) -> bool:
@@ -23,21 +27,32 @@ def is_foreign(path: str | os.PathLike[str]) -> bool:
 
 def read_foreign(path: str | os.PathLike[str]) -> Imported:
     """A scene of another program, with its meshes and images as arrays."""
+    import numpy as np
+
     from .imported import Imported
 
     source = Path(os.fspath(path))
-    if not source.exists():
-        raise _core.FileError(f"{source}: there is no such file")
     made = Imported()
-    if source.suffix.lower() == ".pbrt":
+    try:
+        with np.errstate(over="raise", divide="raise", invalid="raise"):
+            reader_of(source)(source, made)
+    except _core.Error:
+        raise
+    except CONTRADICTIONS as error:
+        kind = type(error).__name__
+        raise _core.SceneError(f"{source}: contradicts itself: {kind}: {error!s:.200}") from None
+    return made
+
+
+def reader_of(path: Path) -> Callable[[Path, Imported], None]:
+    """The reader for files of this extension."""
+    if path.suffix.lower() == ".pbrt":
         from .pbrt import read_pbrt
 
-        read_pbrt(source, made)
-    else:
-        from .gltf import read_gltf
+        return read_pbrt
+    from .gltf import read_gltf
 
-        read_gltf(source, made)
-    return made
+    return read_gltf
 
 
 def load_foreign(

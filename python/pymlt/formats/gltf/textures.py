@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from ... import _core
 from ..imported import Imported, rgb
 from .buffers import Buffers
+from .checked import at
 
 if TYPE_CHECKING:
     import numpy as np
@@ -45,7 +46,7 @@ class Textures:
         """One channel of a texture of numbers times a factor, or the factor alone."""
         if info is None:
             return factor
-        key = (self._gltf.textures[info.index].source, channel, factor)
+        key = (self._texture(info).source, channel, factor)
         if key not in self._channels:
             self._channels[key] = factor * stored_samples(self._image(info))[..., channel]
         return self._bitmap(info, self._channels[key]) | {"raw": True}
@@ -61,11 +62,14 @@ class Textures:
             return float(alpha)
         return self._bitmap(info, alpha) | {"raw": True}
 
+    def _texture(self, info: Any) -> Any:
+        return at(self._gltf.textures, info.index, "texture")
+
     def _image(self, info: Any) -> bytes:
         """The content of the texture's file."""
-        index = self._gltf.textures[info.index].source
+        index = self._texture(info).source
         if index not in self._images:
-            self._images[index] = bytes(self._buffers.image(index))
+            self._images[index] = self._buffers.image(index)
         return self._images[index]
 
     def _bitmap(self, info: Any, data: bytes | np.ndarray) -> dict[str, Any]:
@@ -74,9 +78,9 @@ class Textures:
         if "KHR_texture_transform" in (info.extensions or {}):
             self._made.warn("KHR_texture_transform is left out")
         bitmap: dict[str, Any] = {"type": "bitmap", "data": data}
-        index = self._gltf.textures[info.index].sampler
+        index = self._texture(info).sampler
         if index is not None:
-            sampler = self._gltf.samplers[index]
+            sampler = at(self._gltf.samplers, index, "sampler")
             for axis, wrap in (("u", sampler.wrapS), ("v", sampler.wrapT)):
                 if WRAP.get(wrap, "repeat") != "repeat":
                     bitmap[f"wrap_mode_{axis}"] = WRAP[wrap]
