@@ -232,6 +232,10 @@ PBRT = {
         'Shape "trianglemesh" "point3 P" [0 0 0] "integer indices" [1e300 0 0]',
         "makes no sense",
     ),
+    "large vertex": (
+        'Camera "perspective" Shape "trianglemesh" "point3 P" [0 0 0 1e300 0 0 0 1 0]',
+        "is not finite",
+    ),
     "overflow": ("Scale 1e300 1 1\nScale 1e300 1 1", "a.pbrt:2: Scale makes no sense"),
     "flat": ('Scale 0 1 1\nCamera "perspective"', "a.pbrt:2: Camera makes no sense"),
     "NUL": ('Include "a\0b"', "a.pbrt:1: "),
@@ -312,6 +316,13 @@ def test_branching_references_are_refused(capsys):
 
 def test_large_files_are_refused(capsys):
     Path("a.xml").write_text('<scene version="3.0.0"><include filename="sparse.bin"/></scene>')
-    refused("a.xml", "sparse.bin: cannot read it: it has more than 4294967296 bytes", capsys)
+    refused("a.xml", "sparse.bin: cannot read it: it has more than 268435456 bytes", capsys)
     with pytest.raises(mlt.FileError, match="it has more than"):
         mlt.read_image("sparse.bin")
+
+
+def test_the_texts_of_a_scene_are_limited_together(capsys):
+    Path("b.xml").write_text(f'<scene version="3.0.0"><!--{" " * 2**26}--></scene>')
+    include = '<include filename="b.xml"/>'
+    Path("a.xml").write_text(f'<scene version="3.0.0">{include * 4}</scene>')
+    refused("a.xml", "b.xml: with it the files of the scene have more than 268435456", capsys)

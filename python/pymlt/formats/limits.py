@@ -15,7 +15,7 @@ INCLUDES_DEEP, INCLUDES = 15, 10_000  #: files, as in Mitsuba scenes
 PARTS = 1000  #: plug-ins and colours that one plug-in is made of; those used twice count twice
 NAME = 1000  #: characters
 TEXT = 2**28  #: bytes of a text, of all texts that include each other, and of what .gz unpacks to
-MEMORY = 2**32  #: bytes of a whole scene; meshes and images that are used twice count twice
+MEMORY = 2**31  #: bytes of a whole scene; meshes and images that are used twice count twice
 PART, ITEM = 1024, 64  #: bytes that a plug-in, and a value in a list, take
 
 

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 from ... import _core
 from .. import limits
 
-PATTERN = re.compile(r'\s+|#[^\n]*|"((?:[^"\\\n]|\\.)*+)"|([\[\]])|([^\s"\[\]#]+)|(.)')
+PATTERN = re.compile(r'\s+|#[^\n]*|"((?:[^"\\\n]++|\\.)*+)"|([\[\]])|([^\s"\[\]#]+)|(.)')
 NUMBERS = {"integer": 1, "float": 1, "point2": 2, "vector2": 2, "point3": 3, "vector3": 3}
 NUMBERS |= {"normal3": 3, "point": 3, "vector": 3, "normal": 3, "rgb": 3, "blackbody": 1}
 
