@@ -190,6 +190,18 @@ def test_a_mesh_counts_each_time_that_it_is_used(monkeypatch, capsys):
     refused("a.gltf", "takes more than 20000 bytes of memory", capsys)
 
 
+def test_large_images_are_not_taken_apart(monkeypatch, capsys):
+    monkeypatch.setattr(limits, "PIXELS", 100)
+    mlt.write_image("a.png", np.zeros((10, 11), np.float32))
+    pbr = {"metallicRoughnessTexture": {"index": 0}}
+    content = primitive(material=0) | {"materials": [{"pbrMetallicRoughness": pbr}]}
+    content |= {"textures": [{"source": 0}], "images": [{"uri": "a.png"}]}
+    Path("a.gltf").write_text(json.dumps(content))
+    refused("a.gltf", "a.gltf: image 0: is 11 x 10 pixels large; at most 100", capsys)
+    Path("a.pbrt").write_text('LightSource "infinite" "string filename" "a.png"')
+    refused("a.pbrt", "a.png: is 11 x 10 pixels large; at most 100 pixels", capsys)
+
+
 # ---- pbrt ----------------------------------------------------------------------------------------
 
 MIXES = 'MakeNamedMaterial "m0" "string type" "diffuse"\n' + "".join(

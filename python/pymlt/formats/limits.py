@@ -6,14 +6,18 @@ import gzip
 import io
 import zlib
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from .. import _core
+
+if TYPE_CHECKING:
+    import numpy as np
 
 NESTING = 100  #: of blocks, materials and textures, as in Mitsuba scenes
 INCLUDES_DEEP, INCLUDES = 15, 10_000  #: files, as in Mitsuba scenes
 PARTS = 1000  #: plug-ins and colours that one plug-in is made of; those used twice count twice
 NAME = 1000  #: characters
+PIXELS = 2**26  #: of an image that becomes another one here, such as one channel of it
 TEXT = 2**28  #: bytes of a text, of all texts that include each other, and of what .gz unpacks to
 MEMORY = 2**31  #: bytes of a whole scene; meshes and images that are used twice count twice
 PART, ITEM = 1024, 64  #: bytes that a plug-in, and a value in a list, take
@@ -32,6 +36,15 @@ def read_file(path: Path, largest: int = MEMORY) -> bytes:
     if len(unpacked) > TEXT:
         raise _core.FileError(f"{path}: unpacks to more than {TEXT} bytes; unpack it yourself")
     return unpacked
+
+
+def check_pixels(image: np.ndarray, name: str) -> None:
+    """Raises FileError for an image that is too large to be changed."""
+    height, width = image.shape[:2]
+    if height * width > PIXELS:
+        raise _core.FileError(
+            f"{name}: is {width} x {height} pixels large; at most {PIXELS} pixels are possible here"
+        )
 
 
 def measured(plugin: dict[str, Any]) -> int:

@@ -24,7 +24,7 @@ class Buffers:
 
     def __init__(self, gltf: Any, path: Path):
         self.gltf = gltf
-        self._path = path
+        self.path = path
         self._buffers: dict[int, bytes] = {}
 
     def array(self, index: int) -> np.ndarray:
@@ -88,7 +88,7 @@ class Buffers:
         """The bytes that a URI means: base64 data, or a file beside the scene."""
         if uri.startswith("data:"):
             return base64.b64decode(uri.partition(",")[2])
-        return read_file(self._path.parent / unquote(uri))
+        return read_file(self.path.parent / unquote(uri))
 
     def image(self, index: int) -> bytes:
         """The file of an image: PNG or JPEG."""

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from ... import _core
 from ..imported import Imported, rgb
+from ..limits import check_pixels
 from .buffers import Buffers
 from .checked import at
 
@@ -48,13 +49,13 @@ class Textures:
             return factor
         key = (self._texture(info).source, channel, factor)
         if key not in self._channels:
-            self._channels[key] = factor * stored_samples(self._image(info))[..., channel]
+            self._channels[key] = factor * self._samples(info)[..., channel]
         return self._bitmap(info, self._channels[key]) | {"raw": True}
 
     def opacity(self, info: Any, factor: float, cutoff: float | None) -> float | dict[str, Any]:
         """Alpha times a factor; with a cutoff it is 0 or 1."""
         alpha: Any = factor
-        if info is not None and (samples := stored_samples(self._image(info))).shape[2] in (2, 4):
+        if info is not None and (samples := self._samples(info)).shape[2] in (2, 4):
             alpha = factor * samples[..., -1]
         if cutoff is not None:
             alpha = (alpha >= cutoff) * 1.0
@@ -71,6 +72,10 @@ class Textures:
         if index not in self._images:
             self._images[index] = self._buffers.image(index)
         return self._images[index]
+
+    def _samples(self, info: Any) -> np.ndarray:
+        name = f"{self._buffers.path}: image {self._texture(info).source}"
+        return stored_samples(self._image(info), name)
 
     def _bitmap(self, info: Any, data: bytes | np.ndarray) -> dict[str, Any]:
         if info.texCoord:
@@ -89,11 +94,13 @@ class Textures:
         return bitmap
 
 
-def stored_samples(content: bytes) -> np.ndarray:
+def stored_samples(content: bytes, name: str) -> np.ndarray:
     """The samples of an integer format as they are stored, 0 to 1: (height, width, channels)."""
     import numpy as np
 
     from ...pictures.tonemapping import encode_srgb, split_alpha
 
-    colours, alpha = split_alpha(_core.decode_image(content, "an image"))
+    image = _core.decode_image(content, name)
+    check_pixels(image, name)
+    colours, alpha = split_alpha(image)
     return np.concatenate([encode_srgb(colours), alpha], axis=2)

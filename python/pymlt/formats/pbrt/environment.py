@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ...images import read_image
+from ..limits import check_pixels
 from .params import Params
 
 if TYPE_CHECKING:
@@ -17,6 +18,7 @@ def environment(params: Params, path: Path, to_world: np.ndarray, scale: float) 
     import numpy as np
 
     given = read_image(path)[..., :3]
+    check_pixels(given, str(path))
     if given.shape[0] != given.shape[1]:
         raise params.where.error(f"{path.name}: an environment map of pbrt-v4 is square")
     rows = given.shape[0]
