@@ -9,7 +9,8 @@ HUGE = 2**40
 
 
 def make_places() -> None:
-    """Pipes, a folder and a file of a terabyte, in the current folder."""
+    """Pipes, a folder, a link to itself and a file of a terabyte, in the current folder."""
+    os.symlink("loop", "loop")
     os.mkfifo("fifo")
     os.mkfifo("fifo.ply.gz")
     Path("folder").mkdir()

@@ -35,6 +35,11 @@ PBRT = {
     "itself": ('Include "a.pbrt"', "a.pbrt:1: 'a.pbrt' is being read already"),
     "endless": ('Include "/dev/zero"', "/dev/zero: cannot read it: it is not a regular file"),
     "fifo": ('Include "fifo"', "fifo: cannot read it: it is not a regular file"),
+    "link": ('Include "loop"', "a.pbrt:1: Include makes no sense"),
+    "link to a mesh": (
+        'Shape "plymesh" "string filename" "loop"',
+        "a.pbrt:1: Shape makes no sense",
+    ),
     "folder": ('Include "folder"', "folder: cannot read it: it is a folder"),
     "large": ('Include "sparse.bin"', "sparse.bin: cannot read it: it has more than"),
     "mesh": ('Shape "plymesh" "string filename" "fifo"', "fifo: cannot read it"),

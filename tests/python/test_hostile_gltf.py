@@ -103,6 +103,7 @@ GLTF = {
     "sparse of signed": (gltf(accessors=[sparse(5122)]), "should be unsigned integers"),
     "endless": (uri("/dev/zero"), "/dev/zero: cannot read it: it is not a regular file"),
     "fifo": (uri("fifo"), "fifo: cannot read it: it is not a regular file"),
+    "link": (uri("loop"), "loop: cannot read it"),
     "folder": (uri("folder"), "folder: cannot read it: it is a folder"),
     "sparse file": (uri("sparse.bin"), "it has more than"),
     "no file": (uri("none"), "none: there is no such file"),

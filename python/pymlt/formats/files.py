@@ -10,14 +10,12 @@ from typing import TYPE_CHECKING, Any
 
 from .. import _core
 from ..scenes.arrays import with_bytes
+from . import limits
 
 if TYPE_CHECKING:
     from .imported import Imported
 
 EXTENSIONS = (".gltf", ".glb", ".pbrt")
-#: What a file raises that does not say what it should.
-CONTRADICTIONS = (ArithmeticError, AttributeError, LookupError, MemoryError, RecursionError)
-CONTRADICTIONS += (TypeError, ValueError)
 
 
 def is_foreign(path: str | os.PathLike[str]) -> bool:
@@ -38,7 +36,7 @@ def read_foreign(path: str | os.PathLike[str]) -> Imported:
             reader_of(source)(source, made)
     except _core.Error:
         raise
-    except CONTRADICTIONS as error:
+    except limits.CONTRADICTIONS as error:
         kind = type(error).__name__
         raise _core.SceneError(f"{source}: contradicts itself: {kind}: {error!s:.200}") from None
     return made

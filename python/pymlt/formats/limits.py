@@ -22,6 +22,10 @@ TEXT = 2**28  #: bytes of a text, of all texts that include each other, and of w
 MEMORY = 2**31  #: bytes of a whole scene; meshes and images that are used twice count twice
 PART, ITEM = 1024, 64  #: bytes that a plug-in, and a value in a list, take
 
+#: What a reader stumbles on in a file that contradicts itself.
+CONTRADICTIONS = (ArithmeticError, AttributeError, LookupError, MemoryError, OSError, RuntimeError)
+CONTRADICTIONS += (TypeError, ValueError)
+
 
 def read_file(path: Path, largest: int = MEMORY) -> bytes:
     """A regular file, unpacked if its name ends in .gz. Raises FileError, which names it."""

@@ -70,7 +70,7 @@ class Reader:
                 self._directive(directive)
             except _core.Error:
                 raise
-            except (ArithmeticError, LookupError, TypeError, ValueError) as error:
+            except limits.CONTRADICTIONS as error:
                 raise directive.error(f"{directive.text} makes no sense: {error!s:.200}") from None
         if self._saved and self._last is not None:
             raise self._last.error("an AttributeBegin has no AttributeEnd")
