@@ -106,6 +106,7 @@ GLTF = {
     "link": (uri("loop"), "loop: cannot read it"),
     "folder": (uri("folder"), "folder: cannot read it: it is a folder"),
     "sparse file": (uri("sparse.bin"), "it has more than"),
+    "NUL": (uri("sparse.bin%00"), "the name of a file holds a NUL"),
     "no file": (uri("none"), "none: there is no such file"),
     "no data": (uri("data:,"), "beyond its buffer"),
     "bad data": (uri("data:;base64,=a"), "contradicts itself"),

@@ -29,6 +29,8 @@ CONTRADICTIONS += (TypeError, ValueError)
 
 def read_file(path: Path, largest: int = MEMORY) -> bytes:
     """A regular file, unpacked if its name ends in .gz. Raises FileError, which names it."""
+    if "\0" in str(path):  # where the name would end for the system
+        raise ValueError("the name of a file holds a NUL")
     content = _core.read_file(str(path), largest)
     if path.suffix != ".gz":
         return content
