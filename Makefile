@@ -21,7 +21,8 @@ CTEST := ctest --test-dir $(BUILD) --output-on-failure --no-tests=error
 # What the C++ build reads; folders too, whose time changes when a file is added or removed.
 SOURCES := $(shell find cpp bindings tests/cpp docs/examples cmake CMakeLists.txt pyproject.toml \
              -not -name '.*' 2>/dev/null) $(wildcard tests/fuzz/*.h tests/fuzz/*.cpp)
-FUZZ_TARGETS := $(patsubst tests/fuzz/fuzz_%.cpp,%,$(wildcard tests/fuzz/fuzz_*.cpp))
+FUZZ_TARGETS := $(basename $(patsubst tests/fuzz/fuzz_%,%,$(wildcard tests/fuzz/fuzz_*.cpp \
+                  tests/fuzz/fuzz_*.py)))
 CXX_FILES = $(shell git ls-files -- '*.h' '*.cpp')
 
 # Without this, make would link cpp/scene/texture.cpp into the folder of that name.
@@ -52,7 +53,7 @@ $(VENV)/.stamp: requirements/constraints.txt pyproject.toml | $(STAMPS)/apt
 install_for = $(BIN)/pip install -q -c requirements/constraints.txt \
   $$($(BIN)/python cmake/list_dependencies.py pyproject.toml $(1))
 
-$(STAMPS)/dev $(STAMPS)/docs: $(STAMPS)/%: $(VENV)/.stamp | $(STAMPS)/apt-test
+$(STAMPS)/dev $(STAMPS)/docs $(STAMPS)/fuzz: $(STAMPS)/%: $(VENV)/.stamp | $(STAMPS)/apt-test
 	$(call install_for,$*)
 	@mkdir -p $(@D) && touch $@
 
@@ -111,7 +112,7 @@ asan: | $(STAMPS)/apt $(STAMPS)/apt-test
 
 # Hostile files for every reader, MINUTES for each; it fails if one of them crashes, takes ten seconds
 # or a gigabyte. Targets that are named by FUZZ_TARGETS="obj ply" run alone.
-fuzz: | $(STAMPS)/apt $(STAMPS)/apt-fuzz
+fuzz: build $(STAMPS)/fuzz | $(STAMPS)/apt-fuzz
 	cmake --preset fuzz
 	cmake --build --preset fuzz
 	@printf '%s\n' $(FUZZ_TARGETS) | xargs -P $(JOBS) -I NAME tests/fuzz/run.sh NAME $(MINUTES)

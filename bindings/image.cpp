@@ -89,6 +89,10 @@ void bind_image(py::module_& m) {
   m.def("decode_image", &decode, py::arg("bytes"), py::arg("name"),
         "The pixels of an image file's bytes, in linear light; errors call it by the name.");
   m.def("is_known_image", [](const Text& path) { return is_known_image(path); }, py::arg("path"));
+  m.def(
+      "read_file",
+      [](const Text& path, uint64_t largest) { return py::bytes(read_file(path, largest)); },
+      py::arg("path"), py::arg("largest"), "The bytes of a regular file.");
   m.def("read_metadata", &metadata, py::arg("path"));
   m.def("write_image", &write, py::arg("path"), py::arg("image"), py::arg("layers"),
         py::arg("metadata"), py::arg("half"), py::arg("exposure"));

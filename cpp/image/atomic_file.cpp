@@ -128,7 +128,7 @@ void AtomicFile::commit() {
   if (std::fclose(std::exchange(file_, nullptr)) != 0) fail();
 }
 
-std::string read_file(const std::string& path) {
+std::string read_file(const std::string& path, uint64_t largest) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (status.type() == fs::file_type::not_found) throw FileError(path + ": there is no such file");
@@ -141,6 +141,9 @@ std::string read_file(const std::string& path) {
   if (!file) fail(path, "cannot read it", errno);
   const uintmax_t size = fs::file_size(path, error);
   if (error) fail(path, "cannot read it", error.value());
+  if (size > largest)
+    throw FileError(path + ": cannot read it: it has more than " + std::to_string(largest) +
+                    " bytes");
   std::string bytes(static_cast<size_t>(size), '\0');
   file.read(bytes.data(), static_cast<std::streamsize>(size));
   if (static_cast<uintmax_t>(file.gcount()) != size)

@@ -32,8 +32,11 @@ class AtomicFile {
   std::FILE* file_ = nullptr;
 };
 
-/// The bytes of a regular file; a FileError if it cannot be read.
-std::string read_file(const std::string& path);
+/// More bytes of one file are a mistake or an attack.
+constexpr uint64_t largest_file = uint64_t{1} << 32;
+
+/// The bytes of a regular file; a FileError if it cannot be read, or is larger than `largest`.
+std::string read_file(const std::string& path, uint64_t largest = largest_file);
 
 /// A pipe, a terminal or the like, such as /dev/stdin.
 bool is_stream(const std::string& path);

@@ -117,6 +117,7 @@ ObjectPtr Builder::make(const Node& node) {
   in_progress_.push_back(&node);
   for (const Node& child : node.children) give(params, node, child);
   in_progress_.pop_back();
+  if (node.family == "bsdf" || node.family == "texture") check_size(node);
 
   const std::string key = params.key(attached(node.family));
   const Part* known = known_parts_.take(key);
@@ -140,6 +141,17 @@ ObjectPtr Builder::make(const Node& node) {
   }
   if (!known) params.expect_all_read();
   return object;
+}
+
+/// Throws SceneError for runaway branching.
+void Builder::check_size(const Node& node) {
+  size_t size = 1;
+  for (const Node& child : node.children) size += sizes_[&resolve(child)];
+  if (size > max_parts)
+    throw SceneError(at(
+        node.where, "the {} is made of more than {} parts; what is referred to twice counts twice",
+        node.family, max_parts));
+  sizes_[&node] = size;
 }
 
 Part Builder::new_part(const Node& node, const Plugin& plugin, Params& params) {

@@ -52,6 +52,7 @@ class Builder {
  private:
   const Node& resolve(const Node& child) const;
   ObjectPtr make(const Node& node);
+  void check_size(const Node& node);
   Part new_part(const Node& node, const Plugin& plugin, Params& params);
   void give(Params& params, const Node& parent, const Node& child);
   void attach(Shape& shape, const Params& params, std::vector<std::shared_ptr<Bsdf>> bsdfs,
@@ -69,6 +70,7 @@ class Builder {
   std::set<std::string> files_;
   std::map<const Node*, ObjectPtr> made_;
   std::vector<const Node*> in_progress_;
+  std::map<const Node*, size_t> sizes_;  ///< Of BSDFs and textures, in parts.
   std::set<const Node*> lights_of_shapes_;
   std::map<const Object*, View> views_;
   BsdfPtr default_bsdf_[2];

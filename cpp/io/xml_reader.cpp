@@ -1,5 +1,6 @@
 // From Mitsuba XML, either dialect, to a tree of nodes.
 #include "image/atomic_file.h"
+#include "io/aliases.h"
 #include "io/element.h"
 #include "io/families.h"
 #include "io/load.h"
@@ -20,7 +21,9 @@ namespace {
 
 constexpr size_t max_include_depth = 15;
 constexpr int max_includes = 10'000;
+constexpr size_t max_text = size_t{1} << 28;  ///< Bytes of all files together.
 constexpr size_t longest_name = 1000;
+constexpr size_t max_attributes = 100;
 
 /// Families whose string `filename` is a file to read. (A film's is one to write.)
 bool reads_a_file(const std::string& family) {
@@ -48,14 +51,6 @@ bool is_modern(const std::string& version) {
   return parse_real(version.substr(0, version.find('.'))).value_or(0) >= 2;
 }
 
-void rename_references(Node& node, const std::map<std::string, std::string>& target_of) {
-  if (node.family == "ref") {
-    const auto found = target_of.find(node.type);
-    if (found != target_of.end()) node.type = found->second;
-  }
-  for (Node& child : node.children) rename_references(child, target_of);
-}
-
 class XmlReader {
  public:
   XmlReader(const LoadOptions& options, std::vector<std::string>& warnings)
@@ -63,7 +58,7 @@ class XmlReader {
 
   Node read_file(const std::string& path) {
     open_files_ = {canonical(path)};
-    const XmlDocument document(mlt::read_file(path), path);
+    const XmlDocument document(text_of(path), path);
     return read_document(document, fs::path(path).parent_path().string());
   }
 
@@ -82,6 +77,15 @@ class XmlReader {
     bool spectral;
   };
 
+  std::string text_of(const std::string& path) {
+    std::string text = mlt::read_file(path, max_text);
+    text_size_ += text.size();
+    if (text_size_ > max_text)
+      throw SceneError(fmt::format("{}: with it the files of the scene have more than {} bytes",
+                                   path, max_text));
+    return text;
+  }
+
   Node read_document(const XmlDocument& document, const std::string& directory) {
     Source source{document, {}, false};
     source.search.prepend(directory);
@@ -93,7 +97,7 @@ class XmlReader {
     }
     Node node = read_plugin(document.root(), root, source, 1);
     node.modern = is_modern(root.get("version"));
-    resolve_aliases(node);
+    resolve_aliases(node, aliases_);
     variables_.expect_all_used();
     return node;
   }
@@ -102,6 +106,7 @@ class XmlReader {
     Element e{node.name(), {source.document.file(), source.document.line(node)}, {}};
     for (const pugi::xml_attribute& attribute : node.attributes()) {
       const std::string name = attribute.name();
+      if (e.attributes.size() == max_attributes) e.fail("has more than 100 attributes");
       if (e.find(name)) e.fail("has the attribute " + quote(name) + " twice");
       std::string value = variables_.substitute(attribute.value(), e.where);
       const bool is_name = name == "name" || name == "type" || name == "id" || name == "as";
@@ -225,7 +230,7 @@ class XmlReader {
       element.fail("is one of more than " + std::to_string(max_includes) + " includes");
 
     open_files_.push_back(identity);
-    const XmlDocument document(mlt::read_file(path), path);
+    const XmlDocument document(text_of(path), path);
     Source inner{document, source.search, source.spectral};
     inner.search.prepend(fs::path(path).parent_path());
     const Element root = this->element(document.root(), inner);
@@ -252,35 +257,12 @@ class XmlReader {
         at(element.where, "the element <{}> is not known here and was skipped", tag));
   }
 
-  void resolve_aliases(Node& root) const {
-    const NodeIndex index = index_nodes(root);
-    std::map<std::string, std::string> target_of;
-    for (const auto& [name, alias] : aliases_) {
-      if (index.count(name))
-        throw SceneError(
-            at(alias.where, "the alias {} is already the id of an object", quote(name)));
-      std::string target = alias.id;
-      for (size_t hops = 0; aliases_.count(target); ++hops) {
-        if (hops > aliases_.size())
-          throw SceneError(at(alias.where, "the alias {} means itself", quote(name)));
-        target = aliases_.at(target).id;
-      }
-      find_node(index, target, alias.where);
-      target_of[name] = target;
-    }
-    if (!target_of.empty()) rename_references(root, target_of);
-  }
-
-  struct Alias {
-    std::string id;
-    Location where;
-  };
-
   Variables variables_;
   std::vector<std::string>& warnings_;
   std::vector<std::string> open_files_;  ///< Each includes the next.
   int include_count_ = 0;
-  std::map<std::string, Alias> aliases_;  ///< By the new name.
+  size_t text_size_ = 0;
+  Aliases aliases_;
 };
 
 }  // namespace

@@ -84,7 +84,7 @@ Checkpoint checkpoint_of(const LoadedScene& loaded, const MadeIntegrator& made, 
 }
 
 Checkpoint read_checkpoint(const std::string& path) {
-  return decode_checkpoint(read_file(path), path);
+  return decode_checkpoint(read_file(path, UINT64_MAX), path);
 }
 
 Checkpoint decode_checkpoint(const std::string& file, const std::string& path) {

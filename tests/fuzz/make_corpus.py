@@ -6,6 +6,7 @@ Seeds are small files of every kind that a reader takes. Checkpoints and packed 
 build writes: run it again when what these hold has changed.
 """
 
+import json
 import re
 import shutil
 import struct
@@ -25,6 +26,7 @@ COMPRESSIONS = ("none", "rle", "zips", "zip", "piz", "pxr24", "b44", "b44a", "dw
 LONGEST = 4096  # bytes of a scene; tests/fuzz/run.sh has libFuzzer cut off what is longer
 FOLDER = Path(__file__).resolve().parent
 sys.path.insert(0, str(FOLDER.parent / "python"))
+from gltf_files import GltfFile  # noqa: E402
 from random_scene import FOLDER as SCENES  # noqa: E402
 from random_scene import random_scene  # noqa: E402
 
@@ -163,6 +165,78 @@ def make_scenes() -> None:
         write("dict", str(seed), tree)
 
 
+# ---- scenes of other programs --------------------------------------------------------------------
+
+
+def make_gltf() -> None:
+    lit, painted, packed = GltfFile(), GltfFile(), GltfFile()
+    for kind in ("point", "directional", "spot"):
+        lit.light({"type": kind, "color": [1, 0.5, 0.2], "intensity": 6, "spot": {}})
+    child = lit.node(root=False, mesh=lit.mesh(indices=None, mode=5), scale=[2, 1.5, 1])
+    lit.node(translation=[0, 0.2, 0], rotation=[0, 0, 0, 1], children=[child])
+    lit.camera(matrix=[1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 4, 1])
+    image = painted.texture(np.full((1, 1, 4), 128), wrapS=33071, magFilter=9728)
+    glow = {"KHR_materials_emissive_strength": {"emissiveStrength": 2}}
+    coat = {"KHR_materials_clearcoat": {"clearcoatFactor": 1}, "KHR_materials_ior": {"ior": 1.3}}
+    paint = {"alphaMode": "MASK", "emissiveFactor": [1, 1, 1], "extensions": glow | coat}
+    painted.node(mesh=painted.mesh(painted.material(baseColorTexture=image, packed=image, **paint)))
+    indices = {"bufferView": packed.view(bytes(2)), "componentType": 5123}
+    sparse = {"count": 1, "indices": indices, "values": {"bufferView": packed.view(bytes(2))}}
+    codes = packed.accessor(np.full((4, 2), 255, np.uint8), normalized=True, sparse=sparse)
+    packed.node(mesh=packed.mesh(uvs=codes, mode=6))
+    for file, name in ((lit, "lit"), (painted, "painted"), (packed, "packed")):
+        with tempfile.TemporaryDirectory() as folder:
+            for extension in ("glb", "gltf"):
+                path = Path(file.save(Path(folder) / f"a.{extension}"))
+                text = path.read_bytes()
+                if extension == "gltf":
+                    text = json.dumps(json.loads(text), separators=(",", ":")).encode()
+                write("gltf", f"{name}.{extension}", text)
+
+
+PBRT_VIEW = """LookAt 0 1 4  0 1 0  0 1 0
+CoordinateSystem "a" CoordSysTransform "a"
+Camera "perspective" "float fov" 40 "float lensradius" .1
+Sampler "halton" "integer pixelsamples" [ 8 ]
+Integrator "path" "integer maxdepth" 3
+PixelFilter "box"
+Film "rgb" "integer xresolution" 40 "integer yresolution" 30 # a comment
+WorldBegin
+"""
+PBRT_LIGHTS = """LightSource "point" "rgb I" [ 6 3 1.2 ] "point3 from" [ .5 1.5 0 ]
+LightSource "distant" "blackbody L" 5000 "float scale" 2
+LightSource "spot" "spectrum I" [ 400 1 700 .5 ] "float coneangle" 20
+LightSource "infinite" "spectrum L" "stdillum-D65"
+AttributeBegin AreaLightSource "diffuse" "rgb L" [1 1 1] "bool twosided" true
+Translate 0 2 0 Shape "disk" "float radius" .5 AttributeEnd
+"""
+PBRT_SHAPES = """Transform [1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1] Rotate 90 1 0 0 Scale 1 1 2
+ReverseOrientation Shape "sphere" "float radius" 2 "float alpha" .5
+Shape "trianglemesh" "point3 P" [ -2 0 -1.5  2 0 -1.5  2 0 1.5 ] "integer indices" [0 2 1]
+    "normal N" [0 1 0 0 1 0 0 1 0] "point2 uv" [0 0 1 0 1 1]
+Shape "bilinearmesh" "point3 P" [0 0 0 1 0 0 0 0 1 1 0 1] Shape "cylinder" "float zmin" -2
+ObjectBegin "a" Shape "sphere" ObjectEnd ConcatTransform [1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1]
+ObjectInstance "a" Include "none.pbrt"
+"""
+PBRT_MATERIALS = """Texture "a" "spectrum" "constant" "rgb value" [.1 .2 .3]
+Texture "b" "spectrum" "checkerboard" "texture tex1" "a" "float uscale" 3
+Texture "c" "spectrum" "scale" "texture tex" "b" "float scale" .5
+MakeNamedMaterial "a" "string type" "diffuse" "texture reflectance" "c"
+MakeNamedMaterial "b" "string type" "conductor" "spectrum eta" "metal-Cu-eta"
+MakeNamedMaterial "c" "string type" "mix" "string materials" ["a" "b"] "float amount" .3
+NamedMaterial "c" Shape "sphere"
+Material "coateddiffuse" "float roughness" .1 Shape "sphere"
+Material "dielectric" "float uroughness" .1 "float vroughness" .2 "spectrum eta" "glass-BK7"
+Shape "sphere" Material "coatedconductor" "float interface.eta" 1.4 Shape "sphere"
+"""
+
+
+def make_pbrt() -> None:
+    write("pbrt", "view.pbrt", PBRT_VIEW + PBRT_LIGHTS)
+    write("pbrt", "shapes.pbrt", PBRT_SHAPES)
+    write("pbrt", "materials.pbrt", PBRT_MATERIALS)
+
+
 def make_checkpoints() -> None:
     """Without their heads, which the target makes."""
     scene = mlt.load_file(FOLDER / "scene.xml", size=(4, 4))
@@ -206,5 +280,7 @@ if __name__ == "__main__":
     make_ply()
     make_serialized()
     make_scenes()
+    make_gltf()
+    make_pbrt()
     make_checkpoints()
     make_words()

@@ -16,11 +16,14 @@ length=4096 # longer inputs are slower, and need not be
 # Packed scenes are unpacked into files.
 [ -d /dev/shm ] && export TMPDIR=/dev/shm
 
+program=$work/fuzz_$name
+[ -f "tests/fuzz/fuzz_$name.py" ] && program=".venv/bin/python tests/fuzz/fuzz_$name.py"
+
 log=$work/$name.log
 # Memory that was freed is not to be kept long: it would count. Entropic scheduling takes longer than
 # what it schedules: without it there are six times as many packed scenes a second.
 status=0
-ASAN_OPTIONS=quarantine_size_mb=16 "$work/fuzz_$name" \
+ASAN_OPTIONS=quarantine_size_mb=16 $program \
   -entropic=0 -max_total_time=$((minutes * 60)) -timeout=10 -rss_limit_mb=1024 -max_len=$length \
   $words -print_final_stats=1 -artifact_prefix="$work/found/$name-" \
   "$work/corpus/$name" "$corpus" "$regressions" >"$log" 2>&1 || status=$?

@@ -340,7 +340,7 @@ def test_files_that_contradict_themselves_are_refused():
     messages = {
         "required": "KHR_draco",
         "short": "beyond its buffer",
-        "missing": "contradicts itself",
+        "missing": "mesh 7 is not among the 1 of the file",
         "turn": "contradicts itself",
         "circle": "below itself",
     }

@@ -18,9 +18,10 @@ Blend::Blend(BsdfPtr first, BsdfPtr second, TexturePtr weight, double scale, con
     : first_(std::move(first)),
       second_(std::move(second)),
       weight_(std::move(weight)),
-      scale_(scale) {
+      scale_(scale),
+      first_refracts_(refracts(*first_)) {
   const Vec3 up(0, 0, 1);
-  if (refracts(*first_) && refracts(*second_) &&
+  if (first_refracts_ && refracts(*second_) &&
       first_->relative_eta({}, up) != second_->relative_eta({}, up))
     params.fail("cannot blend two bsdfs that refract light differently");
   if (first_ != second_ && first_->has_delta() && second_->has_delta() && bends_normal())
@@ -57,7 +58,7 @@ std::optional<Vec3> Blend::invert(const SurfacePoint& at, const Vec3& from, cons
 }
 
 double Blend::relative_eta(const SurfacePoint& at, const Vec3& w) const {
-  return (refracts(*first_) ? *first_ : *second_).relative_eta(at, w);
+  return (first_refracts_ ? *first_ : *second_).relative_eta(at, w);
 }
 
 Vec3 Blend::delta_normal(const SurfacePoint& at, const Vec3& w) const {

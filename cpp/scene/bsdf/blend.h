@@ -37,6 +37,7 @@ class Blend final : public Bsdf {
   BsdfPtr first_, second_;
   TexturePtr weight_;
   double scale_;
+  bool first_refracts_;  ///< Asking again at each level of blends would double the work.
 };
 
 }  // namespace mlt

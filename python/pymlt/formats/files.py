@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import os
 import warnings
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from .. import _core
 from ..scenes.arrays import with_bytes
+from . import limits
 
 if TYPE_CHECKING:
     from .imported import Imported
@@ -23,21 +25,32 @@ def is_foreign(path: str | os.PathLike[str]) -> bool:
 
 def read_foreign(path: str | os.PathLike[str]) -> Imported:
     """A scene of another program, with its meshes and images as arrays."""
+    import numpy as np
+
     from .imported import Imported
 
     source = Path(os.fspath(path))
-    if not source.exists():
-        raise _core.FileError(f"{source}: there is no such file")
     made = Imported()
-    if source.suffix.lower() == ".pbrt":
+    try:
+        with np.errstate(over="raise", divide="raise", invalid="raise"):
+            reader_of(source)(source, made)
+    except _core.Error:
+        raise
+    except limits.CONTRADICTIONS as error:
+        kind = type(error).__name__
+        raise _core.SceneError(f"{source}: contradicts itself: {kind}: {error!s:.200}") from None
+    return made
+
+
+def reader_of(path: Path) -> Callable[[Path, Imported], None]:
+    """The reader for files of this extension."""
+    if path.suffix.lower() == ".pbrt":
         from .pbrt import read_pbrt
 
-        read_pbrt(source, made)
-    else:
-        from .gltf import read_gltf
+        return read_pbrt
+    from .gltf import read_gltf
 
-        read_gltf(source, made)
-    return made
+    return read_gltf
 
 
 def load_foreign(

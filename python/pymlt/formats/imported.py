@@ -7,7 +7,10 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from .. import _core
+from . import limits
 from .ply import Mesh
+
+LONGEST = 100  #: characters of a name, which may become that of a file
 
 
 @dataclass
@@ -16,29 +19,40 @@ class Imported:
 
     scene: dict[str, Any] = field(default_factory=lambda: {"type": "scene"})
     warnings: list[str] = field(default_factory=list)
-    _names: set[str] = field(default_factory=set)
+    _names: dict[str, int] = field(default_factory=dict)  #: and how often each was wanted
+    _warned: set[str] = field(default_factory=set)
+    _memory: int = 0
 
     def warn(self, text: str) -> None:
         """Names something that has no counterpart, once."""
-        if text not in self.warnings:
+        if text not in self._warned:
+            self._warned.add(text)
             self.warnings.append(text)
 
     def name(self, wanted: str) -> str:
         """A name in which XML and file names have no special signs, and that nothing else has."""
-        plain = re.sub(r"[^A-Za-z0-9_-]+", "_", wanted).strip("_") or "unnamed"
-        found, i = plain, 1
+        plain = re.sub(r"[^A-Za-z0-9_-]+", "_", wanted[:LONGEST]).strip("_") or "unnamed"
+        found, i = plain, self._names.get(plain, 0)
         while found in self._names:
             i += 1
             found = f"{plain}_{i}"
-        self._names.add(found)
+        self._names[plain] = max(i, 1)
+        self._names.setdefault(found, 1)
         return found
 
     def add(self, wanted: str, plugin: dict[str, Any]) -> str:
         """Adds a plug-in to the scene; returns its id."""
         name = self.name(wanted)
+        self.charge(plugin)
         # No negative zeros, so that XML says the same.
         self.scene[name] = {k: v + 0.0 if is_matrix(v) else v for k, v in plugin.items()}
         return name
+
+    def charge(self, plugin: dict[str, Any]) -> None:
+        """Counts what a plug-in takes. Raises SceneError if that is too much with all others."""
+        self._memory += limits.measured(plugin)
+        if self._memory > limits.MEMORY:
+            raise _core.SceneError(f"the scene takes more than {limits.MEMORY} bytes of memory")
 
     def mesh(self, wanted: str, mesh: Mesh) -> dict[str, Any]:
         """A shape of arrays. Raises SceneError for indices without a vertex."""

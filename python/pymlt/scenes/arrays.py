@@ -88,7 +88,8 @@ def as_array(value: Any, key: str, path: str) -> np.ndarray:
 def float_bytes(array: np.ndarray, key: str, path: str) -> bytes:
     import numpy as np
 
-    floats = np.ascontiguousarray(array, np.float32)
+    with np.errstate(over="ignore"):  # what becomes infinite is named
+        floats = np.ascontiguousarray(array, np.float32)
     if not np.isfinite(floats).all():
         index = tuple(int(i) for i in np.argwhere(~np.isfinite(floats))[0])
         raise _core.SceneError(f"{path}: '{key}' is not finite at {list(index)}: {array[index]}")

@@ -246,6 +246,28 @@ TEST(SceneReference, MayNotBeNestedWithoutEnd) {
             "<string>:2: references are nested more than 100 deep");
 }
 
+/// Levels of blends, each of which refers so often to the one before it.
+std::string blends(int levels, bool twice) {
+  std::string all = "<bsdf type='dielectric' id='m0'/>";
+  for (int i = 1; i <= levels; ++i) {
+    const std::string before = "<ref id='m" + std::to_string(i - 1) + "'/>";
+    all += "\n<bsdf type='blendbsdf' id='m" + std::to_string(i) + "'>" + before +
+           (twice ? before : "<bsdf type='diffuse'/>") + "</bsdf>";
+  }
+  return all + "\n<shape type='sphere'><ref id='m" + std::to_string(levels) + "'/></shape>";
+}
+
+TEST(SceneReference, MayNotBranchWithoutEnd) {
+  EXPECT_EQ(error_of(sensor + point_light + blends(40, true)),
+            "<string>:11: the bsdf is made of more than 1000 parts; what is referred to twice "
+            "counts twice");
+  load(sensor + point_light + blends(8, true));
+}
+
+TEST(SceneReference, LongChainsOfBlendsTakeNoLonger) {
+  load(sensor + point_light + blends(90, false));
+}
+
 TEST(SceneReference, MustFitItsPlace) {
   EXPECT_EQ(error_of(sensor + point_light +
                      "<bsdf type='null' id='a'/><bsdf type='diffuse'>\n<ref name='reflectance' "

@@ -218,12 +218,27 @@ TEST(Alias, MustMeanSomethingElse) {
   EXPECT_EQ(error_of(in_scene("<alias id='wal' as='b'/><bsdf type='a' id='wall'/>")),
             "<string>:2: nothing has the id 'wal'; did you mean 'wall'?");
   EXPECT_EQ(error_of(in_scene("<alias id='a' as='b'/><alias id='b' as='a'/>")),
-            "<string>:2: the alias 'a' means itself");
+            "<string>:2: the alias 'a' means itself, or more than 100 others");
   EXPECT_EQ(error_of(in_scene("<bsdf type='x' id='a'/><alias id='a' as='a'/>")),
             "<string>:2: the alias 'a' is already the id of an object");
   EXPECT_EQ(
       error_of(in_scene("<bsdf type='x' id='a'/><alias id='a' as='b'/>\n<alias id='a' as='b'/>")),
       "<string>:3: <alias> gives the name 'b' a second time");
+}
+
+TEST(Alias, MayNotBeOneOfAliasesWithoutEnd) {
+  std::string chain = "<bsdf type='x' id='a0'/>";
+  for (int i = 1; i < 200; ++i)
+    chain += "<alias id='a" + std::to_string(i - 1) + "' as='a" + std::to_string(i) + "'/>";
+  EXPECT_EQ(error_of(in_scene(chain)),
+            "<string>:2: the alias 'a101' means itself, or more than 100 others");
+}
+
+TEST(Element, HasFewAttributes) {
+  std::string many;
+  for (int i = 0; i < 200; ++i) many += " a" + std::to_string(i) + "=''";
+  EXPECT_EQ(error_of(in_scene("<bsdf" + many + "/>")),
+            "<string>:2: <bsdf> has more than 100 attributes");
 }
 
 // ---- files

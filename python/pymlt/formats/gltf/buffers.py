@@ -8,12 +8,15 @@ from typing import TYPE_CHECKING, Any
 from urllib.parse import unquote
 
 from ... import _core
+from ..limits import read_file
+from .checked import at
 
 if TYPE_CHECKING:
     import numpy as np
 
 TYPES = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
+MOST_ZEROS = 2**20  #: of an accessor without a buffer view
 
 
 class Buffers:
@@ -21,61 +24,73 @@ class Buffers:
 
     def __init__(self, gltf: Any, path: Path):
         self.gltf = gltf
-        self._path = path
+        self.path = path
         self._buffers: dict[int, bytes] = {}
 
     def array(self, index: int) -> np.ndarray:
         """What an accessor means: (count, components), floats if it is normalised."""
         import numpy as np
 
-        accessor = self.gltf.accessors[index]
-        width = WIDTHS[accessor.type]
-        values = np.zeros((accessor.count, width), TYPES[accessor.componentType])
+        accessor = at(self.gltf.accessors, index, "accessor")
+        width, kind = WIDTHS[accessor.type], accessor.componentType
         if accessor.bufferView is not None:
-            values = self._numbers(accessor, accessor.count, width, accessor.componentType)
+            values = self._numbers(accessor, accessor.count, width, kind)
+        elif accessor.count > MOST_ZEROS:
+            raise _core.SceneError(
+                f"accessor {index} has {accessor.count} zeros and no buffer view"
+            )
+        else:
+            values = np.zeros((accessor.count, width), TYPES[kind])
         if accessor.sparse:
-            sparse = accessor.sparse
-            kind = sparse.indices.componentType
-            rows = self._numbers(sparse.indices, sparse.count, 1, kind)[:, 0]
-            values = values.copy()
-            kind = accessor.componentType
-            values[rows] = self._numbers(sparse.values, sparse.count, width, kind)
+            values = self._replaced(values, accessor.sparse, kind)
         if accessor.normalized:
             return np.maximum(values / np.iinfo(values.dtype).max, -1)
+        return values
+
+    def _replaced(self, values: np.ndarray, sparse: Any, kind: int) -> np.ndarray:
+        """With other values in some rows."""
+        rows = self._numbers(sparse.indices, sparse.count, 1, sparse.indices.componentType)[:, 0]
+        if rows.dtype.kind != "u":
+            raise _core.SceneError("the indices of a sparse accessor should be unsigned integers")
+        values = values.copy()
+        values[rows] = self._numbers(sparse.values, sparse.count, values.shape[1], kind)
         return values
 
     def _numbers(self, place: Any, count: int, width: int, kind: int) -> np.ndarray:
         import numpy as np
 
-        view = self.gltf.bufferViews[place.bufferView]
+        view = at(self.gltf.bufferViews, place.bufferView, "bufferView")
         item = np.dtype(TYPES[kind])
         data = self.view(place.bufferView)
-        start, stride = place.byteOffset or 0, view.byteStride or item.itemsize * width
-        if count and start + (count - 1) * stride + item.itemsize * width > len(data):
-            raise _core.SceneError(f"{self._path}: an accessor reaches beyond its buffer")
+        size = item.itemsize * width
+        start, stride = place.byteOffset or 0, view.byteStride or size
+        if stride < size:
+            raise _core.SceneError(
+                "the elements of an accessor overlap: its byteStride is too small"
+            )
+        if start + max(count - 1, 0) * stride + size > len(data):
+            raise _core.SceneError("an accessor reaches beyond its bufferView")
         return np.ndarray((count, width), item, data, start, (stride, item.itemsize))
 
-    def view(self, index: int) -> bytes:
+    def view(self, index: int) -> memoryview:
         """The bytes of a buffer view."""
-        view = self.gltf.bufferViews[index]
+        view = at(self.gltf.bufferViews, index, "bufferView")
         if view.buffer not in self._buffers:
-            uri = self.gltf.buffers[view.buffer].uri
+            uri = at(self.gltf.buffers, view.buffer, "buffer").uri
             blob = self.gltf.binary_blob()
             self._buffers[view.buffer] = self.content(uri) if uri else blob or b""
-        start = view.byteOffset or 0
-        return self._buffers[view.buffer][start : start + view.byteLength]
+        buffer, start = self._buffers[view.buffer], view.byteOffset or 0
+        if start + view.byteLength > len(buffer):
+            raise _core.SceneError(f"bufferView {index} reaches beyond its buffer")
+        return memoryview(buffer)[start : start + view.byteLength]
 
     def content(self, uri: str) -> bytes:
         """The bytes that a URI means: base64 data, or a file beside the scene."""
         if uri.startswith("data:"):
             return base64.b64decode(uri.partition(",")[2])
-        path = self._path.parent / unquote(uri)
-        try:
-            return path.read_bytes()
-        except OSError as error:
-            raise _core.FileError(f"{path}: cannot be read: {error.strerror}") from None
+        return read_file(self.path.parent / unquote(uri))
 
     def image(self, index: int) -> bytes:
         """The file of an image: PNG or JPEG."""
-        image = self.gltf.images[index]
-        return self.content(image.uri) if image.uri else self.view(image.bufferView)
+        image = at(self.gltf.images, index, "image")
+        return self.content(image.uri) if image.uri else bytes(self.view(image.bufferView))

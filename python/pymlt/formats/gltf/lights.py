@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..imported import Imported, rgb
 from ..views import film
+from .checked import number
 
 if TYPE_CHECKING:
     import numpy as np
@@ -34,7 +35,9 @@ def sensor(camera: Any, to_world: np.ndarray) -> dict[str, Any]:
 
 def light(given: dict[str, Any], to_world: np.ndarray, made: Imported) -> dict[str, Any]:
     """A light without size. Lux and candela are taken as power per area and per solid angle."""
-    power = [given.get("intensity", 1) * c for c in given.get("color", (1, 1, 1))]
+    colour = list(given.get("color", (1, 1, 1)))[:3]
+    intensity = number(given.get("intensity", 1), "the intensity of a light")
+    power = [intensity * number(c, "the color of a light") for c in colour]
     if given.get("range"):
         made.warn("the range of lights is left out: they obey the inverse square")
     placed = looking(to_world)
@@ -49,8 +52,8 @@ def light(given: dict[str, Any], to_world: np.ndarray, made: Imported) -> dict[s
     return {
         "type": "spot",
         "intensity": rgb(power),
-        "cutoff_angle": math.degrees(cone.get("outerConeAngle", math.pi / 4)),
-        "beam_width": math.degrees(cone.get("innerConeAngle", 0)),
+        "cutoff_angle": math.degrees(number(cone.get("outerConeAngle", math.pi / 4), "a cone")),
+        "beam_width": math.degrees(number(cone.get("innerConeAngle", 0), "a cone")),
         "to_world": placed,
     }
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 from typing import Any
 
 from ..imported import Imported, rgb
+from .checked import number
 from .textures import Textures
 
 KNOWN = {
@@ -42,18 +43,18 @@ def principled(material: Any, extensions: dict[str, Any], textures: Textures) ->
     pbr = material.pbrMetallicRoughness
     given: dict[str, Any] = {"type": "principled", "eta": 1.5}
     if ior := extensions.get("KHR_materials_ior"):
-        given["eta"] = max(float(ior.get("ior", 1.5)), 1.001)
+        given["eta"] = max(number(ior.get("ior", 1.5), "ior"), 1.001)
     packed = pbr.metallicRoughnessTexture if pbr else None
     factor = list(pbr.baseColorFactor or [1, 1, 1, 1]) if pbr else [1, 1, 1, 1]
     given["base_color"] = textures.colour(pbr.baseColorTexture if pbr else None, factor)
     given["roughness"] = textures.channel(packed, 1, _number(pbr, "roughnessFactor"))
     given["metallic"] = textures.channel(packed, 2, _number(pbr, "metallicFactor"))
     if transmission := extensions.get("KHR_materials_transmission", {}).get("transmissionFactor"):
-        given["spec_trans"] = float(transmission)
+        given["spec_trans"] = number(transmission, "transmissionFactor")
     if coat := extensions.get("KHR_materials_clearcoat", {}).get("clearcoatFactor"):
-        given["clearcoat"] = float(coat)
+        given["clearcoat"] = number(coat, "clearcoatFactor")
         roughness = extensions["KHR_materials_clearcoat"].get("clearcoatRoughnessFactor", 0)
-        given["clearcoat_gloss"] = 1 - float(roughness)
+        given["clearcoat_gloss"] = 1 - number(roughness, "clearcoatRoughnessFactor")
     return given
 
 
@@ -74,7 +75,7 @@ def emission(material: Any, textures: Textures) -> dict[str, Any] | None:
     """The area light of a material that glows; its factor in nits is taken as radiance."""
     factor = list(material.emissiveFactor or [0, 0, 0])
     extension = (material.extensions or {}).get("KHR_materials_emissive_strength", {})
-    strength = extension.get("emissiveStrength", 1)
+    strength = number(extension.get("emissiveStrength", 1), "emissiveStrength")
     if not any(factor) or not strength:
         return None
     radiance = [strength * value for value in factor]

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import json
+import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ... import _core
 from ..._extras import import_extra
 from ..imported import Imported
+from ..limits import TEXT, read_file
 from ..views import complete
 from .buffers import Buffers
+from .checked import at, check_types
 from .lights import light, sensor
 from .materials import KNOWN as MATERIALS
 from .materials import bsdf, emission
@@ -29,24 +33,36 @@ def read_gltf(path: Path, made: Imported) -> None:
     extension of glTF that is not known here, UsageError without the extra `gltf`.
     """
     pygltflib = import_extra("pygltflib", "gltf", "reading glTF")
+    binary = path.suffix.lower() == ".glb"
+    content = read_file(path) if binary else read_file(path, TEXT)
     try:
-        path.open("rb").close()
-    except OSError as error:
-        raise _core.FileError(f"{path}: cannot be read: {error.strerror}") from None
-    try:
-        gltf = pygltflib.GLTF2().load(str(path))
+        gltf = parse(pygltflib, content, binary)
     except Exception as error:  # pygltflib has no errors of its own
-        raise _core.SceneError(f"{path}: this is no glTF 2.0 file: {error}") from None
-    if gltf is None or not str(gltf.asset.version).startswith("2"):
+        raise _core.SceneError(f"{path}: this is no glTF 2.0 file: {error!s:.200}") from None
+    if gltf is None or not str(getattr(gltf.asset, "version", "")).startswith("2"):
         raise _core.SceneError(f"{path}: this is no glTF 2.0 file")
-    if unknown := sorted(set(gltf.extensionsRequired or []) - EXTENSIONS):
-        raise _core.SceneError(f"{path}: needs {', '.join(unknown)}, which is not supported")
     try:
+        if unknown := sorted(set(gltf.extensionsRequired or []) - EXTENSIONS):
+            raise _core.SceneError(f"needs {', '.join(unknown)}, which is not supported")
         Reader(gltf, path, made).read()
-    except _core.Error:
-        raise
-    except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
-        raise _core.SceneError(f"{path}: the file contradicts itself: {error!r}") from None
+    except _core.SceneError as error:
+        raise _core.SceneError(f"{path}: {error}") from None
+
+
+def parse(library: Any, content: bytes, binary: bool) -> Any:
+    """The file as pygltflib has it, which takes texts for numbers and warns of much."""
+
+    class Checked(library.GLTF2):  # type: ignore[misc]
+        @classmethod
+        def from_json(cls, text: str, **options: Any) -> Any:
+            check_types(json.loads(text), library.GLTF2, "glTF")
+            return super().from_json(text, **options)
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        if binary:
+            return Checked.load_from_bytes(content)
+        return Checked.gltf_from_json(content.decode("utf-8-sig"))
 
 
 class Reader:
@@ -58,6 +74,7 @@ class Reader:
         self._buffers = Buffers(gltf, path)
         self._textures = Textures(self._buffers, made)
         self._materials: dict[int, str] = {}
+        self._seen: set[int] = set()  #: nodes
         self._meshes: dict[tuple[int, int], dict[str, Any]] = {}
 
     def read(self) -> None:
@@ -65,34 +82,45 @@ class Reader:
         for what in ("animations", "skins"):
             if getattr(gltf, what):
                 self._made.warn(f"{what} are left out")
-        scene = gltf.scenes[gltf.scene or 0] if gltf.scenes else None
-        roots = scene.nodes if scene else range(len(gltf.nodes))
         import numpy as np
 
-        for root in roots or []:
-            self._node(root, np.eye(4), 0)
+        # Of those that are still to be read, the next one is the last.
+        left = [(root, np.eye(4)) for root in reversed(self._roots())]
+        while left:
+            index, parent = left.pop()
+            node = at(gltf.nodes, index, "node")
+            if index in self._seen:
+                raise _core.SceneError(
+                    f"node {index} has two parents or is below itself; nodes should form trees"
+                )
+            self._seen.add(index)
+            to_world = parent @ local_matrix(node)
+            self._node(node, node.name or f"node-{index}", to_world)
+            left += [(child, to_world) for child in reversed(node.children or [])]
         complete(self._made)
 
-    def _node(self, index: int, parent: np.ndarray, depth: int) -> None:
-        node = self._gltf.nodes[index]
-        if depth > len(self._gltf.nodes):
-            raise _core.SceneError("a node is below itself")
-        to_world = parent @ local_matrix(node)
-        name = node.name or f"node-{index}"
+    def _roots(self) -> list[int]:
+        """Those of the scene that is shown, else of all nodes."""
+        gltf = self._gltf
+        if gltf.scenes:
+            return at(gltf.scenes, gltf.scene or 0, "scene").nodes or []
+        inner = {child for node in gltf.nodes for child in node.children or []}
+        return [index for index in range(len(gltf.nodes)) if index not in inner]
+
+    def _node(self, node: Any, name: str, to_world: np.ndarray) -> None:
         if node.mesh is not None:
             self._mesh(node.mesh, name, to_world)
         if node.camera is not None:
-            camera = self._gltf.cameras[node.camera]
+            camera = at(self._gltf.cameras, node.camera, "camera")
             self._made.add(camera.name or name, sensor(camera, to_world))
         punctual = (node.extensions or {}).get("KHR_lights_punctual")
         if punctual is not None:
-            given = self._gltf.extensions["KHR_lights_punctual"]["lights"][punctual["light"]]
+            lights = self._gltf.extensions["KHR_lights_punctual"]["lights"]
+            given = at(lights, punctual["light"], "light")
             self._made.add(given.get("name") or name, light(given, to_world, self._made))
-        for child in node.children or []:
-            self._node(child, to_world, depth + 1)
 
     def _mesh(self, index: int, name: str, to_world: np.ndarray) -> None:
-        mesh = self._gltf.meshes[index]
+        mesh = at(self._gltf.meshes, index, "mesh")
         for number, primitive in enumerate(mesh.primitives):
             if primitive.targets:
                 self._made.warn("morph targets are left out")
@@ -105,10 +133,13 @@ class Reader:
                 self._meshes[key] = self._made.mesh(wanted, triangles)
             shape = self._meshes[key] | {"to_world": to_world, "bsdf": self._bsdf(primitive)}
             if primitive.material is not None:
-                glow = emission(self._gltf.materials[primitive.material], self._textures)
+                glow = emission(self._material(primitive.material), self._textures)
                 if glow:
                     shape["emitter"] = glow
             self._made.add(name, shape)
+
+    def _material(self, index: int) -> Any:
+        return at(self._gltf.materials, index, "material")
 
     def _bsdf(self, primitive: Any) -> dict[str, Any]:
         """A reference to the material, which is added with its first use."""
@@ -116,7 +147,7 @@ class Reader:
             return {"type": "twosided", "bsdf": {"type": "diffuse", "reflectance": 1.0}}
         index = primitive.material
         if index not in self._materials:
-            material = self._gltf.materials[index]
+            material = self._material(index)
             surface = bsdf(material, self._textures, self._made)
             self._materials[index] = self._made.add(material.name or f"material-{index}", surface)
         return {"type": "ref", "id": self._materials[index]}

@@ -9,7 +9,9 @@ from typing import TYPE_CHECKING, Any
 
 from ... import _core
 from ..imported import Imported, rgb
+from ..limits import check_pixels
 from .buffers import Buffers
+from .checked import at
 
 if TYPE_CHECKING:
     import numpy as np
@@ -45,15 +47,15 @@ class Textures:
         """One channel of a texture of numbers times a factor, or the factor alone."""
         if info is None:
             return factor
-        key = (self._gltf.textures[info.index].source, channel, factor)
+        key = (self._texture(info).source, channel, factor)
         if key not in self._channels:
-            self._channels[key] = factor * stored_samples(self._image(info))[..., channel]
+            self._channels[key] = factor * self._samples(info)[..., channel]
         return self._bitmap(info, self._channels[key]) | {"raw": True}
 
     def opacity(self, info: Any, factor: float, cutoff: float | None) -> float | dict[str, Any]:
         """Alpha times a factor; with a cutoff it is 0 or 1."""
         alpha: Any = factor
-        if info is not None and (samples := stored_samples(self._image(info))).shape[2] in (2, 4):
+        if info is not None and (samples := self._samples(info)).shape[2] in (2, 4):
             alpha = factor * samples[..., -1]
         if cutoff is not None:
             alpha = (alpha >= cutoff) * 1.0
@@ -61,12 +63,19 @@ class Textures:
             return float(alpha)
         return self._bitmap(info, alpha) | {"raw": True}
 
+    def _texture(self, info: Any) -> Any:
+        return at(self._gltf.textures, info.index, "texture")
+
     def _image(self, info: Any) -> bytes:
         """The content of the texture's file."""
-        index = self._gltf.textures[info.index].source
+        index = self._texture(info).source
         if index not in self._images:
-            self._images[index] = bytes(self._buffers.image(index))
+            self._images[index] = self._buffers.image(index)
         return self._images[index]
+
+    def _samples(self, info: Any) -> np.ndarray:
+        name = f"{self._buffers.path}: image {self._texture(info).source}"
+        return stored_samples(self._image(info), name)
 
     def _bitmap(self, info: Any, data: bytes | np.ndarray) -> dict[str, Any]:
         if info.texCoord:
@@ -74,9 +83,9 @@ class Textures:
         if "KHR_texture_transform" in (info.extensions or {}):
             self._made.warn("KHR_texture_transform is left out")
         bitmap: dict[str, Any] = {"type": "bitmap", "data": data}
-        index = self._gltf.textures[info.index].sampler
+        index = self._texture(info).sampler
         if index is not None:
-            sampler = self._gltf.samplers[index]
+            sampler = at(self._gltf.samplers, index, "sampler")
             for axis, wrap in (("u", sampler.wrapS), ("v", sampler.wrapT)):
                 if WRAP.get(wrap, "repeat") != "repeat":
                     bitmap[f"wrap_mode_{axis}"] = WRAP[wrap]
@@ -85,11 +94,13 @@ class Textures:
         return bitmap
 
 
-def stored_samples(content: bytes) -> np.ndarray:
+def stored_samples(content: bytes, name: str) -> np.ndarray:
     """The samples of an integer format as they are stored, 0 to 1: (height, width, channels)."""
     import numpy as np
 
     from ...pictures.tonemapping import encode_srgb, split_alpha
 
-    colours, alpha = split_alpha(_core.decode_image(content, "an image"))
+    image = _core.decode_image(content, name)
+    check_pixels(image, name)
+    colours, alpha = split_alpha(image)
     return np.concatenate([encode_srgb(colours), alpha], axis=2)

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ...images import read_image
+from ..limits import check_pixels
 from .params import Params
 
 if TYPE_CHECKING:
@@ -17,30 +18,33 @@ def environment(params: Params, path: Path, to_world: np.ndarray, scale: float) 
     import numpy as np
 
     given = read_image(path)[..., :3]
+    check_pixels(given, str(path))
     if given.shape[0] != given.shape[1]:
         raise params.where.error(f"{path.name}: an environment map of pbrt-v4 is square")
     rows = given.shape[0]
-    found = sampled(given, square_of(directions(rows)))
+    # Some rows at a time, for their directions take more memory than their colours.
+    parts = [slice(first, first + 64) for first in range(0, rows, 64)]
+    found = [sampled(given, square_of(directions(rows, p))).astype(np.float32) for p in parts]
     # The y axis of our maps, up, is the z axis of theirs.
     turn = np.array([[1.0, 0, 0, 0], [0, 0, -1, 0], [0, 1, 0, 0], [0, 0, 0, 1]])
     return {
         "type": "envmap",
-        "data": found.astype(np.float32),
+        "data": np.concatenate(found),
         "scale": scale,
         "to_world": to_world @ turn,
     }
 
 
-def directions(rows: int) -> np.ndarray:
-    """The directions of our pixels in pbrt's light space, (rows, 2 rows, 3).
+def directions(rows: int, part: slice = slice(None)) -> np.ndarray:
+    """The directions of our pixels in pbrt's light space, (rows, 2 rows, 3), or of some rows.
 
     Ours: phi = 2 pi u, direction (sin phi sin theta, cos theta, -cos phi sin theta) with y up.
     """
     import numpy as np
 
-    theta = np.pi * (np.arange(rows) + 0.5)[:, None] / rows
+    theta = np.pi * (np.arange(rows)[part] + 0.5)[:, None] / rows
     phi = np.pi * (np.arange(2 * rows) + 0.5)[None, :] / rows
-    y = np.broadcast_to(np.cos(theta), (rows, 2 * rows))
+    y = np.broadcast_to(np.cos(theta), (len(theta), 2 * rows))
     x, z = np.sin(phi) * np.sin(theta), -np.cos(phi) * np.sin(theta)
     return np.stack([x, -z, y], axis=-1)
 

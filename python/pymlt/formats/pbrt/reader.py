@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ... import _core
+from .. import limits
 from ..imported import Imported
 from ..views import complete
 from . import views
@@ -69,8 +70,8 @@ class Reader:
                 self._directive(directive)
             except _core.Error:
                 raise
-            except (ArithmeticError, LookupError, TypeError, ValueError) as error:
-                raise directive.error(f"{directive.text} makes no sense: {error}") from None
+            except limits.CONTRADICTIONS as error:
+                raise directive.error(f"{directive.text} makes no sense: {error!s:.200}") from None
         if self._saved and self._last is not None:
             raise self._last.error("an AttributeBegin has no AttributeEnd")
         self._view()
@@ -86,7 +87,7 @@ class Reader:
         elif name in VIEWS:
             self._views[name] = VIEWS[name](self._params(directive)) or {}
         elif name in BEGIN:
-            self._saved.append(self._state.copy())
+            self._begin(directive)
         elif name in END:
             self._end(directive)
         elif method is not None:
@@ -107,6 +108,11 @@ class Reader:
             if not token.quoted and token.text[:1].isalpha() and token.text not in _VALUES:
                 return
             self._words.take()
+
+    def _begin(self, directive: Token) -> None:
+        if len(self._saved) >= limits.NESTING:
+            raise directive.error(f"blocks are nested more than {limits.NESTING} deep")
+        self._saved.append(self._state.copy())
 
     def _end(self, directive: Token) -> None:
         if not self._saved:
@@ -215,13 +221,14 @@ class Reader:
         if self._group is None:
             self._made.add(params.type, found)
         else:
+            self._made.charge(found)
             self._group[self._made.name(params.type)] = found
 
     def _on_object_begin(self, directive: Token) -> None:
         name = self._words.text(directive)
         if self._group is not None:
             raise directive.error("an object is defined inside of another one")
-        self._saved.append(self._state.copy())
+        self._begin(directive)
         self._group = {"type": "shapegroup"}
         self._objects[name] = self._made.add(f"{name}-object", self._group)
         # The dict in the scene is a copy, made before the shapes are known.
@@ -235,6 +242,8 @@ class Reader:
 
     def _on_object_instance(self, directive: Token) -> None:
         name = self._words.text(directive)
+        if self._group is not None:
+            raise directive.error("an object is placed inside of another one")
         if name not in self._objects:
             raise directive.error(f"there is no object {name!r} above this line")
         group = self._made.scene[self._objects[name]]

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import gzip
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ..limits import read_file
 from ..ply import Mesh
 from .params import Params
 
@@ -62,7 +62,7 @@ def bilinear_mesh(params: Params, folder: Path) -> dict[str, Any]:
 def ply_mesh(params: Params, folder: Path) -> dict[str, Any]:
     path = folder / params.text("filename")
     if path.suffix == ".gz":
-        return {"type": "ply", "data": gzip.decompress(path.read_bytes())}
+        return {"type": "ply", "data": read_file(path)}
     return {"type": "ply", "filename": str(path.resolve())}
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+from ..limits import measured
 from .params import Params
 
 WRAP = {"repeat": "repeat", "black": "black", "clamp": "clamp", "octahedralsphere": "clamp"}
@@ -34,6 +35,8 @@ class Textures:
             self._known[name] = 0.5
             return
         params.finish(ignored=("mapping", "filter", "maxanisotropy"))
+        if isinstance(value, dict):
+            measured(value)
         self._known[name] = value
 
     def colour(self, params: Params, name: str, default: float) -> Value:

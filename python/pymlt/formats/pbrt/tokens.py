@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import gzip
 import math
 import re
 from collections.abc import Iterator
@@ -10,8 +9,9 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from ... import _core
+from .. import limits
 
-PATTERN = re.compile(r'\s+|#[^\n]*|"((?:[^"\\\n]|\\.)*)"|([\[\]])|([^\s"\[\]#]+)|(.)')
+PATTERN = re.compile(r'\s+|#[^\n]*|"((?:[^"\\\n]++|\\.)*+)"|([\[\]])|([^\s"\[\]#]+)|(.)')
 NUMBERS = {"integer": 1, "float": 1, "point2": 2, "vector2": 2, "point3": 3, "vector3": 3}
 NUMBERS |= {"normal3": 3, "point": 3, "vector": 3, "normal": 3, "rgb": 3, "blackbody": 1}
 
@@ -35,20 +35,16 @@ class Parameter(NamedTuple):
     values: list[Any]  #: floats, texts or booleans
 
 
-def tokens(path: Path) -> Iterator[Token]:
-    """The words of a file, which may be compressed (.gz). Raises FileError, SceneError."""
-    try:
-        content = path.read_bytes()
-        content = gzip.decompress(content) if path.suffix == ".gz" else content
-    except (OSError, EOFError) as error:
-        raise _core.FileError(f"{path}: cannot be read: {error}") from None
+def tokens(path: Path, text: str) -> Iterator[Token]:
+    """The words of a file. Raises SceneError."""
     line = 1
-    text = content.decode("utf-8", "replace")
     for match in PATTERN.finditer(text):
         quoted, bracket, word, other = match.groups()
         token = Token(quoted or bracket or word or "", quoted is not None, path, line)
         if other:
             raise token.error(f"{other!r} begins nothing that ends on this line")
+        if len(token.text) > limits.NAME:
+            raise token.error(f"a word has more than {limits.NAME} characters")
         if quoted is not None or bracket or word:
             yield token
         line += match[0].count("\n")
@@ -59,14 +55,33 @@ class Words:
 
     def __init__(self, path: Path):
         self._root = path.parent
-        self._open = [tokens(path)]
+        self._open: list[Iterator[Token]] = []
+        self._paths: list[Path] = []  #: of those that are open
+        self._included = -1
+        self._size = 0
         self._next: Token | None = None
+        self._begin(path)
 
     def include(self, name: Token) -> None:
         """Goes on with another file; names are relative to the first one."""
-        if len(self._open) > 15:
-            raise name.error("files include each other more than 15 deep")
-        self._open.append(tokens(self._root / name.text))
+        path = self._root / name.text
+        if path.resolve() in self._paths:
+            raise name.error(f"{name.text!r} is being read already: the files include each other")
+        if len(self._open) > limits.INCLUDES_DEEP:
+            raise name.error(f"files include each other more than {limits.INCLUDES_DEEP} deep")
+        if self._included >= limits.INCLUDES:
+            raise name.error(f"there are more than {limits.INCLUDES} includes")
+        self._begin(path)
+        if self._size > limits.TEXT:
+            raise name.error(f"the files have more than {limits.TEXT} bytes together")
+
+    def _begin(self, path: Path) -> None:
+        """Opens a file, which may be compressed (.gz)."""
+        content = limits.read_file(path, limits.TEXT)
+        self._included += 1
+        self._size += len(content)
+        self._paths.append(path.resolve())
+        self._open.append(tokens(path, content.decode("utf-8", "replace")))
 
     def peek(self) -> Token | None:
         """The next word, which stays; None at the end."""
@@ -74,6 +89,7 @@ class Words:
             self._next = next(self._open[-1], None)
             if self._next is None:
                 self._open.pop()
+                self._paths.pop()
         return self._next
 
     def take(self, after: Token | None = None) -> Token:
@@ -115,23 +131,28 @@ class Words:
         return found
 
     def _parameter(self, kind: str, declared: Token) -> Parameter:
-        first = self.take(declared)
-        given = [first]
-        if first.text == "[" and not first.quoted:
-            given = []
-            while (token := self.take(declared)).text != "]" or token.quoted:
-                given.append(token)
-        if kind in NUMBERS or (kind == "spectrum" and given and not given[0].quoted):
-            values: list[Any] = [to_number(token) for token in given]
+        values: list[Any] = []
+        numeric = kind in NUMBERS
+        for token in self._list(declared):
+            numeric = numeric or (kind == "spectrum" and not token.quoted)
+            values.append(to_number(token) if numeric else token.text)
+        if numeric:
             if len(values) % NUMBERS.get(kind, 2):
                 raise declared.error(f"{declared.text!r} has {len(values)} numbers")
         elif kind == "bool":
-            values = [token.text == "true" for token in given]
-        else:
-            values = [token.text for token in given]
+            values = [text == "true" for text in values]
         if not values and kind not in NUMBERS:
             raise declared.error(f"{declared.text!r} has no value")
         return Parameter(kind, values)
+
+    def _list(self, declared: Token) -> Iterator[Token]:
+        """The words between brackets, or the one without."""
+        token = self.take(declared)
+        if token.text != "[" or token.quoted:
+            yield token
+            return
+        while (token := self.take(declared)).text != "]" or token.quoted:
+            yield token
 
 
 def to_number(token: Token) -> float:

@@ -1,0 +1,11 @@
+"""pbrt, which may include itself."""
+
+from foreign import fuzz, survive
+
+
+def read(content: bytes) -> None:
+    survive(content, ".pbrt")
+
+
+if __name__ == "__main__":
+    fuzz(read)
