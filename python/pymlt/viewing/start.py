@@ -84,17 +84,19 @@ class View:
         token: str | None,
         threads: int,
     ):
+        from .server import start_viser
+
         # A tab may be closed while a picture is made for it; viser says so each time.
         warnings.filterwarnings("ignore", "Queued a .* on a closed connection", UserWarning)
         self._sessions: dict[int, Session] = {}
         self._lock = threading.Lock()
         self._make = lambda client: Session(camera, client, algorithm, threads)
-        with _silence():
-            self._server = viser.ViserServer("127.0.0.1", 0, label="pymlt", verbose=False)
+        self._gate = Gate(host, port, token)
         try:
-            self._gate = Gate(host, port, self._server.get_port(), token)
+            with _silence():
+                self._server = start_viser(viser, self._gate)
         except BaseException:
-            self._server.stop()
+            self._gate.socket.close()
             raise
         self._token = token
         self.port: int = self._gate.port
@@ -123,7 +125,6 @@ class View:
         sessions = self.sessions
         for session in sessions:
             session.close()
-        self._gate.close()
         with _silence():
             self._server.stop()
         for session in sessions:
