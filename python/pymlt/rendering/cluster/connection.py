@@ -32,7 +32,8 @@ class Connection:
             if cluster.asynchronous:
                 raise _core.UsageError("the cluster's client is asynchronous; make another one")
             return cluster
-        if isinstance(cluster, str) and cluster.startswith("local:"):
+        is_local = isinstance(cluster, str) and cluster.startswith("local:")
+        if is_local:
             cluster = self._own.enter_context(local_cluster(cluster))
         elif not isinstance(cluster, str) and not hasattr(cluster, "scheduler_address"):
             raise _core.UsageError(
@@ -40,7 +41,9 @@ class Connection:
                 "such as 'tcp://host:8786', or 'local:4' for four processes of this machine"
             )
         try:
-            return self._own.enter_context(Client(cluster, timeout=CONNECT_SECONDS))
+            # Results of `local:N` are encrypted once only.
+            client = Client(cluster, timeout=CONNECT_SECONDS, direct_to_workers=is_local)
+            return self._own.enter_context(client)
         except TypeError:  # what dask says of TLS without a certificate
             raise _core.UsageError(
                 f"{cluster} asks for a certificate, but dask's settings name none "
