@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from typing import NamedTuple
 
 import psutil
@@ -15,9 +16,10 @@ class Listener(NamedTuple):
 
 def listeners() -> set[Listener]:
     me = psutil.Process()
-    return {
-        Listener(process.pid, *connection.laddr)
-        for process in [me, *me.children(recursive=True)]
-        for connection in process.net_connections("tcp")
-        if connection.status == psutil.CONN_LISTEN
-    }
+    found = set()
+    for process in [me, *me.children(recursive=True)]:
+        with suppress(psutil.NoSuchProcess):  # it has ended meanwhile
+            connections = process.net_connections("tcp")
+            listening = [one for one in connections if one.status == psutil.CONN_LISTEN]
+            found |= {Listener(process.pid, *one.laddr) for one in listening}
+    return found

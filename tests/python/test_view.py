@@ -397,7 +397,8 @@ def test_a_signal_ends_the_command_soon(number):
         line = run.stderr.readline()
         assert "http://localhost:" in line
         url = next(word for word in line.split() if word.startswith("http")).rstrip(";")
-        assert urllib.request.urlopen(url).status == 200
+        with urllib.request.urlopen(url) as answer:
+            assert answer.status == 200
         run.send_signal(number)
         start = time.monotonic()
         out, err = run.communicate(timeout=60)
