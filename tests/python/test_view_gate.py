@@ -6,6 +6,7 @@ import socket
 import threading
 import time
 import urllib.request
+from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 import tiny
@@ -85,6 +86,20 @@ def test_a_page_that_has_just_opened_can_be_closed(page):
         view = page()
         view.stop()
         assert not view._server._websock_server._server_thread.is_alive()
+
+
+def test_pages_that_open_at_the_same_time(capsys):
+    """Each behind its own gate; nothing is printed, and what is printed later is not lost."""
+    before = listeners()
+    with ThreadPoolExecutor(4) as pool:
+        views = list(pool.map(lambda _: mlt.view(tiny.scene(), port=0), range(4)))
+        ports = {found.port for found in listeners() - before}
+        assert ports == {view.port for view in views}
+        assert [status(port, Host="evil.example") for port in ports] == [403] * 4
+        list(pool.map(lambda view: view.stop(), views))
+    assert listeners() == before
+    print("later")
+    assert capsys.readouterr().out == "later\n"
 
 
 def test_only_pages_of_the_view_may_talk_to_it(page):

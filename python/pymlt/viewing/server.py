@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import io
 import logging
 import threading
 from collections.abc import Iterator
@@ -14,20 +15,33 @@ from websockets.exceptions import InvalidHandshake, InvalidMessage
 from .. import _core
 from .gate import Gate
 
+#: Both a module and the standard output are changed for a while.
 _one_at_a_time = threading.Lock()
 
 
 def start_viser(viser: Any, gate: Gate) -> Any:
     """Raises UsageError if viser would not serve behind the gate."""
-    with _behind(gate) as served:
+    with _silence(), _behind(gate) as served:
         server = viser.ViserServer(gate.host, gate.port, label="pymlt", verbose=False)
     if not served:
-        server.stop()
+        stop_viser(server)
         raise _core.UsageError(
             f"viser {viser.__version__} does not serve where it is told to: unset "
             "_VISER_PORT_OVERRIDE, or install viser 1.1"
         )
     return server
+
+
+def stop_viser(server: Any) -> None:
+    with _silence():
+        server.stop()
+
+
+@contextlib.contextmanager
+def _silence() -> Iterator[None]:
+    """viser prints its own address, which is not the one to open, and that it has stopped."""
+    with _one_at_a_time, contextlib.redirect_stdout(io.StringIO()):
+        yield
 
 
 @contextlib.contextmanager
@@ -49,12 +63,11 @@ def _behind(gate: Gate) -> Iterator[list[bool]]:
             **settings,
         )
 
-    with _one_at_a_time:
-        websockets.asyncio.server.serve = serve_behind
-        try:
-            yield served
-        finally:
-            websockets.asyncio.server.serve = serve
+    websockets.asyncio.server.serve = serve_behind
+    try:
+        yield served
+    finally:
+        websockets.asyncio.server.serve = serve
 
 
 class Connection(websockets.asyncio.server.ServerConnection):

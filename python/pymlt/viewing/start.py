@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
-import io
 import secrets
 import threading
 import warnings
@@ -66,11 +64,6 @@ def new_token() -> str:
     return secrets.token_urlsafe(16)
 
 
-def _silence() -> contextlib.redirect_stdout[io.StringIO]:
-    """viser prints its own address, which is not the one to open."""
-    return contextlib.redirect_stdout(io.StringIO())
-
-
 class View:
     """A page that is being served; see `view`."""
 
@@ -93,8 +86,7 @@ class View:
         self._make = lambda client: Session(camera, client, algorithm, threads)
         self._gate = Gate(host, port, token)
         try:
-            with _silence():
-                self._server = start_viser(viser, self._gate)
+            self._server = start_viser(viser, self._gate)
         except BaseException:
             self._gate.socket.close()
             raise
@@ -122,11 +114,12 @@ class View:
 
     def stop(self) -> None:
         """End all renders and take the page away."""
+        from .server import stop_viser
+
         sessions = self.sessions
         for session in sessions:
             session.close()
-        with _silence():
-            self._server.stop()
+        stop_viser(self._server)
         for session in sessions:
             session.wait(5)
         with self._lock:
