@@ -86,7 +86,7 @@ class Cluster:
     def __init__(self, processes: int):
         from distributed import Client
 
-        from pymlt.rendering.cluster.connection import local_cluster
+        from pymlt.rendering.cluster.local import local_cluster
 
         self.cluster = local_cluster(f"local:{processes}")
         self.client = Client(self.cluster)

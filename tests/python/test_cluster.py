@@ -277,7 +277,7 @@ def test_a_worker_with_another_build_is_refused(client):
 
 
 def test_a_cluster_that_goes_away_leaves_the_image():
-    from pymlt.rendering.cluster.connection import local_cluster
+    from pymlt.rendering.cluster.local import local_cluster
 
     with local_cluster("local:1") as cluster:
         job = mlt.start(scene(160, 120), spp=1e7, cluster=cluster)
@@ -295,6 +295,7 @@ def test_a_cluster_that_goes_away_leaves_the_image():
         ("local:many", "local:N with N >= 1"),
         (4, "cluster is 4, but should be"),
         ("tcp://127.0.0.1:1", "no cluster at tcp://127.0.0.1:1"),
+        ("tls://127.0.0.1:1", "asks for a certificate"),
     ],
 )
 def test_a_cluster_that_is_none_is_refused(cluster, message, monkeypatch):

@@ -1,4 +1,4 @@
-"""Who may talk to the page: a relay in front of its server, which by itself asks for nothing.
+"""Who may talk to the page: what is asked of a request before its server, viser, sees it.
 
 On localhost the address and the page that asks must be this one, so that no other web page can use
 the browser to reach the view. Elsewhere a token is needed: the first address that is opened holds
@@ -7,23 +7,25 @@ it, then a cookie does.
 
 from __future__ import annotations
 
-import asyncio
-import contextlib
 import hmac
-import http
 import ipaddress
+import re
 import secrets
 import socket
-import threading
+from http import HTTPStatus
 from http.cookies import CookieError, SimpleCookie
-from urllib.parse import parse_qs, urlsplit
+from typing import TYPE_CHECKING
+from urllib.parse import parse_qs
 
 from .. import _core
 
-LONGEST_HEAD = 1 << 16  #: bytes
-SECONDS_FOR_HEAD = 10.0
+if TYPE_CHECKING:
+    from websockets.asyncio.server import ServerConnection
+    from websockets.http11 import Request, Response
+
 PORTS_TO_TRY = 50
-GONE = (OSError, asyncio.IncompleteReadError, asyncio.CancelledError)
+HOST = r"(\[[0-9a-f:.]+\]|[0-9a-z._-]+)(:\d{1,5})?"
+ORIGIN = rf"null|[a-z][0-9a-z+.-]*://{HOST}"
 
 
 def is_local(host: str) -> bool:
@@ -59,124 +61,67 @@ def _family(host: str) -> int:
     return socket.AF_INET6 if ":" in host else socket.AF_INET
 
 
-class Request:
-    """The head of an HTTP request."""
-
-    def __init__(self, head: bytes):
-        lines = head.decode("latin-1").split("\r\n")
-        self.target = [*lines[0].split(" "), "", ""][1]
-        pairs = (line.partition(":") for line in lines[1:] if line)
-        self.headers = {name.strip().lower(): value.strip() for name, _, value in pairs}
-
-    @property
-    def upgrades(self) -> bool:
-        return self.headers.get("upgrade", "").lower() == "websocket"
-
-    def cookie(self, name: str) -> str:
-        try:
-            found = SimpleCookie(self.headers.get("cookie", "")).get(name)
-        except CookieError:
-            return ""
-        return found.value if found else ""
-
-    def token(self) -> str:
-        return parse_qs(urlsplit(self.target).query).get("token", [""])[0]
-
-
 class Gate:
-    """Listens at an address and relays to a port of this machine what may pass."""
+    """A socket that listens, and the rules for requests that come."""
 
-    def __init__(self, host: str, port: int, to_port: int, token: str | None):
-        self._socket = listening_socket(host, port)
-        self.host, self.port = host, self._socket.getsockname()[1]
-        self._to_port, self._token = to_port, token
+    def __init__(self, host: str, port: int, token: str | None):
+        self.socket = listening_socket(host, port)
+        self.host: str = host
+        self.port: int = self.socket.getsockname()[1]
+        self._token = token
         self._cookie, self._word = f"pymlt_view_{self.port}", secrets.token_urlsafe(16)
-        self._loop, self._closing = asyncio.new_event_loop(), asyncio.Event()
-        self._thread = threading.Thread(target=self._run, name="pymlt view: gate", daemon=True)
-        self._thread.start()
 
-    def close(self) -> None:
-        with contextlib.suppress(RuntimeError):
-            self._loop.call_soon_threadsafe(self._closing.set)
-        self._thread.join(2)
-
-    def _run(self) -> None:
-        with contextlib.closing(self._loop) as loop:
-            loop.run_until_complete(self._serve())
-
-    async def _serve(self) -> None:
-        server = await asyncio.start_server(self._relay, sock=self._socket, limit=LONGEST_HEAD)
-        await self._closing.wait()
-        server.close()
-        await _cancel_all()
-
-    async def _relay(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
-        with contextlib.closing(writer), contextlib.suppress(*GONE):
-            try:
-                async with asyncio.timeout(SECONDS_FOR_HEAD):
-                    head = await reader.readuntil(b"\r\n\r\n")
-            except (TimeoutError, asyncio.LimitOverrunError):
-                return
-            request = Request(head)
-            refusal = self.refusal(request)
-            if refusal is not None:
-                writer.write(refusal)
-                await writer.drain()
-                return
-            page, to_page = await asyncio.open_connection("127.0.0.1", self._to_port)
-            with contextlib.closing(to_page):
-                to_page.write(head)
-                tasks = [asyncio.ensure_future(_copy(page, writer))]
-                if request.upgrades:
-                    tasks.append(asyncio.ensure_future(_copy(reader, to_page)))
-                try:
-                    await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
-                finally:
-                    for task in tasks:
-                        task.cancel()
-
-    def refusal(self, request: Request) -> bytes | None:
-        """The answer to a request that may not pass; None for one that may."""
-        origin, host = request.headers.get("origin"), request.headers.get("host", "")
-        if request.upgrades and (not origin or urlsplit(origin).netloc != host):
-            return _answer(http.HTTPStatus.FORBIDDEN, "This page is not part of the view.")
+    def answer(self, connection: ServerConnection, request: Request) -> Response | None:
+        """To a request that may not pass; None for one that may."""
+        hosts, origins = (request.headers.get_all(name) for name in ("Host", "Origin"))
+        if not _is_well_formed(request.path, hosts, origins):
+            return connection.respond(HTTPStatus.BAD_REQUEST, "This request makes no sense.")
+        asked_by_page = origins or "Upgrade" in request.headers
+        if asked_by_page and [origin.rpartition("://")[2] for origin in origins] != hosts:
+            return connection.respond(HTTPStatus.FORBIDDEN, "This page is not part of the view.")
         if self._token is None:
-            name = urlsplit(f"//{host}").hostname or ""
+            name = re.sub(r":\d+$", "", hosts[0]).strip("[]")
             if is_local(name):
                 return None
-            return _answer(http.HTTPStatus.FORBIDDEN, "Use the address that pymlt has printed.")
-        if _equal(request.cookie(self._cookie), self._word):
+            return connection.respond(
+                HTTPStatus.FORBIDDEN, "Use the address that pymlt has printed."
+            )
+        if _equal(_cookie(request, self._cookie), self._word):
             return None
-        if _equal(request.token(), self._token):
+        if _equal(_token(request), self._token):
+            answer = connection.respond(HTTPStatus.SEE_OTHER, "")
+            answer.headers["Location"] = "./"
             keep = f"{self._cookie}={self._word}; HttpOnly; SameSite=Strict; Path=/"
-            return _answer(http.HTTPStatus.SEE_OTHER, "", f"Location: ./\r\nSet-Cookie: {keep}\r\n")
-        return _answer(
-            http.HTTPStatus.FORBIDDEN, "A token is needed: use the address that pymlt has printed."
+            answer.headers["Set-Cookie"] = keep
+            return answer
+        return connection.respond(
+            HTTPStatus.FORBIDDEN, "A token is needed: use the address that pymlt has printed."
         )
 
 
-async def _cancel_all() -> None:
-    tasks = asyncio.all_tasks() - {asyncio.current_task()}
-    for task in tasks:
-        task.cancel()
-    await asyncio.gather(*tasks, return_exceptions=True)
-
-
-def _equal(given: str, token: str) -> bool:
-    return hmac.compare_digest(given.encode(), token.encode())
-
-
-async def _copy(source: asyncio.StreamReader, to: asyncio.StreamWriter) -> None:
-    with contextlib.suppress(OSError):
-        while data := await source.read(1 << 16):
-            to.write(data)
-            await to.drain()
-
-
-def _answer(status: http.HTTPStatus, text: str, more: str = "") -> bytes:
-    body = text.encode()
-    head = (
-        f"HTTP/1.1 {status.value} {status.phrase}\r\nContent-Type: text/plain; charset=utf-8\r\n"
-        f"Content-Length: {len(body)}\r\nConnection: close\r\n{more}\r\n"
+def _is_well_formed(path: str, hosts: list[str], origins: list[str]) -> bool:
+    return (
+        path.startswith("/")
+        and path.isascii()
+        and path.isprintable()
+        and len(hosts) == 1
+        and len(origins) <= 1
+        and re.fullmatch(HOST, hosts[0], re.IGNORECASE) is not None
+        and all(re.fullmatch(ORIGIN, origin, re.IGNORECASE) for origin in origins)
     )
-    return head.encode() + body
+
+
+def _cookie(request: Request, name: str) -> str:
+    try:
+        found = SimpleCookie("; ".join(request.headers.get_all("Cookie"))).get(name)
+    except CookieError:
+        return ""
+    return found.value if found else ""
+
+
+def _token(request: Request) -> str:
+    return parse_qs(request.path.partition("?")[2]).get("token", [""])[0]
+
+
+def _equal(given: str, word: str) -> bool:
+    return hmac.compare_digest(given.encode(errors="surrogateescape"), word.encode())

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
-import io
 import secrets
 import threading
 import warnings
@@ -66,11 +64,6 @@ def new_token() -> str:
     return secrets.token_urlsafe(16)
 
 
-def _silence() -> contextlib.redirect_stdout[io.StringIO]:
-    """viser prints its own address, which is not the one to open."""
-    return contextlib.redirect_stdout(io.StringIO())
-
-
 class View:
     """A page that is being served; see `view`."""
 
@@ -84,17 +77,18 @@ class View:
         token: str | None,
         threads: int,
     ):
+        from .server import start_viser
+
         # A tab may be closed while a picture is made for it; viser says so each time.
         warnings.filterwarnings("ignore", "Queued a .* on a closed connection", UserWarning)
         self._sessions: dict[int, Session] = {}
         self._lock = threading.Lock()
         self._make = lambda client: Session(camera, client, algorithm, threads)
-        with _silence():
-            self._server = viser.ViserServer("127.0.0.1", 0, label="pymlt", verbose=False)
+        self._gate = Gate(host, port, token)
         try:
-            self._gate = Gate(host, port, self._server.get_port(), token)
+            self._server = start_viser(viser, self._gate)
         except BaseException:
-            self._server.stop()
+            self._gate.socket.close()
             raise
         self._token = token
         self.port: int = self._gate.port
@@ -120,12 +114,12 @@ class View:
 
     def stop(self) -> None:
         """End all renders and take the page away."""
+        from .server import stop_viser
+
         sessions = self.sessions
         for session in sessions:
             session.close()
-        self._gate.close()
-        with _silence():
-            self._server.stop()
+        stop_viser(self._server)
         for session in sessions:
             session.wait(5)
         with self._lock:
