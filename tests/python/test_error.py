@@ -7,6 +7,8 @@ import pytest
 import tiny
 
 import pymlt as mlt
+from pymlt.diagnostics.error_calibration import calibrate
+from pymlt.diagnostics.metrics import target_luminance as luminance
 
 SEEDS = 60
 SEEN_BY = 0.9  # of the groups, in blocks where the claim counts
@@ -61,6 +63,38 @@ def test_the_claimed_error_is_the_true_one_in_scenes_of_all_kinds(name, integrat
     assert LOWEST < ratio < HIGHEST
 
 
+def check_calibration(name, integrators, seeds):
+    scene = load(name, (48, 32))
+    for one in calibrate(scene, integrators, seeds=range(1, seeds + 1), spp=128):
+        told = LOWEST < one.ratio < HIGHEST
+        assert told or one.warned >= 0.5, one
+
+
+def test_the_relative_error_is_the_true_one_where_pixels_are_spiky():
+    check_calibration("dof", ["path", "bdpt"], seeds=12)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("name", mlt.scenes.names())
+def test_the_relative_error_is_the_true_one_in_all_scenes(name):
+    check_calibration(name, ["path", "bdpt", "pssmlt", "mmlt", "mlt"], seeds=24)
+
+
+def test_a_render_ends_as_wrong_as_it_was_asked_to():
+    """Bright samples of the ring's caustic are rare: who stops early has not seen them."""
+    scene = load("ring", (48, 32))
+    truth = np.mean([mlt.render(scene, "mlt", spp=128, seed=s) for s in range(6)], axis=0)
+    truth = luminance(truth.astype(np.float64))
+    scale = truth**2 + 0.01 * truth.mean() ** 2
+    errors = [
+        np.sqrt(
+            ((luminance(mlt.render(scene, "bdpt", error=0.1, seed=s)) - truth) ** 2 / scale).mean()
+        )
+        for s in range(8)
+    ]
+    assert np.mean(errors) < 1.25 * 0.1
+
+
 def test_the_error_of_the_image_foretells_its_distance_to_the_truth():
     """`stats["error"]` is the root of relMSE, but for the part that 0.01 M^2 replaces."""
     scene = load("cornell_box")
@@ -70,10 +104,6 @@ def test_the_error_of_the_image_foretells_its_distance_to_the_truth():
     distance = (light - true) ** 2 / (true**2 + 0.01 * true.mean() ** 2)
     assert result.stats["error"] == pytest.approx(math.sqrt(distance.mean()), rel=0.2)
     assert 0 < result.stats["block_error"] < result.stats["error"]
-
-
-def luminance(image: np.ndarray) -> np.ndarray:
-    return image @ (0.5 * np.array([0.2126, 0.7152, 0.0722]) + 0.5 / 3)
 
 
 @pytest.mark.parametrize("integrator", ["path", "mlt"])

@@ -57,6 +57,13 @@ def compare(image, reference, *, flip: bool | None = None) -> dict[str, float]:
     return {name: float(value) for name, value in metrics.items()}
 
 
+def target_luminance(image: np.ndarray) -> np.ndarray:
+    """What Metropolis samples: the mean of the luminance and of the mean of R, G, B."""
+    import numpy as np
+
+    return image @ (0.5 * np.array([0.2126, 0.7152, 0.0722]) + 0.5 / 3)
+
+
 def image_pair(image, reference) -> tuple[np.ndarray, np.ndarray]:
     """Two arrays or files of one size as float64, (height, width, 1 or 3). Raises as `compare`."""
     a, r = (_pixels(x) for x in (image, reference))

@@ -18,6 +18,7 @@ from ..rendering.progress import progress_bar
 from ..rendering.result import Result
 from ..rendering.start import start
 from ._arviz import import_arviz
+from .metrics import target_luminance
 
 if TYPE_CHECKING:
     import numpy as np
@@ -109,7 +110,7 @@ def _block_means(images: np.ndarray, grid) -> np.ndarray:
     """Means of the target luminance over blocks: (groups, rows, columns)."""
     import numpy as np
 
-    light = images @ (0.5 * np.array([0.2126, 0.7152, 0.0722]) + 0.5 / 3)
+    light = target_luminance(images)
     sides = list(zip(grid, light.shape[1:], strict=True))
     if not all(1 <= n <= size for n, size in sides):
         raise _core.UsageError(f"grid is {grid!r}, but the image has {light.shape[1:]} pixels")
