@@ -380,13 +380,15 @@ def killed_and_resumed(program, scene, integrator, kills, spp):
 
     finish(scene, *flags, "-o", "whole.exr")
     keep = ["--checkpoint", "a.mlt", "--every", "0.02", "-o", "a.exr"]
+    source = [scene, *flags]
     for _ in range(kills):
-        source = ["--resume", "a.mlt", "--quiet"] if Path("a.mlt").exists() else [scene, *flags]
         process = subprocess.Popen([*program, *map(str, source), *keep])
-        time.sleep(draw.uniform(0.05, 0.5))
+        wait_for(Path("a.mlt"))
+        time.sleep(draw.uniform(0, 0.5) if "--resume" in source else 0)
         process.send_signal(signal.SIGKILL)
         process.wait()
-    source = ["--resume", "a.mlt", "--quiet"] if Path("a.mlt").exists() else [scene, *flags]
+        assert "--resume" in source or process.returncode == -signal.SIGKILL
+        source = ["--resume", "a.mlt", "--quiet"]
     finish(*source, *keep)
     assert Path("a.exr").read_bytes() == Path("whole.exr").read_bytes()
 

@@ -11,7 +11,6 @@ from pymlt.diagnostics.error_calibration import calibrate
 from pymlt.diagnostics.metrics import target_luminance as luminance
 
 SEEDS = 60
-SEEN_BY = 0.9  # of the groups, in blocks where the claim counts
 LOWEST, HIGHEST = 0.8, 1.25  # claimed over true
 
 
@@ -24,30 +23,26 @@ def block_means(image: np.ndarray) -> np.ndarray:
     return image.reshape(rows, 8, columns, 8, 3).mean(axis=(1, 3))
 
 
-def claimed_over_true(scene, integrator, spp) -> tuple[float, float]:
-    """The ratio of RMS errors of blocks, and the share of the blocks that went into it.
+def claimed_over_true(scene, integrator, spp) -> float:
+    """The ratio of RMS errors of blocks.
 
     The reference is the mean of all runs. Its own variance makes each run seem nearer by a factor
     of (n - 1) / n, in the square. That the mean is right is for other tests to say.
     """
-    images, claims, counted = [], [], []
+    images, claims = [], []
     for seed in range(1, SEEDS + 1):
-        job = mlt.start(scene, integrator, spp=spp, seed=seed)
-        result = job.result()
-        lit = np.array([block_means(image).max(axis=2) > 0 for image in job.groups.images])
-        counted.append(lit.mean(axis=0) >= SEEN_BY)
+        result = mlt.start(scene, integrator, spp=spp, seed=seed).result()
+        assert result.stats["block_error"] < result.stats["error"]
         images.append(block_means(result.image))
         claims.append(result.block_error)
-    images, claims, counted = (np.array(x, dtype=np.float64) for x in (images, claims, counted))
+    images, claims = (np.array(x, dtype=np.float64) for x in (images, claims))
     squares = (images - images.mean(axis=0)) ** 2 * SEEDS / (SEEDS - 1)
-    where = counted.astype(bool)
-    return math.sqrt((claims[where] ** 2).mean() / squares[where].mean()), counted.mean()
+    return math.sqrt((claims**2).mean() / squares.mean())
 
 
 @pytest.mark.parametrize("integrator", ["path", "pssmlt"])
 def test_the_claimed_error_is_the_true_one(integrator):
-    ratio, seen = claimed_over_true(load("cornell_box"), integrator, spp=128)
-    assert seen == 1
+    ratio = claimed_over_true(load("cornell_box"), integrator, spp=128)
     assert LOWEST < ratio < HIGHEST
 
 
@@ -58,8 +53,7 @@ SCENES = ["cornell_box", "dof", "furnace", "glass_ball", "ring"]
 @pytest.mark.parametrize("integrator", ["path", "bdpt", "pssmlt", "mlt"])
 @pytest.mark.parametrize("name", SCENES)
 def test_the_claimed_error_is_the_true_one_in_scenes_of_all_kinds(name, integrator):
-    ratio, seen = claimed_over_true(load(name, (64, 48)), integrator, spp=128)
-    assert seen > 0.5
+    ratio = claimed_over_true(load(name, (64, 48)), integrator, spp=128)
     assert LOWEST < ratio < HIGHEST
 
 
@@ -70,8 +64,10 @@ def check_calibration(name, integrators, seeds):
         assert told or one.warned >= 0.5, one
 
 
-def test_the_relative_error_is_the_true_one_where_pixels_are_spiky():
-    check_calibration("dof", ["path", "bdpt"], seeds=12)
+@pytest.mark.parametrize("name", ["cornell_box", "dof"])
+def test_the_relative_error_is_the_true_one(name):
+    """In the second scene single pixels are much too bright."""
+    check_calibration(name, ["path", "bdpt"], seeds=12)
 
 
 @pytest.mark.long
@@ -93,17 +89,6 @@ def test_a_render_ends_as_wrong_as_it_was_asked_to(name, integrator, error):
     ends = [mlt.render(scene, integrator, error=error, seed=s) for s in range(8)]
     errors = [math.sqrt(((luminance(end) - truth) ** 2 / scale).mean()) for end in ends]
     assert np.mean(errors) < 1.25 * error
-
-
-def test_the_error_of_the_image_foretells_its_distance_to_the_truth():
-    """`stats["error"]` is the root of relMSE, but for the part that 0.01 M^2 replaces."""
-    scene = load("cornell_box")
-    truth = mlt.render(scene, "path", spp=4096, seed=99).astype(np.float64)
-    result = mlt.start(scene, "path", spp=128, seed=1).result()
-    light, true = luminance(result.image), luminance(truth)
-    distance = (light - true) ** 2 / (true**2 + 0.01 * true.mean() ** 2)
-    assert result.stats["error"] == pytest.approx(math.sqrt(distance.mean()), rel=0.2)
-    assert 0 < result.stats["block_error"] < result.stats["error"]
 
 
 @pytest.mark.parametrize("integrator", ["path", "mlt"])
