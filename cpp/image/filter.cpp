@@ -3,6 +3,8 @@
 #include "base/error.h"
 #include "math/vec.h"
 
+#include <algorithm>
+
 namespace mlt {
 
 Filter::Filter(const std::string& name, double radius, const std::function<double(double)>& shape)
@@ -20,6 +22,10 @@ Filter::Filter(const std::string& name, double radius, const std::function<doubl
     value /= integral;
     largest_ = std::max(largest_, std::abs(value));
   }
+}
+
+bool Filter::has_negative_lobes() const {
+  return std::any_of(table_.begin(), table_.end(), [](double value) { return value < 0; });
 }
 
 namespace {

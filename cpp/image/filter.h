@@ -50,6 +50,8 @@ class Filter {
   double knot(double i) const { return table_[static_cast<size_t>(i)]; }
   /// No |f(x)| is larger.
   double largest() const { return largest_; }
+  /// Whether f is negative somewhere, and so pixels may be.
+  bool has_negative_lobes() const;
 
  private:
   static constexpr int intervals = 768;  // a multiple of 1, 2, 3, 4, 6, 8 lobes

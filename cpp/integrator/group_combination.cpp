@@ -2,6 +2,8 @@
 
 #include "math/vec.h"
 
+#include <algorithm>
+
 namespace mlt {
 
 GroupCombination::GroupCombination(std::vector<GroupProgress> groups, const Estimate& of_chains)
@@ -31,13 +33,24 @@ double GroupCombination::chain_brightness(int g) const {
   return has_chains(g) ? group.b * group.brightness / static_cast<double>(group.steps) : 0.0;
 }
 
-GroupScales GroupCombination::group(int g) const {
+/// Each of the others can lose as much as it has to groups like this one.
+GroupCombination::Correction GroupCombination::correction(int g) const {
   const double missing = lambda_ * (samples_of(g).mean - chain_brightness(g));
   const double others = chain_brightness_ - chain_brightness(g);
+  if (!(others > 0)) return {0, std::min(0.0, missing)};
+  const double of_others = std::max(missing, -others / (count() - 1));
+  return {of_others, missing - of_others};
+}
+
+GroupScales GroupCombination::group(int g) const {
+  const Correction add = correction(g);
+  const double own = chain_brightness(g), others = chain_brightness_ - own;
   GroupScales scales(count());
   for (int h = 0; h < count(); ++h) {
     if (!has_chains(h)) continue;
-    const double factor = h == g ? 1.0 : others > 0 ? missing / others : 0.0;
+    const double factor = h != g    ? (others > 0 ? add.of_others / others : 0.0)
+                          : own > 0 ? 1 + add.of_itself / own
+                                    : 1.0;
     scales[h] = factor * groups_[h].b / static_cast<double>(groups_[h].steps);
   }
   return scales;
@@ -52,6 +65,8 @@ GroupScales GroupCombination::mean() const {
     const GroupScales own = group(g);
     for (int h = 0; h < count(); ++h) mean[h] += own[h] / begun_groups;
   }
+  // When several groups are that bright.
+  for (double& scale : mean) scale = std::max(0.0, scale);
   return mean;
 }
 

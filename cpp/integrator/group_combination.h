@@ -20,6 +20,11 @@
 // samples say, weighted by how well each is known. These variances are estimated from the same
 // render, which leaves a bias that vanishes as the render goes on. Where no samples tell M, as those of
 // path tracing do not, lambda is 0.
+//
+// The correction takes light away from the others' image where a group is too bright. No more than
+// that image can lose is taken there: what a group has in excess of that makes its own C_g darker, so
+// that nothing becomes negative. That is biased as a quotient is, and happens less and less often as the
+// render goes on.
 #pragma once
 
 #include "math/weight_sums.h"
@@ -62,6 +67,12 @@ class GroupCombination {
   bool has_chains(int g) const { return groups_[g].steps > 0; }
   double chain_brightness(int g) const;
   Estimate samples_of(int g) const;
+  /// By how much I_g is to be brighter than b_g C_g.
+  struct Correction {
+    double of_others;  ///< Added to it as the others' image.
+    double of_itself;  ///< Taken away from it; not positive.
+  };
+  Correction correction(int g) const;
 
   std::vector<GroupProgress> groups_;
   Estimate of_chains_;

@@ -11,6 +11,7 @@
 #include "scene/scene.h"
 
 #include <atomic>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -46,6 +47,8 @@ class Rendering {
   Rendering(ScenePtr scene, uint64_t seed) : scene_(std::move(scene)), seed_(seed) {}
   virtual ~Rendering() = default;
 
+  /// Before prepare: how many seconds that should take at the most.
+  void limit_preparation(double seconds) { preparation_seconds_ = seconds; }
   /// Work before the first unit (a bootstrap); may itself use `threads` threads. `cancelled` is
   /// looked at now and then. Throws RenderError.
   virtual void prepare(int /*threads*/, const std::atomic<bool>& /*cancelled*/) {}
@@ -93,6 +96,7 @@ class Rendering {
   ScenePtr scene_;
   uint64_t seed_;
   Plan plan_;
+  double preparation_seconds_ = std::numeric_limits<double>::infinity();
 };
 
 class Integrator : public Object {

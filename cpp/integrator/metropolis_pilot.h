@@ -15,6 +15,7 @@ struct Allocation {
   FamilyWeights weights;  ///< Of both families.
   double mutations_per_sample = 1;                      ///< What an independent sample costs.
   SampleTechniques techniques = SampleTechniques::all;  ///< Of the independent samples.
+  bool in_time = true;                                  ///< Whether there was time to find it.
 };
 
 struct PilotSettings {

@@ -1,8 +1,10 @@
 #include "integrator/metropolis_rendering.h"
 
 #include "base/parallel.h"
+#include "base/watchdog.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <numeric>
 
@@ -40,6 +42,35 @@ void MetropolisRendering::render_direct(int threads, const std::atomic<bool>& ca
 
 void MetropolisRendering::prepare(int threads, const std::atomic<bool>& cancelled) {
   if (direct_.rendering) render_direct(threads, cancelled);
+  if (std::isinf(preparation_seconds_) || settings_.independent_share == 0) {
+    prepare_chains(threads, cancelled);
+    return;
+  }
+  using Clock = std::chrono::steady_clock;
+  const auto end = Clock::now() + std::chrono::duration<double>(preparation_seconds_);
+  bool in_time = false;
+  try {
+    const Watchdog watchdog([&] { return cancelled || Clock::now() >= end; }, 0);
+    prepare_chains(threads, watchdog.stop());
+    in_time = !watchdog.stop();
+  } catch (const Abandoned&) {
+  }
+  if (!in_time && !cancelled) do_without_chains();
+}
+
+/// A render too short for pilot and bootstrap is one of independent samples.
+void MetropolisRendering::do_without_chains() {
+  for (Group& group : groups_) {
+    group.b = 0;
+    group.bootstrap = {};
+  }
+  allocation_ = samples_alone(settings_.techniques.value_or(SampleTechniques::all));
+  allocation_.in_time = false;
+  algorithm_->set_techniques(allocation_.techniques);
+  lay_out();
+}
+
+void MetropolisRendering::prepare_chains(int threads, const std::atomic<bool>& cancelled) {
   allocation_ = run_pilot(threads, cancelled);
   if (cancelled) return;
   if (allocation_.share == 1)

@@ -73,6 +73,8 @@ class MetropolisRendering : public Rendering {
   uint64_t chain_count() const;
   uint64_t sample_shares() const { return samples_ ? uint64_t{group_count} : 0; }
   void render_direct(int threads, const std::atomic<bool>& cancelled);
+  void prepare_chains(int threads, const std::atomic<bool>& cancelled);
+  void do_without_chains();
   Allocation run_pilot(int threads, const std::atomic<bool>& cancelled);
   std::vector<std::vector<uint32_t>> run_bootstrap(const Candidates& candidates, int threads,
                                                    const std::atomic<bool>& cancelled);

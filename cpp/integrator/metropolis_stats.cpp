@@ -63,7 +63,10 @@ void MetropolisRendering::add_level(Stats& stats) const {
         "half of the light comes from {} of {} independent samples: there may be more that none "
         "has found; render for longer",
         stats.samples_carrying_half, b.count));
-  if (allocation_.share == 1 && settings_.independent_share != 1)
+  if (!allocation_.in_time)
+    stats.warnings.push_back(
+        "the time was too short to prepare chains: the image is one of independent samples");
+  else if (allocation_.share == 1 && settings_.independent_share != 1)
     stats.warnings.push_back(
         "no light was found for chains to start from; give more luminance_samples, or check that "
         "light can reach the camera");

@@ -36,6 +36,7 @@ struct ErrorEstimate {
   Image pixels;    ///< Standard error of each pixel, RGB; empty if nothing is known.
   Image blocks;    ///< The same for the means of blocks of 8 x 8 pixels, one pixel for each.
   RelativeError relative, relative_blocks;  ///< Of pixels, and of blocks.
+  size_t negative_pixels = 0;               ///< With a channel below zero.
   std::vector<Disagreement> disagreements;  ///< The brightest block first.
   int block_count() const { return blocks.width * blocks.height; }
 };

@@ -1,7 +1,7 @@
 #include "render/job.h"
 
 #include "base/parallel.h"
-#include "render/watchdog.h"
+#include "base/watchdog.h"
 
 #include <fmt/format.h>
 
@@ -153,6 +153,8 @@ void Job::lead() {
 
 /// There is nothing in it that would be lost if it is given up at once.
 void Job::prepare() {
+  constexpr double share = 0.2;  // of the time, at most
+  if (stop_rule_.seconds()) rendering_->limit_preparation(share * *stop_rule_.seconds());
   const Watchdog watchdog([this] { return stopping(); }, 0);
   rendering_->prepare(threads_, watchdog.stop());
   bootstrap_seconds_ = seconds_so_far();

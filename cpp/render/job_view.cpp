@@ -1,7 +1,7 @@
 // Looking at a render: while it goes on, and when it has ended.
+#include "base/watchdog.h"
 #include "mlt_version.h"
 #include "render/job.h"
-#include "render/watchdog.h"
 
 #include <fmt/format.h>
 
@@ -95,7 +95,13 @@ Stats Job::stats() const {
         "a light path had not ended {:g} s after the render was to end, and was given up; with a "
         "max_depth, or a smaller rr_depth, paths end",
         Watchdog::patience));
-  if (units_done_ > 0) add_error(*error(), stats);
+  if (units_done_ == 0) return stats;
+  const std::shared_ptr<const ErrorEstimate> estimate = error();
+  add_error(*estimate, stats);
+  if (estimate->negative_pixels > 0 && !scene_->film().filter->has_negative_lobes())
+    stats.warnings.push_back(
+        fmt::format("{} pixels are negative, which no light is; please report it with the scene",
+                    estimate->negative_pixels));
   return stats;
 }
 

@@ -39,6 +39,7 @@ class StopRule {
   std::string why_to_end(const Rendering& rendering, uint64_t units, double seconds);
   /// The unit before which this is to be asked again.
   uint64_t next_pause(const Rendering& rendering, uint64_t units) const;
+  const std::optional<double>& seconds() const { return budget_.seconds; }
   bool out_of_time(double seconds) const { return budget_.seconds && seconds >= *budget_.seconds; }
   /// 0 ... 1 of the budget. While the render is going on, too.
   double progress(uint64_t units, double seconds) const;

@@ -2,7 +2,7 @@
 
 #include "base/bytes.h"
 #include "base/parallel.h"
-#include "render/watchdog.h"
+#include "base/watchdog.h"
 
 #include <algorithm>
 

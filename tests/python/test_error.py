@@ -192,6 +192,34 @@ def test_groups_that_agree_say_nothing():
     assert stats["disagreements"] == stats["warnings"] == []
 
 
+# ---- light is not negative -----------------------------------------------------------------------
+
+
+def check_not_negative(name, integrator, size, seed):
+    result = mlt.start(load(name, size), integrator, spp=32, seed=seed).result()
+    assert result.image.min() >= 0
+    assert not any("negative" in warning for warning in result.stats["warnings"])
+
+
+@pytest.mark.parametrize("integrator", mlt.available("integrator"))
+def test_no_pixel_is_negative(integrator):
+    for name in "goblets", "pool":
+        for seed in 1, 5:
+            check_not_negative(name, integrator, (80, 45), seed)
+
+
+def test_no_pixel_is_negative_where_groups_of_chains_differ_most():
+    check_not_negative("goblets", mlt.MLT(max_depth=8), (160, 90), seed=5)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("integrator", mlt.available("integrator"))
+@pytest.mark.parametrize("name", mlt.scenes.names())
+def test_no_pixel_is_negative_in_any_scene(name, integrator):
+    for seed in range(20):
+        check_not_negative(name, integrator, (48, 32), seed)
+
+
 # ---- an error as a budget ------------------------------------------------------------------------
 
 

@@ -74,6 +74,20 @@ TEST(GroupCombination, IsAsBrightAsTheSamplesSay) {
   EXPECT_NEAR(toy.image(toy.combination().mean()), toy.of_chains.mean, 0.01);
 }
 
+TEST(GroupCombination, TakesNoLightThatIsNotThere) {
+  for (const double excess : {1.5, 3.0, 30.0, 1000.0}) {
+    Toy toy(5, 16, 50, 100000);
+    toy.progress[3].brightness *= excess;
+    const GroupCombination groups = toy.combination();
+    for (const double scale : groups.mean()) EXPECT_GE(scale, 0) << excess;
+    double brightness = 0;
+    for (int g = 0; g < 16; ++g)
+      for (int h = 0; h < 16; ++h)
+        brightness += groups.group(g)[h] * toy.progress[h].brightness / 16;
+    EXPECT_NEAR(brightness, toy.of_chains.mean, 0.02 * toy.of_chains.mean) << excess;
+  }
+}
+
 TEST(GroupCombination, TellsItsError) {
   Moments images, variances;
   for (uint64_t seed = 0; seed < 4000; ++seed) {

@@ -23,7 +23,8 @@ fs::path shared_scenes() {
 std::vector<fs::path> scene_files(const fs::path& root) {
   std::vector<fs::path> files;
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root))
-    if (entry.path().extension() == ".xml" && entry.path().parent_path().filename() != "fragments")
+    if (const fs::path folder = entry.path().parent_path().filename();
+        entry.path().extension() == ".xml" && folder != "fragments" && folder != "include")
       files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   return files;

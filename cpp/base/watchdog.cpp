@@ -1,4 +1,4 @@
-#include "render/watchdog.h"
+#include "base/watchdog.h"
 
 #include <chrono>
 #include <system_error>
