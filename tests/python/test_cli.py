@@ -136,6 +136,8 @@ USAGE = {
     "-D unknown": (["scene.xml", *OUT, "-D", "rse=3"], "rse"),
     "-D without value": (["scene.xml", *OUT, "-D", "res"], "res"),
     "integrator": (["scene.xml", *OUT, "--integrator", "pssmtl"], "did you mean 'pssmlt'?"),
+    "filter": (["scene.xml", *OUT, "--filter", "bxo"], "did you mean 'box'?"),
+    "resume with a filter": ([*OUT, "--resume", "x", "--filter", "box"], "--filter"),
     "missing scene": (["nowhere.xml", *OUT], "nowhere.xml"),
     "two scenes": (["scene.xml", "scene.xml", *OUT], "scene.xml"),
 }

@@ -41,7 +41,8 @@ def add_arguments(command) -> None:
     command.add_argument(
         "--denoise",
         action="store_true",
-        help="remove noise by Open Image Denoise; an .exr keeps the image as its layer noisy",
+        help="remove noise by Open Image Denoise; the filter is box, unless --filter names one; "
+        "an .exr keeps the image as its layer noisy",
     )
 
 
@@ -67,6 +68,8 @@ def start(args, signals: Signals) -> Job:
     )
     if args.denoise and options.aovs is None:
         options.aovs = GUIDES
+    if args.denoise and args.filter is None:
+        args.filter = "box"
     if args.resume:
         if args.scene and not os.path.exists(args.scene) and not built_in_name(args.scene):
             raise _core.FileError(f"{args.scene}: there is no such file")
@@ -115,7 +118,7 @@ def doubts(args, job: Job) -> list[str]:
     if args.denoise and job.filter != "box":
         return [
             f"the filter {job.filter!r} spreads noise over several pixels, and --denoise leaves "
-            "such noise; use the filter 'box'"
+            "such noise; use --filter box"
         ]
     return []
 
