@@ -195,7 +195,7 @@ def test_compare_draws_a_picture(pair, tmp_path):
 
 @pytest.mark.parametrize(
     ("module", "command"),
-    [("flip_evaluator", "pip install 'pymlt[flip]'"), ("matplotlib", "pip install 'pymlt[plots]'")],
+    [("flip_evaluator", "install 'flip-evaluator>="), ("matplotlib", "install 'matplotlib>=")],
 )
 def test_what_a_picture_needs_is_said_in_one_line(pair, capsys, monkeypatch, module, command):
     monkeypatch.setitem(sys.modules, module, None)
