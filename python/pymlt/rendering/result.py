@@ -10,17 +10,11 @@ from .. import _core
 from ..pictures.denoising import denoise_with_layers
 from ..pictures.notebook import figure, png
 from ..pictures.output import OutputFile
+from ..pictures.techniques import Technique, techniques_of
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import ArrayLike
-
-
-class Technique(NamedTuple):
-    """The image of one technique (s, t) of bidirectional path tracing."""
-
-    raw: np.ndarray  #: what it finds alone, without weights
-    weighted: np.ndarray  #: what it brings to the render
 
 
 @dataclass
@@ -62,13 +56,7 @@ class Result:
 
         A path of technique (s, t) has s vertices from the light and t from the camera.
         """
-        found = {}
-        for name, weighted in self.layers.items():
-            kind, *numbers = name.split(".")
-            if kind == "weighted":
-                s, t = (int(number[1:]) for number in numbers)
-                found[s, t] = Technique(self.layers[f"raw.s{s}.t{t}"], weighted)
-        return found
+        return techniques_of(self.layers)
 
     def denoise(
         self, *, albedo: ArrayLike | None = None, normal: ArrayLike | None = None
@@ -92,7 +80,8 @@ class Result:
     ) -> None:
         """Write the image to .exr (settings, seed and version in its header), .hdr, .png or .jpg.
 
-        An .exr holds the layers too; beside NAME.png, NAME.techniques.png shows the techniques.
+        An .exr holds the layers too; beside NAME.png, NAME.techniques.png shows the techniques, if
+        there are any, for which it needs the extra `plots`.
         `exposure` brightens .png and .jpg by so many stops, `tonemap` names their curve ("srgb",
         "reinhard", "filmic"; see `pymlt.tonemap`). Raises FileError if it cannot be written,
         UsageError for an unknown curve or extension.
