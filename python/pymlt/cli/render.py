@@ -109,7 +109,8 @@ def run(args) -> int:
             warn(result.stats["warnings"][len(known) :])
         images, complete = save(args, result)
     if not args.quiet:
-        say(("interrupted; " if code else "") + summary(result, images))
+        where = ", ".join(images) or "no image could be saved"
+        say(f"{'interrupted; ' if code else ''}{result._summary()}: {where}")
     return code if complete else 3
 
 
@@ -147,12 +148,3 @@ def save(args, result: Result) -> tuple[list[str], bool]:
     for problem in problems:
         say(problem)
     return images, not problems
-
-
-def summary(result: Result, images: list[str]) -> str:
-    stats = result.stats
-    width, height = stats["size"]
-    seconds = stats["seconds"]["bootstrap"] + stats["seconds"]["render"]
-    spp = stats["spp_done"]
-    where = ", ".join(images) or "no image could be saved"
-    return f"{width} x {height}, {spp:.4g} spp in {seconds:.1f} s: {where}"

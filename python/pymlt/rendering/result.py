@@ -115,9 +115,18 @@ class Result:
         return figure(self.image, repr(self))
 
     def __repr__(self) -> str:
+        return f"Result({self._summary()})"
+
+    def _summary(self) -> str:
+        """What was done, and how good it is, in the words of mlt-render."""
         height, width = self.image.shape[:2]
-        spp = self.stats["spp_done"]
-        return f"Result({width} x {height}, {self.integrator['type']!r}, {spp:g} spp)"
+        done = f"{self.integrator['type']}, {width} x {height}, {self.stats['spp_done']:.4g} spp"
+        if seconds := self.stats.get("seconds"):  # not of a merged one
+            done += f" in {seconds['bootstrap'] + seconds['render']:.1f} s"
+        error = self.stats.get("error")
+        if error is not None:
+            done += f", error {100 * error:{'.0f' if error >= 0.1 else '.2g'}} %"
+        return done
 
 
 class Groups(NamedTuple):
