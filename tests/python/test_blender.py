@@ -16,6 +16,8 @@ pytestmark = [
     pytest.mark.skipif(not importlib.util.find_spec("pygltflib"), reason="needs pymlt[gltf]"),
 ]
 
+GLOW = "ignore:.*glow do so on the side of their normals"
+
 
 @pytest.fixture(scope="module")
 def exported(tmp_path_factory) -> Path:
@@ -28,6 +30,7 @@ def exported(tmp_path_factory) -> Path:
     return folder
 
 
+@pytest.mark.filterwarnings(GLOW)
 @pytest.mark.parametrize("name", ["scene.glb", "scene.gltf"])
 @pytest.mark.filterwarnings("ignore:.*spot light falls off")
 def test_a_scene_of_blender_is_seen_as_blender_sees_it(exported, name):
@@ -51,6 +54,7 @@ def test_a_scene_of_blender_is_seen_as_blender_sees_it(exported, name):
     assert (mlt.render(scene, "path", spp=1) > 0).any()
 
 
+@pytest.mark.filterwarnings(GLOW)
 @pytest.mark.parametrize("lamp", ["POINT", "SUN", "SPOT", "glow"])
 @pytest.mark.filterwarnings("ignore:.*spot light falls off")
 def test_a_scene_is_as_bright_as_in_cycles(exported, lamp):

@@ -292,14 +292,16 @@ def test_what_has_no_counterpart_is_named():
     file = GltfFile()
     file.node(mesh=file.mesh(None, mode=gl.LINES))
     colours = file.accessor(np.full((4, 4), 0.5, np.float32))
-    paint = file.material(baseColorTexture=file.texture(CODES))
+    paint = file.material(
+        baseColorTexture=file.texture(CODES), doubleSided=True, emissiveFactor=[1, 1, 1]
+    )
     file.node(mesh=file.mesh(paint, COLOR_0=colours))
     file.gltf.animations.append(gl.Animation())
     with pytest.warns(UserWarning, match=r"a\.glb: ") as found:
         scene = mlt.load(file.save("a.glb"), size=SIZE)
     said = " ".join(str(warning.message) for warning in found)
     coloured = "colours of vertices", "alpha of vertices"
-    for word in ("points and lines", *coloured, "animations", "no camera", "no light"):
+    for word in ("points and lines", *coloured, "animations", "no camera", "side of their normals"):
         assert word in said
     assert (mlt.render(scene, "path", spp=4) > 0.1).any()
 

@@ -76,7 +76,7 @@ def masked(surface: dict[str, Any], material: Any, textures: Textures) -> dict[s
     return {"type": "mask", "opacity": opacity, "bsdf": surface}
 
 
-def emission(material: Any, textures: Textures) -> dict[str, Any] | None:
+def emission(material: Any, textures: Textures, made: Imported) -> dict[str, Any] | None:
     """The area light of a material that glows.
 
     Its strength is taken as radiance, not as nits: Blender writes and reads it as it is.
@@ -86,6 +86,8 @@ def emission(material: Any, textures: Textures) -> dict[str, Any] | None:
     strength = number(extension.get("emissiveStrength", 1), "emissiveStrength")
     if not any(factor) or not strength:
         return None
+    if material.doubleSided:
+        made.warn("double-sided materials that glow do so on the side of their normals alone")
     radiance = [strength * value for value in factor]
     if material.emissiveTexture is None:
         return {"type": "area", "radiance": rgb(radiance)}

@@ -133,7 +133,8 @@ class Reader:
                 self._meshes[key] = self._made.mesh(wanted, triangles)
             shape = self._meshes[key] | {"to_world": to_world, "bsdf": self._bsdf(primitive)}
             if primitive.material is not None:
-                glow = emission(self._material(primitive.material), self._textures)
+                material = self._material(primitive.material)
+                glow = emission(material, self._textures, self._made)
                 if glow:
                     shape["emitter"] = glow
             self._made.add(name, shape)
