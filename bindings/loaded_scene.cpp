@@ -20,10 +20,11 @@ using Size = std::optional<std::pair<int, int>>;
 using Sensor = std::optional<int64_t>;
 using Defines = std::map<std::string, Text>;
 
-LoadOptions load_options(const Size& size, const Sensor& sensor, const Defines& defines = {},
-                         std::optional<bool> lenient = {}) {
+LoadOptions load_options(const Size& size, const Sensor& sensor, const std::string& filter,
+                         const Defines& defines = {}, std::optional<bool> lenient = {}) {
   LoadOptions options;
   options.sensor = sensor;
+  options.filter = filter;
   options.lenient = lenient;
   options.defines.insert(defines.begin(), defines.end());
   if (size) options.size = Vec2i(size->first, size->second);
@@ -38,29 +39,32 @@ LoadedScene warned(LoadedScene loaded) {
 }
 
 LoadedScene from_file(const Text& path, const Defines& defines, const Size& size,
-                      std::optional<bool> lenient, const Sensor& sensor) {
-  return warned(load_file(path, plugins(), load_options(size, sensor, defines, lenient)));
+                      std::optional<bool> lenient, const Sensor& sensor,
+                      const std::string& filter) {
+  return warned(load_file(path, plugins(), load_options(size, sensor, filter, defines, lenient)));
 }
 
 LoadedScene from_string(const Text& xml, const Text& directory, const Defines& defines,
-                        const Size& size, std::optional<bool> lenient, const Sensor& sensor) {
+                        const Size& size, std::optional<bool> lenient, const Sensor& sensor,
+                        const std::string& filter) {
   return warned(
-      load_string(xml, directory, plugins(), load_options(size, sensor, defines, lenient)));
+      load_string(xml, directory, plugins(), load_options(size, sensor, filter, defines, lenient)));
 }
 
 /// `built_in` and `defines` name a scene of the Python package, so that a checkpoint can.
 LoadedScene scene_from_dict(const py::dict& dict, const Size& size, const Sensor& sensor,
-                            const std::string& built_in, const Defines& defines) {
+                            const std::string& filter, const std::string& built_in,
+                            const Defines& defines) {
   const Node node = to_node(dict, "scene", "scene", plugins());
   if (node.type != "scene")
     throw SceneError("scene: 'type' is '" + node.type + "', but should be 'scene'");
   const ReleasedGil release;
-  LoadedScene loaded = build_scene(node, plugins(), load_options(size, sensor));
+  LoadedScene loaded = build_scene(node, plugins(), load_options(size, sensor, filter));
   if (const std::string problem = integrator_problem(loaded, plugins()); !problem.empty())
     throw SceneError(problem);
   if (!built_in.empty())
     loaded.source = {SceneSource::Kind::built_in, built_in, "",
-                     load_options(size, sensor, defines)};
+                     load_options(size, sensor, filter, defines)};
   return loaded;
 }
 
@@ -142,11 +146,11 @@ void bind_scene(py::module_& m) {
       .def("__repr__", &describe_scene);
 
   m.def("load_file", &from_file, py::arg("path"), py::arg("defines"), py::arg("size"),
-        py::arg("lenient"), py::arg("sensor"), NoGil());
+        py::arg("lenient"), py::arg("sensor"), py::arg("filter"), NoGil());
   m.def("load_string", &from_string, py::arg("xml"), py::arg("directory"), py::arg("defines"),
-        py::arg("size"), py::arg("lenient"), py::arg("sensor"), NoGil());
+        py::arg("size"), py::arg("lenient"), py::arg("sensor"), py::arg("filter"), NoGil());
   m.def("load_dict", &scene_from_dict, py::arg("dict"), py::arg("size"), py::arg("sensor"),
-        py::arg("built_in") = "", py::arg("defines") = Defines());
+        py::arg("filter"), py::arg("built_in") = "", py::arg("defines") = Defines());
 }
 
 }  // namespace mlt::python

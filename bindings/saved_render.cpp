@@ -21,8 +21,8 @@ struct PyCheckpoint {
     if (saved.scene.kind != SceneSource::Kind::built_in) return py::none();
     std::optional<std::pair<int, int>> size;
     if (const auto& asked = saved.scene.options.size) size = {asked->x, asked->y};
-    return py::make_tuple(saved.scene.name, saved.scene.options.defines, size,
-                          saved.scene.options.sensor);
+    const LoadOptions& options = saved.scene.options;
+    return py::make_tuple(saved.scene.name, options.defines, size, options.sensor, options.filter);
   }
   LoadedPtr load(const Text& moved_to) const {
     return std::make_shared<LoadedScene>(load_scene(saved, path, moved_to, plugins()));
@@ -42,8 +42,9 @@ void bind_checkpoint(py::module_& m) {
       .def(py::init<const Text&>(), py::arg("path"), NoGil())
       .def_readonly("integrator", &PyCheckpoint::made)
       .def_property_readonly("seed", [](const PyCheckpoint& c) { return c.saved.seed; })
-      .def_property_readonly("built_in", &PyCheckpoint::built_in,
-                             "(name, defines, size, sensor) of a scene of the package, or None.")
+      .def_property_readonly(
+          "built_in", &PyCheckpoint::built_in,
+          "(name, defines, size, sensor, filter) of a scene of the package, or None.")
       .def("load_scene", &PyCheckpoint::load, py::arg("moved_to"), NoGil())
       .def("check", &PyCheckpoint::check, py::arg("scene"), NoGil(),
            "Raises SceneError unless it is the checkpoint's scene.")

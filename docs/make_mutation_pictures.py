@@ -2,7 +2,7 @@
 
 For each mutation: a path x of a scene in black, and what the mutation makes of it, coloured by
 the probability of accepting it. On the left in the image, on the right in the scene, which is drawn
-as the points where sampled paths have their vertices. Needs matplotlib: `pip install pymlt[plots]`.
+as the points where sampled paths have their vertices. Needs matplotlib.
 """
 
 import sys

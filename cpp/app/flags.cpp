@@ -96,6 +96,10 @@ const std::vector<Flag>& render_flags() {
        Flag::fixed_by_resume},
       {"sensor", "--sensor", "N", &sensor, "which of the scene's sensors, counted from 0",
        Flag::fixed_by_resume},
+      {"filter", "--filter", "NAME", &any_text,
+       "reconstruction filter, in place of the scene's own: box, tent, gaussian, mitchell, "
+       "catmullrom, lanczos",
+       Flag::fixed_by_resume},
       {"lenient", "--lenient", "", nullptr,
        "leave out unknown parameters of the scene with a warning, as in files of Mitsuba 0.x",
        Flag::fixed_by_resume},

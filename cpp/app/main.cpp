@@ -20,6 +20,7 @@
 
 #include <unistd.h>
 
+#include <cmath>
 #include <csignal>
 #include <cstdlib>
 #include <exception>
@@ -136,6 +137,17 @@ void print_warnings(const Stats& stats, size_t known = 0) {
   for (size_t i = known; i < stats.warnings.size(); ++i) say("warning: {}", stats.warnings[i]);
 }
 
+/// What was done, and how good it is.
+std::string summary(const Stats& stats) {
+  std::string error;
+  if (std::isfinite(stats.error))
+    error = fmt::format(stats.error >= 0.1 ? ", error {:.0f} %" : ", error {:.2g} %",
+                        100 * stats.error);
+  return fmt::format("{}, {} x {}, {:.4g} spp in {:.1f} s{}", stats.integrator, stats.width,
+                     stats.height, stats.spp_done, stats.seconds_bootstrap + stats.seconds_render,
+                     error);
+}
+
 int run(Options options) {
   for (const std::string& path : options.outputs) check_writable(path);
   if (!options.stats.empty()) check_file_writable(options.stats);
@@ -177,8 +189,7 @@ int run(Options options) {
   const Outputs outputs = save(options, {job.image(), job.layers()}, stats, write);
   if (failure) std::rethrow_exception(failure);
   if (!options.quiet)
-    say("{}{} x {}, {:.4g} spp in {:.1f} s: {}", signal ? "interrupted; " : "", stats.width,
-        stats.height, stats.spp_done, stats.seconds_bootstrap + stats.seconds_render,
+    say("{}{}: {}", signal ? "interrupted; " : "", summary(stats),
         outputs.images.empty() ? "no image could be saved"
                                : fmt::format("{}", fmt::join(outputs.images, ", ")));
   if (!outputs.complete) return 3;

@@ -42,6 +42,7 @@ Options read_options(const FlagValues& given) {
     options.load.size = Vec2i(width, height);
   for (const uint64_t sensor : all<uint64_t>(given, "sensor"))
     options.load.sensor = static_cast<int64_t>(sensor);
+  text("filter", options.load.filter);
   if (given.count("lenient") && given.count("strict"))
     throw UsageError("--lenient and --strict exclude each other");
   if (given.count("lenient")) options.load.lenient = true;

@@ -51,6 +51,16 @@ Node asking_for(Node scene, int64_t sensor) {
   return scene;
 }
 
+/// Gives all films this reconstruction filter, and a film to sensors that have none.
+void use_filter(Node& node, const std::string& filter) {
+  const auto is_film = [](const Node& n) { return n.family == "film" || n.family == "ref"; };
+  auto& children = node.children;
+  if (node.family == "film") children = {Node{"rfilter", filter, "", "", node.where, {}, {}}};
+  if (node.family == "sensor" && std::none_of(children.begin(), children.end(), is_film))
+    children.push_back({"film", "hdrfilm", "", "", node.where, {}, {}});
+  for (Node& child : children) use_filter(child, filter);
+}
+
 const Node& chosen_sensor(const Node& scene, std::vector<std::string>& warnings) {
   std::vector<const Node*> sensors;
   for (const Node& child : scene.children)
@@ -163,6 +173,10 @@ LoadedScene build_scene(const Node& tree, const Registry& registry, const LoadOp
   const auto start = Clock::now();
   LoadedScene loaded;
   loaded.tree = options.sensor ? asking_for(tree, *options.sensor) : tree;
+  if (!options.filter.empty()) {
+    registry.find("rfilter", options.filter, {});
+    use_filter(loaded.tree, options.filter);
+  }
   const Node& scene = loaded.tree;
   if (scene.family != "scene")
     throw SceneError(at(scene.where, "the root is a {}, but should be a scene", scene.family));

@@ -20,6 +20,7 @@ struct LoadOptions {
   /// without, they are in files of Mitsuba 0.x.
   std::optional<bool> lenient;
   std::optional<int64_t> sensor;  ///< Which of several sensors, counted from 0; else the first.
+  std::string filter;             ///< The reconstruction filter that replaces that of films.
 };
 
 /// How a scene was asked for, so that a checkpoint can ask for it again.

@@ -35,6 +35,7 @@ void save(ByteWriter& bytes, const SceneSource& scene) {
   bytes.write(scene.options.size);
   bytes.write(scene.options.lenient);
   bytes.write(scene.options.sensor);
+  bytes.write(scene.options.filter);
 }
 
 SceneSource load_source(ByteReader& bytes) {
@@ -46,6 +47,7 @@ SceneSource load_source(ByteReader& bytes) {
   bytes.read(scene.options.size);
   bytes.read(scene.options.lenient);
   bytes.read(scene.options.sensor);
+  bytes.read(scene.options.filter);
   return scene;
 }
 

@@ -2,7 +2,6 @@
 
 #include "image/atomic_file.h"
 #include "mlt_version.h"
-#include "render/technique_pyramid.h"
 
 #include <fmt/format.h>
 
@@ -89,10 +88,6 @@ void write_render(const std::string& path, const RenderedImage& render,
   std::vector<ExrLayer> layers = {{"", render.image}};
   for (const NamedImage& layer : render.layers) layers.push_back({layer.name, layer.image});
   write_image(path, layers, options);
-  fs::path beside(path);
-  if (beside.extension() != ".png") return;
-  if (const auto pyramid = technique_pyramid(render.layers, options.exposure))
-    write_png(beside.replace_extension(".techniques.png").string(), *pyramid);
 }
 
 Saved save_render(const std::string& path, const RenderedImage& render,

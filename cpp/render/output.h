@@ -30,8 +30,7 @@ struct RenderedImage {
   std::vector<NamedImage> layers;
 };
 
-/// Writes the image by extension. EXR files hold the layers too; beside NAME.png the techniques of
-/// a bidirectional render go to NAME.techniques.png as one picture.
+/// Writes the image by extension. EXR files hold the layers too.
 void write_render(const std::string& path, const RenderedImage& render,
                   const WriteOptions& options);
 

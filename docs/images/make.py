@@ -11,12 +11,12 @@ race          what pymlt race -o race.png draws
 """
 
 import sys
-import tempfile
 from pathlib import Path
 
 import numpy as np
 
 import pymlt as mlt
+from pymlt.pictures.techniques import technique_figure
 from pymlt.race.cpu_time import render_for
 
 HERE = Path(__file__).parent
@@ -56,9 +56,7 @@ def two_families():
 def strategies():
     scene = mlt.load_dict(mlt.scenes.glass_ball(), size=(96, 96))
     result = mlt.start(scene, mlt.BDPT(max_depth=5, techniques=True), spp=192).result()
-    with tempfile.TemporaryDirectory() as folder:
-        result.write(Path(folder) / "table.png", exposure=1)
-        (HERE / "strategies.png").write_bytes((Path(folder) / "table.techniques.png").read_bytes())
+    technique_figure(result.techniques, exposure=1).savefig(HERE / "strategies.png", dpi=100)
 
 
 def tone_curves():

@@ -39,11 +39,12 @@ from .diagnostics.mixing import Convergence, convergence
 from .formats.files import convert
 from .images import read_image, read_metadata, write_image
 from .pictures.denoising import denoise
+from .pictures.techniques import Technique
 from .pictures.tonemapping import tonemap
 from .rendering.job import Job
 from .rendering.merging import merge
 from .rendering.preview import preview as _preview
-from .rendering.result import Groups, Replay, Result, Technique
+from .rendering.result import Groups, Replay, Result
 from .rendering.start import render, render_progressive, replay, resume, start
 from .scenes.loading import load, load_dict, load_file, load_string
 from .scenes.transforms import Transform

@@ -427,7 +427,9 @@ class Checkpoint:
     @property
     def seed(self) -> int: ...
     @property
-    def built_in(self) -> tuple[str, dict[str, str], tuple[int, int] | None, int | None] | None: ...
+    def built_in(
+        self,
+    ) -> tuple[str, dict[str, str], tuple[int, int] | None, int | None, str] | None: ...
     def load_scene(self, moved_to: str) -> Scene: ...
     def check(self, scene: Scene) -> None: ...
     def resume(self, job: Job) -> None: ...
@@ -506,6 +508,7 @@ def load_file(
     size: tuple[int, int] | None,
     lenient: bool | None,
     sensor: int | None,
+    filter: str,
 ) -> Scene: ...
 def load_string(
     xml: str,
@@ -514,11 +517,13 @@ def load_string(
     size: tuple[int, int] | None,
     lenient: bool | None,
     sensor: int | None,
+    filter: str,
 ) -> Scene: ...
 def load_dict(
     dict: dict,
     size: tuple[int, int] | None,
     sensor: int | None,
+    filter: str,
     built_in: str = "",
     defines: dict[str, str] = {},
 ) -> Scene: ...

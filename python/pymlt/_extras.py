@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import importlib
+import shlex
+from importlib.metadata import requires
 from typing import Any
 
 from . import _core
@@ -13,4 +15,11 @@ def import_extra(module: str, extra: str, what: str) -> Any:
     try:
         return importlib.import_module(module)
     except ImportError:
-        raise _core.UsageError(f"{what} needs `pip install 'pymlt[{extra}]'`") from None
+        packages = shlex.join(requirements(extra))
+        raise _core.UsageError(f"{what} needs `pip install {packages}`") from None
+
+
+def requirements(extra: str) -> list[str]:
+    """The packages of an extra. `pymlt[extra]` itself may not be on an index."""
+    marked = [given.split("; ") for given in requires("pymlt") or []]
+    return [package for package, *marker in marked if marker == [f'extra == "{extra}"']]

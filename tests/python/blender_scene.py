@@ -1,6 +1,10 @@
-"""Run by Python with `bpy`: exports a scene as glTF, and writes what its camera sees by Blender."""
+"""Run by Python with `bpy`: exports a scene as glTF, and writes what its camera sees by Blender.
+
+Also Blender's default cube below one lamp at a time, with the picture of Cycles.
+"""
 
 import json
+import math
 import sys
 from pathlib import Path
 
@@ -62,13 +66,49 @@ def seen():
     return found
 
 
+def build_cube(lamp):
+    bpy.ops.wm.read_factory_settings()
+    bpy.context.scene.world.node_tree.nodes["Background"].inputs["Strength"].default_value = 0
+    light = bpy.data.objects["Light"]
+    if lamp == "glow":
+        bpy.data.objects.remove(light)
+        glow = material("glow", Emission_Color=(1, 0.8, 0.5, 1), Emission_Strength=20.0)
+        # Both faces of a mesh glow in Blender, the outer one here: this plane looks at the cube.
+        turned = {"location": (4, 1, 6), "rotation": (math.pi, 0, 0)}
+        add(bpy.ops.mesh.primitive_plane_add, size=2, surface=glow, **turned)
+        return
+    light.data.type = lamp
+    light.rotation_euler = (-light.location).to_track_quat("-Z", "Y").to_euler()
+    if lamp == "SUN":
+        bpy.data.lights["Light"].energy = 3
+
+
+def render(path):
+    scene = bpy.context.scene
+    scene.render.engine, scene.cycles.samples = "CYCLES", 64
+    scene.cycles.use_denoising = scene.cycles.use_adaptive_sampling = False
+    scene.render.threads_mode, scene.render.threads = "FIXED", 1
+    scene.render.resolution_x, scene.render.resolution_y = 64, 36
+    scene.render.image_settings.file_format = "OPEN_EXR"
+    scene.render.filepath = str(path)
+    bpy.ops.render.render(write_still=True)
+
+
+def export(path, kind="GLB"):
+    bpy.ops.export_scene.gltf(
+        filepath=str(path), export_format=kind, export_cameras=True, export_lights=True
+    )
+
+
 def main(folder: Path) -> None:
     build()
     for kind, name in (("GLB", "scene.glb"), ("GLTF_SEPARATE", "scene.gltf")):
-        bpy.ops.export_scene.gltf(
-            filepath=str(folder / name), export_format=kind, export_cameras=True, export_lights=True
-        )
+        export(folder / name, kind)
     (folder / "seen.json").write_text(json.dumps(seen()))
+    for lamp in ("POINT", "SUN", "SPOT", "glow"):
+        build_cube(lamp)
+        render(folder / f"{lamp}.exr")
+        export(folder / f"{lamp}.glb")
 
 
 main(Path(sys.argv[1]))

@@ -136,6 +136,8 @@ USAGE = {
     "-D unknown": (["scene.xml", *OUT, "-D", "rse=3"], "rse"),
     "-D without value": (["scene.xml", *OUT, "-D", "res"], "res"),
     "integrator": (["scene.xml", *OUT, "--integrator", "pssmtl"], "did you mean 'pssmlt'?"),
+    "filter": (["scene.xml", *OUT, "--filter", "bxo"], "did you mean 'box'?"),
+    "resume with a filter": ([*OUT, "--resume", "x", "--filter", "box"], "--filter"),
     "missing scene": (["nowhere.xml", *OUT], "nowhere.xml"),
     "two scenes": (["scene.xml", "scene.xml", *OUT], "scene.xml"),
 }
@@ -177,6 +179,28 @@ def test_the_largest_seed_is_a_seed(program, scene):
     seed = 2**64 - 1
     assert run(program, scene, *OUT, "--spp", 1, "--seed", seed).returncode == 0
     assert mlt.read_metadata("a.exr")["seed"] == str(seed)
+
+
+def test_the_last_line_says_what_was_done_and_how_good_it_is(program, scene):
+    flags = ["--integrator", "path", "--spp", 64, "--quiet", "-o", "a.exr", "--stats", "a.json"]
+    assert run(program, scene, *flags).stderr == ""
+    flags.remove("--quiet")
+    said = run(program, scene, *flags).stderr.splitlines()[-1].partition(": ")[2]
+    stats = json.loads(Path("a.json").read_text())
+    error = f"{100 * stats['error']:.2g}"
+    assert re.fullmatch(rf"path, 16 x 12, 64 spp in \d+\.\d s, error {error} %: a\.exr", said)
+
+
+@pytest.mark.parametrize(
+    ("error", "said"),
+    [(0.0412, ", error 4.1 %"), (0.0997, ", error 10 %"), (1.234, ", error 123 %"), (None, "")],
+)
+def test_a_result_says_the_same(error, said):
+    stats = {"spp_done": 305.0, "seconds": {"bootstrap": 1.0, "render": 59.04}, "error": error}
+    result = mlt.Result(np.zeros((36, 64, 3)), stats, {"type": "mlt"}, {}, {})
+    assert repr(result) == f"Result(mlt, 64 x 36, 305 spp in 60.0 s{said})"
+    result = mlt.Result(np.zeros((36, 64, 3)), {"spp_done": 6.0}, {"type": "mlt"}, {}, {})
+    assert repr(result) == "Result(mlt, 64 x 36, 6 spp)"
 
 
 def test_both_programs_have_the_same_flags():

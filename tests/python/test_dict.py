@@ -271,3 +271,14 @@ def test_an_animation_that_is_wrong_is_refused(keys, message):
     tree["ball"]["to_world"] = {"type": "animation"} | keys
     with pytest.raises(mlt.SceneError, match=re.escape(message)):
         mlt.load_dict(tree)
+
+
+def test_a_negative_index_of_a_metal_is_taken_without_its_sign():
+    metal = '<bsdf type="conductor" id="clay">\n<rgb name="eta" value="{}0.04, 0.9, 1.2"/></bsdf>'
+    clay = '<bsdf type="diffuse" id="clay"><rgb name="reflectance" value="0.7, 0.4, 0.2"/></bsdf>'
+    assert clay in tiny.XML
+    scenes = [mlt.load_string(tiny.XML.replace(clay, metal.format(sign))) for sign in ("-", "")]
+    line = tiny.XML[: tiny.XML.index(clay)].count("\n") + 1
+    (warning,) = scenes[0].warnings
+    assert warning.startswith(f"<string>:{line}: bsdf 'conductor': 'eta' is negative")
+    assert np.array_equal(pixels(scenes[0]), pixels(scenes[1]))

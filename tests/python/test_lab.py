@@ -65,4 +65,4 @@ def test_without_matplotlib_it_says_what_to_install(capsys, monkeypatch):
     monkeypatch.setitem(sys.modules, "matplotlib", None)
     monkeypatch.delitem(sys.modules, "matplotlib.pyplot", raising=False)
     assert cli.main(["lab", "parabola"]) == 2
-    assert "pip install 'pymlt[plots]'" in capsys.readouterr().err
+    assert "pip install 'matplotlib>=" in capsys.readouterr().err

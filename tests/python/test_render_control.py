@@ -230,7 +230,7 @@ except KeyboardInterrupt as error:
     out, _ = process.communicate(timeout=20)
     assert time.perf_counter() - start < 3
     assert process.returncode == 0
-    assert out.splitlines()[-1].startswith("Result(320 x 240, 'path', ")
+    assert out.splitlines()[-1].startswith("Result(path, 320 x 240, ")
     assert out.splitlines()[-1].endswith("True")
 
 

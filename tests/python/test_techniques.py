@@ -1,5 +1,6 @@
 """The table of strategies: an image for each technique (s, t), raw and weighted."""
 
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -8,6 +9,7 @@ import tiny
 from test_cli import PYMLT, mlt_render, run
 
 import pymlt as mlt
+from pymlt.pictures.techniques import technique_figure
 
 
 @pytest.fixture(scope="module")
@@ -48,16 +50,54 @@ def test_an_exr_holds_them_as_layers(result, tmp_path):
             assert np.array_equal(layer, getattr(technique, kind))
 
 
-def test_a_png_has_the_pyramid_beside_it(result, tmp_path):
-    result.write(tmp_path / "a.png", exposure=1)
+@pytest.mark.parametrize("write", [mlt.Result.write, mlt.Result.save], ids=["write", "save"])
+def test_a_png_has_the_table_beside_it(result, tmp_path, write):
+    pytest.importorskip("matplotlib")
+    write(result, tmp_path / "a.png", exposure=1)
     assert sorted(p.name for p in tmp_path.iterdir()) == ["a.png", "a.techniques.png"]
-    pyramid = mlt.read_image(tmp_path / "a.techniques.png")
-    assert pyramid.shape[0] > 2 * 3 * 12  # two blocks of three rows
-    assert pyramid[0, 0] == pytest.approx(1)  # on white
+    table = mlt.read_image(tmp_path / "a.techniques.png")
+    assert table[0, 0] == pytest.approx(1)  # on white
     other = tmp_path / "b"
     other.mkdir()
-    result.write(other / "a.png")
-    assert mlt.read_image(other / "a.techniques.png").mean() < pyramid.mean()
+    write(result, other / "a.png")
+    assert mlt.read_image(other / "a.techniques.png").mean() < table.mean()
+
+
+def test_the_table_has_light_vertices_down_and_camera_vertices_across(result):
+    pytest.importorskip("matplotlib")
+    for axes in technique_figure(result.techniques, 0).axes:
+        places = {tuple(np.mean(np.reshape(a.get_extent(), (2, 2)), axis=1)) for a in axes.images}
+        # No light walk hits a pinhole, which is t = 0, j = -1.
+        assert places == {(t - 1, s - 1) for s, t in result.techniques if t > 0}
+        assert (axes.get_xlabel(), axes.get_ylabel()) == ("camera vertex j", "light vertex i")
+        assert axes.get_xticks().tolist() == [0, 1, 2, 3]
+        assert axes.get_yticks().tolist() == [-1, 0, 1, 2]
+        assert axes.yaxis_inverted()
+    hit = result.techniques | {(2, 0): mlt.Technique(result.image, result.image)}
+    assert technique_figure(hit, 0).axes[0].get_xticks()[0] == -1
+
+
+def test_the_images_are_the_right_way_up(result):
+    pytest.importorskip("matplotlib")
+    raw, _ = technique_figure(result.techniques, 1).axes
+    (shown,) = [a for a in raw.images if np.mean(a.get_extent()[:2]) == 1
+                and np.mean(a.get_extent()[2:]) == 0]  # fmt: skip
+    light = np.clip(2 * result.techniques[1, 2].raw, 0, 1)
+    assert np.argmax(shown.get_array().sum(axis=(1, 2))) == np.argmax(light.sum(axis=(1, 2)))
+    assert shown.get_extent()[2] > shown.get_extent()[3]  # row 0 on top
+    assert raw.get_aspect() == pytest.approx(light.shape[0] / light.shape[1])
+
+
+def test_without_matplotlib_the_image_is_written_and_the_table_is_missed(
+    result, tmp_path, monkeypatch
+):
+    monkeypatch.setitem(sys.modules, "matplotlib.figure", None)
+    where, problem = result._save(tmp_path / "a.png")
+    assert Path(where).exists()
+    assert "the picture of the techniques needs `pip install 'matplotlib" in problem
+    with pytest.raises(mlt.UsageError, match="pip install 'matplotlib"):
+        result.write(tmp_path / "b.png")
+    assert (tmp_path / "b.png").exists()
 
 
 def test_an_ordinary_png_is_alone(tmp_path):
@@ -73,6 +113,6 @@ def test_both_programs_write_the_same_techniques(tmp_path, monkeypatch):
     for name, command in {"a": [*PYMLT, "render"], "b": binary}.items():
         done = run(command, *flags, "--spp", 4, "-o", f"{name}.exr", "-o", f"{name}.png")
         assert done.returncode == 0, done.stderr
-    for suffix in ".exr", ".png", ".techniques.png":
+    for suffix in ".exr", ".png":
         assert Path(f"a{suffix}").read_bytes() == Path(f"b{suffix}").read_bytes()
     assert mlt.read_image("b.exr", "weighted.s1.t2").max() > 0

@@ -15,7 +15,7 @@ import pymlt as mlt
 from pymlt.cli import main
 from pymlt.pictures.tonemapping import encode_srgb, tonemap
 
-viser = pytest.importorskip("viser", reason="the view needs viser (pip install 'pymlt[view]')")
+viser = pytest.importorskip("viser", reason="the view needs viser (pip install viser)")
 
 from pymlt.viewing import lecture_examples, path_tables, shown, walk, world  # noqa: E402
 from pymlt.viewing.camera import Pose, SceneCamera  # noqa: E402
@@ -41,7 +41,7 @@ def test_bad_arguments_are_one_line(capsys, tmp_path):
 
 def test_without_the_extra_one_line_says_how_to_install_it(monkeypatch):
     monkeypatch.setitem(sys.modules, "viser", None)
-    with pytest.raises(mlt.UsageError, match=r"pip install 'pymlt\[view\]'"):
+    with pytest.raises(mlt.UsageError, match="pip install 'viser>="):
         mlt.view(tiny.scene())
 
 

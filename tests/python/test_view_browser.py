@@ -13,7 +13,7 @@ import pytest
 
 import pymlt as mlt
 
-pytest.importorskip("viser", reason="the view needs viser (pip install 'pymlt[view]')")
+pytest.importorskip("viser", reason="the view needs viser (pip install viser)")
 playwright = pytest.importorskip("playwright.sync_api", reason="playwright drives the browser")
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")

@@ -14,7 +14,7 @@ from listening import listeners
 
 import pymlt as mlt
 
-viser = pytest.importorskip("viser", reason="the view needs viser (pip install 'pymlt[view]')")
+viser = pytest.importorskip("viser", reason="the view needs viser (pip install viser)")
 
 from pymlt.viewing.gate import is_local, listening_socket  # noqa: E402
 

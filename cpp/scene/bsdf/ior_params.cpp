@@ -17,11 +17,13 @@ double ior_param(Params& params, const std::string& name) {
   return ior;
 }
 
-/// A component of a complex index: a number, an RGB triple or a spectrum, none negative.
+/// A component of a complex index: a number, an RGB triple or a spectrum. The colour of a metal that is
+/// out of gamut may be negative; Mitsuba 3 has only its square in the Fresnel equations.
 Color index_param(Params& params, const std::string& name) {
   const Color color = to_color(params, name, SpectrumUse::unbounded);
-  if (!(min_component(color) >= 0)) params.fail(name, "must not be negative");
-  return color;
+  if (min_component(color) < 0)
+    params.warn("'" + name + "' is negative; it is taken without its sign, as in Mitsuba 3");
+  return glm::abs(color);
 }
 
 }  // namespace

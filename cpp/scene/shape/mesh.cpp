@@ -27,6 +27,8 @@ ObjectPtr create_mesh(Params& params) {
   data.triangles = buffer<std::array<uint32_t, 3>>(params, "faces");
   data.normals = buffer<Vec3f>(params, "normals");
   data.uvs = buffer<Vec2f>(params, "uv");
+  if (params.has("vertex_color"))
+    data.attributes.push_back({"vertex_color", false, 3, buffer<float>(params, "vertex_color")});
   check_mesh(data, params.where());
   return mesh_from_data(params, std::move(data));
 }
@@ -40,7 +42,9 @@ Plugin shape_mesh() {
           concat({{{"vertices", ParamType::buffer, no_default, "Positions: float32, (n, 3)."},
                    {"faces", ParamType::buffer, no_default, "Corners: uint32, (m, 3)."},
                    {"normals", ParamType::buffer, no_default, "Of the vertices: float32, (n, 3)."},
-                   {"uv", ParamType::buffer, no_default, "Texture coordinates: float32, (n, 2)."}},
+                   {"uv", ParamType::buffer, no_default, "Texture coordinates: float32, (n, 2)."},
+                   {"vertex_color", ParamType::buffer, no_default,
+                    "Linear colours for the texture mesh_attribute: float32, (n, 3)."}},
                   normals_parameters()})),
       create_mesh};
 }

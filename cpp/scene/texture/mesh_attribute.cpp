@@ -73,7 +73,7 @@ class MeshAttributeTexture final : public Texture, public ShapeReader {
 
 Plugin texture_mesh_attribute() {
   return make_plugin<MeshAttributeTexture>(
-      "texture", "mesh_attribute", "An attribute of the mesh, from its PLY file.",
+      "texture", "mesh_attribute", "An attribute of the mesh, from its PLY file or an array.",
       {{"name", ParamType::text, no_default,
         "Such as vertex_color (interpolated) or face_color (one for each face)."},
        {"scale", ParamType::real, 1.0, "Multiplies the values."}});

@@ -101,20 +101,22 @@ def built_in_name(text: str) -> str | None:
 def load_scene(args) -> _core.Scene:
     """The file or the built-in scene that the arguments `scene`, `defines` and so on mean."""
     defines, size = dict(args.defines), getattr(args, "size", None)
-    sensor = getattr(args, "sensor", None)
+    sensor, filter = getattr(args, "sensor", None), getattr(args, "filter", None)
     if os.path.exists(args.scene) and is_foreign(args.scene):
         if args.lenient or args.strict or defines:
             raise _core.UsageError(f"{args.scene}: -D, --lenient and --strict are for Mitsuba XML")
-        scene, found = load_foreign(args.scene, size, sensor)
+        scene, found = load_foreign(args.scene, size, sensor, filter or "")
         warn([f"{args.scene}: {text}" for text in found])
         return scene
     if os.path.exists(args.scene):
         if args.lenient and args.strict:
             raise _core.UsageError("--lenient and --strict exclude each other")
         lenient = args.lenient or (False if args.strict else None)
-        return load_file(args.scene, size=size, lenient=lenient, sensor=sensor, **defines)
+        return load_file(
+            args.scene, size=size, lenient=lenient, sensor=sensor, filter=filter, **defines
+        )
     if name := built_in_name(args.scene):
-        return load_built_in(name, defines, size, sensor)
+        return load_built_in(name, defines, size, sensor, filter)
     if "." in args.scene or os.sep in args.scene:
         raise _core.FileError(f"{args.scene}: there is no such file")
     raise _core.UsageError(

@@ -10,6 +10,7 @@ from functools import partial
 from typing import TYPE_CHECKING, NamedTuple
 
 from .. import _core
+from .._extras import import_extra
 from ..algorithms.integrator import as_integrator
 from ..rendering.progress import progress_bar
 from .common import FLAGS, add_flag, emit, load_scene, reader, say, warn
@@ -190,6 +191,8 @@ def check(args) -> None:
             "for each scene, - for none"
         )
     for path in args.output:
+        if path.lower().endswith(".html"):
+            import_extra("matplotlib", "plots", "the page of a race")
         if path.lower().endswith((".html", ".json")):
             _core.check_file_writable(path)
         else:

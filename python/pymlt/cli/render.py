@@ -41,7 +41,8 @@ def add_arguments(command) -> None:
     command.add_argument(
         "--denoise",
         action="store_true",
-        help="remove noise by Open Image Denoise; an .exr keeps the image as its layer noisy",
+        help="remove noise by Open Image Denoise; the filter is box, unless --filter names one; "
+        "an .exr keeps the image as its layer noisy",
     )
 
 
@@ -67,6 +68,8 @@ def start(args, signals: Signals) -> Job:
     )
     if args.denoise and options.aovs is None:
         options.aovs = GUIDES
+    if args.denoise and args.filter is None:
+        args.filter = "box"
     if args.resume:
         if args.scene and not os.path.exists(args.scene) and not built_in_name(args.scene):
             raise _core.FileError(f"{args.scene}: there is no such file")
@@ -106,7 +109,8 @@ def run(args) -> int:
             warn(result.stats["warnings"][len(known) :])
         images, complete = save(args, result)
     if not args.quiet:
-        say(("interrupted; " if code else "") + summary(result, images))
+        where = ", ".join(images) or "no image could be saved"
+        say(f"{'interrupted; ' if code else ''}{result._summary()}: {where}")
     return code if complete else 3
 
 
@@ -115,7 +119,7 @@ def doubts(args, job: Job) -> list[str]:
     if args.denoise and job.filter != "box":
         return [
             f"the filter {job.filter!r} spreads noise over several pixels, and --denoise leaves "
-            "such noise; use the filter 'box'"
+            "such noise; use --filter box"
         ]
     return []
 
@@ -144,12 +148,3 @@ def save(args, result: Result) -> tuple[list[str], bool]:
     for problem in problems:
         say(problem)
     return images, not problems
-
-
-def summary(result: Result, images: list[str]) -> str:
-    stats = result.stats
-    width, height = stats["size"]
-    seconds = stats["seconds"]["bootstrap"] + stats["seconds"]["render"]
-    spp = stats["spp_done"]
-    where = ", ".join(images) or "no image could be saved"
-    return f"{width} x {height}, {spp:.4g} spp in {seconds:.1f} s: {where}"

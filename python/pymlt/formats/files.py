@@ -54,13 +54,17 @@ def reader_of(path: Path) -> Callable[[Path, Imported], None]:
 
 
 def load_foreign(
-    path: str | os.PathLike[str], size: tuple[int, int] | None = None, sensor: int | None = None
+    path: str | os.PathLike[str],
+    size: tuple[int, int] | None = None,
+    sensor: int | None = None,
+    filter: str = "",
 ) -> tuple[_core.Scene, list[str]]:
     """The Scene of a file of another program, and what of it has no counterpart."""
     made = read_foreign(path)
     # A checkpoint knows the scene by this name.
     name = os.path.abspath(path)
-    return _core.load_dict(with_bytes(made.scene), size, sensor, name, {}), made.warnings
+    scene = _core.load_dict(with_bytes(made.scene), size, sensor, filter, name, {})
+    return scene, made.warnings
 
 
 def convert(path: str | os.PathLike[str], output: str | os.PathLike[str]) -> list[str]:

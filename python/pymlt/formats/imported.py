@@ -60,7 +60,7 @@ class Imported:
         if faces.size and not 0 <= faces.min() <= faces.max() < count:
             raise _core.SceneError(f"{wanted}: a triangle has a vertex that does not exist")
         shape = {"type": "mesh", "vertices": mesh.positions, "faces": faces}
-        optional = {"normals": mesh.normals, "uv": mesh.uvs}
+        optional = {"normals": mesh.normals, "uv": mesh.uvs, "vertex_color": mesh.colours}
         return shape | {key: given for key, given in optional.items() if given is not None}
 
 

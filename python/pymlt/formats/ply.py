@@ -18,13 +18,19 @@ class Mesh(NamedTuple):
     triangles: np.ndarray  #: indices of vertices, (triangles, 3)
     normals: np.ndarray | None = None  #: (vertices, 3)
     uvs: np.ndarray | None = None  #: (vertices, 2)
+    colours: np.ndarray | None = None  #: (vertices, 3)
 
 
 def write_ply(path: Path, mesh: Mesh) -> None:
     """Raises FileError if the file cannot be written."""
     import numpy as np
 
-    columns = {"xyz": mesh.positions, ("nx", "ny", "nz"): mesh.normals, "uv": mesh.uvs}
+    columns = {
+        "xyz": mesh.positions,
+        ("nx", "ny", "nz"): mesh.normals,
+        "uv": mesh.uvs,
+        "rgb": mesh.colours,
+    }
     present = {names: values for names, values in columns.items() if values is not None}
     count = len(mesh.positions)
     header = ["ply", "format binary_little_endian 1.0", f"element vertex {count}"]

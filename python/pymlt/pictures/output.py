@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import io
 import os
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from .. import _core
 from .jpeg import encode_jpeg, is_jpeg
+from .techniques import technique_figure, techniques_of
 from .tonemapping import check_tonemap, tonemap
 
 if TYPE_CHECKING:
@@ -32,6 +34,7 @@ class OutputFile(NamedTuple):
             _core.replace_file(self.path, encode_jpeg(self.image, self.curve, self.exposure))
         else:
             _core.write_image(*self._arguments())
+            self._draw_techniques(self.path)
 
     def save(self) -> tuple[str, str]:
         """The same, elsewhere if that fails.
@@ -41,15 +44,27 @@ class OutputFile(NamedTuple):
         if is_jpeg(self.path):
             content = encode_jpeg(self.image, self.curve, self.exposure)
             return _core.save_text(self.path, content)
-        return _core.save_image(*self._arguments())
+        where, problem = _core.save_image(*self._arguments())
+        try:
+            self._draw_techniques(where)
+        except _core.Error as error:
+            return where, "; ".join(filter(None, [problem, str(error)]))
+        return where, problem
+
+    def _draw_techniques(self, path: str) -> None:
+        """Beside NAME.png writes NAME.techniques.png, if there are techniques among the layers."""
+        stem, extension = os.path.splitext(path)
+        if extension.lower() == ".png" and (techniques := techniques_of(self.layers)):
+            picture = io.BytesIO()
+            technique_figure(techniques, self.exposure).savefig(picture, format="png")
+            _core.replace_file(f"{stem}.techniques.png", picture.getvalue())
 
     def _arguments(self) -> tuple[Any, ...]:
         check_extension(self.path)
         image, exposure = self.image, self.exposure
         check_tonemap(self.curve)
         if self.curve != "srgb" and self.path.lower().endswith(".png"):
-            # C++ brightens again, also the picture of the techniques beside it; powers of 2 are
-            # exact.
+            # C++ brightens again; powers of 2 are exact.
             image = tonemap(image, self.curve, exposure=exposure) * 2.0**-exposure
             image = image.astype("float32")
         return self.path, image, self.layers, self.metadata, self.half, exposure

@@ -11,7 +11,7 @@ import numpy as np
 
 from .. import _core
 from ..pictures.tonemapping import check_tonemap
-from .chart import Series, colour, error_chart, level_chart
+from .chart import COLOURS, Series, embedded, error_chart, level_chart
 from .insets import Inset
 from .pictures import drawing, error_map, exact, fitting_exposure, photograph, shows_flip
 from .table import Column, columns, heading, notes, summary
@@ -101,7 +101,8 @@ def _cell(column: Column, row: int) -> str:
 
 
 def _badge(index: int) -> str:
-    return f'<b class="badge" style="background:{colour(index)}">{index + 1}</b>'
+    paint = f"var(--c{index % len(COLOURS)})"
+    return f'<b class="badge" style="background:{paint}">{index + 1}</b>'
 
 
 # ---- charts ------------------------------------------------------------------------------------
@@ -109,17 +110,14 @@ def _badge(index: int) -> str:
 
 def _charts(result: RaceResult) -> str:
     ranked = [(result.entries.index(entry), entry) for entry in result.ranked]
-    found = [
-        error_chart([_errors(i, entry, metric) for i, entry in ranked], title)
-        for metric, title in (
-            ("relmse", "relMSE over time"),
-            ("trimmed", "trimmed relMSE over time"),
-        )
-    ]
     mean = float(result.scale.mean())
-    levels = [_levels(i, entry, mean) for i, entry in ranked]
     axis = "mean of the image / mean of the " + _standard(result)
-    return "".join([*found, level_chart(levels, "level of each image", axis)])
+    charts = {
+        "relMSE over time": error_chart([_errors(i, e, "relmse") for i, e in ranked]),
+        "trimmed relMSE over time": error_chart([_errors(i, e, "trimmed") for i, e in ranked]),
+        "level of each image": level_chart([_levels(i, e, mean) for i, e in ranked], axis),
+    }
+    return "".join(embedded(figure, title) for title, figure in charts.items() if figure)
 
 
 def _standard(result: RaceResult) -> str:
@@ -130,7 +128,7 @@ def _standard(result: RaceResult) -> str:
 def _errors(index: int, entry: Entry, metric: str) -> Series:
     known = [(s.seconds, getattr(s, metric)) for s in entry.scores if s is not None]
     points = [(seconds, mean.value, mean.error) for seconds, mean in known if mean is not None]
-    return Series(index, entry.label, points)
+    return Series(index, points)
 
 
 def _levels(index: int, entry: Entry, mean: float) -> Series:
@@ -139,7 +137,7 @@ def _levels(index: int, entry: Entry, mean: float) -> Series:
     single: list[tuple[float, float, float | None]] = [
         (run.seed, float(np.mean(run.image, dtype=np.float64)) / mean, None) for run in entry.runs
     ]
-    return Series(index, entry.label, [*single, (0.0, level.value, level.error)])
+    return Series(index, [*single, (0.0, level.value, level.error)])
 
 
 # ---- pictures ----------------------------------------------------------------------------------

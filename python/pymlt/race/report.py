@@ -59,6 +59,8 @@ class Report:
 
         exposure, tonemap
             how images are shown, as `write_image` has them; None brightens them as suits the scene.
+
+        Needs the extra `plots`.
         """
         from .page import page
 

@@ -38,7 +38,7 @@ class RenderOptions:
     cluster
         where to render: a `dask.distributed` client or cluster, the address of one
         ("tcp://host:8786"), or "local:N" for N processes of this machine. None is this process.
-        The bootstrap runs here. The pixels are the same. Needs `pymlt[cluster]`.
+        The bootstrap runs here. The pixels are the same. Needs the extra `cluster`.
     """
 
     spp: float | None = None

@@ -10,17 +10,11 @@ from .. import _core
 from ..pictures.denoising import denoise_with_layers
 from ..pictures.notebook import figure, png
 from ..pictures.output import OutputFile
+from ..pictures.techniques import Technique, techniques_of
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import ArrayLike
-
-
-class Technique(NamedTuple):
-    """The image of one technique (s, t) of bidirectional path tracing."""
-
-    raw: np.ndarray  #: what it finds alone, without weights
-    weighted: np.ndarray  #: what it brings to the render
 
 
 @dataclass
@@ -62,13 +56,7 @@ class Result:
 
         A path of technique (s, t) has s vertices from the light and t from the camera.
         """
-        found = {}
-        for name, weighted in self.layers.items():
-            kind, *numbers = name.split(".")
-            if kind == "weighted":
-                s, t = (int(number[1:]) for number in numbers)
-                found[s, t] = Technique(self.layers[f"raw.s{s}.t{t}"], weighted)
-        return found
+        return techniques_of(self.layers)
 
     def denoise(
         self, *, albedo: ArrayLike | None = None, normal: ArrayLike | None = None
@@ -92,7 +80,8 @@ class Result:
     ) -> None:
         """Write the image to .exr (settings, seed and version in its header), .hdr, .png or .jpg.
 
-        An .exr holds the layers too; beside NAME.png, NAME.techniques.png shows the techniques.
+        An .exr holds the layers too; beside NAME.png, NAME.techniques.png shows the techniques, if
+        there are any, for which it needs the extra `plots`.
         `exposure` brightens .png and .jpg by so many stops, `tonemap` names their curve ("srgb",
         "reinhard", "filmic"; see `pymlt.tonemap`). Raises FileError if it cannot be written,
         UsageError for an unknown curve or extension.
@@ -126,9 +115,18 @@ class Result:
         return figure(self.image, repr(self))
 
     def __repr__(self) -> str:
+        return f"Result({self._summary()})"
+
+    def _summary(self) -> str:
+        """What was done, and how good it is, in the words of mlt-render."""
         height, width = self.image.shape[:2]
-        spp = self.stats["spp_done"]
-        return f"Result({width} x {height}, {self.integrator['type']!r}, {spp:g} spp)"
+        done = f"{self.integrator['type']}, {width} x {height}, {self.stats['spp_done']:.4g} spp"
+        if seconds := self.stats.get("seconds"):  # not of a merged one
+            done += f" in {seconds['bootstrap'] + seconds['render']:.1f} s"
+        error = self.stats.get("error")
+        if error is not None:
+            done += f", error {100 * error:{'.0f' if error >= 0.1 else '.2g'}} %"
+        return done
 
 
 class Groups(NamedTuple):

@@ -88,8 +88,8 @@ def saved_job(path: str, scene: SceneLike | None, options: RenderOptions) -> Job
         scene = as_scene(scene)
         saved.check(scene)
     elif saved.built_in and is_foreign(saved.built_in[0]):
-        name, _, size, sensor = saved.built_in
-        scene, _ = load_foreign(name if scene is None else scene, size, sensor)
+        name, _, *options_of_scene = saved.built_in
+        scene, _ = load_foreign(name if scene is None else scene, *options_of_scene)
         saved.check(scene)
     elif saved.built_in and names_built_in(scene, saved.built_in[0]):
         scene = load_built_in(*saved.built_in)

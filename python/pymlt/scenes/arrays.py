@@ -1,10 +1,11 @@
 """Arrays in scene dicts: meshes, textures and environment maps that are in memory already.
 
-A mesh is `{"type": "mesh", "vertices": (n, 3), "faces": (m, 3), "normals": (n, 3), "uv": (n, 2)}`,
-or an object with `vertices` and `faces`, such as a `trimesh.Trimesh`, in the place of a shape. An
-image is `{"type": "bitmap", "data": (height, width[, channels])}`; `envmap` takes `data` too. Both
-also take the bytes of an image file. The core gets arrays as bytes: so they are part of the scene
-where it is hashed, pickled, saved in a checkpoint or sent to a cluster.
+A mesh is `{"type": "mesh", "vertices": (n, 3), "faces": (m, 3), "normals": (n, 3), "uv": (n, 2),
+"vertex_color": (n, 3)}`, of which only the first two are needed, or an object with `vertices` and
+`faces`, such as a `trimesh.Trimesh`, in the place of a shape. An image is `{"type": "bitmap",
+"data": (height, width[, channels])}`; `envmap` takes `data` too. Both also take the bytes of an
+image file. The core gets arrays as bytes: so they are part of the scene where it is hashed,
+pickled, saved in a checkpoint or sent to a cluster.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
 # Deeper dicts, and those that contain themselves, are left to the core, which refuses them.
 MOST_LEVELS = 64
 
-MESH_BUFFERS = {"vertices": 3, "faces": 3, "normals": 3, "uv": 2}
+MESH_BUFFERS = {"vertices": 3, "faces": 3, "normals": 3, "uv": 2, "vertex_color": 3}
 IMAGES = ("bitmap", "envmap")
 
 

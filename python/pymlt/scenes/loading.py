@@ -12,7 +12,7 @@ from .arrays import with_bytes
 SceneLike = _core.Scene | dict | str | os.PathLike
 
 
-def load(path, /, *, size=None, lenient=None, sensor=None, **defines) -> _core.Scene:
+def load(path, /, *, size=None, lenient=None, sensor=None, filter=None, **defines) -> _core.Scene:
     """Load a scene from a file of any known format, which its extension tells.
 
     .gltf, .glb
@@ -23,58 +23,77 @@ def load(path, /, *, size=None, lenient=None, sensor=None, **defines) -> _core.S
         Mitsuba XML; see `load_file` for `lenient` and `defines`, which only these files have.
 
     `size` is the image's (width, height) in pixels, `sensor` says which of several cameras is
-    meant. What a file of another program has and a Mitsuba scene cannot say is named in a warning
-    of Python. Raises FileError, SceneError and UsageError, as `load_file` and `convert` do.
+    meant, `filter` names another reconstruction filter. What a file of another program has and a
+    Mitsuba scene cannot say is named in a warning of Python. Raises FileError, SceneError and
+    UsageError, as `load_file` and `convert` do.
     """
     from ..formats.files import is_foreign, load_foreign, warn_all
 
     if not is_foreign(path):
-        return load_file(path, size=size, lenient=lenient, sensor=sensor, **defines)
+        return load_file(path, size=size, lenient=lenient, sensor=sensor, filter=filter, **defines)
     if defines or lenient is not None:
         raise _core.UsageError(f"{os.fspath(path)}: only Mitsuba XML has defines and is lenient")
-    scene, found = load_foreign(path, _size(size), _sensor(sensor))
+    scene, found = load_foreign(path, _size(size), _sensor(sensor), _filter(filter))
     warn_all(path, found)
     return scene
 
 
-def load_file(path, /, *, size=None, lenient=None, sensor=None, **defines) -> _core.Scene:
+def load_file(
+    path, /, *, size=None, lenient=None, sensor=None, filter=None, **defines
+) -> _core.Scene:
     """Load a Mitsuba XML scene.
 
     `defines` are values for the scene's <default> parameters (`resx=640`); `size` is the image's
     (width, height) in pixels, in place of the film's own. Unknown parameters and integrators are
     left out with a warning if `lenient`, refused if not; by default (None) the former in files of
     Mitsuba 0.x, the latter in files of Mitsuba 2 and 3. `sensor` says which of several sensors is
-    meant, counted from 0; None is the first one. Raises FileError for files that cannot be read,
-    SceneError (with file and line) for what is wrong in them, UsageError for the arguments.
+    meant, counted from 0; None is the first one. `filter` names a reconstruction filter ("box") in
+    place of the film's own. Raises FileError for files that cannot be read, SceneError (with file
+    and line) for what is wrong in them, UsageError for the arguments.
     """
-    return _core.load_file(os.fspath(path), _texts(defines), _size(size), lenient, _sensor(sensor))
+    return _core.load_file(
+        os.fspath(path),
+        _texts(defines),
+        _size(size),
+        lenient,
+        _sensor(sensor),
+        _filter(filter),
+    )
 
 
 def load_string(
-    xml: str, /, *, directory=".", size=None, lenient=None, sensor=None, **defines
+    xml: str, /, *, directory=".", size=None, lenient=None, sensor=None, filter=None, **defines
 ) -> _core.Scene:
     """Load a scene from a string of Mitsuba XML; file names in it are relative to `directory`.
 
     Otherwise as `load_file`.
     """
     return _core.load_string(
-        xml, os.fspath(directory), _texts(defines), _size(size), lenient, _sensor(sensor)
+        xml,
+        os.fspath(directory),
+        _texts(defines),
+        _size(size),
+        lenient,
+        _sensor(sensor),
+        _filter(filter),
     )
 
 
-def load_dict(scene: dict, /, *, size=None, sensor=None) -> _core.Scene:
+def load_dict(scene: dict, /, *, size=None, sensor=None, filter=None) -> _core.Scene:
     """Load a scene from a Mitsuba 3 dict.
 
     Transforms may be `Transform`, Mitsuba's own, numpy arrays or nested lists; file names are
     relative to the current directory. Meshes, textures and environment maps may be arrays; see
-    `pymlt.scenes.arrays`. `size`, `sensor` and errors are those of `load_file`.
+    `pymlt.scenes.arrays`. `size`, `sensor`, `filter` and errors are those of `load_file`.
     """
     if not isinstance(scene, dict):
         raise _core.UsageError(f"load_dict needs a dict, not a {type(scene).__name__}")
-    return _core.load_dict(with_bytes(scene), _size(size), _sensor(sensor))
+    return _core.load_dict(with_bytes(scene), _size(size), _sensor(sensor), _filter(filter))
 
 
-def load_built_in(name: str, defines: dict[str, str], size=None, sensor=None) -> _core.Scene:
+def load_built_in(
+    name: str, defines: dict[str, str], size=None, sensor=None, filter=None
+) -> _core.Scene:
     """Load a scene of this package by its name; `defines` are its parameters, as texts."""
     function = getattr(scenes, name)
     known = inspect.signature(function).parameters
@@ -85,7 +104,7 @@ def load_built_in(name: str, defines: dict[str, str], size=None, sensor=None) ->
                 + _core.suggestion(define, list(known)),
             )
     scene = function(**{key: _number(value) for key, value in defines.items()})
-    return _core.load_dict(scene, _size(size), _sensor(sensor), name, defines)
+    return _core.load_dict(scene, _size(size), _sensor(sensor), _filter(filter), name, defines)
 
 
 def _number(text: str) -> int | float | str:
@@ -118,6 +137,12 @@ def _sensor(sensor) -> int | None:
     except TypeError:
         pass
     raise _core.UsageError(f"sensor is {sensor!r}, but should be an integer")
+
+
+def _filter(filter) -> str:
+    if filter is None or isinstance(filter, str):
+        return filter or ""
+    raise _core.UsageError(f"filter is {filter!r}, but should be a name, such as 'box'")
 
 
 def _texts(defines: dict) -> dict[str, str]:

@@ -88,7 +88,8 @@ TEST(BsdfParameters, Metals) {
   EXPECT_GT(gold.y, gold.z);
   EXPECT_THAT(error_of("conductor", {{"material", "Gold"s}}), HasSubstr("Gold"));
   EXPECT_THAT(error_of("conductor", {{"material", "Au"s}, {"eta", 1.0}}), HasSubstr("material"));
-  EXPECT_THAT(error_of("conductor", {{"k", -1.0}}), HasSubstr("negative"));
+  const BsdfPtr negative = make_bsdf("conductor", {{"eta", -1.5}, {"k", -2.0}, {"ext_eta", 1.2}});
+  EXPECT_EQ(value_at_normal(negative, Lobe::reflection), value_at_normal(metal, Lobe::reflection));
 }
 
 TEST(BsdfParameters, Roughness) {

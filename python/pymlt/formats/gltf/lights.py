@@ -12,6 +12,9 @@ from .checked import number
 if TYPE_CHECKING:
     import numpy as np
 
+#: PBR_WATTS_TO_LUMENS of Blender's exporter and importer, io_scene_gltf2/blender/com/conversion.py.
+LUMENS_PER_WATT = 683
+
 
 def sensor(camera: Any, to_world: np.ndarray) -> dict[str, Any]:
     """A perspective or orthographic camera, with a film of its aspect ratio."""
@@ -34,9 +37,9 @@ def sensor(camera: Any, to_world: np.ndarray) -> dict[str, Any]:
 
 
 def light(given: dict[str, Any], to_world: np.ndarray, made: Imported) -> dict[str, Any]:
-    """A light without size. Lux and candela are taken as power per area and per solid angle."""
+    """A light without size. Lux and candela become watts per area and per solid angle."""
     colour = list(given.get("color", (1, 1, 1)))[:3]
-    intensity = number(given.get("intensity", 1), "the intensity of a light")
+    intensity = number(given.get("intensity", 1), "the intensity of a light") / LUMENS_PER_WATT
     power = [intensity * number(c, "the color of a light") for c in colour]
     if given.get("range"):
         made.warn("the range of lights is left out: they obey the inverse square")

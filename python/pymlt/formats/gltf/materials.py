@@ -19,14 +19,15 @@ KNOWN = {
 }
 
 
-def bsdf(material: Any, textures: Textures, made: Imported) -> dict[str, Any]:
-    """The BSDF of a material."""
+def bsdf(material: Any, textures: Textures, made: Imported, *, of_vertices: bool) -> dict[str, Any]:
+    """The BSDF of a material, whose base colour may be multiplied by colours of vertices."""
     extensions = material.extensions or {}
     for name in sorted(set(extensions) - KNOWN):
         made.warn(f"{name} is left out")
     if material.occlusionTexture is not None:
         made.warn("occlusion textures are left out: what they stand for is rendered")
     surface = principled(material, extensions, textures)
+    surface["base_color"] = base_color(material.pbrMetallicRoughness, textures, of_vertices)
     transmits = "spec_trans" in surface
     if material.normalTexture is not None:
         if (material.normalTexture.scale or 1) != 1:
@@ -38,15 +39,19 @@ def bsdf(material: Any, textures: Textures, made: Imported) -> dict[str, Any]:
     return masked(surface, material, textures)
 
 
+def base_color(pbr: Any, textures: Textures, of_vertices: bool) -> dict[str, Any]:
+    """A factor times a texture or the colours of vertices."""
+    factor = list(pbr.baseColorFactor or [1, 1, 1, 1]) if pbr else [1, 1, 1, 1]
+    return textures.colour(pbr.baseColorTexture if pbr else None, factor, of_vertices=of_vertices)
+
+
 def principled(material: Any, extensions: dict[str, Any], textures: Textures) -> dict[str, Any]:
-    """Metal, roughness, transmission and clear coat."""
+    """Metal, roughness, transmission and clear coat, still without a base colour."""
     pbr = material.pbrMetallicRoughness
     given: dict[str, Any] = {"type": "principled", "eta": 1.5}
     if ior := extensions.get("KHR_materials_ior"):
         given["eta"] = max(number(ior.get("ior", 1.5), "ior"), 1.001)
     packed = pbr.metallicRoughnessTexture if pbr else None
-    factor = list(pbr.baseColorFactor or [1, 1, 1, 1]) if pbr else [1, 1, 1, 1]
-    given["base_color"] = textures.colour(pbr.baseColorTexture if pbr else None, factor)
     given["roughness"] = textures.channel(packed, 1, _number(pbr, "roughnessFactor"))
     given["metallic"] = textures.channel(packed, 2, _number(pbr, "metallicFactor"))
     if transmission := extensions.get("KHR_materials_transmission", {}).get("transmissionFactor"):
@@ -71,13 +76,18 @@ def masked(surface: dict[str, Any], material: Any, textures: Textures) -> dict[s
     return {"type": "mask", "opacity": opacity, "bsdf": surface}
 
 
-def emission(material: Any, textures: Textures) -> dict[str, Any] | None:
-    """The area light of a material that glows; its factor in nits is taken as radiance."""
+def emission(material: Any, textures: Textures, made: Imported) -> dict[str, Any] | None:
+    """The area light of a material that glows.
+
+    Its strength is taken as radiance, not as nits: Blender writes and reads it as it is.
+    """
     factor = list(material.emissiveFactor or [0, 0, 0])
     extension = (material.extensions or {}).get("KHR_materials_emissive_strength", {})
     strength = number(extension.get("emissiveStrength", 1), "emissiveStrength")
     if not any(factor) or not strength:
         return None
+    if material.doubleSided:
+        made.warn("double-sided materials that glow do so on the side of their normals alone")
     radiance = [strength * value for value in factor]
     if material.emissiveTexture is None:
         return {"type": "area", "radiance": rgb(radiance)}

@@ -26,18 +26,20 @@ def triangle_mesh(primitive: Any, buffers: Buffers, made: Imported) -> Mesh | No
     if attributes.POSITION is None:
         made.warn("a mesh without positions is left out")
         return None
-    if attributes.COLOR_0 is not None:
-        made.warn("colours of vertices (COLOR_0) are left out")
     positions = buffers.array(attributes.POSITION)
     if primitive.indices is None:
         corners = np.arange(len(positions))
     else:
         corners = buffers.array(primitive.indices)[:, 0].astype(np.int64)
-    normals, uvs = (
+    normals, uvs, colours = (
         None if index is None else buffers.array(index)
-        for index in (attributes.NORMAL, attributes.TEXCOORD_0)
+        for index in (attributes.NORMAL, attributes.TEXCOORD_0, attributes.COLOR_0)
     )
-    return Mesh(positions, triangles_of(corners, mode), normals, uvs)
+    if colours is not None:
+        if (colours[:, 3:] < 1).any():
+            made.warn("the alpha of vertices (COLOR_0) is left out")
+        colours = colours[:, :3]
+    return Mesh(positions, triangles_of(corners, mode), normals, uvs, colours)
 
 
 def triangles_of(corners: np.ndarray, mode: int) -> np.ndarray:

@@ -73,7 +73,7 @@ class Reader:
         self._made = made
         self._buffers = Buffers(gltf, path)
         self._textures = Textures(self._buffers, made)
-        self._materials: dict[int, str] = {}
+        self._materials: dict[tuple[int, bool], str] = {}
         self._seen: set[int] = set()  #: nodes
         self._meshes: dict[tuple[int, int], dict[str, Any]] = {}
 
@@ -133,7 +133,8 @@ class Reader:
                 self._meshes[key] = self._made.mesh(wanted, triangles)
             shape = self._meshes[key] | {"to_world": to_world, "bsdf": self._bsdf(primitive)}
             if primitive.material is not None:
-                glow = emission(self._material(primitive.material), self._textures)
+                material = self._material(primitive.material)
+                glow = emission(material, self._textures, self._made)
                 if glow:
                     shape["emitter"] = glow
             self._made.add(name, shape)
@@ -143,14 +144,16 @@ class Reader:
 
     def _bsdf(self, primitive: Any) -> dict[str, Any]:
         """A reference to the material, which is added with its first use."""
-        if primitive.material is None:
-            return {"type": "twosided", "bsdf": {"type": "diffuse", "reflectance": 1.0}}
-        index = primitive.material
-        if index not in self._materials:
+        index, coloured = primitive.material, primitive.attributes.COLOR_0 is not None
+        if index is None:
+            white = self._textures.colour(None, [1, 1, 1], of_vertices=coloured)
+            return {"type": "twosided", "bsdf": {"type": "diffuse", "reflectance": white}}
+        key = (index, coloured)
+        if key not in self._materials:
             material = self._material(index)
-            surface = bsdf(material, self._textures, self._made)
-            self._materials[index] = self._made.add(material.name or f"material-{index}", surface)
-        return {"type": "ref", "id": self._materials[index]}
+            surface = bsdf(material, self._textures, self._made, of_vertices=coloured)
+            self._materials[key] = self._made.add(material.name or f"material-{index}", surface)
+        return {"type": "ref", "id": self._materials[key]}
 
 
 def local_matrix(node: Any) -> np.ndarray:

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
 WRAP = {33071: "clamp", 33648: "mirror", 10497: "repeat"}
 NEAREST = 9728
+VERTEX_COLOURS = {"type": "mesh_attribute", "name": "vertex_color"}
 
 
 class Textures:
@@ -30,14 +31,23 @@ class Textures:
         self._images: dict[int, bytes] = {}
         self._channels: dict[tuple[Any, ...], np.ndarray] = {}
 
-    def colour(self, info: Any, factor: list[float]) -> dict[str, Any]:
-        """A colour texture (sRGB-encoded) times a factor, or the factor alone."""
-        if info is None:
+    def colour(
+        self, info: Any, factor: list[float], *, of_vertices: bool = False
+    ) -> dict[str, Any]:
+        """A colour texture (sRGB-encoded), or the colours of vertices, times a factor."""
+        if info is None and not of_vertices:
             return rgb(factor[:3])
-        bitmap = self._bitmap(info, self._image(info))
+        if info is None:
+            texture = VERTEX_COLOURS
+        else:
+            texture = self._bitmap(info, self._image(info))
+            if of_vertices:
+                self._made.warn(
+                    "colours of vertices (COLOR_0) are left out where the base colour is a texture"
+                )
         if factor[:3] == [1, 1, 1]:
-            return bitmap
-        return {"type": "scale", "scale": rgb(factor[:3]), "texture": bitmap}
+            return texture
+        return {"type": "scale", "scale": rgb(factor[:3]), "texture": texture}
 
     def raw(self, info: Any) -> dict[str, Any]:
         """A texture of numbers, such as normals."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from contextlib import ExitStack
 
 from ... import _core
+from ..._extras import import_extra
 from .local import local_cluster
 
 CONNECT_SECONDS = 15
@@ -22,12 +23,7 @@ class Connection:
             raise
 
     def _connect(self, cluster):
-        try:
-            from distributed import Client
-        except ImportError:
-            raise _core.UsageError(
-                "a cluster needs dask.distributed; pip install 'pymlt[cluster]'"
-            ) from None
+        Client = import_extra("distributed", "cluster", "a cluster").Client
         if isinstance(cluster, Client):
             if cluster.asynchronous:
                 raise _core.UsageError("the cluster's client is asynchronous; make another one")
