@@ -9,6 +9,7 @@ import numpy as np
 
 from .. import _core
 from ..algorithms.integrator import IntegratorLike
+from ..rendering.result import Result
 from ..rendering.start import start
 from .metrics import target_luminance
 
@@ -22,7 +23,7 @@ class Calibration:
     integrator: str
     true: float  #: root of relMSE, over all renders
     claimed: float  #: root of the mean square of `stats["error"]`
-    warned: float  #: the share of the renders that do not rely on what they claim
+    warned: float  #: the share of `claimed` squared that is of renders which warn of their claim
 
     @property
     def ratio(self) -> float:
@@ -54,11 +55,17 @@ def calibrate(
     truth = sum(means) / sum(weights)
     scale = truth**2 + 0.01 * truth.mean() ** 2
     return [
-        Calibration(
-            own[0].stats["integrator"],
-            float(np.sqrt((image.var(axis=0, ddof=1) / scale).mean())),
-            float(np.sqrt(np.mean([result.stats["error"] ** 2 for result in own]))),
-            float(np.mean([any(WARNING in w for w in r.stats["warnings"]) for r in own])),
-        )
+        _calibration(own, float(np.sqrt((image.var(axis=0, ddof=1) / scale).mean())))
         for own, image in zip(runs, images, strict=True)
     ]
+
+
+def _calibration(results: list[Result], true: float) -> Calibration:
+    squares = np.array([result.stats["error"] ** 2 for result in results])
+    warned = [any(WARNING in text for text in result.stats["warnings"]) for result in results]
+    return Calibration(
+        results[0].stats["integrator"],
+        true,
+        float(np.sqrt(squares.mean())),
+        float(squares[warned].sum() / squares.sum()),
+    )
