@@ -93,14 +93,14 @@ docs: build $(STAMPS)/docs
 # Both suites run, whatever the first one says.
 test: build
 	@status=0; \
-	$(CTEST) -j $(JOBS) -LE '^long$$' || status=1; \
+	$(CTEST) -j $(JOBS) -LE '^long$$' --timeout 300 || status=1; \
 	$(BIN)/python -m pytest || status=1; \
 	exit $$status
 
 # The tests that take minutes; SHARD=2/4 runs the second of four parts.
 test-long: build
 	@status=0; \
-	$(CTEST) -j $(JOBS) -L '^long$$' -I $(subst /,$(comma)$(comma),$(SHARD)) || status=1; \
+	$(CTEST) -j $(JOBS) -L '^long$$' -I $(subst /,$(comma)$(comma),$(SHARD)) --timeout 3600 || status=1; \
 	$(BIN)/python -m pytest -m long --timeout 3600 --shard=$(SHARD) || status=1; \
 	exit $$status
 comma := ,
