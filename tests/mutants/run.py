@@ -1,18 +1,23 @@
-"""Injects the bugs of mutants.toml, one at a time, and asks whether the tests find them.
+"""Injects bugs, one at a time, and asks whether the tests find them.
 
     make mutants                                       all of them, for hours
     make mutants SHARD=2/4                             the second of four parts
     make mutants MUTANTS="phong_pdf projector_time"    these alone
 
+The files *.toml list them: `old` stands once in `file`, and `new` takes its place. `tests` are
+those that are asked first: a regular expression for ctest, which begins with a folder of tests/cpp,
+or a file of pytest. docs/mutants.md says what each bug breaks.
+
 Everything happens in a copy of the tree, build/mutants, which keeps what it has built. A bug is
-found by the first test that fails: one of those that the list names, else one of all short C++
-tests, else one of pytest's. The exit code is 1 if one survives, 2 for a wrong input.
+found by the first test that fails: one that the list names, else one of all short C++ tests, else
+one of pytest's. The exit code is 1 if one survives, 2 for a wrong input.
 """
 
 from __future__ import annotations
 
 import argparse
 import filecmp
+import itertools
 import os
 import re
 import shutil
@@ -42,7 +47,7 @@ class Mutant:
     file: str
     old: str
     new: str
-    tests: str  # That are asked first.
+    tests: str
 
     def check(self, root: Path) -> str:
         """The text of its file, in which `old` stands once."""
@@ -63,14 +68,15 @@ class Mutant:
 
 
 def read_list() -> list[Mutant]:
-    tables = tomllib.loads((Path(__file__).parent / "mutants.toml").read_text())["mutant"]
-    return [Mutant(**table) for table in tables]
+    lists = sorted(Path(__file__).parent.glob("*.toml"))
+    tables = (tomllib.loads(path.read_text())["mutant"] for path in lists)
+    return [Mutant(**table) for table in itertools.chain(*tables)]
 
 
 def choose(mutants: list[Mutant], names: list[str], shard: str) -> list[Mutant]:
     known = {mutant.name: mutant for mutant in mutants}
     if unknown := [name for name in names if name not in known]:
-        raise MutantError(f"there is no mutant '{unknown[0]}' in tests/mutants/mutants.toml")
+        raise MutantError(f"there is no mutant '{unknown[0]}' in tests/mutants")
     index, slash, count = shard.partition("/")
     digits = slash and index.isdigit() and count.isdigit()
     if not digits or not 1 <= int(index) <= int(count):
@@ -146,7 +152,7 @@ def ctest(pattern: str) -> str:
         return ""
     failed = re.search(r"^\s+\d+ - (\S+) ", output, re.MULTILINE)
     if not failed:
-        raise MutantError(f"ctest runs no test that matches '{pattern}': see {LOG}")
+        raise MutantError(f"ctest ('{pattern}') fails, but names no test: see {LOG}")
     return failed[1]
 
 

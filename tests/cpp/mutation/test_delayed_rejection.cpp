@@ -8,10 +8,10 @@ MutationPtr perturbation(const std::string& name, const PathTarget& target, doub
   return make_mutation(name, target, {{"largest_share", share}});
 }
 
-/// Says T(x -> y) wrongly where a second stage asks for it, but not where its own proposal is judged.
-class WrongInSecondStage : public Mutation {
+/// The same as another one, but for what a test changes.
+class Changed : public Mutation {
  public:
-  explicit WrongInSecondStage(MutationPtr whole)
+  explicit Changed(MutationPtr whole)
       : Mutation(whole->name(), whole->target()), whole_(std::move(whole)) {}
 
   double suitability(const PathState& x) const override { return whole_->suitability(x); }
@@ -20,7 +20,7 @@ class WrongInSecondStage : public Mutation {
     return whole_->propose(x, y, context);
   }
   double density(const PathState& x, const PathState& y, const Edit& edit) const override {
-    return whole_->density(x, y, edit) * std::exp(5 * x.raster.x);
+    return whole_->density(x, y, edit);
   }
   double relative_density(const PathState& x, const PathState& y, const Edit& edit) const override {
     return whole_->relative_density(x, y, edit);
@@ -28,6 +28,23 @@ class WrongInSecondStage : public Mutation {
 
  private:
   MutationPtr whole_;
+};
+
+/// Says T(x -> y) wrongly where a second stage asks for it, but not where its own proposal is judged.
+class WrongInSecondStage : public Changed {
+ public:
+  using Changed::Changed;
+  double density(const PathState& x, const PathState& y, const Edit& edit) const override {
+    return Changed::density(x, y, edit) * std::exp(5 * x.raster.x);
+  }
+};
+
+class MoreOnTheRight : public Changed {
+ public:
+  using Changed::Changed;
+  double suitability(const PathState& x) const override {
+    return Changed::suitability(x) * (x.raster.x > 8 ? 9 : 0.2);
+  }
 };
 
 AuditReport audit_two_stages(const PathTarget& target, const MutationPtr& bold,
@@ -70,6 +87,20 @@ TEST(DelayedRejectionOfPaths, NeedsTheDensityOfTheFirstStage) {
   const auto wrong = std::make_shared<WrongInSecondStage>(perturbation("lens", target, 0.5));
   const AuditReport report = audit_two_stages(target, wrong, "lens", 200000, 1e-4);
   EXPECT_EQ(report.verdict, Verdict::wrong) << report.text();
+}
+
+TEST(DelayedRejectionOfPaths, KnowsHowOftenTheFirstStageIsChosen) {
+  const ScenePtr scene = make_mutation_scene("cornell").scene;
+  const PathTarget target = path_target(scene);
+  const Mutations bold = {std::make_shared<MoreOnTheRight>(perturbation("lens", target, 0.5)),
+                          perturbation("lens", target, 0.1)};
+  const auto weights = std::make_shared<MixtureWeights>(std::vector<double>{1.0, 1.0});
+  AuditSettings how;
+  how.paths = 60000;
+  how.significance = 1e-5;
+  const AuditReport report =
+      audit(target, PathMixture(bold, weights, {perturbation("lens", target, 0.3), nullptr}), how);
+  EXPECT_EQ(report.verdict, Verdict::right) << report.text();
 }
 
 TEST(DelayedRejectionOfPaths, FindsMovesWhereTheFirstStageFails) {
