@@ -162,14 +162,14 @@ def base_python() -> Path:
 
 
 def pytest(*files: str) -> str:
-    build(["_core"])
+    build(["_core", "mlt-render"])
     for module in BUILD.glob("_core.*.so"):
         shutil.copy(module, TREE / "python" / "pymlt")
     path = os.pathsep.join([str(TREE / "python"), sysconfig.get_path("purelib")])
     ok, output = run(
         [base_python(), "-m", "pytest", "-x", *files],
         cwd=TREE,
-        env={**os.environ, "PYTHONPATH": path},
+        env={**os.environ, "PYTHONPATH": path, "MLT_RENDER": str(BUILD / "mlt-render")},
     )
     if ok:
         return ""
