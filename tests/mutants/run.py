@@ -188,7 +188,7 @@ def first_tests(tests: str) -> str:
 
 def all_tests() -> str:
     build(["all"])
-    return ctest("") or pytest()
+    return ctest(".") or pytest()
 
 
 # ---- the hunt
