@@ -33,8 +33,8 @@ export PIP_DISABLE_PIP_VERSION_CHECK = 1
 
 .DEFAULT_GOAL := build
 .DELETE_ON_ERROR:
-.PHONY: setup build demo docs test test-long asan fuzz soak wheel release-check lint format clean \
-        distclean
+.PHONY: setup build demo docs test test-long mutants asan fuzz soak wheel release-check lint format \
+        clean distclean
 
 # ---- set-up ------------------------------------------------------------------------------------
 setup: $(STAMPS)/dev
@@ -104,6 +104,11 @@ test-long: build
 	$(BIN)/python -m pytest -m long --timeout 3600 --shard=$(SHARD) || status=1; \
 	exit $$status
 comma := ,
+
+# Do the tests find bugs that are injected, one at a time? SHARD=2/4 takes the second of four parts,
+# MUTANTS="phong_pdf spot_time" these alone.
+mutants: $(STAMPS)/dev
+	CTEST_PARALLEL_LEVEL=$(JOBS) $(BIN)/python tests/mutants/run.py --shard $(SHARD) $(MUTANTS)
 
 asan: | $(STAMPS)/apt $(STAMPS)/apt-test
 	cmake --preset asan

@@ -25,8 +25,8 @@ inline std::string moving(const std::string& type, const Keys& keys, const std::
 }
 
 inline std::vector<std::string> moving_scene_names() {
-  return {"moving_ball", "moving_lamp",       "moving_mirror", "moving_camera",
-          "moving_lens", "spinning_instance", "moving_spot"};
+  return {"moving_ball",       "moving_lamp", "moving_mirror", "moving_camera",   "moving_lens",
+          "spinning_instance", "moving_spot", "moving_point",  "moving_projector"};
 }
 
 /// The scene while the shutter is open; everything moves from time 0 to 1.
@@ -78,12 +78,19 @@ inline std::string moving_scene(const std::string& name, double open = 0, double
                 {0.5, "<scale x='0.8' y='1' z='1.2'/>" + rotate("y", 150) + translate(0, 0.2, 0)},
                 {1, scale(1.2) + rotate("y", 300) + translate(0, 0.4, 0)}},
                "<ref id='things'/>");
-  if (name == "moving_spot")
-    return pinhole + room() + ball + block + "<emitter type='spot'>" +
+  const auto light = [&](const std::string& type, const std::string& nested) {
+    return pinhole + room() + ball + block + "<emitter type='" + type + "'>" +
            animation({{0, look("0, 0.9, 0.8", "0.4, -1, -0.2")},
                       {1, look("-0.3, 0.8, 0.6", "-0.4, -1, 0.2")}}) +
-           "<float name='cutoff_angle' value='50'/><rgb name='intensity' value='8 6 4'/>"
-           "</emitter>\n";
+           nested + "</emitter>\n";
+  };
+  if (name == "moving_spot")
+    return light("spot",
+                 "<float name='cutoff_angle' value='50'/><rgb name='intensity' value='8 6 4'/>");
+  if (name == "moving_point") return light("point", "<rgb name='intensity' value='3 2 1'/>");
+  if (name == "moving_projector")
+    return light("projector",
+                 "<float name='fov' value='70'/><rgb name='irradiance' value='3 2 1'/>");
   throw UsageError("there is no moving scene '" + name + "'");
 }
 

@@ -58,6 +58,17 @@ def test_layers_of_a_wall_are_what_geometry_says():
         assert not found[name][:, 13:].any()
 
 
+def test_shading_normals_are_not_those_of_the_geometry(tmp_path):
+    """A triangle at z = 0, larger than the image, whose normals are all tilted alike."""
+    corners = "v -9 -9 0\nv 9 -9 0\nv 0 99 0\nvn 0.6 0 0.8\nf 1//1 2//1 3//1\n"
+    (tmp_path / "tilted.obj").write_text(corners)
+    scene = wall()
+    scene["wall"] = {"type": "obj", "filename": str(tmp_path / "tilted.obj")}
+    found = layers(scene, "geo_normal,sh_normal")
+    for kind, normal in (("geo_normal", [0, 0, 1]), ("sh_normal", [0.6, 0, 0.8])):
+        np.testing.assert_allclose(found[kind].reshape(-1, 3), [normal] * 200, atol=1e-6)
+
+
 @pytest.mark.parametrize(
     "integrator", ["direct", "ptracer", "bdpt", "pssmlt", "mmlt", "rjmlt", "erpt", "mlt"]
 )

@@ -67,6 +67,14 @@ TEST(GroupCombination, WithoutSamplesIsTheMeanOfEachGroupTimesItsB) {
   EXPECT_NEAR(toy.image(toy.combination().mean()), mean, 1e-12);
 }
 
+TEST(GroupCombination, LeavesOutGroupsThatHaveNotBegun) {
+  Toy toy(3, 8, 5, 0);
+  toy.progress[7].steps = 0;
+  double mean = 0;
+  for (size_t g = 0; g < 7; ++g) mean += toy.progress[g].b * toy.recorded[g] / 100 / 7;
+  EXPECT_NEAR(toy.image(toy.combination().mean()), mean, 1e-12);
+}
+
 TEST(GroupCombination, IsAsBrightAsTheSamplesSay) {
   Toy toy(4, 8, 50, 100000);
   for (GroupProgress& group : toy.progress) group.bootstrap = {};

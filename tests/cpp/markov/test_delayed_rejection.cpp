@@ -40,13 +40,9 @@ struct TwoStages {
       return bold(x, y[0]);
     }
     y[1] = wrap(x + (0.05 + 0.3 * y[0]) * (rng.next() - 0.5));  // symmetric, given y[0]
-    double forward = bold_density(x, y[0]) / Parabola::f(y[1]);
-    double backward = bold_density(y[1], y[0]) / Parabola::f(x);
-    if (!forgets_rejection) {
-      forward *= 1 - acceptance(bold(x, y[0]));
-      backward *= 1 - acceptance(bold(y[1], y[0]));
-    }
-    return {forward, backward};
+    const Transition own{bold_density(x, y[0]) / Parabola::f(y[1]),
+                         bold_density(y[1], y[0]) / Parabola::f(x)};
+    return forgets_rejection ? own : after_rejection(own, bold(x, y[0]), bold(y[1], y[0]));
   }
 };
 

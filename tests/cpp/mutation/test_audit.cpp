@@ -123,6 +123,30 @@ TEST(AuditOfTheMixture, HoldsForWeightsByLengthAndManyStepSizes) {
   EXPECT_EQ(report.verdict, Verdict::right) << report.text();
 }
 
+/// Where its techniques are about equally good, so that it matters how often each is drawn.
+TEST(AuditOfMultiplexedSteps, HoldsForCausticsOfAPoint) {
+  const AuditReport report = audit_case({"point_caustic", "multiplexed"}, 200000);
+  EXPECT_EQ(report.verdict, Verdict::right) << report.text();
+}
+
+/// Where a walk may stop or be reflected, both by chance.
+TEST(AuditOfLensSubpaths, HoldsForPlastic) {
+  const AuditReport report = audit_case({"plastic", "lens_subpath"}, 300000);
+  EXPECT_EQ(report.verdict, Verdict::right) << report.text();
+}
+
+/// Small ones hardly change the cosines at the vertex that they start from.
+TEST(AuditOfManifolds, HoldsForLargeMoves) {
+  const ScenePtr scene = make_mutation_scene("mirrors").scene;
+  const PathTarget target = path_target(scene);
+  AuditSettings how;
+  how.paths = 400000;
+  how.significance = 1e-5;
+  const MutationValues large = {{"smallest_pixels", 3.0}, {"largest_share", 1.0}};
+  const AuditReport report = audit(target, make_mutation("manifold", target, large), how);
+  EXPECT_EQ(report.verdict, Verdict::right) << report.text();
+}
+
 TEST(AuditOfCaustics, HoldsForRoundMovesOfTheDirection) {
   const ScenePtr scene = make_mutation_scene("caustic").scene;
   const PathTarget target = path_target(scene);

@@ -8,10 +8,10 @@ MutationPtr perturbation(const std::string& name, const PathTarget& target, doub
   return make_mutation(name, target, {{"largest_share", share}});
 }
 
-/// Says T(x -> y) wrongly where a second stage asks for it, but not where its own proposal is judged.
-class WrongInSecondStage : public Mutation {
+/// The same as another one, but for what a test changes.
+class Changed : public Mutation {
  public:
-  explicit WrongInSecondStage(MutationPtr whole)
+  explicit Changed(MutationPtr whole)
       : Mutation(whole->name(), whole->target()), whole_(std::move(whole)) {}
 
   double suitability(const PathState& x) const override { return whole_->suitability(x); }
@@ -20,7 +20,7 @@ class WrongInSecondStage : public Mutation {
     return whole_->propose(x, y, context);
   }
   double density(const PathState& x, const PathState& y, const Edit& edit) const override {
-    return whole_->density(x, y, edit) * std::exp(5 * x.raster.x);
+    return whole_->density(x, y, edit);
   }
   double relative_density(const PathState& x, const PathState& y, const Edit& edit) const override {
     return whole_->relative_density(x, y, edit);
@@ -28,6 +28,23 @@ class WrongInSecondStage : public Mutation {
 
  private:
   MutationPtr whole_;
+};
+
+/// Says T(x -> y) wrongly where a second stage asks for it, but not where its own proposal is judged.
+class WrongInSecondStage : public Changed {
+ public:
+  using Changed::Changed;
+  double density(const PathState& x, const PathState& y, const Edit& edit) const override {
+    return Changed::density(x, y, edit) * std::exp(5 * x.raster.x);
+  }
+};
+
+class MoreOnTheRight : public Changed {
+ public:
+  using Changed::Changed;
+  double suitability(const PathState& x) const override {
+    return Changed::suitability(x) * std::exp(x.raster.x - 8);
+  }
 };
 
 AuditReport audit_two_stages(const PathTarget& target, const MutationPtr& bold,
@@ -70,6 +87,41 @@ TEST(DelayedRejectionOfPaths, NeedsTheDensityOfTheFirstStage) {
   const auto wrong = std::make_shared<WrongInSecondStage>(perturbation("lens", target, 0.5));
   const AuditReport report = audit_two_stages(target, wrong, "lens", 200000, 1e-4);
   EXPECT_EQ(report.verdict, Verdict::wrong) << report.text();
+}
+
+/// The formula of path_mixture.h by plain products, where the choice of the mutation depends on the
+/// path.
+TEST(DelayedRejectionOfPaths, HasTheQuotientOfPlainProducts) {
+  const ScenePtr scene = make_mutation_scene("cornell").scene;
+  const PathTarget target = path_target(scene);
+  const auto bold = std::make_shared<MoreOnTheRight>(perturbation("lens", target, 0.5));
+  const MutationPtr other = perturbation("lens", target, 0.1), timid = other;
+  const auto weights = std::make_shared<MixtureWeights>(std::vector<double>{1.0, 1.0});
+  PathMixture mixture({bold, other}, weights, {timid, nullptr});
+  const auto T1 = [&](const PathState& x, const PathState& y) {
+    const double share = bold->suitability(x);
+    return share / (share + other->suitability(x)) * bold->density(x, y, mixture.edit());
+  };
+  const auto rejection = [&](const PathState& x, const PathState& y) {
+    return 1 - std::min(1.0, y.brightness() * T1(y, x) / (x.brightness() * T1(x, y)));
+  };
+  const auto one_way = [&](const PathState& x, const PathState& y1, const PathState& y2) {
+    return x.brightness() * T1(x, y1) * rejection(x, y1) * timid->density(x, y2, mixture.edit());
+  };
+  int compared = 0;
+  Rng rng(4, Purpose::test, 0);
+  std::array<PathState, PathMixture::stages> y;
+  for_each_light_path(target, 5, 1000, [&](const PathState& x) {
+    if (!(x.target > 0)) return;
+    mixture.propose(x, y, 0, rng);
+    const Transition second = mixture.propose(x, y, 1, rng);
+    if (second.forward == impossible.forward || second.backward == 0) return;
+    if (!(y[0].target > 0) || rejection(x, y[0]) == 0) return;
+    const double expected = one_way(y[1], y[0], x) / one_way(x, y[0], y[1]);
+    EXPECT_NEAR(second.backward / second.forward, expected, 1e-6 * expected);
+    ++compared;
+  });
+  EXPECT_GT(compared, 50);
 }
 
 TEST(DelayedRejectionOfPaths, FindsMovesWhereTheFirstStageFails) {

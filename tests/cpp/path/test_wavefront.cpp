@@ -1,8 +1,8 @@
 // Paths traced side by side are those that trace_path traces one by one.
 #include <gtest/gtest.h>
 
+#include "moving_scenes.h"
 #include "path/wavefront.h"
-#include "scenes.h"
 
 namespace mlt {
 namespace {
@@ -59,8 +59,7 @@ bool close(const Color& a, const Color& b) {
 class WavefrontOf : public testing::TestWithParam<std::string> {};
 
 /// A difference in rounding may send a path past an edge, or end it, but that is rare.
-TEST_P(WavefrontOf, FindsWhatSinglePathsFind) {
-  const ScenePtr scene = make_scene(GetParam()).scene;
+void expect_the_same(const Scene& scene) {
   std::vector<PathRules> variants(4);
   variants[1].strict_normals = true;
   variants[2].max_depth = 3;
@@ -68,7 +67,7 @@ TEST_P(WavefrontOf, FindsWhatSinglePathsFind) {
   variants[3].min_depth = 3;
   variants[3].hide_emitters = true;
   for (const PathRules& rules : variants) {
-    const Traced single = one_by_one(*scene, rules), wave = side_by_side(*scene, rules);
+    const Traced single = one_by_one(scene, rules), wave = side_by_side(scene, rules);
     ASSERT_EQ(single.radiance.size(), wave.radiance.size());
     int different = 0, lit = 0;
     for (size_t i = 0; i < single.radiance.size(); ++i) {
@@ -83,8 +82,17 @@ TEST_P(WavefrontOf, FindsWhatSinglePathsFind) {
   }
 }
 
+TEST_P(WavefrontOf, FindsWhatSinglePathsFind) { expect_the_same(*make_scene(GetParam()).scene); }
+
 INSTANTIATE_TEST_SUITE_P(Scenes, WavefrontOf, testing::ValuesIn(scene_names()),
                          [](const auto& info) { return info.param; });
+
+TEST(Wavefront, FindsWhatSinglePathsFindWhereThingsMove) {
+  for (const std::string& name : moving_scene_names()) {
+    SCOPED_TRACE(name);
+    expect_the_same(*load_scene(moving_scene(name)));
+  }
+}
 
 TEST(Wavefront, TracesAnIncompleteWave) {
   const ScenePtr scene = make_scene(scene_names().front()).scene;

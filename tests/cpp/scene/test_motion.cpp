@@ -254,5 +254,36 @@ TEST(MovingLight, DensitiesIntegrateToOne) {
   for (const double p : holm_adjusted(p_values)) EXPECT_GT(p, 1e-4);
 }
 
+/// A light of no size that moves, against the same light where it is at several times.
+void expect_shines_as_a_still_light(const std::string& type) {
+  const auto made = [&](const std::string& transform) {
+    return load_scene(lens + "<emitter type='" + type + "'>" + transform + "</emitter>");
+  };
+  const ScenePtr moving = made(animated(spin));
+  const Emitter& light = *moving->emitters()[0];
+  Rng rng(3, Purpose::test, 0);
+  for (const double time : {0.0, 0.17, 0.6, 0.93, 1.0}) {
+    SCOPED_TRACE(type + " at " + std::to_string(time));
+    const ScenePtr scene = made(to_world(matrix_text(Motion(spin).at(time))));
+    const Emitter& still = *scene->emitters()[0];
+    const Vec2 u(rng.next(), rng.next());
+    const SurfacePoint x0 = light.sample_position(u, time).at;
+    const SurfacePoint at_rest = still.sample_position(u, 0).at;
+    EXPECT_EQ(x0.time, time);
+    expect_near(x0.p, at_rest.p, 1e-9);
+    const RaySample ray = light.sample_ray(x0, u), expected = still.sample_ray(at_rest, u);
+    expect_near(ray.origin, expected.origin, 1e-9);
+    expect_near(ray.direction, expected.direction, 1e-9);
+    EXPECT_NEAR(ray.pdf, expected.pdf, 1e-9 * expected.pdf);
+    EXPECT_NEAR(light.pdf_ray(x0, ray.direction), ray.pdf, 1e-9 * ray.pdf);
+    EXPECT_LT(length(light.invert_ray(x0, x0.p + 2.0 * ray.direction) - u), 1e-6);
+    EXPECT_LT(length(light.eval(x0, ray.direction) - still.eval(at_rest, ray.direction)), 1e-6);
+  }
+}
+
+TEST(MovingLight, OfNoSizeShinesFromWhereItIs) {
+  for (const char* type : {"point", "spot", "projector"}) expect_shines_as_a_still_light(type);
+}
+
 }  // namespace
 }  // namespace mlt
