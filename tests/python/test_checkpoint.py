@@ -138,8 +138,7 @@ def test_a_checkpoint_that_cannot_be_written_is_a_warning(small, tmp_path):
         time.sleep(0.01)
     job.cancel()
     warnings = job.result().stats["warnings"]
-    assert len(warnings) == 1
-    assert "checkpoint could not be written" in warnings[0]
+    assert sum("checkpoint could not be written" in warning for warning in warnings) == 1
 
 
 # ---- files that are no good ----------------------------------------------------------------------
