@@ -42,8 +42,7 @@ double MeanSums::variance_of_mean() const {
 }
 
 void WeightClasses::add(double weight) {
-  if (weight > 0 && std::isfinite(weight))
-    ++classes_[class_of(weight)];
+  if (weight > 0 && std::isfinite(weight)) ++classes_[class_of(weight)];
 }
 
 WeightClasses& WeightClasses::operator+=(const WeightClasses& other) {
