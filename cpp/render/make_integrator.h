@@ -23,7 +23,7 @@ struct MadeIntegrator {
   bool extra_mutations = false;  ///< Has mutations that the node does not tell.
 };
 
-/// The integrator that `name` asks for; with "" the scene's own, and `path` if it has none. One
+/// The integrator that `name` asks for; with "" the scene's own, and `mlt` if it has none. One
 /// that replaces the scene's own inherits what is to be rendered (max_depth, hide_emitters,
 /// strict_normals), but not how. Throws UsageError for an assignment that the integrator does not
 /// know.

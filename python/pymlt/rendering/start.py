@@ -35,7 +35,7 @@ def start(
         a Scene, a dict, or the path of a file, of any format that `load` knows.
     integrator
         an object such as `Path(max_depth=8)`, a dict, or a name. None is the scene's own, else
-        `path`. A name keeps what the scene says about what is to be rendered (max_depth,
+        `mlt`. A name keeps what the scene says about what is to be rendered (max_depth,
         hide_emitters, strict_normals); an object or a dict means exactly what it says.
     sensor
         which of the scene's sensors sees it, counted from 0; None is the first one, or that with

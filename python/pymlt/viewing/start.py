@@ -35,7 +35,7 @@ def view(
     scene, sensor
         as for `start`.
     integrator, parameters
-        the name of the one to begin with, None is the scene's own, else `path`; and its parameters,
+        the name of the one to begin with, None is the scene's own, else `mlt`; and its parameters,
         such as "max_depth=8, p_large=0.3".
     host, port
         where the page is served; if the port is taken, at the next one that is free. Other hosts
@@ -53,7 +53,7 @@ def view(
             "the page"
         )
     loaded = as_scene(scene, sensor)
-    name = integrator or loaded.info()["integrator"] or "path"
+    name = integrator or loaded.info()["integrator"] or "mlt"
     algorithm = Algorithm(name, parameters)
     algorithm.make(loaded)
     return View(viser, SceneCamera(loaded, sensor or 0), algorithm, host, port, token, threads)
