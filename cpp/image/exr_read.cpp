@@ -56,22 +56,26 @@ int64_t max_expansion(Imf::Compression compression) {
   }
 }
 
+/// A window's area may be more than an integer holds.
+double area_of(const Imath::Box2i& window) {
+  return static_cast<double>(width_of(window)) * static_cast<double>(height_of(window));
+}
+
 void check_header(const Imf::Header& header, size_t file_size) {
   if (header.hasType() && Imf::isDeepData(header.type()))
     throw std::runtime_error("it holds deep data; only flat images can be read");
   const Imath::Box2i &data = header.dataWindow(), &display = header.displayWindow();
-  const int64_t pixels = width_of(data) * height_of(data);
-  const int64_t shown = width_of(display) * height_of(display);
+  const double pixels = area_of(data);
   if (width_of(data) <= 0 || height_of(data) <= 0 || width_of(display) <= 0 ||
       height_of(display) <= 0)
     throw std::runtime_error("its header says that it has no pixels");
   if (pixels > max_image_pixels)
     throw std::runtime_error("its header says that it has more than 2^31 pixels");
-  if (shown > std::max(16 * pixels, int64_t{1} << 26))
+  if (area_of(display) > std::max(16 * pixels, 0x1p26))
     throw std::runtime_error("its display window is far larger than its data");
   if (header.hasTileDescription()) {
     const Imf::TileDescription& tile = header.tileDescription();
-    if (int64_t{tile.xSize} * tile.ySize > std::max(4 * pixels, int64_t{1} << 22))
+    if (static_cast<double>(tile.xSize) * tile.ySize > std::max(4 * pixels, 0x1p22))
       throw std::runtime_error("its header says that a tile is far larger than the image");
   }
   int64_t pixel_size = 0;
@@ -79,7 +83,7 @@ void check_header(const Imf::Header& header, size_t file_size) {
     pixel_size += c.channel().type == Imf::HALF ? 2 : 4;
   const double limit = static_cast<double>(max_expansion(header.compression())) *
                        (static_cast<double>(file_size) + 64);
-  if (static_cast<double>(pixels) * static_cast<double>(pixel_size) > limit)
+  if (pixels * static_cast<double>(pixel_size) > limit)
     throw std::runtime_error(too_many_pixels(width_of(data), height_of(data)));
 }
 
