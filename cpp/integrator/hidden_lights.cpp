@@ -35,8 +35,7 @@ void warn_of_hidden_lights(const Scene& scene, Stats& stats) {
     if (light->delta() && is_hidden(scene, *light))
       stats.warnings.push_back(
           fmt::format("{} cannot find the light of emitter '{}', which has no size and shines "
-                      "through mirrors or "
-                      "glass alone; use bdpt or mlt",
+                      "through mirrors or glass alone; use bdpt or mlt",
                       stats.integrator, light->type));
 }
 

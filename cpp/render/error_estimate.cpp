@@ -230,9 +230,8 @@ void add_error(const ErrorEstimate& estimate, Stats& stats) {
   if (estimate.relative.carrying < few_pixels)
     stats.warnings.push_back(fmt::format(
         "the error of {:.2g} is that of {:.0f} pixel{}: some light is found so rarely that the "
-        "true "
-        "error may be several times larger; render for longer, or look whether another integrator "
-        "finds this light more easily",
+        "true error may be several times larger; render for longer, or look whether another "
+        "integrator finds this light more easily",
         estimate.relative.value, std::ceil(estimate.relative.carrying),
         estimate.relative.carrying > 1 ? "s" : ""));
   const std::vector<Disagreement>& all = estimate.disagreements;
