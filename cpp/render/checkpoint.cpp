@@ -72,6 +72,16 @@ std::string checked_body(const std::string& file, const std::string& path) {
   return body;
 }
 
+/// Reads bytes of a checkpoint; those that no render can have written are the file's fault.
+template <class Read>
+void undamaged(const std::string& path, Read&& read) {
+  try {
+    read();
+  } catch (const RenderError& error) {
+    throw FileError(path + ": the checkpoint is damaged: " + error.what());
+  }
+}
+
 /// The scene's name in messages.
 std::string name_of(const SceneSource& scene) {
   return scene.kind == SceneSource::Kind::text || scene.name.empty()
@@ -93,7 +103,7 @@ Checkpoint decode_checkpoint(const std::string& file, const std::string& path) {
   const std::string body = checked_body(file, path);
   ByteReader bytes(body);
   Checkpoint checkpoint;
-  try {
+  undamaged(path, [&] {
     std::string version, build;
     bytes.read(version);
     bytes.read(build);
@@ -109,9 +119,7 @@ Checkpoint decode_checkpoint(const std::string& file, const std::string& path) {
     checkpoint.seed = bytes.read<uint64_t>();
     bytes.read(checkpoint.state);
     bytes.finish();
-  } catch (const RenderError& error) {
-    throw FileError(path + ": the checkpoint is damaged: " + error.what());
-  }
+  });
   return checkpoint;
 }
 
@@ -149,8 +157,10 @@ uint64_t check_same_render(const std::string& path, const Checkpoint& checkpoint
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored) || std::filesystem::is_empty(path, ignored)) return 0;
   Checkpoint there;
+  uint64_t units = 0;
   try {
     there = read_checkpoint(path);
+    undamaged(path, [&] { units = Job::units_of(there.state); });
   } catch (const FileError& error) {
     throw FileError(std::string(error.what()) + "; to replace it all the same, say --overwrite");
   }
@@ -163,7 +173,7 @@ uint64_t check_same_render(const std::string& path, const Checkpoint& checkpoint
         fmt::format("{}: is the checkpoint of another render, with another {}; go on "
                     "with that by --resume, or replace it by --overwrite",
                     path, difference));
-  return Job::units_of(there.state);
+  return units;
 }
 
 AutosaveSettings autosave_to(const CheckpointFile& file, Checkpoint checkpoint) {
@@ -205,11 +215,7 @@ void check_same_scene(const Checkpoint& checkpoint, const std::string& path,
 }
 
 void resume(Job& job, const Checkpoint& checkpoint, const std::string& path) {
-  try {
-    job.load(checkpoint.state);
-  } catch (const RenderError& error) {
-    throw FileError(path + ": the checkpoint is damaged: " + error.what());
-  }
+  undamaged(path, [&] { job.load(checkpoint.state); });
 }
 
 }  // namespace mlt

@@ -207,16 +207,26 @@ def test_a_state_that_does_not_fit_is_refused(good, tmp_path):
     assert "damaged" in refusal(tmp_path / "a.mlt", sealed(body + b"\0"))
 
 
+def state_of(body: bytes) -> bytes:
+    """The render's own part, which ends the body: its size in eight bytes, then its bytes."""
+    for at in range(len(body) - 8):
+        if struct.unpack_from("<Q", body, at)[0] == len(body) - at - 8:
+            return body[at + 8 :]
+    raise AssertionError("the body does not end with a text")
+
+
 @pytest.mark.parametrize("integrator", ["path", "mlt"])
 def test_numbers_that_are_none_are_refused_or_do_no_harm(small, integrator, tmp_path):
     mlt.start(small, integrator, spp=2, seed=1, checkpoint=tmp_path / "a.mlt").wait()
     body = (tmp_path / "a.mlt").read_bytes()[28:]
+    size = len(state_of(body))
     draw = random.Random(4)
+    anywhere = [draw.choice([draw.randrange(size // 4), draw.randrange(500)]) for _ in range(60)]
     refused = 0
-    for _ in range(60):
+    for word in [*range(20), *anywhere]:  # what every render has comes first
         value = draw.choice([float("nan"), float("inf"), -float("inf")])
         forged = struct.pack(*draw.choice([("<f", value), ("<d", value)]))
-        place = draw.choice([draw.randrange(len(body) // 4), draw.randrange(2000)]) * 4
+        place = len(body) - size + 4 * word
         damaged = body[:place] + forged + body[place + len(forged) :]
         (tmp_path / "a.mlt").write_bytes(sealed(damaged))
         try:
