@@ -43,11 +43,13 @@ SampleFilm::Selection SampleFilm::everything() const {
 std::vector<std::pair<SampleFilm::Group*, int>> SampleFilm::strands_of(
     const Selection& selection) const {
   std::vector<std::pair<Group*, int>> strands;
-  const auto last = static_cast<int>(std::min<uint64_t>(selection.last, share_count()));
-  for (int share = static_cast<int>(selection.first); share < last; ++share)
+  const uint64_t last = std::min<uint64_t>(selection.last, share_count());
+  for (uint64_t first = selection.first; first < last; ++first) {
+    const int share = static_cast<int>(first);
     for (const int group : selection.groups)
       if (!splats_ || share == group)
         strands.push_back({groups_.at(group).get(), splats_ ? 0 : share});
+  }
   return strands;
 }
 
