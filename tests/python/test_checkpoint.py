@@ -225,7 +225,7 @@ def test_numbers_that_are_none_are_refused_or_do_no_harm(small, integrator, tmp_
     refused = 0
     for word in [*range(20), *anywhere]:  # what every render has comes first
         value = draw.choice([float("nan"), float("inf"), -float("inf")])
-        forged = struct.pack(*draw.choice([("<f", value), ("<d", value)]))
+        forged = struct.pack(*draw.choice([("<f", value), ("<d", value), ("<I", 2**32 - 1)]))
         place = len(body) - size + 4 * word
         damaged = body[:place] + forged + body[place + len(forged) :]
         (tmp_path / "a.mlt").write_bytes(sealed(damaged))
