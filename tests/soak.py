@@ -35,7 +35,7 @@ SETTINGS = {
     "pssmlt": [{}, {"independent_share": 0.2}, {"estimator": "bdpt"}, {"estimator": "ptracer"}],
     "mmlt": [{}, {"independent_share": 0}],
     "rjmlt": [{}, {"independent_share": 0}],
-    "erpt": [{"chain_length": 5}],
+    "erpt": [{"tour_length": 5}],
     "bdpt": [{}, {"techniques": True, "max_depth": 3}],
 }
 HANG = 600  # seconds of one round, after which it says where it stands, and ends

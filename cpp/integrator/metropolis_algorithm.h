@@ -68,8 +68,12 @@ class MetropolisAlgorithm {
   /// of several paths that the candidate consists of.
   virtual std::unique_ptr<RenderChain> start(const ChainId& id, Rng candidate,
                                              Rng choice) const = 0;
-  /// A chain without a state, to be loaded from bytes.
-  virtual std::unique_ptr<RenderChain> blank(const ChainId& id) const = 0;
+  /// Whether a blank chain may begin, since it finds its starts itself (PathTours).
+  virtual bool has_tours() const { return false; }
+  /// A chain without a state, to be loaded from bytes. Tours make so many steps in the mean from each
+  /// sample, if id.b is b, and tell what the samples weigh.
+  virtual std::unique_ptr<RenderChain> blank(const ChainId& id, const FamilyWeights& weights,
+                                             double steps_per_sample) const = 0;
   /// So many chains of a group advance together,
   virtual int chains_together() const { return 1; }
   /// which is done here; each chain goes where it would go alone, up to rounding.

@@ -9,6 +9,7 @@
 #include "integrator/family_weights.h"
 #include "integrator/stats.h"
 #include "markov/chain.h"
+#include "math/weight_sums.h"
 #include "path/ray_counts.h"
 
 #include <memory>
@@ -150,6 +151,8 @@ class RenderChain {
   /// Alone; see MetropolisAlgorithm::advance.
   virtual void advance(uint64_t steps, ChainRecorder& recorder) = 0;
   virtual const ChainStats& stats() const = 0;
+  /// Of the samples that it starts from, where it draws them itself.
+  virtual const SampleSums* samples() const { return nullptr; }
   virtual void save(ByteWriter& bytes) const = 0;
   virtual void load(ByteReader& bytes) = 0;
 };
@@ -219,24 +222,42 @@ class RecordedChain : public RenderChain {
                         kernel.signature(chain_.state())};
   }
 
-  /// Goes on from another state with another stream; the statistics go on.
-  void restart(const State& start, const Rng& rng) {
-    chain_.rng() = rng;
+  /// Goes on from another state; the statistics go on.
+  void restart(const State& start) {
     chain_.restart(start);
     stats_.run = 0;
   }
+  /// The same with another stream.
+  void restart(const State& start, const Rng& rng) {
+    chain_.rng() = rng;
+    restart(start);
+  }
   const ChainStats& stats() const override { return stats_; }
+  const State& state() const { return chain_.state(); }
+  Rng& rng() { return chain_.rng(); }
+  /// Rays that were traced for it elsewhere.
+  void count(const RayCounts& rays) {
+    chain_.kernel().rays() += rays;
+    stats_.rays = chain_.kernel().rays();
+  }
 
   void save(ByteWriter& bytes) const override {
-    bytes.write(chain_.rng().state());
     chain_.kernel().save(bytes, chain_.state());
-    stats_.save(bytes);
+    save_progress(bytes);
   }
   void load(ByteReader& bytes) override {
-    chain_.rng() = Rng(bytes.read<Rng::State>());
     State x;
     chain_.kernel().load(bytes, x);
     chain_.restart(std::move(x));
+    load_progress(bytes);
+  }
+  /// All but the state, for a chain that is about to restart.
+  void save_progress(ByteWriter& bytes) const {
+    bytes.write(chain_.rng().state());
+    stats_.save(bytes);
+  }
+  void load_progress(ByteReader& bytes) {
+    chain_.rng() = Rng(bytes.read<Rng::State>());
     stats_.load(bytes);
     chain_.kernel().rays() = stats_.rays;
   }

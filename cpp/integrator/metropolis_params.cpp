@@ -2,14 +2,25 @@
 
 namespace mlt {
 
-std::vector<Parameter> metropolis_parameters(int64_t chains) {
+std::vector<Parameter> chain_parameters(int64_t chains) {
+  return {{"luminance_samples", ParamType::integer, int64_t{50000},
+           "Paths drawn to start the chains from; a pilot before that draws about as many."},
+          {"chains", ParamType::integer, chains,
+           "Number of Markov chains, whatever the budget. The fewer there are, the longer each is, "
+           "and the farther it gets from where it started; but one that stands still leaves a "
+           "brighter spot, and no more threads than chains have work."}};
+}
+
+std::vector<Parameter> tour_parameters(int64_t chains) {
+  return {{"luminance_samples", ParamType::integer, int64_t{50000},
+           "The pilot before the render draws about as many paths."},
+          {"chains", ParamType::integer, chains,
+           "Number of Markov chains, each of which starts over and over. It hardly matters, but no "
+           "more threads than chains have work."}};
+}
+
+std::vector<Parameter> family_parameters() {
   return {
-      {"luminance_samples", ParamType::integer, int64_t{50000},
-       "Paths drawn to start the chains from; a pilot before that draws about as many."},
-      {"chains", ParamType::integer, chains,
-       "Number of Markov chains, whatever the budget. The fewer there are, the longer each is, and "
-       "the farther it gets from where it started; but one that stands still leaves a brighter "
-       "spot, and no more threads than chains have work."},
       {"independent_share", ParamType::real, no_default,
        "Share of the time for samples that are independent of the chains, 0 to 1. They show what "
        "they are good at, and tell the brightness b. By default a pilot finds the best one; 1: "

@@ -50,6 +50,9 @@ struct Forecast {
   double variance = 0;  ///< That is to be expected, times the time.
 };
 
+/// So many steps of tours are much more work than the sample that they start from.
+constexpr double least_steps_per_sample = 64;
+
 /// Where the choice hardly matters more is left to the samples: their noise is known better.
 constexpr double hardly = 1.15;
 
@@ -64,8 +67,8 @@ class Pilot {
         cancelled_(cancelled),
         candidates_{settings.seed, Purpose::allocation, settings.samples} {}
 
-  /// Whether there is light for chains to start from.
-  bool find_starts() {
+  /// b, as far as the candidates tell; 0: there is no light for chains to start from.
+  double find_starts() {
     const std::vector<double> weights = draw_candidates(
         candidates_, settings_.threads, cancelled_, [&] { return algorithm_.source(); },
         [&](MetropolisAlgorithm::Source& source, Rng& rng) {
@@ -74,7 +77,7 @@ class Pilot {
         [](const MetropolisAlgorithm::Source&) {});
     Rng rng = candidates_.rng(candidates_.count);
     starts_ = resample(weights, settings_.chains, rng);
-    return !starts_.seeds.empty();
+    return starts_.b;
   }
 
   /// Samples come in pairs that have the image position in common. Those of a render are stratified
@@ -220,6 +223,27 @@ class Pilot {
   Noise samples_, chains_;
 };
 
+/// Rounded, so that the same scene in another unit of length has the same image to the last bit.
+double to_half_octaves(double x) { return std::exp2(std::round(2 * std::log2(x)) / 2); }
+
+/// Between N1 samples and N2 steps, c = b N1 / N2 would be the balance heuristic (Veach 1997, eq. 9.8)
+/// if steps were independent. The more of the time the pilot gives to the samples, the noisier it has
+/// seen the chains: 1 / sqrt(1 - share) steps count as one.
+void set_tours(Allocation& allocation, double b) {
+  const double share = allocation.share,
+               steps = allocation.mutations_per_sample * (1 - share) / share;
+  allocation.weights = FamilyWeights(b / to_half_octaves(steps * std::sqrt(1 - share)));
+  allocation.b = b;
+  allocation.steps_per_sample = std::max(to_half_octaves(steps), least_steps_per_sample);
+}
+
+Allocation chains_alone(double b) {
+  Allocation allocation;
+  allocation.b = b;
+  allocation.steps_per_sample = least_steps_per_sample;
+  return allocation;
+}
+
 }  // namespace
 
 CoarseImage coarse_image(const MetropolisAlgorithm& algorithm, const Raster& raster,
@@ -252,17 +276,20 @@ Allocation allocate(MetropolisAlgorithm& algorithm, const Raster& raster, const 
   Pilot pilot(algorithm, raster, coarse, settings, cancelled);
   const SampleTechniques first = settings.techniques.value_or(SampleTechniques::all);
   algorithm.set_techniques(first);
-  if (!pilot.find_starts()) return samples_alone(first);
+  const double b = pilot.find_starts();
+  if (!(b > 0) && settings.share == 0) throw no_light_found(settings.samples);
+  if (!(b > 0)) return samples_alone(first);
+  if (settings.share == 0) return chains_alone(b);
   pilot.draw_samples(first);
-  const Forecast best = pilot.forecast();
+  Forecast best = pilot.forecast();
   const double noise = pilot.noise_of_samples();
   if (!settings.techniques && pilot.draw_samples(SampleTechniques::path_tracing) &&
       pilot.noise_of_samples() < noise && !pilot.has_rare_light()) {
     const Forecast other = pilot.forecast();
-    if (other.allocation.share > 0.5 && hardly * other.variance < best.variance)
-      return other.allocation;
+    if (other.allocation.share > 0.5 && hardly * other.variance < best.variance) best = other;
   }
-  algorithm.set_techniques(first);
+  algorithm.set_techniques(best.allocation.techniques);
+  if (algorithm.has_tours() && best.variance > 0) set_tours(best.allocation, b);
   return best.allocation;
 }
 

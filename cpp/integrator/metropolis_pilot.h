@@ -16,6 +16,8 @@ struct Allocation {
   double mutations_per_sample = 1;                      ///< What an independent sample costs.
   SampleTechniques techniques = SampleTechniques::all;  ///< Of the independent samples.
   bool in_time = true;                                  ///< Whether there was time to find it.
+  double b = 0;                                         ///< A rough guess, for tours;
+  double steps_per_sample = 1;  ///< and how many steps they make from a sample in the mean.
 };
 
 struct PilotSettings {

@@ -52,6 +52,8 @@ void MetropolisRendering::prepare_chains(int threads, const std::atomic<bool>& c
   if (cancelled) return;
   if (allocation_.share == 1)
     lay_out();
+  else if (algorithm_->has_tours())
+    start_tours();
   else
     start_chains(threads, cancelled);
 }
@@ -73,8 +75,18 @@ Allocation MetropolisRendering::run_pilot(int threads, const std::atomic<bool>& 
   const Raster& raster = scene_->camera().raster();
   const CoarseImage coarse = coarse_image(*algorithm_, raster, pilot, cancelled);
   algorithm_->prepare(coarse, seed_, threads, cancelled);
-  if (settings_.independent_share == 0) return {};
-  return allocate(*algorithm_, raster, coarse.map, pilot, cancelled);
+  if (settings_.independent_share == 0 && !algorithm_->has_tours()) return {};
+  Allocation allocation = allocate(*algorithm_, raster, coarse.map, pilot, cancelled);
+  if (settings_.steps_per_sample) allocation.steps_per_sample = *settings_.steps_per_sample;
+  return allocation;
+}
+
+/// They need no bootstrap.
+void MetropolisRendering::start_tours() {
+  for (Group& group : groups_) group.b = allocation_.b;
+  lay_out();
+  for (const auto& team : teams_)
+    for (size_t k = 0; k < team->chains.size(); ++k) team->chains[k] = blank_chain(*team, k);
 }
 
 void MetropolisRendering::start_chains(int threads, const std::atomic<bool>& cancelled) {

@@ -26,6 +26,12 @@ ChainId MetropolisRendering::chain_id(const ChainTeam& team, size_t chain) const
           groups_[team.group].b};
 }
 
+std::unique_ptr<RenderChain> MetropolisRendering::blank_chain(const ChainTeam& team,
+                                                              size_t chain) const {
+  return algorithm_->blank(chain_id(team, chain), allocation_.weights,
+                           allocation_.steps_per_sample);
+}
+
 // ---- which shares and units there are -----------------------------------------------------------
 
 /// As many as samples alone would have, if they are the greater part.
@@ -147,14 +153,20 @@ void MetropolisRendering::run_team(uint64_t number) {
 
 // ---- what has come of them --------------------------------------------------------------------
 
-GroupCombination MetropolisRendering::combination() const {
+std::vector<GroupProgress> MetropolisRendering::progress() const {
   std::vector<GroupProgress> groups;
   for (const Group& group : groups_) groups.push_back({group.b, group.bootstrap, group.steps});
   for (const auto& team : teams_) {
     const std::lock_guard lock(team->mutex);
     groups[team->group].brightness += team->brightness;
+    for (const auto& chain : team->chains)
+      if (chain && chain->samples()) groups[team->group].bootstrap += *chain->samples();
   }
-  return GroupCombination(std::move(groups), samples_ ? samples_->mean_of_chains() : Estimate());
+  return groups;
+}
+
+GroupCombination MetropolisRendering::combination() const {
+  return {progress(), samples_ ? samples_->mean_of_chains() : Estimate()};
 }
 
 /// Pixels are the pixel count times what falls into them.
@@ -178,7 +190,7 @@ Image MetropolisRendering::image() const {
 
 GroupImage MetropolisRendering::group(int index) const {
   const GroupCombination groups = combination();
-  const MeanSums& b = groups_[index].bootstrap.brightness;
+  const MeanSums b = progress()[index].bootstrap.brightness;
   return {chain_image(groups.group(index)), groups.begun(index) ? 1.0 : 0.0, b.mean(),
           std::sqrt(b.variance_of_mean())};
 }

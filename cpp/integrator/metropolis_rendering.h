@@ -26,6 +26,7 @@ struct MetropolisSettings {
   int64_t luminance_samples = 50000;
   std::optional<double> independent_share;     ///< Of the time; without, a pilot finds it.
   std::optional<SampleTechniques> techniques;  ///< Of the independent samples; the same.
+  std::optional<double> steps_per_sample;      ///< Of tours; the same.
   bool parts = false;                          ///< Keep the parts of both families as layers.
   bool only_camera_walks = false;              ///< See warn_of_hidden_lights.
 };
@@ -70,6 +71,7 @@ class MetropolisRendering : public Rendering {
   double pixels() const { return scene_->camera().raster().pixels(); }
   int chains_of(int group) const;
   ChainId chain_id(const ChainTeam& share, size_t chain) const;
+  std::unique_ptr<RenderChain> blank_chain(const ChainTeam& team, size_t chain) const;
   uint64_t chain_count() const;
   uint64_t sample_shares() const { return samples_ ? uint64_t{group_count} : 0; }
   void render_direct(int threads, const std::atomic<bool>& cancelled);
@@ -78,6 +80,7 @@ class MetropolisRendering : public Rendering {
   Allocation run_pilot(int threads, const std::atomic<bool>& cancelled);
   std::vector<std::vector<uint32_t>> run_bootstrap(const Candidates& candidates, int threads,
                                                    const std::atomic<bool>& cancelled);
+  void start_tours();
   void start_chains(int threads, const std::atomic<bool>& cancelled);
   uint64_t passes_per_turn() const;
   void lay_out();
@@ -85,6 +88,8 @@ class MetropolisRendering : public Rendering {
   void lay_out_units();
   void run_team(uint64_t number);
   Image chain_image(GroupScales scales) const;
+  /// Of each group; the bootstrap of tours are the samples that they start from.
+  std::vector<GroupProgress> progress() const;
   GroupCombination combination() const;
   void add_level(Stats& stats) const;
   ChainStats sum_of_stats(StuckChain& stuck) const;

@@ -111,7 +111,7 @@ void MetropolisRendering::load_chains(ByteReader& bytes) {
     const auto brightness = bytes.read<double>();
     teams.push_back({units, brightness, {}});
     for (size_t k = 0; k < teams_[i]->chains.size(); ++k) {
-      teams.back().chains.push_back(algorithm_->blank(chain_id(*teams_[i], k)));
+      teams.back().chains.push_back(blank_chain(*teams_[i], k));
       teams.back().chains.back()->load(bytes);
     }
   }

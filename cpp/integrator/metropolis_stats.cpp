@@ -39,7 +39,7 @@ ChainStats MetropolisRendering::sum_of_stats(StuckChain& stuck) const {
 /// Of the brightness.
 void MetropolisRendering::add_level(Stats& stats) const {
   SampleSums bootstrap;
-  for (const Group& group : groups_) bootstrap += group.bootstrap;
+  for (const GroupProgress& group : progress()) bootstrap += group.bootstrap;
   Estimate b = estimate(bootstrap.brightness);
   WeightClasses classes = bootstrap.classes;
   if (samples_) {

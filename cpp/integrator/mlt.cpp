@@ -57,7 +57,8 @@ Plugin integrator_mlt() {
       "Metropolis light transport in path space with Veach's mutations (Veach & Guibas 1997). One "
       "spp is one mutation per pixel.",
       {path_parameters(),
-       metropolis_parameters(512),
+       tour_parameters(512),
+       family_parameters(),
        mixture_parameters(mutation_plugins()),
        {{"near_specular", ParamType::real, 0.1,
          "Smooth vertices below this roughness count as specular in perturbations."},

@@ -2,6 +2,7 @@
 
 #include "integrator/path_kernel.h"
 #include "integrator/path_source.h"
+#include "integrator/path_tours.h"
 #include "integrator/traced_source.h"
 #include "mutation/adaptation.h"
 
@@ -25,39 +26,6 @@ const StepSizeChoice* step_size_choice(const MutationPlugin& plugin) {
     if (plugin.schema.find(choice.parameter)) return &choice;
   return nullptr;
 }
-
-/// Moves one chain of a group; its fresh lens subpaths are stratified over all chains of the group.
-class GroupMixture : public PathKernel {
- public:
-  GroupMixture(const PathTarget& target, const PathMixture& mixture, const ChainId& id)
-      : PathKernel(target, mixture),
-        id_(id),
-        key_(mix_bits(id.seed ^ mix_bits(static_cast<uint64_t>(id.group)))) {}
-
-  Transition propose(const PathState& x, std::array<PathState, stages>& y, size_t stage, Rng& rng) {
-    if (stage == 0) stratify();
-    return PathKernel::propose(x, y, stage, rng);
-  }
-
-  void save(ByteWriter& bytes, const PathState& x) const {
-    bytes.write(step_);
-    PathKernel::save(bytes, x);
-  }
-  void load(ByteReader& bytes, PathState& x) {
-    step_ = bytes.read<uint64_t>();
-    PathKernel::load(bytes, x);
-  }
-
- private:
-  void stratify() {
-    aids().stratified = {static_cast<uint32_t>(id_.number), static_cast<uint32_t>(id_.count),
-                         mix_bits(key_ + step_++)};
-  }
-
-  ChainId id_;
-  uint64_t key_;  ///< Names the steps of the group's chains.
-  uint64_t step_ = 0;
-};
 
 /// A second stage asks for the density of what was rejected, from another path. A walk along a
 /// manifold may lead elsewhere from there, which its density does not say.
@@ -114,9 +82,18 @@ class MltAlgorithm : public MetropolisAlgorithm {
   }
 
   std::unique_ptr<RenderChain> start(const ChainId& id, Rng candidate, Rng choice) const override {
-    return chain(id, target_.seeds().pick(candidate, choice));
+    return std::make_unique<RecordedChain<PathKernel>>(PathKernel(target_, mixture()), id,
+                                                       target_.seeds().pick(candidate, choice));
   }
-  std::unique_ptr<RenderChain> blank(const ChainId& id) const override { return chain(id, {}); }
+  bool has_tours() const override { return true; }
+  std::unique_ptr<RenderChain> blank(const ChainId& id, const FamilyWeights& weights,
+                                     double steps_per_sample) const override {
+    const double kappa0 = id.b / steps_per_sample;
+    return std::make_unique<PathTours>(target_, mixture(), id, weights, steps_per_sample,
+                                       settings_.tour_length
+                                           ? KillRate::constant(kappa0, *settings_.tour_length)
+                                           : KillRate(kappa0));
+  }
 
   std::vector<MutationStats> rows() const override {
     std::vector<MutationStats> rows = path_kernel_rows(mutations_, *weights_);
@@ -184,10 +161,7 @@ class MltAlgorithm : public MetropolisAlgorithm {
     return choice ? own_parameters(plugin, own).real(choice->parameter) : 0;
   }
 
-  std::unique_ptr<RenderChain> chain(const ChainId& id, PathState start) const {
-    return std::make_unique<RecordedChain<GroupMixture>>(
-        GroupMixture(target_, {mutations_, weights_, timid_}, id), id, std::move(start));
-  }
+  PathMixture mixture() const { return {mutations_, weights_, timid_}; }
 
   MltSettings settings_;
   PathTarget target_;

@@ -1,4 +1,4 @@
-// The chains of mlt: which mutations move them, with which weights, towards which target.
+// The tours of mlt: which mutations move them, with which weights, towards which target.
 #pragma once
 
 #include "integrator/metropolis_algorithm.h"
@@ -6,6 +6,7 @@
 #include "mutation/mutation_registry.h"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,7 @@ struct MltSettings {
   bool adaptive = true;
   bool two_stage = true;
   bool delayed_rejection = false;
+  std::optional<double> tour_length;  ///< The same for all tours, in the mean.
 };
 
 std::unique_ptr<MetropolisAlgorithm> mlt_algorithm(ScenePtr scene, const MltSettings& settings);

@@ -106,7 +106,10 @@ class Mmlt : public MetropolisAlgorithm {
     paths()(x, choice);
     return chain(id, std::move(x));
   }
-  std::unique_ptr<RenderChain> blank(const ChainId& id) const override { return chain(id, {}); }
+  std::unique_ptr<RenderChain> blank(const ChainId& id, const FamilyWeights&,
+                                     double) const override {
+    return chain(id, {});
+  }
 
   std::vector<MutationStats> rows() const override {
     MutationStats large, small, technique;
@@ -183,7 +186,7 @@ Plugin integrator_mmlt() {
       "mmlt",
       "Multiplexed Metropolis light transport (Hachisuka et al. 2014): mutates the random numbers "
       "of one path and the technique (s, t) that makes it. One spp is one mutation per pixel.",
-      {path_parameters(), metropolis_parameters(), primary_step_parameters(),
+      {path_parameters(), chain_parameters(), family_parameters(), primary_step_parameters(),
        technique_probability(
            "Probability of a small step that also draws another technique for the same length.")}));
 }
@@ -193,7 +196,7 @@ Plugin integrator_rjmlt() {
       "rjmlt",
       "Reversible jump Metropolis light transport (Bitterli et al. 2018): as mmlt, but a step that "
       "changes the technique keeps the path. One spp is one mutation per pixel.",
-      {path_parameters(), metropolis_parameters(), primary_step_parameters(),
+      {path_parameters(), chain_parameters(), family_parameters(), primary_step_parameters(),
        technique_probability("Probability of a step that changes the technique, not the path.")}));
 }
 

@@ -14,9 +14,8 @@ class PathKernel : public PathMixture {
       : PathMixture(mixture), target_(&target) {}
 
   void record(ChainRecorder& recorder, const PathState& x, double weight) const {
-    const auto over_density = [&] { return target_->over_density(x); };
     recorder.record(x.raster, x.rgb / x.target, weight,
-                    recorder.wants_density() ? x.known.over_density.get(over_density) : 1);
+                    recorder.wants_density() ? target_->over_density(x) : 1);
   }
   double proposal_weight() const { return 0; }
   Vec2 raster_of(const PathState& x) const { return x.raster; }

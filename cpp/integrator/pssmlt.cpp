@@ -177,7 +177,8 @@ class SinglePssmlt : public Pssmlt<Estimator> {
     this->paths()(x, candidate);
     return this->chain(id, step(), std::move(x));
   }
-  std::unique_ptr<RenderChain> blank(const ChainId& id) const override {
+  std::unique_ptr<RenderChain> blank(const ChainId& id, const FamilyWeights&,
+                                     double) const override {
     return this->chain(id, step(), PrimaryState());
   }
 
@@ -200,7 +201,8 @@ class WalkPssmlt : public Pssmlt<PathEstimator> {
     paths().sample(raster, sampler, x);
     return chain(id, step(), std::move(x));
   }
-  std::unique_ptr<RenderChain> blank(const ChainId& id) const override {
+  std::unique_ptr<RenderChain> blank(const ChainId& id, const FamilyWeights&,
+                                     double) const override {
     return chain(id, step(), WalkState());
   }
   std::unique_ptr<SampleTaker> sample_taker(const FamilyWeights& weights) const override {
@@ -271,7 +273,8 @@ Plugin integrator_pssmlt() {
       "Primary-sample-space Metropolis light transport (Kelemen et al. 2002): mutates the random "
       "numbers of another integrator. One spp is one mutation per pixel.",
       {path_parameters(),
-       metropolis_parameters(256),
+       chain_parameters(256),
+       family_parameters(),
        primary_step_parameters(),
        {{"estimator",
          ParamType::text,

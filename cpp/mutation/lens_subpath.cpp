@@ -2,9 +2,6 @@
 // fresh one, for paths of the form ...(L|D)DS*E. A new point on the lens and a new image position
 // are drawn, the walk goes on over surfaces that are (nearly) specular as their BSDF samples it,
 // and the vertex where it stops is joined to the rest of the path.
-//
-// The image positions that the chains of one round use are stratified over the image; each by
-// itself is uniform, so nothing else changes.
 #include "mutation/join.h"
 #include "mutation/measured_mutation.h"
 #include "mutation/mutation_registry.h"

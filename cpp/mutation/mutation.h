@@ -8,7 +8,6 @@
 #include "base/rng.h"
 #include "markov/step.h"
 #include "mutation/path_target.h"
-#include "mutation/stratified_raster.h"
 #include "path/bidirectional_sampler.h"
 #include "path/ray_counts.h"
 #include "primary/primary_numbers.h"
@@ -32,10 +31,9 @@ struct WalkFailures {
 
 /// What a chain has for its mutations beside random numbers.
 struct MutationAids {
-  RayCounts rays;                              ///< Traced by its mutations so far.
-  WalkFailures failures;                       ///< Since somebody has last counted them.
-  std::optional<StratifiedRaster> stratified;  ///< For a fresh lens subpath in this step.
-  std::optional<PrimaryWalks> primary_walks;   ///< Made at their first use.
+  RayCounts rays;                             ///< Traced by its mutations so far.
+  WalkFailures failures;                      ///< Since somebody has last counted them.
+  std::optional<PrimaryWalks> primary_walks;  ///< Made at their first use.
 };
 
 /// What a proposal may draw on.
@@ -43,10 +41,8 @@ struct MutationContext {
   MutationContext(Rng& rng, MutationAids& aids)
       : rng(rng), rays(aids.rays), failures(aids.failures), aids_(&aids) {}
 
-  /// A raster position for a fresh lens subpath: uniform, and stratified where chains go side by
-  /// side.
+  /// A uniform raster position.
   Vec2 raster_position(const Raster& raster) const {
-    if (aids_->stratified) return aids_->stratified->position(raster);
     const double x = rng.next();
     return raster.sample({x, rng.next()});
   }

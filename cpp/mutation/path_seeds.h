@@ -63,6 +63,8 @@ class PathSeeds {
 
   /// Traced so far.
   const RayCounts& rays() const { return rays_; }
+  /// Traced since this was last asked.
+  RayCounts take_rays() { return std::exchange(rays_, {}); }
 
  private:
   template <class Sampler>

@@ -40,13 +40,14 @@ struct PathState {
 
   /// Functions of the path that are kept by those who ask for them.
   struct Known {
-    Kept<double> over_density;                      ///< PathTarget::over_density.
-    Kept<std::optional<ImageFootprint>> footprint;  ///< Of the caustic perturbation.
+    Kept<double> over_density, over_bidirectional_density;  ///< See PathTarget.
+    Kept<std::optional<ImageFootprint>> footprint;          ///< Of the caustic perturbation.
     Kept<CameraChains> camera_chains;
     Kept<int> triples;  ///< That the manifold perturbation may move.
 
     void forget() {
       over_density.forget();
+      over_bidirectional_density.forget();
       footprint.forget();
       camera_chains.forget();
       triples.forget();

@@ -42,9 +42,16 @@ class PathTarget {
   }
   /// T(x) / P(x), where P is the density of the techniques together (see FamilyWeights).
   double over_density(const PathState& x) const {
-    const ContributionMeasure in{x.terms};
-    return x.target /
-           (techniques_ == SampleTechniques::all ? total_density(in) : path_tracing_density(in));
+    return x.known.over_density.get([&] {
+      return techniques_ == SampleTechniques::all
+                 ? over_bidirectional_density(x)
+                 : x.target / path_tracing_density(ContributionMeasure{x.terms});
+    });
+  }
+  /// The same for all techniques of bidirectional path tracing.
+  double over_bidirectional_density(const PathState& x) const {
+    return x.known.over_bidirectional_density.get(
+        [&] { return x.target / total_density(ContributionMeasure{x.terms}); });
   }
   /// Computes what depends on vertices first ... last and their neighbours, then f and L*. Without
   /// visibility. target = 0 if the path carries no light, misses the image or breaks the rules.

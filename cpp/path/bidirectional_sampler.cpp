@@ -83,6 +83,7 @@ bool BidirectionalSampler::weigh(Connection& connection, double own, const Techn
   const MisWeights weights = mis_weights(own, below, above, settings_.heuristic);
   connection.weight = weights.chosen;
   connection.own_share = weights.balance * survival;
+  connection.survival = survival;
   return connection.weight > 0;
 }
 

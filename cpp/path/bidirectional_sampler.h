@@ -34,6 +34,7 @@ struct Connection {
   const Emitter* emitter = nullptr;  ///< The light of a path with s = 0.
   /// Times the contribution: f / P, with P the density of all techniques together.
   double own_share = 0;
+  double survival = 1;  ///< Probability that Russian roulette has let both subpaths come here.
 };
 
 /// A light and a camera subpath, and the connections between them. Keeps its memory from sample to

@@ -89,8 +89,8 @@ class Direct(Integrator):
 
 class ERPT(Integrator):
     """Energy redistribution path tracing (Cline et al. 2005): short chains from the paths of
-    bidirectional path tracing, moved by the perturbations of mlt. One spp is one sample per
-    pixel, with its chains.
+    bidirectional path tracing, moved by the perturbations of mlt. One spp is one mutation per
+    pixel.
 
     Parameters
     ----------
@@ -103,6 +103,11 @@ class ERPT(Integrator):
         Leave out lights that the camera sees directly.
     strict_normals : boolean, default False
         Refuse directions that the geometric and the shading normal see on different sides.
+    luminance_samples : integer, default 50000
+        The pilot before the render draws about as many paths.
+    chains : integer, default 512
+        Number of Markov chains, each of which starts over and over. It hardly matters, but no
+        more threads than chains have work.
     lens_perturbation : boolean, default True
         Use the lens perturbation of paths (L|D)DS*E and LS*E (Veach 1997, sec. 11.3.3.1).
     lens_weight : float, default 0.3
@@ -141,20 +146,19 @@ class ERPT(Integrator):
         Largest move on the image, as a share of its diagonal.
     near_specular : float, default 0.1
         Smooth vertices below this roughness count as specular in perturbations.
-    chains : float, default 0.1
-        Chains per sample, in the mean. The fewer, the more samples they start from.
-    chain_length : integer, default 100
-        Mutations of each chain.
-    max_chains : integer, default 64
-        Most chains from one path; if it is brighter than these would show, they leave more.
-    luminance_samples : integer, default 50000
-        Paths drawn to know how bright the image is, and so how much a chain is to leave.
+    tours : float, default 0.1
+        Tours per sample of bidirectional path tracing, in the mean. The fewer, the more samples
+        they start from.
+    tour_length : float, default 100.0
+        Mutations of each tour, in the mean.
     """
 
     max_depth: int
     rr_depth: int
     hide_emitters: bool
     strict_normals: bool
+    luminance_samples: int
+    chains: int
     lens_perturbation: bool
     lens_weight: float
     lens_smallest_pixels: float
@@ -173,10 +177,8 @@ class ERPT(Integrator):
     manifold_smallest_pixels: float
     manifold_largest_share: float
     near_specular: float
-    chains: float
-    chain_length: int
-    max_chains: int
-    luminance_samples: int
+    tours: float
+    tour_length: float
     def __init__(
         self,
         *,
@@ -184,6 +186,8 @@ class ERPT(Integrator):
         rr_depth: int = ...,
         hide_emitters: bool = ...,
         strict_normals: bool = ...,
+        luminance_samples: int = ...,
+        chains: int = ...,
         lens_perturbation: bool = ...,
         lens_weight: float = ...,
         lens_smallest_pixels: float = ...,
@@ -202,10 +206,8 @@ class ERPT(Integrator):
         manifold_smallest_pixels: float = ...,
         manifold_largest_share: float = ...,
         near_specular: float = ...,
-        chains: float = ...,
-        chain_length: int = ...,
-        max_chains: int = ...,
-        luminance_samples: int = ...,
+        tours: float = ...,
+        tour_length: float = ...,
     ) -> None: ...
 
 class MLT(Integrator):
@@ -224,11 +226,10 @@ class MLT(Integrator):
     strict_normals : boolean, default False
         Refuse directions that the geometric and the shading normal see on different sides.
     luminance_samples : integer, default 50000
-        Paths drawn to start the chains from; a pilot before that draws about as many.
+        The pilot before the render draws about as many paths.
     chains : integer, default 512
-        Number of Markov chains, whatever the budget. The fewer there are, the longer each is,
-        and the farther it gets from where it started; but one that stands still leaves a
-        brighter spot, and no more threads than chains have work.
+        Number of Markov chains, each of which starts over and over. It hardly matters, but no
+        more threads than chains have work.
     independent_share : float
         Share of the time for samples that are independent of the chains, 0 to 1. They show what
         they are good at, and tell the brightness b. By default a pilot finds the best one; 1:

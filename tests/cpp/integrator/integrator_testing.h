@@ -46,13 +46,13 @@ inline Variant variant(const std::string& name) {
   if (name == "pssmlt_ptracer") return {"pssmlt", {{"estimator", "ptracer"}}};
   if (name == "mmlt_chains") return {"mmlt", {{"independent_share", "0"}}};
   if (name == "rjmlt_chains") return {"rjmlt", {{"independent_share", "0"}}};
-  if (name == "erpt") return {"erpt", {{"chains", "1"}, {"chain_length", "8"}}};
+  if (name == "erpt") return {"erpt", {{"tours", "1"}, {"tour_length", "8"}}};
   if (name == "pssmlt_gaussian") return {"pssmlt", {{"small_step", "gaussian"}}};
   return {name, {}};
 }
 inline bool has_chains(const std::string& integrator) {
   return integrator == "pssmlt" || integrator == "mmlt" || integrator == "rjmlt" ||
-         integrator == "mlt";
+         integrator == "mlt" || integrator == "erpt";
 }
 
 /// An integrator as a side of a comparison. Metropolis integrators scale their bootstrap with the
@@ -98,7 +98,7 @@ inline std::vector<Algorithm> algorithms() {
             {"luminance_samples", "4000"}}},
           {"mmlt", {{"max_depth", "6"}, {"chains", "40"}, {"luminance_samples", "4000"}}},
           {"rjmlt", {{"max_depth", "6"}, {"chains", "40"}, {"luminance_samples", "4000"}}},
-          {"erpt", {{"max_depth", "6"}, {"chain_length", "4"}, {"luminance_samples", "4000"}}},
+          {"erpt", {{"max_depth", "6"}, {"tour_length", "4"}, {"luminance_samples", "4000"}}},
           {"mlt", {{"max_depth", "6"}, {"chains", "40"}, {"luminance_samples", "4000"}}}};
 }
 

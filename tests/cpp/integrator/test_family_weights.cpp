@@ -119,7 +119,9 @@ struct SamplesOnly : MetropolisAlgorithm {
   const Scene& scene() const override { return of; }
   std::unique_ptr<Source> source() const override { return make_source(); }
   std::unique_ptr<RenderChain> start(const ChainId&, Rng, Rng) const override { return nullptr; }
-  std::unique_ptr<RenderChain> blank(const ChainId&) const override { return nullptr; }
+  std::unique_ptr<RenderChain> blank(const ChainId&, const FamilyWeights&, double) const override {
+    return nullptr;
+  }
   std::vector<MutationStats> rows() const override { return {}; }
   const Scene& of;
   std::function<std::unique_ptr<Source>()> make_source;

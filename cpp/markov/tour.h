@@ -1,0 +1,62 @@
+// Tours: Markov chains that start over and over (Restore: Q. Wang, M. Pollock, G. Roberts, D.
+// Steinsaltz, "Regeneration-enriched Markov processes with application to Monte Carlo", 2021; for light
+// transport P. Holl, H.-P. Seidel, G. Singh, "Jump Restore light transport", 2025).
+//
+// Samples find states with density P, and from each a tour starts. In a state x with the target T(x) it
+// dies with probability kappa / (1 + kappa), else a step follows that leaves T unchanged:
+//
+//   kappa(x) = kappa0 P(x) / T(x)
+//
+// Let nu be the density, per sample, of the states from which a step is made, and K the step. Tours
+// stand at x as often as they start there or come there, P + nu K, and go on from there with
+// probability 1 / (1 + kappa):
+//
+//   nu (1 + kappa) = P + nu K.
+//
+// nu = T / kappa0 solves it, since nu kappa = P and nu K = nu; and where tours end, nothing else does.
+// So do the states after those steps have that density, whatever kappa0 is and however the steps
+// move: no start needs to be forgotten. Nothing is to be recorded at the start itself.
+//
+// If r(x) tours start from a path in the mean, P becomes r P in all of this. With r in proportion to
+// T / P all tours die at the same rate: energy redistribution path tracing (D. Cline, J. Talbot, P.
+// Egbert, SIGGRAPH 2005).
+#pragma once
+
+#include <cstdint>
+
+namespace mlt {
+
+class KillRate {
+ public:
+  /// One tour from each path.
+  explicit KillRate(double kappa0) : kappa0_(kappa0) {}
+  /// Tours of so many steps in the mean, wherever they are: kappa = 1 / steps.
+  static KillRate constant(double kappa0, double steps) {
+    KillRate rate(kappa0);
+    rate.constant_ = 1 / steps;
+    return rate;
+  }
+
+  /// r of a path with this T / P.
+  double starts(double target_over_density) const {
+    return constant_ > 0 ? constant_ * target_over_density / kappa0_ : 1;
+  }
+  /// 1 / (1 + kappa) of a state with this T / P.
+  double survival(double target_over_density) const {
+    return 1 / (1 + (constant_ > 0 ? constant_ : kappa0_ / target_over_density));
+  }
+
+ private:
+  double kappa0_, constant_ = 0;
+};
+
+/// Makes steps until the tour dies: as soon as the probability of having come so far is below one
+/// uniform number `u`. `survival()` is that of the current state. Returns how many steps were made.
+template <class Survival, class Step>
+uint64_t run_tour(double u, Survival&& survival, Step&& step) {
+  uint64_t steps = 0;
+  for (double left = survival(); left > u; left *= survival(), ++steps) step();
+  return steps;
+}
+
+}  // namespace mlt
