@@ -36,6 +36,8 @@ void ChainStats::save(ByteWriter& bytes) const {
   bytes.write(longest.rejections);
   bytes.write(longest.raster);
   bytes.write(longest.signature);
+  bytes.write(tours);
+  bytes.write(longest_tour);
 }
 
 void ChainStats::load(ByteReader& bytes) {
@@ -48,6 +50,8 @@ void ChainStats::load(ByteReader& bytes) {
   longest.rejections = bytes.read<uint64_t>();
   longest.raster = bytes.read<Vec2>();
   bytes.read(longest.signature);
+  bytes.read(tours);
+  bytes.read(longest_tour);
 }
 
 void add_rows(const std::vector<MutationStats>& names, const std::vector<ChainStats::Row>& rows,

@@ -130,6 +130,7 @@ struct ChainStats {
   uint64_t invalid = 0;
   uint64_t run = 0;  ///< Rejections in a row up to now.
   Stuck longest;
+  uint64_t tours = 0, longest_tour = 0;  ///< Tours, and steps of the longest.
 
   /// Counts one step; `moved` is the distance on the image if it was accepted.
   void count(Row& row, const StepResult& result, bool generated, double moved);
@@ -235,6 +236,10 @@ class RecordedChain : public RenderChain {
   const ChainStats& stats() const override { return stats_; }
   const State& state() const { return chain_.state(); }
   Rng& rng() { return chain_.rng(); }
+  void count_tour(uint64_t steps) {
+    ++stats_.tours;
+    stats_.longest_tour = std::max(stats_.longest_tour, steps);
+  }
   /// Rays that were traced for it elsewhere.
   void count(const RayCounts& rays) {
     chain_.kernel().rays() += rays;

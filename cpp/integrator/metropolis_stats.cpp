@@ -12,6 +12,18 @@ namespace {
 /// If half of the light comes from fewer samples, there may well be more that none has found.
 constexpr uint64_t few_samples = 100;
 
+void warn_of_long_tour(const ChainStats& sum, Stats& stats) {
+  constexpr double much = 0.02;
+  uint64_t steps = 0;
+  for (const ChainStats::Row& row : sum.rows) steps += row.proposed;
+  const double share = static_cast<double>(sum.longest_tour) / static_cast<double>(steps);
+  if (share > much)
+    stats.warnings.push_back(fmt::format(
+        "one tour has made {:.0f} % of all mutations: some light was found once, and is "
+        "shown too bright if that was luck; render for longer",
+        100 * share));
+}
+
 }  // namespace
 
 /// Of all chains; `stuck` becomes the one that has stood still for longest.
@@ -27,6 +39,8 @@ ChainStats MetropolisRendering::sum_of_stats(StuckChain& stuck) const {
       for (size_t r = 0; r < sum.rows.size(); ++r) sum.rows[r] += s.rows[r];
       sum.rays += s.rays;
       sum.invalid += s.invalid;
+      sum.tours += s.tours;
+      sum.longest_tour = std::max(sum.longest_tour, s.longest_tour);
       if (s.longest.rejections > stuck.rejections)
         stuck = {number, s.longest.rejections, s.longest.raster.x, s.longest.raster.y,
                  s.longest.signature};
@@ -83,7 +97,10 @@ void MetropolisRendering::add_stats(Stats& stats) const {
   stats.invalid_samples += sum.invalid;
   stats.rays_intersect += sum.rays.intersect;
   stats.rays_occluded += sum.rays.occluded;
+  stats.tours = sum.tours;
+  stats.longest_tour = sum.longest_tour;
   add_rows(algorithm_->rows(), sum.rows, stats);
+  warn_of_long_tour(sum, stats);
   if (film_.saturated() > 0)
     stats.warnings.push_back(
         "the film's fixed-point range was exceeded; the brightest pixels are wrong");

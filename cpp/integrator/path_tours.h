@@ -60,8 +60,9 @@ class PathTours : public RenderChain {
       sum.brightness += luminance;
       sum.of_chains += luminance * weights_.of_chain(over_density);
       if (!std::isfinite(over_density)) return;
+      const double starts = kill_rate_.starts(over_density) / c.survival;
       bool assembled = false;
-      for (double n = std::floor(kill_rate_.starts(over_density) / c.survival + chain_.rng().next()); n > 0; --n) {
+      for (double n = std::floor(starts + chain_.rng().next()); n > 0; --n) {
         const double u = next_kill();
         if (!(kill_rate_.survival(over_density) > u)) continue;
         if (!assembled) seeds_.assemble(c, start_);
@@ -83,9 +84,10 @@ class PathTours : public RenderChain {
   void run(double u, ChainRecorder& recorder) {
     chain_.restart(start_);
     StepRecorder<PathKernel> record = chain_.begin(recorder);
-    run_tour(
-        u, [&] { return kill_rate_.survival(target_->over_bidirectional_density(chain_.state())); },
-        [&] { chain_.step(record); });
+    const PathState& x = chain_.state();
+    chain_.count_tour(run_tour(
+        u, [&] { return kill_rate_.survival(target_->over_bidirectional_density(x)); },
+        [&] { chain_.step(record); }));
     record.finish();
   }
 
@@ -106,9 +108,9 @@ class PathTours : public RenderChain {
   PathState start_;
   SampleSums samples_;
   ChainId id_;
-  uint64_t stream_;                ///< Of the group.
+  uint64_t stream_;  ///< Of the group.
   uint64_t count_ = 0, tours_ = 0;
-  double due_;                     ///< Of the next sample.
+  double due_;  ///< Of the next sample.
   double first_kill_;
 };
 

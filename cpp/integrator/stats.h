@@ -59,6 +59,9 @@ struct Stats {
   /// By how much, relatively, the brightness of the image may be wrong; NaN (null) if not known.
   double level_error = std::numeric_limits<double>::quiet_NaN();
   uint64_t independent_samples = 0, samples_carrying_half = 0;
+  /// Of mlt and erpt: how often chains have started, and how many mutations they made at the most
+  /// before they ended.
+  uint64_t tours = 0, longest_tour = 0;
   uint64_t invalid_samples = 0;
   std::vector<StuckChain> stuck;
   std::vector<MutationStats> mutations;

@@ -131,6 +131,8 @@ std::string to_json(const Stats& s) {
   line("independent", json_string(s.independent));
   line("independent_samples", fmt::format("{}", s.independent_samples));
   line("samples_carrying_half", fmt::format("{}", s.samples_carrying_half));
+  line("tours", fmt::format("{}", s.tours));
+  line("longest_tour", fmt::format("{}", s.longest_tour));
   line("invalid_samples", fmt::format("{}", s.invalid_samples));
   line("stuck", array(s.stuck, stuck_chain));
   line("mutations", array(s.mutations, mutation));

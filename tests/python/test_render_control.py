@@ -159,6 +159,8 @@ def test_stats_have_the_promised_members(scene):
         "independent": str,
         "independent_samples": int,
         "samples_carrying_half": int,
+        "tours": int,
+        "longest_tour": int,
         "invalid_samples": int,
         "stuck": list,
         "mutations": list,

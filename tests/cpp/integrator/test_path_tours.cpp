@@ -1,9 +1,9 @@
 // Tours of light paths: they show as much light as the samples from which they start, and their
 // starts die as often as the same paths do on the way.
+#include "harness/statistics.h"
 #include "integrator/path_tours.h"
 #include "mutation/mutation_testing.h"
 #include "mutation/path_mixture.h"
-#include "harness/statistics.h"
 
 namespace mlt::test {
 namespace {
@@ -65,7 +65,8 @@ INSTANTIATE_TEST_SUITE_P(Scenes, PathToursOf,
                                          Tour{"caustic", 2, 30}, Tour{"mirrors", 2, 30},
                                          Tour{"cornell", 2, 10, 20}, Tour{"caustic", 2, 10, 50}),
                          [](const auto& info) {
-                           return info.param.scene + "_" + std::to_string(info.param.rr_depth) + "_" +
+                           return info.param.scene + "_" + std::to_string(info.param.rr_depth) +
+                                  "_" +
                                   std::to_string(static_cast<int>(info.param.steps_per_sample)) +
                                   (info.param.tour_length > 0 ? "_constant" : "");
                          });
