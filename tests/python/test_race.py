@@ -124,6 +124,25 @@ def test_trimming_forgives_a_firefly():
     score = Judge.with_reference([reference]).score([image], 1)
     assert score.relmse.value > 1e3
     assert score.trimmed.value == pytest.approx(0.01 / 0.26)
+    assert score.sparks == 1
+
+
+def test_what_the_reference_has_is_no_spark():
+    reference = np.full((20, 30, 3), 0.5)
+    reference[9, 9] = 3
+    reference[15:] = 100  # an edge is none
+    image = reference.copy()
+    image[[4, 5], [20, 25]] = 2.6
+    score = Judge.with_reference([reference]).score([reference, image], 1)
+    assert score.sparks == 1  # none, and two
+    assert Judge.between_seeds([[image]]).score([image], 1).sparks == 3
+
+
+def test_the_median_forgives_a_seed():
+    reference = np.full((9, 9, 3), 0.5)
+    images = [reference + d for d in (0.1, 0.2, 50.0)]
+    score = Judge.with_reference([reference]).score(images, 1)
+    assert score.median == pytest.approx(0.04 / 0.26)
 
 
 def test_one_image_without_a_reference_has_a_level_alone():

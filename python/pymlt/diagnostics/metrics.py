@@ -112,6 +112,21 @@ def trimmed_mean(errors: np.ndarray, dropped: float = 0.001) -> float:
     return float(np.sort(errors, axis=None)[:kept].mean())
 
 
+def sparks(image: np.ndarray) -> np.ndarray:
+    """Which pixels of an image, (height, width, 3), are more than five times as bright as the
+    median of the 5 x 5 around them: bool, (height, width). Those near the border count as none.
+    """
+    import numpy as np
+
+    found = np.zeros(image.shape[:2], bool)
+    brightness = target_luminance(np.asarray(image, np.float64))
+    if min(found.shape) >= 5:
+        around = np.lib.stride_tricks.sliding_window_view(brightness, (5, 5))
+        for y, row in enumerate(around):
+            found[y + 2, 2:-2] = brightness[y + 2, 2:-2] > 5 * np.median(row, axis=(1, 2))
+    return found
+
+
 def _describe(shape) -> str:
     return f"{shape[1]} x {shape[0]} with {shape[2]} channels"
 

@@ -28,9 +28,10 @@ class Report:
     def table(self) -> str:
         """Errors with their standard errors, as text.
 
-        For each algorithm: relMSE (see `compare`), and how many times the smallest one it is;
-        trimmed of the worst 0.1 % of the pixels; of the shape alone; the level and its spread over
-        the seeds; HDR-FLIP; CPU seconds and samples per pixel of an image.
+        For each algorithm: relMSE (see `compare`), and how many times the smallest one it is; its
+        median over the seeds; trimmed of the worst 0.1 % of the pixels; of the shape alone; the
+        level and its spread over the seeds; sparks; HDR-FLIP; CPU seconds and samples per pixel of
+        an image.
         """
         parts = [
             "\n".join([table(result), *(f"- {note}" for note in notes(result))])

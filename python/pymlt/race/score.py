@@ -21,7 +21,13 @@ from typing import Any
 import numpy as np
 
 from .. import _core
-from ..diagnostics.metrics import flip_map, image_pair, relative_square, trimmed_mean
+from ..diagnostics.metrics import (
+    flip_map,
+    image_pair,
+    relative_square,
+    sparks,
+    trimmed_mean,
+)
 
 
 @dataclass(frozen=True)
@@ -48,10 +54,13 @@ class Score:
     seconds: float  #: CPU time of an image, all threads together; the mean
     images: int  #: how many there are
     relmse: Mean | None  #: None: without a reference a single image has no error
+    median: float | None  #: of relmse over the images
     trimmed: Mean | None  #: relmse without the 0.1 % of the pixels that are worst
     shape: Mean | None  #: relmse once the mean of each image is that of the reference
     level: Mean  #: mean of the image over that of the reference
     level_spread: float | None  #: standard deviation of the level of one image; None for one image
+    #: pixels far brighter than those around them, as they are not in the reference; the mean
+    sparks: float
     flip: Mean | None = None  #: HDR-FLIP against the reference, if flip-evaluator is installed
 
 
@@ -102,10 +111,12 @@ class Judge:
             seconds,
             len(images),
             self._mean(errors, np.mean),
+            self._median(errors),
             self._mean(errors, trimmed_mean),
             self._mean(shapes, np.mean) if all(levels) else None,
             mean_of(levels) or Mean(0.0),
             float(np.std(levels, ddof=1)) if len(levels) > 1 else None,
+            self._sparks(images),
             mean_of(perceptual),
         )
 
@@ -116,6 +127,15 @@ class Judge:
         if self.reference is not None:
             return mean_of(values)
         return mean_of(values, between_seeds=True)
+
+    def _median(self, errors: list[np.ndarray]) -> float | None:
+        if not errors:
+            return None
+        return float(np.median([error.mean() for error in errors]) - self.own_error.mean())
+
+    def _sparks(self, images: Sequence[np.ndarray]) -> float:
+        known = False if self.reference is None else sparks(self.reference)
+        return float(np.mean([np.sum(sparks(image) & ~np.asarray(known)) for image in images]))
 
     def _flip(self, images: Sequence[np.ndarray]) -> list[float]:
         if self.reference is None or not find_spec("flip_evaluator"):

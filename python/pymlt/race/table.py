@@ -32,10 +32,12 @@ def columns(result: RaceResult) -> list[Column]:
     made = [
         _errors("relMSE", [score.relmse for score in scores]),
         Column("over best", list(map(_ratio, ratios(result)))),
+        Column("median", [_number(score.median) for score in scores]),
         _errors("trimmed", [score.trimmed for score in scores]),
         _errors("shape", [score.shape for score in scores]),
         Column("level", [str(score.level) for score in scores]),
         Column("spread", [_number(score.level_spread, 2) for score in scores]),
+        Column("sparks", [_number(score.sparks) for score in scores]),
         _errors("FLIP", [score.flip for score in scores]),
         Column("CPU s", [f"{score.seconds:.3g}" for score in scores]),
         Column("spp", [_number(entry.spp) for entry in entries]),
