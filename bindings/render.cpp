@@ -127,6 +127,10 @@ void bind_render(py::module_& m) {
       .def_property_readonly("spp_done", &PyJob::spp_done)
       .def("image", [](PyJob& job) { return to_array(without_gil([&] { return job.image(); })); })
       .def("replay", &replay, py::arg("pixel"), py::arg("sample"), "(raster, radiance, paths)")
+      .def("image_without_fireflies",
+           [](PyJob& job) {
+             return to_array(without_gil([&] { return job.image_without_fireflies(); }));
+           })
       .def("layers", &layers, "Further images that the render was asked to keep, by name.")
       .def(
           "stats", [](PyJob& job) { return to_json(job.stats()); }, NoGil(), "As JSON.")

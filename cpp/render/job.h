@@ -68,6 +68,8 @@ class Job {
   double progress() const;  ///< 0 ... 1 of the budget.
   double spp_done() const;  ///< Samples per pixel so far.
   Image image() const;      ///< So far: linear RGB, row 0 on top.
+  /// See without_fireflies.
+  Image image_without_fireflies() const;
   /// Further images that the render was asked to keep, what the camera sees first, and the error of
   /// the image, so far.
   std::vector<NamedImage> layers() const;

@@ -1,6 +1,7 @@
 // Looking at a render: while it goes on, and when it has ended.
 #include "base/watchdog.h"
 #include "mlt_version.h"
+#include "render/fireflies.h"
 #include "render/job.h"
 
 #include <fmt/format.h>
@@ -34,6 +35,11 @@ double Job::progress() const {
 Image Job::image() const {
   const std::lock_guard lock(merging_);
   return rendering_->image();
+}
+
+Image Job::image_without_fireflies() const {
+  const std::lock_guard lock(merging_);
+  return without_fireflies(*rendering_);
 }
 
 std::shared_ptr<const ErrorEstimate> Job::error() const {

@@ -39,6 +39,13 @@ def add_arguments(command) -> None:
         add_flag(command, flag, HELP_HERE.get(name, ""))
     add_tonemap(command)
     command.add_argument(
+        "--fireflies",
+        choices=("keep", "groups"),
+        metavar="HOW",
+        help="groups: leave out what one of the 16 independent groups alone has found in a pixel; an "
+        ".exr keeps the image as its layer unfiltered (default keep; with --denoise, groups)",
+    )
+    command.add_argument(
         "--denoise",
         action="store_true",
         help="remove noise by Open Image Denoise; the filter is box, unless --filter names one; "
@@ -66,6 +73,7 @@ def start(args, signals: Signals) -> Job:
     options = RenderOptions(
         **{f.name: values[f.name] for f in fields(RenderOptions) if f.name in values}
     )
+    options.fireflies = args.fireflies or ("groups" if args.denoise else "keep")
     if args.denoise and options.aovs is None:
         options.aovs = GUIDES
     if args.denoise and args.filter is None:
@@ -111,6 +119,8 @@ def run(args) -> int:
     if not args.quiet:
         where = ", ".join(images) or "no image could be saved"
         say(f"{'interrupted; ' if code else ''}{result._summary()}: {where}")
+        if "fireflies" in result.metadata:
+            say(f"fireflies by {result.metadata['fireflies']}")
     return code if complete else 3
 
 

@@ -29,6 +29,7 @@ class Job:
         self._scene = scene
         self._integrator = integrator
         self._cluster = options.cluster
+        self._filters = options.fireflies == "groups"
         self._job = _core.Job(
             scene,
             integrator,
@@ -53,7 +54,7 @@ class Job:
     @property
     def image(self) -> np.ndarray:
         """The image so far: float32, (height, width, 3), linear, row 0 on top."""
-        return self._job.image()
+        return self._job.image_without_fireflies() if self._filters else self._job.image()
 
     @property
     def stats(self) -> dict:
@@ -168,14 +169,15 @@ class Job:
     def snapshot(self) -> Result:
         """The image so far, with everything known about it."""
         settings = json.loads(self._integrator.settings)
-        return Result(
-            self.image,
-            self.stats,
-            settings,
-            self._job.layers(),
-            self._job.metadata(),
-            self._scene.half,
-        )
+        image, stats, layers = self.image, self.stats, self._job.layers()
+        metadata = self._job.metadata()
+        if self._filters:
+            layers["unfiltered"] = self._job.image()
+            seen = float(layers["unfiltered"].mean(dtype=float))
+            removed = 1 - float(image.mean(dtype=float)) / seen if seen > 0 else 0.0
+            stats["fireflies_removed"] = removed
+            metadata["fireflies"] = f"groups: {100 * removed:.2g} % of the light is removed"
+        return Result(image, stats, settings, layers, metadata, self._scene.half)
 
     def show(self, *, interval: float = 1, exposure: float = 0) -> None:
         """Show the image in a notebook, and renew it each `interval` seconds until the render ends.

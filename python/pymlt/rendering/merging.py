@@ -130,6 +130,8 @@ def _check(renders: list[_Render], force: bool) -> None:
             raise _core.UsageError(f"{render.name} has no samples")
         if "denoised" in render.metadata:
             raise _core.UsageError(f"{render.name} is denoised; merge its layer 'noisy'")
+        if "fireflies" in render.metadata:
+            raise _core.UsageError(f"{render.name} is filtered; merge its layer 'unfiltered'")
 
 
 def _size(render: _Render) -> str:

@@ -35,6 +35,12 @@ class RenderOptions:
         commas; "n:sh_normal" calls the layer "n". Means over 16 camera rays per pixel (indices:
         of the ray through its middle; -1 where there is nothing). float32, (height, width, 3);
         depth and indices (height, width, 1). None are those of the scene's integrator `aov`.
+    fireflies
+        "groups" shows each pixel without what one of the 16 independent groups of the render alone
+        has found there (adaptive median of means, Buisine et al. 2021). Sparks go, and so does
+        light that is found rarely: the image is darker, by the share `stats["fireflies_removed"]`,
+        which vanishes as the render goes on. The layer "unfiltered" has the image as it was.
+        "keep" leaves it so.
     cluster
         where to render: a `dask.distributed` client or cluster, the address of one
         ("tcp://host:8786"), or "local:N" for N processes of this machine. None is this process.
@@ -50,6 +56,7 @@ class RenderOptions:
     every: float = 60
     overwrite: bool = False
     aovs: str | Sequence[str] | None = None
+    fireflies: str = "keep"
     cluster: Any = None
 
     def __post_init__(self):
@@ -57,6 +64,10 @@ class RenderOptions:
             setattr(self, name, number(name, getattr(self, name)))
         self.seed = integer("seed", self.seed, 2**64)
         self.threads = integer("threads", self.threads, 4097)
+        if self.fireflies not in ("keep", "groups"):
+            raise _core.UsageError(
+                f"fireflies is {self.fireflies!r}, but should be 'keep' or 'groups'"
+            )
         if self.checkpoint is not None:
             self.checkpoint = os.fspath(self.checkpoint)
         if self.aovs is not None and not isinstance(self.aovs, str):

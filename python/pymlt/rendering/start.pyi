@@ -28,6 +28,7 @@ def render(
     every: float = ...,
     overwrite: bool = ...,
     aovs: str | Sequence[str] | None = ...,
+    fireflies: str = ...,
     cluster: Any = ...,
     sensor: int | None = ...,
     progress: bool | Callable[[float], object] | None = ...,
@@ -61,6 +62,7 @@ def resume(
     every: float = ...,
     overwrite: bool = ...,
     aovs: str | Sequence[str] | None = ...,
+    fireflies: str = ...,
     cluster: Any = ...,
     scene: SceneLike | None = ...,
 ) -> Job: ...
@@ -82,6 +84,7 @@ def start(
     every: float = ...,
     overwrite: bool = ...,
     aovs: str | Sequence[str] | None = ...,
+    fireflies: str = ...,
     cluster: Any = ...,
     sensor: int | None = ...,
 ) -> Job: ...
