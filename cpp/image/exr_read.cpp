@@ -56,6 +56,19 @@ int64_t max_expansion(Imf::Compression compression) {
   }
 }
 
+/// How many lines are decompressed together, at least of an image that has so many.
+int64_t lines_of_chunk(Imf::Compression compression) {
+  switch (compression) {
+    case Imf::NO_COMPRESSION:
+    case Imf::RLE_COMPRESSION:
+    case Imf::ZIPS_COMPRESSION: return 1;
+    case Imf::ZIP_COMPRESSION:
+    case Imf::PXR24_COMPRESSION: return 16;
+    case Imf::DWAB_COMPRESSION: return 256;
+    default: return 32;
+  }
+}
+
 /// A window's area may be more than an integer holds.
 double area_of(const Imath::Box2i& window) {
   return static_cast<double>(width_of(window)) * static_cast<double>(height_of(window));
@@ -83,7 +96,10 @@ void check_header(const Imf::Header& header, size_t file_size) {
     pixel_size += c.channel().type == Imf::HALF ? 2 : 4;
   const double limit = static_cast<double>(max_expansion(header.compression())) *
                        (static_cast<double>(file_size) + 64);
-  if (pixels * static_cast<double>(pixel_size) > limit)
+  const double chunk = static_cast<double>(width_of(data) * pixel_size *
+                                           lines_of_chunk(header.compression()));
+  constexpr double small_chunk = 0x1p28;
+  if (pixels * static_cast<double>(pixel_size) > limit || chunk > std::max(limit, small_chunk))
     throw std::runtime_error(too_many_pixels(width_of(data), height_of(data)));
 }
 

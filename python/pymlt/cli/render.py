@@ -42,8 +42,8 @@ def add_arguments(command) -> None:
         "--fireflies",
         choices=("keep", "groups"),
         metavar="HOW",
-        help="groups: leave out what one of the 16 independent groups alone has found in a pixel; an "
-        ".exr keeps the image as its layer unfiltered (default keep; with --denoise, groups)",
+        help="groups: leave out what one of the 16 independent groups alone has found in a pixel; "
+        "an .exr keeps the image as its layer unfiltered (default keep; with --denoise, groups)",
     )
     command.add_argument(
         "--denoise",
