@@ -96,8 +96,8 @@ void check_header(const Imf::Header& header, size_t file_size) {
     pixel_size += c.channel().type == Imf::HALF ? 2 : 4;
   const double limit = static_cast<double>(max_expansion(header.compression())) *
                        (static_cast<double>(file_size) + 64);
-  const double chunk = static_cast<double>(width_of(data) * pixel_size *
-                                           lines_of_chunk(header.compression()));
+  const double chunk =
+      static_cast<double>(width_of(data) * pixel_size * lines_of_chunk(header.compression()));
   constexpr double small_chunk = 0x1p28;
   if (pixels * static_cast<double>(pixel_size) > limit || chunk > std::max(limit, small_chunk))
     throw std::runtime_error(too_many_pixels(width_of(data), height_of(data)));

@@ -20,7 +20,8 @@ Image adaptive_median(const std::vector<Image>& groups) {
     for (size_t g = 0; g < groups.size(); ++g)
       brightness[g] = static_cast<float>(target_luminance(pixel(groups[g], i)));
     std::iota(order.begin(), order.end(), 0);
-    std::sort(order.begin(), order.end(), [&](int a, int b) { return brightness[a] < brightness[b]; });
+    std::sort(order.begin(), order.end(),
+              [&](int a, int b) { return brightness[a] < brightness[b]; });
     sorted.clear();
     for (const int g : order) sorted.push_back(brightness[g]);
     const size_t c = left_out(sorted);

@@ -27,9 +27,7 @@ TEST(LeftOut, FollowsTheGiniCoefficient) {
   EXPECT_EQ(left_out({9, 10, 11, 12, 13, 14, 15, 16}), 0);
 }
 
-TEST(LeftOut, IsNotMoreThanThereAreWithNegativeLobes) {
-  EXPECT_EQ(left_out({-3, -1, 0, 5}), 1);
-}
+TEST(LeftOut, IsNotMoreThanThereAreWithNegativeLobes) { EXPECT_EQ(left_out({-3, -1, 0, 5}), 1); }
 
 }  // namespace
 }  // namespace mlt
