@@ -6,6 +6,8 @@ A chain remembers where it started. Throwing its first samples away helps, but n
 are enough. Better: draw candidates x from a known density p, and start chains from candidates that
 are chosen in proportion to f(x) / p(x). The mean of f / p estimates b, the integral of f. Then b
 times what the chains record is right in the mean from the very first step (Veach & Guibas 1997).
+
+Or let chains start over and over, and end by chance: then what they record needs no b.
 """
 
 import matplotlib.pyplot as plt
@@ -74,4 +76,18 @@ for row, ((name, (x0, scale)), color) in enumerate(
 right.axhline(1 / 32, color="black", lw=0.8)
 right.set(xlabel="step", title="Estimate of the integral of |x − ½| f(x)", ylim=(0.012, 0.034))
 right.legend(loc="lower right")
+plt.show()
+
+# %%
+# Tours start from uniform samples, too, and die in each state with a probability that p / f tells:
+# soon where f is small. The states after their steps have the density f, however long they are.
+
+figure, axes = plt.subplots(1, 3, figsize=(11, 3.2), sharey=True)
+for axis, length in zip(axes, (0.3, 3, 30), strict=True):
+    tours = metropolis.tours(f, moves, uniform, one, int(60_000 / length), steps=length, seed=1)
+    axis.hist(tours.states, 50, range=(0, 1), density=True, color=lab.GREEN, alpha=0.7)
+    axis.plot(x, 12 * (x - 0.5) ** 2, color="black", lw=0.8)
+    found = tours.estimate(lambda x: np.abs(x - 0.5))
+    axis.set(xlabel="x", title=f"{length:g} steps from each sample")
+    print(f"{length:g} steps: {found.estimate:.5f} ± {found.standard_error:.5f}; {1 / 32:.5f}")
 plt.show()

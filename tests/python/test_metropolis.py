@@ -376,6 +376,41 @@ def test_the_product_is_integrated_and_its_error_is_honest(chains):
     assert low < spread < high
 
 
+@pytest.mark.parametrize("steps", [0.3, 3, 30])
+@pytest.mark.parametrize("own", [False, True])
+def test_tours_need_no_start(steps, own):
+    """Their samples know nothing of the target, and their density is not uniform."""
+    made = metropolis.tours(
+        f_of_array if own else metropolis.Parabola(),
+        MIXTURE,
+        lambda rng, n: rng.random(n) ** 2,
+        lambda x: 0.5 / np.sqrt(x),
+        20_000,
+        steps=steps,
+        seed=3,
+    )
+    assert 0.7 * steps < len(made.states) / made.samples < 1.4 * steps
+    for function, integral in ((None, 1 / 12), (g, 1 / 32), (lambda x: x, 1 / 24)):
+        found = made.estimate(function)
+        z = (found.estimate - integral) / found.standard_error
+        assert 2 * stats.norm.sf(abs(z)) > ALPHA
+        assert found.standard_error < 0.05 * integral
+
+
+def test_tours_that_die_as_if_their_samples_were_uniform_are_wrong():
+    made = metropolis.tours(
+        metropolis.Parabola(),
+        MIXTURE,
+        lambda rng, n: rng.random(n) ** 2,
+        lambda x: np.ones(len(x)),
+        20_000,
+        steps=1,
+        seed=3,
+    )
+    found = made.estimate(lambda x: x)
+    assert abs(found.estimate - 1 / 24) > 10 * found.standard_error
+
+
 def bootstrap(candidates, chains, seed):
     return metropolis.bootstrap(
         f_of_array,

@@ -24,6 +24,7 @@ from .run import run
 from .samples import Samples, autocorrelation
 from .start import Start, bootstrap
 from .targets import Image, Normals, Parabola, PathTarget, Table, Target
+from .tours import Tours, tours
 
 __all__ = [
     "AdaptiveWalk",
@@ -41,9 +42,11 @@ __all__ = [
     "Symmetric",
     "Table",
     "Target",
+    "Tours",
     "Uniform",
     "autocorrelation",
     "bootstrap",
     "detailed_balance",
     "run",
+    "tours",
 ]

@@ -39,9 +39,19 @@ def bootstrap(
     import numpy as np
 
     rng = np.random.default_rng(seed)
-    x = np.asarray(sample(rng, candidates))
+    x, weights = candidate_weights(target, sample, density, candidates, rng)
+    b, b_error, chosen = _core.metropolis.resample(weights, chains, seed)
+    order = np.random.default_rng([seed, 1]).permutation(len(chosen))
+    return Start(b, b_error, x[np.asarray(chosen)[order]])
+
+
+def candidate_weights(target, sample, density, count: int, rng) -> tuple:
+    """So many candidates, and their f / p. Raises UsageError for what these cannot be."""
+    import numpy as np
+
+    x = np.asarray(sample(rng, count))
     f, p = (np.asarray(function(x), dtype=float) for function in (target, density))
-    if f.shape != (candidates,) or p.shape != (candidates,):
+    if f.shape != (count,) or p.shape != (count,):
         raise _core.UsageError("target and density must return one number for each candidate")
     if not (p > 0).all():
         raise _core.UsageError("density is not positive at a candidate that sample has drawn")
@@ -49,7 +59,5 @@ def bootstrap(
     if not (np.isfinite(weights).all() and (weights >= 0).all()):
         raise _core.UsageError("the target must be finite and not negative at every candidate")
     if not weights.any():
-        raise _core.UsageError(f"the target is 0 at all of {candidates} candidates; draw more")
-    b, b_error, chosen = _core.metropolis.resample(weights, chains, seed)
-    order = np.random.default_rng([seed, 1]).permutation(len(chosen))
-    return Start(b, b_error, x[np.asarray(chosen)[order]])
+        raise _core.UsageError(f"the target is 0 at all of {count} candidates; draw more")
+    return x, weights
