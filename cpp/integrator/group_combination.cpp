@@ -6,7 +6,8 @@
 
 namespace mlt {
 
-GroupCombination::GroupCombination(std::vector<GroupProgress> groups, const Estimate& of_chains)
+GroupCombination::GroupCombination(std::vector<GroupProgress> groups, const Estimate& of_chains,
+                                   bool corrected)
     : groups_(std::move(groups)), of_chains_(of_chains) {
   MeanSums by_chains, bootstrap;
   for (int g = 0; g < count(); ++g) {
@@ -16,7 +17,7 @@ GroupCombination::GroupCombination(std::vector<GroupProgress> groups, const Esti
   }
   const Estimate chains = estimate(by_chains), samples = pooled(estimate(bootstrap), of_chains_);
   if (!(chains.variance > 0) || samples.count == 0) return;
-  lambda_ = chains.variance / (chains.variance + samples.variance);
+  if (corrected) lambda_ = chains.variance / (chains.variance + samples.variance);
   const double difference = samples.mean - chains.mean;
   if (sqr(difference) > sqr(2.5) * (chains.variance + samples.variance))
     missing_ = (1 - lambda_) * difference;

@@ -21,6 +21,9 @@
 // render, which leaves a bias that vanishes as the render goes on. Where no samples tell M, as those of
 // path tracing do not, lambda is 0.
 //
+// Tours (markov/tour.h) are scaled by a number that is known: their b C_g is right by itself, and lambda is
+// 0 too.
+//
 // The correction takes light away from the others' image where a group is too bright. No more than
 // that image can lose is taken there: what a group has in excess of that makes its own C_g darker, so
 // that nothing becomes negative. That is biased as a quotient is, and happens less and less often as the
@@ -46,8 +49,10 @@ using GroupScales = std::vector<double>;
 
 class GroupCombination {
  public:
-  /// `of_chains`: the mean of w2 L* / p over the samples that all groups share.
-  GroupCombination(std::vector<GroupProgress> groups, const Estimate& of_chains);
+  /// `of_chains`: the mean of w2 L* / p over the samples that all groups share. `corrected`: lambda
+  /// is not 0.
+  GroupCombination(std::vector<GroupProgress> groups, const Estimate& of_chains,
+                   bool corrected = true);
 
   /// I_g: the spread over the groups tells the error of their mean.
   GroupScales group(int g) const;

@@ -166,7 +166,7 @@ std::vector<GroupProgress> MetropolisRendering::progress() const {
 }
 
 GroupCombination MetropolisRendering::combination() const {
-  return {progress(), samples_ ? samples_->mean_of_chains() : Estimate()};
+  return {progress(), samples_ ? samples_->mean_of_chains() : Estimate(), !algorithm_->has_tours()};
 }
 
 /// Pixels are the pixel count times what falls into them.

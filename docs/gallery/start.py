@@ -49,7 +49,9 @@ ways = {
 # What is estimated is the integral of g f with ``g(x) = |x - 1/2|``, that is 1/32. The lines are
 # means of 20 000 chains after each step; the dashed lines, of all steps up to there.
 
-figure, (left, right) = plt.subplots(1, 2, figsize=(11, 4.2), width_ratios=[1, 1.4])
+figure = plt.figure(figsize=(11, 7.6))
+above, below = figure.subfigures(2, 1, height_ratios=[1.3, 1])
+left, right = above.subplots(1, 2, width_ratios=[1, 1.4])
 left.set(xlabel="x", title="Where chains are at step 0 and after 200", yticks=[])
 left.grid(False)
 x = np.linspace(0, 1, 300)
@@ -76,14 +78,12 @@ for row, ((name, (x0, scale)), color) in enumerate(
 right.axhline(1 / 32, color="black", lw=0.8)
 right.set(xlabel="step", title="Estimate of the integral of |x − ½| f(x)", ylim=(0.012, 0.034))
 right.legend(loc="lower right")
-plt.show()
 
 # %%
 # Tours start from uniform samples, too, and die in each state with a probability that p / f tells:
 # soon where f is small. The states after their steps have the density f, however long they are.
 
-figure, axes = plt.subplots(1, 3, figsize=(11, 3.2), sharey=True)
-for axis, length in zip(axes, (0.3, 3, 30), strict=True):
+for axis, length in zip(below.subplots(1, 3, sharey=True), (0.3, 3, 30), strict=True):
     tours = metropolis.tours(f, moves, uniform, one, int(60_000 / length), steps=length, seed=1)
     axis.hist(tours.states, 50, range=(0, 1), density=True, color=lab.GREEN, alpha=0.7)
     axis.plot(x, 12 * (x - 0.5) ** 2, color="black", lw=0.8)

@@ -123,7 +123,7 @@ def test_the_layers_of_a_result_guide_the_filter():
 
 def test_the_command_line_denoises_renders_and_files(scene, tmp_path):
     assert cli.main(["render", scene, "--spp", "16", "--denoise", "-o", "a.exr"]) == 0
-    layers = ["--aov", "albedo,sh_normal"]
+    layers = ["--aov", "albedo,sh_normal", "--fireflies", "groups"]
     assert cli.main(["render", scene, "--spp", "16", *layers, "-o", "b.exr"]) == 0
     assert cli.main(["denoise", "b.exr", "-o", "c.exr"]) == 0
     assert (tmp_path / "a.exr").read_bytes() == (tmp_path / "c.exr").read_bytes()
