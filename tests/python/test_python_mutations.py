@@ -411,7 +411,7 @@ def test_python_makes_the_same_image(scene):
         images = [mlt.render(scene, algorithm, spp=spp, seed=s, threads=1) for s in range(16)]
         return np.array([[i.mean(), *(h.mean() for h in np.array_split(i, 4))] for i in images])
 
-    mine = means(small((mlt.Bidirectional(), 0.4), (Nudge(), 0.3), (MoveVertex(), 0.3)), 48)
+    mine = means(small((mlt.Bidirectional(), 0.4), (Nudge(), 0.3), (MoveVertex(), 0.3)), 64)
     truth = means(mlt.Path(max_depth=5), 64)
     error = np.sqrt(np.var(mine, axis=0, ddof=1) / 16 + np.var(truth, axis=0, ddof=1) / 16)
     # Where light is found by few tours, 16 renders do not tell how far their mean may be off.
