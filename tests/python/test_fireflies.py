@@ -48,13 +48,14 @@ def test_each_pixel_is_a_mean_of_the_groups_in_the_middle(goblets):
 
 @pytest.mark.parametrize("integrator", ["path", "mlt", "pssmlt", "erpt"])
 def test_the_less_noise_the_less_is_removed(integrator):
+    """A 32nd of the variance; noise that a few tours make falls more slowly than its root."""
     scene = mlt.load_string(tiny.XML, res=16)
     few, many = (
         mlt.start(scene, integrator, spp=spp, seed=1, fireflies="groups").result()
         for spp in (128, 4096)
     )
     assert few.stats["fireflies_removed"] > 0
-    assert abs(many.stats["fireflies_removed"]) < 0.4 * few.stats["fireflies_removed"]
+    assert abs(many.stats["fireflies_removed"]) < 0.5 * few.stats["fireflies_removed"]
 
 
 def test_what_is_neither_is_refused():
