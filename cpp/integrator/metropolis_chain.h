@@ -228,11 +228,6 @@ class RecordedChain : public RenderChain {
     chain_.restart(start);
     stats_.run = 0;
   }
-  /// The same with another stream.
-  void restart(const State& start, const Rng& rng) {
-    chain_.rng() = rng;
-    restart(start);
-  }
   const ChainStats& stats() const override { return stats_; }
   const State& state() const { return chain_.state(); }
   Rng& rng() { return chain_.rng(); }
