@@ -154,7 +154,7 @@ class Job:
         try:
             return self._job.wait(seconds)
         except _core.RenderError as error:
-            if self._job.spp_done > 0:
+            if self._job.ended and self._job.spp_done > 0:  # not in a fork, whose locks may be held
                 error.result = self.snapshot()
             raise
 
