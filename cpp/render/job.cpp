@@ -207,6 +207,7 @@ void Job::let_savers_in() {
 }
 
 std::string Job::save() {
+  check_here();
   std::unique_lock lock(mutex_);
   if (phase_ == Phase::waiting) throw UsageError("the render has not been started");
   struct Waiting {

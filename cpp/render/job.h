@@ -39,8 +39,7 @@ class Job {
   void attach(std::unique_ptr<Executor> executor);
   void start();  ///< Throws RenderError if there is not memory enough.
   /// Waits until the render has ended or `seconds` have passed; true if it has ended. Rethrows what
-  /// went wrong inside the render. Throws RenderError in a process that was forked from the one that
-  /// renders.
+  /// went wrong inside the render.
   bool wait(double seconds);
   /// Ends the render soon; what has been rendered stays.
   void cancel() { cancel_ = true; }
@@ -65,6 +64,9 @@ class Job {
   /// After the end: goes on until a larger budget is used up. Throws UsageError.
   void extend(const Budget& budget);
 
+  // Until it has ended, a process that was forked from the one that renders gets RenderError from all
+  // that returns an image or statistics, and from wait() and save().
+
   double progress() const;  ///< 0 ... 1 of the budget.
   double spp_done() const;  ///< Samples per pixel so far.
   Image image() const;      ///< So far: linear RGB, row 0 on top.
@@ -76,7 +78,10 @@ class Job {
   /// How wrong the image is, so far; after the end it is worked out but once.
   std::shared_ptr<const ErrorEstimate> error() const;
   /// The independent groups behind it, so far.
-  const Rendering& rendering() const { return *rendering_; }
+  const Rendering& rendering() const {
+    check_here();
+    return *rendering_;
+  }
   /// Repeats one sample of a pixel, whether or not the render has started. Throws UsageError.
   Replay replay(const Vec2i& pixel, uint64_t sample) { return rendering_->replay(pixel, sample); }
   /// After the end with the error of the image.
@@ -99,6 +104,7 @@ class Job {
   using Clock = std::chrono::steady_clock;
   enum class Phase { waiting, bootstrap, rendering, ended };
 
+  void check_here() const;
   void check_waiting() const;
   void take_memory();
   size_t bytes_needed() const;

@@ -10,9 +10,14 @@
 
 namespace mlt {
 
-bool Job::wait(double seconds) {
+/// In a fork, the locks of a render that has not ended may be held by threads that are not there.
+void Job::check_here() const {
   if (!ended() && elsewhere())
     throw RenderError("the render goes on in the process that started it, not in this fork of it");
+}
+
+bool Job::wait(double seconds) {
+  check_here();
   std::unique_lock lock(mutex_);
   if (std::isfinite(seconds))
     ended_.wait_for(lock, std::chrono::duration<double>(seconds), [this] { return ended(); });
@@ -33,16 +38,19 @@ double Job::progress() const {
 }
 
 Image Job::image() const {
+  check_here();
   const std::lock_guard lock(merging_);
   return rendering_->image();
 }
 
 Image Job::image_without_fireflies() const {
+  check_here();
   const std::lock_guard lock(merging_);
   return without_fireflies(*rendering_);
 }
 
 std::shared_ptr<const ErrorEstimate> Job::error() const {
+  check_here();
   const std::lock_guard no_merging(merging_);
   if (!ended()) return std::make_shared<ErrorEstimate>(estimate_error(*rendering_));
   const std::lock_guard lock(error_mutex_);
@@ -51,6 +59,7 @@ std::shared_ptr<const ErrorEstimate> Job::error() const {
 }
 
 std::vector<NamedImage> Job::layers() const {
+  check_here();
   std::vector<NamedImage> layers;
   {
     const std::lock_guard lock(merging_);
@@ -73,6 +82,7 @@ double Job::spp_done() const {
 }
 
 Stats Job::stats() const {
+  check_here();
   Stats stats;
   stats.version = MLT_VERSION;
   stats.integrator = integrator_->name();
