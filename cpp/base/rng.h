@@ -20,7 +20,8 @@ enum class Purpose : uint64_t {
   pilot,
   inspect,
   allocation,
-  sample
+  sample,
+  certain_light
 };
 
 /// SplitMix64 (Steele, Lea & Flood 2014): a bijective mixer of 64 bits.

@@ -26,7 +26,7 @@ class ErptIntegrator : public Integrator {
     settings_.rules = path_rules(params);
     settings_.near_specular = params.real_in("near_specular", 0, 1);
     settings_.mixture = read_mixture(params, perturbations());
-    settings_.adaptive = settings_.two_stage = false;
+    settings_.adaptive = settings_.two_stage = settings_.samples_beside = false;
     settings_.tour_length = params.real_in("tour_length", 1, 1 << 24);
     metropolis_.steps_per_sample = *settings_.tour_length * params.real_in("tours", 1e-6, 1e6);
   }

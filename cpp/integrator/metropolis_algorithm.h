@@ -23,8 +23,8 @@ struct FoundLight {
   bool own_pixel;              ///< At the sample's own image position, not by light tracing.
 
   bool valid() const {
-    return is_finite(rgb) && min_component(rgb) >= 0 && weight > 0 && std::isfinite(weight) &&
-           target_over_density > 0;
+    return is_finite(rgb) && min_component(rgb) >= 0 && weight >= 0 && std::isfinite(weight) &&
+           target_over_density >= 0;
   }
 };
 
@@ -82,6 +82,9 @@ class MetropolisAlgorithm {
   }
   /// Name and path length of each row of the statistics.
   virtual std::vector<MutationStats> rows() const = 0;
+  /// Called once before the first sample.
+  virtual void look_around(uint64_t /*seed*/, int /*threads*/,
+                           const std::atomic<bool>& /*cancelled*/) {}
   /// Called once before the first chain, to prepare whatever is to be known by then, with a coarse
   /// image that may become a part of the target.
   virtual void prepare(const CoarseImage& /*coarse*/, uint64_t /*seed*/, int /*threads*/,

@@ -73,6 +73,7 @@ Allocation MetropolisRendering::run_pilot(int threads, const std::atomic<bool>& 
   pilot.share = settings_.independent_share;
   pilot.techniques = settings_.techniques;
   const Raster& raster = scene_->camera().raster();
+  algorithm_->look_around(seed_, threads, cancelled);
   const CoarseImage coarse = coarse_image(*algorithm_, raster, pilot, cancelled);
   algorithm_->prepare(coarse, seed_, threads, cancelled);
   if (settings_.independent_share == 0 && !algorithm_->has_tours()) return {};

@@ -17,6 +17,7 @@ class MltIntegrator : public Integrator {
     const std::string independent = params.text("independent");
     if (independent == "bdpt") metropolis_.techniques = SampleTechniques::all;
     if (independent == "path") metropolis_.techniques = SampleTechniques::path_tracing;
+    settings_.samples_beside = metropolis_.independent_share != 0;
     settings_.near_specular = params.real_in("near_specular", 0, 1);
     settings_.two_stage = params.boolean("two_stage");
     settings_.delayed_rejection = params.boolean("delayed_rejection");

@@ -12,6 +12,9 @@ namespace {
 /// The step of a second stage over that of the first.
 constexpr double timid_share = 0.1;
 
+/// Sent to find the lights that are seen.
+constexpr uint64_t walks_to_lights = 50000;
+
 /// A mutation's own parameter for its step size, and the values among which adaptation chooses.
 struct StepSizeChoice {
   const char* parameter;
@@ -53,6 +56,11 @@ class MltAlgorithm : public MetropolisAlgorithm {
     weights_ = std::make_shared<MixtureWeights>(std::move(weights));
   }
 
+  void look_around(uint64_t seed, int threads, const std::atomic<bool>& cancelled) override {
+    if (settings_.samples_beside)
+      target_.leave_to_samples(
+          {scene(), target_.rules(), walks_to_lights, seed, threads, cancelled});
+  }
   void prepare(const CoarseImage& coarse, uint64_t seed, int threads,
                const std::atomic<bool>& cancelled) override {
     if (settings_.two_stage) target_.set_map(coarse.map);
@@ -104,6 +112,8 @@ class MltAlgorithm : public MetropolisAlgorithm {
   std::string save() const override {
     ByteWriter bytes;
     bytes.write(target_.map() ? target_.map()->factors() : std::vector<double>());
+    const CertainLight* certain = target_.certain_light();
+    bytes.write(certain ? certain->cells() : std::vector<uint8_t>());
     bytes.write<uint64_t>(weights_->rows().size());
     for (const auto& row : weights_->rows()) bytes.write(row);
     return bytes.take();
@@ -112,8 +122,12 @@ class MltAlgorithm : public MetropolisAlgorithm {
     ByteReader bytes(saved);
     std::vector<double> factors;
     bytes.read(factors);
+    std::vector<uint8_t> cells;
+    bytes.read(cells);
+    const Raster& raster = scene().camera().raster();
+    if (!cells.empty()) target_.leave_to_samples({raster, walks_to_lights, std::move(cells)});
     if (settings_.two_stage) {
-      TargetMap map = blank_image(target_.scene().camera().raster());
+      TargetMap map = blank_image(raster);
       map.set_factors(std::move(factors));
       target_.set_map(std::move(map));
     }

@@ -27,6 +27,7 @@ struct MltSettings {
   bool adaptive = true;
   bool two_stage = true;
   bool delayed_rejection = false;
+  bool samples_beside = true;         ///< Whether independent samples go to the image, too.
   std::optional<double> tour_length;  ///< The same for all tours, in the mean.
 };
 

@@ -26,10 +26,11 @@ class TracedSource : public MetropolisAlgorithm::Source {
  private:
   struct Finder : IgnorePaths {
     Finder(TracedSource& of, const Vec2& at) : source(of), raster(at) {}
-    void find(const CameraWalk& walk, const Color& radiance) {
+    void find(const CameraWalk& walk, const Color& radiance, double certainty) {
       const Color rgb = radiance / source.scale_;
-      const double weight = source.target_->of(rgb, raster);
-      if (weight > 0) source.found_.push_back({raster, rgb, weight, weight * walk.survival, true});
+      const double weight = source.target_->of(rgb, raster, certainty);
+      if (target_luminance(rgb) > 0)
+        source.found_.push_back({raster, rgb, weight, weight * walk.survival, true});
     }
     TracedSource& source;
     Vec2 raster;
@@ -71,8 +72,8 @@ class TracedTaker : public WaveTaker {
   }
 
  private:
-  double chain_factor(const Vec2& raster) const override {
-    return target_->factor(raster) / (scale_ * threshold_);
+  ChainFactor chain_factor(const Vec2& raster) const override {
+    return {target_->factor(raster) / (scale_ * threshold_), target_->most_certain(raster)};
   }
 
   const PathTarget* target_;

@@ -27,8 +27,7 @@ class WaveTaker : public SampleTaker {
   const PathRules& rules() const { return rules_; }
 
  private:
-  /// See CameraWalk.
-  virtual double chain_factor(const Vec2& /*raster*/) const { return 0; }
+  virtual ChainFactor chain_factor(const Vec2& /*raster*/) const { return {}; }
   /// What a path has found.
   virtual void show(const Vec2& raster, const Color& radiance, SampleSink& sink) {
     sink.add(raster, radiance);

@@ -33,7 +33,8 @@ class PathSeeds {
     return x;
   }
 
-  /// Calls found(connection, weight) for each path of a candidate.
+  /// Calls found(connection, weight) for each path of a candidate that brings light, whether or not it is
+  /// a part of the target.
   template <class Sampler, class Found>
   void draw(Sampler sampler, Found&& found) {
     draw(position(sampler), sampler, found);
@@ -43,8 +44,9 @@ class PathSeeds {
   void draw(const Vec2& raster, Sampler& sampler, Found&& found) {
     paths_.sample(raster, sampler, rays_);
     paths_.connect_all(rays_, [&](const Connection& c) {
-      const double weight = target_->of(c.contribution, c.raster) * c.weight;
-      if (std::isfinite(weight) && weight > 0) found(c, weight);
+      if (!(target_luminance(c.contribution) * c.weight > 0)) return;
+      const double weight = target_->of(c.contribution, c.raster, c.certainty) * c.weight;
+      if (std::isfinite(weight)) found(c, weight);
     });
   }
 

@@ -32,7 +32,7 @@ void PathTarget::evaluate_target(PathState& x) const {
   }
   if (!x.terms.raster) return;
   x.raster = *x.terms.raster;
-  x.target = of(x.rgb, x.raster);
+  x.target = of(x.rgb, x.raster, certainty(x.terms));
 }
 
 PathSeeds PathTarget::seeds() const { return PathSeeds(*this); }

@@ -1,6 +1,7 @@
 // L*(x), the target of Metropolis light transport: which paths of a scene count, and for how much.
 #pragma once
 
+#include "mutation/certain_light.h"
 #include "mutation/path_state.h"
 #include "mutation/target_map.h"
 #include "path/path_rules.h"
@@ -34,11 +35,19 @@ class PathTarget {
   SampleTechniques techniques() const { return techniques_; }
   void set_techniques(SampleTechniques techniques) { techniques_ = techniques; }
 
+  /// Paths that are left to the samples; nullptr if there are none.
+  const CertainLight* certain_light() const { return certain_light_ ? &*certain_light_ : nullptr; }
+  void leave_to_samples(CertainLight light) { certain_light_ = std::move(light); }
+  /// Paths of a greater `certainty` have no target at this raster position.
+  double most_certain(const Vec2& raster) const {
+    return certain_light_ ? certain_light_->most_certain(raster) : CertainLight::all;
+  }
+
   /// The factor of two-stage sampling.
   double factor(const Vec2& raster) const { return map_ ? (*map_)(raster) : 1.0; }
-  /// The target of light of this color, f or f / p, at a raster position.
-  double of(const Color& color, const Vec2& raster) const {
-    return target_luminance(color) * factor(raster);
+  /// The target of light of this color, f or f / p, at a raster position, by a path of this certainty.
+  double of(const Color& color, const Vec2& raster, double certainty) const {
+    return certainty > most_certain(raster) ? 0 : target_luminance(color) * factor(raster);
   }
   /// T(x) / P(x), where P is the density of the techniques together (see FamilyWeights).
   double over_density(const PathState& x) const {
@@ -75,6 +84,7 @@ class PathTarget {
   PathRules rules_;
   double near_specular_;
   std::optional<TargetMap> map_;
+  std::optional<CertainLight> certain_light_;
   SampleTechniques techniques_ = SampleTechniques::all;
 };
 

@@ -8,20 +8,12 @@
 namespace mlt {
 
 TargetMap::TargetMap(const Raster& raster, int cell)
-    : raster_(raster),
-      columns_(std::max(1, (raster.size.x + cell - 1) / cell)),
-      rows_(std::max(1, (raster.size.y + cell - 1) / cell)),
-      factors_(static_cast<size_t>(columns_) * rows_) {}
-
-size_t TargetMap::cell_at(const Vec2& raster) const {
-  const Vec2 u = raster_.invert(raster);
-  const int x = std::clamp(static_cast<int>(u.x * columns_), 0, columns_ - 1);
-  const int y = std::clamp(static_cast<int>(u.y * rows_), 0, rows_ - 1);
-  return index(x, y);
-}
+    : cells_{raster, std::max(1, (raster.size.x + cell - 1) / cell),
+             std::max(1, (raster.size.y + cell - 1) / cell)},
+      factors_(cells_.count()) {}
 
 void TargetMap::add(const Vec2& raster, double brightness) {
-  factors_[cell_at(raster)] += brightness;
+  factors_[cells_.at(raster)] += brightness;
 }
 
 void TargetMap::add(const TargetMap& other) {
@@ -30,20 +22,19 @@ void TargetMap::add(const TargetMap& other) {
 
 double TargetMap::brightest_neighbour(int x, int y) const {
   double brightest = 0;
-  for (int v = std::max(0, y - 1); v <= std::min(rows_ - 1, y + 1); ++v)
-    for (int u = std::max(0, x - 1); u <= std::min(columns_ - 1, x + 1); ++u)
-      if (u != x || v != y) brightest = std::max(brightest, factors_[index(u, v)]);
+  cells_.for_neighbours(x, y, [&](int u, int v) {
+    if (u != x || v != y) brightest = std::max(brightest, factors_[cells_.index(u, v)]);
+  });
   return brightest;
 }
 
 double TargetMap::smoothed(const std::vector<double>& cells, int x, int y) const {
   double sum = 0, weights = 0;
-  for (int v = std::max(0, y - 1); v <= std::min(rows_ - 1, y + 1); ++v)
-    for (int u = std::max(0, x - 1); u <= std::min(columns_ - 1, x + 1); ++u) {
-      const double weight = (2 - std::abs(u - x)) * (2 - std::abs(v - y));  // a tent
-      sum += weight * cells[index(u, v)];
-      weights += weight;
-    }
+  cells_.for_neighbours(x, y, [&](int u, int v) {
+    const double weight = (2 - std::abs(u - x)) * (2 - std::abs(v - y));  // a tent
+    sum += weight * cells[cells_.index(u, v)];
+    weights += weight;
+  });
   return sum / weights;
 }
 
@@ -52,15 +43,16 @@ void TargetMap::finish() {
   // A cell brighter than all around it has had a rare sample, and chains would avoid its region.
   std::vector<double> limited = factors_;
   if (factors_.size() > 1)
-    for (int y = 0; y < rows_; ++y)
-      for (int x = 0; x < columns_; ++x)
-        limited[index(x, y)] = std::min(limited[index(x, y)], brightest_neighbour(x, y));
+    for (int y = 0; y < cells_.rows; ++y)
+      for (int x = 0; x < cells_.columns; ++x)
+        limited[cells_.index(x, y)] =
+            std::min(limited[cells_.index(x, y)], brightest_neighbour(x, y));
   const double sum = std::accumulate(limited.begin(), limited.end(), 0.0);
   const double mean = sum / static_cast<double>(limited.size());
-  for (int y = 0; y < rows_; ++y)
-    for (int x = 0; x < columns_; ++x) {
+  for (int y = 0; y < cells_.rows; ++y)
+    for (int x = 0; x < cells_.columns; ++x) {
       const double brightness = mean > 0 ? smoothed(limited, x, y) / mean : 1.0;
-      factors_[index(x, y)] = 1 / std::max(least_share, brightness);
+      factors_[cells_.index(x, y)] = 1 / std::max(least_share, brightness);
     }
 }
 

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "math/color.h"
-#include "scene/camera.h"
+#include "mutation/raster_cells.h"
 
 #include <vector>
 
@@ -23,19 +23,16 @@ class TargetMap {
   void finish();
 
   /// The factor of the target at a raster position.
-  double operator()(const Vec2& raster) const { return factors_[cell_at(raster)]; }
+  double operator()(const Vec2& raster) const { return factors_[cells_.at(raster)]; }
 
   const std::vector<double>& factors() const { return factors_; }
   void set_factors(std::vector<double> factors);
 
  private:
-  size_t cell_at(const Vec2& raster) const;
-  size_t index(int x, int y) const { return static_cast<size_t>(y) * columns_ + x; }
   double brightest_neighbour(int x, int y) const;
   double smoothed(const std::vector<double>& cells, int x, int y) const;
 
-  Raster raster_;
-  int columns_, rows_;
+  RasterCells cells_;
   std::vector<double> factors_;
 };
 

@@ -97,6 +97,7 @@ bool BidirectionalSampler::evaluate_hit_light(Connection& connection) {
                                          settings_.rules.strict_normals);
   connection.contribution = end.throughput * terms.f;
   if (is_black(connection.contribution)) return false;
+  connection.certainty = certainty_of_hit_light(t);
   const double from_light = light_position_pdf(*scene_, x0);
   const double direct = direct_over_walk(x0, from_light, camera_[t - 2].vertex.at);
   const TechniqueSums above = above_camera(t - 2, terms.pdf_from_light * end.G)
@@ -145,6 +146,7 @@ bool BidirectionalSampler::evaluate_connection(Connection& connection, RayCounts
   const double seen = walker(rays).join(a.vertex.at, b.vertex.at);
   if (seen == 0) return false;
   connection.contribution *= seen;
+  connection.certainty = k == 1 ? 1 : 0;
 
   const TechniqueSums below =
       below_joint(s - 1, a, at_a.back).over(at_b.onwards * edge.G / a.forward);
@@ -202,6 +204,7 @@ bool BidirectionalSampler::evaluate_hit_lens(Connection& connection, RayCounts& 
     if (seen == 0) return false;
     connection.contribution *= seen;
   }
+  connection.certainty = certainty_of_hit_lens(s);
   const double G = geometry(last.vertex.at, *hit);
   const double before_lens = !connectable(last.vertex) ? 0
                              : k == 1 ? direct_over_walk(last.vertex, last.forward, *hit)

@@ -34,7 +34,8 @@ struct Connection {
   const Emitter* emitter = nullptr;  ///< The light of a path with s = 0.
   /// Times the contribution: f / P, with P the density of all techniques together.
   double own_share = 0;
-  double survival = 1;  ///< Probability that Russian roulette has let both subpaths come here.
+  double survival = 1;   ///< Probability that Russian roulette has let both subpaths come here.
+  double certainty = 0;  ///< See `certainty` of a path.
 };
 
 /// A light and a camera subpath, and the connections between them. Keeps its memory from sample to
@@ -205,6 +206,19 @@ class BidirectionalSampler {
     if (wanted(s, 0) && evaluate_hit_lens(connection, rays)) found(connection);
   }
 
+  // See `certainty` of a path, that one walk alone has made.
+  double certainty_of_hit_light(int t) const {
+    double p = 1;
+    for (int i = 1; i < t - 1; ++i)
+      p *= connectable(camera_[i].vertex) ? 0 : camera_[i].next_coefficient;
+    return p;
+  }
+  double certainty_of_hit_lens(int s) const {
+    double p = 1;
+    for (int i = 1; i < s - 1; ++i)
+      p *= connectable(light_[i].vertex) ? 0 : light_[i - 1].reverse / light_[i].G;
+    return p;
+  }
   /// The techniques whose joint lies beyond vertex i of a subpath, or one that was chosen in place of
   /// it, if the path is joined there; `back` is the density of going back from it, in projected solid
   /// angle.

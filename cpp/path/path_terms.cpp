@@ -97,6 +97,13 @@ double technique_density(const PathTerms& terms, int s) {
   return p;
 }
 
+double certainty(const PathTerms& terms) {
+  double p = 1;
+  for (int i = 1; i < terms.edges(); ++i)
+    p *= terms[i].connectable ? 0 : terms[i].vertex.pdf_from_camera;
+  return p;
+}
+
 double mis_weight(const PathTerms& terms, int s, Heuristic heuristic) {
   if (!can_sample(terms, s)) return 0;
   const auto technique = [&](int i) {

@@ -110,6 +110,9 @@ inline bool can_sample(const PathTerms& terms, int s) {
 /// p_{s,t}(x), the density of technique s in the product-area measure (Veach 1997, sec. 10.2).
 double technique_density(const PathTerms& terms, int s);
 
+/// The probability that a walk from the camera chooses these lobes, if all of them are delta; else 0.
+double certainty(const PathTerms& terms);
+
 /// The MIS weight of technique s (Veach 1997, eqs. 9.8, 9.13 with beta = 2, 9.12).
 double mis_weight(const PathTerms& terms, int s, Heuristic heuristic);
 /// A technique s with the probability of its MIS weight; -1 if none can make the path.

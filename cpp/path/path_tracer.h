@@ -118,12 +118,21 @@ inline std::optional<ScatterSample> scatter_to_light(const Walker& walker, const
   return ScatterSample{w, s.f * (factor / s.pdf_from_camera), s.pdf_from_camera, lobe, eta2};
 }
 
+/// Where chains find the same paths (FamilyWeights): T / P of a path over c, for an L* of f / P that
+/// is 1. With the balance heuristic f / P is the radiance that a path has brought here, without
+/// roulette.
+struct ChainFactor {
+  double factor = 0;
+  /// Chains do not find paths with a `certainty` above it.
+  double most_certain = std::numeric_limits<double>::infinity();
+};
+
 struct CameraWalk;
 
 /// Who watches trace_path is told of each step, in this order; this one is not interested.
 struct IgnorePaths {
   /// Before either of them: a path was found that brings this radiance to the camera.
-  void find(const CameraWalk&, const Color& /*radiance*/) {}
+  void find(const CameraWalk&, const Color& /*radiance*/, double /*certainty*/) {}
   /// A light was hit at x0; its radiance towards w is to be multiplied by `throughput`.
   void hit(const Emitter&, const SurfacePoint& /*x0*/, const Vec3& /*w*/,
            const Color& /*throughput*/) {}
@@ -144,22 +153,23 @@ struct CameraWalk {
   double scatter_pdf = 0;  ///< With which that one chose the ray, in solid angle,
   bool delta = true;       ///< or by a delta lobe, or it is the lens.
   double eta2 = 1;         ///< The factor of the throughput that undoes refraction.
+  double certainty = 1;    ///< See `certainty` of a path; up to here.
   double survival = 1;     ///< Probability that Russian roulette has let it come here.
   RayCounts rays;          ///< That a Wavefront has traced for it.
 
   Heuristic heuristic = Heuristic::power;  ///< Of light sampling and scattering.
-  /// Where chains find the same paths (FamilyWeights): T / P of a path over c, for an L* of f / P that
-  /// is 1. With the balance heuristic f / P is the radiance that the path has brought here, without
-  /// roulette.
-  double chain_factor = 0;
+  ChainFactor chain_factor;
 
   /// The MIS weight of one of the two techniques.
   double mis(double pdf, double other) const {
     return heuristic == Heuristic::balance ? pdf / (pdf + other) : power_heuristic(pdf, other);
   }
-  /// w1 of a path that brings this radiance.
-  double own_share(const Color& found) const {
-    return chain_factor > 0 ? 1 / (1 + chain_factor * survival * target_luminance(found)) : 1.0;
+  /// w1 of a path of this certainty that brings this radiance.
+  double own_share(const Color& found, double its_certainty = 0) const {
+    const auto& [factor, most_certain] = chain_factor;
+    return factor > 0 && its_certainty <= most_certain
+               ? 1 / (1 + factor * survival * target_luminance(found))
+               : 1.0;
   }
   void take(const Color& found, double share) { radiance += found * share; }
 };
@@ -183,9 +193,9 @@ void find_light(const Scene& scene, CameraWalk& walk, const SurfacePoint* at,
         walk.delta ? 1.0
                    : walk.mis(walk.scatter_pdf, direct_pdf(scene, emitter, walk.previous, x0, w));
     const Color weighted = walk.throughput * weight, found = weighted * emitted;
-    watcher.find(walk, found);
+    watcher.find(walk, found, walk.certainty);
     watcher.hit(emitter, x0, -w, weighted);
-    walk.take(found, walk.own_share(found));
+    walk.take(found, walk.own_share(found, walk.certainty));
   };
   visit_emission(scene, at, w, take);
 }
@@ -212,6 +222,7 @@ bool scatter(const Walker& walker, const PathRules& rules, int depth, const Surf
   walk.throughput *= sample->weight;
   walk.scatter_pdf = sample->pdf;
   walk.delta = sample->lobe != Lobe::smooth;
+  walk.certainty *= walk.delta ? sample->pdf : 0;
   walk.eta2 /= sample->eta2;
   if (!survive(rules, depth, numbers.roulette, walk)) return false;
   walk.previous = at.p;
@@ -247,7 +258,7 @@ Color trace_path(const Scene& scene, const PathRules& rules, CameraWalk walk, Sa
       const auto mis = [&](double light, double bsdf) { return walk.mis(light, bsdf); };
       const Color direct = walk.throughput * direct_light(walker, at, wc, numbers.for_light(),
                                                           rules.strict_normals, mis);
-      watcher.find(walk, direct);
+      watcher.find(walk, direct, 0);
       watcher.connect(numbers.for_light(), direct);
       walk.take(direct, walk.own_share(direct));
     }

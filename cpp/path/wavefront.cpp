@@ -3,7 +3,7 @@
 namespace mlt {
 
 template <class Numbers>
-void BasicWavefront<Numbers>::add(const Ray& ray, double chain_factor) {
+void BasicWavefront<Numbers>::add(const Ray& ray, const ChainFactor& chain_factor) {
   path_[live_] = live_;
   exact_[live_] = true;
   o_.set(live_, Vec3f(ray.o));
@@ -239,6 +239,7 @@ bool BasicWavefront<Numbers>::scatter_matte(int i, int depth, CameraWalk& walk) 
     return false;
   walk.scatter_pdf = pdf;
   walk.delta = false;
+  walk.certainty = 0;
   walk.previous = Vec3(matte_.p[i]);
   return true;
 }

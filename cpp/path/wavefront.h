@@ -28,8 +28,8 @@ class BasicWavefront {
   /// The numbers of the paths that are added.
   Numbers& numbers() { return numbers_; }
   /// A path that begins with `ray`, and takes the numbers of the sample that was added last. For
-  /// `chain_factor` see CameraWalk.
-  void add(const Ray& ray, double chain_factor = 0);
+  /// `chain_factor` see there.
+  void add(const Ray& ray, const ChainFactor& chain_factor = {});
   /// A path that begins with `ray`; `sampler`, a PixelSampler, goes on from there.
   template <class Sampler>
   void add(const Ray& ray, const Sampler& sampler) {

@@ -1,4 +1,5 @@
 // Chains and independent samples see the same T / P of a path, so that their weights sum to one.
+#include "harness/statistics.h"
 #include "integrator/family_taker.h"
 #include "integrator/family_weights.h"
 #include "integrator/primary_estimators.h"
@@ -32,6 +33,11 @@ PathTarget target_of(const TestScene& made) {
   map.finish();
   target.set_map(map);
   return target;
+}
+
+void leave_certain_light(PathTarget& target) {
+  const std::atomic<bool> cancelled{false};
+  target.leave_to_samples({target.scene(), target.rules(), 4000, 1, 1, cancelled});
 }
 
 double median(std::vector<double>& values) {
@@ -103,6 +109,49 @@ TEST_P(TargetOverDensity, IsTheSameForSamplesOfPathTracingAndChains) {
   }
 }
 
+/// Samples of either kind and chains agree on which paths are left to the samples.
+TEST_P(TargetOverDensity, IsZeroForTheSameCertainPaths) {
+  const TestScene made = make_mutation_scene(GetParam());
+  PathTarget target = target_of(made);
+  leave_certain_light(target);
+  PathSeeds seeds(target);
+  PathState x;
+  int all = 0, wrong = 0;
+  std::vector<double> errors;
+  Moments left, left_by_tracing;
+  for (uint64_t i = 0; i < 4000; ++i) {
+    Rng rng(2, Purpose::test, i);
+    double sum = 0;
+    seeds.draw(RandomSampler(rng), [&](const Connection& c, double weight) {
+      seeds.assemble(c, x);
+      errors.push_back(std::abs(c.certainty - certainty(x.terms)));
+      ++all;
+      wrong += (weight == 0) != (certainty(x.terms) > target.most_certain(c.raster));
+      if (weight == 0) sum += target_luminance(c.contribution) * c.weight;
+    });
+    left.add(sum);
+  }
+  EXPECT_LT(median(errors), 1e-6);
+  EXPECT_LE(wrong, all / 1000) << "of " << all;
+
+  target.set_techniques(SampleTechniques::path_tracing);
+  TracedSource source(target);
+  for (uint64_t i = 4000; i < 8000; ++i) {
+    Rng rng(2, Purpose::test, i);
+    RandomSampler sampler(rng);
+    const Vec2 raster = made.scene->camera().raster().sample(sampler.next2());
+    double sum = 0;
+    for (const FoundLight& found : source.sample(raster, sampler))
+      if (found.weight == 0) sum += target_luminance(found.rgb);
+    left_by_tracing.add(sum);
+  }
+  if (GetParam() == "cornell") {
+    EXPECT_GT(left.mean(), 0);
+  }
+  EXPECT_GT(welch_t_test(left, left_by_tracing).p_value, 1e-4)
+      << left.mean() << " " << left_by_tracing.mean();
+}
+
 template <class MakeTaker>
 std::unique_ptr<SampledRendering> shown_by(const ScenePtr& scene, MakeTaker&& make_taker) {
   auto rendering = std::make_unique<SampledRendering>(scene, 3, SampledSettings{true}, make_taker);
@@ -146,14 +195,21 @@ void expect_the_same(const ScenePtr& scene, const SamplesOnly& algorithm,
   EXPECT_LT(difference, 0.01 * sum);
 }
 
-TEST(TracedTaker, ShowsWhatItsSourceFindsWithTheWeightsOfSamples) {
+class TracedTakerOf : public testing::TestWithParam<bool> {};
+
+TEST_P(TracedTakerOf, ShowsWhatItsSourceFindsWithTheWeightsOfSamples) {
   const TestScene made = make_mutation_scene("cornell");
-  const PathTarget target = target_of(made);
+  PathTarget target = target_of(made);
+  if (GetParam()) leave_certain_light(target);
   const SamplesOnly algorithm(*made.scene, [&] { return std::make_unique<TracedSource>(target); });
   const FamilyWeights weights(0.3);
   expect_the_same(made.scene, algorithm, weights,
                   [&](const Scene&) { return std::make_unique<TracedTaker>(target, weights); });
 }
+
+INSTANTIATE_TEST_SUITE_P(CertainPaths, TracedTakerOf, testing::Bool(), [](const auto& info) {
+  return info.param ? "LeftToTheSamples" : "LikeOthers";
+});
 
 /// Samples of pssmlt, one by one.
 struct WalkSource : MetropolisAlgorithm::Source {

@@ -1,0 +1,41 @@
+// Light that is left to the independent samples: where most samples of a place see a light directly, in
+// a mirror or through glass, they have hardly any noise. Chains would go there often, since lights are
+// bright, and some of their groups more often than others.
+#pragma once
+
+#include "mutation/raster_cells.h"
+#include "path/path_rules.h"
+#include "scene/scene.h"
+
+#include <atomic>
+#include <limits>
+#include <vector>
+
+namespace mlt {
+
+class CertainLight {
+ public:
+  /// No path is left to the samples.
+  static constexpr double all = std::numeric_limits<double>::infinity();
+
+  /// Sends about so many walks from the camera, four through each cell of the image. Deterministic for
+  /// any number of threads.
+  CertainLight(const Scene& scene, const PathRules& rules, uint64_t walks, uint64_t seed,
+               int threads, const std::atomic<bool>& cancelled);
+  /// With cells() of an earlier one; throws RenderError if there are not as many.
+  CertainLight(const Raster& raster, uint64_t walks, std::vector<uint8_t> cells);
+
+  /// Paths of a greater certainty are left to the samples there.
+  double most_certain(const Vec2& raster) const { return lit_[cells_.at(raster)] ? 0.5 : all; }
+
+  const std::vector<uint8_t>& cells() const { return lit_; }
+
+ private:
+  CertainLight(const Raster& raster, uint64_t walks);
+
+  RasterCells cells_;
+  /// Whether at least half of the walks through the cell or a neighbour saw a light.
+  std::vector<uint8_t> lit_;
+};
+
+}  // namespace mlt

@@ -1,0 +1,29 @@
+// The image in equal cells.
+#pragma once
+
+#include "scene/camera.h"
+
+#include <algorithm>
+
+namespace mlt {
+
+struct RasterCells {
+  Raster raster;
+  int columns, rows;
+
+  size_t count() const { return static_cast<size_t>(columns) * rows; }
+  size_t index(int x, int y) const { return static_cast<size_t>(y) * columns + x; }
+  size_t at(const Vec2& position) const {
+    const Vec2 u = raster.invert(position);
+    return index(std::clamp(static_cast<int>(u.x * columns), 0, columns - 1),
+                 std::clamp(static_cast<int>(u.y * rows), 0, rows - 1));
+  }
+  /// Calls body(u, v) for the cell (x, y) and those around it.
+  template <class Body>
+  void for_neighbours(int x, int y, Body&& body) const {
+    for (int v = std::max(0, y - 1); v <= std::min(rows - 1, y + 1); ++v)
+      for (int u = std::max(0, x - 1); u <= std::min(columns - 1, x + 1); ++u) body(u, v);
+  }
+};
+
+}  // namespace mlt
