@@ -1,6 +1,6 @@
 // Stands between the library and Embree, to write down the rays that pass. Every ray of the library
-// goes through four functions of Embree's shared library; a program that defines them gets the calls
-// of everything linked into it. To be included once.
+// goes through four functions of Embree's shared library; a program that defines them gets the
+// calls of everything linked into it. To be included once.
 #pragma once
 
 #if MLT_EMBREE_MAJOR >= 4

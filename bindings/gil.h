@@ -1,7 +1,7 @@
 // The interpreter's lock, for threads that may outlive the interpreter. Before 3.14, CPython ends a
-// daemon thread that asks for the lock while the interpreter shuts down by pthread_exit, which unwinds
-// the stack; where that reaches a destructor the process aborts. Here such a thread sleeps until the
-// process has ended, as it does in CPython from 3.14 on.
+// daemon thread that asks for the lock while the interpreter shuts down by pthread_exit, which
+// unwinds the stack; where that reaches a destructor the process aborts. Here such a thread sleeps
+// until the process has ended, as it does in CPython from 3.14 on.
 #pragma once
 
 #include <pybind11/pybind11.h>

@@ -15,7 +15,8 @@ class AnyChains {
   virtual py::dict advance(size_t steps, bool expected_values) = 0;
 };
 
-/// What happened in some steps of all chains, one chain after the other; `step(chain, record)` makes one.
+/// What happened in some steps of all chains, one chain after the other; `step(chain, record)`
+/// makes one.
 template <class Space, class Chain, class Step>
 py::dict advance_each(const Space& space, std::vector<Chain>& chains, size_t steps,
                       bool expected_values, bool native, Step&& step) {

@@ -64,8 +64,8 @@ class PythonTarget final : public lab::Target<typename Space::State> {
   py::object function_;
 };
 
-/// An object with propose(x, rng) and, as its attributes `symmetric`, `_suits_all` and `_adapts` say,
-/// density(x, y), suitability(x), adapt(acceptance).
+/// An object with propose(x, rng) and, as its attributes `symmetric`, `_suits_all` and `_adapts`
+/// say, density(x, y), suitability(x), adapt(acceptance).
 template <class Space>
 class PythonMove final : public lab::Move<typename Space::State> {
  public:

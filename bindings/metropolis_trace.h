@@ -84,8 +84,8 @@ class Trace {
         accepted_(chains, steps),
         moves_(chains, steps) {}
 
-  /// Step i of chain c, which `make(record)` makes; it calls record(x, weight, is_proposal) for each
-  /// sample. One without a weight is the state before.
+  /// Step i of chain c, which `make(record)` makes; it calls record(x, weight, is_proposal) for
+  /// each sample. One without a weight is the state before.
   template <class Chain, class Make>
   void step(size_t c, size_t i, const Chain& chain, Make&& make) {
     check_signals(i + 1);

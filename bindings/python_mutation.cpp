@@ -10,8 +10,8 @@ namespace {
 
 std::string repr(const py::object& object) { return py::repr(object); }
 
-/// Python's state of a thread of the renderer, kept from its first call to its end: making one costs
-/// as much as a short call.
+/// Python's state of a thread of the renderer, kept from its first call to its end: making one
+/// costs as much as a short call.
 struct ThreadState {
   ThreadState() { AcquiredGil()->inc_ref(); }
   ~ThreadState() { AcquiredGil()->dec_ref(); }

@@ -10,8 +10,9 @@
 
 namespace mlt::python {
 
-/// Generators for calls of Python. While one call waits for another thread, that thread gets another
-/// generator. What Python draws outside of a call comes from a stream that is equal to `own` at first.
+/// Generators for calls of Python. While one call waits for another thread, that thread gets
+/// another generator. What Python draws outside of a call comes from a stream that is equal to
+/// `own` at first.
 class RandomGenerators {
   struct Generator {
     py::object numpy;  ///< Keeps the stream alive.

@@ -20,7 +20,8 @@ py::dict stand_in(const Node& node) {
   return dict;
 }
 
-/// The current values of a plug-in's parameters; None where nothing is given and there is no default.
+/// The current values of a plug-in's parameters; None where nothing is given and there is no
+/// default.
 py::dict values_of(const NamedNode& plugin) {
   py::dict values;
   for (const Parameter* parameter : plugin.parameters()) {

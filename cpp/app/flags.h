@@ -51,8 +51,8 @@ using FlagValues = std::map<std::string, std::vector<FlagValue>>;
 /// What `text` means for a flag with a value. Throws UsageError.
 FlagValue read_flag(const Flag& flag, const std::string& text);
 
-/// Throws UsageError if two flags with Flag::file, with these texts, name one file. A render that is
-/// resumed may renew its checkpoint.
+/// Throws UsageError if two flags with Flag::file, with these texts, name one file. A render that
+/// is resumed may renew its checkpoint.
 void check_files(const std::map<std::string, std::vector<std::string>>& given);
 
 /// Throws UsageError if the flags with these names, and no others, make no sense together. With

@@ -2,7 +2,8 @@
 //
 // Exit codes: 0 done; 2 a mistake in usage or in the scene, or an output that cannot be written,
 // found before the work began; 3 the render failed, or an output at its end is not where it was
-// asked for; 129, 130 and 143 interrupted by SIGHUP, SIGINT or SIGTERM, with what was rendered saved.
+// asked for; 129, 130 and 143 interrupted by SIGHUP, SIGINT or SIGTERM, with what was rendered
+// saved.
 
 #include "app/built_in_scenes.h"
 #include "app/flags.h"
@@ -202,7 +203,8 @@ int fail(int code, const std::string& message) {
 }
 
 /// A wheel has this program twice. This one, for every processor, gives way to the one for wide
-/// vectors where the processor has them; not with PYMLT_BUILD=baseline (python/pymlt/_processor.py).
+/// vectors where the processor has them; not with PYMLT_BUILD=baseline
+/// (python/pymlt/_processor.py).
 void give_way_to_wide_build([[maybe_unused]] char** argv) {
 #ifdef MLT_WIDE_PROGRAM
   const char* asked = std::getenv("PYMLT_BUILD");

@@ -1,6 +1,6 @@
-// Giving up work from inside. Work that is told to stop finishes the sample or the mutation that it is
-// at, and one of these may take for ever: a light path between white walls that nothing ends. Who
-// traces rays therefore asks now and then whether the work was given up.
+// Giving up work from inside. Work that is told to stop finishes the sample or the mutation that it
+// is at, and one of these may take for ever: a light path between white walls that nothing ends.
+// Who traces rays therefore asks now and then whether the work was given up.
 #pragma once
 
 #include <atomic>

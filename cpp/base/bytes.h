@@ -15,7 +15,8 @@
 
 namespace mlt {
 
-/// What lies between the members of a struct is not part of its value: equal values have equal bytes.
+/// What lies between the members of a struct is not part of its value: equal values have equal
+/// bytes.
 template <class T>
 void clear_padding([[maybe_unused]] T& value) {
 #if __has_builtin(__builtin_clear_padding)

@@ -1,4 +1,5 @@
-// Typed exceptions. Every message says, on one line, what was wrong, where, and what would be right.
+// Typed exceptions. Every message says, on one line, what was wrong, where, and what would be
+// right.
 #pragma once
 
 #include <fmt/core.h>

@@ -65,8 +65,9 @@ class Params {
     return found;
   }
 
-  /// Bytes that are the same for what was given here and elsewhere if equal objects are made of both:
-  /// nested objects are equal if they are one, and those of the families `aside` do not count.
+  /// Bytes that are the same for what was given here and elsewhere if equal objects are made of
+  /// both: nested objects are equal if they are one, and those of the families `aside` do not
+  /// count.
   std::string key(const std::vector<std::string>& aside) const;
   /// All nested objects, named or not.
   std::vector<ObjectPtr> nested() const;

@@ -13,7 +13,8 @@ namespace mlt {
 /// Watches over the work of the thread that made it, from a thread of its own.
 class Watchdog {
  public:
-  /// Seconds from being told to stop until units that still run are given up. They last about a second.
+  /// Seconds from being told to stop until units that still run are given up. They last about a
+  /// second.
   static constexpr double patience = 5;
 
   /// `stopping` tells whether the work is to stop; it is asked some times a second.

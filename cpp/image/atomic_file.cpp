@@ -48,8 +48,8 @@ fs::path resolve(const std::string& path) {
 
 constexpr std::string_view partial = ".partial-";
 
-/// Whether the file, which was just made, is this process's own: locked, and not removed meanwhile by
-/// another one that took it for a remnant.
+/// Whether the file, which was just made, is this process's own: locked, and not removed meanwhile
+/// by another one that took it for a remnant.
 bool claim(int file) {
   struct stat status;
   return ::flock(file, LOCK_EX | LOCK_NB) == 0 && ::fstat(file, &status) == 0 &&

@@ -1,6 +1,6 @@
 // The weights of a narrow filter at the consecutive pixels of a row that it covers, from a table of
-// such rows. Where the filter's knots fall on the same places of every pixel, they lie on one straight
-// line between two rows of the table.
+// such rows. Where the filter's knots fall on the same places of every pixel, they lie on one
+// straight line between two rows of the table.
 #pragma once
 
 #include "image/filter.h"

@@ -15,8 +15,8 @@ constexpr double largest_exact = 0x1p51;       ///< Of what round_small rounds.
 constexpr int run_values = 3 * run_pixels;
 
 /// `weight` times `values`, to the nearest integers. Between 2^52 and 2^53 the last bit of a double
-/// counts ones, so the sum with 1.5 * 2^52 has them in its low bits; compilers can do this for several
-/// numbers at a time.
+/// counts ones, so the sum with 1.5 * 2^52 has them in its low bits; compilers can do this for
+/// several numbers at a time.
 void round_small(const double* values, double weight, int count, int64_t* rounded) {
   constexpr double shift = 0x1.8p52;
   double shifted[run_values];

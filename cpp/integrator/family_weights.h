@@ -6,8 +6,8 @@
 //   w1(x) = c / (c + T(x) / P(x)),   w2(x) = (T(x) / P(x)) / (c + T(x) / P(x))
 //
 // With c = b N1 / N2 this is the balance heuristic for N2 independent states. States of a chain are
-// not, so that c is a larger number, which a pilot finds. T / P is high where the samples are noisy:
-// there the chains get the weight.
+// not, so that c is a larger number, which a pilot finds. T / P is high where the samples are
+// noisy: there the chains get the weight.
 #pragma once
 
 namespace mlt {

@@ -1,33 +1,33 @@
 // How the chains of a Metropolis render add up to their part of its image.
 //
 // Group g starts its chains from a bootstrap of its own, whose weights T / p have the mean b_g. Its
-// chains record each state as w2 RGB / T, which has the mean C_g, and how bright that is (L* of it),
-// with the mean D_g. The independent samples tell how bright it should be: M_g, the mean of w2 L* /
-// p, over all samples and the group's bootstrap. Since the chains start from the candidates that
-// gave b_g, the expectations of
+// chains record each state as w2 RGB / T, which has the mean C_g, and how bright that is (L* of
+// it), with the mean D_g. The independent samples tell how bright it should be: M_g, the mean of w2
+// L* / p, over all samples and the group's bootstrap. Since the chains start from the candidates
+// that gave b_g, the expectations of
 //
 //   b_g C_g, the image,   and   M_g - b_g D_g, which is 0,
 //
 // are right from the first step on (Veach & Guibas 1997, sec. 5.1). But b_g is known badly, and
-// chains visit bright and dark regions for times that are not in proportion for long. The image that
-// group g tells is therefore
+// chains visit bright and dark regions for times that are not in proportion for long. The image
+// that group g tells is therefore
 //
 //   I_g = b_g C_g + lambda (M_g - b_g D_g) R_g,
 //   R_g = sum_{h != g} b_h C_h / sum_{h != g} b_h D_h,   lambda = Var b D / (Var b D + Var M)
 //
-// R_g, the image at brightness 1, comes from the other groups, independent of M_g - b_g D_g: for any
-// fixed lambda the expectation remains right. The brightness is then the mean of what chains and
-// samples say, weighted by how well each is known. These variances are estimated from the same
-// render, which leaves a bias that vanishes as the render goes on. Where no samples tell M, as those of
-// path tracing do not, lambda is 0.
+// R_g, the image at brightness 1, comes from the other groups, independent of M_g - b_g D_g: for
+// any fixed lambda the expectation remains right. The brightness is then the mean of what chains
+// and samples say, weighted by how well each is known. These variances are estimated from the same
+// render, which leaves a bias that vanishes as the render goes on. Where no samples tell M, as
+// those of path tracing do not, lambda is 0.
 //
-// Tours (markov/tour.h) are scaled by a number that is known: their b C_g is right by itself, and lambda is
-// 0 too.
+// Tours (markov/tour.h) are scaled by a number that is known: their b C_g is right by itself, and
+// lambda is 0 too.
 //
 // The correction takes light away from the others' image where a group is too bright. No more than
-// that image can lose is taken there: what a group has in excess of that makes its own C_g darker, so
-// that nothing becomes negative. That is biased as a quotient is, and happens less and less often as the
-// render goes on.
+// that image can lose is taken there: what a group has in excess of that makes its own C_g darker,
+// so that nothing becomes negative. That is biased as a quotient is, and happens less and less
+// often as the render goes on.
 #pragma once
 
 #include "math/weight_sums.h"

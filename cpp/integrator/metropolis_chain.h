@@ -174,12 +174,12 @@ struct ChainId {
   Rng rng() const { return Rng(seed, purpose, (uint64_t(group) << 32) | uint32_t(number)); }
 };
 
-/// A chain of any kernel that has State; stages; propose; generated(y); record(recorder, x, weight) of a
-/// state with a target; proposal_weight(), with which the last proposal is recorded beside that of
-/// the step; raster_of(x); stats_row(), the row of the statistics that its last step belongs to, of
-/// stats_rows(); rays(), traced so far; signature(x), for messages; and save(bytes, x), load(bytes,
-/// x) for the state of the chain and its own. It may have count_own(row), for what else it knows of
-/// its last step.
+/// A chain of any kernel that has State; stages; propose; generated(y); record(recorder, x, weight)
+/// of a state with a target; proposal_weight(), with which the last proposal is recorded beside
+/// that of the step; raster_of(x); stats_row(), the row of the statistics that its last step
+/// belongs to, of stats_rows(); rays(), traced so far; signature(x), for messages; and save(bytes,
+/// x), load(bytes, x) for the state of the chain and its own. It may have count_own(row), for what
+/// else it knows of its last step.
 template <class Kernel>
 class RecordedChain : public RenderChain {
   using State = typename Kernel::State;

@@ -226,9 +226,9 @@ class Pilot {
 /// Rounded, so that the same scene in another unit of length has the same image to the last bit.
 double to_half_octaves(double x) { return std::exp2(std::round(2 * std::log2(x)) / 2); }
 
-/// Between N1 samples and N2 steps, c = b N1 / N2 would be the balance heuristic (Veach 1997, eq. 9.8)
-/// if steps were independent. The more of the time the pilot gives to the samples, the noisier it has
-/// seen the chains: 1 / sqrt(1 - share) steps count as one.
+/// Between N1 samples and N2 steps, c = b N1 / N2 would be the balance heuristic (Veach 1997, eq.
+/// 9.8) if steps were independent. The more of the time the pilot gives to the samples, the noisier
+/// it has seen the chains: 1 / sqrt(1 - share) steps count as one.
 void set_tours(Allocation& allocation, double b) {
   const double share = allocation.share,
                steps = allocation.mutations_per_sample * (1 - share) / share;

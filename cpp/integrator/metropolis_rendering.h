@@ -1,10 +1,11 @@
 // Rendering by Markov chains, with independent samples beside them: what all Metropolis integrators
 // share. Chains and samples find the same paths; FamilyWeights has the weights of both.
 //
-// A render is a fixed number of chains, each with its own random stream; a unit is some steps of one
-// chain or of a few that advance together, and these are visited in turn. They form independent groups, each with its own bootstrap;
-// GroupCombination tells how these add up. The samples are a rendering of their own, whose units are
-// interleaved with those of the chains, so that every prefix of a render is a fair image.
+// A render is a fixed number of chains, each with its own random stream; a unit is some steps of
+// one chain or of a few that advance together, and these are visited in turn. They form independent
+// groups, each with its own bootstrap; GroupCombination tells how these add up. The samples are a
+// rendering of their own, whose units are interleaved with those of the chains, so that every
+// prefix of a render is a fair image.
 #pragma once
 
 #include "integrator/group_combination.h"

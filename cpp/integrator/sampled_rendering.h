@@ -88,8 +88,8 @@ struct CellStreams {
   PixelSampler sampler(int x, int y) const { return {stream(x, y), index}; }
 };
 
-/// Calls take(cell) in an order in which those that follow each other are near: a packet of rays has
-/// 4 x 2 cells.
+/// Calls take(cell) in an order in which those that follow each other are near: a packet of rays
+/// has 4 x 2 cells.
 template <class Take>
 void for_each_packet_cell(const PixelRect& cells, Take&& take) {
   for (int y0 = cells.y0; y0 < cells.y1; y0 += 2)

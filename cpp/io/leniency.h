@@ -1,6 +1,6 @@
-// What nobody asked for: Mitsuba 0.x warns of parameters that a plug-in does not have, Mitsuba 2 and 3
-// refuse them. Programs that grew out of 0.6 have added parameters and integrators of their own, and
-// their scenes can be rendered without these.
+// What nobody asked for: Mitsuba 0.x warns of parameters that a plug-in does not have, Mitsuba 2
+// and 3 refuse them. Programs that grew out of 0.6 have added parameters and integrators of their
+// own, and their scenes can be rendered without these.
 #pragma once
 
 #include "base/registry.h"

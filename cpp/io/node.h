@@ -31,8 +31,8 @@ struct Node {
 /// Nodes, includes and references may be nested this deep; deeper is a mistake or an attack.
 constexpr int max_nesting = 100;
 
-/// A BSDF or a texture may be made of this many, of which one that is referred to twice counts twice:
-/// each is evaluated as often.
+/// A BSDF or a texture may be made of this many, of which one that is referred to twice counts
+/// twice: each is evaluated as often.
 constexpr size_t max_parts = 1000;
 
 using NodeIndex = std::map<std::string, const Node*>;

@@ -54,9 +54,9 @@ class Move {
   virtual std::shared_ptr<Move> clone() const = 0;
   /// May it act on x? A factor of its weight.
   virtual double suitability(const X& /*x*/) const { return 1; }
-  /// Draws y from T(x -> .); false if there is no proposal.
+  /// Draws y from q(x -> .); false if there is no proposal.
   virtual bool propose(const X& x, X& y, Rng& rng) = 0;
-  /// T(x -> y), up to a factor that does not depend on x and y. A symmetric move leaves it at 1.
+  /// q(x -> y), up to a factor that does not depend on x and y. A symmetric move leaves it at 1.
   virtual double density(const X& /*x*/, const X& /*y*/) const { return 1; }
   /// Is told how its proposal fared.
   virtual void adapt(double /*acceptance*/) {}
@@ -67,7 +67,7 @@ class Move {
 
   using State = lab::State<X>;
   struct Edit {
-    /// T(x -> y) and T(y -> x), if the move was made elsewhere.
+    /// q(x -> y) and q(y -> x), if the move was made elsewhere.
     std::optional<std::pair<double, double>> densities;
   };
   struct Aids {};
@@ -88,9 +88,9 @@ class Move {
         edit.densities ? *edit.densities : std::pair(density(x.x, y.x), density(y.x, x.x));
     if (!(forward > 0))
       throw UsageError("a move proposed " + describe(y.x) + " from " + describe(x.x) +
-                       " but its density T(x -> y) is " + describe(forward));
+                       " but its density q(x -> y) is " + describe(forward));
     if (!(backward >= 0))
-      throw UsageError("a move's density T(x -> y) is " + describe(backward) + " from " +
+      throw UsageError("a move's density q(x -> y) is " + describe(backward) + " from " +
                        describe(y.x) + " to " + describe(x.x));
     return {forward / y.target, backward / x.target};
   }

@@ -28,7 +28,7 @@ MovePtr adaptive_walk(std::vector<double> size, WalkShape shape, const Adaptatio
 /// y uniform in a box, whatever x is.
 MovePtr uniform(Point low, Point high);
 
-/// States 0 ... n - 1; row x of the matrix holds T(x -> y).
+/// States 0 ... n - 1; row x of the matrix holds q(x -> y).
 MovePtr discrete(const std::vector<std::vector<double>>& matrix);
 
 }  // namespace mlt::lab

@@ -1,6 +1,6 @@
 // A mixture of moves as the kernel of the Metropolis-Hastings step. Of the moves that suit a state
 // one is chosen by weight, and the acceptance is that of the chosen move alone, with the
-// probability of its choice as a part of T: the reverse state may suit other moves (Veach 1997,
+// probability of its choice as a part of q: the reverse state may suit other moves (Veach 1997,
 // sec. 11.4.1).
 //
 // A move is a class with
@@ -12,7 +12,7 @@
 //                            the state changes; nullptr if it keeps none
 //   double suitability(const State&) const   may it act on x? A factor of its weight
 //   std::optional<Edit> propose(x, y, context)   makes y from x
-//   Transition quotients(x, y, edit)   T(x -> y) / L*(y) and T(y -> x) / L*(x), without the
+//   Transition quotients(x, y, edit)   q(x -> y) / L*(y) and q(y -> x) / L*(x), without the
 //                            probability of its choice
 //
 // where a State has its target, known at the latest when the step ends; 0 if y is not to be had.

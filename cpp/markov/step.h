@@ -4,10 +4,10 @@
 //
 // A kernel proposes y from x and tells the two quotients that the acceptance needs,
 //
-//   a(x -> y) = min(1, L*(y) T(y -> x) / (L*(x) T(x -> y))) = min(1, backward / forward),
-//   forward = T(x -> y) / L*(y),   backward = T(y -> x) / L*(x),
+//   a(x -> y) = min(1, L*(y) q(y -> x) / (L*(x) q(x -> y))) = min(1, backward / forward),
+//   forward = q(x -> y) / L*(y),   backward = q(y -> x) / L*(x),
 //
-// each up to one factor that both share. Quotients, since factors that T and L* have in common can
+// each up to one factor that both share. Quotients, since factors that q and L* have in common can
 // then be cancelled before they overflow.
 //
 // Both states are recorded with their expected weights, a for y and 1 - a for x, which says the
@@ -30,8 +30,8 @@
 namespace mlt {
 
 struct Transition {
-  double forward = std::numeric_limits<double>::infinity();  ///< T(x -> y) / L*(y)
-  double backward = 0;                                       ///< T(y -> x) / L*(x)
+  double forward = std::numeric_limits<double>::infinity();  ///< q(x -> y) / L*(y)
+  double backward = 0;                                       ///< q(y -> x) / L*(x)
 };
 
 /// No proposal, or one of zero density: always rejected.
@@ -46,7 +46,7 @@ inline double acceptance(const Transition& t) {
 
 /// The second stage's quotients (Tierney & Mira 1999, sec. 3): `own` are those without the first
 /// stage's rejection, `first` those of y1 proposed from x, and `reverse` those of y1 from y2. The
-/// densities T1(x -> y1) and T1(y2 -> y1) are factors of `own`, or equal.
+/// densities q1(x -> y1) and q1(y2 -> y1) are factors of `own`, or equal.
 inline Transition after_rejection(const Transition& own, const Transition& first,
                                   const Transition& reverse) {
   if (own.forward == std::numeric_limits<double>::infinity()) return impossible;

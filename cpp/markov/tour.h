@@ -1,9 +1,9 @@
 // Tours: Markov chains that start over and over (Restore: Q. Wang, M. Pollock, G. Roberts, D.
-// Steinsaltz, "Regeneration-enriched Markov processes with application to Monte Carlo", 2021; for light
-// transport P. Holl, H.-P. Seidel, G. Singh, "Jump Restore light transport", 2025).
+// Steinsaltz, "Regeneration-enriched Markov processes with application to Monte Carlo", 2021; for
+// light transport P. Holl, H.-P. Seidel, G. Singh, "Jump Restore light transport", 2025).
 //
-// Samples find states with density P, and from each a tour starts. In a state x with the target T(x) it
-// dies with probability kappa / (1 + kappa), else a step follows that leaves T unchanged:
+// Samples find states with density P, and from each a tour starts. In a state x with the target
+// T(x) it dies with probability kappa / (1 + kappa), else a step follows that leaves T unchanged:
 //
 //   kappa(x) = kappa0 P(x) / T(x)
 //
@@ -13,13 +13,13 @@
 //
 //   nu (1 + kappa) = P + nu K.
 //
-// nu = T / kappa0 solves it, since nu kappa = P and nu K = nu; and where tours end, nothing else does.
-// So do the states after those steps have that density, whatever kappa0 is and however the steps
-// move: no start needs to be forgotten. Nothing is to be recorded at the start itself.
+// nu = T / kappa0 solves it, since nu kappa = P and nu K = nu; and where tours end, nothing else
+// does. So do the states after those steps have that density, whatever kappa0 is and however the
+// steps move: no start needs to be forgotten. Nothing is to be recorded at the start itself.
 //
-// If r(x) tours start from a path in the mean, P becomes r P in all of this. With r in proportion to
-// T / P all tours die at the same rate: energy redistribution path tracing (D. Cline, J. Talbot, P.
-// Egbert, SIGGRAPH 2005).
+// If r(x) tours start from a path in the mean, P becomes r P in all of this. With r in proportion
+// to T / P all tours die at the same rate: energy redistribution path tracing (D. Cline, J. Talbot,
+// P. Egbert, SIGGRAPH 2005).
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,7 @@
-// Rows of sorted numbers, in each of which another number can be looked for. A tree without pointers
-// stands above every row: one cache line of its numbers, a line with the first of each of those lines, and
-// so on. So a search reads one line for each level, where one by halves waits for memory at almost every
-// step, and it does not branch.
+// Rows of sorted numbers, in each of which another number can be looked for. A tree without
+// pointers stands above every row: one cache line of its numbers, a line with the first of each of
+// those lines, and so on. So a search reads one line for each level, where one by halves waits for
+// memory at almost every step, and it does not branch.
 #pragma once
 
 #include "base/shared_array.h"
@@ -37,8 +37,8 @@ class SortedRows {
     for (const Level& level : above_) i = i * per_line + level.row(row)[i].last_up_to(x);
     return i * per_line + all_.row(row)[i].last_up_to(x);
   }
-  /// The same for many numbers, each in a row of its own. All of them go down the tree together: while
-  /// memory brings the line of one, the others are compared.
+  /// The same for many numbers, each in a row of its own. All of them go down the tree together:
+  /// while memory brings the line of one, the others are compared.
   void last_up_to(const size_t* row, const T* x, int count, size_t* found) const {
     std::fill_n(found, count, 0);
     for (size_t l = 0; l < above_.size(); ++l) {

@@ -1,5 +1,5 @@
-// The vector types. Shading and paths are in double precision, so that a path's densities mean the
-// same whichever way it was made; meshes, textures and films store floats.
+// The vector types. Paths, their terms and densities are in double precision; matte vertices of
+// waves are in single precision, and meshes, textures and images store floats.
 #pragma once
 
 #include <glm/geometric.hpp>

@@ -7,7 +7,7 @@
 // come from the light side and t from the camera side. All ways (s, t) of making the same vertices
 // are summed:
 //
-//   T(x -> y) = p_delete(l, m | x) p_length(c_a | c_d) sum_s p_way(s) p_s(inserted vertices)
+//   q(x -> y) = p_delete(l, m | x) p_length(c_a | c_d) sum_s p_way(s) p_s(inserted vertices)
 //
 // Over |f| of what is inserted, p_s is 1 / C_s, with the unweighted contribution C_s of one
 // connection.

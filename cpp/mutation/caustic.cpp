@@ -5,8 +5,8 @@
 //
 // Where the chain starts at a light at infinity its direction x_0 stays and the ray moves across
 // the plane perpendicular to it. The angle (or the distance) is such that the image position moves
-// about as far as the lens perturbation would move it: by the path's lengths, or as the derivatives of
-// the chain say (`anisotropic`).
+// about as far as the lens perturbation would move it: by the path's lengths, or as the derivatives
+// of the chain say (`anisotropic`).
 #include "mutation/image_footprint.h"
 #include "mutation/join.h"
 #include "mutation/measured_mutation.h"

@@ -1,8 +1,8 @@
-// The footprint of a pixel in the directions that leave the light side of a specular chain: how such a
-// direction has to turn so that the end of the chain moves by so much on the image. Light through glass
-// is focused more in one direction than in another, so a move that is round on the image is an ellipse of
-// directions (ray differentials: Igehy 1999; of chains: Jakob & Marschner 2012, sec. 4.2; anisotropic
-// steps of chains: Li, Lehtinen, Ramamoorthi, Jakob & Durand 2015).
+// The footprint of a pixel in the directions that leave the light side of a specular chain: how
+// such a direction has to turn so that the end of the chain moves by so much on the image. Light
+// through glass is focused more in one direction than in another, so a move that is round on the
+// image is an ellipse of directions (ray differentials: Igehy 1999; of chains: Jakob & Marschner
+// 2012, sec. 4.2; anisotropic steps of chains: Li, Lehtinen, Ramamoorthi, Jakob & Durand 2015).
 //
 // The path alone says what it is, so that a step can be judged from either side.
 #pragma once

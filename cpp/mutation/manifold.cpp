@@ -7,11 +7,11 @@
 // light, with specular chains between them, a and c stay what they are and b moves: the direction
 // that leaves a (the image position, if a is on the lens) is perturbed and carried through the
 // chain from a to b, and the chain from b to c is found by a manifold walk. So light that reaches b
-// through glass from a lamp, be it a point, is followed, which a ray that is carried on from b would
-// hardly hit.
+// through glass from a lamp, be it a point, is followed, which a ray that is carried on from b
+// would hardly hit.
 //
-// The walk is a function of x and of the new b, but not one that can always be undone. From y it has
-// to lead back to x, or y is rejected.
+// The walk is a function of x and of the new b, but not one that can always be undone. From y it
+// has to lead back to x, or y is rejected.
 #include "mutation/image_move.h"
 #include "mutation/join.h"
 #include "mutation/manifold_walk.h"

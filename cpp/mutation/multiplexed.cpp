@@ -1,14 +1,14 @@
 // A small step in primary sample space, for chains of light paths (Otsu, Kaplanyan, Hanika,
 // Dachsbacher & Hachisuka 2017, "Fusing state spaces for Markov chain Monte Carlo rendering").
 //
-// Of the techniques that can make x, one is drawn with the probability p_s(x) / P(x), where P is the
-// sum of all p_s: the balance heuristic. Its inverse turns x into numbers u; these move a little,
-// with a symmetric density S; and the technique makes y of what they have become, v:
+// Of the techniques that can make x, one is drawn with the probability p_s(x) / P(x), where P is
+// the sum of all p_s: the balance heuristic. Its inverse turns x into numbers u; these move a
+// little, with a symmetric density S; and the technique makes y of what they have become, v:
 //
-//   T_s(x -> y) = p_s(x) / P(x) S(u -> v) p_s(y).
+//   q_s(x -> y) = p_s(x) / P(x) S(u -> v) p_s(y).
 //
-// The step is reversible for each s on its own. Since p_s(x) S(u -> v) p_s(y) is the same on the way
-// back, P(y) stands for T(x -> y), and the acceptance is min(1, L*(y) P(x) / (L*(x) P(y))).
+// The step is reversible for each s on its own. Since p_s(x) S(u -> v) p_s(y) is the same on the
+// way back, P(y) stands for q(x -> y), and the acceptance is min(1, L*(y) P(x) / (L*(x) P(y))).
 //
 // It moves every vertex, for the price of all rays of the path. That pays where specular vertices
 // stand in the way of the cheaper perturbations, so it acts on paths with one.

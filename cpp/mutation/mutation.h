@@ -1,6 +1,6 @@
 // The contract of a mutation of light paths (Veach 1997, sec. 11.2-11.3).
 //
-// A mutation proposes y from x with density T(x -> y) in the product-area measure of what it
+// A mutation proposes y from x with density q(x -> y) in the product-area measure of what it
 // inserts. It is right if it leaves L* unchanged, whatever else is mixed with it; the audit tests
 // just that.
 #pragma once
@@ -87,16 +87,16 @@ class Mutation {
   virtual std::optional<Edit> propose(const PathState& x, PathState& y,
                                       MutationContext& context) const = 0;
 
-  /// T(x -> y) for this edit, without the probability of having chosen this mutation. The reverse
+  /// q(x -> y) for this edit, without the probability of having chosen this mutation. The reverse
   /// is density(y, x, edit.reversed()).
   virtual double density(const PathState& x, const PathState& y, const Edit& edit) const = 0;
 
-  /// T(x -> y) / |f|, where |f| is that of the part of y that the edit changes: with its edges, its
+  /// q(x -> y) / |f|, where |f| is that of the part of y that the edit changes: with its edges, its
   /// vertices and their neighbours. By default the quotient of the two; MeasuredMutation cancels
   /// what they have in common.
   virtual double relative_density(const PathState& x, const PathState& y, const Edit& edit) const;
 
-  /// T(x -> y) / L*(y) and T(y -> x) / L*(x), up to |f| of what the edit leaves as it is.
+  /// q(x -> y) / L*(y) and q(y -> x) / L*(x), up to |f| of what the edit leaves as it is.
   Transition quotients(const PathState& x, const PathState& y, const Edit& edit) const {
     const double forward = relative_density(x, y, edit) / y.target;
     // Rounding may have taken the light of the path that a chain starts from: it leaves at once.

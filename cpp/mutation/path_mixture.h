@@ -2,14 +2,14 @@
 // that was rejected comes a timid one (Tierney & Mira 1999; for light transport Rioux-Lavoie et al.
 // 2020, "Delayed rejection Metropolis light transport").
 //
-// With T1 and T2 the densities of both stages and a1 the acceptance of the first, the second accepts
-// y2 with
+// With q1 and q2 the densities of both stages and a1 the acceptance of the first, the second
+// accepts y2 with
 //
-//   min(1, L*(y2) T2(y2 -> x) T1(y2 -> y1) (1 - a1(y2 -> y1))
-//          / (L*(x) T2(x -> y2) T1(x -> y1) (1 - a1(x -> y1)))).
+//   min(1, L*(y2) q2(y2 -> x) q1(y2 -> y1) (1 - a1(y2 -> y1))
+//          / (L*(x) q2(x -> y2) q1(x -> y1) (1 - a1(x -> y1)))).
 //
 // The second stage comes only where the first has made a path, with or without light: without one
-// T1 is not known.
+// q1 is not known.
 #pragma once
 
 #include "markov/mixture.h"

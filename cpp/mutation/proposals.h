@@ -10,7 +10,7 @@ namespace mlt {
 
 struct Proposal {
   PathState path;
-  double acceptance = 0;  ///< min(1, L*(y) T(y -> x) / (L*(x) T(x -> y)))
+  double acceptance = 0;  ///< min(1, L*(y) q(y -> x) / (L*(x) q(x -> y)))
 };
 
 /// Up to `count` proposals of a mutation that acts alone; tries that find no path are left out.

@@ -2,8 +2,8 @@
 
 namespace mlt {
 
-/// Eliminates from the last vertex on: with the blocks A, B, C of vertices i - 1, i, i + 1 in row i,
-/// E_i = B_i - C_i E_{i+1}^{-1} A_{i+1}.
+/// Eliminates from the last vertex on: with the blocks A, B, C of vertices i - 1, i, i + 1 in row
+/// i, E_i = B_i - C_i E_{i+1}^{-1} A_{i+1}.
 SpecularChain::SpecularChain(const Scene& scene, const Vertex* vertices, int count) {
   Mat2 above{0};        // E_{i+1}^{-1} A_{i+1}
   PlaneByPoint by_end;  // x_{i+1} by the end

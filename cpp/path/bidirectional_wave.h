@@ -21,7 +21,8 @@ class BidirectionalWave {
   /// serves(scene, settings) must hold.
   BidirectionalWave(const Scene& scene, const BidirectionalSettings& settings);
 
-  /// A sample of the numbers of PixelSampler(stream, index): the first two tell where in this pixel.
+  /// A sample of the numbers of PixelSampler(stream, index): the first two tell where in this
+  /// pixel.
   void add(uint64_t stream, uint32_t index, const Vec2& pixel);
   int size() const { return numbers_.count(); }
   bool full() const { return size() == capacity; }

@@ -54,8 +54,9 @@ struct JoiningRays {
   Lanes<float, JointLanes::size> length;  ///< 0: no light goes that way.
 };
 
-/// Joins vertices of light subpaths to those of camera subpaths; `weighted` is f w / p. The results are
-/// two parameters that do not overlap, so that the compiler makes vector instructions of the loop.
+/// Joins vertices of light subpaths to those of camera subpaths; `weighted` is f w / p. The results
+/// are two parameters that do not overlap, so that the compiler makes vector instructions of the
+/// loop.
 inline void join(const JointLanes& from_light, const JointLanes& from_camera, bool strict,
                  const Exponent& beta, JoiningRays& __restrict rays,
                  ColorLanes& __restrict weighted) {

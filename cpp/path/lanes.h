@@ -1,5 +1,5 @@
-// Values of the paths that are traced side by side: one array for each quantity, so that the compiler
-// makes vector instructions of the loops over them.
+// Values of the paths that are traced side by side: one array for each quantity, so that the
+// compiler makes vector instructions of the loops over them.
 #pragma once
 
 #include "math/vec.h"

@@ -1,5 +1,5 @@
-// Matte vertices of many paths from the camera, side by side in single precision. Lanes of paths that
-// have none are computed along and not looked at.
+// Matte vertices of many paths from the camera, side by side in single precision. Lanes of paths
+// that have none are computed along and not looked at.
 #pragma once
 
 #include "path/lanes.h"

@@ -6,7 +6,7 @@
 // that was sampled cancels, and a direction that was sampled by the BSDF leaves the quotient of its
 // density and its value. So the product does not overflow, whatever the scale of the scene and the
 // length of the path. Only the part of the path that was made needs to be looked at: |f| of the
-// rest is a factor that T(x -> y) / L*(y) and T(y -> x) / L*(x) share.
+// rest is a factor that q(x -> y) / L*(y) and q(y -> x) / L*(x) share.
 //
 // In a measure the density of x_j, sampled from its neighbour x_i, is the coefficient at x_i times
 // step(i, j); the edge that technique s joins contributes the factor joint(s).
@@ -48,9 +48,9 @@ double from_camera(const Measure& in, int i) {
                            : in.x[i + 1].vertex.pdf_from_camera * in.step(i + 1, i);
 }
 
-/// Density of vertices first ... end - 1, summed over the techniques that join them to each other or
-/// to their neighbours: sum_s l_first ... l_{s-1} joint(s) c_s ... c_{end-1}, with the densities l
-/// and c of light and camera walks. Technique 0 counts `hit_light` times.
+/// Density of vertices first ... end - 1, summed over the techniques that join them to each other
+/// or to their neighbours: sum_s l_first ... l_{s-1} joint(s) c_s ... c_{end-1}, with the densities
+/// l and c of light and camera walks. Technique 0 counts `hit_light` times.
 template <class Measure>
 double total_density(const Measure& in, int first, int end, double hit_light = 1) {
   const auto joint = [&](int s) { return can_sample(in.x, s) ? in.joint(s) : 0.0; };

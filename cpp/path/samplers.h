@@ -1,5 +1,5 @@
-// Sources of uniform numbers for a walk. All have next(), next2(), and begin(stream), which says what
-// the numbers that follow are for; walks are templates over them.
+// Sources of uniform numbers for a walk. All have next(), next2(), and begin(stream), which says
+// what the numbers that follow are for; walks are templates over them.
 #pragma once
 
 #include "base/rng.h"
@@ -39,9 +39,9 @@ class PixelSampler {
     uint32_t words = 0;  ///< of the independent numbers.
     uint32_t last_pair = stratified_pairs;
 
-    /// Where the numbers of a stream begin, whatever the others have taken: those of the camera after
-    /// the image position, those of the light with its position and direction, and direct light
-    /// with the lens and the vertex after it.
+    /// Where the numbers of a stream begin, whatever the others have taken: those of the camera
+    /// after the image position, those of the light with its position and direction, and direct
+    /// light with the lens and the vertex after it.
     Position begin(Stream stream) const {
       constexpr uint32_t words_of_stream = 1 << 20;  // A walk has most_edges() vertices at most.
       switch (stream) {

@@ -40,8 +40,8 @@ class SubpathWave {
     Color throughput;      ///< Of vertex 1.
   };
   void start(int sample, const Start& start);
-  /// Walks all of them to their ends, which have `most` vertices at most. The numbers are those after
-  /// the first step.
+  /// Walks all of them to their ends, which have `most` vertices at most. The numbers are those
+  /// after the first step.
   void walk(const WaveNumbers& numbers, int most, RayCounts& rays);
 
   /// Vertices at this place (1: the first after the end) of eight samples; all have one of them.

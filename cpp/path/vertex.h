@@ -1,5 +1,5 @@
 // A vertex of a light path, and what it contributes to the path's terms. The ends are vertices like
-// any other; this file is the only one that asks which kind a vertex is.
+// any other: who forms the terms of a path need not ask which kind a vertex is.
 #pragma once
 
 #include "scene/scene.h"
@@ -44,8 +44,8 @@ struct VertexTerms {
   double pdf_from_camera = 0;
 };
 
-/// What the terms of an end vertex depend on beside its position: x_0 has no wl and x_k no wc, they are
-/// not looked at.
+/// What the terms of an end vertex depend on beside its position: x_0 has no wl and x_k no wc, they
+/// are not looked at.
 VertexTerms end_terms(const Scene& scene, const Vertex& x, const Vec3& wl, const Vec3& wc);
 /// Those of x_k, and where the path meets the image; nullopt if it does not.
 struct LensTerms {

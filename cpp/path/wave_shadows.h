@@ -11,8 +11,8 @@ namespace mlt {
 class WaveShadows {
  public:
   int count() const { return count_; }
-  /// `radiance` reaches this path, which takes this share of it, unless something stands between the
-  /// ends of the ray.
+  /// `radiance` reaches this path, which takes this share of it, unless something stands between
+  /// the ends of the ray.
   void add(int path, const Color& radiance, double share, const Vec3f& o, const Vec3f& w,
            float length) {
     o_.set(count_, o);
@@ -23,7 +23,8 @@ class WaveShadows {
     radiance_[count_++] = radiance;
   }
 
-  /// Calls receive(path, radiance, share) for the light that arrives, and begins anew; time(path) is when.
+  /// Calls receive(path, radiance, share) for the light that arrives, and begins anew; time(path)
+  /// is when.
   template <class Time, class Receive>
   void trace(const Accel& accel, Time&& time, Receive&& receive) {
     for (int begin = 0; begin < count_; begin += RayPacket::size) {

@@ -72,8 +72,8 @@ class PathInverter {
     return true;
   }
 
-  /// Position, direction, the choice of the light; then the directions of the vertices after x_0: of
-  /// all of them if the walk `goes_on`, or of all but the last.
+  /// Position, direction, the choice of the light; then the directions of the vertices after x_0:
+  /// of all of them if the walk `goes_on`, or of all but the last.
   bool invert_light_walk(int vertices, bool goes_on) {
     const Emitter& emitter = *scene_.emitters()[path_[0].emitter];
     out_.begin(Stream::light);

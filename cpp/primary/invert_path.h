@@ -10,8 +10,8 @@ namespace mlt {
 
 /// Sets the numbers from which BidirectionalSampler::sample_technique, without Russian roulette,
 /// makes the path. Where there are many such numbers, as when several lobes may have sampled a
-/// direction, they are drawn with the density that they have, given the path. False if the technique
-/// cannot make it.
+/// direction, they are drawn with the density that they have, given the path. False if the
+/// technique cannot make it.
 bool invert_path(const Scene& scene, const Path& path, const Technique& technique, Rng& rng,
                  PrimaryNumbers& numbers);
 

@@ -1,7 +1,7 @@
 // Multiplexed Metropolis light transport (Hachisuka, Kaplanyan & Dachsbacher 2014): the technique
-// (s, t) is a part of the state, and the numbers make one path by it. The target is L* of the path's
-// f / p, weighted among the techniques, so that a path is visited as often as its L* says, whichever
-// technique makes it.
+// (s, t) is a part of the state, and the numbers make one path by it. The target is L* of the
+// path's f / p, weighted among the techniques, so that a path is visited as often as its L* says,
+// whichever technique makes it.
 //
 // In that paper each chain keeps the length of its paths, and there are as many chains for a length
 // as its light needs. Here a large step may change the length, so that one chain sees them all.

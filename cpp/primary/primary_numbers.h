@@ -1,6 +1,6 @@
-// A point of primary sample space (Kelemen, Szirmay-Kalos, Antal & Csonka 2002, "A simple and robust
-// mutation strategy for the Metropolis light transport algorithm"): the uniform numbers that paths
-// are made from.
+// A point of primary sample space (Kelemen, Szirmay-Kalos, Antal & Csonka 2002, "A simple and
+// robust mutation strategy for the Metropolis light transport algorithm"): the uniform numbers that
+// paths are made from.
 //
 // They form streams, so that a walk from the camera that has become longer does not shift the
 // numbers of the walk from the light. A step moves all numbers, also those that the current paths

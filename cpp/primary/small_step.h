@@ -23,8 +23,8 @@ struct SmallStep {
   Shape shape = Shape::kelemen;
   double size = 1. / 32;  ///< The largest move, or the standard deviation.
 
-  /// The smallest move over the largest one. Kelemen et al. move by 1/1024 to 1/64; twice that makes
-  /// less noise in most scenes.
+  /// The smallest move over the largest one. Kelemen et al. move by 1/1024 to 1/64; twice that
+  /// makes less noise in most scenes.
   static constexpr double smallest_share = 1. / 16;
 
   /// `count` steps in a row.
@@ -37,8 +37,8 @@ struct SmallStep {
     return u;
   }
 
-  /// One step by the random number `sample`; |s| lies between the smallest and the largest move, with
-  /// a density proportional to 1 / |s|. Without branches, for many numbers side by side.
+  /// One step by the random number `sample`; |s| lies between the smallest and the largest move,
+  /// with a density proportional to 1 / |s|. Without branches, for many numbers side by side.
   double kelemen(double u, double sample) const {
     const bool up = sample < 0.5;
     const double move = size * power_of_smallest_share(up ? 2 * sample : 2 * sample - 1);

@@ -14,8 +14,8 @@ class TechniqueChoice {
  public:
   explicit TechniqueChoice(const PathRules& rules) : rules_(rules) {}
 
-  /// The light that techniques have brought in a pilot: by k, then by s. Without any, all techniques
-  /// are equally likely.
+  /// The light that techniques have brought in a pilot: by k, then by s. Without any, all
+  /// techniques are equally likely.
   void learn(std::vector<std::vector<double>> light);
   const std::vector<std::vector<double>>& light() const { return light_; }
 

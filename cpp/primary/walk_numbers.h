@@ -1,7 +1,7 @@
-// A point of primary sample space (Kelemen et al. 2002) for walks from the camera: the numbers that a
-// walk has taken, in their order, and no others. A longer walk after a small step draws those beyond
-// afresh, a shorter one forgets what it leaves out: the density of both is 1, so that the step is
-// symmetric.
+// A point of primary sample space (Kelemen et al. 2002) for walks from the camera: the numbers that
+// a walk has taken, in their order, and no others. A longer walk after a small step draws those
+// beyond afresh, a shorter one forgets what it leaves out: the density of both is 1, so that the
+// step is symmetric.
 #pragma once
 
 #include "base/bytes.h"

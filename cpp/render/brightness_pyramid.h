@@ -1,12 +1,13 @@
-// How bright the pixels of an image are, as far as its groups agree about it: a pixel that one group
-// alone has found bright is no measure for how wrong the image is there.
+// How bright the pixels of an image are, as far as its groups agree about it: a pixel that one
+// group alone has found bright is no measure for how wrong the image is there.
 #pragma once
 
 #include "render/spread.h"
 
 namespace mlt {
 
-/// What groups have seen in the pixels, and in blocks of 2 x 2, 4 x 4, ... of them, up to the whole.
+/// What groups have seen in the pixels, and in blocks of 2 x 2, 4 x 4, ... of them, up to the
+/// whole.
 class BrightnessPyramid {
  public:
   /// The brightness of each pixel of an image of this size, as one group has seen it.
@@ -22,9 +23,9 @@ class BrightnessPyramid {
   std::vector<Level> levels_;
 };
 
-/// For each pixel the brightness of the smallest block around it that is known, of an image that is the
-/// sum of some parts, each with groups of its own. Known is what is larger than its standard error,
-/// outliers apart.
+/// For each pixel the brightness of the smallest block around it that is known, of an image that is
+/// the sum of some parts, each with groups of its own. Known is what is larger than its standard
+/// error, outliers apart.
 std::vector<float> known_brightness(const std::vector<const BrightnessPyramid*>& parts);
 
 }  // namespace mlt

@@ -19,13 +19,14 @@ struct Disagreement {
   double share = 0;  ///< Of the block's light, what the group that found most of it has found.
 };
 
-/// sqrt(mean over pixels of s^2 / (L^2 + 0.01 M^2)), with a pixel's standard error s, its brightness L
-/// as far as the groups agree about it (known_brightness), and the mean M of the brightness over the
-/// image. It is an estimate of the square root of relMSE; 0.01 M^2 keeps black pixels from deciding it.
+/// sqrt(mean over pixels of s^2 / (L^2 + 0.01 M^2)), with a pixel's standard error s, its
+/// brightness L as far as the groups agree about it (known_brightness), and the mean M of the
+/// brightness over the image. It is an estimate of the square root of relMSE; 0.01 M^2 keeps black
+/// pixels from deciding it.
 struct RelativeError {
   double value = std::numeric_limits<double>::quiet_NaN();  ///< NaN if nothing is known.
-  /// How many pixels carry it: (sum of their terms)^2 / (sum of the terms' squares). With few, rarely
-  /// found light decides it, and as long as that is not found the error seems too small.
+  /// How many pixels carry it: (sum of their terms)^2 / (sum of the terms' squares). With few,
+  /// rarely found light decides it, and as long as that is not found the error seems too small.
   double carrying = std::numeric_limits<double>::quiet_NaN();
 };
 

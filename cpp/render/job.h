@@ -64,8 +64,8 @@ class Job {
   /// After the end: goes on until a larger budget is used up. Throws UsageError.
   void extend(const Budget& budget);
 
-  // Until it has ended, a process that was forked from the one that renders gets RenderError from all
-  // that returns an image or statistics, and from wait() and save().
+  // Until it has ended, a process that was forked from the one that renders gets RenderError from
+  // all that returns an image or statistics, and from wait() and save().
 
   double progress() const;  ///< 0 ... 1 of the budget.
   double spp_done() const;  ///< Samples per pixel so far.

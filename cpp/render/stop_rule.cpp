@@ -15,9 +15,9 @@ namespace {
 /// early.
 constexpr double first_look_spp = 64, look_growth = 1.3;
 
-/// An error that is carried by few pixels is known badly itself, and who stops when it happens to be
-/// small stops too early: its square counts with two of its standard errors, as if the terms of the
-/// pixels were independent and exponentially distributed.
+/// An error that is carried by few pixels is known badly itself, and who stops when it happens to
+/// be small stops too early: its square counts with two of its standard errors, as if the terms of
+/// the pixels were independent and exponentially distributed.
 double bound(const RelativeError& error) {
   return error.value * std::sqrt(1 + 2 / std::sqrt(error.carrying));
 }

@@ -79,8 +79,8 @@ void analytic_bounds(const RTCBoundsFunctionArguments* args) {
                      up(high.x),  up(high.y),  up(high.z),  0};
 }
 
-/// Where lane i of the accelerator's rays meets the shape. In an instance, or without the exact ray,
-/// it is found by the accelerator's ray, whose direction has any length.
+/// Where lane i of the accelerator's rays meets the shape. In an instance, or without the exact
+/// ray, it is found by the accelerator's ray, whose direction has any length.
 std::optional<double> analytic_hit(void* user_data, const Context* context, RTCRayN* rays,
                                    unsigned lanes, unsigned i) {
   const auto& shape = *static_cast<const AnalyticShape*>(user_data);

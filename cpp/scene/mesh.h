@@ -48,7 +48,8 @@ class Mesh : public Shape {
 
   const TriangleRecord& record(uint32_t triangle) const { return records_[triangle]; }
   bool has_normals() const { return normals_ != nullptr; }
-  /// In single precision, a multiple of the shading normal; the geometric normal where there is none.
+  /// In single precision, a multiple of the shading normal; the geometric normal where there is
+  /// none.
   Vec3f normal_sum(uint32_t triangle, const Vec2f& b) const {
     const Vec3f ng(records_[triangle].ng);
     if (!normals_) return ng;

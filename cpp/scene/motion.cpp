@@ -19,8 +19,8 @@ double largest_entry(const Mat3& m) {
                    max_component(glm::abs(m[2]))});
 }
 
-/// The orthogonal factor of a matrix with a positive determinant: Newton's iteration of Higham 1986,
-/// "Computing the polar decomposition, with applications".
+/// The orthogonal factor of a matrix with a positive determinant: Newton's iteration of Higham
+/// 1986, "Computing the polar decomposition, with applications".
 Mat3 nearest_rotation(const Mat3& m) {
   Mat3 q = m * (1 / std::cbrt(glm::determinant(m)));
   for (int i = 0; i < 100; ++i) {

@@ -24,12 +24,12 @@ namespace mlt {
 /// What is wrong with an animation, in words; "" if nothing is.
 std::string animation_problem(const Animation& animation);
 
-/// What there is of an animation without problems from `open` to `close`: an Animation between these times, or a
-/// Matrix if nothing moves.
+/// What there is of an animation without problems from `open` to `close`: an Animation between
+/// these times, or a Matrix if nothing moves.
 Value during(const Animation& animation, const Shutter& shutter);
 
-/// Where a shape that moves is made, to be moved from there: where its own space is, mirrored if the
-/// animation mirrors.
+/// Where a shape that moves is made, to be moved from there: where its own space is, mirrored if
+/// the animation mirrors.
 Mat4 at_rest(const Animation& animation);
 
 class Motion {
@@ -54,7 +54,8 @@ class Motion {
 
 /// The animation that is given for a parameter of type motion, if one is.
 const Animation* animation_param(Params& params, const std::string& name);
-/// A parameter of type motion, from the first key to the last one; the identity if it has no default and is not given.
+/// A parameter of type motion, from the first key to the last one; the identity if it has no
+/// default and is not given.
 Motion motion_param(Params& params, const std::string& name);
 /// The same of something that knows itself when the shutter is open.
 Motion motion_param(Params& params, const std::string& name, const Shutter& shutter);

@@ -1,5 +1,5 @@
-// What a hierarchy of the accelerator is built from: forms and where they are, without materials and
-// lights. Scenes in which these are the same share one.
+// What a hierarchy of the accelerator is built from: forms and where they are, without materials
+// and lights. Scenes in which these are the same share one.
 #pragma once
 
 #include "scene/shape.h"

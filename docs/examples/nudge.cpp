@@ -1,6 +1,6 @@
 // The image position moves by up to side / 2 pixels in x and in y, and what is seen there takes the
 // place of x_{k-1}. On the image a step is as likely as its reverse; in the area measure of x_{k-1}
-//   T(x -> y) = 1 / side^2 * d(pixels) / d(area),
+//   q(x -> y) = 1 / side^2 * d(pixels) / d(area),
 // where a camera walk, which fills the sampled pixels evenly, has the latter in its density.
 #include "mutation/join.h"
 #include "mutation/mutation_registry.h"

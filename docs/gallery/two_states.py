@@ -3,8 +3,8 @@ Two states
 ==========
 
 The smallest example: the states are a and b, f(a) = 9 and f(b) = 1, so that a chain should spend
-9/10 of its time in a. With a fair coin as proposal, T = 1/2, the step from a to b is accepted with
-probability 1/9 and every other one always. With the proposal T = (9/10, 1/10), which is the target
+9/10 of its time in a. With a fair coin as proposal, q = 1/2, the step from a to b is accepted with
+probability 1/9 and every other one always. With the proposal q = (9/10, 1/10), which is the target
 itself, every acceptance is 1.
 """
 
@@ -16,7 +16,7 @@ from pymlt import lab, metropolis
 lab.style()
 
 f = metropolis.Table([9, 1])
-proposals = {"T = 1/2": [1 / 2, 1 / 2], "T = (9/10, 1/10)": [9 / 10, 1 / 10]}
+proposals = {"q = 1/2": [1 / 2, 1 / 2], "q = (9/10, 1/10)": [9 / 10, 1 / 10]}
 tables = {name: metropolis.detailed_balance([9, 1], T, "ab") for name, T in proposals.items()}
 
 # %%
@@ -35,7 +35,7 @@ for ax, (name, table) in zip(axes, tables.items(), strict=False):
     for i in range(2):
         for j in range(2):
             text = (
-                f"T = {table.T[i, j]:.1f}\na = {table.a[i, j]:.3g}\nf T a = {table.flow[i, j]:.3g}"
+                f"q = {table.T[i, j]:.1f}\na = {table.a[i, j]:.3g}\nf q a = {table.flow[i, j]:.3g}"
             )
             ax.text(j, i, text, ha="center", va="center")
     ax.set(xticks=[0, 1], yticks=[0, 1], xticklabels="ab", yticklabels="ab", title=name)

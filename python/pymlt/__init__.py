@@ -37,6 +37,7 @@ from .diagnostics.comparison import comparison_figure
 from .diagnostics.metrics import compare
 from .diagnostics.mixing import Convergence, convergence
 from .formats.files import convert
+from .formats.loading import load
 from .images import read_image, read_metadata, write_image
 from .pictures.denoising import denoise
 from .pictures.techniques import Technique
@@ -46,7 +47,7 @@ from .rendering.merging import merge
 from .rendering.preview import preview as _preview
 from .rendering.result import Groups, Replay, Result
 from .rendering.start import render, render_progressive, replay, resume, start
-from .scenes.loading import load, load_dict, load_file, load_string
+from .scenes.loading import load_dict, load_file, load_string
 from .scenes.transforms import Transform
 from .viewing.start import view
 

@@ -50,7 +50,7 @@ from typing import Any
 import numpy as np
 
 from ..algorithms.integrator import IntegratorLike
-from ..scenes.loading import SceneLike
+from ..formats.loading import SceneLike
 from .job import Job
 from .options import RenderOptions
 from .result import Replay, Result

@@ -177,8 +177,8 @@ struct TestScene {
   std::string name;
   ScenePtr scene;
   bool path_sees_all = true;  ///< No light is visible only to techniques from the light side.
-  /// Nothing is seen by way of a delta vertex alone, or so rarely by light walks that a test of it would
-  /// take hours (the sky itself, through a pinhole).
+  /// Nothing is seen by way of a delta vertex alone, or so rarely by light walks that a test of it
+  /// would take hours (the sky itself, through a pinhole).
   bool light_sees_all = true;
 };
 

@@ -1,5 +1,5 @@
-// The first byte chooses the mesh; an input marked "raw" is compressed first, so that the fuzzer can
-// get behind zlib.
+// The first byte chooses the mesh; an input marked "raw" is compressed first, so that the fuzzer
+// can get behind zlib.
 #include "fuzz.h"
 
 #include "scene/shape/readers.h"

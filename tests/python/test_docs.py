@@ -1,5 +1,6 @@
 """Documentation that can be wrong is tested: tables, links, names of the code, and commands."""
 
+import ast
 import importlib.util
 import re
 import shlex
@@ -172,6 +173,65 @@ def test_each_floor_uses_only_floors_below_it():
         above = floors[floors.index(path.relative_to(ROOT / "cpp").parts[0]) + 1 :]
         for included in re.findall(r'#include "(\w+)/', path.read_text()):
             assert included not in above, f"{path.relative_to(ROOT)} includes {included}/"
+
+
+def contributing(pattern):
+    return re.search(pattern, (ROOT / "CONTRIBUTING.md").read_text(), re.DOTALL)[1]
+
+
+def test_the_floors_of_contributing_are_those_of_the_house():
+    said = contributing(r"from the\s+ground up: (.*?);")
+    floors = [name for name, _ in script("images/make_house.py").FLOORS]
+    assert re.findall(r"\w+", said) == floors
+    assert {path.parts[-2] for path in ROOT.glob("tests/cpp/*/test_*.cpp")} <= set(floors)
+
+
+def imported_parts(path):
+    """The parts of pymlt from which a file of it imports anything, inside of functions too."""
+    package = ("pymlt", *path.relative_to(ROOT / "python" / "pymlt").parts[:-1])
+    for node in ast.walk(ast.parse(path.read_text())):
+        if isinstance(node, ast.Import):
+            modules = [alias.name.split(".") for alias in node.names]
+        elif isinstance(node, ast.ImportFrom):
+            above = package[: len(package) + 1 - node.level] if node.level else ()
+            module = [*above, *(node.module or "").split(".")]
+            modules = [[*filter(None, module), alias.name] for alias in node.names]
+        else:
+            continue
+        yield from (module[1] for module in modules if module[0] == "pymlt" and len(module) > 1)
+
+
+def test_each_part_of_the_package_imports_only_what_stands_above_it():
+    table = contributing(r"\| where in `python/pymlt` \| what \|\n(.*?)\n\n")
+    rows = " ".join(re.findall(r"^\| (.*?) \|", table, re.MULTILINE))
+    order = [Path(name).stem for name in re.findall(r"`([\w.]+)`", rows)]
+    order = ["_core", "_processor", "_extras", *order, "_stubs", "__init__", "__main__"]
+    for path in (ROOT / "python" / "pymlt").rglob("*.py"):
+        part = path.relative_to(ROOT / "python" / "pymlt").with_suffix("").parts[0]
+        assert part in order, f"CONTRIBUTING.md does not list {part}"
+        allowed = order[: order.index(part) + 1]
+        for imported in imported_parts(path):
+            assert imported in allowed, f"{path.relative_to(ROOT)} imports {imported}"
+
+
+# Tables of numbers, one row a line.
+DATA = {"cpp/scene/emitter/sky_model.inc", "tests/cpp/scene/bsdf/mitsuba_values.inc"}
+
+
+@pytest.mark.parametrize("folder", ["cpp", "bindings", "tests/cpp", "tests/fuzz", "benchmarks"])
+def test_no_line_of_cpp_is_longer_than_the_formatter_allows(folder):
+    limit = int(re.search(r"ColumnLimit: (\d+)", (ROOT / ".clang-format").read_text())[1])
+    long = []
+    for path in (ROOT / folder).rglob("*.*"):
+        name = str(path.relative_to(ROOT))
+        if path.suffix not in (".cpp", ".h", ".inc") or name in DATA:
+            continue
+        formatted = True
+        for i, line in enumerate(path.read_text().splitlines(), 1):
+            formatted = "clang-format on" in line if "clang-format o" in line else formatted
+            if formatted and len(line) > limit:
+                long.append(f"{name}:{i}")
+    assert not long
 
 
 EXAMPLES = sorted((ROOT / "docs" / "examples").glob("*.cpp"))

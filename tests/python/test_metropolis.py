@@ -612,7 +612,7 @@ WALK = metropolis.RandomWalk(0.1)
         ((f, metropolis.AdaptiveWalk(1, goal=2), 0.9, 10), {}, "goal must be between"),
         ((metropolis.Table([1, -2]), WALK, 0, 10), {}, "finite and not negative"),
         ((metropolis.Image(np.ones((2, 2))), WALK, 0.5, 10), {}, "needs states of 2 numbers"),
-        ((f, Liar(), 0.9, 10), {}, "its density T.* is 0"),
+        ((f, Liar(), 0.9, 10), {}, "its density q.* is 0"),
         ((f, Lost(), 0.9, 10), {}, "proposed 'nowhere'.* must be a number"),
         ((f_of_array, [OnlyLeft()], 0.9, 10), {"vectorized": True}, "suitability or adapt"),
     ],

@@ -17,8 +17,8 @@ class DielectricInterface {
         reflection_weight_(target_luminance(reflectance->mean())),
         transmission_weight_(target_luminance(transmittance->mean())) {}
 
-  /// Probability of choosing reflection where the fraction F is reflected: in proportion to the mean
-  /// power of both.
+  /// Probability of choosing reflection where the fraction F is reflected: in proportion to the
+  /// mean power of both.
   double reflection_probability(double F) const {
     return first_share(F * reflection_weight_, (1 - F) * transmission_weight_);
   }

@@ -17,8 +17,8 @@ double ior_param(Params& params, const std::string& name) {
   return ior;
 }
 
-/// A component of a complex index: a number, an RGB triple or a spectrum. The colour of a metal that is
-/// out of gamut may be negative; Mitsuba 3 has only its square in the Fresnel equations.
+/// A component of a complex index: a number, an RGB triple or a spectrum. The colour of a metal
+/// that is out of gamut may be negative; Mitsuba 3 has only its square in the Fresnel equations.
 Color index_param(Params& params, const std::string& name) {
   const Color color = to_color(params, name, SpectrumUse::unbounded);
   if (min_component(color) < 0)

@@ -109,8 +109,8 @@ struct LobeShares {
     u = std::clamp((u - before) / share[last], 0.0, 1 - 0x1p-53);
     return last;
   }
-  /// Which lobe has sampled a direction that they have these densities for, if v is uniform; what is
-  /// left of v.
+  /// Which lobe has sampled a direction that they have these densities for, if v is uniform; what
+  /// is left of v.
   template <class Densities>
   static size_t guess(const Densities& densities, double& v) {
     double weights[n];

@@ -3,8 +3,8 @@
 //
 //   dA / dA_rest = |det M| |M^-T n|
 //
-// with the linear part M of the transform and the unit normal n at rest, by which densities per area
-// are divided.
+// with the linear part M of the transform and the unit normal n at rest, by which densities per
+// area are divided.
 #pragma once
 
 #include "scene/instance.h"

@@ -1,6 +1,6 @@
 // A slide projector: a pinhole that casts an image. As in Mitsuba 3, the image is what a white
-// diffuse plane shows at unit distance, across the axis: there the irradiance is pi times the image,
-// and E = I cos^3 / 1^2, so the intensity is I = pi image / cos^3.
+// diffuse plane shows at unit distance, across the axis: there the irradiance is pi times the
+// image, and E = I cos^3 / 1^2, so the intensity is I = pi image / cos^3.
 #include "scene/camera/projective.h"
 #include "scene/emitter/emitter_plugin.h"
 #include "scene/emitter/isolated.h"

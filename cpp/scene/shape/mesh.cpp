@@ -1,4 +1,5 @@
-// A mesh whose buffers the scene holds, as bytes in the machine's order: a Python dict gives arrays.
+// A mesh whose buffers the scene holds, as bytes in the machine's order: a Python dict gives
+// arrays.
 #include "scene/shape/common.h"
 
 #include <cstring>

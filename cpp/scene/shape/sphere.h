@@ -47,8 +47,8 @@ class Sphere : public AnalyticShape {
   double side_;     ///< 1 if the normals point outward, else -1.
 };
 
-/// A sphere whose transform is given and makes it an ellipsoid becomes one that an instance of it is:
-/// `to_world` is replaced by an animation without motion.
+/// A sphere whose transform is given and makes it an ellipsoid becomes one that an instance of it
+/// is: `to_world` is replaced by an animation without motion.
 void place_ellipsoid(Params& params);
 
 }  // namespace mlt

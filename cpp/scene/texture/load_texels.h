@@ -22,8 +22,9 @@ struct Decoding {
 /// Those that name an image file, or hold an image.
 std::vector<Parameter> image_parameters(const char* filename_doc);
 
-/// Reads the image that the parameter `filename` names, or takes the one in `data`, as 1 (grey) or 3 (RGB) linear channels;
-/// alpha is dropped. Throws FileError for a file that cannot be read or holds NaN or infinity.
+/// Reads the image that the parameter `filename` names, or takes the one in `data`, as 1 (grey) or
+/// 3 (RGB) linear channels; alpha is dropped. Throws FileError for a file that cannot be read or
+/// holds NaN or infinity.
 Image load_image(Params& params, const Decoding& decoding);
 /// The same for a texture.
 Texels load_texels(Params& params, const Decoding& decoding);

@@ -29,11 +29,11 @@ class Mutation:
         cannot take is rejected, and so is one that breaks the law of reflection or refraction at a
         delta vertex.
     density(x, y)
-        T(x -> y), the density with which `propose` makes y of x, given that this mutation was
+        q(x -> y), the density with which `propose` makes y of x, given that this mutation was
         chosen, in the product-area measure of the vertices that y has and x has not: the product
         over these vertices of a density per unit of area (in the units of the scene; per steradian
         for a vertex at infinity, and for a vertex that follows a delta vertex the coefficient of
-        that delta), as `y.from_light` and `y.from_camera` are. It is also asked for T(y -> x), and
+        that delta), as `y.from_light` and `y.from_camera` are. It is also asked for q(y -> x), and
         must be 0 where `propose` could not have made the path. A constant factor cancels, but not
         one that depends on the paths.
 

@@ -12,7 +12,7 @@ from .. import _core
 from ..algorithms.integrator import Integrator
 from ..algorithms.mutation import Mutation
 from ..algorithms.mutations import built_in
-from ..scenes.loading import SceneLike, as_scene
+from ..formats.loading import SceneLike, as_scene
 
 
 class AuditTest(NamedTuple):

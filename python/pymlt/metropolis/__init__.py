@@ -13,8 +13,8 @@ For example::
     run.samples, run.acceptance, run.mean(lambda x: x**2)
 
 A target f is any function that is nowhere negative; it need not be normalised. Moves propose a new
-state y from the present one x with density T(x -> y). The acceptance
-a(x -> y) = min(1, f(y) T(y -> x) / (f(x) T(x -> y))) is formed, and the choice is made, by the one
+state y from the present one x with density q(x -> y). The acceptance
+a(x -> y) = min(1, f(y) q(y -> x) / (f(x) q(x -> y))) is formed, and the choice is made, by the one
 Metropolis-Hastings step of the C++ side.
 """
 

@@ -13,8 +13,9 @@ from .moves import transition_matrix
 class DetailedBalance:
     """For each pair of states: how much goes from one to the other, and back. Print it.
 
-    f: the target. T: proposals. a: acceptances. K: the chain's transition probabilities, with what
-    is rejected on the diagonal. flow: f(x) T(x -> y) a(x -> y), which is symmetric.
+    f: the target. T: the proposals q(x -> y). a: acceptances. K: the chain's transition
+    probabilities, with what is rejected on the diagonal. flow: f(x) q(x -> y) a(x -> y), which is
+    symmetric.
     """
 
     f: Any
@@ -40,7 +41,7 @@ class DetailedBalance:
 
     def __str__(self) -> str:
         width = max(len(name) for name in self.names)
-        head = f"{'x -> y':>{2 * width + 4}}  {'f(x)':>8}  {'T(x->y)':>8}  {'a(x->y)':>8}  f(x) T a"
+        head = f"{'x -> y':>{2 * width + 4}}  {'f(x)':>8}  {'q(x->y)':>8}  {'a(x->y)':>8}  f(x) q a"
         lines = [head]
         for i, x in enumerate(self.names):
             for j, y in enumerate(self.names):

@@ -19,14 +19,14 @@ class Move:
     """A move that is written in Python: subclass it.
 
     propose(x, rng)
-        returns y, drawn from T(x -> y), or None for no proposal. `rng` is a
+        returns y, drawn from q(x -> y), or None for no proposal. `rng` is a
         `numpy.random.Generator` on the random stream of the chain; draw from nothing else, and the
         run depends on its seed alone.
     density(x, y)
-        returns T(x -> y). Only quotients of densities matter, so a constant factor may be left out.
-        Not needed if `symmetric = True` says that T(x -> y) = T(y -> x).
+        returns q(x -> y). Only quotients of densities matter, so a constant factor may be left out.
+        Not needed if `symmetric = True` says that q(x -> y) = q(y -> x).
     suitability(x)
-        may return a factor of the move's weight, 0 where it cannot act. It becomes a part of T.
+        may return a factor of the move's weight, 0 where it cannot act. It becomes a part of q.
     adapt(acceptance)
         may learn from how the last proposal fared. Each chain learns in a copy of its own. Let the
         changes die out, or the chain forgets its target. If there is a number `size`, it is traced.
@@ -59,7 +59,7 @@ class Move:
 
 @dataclass
 class Symmetric(Move):
-    """A function `propose(x, rng)` whose T(x -> y) = T(y -> x)."""
+    """A function `propose(x, rng)` whose q(x -> y) = q(y -> x)."""
 
     propose: Callable[[Any, Any], Any]
     symmetric = True
@@ -140,9 +140,9 @@ class Uniform:
 
 
 class Discrete:
-    """T(x -> y) between the states 0 ... n - 1, as a matrix with one row for each x.
+    """q(x -> y) between the states 0 ... n - 1, as a matrix with one row for each x.
 
-    A single row means that y does not depend on x, as in the lecture's T = (9/10, 1/10).
+    A single row means that y does not depend on x, as in the lecture's (9/10, 1/10).
     """
 
     def __init__(self, T):

@@ -9,9 +9,9 @@ from pathlib import Path
 from typing import Any
 
 from .. import _core
+from ..formats.loading import SceneLike, as_scene
 from ..rendering.options import integer, number
 from ..rendering.progress import progress_bar
-from ..scenes.loading import SceneLike, as_scene
 from .algorithm import AlgorithmLike, contestants
 from .insets import check_insets
 from .result import Entry, RaceResult, Settings, judged

@@ -12,7 +12,8 @@ from .. import _core
 from .._core import Scene
 from ..algorithms.integrator import IntegratorLike, as_integrator
 from ..formats.files import is_foreign, load_foreign
-from ..scenes.loading import SceneLike, as_scene, load_built_in
+from ..formats.loading import SceneLike, as_scene
+from ..scenes.loading import load_built_in
 from .job import Job
 from .options import RenderOptions, takes_options
 from .result import Replay, Result

@@ -9,34 +9,6 @@ import os
 from .. import _core, scenes
 from .arrays import with_bytes
 
-SceneLike = _core.Scene | dict | str | os.PathLike
-
-
-def load(path, /, *, size=None, lenient=None, sensor=None, filter=None, **defines) -> _core.Scene:
-    """Load a scene from a file of any known format, which its extension tells.
-
-    .gltf, .glb
-        glTF 2.0; needs the extra `gltf`.
-    .pbrt
-        pbrt-v4.
-    anything else
-        Mitsuba XML; see `load_file` for `lenient` and `defines`, which only these files have.
-
-    `size` is the image's (width, height) in pixels, `sensor` says which of several cameras is
-    meant, `filter` names another reconstruction filter. What a file of another program has and a
-    Mitsuba scene cannot say is named in a warning of Python. Raises FileError, SceneError and
-    UsageError, as `load_file` and `convert` do.
-    """
-    from ..formats.files import is_foreign, load_foreign, warn_all
-
-    if not is_foreign(path):
-        return load_file(path, size=size, lenient=lenient, sensor=sensor, filter=filter, **defines)
-    if defines or lenient is not None:
-        raise _core.UsageError(f"{os.fspath(path)}: only Mitsuba XML has defines and is lenient")
-    scene, found = load_foreign(path, _size(size), _sensor(sensor), _filter(filter))
-    warn_all(path, found)
-    return scene
-
 
 def load_file(
     path, /, *, size=None, lenient=None, sensor=None, filter=None, **defines
@@ -54,10 +26,10 @@ def load_file(
     return _core.load_file(
         os.fspath(path),
         _texts(defines),
-        _size(size),
+        image_size(size),
         lenient,
-        _sensor(sensor),
-        _filter(filter),
+        sensor_index(sensor),
+        filter_name(filter),
     )
 
 
@@ -72,10 +44,10 @@ def load_string(
         xml,
         os.fspath(directory),
         _texts(defines),
-        _size(size),
+        image_size(size),
         lenient,
-        _sensor(sensor),
-        _filter(filter),
+        sensor_index(sensor),
+        filter_name(filter),
     )
 
 
@@ -88,7 +60,9 @@ def load_dict(scene: dict, /, *, size=None, sensor=None, filter=None) -> _core.S
     """
     if not isinstance(scene, dict):
         raise _core.UsageError(f"load_dict needs a dict, not a {type(scene).__name__}")
-    return _core.load_dict(with_bytes(scene), _size(size), _sensor(sensor), _filter(filter))
+    return _core.load_dict(
+        with_bytes(scene), image_size(size), sensor_index(sensor), filter_name(filter)
+    )
 
 
 def load_built_in(
@@ -104,7 +78,9 @@ def load_built_in(
                 + _core.suggestion(define, list(known)),
             )
     scene = function(**{key: _number(value) for key, value in defines.items()})
-    return _core.load_dict(scene, _size(size), _sensor(sensor), _filter(filter), name, defines)
+    return _core.load_dict(
+        scene, image_size(size), sensor_index(sensor), filter_name(filter), name, defines
+    )
 
 
 def _number(text: str) -> int | float | str:
@@ -116,7 +92,7 @@ def _number(text: str) -> int | float | str:
     return text
 
 
-def _size(size) -> tuple[int, int] | None:
+def image_size(size) -> tuple[int, int] | None:
     if size is None:
         return None
     try:
@@ -128,7 +104,7 @@ def _size(size) -> tuple[int, int] | None:
     raise _core.UsageError(f"size is {size!r}, but should be (width, height)")
 
 
-def _sensor(sensor) -> int | None:
+def sensor_index(sensor) -> int | None:
     if sensor is None:
         return None
     try:
@@ -139,7 +115,7 @@ def _sensor(sensor) -> int | None:
     raise _core.UsageError(f"sensor is {sensor!r}, but should be an integer")
 
 
-def _filter(filter) -> str:
+def filter_name(filter) -> str:
     if filter is None or isinstance(filter, str):
         return filter or ""
     raise _core.UsageError(f"filter is {filter!r}, but should be a name, such as 'box'")
@@ -155,14 +131,3 @@ def _text(value) -> str:
     if isinstance(value, list | tuple):
         return ", ".join(map(_text, value))
     return str(value)
-
-
-def as_scene(scene, sensor=None) -> _core.Scene:
-    """What `scene` means: itself, a dict, or the path of a file."""
-    if isinstance(scene, _core.Scene):
-        return scene if sensor is None else scene.with_sensor(_sensor(sensor))
-    if isinstance(scene, dict):
-        return load_dict(scene, sensor=sensor)
-    if isinstance(scene, str | os.PathLike):
-        return load(scene, sensor=sensor)
-    raise _core.UsageError(f"{scene!r} is not a scene, a dict, or the path of a file")

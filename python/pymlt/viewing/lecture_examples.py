@@ -78,7 +78,7 @@ def two_states(fa: float, to_a: float) -> Shown:
     curves.append(Curve("target", np.full(len(steps), goal)))
     text = (
         f"a(a → b) = {balance.a[0, 1]:.3g}, a(b → a) = {balance.a[1, 0]:.3g}. As much goes from a "
-        f"to b as back: f T a = {balance.flow[0, 1]:.3g} = {balance.flow[1, 0]:.3g}. In the end "
+        f"to b as back: f q a = {balance.flow[0, 1]:.3g} = {balance.flow[1, 0]:.3g}. In the end "
         f"{100 * goal:.3g} % of the chains are in a."
     )
     return Shown(text, [Chart("Share of 4000 chains in a, by step", steps.astype(float), curves)])
@@ -184,7 +184,7 @@ EXAMPLES = (
     Example(
         "Two states",
         "The smallest example: f(b) = 1, and a chain should be in a by the share of f(a).",
-        (Slider("f(a)", 1, 20, 0.5, 9), Slider("T(→ a)", 0.05, 0.95, 0.05, 0.5)),
+        (Slider("f(a)", 1, 20, 0.5, 9), Slider("q(→ a)", 0.05, 0.95, 0.05, 0.5)),
         two_states,
     ),
     Example(

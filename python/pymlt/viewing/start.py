@@ -10,7 +10,7 @@ from typing import Any
 
 from .. import _core
 from .._extras import import_extra
-from ..scenes.loading import SceneLike, as_scene
+from ..formats.loading import SceneLike, as_scene
 from .camera import SceneCamera
 from .gate import Gate, is_local
 from .live import Algorithm

@@ -1,5 +1,5 @@
-// How groups of chains add up: the expectation is right although the starts of a group and its b come
-// from the same bootstrap, and the spread of the groups is the error.
+// How groups of chains add up: the expectation is right although the starts of a group and its b
+// come from the same bootstrap, and the spread of the groups is the error.
 #include "base/rng.h"
 #include "harness/statistics.h"
 #include "integrator/group_combination.h"

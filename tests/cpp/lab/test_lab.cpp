@@ -225,7 +225,7 @@ TEST(LabChain, RefusesADensityOfWhatItHasProposed) {
   };
   auto chain = chain_with(1, std::make_shared<Impossible>());
   EXPECT_THAT(message([&] { chain.step(*lab::parabola(), [](const Point&, double, bool) {}); }),
-              HasSubstr("but its density T(x -> y) is 0"));
+              HasSubstr("but its density q(x -> y) is 0"));
 }
 
 TEST(LabChain, RefusesATargetThatTurnsNegative) {

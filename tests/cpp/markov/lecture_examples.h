@@ -15,7 +15,7 @@ namespace mlt::test {
 
 /// f(a) = 9, f(b) = 1; the states are 0 and 1.
 struct TwoStates {
-  std::array<std::array<double, 2>, 2> proposal;  // T(x -> y)
+  std::array<std::array<double, 2>, 2> proposal;  // q(x -> y)
   bool forgets_proposal = false;
 
   static double f(int x) { return x == 0 ? 9 : 1; }

@@ -29,7 +29,7 @@ struct TwoStages {
       if (rng.next() * 1.9 < bold_density(x, y)) return y;
     }
   }
-  /// T1(x -> y) / f(y) and back.
+  /// q1(x -> y) / f(y) and back.
   static Transition bold(double x, double y) {
     return {bold_density(x, y) / Parabola::f(y), bold_density(y, x) / Parabola::f(x)};
   }

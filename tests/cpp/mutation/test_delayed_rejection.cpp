@@ -30,7 +30,8 @@ class Changed : public Mutation {
   MutationPtr whole_;
 };
 
-/// Says T(x -> y) wrongly where a second stage asks for it, but not where its own proposal is judged.
+/// Says q(x -> y) wrongly where a second stage asks for it, but not where its own proposal is
+/// judged.
 class WrongInSecondStage : public Changed {
  public:
   using Changed::Changed;
@@ -53,7 +54,7 @@ AuditReport audit_two_stages(const PathTarget& target, const MutationPtr& bold,
   how.paths = paths;
   how.significance = significance;
   const auto weights = std::make_shared<MixtureWeights>(std::vector<double>{1.0});
-  // Not very timid: T(y2 -> y1) is to differ from T(x -> y1).
+  // Not very timid: q(y2 -> y1) is to differ from q(x -> y1).
   return audit(target, PathMixture({bold}, weights, {perturbation(timid, target, 0.3)}), how);
 }
 
@@ -98,15 +99,15 @@ TEST(DelayedRejectionOfPaths, HasTheQuotientOfPlainProducts) {
   const MutationPtr other = perturbation("lens", target, 0.1), timid = other;
   const auto weights = std::make_shared<MixtureWeights>(std::vector<double>{1.0, 1.0});
   PathMixture mixture({bold, other}, weights, {timid, nullptr});
-  const auto T1 = [&](const PathState& x, const PathState& y) {
+  const auto q1 = [&](const PathState& x, const PathState& y) {
     const double share = bold->suitability(x);
     return share / (share + other->suitability(x)) * bold->density(x, y, mixture.edit());
   };
   const auto rejection = [&](const PathState& x, const PathState& y) {
-    return 1 - std::min(1.0, y.brightness() * T1(y, x) / (x.brightness() * T1(x, y)));
+    return 1 - std::min(1.0, y.brightness() * q1(y, x) / (x.brightness() * q1(x, y)));
   };
   const auto one_way = [&](const PathState& x, const PathState& y1, const PathState& y2) {
-    return x.brightness() * T1(x, y1) * rejection(x, y1) * timid->density(x, y2, mixture.edit());
+    return x.brightness() * q1(x, y1) * rejection(x, y1) * timid->density(x, y2, mixture.edit());
   };
   int compared = 0;
   Rng rng(4, Purpose::test, 0);

@@ -1,4 +1,4 @@
-// Proposals from one path follow the density T(x -> y) that the mutation claims: chi-square tests
+// Proposals from one path follow the density q(x -> y) that the mutation claims: chi-square tests
 // of where the new vertex lies, as an image position, as a direction or as a point of the lens.
 #include "harness/chi_square.h"
 #include "mutation/chain_perturbation.h"

@@ -1,5 +1,5 @@
-// The quotients T(x -> y) / L*(y) that the acceptance is made of: those of T and L*, as long as these
-// are numbers, and right where these are none.
+// The quotients q(x -> y) / L*(y) that the acceptance is made of: those of q and L*, as long as
+// these are numbers, and right where these are none.
 #include <sstream>
 
 #include "mutation/mutation_testing.h"
@@ -10,7 +10,7 @@ namespace {
 /// Of two positive numbers, or of two zeros.
 double relative_difference(double a, double b) { return a == b ? 0 : std::abs(a / b - 1); }
 
-/// T(x -> y) / L*(y), both in full.
+/// q(x -> y) / L*(y), both in full.
 double full_quotient(const Mutation& mutation, const PathState& x, const PathState& y,
                      const Edit& edit) {
   return mutation.density(x, y, edit) / target_luminance(contribution(y.terms));
@@ -100,7 +100,7 @@ TEST_P(Quotients, OfTheTargetAndTheDensityOfAllTechniquesAreThoseOfTheFullProduc
 INSTANTIATE_TEST_SUITE_P(Scenes, Quotients, testing::ValuesIn(mutation_scene_names()),
                          [](const auto& info) { return info.param; });
 
-// ---- where T and L* are no numbers
+// ---- where q and L* are no numbers
 
 /// A closed box, `unit` long, in which light goes on and on.
 ScenePtr closed_box(double unit) {

@@ -8,8 +8,8 @@
 namespace mlt {
 namespace {
 
-/// Veach 1997, sec. 5.3: a shading normal multiplies f by |wl.ns| / |wl.ng|, for the direction on the
-/// light side whichever way a walk goes.
+/// Veach 1997, sec. 5.3: a shading normal multiplies f by |wl.ns| / |wl.ng|, for the direction on
+/// the light side whichever way a walk goes.
 TEST(VertexTerms, HaveTheCosinesOfTheLightSide) {
   const ScenePtr scene = test::load_scene(
       test::camera("0, 0, 3", "0, 0, 0", 40, test::film(4, 4)) + test::point_lamp +

@@ -172,8 +172,8 @@ std::vector<double> observe(const MultiplexedState& x, const Raster& raster) {
 
 constexpr double rounding = 1e-6;  ///< Of a path that is kept.
 
-/// What a step has done to the mean of a function. Where the path is kept little changes, and a t-test
-/// needs many changes: many small ones one way may wait for a few large ones the other way.
+/// What a step has done to the mean of a function. Where the path is kept little changes, and a
+/// t-test needs many changes: many small ones one way may wait for a few large ones the other way.
 struct Changes {
   Moments changes;
   double size = 0, size_squared = 0, largest = 0;

@@ -1,5 +1,5 @@
-// Chains of pssmlt over path tracing: their numbers, the walks that these make side by side, and the
-// step of each chain. The invariance test is that of test_primary_step.cpp.
+// Chains of pssmlt over path tracing: their numbers, the walks that these make side by side, and
+// the step of each chain. The invariance test is that of test_primary_step.cpp.
 #include <gtest/gtest.h>
 
 #include "harness/chi_square.h"
@@ -197,7 +197,8 @@ struct WalkInvariance {
   int accepted = 0, longer_or_shorter = 0;
 };
 
-/// E[w g(y)] = E[w g(x)] for one step x -> y of each chain of a team, for all g. `Step` may be spoilt.
+/// E[w g(y)] = E[w g(x)] for one step x -> y of each chain of a team, for all g. `Step` may be
+/// spoilt.
 template <class Step>
 WalkInvariance invariance_of(const Step& step, const SmallStep& small_step, int teams = 1500) {
   const ScenePtr scene = make_scene("mixed_lights").scene;

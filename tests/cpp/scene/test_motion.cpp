@@ -223,8 +223,8 @@ TEST(MovingLight, SamplesAreATriple) {
   }
 }
 
-/// The integral of the density over the surface, found by uniform lines through a sphere of radius R:
-/// they cross an area dA with the probability dA / (2 pi R^2), however it is turned (Crofton).
+/// The integral of the density over the surface, found by uniform lines through a sphere of radius
+/// R: they cross an area dA with the probability dA / (2 pi R^2), however it is turned (Crofton).
 TEST(MovingLight, DensitiesIntegrateToOne) {
   std::vector<double> p_values;
   for (const MovingLight& light : moving_lights())

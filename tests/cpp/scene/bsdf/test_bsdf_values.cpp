@@ -1,6 +1,6 @@
 // Energy, symmetry and soundness of every material's values.
-#include "bsdf/bsdf_testing.h"
 #include "harness/statistics.h"
+#include "scene/bsdf/bsdf_testing.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // What the parameters of materials mean, and what is refused.
-#include "bsdf/bsdf_testing.h"
 #include "math/fresnel.h"
+#include "scene/bsdf/bsdf_testing.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

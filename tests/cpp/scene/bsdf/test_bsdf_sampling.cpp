@@ -1,7 +1,7 @@
 // Every material as a triple: samples follow the density, the density integrates to at most one,
 // and the inverse gives random numbers that lead to the same direction.
-#include "bsdf/bsdf_testing.h"
 #include "harness/chi_square.h"
+#include "scene/bsdf/bsdf_testing.h"
 
 #include <gtest/gtest.h>
 

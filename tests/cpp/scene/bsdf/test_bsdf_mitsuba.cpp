@@ -4,7 +4,7 @@
 // 2007, sec. 5.2), ours the exact one. Lobe probabilities of the plastics are our own, and where
 // all normals are sampled Mitsuba widens the distribution of a roughdielectric (Walter et al., sec.
 // 5.3). Samples of a bent normal are shared with the normal turned around.
-#include "bsdf/bsdf_testing.h"
+#include "scene/bsdf/bsdf_testing.h"
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ struct Row {
 };
 
 const Row rows[] = {
-#include "bsdf/mitsuba_values.inc"
+#include "scene/bsdf/mitsuba_values.inc"
 };
 
 constexpr double single_precision = 2e-4;

@@ -1,6 +1,6 @@
 """BSDF values and densities by Mitsuba 3, for test_bsdf_mitsuba.cpp: mitsuba_values.inc.
 
-    python tests/cpp/bsdf/mitsuba_values.py > tests/cpp/bsdf/mitsuba_values.inc
+    python tests/cpp/scene/bsdf/mitsuba_values.py > tests/cpp/scene/bsdf/mitsuba_values.inc
 
 Needs the PyPI package `mitsuba` (made with 3.9.1).
 """

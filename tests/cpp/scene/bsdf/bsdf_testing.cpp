@@ -1,4 +1,4 @@
-#include "bsdf/bsdf_testing.h"
+#include "scene/bsdf/bsdf_testing.h"
 
 #include "scene/texture.h"
 
