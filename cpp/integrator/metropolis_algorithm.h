@@ -52,8 +52,8 @@ class MetropolisAlgorithm {
   };
   /// Of candidates from which chains start.
   virtual std::unique_ptr<Source> source() const = 0;
-  /// Whether those samples, or the ones of path tracing, go to the image beside the chains; false if
-  /// there are none of these techniques.
+  /// Whether those samples, or the ones of path tracing, go to the image beside the chains; false
+  /// if there are none of these techniques.
   virtual bool set_techniques(SampleTechniques techniques) {
     return techniques == SampleTechniques::all;
   }
@@ -70,8 +70,8 @@ class MetropolisAlgorithm {
                                              Rng choice) const = 0;
   /// Whether a blank chain may begin, since it finds its starts itself (PathTours).
   virtual bool has_tours() const { return false; }
-  /// A chain without a state, to be loaded from bytes. Tours make so many steps in the mean from each
-  /// sample, if id.b is b, and tell what the samples weigh.
+  /// A chain without a state, to be loaded from bytes. Tours make so many steps in the mean from
+  /// each sample, if id.b is b, and tell what the samples weigh.
   virtual std::unique_ptr<RenderChain> blank(const ChainId& id, const FamilyWeights& weights,
                                              double steps_per_sample) const = 0;
   /// So many chains of a group advance together,

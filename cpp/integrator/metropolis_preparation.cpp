@@ -1,4 +1,5 @@
-// Before the first unit of a Metropolis render: a pilot divides the time, and a bootstrap starts chains.
+// Before the first unit of a Metropolis render: a pilot divides the time, and a bootstrap starts
+// chains.
 #include "base/parallel.h"
 #include "base/watchdog.h"
 #include "integrator/metropolis_rendering.h"

@@ -8,7 +8,8 @@
 
 namespace mlt {
 
-/// Each advance draws as many samples as have `steps` steps in the mean, and ends with the last tour.
+/// Each advance draws as many samples as have `steps` steps in the mean, and ends with the last
+/// tour.
 class PathTours : public RenderChain {
  public:
   /// `rate` has kappa0 = id.b / steps_per_sample.
@@ -93,7 +94,8 @@ class PathTours : public RenderChain {
 
   /// The chains of a group share its sequences, so that these are stratified over the group.
   uint64_t in_group(uint64_t i) const { return i * id_.count + id_.number; }
-  /// Spread evenly over all tours (Kronecker sequence of the golden ratio), since few of them are long.
+  /// Spread evenly over all tours (Kronecker sequence of the golden ratio), since few of them are
+  /// long.
   double next_kill() {
     const double turns = first_kill_ + static_cast<double>(in_group(tours_++)) * 0.6180339887498949;
     return turns - std::floor(turns);

@@ -1,6 +1,6 @@
-// Light that is left to the independent samples: where most samples of a place see a light directly, in
-// a mirror or through glass, they have hardly any noise. Chains would go there often, since lights are
-// bright, and some of their groups more often than others.
+// Light that is left to the independent samples: where most samples of a place see a light
+// directly, in a mirror or through glass, they have hardly any noise. Chains would go there often,
+// since lights are bright, and some of their groups more often than others.
 #pragma once
 
 #include "mutation/raster_cells.h"
@@ -18,8 +18,8 @@ class CertainLight {
   /// No path is left to the samples.
   static constexpr double all = std::numeric_limits<double>::infinity();
 
-  /// Sends about so many walks from the camera, four through each cell of the image. Deterministic for
-  /// any number of threads.
+  /// Sends about so many walks from the camera, four through each cell of the image. Deterministic
+  /// for any number of threads.
   CertainLight(const Scene& scene, const PathRules& rules, uint64_t walks, uint64_t seed,
                int threads, const std::atomic<bool>& cancelled);
   /// With cells() of an earlier one; throws RenderError if there are not as many.

@@ -33,8 +33,8 @@ class PathSeeds {
     return x;
   }
 
-  /// Calls found(connection, weight) for each path of a candidate that brings light, whether or not it is
-  /// a part of the target.
+  /// Calls found(connection, weight) for each path of a candidate that brings light, whether or not
+  /// it is a part of the target.
   template <class Sampler, class Found>
   void draw(Sampler sampler, Found&& found) {
     draw(position(sampler), sampler, found);

@@ -13,8 +13,8 @@ namespace mlt {
 
 class PathSeeds;
 
-/// The techniques of independent samples: all of bidirectional path tracing, or those two of them that
-/// path tracing has.
+/// The techniques of independent samples: all of bidirectional path tracing, or those two of them
+/// that path tracing has.
 enum class SampleTechniques : uint8_t { all, path_tracing };
 
 class PathTarget {
@@ -45,7 +45,8 @@ class PathTarget {
 
   /// The factor of two-stage sampling.
   double factor(const Vec2& raster) const { return map_ ? (*map_)(raster) : 1.0; }
-  /// The target of light of this color, f or f / p, at a raster position, by a path of this certainty.
+  /// The target of light of this color, f or f / p, at a raster position, by a path of this
+  /// certainty.
   double of(const Color& color, const Vec2& raster, double certainty) const {
     return certainty > most_certain(raster) ? 0 : target_luminance(color) * factor(raster);
   }

@@ -46,8 +46,8 @@ double BidirectionalSampler::direct_over_walk(const Vertex& x0, double from_ligh
   return settings_.sample_direct ? direct_position_pdf(*scene_, x0, x1) / from_light : 1;
 }
 
-/// How often technique s = i counts whose joint lies before vertex i of the light subpath. `joined`:
-/// vertex i scatters smoothly, since the path is joined there.
+/// How often technique s = i counts whose joint lies before vertex i of the light subpath.
+/// `joined`: vertex i scatters smoothly, since the path is joined there.
 double BidirectionalSampler::light_technique(int i, bool joined) const {
   if (i == 0) return can_be_hit(*scene_, light_[0].vertex) ? 1 : 0;
   if (!connectable(light_[i - 1].vertex)) return 0;

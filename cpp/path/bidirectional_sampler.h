@@ -219,9 +219,9 @@ class BidirectionalSampler {
       p *= connectable(light_[i].vertex) ? 0 : light_[i - 1].reverse / light_[i].G;
     return p;
   }
-  /// The techniques whose joint lies beyond vertex i of a subpath, or one that was chosen in place of
-  /// it, if the path is joined there; `back` is the density of going back from it, in projected solid
-  /// angle.
+  /// The techniques whose joint lies beyond vertex i of a subpath, or one that was chosen in place
+  /// of it, if the path is joined there; `back` is the density of going back from it, in projected
+  /// solid angle.
   TechniqueSums below_joint(int i, const WalkVertex& x, double back) const;
   TechniqueSums above_joint(int i, const WalkVertex& x, double back) const;
 
@@ -236,8 +236,8 @@ class BidirectionalSampler {
   void sum_techniques();
   double light_technique(int i, bool joined = false) const;
   double camera_technique(int i, bool joined = false) const;
-  /// Techniques with a joint before or at vertex i of a subpath, whose density as made by a walk from
-  /// the other end is `reverse`.
+  /// Techniques with a joint before or at vertex i of a subpath, whose density as made by a walk
+  /// from the other end is `reverse`.
   TechniqueSums below_light(int i, double reverse) const {
     return light_sums_[i].over(reverse / light_[i].forward);
   }

@@ -80,9 +80,9 @@ struct TermSettings {
 void compute_terms(const Scene& scene, const Path& path, const TermSettings& settings,
                    PathTerms& terms);
 
-/// Brings the terms up to date after vertices first ... last (none if last = first - 1: an edge) have
-/// changed: computes anew what depends on these vertices, on the edges that touch them, and on the
-/// densities that follow.
+/// Brings the terms up to date after vertices first ... last (none if last = first - 1: an edge)
+/// have changed: computes anew what depends on these vertices, on the edges that touch them, and on
+/// the densities that follow.
 void update_terms(const Scene& scene, const Path& path, const TermSettings& settings, int first,
                   int last, PathTerms& terms);
 
@@ -110,7 +110,8 @@ inline bool can_sample(const PathTerms& terms, int s) {
 /// p_{s,t}(x), the density of technique s in the product-area measure (Veach 1997, sec. 10.2).
 double technique_density(const PathTerms& terms, int s);
 
-/// The probability that a walk from the camera chooses these lobes, if all of them are delta; else 0.
+/// The probability that a walk from the camera chooses these lobes, if all of them are delta; else
+/// 0.
 double certainty(const PathTerms& terms);
 
 /// The MIS weight of technique s (Veach 1997, eqs. 9.8, 9.13 with beta = 2, 9.12).

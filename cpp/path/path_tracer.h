@@ -118,9 +118,9 @@ inline std::optional<ScatterSample> scatter_to_light(const Walker& walker, const
   return ScatterSample{w, s.f * (factor / s.pdf_from_camera), s.pdf_from_camera, lobe, eta2};
 }
 
-/// Where chains find the same paths (FamilyWeights): T / P of a path over c, for an L* of f / P that
-/// is 1. With the balance heuristic f / P is the radiance that a path has brought here, without
-/// roulette.
+/// Where chains find the same paths (FamilyWeights): T / P of a path over c, for an L* of f / P
+/// that is 1. With the balance heuristic f / P is the radiance that a path has brought here,
+/// without roulette.
 struct ChainFactor {
   double factor = 0;
   /// Chains do not find paths with a `certainty` above it.

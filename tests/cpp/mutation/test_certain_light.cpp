@@ -8,8 +8,8 @@ namespace {
 constexpr double all = CertainLight::all;
 const std::string glow = area_light("9 9 9");
 
-/// 22 pixels have the length 1. From the left a lamp, one in a ball of glass, and between them one of
-/// a fifth of a pixel, and a wall.
+/// 22 pixels have the length 1. From the left a lamp, one in a ball of glass, and between them one
+/// of a fifth of a pixel, and a wall.
 ScenePtr lamps(const std::string& type = "perspective", const std::string& more = "") {
   return load_scene(camera("0, 0, 4", "0, 0, 0", 40, film(64, 48), type, more) +
                     sphere(-0.8, 0, 0, 0.3, glow) + sphere(0.8, 0, 0, 0.2, glow) +
