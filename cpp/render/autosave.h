@@ -37,8 +37,7 @@ class Autosave {
  private:
   using Clock = std::chrono::steady_clock;
   void postpone();
-  /// Notes why it failed, or that it did not.
-  void attempt(const std::function<void()>& save);
+  void note(const std::string& failure);
 
   AutosaveSettings settings_;
   Clock::time_point next_{};  ///< At once.
