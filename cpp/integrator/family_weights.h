@@ -25,7 +25,7 @@ class FamilyWeights {
     return threshold_ / (threshold_ + target_over_density);
   }
   double of_chain(double target_over_density) const {
-    return 1 / (1 + threshold_ / target_over_density);
+    return target_over_density > 0 ? 1 / (1 + threshold_ / target_over_density) : 0.0;
   }
 
  private:

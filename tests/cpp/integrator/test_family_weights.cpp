@@ -25,6 +25,10 @@ TEST(FamilyWeights, SumToOne) {
     }
 }
 
+TEST(FamilyWeights, AreNumbersWhereThereIsNoTarget) {
+  for (const double even : {0.0, 1.0}) EXPECT_EQ(FamilyWeights(even).of_chain(0), 0);
+}
+
 /// With a map that tells regions apart.
 PathTarget target_of(const TestScene& made) {
   PathTarget target(made.scene, {8});
