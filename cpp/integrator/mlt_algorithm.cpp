@@ -12,7 +12,7 @@ namespace {
 /// The step of a second stage over that of the first.
 constexpr double timid_share = 0.1;
 
-/// Sent to find the lights that are seen.
+/// How many walks look for the lights that the camera sees (CertainLight).
 constexpr uint64_t walks_to_lights = 50000;
 
 /// A mutation's own parameter for its step size, and the values among which adaptation chooses.

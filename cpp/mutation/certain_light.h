@@ -15,14 +15,14 @@ namespace mlt {
 
 class CertainLight {
  public:
-  /// No path is left to the samples.
+  /// The answer of most_certain() where no path is left to the samples.
   static constexpr double all = std::numeric_limits<double>::infinity();
 
-  /// Sends about so many walks from the camera, four through each cell of the image. Deterministic
-  /// for any number of threads.
+  /// Sends about `walks` walks from the camera, four through each cell of the image. The result is
+  /// the same for any number of threads.
   CertainLight(const Scene& scene, const PathRules& rules, uint64_t walks, uint64_t seed,
                int threads, const std::atomic<bool>& cancelled);
-  /// With cells() of an earlier one; throws RenderError if there are not as many.
+  /// Restores one of as many walks from its cells(). Throws RenderError if their number differs.
   CertainLight(const Raster& raster, uint64_t walks, std::vector<uint8_t> cells);
 
   /// Paths of a greater certainty are left to the samples there.
