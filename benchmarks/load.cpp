@@ -1,7 +1,7 @@
 // Loading a large mesh from a binary PLY file: the time to read it, without the hierarchy; the time
 // of a whole scene, whose difference is the hierarchy; and the memory that both leave behind.
 #include "io/load.h"
-#include "render/plugins.h"
+#include "job/plugins.h"
 
 #include "dented_ball.h"
 #include "timing.h"

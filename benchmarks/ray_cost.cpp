@@ -13,8 +13,8 @@
 // statistics are part of T.
 #include "base/rng.h"
 #include "image/splat_film.h"
-#include "render/make_integrator.h"
-#include "render/plugins.h"
+#include "job/make_integrator.h"
+#include "job/plugins.h"
 
 #include "dented_ball.h"
 #include "recorded_rays.h"

@@ -4,7 +4,7 @@
 #include "text.h"
 
 #include "app/flags.h"
-#include "render/plugins.h"
+#include "job/plugins.h"
 
 #include <pybind11/stl.h>
 

@@ -2,9 +2,9 @@
 #include "bindings.h"
 #include "text.h"
 
-#include "image/atomic_file.h"
+#include "base/atomic_file.h"
 #include "image/image_io.h"
-#include "render/output.h"
+#include "job/output.h"
 
 #include <pybind11/stl.h>
 

@@ -5,7 +5,7 @@
 #include "scene_dict.h"
 
 #include "io/pack.h"
-#include "render/plugins.h"
+#include "job/plugins.h"
 
 #include <pybind11/stl.h>
 

@@ -3,8 +3,8 @@
 
 #include "python_mutation.h"
 
+#include "job/output.h"
 #include "mutation/proposals.h"
-#include "render/output.h"
 
 #include <pybind11/stl.h>
 

@@ -6,9 +6,9 @@
 #include "text.h"
 
 #include "io/pack.h"
-#include "render/make_integrator.h"
-#include "render/output.h"
-#include "render/plugins.h"
+#include "job/make_integrator.h"
+#include "job/output.h"
+#include "job/plugins.h"
 
 #include <fmt/format.h>
 #include <pybind11/stl.h>

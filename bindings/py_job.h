@@ -3,9 +3,9 @@
 
 #include "bindings.h"
 
-#include "image/file_lock.h"
-#include "render/checkpoint.h"
-#include "render/output.h"
+#include "base/file_lock.h"
+#include "job/checkpoint.h"
+#include "job/output.h"
 
 namespace mlt::python {
 

@@ -3,7 +3,7 @@
 #include "py_job.h"
 #include "text.h"
 
-#include "render/plugins.h"
+#include "job/plugins.h"
 
 #include <pybind11/stl.h>
 

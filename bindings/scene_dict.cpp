@@ -6,7 +6,7 @@
 
 #include "text.h"
 
-#include "io/text.h"
+#include "base/text.h"
 
 #include <pybind11/stl.h>
 

@@ -5,7 +5,7 @@
 #include "text.h"
 
 #include "io/editing.h"
-#include "render/plugins.h"
+#include "job/plugins.h"
 
 namespace mlt::python {
 namespace {

@@ -1,9 +1,9 @@
 #include "app/flags.h"
 
 #include "base/error.h"
+#include "base/text.h"
 #include "image/image_io.h"
-#include "io/text.h"
-#include "render/job.h"
+#include "job/job.h"
 
 #include <charconv>
 #include <cmath>

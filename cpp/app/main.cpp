@@ -10,11 +10,11 @@
 #include "app/options.h"
 #include "app/progress_line.h"
 #include "app/streams.h"
-#include "image/atomic_file.h"
+#include "base/atomic_file.h"
+#include "job/checkpoint.h"
+#include "job/output.h"
+#include "job/plugins.h"
 #include "mlt_version.h"
-#include "render/checkpoint.h"
-#include "render/output.h"
-#include "render/plugins.h"
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>

@@ -3,9 +3,9 @@
 
 #include "app/flags.h"
 #include "io/load.h"
-#include "render/checkpoint.h"
-#include "render/job.h"
-#include "render/make_integrator.h"
+#include "job/checkpoint.h"
+#include "job/job.h"
+#include "job/make_integrator.h"
 
 #include <string>
 #include <vector>

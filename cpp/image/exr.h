@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "image/atomic_file.h"
+#include "base/atomic_file.h"
 #include "image/image.h"
 
 namespace mlt {

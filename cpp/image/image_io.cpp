@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <utility>
 
-#include "image/atomic_file.h"
+#include "base/atomic_file.h"
 #include "image/jpeg_format.h"
 #include "image/png_format.h"
 #include "image/srgb.h"

@@ -1,7 +1,7 @@
 // PNG, by libpng.
 #pragma once
 
-#include "image/atomic_file.h"
+#include "base/atomic_file.h"
 #include "image/decoded_image.h"
 
 #include <functional>

@@ -1,10 +1,10 @@
 // bdpt: bidirectional path tracing with all techniques (s, t) and multiple importance sampling.
 // E. Lafortune and Y. Willems, "Bi-directional path tracing", Compugraphics 1993; E. Veach and L.
 // Guibas, "Bidirectional estimators for light transport", EGWR 1994; Veach 1997, ch. 10.
-#include "integrator/bdpt_params.h"
-#include "integrator/path_params.h"
-#include "integrator/sampled_rendering.h"
-#include "path/bidirectional_wave.h"
+#include "integrator/parameters.h"
+#include "path/technique_names.h"
+#include "rendering/sampled_rendering.h"
+#include "wave/bidirectional_wave.h"
 
 namespace mlt {
 namespace {

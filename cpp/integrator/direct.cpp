@@ -1,7 +1,7 @@
 // direct: light that reaches the camera over at most one reflection, by any number of samples of
 // lights and of the BSDF, combined by the multi-sample power heuristic (Veach 1997, sec. 9.2).
-#include "integrator/path_params.h"
-#include "integrator/sampled_rendering.h"
+#include "integrator/parameters.h"
+#include "rendering/sampled_rendering.h"
 
 namespace mlt {
 namespace {

@@ -2,10 +2,8 @@
 // path tracing", SIGGRAPH 2005: tours that all die at the same rate (markov/tour.h), and no samples
 // beside them.
 #include "base/registry.h"
-#include "integrator/metropolis_params.h"
-#include "integrator/mixture_params.h"
-#include "integrator/mlt_algorithm.h"
-#include "integrator/path_params.h"
+#include "integrator/parameters.h"
+#include "rendering/mlt_algorithm.h"
 
 namespace mlt {
 namespace {

@@ -1,11 +1,9 @@
 // mlt: Metropolis light transport in path space. E. Veach and L. Guibas, "Metropolis light
 // transport", SIGGRAPH 1997; Veach 1997, ch. 11.
 #include "base/registry.h"
-#include "integrator/metropolis_params.h"
-#include "integrator/mixture_params.h"
-#include "integrator/mlt_algorithm.h"
-#include "integrator/path_params.h"
-#include "integrator/separate_direct.h"
+#include "integrator/parameters.h"
+#include "rendering/mlt_algorithm.h"
+#include "rendering/separate_direct.h"
 
 namespace mlt {
 namespace {

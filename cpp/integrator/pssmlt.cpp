@@ -2,13 +2,11 @@
 // G. Antal, F. Csonka, "A simple and robust mutation strategy for the Metropolis light transport
 // algorithm", Eurographics 2002.
 #include "base/registry.h"
-#include "integrator/large_step_weights.h"
-#include "integrator/metropolis_params.h"
-#include "integrator/path_params.h"
-#include "integrator/primary_estimators.h"
-#include "integrator/small_step_params.h"
-#include "integrator/walk_taker.h"
-#include "primary/walk_step.h"
+#include "integrator/parameters.h"
+#include "rendering/large_step_weights.h"
+#include "rendering/primary_estimators.h"
+#include "rendering/walk_taker.h"
+#include "wave/walk_step.h"
 
 namespace mlt {
 namespace {

@@ -2,9 +2,9 @@
 
 #include "image/splat.h"
 
+#include "base/text.h"
 #include "io/families.h"
 #include "io/leniency.h"
-#include "io/text.h"
 #include "scene/emitter/moving.h"
 #include "scene/mesh.h"
 #include "scene/motion.h"

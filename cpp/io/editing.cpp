@@ -1,7 +1,7 @@
 #include "io/editing.h"
 
+#include "base/text.h"
 #include "io/leniency.h"
-#include "io/text.h"
 
 #include <algorithm>
 #include <set>

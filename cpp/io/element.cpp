@@ -1,6 +1,6 @@
 #include "io/element.h"
 
-#include "io/text.h"
+#include "base/text.h"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 #include "io/families.h"
 
-#include "io/text.h"
+#include "base/text.h"
 
 #include <algorithm>
 #include <map>

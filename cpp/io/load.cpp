@@ -1,6 +1,6 @@
 #include "io/load.h"
 
-#include "image/atomic_file.h"
+#include "base/atomic_file.h"
 #include "io/builder.h"
 #include "io/families.h"
 #include "io/leniency.h"

@@ -1,6 +1,6 @@
 #include "io/node.h"
 
-#include "io/text.h"
+#include "base/text.h"
 
 namespace mlt {
 namespace {

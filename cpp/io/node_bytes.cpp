@@ -1,6 +1,6 @@
 #include "io/node_bytes.h"
 
-#include "image/atomic_file.h"
+#include "base/atomic_file.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -1,6 +1,6 @@
 #include "io/pack.h"
 
-#include "image/atomic_file.h"
+#include "base/atomic_file.h"
 #include "io/node_bytes.h"
 
 #include <cerrno>

@@ -1,6 +1,6 @@
 #include "io/search_path.h"
 
-#include "io/text.h"
+#include "base/text.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #include "io/transform.h"
 
-#include "io/text.h"
+#include "base/text.h"
 #include "io/values.h"
 #include "math/frame.h"
 #include "scene/matrix_rows.h"

@@ -1,7 +1,7 @@
 #include "io/values.h"
 
+#include "base/text.h"
 #include "image/srgb.h"
-#include "io/text.h"
 
 #include <charconv>
 #include <fstream>

@@ -1,11 +1,11 @@
 // From Mitsuba XML, either dialect, to a tree of nodes.
-#include "image/atomic_file.h"
+#include "base/atomic_file.h"
+#include "base/text.h"
 #include "io/aliases.h"
 #include "io/element.h"
 #include "io/families.h"
 #include "io/load.h"
 #include "io/search_path.h"
-#include "io/text.h"
 #include "io/transform.h"
 #include "io/values.h"
 #include "io/variables.h"

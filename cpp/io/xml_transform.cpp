@@ -1,6 +1,6 @@
 #include "io/xml_transform.h"
 
-#include "io/text.h"
+#include "base/text.h"
 #include "io/transform.h"
 
 namespace mlt {

@@ -155,7 +155,7 @@ struct CameraWalk {
   double eta2 = 1;         ///< The factor of the throughput that undoes refraction.
   double certainty = 1;    ///< See `certainty` of a path; up to here.
   double survival = 1;     ///< Probability that Russian roulette has let it come here.
-  RayCounts rays;          ///< That a Wavefront has traced for it.
+  RayCounts rays;          ///< That a PathWave has traced for it.
 
   Heuristic heuristic = Heuristic::power;  ///< Of light sampling and scattering.
   ChainFactor chain_factor;

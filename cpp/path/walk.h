@@ -1,6 +1,6 @@
 // The steps of which a walk along a light path is made: leave a light or the lens, arrive, scatter,
 // and join two vertices. The caller draws the random numbers, and decides what a step is worth.
-// BasicWavefront and SubpathWave take the same steps of many walks side by side.
+// BasicPathWave and SubpathWave take the same steps of many walks side by side.
 #pragma once
 
 #include "path/ray_counts.h"

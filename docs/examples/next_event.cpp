@@ -1,7 +1,7 @@
 // Light that comes over at most one reflection, by samples of the lights alone (Shirley, Wang &
 // Zimmerman 1996, "Monte Carlo techniques for direct lighting calculations"). Mirrors stay black.
-#include "integrator/sampled_rendering.h"
 #include "path/path_tracer.h"
+#include "rendering/sampled_rendering.h"
 
 namespace mlt {
 namespace {

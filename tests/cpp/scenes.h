@@ -13,7 +13,7 @@
 
 #include "image/image_io.h"
 #include "io/load.h"
-#include "render/plugins.h"
+#include "job/plugins.h"
 
 namespace mlt::test {
 

@@ -4,9 +4,9 @@
 #include "small_render.h"
 
 #include "base/bytes.h"
+#include "job/checkpoint.h"
 #include "mlt_build_id.h"
 #include "mlt_version.h"
-#include "render/checkpoint.h"
 
 #include <zlib.h>
 

@@ -2,6 +2,6 @@
 #include "fuzz.h"
 
 #include "io/pack.h"
-#include "render/plugins.h"
+#include "job/plugins.h"
 
 void mlt::fuzz::read(std::string_view bytes) { unpack_scene(std::string(bytes), plugins()); }

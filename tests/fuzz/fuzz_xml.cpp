@@ -1,7 +1,7 @@
 #include "fuzz.h"
 
 #include "io/load.h"
-#include "render/plugins.h"
+#include "job/plugins.h"
 
 void mlt::fuzz::read(std::string_view bytes) {
   LoadOptions options;

@@ -2,7 +2,7 @@
 // Ten seconds and a gigabyte are enough for any of them.
 #include "fuzz.h"
 
-#include "image/atomic_file.h"
+#include "base/atomic_file.h"
 
 #include <unistd.h>
 

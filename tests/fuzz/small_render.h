@@ -1,8 +1,8 @@
 // Renders that are cheap enough to be made for every input.
 #pragma once
 
-#include "render/make_integrator.h"
-#include "render/plugins.h"
+#include "job/make_integrator.h"
+#include "job/plugins.h"
 
 #include <algorithm>
 

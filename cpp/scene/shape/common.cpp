@@ -1,6 +1,6 @@
 #include "scene/shape/common.h"
 
-#include "image/atomic_file.h"
+#include "base/atomic_file.h"
 #include "scene/mesh.h"
 #include "scene/texture.h"
 

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <memory>
 
-#include "image/atomic_file.h"
+#include "base/atomic_file.h"
 #include "scene/shape/common.h"
 #include "scene/shape/readers.h"
 

@@ -16,7 +16,7 @@
 #include <cstring>
 #include <filesystem>
 
-#include "image/atomic_file.h"
+#include "base/atomic_file.h"
 
 #define STB_IMAGE_WRITE_STATIC
 #define STB_IMAGE_WRITE_IMPLEMENTATION

@@ -5,8 +5,8 @@
 
 #include <map>
 
+#include "base/atomic_file.h"
 #include "base/error.h"
-#include "image/atomic_file.h"
 #include "image/image_files.h"
 #include "image/image_io.h"
 

@@ -9,8 +9,8 @@
 #include <filesystem>
 #include <limits>
 
+#include "base/atomic_file.h"
 #include "base/error.h"
-#include "image/atomic_file.h"
 #include "image/image_files.h"
 #include "image/image_io.h"
 #include "image/srgb.h"

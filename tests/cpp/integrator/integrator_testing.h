@@ -7,7 +7,7 @@
 
 #include "base/parallel.h"
 #include "harness/same_image.h"
-#include "render/make_integrator.h"
+#include "job/make_integrator.h"
 #include "scenes.h"
 
 namespace mlt::test {

@@ -1,8 +1,8 @@
 // The table of techniques: what bdpt keeps of each (s, t) with techniques=true.
 #include <gtest/gtest.h>
 
-#include "integrator/bdpt_params.h"
 #include "integrator_testing.h"
+#include "path/technique_names.h"
 
 namespace mlt {
 namespace {

@@ -4,7 +4,7 @@
 #include "io/load.h"
 #include "io/node_bytes.h"
 #include "io/pack.h"
-#include "render/plugins.h"
+#include "job/plugins.h"
 #include "scene/instance.h"
 #include "scene_files.h"
 

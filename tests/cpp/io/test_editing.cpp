@@ -3,7 +3,7 @@
 
 #include "io/editing.h"
 #include "io/load.h"
-#include "render/plugins.h"
+#include "job/plugins.h"
 #include "scene/mesh.h"
 
 namespace mlt {

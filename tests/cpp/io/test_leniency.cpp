@@ -2,7 +2,7 @@
 #include "io/leniency.h"
 
 #include "io/load.h"
-#include "render/plugins.h"
+#include "job/plugins.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "io/pack.h"
-#include "render/plugins.h"
+#include "job/plugins.h"
 #include "scene_files.h"
 
 #include <filesystem>

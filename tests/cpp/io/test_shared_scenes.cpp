@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "io/load.h"
-#include "render/plugins.h"
+#include "job/plugins.h"
 
 namespace mlt {
 namespace {

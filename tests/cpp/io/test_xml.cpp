@@ -3,7 +3,7 @@
 
 #include "io/load.h"
 #include "io/missing.h"
-#include "render/plugins.h"
+#include "job/plugins.h"
 #include "scene_files.h"
 
 namespace mlt {

@@ -1,0 +1,179 @@
+#include "integrator/parameters.h"
+
+#include <limits>
+
+namespace mlt {
+
+// ---- paths --------------------------------------------------------------------------------------
+
+std::vector<Parameter> path_parameters() {
+  return {
+      {"max_depth", ParamType::integer, int64_t{-1},
+       "Edges of the longest path: 1 shows the lights alone, 2 adds direct light, -1 is "
+       "unbounded."},
+      {"rr_depth", ParamType::integer, int64_t{5},
+       "Depth from which on Russian roulette may end a path."},
+      {"hide_emitters", ParamType::boolean, false,
+       "Leave out lights that the camera sees directly."},
+      {"strict_normals", ParamType::boolean, false,
+       "Refuse directions that the geometric and the shading normal see on different sides."},
+  };
+}
+
+PathRules path_rules(Params& params) {
+  constexpr int64_t most = std::numeric_limits<int>::max();
+  PathRules rules;
+  rules.max_depth = static_cast<int>(params.integer_in("max_depth", -1, most));
+  if (rules.max_depth == 0)
+    params.fail("max_depth", "is 0, but must be positive, or -1 for unbounded");
+  rules.rr_depth = static_cast<int>(params.integer_in("rr_depth", 1, most));
+  rules.hide_emitters = params.boolean("hide_emitters");
+  rules.strict_normals = params.boolean("strict_normals");
+  return rules;
+}
+
+// ---- bidirectional path tracing -----------------------------------------------------------------
+
+std::vector<Parameter> bidirectional_parameters() {
+  return {
+      {"light_image", ParamType::boolean, true,
+       "Use techniques that connect light paths to the lens (t <= 1)."},
+      {"sample_direct", ParamType::boolean, true,
+       "Technique s = 1 chooses the light as seen from the point to be lit."},
+      {"heuristic",
+       ParamType::text,
+       std::string("power"),
+       "How techniques are combined (Veach 1997, sec. 9.2).",
+       {"balance", "power", "maximum"}},
+  };
+}
+
+BidirectionalSettings bidirectional_settings(Params& params) {
+  BidirectionalSettings settings;
+  settings.rules = path_rules(params);
+  settings.light_image = params.boolean("light_image");
+  settings.sample_direct = params.boolean("sample_direct");
+  const std::string heuristic = params.text("heuristic");
+  settings.heuristic = heuristic == "balance" ? Heuristic::balance
+                       : heuristic == "power" ? Heuristic::power
+                                              : Heuristic::maximum;
+  return settings;
+}
+
+// ---- chains, tours and the samples beside them --------------------------------------------------
+
+std::vector<Parameter> chain_parameters(int64_t chains) {
+  return {{"luminance_samples", ParamType::integer, int64_t{50000},
+           "Paths drawn to start the chains from; a pilot before that draws about as many."},
+          {"chains", ParamType::integer, chains,
+           "Number of Markov chains, whatever the budget. The fewer there are, the longer each is, "
+           "and the farther it gets from where it started; but one that stands still leaves a "
+           "brighter spot, and no more threads than chains have work."}};
+}
+
+std::vector<Parameter> tour_parameters(int64_t chains) {
+  return {{"luminance_samples", ParamType::integer, int64_t{50000},
+           "The pilot before the render draws about as many paths."},
+          {"chains", ParamType::integer, chains,
+           "Number of Markov chains, each of which starts over and over. It hardly matters, but no "
+           "more threads than chains have work."}};
+}
+
+std::vector<Parameter> family_parameters() {
+  return {
+      {"independent_share", ParamType::real, no_default,
+       "Share of the time for samples that are independent of the chains, 0 to 1. They show what "
+       "they are good at, and tell the brightness b. By default a pilot finds the best one; 1: "
+       "there are no chains."},
+      {"parts", ParamType::boolean, false,
+       "Keep what chains and samples show of the image as layers `chains` and `samples`."},
+  };
+}
+
+MetropolisSettings metropolis_settings(Params& params) {
+  MetropolisSettings settings;
+  settings.luminance_samples = params.integer_in("luminance_samples", 16, int64_t{1} << 40);
+  settings.chains = static_cast<int>(params.integer_in("chains", 16, 1 << 24));
+  if (params.has("independent_share"))
+    settings.independent_share = params.real_in("independent_share", 0, 1);
+  settings.parts = params.boolean("parts");
+  return settings;
+}
+
+// ---- the mixture of mutations -------------------------------------------------------------------
+
+namespace {
+
+/// What the parameters say of one mutation: its weight, or 0 if it is off, and its own parameters.
+MixedMutation read_mutation(const MutationPlugin& plugin, Params& params) {
+  MixedMutation mixed{plugin.name(), 0};
+  if (params.boolean(plugin.switch_name))
+    mixed.weight = params.real_in(plugin.weight_name(), 0, 1e9);
+  for (const Parameter& own : plugin.schema.parameters)
+    if (const std::string name = plugin.full_name(own.name); params.has(name))
+      mixed.values.push_back({own.name, params.value(name)});
+  return mixed;
+}
+
+}  // namespace
+
+std::vector<Parameter> mixture_parameters(const std::vector<MutationPlugin>& plugins) {
+  std::vector<Parameter> parameters;
+  for (const MutationPlugin& plugin : plugins) {
+    parameters.push_back(
+        {plugin.switch_name, ParamType::boolean, plugin.on, "Use the " + plugin.schema.doc});
+    parameters.push_back(
+        {plugin.weight_name(), ParamType::real, plugin.weight,
+         "Weight of the " + plugin.name() + " mutation among those that suit a path."});
+    for (Parameter own : plugin.schema.parameters) {
+      own.name = plugin.full_name(own.name);
+      parameters.push_back(own);
+    }
+  }
+  return parameters;
+}
+
+std::vector<MixedMutation> read_mixture(Params& params,
+                                        const std::vector<MutationPlugin>& plugins) {
+  std::vector<MixedMutation> mixture;
+  for (const MutationPlugin& plugin : plugins) {
+    const MixedMutation mixed = read_mutation(plugin, params);
+    if (mixed.weight > 0) mixture.push_back(mixed);
+  }
+  if (mixture.empty()) params.fail("needs at least one mutation with a positive weight");
+  return mixture;
+}
+
+// ---- steps in primary sample space --------------------------------------------------------------
+
+std::vector<Parameter> primary_step_parameters() {
+  return {{"p_large", ParamType::real, 0.3,
+           "Probability of a large step, which draws a new path independently."},
+          {"small_step",
+           ParamType::text,
+           std::string("kelemen"),
+           "How a small step moves a number: `kelemen` by 1/16 of the step size up to all of it, "
+           "or `gaussian`.",
+           {"kelemen", "gaussian"}},
+          {"step_size", ParamType::real, no_default,
+           "The largest move of a small step, by default 1/32, or the standard deviation of a "
+           "Gaussian one, by default 0.01."},
+          {"delayed_rejection", ParamType::boolean, false,
+           "Let a small step follow a large one that was rejected."}};
+}
+
+SmallStep small_step(Params& params) {
+  SmallStep step;
+  if (params.text("small_step") == "gaussian") step = {SmallStep::Shape::gaussian, 0.01};
+  if (params.has("step_size")) step.size = params.real_in("step_size", 1e-9, 0.5);
+  return step;
+}
+
+double large_probability(Params& params) {
+  const double probability = params.real_in("p_large", 0, 1);
+  if (probability == 0)
+    params.fail("p_large", "is 0, but without large steps a chain cannot reach the whole image");
+  return probability;
+}
+
+}  // namespace mlt

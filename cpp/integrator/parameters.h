@@ -1,0 +1,40 @@
+// Parameters that several integrators share, and how they are read.
+#pragma once
+
+#include "base/params.h"
+#include "path/bidirectional_sampler.h"
+#include "primary/small_step.h"
+#include "rendering/metropolis_rendering.h"
+#include "rendering/mlt_algorithm.h"
+
+namespace mlt {
+
+/// Those of all integrators over paths, with Mitsuba's names and defaults.
+std::vector<Parameter> path_parameters();
+PathRules path_rules(Params& params);
+
+/// Those of bidirectional path tracing.
+std::vector<Parameter> bidirectional_parameters();
+/// Reads these and the path parameters.
+BidirectionalSettings bidirectional_settings(Params& params);
+
+/// Those of chains that start from a bootstrap.
+std::vector<Parameter> chain_parameters(int64_t chains = 128);
+/// Those of tours, which need no bootstrap.
+std::vector<Parameter> tour_parameters(int64_t chains);
+/// Those of the independent samples beside chains or tours.
+std::vector<Parameter> family_parameters();
+/// Reads these and the chain or tour parameters.
+MetropolisSettings metropolis_settings(Params& params);
+
+/// Those that say which mutations move light paths.
+std::vector<Parameter> mixture_parameters(const std::vector<MutationPlugin>& plugins);
+/// The mutations that are on, at least one.
+std::vector<MixedMutation> read_mixture(Params& params, const std::vector<MutationPlugin>& plugins);
+
+/// Those of steps in primary sample space.
+std::vector<Parameter> primary_step_parameters();
+SmallStep small_step(Params& params);
+double large_probability(Params& params);
+
+}  // namespace mlt

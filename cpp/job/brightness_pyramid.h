@@ -1,0 +1,31 @@
+// How bright the pixels of an image are, as far as its groups agree about it: a pixel that one
+// group alone has found bright is no measure for how wrong the image is there.
+#pragma once
+
+#include "job/spread.h"
+
+namespace mlt {
+
+/// What groups have seen in the pixels, and in blocks of 2 x 2, 4 x 4, ... of them, up to the
+/// whole.
+class BrightnessPyramid {
+ public:
+  /// The brightness of each pixel of an image of this size, as one group has seen it.
+  void add(std::vector<float> brightness, const Vec2i& size, double weight);
+
+  struct Level {
+    Vec2i size;
+    Spread spread;
+  };
+  const std::vector<Level>& levels() const { return levels_; }
+
+ private:
+  std::vector<Level> levels_;
+};
+
+/// For each pixel the brightness of the smallest block around it that is known, of an image that is
+/// the sum of some parts, each with groups of its own. Known is what is larger than its standard
+/// error, outliers apart.
+std::vector<float> known_brightness(const std::vector<const BrightnessPyramid*>& parts);
+
+}  // namespace mlt

@@ -1,0 +1,248 @@
+#include "job/error_estimate.h"
+
+#include "job/brightness_pyramid.h"
+#include "math/color.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace mlt {
+namespace {
+
+constexpr int channels = 4;            // R, G, B and the target luminance L of each pixel or block
+constexpr int fewest_groups = 8;       // to speak of a disagreement
+constexpr double few_pixels = 20;      // that carry the error: it is not to be relied on
+constexpr double largest_share = 0.5;  // of a block's light from one of them
+constexpr double dark = 0.1;           // of the image's mean: below, blocks and pixels matter less
+/// A pixel is at least this part as bright as it looks: it may be a light that a group in eight has
+/// found, in a dark place.
+constexpr double least_of_seen = 0.125;
+
+std::vector<float> with_luminance(const Image& image) {
+  std::vector<float> values;
+  values.reserve(channels * image.pixel_count());
+  for (size_t i = 0; i < image.data.size(); i += 3) {
+    const Color rgb(image.data[i], image.data[i + 1], image.data[i + 2]);
+    for (int c = 0; c < 3; ++c) values.push_back(image.data[i + c]);
+    values.push_back(static_cast<float>(target_luminance(rgb)));
+  }
+  return values;
+}
+
+std::vector<float> luminance_of(const std::vector<float>& values) {
+  std::vector<float> luminance;
+  luminance.reserve(values.size() / channels);
+  for (size_t i = 3; i < values.size(); i += channels) luminance.push_back(values[i]);
+  return luminance;
+}
+
+Vec2i block_grid(const Image& image) {
+  constexpr int n = ErrorEstimate::block_size;
+  return Vec2i((image.width + n - 1) / n, (image.height + n - 1) / n);
+}
+
+/// Means over blocks; those at the right and lower border may be smaller.
+std::vector<float> block_means(const std::vector<float>& values, const Vec2i& size,
+                               const Vec2i& grid) {
+  constexpr int n = ErrorEstimate::block_size;
+  std::vector<float> means;
+  means.reserve(size_t{channels} * grid.x * grid.y);
+  for (int by = 0; by < grid.y; ++by)
+    for (int bx = 0; bx < grid.x; ++bx) {
+      const int x1 = std::min(size.x, (bx + 1) * n), y1 = std::min(size.y, (by + 1) * n);
+      double sum[channels] = {};
+      for (int y = by * n; y < y1; ++y)
+        for (int x = bx * n; x < x1; ++x)
+          for (int c = 0; c < channels; ++c)
+            sum[c] += values[channels * (size_t(y) * size.x + x) + c];
+      const double count = double(x1 - bx * n) * (y1 - by * n);
+      for (const double s : sum) means.push_back(static_cast<float>(s / count));
+    }
+  return means;
+}
+
+/// All groups of one rendering, over its pixels or over its blocks.
+struct Groups {
+  void add(const std::vector<float>& values, const Vec2i& size, double weight) {
+    spread.add(values, weight);
+    brightness.add(luminance_of(values), size, weight);
+  }
+  Spread spread;
+  BrightnessPyramid brightness;
+};
+
+struct GroupsOfRendering {
+  explicit GroupsOfRendering(const Rendering& rendering) {
+    for (int g = 0; g < Rendering::group_count; ++g) {
+      const GroupImage group = rendering.group(g);
+      if (group.weight == 0) continue;
+      size = Vec2i(group.image.width, group.image.height);
+      grid = block_grid(group.image);
+      const std::vector<float> values = with_luminance(group.image);
+      const std::vector<float> means = block_means(values, size, grid);
+      pixels.add(values, size, group.weight);
+      blocks.add(means, grid, group.weight);
+      weight += group.weight;
+      most.resize(means.size() / channels);
+      for (size_t b = 0; b < most.size(); ++b)
+        most[b] = std::max(most[b], group.weight * means[channels * b + 3]);
+    }
+  }
+  int count() const { return pixels.spread.count(); }
+
+  Vec2i size{0}, grid{0};
+  Groups pixels, blocks;
+  double weight = 0;
+  std::vector<double> most;  ///< Per block: light that one group has found, times its weight.
+};
+
+double mean_luminance(const std::vector<float>& values) {
+  double sum = 0;
+  for (size_t i = 3; i < values.size(); i += channels) sum += values[i];
+  return channels * sum / static_cast<double>(values.size());
+}
+
+/// Mean and squared standard error of what several independent sets of groups add up to.
+class Total {
+ public:
+  explicit Total(const std::vector<const Groups*>& parts) {
+    for (const Groups* part : parts) {
+      add(part->spread);
+      brightness_.push_back(&part->brightness);
+    }
+  }
+  void add_error(const std::vector<float>& errors) {
+    for (size_t i = 0; i < errors.size(); ++i) variance_[i] += errors[i] * errors[i];
+  }
+
+  const std::vector<float>& mean() const { return mean_; }
+  Image error(const Vec2i& size) const {
+    Image image(size.x, size.y, 3);
+    for (size_t i = 0; i < image.data.size(); ++i)
+      image.data[i] = std::sqrt(variance_[i / 3 * channels + i % 3]);
+    return image;
+  }
+
+  RelativeError relative() const {
+    const double floor = sqr(dark * mean_luminance(mean_));
+    if (!(floor > 0)) return {};  // no light was found yet
+    const std::vector<float> known = known_brightness(brightness_);
+    double sum = 0, sum_of_squares = 0;
+    for (size_t p = 0; p < known.size(); ++p) {
+      const size_t i = channels * p + 3;
+      const double brightness = std::max(double{known[p]}, least_of_seen * mean_[i]);
+      const double term = variance_[i] / (sqr(brightness) + floor);
+      sum += term;
+      sum_of_squares += sqr(term);
+    }
+    return {std::sqrt(sum / static_cast<double>(known.size())),
+            sum > 0 ? sqr(sum) / sum_of_squares : static_cast<double>(known.size())};
+  }
+
+ private:
+  void add(const Spread& spread) {
+    mean_.resize(spread.size());
+    variance_.resize(spread.size());
+    for (size_t i = 0; i < spread.size(); ++i) {
+      mean_[i] += spread.mean()[i];
+      variance_[i] += static_cast<float>(spread.variance(i));
+    }
+  }
+
+  std::vector<float> mean_, variance_;
+  std::vector<const BrightnessPyramid*> brightness_;
+};
+
+std::vector<Disagreement> disagreements(const GroupsOfRendering& groups, const Total& blocks) {
+  if (groups.count() < fewest_groups) return {};
+  const double least = dark * mean_luminance(blocks.mean());
+  std::vector<std::pair<float, Disagreement>> found;
+  for (size_t b = 0; b < groups.most.size(); ++b) {
+    const float light = blocks.mean()[channels * b + 3];
+    const double share = groups.most[b] / (groups.weight * light);
+    if (!(light > least) || share <= largest_share) continue;
+    const Vec2i block(b % groups.grid.x, b / groups.grid.x);
+    found.push_back({light, {ErrorEstimate::block_size * block, std::min(1.0, share)}});
+  }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<Disagreement> sorted;
+  for (const auto& [light, disagreement] : found) sorted.push_back(disagreement);
+  return sorted;
+}
+
+size_t count_negative(const Image& image) {
+  size_t count = 0;
+  for (size_t i = 0; i < image.data.size(); i += 3)
+    count += *std::min_element(&image.data[i], &image.data[i] + 3) < 0;
+  return count;
+}
+
+}  // namespace
+
+ErrorEstimate estimate_error(const Rendering& rendering) {
+  std::vector<GroupsOfRendering> all;
+  all.emplace_back(rendering);
+  for (const Rendering* part : rendering.parts()) all.emplace_back(*part);
+  const GroupsOfRendering& groups = all[0];
+  ErrorEstimate estimate;
+  estimate.negative_pixels = count_negative(rendering.image());
+  estimate.groups = groups.count();
+  std::vector<const Groups*> parts_of_pixels, parts_of_blocks;
+  for (const GroupsOfRendering& part : all) {
+    if (part.count() < 2) return estimate;
+    parts_of_pixels.push_back(&part.pixels);
+    parts_of_blocks.push_back(&part.blocks);
+  }
+  Total pixels(parts_of_pixels), blocks(parts_of_blocks);
+  if (const Image common = rendering.common_error(); !common.empty()) {
+    const std::vector<float> values = with_luminance(common);
+    pixels.add_error(values);
+    blocks.add_error(block_means(values, groups.size, groups.grid));
+  }
+  estimate.pixels = pixels.error(groups.size);
+  estimate.blocks = blocks.error(groups.grid);
+  estimate.relative = pixels.relative();
+  estimate.relative_blocks = blocks.relative();
+  estimate.disagreements = disagreements(groups, blocks);
+  return estimate;
+}
+
+std::vector<NamedImage> error_layers(const ErrorEstimate& estimate) {
+  if (estimate.pixels.empty()) return {};
+  Image spread(estimate.pixels.width, estimate.pixels.height, 3);
+  for (int y = 0; y < spread.height; ++y)
+    for (int x = 0; x < spread.width; ++x)
+      for (int c = 0; c < 3; ++c)
+        spread.at(x, y, c) =
+            estimate.blocks.at(x / ErrorEstimate::block_size, y / ErrorEstimate::block_size, c);
+  return {{"error", estimate.pixels}, {"error_block", std::move(spread)}};
+}
+
+void add_error(const ErrorEstimate& estimate, Stats& stats) {
+  constexpr size_t most = 10;
+  stats.groups = estimate.groups;
+  stats.error = estimate.relative.value;
+  stats.block_error = estimate.relative_blocks.value;
+  stats.pixels_carrying_error = estimate.relative.carrying;
+  if (estimate.relative.carrying < few_pixels)
+    stats.warnings.push_back(fmt::format(
+        "the error of {:.2g} is that of {:.0f} pixel{}: some light is found so rarely that the "
+        "true error may be several times larger; render for longer, or look whether another "
+        "integrator finds this light more easily",
+        estimate.relative.value, std::ceil(estimate.relative.carrying),
+        estimate.relative.carrying > 1 ? "s" : ""));
+  const std::vector<Disagreement>& all = estimate.disagreements;
+  if (all.empty()) return;
+  for (size_t i = 0; i < std::min(most, all.size()); ++i)
+    stats.disagreements.push_back({all[i].pixel.x, all[i].pixel.y, all[i].share});
+  stats.warnings.push_back(fmt::format(
+      "in {} of {} blocks of 8 x 8 pixels one of {} independent groups has found most of the "
+      "light, the brightest at pixel ({}, {}); to have these right too, give the render more time, "
+      "or look whether another integrator finds this light more easily",
+      all.size(), estimate.block_count(), estimate.groups, all[0].pixel.x, all[0].pixel.y));
+}
+
+}  // namespace mlt

@@ -1,0 +1,55 @@
+// How wrong an image is, told by the spread of the independent groups that it is the mean of: with
+// weights w_g, the standard error of the mean m is sqrt(sum_g w_g (x_g - m)^2 / ((G - 1) sum_g
+// w_g)). Chains of one group are correlated with each other and with themselves; groups are not, so
+// this holds for Metropolis as it does for path tracing.
+#pragma once
+
+#include "math/vec.h"
+#include "rendering/integrator.h"
+
+#include <limits>
+#include <vector>
+
+namespace mlt {
+
+/// A block of the image whose light one group alone has found, or nearly so: there, neither the
+/// image nor its error is to be believed.
+struct Disagreement {
+  Vec2i pixel{0};    ///< The upper left one of the block.
+  double share = 0;  ///< Of the block's light, what the group that found most of it has found.
+};
+
+/// sqrt(mean over pixels of s^2 / (L^2 + 0.01 M^2)), with a pixel's standard error s, its
+/// brightness L as far as the groups agree about it (known_brightness), and the mean M of the
+/// brightness over the image. It is an estimate of the square root of relMSE; 0.01 M^2 keeps black
+/// pixels from deciding it.
+struct RelativeError {
+  double value = std::numeric_limits<double>::quiet_NaN();  ///< NaN if nothing is known.
+  /// How many pixels carry it: (sum of their terms)^2 / (sum of the terms' squares). With few,
+  /// rarely found light decides it, and as long as that is not found the error seems too small.
+  double carrying = std::numeric_limits<double>::quiet_NaN();
+};
+
+struct ErrorEstimate {
+  static constexpr int block_size = 8;
+
+  int groups = 0;  ///< That have something to say; with fewer than two nothing is known.
+  Image pixels;    ///< Standard error of each pixel, RGB; empty if nothing is known.
+  Image blocks;    ///< The same for the means of blocks of 8 x 8 pixels, one pixel for each.
+  RelativeError relative, relative_blocks;  ///< Of pixels, and of blocks.
+  size_t negative_pixels = 0;               ///< With a channel below zero.
+  std::vector<Disagreement> disagreements;  ///< The brightest block first.
+  int block_count() const { return blocks.width * blocks.height; }
+};
+
+/// Looks at one group after the other; costs about as much as developing the image once for each.
+ErrorEstimate estimate_error(const Rendering& rendering);
+
+/// The estimate as layers of the image: "error" for pixels and "error_block", where each pixel has
+/// the error of its block. None if nothing is known.
+std::vector<NamedImage> error_layers(const ErrorEstimate& estimate);
+
+/// What the estimate tells in stats.json, with a warning of disagreements.
+void add_error(const ErrorEstimate& estimate, Stats& stats);
+
+}  // namespace mlt

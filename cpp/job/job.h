@@ -1,0 +1,161 @@
+// A render that runs on a thread of its own: progress, cancel, budgets, checkpoints. Now and then
+// it pauses: no unit is running then, so its state may be saved, and its error looked at.
+#pragma once
+
+#include "job/autosave.h"
+#include "job/error_estimate.h"
+#include "job/executor.h"
+#include "job/memory_reserve.h"
+#include "job/stop_rule.h"
+#include "rendering/aov.h"
+
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <thread>
+
+#include <sys/types.h>
+
+namespace mlt {
+
+constexpr int max_threads = 4096;
+
+struct RenderSettings {
+  Budget budget;
+  uint64_t seed = 0;
+  int threads = 0;  ///< 0: as many as the machine has.
+  AutosaveSettings autosave;
+  std::vector<Aov> aovs;  ///< Layers to be rendered beside the image.
+};
+
+class Job {
+ public:
+  /// Throws UsageError for settings that make no sense, SceneError for a scene that does not suit,
+  /// RenderError for an image that is too large for the memory.
+  Job(ScenePtr scene, IntegratorPtr integrator, const RenderSettings& settings);
+  ~Job() { stop(); }
+
+  /// Before start(): who runs the units, in place of the threads of this process.
+  void attach(std::unique_ptr<Executor> executor);
+  void start();  ///< Throws RenderError if there is not memory enough.
+  /// Waits until the render has ended or `seconds` have passed; true if it has ended. Rethrows what
+  /// went wrong inside the render.
+  bool wait(double seconds);
+  /// Ends the render soon; what has been rendered stays.
+  void cancel() { cancel_ = true; }
+  /// Cancels and waits.
+  void stop();
+  bool cancelled() const { return cancel_; }
+  bool ended() const { return phase_ == Phase::ended; }
+  /// Whether it was started by another process, of which this one is a fork.
+  bool elsewhere() const;
+
+  /// The whole state as bytes: budget, units done, seconds spent, and Rendering::save. May be
+  /// called at any time from any thread: it waits for the bootstrap, then for the units that are
+  /// running, and the render goes on. Throws UsageError if the render has not been started, or
+  /// ended in its bootstrap.
+  std::string save();
+  /// After how many units a state was saved. Throws RenderError.
+  static uint64_t units_of(const std::string& state);
+  /// Before start(): goes on where a job with the same scene, integrator and seed was saved, to its
+  /// budget if this job was given none. However often a render is resumed, the same samples make
+  /// the same pixels. Throws RenderError.
+  void load(const std::string& state);
+  /// After the end: goes on until a larger budget is used up. Throws UsageError.
+  void extend(const Budget& budget);
+
+  // Until it has ended, a process that was forked from the one that renders gets RenderError from
+  // all that returns an image or statistics, and from wait() and save().
+
+  double progress() const;  ///< 0 ... 1 of the budget.
+  double spp_done() const;  ///< Samples per pixel so far.
+  Image image() const;      ///< So far: linear RGB, row 0 on top.
+  /// See without_fireflies.
+  Image image_without_fireflies() const;
+  /// Further images that the render was asked to keep, what the camera sees first, and the error of
+  /// the image, so far.
+  std::vector<NamedImage> layers() const;
+  /// How wrong the image is, so far; after the end it is worked out but once.
+  std::shared_ptr<const ErrorEstimate> error() const;
+  /// The independent groups behind it, so far.
+  const Rendering& rendering() const {
+    check_here();
+    return *rendering_;
+  }
+  /// Repeats one sample of a pixel, whether or not the render has started. Throws UsageError.
+  Replay replay(const Vec2i& pixel, uint64_t sample) { return rendering_->replay(pixel, sample); }
+  /// After the end with the error of the image.
+  Stats stats() const;
+
+  // For an executor.
+  uint64_t units_done() const { return units_done_; }
+  /// Is the render to end now?
+  bool stopping() const { return cancel_ || stop_rule_.out_of_time(seconds_so_far()); }
+  /// Or does somebody want to look at its state?
+  bool interrupted() const { return stopping() || savers_ != 0 || autosave_.due(); }
+  /// Runs the units before `to` on threads of this process, until interrupted.
+  void run_units(uint64_t to);
+  /// If the executor has asked for tasks.
+  TaskList& tasks() { return *tasks_; }
+  /// Takes in the result of a task; see TaskList::merge.
+  void merge(size_t task, const std::string& result);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  enum class Phase { waiting, bootstrap, rendering, ended };
+
+  void check_here() const;
+  void check_waiting() const;
+  void take_memory();
+  size_t bytes_needed() const;
+  [[noreturn]] void fail_for_memory() const;
+  void launch();
+  void lead();
+  void prepare();
+  void render();
+  void let_savers_in();
+  std::string state() const;
+  double seconds_so_far() const;
+
+  ScenePtr scene_;
+  IntegratorPtr integrator_;
+  uint64_t seed_;
+  int threads_;
+  std::unique_ptr<Rendering> rendering_;
+  std::unique_ptr<Executor> executor_;
+  std::optional<TaskList> tasks_;
+  mutable std::mutex merging_;  ///< Nobody looks at the image while a result is merged.
+  StopRule stop_rule_;
+  Autosave autosave_;
+  size_t available_ = available_memory();
+  MemoryReserve reserve_;  ///< For what comes after the last unit; held while units run.
+
+  std::atomic<bool> cancel_{false};
+  std::atomic<Phase> phase_{Phase::waiting};
+  std::atomic<uint64_t> units_done_{0};
+  bool prepared_ = false;   ///< The bootstrap is over.
+  bool abandoned_ = false;  ///< A unit was given up: no image of the same samples can follow.
+  Clock::time_point started_;
+  double seconds_before_ = 0;  ///< Of earlier runs of this render.
+  std::atomic<double> bootstrap_seconds_{0}, total_seconds_{0};
+
+  std::thread thread_;
+  pid_t process_ = 0;  ///< In which it runs; those that are forked from that have no such thread.
+  mutable std::mutex mutex_;
+  std::condition_variable ended_;
+  std::exception_ptr failure_;  ///< Guarded by mutex_ until the render has ended.
+  std::string ended_by_;        ///< The same.
+
+  std::atomic<int> savers_{0};  ///< Who waits for a pause.
+  bool paused_ = false;
+  std::condition_variable pause_;
+
+  std::vector<Aov> aovs_;
+  mutable std::mutex aov_mutex_;
+  mutable std::vector<NamedImage> aov_layers_;  ///< Empty until somebody asks for them.
+
+  mutable std::mutex error_mutex_;
+  mutable std::shared_ptr<const ErrorEstimate> final_error_;
+};
+
+}  // namespace mlt

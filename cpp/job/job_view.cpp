@@ -1,0 +1,124 @@
+// Looking at a render: while it goes on, and when it has ended.
+#include "base/watchdog.h"
+#include "job/fireflies.h"
+#include "job/job.h"
+#include "mlt_version.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace mlt {
+
+/// In a fork, the locks of a render that has not ended may be held by threads that are not there.
+void Job::check_here() const {
+  if (!ended() && elsewhere())
+    throw RenderError("the render goes on in the process that started it, not in this fork of it");
+}
+
+bool Job::wait(double seconds) {
+  check_here();
+  std::unique_lock lock(mutex_);
+  if (std::isfinite(seconds))
+    ended_.wait_for(lock, std::chrono::duration<double>(seconds), [this] { return ended(); });
+  else
+    ended_.wait(lock, [this] { return ended(); });
+  if (!ended()) return false;
+  if (failure_) std::rethrow_exception(failure_);
+  return true;
+}
+
+double Job::seconds_so_far() const {
+  return seconds_before_ + std::chrono::duration<double>(Clock::now() - started_).count();
+}
+
+double Job::progress() const {
+  if (phase_ == Phase::waiting) return 0;
+  return ended() ? 1 : stop_rule_.progress(units_done_, seconds_so_far());
+}
+
+Image Job::image() const {
+  check_here();
+  const std::lock_guard lock(merging_);
+  return rendering_->image();
+}
+
+Image Job::image_without_fireflies() const {
+  check_here();
+  const std::lock_guard lock(merging_);
+  return without_fireflies(*rendering_);
+}
+
+std::shared_ptr<const ErrorEstimate> Job::error() const {
+  check_here();
+  const std::lock_guard no_merging(merging_);
+  if (!ended()) return std::make_shared<ErrorEstimate>(estimate_error(*rendering_));
+  const std::lock_guard lock(error_mutex_);
+  if (!final_error_) final_error_ = std::make_shared<ErrorEstimate>(estimate_error(*rendering_));
+  return final_error_;
+}
+
+std::vector<NamedImage> Job::layers() const {
+  check_here();
+  std::vector<NamedImage> layers;
+  {
+    const std::lock_guard lock(merging_);
+    layers = rendering_->layers();
+  }
+  {
+    const std::lock_guard lock(aov_mutex_);
+    if (aov_layers_.empty()) aov_layers_ = render_aovs(*scene_, aovs_, seed_, threads_);
+    layers.insert(layers.end(), aov_layers_.begin(), aov_layers_.end());
+  }
+  for (NamedImage& layer : error_layers(*error())) layers.push_back(std::move(layer));
+  return layers;
+}
+
+double Job::spp_done() const {
+  // A render that is resumed counts what it has once it has begun.
+  const Phase phase = phase_;
+  const bool begun = phase == Phase::rendering || phase == Phase::ended;
+  return begun ? rendering_->plan().spp_done(units_done_) : 0.0;
+}
+
+Stats Job::stats() const {
+  check_here();
+  Stats stats;
+  stats.version = MLT_VERSION;
+  stats.integrator = integrator_->name();
+  stats.seed = seed_;
+  stats.width = scene_->camera().raster().size.x;
+  stats.height = scene_->camera().raster().size.y;
+  if (const size_t needed = bytes_needed(); available_ > 0 && needed > available_)
+    stats.warnings.push_back(fmt::format("the render needs about {} of memory, and {} are free",
+                                         in_words(needed), in_words(available_)));
+  const Phase phase = phase_;
+  if (phase == Phase::rendering || phase == Phase::ended) {
+    stats.spp_done = spp_done();
+    stats.seconds_bootstrap = bootstrap_seconds_;
+    stats.seconds_render =
+        (phase == Phase::ended ? total_seconds_.load() : seconds_so_far()) - bootstrap_seconds_;
+    // A bootstrap that failed has left nothing that could be asked.
+    if (prepared_ || phase != Phase::ended || !failure_) rendering_->add_stats(stats);
+  }
+  const std::lock_guard lock(mutex_);
+  if (const std::string failure = autosave_.failure(); !failure.empty())
+    stats.warnings.push_back("the checkpoint could not be written: " + failure);
+  if (phase != Phase::ended || failure_) return stats;
+  stats.ended_by = ended_by_;
+  if (abandoned_)
+    stats.warnings.push_back(fmt::format(
+        "a light path had not ended {:g} s after the render was to end, and was given up; with a "
+        "max_depth, or a smaller rr_depth, paths end",
+        Watchdog::patience));
+  if (units_done_ == 0) return stats;
+  const std::shared_ptr<const ErrorEstimate> estimate = error();
+  add_error(*estimate, stats);
+  if (estimate->negative_pixels > 0 && !scene_->film().filter->has_negative_lobes())
+    stats.warnings.push_back(
+        fmt::format("{} pixels are negative, which no light is; please report it with the scene",
+                    estimate->negative_pixels));
+  return stats;
+}
+
+}  // namespace mlt

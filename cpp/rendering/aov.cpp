@@ -1,0 +1,137 @@
+#include "rendering/aov.h"
+
+#include "base/text.h"
+#include "path/samplers.h"
+#include "path/walk.h"
+
+#include <fmt/format.h>
+
+#include <set>
+
+namespace mlt {
+namespace {
+
+struct KindName {
+  const char* name;
+  AovKind kind;
+};
+constexpr KindName kinds[] = {
+    {"albedo", AovKind::albedo},           {"depth", AovKind::depth},
+    {"position", AovKind::position},       {"uv", AovKind::uv},
+    {"geo_normal", AovKind::geo_normal},   {"sh_normal", AovKind::sh_normal},
+    {"shape_index", AovKind::shape_index}, {"prim_index", AovKind::prim_index}};
+
+AovKind kind_of(const std::string& name) {
+  std::vector<std::string> names;
+  for (const KindName& known : kinds) {
+    if (name == known.name) return known.kind;
+    names.emplace_back(known.name);
+  }
+  throw UsageError(fmt::format("'{}' is not a layer that can be rendered; there are {}{}", name,
+                               fmt::join(names, ", "), suggestion(name, names)));
+}
+
+bool is_index(AovKind kind) { return kind == AovKind::shape_index || kind == AovKind::prim_index; }
+int channels(AovKind kind) { return kind == AovKind::depth || is_index(kind) ? 1 : 3; }
+
+Vec3 value(AovKind kind, const Scene& scene, const Ray& ray, const SurfacePoint& at) {
+  switch (kind) {
+    case AovKind::albedo: return scene.bsdf(at).albedo(at);
+    case AovKind::depth: return Vec3(length(at.p - ray.o), 0, 0);
+    case AovKind::position: return at.p;
+    case AovKind::uv: return {at.uv, 0};
+    case AovKind::geo_normal: return at.ng;
+    case AovKind::sh_normal: return at.shading.n;
+    case AovKind::shape_index:
+      return Vec3(at.instance == SurfacePoint::no_shape ? at.shape : at.instance, 0, 0);
+    case AovKind::prim_index: return Vec3(at.primitive, 0, 0);
+  }
+  return Vec3(0);
+}
+
+/// The layers of one pixel.
+class PixelAovs {
+ public:
+  PixelAovs(const Scene& scene, const std::vector<Aov>& aovs)
+      : scene_(scene), aovs_(aovs), values_(aovs.size()) {}
+
+  const std::vector<Vec3>& render(const Vec2i& pixel, uint64_t stream) {
+    std::fill(values_.begin(), values_.end(), Vec3(0));
+    for (uint32_t i = 0; i < aov_samples; ++i) {
+      PixelSampler sampler(stream, i);
+      const Vec2 raster = Vec2(pixel) + sampler.next2();
+      add(leave_lens(scene_.camera(), raster, sampler).ray);
+    }
+    set_indices(middle_ray(pixel));
+    return values_;
+  }
+
+ private:
+  Ray middle_ray(const Vec2i& pixel) const {
+    const Camera& camera = scene_.camera();
+    const SurfacePoint lens = camera.sample_position({0.5, 0.5}, camera.time(0.5)).at;
+    return leave_lens(camera, lens, Vec2(pixel) + 0.5);
+  }
+  void add(const Ray& ray) {
+    SurfacePoint at;
+    if (!scene_.intersect(ray, at)) return;
+    for (size_t i = 0; i < aovs_.size(); ++i)
+      values_[i] += value(aovs_[i].kind, scene_, ray, at) * (1.0 / aov_samples);
+  }
+  void set_indices(const Ray& ray) {
+    SurfacePoint at;
+    const bool hit = scene_.intersect(ray, at);
+    for (size_t i = 0; i < aovs_.size(); ++i)
+      if (is_index(aovs_[i].kind))
+        values_[i] = hit ? value(aovs_[i].kind, scene_, ray, at) : Vec3(-1);
+  }
+
+  const Scene& scene_;
+  const std::vector<Aov>& aovs_;
+  std::vector<Vec3> values_;
+};
+
+}  // namespace
+
+std::vector<Aov> parse_aovs(const std::string& list) {
+  std::vector<Aov> aovs;
+  std::set<std::string> names;
+  for (size_t begin = 0; begin <= list.size();) {
+    const size_t end = std::min(list.find(',', begin), list.size());
+    const std::string item(trim(std::string_view(list).substr(begin, end - begin)));
+    begin = end + 1;
+    if (item.empty()) continue;
+    const size_t colon = item.find(':');
+    const std::string name(trim(std::string_view(item).substr(0, colon)));
+    const std::string kind(
+        colon == std::string::npos ? name : trim(std::string_view(item).substr(colon + 1)));
+    if (name.empty()) throw UsageError("the layer '" + item + "' has no name before its colon");
+    if (!names.insert(name).second)
+      throw UsageError("the layer '" + name + "' is asked for twice; give it two names");
+    aovs.push_back({name, kind_of(kind)});
+  }
+  return aovs;
+}
+
+std::vector<NamedImage> render_aovs(const Scene& scene, const std::vector<Aov>& aovs, uint64_t seed,
+                                    int threads) {
+  const Vec2i size = scene.camera().raster().size;
+  std::vector<NamedImage> layers;
+  for (const Aov& aov : aovs)
+    layers.push_back({aov.name, Image(size.x, size.y, channels(aov.kind))});
+  if (aovs.empty()) return layers;
+  parallel_for(threads, static_cast<uint64_t>(size.y), [&](uint64_t row) {
+    const int y = static_cast<int>(row);
+    PixelAovs pixel(scene, aovs);
+    for (int x = 0; x < size.x; ++x) {
+      const uint64_t cell = (row << 32) | static_cast<uint32_t>(x);
+      const std::vector<Vec3>& values = pixel.render({x, y}, mix_bits(mix_bits(seed) ^ cell));
+      for (size_t i = 0; i < aovs.size(); ++i)
+        for (int c = 0; c < layers[i].image.channels; ++c)
+          layers[i].image.at(x, y, c) = static_cast<float>(values[i][c]);
+    }
+  });
+  return layers;
+}
+
+}  // namespace mlt

@@ -1,0 +1,86 @@
+#include "rendering/group_combination.h"
+
+#include "math/vec.h"
+
+#include <algorithm>
+
+namespace mlt {
+
+GroupCombination::GroupCombination(std::vector<GroupProgress> groups, const Estimate& of_chains,
+                                   bool corrected)
+    : groups_(std::move(groups)), of_chains_(of_chains) {
+  MeanSums by_chains, bootstrap;
+  for (int g = 0; g < count(); ++g) {
+    chain_brightness_ += chain_brightness(g);
+    if (begun(g)) by_chains.add(chain_brightness(g));
+    bootstrap += groups_[g].bootstrap.of_chains;
+  }
+  const Estimate chains = estimate(by_chains), samples = pooled(estimate(bootstrap), of_chains_);
+  if (!(chains.variance > 0) || samples.count == 0) return;
+  if (corrected) lambda_ = chains.variance / (chains.variance + samples.variance);
+  const double difference = samples.mean - chains.mean;
+  if (sqr(difference) > sqr(2.5) * (chains.variance + samples.variance))
+    missing_ = (1 - lambda_) * difference;
+}
+
+/// M_g
+Estimate GroupCombination::samples_of(int g) const {
+  return pooled(estimate(groups_[g].bootstrap.of_chains), of_chains_);
+}
+
+/// b_g D_g; 0 without chains.
+double GroupCombination::chain_brightness(int g) const {
+  const GroupProgress& group = groups_[g];
+  return has_chains(g) ? group.b * group.brightness / static_cast<double>(group.steps) : 0.0;
+}
+
+/// Each of the others can lose as much as it has to groups like this one.
+GroupCombination::Correction GroupCombination::correction(int g) const {
+  const double missing = lambda_ * (samples_of(g).mean - chain_brightness(g));
+  const double others = chain_brightness_ - chain_brightness(g);
+  if (!(others > 0)) return {0, std::min(0.0, missing)};
+  const double of_others = std::max(missing, -others / (count() - 1));
+  return {of_others, missing - of_others};
+}
+
+GroupScales GroupCombination::group(int g) const {
+  const Correction add = correction(g);
+  const double own = chain_brightness(g), others = chain_brightness_ - own;
+  GroupScales scales(count());
+  for (int h = 0; h < count(); ++h) {
+    if (!has_chains(h)) continue;
+    const double factor = h != g    ? (others > 0 ? add.of_others / others : 0.0)
+                          : own > 0 ? 1 + add.of_itself / own
+                                    : 1.0;
+    scales[h] = factor * groups_[h].b / static_cast<double>(groups_[h].steps);
+  }
+  return scales;
+}
+
+GroupScales GroupCombination::mean() const {
+  GroupScales mean(count());
+  int begun_groups = 0;
+  for (int g = 0; g < count(); ++g) begun_groups += begun(g);
+  for (int g = 0; g < count(); ++g) {
+    if (!begun(g)) continue;
+    const GroupScales own = group(g);
+    for (int h = 0; h < count(); ++h) mean[h] += own[h] / begun_groups;
+  }
+  // When several groups are that bright.
+  for (double& scale : mean) scale = std::max(0.0, scale);
+  return mean;
+}
+
+GroupScales GroupCombination::common_error() const {
+  GroupScales scales(count());
+  if (of_chains_.count == 0 || !(chain_brightness_ > 0)) return scales;
+  const double share =
+      static_cast<double>(of_chains_.count) / static_cast<double>(samples_of(0).count);
+  const double error = std::hypot(lambda_ * share * std::sqrt(of_chains_.variance), missing_);
+  for (int h = 0; h < count(); ++h)
+    if (has_chains(h))
+      scales[h] = error / chain_brightness_ * groups_[h].b / static_cast<double>(groups_[h].steps);
+  return scales;
+}
+
+}  // namespace mlt

@@ -1,0 +1,42 @@
+#include "rendering/hidden_lights.h"
+
+#include "base/rng.h"
+#include "path/walk.h"
+
+#include <fmt/format.h>
+
+namespace mlt {
+namespace {
+
+/// Whether all that the light shines on is perfectly specular, as far as some rays tell.
+bool is_hidden(const Scene& scene, const Emitter& light) {
+  constexpr int rays = 256;
+  Rng rng(0, Purpose::inspect, light.index());
+  const double time = scene.camera().time(0.5);
+  RayCounts count;
+  const Walker walker{scene, time, count};
+  bool shines = false;
+  for (int i = 0; i < rays; ++i) {
+    const Vec2 u_position{rng.next(), rng.next()}, u_direction{rng.next(), rng.next()};
+    const Vertex x0 = light_vertex(light, light.sample_position(u_position, time).at);
+    const Departure first = walker.leave_light(x0, u_direction);
+    SurfacePoint at;
+    if (!(first.pdf > 0) || !walker.arrive(first.ray, at)) continue;
+    if (scene.bsdf(at).has_smooth()) return false;
+    shines = true;
+  }
+  return shines;
+}
+
+}  // namespace
+
+void warn_of_hidden_lights(const Scene& scene, Stats& stats) {
+  for (const EmitterPtr& light : scene.emitters())
+    if (light->delta() && is_hidden(scene, *light))
+      stats.warnings.push_back(
+          fmt::format("{} cannot find the light of emitter '{}', which has no size and shines "
+                      "through mirrors or glass alone; use bdpt or mlt",
+                      stats.integrator, light->type));
+}
+
+}  // namespace mlt

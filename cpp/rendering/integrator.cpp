@@ -1,0 +1,28 @@
+#include "rendering/integrator.h"
+
+#include "base/error.h"
+
+namespace mlt {
+
+Replay Rendering::replay(const Vec2i& /*pixel*/, uint64_t /*sample*/) {
+  throw UsageError(
+      "this integrator takes no samples of single pixels to be replayed; path, direct, "
+      "ptracer and bdpt do");
+}
+
+IntegratorPtr Integrator::with_mutations(const std::vector<ExtraMutation>& /*extra*/) const {
+  throw UsageError("'" + name() + "' has no mixture of mutations; mlt has");
+}
+
+Schema integrator_schema(const std::string& name, const std::string& doc,
+                         const std::vector<std::vector<Parameter>>& parameters) {
+  Schema schema;
+  schema.family = "integrator";
+  schema.name = name;
+  schema.doc = doc;
+  for (const std::vector<Parameter>& list : parameters)
+    schema.parameters.insert(schema.parameters.end(), list.begin(), list.end());
+  return schema;
+}
+
+}  // namespace mlt

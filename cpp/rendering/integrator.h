@@ -1,0 +1,118 @@
+// A light transport algorithm: settings that are only stored, and a way to start rendering.
+#pragma once
+
+#include "base/object.h"
+#include "base/schema.h"
+#include "image/image.h"
+#include "mutation/extra_mutation.h"
+#include "path/inspect.h"
+#include "rendering/plan.h"
+#include "rendering/stats.h"
+#include "scene/scene.h"
+
+#include <atomic>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace mlt {
+
+struct NamedImage {
+  std::string name;
+  Image image;
+};
+
+/// What one of the independent groups of a render has seen by itself: an unbiased image that owes
+/// nothing to the other groups. Linear RGB.
+struct GroupImage {
+  Image image;
+  /// Its weight in the mean that is the render's image: finished passes, or 1 for a group of
+  /// chains; 0 as long as it has nothing to say.
+  double weight = 0;
+  /// Metropolis: its own estimate of the mean of L*, by which its image is scaled, and the standard
+  /// error of that.
+  double b = 0, b_error = 0;
+};
+
+/// A render in progress, cut into units that are fixed by (scene, algorithm, seed) and independent
+/// of threads. run_unit may be called from many threads at once.
+class Rendering {
+ public:
+  /// The groups whose spread tells how wrong the image is: each has its own random numbers, and for
+  /// Metropolis its own bootstrap. The image is their weighted mean (while some are behind others,
+  /// nearly so), plus the images of the parts.
+  static constexpr int group_count = 16;
+
+  Rendering(ScenePtr scene, uint64_t seed) : scene_(std::move(scene)), seed_(seed) {}
+  virtual ~Rendering() = default;
+
+  /// Before prepare: how many seconds that should take at the most.
+  void limit_preparation(double seconds) { preparation_seconds_ = seconds; }
+  /// Work before the first unit (a bootstrap); may itself use `threads` threads. `cancelled` is
+  /// looked at now and then. Throws RenderError.
+  virtual void prepare(int /*threads*/, const std::atomic<bool>& /*cancelled*/) {}
+  /// Known after `prepare` or `load`.
+  const Plan& plan() const { return plan_; }
+  /// Memory for the sums of a render of so many samples per pixel.
+  struct Memory {
+    size_t bytes = 0, to_come = 0;  ///< All of it, and what is not yet set aside.
+  };
+  virtual Memory memory(double spp) const = 0;
+  /// Does nothing if the unit has been done already.
+  virtual void run_unit(uint64_t unit) = 0;
+
+  /// The image after the units that have finished, linear RGB.
+  virtual Image image() const = 0;
+  virtual GroupImage group(int index) const = 0;
+  /// Other renderings, each with groups of its own, whose images are parts of this one's.
+  virtual std::vector<const Rendering*> parts() const { return {}; }
+  /// The standard error of what all groups have in common, which their spread does not show; may be
+  /// empty.
+  virtual Image common_error() const { return {}; }
+  /// Further images that the render was asked to keep.
+  virtual std::vector<NamedImage> layers() const { return {}; }
+  virtual void add_stats(Stats& stats) const = 0;
+  /// Repeats one sample of a pixel (0, 1, 2, ...), as it was or will be taken, without a trace in
+  /// the image. Throws UsageError if the algorithm does not sample pixel by pixel.
+  virtual Replay replay(const Vec2i& pixel, uint64_t sample);
+
+  /// What is saved. `task`: what the shares need to go on. `result`: the shares as they have
+  /// become, and what adds up over all copies of the rendering (counters, sums in fixed point).
+  enum class Content : uint32_t { task, result, everything };
+  /// The state of some shares as bytes. No unit of these may be running. A checkpoint has
+  /// everything of all shares. A copy of the rendering that was not prepared can load what a task
+  /// needs, run its units in their order, and save the result; the rendering that loads this has
+  /// the same bits as if it had run the units itself.
+  virtual std::string save(const Task& task = {}, Content content = Content::everything) const = 0;
+  /// Replaces the state of the saved shares and adds what adds up. Only for what the same build has
+  /// saved of a rendering of the same scene, settings and seed; for one that was just started it
+  /// takes the place of `prepare`. Throws RenderError if the bytes do not fit.
+  virtual void load(const std::string& state) = 0;
+
+ protected:
+  const Scene& scene() const { return *scene_; }
+
+  ScenePtr scene_;
+  uint64_t seed_;
+  Plan plan_;
+  double preparation_seconds_ = std::numeric_limits<double>::infinity();
+};
+
+class Integrator : public Object {
+ public:
+  /// Throws SceneError if the scene has something that this algorithm cannot serve.
+  virtual std::unique_ptr<Rendering> start(ScenePtr scene, uint64_t seed) const = 0;
+  const std::string& name() const { return type; }
+  /// The same with more mutations in its mixture. Throws UsageError if it has no mixture.
+  virtual std::shared_ptr<const Integrator> with_mutations(
+      const std::vector<ExtraMutation>& extra) const;
+};
+
+using IntegratorPtr = std::shared_ptr<const Integrator>;
+
+/// The schema of an integrator whose parameters come from several lists.
+Schema integrator_schema(const std::string& name, const std::string& doc,
+                         const std::vector<std::vector<Parameter>>& parameters);
+
+}  // namespace mlt

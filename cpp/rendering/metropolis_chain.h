@@ -1,0 +1,277 @@
+// Chains that render: what they visit is recorded in a film, and what their steps came to is
+// counted.
+#pragma once
+
+#include "base/bytes.h"
+#include "base/error.h"
+#include "base/rng.h"
+#include "image/splat_film.h"
+#include "markov/chain.h"
+#include "math/weight_sums.h"
+#include "path/ray_counts.h"
+#include "rendering/family_weights.h"
+#include "rendering/stats.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace mlt {
+
+/// Where chains leave what they visit.
+class ChainRecorder {
+ public:
+  virtual ~ChainRecorder() = default;
+  /// RGB / T of a state, its expected weight, and its T / P (see FamilyWeights).
+  virtual void record(const Vec2& raster, const Color& rgb_per_target, double weight,
+                      double target_over_density) = 0;
+  /// Whether T / P makes a difference.
+  virtual bool wants_density() const { return true; }
+  /// Called when a chain pauses.
+  virtual void flush() {}
+};
+
+/// Records states on a film with their weights w2. Each splat waits for the next one, while its
+/// pixel comes from memory.
+class FilmRecorder : public ChainRecorder {
+ public:
+  FilmRecorder(SplatFilm& film, int group, const FamilyWeights& weights)
+      : film_(&film), group_(group), weights_(&weights) {}
+  void record(const Vec2& raster, const Color& rgb_per_target, double weight,
+              double target_over_density) override {
+    for (int i = 0; i < film_->splat_rows(); ++i)
+      __builtin_prefetch(film_->splat_row(group_, raster, i), 1);
+    flush();
+    raster_ = raster;
+    color_ = rgb_per_target * (weight * weights_->of_chain(target_over_density));
+    brightness_ += target_luminance(color_);
+  }
+  void flush() override {
+    if (!is_black(color_)) film_->add(group_, raster_, color_);
+    color_ = Color(0);
+  }
+  bool wants_density() const override { return weights_->threshold() > 0; }
+  /// Sum of L* of what was recorded.
+  double brightness() const { return brightness_; }
+
+ private:
+  SplatFilm* film_;
+  int group_;
+  const FamilyWeights* weights_;
+  Vec2 raster_{0};
+  Color color_{0};
+  double brightness_ = 0;
+};
+
+/// Records the states of a chain, each once: the weights of the current state add up until the
+/// chain leaves it.
+template <class Kernel>
+class StepRecorder {
+  using State = typename Kernel::State;
+  using Others = std::array<State, Kernel::stages>;
+
+ public:
+  /// `others` is the scratch of the steps.
+  StepRecorder(ChainRecorder& recorder, const Kernel& kernel, const State& x, const Others& others)
+      : recorder_(&recorder), kernel_(&kernel), x_(&x), others_(&others) {}
+
+  /// As metropolis_step calls it.
+  void operator()(const State& state, double weight) {
+    (&state == x_ ? weight_x_ : weights_[&state - others_->data()]) += weight;
+  }
+
+  /// After a step.
+  void settle(const StepResult& result) {
+    weights_[0] += kernel_->proposal_weight();
+    if (result.accepted >= 0) std::swap(weight_x_, weights_[result.accepted]);
+    for (size_t stage = 0; stage < Kernel::stages; ++stage)
+      record((*others_)[stage], weights_[stage]);
+    weights_ = {};
+  }
+  /// Records what the current state has gathered.
+  void finish() {
+    record(*x_, weight_x_);
+    weight_x_ = 0;
+    recorder_->flush();
+  }
+
+ private:
+  void record(const State& state, double weight) {
+    // A chain may start from a path whose light rounding has taken away.
+    if (weight > 0 && state.target > 0) kernel_->record(*recorder_, state, weight);
+  }
+
+  ChainRecorder* recorder_;
+  const Kernel* kernel_;
+  const State* x_;
+  const Others* others_;
+  double weight_x_ = 0;
+  std::array<double, Kernel::stages> weights_{};
+};
+
+/// What a chain tells about its steps; sums, so that chains can be merged.
+struct ChainStats {
+  struct Row {
+    uint64_t proposed = 0, generated = 0, accepted = 0, rays = 0;
+    double acceptance = 0, image_distance = 0;
+    /// Walks of mutations that failed, and that could not be undone.
+    uint64_t failed_walks = 0, failed_returns = 0;
+
+    Row& operator+=(const Row& other);
+  };
+  /// The longest run of rejections.
+  struct Stuck {
+    uint64_t rejections = 0;
+    Vec2 raster{0};
+    std::string signature;
+  };
+  std::vector<Row> rows;  ///< As MetropolisAlgorithm::rows lists them.
+  RayCounts rays;
+  uint64_t invalid = 0;
+  uint64_t run = 0;  ///< Rejections in a row up to now.
+  Stuck longest;
+  uint64_t tours = 0, longest_tour = 0;  ///< Tours, and steps of the longest.
+
+  /// Counts one step; `moved` is the distance on the image if it was accepted.
+  void count(Row& row, const StepResult& result, bool generated, double moved);
+  void save(ByteWriter& bytes) const;
+  void load(ByteReader& bytes);
+};
+
+/// Adds the rows that have any steps; `names` has what else is known of them.
+void add_rows(const std::vector<MutationStats>& names, const std::vector<ChainStats::Row>& rows,
+              Stats& stats);
+
+/// What to say when there is nothing to start chains from.
+RenderError no_light_found(uint64_t samples);
+
+/// One Markov chain of a render.
+class RenderChain {
+ public:
+  virtual ~RenderChain() = default;
+  /// Alone; see MetropolisAlgorithm::advance.
+  virtual void advance(uint64_t steps, ChainRecorder& recorder) = 0;
+  virtual const ChainStats& stats() const = 0;
+  /// Of the samples that it starts from, where it draws them itself.
+  virtual const SampleSums* samples() const { return nullptr; }
+  virtual void save(ByteWriter& bytes) const = 0;
+  virtual void load(ByteReader& bytes) = 0;
+};
+
+/// A chain that is to advance, and where it leaves what it visits.
+struct ChainVisit {
+  RenderChain* chain;
+  ChainRecorder* recorder;
+};
+
+/// Which chain it is: by its group, and by its number in the group.
+struct ChainId {
+  uint64_t seed;
+  int group, number, count;
+  double b;  ///< Of the candidates that the chains of its group start from.
+  Purpose purpose = Purpose::chain;
+
+  Rng rng() const { return Rng(seed, purpose, (uint64_t(group) << 32) | uint32_t(number)); }
+};
+
+/// A chain of any kernel that has State; stages; propose; generated(y); record(recorder, x, weight)
+/// of a state with a target; proposal_weight(), with which the last proposal is recorded beside
+/// that of the step; raster_of(x); stats_row(), the row of the statistics that its last step
+/// belongs to, of stats_rows(); rays(), traced so far; signature(x), for messages; and save(bytes,
+/// x), load(bytes, x) for the state of the chain and its own. It may have count_own(row), for what
+/// else it knows of its last step.
+template <class Kernel>
+class RecordedChain : public RenderChain {
+  using State = typename Kernel::State;
+
+ public:
+  RecordedChain(Kernel kernel, const ChainId& id, State start)
+      : chain_(std::move(kernel), id.rng(), std::move(start)) {
+    stats_.rows.resize(chain_.kernel().stats_rows());
+  }
+
+  void advance(uint64_t steps, ChainRecorder& recorder) override {
+    StepRecorder<Kernel> record = begin(recorder);
+    for (uint64_t i = 0; i < steps; ++i) step(record);
+    record.finish();
+  }
+
+  // The same, step by step:
+  StepRecorder<Kernel> begin(ChainRecorder& recorder) {
+    stats_.rays = chain_.kernel().rays();
+    return {recorder, chain_.kernel(), chain_.state(), chain_.others()};
+  }
+  /// See Chain.
+  template <class... Arguments>
+  void prepare(size_t stage, Arguments&&... arguments) {
+    chain_.prepare(stage, arguments...);
+  }
+  void step(StepRecorder<Kernel>& record) {
+    Kernel& kernel = chain_.kernel();
+    const Vec2 from = kernel.raster_of(chain_.state());
+    const StepResult result = chain_.step(record);
+    record.settle(result);
+    const State& y = chain_.proposal(result, 0);
+    ChainStats::Row& row = stats_.rows[kernel.stats_row()];
+    stats_.count(row, result, kernel.generated(y),
+                 glm::length(kernel.raster_of(chain_.state()) - from));
+    row.rays += kernel.rays().total() - stats_.rays.total();
+    stats_.rays = kernel.rays();
+    count_own(kernel, row, 0);
+    if (stats_.run > stats_.longest.rejections && stats_.run % 64 == 0)
+      stats_.longest = {stats_.run, kernel.raster_of(chain_.state()),
+                        kernel.signature(chain_.state())};
+  }
+
+  /// Goes on from another state; the statistics go on.
+  void restart(const State& start) {
+    chain_.restart(start);
+    stats_.run = 0;
+  }
+  const ChainStats& stats() const override { return stats_; }
+  const State& state() const { return chain_.state(); }
+  Rng& rng() { return chain_.rng(); }
+  void count_tour(uint64_t steps) {
+    ++stats_.tours;
+    stats_.longest_tour = std::max(stats_.longest_tour, steps);
+  }
+  /// Rays that were traced for it elsewhere.
+  void count(const RayCounts& rays) {
+    chain_.kernel().rays() += rays;
+    stats_.rays = chain_.kernel().rays();
+  }
+
+  void save(ByteWriter& bytes) const override {
+    chain_.kernel().save(bytes, chain_.state());
+    save_progress(bytes);
+  }
+  void load(ByteReader& bytes) override {
+    State x;
+    chain_.kernel().load(bytes, x);
+    chain_.restart(std::move(x));
+    load_progress(bytes);
+  }
+  /// All but the state, for a chain that is about to restart.
+  void save_progress(ByteWriter& bytes) const {
+    bytes.write(chain_.rng().state());
+    stats_.save(bytes);
+  }
+  void load_progress(ByteReader& bytes) {
+    chain_.rng() = Rng(bytes.read<Rng::State>());
+    stats_.load(bytes);
+    chain_.kernel().rays() = stats_.rays;
+  }
+
+ private:
+  template <class K>
+  static auto count_own(K& kernel, ChainStats::Row& row, int) -> decltype(kernel.count_own(row)) {
+    kernel.count_own(row);
+  }
+  template <class K>
+  static void count_own(K&, ChainStats::Row&, long) {}
+
+  Chain<State, Kernel, Kernel::stages> chain_;
+  ChainStats stats_;
+};
+
+}  // namespace mlt

@@ -1,0 +1,296 @@
+#include "rendering/metropolis_pilot.h"
+
+#include "markov/bootstrap.h"
+
+#include <array>
+#include <cmath>
+#include <map>
+
+namespace mlt {
+namespace {
+
+/// The thresholds c of FamilyWeights that are tried, in units of b.
+constexpr std::array<double, 8> thresholds = {1. / 16, 1. / 4, 1, 4, 16, 64, 256, 1024};
+using PerThreshold = std::array<double, thresholds.size()>;
+
+/// Samples are drawn in so many parts, one after the other in each.
+constexpr uint64_t parts = 64;
+
+/// Runs part(i, first, last) for each part of `count` samples.
+template <class Part>
+void in_parts(uint64_t count, int threads, Part&& part) {
+  parallel_for(threads, parts,
+               [&](uint64_t i) { part(i, count * i / parts, count * (i + 1) / parts); });
+}
+
+/// What one chain adds to the pixels, for each of `thresholds`.
+using PixelSums = std::map<std::pair<int, int>, PerThreshold>;
+
+/// How noisy one family is, in units of the brightness of each pixel, and what it costs.
+struct Noise {
+  PerThreshold squares{};
+  uint64_t count = 0, rays = 0;
+  double cost_of_ray = 1;
+
+  Noise& operator+=(const Noise& other) {
+    for (size_t i = 0; i < thresholds.size(); ++i) squares[i] += other.squares[i];
+    count += other.count;
+    rays += other.rays;
+    cost_of_ray = other.cost_of_ray;
+    return *this;
+  }
+  double n() const { return static_cast<double>(count); }
+  /// In rays; all the rest costs about as much again as one ray.
+  double cost() const { return cost_of_ray * (1 + static_cast<double>(rays) / n()); }
+  double square(size_t threshold) const { return squares[threshold] / n(); }
+};
+
+struct Forecast {
+  Allocation allocation;
+  double variance = 0;  ///< That is to be expected, times the time.
+};
+
+/// So many steps of tours are much more work than the sample that they start from.
+constexpr double least_steps_per_sample = 64;
+
+/// Where the choice hardly matters more is left to the samples: their noise is known better.
+constexpr double hardly = 1.15;
+
+class Pilot {
+ public:
+  Pilot(MetropolisAlgorithm& algorithm, const Raster& raster, const TargetMap& coarse,
+        const PilotSettings& settings, const std::atomic<bool>& cancelled)
+      : algorithm_(algorithm),
+        raster_(raster),
+        coarse_(coarse),
+        settings_(settings),
+        cancelled_(cancelled),
+        candidates_{settings.seed, Purpose::allocation, settings.samples} {}
+
+  /// b, as far as the candidates tell; 0: there is no light for chains to start from.
+  double find_starts() {
+    const std::vector<double> weights = draw_candidates(
+        candidates_, settings_.threads, cancelled_, [&] { return algorithm_.source(); },
+        [&](MetropolisAlgorithm::Source& source, Rng& rng) {
+          return weigh(source, raster_, RandomSampler(rng)).target;
+        },
+        [](const MetropolisAlgorithm::Source&) {});
+    Rng rng = candidates_.rng(candidates_.count);
+    starts_ = resample(weights, settings_.chains, rng);
+    return starts_.b;
+  }
+
+  /// Samples come in pairs that have the image position in common. Those of a render are stratified
+  /// over the pixels, so that what a pair agrees on is no noise.
+  /// Returns false if the algorithm has none of these techniques.
+  bool draw_samples(SampleTechniques techniques) {
+    if (!algorithm_.set_techniques(techniques)) return false;
+    techniques_ = techniques;
+    samples_ = {};
+    std::array<Noise, parts> noise;
+    const uint64_t stream = mix_bits(settings_.seed ^ mix_bits(uint64_t(Purpose::allocation)));
+    in_parts(settings_.samples / 2, settings_.threads,
+             [&](uint64_t part, uint64_t i, uint64_t last) {
+               const auto source = algorithm_.sample_source();
+               for (; i < last && !cancelled_; ++i) {
+                 PixelSampler first(stream, static_cast<uint32_t>(i)),
+                     second(mix_bits(stream), static_cast<uint32_t>(i));
+                 const Vec2 position = raster_.sample(first.next2());
+                 second.next2();
+                 const PerThreshold a = add_sample(source->sample(position, first), noise[part]),
+                                    b = add_sample(source->sample(position, second), noise[part]);
+                 for (size_t t = 0; t < thresholds.size(); ++t)
+                   noise[part].squares[t] += sqr(a[t] - b[t]);
+               }
+               noise[part].rays = source->rays().total();
+               noise[part].cost_of_ray = source->cost_of_ray();
+             });
+    for (const Noise& one : noise) samples_ += one;
+    return true;
+  }
+  /// Of samples alone: variance times cost.
+  double noise_of_samples() const {
+    return samples_.cost() * samples_.square(thresholds.size() - 1);
+  }
+  /// Whether paths with a T / P above 64 b make most of the noise of samples. The chains of a pilot
+  /// have hardly found them, and seem less noisy than they will be.
+  bool has_rare_light() const {
+    return samples_.squares.back() > 2 * samples_.squares[thresholds.size() - 3];
+  }
+
+  /// With a share s of the time the variance is v1 c1 / s + v2 c2 / (1 - s); it is least, and (sqrt
+  /// (v1 c1) + sqrt(v2 c2))^2, for s / (1 - s) = sqrt(v1 c1) / sqrt(v2 c2).
+  Forecast forecast() {
+    run_chains();
+    Allocation best;
+    best.techniques = techniques_;
+    if (samples_.count == 0 || chains_.count == 0) return {best};  // cancelled
+    best.mutations_per_sample = samples_.cost() / chains_.cost();
+    const double greatest =
+        has_rare_light() ? settings_.greatest_share_with_rare_light : settings_.greatest_share;
+    double least = std::numeric_limits<double>::infinity();
+    for (size_t i = 0; i < thresholds.size(); ++i) {
+      const double v1 = samples_.cost() * samples_.square(i),
+                   v2 = chains_.cost() * chains_.square(i);
+      const double share = settings_.share.value_or(std::clamp(
+          std::sqrt(v1) / (std::sqrt(v1) + std::sqrt(v2)), settings_.least_share, greatest));
+      const double variance = v1 / share + v2 / (1 - share);
+      if (!(variance < hardly * least)) continue;
+      least = std::min(least, variance);
+      best.share = share;
+      best.weights = weights(i);
+    }
+    return {best, least};
+  }
+
+ private:
+  /// What light counts for: its share of the brightness of its pixel.
+  double relative(const Color& rgb, const Vec2& raster) const {
+    return target_luminance(rgb) * coarse_(raster);
+  }
+  FamilyWeights weights(size_t i) const { return FamilyWeights(starts_.b * thresholds[i]); }
+
+  /// Returns what the sample adds to its own pixel. All that it adds to others by light tracing is
+  /// noise.
+  PerThreshold add_sample(const std::vector<FoundLight>& found, Noise& noise) const {
+    PerThreshold own_pixel{};
+    for (const FoundLight& one : found) {
+      const double value = relative(one.rgb, one.raster);
+      for (size_t t = 0; t < thresholds.size(); ++t) {
+        const double weighted = value * weights(t).of_sample(one.target_over_density);
+        if (one.own_pixel)
+          own_pixel[t] += weighted;
+        else
+          noise.squares[t] += sqr(weighted);
+      }
+    }
+    ++noise.count;
+    return own_pixel;
+  }
+
+  /// Squares of what a chain adds to a pixel in all: what it stays for makes the image noisier.
+  void run_chains() {
+    chains_ = {};
+    const std::vector<uint32_t>& seeds = starts_.seeds;
+    struct Recorder : ChainRecorder {
+      explicit Recorder(const Pilot& p) : pilot(p) {}
+      void record(const Vec2& raster, const Color& rgb_per_target, double weight,
+                  double target_over_density) override {
+        const double value = weight * pilot.starts_.b * pilot.relative(rgb_per_target, raster);
+        PerThreshold& sums = pixels[{static_cast<int>(std::floor(raster.x)),
+                                     static_cast<int>(std::floor(raster.y))}];
+        for (size_t t = 0; t < thresholds.size(); ++t)
+          sums[t] += value * pilot.weights(t).of_chain(target_over_density);
+      }
+      const Pilot& pilot;
+      PixelSums pixels;
+    };
+    const auto together = static_cast<size_t>(algorithm_.chains_together());
+    std::vector<Noise> noise((seeds.size() + together - 1) / together);
+    parallel_for(settings_.threads, noise.size(), [&](uint64_t team) {
+      if (cancelled_) return;
+      const size_t first = team * together, last = std::min(first + together, seeds.size());
+      std::vector<std::unique_ptr<RenderChain>> chains;
+      std::vector<Recorder> recorders(last - first, Recorder(*this));
+      std::vector<ChainVisit> visits;
+      for (size_t i = first; i < last; ++i) {
+        const ChainId id{settings_.seed,      0,
+                         static_cast<int>(i), static_cast<int>(seeds.size()),
+                         starts_.b,           Purpose::allocation};
+        chains.push_back(algorithm_.start(id, candidates_.rng(seeds[i]),
+                                          candidates_.rng(candidates_.count + 1 + i)));
+        visits.push_back({chains.back().get(), &recorders[i - first]});
+      }
+      algorithm_.advance(visits, settings_.steps);
+      Noise& sum = noise[team];
+      for (const Recorder& recorder : recorders)
+        for (const auto& [pixel, sums] : recorder.pixels)
+          for (size_t t = 0; t < thresholds.size(); ++t) sum.squares[t] += sqr(sums[t]);
+      sum.count = settings_.steps * chains.size();
+      for (const auto& chain : chains) sum.rays += chain->stats().rays.total();
+    });
+    for (const Noise& one : noise) chains_ += one;
+  }
+
+  MetropolisAlgorithm& algorithm_;
+  const Raster& raster_;
+  const TargetMap& coarse_;
+  const PilotSettings& settings_;
+  const std::atomic<bool>& cancelled_;
+  Candidates candidates_;
+  Bootstrap starts_;
+  SampleTechniques techniques_ = SampleTechniques::all;
+  Noise samples_, chains_;
+};
+
+/// Rounded, so that the same scene in another unit of length has the same image to the last bit.
+double to_half_octaves(double x) { return std::exp2(std::round(2 * std::log2(x)) / 2); }
+
+/// Between N1 samples and N2 steps, c = b N1 / N2 would be the balance heuristic (Veach 1997, eq.
+/// 9.8) if steps were independent. The more of the time the pilot gives to the samples, the noisier
+/// it has seen the chains: 1 / sqrt(1 - share) steps count as one.
+void set_tours(Allocation& allocation, double b) {
+  const double share = allocation.share,
+               steps = allocation.mutations_per_sample * (1 - share) / share;
+  allocation.weights = FamilyWeights(b / to_half_octaves(steps * std::sqrt(1 - share)));
+  allocation.b = b;
+  allocation.steps_per_sample = std::max(to_half_octaves(steps), least_steps_per_sample);
+}
+
+Allocation chains_alone(double b) {
+  Allocation allocation;
+  allocation.b = b;
+  allocation.steps_per_sample = least_steps_per_sample;
+  return allocation;
+}
+
+}  // namespace
+
+CoarseImage coarse_image(const MetropolisAlgorithm& algorithm, const Raster& raster,
+                         const PilotSettings& pilot, const std::atomic<bool>& cancelled) {
+  std::vector<CoarseImage> images(parts, {blank_image(raster)});
+  const uint64_t stream = mix_bits(pilot.seed ^ mix_bits(uint64_t(Purpose::map)));
+  in_parts(pilot.coarse_samples, pilot.threads, [&](uint64_t part, uint64_t i, uint64_t last) {
+    const auto source = algorithm.source();
+    for (; i < last && !cancelled; ++i) {
+      PixelSampler sampler(stream, static_cast<uint32_t>(i));
+      const Vec2 position = raster.sample(sampler.next2());
+      for (const FoundLight& found : source->sample(position, sampler)) {
+        if (!found.valid()) continue;
+        images[part].map.add(found.raster, found.weight);
+        images[part].b += found.weight / static_cast<double>(pilot.coarse_samples);
+      }
+    }
+  });
+  CoarseImage sum{blank_image(raster)};
+  for (const CoarseImage& image : images) {
+    sum.map.add(image.map);
+    sum.b += image.b;
+  }
+  sum.map.finish();
+  return sum;
+}
+
+Allocation allocate(MetropolisAlgorithm& algorithm, const Raster& raster, const TargetMap& coarse,
+                    const PilotSettings& settings, const std::atomic<bool>& cancelled) {
+  Pilot pilot(algorithm, raster, coarse, settings, cancelled);
+  const SampleTechniques first = settings.techniques.value_or(SampleTechniques::all);
+  algorithm.set_techniques(first);
+  const double b = pilot.find_starts();
+  if (!(b > 0) && settings.share == 0) throw no_light_found(settings.samples);
+  if (!(b > 0)) return samples_alone(first);
+  if (settings.share == 0) return chains_alone(b);
+  pilot.draw_samples(first);
+  Forecast best = pilot.forecast();
+  const double noise = pilot.noise_of_samples();
+  if (!settings.techniques && pilot.draw_samples(SampleTechniques::path_tracing) &&
+      pilot.noise_of_samples() < noise && !pilot.has_rare_light()) {
+    const Forecast other = pilot.forecast();
+    if (other.allocation.share > 0.5 && hardly * other.variance < best.variance) best = other;
+  }
+  algorithm.set_techniques(best.allocation.techniques);
+  if (algorithm.has_tours() && best.variance > 0) set_tours(best.allocation, b);
+  return best.allocation;
+}
+
+}  // namespace mlt

@@ -1,0 +1,49 @@
+// The pilot of a Metropolis render: a few independent samples and short chains tell how noisy the
+// two families are, and what they cost. Their paths are not used again, so nothing is biased.
+#pragma once
+
+#include "rendering/metropolis_algorithm.h"
+
+#include <limits>
+#include <optional>
+
+namespace mlt {
+
+/// How a render divides its time between chains and independent samples.
+struct Allocation {
+  double share = 0;       ///< Of the time, for independent samples; 1: there are no chains.
+  FamilyWeights weights;  ///< Of both families.
+  double mutations_per_sample = 1;                      ///< What an independent sample costs.
+  SampleTechniques techniques = SampleTechniques::all;  ///< Of the independent samples.
+  bool in_time = true;                                  ///< Whether there was time to find it.
+  double b = 0;                                         ///< A rough guess, for tours;
+  double steps_per_sample = 1;  ///< and how many steps they make from a sample in the mean.
+};
+
+struct PilotSettings {
+  uint64_t seed = 0;
+  int threads = 1;
+  uint64_t coarse_samples = 0;  ///< For the coarse image.
+  uint64_t samples = 0;         ///< As candidates for the starts of chains, and once more.
+  int chains = 64;
+  uint64_t steps = 2000;                       ///< Of each chain.
+  std::optional<double> share;                 ///< See Allocation. What is given stays.
+  std::optional<SampleTechniques> techniques;  ///< The same.
+  /// Within which the share of the independent samples stays, as long as there are chains.
+  double least_share = 0.05, greatest_share = 0.95, greatest_share_with_rare_light = 0.2;
+};
+
+/// Without chains.
+inline Allocation samples_alone(SampleTechniques techniques) {
+  return {1, FamilyWeights(std::numeric_limits<double>::max()), 1, techniques};
+}
+
+CoarseImage coarse_image(const MetropolisAlgorithm& algorithm, const Raster& raster,
+                         const PilotSettings& pilot, const std::atomic<bool>& cancelled);
+
+/// Finds the division of time with the smallest expected noise, relative to the brightness of
+/// `coarse`. Without any light for chains to start from, samples are left alone.
+Allocation allocate(MetropolisAlgorithm& algorithm, const Raster& raster, const TargetMap& coarse,
+                    const PilotSettings& settings, const std::atomic<bool>& cancelled);
+
+}  // namespace mlt

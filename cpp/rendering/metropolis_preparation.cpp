@@ -1,0 +1,142 @@
+// Before the first unit of a Metropolis render: a pilot divides the time, and a bootstrap starts
+// chains.
+#include "base/parallel.h"
+#include "base/watchdog.h"
+#include "rendering/metropolis_rendering.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace mlt {
+
+void MetropolisRendering::render_direct(int threads, const std::atomic<bool>& cancelled) {
+  Rendering& direct = *direct_.rendering;
+  direct.prepare(threads, cancelled);
+  parallel_for(threads, direct.plan().unit_count(direct_.spp), [&](uint64_t unit) {
+    if (!cancelled) direct.run_unit(unit);
+  });
+}
+
+void MetropolisRendering::prepare(int threads, const std::atomic<bool>& cancelled) {
+  if (direct_.rendering) render_direct(threads, cancelled);
+  if (std::isinf(preparation_seconds_) || settings_.independent_share == 0) {
+    prepare_chains(threads, cancelled);
+    return;
+  }
+  using Clock = std::chrono::steady_clock;
+  const auto end = Clock::now() + std::chrono::duration<double>(preparation_seconds_);
+  bool in_time = false;
+  try {
+    const Watchdog watchdog([&] { return cancelled || Clock::now() >= end; }, 0);
+    prepare_chains(threads, watchdog.stop());
+    in_time = !watchdog.stop();
+  } catch (const Abandoned&) {
+  }
+  if (!in_time && !cancelled) do_without_chains();
+}
+
+/// A render too short for pilot and bootstrap is one of independent samples.
+void MetropolisRendering::do_without_chains() {
+  for (Group& group : groups_) {
+    group.b = 0;
+    group.bootstrap = {};
+  }
+  allocation_ = samples_alone(settings_.techniques.value_or(SampleTechniques::all));
+  allocation_.in_time = false;
+  algorithm_->set_techniques(allocation_.techniques);
+  lay_out();
+}
+
+void MetropolisRendering::prepare_chains(int threads, const std::atomic<bool>& cancelled) {
+  allocation_ = run_pilot(threads, cancelled);
+  if (cancelled) return;
+  if (allocation_.share == 1)
+    lay_out();
+  else if (algorithm_->has_tours())
+    start_tours();
+  else
+    start_chains(threads, cancelled);
+}
+
+Allocation MetropolisRendering::run_pilot(int threads, const std::atomic<bool>& cancelled) {
+  if (settings_.independent_share == 1) {
+    const SampleTechniques techniques = settings_.techniques.value_or(SampleTechniques::all);
+    algorithm_->set_techniques(techniques);
+    return samples_alone(techniques);
+  }
+  PilotSettings pilot;
+  pilot.seed = seed_;
+  pilot.threads = threads;
+  pilot.coarse_samples = settings_.luminance_samples / 3;
+  pilot.samples = settings_.luminance_samples / 6;
+  pilot.chains = std::min(pilot.chains, settings_.chains);
+  pilot.share = settings_.independent_share;
+  pilot.techniques = settings_.techniques;
+  const Raster& raster = scene_->camera().raster();
+  algorithm_->look_around(seed_, threads, cancelled);
+  const CoarseImage coarse = coarse_image(*algorithm_, raster, pilot, cancelled);
+  algorithm_->prepare(coarse, seed_, threads, cancelled);
+  if (settings_.independent_share == 0 && !algorithm_->has_tours()) return {};
+  Allocation allocation = allocate(*algorithm_, raster, coarse.map, pilot, cancelled);
+  if (settings_.steps_per_sample) allocation.steps_per_sample = *settings_.steps_per_sample;
+  return allocation;
+}
+
+/// They need no bootstrap.
+void MetropolisRendering::start_tours() {
+  for (Group& group : groups_) group.b = allocation_.b;
+  lay_out();
+  for (const auto& team : teams_)
+    for (size_t k = 0; k < team->chains.size(); ++k) team->chains[k] = blank_chain(*team, k);
+}
+
+void MetropolisRendering::start_chains(int threads, const std::atomic<bool>& cancelled) {
+  const uint64_t per_group = (settings_.luminance_samples + group_count - 1) / group_count;
+  const Candidates candidates{seed_, Purpose::bootstrap, per_group * group_count};
+  const auto seeds = run_bootstrap(candidates, threads, cancelled);
+  if (cancelled) return;
+  lay_out();
+  if (teams_.empty() && !samples_) throw no_light_found(candidates.count);
+  parallel_for(threads, teams_.size(), [&](uint64_t i) {
+    ChainTeam& team = *teams_[i];
+    for (size_t k = 0; k < team.chains.size(); ++k) {
+      const ChainId id = chain_id(team, k);
+      const uint64_t candidate = id.group * per_group + seeds[id.group][id.number];
+      team.chains[k] = algorithm_->start(
+          id, candidates.rng(candidate),
+          Rng(seed_, Purpose::choice, static_cast<uint64_t>(id.number) * group_count + id.group));
+    }
+  });
+}
+
+/// Each group has its own part of the candidates, and resamples the starts of its chains from them.
+std::vector<std::vector<uint32_t>> MetropolisRendering::run_bootstrap(
+    const Candidates& candidates, int threads, const std::atomic<bool>& cancelled) {
+  const std::vector<SampleWeights> weights = draw_candidates(
+      candidates, threads, cancelled, [&] { return algorithm_->source(); },
+      [&](MetropolisAlgorithm::Source& source, Rng& rng) {
+        return weigh(source, scene_->camera().raster(), RandomSampler(rng), allocation_.weights);
+      },
+      [&](const MetropolisAlgorithm::Source& source) { bootstrap_rays_ += source.rays(); });
+  std::vector<std::vector<uint32_t>> seeds(group_count);
+  const uint64_t per_group = candidates.count / group_count;
+  for (int g = 0; g < group_count; ++g) {
+    std::vector<double> targets;
+    for (uint64_t i = g * per_group; i < (g + 1) * per_group; ++i) {
+      targets.push_back(weights[i].target);
+      groups_[g].bootstrap.brightness.add(weights[i].brightness);
+      groups_[g].bootstrap.classes.add(weights[i].brightness);
+      // The weights of a candidate are those of all techniques.
+      if (allocation_.techniques == SampleTechniques::all)
+        groups_[g].bootstrap.of_chains.add(weights[i].of_chains);
+    }
+    Rng rng(seed_, Purpose::resample, g);
+    Bootstrap bootstrap = resample(targets, chains_of(g), rng);
+    groups_[g].b = bootstrap.b;
+    seeds[g] = std::move(bootstrap.seeds);
+  }
+  return seeds;
+}
+
+}  // namespace mlt

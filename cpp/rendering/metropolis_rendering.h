@@ -1,0 +1,117 @@
+// Rendering by Markov chains, with independent samples beside them: what all Metropolis integrators
+// share. Chains and samples find the same paths; FamilyWeights has the weights of both.
+//
+// A render is a fixed number of chains, each with its own random stream; a unit is some steps of
+// one chain or of a few that advance together, and these are visited in turn. They form independent
+// groups, each with its own bootstrap; GroupCombination tells how these add up. The samples are a
+// rendering of their own, whose units are interleaved with those of the chains, so that every
+// prefix of a render is a fair image.
+#pragma once
+
+#include "markov/bootstrap.h"
+#include "rendering/group_combination.h"
+#include "rendering/interleaving.h"
+#include "rendering/metropolis_pilot.h"
+#include "rendering/sampled_rendering.h"
+#include "rendering/separate_direct.h"
+
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+namespace mlt {
+
+struct MetropolisSettings {
+  int chains = 128;
+  int64_t luminance_samples = 50000;
+  std::optional<double> independent_share;     ///< Of the time; without, a pilot finds it.
+  std::optional<SampleTechniques> techniques;  ///< Of the independent samples; the same.
+  std::optional<double> steps_per_sample;      ///< Of tours; the same.
+  bool parts = false;                          ///< Keep the parts of both families as layers.
+  bool only_camera_walks = false;              ///< See warn_of_hidden_lights.
+};
+
+class MetropolisRendering : public Rendering {
+ public:
+  MetropolisRendering(ScenePtr scene, uint64_t seed, const MetropolisSettings& settings,
+                      std::unique_ptr<MetropolisAlgorithm> algorithm, SeparateDirect direct = {});
+
+  void prepare(int threads, const std::atomic<bool>& cancelled) override;
+  Memory memory(double spp) const override;
+  void run_unit(uint64_t unit) override;
+  Image image() const override;
+  /// Of the chains.
+  GroupImage group(int index) const override;
+  std::vector<const Rendering*> parts() const override;
+  Image common_error() const override;
+  std::vector<NamedImage> layers() const override;
+  void add_stats(Stats& stats) const override;
+  std::string save(const Task& task, Content content) const override;
+  void load(const std::string& state) override;
+
+ private:
+  /// Each chain has had its turn within about a second, however large the image.
+  static constexpr double most_steps_per_turn = 1 << 19;
+
+  /// Chains of a group that advance together: a share of the render, after those of the samples.
+  struct ChainTeam {
+    int group, first;  ///< Number of its first chain in the group.
+    std::vector<std::unique_ptr<RenderChain>> chains;
+    double brightness = 0;  ///< Sum of L* of what they have recorded.
+    uint64_t units = 0;     ///< That are done.
+    mutable std::mutex mutex;
+    std::condition_variable turn;
+  };
+  struct Group {
+    double b = 0;
+    SampleSums bootstrap;
+    std::atomic<uint64_t> steps{0};
+  };
+
+  double pixels() const { return scene_->camera().raster().pixels(); }
+  int chains_of(int group) const;
+  ChainId chain_id(const ChainTeam& share, size_t chain) const;
+  std::unique_ptr<RenderChain> blank_chain(const ChainTeam& team, size_t chain) const;
+  uint64_t chain_count() const;
+  uint64_t sample_shares() const { return samples_ ? uint64_t{group_count} : 0; }
+  void render_direct(int threads, const std::atomic<bool>& cancelled);
+  void prepare_chains(int threads, const std::atomic<bool>& cancelled);
+  void do_without_chains();
+  Allocation run_pilot(int threads, const std::atomic<bool>& cancelled);
+  std::vector<std::vector<uint32_t>> run_bootstrap(const Candidates& candidates, int threads,
+                                                   const std::atomic<bool>& cancelled);
+  void start_tours();
+  void start_chains(int threads, const std::atomic<bool>& cancelled);
+  uint64_t passes_per_turn() const;
+  void lay_out();
+  void form_teams(int group);
+  void lay_out_units();
+  void run_team(uint64_t number);
+  Image chain_image(GroupScales scales) const;
+  /// Of each group; the bootstrap of tours are the samples that they start from.
+  std::vector<GroupProgress> progress() const;
+  GroupCombination combination() const;
+  void add_level(Stats& stats) const;
+  ChainStats sum_of_stats(StuckChain& stuck) const;
+  std::string save_prepared() const;
+  void load_prepared(const std::string& prepared);
+  void save_chains(const Shares& shares, Content content, ByteWriter& bytes) const;
+  void load_chains(ByteReader& bytes);
+
+  MetropolisSettings settings_;
+  Allocation allocation_;
+  std::unique_ptr<MetropolisAlgorithm> algorithm_;
+  SeparateDirect direct_;
+  std::unique_ptr<SampledRendering> samples_;  ///< nullptr: there are none.
+  SplatFilm film_;
+  /// The chains of groups that have found light, group after group: the film of one group then
+  /// stays in the cache while its chains advance.
+  std::vector<std::unique_ptr<ChainTeam>> teams_;
+  std::array<Group, group_count> groups_;
+  uint64_t steps_per_unit_ = 1;
+  Interleaving interleaving_;
+  RayCounts bootstrap_rays_;
+};
+
+}  // namespace mlt

@@ -1,0 +1,109 @@
+// What a render of chains and samples tells about itself.
+#include "rendering/hidden_lights.h"
+#include "rendering/metropolis_rendering.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace mlt {
+namespace {
+
+/// If half of the light comes from fewer samples, there may well be more that none has found.
+constexpr uint64_t few_samples = 100;
+
+void warn_of_long_tour(const ChainStats& sum, Stats& stats) {
+  constexpr double much = 0.02;
+  uint64_t steps = 0;
+  for (const ChainStats::Row& row : sum.rows) steps += row.proposed;
+  const double share = static_cast<double>(sum.longest_tour) / static_cast<double>(steps);
+  if (share > much)
+    stats.warnings.push_back(fmt::format(
+        "one tour has made {:.0f} % of all mutations: some light was found once, and is "
+        "shown too bright if that was luck; render for longer",
+        100 * share));
+}
+
+}  // namespace
+
+/// Of all chains; `stuck` becomes the one that has stood still for longest.
+ChainStats MetropolisRendering::sum_of_stats(StuckChain& stuck) const {
+  ChainStats sum;
+  sum.rows.resize(algorithm_->rows().size());
+  sum.rays = bootstrap_rays_;
+  uint64_t number = 0;
+  for (const auto& team : teams_) {
+    const std::lock_guard lock(team->mutex);
+    for (const auto& chain : team->chains) {
+      const ChainStats& s = chain->stats();
+      for (size_t r = 0; r < sum.rows.size(); ++r) sum.rows[r] += s.rows[r];
+      sum.rays += s.rays;
+      sum.invalid += s.invalid;
+      sum.tours += s.tours;
+      sum.longest_tour = std::max(sum.longest_tour, s.longest_tour);
+      if (s.longest.rejections > stuck.rejections)
+        stuck = {number, s.longest.rejections, s.longest.raster.x, s.longest.raster.y,
+                 s.longest.signature};
+      ++number;
+    }
+  }
+  return sum;
+}
+
+/// Of the brightness.
+void MetropolisRendering::add_level(Stats& stats) const {
+  SampleSums bootstrap;
+  for (const GroupProgress& group : progress()) bootstrap += group.bootstrap;
+  Estimate b = estimate(bootstrap.brightness);
+  WeightClasses classes = bootstrap.classes;
+  if (samples_) {
+    b = pooled(b, samples_->mean_brightness());
+    classes += samples_->classes();
+  }
+  stats.b = b.mean;
+  stats.b_error = std::sqrt(b.variance);
+  stats.independent_share = allocation_.share;
+  if (samples_) stats.independent = algorithm_->samples_name();
+  stats.independent_samples = b.count;
+  stats.samples_carrying_half = classes.carrying_half();
+  if (b.mean > 0) stats.level_error = std::hypot(stats.b_error, combination().missing()) / b.mean;
+  if (stats.level_error > 0.05)
+    stats.warnings.push_back(fmt::format(
+        "the image may be {:.0f} % too bright or too dark: some light is found so rarely that its "
+        "amount is not known yet; render for longer",
+        100 * stats.level_error));
+  if (b.mean > 0 && stats.samples_carrying_half < few_samples)
+    stats.warnings.push_back(fmt::format(
+        "half of the light comes from {} of {} independent samples: there may be more that none "
+        "has found; render for longer",
+        stats.samples_carrying_half, b.count));
+  if (!allocation_.in_time)
+    stats.warnings.push_back(
+        "the time was too short to prepare chains: the image is one of independent samples");
+  else if (allocation_.share == 1 && settings_.independent_share != 1)
+    stats.warnings.push_back(
+        "no light was found for chains to start from; give more luminance_samples, or check that "
+        "light can reach the camera");
+}
+
+void MetropolisRendering::add_stats(Stats& stats) const {
+  if (samples_) samples_->add_stats(stats);
+  if (settings_.only_camera_walks) warn_of_hidden_lights(scene(), stats);
+  add_level(stats);
+
+  StuckChain stuck;
+  const ChainStats sum = sum_of_stats(stuck);
+  if (stuck.rejections > 0) stats.stuck = {stuck};
+  stats.invalid_samples += sum.invalid;
+  stats.rays_intersect += sum.rays.intersect;
+  stats.rays_occluded += sum.rays.occluded;
+  stats.tours = sum.tours;
+  stats.longest_tour = sum.longest_tour;
+  add_rows(algorithm_->rows(), sum.rows, stats);
+  warn_of_long_tour(sum, stats);
+  if (film_.saturated() > 0)
+    stats.warnings.push_back(
+        "the film's fixed-point range was exceeded; the brightest pixels are wrong");
+}
+
+}  // namespace mlt

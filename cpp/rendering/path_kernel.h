@@ -1,0 +1,51 @@
+// Moves the light paths of chains that render.
+#pragma once
+
+#include "mutation/path_chain.h"
+#include "mutation/path_target.h"
+#include "path/possible_path.h"
+#include "rendering/metropolis_chain.h"
+
+namespace mlt {
+
+class PathKernel : public PathMixture {
+ public:
+  PathKernel(const PathTarget& target, const PathMixture& mixture)
+      : PathMixture(mixture), target_(&target) {}
+
+  void record(ChainRecorder& recorder, const PathState& x, double weight) const {
+    recorder.record(x.raster, x.rgb / x.target, weight,
+                    recorder.wants_density() ? target_->over_density(x) : 1);
+  }
+  double proposal_weight() const { return 0; }
+  Vec2 raster_of(const PathState& x) const { return x.raster; }
+
+  /// There is one for each mutation and row of its weights.
+  size_t stats_row() const { return chosen() * (longest_row + 1) + std::min(row(), longest_row); }
+  size_t stats_rows() const { return moves().size() * (longest_row + 1); }
+  RayCounts& rays() { return aids().rays; }
+  void count_own(ChainStats::Row& row) {
+    WalkFailures& failures = aids().failures;
+    row.failed_walks += failures.there;
+    row.failed_returns += failures.back;
+    failures = {};
+  }
+  std::string signature(const PathState& x) const { return mlt::signature(x.terms); }
+
+  void save(ByteWriter& bytes, const PathState& x) const { mlt::save(bytes, x.path); }
+  void load(ByteReader& bytes, PathState& x) {
+    mlt::load(bytes, x.path);
+    if (!possible(target_->scene(), x.path))
+      throw RenderError("the saved state has a path that the scene cannot have");
+    target_->evaluate(x);
+  }
+
+ private:
+  const PathTarget* target_;
+};
+
+/// Names of the rows of the statistics; `weights` may have rows of their own for each length.
+std::vector<MutationStats> path_kernel_rows(const Mutations& mutations,
+                                            const MixtureWeights& weights);
+
+}  // namespace mlt

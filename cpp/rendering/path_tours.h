@@ -1,0 +1,119 @@
+// Tours of light paths (markov/tour.h) from the samples of bidirectional path tracing.
+#pragma once
+
+#include "markov/tour.h"
+#include "mutation/path_seeds.h"
+#include "rendering/metropolis_algorithm.h"
+#include "rendering/path_kernel.h"
+
+namespace mlt {
+
+/// Each advance draws as many samples as have `steps` steps in the mean, and ends with the last
+/// tour.
+class PathTours : public RenderChain {
+ public:
+  /// `rate` has kappa0 = id.b / steps_per_sample.
+  PathTours(const PathTarget& target, const PathMixture& mixture, const ChainId& id,
+            const FamilyWeights& weights, double steps_per_sample, const KillRate& rate)
+      : target_(&target),
+        weights_(weights),
+        kill_rate_(rate),
+        steps_per_sample_(steps_per_sample),
+        seeds_(target),
+        chain_(PathKernel(target, mixture), id, {}),
+        id_(id),
+        stream_(mix_bits(mix_bits(id.seed ^ mix_bits(uint64_t(id.purpose))) + id.group)),
+        due_(chain_.rng().next()),
+        first_kill_(Rng(stream_, id.purpose, 0).next()) {}
+
+  void advance(uint64_t steps, ChainRecorder& recorder) override {
+    due_ += static_cast<double>(steps) / steps_per_sample_;
+    for (; due_ >= 1; --due_) start_tours(recorder);
+  }
+  const ChainStats& stats() const override { return chain_.stats(); }
+  const SampleSums* samples() const override { return &samples_; }
+
+  void save(ByteWriter& bytes) const override {
+    chain_.save_progress(bytes);
+    samples_.save(bytes);
+    bytes.write(count_);
+    bytes.write(tours_);
+    bytes.write(due_);
+  }
+  void load(ByteReader& bytes) override {
+    chain_.load_progress(bytes);
+    samples_.load(bytes);
+    bytes.read(count_);
+    bytes.read(tours_);
+    bytes.read(due_);
+    if (!(0 <= due_ && due_ < 1)) throw RenderError("the saved state owes more than a sample");
+  }
+
+ private:
+  /// A path that roulette has let through with probability q starts r / q tours in the mean.
+  void start_tours(ChainRecorder& recorder) {
+    SampleWeights sum;
+    PixelSampler sampler(stream_, static_cast<uint32_t>(in_group(count_++)));
+    const Vec2 raster = target_->scene().camera().raster().sample(sampler.next2());
+    seeds_.draw(raster, sampler, [&](const Connection& c, double weight) {
+      const double over_density = weight / c.weight * c.own_share;
+      const double luminance = target_luminance(c.contribution) * c.weight;
+      sum.brightness += luminance;
+      sum.of_chains += luminance * weights_.of_chain(over_density);
+      if (!std::isfinite(over_density)) return;
+      const double starts = kill_rate_.starts(over_density) / c.survival;
+      bool assembled = false;
+      for (double n = std::floor(starts + chain_.rng().next()); n > 0; --n) {
+        const double u = next_kill();
+        if (!(kill_rate_.survival(over_density) > u)) continue;
+        if (!assembled) seeds_.assemble(c, start_);
+        assembled = true;
+        if (start_.target > 0) run(u, recorder);
+      }
+    });
+    add(sum);
+    chain_.count(seeds_.take_rays());
+  }
+
+  /// The weights of a sample are those of all techniques.
+  void add(const SampleWeights& sum) {
+    samples_.brightness.add(sum.brightness);
+    samples_.classes.add(sum.brightness);
+    if (target_->techniques() == SampleTechniques::all) samples_.of_chains.add(sum.of_chains);
+  }
+
+  void run(double u, ChainRecorder& recorder) {
+    chain_.restart(start_);
+    StepRecorder<PathKernel> record = chain_.begin(recorder);
+    const PathState& x = chain_.state();
+    chain_.count_tour(run_tour(
+        u, [&] { return kill_rate_.survival(target_->over_bidirectional_density(x)); },
+        [&] { chain_.step(record); }));
+    record.finish();
+  }
+
+  /// The chains of a group share its sequences, so that these are stratified over the group.
+  uint64_t in_group(uint64_t i) const { return i * id_.count + id_.number; }
+  /// Spread evenly over all tours (Kronecker sequence of the golden ratio), since few of them are
+  /// long.
+  double next_kill() {
+    const double turns = first_kill_ + static_cast<double>(in_group(tours_++)) * 0.6180339887498949;
+    return turns - std::floor(turns);
+  }
+
+  const PathTarget* target_;
+  FamilyWeights weights_;
+  KillRate kill_rate_;
+  double steps_per_sample_;
+  PathSeeds seeds_;
+  RecordedChain<PathKernel> chain_;
+  PathState start_;
+  SampleSums samples_;
+  ChainId id_;
+  uint64_t stream_;  ///< Of the group.
+  uint64_t count_ = 0, tours_ = 0;
+  double due_;  ///< Of the next sample.
+  double first_kill_;
+};
+
+}  // namespace mlt

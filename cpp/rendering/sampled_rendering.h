@@ -1,0 +1,194 @@
+// Rendering by independent samples of each pixel: what path, direct, ptracer and bdpt share.
+#pragma once
+
+#include "base/registry.h"
+#include "image/sample_film.h"
+#include "image/splat_film.h"
+#include "path/ray_counts.h"
+#include "path/samplers.h"
+#include "rendering/integrator.h"
+
+#include <algorithm>
+#include <array>
+#include <functional>
+
+namespace mlt {
+
+/// Where samples go; invalid ones are counted and left out. When a sample is replayed there is no
+/// film but somebody to be told its paths.
+class SampleSink {
+ public:
+  SampleSink(SampleFilm::Tile& tile, SplatFilm& layers) : tile_(&tile), layers_(&layers) {}
+  explicit SampleSink(Replay& replay) : replay_(&replay) {}
+
+  /// Radiance at the sampled raster position.
+  void add(const Vec2& raster, const Color& radiance) {
+    if (!valid(radiance)) return;
+    if (tile_)
+      tile_->add(raster, radiance);
+    else
+      replay_->radiance += radiance;
+  }
+  /// What a walk from a light leaves anywhere on the image, over its density.
+  void splat(const Vec2& raster, const Color& contribution) {
+    if (valid(contribution) && tile_) tile_->splat(raster, contribution);
+  }
+  /// The same for a layer of the film.
+  void splat_layer(int layer, const Vec2& raster, const Color& contribution) {
+    if (is_finite(contribution) && layers_) layers_->add(layer, raster, contribution);
+  }
+  /// What a sample tells about the brightness.
+  void add_sums(double brightness, double of_chains) {
+    if (tile_) tile_->sums().add(brightness, of_chains);
+  }
+  void count_invalid() { ++invalid_; }
+  /// Where found paths are to be told; usually nullptr.
+  std::vector<FoundPath>* paths() { return replay_ ? &replay_->paths : nullptr; }
+  uint64_t invalid() const { return invalid_; }
+
+ private:
+  bool valid(const Color& color) {
+    const bool ok = is_finite(color) && min_component(color) >= 0;
+    if (!ok) ++invalid_;
+    return ok;
+  }
+  SampleFilm::Tile* tile_ = nullptr;
+  SplatFilm* layers_ = nullptr;
+  Replay* replay_ = nullptr;
+  uint64_t invalid_ = 0;
+};
+
+struct SampledSettings {
+  bool splats = false;  ///< Walks from lights leave something anywhere on the image.
+  std::vector<std::string> layers = {};  ///< Further images to be kept.
+  /// So many passes go to a group, then as many to the next one; among them, samples are
+  /// stratified. The more, the better stratified is a render of few samples; the fewer, the sooner
+  /// it has several groups, whose spread tells its error.
+  uint64_t passes_per_turn = 8;
+  bool only_camera_walks = false;  ///< See warn_of_hidden_lights.
+};
+
+/// Of algorithms whose walks begin at the camera.
+inline SampledSettings camera_walks() {
+  SampledSettings settings;
+  settings.only_camera_walks = true;
+  return settings;
+}
+
+/// The numbers of one sample of each cell: those of its group's stream for it.
+struct CellStreams {
+  uint64_t seed;  ///< Mixed.
+  int group;
+  uint32_t index;
+
+  uint64_t stream(int x, int y) const {
+    const uint64_t cell = (uint64_t(uint32_t(y)) << 32) | uint32_t(x);
+    return mix_bits(mix_bits(seed ^ cell) + group);
+  }
+  PixelSampler sampler(int x, int y) const { return {stream(x, y), index}; }
+};
+
+/// Calls take(cell) in an order in which those that follow each other are near: a packet of rays
+/// has 4 x 2 cells.
+template <class Take>
+void for_each_packet_cell(const PixelRect& cells, Take&& take) {
+  for (int y0 = cells.y0; y0 < cells.y1; y0 += 2)
+    for (int x0 = cells.x0; x0 < cells.x1; x0 += 4)
+      for (int y = y0; y < std::min(y0 + 2, cells.y1); ++y)
+        for (int x = x0; x < std::min(x0 + 4, cells.x1); ++x) take(Vec2i(x, y));
+}
+
+/// Takes samples one after the other; keeps its memory between them.
+class SampleTaker {
+ public:
+  virtual ~SampleTaker() = default;
+  /// One sample for each of these cells.
+  virtual void sample_cells(const PixelRect& cells, const CellStreams& streams, SampleSink& sink,
+                            RayCounts& rays) {
+    for (int y = cells.y0; y < cells.y1; ++y)
+      for (int x = cells.x0; x < cells.x1; ++x) sample_cell({x, y}, streams, sink, rays);
+  }
+  /// The sampler has given the raster position and goes on with the lens and the time.
+  virtual void sample(const Vec2& raster, PixelSampler& sampler, SampleSink& sink,
+                      RayCounts& rays) = 0;
+  void sample_cell(const Vec2i& cell, const CellStreams& streams, SampleSink& sink,
+                   RayCounts& rays) {
+    PixelSampler numbers = streams.sampler(cell.x, cell.y);
+    const Vec2 raster = Vec2(cell) + numbers.next2();
+    sample(raster, numbers, sink, rays);
+  }
+  /// After the last sample.
+  virtual void finish(SampleSink& /*sink*/, RayCounts& /*rays*/) {}
+  /// What film its settings ask for.
+  template <class Settings>
+  static SampledSettings film(const Settings&) {
+    return {};
+  }
+};
+
+class SampledRendering : public Rendering {
+ public:
+  using MakeTaker = std::function<std::unique_ptr<SampleTaker>(const Scene&)>;
+  SampledRendering(ScenePtr scene, uint64_t seed, const SampledSettings& settings,
+                   MakeTaker make_taker);
+
+  Memory memory(double spp) const override;
+  /// One sample for each cell of one tile.
+  void run_unit(uint64_t unit) override;
+  Image image() const override { return film_.image(); }
+  GroupImage group(int index) const override {
+    return {film_.group_image(index), static_cast<double>(film_.passes(index))};
+  }
+  const SampleFilm& film() const { return film_; }
+  /// What its samples tell about the brightness (SampleSums), if they do.
+  Estimate mean_brightness() const { return mean_of(&SampleSums::brightness); }
+  Estimate mean_of_chains() const { return mean_of(&SampleSums::of_chains); }
+  WeightClasses classes() const;
+  std::vector<NamedImage> layers() const override;
+  void add_stats(Stats& stats) const override;
+  /// `direct` tells the radiance alone, the others the paths too.
+  Replay replay(const Vec2i& pixel, uint64_t sample) override;
+  std::string save(const Task& task, Content content) const override;
+  void load(const std::string& state) override;
+
+ private:
+  using Counts = std::array<uint64_t, 3>;  ///< Rays, shadow rays, invalid samples.
+
+  struct Place {
+    int group;
+    uint64_t index;  ///< Of the pass in its group.
+  };
+  Place place_of(uint64_t pass) const;
+  Estimate mean_of(MeanSums SampleSums::* sums) const;
+  /// The film's sums of a task.
+  SampleFilm::Selection selection(const Task& task) const;
+  CellStreams streams(const Place& place) const {
+    return {mix_bits(seed_), place.group, static_cast<uint32_t>(place.index)};
+  }
+
+  MakeTaker make_taker_;
+  uint64_t passes_per_turn_;
+  bool only_camera_walks_;
+  SampleFilm film_;
+  std::vector<std::string> layer_names_;
+  SplatFilm layers_;  ///< A group for each layer.
+  std::atomic<uint64_t> intersect_{0}, occluded_{0}, invalid_{0};
+};
+
+/// An integrator whose samples are taken by a Taker(scene, settings), with Taker::settings(params).
+template <class Taker>
+class SampledIntegrator : public Integrator {
+ public:
+  explicit SampledIntegrator(Params& params) : settings_(Taker::settings(params)) {}
+  std::unique_ptr<Rendering> start(ScenePtr scene, uint64_t seed) const override {
+    return std::make_unique<SampledRendering>(std::move(scene), seed, Taker::film(settings_),
+                                              [settings = settings_](const Scene& scene) {
+                                                return std::make_unique<Taker>(scene, settings);
+                                              });
+  }
+
+ private:
+  decltype(Taker::settings(std::declval<Params&>())) settings_;
+};
+
+}  // namespace mlt

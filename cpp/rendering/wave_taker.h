@@ -1,0 +1,71 @@
+// Samples of path tracing, traced side by side.
+#pragma once
+
+#include "path/inspect.h"
+#include "rendering/sampled_rendering.h"
+#include "wave/path_wave.h"
+
+namespace mlt {
+
+class WaveTaker : public SampleTaker {
+ public:
+  WaveTaker(const Scene& scene, const PathRules& rules, Heuristic heuristic)
+      : scene_(&scene), rules_(rules), wave_(scene, rules, heuristic) {}
+
+  void sample_cells(const PixelRect& cells, const CellStreams& streams, SampleSink& sink,
+                    RayCounts& rays) override {
+    for_each_packet_cell(cells, [&](const Vec2i& cell) {
+      wave_.numbers().add(streams.stream(cell.x, cell.y), streams.index);
+      rasters_.emplace_back(cell);
+      if (rasters_.size() == PathWave::capacity) trace_wave(sink, rays);
+    });
+    trace_wave(sink, rays);
+  }
+
+ protected:
+  const Scene& scene() const { return *scene_; }
+  const PathRules& rules() const { return rules_; }
+
+ private:
+  virtual ChainFactor chain_factor(const Vec2& /*raster*/) const { return {}; }
+  /// What a path has found.
+  virtual void show(const Vec2& raster, const Color& radiance, SampleSink& sink) {
+    sink.add(raster, radiance);
+  }
+  /// The paths through all cells in rasters_.
+  void trace_wave(SampleSink& sink, RayCounts& rays) {
+    start_wave();
+    wave_.trace(rays);
+    for (size_t i = 0; i < wave_.size(); ++i) show(rasters_[i], wave_.radiance(i), sink);
+    wave_.clear();
+    rasters_.clear();
+  }
+
+  /// The numbers are those that sample() takes.
+  void start_wave() {
+    const Camera& camera = scene_->camera();
+    const Shutter& shutter = camera.shutter();
+    WaveNumbers& numbers = wave_.numbers();
+    numbers.next2(0, numbers.count(), &u_x_[0], &u_y_[0]);
+    for (size_t i = 0; i < rasters_.size(); ++i) rasters_[i] += Vec2(u_x_[i], u_y_[i]);
+    if (camera.delta_position())
+      numbers.skip2();
+    else
+      numbers.next2(0, numbers.count(), &u_x_[0], &u_y_[0]);
+    if (shutter.open == shutter.close)
+      numbers.skip(1);
+    else
+      numbers.next(0, numbers.count(), &u_time_[0]);
+    for (size_t i = 0; i < rasters_.size(); ++i)
+      wave_.add(camera.ray(rasters_[i], {u_x_[i], u_y_[i]}, camera.time(u_time_[i])),
+                chain_factor(rasters_[i]));
+  }
+
+  const Scene* scene_;
+  PathRules rules_;
+  PathWave wave_;
+  std::vector<Vec2> rasters_;  ///< Of the paths in it; at first, their cells.
+  Wave<double> u_x_, u_y_, u_time_;
+};
+
+}  // namespace mlt

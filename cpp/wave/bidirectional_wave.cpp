@@ -1,0 +1,260 @@
+#include "wave/bidirectional_wave.h"
+
+namespace mlt {
+namespace {
+
+/// From vertices to the lens.
+struct LensEdges {
+  Lanes<double, JointLanes::size> x, y, z, G;  ///< Direction; G = 0: no light goes that way.
+};
+
+/// In double precision: an orthographic camera is far away.
+void find_edges(const JointLanes& a, const SurfacePoint& lens, bool strict,
+                LensEdges& __restrict edges) {
+  const Vec3 p = lens.p, axis = lens.ng;
+  for (int i = 0; i < JointLanes::size; ++i) {
+    const Vec3 to_lens = p - Vec3(a.p[i]);
+    const double distance2 = dot(to_lens, to_lens);
+    const Vec3 w = to_lens * (1 / std::sqrt(distance2));
+    const double geometric = dot(Vec3(a.ng[i]), w), cosine = dot(Vec3(a.n[i]), w);
+    const bool possible = (cosine * a.cosine[i] > 0) & (!strict | (geometric * cosine > 0));
+    const double G = std::fabs(geometric * dot(axis, w)) / distance2;
+    edges.x[i] = w.x;
+    edges.y[i] = w.y;
+    edges.z[i] = w.z;
+    edges.G[i] = possible ? G : 0;
+  }
+}
+
+}  // namespace
+
+bool BidirectionalWave::serves(const Scene& scene, const BidirectionalSettings& settings) {
+  const Shutter& shutter = scene.camera().shutter();
+  if (!settings.sample_direct || settings.heuristic == Heuristic::maximum) return false;
+  if (!scene.camera().delta_position() || shutter.open != shutter.close || scene.accel().moves())
+    return false;
+  for (const EmitterPtr& emitter : scene.emitters())
+    if (!scene.mesh_light(emitter->index()).mesh) return false;
+  return true;
+}
+
+BidirectionalWave::BidirectionalWave(const Scene& scene, const BidirectionalSettings& settings)
+    : scene_(&scene),
+      settings_(settings),
+      beta_(settings.heuristic),
+      lens_(scene.camera().sample_position({0.5, 0.5}, scene.camera().shutter().open)),
+      camera_(scene, settings.rules, Subpath::From::camera, settings.heuristic,
+              settings.light_image),
+      light_(scene, settings.rules, Subpath::From::light, settings.heuristic,
+             settings.light_image) {}
+
+void BidirectionalWave::add(uint64_t stream, uint32_t index, const Vec2& pixel) {
+  rasters_[size()] = pixel;
+  numbers_.add(stream, index);
+}
+
+void BidirectionalWave::clear() {
+  numbers_.clear();
+  splats_.clear();
+}
+
+void BidirectionalWave::trace(RayCounts& rays) {
+  walk_from_camera(rays);
+  walk_from_lights(rays);
+  leave_what_is_left();
+  take_hits();
+  direct_at_ = PixelSampler::Position().begin(Stream::direct);
+  const PathRules& rules = settings_.rules;
+  const int most = std::min(camera_.last_place() + 1, rules.most_edges());
+  for (int t = 1; t <= most; ++t) {
+    choose_direct(t - 1);
+    for (int s = 1; s <= light_.last_place() + 1; ++s) {
+      if (!rules.wants(s + t - 1)) continue;
+      if (t > 1)
+        connect(s, t, rays);
+      else if (settings_.light_image)
+        connect_to_lens(s, rays);
+    }
+  }
+  find_shadows(rays);
+}
+
+/// BidirectionalSampler::walk_from_camera.
+void BidirectionalWave::walk_from_camera(RayCounts& rays) {
+  const Camera& camera = scene_->camera();
+  camera_.clear(size());
+  numbers_.set_position({});
+  numbers_.next2(0, size(), &u_x_[0], &u_y_[0]);
+  for (int i = 0; i < size(); ++i) {
+    rasters_[i] += Vec2(u_x_[i], u_y_[i]);
+    seen_[i] = Color(0);
+    const Ray ray = camera.ray(rasters_[i], {}, lens_.at.time);
+    const auto projection = camera.project(lens_.at, ray.d);
+    if (!projection) continue;
+    const double cosine = abs_cos(lens_.at, ray.d);
+    camera_.start(i, {Vec3f(lens_.at.p), Vec3f(ray.o), Vec3f(ray.d), static_cast<float>(cosine),
+                      static_cast<float>(projection->pdf_direction * cosine), 1, 0,
+                      Color(projection->importance / projection->pdf_direction)});
+  }
+  numbers_.set_position(numbers_.position().begin(Stream::camera));
+  numbers_.skip2();  // The lens,
+  numbers_.skip(1);  // and the time.
+  camera_.walk(numbers_, settings_.rules.most_edges() + 1, rays);
+}
+
+void BidirectionalWave::walk_from_lights(RayCounts& rays) {
+  light_.clear(size());
+  numbers_.set_position(numbers_.position().begin(Stream::light));
+  const PixelSampler::Position at = numbers_.position();
+  for (int begin = 0; begin < size(); begin += block_size) {
+    numbers_.set_position(at);
+    start_at_lights(begin, std::min(block_size, size() - begin));
+  }
+  light_.walk(numbers_, settings_.rules.most_edges(), rays);
+}
+
+/// Chooses a point on a light, by the numbers of this sample.
+inline void BidirectionalWave::draw_light(int sample, int to) {
+  lights_.set_light(to, scene_->choose_mesh_light(u_choice_[sample]), {u_x_[sample], u_y_[sample]});
+}
+
+/// A light is left like a matte surface seen from above.
+void BidirectionalWave::start_at_lights(int begin, int count) {
+  numbers_.next2(begin, count, &u_x_[begin], &u_y_[begin]);
+  numbers_.next2(begin, count, &lights_.u_x[0], &lights_.u_y[0]);
+  numbers_.next(begin, count, &u_choice_[begin]);
+  for (int i = 0; i < count; ++i) draw_light(begin + i, i);
+  lights_.surface = lights_.light;
+  lights_.n = lights_.light.ng;
+  VectorBlock down = {};
+  for (int i = 0; i < whole_vectors(count); ++i) {
+    down.set(i, -lights_.n[i]);
+    lights_.back[i] = 0;
+  }
+  lights_.find_points(count, &down.x[0], &down.y[0], &down.z[0], false);
+  lights_.sample_directions(count, false);
+  for (int i = 0; i < count; ++i) {
+    const float pdf = lights_.scatter_pdf[i], forward = lights_.light_pdf[i];
+    if (camera_.left(begin + i) || !(pdf > 0) || !(forward > 0) || is_black(*lights_.radiance[i]))
+      continue;
+    const float cosine = std::fabs(dot(lights_.surface.ng[i], lights_.w[i]));
+    light_.start(begin + i, {lights_.p[i], lights_.o[i], lights_.w[i], cosine, pdf, forward, 1,
+                             *lights_.radiance[i] * (pi / forward)});
+  }
+}
+
+void BidirectionalWave::leave_what_is_left() {
+  for (int i = 0; i < size(); ++i)
+    if (camera_.left(i) || light_.left(i)) {
+      camera_.leave(i);
+      light_.leave(i);
+    }
+}
+
+void BidirectionalWave::take_hits() {
+  for (const SubpathWave::Hit& hit : camera_.hits())
+    if (!left(hit.sample)) seen_[hit.sample] += hit.weighted;
+}
+
+/// BidirectionalSampler::choose_direct.
+void BidirectionalWave::choose_direct(int place) {
+  const PixelSampler::Position at = direct_at_;
+  for (int begin = 0; begin < size(); begin += block_size) {
+    const int count = std::min(block_size, size() - begin);
+    numbers_.set_position(at);
+    numbers_.next2(begin, count, &u_x_[begin], &u_y_[begin]);
+    if (scene_->emitters().size() > 1)
+      numbers_.next(begin, count, &u_choice_[begin]);
+    else
+      numbers_.skip(1);
+    for (int i = 0; i < count; i += JointLanes::size)
+      choose_direct(place, (begin + i) / JointLanes::size, i);
+  }
+  direct_at_ = numbers_.position();
+}
+
+/// For eight samples, of which the first is number `first` of `lights_`.
+void BidirectionalWave::choose_direct(int place, int block, int first) {
+  if (place > 0 && !camera_.reaches(place, block)) return;
+  JointLanes& to = direct_[block];
+  for (int lane = 0; lane < JointLanes::size; ++lane) {
+    const int i = block * JointLanes::size + lane;
+    to.cosine[lane] = 0;
+    const bool seen =
+        place > 0 ? camera_.joints(place, block).cosine[lane] != 0 : i < size() && !left(i);
+    if (!seen) continue;
+    draw_light(i, first + lane);
+    const double pdf = lights_.light_pdf[first + lane];
+    if (!(pdf > 0)) continue;
+    to.cosine[lane] = 1;
+    to.forward[lane] = pdf;
+    to.value.set(lane, *lights_.radiance[first + lane] * (1 / pdf));
+  }
+  for (int lane = 0; lane < JointLanes::size; ++lane) {
+    to.p.set(lane, lights_.light.position(first + lane));
+    to.ng.set(lane, lights_.light.ng[first + lane]);
+    to.n.set(lane, lights_.light.ng[first + lane]);
+    to.extent[lane] = lights_.light.extent[first + lane];
+  }
+  for (double& sum : to.sums.values) sum = 1;
+}
+
+void BidirectionalWave::connect(int s, int t, RayCounts& rays) {
+  JoiningRays joining;
+  ColorLanes joined;
+  for (int block = 0; block < block_count(); ++block) {
+    if (!light_reaches(s, block) || !camera_.reaches(t - 1, block)) continue;
+    join(light_joints(s, block), camera_.joints(t - 1, block), settings_.rules.strict_normals,
+         beta_, joining, joined);
+    if (shadows_.count() + JointLanes::size > wave_size) find_shadows(rays);
+    for (int i = 0; i < JointLanes::size; ++i)
+      if (joining.length[i] > 0)
+        if (const Color weighted = joined[i]; !is_black(weighted))
+          shadows_.add(block * JointLanes::size + i, weighted, 1, joining.o[i], joining.w[i],
+                       joining.length[i]);
+  }
+}
+
+void BidirectionalWave::connect_to_lens(int s, RayCounts& rays) {
+  for (int block = 0; block < block_count(); ++block)
+    if (light_reaches(s, block)) connect_to_lens(light_joints(s, block), block, rays);
+}
+
+void BidirectionalWave::connect_to_lens(const JointLanes& a, int block, RayCounts& rays) {
+  const Camera& camera = scene_->camera();
+  LensEdges edges;
+  find_edges(a, lens_.at, settings_.rules.strict_normals, edges);
+  if (shadows_.count() + JointLanes::size > wave_size) find_shadows(rays);
+  for (int i = 0; i < JointLanes::size; ++i) {
+    if (!(edges.G[i] > 0)) continue;
+    const Vec3 w(edges.x[i], edges.y[i], edges.z[i]);
+    const auto projection = camera.project(lens_.at, -w);
+    if (!projection) continue;
+    const double G = edges.G[i];
+    const double below = a.sums[i] * beta_.raise(projection->pdf_direction * G / a.forward[i]);
+    const Color weighted = a.value[i] * (projection->importance * G / (1 + below));
+    if (is_black(weighted)) continue;
+    const Vec3f start = departure(a.p[i], a.ng[i], Vec3f(w), a.extent[i]);
+    const Vec3 ray = camera.entrance(lens_.at, -w) - Vec3(start);
+    if (!(dot(ray, w) > 0)) continue;  // It is behind the camera.
+    const double length = mlt::length(ray);
+    shadows_.add(capacity + static_cast<int>(unseen_.size()), weighted, 1, start,
+                 Vec3f(ray * (1 / length)), static_cast<float>(length * (1 - Scene::ray_offset)));
+    unseen_.push_back({block * JointLanes::size + i, projection->raster, weighted});
+  }
+}
+
+void BidirectionalWave::find_shadows(RayCounts& rays) {
+  rays.count_occluded(shadows_.count());
+  shadows_.trace(
+      scene_->accel(), [](int) { return 0.0; },
+      [&](int target, const Color& weighted, double) {
+        if (target < capacity)
+          seen_[target] += weighted;
+        else
+          splats_.push_back(unseen_[target - capacity]);
+      });
+  unseen_.clear();
+}
+
+}  // namespace mlt

@@ -1,0 +1,86 @@
+// Samples of bidirectional path tracing that are traced side by side: their subpaths are, and all
+// connections of one technique (s, t) are. Each sample is that of BidirectionalSampler, up to
+// rounding.
+// D. van Antwerpen, "Improving SIMD efficiency for parallel Monte Carlo light transport on the
+// GPU", High-Performance Graphics 2011.
+#pragma once
+
+#include "base/whole_vectors.h"
+#include "path/bidirectional_sampler.h"
+#include "wave/subpath_wave.h"
+#include "wave/wave_shadows.h"
+
+namespace mlt {
+
+class BidirectionalWave {
+ public:
+  static constexpr int capacity = SubpathWave::capacity;
+
+  /// Whether all lights are glowing meshes, the camera has no aperture, and nothing moves.
+  static bool serves(const Scene& scene, const BidirectionalSettings& settings);
+  /// serves(scene, settings) must hold.
+  BidirectionalWave(const Scene& scene, const BidirectionalSettings& settings);
+
+  /// A sample of the numbers of PixelSampler(stream, index): the first two tell where in this
+  /// pixel.
+  void add(uint64_t stream, uint32_t index, const Vec2& pixel);
+  int size() const { return numbers_.count(); }
+  bool full() const { return size() == capacity; }
+  /// Traces all of them.
+  void trace(RayCounts& rays);
+  void clear();
+
+  // What the samples have found:
+  const Vec2& raster(int i) const { return rasters_[i]; }
+  /// By the techniques with t >= 2, at its raster position.
+  const Color& seen(int i) const { return seen_[i]; }
+  /// By those with t = 1.
+  struct Splat {
+    int sample;
+    Vec2 raster;
+    Color weighted;
+  };
+  const std::vector<Splat>& splats() const { return splats_; }
+  /// Whether the i-th has to be taken by BidirectionalSampler; then nothing was found.
+  bool left(int i) const { return camera_.left(i); }
+
+ private:
+  template <class T>
+  using Samples = SubpathWave::Samples<T>;
+  static constexpr int blocks = capacity / JointLanes::size;
+  int block_count() const { return whole_vectors(size()) / JointLanes::size; }
+
+  void walk_from_camera(RayCounts& rays);
+  void walk_from_lights(RayCounts& rays);
+  void start_at_lights(int begin, int count);
+  void leave_what_is_left();
+  void take_hits();
+  void draw_light(int sample, int to);
+  void choose_direct(int place);
+  void choose_direct(int place, int block, int first);
+  void connect(int s, int t, RayCounts& rays);
+  void connect_to_lens(int s, RayCounts& rays);
+  void connect_to_lens(const JointLanes& a, int block, RayCounts& rays);
+  const JointLanes& light_joints(int s, int block) const {
+    return s == 1 ? direct_[block] : light_.joints(s - 1, block);
+  }
+  bool light_reaches(int s, int block) const { return s == 1 || light_.reaches(s - 1, block); }
+  void find_shadows(RayCounts& rays);
+
+  const Scene* scene_;
+  BidirectionalSettings settings_;
+  Exponent beta_;
+  PositionSample lens_;
+  SubpathWave camera_, light_;
+  WaveNumbers numbers_;
+  PixelSampler::Position direct_at_;  ///< Of the numbers of the next camera vertex.
+  Samples<Vec2> rasters_;
+  Samples<Color> seen_;
+  std::vector<Splat> splats_, unseen_;  ///< The latter wait for their shadow rays.
+  Samples<double> u_x_, u_y_, u_choice_;
+  MatteVertices lights_;       ///< Points on lights, of a block of samples.
+  JointLanes direct_[blocks];  ///< Those chosen for s = 1 as seen from the camera vertex.
+  WaveShadows shadows_;
+};
+
+}  // namespace mlt

@@ -1,0 +1,127 @@
+// Matte vertices of many paths from the camera, side by side in single precision. Lanes of paths
+// that have none are computed along and not looked at.
+#pragma once
+
+#include "path/mis.h"
+#include "scene/matte.h"
+#include "scene/mesh.h"
+#include "scene/scene.h"
+#include "wave/lanes.h"
+
+#include <array>
+
+namespace mlt {
+
+/// consistent_sides of vertex.h, in single precision and without branches.
+inline bool consistent_sides(const Vec3f& ng, const Vec3f& n, const Vec3f& w, bool strict) {
+  return !strict | (dot(ng, w) * dot(n, w) > 0);
+}
+
+/// Where a ray along w begins: off its surface.
+inline Vec3f departure(const Vec3f& p, const Vec3f& ng, const Vec3f& w, float extent) {
+  constexpr auto offset = static_cast<float>(Scene::ray_offset);
+  return p + ng * std::copysign(offset * extent, dot(ng, w));
+}
+
+/// Points on triangles.
+struct TriangleBlock {
+  VectorBlock p0, p1, p2, ng;
+  Block<float> b1, b2, extent;
+
+  void set(int i, const TriangleRecord& record, float b_1, float b_2) {
+    p0.set(i, record.p0);
+    p1.set(i, record.p1);
+    p2.set(i, record.p2);
+    ng.set(i, Vec3f(record.ng));
+    b1[i] = b_1;
+    b2[i] = b_2;
+    extent[i] = record.extent;
+  }
+  Vec3f position(int i) const {
+    return p0[i] * (1 - b1[i] - b2[i]) + p1[i] * b1[i] + p2[i] * b2[i];
+  }
+};
+
+struct MatteVertices {
+  TriangleBlock surface;
+  VectorBlock p, n;       ///< n: until find_points(), a multiple of it.
+  Block<float> back;      ///< 1 if the back side scatters light too, else 0.
+  Block<float> sides;     ///< 0 if strict normals refuse the ray that has arrived, else 1.
+  Block<const Color*> f;  ///< The BSDF; nullptr: there is no matte vertex.
+
+  // A point on a glowing mesh, chosen by next-event estimation.
+  TriangleBlock light;
+  Block<float> light_pdf;        ///< Area measure; 0: there is none.
+  Block<const Color*> radiance;  ///< That the point emits.
+
+  // What unshadowed_lights() makes of it: the ray between the two, and |cos| mis / pdf.
+  VectorBlock shadow_o, shadow_w;
+  Block<float> shadow_length, light_weight;
+
+  // What sample_directions() makes of two numbers: the ray that goes on.
+  Block<double> u_x, u_y;
+  VectorBlock o, w;
+  Block<float> scatter_pdf;  ///< Solid angle; 0: there is none.
+
+  /// The i-th path has arrived at these barycentrics of a triangle.
+  void set(int i, const MatteMesh& shape, uint32_t triangle, float b1, float b2) {
+    const Mesh& mesh = *shape.mesh;
+    const TriangleRecord& record = mesh.record(triangle);
+    surface.set(i, record, b1, b2);
+    n.set(i, mesh.has_normals() ? mesh.normal_sum(triangle, {b1, b2}) : Vec3f(record.ng));
+    back[i] = shape.matte->matte.sides == Matte::Sides::both ? 1 : 0;
+    if (shape.matte->uniform()) {
+      f[i] = &shape.matte->matte.f;
+      return;
+    }
+    f[i] = &textured_f_[i];
+    TexturedPoint& point = textured_[textured_count_++];
+    point.path = i;
+    point.matte = shape.matte;
+    mesh.textured_point(triangle, {b1, b2}, point.at);
+    point.matte->reflectance->prefetch(point.at);
+  }
+  /// Looks up the textures of all that were set.
+  void find_textures() {
+    for (int j = 0; j < textured_count_; ++j) {
+      const TexturedPoint& point = textured_[j];
+      textured_f_[point.path] = point.matte->at(point.at).f;
+    }
+    textured_count_ = 0;
+  }
+  /// It looks at the point of this light that sample_position(u) gives.
+  void set_light(int i, const MeshLight& chosen, const Vec2& u) {
+    const Mesh& mesh = *chosen.mesh;
+    const auto [triangle, b] = mesh.sample_barycentrics(u);
+    light.set(i, mesh.record(triangle), static_cast<float>(b.x), static_cast<float>(b.y));
+    if (mesh.has_normals()) {
+      const Vec3f ng = light.ng[i];
+      light.ng.set(i, ng * std::copysign(1.0f, dot(ng, mesh.normal_sum(triangle, Vec2f(b)))));
+    }
+    light_pdf[i] = static_cast<float>(chosen.pdf);
+    radiance[i] = chosen.radiance;
+  }
+  /// The i-th of them, for what is not computed side by side.
+  SurfacePoint point(int i, uint32_t shape, double time) const;
+
+  // Each works on the first `count` paths; d are the directions in which their rays have arrived.
+  void find_points(int count, const float* d_x, const float* d_y, const float* d_z,
+                   bool strict_normals);
+  void unshadowed_lights(int count, bool strict_normals, Heuristic heuristic);
+  void sample_directions(int count, bool strict_normals);
+
+ private:
+  VectorBlock wc_;  ///< Towards the camera.
+
+  /// A point whose texture is still to be looked up.
+  struct TexturedPoint {
+    int path;
+    const MatteSurface* matte;
+    SurfacePoint at;
+  };
+  int textured_count_ = 0;
+  std::array<TexturedPoint, block_size> textured_;
+  Block<Color> textured_f_;
+};
+
+}  // namespace mlt

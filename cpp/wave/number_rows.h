@@ -1,0 +1,49 @@
+// Rows of uniform numbers, drawn afresh or moved by small steps side by side.
+#pragma once
+
+#include "primary/small_step.h"
+#include "wave/lanes.h"
+
+#include <cstring>
+
+namespace mlt {
+
+class NumberRows {
+ public:
+  static constexpr int row = 8, capacity = block_size;
+
+  /// Begins anew, with the numbers first ... first + row - 1 of each vector of numbers.
+  void begin(size_t first) {
+    first_ = static_cast<uint32_t>(first);
+    moving_ = 0;
+    fresh_ = capacity;
+  }
+  /// One that the random numbers of `key` make: near `from`, or (nullptr) afresh. Returns its name.
+  int add(uint64_t key, const double* from) {
+    const int i = from ? moving_++ : --fresh_;
+    if (from) std::memcpy(&x_[row * i], from, row * sizeof(double));
+    const auto low = static_cast<uint32_t>(key) + first_, high = static_cast<uint32_t>(key >> 32);
+    for (int k = 0; k < row; ++k) {
+      low_[row * i + k] = low + k;
+      high_[row * i + k] = high;
+    }
+    return i;
+  }
+  int size() const { return moving_ + capacity - fresh_; }
+  void draw(const SmallStep& step);
+  /// What has come of it.
+  const double* operator[](int i) const { return &u_[row * i]; }
+
+ private:
+  template <class T>
+  using Rows = Lanes<T, row * capacity>;
+
+  void draw_fresh(int begin, int end, uint32_t changed_key, Rows<double>& u) const;
+
+  uint32_t first_ = 0;
+  int moving_ = 0, fresh_ = capacity;  ///< Rows that move come first, fresh ones last.
+  Rows<uint32_t> low_, high_;          ///< Halves of a number's own key.
+  Rows<double> x_, u_, angle_;
+};
+
+}  // namespace mlt

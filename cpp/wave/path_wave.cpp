@@ -1,0 +1,263 @@
+#include "wave/path_wave.h"
+
+namespace mlt {
+
+template <class Numbers>
+void BasicPathWave<Numbers>::add(const Ray& ray, const ChainFactor& chain_factor) {
+  path_[live_] = live_;
+  exact_[live_] = true;
+  o_.set(live_, Vec3f(ray.o));
+  d_.set(live_++, Vec3f(ray.d));
+  walks_.emplace_back(ray);
+  walks_.back().heuristic = heuristic_;
+  walks_.back().chain_factor = chain_factor;
+  walks_.back().rays.intersect = 1;
+}
+
+template <class Numbers>
+void BasicPathWave<Numbers>::trace(RayCounts& rays, bool coherent) {
+  for (int depth = 1; live_ > 0; ++depth) {
+    find_hits(coherent && depth == 1, rays);
+    next_ = 0;
+    const auto at = numbers_.position();
+    for (begin_ = 0; begin_ < live_; begin_ += block_size) {
+      count_ = std::min(block_size, live_ - begin_);
+      numbers_.set_position(at);
+      shade_block(depth, rays);
+    }
+    find_shadows(rays);
+    live_ = next_;
+  }
+}
+
+template <class Numbers>
+CameraWalk& BasicPathWave<Numbers>::exact_walk(int place) {
+  CameraWalk& walk = walks_[path_[place]];
+  if (!exact_[place]) walk.ray = {Vec3(o_[place]), Vec3(d_[place]), walk.ray.time};
+  exact_[place] = true;
+  return walk;
+}
+
+template <class Numbers>
+void BasicPathWave<Numbers>::find_hits(bool coherent, RayCounts& rays) {
+  const Accel& accel = scene_->accel();
+  const bool exact = accel.wants_exact_rays(), moves = accel.moves();
+  for (int begin = 0; begin < live_; begin += RayPacket::size) {
+    RayPacket packet(std::min(RayPacket::size, live_ - begin));
+    packet.set_lines(&o_.x[begin], &o_.y[begin], &o_.z[begin], &d_.x[begin], &d_.y[begin],
+                     &d_.z[begin]);
+    packet.set_endless();
+    const Ray* exact_rays[RayPacket::size];
+    for (int i = 0; exact && i < packet.count; ++i) exact_rays[i] = &exact_walk(begin + i).ray;
+    for (int i = 0; moves && i < packet.count; ++i)
+      packet.time[i] = walks_[path_[begin + i]].ray.time;
+    accel.intersect(packet, exact_rays, coherent, hits_[begin / RayPacket::size]);
+  }
+  rays.count_intersect(live_);
+}
+
+template <class Numbers>
+void BasicPathWave<Numbers>::find_shadows(RayCounts& rays) {
+  rays.count_occluded(shadows_.count());
+  shadows_.trace(
+      scene_->accel(), [&](int path) { return walks_[path].ray.time; },
+      [&](int path, const Color& radiance, double share) { walks_[path].take(radiance, share); });
+}
+
+/// One step of trace_path.
+template <class Numbers>
+void BasicPathWave<Numbers>::shade_block(int depth, RayCounts& rays) {
+  const bool last = depth == rules_.most_edges();
+  if (!last) draw_numbers(depth);
+  single_count_ = 0;
+  for (int i = 0; i < count_; ++i) find_vertex(i, depth);
+  if (last) return;
+  matte_.find_textures();
+  matte_.find_points(count_, &d_.x[begin_], &d_.y[begin_], &d_.z[begin_], rules_.strict_normals);
+  if (rules_.wants(depth + 1)) {
+    choose_lights(depth);
+    queue_lights();
+  }
+  matte_.sample_directions(count_, rules_.strict_normals);
+  take_step(depth, rays);
+}
+
+/// VertexNumbers of path_tracer.h, but for the last three.
+template <class Numbers>
+void BasicPathWave<Numbers>::draw_numbers(int depth) {
+  numbers_.begin_vertex(begin_, count_);
+  const bool lit = rules_.wants(depth + 1);
+  if (lit)
+    numbers_.next2(begin_, count_, &u_light_x_[0], &u_light_y_[0]);
+  else
+    numbers_.skip2();
+  numbers_.next2(begin_, count_, &matte_.u_x[0], &matte_.u_y[0]);
+}
+
+template <class Numbers>
+Vec3 BasicPathWave<Numbers>::numbers_for_light(int i) const {
+  const bool several = scene_->emitters().size() > 1;
+  return {several ? numbers_.peek(begin_ + i, 0) : 0, u_light_x_[i], u_light_y_[i]};
+}
+
+template <class Numbers>
+inline void BasicPathWave<Numbers>::find_vertex(int i, int depth) {
+  const PacketHits& hits = this->hits(i);
+  const int lane = i % RayPacket::size;
+  const uint32_t shape = hits.shape[lane];
+  matte_.f[i] = nullptr;
+  single_[i] = -1;
+  if (shape == SurfacePoint::no_shape) {
+    if (rules_.wants(depth)) find_light(*scene_, exact_walk(begin_ + i), nullptr);
+    return;
+  }
+  const MatteMesh& matte = scene_->matte_mesh(shape);
+  if (matte.emits || !matte.mesh) find_bright_or_other(i, hits.hit(lane), depth);
+  if (depth < rules_.most_edges() && matte.mesh)
+    matte_.set(i, matte, hits.primitive[lane], hits.u[lane], hits.v[lane]);
+}
+
+/// At a surface that glows, or is not matte.
+template <class Numbers>
+void BasicPathWave<Numbers>::find_bright_or_other(int i, const Hit& hit, int depth) {
+  CameraWalk& walk = exact_walk(begin_ + i);
+  const SurfacePoint at = scene_->surface_point(walk.ray, hit);
+  if (rules_.wants(depth)) find_light(*scene_, walk, &at);
+  if (scene_->matte_mesh(hit.shape).mesh) return;
+  if (consistent_sides(at, -walk.ray.d, rules_.strict_normals)) add_single(i, at);
+}
+
+template <class Numbers>
+void BasicPathWave<Numbers>::add_single(int i, const SurfacePoint& at) {
+  single_[i] = single_count_;
+  if (single_count_ == static_cast<int>(singles_.size())) singles_.emplace_back();
+  SingleVertex& single = singles_[single_count_++];
+  single.path = i;
+  single.at = at;
+  single.looks = false;
+}
+
+template <class Numbers>
+void BasicPathWave<Numbers>::choose_lights(int depth) {
+  const auto wants_light = [&](int i) {
+    return matte_.f[i] ||
+           (single_[i] >= 0 && wants_direct_light(*scene_, rules_, depth, singles_[single_[i]].at));
+  };
+  for (int i = 0; i < count_; ++i) {
+    if (!wants_light(i)) continue;
+    const Vec3 u = numbers_for_light(i);
+    const MeshLight& light = scene_->choose_mesh_light(u.x);
+    if (matte_.f[i] && light.mesh)
+      matte_.set_light(i, light, {u.y, u.z});
+    else
+      choose_other_light(i, u);
+  }
+  sample_other_lights();
+}
+
+/// One that is no glowing mesh, or is seen from a vertex that is not matte.
+template <class Numbers>
+void BasicPathWave<Numbers>::choose_other_light(int i, const Vec3& u) {
+  if (matte_.f[i]) {
+    matte_.light_pdf[i] = 0;
+    if (!(matte_.sides[i] > 0)) return;
+    add_single(i, matte_.point(i, hits(i).shape[i % RayPacket::size], walk(i).ray.time));
+  }
+  SingleVertex& single = singles_[single_[i]];
+  single.looks = true;
+  single.u = u;
+}
+
+template <class Numbers>
+void BasicPathWave<Numbers>::sample_other_lights() {
+  for (int j = 0; j < single_count_; ++j) {
+    SingleVertex& single = singles_[j];
+    if (single.looks && !backgrounds_.add(*scene_, single.u, single.light))
+      single.light = sample_direct_position(*scene_, single.at, single.u);
+  }
+  backgrounds_.sample_all(*scene_);
+}
+
+template <class Numbers>
+void BasicPathWave<Numbers>::queue_lights() {
+  matte_.unshadowed_lights(count_, rules_.strict_normals, heuristic_);
+  for (int i = 0; i < count_; ++i)
+    if (matte_.f[i] && matte_.light_weight[i] > 0)
+      queue_shadow(i, *matte_.radiance[i] * *matte_.f[i] * double{matte_.light_weight[i]},
+                   matte_.shadow_o[i], matte_.shadow_w[i], matte_.shadow_length[i]);
+  for (int j = 0; j < single_count_; ++j)
+    if (singles_[j].looks) queue_other_light(singles_[j]);
+}
+
+/// direct_light() of path_tracer.h.
+template <class Numbers>
+void BasicPathWave<Numbers>::queue_other_light(const SingleVertex& single) {
+  const int i = single.path;
+  const SurfacePoint& at = single.at;
+  const CameraWalk& walk = this->walk(i);
+  const Vec3 wc = matte_.f[i] ? -Vec3(d_[begin_ + i]) : -walk.ray.d;
+  const auto mis = [&](double light, double bsdf) { return walk.mis(light, bsdf); };
+  const DirectLight light =
+      unshadowed_light(*scene_, single.light, at, wc, rules_.strict_normals, mis);
+  if (is_black(light.radiance)) return;
+  if (const auto ray = scene_->segment(at, light.x0, walk.ray.time))
+    queue_shadow(i, light.radiance, Vec3f(ray->o), Vec3f(ray->d), static_cast<float>(ray->t_max));
+}
+
+template <class Numbers>
+void BasicPathWave<Numbers>::queue_shadow(int i, const Color& radiance, const Vec3f& o,
+                                          const Vec3f& w, float length) {
+  CameraWalk& walk = this->walk(i);
+  const Color found = walk.throughput * radiance;
+  ++walk.rays.occluded;
+  shadows_.add(path_[begin_ + i], found, walk.own_share(found), o, w, length);
+}
+
+template <class Numbers>
+void BasicPathWave<Numbers>::take_step(int depth, RayCounts& rays) {
+  for (int i = 0; i < count_; ++i) {
+    CameraWalk& walk = this->walk(i);
+    const bool matte = matte_.f[i];
+    if (!(matte ? scatter_matte(i, depth, walk) : scatter_other(i, depth, walk, rays))) continue;
+    o_.set(next_, matte ? matte_.o[i] : Vec3f(walk.ray.o));
+    d_.set(next_, matte ? matte_.w[i] : Vec3f(walk.ray.d));
+    ++walk.rays.intersect;
+    exact_[next_] = !matte;
+    path_[next_] = path_[begin_ + i];
+    numbers_.move(next_++, begin_ + i);
+  }
+  numbers_.skip(3);
+}
+
+/// scatter() of path_tracer.h for a matte vertex.
+template <class Numbers>
+bool BasicPathWave<Numbers>::scatter_matte(int i, int depth, CameraWalk& walk) {
+  const double pdf = matte_.scatter_pdf[i];
+  walk.throughput *= *matte_.f[i] * pi;
+  if (!(pdf > 0) || vanishes(walk.throughput)) return false;
+  if (depth >= rules_.rr_depth && !survive(rules_, depth, numbers_.peek(begin_ + i, 2), walk))
+    return false;
+  walk.scatter_pdf = pdf;
+  walk.delta = false;
+  walk.certainty = 0;
+  walk.previous = Vec3(matte_.p[i]);
+  return true;
+}
+
+/// The same for another vertex, if there is one.
+template <class Numbers>
+bool BasicPathWave<Numbers>::scatter_other(int i, int depth, CameraWalk& walk, RayCounts& rays) {
+  if (single_[i] < 0) return false;
+  const VertexNumbers numbers{{u_light_x_[i], u_light_y_[i]},
+                              {matte_.u_x[i], matte_.u_y[i]},
+                              numbers_.peek(begin_ + i, 0),
+                              numbers_.peek(begin_ + i, 1),
+                              numbers_.peek(begin_ + i, 2)};
+  return scatter(Walker{*scene_, walk.ray.time, rays}, rules_, depth, singles_[single_[i]].at,
+                 numbers, walk);
+}
+
+template class BasicPathWave<WaveNumbers>;
+template class BasicPathWave<DrawnNumbers>;
+
+}  // namespace mlt

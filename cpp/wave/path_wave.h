@@ -1,0 +1,116 @@
+// Paths from the camera that are traced side by side: all take their first step, then all take the
+// second one. The accelerator gets their rays in packets, and matte vertices are computed together.
+// Every path is that of trace_path, up to rounding.
+// S. Laine, T. Karras, T. Aila, "Megakernels considered harmful: wavefront path tracing on GPUs",
+// High-Performance Graphics 2013.
+#pragma once
+
+#include "path/background_positions.h"
+#include "path/path_tracer.h"
+#include "wave/drawn_numbers.h"
+#include "wave/matte_vertices.h"
+#include "wave/wave_numbers.h"
+#include "wave/wave_shadows.h"
+
+namespace mlt {
+
+/// `Numbers` is where paths take their numbers from: WaveNumbers or DrawnNumbers.
+template <class Numbers>
+class BasicPathWave {
+ public:
+  static constexpr size_t capacity = wave_size;
+
+  BasicPathWave(const Scene& scene, const PathRules& rules, Heuristic heuristic = Heuristic::power)
+      : scene_(&scene), rules_(rules), heuristic_(heuristic) {
+    walks_.reserve(capacity);
+  }
+
+  /// The numbers of the paths that are added.
+  Numbers& numbers() { return numbers_; }
+  /// A path that begins with `ray`, and takes the numbers of the sample that was added last. For
+  /// `chain_factor` see there.
+  void add(const Ray& ray, const ChainFactor& chain_factor = {});
+  /// A path that begins with `ray`; `sampler`, a PixelSampler, goes on from there.
+  template <class Sampler>
+  void add(const Ray& ray, const Sampler& sampler) {
+    numbers_.add(sampler.stream(), sampler.index());
+    numbers_.set_position(sampler.position());
+    add(ray);
+  }
+  size_t size() const { return walks_.size(); }
+  bool full() const { return size() == capacity; }
+  /// Traces all of them to their ends. `coherent`: those that stand side by side begin alike.
+  void trace(RayCounts& rays, bool coherent = true);
+  /// What the i-th path has found.
+  const Color& radiance(size_t i) const { return walks_[i].radiance; }
+  /// The rays that it took.
+  const RayCounts& rays(size_t i) const { return walks_[i].rays; }
+  void clear() {
+    walks_.clear();
+    numbers_.clear();
+    live_ = 0;
+  }
+
+ private:
+  /// A vertex that is not matte, or looks at a light that is no glowing mesh.
+  struct SingleVertex {
+    int path;
+    SurfacePoint at;
+    bool looks;         ///< At a light; then,
+    Vec3 u;             ///< by these numbers,
+    LightSample light;  ///< at this one.
+  };
+
+  void find_hits(bool coherent, RayCounts& rays);
+  void find_shadows(RayCounts& rays);
+
+  // Of the `count_` paths from the begin_-th one on:
+  void shade_block(int depth, RayCounts& rays);
+  void draw_numbers(int depth);
+  Vec3 numbers_for_light(int i) const;
+  void find_vertex(int i, int depth);
+  void find_bright_or_other(int i, const Hit& hit, int depth);
+  void choose_lights(int depth);
+  void choose_other_light(int i, const Vec3& u);
+  void add_single(int i, const SurfacePoint& at);
+  void sample_other_lights();
+  void queue_lights();
+  void queue_other_light(const SingleVertex& single);
+  void queue_shadow(int i, const Color& radiance, const Vec3f& o, const Vec3f& w, float length);
+  void take_step(int depth, RayCounts& rays);
+  bool scatter_matte(int i, int depth, CameraWalk& walk);
+  bool scatter_other(int i, int depth, CameraWalk& walk, RayCounts& rays);
+
+  /// The walk at this place of the wave, with its ray in double precision.
+  CameraWalk& exact_walk(int place);
+  CameraWalk& walk(int i) { return walks_[path_[begin_ + i]]; }
+  const PacketHits& hits(int i) const { return hits_[(begin_ + i) / RayPacket::size]; }
+
+  const Scene* scene_;
+  PathRules rules_;
+  Heuristic heuristic_;
+  std::vector<CameraWalk> walks_;
+  WaveShadows shadows_;
+
+  // Of each path that takes this step:
+  int live_ = 0;
+  Wave<int> path_;    ///< Which one it is.
+  VectorWave o_, d_;  ///< Its ray.
+  Wave<bool> exact_;  ///< Whether its walk knows the ray, in double precision.
+  PacketHits hits_[wave_size / RayPacket::size];
+  Numbers numbers_;
+  int next_ = 0;  ///< How many take the next step; they are moved together.
+
+  // Of each path of the block:
+  int begin_ = 0, count_ = 0;
+  Block<double> u_light_x_, u_light_y_;
+  MatteVertices matte_;
+  std::vector<SingleVertex> singles_;  ///< The first `single_count_` of them; it keeps its memory.
+  int single_count_ = 0;
+  Block<int> single_;  ///< Which of them belongs to the path; -1: none.
+  BackgroundPositions backgrounds_;
+};
+
+using PathWave = BasicPathWave<WaveNumbers>;
+
+}  // namespace mlt

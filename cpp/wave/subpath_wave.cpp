@@ -1,0 +1,197 @@
+#include "wave/subpath_wave.h"
+
+#include "base/whole_vectors.h"
+
+namespace mlt {
+
+SubpathWave::SubpathWave(const Scene& scene, const PathRules& rules, Subpath::From from,
+                         Heuristic heuristic, bool light_image)
+    : scene_(&scene),
+      rules_(rules),
+      from_light_(from == Subpath::From::light),
+      light_image_(light_image),
+      beta_(heuristic) {}
+
+void SubpathWave::clear(int count) {
+  for (int i = 0; i < count; ++i) left_[i] = false;
+  for (int i = 0; i < blocks; ++i) longest_[i] = 0;
+  last_place_ = live_ = 0;
+  hits_.clear();
+}
+
+void SubpathWave::start(int sample, const Start& start) {
+  const int i = live_++;
+  sample_[i] = sample;
+  o_.set(i, start.o);
+  d_.set(i, start.w);
+  p_.set(i, start.p);
+  cosine_[i] = start.cosine;
+  pdf_[i] = start.pdf;
+  forward_[i] = start.forward;
+  sums_[i] = start.sums;
+  throughput_[i] = start.throughput;
+}
+
+void SubpathWave::leave(int sample) {
+  left_[sample] = true;
+  for (int place = 1; place <= last_place_; ++place)
+    at(place, sample / JointLanes::size).cosine[sample % JointLanes::size] = 0;
+}
+
+void SubpathWave::walk(const WaveNumbers& numbers, int most, RayCounts& rays) {
+  numbers_ = numbers;
+  for (int i = 0; i < live_; ++i) numbers_.move(i, sample_[i]);
+  for (int place = 1; live_ > 0 && place < most; ++place) {
+    if (place == most_vertices) {
+      for (int i = 0; i < live_; ++i) left_[sample_[i]] = true;
+      return;
+    }
+    open(place);
+    find_hits(place == 1 && !from_light_, rays);
+    next_ = 0;
+    const PixelSampler::Position at = numbers_.position();
+    for (begin_ = 0; begin_ < live_; begin_ += block_size) {
+      count_ = std::min(block_size, live_ - begin_);
+      numbers_.set_position(at);
+      shade(place, place + 1 == most);
+    }
+    live_ = next_;
+  }
+}
+
+/// Nothing is joined there yet.
+void SubpathWave::open(int place) {
+  last_place_ = place;
+  joints_.reserve(size_t{most_vertices} * blocks);  // Taken when it is used.
+  if (joints_.size() < size_t(place + 1) * blocks) joints_.resize(size_t(place + 1) * blocks);
+  for (int block = 0; block < blocks; ++block) at(place, block).cosine = {};
+}
+
+void SubpathWave::find_hits(bool coherent, RayCounts& rays) {
+  for (int begin = 0; begin < live_; begin += RayPacket::size) {
+    RayPacket packet(std::min(RayPacket::size, live_ - begin));
+    packet.set_lines(&o_.x[begin], &o_.y[begin], &o_.z[begin], &d_.x[begin], &d_.y[begin],
+                     &d_.z[begin]);
+    packet.set_endless();
+    scene_->accel().intersect(packet, nullptr, coherent, found_[begin / RayPacket::size]);
+  }
+  rays.count_intersect(live_);
+}
+
+void SubpathWave::shade(int place, bool last) {
+  if (!last) numbers_.next2(begin_, count_, &matte_.u_x[0], &matte_.u_y[0]);
+  for (int i = 0; i < count_; ++i) find_vertex(i);
+  matte_.find_textures();
+  matte_.find_points(count_, &d_.x[begin_], &d_.y[begin_], &d_.z[begin_], rules_.strict_normals);
+  if (!last) matte_.sample_directions(count_, rules_.strict_normals);
+  arrive(place);
+  for (int i = 0; i < count_; ++i) {
+    if (!matte_.f[i]) continue;
+    if (emits_[i] && !from_light_ && rules_.wants(place)) hit_light(i, place);
+    keep(i, place);
+  }
+  if (!last) take_steps(place);
+}
+
+inline void SubpathWave::find_vertex(int i) {
+  const PacketHits& found = found_[(begin_ + i) / RayPacket::size];
+  const int lane = i % RayPacket::size;
+  matte_.f[i] = nullptr;
+  if (found.shape[lane] == SurfacePoint::no_shape) return;
+  const MatteMesh& shape = scene_->matte_mesh(found.shape[lane]);
+  if (!shape.mesh) {
+    left_[sample_[begin_ + i]] = true;
+    return;
+  }
+  emits_[i] = shape.emits;
+  matte_.set(i, shape, found.primitive[lane], found.u[lane], found.v[lane]);
+}
+
+/// The densities with which the two walks make the vertex and the one before it. A scattered
+/// direction has the density |w.ns| / pi in solid angle.
+void SubpathWave::arrive(int place) {
+  const double technique = from_light_ || place > 1 || light_image_ ? 1 : 0;
+  const int end = whole_vectors(count_);
+  for (int i = 0; i < end; ++i) {
+    const int k = begin_ + i;
+    const Vec3f w = d_[k], between = matte_.p[i] - p_[k], ng = matte_.surface.ng[i];
+    const float geometric = std::fabs(dot(ng, w)), cosine = -dot(matte_.n[i], w);
+    const bool ok = (geometric > 0) & (matte_.sides[i] > 0) &
+                    ((cosine > 0) | ((cosine < 0) & (matte_.back[i] > 0)));
+    const double per_distance2 = 1 / double{dot(between, between)};
+    const double previous = cosine_[k] * per_distance2;
+    const double reverse = ok ? std::fabs(cosine) * inv_pi * previous : 0;
+    cosine_to_previous_[i] = ok ? cosine : 0;
+    forward_here_[i] = pdf_[k] * geometric * per_distance2;
+    sums_here_[i] = technique + sums_[k] * beta_.raise(reverse / forward_[k]);
+    reverse_emission_[i] = geometric * inv_pi * previous;
+    light_factor_[i] = std::fabs(cosine) / geometric;
+    next_cosine_[i] = std::fabs(dot(ng, matte_.w[i]));
+  }
+}
+
+/// BidirectionalSampler::evaluate_hit_light.
+void SubpathWave::hit_light(int i, int place) {
+  const int k = begin_ + i;
+  if (!(dot(matte_.surface.ng[i], d_[k]) < 0)) return;
+  const uint32_t shape = found_[k / RayPacket::size].shape[k % RayPacket::size];
+  const MeshLight& light = scene_->mesh_light(scene_->shapes()[shape]->emitter()->index());
+  const double technique = place > 1 || light_image_ ? 1 : 0;
+  const double above = (technique + sums_[k] * beta_.raise(reverse_emission_[i] / forward_[k])) *
+                       beta_.raise(light.pdf / forward_here_[i]);
+  hits_.push_back({sample_[k], throughput_[k] * *light.radiance / (1 + above)});
+}
+
+/// For joints.
+inline void SubpathWave::keep(int i, int place) {
+  if (cosine_to_previous_[i] == 0) return;
+  const int sample = sample_[begin_ + i], block = sample / JointLanes::size;
+  const int lane = sample % JointLanes::size;
+  JointLanes& x = at(place, block);
+  longest_[block] = place;
+  x.p.set(lane, matte_.p[i]);
+  x.ng.set(lane, matte_.surface.ng[i]);
+  x.n.set(lane, matte_.n[i]);
+  x.extent[lane] = matte_.surface.extent[i];
+  x.cosine[lane] = cosine_to_previous_[i];
+  x.forward[lane] = forward_here_[i];
+  x.sums[lane] = sums_here_[i];
+  x.value.set(lane, throughput_[begin_ + i] * *matte_.f[i] *
+                        (from_light_ ? double{light_factor_[i]} : 1.0));
+}
+
+/// Subpath::scatter.
+void SubpathWave::take_steps(int place) {
+  for (int i = 0; i < count_; ++i) {
+    const int k = begin_ + i;
+    if (!matte_.f[i] || cosine_to_previous_[i] == 0) continue;
+    const float pdf = matte_.scatter_pdf[i];
+    if (!(pdf > 0 && next_cosine_[i] > 0) || is_black(*matte_.f[i])) continue;
+    Color ratio = *matte_.f[i] * pi;
+    if (from_light_) ratio *= light_factor_[i] * next_cosine_[i] / (pdf * pi);
+    if (!survive(i, place, ratio)) continue;
+    const int n = next_++;
+    sample_[n] = sample_[k];
+    o_.set(n, matte_.o[i]);
+    d_.set(n, matte_.w[i]);
+    p_.set(n, matte_.p[i]);
+    cosine_[n] = next_cosine_[i];
+    pdf_[n] = pdf;
+    forward_[n] = forward_here_[i];
+    sums_[n] = sums_here_[i];
+    throughput_[n] = throughput_[k] * ratio;
+    numbers_.move(n, k);
+  }
+  numbers_.skip(rules_.rr_depth == PathRules::no_roulette ? 1 : 2);
+}
+
+/// Russian roulette.
+inline bool SubpathWave::survive(int i, int place, Color& ratio) {
+  if (place < rules_.rr_depth) return true;
+  const double survival = std::min(max_component(ratio), 0.95);
+  if (!(numbers_.peek(begin_ + i, 1) < survival)) return false;
+  ratio /= survival;
+  return true;
+}
+
+}  // namespace mlt

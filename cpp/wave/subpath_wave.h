@@ -1,0 +1,107 @@
+// Subpaths of many samples that are traced side by side, among surfaces that are matte and lights
+// that are glowing meshes. Each is that of Subpath, up to rounding. Those that meet something else,
+// or are very long, are left to it.
+#pragma once
+
+#include "path/path_rules.h"
+#include "path/ray_counts.h"
+#include "path/subpath.h"
+#include "wave/joint_lanes.h"
+#include "wave/wave_numbers.h"
+
+namespace mlt {
+
+class SubpathWave {
+ public:
+  static constexpr int capacity = 256;
+  static constexpr int most_vertices = 32;
+  template <class T>
+  using Samples = Lanes<T, capacity>;
+
+  /// Light that is hit: the technique s = 0.
+  struct Hit {
+    int sample;
+    Color weighted;
+  };
+
+  /// `light_image`: whether vertex 1 of a camera walk can be joined to the lens.
+  SubpathWave(const Scene& scene, const PathRules& rules, Subpath::From from, Heuristic heuristic,
+              bool light_image);
+
+  /// Forgets all subpaths; there are `count` samples now.
+  void clear(int count);
+  /// The first step of a sample's walk.
+  struct Start {
+    Vec3f p;  ///< Vertex 0, and its ray.
+    Vec3f o, w;
+    float cosine;          ///< |w.ng| there,
+    float pdf;             ///< and the density of w in solid angle.
+    double forward, sums;  ///< See JointLanes.
+    Color throughput;      ///< Of vertex 1.
+  };
+  void start(int sample, const Start& start);
+  /// Walks all of them to their ends, which have `most` vertices at most. The numbers are those
+  /// after the first step.
+  void walk(const WaveNumbers& numbers, int most, RayCounts& rays);
+
+  /// Vertices at this place (1: the first after the end) of eight samples; all have one of them.
+  const JointLanes& joints(int place, int block) const { return joints_[place * blocks + block]; }
+  /// Whether one of eight samples can be joined at the place.
+  bool reaches(int place, int block) const { return longest_[block] >= place; }
+  int last_place() const { return last_place_; }
+  /// Whether the sample has to be traced by itself.
+  bool left(int sample) const { return left_[sample]; }
+  /// Lets it be traced by itself: nothing is joined to its vertices.
+  void leave(int sample);
+  const std::vector<Hit>& hits() const { return hits_; }
+
+ private:
+  static constexpr int blocks = capacity / JointLanes::size;
+
+  void open(int place);
+  void find_hits(bool coherent, RayCounts& rays);
+
+  // Of the `count_` walks from the begin_-th one on:
+  void shade(int place, bool last);
+  void find_vertex(int i);
+  void arrive(int place);
+  void hit_light(int i, int place);
+  void keep(int i, int place);
+  void take_steps(int place);
+  bool survive(int i, int place, Color& ratio);
+
+  JointLanes& at(int place, int block) { return joints_[place * blocks + block]; }
+
+  const Scene* scene_;
+  PathRules rules_;
+  bool from_light_, light_image_;
+  Exponent beta_;
+  std::vector<JointLanes> joints_;
+  Lanes<int, blocks> longest_;  ///< The last place of these samples.
+  int last_place_ = 0;
+  Samples<bool> left_;
+  std::vector<Hit> hits_;
+
+  // Of each walk that takes this step:
+  int live_ = 0;
+  Samples<int> sample_;
+  VectorLanes<capacity> o_, d_;  ///< Its ray.
+  VectorLanes<capacity> p_;      ///< Its last vertex, and what that one's Start would be:
+  Samples<float> cosine_, pdf_;
+  Samples<double> forward_, sums_;
+  Samples<Color> throughput_;
+  PacketHits found_[capacity / RayPacket::size];
+  WaveNumbers numbers_;
+  int next_ = 0;  ///< How many take the next step; they are moved together.
+
+  // Of each walk of the block:
+  int begin_ = 0, count_ = 0;
+  MatteVertices matte_;
+  Block<bool> emits_;
+  Block<float> cosine_to_previous_;  ///< See JointLanes.
+  Block<float> next_cosine_;         ///< |w.ng| of the direction that is taken.
+  Block<float> light_factor_;        ///< |w.ns| / |w.ng| of the direction to the previous vertex.
+  Block<double> forward_here_, reverse_emission_, sums_here_;
+};
+
+}  // namespace mlt

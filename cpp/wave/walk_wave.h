@@ -1,0 +1,54 @@
+// Walks from the camera that the numbers of many chains make, traced side by side (PathWave).
+#pragma once
+
+#include "primary/primary_step.h"
+#include "wave/path_wave.h"
+#include "wave/walk_numbers.h"
+
+#include <vector>
+
+namespace mlt {
+
+/// What the walk of a state finds, at its own position of the image.
+using WalkState = StateOf<WalkNumbers>;
+
+class WalkWave : private DrawnNumbers::Source {
+ public:
+  static constexpr size_t capacity = BasicPathWave<DrawnNumbers>::capacity;
+
+  WalkWave(const Scene& scene, const PathRules& rules, const SmallStep& small_step);
+
+  /// `y` is to become what is proposed from x, by the random numbers of `key`: the same with small
+  /// changes, or all afresh. `rays` counts its rays.
+  void add(const WalkState& x, bool large, uint64_t key, WalkState& y, RayCounts& rays) {
+    proposals_.push_back({key, large ? nullptr : &x.numbers, &y, &rays});
+  }
+  /// Makes all that were added; begins anew.
+  void trace();
+
+ private:
+  struct Proposal {
+    uint64_t key;
+    const WalkNumbers* from;
+    WalkState* y;
+    RayCounts* rays;
+  };
+
+  /// The image position, the lens, the time.
+  static constexpr size_t of_camera = 5;
+
+  void leave_camera();
+  void draw(const int* paths, int count, size_t first, const double** numbers) override;
+  /// So many numbers of the proposals get(0), ..., get(count - 1).
+  template <class Get>
+  void draw(int count, size_t first, size_t numbers, Get&& get);
+
+  const Camera* camera_;
+  SmallStep small_step_;
+  BasicPathWave<DrawnNumbers> wave_;
+  std::vector<Proposal> proposals_;
+  NumberRows rows_;
+  std::vector<Vec2> rasters_;
+};
+
+}  // namespace mlt

@@ -1,0 +1,53 @@
+// Light that arrives at the vertices of many paths where nothing is in its way.
+#pragma once
+
+#include "scene/scene.h"
+#include "wave/lanes.h"
+
+#include <array>
+
+namespace mlt {
+
+class WaveShadows {
+ public:
+  int count() const { return count_; }
+  /// `radiance` reaches this path, which takes this share of it, unless something stands between
+  /// the ends of the ray.
+  void add(int path, const Color& radiance, double share, const Vec3f& o, const Vec3f& w,
+           float length) {
+    o_.set(count_, o);
+    w_.set(count_, w);
+    length_[count_] = length;
+    path_[count_] = path;
+    share_[count_] = share;
+    radiance_[count_++] = radiance;
+  }
+
+  /// Calls receive(path, radiance, share) for the light that arrives, and begins anew; time(path)
+  /// is when.
+  template <class Time, class Receive>
+  void trace(const Accel& accel, Time&& time, Receive&& receive) {
+    for (int begin = 0; begin < count_; begin += RayPacket::size) {
+      RayPacket packet(std::min(RayPacket::size, count_ - begin));
+      packet.set_lines(&o_.x[begin], &o_.y[begin], &o_.z[begin], &w_.x[begin], &w_.y[begin],
+                       &w_.z[begin]);
+      for (int i = 0; i < RayPacket::size; ++i) packet.t_max[i] = length_[begin + i];
+      for (int i = 0; accel.moves() && i < packet.count; ++i)
+        packet.time[i] = time(path_[begin + i]);
+      const unsigned blocked = accel.occluded(packet);
+      for (int i = 0; i < packet.count; ++i)
+        if (!(blocked >> i & 1)) receive(path_[begin + i], radiance_[begin + i], share_[begin + i]);
+    }
+    count_ = 0;
+  }
+
+ private:
+  int count_ = 0;
+  VectorWave o_, w_;
+  Wave<float> length_;
+  Wave<int> path_;
+  Wave<Color> radiance_;
+  Wave<double> share_;
+};
+
+}  // namespace mlt

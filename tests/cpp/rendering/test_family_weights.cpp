@@ -1,0 +1,263 @@
+// Chains and independent samples see the same T / P of a path, so that their weights sum to one.
+#include "harness/statistics.h"
+#include "mutation/mutation_scenes.h"
+#include "mutation/path_seeds.h"
+#include "rendering/family_taker.h"
+#include "rendering/family_weights.h"
+#include "rendering/primary_estimators.h"
+#include "rendering/traced_source.h"
+#include "rendering/walk_taker.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+
+namespace mlt::test {
+namespace {
+
+TEST(FamilyWeights, SumToOne) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const double even : {0.0, 1e-3, 1.0, 1e5})
+    for (const double q : {1e-8, 0.3, 7.0, 1e12, infinity}) {
+      const FamilyWeights weights(even);
+      EXPECT_NEAR(weights.of_sample(q) + weights.of_chain(q), 1, 1e-14) << even << " " << q;
+    }
+}
+
+TEST(FamilyWeights, AreNumbersWhereThereIsNoTarget) {
+  for (const double even : {0.0, 1.0}) EXPECT_EQ(FamilyWeights(even).of_chain(0), 0);
+}
+
+/// With a map that tells regions apart.
+PathTarget target_of(const TestScene& made) {
+  PathTarget target(made.scene, {8});
+  TargetMap map = blank_image(made.scene->camera().raster());
+  map.add({3, 4}, 1);
+  map.finish();
+  target.set_map(map);
+  return target;
+}
+
+void leave_certain_light(PathTarget& target) {
+  const std::atomic<bool> cancelled{false};
+  target.leave_to_samples({target.scene(), target.rules(), 4000, 1, 1, cancelled});
+}
+
+double median(std::vector<double>& values) {
+  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
+  return values[values.size() / 2];
+}
+
+class TargetOverDensity : public testing::TestWithParam<std::string> {};
+
+TEST_P(TargetOverDensity, IsTheSameForSamplesAndChains) {
+  const TestScene made = make_mutation_scene(GetParam());
+  const PathTarget target = target_of(made);
+  PathSeeds seeds(target);
+  PathState x;
+  std::vector<double> errors;
+  int roulette = 0;
+  Rng rng(1, Purpose::test, 0);
+  for (int i = 0; i < 4000; ++i)
+    seeds.draw(RandomSampler(rng), [&](const Connection& c, double weight) {
+      seeds.assemble(c, x);
+      if (!(x.target > 0)) return;  // rounding: a path through an edge of the image, say
+      const double q = weight / c.weight * c.own_share;
+      errors.push_back(std::abs(q / target.over_density(x) - 1));
+      roulette += x.edges() > 6;
+    });
+  ASSERT_GT(errors.size(), 1000u);
+  // The directions between points that were rounded are not quite those that were sampled, which
+  // nearly specular BSDFs magnify.
+  EXPECT_LT(median(errors), 1e-6);
+  if (GetParam() == "cornell") {
+    EXPECT_GT(roulette, 0);
+  }
+}
+
+TEST_P(TargetOverDensity, IsTheSameForSamplesOfPathTracingAndChains) {
+  const TestScene made = make_mutation_scene(GetParam());
+  PathTarget target = target_of(made);
+  target.set_techniques(SampleTechniques::path_tracing);
+  const Scene& scene = *made.scene;
+  TracedSource source(target);
+  PathState x;
+  std::vector<double> errors;
+  int roulette = 0;
+  RayCounts rays;
+  for (uint64_t i = 0; i < 20000; ++i) {
+    Rng rng(1, Purpose::test, i);
+    RandomSampler sampler(rng);
+    const Vec2 raster = scene.camera().raster().sample(sampler.next2());
+    Rng again = rng;
+    const std::vector<FoundLight>& found = source.sample(raster, sampler);
+    RandomSampler same(again);
+    const auto [lens, ray] = leave_lens(scene.camera(), raster, same);
+    std::vector<FoundPath> paths;
+    trace_path(scene, target.rules(), ray, same, rays,
+               PathRecorder(scene, raster, lens.at, ray.time, paths));
+    ASSERT_EQ(found.size(), paths.size());
+    for (size_t k = 0; k < found.size(); ++k) {
+      x.path = paths[k].path;
+      target.evaluate(x);
+      if (!(x.target > 0)) continue;  // as above
+      errors.push_back(std::abs(found[k].target_over_density / target.over_density(x) - 1));
+      roulette += x.edges() > 6;
+    }
+  }
+  if (errors.empty()) GTEST_SKIP() << "path tracing finds no light here";
+  EXPECT_LT(median(errors), 1e-6);
+  if (GetParam() == "cornell") {
+    EXPECT_GT(roulette, 0);
+  }
+}
+
+/// Samples of either kind and chains agree on which paths are left to the samples.
+TEST_P(TargetOverDensity, IsZeroForTheSameCertainPaths) {
+  const TestScene made = make_mutation_scene(GetParam());
+  PathTarget target = target_of(made);
+  leave_certain_light(target);
+  PathSeeds seeds(target);
+  PathState x;
+  int all = 0, wrong = 0;
+  std::vector<double> errors;
+  Moments left, left_by_tracing;
+  for (uint64_t i = 0; i < 4000; ++i) {
+    Rng rng(2, Purpose::test, i);
+    double sum = 0;
+    seeds.draw(RandomSampler(rng), [&](const Connection& c, double weight) {
+      seeds.assemble(c, x);
+      errors.push_back(std::abs(c.certainty - certainty(x.terms)));
+      ++all;
+      wrong += (weight == 0) != (certainty(x.terms) > target.most_certain(c.raster));
+      if (weight == 0) sum += target_luminance(c.contribution) * c.weight;
+    });
+    left.add(sum);
+  }
+  EXPECT_LT(median(errors), 1e-6);
+  EXPECT_LE(wrong, all / 1000) << "of " << all;
+
+  target.set_techniques(SampleTechniques::path_tracing);
+  TracedSource source(target);
+  for (uint64_t i = 4000; i < 8000; ++i) {
+    Rng rng(2, Purpose::test, i);
+    RandomSampler sampler(rng);
+    const Vec2 raster = made.scene->camera().raster().sample(sampler.next2());
+    double sum = 0;
+    for (const FoundLight& found : source.sample(raster, sampler))
+      if (found.weight == 0) sum += target_luminance(found.rgb);
+    left_by_tracing.add(sum);
+  }
+  if (GetParam() == "cornell") {
+    EXPECT_GT(left.mean(), 0);
+  }
+  EXPECT_GT(welch_t_test(left, left_by_tracing).p_value, 1e-4)
+      << left.mean() << " " << left_by_tracing.mean();
+}
+
+template <class MakeTaker>
+std::unique_ptr<SampledRendering> shown_by(const ScenePtr& scene, MakeTaker&& make_taker) {
+  auto rendering = std::make_unique<SampledRendering>(scene, 3, SampledSettings{true}, make_taker);
+  const std::atomic<bool> cancelled{false};
+  rendering->prepare(1, cancelled);
+  for (uint64_t unit = 0; unit < rendering->plan().unit_count(4); ++unit) rendering->run_unit(unit);
+  return rendering;
+}
+
+/// An algorithm without chains.
+struct SamplesOnly : MetropolisAlgorithm {
+  SamplesOnly(const Scene& s, std::function<std::unique_ptr<Source>()> m)
+      : of(s), make_source(std::move(m)) {}
+  const Scene& scene() const override { return of; }
+  std::unique_ptr<Source> source() const override { return make_source(); }
+  std::unique_ptr<RenderChain> start(const ChainId&, Rng, Rng) const override { return nullptr; }
+  std::unique_ptr<RenderChain> blank(const ChainId&, const FamilyWeights&, double) const override {
+    return nullptr;
+  }
+  std::vector<MutationStats> rows() const override { return {}; }
+  const Scene& of;
+  std::function<std::unique_ptr<Source>()> make_source;
+};
+
+/// What a source finds, and what a taker of its own shows, which has half of the light or so.
+template <class MakeTaker>
+void expect_the_same(const ScenePtr& scene, const SamplesOnly& algorithm,
+                     const FamilyWeights& weights, MakeTaker&& make_taker) {
+  const auto one_by_one = shown_by(
+      scene, [&](const Scene&) { return std::make_unique<FamilyTaker>(algorithm, weights); });
+  const auto side_by_side = shown_by(scene, make_taker);
+  const double brightness = one_by_one->mean_brightness().mean;
+  EXPECT_GT(one_by_one->mean_of_chains().mean, 0.1 * brightness);
+  EXPECT_LT(one_by_one->mean_of_chains().mean, 0.9 * brightness);
+  const Image a = one_by_one->image(), b = side_by_side->image();
+  double difference = 0, sum = 0;
+  for (size_t i = 0; i < a.data.size(); ++i) {
+    difference += std::abs(b.data[i] - a.data[i]);
+    sum += a.data[i];
+  }
+  EXPECT_LT(difference, 0.01 * sum);
+}
+
+class TracedTakerOf : public testing::TestWithParam<bool> {};
+
+TEST_P(TracedTakerOf, ShowsWhatItsSourceFindsWithTheWeightsOfSamples) {
+  const TestScene made = make_mutation_scene("cornell");
+  PathTarget target = target_of(made);
+  if (GetParam()) leave_certain_light(target);
+  const SamplesOnly algorithm(*made.scene, [&] { return std::make_unique<TracedSource>(target); });
+  const FamilyWeights weights(0.3);
+  expect_the_same(made.scene, algorithm, weights,
+                  [&](const Scene&) { return std::make_unique<TracedTaker>(target, weights); });
+}
+
+INSTANTIATE_TEST_SUITE_P(CertainPaths, TracedTakerOf, testing::Bool(), [](const auto& info) {
+  return info.param ? "LeftToTheSamples" : "LikeOthers";
+});
+
+/// Samples of pssmlt, one by one.
+struct WalkSource : MetropolisAlgorithm::Source {
+  WalkSource(const Scene& scene, const PathRules& rules, const LargeStepWeights& w)
+      : estimator(scene, rules), weights(w) {}
+  const std::vector<FoundLight>& sample(const Vec2& raster, PixelSampler& sampler) override {
+    light.clear();
+    found.clear();
+    estimator(raster, sampler, light, counts);
+    for (const ImageLight& one : light)
+      found.push_back(weights.found(one, target_luminance(one.rgb)));
+    return found;
+  }
+  const std::vector<FoundLight>& sample(const Vec2&, RandomSampler&) override { return found; }
+  const RayCounts& rays() const override { return counts; }
+
+  PathEstimator estimator;
+  LargeStepWeights weights;
+  RayCounts counts;
+  std::vector<ImageLight> light;
+  std::vector<FoundLight> found;
+};
+
+TEST(WalkTaker, ShowsWhatSingleSamplesFindWithTheWeightsOfSamples) {
+  const TestScene made = make_mutation_scene("cornell");
+  const PathRules rules{8};
+  const LargeStepWeights large_steps{0.1};
+  const SamplesOnly algorithm(
+      *made.scene, [&] { return std::make_unique<WalkSource>(*made.scene, rules, large_steps); });
+  const FamilyWeights weights(0.3);
+  expect_the_same(made.scene, algorithm, weights, [&](const Scene& scene) {
+    return std::make_unique<WalkTaker>(scene, rules, large_steps, weights);
+  });
+  // With all the light, it tells the brightness.
+  const FamilyWeights all(std::numeric_limits<double>::max());
+  const auto shown = shown_by(made.scene, [&](const Scene& scene) {
+    return std::make_unique<WalkTaker>(scene, rules, large_steps, all);
+  });
+  EXPECT_GT(shown->mean_brightness().mean, 0);
+  EXPECT_LT(shown->mean_of_chains().mean, 1e-100);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, TargetOverDensity, testing::ValuesIn(mutation_scene_names()),
+                         [](const auto& info) { return info.param; });
+
+}  // namespace
+}  // namespace mlt::test

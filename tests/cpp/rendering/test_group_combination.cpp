@@ -1,0 +1,114 @@
+// How groups of chains add up: the expectation is right although the starts of a group and its b
+// come from the same bootstrap, and the spread of the groups is the error.
+#include "base/rng.h"
+#include "harness/statistics.h"
+#include "rendering/group_combination.h"
+
+#include <gtest/gtest.h>
+
+namespace mlt::test {
+namespace {
+
+/// A toy render with the same dependence: T takes the values 1 and 9 on two halves of the unit
+/// interval, and the image is the integral of T over the second half, 4.5. A group's chains stand
+/// still where they have started, which is the largest start-up bias that there can be.
+struct Toy {
+  static double target(double u) { return u < 0.5 ? 1 : 9; }
+
+  Toy(uint64_t seed, int groups, int candidates, int samples) {
+    Rng rng(seed, Purpose::test, 0);
+    for (int g = 0; g < groups; ++g) {
+      GroupProgress group;
+      double sum = 0, bright = 0;
+      for (int i = 0; i < candidates; ++i) {
+        const double weight = target(rng.next());
+        group.bootstrap.add(weight, weight);
+        sum += weight;
+        if (weight > 1) bright += weight;
+      }
+      group.b = sum / candidates;
+      group.steps = 100;
+      group.brightness = 100;
+      progress.push_back(group);
+      recorded.push_back(100 * bright / sum);  // of RGB / T in the second half
+    }
+    MeanSums sums;
+    for (int i = 0; i < samples; ++i) sums.add(target(rng.next()));
+    of_chains = estimate(sums);
+  }
+  GroupCombination combination() const { return {progress, of_chains}; }
+  double image(const GroupScales& scales) const {
+    double sum = 0;
+    for (size_t g = 0; g < recorded.size(); ++g) sum += scales[g] * recorded[g];
+    return sum;
+  }
+
+  std::vector<GroupProgress> progress;
+  std::vector<double> recorded;
+  Estimate of_chains;
+};
+
+TEST(GroupCombination, HasNoStartUpBias) {
+  for (const int samples : {0, 5, 200}) {
+    Moments images;
+    for (uint64_t seed = 0; seed < 4000; ++seed) {
+      const Toy toy(seed, 8, 5, samples);
+      images.add(toy.image(toy.combination().mean()));
+    }
+    EXPECT_NEAR(images.mean(), 4.5, 4 * std::sqrt(images.variance_of_mean())) << samples;
+    EXPECT_LT(std::sqrt(images.variance_of_mean()), 0.02);
+  }
+}
+
+TEST(GroupCombination, WithoutSamplesIsTheMeanOfEachGroupTimesItsB) {
+  const Toy toy(3, 8, 5, 0);
+  double mean = 0;
+  for (size_t g = 0; g < 8; ++g) mean += toy.progress[g].b * toy.recorded[g] / 100 / 8;
+  EXPECT_NEAR(toy.image(toy.combination().mean()), mean, 1e-12);
+}
+
+TEST(GroupCombination, LeavesOutGroupsThatHaveNotBegun) {
+  Toy toy(3, 8, 5, 0);
+  toy.progress[7].steps = 0;
+  double mean = 0;
+  for (size_t g = 0; g < 7; ++g) mean += toy.progress[g].b * toy.recorded[g] / 100 / 7;
+  EXPECT_NEAR(toy.image(toy.combination().mean()), mean, 1e-12);
+}
+
+TEST(GroupCombination, IsAsBrightAsTheSamplesSay) {
+  Toy toy(4, 8, 50, 100000);
+  for (GroupProgress& group : toy.progress) group.bootstrap = {};
+  for (double& recorded : toy.recorded) recorded = 100;  // the whole image
+  EXPECT_NEAR(toy.image(toy.combination().mean()), toy.of_chains.mean, 0.01);
+}
+
+TEST(GroupCombination, TakesNoLightThatIsNotThere) {
+  for (const double excess : {1.5, 3.0, 30.0, 1000.0}) {
+    Toy toy(5, 16, 50, 100000);
+    toy.progress[3].brightness *= excess;
+    const GroupCombination groups = toy.combination();
+    for (const double scale : groups.mean()) EXPECT_GE(scale, 0) << excess;
+    double brightness = 0;
+    for (int g = 0; g < 16; ++g)
+      for (int h = 0; h < 16; ++h)
+        brightness += groups.group(g)[h] * toy.progress[h].brightness / 16;
+    EXPECT_NEAR(brightness, toy.of_chains.mean, 0.02 * toy.of_chains.mean) << excess;
+  }
+}
+
+TEST(GroupCombination, TellsItsError) {
+  Moments images, variances;
+  for (uint64_t seed = 0; seed < 4000; ++seed) {
+    const Toy toy(seed, 16, 50, 200);
+    const GroupCombination groups = toy.combination();
+    Moments spread;
+    for (int g = 0; g < 16; ++g) spread.add(toy.image(groups.group(g)));
+    images.add(toy.image(groups.mean()));
+    const double common = toy.image(groups.common_error());
+    variances.add(spread.variance_of_mean() + common * common);
+  }
+  EXPECT_NEAR(variances.mean() / images.variance(), 1, 0.1);
+}
+
+}  // namespace
+}  // namespace mlt::test

@@ -1,0 +1,75 @@
+// Tours of light paths: they show as much light as the samples from which they start, and their
+// starts die as often as the same paths do on the way.
+#include "harness/statistics.h"
+#include "mutation/mutation_testing.h"
+#include "mutation/path_mixture.h"
+#include "rendering/path_tours.h"
+
+namespace mlt::test {
+namespace {
+
+/// Sums up L* of what is recorded, times w2.
+struct Brightness : ChainRecorder {
+  explicit Brightness(const FamilyWeights& w) : weights(w) {}
+  void record(const Vec2&, const Color& rgb_per_target, double weight, double over) override {
+    sum += weight * target_luminance(rgb_per_target) * weights.of_chain(over);
+  }
+  FamilyWeights weights;
+  double sum = 0;
+};
+
+struct Tour {
+  std::string scene;
+  int rr_depth;
+  double steps_per_sample;
+  double tour_length = 0;  ///< 0: they die in proportion to P / T.
+};
+
+class PathToursOf : public testing::TestWithParam<Tour> {};
+
+/// The means over groups of what tours have recorded times kappa0, and of w2 L* / p, differ by
+/// chance alone, and by a few per cent of the brightness at the most.
+TEST_P(PathToursOf, HaveTheBrightnessOfTheirSamples) {
+  const auto [name, rr_depth, steps_per_sample, tour_length] = GetParam();
+  PathRules rules;
+  rules.max_depth = 8;
+  rules.rr_depth = rr_depth;
+  const PathTarget target(make_mutation_scene(name).scene, rules);
+  const PathMixture mixture(all_mutations(target),
+                            std::make_shared<MixtureWeights>(default_weights()));
+  constexpr int groups = 16;
+  constexpr uint64_t steps = 20000;
+  constexpr double b = 0.3;  // Any number is right.
+  const FamilyWeights weights(0.1);
+  const double kappa0 = b / steps_per_sample;
+  const KillRate rate =
+      tour_length > 0 ? KillRate::constant(kappa0, tour_length) : KillRate(kappa0);
+  Moments difference, samples;
+  for (int g = 0; g < groups; ++g) {
+    PathTours tours(target, mixture, {7, g, 0, 1, b}, weights, steps_per_sample, rate);
+    Brightness recorder(weights);
+    tours.advance(steps, recorder);
+    const double mean = tours.samples()->of_chains.mean();
+    const double starts = static_cast<double>(tours.samples()->count());
+    difference.add(kappa0 * recorder.sum / starts - mean);
+    samples.add(mean);
+  }
+  EXPECT_GT(one_sample_t_test(difference).p_value, 1e-3)
+      << difference.mean() << " of " << samples.mean();
+  EXPECT_LT(std::sqrt(difference.variance_of_mean()), 0.03 * samples.mean());
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, PathToursOf,
+                         testing::Values(Tour{"cornell", 100, 10}, Tour{"cornell", 2, 10},
+                                         Tour{"cornell", 2, 100}, Tour{"glass_torus", 100, 10},
+                                         Tour{"caustic", 2, 30}, Tour{"mirrors", 2, 30},
+                                         Tour{"cornell", 2, 10, 20}, Tour{"caustic", 2, 10, 50}),
+                         [](const auto& info) {
+                           return info.param.scene + "_" + std::to_string(info.param.rr_depth) +
+                                  "_" +
+                                  std::to_string(static_cast<int>(info.param.steps_per_sample)) +
+                                  (info.param.tour_length > 0 ? "_constant" : "");
+                         });
+
+}  // namespace
+}  // namespace mlt::test

@@ -1,0 +1,188 @@
+// Samples of bidirectional path tracing that are traced side by side are those of
+// BidirectionalSampler.
+#include <gtest/gtest.h>
+
+#include "scenes.h"
+#include "wave/bidirectional_wave.h"
+
+namespace mlt {
+namespace {
+
+using namespace test;
+
+constexpr int waves = 2;
+
+struct Sample {
+  Color seen{0};           ///< By the techniques with t >= 2.
+  Color splats{0};         ///< By the others,
+  Vec2 where{0};           ///< and the sum of L* times raster position.
+  bool by_itself = false;  ///< The wave has left it.
+};
+
+struct Samples {
+  std::vector<Sample> samples;
+  RayCounts rays;
+};
+
+uint64_t stream(int wave) { return 11 + wave; }
+Vec2 pixel(const Scene& scene, int i) {
+  const Vec2i size = scene.camera().raster().size;
+  return Vec2(i % size.x, i / size.x % size.y);
+}
+
+void splat(Sample& sample, const Vec2& raster, const Color& weighted) {
+  sample.splats += weighted;
+  sample.where += raster * target_luminance(weighted);
+}
+
+Samples one_by_one(const Scene& scene, const BidirectionalSettings& settings) {
+  Samples found;
+  BidirectionalSampler bidirectional(scene, settings);
+  for (int w = 0; w < waves; ++w)
+    for (int i = 0; i < BidirectionalWave::capacity; ++i) {
+      PixelSampler sampler(stream(w), static_cast<uint32_t>(i));
+      const Vec2 raster = pixel(scene, i) + sampler.next2();
+      bidirectional.sample(raster, sampler, found.rays);
+      Sample sample;
+      bidirectional.connect_all(found.rays, [&](const Connection& c) {
+        const Color weighted = c.contribution * c.weight;
+        if (c.t >= 2)
+          sample.seen += weighted;
+        else
+          splat(sample, c.raster, weighted);
+      });
+      found.samples.push_back(sample);
+    }
+  return found;
+}
+
+Samples side_by_side(const Scene& scene, const BidirectionalSettings& settings) {
+  Samples found;
+  BidirectionalWave wave(scene, settings);
+  for (int w = 0; w < waves; ++w) {
+    for (int i = 0; i < BidirectionalWave::capacity; ++i) {
+      EXPECT_FALSE(wave.full());
+      wave.add(stream(w), static_cast<uint32_t>(i), pixel(scene, i));
+    }
+    EXPECT_TRUE(wave.full());
+    wave.trace(found.rays);
+    const size_t first = found.samples.size();
+    for (int i = 0; i < wave.size(); ++i) {
+      Sample sample;
+      sample.seen = wave.seen(i);
+      sample.by_itself = wave.left(i);
+      found.samples.push_back(sample);
+    }
+    for (const BidirectionalWave::Splat& s : wave.splats())
+      splat(found.samples[first + s.sample], s.raster, s.weighted);
+    wave.clear();
+  }
+  return found;
+}
+
+bool close(const Color& a, const Color& b) {
+  return max_component(glm::abs(a - b)) <= 1e-3 * (max_component(a) + max_component(b));
+}
+bool close(const Sample& a, const Sample& b) {
+  return close(a.seen, b.seen) && close(a.splats, b.splats) &&
+         length(a.where - b.where) <= 1e-3 * (length(a.where) + length(b.where));
+}
+
+struct Compared {
+  int different = 0, lit = 0, by_themselves = 0;
+};
+
+Compared compare(const Samples& single, const Samples& wave) {
+  Compared compared;
+  for (size_t i = 0; i < wave.samples.size(); ++i) {
+    const Sample &a = single.samples[i], &b = wave.samples[i];
+    compared.by_themselves += b.by_itself;
+    if (b.by_itself) {
+      EXPECT_TRUE(is_black(b.seen) && is_black(b.splats));
+      continue;
+    }
+    compared.different += !close(a, b);
+    compared.lit += !is_black(a.seen) && !is_black(a.splats);
+  }
+  return compared;
+}
+
+std::vector<BidirectionalSettings> all_settings() {
+  std::vector<BidirectionalSettings> variants(5);
+  variants[1].rules.strict_normals = true;
+  variants[1].heuristic = Heuristic::balance;
+  variants[2].rules.max_depth = 3;
+  variants[2].rules.rr_depth = 1;
+  variants[2].light_image = false;
+  variants[3].rules.min_depth = 3;
+  variants[3].rules.rr_depth = PathRules::no_roulette;
+  variants[3].rules.max_depth = 6;
+  variants[4].rules.max_depth = 2;
+  variants[4].rules.hide_emitters = true;
+  return variants;
+}
+
+class BidirectionalWaveOf : public testing::TestWithParam<std::string> {};
+
+/// A difference in rounding may send a path past an edge, or end it, but that is rare.
+TEST_P(BidirectionalWaveOf, FindsWhatSingleSamplesFind) {
+  const ScenePtr scene = make_scene(GetParam()).scene;
+  for (const BidirectionalSettings& settings : all_settings()) {
+    if (!BidirectionalWave::serves(*scene, settings)) continue;
+    const Samples single = one_by_one(*scene, settings), wave = side_by_side(*scene, settings);
+    ASSERT_EQ(single.samples.size(), wave.samples.size());
+    const Compared compared = compare(single, wave);
+    EXPECT_LE(compared.different, waves * BidirectionalWave::capacity / 100);
+    if (compared.by_themselves > 0) continue;
+    const auto about = [](uint64_t n) { return 3 + static_cast<double>(n) / 200; };
+    EXPECT_NEAR(wave.rays.intersect, single.rays.intersect, about(single.rays.intersect));
+    EXPECT_NEAR(wave.rays.occluded, single.rays.occluded, about(single.rays.occluded));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, BidirectionalWaveOf, testing::ValuesIn(scene_names()),
+                         [](const auto& info) { return info.param; });
+
+/// So that the comparison is not one of nothing with nothing.
+TEST(BidirectionalWave, ServesManyScenes) {
+  int served = 0, lit = 0;
+  for (const std::string& name : scene_names()) {
+    const ScenePtr scene = make_scene(name).scene;
+    const BidirectionalSettings settings;
+    if (!BidirectionalWave::serves(*scene, settings)) continue;
+    ++served;
+    lit += compare(one_by_one(*scene, settings), side_by_side(*scene, settings)).lit;
+  }
+  EXPECT_GE(served, 10);
+  EXPECT_GE(lit, 1000);
+}
+
+TEST(BidirectionalWave, TracesAnIncompleteWave) {
+  const ScenePtr scene = make_scene("smooth_normals").scene;
+  const BidirectionalSettings settings;
+  ASSERT_TRUE(BidirectionalWave::serves(*scene, settings));
+  BidirectionalWave wave(*scene, settings);
+  RayCounts rays;
+  wave.trace(rays);
+  EXPECT_EQ(rays.total(), 0u);
+  const Samples single = one_by_one(*scene, settings);
+  for (int i = 0; i < 11; ++i) wave.add(stream(0), static_cast<uint32_t>(i), pixel(*scene, i));
+  wave.trace(rays);
+  for (int i = 0; i < wave.size(); ++i) {
+    EXPECT_FALSE(wave.left(i));
+    EXPECT_TRUE(close(wave.seen(i), single.samples[i].seen)) << i;
+  }
+}
+
+TEST(BidirectionalWave, LeavesOtherTechniquesAlone) {
+  const ScenePtr scene = make_scene(scene_names().front()).scene;
+  BidirectionalSettings settings;
+  settings.heuristic = Heuristic::maximum;
+  EXPECT_FALSE(BidirectionalWave::serves(*scene, settings));
+  settings = {};
+  settings.sample_direct = false;
+  EXPECT_FALSE(BidirectionalWave::serves(*scene, settings));
+}
+
+}  // namespace
+}  // namespace mlt
