@@ -7,6 +7,7 @@
 // the plane perpendicular to it. The angle (or the distance) is such that the image position moves
 // about as far as the lens perturbation would move it: by the path's lengths, or as the derivatives
 // of the chain say (`anisotropic`).
+#include "mutation/chain_perturbation.h"
 #include "mutation/image_footprint.h"
 #include "mutation/join.h"
 #include "mutation/measured_mutation.h"
