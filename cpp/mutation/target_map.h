@@ -1,6 +1,16 @@
 // Two-stage sampling (Veach & Guibas 1997, sec. 5.4; Veach 1997, sec. 11.4.3): a coarse image tells
 // how bright each region is, and the target is divided by it, so that dark regions get their share
 // of the mutations. Any positive map is right; a good one spreads the noise evenly.
+//
+// The coarse image is made of few samples. A cell believes its own in proportion to their number n
+// among those of k more samples that say what the block around it says:
+//
+//   I = (n I_own + k I_block) / (n + k)
+//
+// and so does that block of 2 x 2 cells with the block around it, up to the whole image (the mean
+// of a normal distribution whose prior is known as well as by k samples). Samples count by how even
+// they are: n is a block's (sum w)^2 / sum w^2 (L. Kish, "Survey sampling", 1965), shared among its
+// parts, so that one bright sample counts as one, and an empty cell among bright ones is dark.
 #pragma once
 
 #include "math/color.h"
@@ -18,8 +28,8 @@ class TargetMap {
   /// Adds one sample of the coarse image.
   void add(const Vec2& raster, double brightness);
   void add(const TargetMap& other);
-  /// Smooths the coarse image, without single bright cells, and turns it into factors: 1 over the
-  /// brightness, at least a share of the mean.
+  /// Smooths the coarse image and turns it into factors: 1 over the brightness, at least a share of
+  /// the mean.
   void finish();
 
   /// The factor of the target at a raster position.
@@ -29,14 +39,12 @@ class TargetMap {
   void set_factors(std::vector<double> factors);
 
  private:
-  double brightest_neighbour(int x, int y) const;
-  double smoothed(const std::vector<double>& cells, int x, int y) const;
-
   RasterCells cells_;
-  std::vector<double> factors_;
+  std::vector<double> factors_;  ///< Before finish(): sums of brightness.
+  std::vector<double> squares_;  ///< Sums of its squares.
 };
 
-/// Without any sample yet, of 16 x 16 pixels a cell.
-inline TargetMap blank_image(const Raster& raster) { return TargetMap(raster, 16); }
+/// Without any sample yet, of 8 x 8 pixels a cell.
+inline TargetMap blank_image(const Raster& raster) { return TargetMap(raster, 8); }
 
 }  // namespace mlt

@@ -30,7 +30,7 @@ struct FoundLight {
 
 /// What independent samples tell before a render.
 struct CoarseImage {
-  TargetMap map;  ///< The image as 16 x 16 blocks.
+  TargetMap map;  ///< The image as cells.
   double b = 0;   ///< Mean of the weights T / p.
 };
 
