@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import pymlt as mlt
-from pymlt.race.table import Column, columns, heading, notes, summary
+from pymlt.race.report.table import Column, columns, heading, notes, summary
 
 HEAD = """\
 # The algorithms compared

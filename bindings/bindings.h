@@ -29,7 +29,7 @@ void bind_integrators(py::module_& m);
 void bind_render(py::module_& m);
 void bind_checkpoint(py::module_& m);
 void bind_executor(py::module_& m);
-void bind_metropolis(py::module_& m);
+void bind_lab(py::module_& m);
 void bind_path_target(py::module_& m);
 
 /// A numpy array (height, width, channels) that owns the image's buffer.

@@ -28,7 +28,7 @@ PYBIND11_MODULE(_core, m) {
   m.attr("__version__") = MLT_VERSION;
   for (const auto bind : {bind_errors, bind_base, bind_image, bind_scene, bind_light_path,
                           bind_mutations, bind_integrators, bind_render, bind_checkpoint,
-                          bind_executor, bind_metropolis, bind_path_target})
+                          bind_executor, bind_lab, bind_path_target})
     bind(m);
   refuse_empty_objects(m);
 }

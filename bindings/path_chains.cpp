@@ -37,7 +37,7 @@ py::object bootstrap_starts(const PyPathTarget& target, uint64_t candidates, uin
                       " candidates; is the image dark, or max_depth too small?");
   py::list starts;
   for (const PathState& x : found.paths) starts.append(target.to_python(x).value);
-  return py::module_::import("pymlt.metropolis").attr("Start")(found.b, found.b_error, starts);
+  return py::module_::import("pymlt.lab.metropolis").attr("Start")(found.b, found.b_error, starts);
 }
 
 /// A chain whose state Python sees as a value: a state that it stays in is one object.
@@ -122,7 +122,7 @@ std::vector<py::object> starts_of(const py::object& x0, const py::object& chains
 
 void bind_path_target(py::module_& core) {
   py::class_<PyPathTarget>(
-      core.attr("metropolis"), "PathTarget",
+      core.attr("lab"), "PathTarget",
       "L*(x), the brightness that a light path brings to the image: the target "
       "of Metropolis light transport, for `metropolis.run`.")
       .def(

@@ -5,6 +5,7 @@ interface and of the plug-ins are made from what the package itself says.
 """
 
 import inspect
+from importlib import import_module
 from pathlib import Path
 
 import pymlt
@@ -56,7 +57,7 @@ sphinx_gallery_conf = {
     "plot_gallery": True,
 }
 
-MODULES = ("metropolis", "quadrature", "race")
+MODULES = ("lab.metropolis", "lab.quadrature", "race")
 
 
 def write(path: Path, text: str) -> None:
@@ -86,7 +87,7 @@ def python_pages() -> None:
     sections = ["# The package", "## Functions", *functions, "## Classes", *classes]
     write(HERE / "auto_api" / "pymlt.md", "\n\n".join(sections))
     for module in MODULES:
-        shown = sorted(set(getattr(pymlt, module).__all__) & set(pymlt.__all__))
+        shown = sorted(set(import_module(f"pymlt.{module}").__all__) & set(pymlt.__all__))
         options = ["members", "imported-members", f"exclude-members: {', '.join(shown)}"]
         text = f"# pymlt.{module}\n\n" + directive("automodule", f"pymlt.{module}", *options)
         write(HERE / "auto_api" / f"{module}.md", text)

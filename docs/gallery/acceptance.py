@@ -11,9 +11,9 @@ what counts is how many independent samples a chain is worth.
 import matplotlib.pyplot as plt
 import numpy as np
 
-from pymlt import lab, metropolis
+from pymlt.lab import gallery, metropolis
 
-lab.style()
+gallery.style()
 
 f = metropolis.Normals([0], [1])
 SIZES = np.geomspace(0.15, 60, 20)
@@ -45,7 +45,11 @@ print(
 # %%
 
 figure, axes = plt.subplots(2, 3, figsize=(11, 6), height_ratios=[1, 1.4])
-three = [(0.1, "too small", lab.BLUE), (2.4, "about right", lab.GREEN), (40, "too large", lab.RED)]
+three = [
+    (0.1, "too small", gallery.BLUE),
+    (2.4, "about right", gallery.GREEN),
+    (40, "too large", gallery.RED),
+]
 for ax, (size, words, color) in zip(axes[0], three, strict=True):
     run = chains(size)
     ax.plot(run.states[0][:500], color=color, lw=0.8)

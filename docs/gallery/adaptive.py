@@ -13,9 +13,9 @@ from math import erf, sqrt
 import matplotlib.pyplot as plt
 import numpy as np
 
-from pymlt import lab, metropolis
+from pymlt.lab import gallery, metropolis
 
-lab.style()
+gallery.style()
 
 # A narrow peak on a broad hill: no single size suits both.
 f = metropolis.Normals([0, 0], [0.03, 1], [0.5, 0.5])
@@ -44,7 +44,7 @@ for name, run in runs.items():
 # Both adaptive walks reach the acceptance that they aim at, 0.44: acceptance alone tells nothing.
 
 figure, axes = plt.subplots(1, 3, figsize=(11, 4), width_ratios=[1.1, 1, 1.1])
-colors = (lab.GREEN, lab.RED, lab.GREY)
+colors = (gallery.GREEN, gallery.RED, gallery.GREY)
 for (name, run), color in zip(runs.items(), colors, strict=True):
     if run.sizes is not None:
         axes[0].semilogy(run.sizes[0][:4000], color=color, lw=0.8, label=name)

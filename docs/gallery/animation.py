@@ -10,9 +10,9 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import pymlt as mlt
-from pymlt import lab
+from pymlt.lab import gallery
 
-lab.style()
+gallery.style()
 
 scene = mlt.load_dict(mlt.scenes.glass_ball(), size=(96, 96))
 parameters = scene.parameters()

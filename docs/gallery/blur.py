@@ -12,9 +12,9 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import pymlt as mlt
-from pymlt import lab, metropolis
+from pymlt.lab import gallery, metropolis
 
-lab.style()
+gallery.style()
 
 SIZE, SIGMA = 72, 1.2
 picture = mlt.render(mlt.load_dict(mlt.scenes.cornell_box(), size=(SIZE, SIZE)), "path", spp=100)
@@ -91,7 +91,9 @@ for ax, (name, pixels) in zip(axes.ravel(), panels.items(), strict=False):
     ax.set(title=name if name not in pictures else f"{name}, n = {counts[-1]}")
     ax.axis("off")
 ax = axes[1, 2]
-for (name, error), color in zip(errors.items(), (lab.BLUE, lab.GREEN, lab.ORANGE), strict=True):
+for (name, error), color in zip(
+    errors.items(), (gallery.BLUE, gallery.GREEN, gallery.ORANGE), strict=True
+):
     ax.loglog(counts, error, "o-", ms=4, color=color, label=name)
 ax.set(xlabel="evaluations of f", title="RMS error")
 ax.legend(fontsize=9)

@@ -13,9 +13,9 @@ from typing import Any
 import matplotlib.pyplot as plt
 import numpy as np
 
-from pymlt import lab, quadrature
+from pymlt.lab import gallery, quadrature
 
-lab.style()
+gallery.style()
 
 LOBE = 0.1  # standard deviation of B
 
@@ -63,21 +63,21 @@ except ValueError as error:
 
 figure, (left, right) = plt.subplots(1, 2, figsize=(11, 4.2), width_ratios=[1, 1.3])
 x = np.linspace(-0.4, 0.4, 801)
-for width, color, at in ((0.3, lab.GREEN, (0.21, 0.7)), (0.02, lab.BLUE, (0.21, 0.9))):
+for width, color, at in ((0.3, gallery.GREEN, (0.21, 0.7)), (0.02, gallery.BLUE, (0.21, 0.9))):
     f, (lamp, lobe) = problem(width)
     left.fill_between(x, lamp.pdf(x) / lamp.pdf(x).max(), step="mid", alpha=0.3, color=color, lw=0)
     left.text(*at, f"L, width {width}", color=color)
-left.plot(x, lobe.pdf(x) / lobe.pdf(x).max(), color=lab.ORANGE)
-left.text(-0.11, 0.6, "B", color=lab.ORANGE, ha="right", fontsize=12)
+left.plot(x, lobe.pdf(x) / lobe.pdf(x).max(), color=gallery.ORANGE)
+left.text(-0.11, 0.6, "B", color=gallery.ORANGE, ha="right", fontsize=12)
 left.set(xlabel="x", yticks=[], title="The lamp L and the lobe B, scaled to 1", ylim=(0, 1.05))
 
 styles: list[dict[str, Any]] = [
-    {"color": lab.BLUE, "ls": "--"},
-    {"color": lab.ORANGE, "ls": "--"},
-    {"color": lab.GREEN, "lw": 2.5},
-    {"color": lab.RED},
+    {"color": gallery.BLUE, "ls": "--"},
+    {"color": gallery.ORANGE, "ls": "--"},
+    {"color": gallery.GREEN, "lw": 2.5},
+    {"color": gallery.RED},
     {"color": "#8e5ea2"},
-    {"color": lab.GREY},
+    {"color": gallery.GREY},
 ]
 for (name, errors), look in zip(curves.items(), styles, strict=True):
     right.loglog(widths, errors, label=name, **look)

@@ -13,9 +13,9 @@ is for an f of which there is no table.
 import matplotlib.pyplot as plt
 import numpy as np
 
-from pymlt import lab, metropolis, quadrature
+from pymlt.lab import gallery, metropolis, quadrature
 
-lab.style()
+gallery.style()
 
 # %%
 # The upper hemisphere, as (azimuth, cosine of the polar angle): equal areas, so densities are per
@@ -164,11 +164,11 @@ levels = lobe(64)(
     np.stack(np.meshgrid(np.arange(WIDTH), np.arange(HEIGHT)), -1).reshape(-1, 2) + 0.5
 )
 levels = levels.reshape(HEIGHT, WIDTH) / levels.max()
-left.contour(np.degrees(A), C, levels, levels=[0.1, 0.5, 0.9], colors=lab.GREEN, linewidths=1)
+left.contour(np.degrees(A), C, levels, levels=[0.1, 0.5, 0.9], colors=gallery.GREEN, linewidths=1)
 left.set(title="The sky f, a chain of 1500 steps, and the lobe g (exponent 64)")
 left.set(xlabel="azimuth (degrees)", ylabel="cosine of the polar angle")
 left.grid(False)
-colors = (lab.GREEN, lab.BLUE, lab.ORANGE, lab.GREY)
+colors = (gallery.GREEN, gallery.BLUE, gallery.ORANGE, gallery.GREY)
 for (name, error), color in zip(errors.items(), colors, strict=True):
     right.loglog(exponents, error, "o-", ms=4, color=color, label=name)
 right.set(xlabel="exponent of the lobe", title=f"Relative error with {N} evaluations of f")

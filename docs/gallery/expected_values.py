@@ -11,9 +11,9 @@ rejected, and the basic algorithm has hardly a sample there; the extended one ke
 import matplotlib.pyplot as plt
 import numpy as np
 
-from pymlt import lab, metropolis
+from pymlt.lab import gallery, metropolis
 
-lab.style()
+gallery.style()
 
 # An "image" of ten pixels whose brightness spans three decades.
 brightness = np.geomspace(1, 1000, 10)
@@ -43,17 +43,19 @@ for name, shares in (("basic", basic), ("extended", extended)):
 
 figure, axes = plt.subplots(1, 3, figsize=(11, 3.9))
 for ax, shares, color, name in (
-    (axes[0], basic, lab.BLUE, "basic: one sample a step"),
-    (axes[1], extended, lab.ORANGE, "extended: two, weights a and 1 − a"),
+    (axes[0], basic, gallery.BLUE, "basic: one sample a step"),
+    (axes[1], extended, gallery.ORANGE, "extended: two, weights a and 1 − a"),
 ):
     shown = np.where(shares[:10] > 0, shares[:10], 1.3e-4)
     jitter = np.linspace(-0.25, 0.25, 10)[:, None]
     ax.semilogy(np.arange(10) + jitter, shown, ".", color=color, alpha=0.7)
     ax.step(np.arange(-0.5, 10), np.r_[truth, truth[-1]], where="post", color="black", lw=1)
     ax.set(title=name, xlabel="pixel", ylim=(1e-4, 2), xticks=range(0, 10, 3))
-    ax.text(9.5, 1.3e-4, "← no sample at all", ha="right", va="center", fontsize=8, color=lab.GREY)
+    ax.text(
+        9.5, 1.3e-4, "← no sample at all", ha="right", va="center", fontsize=8, color=gallery.GREY
+    )
 axes[0].set_ylabel("share of the samples")
-for shares, color, name in ((basic, lab.BLUE, "basic"), (extended, lab.ORANGE, "extended")):
+for shares, color, name in ((basic, gallery.BLUE, "basic"), (extended, gallery.ORANGE, "extended")):
     axes[2].semilogy(shares.std(axis=0) / truth, "o-", color=color, label=name)
 axes[2].set(title="Relative noise of a chain", xlabel="pixel, from dark to bright")
 axes[2].legend()

@@ -12,9 +12,9 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import pymlt as mlt
-from pymlt import lab, metropolis
+from pymlt.lab import gallery, metropolis
 
-lab.style()
+gallery.style()
 
 
 class Nudge(mlt.Mutation):
@@ -89,7 +89,7 @@ for path, color in zip(walk.states[::5], colors, strict=True):
     axes[1].plot(*path.vertices["position"][:, :2].T, color=color, lw=0.8)
 axes[1].set(title="in the scene, every 5th path", xlabel="x", ylabel="y", aspect="equal")
 
-for (made, audit), color in zip(audits.items(), (lab.GREEN, lab.RED), strict=True):
+for (made, audit), color in zip(audits.items(), (gallery.GREEN, gallery.RED), strict=True):
     z = sorted((abs(test.z) for test in audit.tests), reverse=True)
     axes[2].semilogy(z, "o", ms=4, color=color, label=f"{made.__name__}: {audit.verdict}")
 axes[2].axhline(4.9, color="black", lw=1, ls="--")

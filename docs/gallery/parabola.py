@@ -11,9 +11,9 @@ steps: it sees both branches, and its small moves fill in the detail.
 import matplotlib.pyplot as plt
 import numpy as np
 
-from pymlt import lab, metropolis
+from pymlt.lab import gallery, metropolis
 
-lab.style()
+gallery.style()
 
 f = metropolis.Parabola()
 mutations = {
@@ -21,7 +21,7 @@ mutations = {
     "mutate_2: x + 0.1 (u − ½)": metropolis.RandomWalk(0.1),
     "10 % / 90 % mixture": [(metropolis.Uniform(0, 1), 0.1), (metropolis.RandomWalk(0.1), 0.9)],
 }
-colors = [lab.BLUE, lab.ORANGE, lab.GREEN]
+colors = [gallery.BLUE, gallery.ORANGE, gallery.GREEN]
 STEPS, CHAINS, BINS = 30_000, 16, 500
 runs = {
     name: metropolis.run(f, moves, 0.9, STEPS, chains=CHAINS) for name, moves in mutations.items()
@@ -71,7 +71,7 @@ measures = ("Share of the left branch", "Detail: neighbouring bins", "The whole 
 for (name, run), color in zip(runs.items(), colors, strict=True):
     for ax, error in zip(axes[2], errors(run, 2), strict=True):
         ax.loglog(counts, error, "o-", ms=3, color=color, label=name.split(":")[0])
-for name, color in (("mutate_1: uniform", lab.BLUE), ("10 % / 90 % mixture", lab.GREEN)):
+for name, color in (("mutate_1: uniform", gallery.BLUE), ("10 % / 90 % mixture", gallery.GREEN)):
     run = metropolis.run(sharp, mutations[name], 0.95, STEPS // 3, chains=CHAINS, vectorized=True)
     detail = errors(run, 32)[1][counts <= STEPS // 3]
     axes[2, 1].loglog(counts[counts <= STEPS // 3], detail, "--", color=color, lw=1)

@@ -11,9 +11,9 @@ that looks like f lowers the constant. Combining two techniques is safe if one o
 import matplotlib.pyplot as plt
 import numpy as np
 
-from pymlt import lab, quadrature
+from pymlt.lab import gallery, quadrature
 
-lab.style()
+gallery.style()
 
 
 def f(x):
@@ -57,9 +57,11 @@ for name, method in methods.items():
 figure, (left, right) = plt.subplots(1, 2, figsize=(11, 4.2), width_ratios=[1, 1.15])
 x = np.linspace(0, 1, 500)
 left.plot(x, f(x), color="black", label="f(x) = 4 √(1 − x²)")
-left.plot(x, 4 * line_pdf(x) / 1.5, ":", color=lab.ORANGE, label="p(x), scaled")
+left.plot(x, 4 * line_pdf(x) / 1.5, ":", color=gallery.ORANGE, label="p(x), scaled")
 rows = ["naive", "importance, p a line", "stratified, 1 in each"]
-for row, (name, color) in enumerate(zip(rows, (lab.BLUE, lab.ORANGE, lab.RED), strict=True)):
+for row, (name, color) in enumerate(
+    zip(rows, (gallery.BLUE, gallery.ORANGE, gallery.RED), strict=True)
+):
     samples = methods[name](32, 3).samples
     height = -0.3 - 0.35 * row
     left.plot(samples, np.full(32, height), "|", color=color, markersize=10)

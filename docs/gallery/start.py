@@ -13,9 +13,9 @@ Or let chains start over and over, and end by chance: then what they record need
 import matplotlib.pyplot as plt
 import numpy as np
 
-from pymlt import lab, metropolis
+from pymlt.lab import gallery, metropolis
 
-lab.style()
+gallery.style()
 
 f = metropolis.Parabola()
 moves = [(metropolis.Uniform(0, 1), 0.02), (metropolis.RandomWalk(0.1), 0.98)]
@@ -56,7 +56,7 @@ left.set(xlabel="x", title="Where chains are at step 0 and after 200", yticks=[]
 left.grid(False)
 x = np.linspace(0, 1, 300)
 for row, ((name, (x0, scale)), color) in enumerate(
-    zip(ways.items(), (lab.RED, lab.ORANGE, lab.GREEN), strict=True)
+    zip(ways.items(), (gallery.RED, gallery.ORANGE, gallery.GREEN), strict=True)
 ):
     run = metropolis.run(f, moves, x0, STEPS, chains=CHAINS, seed=row)
     for states, alpha in ((x0, 0.3), (run.states[:, -1], 0.7)):
@@ -85,7 +85,7 @@ right.legend(loc="lower right")
 
 for axis, length in zip(below.subplots(1, 3, sharey=True), (0.3, 3, 30), strict=True):
     tours = metropolis.tours(f, moves, uniform, one, int(60_000 / length), steps=length, seed=1)
-    axis.hist(tours.states, 50, range=(0, 1), density=True, color=lab.GREEN, alpha=0.7)
+    axis.hist(tours.states, 50, range=(0, 1), density=True, color=gallery.GREEN, alpha=0.7)
     axis.plot(x, 12 * (x - 0.5) ** 2, color="black", lw=0.8)
     found = tours.estimate(lambda x: np.abs(x - 0.5))
     axis.set(xlabel="x", title=f"{length:g} steps from each sample")

@@ -11,9 +11,9 @@ itself, every acceptance is 1.
 import matplotlib.pyplot as plt
 import numpy as np
 
-from pymlt import lab, metropolis
+from pymlt.lab import gallery, metropolis
 
-lab.style()
+gallery.style()
 
 f = metropolis.Table([9, 1])
 proposals = {"q = 1/2": [1 / 2, 1 / 2], "q = (9/10, 1/10)": [9 / 10, 1 / 10]}
@@ -44,7 +44,7 @@ for ax, (name, table) in zip(axes, tables.items(), strict=False):
 
 steps = np.arange(13)
 ax = axes[2]
-for (name, table), color in zip(tables.items(), (lab.BLUE, lab.ORANGE), strict=True):
+for (name, table), color in zip(tables.items(), (gallery.BLUE, gallery.ORANGE), strict=True):
     for start in (0, 1):
         exact = [np.linalg.matrix_power(table.K, n)[start, 0] for n in steps]
         ax.plot(steps, exact, color=color, lw=1, label=name if start == 0 else None)

@@ -27,7 +27,7 @@ FLOORS = [  # from the ground up
     ("app", "mlt-render, the command line"),
     ("bindings", "the C++ side as pymlt._core"),
 ]
-ROOF = ("Python: pymlt", "scenes · algorithms · rendering · race · diagnostics · metropolis · cli")
+ROOF = ("Python: pymlt", "scenes · algorithms · rendering · race · diagnostics · lab · cli")
 ROUTE = [  # (floor, what happens there); "<": written on the left
     ("app", "start"),
     ("io", "read, build"),

@@ -49,11 +49,11 @@ from .rendering.result import Groups, Replay, Result
 from .rendering.start import render, render_progressive, replay, resume, start
 from .scenes.loading import load_dict, load_file, load_string
 from .scenes.transforms import Transform
-from .viewing.start import view
 
 if TYPE_CHECKING:
-    from . import metropolis, quadrature, race
+    from . import lab, race
     from .race import Program, Race, RaceResult, equal_time
+    from .viewing import view
 
 __all__ = [
     "Audit",
@@ -87,13 +87,12 @@ __all__ = [
     "denoise",
     "describe",
     "equal_time",
+    "lab",
     "load",
     "load_dict",
     "load_file",
     "load_string",
     "merge",
-    "metropolis",
-    "quadrature",
     "race",
     "read_image",
     "read_metadata",
@@ -111,13 +110,15 @@ Scene._repr_html_ = _preview
 __all__ += _integrators.__all__ + _mutations.__all__
 
 
-_RACE = ("Program", "Race", "RaceResult", "equal_time")
+_LATER = {"view": "viewing"} | dict.fromkeys(
+    ("Program", "Race", "RaceResult", "equal_time"), "race"
+)
 
 
 def __getattr__(name: str):
     """What not every program needs."""
-    if name in ("metropolis", "quadrature", "race"):
+    if name in ("lab", "race"):
         return _importlib.import_module(f"{__name__}.{name}")
-    if name in _RACE:
-        return getattr(_importlib.import_module(f"{__name__}.race"), name)
+    if name in _LATER:
+        return getattr(_importlib.import_module(f"{__name__}.{_LATER[name]}"), name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

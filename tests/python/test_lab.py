@@ -4,7 +4,8 @@ import sys
 
 import pytest
 
-from pymlt import cli, lab
+from pymlt import cli
+from pymlt.lab import gallery
 
 matplotlib = pytest.importorskip("matplotlib", reason="matplotlib is not installed")
 
@@ -15,7 +16,7 @@ def no_window(monkeypatch, tmp_path):
     matplotlib.use("agg")
 
 
-@pytest.mark.parametrize("name", lab.names())
+@pytest.mark.parametrize("name", gallery.names())
 def test_every_script_draws_its_figure(name, tmp_path):
     assert cli.main(["lab", name, "-o", "figure.png"]) == 0
     from matplotlib import image, pyplot
@@ -34,7 +35,7 @@ def test_the_two_state_table_is_printed(capsys):
 def test_the_list_names_each_script_with_its_topic(capsys):
     assert cli.main(["lab", "--list"]) == 0
     lines = capsys.readouterr().out.splitlines()
-    assert [line.split()[0] for line in lines] == lab.names()
+    assert [line.split()[0] for line in lines] == gallery.names()
     assert "parabola        Two mutations and their mixture" in lines
 
 

@@ -12,7 +12,7 @@ import pytest
 from scipy import stats
 
 import pymlt as mlt
-from pymlt import metropolis
+from pymlt.lab import metropolis
 
 ALPHA = 1e-4
 BINS = np.linspace(0, 1, 21)

@@ -8,8 +8,8 @@ import pytest
 import tiny
 
 import pymlt as mlt
-from pymlt import metropolis
 from pymlt.algorithms.integrator import as_integrator
+from pymlt.lab import metropolis
 
 
 class Nudge(mlt.Mutation):

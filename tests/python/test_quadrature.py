@@ -5,7 +5,7 @@ import pytest
 from scipy import stats
 
 import pymlt as mlt
-from pymlt import quadrature
+from pymlt.lab import quadrature
 
 ALPHA = 1e-4
 

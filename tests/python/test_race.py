@@ -15,7 +15,7 @@ from command_line import PYMLT, run, the_error
 import pymlt as mlt
 from pymlt.race.calibration import Calibration, calibrate
 from pymlt.race.child import run_child
-from pymlt.race.insets import choose_insets
+from pymlt.race.report.insets import choose_insets
 from pymlt.race.result import Entry, Settings, judged
 from pymlt.race.run import Run, Snapshot
 from pymlt.race.score import Judge, Mean, mean_of

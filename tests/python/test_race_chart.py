@@ -8,7 +8,7 @@ import pytest
 
 pytest.importorskip("matplotlib", reason="needs matplotlib")
 
-from pymlt.race.chart import Series, embedded, error_chart, level_chart
+from pymlt.race.report.chart import Series, embedded, error_chart, level_chart
 
 
 @pytest.mark.parametrize("scale", [1, 1e-4, 1e-9, 1e7])

@@ -294,7 +294,7 @@ def test_a_walk_is_the_chain_that_renders():
     from pymlt.algorithms.mutations import built_in as mutations
 
     moves = [(m(), 1.0) for m in mutations]
-    run = mlt.metropolis.run(scene.path_target(max_depth=6), moves, start, 200, seed=5)
+    run = mlt.lab.metropolis.run(scene.path_target(max_depth=6), moves, start, 200, seed=5)
     assert [s.accepted for s in steps] == run.accepted.tolist()
     np.testing.assert_array_equal(stepper.path.vertices, run.states[-1].vertices)
     assert sum(count[0] for count in stepper.counts.values()) == 200

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from .. import _core
-from ..lab import draw, names, pyplot_module, script, title
+from ..lab.gallery import draw, names, pyplot_module, script, title
 from .common import emit
 from .figures import check_figure_file, save_figure
 

@@ -13,7 +13,7 @@ from ..formats.loading import SceneLike, as_scene
 from ..rendering.options import integer, number
 from ..rendering.progress import progress_bar
 from .algorithm import AlgorithmLike, contestants
-from .insets import check_insets
+from .report.insets import check_insets
 from .result import Entry, RaceResult, Settings, judged
 from .run import Conditions, Contestant
 from .score import reference_images

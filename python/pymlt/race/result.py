@@ -11,8 +11,8 @@ import numpy as np
 from .. import _core
 from ..diagnostics.metrics import relative_square
 from .cpu_time import processor
-from .insets import Inset, choose_insets
 from .report import Report
+from .report.insets import Inset, choose_insets
 from .run import Run
 from .score import Judge, Score
 

@@ -1,5 +1,5 @@
 """The lecture's examples as functions of what a slider sets; all chains are those of
-`pymlt.metropolis`, whose kernel renders.
+`pymlt.lab.metropolis`, whose kernel renders.
 """
 
 from __future__ import annotations
@@ -8,7 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
-from .. import metropolis
+from ..lab import metropolis
 
 if TYPE_CHECKING:
     import numpy as np

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from .. import _core
+from ... import _core
 
 
 @dataclass(frozen=True)
@@ -40,7 +40,7 @@ def bootstrap(
 
     rng = np.random.default_rng(seed)
     x, weights = candidate_weights(target, sample, density, candidates, rng)
-    b, b_error, chosen = _core.metropolis.resample(weights, chains, seed)
+    b, b_error, chosen = _core.lab.resample(weights, chains, seed)
     order = np.random.default_rng([seed, 1]).permutation(len(chosen))
     return Start(b, b_error, x[np.asarray(chosen)[order]])
 

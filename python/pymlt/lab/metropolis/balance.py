@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from .. import _core
+from ... import _core
 from .moves import transition_matrix
 
 
@@ -61,7 +61,7 @@ def detailed_balance(f, T, names=None) -> DetailedBalance:
     n = len(T)
     if f.shape != (n,) or not (np.isfinite(f).all() and (f > 0).all()):
         raise _core.UsageError(f"f must be positive on each of the {n} states of T")
-    acceptance = _core.metropolis.acceptance
+    acceptance = _core.lab.acceptance
     a = np.array(
         [
             [acceptance(T[i, j] / f[j], T[j, i] / f[i]) if T[i, j] > 0 else 0 for j in range(n)]

@@ -9,14 +9,14 @@ from collections.abc import Sequence
 from html import escape
 from typing import TYPE_CHECKING, Any
 
-from .. import _core
-from .._extras import import_extra
+from ... import _core
+from ..._extras import import_extra
 from .table import notes, summary_table, table
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from .result import RaceResult
+    from ..result import RaceResult
 
 
 class Report:

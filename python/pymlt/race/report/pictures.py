@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..diagnostics.metrics import flip_map, relative_error
-from ..pictures.jpeg import encode_jpeg
-from ..pictures.notebook import png
-from ..pictures.tonemapping import tonemap
+from ...diagnostics.metrics import flip_map, relative_error
+from ...pictures.jpeg import encode_jpeg
+from ...pictures.notebook import png
+from ...pictures.tonemapping import tonemap
 
 if TYPE_CHECKING:
-    from .result import Entry, RaceResult
+    from ..result import Entry, RaceResult
 
 WIDEST = 800  #: pixels of a picture in a page
 WHITE = 0.8  #: what the brightest twentieth of the pixels is brought to

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .._extras import import_extra
-from ..pictures.tonemapping import encode_srgb, tonemap
+from ..._extras import import_extra
+from ...pictures.tonemapping import encode_srgb, tonemap
 from .insets import Inset
 from .pictures import fitting_exposure
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure, SubFigure
 
-    from .result import RaceResult
+    from ..result import RaceResult
 
 COLUMN = 2.4  #: inches
 FRAMES = ("#ff3d6e", "#12b5ff", "#ffc400")

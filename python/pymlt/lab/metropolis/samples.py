@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from .. import _core
-from ..diagnostics._arviz import import_arviz
+from ... import _core
+from ...diagnostics._arviz import import_arviz
 
 if TYPE_CHECKING:
     from ..quadrature import Estimate

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from math import exp, log
 from typing import TYPE_CHECKING
 
-from .score import Mean
+from ..score import Mean
 
 if TYPE_CHECKING:
-    from .result import Entry, RaceResult
+    from ..result import Entry, RaceResult
 
 EMPTY = "–"
 UNEQUAL = 0.1  #: of the budget: a time that is farther from it is remarked upon

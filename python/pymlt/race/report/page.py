@@ -9,15 +9,15 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from .. import _core
-from ..pictures.tonemapping import check_tonemap
+from ... import _core
+from ...pictures.tonemapping import check_tonemap
 from .chart import COLOURS, Series, embedded, error_chart, level_chart
 from .insets import Inset
 from .pictures import drawing, error_map, exact, fitting_exposure, photograph, shows_flip
 from .table import Column, columns, heading, notes, summary
 
 if TYPE_CHECKING:
-    from .result import Entry, RaceResult
+    from ..result import Entry, RaceResult
 
 STYLE = Path(__file__).with_name("page.css")
 EXPLAINED = {

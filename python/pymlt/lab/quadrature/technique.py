@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from .. import _core
+from ... import _core
 from .checks import box, evaluate, points
 
 

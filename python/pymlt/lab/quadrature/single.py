@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
-from .. import _core
+from ... import _core
 from .checks import box, check_count, evaluate, points
 from .technique import Technique, draw
 

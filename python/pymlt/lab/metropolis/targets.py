@@ -7,9 +7,9 @@ from __future__ import annotations
 
 from functools import cached_property
 
-from .. import _core
+from ... import _core
 
-_lab = _core.metropolis
+_lab = _core.lab
 PathTarget = _lab.PathTarget
 
 

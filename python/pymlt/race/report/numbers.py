@@ -7,11 +7,11 @@ from collections.abc import Sequence
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
-from .. import _core
+from ... import _core
 from .table import notes
 
 if TYPE_CHECKING:
-    from .result import Entry, RaceResult
+    from ..result import Entry, RaceResult
 
 
 def numbers(results: Sequence[RaceResult]) -> dict[str, Any]:

@@ -125,8 +125,8 @@ void bind_targets(py::module_& m) {
 
 }  // namespace
 
-void bind_metropolis(py::module_& parent) {
-  py::module_ m = parent.def_submodule("metropolis", "The C++ side of pymlt.metropolis.");
+void bind_lab(py::module_& parent) {
+  py::module_ m = parent.def_submodule("lab", "The C++ side of pymlt.lab.metropolis.");
   bind_random_source(m);
   bind_moves(m);
   bind_targets(m);

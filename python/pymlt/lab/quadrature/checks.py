@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from .. import _core
+from ... import _core
 
 
 def box(domain):

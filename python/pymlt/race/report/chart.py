@@ -9,7 +9,7 @@ from html import escape
 from io import BytesIO
 from typing import TYPE_CHECKING
 
-from .._extras import import_extra
+from ..._extras import import_extra
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

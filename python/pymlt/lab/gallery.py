@@ -12,8 +12,8 @@ import warnings
 from pathlib import Path
 from typing import Any
 
-from . import _core
-from ._extras import import_extra
+from .. import _core
+from .._extras import import_extra
 
 BLUE, ORANGE, GREEN, RED, GREY = "#2f6db5", "#d9822b", "#3a9a62", "#c23b34", "#7a7a7a"
 
@@ -73,7 +73,8 @@ def pyplot_module() -> Any:
 
 def _directory() -> Path:
     here = Path(__file__).resolve()
-    for directory in (here.parent / "gallery", here.parents[2] / "docs" / "gallery"):
+    installed = here.parents[1] / "gallery"
+    for directory in (installed, here.parents[3] / "docs" / "gallery"):
         if directory.is_dir():
             return directory
-    raise _core.FileError(f"{here.parent / 'gallery'}: the gallery is not installed")
+    raise _core.FileError(f"{installed}: the gallery is not installed")

@@ -10,9 +10,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from .. import _core
+from ... import _core
 
-_lab = _core.metropolis
+_lab = _core.lab
 
 
 class Move:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from .. import _core
+from ... import _core
 from .checks import check_count, evaluate
 from .heuristics import HEURISTICS
 from .single import Estimate

@@ -11,14 +11,14 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from .. import _core
-from ..algorithms.mutation import Mutation
+from ... import _core
+from ...algorithms.mutation import Mutation
 from .moves import Discrete, Independent, Move
 from .samples import Samples
 from .start import Start
 from .targets import Target
 
-_lab = _core.metropolis
+_lab = _core.lab
 
 
 def run(
