@@ -33,7 +33,7 @@ export PIP_DISABLE_PIP_VERSION_CHECK = 1
 
 .DEFAULT_GOAL := build
 .DELETE_ON_ERROR:
-.PHONY: setup build demo docs test test-long mutants asan fuzz soak wheel release-check lint format \
+.PHONY: setup build demo docs test test-long mutants asan separate fuzz soak wheel release-check lint format \
         clean distclean
 
 # ---- set-up ------------------------------------------------------------------------------------
@@ -94,7 +94,7 @@ docs: build $(STAMPS)/docs
 test: build
 	@status=0; \
 	$(CTEST) -j $(JOBS) -LE '^long$$' --timeout 300 || status=1; \
-	$(BIN)/python -m pytest || status=1; \
+	$(BIN)/python -m pytest -n $(JOBS) || status=1; \
 	exit $$status
 
 # The tests that take minutes; SHARD=2/4 runs the second of four parts.
@@ -114,6 +114,11 @@ asan: | $(STAMPS)/apt $(STAMPS)/apt-test
 	cmake --preset asan
 	cmake --build --preset asan
 	ctest --preset asan -j $(JOBS)
+
+# Each file of the library by itself: does it include what it uses?
+separate: | $(STAMPS)/apt
+	cmake --preset separate
+	cmake --build --preset separate
 
 # Hostile files for every reader, MINUTES for each; it fails if one of them crashes, takes ten seconds
 # or a gigabyte. Targets that are named by FUZZ_TARGETS="obj ply" run alone.
