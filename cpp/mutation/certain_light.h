@@ -16,7 +16,7 @@ namespace mlt {
 class CertainLight {
  public:
   /// The answer of most_certain() where no path is left to the samples.
-  static constexpr double all = std::numeric_limits<double>::infinity();
+  static constexpr double no_bound = std::numeric_limits<double>::infinity();
 
   /// Sends about `walks` walks from the camera, four through each cell of the image. The result is
   /// the same for any number of threads.
@@ -26,7 +26,7 @@ class CertainLight {
   CertainLight(const Raster& raster, uint64_t walks, std::vector<uint8_t> cells);
 
   /// Paths of a greater certainty are left to the samples there.
-  double most_certain(const Vec2& raster) const { return lit_[cells_.at(raster)] ? 0.5 : all; }
+  double most_certain(const Vec2& raster) const { return lit_[cells_.at(raster)] ? 0.5 : no_bound; }
 
   const std::vector<uint8_t>& cells() const { return lit_; }
 

@@ -40,7 +40,7 @@ class PathTarget {
   void leave_to_samples(CertainLight light) { certain_light_ = std::move(light); }
   /// Paths of a greater `certainty` have no target at this raster position.
   double most_certain(const Vec2& raster) const {
-    return certain_light_ ? certain_light_->most_certain(raster) : CertainLight::all;
+    return certain_light_ ? certain_light_->most_certain(raster) : CertainLight::no_bound;
   }
 
   /// The factor of two-stage sampling.

@@ -188,3 +188,48 @@ def test_a_technique_without_density_gets_no_weight():
             100,
             heuristic=lambda q: np.full(q.shape, 0.5),
         )
+
+
+RIGHT = {
+    "uniform": quadrature.Technique.uniform((0, 1e-6)),
+    "line": LINE,
+    "normal": quadrature.Technique(lambda rng, n: rng.normal(3, 0.1, n), stats.norm(3, 0.1).pdf),
+    "without a mean": quadrature.Technique(lambda rng, n: rng.standard_cauchy(n), stats.cauchy.pdf),
+    "infinite at an end": quadrature.Technique(
+        lambda rng, n: (1 - rng.random(n)) ** 2, lambda x: 0.5 / np.sqrt(x)
+    ),
+    "two far peaks": quadrature.Technique(
+        lambda rng, n: rng.normal(0, 1, n) + 1000 * (rng.random(n) < 0.1),
+        lambda x: 0.9 * stats.norm.pdf(x) + 0.1 * stats.norm.pdf(x, 1000),
+    ),
+    "half of a square": quadrature.Technique(
+        lambda rng, n: np.sort(rng.random((n, 2))), lambda x: 2.0 * (x[:, 0] <= x[:, 1])
+    ),
+    "along a diagonal": quadrature.Technique(
+        lambda rng, n: rng.multivariate_normal([0, 0], [[1, 0.99], [0.99, 1]], n),
+        stats.multivariate_normal([0, 0], [[1, 0.99], [0.99, 1]]).pdf,
+    ),
+    "in space": quadrature.Technique(
+        lambda rng, n: rng.normal(0, 1, (n, 3)), stats.multivariate_normal([0, 0, 0]).pdf
+    ),
+}
+
+
+@pytest.mark.parametrize("name", RIGHT)
+def test_a_density_that_is_one_is_taken(name):
+    sample, pdf = RIGHT[name].sample, RIGHT[name].pdf
+    for n in (256, 1000, 10_000):
+        for seed in range(20):
+            quadrature.importance(lambda x: np.ones(len(x)), sample, pdf, n, seed=seed)
+
+
+@pytest.mark.parametrize(
+    ("name", "factor"),
+    [("line", 0.9), ("line", 1.1), *((name, factor) for name in RIGHT for factor in (0.5, 2))],
+)
+def test_a_density_that_does_not_integrate_to_one_is_refused(name, factor):
+    sample, pdf = RIGHT[name].sample, RIGHT[name].pdf
+    with pytest.raises(mlt.UsageError, match="pdf integrates to"):
+        quadrature.importance(
+            lambda x: np.ones(len(x)), sample, lambda x: factor * pdf(x), 10_000, seed=1
+        )

@@ -5,7 +5,7 @@
 namespace mlt::test {
 namespace {
 
-constexpr double all = CertainLight::all;
+constexpr double no_bound = CertainLight::no_bound;
 const std::string glow = area_light("9 9 9");
 
 /// 22 pixels have the length 1. From the left a lamp, one in a ball of glass, and between them one
@@ -28,8 +28,8 @@ TEST(CertainLight, IsWhereALampFillsACell) {
   const CertainLight light = light_of(lamps());
   EXPECT_EQ(light.most_certain(lamp), 0.5);
   EXPECT_EQ(light.most_certain(behind_glass), 0.5);
-  EXPECT_EQ(light.most_certain(spot), all);
-  EXPECT_EQ(light.most_certain(wall), all);
+  EXPECT_EQ(light.most_certain(spot), no_bound);
+  EXPECT_EQ(light.most_certain(wall), no_bound);
 }
 
 TEST(CertainLight, IsNotWhereALensBlursTheLamp) {
@@ -37,7 +37,7 @@ TEST(CertainLight, IsNotWhereALensBlursTheLamp) {
       light_of(lamps("thinlens",
                      "<float name='aperture_radius' value='1'/><float name='focus_distance' "
                      "value='1.5'/>"));
-  EXPECT_EQ(light.most_certain(lamp), all);
+  EXPECT_EQ(light.most_certain(lamp), no_bound);
 }
 
 TEST(CertainLight, IsTheSameForAnyNumberOfThreads) {

@@ -44,3 +44,53 @@ def evaluate(function: Callable, x, name: str):
         j = int(np.flatnonzero(~np.isfinite(values))[0])
         raise _core.UsageError(f"{name} is {values[j]} at x = {x[j]}")
     return values
+
+
+def check_density(pdf: Callable, x) -> None:
+    """Refuse a pdf that does not integrate to 1 over where its samples x are.
+
+    Looks only in up to three dimensions, at 256 samples or more. The mass beyond the outermost
+    samples is below 20 / n on each side, but for one case in 10^8.
+    """
+    n, dimensions = x.shape[0], 1 if x.ndim == 1 else x.shape[1]
+    if n < 256 or dimensions > 3:
+        return
+    integral, error = _integral_among(pdf, x)
+    if abs(integral - 1) > 6 * error + 40 * dimensions / n + 0.02:
+        raise _core.UsageError(
+            f"pdf integrates to {integral:.3g} over the samples' domain; a density integrates to 1"
+        )
+
+
+def _integral_among(pdf: Callable, x):
+    """The integral of a density over the box around samples x, and its standard error.
+
+    Halves of equal numbers of samples cut the box into cells that hold about the same mass each,
+    where uniform samples are good. Where pdf is not finite it counts as 0.
+    """
+    import numpy as np
+
+    rng, per_cell = np.random.default_rng(0), 4
+    samples = x.reshape(len(x), -1)
+    cells = [(samples.min(axis=0), samples.max(axis=0), samples)]
+    for level in range(min(8, int(np.log2(len(x) / 16)))):
+        cells = [half for cell in cells for half in _halves(*cell, level % samples.shape[1])]
+    low, high = (np.array([cell[i] for cell in cells])[:, None] for i in (0, 1))
+    u = rng.random((len(cells), per_cell, samples.shape[1]))
+    at = (low + u * (high - low)).reshape(-1, samples.shape[1])
+    with np.errstate(all="ignore"):
+        values = np.asarray(pdf(at[:, 0] if x.ndim == 1 else at), dtype=float)
+    values = np.where(np.isfinite(values), values, 0).reshape(len(cells), per_cell)
+    parts = values * (high - low).prod(axis=2)
+    return parts.mean(axis=1).sum(), np.sqrt((parts.var(axis=1, ddof=1) / per_cell).sum())
+
+
+def _halves(low, high, samples, axis: int):
+    """A cell cut where as many of its samples lie on either side."""
+    import numpy as np
+
+    middle = np.median(samples[:, axis])
+    below = samples[:, axis] < middle
+    end, begin = high.copy(), low.copy()
+    end[axis] = begin[axis] = middle
+    return (low, end, samples[below]), (begin, high, samples[~below])

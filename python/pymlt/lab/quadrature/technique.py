@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from ... import _core
-from .checks import box, evaluate, points
+from .checks import box, check_density, evaluate, points
 
 
 @dataclass(frozen=True)
@@ -46,4 +46,5 @@ def draw(technique: Technique, rng, n: int):
         raise _core.UsageError(
             f"pdf is {p.min():.6g} at x = {x[p.argmin()]}, which sample has drawn"
         )
+    check_density(technique.pdf, x)
     return x, p
