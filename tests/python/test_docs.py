@@ -92,6 +92,34 @@ def test_extras_are_those_that_are_used():
         assert f'"{extra}"' in package, extra
 
 
+TOPICS = ["quadrature", "stratified", "importance", "combined", "transport equation", "t\\*"]
+TOPICS += ["c_ij", "extended recording", "acceptance", "detailed balance", "two states"]
+TOPICS += ["parabola", "mutate_1", "mutate_2", "mixture", "blur", "reflection", "initialisation"]
+TOPICS += ["start-up bias", "perturbations", "choice of mutations", "adaptivity", "ergodicity"]
+
+
+def test_each_topic_of_the_lecture_has_its_figure_and_slider():
+    from pymlt.lab import gallery
+    from pymlt.viewing.lecture_examples import EXAMPLES
+
+    page = (ROOT / "docs" / "lecture.md").read_text()
+    rows = [line.split("|") for line in page.splitlines() if line.startswith("| ")][1:]
+    assert set(re.findall(r"`pymlt lab (\w+)`", page)) == set(gallery.names())
+    assert {row[4].strip() for row in rows} - {""} == {example.name for example in EXAMPLES}
+    said = page.lower()
+    for topic in TOPICS:
+        assert topic in said, topic
+
+
+def test_the_headings_that_links_name_exist():
+    for page in PAGES:
+        for target, heading in re.findall(r"\]\(([^)#:]*\.md)?#([^)]+)\)", page.read_text()):
+            text = ((page.parent / target) if target else page).read_text()
+            headings = re.findall(r"^#+ (.*)$", text, re.MULTILINE)
+            slugs = {re.sub(r"[^\w -]", "", h.lower()).replace(" ", "-") for h in headings}
+            assert heading in slugs, f"{page.name}: {target}#{heading}"
+
+
 def test_no_two_pages_have_one_title():
     titles = [re.search(r"^# (.*)$", page.read_text(), re.MULTILINE)[1] for page in PAGES[1:]]
     titles.append((ROOT / "docs" / "gallery" / "GALLERY_HEADER.rst").read_text().splitlines()[0])

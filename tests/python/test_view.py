@@ -383,6 +383,12 @@ def test_examples_say_what_the_lecture_says():
     start = lecture_examples.start_up(0.9, 0.1).charts[0].curves
     assert abs(start[1].y - 0.5).max() < 5 * 0.39 / np.sqrt(4000)  # from the bootstrap
     assert start[0].y[5] > 0.7
+    peak, truth = (c.y for c in lecture_examples.adaptivity(0, 0.3).charts[0].curves)
+    assert peak[-1] > truth[-1] + 0.04
+    assert "0 % of the samples are on the right" in lecture_examples.ergodicity(0.3, 0).text
+    assert "has crossed 0 times" not in lecture_examples.ergodicity(0.3, 0.05).text
+    histogram, truth = (c.y for c in lecture_examples.tours(4, 0.1).charts[0].curves)
+    assert abs(histogram - truth).max() < 0.5
 
 
 # ---- the command

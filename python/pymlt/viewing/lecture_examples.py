@@ -8,7 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
-from ..lab import metropolis
+from ..lab import metropolis, quadrature
 
 if TYPE_CHECKING:
     import numpy as np
@@ -56,6 +56,78 @@ class Example:
     text: str
     sliders: tuple[Slider, ...]
     run: Callable[..., Shown]  #: of the values of the sliders
+
+
+def integrals(log_n: float, steepness: float) -> Shown:
+    """Uniform, stratified and importance sampling of x^k."""
+    import numpy as np
+
+    def f(x):
+        return x**steepness
+
+    counts = np.unique(np.geomspace(4, 10**log_n, 12).astype(int) // 2 * 2)
+    line = quadrature.Technique(lambda rng, n: np.sqrt(1 - rng.random(n)), lambda x: 2 * x)
+    ways = {
+        "uniform": lambda n, s: quadrature.naive(f, (0, 1), n, seed=s),
+        "stratified": lambda n, s: quadrature.stratified(f, (0, 1), n, seed=s),
+        "importance, p(x) = 2 x": lambda n, s: quadrature.importance(
+            f, line.sample, line.pdf, n, seed=s
+        ),
+    }
+    truth = 1 / (steepness + 1)
+    errors = {
+        name: np.array(
+            [
+                np.sqrt(np.mean([(way(n, seed).estimate / truth - 1) ** 2 for seed in range(40)]))
+                for n in counts
+            ]
+        )
+        for name, way in ways.items()
+    }
+    last = ", ".join(f"{name} {100 * error[-1]:.2g} %" for name, error in errors.items())
+    text = (
+        f"The integral of x^{steepness:g} over [0, 1] is {truth:.4f}. With {counts[-1]} samples "
+        f"the error is, over 40 runs: {last}. Four times as many uniform samples halve it; "
+        "stratified ones do better where f is smooth."
+    )
+    curves = [Curve(name, np.log10(error)) for name, error in errors.items()]
+    return Shown(text, [Chart("log₁₀ error, by log₁₀ of the samples", np.log10(counts), curves)])
+
+
+def combination(width: float, lobe: float) -> Shown:
+    """A lamp of some width, seen by a lobe of another: sample one, the other, or both."""
+    import numpy as np
+
+    lamp = quadrature.Technique.uniform((0.05 - width / 2, 0.05 + width / 2))
+
+    def bell(x):
+        return np.exp(-0.5 * (x / lobe) ** 2) / (lobe * np.sqrt(2 * np.pi))
+
+    def f(x):
+        return lamp.pdf(x) * bell(x)
+
+    both = [lamp, quadrature.Technique(lambda rng, n: rng.normal(0, lobe, n), bell)]
+    n = 4000
+    results = {
+        "the lamp": quadrature.importance(f, both[0].sample, both[0].pdf, n),
+        "the lobe": quadrature.importance(f, both[1].sample, both[1].pdf, n),
+        **{h: quadrature.combined(f, both, n // 2, heuristic=h) for h in ("balance", "power")},
+    }
+    text = f"{n} samples: " + "; ".join(f"{name}: {found}" for name, found in results.items())
+    x = np.linspace(-0.6, 0.7, 300)
+    shown = [Curve("lamp", both[0].pdf(x)), Curve("lobe", bell(x))]
+    weights = quadrature.balance(np.array([both[0].pdf(x), np.maximum(bell(x), 1e-300)]))
+    return Shown(
+        text + ".",
+        [
+            Chart("The two densities", x, shown),
+            Chart(
+                "Their weights by the balance heuristic",
+                x,
+                [Curve("of lamp samples", weights[0]), Curve("of lobe samples", weights[1])],
+            ),
+        ],
+    )
 
 
 def two_states(fa: float, to_a: float) -> Shown:
@@ -151,6 +223,80 @@ def start_up(start: float, size: float) -> Shown:
     return Shown(text, [Chart("Mean of x over the chains, by step", at, curves)])
 
 
+def tours(steps: float, size: float) -> Shown:
+    """Chains that start over and over, from uniform samples, and end by chance."""
+    import numpy as np
+
+    moves = [(metropolis.RandomWalk(size), 1.0)]
+    made = metropolis.tours(
+        metropolis.Parabola(),
+        moves,
+        lambda rng, n: rng.random(n),
+        lambda x: np.ones(len(x)),
+        int(40_000 / steps),
+        steps=steps,
+        seed=1,
+    )
+    edges = np.linspace(0, 1, 51)
+    middles = (edges[:-1] + edges[1:]) / 2
+    found, _ = np.histogram(made.states, edges, density=True)
+    curves = [Curve("states", found), Curve("12 (x - 1/2)²", 12 * (middles - 0.5) ** 2)]
+    text = (
+        f"From each uniform sample {steps:g} steps in the mean, and none crosses the middle if "
+        "they are small. Still the states have the density f from the first one on: tours die "
+        f"soon where f is small. They tell the integral of f, too: "
+        f"{made.estimate(lambda x: np.ones(len(x)))}, which is 1/12 = 0.0833."
+    )
+    return Shown(text, [Chart("Histogram of all states and f, normalised", middles, curves)])
+
+
+def ergodicity(gap: float, uniform: float) -> Shown:
+    """Two islands with nothing between them, and steps of up to 0.1 either way."""
+    import numpy as np
+
+    left, right = 0.4 - gap / 2, 0.4 + gap / 2
+    moves = [(metropolis.RandomWalk(0.2), 1 - uniform), (metropolis.Uniform(0, 1), uniform)]
+
+    def f(x):
+        return float(0 <= x <= left or right <= x <= 1)
+
+    run = metropolis.run(f, moves, 0.1, 4000, seed=1)
+    x = np.asarray(run.states)
+    there, truth = float((x > 0.4).mean()), (1 - right) / (1 - right + left)
+    crossings = int((np.diff(x > 0.4)).sum())
+    text = (
+        f"{100 * there:.0f} % of the samples are on the right island, and should be "
+        f"{100 * truth:.0f} %; the chain has crossed {crossings} times. A gap of more than 0.1 "
+        "cannot be crossed by these steps at all: without a uniform proposal now and then the "
+        "chain is not ergodic, and nothing in its samples says so."
+    )
+    return Shown(text, [Chart("x by step", np.arange(len(x), dtype=float), [Curve("x", x, True)])])
+
+
+def adaptivity(decay: float, rate: float) -> Shown:
+    """A walk that learns its size, on a narrow peak upon a broad hill."""
+    from math import erf, sqrt
+
+    import numpy as np
+
+    f = metropolis.Normals([0, 0], [0.03, 1], [0.5, 0.5])
+    walk = metropolis.AdaptiveWalk(1, "normal", rate=rate, decay=decay)
+    run = metropolis.run(f, walk, 0.0, STEPS, chains=8, seed=1)
+    states = np.asarray(run.states)
+    truth = 0.5 * erf(3 / sqrt(2)) + 0.5 * erf(0.09 / sqrt(2))
+    shares = (np.abs(states) < 0.09).mean(axis=0).cumsum() / np.arange(1, STEPS + 1)
+    text = (
+        f"After each step the size grows or shrinks by up to rate · i^-decay. {STEPS} steps, mean "
+        f"acceptance {run.acceptance:.2f}, whatever the decay is. The peak has "
+        f"{100 * shares[-1]:.1f} % of the samples and should have {100 * truth:.1f} %: with a "
+        "decay of 0 the walk never stops to learn, is no Markov chain with the target f, and "
+        "stays wrong."
+    )
+    at = np.arange(0, STEPS, 50)
+    curves = [Curve("samples", shares[at]), Curve("truth", np.full(len(at), truth))]
+    return Shown(text, [Chart("Share of the peak, by step", at.astype(float), curves)])
+
+
 def acceptance(log_size: float) -> Shown:
     """A random walk on a normal density: how far to move?"""
     import numpy as np
@@ -182,6 +328,19 @@ def acceptance(log_size: float) -> Shown:
 
 EXAMPLES = (
     Example(
+        "Quadrature",
+        "Samples may be spread evenly, one or two to a stratum, or drawn where f is large.",
+        (Slider("log₁₀ samples", 1, 4, 0.25, 3), Slider("k of x^k", 0.5, 6, 0.5, 2)),
+        integrals,
+    ),
+    Example(
+        "Combined sampling",
+        "A lamp is reflected by a glossy surface. Where one of both is narrow, samples of the "
+        "other seldom meet it; weights that sum to one take the better of both at each x.",
+        (Slider("Lamp", 0.01, 1, 0.01, 0.1), Slider("Lobe", 0.01, 0.5, 0.01, 0.1)),
+        combination,
+    ),
+    Example(
         "Two states",
         "The smallest example: f(b) = 1, and a chain should be in a by the share of f(a).",
         (Slider("f(a)", 1, 20, 0.5, 9), Slider("q(→ a)", 0.05, 0.95, 0.05, 0.5)),
@@ -211,9 +370,27 @@ EXAMPLES = (
         start_up,
     ),
     Example(
+        "Tours",
+        "Chains that start over and over and end by chance: no start is left to be forgotten.",
+        (Slider("Steps", 0.2, 40, 0.2, 4), Slider("Size", 0.02, 1, 0.02, 0.1)),
+        tours,
+    ),
+    Example(
         "Acceptance",
         "How far should a random walk on a normal density move?",
         (Slider("log₁₀ size", -1, 1.8, 0.1, 0.4),),
         acceptance,
+    ),
+    Example(
+        "Adaptivity",
+        "A random walk that learns its size: less and less, or for ever?",
+        (Slider("Decay", 0, 1, 0.1, 0), Slider("Rate", 0.05, 1, 0.05, 0.3)),
+        adaptivity,
+    ),
+    Example(
+        "Ergodicity",
+        "f is 1 on two islands and 0 in the gap between them. Does the chain come across?",
+        (Slider("Gap", 0.02, 0.5, 0.02, 0.3), Slider("Uniform", 0, 0.3, 0.01, 0)),
+        ergodicity,
     ),
 )
