@@ -9,7 +9,7 @@
 
 namespace mlt {
 
-/// Shows all that one sample has found.
+/// Adds all light that one sample has found to the image.
 class FamilyWeighting {
  public:
   FamilyWeighting(const Scene& scene, const FamilyWeights& weights)

@@ -36,11 +36,11 @@
 
 namespace mlt {
 
-/// What a group has done up to now.
+/// The sums of a group up to now.
 struct GroupProgress {
   double b = 0;           ///< Mean of the weights T / p of its bootstrap.
-  SampleSums bootstrap;   ///< Their brightness.
-  uint64_t steps = 0;     ///< Of its chains.
+  SampleSums bootstrap;   ///< Brightness of the bootstrap samples.
+  uint64_t steps = 0;     ///< Number of steps of its chains.
   double brightness = 0;  ///< Sum of L* of what its chains have recorded.
 };
 
@@ -64,7 +64,7 @@ class GroupCombination {
   /// The brightness that the samples have found beyond what the image shows, or less than that, if
   /// it is more than chance would make it: beyond 2.5 standard errors.
   double missing() const { return missing_; }
-  /// Whether a group has anything to say.
+  /// Whether a group has an image: it has found no light, or its chains have made steps.
   bool begun(int g) const { return groups_[g].b == 0 || has_chains(g); }
 
  private:
@@ -72,7 +72,7 @@ class GroupCombination {
   bool has_chains(int g) const { return groups_[g].steps > 0; }
   double chain_brightness(int g) const;
   Estimate samples_of(int g) const;
-  /// By how much I_g is to be brighter than b_g C_g.
+  /// By how much I_g is brighter than b_g C_g.
   struct Correction {
     double of_others;  ///< Added to it as the others' image.
     double of_itself;  ///< Taken away from it; not positive.

@@ -13,7 +13,7 @@ namespace {
 constexpr std::array<double, 8> thresholds = {1. / 16, 1. / 4, 1, 4, 16, 64, 256, 1024};
 using PerThreshold = std::array<double, thresholds.size()>;
 
-/// Samples are drawn in so many parts, one after the other in each.
+/// The number of parts that are drawn in parallel; in each, samples are drawn one after the other.
 constexpr uint64_t parts = 64;
 
 /// Runs part(i, first, last) for each part of `count` samples.
@@ -23,7 +23,7 @@ void in_parts(uint64_t count, int threads, Part&& part) {
                [&](uint64_t i) { part(i, count * i / parts, count * (i + 1) / parts); });
 }
 
-/// What one chain adds to the pixels, for each of `thresholds`.
+/// The light that one chain adds to the pixels, for each of `thresholds`.
 using PixelSums = std::map<std::pair<int, int>, PerThreshold>;
 
 /// How noisy one family is, in units of the brightness of each pixel, and what it costs.
@@ -40,20 +40,20 @@ struct Noise {
     return *this;
   }
   double n() const { return static_cast<double>(count); }
-  /// In rays; all the rest costs about as much again as one ray.
+  /// Cost of a sample in rays; everything else costs about as much as one ray more.
   double cost() const { return cost_of_ray * (1 + static_cast<double>(rays) / n()); }
   double square(size_t threshold) const { return squares[threshold] / n(); }
 };
 
 struct Forecast {
   Allocation allocation;
-  double variance = 0;  ///< That is to be expected, times the time.
+  double variance = 0;  ///< Expected variance, times the time.
 };
 
-/// So many steps of tours are much more work than the sample that they start from.
+/// With this number of steps, tours are much more work than the sample that they start from.
 constexpr double least_steps_per_sample = 64;
 
-/// Where the choice hardly matters more is left to the samples: their noise is known better.
+/// Up to this ratio of variances the samples are preferred: their noise is known better.
 constexpr double hardly = 1.15;
 
 class Pilot {
@@ -108,7 +108,7 @@ class Pilot {
     for (const Noise& one : noise) samples_ += one;
     return true;
   }
-  /// Of samples alone: variance times cost.
+  /// The noise of samples alone: variance times cost.
   double noise_of_samples() const {
     return samples_.cost() * samples_.square(thresholds.size() - 1);
   }
@@ -144,14 +144,14 @@ class Pilot {
   }
 
  private:
-  /// What light counts for: its share of the brightness of its pixel.
+  /// The weight of light in the noise: its share of the brightness of its pixel.
   double relative(const Color& rgb, const Vec2& raster) const {
     return target_luminance(rgb) * coarse_(raster);
   }
   FamilyWeights weights(size_t i) const { return FamilyWeights(starts_.b * thresholds[i]); }
 
-  /// Returns what the sample adds to its own pixel. All that it adds to others by light tracing is
-  /// noise.
+  /// Returns the light that the sample adds to its own pixel. All light that it adds to others by
+  /// light tracing counts as noise.
   PerThreshold add_sample(const std::vector<FoundLight>& found, Noise& noise) const {
     PerThreshold own_pixel{};
     for (const FoundLight& one : found) {
@@ -168,7 +168,7 @@ class Pilot {
     return own_pixel;
   }
 
-  /// Squares of what a chain adds to a pixel in all: what it stays for makes the image noisier.
+  /// Sums squares of all that a chain adds to a pixel: staying in one makes the image noisier.
   void run_chains() {
     chains_ = {};
     const std::vector<uint32_t>& seeds = starts_.seeds;

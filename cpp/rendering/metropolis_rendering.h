@@ -25,10 +25,10 @@ namespace mlt {
 struct MetropolisSettings {
   int chains = 128;
   int64_t luminance_samples = 50000;
-  std::optional<double> independent_share;     ///< Of the time; without, a pilot finds it.
-  std::optional<SampleTechniques> techniques;  ///< Of the independent samples; the same.
-  std::optional<double> steps_per_sample;      ///< Of tours; the same.
-  bool parts = false;                          ///< Keep the parts of both families as layers.
+  std::optional<double> independent_share;     ///< Their share of the time.
+  std::optional<SampleTechniques> techniques;  ///< Those of the independent samples.
+  std::optional<double> steps_per_sample;      ///< Mean steps of tours per sample.
+  bool parts = false;                          ///< Whether to keep both families' images as layers.
   bool only_camera_walks = false;              ///< See warn_of_hidden_lights.
 };
 
@@ -41,7 +41,7 @@ class MetropolisRendering : public Rendering {
   Memory memory(double spp) const override;
   void run_unit(uint64_t unit) override;
   Image image() const override;
-  /// Of the chains.
+  /// The image of one group of chains.
   GroupImage group(int index) const override;
   std::vector<const Rendering*> parts() const override;
   Image common_error() const override;
@@ -58,8 +58,8 @@ class MetropolisRendering : public Rendering {
   struct ChainTeam {
     int group, first;  ///< Number of its first chain in the group.
     std::vector<std::unique_ptr<RenderChain>> chains;
-    double brightness = 0;  ///< Sum of L* of what they have recorded.
-    uint64_t units = 0;     ///< That are done.
+    double brightness = 0;  ///< Sum of L* of the states that they have recorded.
+    uint64_t units = 0;     ///< Units that are done.
     mutable std::mutex mutex;
     std::condition_variable turn;
   };
@@ -89,7 +89,7 @@ class MetropolisRendering : public Rendering {
   void lay_out_units();
   void run_team(uint64_t number);
   Image chain_image(GroupScales scales) const;
-  /// Of each group; the bootstrap of tours are the samples that they start from.
+  /// The sums of each group; the bootstrap of tours consists of the samples that they start from.
   std::vector<GroupProgress> progress() const;
   GroupCombination combination() const;
   void add_level(Stats& stats) const;

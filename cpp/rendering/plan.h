@@ -26,12 +26,12 @@ struct Task {
 /// Units are numbered 0, 1, 2, ..., one pass after the other, and are started in that order.
 struct Plan {
   uint64_t units_per_pass = 1;
-  /// After each multiple of so many units all groups are as far as they have begun.
+  /// At each multiple of this number of units all groups that have begun are equally far.
   uint64_t units_per_group_turn = 1;
-  /// Which share a unit belongs to; after units_per_cycle each share has had its turn.
+  /// The share that a unit belongs to; after units_per_cycle units each share has had its turn.
   std::function<uint64_t(uint64_t)> share_of = [](uint64_t) { return 0; };
   uint64_t units_per_cycle = 1;
-  /// So many units in a row belong to one share, the next ones to the next share, and so on.
+  /// Assigns runs of `units` units to the shares in turn.
   void take_turns(uint64_t shares, uint64_t units) {
     share_of = [=](uint64_t unit) { return unit / units % shares; };
     units_per_cycle = units * shares;

@@ -1,6 +1,6 @@
 // The estimators that pssmlt moves the random numbers of: path tracing, bidirectional path tracing,
-// light tracing. Each tells what the paths of one sample add to the image, f / p in all: importance
-// over the density of raster positions is part of it.
+// light tracing. Each returns the contributions f / p of the paths of one sample to the image, the
+// importance over the density of raster positions included.
 #pragma once
 
 #include "path/bidirectional_sampler.h"
