@@ -228,7 +228,7 @@ int main(int argc, char** argv) {
   } catch (const Error& error) {
     return fail(2, error.what());
   } catch (const std::bad_alloc&) {
-    return fail(3, "there is not memory enough");
+    return fail(3, "out of memory");
   } catch (const std::exception& error) {
     return fail(3, error.what());
   }

@@ -213,7 +213,7 @@ auto with_file(std::string_view bytes, const std::string& name, const Read& read
     Imf::MultiPartInputFile file(stream, 0, false);
     return read(file);
   } catch (const std::bad_alloc&) {
-    fail(name, "it needs more memory than there is");
+    fail(name, "it needs more memory than is available");
   } catch (const std::exception& error) {
     fail(name, error.what());
   }

@@ -140,7 +140,7 @@ std::string encode_hdr(const Image& image) {
   std::string bytes;
   if (!stbi_write_hdr_to_func(append, &bytes, image.width, image.height, image.channels,
                               samples.data()))
-    throw FileError("HDR: encoding failed for want of memory");
+    throw FileError("HDR: encoding failed: out of memory");
   return bytes;
 }
 

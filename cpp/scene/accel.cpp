@@ -156,7 +156,7 @@ std::string why_not(RTCDevice device, const char* what) {
   const RTCError error = rtcGetDeviceError(device);
   if (device && error == RTC_ERROR_NONE) return "";
   if (error == RTC_ERROR_OUT_OF_MEMORY || !can_allocate(least_memory))
-    return "there is not memory enough for Embree";
+    return "out of memory for Embree";
   return std::string("Embree ") + what;
 }
 
