@@ -10,7 +10,7 @@
 namespace mlt {
 namespace {
 
-/// One through each of its quarters.
+/// Walks per cell of the image: one through each of its quarters.
 constexpr int walks_per_cell = 4;
 
 /// Whether a walk by delta lobes ends at a light.

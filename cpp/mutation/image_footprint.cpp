@@ -6,7 +6,7 @@
 namespace mlt {
 namespace {
 
-/// Beyond it the chain's end is near a focus, where a linear map says little.
+/// Largest ratio of the axes; beyond, the chain's end is near a focus, where a linear map fails.
 constexpr double most_anisotropy = 30;
 
 /// The move of x_{k-1} on its surface that is seen as `across`, a move perpendicular to the view.

@@ -17,7 +17,7 @@ bool ManifoldWalk::start(const Scene& scene, const PathState& x, int c, int b) {
 }
 
 bool ManifoldWalk::go(const SurfacePoint& end, double time, RayCounts& rays) {
-  /// As an angle, seen from the last vertex.
+  /// Distance from the end at which a walk has converged, as an angle seen from the last vertex.
   constexpr double tolerance = 1e-7;
   next_[0] = chain_[0];
   Vec3 move(0);
