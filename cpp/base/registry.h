@@ -18,8 +18,8 @@ struct Plugin {
   std::function<ObjectPtr(Params&)> create;
 };
 
-/// Calls plugin.create. A FileError, or a UsageError about a value, gets the plug-in's place in the
-/// scene in front of its message; the latter becomes a SceneError.
+/// Calls plugin.create. The message of a FileError, or of a UsageError about a value, is prefixed
+/// by the plug-in's location in the scene; a UsageError becomes a SceneError.
 ObjectPtr make_object(const Plugin& plugin, Params& params);
 
 /// The plug-in whose objects are made by `T(Params&)`.
@@ -45,7 +45,7 @@ class Registry {
   const Plugin& find(const std::string& family, const std::string& name,
                      const Location& where) const;
 
-  /// Whether there is such a plug-in; not if its name is refused.
+  /// Whether there is such a plug-in; false if its name is refused.
   bool has(const std::string& family, const std::string& name) const;
   std::vector<std::string> families() const;
   std::vector<std::string> names(const std::string& family) const;

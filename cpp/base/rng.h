@@ -8,7 +8,7 @@
 
 namespace mlt {
 
-/// What a stream is for: two purposes never share random numbers.
+/// The purpose of a stream: two purposes never share random numbers.
 enum class Purpose : uint64_t {
   bootstrap = 1,
   chain,
