@@ -1,4 +1,4 @@
-// Which pixels a sample at a continuous raster position reaches, and with which filter weight.
+// The pixels that a sample at a continuous raster position reaches, and their filter weights.
 #pragma once
 
 #include "base/whole_vectors.h"
@@ -18,7 +18,7 @@ struct PixelRect {
   int height() const { return y1 - y0; }
 };
 
-/// How many pixels a run has at most.
+/// The most pixels of a run.
 inline constexpr int run_pixels = 16;
 
 /// How far outside the image samples still reach a pixel, in whole pixels.
