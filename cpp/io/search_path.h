@@ -1,4 +1,4 @@
-// Where files that a scene names are looked for.
+// The directories in which the files of a scene are searched.
 #pragma once
 
 #include "base/error.h"
@@ -11,7 +11,7 @@ namespace mlt {
 
 class SearchPath {
  public:
-  /// A directory to look in before all others; "" is the current one.
+  /// Adds a directory that is searched before all others; "" is the current one.
   void prepend(const std::filesystem::path& directory);
 
   /// The absolute name of an existing file. A name with backslashes is also tried with slashes.

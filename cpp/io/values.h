@@ -9,7 +9,7 @@
 
 namespace mlt {
 
-/// Is it <float>, <integer>, <boolean>, <string>, <point>, <vector>, <rgb>, <srgb> or <spectrum>?
+/// Whether it is float, integer, boolean, string, point, vector, rgb, srgb or spectrum.
 bool is_value_tag(const std::string& tag);
 
 /// The value of such an element. Throws SceneError.

@@ -44,8 +44,8 @@ inline Microfacet principled_microfacet(double roughness, double anisotropic) {
           std::max(0.001, sqr(roughness) * aspect)};
 }
 
-/// The BSDF of a matte base over colour / pi: Burley's diffuse term with retroreflection, or, as far
-/// as it is flat, his approximation of subsurface scattering. cos_d is the cosine with the half
+/// The BSDF of a matte base over colour / pi: Burley's diffuse term with retroreflection, mixed by
+/// `flatness` with his approximation of subsurface scattering. cos_d is the cosine with the half
 /// vector.
 inline double principled_diffuse(double cos_l, double cos_c, double cos_d, double roughness,
                                  double flatness) {
