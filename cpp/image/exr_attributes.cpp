@@ -71,7 +71,7 @@ bool is_whole(std::string_view type, std::string_view value) {
   if (type == "stringvector") return is_text_list(value);
   if (type == "floatvector") return value.size() % 4 == 0;
   if (type == "preview") return is_preview(value);
-  return type != "idmanifest";  // which says itself how much memory to allocate
+  return type != "idmanifest";  // its value includes its size in memory
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ class SearchPath {
   void prepend(const std::filesystem::path& directory);
 
   /// The absolute name of an existing file. A name with backslashes is also tried with slashes.
-  /// Throws SceneError that says where it was looked for.
+  /// Throws SceneError with the directories that were searched.
   std::string find_file(const std::string& name, const Location& where) const;
   std::string find_directory(const std::string& name, const Location& where) const;
 

@@ -24,8 +24,8 @@ class BrightnessPyramid {
 };
 
 /// For each pixel the brightness of the smallest block around it that is known, of an image that is
-/// the sum of some parts, each with groups of its own. Known is what is larger than its standard
-/// error, outliers apart.
+/// the sum of some parts, each with groups of its own. A value is known if it is larger than its
+/// standard error, outliers apart.
 std::vector<float> known_brightness(const std::vector<const BrightnessPyramid*>& parts);
 
 }  // namespace mlt

@@ -134,7 +134,7 @@ class Job {
   std::atomic<Phase> phase_{Phase::waiting};
   std::atomic<uint64_t> units_done_{0};
   bool prepared_ = false;   ///< The bootstrap is over.
-  bool abandoned_ = false;  ///< A unit was given up: no image of the same samples can follow.
+  bool abandoned_ = false;  ///< A unit was abandoned, so the render cannot be extended.
   Clock::time_point started_;
   double seconds_before_ = 0;  ///< Time of earlier runs of this render.
   std::atomic<double> bootstrap_seconds_{0}, total_seconds_{0};

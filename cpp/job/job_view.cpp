@@ -75,7 +75,7 @@ std::vector<NamedImage> Job::layers() const {
 }
 
 double Job::spp_done() const {
-  // A render that is resumed counts what it has once it has begun.
+  // a resumed render counts its earlier units once it has begun
   const Phase phase = phase_;
   const bool begun = phase == Phase::rendering || phase == Phase::ended;
   return begun ? rendering_->plan().spp_done(units_done_) : 0.0;

@@ -26,7 +26,7 @@ class TaskList {
   TaskList(Rendering& rendering, uint64_t seed, int wanted, uint64_t done);
 
   size_t size() const { return tasks_.size(); }
-  /// Up to which unit the task's shares are done.
+  /// The unit before which the task's shares are done.
   uint64_t position(size_t index) const { return tasks_.at(index).from; }
   /// The units before this one are done, perhaps with some others.
   uint64_t done() const;

@@ -28,7 +28,7 @@ using RowKey = std::pair<size_t, std::string>;  // mutation, signature
 /// Sums over the samples of one batch.
 struct Batch {
   double light = 0;                        ///< Weight of all paths.
-  double weight = 0, weight_squared = 0;   ///< Of paths that a mutation suits; by sample.
+  double weight = 0, weight_squared = 0;   ///< Sums for paths that a mutation suits.
   std::vector<double> expected, chosen;    ///< Sums of w (g(y) - g(x)), for each function.
   std::vector<double> size, size_squared;  ///< Sums of |w (g(y) - g(x))| as expected.
   std::vector<double> largest;             ///< Sums of |w (g(y) - g(x))| if all were accepted.

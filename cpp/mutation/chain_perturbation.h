@@ -5,7 +5,7 @@
 // The path is walked from `start` in steps of `step` (-1: from the camera, +1: from the light) up
 // to `stop`; the vertices after `start` up to `stop` move. At a specular vertex the half vector is
 // kept. At a diffuse vertex in between (multi-chain) the direction is perturbed by a small angle.
-// Where `stop` is the light, the last ray has to hit one.
+// If `stop` is the light, the last ray has to hit a light.
 #pragma once
 
 #include "base/params.h"

@@ -49,7 +49,7 @@ class MultiplexedMutation final : public MeasuredMutation<MultiplexedMutation> {
       found = true;
     });
     if (!found) return std::nullopt;
-    // Where rounding leaves no way back there must be none forth.
+    // a step that cannot be reversed, because of rounding, must not be proposed
     if (!invert_path(scene(), y.path, technique, context.rng, numbers)) return std::nullopt;
     target().evaluate(y);
     return Edit{0, k, k + 1};

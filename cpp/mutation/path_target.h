@@ -13,8 +13,8 @@ namespace mlt {
 
 class PathSeeds;
 
-/// The techniques of independent samples: all of bidirectional path tracing, or those two of them
-/// that path tracing has.
+/// The techniques of independent samples: all of bidirectional path tracing, or the two of path
+/// tracing.
 enum class SampleTechniques : uint8_t { all, path_tracing };
 
 class PathTarget {

@@ -1,6 +1,6 @@
-// Two-stage sampling (Veach & Guibas 1997, sec. 5.4; Veach 1997, sec. 11.4.3): a coarse image tells
-// how bright each region is, and the target is divided by it, so that dark regions get their share
-// of the mutations. Any positive map is right; a good one spreads the noise evenly.
+// Two-stage sampling (Veach & Guibas 1997, sec. 5.4; Veach 1997, sec. 11.4.3): a coarse image
+// estimates the brightness of each region, and the target is divided by it, so that dark regions
+// get their share of the mutations. Any positive map is right; a good one spreads noise evenly.
 //
 // The coarse image is made of few samples. The brightness of a cell is a mean of that of its own n
 // samples and, with the weight of k samples, that of the block around it:

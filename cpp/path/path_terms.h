@@ -14,7 +14,7 @@
 
 namespace mlt {
 
-/// How the techniques make x_i.
+/// The densities with which the techniques make x_i.
 struct VertexDensities {
   double from_light = 0;     ///< Density of x_i made by a light walk, in the measure of x_i.
   double from_camera = 0;    ///< Density of x_i made by a camera walk.

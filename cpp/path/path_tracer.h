@@ -150,8 +150,8 @@ struct CameraWalk {
   Ray ray;  ///< The next ray.
   Color radiance{0}, throughput{1};
   Vec3 previous;           ///< Its last vertex.
-  double scatter_pdf = 0;  ///< Density of the ray in solid angle,
-  bool delta = true;       ///< unless `previous` is a delta, or the lens.
+  double scatter_pdf = 0;  ///< Density of the ray in solid angle.
+  bool delta = true;       ///< Whether `previous` is the lens, or scattered by a delta.
   double eta2 = 1;         ///< Factor that cancels refraction in the throughput.
   double certainty = 1;    ///< See certainty() of path_terms.h; up to here.
   double survival = 1;     ///< Probability of having survived Russian roulette.

@@ -60,7 +60,7 @@ class Subpath {
   void start(const Vertex& end, double position_pdf);
 
   /// Walks on from the first vertex until it is absorbed or long enough. Camera walks end in a
-  /// vertex at infinity when they leave the scene among lights that are there.
+  /// vertex at infinity when they leave the scene, if there are lights at infinity.
   template <class Sampler>
   void walk(const Walker& walker, const PathRules& rules, const Departure& first,
             const WalkLength& most, Sampler& sampler) {

@@ -8,8 +8,8 @@
 
 namespace mlt {
 
-/// What a layer shows of the first surface. Means over the pixel, but for the indices: those are of
-/// the ray through its middle. 0 where there is no surface; indices are -1 there.
+/// The quantity of the first surface in a layer. Means over the pixel, but for the indices: those
+/// are of the ray through its middle. 0 where there is no surface; indices are -1 there.
 enum class AovKind {
   albedo,       ///< Reflectance of the material, RGB.
   depth,        ///< Distance from the camera along the ray.

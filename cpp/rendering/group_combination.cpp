@@ -66,7 +66,7 @@ GroupScales GroupCombination::mean() const {
     const GroupScales own = group(g);
     for (int h = 0; h < count(); ++h) mean[h] += own[h] / begun_groups;
   }
-  // When several groups are that bright.
+  // A sum is negative if several groups are that bright.
   for (double& scale : mean) scale = std::max(0.0, scale);
   return mean;
 }

@@ -39,9 +39,9 @@ struct GroupImage {
 /// of threads. run_unit may be called from many threads at once.
 class Rendering {
  public:
-  /// The groups whose spread tells how wrong the image is: each has its own random numbers, and for
-  /// Metropolis its own bootstrap. The image is their weighted mean (while some are behind others,
-  /// nearly so), plus the images of the parts.
+  /// The groups whose spread measures the error of the image: each has its own random numbers, and
+  /// for Metropolis its own bootstrap. The image is their weighted mean (nearly so, while some are
+  /// behind others), plus the images of the parts.
   static constexpr int group_count = 16;
 
   Rendering(ScenePtr scene, uint64_t seed) : scene_(std::move(scene)), seed_(seed) {}

@@ -1,4 +1,4 @@
-// What distinguishes one Metropolis integrator from another.
+// The interface that distinguishes one Metropolis integrator from another.
 #pragma once
 
 #include "mutation/path_target.h"
@@ -17,8 +17,8 @@ namespace mlt {
 /// A path that an independent sample has found.
 struct FoundLight {
   Vec2 raster;
-  Color rgb;                   ///< What it adds to the image: f / p, weighted among techniques.
-  double weight;               ///< What it adds to b, the integral of the target: T / p.
+  Color rgb;                   ///< Its contribution to the image: f / p, weighted among techniques.
+  double weight;               ///< Its contribution to b, the integral of the target: T / p.
   double target_over_density;  ///< T / P, see FamilyWeights.
   bool own_pixel;              ///< At the sample's own image position, not by light tracing.
 

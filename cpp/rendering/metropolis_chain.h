@@ -25,7 +25,7 @@ class ChainRecorder {
   /// Records RGB / T of a state, its expected weight, and its T / P (see FamilyWeights).
   virtual void record(const Vec2& raster, const Color& rgb_per_target, double weight,
                       double target_over_density) = 0;
-  /// Whether T / P makes a difference.
+  /// Whether record() uses T / P.
   virtual bool wants_density() const { return true; }
   /// Called when a chain pauses.
   virtual void flush() {}
@@ -51,7 +51,7 @@ class FilmRecorder : public ChainRecorder {
     color_ = Color(0);
   }
   bool wants_density() const override { return weights_->threshold() > 0; }
-  /// Sum of L* of what was recorded.
+  /// Sum of L* of the recorded states.
   double brightness() const { return brightness_; }
 
  private:
@@ -75,7 +75,7 @@ class StepRecorder {
   StepRecorder(ChainRecorder& recorder, const Kernel& kernel, const State& x, const Others& others)
       : recorder_(&recorder), kernel_(&kernel), x_(&x), others_(&others) {}
 
-  /// As metropolis_step calls it.
+  /// Called by metropolis_step for each state.
   void operator()(const State& state, double weight) {
     (&state == x_ ? weight_x_ : weights_[&state - others_->data()]) += weight;
   }

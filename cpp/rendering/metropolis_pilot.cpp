@@ -26,7 +26,7 @@ void in_parts(uint64_t count, int threads, Part&& part) {
 /// The light that one chain adds to the pixels, for each of `thresholds`.
 using PixelSums = std::map<std::pair<int, int>, PerThreshold>;
 
-/// How noisy one family is, in units of the brightness of each pixel, and what it costs.
+/// The noise of one family, in units of the brightness of each pixel, and its cost.
 struct Noise {
   PerThreshold squares{};
   uint64_t count = 0, rays = 0;
@@ -67,7 +67,7 @@ class Pilot {
         cancelled_(cancelled),
         candidates_{settings.seed, Purpose::allocation, settings.samples} {}
 
-  /// b, as far as the candidates tell; 0: there is no light for chains to start from.
+  /// Estimates b from candidates; 0: there is no light for chains to start from.
   double find_starts() {
     const std::vector<double> weights = draw_candidates(
         candidates_, settings_.threads, cancelled_, [&] { return algorithm_.source(); },
@@ -80,8 +80,8 @@ class Pilot {
     return starts_.b;
   }
 
-  /// Samples come in pairs that have the image position in common. Those of a render are stratified
-  /// over the pixels, so that what a pair agrees on is no noise.
+  /// Draws pairs of samples with the same image position. The samples of a render are stratified
+  /// over the pixels, so that only differences within a pair are noise.
   /// Returns false if the algorithm has none of these techniques.
   bool draw_samples(SampleTechniques techniques) {
     if (!algorithm_.set_techniques(techniques)) return false;
@@ -223,12 +223,12 @@ class Pilot {
   Noise samples_, chains_;
 };
 
-/// Rounded, so that the same scene in another unit of length has the same image to the last bit.
+/// Rounds x, so that a scene in another unit of length has the same image to the last bit.
 double to_half_octaves(double x) { return std::exp2(std::round(2 * std::log2(x)) / 2); }
 
-/// Between N1 samples and N2 steps, c = b N1 / N2 would be the balance heuristic (Veach 1997, eq.
-/// 9.8) if steps were independent. The more of the time the pilot gives to the samples, the noisier
-/// it has seen the chains: 1 / sqrt(1 - share) steps count as one.
+/// Sets weights and lengths of tours. For N1 samples and N2 independent steps, c = b N1 / N2 would
+/// be the balance heuristic (Veach 1997, eq. 9.8). The larger the share of the samples, the noisier
+/// the chains were in the pilot: 1 / sqrt(1 - share) steps count as one.
 void set_tours(Allocation& allocation, double b) {
   const double share = allocation.share,
                steps = allocation.mutations_per_sample * (1 - share) / share;

@@ -1,5 +1,5 @@
-// The pilot of a Metropolis render: a few independent samples and short chains tell how noisy the
-// two families are, and what they cost. Their paths are not used again, so nothing is biased.
+// The pilot of a Metropolis render: a few independent samples and short chains, which estimate the
+// noise and the cost of both families. Their paths are not used again, so nothing is biased.
 #pragma once
 
 #include "rendering/metropolis_algorithm.h"
@@ -14,7 +14,7 @@ struct Allocation {
   double share = 0;       ///< Share of the time for independent samples; 1: there are no chains.
   FamilyWeights weights;  ///< Weights of both families.
   double mutations_per_sample = 1;                      ///< Cost of an independent sample.
-  SampleTechniques techniques = SampleTechniques::all;  ///< Those of the samples.
+  SampleTechniques techniques = SampleTechniques::all;  ///< Of samples.
   bool in_time = true;                                  ///< Whether there was time to find it.
   double b = 0;                                         ///< A rough estimate of b, for tours.
   double steps_per_sample = 1;  ///< Mean number of steps of tours per sample.

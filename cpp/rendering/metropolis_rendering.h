@@ -1,9 +1,9 @@
-// Rendering by Markov chains, with independent samples beside them: what all Metropolis integrators
-// share. Chains and samples find the same paths; FamilyWeights has the weights of both.
+// Rendering by Markov chains, with independent samples beside them: the common part of all
+// Metropolis integrators. Chains and samples find the same paths, weighted by FamilyWeights.
 //
 // A render is a fixed number of chains, each with its own random stream; a unit is some steps of
 // one chain or of a few that advance together, and these are visited in turn. They form independent
-// groups, each with its own bootstrap; GroupCombination tells how these add up. The samples are a
+// groups, each with its own bootstrap, which GroupCombination adds up. The samples are a
 // rendering of their own, whose units are interleaved with those of the chains, so that every
 // prefix of a render is a fair image.
 #pragma once
@@ -26,7 +26,7 @@ struct MetropolisSettings {
   int chains = 128;
   int64_t luminance_samples = 50000;
   std::optional<double> independent_share;     ///< Their share of the time.
-  std::optional<SampleTechniques> techniques;  ///< Those of the independent samples.
+  std::optional<SampleTechniques> techniques;  ///< Techniques of the independent samples.
   std::optional<double> steps_per_sample;      ///< Mean steps of tours per sample.
   bool parts = false;                          ///< Whether to keep both families' images as layers.
   bool only_camera_walks = false;              ///< See warn_of_hidden_lights.

@@ -1,4 +1,4 @@
-// How a render is cut into units, and which of them depend on each other. The words are explained
+// The division of a render into units, and the dependencies between them. The terms are explained
 // in docs/notation.md.
 #pragma once
 

@@ -39,7 +39,7 @@ class BidirectionalEstimator {
   void operator()(const Vec2& raster, Sampler& sampler, std::vector<ImageLight>& light,
                   RayCounts& rays) {
     paths_.sample(raster, sampler, rays);
-    size_t own_pixel = no_light;  // What is seen at the sample's own position is one entry.
+    size_t own_pixel = no_light;  // light at the sample's own position is one entry
     paths_.connect_all(rays, [&](const Connection& c) {
       const Color rgb = c.contribution * c.weight;
       if (c.t >= 2 && own_pixel != no_light) {

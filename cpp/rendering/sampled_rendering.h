@@ -1,4 +1,4 @@
-// Rendering by independent samples of each pixel: what path, direct, ptracer and bdpt share.
+// Rendering by independent samples of each pixel: the base of path, direct, ptracer and bdpt.
 #pragma once
 
 #include "base/registry.h"
@@ -63,7 +63,7 @@ struct SampledSettings {
   std::vector<std::string> layers = {};  ///< Further images to be kept.
   /// Passes that go to a group before as many go to the next one; among them, samples are
   /// stratified. The more, the better stratified is a render of few samples; the fewer, the sooner
-  /// it has several groups, whose spread tells its error.
+  /// it has several groups, from whose spread the error is estimated.
   uint64_t passes_per_turn = 8;
   bool only_camera_walks = false;  ///< See warn_of_hidden_lights.
 };

@@ -24,7 +24,7 @@ struct Hit {
   uint32_t shape;
   uint32_t primitive;
   float u, v;
-  uint32_t member = 0;  ///< Of an instance: index of the shape in its group.
+  uint32_t member = 0;  ///< Index of the shape in the group of an instance.
 };
 
 }  // namespace mlt

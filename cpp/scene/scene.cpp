@@ -149,7 +149,7 @@ inline bool Scene::find_segment(const SurfacePoint& a, const SurfacePoint& b, do
   const Vec3 ab = b.p - a.p;
   const Vec3 start = departure(a, ab), between = departure(b, -ab) - start;
   const bool has_end = a.shape == SurfacePoint::no_shape || b.shape == SurfacePoint::no_shape;
-  if (has_end && !(dot(between, ab) > 0)) return false;  // It is behind the camera.
+  if (has_end && !(dot(between, ab) > 0)) return false;  // behind the camera
   const double distance = length(between);
   ray = {start, between * (1 / distance), time, distance * (1 - ray_offset)};
   return true;

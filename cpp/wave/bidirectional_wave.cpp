@@ -236,7 +236,7 @@ void BidirectionalWave::connect_to_lens(const JointLanes& a, int block, RayCount
     if (is_black(weighted)) continue;
     const Vec3f start = departure(a.p[i], a.ng[i], Vec3f(w), a.extent[i]);
     const Vec3 ray = camera.entrance(lens_.at, -w) - Vec3(start);
-    if (!(dot(ray, w) > 0)) continue;  // It is behind the camera.
+    if (!(dot(ray, w) > 0)) continue;  // behind the camera
     const double length = mlt::length(ray);
     shadows_.add(capacity + static_cast<int>(unseen_.size()), weighted, 1, start,
                  Vec3f(ray * (1 / length)), static_cast<float>(length * (1 - Scene::ray_offset)));

@@ -21,7 +21,7 @@ Vec3f cosine_hemisphere(float u_x, float u_y) {
   return {r * (wide ? cos : sin), r * (wide ? sin : cos), std::sqrt((1 - r) * (1 + r))};
 }
 
-/// The same as Frame::around(n).to_world(v).
+/// Equivalent to Frame::around(n).to_world(v).
 Vec3f to_world(const Vec3f& n, const Vec3f& v) {
   const float sign = std::copysign(1.0f, n.z);
   const float a = -1 / (sign + n.z);
