@@ -31,7 +31,7 @@ LoadOptions load_options(const Size& size, const Sensor& sensor, const std::stri
   return options;
 }
 
-/// Adds a warning if the scene's own integrator is one of another renderer.
+/// Adds a warning if the scene's own integrator cannot render here; the scene may still be useful.
 LoadedScene warned(LoadedScene loaded) {
   if (const std::string problem = integrator_problem(loaded, plugins()); !problem.empty())
     loaded.warnings.push_back(problem + "; the scene cannot be rendered unless another is named");

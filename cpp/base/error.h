@@ -1,5 +1,4 @@
-// Typed exceptions. Every message says, on one line, what was wrong, where, and how to correct
-// it.
+// Typed exceptions. Every message says, on one line, what is wrong, where, and what is right.
 #pragma once
 
 #include <fmt/core.h>

@@ -21,7 +21,7 @@ std::vector<std::string_view> split(std::string_view text);
 /// A finite number such as 3, -.5 or 1e-005, with nothing but white space around it.
 std::optional<double> parse_real(std::string_view text);
 std::optional<int64_t> parse_integer(std::string_view text);
-/// "true" or "false", in upper or lower case.
+/// Parses "true" or "false", in upper or lower case.
 std::optional<bool> parse_boolean(std::string_view text);
 
 /// A list of numbers; nullopt if one of the words is not a number.

@@ -72,7 +72,7 @@ Filter gaussian_filter(double stddev = 0.5);
 Filter mitchell_filter(double b = 1.0 / 3, double c = 1.0 / 3);
 /// The Mitchell filter with B = 0, C = 1/2, which interpolates.
 Filter catmullrom_filter();
-/// sinc(x) windowed by sinc(x / lobes).
+/// The Lanczos filter: sinc(x) windowed by sinc(x / lobes).
 Filter lanczos_filter(int lobes = 3);
 
 }  // namespace mlt

@@ -66,7 +66,7 @@ class SplatFilm {
   int width_, height_, groups_;
   std::shared_ptr<const Filter> filter_;
   FilterRows<double> rows_;
-  /// [group][pixel][channel]; takes memory only where something has been added.
+  /// Sums by [group][pixel][channel]; they take memory only where splats have been added.
   std::unique_ptr<int64_t[], Free> cells_;
   std::unique_ptr<Lock[]> locks_;  ///< [group][band]
   std::atomic<uint64_t> saturated_{0};

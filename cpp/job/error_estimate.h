@@ -19,7 +19,7 @@ struct Disagreement {
   double share = 0;  ///< Share of the block's light that one group has found, the largest such.
 };
 
-/// sqrt(mean over pixels of s^2 / (L^2 + 0.01 M^2)), with a pixel's standard error s, its
+/// The error sqrt(mean over pixels of s^2 / (L^2 + 0.01 M^2)), with a pixel's standard error s, its
 /// brightness L as far as the groups agree about it (known_brightness), and the mean M of the
 /// brightness over the image. It is an estimate of the square root of relMSE; 0.01 M^2 keeps black
 /// pixels from deciding it.

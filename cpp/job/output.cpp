@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// "folder/rescued-door.exr", or with a number if that exists.
+/// A free name such as "folder/rescued-door.exr", or with a number if that exists.
 std::string free_name(const fs::path& folder, const fs::path& wanted) {
   std::error_code ignored;
   fs::path name = folder / fmt::format("rescued-{}", wanted.filename().string());

@@ -191,7 +191,7 @@ class BidirectionalMutation final : public MeasuredMutation<BidirectionalMutatio
 
  private:
   /// Fills `count` vertices from number `first` on, in steps of +1 by a walk from the light or of
-  /// -1 by one from the camera. The walk goes on from the vertex before, or begins where there is
+  /// -1 by one from the camera. The walk continues from the vertex before, or begins if there is
   /// none.
   bool grow(PathState& y, int first, int count, int step, MutationContext& context) const {
     Path& path = y.path;

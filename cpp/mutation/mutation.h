@@ -99,7 +99,7 @@ class Mutation {
   /// q(x -> y) / L*(y) and q(y -> x) / L*(x), up to |f| of the part that the edit does not change.
   Transition quotients(const PathState& x, const PathState& y, const Edit& edit) const {
     const double forward = relative_density(x, y, edit) / y.target;
-    // Rounding may have taken the light of the path that a chain starts from: it leaves at once.
+    // by rounding, a chain may start from a path without light, which it leaves at once
     if (x.target == 0) return {forward, std::numeric_limits<double>::max()};
     return {forward, relative_density(y, x, edit.reversed()) / x.target};
   }

@@ -1,5 +1,5 @@
-// The independent samples of a Metropolis render: each path that they find goes to the image with
-// its weight w1 (FamilyWeights).
+// The independent samples of a Metropolis render: each path that they find is added to the image
+// with its weight w1 (FamilyWeights).
 #pragma once
 
 #include "path/inspect.h"

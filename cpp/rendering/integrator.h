@@ -67,7 +67,7 @@ class Rendering {
   virtual GroupImage group(int index) const = 0;
   /// Other renderings, each with groups of its own, whose images are parts of this one's.
   virtual std::vector<const Rendering*> parts() const { return {}; }
-  /// The standard error of what all groups have in common, which their spread does not show; may be
+  /// The standard error that is common to all groups, which their spread does not include; may be
   /// empty.
   virtual Image common_error() const { return {}; }
   /// Further images that the render was asked to keep.

@@ -18,7 +18,7 @@ class BidirectionalWave {
 
   /// Whether all lights are glowing meshes, the camera has no aperture, and nothing moves.
   static bool serves(const Scene& scene, const BidirectionalSettings& settings);
-  /// serves(scene, settings) must hold.
+  /// Requires serves(scene, settings).
   BidirectionalWave(const Scene& scene, const BidirectionalSettings& settings);
 
   /// Adds a sample with the numbers of PixelSampler(stream, index): the first two are its position

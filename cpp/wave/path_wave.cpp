@@ -155,7 +155,7 @@ void BasicPathWave<Numbers>::choose_lights(int depth) {
   sample_other_lights();
 }
 
-/// Samples a light that is no glowing mesh, or any light for a vertex that is not matte.
+/// Takes the numbers for a light that is no glowing mesh, or for a vertex that is not matte.
 template <class Numbers>
 void BasicPathWave<Numbers>::choose_other_light(int i, const Vec3& u) {
   if (matte_.f[i]) {

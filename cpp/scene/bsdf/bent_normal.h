@@ -48,7 +48,7 @@ class BentNormal : public Bsdf {
   double turned_share(const Vec3& n, const Vec3& w) const;
   /// Whether light is scattered between a and b in the frame of N, or of N turned around: N is
   /// turned for both or for none, and both are on the same side of the surface and of the bent one.
-  /// There are no delta lobes in the turned frame, so that each has one normal at each point.
+  /// Mirrors do not use the turned frame, so that each has one normal at each point.
   bool scatters(const Vec3& n, bool turned, const Vec3& a, const Vec3& b, Lobe lobe) const;
 
   BsdfPtr nested_;
