@@ -27,7 +27,7 @@ struct Options {
   bool quiet = false;
 };
 
-/// Throws UsageError if two flags name one file.
+/// The options by the given flags. Throws UsageError if two flags name one file.
 Options read_options(const FlagValues& given);
 
 }  // namespace mlt

@@ -35,13 +35,13 @@ Plugin make_plugin(const char* family, const char* name, const char* doc,
 
 class Registry {
  public:
-  /// Each name is added or refused once: a second time throws Error.
+  /// Adds a plug-in. Each name is added or refused once: a second time throws Error.
   void add(Plugin plugin);
   /// Refuses Mitsuba's plug-in `name` by name, in one line that ends with `reason`.
   void refuse(const std::string& family, const std::string& name, const std::string& reason);
 
-  /// Throws SceneError at `where` with a suggestion, or with the reason when the name is one that
-  /// Mitsuba has and this renderer refuses.
+  /// Finds a plug-in. Throws SceneError at `where` with a suggestion, or with the reason if the
+  /// name is one that Mitsuba has and this renderer refuses.
   const Plugin& find(const std::string& family, const std::string& name,
                      const Location& where) const;
 

@@ -14,7 +14,7 @@ namespace mlt {
 /// Saves properties only: locations are left out, and a node from bytes has none.
 void save(ByteWriter& bytes, const Node& node);
 
-/// Throws RenderError for bytes that are no node.
+/// Loads a node. Throws RenderError for bytes that are no node.
 Node load_node(ByteReader& bytes);
 
 /// Calls use(path) for every file name in the tree, in order, also if the file does not exist,

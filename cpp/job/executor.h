@@ -7,8 +7,8 @@ namespace mlt {
 
 class Job;
 
-/// Called by the thread that leads the render. An executor that runs units elsewhere does so by
-/// the job's tasks; the bootstrap always runs here.
+/// Runs units; called by the thread that leads the render. An executor that runs them elsewhere
+/// does so by the job's tasks; the bootstrap always runs here.
 class Executor {
  public:
   virtual ~Executor() = default;

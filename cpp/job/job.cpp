@@ -183,7 +183,7 @@ void Job::render() {
   }
 }
 
-/// Each unit that was begun is finished, so the units 0 ... units_done_ - 1 are done in a pause.
+/// Every unit that was begun is finished, so in a pause the units before units_done_ are done.
 void Job::run_units(uint64_t to) {
   mlt::run_units(
       *rendering_, {Shares(), units_done_, to}, threads_, [this] { return interrupted(); },

@@ -58,7 +58,7 @@ class Move {
   virtual bool propose(const X& x, X& y, Rng& rng) = 0;
   /// q(x -> y), up to a factor that does not depend on x and y. A symmetric move leaves it at 1.
   virtual double density(const X& /*x*/, const X& /*y*/) const { return 1; }
-  /// Called with the acceptance of its proposal.
+  /// Called with the acceptance of the move's proposal, for moves that adapt.
   virtual void adapt(double /*acceptance*/) {}
   /// The current step size if that is adaptive, else NaN.
   virtual double size() const { return std::numeric_limits<double>::quiet_NaN(); }

@@ -107,7 +107,7 @@ class Mutation {
   /// Whether it alone can turn any path into any other.
   virtual bool ergodic() const { return false; }
 
-  /// Row of the weights of the mutations: they depend on path length.
+  /// The row of the weights of mutations for x: they depend on path length.
   static size_t row(const PathState& x) { return static_cast<size_t>(x.edges()); }
   static MoveChoice* kept_choice(const PathState& x) { return &x.choice; }
 

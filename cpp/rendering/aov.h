@@ -30,7 +30,7 @@ struct Aov {
 /// Throws UsageError for an unknown kind, or a name that is empty or given twice.
 std::vector<Aov> parse_aovs(const std::string& list);
 
-/// Camera rays per pixel that layers are the mean of.
+/// Number of camera rays per pixel for the means of layers.
 inline constexpr int aov_samples = 16;
 
 /// Images of 3 channels, of 1 for depth and indices. The same for any number of threads.

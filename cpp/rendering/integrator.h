@@ -65,7 +65,7 @@ class Rendering {
   /// The image after the units that have finished, linear RGB.
   virtual Image image() const = 0;
   virtual GroupImage group(int index) const = 0;
-  /// Other renderings, each with groups of its own, whose images are parts of this one's.
+  /// Renderings with groups of their own, whose images are parts of the image of this one.
   virtual std::vector<const Rendering*> parts() const { return {}; }
   /// The standard error that is common to all groups, which their spread does not include; may be
   /// empty.

@@ -51,7 +51,7 @@ class MetropolisRendering : public Rendering {
   void load(const std::string& state) override;
 
  private:
-  /// Each chain has had its turn within about a second, however large the image.
+  /// The most steps of chains in a turn, so that it ends within about a second for any image size.
   static constexpr double most_steps_per_turn = 1 << 19;
 
   /// Chains of a group that advance together: a share of the render, after those of the samples.

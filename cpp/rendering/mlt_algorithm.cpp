@@ -23,7 +23,7 @@ struct StepSizeChoice {
 constexpr StepSizeChoice step_size_choices[] = {{"largest_share", {0.02, 0.1}},
                                                 {"step_size", {1. / 256, 1. / 32}}};
 
-/// nullptr if it has no step size.
+/// The choice of step sizes of a mutation; nullptr if it has no step size.
 const StepSizeChoice* step_size_choice(const MutationPlugin& plugin) {
   for (const StepSizeChoice& choice : step_size_choices)
     if (plugin.schema.find(choice.parameter)) return &choice;

@@ -8,8 +8,8 @@
 
 namespace mlt {
 
-/// Each advance draws as many samples as have `steps` steps in the mean, and ends with the last
-/// tour.
+/// A chain of tours. Each advance draws as many samples as have `steps` steps in the mean, and ends
+/// with the last tour.
 class PathTours : public RenderChain {
  public:
   /// `rate` has kappa0 = id.b / steps_per_sample.

@@ -41,7 +41,7 @@ struct Plan {
   /// First shares of the sequences that no task reaches across, and the number of all shares.
   std::vector<uint64_t> borders = {0, 1};
 
-  /// No render ends with fewer units.
+  /// The least number of units of a render.
   uint64_t least_units = 0;
 
   /// How many units `spp` samples per pixel take.
@@ -56,7 +56,7 @@ struct Plan {
 
   uint64_t share_count() const { return borders.back(); }
 
-  /// All shares, cut into `wanted` sequences or as near to it as their borders allow.
+  /// Cuts all shares into `wanted` sequences, or as near to it as their borders allow.
   std::vector<Shares> cut(int wanted) const {
     const uint64_t sequences = std::max<uint64_t>(1, borders.size() - 1);
     const uint64_t each = (std::max(1, wanted) + sequences - 1) / sequences;

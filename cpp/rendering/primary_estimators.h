@@ -30,7 +30,7 @@ class PathEstimator {
   PathRules rules_;
 };
 
-/// All techniques (s, t).
+/// An estimator with all techniques (s, t).
 class BidirectionalEstimator {
  public:
   BidirectionalEstimator(const Scene& scene, const PathRules& rules) : paths_(scene, {rules}) {}
@@ -57,7 +57,7 @@ class BidirectionalEstimator {
   BidirectionalSampler paths_;
 };
 
-/// The technique t = 1 alone.
+/// An estimator with the technique t = 1 alone.
 class LightEstimator {
  public:
   LightEstimator(const Scene& scene, const PathRules& rules) : paths_(scene, {rules}) {}

@@ -33,7 +33,7 @@ class AnalyticShape : public Shape {
     }
   };
 
-  /// Called at the end of a constructor, when bounds() are known.
+  /// Sets the extent from bounds(); called at the end of a constructor.
   void set_extent() {
     Vec3 low, high;
     bounds(low, high);

@@ -97,7 +97,7 @@ class Camera : public Object {
   double time(double u) const { return shutter_.open + u * (shutter_.close - shutter_.open); }
   const Shutter& shutter() const { return shutter_; }
 
-  /// Called once by the scene builder; `raster` comes from the film.
+  /// Sets the raster of the film; called once by the scene builder.
   virtual void set_raster(const Raster& raster) { raster_ = raster; }
   /// Sets the size of the scene; called once before rendering.
   virtual void set_bounds(const Bounds&) {}

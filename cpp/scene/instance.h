@@ -15,7 +15,7 @@ class Params;
 /// Shapes in a space of their own. They are in the scene only by way of instances.
 class ShapeGroup : public Object {
  public:
-  /// Throws SceneError if there are none, or if one emits or is an instance.
+  /// A group of shapes. Throws SceneError if there are none, or if one emits or is an instance.
   explicit ShapeGroup(Params& params);
   /// A group of one shape, which may emit.
   explicit ShapeGroup(const ShapePtr& shape) { add(shape); }
@@ -48,7 +48,7 @@ struct AffineMap {
 
 class Instance final : public Shape {
  public:
-  /// Throws SceneError if there is not one group, or if `to_world` is singular or not affine.
+  /// Throws SceneError unless there is one group, and `to_world` is affine and not singular.
   explicit Instance(Params& params);
   /// An instance of a moving shape.
   Instance(const ShapePtr& shape, const Motion& motion);

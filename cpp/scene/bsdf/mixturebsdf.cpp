@@ -8,7 +8,7 @@
 namespace mlt {
 namespace {
 
-/// Numbers between commas or blanks.
+/// The weights: numbers between commas or blanks.
 std::vector<double> weights_param(Params& params) {
   std::string text = params.text("weights");
   for (char& c : text)

@@ -27,7 +27,7 @@ class PlyAttributes {
 
  private:
   static constexpr size_t none = ~size_t{0};
-  /// More are ignored: a face with many corners has them for each of its triangles.
+  /// The most channels; more are ignored: faces with many corners repeat them in each triangle.
   static constexpr size_t max_channels = 16;
   struct Channel {
     size_t attribute = none, position = 0;

@@ -15,7 +15,7 @@ class Texels {
 
   /// An image with 1 (grey) or 3 (RGB) channels.
   explicit Texels(Image image) : size_(image), floats_(std::move(image.data)) {}
-  /// Each channel of a texel is meaning[b], where b / 255 is the value in the image.
+  /// An 8-bit image: each channel of a texel is meaning[b], with the value b / 255 in the image.
   Texels(const Image& image, const Meaning& meaning)
       : size_(image), meaning_(meaning), bytes_(image.data.size()) {
     for (size_t i = 0; i < bytes_.size(); ++i)
@@ -36,7 +36,7 @@ class Texels {
     return color([&](int c) { return meaning_[bytes_[i + c]]; });
   }
 
-  /// Two columns and two rows, and the weight of the second one of each.
+  /// A cell of two columns and two rows, and the weight of the second one of each.
   struct Cell {
     int x[2], y[2];
     double a, b;
