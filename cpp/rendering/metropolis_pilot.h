@@ -14,7 +14,7 @@ struct Allocation {
   double share = 0;       ///< Share of the time for independent samples; 1: there are no chains.
   FamilyWeights weights;  ///< Weights of both families.
   double mutations_per_sample = 1;                      ///< Cost of an independent sample.
-  SampleTechniques techniques = SampleTechniques::all;  ///< Of samples.
+  SampleTechniques techniques = SampleTechniques::all;  ///< Used by the samples.
   bool in_time = true;                                  ///< Whether there was time to find it.
   double b = 0;                                         ///< A rough estimate of b, for tours.
   double steps_per_sample = 1;  ///< Mean number of steps of tours per sample.
