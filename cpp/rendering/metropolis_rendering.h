@@ -25,9 +25,9 @@ namespace mlt {
 struct MetropolisSettings {
   int chains = 128;
   int64_t luminance_samples = 50000;
-  std::optional<double> independent_share;     ///< Their share of the time.
-  std::optional<SampleTechniques> techniques;  ///< Techniques of the independent samples.
-  std::optional<double> steps_per_sample;      ///< Mean steps of tours per sample.
+  std::optional<double> independent_share;     ///< Samples' share of time; default: by a pilot.
+  std::optional<SampleTechniques> techniques;  ///< Techniques of samples; default: by a pilot.
+  std::optional<double> steps_per_sample;      ///< Steps of tours per sample; default: by a pilot.
   bool parts = false;                          ///< Whether to keep both families' images as layers.
   bool only_camera_walks = false;              ///< See warn_of_hidden_lights.
 };
