@@ -1,4 +1,4 @@
-// What plug-ins there are, their schemas as dicts, and the table of command-line flags.
+// The list of plug-ins, their schemas as dicts, and the table of command-line flags.
 #include "bindings.h"
 #include "scene_dict.h"
 #include "text.h"

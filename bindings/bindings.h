@@ -1,4 +1,4 @@
-// The Python extension pymlt._core: one small file per floor of the house, and no algorithm here.
+// The Python extension pymlt._core: one small file for each group of functions, without algorithms.
 #pragma once
 
 #include "gil.h"
@@ -35,7 +35,7 @@ void bind_path_target(py::module_& m);
 /// A numpy array (height, width, channels) that owns the image's buffer.
 py::array_t<float> to_array(Image image);
 
-/// What `function` returns, called without the interpreter's lock.
+/// Calls `function` without the interpreter's lock, and returns its result.
 template <class Function>
 auto without_gil(const Function& function) {
   const ReleasedGil release;

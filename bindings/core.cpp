@@ -5,8 +5,8 @@
 namespace mlt::python {
 namespace {
 
-/// pybind11 makes the value of an object without one when it is first used, from memory that nobody
-/// has initialised: such objects come from `cls.__new__(cls)`.
+/// pybind11 makes the value of an object without one when it is first used, from uninitialised
+/// memory: such objects come from `cls.__new__(cls)`.
 void* refuse_empty_object(size_t) {
   throw py::type_error("the object is empty: it was made by __new__ alone, without __init__");
 }

@@ -1,4 +1,4 @@
-// Units that are run elsewhere: a job's executor, and the other side, which runs its tasks.
+// Units that are run elsewhere: a job's executor, and the workers that run its tasks.
 #include "bindings.h"
 #include "py_job.h"
 
@@ -65,7 +65,7 @@ void bind_executor(py::module_& m) {
       .def_property_readonly("units_done", &PyJob::units_done)
       .def_property_readonly(
           "units_per_cycle", [](PyJob& job) { return job.rendering().plan().units_per_cycle; },
-          "After so many units each share has had its turn.")
+          "After this number of units each share has had its turn.")
       .def_property_readonly("task_count", [](PyJob& job) { return job.tasks().size(); })
       .def(
           "position", [](PyJob& job, size_t task) { return job.tasks().position(task); },

@@ -23,7 +23,7 @@ void take_gil(const Take& take) {
   }
 }
 
-/// Without the lock for the rest of the block.
+/// Releases the lock for the rest of the block.
 class ReleasedGil {
  public:
   ReleasedGil() : state_(PyEval_SaveThread()) {}
@@ -37,7 +37,7 @@ class ReleasedGil {
   PyThreadState* state_;
 };
 
-/// With the lock for the rest of the block, in any thread.
+/// Acquires the lock for the rest of the block, in any thread.
 class AcquiredGil {
  public:
   AcquiredGil() {

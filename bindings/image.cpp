@@ -33,7 +33,7 @@ Image to_image(const Floats& array) {
 using Layers = std::map<std::string, Floats>;
 using Texts = std::map<std::string, std::string>;
 
-/// What `function` (write_render or save_render) returns for these arrays.
+/// Calls `function` (write_render or save_render) for these arrays, and returns its result.
 template <class Function>
 auto with_images(const Function& function, const std::string& path, const Floats& array,
                  const Layers& layers, const Texts& metadata, bool half, double exposure) {

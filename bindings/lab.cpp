@@ -14,7 +14,7 @@ namespace {
 
 using lab::Point;
 
-// ---- from Python's arguments
+// ---- Python's arguments
 
 /// A built-in move as it is, any other object as a PythonMove.
 template <class Space>

@@ -1,4 +1,4 @@
-// Light paths to look at: their vertices as numpy, contribution, densities and weights.
+// Light paths for inspection: their vertices as numpy, contribution, densities and weights.
 #include "light_path.h"
 
 #include "python_mutation.h"
@@ -116,7 +116,7 @@ py::str describe_path(const PyLightPath& path) {
   return text + py::str(")");
 }
 
-// ---- where paths come from
+// ---- sources of paths
 
 PyLightPath trace(const LoadedPtr& scene, const std::pair<int, int>& pixel, uint64_t seed,
                   int max_depth, bool strict_normals) {

@@ -1,4 +1,4 @@
-// A light path as Python sees it.
+// A light path as a Python object.
 #pragma once
 
 #include "bindings.h"
@@ -27,7 +27,7 @@ py::array_t<double> to_array(const Color& color);
 
 const char* name_of(VertexKind kind);
 const char* name_of(Lobe lobe);
-/// Which shape of the scene a vertex is on; -1: none.
+/// Index of the shape that a vertex is on; -1: none.
 int64_t shape_of(const Vertex& x);
 
 /// `Vertex`, and the methods of `Scene` that find vertices.

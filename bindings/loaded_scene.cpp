@@ -1,4 +1,4 @@
-// Loading, and what a scene tells about itself.
+// Loading of scenes, and their properties.
 #include "bindings.h"
 #include "scene_dict.h"
 #include "scene_editing.h"
@@ -31,7 +31,7 @@ LoadOptions load_options(const Size& size, const Sensor& sensor, const std::stri
   return options;
 }
 
-/// A file may be for another renderer, and then needs another integrator here.
+/// Adds a warning if the scene's own integrator cannot render here; the scene may still be useful.
 LoadedScene warned(LoadedScene loaded) {
   if (const std::string problem = integrator_problem(loaded, plugins()); !problem.empty())
     loaded.warnings.push_back(problem + "; the scene cannot be rendered unless another is named");
@@ -51,7 +51,7 @@ LoadedScene from_string(const Text& xml, const Text& directory, const Defines& d
       load_string(xml, directory, plugins(), load_options(size, sensor, filter, defines, lenient)));
 }
 
-/// `built_in` and `defines` name a scene of the Python package, so that a checkpoint can.
+/// `built_in` and `defines` name a scene of the Python package, for checkpoints.
 LoadedScene scene_from_dict(const py::dict& dict, const Size& size, const Sensor& sensor,
                             const std::string& filter, const std::string& built_in,
                             const Defines& defines) {

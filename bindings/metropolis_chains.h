@@ -8,15 +8,15 @@
 
 namespace mlt::python {
 
-/// Chains as Python has them, whatever their states are.
+/// Chains in Python, whatever their states are.
 class AnyChains {
  public:
   virtual ~AnyChains() = default;
   virtual py::dict advance(size_t steps, bool expected_values) = 0;
 };
 
-/// What happened in some steps of all chains, one chain after the other; `step(chain, record)`
-/// makes one.
+/// Runs some steps of all chains, one chain after the other, and returns their trace;
+/// `step(chain, record)` takes one.
 template <class Space, class Chain, class Step>
 py::dict advance_each(const Space& space, std::vector<Chain>& chains, size_t steps,
                       bool expected_values, bool native, Step&& step) {
@@ -31,7 +31,7 @@ py::dict advance_each(const Space& space, std::vector<Chain>& chains, size_t ste
   return trace.take();
 }
 
-/// Chains of one target and one mixture, each with a random stream of its own. `native` ones do
+/// Chains of one target and one mixture, each with a random stream of its own. `native` ones run
 /// without the interpreter's lock.
 template <class Space>
 class Chains final : public AnyChains {

@@ -40,7 +40,7 @@ struct Numbers {
   void from_python(const py::object& object, lab::Point& x) const;
 };
 
-/// States that only Python understands.
+/// States that are Python objects of any kind.
 struct Objects {
   using State = Object;
 
@@ -64,8 +64,8 @@ class PythonTarget final : public lab::Target<typename Space::State> {
   py::object function_;
 };
 
-/// An object with propose(x, rng) and, as its attributes `symmetric`, `_suits_all` and `_adapts`
-/// say, density(x, y), suitability(x), adapt(acceptance).
+/// An object with propose(x, rng) and, depending on its attributes `symmetric`, `_suits_all` and
+/// `_adapts`, with density(x, y), suitability(x), adapt(acceptance).
 template <class Space>
 class PythonMove final : public lab::Move<typename Space::State> {
  public:

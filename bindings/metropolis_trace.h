@@ -1,4 +1,4 @@
-// What chains leave behind, as numpy arrays (or lists, for states that are Python objects).
+// The trace of chains, as numpy arrays (or lists, for states that are Python objects).
 #pragma once
 
 #include "metropolis_python.h"
@@ -10,7 +10,7 @@
 
 namespace mlt::python {
 
-/// Lets Ctrl-C through.
+/// Checks for Ctrl-C now and then.
 inline void check_signals(size_t step) {
   if (step % 4096 != 0) return;
   const AcquiredGil acquire;
@@ -68,8 +68,8 @@ class Store<Objects> {
   std::vector<py::list> lists_;
 };
 
-/// Everything that happened in some steps of all chains. With expected values each step leaves two
-/// samples, the proposal and the state that it was made from.
+/// The trace of some steps of all chains. With expected values each step records two samples, the
+/// proposal and the state that it was made from.
 template <class Space>
 class Trace {
  public:
@@ -84,8 +84,8 @@ class Trace {
         accepted_(chains, steps),
         moves_(chains, steps) {}
 
-  /// Step i of chain c, which `make(record)` makes; it calls record(x, weight, is_proposal) for
-  /// each sample. One without a weight is the state before.
+  /// Records step i of chain c, which `make(record)` takes; it calls record(x, weight, is_proposal)
+  /// for each sample. One without a weight is the state before.
   template <class Chain, class Make>
   void step(size_t c, size_t i, const Chain& chain, Make&& make) {
     check_signals(i + 1);

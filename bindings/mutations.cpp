@@ -1,4 +1,4 @@
-// What mutations there are, and the audit of one or of a mixture.
+// The list of mutations, and the audit of one or of a mixture.
 #include "python_mutation.h"
 #include "scene_dict.h"
 

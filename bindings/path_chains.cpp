@@ -8,12 +8,12 @@
 namespace mlt::python {
 namespace {
 
-/// L*(x) of the light paths of a scene.
+/// The target L*(x) of the light paths of a scene.
 struct PyPathTarget {
   LoadedPtr scene;
   PathTarget target;
 
-  /// x with its terms; target = 0 also where light cannot take it. Throws UsageError for a path of
+  /// Evaluates x; target = 0 also where light cannot take it. Throws UsageError for a path of
   /// another scene.
   PathState evaluated(const PyLightPath& x) const {
     if (x.scene->scene != scene->scene) throw UsageError("the path is one of another scene");
@@ -25,7 +25,7 @@ struct PyPathTarget {
   }
 };
 
-/// A metropolis.Start. Throws RenderError if no path carries light.
+/// Returns a metropolis.Start. Throws RenderError if no path carries light.
 py::object bootstrap_starts(const PyPathTarget& target, uint64_t candidates, uint32_t chains,
                             uint64_t seed) {
   const PathStarts found = run_interruptibly([&](const std::atomic<bool>& cancelled) {
@@ -40,7 +40,7 @@ py::object bootstrap_starts(const PyPathTarget& target, uint64_t candidates, uin
   return py::module_::import("pymlt.lab.metropolis").attr("Start")(found.b, found.b_error, starts);
 }
 
-/// A chain whose state Python sees as a value: a state that it stays in is one object.
+/// A chain whose state is a Python object, the same one as long as the state does not change.
 class ShownChain : private PathChain {
  public:
   ShownChain(PathChain chain, py::object start)

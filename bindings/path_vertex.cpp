@@ -1,4 +1,4 @@
-// Vertices of light paths as Python sees them, and how a mutation written in Python finds new ones.
+// Vertices of light paths as Python objects, and the functions of Scene that sample new ones.
 #include "light_path.h"
 #include "ray_arrays.h"
 

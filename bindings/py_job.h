@@ -1,4 +1,4 @@
-// A job as Python holds it.
+// A job as a Python object.
 #pragma once
 
 #include "bindings.h"
@@ -9,7 +9,7 @@
 
 namespace mlt::python {
 
-/// A job and what it was made from.
+/// A job, and the objects that it was made from.
 class PyJob : public Job {
  public:
   PyJob(LoadedPtr loaded, const MadeIntegrator& made, const RenderSettings& settings)

@@ -17,14 +17,14 @@ struct ThreadState {
   ~ThreadState() { AcquiredGil()->dec_ref(); }
 };
 
-/// The GIL. A thread that Python has started has a state already.
+/// Acquires the GIL. A thread that Python has started has a state already.
 AcquiredGil acquire_gil() {
   if (!PyGILState_GetThisThreadState()) thread_local const ThreadState kept;
   return {};
 }
 
 /// An object with suitability(x), propose(x, rng) and density(x, y). Calls take the GIL, so that a
-/// render may go on in many threads; all of them share the object.
+/// render may run on many threads; all of them share the object.
 class PythonMutation final : public Mutation {
  public:
   PythonMutation(LoadedPtr scene, const PathTarget& target, const py::object& object)

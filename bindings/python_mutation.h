@@ -17,17 +17,17 @@ namespace mlt::python {
 using WeightedObjects = std::vector<std::pair<py::object, double>>;
 
 /// A mutation of C++ by its name or by its object in Python; any other object as a PythonMutation.
-/// Throws UsageError for what is not a mutation.
+/// Throws UsageError for an object that is not a mutation.
 MutationPtr to_mutation(const LoadedPtr& scene, const PathTarget& target, const py::object& object);
 
-/// The same for all of a mixture, with their weights.
+/// The mutations of a mixture, as above, with their weights.
 std::pair<Mutations, MixtureWeights> to_mixture(const LoadedPtr& scene, const PathTarget& target,
                                                 const WeightedObjects& objects);
 
-/// The paths that Python's arguments name. Throws UsageError for a max_depth that is none.
+/// The PathRules of Python's arguments. Throws UsageError for an invalid max_depth.
 PathRules path_rules(int max_depth, bool hide_emitters, bool strict_normals);
 
-/// Runs work that looks at `cancelled` now and then, without the GIL, and lets Ctrl-C through.
+/// Runs work that checks `cancelled` now and then, without the GIL; Ctrl-C cancels it.
 template <class Work>
 auto run_interruptibly(Work&& work) {
   std::atomic<bool> cancelled{false};

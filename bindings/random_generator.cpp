@@ -7,7 +7,7 @@ uint64_t next_bits(void* rng) { return static_cast<Rng*>(rng)->next_bits(); }
 uint32_t next_half(void* rng) { return static_cast<uint32_t>(next_bits(rng) >> 32); }
 double next_number(void* rng) { return static_cast<Rng*>(rng)->next(); }
 
-/// A stream, and what numpy asks of a bit generator.
+/// A stream, and the functions of a bit generator of numpy.
 struct BitGenerator {
   explicit BitGenerator(const Rng& own) : stream(own) {}
 

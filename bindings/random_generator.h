@@ -1,4 +1,4 @@
-// numpy's Generator on top of our streams, so that a move written in Python draws from the stream
+// numpy's Generator for the streams of C++, so that a move written in Python draws from the stream
 // of its chain with all of numpy's distributions, and a run stays a function of its seed.
 #pragma once
 
@@ -11,8 +11,8 @@
 namespace mlt::python {
 
 /// Generators for calls of Python. While one call waits for another thread, that thread gets
-/// another generator. What Python draws outside of a call comes from a stream that is equal to
-/// `own` at first.
+/// another generator. Numbers that Python draws outside of a call come from a stream that is equal
+/// to `own` at first.
 class RandomGenerators {
   struct Generator {
     py::object numpy;  ///< Keeps the stream alive.
@@ -50,7 +50,7 @@ class RandomGenerators {
   std::vector<Generator> idle_;
 };
 
-/// The class of the bit generator that numpy sees.
+/// Binds the class of the bit generator for numpy.
 void bind_random_source(py::module_& m);
 
 }  // namespace mlt::python

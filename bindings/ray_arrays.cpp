@@ -46,7 +46,7 @@ struct Columns {
   py::array_t<int64_t> shape_index, prim_index;
 };
 
-/// Writes a row; of a ray that meets nothing, NaN and -1.
+/// Writes a row; NaN and -1 for a ray that hits nothing.
 class Writer {
  public:
   explicit Writer(Columns& to)

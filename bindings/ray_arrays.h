@@ -5,12 +5,12 @@
 
 namespace mlt::python {
 
-/// What rays meet first, as arrays by name; see Scene.intersect. Throws UsageError for arrays that
+/// Intersects rays; returns arrays by name, see Scene.intersect. Throws UsageError for arrays that
 /// are not (n, 3), or hold a start that is not finite or a direction without length.
 py::dict intersect_rays(const LoadedScene& loaded, const Doubles& starts, const Doubles& directions,
                         double time);
 
-/// (starts, directions) of the rays through raster positions, from the middle of the lens.
+/// Returns (starts, directions) of the rays through raster positions, from the middle of the lens.
 py::tuple camera_rays(const LoadedScene& loaded, const Doubles& rasters, double time);
 
 }  // namespace mlt::python

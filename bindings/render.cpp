@@ -27,8 +27,8 @@ std::unique_ptr<PyJob> make_job(LoadedPtr loaded, const MadeIntegrator& made,
   return std::make_unique<PyJob>(std::move(loaded), made, settings);
 }
 
-/// Waits without the GIL, which mutations written in Python need. What went wrong in one of these
-/// is raised as Python knows it, each time anew: an error_already_set serves only once.
+/// Waits without the GIL, which mutations written in Python need. An exception of one of these is
+/// raised as its Python object, each time anew: an error_already_set can be used only once.
 bool wait(PyJob& job, double seconds) {
   try {
     return without_gil([&] { return job.wait(seconds); });
@@ -40,7 +40,7 @@ bool wait(PyJob& job, double seconds) {
   }
 }
 
-/// (images, weights, b): the independent groups of a render.
+/// Returns (images, weights, b) of the independent groups of a render.
 py::tuple groups(PyJob& job) {
   const Rendering& rendering = job.rendering();
   const int count = Rendering::group_count;

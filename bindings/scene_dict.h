@@ -16,8 +16,8 @@ Value to_value(const py::object& object, const std::string& parameter, const Loc
 /// Family, name, doc, parameters (name, type, default, doc, choices) and ignored names.
 py::dict to_dict(const Schema& schema);
 
-/// The tree of a nested dict. `path` is how the caller names the dict, such as "scene": errors
-/// about its parts say where with it ("scene['sensor']['film']").
+/// The tree of a nested dict. `path` is the caller's name of the dict, such as "scene", with which
+/// errors name its parts ("scene['sensor']['film']").
 Node to_node(const py::dict& dict, const std::string& family, const std::string& path,
              const Registry& registry);
 

@@ -1,4 +1,4 @@
-// Arrays become bytes, and bytes arrays, in pymlt.scenes.arrays.
+// pymlt.scenes.arrays converts arrays to bytes, and back.
 #include "scene_editing.h"
 
 #include "scene_dict.h"
@@ -12,7 +12,7 @@ namespace {
 
 py::object arrays() { return py::module_::import("pymlt.scenes.arrays"); }
 
-/// What stands for a plug-in where a value is expected.
+/// The dict that represents a plug-in where a value is expected.
 py::dict stand_in(const Node& node) {
   py::dict dict;
   dict["type"] = node.family == "ref" ? "ref" : node.type;
@@ -20,7 +20,7 @@ py::dict stand_in(const Node& node) {
   return dict;
 }
 
-/// The current values of a plug-in's parameters; None where nothing is given and there is no
+/// The current values of a plug-in's parameters; None for those without a value and without a
 /// default.
 py::dict values_of(const NamedNode& plugin) {
   py::dict values;
@@ -36,7 +36,7 @@ py::dict values_of(const NamedNode& plugin) {
   return arrays().attr("with_arrays")(values);
 }
 
-/// The parameter as the scene's description would give it. Errors begin with its full name.
+/// A node with the parameter as in a scene's description. Errors begin with its full name.
 Node given(const NamedParameter& named, const std::string& name, const py::handle& value) {
   py::dict dict;
   dict["type"] = named.plugin->node->type;
@@ -48,7 +48,7 @@ Node given(const NamedParameter& named, const std::string& name, const py::handl
   return node;
 }
 
-/// The size that the film is asked for, which is edited like its own.
+/// The requested size of the film, which is edited like that of the scene.
 std::optional<Vec2i> edited_size(std::optional<Vec2i> size, const NamedParameter& named,
                                  const py::handle& value) {
   if (!size || named.plugin->node->family != "film" || !py::isinstance<py::int_>(value))

@@ -1,4 +1,4 @@
-// What of a scene can be changed, and the scene with other values.
+// The parameters of a scene that can be changed, and the scene with other values.
 #pragma once
 
 #include "bindings.h"

@@ -1,4 +1,4 @@
-// The shapes of a scene as triangles for a viewer: meshes as they are, equations as a grid.
+// The shapes of a scene as triangles for a viewer: meshes unchanged, analytic shapes as a grid.
 #include "shape_triangles.h"
 
 #include "scene/instance.h"
@@ -14,7 +14,7 @@ struct Triangles {
   std::vector<std::array<uint32_t, 3>> faces;
 };
 
-/// Appends a mesh, whose buffers lie in the world or in a group.
+/// Appends a mesh, whose buffers are in the space of the world or of a group.
 template <class Place>
 void append(const MeshData& mesh, const Place& place, Triangles& to) {
   const auto first = static_cast<uint32_t>(to.corners.size());
@@ -59,7 +59,7 @@ Triangles triangles_of(const Shape& shape) {
   return found;
 }
 
-/// The one whose material an instance shows first, or the shape itself.
+/// The first shape of an instance's group, for its material, or the shape itself.
 const Shape& shown_part(const Shape& shape) {
   const Instance* instance = shape.as_instance();
   return instance ? *instance->group().shapes().front() : shape;

@@ -1,5 +1,5 @@
-// Texts that need not be UTF-8, as file names need not: bytes in C++, in Python what os.fsdecode
-// makes of them.
+// Texts that need not be UTF-8, such as file names: bytes in C++, in Python the result of
+// os.fsdecode.
 #pragma once
 
 #include "base/error.h"
@@ -17,7 +17,7 @@ struct Text {
   operator const std::string&() const { return bytes; }
 };
 
-/// The bytes of a str, of bytes or of a path. Throws UsageError for a str that stands for none.
+/// The bytes of a str, of bytes or of a path. Throws UsageError for a str that cannot be encoded.
 inline std::string bytes_of(const pybind11::handle& text) {
   PyObject* found = nullptr;
   if (!PyUnicode_FSConverter(text.ptr(), &found)) {

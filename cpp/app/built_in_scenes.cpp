@@ -9,7 +9,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Where the scenes may be: installed beside the program, by CMake or in the Python package, which
+/// Folders of the scenes: installed beside the program, by CMake or in the Python package, which
 /// may hold the program too; or in the sources that it was built from.
 std::vector<fs::path> folders() {
   std::error_code error;

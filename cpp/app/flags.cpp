@@ -70,7 +70,7 @@ const FlagType any_text{"a text", [](const std::string& text) { return Parsed(te
     image_size{"WIDTHxHEIGHT in pixels, such as 640x360", parse_size},
     assignment{"NAME=VALUE", parse_assignment};
 
-/// "-o" of "-o,--output".
+/// The first spelling of a flag: "-o" of "-o,--output".
 std::string first_spelling(const Flag& flag) {
   const std::string all = flag.spelling;
   return all.substr(0, all.find(','));
@@ -128,7 +128,7 @@ const std::vector<Flag>& render_flags() {
        Flag::python_only},
       {"stats", "--stats", "FILE", &any_text, "write what the render tells about itself, as JSON",
        Flag::file},
-      {"exposure", "--exposure", "STOPS", &stops, "brighten PNG files by so many stops"},
+      {"exposure", "--exposure", "STOPS", &stops, "brighten PNG files by this number of stops"},
       {"quiet", "--quiet", "", nullptr, "say nothing but errors"}};
   return flags;
 }

@@ -38,7 +38,7 @@ void on_signal(int signal) {
   caught_signal = signal;
 }
 
-/// A program started by nohup goes on without its terminal.
+/// Installs signal handlers; a program started by nohup keeps ignoring SIGHUP.
 void catch_signals() {
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
@@ -92,7 +92,7 @@ Options parse(int argc, char** argv) {
   return read_options(given);
 }
 
-/// Renders until the budget is used up, a signal arrives, or it fails; returns what went wrong.
+/// Renders until the budget is used up, a signal arrives, or it fails; returns the exception.
 std::exception_ptr render(Job& job, bool quiet) {
   ProgressLine line(quiet);
   something_to_save = 1;
@@ -108,10 +108,10 @@ std::exception_ptr render(Job& job, bool quiet) {
   }
 }
 
-/// Every output is tried, and elsewhere if it fails; what could not be had is said.
+/// The outcome of writing all outputs; problems are reported as they occur.
 struct Outputs {
-  std::vector<std::string> images;  ///< Where they are.
-  bool complete = true;             ///< Everything is where it was asked for.
+  std::vector<std::string> images;  ///< Paths of the image files.
+  bool complete = true;             ///< Whether all files are where they were asked for.
 
   void add(const Saved& saved) {
     if (saved.problem.empty()) return;
@@ -133,12 +133,12 @@ Outputs save(const Options& options, const RenderedImage& render, const Stats& s
   return outputs;
 }
 
-/// All but the first `known` warnings.
+/// Prints all but the first `known` warnings.
 void print_warnings(const Stats& stats, size_t known = 0) {
   for (size_t i = known; i < stats.warnings.size(); ++i) say("warning: {}", stats.warnings[i]);
 }
 
-/// What was done, and how good it is.
+/// A summary: samples, time and error.
 std::string summary(const Stats& stats) {
   std::string error;
   if (std::isfinite(stats.error))
@@ -202,8 +202,8 @@ int fail(int code, const std::string& message) {
   return code;
 }
 
-/// A wheel has this program twice. This one, for every processor, gives way to the one for wide
-/// vectors where the processor has them; not with PYMLT_BUILD=baseline
+/// A wheel has this program twice. This one, for every processor, runs the one for wide vectors if
+/// the processor has them; not with PYMLT_BUILD=baseline
 /// (python/pymlt/_processor.py).
 void give_way_to_wide_build([[maybe_unused]] char** argv) {
 #ifdef MLT_WIDE_PROGRAM
@@ -228,7 +228,7 @@ int main(int argc, char** argv) {
   } catch (const Error& error) {
     return fail(2, error.what());
   } catch (const std::bad_alloc&) {
-    return fail(3, "there is not memory enough");
+    return fail(3, "out of memory");
   } catch (const std::exception& error) {
     return fail(3, error.what());
   }

@@ -11,7 +11,7 @@ std::vector<T> all(const FlagValues& given, const char* flag) {
   return values;
 }
 
-/// The value of a flag, or what is there already.
+/// Sets the target to the value of a flag, if it was given.
 template <class T, class Target>
 void take(const FlagValues& given, const char* flag, Target& target) {
   for (const T& value : all<T>(given, flag)) target = static_cast<Target>(value);

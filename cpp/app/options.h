@@ -1,4 +1,4 @@
-// What a person has asked of mlt-render.
+// The options of a run of mlt-render.
 #pragma once
 
 #include "app/flags.h"
@@ -20,14 +20,14 @@ struct Options {
   Assignments parameters;
   LoadOptions load;
   RenderSettings render;
-  CheckpointFile checkpoint;  ///< To be renewed while it renders, or with the path "".
-  std::string resume;         ///< A file to go on from, or "".
+  CheckpointFile checkpoint;  ///< Written while it renders; its path may be "".
+  std::string resume;         ///< A checkpoint to resume, or "".
   std::string aovs;           ///< Layers, in place of the scene's own.
   double exposure = 0;
   bool quiet = false;
 };
 
-/// Throws UsageError if two flags name one file.
+/// The options by the given flags. Throws UsageError if two flags name one file.
 Options read_options(const FlagValues& given);
 
 }  // namespace mlt

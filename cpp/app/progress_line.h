@@ -1,4 +1,4 @@
-// One line on a terminal that is written over and over: " 42 % |████      | 12.5 spp, 3.1 s".
+// One line on a terminal that is updated in place: " 42 % |████      | 12.5 spp, 3.1 s".
 #pragma once
 
 #include "app/streams.h"

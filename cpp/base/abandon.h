@@ -1,17 +1,17 @@
-// Giving up work from inside. Work that is told to stop finishes the sample or the mutation that it
-// is at, and one of these may take for ever: a light path between white walls that nothing ends.
-// Who traces rays therefore asks now and then whether the work was given up.
+// Abandoning work from inside. Work that is told to stop finishes its current sample or mutation,
+// and one of these may take for ever: a light path between white walls that nothing ends. Code that
+// traces rays therefore checks now and then whether the work was abandoned.
 #pragma once
 
 #include <atomic>
 
 namespace mlt {
 
-/// Thrown out of work that was given up.
+/// Thrown out of work that was abandoned.
 struct Abandoned {};
 
-/// While it lives, work of this thread, and of the loops that it runs in parallel, throws Abandoned
-/// once the flag is set.
+/// While this object lives, work of this thread, and of the loops that it runs in parallel, throws
+/// Abandoned once the flag is set.
 class Abandonable {
  public:
   explicit Abandonable(const std::atomic<bool>* flag);
@@ -26,7 +26,7 @@ class Abandonable {
   const std::atomic<bool>* outer_;
 };
 
-/// Throws Abandoned if this thread's work was given up.
+/// Throws Abandoned if this thread's work was abandoned.
 void check_abandoned();
 
 }  // namespace mlt

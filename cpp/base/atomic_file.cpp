@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
   throw FileError(path + ": " + what + ": " + std::strerror(error));
 }
 
-/// The file that `path` means: links are followed, and what is there must be replaceable.
+/// The file that `path` refers to: links are followed, and an existing file must be replaceable.
 fs::path resolve(const std::string& path) {
   if (path.empty()) throw FileError("cannot write a file whose name is empty");
   std::error_code error;
@@ -56,7 +56,7 @@ bool claim(int file) {
          status.st_nlink > 0;
 }
 
-/// Removes what processes that were killed have left: who writes such a file holds its lock.
+/// Removes the files that killed processes have left: a process that is alive holds their lock.
 void remove_remnants(const fs::path& folder) {
   std::error_code ignored;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {

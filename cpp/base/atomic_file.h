@@ -1,5 +1,5 @@
-// Whole files in and out. A file is written beside its name and then renamed, so that no
-// incomplete file is ever visible, and an older file stays until the new one is complete.
+// Reading and writing whole files. A file is written under another name and then renamed, so that
+// no incomplete file is ever visible, and an older file stays until the new one is complete.
 #pragma once
 
 #include <cstdint>
@@ -32,23 +32,23 @@ class AtomicFile {
   std::FILE* file_ = nullptr;
 };
 
-/// More bytes of one file are a mistake or an attack.
+/// The size limit of a file, in bytes; a larger one is a mistake or an attack.
 constexpr uint64_t largest_file = uint64_t{1} << 32;
 
 /// The bytes of a regular file; a FileError if it cannot be read, or is larger than `largest`.
 std::string read_file(const std::string& path, uint64_t largest = largest_file);
 
-/// A pipe, a terminal or the like, such as /dev/stdin.
+/// Whether the path is a pipe, a terminal or the like, such as /dev/stdin.
 bool is_stream(const std::string& path);
 
-/// What comes out of it up to its end; a FileError if it cannot be read, or if that is more than
+/// The bytes of a stream up to its end; a FileError if it cannot be read, or if they are more than
 /// 1 GiB.
 std::string read_stream(const std::string& path);
 
 /// Replaces `path` by these bytes, at once or not at all; a FileError if it cannot.
 void write_file(const std::string& path, std::string_view bytes);
 
-/// Throws now the FileError that write_file(path) would end in. It tries: a file is created in the
+/// Throws now the FileError that write_file(path) would throw. For this a file is created in the
 /// folder and removed again; one that exists at `path` is not touched.
 void check_file_writable(const std::string& path);
 

@@ -15,7 +15,7 @@
 
 namespace mlt {
 
-/// What lies between the members of a struct is not part of its value: equal values have equal
+/// Clears the padding between the members of a struct, so that equal values have equal
 /// bytes.
 template <class T>
 void clear_padding([[maybe_unused]] T& value) {
@@ -115,7 +115,7 @@ class ByteReader {
     text.assign(*bytes_, position_, size);
     position_ += size;
   }
-  /// Throws if something is left over.
+  /// Throws if bytes are left.
   void finish() const {
     if (position_ != bytes_->size()) throw RenderError("the saved state is longer than expected");
   }
@@ -127,7 +127,7 @@ class ByteReader {
       throw RenderError("the saved state has something else where it should say yes or no");
     return byte == 1;
   }
-  /// Sums and times are finite, whatever has happened.
+  /// Throws unless the value is finite, as sums and times are.
   template <class T>
   static void check_finite([[maybe_unused]] const T& value) {
     if constexpr (std::is_floating_point_v<T>)

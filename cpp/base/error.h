@@ -1,5 +1,4 @@
-// Typed exceptions. Every message says, on one line, what was wrong, where, and what would be
-// right.
+// Typed exceptions. Every message says, on one line, what is wrong, where, and what is right.
 #pragma once
 
 #include <fmt/core.h>
@@ -49,12 +48,12 @@ struct Location {
   int line = 0;
 };
 
-/// "scene.xml:12" or "scene.xml", or "" when the object came from no file.
+/// The location in words: "scene.xml:12" or "scene.xml", or "" if the object came from no file.
 std::string describe(const Location& location);
 
-/// "scene.xml:12: message", or just the message when there is no location.
+/// Prefixes a message: "scene.xml:12: message", or just the message when there is no location.
 std::string at(const Location& location, const std::string& message);
-/// The same for a message that fmt::format makes.
+/// Prefixes a message that fmt::format makes, as above.
 template <class First, class... Rest>
 std::string at(const Location& location, const char* format, const First& first,
                const Rest&... rest) {
@@ -64,7 +63,7 @@ std::string at(const Location& location, const char* format, const First& first,
 /// The candidate that `word` was probably meant to be (edit distance), or "" if none is near.
 std::string closest(const std::string& word, const std::vector<std::string>& candidates);
 
-/// "; did you mean 'max_depth'?", or "; valid are: a, b, c" when nothing is near.
+/// The end of a message: "; did you mean 'max_depth'?", or "; valid are: a, b, c" if none is near.
 std::string suggestion(const std::string& word, const std::vector<std::string>& candidates);
 
 }  // namespace mlt

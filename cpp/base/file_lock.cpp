@@ -16,7 +16,7 @@
 namespace mlt {
 namespace {
 
-/// Whoever held the lock before may have removed the file since it was opened.
+/// Whether the open file still has this name: the previous holder may have removed it.
 bool still_there(int file, const std::string& name) {
   struct stat opened, named;
   return ::fstat(file, &opened) == 0 && ::stat(name.c_str(), &named) == 0 &&

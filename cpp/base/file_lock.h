@@ -1,4 +1,4 @@
-// One process at a time keeps its state in a file.
+// A lock that lets one process at a time keep its state in a file.
 #pragma once
 
 #include <memory>
@@ -6,12 +6,12 @@
 
 namespace mlt {
 
-/// Held until it is destroyed, or until the process ends in whatever way. It is a lock on the file
-/// PATH.lock, which is there as long.
+/// A lock that is held until it is destroyed, or until the process ends in whatever way. It is a
+/// lock on the file PATH.lock, which exists as long.
 class FileLock {
  public:
-  /// Within one process a file has one lock, which all who ask for it share. Throws FileError if
-  /// another process has it.
+  /// The lock of a file, which is shared within one process. Throws FileError if another process
+  /// holds it.
   static std::shared_ptr<FileLock> of(const std::string& path);
 
   ~FileLock();

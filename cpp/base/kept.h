@@ -1,4 +1,4 @@
-// A value that is found when it is first asked for, and kept until it is forgotten.
+// A cached value: computed at its first use, and kept until it is invalidated.
 #pragma once
 
 #include <utility>

@@ -12,7 +12,7 @@ class Object {
  public:
   virtual ~Object() = default;
 
-  /// The same for another scene; nullptr if it has to be made anew.
+  /// A copy of this object for another scene; nullptr if it has to be made anew.
   virtual std::shared_ptr<Object> copy() const { return nullptr; }
 
   std::string type;  ///< Name of the plug-in that made it, or "".

@@ -35,7 +35,7 @@ void parallel_for(int threads, uint64_t count, const std::function<void(uint64_t
   const uint64_t wanted = std::min<uint64_t>(std::max(1, threads), count);
   try {
     for (uint64_t i = 1; i < wanted; ++i) workers.emplace_back(work);
-  } catch (const std::system_error&) {  // no more threads to be had: go on with those there are
+  } catch (const std::system_error&) {  // no more threads: go on with those there are
   }
   work();
   for (std::thread& worker : workers) worker.join();

@@ -19,7 +19,7 @@ class Params {
   /// value outside the choices, or a second value; a known but ignored name adds a warning.
   void set(const std::string& name, Value value, const Location& where);
 
-  /// Puts another value in the place of one that has been given.
+  /// Replaces a value that has been given.
   void replace(const std::string& name, Value value);
 
   /// Adds an unnamed nested object of the given family ("bsdf", "emitter", "texture", ...).
@@ -35,7 +35,7 @@ class Params {
   std::string text(const std::string& name);
   Buffer buffer(const std::string& name);
   Triple triple(const std::string& name);
-  Matrix matrix(const std::string& name);  ///< Row by row.
+  Matrix matrix(const std::string& name);  ///< The matrix, row by row.
   /// The raw value of a reflectance, radiance, texture or emission parameter.
   const Value& value(const std::string& name);
 
@@ -65,9 +65,9 @@ class Params {
     return found;
   }
 
-  /// Bytes that are the same for what was given here and elsewhere if equal objects are made of
-  /// both: nested objects are equal if they are one, and those of the families `aside` do not
-  /// count.
+  /// The given values as bytes, which are equal for two Params if the objects made from them are
+  /// equal. Nested objects are equal if they are the same object; those of the families `aside` do
+  /// not count.
   std::string key(const std::vector<std::string>& aside) const;
   /// All nested objects, named or not.
   std::vector<ObjectPtr> nested() const;

@@ -18,8 +18,8 @@ struct Plugin {
   std::function<ObjectPtr(Params&)> create;
 };
 
-/// Calls plugin.create. A FileError, or a UsageError about a value, gets the plug-in's place in the
-/// scene in front of its message; the latter becomes a SceneError.
+/// Calls plugin.create. The message of a FileError, or of a UsageError about a value, is prefixed
+/// by the plug-in's location in the scene; a UsageError becomes a SceneError.
 ObjectPtr make_object(const Plugin& plugin, Params& params);
 
 /// The plug-in whose objects are made by `T(Params&)`.
@@ -35,17 +35,17 @@ Plugin make_plugin(const char* family, const char* name, const char* doc,
 
 class Registry {
  public:
-  /// Each name is added or refused once: a second time throws Error.
+  /// Adds a plug-in. Each name is added or refused once: a second time throws Error.
   void add(Plugin plugin);
   /// Refuses Mitsuba's plug-in `name` by name, in one line that ends with `reason`.
   void refuse(const std::string& family, const std::string& name, const std::string& reason);
 
-  /// Throws SceneError at `where` with a suggestion, or with the reason when the name is one that
-  /// Mitsuba has and this renderer refuses.
+  /// Finds a plug-in. Throws SceneError at `where` with a suggestion, or with the reason if the
+  /// name is one that Mitsuba has and this renderer refuses.
   const Plugin& find(const std::string& family, const std::string& name,
                      const Location& where) const;
 
-  /// Whether there is such a plug-in; not if its name is refused.
+  /// Whether there is such a plug-in; false if its name is refused.
   bool has(const std::string& family, const std::string& name) const;
   std::vector<std::string> families() const;
   std::vector<std::string> names(const std::string& family) const;

@@ -8,7 +8,7 @@
 
 namespace mlt {
 
-/// What a stream is for: two purposes never share random numbers.
+/// The purpose of a stream: two purposes never share random numbers.
 enum class Purpose : uint64_t {
   bootstrap = 1,
   chain,
@@ -78,10 +78,10 @@ class Rng {
     return result;
   }
 
-  /// Uniform in [0, 1), a multiple of 2^-53.
+  /// A uniform number in [0, 1), a multiple of 2^-53.
   double next() { return static_cast<double>(next_bits() >> 11) * 0x1p-53; }
 
-  /// Uniform in {0, ..., n - 1}.
+  /// A uniform integer in {0, ..., n - 1}.
   uint64_t below(uint64_t n) {
     return static_cast<uint64_t>((static_cast<unsigned __int128>(next_bits()) * n) >> 64);
   }

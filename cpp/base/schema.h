@@ -1,4 +1,4 @@
-// What a plug-in's parameters are called, of which type, with which default, and what they mean.
+// The parameters of plug-ins: names, types, defaults and documentation.
 // The loader, the Python classes, the docs and the error messages all read this one description.
 #pragma once
 
@@ -22,7 +22,7 @@ using Matrix = std::array<double, 16>;
 /// Samples (wavelength in nm, value) of a spectrum. A single one stands for all wavelengths.
 using Spectrum = std::vector<std::pair<double, double>>;
 inline Spectrum constant_spectrum(double value) { return {{550, value}}; }
-/// A transform at a moment, and several of them in the order of time.
+/// A transform at one time; below, several of them in the order of time.
 struct Keyframe {
   double time;
   Matrix transform;
@@ -55,7 +55,7 @@ enum class ParamType {
 
 std::string to_string(ParamType type);
 
-/// Stands in the place of a default value where there is none.
+/// The default value of parameters without a default.
 constexpr std::monostate no_default;
 
 struct Parameter {
@@ -78,15 +78,15 @@ struct Schema {
   std::string doc;
   std::vector<Parameter> parameters;
   std::vector<std::string> ignored = {};  ///< Known and without effect here: one warning, no error.
-  bool conserves_energy = true;           ///< BSDFs: is the white-furnace albedo <= 1 promised?
-  bool reciprocal = true;                 ///< BSDFs: is f(a, b) = f(b, a) promised?
-  bool unnamed_texture = false;           ///< Is a nested texture meant whatever its name?
+  bool conserves_energy = true;           ///< BSDFs: whether the white-furnace albedo is <= 1.
+  bool reciprocal = true;                 ///< BSDFs: whether f(a, b) = f(b, a).
+  bool unnamed_texture = false;           ///< Whether nested textures need no name.
 
   const Parameter* find(const std::string& parameter) const;
   std::vector<std::string> parameter_names() const;
 };
 
-/// "toWorld" -> "to_world", "intIOR" -> "int_ior"; a snake_case name stays as it is.
+/// Converts "toWorld" to "to_world", "intIOR" to "int_ior"; a snake_case name is unchanged.
 std::string snake_case(const std::string& name);
 
 }  // namespace mlt

@@ -11,7 +11,7 @@ namespace {
 bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 bool is_separator(char c) { return is_space(c) || c == ','; }
 
-/// std::from_chars knows no leading plus sign.
+/// Removes a leading plus sign, which std::from_chars does not accept.
 std::string_view without_plus(std::string_view text) {
   if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
   return text;

@@ -1,4 +1,4 @@
-// Ends work that does not look at the clock by itself, or cannot end.
+// Stops work that does not check the time itself, or cannot end.
 #pragma once
 
 #include "base/abandon.h"
@@ -13,15 +13,15 @@ namespace mlt {
 /// Watches over the work of the thread that made it, from a thread of its own.
 class Watchdog {
  public:
-  /// Seconds from being told to stop until units that still run are given up. They last about a
+  /// Seconds from the signal to stop until units that still run are abandoned. Units last about a
   /// second.
   static constexpr double patience = 5;
 
-  /// `stopping` tells whether the work is to stop; it is asked some times a second.
+  /// `stopping` tells whether the work is to stop; it is called some times a second.
   explicit Watchdog(std::function<bool()> stopping, double patience = Watchdog::patience);
   ~Watchdog();
 
-  /// Set when the work is to stop: for loops that can end between any two steps.
+  /// The flag that is set when the work is to stop, for loops that can end between any two steps.
   const std::atomic<bool>& stop() const { return stop_; }
 
  private:

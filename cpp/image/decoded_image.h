@@ -1,4 +1,4 @@
-// What the decoders of single formats have in common.
+// The common part of the decoders of single formats.
 #pragma once
 
 #include "image/image.h"
@@ -14,8 +14,8 @@ struct DecodedImage {
   int bits = 8;  ///< 8 or 16: integers, scaled to [0, 1]; 32: linear radiance.
 };
 
-/// Throws std::runtime_error for a size for which a file of so many bytes is not large enough, when
-/// a byte holds at most `per_byte` pixels.
+/// Throws std::runtime_error if a file of `file_size` bytes, each of which holds at most `per_byte`
+/// pixels, is too small for an image of this size.
 inline void check_size(int64_t width, int64_t height, int64_t per_byte, size_t file_size) {
   if (width <= 0 || height <= 0) throw std::runtime_error("its header says that it has no pixels");
   if (width > max_image_pixels / height ||
@@ -23,7 +23,7 @@ inline void check_size(int64_t width, int64_t height, int64_t per_byte, size_t f
     throw std::runtime_error(too_many_pixels(width, height));
 }
 
-/// What `decode` returns; its errors become a FileError that names the file and the format.
+/// Calls `decode`; its errors become a FileError that names the file and the format.
 template <class Decode>
 DecodedImage decode_as(const char* format, const std::string& name, const Decode& decode) {
   const std::string what = name + ": cannot be read as " + format + ": ";

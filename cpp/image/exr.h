@@ -24,11 +24,11 @@ struct ExrLayer {
   std::vector<std::string> channels = {};
 };
 
-/// The bytes of a scanline file, ZIP-compressed, with nothing in it that was not passed in. Halfs
-/// are clamped to their finite range. A UsageError if layers do not fit together.
+/// Encodes a scanline file, ZIP-compressed, with nothing in it that was not passed in. Halfs are
+/// clamped to their finite range. A UsageError if layers do not fit together.
 std::string encode_exr(const std::vector<ExrLayer>& layers, bool half, const Metadata& metadata);
 
-/// The same into a file, by a few rows at a time.
+/// As above, into a file, by a few rows at a time.
 void encode_exr(AtomicFile& file, const std::vector<ExrLayer>& layers, bool half,
                 const Metadata& metadata);
 

@@ -7,7 +7,7 @@
 namespace mlt {
 namespace {
 
-/// Of the types that have one.
+/// The sizes of types with a fixed size.
 const std::map<std::string_view, size_t>& fixed_sizes() {
   static const std::map<std::string_view, size_t> sizes{{"box2i", 16},
                                                         {"box2f", 16},
@@ -36,7 +36,7 @@ const std::map<std::string_view, size_t>& fixed_sizes() {
   return sizes;
 }
 
-/// Names that end in 0, each followed by 16 bytes, and an empty name.
+/// Whether the value is names that end in 0, each followed by 16 bytes, and an empty name.
 bool is_channel_list(std::string_view value) {
   for (size_t begin = 0;;) {
     const size_t end = value.find('\0', begin);
@@ -47,7 +47,7 @@ bool is_channel_list(std::string_view value) {
   }
 }
 
-/// Texts, each after its length.
+/// Whether the value is texts, each after its length.
 bool is_text_list(std::string_view value) {
   for (size_t position = 0; position != value.size();) {
     const size_t rest = value.size() - position;
@@ -57,7 +57,7 @@ bool is_text_list(std::string_view value) {
   return true;
 }
 
-/// Width, height, and four bytes for each pixel.
+/// Whether the value is width, height, and four bytes for each pixel.
 bool is_preview(std::string_view value) {
   const uint64_t width = little_endian(value, 0), height = little_endian(value, 4);
   return value.size() >= 8 && (width == 0 || height <= value.size() / width) &&
@@ -71,7 +71,7 @@ bool is_whole(std::string_view type, std::string_view value) {
   if (type == "stringvector") return is_text_list(value);
   if (type == "floatvector") return value.size() % 4 == 0;
   if (type == "preview") return is_preview(value);
-  return type != "idmanifest";  // which says itself how much memory to allocate
+  return type != "idmanifest";  // its value includes its size in memory
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// OpenEXR takes the value of most attributes for as long as its type wants, not as the file says.
-// What follows could then be read in a way that no check has seen, with sizes of any magnitude.
+// OpenEXR reads most attributes with the size of their type, not with that in the file. The bytes
+// that follow could then be read in a way that no check has seen, with sizes of any magnitude.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace mlt {
 
-/// The four bytes from `position` on as a number; what lies beyond the end counts as 0.
+/// The four bytes from `position` on as a number; bytes beyond the end count as 0.
 uint32_t little_endian(std::string_view bytes, size_t position);
 
 /// Throws std::runtime_error unless OpenEXR takes exactly the bytes of `value` for an attribute of

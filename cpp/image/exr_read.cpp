@@ -1,4 +1,4 @@
-// The reading half of exr.h. A header that announces more pixels than a file of this size can hold,
+// The reading part of exr.h. A header that announces more pixels than a file of this size can hold,
 // with the best ratio that its compression method can reach, is refused before memory is allocated.
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
@@ -45,7 +45,7 @@ class MemoryInput : public Imf::IStream {
 int64_t width_of(const Imath::Box2i& box) { return int64_t{box.max.x} - box.min.x + 1; }
 int64_t height_of(const Imath::Box2i& box) { return int64_t{box.max.y} - box.min.y + 1; }
 
-/// How many bytes of pixels one byte of file can stand for. Deflate: 1032 (RFC 1951: 258 bytes in 2
+/// The most bytes of pixels for one byte of the file. Deflate: 1032 (RFC 1951: 258 bytes in 2
 /// bits), of which PXR24 makes 4 bytes from 3; DWA deflates one DC value for 64 pixels.
 int64_t max_expansion(Imf::Compression compression) {
   switch (compression) {
@@ -56,7 +56,7 @@ int64_t max_expansion(Imf::Compression compression) {
   }
 }
 
-/// How many lines are decompressed together, at least of an image that has so many.
+/// The number of lines that are decompressed together, if the image has as many.
 int64_t lines_of_chunk(Imf::Compression compression) {
   switch (compression) {
     case Imf::NO_COMPRESSION:
@@ -69,7 +69,7 @@ int64_t lines_of_chunk(Imf::Compression compression) {
   }
 }
 
-/// A window's area may be more than an integer holds.
+/// The area of a window, which may be more than an integer holds.
 double area_of(const Imath::Box2i& window) {
   return static_cast<double>(width_of(window)) * static_cast<double>(height_of(window));
 }
@@ -163,7 +163,7 @@ std::vector<std::string> choose_channels(const Imf::ChannelList& channels,
       (list.empty() ? "none" : list));
 }
 
-/// Copies the part of the data window that is seen through the display window.
+/// Copies the part of the data window that lies in the display window.
 Image through_display_window(Image&& pixels, const Imath::Box2i& data,
                              const Imath::Box2i& display) {
   if (data == display) return std::move(pixels);
@@ -213,7 +213,7 @@ auto with_file(std::string_view bytes, const std::string& name, const Read& read
     Imf::MultiPartInputFile file(stream, 0, false);
     return read(file);
   } catch (const std::bad_alloc&) {
-    fail(name, "it needs more memory than there is");
+    fail(name, "it needs more memory than is available");
   } catch (const std::exception& error) {
     fail(name, error.what());
   }

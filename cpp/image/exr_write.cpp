@@ -1,4 +1,4 @@
-// The writing half of exr.h.
+// The writing part of exr.h.
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
@@ -63,7 +63,7 @@ std::vector<std::string> channel_names(const ExrLayer& layer) {
   return names;
 }
 
-/// Text attributes must not take the place of those that describe the file.
+/// Adds text attributes, which must not replace those that describe the file.
 void insert_metadata(const Metadata& metadata, Imf::Header* header) {
   static const std::set<std::string> reserved = {"name",      "type",     "version",       "view",
                                                  "multiView", "channels", "chunkCount",    "tiles",
@@ -98,7 +98,7 @@ void check_layers(const std::vector<ExrLayer>& layers) {
 /// The channels of all layers, as samples of the file's type for some rows at a time.
 class Rows {
  public:
-  static constexpr int most = 16;  ///< As many as ZIP compresses together.
+  static constexpr int most = 16;  ///< Rows that ZIP compresses together.
 
   Rows(const std::vector<ExrLayer>& layers, bool halfs) : layers_(layers), halfs_(halfs) {
     if (!halfs) return;
@@ -108,7 +108,7 @@ class Rows {
 
   Imf::PixelType type() const { return halfs_ ? Imf::HALF : Imf::FLOAT; }
 
-  /// Where `count` rows from y on are found.
+  /// The frame buffer of `count` rows from y on.
   Imf::FrameBuffer frame(int y, int count) {
     const size_t sample = halfs_ ? sizeof(half) : sizeof(float);
     Imf::FrameBuffer frame;

@@ -4,7 +4,7 @@
 //
 //   pixel (i, j) = E[ contribution * f(i + 1/2 - p_x) f(j + 1/2 - p_y) ]
 //
-// It is the integral that is normalised, not the sum over the pixels that one sample touches: a
+// The integral is normalised, not the sum over the pixels that one sample touches: a
 // filter whose shifts do not add up to 1 (gaussian, lanczos) is still unbiased this way.
 //
 // f is stored as a table of its right half and interpolated linearly. What is normalised is the
@@ -29,11 +29,11 @@ class Filter {
   const std::string& name() const { return name_; }
   double radius() const { return radius_; }
 
-  /// Is a sample recorded in exactly one pixel, the one it lies in, with weight 1?
+  /// Whether a sample is recorded in exactly one pixel, the one it lies in, with weight 1.
   bool is_box() const { return box_; }
 
   /// f(x). The support is half open, -radius < x <= radius, so that a sample on the border between
-  /// two pixels falls with the box filter into the one that floor(p) names.
+  /// two pixels falls with the box filter into pixel floor(p).
   double eval(double x) const {
     if (!(x > -radius_ && x <= radius_)) return 0;
     const double t = std::abs(x) * scale_;
@@ -41,16 +41,16 @@ class Filter {
     const double* low = table_.data() + i;
     return low[0] + (t - i) * (low[1] - low[0]);
   }
-  /// f is linear between so many places in each pixel, the integers among them; 0: they are others
-  /// in every pixel.
+  /// The number of knots per pixel between which f is linear, the integers among them; 0 if they
+  /// differ from pixel to pixel.
   int knots_per_pixel() const {
     return scale_ == std::floor(scale_) ? static_cast<int>(scale_) : 0;
   }
-  /// f at the i-th of them from the middle.
+  /// f at the i-th knot from the middle.
   double knot(double i) const { return table_[static_cast<size_t>(i)]; }
-  /// No |f(x)| is larger.
+  /// The maximum of |f(x)|.
   double largest() const { return largest_; }
-  /// Whether f is negative somewhere, and so pixels may be.
+  /// Whether f is negative somewhere, so that pixels may be negative.
   bool has_negative_lobes() const;
 
  private:
@@ -72,7 +72,7 @@ Filter gaussian_filter(double stddev = 0.5);
 Filter mitchell_filter(double b = 1.0 / 3, double c = 1.0 / 3);
 /// The Mitchell filter with B = 0, C = 1/2, which interpolates.
 Filter catmullrom_filter();
-/// sinc(x) windowed by sinc(x / lobes).
+/// The Lanczos filter: sinc(x) windowed by sinc(x / lobes).
 Filter lanczos_filter(int lobes = 3);
 
 }  // namespace mlt

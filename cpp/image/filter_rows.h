@@ -14,8 +14,8 @@ class FilterRows {
  public:
   static constexpr int most_pixels = 8;
   struct Weights {
-    int first;                         ///< Pixel.
-    std::array<Real, most_pixels> at;  ///< Of it and those that follow; 0 where there is none.
+    int first;                         ///< First pixel.
+    std::array<Real, most_pixels> at;  ///< Weights from `first` on; 0 beyond the last.
   };
 
   explicit FilterRows(const Filter& filter) : radius_(filter.radius()) {
@@ -31,10 +31,10 @@ class FilterRows {
         rows_[j][k] = static_cast<Real>(filter.knot(std::abs(j + phases * (k - 0.5 * pixels_))));
   }
 
-  /// How many pixels of a row the filter covers; 0: it is none of those that have such a table.
+  /// How many pixels of a row the filter covers; 0: there is no table for this filter.
   int pixels() const { return pixels_; }
 
-  /// Of a sample at this place of the row.
+  /// The weights of a sample at this place of the row.
   Weights weights(double at) const {
     const double low = at - radius_ - 0.5, floor = std::floor(low);
     const double t = (1 - (low - floor)) * phases_;
@@ -50,7 +50,7 @@ class FilterRows {
  private:
   double radius_;
   int pixels_ = 0, phases_ = 0;
-  std::vector<std::array<Real, most_pixels>> rows_;  ///< Zeros behind the pixels.
+  std::vector<std::array<Real, most_pixels>> rows_;  ///< Padded with zeros.
 };
 
 }  // namespace mlt

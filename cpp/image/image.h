@@ -1,5 +1,5 @@
-// A picture in memory: interleaved floats, row 0 on top. It says nothing about what its numbers
-// mean; files and films do.
+// An image in memory: interleaved floats, row 0 on top. The meaning of its numbers is defined by
+// files and films.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace mlt {
 
-/// No image has more pixels than this: a file that says otherwise is damaged or hostile.
+/// The most pixels of an image: a file with more is damaged or hostile.
 constexpr int64_t max_image_pixels = int64_t{1} << 31;
 
 struct Image {
@@ -41,7 +41,7 @@ struct Image {
   std::vector<float> data;
 };
 
-/// Of the same size.
+/// Adds an image of the same size.
 inline Image& operator+=(Image& a, const Image& b) {
   for (size_t i = 0; i < a.data.size(); ++i) a.data[i] += b.data[i];
   return a;

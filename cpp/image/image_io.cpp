@@ -25,7 +25,7 @@ bool starts_with(std::string_view bytes, std::string_view magic) {
   return bytes.substr(0, magic.size()) == magic;
 }
 
-/// TGA has no magic number, so every field of its header that can be wrong is looked at, and the
+/// TGA has no magic number, so every field of its header that can be wrong is checked, and the
 /// footer of version 2 (Truevision TGA File Format Specification 2.0, fields 2 to 5).
 bool is_tga(std::string_view bytes) {
   constexpr std::string_view footer("TRUEVISION-XFILE.\0", 18);
@@ -70,7 +70,7 @@ DecodedImage decode(std::string_view bytes, Format format, const std::string& na
   }
 }
 
-/// floor(255 v + 1/2) of the encoded sample; NaN becomes 0.
+/// The byte floor(255 v + 1/2) of an encoded sample v; NaN becomes 0.
 unsigned char to_byte(double v) {
   return static_cast<unsigned char>(v > 0 ? std::floor(255 * std::min(v, 1.0) + 0.5) : 0);
 }

@@ -1,5 +1,5 @@
-// Image files in and out. What a file is follows from its content, what it shall become from its
-// extension. EXR and HDR hold linear radiance; the integer formats hold sRGB-encoded values.
+// Reading and writing image files. The format of a file that is read follows from its content, that
+// of a new one from its extension. EXR and HDR hold linear radiance, the integer formats sRGB.
 #pragma once
 
 #include <string>
@@ -23,11 +23,11 @@ struct ReadImage {
 /// the file. EXR samples may be NaN or infinite, as in the file.
 ReadImage read_image(const std::string& path, const std::string& layer = "");
 
-/// The same for the bytes of a file; `name` is for messages.
+/// As above, from the bytes of a file; `name` is for messages.
 ReadImage read_image_memory(std::string_view bytes, const std::string& name,
                             const std::string& layer = "");
 
-/// Whether the content of a file begins as one of these formats does. Throws FileError.
+/// Whether a file begins like one of these formats. Throws FileError.
 bool is_known_image(const std::string& path);
 
 /// The image in linear light, decoded if it was encoded.
@@ -45,24 +45,24 @@ struct WriteOptions {
   double exposure = 0;  // PNG: stops by which the image is brightened
 };
 
-/// Linear samples, as they are. Equal images and options make equal files.
+/// Writes linear samples unchanged. Equal images and options make equal files.
 void write_exr(const std::string& path, const Image& image, const WriteOptions& options = {});
 void write_exr(const std::string& path, const std::vector<ExrLayer>& layers,
                const WriteOptions& options = {});
 
-/// sRGB with 8 bits: each colour sample is scaled by 2^exposure, clipped to [0, 1], encoded,
-/// rounded.
+/// Writes sRGB with 8 bits: each colour sample is scaled by 2^exposure, clipped to [0, 1],
+/// encoded, rounded.
 void write_png(const std::string& path, const Image& image, double exposure = 0);
 
 void write_hdr(const std::string& path, const Image& image);
 
-/// By extension: .exr, .png or .hdr, else a UsageError that lists them. Only EXR holds more than
-/// the first layer.
+/// Writes by extension: .exr, .png or .hdr, else a UsageError that lists them. Only EXR holds more
+/// than the first layer.
 void write_image(const std::string& path, const Image& image, const WriteOptions& options = {});
 void write_image(const std::string& path, const std::vector<ExrLayer>& layers,
                  const WriteOptions& options = {});
 
-/// Call it before a long render: the UsageError or FileError that write_image(path) would end in.
+/// Throws now the UsageError or FileError that write_image(path) would throw after a long render.
 void check_writable(const std::string& path);
 
 }  // namespace mlt

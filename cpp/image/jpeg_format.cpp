@@ -10,7 +10,7 @@
 namespace mlt {
 namespace {
 
-/// More scans than any encoder makes: each costs as much as the whole image, and few bytes.
+/// The most scans that are decoded: each costs as much as the whole image, but few bytes of file.
 constexpr int most_scans = 500;
 
 class JpegReader {
@@ -21,7 +21,7 @@ class JpegReader {
     errors_.error_exit = [](j_common_ptr info) { self(info).leave(info); };
     errors_.output_message = [](j_common_ptr) {};
     errors_.emit_message = [](j_common_ptr info, int level) {
-      // Where data is missing libjpeg would make it up; other warnings do no harm.
+      // libjpeg would invent missing data; other warnings are harmless
       const int code = info->err->msg_code;
       if (level < 0 && (code == JWRN_JPEG_EOF || code == JWRN_HIT_MARKER)) self(info).leave(info);
     };
@@ -75,7 +75,7 @@ class JpegReader {
     std::longjmp(escape_, 1);
   }
 
-  /// Errors leave libjpeg by longjmp, so what runs in between holds no objects.
+  /// Calls libjpeg, whose errors leave it by longjmp: no code in between may hold objects.
   template <class Calls>
   void run(const Calls& calls) {
     if (setjmp(escape_) == 0) return calls();
@@ -87,7 +87,7 @@ class JpegReader {
     return target;
   }
 
-  /// Adobe's files have the inks inverted.
+  /// Converts a row of CMYK; files by Adobe have the inks inverted.
   float* convert_cmyk(const std::vector<JSAMPLE>& row, float* target) const {
     const auto light = [&](JSAMPLE ink) { return info_.saw_Adobe_marker ? ink : 255 - ink; };
     for (size_t i = 0; i < row.size(); i += 4)

@@ -5,7 +5,7 @@
 
 namespace mlt {
 
-/// Grey or RGB. Throws a FileError that begins with `name`.
+/// Decodes to grey or RGB. Throws a FileError that begins with `name`.
 DecodedImage decode_jpeg(std::string_view bytes, const std::string& name);
 
 }  // namespace mlt

@@ -9,10 +9,10 @@
 namespace mlt {
 namespace {
 
-/// Where libpng's errors go. They leave it by longjmp, so what runs in between holds no objects.
+/// Receives libpng's errors. They leave it by longjmp: no code in between may hold objects.
 struct Guard {
   char message[200] = "";
-  std::exception_ptr failure;  ///< Of what libpng called.
+  std::exception_ptr failure;  ///< Thrown by a function that libpng called.
 
   static void error(png_structp png, png_const_charp message) {
     auto* guard = static_cast<Guard*>(png_get_error_ptr(png));

@@ -18,7 +18,7 @@ std::vector<double> cell_weights(const Filter& filter, int border) {
   return weights;
 }
 
-/// Behind the pixels of a tile, so that zeros can be added after the last one.
+/// Values behind the pixels of a tile, so that zeros can be added after the last one.
 constexpr size_t spare_values = 8;
 
 float* pixel(std::vector<float>& image, const PixelRect& reach, int x, int y) {
@@ -69,7 +69,7 @@ void SampleFilm::Tile::add(const Vec2& raster, const Color& color) {
              });
 }
 
-/// In single precision, as the sums are; false if not all pixels that the filter covers are there.
+/// Adds in single precision, as the sums are; false if the filter covers pixels outside the tile.
 bool SampleFilm::Tile::add_whole(const Vec2& raster, const Color& color) {
   const int n = rows_->pixels();
   const FilterRows<float>::Weights across = rows_->weights(raster.x),
@@ -190,7 +190,7 @@ uint64_t SampleFilm::passes(int group) const {
   return *std::min_element(samples.begin(), samples.end());
 }
 
-/// The weight that uniform samples of the cells are expected to have in each pixel.
+/// The expected weight of uniform samples of the cells in each pixel.
 std::vector<double> SampleFilm::expected_weights(const std::vector<uint64_t>& samples) const {
   std::vector<double> weights(size_t(width_) * height_);
   const auto expected = [&](int pixel, int begin, int end) {

@@ -1,6 +1,6 @@
 // The film of integrators that sample pixel by pixel. Samples are recorded tile by tile, and tiles
 // are added in a fixed order, so the image has the same bits for any number of threads. The groups
-// are independent of each other: their spread tells how wrong the image is.
+// are independent of each other: their spread is a measure of the error of the image.
 #pragma once
 
 #include "base/bytes.h"
@@ -24,7 +24,7 @@ class SampleFilm {
  public:
   static constexpr int tile_size = 32;
 
-  /// With splats, which reach over the whole image, all tiles of a group are added in one sequence;
+  /// With splats, which reach the whole image, all tiles of a group are added in one sequence;
   /// without, each place of the image has sums and a sequence of its own.
   SampleFilm(int width, int height, std::shared_ptr<const Filter> filter, int groups,
              bool splats = true);
@@ -42,9 +42,9 @@ class SampleFilm {
     /// The cells to be sampled; those of border tiles may lie outside the image.
     const PixelRect& cells() const { return cells_; }
     void add(const Vec2& raster, const Color& color);
-    /// Adds what a walk from a light, one for each sample of a cell, leaves anywhere on the image.
-    /// A measurement contribution over its density, with importance that integrates to 1 over the
-    /// image.
+    /// Adds a contribution of light tracing anywhere on the image, with one walk for each sample of
+    /// a cell: a measurement contribution over its density, with importance that integrates to 1
+    /// over the image.
     void splat(const Vec2& raster, const Color& contribution) {
       splats_.push_back({raster, contribution});
     }
@@ -65,30 +65,30 @@ class SampleFilm {
   int tile_count() const { return tiles_x_ * tiles_y_; }
   int group_count() const { return static_cast<int>(groups_.size()); }
   bool has_splats() const { return splats_; }
-  /// Of memory that a group takes once all its places have samples.
+  /// Bytes of memory that a group takes once all its places have samples.
   size_t bytes_per_group() const;
   Tile begin(int tile) const;
 
-  /// Hands in the tile that is the `order`-th of its group (0, 1, 2, ... without gaps). It is added
-  /// when all before it have been; `samples` is how many samples each cell has received.
+  /// Adds the tile that is the `order`-th of its group (0, 1, 2, ... without gaps), when all before
+  /// it have been added; `samples` is how many samples each cell has received.
   void commit(int group, uint64_t order, int tile, Tile&& samples_of_tile, int samples);
 
-  /// Has the tile been added?
+  /// Whether the tile has been added.
   bool has(int group, uint64_t order, int tile) const;
 
   /// Sum of samples over their expected weight, per pixel; all groups, or one.
   Image image() const;
   Image group_image(int group) const;
-  /// How many samples every cell has received from a group at least.
+  /// The number of samples that every cell has received from a group at least.
   uint64_t passes(int group) const;
-  /// What the samples of each tile have told, over all groups; and how many cells it has.
+  /// The sums of SampleSums of each tile, over all groups; and how many cells it has.
   std::vector<SampleSums> sums() const;
   std::vector<double> tile_sizes() const;
-  /// By what a sum of contributions over one light walk per sample is to be multiplied.
+  /// The factor of a sum of contributions over one light walk per sample.
   double splat_scale() const;
 
-  /// The sums come in shares that do not depend on each other: groups with splats, else places
-  /// (tiles, over all groups).
+  /// The number of shares, parts of the sums that are independent of each other: with splats the
+  /// groups, else the places (tiles, over all groups).
   int share_count() const { return splats_ ? group_count() : tile_count(); }
   /// Shares first ... last - 1, as far as they belong to these groups.
   struct Selection {
@@ -97,7 +97,7 @@ class SampleFilm {
   };
   Selection everything() const;
   std::string save(const Selection& selection) const;
-  /// Replaces what is selected. Throws RenderError if the bytes do not fit, and changes nothing
+  /// Replaces the selected sums. Throws RenderError if the bytes do not fit, and changes nothing
   /// then.
   void load(const std::string& bytes, const Selection& selection);
 
@@ -109,13 +109,13 @@ class SampleFilm {
   };
   /// Sums to which tiles are added in order.
   struct Strand {
-    PixelRect reach;  ///< Of the image.
+    PixelRect reach;  ///< The pixels of the image that it covers.
     uint64_t next = 0;
     std::map<uint64_t, Pending> pending;
     std::vector<float> rgb;         ///< Empty until there is a sample.
     std::vector<float> light;       ///< The splats; empty until there is one.
     std::vector<uint64_t> samples;  ///< Per cell of each tile.
-    std::vector<SampleSums> sums;   ///< Of each tile.
+    std::vector<SampleSums> sums;   ///< SampleSums of each tile.
 
     size_t size() const { return size_t{3} * reach.width() * reach.height(); }
   };
@@ -126,7 +126,7 @@ class SampleFilm {
 
   void write(ByteWriter& bytes, const Strand& strand) const;
   Strand read(ByteReader& bytes, const Strand& like) const;
-  /// What is selected: a group, and the number of the strand in it.
+  /// The selected strands: a group, and the number of the strand in it.
   std::vector<std::pair<Group*, int>> strands_of(const Selection& selection) const;
   void add_samples(const Group& group, std::vector<uint64_t>& samples) const;
   PixelRect cells_of(int tile) const;

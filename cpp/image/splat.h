@@ -1,4 +1,4 @@
-// Which pixels a sample at a continuous raster position reaches, and with which filter weight.
+// The pixels that a sample at a continuous raster position reaches, and their filter weights.
 #pragma once
 
 #include "base/whole_vectors.h"
@@ -18,7 +18,7 @@ struct PixelRect {
   int height() const { return y1 - y0; }
 };
 
-/// How many pixels a run has at most.
+/// The most pixels of a run.
 inline constexpr int run_pixels = 16;
 
 /// How far outside the image samples still reach a pixel, in whole pixels.
@@ -45,7 +45,7 @@ void splat(const Filter& filter, const Vec2& at, const Color& color, const Pixel
   const int y0 = std::max(rect.y0, static_cast<int>(std::ceil(at.y - r - 0.5)));
   const int x1 = std::min(rect.x1 - 1, static_cast<int>(std::floor(at.x + r - 0.5)));
   const int y1 = std::min(rect.y1 - 1, static_cast<int>(std::floor(at.y + r - 0.5)));
-  // The weights of a row are those of all rows: they are looked up once, for some columns at a
+  // All rows have the same weights of columns: they are computed once, for some columns at a
   // time.
   for (int first = x0; first <= x1; first += run_pixels) {
     const int pixels = std::min(run_pixels, x1 + 1 - first);

@@ -10,8 +10,8 @@ namespace mlt {
 namespace {
 
 constexpr double one = 0x1p28;                 ///< Steps of fixed point in 1.
-constexpr int64_t largest = int64_t{1} << 62;  ///< Of a sum, or of one splat.
-constexpr double largest_exact = 0x1p51;       ///< Of what round_small rounds.
+constexpr int64_t largest = int64_t{1} << 62;  ///< Largest sum, or splat.
+constexpr double largest_exact = 0x1p51;       ///< Largest number for round_small.
 constexpr int run_values = 3 * run_pixels;
 
 /// `weight` times `values`, to the nearest integers. Between 2^52 and 2^53 the last bit of a double
@@ -29,7 +29,7 @@ void round_small(const double* values, double weight, int count, int64_t* rounde
   }
 }
 
-/// The same for numbers of any size; returns how many are too large, or not numbers.
+/// `weight` times `values` of any size, rounded; returns how many are too large, or NaN.
 int round_large(const double* values, double weight, int count, int64_t* rounded) {
   int refused = 0;
   for (int i = 0; i < count; ++i) {
@@ -41,7 +41,7 @@ int round_large(const double* values, double weight, int count, int64_t* rounded
   return refused;
 }
 
-/// Returns to how many sums nothing could be added safely.
+/// Adds steps to sums; returns how many sums were out of range before.
 int add_steps(const int64_t* steps, int count, int64_t* sums) {
   int64_t full = 0;
   for (int i = 0; i < count; ++i) {

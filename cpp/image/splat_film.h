@@ -21,9 +21,9 @@ class SplatFilm {
 
   /// Adds `color` times the filter at a raster position. Thread-safe.
   void add(int group, const Vec2& raster, const Color& color);
-  /// How many rows a splat reaches,
+  /// The number of rows that a splat reaches.
   int splat_rows() const { return std::max(1, rows_.pixels()); }
-  /// and where the i-th of them is in memory, for prefetching; nullptr outside of the image.
+  /// Address of the i-th row of a splat, for prefetching; nullptr outside of the image.
   const void* splat_row(int group, const Vec2& raster, int i) const {
     const double before = 0.5 * (splat_rows() - 1);
     const int x = static_cast<int>(raster.x - before), y = static_cast<int>(raster.y - before) + i;
@@ -32,15 +32,15 @@ class SplatFilm {
   }
 
   int group_count() const { return groups_; }
-  /// Sum over the groups g of scale[g] * (what was added to g).
+  /// The sum over the groups g of scale[g] times the sum of g.
   Image image(const std::vector<double>& scale) const;
-  /// How many additions were out of the range of fixed point, or went to a sum that was.
+  /// The number of additions that were out of the range of fixed point, or to a sum that was.
   uint64_t saturated() const { return saturated_; }
 
-  /// The groups first ... last - 1.
+  /// Saves the groups first ... last - 1.
   std::string save(int first, int last) const;
-  /// Adds what another film has saved of these groups. Throws RenderError if the bytes do not fit,
-  /// and changes nothing then.
+  /// Adds the saved sums of these groups of another film. Throws RenderError if the bytes do not
+  /// fit, and changes nothing then.
   void merge(int first, int last, const std::string& bytes);
 
  private:
@@ -56,17 +56,17 @@ class SplatFilm {
   int64_t* row(int group, int y) const {
     return &cells_[3 * (size_t(group) * height_ + y) * width_];
   }
-  /// Calls use() while nobody else touches the rows of the band that y is in.
+  /// Calls use() while no other thread can access the rows of the band that y is in.
   template <class Use>
   void with_band(int group, int y, Use&& use) const;
-  /// Adds it, in steps of fixed point; false if not all pixels that the filter covers are there, or
-  /// it is none of those in a table.
+  /// Adds a splat in steps of fixed point; false if the filter covers pixels outside the image, or
+  /// has no table.
   bool add_whole(int group, const Vec2& raster, const Color& steps);
 
   int width_, height_, groups_;
   std::shared_ptr<const Filter> filter_;
   FilterRows<double> rows_;
-  /// [group][pixel][channel]; takes memory only where something has been added.
+  /// Sums by [group][pixel][channel]; they take memory only where splats have been added.
   std::unique_ptr<int64_t[], Free> cells_;
   std::unique_ptr<Lock[]> locks_;  ///< [group][band]
   std::atomic<uint64_t> saturated_{0};

@@ -5,12 +5,12 @@
 
 namespace mlt {
 
-/// Encoded value in [0, 1] to linear light.
+/// Decodes a value in [0, 1] to linear light.
 inline double srgb_to_linear(double v) {
   return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
 }
 
-/// Linear light to the encoded value.
+/// Encodes linear light.
 inline double linear_to_srgb(double v) {
   return v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
 }

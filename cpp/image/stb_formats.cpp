@@ -6,8 +6,8 @@
 #include <memory>
 #include <stdexcept>
 
-// A failed assertion inside stb is a bad file, not a reason to abort; memory that a short file
-// leaves unwritten is zero, not whatever was there.
+// A failed assertion inside stb means a bad file, and must not abort; memory that a short file
+// leaves unwritten is zero, not uninitialised.
 #define STBI_ASSERT(x) ((x) ? void() : throw std::runtime_error("it is corrupt"))
 #define STBI_MALLOC(size) std::calloc(1, size)
 #define STBI_REALLOC(pointer, size) std::realloc(pointer, size)
@@ -31,7 +31,7 @@
 namespace mlt {
 namespace {
 
-/// Feeds stb and remembers whether it asked for more than there is: stb itself reads on in zeros.
+/// Feeds stb and records whether it read beyond the end: stb itself reads on in zeros.
 class StbReader {
  public:
   explicit StbReader(std::string_view bytes) : bytes_(bytes) {}
@@ -140,7 +140,7 @@ std::string encode_hdr(const Image& image) {
   std::string bytes;
   if (!stbi_write_hdr_to_func(append, &bytes, image.width, image.height, image.channels,
                               samples.data()))
-    throw FileError("HDR: encoding failed for want of memory");
+    throw FileError("HDR: encoding failed: out of memory");
   return bytes;
 }
 

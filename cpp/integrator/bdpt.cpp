@@ -96,9 +96,9 @@ class BdptTaker : public SampleTaker {
   double scale_;
   BidirectionalSampler bidirectional_;
   bool techniques_;
-  std::unique_ptr<BidirectionalWave> wave_;  ///< nullptr where it does not serve.
-  std::vector<Vec2i> cells_;                 ///< Of the samples in it.
-  bool wave_pays_ = true;  ///< Unless most samples of the wave before it had to be taken again.
+  std::unique_ptr<BidirectionalWave> wave_;  ///< nullptr if it does not support the scene.
+  std::vector<Vec2i> cells_;                 ///< Cells of the samples in the wave.
+  bool wave_pays_ = true;                    ///< Unless most samples of the last one were left.
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What mmlt and rjmlt have in common: all but what a change of technique keeps.
+// The common part of mmlt and rjmlt, which differ in what a change of technique keeps.
 #pragma once
 
 #include "base/registry.h"
@@ -29,7 +29,7 @@ class MultiplexedIntegrator : public Integrator {
   MultiplexedSettings settings_;
 };
 
-/// `p_technique`: what the parameter of that name is the probability of.
+/// `p_technique`: the documentation of the parameter of that name.
 inline std::vector<std::vector<Parameter>> multiplexed_parameters(const char* p_technique) {
   return {path_parameters(),
           chain_parameters(),

@@ -60,7 +60,7 @@ BidirectionalSettings bidirectional_settings(Params& params) {
   return settings;
 }
 
-// ---- chains, tours and the samples beside them --------------------------------------------------
+// ---- chains, tours and independent samples ------------------------------------------------------
 
 std::vector<Parameter> chain_parameters(int64_t chains) {
   return {{"luminance_samples", ParamType::integer, int64_t{50000},
@@ -104,7 +104,7 @@ MetropolisSettings metropolis_settings(Params& params) {
 
 namespace {
 
-/// What the parameters say of one mutation: its weight, or 0 if it is off, and its own parameters.
+/// Reads the parameters of one mutation: its weight, or 0 if it is off, and its own parameters.
 MixedMutation read_mutation(const MutationPlugin& plugin, Params& params) {
   MixedMutation mixed{plugin.name(), 0};
   if (params.boolean(plugin.switch_name))

@@ -9,30 +9,30 @@
 
 namespace mlt {
 
-/// Those of all integrators over paths, with Mitsuba's names and defaults.
+/// Parameters of all integrators over paths, with Mitsuba's names and defaults.
 std::vector<Parameter> path_parameters();
 PathRules path_rules(Params& params);
 
-/// Those of bidirectional path tracing.
+/// Parameters of bidirectional path tracing.
 std::vector<Parameter> bidirectional_parameters();
-/// Reads these and the path parameters.
+/// Reads the parameters of bidirectional path tracing and of paths.
 BidirectionalSettings bidirectional_settings(Params& params);
 
-/// Those of chains that start from a bootstrap.
+/// Parameters of chains that start from a bootstrap.
 std::vector<Parameter> chain_parameters(int64_t chains = 128);
-/// Those of tours, which need no bootstrap.
+/// Parameters of tours, which need no bootstrap.
 std::vector<Parameter> tour_parameters(int64_t chains);
-/// Those of the independent samples beside chains or tours.
+/// Parameters of the independent samples beside chains or tours.
 std::vector<Parameter> family_parameters();
-/// Reads these and the chain or tour parameters.
+/// Reads the parameters of independent samples and of chains or tours.
 MetropolisSettings metropolis_settings(Params& params);
 
-/// Those that say which mutations move light paths.
+/// Parameters that choose the mutations of light paths.
 std::vector<Parameter> mixture_parameters(const std::vector<MutationPlugin>& plugins);
 /// The mutations that are on, at least one.
 std::vector<MixedMutation> read_mixture(Params& params, const std::vector<MutationPlugin>& plugins);
 
-/// Those of steps in primary sample space.
+/// Parameters of steps in primary sample space.
 std::vector<Parameter> primary_step_parameters();
 SmallStep small_step(Params& params);
 double large_probability(Params& params);

@@ -18,7 +18,7 @@ struct PssmltSettings {
   bool delayed_rejection = false;
 };
 
-/// Makes paths from numbers.
+/// Evaluates states: makes paths from their numbers.
 template <class Estimator>
 struct PrimaryPaths {
   const Raster* image;
@@ -38,7 +38,7 @@ struct PrimaryPaths {
   }
 };
 
-/// Steps of one chain after the other.
+/// The steps of chains that advance one after the other.
 template <class Estimator>
 class SingleStep : public PrimaryStep<PrimaryState, PrimaryPaths<Estimator>> {
  public:
@@ -52,7 +52,7 @@ class PssmltKernel : public Step {
  public:
   using State = typename Step::State;
 
-  /// `b`: that of the group of chains.
+  /// `b` is that of the group of chains.
   PssmltKernel(const Step& step, const LargeStepWeights& weights, double b)
       : Step(step),
         weights_(weights),
@@ -86,7 +86,7 @@ class PssmltKernel : public Step {
   double large_step_weight_;
 };
 
-/// Over any estimator.
+/// Pssmlt over any estimator.
 template <class Estimator>
 class Pssmlt : public MetropolisAlgorithm {
  public:
@@ -148,7 +148,7 @@ class Pssmlt : public MetropolisAlgorithm {
       return found;
     }
     const RayCounts& rays() const override { return paths.rays; }
-    /// As WalkTaker takes them: .56 to .8 in bench_ray_cost.
+    /// Cost of a ray of WalkTaker: .56 to .8 in bench_ray_cost.
     double cost_of_ray() const override {
       return std::is_same_v<Estimator, PathEstimator> ? 0.65 : 1;
     }
@@ -187,7 +187,7 @@ class SinglePssmlt : public Pssmlt<Estimator> {
   }
 };
 
-/// Over path tracing: the proposals of many chains are traced side by side.
+/// Pssmlt over path tracing: the proposals of many chains are traced side by side.
 class WalkPssmlt : public Pssmlt<PathEstimator> {
  public:
   using Pssmlt::Pssmlt;

@@ -1,6 +1,6 @@
 // ptracer: light tracing (Arvo 1986; Dutre, Lafortune & Willems 1993). Walks start at the lights,
 // and every vertex is connected to the lens: the technique t = 1 of bidirectional path tracing
-// alone. It cannot see what the camera sees only by way of a mirror or through glass.
+// alone. It cannot find surfaces that the camera sees only in a mirror or through glass.
 #include "integrator/parameters.h"
 #include "path/bidirectional_sampler.h"
 #include "rendering/sampled_rendering.h"

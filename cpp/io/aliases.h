@@ -13,10 +13,10 @@ struct Alias {
   Location where;
 };
 
-using Aliases = std::map<std::string, Alias>;  ///< By the new name.
+using Aliases = std::map<std::string, Alias>;  ///< Aliases by their new names.
 
-/// References by second names become references by ids. Throws SceneError for a name that is an id
-/// already, that means itself, or that means nothing.
+/// Replaces references by second names by references by ids. Throws SceneError for a name that is
+/// an id already, that refers to itself, or to nothing.
 void resolve_aliases(Node& root, const Aliases& aliases);
 
 }  // namespace mlt

@@ -16,14 +16,14 @@
 namespace mlt {
 namespace {
 
-/// What the builder itself takes out of a plug-in's parameters, whatever name it was given.
+/// Whether the builder itself takes this child out of its parent's parameters, whatever its name.
 bool is_part(const std::string& parent, const std::string& child) {
   if (parent == "shape") return child == "bsdf" || child == "emitter";
   return parent == "sensor" && (child == "film" || child == "sampler");
 }
 
-/// Is a nested object meant by its name? Names of textures always are, so that a misspelt one is an
-/// error; in a dict every object has a name, and the family tells what it is for.
+/// Whether a nested object is given by its name. Textures always are, so that a misspelt name is an
+/// error; in a dict every object has a name, and the family decides its use.
 bool is_given_by_name(const Schema& schema, const std::string& name, const std::string& family) {
   if (name.empty()) return false;
   const std::string current = snake_case(name);
@@ -32,7 +32,7 @@ bool is_given_by_name(const Schema& schema, const std::string& name, const std::
          std::find(ignored.begin(), ignored.end(), current) != ignored.end();
 }
 
-/// The families of what a shape is only told of, once it is made.
+/// The families of objects that are attached to a shape once it is made.
 std::vector<std::string> attached(const std::string& family) {
   if (family != "shape") return {};
   return {"bsdf", "emitter"};
@@ -60,7 +60,7 @@ ShapePtr moving(const ShapePtr& shape, Params& params) {
   return instance;
 }
 
-/// Other programs have samplers of their own; only their number of samples matters here.
+/// The sampler of another program; only its number of samples matters here.
 std::shared_ptr<SamplerSettings> foreign_sampler(const Node& node) {
   auto sampler = std::make_shared<SamplerSettings>();
   for (const Node::Property& property : node.properties)
@@ -165,7 +165,7 @@ Part Builder::new_part(const Node& node, const Plugin& plugin, Params& params) {
   object->type = node.type;
   object->id = node.id;
   object->where = node.where;
-  // For all copies of it.
+  // for all copies of the mesh
   if (auto mesh = std::dynamic_pointer_cast<Mesh>(object); mesh && params.has("emitter"))
     mesh->prepare_sampling();
   return {object, {}, params.warnings()};
@@ -207,16 +207,16 @@ void Builder::attach(Shape& shape, const Params& params, std::vector<std::shared
   shape.set_emitter(emitter);
 }
 
-/// Checks it, and leaves what the shutter sees of it.
+/// Checks an animation, and restricts it to the time of the shutter.
 void Builder::take_animation(Params& params, const std::string& name, bool by_shutter) const {
   const Animation* animation = animation_param(params, name);
-  if (!animation) return;  // It has no effect there.
+  if (!animation) return;  // without effect there
   const std::string problem = animation_problem(*animation);
   if (!problem.empty()) params.fail(name, problem);
   if (by_shutter) params.replace(name, during(*animation, shutter_));
 }
 
-/// As in Mitsuba: what shines reflects nothing, anything else is a grey diffuse surface.
+/// The BSDF by default, as in Mitsuba: black for a light, grey and diffuse for other shapes.
 BsdfPtr Builder::default_bsdf(bool on_light, const Location& where) {
   BsdfPtr& bsdf = default_bsdf_[on_light];
   const double reflectance = on_light ? 0.0 : 0.5;

@@ -21,7 +21,7 @@ class Builder {
   Builder(const Node& root, const Registry& registry, std::vector<std::string>& warnings,
           const Known* known = nullptr);
 
-  /// The object of a node, made at the first call: what several places refer to is one object.
+  /// The object of a node, made at the first call: all references to it share one object.
   ObjectPtr object(const Node& node);
 
   /// A shape with its BSDF and its light attached; nullptr for a group of shapes.
@@ -36,17 +36,17 @@ class Builder {
   /// window.
   View view(const Node& sensor, const std::optional<Vec2i>& size);
 
-  /// Shows the shapes of the finished scene to what asks for them.
+  /// Gives the shapes of the finished scene to the plug-ins that read them (ShapeReader).
   void show_shapes(const std::vector<ShapePtr>& shapes) const {
     for (const auto& reader : shape_readers_) reader->read_shapes(shapes);
   }
 
-  /// What was made, for scenes that are nearly the same.
+  /// The parts that were made, for scenes that are nearly the same.
   Parts take_parts() { return std::move(parts_); }
   /// The names of the files that were read.
   const std::set<std::string>& files() const { return files_; }
 
-  /// Has some shape taken this node as its light?
+  /// Whether a shape has taken this node as its light.
   bool on_a_shape(const Node& emitter) const { return lights_of_shapes_.count(&emitter) > 0; }
 
  private:
@@ -61,7 +61,7 @@ class Builder {
   BsdfPtr default_bsdf(bool on_light, const Location& where);
 
   NodeIndex index_;
-  Shutter shutter_;  ///< Of the view, once it is made.
+  Shutter shutter_;  ///< Shutter of the view, once that is made.
   const Registry& registry_;
   std::vector<std::string>& warnings_;
   const Known* known_;
@@ -70,7 +70,7 @@ class Builder {
   std::set<std::string> files_;
   std::map<const Node*, ObjectPtr> made_;
   std::vector<const Node*> in_progress_;
-  std::map<const Node*, size_t> sizes_;  ///< Of BSDFs and textures, in parts.
+  std::map<const Node*, size_t> sizes_;  ///< Sizes of BSDFs and textures, in parts.
   std::set<const Node*> lights_of_shapes_;
   std::map<const Object*, View> views_;
   BsdfPtr default_bsdf_[2];

@@ -45,7 +45,7 @@ class Naming {
   std::set<std::string> used_;
 };
 
-/// What goes when the parameter is given: an image is a file or an array.
+/// The parameters that are removed when this one is given: an image is a file or an array.
 std::vector<std::string> excluded_by(const std::string& parameter) {
   if (parameter == "data") return {"filename", "data_shape", "data_type"};
   if (parameter == "filename") return {"data", "data_shape", "data_type"};
@@ -56,7 +56,7 @@ bool means(const NamedNode& plugin, const std::string& name, const std::string& 
   return !name.empty() && snake_case(current_name(*plugin.node, name, *plugin.schema)) == parameter;
 }
 
-/// What is given for the parameter becomes `other`; nothing, without one.
+/// Replaces the value of the parameter by `other`; removes it without one.
 template <class Given>
 void replace(const NamedNode& plugin, const std::string& parameter, std::vector<Given>& all,
              const Given* other = nullptr) {
@@ -122,7 +122,7 @@ NamedParameter find_parameter(const std::vector<NamedNode>& nodes, const std::st
 }
 
 void apply(std::vector<Change> changes) {
-  // What is nested comes first: a change moves the children of its plug-in.
+  // nested plug-ins come first: a change moves the children of its plug-in
   std::stable_sort(changes.begin(), changes.end(),
                    [](const Change& a, const Change& b) { return a.plugin > b.plugin; });
   for (const auto& [plugin, given] : changes) {

@@ -1,5 +1,5 @@
-// What of a scene's description can be changed, by name. A plug-in is called by its id; one without
-// by its parent's name and what it is to the parent ("box.bsdf"), at the top of the scene by its
+// The parameters of a scene that can be changed, by name. A plug-in is named by its id; one without
+// by its parent's name and its role there ("box.bsdf"), at the top of the scene by its
 // family ("sensor"). Of several with the same name the second one is "shape_1", as in Mitsuba 3.
 #pragma once
 
@@ -17,32 +17,32 @@ struct NamedNode {
   Node* node;
   const Schema* schema;
 
-  /// Those that can be changed: values and textures.
+  /// The parameters that can be changed: values and textures.
   std::vector<const Parameter*> parameters() const;
-  /// What is given for a parameter, or nullptr.
+  /// The property that is given for a parameter, or nullptr.
   const Node::Property* property(const std::string& parameter) const;
   const Node* child(const std::string& parameter) const;
 };
 
-/// In the order of the scene, without those whose plug-in is not known here.
+/// The plug-ins of a tree, in the order of the scene, without those that are not known here.
 std::vector<NamedNode> name_nodes(Node& tree, const Registry& registry);
 
-/// A parameter of one of them.
+/// A parameter of a named plug-in.
 struct NamedParameter {
   const NamedNode* plugin;
   const Parameter* parameter;
 };
 
-/// What "camera.to_world" means. Throws UsageError with a suggestion.
+/// Finds a parameter such as "camera.to_world". Throws UsageError with a suggestion.
 NamedParameter find_parameter(const std::vector<NamedNode>& nodes, const std::string& name);
 
-/// Other values and nested plug-ins for some of a plug-in's parameters.
+/// New values and nested plug-ins for some of a plug-in's parameters.
 struct Change {
   const NamedNode* plugin;
   Node given;
 };
 
-/// Puts them in the place of what has been given. The named nodes are of no use any more.
+/// Replaces the given values by new ones. This invalidates the named nodes.
 void apply(std::vector<Change> changes);
 
 }  // namespace mlt

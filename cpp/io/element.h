@@ -1,4 +1,4 @@
-// One XML element, with its attributes as they read after $names have been replaced.
+// One XML element, with its attributes after $names have been replaced.
 #pragma once
 
 #include "base/error.h"
@@ -19,12 +19,12 @@ struct Element {
   const std::string* find(const std::string& attribute) const;
   /// The attribute's value, or "".
   std::string get(const std::string& attribute) const;
-  /// Throws SceneError if the attribute is not there or empty.
+  /// The attribute's value. Throws SceneError if it is missing or empty.
   const std::string& require(const std::string& attribute) const;
   /// Throws SceneError if there is any other attribute.
   void expect_only(std::initializer_list<const char*> known) const;
 
-  /// "float 'fov'", or "<scale>" for an element without a name.
+  /// The element in messages: "float 'fov'", or "<scale>" for an element without a name.
   std::string title() const;
   /// Throws SceneError: "file:line: float 'fov' <message>".
   [[noreturn]] void fail(const std::string& message) const;

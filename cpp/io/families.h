@@ -1,4 +1,4 @@
-// The families of plug-ins that scenes name, and those of Mitsuba's that are refused.
+// The families of plug-ins in scenes, and those of Mitsuba that are refused.
 #pragma once
 
 #include "base/error.h"
@@ -12,7 +12,7 @@ namespace mlt {
 const std::vector<std::string>& plugin_families();
 bool is_plugin_family(const std::string& tag);
 
-/// Whether it is such an element as this one refuses.
+/// Whether refuse_element() refuses this element.
 bool is_refused_element(const std::string& tag);
 /// Throws SceneError, in one line with the reason, for an element that Mitsuba has and this
 /// renderer refuses (participating media, spectra as plug-ins, ...). `type` may be "".

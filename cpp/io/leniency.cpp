@@ -46,7 +46,7 @@ class Pruner {
     all.erase(std::remove_if(all.begin(), all.end(), unwanted), all.end());
   }
 
-  /// Such as `moment`, which adds something to the one inside.
+  /// Whether an integrator holds another one, as `moment` does.
   static bool holds_integrator(const Node& node) {
     return std::any_of(node.children.begin(), node.children.end(),
                        [](const Node& child) { return child.family == "integrator"; });

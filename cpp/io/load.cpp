@@ -32,7 +32,7 @@ void check_size(const Vec2i& size) {
         size.x, size.y, max_side));
 }
 
-/// The property of a scene's node that says which of its sensors is meant.
+/// The property of a scene's node that is the index of the sensor.
 constexpr char sensor_property[] = "sensor";
 
 std::optional<int64_t> asked_sensor(const Node& scene) {
@@ -51,7 +51,7 @@ Node asking_for(Node scene, int64_t sensor) {
   return scene;
 }
 
-/// Gives all films this reconstruction filter, and a film to sensors that have none.
+/// Sets the reconstruction filter of all films, and adds a film to sensors that have none.
 void use_filter(Node& node, const std::string& filter) {
   const auto is_film = [](const Node& n) { return n.family == "film" || n.family == "ref"; };
   auto& children = node.children;
@@ -128,7 +128,7 @@ void build_contents(const Node& scene, Builder& builder, std::vector<ShapePtr>& 
           at(child.where, "a <ref> at the top of a scene has no effect; put it inside a shape"));
     if (child.family == "shape") {
       const ShapePtr shape = builder.shape(child);
-      if (!shape) continue;  // A group, which is there only by way of its instances.
+      if (!shape) continue;  // a group, which is in the scene only through its instances
       shapes.push_back(shape);
       if (const EmitterPtr& light = shape->emitter_ptr()) emitters.push_back(light);
     } else if (child.family == "emitter") {
@@ -182,7 +182,7 @@ LoadedScene build_scene(const Node& tree, const Registry& registry, const LoadOp
     throw SceneError(at(scene.where, "the root is a {}, but should be a scene", scene.family));
   if (options.size) check_size(*options.size);
 
-  // Of a scene that has been built before, what is new is refused by the builder.
+  // New parts of a scene that has been built before are refused by the builder.
   if (!known || !known->parts) refuse_missing(scene, registry);
   const Node& sensor = chosen_sensor(scene, loaded.warnings);
   find_integrator(scene, loaded);

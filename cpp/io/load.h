@@ -1,4 +1,4 @@
-// From a scene description to a Scene.
+// Loading: makes a Scene from a scene description.
 #pragma once
 
 #include "base/registry.h"
@@ -19,11 +19,11 @@ struct LoadOptions {
   /// Whether unknown parameters and integrators are left out with a warning, rather than refused;
   /// without, they are in files of Mitsuba 0.x.
   std::optional<bool> lenient;
-  std::optional<int64_t> sensor;  ///< Which of several sensors, counted from 0; else the first.
+  std::optional<int64_t> sensor;  ///< Index of the sensor, from 0; by default the first.
   std::string filter;             ///< The reconstruction filter that replaces that of films.
 };
 
-/// How a scene was asked for, so that a checkpoint can ask for it again.
+/// The source of a scene, from which a checkpoint can load it again.
 struct SceneSource {
   enum class Kind : uint8_t {
     none,     ///< Built from a tree that has no name; only its maker can make it again.
@@ -36,27 +36,27 @@ struct SceneSource {
   LoadOptions options;
 };
 
-/// What of a scene is there already when it is built again, with few changes.
+/// The data of a scene that are reused when it is built again, with few changes.
 struct Known {
   std::shared_ptr<const Parts> parts;
   std::shared_ptr<const Accel> accel;
-  std::map<std::string, std::string> file_hashes;  ///< Of what it has read, by name.
-  std::map<std::string, std::string> moved_files;  ///< Where they are, if not where the tree says.
+  std::map<std::string, std::string> file_hashes;  ///< Hashes of the files read, by name.
+  std::map<std::string, std::string> moved_files;  ///< New paths of files that were moved.
 };
 
 struct LoadedScene {
   ScenePtr scene;
   Known known;  ///< For scenes that are made of this one.
   SceneSource source;
-  Node tree;                                  ///< What it was built from,
-  std::optional<Vec2i> size;                  ///< and the size that was asked for.
-  std::optional<Node> integrator;             ///< As the scene describes it, not yet made.
-  std::string aovs;                           ///< The layers that its integrator `aov` asks for.
+  Node tree;                                  ///< The tree that it was built from.
+  std::optional<Vec2i> size;                  ///< The size that was asked for.
+  std::optional<Node> integrator;             ///< The scene's own, not yet made.
+  std::string aovs;                           ///< Layers of its integrator `aov`.
   std::vector<std::string> warnings;          ///< One line each, with file and line.
-  std::vector<std::string> reading_warnings;  ///< Those that came of reading the tree.
+  std::vector<std::string> reading_warnings;  ///< Warnings of reading the tree.
   double seconds = 0;                         ///< Wall time of loading.
   uint64_t hash =
-      0;  ///< Of everything that was read (scene, meshes, textures by content or size+name).
+      0;  ///< Hash of everything that was read: the scene, and the content of its files.
 };
 
 /// Reads a Mitsuba XML file into a tree: includes, defaults, aliases and paths are resolved, file
@@ -70,13 +70,14 @@ Node read_xml_string(const std::string& xml, const std::string& directory,
 LoadedScene build_scene(const Node& tree, const Registry& registry, const LoadOptions& options,
                         const Known* known = nullptr);
 
-/// The scene of another tree, built of the same parts as far as that can be.
+/// The scene of another tree, built of the same parts as far as possible.
 LoadedScene build_again(const LoadedScene& loaded, const Node& tree, const Registry& registry);
 
-/// The same scene, seen by another of its sensors.
+/// The scene with another one of its sensors.
 LoadedScene with_sensor(const LoadedScene& loaded, int64_t sensor, const Registry& registry);
 
-/// Of a pipe such as /dev/stdin it takes the text, in which file names begin at the current folder.
+/// Loads a file. From a pipe such as /dev/stdin it loads the text, with file names relative to the
+/// current folder.
 LoadedScene load_file(const std::string& path, const Registry& registry,
                       const LoadOptions& options);
 LoadedScene load_string(const std::string& xml, const std::string& directory,

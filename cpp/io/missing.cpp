@@ -15,7 +15,7 @@ class Search {
   explicit Search(const Registry& registry) : registry_(registry) {}
 
   void visit(const Node& node) {
-    if (node.family == "integrator") return;  // It may still be replaced.
+    if (node.family == "integrator") return;  // it may still be replaced
     const bool is_plugin =
         node.family != "scene" && node.family != "ref" && node.family != "sampler";
     if (is_plugin &&
@@ -25,7 +25,7 @@ class Search {
     const auto is_sensor = [](const Node& child) { return child.family == "sensor"; };
     const auto sensors = std::count_if(node.children.begin(), node.children.end(), is_sensor);
     for (const Node& child : node.children)
-      if (sensors < 2 || !is_sensor(child)) visit(child);  // Of several only one is made.
+      if (sensors < 2 || !is_sensor(child)) visit(child);  // only one of several is made
   }
 
   void report() const {

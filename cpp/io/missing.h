@@ -1,4 +1,4 @@
-// What a scene asks for and this renderer does not have.
+// Plug-ins, elements and parameters of a scene that this renderer does not have.
 #pragma once
 
 #include "base/registry.h"

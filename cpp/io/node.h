@@ -1,5 +1,5 @@
-// The one tree that every scene description becomes, whether it was XML or a dict, and the names in
-// it: which node an id means.
+// The tree of a scene description, whether it was XML or a dict, and the index of its nodes by
+// id.
 #pragma once
 
 #include "base/schema.h"
@@ -25,23 +25,23 @@ struct Node {
   Location where;
   std::vector<Property> properties;
   std::vector<Node> children;
-  bool modern = true;  ///< Of a scene: its file is in the format of Mitsuba 2 or later.
+  bool modern = true;  ///< Scenes: whether the format is that of Mitsuba 2 or later.
 };
 
 /// Nodes, includes and references may be nested this deep; deeper is a mistake or an attack.
 constexpr int max_nesting = 100;
 
-/// A BSDF or a texture may be made of this many, of which one that is referred to twice counts
-/// twice: each is evaluated as often.
+/// The most parts of a BSDF or a texture; one that is referred to twice counts twice, since it is
+/// evaluated twice.
 constexpr size_t max_parts = 1000;
 
 using NodeIndex = std::map<std::string, const Node*>;
 
-/// All nodes with an id, at any depth. Throws SceneError for an id given twice and for runaway
-/// nesting. The tree must outlive the index and stay where it is.
+/// Indexes all nodes with an id, at any depth. Throws SceneError for an id given twice and for
+/// runaway nesting. The tree must outlive the index and not be moved.
 NodeIndex index_nodes(const Node& root);
 
-/// The node that `id` means; throws SceneError with a suggestion.
+/// The node with this id; throws SceneError with a suggestion.
 const Node& find_node(const NodeIndex& index, const std::string& id, const Location& where);
 
 }  // namespace mlt

@@ -64,7 +64,7 @@ Node load_node(ByteReader& bytes, int depth) {
   return node;
 }
 
-/// The order of properties does not count, and a number stands for the bytes of an array.
+/// Sorts properties, whose order does not count, and replaces the bytes of arrays by hashes.
 void simplify(Node& node) {
   std::stable_sort(node.properties.begin(), node.properties.end(),
                    [](const auto& a, const auto& b) { return a.name < b.name; });

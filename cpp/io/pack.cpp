@@ -54,7 +54,7 @@ std::string pack(const LoadedScene& loaded) {
   std::map<std::string, std::string> files;
   for_each_file(tree, [&](std::string& path) {
     std::error_code error;
-    // A film's file name is one to write; what is missing is an error only where it is read.
+    // A film's file name is one to write; a missing file is an error only where it is read.
     if (fs::is_regular_file(path, error) && !files.count(path)) files[path] = read_file(path);
   });
   ByteWriter bytes;
@@ -75,7 +75,7 @@ LoadedScene unpack_scene(const std::string& packed, const Registry& registry) {
   bytes.finish();
   const TemporaryFolder folder;
   for (const auto& [path, text] : files) {
-    // The extension says what format it is.
+    // the extension determines the format
     auto& moved = known.moved_files;
     const fs::path name = std::to_string(moved.size()) + fs::path(path).extension().string();
     write_file(moved[path] = (folder.path() / name).string(), text);

@@ -1,5 +1,5 @@
 // The objects that a scene was built of, by the parameters that each was made with: a scene that
-// differs from it in few parameters is built of the same objects, and what they read is not read
+// differs from it in few parameters is built of the same objects, and their files are not read
 // again.
 #pragma once
 
@@ -14,19 +14,19 @@ namespace mlt {
 
 struct Part {
   ObjectPtr object;
-  std::vector<ObjectPtr> nested;      ///< Which `key` tells apart by their addresses.
-  std::vector<std::string> warnings;  ///< Of the making.
+  std::vector<ObjectPtr> nested;      ///< Nested objects, whose addresses are in the key.
+  std::vector<std::string> warnings;  ///< Warnings when it was made.
 };
 
-/// By Params::key.
+/// Parts by Params::key.
 using Parts = std::unordered_multimap<std::string, Part>;
 
-/// Hands out parts, each once: equal ones may be several objects.
+/// Returns each part once: equal parts may be several objects.
 class PartSource {
  public:
   explicit PartSource(const Parts* parts) : parts_(parts) {}
 
-  /// nullptr if there is none left with this key.
+  /// A part with this key, or nullptr if there is none left.
   const Part* take(const std::string& key);
 
  private:
@@ -34,8 +34,8 @@ class PartSource {
   std::unordered_set<const Part*> taken_;
 };
 
-/// What stands for the object in another scene, or in the first one: itself, a copy if the scene
-/// tells it something, or nullptr if it has to be made anew.
+/// The object for use in another scene: itself, a copy if it stores data of its scene, or nullptr
+/// if it has to be made anew.
 ObjectPtr for_scene(const ObjectPtr& object);
 
 }  // namespace mlt

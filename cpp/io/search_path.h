@@ -1,4 +1,4 @@
-// Where files that a scene names are looked for.
+// The directories in which the files of a scene are searched.
 #pragma once
 
 #include "base/error.h"
@@ -11,11 +11,11 @@ namespace mlt {
 
 class SearchPath {
  public:
-  /// A directory to look in before all others; "" is the current one.
+  /// Adds a directory that is searched before all others; "" is the current one.
   void prepend(const std::filesystem::path& directory);
 
   /// The absolute name of an existing file. A name with backslashes is also tried with slashes.
-  /// Throws SceneError that says where it was looked for.
+  /// Throws SceneError with the directories that were searched.
   std::string find_file(const std::string& name, const Location& where) const;
   std::string find_directory(const std::string& name, const Location& where) const;
 

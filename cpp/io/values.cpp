@@ -66,7 +66,7 @@ std::optional<Spectrum> parse_spectrum(const std::string& text) {
   return checked(std::move(samples));
 }
 
-/// What an element with this tag means by this text.
+/// The value of the text of an element with this tag.
 std::optional<Value> parse_as(const std::string& tag, const std::string& text) {
   const auto as_value = [](const auto& parsed) {
     return parsed ? std::optional<Value>(*parsed) : std::nullopt;
@@ -90,7 +90,7 @@ Value read_as_value(const Element& element) {
   element.fail("is " + quote(text) + ", but should be " + examples().at(element.tag));
 }
 
-/// The XML element that would write a value of this type.
+/// The tag of the XML element for a value of this type.
 std::string tag_of(ParamType type) {
   switch (type) {
     case ParamType::boolean: return "boolean";

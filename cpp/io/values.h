@@ -9,16 +9,16 @@
 
 namespace mlt {
 
-/// Is it <float>, <integer>, <boolean>, <string>, <point>, <vector>, <rgb>, <srgb> or <spectrum>?
+/// Whether it is float, integer, boolean, string, point, vector, rgb, srgb or spectrum.
 bool is_value_tag(const std::string& tag);
 
-/// The value of such an element. Throws SceneError.
+/// The value of an element that is a value. Throws SceneError.
 Value read_value(const Element& element, const SearchPath& search);
 
 /// x, y, z, or `value` with one number or three; `missing` stands for a coordinate not given.
 Triple read_triple(const Element& element, double missing);
 
-/// The value that `text` means for a parameter of this type ("8" for an integer, "true", ...), as
+/// Parses the value of a parameter of this type ("8" for an integer, "true", ...), as
 /// in `-p name=value`. Throws UsageError.
 Value parse_value(const std::string& text, const Parameter& parameter);
 

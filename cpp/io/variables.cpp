@@ -9,7 +9,7 @@
 namespace mlt {
 namespace {
 
-/// Defaults may be made of defaults, so that a few lines could ask for any amount of memory.
+/// Limit of a value: defaults of defaults could otherwise need any amount of memory.
 constexpr size_t longest_value = size_t{1} << 16;
 
 bool is_name_char(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }

@@ -1,4 +1,4 @@
-// The $names of a scene: <default> gives a value that the user's own defines override.
+// The $names of a scene: <default> sets a value that the user's own defines override.
 #pragma once
 
 #include "base/error.h"
@@ -13,7 +13,7 @@ class Variables {
  public:
   explicit Variables(const std::map<std::string, std::string>& defines);
 
-  /// A <default>: keeps the value that the name already has.
+  /// Sets a <default>, unless the name has a value already.
   void set_default(const std::string& name, const std::string& value);
 
   /// Replaces every $name by its value: of the names that are known, the longest that fits. `\$`
@@ -21,13 +21,13 @@ class Variables {
   /// for an unknown name.
   std::string substitute(const std::string& text, const Location& where);
 
-  /// Throws UsageError for a define that the scene has no use for.
+  /// Throws UsageError for a define that the scene does not use.
   void expect_all_used() const;
 
  private:
   std::map<std::string, std::string> values_;
-  std::set<std::string> unused_;    ///< Defines that nothing has asked for yet.
-  std::set<std::string> of_scene_;  ///< Names that the scene itself gives a default.
+  std::set<std::string> unused_;    ///< Defines that are not used yet.
+  std::set<std::string> of_scene_;  ///< Names with a <default> in the scene.
 };
 
 }  // namespace mlt

@@ -1,4 +1,4 @@
-// An XML text, parsed, with the line that each element stands on.
+// A parsed XML text, with the line of each element.
 #pragma once
 
 #include <pugixml.hpp>
@@ -10,7 +10,7 @@ namespace mlt {
 
 class XmlDocument {
  public:
-  /// `file` is how messages name it. Throws SceneError if the text is not well-formed, has other
+  /// `file` is its name in messages. Throws SceneError if the text is not well-formed, has other
   /// than one root element, or a document type (entities could expand without end).
   XmlDocument(const std::string& text, std::string file);
 

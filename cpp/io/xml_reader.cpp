@@ -1,4 +1,4 @@
-// From Mitsuba XML, either dialect, to a tree of nodes.
+// Reads Mitsuba XML, of either dialect, into a tree of nodes.
 #include "base/atomic_file.h"
 #include "base/text.h"
 #include "io/aliases.h"
@@ -25,7 +25,7 @@ constexpr size_t max_text = size_t{1} << 28;  ///< Bytes of all files together.
 constexpr size_t longest_name = 1000;
 constexpr size_t max_attributes = 100;
 
-/// Families whose string `filename` is a file to read. (A film's is one to write.)
+/// Whether the string `filename` of a family is a file to read. (A film's is one to write.)
 bool reads_a_file(const std::string& family) {
   return family == "shape" || family == "texture" || family == "emitter" || family == "bsdf";
 }
@@ -36,7 +36,7 @@ std::string canonical(const std::string& path) {
   return error ? path : result.string();
 }
 
-/// Elements that stand at the top of a scene.
+/// Elements at the top of a scene.
 const std::vector<std::string>& scene_tags() {
   static const std::vector<std::string> tags = [] {
     std::vector<std::string> all = plugin_families();
@@ -68,12 +68,12 @@ class XmlReader {
   }
 
  private:
-  /// What is being read, and where the files that it names are looked for.
+  /// The text that is being read, and the directories of the files that it names.
   struct Source {
     const XmlDocument& document;
     SearchPath search;
-    /// Is a <spectrum> of one number the same power at all wavelengths, and not grey? It is since
-    /// Mitsuba 2, and differs for what emits.
+    /// Whether a <spectrum> of one number is the same power at all wavelengths, and not grey, as
+    /// since Mitsuba 2; this differs for emitters.
     bool spectral;
   };
 
@@ -206,7 +206,7 @@ class XmlReader {
     parent.properties.push_back({name, std::move(value), element.where});
   }
 
-  /// <transform> and <animation>.
+  /// Reads a <transform> or an <animation>.
   template <class Read>
   void read_placement(const pugi::xml_node& xml, const Element& e, Node& parent,
                       const Source& source, Read&& read) {
@@ -259,7 +259,7 @@ class XmlReader {
 
   Variables variables_;
   std::vector<std::string>& warnings_;
-  std::vector<std::string> open_files_;  ///< Each includes the next.
+  std::vector<std::string> open_files_;  ///< Each file includes the next.
   int include_count_ = 0;
   size_t text_size_ = 0;
   Aliases aliases_;

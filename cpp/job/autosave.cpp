@@ -6,12 +6,12 @@ namespace mlt {
 namespace {
 constexpr double longest = 1e9;  // seconds; the clock counts to 292 years
 
-/// Why it failed, or "".
+/// The reason why `save` failed, or "".
 std::string failure_of(const std::function<void()>& save) {
   try {
     save();
   } catch (const std::bad_alloc&) {
-    return "there is not memory enough";
+    return "out of memory";
   } catch (const std::exception& error) {
     return error.what();
   }
@@ -41,7 +41,7 @@ void Autosave::save(uint64_t units, const State& state) {
       writer_.valid() && writer_.wait_for(std::chrono::seconds(0)) != std::future_status::ready;
   if (still_writing || units_saved_ == units) return;
   units_saved_ = units;
-  // Whether the writer has failed, it alone tells: it may have ended before this thread goes on.
+  // Only the writer records its failure: it may have ended before this thread goes on.
   const std::string failure = failure_of([&] {
     writer_ = std::async(std::launch::async, [this, bytes = state()]() mutable {
       note(failure_of([&] { settings_.write(std::move(bytes)); }));

@@ -11,8 +11,8 @@
 
 namespace mlt {
 
-/// Who gets the state of a render (see Job::save) when the bootstrap is over, then every so many
-/// seconds, and when the render ends, also because it was cancelled.
+/// Where the state of a render (see Job::save) goes when the bootstrap is over, then every `every`
+/// seconds, and when the render ends, even if it was cancelled.
 struct AutosaveSettings {
   std::function<void(std::string state)> write;  ///< May throw; the render goes on.
   double every = 60;
@@ -24,12 +24,12 @@ class Autosave {
   /// Throws UsageError.
   explicit Autosave(AutosaveSettings settings);
 
-  /// The state after so many units is the one that was loaded.
+  /// Records that the state after `units` units is the one that was loaded.
   void begin_saved(uint64_t units);
   bool due() const { return settings_.write && Clock::now() >= next_; }
-  /// Takes the state, if it has changed and the one before is written; writes it in the background.
+  /// Writes the state in the background, if it has changed and the one before has been written.
   void save(uint64_t units, const State& state);
-  /// At the end: waits for the background, and writes what is not yet written.
+  /// Waits for the writer at the end of a render, and writes the last state if it has not.
   void finish(uint64_t units, const State& state);
   /// Why the latest state could not be written, or "".
   std::string failure() const;
@@ -40,7 +40,7 @@ class Autosave {
   void note(const std::string& failure);
 
   AutosaveSettings settings_;
-  Clock::time_point next_{};  ///< At once.
+  Clock::time_point next_{};  ///< The first save is due at once.
   std::optional<uint64_t> units_saved_;
   mutable std::mutex mutex_;
   std::string failure_;  ///< Guarded by mutex_.

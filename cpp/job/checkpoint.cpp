@@ -51,7 +51,7 @@ SceneSource load_source(ByteReader& bytes) {
   return scene;
 }
 
-/// The body of the file; the checks stand in the order in which they can tell most.
+/// The body of the file. The order of the checks gives the most specific message.
 std::string checked_body(const std::string& file, const std::string& path) {
   if (file.compare(0, magic_size, magic, std::min(magic_size, file.size())) != 0 || file.empty())
     throw FileError(path + ": is no checkpoint of pymlt");
@@ -72,7 +72,7 @@ std::string checked_body(const std::string& file, const std::string& path) {
   return body;
 }
 
-/// Reads bytes of a checkpoint; those that no render can have written are the file's fault.
+/// Reads bytes of a checkpoint; errors in them become FileErrors about the file.
 template <class Read>
 void undamaged(const std::string& path, Read&& read) {
   try {

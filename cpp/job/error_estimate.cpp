@@ -16,8 +16,8 @@ constexpr int fewest_groups = 8;       // to speak of a disagreement
 constexpr double few_pixels = 20;      // that carry the error: it is not to be relied on
 constexpr double largest_share = 0.5;  // of a block's light from one of them
 constexpr double dark = 0.1;           // of the image's mean: below, blocks and pixels matter less
-/// A pixel is at least this part as bright as it looks: it may be a light that a group in eight has
-/// found, in a dark place.
+/// A pixel is taken to be at least this part as bright as its mean: it may be a light that one
+/// group in eight has found, in a dark place.
 constexpr double least_of_seen = 0.125;
 
 std::vector<float> with_luminance(const Image& image) {
@@ -95,7 +95,7 @@ struct GroupsOfRendering {
   Vec2i size{0}, grid{0};
   Groups pixels, blocks;
   double weight = 0;
-  std::vector<double> most;  ///< Per block: light that one group has found, times its weight.
+  std::vector<double> most;  ///< Per block: most light of one group, times its weight.
 };
 
 double mean_luminance(const std::vector<float>& values) {
@@ -104,7 +104,7 @@ double mean_luminance(const std::vector<float>& values) {
   return channels * sum / static_cast<double>(values.size());
 }
 
-/// Mean and squared standard error of what several independent sets of groups add up to.
+/// Mean and squared standard error of the sum of several independent sets of groups.
 class Total {
  public:
   explicit Total(const std::vector<const Groups*>& parts) {

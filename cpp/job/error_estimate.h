@@ -1,4 +1,4 @@
-// How wrong an image is, told by the spread of the independent groups that it is the mean of: with
+// The error of an image, estimated from the spread of the groups that it is the mean of: with
 // weights w_g, the standard error of the mean m is sqrt(sum_g w_g (x_g - m)^2 / ((G - 1) sum_g
 // w_g)). Chains of one group are correlated with each other and with themselves; groups are not, so
 // this holds for Metropolis as it does for path tracing.
@@ -12,14 +12,14 @@
 
 namespace mlt {
 
-/// A block of the image whose light one group alone has found, or nearly so: there, neither the
-/// image nor its error is to be believed.
+/// A block of the image whose light one group alone has found, or nearly so: neither the image
+/// nor its error estimate is reliable there.
 struct Disagreement {
-  Vec2i pixel{0};    ///< The upper left one of the block.
-  double share = 0;  ///< Of the block's light, what the group that found most of it has found.
+  Vec2i pixel{0};    ///< Upper left pixel of the block.
+  double share = 0;  ///< Share of the block's light that one group has found, the largest such.
 };
 
-/// sqrt(mean over pixels of s^2 / (L^2 + 0.01 M^2)), with a pixel's standard error s, its
+/// The error sqrt(mean over pixels of s^2 / (L^2 + 0.01 M^2)), with a pixel's standard error s, its
 /// brightness L as far as the groups agree about it (known_brightness), and the mean M of the
 /// brightness over the image. It is an estimate of the square root of relMSE; 0.01 M^2 keeps black
 /// pixels from deciding it.
@@ -33,23 +33,23 @@ struct RelativeError {
 struct ErrorEstimate {
   static constexpr int block_size = 8;
 
-  int groups = 0;  ///< That have something to say; with fewer than two nothing is known.
+  int groups = 0;  ///< Groups that have an image; with fewer than two nothing is known.
   Image pixels;    ///< Standard error of each pixel, RGB; empty if nothing is known.
-  Image blocks;    ///< The same for the means of blocks of 8 x 8 pixels, one pixel for each.
-  RelativeError relative, relative_blocks;  ///< Of pixels, and of blocks.
-  size_t negative_pixels = 0;               ///< With a channel below zero.
-  std::vector<Disagreement> disagreements;  ///< The brightest block first.
+  Image blocks;    ///< Standard error of the means of blocks of 8 x 8 pixels, a pixel for each.
+  RelativeError relative, relative_blocks;  ///< Errors of pixels, and of block means.
+  size_t negative_pixels = 0;               ///< Pixels with a channel below zero.
+  std::vector<Disagreement> disagreements;  ///< In order of brightness, the brightest first.
   int block_count() const { return blocks.width * blocks.height; }
 };
 
-/// Looks at one group after the other; costs about as much as developing the image once for each.
+/// Estimates the error group by group; costs about as much as developing the image once for each.
 ErrorEstimate estimate_error(const Rendering& rendering);
 
 /// The estimate as layers of the image: "error" for pixels and "error_block", where each pixel has
 /// the error of its block. None if nothing is known.
 std::vector<NamedImage> error_layers(const ErrorEstimate& estimate);
 
-/// What the estimate tells in stats.json, with a warning of disagreements.
+/// Adds the estimate to the statistics, with a warning of disagreements.
 void add_error(const ErrorEstimate& estimate, Stats& stats);
 
 }  // namespace mlt

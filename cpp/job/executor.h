@@ -1,4 +1,4 @@
-// Who runs the units of a render: by default threads of this process.
+// Executors run the units of a render: by default threads of this process.
 #pragma once
 
 #include "job/task.h"
@@ -7,17 +7,17 @@ namespace mlt {
 
 class Job;
 
-/// It is called by the thread that leads the render. What runs units elsewhere does so by the job's
-/// tasks; the bootstrap is always here.
+/// Runs units; called by the thread that leads the render. An executor that runs them elsewhere
+/// does so by the job's tasks; the bootstrap always runs here.
 class Executor {
  public:
   virtual ~Executor() = default;
-  /// Into about how many tasks the render is to be cut; 0: into none.
+  /// About how many tasks the render is cut into; 0: none.
   virtual int wanted_tasks() { return 0; }
-  /// Takes the render to the unit `to`. Returns early when the job is interrupted; it will be
-  /// called again.
+  /// Runs the units before `to`. Returns early when the job is interrupted; it will be called
+  /// again.
   virtual void run(Job& job, uint64_t to);
-  /// The render has ended; it may be extended later.
+  /// Called when the render has ended; it may be extended later.
   virtual void close() {}
 };
 

@@ -11,7 +11,7 @@ Color pixel(const Image& image, size_t i) {
   return Color(image.data[3 * i], image.data[3 * i + 1], image.data[3 * i + 2]);
 }
 
-/// Of the groups of one rendering.
+/// The adaptive median of means over the groups of one rendering.
 Image adaptive_median(const std::vector<Image>& groups) {
   Image image(groups[0].width, groups[0].height, 3);
   std::vector<float> brightness(groups.size()), sorted;

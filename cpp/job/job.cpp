@@ -77,7 +77,7 @@ void Job::launch() {
   try {
     thread_ = std::thread(&Job::lead, this);
   } catch (const std::system_error&) {
-    throw RenderError("there is not memory enough for a thread, or there are too many threads");
+    throw RenderError("out of memory for a thread, or there are too many threads");
   }
 }
 
@@ -85,9 +85,9 @@ void Job::launch() {
 
 namespace {
 
-/// Developing the image, estimating its error and writing both take no more than this, beside what
-/// the sums take: bytes per pixel (float images of 3 channels have 12), and on the whole.
-/// A layer of what the camera sees is kept once, and handed out once.
+/// Bounds on the memory for developing the image, estimating its error and writing both, beside
+/// the sums: bytes per pixel (float images of 3 channels have 12), and a constant.
+/// Each layer of the first surface is kept once, and copied once to the caller.
 constexpr size_t end_per_pixel = 144, end_at_least = size_t{16} << 20, aov_per_pixel = 24;
 
 size_t bytes_for_the_end(const Scene& scene, size_t aovs) {
@@ -107,8 +107,8 @@ size_t Job::bytes_needed() const {
 void Job::fail_for_memory() const {
   const Vec2i size = scene_->camera().raster().size;
   throw RenderError(
-      fmt::format("an image of {} x {} pixels needs about {} of memory, which is not to be had; "
-                  "ask for a smaller one",
+      fmt::format("an image of {} x {} pixels needs about {} of memory, more than is available; "
+                  "choose a smaller size",
                   size.x, size.y, in_words(bytes_needed())));
 }
 
@@ -117,7 +117,7 @@ void Job::take_memory() {
   if (!reserve_.take(bytes_for_the_end(*scene_, aovs_.size()), to_come)) fail_for_memory();
 }
 
-// ---- the thread that leads the others ---------------------------------------------------------
+// ---- the leading thread -----------------------------------------------------------------------
 
 void Job::lead() {
   std::exception_ptr failure;
@@ -127,7 +127,7 @@ void Job::lead() {
   } catch (const Abandoned&) {
     abandoned_ = true;
   } catch (const std::bad_alloc&) {
-    failure = std::make_exception_ptr(RenderError("there is not memory enough to go on"));
+    failure = std::make_exception_ptr(RenderError("out of memory; the render cannot go on"));
   } catch (...) {
     failure = std::current_exception();
   }
@@ -151,7 +151,7 @@ void Job::lead() {
   pause_.notify_all();
 }
 
-/// There is nothing in it that would be lost if it is given up at once.
+/// Runs the bootstrap. It can be abandoned at once: no rendered unit is lost.
 void Job::prepare() {
   constexpr double share = 0.2;  // of the time, at most
   if (stop_rule_.seconds()) rendering_->limit_preparation(share * *stop_rule_.seconds());
@@ -183,7 +183,7 @@ void Job::render() {
   }
 }
 
-/// Each unit that was begun is finished, so the units 0 ... units_done_ - 1 are done in a pause.
+/// Every unit that was begun is finished, so in a pause the units before units_done_ are done.
 void Job::run_units(uint64_t to) {
   mlt::run_units(
       *rendering_, {Shares(), units_done_, to}, threads_, [this] { return interrupted(); },

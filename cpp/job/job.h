@@ -1,5 +1,5 @@
 // A render that runs on a thread of its own: progress, cancel, budgets, checkpoints. Now and then
-// it pauses: no unit is running then, so its state may be saved, and its error looked at.
+// it pauses: no unit is running then, so its state may be saved, and its error estimated.
 #pragma once
 
 #include "job/autosave.h"
@@ -30,16 +30,16 @@ struct RenderSettings {
 
 class Job {
  public:
-  /// Throws UsageError for settings that make no sense, SceneError for a scene that does not suit,
-  /// RenderError for an image that is too large for the memory.
+  /// Throws UsageError for invalid settings, SceneError for a scene that the integrator does not
+  /// support, RenderError for an image that is too large for the memory.
   Job(ScenePtr scene, IntegratorPtr integrator, const RenderSettings& settings);
   ~Job() { stop(); }
 
-  /// Before start(): who runs the units, in place of the threads of this process.
+  /// Before start(): sets the executor of the units, in place of the threads of this process.
   void attach(std::unique_ptr<Executor> executor);
-  void start();  ///< Throws RenderError if there is not memory enough.
-  /// Waits until the render has ended or `seconds` have passed; true if it has ended. Rethrows what
-  /// went wrong inside the render.
+  void start();  ///< Throws RenderError if memory is short.
+  /// Waits until the render has ended or `seconds` have passed; true if it has ended. Rethrows the
+  /// exception that ended it.
   bool wait(double seconds);
   /// Ends the render soon; what has been rendered stays.
   void cancel() { cancel_ = true; }
@@ -57,47 +57,47 @@ class Job {
   std::string save();
   /// After how many units a state was saved. Throws RenderError.
   static uint64_t units_of(const std::string& state);
-  /// Before start(): goes on where a job with the same scene, integrator and seed was saved, to its
-  /// budget if this job was given none. However often a render is resumed, the same samples make
-  /// the same pixels. Throws RenderError.
+  /// Before start(): loads the state that a job with the same scene, integrator and seed has saved,
+  /// and its budget if this job was given none. However often a render is resumed, the same samples
+  /// make the same pixels. Throws RenderError.
   void load(const std::string& state);
-  /// After the end: goes on until a larger budget is used up. Throws UsageError.
+  /// After the end: renders on until a larger budget is used up. Throws UsageError.
   void extend(const Budget& budget);
 
-  // Until it has ended, a process that was forked from the one that renders gets RenderError from
-  // all that returns an image or statistics, and from wait() and save().
+  // Until the render has ended, all functions that return an image or statistics, and wait() and
+  // save(), throw RenderError in a process that was forked from the one that renders.
 
   double progress() const;  ///< 0 ... 1 of the budget.
   double spp_done() const;  ///< Samples per pixel so far.
-  Image image() const;      ///< So far: linear RGB, row 0 on top.
-  /// See without_fireflies.
+  Image image() const;      ///< The image so far: linear RGB, row 0 on top.
+  /// The image so far, without fireflies (see without_fireflies).
   Image image_without_fireflies() const;
-  /// Further images that the render was asked to keep, what the camera sees first, and the error of
-  /// the image, so far.
+  /// Further images that the render was asked to keep, layers of the first surface (see aov.h), and
+  /// the error of the image, so far.
   std::vector<NamedImage> layers() const;
-  /// How wrong the image is, so far; after the end it is worked out but once.
+  /// The error of the image so far; after the end it is estimated only once.
   std::shared_ptr<const ErrorEstimate> error() const;
-  /// The independent groups behind it, so far.
+  /// The rendering with its independent groups, so far.
   const Rendering& rendering() const {
     check_here();
     return *rendering_;
   }
   /// Repeats one sample of a pixel, whether or not the render has started. Throws UsageError.
   Replay replay(const Vec2i& pixel, uint64_t sample) { return rendering_->replay(pixel, sample); }
-  /// After the end with the error of the image.
+  /// Statistics; after the end with the error of the image.
   Stats stats() const;
 
-  // For an executor.
+  // Functions for an executor:
   uint64_t units_done() const { return units_done_; }
-  /// Is the render to end now?
+  /// Whether the render shall end now.
   bool stopping() const { return cancel_ || stop_rule_.out_of_time(seconds_so_far()); }
-  /// Or does somebody want to look at its state?
+  /// Whether units shall pause: the render shall end, or its state is to be saved.
   bool interrupted() const { return stopping() || savers_ != 0 || autosave_.due(); }
   /// Runs the units before `to` on threads of this process, until interrupted.
   void run_units(uint64_t to);
-  /// If the executor has asked for tasks.
+  /// The tasks, if the executor has asked for them.
   TaskList& tasks() { return *tasks_; }
-  /// Takes in the result of a task; see TaskList::merge.
+  /// Merges the result of a task; see TaskList::merge.
   void merge(size_t task, const std::string& result);
 
  private:
@@ -124,35 +124,35 @@ class Job {
   std::unique_ptr<Rendering> rendering_;
   std::unique_ptr<Executor> executor_;
   std::optional<TaskList> tasks_;
-  mutable std::mutex merging_;  ///< Nobody looks at the image while a result is merged.
+  mutable std::mutex merging_;  ///< Locked while a result is merged or the image is read.
   StopRule stop_rule_;
   Autosave autosave_;
   size_t available_ = available_memory();
-  MemoryReserve reserve_;  ///< For what comes after the last unit; held while units run.
+  MemoryReserve reserve_;  ///< Memory for the work after the last unit; held while units run.
 
   std::atomic<bool> cancel_{false};
   std::atomic<Phase> phase_{Phase::waiting};
   std::atomic<uint64_t> units_done_{0};
   bool prepared_ = false;   ///< The bootstrap is over.
-  bool abandoned_ = false;  ///< A unit was given up: no image of the same samples can follow.
+  bool abandoned_ = false;  ///< A unit was abandoned, so the render cannot be extended.
   Clock::time_point started_;
-  double seconds_before_ = 0;  ///< Of earlier runs of this render.
+  double seconds_before_ = 0;  ///< Time of earlier runs of this render.
   std::atomic<double> bootstrap_seconds_{0}, total_seconds_{0};
 
   std::thread thread_;
-  pid_t process_ = 0;  ///< In which it runs; those that are forked from that have no such thread.
+  pid_t process_ = 0;  ///< The process that renders; its forks do not have the thread.
   mutable std::mutex mutex_;
   std::condition_variable ended_;
   std::exception_ptr failure_;  ///< Guarded by mutex_ until the render has ended.
-  std::string ended_by_;        ///< The same.
+  std::string ended_by_;        ///< Guarded by mutex_ until the render has ended.
 
-  std::atomic<int> savers_{0};  ///< Who waits for a pause.
+  std::atomic<int> savers_{0};  ///< Threads that wait for a pause.
   bool paused_ = false;
   std::condition_variable pause_;
 
   std::vector<Aov> aovs_;
   mutable std::mutex aov_mutex_;
-  mutable std::vector<NamedImage> aov_layers_;  ///< Empty until somebody asks for them.
+  mutable std::vector<NamedImage> aov_layers_;  ///< Empty until they are first asked for.
 
   mutable std::mutex error_mutex_;
   mutable std::shared_ptr<const ErrorEstimate> final_error_;

@@ -1,4 +1,4 @@
-// Looking at a render: while it goes on, and when it has ended.
+// Functions of Job that read a render: while it goes on, and when it has ended.
 #include "base/watchdog.h"
 #include "job/fireflies.h"
 #include "job/job.h"
@@ -10,7 +10,7 @@
 
 namespace mlt {
 
-/// In a fork, the locks of a render that has not ended may be held by threads that are not there.
+/// Throws in a fork: the locks of a running render may be held by threads that the fork lacks.
 void Job::check_here() const {
   if (!ended() && elsewhere())
     throw RenderError("the render goes on in the process that started it, not in this fork of it");
@@ -75,7 +75,7 @@ std::vector<NamedImage> Job::layers() const {
 }
 
 double Job::spp_done() const {
-  // A render that is resumed counts what it has once it has begun.
+  // a resumed render counts its earlier units once it has begun
   const Phase phase = phase_;
   const bool begun = phase == Phase::rendering || phase == Phase::ended;
   return begun ? rendering_->plan().spp_done(units_done_) : 0.0;
@@ -98,7 +98,7 @@ Stats Job::stats() const {
     stats.seconds_bootstrap = bootstrap_seconds_;
     stats.seconds_render =
         (phase == Phase::ended ? total_seconds_.load() : seconds_so_far()) - bootstrap_seconds_;
-    // A bootstrap that failed has left nothing that could be asked.
+    // A bootstrap that failed has left no statistics.
     if (prepared_ || phase != Phase::ended || !failure_) rendering_->add_stats(stats);
   }
   const std::lock_guard lock(mutex_);

@@ -61,7 +61,7 @@ std::string disagreement(const DisagreementStats& d) {
   return fmt::format(R"({{"x": {}, "y": {}, "share": {}}})", d.x, d.y, number(d.share));
 }
 
-/// How many bytes the character at this place has, or 0 if it is no UTF-8 (RFC 3629).
+/// Number of bytes of the character at this place, or 0 if it is no UTF-8 (RFC 3629).
 size_t utf8_size(const std::string& text, size_t at) {
   const auto byte = [&](size_t i) {
     return at + i < text.size() ? static_cast<unsigned char>(text[at + i]) : 0u;

@@ -8,12 +8,12 @@
 
 namespace mlt {
 
-/// "text" with quotes, and with what JSON does not allow in a string escaped.
+/// The text with quotes, and with characters escaped that JSON does not allow in a string.
 /// Bytes that are no UTF-8, as file names may have them, become lone surrogates, as in Python.
 std::string json_string(const std::string& text);
 
-/// Numbers in the shortest form that reads back as the same number; "null" for what JSON cannot say
-/// (NaN, infinity, a nested object that is only known as a pointer).
+/// Numbers in the shortest form that reads back as the same number; "null" for values that JSON
+/// lacks (NaN, infinity, a nested object that is only known as a pointer).
 std::string json_value(const Value& value);
 
 /// An object, member by member, on one line.

@@ -27,7 +27,7 @@ void assign(Node& node, const std::string& name, const std::string& text, const 
   given.push_back({parameter->name, parse_value(text, *parameter), {}});
 }
 
-/// What an image shows depends on these parameters and not on the algorithm.
+/// Copies the parameters that the expected image depends on, rather than on the algorithm.
 void inherit(Node& node, const Node& own, const Schema& schema) {
   for (const char* name : {"max_depth", "hide_emitters", "strict_normals"})
     if (const Node::Property* property = find(own, name); property && schema.find(name))

@@ -1,5 +1,5 @@
-// Which algorithm renders, and with which settings: the scene's own integrator or another one by
-// name, with single parameters replaced.
+// Choice of the integrator and its settings: the scene's own one or another one by name, with
+// single parameters replaced.
 #pragma once
 
 #include "io/load.h"
@@ -12,21 +12,21 @@
 
 namespace mlt {
 
-/// (name, value) as somebody typed them, such as `-p max_depth=8`.
+/// Pairs (name, value) as the user typed them, such as `-p max_depth=8`.
 using Assignments = std::vector<std::pair<std::string, std::string>>;
 
 struct MadeIntegrator {
   IntegratorPtr integrator;
-  Node node;      ///< From which it was made.
+  Node node;      ///< The node from which it was made.
   Json settings;  ///< Its type and every parameter, given or default.
   std::vector<std::string> warnings;
-  bool extra_mutations = false;  ///< Has mutations that the node does not tell.
+  bool extra_mutations = false;  ///< Whether it has mutations that the node does not describe.
 };
 
-/// The integrator that `name` asks for; with "" the scene's own, and `mlt` if it has none. One
-/// that replaces the scene's own inherits what is to be rendered (max_depth, hide_emitters,
-/// strict_normals), but not how. Throws UsageError for an assignment that the integrator does not
-/// know.
+/// The integrator called `name`; with "" the scene's own, and `mlt` if it has none. One that
+/// replaces the scene's own inherits the parameters that change the image that is estimated
+/// (max_depth, hide_emitters, strict_normals), but no others. Throws UsageError for an assignment
+/// that the integrator does not know.
 Node choose_integrator(const LoadedScene& loaded, const std::string& name,
                        const Assignments& assignments, const Registry& registry);
 
@@ -34,9 +34,9 @@ Node choose_integrator(const LoadedScene& loaded, const std::string& name,
 std::string integrator_problem(const LoadedScene& loaded, const Registry& registry);
 
 MadeIntegrator make_integrator(const Node& node, const Registry& registry);
-/// The node that makes it again. Throws UsageError for one with mutations that no node can tell.
+/// The node that makes it again. Throws UsageError if it has mutations that no node can describe.
 const Node& node_of(const MadeIntegrator& made);
-/// The same with more mutations; the settings list their names and weights as "extra_mutations".
+/// Adds mutations; the settings list their names and weights as "extra_mutations".
 MadeIntegrator with_mutations(MadeIntegrator made, const std::vector<ExtraMutation>& extra);
 
 }  // namespace mlt

@@ -1,4 +1,4 @@
-// Memory for the end of a render, set aside before it begins: an image that cannot be written is
+// Memory for the end of a render, reserved before it begins: an image that cannot be written is
 // not worth waiting for.
 #pragma once
 
@@ -14,8 +14,8 @@ class MemoryReserve {
   MemoryReserve(const MemoryReserve&) = delete;
   MemoryReserve& operator=(const MemoryReserve&) = delete;
 
-  /// Sets aside address space, which becomes memory only when it is used. False if there is no
-  /// such space now with `beside` bytes more, which are for the work in between.
+  /// Reserves address space, which takes memory only when it is used. False if `bytes` and, for the
+  /// work in between, `beside` bytes more cannot be allocated now.
   bool take(size_t bytes, size_t beside);
   void release();
 
@@ -24,10 +24,10 @@ class MemoryReserve {
   size_t size_ = 0;
 };
 
-/// What the machine could give now without swapping, or 0 if it does not tell.
+/// Bytes of memory that are available without swapping, or 0 if that is not known.
 size_t available_memory();
 
-/// "1.2 GB".
+/// A number of bytes in words, such as "1.2 GB".
 std::string in_words(size_t bytes);
 
 }  // namespace mlt

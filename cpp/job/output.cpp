@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// "folder/rescued-door.exr", or with a number if that exists.
+/// A free name such as "folder/rescued-door.exr", or with a number if that exists.
 std::string free_name(const fs::path& folder, const fs::path& wanted) {
   std::error_code ignored;
   fs::path name = folder / fmt::format("rescued-{}", wanted.filename().string());
@@ -26,7 +26,7 @@ std::string free_name(const fs::path& folder, const fs::path& wanted) {
 
 using Write = std::function<void(const std::string& path)>;
 
-/// Writes it elsewhere; returns where, or "" if no place would have it.
+/// Writes a file in another folder; returns its path, or "" if no folder can be written.
 std::string rescue(const std::string& path, const Write& write) {
   std::error_code no_folder;
   for (const fs::path& folder : {fs::current_path(no_folder), fs::temp_directory_path(no_folder)}) {

@@ -1,4 +1,4 @@
-// What a render leaves behind: the image files and what they say about how they were made. Both
+// The output of a render: the image files, and the metadata on how they were made. Both
 // command lines and the Python face write through these functions.
 #pragma once
 
@@ -17,14 +17,14 @@ Vec2i image_size(const Scene& scene);
 /// Throws UsageError for a pixel outside of the image.
 void check_pixel(const Scene& scene, const Vec2i& pixel);
 
-/// The job's, completed by what loading and the integrator had to say.
+/// The job's statistics, completed by those of loading and the warnings of the integrator.
 Stats render_stats(const Job& job, const LoadedScene& loaded, const MadeIntegrator& made);
 
-/// The version, the scene's hash, the integrator's settings, the seed and the samples per pixel. No
-/// date, host or number of threads: equal renders are equal files.
+/// Metadata: version, hash of the scene, settings of the integrator, seed and samples per pixel.
+/// No date, host or number of threads: equal renders are equal files.
 Metadata render_metadata(const Stats& stats, const LoadedScene& loaded, const MadeIntegrator& made);
 
-/// What a render made: its image, and the further ones that it was asked to keep.
+/// The images of a render: the main one, and the layers that it was asked to keep.
 struct RenderedImage {
   Image image;
   std::vector<NamedImage> layers;
@@ -34,18 +34,18 @@ struct RenderedImage {
 void write_render(const std::string& path, const RenderedImage& render,
                   const WriteOptions& options);
 
-/// Where a file is after all.
+/// Where a file was saved.
 struct Saved {
-  std::string path;     ///< "" if no place would have it.
-  std::string problem;  ///< Why it is not where it was asked for, and where it is; "" if it is.
+  std::string path;     ///< Path of the file, or "" if it could not be saved anywhere.
+  std::string problem;  ///< Why the file is not where it was asked for, and where it is; or "".
 };
 
-/// The same, or, if that fails, in the current or the temporary folder under a name that is not
-/// taken. Throws no FileError.
+/// Writes a render; if that fails, in the current or the temporary folder under a free name.
+/// Throws no FileError.
 Saved save_render(const std::string& path, const RenderedImage& render,
                   const WriteOptions& options);
 
-/// The same for a text file.
+/// Writes a text file; if that fails, in another folder, as above.
 Saved save_text(const std::string& path, const std::string& text);
 
 }  // namespace mlt

@@ -1,4 +1,4 @@
-// Which plug-ins there are: one include for each family's list, and the names of Mitsuba's that are
+// The list of plug-ins: one include for each family's list, and the names of Mitsuba's that are
 // refused.
 #include "job/plugins.h"
 

@@ -5,7 +5,7 @@
 
 namespace mlt {
 
-/// Made once, never changed.
+/// The registry of all plug-ins; made once, never changed.
 const Registry& plugins();
 
 }  // namespace mlt

@@ -1,4 +1,4 @@
-// What independent groups say about each value of an image.
+// Mean and variance of each value of an image over the independent groups.
 #pragma once
 
 #include "math/vec.h"
@@ -39,8 +39,8 @@ class Spread {
   const std::vector<float>& mean() const { return mean_; }
   double variance(size_t i) const { return std::max(0.0f, squares_[i]) / ((count_ - 1) * weight_); }
 
-  /// Without the group of the largest value, if that is further from the mean of the others than
-  /// four of their standard deviations.
+  /// Mean and variance without the group of the largest value, if that is further from the mean of
+  /// the others than four of their standard deviations.
   MeanWithError without_outlier(size_t i) const {
     constexpr double far = 4;
     const double w = largest_[i].weight, rest = weight_ - w, away = largest_[i].value - mean_[i];

@@ -10,14 +10,14 @@
 namespace mlt {
 namespace {
 
-/// The error is first looked at after this many samples per pixel, when at least eight groups have
-/// had their turn, and then whenever the work has grown by this factor: who peeks often stops too
-/// early.
+/// The error is first checked after this many samples per pixel, when at least eight groups have
+/// had their turn, and then whenever the work has grown by this factor: frequent checks would stop
+/// a render too early.
 constexpr double first_look_spp = 64, look_growth = 1.3;
 
-/// An error that is carried by few pixels is known badly itself, and who stops when it happens to
-/// be small stops too early: its square counts with two of its standard errors, as if the terms of
-/// the pixels were independent and exponentially distributed.
+/// An upper bound of the error. An error that is carried by few pixels is itself uncertain, and
+/// stopping when it happens to be small is too early: two of its standard errors are added to its
+/// square, as if the terms of the pixels were independent and exponentially distributed.
 double bound(const RelativeError& error) {
   return error.value * std::sqrt(1 + 2 / std::sqrt(error.carrying));
 }
@@ -71,7 +71,7 @@ uint64_t StopRule::next_pause(const Rendering& rendering, uint64_t units) const 
   return budget_.error ? std::min(end, next_look(rendering, units)) : end;
 }
 
-/// After how many units the error is looked at next: when all groups have had as many turns, and
+/// After how many units the error is checked next: when all groups have had as many turns, and
 /// fixed for each render, so that a render that was interrupted ends where it would have ended.
 uint64_t StopRule::next_look(const Rendering& rendering, uint64_t units) const {
   const uint64_t turn = rendering.plan().units_per_group_turn;

@@ -12,7 +12,7 @@ namespace {
 using Content = Rendering::Content;
 
 struct Result {
-  Task task;  ///< Up to where it came.
+  Task task;  ///< Its `to` is the first unit that is not done.
   uint64_t units;
 };
 
@@ -87,7 +87,7 @@ uint64_t TaskList::merge(size_t index, const std::string& result) {
   bytes.finish();
   if (done.shares.first != task.shares.first || done.shares.last != task.shares.last ||
       done.from != task.from || done.to < task.from)
-    throw RenderError("the result of a task came that nobody waits for");
+    throw RenderError("the result of a task came that was not asked for");
   rendering_->load(state);
   task.from = done.to;
   return units;

@@ -26,29 +26,29 @@ class TaskList {
   TaskList(Rendering& rendering, uint64_t seed, int wanted, uint64_t done);
 
   size_t size() const { return tasks_.size(); }
-  /// Up to which unit the task's shares are done.
+  /// The unit before which the task's shares are done.
   uint64_t position(size_t index) const { return tasks_.at(index).from; }
   /// The units before this one are done, perhaps with some others.
   uint64_t done() const;
-  /// Cuts a task's shares in two, for more machines; false if there is but one. The second half
-  /// becomes the last task.
+  /// Cuts a task's shares in two, for more machines; false if it has but one share. The second
+  /// half becomes the last task.
   bool split(size_t index);
   /// Moves the task on to the unit `to` if its shares have nothing to do until there.
   bool skip(size_t index, uint64_t to);
-  /// The task, up to the unit `to`, as bytes for `run`.
+  /// Writes the task, up to the unit `to`, as bytes for `run`.
   std::string task(size_t index, uint64_t to) const;
-  /// Takes in what `run` has returned for this task, and moves it on; returns how many units were
-  /// run. Throws RenderError if the task does not stand where that began: nothing counts twice.
+  /// Merges the result of `run` for this task, and moves it on; returns how many units were run.
+  /// Throws RenderError if the result does not begin where the task is: nothing counts twice.
   uint64_t merge(size_t index, const std::string& result);
 
  private:
   Rendering* rendering_;
   uint64_t seed_;
-  std::vector<Task> tasks_;  ///< Without an end.
+  std::vector<Task> tasks_;  ///< The open-ended tasks.
 };
 
-/// The other side: runs a task on `threads` threads and returns its result. When `cancelled`
-/// becomes true it stops early, and the result tells how far it came.
+/// The worker's side: runs a task on `threads` threads and returns its result. When `cancelled`
+/// becomes true it stops early, and the result records the units that are done.
 std::string run(const std::string& task, ScenePtr scene, const Integrator& integrator, int threads,
                 const std::atomic<bool>& cancelled);
 

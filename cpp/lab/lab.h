@@ -1,7 +1,7 @@
-// The lecture's laboratory: Metropolis sampling of any function by any mixture of moves, by the
+// The lecture's laboratory: Metropolis sampling of any function by any mixture of moves, with the
 // step, the mixture and the chain that light paths use.
 //
-// X is what a state is made of: numbers here, any Python object in the bindings.
+// X is the type of a state: numbers here, any Python object in the bindings.
 #pragma once
 
 #include "base/error.h"
@@ -21,7 +21,7 @@ namespace mlt::lab {
 /// Coordinates; a discrete state is one coordinate, its index.
 using Point = std::vector<double>;
 
-/// "x = 0.25" or "x = (0.25, 1)", for messages.
+/// A state in messages, such as "x = 0.25" or "x = (0.25, 1)".
 std::string describe(const Point& x);
 std::string describe(double number);
 
@@ -50,24 +50,24 @@ template <class X>
 class Move {
  public:
   virtual ~Move() = default;
-  /// A chain has its own copy of each move, since a move may learn.
+  /// A copy for one chain, since a move may adapt.
   virtual std::shared_ptr<Move> clone() const = 0;
-  /// May it act on x? A factor of its weight.
+  /// Whether it may act on x: a factor of its weight.
   virtual double suitability(const X& /*x*/) const { return 1; }
   /// Draws y from q(x -> .); false if there is no proposal.
   virtual bool propose(const X& x, X& y, Rng& rng) = 0;
   /// q(x -> y), up to a factor that does not depend on x and y. A symmetric move leaves it at 1.
   virtual double density(const X& /*x*/, const X& /*y*/) const { return 1; }
-  /// Is told how its proposal fared.
+  /// Called with the acceptance of the move's proposal, for moves that adapt.
   virtual void adapt(double /*acceptance*/) {}
-  /// Its present size if that changes, else NaN.
+  /// The current step size if that is adaptive, else NaN.
   virtual double size() const { return std::numeric_limits<double>::quiet_NaN(); }
 
-  // What a mixture asks of a move: the same for states with their targets.
+  // The interface of a move in a mixture, for states with their targets:
 
   using State = lab::State<X>;
   struct Edit {
-    /// q(x -> y) and q(y -> x), if the move was made elsewhere.
+    /// q(x -> y) and q(y -> x), if the proposal was made elsewhere.
     std::optional<std::pair<double, double>> densities;
   };
   struct Aids {};
@@ -99,7 +99,7 @@ class Move {
 template <class X>
 using Mixture = mlt::Mixture<Move<X>>;
 
-/// Moves to be copied for each chain, with their weights.
+/// Moves with their weights, to be copied for each chain.
 template <class X>
 using Prototypes = std::vector<std::pair<std::shared_ptr<const Move<X>>, double>>;
 
@@ -116,7 +116,7 @@ class Chain : public mlt::Chain<State<X>, Mixture<X>> {
     this->y_[0] = this->x_;
   }
 
-  /// One step; `record(x, weight, is_proposal)`.
+  /// Takes one step; calls `record(x, weight, is_proposal)`.
   template <class Record>
   StepResult step(const Target<X>& target, Record&& record) {
     if (choose()) draw();
@@ -124,8 +124,8 @@ class Chain : public mlt::Chain<State<X>, Mixture<X>> {
     return finish(record);
   }
 
-  // The parts of a step, for chains that go in lockstep: choose; draw, or set_proposal; set_target
-  // if there is a proposal; finish.
+  // The parts of a step, for chains that advance in lockstep: choose; draw, or set_proposal;
+  // set_target if there is a proposal; finish.
 
   bool choose() { return this->kernel_.choose(this->x_, this->rng_); }
   void draw() { this->kernel_.draw(this->x_, this->y_[0], this->rng_); }
@@ -154,7 +154,7 @@ class Chain : public mlt::Chain<State<X>, Mixture<X>> {
     return result;
   }
 
-  /// Of the first move that has one.
+  /// The size of the first adaptive move, or NaN.
   double move_size() const {
     for (const auto& move : this->kernel_.moves())
       if (!std::isnan(move->size())) return move->size();

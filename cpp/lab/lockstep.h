@@ -1,5 +1,5 @@
-// Chains that go step by step together, for targets and moves that take the states of many chains
-// at once.
+// Chains that advance step by step together, for targets and moves that take the states of many
+// chains at once.
 #pragma once
 
 #include "lab/lab.h"
@@ -8,8 +8,8 @@
 
 namespace mlt::lab {
 
-/// One step of all chains. `draw(move, chains)` lets a move propose for those chains that have
-/// chosen it, by their numbers; `evaluate(points)` returns the target at one point of each chain;
+/// Takes one step of all chains. `draw(move, chains)` lets a move propose for the chains that have
+/// chosen it, by index; `evaluate(points)` returns the target at one point of each chain;
 /// `finish(c, chain)` ends the step of chain c.
 template <class X, class Draw, class Evaluate, class Finish>
 void step_together(std::vector<Chain<X>>& chains, Draw&& draw, Evaluate&& evaluate,

@@ -6,7 +6,7 @@
 namespace mlt::lab {
 namespace {
 
-/// Box & Muller 1958.
+/// A normally distributed number (Box & Muller 1958).
 double sample_normal(Rng& rng) {
   const double r = std::sqrt(-2 * std::log(1 - rng.next()));
   return r * sincos_turns(rng.next()).cos;
@@ -66,7 +66,7 @@ class Uniform final : public Move<Point> {
     return true;
   }
 
-  /// Up to the volume of the box; a state outside of it cannot be proposed again.
+  /// The density, times the volume of the box; a state outside of it cannot be proposed.
   double density(const Point&, const Point& y) const override {
     for (size_t i = 0; i < y.size(); ++i)
       if (!(y[i] >= low_[i] && y[i] <= high_[i])) return 0;

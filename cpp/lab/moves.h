@@ -12,12 +12,12 @@ using MovePtr = std::shared_ptr<Move<Point>>;
 enum class WalkShape { uniform, normal };
 
 /// y = x + size (u - 1/2) in each coordinate, or x + size N(0, 1). Symmetric. One size for all
-/// coordinates, or one each.
+/// coordinates, or one for each.
 MovePtr random_walk(std::vector<double> size, WalkShape shape);
 
 /// How an adaptive walk learns (Robbins & Monro 1951; Andrieu & Thoms 2008): after its i-th
-/// proposal, log(scale) += rate i^-decay (acceptance - goal). With decay = 0 it never stops
-/// changing with where it has just been, and the target is no longer what the chain samples.
+/// proposal, log(scale) += rate i^-decay (acceptance - goal). With decay = 0 the scale depends on
+/// the latest states for ever, and the chain no longer samples the target.
 struct Adaptation {
   double goal = 0.44, rate = 1, decay = 0.6;
 };

@@ -26,7 +26,7 @@ Bootstrap resample(const std::vector<double>& weights, uint32_t chains, Rng& rng
     for (; next < cumulative && result.seeds.size() < chains; next += spacing)
       result.seeds.push_back(static_cast<uint32_t>(i));
   }
-  // Rounding may leave the last seed over: it belongs to the last candidate that has any weight.
+  // by rounding, the last seed may be unassigned: it is the last candidate with any weight
   for (size_t i = weights.size(); result.seeds.size() < chains;)
     if (weights[--i] > 0) result.seeds.resize(chains, static_cast<uint32_t>(i));
   // Systematic order would tie a chain's number to its candidate; which chain gets which is chance.

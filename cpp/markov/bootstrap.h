@@ -1,7 +1,7 @@
 // Starting chains without start-up bias (Veach & Guibas 1997, sec. 5.1): draw candidates by an
 // unbiased technique, estimate b = integral of L* from their weights, and start the chains from
-// candidates resampled in proportion to these weights. The expectation of b times what the chains
-// record is then right from the first step on.
+// candidates resampled in proportion to these weights. Then b times the recorded states has the
+// right expectation from the first step on.
 #pragma once
 
 #include "base/parallel.h"
@@ -18,7 +18,7 @@ namespace mlt {
 
 struct Bootstrap {
   double b = 0;                 ///< Mean weight of the candidates.
-  double b_error = 0;           ///< Its standard error.
+  double b_error = 0;           ///< Standard error of b.
   std::vector<uint32_t> seeds;  ///< Index of the candidate that each chain starts from.
 };
 
@@ -26,7 +26,7 @@ struct Bootstrap {
 /// the mean. Without any positive weight, `seeds` is empty.
 Bootstrap resample(const std::vector<double>& weights, uint32_t chains, Rng& rng);
 
-/// Candidates by number; each has a random stream of its own, and can be drawn again.
+/// Numbered candidates; each has a random stream of its own, and can be drawn again.
 struct Candidates {
   uint64_t seed;
   Purpose purpose;
@@ -35,9 +35,9 @@ struct Candidates {
   Rng rng(uint64_t i) const { return Rng(seed, purpose, i); }
 };
 
-/// What `draw(*source, rng)` returns for each candidate. `make_source()` returns a pointer to what
-/// draws them, and keeps its memory from one to the next. When `cancelled` the rest stays as it is
-/// by default. `finished(*source)` is called by one thread after the other.
+/// The results of `draw(*source, rng)` for all candidates. `make_source()` returns a pointer to a
+/// source that draws them one after the other. When `cancelled` the other results have their
+/// default values. `finished(*source)` is called by one thread after the other.
 template <class MakeSource, class Draw, class Finished>
 auto draw_candidates(const Candidates& candidates, int threads, const std::atomic<bool>& cancelled,
                      MakeSource&& make_source, Draw&& draw, Finished&& finished) {

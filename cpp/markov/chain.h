@@ -1,4 +1,4 @@
-// A Markov chain: a state, the random stream that is its own, and the kernel that moves it.
+// A Markov chain: a state, a random stream of its own, and the kernel that moves it.
 #pragma once
 
 #include "markov/step.h"
@@ -16,25 +16,25 @@ class Chain {
   StepResult step(Record&& record) {
     return metropolis_step(x_, y_, kernel_, rng_, record);
   }
-  /// Lets a kernel prepare its next proposals, where it cannot make them at once.
+  /// Lets a kernel prepare its next proposals, if it cannot make them at once.
   template <class... Arguments>
   void prepare(size_t stage, Arguments&&... arguments) {
     kernel_.prepare(std::as_const(x_), y_, stage, rng_, arguments...);
   }
-  /// A proposal that is neither accepted nor rejected: the probability with which it would be
-  /// accepted.
+  /// Makes a proposal that is neither accepted nor rejected; returns its acceptance
+  /// probability.
   double propose() { return acceptance(kernel_.propose(x_, y_, 0, rng_)); }
 
   const State& state() const { return x_; }
-  /// After a proposal, that one; after a step of one stage, the state that the chain is not in.
+  /// After propose(), the proposal; after a step of one stage, the state that the chain is not in.
   const State& other() const { return y_[0]; }
-  /// What a stage of the last step proposed.
+  /// The proposal of a stage of the last step.
   const State& proposal(const StepResult& last, size_t stage) const {
     return last.accepted == static_cast<int>(stage) ? x_ : y_[stage];
   }
-  /// The scratch of the stages: what they proposed, but for the state that the chain has left.
+  /// The scratch states of the stages: proposals, and the state that the chain has left.
   const std::array<State, stages>& others() const { return y_; }
-  /// Goes on from another state, with the same stream.
+  /// Continues from another state, with the same stream.
   void restart(const State& x) { x_ = x; }
 
   Kernel& kernel() { return kernel_; }

@@ -5,17 +5,17 @@
 //
 // A move is a class with
 //
-//   State, Edit              types: what it moves, and what a proposal remembers
-//   Aids, Context{Rng&, Aids&}   what a chain has for it beside random numbers; both together
-//   static size_t row(const State&)   which row of weights is for this state
-//   static MoveChoice* kept_choice(const State&)   where the state keeps the choice at it, until
-//                            the state changes; nullptr if it keeps none
+//   State, Edit              types: of states, and of the record of a proposal
+//   Aids, Context{Rng&, Aids&}   data of a chain for it; the same with random numbers
+//   static size_t row(const State&)   the row of weights for this state
+//   static MoveChoice* kept_choice(const State&)   where the state caches its choice, until
+//                            the state changes; nullptr if it does not
 //   double suitability(const State&) const   may it act on x? A factor of its weight
 //   std::optional<Edit> propose(x, y, context)   makes y from x
 //   Transition quotients(x, y, edit)   q(x -> y) / L*(y) and q(y -> x) / L*(x), without the
 //                            probability of its choice
 //
-// where a State has its target, known at the latest when the step ends; 0 if y is not to be had.
+// where a State has its target, known at the latest when the step ends; 0 if y is impossible.
 #pragma once
 
 #include "markov/step.h"
@@ -46,7 +46,7 @@ class MixtureWeights {
 /// The choice of a move at a state: each one's share, and their sum.
 struct MoveChoice {
   bool known = false;
-  std::shared_ptr<const MixtureWeights> weights;  ///< By which it was made, with the same moves.
+  std::shared_ptr<const MixtureWeights> weights;  ///< The weights that it was made by.
   double sum = 0;
   std::vector<double> shares;
 };
@@ -61,13 +61,13 @@ class Mixture {
   Mixture(Moves moves, std::shared_ptr<const MixtureWeights> weights)
       : moves_(std::move(moves)), weights_(std::move(weights)) {}
 
-  /// As metropolis_step calls it, where the moves find the target of what they propose.
+  /// Called by metropolis_step, if the moves evaluate the target of their proposals.
   Transition propose(const State& x, std::array<State, 1>& proposals, size_t, Rng& rng) {
     if (choose(x, rng)) draw(x, proposals[0], rng);
     return transition(x, proposals[0]);
   }
 
-  // The parts of a proposal, for chains that go in lockstep.
+  // The parts of a proposal, for chains that advance in lockstep.
 
   /// Chooses a move for x; false if none suits it.
   bool choose(const State& x, Rng& rng) {
@@ -84,14 +84,14 @@ class Mixture {
     probability_ = shares[chosen_] / at_x.sum;
     return true;
   }
-  /// Lets the chosen move make y.
+  /// Proposes y by the chosen move.
   void draw(const State& x, State& y, Rng& rng) {
     typename Move::Context context{rng, aids_};
     edit_ = moves_[chosen_]->propose(x, y, context);
   }
-  /// Says that the chosen move has made its y elsewhere.
+  /// Sets the edit of the chosen move, if its y was made elsewhere.
   void set_edit(const typename Move::Edit& edit) { edit_ = edit; }
-  /// Of the proposal y, whose target is known.
+  /// The transition to the proposal y, whose target is known.
   Transition transition(const State& x, const State& y) {
     if (!generated(y)) return impossible;
     const Transition own = moves_[chosen_]->quotients(x, y, *edit_);
@@ -102,7 +102,7 @@ class Mixture {
   /// Whether any move suits x.
   bool suits(const State& x) { return choice(x).sum > 0; }
 
-  // Of the last step:
+  // The results of the last step:
 
   /// Whether any move suited the state, and which one was chosen.
   bool suited() const { return suited_; }
@@ -120,7 +120,7 @@ class Mixture {
   const Aids& aids() const { return aids_; }
 
  protected:
-  /// P_choose of the chosen move at a state.
+  /// The probability with which the chosen move is chosen at a state.
   double probability(const State& at) {
     const MoveChoice& choices = choice(at);
     const double share = choices.shares[chosen_];
@@ -148,7 +148,7 @@ class Mixture {
   Moves moves_;
   std::shared_ptr<const MixtureWeights> weights_;
   Aids aids_{};
-  MoveChoice scratch_;  ///< For states that keep none.
+  MoveChoice scratch_;  ///< For states that do not cache their choice.
   size_t chosen_ = 0, row_ = 0;
   bool suited_ = false;
   double probability_ = 0;

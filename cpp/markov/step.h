@@ -2,7 +2,7 @@
 // accepts or rejects: light paths, primary samples and the one-dimensional examples of the lecture
 // are all instances of this template.
 //
-// A kernel proposes y from x and tells the two quotients that the acceptance needs,
+// A kernel proposes y from x and returns the two quotients that the acceptance needs,
 //
 //   a(x -> y) = min(1, L*(y) q(y -> x) / (L*(x) q(x -> y))) = min(1, backward / forward),
 //   forward = q(x -> y) / L*(y),   backward = q(y -> x) / L*(x),
@@ -10,9 +10,9 @@
 // each up to one factor that both share. Quotients, since factors that q and L* have in common can
 // then be cancelled before they overflow.
 //
-// Both states are recorded with their expected weights, a for y and 1 - a for x, which says the
-// same in the mean as recording the state that was chosen and says it with less noise (Veach &
-// Guibas 1997, sec. 5.1).
+// Both states are recorded with their expected weights, a for y and 1 - a for x, which has the
+// same expectation as recording the state that was chosen, and less noise (Veach & Guibas 1997,
+// sec. 5.1).
 //
 // With several stages (delayed rejection, Tierney & Mira 1999) a rejected proposal is followed by
 // another; the kernel's quotients for stage 2 contain the probabilities of having been rejected
@@ -37,7 +37,7 @@ struct Transition {
 /// No proposal, or one of zero density: always rejected.
 inline constexpr Transition impossible{};
 
-/// min(1, backward / forward). NaN if the quotients make no sense.
+/// min(1, backward / forward). NaN if the quotients are invalid.
 inline double acceptance(const Transition& t) {
   if (t.forward == std::numeric_limits<double>::infinity()) return 0;
   const double ratio = t.backward / t.forward;
@@ -54,9 +54,9 @@ inline Transition after_rejection(const Transition& own, const Transition& first
 }
 
 struct StepResult {
-  double acceptance = 0;  ///< Of the first stage.
+  double acceptance = 0;  ///< Acceptance of the first stage.
   int accepted = -1;      ///< Stage whose proposal was accepted, or -1.
-  bool invalid = false;   ///< A proposal had no valid acceptance (NaN) and was rejected.
+  bool invalid = false;   ///< Whether a proposal had no valid acceptance (NaN) and was rejected.
 };
 
 /// Advances x by one step. `y` is scratch for one proposal per stage; on acceptance x and y are
@@ -76,7 +76,7 @@ StepResult metropolis_step(State& x, std::array<State, stages>& y, Kernel& kerne
     if (stage == 0) result.acceptance = a;
     if (a > 0) record(std::as_const(y[stage]), rest * a);
     rest *= 1 - a;
-    // A stage without a proposal draws nothing: whether it is reached may hang on rounding.
+    // A stage without a proposal draws no number: whether it is reached may depend on rounding.
     const bool accept = (stage == 0 || a > 0) && rng.next() < a;
     if (accept && result.accepted < 0) result.accepted = static_cast<int>(stage);
   }

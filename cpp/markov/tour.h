@@ -8,14 +8,14 @@
 //   kappa(x) = kappa0 P(x) / T(x)
 //
 // Let nu be the density, per sample, of the states from which a step is made, and K the step. Tours
-// stand at x as often as they start there or come there, P + nu K, and go on from there with
+// visit x as often as they start there or step there, P + nu K, and go on from there with
 // probability 1 / (1 + kappa):
 //
 //   nu (1 + kappa) = P + nu K.
 //
-// nu = T / kappa0 solves it, since nu kappa = P and nu K = nu; and where tours end, nothing else
-// does. So do the states after those steps have that density, whatever kappa0 is and however the
-// steps move: no start needs to be forgotten. Nothing is to be recorded at the start itself.
+// nu = T / kappa0 solves it, since nu kappa = P and nu K = nu; if all tours end, it is the only
+// solution. So the states after those steps have that density, for any kappa0 and any step that
+// leaves T unchanged, without start-up bias. The start itself must not be recorded.
 //
 // If r(x) tours start from a path in the mean, P becomes r P in all of this. With r in proportion
 // to T / P all tours die at the same rate: energy redistribution path tracing (D. Cline, J. Talbot,
@@ -28,20 +28,20 @@ namespace mlt {
 
 class KillRate {
  public:
-  /// One tour from each path.
+  /// The rate of tours of which one starts from each path.
   explicit KillRate(double kappa0) : kappa0_(kappa0) {}
-  /// Tours of so many steps in the mean, wherever they are: kappa = 1 / steps.
+  /// The rate of tours of `steps` steps in the mean, at any state: kappa = 1 / steps.
   static KillRate constant(double kappa0, double steps) {
     KillRate rate(kappa0);
     rate.constant_ = 1 / steps;
     return rate;
   }
 
-  /// r of a path with this T / P.
+  /// r, the mean number of tours that start from a path with this T / P.
   double starts(double target_over_density) const {
     return constant_ > 0 ? constant_ * target_over_density / kappa0_ : 1;
   }
-  /// 1 / (1 + kappa) of a state with this T / P.
+  /// 1 / (1 + kappa), the probability of surviving a state with this T / P.
   double survival(double target_over_density) const {
     return 1 / (1 + (constant_ > 0 ? constant_ : kappa0_ / target_over_density));
   }

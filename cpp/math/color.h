@@ -11,7 +11,7 @@ using Color = Vec3;
 
 inline bool is_black(const Color& c) { return c.x == 0 && c.y == 0 && c.z == 0; }
 
-/// Whether light of this throughput is none in single precision, in which images are.
+/// Whether light of this throughput is zero in single precision, the precision of images.
 inline bool vanishes(const Color& throughput) {
   return max_component(throughput) < double{std::numeric_limits<float>::min()};
 }

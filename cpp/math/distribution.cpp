@@ -15,8 +15,8 @@ void check_weight(double weight, size_t index) {
         weight));
 }
 
-/// Where each weight's share of [0, full] begins. Every positive weight gets one unit and its part
-/// of what remains, so none is lost to rounding; a weight of zero gets exactly nothing.
+/// Finds where each weight's share of [0, full] begins. Every positive weight gets one unit and its
+/// part of the rest, so none is lost to rounding; a weight of zero gets exactly nothing.
 void fill_row(const float* weights, size_t n, double total, uint32_t full, uint32_t* starts) {
   uint32_t positive = 0;
   for (size_t i = 0; i < n; ++i) positive += weights[i] > 0;
@@ -91,7 +91,7 @@ void Piecewise2D::sample(const Vec2* u, int count, Sample* samples) const {
   for (int i = 0; i < count; ++i) samples[i] = sample_in(chosen[i], columns[i], u[i].x);
 }
 
-/// In a row and a column that have been found; u is the number that has chosen the column.
+/// The sample in a row and a column that have been chosen; u is the number that chose the column.
 Piecewise2D::Sample Piecewise2D::sample_in(const Discrete::Sample& row, size_t column,
                                            double u) const {
   const Cell cell{row.index, column, row.remainder, 0};

@@ -1,7 +1,7 @@
 // Tabulated distributions: weights over indices, and a piecewise-constant density over the unit
-// square for environment maps (Pharr et al., PBRT 3rd ed., sec. 13.3 and 13.6.7). What is sampled
-// and what is reported as probability come from the same cumulative table, so rounding in the table
-// cannot bias an estimate.
+// square for environment maps (Pharr et al., PBRT 3rd ed., sec. 13.3 and 13.6.7). Samples and their
+// probabilities come from the same cumulative table, so rounding in the table cannot bias an
+// estimate.
 #pragma once
 
 #include "base/shared_array.h"
@@ -53,7 +53,7 @@ class Discrete {
  private:
   static constexpr size_t few = 8;
   SharedArray<double> cdf_;    // n + 1 values from exactly 0 to exactly 1
-  SortedRows<double> starts_;  // the first n of them, if they are not few
+  SortedRows<double> starts_;  // the first n of cdf_, if they are not few
   double total_ = 0;
 };
 
@@ -77,7 +77,7 @@ class Piecewise2D {
     double pdf;
   };
   Sample sample(const Vec2& u) const;
-  /// The same for many numbers, at most `most_together`; much faster where the table is large.
+  /// Samples by many numbers, at most `most_together`; much faster where the table is large.
   void sample(const Vec2* u, int count, Sample* samples) const;
   static constexpr int most_together = 64;
   double pdf(const Vec2& p) const;
@@ -95,7 +95,7 @@ class Piecewise2D {
     return rows_.pdf(cell.row) * share(cell) * static_cast<double>(width_) *
            static_cast<double>(height_);
   }
-  /// Of its row.
+  /// The probability of the cell in its row.
   double share(const Cell& c) const { return (static_cast<double>(end(c)) - begin(c)) / full; }
   uint32_t begin(const Cell& c) const { return starts_.at(c.row, c.column); }
   uint32_t end(const Cell& c) const { return starts_.at(c.row, c.column + 1); }

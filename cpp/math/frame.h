@@ -22,8 +22,8 @@ struct Frame {
   /// A frame around `n` whose s axis lies in the plane of `n` and `along` (dp/du).
   static Frame around(const Vec3& n, const Vec3& along) { return around(n, n, along); }
 
-  /// The same. `m` has the direction of `n` and any length: the square roots that normalise the two
-  /// axes can then be drawn side by side.
+  /// As above; `m` has the direction of `n` and any length: the square roots that normalise the two
+  /// axes can then be computed in parallel.
   static Frame around(const Vec3& n, const Vec3& m, const Vec3& along) {
     const Vec3 t = cross(m, along);
     const double l2 = length_squared(t);

@@ -24,7 +24,7 @@ double external_reflectance(double eta) {
 double fresnel_diffuse_reflectance(double eta) {
   if (eta == 1) return 0;
   if (eta > 1) return external_reflectance(eta);
-  // What enters must leave: n^2 (1 - F_internal) = 1 - F_external with n = 1 / eta (Judd 1942,
+  // By reciprocity n^2 (1 - F_internal) = 1 - F_external with n = 1 / eta (Judd 1942,
   // "Fresnel reflection of diffusely incident light", eq. 4).
   return 1 - eta * eta * (1 - external_reflectance(1 / eta));
 }

@@ -16,7 +16,7 @@ struct Fresnel {
   double eta_ti;       // n_incident / n_transmitted: scales the tangential component on refraction
 };
 
-/// Born & Wolf, "Principles of Optics", 7th ed., sec. 1.5.2, eqs. (32) and (33).
+/// A dielectric: Born & Wolf, "Principles of Optics", 7th ed., sec. 1.5.2, eqs. (32) and (33).
 inline Fresnel fresnel_dielectric(double cos_i, double eta) {
   if (eta == 1) return {0, -cos_i, 1, 1};
   const bool above = cos_i >= 0;
@@ -37,7 +37,7 @@ inline Vec3 refract(const Vec3& w, double cos_t, double eta_ti) {
   return {-eta_ti * w.x, -eta_ti * w.y, cos_t};
 }
 
-/// The same at a normal `m`, with values from fresnel_dielectric(dot(w, m), eta).
+/// The direction refracted at a normal `m`, with values from fresnel_dielectric(dot(w, m), eta).
 inline Vec3 refract(const Vec3& w, const Vec3& m, double cos_t, double eta_ti) {
   return m * (dot(w, m) * eta_ti + cos_t) - w * eta_ti;
 }

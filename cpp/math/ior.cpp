@@ -11,7 +11,7 @@ struct DielectricEntry {
   double ior;
 };
 
-/// Measured at 589 nm and 0 to 20 degrees Celsius, mostly from Hecht, "Optics", 4th ed.
+/// Indices at 589 nm and 0 to 20 degrees Celsius, mostly from Hecht, "Optics", 4th ed.
 constexpr DielectricEntry dielectrics[] = {
     {"vacuum", 1.0},      {"helium", 1.000036},        {"hydrogen", 1.000132},
     {"air", 1.000277},    {"carbon dioxide", 1.00045}, {"water", 1.3330},
@@ -23,7 +23,7 @@ constexpr DielectricEntry dielectrics[] = {
     {"pet", 1.5750},      {"diamond", 2.419},
 };
 
-/// Where a metal was measured: luxpop.com, or Palik, "Handbook of Optical Constants of Solids",
+/// The source of the measurements: luxpop.com, or Palik, "Handbook of Optical Constants of Solids",
 /// whose values have "_palik" behind the name. `both` have one set of values.
 enum Source { luxpop = 1, palik = 2, both = 3 };
 

@@ -38,9 +38,9 @@ inline uint32_t sobol_1_reversed(uint32_t index) {
   return index;
 }
 
-/// For each of `count` sequences that seeds[i] names, its point indices[i] in [0, 1)^2. Every
+/// Computes point indices[i] in [0, 1)^2 of sequence seeds[i], for `count` sequences. Every
 /// power-of-two block of a sequence is stratified in all elementary intervals. Sequences are
-/// independent, so the loops do as many at a time as the processor's vectors hold.
+/// independent, so the compiler vectorises the loops.
 template <int count>
 void scrambled_sobol(const uint32_t* indices, const uint64_t* seeds, double* x, double* y) {
   uint32_t low[count], high[count];

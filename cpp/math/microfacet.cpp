@@ -88,8 +88,8 @@ struct VisibleSlope {
     return s < top ? (cos * std::erfc(-s) + sin * gauss(s)) / total : 1;
   }
 
-  /// Exact at normal incidence (C(s) is 1 + erf(s)) or, for larger angles, at grazing incidence
-  /// (C(s) is exp(-s^2) for s < 0; Jakob 2014).
+  /// A first guess of the slope, exact at normal incidence (C(s) is 1 + erf(s)) or, for larger
+  /// angles, at grazing incidence (C(s) is exp(-s^2) for s < 0; Jakob 2014).
   double guess(double u) const {
     const double y = 3 * sin < cos ? std::min(u * (total / cos) - 1, 1 - 0x1p-52)
                                    : erf_top - (1 + erf_top) * std::erf(std::sqrt(-std::log(u)));
@@ -97,7 +97,7 @@ struct VisibleSlope {
   }
 };
 
-/// The part of a direction that lies in the surface, and its angle from the normal.
+/// A direction's projection onto the surface, and its angle to the normal.
 struct Incidence {
   double cos_phi = 1, sin_phi = 0;
   VisibleSlope slope;

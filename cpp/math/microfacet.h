@@ -41,13 +41,13 @@ class Microfacet {
     return s2 < 700 * z2 ? std::exp(-s2 / z2) / (area * z2 * z2) : 0;    // Walter eq. 25
   }
 
-  /// The exact masking function of Smith: int G1(v, m) |<v, m>| D(m) dm = |cos v|. It is 0 if m and
-  /// the surface disagree on which side v is.
+  /// The exact masking function of Smith: int G1(v, m) |<v, m>| D(m) dm = |cos v|. It is 0 if v is
+  /// on different sides of m and of the surface.
   double g1(const Vec3& v, const Vec3& m) const {
     return consistent(v, m) ? std::abs(v.z) * g1_over_cos(v) : 0;
   }
 
-  /// Separable masking and shadowing, with g1_fit: what Mitsuba computes, for BSDF values.
+  /// Separable masking and shadowing, with g1_fit, as in Mitsuba; for BSDF values.
   double G(const Vec3& wi, const Vec3& wo, const Vec3& m) const {
     return g1_fit(wi, m) * g1_fit(wo, m);
   }
@@ -62,7 +62,7 @@ class Microfacet {
     return a * (3.535 + 2.181 * a) / (1 + a * (2.276 + 2.577 * a));
   }
 
-  /// A normal m with m.z > 0, for wi.z > 0 (flip wi to sample from the other side).
+  /// Samples a normal m with m.z > 0, for wi.z > 0 (flip wi to sample from the other side).
   Vec3 sample(const Vec3& wi, const Vec2& u) const {
     if (!sample_visible_) return sample_any(u);
     return type_ == MicrofacetType::ggx ? sample_visible_ggx(wi, u)
@@ -106,7 +106,7 @@ class Microfacet {
     return 2 / (z * (1 + std::erf(a)) + r * std::exp(-a * a) / sqrt_pi);
   }
 
-  /// From the surface of roughness 1 to this one, for normals.
+  /// Transforms a normal of the surface of roughness 1 to this one.
   Vec3 stretch(const Vec3& m) const { return normalize(Vec3(alpha_u_ * m.x, alpha_v_ * m.y, m.z)); }
   Vec3 unstretch(const Vec3& m) const {
     return normalize(Vec3(m.x / alpha_u_, m.y / alpha_v_, m.z));

@@ -1,7 +1,7 @@
-// Rows of sorted numbers, in each of which another number can be looked for. A tree without
-// pointers stands above every row: one cache line of its numbers, a line with the first of each of
-// those lines, and so on. So a search reads one line for each level, where one by halves waits for
-// memory at almost every step, and it does not branch.
+// Rows of sorted numbers that can be searched. Above every row there is a tree without pointers:
+// one cache line of its numbers, a line with the first of each of those lines, and so on. So a
+// search reads one line for each level, where a binary search waits for memory at almost every
+// step, and it does not branch.
 #pragma once
 
 #include "base/shared_array.h"
@@ -15,7 +15,7 @@ template <class T>
 class SortedRows {
  public:
   SortedRows() = default;
-  /// `numbers` are rows of `width` that never fall; `end` is above all that will be looked for.
+  /// `numbers` are rows of `width` that never fall; `end` is above all numbers to be searched.
   SortedRows(std::vector<T> numbers, size_t width, T end) : width_(width), end_(end) {
     all_ = Level(numbers, width, end);
     for (const Level* below = &all_; width > per_line; below = &above_.back()) {
@@ -37,8 +37,8 @@ class SortedRows {
     for (const Level& level : above_) i = i * per_line + level.row(row)[i].last_up_to(x);
     return i * per_line + all_.row(row)[i].last_up_to(x);
   }
-  /// The same for many numbers, each in a row of its own. All of them go down the tree together:
-  /// while memory brings the line of one, the others are compared.
+  /// Searches for many numbers, each in a row of its own. All of them go down the tree together:
+  /// while the line of one is being loaded, the others are compared.
   void last_up_to(const size_t* row, const T* x, int count, size_t* found) const {
     std::fill_n(found, count, 0);
     for (size_t l = 0; l < above_.size(); ++l) {
@@ -84,7 +84,7 @@ class SortedRows {
   size_t width_ = 0;
   T end_{};
   Level all_;
-  std::vector<Level> above_;  ///< From the top.
+  std::vector<Level> above_;  ///< Levels of the tree, from the top.
 };
 
 }  // namespace mlt

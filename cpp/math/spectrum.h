@@ -1,5 +1,5 @@
-// Spectra given as wavelength : value pairs, converted to linear sRGB by the rule that the RGB
-// variants of Mitsuba 3 follow, so that a scene means the same colours in both.
+// Spectra given as wavelength : value pairs, converted to linear sRGB by the rule of the RGB
+// variants of Mitsuba 3, so that a scene has the same colours in both.
 #pragma once
 
 #include "base/schema.h"
@@ -7,7 +7,7 @@
 
 namespace mlt {
 
-/// What a spectrum stands for: it decides the illuminant and the range.
+/// The use of a spectrum, which decides its illuminant and range.
 enum class SpectrumUse {
   reflectance,  // seen under D65, clamped to [0, 1]
   unbounded,    // seen under D65, clamped to >= 0: eta and k of a conductor

@@ -149,7 +149,7 @@ inline Vec2 invert_cosine_power(const Vec3& w, double n) {
   return {std::min(-tail, 1 - 0x1p-53), turns(w.x, w.y)};
 }
 
-// The same lobe about any unit axis.
+// A lobe cos^n about any unit axis.
 
 inline Vec3 sample_lobe(const Vec2& u, const Vec3& axis, double n) {
   return Frame::around(axis).to_world(sample_cosine_power(u, n));

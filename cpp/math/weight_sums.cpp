@@ -6,10 +6,10 @@ namespace mlt {
 namespace {
 
 constexpr int classes_per_octave = 4;
-// Those of the smallest and of the largest positive number.
+// Classes of the smallest and of the largest positive number.
 constexpr int first_class = classes_per_octave * -1074, last_class = classes_per_octave * 1024;
 
-/// floor(classes_per_octave log2(weight)).
+/// The class of a weight: floor(classes_per_octave log2(weight)).
 int class_of(double weight) {
   int octave;
   const double fraction = std::frexp(weight, &octave);  // of the octave's end, from 1/2 on

@@ -1,4 +1,4 @@
-// The weights of independent samples, summed up.
+// Sums of the weights of independent samples.
 #pragma once
 
 #include "base/bytes.h"
@@ -24,27 +24,27 @@ class MeanSums {
   double sum_ = 0, squares_ = 0;
 };
 
-/// How the light that positive numbers stand for is spread over them.
+/// A histogram of positive numbers, which tells how many of them carry most of their sum.
 class WeightClasses {
  public:
   void add(double weight);
   WeightClasses& operator+=(const WeightClasses& other);
 
-  /// How many of them, the largest, carry half of the sum.
+  /// How many of the largest numbers carry half of the sum.
   uint64_t carrying_half() const;
 
   void save(ByteWriter& bytes) const;
   void load(ByteReader& bytes);
 
  private:
-  std::map<int, uint64_t> classes_;  ///< How many there are in each quarter of an octave.
+  std::map<int, uint64_t> classes_;  ///< How many numbers there are in each quarter of an octave.
 };
 
-/// What independent samples of an image tell about its brightness, that of L*.
+/// Sums over independent samples of an image for its brightness, the mean of L*.
 struct SampleSums {
   MeanSums brightness;    ///< L* / p.
-  MeanSums of_chains;     ///< w2 L* / p, where chains show the part w2 of each path.
-  WeightClasses classes;  ///< Of L* / p.
+  MeanSums of_chains;     ///< w2 L* / p, the part of the light that chains record.
+  WeightClasses classes;  ///< Histogram of L* / p.
 
   void add(double brightness_weight, double of_chains_weight);
   SampleSums& operator+=(const SampleSums& other);
@@ -60,9 +60,9 @@ struct Estimate {
 };
 
 Estimate estimate(const MeanSums& sums);
-/// Of strata of different sizes; no estimate as long as one of them has no sample.
+/// The mean over strata of different sizes; no estimate as long as one of them has no sample.
 Estimate stratified(const std::vector<MeanSums>& strata, const std::vector<double>& sizes);
-/// The mean of two independent estimates, each counting as often as it has samples.
+/// The mean of two independent estimates, weighted by their numbers of samples.
 Estimate pooled(const Estimate& a, const Estimate& b);
 
 }  // namespace mlt

@@ -8,7 +8,7 @@
 namespace mlt {
 namespace {
 
-/// What the pilot chains learn of one mutation at one path length.
+/// Statistics of one mutation at one path length, from the pilot chains.
 struct Experience {
   double jumps = 0;
   uint64_t proposed = 0, rays = 0;
@@ -42,7 +42,7 @@ Table explore(PathChain& chain, const Scene& scene, int steps) {
   return table;
 }
 
-/// Pilot chains, each from a path of its own; fewer, or none, where no light was found.
+/// Runs pilot chains, each from a path of its own; fewer, or none, where no light was found.
 std::vector<Table> explore(const PathTarget& target, const Mutations& mutations,
                            const MixtureWeights& weights, const AdaptationSettings& adaptation,
                            const std::atomic<bool>& cancelled) {

@@ -28,10 +28,10 @@ using RowKey = std::pair<size_t, std::string>;  // mutation, signature
 /// Sums over the samples of one batch.
 struct Batch {
   double light = 0;                        ///< Weight of all paths.
-  double weight = 0, weight_squared = 0;   ///< Of those that a mutation suits, sample by sample.
-  std::vector<double> expected, chosen;    ///< Of w (g(y) - g(x)), for each function.
-  std::vector<double> size, size_squared;  ///< Of |w (g(y) - g(x))| with expected weights.
-  std::vector<double> largest;             ///< Of |w (g(y) - g(x))| if every y were accepted.
+  double weight = 0, weight_squared = 0;   ///< Sums for paths that a mutation suits.
+  std::vector<double> expected, chosen;    ///< Sums of w (g(y) - g(x)), for each function.
+  std::vector<double> size, size_squared;  ///< Sums of |w (g(y) - g(x))| as expected.
+  std::vector<double> largest;             ///< Sums of |w (g(y) - g(x))| if all were accepted.
   std::vector<uint64_t> seen;              ///< Steps from an x with g(x) != 0.
   std::map<RowKey, AuditRow> rows;
   double lost = 0;  ///< Weight of paths without a target.
@@ -76,7 +76,7 @@ class Auditor {
     return (suited > 0 ? suited : light) / static_cast<double>(n);
   }
 
-  /// Makes x of a connection; false if no mutation would do anything to it.
+  /// Assembles x from a connection; false if no mutation suits it.
   static bool take(const PathSeeds& seeds, const Connection& connection, PathMixture& mixture,
                    PathState& x) {
     seeds.assemble(connection, x);
@@ -234,9 +234,9 @@ class Auditor {
     return test;
   }
 
-  /// P(|T| > |t|) of Student's t, by the normal variable that Wallace 1959 ("Bounds on normal
-  /// approximations to Student's and the chi-square distributions") puts in its place: right to 1 %
-  /// for n > 60.
+  /// P(|T| > |t|) of Student's t, by the normal approximation of Wallace 1959 ("Bounds on normal
+  /// approximations to Student's and the chi-square distributions"): accurate to 1 % for
+  /// n > 60.
   static double two_sided(double t, double n) {
     const double z = std::sqrt(n * std::log1p(sqr(t) / n)) * (8 * n + 1) / (8 * n + 3);
     return std::erfc(z * std::sqrt(0.5));
@@ -281,7 +281,7 @@ class Auditor {
   AuditSettings how_;
   const std::atomic<bool>* cancelled_;
   PathFunctions functions_;
-  uint64_t samples_;  ///< Of each batch.
+  uint64_t samples_;  ///< Samples of each batch.
   double weight_of_step_ = 0;
 };
 

@@ -9,7 +9,7 @@
 //
 //   q(x -> y) = p_delete(l, m | x) p_length(c_a | c_d) sum_s p_way(s) p_s(inserted vertices)
 //
-// Over |f| of what is inserted, p_s is 1 / C_s, with the unweighted contribution C_s of one
+// Divided by |f| of the inserted part, p_s is 1 / C_s, with the unweighted contribution C_s of one
 // connection.
 #include "mutation/join.h"
 #include "mutation/measured_mutation.h"
@@ -22,17 +22,17 @@ namespace {
 
 double power_of_half(int n) { return 1 / static_cast<double>(uint64_t{1} << std::min(n, 60)); }
 
-/// May the gap lie between vertices l and m? What stays must scatter smoothly: a delta vertex would
-/// only grow back what was there. An end of the path stays what it is.
+/// Whether the gap may lie between vertices l and m. They must scatter smoothly: a delta vertex
+/// would only sample the deleted vertices again. An end of the path stays unchanged.
 bool deletable(const PathState& x, int l, int m) {
   const int k = x.edges();
   if ((l == -1 && m == 0) || (l == k && m == k + 1)) return false;
   return (l < 0 || x.terms[l].connectable) && (m > k || x.terms[m].connectable);
 }
 
-/// How many edges a gap has: mostly two, that is one vertex (Veach 1997, sec. 11.3.1.1). 1/4, 1/2
-/// and then 1/8, 1/16, ..., cut off at the k + 2 edges that a path of k edges has with its two open
-/// ends.
+/// The number of edges of a gap: mostly two, that is one vertex (Veach 1997, sec. 11.3.1.1). Its
+/// probabilities are 1/4, 1/2 and then 1/8, 1/16, ..., cut off at the k + 2 edges that a path of k
+/// edges has with its two open ends.
 struct GapLength {
   static double weight(int edges) {
     return edges == 1 ? 0.25 : edges == 2 ? 0.5 : power_of_half(edges);
@@ -47,8 +47,8 @@ struct GapLength {
   }
 };
 
-/// Where a gap of this many edges may begin: l = -1 ... k + 1 - edges, whether deletable there or
-/// not.
+/// Number of places where a gap of this many edges may begin: l = -1 ... k + 1 - edges, whether
+/// deletable there or not.
 int gap_positions(int edges, int k) { return k + 3 - edges; }
 
 double deletion_probability(const PathState& x, int l, int m) {
@@ -57,12 +57,12 @@ double deletion_probability(const PathState& x, int l, int m) {
   return GapLength::probability(m - l, k) / gap_positions(m - l, k);
 }
 
-/// How many edges replace those of a gap: mostly as many (Veach 1997, sec. 11.3.1.2), but at least
-/// enough for the ends that are missing.
+/// The number of edges that replace those of a gap: mostly as many (Veach 1997, sec. 11.3.1.2), but
+/// at least enough for the ends that are missing.
 struct AddedLength {
   static constexpr int most_change = 12;
   int least, most, deleted;
-  double total = 0;  ///< Of the weights from least to most.
+  double total = 0;  ///< Sum of the weights from least to most.
 
   AddedLength(int k, int l, int m, int most_edges) : deleted(m - l) {
     least = std::max(1 + (l < 0) + (m > k), deleted - most_change);
@@ -76,7 +76,7 @@ struct AddedLength {
     change = std::abs(change);
     return change == 0 ? 0.5 : change == 1 ? 0.15 : 0.2 * power_of_half(change);
   }
-  /// Of the weights of all changes from -most_change on.
+  /// Partial sums of the weights of all changes from -most_change on.
   static const std::array<double, 2 * most_change + 1>& sums() {
     static const auto sums = [] {
       std::array<double, 2 * most_change + 1> sums;
@@ -93,7 +93,7 @@ struct AddedLength {
   double probability(int added) const {
     return added < least || added > most ? 0.0 : weight(added) / total;
   }
-  /// 0 if nothing may be added.
+  /// Samples the number of edges; 0 if none may be added.
   int sample(double u) const {
     u *= total;
     int added = least;
@@ -102,14 +102,14 @@ struct AddedLength {
   }
 };
 
-/// How many of n inserted vertices may come from the light: not all, where the last one would have
-/// to hit a lens that is a point.
+/// The largest number of n inserted vertices that may come from the light: not all, where the last
+/// one would have to hit a lens that is a point.
 int most_from_light(int n, bool lens_is_missing, const Scene& scene) {
   return lens_is_missing && scene.camera().delta_position() ? n - 1 : n;
 }
 
-/// Where a walk begins: on the lens, or on a light. A light for which nothing else is inserted is
-/// chosen to be seen from x_1.
+/// Samples the vertex where a walk begins: on the lens, or on a light. If no other vertex is
+/// inserted on the light side, the light is sampled for x_1.
 bool new_end(const Scene& scene, Path& path, int i, bool alone, Rng& rng) {
   if (i > 0) {
     path[i] = camera_vertex(scene.camera().sample_position({rng.next(), rng.next()}, path.time).at);
@@ -132,7 +132,7 @@ std::optional<Ray> leave_end(const Walker& walker, const Vertex& end, Rng& rng) 
   return first.ray;
 }
 
-/// At vertex i, whichever it is.
+/// Intersects the ray to find vertex i: on a surface, on a light at infinity, or on the lens.
 bool arrive(const Walker& walker, const Ray& ray, Path& path, int i, Rng& rng) {
   if (i == path.edges()) return walker.arrive_at_lens(ray, path[i]);
   if (i > 0) return walker.arrive(ray, path[i]);
@@ -167,7 +167,7 @@ class BidirectionalMutation final : public MeasuredMutation<BidirectionalMutatio
               t = n - s;
     splice(x, edit, y);
     if (l < 0 && m > k) y.path.time = scene().camera().time(context.rng.next());
-    // The emitter chosen to be seen from x_1 needs x_1: the camera side grows first.
+    // Sampling an emitter for x_1 needs x_1, so the camera side grows first.
     if (!grow(y, edit.first + n - 1, t, -1, context)) return std::nullopt;
     if (!grow(y, edit.first, s, 1, context)) return std::nullopt;
     target().evaluate(edit.first, edit.first + n - 1, y);
@@ -191,7 +191,7 @@ class BidirectionalMutation final : public MeasuredMutation<BidirectionalMutatio
 
  private:
   /// Fills `count` vertices from number `first` on, in steps of +1 by a walk from the light or of
-  /// -1 by one from the camera. The walk goes on from the vertex before, or begins where there is
+  /// -1 by one from the camera. The walk continues from the vertex before, or begins if there is
   /// none.
   bool grow(PathState& y, int first, int count, int step, MutationContext& context) const {
     Path& path = y.path;
@@ -210,7 +210,7 @@ class BidirectionalMutation final : public MeasuredMutation<BidirectionalMutatio
       } else {
         const Vec3 u{rng.next(), rng.next(), rng.next()};
         ray = walker.scatter(from, direction(from.at, path[i - 2 * step].at), u);
-        if (i == first && from.delta()) return false;  // what stays must go on scattering smoothly
+        if (i == first && from.delta()) return false;  // it must go on scattering smoothly
       }
       if (!ray || !arrive(walker, *ray, path, i, rng)) return false;
     }

@@ -5,8 +5,8 @@
 //
 // Where the chain starts at a light at infinity its direction x_0 stays and the ray moves across
 // the plane perpendicular to it. The angle (or the distance) is such that the image position moves
-// about as far as the lens perturbation would move it: by the path's lengths, or as the derivatives
-// of the chain say (`anisotropic`).
+// about as far as the lens perturbation would move it: estimated from the path's lengths, or from
+// the derivatives of the chain (`anisotropic`).
 #include "mutation/chain_perturbation.h"
 #include "mutation/image_footprint.h"
 #include "mutation/join.h"
@@ -87,8 +87,8 @@ class CausticPerturbation final : public MeasuredMutation<CausticPerturbation> {
     return chain_.angle(x, a, x.edges() - 1, 1).angular_pdf(angle_between(x.terms[a].w, w));
   }
 
-  /// How far a ray from infinity moves: as far as a pixel is wide where the camera sees the chain's
-  /// end.
+  /// Distances by which a ray from infinity moves: the image radius times the width of a pixel at
+  /// the end of the chain.
   ExponentialRadius offset_radius(const PathState& x) const {
     return chain_.image_radius() * (chain_.pixel_angle(x) * x.terms[x.edges() - 1].distance);
   }

@@ -10,7 +10,7 @@
 namespace mlt {
 namespace {
 
-/// One through each of its quarters.
+/// Walks per cell of the image: one through each of its quarters.
 constexpr int walks_per_cell = 4;
 
 /// Whether a walk by delta lobes ends at a light.
@@ -61,7 +61,7 @@ CertainLight::CertainLight(const Scene& scene, const PathRules& rules, uint64_t 
     }
     filled[cell] = 2 * lights >= walks_per_cell;
   });
-  // The neighbours of filled cells hold the edges of what is seen.
+  // the edges of visible lights are in the neighbours of filled cells
   for (int y = 0; y < cells_.rows; ++y)
     for (int x = 0; x < cells_.columns; ++x)
       if (filled[cells_.index(x, y)])

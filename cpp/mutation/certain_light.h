@@ -1,6 +1,6 @@
-// Light that is left to the independent samples: where most samples of a place see a light
+// Light that is left to the independent samples: where most samples of a cell see a light
 // directly, in a mirror or through glass, they have hardly any noise. Chains would go there often,
-// since lights are bright, and some of their groups more often than others.
+// since lights are bright, and some groups of chains more often than others.
 #pragma once
 
 #include "mutation/raster_cells.h"
@@ -15,17 +15,17 @@ namespace mlt {
 
 class CertainLight {
  public:
-  /// The answer of most_certain() where no path is left to the samples.
+  /// Value of most_certain() where no path is left to the samples.
   static constexpr double no_bound = std::numeric_limits<double>::infinity();
 
-  /// Sends about `walks` walks from the camera, four through each cell of the image. The result is
+  /// Traces about `walks` walks from the camera, four through each cell of the image. The result is
   /// the same for any number of threads.
   CertainLight(const Scene& scene, const PathRules& rules, uint64_t walks, uint64_t seed,
                int threads, const std::atomic<bool>& cancelled);
-  /// Restores one of as many walks from its cells(). Throws RenderError if their number differs.
+  /// Restores one made with `walks` from its cells(). Throws RenderError if their number differs.
   CertainLight(const Raster& raster, uint64_t walks, std::vector<uint8_t> cells);
 
-  /// Paths of a greater certainty are left to the samples there.
+  /// The certainty above which paths are left to the samples at this raster position.
   double most_certain(const Vec2& raster) const { return lit_[cells_.at(raster)] ? 0.5 : no_bound; }
 
   const std::vector<uint8_t>& cells() const { return lit_; }

@@ -34,8 +34,8 @@ double ChainPerturbation::pixel_angle(const PathState& x) const {
   return std::sqrt(1 / (raster_per_direction(x) * cos_lens));
 }
 
-/// Veach 1997, eq. 11.11: the angle that a move of one pixel is seen under from the lens, times the
-/// length of the path between the lens and the chain's near end over the length of the chain.
+/// Veach 1997, eq. 11.11: the angle that a pixel subtends at the lens, times the length of the
+/// path between the lens and the chain's near end over the length of the chain.
 ExponentialRadius ChainPerturbation::angle(const PathState& x, int i, int stop, int step) const {
   const int k = x.edges();
   double seen = 0, chain = 0;

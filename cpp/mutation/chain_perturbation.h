@@ -1,11 +1,11 @@
-// What lens, caustic and multi-chain perturbation share: an end of the path is moved a little, and
-// the move is carried from vertex to vertex (Veach & Guibas 1997, sec. 5.3.2; Veach 1997, sec.
-// 11.3.3).
+// The common part of lens, caustic and multi-chain perturbation: an end of the path is moved a
+// little, and the move is propagated from vertex to vertex (Veach & Guibas 1997, sec. 5.3.2; Veach
+// 1997, sec. 11.3.3).
 //
 // The path is walked from `start` in steps of `step` (-1: from the camera, +1: from the light) up
 // to `stop`; the vertices after `start` up to `stop` move. At a specular vertex the half vector is
 // kept. At a diffuse vertex in between (multi-chain) the direction is perturbed by a small angle.
-// Where `stop` is the light, the last ray has to hit one.
+// If `stop` is the light, the last ray has to hit a light.
 #pragma once
 
 #include "base/params.h"
@@ -20,11 +20,11 @@ namespace mlt {
 struct StepSizes {
   double smallest_pixels = 0.1, largest_share = 0.1;
 };
-/// The same as parameters of a perturbation.
+/// The step sizes as parameters of a perturbation.
 std::vector<Parameter> step_size_parameters();
 StepSizes step_sizes(Params& params);
 
-/// Of two unit vectors; exact for small angles too.
+/// The angle between two unit vectors; exact for small angles too.
 inline double angle_between(const Vec3& a, const Vec3& b) {
   return 2 * std::atan2(length(a - b), length(a + b));
 }
@@ -37,7 +37,7 @@ class ChainPerturbation {
     int start, stop, step;
   };
 
-  /// Moves vertices after span.start up to span.stop; the first of them is where `ray` arrives. The
+  /// Moves vertices after span.start up to span.stop; the first of them is where `ray` hits. The
   /// terms of y are not evaluated.
   bool carry(const PathState& x, const Span& span, Ray ray, PathState& y,
              MutationContext& context) const;
@@ -50,7 +50,7 @@ class ChainPerturbation {
     return walked_density(in, x, y, span, first_coefficient) *
            in.joint(span.step < 0 ? span.stop : span.stop + 1);
   }
-  /// The same up to how `stop` is joined to the rest.
+  /// As density(), without the factor of the edge that joins `stop` to the rest.
   template <class Measure>
   double walked_density(const Measure& in, const PathState& x, const PathState& y, const Span& span,
                         double first_coefficient) const {
@@ -61,14 +61,14 @@ class ChainPerturbation {
     return p;
   }
 
-  /// Radii of a move on the image, in pixels.
+  /// Radii of a step on the image, in pixels.
   const ExponentialRadius& image_radius() const { return image_radius_; }
   /// d(raster area) / d(projected solid angle) at the lens, for the direction of x.
   double raster_per_direction(const PathState& x) const;
-  /// The angle that a pixel is seen under from the lens of x.
+  /// The angle that a pixel subtends at the lens of x.
   double pixel_angle(const PathState& x) const;
-  /// Angles at vertex i by which a direction is perturbed so that the end of the chain, which
-  /// `span` enters there and leaves at `stop`, moves as far as the image radius says.
+  /// Angles by which the direction at vertex i is perturbed so that `stop`, the end of the specular
+  /// chain that begins there, moves by about the image radius.
   ExponentialRadius angle(const PathState& x, int i, int stop, int step) const;
 
   /// A direction at an exponentially distributed angle from `w`.
@@ -86,7 +86,7 @@ class ChainPerturbation {
  private:
   std::optional<Vec3> carried_direction(const PathState& x, const PathState& y, int i, int step,
                                         const Vec3& in, MutationContext& context) const;
-  /// Density with which y's vertex i is left, in projected solid angle, when x is perturbed.
+  /// Density of the direction from y's vertex i, in projected solid angle, when x is perturbed.
   double coefficient(const PathState& x, const PathState& y, int i, int step) const;
 
   const Scene* scene_;

@@ -10,8 +10,8 @@ bool same(const Vertex& a, const Vertex& b) {
          a.at.p == b.at.p && a.at.shape == b.at.shape && a.at.primitive == b.at.primitive;
 }
 
-/// How far, as a sine, the directions at vertex i may be from what a delta prescribes. Vertices are
-/// where rays have arrived that started a little off a surface, so that the directions between them
+/// How far, as a sine, the directions at vertex i may be from those that a delta prescribes. Rays
+/// start a little off a surface, so that the directions between the vertices that they connect
 /// are not those of the rays; the less so, the shorter the edge.
 double delta_tolerance(const Scene& scene, const Path& path, int i) {
   const double near = 1e-2 * scene.bounds().radius;
@@ -21,7 +21,7 @@ double delta_tolerance(const Scene& scene, const Path& path, int i) {
   return 1e-3 * near / shortest;
 }
 
-/// Whether delta vertex i sends what comes from its one neighbour to the other.
+/// Whether delta vertex i scatters light from one of its neighbours to the other.
 bool obeys_delta(const Scene& scene, const Path& path, int i) {
   const Vertex& x = path[i];
   const Bsdf& bsdf = scene.bsdf(x.at);

@@ -1,5 +1,5 @@
-// Evaluating a proposal y of which only the path is known, such as one made in Python: what the
-// mutations here know about their proposals is found from the vertices alone.
+// Evaluation of a proposal y of which only the path is known, such as one made in Python: what C++
+// mutations record about their proposals is computed from the vertices alone.
 #pragma once
 
 #include "mutation/path_target.h"
@@ -7,7 +7,7 @@
 
 namespace mlt {
 
-/// The smallest edit that makes y of x.
+/// The smallest edit that turns x into y.
 Edit difference(const Path& x, const Path& y);
 
 /// Whether light can take the edges that touch vertices first ... last: nothing stands in the way,
@@ -15,11 +15,11 @@ Edit difference(const Path& x, const Path& y);
 bool passable(const Scene& scene, const Path& path, int first, int last, RayCounts& rays);
 
 /// Evaluates y, of which only the path is known; target = 0 also where light cannot take it.
-/// Returns the edit that has made it of x, whose edges are taken to be passable.
+/// Returns the edit that turns x into y; edges of x are taken to be passable.
 Edit evaluate_proposal(const PathTarget& target, const PathState& x, PathState& y, RayCounts& rays);
 
-/// A path of which only the vertices are known, with its terms; target = 0 also where light cannot
-/// take it.
+/// Evaluates a path of which only the vertices are known; target = 0 also where light cannot take
+/// it.
 PathState evaluated(const PathTarget& target, const Path& path, RayCounts& rays);
 
 }  // namespace mlt

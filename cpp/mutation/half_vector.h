@@ -1,6 +1,6 @@
-// Scattering about a microfacet normal h: how a perturbation carries a (nearly) specular vertex
-// along. The half vector is kept and the arriving direction changed, so that the leaving direction
-// follows as it would at a mirror; for a delta vertex h is the shading normal itself. (The
+// Scattering about a microfacet normal h, by which a perturbation is propagated at a (nearly)
+// specular vertex: the half vector is kept and the incident direction changed, so that the outgoing
+// direction turns as at a mirror; for a delta vertex h is the shading normal itself. (The
 // half-vector space of Kaplanyan, Hanika & Dachsbacher 2014; Jacobians from Walter et al. 2007,
 // eqs. 14 and 17.)
 //
@@ -24,14 +24,14 @@ inline std::optional<Vec3> half_vector(const Vec3& in, const Vec3& out, double e
   return h.z < 0 ? -h : h;
 }
 
-/// Where `in` goes when reflected about h; nullopt if it would leave on the other side.
+/// The direction `in`, reflected about h; nullopt if the result is on the other side.
 inline std::optional<Vec3> reflect_about(const Vec3& in, const Vec3& h) {
   const Vec3 out = reflect(in, h);
   if (!same_side(in, out)) return std::nullopt;
   return out;
 }
 
-/// Where `in` goes when refracted about h; nullopt on total internal reflection.
+/// The direction `in`, refracted about h; nullopt on total internal reflection.
 inline std::optional<Vec3> refract_about(const Vec3& in, const Vec3& h, double eta) {
   const double cos_in = dot(in, h);
   const double cos2_out = 1 - sqr(eta) * (1 - sqr(cos_in));

@@ -6,10 +6,10 @@
 namespace mlt {
 namespace {
 
-/// Beyond it the chain's end is near a focus, where a linear map says little.
+/// Largest ratio of the axes; beyond, the chain's end is near a focus, where a linear map fails.
 constexpr double most_anisotropy = 30;
 
-/// The move of x_{k-1} on its surface that is seen as `across`, a move perpendicular to the view.
+/// The move of x_{k-1} on its surface whose projection along the view is `across`.
 Vec3 move_on_surface(const PathState& x, const Vec3& across) {
   const int k = x.edges();
   const Vec3 view = x.terms.direction(k, -1), normal = x[k - 1].at.ng;

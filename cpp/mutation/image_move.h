@@ -1,5 +1,5 @@
-// How a perturbation that starts at the lens begins: the image position moves by a small distance
-// and, with a lens of finite aperture, half of the time the point on the lens too.
+// The first step of a perturbation that starts at the lens: the image position moves by a small
+// distance and, with a lens of finite aperture, half of the time the point on the lens too.
 #pragma once
 
 #include "mutation/chain_perturbation.h"
@@ -12,7 +12,7 @@ class ImageMove {
   ImageMove(const Scene& scene, const ChainPerturbation& chain)
       : camera_(&scene.camera()), chain_(chain) {}
 
-  /// Places the end of y, and returns the ray that leaves it; nullopt if it misses the image.
+  /// Places the camera end of y, and returns the ray from there; nullopt if it misses the image.
   std::optional<Ray> move(const PathState& x, PathState& y, Rng& rng) const {
     const int k = x.edges();
     y.path[k] = x[k];

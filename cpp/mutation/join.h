@@ -1,4 +1,4 @@
-// The edge at which a mutation joins what it has made to the rest of the path.
+// The edge by which a mutation connects the new vertices to the rest of the path.
 #pragma once
 
 #include "mutation/path_state.h"
@@ -6,8 +6,8 @@
 
 namespace mlt {
 
-/// Tests the edge between vertices i - 1 and i of y, which has been evaluated, for what stands in
-/// it.
+/// Tests the visibility of the edge between vertices i - 1 and i of y, which has been evaluated,
+/// and scales y by it.
 inline void join(const Scene& scene, int i, PathState& y, RayCounts& rays) {
   if (!(y.target > 0)) return;
   const double seen = Walker{scene, y.path.time, rays}.join(y[i - 1].at, y[i].at);

@@ -1,7 +1,7 @@
-// What the two perturbations that start at the lens share: the image position moves by a small
+// The two perturbations that start at the lens. In both the image position moves by a small
 // distance (and, with a lens of finite aperture, half of the time the point on the lens too) and
-// the path follows, up to the diffuse vertex that is joined to the rest. They differ in the paths
-// that they suit:
+// the path follows, up to the diffuse vertex that is connected to the rest. They differ in the
+// paths that they suit:
 //
 // The lens perturbation (Veach & Guibas 1997, sec. 5.3.2.1; Veach 1997, sec. 11.3.3.1) has the form
 // (L|D)DS*E: it explores what is seen directly, in mirrors and through glass.
@@ -13,8 +13,8 @@
 //
 // Where specular vertices lead on to the light, LS*E and L(S+D)+S*E, nothing can be joined; Veach
 // leaves these paths to the bidirectional mutation. Here the whole path follows, and its end has to
-// hit a light again: so a lamp is explored in a mirror, and what it lights through glass, seen
-// through glass.
+// hit a light again. So they explore a lamp in a mirror, and surfaces lit through glass that are
+// seen through glass.
 #include "mutation/chain_perturbation.h"
 #include "mutation/image_move.h"
 #include "mutation/join.h"

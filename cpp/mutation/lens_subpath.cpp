@@ -1,7 +1,7 @@
 // The lens subpath mutation (Veach 1997, sec. 11.3.4): the camera end of the path is replaced by a
 // fresh one, for paths of the form ...(L|D)DS*E. A new point on the lens and a new image position
-// are drawn, the walk goes on over surfaces that are (nearly) specular as their BSDF samples it,
-// and the vertex where it stops is joined to the rest of the path.
+// are drawn, the walk goes on over (nearly) specular surfaces by sampling their BSDFs, and the
+// vertex where it stops is connected to the rest of the path.
 #include "mutation/join.h"
 #include "mutation/measured_mutation.h"
 #include "mutation/mutation_registry.h"
@@ -66,7 +66,7 @@ class LensSubpathMutation final : public MeasuredMutation<LensSubpathMutation> {
 
  private:
   /// The vertex that ends the lens subpath: the first from the camera at which a walk may stop; -1
-  /// if the one before it cannot be connected.
+  /// if the one before it is not connectable.
   int stop(const PathState& x) const {
     int i = x.edges() - 1;
     while (i > 0 && (x[i].delta() || stop_probability(x[i].at) == 0)) --i;

@@ -4,14 +4,14 @@
 // constraint representation of the path space for efficient light transport simulation").
 //
 // Of three vertices a, b, c that are not specular and follow one another from the camera to the
-// light, with specular chains between them, a and c stay what they are and b moves: the direction
-// that leaves a (the image position, if a is on the lens) is perturbed and carried through the
+// light, with specular chains between them, a and c stay unchanged and b moves: the direction
+// that leaves a (the image position, if a is on the lens) is perturbed and propagated through the
 // chain from a to b, and the chain from b to c is found by a manifold walk. So light that reaches b
-// through glass from a lamp, be it a point, is followed, which a ray that is carried on from b
-// would hardly hit.
+// through glass from a small lamp, even a point, is explored, which a ray traced on from b would
+// hardly hit.
 //
-// The walk is a function of x and of the new b, but not one that can always be undone. From y it
-// has to lead back to x, or y is rejected.
+// The walk is a function of x and of the new b, but not always an invertible one: if the walk back
+// from y does not lead to x, y is rejected.
 #include "mutation/image_move.h"
 #include "mutation/join.h"
 #include "mutation/manifold_walk.h"
@@ -30,8 +30,8 @@ struct Triple {
   }
 };
 
-/// What a density of vertices i ... j that are found by a walk, and not sampled one by one, is in a
-/// measure.
+/// The factor, in a measure, of the density of vertices i ... j that are found by a walk and not
+/// sampled one by one.
 double between(const AreaMeasure&, int, int) { return 1; }
 double between(const ContributionMeasure& in, int i, int j) {
   double p = in.x[i].inverse_f;
@@ -89,7 +89,7 @@ class ManifoldPerturbation final : public MeasuredMutation<ManifoldPerturbation>
     return t.a == x.edges() ? t.a : t.a - 1;
   }
 
-  /// Calls see(triple) for all that can be moved.
+  /// Calls see(triple) for all triples that can be moved.
   template <class See>
   void for_each_triple(const PathState& x, See&& see) const {
     int a = x.edges();
@@ -122,7 +122,7 @@ class ManifoldPerturbation final : public MeasuredMutation<ManifoldPerturbation>
     });
     return found;
   }
-  /// The one that an edit has moved; a < 0 if there is none.
+  /// The triple that an edit has moved; a < 0 if there is none.
   Triple triple_of(const PathState& x, const Edit& edit) const {
     Triple found{-1, -1, -1};
     for_each_triple(x, [&](const Triple& t) {
@@ -131,7 +131,7 @@ class ManifoldPerturbation final : public MeasuredMutation<ManifoldPerturbation>
     return found;
   }
 
-  /// Whether light takes the same course from a to c.
+  /// Whether light is scattered in the same ways from a to c in x and in y.
   static bool same_form(const PathState& x, const PathState& y, const Triple& t) {
     for (int i = std::max(t.c, 1); i <= std::min(t.a, x.edges() - 1); ++i)
       if (x.specular(i) != y.specular(i) || x[i].lobe != y[i].lobe) return false;
@@ -151,7 +151,7 @@ class ManifoldPerturbation final : public MeasuredMutation<ManifoldPerturbation>
            abs_cos(y[t.a].at, to);
   }
 
-  /// The chain of x from c to `end`, where b is now.
+  /// Walks the chain of x from c to `end`, where b is now.
   bool follow(ManifoldWalk& walk, const PathState& x, const Triple& t, const SurfacePoint& end,
               MutationContext& context) const {
     return walk.start(scene(), x, t.c, t.b) && walk.go(end, x.path.time, context.rays);

@@ -17,7 +17,7 @@ bool ManifoldWalk::start(const Scene& scene, const PathState& x, int c, int b) {
 }
 
 bool ManifoldWalk::go(const SurfacePoint& end, double time, RayCounts& rays) {
-  /// As an angle, seen from the last vertex.
+  /// Distance from the end at which a walk has converged, as an angle seen from the last vertex.
   constexpr double tolerance = 1e-7;
   next_[0] = chain_[0];
   Vec3 move(0);
@@ -45,7 +45,7 @@ bool ManifoldWalk::go(const SurfacePoint& end, double time, RayCounts& rays) {
 Ray ManifoldWalk::first_ray(const Vec3& p, double time) const {
   const SurfacePoint& from = chain_[0].at;
   if (!from.infinite()) {
-    // It starts a little off the surface, but has to meet p.
+    // the ray starts a little off the surface, but has to pass through p
     const Vec3 start = scene_->spawn(from, normalize(p - from.p), time).o;
     return {start, normalize(p - start), time};
   }

@@ -1,9 +1,9 @@
 // The manifold walk: a chain of (nearly) specular vertices between two ends follows when one of the
 // ends moves, while the other stays (Jakob & Marschner 2012, "Manifold exploration", sec. 4.3).
 //
-// Each step moves the first vertex as the derivative of the chain says, and traces a ray from the
-// end that stays through it and on, with the constraints kept; a step that does not come closer is
-// halved. So all that is ever looked at are chains that light can take.
+// Each step moves the first vertex by the derivative of the chain, and traces a ray from the end
+// that stays through it and on, with the constraints kept; a step that does not come closer is
+// halved. So all chains on the way are ones that light can take.
 #pragma once
 
 #include "mutation/path_state.h"
@@ -14,11 +14,11 @@ namespace mlt {
 
 class ManifoldWalk {
  public:
-  /// From the chain of x between vertex c and vertex b > c, of which c stays. False if it cannot be
-  /// followed at all.
+  /// Starts with the chain of x between vertex c and vertex b > c, of which c stays. False if no
+  /// walk is possible from it.
   bool start(const Scene& scene, const PathState& x, int c, int b);
 
-  /// Follows the chain until it ends in `end`, which it then sees; false if it does not get there.
+  /// Walks until the chain ends in `end`, with visibility; false if it does not converge.
   bool go(const SurfacePoint& end, double time, RayCounts& rays);
 
   /// Vertices c + 1 ... b - 1 of the chain.
@@ -30,7 +30,7 @@ class ManifoldWalk {
   static constexpr int most_steps = 20;
   static constexpr double least_step = 1.0 / 64;
 
-  using Chain = std::vector<Vertex>;  ///< With both ends.
+  using Chain = std::vector<Vertex>;  ///< Vertices with both ends.
 
   /// Traces the chain from the end that stays through `p`. Its last vertex becomes the point of the
   /// last ray that is nearest to `end`.

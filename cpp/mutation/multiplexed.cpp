@@ -3,15 +3,15 @@
 //
 // Of the techniques that can make x, one is drawn with the probability p_s(x) / P(x), where P is
 // the sum of all p_s: the balance heuristic. Its inverse turns x into numbers u; these move a
-// little, with a symmetric density S; and the technique makes y of what they have become, v:
+// little, with a symmetric density S; and the technique makes y from the new numbers v:
 //
 //   q_s(x -> y) = p_s(x) / P(x) S(u -> v) p_s(y).
 //
 // The step is reversible for each s on its own. Since p_s(x) S(u -> v) p_s(y) is the same on the
 // way back, P(y) stands for q(x -> y), and the acceptance is min(1, L*(y) P(x) / (L*(x) P(y))).
 //
-// It moves every vertex, for the price of all rays of the path. That pays where specular vertices
-// stand in the way of the cheaper perturbations, so it acts on paths with one.
+// It moves every vertex, at the cost of tracing all rays of the path. That pays where specular
+// vertices defeat the cheaper perturbations, so it acts on paths with one.
 #include "mutation/measured_mutation.h"
 #include "mutation/mutation_registry.h"
 #include "primary/invert_path.h"
@@ -49,7 +49,7 @@ class MultiplexedMutation final : public MeasuredMutation<MultiplexedMutation> {
       found = true;
     });
     if (!found) return std::nullopt;
-    // Where rounding leaves no way back there must be none forth.
+    // a step that cannot be reversed, because of rounding, must not be proposed
     if (!invert_path(scene(), y.path, technique, context.rng, numbers)) return std::nullopt;
     target().evaluate(y);
     return Edit{0, k, k + 1};

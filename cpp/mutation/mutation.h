@@ -1,8 +1,8 @@
 // The contract of a mutation of light paths (Veach 1997, sec. 11.2-11.3).
 //
-// A mutation proposes y from x with density q(x -> y) in the product-area measure of what it
-// inserts. It is right if it leaves L* unchanged, whatever else is mixed with it; the audit tests
-// just that.
+// A mutation proposes y from x with density q(x -> y) in the product-area measure of the vertices
+// that it inserts. It is right if it leaves L* invariant, whatever it is mixed with; the audit
+// tests just that.
 #pragma once
 
 #include "base/rng.h"
@@ -18,25 +18,25 @@
 
 namespace mlt {
 
-/// Paths made of primary samples, and the samples; both keep their memory.
+/// Paths made of primary samples, and the samples; both reuse their buffers.
 struct PrimaryWalks {
   PrimaryNumbers numbers;
   BidirectionalSampler paths;
 };
 
-/// Proposals that came to nothing since a walk along a manifold failed, by which of the two.
+/// Numbers of proposals given up since a manifold walk failed: the one forth, or the one back.
 struct WalkFailures {
   uint64_t there = 0, back = 0;
 };
 
-/// What a chain has for its mutations beside random numbers.
+/// Data of a chain that its mutations share, beside random numbers.
 struct MutationAids {
-  RayCounts rays;                             ///< Traced by its mutations so far.
-  WalkFailures failures;                      ///< Since somebody has last counted them.
+  RayCounts rays;                             ///< Rays that its mutations have traced so far.
+  WalkFailures failures;                      ///< Failures since the counts were last taken.
   std::optional<PrimaryWalks> primary_walks;  ///< Made at their first use.
 };
 
-/// What a proposal may draw on.
+/// The random numbers and the data of the chain that a proposal may use.
 struct MutationContext {
   MutationContext(Rng& rng, MutationAids& aids)
       : rng(rng), rays(aids.rays), failures(aids.failures), aids_(&aids) {}
@@ -47,7 +47,7 @@ struct MutationContext {
     return raster.sample({x, rng.next()});
   }
 
-  /// Without Russian roulette.
+  /// Walks in primary sample space, without Russian roulette.
   PrimaryWalks& primary_walks(const Scene& scene, const PathRules& rules) {
     if (!aids_->primary_walks) {
       BidirectionalSettings settings;
@@ -79,7 +79,7 @@ class Mutation {
   const std::string& name() const { return name_; }
   const PathTarget& target() const { return *target_; }
 
-  /// Can it act on this path? Weight with which it takes part in the choice, 0 or 1.
+  /// Whether it can act on this path: the factor of its weight in the choice of mutations, 0 or 1.
   virtual double suitability(const PathState& x) const = 0;
 
   /// Makes y from x, with its terms evaluated; nullopt if nothing was found. The connecting edge
@@ -91,23 +91,23 @@ class Mutation {
   /// is density(y, x, edit.reversed()).
   virtual double density(const PathState& x, const PathState& y, const Edit& edit) const = 0;
 
-  /// q(x -> y) / |f|, where |f| is that of the part of y that the edit changes: with its edges, its
+  /// q(x -> y) / |f|, where |f| is that of the part of y that the edit changes: its edges, its
   /// vertices and their neighbours. By default the quotient of the two; MeasuredMutation cancels
-  /// what they have in common.
+  /// their common factors.
   virtual double relative_density(const PathState& x, const PathState& y, const Edit& edit) const;
 
-  /// q(x -> y) / L*(y) and q(y -> x) / L*(x), up to |f| of what the edit leaves as it is.
+  /// q(x -> y) / L*(y) and q(y -> x) / L*(x), up to |f| of the part that the edit does not change.
   Transition quotients(const PathState& x, const PathState& y, const Edit& edit) const {
     const double forward = relative_density(x, y, edit) / y.target;
-    // Rounding may have taken the light of the path that a chain starts from: it leaves at once.
+    // by rounding, a chain may start from a path without light, which it leaves at once
     if (x.target == 0) return {forward, std::numeric_limits<double>::max()};
     return {forward, relative_density(y, x, edit.reversed()) / x.target};
   }
 
-  /// Whether it alone can make every path of every other.
+  /// Whether it alone can turn any path into any other.
   virtual bool ergodic() const { return false; }
 
-  /// Weights of the mutations go by path length.
+  /// The row of the weights of mutations for x: they depend on path length.
   static size_t row(const PathState& x) { return static_cast<size_t>(x.edges()); }
   static MoveChoice* kept_choice(const PathState& x) { return &x.choice; }
 

@@ -1,5 +1,5 @@
-// Chains of light paths, moved by a mixture of mutations: what mlt renders with, what adapts its
-// weights, what the audit and Python look at.
+// Chains of light paths, moved by a mixture of mutations: used by mlt to render and to adapt its
+// weights, by the audit and by Python.
 #pragma once
 
 #include "markov/chain.h"

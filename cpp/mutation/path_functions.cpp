@@ -35,7 +35,7 @@ int octant(const SurfacePoint& at, const Bounds& bounds) {
   return octant(at.infinite() ? at.p : at.p - bounds.center);
 }
 
-/// Bounded from below, so that no single path outweighs the others.
+/// The logarithm, bounded from below, so that no single path outweighs the others.
 double bounded_log(double x) { return std::log(std::max(x, 1e-12)); }
 
 void collect(const Scene& scene, const PathState& x, Collector& g) {

@@ -1,5 +1,5 @@
-// Functions g of a light path that together see most of what a wrong mutation may disturb: where
-// the path meets the image, its length, its light, its vertices, its edges, its colour.
+// Functions g of a light path that together detect most errors of a mutation: its image position,
+// its length, its light, its vertices, its edges, its colour.
 #pragma once
 
 #include "mutation/path_state.h"

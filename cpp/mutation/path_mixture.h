@@ -27,8 +27,8 @@ class PathMixture : public Mixture<const Mutation> {
  public:
   static constexpr size_t stages = 2;
 
-  /// After a rejected proposal of mutation i comes one of timid[i]; without, or where that is
-  /// nullptr, none.
+  /// A rejected proposal of mutation i is followed by one of timid[i], unless that is nullptr or
+  /// missing.
   PathMixture(Mutations moves, std::shared_ptr<const MixtureWeights> weights, Mutations timid = {})
       : Mixture(std::move(moves), std::move(weights)), timid_(std::move(timid)) {}
 
@@ -40,11 +40,11 @@ class PathMixture : public Mixture<const Mutation> {
 
  private:
   Transition propose_again(const PathState& x, const PathState& y1, PathState& y2, Rng& rng);
-  /// Of the mutation that was chosen, from any state.
+  /// The transition of the mutation that was chosen for the first stage, from any state.
   Transition bold_transition(const PathState& x, const PathState& y);
 
   Mutations timid_;
-  Transition first_;  ///< Of the first stage.
+  Transition first_;  ///< Transition of the first stage.
 };
 
 }  // namespace mlt

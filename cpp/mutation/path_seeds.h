@@ -21,7 +21,7 @@ class PathSeeds {
     return sum;
   }
 
-  /// One of a candidate's paths, chosen in proportion to its weight.
+  /// Chooses one of a candidate's paths in proportion to its weight.
   PathState pick(Rng rng, Rng choice) {
     PathState x;
     double sum = 0;
@@ -33,13 +33,13 @@ class PathSeeds {
     return x;
   }
 
-  /// Calls found(connection, weight) for each path of a candidate that brings light, whether or not
-  /// it is a part of the target.
+  /// Calls found(connection, weight) for each path of a candidate that carries light, whether or
+  /// not it is a part of the target.
   template <class Sampler, class Found>
   void draw(Sampler sampler, Found&& found) {
     draw(position(sampler), sampler, found);
   }
-  /// The same at a raster position.
+  /// As above, at a raster position.
   template <class Sampler, class Found>
   void draw(const Vec2& raster, Sampler& sampler, Found&& found) {
     paths_.sample(raster, sampler, rays_);
@@ -50,22 +50,22 @@ class PathSeeds {
     });
   }
 
-  /// Also for paths without a weight: calls found(connection).
+  /// Calls found(connection) for each path of a candidate, also for paths without a weight.
   template <class Sampler, class Found>
   void draw_all(Sampler sampler, Found&& found) {
     paths_.sample(position(sampler), sampler, rays_);
     paths_.connect_all(rays_, found);
   }
 
-  /// The path of a connection that was just found.
+  /// Assembles and evaluates the path of a connection that was just found.
   void assemble(const Connection& connection, PathState& x) const {
     paths_.assemble(connection, x.path);
     target_->evaluate(x);
   }
 
-  /// Traced so far.
+  /// Rays traced so far.
   const RayCounts& rays() const { return rays_; }
-  /// Traced since this was last asked.
+  /// Rays traced since the last call; resets rays().
   RayCounts take_rays() { return std::exchange(rays_, {}); }
 
  private:

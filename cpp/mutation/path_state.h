@@ -10,8 +10,8 @@
 
 namespace mlt {
 
-/// What a mutation does to a path: vertices first ... last are deleted (none if last = first - 1)
-/// and `inserted` new ones take their place.
+/// The change of a path by a mutation: vertices first ... last are deleted (none if last = first -
+/// 1) and replaced by `inserted` new ones.
 struct Edit {
   int first = 0, last = -1, inserted = 0;
 
@@ -22,9 +22,9 @@ struct Edit {
 
 /// The specular chains next to the lens, along which a perturbation of the image position moves.
 struct CameraChains {
-  /// The diffuse vertex that is joined to the rest; 0: a light that is hit; -1: neither.
+  /// The diffuse vertex that is connected to the rest; 0: a light that is hit; -1: neither.
   int stop = -1;
-  int further = 0;  ///< Chains behind the first diffuse vertex.
+  int further = 0;  ///< Number of chains beyond the first diffuse vertex.
 
   bool operator==(const CameraChains& other) const {
     return stop == other.stop && further == other.further;
@@ -38,12 +38,12 @@ struct PathState {
   Color rgb{0};       ///< f(x) / |f(x)|, see relative_contribution.
   double target = 0;  ///< L*(x) / |f(x)|, times the factor of two-stage sampling.
 
-  /// Functions of the path that are kept by those who ask for them.
+  /// Functions of the path, cached when first evaluated.
   struct Known {
     Kept<double> over_density, over_bidirectional_density;  ///< See PathTarget.
-    Kept<std::optional<ImageFootprint>> footprint;          ///< Of the caustic perturbation.
+    Kept<std::optional<ImageFootprint>> footprint;          ///< For the caustic perturbation.
     Kept<CameraChains> camera_chains;
-    Kept<int> triples;  ///< That the manifold perturbation may move.
+    Kept<int> triples;  ///< Number of triples that the manifold perturbation may move.
 
     void forget() {
       over_density.forget();
@@ -54,17 +54,17 @@ struct PathState {
     }
   };
   mutable Known known;
-  mutable MoveChoice choice;  ///< Kept by the mixture that moves the path.
+  mutable MoveChoice choice;  ///< Cached by the mixture that moves the path.
 
-  /// L*(x), times that factor. May overflow or underflow; chains do without it.
+  /// L*(x), times the factor of two-stage sampling. May over- or underflow; chains do not need it.
   double brightness() const { return target * magnitude(terms, 0, edges()); }
 
   int edges() const { return path.edges(); }
   const Vertex& operator[](size_t i) const { return path[i]; }
-  bool specular(int i) const { return terms[i].specular; }  ///< S, not D, of inner vertex i.
+  bool specular(int i) const { return terms[i].specular; }  ///< Whether inner vertex i is S, not D.
 };
 
-/// y becomes x with the edit applied; the inserted vertices and their terms are yet to be filled
+/// Sets y to x with the edit applied; the inserted vertices and their terms are yet to be filled
 /// in.
 void splice(const PathState& x, const Edit& edit, PathState& y);
 

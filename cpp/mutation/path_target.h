@@ -1,4 +1,4 @@
-// L*(x), the target of Metropolis light transport: which paths of a scene count, and for how much.
+// L*(x), the target of Metropolis light transport: its value for each path of a scene.
 #pragma once
 
 #include "mutation/certain_light.h"
@@ -13,8 +13,8 @@ namespace mlt {
 
 class PathSeeds;
 
-/// The techniques of independent samples: all of bidirectional path tracing, or those two of them
-/// that path tracing has.
+/// The techniques of independent samples: all of bidirectional path tracing, or the two of path
+/// tracing.
 enum class SampleTechniques : uint8_t { all, path_tracing };
 
 class PathTarget {
@@ -27,18 +27,18 @@ class PathTarget {
   const ScenePtr& scene_ptr() const { return scene_; }
   const PathRules& rules() const { return rules_; }
   double near_specular() const { return near_specular_; }
-  /// Two-stage sampling: a factor of the target; nullptr without.
+  /// The map of two-stage sampling, a factor of the target; nullptr without.
   const TargetMap* map() const { return map_ ? &*map_ : nullptr; }
   void set_map(TargetMap map) { map_ = std::move(map); }
 
-  /// Which samples find the paths of chains, too.
+  /// The techniques of the independent samples, which find the paths of chains too.
   SampleTechniques techniques() const { return techniques_; }
   void set_techniques(SampleTechniques techniques) { techniques_ = techniques; }
 
-  /// Paths that are left to the samples; nullptr if there are none.
+  /// The light that is left to the samples; nullptr if there is none.
   const CertainLight* certain_light() const { return certain_light_ ? &*certain_light_ : nullptr; }
   void leave_to_samples(CertainLight light) { certain_light_ = std::move(light); }
-  /// Paths of a greater `certainty` have no target at this raster position.
+  /// The certainty above which paths have no target at this raster position.
   double most_certain(const Vec2& raster) const {
     return certain_light_ ? certain_light_->most_certain(raster) : CertainLight::no_bound;
   }
@@ -58,18 +58,18 @@ class PathTarget {
                  : x.target / path_tracing_density(ContributionMeasure{x.terms});
     });
   }
-  /// The same for all techniques of bidirectional path tracing.
+  /// T(x) / P(x) for all techniques of bidirectional path tracing.
   double over_bidirectional_density(const PathState& x) const {
     return x.known.over_bidirectional_density.get(
         [&] { return x.target / total_density(ContributionMeasure{x.terms}); });
   }
-  /// Computes what depends on vertices first ... last and their neighbours, then f and L*. Without
-  /// visibility. target = 0 if the path carries no light, misses the image or breaks the rules.
+  /// Computes the terms that depend on vertices first ... last and their neighbours, then f and L*,
+  /// without visibility. target = 0 if the path has no light, misses the image or breaks the rules.
   void evaluate(int first, int last, PathState& x) const;
-  /// The same for a path of which nothing has been computed yet.
+  /// Computes all terms of a path, then f and L*, as above.
   void evaluate(PathState& x) const;
 
-  /// Heckbert's notation, by near_specular.
+  /// The path in Heckbert's notation, by near_specular.
   std::string signature(const Path& path) const {
     return mlt::signature(*scene_, path, near_specular_);
   }

@@ -1,4 +1,4 @@
-// What one mutation would make of a path: proposals to look at, none of which is accepted.
+// Proposals of one mutation from a path, for inspection: none is accepted.
 #pragma once
 
 #include "mutation/path_chain.h"

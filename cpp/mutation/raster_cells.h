@@ -1,4 +1,4 @@
-// The image in equal cells.
+// The image, divided into equal cells.
 #pragma once
 
 #include "scene/camera.h"

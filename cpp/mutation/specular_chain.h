@@ -1,6 +1,6 @@
-// The constraints of a chain of specular vertices between two ends that do not move along: a block
-// tridiagonal system, of 2 x 2 blocks, in the positions of the vertices on their surfaces (Jakob &
-// Marschner 2012, sec. 4.2).
+// The constraints of a chain of specular vertices between two given ends: a block tridiagonal
+// system, of 2 x 2 blocks, in the positions of the vertices on their surfaces (Jakob & Marschner
+// 2012, sec. 4.2).
 #pragma once
 
 #include "mutation/specular_constraint.h"
@@ -13,8 +13,8 @@ class SpecularChain {
  public:
   static constexpr int most_vertices = 12;
 
-  /// Of `count` vertices, and the two ends before the first and after the last of them: on the
-  /// light side and on the camera side. `vertices` points to the end on the light side.
+  /// The chain of `count` vertices, and the two ends before the first and after the last of them:
+  /// on the light side and on the camera side. `vertices` points to the end on the light side.
   SpecularChain(const Scene& scene, const Vertex* vertices, int count);
 
   /// abs(det(d g / d x)) by areas of the vertices, over |dg / d omega_c| of each delta: the density
@@ -27,8 +27,8 @@ class SpecularChain {
 
  private:
   double density_ = 1;
-  Frame tangents_{};     ///< At the first vertex.
-  PlaneByPoint by_end_;  ///< The first vertex by the end on the camera side, in these.
+  Frame tangents_{};     ///< Tangents at the first vertex.
+  PlaneByPoint by_end_;  ///< Derivative of the first vertex by the camera end, in tangents_.
 };
 
 }  // namespace mlt

@@ -6,7 +6,7 @@
 namespace mlt {
 namespace {
 
-/// eta wl + wc, and what it is made of.
+/// The sum eta wl + wc, and its terms.
 struct Sum {
   Vec3 wl, wc, value;
   double eta;
@@ -32,7 +32,7 @@ Vec3 by_end(const SurfacePoint& at, const SurfacePoint& end, const Vec3& w, cons
   return (v - w * dot(v, w)) / length(end.p - at.p);
 }
 
-/// The derivative of v . (s, t) by the normal that Frame::around makes s and t of.
+/// The derivative of v . (s, t) by the normal from which Frame::around makes s and t.
 PlaneByPoint by_normal(const Vec3& n, const Vec3& v) {
   const double sign = std::copysign(1.0, n.z), a = -1 / (sign + n.z);
   const double x = n.x, y = n.y;

@@ -1,12 +1,12 @@
-// What holds at a (nearly) specular vertex between its two neighbours, and how it changes when one
-// of the three moves (Jakob & Marschner 2012, "Manifold exploration", sec. 4.1).
+// The constraint at a (nearly) specular vertex between its two neighbours, and its derivatives by
+// the positions of the three (Jakob & Marschner 2012, "Manifold exploration", sec. 4.1).
 //
 // With the directions wl and wc to the neighbour on the light side and on the camera side, and eta
 // = eta_l / eta_c (1 for reflection), eta wl + wc lies along the normal about which light is
 // reflected or refracted. The constraint g is its part across the shading normal n:
 //
 //   at a delta      g = (eta wl + wc) . (s, t)  = 0
-//   otherwise       g = h . (s, t)  stays what it is, with h = +-(eta wl + wc) / |eta wl + wc|
+//   otherwise       g = h . (s, t)  is constant, with h = +-(eta wl + wc) / |eta wl + wc|
 //
 // where s and t are functions of n alone, so that they turn with it in a known way.
 #pragma once
@@ -27,7 +27,7 @@ struct PlaneByPoint {
   Vec3 s{0}, t{0};
 
   Vec2 operator*(const Vec3& move) const { return {dot(s, move), dot(t, move)}; }
-  /// By coordinates in the plane of f.s and f.t.
+  /// The derivative by coordinates in the plane of f.s and f.t.
   Mat2 along(const Frame& f) const { return {*this * f.s, *this * f.t}; }
 };
 
@@ -35,31 +35,31 @@ inline PlaneByPoint operator*(const Mat2& m, const PlaneByPoint& d) {
   return {m[0][0] * d.s + m[1][0] * d.t, m[0][1] * d.s + m[1][1] * d.t};
 }
 
-/// How light goes on at a vertex of a specular chain.
+/// How light is scattered at a vertex of a specular chain.
 struct SpecularScattering {
   bool delta = true, reflected = false;
-  bool front = false;  ///< Whether the light side is in front of the surface, by n.
+  bool front = false;  ///< Whether the light side is in front of the surface, as n points.
   Vec2 g{0};           ///< The constraint's value.
 };
 
 struct SpecularConstraint {
   Vec2 g{0};
-  PlaneByPoint before, own, after;  ///< By the vertex on the light side, this and the next one.
+  PlaneByPoint before, own, after;  ///< Derivatives by the vertices, from the light side on.
   /// At a delta |dg / d omega_c| by projected solid angle about the geometric normal, else 1.
   double per_direction = 1;
 };
 
-/// nullopt where it is not differentiable.
+/// The constraint at `own`; nullopt where it is not differentiable.
 std::optional<SpecularConstraint> specular_constraint(const Scene& scene,
                                                       const SurfacePoint& before, const Vertex& own,
                                                       const SurfacePoint& after);
 
-/// How light goes on at `own`, to be kept.
+/// How light is scattered at `own`, which a walk keeps.
 std::optional<SpecularScattering> specular_scattering(const Scene& scene,
                                                       const SurfacePoint& before, const Vertex& own,
                                                       const SurfacePoint& after);
 
-/// The direction in which light that has come from wl goes on; nullopt if it does not.
+/// The direction in which light from wl is scattered; nullopt if there is none.
 std::optional<Vec3> scattered_direction(const Scene& scene, const Vertex& own,
                                         const SpecularScattering& scattering, const Vec3& wl);
 

@@ -10,8 +10,8 @@ namespace {
 /// The coarse image in blocks of one size.
 struct Blocks {
   int columns, rows;
-  std::vector<double> sums, squares, cells;  ///< Of samples; and of how many cells.
-  std::vector<double> brightness = {};       ///< Per cell.
+  std::vector<double> sums, squares, cells;  ///< Sums over samples; numbers of cells.
+  std::vector<double> brightness = {};       ///< Brightness per cell.
 
   size_t index(int x, int y) const { return static_cast<size_t>(y) * columns + x; }
 };
@@ -30,7 +30,7 @@ Blocks larger_blocks(const Blocks& small) {
   return large;
 }
 
-/// Between the middles of the blocks; x and y are in blocks.
+/// The brightness, interpolated between the middles of the blocks; x and y are in blocks.
 double interpolated_brightness(const Blocks& blocks, double x, double y) {
   const double u = std::clamp(x - 0.5, 0.0, blocks.columns - 1.0),
                v = std::clamp(y - 0.5, 0.0, blocks.rows - 1.0);
@@ -44,7 +44,7 @@ double interpolated_brightness(const Blocks& blocks, double x, double y) {
   return along_row(y0) + (v - y0) * (along_row(y1) - along_row(y0));
 }
 
-/// How many equal samples the block has.
+/// The effective number of samples in the block.
 double effective_count(const Blocks& blocks, size_t i) {
   return blocks.squares[i] > 0 ? blocks.sums[i] * blocks.sums[i] / blocks.squares[i] : 0;
 }

@@ -1,15 +1,15 @@
-// Two-stage sampling (Veach & Guibas 1997, sec. 5.4; Veach 1997, sec. 11.4.3): a coarse image tells
-// how bright each region is, and the target is divided by it, so that dark regions get their share
-// of the mutations. Any positive map is right; a good one spreads the noise evenly.
+// Two-stage sampling (Veach & Guibas 1997, sec. 5.4; Veach 1997, sec. 11.4.3): a coarse image
+// estimates the brightness of each region, and the target is divided by it, so that dark regions
+// get their share of the mutations. Any positive map is right; a good one spreads noise evenly.
 //
-// The coarse image is made of few samples. A cell believes its own in proportion to their number n
-// among those of k more samples that say what the block around it says:
+// The coarse image is made of few samples. The brightness of a cell is a mean of that of its own n
+// samples and, with the weight of k samples, that of the block around it:
 //
 //   I = (n I_own + k I_block) / (n + k)
 //
-// and so does that block of 2 x 2 cells with the block around it, up to the whole image (the mean
-// of a normal distribution whose prior is known as well as by k samples). Samples count by how even
-// they are: n is a block's (sum w)^2 / sum w^2 (L. Kish, "Survey sampling", 1965), shared among its
+// and so is that of this block of 2 x 2 cells, and so on, up to the whole image (the posterior mean
+// of a normal distribution whose prior weighs as much as k samples). Here n is the effective sample
+// size of a block, (sum w)^2 / sum w^2 (L. Kish, "Survey sampling", 1965), shared among its
 // parts, so that one bright sample counts as one, and an empty cell among bright ones is dark.
 #pragma once
 
@@ -22,7 +22,7 @@ namespace mlt {
 
 class TargetMap {
  public:
-  /// Cells of about `cell` pixels over the sampled domain.
+  /// A map with cells of about `cell` pixels over the sampled domain.
   TargetMap(const Raster& raster, int cell);
 
   /// Adds one sample of the coarse image.
@@ -40,11 +40,11 @@ class TargetMap {
 
  private:
   RasterCells cells_;
-  std::vector<double> factors_;  ///< Before finish(): sums of brightness.
-  std::vector<double> squares_;  ///< Sums of its squares.
+  std::vector<double> factors_;  ///< Factors of the cells; before finish(), sums of brightness.
+  std::vector<double> squares_;  ///< Sums of squares of the brightness.
 };
 
-/// Without any sample yet, of 8 x 8 pixels a cell.
+/// An empty coarse image with cells of 8 x 8 pixels.
 inline TargetMap blank_image(const Raster& raster) { return TargetMap(raster, 8); }
 
 }  // namespace mlt

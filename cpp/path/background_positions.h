@@ -1,5 +1,5 @@
 // Positions on lights at infinity, sampled for many vertices together: the tables of environment
-// maps are large, so one alone would wait for memory.
+// maps are large, so a single sample would wait for memory.
 #pragma once
 
 #include "path/walk.h"
@@ -10,9 +10,9 @@ namespace mlt {
 
 class BackgroundPositions {
  public:
-  /// The position that (u.y, u.z) gives on the light that u.x chooses goes to `light` when
-  /// sample_all() is called, if that light is at infinity; false if it is not. `light` stays where
-  /// it is.
+  /// Queues the sampling of a position by (u.y, u.z) on the light that u.x chooses, if that light
+  /// is at infinity; else returns false. sample_all() writes the result to `light`, which must not
+  /// move until then.
   bool add(const Scene& scene, Vec3 u, LightSample& light) {
     const EmitterChoice choice = scene.choose_emitter(u.x);
     if (!choice.emitter->infinite()) return false;

@@ -3,11 +3,11 @@
 namespace mlt {
 namespace {
 
-/// What an edge finds at the vertex of a subpath that it joins to the other one.
+/// The terms of a connecting edge at the vertex of one of the subpaths.
 struct JointEnd {
   Color value{0};      ///< Throughput times f.
-  double onwards = 0;  ///< Density of the edge's direction in projected solid angle,
-  double back = 0;     ///< and that of the direction to the previous vertex.
+  double onwards = 0;  ///< Density of the edge's direction in projected solid angle.
+  double back = 0;     ///< Density of the direction to the previous vertex.
 };
 
 JointEnd any_end(const Scene& scene, const WalkVertex& x, Subpath::From from, const Vec3& w,
@@ -20,7 +20,7 @@ JointEnd any_end(const Scene& scene, const WalkVertex& x, Subpath::From from, co
   return {x.throughput * terms.f, terms.pdf_from_camera, terms.pdf_from_light};
 }
 
-/// Where the edge leaves the vertex along w; false if no light does.
+/// Finds the terms at the vertex for an edge along w; false if it carries no light.
 inline bool find_end(const Scene& scene, const WalkVertex& x, Subpath::From from, const Vec3& w,
                      bool strict, JointEnd& end) {
   const SurfacePoint& at = x.vertex.at;
@@ -40,14 +40,14 @@ inline bool find_end(const Scene& scene, const WalkVertex& x, Subpath::From from
 
 }  // namespace
 
-/// How much more often technique s = 1 makes x_0 than a walk from it does.
+/// The density of x_0 in technique s = 1 over that of a walk that starts there.
 double BidirectionalSampler::direct_over_walk(const Vertex& x0, double from_light,
                                               const SurfacePoint& x1) const {
   return settings_.sample_direct ? direct_position_pdf(*scene_, x0, x1) / from_light : 1;
 }
 
-/// How often technique s = i counts whose joint lies before vertex i of the light subpath.
-/// `joined`: vertex i scatters smoothly, since the path is joined there.
+/// How often technique s = i counts (TechniqueSums::with), with its joint before vertex i of the
+/// light subpath. `joined`: vertex i scatters smoothly, since the path is joined there.
 double BidirectionalSampler::light_technique(int i, bool joined) const {
   if (i == 0) return can_be_hit(*scene_, light_[0].vertex) ? 1 : 0;
   if (!connectable(light_[i - 1].vertex)) return 0;
@@ -55,14 +55,14 @@ double BidirectionalSampler::light_technique(int i, bool joined) const {
   return i == 1 ? light_direct_over_walk_ : 1;
 }
 
-/// The same for technique t = i and the camera subpath.
+/// How often technique t = i counts, with its joint before vertex i of the camera subpath.
 double BidirectionalSampler::camera_technique(int i, bool joined) const {
   if (i <= 1 && !settings_.light_image) return 0;
   if (i == 0) return lens_can_be_hit_ ? 1 : 0;
   return connectable(camera_[i - 1].vertex) && (joined || connectable(camera_[i].vertex)) ? 1 : 0;
 }
 
-/// Up to each vertex: those before it have the density that the other walk gives them.
+/// Computes light_sums_ and camera_sums_ up to each vertex.
 void BidirectionalSampler::sum_techniques() {
   light_sums_.clear();
   camera_sums_.clear();
@@ -106,7 +106,7 @@ bool BidirectionalSampler::evaluate_hit_light(Connection& connection) {
   return weigh(connection, 1, {}, above, end.survival);
 }
 
-/// A matte vertex knows the density of going back from it: the walk has summed up already.
+/// See above; a matte vertex has its density `back`, so the walk has computed the sums already.
 inline TechniqueSums BidirectionalSampler::below_joint(int i, const WalkVertex& x,
                                                        double back) const {
   if (x.vertex.at.matte.known()) return light_sums_[i];
@@ -165,7 +165,7 @@ void BidirectionalSampler::sample_backgrounds() {
   backgrounds_.sample_all(*scene_);
 }
 
-/// The end x_0 that is seen from camera vertex t - 1.
+/// Samples x_0 for camera vertex t - 1 (next-event estimation).
 bool BidirectionalSampler::choose_direct(int t) {
   const bool sampled = !direct_backgrounds_.empty() && direct_backgrounds_[t - 1].emitter;
   const LightSample chosen =
@@ -175,7 +175,7 @@ bool BidirectionalSampler::choose_direct(int t) {
   if (!(direct_pdf_ > 0)) return false;
   direct_.vertex = light_vertex(*chosen.emitter, chosen.x0.at);
   direct_.throughput = Color(1 / direct_pdf_);
-  // A light at infinity looks the same from everywhere.
+  // The density on a light at infinity does not depend on x_1.
   direct_.forward =
       chosen.emitter->infinite() ? direct_pdf_ : light_position_pdf(*scene_, direct_.vertex);
   return true;
@@ -199,7 +199,7 @@ bool BidirectionalSampler::evaluate_hit_lens(Connection& connection, RayCounts& 
   connection.raster = *raster;
   connection.contribution = last.next_throughput * terms.f;
   if (is_black(connection.contribution)) return false;
-  if (light_.goes_on() && s - 1 == static_cast<int>(light_.size())) {  // Nobody has looked yet.
+  if (light_.goes_on() && s - 1 == static_cast<int>(light_.size())) {  // Not yet traced.
     const double seen = walker(rays).join(last.vertex.at, *hit);
     if (seen == 0) return false;
     connection.contribution *= seen;

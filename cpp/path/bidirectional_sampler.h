@@ -13,8 +13,8 @@ namespace mlt {
 
 struct BidirectionalSettings {
   PathRules rules;
-  bool light_image = true;    ///< Techniques t <= 1, which write anywhere on the image.
-  bool sample_direct = true;  ///< s = 1 chooses x_0 as seen from x_1.
+  bool light_image = true;    ///< Techniques t <= 1, which splat anywhere on the image.
+  bool sample_direct = true;  ///< s = 1 samples x_0 for x_1.
   Heuristic heuristic = Heuristic::power;
 };
 
@@ -32,14 +32,14 @@ struct Connection {
   Color contribution;  ///< f / p, without the weight.
   double weight;
   const Emitter* emitter = nullptr;  ///< The light of a path with s = 0.
-  /// Times the contribution: f / P, with P the density of all techniques together.
+  /// The factor that turns the contribution into f / P, with P the density of all techniques.
   double own_share = 0;
-  double survival = 1;   ///< Probability that Russian roulette has let both subpaths come here.
-  double certainty = 0;  ///< See `certainty` of a path.
+  double survival = 1;   ///< Probability of both subpaths in Russian roulette.
+  double certainty = 0;  ///< See certainty() of path_terms.h.
 };
 
-/// A light and a camera subpath, and the connections between them. Keeps its memory from sample to
-/// sample.
+/// A light and a camera subpath, and the connections between them. Reuses its buffers from sample
+/// to sample.
 class BidirectionalSampler {
  public:
   BidirectionalSampler(const Scene& scene, const BidirectionalSettings& settings)
@@ -56,7 +56,7 @@ class BidirectionalSampler {
     sum_techniques();
   }
 
-  /// Draws a raster position, and what the technique needs of both subpaths; then calls
+  /// Draws a raster position, and the parts of both subpaths that the technique needs; then calls
   /// found(connection), at most once. Of several lights at infinity, technique s = 0 chooses one.
   template <class Sampler, class Found>
   void sample_technique(const Technique& technique, Sampler& sampler, RayCounts& rays,
@@ -106,14 +106,14 @@ class BidirectionalSampler {
       for (int s = 2; s <= static_cast<int>(light_.size()) + 1; ++s) hit_lens(s, rays, found);
   }
 
-  /// The connections with t = 1.
+  /// Calls found(connection) for each connection with t = 1.
   template <class Found>
   void connect_to_lens(RayCounts& rays, Found&& found) {
     for (int s = 1; s <= std::max(1, static_cast<int>(light_.size())); ++s)
       connect(s, 1, rays, found);
   }
 
-  /// The path of a connection that was just found, as a value.
+  /// Assembles the path of a connection that was just found.
   void assemble(const Connection& connection, Path& path) const;
 
   const BidirectionalSettings& settings() const { return settings_; }
@@ -123,7 +123,7 @@ class BidirectionalSampler {
 
  private:
   bool wanted(int s, int t) const { return settings_.rules.wants(s + t - 1); }
-  /// Whether x_0 is chosen as seen from x_1.
+  /// Whether x_0 is sampled for x_1 (next-event estimation).
   bool is_direct(int s) const { return s == 1 && settings_.sample_direct; }
   Walker walker(RayCounts& rays) const { return {*scene_, time_, rays}; }
   /// A light walk may still hit the lens from its last vertex.
@@ -206,7 +206,7 @@ class BidirectionalSampler {
     if (wanted(s, 0) && evaluate_hit_lens(connection, rays)) found(connection);
   }
 
-  // See `certainty` of a path, that one walk alone has made.
+  // certainty() of a path that one walk alone has made.
   double certainty_of_hit_light(int t) const {
     double p = 1;
     for (int i = 1; i < t - 1; ++i)
@@ -219,9 +219,9 @@ class BidirectionalSampler {
       p *= connectable(light_[i].vertex) ? 0 : light_[i - 1].reverse / light_[i].G;
     return p;
   }
-  /// The techniques whose joint lies beyond vertex i of a subpath, or one that was chosen in place
-  /// of it, if the path is joined there; `back` is the density of going back from it, in projected
-  /// solid angle.
+  /// The sums over the techniques whose joint lies beyond vertex i of a subpath, for a path joined
+  /// at x, which is that vertex or one sampled in its place; `back` is the density of the
+  /// direction to the previous vertex, in projected solid angle.
   TechniqueSums below_joint(int i, const WalkVertex& x, double back) const;
   TechniqueSums above_joint(int i, const WalkVertex& x, double back) const;
 
@@ -231,13 +231,13 @@ class BidirectionalSampler {
   void sample_backgrounds();
   bool choose_direct(int t);
 
-  // The techniques that could have made a path of these subpaths, by the vertex of a subpath (its
-  // end is number 0) that a joint has moved over.
+  // The techniques that can make a path of these subpaths, indexed by the vertex of a subpath (its
+  // end is number 0) that the joint has moved over.
   void sum_techniques();
   double light_technique(int i, bool joined = false) const;
   double camera_technique(int i, bool joined = false) const;
-  /// Techniques with a joint before or at vertex i of a subpath, whose density as made by a walk
-  /// from the other end is `reverse`.
+  /// The sums over techniques with a joint before or at vertex i of a subpath, whose density by a
+  /// walk from the other end is `reverse`.
   TechniqueSums below_light(int i, double reverse) const {
     return light_sums_[i].over(reverse / light_[i].forward);
   }
@@ -246,7 +246,7 @@ class BidirectionalSampler {
   }
   double direct_over_walk(const Vertex& x0, double from_light, const SurfacePoint& x1) const;
 
-  /// Fills in the weights; false if this technique counts for nothing.
+  /// Computes the weights; false if that of this technique is 0.
   bool weigh(Connection& connection, double own, const TechniqueSums& below,
              const TechniqueSums& above, double survival) const;
 
@@ -258,15 +258,15 @@ class BidirectionalSampler {
   double time_ = 0;
   std::vector<Vec3> direct_u_;  ///< Numbers for s = 1, one triple for each camera vertex.
   BackgroundPositions backgrounds_;
-  /// The lights that these numbers give, without an emitter where it is not at infinity; or empty.
+  /// Lights at infinity sampled by direct_u_; without an emitter where another is chosen. Or empty.
   std::vector<LightSample> direct_backgrounds_;
-  WalkVertex direct_;      ///< The end chosen for s = 1 as seen from x_1,
-  double direct_pdf_ = 0;  ///< and the density of choosing it so.
+  WalkVertex direct_;      ///< x_0 of technique s = 1, sampled for x_1.
+  double direct_pdf_ = 0;  ///< Density of sampling direct_ for x_1.
   Vertex lens_;            ///< The end that was hit for t = 0.
-  /// Techniques whose joint is in one of the subpaths, up to vertex i of it: their densities over
-  /// that of the technique which joins before vertex i.
+  /// Sums over the techniques whose joint is in one of the subpaths, up to vertex i: of their
+  /// densities over that of the technique which joins before vertex i.
   std::vector<TechniqueSums> light_sums_, camera_sums_;
-  double light_direct_over_walk_ = 1;  ///< If x_0 and x_1 are the first vertices of `light_`.
+  double light_direct_over_walk_ = 1;  ///< direct_over_walk() of the first two vertices of light_.
 };
 
 }  // namespace mlt

@@ -10,7 +10,7 @@ namespace {
 
 constexpr uint64_t most_samples = 10000;
 
-/// Roulette only where nothing else ends a walk.
+/// The rules without roulette, unless nothing else ends a walk.
 PathRules without_roulette(PathRules rules) {
   rules.rr_depth = rules.max_depth < 0 ? 5 : rules.max_depth;
   return rules;
@@ -37,7 +37,7 @@ std::vector<FoundPath> connected(const Scene& scene, const PathRules& rules, con
   return found;
 }
 
-/// One of them, chosen by weight; nullptr if there is none with a weight.
+/// One of the paths, chosen by weight; nullptr if there is none with a weight.
 FoundPath* choose(std::vector<FoundPath>& found, RandomSampler& sampler) {
   const auto weight = [](const FoundPath& path) {
     const double w = target_luminance(path.estimate);

@@ -1,5 +1,5 @@
-// Paths to look at: those that one sample of path tracing or of bidirectional path tracing finds,
-// each as a value with what it brings to the image.
+// Paths for inspection: those that one sample of path tracing or of bidirectional path tracing
+// finds, each with its contribution to the image.
 #pragma once
 
 #include "path/bidirectional_sampler.h"
@@ -13,29 +13,29 @@ struct FoundPath {
   Path path;
   int s = 0, t = 0;  ///< The technique that found it.
   Vec2 raster{0};
-  /// f w / p, as the radiance that the sample has shown at `raster`; those with t >= 2 of one
-  /// sample add up to the sample.
+  /// f w / p, as radiance at `raster`; the estimates with t >= 2 of one sample add up to the
+  /// sample.
   Color estimate{0};
 };
 
-/// What one sample of a pixel has seen.
+/// The result of one sample of a pixel.
 struct Replay {
   Vec2 raster{0};
   Color radiance{0};
   std::vector<FoundPath> paths;
 };
 
-/// By what f / p is to be multiplied to be a radiance: importance integrates to 1 over the image,
-/// and raster positions have their density over the sampled domain.
+/// The factor that turns f / p into radiance: importance integrates to 1 over the image, and
+/// raster positions have their density over the sampled domain.
 inline double radiance_scale(const Scene& scene) {
   return scene.camera().raster().pixels() / scene.camera().raster().sampled_area();
 }
 
-/// A connection that `paths` has just found, as a value.
+/// A connection that `paths` has just found, with its path.
 FoundPath found_path(const Scene& scene, const BidirectionalSampler& paths,
                      const Connection& connection);
 
-/// Watches trace_path (see IgnorePaths) and keeps the paths that it finds.
+/// Watches trace_path (see IgnorePaths) and records the paths that it finds.
 class PathRecorder : public IgnorePaths {
  public:
   PathRecorder(const Scene& scene, const Vec2& raster, const SurfacePoint& lens, double time,
@@ -52,13 +52,13 @@ class PathRecorder : public IgnorePaths {
   const Scene* scene_;
   Vec2 raster_;
   double time_;
-  std::vector<Vertex> walk_;  ///< From the lens.
+  std::vector<Vertex> walk_;  ///< Vertices of the walk, from the lens on.
   std::vector<FoundPath>* found_;
 };
 
 struct InspectSettings {
   uint64_t seed = 0;
-  PathRules rules{10};  ///< Roulette only if there is no longest path.
+  PathRules rules{10};  ///< Without roulette if max_depth is bounded.
 };
 
 /// A path through a pixel: samples of path tracing without roulette are taken until one finds
@@ -67,7 +67,7 @@ struct InspectSettings {
 FoundPath trace_path_through(const Scene& scene, const Vec2i& pixel,
                              const InspectSettings& settings);
 
-/// The same anywhere on the image, by all techniques of bidirectional path tracing.
+/// A path anywhere on the image, found by any technique of bidirectional path tracing, as above.
 FoundPath sample_path(const Scene& scene, const InspectSettings& settings);
 
 }  // namespace mlt

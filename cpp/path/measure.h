@@ -5,8 +5,8 @@
 // In the second one a density is the quotient p / |f|, formed vertex by vertex: the G of an edge
 // that was sampled cancels, and a direction that was sampled by the BSDF leaves the quotient of its
 // density and its value. So the product does not overflow, whatever the scale of the scene and the
-// length of the path. Only the part of the path that was made needs to be looked at: |f| of the
-// rest is a factor that q(x -> y) / L*(y) and q(y -> x) / L*(x) share.
+// length of the path. Only the part of the path that was replaced needs to be evaluated: |f| of the
+// rest is a common factor of q(x -> y) / L*(y) and q(y -> x) / L*(x).
 //
 // In a measure the density of x_j, sampled from its neighbour x_i, is the coefficient at x_i times
 // step(i, j); the edge that technique s joins contributes the factor joint(s).
@@ -41,7 +41,7 @@ template <class Measure>
 double from_light(const Measure& in, int i) {
   return i == 0 ? in.x[0].from_light : in.x[i - 1].vertex.pdf_from_light * in.step(i - 1, i);
 }
-/// The same for a camera walk.
+/// Density of x_i made by a camera walk.
 template <class Measure>
 double from_camera(const Measure& in, int i) {
   return i == in.x.edges() ? in.x[i].from_camera
@@ -54,7 +54,7 @@ double from_camera(const Measure& in, int i) {
 template <class Measure>
 double total_density(const Measure& in, int first, int end, double hit_light = 1) {
   const auto joint = [&](int s) { return can_sample(in.x, s) ? in.joint(s) : 0.0; };
-  double walk = 1;  // of the vertices before i
+  double walk = 1;  // density of the vertices before i
   double sum = joint(first) * (first == 0 ? hit_light : 1);
   for (int i = first; i < end; ++i) {
     walk *= from_light(in, i);
@@ -68,8 +68,8 @@ double total_density(const Measure& in) {
   return total_density(in, 0, in.x.edges() + 1);
 }
 
-/// p_{0,k+1}(x) + p_{1,k}(x): of the two techniques of path tracing. It does not join the lens to a
-/// light.
+/// p_{0,k+1}(x) + p_{1,k}(x), the density of the two techniques of path tracing, which does not
+/// join the lens to a light.
 template <class Measure>
 double path_tracing_density(const Measure& in) {
   const PathTerms& x = in.x;

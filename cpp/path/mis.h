@@ -10,8 +10,8 @@ namespace mlt {
 
 enum class Heuristic { balance, power, maximum };
 
-/// The weights of one technique: by the heuristic that was asked for, and p_s / P, which is that of
-/// the balance heuristic.
+/// The weights of one technique: by the chosen heuristic, and by the balance heuristic, which is
+/// p_s / P.
 struct MisWeights {
   double chosen, balance;
 };
@@ -28,8 +28,8 @@ struct MisWeights {
 struct TechniqueSums {
   double sum = 0, squares = 0, largest = 0;
 
-  /// The sums with one technique more, which counts `technique` times: 1; 0 if it cannot make the
-  /// path; direct / from_light of x_0 if it is s = 1.
+  /// The sums with one more technique, which counts `technique` times: 1; 0 if it cannot make the
+  /// path; direct / from_light of x_0 for s = 1.
   TechniqueSums with(double technique) const {
     return {technique + sum, sqr(technique) + squares, std::max(technique, largest)};
   }
@@ -49,7 +49,7 @@ inline MisWeights mis_weights(double own, const TechniqueSums& below, const Tech
   switch (heuristic) {
     case Heuristic::balance: break;
     case Heuristic::power: return {sqr(own) / (sqr(own) + below.squares + above.squares), balance};
-    case Heuristic::maximum:  // Of equal techniques the first one.
+    case Heuristic::maximum:  // the first of equal techniques
       return {below.largest < own && above.largest <= own ? 1.0 : 0.0, balance};
   }
   return {balance, balance};

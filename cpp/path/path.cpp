@@ -4,7 +4,7 @@ namespace mlt {
 
 namespace {
 
-/// Visits the members of a vertex; a writer and a reader share it.
+/// Visits the members of a vertex, for writing and for reading.
 template <class V, class Visit>
 void for_each_member(V& x, Visit&& visit) {
   visit(x.kind);

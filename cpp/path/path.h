@@ -1,5 +1,5 @@
 // A light path as a value: x_0 on a light ... x_k on the camera's lens, always in that direction,
-// whichever way it was made.
+// by whichever technique it was made.
 #pragma once
 
 #include "base/bytes.h"
@@ -13,7 +13,7 @@ struct Path {
   std::vector<Vertex> vertices;
   double time = 0;
 
-  /// What moves is not moved along.
+  /// Sets the time of all vertices; their positions stay the same.
   void set_time(double moment) {
     time = moment;
     for (Vertex& x : vertices) x.at.time = moment;
@@ -28,11 +28,11 @@ struct Path {
 void save(ByteWriter& bytes, const Path& path);
 void load(ByteReader& bytes, Path& path);
 
-/// Where the path meets the image; nullopt if it does not.
+/// The raster position of the path; nullopt if it misses the image.
 std::optional<Vec2> raster_position(const Scene& scene, const Path& path);
 
-/// Whether vertex i scatters (almost) in one direction: a delta, or rougher than nothing but below
-/// the threshold. A function of the BSDF, the position and the two directions alone.
+/// Whether a vertex scatters (almost) in one direction: by a delta, or with a roughness below the
+/// threshold. A function of the BSDF, the position and the two directions alone.
 inline bool is_specular(const Scene& scene, const Vertex& x, const Vec3& wl, const Vec3& wc,
                         double near_specular) {
   if (x.delta()) return true;

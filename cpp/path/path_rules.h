@@ -1,4 +1,4 @@
-// What a light path may be, whichever method makes it.
+// The rules that light paths obey, whatever technique makes them.
 #pragma once
 
 #include <algorithm>
@@ -10,14 +10,14 @@ struct PathRules {
   int max_depth = -1;  ///< Edges of the longest path; 1: lights seen directly; -1: unbounded.
   int min_depth = 1;   ///< Edges of the shortest path.
   int rr_depth = 5;    ///< From this depth on Russian roulette may end a walk.
-  static constexpr int no_roulette = std::numeric_limits<int>::max();  ///< As rr_depth: never.
+  static constexpr int no_roulette = std::numeric_limits<int>::max();  ///< An rr_depth: never.
   bool hide_emitters = false;   ///< Leave out lights that the camera sees directly.
   bool strict_normals = false;  ///< See `consistent_sides`.
 
-  /// Longer paths are never found: their vertices would take too much memory.
+  /// Edges of the longest path that is ever found: vertices take memory.
   static constexpr int longest = 1 << 16;
   int most_edges() const { return max_depth < 0 ? longest : std::min(max_depth, longest); }
-  /// Whether paths of this many edges are to be found.
+  /// Whether paths with this number of edges are rendered.
   bool wants(int edges) const {
     return edges >= min_depth && edges <= most_edges() && !(edges == 1 && hide_emitters);
   }

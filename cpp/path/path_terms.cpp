@@ -3,7 +3,7 @@
 namespace mlt {
 namespace {
 
-/// Less is black: the tail of a lobe, so far out that products of its inverse might overflow.
+/// The least |f_i| that is not black: in the tail of a lobe, products of 1 / |f_i| might overflow.
 constexpr double least_f = 1e-100;
 
 }  // namespace
@@ -20,7 +20,7 @@ void update_terms(const Scene& scene, const Path& path, const TermSettings& sett
   const int k = path.edges(), begin = std::max(0, first - 1), end = std::min(k, last + 1);
   const Vertex* vertices = path.vertices.data();
   TermsAt* at = terms.at.data();
-  // A light at infinity is the same whatever is next to it.
+  // The terms of a light at infinity do not depend on its neighbour.
   const bool same_light = first > 0 && vertices[0].at.infinite();
   Vec3 wl = begin > 0 ? terms.direction(begin, -1) : Vec3(0);
   for (int i = begin; i <= end; ++i) {

@@ -14,10 +14,10 @@
 
 namespace mlt {
 
-/// How the techniques make x_i.
+/// The densities with which the techniques make x_i.
 struct VertexDensities {
   double from_light = 0;     ///< Density of x_i made by a light walk, in the measure of x_i.
-  double from_camera = 0;    ///< The same for a camera walk.
+  double from_camera = 0;    ///< Density of x_i made by a camera walk.
   bool connectable = false;  ///< Whether an edge may be made by connection at x_i.
 };
 
@@ -27,7 +27,7 @@ struct Edge {
   double distance = 0;  ///< Infinite where one end is at infinity.
   double G = 0;         ///< G(a, b), without visibility.
 };
-/// Written in place: copying the struct right after its members are stored stalls the processor.
+/// Computes an edge in place: copying the struct right after its members are stored would stall.
 inline void find_edge(const SurfacePoint& a, const SurfacePoint& b, Edge& edge) {
   if (a.infinite() || b.infinite()) {
     edge.w = direction(a, b);
@@ -48,7 +48,7 @@ inline Edge edge_between(const SurfacePoint& a, const SurfacePoint& b) {
   return edge;
 }
 
-/// What the path's formulas need of x_i, and of the edge that leads on from it (i < k).
+/// The terms of x_i, and of the edge from x_i to x_{i+1} (i < k).
 struct TermsAt : VertexDensities, Edge {
   bool specular = false;  ///< S or D (see signature) by `TermSettings::near_specular`.
   VertexTerms vertex;     ///< f_i and the two coefficients.
@@ -59,9 +59,9 @@ struct TermsAt : VertexDensities, Edge {
 struct PathTerms {
   std::vector<TermsAt> at;  ///< i = 0 ... k.
   bool light_can_be_hit = false, camera_can_be_hit = false;
-  /// Density of x_0 in the technique s = 1, which may choose it to be seen from x_1.
+  /// Density of x_0 in the technique s = 1, which may sample it for x_1.
   double direct = 0;
-  std::optional<Vec2> raster;  ///< Where the path meets the image; nullopt if it does not.
+  std::optional<Vec2> raster;  ///< Raster position; nullopt if the path misses the image.
 
   int edges() const { return static_cast<int>(at.size()) - 1; }  ///< k
   /// Unit direction at x_i towards x_{i + step}, where step is 1 or -1.
@@ -71,12 +71,12 @@ struct PathTerms {
 };
 
 struct TermSettings {
-  bool sample_direct = true;  ///< Technique s = 1 chooses x_0 as seen from x_1.
+  bool sample_direct = true;  ///< Technique s = 1 samples x_0 for x_1.
   bool strict_normals = false;
   double near_specular = 0;  ///< Smooth vertices below this roughness count as specular.
 };
 
-/// All terms, from the vertices alone. `terms` keeps its memory.
+/// Computes all terms, from the vertices alone. The buffers of `terms` are reused.
 void compute_terms(const Scene& scene, const Path& path, const TermSettings& settings,
                    PathTerms& terms);
 
@@ -99,8 +99,8 @@ double magnitude(const PathTerms& terms, int i, int j);
 /// f(x) / |f(x)|: a colour, whatever the length of the path and the scale of the scene.
 Color relative_contribution(const PathTerms& terms);
 
-/// Can technique s make the path? Only if neither end of the connecting edge is a delta vertex;
-/// s = 0 needs a light, s = k + 1 a lens, that a walk can hit.
+/// Whether technique s can make the path: only if neither end of the connecting edge is a delta
+/// vertex; s = 0 needs a light, s = k + 1 a lens, that a walk can hit.
 inline bool can_sample(const PathTerms& terms, int s) {
   if (s == 0) return terms.light_can_be_hit;
   if (s > terms.edges()) return terms.camera_can_be_hit;

@@ -8,7 +8,7 @@
 
 namespace mlt {
 
-/// beta = 2 of Veach 1997, eq. 9.13, for two techniques.
+/// The power heuristic with beta = 2 (Veach 1997, eq. 9.13) for two techniques.
 inline double power_heuristic(double pdf, double other) {
   return sqr(pdf) / (sqr(pdf) + sqr(other));
 }
@@ -20,15 +20,15 @@ inline double per_solid_angle(const Vec3& from, const SurfacePoint& x0, const Ve
   return length_squared(x0.p - from) / abs_cos(x0, w);
 }
 
-/// Density in solid angle with which next-event estimation at `from` chooses x0, seen along w.
+/// Density in solid angle with which next-event estimation at `from` samples x0, in direction w.
 inline double direct_pdf(const Scene& scene, const Emitter& emitter, const Vec3& from,
                          const SurfacePoint& x0, const Vec3& w) {
   return scene.emitter_probability(emitter.index()) * emitter.pdf_direct(from, x0) *
          per_solid_angle(from, x0, w);
 }
 
-/// What is emitted towards the camera where a ray along w ends: calls visit(emitter, x0, radiance)
-/// for the surface `at` that was hit, or (nullptr) for everything at infinity.
+/// Finds the emission towards the camera where a ray along w ends: calls visit(emitter, x0,
+/// radiance) for the surface `at` that was hit, or (nullptr) for every light at infinity.
 template <class Visit>
 void visit_emission(const Scene& scene, const SurfacePoint* at, const Vec3& w, Visit&& visit) {
   if (at) {
@@ -46,7 +46,7 @@ void visit_emission(const Scene& scene, const SurfacePoint* at, const Vec3& w, V
   }
 }
 
-/// The sum of it; `weight(emitter, x0)` is the MIS weight of having found x0 this way.
+/// The sum of that emission; `weight(emitter, x0)` is the MIS weight of having hit x0.
 template <class Weight>
 Color emission(const Scene& scene, const SurfacePoint* at, const Vec3& w, Weight&& weight) {
   Color sum(0);
@@ -57,15 +57,15 @@ Color emission(const Scene& scene, const SurfacePoint* at, const Vec3& w, Weight
   return sum;
 }
 
-/// What a position on a light, chosen by next-event estimation, sends through a point if nothing
-/// stands between them.
+/// The light from a position sampled by next-event estimation that is scattered at a point, if it
+/// is visible from there.
 struct DirectLight {
   SurfacePoint x0;
   Color radiance{0};
 };
 
-/// The light that arrives at `at` and goes on towards wc; `weight(pdf_light, pdf_bsdf)` is the MIS
-/// weight, of densities in solid angle.
+/// The light that is scattered at `at` towards wc, without visibility; `weight(pdf_light,
+/// pdf_bsdf)` is the MIS weight, of densities in solid angle.
 template <class Weight>
 DirectLight unshadowed_light(const Scene& scene, const LightSample& light, const SurfacePoint& at,
                              const Vec3& wc, bool strict, Weight&& weight) {
@@ -81,7 +81,7 @@ DirectLight unshadowed_light(const Scene& scene, const LightSample& light, const
   return {light.x0.at, radiance * s.f * (std::abs(s.cos_l) * mis / pdf)};
 }
 
-/// The same of the light that u chooses, as far as it is seen.
+/// The light that is scattered at `at` towards wc from a light sampled by u, with visibility.
 template <class Weight>
 Color direct_light(const Walker& walker, const SurfacePoint& at, const Vec3& wc, const Vec3& u,
                    bool strict, Weight&& weight) {
@@ -92,14 +92,14 @@ Color direct_light(const Walker& walker, const SurfacePoint& at, const Vec3& wc,
 
 /// One scattering event of a walk from the camera.
 struct ScatterSample {
-  Vec3 w;        ///< Towards the light side.
-  Color weight;  ///< Of radiance: f |cos| / pdf.
-  double pdf;    ///< Solid angle, or the probability of the delta lobe.
+  Vec3 w;        ///< Direction to the light side.
+  Color weight;  ///< Factor of radiance: f |cos| / pdf.
+  double pdf;    ///< In solid angle, or the probability of the delta lobe.
   Lobe lobe;
   double eta2;  ///< The factor of radiance in `weight` that is due to refraction alone.
 };
 
-/// Samples the direction from which the light that goes on along wc may have come.
+/// Samples the direction of the incident light that is scattered towards wc.
 inline std::optional<ScatterSample> scatter_to_light(const Walker& walker, const SurfacePoint& at,
                                                      const Vec3& wc, const Vec3& u, bool strict) {
   const auto sample = walker.scatter(at, wc, u);
@@ -118,53 +118,53 @@ inline std::optional<ScatterSample> scatter_to_light(const Walker& walker, const
   return ScatterSample{w, s.f * (factor / s.pdf_from_camera), s.pdf_from_camera, lobe, eta2};
 }
 
-/// Where chains find the same paths (FamilyWeights): T / P of a path over c, for an L* of f / P
-/// that is 1. With the balance heuristic f / P is the radiance that a path has brought here,
-/// without roulette.
+/// For the weight w1 of paths that chains find too (FamilyWeights): T / (P c) of a path whose f / P
+/// has L* = 1. With the balance heuristic f / P is the radiance of a path, without roulette.
 struct ChainFactor {
   double factor = 0;
-  /// Chains do not find paths with a `certainty` above it.
+  /// Chains do not find paths with a greater `certainty`.
   double most_certain = std::numeric_limits<double>::infinity();
 };
 
 struct CameraWalk;
 
-/// Who watches trace_path is told of each step, in this order; this one is not interested.
+/// A watcher of trace_path: its functions are called at each step, in this order. This one ignores
+/// them.
 struct IgnorePaths {
-  /// Before either of them: a path was found that brings this radiance to the camera.
+  /// Called before hit() or connect(): a path with this radiance was found.
   void find(const CameraWalk&, const Color& /*radiance*/, double /*certainty*/) {}
-  /// A light was hit at x0; its radiance towards w is to be multiplied by `throughput`.
+  /// A light was hit at x0; `throughput` is the factor of its radiance towards w.
   void hit(const Emitter&, const SurfacePoint& /*x0*/, const Vec3& /*w*/,
            const Color& /*throughput*/) {}
   void arrive(const SurfacePoint&) {}
-  /// A position on a light, which sample_direct_position finds by `u`, was seen from there, with
-  /// this result.
+  /// The last vertex was connected to a position on a light, sampled by sample_direct_position with
+  /// `u`; `radiance` is the result.
   void connect(const Vec3& /*u*/, const Color& /*radiance*/) {}
   void scatter(Lobe) {}
 };
 
-/// A path that grows from the camera, and what it has found.
+/// A walk from the camera, and the radiance that it has found.
 struct CameraWalk {
   CameraWalk(const Ray& first) : ray(first), previous(first.o) {}
 
-  Ray ray;  ///< Along which it goes on.
+  Ray ray;  ///< The next ray.
   Color radiance{0}, throughput{1};
   Vec3 previous;           ///< Its last vertex.
-  double scatter_pdf = 0;  ///< With which that one chose the ray, in solid angle,
-  bool delta = true;       ///< or by a delta lobe, or it is the lens.
-  double eta2 = 1;         ///< The factor of the throughput that undoes refraction.
-  double certainty = 1;    ///< See `certainty` of a path; up to here.
-  double survival = 1;     ///< Probability that Russian roulette has let it come here.
-  RayCounts rays;          ///< That a PathWave has traced for it.
+  double scatter_pdf = 0;  ///< Density of the ray in solid angle.
+  bool delta = true;       ///< Whether `previous` is the lens, or scattered by a delta.
+  double eta2 = 1;         ///< Factor that cancels refraction in the throughput.
+  double certainty = 1;    ///< See certainty() of path_terms.h; up to here.
+  double survival = 1;     ///< Probability of having survived Russian roulette.
+  RayCounts rays;          ///< Rays that a PathWave has traced for it.
 
-  Heuristic heuristic = Heuristic::power;  ///< Of light sampling and scattering.
+  Heuristic heuristic = Heuristic::power;  ///< For the two techniques.
   ChainFactor chain_factor;
 
   /// The MIS weight of one of the two techniques.
   double mis(double pdf, double other) const {
     return heuristic == Heuristic::balance ? pdf / (pdf + other) : power_heuristic(pdf, other);
   }
-  /// w1 of a path of this certainty that brings this radiance.
+  /// The weight w1 of a path with this certainty and radiance.
   double own_share(const Color& found, double its_certainty = 0) const {
     const auto& [factor, most_certain] = chain_factor;
     return factor > 0 && its_certainty <= most_certain
@@ -174,7 +174,7 @@ struct CameraWalk {
   void take(const Color& found, double share) { radiance += found * share; }
 };
 
-/// The numbers that a vertex takes.
+/// The random numbers of a vertex.
 struct VertexNumbers {
   Vec2 light, direction;
   double choice, lobe, roulette;
@@ -183,7 +183,7 @@ struct VertexNumbers {
   Vec3 for_scattering() const { return {lobe, direction}; }
 };
 
-/// Adds what is emitted where the ray ends: at the surface `at`, or (nullptr) outside the scene.
+/// Adds the emission where the ray ends: at the surface `at`, or (nullptr) outside the scene.
 template <class Watcher = IgnorePaths>
 void find_light(const Scene& scene, CameraWalk& walk, const SurfacePoint* at,
                 Watcher&& watcher = Watcher()) {
@@ -211,7 +211,7 @@ inline bool survive(const PathRules& rules, int depth, double u, CameraWalk& wal
   return true;
 }
 
-/// Goes on from the surface that is the depth-th vertex after the lens; false ends the walk.
+/// Scatters at the surface that is the depth-th vertex after the lens; false ends the walk.
 template <class Watcher = IgnorePaths>
 bool scatter(const Walker& walker, const PathRules& rules, int depth, const SurfacePoint& at,
              const VertexNumbers& numbers, CameraWalk& walk, Watcher&& watcher = Watcher()) {
@@ -230,15 +230,14 @@ bool scatter(const Walker& walker, const PathRules& rules, int depth, const Surf
   return true;
 }
 
-/// Whether lights are to be sampled from the depth-th vertex after the lens.
+/// Whether lights are sampled for the depth-th vertex after the lens.
 inline bool wants_direct_light(const Scene& scene, const PathRules& rules, int depth,
                                const SurfacePoint& at) {
   return (at.matte.known() || scene.bsdf(at).has_smooth()) && rules.wants(depth + 1);
 }
 
-/// The radiance that arrives from the scene along the ray of a walk. Every vertex draws the same
-/// number of numbers from the sampler, so that a small change of the numbers is a small change of
-/// the path.
+/// The radiance from the scene along the ray of a walk. Every vertex draws the same number of
+/// random numbers, so that a small change of the numbers is a small change of the path.
 template <class Sampler, class Watcher = IgnorePaths>
 Color trace_path(const Scene& scene, const PathRules& rules, CameraWalk walk, Sampler& sampler,
                  RayCounts& rays, Watcher&& watcher = Watcher()) {

@@ -5,7 +5,7 @@
 namespace mlt {
 namespace {
 
-/// Whether there is what the vertex says it lies on.
+/// Whether the light or surface of the vertex exists in the scene.
 bool in_scene(const Scene& scene, const Vertex& x) {
   const bool on_shape = x.at.shape != SurfacePoint::no_shape;
   if (on_shape) {

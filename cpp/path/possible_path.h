@@ -1,12 +1,12 @@
-// A test of paths from a file: a wrong index would be followed out of an array.
+// A test of paths from a file, whose indices may be out of bounds.
 #pragma once
 
 #include "path/path.h"
 
 namespace mlt {
 
-/// Whether it leads from a light over surfaces to the camera, all of which the scene has. Where the
-/// vertices lie is not looked at.
+/// Whether a path leads from a light over surfaces to the camera, all of which exist in the scene.
+/// The positions of the vertices are not checked.
 bool possible(const Scene& scene, const Path& path);
 
 }  // namespace mlt

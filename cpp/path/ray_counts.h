@@ -6,8 +6,8 @@
 
 namespace mlt {
 
-/// How many rays a piece of work has traced. Counting them throws Abandoned, now and then, if the
-/// work was given up.
+/// How many rays a piece of work has traced. Counting them throws Abandoned if the work was
+/// abandoned, which is checked now and then.
 struct RayCounts {
   uint64_t intersect = 0, occluded = 0;
 

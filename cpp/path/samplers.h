@@ -1,5 +1,5 @@
-// Sources of uniform numbers for a walk. All have next(), next2(), and begin(stream), which says
-// what the numbers that follow are for; walks are templates over them.
+// Sources of uniform numbers for a walk. All have next(), next2(), and begin(stream), which sets
+// the purpose of the numbers that follow; walks are templates over them.
 #pragma once
 
 #include "base/rng.h"
@@ -8,8 +8,8 @@
 
 namespace mlt {
 
-/// What numbers are for: the walk from the camera, that from the light, and the choice of lights as
-/// seen from the vertices of the former.
+/// The purposes of random numbers: the walk from the camera, that from the light, and next-event
+/// estimation at the vertices of the former.
 enum class Stream { camera, light, direct };
 inline constexpr size_t stream_count = 3;
 
@@ -29,21 +29,21 @@ class RandomSampler {
 };
 
 /// The samples of one pixel: the first pairs of numbers are stratified over the pixel's samples,
-/// the others are independent. Each is found directly from its position.
+/// the others are independent. Each is computed directly from its position.
 class PixelSampler {
  public:
-  /// Image position, lens, and the light and direction of the first vertices.
+  /// Stratified pairs: image position, lens, and the light and direction of the first vertices.
   static constexpr uint32_t stratified_pairs = 6;
   struct Position {
-    uint32_t pairs = 0;  ///< Of the stratified ones, that have been taken;
-    uint32_t words = 0;  ///< of the independent numbers.
+    uint32_t pairs = 0;  ///< Stratified pairs that have been taken.
+    uint32_t words = 0;  ///< Independent numbers that have been taken.
     uint32_t last_pair = stratified_pairs;
 
     /// Where the numbers of a stream begin, whatever the others have taken: those of the camera
     /// after the image position, those of the light with its position and direction, and direct
     /// light with the lens and the vertex after it.
     Position begin(Stream stream) const {
-      constexpr uint32_t words_of_stream = 1 << 20;  // A walk has most_edges() vertices at most.
+      constexpr uint32_t words_of_stream = 1 << 20;  // a walk has most_edges() vertices at most
       switch (stream) {
         case Stream::camera: break;
         case Stream::light: return {4, words_of_stream, 6};
@@ -79,7 +79,7 @@ class PixelSampler {
   uint64_t stream() const { return stream_; }
   uint32_t index() const { return index_; }
   const Position& position() const { return at_; }
-  /// Of the independent numbers.
+  /// The key of the independent numbers.
   static uint64_t key_of(uint64_t stream, uint32_t index) {
     return mix_bits(mix_bits(mix_bits(stream) ^ static_cast<uint64_t>(Purpose::pixel)) ^ index);
   }

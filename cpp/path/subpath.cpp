@@ -99,7 +99,7 @@ bool Subpath::scatter(const Walker& walker, WalkVertex& x, const Vec3& u, bool s
   return true;
 }
 
-/// The same where the surface is matte: the coefficient is |w.ns| / (pi |w.ng|), and f has the same
+/// See scatter(); on a matte surface the coefficient is |w.ns| / (pi |w.ng|), and f has the same
 /// quotient of cosines, of the direction on the light side (see VertexTerms).
 bool Subpath::scatter_matte(const WalkVertex& x, const Vec2& u, bool strict, Step& step) const {
   const SurfacePoint& at = x.vertex.at;

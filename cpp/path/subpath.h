@@ -12,10 +12,10 @@ namespace mlt {
 
 /// One vertex of a subpath; number 0 is the end of the path (on the light, or on the lens).
 struct WalkVertex {
-  Vertex vertex;             ///< Its lobe is the one by which the walk went on.
+  Vertex vertex;             ///< With the lobe by which the walk was scattered.
   Color throughput{0};       ///< alpha: f / p of everything before this vertex scatters.
   Color next_throughput{0};  ///< alpha of the next vertex.
-  /// Probability that Russian roulette lets the walk come here, and to the next vertex.
+  /// Probability of surviving Russian roulette up to here, and up to the next vertex.
   double survival = 1, next_survival = 1;
   Vec3 towards_previous{0};
   Vec3 towards_next{0};  ///< As sampled; meaningless if `absorbed`.
@@ -25,9 +25,9 @@ struct WalkVertex {
   /// Density of towards_next in projected solid angle, for this walk.
   double next_coefficient = 0;
 
-  /// Where a path may be joined to a matte vertex, what all its joints have in common.
+  /// The terms that all joints of a matte vertex have in common, where a path may be joined.
   struct MatteJoint {
-    /// Of towards_previous against the shading normal; 0: nothing is scattered to or from there.
+    /// Cosine of towards_previous with the shading normal; 0: nothing is scattered there.
     double cosine = 0;
     Color value{0};   ///< Throughput times f, for joints of a camera walk without |w.ns| / |w.ng|.
     double back = 0;  ///< Density of towards_previous in projected solid angle.
@@ -37,10 +37,10 @@ struct WalkVertex {
   bool absorbed() const { return next_coefficient == 0; }  ///< No direction was sampled here.
 };
 
-/// How far a walk goes at most.
+/// The greatest length of a walk.
 struct WalkLength {
   int vertices;
-  bool goes_on;  ///< A direction is drawn at the last vertex, too.
+  bool goes_on;  ///< Whether a direction is drawn at the last vertex, too.
 };
 
 class Subpath {
@@ -52,16 +52,15 @@ class Subpath {
   size_t size() const { return size_; }
   const WalkVertex& operator[](size_t i) const { return vertices_[i]; }
   From from() const { return from_; }
-  /// With which the walk left its end; for a light at infinity it starts outside the scene.
+  /// The ray from the end of the walk; for a light at infinity it starts outside the scene.
   const Ray& first_ray() const { return first_ray_; }
 
   void clear() { size_ = 0; }
-  /// Starts at an end whose position has this density; returns the vertex to be given its first
-  /// direction.
+  /// Starts at an end whose position has this density; its first direction is to be set later.
   void start(const Vertex& end, double position_pdf);
 
   /// Walks on from the first vertex until it is absorbed or long enough. Camera walks end in a
-  /// vertex at infinity when they leave the scene among lights that are there.
+  /// vertex at infinity when they leave the scene, if there are lights at infinity.
   template <class Sampler>
   void walk(const Walker& walker, const PathRules& rules, const Departure& first,
             const WalkLength& most, Sampler& sampler) {
@@ -85,20 +84,20 @@ class Subpath {
   bool goes_on() const { return goes_on_; }
 
  private:
-  /// Adds the vertex that the ray ends in; false if the walk ends there or finds none.
+  /// Adds the vertex that the ray hits; false if the walk ends there or the ray hits none.
   bool trace(const Walker& walker, const PathRules& rules, const Ray& ray);
-  /// Where the walk has arrived at a matte surface.
+  /// Computes the terms for joints at a matte vertex.
   void prepare_joints(WalkVertex& x, bool strict_normals) const;
   /// Samples a direction at the last vertex; false if the walk ends there.
   bool scatter(const Walker& walker, const PathRules& rules, const Vec3& u, double u_roulette);
   struct Step {
-    Vec3 w;              ///< The direction that was sampled,
-    double coefficient;  ///< its density in projected solid angle,
-    Color ratio;         ///< and f over that.
+    Vec3 w;              ///< The sampled direction.
+    double coefficient;  ///< Density of w in projected solid angle.
+    Color ratio;         ///< f over `coefficient`.
   };
   bool scatter(const Walker& walker, WalkVertex& x, const Vec3& u, bool strict, Step& step);
   bool scatter_matte(const WalkVertex& x, const Vec2& u, bool strict, Step& step) const;
-  /// Fixes the direction in which the end vertex is left.
+  /// Sets the direction of the walk from its end vertex.
   void leave(const Scene& scene, const Vec3& w, double coefficient);
 
   WalkVertex& last() { return vertices_[size_ - 1]; }
@@ -109,10 +108,10 @@ class Subpath {
   Ray first_ray_{};
   bool goes_on_ = false;
   size_t size_ = 0;
-  std::vector<WalkVertex> vertices_;  ///< Those after the first size_ only keep memory.
+  std::vector<WalkVertex> vertices_;  ///< The first size_ are in use.
 };
 
-/// A subpath from a random point of a light.
+/// Samples a subpath from a random point of a light.
 template <class Sampler>
 void walk_from_light(const Walker& walker, const PathRules& rules, const WalkLength& most,
                      Sampler& sampler, Subpath& subpath) {

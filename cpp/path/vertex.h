@@ -1,5 +1,5 @@
-// A vertex of a light path, and what it contributes to the path's terms. The ends are vertices like
-// any other: who forms the terms of a path need not ask which kind a vertex is.
+// A vertex of a light path, and its factors in the path's terms. The ends are vertices like any
+// other: the terms of a path are formed without regard to the kinds of its vertices.
 #pragma once
 
 #include "scene/scene.h"
@@ -11,15 +11,15 @@ enum class VertexKind : uint8_t { light, surface, camera };
 /// A small value without pointers: it can be stored and read back in another process.
 struct Vertex {
   VertexKind kind = VertexKind::surface;
-  Lobe lobe = Lobe::smooth;  ///< How it scatters: by a density, or by which delta.
+  Lobe lobe = Lobe::smooth;  ///< Lobe of its scattering: smooth, or one of the deltas.
   uint32_t emitter = 0;      ///< For a light vertex: position in Scene::emitters().
   SurfacePoint at;
 
   bool delta() const { return lobe != Lobe::smooth; }
 };
 
-/// Light leaks through or vanishes where the geometric and the shading normal see a direction on
-/// different sides. By default the shading normal alone decides; `strict` refuses such directions.
+/// Light leaks through or vanishes where a direction is on different sides of the geometric and
+/// the shading normal. By default the shading normal alone decides; `strict` rejects them.
 inline bool consistent_sides(const SurfacePoint& at, const Vec3& w, bool strict) {
   return !strict || dot(at.ng, w) * dot(at.shading.n, w) > 0;
 }
@@ -44,17 +44,16 @@ struct VertexTerms {
   double pdf_from_camera = 0;
 };
 
-/// What the terms of an end vertex depend on beside its position: x_0 has no wl and x_k no wc, they
-/// are not looked at.
+/// The terms of an end vertex. x_0 has no wl and x_k no wc; they are ignored.
 VertexTerms end_terms(const Scene& scene, const Vertex& x, const Vec3& wl, const Vec3& wc);
-/// Those of x_k, and where the path meets the image; nullopt if it does not.
+/// The terms of x_k, and the raster position of the path; nullopt if it misses the image.
 struct LensTerms {
   VertexTerms vertex;
   std::optional<Vec2> raster;
 };
 LensTerms lens_terms(const Scene& scene, const SurfacePoint& xk, const Vec3& wl);
 
-/// Those of a smooth vertex on a matte surface.
+/// The terms of a smooth vertex on a matte surface.
 inline VertexTerms matte_terms(const SurfacePoint& at, const Vec3& wl, const Vec3& wc,
                                bool strict_normals) {
   const double geometric_l = std::abs(dot(at.ng, wl)), geometric_c = std::abs(dot(at.ng, wc));
@@ -66,10 +65,10 @@ inline VertexTerms matte_terms(const SurfacePoint& at, const Vec3& wl, const Vec
   return {s.f * (std::abs(cos_l) / geometric_l), s.pdf_from_light / geometric_c,
           s.pdf_from_camera / geometric_l};
 }
-/// Those of a vertex on any surface, by its plug-in.
+/// The terms of a vertex on any surface, by its plug-in.
 VertexTerms plugin_terms(const Scene& scene, const SurfacePoint& at, Lobe lobe, const Vec3& wl,
                          const Vec3& wc, bool strict_normals);
-/// Those of a surface vertex that scatters by `lobe`.
+/// The terms of a surface vertex that scatters by `lobe`.
 inline VertexTerms surface_terms(const Scene& scene, const SurfacePoint& at, Lobe lobe,
                                  const Vec3& wl, const Vec3& wc, bool strict_normals) {
   if (lobe == Lobe::smooth && at.matte.known()) return matte_terms(at, wl, wc, strict_normals);
@@ -92,13 +91,13 @@ inline VertexTerms joint_terms(const Scene& scene, const Vertex& x, const Vec3& 
 
 /// Density with which a light walk starts at x_0, the choice of the light included.
 double light_position_pdf(const Scene& scene, const Vertex& x0);
-/// Density with which next-event estimation at `from` chooses x_0.
+/// Density with which next-event estimation at `from` samples x_0.
 double direct_position_pdf(const Scene& scene, const Vertex& x0, const SurfacePoint& from);
 /// Density with which a camera walk starts at x_k.
 double camera_position_pdf(const Scene& scene, const Vertex& xk);
 
-/// Whether a walk from the other end can arrive at this end vertex: not at a point or directional
-/// light, not at a pinhole.
+/// Whether a walk from the other end can hit this end vertex: not a point or directional light,
+/// not a pinhole.
 bool can_be_hit(const Scene& scene, const Vertex& end);
 /// Whether an edge may be made by connection at this vertex.
 inline bool connectable(const Vertex& x) { return !x.delta(); }

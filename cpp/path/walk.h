@@ -1,5 +1,5 @@
-// The steps of which a walk along a light path is made: leave a light or the lens, arrive, scatter,
-// and join two vertices. The caller draws the random numbers, and decides what a step is worth.
+// The steps of a walk along a light path: emit from a light or the lens, intersect, scatter, and
+// connect two vertices. The caller draws the random numbers, and computes the weights.
 // BasicPathWave and SubpathWave take the same steps of many walks side by side.
 #pragma once
 
@@ -16,14 +16,14 @@ struct LightSample {
   PositionSample x0;  ///< Its density includes the choice of the light. 0: failed.
 };
 
-/// Where a walk from the light begins. u.x chooses the light, (u.y, u.z) the position on it.
+/// Samples the start of a walk from a light: u.x chooses it, (u.y, u.z) the position on it.
 inline LightSample sample_light_position(const Scene& scene, Vec3 u, double time) {
   const EmitterChoice choice = scene.choose_emitter(u.x);
   LightSample light{choice.emitter, choice.emitter->sample_position({u.y, u.z}, time)};
   light.x0.pdf *= choice.probability;
   return light;
 }
-/// The same, to be seen from the point `from` at its time (next-event estimation).
+/// Samples a position on a light for next-event estimation at the point `from`, at its time.
 inline LightSample sample_direct_position(const Scene& scene, const SurfacePoint& from, Vec3 u) {
   const EmitterChoice choice = scene.choose_emitter(u.x);
   LightSample light{choice.emitter, choice.emitter->sample_direct(from.p, {u.y, u.z}, from.time)};
@@ -48,7 +48,7 @@ struct LensDeparture {
   Ray ray;
 };
 
-/// The same from a random point on the lens, at a random moment.
+/// Samples a point on the lens and a time, and returns the ray from there.
 template <class Sampler>
 LensDeparture leave_lens(const Camera& camera, const Vec2& raster, Sampler& sampler) {
   const Vec2 u = sampler.next2();
@@ -58,12 +58,12 @@ LensDeparture leave_lens(const Camera& camera, const Vec2& raster, Sampler& samp
 
 /// A direction that a BSDF has sampled, and its lobe.
 struct ScatteredDirection {
-  Vec3 w;         ///< In the world.
-  Vec3 from, to;  ///< Local: towards the previous vertex (its z alone if matte), and w.
+  Vec3 w;         ///< Direction in world space.
+  Vec3 from, to;  ///< In local space: to the previous vertex (z alone if matte), and w.
   Lobe lobe;
 };
 
-/// Takes the other steps: at one moment, and counting its rays.
+/// Takes the other steps of walks at one time, and counts their rays.
 struct Walker {
   const Scene& scene;
   double time;
@@ -71,10 +71,10 @@ struct Walker {
 
   Departure leave_light(const Vertex& x0, const Vec2& u) const;
 
-  /// Goes on from a surface.
+  /// The ray from a surface along w.
   Ray leave(const SurfacePoint& at, const Vec3& w) const { return scene.spawn(at, w, time); }
 
-  /// u.x chooses the lobe, (u.y, u.z) the direction; nullopt if nothing is scattered.
+  /// Samples a direction: u.x chooses the lobe, (u.y, u.z) the direction; nullopt if there is none.
   std::optional<ScatteredDirection> scatter(const SurfacePoint& at, const Vec3& towards_previous,
                                             const Vec3& u) const {
     if (at.matte.known()) {
@@ -88,17 +88,17 @@ struct Walker {
     if (!sample) return std::nullopt;
     return ScatteredDirection{at.shading.to_world(sample->to), from, sample->to, sample->lobe};
   }
-  /// The same, followed by the ray that goes on; x remembers the lobe.
+  /// Samples a direction, as above, and returns the scattered ray; x records the lobe.
   std::optional<Ray> scatter(Vertex& x, const Vec3& towards_previous, const Vec3& u) const;
 
-  /// At the surface that the ray hits.
+  /// Intersects the ray with the surfaces; false if it hits none.
   bool arrive(const Ray& ray, SurfacePoint& at) const {
     rays.count_intersect();
     return scene.intersect(ray, at);
   }
   bool arrive(const Ray& ray, Vertex& next) const;
 
-  /// At the surface of a light, or outside the scene at the light `background()` (nullptr: none).
+  /// Intersects the ray with a light: one on the surface that is hit, or background() if none is.
   template <class Background>
   bool arrive_at_light(const Ray& ray, Background&& background, Vertex& x0) const {
     SurfacePoint at;
@@ -109,10 +109,10 @@ struct Walker {
     return true;
   }
 
-  /// At the lens, which does not stop a ray; but what stands before it does.
+  /// Intersects the ray with the lens, unless a surface blocks it before.
   bool arrive_at_lens(const Ray& ray, Vertex& xk) const;
 
-  /// The share of the light that gets from one vertex to the other.
+  /// The visibility between two vertices: 1 or 0.
   double join(const SurfacePoint& a, const SurfacePoint& b) const {
     rays.count_occluded();
     return scene.visible(a, b, time) ? 1 : 0;

@@ -50,7 +50,8 @@ class PathInverter {
   const SurfacePoint& at(int i) const { return path_[i].at; }
   Vec3 direction(int from, int to) const { return mlt::direction(at(from), at(to)); }
 
-  /// Raster position, lens, time; then the directions of the first t - 1 vertices.
+  /// Inverts a camera walk: raster position, lens, time; then the directions of its first t - 1
+  /// vertices.
   bool invert_camera_walk(int t) {
     const Camera& camera = scene_.camera();
     const int k = path_.edges();
@@ -72,8 +73,8 @@ class PathInverter {
     return true;
   }
 
-  /// Position, direction, the choice of the light; then the directions of the vertices after x_0:
-  /// of all of them if the walk `goes_on`, or of all but the last.
+  /// Inverts a light walk: position, direction, choice of the light; then the directions of the
+  /// vertices after x_0: of all of them if the walk `goes_on`, or of all but the last.
   bool invert_light_walk(int vertices, bool goes_on) {
     const Emitter& emitter = *scene_.emitters()[path_[0].emitter];
     out_.begin(Stream::light);
@@ -85,7 +86,7 @@ class PathInverter {
     return true;
   }
 
-  /// The position on a light as seen from x_1, then the choice of the light.
+  /// Inverts next-event estimation at x_1: the position on a light, then the choice of the light.
   bool invert_direct() {
     const Emitter& emitter = *scene_.emitters()[path_[0].emitter];
     out_.begin(Stream::direct);
@@ -94,7 +95,7 @@ class PathInverter {
     return true;
   }
 
-  /// Of several lights at infinity technique s = 0 chooses one.
+  /// Inverts the choice among several lights at infinity by technique s = 0.
   bool invert_chosen_background() {
     const std::vector<uint32_t>& infinite = scene_.infinite_emitters();
     const auto found = std::find(infinite.begin(), infinite.end(), path_[0].emitter);

@@ -1,4 +1,4 @@
-// From a path to the primary samples by which a technique makes it (Bitterli, Jakob, Novak & Jarosz
+// Inversion: the primary samples by which a technique makes a path (Bitterli, Jakob, Novak & Jarosz
 // 2018, "Reversible jump Metropolis light transport using inverse mappings"; Otsu et al. 2017;
 // Pantaleoni 2017).
 #pragma once

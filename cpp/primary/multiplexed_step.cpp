@@ -5,10 +5,10 @@
 namespace mlt {
 namespace {
 
-/// Inversion and a walk after it agree to rounding, which grows along a path.
+/// Tolerances of inversion followed by a walk: rounding errors grow along a path.
 constexpr double rounding = 0.01, rounding_in_pixels = 0.05;
 
-/// f / P is the same whichever technique makes the path.
+/// Whether f / P is the same in both states, as it is whichever technique makes the path.
 bool same_path(const MultiplexedState& x, const MultiplexedState& y) {
   return glm::length(y.raster - x.raster) < rounding_in_pixels &&
          std::abs(y.target_over_density - x.target_over_density) < rounding * x.target_over_density;
@@ -18,8 +18,8 @@ bool same_path(const MultiplexedState& x, const MultiplexedState& y) {
 
 /// The state's technique and numbers are one of the ways to make its path. Over all of them the
 /// target, in the numbers of technique s, is w_s f / p_s, and the numbers have the density p_s: so
-/// given the path, s is distributed as its weight w_s, and the numbers as those that may have made
-/// it. Drawing both anew from that leaves the target unchanged, whatever they were (a Gibbs step).
+/// given the path, s is distributed as its weight w_s, and the numbers as those that make it. So
+/// drawing both anew, given the path, leaves the target unchanged (a Gibbs step).
 /// Bitterli et al. (2018) propose a technique and then accept it with w_s' / w_s.
 Transition MultiplexedStep::keep_path(const State& x, State& y, Rng& rng) {
   y.numbers = x.numbers;
@@ -40,7 +40,7 @@ Transition MultiplexedStep::keep_path(const State& x, State& y, Rng& rng) {
 }
 
 /// Makes y the same path by a technique; false if rounding has made another path of it. A step to a
-/// technique that has no way back would not leave the target unchanged, so that of x is tried too.
+/// technique without a step back would not leave the target unchanged, so that of x is tried too.
 bool MultiplexedStep::remake(const State& x, const Technique& technique, State& y, Rng& rng) {
   y.technique = technique;
   y.numbers.step(false);

@@ -1,10 +1,10 @@
 // Multiplexed Metropolis light transport (Hachisuka, Kaplanyan & Dachsbacher 2014): the technique
 // (s, t) is a part of the state, and the numbers make one path by it. The target is L* of the
-// path's f / p, weighted among the techniques, so that a path is visited as often as its L* says,
-// whichever technique makes it.
+// path's f / p, weighted among the techniques, so that a path is visited in proportion to its L*,
+// by whichever technique it is made.
 //
-// In that paper each chain keeps the length of its paths, and there are as many chains for a length
-// as its light needs. Here a large step may change the length, so that one chain sees them all.
+// In that paper each chain keeps the length of its paths, and the number of chains for a length is
+// chosen by its light. Here a large step may change the length, so that one chain samples them all.
 #pragma once
 
 #include "markov/step.h"
@@ -21,7 +21,7 @@ struct MultiplexedState {
   Technique technique;
   Vec2 raster{0};
   Color rgb{0};                    ///< f / p, weighted among techniques.
-  double target = 0;               ///< L* of it.
+  double target = 0;               ///< L* of rgb.
   double target_over_density = 0;  ///< See FamilyWeights.
 
   void clear() {
@@ -36,17 +36,17 @@ struct MultiplexedState {
   }
 };
 
-/// Makes the path that the numbers stand for.
+/// Makes the path of the numbers.
 struct MultiplexedPaths {
   const Scene* scene;
-  BidirectionalSampler paths;  ///< Without Russian roulette: the technique says where walks end.
+  BidirectionalSampler paths;  ///< Without Russian roulette: the technique fixes the walks.
   SmallStep small_step;
   RayCounts rays = {};
 
   void operator()(MultiplexedState& state, Rng& rng) {
     make(state, rng, [](const Connection&) {});
   }
-  /// The path as well.
+  /// Makes the path of the numbers, and assembles it in `path`.
   void operator()(MultiplexedState& state, Rng& rng, Path& path) {
     make(state, rng, [&](const Connection& c) { paths.assemble(c, path); });
   }
@@ -65,8 +65,8 @@ struct MultiplexedPaths {
 
 /// How a chain changes the technique, beside large steps.
 enum class TechniqueChange {
-  keeps_numbers,  ///< They make another path, and move a little (Hachisuka et al. 2014).
-  keeps_path      ///< Its numbers are found by inversion (Bitterli et al. 2018).
+  keeps_numbers,  ///< The numbers make another path, and move a little (Hachisuka et al. 2014).
+  keeps_path      ///< The numbers of the path are found by inversion (Bitterli et al. 2018).
 };
 
 /// Large steps draw technique and numbers afresh, small steps move the numbers a little, and others
@@ -130,7 +130,7 @@ class MultiplexedStep {
     return after_rejection(own, quotients(large, x, y1), quotients(large, y2, y1));
   }
 
-  /// With which a move chooses a technique; all else that it does is symmetric.
+  /// Probability with which a move chooses its technique; the rest of the move is symmetric.
   double density(Move of, const Technique& technique_of_state) const {
     switch (of) {
       case large:
@@ -146,7 +146,7 @@ class MultiplexedStep {
   MultiplexedPaths paths_;
   const TechniqueChoice* choice_;
   Move last_ = large;
-  Path path_;  ///< Memory of keep_path.
+  Path path_;  ///< Scratch space of keep_path.
   PathTerms terms_;
 };
 

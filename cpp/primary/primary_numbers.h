@@ -4,8 +4,8 @@
 //
 // They form streams, so that a walk from the camera that has become longer does not shift the
 // numbers of the walk from the light. A step moves all numbers, also those that the current paths
-// do not use, but each only when it is asked for (Kelemen et al. 2002, sec. 4.3): it remembers the
-// step that it has come to, and catches up with those that it has missed.
+// do not use, but each lazily, when it is read (Kelemen et al. 2002, sec. 4.3): it stores the step
+// up to which it has moved, and then catches up with those that it has missed.
 #pragma once
 
 #include "base/bytes.h"
@@ -26,13 +26,13 @@ class PrimaryNumbers {
     if (large) last_large_ = now_;
   }
 
-  /// Forgets all numbers; keeps its memory.
+  /// Clears all numbers, but keeps the buffers.
   void clear() {
     for (auto& numbers : streams_) numbers.clear();
     now_ = last_large_ = 0;
   }
 
-  /// Number i of a stream, i being at most how many there are.
+  /// Number i of a stream; i is at most their number.
   double get(Stream stream, size_t i, const SmallStep& small_step, Rng& rng) {
     std::vector<Number>& numbers = streams_[static_cast<size_t>(stream)];
     if (i == numbers.size()) numbers.push_back({rng.next(), now_});
@@ -42,7 +42,7 @@ class PrimaryNumbers {
     return number.value;
   }
 
-  /// Gives number i, at most how many there are, a value.
+  /// Sets number i; i is at most their number.
   void set(Stream stream, size_t i, double value) {
     std::vector<Number>& numbers = streams_[static_cast<size_t>(stream)];
     if (i == numbers.size()) numbers.emplace_back();
@@ -68,9 +68,9 @@ class PrimaryNumbers {
  private:
   struct Number {
     double value = 0;
-    uint64_t step = 0;  ///< That it has come to.
+    uint64_t step = 0;  ///< The step up to which it has moved.
   };
-  /// After so many small steps a number is uniform, whatever it was: to 1e-24.
+  /// After this number of small steps a number is uniform to 1e-24, whatever it was.
   static constexpr uint64_t most = 1 << 16;
   uint64_t missed(const Number& number) const { return std::min(now_ - number.step, most); }
 

@@ -1,5 +1,5 @@
 // Primary-sample-space mutations (Kelemen et al. 2002). The state is the vector of uniform numbers;
-// the target T is the brightness of what an estimator makes of them.
+// the target T is the brightness of an estimator's light for them.
 #pragma once
 
 #include "markov/step.h"
@@ -15,14 +15,14 @@ namespace mlt {
 struct ImageLight {
   Vec2 raster{0};
   Color rgb{0};           ///< f / p, weighted among techniques.
-  bool own_pixel = true;  ///< Where the walk from the camera left the image, not by light tracing.
+  bool own_pixel = true;  ///< At the camera walk's own position, not by light tracing.
 };
 
 template <class Numbers>
 struct StateOf {
   Numbers numbers;
-  std::vector<ImageLight> light;  ///< All that the paths of these numbers add to the image.
-  double target = 0;              ///< Sum of L* of it; NaN if the estimator failed.
+  std::vector<ImageLight> light;  ///< Light of all paths of these numbers.
+  double target = 0;              ///< Sum of L* of `light`; NaN if the estimator failed.
 
   void find_target() {
     target = 0;
@@ -37,8 +37,8 @@ using PrimaryState = StateOf<PrimaryNumbers>;
 /// quotients of the step are the targets alone.
 ///
 /// With delayed rejection (Tierney & Mira 1999) a small step follows a large one that was rejected.
-/// What a large step proposes does not depend on where it starts, so its density cancels in the
-/// second stage's quotient, and the probabilities of having been rejected remain.
+/// The proposal of a large step does not depend on the state, so its density cancels in the
+/// second stage's quotient, and only the probabilities of rejection remain.
 template <class PrimaryState>
 class PrimaryMoves {
  public:
@@ -56,13 +56,13 @@ class PrimaryMoves {
  protected:
   using Proposals = std::array<State, stages>;
 
-  /// Chooses the step of this stage. Returns whether there is one.
+  /// Chooses the kind of step for this stage; false if there is none.
   bool choose(size_t stage, Rng& rng) {
     if (stage > 0) return delayed_rejection_ && last_ == large;
     last_ = rng.next() < large_probability_ ? large : small;
     return true;
   }
-  /// Once its proposal is known.
+  /// The quotients of this stage, once its proposal is known.
   static Transition quotients(const State& x, const Proposals& y, size_t stage) {
     if (stage == 0) return quotients(x, y[0]);
     return after_rejection(quotients(x, y[1]), quotients(x, y[0]), quotients(y[1], y[0]));

@@ -12,7 +12,7 @@ namespace mlt {
 /// Wraps u around, into [0, 1).
 inline double wrapped(double u) {
   const double rest = u - std::floor(u);
-  return rest < 1 ? rest : 0;  // what is just below 0 is rounded up to 1
+  return rest < 1 ? rest : 0;  // numbers just below 0 are rounded up to 1
 }
 
 struct SmallStep {
@@ -27,7 +27,7 @@ struct SmallStep {
   /// makes less noise in most scenes.
   static constexpr double smallest_share = 1. / 16;
 
-  /// `count` steps in a row.
+  /// Takes `count` steps in a row.
   double operator()(double u, uint64_t count, Rng& rng) const {
     if (shape == Shape::gaussian) {
       const double sample = rng.next();
@@ -44,7 +44,7 @@ struct SmallStep {
     const double move = size * power_of_smallest_share(up ? 2 * sample : 2 * sample - 1);
     return wrapped(u + (up ? move : -move));
   }
-  /// One that is `times` as large, by two random numbers (Box & Muller 1958).
+  /// One Gaussian step that is `times` as large, by two random numbers (Box & Muller 1958).
   double gaussian(double u, double times, double sample, double angle) const {
     const double radius = std::sqrt(-2 * std::log(1 - sample));
     return wrapped(u + size * times * radius * std::cos(2 * pi * angle));

@@ -7,7 +7,7 @@
 namespace mlt {
 namespace {
 
-/// u, which lies in a share of [0, 1), as a number in [0, 1).
+/// Rescales u, which lies in a part of [0, 1), to [0, 1).
 double rescaled(double u, double from, double width) {
   return std::min((u - from) / width, 1 - 0x1p-53);
 }

@@ -1,6 +1,6 @@
-// The numbers by which one technique makes a path, among those that have made all paths of a sample
-// of bidirectional path tracing: one technique asks for no more than it needs, and for none for
-// Russian roulette.
+// The numbers by which one technique makes a path, selected from those of a whole sample of
+// bidirectional path tracing: one technique reads only those that it needs, and none for Russian
+// roulette.
 #pragma once
 
 #include "path/bidirectional_sampler.h"

@@ -1,5 +1,5 @@
-// The independent samples of a Metropolis render: each path that they find goes to the image with
-// its weight w1 (FamilyWeights).
+// The independent samples of a Metropolis render: each path that they find is added to the image
+// with its weight w1 (FamilyWeights).
 #pragma once
 
 #include "path/inspect.h"
@@ -9,7 +9,7 @@
 
 namespace mlt {
 
-/// Shows all that one sample has found.
+/// Adds all light that one sample has found to the image.
 class FamilyWeighting {
  public:
   FamilyWeighting(const Scene& scene, const FamilyWeights& weights)

@@ -14,7 +14,7 @@ namespace mlt {
 
 class FamilyWeights {
  public:
-  /// For chains alone.
+  /// The weights of chains alone.
   FamilyWeights() = default;
   /// `threshold` is c: both weights of a path with this T / P are one half.
   explicit FamilyWeights(double threshold) : threshold_(threshold) {}

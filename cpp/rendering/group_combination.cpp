@@ -23,18 +23,18 @@ GroupCombination::GroupCombination(std::vector<GroupProgress> groups, const Esti
     missing_ = (1 - lambda_) * difference;
 }
 
-/// M_g
+/// The estimate M_g.
 Estimate GroupCombination::samples_of(int g) const {
   return pooled(estimate(groups_[g].bootstrap.of_chains), of_chains_);
 }
 
-/// b_g D_g; 0 without chains.
+/// The brightness b_g D_g of the chains of a group; 0 without chains.
 double GroupCombination::chain_brightness(int g) const {
   const GroupProgress& group = groups_[g];
   return has_chains(g) ? group.b * group.brightness / static_cast<double>(group.steps) : 0.0;
 }
 
-/// Each of the others can lose as much as it has to groups like this one.
+/// The correction of a group. It takes at most 1 / (count - 1) of the others' light from them.
 GroupCombination::Correction GroupCombination::correction(int g) const {
   const double missing = lambda_ * (samples_of(g).mean - chain_brightness(g));
   const double others = chain_brightness_ - chain_brightness(g);
@@ -66,7 +66,7 @@ GroupScales GroupCombination::mean() const {
     const GroupScales own = group(g);
     for (int h = 0; h < count(); ++h) mean[h] += own[h] / begun_groups;
   }
-  // When several groups are that bright.
+  // A sum is negative if several groups are that bright.
   for (double& scale : mean) scale = std::max(0.0, scale);
   return mean;
 }

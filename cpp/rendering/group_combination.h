@@ -1,33 +1,33 @@
 // How the chains of a Metropolis render add up to their part of its image.
 //
 // Group g starts its chains from a bootstrap of its own, whose weights T / p have the mean b_g. Its
-// chains record each state as w2 RGB / T, which has the mean C_g, and how bright that is (L* of
-// it), with the mean D_g. The independent samples tell how bright it should be: M_g, the mean of w2
-// L* / p, over all samples and the group's bootstrap. Since the chains start from the candidates
-// that gave b_g, the expectations of
+// chains record each state as w2 RGB / T, with the mean C_g, and the brightness (L*) of that, with
+// the mean D_g. The independent samples estimate the brightness that b_g D_g should have: M_g, the
+// mean of w2 L* / p, over all samples and the group's bootstrap. Since the chains start from the
+// candidates that gave b_g, the expectations of
 //
 //   b_g C_g, the image,   and   M_g - b_g D_g, which is 0,
 //
-// are right from the first step on (Veach & Guibas 1997, sec. 5.1). But b_g is known badly, and
-// chains visit bright and dark regions for times that are not in proportion for long. The image
-// that group g tells is therefore
+// are right from the first step on (Veach & Guibas 1997, sec. 5.1). But the variance of b_g is
+// large, and chains take long to visit bright and dark regions in proportion. The image of group g
+// is therefore
 //
 //   I_g = b_g C_g + lambda (M_g - b_g D_g) R_g,
 //   R_g = sum_{h != g} b_h C_h / sum_{h != g} b_h D_h,   lambda = Var b D / (Var b D + Var M)
 //
 // R_g, the image at brightness 1, comes from the other groups, independent of M_g - b_g D_g: for
-// any fixed lambda the expectation remains right. The brightness is then the mean of what chains
-// and samples say, weighted by how well each is known. These variances are estimated from the same
-// render, which leaves a bias that vanishes as the render goes on. Where no samples tell M, as
-// those of path tracing do not, lambda is 0.
+// any fixed lambda the expectation remains right. The brightness is then the mean of the estimates
+// by chains and by samples, weighted by their variances. These are estimated from the same render,
+// which leaves a bias that vanishes as the render goes on. Without samples that estimate M, as with
+// those of path tracing, lambda is 0.
 //
-// Tours (markov/tour.h) are scaled by a number that is known: their b C_g is right by itself, and
-// lambda is 0 too.
+// Tours (markov/tour.h) are scaled by a known number: their b C_g is right by itself, and lambda is
+// 0 too.
 //
-// The correction takes light away from the others' image where a group is too bright. No more than
-// that image can lose is taken there: what a group has in excess of that makes its own C_g darker,
-// so that nothing becomes negative. That is biased as a quotient is, and happens less and less
-// often as the render goes on.
+// The correction subtracts light from the others' image where a group is too bright, but no more
+// than that image can lose: the rest of the excess is subtracted from the group's own C_g, so that
+// nothing becomes negative. That is biased as a quotient is, and becomes rarer as the render goes
+// on.
 #pragma once
 
 #include "math/weight_sums.h"
@@ -36,11 +36,11 @@
 
 namespace mlt {
 
-/// What a group has done up to now.
+/// The sums of a group up to now.
 struct GroupProgress {
   double b = 0;           ///< Mean of the weights T / p of its bootstrap.
-  SampleSums bootstrap;   ///< Their brightness.
-  uint64_t steps = 0;     ///< Of its chains.
+  SampleSums bootstrap;   ///< Brightness of the bootstrap samples.
+  uint64_t steps = 0;     ///< Number of steps of its chains.
   double brightness = 0;  ///< Sum of L* of what its chains have recorded.
 };
 
@@ -54,17 +54,16 @@ class GroupCombination {
   GroupCombination(std::vector<GroupProgress> groups, const Estimate& of_chains,
                    bool corrected = true);
 
-  /// I_g: the spread over the groups tells the error of their mean.
+  /// I_g; from the spread over the groups the error of their mean is estimated.
   GroupScales group(int g) const;
   /// The mean of the groups that have begun.
   GroupScales mean() const;
-  /// What may be wrong with all groups alike: R, times the standard error of M, and times the light
-  /// that the samples say is missing.
+  /// The common error of all groups: R, times the standard error of M, and times missing().
   GroupScales common_error() const;
-  /// The brightness that the samples have found beyond what the image shows, or less than that, if
-  /// it is more than chance would make it: beyond 2.5 standard errors.
+  /// The brightness that the samples have found beyond that of the image (or below, if negative),
+  /// if it is significant: more than 2.5 standard errors.
   double missing() const { return missing_; }
-  /// Whether a group has anything to say.
+  /// Whether a group has an image: it has found no light, or its chains have made steps.
   bool begun(int g) const { return groups_[g].b == 0 || has_chains(g); }
 
  private:
@@ -72,7 +71,7 @@ class GroupCombination {
   bool has_chains(int g) const { return groups_[g].steps > 0; }
   double chain_brightness(int g) const;
   Estimate samples_of(int g) const;
-  /// By how much I_g is to be brighter than b_g C_g.
+  /// By how much I_g is brighter than b_g C_g.
   struct Correction {
     double of_others;  ///< Added to it as the others' image.
     double of_itself;  ///< Taken away from it; not positive.

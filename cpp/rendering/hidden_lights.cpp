@@ -8,7 +8,7 @@
 namespace mlt {
 namespace {
 
-/// Whether all that the light shines on is perfectly specular, as far as some rays tell.
+/// Whether all surfaces that the light illuminates are perfectly specular, tested by a few rays.
 bool is_hidden(const Scene& scene, const Emitter& light) {
   constexpr int rays = 256;
   Rng rng(0, Purpose::inspect, light.index());

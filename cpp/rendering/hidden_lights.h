@@ -5,8 +5,8 @@
 
 namespace mlt {
 
-/// For algorithms whose walks begin at the camera alone: warns of lights of no size behind mirrors
-/// or glass, which no such walk can hit, and whose light it can reach from no surface that
+/// Warns of lights of no size behind mirrors or glass, for algorithms whose walks begin at the
+/// camera alone: no such walk can hit these lights, nor connect to them from a surface that
 /// scatters.
 void warn_of_hidden_lights(const Scene& scene, Stats& stats);
 

@@ -23,12 +23,12 @@ struct NamedImage {
   Image image;
 };
 
-/// What one of the independent groups of a render has seen by itself: an unbiased image that owes
-/// nothing to the other groups. Linear RGB.
+/// The image of one of the independent groups of a render by itself: unbiased, and independent of
+/// the other groups. Linear RGB.
 struct GroupImage {
   Image image;
   /// Its weight in the mean that is the render's image: finished passes, or 1 for a group of
-  /// chains; 0 as long as it has nothing to say.
+  /// chains; 0 as long as it has no samples.
   double weight = 0;
   /// Metropolis: its own estimate of the mean of L*, by which its image is scaled, and the standard
   /// error of that.
@@ -39,55 +39,55 @@ struct GroupImage {
 /// of threads. run_unit may be called from many threads at once.
 class Rendering {
  public:
-  /// The groups whose spread tells how wrong the image is: each has its own random numbers, and for
-  /// Metropolis its own bootstrap. The image is their weighted mean (while some are behind others,
-  /// nearly so), plus the images of the parts.
+  /// The groups whose spread measures the error of the image: each has its own random numbers, and
+  /// for Metropolis its own bootstrap. The image is their weighted mean (nearly so, while some are
+  /// behind others), plus the images of the parts.
   static constexpr int group_count = 16;
 
   Rendering(ScenePtr scene, uint64_t seed) : scene_(std::move(scene)), seed_(seed) {}
   virtual ~Rendering() = default;
 
-  /// Before prepare: how many seconds that should take at the most.
+  /// Sets how many seconds prepare() should take at the most; to be called before it.
   void limit_preparation(double seconds) { preparation_seconds_ = seconds; }
-  /// Work before the first unit (a bootstrap); may itself use `threads` threads. `cancelled` is
-  /// looked at now and then. Throws RenderError.
+  /// Does the work before the first unit (a bootstrap), on up to `threads` threads. `cancelled` is
+  /// checked now and then. Throws RenderError.
   virtual void prepare(int /*threads*/, const std::atomic<bool>& /*cancelled*/) {}
-  /// Known after `prepare` or `load`.
+  /// The plan of the units, known after `prepare` or `load`.
   const Plan& plan() const { return plan_; }
-  /// Memory for the sums of a render of so many samples per pixel.
+  /// Memory for the sums of a render.
   struct Memory {
-    size_t bytes = 0, to_come = 0;  ///< All of it, and what is not yet set aside.
+    size_t bytes = 0, to_come = 0;  ///< All of it, and the part that is not yet allocated.
   };
   virtual Memory memory(double spp) const = 0;
-  /// Does nothing if the unit has been done already.
+  /// Renders one unit; does nothing if the unit has been done already.
   virtual void run_unit(uint64_t unit) = 0;
 
   /// The image after the units that have finished, linear RGB.
   virtual Image image() const = 0;
   virtual GroupImage group(int index) const = 0;
-  /// Other renderings, each with groups of its own, whose images are parts of this one's.
+  /// Renderings with groups of their own, whose images are parts of the image of this one.
   virtual std::vector<const Rendering*> parts() const { return {}; }
-  /// The standard error of what all groups have in common, which their spread does not show; may be
+  /// The standard error that is common to all groups, which their spread does not include; may be
   /// empty.
   virtual Image common_error() const { return {}; }
   /// Further images that the render was asked to keep.
   virtual std::vector<NamedImage> layers() const { return {}; }
   virtual void add_stats(Stats& stats) const = 0;
-  /// Repeats one sample of a pixel (0, 1, 2, ...), as it was or will be taken, without a trace in
+  /// Repeats one sample of a pixel (0, 1, 2, ...), as it was or will be taken, without adding it to
   /// the image. Throws UsageError if the algorithm does not sample pixel by pixel.
   virtual Replay replay(const Vec2i& pixel, uint64_t sample);
 
-  /// What is saved. `task`: what the shares need to go on. `result`: the shares as they have
-  /// become, and what adds up over all copies of the rendering (counters, sums in fixed point).
+  /// Which content is saved. `task`: what the shares need to go on. `result`: the new state of the
+  /// shares, and the sums over all copies of the rendering (counters, sums in fixed point).
   enum class Content : uint32_t { task, result, everything };
   /// The state of some shares as bytes. No unit of these may be running. A checkpoint has
   /// everything of all shares. A copy of the rendering that was not prepared can load what a task
   /// needs, run its units in their order, and save the result; the rendering that loads this has
   /// the same bits as if it had run the units itself.
   virtual std::string save(const Task& task = {}, Content content = Content::everything) const = 0;
-  /// Replaces the state of the saved shares and adds what adds up. Only for what the same build has
-  /// saved of a rendering of the same scene, settings and seed; for one that was just started it
-  /// takes the place of `prepare`. Throws RenderError if the bytes do not fit.
+  /// Replaces the state of the saved shares and adds the sums. Only for bytes that the same build
+  /// has saved of a rendering of the same scene, settings and seed; for one that was just started
+  /// it takes the place of `prepare`. Throws RenderError if the bytes do not fit.
   virtual void load(const std::string& state) = 0;
 
  protected:
@@ -101,10 +101,10 @@ class Rendering {
 
 class Integrator : public Object {
  public:
-  /// Throws SceneError if the scene has something that this algorithm cannot serve.
+  /// Starts a rendering. Throws SceneError if the algorithm does not support the scene.
   virtual std::unique_ptr<Rendering> start(ScenePtr scene, uint64_t seed) const = 0;
   const std::string& name() const { return type; }
-  /// The same with more mutations in its mixture. Throws UsageError if it has no mixture.
+  /// A copy with more mutations in its mixture. Throws UsageError if it has no mixture.
   virtual std::shared_ptr<const Integrator> with_mutations(
       const std::vector<ExtraMutation>& extra) const;
 };

@@ -1,5 +1,5 @@
-// In which order a render with two kinds of units goes through them: a pass of samples, then rounds
-// of another pass and so many units of chains.
+// The order of the units in a render with two kinds of them: a pass of samples, then rounds of
+// another pass and a fixed number of units of chains.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,8 @@ class Interleaving {
       : tiles_(tiles), chain_units_(chain_units) {}
 
   struct Place {
-    bool sampled;     ///< Else: of a chain.
-    uint64_t number;  ///< Among the units of its kind.
+    bool sampled;     ///< Whether it is a unit of samples; else of chains.
+    uint64_t number;  ///< Number among the units of its kind.
   };
   Place place_of(uint64_t unit) const {
     if (unit < tiles_) return {true, unit};

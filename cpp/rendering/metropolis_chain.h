@@ -1,5 +1,5 @@
-// Chains that render: what they visit is recorded in a film, and what their steps came to is
-// counted.
+// Chains that render: the states that they visit are recorded in a film, and the outcomes of their
+// steps are counted.
 #pragma once
 
 #include "base/bytes.h"
@@ -18,14 +18,14 @@
 
 namespace mlt {
 
-/// Where chains leave what they visit.
+/// Records the states that chains visit.
 class ChainRecorder {
  public:
   virtual ~ChainRecorder() = default;
-  /// RGB / T of a state, its expected weight, and its T / P (see FamilyWeights).
+  /// Records RGB / T of a state, its expected weight, and its T / P (see FamilyWeights).
   virtual void record(const Vec2& raster, const Color& rgb_per_target, double weight,
                       double target_over_density) = 0;
-  /// Whether T / P makes a difference.
+  /// Whether record() uses T / P.
   virtual bool wants_density() const { return true; }
   /// Called when a chain pauses.
   virtual void flush() {}
@@ -51,7 +51,7 @@ class FilmRecorder : public ChainRecorder {
     color_ = Color(0);
   }
   bool wants_density() const override { return weights_->threshold() > 0; }
-  /// Sum of L* of what was recorded.
+  /// Sum of L* of the recorded states.
   double brightness() const { return brightness_; }
 
  private:
@@ -71,16 +71,16 @@ class StepRecorder {
   using Others = std::array<State, Kernel::stages>;
 
  public:
-  /// `others` is the scratch of the steps.
+  /// `others` is the scratch space of the steps.
   StepRecorder(ChainRecorder& recorder, const Kernel& kernel, const State& x, const Others& others)
       : recorder_(&recorder), kernel_(&kernel), x_(&x), others_(&others) {}
 
-  /// As metropolis_step calls it.
+  /// Called by metropolis_step for each state.
   void operator()(const State& state, double weight) {
     (&state == x_ ? weight_x_ : weights_[&state - others_->data()]) += weight;
   }
 
-  /// After a step.
+  /// To be called after a step: records the states that the chain has left.
   void settle(const StepResult& result) {
     weights_[0] += kernel_->proposal_weight();
     if (result.accepted >= 0) std::swap(weight_x_, weights_[result.accepted]);
@@ -88,7 +88,7 @@ class StepRecorder {
       record((*others_)[stage], weights_[stage]);
     weights_ = {};
   }
-  /// Records what the current state has gathered.
+  /// Records the accumulated weight of the current state.
   void finish() {
     record(*x_, weight_x_);
     weight_x_ = 0;
@@ -109,12 +109,12 @@ class StepRecorder {
   std::array<double, Kernel::stages> weights_{};
 };
 
-/// What a chain tells about its steps; sums, so that chains can be merged.
+/// Statistics of the steps of a chain; sums, so that chains can be merged.
 struct ChainStats {
   struct Row {
     uint64_t proposed = 0, generated = 0, accepted = 0, rays = 0;
     double acceptance = 0, image_distance = 0;
-    /// Walks of mutations that failed, and that could not be undone.
+    /// Walks of mutations that failed, and walks that could not be reversed.
     uint64_t failed_walks = 0, failed_returns = 0;
 
     Row& operator+=(const Row& other);
@@ -125,7 +125,7 @@ struct ChainStats {
     Vec2 raster{0};
     std::string signature;
   };
-  std::vector<Row> rows;  ///< As MetropolisAlgorithm::rows lists them.
+  std::vector<Row> rows;  ///< In the order of MetropolisAlgorithm::rows.
   RayCounts rays;
   uint64_t invalid = 0;
   uint64_t run = 0;  ///< Rejections in a row up to now.
@@ -138,37 +138,37 @@ struct ChainStats {
   void load(ByteReader& bytes);
 };
 
-/// Adds the rows that have any steps; `names` has what else is known of them.
+/// Adds the rows that have any steps; `names` has their names and path lengths.
 void add_rows(const std::vector<MutationStats>& names, const std::vector<ChainStats::Row>& rows,
               Stats& stats);
 
-/// What to say when there is nothing to start chains from.
+/// The error when there is nothing to start chains from.
 RenderError no_light_found(uint64_t samples);
 
 /// One Markov chain of a render.
 class RenderChain {
  public:
   virtual ~RenderChain() = default;
-  /// Alone; see MetropolisAlgorithm::advance.
+  /// Advances this chain alone; see MetropolisAlgorithm::advance.
   virtual void advance(uint64_t steps, ChainRecorder& recorder) = 0;
   virtual const ChainStats& stats() const = 0;
-  /// Of the samples that it starts from, where it draws them itself.
+  /// Sums over the samples that it starts from, if it draws them itself; else nullptr.
   virtual const SampleSums* samples() const { return nullptr; }
   virtual void save(ByteWriter& bytes) const = 0;
   virtual void load(ByteReader& bytes) = 0;
 };
 
-/// A chain that is to advance, and where it leaves what it visits.
+/// A chain that is to advance, and the recorder of its states.
 struct ChainVisit {
   RenderChain* chain;
   ChainRecorder* recorder;
 };
 
-/// Which chain it is: by its group, and by its number in the group.
+/// Identifies a chain by its group, and by its number in the group.
 struct ChainId {
   uint64_t seed;
   int group, number, count;
-  double b;  ///< Of the candidates that the chains of its group start from.
+  double b;  ///< Mean weight of the candidates that the chains of its group start from.
   Purpose purpose = Purpose::chain;
 
   Rng rng() const { return Rng(seed, purpose, (uint64_t(group) << 32) | uint32_t(number)); }
@@ -196,12 +196,12 @@ class RecordedChain : public RenderChain {
     record.finish();
   }
 
-  // The same, step by step:
+  // advance(), step by step:
   StepRecorder<Kernel> begin(ChainRecorder& recorder) {
     stats_.rays = chain_.kernel().rays();
     return {recorder, chain_.kernel(), chain_.state(), chain_.others()};
   }
-  /// See Chain.
+  /// See Chain::prepare.
   template <class... Arguments>
   void prepare(size_t stage, Arguments&&... arguments) {
     chain_.prepare(stage, arguments...);
@@ -223,7 +223,7 @@ class RecordedChain : public RenderChain {
                         kernel.signature(chain_.state())};
   }
 
-  /// Goes on from another state; the statistics go on.
+  /// Continues from another state; the statistics are kept.
   void restart(const State& start) {
     chain_.restart(start);
     stats_.run = 0;
@@ -235,7 +235,7 @@ class RecordedChain : public RenderChain {
     ++stats_.tours;
     stats_.longest_tour = std::max(stats_.longest_tour, steps);
   }
-  /// Rays that were traced for it elsewhere.
+  /// Counts rays that were traced for it elsewhere.
   void count(const RayCounts& rays) {
     chain_.kernel().rays() += rays;
     stats_.rays = chain_.kernel().rays();
@@ -251,7 +251,7 @@ class RecordedChain : public RenderChain {
     chain_.restart(std::move(x));
     load_progress(bytes);
   }
-  /// All but the state, for a chain that is about to restart.
+  /// Saves all but the state, for a chain that is about to restart.
   void save_progress(ByteWriter& bytes) const {
     bytes.write(chain_.rng().state());
     stats_.save(bytes);

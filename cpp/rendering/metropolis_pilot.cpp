@@ -13,7 +13,7 @@ namespace {
 constexpr std::array<double, 8> thresholds = {1. / 16, 1. / 4, 1, 4, 16, 64, 256, 1024};
 using PerThreshold = std::array<double, thresholds.size()>;
 
-/// Samples are drawn in so many parts, one after the other in each.
+/// The number of parts that are drawn in parallel; in each, samples are drawn one after the other.
 constexpr uint64_t parts = 64;
 
 /// Runs part(i, first, last) for each part of `count` samples.
@@ -23,10 +23,10 @@ void in_parts(uint64_t count, int threads, Part&& part) {
                [&](uint64_t i) { part(i, count * i / parts, count * (i + 1) / parts); });
 }
 
-/// What one chain adds to the pixels, for each of `thresholds`.
+/// The light that one chain adds to the pixels, for each of `thresholds`.
 using PixelSums = std::map<std::pair<int, int>, PerThreshold>;
 
-/// How noisy one family is, in units of the brightness of each pixel, and what it costs.
+/// The noise of one family, in units of the brightness of each pixel, and its cost.
 struct Noise {
   PerThreshold squares{};
   uint64_t count = 0, rays = 0;
@@ -40,20 +40,20 @@ struct Noise {
     return *this;
   }
   double n() const { return static_cast<double>(count); }
-  /// In rays; all the rest costs about as much again as one ray.
+  /// Cost of a sample in rays; everything else costs about as much as one ray more.
   double cost() const { return cost_of_ray * (1 + static_cast<double>(rays) / n()); }
   double square(size_t threshold) const { return squares[threshold] / n(); }
 };
 
 struct Forecast {
   Allocation allocation;
-  double variance = 0;  ///< That is to be expected, times the time.
+  double variance = 0;  ///< Expected variance, times the time.
 };
 
-/// So many steps of tours are much more work than the sample that they start from.
+/// With this number of steps, tours are much more work than the sample that they start from.
 constexpr double least_steps_per_sample = 64;
 
-/// Where the choice hardly matters more is left to the samples: their noise is known better.
+/// Up to this ratio of variances the samples are preferred: their noise is known better.
 constexpr double hardly = 1.15;
 
 class Pilot {
@@ -67,7 +67,7 @@ class Pilot {
         cancelled_(cancelled),
         candidates_{settings.seed, Purpose::allocation, settings.samples} {}
 
-  /// b, as far as the candidates tell; 0: there is no light for chains to start from.
+  /// Estimates b from candidates; 0: there is no light for chains to start from.
   double find_starts() {
     const std::vector<double> weights = draw_candidates(
         candidates_, settings_.threads, cancelled_, [&] { return algorithm_.source(); },
@@ -80,8 +80,8 @@ class Pilot {
     return starts_.b;
   }
 
-  /// Samples come in pairs that have the image position in common. Those of a render are stratified
-  /// over the pixels, so that what a pair agrees on is no noise.
+  /// Draws pairs of samples with the same image position. The samples of a render are stratified
+  /// over the pixels, so that only differences within a pair are noise.
   /// Returns false if the algorithm has none of these techniques.
   bool draw_samples(SampleTechniques techniques) {
     if (!algorithm_.set_techniques(techniques)) return false;
@@ -108,7 +108,7 @@ class Pilot {
     for (const Noise& one : noise) samples_ += one;
     return true;
   }
-  /// Of samples alone: variance times cost.
+  /// The noise of samples alone: variance times cost.
   double noise_of_samples() const {
     return samples_.cost() * samples_.square(thresholds.size() - 1);
   }
@@ -144,14 +144,14 @@ class Pilot {
   }
 
  private:
-  /// What light counts for: its share of the brightness of its pixel.
+  /// The weight of light in the noise: its share of the brightness of its pixel.
   double relative(const Color& rgb, const Vec2& raster) const {
     return target_luminance(rgb) * coarse_(raster);
   }
   FamilyWeights weights(size_t i) const { return FamilyWeights(starts_.b * thresholds[i]); }
 
-  /// Returns what the sample adds to its own pixel. All that it adds to others by light tracing is
-  /// noise.
+  /// Returns the light that the sample adds to its own pixel. All light that it adds to others by
+  /// light tracing counts as noise.
   PerThreshold add_sample(const std::vector<FoundLight>& found, Noise& noise) const {
     PerThreshold own_pixel{};
     for (const FoundLight& one : found) {
@@ -168,7 +168,7 @@ class Pilot {
     return own_pixel;
   }
 
-  /// Squares of what a chain adds to a pixel in all: what it stays for makes the image noisier.
+  /// Sums squares of all that a chain adds to a pixel: staying in one makes the image noisier.
   void run_chains() {
     chains_ = {};
     const std::vector<uint32_t>& seeds = starts_.seeds;
@@ -223,12 +223,12 @@ class Pilot {
   Noise samples_, chains_;
 };
 
-/// Rounded, so that the same scene in another unit of length has the same image to the last bit.
+/// Rounds x, so that a scene in another unit of length has the same image to the last bit.
 double to_half_octaves(double x) { return std::exp2(std::round(2 * std::log2(x)) / 2); }
 
-/// Between N1 samples and N2 steps, c = b N1 / N2 would be the balance heuristic (Veach 1997, eq.
-/// 9.8) if steps were independent. The more of the time the pilot gives to the samples, the noisier
-/// it has seen the chains: 1 / sqrt(1 - share) steps count as one.
+/// Sets weights and lengths of tours. For N1 samples and N2 independent steps, c = b N1 / N2 would
+/// be the balance heuristic (Veach 1997, eq. 9.8). The larger the share of the samples, the noisier
+/// the chains were in the pilot: 1 / sqrt(1 - share) steps count as one.
 void set_tours(Allocation& allocation, double b) {
   const double share = allocation.share,
                steps = allocation.mutations_per_sample * (1 - share) / share;

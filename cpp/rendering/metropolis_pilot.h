@@ -1,5 +1,5 @@
-// The pilot of a Metropolis render: a few independent samples and short chains tell how noisy the
-// two families are, and what they cost. Their paths are not used again, so nothing is biased.
+// The pilot of a Metropolis render: a few independent samples and short chains, which estimate the
+// noise and the cost of both families. Their paths are not used again, so nothing is biased.
 #pragma once
 
 #include "rendering/metropolis_algorithm.h"
@@ -11,29 +11,29 @@ namespace mlt {
 
 /// How a render divides its time between chains and independent samples.
 struct Allocation {
-  double share = 0;       ///< Of the time, for independent samples; 1: there are no chains.
-  FamilyWeights weights;  ///< Of both families.
-  double mutations_per_sample = 1;                      ///< What an independent sample costs.
-  SampleTechniques techniques = SampleTechniques::all;  ///< Of the independent samples.
+  double share = 0;       ///< Share of the time for independent samples; 1: there are no chains.
+  FamilyWeights weights;  ///< Weights of both families.
+  double mutations_per_sample = 1;                      ///< Cost of an independent sample.
+  SampleTechniques techniques = SampleTechniques::all;  ///< Used by the samples.
   bool in_time = true;                                  ///< Whether there was time to find it.
-  double b = 0;                                         ///< A rough guess, for tours;
-  double steps_per_sample = 1;  ///< and how many steps they make from a sample in the mean.
+  double b = 0;                                         ///< A rough estimate of b, for tours.
+  double steps_per_sample = 1;  ///< Mean number of steps of tours per sample.
 };
 
 struct PilotSettings {
   uint64_t seed = 0;
   int threads = 1;
   uint64_t coarse_samples = 0;  ///< For the coarse image.
-  uint64_t samples = 0;         ///< As candidates for the starts of chains, and once more.
+  uint64_t samples = 0;         ///< Candidates for the starts of chains, and as many samples.
   int chains = 64;
-  uint64_t steps = 2000;                       ///< Of each chain.
-  std::optional<double> share;                 ///< See Allocation. What is given stays.
-  std::optional<SampleTechniques> techniques;  ///< The same.
-  /// Within which the share of the independent samples stays, as long as there are chains.
+  uint64_t steps = 2000;                       ///< Steps of each chain.
+  std::optional<double> share;                 ///< See Allocation; fixed if given.
+  std::optional<SampleTechniques> techniques;  ///< See Allocation; fixed if given.
+  /// Bounds of the share of the independent samples, as long as there are chains.
   double least_share = 0.05, greatest_share = 0.95, greatest_share_with_rare_light = 0.2;
 };
 
-/// Without chains.
+/// The division of a render without chains.
 inline Allocation samples_alone(SampleTechniques techniques) {
   return {1, FamilyWeights(std::numeric_limits<double>::max()), 1, techniques};
 }

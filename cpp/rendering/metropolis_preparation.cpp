@@ -36,7 +36,7 @@ void MetropolisRendering::prepare(int threads, const std::atomic<bool>& cancelle
   if (!in_time && !cancelled) do_without_chains();
 }
 
-/// A render too short for pilot and bootstrap is one of independent samples.
+/// Makes a render that is too short for pilot and bootstrap one of independent samples.
 void MetropolisRendering::do_without_chains() {
   for (Group& group : groups_) {
     group.b = 0;
@@ -83,7 +83,7 @@ Allocation MetropolisRendering::run_pilot(int threads, const std::atomic<bool>& 
   return allocation;
 }
 
-/// They need no bootstrap.
+/// Starts tours, which need no bootstrap.
 void MetropolisRendering::start_tours() {
   for (Group& group : groups_) group.b = allocation_.b;
   lay_out();
@@ -110,7 +110,7 @@ void MetropolisRendering::start_chains(int threads, const std::atomic<bool>& can
   });
 }
 
-/// Each group has its own part of the candidates, and resamples the starts of its chains from them.
+/// Resamples the starts of the chains of each group from its own part of the candidates.
 std::vector<std::vector<uint32_t>> MetropolisRendering::run_bootstrap(
     const Candidates& candidates, int threads, const std::atomic<bool>& cancelled) {
   const std::vector<SampleWeights> weights = draw_candidates(

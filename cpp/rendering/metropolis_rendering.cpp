@@ -32,15 +32,15 @@ std::unique_ptr<RenderChain> MetropolisRendering::blank_chain(const ChainTeam& t
                            allocation_.steps_per_sample);
 }
 
-// ---- which shares and units there are -----------------------------------------------------------
+// ---- the layout of shares and units -------------------------------------------------------------
 
-/// As many as samples alone would have, if they are the greater part.
+/// As many passes as samples alone would have, if they are the greater part; else one.
 uint64_t MetropolisRendering::passes_per_turn() const {
   if (allocation_.share <= 0.5) return 1;
   return allocation_.techniques == SampleTechniques::path_tracing ? 8 : 4;
 }
 
-/// Which shares there are, once b of each group is known.
+/// Lays out the shares, once b of each group is known.
 void MetropolisRendering::lay_out() {
   samples_.reset();
   if (allocation_.share > 0)
@@ -58,7 +58,7 @@ void MetropolisRendering::lay_out() {
   lay_out_units();
 }
 
-/// Of about the same size.
+/// Divides the chains of a group into teams of about the same size.
 void MetropolisRendering::form_teams(int group) {
   const int chains = chains_of(group), most = algorithm_->chains_together(),
             count = (chains + most - 1) / most;
@@ -77,7 +77,7 @@ uint64_t MetropolisRendering::chain_count() const {
   return count;
 }
 
-/// How the time is divided: while all cells get a sample, the chains do their share of the work.
+/// Divides the time: while all cells get a sample, the chains do their share of the work.
 void MetropolisRendering::lay_out_units() {
   const uint64_t tiles = samples_ ? samples_->film().tile_count() : 0;
   double steps = pixels(), sampling = 0;
@@ -151,7 +151,7 @@ void MetropolisRendering::run_team(uint64_t number) {
   groups_[team.group].steps += steps_per_unit_ * team.chains.size();
 }
 
-// ---- what has come of them --------------------------------------------------------------------
+// ---- the image --------------------------------------------------------------------------------
 
 std::vector<GroupProgress> MetropolisRendering::progress() const {
   std::vector<GroupProgress> groups;
@@ -169,7 +169,7 @@ GroupCombination MetropolisRendering::combination() const {
   return {progress(), samples_ ? samples_->mean_of_chains() : Estimate(), !algorithm_->has_tours()};
 }
 
-/// Pixels are the pixel count times what falls into them.
+/// A pixel's value is the pixel count times the light that falls into it.
 Image MetropolisRendering::chain_image(GroupScales scales) const {
   for (double& scale : scales) scale *= pixels();
   return film_.image(scales);

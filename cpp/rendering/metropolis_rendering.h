@@ -1,9 +1,9 @@
-// Rendering by Markov chains, with independent samples beside them: what all Metropolis integrators
-// share. Chains and samples find the same paths; FamilyWeights has the weights of both.
+// Rendering by Markov chains, with independent samples beside them: the common part of all
+// Metropolis integrators. Chains and samples find the same paths, weighted by FamilyWeights.
 //
 // A render is a fixed number of chains, each with its own random stream; a unit is some steps of
 // one chain or of a few that advance together, and these are visited in turn. They form independent
-// groups, each with its own bootstrap; GroupCombination tells how these add up. The samples are a
+// groups, each with its own bootstrap, which GroupCombination adds up. The samples are a
 // rendering of their own, whose units are interleaved with those of the chains, so that every
 // prefix of a render is a fair image.
 #pragma once
@@ -25,10 +25,10 @@ namespace mlt {
 struct MetropolisSettings {
   int chains = 128;
   int64_t luminance_samples = 50000;
-  std::optional<double> independent_share;     ///< Of the time; without, a pilot finds it.
-  std::optional<SampleTechniques> techniques;  ///< Of the independent samples; the same.
-  std::optional<double> steps_per_sample;      ///< Of tours; the same.
-  bool parts = false;                          ///< Keep the parts of both families as layers.
+  std::optional<double> independent_share;     ///< Samples' share of time; default: by a pilot.
+  std::optional<SampleTechniques> techniques;  ///< Techniques of samples; default: by a pilot.
+  std::optional<double> steps_per_sample;      ///< Steps of tours per sample; default: by a pilot.
+  bool parts = false;                          ///< Whether to keep both families' images as layers.
   bool only_camera_walks = false;              ///< See warn_of_hidden_lights.
 };
 
@@ -41,7 +41,7 @@ class MetropolisRendering : public Rendering {
   Memory memory(double spp) const override;
   void run_unit(uint64_t unit) override;
   Image image() const override;
-  /// Of the chains.
+  /// The image of one group of chains.
   GroupImage group(int index) const override;
   std::vector<const Rendering*> parts() const override;
   Image common_error() const override;
@@ -51,15 +51,15 @@ class MetropolisRendering : public Rendering {
   void load(const std::string& state) override;
 
  private:
-  /// Each chain has had its turn within about a second, however large the image.
+  /// The most steps of chains in a turn, so that it ends within about a second for any image size.
   static constexpr double most_steps_per_turn = 1 << 19;
 
   /// Chains of a group that advance together: a share of the render, after those of the samples.
   struct ChainTeam {
     int group, first;  ///< Number of its first chain in the group.
     std::vector<std::unique_ptr<RenderChain>> chains;
-    double brightness = 0;  ///< Sum of L* of what they have recorded.
-    uint64_t units = 0;     ///< That are done.
+    double brightness = 0;  ///< Sum of L* of the states that they have recorded.
+    uint64_t units = 0;     ///< Units that are done.
     mutable std::mutex mutex;
     std::condition_variable turn;
   };
@@ -89,7 +89,7 @@ class MetropolisRendering : public Rendering {
   void lay_out_units();
   void run_team(uint64_t number);
   Image chain_image(GroupScales scales) const;
-  /// Of each group; the bootstrap of tours are the samples that they start from.
+  /// The sums of each group; the bootstrap of tours consists of the samples that they start from.
   std::vector<GroupProgress> progress() const;
   GroupCombination combination() const;
   void add_level(Stats& stats) const;

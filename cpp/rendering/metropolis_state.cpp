@@ -1,6 +1,6 @@
 // A render of chains and samples as bytes, in checkpoints and for other machines. A chain's state
-// replaces the one before; what chains have recorded is added: fixed-point sums do not depend on
-// their order.
+// replaces the one before; the sums that chains have recorded are added: fixed-point sums do not
+// depend on their order.
 #include "rendering/metropolis_rendering.h"
 
 namespace mlt {
@@ -13,7 +13,7 @@ struct GroupRange {
 
 }  // namespace
 
-/// What is known before the first unit.
+/// Saves the results of the preparation, which are known before the first unit.
 std::string MetropolisRendering::save_prepared() const {
   ByteWriter bytes;
   bytes.write(allocation_);

@@ -1,4 +1,4 @@
-// What a render of chains and samples tells about itself.
+// The statistics of a render of chains and samples.
 #include "rendering/hidden_lights.h"
 #include "rendering/metropolis_rendering.h"
 
@@ -26,7 +26,7 @@ void warn_of_long_tour(const ChainStats& sum, Stats& stats) {
 
 }  // namespace
 
-/// Of all chains; `stuck` becomes the one that has stood still for longest.
+/// Sums the statistics of all chains; `stuck` becomes the one with the longest run of rejections.
 ChainStats MetropolisRendering::sum_of_stats(StuckChain& stuck) const {
   ChainStats sum;
   sum.rows.resize(algorithm_->rows().size());
@@ -50,7 +50,7 @@ ChainStats MetropolisRendering::sum_of_stats(StuckChain& stuck) const {
   return sum;
 }
 
-/// Of the brightness.
+/// Adds the mean brightness, its error and the samples that it was estimated from.
 void MetropolisRendering::add_level(Stats& stats) const {
   SampleSums bootstrap;
   for (const GroupProgress& group : progress()) bootstrap += group.bootstrap;

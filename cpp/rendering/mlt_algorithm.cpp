@@ -12,7 +12,7 @@ namespace {
 /// The step of a second stage over that of the first.
 constexpr double timid_share = 0.1;
 
-/// How many walks look for the lights that the camera sees (CertainLight).
+/// Number of walks that look for the lights that the camera sees (CertainLight).
 constexpr uint64_t walks_to_lights = 50000;
 
 /// A mutation's own parameter for its step size, and the values among which adaptation chooses.
@@ -23,15 +23,15 @@ struct StepSizeChoice {
 constexpr StepSizeChoice step_size_choices[] = {{"largest_share", {0.02, 0.1}},
                                                 {"step_size", {1. / 256, 1. / 32}}};
 
-/// nullptr if it has no step size.
+/// The choice of step sizes of a mutation; nullptr if it has no step size.
 const StepSizeChoice* step_size_choice(const MutationPlugin& plugin) {
   for (const StepSizeChoice& choice : step_size_choices)
     if (plugin.schema.find(choice.parameter)) return &choice;
   return nullptr;
 }
 
-/// A second stage asks for the density of what was rejected, from another path. A walk along a
-/// manifold may lead elsewhere from there, which its density does not say.
+/// A second stage evaluates the density of the rejected path, proposed from another path. A
+/// manifold walk may lead elsewhere from there, which its density does not account for.
 bool can_be_retried(const MutationPlugin& plugin) {
   return plugin.has_step_size() && plugin.name() != "manifold";
 }
@@ -158,7 +158,7 @@ class MltAlgorithm : public MetropolisAlgorithm {
     return sizes;
   }
 
-  /// The same perturbation with a step so small that it is likely to be accepted.
+  /// A perturbation with the step reduced by timid_share, so that it is likely to be accepted.
   MutationPtr timid(const std::string& name, const MutationValues& own) const {
     const MutationPlugin& plugin = mutation_plugin(name);
     if (!can_be_retried(plugin)) return nullptr;
@@ -181,7 +181,7 @@ class MltAlgorithm : public MetropolisAlgorithm {
   PathTarget target_;
   Mutations mutations_;
   std::vector<double> step_sizes_;
-  Mutations timid_;  ///< What follows a rejected proposal.
+  Mutations timid_;  ///< Mutations of the second stage, after a rejected proposal.
   std::shared_ptr<const MixtureWeights> weights_;
 };
 

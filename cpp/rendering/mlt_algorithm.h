@@ -1,4 +1,4 @@
-// The tours of mlt: which mutations move them, with which weights, towards which target.
+// The tours of mlt: their mutations, the weights of these, and the target.
 #pragma once
 
 #include "mutation/extra_mutation.h"
@@ -28,7 +28,7 @@ struct MltSettings {
   bool two_stage = true;
   bool delayed_rejection = false;
   bool samples_beside = true;         ///< Whether independent samples go to the image, too.
-  std::optional<double> tour_length;  ///< The same for all tours, in the mean.
+  std::optional<double> tour_length;  ///< Mean steps of a tour, alike for all.
 };
 
 std::unique_ptr<MetropolisAlgorithm> mlt_algorithm(ScenePtr scene, const MltSettings& settings);

@@ -50,7 +50,7 @@ class MultiplexedAlgorithm : public MetropolisAlgorithm {
   MultiplexedAlgorithm(ScenePtr scene, const MultiplexedSettings& settings)
       : target_(std::move(scene), settings.rules), settings_(settings), choice_(settings.rules) {}
 
-  /// Finds out which techniques bring the light.
+  /// Estimates how much light each technique contributes.
   void prepare(const CoarseImage&, uint64_t seed, int threads,
                const std::atomic<bool>& cancelled) override {
     using Light = std::vector<std::pair<Technique, double>>;
@@ -77,7 +77,7 @@ class MultiplexedAlgorithm : public MetropolisAlgorithm {
 
   const Scene& scene() const override { return target_.scene(); }
   std::unique_ptr<Source> source() const override { return std::make_unique<PathSource>(target_); }
-  /// From one of the candidate's paths, chosen in proportion to its weight.
+  /// Starts from one of the candidate's paths, chosen in proportion to its weight.
   std::unique_ptr<RenderChain> start(const ChainId& id, Rng candidate, Rng choice) const override {
     PrimaryNumbers drawn;
     PrimarySampler sampler(drawn, {}, candidate);

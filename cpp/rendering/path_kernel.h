@@ -20,7 +20,7 @@ class PathKernel : public PathMixture {
   double proposal_weight() const { return 0; }
   Vec2 raster_of(const PathState& x) const { return x.raster; }
 
-  /// There is one for each mutation and row of its weights.
+  /// The row of the statistics: there is one for each mutation and row of its weights.
   size_t stats_row() const { return chosen() * (longest_row + 1) + std::min(row(), longest_row); }
   size_t stats_rows() const { return moves().size() * (longest_row + 1); }
   RayCounts& rays() { return aids().rays; }

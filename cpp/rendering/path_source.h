@@ -17,7 +17,7 @@ class PathSource : public MetropolisAlgorithm::Source {
     return draw(raster, sampler);
   }
   const RayCounts& rays() const override { return seeds_.rays(); }
-  /// .75 to .93 in bench_ray_cost.
+  /// Cost of a ray, measured in bench_ray_cost: .75 to .93.
   double cost_of_ray() const override { return 0.8; }
 
  private:

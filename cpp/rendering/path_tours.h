@@ -8,8 +8,8 @@
 
 namespace mlt {
 
-/// Each advance draws as many samples as have `steps` steps in the mean, and ends with the last
-/// tour.
+/// A chain of tours. Each advance draws as many samples as have `steps` steps in the mean, and ends
+/// with the last tour.
 class PathTours : public RenderChain {
  public:
   /// `rate` has kappa0 = id.b / steps_per_sample.
@@ -110,9 +110,9 @@ class PathTours : public RenderChain {
   PathState start_;
   SampleSums samples_;
   ChainId id_;
-  uint64_t stream_;  ///< Of the group.
+  uint64_t stream_;  ///< Random stream of the group.
   uint64_t count_ = 0, tours_ = 0;
-  double due_;  ///< Of the next sample.
+  double due_;  ///< Fraction of the next sample that is due.
   double first_kill_;
 };
 

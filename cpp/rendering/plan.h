@@ -1,4 +1,4 @@
-// How a render is cut into units, and which of them depend on each other. The words are explained
+// The division of a render into units, and the dependencies between them. The terms are explained
 // in docs/notation.md.
 #pragma once
 
@@ -26,12 +26,12 @@ struct Task {
 /// Units are numbered 0, 1, 2, ..., one pass after the other, and are started in that order.
 struct Plan {
   uint64_t units_per_pass = 1;
-  /// After each multiple of so many units all groups are as far as they have begun.
+  /// At each multiple of this number of units all groups that have begun are equally far.
   uint64_t units_per_group_turn = 1;
-  /// Which share a unit belongs to; after units_per_cycle each share has had its turn.
+  /// The share that a unit belongs to; after units_per_cycle units each share has had its turn.
   std::function<uint64_t(uint64_t)> share_of = [](uint64_t) { return 0; };
   uint64_t units_per_cycle = 1;
-  /// So many units in a row belong to one share, the next ones to the next share, and so on.
+  /// Assigns runs of `units` units to the shares in turn.
   void take_turns(uint64_t shares, uint64_t units) {
     share_of = [=](uint64_t unit) { return unit / units % shares; };
     units_per_cycle = units * shares;
@@ -41,7 +41,7 @@ struct Plan {
   /// First shares of the sequences that no task reaches across, and the number of all shares.
   std::vector<uint64_t> borders = {0, 1};
 
-  /// No render ends with fewer units.
+  /// The least number of units of a render.
   uint64_t least_units = 0;
 
   /// How many units `spp` samples per pixel take.
@@ -56,7 +56,7 @@ struct Plan {
 
   uint64_t share_count() const { return borders.back(); }
 
-  /// All shares, cut into `wanted` sequences or as near to it as their borders allow.
+  /// Cuts all shares into `wanted` sequences, or as near to it as their borders allow.
   std::vector<Shares> cut(int wanted) const {
     const uint64_t sequences = std::max<uint64_t>(1, borders.size() - 1);
     const uint64_t each = (std::max(1, wanted) + sequences - 1) / sequences;

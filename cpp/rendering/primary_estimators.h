@@ -1,6 +1,6 @@
 // The estimators that pssmlt moves the random numbers of: path tracing, bidirectional path tracing,
-// light tracing. Each tells what the paths of one sample add to the image, f / p in all: importance
-// over the density of raster positions is part of it.
+// light tracing. Each returns the contributions f / p of the paths of one sample to the image, the
+// importance over the density of raster positions included.
 #pragma once
 
 #include "path/bidirectional_sampler.h"
@@ -30,7 +30,7 @@ class PathEstimator {
   PathRules rules_;
 };
 
-/// All techniques (s, t).
+/// An estimator with all techniques (s, t).
 class BidirectionalEstimator {
  public:
   BidirectionalEstimator(const Scene& scene, const PathRules& rules) : paths_(scene, {rules}) {}
@@ -39,7 +39,7 @@ class BidirectionalEstimator {
   void operator()(const Vec2& raster, Sampler& sampler, std::vector<ImageLight>& light,
                   RayCounts& rays) {
     paths_.sample(raster, sampler, rays);
-    size_t own_pixel = no_light;  // What is seen at the sample's own position is one entry.
+    size_t own_pixel = no_light;  // light at the sample's own position is one entry
     paths_.connect_all(rays, [&](const Connection& c) {
       const Color rgb = c.contribution * c.weight;
       if (c.t >= 2 && own_pixel != no_light) {
@@ -57,7 +57,7 @@ class BidirectionalEstimator {
   BidirectionalSampler paths_;
 };
 
-/// The technique t = 1 alone.
+/// An estimator with the technique t = 1 alone.
 class LightEstimator {
  public:
   LightEstimator(const Scene& scene, const PathRules& rules) : paths_(scene, {rules}) {}

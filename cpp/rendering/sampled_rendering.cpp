@@ -47,7 +47,7 @@ SampledRendering::Place SampledRendering::place_of(uint64_t pass) const {
           turn / group_count * passes_per_turn_ + pass % passes_per_turn_};
 }
 
-/// Sums begin with the first sample of their group.
+/// Memory of the groups that a render of `spp` begins: sums are allocated with the first sample.
 Rendering::Memory SampledRendering::memory(double spp) const {
   const double turns = std::ceil(spp / static_cast<double>(passes_per_turn_));
   const auto groups = static_cast<size_t>(std::min(turns, double{group_count}));
@@ -82,7 +82,7 @@ void SampledRendering::run_unit(uint64_t unit) {
   occluded_ += rays.occluded;
 }
 
-/// Tile by tile, since some may have a sample more than others.
+/// The mean, stratified by tile, since some may have a sample more than others.
 Estimate SampledRendering::mean_of(MeanSums SampleSums::* sums) const {
   std::vector<MeanSums> strata;
   for (const SampleSums& tile : film_.sums()) strata.push_back(tile.*sums);
@@ -116,7 +116,7 @@ void SampledRendering::add_stats(Stats& stats) const {
         "a layer of the image exceeded its fixed-point range; its brightest pixels are wrong");
 }
 
-/// The groups are those of the passes that the task begins, ends or goes through.
+/// The film's sums of a task: of the groups of all passes that it overlaps.
 SampleFilm::Selection SampledRendering::selection(const Task& task) const {
   const uint64_t tiles = film_.tile_count();
   std::set<int> groups;

@@ -1,4 +1,4 @@
-// Rendering by independent samples of each pixel: what path, direct, ptracer and bdpt share.
+// Rendering by independent samples of each pixel: the base of path, direct, ptracer and bdpt.
 #pragma once
 
 #include "base/registry.h"
@@ -14,14 +14,14 @@
 
 namespace mlt {
 
-/// Where samples go; invalid ones are counted and left out. When a sample is replayed there is no
-/// film but somebody to be told its paths.
+/// Records samples in a film; invalid ones are counted and left out. When a sample is replayed
+/// there is no film; its paths are recorded instead.
 class SampleSink {
  public:
   SampleSink(SampleFilm::Tile& tile, SplatFilm& layers) : tile_(&tile), layers_(&layers) {}
   explicit SampleSink(Replay& replay) : replay_(&replay) {}
 
-  /// Radiance at the sampled raster position.
+  /// Adds radiance at the sampled raster position.
   void add(const Vec2& raster, const Color& radiance) {
     if (!valid(radiance)) return;
     if (tile_)
@@ -29,20 +29,20 @@ class SampleSink {
     else
       replay_->radiance += radiance;
   }
-  /// What a walk from a light leaves anywhere on the image, over its density.
+  /// Adds a contribution of light tracing, over its density, anywhere on the image.
   void splat(const Vec2& raster, const Color& contribution) {
     if (valid(contribution) && tile_) tile_->splat(raster, contribution);
   }
-  /// The same for a layer of the film.
+  /// Adds a contribution of light tracing to a layer of the film.
   void splat_layer(int layer, const Vec2& raster, const Color& contribution) {
     if (is_finite(contribution) && layers_) layers_->add(layer, raster, contribution);
   }
-  /// What a sample tells about the brightness.
+  /// Adds a sample to the estimates of the brightness.
   void add_sums(double brightness, double of_chains) {
     if (tile_) tile_->sums().add(brightness, of_chains);
   }
   void count_invalid() { ++invalid_; }
-  /// Where found paths are to be told; usually nullptr.
+  /// Where found paths are recorded; usually nullptr.
   std::vector<FoundPath>* paths() { return replay_ ? &replay_->paths : nullptr; }
   uint64_t invalid() const { return invalid_; }
 
@@ -59,25 +59,25 @@ class SampleSink {
 };
 
 struct SampledSettings {
-  bool splats = false;  ///< Walks from lights leave something anywhere on the image.
+  bool splats = false;                   ///< Whether walks from lights splat anywhere on the image.
   std::vector<std::string> layers = {};  ///< Further images to be kept.
-  /// So many passes go to a group, then as many to the next one; among them, samples are
+  /// Passes that go to a group before as many go to the next one; among them, samples are
   /// stratified. The more, the better stratified is a render of few samples; the fewer, the sooner
-  /// it has several groups, whose spread tells its error.
+  /// it has several groups, from whose spread the error is estimated.
   uint64_t passes_per_turn = 8;
   bool only_camera_walks = false;  ///< See warn_of_hidden_lights.
 };
 
-/// Of algorithms whose walks begin at the camera.
+/// Settings of algorithms whose walks begin at the camera.
 inline SampledSettings camera_walks() {
   SampledSettings settings;
   settings.only_camera_walks = true;
   return settings;
 }
 
-/// The numbers of one sample of each cell: those of its group's stream for it.
+/// The random numbers of one sample of each cell, from its group's stream for that cell.
 struct CellStreams {
-  uint64_t seed;  ///< Mixed.
+  uint64_t seed;  ///< The seed, mixed (mix_bits).
   int group;
   uint32_t index;
 
@@ -98,17 +98,18 @@ void for_each_packet_cell(const PixelRect& cells, Take&& take) {
         for (int x = x0; x < std::min(x0 + 4, cells.x1); ++x) take(Vec2i(x, y));
 }
 
-/// Takes samples one after the other; keeps its memory between them.
+/// Takes samples one after the other; reuses its buffers.
 class SampleTaker {
  public:
   virtual ~SampleTaker() = default;
-  /// One sample for each of these cells.
+  /// Takes one sample for each of these cells.
   virtual void sample_cells(const PixelRect& cells, const CellStreams& streams, SampleSink& sink,
                             RayCounts& rays) {
     for (int y = cells.y0; y < cells.y1; ++y)
       for (int x = cells.x0; x < cells.x1; ++x) sample_cell({x, y}, streams, sink, rays);
   }
-  /// The sampler has given the raster position and goes on with the lens and the time.
+  /// Takes one sample. The sampler has given the raster position; its next numbers are those of
+  /// the lens and the time.
   virtual void sample(const Vec2& raster, PixelSampler& sampler, SampleSink& sink,
                       RayCounts& rays) = 0;
   void sample_cell(const Vec2i& cell, const CellStreams& streams, SampleSink& sink,
@@ -117,9 +118,9 @@ class SampleTaker {
     const Vec2 raster = Vec2(cell) + numbers.next2();
     sample(raster, numbers, sink, rays);
   }
-  /// After the last sample.
+  /// To be called after the last sample.
   virtual void finish(SampleSink& /*sink*/, RayCounts& /*rays*/) {}
-  /// What film its settings ask for.
+  /// The film that its settings ask for.
   template <class Settings>
   static SampledSettings film(const Settings&) {
     return {};
@@ -133,20 +134,20 @@ class SampledRendering : public Rendering {
                    MakeTaker make_taker);
 
   Memory memory(double spp) const override;
-  /// One sample for each cell of one tile.
+  /// Takes one sample for each cell of one tile.
   void run_unit(uint64_t unit) override;
   Image image() const override { return film_.image(); }
   GroupImage group(int index) const override {
     return {film_.group_image(index), static_cast<double>(film_.passes(index))};
   }
   const SampleFilm& film() const { return film_; }
-  /// What its samples tell about the brightness (SampleSums), if they do.
+  /// The mean brightness of its samples (SampleSums), if they record it.
   Estimate mean_brightness() const { return mean_of(&SampleSums::brightness); }
   Estimate mean_of_chains() const { return mean_of(&SampleSums::of_chains); }
   WeightClasses classes() const;
   std::vector<NamedImage> layers() const override;
   void add_stats(Stats& stats) const override;
-  /// `direct` tells the radiance alone, the others the paths too.
+  /// Repeats one sample; `direct` returns its radiance alone, the others its paths too.
   Replay replay(const Vec2i& pixel, uint64_t sample) override;
   std::string save(const Task& task, Content content) const override;
   void load(const std::string& state) override;
@@ -156,7 +157,7 @@ class SampledRendering : public Rendering {
 
   struct Place {
     int group;
-    uint64_t index;  ///< Of the pass in its group.
+    uint64_t index;  ///< Index of the pass in its group.
   };
   Place place_of(uint64_t pass) const;
   Estimate mean_of(MeanSums SampleSums::* sums) const;

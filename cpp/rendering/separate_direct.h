@@ -5,13 +5,13 @@
 
 namespace mlt {
 
-/// Light that is added to what the chains make.
+/// Direct light that is added to the image of the chains.
 struct SeparateDirect {
   std::unique_ptr<Rendering> rendering;  ///< nullptr: there is none.
   double spp = 0;
 };
 
-/// Light of at most one reflection, `samples` per pixel; none at all if samples is 0.
+/// Renders light of at most one reflection with `samples` per pixel; nothing if samples is 0.
 SeparateDirect separate_direct(ScenePtr scene, uint64_t seed, int samples, bool hide_emitters,
                                bool strict_normals);
 

@@ -1,4 +1,4 @@
-// What a render tells about itself.
+// Statistics of a render.
 #pragma once
 
 #include <cstdint>
@@ -15,9 +15,9 @@ struct MutationStats {
   double mean_acceptance = 0;
   double image_distance = 0;  ///< Mean move on the image per proposal, in pixels.
   uint64_t rays = 0;
-  /// Proposals given up since a manifold walk did not get there, or not back.
+  /// Proposals given up since a manifold walk failed, or the walk back did.
   uint64_t failed_walks = 0, failed_returns = 0;
-  double weight = 0;  ///< With which it takes part in the choice at this length.
+  double weight = 0;  ///< Its weight in the choice of mutations at this length.
   /// Largest move on the image, as a fraction of its diagonal; 0: not a perturbation.
   double step_size = 0;
 };
@@ -32,7 +32,7 @@ struct StuckChain {
 /// A block of pixels where one independent group has found most of the light.
 struct DisagreementStats {
   int x = 0, y = 0;  ///< Its upper left pixel.
-  double share = 0;  ///< Of the block's light, found by that group.
+  double share = 0;  ///< Share of the block's light that this group has found.
 };
 
 struct Stats {
@@ -52,15 +52,15 @@ struct Stats {
   std::vector<DisagreementStats> disagreements;  ///< The brightest blocks first, ten at the most.
   /// Mean of L* over the image and its standard error; Metropolis only.
   double b = 0, b_error = 0;
-  /// Of the time, for samples that are independent of the chains; how many samples b was estimated
-  /// from, and how many of these, those of the highest weight, carry half of it. Metropolis only.
+  /// Share of the time for samples that are independent of the chains. Metropolis only. Below: how
+  /// many samples b was estimated from, and how many of the highest weight carry half of it.
   double independent_share = 0;
-  std::string independent;  ///< Of mlt: what these samples are, "bdpt" or "path".
+  std::string independent;  ///< Name of these samples in mlt: "bdpt" or "path".
   /// By how much, relatively, the brightness of the image may be wrong; NaN (null) if not known.
   double level_error = std::numeric_limits<double>::quiet_NaN();
   uint64_t independent_samples = 0, samples_carrying_half = 0;
-  /// Of mlt and erpt: how often chains have started, and how many mutations they made at the most
-  /// before they ended.
+  /// How often chains have started, and how many mutations the longest made before it ended; mlt
+  /// and erpt only.
   uint64_t tours = 0, longest_tour = 0;
   uint64_t invalid_samples = 0;
   std::vector<StuckChain> stuck;

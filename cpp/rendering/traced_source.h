@@ -7,7 +7,7 @@
 
 namespace mlt {
 
-/// Each path that a sample finds, one sample after the other: for the pilot.
+/// Returns each path that a sample finds, one sample after the other: for the pilot.
 class TracedSource : public MetropolisAlgorithm::Source {
  public:
   explicit TracedSource(const PathTarget& target)
@@ -20,7 +20,7 @@ class TracedSource : public MetropolisAlgorithm::Source {
     return trace(raster, sampler);
   }
   const RayCounts& rays() const override { return rays_; }
-  /// As TracedTaker takes it: .29 to .46 in bench_ray_cost, less where all is matte.
+  /// Cost of a ray of TracedTaker: .29 to .46 in bench_ray_cost, less where all is matte.
   double cost_of_ray() const override { return 0.35; }
 
  private:
@@ -52,8 +52,8 @@ class TracedSource : public MetropolisAlgorithm::Source {
   std::vector<FoundLight> found_;
 };
 
-/// Gives what the samples find to the image, with the weights w1 (FamilyWeights), side by side: for
-/// the render. They do not tell the brightness, since there may be light that they cannot find.
+/// Traces samples side by side and adds them to the image with the weights w1 (FamilyWeights), for
+/// the render. They do not estimate the brightness, since there may be light they cannot find.
 class TracedTaker : public WaveTaker {
  public:
   TracedTaker(const PathTarget& target, const FamilyWeights& weights)
@@ -62,7 +62,7 @@ class TracedTaker : public WaveTaker {
         scale_(radiance_scale(target.scene())),
         threshold_(weights.threshold()) {}
 
-  /// One by one, for who looks at a sample.
+  /// Traces one sample alone, for replaying it.
   void sample(const Vec2& raster, PixelSampler& sampler, SampleSink& sink,
               RayCounts& rays) override {
     CameraWalk walk(leave_lens(scene().camera(), raster, sampler).ray);

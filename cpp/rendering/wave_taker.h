@@ -28,11 +28,11 @@ class WaveTaker : public SampleTaker {
 
  private:
   virtual ChainFactor chain_factor(const Vec2& /*raster*/) const { return {}; }
-  /// What a path has found.
+  /// Records the radiance that a path has found.
   virtual void show(const Vec2& raster, const Color& radiance, SampleSink& sink) {
     sink.add(raster, radiance);
   }
-  /// The paths through all cells in rasters_.
+  /// Traces the paths through all cells in rasters_.
   void trace_wave(SampleSink& sink, RayCounts& rays) {
     start_wave();
     wave_.trace(rays);
@@ -41,7 +41,7 @@ class WaveTaker : public SampleTaker {
     rasters_.clear();
   }
 
-  /// The numbers are those that sample() takes.
+  /// Starts the paths with the random numbers that sample() takes.
   void start_wave() {
     const Camera& camera = scene_->camera();
     const Shutter& shutter = camera.shutter();
@@ -64,7 +64,7 @@ class WaveTaker : public SampleTaker {
   const Scene* scene_;
   PathRules rules_;
   PathWave wave_;
-  std::vector<Vec2> rasters_;  ///< Of the paths in it; at first, their cells.
+  std::vector<Vec2> rasters_;  ///< Raster positions of the wave's paths; at first, their cells.
   Wave<double> u_x_, u_y_, u_time_;
 };
 

@@ -1,7 +1,7 @@
-// The ray accelerator on Embree 3 or 4. Meshes go to Embree as they are; analytic shapes are
-// user geometry, intersected in double precision with the ray as it was given. Groups of shapes are
-// scenes of their own, of which there are instances. What moves is an instance whose transform is
-// linear between steps of time, by Embree's own interpolation.
+// The ray accelerator on Embree 3 or 4. Meshes are passed to Embree directly; analytic shapes are
+// user geometry, intersected in double precision with the original ray. Groups of shapes are
+// scenes of their own, of which there are instances. A moving shape is an instance whose transform
+// is linear between steps of time, by Embree's own interpolation.
 #include "scene/accel.h"
 
 #include "scene/analytic_shape.h"
@@ -30,7 +30,7 @@ constexpr auto coherent_flag = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
 static_assert(SurfacePoint::no_shape == RTC_INVALID_GEOMETRY_ID);
 
 /// The context of a query, with the rays in double precision for the analytic shapes, if there are
-/// any; a ray of the accelerator names one by its `id`.
+/// any; a ray of the accelerator refers to one by its `id`.
 struct Query {
   Context base;
   const Ray* const* rays;
@@ -79,8 +79,8 @@ void analytic_bounds(const RTCBoundsFunctionArguments* args) {
                      up(high.x),  up(high.y),  up(high.z),  0};
 }
 
-/// Where lane i of the accelerator's rays meets the shape. In an instance, or without the exact
-/// ray, it is found by the accelerator's ray, whose direction has any length.
+/// Intersects lane i of the accelerator's rays with a shape. In an instance, or without the exact
+/// ray, the accelerator's ray is used, whose direction has any length.
 std::optional<double> analytic_hit(void* user_data, const Context* context, RTCRayN* rays,
                                    unsigned lanes, unsigned i) {
   const auto& shape = *static_cast<const AnalyticShape*>(user_data);
@@ -131,7 +131,7 @@ RTCGeometry mesh_geometry(RTCDevice device, const Mesh& mesh) {
   return geometry;
 }
 
-/// Of address space: what Embree and its threads take at the least.
+/// Bytes of address space that Embree and its threads take at the least.
 constexpr size_t least_memory = size_t{128} << 20;
 
 bool can_allocate(size_t bytes) {
@@ -150,13 +150,13 @@ RTCGeometry analytic_geometry(RTCDevice device, const AnalyticShape& shape) {
   return geometry;
 }
 
-/// The device's error in words, or ""; without a device, why there is none. Where memory is short
-/// Embree often fails before it can say so; then it is a thread or a library that it lacks.
+/// The device's error in words, or ""; without a device, why there is none. If memory is short
+/// Embree often fails without reporting that, for want of a thread or a library.
 std::string why_not(RTCDevice device, const char* what) {
   const RTCError error = rtcGetDeviceError(device);
   if (device && error == RTC_ERROR_NONE) return "";
   if (error == RTC_ERROR_OUT_OF_MEMORY || !can_allocate(least_memory))
-    return "there is not memory enough for Embree";
+    return "out of memory for Embree";
   return std::string("Embree ") + what;
 }
 
@@ -166,7 +166,7 @@ struct Accel::Impl {
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
   bool moves = false;
-  bool analytic = false;  ///< There are analytic shapes outside groups.
+  bool analytic = false;  ///< Whether there are analytic shapes outside groups.
   Shutter shutter;
   Placements placements;  ///< Embree reads the buffers of their forms.
   std::vector<RTCScene> groups;
@@ -183,7 +183,7 @@ struct Accel::Impl {
   RTCGeometry form_geometry(const Shape& form) const;
   RTCGeometry instance_geometry(const Placement& instance) const;
 
-  /// In [0, 1], also of what is no number.
+  /// The time of a ray in [0, 1]; 0 for NaN.
   float embree_time(double time) const {
     const double share = (time - shutter.open) / (shutter.close - shutter.open);
     return static_cast<float>(std::min(std::max(0.0, share), 1.0));

@@ -19,7 +19,7 @@ struct alignas(32) RayPacket {
 
   explicit RayPacket(int rays = 0) : count(rays) {}
 
-  /// All lines at once, from arrays of `size` numbers.
+  /// Sets origins and directions of all rays, from arrays of `size` numbers.
   void set_lines(const float* o_x, const float* o_y, const float* o_z, const float* d_x,
                  const float* d_y, const float* d_z) {
     for (int i = 0; i < size; ++i) {
@@ -49,7 +49,7 @@ struct alignas(32) RayPacket {
   }
 };
 
-/// What they hit, side by side as well; on nothing, the shape is SurfacePoint::no_shape.
+/// The hits of a packet; for a ray that hits nothing, the shape is SurfacePoint::no_shape.
 struct alignas(32) PacketHits {
   float t[RayPacket::size], u[RayPacket::size], v[RayPacket::size];
   uint32_t shape[RayPacket::size], primitive[RayPacket::size], member[RayPacket::size];
@@ -64,20 +64,20 @@ class Accel {
                  int build_threads = 1);
   ~Accel();
 
-  /// Whether a hierarchy of these would be the same.
+  /// Whether the hierarchy of these shapes would be the same.
   bool serves(const std::vector<ShapePtr>& shapes, const Shutter& shutter) const;
 
   bool intersect(const Ray& ray, Hit& hit) const;
   bool occluded(const Ray& ray) const;
 
-  /// The same of up to RayPacket::size rays; `exact` has them in double precision, if
+  /// Intersects up to RayPacket::size rays; `exact` has them in double precision, if
   /// wants_exact_rays(). Rays from one place in nearly one direction are `coherent`.
   void intersect(const RayPacket& packet, const Ray* const* exact, bool coherent,
                  PacketHits& hits) const;
-  /// Bit i is set if something is in the way of ray i.
+  /// Bit i is set if ray i is blocked.
   unsigned occluded(const RayPacket& packet) const;
 
-  /// Whether there are analytic shapes, which want rays in double precision.
+  /// Whether there are analytic shapes, which need rays in double precision.
   bool wants_exact_rays() const;
   /// Whether the time of a ray matters.
   bool moves() const;

@@ -1,4 +1,4 @@
-// A shape that is an equation, not triangles: rays meet it in double precision.
+// A shape that is given by an equation, not triangles: rays are intersected in double precision.
 #pragma once
 
 #include "scene/shape.h"
@@ -16,7 +16,7 @@ class AnalyticShape : public Shape {
   const AnalyticShape* as_analytic() const final { return this; }
 
  protected:
-  /// Where a line meets a quadric, in order, and which of the two belong to the shape.
+  /// The intersections of a line with a quadric, in order, and which of the two are on the shape.
   struct Roots {
     double near, far;
     bool near_counts = true, far_counts = true;
@@ -26,14 +26,14 @@ class AnalyticShape : public Shape {
       if (far_counts && far >= t_min && far <= t_max) return far;
       return std::nullopt;
     }
-    /// The root that `t` means, which the accelerator has rounded to a float.
+    /// The root that the accelerator has rounded to the float `t`.
     double meant_by(double t) const {
       const bool is_near = t - near <= far - t + 1e-6 * t;
       return near_counts && (is_near || !far_counts) ? near : far;
     }
   };
 
-  /// Called at the end of a constructor, when bounds() are known.
+  /// Sets the extent from bounds(); called at the end of a constructor.
   void set_extent() {
     Vec3 low, high;
     bounds(low, high);

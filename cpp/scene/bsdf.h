@@ -20,7 +20,7 @@ struct BsdfSample {
 struct MatteSurface {
   /// Unknown sides: the surface is not matte. f is that of all points, unless there is a texture.
   Matte matte;
-  const Texture* reflectance = nullptr;  ///< pi f, where it depends on the point.
+  const Texture* reflectance = nullptr;  ///< pi f, if that depends on the point.
 
   bool known() const { return matte.known(); }
   bool uniform() const { return known() && !reflectance; }
@@ -31,8 +31,8 @@ struct MatteSurface {
 
 class Bsdf : public Object {
  public:
-  /// What the path needs of scattering between wl and wc. For a delta lobe the directions are taken
-  /// to match it.
+  /// Evaluates the scattering between wl and wc. For a delta lobe the directions are assumed to
+  /// match it.
   virtual Scattering scattering(const SurfacePoint& at, const Vec3& wl, const Vec3& wc,
                                 Lobe lobe) const = 0;
   Color eval(const SurfacePoint& at, const Vec3& wl, const Vec3& wc, Lobe lobe) const {
@@ -44,8 +44,8 @@ class Bsdf : public Object {
   }
 
   /// Draws a direction. u.x chooses the lobe, (u.y, u.z) the direction; all in [0, 1).
-  /// nullopt: nothing is scattered (absorbed, or sampled below the horizon). The same whether
-  /// `from` is on the light or on the camera side.
+  /// nullopt: nothing is scattered (absorbed, or sampled below the horizon). It makes no difference
+  /// whether `from` is on the light or on the camera side.
   virtual std::optional<BsdfSample> sample(const SurfacePoint& at, const Vec3& from,
                                            const Vec3& u) const = 0;
 
@@ -59,7 +59,7 @@ class Bsdf : public Object {
   virtual bool has_smooth() const { return true; }
   virtual bool has_delta() const { return false; }
 
-  /// Whether any lobe leads to the other side of the surface.
+  /// Whether any lobe scatters to the other side of the surface.
   virtual bool has_transmission() const { return false; }
 
   /// eta on the side that `w` is on, over eta on the other side; 1 for surfaces that do not
@@ -72,20 +72,20 @@ class Bsdf : public Object {
                            const Vec3& /*wc*/) const {
     return infinity;
   }
-  /// Nowhere is roughness() less.
+  /// A lower bound of roughness().
   virtual double least_roughness() const { return 0; }
 
-  /// The normal about which delta lobes reflect and refract what comes from the direction w.
+  /// The normal about which delta lobes reflect and refract light from the direction w.
   virtual Vec3 delta_normal(const SurfacePoint& /*at*/, const Vec3& /*w*/) const {
     return {0, 0, 1};
   }
-  /// Whether delta_normal() may be another than the shading normal.
+  /// Whether delta_normal() may differ from the shading normal.
   virtual bool bends_normal() const { return false; }
 
   /// Average reflectance, for previews and sampling weights.
   virtual Color albedo(const SurfacePoint& at) const = 0;
 
-  /// What the functions above amount to where the surface is matte; unknown where it is not.
+  /// The scattering as a Matte where the surface is matte; unknown where it is not.
   Matte matte(const SurfacePoint& at) const { return matte_.at(at); }
   const MatteSurface& matte() const { return matte_; }
 

@@ -1,5 +1,5 @@
-// Where paths end: a camera, its lens and its raster. Raster positions are in pixels of the cropped
-// image, x to the right and y down, (0, 0) at the upper left corner of the upper left pixel.
+// The end of paths: a camera, its lens and its raster. Raster positions are in pixels of the
+// cropped image, x to the right and y down, (0, 0) at the upper left corner of the first pixel.
 #pragma once
 
 #include "base/object.h"
@@ -16,7 +16,7 @@ namespace mlt {
 struct Raster {
   Vec2i full_size{0};    ///< The whole image, which fixes the field of view.
   Vec2i crop_offset{0};  ///< Where the crop window starts in the whole image.
-  Vec2i size{0};         ///< The crop window: the image that is made.
+  Vec2i size{0};         ///< Size of the crop window: the image that is rendered.
   double border = 0;
 
   double pixels() const { return static_cast<double>(size.x) * size.y; }
@@ -36,10 +36,10 @@ struct Raster {
   }
 };
 
-/// What a direction means at a point on the lens.
+/// The image position and the importance of a direction at a point on the lens.
 struct Projection {
-  Vec2 raster;  ///< The raster position that it belongs to: the inverse of Camera::direction.
-  /// Importance We(xk -> w) that the camera emits from xk along w, normalised so that its integral
+  Vec2 raster;  ///< Its raster position: the inverse of Camera::direction.
+  /// Importance We(xk -> w) of the camera at xk along w, normalised so that its integral
   /// over the lens and the projected solid angle of the *image* (size.x x size.y, without border)
   /// is 1. For a pinhole: the coefficient of the delta position.
   double importance;
@@ -50,24 +50,24 @@ struct Projection {
 
 class Camera : public Object {
  public:
-  /// A point on the lens, where it is at this time.
+  /// Samples a point on the lens at this time.
   virtual PositionSample sample_position(const Vec2& u, double time) const = 0;
   virtual double pdf_position(const SurfacePoint& xk) const = 0;
   virtual Vec2 invert_position(const SurfacePoint& xk) const = 0;
 
-  /// The direction that leaves the lens at xk for a raster position.
+  /// The direction from xk on the lens for a raster position.
   virtual Vec3 direction(const SurfacePoint& xk, const Vec2& raster) const = 0;
-  /// Where a ray that leaves xk along w enters the scene: at xk, unless the camera stands far away.
+  /// Where a ray from xk along w enters the scene: at xk, unless the camera is far away.
   virtual Vec3 entrance(const SurfacePoint& xk, const Vec3& /*w*/) const { return xk.p; }
-  /// The ray that sample_position, direction and entrance make for a raster position.
+  /// The ray for a raster position, by sample_position, direction and entrance.
   virtual Ray ray(const Vec2& raster, const Vec2& u_lens, double time) const {
     const SurfacePoint xk = sample_position(u_lens, time).at;
     const Vec3 w = direction(xk, raster);
     return {entrance(xk, w), w, time};
   }
-  /// nullopt behind the camera or outside the sampled domain.
+  /// Projects a direction to the image; nullopt behind the camera or outside the sampled domain.
   virtual std::optional<Projection> project(const SurfacePoint& xk, const Vec3& w) const = 0;
-  /// Its members; the importance and the density are 0 where there is none.
+  /// The members of Projection; the importance and the density are 0 if there is none.
   std::optional<Vec2> raster_position(const SurfacePoint& xk, const Vec3& w) const {
     const auto projection = project(xk, w);
     return projection ? std::optional(projection->raster) : std::nullopt;
@@ -81,7 +81,7 @@ class Camera : public Object {
     return projection ? projection->pdf_direction : 0;
   }
 
-  /// A pinhole: no walk can hit the lens.
+  /// Whether it is a pinhole, which no walk can hit.
   virtual bool delta_position() const = 0;
   /// The point of the lens at this offset (in its plane) from xk; nullopt beyond its rim.
   virtual std::optional<SurfacePoint> move_on_lens(const SurfacePoint& /*xk*/,
@@ -89,7 +89,7 @@ class Camera : public Object {
     return std::nullopt;
   }
   virtual double lens_radius() const { return 0; }
-  /// Where a ray passes through the lens, if it has an area. The lens does not stop the ray.
+  /// Where a ray intersects the lens, if it has an area. The lens does not block the ray.
   virtual std::optional<SurfacePoint> hit_lens(const Ray& /*ray*/) const { return std::nullopt; }
 
   const Raster& raster() const { return raster_; }
@@ -97,9 +97,9 @@ class Camera : public Object {
   double time(double u) const { return shutter_.open + u * (shutter_.close - shutter_.open); }
   const Shutter& shutter() const { return shutter_; }
 
-  /// Called once by the scene builder; `raster` comes from the film.
+  /// Sets the raster of the film; called once by the scene builder.
   virtual void set_raster(const Raster& raster) { raster_ = raster; }
-  /// Tells the camera, once and before rendering, how large the scene is.
+  /// Sets the size of the scene; called once before rendering.
   virtual void set_bounds(const Bounds&) {}
 
  protected:

@@ -8,7 +8,7 @@
 namespace mlt {
 namespace {
 
-/// Points of the shape and its area: two shapes that agree in them are taken for the same.
+/// Points of the shape and its area: shapes with equal values are regarded as coincident.
 std::vector<double> fingerprint(const Shape& shape) {
   std::vector<double> values{shape.area()};
   for (const Vec2& u : {Vec2(0.1, 0.7), Vec2(0.4, 0.2), Vec2(0.6, 0.9), Vec2(0.9, 0.4)}) {

@@ -7,8 +7,8 @@
 
 namespace mlt {
 
-/// A warning for each glowing shape that lies where another one does: which of them a ray meets is
-/// left to rounding, so that methods which choose a light and methods which hit one see different
+/// A warning for each glowing shape that coincides with another one: which of them a ray hits
+/// depends on rounding, so that next-event estimation and walks that hit a light have different
 /// images.
 std::vector<std::string> warnings_of_coincident_lights(const std::vector<EmitterPtr>& emitters);
 

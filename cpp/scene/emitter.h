@@ -1,4 +1,4 @@
-// Where paths begin: a light. Positions are SurfacePoints (area measure; solid angle for lights at
+// The start of paths: a light. Positions are SurfacePoints (area measure; solid angle for lights at
 // infinity; a discrete probability of 1 for delta positions), directions are unit and in world
 // space.
 #pragma once
@@ -17,14 +17,14 @@ struct PositionSample {
   double pdf;  ///< In the measure of `at`; 0 means that sampling failed.
 };
 
-/// Asks for a position: what sample_position(u) gives goes to `sample`.
+/// A request for a position: the result of sample_position(u) is stored in `sample`.
 struct PositionRequest {
   Vec2 u;
   PositionSample* sample;
 };
 
-/// A direction that leaves a given position, together with where it starts (for a light at infinity
-/// that is a point on a disk outside the scene).
+/// A sampled direction from a given position, with the origin of its ray (for a light at infinity a
+/// point on a disk outside the scene).
 struct RaySample {
   Vec3 origin;
   Vec3 direction;
@@ -40,13 +40,13 @@ struct Bounds {
 
 class Emitter : public Object {
  public:
-  /// Emitted radiance (area lights, lights at infinity) or intensity (point lights) that leaves x0
+  /// The radiance (area lights, lights at infinity) or intensity (point lights) emitted from x0
   /// along w. For a delta position: the coefficient of the delta.
   virtual Color eval(const SurfacePoint& x0, const Vec3& w) const = 0;
 
-  /// The densities and inverses below are those at the time of x0.
+  /// Samples a position. The densities and inverses below are those at the time of x0.
   virtual PositionSample sample_position(const Vec2& u, double time) const = 0;
-  /// Many positions on a light at infinity, to which `time` makes no difference.
+  /// Samples many positions on a light at infinity, independent of time.
   virtual void sample_positions(const PositionRequest* requests, int count) const {
     for (int i = 0; i < count; ++i) *requests[i].sample = sample_position(requests[i].u, 0);
   }
@@ -55,13 +55,13 @@ class Emitter : public Object {
 
   /// Draws the first ray of a light walk that starts at x0.
   virtual RaySample sample_ray(const SurfacePoint& x0, const Vec2& u) const = 0;
-  /// Coefficient (projected solid angle) of leaving x0 along w.
+  /// Density of sample_ray() for w (coefficient in projected solid angle).
   virtual double pdf_ray(const SurfacePoint& x0, const Vec3& w) const = 0;
   /// The u for which the ray from x0 passes through x1.
   virtual Vec2 invert_ray(const SurfacePoint& x0, const Vec3& x1) const = 0;
 
-  /// Draws a position to be seen from the point `from` (next-event estimation); the density may
-  /// depend on `from`. By default the same as sample_position.
+  /// Samples a position for next-event estimation at the point `from`; the density may depend on
+  /// `from`. By default it is that of sample_position.
   virtual PositionSample sample_direct(const Vec3& /*from*/, const Vec2& u, double time) const {
     return sample_position(u, time);
   }
@@ -77,23 +77,23 @@ class Emitter : public Object {
   virtual const Color* uniform_radiance() const { return nullptr; }
 
   virtual bool infinite() const { return false; }
-  /// A point or directional light: no walk can hit it, its position (or direction) is a delta.
+  /// Whether it is a point or directional light, which no walk can hit.
   virtual bool delta() const { return false; }
 
-  /// Emitted power (W per RGB), for choosing among emitters.
+  /// Emitted power (W per RGB), for sampling emitters.
   virtual Color power() const = 0;
 
-  /// Tells the light, once and before rendering, how large the scene is.
+  /// Sets the size of the scene; called once before rendering.
   virtual void set_bounds(const Bounds&) {}
-  /// Tells an area light which shape it is attached to.
+  /// Sets the shape of an area light.
   virtual void set_shape(const Shape*) {}
   virtual const Shape* shape() const { return nullptr; }
 
-  /// A factor of the probability with which it is chosen.
+  /// A factor of the probability with which the light is sampled.
   double sampling_weight() const { return sampling_weight_; }
   void set_sampling_weight(double weight) { sampling_weight_ = weight; }
 
-  /// Position in Scene::emitters().
+  /// Index in Scene::emitters().
   uint32_t index() const { return index_; }
   void set_index(uint32_t index) { index_ = index; }
 

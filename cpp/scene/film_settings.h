@@ -1,4 +1,4 @@
-// What the scene says about the image: its size, its filter, its file format.
+// The scene's settings of the image: size, filter, file format.
 #pragma once
 
 #include "base/object.h"

@@ -9,7 +9,7 @@ namespace {
 
 Vec3 largest(const Vec3& low, const Vec3& high) { return glm::max(glm::abs(low), glm::abs(high)); }
 
-/// Whether it turns, mirrors and scales, and no more.
+/// Whether it only rotates, mirrors and scales uniformly.
 bool is_similarity(const Mat3& m) {
   const Mat3 gram = glm::transpose(m) * m;
   const double scale = gram[0][0];
@@ -131,8 +131,8 @@ SurfacePoint Instance::in_group(SurfacePoint at) const {
   return at;
 }
 
-/// To which coordinates the accelerator's rounding is relative: it computes inverse (o - offset) in
-/// the group's space, where an error e becomes linear e.
+/// The size of coordinates that the accelerator's rounding is relative to: it computes inverse
+/// (o - offset) in the group's space, where an error e becomes linear e.
 double Instance::rounding_scale() const {
   Vec3 low, high;
   bounds(low, high);
@@ -146,7 +146,7 @@ double Instance::rounding_scale() const {
   return scale;
 }
 
-/// Between two steps of a motion every point goes in a straight line.
+/// The bounds of all steps: between two steps of a motion every point moves in a straight line.
 void Instance::bounds(Vec3& low, Vec3& high) const {
   low = Vec3(infinity);
   high = Vec3(-infinity);

@@ -15,9 +15,9 @@ class Params;
 /// Shapes in a space of their own. They are in the scene only by way of instances.
 class ShapeGroup : public Object {
  public:
-  /// Throws SceneError if there are none, or if one emits or is an instance.
+  /// A group of shapes. Throws SceneError if there are none, or if one emits or is an instance.
   explicit ShapeGroup(Params& params);
-  /// Of one shape, which may emit.
+  /// A group of one shape, which may emit.
   explicit ShapeGroup(const ShapePtr& shape) { add(shape); }
 
   const std::vector<ShapePtr>& shapes() const { return shapes_; }
@@ -34,7 +34,7 @@ class ShapeGroup : public Object {
 
 using ShapeGroupPtr = std::shared_ptr<const ShapeGroup>;
 
-/// From a group's space to the world, and back.
+/// A map from a group's space to the world, and its inverse.
 struct AffineMap {
   Mat3 linear, inverse;
   Vec3 offset;
@@ -48,9 +48,9 @@ struct AffineMap {
 
 class Instance final : public Shape {
  public:
-  /// Throws SceneError if there is not one group, or if `to_world` is singular or not affine.
+  /// Throws SceneError unless there is one group, and `to_world` is affine and not singular.
   explicit Instance(Params& params);
-  /// A shape that moves.
+  /// An instance of a moving shape.
   Instance(const ShapePtr& shape, const Motion& motion);
 
   const ShapeGroup& group() const { return *group_; }
@@ -58,10 +58,10 @@ class Instance final : public Shape {
   AffineMap map_at(double time) const {
     return motion_.moves() ? AffineMap(motion_.at(time)) : at_rest_;
   }
-  /// A point that surface_point has found, back in the group's space, as far as Shape::uv_tangents
-  /// and the densities and inverses of samples look at it.
+  /// Transforms a point of surface_point back to the group's space: all members that
+  /// Shape::uv_tangents and the densities and inverses of samples use.
   SurfacePoint in_group(SurfacePoint at) const;
-  /// A point of a shape of the group, where it is in the world at this time.
+  /// Transforms a point of a shape of the group to the world at this time.
   void move_to_world(const Shape& shape, double time, SurfacePoint& at) const {
     place(map_at(time), shape, time, at);
   }
@@ -72,7 +72,7 @@ class Instance final : public Shape {
   void bounds(Vec3& low, Vec3& high) const override;
   const Instance* as_instance() const override { return this; }
 
-  // It emits nothing, so no position on it is ever sampled.
+  // An instance does not emit, so no position on it is ever sampled.
   double area() const override { return 0; }
   PositionSample sample_position(const Vec2&) const override { return {{}, 0}; }
   Vec2 invert_position(const SurfacePoint&) const override { return Vec2(0.5); }
@@ -86,7 +86,7 @@ class Instance final : public Shape {
 
   ShapeGroupPtr group_;
   Motion motion_;
-  AffineMap at_rest_;  ///< When the shutter opens.
+  AffineMap at_rest_;  ///< The map when the shutter opens.
   bool keeps_angles_;
   double extent_;
 };

@@ -1,5 +1,5 @@
 // Lambert reflection at a point: f = reflectance / pi. Most surfaces are like this, so it is found
-// once, where a ray arrives, and then takes the place of the plug-in; its values need no frame.
+// once, where a ray hits, and then replaces the plug-in; its values need no frame.
 #pragma once
 
 #include "math/warp.h"
@@ -14,7 +14,7 @@ struct Matte {
   enum class Sides : uint8_t { unknown, front, both };
 
   Color f{0};
-  Sides sides = Sides::unknown;  ///< Which scatter light; unknown: the plug-in has to be asked.
+  Sides sides = Sides::unknown;  ///< Sides that scatter light; unknown: use the plug-in.
 
   bool known() const { return sides != Sides::unknown; }
 
@@ -23,7 +23,7 @@ struct Matte {
     return {f, std::abs(cos_c) * inv_pi, std::abs(cos_l) * inv_pi};
   }
 
-  /// A local direction, with the density that `scattering` tells.
+  /// Samples a local direction, with the density of `scattering`.
   std::optional<Vec3> sample(double cos_from, const Vec2& u) const {
     if (!scatters(cos_from)) return std::nullopt;
     Vec3 to = sample_cosine_hemisphere(u);
@@ -32,7 +32,7 @@ struct Matte {
     return to;
   }
 
-  /// Whether there is light in directions of this cosine.
+  /// Whether light is scattered in directions of this cosine.
   bool scatters(double cos) const { return cos > 0 || (sides == Sides::both && cos < 0); }
 };
 

@@ -1,4 +1,4 @@
-// A triangle mesh: float buffers, as Embree wants them, in world space.
+// A triangle mesh: float buffers in the format of Embree, in world space.
 #pragma once
 
 #include "base/shared_array.h"
@@ -12,7 +12,7 @@
 
 namespace mlt {
 
-/// What every hit on a triangle needs, in one cache line; normals and uvs stay in their buffers.
+/// The data of a triangle that every hit needs, in one cache line, without normals and uvs.
 struct alignas(64) TriangleRecord {
   Vec3f p0, p1, p2;
   float extent;  ///< Largest coordinate, without its sign.
@@ -38,7 +38,7 @@ class Mesh : public Shape {
 
   ObjectPtr copy() const override { return std::make_shared<Mesh>(*this); }
 
-  /// There is room for 16 bytes at every position, also the last: the accelerator reads so many.
+  /// The buffers; there are 16 bytes at every position, also the last: the accelerator reads them.
   const MeshData& data() const { return *data_; }
   size_t bytes() const;
 
@@ -58,14 +58,14 @@ class Mesh : public Shape {
                       normals_[corners[2]] * b.y;
     return dot(sum, sum) > 1e-12f ? sum * static_cast<float>(side_) : ng;
   }
-  /// Writes what textures ask of a point: position, texture coordinates, what it is part of.
+  /// Sets the members of a point that textures use: position, uv, shape and primitive.
   void textured_point(uint32_t triangle, const Vec2& b, SurfacePoint& at) const;
 
   struct Barycentrics {
     uint32_t triangle;
     Vec2 b;
   };
-  /// Where sample_position() finds the point.
+  /// The triangle and barycentrics that sample_position() samples.
   Barycentrics sample_barycentrics(const Vec2& u) const {
     const Discrete::Sample chosen = triangle_areas_.sample_reuse(u.x);
     return {static_cast<uint32_t>(chosen.index), sample_triangle({chosen.remainder, u.y})};
@@ -82,7 +82,7 @@ class Mesh : public Shape {
   }
   const Mesh* as_mesh() const override { return this; }
 
-  /// Of the corners after the first one, at a point of this mesh.
+  /// Barycentrics of the corners after the first one, at a point of this mesh.
   Vec2 barycentrics(const SurfacePoint& at) const;
 
   /// Builds the table that sample_position needs, once; called for meshes that carry an emitter.
@@ -96,7 +96,7 @@ class Mesh : public Shape {
   void fill(const Edges& edges, uint32_t index, double b1, double b2, SurfacePoint& at) const;
 
   std::shared_ptr<const MeshData> data_;
-  // Its buffers; nullptr where there are no smooth normals or uvs.
+  // The buffers of data_; nullptr if there are no smooth normals or uvs.
   const std::array<uint32_t, 3>* triangles_;
   const Vec3f* normals_;
   const Vec2f* uvs_;

@@ -8,7 +8,7 @@
 namespace mlt {
 namespace {
 
-/// The corners of all triangles; those at one position with the same uv stand together.
+/// The corners of all triangles, sorted so that those with equal position and uv are adjacent.
 std::vector<uint32_t> corners_by_place(const MeshData& data) {
   const auto place = [&](uint32_t corner) {
     const uint32_t vertex = data.triangles[corner / 3][corner % 3];
@@ -24,12 +24,12 @@ std::vector<uint32_t> corners_by_place(const MeshData& data) {
   return corners;
 }
 
-/// Gives the vertices of a mesh new numbers, some of them several.
+/// Renumbers the vertices of a mesh, of which some are duplicated.
 class Renumbering {
  public:
   explicit Renumbering(const MeshData& data) : data_(data), triangles_(data.triangles) {}
 
-  /// A new vertex that is a copy of what this corner has.
+  /// Adds a copy of the vertex of this corner.
   uint32_t copy(uint32_t corner) {
     sources_.push_back(data_.triangles[corner / 3][corner % 3]);
     return static_cast<uint32_t>(sources_.size() - 1);

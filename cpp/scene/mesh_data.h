@@ -1,4 +1,4 @@
-// The buffers of a triangle mesh, and what is done to them between a file and a Mesh.
+// The buffers of a triangle mesh, and the operations on them between a file and a Mesh.
 #pragma once
 
 #include <array>
@@ -26,7 +26,7 @@ struct MeshData {
   std::vector<std::array<uint32_t, 3>> triangles;
   std::vector<MeshAttribute> attributes = {};
 
-  /// nullptr if there is none of this name.
+  /// The attribute of this name, or nullptr.
   const MeshAttribute* find_attribute(const std::string& name) const {
     for (const MeshAttribute& attribute : attributes)
       if (attribute.name == name) return &attribute;
@@ -52,7 +52,7 @@ void check_mesh(const MeshData& data, const Location& where);
 /// Applies a transform to positions and normals. Throws SceneError at `where` if it is singular.
 void transform_mesh(MeshData& data, const Mat4& to_world, const Location& where);
 
-/// Gives every vertex the mean of the normals of its triangles, weighted by their angles at it
+/// Sets every vertex normal to the mean of the normals of its triangles, weighted by their angles
 /// (Thuermer & Wuethrich 1998, "Computing vertex normals from polygonal facets").
 void add_smooth_normals(MeshData& data);
 

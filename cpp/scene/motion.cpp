@@ -11,7 +11,7 @@ namespace {
 
 constexpr int most_steps = 128;
 constexpr double tolerance = 1e-4;
-/// Of an animation: the accelerator's rays, moved to the object's space, stay within its floats.
+/// Largest scale of an animation: the accelerator's rays in object space stay within its floats.
 constexpr double most_scale = 1e9;
 
 double largest_entry(const Mat3& m) {
@@ -32,7 +32,7 @@ Mat3 nearest_rotation(const Mat3& m) {
   return q;
 }
 
-/// M = T Q S. What mirrors has a negative stretch, so that Q is always a rotation.
+/// The parts of M = T Q S. If M mirrors, the stretch is negative, so that Q is always a rotation.
 struct Parts {
   Vec3 translation;
   glm::dquat rotation;
@@ -61,7 +61,7 @@ class Curve {
       return from_rows(keys_[i].transform);
     return between(i - 1, i, (time - keys_[i - 1].time) / (keys_[i].time - keys_[i - 1].time));
   }
-  /// At this share of the time from the first key to the last one.
+  /// The time at this share of the way from the first key to the last one.
   double time(double share) const {
     return keys_.front().time * (1 - share) + keys_.back().time * share;
   }
@@ -79,7 +79,7 @@ class Curve {
   std::vector<Parts> parts_;
 };
 
-/// How far linear motion in these steps is from the curve, relative to its size and to its way: in
+/// Whether linear motion in these steps is close to the curve, relative to its size and length: in
 /// the middle of each step, and at the keys.
 bool is_near(const Curve& curve, const Motion& motion, const Animation& keys) {
   double size = 0, way = 0, turned = 0, moved = 0;

@@ -1,15 +1,15 @@
-// Where something is at each moment while the shutter is open.
+// The transform of a moving object at each time while the shutter is open.
 //
 // Between two keys of an animation the parts of M = T Q S change, with the translation T, the
 // rotation Q and the stretch S of the polar decomposition (Shoemake & Duff 1992, "Matrix animation
 // and polar decomposition"): T and S linearly, Q at a constant angular speed (Shoemake 1985,
-// "Animating rotation with quaternion curves"). Before the first key and after the last one nothing
-// moves.
+// "Animating rotation with quaternion curves"). Before the first key and after the last one M is
+// constant.
 //
-// A Motion follows that by matrices at equal steps of time, and is linear between them, as the
-// accelerator's own motion of instances is: rays are traced through exactly what is shaded. There
-// are enough steps that it stays within 1e-4 of the object's size (and of the way that it goes), or
-// the 128 that the accelerator allows.
+// A Motion approximates M by matrices at equal steps of time, and is linear between them, like the
+// accelerator's own motion of instances: so the surfaces that are traced are those that are shaded.
+// There are enough steps that it stays within 1e-4 of the object's size (and of the length of its
+// way), or the 128 that the accelerator allows.
 #pragma once
 
 #include "base/params.h"
@@ -21,30 +21,30 @@
 
 namespace mlt {
 
-/// What is wrong with an animation, in words; "" if nothing is.
+/// The error in an animation, in words; "" if there is none.
 std::string animation_problem(const Animation& animation);
 
-/// What there is of an animation without problems from `open` to `close`: an Animation between
-/// these times, or a Matrix if nothing moves.
+/// A valid animation, restricted to the time of the shutter: an Animation, or a Matrix if nothing
+/// moves.
 Value during(const Animation& animation, const Shutter& shutter);
 
-/// Where a shape that moves is made, to be moved from there: where its own space is, mirrored if
-/// the animation mirrors.
+/// The transform with which a moving shape is made, before it is moved: the identity, or a
+/// mirroring if the animation mirrors.
 Mat4 at_rest(const Animation& animation);
 
 class Motion {
  public:
-  /// It stands still.
+  /// A motion that stands still.
   explicit Motion(const Mat4& rest = Mat4(1)) : steps_{rest} {}
-  /// From the first key to the last one; with one key nothing moves.
+  /// The motion from the first key to the last one; with one key nothing moves.
   explicit Motion(const Animation& animation);
 
   bool moves() const { return steps_.size() > 1; }
   Mat4 at(double time) const;
-  /// At equal distances of time; one if it stands still.
+  /// Transforms at equal steps of time; one if nothing moves.
   const std::vector<Mat4>& steps() const { return steps_; }
 
-  /// The same for what is moved by `before` first.
+  /// The motion after the transform `before`.
   Motion after(const Mat4& before) const;
 
  private:
@@ -57,7 +57,7 @@ const Animation* animation_param(Params& params, const std::string& name);
 /// A parameter of type motion, from the first key to the last one; the identity if it has no
 /// default and is not given.
 Motion motion_param(Params& params, const std::string& name);
-/// The same of something that knows itself when the shutter is open.
+/// A parameter of type motion of an object that has its own shutter, as above.
 Motion motion_param(Params& params, const std::string& name, const Shutter& shutter);
 
 }  // namespace mlt

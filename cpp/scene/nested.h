@@ -1,4 +1,4 @@
-// What a plug-in has nested in it, whatever its name.
+// Objects that are nested in a plug-in, whatever their names.
 #pragma once
 
 #include "base/params.h"

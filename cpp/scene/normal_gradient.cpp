@@ -14,8 +14,8 @@ struct Normal {
   Mat3 derivative;
 };
 
-/// Interpolated from those of the corners, moved by the transpose of `inverse` (see
-/// Mesh::moved_normal); the derivative is by positions on the mesh itself.
+/// The normal interpolated from those of the corners, moved by the transpose of `inverse` (see
+/// Mesh::moved_normal); its derivative is by positions on the mesh itself.
 Normal normal_of(const Mesh& mesh, const SurfacePoint& at, const Mat3& inverse) {
   const MeshData& data = mesh.data();
   const Normal flat{at.ng, Mat3(0)};
@@ -61,7 +61,7 @@ Mat3 normal_gradient(const Scene& scene, const SurfacePoint& at) {
   const Normal n = at.instance == SurfacePoint::no_shape
                        ? normal_of(shape, at)
                        : normal_of(*scene.shapes()[at.instance]->as_instance(), shape, at);
-  // That of v / |v|, on the side of the shading normal.
+  // the derivative of v / |v|, on the side of the shading normal
   const double l = length(n.v) * std::copysign(1.0, dot(n.v, at.shading.n));
   return (n.derivative - glm::outerProduct(n.v, n.v * n.derivative) * (1 / sqr(l))) * (1 / l);
 }

@@ -3,7 +3,7 @@
 namespace mlt {
 namespace {
 
-/// Scenes write matrices with few digits; an angle that is off by more than this is a real shear.
+/// Scenes have matrices with few digits; an angle that is off by more than this is a real shear.
 constexpr double max_shear = 1e-3;
 
 Vec3 axis(const Params& params, const std::string& name, const Vec3& column) {
@@ -13,7 +13,7 @@ Vec3 axis(const Params& params, const std::string& name, const Vec3& column) {
   return column / l;
 }
 
-/// `volume` has the sign of the determinant.
+/// A frame with exactly this z; the sign of `volume` is that of its determinant.
 Frame perpendicular(const Vec3& x, const Vec3& z, double volume) {
   const Vec3 s = normalize(x - z * dot(x, z));
   return {s, cross(z, s) * std::copysign(1.0, volume), z};

@@ -1,5 +1,5 @@
-// The axes of a transform that only turns (and may mirror) what it places: cameras and environment
-// maps. Scales mean nothing there and are dropped.
+// The axes of a transform that only rotates (and may mirror), for cameras and environment maps.
+// Scales have no effect there and are dropped.
 #pragma once
 
 #include "base/params.h"
@@ -12,7 +12,7 @@ namespace mlt {
 /// SceneError about the parameter `name` if the transform is singular or shears.
 Frame orientation(const Params& params, const std::string& name, const Mat4& to_world);
 
-/// The same of a transform that is neither singular nor shears.
+/// The orientation of a transform that is known to be neither singular nor shearing.
 Frame turned_axes(const Mat4& to_world);
 
 }  // namespace mlt

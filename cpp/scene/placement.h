@@ -1,5 +1,5 @@
-// What a hierarchy of the accelerator is built from: forms and where they are, without materials
-// and lights. Scenes in which these are the same share one.
+// The input of a hierarchy of the accelerator: forms and their transforms, without materials and
+// lights. Scenes in which these are equal share a hierarchy.
 #pragma once
 
 #include "scene/shape.h"
@@ -12,11 +12,11 @@ namespace mlt {
 /// A shape without material and light, of which the scene's shapes are copies.
 using FormPtr = std::shared_ptr<const Shape>;
 
-/// A form in the world, or a group of them that is there by way of an instance.
+/// A form in the world, or an instance of a group of forms.
 struct Placement {
-  FormPtr form;             ///< nullptr of an instance,
-  size_t group = 0;         ///< which is one of this group
-  std::vector<Mat4> steps;  ///< under these transforms.
+  FormPtr form;             ///< Form of a shape; nullptr of an instance.
+  size_t group = 0;         ///< Group of an instance.
+  std::vector<Mat4> steps;  ///< Transforms of an instance.
 
   bool operator==(const Placement& other) const {
     return form == other.form && group == other.group && steps == other.steps;
@@ -25,7 +25,7 @@ struct Placement {
 
 struct Placements {
   std::vector<Placement> all;                ///< One for each shape of the scene.
-  std::vector<std::vector<FormPtr>> groups;  ///< In the order in which they are met.
+  std::vector<std::vector<FormPtr>> groups;  ///< In the order of their first instances.
 
   Placements() = default;
   explicit Placements(const std::vector<ShapePtr>& shapes);

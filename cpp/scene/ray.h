@@ -13,18 +13,18 @@ struct Ray {
   double t_max = infinity;
 };
 
-/// When it opens and closes.
+/// The times when the shutter opens and closes.
 struct Shutter {
   double open = 0, close = 0;
 };
 
-/// What the accelerator found: which primitive, and where on it (barycentrics of Embree).
+/// A hit of the accelerator: the primitive, and the barycentrics of Embree on it.
 struct Hit {
   double t;
   uint32_t shape;
   uint32_t primitive;
   float u, v;
-  uint32_t member = 0;  ///< Of an instance: which shape of its group.
+  uint32_t member = 0;  ///< Index of the shape in the group of an instance.
 };
 
 }  // namespace mlt

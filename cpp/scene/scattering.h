@@ -1,4 +1,4 @@
-// What a path needs to know of one scattering event at a surface.
+// The terms of one scattering event at a surface.
 #pragma once
 
 #include "math/color.h"
@@ -7,13 +7,13 @@
 
 namespace mlt {
 
-/// What a path vertex remembers of how it scatters: by a density over directions, or by which
-/// delta distribution.
+/// The kind of scattering at a path vertex: by a density over directions, or by one of the delta
+/// distributions.
 enum class Lobe : uint8_t {
   smooth,        ///< All non-delta lobes, summed.
   reflection,    ///< Perfect mirror reflection.
   transmission,  ///< Perfect refraction.
-  null           ///< Straight on, without a change.
+  null           ///< Straight through, unchanged.
 };
 
 /// smooth: `f` is the BSDF for radiance that flows from wl to wc (without a cosine; for refraction

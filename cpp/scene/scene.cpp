@@ -30,8 +30,8 @@ Bounds enclosing_sphere(const std::vector<ShapePtr>& shapes, const Camera& camer
   return {0.5 * (low + high), radius > 0 ? radius * (1 + 1e-6) : 1.0};
 }
 
-/// Half of the choices are uniform, half in proportion to power: a light that is weak as a whole
-/// may be the only one in a room. The sampling weights are factors of that.
+/// The probabilities of lights, half uniform and half in proportion to power: a weak light may be
+/// the only one in a room. The sampling weights are factors of them.
 Discrete choose_by_power(const std::vector<EmitterPtr>& emitters) {
   std::vector<double> weights;
   double total = 0;
@@ -149,7 +149,7 @@ inline bool Scene::find_segment(const SurfacePoint& a, const SurfacePoint& b, do
   const Vec3 ab = b.p - a.p;
   const Vec3 start = departure(a, ab), between = departure(b, -ab) - start;
   const bool has_end = a.shape == SurfacePoint::no_shape || b.shape == SurfacePoint::no_shape;
-  if (has_end && !(dot(between, ab) > 0)) return false;  // It is behind the camera.
+  if (has_end && !(dot(between, ab) > 0)) return false;  // behind the camera
   const double distance = length(between);
   ray = {start, between * (1 / distance), time, distance * (1 - ray_offset)};
   return true;

@@ -1,4 +1,4 @@
-// An immutable world: shapes, lights and a camera, safe to share between threads.
+// An immutable scene: shapes, lights and a camera, safe to share between threads.
 #pragma once
 
 #include "math/distribution.h"
@@ -15,7 +15,7 @@
 
 namespace mlt {
 
-/// A light chosen at random, and the probability with which it was.
+/// A light chosen at random, and its probability.
 struct EmitterChoice {
   const Emitter* emitter;
   uint32_t index;
@@ -24,14 +24,14 @@ struct EmitterChoice {
 
 /// A mesh that glows the same everywhere on its front side, as next-event estimation needs it.
 struct MeshLight {
-  const Mesh* mesh = nullptr;  ///< nullptr: this light is of another kind.
+  const Mesh* mesh = nullptr;  ///< nullptr if this light is of another kind.
   const Color* radiance = nullptr;
   double pdf = 0;  ///< Area measure, the choice of the light included.
 };
 
 /// A mesh that is matte everywhere.
 struct MatteMesh {
-  const Mesh* mesh = nullptr;  ///< nullptr: this shape is something else.
+  const Mesh* mesh = nullptr;  ///< nullptr if this shape is of another kind.
   const MatteSurface* matte = nullptr;
   bool emits = false;
 };
@@ -44,13 +44,13 @@ class Scene {
         std::shared_ptr<FilmSettings> film, int64_t sample_count,
         const std::shared_ptr<const Accel>& known = nullptr);
 
-  /// Those that the scene was made of, then those of which there are instances.
+  /// The shapes of the scene, then those in groups of which there are instances.
   const std::vector<ShapePtr>& shapes() const { return shapes_; }
   const std::vector<EmitterPtr>& emitters() const { return emitters_; }
   const Camera& camera() const { return *camera_; }
   const FilmSettings& film() const { return *film_; }
   const Bounds& bounds() const { return bounds_; }
-  int64_t sample_count() const { return sample_count_; }  ///< The scene's own; 0 if it names none.
+  int64_t sample_count() const { return sample_count_; }  ///< That of the scene file, or 0.
 
   const Bsdf& bsdf(const SurfacePoint& at) const { return shapes_[at.shape]->bsdf(); }
   /// The light that the surface point belongs to, or nullptr.
@@ -62,19 +62,19 @@ class Scene {
   SurfacePoint surface_point(const Ray& ray, const Hit& hit) const;
   /// The nearest surface along the ray; false if there is none.
   bool intersect(const Ray& ray, SurfacePoint& at) const;
-  /// Whether nothing stands between two points (at most one of them infinite). Null surfaces block.
+  /// Whether two points (at most one of them infinite) are mutually visible. Null surfaces block.
   bool visible(const SurfacePoint& a, const SurfacePoint& b, double time) const;
-  /// The ray that finds out; nullopt if they cannot see each other.
+  /// The shadow ray between two points; nullopt if they cannot be mutually visible.
   std::optional<Ray> segment(const SurfacePoint& a, const SurfacePoint& b, double time) const;
   /// How far rays start and end off their surfaces, relative to the largest coordinate of the
   /// primitive: 16 units in the last place of the accelerator's floats.
   static constexpr double ray_offset = 0x1p-20;
-  /// A ray that leaves `from` along w, moved off the surface it starts on.
+  /// A ray from `from` along w, moved off the surface it starts on.
   Ray spawn(const SurfacePoint& from, const Vec3& w, double time) const;
 
-  /// Lights at infinity: all of them shine along every ray that leaves the scene.
+  /// Indices of the lights at infinity: all of them emit along every ray that leaves the scene.
   const std::vector<uint32_t>& infinite_emitters() const { return infinite_; }
-  /// Those of them that a ray can hit: all but directional lights.
+  /// Lights at infinity that a ray can hit: all but directional lights.
   const std::vector<uint32_t>& backgrounds() const { return backgrounds_; }
   /// The vertex at infinity that a ray along w ends in.
   static SurfacePoint point_at_infinity(const Vec3& w);
@@ -90,16 +90,16 @@ class Scene {
   const MeshLight& choose_mesh_light(double u) const {
     return mesh_lights_[mesh_lights_.size() > 1 ? emitter_choice_.sample(u) : 0];
   }
-  /// A u that chooses this one and leaves v.
+  /// A u with which choose_emitter chooses this light and leaves v.
   double invert_choice(uint32_t index, double v) const { return emitter_choice_.invert(index, v); }
 
   size_t triangle_count() const;
-  size_t bytes() const;  ///< Of the shapes' buffers.
+  size_t bytes() const;  ///< Bytes of the shapes' buffers.
 
  private:
   void arrive(const Ray& ray, const Hit& hit, SurfacePoint& at) const;
   bool find_segment(const SurfacePoint& a, const SurfacePoint& b, double time, Ray& ray) const;
-  /// Where a ray that leaves the point along w, of any length, begins: off its surface.
+  /// The origin of a ray from the point along w (of any length), moved off its surface.
   Vec3 departure(const SurfacePoint& at, const Vec3& w) const;
 
   std::vector<ShapePtr> shapes_;

@@ -24,11 +24,11 @@ class Shape : public Object {
   virtual bool has_tangent() const { return true; }
 
   virtual double area() const = 0;
-  /// Uniform over the area; pdf = 1 / area().
+  /// Samples a position uniformly over the area; pdf = 1 / area().
   virtual PositionSample sample_position(const Vec2& u) const = 0;
   virtual Vec2 invert_position(const SurfacePoint& at) const = 0;
 
-  /// Like sample_position, for a position to be seen from `from` (density in area measure).
+  /// Samples a position for next-event estimation at `from` (density in area measure).
   virtual PositionSample sample_direct(const Vec3& /*from*/, const Vec2& u) const {
     return sample_position(u);
   }
@@ -39,7 +39,7 @@ class Shape : public Object {
     return invert_position(at);
   }
 
-  /// How the position changes with the texture coordinates, in the world.
+  /// Derivatives of the position by the texture coordinates, in world space.
   struct UvTangents {
     Vec3 du, dv;
   };
@@ -50,7 +50,7 @@ class Shape : public Object {
   /// Axis-aligned bounding box.
   virtual void bounds(Vec3& low, Vec3& high) const = 0;
 
-  // Which of the kinds that the accelerator supports it is.
+  // Casts to the kinds of shapes that the accelerator supports.
   virtual const Mesh* as_mesh() const { return nullptr; }
   virtual const AnalyticShape* as_analytic() const { return nullptr; }
   virtual const Instance* as_instance() const { return nullptr; }

@@ -1,5 +1,5 @@
-// What a texture or a material asks of the shape itself that it lies on, beyond a SurfacePoint. The
-// shapes are known when the whole scene has been made.
+// The base of textures and materials that read the shape that they lie on, beyond a SurfacePoint.
+// The shapes are known when the whole scene has been made.
 #pragma once
 
 #include "scene/instance.h"
@@ -13,11 +13,11 @@ class ShapeReader {
  public:
   virtual ~ShapeReader() = default;
 
-  /// Those of the scene, which outlive this.
+  /// Sets the shapes of the scene, which outlive this.
   virtual void read_shapes(const std::vector<ShapePtr>& shapes) { shapes_ = &shapes; }
 
  protected:
-  /// How the position changes with the texture coordinates; the frame's axes outside of any scene.
+  /// Derivatives of the position by the texture coordinates; the frame's axes outside of any scene.
   Shape::UvTangents uv_tangents(const SurfacePoint& at) const {
     const Shape* shape = find(at.shape);
     if (!shape) return {at.shading.s, at.shading.t};
@@ -27,7 +27,7 @@ class ShapeReader {
     const Mat3 linear = instance->map_at(at.time).linear;
     return {linear * du, linear * dv};
   }
-  /// Of the corners of a mesh after the first one.
+  /// Barycentrics of the corners of a mesh after the first one.
   Vec2 barycentrics(const Mesh& mesh, const SurfacePoint& at) const {
     const Instance* instance = instance_of(at);
     return mesh.barycentrics(instance ? instance->in_group(at) : at);

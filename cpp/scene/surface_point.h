@@ -8,7 +8,7 @@
 
 namespace mlt {
 
-/// What the position of a point means, and with it the cosine that its end of an edge contributes.
+/// The kind of a point, which determines its measure and the cosine at its end of an edge.
 enum class PointKind : uint8_t {
   surface,   ///< On a surface (or a lens): the measure is area, the cosine is against `ng`.
   isolated,  ///< A point without a surface (a point light): there is no cosine, it counts as 1.
@@ -22,12 +22,12 @@ struct SurfacePoint {
   Vec2 uv{0};                 ///< Texture coordinates.
   uint32_t shape = no_shape;  ///< Index into Scene::shapes().
   uint32_t primitive = 0;     ///< Triangle of a mesh.
-  uint32_t instance = no_shape;  ///< Index of the Instance that the shape is seen through, if any.
+  uint32_t instance = no_shape;  ///< Index of the Instance of the shape, if any.
   PointKind kind = PointKind::surface;
-  double time = 0;  ///< When it is there, on what moves.
+  double time = 0;  ///< Time, on moving shapes.
   /// Largest coordinate of the primitive: the scale of float rounding in the accelerator.
   double extent = 0;
-  Matte matte{};  ///< How it scatters light, if it is matte and a ray has arrived there.
+  Matte matte{};  ///< Its scattering, if it is matte and was hit by a ray.
 
   static constexpr uint32_t no_shape = ~0u;
   bool infinite() const { return kind == PointKind::infinite; }

@@ -66,7 +66,7 @@ Color color_from_0(Params& params, const std::string& name) {
   return color;
 }
 
-/// The nested texture of this name; nullptr if a colour is given instead.
+/// The nested texture of this name, or nullptr if a colour is given instead.
 TexturePtr nested_texture(Params& params, const std::string& name) {
   const ObjectPtr* object = std::get_if<ObjectPtr>(&params.value(name));
   if (!object) return nullptr;

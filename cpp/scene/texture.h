@@ -1,4 +1,4 @@
-// A quantity that varies over a surface.
+// A colour or number that varies over a surface.
 #pragma once
 
 #include "base/params.h"
@@ -10,14 +10,14 @@ namespace mlt {
 class Texture : public Object {
  public:
   virtual Color eval(const SurfacePoint& at) const = 0;
-  /// Says that eval() is about to be called there, so that memory has time.
+  /// Prefetches the memory that eval() is about to read there.
   virtual void prefetch(const SurfacePoint& /*at*/) const {}
-  /// The mean of the channels, for textures that steer a scalar such as roughness.
+  /// The mean of the channels, for textures of a scalar such as roughness.
   virtual double eval_scalar(const SurfacePoint& at) const;
-  /// The derivatives of the luminance by u and v, for bump maps; 0 where there are only steps.
+  /// The derivatives of the luminance by u and v, for bump maps; 0 if it is piecewise constant.
   virtual Vec2 gradient(const SurfacePoint& /*at*/) const { return Vec2(0); }
 
-  /// Of an image, in texels.
+  /// The resolution of an image, in texels.
   virtual Vec2i resolution() const { return Vec2i(1); }
   virtual bool is_constant() const { return false; }
   virtual Color mean() const = 0;     ///< Average over the texture, for sampling probabilities.
@@ -31,14 +31,14 @@ TexturePtr constant_texture(const Color& color);
 /// The texture parameter `name`: a nested Texture, or a constant from a number, rgb or spectrum.
 /// `texture` parameters are bounded to [0, 1] (SceneError otherwise), `emission` ones must be >= 0.
 TexturePtr texture_param(Params& params, const std::string& name);
-/// The same, with a constant that may be larger than 1.
+/// A texture parameter, as above, with a constant that may be larger than 1.
 TexturePtr unbounded_texture_param(Params& params, const std::string& name);
 /// The colour parameter `name` (type reflectance or radiance).
 Color color_param(Params& params, const std::string& name);
-/// A number, rgb or spectrum as the colour that `use` makes of it, whatever its range.
+/// Converts a number, rgb or spectrum to a colour for `use`, without checking its range.
 Color to_color(Params& params, const std::string& name, SpectrumUse use);
 Vec3 vector_param(Params& params, const std::string& name);
-/// A transform; the identity if it has no default and is not given. Of what moves, at_rest.
+/// A transform; the identity if it has no default and is not given. at_rest() of an animation.
 Mat4 matrix_param(Params& params, const std::string& name);
 
 }  // namespace mlt

@@ -3,12 +3,12 @@
 namespace mlt {
 namespace {
 
-/// From vertices to the lens.
+/// Edges from vertices to the lens.
 struct LensEdges {
   Lanes<double, JointLanes::size> x, y, z, G;  ///< Direction; G = 0: no light goes that way.
 };
 
-/// In double precision: an orthographic camera is far away.
+/// Computes edges to the lens, in double precision: an orthographic camera is far away.
 void find_edges(const JointLanes& a, const SurfacePoint& lens, bool strict,
                 LensEdges& __restrict edges) {
   const Vec3 p = lens.p, axis = lens.ng;
@@ -79,7 +79,7 @@ void BidirectionalWave::trace(RayCounts& rays) {
   find_shadows(rays);
 }
 
-/// BidirectionalSampler::walk_from_camera.
+/// See BidirectionalSampler::walk_from_camera.
 void BidirectionalWave::walk_from_camera(RayCounts& rays) {
   const Camera& camera = scene_->camera();
   camera_.clear(size());
@@ -97,8 +97,8 @@ void BidirectionalWave::walk_from_camera(RayCounts& rays) {
                       Color(projection->importance / projection->pdf_direction)});
   }
   numbers_.set_position(numbers_.position().begin(Stream::camera));
-  numbers_.skip2();  // The lens,
-  numbers_.skip(1);  // and the time.
+  numbers_.skip2();  // the lens
+  numbers_.skip(1);  // the time
   camera_.walk(numbers_, settings_.rules.most_edges() + 1, rays);
 }
 
@@ -113,12 +113,12 @@ void BidirectionalWave::walk_from_lights(RayCounts& rays) {
   light_.walk(numbers_, settings_.rules.most_edges(), rays);
 }
 
-/// Chooses a point on a light, by the numbers of this sample.
+/// Samples a point on a light, by the numbers of this sample.
 inline void BidirectionalWave::draw_light(int sample, int to) {
   lights_.set_light(to, scene_->choose_mesh_light(u_choice_[sample]), {u_x_[sample], u_y_[sample]});
 }
 
-/// A light is left like a matte surface seen from above.
+/// Starts walks at lights, which emit as a matte surface scatters light from above.
 void BidirectionalWave::start_at_lights(int begin, int count) {
   numbers_.next2(begin, count, &u_x_[begin], &u_y_[begin]);
   numbers_.next2(begin, count, &lights_.u_x[0], &lights_.u_y[0]);
@@ -156,7 +156,7 @@ void BidirectionalWave::take_hits() {
     if (!left(hit.sample)) seen_[hit.sample] += hit.weighted;
 }
 
-/// BidirectionalSampler::choose_direct.
+/// See BidirectionalSampler::choose_direct.
 void BidirectionalWave::choose_direct(int place) {
   const PixelSampler::Position at = direct_at_;
   for (int begin = 0; begin < size(); begin += block_size) {
@@ -173,7 +173,7 @@ void BidirectionalWave::choose_direct(int place) {
   direct_at_ = numbers_.position();
 }
 
-/// For eight samples, of which the first is number `first` of `lights_`.
+/// Samples lights for s = 1 for eight samples, of which the first is number `first` of `lights_`.
 void BidirectionalWave::choose_direct(int place, int block, int first) {
   if (place > 0 && !camera_.reaches(place, block)) return;
   JointLanes& to = direct_[block];
@@ -236,7 +236,7 @@ void BidirectionalWave::connect_to_lens(const JointLanes& a, int block, RayCount
     if (is_black(weighted)) continue;
     const Vec3f start = departure(a.p[i], a.ng[i], Vec3f(w), a.extent[i]);
     const Vec3 ray = camera.entrance(lens_.at, -w) - Vec3(start);
-    if (!(dot(ray, w) > 0)) continue;  // It is behind the camera.
+    if (!(dot(ray, w) > 0)) continue;  // behind the camera
     const double length = mlt::length(ray);
     shadows_.add(capacity + static_cast<int>(unseen_.size()), weighted, 1, start,
                  Vec3f(ray * (1 / length)), static_cast<float>(length * (1 - Scene::ray_offset)));

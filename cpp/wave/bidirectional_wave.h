@@ -1,5 +1,5 @@
-// Samples of bidirectional path tracing that are traced side by side: their subpaths are, and all
-// connections of one technique (s, t) are. Each sample is that of BidirectionalSampler, up to
+// Samples of bidirectional path tracing that are traced side by side: their subpaths, and all
+// connections of one technique (s, t). Each sample is that of BidirectionalSampler, up to
 // rounding.
 // D. van Antwerpen, "Improving SIMD efficiency for parallel Monte Carlo light transport on the
 // GPU", High-Performance Graphics 2011.
@@ -18,30 +18,30 @@ class BidirectionalWave {
 
   /// Whether all lights are glowing meshes, the camera has no aperture, and nothing moves.
   static bool serves(const Scene& scene, const BidirectionalSettings& settings);
-  /// serves(scene, settings) must hold.
+  /// Requires serves(scene, settings).
   BidirectionalWave(const Scene& scene, const BidirectionalSettings& settings);
 
-  /// A sample of the numbers of PixelSampler(stream, index): the first two tell where in this
-  /// pixel.
+  /// Adds a sample with the numbers of PixelSampler(stream, index): the first two are its position
+  /// in this pixel.
   void add(uint64_t stream, uint32_t index, const Vec2& pixel);
   int size() const { return numbers_.count(); }
   bool full() const { return size() == capacity; }
-  /// Traces all of them.
+  /// Traces all samples.
   void trace(RayCounts& rays);
   void clear();
 
-  // What the samples have found:
+  // The results of the samples:
   const Vec2& raster(int i) const { return rasters_[i]; }
-  /// By the techniques with t >= 2, at its raster position.
+  /// Light found by the techniques with t >= 2, at the raster position of the sample.
   const Color& seen(int i) const { return seen_[i]; }
-  /// By those with t = 1.
+  /// Light found by the techniques with t = 1.
   struct Splat {
     int sample;
     Vec2 raster;
     Color weighted;
   };
   const std::vector<Splat>& splats() const { return splats_; }
-  /// Whether the i-th has to be taken by BidirectionalSampler; then nothing was found.
+  /// Whether the i-th sample has to be taken by BidirectionalSampler; it has no results then.
   bool left(int i) const { return camera_.left(i); }
 
  private:
@@ -73,13 +73,13 @@ class BidirectionalWave {
   PositionSample lens_;
   SubpathWave camera_, light_;
   WaveNumbers numbers_;
-  PixelSampler::Position direct_at_;  ///< Of the numbers of the next camera vertex.
+  PixelSampler::Position direct_at_;  ///< Position of the numbers for s = 1.
   Samples<Vec2> rasters_;
   Samples<Color> seen_;
-  std::vector<Splat> splats_, unseen_;  ///< The latter wait for their shadow rays.
+  std::vector<Splat> splats_, unseen_;  ///< unseen_: those that wait for shadow rays.
   Samples<double> u_x_, u_y_, u_choice_;
-  MatteVertices lights_;       ///< Points on lights, of a block of samples.
-  JointLanes direct_[blocks];  ///< Those chosen for s = 1 as seen from the camera vertex.
+  MatteVertices lights_;       ///< Points on lights, for a block of samples.
+  JointLanes direct_[blocks];  ///< Points on lights for s = 1, sampled for the camera vertex.
   WaveShadows shadows_;
 };
 

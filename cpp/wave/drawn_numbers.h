@@ -1,4 +1,4 @@
-// The numbers of many paths side by side, where somebody draws them as soon as a path needs them.
+// The random numbers of many paths side by side, drawn by a Source as soon as a path needs them.
 #pragma once
 
 #include "wave/lanes.h"
@@ -9,14 +9,14 @@ namespace mlt {
 
 class DrawnNumbers {
  public:
-  /// VertexNumbers.
+  /// How many numbers a vertex takes (VertexNumbers).
   static constexpr size_t of_vertex = 7;
 
   class Source {
    public:
     virtual ~Source() = default;
-    /// Draws the numbers of a vertex of these paths, the first-th and the next ones of each, and
-    /// tells where the numbers of each path begin.
+    /// Draws the numbers of a vertex of these paths, from the first-th on, and sets `numbers` to
+    /// where those of each path begin.
     virtual void draw(const int* paths, int count, size_t first, const double** numbers) = 0;
   };
 
@@ -28,14 +28,14 @@ class DrawnNumbers {
   }
   int count() const { return count_; }
 
-  /// Where the next numbers begin, for all paths.
+  /// The position of the next numbers, for all paths.
   size_t position() const { return at_; }
   void set_position(size_t at) { at_ = at; }
   void begin_vertex(int begin, int count) {
     source_->draw(&path_[begin], count, at_, &numbers_[begin]);
   }
 
-  /// As in WaveNumbers.
+  /// See WaveNumbers::next2.
   void next2(int begin, int count, double* x, double* y) {
     for (int i = 0; i < count; ++i) {
       x[i] = numbers_[begin + i][at_];

@@ -1,5 +1,5 @@
 // The vertices of some samples at one place of their subpaths, and their connection with those of
-// another place: in loops without branches, which the compiler makes vector instructions of.
+// another place: in loops without branches, which the compiler vectorises.
 // Directions and cosines are in single precision, throughputs and densities in double.
 #pragma once
 
@@ -20,16 +20,17 @@ struct ColorLanes {
   }
 };
 
-/// What all joints of a vertex have in common. A point on a light is one too, with ng for n.
+/// The terms that all joints of a vertex have in common. A point on a light is a vertex too, with
+/// ng for n.
 struct JointLanes {
   static constexpr int size = ColorLanes::size;
   VectorLanes<size> p, ng, n;
   Lanes<float, size> extent;
-  /// Of the direction to the previous vertex against n; 0: no path is joined here.
+  /// Cosine of the direction to the previous vertex with n; 0: no path is joined here.
   Lanes<float, size> cosine;
-  ColorLanes value;             ///< As WalkVertex::MatteJoint::value.
+  ColorLanes value;             ///< See WalkVertex::MatteJoint::value.
   Lanes<double, size> forward;  ///< Density of the vertex, made by its walk.
-  /// Of the techniques with a joint before the vertex or at it, r_i^beta (TechniqueSums).
+  /// Sum of r_i^beta over the techniques with a joint before the vertex or at it (TechniqueSums).
   Lanes<double, size> sums;
 };
 
@@ -48,15 +49,14 @@ class Exponent {
   double least_ = 0, most_ = std::numeric_limits<double>::infinity();
 };
 
-/// The rays that find out whether two vertices see each other.
+/// Shadow rays between the vertices of a joint.
 struct JoiningRays {
   VectorLanes<JointLanes::size> o, w;
   Lanes<float, JointLanes::size> length;  ///< 0: no light goes that way.
 };
 
 /// Joins vertices of light subpaths to those of camera subpaths; `weighted` is f w / p. The results
-/// are two parameters that do not overlap, so that the compiler makes vector instructions of the
-/// loop.
+/// are two parameters that do not overlap, so that the compiler vectorises the loop.
 inline void join(const JointLanes& from_light, const JointLanes& from_camera, bool strict,
                  const Exponent& beta, JoiningRays& __restrict rays,
                  ColorLanes& __restrict weighted) {

@@ -1,12 +1,12 @@
 // Values of the paths that are traced side by side: one array for each quantity, so that the
-// compiler makes vector instructions of the loops over them.
+// compiler vectorises the loops over them.
 #pragma once
 
 #include "math/vec.h"
 
 namespace mlt {
 
-/// Not set at first: a wave is made for every tile, and most of its lanes are written anyway.
+/// Lanes are not initialised: a wave is made for every tile, and most of them are written anyway.
 template <class T, int size>
 struct alignas(32) Lanes {
   T values[size];
@@ -25,13 +25,13 @@ struct VectorLanes {
   }
 };
 
-/// So many paths are traced together,
+/// The number of paths that are traced together.
 inline constexpr int wave_size = 512;
 template <class T>
 using Wave = Lanes<T, wave_size>;
 using VectorWave = VectorLanes<wave_size>;
 
-/// and so many are shaded together, in the processor's first cache.
+/// The number of paths that are shaded together, in the first-level cache.
 inline constexpr int block_size = 64;
 template <class T>
 using Block = Lanes<T, block_size>;

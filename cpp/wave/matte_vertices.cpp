@@ -9,7 +9,7 @@ namespace {
 constexpr auto pi_f = static_cast<float>(pi);
 constexpr auto ray_offset = static_cast<float>(Scene::ray_offset);
 
-/// sample_cosine_hemisphere without branches.
+/// See sample_cosine_hemisphere; without branches.
 Vec3f cosine_hemisphere(float u_x, float u_y) {
   const float a = 2 * u_x - 1, b = 2 * u_y - 1;
   const bool wide = std::fabs(a) > std::fabs(b);
@@ -21,7 +21,7 @@ Vec3f cosine_hemisphere(float u_x, float u_y) {
   return {r * (wide ? cos : sin), r * (wide ? sin : cos), std::sqrt((1 - r) * (1 + r))};
 }
 
-/// Frame::around(n).to_world(v).
+/// Equivalent to Frame::around(n).to_world(v).
 Vec3f to_world(const Vec3f& n, const Vec3f& v) {
   const float sign = std::copysign(1.0f, n.z);
   const float a = -1 / (sign + n.z);
@@ -58,7 +58,7 @@ void MatteVertices::find_points(int count, const float* d_x, const float* d_y, c
   }
 }
 
-/// direct_light() of path_tracer.h.
+/// See direct_light() of path_tracer.h.
 void MatteVertices::unshadowed_lights(int count, bool strict_normals, Heuristic heuristic) {
   const bool balance = heuristic == Heuristic::balance;
   const int end = whole_vectors(count);
@@ -85,8 +85,8 @@ void MatteVertices::unshadowed_lights(int count, bool strict_normals, Heuristic 
   }
 }
 
-/// scatter_to_light() of path_tracer.h: with a density in proportion to the cosine, the weight is
-/// pi f.
+/// See scatter_to_light() of path_tracer.h: with a density in proportion to the cosine, the weight
+/// is pi f.
 void MatteVertices::sample_directions(int count, bool strict_normals) {
   const int end = whole_vectors(count);
   for (int i = 0; i < end; ++i) {

@@ -1,5 +1,5 @@
 // Matte vertices of many paths from the camera, side by side in single precision. Lanes of paths
-// that have none are computed along and not looked at.
+// without a matte vertex are computed too, and ignored.
 #pragma once
 
 #include "path/mis.h"
@@ -12,12 +12,12 @@
 
 namespace mlt {
 
-/// consistent_sides of vertex.h, in single precision and without branches.
+/// See consistent_sides of vertex.h; in single precision and without branches.
 inline bool consistent_sides(const Vec3f& ng, const Vec3f& n, const Vec3f& w, bool strict) {
   return !strict | (dot(ng, w) * dot(n, w) > 0);
 }
 
-/// Where a ray along w begins: off its surface.
+/// The origin of a ray along w, a little off its surface.
 inline Vec3f departure(const Vec3f& p, const Vec3f& ng, const Vec3f& w, float extent) {
   constexpr auto offset = static_cast<float>(Scene::ray_offset);
   return p + ng * std::copysign(offset * extent, dot(ng, w));
@@ -44,26 +44,26 @@ struct TriangleBlock {
 
 struct MatteVertices {
   TriangleBlock surface;
-  VectorBlock p, n;       ///< n: until find_points(), a multiple of it.
+  VectorBlock p, n;       ///< n has any length until find_points().
   Block<float> back;      ///< 1 if the back side scatters light too, else 0.
-  Block<float> sides;     ///< 0 if strict normals refuse the ray that has arrived, else 1.
-  Block<const Color*> f;  ///< The BSDF; nullptr: there is no matte vertex.
+  Block<float> sides;     ///< 0 if strict normals reject the incident ray, else 1.
+  Block<const Color*> f;  ///< BSDF; nullptr: there is no matte vertex.
 
-  // A point on a glowing mesh, chosen by next-event estimation.
+  // A point on a glowing mesh, sampled by next-event estimation:
   TriangleBlock light;
   Block<float> light_pdf;        ///< Area measure; 0: there is none.
-  Block<const Color*> radiance;  ///< That the point emits.
+  Block<const Color*> radiance;  ///< Emitted by the point.
 
-  // What unshadowed_lights() makes of it: the ray between the two, and |cos| mis / pdf.
+  // The results of unshadowed_lights(): the shadow ray to the point, and |cos| mis / pdf.
   VectorBlock shadow_o, shadow_w;
   Block<float> shadow_length, light_weight;
 
-  // What sample_directions() makes of two numbers: the ray that goes on.
+  // The results of sample_directions(): the scattered ray, by two numbers.
   Block<double> u_x, u_y;
   VectorBlock o, w;
   Block<float> scatter_pdf;  ///< Solid angle; 0: there is none.
 
-  /// The i-th path has arrived at these barycentrics of a triangle.
+  /// Sets the vertex of the i-th path to these barycentrics of a triangle.
   void set(int i, const MatteMesh& shape, uint32_t triangle, float b1, float b2) {
     const Mesh& mesh = *shape.mesh;
     const TriangleRecord& record = mesh.record(triangle);
@@ -89,7 +89,7 @@ struct MatteVertices {
     }
     textured_count_ = 0;
   }
-  /// It looks at the point of this light that sample_position(u) gives.
+  /// Sets the light point of the i-th path to that of sample_position(u) on this light.
   void set_light(int i, const MeshLight& chosen, const Vec2& u) {
     const Mesh& mesh = *chosen.mesh;
     const auto [triangle, b] = mesh.sample_barycentrics(u);
@@ -101,17 +101,17 @@ struct MatteVertices {
     light_pdf[i] = static_cast<float>(chosen.pdf);
     radiance[i] = chosen.radiance;
   }
-  /// The i-th of them, for what is not computed side by side.
+  /// The i-th vertex as a SurfacePoint, for computations of single paths.
   SurfacePoint point(int i, uint32_t shape, double time) const;
 
-  // Each works on the first `count` paths; d are the directions in which their rays have arrived.
+  // Each function works on the first `count` paths; d are the directions of their incident rays.
   void find_points(int count, const float* d_x, const float* d_y, const float* d_z,
                    bool strict_normals);
   void unshadowed_lights(int count, bool strict_normals, Heuristic heuristic);
   void sample_directions(int count, bool strict_normals);
 
  private:
-  VectorBlock wc_;  ///< Towards the camera.
+  VectorBlock wc_;  ///< Direction towards the camera.
 
   /// A point whose texture is still to be looked up.
   struct TexturedPoint {

@@ -12,13 +12,13 @@ class NumberRows {
  public:
   static constexpr int row = 8, capacity = block_size;
 
-  /// Begins anew, with the numbers first ... first + row - 1 of each vector of numbers.
+  /// Clears all rows; the next ones are numbers first ... first + row - 1 of each vector.
   void begin(size_t first) {
     first_ = static_cast<uint32_t>(first);
     moving_ = 0;
     fresh_ = capacity;
   }
-  /// One that the random numbers of `key` make: near `from`, or (nullptr) afresh. Returns its name.
+  /// Adds a row that is drawn by `key`: near `from`, or afresh if it is nullptr. Returns its index.
   int add(uint64_t key, const double* from) {
     const int i = from ? moving_++ : --fresh_;
     if (from) std::memcpy(&x_[row * i], from, row * sizeof(double));
@@ -31,7 +31,7 @@ class NumberRows {
   }
   int size() const { return moving_ + capacity - fresh_; }
   void draw(const SmallStep& step);
-  /// What has come of it.
+  /// The numbers of row i, after draw().
   const double* operator[](int i) const { return &u_[row * i]; }
 
  private:
@@ -42,7 +42,7 @@ class NumberRows {
 
   uint32_t first_ = 0;
   int moving_ = 0, fresh_ = capacity;  ///< Rows that move come first, fresh ones last.
-  Rows<uint32_t> low_, high_;          ///< Halves of a number's own key.
+  Rows<uint32_t> low_, high_;          ///< Halves of the key of each number.
   Rows<double> x_, u_, angle_;
 };
 

@@ -64,7 +64,7 @@ void BasicPathWave<Numbers>::find_shadows(RayCounts& rays) {
       [&](int path, const Color& radiance, double share) { walks_[path].take(radiance, share); });
 }
 
-/// One step of trace_path.
+/// Takes one step of trace_path for all paths of the block.
 template <class Numbers>
 void BasicPathWave<Numbers>::shade_block(int depth, RayCounts& rays) {
   const bool last = depth == rules_.most_edges();
@@ -82,7 +82,7 @@ void BasicPathWave<Numbers>::shade_block(int depth, RayCounts& rays) {
   take_step(depth, rays);
 }
 
-/// VertexNumbers of path_tracer.h, but for the last three.
+/// Draws the numbers of a vertex (VertexNumbers), except the last three.
 template <class Numbers>
 void BasicPathWave<Numbers>::draw_numbers(int depth) {
   numbers_.begin_vertex(begin_, count_);
@@ -117,7 +117,7 @@ inline void BasicPathWave<Numbers>::find_vertex(int i, int depth) {
     matte_.set(i, matte, hits.primitive[lane], hits.u[lane], hits.v[lane]);
 }
 
-/// At a surface that glows, or is not matte.
+/// Finds the vertex on a surface that glows, or is not matte.
 template <class Numbers>
 void BasicPathWave<Numbers>::find_bright_or_other(int i, const Hit& hit, int depth) {
   CameraWalk& walk = exact_walk(begin_ + i);
@@ -155,7 +155,7 @@ void BasicPathWave<Numbers>::choose_lights(int depth) {
   sample_other_lights();
 }
 
-/// One that is no glowing mesh, or is seen from a vertex that is not matte.
+/// Takes the numbers for a light that is no glowing mesh, or for a vertex that is not matte.
 template <class Numbers>
 void BasicPathWave<Numbers>::choose_other_light(int i, const Vec3& u) {
   if (matte_.f[i]) {
@@ -189,7 +189,7 @@ void BasicPathWave<Numbers>::queue_lights() {
     if (singles_[j].looks) queue_other_light(singles_[j]);
 }
 
-/// direct_light() of path_tracer.h.
+/// See direct_light() of path_tracer.h.
 template <class Numbers>
 void BasicPathWave<Numbers>::queue_other_light(const SingleVertex& single) {
   const int i = single.path;
@@ -229,7 +229,7 @@ void BasicPathWave<Numbers>::take_step(int depth, RayCounts& rays) {
   numbers_.skip(3);
 }
 
-/// scatter() of path_tracer.h for a matte vertex.
+/// See scatter() of path_tracer.h; for a matte vertex.
 template <class Numbers>
 bool BasicPathWave<Numbers>::scatter_matte(int i, int depth, CameraWalk& walk) {
   const double pdf = matte_.scatter_pdf[i];
@@ -244,7 +244,7 @@ bool BasicPathWave<Numbers>::scatter_matte(int i, int depth, CameraWalk& walk) {
   return true;
 }
 
-/// The same for another vertex, if there is one.
+/// See scatter() of path_tracer.h; for a vertex that is not matte, if there is one.
 template <class Numbers>
 bool BasicPathWave<Numbers>::scatter_other(int i, int depth, CameraWalk& walk, RayCounts& rays) {
   if (single_[i] < 0) return false;

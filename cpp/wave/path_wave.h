@@ -14,7 +14,7 @@
 
 namespace mlt {
 
-/// `Numbers` is where paths take their numbers from: WaveNumbers or DrawnNumbers.
+/// `Numbers` is the source of the random numbers of the paths: WaveNumbers or DrawnNumbers.
 template <class Numbers>
 class BasicPathWave {
  public:
@@ -25,12 +25,12 @@ class BasicPathWave {
     walks_.reserve(capacity);
   }
 
-  /// The numbers of the paths that are added.
+  /// The random numbers of the paths that are added.
   Numbers& numbers() { return numbers_; }
-  /// A path that begins with `ray`, and takes the numbers of the sample that was added last. For
-  /// `chain_factor` see there.
+  /// Adds a path that begins with `ray`, and takes the numbers of the sample that was added last.
+  /// For `chain_factor` see ChainFactor.
   void add(const Ray& ray, const ChainFactor& chain_factor = {});
-  /// A path that begins with `ray`; `sampler`, a PixelSampler, goes on from there.
+  /// Adds a path that begins with `ray` and takes the next numbers of `sampler`, a PixelSampler.
   template <class Sampler>
   void add(const Ray& ray, const Sampler& sampler) {
     numbers_.add(sampler.stream(), sampler.index());
@@ -39,11 +39,11 @@ class BasicPathWave {
   }
   size_t size() const { return walks_.size(); }
   bool full() const { return size() == capacity; }
-  /// Traces all of them to their ends. `coherent`: those that stand side by side begin alike.
+  /// Traces all paths to their ends. `coherent`: the first rays of adjacent paths are similar.
   void trace(RayCounts& rays, bool coherent = true);
-  /// What the i-th path has found.
+  /// The radiance that the i-th path has found.
   const Color& radiance(size_t i) const { return walks_[i].radiance; }
-  /// The rays that it took.
+  /// The number of rays of the i-th path.
   const RayCounts& rays(size_t i) const { return walks_[i].rays; }
   void clear() {
     walks_.clear();
@@ -52,19 +52,19 @@ class BasicPathWave {
   }
 
  private:
-  /// A vertex that is not matte, or looks at a light that is no glowing mesh.
+  /// A vertex that is not matte, or samples a light that is no glowing mesh.
   struct SingleVertex {
     int path;
     SurfacePoint at;
-    bool looks;         ///< At a light; then,
-    Vec3 u;             ///< by these numbers,
-    LightSample light;  ///< at this one.
+    bool looks;         ///< Whether it samples a light.
+    Vec3 u;             ///< The numbers for the light.
+    LightSample light;  ///< The sampled light.
   };
 
   void find_hits(bool coherent, RayCounts& rays);
   void find_shadows(RayCounts& rays);
 
-  // Of the `count_` paths from the begin_-th one on:
+  // Functions of the `count_` paths from the begin_-th one on:
   void shade_block(int depth, RayCounts& rays);
   void draw_numbers(int depth);
   Vec3 numbers_for_light(int i) const;
@@ -92,22 +92,22 @@ class BasicPathWave {
   std::vector<CameraWalk> walks_;
   WaveShadows shadows_;
 
-  // Of each path that takes this step:
+  // Values of each path that takes this step:
   int live_ = 0;
-  Wave<int> path_;    ///< Which one it is.
+  Wave<int> path_;    ///< Its index in walks_.
   VectorWave o_, d_;  ///< Its ray.
-  Wave<bool> exact_;  ///< Whether its walk knows the ray, in double precision.
+  Wave<bool> exact_;  ///< Whether its walk has the ray in double precision.
   PacketHits hits_[wave_size / RayPacket::size];
   Numbers numbers_;
-  int next_ = 0;  ///< How many take the next step; they are moved together.
+  int next_ = 0;  ///< How many take the next step; they are compacted.
 
-  // Of each path of the block:
+  // Values of each path of the block:
   int begin_ = 0, count_ = 0;
   Block<double> u_light_x_, u_light_y_;
   MatteVertices matte_;
-  std::vector<SingleVertex> singles_;  ///< The first `single_count_` of them; it keeps its memory.
+  std::vector<SingleVertex> singles_;  ///< The first `single_count_` are in use.
   int single_count_ = 0;
-  Block<int> single_;  ///< Which of them belongs to the path; -1: none.
+  Block<int> single_;  ///< Index in singles_ of the path's vertex; -1: none.
   BackgroundPositions backgrounds_;
 };
 

@@ -59,10 +59,10 @@ void SubpathWave::walk(const WaveNumbers& numbers, int most, RayCounts& rays) {
   }
 }
 
-/// Nothing is joined there yet.
+/// Makes room for the vertices at a place, where nothing is joined yet.
 void SubpathWave::open(int place) {
   last_place_ = place;
-  joints_.reserve(size_t{most_vertices} * blocks);  // Taken when it is used.
+  joints_.reserve(size_t{most_vertices} * blocks);  // reserves address space alone
   if (joints_.size() < size_t(place + 1) * blocks) joints_.resize(size_t(place + 1) * blocks);
   for (int block = 0; block < blocks; ++block) at(place, block).cosine = {};
 }
@@ -107,8 +107,8 @@ inline void SubpathWave::find_vertex(int i) {
   matte_.set(i, shape, found.primitive[lane], found.u[lane], found.v[lane]);
 }
 
-/// The densities with which the two walks make the vertex and the one before it. A scattered
-/// direction has the density |w.ns| / pi in solid angle.
+/// Computes the densities with which the two walks make the vertex and the one before it. A
+/// scattered direction has the density |w.ns| / pi in solid angle.
 void SubpathWave::arrive(int place) {
   const double technique = from_light_ || place > 1 || light_image_ ? 1 : 0;
   const int end = whole_vectors(count_);
@@ -130,7 +130,7 @@ void SubpathWave::arrive(int place) {
   }
 }
 
-/// BidirectionalSampler::evaluate_hit_light.
+/// See BidirectionalSampler::evaluate_hit_light.
 void SubpathWave::hit_light(int i, int place) {
   const int k = begin_ + i;
   if (!(dot(matte_.surface.ng[i], d_[k]) < 0)) return;
@@ -142,7 +142,7 @@ void SubpathWave::hit_light(int i, int place) {
   hits_.push_back({sample_[k], throughput_[k] * *light.radiance / (1 + above)});
 }
 
-/// For joints.
+/// Stores the vertex of a walk for joints.
 inline void SubpathWave::keep(int i, int place) {
   if (cosine_to_previous_[i] == 0) return;
   const int sample = sample_[begin_ + i], block = sample / JointLanes::size;
@@ -160,7 +160,7 @@ inline void SubpathWave::keep(int i, int place) {
                         (from_light_ ? double{light_factor_[i]} : 1.0));
 }
 
-/// Subpath::scatter.
+/// See Subpath::scatter.
 void SubpathWave::take_steps(int place) {
   for (int i = 0; i < count_; ++i) {
     const int k = begin_ + i;
@@ -185,7 +185,7 @@ void SubpathWave::take_steps(int place) {
   numbers_.skip(rules_.rr_depth == PathRules::no_roulette ? 1 : 2);
 }
 
-/// Russian roulette.
+/// Russian roulette; false ends the walk.
 inline bool SubpathWave::survive(int i, int place, Color& ratio) {
   if (place < rules_.rr_depth) return true;
   const double survival = std::min(max_component(ratio), 0.95);

@@ -1,6 +1,6 @@
 // Subpaths of many samples that are traced side by side, among surfaces that are matte and lights
-// that are glowing meshes. Each is that of Subpath, up to rounding. Those that meet something else,
-// or are very long, are left to it.
+// that are glowing meshes. Each is that of Subpath, up to rounding. Samples with subpaths that hit
+// another kind of surface, or are very long, are left to Subpath.
 #pragma once
 
 #include "path/path_rules.h"
@@ -18,7 +18,7 @@ class SubpathWave {
   template <class T>
   using Samples = Lanes<T, capacity>;
 
-  /// Light that is hit: the technique s = 0.
+  /// Light that a camera walk has hit: the technique s = 0.
   struct Hit {
     int sample;
     Color weighted;
@@ -28,30 +28,30 @@ class SubpathWave {
   SubpathWave(const Scene& scene, const PathRules& rules, Subpath::From from, Heuristic heuristic,
               bool light_image);
 
-  /// Forgets all subpaths; there are `count` samples now.
+  /// Clears all subpaths; there are `count` samples now.
   void clear(int count);
   /// The first step of a sample's walk.
   struct Start {
-    Vec3f p;  ///< Vertex 0, and its ray.
+    Vec3f p;  ///< Position of vertex 0; o, w: the ray from there.
     Vec3f o, w;
-    float cosine;          ///< |w.ng| there,
-    float pdf;             ///< and the density of w in solid angle.
+    float cosine;          ///< |w.ng| at vertex 0.
+    float pdf;             ///< Density of w in solid angle.
     double forward, sums;  ///< See JointLanes.
-    Color throughput;      ///< Of vertex 1.
+    Color throughput;      ///< Throughput of vertex 1.
   };
   void start(int sample, const Start& start);
-  /// Walks all of them to their ends, which have `most` vertices at most. The numbers are those
-  /// after the first step.
+  /// Walks all subpaths to their ends, with `most` vertices at most. The next of the `numbers` are
+  /// those after the first step.
   void walk(const WaveNumbers& numbers, int most, RayCounts& rays);
 
-  /// Vertices at this place (1: the first after the end) of eight samples; all have one of them.
+  /// Vertices at this place (1: the first after the end) of eight samples.
   const JointLanes& joints(int place, int block) const { return joints_[place * blocks + block]; }
-  /// Whether one of eight samples can be joined at the place.
+  /// Whether any of eight samples can be joined at the place.
   bool reaches(int place, int block) const { return longest_[block] >= place; }
   int last_place() const { return last_place_; }
   /// Whether the sample has to be traced by itself.
   bool left(int sample) const { return left_[sample]; }
-  /// Lets it be traced by itself: nothing is joined to its vertices.
+  /// Marks the sample to be traced by itself: nothing is joined to its vertices.
   void leave(int sample);
   const std::vector<Hit>& hits() const { return hits_; }
 
@@ -61,7 +61,7 @@ class SubpathWave {
   void open(int place);
   void find_hits(bool coherent, RayCounts& rays);
 
-  // Of the `count_` walks from the begin_-th one on:
+  // Functions of the `count_` walks from the begin_-th one on:
   void shade(int place, bool last);
   void find_vertex(int i);
   void arrive(int place);
@@ -77,29 +77,29 @@ class SubpathWave {
   bool from_light_, light_image_;
   Exponent beta_;
   std::vector<JointLanes> joints_;
-  Lanes<int, blocks> longest_;  ///< The last place of these samples.
+  Lanes<int, blocks> longest_;  ///< Last place of the samples of each block.
   int last_place_ = 0;
   Samples<bool> left_;
   std::vector<Hit> hits_;
 
-  // Of each walk that takes this step:
+  // Values of each walk that takes this step:
   int live_ = 0;
   Samples<int> sample_;
   VectorLanes<capacity> o_, d_;  ///< Its ray.
-  VectorLanes<capacity> p_;      ///< Its last vertex, and what that one's Start would be:
+  VectorLanes<capacity> p_;      ///< Its last vertex; below, the values of Start for it.
   Samples<float> cosine_, pdf_;
   Samples<double> forward_, sums_;
   Samples<Color> throughput_;
   PacketHits found_[capacity / RayPacket::size];
   WaveNumbers numbers_;
-  int next_ = 0;  ///< How many take the next step; they are moved together.
+  int next_ = 0;  ///< How many take the next step; they are compacted.
 
-  // Of each walk of the block:
+  // Values of each walk of the block:
   int begin_ = 0, count_ = 0;
   MatteVertices matte_;
   Block<bool> emits_;
   Block<float> cosine_to_previous_;  ///< See JointLanes.
-  Block<float> next_cosine_;         ///< |w.ng| of the direction that is taken.
+  Block<float> next_cosine_;         ///< |w.ng| of the sampled direction.
   Block<float> light_factor_;        ///< |w.ns| / |w.ng| of the direction to the previous vertex.
   Block<double> forward_here_, reverse_emission_, sums_here_;
 };

@@ -1,7 +1,7 @@
 // A point of primary sample space (Kelemen et al. 2002) for walks from the camera: the numbers that
-// a walk has taken, in their order, and no others. A longer walk after a small step draws those
-// beyond afresh, a shorter one forgets what it leaves out: the density of both is 1, so that the
-// step is symmetric.
+// a walk has taken, in their order, and no others. A longer walk after a small step draws the
+// additional numbers afresh, a shorter one drops the unused ones: the density of both is 1, so that
+// the step is symmetric.
 #pragma once
 
 #include "base/bytes.h"
@@ -24,9 +24,9 @@ class WalkNumbers {
     values_[size_++] = value;
   }
 
-  /// The row of them that begins there, if they go on so far; it may have more than there are.
+  /// The row of numbers that begins at `first`, or nullptr; it may reach beyond the last number.
   const double* row(size_t first) const { return first < size_ ? &values_[first] : nullptr; }
-  /// Ends with `count` numbers from `first` on, the first ones of this row.
+  /// Replaces all numbers from `first` on by the first `count` ones of this row.
   void end_with(const double* row, size_t first, size_t count) {
     make_room(size_ = first + count);
     std::memcpy(&values_[first], row, NumberRows::row * sizeof(double));
@@ -50,11 +50,11 @@ class WalkNumbers {
     if (values_.size() < wanted) values_.resize(std::max(wanted, 2 * values_.size()));
   }
 
-  std::vector<double> values_;  ///< And room for another row.
+  std::vector<double> values_;  ///< With room for another row.
   size_t size_ = 0;
 };
 
-/// Draws the numbers of a walk, and keeps them.
+/// Draws the numbers of a walk, and records them.
 class WalkNumbersSampler {
  public:
   WalkNumbersSampler(WalkNumbers& numbers, Rng& rng) : numbers_(&numbers), rng_(&rng) {

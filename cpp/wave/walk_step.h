@@ -1,5 +1,5 @@
-// PrimaryStep for walks that are traced side by side: each chain tells a wave what it is going to
-// propose, and takes its step when the wave has been traced.
+// PrimaryStep for walks that are traced side by side: each chain adds its proposal to a wave, and
+// takes its step when the wave has been traced.
 #pragma once
 
 #include "wave/walk_wave.h"
@@ -17,7 +17,7 @@ class WalkStep : public PrimaryMoves<WalkState> {
     if (proposed_[stage])
       wave.add(x, stage == 0 && last() == large, rng.next_bits(), y[stage], rays_);
   }
-  /// After it was traced.
+  /// The transition to this stage's proposal, after it was traced.
   Transition propose(const WalkState& x, const Proposals& y, size_t stage, Rng&) const {
     return proposed_[stage] ? quotients(x, y, stage) : impossible;
   }

@@ -1,4 +1,4 @@
-// Walks from the camera that the numbers of many chains make, traced side by side (PathWave).
+// Walks from the camera by the numbers of many chains, traced side by side (PathWave).
 #pragma once
 
 #include "primary/primary_step.h"
@@ -9,7 +9,7 @@
 
 namespace mlt {
 
-/// What the walk of a state finds, at its own position of the image.
+/// A state: the numbers of a walk, and the light that it finds at its own image position.
 using WalkState = StateOf<WalkNumbers>;
 
 class WalkWave : private DrawnNumbers::Source {
@@ -18,12 +18,12 @@ class WalkWave : private DrawnNumbers::Source {
 
   WalkWave(const Scene& scene, const PathRules& rules, const SmallStep& small_step);
 
-  /// `y` is to become what is proposed from x, by the random numbers of `key`: the same with small
-  /// changes, or all afresh. `rays` counts its rays.
+  /// Adds a proposal from x, to be stored in y, by the random numbers of `key`: a small step, or a
+  /// large one. `rays` counts its rays.
   void add(const WalkState& x, bool large, uint64_t key, WalkState& y, RayCounts& rays) {
     proposals_.push_back({key, large ? nullptr : &x.numbers, &y, &rays});
   }
-  /// Makes all that were added; begins anew.
+  /// Traces all proposals that were added, and clears the wave.
   void trace();
 
  private:
@@ -34,12 +34,12 @@ class WalkWave : private DrawnNumbers::Source {
     RayCounts* rays;
   };
 
-  /// The image position, the lens, the time.
+  /// Numbers of the image position, the lens and the time.
   static constexpr size_t of_camera = 5;
 
   void leave_camera();
   void draw(const int* paths, int count, size_t first, const double** numbers) override;
-  /// So many numbers of the proposals get(0), ..., get(count - 1).
+  /// Draws `numbers` numbers, from the first-th on, of the proposals get(0), ..., get(count - 1).
   template <class Get>
   void draw(int count, size_t first, size_t numbers, Get&& get);
 

@@ -1,4 +1,4 @@
-// The numbers of many samples side by side: those that the PixelSampler of each would give.
+// The random numbers of many samples side by side, equal to those of the PixelSampler of each.
 #pragma once
 
 #include "path/samplers.h"
@@ -18,23 +18,23 @@ class WaveNumbers {
     index_[count_++] = index;
   }
   int count() const { return count_; }
-  /// Where the next numbers begin, for all samples.
+  /// Sets the position of the next numbers, for all samples.
   void set_position(const PixelSampler::Position& at) { at_ = at; }
 
   const PixelSampler::Position& position() const { return at_; }
-  /// Before the numbers of a vertex.
+  /// To be called before the numbers of a vertex are taken.
   void begin_vertex(int /*begin*/, int /*count*/) {}
 
-  /// The next numbers of the `count` samples from the begin-th on; `position` goes on, as with a
-  /// sampler.
+  /// The next numbers of the `count` samples from the begin-th on; advances the position, as a
+  /// sampler does.
   void next(int begin, int count, double* x);
   void next2(int begin, int count, double* x, double* y);
   void skip(uint32_t numbers) { at_.words += numbers; }
   void skip2();
-  /// What next() would give the i-th sample, `ahead` calls later.
+  /// The number that next() would give the i-th sample, `ahead` calls later.
   double peek(int i, uint32_t ahead) const { return word(i, at_.words + ahead); }
 
-  /// The sample at `from` goes to the i-th place.
+  /// Moves the sample at `from` to the i-th place.
   void move(int i, int from) {
     stream_[i] = stream_[from];
     key_[i] = key_[from];

@@ -1,4 +1,4 @@
-// Light that arrives at the vertices of many paths where nothing is in its way.
+// Shadow rays of many paths: light that reaches their vertices unless it is blocked.
 #pragma once
 
 #include "scene/scene.h"
@@ -11,8 +11,8 @@ namespace mlt {
 class WaveShadows {
  public:
   int count() const { return count_; }
-  /// `radiance` reaches this path, which takes this share of it, unless something stands between
-  /// the ends of the ray.
+  /// Adds a shadow ray: the path receives `share` of `radiance` unless the ray is blocked between
+  /// its ends.
   void add(int path, const Color& radiance, double share, const Vec3f& o, const Vec3f& w,
            float length) {
     o_.set(count_, o);
@@ -23,8 +23,8 @@ class WaveShadows {
     radiance_[count_++] = radiance;
   }
 
-  /// Calls receive(path, radiance, share) for the light that arrives, and begins anew; time(path)
-  /// is when.
+  /// Calls receive(path, radiance, share) for the light that is not blocked, and clears all rays;
+  /// time(path) is the time of a path.
   template <class Time, class Receive>
   void trace(const Accel& accel, Time&& time, Receive&& receive) {
     for (int begin = 0; begin < count_; begin += RayPacket::size) {

@@ -1,13 +1,12 @@
 // A material on a surface whose shading normal is bent from place to place, by an image of normals
-// or of heights. The nested material sees directions in the frame of the bent normal N; the cosine
-// that belongs to its f is the one against N, for light that travels either way (Veach 1997, sec.
-// 5.3).
+// or of heights. The nested material is evaluated in the frame of the bent normal N; the cosine
+// that belongs to its f is the one with N, in both directions of light (Veach 1997, sec. 5.3).
 //
 // As in Mitsuba 3, N is turned around the shading normal, to (-N.x, -N.y, N.z), where the camera
 // side would see it from behind (Schuessler et al. 2017, "Microfacet-based normal mapping for
 // robust Monte Carlo path tracing"), and light that grazes a bent surface is dimmed (Conty Estevez,
 // Lecocq & Stein 2019, "A microfacet-based shadowing function to solve the bump terminator
-// problem"). Walks from the light cannot know from where they will be seen: now and then they take
+// problem"). Walks from the light do not know the direction to the camera: now and then they use
 // the turned frame where N would do.
 #pragma once
 
@@ -45,11 +44,11 @@ class BentNormal : public Bsdf {
  private:
   class Bend;
 
-  /// How often a sample for the direction w takes the turned normal.
+  /// The probability that a sample for the direction w uses the turned normal.
   double turned_share(const Vec3& n, const Vec3& w) const;
-  /// Whether light may go between a and b in the frame of N, or of N turned around: N is turned for
-  /// both or for none, and both are on the same side of the surface and of the bent one. There are
-  /// no mirrors in the turned frame, so that each has one normal at each point.
+  /// Whether light is scattered between a and b in the frame of N, or of N turned around: N is
+  /// turned for both or for none, and both are on the same side of the surface and of the bent one.
+  /// Mirrors do not use the turned frame, so that each has one normal at each point.
   bool scatters(const Vec3& n, bool turned, const Vec3& a, const Vec3& b, Lobe lobe) const;
 
   BsdfPtr nested_;

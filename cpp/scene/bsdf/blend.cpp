@@ -5,7 +5,7 @@
 namespace mlt {
 namespace {
 
-/// Rather than letting light straight through.
+/// Whether a material refracts, rather than letting light straight through.
 bool refracts(const Bsdf& part) {
   const Vec3 up(0, 0, 1);
   return part.has_transmission() &&
@@ -65,7 +65,7 @@ Vec3 Blend::delta_normal(const SurfacePoint& at, const Vec3& w) const {
   return (first_->has_delta() ? *first_ : *second_).delta_normal(at, w);
 }
 
-/// Of the part that scatters more between these directions.
+/// The roughness of the part that scatters more between these directions.
 double Blend::roughness(const SurfacePoint& at, const Vec3& wl, const Vec3& wc) const {
   const auto strength = [&](const Bsdf& part) {
     return target_luminance(part.eval(at, wl, wc, Lobe::smooth));

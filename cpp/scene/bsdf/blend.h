@@ -9,8 +9,8 @@ namespace mlt {
 
 class Blend final : public Bsdf {
  public:
-  /// `scale` is at most 1: what is missing is absorbed. Throws SceneError about the plug-in of
-  /// `params` if the two cannot be blended.
+  /// `scale` is at most 1: the rest of the light is absorbed. Throws SceneError about the plug-in
+  /// of `params` if the two cannot be blended.
   Blend(BsdfPtr first, BsdfPtr second, TexturePtr weight, double scale, const Params& params);
 
   Scattering scattering(const SurfacePoint& at, const Vec3& wl, const Vec3& wc,
@@ -37,7 +37,7 @@ class Blend final : public Bsdf {
   BsdfPtr first_, second_;
   TexturePtr weight_;
   double scale_;
-  bool first_refracts_;  ///< Asking again at each level of blends would double the work.
+  bool first_refracts_;  ///< Cached: nested blends would repeat the test.
 };
 
 }  // namespace mlt

@@ -1,5 +1,5 @@
-// The diffuse base of a plastic, below a dielectric coating: how much light it scatters, with all
-// reflections between it and the coating, and how often it is chosen.
+// The diffuse base of a plastic, below a dielectric coating: its albedo, with all reflections
+// between it and the coating, and the probability of sampling it.
 #pragma once
 
 #include "base/params.h"
@@ -18,12 +18,12 @@ class CoatedBase {
 
   /// The BSDF without the transmittances of the coating in the two directions.
   Color eval(const SurfacePoint& at) const { return scattered(reflectance_->eval(at)); }
-  /// The factor on the coating's reflection.
+  /// The factor of the coating's reflection.
   Color specular(const SurfacePoint& at) const { return specular_->eval(at); }
   Color albedo(const SurfacePoint& at) const;
 
-  /// The coating's share of what it and the base reflect of light from one direction, of which it
-  /// reflects and transmits these fractions itself.
+  /// The coating's share of the light that it and the base reflect from one direction, if the
+  /// coating reflects and transmits these fractions.
   double specular_share(double reflectance, double transmittance) const {
     return first_share(reflectance * specular_weight_, transmittance * diffuse_weight_);
   }

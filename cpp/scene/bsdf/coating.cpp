@@ -2,8 +2,8 @@
 // micro-facet surfaces", as in Mitsuba 0.6): light is mirrored by the layer with the fraction F;
 // the rest is refracted, meets the material, and leaves through the layer again:
 //   f(wl, wc) = T(wl) T(wc) exp(-a d (1 / |cos_l'| + 1 / |cos_c'|)) f'(wl', wc') / eta^2
-// with T = 1 - F, absorption a, thickness d, and the refracted directions wl', wc'. What the layer
-// reflects back to the material is lost.
+// with T = 1 - F, absorption a, thickness d, and the refracted directions wl', wc'. Light that the
+// layer reflects back to the material is lost.
 #include "base/registry.h"
 #include "math/fresnel.h"
 #include "scene/bsdf.h"
@@ -93,7 +93,7 @@ class Coating final : public Bsdf {
   }
 
  private:
-  /// A direction below the layer's surface, still pointing to the side that it comes from.
+  /// A direction below the layer's surface, still pointing to the outer side.
   struct Inside {
     Vec3 w;
     double F;
@@ -104,13 +104,13 @@ class Coating final : public Bsdf {
     return {Vec3(w.x * F.eta_ti, w.y * F.eta_ti, std::copysign(z, w.z)),
             F.cos_t == 0 ? 1 : F.reflectance};
   }
-  /// The same backwards; nullopt on total reflection.
+  /// The direction outside of a direction inside the layer; nullopt on total reflection.
   std::optional<Vec3> outside(const Vec3& w) const {
     const double cos2 = 1 - sqr(eta_) * sin2_theta(w);
     if (!(cos2 > 0)) return std::nullopt;
     return Vec3(w.x * eta_, w.y * eta_, std::copysign(std::sqrt(cos2), w.z));
   }
-  /// |dw' / dw| of a direction w inside the layer and outside.
+  /// |dw' / dw| of the directions w outside and w' inside the layer.
   double compression(const Vec3& outer, const Vec3& inner) const {
     return std::abs(outer.z / inner.z) / sqr(eta_);
   }

@@ -1,5 +1,5 @@
-// What one-sided materials have in common whose directions are drawn as Lambert's: with the density
-// cos / pi, whatever the value of the BSDF.
+// The base of one-sided materials that are sampled like Lambert's: with the density cos / pi,
+// whatever the value of the BSDF.
 #pragma once
 
 #include "math/warp.h"

@@ -59,8 +59,8 @@ class Dielectric final : public Bsdf {
                                         : false;
   }
 
-  /// F of a reflection or refraction from a to b. For a refraction it comes from the direction in
-  /// the thinner medium: F is the same from both, but there it is well conditioned up to grazing.
+  /// F of a reflection or refraction from a to b. For a refraction it is computed from the
+  /// direction in the thinner medium: F is the same from both, but well conditioned there.
   double fresnel(const Vec3& a, const Vec3& b) const {
     const bool thin_is_above = interface_.eta >= 1;
     return fresnel_dielectric((a.z > 0) == thin_is_above ? a.z : b.z, interface_.eta).reflectance;

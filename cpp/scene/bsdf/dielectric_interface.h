@@ -1,5 +1,5 @@
-// What all interfaces between transparent media have in common: the relative index of refraction,
-// factors on reflection and transmission, and how often each is chosen.
+// The common part of all interfaces between transparent media: the relative index of refraction,
+// factors of reflection and transmission, and the probabilities of sampling them.
 #pragma once
 
 #include "scene/bsdf/ior_params.h"
@@ -22,7 +22,7 @@ class DielectricInterface {
   double reflection_probability(double F) const {
     return first_share(F * reflection_weight_, (1 - F) * transmission_weight_);
   }
-  /// Of what meets an interface that reflects the fraction F.
+  /// The albedo of an interface that reflects the fraction F.
   Color albedo(const SurfacePoint& at, double F) const {
     return F * reflectance->eval(at) + (1 - F) * transmittance->eval(at);
   }

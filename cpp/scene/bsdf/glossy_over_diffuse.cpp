@@ -6,8 +6,8 @@
 namespace mlt {
 namespace {
 
-/// The factor on both reflectances that keeps their sum below 1: the rule of Mitsuba 0.6, which
-/// leaves a margin of 1 % where it acts.
+/// The factor of both reflectances that keeps their sum below 1: the rule of Mitsuba 0.6, which
+/// leaves a margin of 1 % if it is needed.
 double energy_scale(const Color& largest) {
   const double sum = max_component(largest);
   return sum > 1 ? 0.99 / sum : 1;
@@ -61,7 +61,7 @@ std::optional<Vec3> GlossyOverDiffuse::invert(const SurfacePoint& at, const Vec3
   return u_of(u_of_second(specular_share_, guess.rest), invert_cosine_hemisphere(to));
 }
 
-/// Where the diffuse part is the larger one, the surface counts as diffuse.
+/// The roughness of the larger part: of the lobe, or that of a diffuse surface.
 double GlossyOverDiffuse::roughness(const SurfacePoint& at, const Vec3& wl, const Vec3& wc) const {
   if (!above(wl, wc)) return infinity;
   const double glossy = target_luminance(glossy_part(at, gloss(at, wl, wc)));

@@ -1,5 +1,5 @@
-// What models have in common that add a glossy lobe to a diffuse part without asking how much light
-// the lobe leaves over: f = k_d / pi + k_s lobe.
+// The base of models that add a glossy lobe to a diffuse part, which does not depend on the light
+// that the lobe leaves over: f = k_d / pi + k_s lobe.
 #pragma once
 
 #include "base/params.h"
@@ -38,7 +38,7 @@ class GlossyOverDiffuse : public Bsdf {
   double diffuse_pdf(const Vec3& to) const;
 
   TexturePtr diffuse_, specular_;
-  double scale_ = 1;  ///< On both, so that they do not reflect more than there is.
+  double scale_ = 1;  ///< Factor of both parts, for energy conservation.
   double specular_share_;
 };
 

@@ -8,7 +8,7 @@ namespace mlt {
 
 /// The parameters `int_ior` and `ext_ior`, with the given default inside and air outside.
 std::vector<Parameter> ior_parameters(const std::string& default_inside);
-/// int_ior / ext_ior.
+/// The relative index int_ior / ext_ior.
 double relative_ior_param(Params& params);
 
 /// The parameters `specular_reflectance` and `specular_transmittance` of an interface.
@@ -16,7 +16,7 @@ std::vector<Parameter> interface_factors();
 
 /// The parameters `material`, `eta`, `k`, `ext_eta` and `specular_reflectance` of a conductor.
 std::vector<Parameter> conductor_parameters();
-/// The complex index that they give, relative to the outside.
+/// The complex index by the parameters of a conductor, relative to the outside.
 ComplexIor conductor_param(Params& params);
 
 }  // namespace mlt

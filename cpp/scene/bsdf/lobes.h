@@ -1,5 +1,5 @@
-// What several models share: the one-sided horizon test, and a choice between two lobes that can be
-// inverted.
+// Functions of several models: the one-sided horizon test, and a choice between two lobes that can
+// be inverted.
 #pragma once
 
 #include "math/frame.h"
@@ -10,10 +10,10 @@
 
 namespace mlt {
 
-/// Both directions are above a one-sided surface.
+/// Whether both directions are above a one-sided surface.
 inline bool above(const Vec3& a, const Vec3& b) { return a.z > 0 && b.z > 0; }
 
-/// w, or its opposite, whichever is above the surface.
+/// The one of w and -w that is above the surface.
 inline Vec3 upwards(const Vec3& w) { return w.z < 0 ? -w : w; }
 
 inline Vec2 direction_part(const Vec3& u) { return {u.y, u.z}; }
@@ -23,7 +23,7 @@ inline Vec2 direction_part(const Vec3& u) { return {u.y, u.z}; }
 inline double u_of_first(double p, double v) { return v * p; }
 inline double u_of_second(double p, double v) { return std::min(p + v * (1 - p), 1 - 0x1p-53); }
 
-/// Which of two lobes has sampled a direction, if v is uniform; `rest` is v once more.
+/// Chooses which of two lobes has sampled a direction, if v is uniform; `rest` is v, rescaled.
 struct LobeGuess {
   bool first;
   double rest;

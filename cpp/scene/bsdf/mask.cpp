@@ -1,6 +1,6 @@
-// A surface with holes: where its opacity is o, light meets the nested material with the weight o,
-// and goes straight on with 1 - o. The passage is a null lobe, and so a vertex of the path: every
-// integrator knows its probability, and none has to look through surfaces.
+// A surface with holes: where its opacity is o, light is scattered by the nested material with the
+// weight o, and passes straight through with 1 - o. The passage is a null lobe, and so a vertex of
+// the path: every integrator knows its probability, and none has to trace through surfaces.
 #include "base/registry.h"
 #include "scene/bsdf.h"
 #include "scene/bsdf/lobes.h"

@@ -8,7 +8,7 @@
 namespace mlt {
 namespace {
 
-/// Numbers between commas or blanks.
+/// The weights: numbers between commas or blanks.
 std::vector<double> weights_param(Params& params) {
   std::string text = params.text("weights");
   for (char& c : text)
@@ -31,7 +31,7 @@ ObjectPtr create_mixture(Params& params) {
   for (const double w : weights) sum += w;
   if (!(sum > 0)) params.fail("weights", "are all 0");
   if (sum > 1) params.warn("the weights add up to more than 1 and are divided by their sum");
-  // From the last one forwards: each with those behind it.
+  // from the last one forwards: each is blended with those behind it
   BsdfPtr rest = nested.back();
   double behind = weights.back();
   std::shared_ptr<Blend> all;

@@ -92,7 +92,7 @@ class Principled final : public Bsdf {
   double relative_eta(const SurfacePoint&, const Vec3& w) const override {
     return refracts_ ? eta_on_side(w) : 1;
   }
-  /// Of the lobe that scatters most between these directions.
+  /// The roughness of the lobe that scatters most between these directions.
   double roughness(const SurfacePoint& at, const Vec3& wl, const Vec3& wc) const override {
     const Half half = half_between(wl, wc, Lobe::smooth);
     if (!half.exists) return infinity;
@@ -131,7 +131,7 @@ class Principled final : public Bsdf {
   /// The microfacet that scatters between two directions; the same in either order, bit for bit.
   struct Half {
     bool exists, reflects;
-    bool microfacet;  ///< Both directions see h from the side on which they are.
+    bool microfacet;  ///< Whether each direction is on the same side of h as of the surface.
     Vec3 h;           ///< Above the surface.
     double F;
   };
@@ -192,7 +192,7 @@ class Principled final : public Bsdf {
 
   using Densities = std::array<double, lobe_count>;
   static double sum(const Densities& d) { return d[diffuse] + d[clearcoat] + d[specular]; }
-  /// Of `to`, lobe by lobe.
+  /// The densities of `to`, lobe by lobe.
   Densities densities(const Point& p, const Vec3& from, const Vec3& to, const Half& half) const {
     const LobeShares<lobe_count> chosen = shares(p, from);
     Densities d{};
@@ -214,13 +214,13 @@ class Principled final : public Bsdf {
     return d;
   }
 
-  /// Mitsuba's rates. From below only the microfacets are seen.
+  /// The probabilities of the lobes, as in Mitsuba. From below there are only microfacets.
   LobeShares<lobe_count> shares(const Point& p, const Vec3& from) const {
     if (from.z < 0) return LobeShares<lobe_count>({0, 0, p.bsdf > 0 ? 1.0 : 0.0});
     return LobeShares<lobe_count>(
         {p.brdf * diffuse_rate_, 0.25 * p.clearcoat * clearcoat_rate_, specular_rate_});
   }
-  /// How often a chosen microfacet reflects.
+  /// The probability that a sampled microfacet reflects.
   static double reflected_share(const Point& p, const Vec3& from, double F) {
     return from.z < 0 ? F : 1 - p.bsdf * (1 - F);
   }

@@ -1,6 +1,6 @@
-// What the two principled materials share: the terms of Burley 2012, "Physically based shading at
+// Terms of the two principled materials: those of Burley 2012, "Physically based shading at
 // Disney", and Burley 2015, "Extending the Disney BRDF to a BSDF with integrated subsurface
-// scattering", in the form that Mitsuba 3 gives them.
+// scattering", in the form of Mitsuba 3.
 #pragma once
 
 #include "base/params.h"
@@ -17,7 +17,7 @@ inline double schlick_weight(double cosine) {
   return sqr(sqr(m)) * m;
 }
 
-/// R0 + (1 - R0) (1 - cos)^5, with the cosine in the thinner medium; 0 <= cosine.
+/// Schlick's reflectance R0 + (1 - R0) (1 - cos)^5, by the cosine >= 0 in the thinner medium.
 inline Color schlick(const Color& R0, double cosine, double eta) {
   if (eta <= 1) cosine = std::sqrt(std::max(0.0, 1 - (1 - sqr(cosine)) / sqr(eta)));
   const double w = schlick_weight(cosine);
@@ -44,8 +44,8 @@ inline Microfacet principled_microfacet(double roughness, double anisotropic) {
           std::max(0.001, sqr(roughness) * aspect)};
 }
 
-/// What a matte base scatters, without its colour / pi: Burley's diffuse term with retroreflection,
-/// or, as far as it is flat, his approximation of subsurface scattering. cos_d is against the half
+/// The BSDF of a matte base over colour / pi: Burley's diffuse term with retroreflection, mixed by
+/// `flatness` with his approximation of subsurface scattering. cos_d is the cosine with the half
 /// vector.
 inline double principled_diffuse(double cos_l, double cos_c, double cos_d, double roughness,
                                  double flatness) {
@@ -76,25 +76,25 @@ struct ClearCoat {
   Vec2 invert(const Vec3& h) const {
     return {-std::log1p(sin2_theta(h) * (1 - alpha2) / alpha2) / std::log(alpha2), turns(h.x, h.y)};
   }
-  /// Masked as GGX of roughness 0.25 would be.
+  /// Masking and shadowing, as of GGX of roughness 0.25.
   static double G(const Vec3& wl, const Vec3& wc, const Vec3& h) {
     return Microfacet(MicrofacetType::ggx, 0.25, 0.25).G(wl, wc, h);
   }
   static double fresnel(double cosine, double eta) { return schlick(Color(0.04), cosine, eta).x; }
 };
 
-/// The lobes among which a sample chooses, and how often each is taken.
+/// The probabilities of the lobes that a sample chooses from.
 template <size_t n>
 struct LobeShares {
   double share[n];
 
-  /// From weights that are not negative.
+  /// Probabilities in proportion to weights that are not negative.
   explicit LobeShares(const double (&weight)[n]) {
     double sum = 0;
     for (const double w : weight) sum += w;
     for (size_t i = 0; i < n; ++i) share[i] = sum > 0 ? weight[i] / sum : 0;
   }
-  /// The lobe that u chooses, and what is left of u; n if all weights are 0.
+  /// The lobe that u chooses; u is rescaled. n if all weights are 0.
   size_t choose(double& u) const {
     size_t last = n;
     double below = 0;
@@ -109,8 +109,8 @@ struct LobeShares {
     u = std::clamp((u - before) / share[last], 0.0, 1 - 0x1p-53);
     return last;
   }
-  /// Which lobe has sampled a direction that they have these densities for, if v is uniform; what
-  /// is left of v.
+  /// Chooses which lobe has sampled a direction, of which they have these densities, if v is
+  /// uniform; v is rescaled.
   template <class Densities>
   static size_t guess(const Densities& densities, double& v) {
     double weights[n];

@@ -77,7 +77,7 @@ class PrincipledThin final : public Bsdf {
   }
 
   bool has_transmission() const override { return true; }
-  /// Of the lobe that scatters more between these directions.
+  /// The roughness of the lobe that scatters more between these directions.
   double roughness(const SurfacePoint& at, const Vec3& wl, const Vec3& wc) const override {
     if (wl.z * wc.z == 0) return infinity;
     const Point p = point(at);
@@ -92,10 +92,10 @@ class PrincipledThin final : public Bsdf {
   /// The parameters at one point that values and densities share.
   struct Point {
     double roughness, anisotropic, spec_trans, eta;
-    double diff_trans;  ///< The share of the diffuse light that goes through.
+    double diff_trans;  ///< The share of the diffuse light that is transmitted.
     LobeShares<lobe_count> shares;
 
-    /// Of light that is refracted twice (Burley 2015, fig. 15), or mirrored.
+    /// The microfacets for light that is refracted twice (Burley 2015, fig. 15), or mirrored.
     Microfacet microfacet(bool refracted) const {
       return principled_microfacet(refracted ? (0.65 * eta - 0.35) * roughness : roughness,
                                    anisotropic);
@@ -113,7 +113,7 @@ class PrincipledThin final : public Bsdf {
                                     (1 - s) * t * rate_[diffuse_through]})};
   }
 
-  /// Between wi, which is above, and wo or what it is the turned one of.
+  /// The half vector of wi, which is above, and of wo, turned upwards.
   static Vec3 half(const Vec3& wi, const Vec3& wo) {
     return normalize(wi + Vec3(wo.x, wo.y, std::abs(wo.z)));
   }
@@ -156,7 +156,7 @@ class PrincipledThin final : public Bsdf {
   static double sum(const Densities& d) {
     return d[mirrored] + d[through] + d[diffuse] + d[diffuse_through];
   }
-  /// Of `to`, lobe by lobe.
+  /// The densities of `to`, lobe by lobe.
   static Densities densities(const Point& p, const Vec3& from, const Vec3& to) {
     const bool reflects = same_side(from, to);
     const ThinLobe specular_lobe = reflects ? mirrored : through;

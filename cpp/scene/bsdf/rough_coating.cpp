@@ -5,8 +5,8 @@
 namespace mlt {
 namespace {
 
-/// 32 nodes give every T and R_i to 1e-3 (R has a kink at the critical angle). Fuzzing asks for no
-/// such precision, and the table would take nine tenths of its time.
+/// With 32 nodes every T and R_i is accurate to 1e-3 (R has a kink at the critical angle). Fuzzing
+/// does not need that, and the table would take nine tenths of its time.
 #ifdef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION
 constexpr int order = 2;
 #else
@@ -67,8 +67,8 @@ RoughCoating::RoughCoating(MicrofacetType type, double alpha, double eta) {
     table_[i] = rough_fresnel(microfacet, mu, eta, rule);
     sum += mu * rough_fresnel(microfacet, mu, 1 / eta, rule).reflectance;
   }
-  // The plain mean over the nodes, ends included, is up to 1.5 % below the integral. It is what
-  // Mitsuba 3 defines the model by, so that pictures agree; it errs on the side of absorption.
+  // The plain mean over the nodes, ends included, is up to 1.5 % below the integral. Mitsuba 3
+  // defines the model by it, so that images agree; it errs on the side of absorption.
   internal_reflectance_ = 2 * sum / size;
 }
 

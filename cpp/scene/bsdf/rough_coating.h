@@ -1,5 +1,5 @@
-// A rough dielectric coating, tabulated by the cosine of the direction: how much light it reflects
-// and lets through in one scattering event.
+// The reflectance and transmittance of a rough dielectric coating for one scattering event,
+// tabulated by the cosine of the direction.
 #pragma once
 
 #include "math/microfacet.h"
@@ -10,7 +10,7 @@ namespace mlt {
 
 /// The fractions of light from one direction that a rough interface reflects and transmits, when
 /// light that is masked after one scattering is lost: the means over the normals m that are visible
-/// from there,
+/// from this direction,
 ///   R = mean of F G1(reflected, m),  T = mean of (1 - F) G1(refracted, m)
 /// (the albedos of Walter et al. 2007, eqs. 20 and 21, by eq. 41).
 struct RoughFresnel {
@@ -21,7 +21,7 @@ class RoughCoating {
  public:
   RoughCoating(MicrofacetType type, double alpha, double eta);
 
-  /// For a direction with this cosine from outside, 0 <= cos_i <= 1.
+  /// The fractions for a direction with this cosine from outside, 0 <= cos_i <= 1.
   RoughFresnel at(double cos_i) const {
     const double x = std::min(cos_i, 1.0) * (size - 1);
     const auto i = std::min(static_cast<size_t>(x), size - 2);

@@ -1,5 +1,5 @@
-// The microfacet parameters that the rough materials share, and what scattering by a distribution
-// of normals needs of it at one pair of directions.
+// The microfacet parameters of the rough materials, and the terms of scattering by a distribution
+// of normals at one pair of directions.
 #pragma once
 
 #include "base/params.h"
@@ -18,7 +18,7 @@ class RoughSurface {
 
   Microfacet at(const SurfacePoint& at) const { return alpha_u_ ? textured(at) : constant_; }
 
-  /// The roughness in the direction in which it is less.
+  /// The smaller one of the two roughnesses.
   double alpha(const SurfacePoint& point) const {
     const Microfacet microfacet = at(point);
     return std::min(microfacet.alpha_u(), microfacet.alpha_v());
@@ -31,7 +31,7 @@ class RoughSurface {
   TexturePtr alpha_u_, alpha_v_;  ///< Null if the roughness is the same everywhere.
 };
 
-/// "beckmann" or "ggx", from the parameter `distribution`.
+/// The parameter `distribution`: "beckmann" or "ggx".
 MicrofacetType microfacet_type_param(Params& params);
 Parameter microfacet_type_parameter();
 Parameter sample_visible_parameter();

@@ -72,7 +72,7 @@ class RoughDielectric final : public Bsdf {
     double F;  ///< Its Fresnel reflectance.
   };
 
-  /// The same from b to a, bit for bit.
+  /// The facet that scatters from a to b; the same from b to a, bit for bit.
   Facet facet_between(const Vec3& a, const Vec3& b, Lobe lobe) const {
     if (lobe != Lobe::smooth || a.z * b.z == 0) return {};
     const bool reflects = same_side(a, b);

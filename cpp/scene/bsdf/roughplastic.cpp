@@ -1,5 +1,5 @@
 // Rough plastic: a diffuse base below a rough dielectric coating. The coating reflects as
-// microfacets do (Walter et al. 2007, eq. 20); what it lets through, T, is tabulated:
+// microfacets do (Walter et al. 2007, eq. 20); its transmittance T is tabulated:
 //   f = F D G / (4 cos_l cos_c) + d / (1 - d R_i) T(wl) T(wc) / (pi eta^2)
 // with d the reflectance of the base and R_i the mean reflectance of the coating from inside (or
 // 1 - R_i in the linear variant), as for smooth plastic.
@@ -63,7 +63,7 @@ class RoughPlastic final : public Bsdf {
     return u_of(u_of_second(p, guess.rest), invert_cosine_hemisphere(to));
   }
 
-  /// The lobe that contributes more between the two directions decides.
+  /// The roughness of the lobe that contributes more between the two directions.
   double roughness(const SurfacePoint& at, const Vec3& wl, const Vec3& wc) const override {
     if (!above(wl, wc)) return infinity;
     const Vec3 h = normalize(wl + wc);

@@ -47,7 +47,7 @@ class ThinDielectric final : public Bsdf {
   }
 
  private:
-  /// The same from both sides.
+  /// The reflectance R of the pane, which is the same from both sides.
   double reflected(const Vec3& w) const {
     const double F = fresnel_dielectric(std::abs(w.z), interface_.eta).reflectance;
     return 2 * F / (1 + F);

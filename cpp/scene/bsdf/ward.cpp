@@ -35,7 +35,7 @@ class Ward final : public GlossyOverDiffuse {
     const double pdf = D * h.z / (4 * dot(wl, h));
     return {D * sqr(sqr(h.z)) * normalization(wl, wc, sum), pdf, pdf};
   }
-  /// With D cos^4 = exp(...) / (pi a_u a_v).
+  /// The factor of D cos^4 = exp(...) / (pi a_u a_v) in the lobe.
   double normalization(const Vec3& wl, const Vec3& wc, const Vec3& sum) const {
     switch (variant_) {
       case Variant::ward: return 0.25 / std::sqrt(wl.z * wc.z);

@@ -3,13 +3,13 @@
 //
 // It is a pinhole so far behind that plane that its rays differ from parallel ones by less than the
 // single precision in which meshes are held: at 2^24 times the size of the scene. So directions are
-// a delta as nearly as positions are known, and every formula of a pinhole holds: with the distance
+// a delta up to the precision of positions, and every formula of a pinhole holds: with the distance
 // D, A = A_image / D^2 and c = 1 to 2^-48,
 //
 //   We G = D^2 / A_image * cos / D^2 = cos / A_image,
 //
 // which is the importance of a delta of direction: uniform over the image's area (Veach 1997,
-// sec. 8.3). What is behind the plane is not seen, and blocks nothing.
+// sec. 8.3). Surfaces behind the plane are invisible, and block nothing.
 #include "base/registry.h"
 #include "scene/camera/projective.h"
 #include "scene/texture.h"
@@ -47,7 +47,7 @@ class Orthographic final : public ProjectiveCamera {
     set_image_plane(Vec2(half_.x, half_.y / aspect) / setback_);
   }
 
-  Vec3 middle_;  ///< Of the image, when the shutter opens.
+  Vec3 middle_;  ///< Middle of the image, when the shutter opens.
   Vec2 half_;    ///< Half the width and height of a square image.
 };
 

@@ -52,7 +52,7 @@ Vec2 ProjectiveCamera::lens_offset(const SurfacePoint& xk) const {
   return {dot(offset, xk.shading.s), dot(offset, xk.shading.t)};
 }
 
-/// The point has the axes of camera space at its time.
+/// A point on the lens, with the axes of camera space at its time.
 SurfacePoint ProjectiveCamera::point_at(const Vec3& p, const Frame& axes, double time) {
   SurfacePoint at;
   at.p = p;

@@ -22,9 +22,9 @@
 
 namespace mlt {
 
-/// Where a camera is, and when its shutter is open.
+/// The position and the axes of a camera, and its shutter.
 struct Placement {
-  Vec3 position;  ///< This and the axes: when the shutter opens.
+  Vec3 position;  ///< Position and axes are those when the shutter opens.
   Frame axes;
   Shutter shutter;
   Motion motion;
@@ -32,7 +32,7 @@ struct Placement {
 
 class ProjectiveCamera : public Camera {
  public:
-  /// What the scene says about the field of view.
+  /// The scene's parameters of the field of view.
   struct View {
     enum class Axis { x, y, diagonal, smaller, larger };
     double fov = 0;  ///< Full angle in radians, along `axis`.
@@ -81,13 +81,13 @@ class ProjectiveCamera : public Camera {
     return moved_pose(time);
   }
 
-  Pose pose_;           ///< When the shutter opens.
-  double setback_ = 0;  ///< How far the lens is behind the origin of camera space.
+  Pose pose_;           ///< Pose when the shutter opens.
+  double setback_ = 0;  ///< Distance of the lens behind the origin of camera space.
 
  private:
   Pose moved_pose(double time) const;
   static SurfacePoint point_at(const Vec3& p, const Frame& axes, double time);
-  /// Where on the lens xk lies, in camera space; 0 for a pinhole.
+  /// The position of xk on the lens, in camera space; 0 for a pinhole.
   Vec2 lens_point(const SurfacePoint& xk) const {
     return lens_.radius == 0 ? Vec2(0) : lens_offset(xk);
   }
@@ -101,13 +101,13 @@ class ProjectiveCamera : public Camera {
   double image_area_ = 1;  ///< A
 };
 
-/// The parameters that say where a camera is.
+/// The parameters of the placement of a camera.
 std::vector<Parameter> placement_parameters();
 Placement read_placement(Params& params);
 
-/// Those that say what it sees.
+/// The parameters of the field of view.
 std::vector<Parameter> field_of_view_parameters();
-/// Both.
+/// The parameters of placement and field of view.
 std::vector<Parameter> view_parameters();
 ProjectiveCamera::View read_view(Params& params);
 std::shared_ptr<ProjectiveCamera> make_projective(Params& params,

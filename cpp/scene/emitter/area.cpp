@@ -36,7 +36,7 @@ class AreaLight final : public Emitter {
     return shape_->invert_direct(from, x0);
   }
 
-  /// Proportional to the cosine, so the coefficient in projected solid angle is 1 / pi.
+  /// Samples in proportion to the cosine, so the coefficient in projected solid angle is 1 / pi.
   RaySample sample_ray(const SurfacePoint& x0, const Vec2& u) const override {
     const Vec3 w = Frame::around(x0.ng).to_world(sample_cosine_hemisphere(u));
     return {x0.p, w, pdf_ray(x0, w)};

@@ -15,7 +15,7 @@ Frame axes_of(Params& params) {
 
 double read_turbidity(Params& params) { return params.real_in("turbidity", 1, 10); }
 
-/// What lies below the horizon: black, or the horizon itself, fading towards the nadir.
+/// The share of the horizon's radiance at an angle below it: 0, or fading towards the nadir.
 double share_below(double theta, bool extend) {
   if (!extend) return 0;
   const double x = std::clamp(2 - 2 * theta * inv_pi, 0.0, 1.0);

@@ -32,7 +32,7 @@ class Sun final : public InfiniteEmitter {
 
   Frame axes_;        ///< n points towards the middle of the disk.
   double height_;     ///< 1 - cos of its angular radius.
-  Color irradiance_;  ///< On a surface that faces it.
+  Color irradiance_;  ///< Irradiance on a surface that faces it.
 };
 
 /// Several lights that one plug-in describes.

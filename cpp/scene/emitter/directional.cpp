@@ -1,4 +1,4 @@
-// Parallel light from infinitely far away, as from a sun of no size. Its radiance is a delta of
+// Parallel light from infinity, as from a sun of no size. Its radiance is a delta of
 // direction, whose coefficient is the irradiance on a surface that faces it.
 #include "scene/emitter/emitter_plugin.h"
 #include "scene/emitter/infinite.h"

@@ -1,4 +1,4 @@
-// What all emitter plug-ins share.
+// Functions that make emitter plug-ins.
 #pragma once
 
 #include "base/registry.h"
@@ -26,7 +26,7 @@ Plugin emitter_plugin(const char* name, const char* doc, std::vector<Parameter> 
             return emitter;
           }};
 }
-/// The same of lights that are made by `T(params)`.
+/// The plug-in whose lights are made by `T(params)`, as above.
 template <class T>
 Plugin make_emitter_plugin(const char* name, const char* doc, std::vector<Parameter> parameters,
                            std::vector<std::string> ignored = {}) {

@@ -46,7 +46,7 @@ void EnvironmentMap::sample_positions(const PositionRequest* requests, int count
 }
 
 PositionSample EnvironmentMap::position_of(const Piecewise2D::Sample& sample) const {
-  // Its radiance will be asked for.
+  // prefetches its radiance
   const int i = static_cast<int>(sample.at.x * width_), j = row_at(sample.at.y);
   __builtin_prefetch(texel_data(i, j));
   __builtin_prefetch(texel_data(i, j + 1));
@@ -77,7 +77,7 @@ Color EnvironmentMap::texel(int i, int j) const {
   return channels_ == 1 ? Color(c[0]) : Color(c[0], c[1], c[2]);
 }
 
-/// How far d is, in turns, from the first column's azimuth; in [0, 1).
+/// The azimuth of d in turns from the first column; in [0, 1).
 double EnvironmentMap::column_at(const Vec3& d) const {
   const double x = turns(-d.z, d.x) - 0.5 / width_;
   return x < 0 ? x + 1 : x;

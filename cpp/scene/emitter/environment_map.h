@@ -26,7 +26,7 @@ namespace mlt {
 
 class EnvironmentMap : public InfiniteEmitter {
  public:
-  /// At least 2 x 3 pixels; `axes` are those of the map's own space.
+  /// The image has at least 2 x 3 pixels; `axes` are those of the map's own space.
   EnvironmentMap(Image image, const Frame& axes, double scale);
 
   Color eval(const SurfacePoint& x0, const Vec3& w) const final;

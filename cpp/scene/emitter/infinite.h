@@ -1,4 +1,4 @@
-// What all lights at infinity have in common. Their positions are directions (towards the light);
+// The common part of all lights at infinity. Their positions are directions (towards the light);
 // their rays start on a disk outside of the scene, perpendicular to that direction and as large as
 // the sphere around the scene (Veach 1997, sec. 8.3; Pharr et al., PBRT 3rd ed., sec. 16.1.2).
 #pragma once
@@ -19,7 +19,7 @@ class InfiniteEmitter : public Emitter {
     return at;
   }
 
-  /// Uniform over the disk: 1 / (pi R^2).
+  /// Samples the disk uniformly: the density is 1 / (pi R^2).
   RaySample sample_ray(const SurfacePoint& x0, const Vec2& u) const override {
     const Frame disk = Frame::around(x0.p);
     const Vec2 offset = sample_disk(u) * bounds_.radius;

@@ -1,4 +1,4 @@
-// What all lights of no size have in common: one position, which no walk can hit.
+// The common part of all lights of no size: one position, which no walk can hit.
 #pragma once
 
 #include "scene/emitter.h"
@@ -33,7 +33,7 @@ class IsolatedEmitter : public Emitter {
   Vec3 at_rest_;
 };
 
-/// One that shines into some directions more than into others, about axes of its own. `axes_of`
+/// A light of no size whose intensity depends on the direction, about axes of its own. `axes_of`
 /// finds these in its transform.
 class TurnedEmitter : public IsolatedEmitter {
  public:

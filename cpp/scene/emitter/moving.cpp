@@ -3,7 +3,7 @@
 namespace mlt {
 namespace {
 
-/// Of an area whose unit normal at rest is n.
+/// The factor by which the map scales an area whose unit normal at rest is n.
 double area_factor(const AffineMap& map, const Vec3& n) {
   return std::abs(glm::determinant(map.linear)) * length(n * map.inverse);
 }

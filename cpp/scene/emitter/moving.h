@@ -1,5 +1,5 @@
-// A light on a shape that moves. Positions are drawn on the shape at rest and moved to where they
-// are at the time of the path. An area there becomes larger by the factor
+// A light on a moving shape. Positions are sampled on the shape at rest and transformed to their
+// places at the time of the path. An area becomes larger by the factor
 //
 //   dA / dA_rest = |det M| |M^-T n|
 //
@@ -13,7 +13,7 @@ namespace mlt {
 
 class MovingEmitter final : public Emitter {
  public:
-  /// `light` is that of the one shape that `instance` moves.
+  /// `light` is the light of the one shape of `instance`.
   MovingEmitter(EmitterPtr light, const Instance& instance)
       : light_(std::move(light)), instance_(&instance) {
     set_sampling_weight(light_->sampling_weight());
@@ -39,7 +39,7 @@ class MovingEmitter final : public Emitter {
     return light_->invert_ray(x0, x1);
   }
 
-  /// With the mean area, as if the shape were scaled evenly.
+  /// Emitted power for the mean area, as if the shape were scaled evenly.
   Color power() const override;
   const Shape* shape() const override { return light_->shape(); }
 

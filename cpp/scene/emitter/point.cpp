@@ -1,4 +1,4 @@
-// A light of no size that shines equally in all directions.
+// A light of no size that emits equally in all directions.
 #include "math/warp.h"
 #include "scene/emitter/emitter_plugin.h"
 #include "scene/emitter/isolated.h"

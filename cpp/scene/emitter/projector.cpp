@@ -1,5 +1,5 @@
-// A slide projector: a pinhole that casts an image. As in Mitsuba 3, the image is what a white
-// diffuse plane shows at unit distance, across the axis: there the irradiance is pi times the
+// A slide projector: a pinhole that casts an image. As in Mitsuba 3, the image is the radiance of a
+// white diffuse plane at unit distance, across the axis: there the irradiance is pi times the
 // image, and E = I cos^3 / 1^2, so the intensity is I = pi image / cos^3.
 #include "scene/camera/projective.h"
 #include "scene/emitter/emitter_plugin.h"
@@ -29,7 +29,7 @@ class Projector final : public TurnedEmitter {
     return irradiance_->eval(at) * (pi * scale_ / cube(local.z));
   }
 
-  /// Uniform over the image.
+  /// Samples a direction uniformly over the image.
   RaySample sample_ray(const SurfacePoint& x0, const Vec2& u) const override {
     const Vec3 local = normalize(Vec3(half_ * (1.0 - 2.0 * u), 1));
     return {x0.p, axes(x0.time).to_world(local), density(local)};
@@ -54,7 +54,7 @@ class Projector final : public TurnedEmitter {
   double area() const { return 4 * half_.x * half_.y; }
   double density(const Vec3& local) const { return 1 / (area() * cube(local.z)); }
 
-  /// Where in the image, (0, 0) to (1, 1) from its upper left corner, a direction lies.
+  /// The position of a direction in the image, (0, 0) to (1, 1) from its upper left corner.
   std::optional<Vec2> place(const Vec3& local) const {
     if (!(local.z > 0)) return std::nullopt;
     const Vec2 u = 0.5 * (1.0 - Vec2(local) / (local.z * half_));

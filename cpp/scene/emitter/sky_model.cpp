@@ -13,10 +13,10 @@ constexpr double hosek_wilkie[turbidities * 2 * control_points * 3][10] = {
 #include "scene/emitter/sky_model.inc"
 };
 
-/// Integral of the CIE's y, by which Mitsuba 0.6 divides.
+/// The integral of the CIE's y, by which Mitsuba 0.6 divides.
 constexpr double luminous_sum = 106.856980;
 
-/// Row by row, a Bezier curve of the fifth degree through the control points.
+/// Evaluates, row by row, a Bezier curve of the fifth degree with these control points.
 std::array<double, 10> along_elevation(int turbidity, int albedo, int channel, double x) {
   constexpr double binomials[control_points] = {1, 5, 10, 10, 5, 1};
   std::array<double, 10> sum{};
@@ -65,7 +65,7 @@ Color SkyModel::radiance(double cos_theta, double gamma) const {
 
 namespace {
 
-/// What absorbs sunlight, per wavelength in nm; 0 beyond the ends of a table.
+/// Absorption coefficients by wavelength in nm; 0 beyond the ends of a table.
 const Spectrum ozone{{300, 10},   {305, 4.8},  {310, 2.7},  {315, 1.35}, {320, .8},   {325, .38},
                      {330, .16},  {335, .075}, {340, .04},  {345, .019}, {350, .007}, {355, 0},
                      {445, .003}, {450, .003}, {455, .004}, {460, .006}, {465, .008}, {470, .009},
@@ -82,7 +82,7 @@ const Spectrum water_vapour{{689, 0},    {690, .016},  {700, .024}, {710, .0125}
                             {730, .87},  {740, .061},  {750, 1e-3}, {760, 1e-5},  {770, 1e-5},
                             {780, 6e-4}, {790, .0175}, {800, .036}};
 
-/// Outside of the atmosphere, in 100 W / (m^2 nm sr).
+/// Radiance of the sun outside of the atmosphere, in 100 W / (m^2 nm sr).
 const Spectrum solar{{380, 165.5}, {390, 162.3}, {400, 211.2}, {410, 258.8}, {420, 258.2},
                      {430, 242.3}, {440, 267.6}, {450, 296.6}, {460, 305.4}, {470, 300.6},
                      {480, 306.6}, {490, 288.3}, {500, 287.1}, {510, 278.2}, {520, 271.0},
@@ -101,7 +101,7 @@ double at_wavelength(const Spectrum& table, double wavelength) {
   return 0;
 }
 
-/// What is left after `mass` times the atmosphere at the zenith.
+/// The transmittance of the atmosphere, `mass` times as thick as at the zenith.
 double transmittance(double wavelength, double mass, double turbidity) {
   const double um = wavelength / 1000;
   const double beta = 0.04608365822050 * turbidity - 0.04586025928522;

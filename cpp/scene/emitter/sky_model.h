@@ -15,7 +15,7 @@ class SkyModel {
   /// horizon in [0, pi/2].
   SkyModel(double turbidity, const Color& albedo, double elevation);
 
-  /// From a direction above the horizon, by the cosine against the zenith and the angle to the sun.
+  /// Radiance from above the horizon, by the cosine with the zenith and the angle to the sun.
   Color radiance(double cos_theta, double gamma) const;
 
  private:

@@ -59,7 +59,7 @@ class Spot final : public TurnedEmitter {
   }
 
  private:
-  /// Projected on a plane across the axis, of which the cone fills the unit square.
+  /// The texture, projected on a plane across the axis, of which the cone fills the unit square.
   Color texture(const Vec3& local) const {
     SurfacePoint at;
     at.uv = Vec2(0.5) + 0.5 * Vec2(local) / (local.z * std::tan(cutoff_));

@@ -13,7 +13,7 @@ struct Moment {
   double hours;  ///< Universal time, since midnight.
 };
 
-/// Since noon of January 1, 2000.
+/// Days since noon of January 1, 2000.
 double days_since_2000(const Moment& at) {
   const int64_t m = (at.month - 14) / 12;
   const int64_t julian = (1461 * (at.year + 4800 + m)) / 4 + (367 * (at.month - 2 - 12 * m)) / 12 -
@@ -21,7 +21,7 @@ double days_since_2000(const Moment& at) {
   return static_cast<double>(julian) - 0.5 + at.hours / 24 - 2451545;
 }
 
-/// The sun on the celestial sphere.
+/// The position of the sun on the celestial sphere.
 struct Equatorial {
   double right_ascension, declination;
 };

@@ -1,4 +1,4 @@
-// Where the sun is: given as a direction, or computed from a place and a time.
+// The position of the sun: given as a direction, or computed from a place and a time.
 #pragma once
 
 #include "base/params.h"
@@ -6,7 +6,7 @@
 
 namespace mlt {
 
-/// The parameters that say so, with Mitsuba's names and defaults: Tokyo on an afternoon in July.
+/// Parameters of the position, with Mitsuba's names and defaults: Tokyo on an afternoon in July.
 std::vector<Parameter> sun_position_parameters();
 
 /// The direction towards the sun in the sky's own space, in which y is up, -z is north and x is

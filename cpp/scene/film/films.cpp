@@ -1,5 +1,5 @@
-// What a scene says about its image. Every image is linear RGB; hdrfilm and ldrfilm differ only in
-// what they were for in the program that wrote the scene.
+// The settings of a scene's image. Every image is linear RGB; hdrfilm and ldrfilm are the same
+// here.
 #include "base/registry.h"
 #include "scene/film_settings.h"
 

@@ -1,4 +1,4 @@
-// What the shape plug-ins share.
+// Functions of the shape plug-ins.
 #pragma once
 
 #include <string>
@@ -21,7 +21,7 @@ std::vector<Parameter> normals_parameters();
 /// A Mesh from checked buffers. Without vertex normals the surface is smooth, as in Mitsuba, unless
 /// `flat` or the parameter `face_normals` says otherwise.
 ObjectPtr mesh_from_data(Params& params, MeshData data, bool flat = false);
-/// The same from what the file `filename` holds, which is checked.
+/// A Mesh from the buffers of the file `filename`, which are checked.
 ObjectPtr mesh_from_file(Params& params, MeshData data, bool flat = false);
 
 using MeshReader = MeshData (*)(std::string_view bytes, const std::string& name);

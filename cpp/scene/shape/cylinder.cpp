@@ -79,7 +79,7 @@ void Cylinder::bounds(Vec3& low, Vec3& high) const {
 
 namespace {
 
-/// A circle whose two radii differ by more than this is an ellipse, and none that was rounded.
+/// A circle whose two radii differ by more than this is an ellipse, not a rounded circle.
 constexpr double max_eccentricity = 1e-3;
 
 ObjectPtr create_cylinder(Params& params) {

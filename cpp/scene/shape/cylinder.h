@@ -8,7 +8,7 @@ namespace mlt {
 
 class Cylinder : public AnalyticShape {
  public:
-  /// From `base` along frame.n for `length`; azimuths are counted from frame.s towards frame.t (the
+  /// A cylinder from `base` along frame.n; azimuths are counted from frame.s towards frame.t (the
   /// frame may be left-handed). Normals point outward, or inward with `flip_normals`.
   Cylinder(const Vec3& base, const Frame& frame, double radius, double length, bool flip_normals);
 

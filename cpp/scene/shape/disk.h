@@ -27,7 +27,7 @@ class Disk : public AnalyticShape {
   void bounds(Vec3& low, Vec3& high) const override;
 
  private:
-  /// Where the line meets the plane; not finite if they are parallel.
+  /// Distance along the line to the plane; not finite if they are parallel.
   double plane_distance(const Vec3& o, const Vec3& d) const;
   /// The point of the unit disk that is mapped to p.
   Vec2 to_disk(const Vec3& p) const;
@@ -35,7 +35,7 @@ class Disk : public AnalyticShape {
 
   Vec3 center_, x_, y_;   ///< The images of the origin and of the two axes.
   Vec3 dual_x_, dual_y_;  ///< In the plane, with dot(dual_i, axis_j) = 1 if i = j, else 0.
-  Vec3 normal_;           ///< Unit length, on the side that flip_normals leaves in front.
+  Vec3 normal_;           ///< Unit normal, on the front side.
   double area_;
 };
 

@@ -1,5 +1,5 @@
-// A mesh whose buffers the scene holds, as bytes in the machine's order: a Python dict gives
-// arrays.
+// A mesh whose buffers are in the scene, as bytes in the machine's order: from the arrays of a
+// Python dict.
 #include "scene/shape/common.h"
 
 #include <cstring>

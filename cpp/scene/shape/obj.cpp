@@ -1,5 +1,5 @@
 // Wavefront OBJ (Alias|Wavefront, "Advanced Visualizer" manual, appendix B1): v, vt, vn and f.
-// Materials, groups, smoothing groups, lines, points and free-form elements are passed over.
+// Materials, groups, smoothing groups, lines, points and free-form elements are ignored.
 #include "base/rng.h"
 #include "scene/shape/common.h"
 #include "scene/shape/readers.h"
@@ -10,7 +10,7 @@ namespace {
 
 constexpr uint32_t none = ~0u;
 
-/// What one corner of a face names: position, texture coordinate (or none), normal (or none).
+/// Indices of one corner of a face: position, texture coordinate (or none), normal (or none).
 struct Corner {
   uint32_t position, uv, normal;
   bool operator==(const Corner& o) const {
@@ -121,7 +121,7 @@ class ObjReader {
       text_.fail("a face needs three vertices or more, but has " + std::to_string(count));
   }
 
-  /// "p", "p/t", "p//n" or "p/t/n".
+  /// Reads a corner: "p", "p/t", "p//n" or "p/t/n".
   Corner read_corner() {
     Corner corner{index(positions_.size(), "vertex"), none, none};
     if (text_.accept('/')) {
@@ -138,7 +138,7 @@ class ObjReader {
     return corner;
   }
 
-  /// Counted from 1, or from the end if negative.
+  /// Reads an index, which is counted from 1, or from the end if negative.
   uint32_t index(size_t count, const char* what) {
     const int64_t given = text_.integer("an index");
     const int64_t counted = given < 0 ? given + static_cast<int64_t>(count) : given - 1;

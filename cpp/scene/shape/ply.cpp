@@ -19,7 +19,7 @@ T load(const char* bytes) {
   return value;
 }
 
-/// Values of a binary file.
+/// Reads the values of a binary file.
 template <bool swapped>
 class BinarySource {
  public:
@@ -76,7 +76,7 @@ class BinarySource {
   const std::string& name_;
 };
 
-/// Values of an ascii file.
+/// Reads the values of an ascii file.
 class AsciiSource {
  public:
   AsciiSource(std::string_view bytes, const std::string& name, int first_line)
@@ -101,7 +101,7 @@ class AsciiSource {
       text_.word();
     }
   }
-  /// A digit and a blank for each property.
+  /// Bytes of the shortest element: a digit and a blank for each property.
   size_t least_size(const PlyElement& element) const { return 2 * element.properties.size(); }
 
   [[noreturn]] void fail(const std::string& message) const { text_.fail(message); }
@@ -143,7 +143,7 @@ class PlyBody {
   }
 
  private:
-  /// Where the numbers of a vertex go.
+  /// The destinations of the numbers of a vertex.
   enum Slot { x, y, z, nx, ny, nz, u, v, slot_count };
 
   void read_vertices(const PlyElement& element) {
@@ -183,7 +183,7 @@ class PlyBody {
     return std::find(slots.begin(), slots.end(), slot) != slots.end();
   }
 
-  /// For each property the slot it fills; slot_count if it is of no use.
+  /// The slot of each property; slot_count if it is ignored.
   static std::vector<int> slots_of(const PlyElement& element) {
     std::vector<int> slots(element.properties.size(), slot_count);
     const auto assign = [&](Slot slot, std::initializer_list<const char*> names) {
@@ -223,7 +223,7 @@ class PlyBody {
     keep(attributes);
   }
 
-  /// A property that is an attribute's, or of no use.
+  /// Reads a property of an attribute, or one that is ignored.
   void read_other(const PlyElement& element, size_t index, PlyAttributes& attributes) {
     const PlyProperty& property = element.properties[index];
     if (attributes.takes(index))
@@ -254,7 +254,7 @@ class PlyBody {
     }
   }
 
-  /// Whether the vertex exists is for check_mesh to say: vertices may follow the faces.
+  /// Reads an index; check_mesh checks whether the vertex exists: vertices may follow the faces.
   uint32_t read_index(const PlyElement& element, const PlyProperty& property) {
     const int64_t index = source_.integer(property.type, element.name);
     if (index < 0 || index >= std::numeric_limits<uint32_t>::max())

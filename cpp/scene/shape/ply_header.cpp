@@ -24,7 +24,7 @@ class HeaderReader {
   }
 
  private:
-  /// False after "end_header".
+  /// Reads one line; false after "end_header".
   bool read_line() {
     if (text_.at_end()) text_.fail("the PLY header does not end ('end_header' is missing)");
     const std::string_view keyword = word();

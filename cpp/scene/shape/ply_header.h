@@ -1,5 +1,5 @@
-// The header of a PLY file (Turk 1994, "The PLY polygon file format"): what elements follow, and
-// the types of their properties.
+// The header of a PLY file (Turk 1994, "The PLY polygon file format"): the elements that follow,
+// and the types of their properties.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ struct PlyProperty {
   std::string name;
   PlyType type;
   bool list = false;
-  PlyType count_type = PlyType::uint8;  ///< Of a list.
+  PlyType count_type = PlyType::uint8;  ///< Type of the count of a list.
 };
 
 struct PlyElement {
@@ -28,7 +28,7 @@ struct PlyElement {
   uint64_t count;
   std::vector<PlyProperty> properties;
 
-  /// The property with one of these names, or -1.
+  /// Index of the property with one of these names, or -1.
   int find(std::initializer_list<const char*> names) const;
   /// Bytes of one element in a binary file; lists count as empty.
   size_t least_size() const;
@@ -41,7 +41,7 @@ struct PlyHeader {
   int lines;
 };
 
-/// Throws SceneError if the header is malformed.
+/// Reads a header. Throws SceneError if it is malformed.
 PlyHeader read_ply_header(std::string_view bytes, const std::string& name);
 
 }  // namespace mlt

@@ -1,6 +1,6 @@
-// Readers of mesh files. They work from memory, check everything that the file says of itself, and
-// throw SceneError with the file's name (and line, where it has lines) for anything malformed. What
-// they allocate is bounded by what the file holds.
+// Readers of mesh files. They work from memory, check all sizes and indices in the file, and throw
+// SceneError with the file's name (and line, where it has lines) for anything malformed. The memory
+// that they allocate is bounded by the size of the file.
 #pragma once
 
 #include <string>
@@ -19,7 +19,7 @@ MeshData read_ply(std::string_view bytes, const std::string& name);
 
 struct SerializedMesh {
   MeshData mesh;
-  bool face_normals;  ///< The file asks for flat shading.
+  bool face_normals;  ///< Whether the file asks for flat shading.
 };
 
 /// Mesh number `index` of a Mitsuba .serialized file, version 3 or 4.

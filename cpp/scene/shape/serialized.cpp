@@ -30,7 +30,7 @@ T load(std::string_view bytes, size_t offset) {
   return value;
 }
 
-/// Where mesh number `index` begins. A file without the table may still hold one mesh.
+/// Offset of mesh number `index`. A file without the table may still hold one mesh.
 size_t find_mesh(std::string_view bytes, int64_t index, const std::string& name) {
   const auto fail = [&](const std::string& message) { throw SceneError(at({name}, message)); };
   if (bytes.size() < 8 || load<uint16_t>(bytes, 0) != magic)
@@ -49,7 +49,7 @@ size_t find_mesh(std::string_view bytes, int64_t index, const std::string& name)
   return static_cast<size_t>(offset);
 }
 
-/// Bytes out of a zlib stream.
+/// Decompresses a zlib stream.
 class Inflater {
  public:
   Inflater(std::string_view bytes, const std::string& name) : name_(name) {
@@ -101,8 +101,8 @@ class Inflater {
   const std::string& name_;
 };
 
-/// Reads `count` items piece by piece, so that a wrong count cannot claim more memory than the
-/// file fills.
+/// Reads `count` items piece by piece, so that a wrong count cannot allocate more memory than the
+/// file needs.
 template <class Item, class Sink>
 void read_items(Inflater& in, uint64_t count, Sink sink) {
   constexpr size_t piece = 1u << 14;

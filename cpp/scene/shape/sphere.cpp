@@ -12,11 +12,11 @@
 
 namespace mlt {
 
-/// In the triangle (from, centre, point on the near side): theta is the angle at `from`, at most
-/// theta_max; alpha the one at the centre.
+/// The cone of a sphere. In the triangle (from, centre, point on the near side) theta is the angle
+/// at `from`, at most theta_max; alpha the one at the centre.
 struct Sphere::Cone {
   Frame frame;           ///< Around the direction from the centre to `from`.
-  double distance;       ///< From `from` to the centre.
+  double distance;       ///< Distance from `from` to the centre.
   double cos_max;        ///< cos theta_max
   double one_minus_cos;  ///< 1 - cos theta_max
 };
@@ -41,7 +41,7 @@ void place_ellipsoid(Params& params) {
   const auto* matrix = std::get_if<Matrix>(&params.value("to_world"));
   if (!matrix) return;
   const Mat4 to_world = from_rows(*matrix);
-  if (!is_affine(to_world) || is_singular(to_world)) return;  // Sphere refuses them.
+  if (!is_affine(to_world) || is_singular(to_world)) return;  // rejected by Sphere
   const Mat3 linear(to_world);
   if (!is_round(linear, mean_scale(linear))) params.replace("to_world", Animation{{0, *matrix}});
 }

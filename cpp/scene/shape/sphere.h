@@ -26,7 +26,7 @@ class Sphere : public AnalyticShape {
   double area() const override;
   PositionSample sample_position(const Vec2& u) const override;
   Vec2 invert_position(const SurfacePoint& at) const override;
-  /// From outside: uniform in the cone of directions that see the sphere.
+  /// Samples, from outside, uniformly in the cone of directions that hit the sphere.
   PositionSample sample_direct(const Vec3& from, const Vec2& u) const override;
   double pdf_direct(const Vec3& from, const SurfacePoint& at) const override;
   Vec2 invert_direct(const Vec3& from, const SurfacePoint& at) const override;
@@ -37,7 +37,7 @@ class Sphere : public AnalyticShape {
   std::optional<Roots> roots(const Vec3& o, const Vec3& d) const;
 
   struct Cone;
-  /// The cone in which `from` sees the sphere; nullopt from inside.
+  /// The cone of directions from `from` that hit the sphere; nullopt from inside.
   std::optional<Cone> cone(const Vec3& from) const;
   SurfacePoint point(const Vec3& outward) const;
 
@@ -47,8 +47,8 @@ class Sphere : public AnalyticShape {
   double side_;     ///< 1 if the normals point outward, else -1.
 };
 
-/// A sphere whose transform is given and makes it an ellipsoid becomes one that an instance of it
-/// is: `to_world` is replaced by an animation without motion.
+/// Makes a sphere that its transform turns into an ellipsoid an instance of a sphere: `to_world` is
+/// replaced by an animation without motion.
 void place_ellipsoid(Params& params);
 
 }  // namespace mlt

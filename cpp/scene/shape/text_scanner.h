@@ -1,4 +1,4 @@
-// Walks through text in memory and turns it into words and numbers; knows which line it is on.
+// Reads words and numbers from text in memory, and counts its lines.
 #pragma once
 
 #include <charconv>
@@ -29,7 +29,7 @@ class TextScanner {
   void skip_space() {
     for (; at_ != end_ && (is_blank(*at_) || *at_ == '\n'); ++at_) line_ += *at_ == '\n';
   }
-  /// After skip_blanks: whether nothing (but a comment) is left on the line.
+  /// Whether the rest of the line is empty or a comment; to be called after skip_blanks.
   bool at_line_end() const { return at_ == end_ || *at_ == '\n' || *at_ == '#'; }
   void next_line() {
     const void* newline = at_ == end_ ? nullptr : std::memchr(at_, '\n', remaining());
@@ -61,7 +61,7 @@ class TextScanner {
     at_ = next;
     return value;
   }
-  /// An integer; what follows it is not looked at.
+  /// An integer; the characters after it are not checked.
   int64_t integer(const char* what) {
     if (at_ != end_ && *at_ == '+') ++at_;
     int64_t value = 0;
@@ -88,7 +88,7 @@ class TextScanner {
     return true;
   }
 
-  /// Too small for a double is 0; too large is infinite, which check_mesh refuses.
+  /// 0 for a number that is too small for a double; infinity, which check_mesh rejects, for others.
   static double out_of_range_value(const char* begin, const char* end) {
     const std::string_view text(begin, static_cast<size_t>(end - begin));
     return text.find("e-") != text.npos || text.find("E-") != text.npos

@@ -8,7 +8,7 @@
 namespace mlt {
 namespace {
 
-/// What lies outside of the unit interval.
+/// The continuation outside of the unit interval.
 enum class Wrap { repeat, mirror, clamp, zero, one };
 
 /// An equivalent coordinate close to [0, 1], so that texel indices stay small.
@@ -20,7 +20,7 @@ double reduce(double u, Wrap wrap) {
   }
 }
 
-/// The texel that index i stands for, or -1 where the border value counts.
+/// The index of the texel for index i, or -1 for the border value.
 int wrapped(int i, int n, Wrap wrap) {
   if (i >= 0 && i < n) return i;
   switch (wrap) {
@@ -91,13 +91,13 @@ class Bitmap final : public Texture {
   Color maximum() const override { return maximum_; }
 
  private:
-  /// In texels; not finite where uv is not.
+  /// The position in texels; not finite where uv is not.
   Vec2 position(const SurfacePoint& at) const {
     const Vec2 uv = to_uv_(at.uv);
     return {reduce(uv.x, wrap_u_) * texels_.width(), reduce(uv.y, wrap_v_) * texels_.height()};
   }
 
-  /// The texels around a position; -1 for columns and rows where the border value counts.
+  /// The texels around a position; -1 for columns and rows of the border value.
   Texels::Cell cell(const Vec2& p) const {
     const double fx = std::floor(p.x - 0.5), fy = std::floor(p.y - 0.5);
     const int i = static_cast<int>(fx), j = static_cast<int>(fy);
@@ -109,7 +109,7 @@ class Bitmap final : public Texture {
 
   int column(int i) const { return wrapped(i, texels_.width(), wrap_u_); }
   int row(int j) const { return wrapped(j, texels_.height(), wrap_v_); }
-  /// Of a column and a row, or the border's value.
+  /// The texel of a column and a row, or the border value.
   Color lookup(int x, int y) const {
     if (x < 0) return Color(border_value(wrap_u_));
     if (y < 0) return Color(border_value(wrap_v_));

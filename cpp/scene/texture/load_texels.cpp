@@ -11,7 +11,7 @@
 namespace mlt {
 namespace {
 
-/// Grey or RGB, without alpha and whatever comes after it.
+/// The grey or RGB channels, without alpha and other channels.
 Image colour_channels(Image image) {
   const int channels = image.channels < 3 ? 1 : 3;
   if (channels == image.channels) return image;
@@ -22,7 +22,7 @@ Image colour_channels(Image image) {
   return kept;
 }
 
-/// What a stored value means.
+/// The linear value of a stored one.
 double decoded(double v, const Decoding& decoding, bool srgb_encoded) {
   const bool srgb = decoding.kind == Decoding::Kind::srgb ||
                     (decoding.kind == Decoding::Kind::by_format && srgb_encoded);
@@ -32,7 +32,7 @@ double decoded(double v, const Decoding& decoding, bool srgb_encoded) {
   return v;
 }
 
-/// The array that a scene holds in place of a file.
+/// The image that is in the scene in place of a file.
 ReadImage held_image(Params& params) {
   if (params.has("filename")) params.fail("data", "and 'filename' exclude each other");
   const Buffer data = params.buffer("data");

@@ -1,4 +1,4 @@
-// From an image file that a plug-in names to the numbers that it looks up.
+// Loading the image of a plug-in, from a file or from the scene.
 #pragma once
 
 #include "base/params.h"
@@ -6,7 +6,7 @@
 
 namespace mlt {
 
-/// How stored values become linear ones.
+/// The decoding of stored values to linear ones.
 struct Decoding {
   enum class Kind {
     by_format,  ///< sRGB for integer formats, none for EXR and HDR.
@@ -19,14 +19,14 @@ struct Decoding {
   bool keep_negative = false;  ///< Otherwise negative values become 0, with a warning.
 };
 
-/// Those that name an image file, or hold an image.
+/// The parameters for an image: the name of a file, or the image itself.
 std::vector<Parameter> image_parameters(const char* filename_doc);
 
 /// Reads the image that the parameter `filename` names, or takes the one in `data`, as 1 (grey) or
 /// 3 (RGB) linear channels; alpha is dropped. Throws FileError for a file that cannot be read or
 /// holds NaN or infinity.
 Image load_image(Params& params, const Decoding& decoding);
-/// The same for a texture.
+/// Loads the texels of a texture, as above.
 Texels load_texels(Params& params, const Decoding& decoding);
 
 }  // namespace mlt

@@ -1,4 +1,4 @@
-// Numbers that a mesh brings with it, such as the colours of its vertices.
+// Attributes of a mesh, such as the colours of its vertices.
 #include "base/registry.h"
 #include "scene/mesh.h"
 #include "scene/shape_reader.h"
@@ -33,7 +33,7 @@ class MeshAttributeTexture final : public Texture, public ShapeReader {
       throw SceneError(at(where, "texture 'mesh_attribute': no mesh of the scene has '{}'", name_));
   }
 
-  /// Black on shapes without the attribute.
+  /// The attribute; black on shapes without it.
   Color eval(const SurfacePoint& at) const override {
     if (at.shape >= meshes_.size() || !meshes_[at.shape].attribute) return Color(0);
     const auto& [mesh, attribute] = meshes_[at.shape];
@@ -49,7 +49,7 @@ class MeshAttributeTexture final : public Texture, public ShapeReader {
     return scale_ * glm::max(value, Color(0));
   }
 
-  // The meshes are not known yet when materials ask: what they hold is taken to lie in [0, 1].
+  // The meshes are not known yet when materials are made: attributes are assumed to lie in [0, 1].
   Color mean() const override { return Color(0.5 * scale_); }
   Color maximum() const override { return Color(scale_); }
 

@@ -1,4 +1,4 @@
-// Another texture, multiplied: what Mitsuba 0.6 has for heights and brightness.
+// Another texture times a factor, as in Mitsuba 0.6 for heights and brightness.
 #include "base/registry.h"
 #include "scene/nested.h"
 #include "scene/texture.h"
@@ -13,7 +13,7 @@ class Scale final : public Texture {
         nested_(only_nested<Texture>(params, "texture")) {}
 
   Color eval(const SurfacePoint& at) const override { return scale_ * nested_->eval(at); }
-  /// Of what is multiplied by the same number in all channels.
+  /// The gradient, exact if the factor is the same in all channels.
   Vec2 gradient(const SurfacePoint& at) const override {
     return luminance(scale_) * nested_->gradient(at);
   }

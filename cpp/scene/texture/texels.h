@@ -1,5 +1,5 @@
-// The colours of an image texture. Images of 8 bits a channel stay bytes, with a table of what the
-// bytes mean: a quarter of the memory, and so fewer cache misses, for the same numbers.
+// The colours of an image texture. Images of 8 bits a channel stay bytes, with a table of their
+// values: a quarter of the memory, and so fewer cache misses, for the same numbers.
 #pragma once
 
 #include "image/image.h"
@@ -13,9 +13,9 @@ class Texels {
  public:
   using Meaning = std::array<float, 256>;
 
-  /// 1 (grey) or 3 (RGB) channels.
+  /// An image with 1 (grey) or 3 (RGB) channels.
   explicit Texels(Image image) : size_(image), floats_(std::move(image.data)) {}
-  /// Each channel of a texel is meaning[b], where b / 255 is what the image holds there.
+  /// An 8-bit image: each channel of a texel is meaning[b], with the value b / 255 in the image.
   Texels(const Image& image, const Meaning& meaning)
       : size_(image), meaning_(meaning), bytes_(image.data.size()) {
     for (size_t i = 0; i < bytes_.size(); ++i)
@@ -36,12 +36,12 @@ class Texels {
     return color([&](int c) { return meaning_[bytes_[i + c]]; });
   }
 
-  /// Two columns and two rows, and the share of the second one of each.
+  /// A cell of two columns and two rows, and the weight of the second one of each.
   struct Cell {
     int x[2], y[2];
     double a, b;
   };
-  /// Between the four texels of a cell.
+  /// Interpolates bilinearly between the four texels of a cell.
   Color bilinear(const Cell& cell) const {
     const size_t i = place(cell.x[0], cell.y[0]), j = place(cell.x[1], cell.y[0]),
                  k = place(cell.x[0], cell.y[1]), l = place(cell.x[1], cell.y[1]);
@@ -72,7 +72,7 @@ class Texels {
 
   Size size_;
   Meaning meaning_{};
-  std::vector<uint8_t> bytes_;  ///< Or, if it is empty:
+  std::vector<uint8_t> bytes_;  ///< Texels as bytes, or empty: see floats_.
   std::vector<float> floats_;
 };
 
