@@ -26,7 +26,7 @@ SHARED = ("parameters", "defines", "size", "sensor", "lenient", "strict")
 HELP_HERE = {
     "parameters": "parameter of every --algorithm; may be repeated",
     "seed": "seed of the first image of each algorithm (0); others count on from it",
-    "exposure": "brighten pictures by so many stops (as suits the scene)",
+    "exposure": "brighten pictures by this number of stops (as suits the scene)",
 }
 
 

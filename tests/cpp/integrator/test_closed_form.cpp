@@ -1,7 +1,7 @@
 // Scenes whose image is known in closed form, with every integrator that can see them.
 #include <gtest/gtest.h>
 
-#include "integrator/integrator_testing.h"
+#include "integrator_testing.h"
 
 namespace mlt {
 namespace {

@@ -1,6 +1,6 @@
 // The examples of docs/how-to-add.md do what the page says. The material is also one of the cases
 // of tests/cpp/scene/bsdf, which check its sampling, its energy and its reciprocity.
-#include "integrator/integrator_testing.h"
+#include "integrator_testing.h"
 #include "mutation/mutation_testing.h"
 #include "scene/bsdf/bsdf_testing.h"
 

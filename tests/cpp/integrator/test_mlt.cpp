@@ -1,6 +1,6 @@
 // mlt as a whole: its images are those of bdpt, its b is their mean, it does not matter how many
 // samples its bootstrap has, how many threads there are, and whether it was saved on the way.
-#include "integrator/integrator_testing.h"
+#include "integrator_testing.h"
 #include "mutation/mutation_registry.h"
 #include "mutation/mutation_scenes.h"
 #include "rendering/stats.h"

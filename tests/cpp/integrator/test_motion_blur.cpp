@@ -1,6 +1,6 @@
 // Motion blur is the mean of what is seen at each moment: a render with an open shutter equals the
 // mean of 64 renders with a closed one, by the integrators that share no estimator of time with it.
-#include "integrator/integrator_testing.h"
+#include "integrator_testing.h"
 #include "moving_scenes.h"
 
 namespace mlt::test {

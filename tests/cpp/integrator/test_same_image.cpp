@@ -3,7 +3,7 @@
 // the long one takes all scenes and 1 % and 5 %.
 #include <gtest/gtest.h>
 
-#include "integrator/integrator_testing.h"
+#include "integrator_testing.h"
 
 namespace mlt {
 namespace {

@@ -1,7 +1,7 @@
 // The table of techniques: what bdpt keeps of each (s, t) with techniques=true.
 #include <gtest/gtest.h>
 
-#include "integrator/integrator_testing.h"
+#include "integrator_testing.h"
 #include "path/technique_names.h"
 
 namespace mlt {

@@ -2,7 +2,7 @@
 // itself.
 #include <gtest/gtest.h>
 
-#include "integrator/integrator_testing.h"
+#include "integrator_testing.h"
 #include "job/task.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // The same pixels for any number of threads, and after a render has been saved and resumed.
 #include <gtest/gtest.h>
 
-#include "integrator/integrator_testing.h"
+#include "integrator_testing.h"
 
 namespace mlt {
 namespace {

@@ -1,7 +1,7 @@
 // Whether the same rays hit the same surfaces in two scenes.
 #pragma once
 
-#include "integrator/integrator_testing.h"
+#include "integrator_testing.h"
 #include "scene/shape_testing.h"
 
 namespace mlt::test {
