@@ -182,8 +182,8 @@ class Job:
     def show(self, *, interval: float = 1, exposure: float = 0) -> None:
         """Show the image in a notebook, and renew it each `interval` seconds until the render ends.
 
-        `exposure` brightens it by this number of stops. Interrupting the cell ends the showing, not the
-        render. Needs IPython.
+        `exposure` brightens it, in stops. Interrupting the cell ends the showing, not the render.
+        Needs IPython.
         """
         show(self, interval, exposure)
 

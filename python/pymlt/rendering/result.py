@@ -82,7 +82,7 @@ class Result:
 
         An .exr holds the layers too; beside NAME.png, NAME.techniques.png shows the techniques, if
         there are any, for which it needs the extra `plots`.
-        `exposure` brightens .png and .jpg by this number of stops, `tonemap` names their curve ("srgb",
+        `exposure` brightens .png and .jpg, in stops, `tonemap` names their curve ("srgb",
         "reinhard", "filmic"; see `pymlt.tonemap`). Raises FileError if it cannot be written,
         UsageError for an unknown curve or extension.
         """
