@@ -13,7 +13,9 @@ from ..rendering.result import Result
 from ..rendering.start import start
 from .metrics import target_luminance
 
-WARNING = "true error"  #: in the warning of a render whose error is carried by few pixels
+#: In the warnings of a render whose error is carried by few pixels, and of one in which a single
+#: tour has made many of the mutations.
+WARNINGS = ("true error", "some light was found once")
 
 
 @dataclass(frozen=True)
@@ -23,7 +25,7 @@ class Calibration:
     integrator: str
     true: float  #: root of relMSE, over all renders
     claimed: float  #: root of the mean square of `stats["error"]`
-    warned: float  #: the share of `claimed` squared that is of renders which warn of their claim
+    warned: float  #: the share of `claimed` squared that is of renders which warn of rare light
 
     @property
     def ratio(self) -> float:
@@ -62,7 +64,10 @@ def calibrate(
 
 def _calibration(results: list[Result], true: float) -> Calibration:
     squares = np.array([result.stats["error"] ** 2 for result in results])
-    warned = [any(WARNING in text for text in result.stats["warnings"]) for result in results]
+    warned = [
+        any(warning in text for text in result.stats["warnings"] for warning in WARNINGS)
+        for result in results
+    ]
     return Calibration(
         results[0].stats["integrator"],
         true,
