@@ -24,8 +24,8 @@ the true one (roots of mean squares over the seeds); the second, in brackets, th
 of relMSE. With a star: most of the mean square of the claims is of renders that warn that their
 error may be larger than they say, since a few pixels carry it, or since one tour has made many of
 the mutations. Of {count} cells {good} lie between {low} and {high}, and {rest} of the others have
-a star. Where a few pixels of a few renders
-decide, the true error is itself known only roughly from so few seeds.
+a star. Where a few pixels of a few renders decide, the true error is itself known only roughly from
+so few seeds.
 
 Made by `python benchmarks/error_calibration.py`.
 

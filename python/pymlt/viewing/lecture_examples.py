@@ -171,9 +171,6 @@ def _on_parabola(moves: list, start: float) -> Shown:
     import numpy as np
 
     run = metropolis.run(metropolis.Parabola(), moves, start, STEPS, seed=1)
-    edges = np.linspace(0, 1, 51)
-    middles = (edges[:-1] + edges[1:]) / 2
-    found, _ = np.histogram(run.samples, edges, density=True)
     left = float((run.samples < 0.5).mean())
     text = (
         f"{STEPS} steps, mean acceptance {run.acceptance:.2f}. The left branch has "
@@ -183,14 +180,20 @@ def _on_parabola(moves: list, start: float) -> Shown:
     return Shown(
         text,
         [
-            Chart(
-                "Histogram and f, normalised",
-                middles,
-                [Curve("samples", found), Curve("12 (x - 1/2)²", 12 * (middles - 0.5) ** 2)],
-            ),
+            _beside_parabola(run.samples),
             Chart("x in the first 400 steps", steps, [Curve("x", np.asarray(run.states)[:400])]),
         ],
     )
+
+
+def _beside_parabola(samples: np.ndarray) -> Chart:
+    import numpy as np
+
+    edges = np.linspace(0, 1, 51)
+    middles = (edges[:-1] + edges[1:]) / 2
+    found, _ = np.histogram(samples, edges, density=True)
+    curves = [Curve("samples", found), Curve("12 (x - 1/2)²", 12 * (middles - 0.5) ** 2)]
+    return Chart("Histogram and f, normalised", middles, curves)
 
 
 def start_up(start: float, size: float) -> Shown:
@@ -237,17 +240,13 @@ def tours(steps: float, size: float) -> Shown:
         steps=steps,
         seed=1,
     )
-    edges = np.linspace(0, 1, 51)
-    middles = (edges[:-1] + edges[1:]) / 2
-    found, _ = np.histogram(made.states, edges, density=True)
-    curves = [Curve("states", found), Curve("12 (x - 1/2)²", 12 * (middles - 0.5) ** 2)]
     text = (
         f"From each uniform sample {steps:g} steps in the mean, and none crosses the middle if "
         "they are small. Still the states have the density f from the first one on: tours die "
         f"soon where f is small. They tell the integral of f, too: "
         f"{made.estimate(lambda x: np.ones(len(x)))}, which is 1/12 = 0.0833."
     )
-    return Shown(text, [Chart("Histogram of all states and f, normalised", middles, curves)])
+    return Shown(text, [_beside_parabola(made.states)])
 
 
 def ergodicity(gap: float, uniform: float) -> Shown:
