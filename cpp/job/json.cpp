@@ -133,6 +133,7 @@ std::string to_json(const Stats& s) {
   line("samples_carrying_half", fmt::format("{}", s.samples_carrying_half));
   line("tours", fmt::format("{}", s.tours));
   line("longest_tour", fmt::format("{}", s.longest_tour));
+  line("tours_waiting", number(s.tours_waiting));
   line("invalid_samples", fmt::format("{}", s.invalid_samples));
   line("stuck", array(s.stuck, stuck_chain));
   line("mutations", array(s.mutations, mutation));

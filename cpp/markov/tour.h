@@ -42,21 +42,36 @@ class KillRate {
     return constant_ > 0 ? constant_ * target_over_density / kappa0_ : 1;
   }
   /// 1 / (1 + kappa), the probability of surviving a state with this T / P.
-  double survival(double target_over_density) const {
-    return 1 / (1 + (constant_ > 0 ? constant_ : kappa0_ / target_over_density));
-  }
+  double survival(double target_over_density) const { return 1 / (1 + kappa(target_over_density)); }
+  /// 1 / kappa, the mean number of steps that are left if all states have this T / P.
+  double steps(double target_over_density) const { return 1 / kappa(target_over_density); }
 
  private:
+  double kappa(double target_over_density) const {
+    return constant_ > 0 ? constant_ : kappa0_ / target_over_density;
+  }
+
   double kappa0_, constant_ = 0;
 };
 
-/// Makes steps until the tour dies: as soon as the probability of having come so far is below one
-/// uniform number `u`. `survival()` is that of the current state. Returns how many steps were made.
+/// How far a tour has come: it dies as soon as the probability of having come so far is below one
+/// uniform number.
+struct Tour {
+  double u;
+  double left = 1;     ///< Probability of having survived all states but the current one.
+  uint64_t steps = 0;  ///< Steps that it has made.
+};
+
+/// Makes steps until the tour dies, or has made `most` in all; returns whether it is dead.
+/// `survival()` is that of the current state.
 template <class Survival, class Step>
-uint64_t run_tour(double u, Survival&& survival, Step&& step) {
-  uint64_t steps = 0;
-  for (double left = survival(); left > u; left *= survival(), ++steps) step();
-  return steps;
+bool run_tour(Tour& tour, uint64_t most, Survival&& survival, Step&& step) {
+  for (; tour.steps < most; ++tour.steps) {
+    tour.left *= survival();
+    if (!(tour.left > tour.u)) return true;
+    step();
+  }
+  return false;
 }
 
 }  // namespace mlt

@@ -154,6 +154,8 @@ class RenderChain {
   virtual const ChainStats& stats() const = 0;
   /// Sums over the samples that it starts from, if it draws them itself; else nullptr.
   virtual const SampleSums* samples() const { return nullptr; }
+  /// The mean number of steps that it has yet to make for what it has found.
+  virtual double steps_due() const { return 0; }
   virtual void save(ByteWriter& bytes) const = 0;
   virtual void load(ByteReader& bytes) = 0;
 };
@@ -230,9 +232,12 @@ class RecordedChain : public RenderChain {
   }
   const ChainStats& stats() const override { return stats_; }
   const State& state() const { return chain_.state(); }
+  Kernel& kernel() { return chain_.kernel(); }
+  const Kernel& kernel() const { return chain_.kernel(); }
   Rng& rng() { return chain_.rng(); }
-  void count_tour(uint64_t steps) {
-    ++stats_.tours;
+  /// Counts a tour that is dead, or must wait after `steps` steps.
+  void count_tour(uint64_t steps, bool dead) {
+    stats_.tours += dead;
     stats_.longest_tour = std::max(stats_.longest_tour, steps);
   }
   /// Counts rays that were traced for it elsewhere.

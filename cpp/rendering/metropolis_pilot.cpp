@@ -50,8 +50,9 @@ struct Forecast {
   double variance = 0;  ///< Expected variance, times the time.
 };
 
-/// With this number of steps, tours are much more work than the sample that they start from.
-constexpr double least_steps_per_sample = 64;
+/// With this number of steps, tours are more work than the sample that they start from. The fewer,
+/// the more samples look for rare light.
+constexpr double least_steps_per_sample = 16;
 
 /// Up to this ratio of variances the samples are preferred: their noise is known better.
 constexpr double hardly = 1.15;

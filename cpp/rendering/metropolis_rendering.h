@@ -92,6 +92,7 @@ class MetropolisRendering : public Rendering {
   /// The sums of each group; the bootstrap of tours consists of the samples that they start from.
   std::vector<GroupProgress> progress() const;
   GroupCombination combination() const;
+  double waiting() const;
   void add_level(Stats& stats) const;
   ChainStats sum_of_stats(StuckChain& stuck) const;
   std::string save_prepared() const;

@@ -12,19 +12,29 @@ namespace {
 /// If half of the light comes from fewer samples, there may well be more that none has found.
 constexpr uint64_t few_samples = 100;
 
-void warn_of_long_tour(const ChainStats& sum, Stats& stats) {
+void warn_of_waiting_tours(Stats& stats) {
   constexpr double much = 0.02;
-  uint64_t steps = 0;
-  for (const ChainStats::Row& row : sum.rows) steps += row.proposed;
-  const double share = static_cast<double>(sum.longest_tour) / static_cast<double>(steps);
-  if (share > much)
+  if (stats.tours_waiting > much)
     stats.warnings.push_back(fmt::format(
-        "one tour has made {:.0f} % of all mutations: some light was found once, and is "
-        "shown too bright if that was luck; render for longer",
-        100 * share));
+        "{:.0f} % of the mutations wait for their turn in long tours: some light was found rarely, "
+        "and is shown too dark; render for longer",
+        100 * stats.tours_waiting));
 }
 
 }  // namespace
+
+/// The share of the steps that waiting tours have yet to make.
+double MetropolisRendering::waiting() const {
+  double made = 0, due = 0;
+  for (const auto& team : teams_) {
+    const std::lock_guard lock(team->mutex);
+    for (const auto& chain : team->chains) {
+      if (chain) due += chain->steps_due();
+      made += static_cast<double>(team->units * steps_per_unit_);
+    }
+  }
+  return due > 0 ? 1 / (1 + made / due) : 0;
+}
 
 /// Sums the statistics of all chains; `stuck` becomes the one with the longest run of rejections.
 ChainStats MetropolisRendering::sum_of_stats(StuckChain& stuck) const {
@@ -99,8 +109,9 @@ void MetropolisRendering::add_stats(Stats& stats) const {
   stats.rays_occluded += sum.rays.occluded;
   stats.tours = sum.tours;
   stats.longest_tour = sum.longest_tour;
+  stats.tours_waiting = waiting();
   add_rows(algorithm_->rows(), sum.rows, stats);
-  warn_of_long_tour(sum, stats);
+  warn_of_waiting_tours(stats);
   if (film_.saturated() > 0)
     stats.warnings.push_back(
         "the film's fixed-point range was exceeded; the brightest pixels are wrong");

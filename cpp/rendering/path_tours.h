@@ -6,10 +6,15 @@
 #include "rendering/metropolis_algorithm.h"
 #include "rendering/path_kernel.h"
 
+#include <algorithm>
+#include <vector>
+
 namespace mlt {
 
 /// A chain of tours. Each advance draws as many samples as have `steps` steps in the mean, and ends
-/// with the last tour.
+/// with the last tour. A tour from a path that is found too rarely would take most of a short
+/// render, and fill its image with the light of one sample: such a tour waits until others have
+/// made their steps. What it has yet to do is missing in the image, in the long run nothing.
 class PathTours : public RenderChain {
  public:
   /// `rate` has kappa0 = id.b / steps_per_sample.
@@ -29,9 +34,15 @@ class PathTours : public RenderChain {
   void advance(uint64_t steps, ChainRecorder& recorder) override {
     due_ += static_cast<double>(steps) / steps_per_sample_;
     for (; due_ >= 1; --due_) start_tours(recorder);
+    continue_tours(recorder);
   }
   const ChainStats& stats() const override { return chain_.stats(); }
   const SampleSums* samples() const override { return &samples_; }
+  double steps_due() const override {
+    double sum = 0;
+    for (const Waiting& waiting : waiting_) sum += kill_rate_.steps(over_density(waiting.state));
+    return sum;
+  }
 
   void save(ByteWriter& bytes) const override {
     chain_.save_progress(bytes);
@@ -39,6 +50,11 @@ class PathTours : public RenderChain {
     bytes.write(count_);
     bytes.write(tours_);
     bytes.write(due_);
+    bytes.write<uint64_t>(waiting_.size());
+    for (const Waiting& waiting : waiting_) {
+      bytes.write(waiting.tour);
+      chain_.kernel().save(bytes, waiting.state);
+    }
   }
   void load(ByteReader& bytes) override {
     chain_.load_progress(bytes);
@@ -47,9 +63,18 @@ class PathTours : public RenderChain {
     bytes.read(tours_);
     bytes.read(due_);
     if (!(0 <= due_ && due_ < 1)) throw RenderError("the saved state owes more than a sample");
+    waiting_.clear();
+    for (auto left = bytes.read<uint64_t>(); left > 0; --left) {
+      Waiting& waiting = waiting_.emplace_back();
+      bytes.read(waiting.tour);
+      chain_.kernel().load(bytes, waiting.state);
+    }
   }
 
  private:
+  /// At this multiple of the steps that all tours of the chain make in the mean a tour must wait.
+  static constexpr double patience = 2;
+
   /// A path that roulette has let through with probability q starts r / q tours in the mean.
   void start_tours(ChainRecorder& recorder) {
     SampleWeights sum;
@@ -68,7 +93,7 @@ class PathTours : public RenderChain {
         if (!(kill_rate_.survival(over_density) > u)) continue;
         if (!assembled) seeds_.assemble(c, start_);
         assembled = true;
-        if (start_.target > 0) run(u, recorder);
+        if (start_.target > 0) start_tour(u, recorder);
       }
     });
     add(sum);
@@ -82,14 +107,39 @@ class PathTours : public RenderChain {
     if (target_->techniques() == SampleTechniques::all) samples_.of_chains.add(sum.of_chains);
   }
 
-  void run(double u, ChainRecorder& recorder) {
-    chain_.restart(start_);
+  struct Waiting {
+    PathState state;
+    Tour tour;
+  };
+
+  void start_tour(double u, ChainRecorder& recorder) {
+    Tour tour{u};
+    if (!go_on(start_, tour, recorder)) waiting_.push_back({chain_.state(), tour});
+  }
+  void continue_tours(ChainRecorder& recorder) {
+    const auto dead = [&](Waiting& waiting) {
+      if (go_on(waiting.state, waiting.tour, recorder)) return true;
+      waiting.state = chain_.state();
+      return false;
+    };
+    waiting_.erase(std::remove_if(waiting_.begin(), waiting_.end(), dead), waiting_.end());
+  }
+  /// Goes on with a tour until it dies or must wait. Returns whether it is dead.
+  bool go_on(const PathState& start, Tour& tour, ChainRecorder& recorder) {
+    chain_.restart(start);
     StepRecorder<PathKernel> record = chain_.begin(recorder);
     const PathState& x = chain_.state();
-    chain_.count_tour(run_tour(
-        u, [&] { return kill_rate_.survival(target_->over_bidirectional_density(x)); },
-        [&] { chain_.step(record); }));
+    const bool dead =
+        run_tour(tour, most_steps(), [&] { return survival(x); }, [&] { chain_.step(record); });
     record.finish();
+    chain_.count_tour(tour.steps, dead);
+    return dead;
+  }
+  double survival(const PathState& x) const { return kill_rate_.survival(over_density(x)); }
+  double over_density(const PathState& x) const { return target_->over_bidirectional_density(x); }
+  /// The steps that all tours up to now make in the mean, times patience.
+  uint64_t most_steps() const {
+    return static_cast<uint64_t>(patience * steps_per_sample_ * static_cast<double>(count_));
   }
 
   /// The chains of a group share its sequences, so that these are stratified over the group.
@@ -111,6 +161,7 @@ class PathTours : public RenderChain {
   SampleSums samples_;
   ChainId id_;
   uint64_t stream_;  ///< Random stream of the group.
+  std::vector<Waiting> waiting_;
   uint64_t count_ = 0, tours_ = 0;
   double due_;  ///< Fraction of the next sample that is due.
   double first_kill_;

@@ -161,6 +161,7 @@ def test_stats_have_the_promised_members(scene):
         "samples_carrying_half": int,
         "tours": int,
         "longest_tour": int,
+        "tours_waiting": type(stats["tours_waiting"]),
         "invalid_samples": int,
         "stuck": list,
         "mutations": list,

@@ -13,9 +13,9 @@ from ..rendering.result import Result
 from ..rendering.start import start
 from .metrics import target_luminance
 
-#: In the warnings of a render whose error is carried by few pixels, and of one in which a single
-#: tour has made many of the mutations.
-WARNINGS = ("true error", "some light was found once")
+#: In the warnings of a render whose error is carried by few pixels, and of one in which long tours
+#: have yet to make many of the mutations.
+WARNINGS = ("true error", "some light was found rarely")
 
 
 @dataclass(frozen=True)

@@ -48,8 +48,9 @@ double deviation(double kappa0, const std::function<double(int)>& survival) {
   for (int i = 0; i < samples; ++i) {
     std::array<Values, 2> visits{};
     chain.restart(static_cast<int>(starts.sample(rng.next())));
+    Tour tour{rng.next()};
     run_tour(
-        rng.next(), [&] { return survival(chain.state()); },
+        tour, std::numeric_limits<uint64_t>::max(), [&] { return survival(chain.state()); },
         [&] {
           ++visits[0][chain.state()];
           chain.step([](int, double) {});
@@ -93,6 +94,29 @@ TEST_P(Tours, DoNotIfTheyDieAtAnotherRate) {
 
 INSTANTIATE_TEST_SUITE_P(StepsPerSample, Tours, testing::Values(3.0, 30.0, 300.0),
                          testing::PrintToStringParamName());
+
+/// A tour that waits now and then goes where it would have gone at once.
+TEST_P(Tours, MayBeInterrupted) {
+  const KillRate rate(sum(target) / GetParam());
+  const auto states = [&](uint64_t patience) {
+    Chain<int, Walk> chain(Walk(), Rng(3, Purpose::test, 1), 4);
+    const auto survival = [&] { return rate.survival(over_density(chain.state())); };
+    std::vector<int> visited;
+    const auto step = [&] {
+      chain.step([](int, double) {});
+      visited.push_back(chain.state());
+    };
+    Tour tour{1e-3};
+    for (uint64_t most = patience; !run_tour(tour, most, survival, step); most += patience)
+      EXPECT_EQ(tour.steps, most);
+    EXPECT_EQ(tour.steps, visited.size());
+    return visited;
+  };
+  const auto whole = states(std::numeric_limits<uint64_t>::max());
+  EXPECT_GT(whole.size(), 3);
+  EXPECT_EQ(states(1), whole);
+  EXPECT_EQ(states(3), whole);
+}
 
 TEST(KillRate, IsNoneWhereNoSampleStarts) {
   EXPECT_EQ(KillRate(2).survival(6), 0.75);

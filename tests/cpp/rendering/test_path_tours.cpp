@@ -18,14 +18,14 @@ struct Brightness : ChainRecorder {
   double sum = 0;
 };
 
-struct Tour {
+struct TourCase {
   std::string scene;
   int rr_depth;
   double steps_per_sample;
   double tour_length = 0;  ///< 0: they die in proportion to P / T.
 };
 
-class PathToursOf : public testing::TestWithParam<Tour> {};
+class PathToursOf : public testing::TestWithParam<TourCase> {};
 
 /// The means over groups of what tours have recorded times kappa0, and of w2 L* / p, differ by
 /// chance alone, and by a few per cent of the brightness at the most.
@@ -60,16 +60,59 @@ TEST_P(PathToursOf, HaveTheBrightnessOfTheirSamples) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, PathToursOf,
-                         testing::Values(Tour{"cornell", 100, 10}, Tour{"cornell", 2, 10},
-                                         Tour{"cornell", 2, 100}, Tour{"glass_torus", 100, 10},
-                                         Tour{"caustic", 2, 30}, Tour{"mirrors", 2, 30},
-                                         Tour{"cornell", 2, 10, 20}, Tour{"caustic", 2, 10, 50}),
+                         testing::Values(TourCase{"cornell", 100, 10}, TourCase{"cornell", 2, 10},
+                                         TourCase{"cornell", 2, 100},
+                                         TourCase{"glass_torus", 100, 10},
+                                         TourCase{"caustic", 2, 30}, TourCase{"mirrors", 2, 30},
+                                         TourCase{"cornell", 2, 10, 20},
+                                         TourCase{"caustic", 2, 10, 50}),
                          [](const auto& info) {
                            return info.param.scene + "_" + std::to_string(info.param.rr_depth) +
                                   "_" +
                                   std::to_string(static_cast<int>(info.param.steps_per_sample)) +
                                   (info.param.tour_length > 0 ? "_constant" : "");
                          });
+
+/// Tours of a million steps in the mean, if they were not interrupted.
+class LongTours : public testing::Test {
+ protected:
+  PathTours tours() const {
+    constexpr double b = 1e-5, steps_per_sample = 10;
+    return {target, mixture, {7, 0, 0, 1, b}, {}, steps_per_sample, KillRate(b / steps_per_sample)};
+  }
+  static double brightness(PathTours& tours, uint64_t steps) {
+    Brightness recorder{FamilyWeights()};
+    tours.advance(steps, recorder);
+    return recorder.sum;
+  }
+
+  const PathTarget target{make_mutation_scene("cornell").scene, PathRules{8}};
+  const PathMixture mixture{all_mutations(target),
+                            std::make_shared<MixtureWeights>(default_weights())};
+};
+
+TEST_F(LongTours, WaitForOthers) {
+  PathTours some = tours();
+  for (const uint64_t steps : {200, 400}) {
+    brightness(some, 200);
+    EXPECT_LE(some.stats().longest_tour, 2 * steps);
+    EXPECT_GT(some.stats().longest_tour, steps);
+    EXPECT_GT(some.steps_due(), 1e5);
+  }
+}
+
+TEST_F(LongTours, GoOnAfterTheyWereSaved) {
+  PathTours some = tours(), loaded = tours();
+  brightness(some, 100);
+  ByteWriter bytes;
+  some.save(bytes);
+  const std::string saved = bytes.take();
+  ByteReader reader(saved);
+  loaded.load(reader);
+  EXPECT_EQ(loaded.steps_due(), some.steps_due());
+  EXPECT_EQ(brightness(loaded, 100), brightness(some, 100));
+  EXPECT_EQ(loaded.stats().longest_tour, some.stats().longest_tour);
+}
 
 }  // namespace
 }  // namespace mlt::test
