@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from . import _core
 from .pictures.output import OutputFile
+from .pictures.tonemapping import Exposure
 
 if TYPE_CHECKING:
     import numpy as np
@@ -82,7 +83,7 @@ def write_image(
     path: str | os.PathLike[str],
     image: ArrayLike,
     *,
-    exposure: float = 0,
+    exposure: Exposure = 0,
     tonemap: str = "srgb",
     half: bool = False,
     metadata: dict[str, str] | None = None,
@@ -93,8 +94,8 @@ def write_image(
         floats of shape (height, width) or (height, width, channels), with at most 4 channels; 1 is
         white. What is not a number becomes 0, with a warning, in all files but .exr.
     exposure, tonemap
-        for pictures, which are sRGB-encoded: stops by which they are brightened, and the curve, as
-        `pymlt.tonemap` has them.
+        for pictures, which are sRGB-encoded: stops by which they are brightened ("auto": as suits
+        the image), and the curve, as `pymlt.tonemap` has them.
     half, metadata
         for .exr: 16-bit samples, and texts for the header.
 

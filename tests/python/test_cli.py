@@ -76,6 +76,14 @@ def test_exposure_is_for_png_alone(program, scene):
     assert mlt.read_image("b.png").mean() < 0.5 * mlt.read_image("a.png").mean()
 
 
+def test_an_exposure_may_be_what_suits_the_image(program, scene):
+    run(program, scene, "--spp", 4, "-o", "a.png", "-o", "a.exr", "--exposure", "auto")
+    mlt.write_image("b.png", mlt.read_image("a.exr"), exposure="auto")
+    assert Path("a.png").read_bytes() == Path("b.png").read_bytes()
+    mlt.write_image("c.png", mlt.read_image("a.exr"))
+    assert Path("a.png").read_bytes() != Path("c.png").read_bytes()
+
+
 def test_time_is_a_budget(program, scene):
     done = run(
         program, scene, "--time", 0.3, "-o", "a.exr", "--stats", "a.json", "--size", "200x150"

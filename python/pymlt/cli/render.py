@@ -26,7 +26,7 @@ HELP = "Render a scene to image files."
 HELP_HERE = {
     "scene": "Mitsuba XML, glTF 2.0 or pbrt-v4 file, or the name of a built-in scene",
     "output": f"image file: {', '.join(EXTENSIONS)}; may be repeated",
-    "exposure": "brighten PNG and JPEG files by this number of stops",
+    "exposure": "brighten PNG and JPEG files by this number of stops; auto: as suits the image",
 }
 
 

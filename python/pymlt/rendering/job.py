@@ -11,6 +11,7 @@ from time import monotonic
 from typing import TYPE_CHECKING
 
 from .. import _core
+from ..pictures.tonemapping import Exposure
 from .notebook import show
 from .options import RenderOptions, integer, number
 from .progress import progress_bar
@@ -179,11 +180,11 @@ class Job:
             metadata["fireflies"] = f"groups: {100 * removed:.2g} % of the light is removed"
         return Result(image, stats, settings, layers, metadata, self._scene.half)
 
-    def show(self, *, interval: float = 1, exposure: float = 0) -> None:
+    def show(self, *, interval: float = 1, exposure: Exposure = 0) -> None:
         """Show the image in a notebook, and renew it each `interval` seconds until the render ends.
 
-        `exposure` brightens it, in stops. Interrupting the cell ends the showing, not the render.
-        Needs IPython.
+        `exposure` brightens it, in stops, or "auto". Interrupting the cell ends the showing, not
+        the render. Needs IPython.
         """
         show(self, interval, exposure)
 
