@@ -9,13 +9,14 @@ from dataclasses import fields
 from .. import _core
 from .._extras import import_extra
 from ..algorithms.integrator import as_integrator
+from ..formats.loading import built_in_name
 from ..pictures.output import EXTENSIONS, check_writable
 from ..rendering.job import Job
 from ..rendering.options import RenderOptions
 from ..rendering.progress import progress_bar
 from ..rendering.result import Result
 from ..rendering.start import saved_job
-from .common import FLAGS, add_flag, built_in_name, load_scene, say, warn
+from .common import FLAGS, add_flag, load_scene, say, warn
 from .display import add_tonemap, exposure
 from .signals import Signals
 
