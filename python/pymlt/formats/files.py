@@ -16,11 +16,12 @@ from . import limits
 if TYPE_CHECKING:
     from .imported import Imported
 
-EXTENSIONS = (".gltf", ".glb", ".pbrt")
+MESHES = (".ply", ".obj", ".stl")
+EXTENSIONS = (".gltf", ".glb", ".pbrt", *MESHES)
 
 
 def is_foreign(path: str | os.PathLike[str]) -> bool:
-    """Whether a file of this name is a scene of another program."""
+    """Whether a file of this name is a scene of another program, or a mesh alone."""
     return os.fspath(path).lower().endswith(EXTENSIONS)
 
 
@@ -49,6 +50,10 @@ def reader_of(path: Path) -> Callable[[Path, Imported], None]:
         from .pbrt import read_pbrt
 
         return read_pbrt
+    if path.suffix.lower() in MESHES:
+        from .mesh_file import read_mesh
+
+        return read_mesh
     from .gltf import read_gltf
 
     return read_gltf
@@ -69,12 +74,13 @@ def load_foreign(
 
 
 def convert(path: str | os.PathLike[str] | dict, output: str | os.PathLike[str]) -> list[str]:
-    """Write a scene of another program (.gltf, .glb, .pbrt), or a scene dict, as Mitsuba XML.
+    """Write a scene as Mitsuba XML.
 
-    Meshes (.ply) and images are written beside `output`, with names that begin as its own does.
-    Returns what has no counterpart, one line each. Raises FileError for files that cannot be read
-    or written, SceneError for what is wrong in them, UsageError for another extension or without
-    the extra that reading needs.
+    `path` names a scene of another program (.gltf, .glb, .pbrt) or a mesh (.ply, .obj, .stl), or is
+    a scene dict. Its meshes (.ply) and images are written beside `output`, with names that begin as
+    its own does. Returns what has no counterpart, one line each. Raises FileError for files that
+    cannot be read or written, SceneError for what is wrong in them, UsageError for another
+    extension or without the extra that reading needs.
     """
     from .written import Written
     from .xml_writer import to_xml

@@ -26,6 +26,8 @@ def load(path, /, *, size=None, lenient=None, sensor=None, filter=None, **define
         glTF 2.0; needs the extra `gltf`.
     .pbrt
         pbrt-v4.
+    .ply, .obj, .stl
+        one mesh, in which y is up, with a grey material, light, and a camera that it fits.
     anything else that exists
         Mitsuba XML; see `load_file` for `lenient` and `defines`.
     the name of a built-in scene ("ring", "door-ajar"; see `pymlt.scenes`)
