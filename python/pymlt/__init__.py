@@ -49,6 +49,7 @@ from .rendering.result import Groups, Replay, Result
 from .rendering.start import render, render_progressive, replay, resume, start
 from .scenes.loading import load_dict, load_file, load_string
 from .scenes.transforms import Transform
+from .scenes.traversal import SceneParameters, traverse
 
 if TYPE_CHECKING:
     from . import lab, race
@@ -73,6 +74,7 @@ __all__ = [
     "Result",
     "Scene",
     "SceneError",
+    "SceneParameters",
     "Technique",
     "Transform",
     "UsageError",
@@ -103,6 +105,7 @@ __all__ = [
     "scenes",
     "start",
     "tonemap",
+    "traverse",
     "view",
     "write_image",
 ]

@@ -87,6 +87,38 @@ EDITS = {
 }
 
 
+def test_parameters_are_set_by_name_and_then_updated():
+    scene = mlt.load_dict(house())
+    before = scene.hash
+    params = mlt.traverse(scene)
+    assert dict(params).keys() == scene.parameters().keys()
+    for name, value in EDITS.items():
+        params[name] = value
+    assert params.scene is scene
+    assert params.update() is params.scene
+    assert_same(params.scene, scene.updated(EDITS))
+    assert scene.hash == before
+    np.testing.assert_array_equal(image(params), image(params.scene))
+    assert params["sensor.fov"] == 55.0
+    params.update({"sensor.fov": 40.0})
+    assert params.scene.parameters()["sensor.fov"] == 40.0
+
+
+def test_parameters_that_do_not_fit_leave_everything_as_it_was():
+    params = mlt.traverse(mlt.load_dict(tiny.scene()))
+    scene = params.scene
+    with pytest.raises(mlt.UsageError, match=r"no parameter 'sensor\.fow'.*'sensor\.fov'"):
+        params["sensor.fow"] = 3
+    params["sensor.fov"] = "wide"
+    with pytest.raises(mlt.SceneError, match=r"sensor\.fov"):
+        params.update()
+    assert params.scene is scene
+    assert params["sensor.fov"] == 40.0
+    assert params.update().hash == scene.hash
+    with pytest.raises(mlt.UsageError, match="cannot be taken"):
+        del params["sensor.fov"]
+
+
 @pytest.mark.parametrize("make", [tiny.scene, house, mlt.scenes.motion], ids=lambda f: f.__name__)
 def test_a_dict_can_be_written_as_xml(tmp_path, make):
     assert mlt.convert(make(), tmp_path / "scene.xml") == []

@@ -14,9 +14,10 @@ from ..scenes.loading import (
     load_file,
     sensor_index,
 )
+from ..scenes.traversal import SceneParameters
 from .files import is_foreign, load_foreign, warn_all
 
-SceneLike = _core.Scene | dict | str | os.PathLike
+SceneLike = _core.Scene | SceneParameters | dict | str | os.PathLike
 
 
 def load(path, /, *, size=None, lenient=None, sensor=None, filter=None, **defines) -> _core.Scene:
@@ -81,6 +82,8 @@ def existing_name(text: str) -> str:
 
 def as_scene(scene, sensor=None) -> _core.Scene:
     """What `scene` means: itself, a dict, the path of a file, or a built-in scene's name."""
+    if isinstance(scene, SceneParameters):
+        scene = scene.scene
     if isinstance(scene, _core.Scene):
         return scene if sensor is None else scene.with_sensor(sensor_index(sensor))
     if isinstance(scene, dict):
