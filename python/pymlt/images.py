@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import warnings
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from . import _core
 from .pictures.output import OutputFile
@@ -72,6 +72,30 @@ def layer_names(path: str | os.PathLike[str]) -> list[str]:
     channels = file.spec().channelnames if file.format_name() == "openexr" else ()
     file.close()
     return sorted({name.rpartition(".")[0] for name in channels if "." in name})
+
+
+def read_header(path: str | os.PathLike[str]) -> dict[str, Any]:
+    """What an image file is, without its pixels.
+
+    Returns a dict of size ((width, height), pixels), format ("openexr", "png", ...), samples
+    ("half", "float", "uint8", ...), channels (their names, with those of layers) and metadata
+    (texts of an EXR file). Raises FileError for a file that cannot be read.
+    """
+    import OpenImageIO
+
+    path = os.fspath(path)
+    file = OpenImageIO.ImageInput.open(path)
+    if file is None:
+        raise _core.FileError(f"{path}: {OpenImageIO.geterror().strip() or 'cannot be read'}")
+    spec, kind = file.spec(), file.format_name()
+    file.close()
+    return {
+        "size": (spec.width, spec.height),
+        "format": kind,
+        "samples": str(spec.format),
+        "channels": list(spec.channelnames),
+        "metadata": read_metadata(path) if kind == "openexr" else {},
+    }
 
 
 def read_metadata(path: str | os.PathLike[str]) -> dict[str, str]:

@@ -18,6 +18,8 @@ import tiny
 from command_line import PYMLT, mlt_render, run, the_error
 
 import pymlt as mlt
+from pymlt import cli
+from pymlt.cli import info
 
 # ---- what a render makes -----------------------------------------------------------------------
 
@@ -411,10 +413,46 @@ def test_compare_explains_mistakes(images, arguments, what):
 
 
 def test_info_tells_what_a_scene_holds(scene):
-    info = json.loads(run(PYMLT, "info", scene, "-D", "res=40", "--json").stdout)
-    assert info["size"] == [40, 12]
-    assert info["shapes"] == 3
+    told = json.loads(run(PYMLT, "info", scene, "-D", "res=40", "--json").stdout)
+    assert told["size"] == [40, 12]
+    assert told["shapes"] == 3
     assert "40 x 12" in run(PYMLT, "info", scene, "-D", "res=40").stdout
+
+
+def test_info_has_numbers_for_people():
+    assert [info.count(n) for n in (8194, 1_234_567, 2 * 10**9)] == [
+        "8194",
+        "1.23 million",
+        "2 billion",
+    ]
+    sizes = [info.memory(n) for n in (0, 999, 999_600, 34_000_000)]
+    assert sizes == ["0 bytes", "999 bytes", "1 MB", "34 MB"]
+    shown = run(PYMLT, "info", "ring").stdout
+    assert re.search(r"^memory +\d+ kB$", shown, re.M)
+    assert re.search(r"^center +[-\d., ]+$", shown, re.M)
+
+
+def test_info_shows_the_header_of_an_image(program, scene):
+    run(program, scene, "--spp", 4, "--seed", 7, "--aov", "depth", "-o", "a.exr", "-o", "a.png")
+    shown = run(PYMLT, "info", "a.exr").stdout
+    assert re.search(r"^size +16 x 12$", shown, re.M)
+    assert re.search(r"^channels +.*\bR\b.*depth", shown, re.M)
+    assert re.search(r"^seed +7$", shown, re.M)
+    header = json.loads(run(PYMLT, "info", "a.png", "--json").stdout)
+    assert header["size"] == [16, 12]
+    assert (header["format"], header["samples"], header["metadata"]) == ("png", "uint8", {})
+    Path("b.exr").write_bytes(Path("a.exr").read_bytes()[:40])
+    assert "b.exr" in the_error(run(PYMLT, "info", "b.exr"))
+
+
+def test_help_groups_the_commands_and_shows_examples():
+    shown = run(PYMLT, "--help").stdout
+    for name in cli.COMMANDS:
+        assert re.search(rf"^  {name} +[A-Z]", shown, re.M)
+    examples = shown.partition("examples:\n")[2].splitlines()
+    assert len(examples) > 3
+    for example in examples[:-1]:
+        cli.make_parser().parse_args(shlex.split(example)[1:])
 
 
 def test_built_in_scenes_have_names(tmp_path, monkeypatch):
@@ -430,7 +468,10 @@ def test_built_in_scenes_have_names(tmp_path, monkeypatch):
 def test_list_names_plug_ins_and_scenes():
     assert "diffuse" in run(PYMLT, "list", "bsdf").stdout.split()
     assert "cornell_box" in run(PYMLT, "list", "scenes").stdout.split()
-    assert "integrator: " in run(PYMLT, "list").stdout
+    everything = run(PYMLT, "list").stdout
+    assert "\nintegrator:\n" in everything
+    assert re.search(r"^  bitmap +An image, interpolated between its texels", everything, re.M)
+    assert re.search(r"^  ring +\w", everything, re.M)
     assert "did you mean 'bsdf'?" in the_error(run(PYMLT, "list", "bsfd"))
 
 
