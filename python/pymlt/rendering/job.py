@@ -16,6 +16,7 @@ from .notebook import show
 from .options import RenderOptions, integer, number
 from .progress import progress_bar
 from .result import Groups, Replay, Result
+from .stats import Stats
 
 if TYPE_CHECKING:
     import numpy as np
@@ -58,7 +59,7 @@ class Job:
         return self._job.image_without_fireflies() if self._filters else self._job.image()
 
     @property
-    def stats(self) -> dict:
+    def stats(self) -> Stats:
         """What the render tells about itself so far, as `--stats` writes it; times in seconds."""
         return json.loads(self._job.stats())
 

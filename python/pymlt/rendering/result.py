@@ -12,6 +12,7 @@ from ..pictures.notebook import figure, png
 from ..pictures.output import OutputFile
 from ..pictures.techniques import Technique, techniques_of
 from ..pictures.tonemapping import Exposure
+from .stats import Stats
 
 if TYPE_CHECKING:
     import numpy as np
@@ -23,15 +24,15 @@ class Result:
     """What a render left behind."""
 
     image: np.ndarray  #: float32, (height, width, 3), linear Rec. 709, row 0 on top
-    stats: dict  #: the content of stats.json
+    stats: Stats  #: the content of stats.json
     integrator: dict  #: type and every parameter, given or default
     layers: dict[str, np.ndarray] = field(repr=False)  #: further images that were kept, by name
     metadata: dict[str, str] = field(repr=False)  #: what `write` puts into an EXR header
     half: bool = field(default=False, repr=False)  #: EXR with 16-bit samples, as the film asks
 
     @property
-    def seed(self) -> int:
-        """Of all random numbers."""
+    def seed(self) -> int | list[str]:
+        """Of all random numbers; those of all renders, if several were merged."""
         return self.stats["seed"]
 
     @property
