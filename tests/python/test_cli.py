@@ -455,6 +455,27 @@ def test_help_groups_the_commands_and_shows_examples():
         cli.make_parser().parse_args(shlex.split(example)[1:])
 
 
+def test_a_shell_completes_commands_flags_and_files(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    Path("hut.exr").touch()
+    Path("complete.sh").write_text(run(PYMLT, "--print-completion", "bash").stdout)
+
+    def completed(*words):
+        script = 'source ./complete.sh; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); '
+        script += "$(complete -p pymlt | grep -oP '(?<=-F )\\S+'); echo ${COMPREPLY[@]}"
+        return run(["bash", "-c", script, "bash"], *words).stdout.split()
+
+    assert completed("pymlt", "rend") == ["render"]
+    assert completed("pymlt", "render", "--expo") == ["--exposure"]
+    assert completed("pymlt", "merge", "hu") == ["hut.exr"]
+
+
+def test_completion_says_what_it_needs(monkeypatch, capsys):
+    monkeypatch.setitem(sys.modules, "shtab", None)
+    assert cli.main(["--print-completion", "zsh"]) == 2
+    assert "--print-completion needs `pip install 'shtab>=" in capsys.readouterr().err
+
+
 def test_built_in_scenes_have_names(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     done = run(PYMLT, "render", "cornell-box", "--size", "16x16", "--spp", 2, "-o", "a.exr")

@@ -17,6 +17,7 @@ import traceback
 from .. import _core
 from . import compare, convert, denoise, info, lab, listing, merge, race, render, view
 from .common import Parser, open_standard_streams, say
+from .completion import SHELLS, PrintCompletion
 
 GROUPS = {
     "render": {"render": render, "view": view},
@@ -61,13 +62,19 @@ def fail(code: int, error: BaseException) -> int:
 def make_parser() -> Parser:
     parser = Parser(
         prog="pymlt",
-        usage="pymlt [-h] [--version] COMMAND ...",
+        usage="pymlt [-h] [--version] [--print-completion SHELL] COMMAND ...",
         description="An open renderer for Metropolis light transport.",
         epilog=overview(),
         formatter_class=argparse.RawDescriptionHelpFormatter,
         allow_abbrev=False,
     )
     parser.add_argument("--version", action="version", version=f"pymlt {_core.__version__}")
+    parser.add_argument(
+        "--print-completion",
+        choices=SHELLS,
+        action=PrintCompletion,
+        help="print what this shell needs to complete commands, flags and files",
+    )
     parser.set_defaults(command=lambda _: parser.print_help() or 0)
     commands = parser.add_subparsers(
         metavar="COMMAND", parser_class=Parser, help=argparse.SUPPRESS, prog="pymlt"
