@@ -3,6 +3,7 @@
 #include "text.h"
 
 #include "base/atomic_file.h"
+#include "image/exposure.h"
 #include "image/image_io.h"
 #include "job/output.h"
 
@@ -88,6 +89,14 @@ void bind_image(py::module_& m) {
   m.def("read_image", &read, py::arg("path"), py::arg("layer") = "");
   m.def("decode_image", &decode, py::arg("bytes"), py::arg("name"),
         "The pixels of an image file's bytes, in linear light; errors call it by the name.");
+  m.def(
+      "fitting_exposure",
+      [](const Floats& array) {
+        const Image image = to_image(array);
+        const ReleasedGil release;
+        return fitting_exposure(image);
+      },
+      py::arg("image"), "The stops that suit a linear image.");
   m.def("is_known_image", [](const Text& path) { return is_known_image(path); }, py::arg("path"));
   m.def(
       "read_file",

@@ -1,7 +1,7 @@
 // The Mitsuba 3 dict: every plug-in is a dict with its name under "type"; colours, spectra and
-// references are dicts with types of their own ("rgb", "spectrum", "uniform", "ref"); transforms
-// are 4 x 4 matrices, or animations of them. A nested plug-in's key is the parameter it is given
-// for, or, in a scene, its id.
+// references are dicts with types of their own ("rgb", "srgb", "spectrum", "uniform", "ref");
+// transforms are 4 x 4 matrices, or animations of them. A nested plug-in's key is the parameter it
+// is given for, or, in a scene, its id.
 #include "scene_dict.h"
 
 #include "text.h"
@@ -103,16 +103,18 @@ std::string text_of(const py::dict& dict, const char* key, const Location& where
   return str_of(value, key, where);
 }
 
-/// {"type": "rgb", "value": [...]} and its like: a value that is written as a dict.
+/// {"type": "rgb", "value": [...]} and its like: a value that is written as a dict. The `color` of
+/// Mitsuba's `srgb` is as linear as an rgb; only its name says otherwise.
 Value from_color(const py::dict& dict, const std::string& type, const std::string& key,
                  const Location& where) {
+  const char* held = type == "srgb" ? "color" : "value";
   for (const auto& item : dict) {
     const std::string name = str_of(py::str(item.first), key, where);
-    if (name != "type" && name != "value")
-      refuse(where, key, "has an unknown '" + name + "'; valid are: type, value");
+    if (name != "type" && name != held)
+      refuse(where, key, "has an unknown '" + name + "'; valid are: type, " + held);
   }
-  if (!dict.contains("value")) refuse(where, key, "needs a 'value'");
-  const py::object value = dict["value"];
+  if (!dict.contains(held)) refuse(where, key, std::string("needs a '") + held + "'");
+  const py::object value = dict[held];
   if (type == "spectrum" && (py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value))) {
     try {
       return value.cast<Spectrum>();
@@ -147,7 +149,7 @@ Animation from_animation(const py::dict& dict, const std::string& key, const Loc
 }
 
 bool is_color(const std::string& type) {
-  return type == "rgb" || type == "spectrum" || type == "uniform";
+  return type == "rgb" || type == "srgb" || type == "spectrum" || type == "uniform";
 }
 
 std::string family_of(const std::string& type, const std::string& key, const Location& where,

@@ -39,6 +39,7 @@ Parsed parse_spp(const std::string& text) {
 }
 
 Parsed parse_stops(const std::string& text) {
+  if (text == "auto") return text;
   const auto number = parse_real(text);
   return number && std::abs(*number) <= max_exposure ? Parsed(*number) : std::nullopt;
 }
@@ -65,7 +66,8 @@ const FlagType any_text{"a text", [](const std::string& text) { return Parsed(te
          [](const std::string& text) -> Parsed { return parse_count(text, UINT64_MAX); }},
     sensor{"an integer from 0 to 2147483647",
            [](const std::string& text) -> Parsed { return parse_count(text, highest_int); }},
-    stops{"a number from -128 to 128", parse_stops}, positive{"a positive number", parse_positive},
+    stops{"a number from -128 to 128, or auto", parse_stops},
+    positive{"a positive number", parse_positive},
     spp{"a positive number up to 2147483647", parse_spp},
     image_size{"WIDTHxHEIGHT in pixels, such as 640x360", parse_size},
     assignment{"NAME=VALUE", parse_assignment};
@@ -128,7 +130,8 @@ const std::vector<Flag>& render_flags() {
        Flag::python_only},
       {"stats", "--stats", "FILE", &any_text, "write what the render tells about itself, as JSON",
        Flag::file},
-      {"exposure", "--exposure", "STOPS", &stops, "brighten PNG files by this number of stops"},
+      {"exposure", "--exposure", "STOPS", &stops,
+       "brighten PNG files by this number of stops; auto: as suits the image"},
       {"quiet", "--quiet", "", nullptr, "say nothing but errors"}};
   return flags;
 }

@@ -11,6 +11,7 @@
 #include "app/progress_line.h"
 #include "app/streams.h"
 #include "base/atomic_file.h"
+#include "image/exposure.h"
 #include "job/checkpoint.h"
 #include "job/output.h"
 #include "job/plugins.h"
@@ -122,7 +123,7 @@ struct Outputs {
 
 Outputs save(const Options& options, const RenderedImage& render, const Stats& stats,
              WriteOptions write) {
-  write.exposure = options.exposure;
+  write.exposure = options.exposure ? *options.exposure : fitting_exposure(render.image);
   Outputs outputs;
   for (const std::string& path : options.outputs) {
     const Saved saved = save_render(path, render, write);

@@ -59,7 +59,10 @@ Options read_options(const FlagValues& given) {
   options.checkpoint.overwrite = given.count("overwrite") > 0;
   text("resume", options.resume);
   if (options.checkpoint.path.empty()) options.checkpoint.path = options.resume;
-  take<double>(given, "exposure", options.exposure);
+  if (const auto found = given.find("exposure"); found != given.end()) {
+    const double* stops = std::get_if<double>(&found->second.back());
+    options.exposure = stops ? std::optional(*stops) : std::nullopt;
+  }
   options.quiet = given.count("quiet") > 0;
   check_files(files_of(given));
   return options;

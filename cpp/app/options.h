@@ -7,6 +7,7 @@
 #include "job/job.h"
 #include "job/make_integrator.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,10 +21,10 @@ struct Options {
   Assignments parameters;
   LoadOptions load;
   RenderSettings render;
-  CheckpointFile checkpoint;  ///< Written while it renders; its path may be "".
-  std::string resume;         ///< A checkpoint to resume, or "".
-  std::string aovs;           ///< Layers, in place of the scene's own.
-  double exposure = 0;
+  CheckpointFile checkpoint;             ///< Written while it renders; its path may be "".
+  std::string resume;                    ///< A checkpoint to resume, or "".
+  std::string aovs;                      ///< Layers, in place of the scene's own.
+  std::optional<double> exposure = 0.0;  ///< Stops; nothing: what suits the image.
   bool quiet = false;
 };
 

@@ -49,10 +49,12 @@ from .rendering.result import Groups, Replay, Result
 from .rendering.start import render, render_progressive, replay, resume, start
 from .scenes.loading import load_dict, load_file, load_string
 from .scenes.transforms import Transform
+from .scenes.traversal import SceneParameters, traverse
 
 if TYPE_CHECKING:
     from . import lab, race
-    from .race import Program, Race, RaceResult, equal_time
+    from .race import Program, Race, RaceResult
+    from .race.equal_time import equal_time
     from .viewing import view
 
 __all__ = [
@@ -73,6 +75,7 @@ __all__ = [
     "Result",
     "Scene",
     "SceneError",
+    "SceneParameters",
     "Technique",
     "Transform",
     "UsageError",
@@ -103,6 +106,7 @@ __all__ = [
     "scenes",
     "start",
     "tonemap",
+    "traverse",
     "view",
     "write_image",
 ]
@@ -115,10 +119,17 @@ _LATER = {"view": "viewing"} | dict.fromkeys(
 )
 
 
-def __getattr__(name: str):
-    """What not every program needs."""
-    if name in ("lab", "race"):
-        return _importlib.import_module(f"{__name__}.{name}")
-    if name in _LATER:
-        return getattr(_importlib.import_module(f"{__name__}.{_LATER[name]}"), name)
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+if not TYPE_CHECKING:  # a type checker would take any name for one of this module
+
+    def __getattr__(name: str):
+        """What not every program needs."""
+        if name in ("lab", "race"):
+            return _importlib.import_module(f"{__name__}.{name}")
+        if name in _LATER:
+            return getattr(_importlib.import_module(f"{__name__}.{_LATER[name]}"), name)
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    """For completion, with what is imported where it is first used."""
+    return sorted({*globals(), *__all__})

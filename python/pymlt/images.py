@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import os
 import warnings
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from . import _core
 from .pictures.output import OutputFile
+from .pictures.tonemapping import Exposure
 
 if TYPE_CHECKING:
     import numpy as np
@@ -73,6 +74,30 @@ def layer_names(path: str | os.PathLike[str]) -> list[str]:
     return sorted({name.rpartition(".")[0] for name in channels if "." in name})
 
 
+def read_header(path: str | os.PathLike[str]) -> dict[str, Any]:
+    """What an image file is, without its pixels.
+
+    Returns a dict of size ((width, height), pixels), format ("openexr", "png", ...), samples
+    ("half", "float", "uint8", ...), channels (their names, with those of layers) and metadata
+    (texts of an EXR file). Raises FileError for a file that cannot be read.
+    """
+    import OpenImageIO
+
+    path = os.fspath(path)
+    file = OpenImageIO.ImageInput.open(path)
+    if file is None:
+        raise _core.FileError(f"{path}: {OpenImageIO.geterror().strip() or 'cannot be read'}")
+    spec, kind = file.spec(), file.format_name()
+    file.close()
+    return {
+        "size": (spec.width, spec.height),
+        "format": kind,
+        "samples": str(spec.format),
+        "channels": list(spec.channelnames),
+        "metadata": read_metadata(path) if kind == "openexr" else {},
+    }
+
+
 def read_metadata(path: str | os.PathLike[str]) -> dict[str, str]:
     """The text attributes of an EXR file: how a render was made. Raises FileError."""
     return _core.read_metadata(os.fspath(path))
@@ -82,7 +107,7 @@ def write_image(
     path: str | os.PathLike[str],
     image: ArrayLike,
     *,
-    exposure: float = 0,
+    exposure: Exposure = 0,
     tonemap: str = "srgb",
     half: bool = False,
     metadata: dict[str, str] | None = None,
@@ -93,8 +118,8 @@ def write_image(
         floats of shape (height, width) or (height, width, channels), with at most 4 channels; 1 is
         white. What is not a number becomes 0, with a warning, in all files but .exr.
     exposure, tonemap
-        for pictures, which are sRGB-encoded: stops by which they are brightened, and the curve, as
-        `pymlt.tonemap` has them.
+        for pictures, which are sRGB-encoded: stops by which they are brightened ("auto": as suits
+        the image), and the curve, as `pymlt.tonemap` has them.
     half, metadata
         for .exr: 16-bit samples, and texts for the header.
 

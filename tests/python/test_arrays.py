@@ -85,6 +85,22 @@ def test_textures_from_arrays_are_those_of_files(tmp_path):
     np.testing.assert_array_equal(image(textured({"data": CHECKS})), file)
 
 
+class Bitmap:
+    """What of an `mi.Bitmap` is looked at."""
+
+    def __array__(self, dtype=None, copy=None):
+        return CHECKS
+
+
+def test_a_bitmap_is_data_by_the_name_that_mitsuba_has():
+    expected = image(textured({"data": CHECKS}))
+    for bitmap in CHECKS, Bitmap():
+        np.testing.assert_array_equal(image(textured({"bitmap": bitmap})), expected)
+    sky = np.ones((4, 8, 3), np.float32)
+    sky_scenes = [scene(mesh(), sky={"type": "envmap", key: sky}) for key in ("data", "bitmap")]
+    np.testing.assert_array_equal(*map(image, sky_scenes))
+
+
 def test_grey_arrays_have_two_dimensions():
     grey = np.array([[0.1, 0.5], [0.9, 0.3]])
     np.testing.assert_array_equal(
@@ -139,6 +155,7 @@ def test_mistakes_in_meshes_are_named(shape, message):
         ({"data": np.zeros((2, 2), np.int64)}, "'data' has the dtype int64"),
         ({"data": np.full((2, 2), np.inf)}, "'data' is not finite"),
         ({"data": CHECKS, "filename": "x.png"}, "exclude each other"),
+        ({"data": CHECKS, "bitmap": CHECKS}, "'data' and 'bitmap' are the same"),
         ({"data": np.zeros((0, 2))}, "0"),
         ({}, "filename"),
     ],

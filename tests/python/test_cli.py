@@ -18,6 +18,8 @@ import tiny
 from command_line import PYMLT, mlt_render, run, the_error
 
 import pymlt as mlt
+from pymlt import cli
+from pymlt.cli import info
 
 # ---- what a render makes -----------------------------------------------------------------------
 
@@ -74,6 +76,14 @@ def test_exposure_is_for_png_alone(program, scene):
     run(program, scene, "--spp", 4, "-o", "b.png", "-o", "b.exr", "--exposure", "-2")
     assert np.array_equal(mlt.read_image("a.exr"), mlt.read_image("b.exr"))
     assert mlt.read_image("b.png").mean() < 0.5 * mlt.read_image("a.png").mean()
+
+
+def test_an_exposure_may_be_what_suits_the_image(program, scene):
+    run(program, scene, "--spp", 4, "-o", "a.png", "-o", "a.exr", "--exposure", "auto")
+    mlt.write_image("b.png", mlt.read_image("a.exr"), exposure="auto")
+    assert Path("a.png").read_bytes() == Path("b.png").read_bytes()
+    mlt.write_image("c.png", mlt.read_image("a.exr"))
+    assert Path("a.png").read_bytes() != Path("c.png").read_bytes()
 
 
 def test_time_is_a_budget(program, scene):
@@ -403,10 +413,67 @@ def test_compare_explains_mistakes(images, arguments, what):
 
 
 def test_info_tells_what_a_scene_holds(scene):
-    info = json.loads(run(PYMLT, "info", scene, "-D", "res=40", "--json").stdout)
-    assert info["size"] == [40, 12]
-    assert info["shapes"] == 3
+    told = json.loads(run(PYMLT, "info", scene, "-D", "res=40", "--json").stdout)
+    assert told["size"] == [40, 12]
+    assert told["shapes"] == 3
     assert "40 x 12" in run(PYMLT, "info", scene, "-D", "res=40").stdout
+
+
+def test_info_has_numbers_for_people():
+    assert [info.count(n) for n in (8194, 1_234_567, 2 * 10**9)] == [
+        "8194",
+        "1.23 million",
+        "2 billion",
+    ]
+    sizes = [info.memory(n) for n in (0, 999, 999_600, 34_000_000)]
+    assert sizes == ["0 bytes", "999 bytes", "1 MB", "34 MB"]
+    shown = run(PYMLT, "info", "ring").stdout
+    assert re.search(r"^memory +\d+ kB$", shown, re.M)
+    assert re.search(r"^center +[-\d., ]+$", shown, re.M)
+
+
+def test_info_shows_the_header_of_an_image(program, scene):
+    run(program, scene, "--spp", 4, "--seed", 7, "--aov", "depth", "-o", "a.exr", "-o", "a.png")
+    shown = run(PYMLT, "info", "a.exr").stdout
+    assert re.search(r"^size +16 x 12$", shown, re.M)
+    assert re.search(r"^channels +.*\bR\b.*depth", shown, re.M)
+    assert re.search(r"^seed +7$", shown, re.M)
+    header = json.loads(run(PYMLT, "info", "a.png", "--json").stdout)
+    assert header["size"] == [16, 12]
+    assert (header["format"], header["samples"], header["metadata"]) == ("png", "uint8", {})
+    Path("b.exr").write_bytes(Path("a.exr").read_bytes()[:40])
+    assert "b.exr" in the_error(run(PYMLT, "info", "b.exr"))
+
+
+def test_help_groups_the_commands_and_shows_examples():
+    shown = run(PYMLT, "--help").stdout
+    for name in cli.COMMANDS:
+        assert re.search(rf"^  {name} +[A-Z]", shown, re.M)
+    examples = shown.partition("examples:\n")[2].splitlines()
+    assert len(examples) > 3
+    for example in examples[:-1]:
+        cli.make_parser().parse_args(shlex.split(example)[1:])
+
+
+def test_a_shell_completes_commands_flags_and_files(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    Path("hut.exr").touch()
+    Path("complete.sh").write_text(run(PYMLT, "--print-completion", "bash").stdout)
+
+    def completed(*words):
+        script = 'source ./complete.sh; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); '
+        script += "$(complete -p pymlt | grep -oP '(?<=-F )\\S+'); echo ${COMPREPLY[@]}"
+        return run(["bash", "-c", script, "bash"], *words).stdout.split()
+
+    assert completed("pymlt", "rend") == ["render"]
+    assert completed("pymlt", "render", "--expo") == ["--exposure"]
+    assert completed("pymlt", "merge", "hu") == ["hut.exr"]
+
+
+def test_completion_says_what_it_needs(monkeypatch, capsys):
+    monkeypatch.setitem(sys.modules, "shtab", None)
+    assert cli.main(["--print-completion", "zsh"]) == 2
+    assert "--print-completion needs `pip install 'shtab>=" in capsys.readouterr().err
 
 
 def test_built_in_scenes_have_names(tmp_path, monkeypatch):
@@ -422,7 +489,10 @@ def test_built_in_scenes_have_names(tmp_path, monkeypatch):
 def test_list_names_plug_ins_and_scenes():
     assert "diffuse" in run(PYMLT, "list", "bsdf").stdout.split()
     assert "cornell_box" in run(PYMLT, "list", "scenes").stdout.split()
-    assert "integrator: " in run(PYMLT, "list").stdout
+    everything = run(PYMLT, "list").stdout
+    assert "\nintegrator:\n" in everything
+    assert re.search(r"^  bitmap +An image, interpolated between its texels", everything, re.M)
+    assert re.search(r"^  ring +\w", everything, re.M)
     assert "did you mean 'bsdf'?" in the_error(run(PYMLT, "list", "bsfd"))
 
 

@@ -54,6 +54,15 @@ def test_older_names_and_integrator_objects_are_accepted():
     assert np.array_equal(pixels(scene), pixels(tiny.scene()))
 
 
+def test_an_srgb_colour_is_linear_as_in_mitsuba():
+    scene = tiny.scene()
+    scene["clay"]["reflectance"] = {"type": "srgb", "color": [0.7, 0.4, 0.2]}
+    assert np.array_equal(pixels(mlt.load_dict(scene)), pixels(mlt.load_dict(tiny.scene())))
+    scene["clay"]["reflectance"] = {"type": "srgb", "value": [0.7, 0.4, 0.2]}
+    with pytest.raises(mlt.SceneError, match="unknown 'value'; valid are: type, color"):
+        mlt.load_dict(scene)
+
+
 def test_uniform_spectra_are_numbers():
     grey, uniform, flat = tiny.scene(), tiny.scene(), tiny.scene()
     grey["clay"]["reflectance"] = 0.25

@@ -7,6 +7,7 @@ import sys
 import threading
 import time
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -84,6 +85,64 @@ EDITS = {
     "sun.sun_scale": 0.5,
     "spot.to_world": T.look_at(origin=[1, 2, 1], target=[0, 0, 0], up=[0, 1, 0]),
 }
+
+
+def test_parameters_are_set_by_name_and_then_updated():
+    scene = mlt.load_dict(house())
+    before = scene.hash
+    params = mlt.traverse(scene)
+    assert dict(params).keys() == scene.parameters().keys()
+    for name, value in EDITS.items():
+        params[name] = value
+    assert params.scene is scene
+    assert params.update() is params.scene
+    assert_same(params.scene, scene.updated(EDITS))
+    assert scene.hash == before
+    np.testing.assert_array_equal(image(params), image(params.scene))
+    assert params["sensor.fov"] == 55.0
+    params.update({"sensor.fov": 40.0})
+    assert params.scene.parameters()["sensor.fov"] == 40.0
+
+
+def test_parameters_that_do_not_fit_leave_everything_as_it_was():
+    params = mlt.traverse(mlt.load_dict(tiny.scene()))
+    scene = params.scene
+    with pytest.raises(mlt.UsageError, match=r"no parameter 'sensor\.fow'.*'sensor\.fov'"):
+        params["sensor.fow"] = 3
+    params["sensor.fov"] = "wide"
+    with pytest.raises(mlt.SceneError, match=r"sensor\.fov"):
+        params.update()
+    assert params.scene is scene
+    assert params["sensor.fov"] == 40.0
+    assert params.update().hash == scene.hash
+    with pytest.raises(mlt.UsageError, match="cannot be taken"):
+        del params["sensor.fov"]
+
+
+@pytest.mark.parametrize("make", [tiny.scene, house, mlt.scenes.motion], ids=lambda f: f.__name__)
+def test_a_dict_can_be_written_as_xml(tmp_path, make):
+    assert mlt.convert(make(), tmp_path / "scene.xml") == []
+    np.testing.assert_array_equal(image(tmp_path / "scene.xml"), image(make()))
+
+
+def test_a_dict_of_any_form_can_be_written_as_xml(tmp_path):
+    scene = tiny.scene()
+    scene["integrator"] = mlt.Path(max_depth=3)
+    scene["sensor"]["fov"] = np.float32(50)
+    scene["ball"]["center"] = np.array([0, 0.5, 0])
+    scene["floor"]["to_world"] = scene["floor"]["to_world"].matrix.tolist()
+    scene["clay"]["reflectance"] = {"type": "bitmap", "bitmap": TEXELS, "raw": True}
+    scene["lamp"]["emitter"]["radiance"] = {"type": "spectrum", "value": [(400, 1), (700, 2.5)]}
+    scene["body"] = SimpleNamespace(vertices=VERTICES, faces=FACES)
+    mlt.convert(scene, tmp_path / "scene.xml")
+    written = mlt.load(tmp_path / "scene.xml")
+    np.testing.assert_array_equal(image(written, None), image(mlt.load_dict(scene), None))
+
+
+def test_a_dict_that_is_no_scene_is_not_written(tmp_path):
+    with pytest.raises(mlt.SceneError, match="unknown type 'bal'"):
+        mlt.convert({"type": "scene", "ball": {"type": "bal"}}, tmp_path / "scene.xml")
+    assert not list(tmp_path.iterdir())
 
 
 def changed(scene: dict, edits: dict) -> dict:

@@ -355,7 +355,7 @@ def test_files_that_contradict_themselves_are_refused():
             mlt.load(f"{name}.glb")
 
 
-@pytest.mark.parametrize(("source", "target"), [("a.obj", "b.xml"), ("a.glb", "b.json")])
+@pytest.mark.parametrize(("source", "target"), [("a.fbx", "b.xml"), ("a.glb", "b.json")])
 def test_only_known_formats_are_converted(source, target):
     floor_file().save("a.glb")
     with pytest.raises(mlt.UsageError):

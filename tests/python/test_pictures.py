@@ -11,6 +11,7 @@ import tiny
 
 import pymlt as mlt
 from pymlt import cli
+from pymlt.pictures.tonemapping import stops_of
 
 CURVES = ["srgb", "reinhard", "filmic"]
 
@@ -52,6 +53,26 @@ def test_exposure_is_in_stops_and_alpha_stays(curve):
     assert mlt.tonemap(rgba[..., 0], curve).shape == (3, 4)
 
 
+def test_an_exposure_that_suits_shows_nineteen_pixels_of_twenty_below_white():
+    image = np.random.default_rng(1).permutation(1000.0 + np.arange(4000)).reshape(80, 50)
+    image.flat[:4] = 1e30
+    shown = mlt.tonemap(image, "srgb", exposure="auto")
+    assert np.quantile(shown, 0.95) == pytest.approx(0.8, abs=0.001)
+
+
+def test_every_picture_takes_an_exposure_that_suits(tmp_path, result):
+    stops = stops_of("auto", result.image)
+    assert stops != 0
+    for name in "a.png", "a.jpg":
+        result.write(tmp_path / f"auto-{name}", "auto", tonemap="filmic")
+        result.write(tmp_path / f"stops-{name}", stops, tonemap="filmic")
+        auto, given = ((tmp_path / f"{kind}-{name}").read_bytes() for kind in ("auto", "stops"))
+        assert auto == given
+    mlt.write_image(tmp_path / "b.png", result.image, exposure="auto")
+    mlt.write_image(tmp_path / "c.png", result.image, exposure=stops)
+    assert (tmp_path / "b.png").read_bytes() == (tmp_path / "c.png").read_bytes()
+
+
 def test_samples_that_are_no_numbers_are_black():
     shown = mlt.tonemap(np.array([[np.nan, -1, np.inf, 1e300]]), "filmic")
     assert shown[0] == pytest.approx([0, 0, 1, 1])
@@ -64,6 +85,7 @@ def test_samples_that_are_no_numbers_are_black():
         ({"curve": "x"}, "srgb, reinhard, filmic"),
         ({"exposure": 129}, "-128 and 128"),
         ({"exposure": np.nan}, "-128 and 128"),
+        ({"exposure": "bright"}, "'auto'"),
     ],
 )
 def test_mistakes_in_tone_curves_are_named(arguments, message):

@@ -88,6 +88,25 @@ def test_the_script_makes_the_files_that_are_there(path, tmp_path):
             assert (folder / name).stat().st_size == (path.parent / name).stat().st_size
 
 
+# ---- names -------------------------------------------------------------------------------------
+
+
+def test_a_name_stands_for_a_scene():
+    image = mlt.render("door-ajar", "path", spp=1, seed=1)
+    loaded = mlt.load_dict(mlt.scenes.door_ajar())
+    assert np.array_equal(image, mlt.render(loaded, "path", spp=1, seed=1))
+    small = mlt.load("dof", size=(8, 6), aperture=0.25)
+    assert (small.width, small.height) == (8, 6)
+    assert small.hash == mlt.load_dict(mlt.scenes.dof(aperture=0.25), size=(8, 6)).hash
+
+
+def test_a_name_that_stands_for_nothing_names_what_was_meant():
+    with pytest.raises(mlt.UsageError, match=r"neither a file nor a built-in scene.*'door_ajar'"):
+        mlt.render("door-ajr")
+    with pytest.raises(mlt.FileError, match=r"ring\.xml: there is no such file"):
+        mlt.load("ring.xml")
+
+
 # ---- the furnace -------------------------------------------------------------------------------
 
 

@@ -1,5 +1,5 @@
-"""The command line: pymlt render | merge | compare | denoise | convert | info | list | lab | race |
-view.
+"""The command line: pymlt render | view | merge | denoise | compare | info | list | convert |
+race | lab.
 
 Exit codes: 0 done; 1 `compare --fail-above` found more; 2 a mistake in usage or in the scene, or an
 output that cannot be written, found before the work began; 3 the render failed, or an output at its
@@ -9,6 +9,7 @@ what was rendered saved. Every error is one line on stderr.
 
 from __future__ import annotations
 
+import argparse
 import signal
 import sys
 import traceback
@@ -16,19 +17,22 @@ import traceback
 from .. import _core
 from . import compare, convert, denoise, info, lab, listing, merge, race, render, view
 from .common import Parser, open_standard_streams, say
+from .completion import SHELLS, PrintCompletion
 
-COMMANDS = {
-    "render": render,
-    "merge": merge,
-    "compare": compare,
-    "denoise": denoise,
-    "convert": convert,
-    "info": info,
-    "list": listing,
-    "lab": lab,
-    "race": race,
-    "view": view,
+GROUPS = {
+    "render": {"render": render, "view": view},
+    "images": {"merge": merge, "denoise": denoise, "compare": compare},
+    "scenes": {"info": info, "list": listing, "convert": convert},
+    "algorithms": {"race": race, "lab": lab},
 }
+COMMANDS = {name: module for group in GROUPS.values() for name, module in group.items()}
+EXAMPLES = (
+    "pymlt render ring --time 60 --exposure auto -o ring.exr -o ring.png",
+    "pymlt render scene.xml --integrator path -p max_depth=8 --spp 64 -o out.exr",
+    "pymlt view bunny.ply --open",
+    "pymlt list integrator",
+    "pymlt COMMAND --help",
+)
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -58,15 +62,34 @@ def fail(code: int, error: BaseException) -> int:
 def make_parser() -> Parser:
     parser = Parser(
         prog="pymlt",
+        usage="pymlt [-h] [--version] [--print-completion SHELL] COMMAND ...",
         description="An open renderer for Metropolis light transport.",
+        epilog=overview(),
+        formatter_class=argparse.RawDescriptionHelpFormatter,
         allow_abbrev=False,
     )
     parser.add_argument("--version", action="version", version=f"pymlt {_core.__version__}")
+    parser.add_argument(
+        "--print-completion",
+        choices=SHELLS,
+        action=PrintCompletion,
+        help="print what this shell needs to complete commands, flags and files",
+    )
     parser.set_defaults(command=lambda _: parser.print_help() or 0)
-    commands = parser.add_subparsers(metavar=f"{{{','.join(COMMANDS)}}}", parser_class=Parser)
+    commands = parser.add_subparsers(
+        metavar="COMMAND", parser_class=Parser, help=argparse.SUPPRESS, prog="pymlt"
+    )
     for name, module in COMMANDS.items():
         help = module.HELP
         command = commands.add_parser(name, help=help, description=help, allow_abbrev=False)
         command.set_defaults(command=module.run)
         module.add_arguments(command)
     return parser
+
+
+def overview() -> str:
+    """The commands by what they are for, and examples."""
+    lines = []
+    for title, group in GROUPS.items():
+        lines += [f"{title}:", *(f"  {name:9} {module.HELP}" for name, module in group.items()), ""]
+    return "\n".join([*lines, "examples:", *(f"  {example}" for example in EXAMPLES)])

@@ -8,9 +8,8 @@ import os
 import sys
 from collections.abc import Callable
 
-from .. import _core, scenes
-from ..formats.files import is_foreign, load_foreign
-from ..scenes.loading import load_built_in, load_file
+from .. import _core
+from ..formats.loading import load_with_warnings
 
 FLAGS = {flag.name: flag for flag in _core.render_flags()}
 
@@ -92,34 +91,12 @@ def reader(read: Callable[[str], object]) -> Callable[[str], object]:
     return call
 
 
-def built_in_name(text: str) -> str | None:
-    """The name of the built-in scene that somebody means, who may have written door-ajar."""
-    name = text.replace("-", "_")
-    return name if name in scenes.names() else None
-
-
 def load_scene(args) -> _core.Scene:
     """The file or the built-in scene that the arguments `scene`, `defines` and so on mean."""
-    defines, size = dict(args.defines), getattr(args, "size", None)
-    sensor, filter = getattr(args, "sensor", None), getattr(args, "filter", None)
-    if os.path.exists(args.scene) and is_foreign(args.scene):
-        if args.lenient or args.strict or defines:
-            raise _core.UsageError(f"{args.scene}: -D, --lenient and --strict are for Mitsuba XML")
-        scene, found = load_foreign(args.scene, size, sensor, filter or "")
-        warn([f"{args.scene}: {text}" for text in found])
-        return scene
-    if os.path.exists(args.scene):
-        if args.lenient and args.strict:
-            raise _core.UsageError("--lenient and --strict exclude each other")
-        lenient = args.lenient or (False if args.strict else None)
-        return load_file(
-            args.scene, size=size, lenient=lenient, sensor=sensor, filter=filter, **defines
-        )
-    if name := built_in_name(args.scene):
-        return load_built_in(name, defines, size, sensor, filter)
-    if "." in args.scene or os.sep in args.scene:
-        raise _core.FileError(f"{args.scene}: there is no such file")
-    raise _core.UsageError(
-        f"{args.scene!r} is neither a file nor a built-in scene"
-        + _core.suggestion(args.scene.replace("-", "_"), scenes.names()),
-    )
+    if args.lenient and args.strict:
+        raise _core.UsageError("--lenient and --strict exclude each other")
+    settings = {name: getattr(args, name, None) for name in ("size", "sensor", "filter")}
+    lenient = args.lenient or (False if args.strict else None)
+    scene, found = load_with_warnings(args.scene, dict(args.defines), lenient=lenient, **settings)
+    warn([f"{args.scene}: {text}" for text in found])
+    return scene

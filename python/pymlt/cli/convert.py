@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from ..formats.files import convert
+from ..formats.files import EXTENSIONS, convert
 from .common import say, warn
 
-HELP = "Write a glTF or pbrt-v4 scene as Mitsuba XML, with its meshes and images beside it."
+HELP = "Write a scene of glTF or pbrt-v4, or a mesh, as Mitsuba XML, meshes and images beside it."
 
 
 def add_arguments(command) -> None:
-    command.add_argument("input", metavar="IN", help=".gltf, .glb or .pbrt")
+    command.add_argument("input", metavar="IN", help=", ".join(EXTENSIONS))
     command.add_argument("output", metavar="OUT", help=".xml")
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ..pictures.tonemapping import CURVES, check_tonemap
+from ..pictures.tonemapping import CURVES, Exposure, check_tonemap
 from .common import FLAGS, Parser, add_flag, reader
 
 TONEMAP_HELP = f"tone curve of pictures (PNG, JPEG): {', '.join(CURVES)} (srgb: clip at 1)"
@@ -23,6 +23,5 @@ def add_display_flags(command: Parser) -> None:
     add_tonemap(command)
 
 
-def exposure(args) -> float:
-    """In stops."""
-    return args.exposure or 0
+def exposure(args, default: Exposure = 0) -> Exposure:
+    return default if args.exposure is None else args.exposure

@@ -14,7 +14,7 @@ from .._extras import import_extra
 from ..algorithms.integrator import as_integrator
 from ..rendering.progress import progress_bar
 from .common import FLAGS, add_flag, emit, load_scene, reader, say, warn
-from .display import add_tonemap
+from .display import add_tonemap, exposure
 from .figures import check_figure_file
 from .signals import Signals
 
@@ -26,7 +26,7 @@ SHARED = ("parameters", "defines", "size", "sensor", "lenient", "strict")
 HELP_HERE = {
     "parameters": "parameter of every --algorithm; may be repeated",
     "seed": "seed of the first image of each algorithm (0); others count on from it",
-    "exposure": "brighten pictures by this number of stops (as suits the scene)",
+    "exposure": "brighten pictures by this number of stops, or auto, as suits the scene (auto)",
 }
 
 
@@ -235,7 +235,7 @@ def prepared(args, index: int) -> Callable[..., RaceResult]:
 def save(race: Race, path: str, args) -> bool:
     """Whether the file is where it was asked for; says where it is."""
     kind = os.path.splitext(path)[1][1:].lower()
-    shown = {"exposure": args.exposure, "tonemap": args.tonemap}
+    shown = {"exposure": exposure(args, "auto"), "tonemap": args.tonemap}
     if kind == "html":
         content = race.html(**shown).encode()
     elif kind == "json":

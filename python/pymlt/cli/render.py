@@ -9,13 +9,14 @@ from dataclasses import fields
 from .. import _core
 from .._extras import import_extra
 from ..algorithms.integrator import as_integrator
+from ..formats.loading import built_in_name
 from ..pictures.output import EXTENSIONS, check_writable
 from ..rendering.job import Job
 from ..rendering.options import RenderOptions
 from ..rendering.progress import progress_bar
 from ..rendering.result import Result
 from ..rendering.start import saved_job
-from .common import FLAGS, add_flag, built_in_name, load_scene, say, warn
+from .common import FLAGS, add_flag, load_scene, say, warn
 from .display import add_tonemap, exposure
 from .signals import Signals
 
@@ -24,9 +25,10 @@ HELP = "Render a scene to image files."
 
 # Where pymlt can do more than mlt-render.
 HELP_HERE = {
-    "scene": "Mitsuba XML, glTF 2.0 or pbrt-v4 file, or the name of a built-in scene",
+    "scene": "Mitsuba XML, glTF 2.0 or pbrt-v4 file, a mesh (.ply, .obj, .stl), or "
+    "the name of a built-in scene",
     "output": f"image file: {', '.join(EXTENSIONS)}; may be repeated",
-    "exposure": "brighten PNG and JPEG files by this number of stops",
+    "exposure": "brighten PNG and JPEG files by this number of stops; auto: as suits the image",
 }
 
 

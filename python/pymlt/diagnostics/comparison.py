@@ -6,7 +6,7 @@ import os
 from typing import TYPE_CHECKING, Any
 
 from .._extras import import_extra
-from ..pictures.tonemapping import encode_srgb
+from ..pictures.tonemapping import Exposure, encode_srgb, stops_of
 from ..pictures.tonemapping import tonemap as tone_mapped
 from .metrics import compare, flip_map, image_pair, relative_error
 
@@ -23,7 +23,7 @@ def comparison_figure(
     image: ArrayLike | str | os.PathLike[str],
     reference: ArrayLike | str | os.PathLike[str],
     *,
-    exposure: float = 0,
+    exposure: Exposure = 0,
     tonemap: str = "srgb",
 ) -> Figure:
     """A matplotlib figure of an image a, its reference r, and how they differ.
@@ -31,7 +31,8 @@ def comparison_figure(
     image, reference
         arrays, results or file names, of one size, as `compare` takes them.
     exposure, tonemap
-        how both are shown, as `write_image` has them; the maps and numbers are of linear light.
+        how both are shown, as `write_image` has them ("auto" suits the reference);
+        the maps and numbers are of linear light.
 
     The maps are a - r (the mean of the channels; red is too bright, blue too dark), the relative
     error `|a - r| / (|r| + 0.01)`, and HDR-FLIP (Andersson et al. 2021) from 0 to 1. The colours of
@@ -42,6 +43,7 @@ def comparison_figure(
     """
     figures = import_extra("matplotlib.figure", "plots", "a picture of a comparison")
     a, r = image_pair(image, reference)
+    stops = stops_of(exposure, r)
     flip, _ = flip_map(a, r)
     height, width = a.shape[:2]
     figure: Figure = figures.Figure(
@@ -51,7 +53,7 @@ def comparison_figure(
     for cell in axes:
         cell.set_axis_off()
     for cell, pixels, title in zip(axes, (a, r), ("image", "reference"), strict=False):
-        shown = encode_srgb(tone_mapped(pixels, tonemap, exposure=exposure))
+        shown = encode_srgb(tone_mapped(pixels, tonemap, exposure=stops))
         _show(cell, title, shown.repeat(3 // shown.shape[2], axis=2))
     axes[2].text(0, 1, _numbers(compare(a, r)), family="monospace", va="top", fontsize=12)
     difference, relative = (a - r).mean(axis=2), relative_error(a, r)

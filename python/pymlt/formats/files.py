@@ -10,16 +10,18 @@ from typing import TYPE_CHECKING, Any
 
 from .. import _core
 from ..scenes.arrays import with_bytes
+from ..scenes.loading import load_dict
 from . import limits
 
 if TYPE_CHECKING:
     from .imported import Imported
 
-EXTENSIONS = (".gltf", ".glb", ".pbrt")
+MESHES = (".ply", ".obj", ".stl")
+EXTENSIONS = (".gltf", ".glb", ".pbrt", *MESHES)
 
 
 def is_foreign(path: str | os.PathLike[str]) -> bool:
-    """Whether a file of this name is a scene of another program."""
+    """Whether a file of this name is a scene of another program, or a mesh alone."""
     return os.fspath(path).lower().endswith(EXTENSIONS)
 
 
@@ -48,6 +50,10 @@ def reader_of(path: Path) -> Callable[[Path, Imported], None]:
         from .pbrt import read_pbrt
 
         return read_pbrt
+    if path.suffix.lower() in MESHES:
+        from .mesh_file import read_mesh
+
+        return read_mesh
     from .gltf import read_gltf
 
     return read_gltf
@@ -67,29 +73,39 @@ def load_foreign(
     return scene, made.warnings
 
 
-def convert(path: str | os.PathLike[str], output: str | os.PathLike[str]) -> list[str]:
-    """Write a scene of another program (.gltf, .glb, .pbrt) as Mitsuba XML.
+def convert(path: str | os.PathLike[str] | dict, output: str | os.PathLike[str]) -> list[str]:
+    """Write a scene as Mitsuba XML.
 
-    Meshes (.ply) and images are written beside `output`, with names that begin as its own does.
-    Returns what has no counterpart, one line each. Raises FileError for files that cannot be read
-    or written, SceneError for what is wrong in them, UsageError for another extension or without
-    the extra that reading needs.
+    `path` names a scene of another program (.gltf, .glb, .pbrt) or a mesh (.ply, .obj, .stl), or is
+    a scene dict. Its meshes (.ply) and images are written beside `output`, with names that begin as
+    its own does. Returns what has no counterpart, one line each. Raises FileError for files that
+    cannot be read or written, SceneError for what is wrong in them, UsageError for another
+    extension or without the extra that reading needs.
     """
     from .written import Written
     from .xml_writer import to_xml
 
     target = Path(os.fspath(output))
-    if not is_foreign(path):
+    if not isinstance(path, dict) and not is_foreign(path):
         raise _core.UsageError(
             f"{os.fspath(path)}: cannot be converted; valid are: {', '.join(EXTENSIONS)}"
         )
     if target.suffix.lower() != ".xml":
         raise _core.UsageError(f"{target}: a scene is written as .xml")
     _core.check_file_writable(str(target))
-    made = read_foreign(path)
+    made = described(path) if isinstance(path, dict) else read_foreign(path)
     scene = Written(target.parent, target.stem).scene(made.scene)
     target.write_text(to_xml(scene, target.parent), encoding="utf-8")
     return made.warnings
+
+
+def described(scene: dict) -> Imported:
+    """A scene dict, which `load_dict` has accepted. Raises SceneError if it does not."""
+    from .imported import Imported
+    from .plain import plain
+
+    load_dict(scene)
+    return Imported(plain(scene))
 
 
 def warn_all(path: Any, texts: list[str]) -> None:

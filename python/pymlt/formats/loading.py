@@ -4,43 +4,90 @@ from __future__ import annotations
 
 import os
 
-from .. import _core
-from ..scenes.loading import filter_name, image_size, load_dict, load_file, sensor_index
+from .. import _core, scenes
+from ..scenes.loading import (
+    define_texts,
+    filter_name,
+    image_size,
+    load_built_in,
+    load_dict,
+    load_file,
+    sensor_index,
+)
+from ..scenes.traversal import SceneParameters
 from .files import is_foreign, load_foreign, warn_all
 
-SceneLike = _core.Scene | dict | str | os.PathLike
+SceneLike = _core.Scene | SceneParameters | dict | str | os.PathLike
 
 
 def load(path, /, *, size=None, lenient=None, sensor=None, filter=None, **defines) -> _core.Scene:
-    """Load a scene from a file of any known format, which its extension tells.
+    """Load a scene from a file of any known format, which its extension tells, or by its name.
 
     .gltf, .glb
         glTF 2.0; needs the extra `gltf`.
     .pbrt
         pbrt-v4.
-    anything else
-        Mitsuba XML; see `load_file` for `lenient` and `defines`, which only these files have.
+    .ply, .obj, .stl
+        one mesh, in which y is up, with a grey material, light, and a camera that it fits.
+    anything else that exists
+        Mitsuba XML; see `load_file` for `lenient` and `defines`.
+    the name of a built-in scene ("ring", "door-ajar"; see `pymlt.scenes`)
+        that scene; `defines` are its parameters.
 
     `size` is the image's (width, height) in pixels, `sensor` says which of several cameras is
     meant, `filter` names another reconstruction filter. What a file of another program has and a
     Mitsuba scene cannot say is named in a warning of Python. Raises FileError, SceneError and
     UsageError, as `load_file` and `convert` do.
     """
-    if not is_foreign(path):
-        return load_file(path, size=size, lenient=lenient, sensor=sensor, filter=filter, **defines)
-    if defines or lenient is not None:
-        raise _core.UsageError(f"{os.fspath(path)}: only Mitsuba XML has defines and is lenient")
-    scene, found = load_foreign(path, image_size(size), sensor_index(sensor), filter_name(filter))
+    scene, found = load_with_warnings(path, defines, size, lenient, sensor, filter)
     warn_all(path, found)
     return scene
 
 
+def load_with_warnings(
+    path, defines: dict, size=None, lenient=None, sensor=None, filter=None
+) -> tuple[_core.Scene, list[str]]:
+    """What `load` loads, and what of the file has no counterpart in a Mitsuba scene."""
+    asked = image_size(size), sensor_index(sensor), filter_name(filter)
+    text = os.fspath(path)
+    if not os.path.exists(text):
+        return load_built_in(existing_name(text), define_texts(defines), *asked), []
+    if not is_foreign(text):
+        settings = {"size": size, "lenient": lenient, "sensor": sensor, "filter": filter}
+        return load_file(text, **settings, **defines), []
+    if defines or lenient is not None:
+        raise _core.UsageError(
+            f"{text}: only Mitsuba XML has parameters (-D) and is read leniently or strictly"
+        )
+    return load_foreign(text, *asked)
+
+
+def built_in_name(text: str) -> str | None:
+    """The name of the built-in scene that somebody means, who may have written door-ajar."""
+    name = text.replace("-", "_")
+    return name if name in scenes.names() else None
+
+
+def existing_name(text: str) -> str:
+    """The same. Raises FileError for what looks like a file, else UsageError, if there is none."""
+    if name := built_in_name(text):
+        return name
+    if "." in text or os.sep in text:
+        raise _core.FileError(f"{text}: there is no such file")
+    raise _core.UsageError(
+        f"{text!r} is neither a file nor a built-in scene"
+        + _core.suggestion(text.replace("-", "_"), scenes.names()),
+    )
+
+
 def as_scene(scene, sensor=None) -> _core.Scene:
-    """What `scene` means: itself, a dict, or the path of a file."""
+    """What `scene` means: itself, a dict, the path of a file, or a built-in scene's name."""
+    if isinstance(scene, SceneParameters):
+        scene = scene.scene
     if isinstance(scene, _core.Scene):
         return scene if sensor is None else scene.with_sensor(sensor_index(sensor))
     if isinstance(scene, dict):
         return load_dict(scene, sensor=sensor)
     if isinstance(scene, str | os.PathLike):
         return load(scene, sensor=sensor)
-    raise _core.UsageError(f"{scene!r} is not a scene, a dict, or the path of a file")
+    raise _core.UsageError(f"{scene!r} is not a scene, a dict, the path of a file, or a name")

@@ -28,8 +28,10 @@ def _plugin(
         return
     tag = family(plugin["type"], name)
     element = ET.SubElement(parent, tag, {"type": plugin["type"], named: name})
+    if "id" in plugin:
+        element.set("id", plugin["id"])
     for key, value in plugin.items():
-        if key != "type":
+        if key not in ("type", "id"):
             _value(element, key, value, folder)
 
 
@@ -38,9 +40,14 @@ def _value(parent: ET.Element, name: str, value: Any, folder: Path) -> None:
         numbers = value["value"]
         text = _numbers(numbers) if isinstance(numbers, list) else repr(numbers)
         ET.SubElement(parent, "rgb", name=name, value=text)
-    elif isinstance(value, dict) and value["type"] == "spectrum":
-        text = ", ".join(f"{wave!r}:{power!r}" for wave, power in value["value"])
+    elif isinstance(value, dict) and value["type"] in ("spectrum", "uniform"):
+        text = _spectrum(value["value"])
         ET.SubElement(parent, "spectrum", name=name, value=text)
+    elif isinstance(value, dict) and value["type"] == "animation":
+        animation = ET.SubElement(parent, "animation", name=name)
+        for time, transform in value.items():
+            if time != "type":
+                _transform(animation, transform, time=str(time))
     elif isinstance(value, dict):
         _plugin(parent, name, value, folder, named="name")
     elif isinstance(value, list):
@@ -54,9 +61,20 @@ def _value(parent: ET.Element, name: str, value: Any, folder: Path) -> None:
         tag = "integer" if isinstance(value, int) else "float"
         ET.SubElement(parent, tag, name=name, value=repr(value))
     else:
-        matrix = getattr(value, "matrix", value)
-        transform = ET.SubElement(parent, "transform", name=name)
-        ET.SubElement(transform, "matrix", value=_numbers(float(v) for v in matrix.ravel()))
+        _transform(parent, value, name=name)
+
+
+def _transform(parent: ET.Element, value: Any, **attributes: str) -> None:
+    matrix = getattr(value, "matrix", value)
+    transform = ET.SubElement(parent, "transform", attributes)
+    ET.SubElement(transform, "matrix", value=_numbers(float(v) for v in matrix.ravel()))
+
+
+def _spectrum(value: Any) -> str:
+    """One number, or pairs of a wavelength and a power."""
+    if isinstance(value, int | float):
+        return repr(float(value))
+    return ", ".join(f"{float(wave)!r}:{float(power)!r}" for wave, power in value)
 
 
 def _numbers(values: Any) -> str:

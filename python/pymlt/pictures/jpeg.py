@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from .. import _core
-from .tonemapping import encode_srgb, tonemap
+from .tonemapping import Exposure, encode_srgb, tonemap
 
 if TYPE_CHECKING:
     import numpy as np
@@ -20,7 +20,7 @@ def is_jpeg(path: str) -> bool:
     return path.lower().endswith(EXTENSIONS)
 
 
-def encode_jpeg(image: np.ndarray, curve: str, exposure: float) -> bytes:
+def encode_jpeg(image: np.ndarray, curve: str, exposure: Exposure) -> bytes:
     """A JPEG file of linear pixels: 8 bits, sRGB, full resolution of the colours.
 
     Raises UsageError for an image that JPEG cannot hold, such as one with alpha.

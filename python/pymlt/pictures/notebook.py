@@ -8,12 +8,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from .. import _core
+from .tonemapping import Exposure, stops_of
 
 if TYPE_CHECKING:
     import numpy as np
 
 
-def figure(image: np.ndarray, caption: str, exposure: float = 0) -> str:
+def figure(image: np.ndarray, caption: str, exposure: Exposure = 0) -> str:
     """HTML of a linear image, brightened by `exposure` stops, with a caption of plain text."""
     data = base64.b64encode(png(image, exposure)).decode()
     return (
@@ -22,11 +23,11 @@ def figure(image: np.ndarray, caption: str, exposure: float = 0) -> str:
     )
 
 
-def png(image: np.ndarray, exposure: float = 0) -> bytes:
+def png(image: np.ndarray, exposure: Exposure = 0) -> bytes:
     """A PNG file of a linear image."""
     import tempfile
 
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "image.png"
-        _core.write_image(str(path), image, {}, {}, False, exposure)
+        _core.write_image(str(path), image, {}, {}, False, stops_of(exposure, image))
         return path.read_bytes()

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from .. import _core
 from .jpeg import encode_jpeg, is_jpeg
 from .techniques import technique_figure, techniques_of
-from .tonemapping import check_tonemap, tonemap
+from .tonemapping import Exposure, check_tonemap, stops_of, tonemap
 
 if TYPE_CHECKING:
     import numpy as np
@@ -25,7 +25,7 @@ class OutputFile(NamedTuple):
     layers: dict[str, np.ndarray]  #: for .exr
     metadata: dict[str, str]  #: for .exr
     half: bool  #: for .exr
-    exposure: float  #: for pictures
+    exposure: Exposure  #: for pictures
     curve: str  #: for pictures
 
     def write(self) -> None:
@@ -56,12 +56,13 @@ class OutputFile(NamedTuple):
         stem, extension = os.path.splitext(path)
         if extension.lower() == ".png" and (techniques := techniques_of(self.layers)):
             picture = io.BytesIO()
-            technique_figure(techniques, self.exposure).savefig(picture, format="png")
+            stops = stops_of(self.exposure, self.image)
+            technique_figure(techniques, stops).savefig(picture, format="png")
             _core.replace_file(f"{stem}.techniques.png", picture.getvalue())
 
     def _arguments(self) -> tuple[Any, ...]:
         check_extension(self.path)
-        image, exposure = self.image, self.exposure
+        image, exposure = self.image, stops_of(self.exposure, self.image)
         check_tonemap(self.curve)
         if self.curve != "srgb" and self.path.lower().endswith(".png"):
             # C++ brightens again; powers of 2 are exact.

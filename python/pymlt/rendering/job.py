@@ -11,10 +11,12 @@ from time import monotonic
 from typing import TYPE_CHECKING
 
 from .. import _core
+from ..pictures.tonemapping import Exposure
 from .notebook import show
 from .options import RenderOptions, integer, number
 from .progress import progress_bar
 from .result import Groups, Replay, Result
+from .stats import Stats
 
 if TYPE_CHECKING:
     import numpy as np
@@ -57,7 +59,7 @@ class Job:
         return self._job.image_without_fireflies() if self._filters else self._job.image()
 
     @property
-    def stats(self) -> dict:
+    def stats(self) -> Stats:
         """What the render tells about itself so far, as `--stats` writes it; times in seconds."""
         return json.loads(self._job.stats())
 
@@ -179,11 +181,11 @@ class Job:
             metadata["fireflies"] = f"groups: {100 * removed:.2g} % of the light is removed"
         return Result(image, stats, settings, layers, metadata, self._scene.half)
 
-    def show(self, *, interval: float = 1, exposure: float = 0) -> None:
+    def show(self, *, interval: float = 1, exposure: Exposure = 0) -> None:
         """Show the image in a notebook, and renew it each `interval` seconds until the render ends.
 
-        `exposure` brightens it, in stops. Interrupting the cell ends the showing, not the render.
-        Needs IPython.
+        `exposure` brightens it, in stops, or "auto". Interrupting the cell ends the showing, not
+        the render. Needs IPython.
         """
         show(self, interval, exposure)
 

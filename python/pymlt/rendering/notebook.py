@@ -7,6 +7,7 @@ from typing import Any
 
 from .._extras import import_extra
 from ..pictures.notebook import figure
+from ..pictures.tonemapping import Exposure
 
 
 @dataclass
@@ -14,7 +15,7 @@ class Picture:
     """What a notebook shows of a render."""
 
     job: Any  #: the Job
-    exposure: float
+    exposure: Exposure
 
     def _repr_html_(self) -> str:
         return figure(self.job.image, repr(self), self.exposure)
@@ -26,7 +27,7 @@ class Picture:
         return f"{stats['integrator']}, {width} x {height}, {stats['spp_done']:.4g} spp{done}"
 
 
-def show(job, interval: float, exposure: float) -> None:
+def show(job, interval: float, exposure: Exposure) -> None:
     """Show the image of a Job; see `Job.show`."""
     display = import_extra("IPython.display", "notebook", "showing a render").display
     picture = Picture(job, exposure)

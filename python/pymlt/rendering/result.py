@@ -11,6 +11,8 @@ from ..pictures.denoising import denoise_with_layers
 from ..pictures.notebook import figure, png
 from ..pictures.output import OutputFile
 from ..pictures.techniques import Technique, techniques_of
+from ..pictures.tonemapping import Exposure
+from .stats import Stats
 
 if TYPE_CHECKING:
     import numpy as np
@@ -22,15 +24,15 @@ class Result:
     """What a render left behind."""
 
     image: np.ndarray  #: float32, (height, width, 3), linear Rec. 709, row 0 on top
-    stats: dict  #: the content of stats.json
+    stats: Stats  #: the content of stats.json
     integrator: dict  #: type and every parameter, given or default
     layers: dict[str, np.ndarray] = field(repr=False)  #: further images that were kept, by name
     metadata: dict[str, str] = field(repr=False)  #: what `write` puts into an EXR header
     half: bool = field(default=False, repr=False)  #: EXR with 16-bit samples, as the film asks
 
     @property
-    def seed(self) -> int:
-        """Of all random numbers."""
+    def seed(self) -> int | list[str]:
+        """Of all random numbers; those of all renders, if several were merged."""
         return self.stats["seed"]
 
     @property
@@ -76,20 +78,20 @@ class Result:
         return replace(self, image=image, layers=layers, metadata=metadata)
 
     def write(
-        self, path: str | os.PathLike[str], exposure: float = 0, *, tonemap: str = "srgb"
+        self, path: str | os.PathLike[str], exposure: Exposure = 0, *, tonemap: str = "srgb"
     ) -> None:
         """Write the image to .exr (settings, seed and version in its header), .hdr, .png or .jpg.
 
         An .exr holds the layers too; beside NAME.png, NAME.techniques.png shows the techniques, if
         there are any, for which it needs the extra `plots`.
-        `exposure` brightens .png and .jpg, in stops, `tonemap` names their curve ("srgb",
-        "reinhard", "filmic"; see `pymlt.tonemap`). Raises FileError if it cannot be written,
-        UsageError for an unknown curve or extension.
+        `exposure` brightens .png and .jpg, in stops, or "auto" as suits the image; `tonemap` names
+        their curve ("srgb", "reinhard", "filmic"; see `pymlt.tonemap`). Raises FileError if it
+        cannot be written, UsageError for an unknown curve or extension.
         """
         self._file(path, exposure, tonemap).write()
 
     def save(
-        self, path: str | os.PathLike[str], exposure: float = 0, *, tonemap: str = "srgb"
+        self, path: str | os.PathLike[str], exposure: Exposure = 0, *, tonemap: str = "srgb"
     ) -> str:
         """The same, but if `path` fails try other places; returns where the image is."""
         where, problem = self._save(path, exposure, tonemap)
@@ -98,12 +100,12 @@ class Result:
         return where
 
     def _save(
-        self, path: str | os.PathLike[str], exposure: float = 0, tonemap: str = "srgb"
+        self, path: str | os.PathLike[str], exposure: Exposure = 0, tonemap: str = "srgb"
     ) -> tuple[str, str]:
         """Where the image is, or ""; and why it is not at `path`, or ""."""
         return self._file(path, exposure, tonemap).save()
 
-    def _file(self, path: str | os.PathLike[str], exposure: float, tonemap: str) -> OutputFile:
+    def _file(self, path: str | os.PathLike[str], exposure: Exposure, tonemap: str) -> OutputFile:
         return OutputFile(
             os.fspath(path), self.image, self.layers, self.metadata, self.half, exposure, tonemap
         )

@@ -33,7 +33,7 @@ def start(
     """Start a render and return at once.
 
     scene
-        a Scene, a dict, or the path of a file, of any format that `load` knows.
+        a Scene, a dict, or what `load` knows: the path of a file, or a built-in scene's name.
     integrator
         an object such as `Path(max_depth=8)`, a dict, or a name. None is the scene's own, else
         `mlt`. A name keeps what the scene says about what is to be rendered (max_depth,

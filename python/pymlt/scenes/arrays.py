@@ -4,8 +4,9 @@ A mesh is `{"type": "mesh", "vertices": (n, 3), "faces": (m, 3), "normals": (n, 
 "vertex_color": (n, 3)}`, of which only the first two are needed, or an object with `vertices` and
 `faces`, such as a `trimesh.Trimesh`, in the place of a shape. An image is `{"type": "bitmap",
 "data": (height, width[, channels])}`; `envmap` takes `data` too. Both also take the bytes of an
-image file. The core gets arrays as bytes: so they are part of the scene where it is hashed,
-pickled, saved in a checkpoint or sent to a cluster.
+image file; `bitmap`, under which Mitsuba takes an `mi.Bitmap`, is another name for `data`. The core
+gets arrays as bytes: so they are part of the scene where it is hashed, pickled, saved in a
+checkpoint or sent to a cluster.
 """
 
 from __future__ import annotations
@@ -27,6 +28,8 @@ IMAGES = ("bitmap", "envmap")
 def with_bytes(scene: dict, path: str = "scene") -> dict:
     """The same dict with bytes in the place of its arrays. Raises SceneError, which names them."""
     changed: dict[str, Any] = {}
+    if scene.get("type") in IMAGES and "bitmap" in scene:
+        scene = with_data(scene, path)
     if path.count("[") > MOST_LEVELS:
         return scene
     for key, value in scene.items():
@@ -42,6 +45,13 @@ def with_bytes(scene: dict, path: str = "scene") -> dict:
     elif scene.get("type") in IMAGES and "data" in scene:
         changed |= image_buffer(scene, path)
     return scene | changed if changed else scene
+
+
+def with_data(image: dict, path: str) -> dict:
+    """The same image, whose array is called `data`."""
+    if "data" in image:
+        raise _core.SceneError(f"{path}: 'data' and 'bitmap' are the same; give one")
+    return {"data" if key == "bitmap" else key: value for key, value in image.items()}
 
 
 def with_arrays(values: dict) -> dict:
@@ -66,12 +76,17 @@ def is_mesh_object(value: Any) -> bool:
 
 
 def from_mesh_object(mesh: Any, path: str) -> dict:
+    """A trimesh object as a shape of bytes."""
+    return with_bytes(mesh_dict(mesh), path)
+
+
+def mesh_dict(mesh: Any) -> dict:
     """A trimesh object as a shape. It has the face normals that trimesh would draw: none given."""
     shape = {"type": "mesh", "vertices": mesh.vertices, "faces": mesh.faces}
     uv = getattr(getattr(mesh, "visual", None), "uv", None)
     if uv is not None:
         shape["uv"] = uv
-    return with_bytes(shape, path)
+    return shape
 
 
 def as_array(value: Any, key: str, path: str) -> np.ndarray:

@@ -25,7 +25,7 @@ def load_file(
     """
     return _core.load_file(
         os.fspath(path),
-        _texts(defines),
+        define_texts(defines),
         image_size(size),
         lenient,
         sensor_index(sensor),
@@ -43,7 +43,7 @@ def load_string(
     return _core.load_string(
         xml,
         os.fspath(directory),
-        _texts(defines),
+        define_texts(defines),
         image_size(size),
         lenient,
         sensor_index(sensor),
@@ -121,7 +121,7 @@ def filter_name(filter) -> str:
     raise _core.UsageError(f"filter is {filter!r}, but should be a name, such as 'box'")
 
 
-def _texts(defines: dict) -> dict[str, str]:
+def define_texts(defines: dict) -> dict[str, str]:
     return {name: _text(value) for name, value in defines.items()}
 
 

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from ... import _core
 from ..._extras import import_extra
+from ...pictures.tonemapping import Exposure
 from .table import notes, summary_table, table
 
 if TYPE_CHECKING:
@@ -55,11 +56,11 @@ class Report:
         text = json.dumps(self.to_dict(), indent=1, allow_nan=False)
         _core.replace_file(os.fspath(path), (text + "\n").encode())
 
-    def html(self, *, exposure: float | None = None, tonemap: str = "srgb") -> str:
+    def html(self, *, exposure: Exposure = "auto", tonemap: str = "srgb") -> str:
         """A page of its own, with everything in it: tables, plots, pictures.
 
         exposure, tonemap
-            how images are shown, as `write_image` has them; None brightens them as suits the scene.
+            how images are shown, as `write_image` has them; "auto" suits the scene.
 
         Needs the extra `plots`.
         """
@@ -71,14 +72,14 @@ class Report:
         self,
         path: str | os.PathLike[str],
         *,
-        exposure: float | None = None,
+        exposure: Exposure = "auto",
         tonemap: str = "srgb",
     ) -> None:
         """Write the page that `html` makes. Raises FileError, and UsageError for a wrong curve."""
         page = self.html(exposure=exposure, tonemap=tonemap)
         _core.replace_file(os.fspath(path), page.encode())
 
-    def figure(self, *, exposure: float | None = None, tonemap: str = "srgb") -> Figure:
+    def figure(self, *, exposure: Exposure = "auto", tonemap: str = "srgb") -> Figure:
         """The images beside each other with their insets, as a figure of matplotlib.
 
         Arguments as for `html`. Needs the extra `plots`.

@@ -8,9 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..._extras import import_extra
-from ...pictures.tonemapping import encode_srgb, tonemap
+from ...pictures.tonemapping import Exposure, encode_srgb, stops_of, tonemap
 from .insets import Inset
-from .pictures import fitting_exposure
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -22,7 +21,7 @@ COLUMN = 2.4  #: inches
 FRAMES = ("#ff3d6e", "#12b5ff", "#ffc400")
 
 
-def draw(results: Sequence[RaceResult], exposure: float | None, curve: str) -> Figure:
+def draw(results: Sequence[RaceResult], exposure: Exposure, curve: str) -> Figure:
     """For each scene a row of whole images, and below each its insets."""
     figures = import_extra("matplotlib.figure", "plots", "a picture of a race")
     heights = [_height(result) for result in results]
@@ -32,7 +31,7 @@ def draw(results: Sequence[RaceResult], exposure: float | None, curve: str) -> F
     figure: Figure = figures.Figure(figsize=(COLUMN * most, sum(heights)), layout=layout)
     rows = figure.subfigures(len(results), 1, squeeze=False, height_ratios=heights)[:, 0]
     for row, result in zip(rows, results, strict=True):
-        stops = fitting_exposure(result.scale) if exposure is None else exposure
+        stops = stops_of(exposure, result.scale)
         _draw_scene(
             row, result, most, lambda x, s=stops: encode_srgb(tonemap(x, curve, exposure=s))
         )

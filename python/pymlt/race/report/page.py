@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from ... import _core
-from ...pictures.tonemapping import check_tonemap
+from ...pictures.tonemapping import Exposure, check_tonemap, stops_of
 from .chart import COLOURS, Series, embedded, error_chart, level_chart
 from .insets import Inset
-from .pictures import drawing, error_map, exact, fitting_exposure, photograph, shows_flip
+from .pictures import drawing, error_map, exact, photograph, shows_flip
 from .table import Column, columns, heading, notes, summary
 
 if TYPE_CHECKING:
@@ -34,7 +34,7 @@ EXPLAINED = {
 }
 
 
-def page(results: Sequence[RaceResult], exposure: float | None, tonemap: str) -> str:
+def page(results: Sequence[RaceResult], exposure: Exposure, tonemap: str) -> str:
     """The whole document. Raises UsageError for an unknown curve."""
     check_tonemap(tonemap)
     title = "Race: " + ", ".join(result.settings.name for result in results)
@@ -61,8 +61,8 @@ def _summary(results: Sequence[RaceResult]) -> str:
     )
 
 
-def _race(result: RaceResult, exposure: float | None, curve: str) -> str:
-    stops = fitting_exposure(result.scale) if exposure is None else exposure
+def _race(result: RaceResult, exposure: Exposure, curve: str) -> str:
+    stops = stops_of(exposure, result.scale)
     rows = [(result.entries.index(entry), entry.label) for entry in result.ranked]
     remarks = "".join(f"<li>{escape(note)}</li>" for note in notes(result))
     return (

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import base64
 from importlib.util import find_spec
-from math import log2
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -18,19 +17,12 @@ if TYPE_CHECKING:
     from ..result import Entry, RaceResult
 
 WIDEST = 800  #: pixels of a picture in a page
-WHITE = 0.8  #: what the brightest twentieth of the pixels is brought to
 # matplotlib's colours "magma", which FLIP is drawn in, at nine places from 0 to 1.
 MAGMA = [
     (0.001, 0.000, 0.014), (0.113, 0.065, 0.277), (0.317, 0.072, 0.485), (0.513, 0.148, 0.508),
     (0.716, 0.215, 0.475), (0.904, 0.320, 0.388), (0.987, 0.536, 0.382), (0.997, 0.767, 0.504),
     (0.987, 0.991, 0.750),
 ]  # fmt: skip
-
-
-def fitting_exposure(scale: np.ndarray) -> float:
-    """The stops that show 95 % of the pixels of an image below white."""
-    bright = float(np.quantile(scale.max(axis=2), 0.95))
-    return min(16.0, max(-16.0, log2(WHITE / bright))) if bright > 0 else 0.0
 
 
 def error_map(result: RaceResult, entry: Entry) -> np.ndarray:
