@@ -406,6 +406,23 @@ def test_what_has_no_counterpart_is_named():
     mlt.render(mlt.load_dict(made.scene), spp=1)
 
 
+def test_warnings_name_the_file_and_the_line(capsys):
+    Path("part.pbrt").write_text('\n\nShape "curve"\n')
+    curl = 'LightSource "infinite" "string beauty" "high"\nInclude "part.pbrt"\nShape "curve"\n'
+    line = VIEW.count("\n") + 1
+    expected = [
+        f"a.pbrt:{line}: LightSource 'infinite': 'beauty' is left out",
+        "part.pbrt:3: the shape 'curve' has no counterpart",
+    ]
+    with pytest.warns(UserWarning, match=r"\.pbrt:\d+: ") as found:
+        mlt.load(written(VIEW, curl))
+    assert [str(warning.message) for warning in found] == expected
+    assert mlt.convert("a.pbrt", "a.xml") == expected
+    assert cli.main(["info", "a.pbrt"]) == 0
+    said = capsys.readouterr().err
+    assert all(f"pymlt: warning: {text}\n" in said for text in expected)
+
+
 @pytest.mark.parametrize(
     ("text", "message"),
     [

@@ -106,7 +106,7 @@ def load_scene(args) -> _core.Scene:
         if args.lenient or args.strict or defines:
             raise _core.UsageError(f"{args.scene}: -D, --lenient and --strict are for Mitsuba XML")
         scene, found = load_foreign(args.scene, size, sensor, filter or "")
-        warn([f"{args.scene}: {text}" for text in found])
+        warn(found)
         return scene
     if os.path.exists(args.scene):
         if args.lenient and args.strict:

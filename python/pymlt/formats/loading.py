@@ -31,7 +31,7 @@ def load(path, /, *, size=None, lenient=None, sensor=None, filter=None, **define
     if defines or lenient is not None:
         raise _core.UsageError(f"{os.fspath(path)}: only Mitsuba XML has defines and is lenient")
     scene, found = load_foreign(path, image_size(size), sensor_index(sensor), filter_name(filter))
-    warn_all(path, found)
+    warn_all(found)
     return scene
 
 

@@ -57,7 +57,11 @@ class Params:
         found = self.get(name)
         return colour(found, self.where, self.made) if found else default
 
+    def warn(self, text: str) -> None:
+        """Names something that has no counterpart, with the line of the directive."""
+        self.made.warn(text, self.where.place)
+
     def finish(self, ignored: tuple[str, ...] = ()) -> None:
         """Names what has not been read."""
         for name in sorted(set(self._given) - self._read - set(ignored)):
-            self.made.warn(f"{self.where.text} {self.type!r}: {name!r} is left out")
+            self.warn(f"{self.where.text} {self.type!r}: {name!r} is left out")

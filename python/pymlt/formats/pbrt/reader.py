@@ -103,7 +103,7 @@ class Reader:
         """What is not known, with all that follows up to the next directive."""
         if not directive.text[:1].isalpha():
             raise directive.error(f"a directive is expected, not {directive.text!r}")
-        self._made.warn(f"{directive.text} is left out")
+        self._made.warn(f"{directive.text} is left out", directive.place)
         while (token := self._words.peek()) is not None:
             if not token.quoted and token.text[:1].isalpha() and token.text not in _VALUES:
                 return
@@ -216,7 +216,7 @@ class Reader:
         if self._state.area_light and self._group is None:
             found["emitter"] = self._state.area_light
         elif self._state.area_light:
-            self._made.warn("lights in objects that are instanced are left out")
+            params.warn("lights in objects that are instanced are left out")
         params.finish(ignored=("edgelength", "displacement"))
         if self._group is None:
             self._made.add(params.type, found)

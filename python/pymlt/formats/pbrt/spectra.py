@@ -29,7 +29,7 @@ def colour(given: Parameter, where: Token, made: Imported) -> Any:
         return 1.0
     if name in GLASSES:
         return GLASSES[name]
-    made.warn(f"the spectrum {name!r} is not known; it is taken as 1")
+    made.warn(f"the spectrum {name!r} is not known; it is taken as 1", where.place)
     return 1.0
 
 
