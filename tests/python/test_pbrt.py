@@ -160,6 +160,59 @@ def test_area_lights_shine_from_the_outside(shape, lit):
     assert (image[22:].mean() > 0.05) == lit
 
 
+POWERS = {  # a shape, the area of the part of it that is one light
+    'Scale 2 2 2 Shape "sphere" "float radius" .3': 4 * np.pi * 0.6**2,
+    'Scale 2 3 1 Shape "disk" "float radius" .5': np.pi * 0.5**2 * 6,
+    'Scale 2 2 2 Shape "cylinder" "float radius" .3 "float zmin" 0': 2 * np.pi * 0.6 * 2,
+    'Scale 1 2 1 Shape "trianglemesh" "point3 P" [0 0 0 3 0 0 0 1 0]': 3,
+    'Shape "trianglemesh" "point3 P" [0 0 0 1 0 0 1 1 0 0 1 0]'
+    ' "integer indices" [0 1 2 0 2 3]': 0.5,
+    'Shape "bilinearmesh" "point3 P" [0 0 0 1 0 0 0 1 0 1 1 0]': 1,
+    'Shape "plymesh" "string filename" "mesh.ply"': 4.5,
+    'Shape "plymesh" "string filename" "mesh.ply.gz"': 4.5,
+}
+
+
+@pytest.mark.parametrize("shape", POWERS)
+@pytest.mark.parametrize("sides", [1, 2])
+def test_a_power_is_pi_times_area_times_radiance(shape, sides):
+    """Of a luminance of 1; pbrt takes each triangle or patch as a light of its own."""
+    write_ply(Path("mesh.ply"), Mesh(np.diag([3.0, 3, 0]), np.array([[0, 1, 2]])))
+    Path("mesh.ply.gz").write_bytes(gzip.compress(Path("mesh.ply").read_bytes()))
+    light = 'AreaLightSource "diffuse" "float power" 10 "rgb L" [1 .5 2] "float scale" 3 '
+    light += f'"bool twosided" {"true" if sides == 2 else "false"}\n'
+    made = read(VIEW, light, shape)
+    (lamp,) = (part for part in made.scene.values() if "emitter" in part)
+    radiance = 3 * 10 / (np.pi * POWERS[shape] * sides)
+    found = lamp["emitter"]["radiance"]["value"]
+    assert found == pytest.approx([radiance, radiance / 2, 2 * radiance], rel=1e-6)
+
+
+def test_a_power_is_shared_by_all_wavelengths():
+    light = 'AreaLightSource "diffuse" "float power" 10 "spectrum L" [300 7 900 7] '
+    made = read(VIEW, light, 'Shape "sphere"')
+    found = np.array(made.scene["sphere"]["emitter"]["radiance"]["value"])
+    assert found[:, 1] == pytest.approx(10 / (np.pi * 4 * np.pi))
+
+
+def test_ellipsoids_with_a_power_are_one_light():
+    made = read(VIEW, 'AreaLightSource "diffuse" "float power" 10 Scale 1 1 2 Shape "sphere"')
+    e = np.sqrt(1 - 1 / 4)  # the area of a prolate spheroid is 2 pi (1 + 2 asin(e) / e)
+    area = 2 * np.pi * (1 + 2 * np.arcsin(e) / e)
+    found = made.scene["sphere"]["emitter"]["radiance"]
+    assert found == pytest.approx(10 / (np.pi * area), rel=2e-3)
+
+
+def test_a_light_of_unlike_triangles_says_so():
+    mesh = (
+        'Shape "trianglemesh" "point3 P" [0 0 0 2 0 0 0 1 0 9 0 0] "integer indices" [0 1 2 0 3 2]'
+    )
+    made = read(VIEW, 'AreaLightSource "diffuse" "float power" 10 ', mesh)
+    assert "spread evenly, as their areas differ" in " ".join(made.warnings)
+    with pytest.raises(mlt.SceneError, match="no area"):
+        read('AreaLightSource "diffuse" "float power" 1 ', mesh.replace("0 1 0 9", "1 0 0 9"))
+
+
 def test_instances_are_copies_of_their_object():
     ball = 'Translate 0 .2 0 Shape "sphere" "float radius" .3\n'
     places = ["Translate -.6 .3 0", "Translate .6 .3 0 Scale .5 .5 .5"]

@@ -49,17 +49,6 @@ def light(params: Params, folder: Path, to_world: np.ndarray) -> dict[str, Any] 
     return None
 
 
-def area(params: Params) -> dict[str, Any]:
-    """The light of the shapes that follow."""
-    if params.flag("twosided"):
-        params.warn("lights that shine on both sides shine on their outside only")
-    if params.type != "diffuse":
-        params.warn(f"the area light {params.type!r} is taken as 'diffuse'")
-    radiance = scaled(params.colour("L", 1.0), params.number("scale", 1))
-    params.finish()
-    return {"type": "area", "radiance": radiance}
-
-
 def _point(params: Params, name: str, default: tuple[float, ...]) -> np.ndarray:
     import numpy as np
 

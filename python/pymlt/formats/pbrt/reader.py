@@ -12,7 +12,8 @@ from .. import limits
 from ..imported import Imported
 from ..views import complete
 from . import views
-from .lights import area, light
+from .area_lights import area_light
+from .lights import light
 from .materials import bsdf
 from .params import Params
 from .shapes import shape
@@ -195,7 +196,7 @@ class Reader:
             self._made.add(f"{params.type}-light", found)
 
     def _on_area_light_source(self, directive: Token) -> None:
-        self._state.area_light = area(self._params(directive))
+        self._state.area_light = area_light(self._params(directive))
 
     def _reference(self, id: str) -> dict[str, Any]:
         return {"type": "ref", "id": id}
@@ -214,7 +215,7 @@ class Reader:
             surface = {"type": "mask", "opacity": opacity, "bsdf": surface}
         found["bsdf"] = surface
         if self._state.area_light and self._group is None:
-            found["emitter"] = self._state.area_light
+            found["emitter"] = self._state.area_light.emitter(found, params)
         elif self._state.area_light:
             params.warn("lights in objects that are instanced are left out")
         params.finish(ignored=("edgelength", "displacement"))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
+from .area_lights import AreaLight
 from .tokens import Token, Words
 
 if TYPE_CHECKING:
@@ -27,7 +28,7 @@ class State:
 
     matrix: np.ndarray  #: object space (or world space, before WorldBegin) to the outer space
     material: dict[str, Any] | None = None  #: as the scene refers to it
-    area_light: dict[str, Any] | None = None
+    area_light: AreaLight | None = None
     reversed: bool = False
 
     def copy(self) -> State:
