@@ -213,6 +213,51 @@ def test_a_light_of_unlike_triangles_says_so():
         read('AreaLightSource "diffuse" "float power" 1 ', mesh.replace("0 1 0 9", "1 0 0 9"))
 
 
+LIT = (
+    'LightSource "point" "rgb I" [1 2 3]\nLightSource "infinite" "spectrum L" [300 .5 900 .5]\n'
+    'LightSource "distant"\nAreaLightSource "diffuse" "float power" 10\nShape "sphere"\n'
+)
+
+
+@pytest.mark.parametrize("shutter", [(0, 1), (0.25, 0.75)])
+@pytest.mark.parametrize("iso", [100, 150])
+def test_the_image_is_exposure_time_times_iso_of_100(shutter, iso):
+    times = '40 "float shutteropen" {} "float shutterclose" {}'.format(*shutter)
+    film = f'"rgb" "float iso" {iso} "string sensor" "cie1931"'
+    plain, made = (
+        read(*parts)
+        for parts in (
+            (VIEW, LIT),
+            (VIEW.replace("40", times, 1).replace('"rgb"', film), LIT),
+        )
+    )
+    ratio = (shutter[1] - shutter[0]) * iso / 100
+    lights = {
+        "point-light": lambda light: light["intensity"]["value"],
+        "infinite-light": lambda light: np.array(light["radiance"]["value"])[:, 1],
+        "distant-light": lambda light: light["irradiance"],
+        "sphere": lambda light: light["emitter"]["radiance"],
+    }
+    for name, strength in lights.items():
+        expected = ratio * np.array(strength(plain.scene[name]))
+        assert strength(made.scene[name]) == pytest.approx(expected)
+    assert made.warnings == plain.warnings == []
+
+
+def test_an_environment_map_is_exposed():
+    mlt.write_image("map.exr", np.ones((4, 4, 3), np.float32))
+    light = 'LightSource "infinite" "string filename" "map.exr" "float scale" 3'
+    made = read(VIEW.replace('"rgb"', '"rgb" "float iso" 50'), light)
+    assert made.scene["infinite-light"]["scale"] == 1.5
+
+
+def test_a_physical_sensor_is_warned_of():
+    film = '"rgb" "string sensor" "canon_eos_100d" "float iso" 200'
+    made = read(VIEW.replace('"rgb"', film), LAMP)
+    assert "the colours of the sensor 'canon_eos_100d' are left out" in made.warnings[0]
+    assert made.scene["point-light"]["intensity"]["value"] == pytest.approx([12, 6, 2.4])
+
+
 def test_instances_are_copies_of_their_object():
     ball = 'Translate 0 .2 0 Shape "sphere" "float radius" .3\n'
     places = ["Translate -.6 .3 0", "Translate .6 .3 0 Scale .5 .5 .5"]
@@ -501,6 +546,8 @@ def test_warnings_name_the_file_and_the_line(capsys):
         ("ObjectEnd", "ends nothing"),
         ('CoordSysTransform "x"', "no coordinate system 'x'"),
         ("LookAt 0 0 0 0 1 0 0 1 0", "parallel"),
+        ('Film "rgb" "float iso" 0', "'iso' should be above 0"),
+        ('Camera "perspective" "float shutteropen" 1', "later than 'shutteropen'"),
         ('Shape "sphere', "ends on this line"),
     ],
 )

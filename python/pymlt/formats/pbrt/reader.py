@@ -13,6 +13,7 @@ from ..imported import Imported
 from ..views import complete
 from . import views
 from .area_lights import area_light
+from .exposure import expose, exposure_time, sensitivity
 from .lights import light
 from .materials import bsdf
 from .params import Params
@@ -26,7 +27,6 @@ if TYPE_CHECKING:
 
 VIEWS: dict[str, Callable[[Params], dict[str, Any] | None]]
 VIEWS = {
-    "Film": views.film,
     "Integrator": views.integrator,
     "PixelFilter": views.rfilter,
     "Sampler": views.sampler,
@@ -62,6 +62,7 @@ class Reader:
         self._objects: dict[str, str] = {}
         self._group: dict[str, Any] | None = None
         self._views: dict[str, dict[str, Any]] = {}
+        self._exposure_time = self._sensitivity = 1.0
         self._last: Token | None = None
 
     def read(self) -> None:
@@ -75,6 +76,7 @@ class Reader:
                 raise directive.error(f"{directive.text} makes no sense: {error!s:.200}") from None
         if self._saved and self._last is not None:
             raise self._last.error("an AttributeBegin has no AttributeEnd")
+        expose(self._made.scene, self._exposure_time * self._sensitivity)
         self._view()
         complete(self._made)
 
@@ -154,8 +156,15 @@ class Reader:
     def _on_camera(self, directive: Token) -> None:
         import numpy as np
 
-        self._views["Camera"] = views.camera(self._params(directive), self._state.matrix)
+        params = self._params(directive)
+        self._exposure_time = exposure_time(params)
+        self._views["Camera"] = views.camera(params, self._state.matrix)
         self._spaces["camera"] = np.linalg.inv(self._state.matrix)
+
+    def _on_film(self, directive: Token) -> None:
+        params = self._params(directive)
+        self._sensitivity = sensitivity(params)
+        self._views["Film"] = views.film(params)
 
     def _on_accelerator(self, directive: Token) -> None:
         """Has no influence on the image."""

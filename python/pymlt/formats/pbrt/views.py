@@ -39,7 +39,7 @@ def camera(params: Params, camera_from_world: np.ndarray) -> dict[str, Any]:
     if radius := params.number("lensradius", 0):
         distance = params.number("focaldistance", 1e6)
         view |= {"type": "thinlens", "aperture_radius": radius, "focus_distance": distance}
-    params.finish(ignored=("shutteropen", "shutterclose"))
+    params.finish()
     return view
 
 
