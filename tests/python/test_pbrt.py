@@ -296,6 +296,29 @@ def test_transforms_and_attributes_are_saved():
     assert found[3]["to_world"] == pytest.approx(np.array(T.translate(1, 0, 0)))
 
 
+def test_attributes_are_parameters_by_default():
+    Path("i.png").write_bytes(b"")
+    made = read(
+        VIEW,
+        'Attribute "shape" "float radius" 2 "float beauty" 1 Attribute "shape" "string x" "y"\n',
+        'Attribute "light" "float scale" 3 Attribute "material" "rgb reflectance" [.1 .2 .3]\n',
+        'Attribute "texture" "float uscale" 5 Attribute "medium" "rgb sigma_a" [1 1 1]\n',
+        'LightSource "point" "rgb I" [1 1 1]\nMaterial "diffuse"\n',
+        'Texture "t" "spectrum" "imagemap" "string filename" "i.png"\n',
+        'AttributeBegin Attribute "shape" "float radius" 3 Shape "sphere" AttributeEnd\n',
+        'AreaLightSource "diffuse" "float scale" 7 Shape "sphere" Shape "sphere"'
+        ' "float radius" 1\n',
+        'MakeNamedMaterial "m" "string type" "diffuse" "texture reflectance" "t"\n',
+    )
+    spheres = [part for part in made.scene.values() if "radius" in part]
+    assert [sphere["radius"] for sphere in spheres] == [3, 2, 1]
+    assert made.scene["point-light"]["intensity"]["value"] == [3, 3, 3]
+    assert spheres[1]["emitter"]["radiance"] == 7
+    assert made.scene["diffuse-material"]["bsdf"]["reflectance"] == colour(0.1, 0.2, 0.3)
+    assert made.scene["m"]["bsdf"]["reflectance"]["uscale"] == 5
+    assert made.warnings == []  # what only some shapes have is no mistake
+
+
 # ---- materials, textures -----------------------------------------------------------------------
 
 MATERIALS = {
@@ -546,6 +569,7 @@ def test_warnings_name_the_file_and_the_line(capsys):
         ("ObjectEnd", "ends nothing"),
         ('CoordSysTransform "x"', "no coordinate system 'x'"),
         ("LookAt 0 0 0 0 1 0 0 1 0", "parallel"),
+        ('Attribute "camera" "float x" 1', "Attribute 'camera' is not known"),
         ('Film "rgb" "float iso" 0', "'iso' should be above 0"),
         ('Camera "perspective" "float shutteropen" 1', "later than 'shutteropen'"),
         ('Shape "sphere', "ends on this line"),

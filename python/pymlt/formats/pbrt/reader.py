@@ -18,9 +18,9 @@ from .lights import light
 from .materials import bsdf
 from .params import Params
 from .shapes import shape
-from .state import TRANSFORMS, State
+from .state import ATTRIBUTES, TRANSFORMS, State
 from .textures import Textures
-from .tokens import Token, Words
+from .tokens import Parameter, Token, Words
 
 if TYPE_CHECKING:
     import numpy as np
@@ -100,7 +100,13 @@ class Reader:
 
     def _params(self, directive: Token) -> Params:
         kind = self._words.text(directive)
-        return Params(directive, kind, self._words.parameters(), self._made)
+        return Params(
+            directive, kind, self._words.parameters(), self._made, self._defaults(directive)
+        )
+
+    def _defaults(self, directive: Token) -> dict[str, Parameter]:
+        """What Attribute says of directives of this kind."""
+        return self._state.defaults.get(ATTRIBUTES.get(directive.text, ""), {})
 
     def _leave_out(self, directive: Token) -> None:
         """What is not known, with all that follows up to the next directive."""
@@ -125,6 +131,9 @@ class Reader:
             self._state.matrix = saved.matrix
         else:
             self._state = saved
+
+    def _on_attribute(self, directive: Token) -> None:
+        self._state.attribute(directive, self._words)
 
     # ---- transforms, files ---------------------------------------------------------------------
 
@@ -183,7 +192,8 @@ class Reader:
         kind = given.pop("type", None)
         if kind is None:
             raise directive.error(f'the material {name!r} needs a "string type"')
-        params = Params(directive, kind.values[0], given, self._made)
+        defaults = self._defaults(directive)
+        params = Params(directive, kind.values[0], given, self._made, defaults)
         self._named[name] = bsdf(params, self._textures, self._named)
         self._ids[name] = self._made.add(name, self._named[name])
 
