@@ -281,6 +281,33 @@ def test_ellipsoids_become_meshes():
     assert np.median(abs(images[0] - images[1])) < 0.01 * images[1].mean()
 
 
+OCTAHEDRON = (
+    'Shape "loopsubdiv" "point3 P" [1 0 0 0 1 0 0 0 1 -1 0 0 0 -1 0 0 0 -1]'
+    ' "integer indices" [0 1 2 1 3 2 3 4 2 4 0 2 1 0 5 3 1 5 4 3 5 0 4 5] '
+)
+
+
+def test_a_subdivision_surface_is_that_of_loop():
+    """Loop 1987: beta of a corner with 4 neighbours is 31/256, an edge weighs 3/8 and 1/8."""
+    made = read(VIEW, OCTAHEDRON, '"integer levels" 1').scene["loopsubdiv"]
+    assert made["faces"].shape == (32, 3)
+    at = made["vertices"]
+    axes = at[np.isclose(abs(at), 33 / 64).any(axis=1)]
+    edges = at[np.isclose(abs(at), 3 / 8).sum(axis=1) == 2]
+    assert (len(axes), len(edges)) == (6, 12)
+    assert abs(axes).sum(axis=1) == pytest.approx(33 / 64)
+    assert abs(edges).sum(axis=1) == pytest.approx(3 / 4)
+    outwards = (made["normals"] * at).sum(axis=1) / np.linalg.norm(at, axis=1)
+    assert outwards == pytest.approx(1)  # by symmetry
+
+
+def test_a_subdivision_surface_has_three_levels_and_renders():
+    made = read(VIEW, LAMP, 'Material "diffuse" ', OCTAHEDRON)
+    assert len(made.scene["loopsubdiv"]["faces"]) == 8 * 4**3
+    assert made.warnings == []
+    assert mlt.render(mlt.load_dict(made.scene), "path", spp=4).max() > 0.05
+
+
 def test_transforms_and_attributes_are_saved():
     made = read(
         'Translate 1 0 0 CoordinateSystem "here"\n' + VIEW,
@@ -569,6 +596,9 @@ def test_warnings_name_the_file_and_the_line(capsys):
         ("ObjectEnd", "ends nothing"),
         ('CoordSysTransform "x"', "no coordinate system 'x'"),
         ("LookAt 0 0 0 0 1 0 0 1 0", "parallel"),
+        ('Shape "loopsubdiv"', "needs 'P' and 'indices'"),
+        (OCTAHEDRON + '"integer levels" 99', "'levels' is 99"),
+        (OCTAHEDRON.replace("0 4 5", "0 4 9"), "does not exist"),
         ('Attribute "camera" "float x" 1', "Attribute 'camera' is not known"),
         ('Film "rgb" "float iso" 0', "'iso' should be above 0"),
         ('Camera "perspective" "float shutteropen" 1', "later than 'shutteropen'"),

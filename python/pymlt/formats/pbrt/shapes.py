@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from ..limits import read_file
 from ..ply import Mesh
 from .params import Params
+from .subdivision import loop_subdivision
 
 if TYPE_CHECKING:
     import numpy as np
@@ -150,6 +151,7 @@ SHAPES = {
     "bilinearmesh": bilinear_mesh,
     "cylinder": cylinder,
     "disk": disk,
+    "loopsubdiv": loop_subdivision,
     "plymesh": ply_mesh,
     "sphere": sphere,
     "trianglemesh": triangle_mesh,
