@@ -160,6 +160,104 @@ def test_area_lights_shine_from_the_outside(shape, lit):
     assert (image[22:].mean() > 0.05) == lit
 
 
+POWERS = {  # a shape, the area of the part of it that is one light
+    'Scale 2 2 2 Shape "sphere" "float radius" .3': 4 * np.pi * 0.6**2,
+    'Scale 2 3 1 Shape "disk" "float radius" .5': np.pi * 0.5**2 * 6,
+    'Scale 2 2 2 Shape "cylinder" "float radius" .3 "float zmin" 0': 2 * np.pi * 0.6 * 2,
+    'Scale 1 2 1 Shape "trianglemesh" "point3 P" [0 0 0 3 0 0 0 1 0]': 3,
+    'Shape "trianglemesh" "point3 P" [0 0 0 1 0 0 1 1 0 0 1 0]'
+    ' "integer indices" [0 1 2 0 2 3]': 0.5,
+    'Shape "bilinearmesh" "point3 P" [0 0 0 1 0 0 0 1 0 1 1 0]': 1,
+    'Shape "plymesh" "string filename" "mesh.ply"': 4.5,
+    'Shape "plymesh" "string filename" "mesh.ply.gz"': 4.5,
+}
+
+
+@pytest.mark.parametrize("shape", POWERS)
+@pytest.mark.parametrize("sides", [1, 2])
+def test_a_power_is_pi_times_area_times_radiance(shape, sides):
+    """Of a luminance of 1; pbrt takes each triangle or patch as a light of its own."""
+    write_ply(Path("mesh.ply"), Mesh(np.diag([3.0, 3, 0]), np.array([[0, 1, 2]])))
+    Path("mesh.ply.gz").write_bytes(gzip.compress(Path("mesh.ply").read_bytes()))
+    light = 'AreaLightSource "diffuse" "float power" 10 "rgb L" [1 .5 2] "float scale" 3 '
+    light += f'"bool twosided" {"true" if sides == 2 else "false"}\n'
+    made = read(VIEW, light, shape)
+    (lamp,) = (part for part in made.scene.values() if "emitter" in part)
+    radiance = 3 * 10 / (np.pi * POWERS[shape] * sides)
+    found = lamp["emitter"]["radiance"]["value"]
+    assert found == pytest.approx([radiance, radiance / 2, 2 * radiance], rel=1e-6)
+
+
+def test_a_power_is_shared_by_all_wavelengths():
+    light = 'AreaLightSource "diffuse" "float power" 10 "spectrum L" [300 7 900 7] '
+    made = read(VIEW, light, 'Shape "sphere"')
+    found = np.array(made.scene["sphere"]["emitter"]["radiance"]["value"])
+    assert found[:, 1] == pytest.approx(10 / (np.pi * 4 * np.pi))
+
+
+def test_ellipsoids_with_a_power_are_one_light():
+    made = read(VIEW, 'AreaLightSource "diffuse" "float power" 10 Scale 1 1 2 Shape "sphere"')
+    e = np.sqrt(1 - 1 / 4)  # the area of a prolate spheroid is 2 pi (1 + 2 asin(e) / e)
+    area = 2 * np.pi * (1 + 2 * np.arcsin(e) / e)
+    found = made.scene["sphere"]["emitter"]["radiance"]
+    assert found == pytest.approx(10 / (np.pi * area), rel=2e-3)
+
+
+def test_a_light_of_unlike_triangles_says_so():
+    mesh = (
+        'Shape "trianglemesh" "point3 P" [0 0 0 2 0 0 0 1 0 9 0 0] "integer indices" [0 1 2 0 3 2]'
+    )
+    made = read(VIEW, 'AreaLightSource "diffuse" "float power" 10 ', mesh)
+    assert "spread evenly, as their areas differ" in " ".join(made.warnings)
+    with pytest.raises(mlt.SceneError, match="no area"):
+        read('AreaLightSource "diffuse" "float power" 1 ', mesh.replace("0 1 0 9", "1 0 0 9"))
+
+
+LIT = (
+    'LightSource "point" "rgb I" [1 2 3]\nLightSource "infinite" "spectrum L" [300 .5 900 .5]\n'
+    'LightSource "distant"\nAreaLightSource "diffuse" "float power" 10\nShape "sphere"\n'
+)
+
+
+@pytest.mark.parametrize("shutter", [(0, 1), (0.25, 0.75)])
+@pytest.mark.parametrize("iso", [100, 150])
+def test_the_image_is_exposure_time_times_iso_of_100(shutter, iso):
+    times = '40 "float shutteropen" {} "float shutterclose" {}'.format(*shutter)
+    film = f'"rgb" "float iso" {iso} "string sensor" "cie1931"'
+    plain, made = (
+        read(*parts)
+        for parts in (
+            (VIEW, LIT),
+            (VIEW.replace("40", times, 1).replace('"rgb"', film), LIT),
+        )
+    )
+    ratio = (shutter[1] - shutter[0]) * iso / 100
+    lights = {
+        "point-light": lambda light: light["intensity"]["value"],
+        "infinite-light": lambda light: np.array(light["radiance"]["value"])[:, 1],
+        "distant-light": lambda light: light["irradiance"],
+        "sphere": lambda light: light["emitter"]["radiance"],
+    }
+    for name, strength in lights.items():
+        expected = ratio * np.array(strength(plain.scene[name]))
+        assert strength(made.scene[name]) == pytest.approx(expected)
+    assert made.warnings == plain.warnings == []
+
+
+def test_an_environment_map_is_exposed():
+    mlt.write_image("map.exr", np.ones((4, 4, 3), np.float32))
+    light = 'LightSource "infinite" "string filename" "map.exr" "float scale" 3'
+    made = read(VIEW.replace('"rgb"', '"rgb" "float iso" 50'), light)
+    assert made.scene["infinite-light"]["scale"] == 1.5
+
+
+def test_a_physical_sensor_is_warned_of():
+    film = '"rgb" "string sensor" "canon_eos_100d" "float iso" 200'
+    made = read(VIEW.replace('"rgb"', film), LAMP)
+    assert "the colours of the sensor 'canon_eos_100d' are left out" in made.warnings[0]
+    assert made.scene["point-light"]["intensity"]["value"] == pytest.approx([12, 6, 2.4])
+
+
 def test_instances_are_copies_of_their_object():
     ball = 'Translate 0 .2 0 Shape "sphere" "float radius" .3\n'
     places = ["Translate -.6 .3 0", "Translate .6 .3 0 Scale .5 .5 .5"]
@@ -183,6 +281,33 @@ def test_ellipsoids_become_meshes():
     assert np.median(abs(images[0] - images[1])) < 0.01 * images[1].mean()
 
 
+OCTAHEDRON = (
+    'Shape "loopsubdiv" "point3 P" [1 0 0 0 1 0 0 0 1 -1 0 0 0 -1 0 0 0 -1]'
+    ' "integer indices" [0 1 2 1 3 2 3 4 2 4 0 2 1 0 5 3 1 5 4 3 5 0 4 5] '
+)
+
+
+def test_a_subdivision_surface_is_that_of_loop():
+    """Loop 1987: beta of a corner with 4 neighbours is 31/256, an edge weighs 3/8 and 1/8."""
+    made = read(VIEW, OCTAHEDRON, '"integer levels" 1').scene["loopsubdiv"]
+    assert made["faces"].shape == (32, 3)
+    at = made["vertices"]
+    axes = at[np.isclose(abs(at), 33 / 64).any(axis=1)]
+    edges = at[np.isclose(abs(at), 3 / 8).sum(axis=1) == 2]
+    assert (len(axes), len(edges)) == (6, 12)
+    assert abs(axes).sum(axis=1) == pytest.approx(33 / 64)
+    assert abs(edges).sum(axis=1) == pytest.approx(3 / 4)
+    outwards = (made["normals"] * at).sum(axis=1) / np.linalg.norm(at, axis=1)
+    assert outwards == pytest.approx(1)  # by symmetry
+
+
+def test_a_subdivision_surface_has_three_levels_and_renders():
+    made = read(VIEW, LAMP, 'Material "diffuse" ', OCTAHEDRON)
+    assert len(made.scene["loopsubdiv"]["faces"]) == 8 * 4**3
+    assert made.warnings == []
+    assert mlt.render(mlt.load_dict(made.scene), "path", spp=4).max() > 0.05
+
+
 def test_transforms_and_attributes_are_saved():
     made = read(
         'Translate 1 0 0 CoordinateSystem "here"\n' + VIEW,
@@ -196,6 +321,29 @@ def test_transforms_and_attributes_are_saved():
     assert found[1]["to_world"][:3, 3] == pytest.approx([5, 6, 7])
     assert found[2]["to_world"] == pytest.approx(np.array(T.rotate([0, 0, 1], 90)))
     assert found[3]["to_world"] == pytest.approx(np.array(T.translate(1, 0, 0)))
+
+
+def test_attributes_are_parameters_by_default():
+    Path("i.png").write_bytes(b"")
+    made = read(
+        VIEW,
+        'Attribute "shape" "float radius" 2 "float beauty" 1 Attribute "shape" "string x" "y"\n',
+        'Attribute "light" "float scale" 3 Attribute "material" "rgb reflectance" [.1 .2 .3]\n',
+        'Attribute "texture" "float uscale" 5 Attribute "medium" "rgb sigma_a" [1 1 1]\n',
+        'LightSource "point" "rgb I" [1 1 1]\nMaterial "diffuse"\n',
+        'Texture "t" "spectrum" "imagemap" "string filename" "i.png"\n',
+        'AttributeBegin Attribute "shape" "float radius" 3 Shape "sphere" AttributeEnd\n',
+        'AreaLightSource "diffuse" "float scale" 7 Shape "sphere" Shape "sphere"'
+        ' "float radius" 1\n',
+        'MakeNamedMaterial "m" "string type" "diffuse" "texture reflectance" "t"\n',
+    )
+    spheres = [part for part in made.scene.values() if "radius" in part]
+    assert [sphere["radius"] for sphere in spheres] == [3, 2, 1]
+    assert made.scene["point-light"]["intensity"]["value"] == [3, 3, 3]
+    assert spheres[1]["emitter"]["radiance"] == 7
+    assert made.scene["diffuse-material"]["bsdf"]["reflectance"] == colour(0.1, 0.2, 0.3)
+    assert made.scene["m"]["bsdf"]["reflectance"]["uscale"] == 5
+    assert made.warnings == []  # what only some shapes have is no mistake
 
 
 # ---- materials, textures -----------------------------------------------------------------------
@@ -406,6 +554,23 @@ def test_what_has_no_counterpart_is_named():
     mlt.render(mlt.load_dict(made.scene), spp=1)
 
 
+def test_warnings_name_the_file_and_the_line(capsys):
+    Path("part.pbrt").write_text('\n\nShape "curve"\n')
+    curl = 'LightSource "infinite" "string beauty" "high"\nInclude "part.pbrt"\nShape "curve"\n'
+    line = VIEW.count("\n") + 1
+    expected = [
+        f"a.pbrt:{line}: LightSource 'infinite': 'beauty' is left out",
+        "part.pbrt:3: the shape 'curve' has no counterpart",
+    ]
+    with pytest.warns(UserWarning, match=r"\.pbrt:\d+: ") as found:
+        mlt.load(written(VIEW, curl))
+    assert [str(warning.message) for warning in found] == expected
+    assert mlt.convert("a.pbrt", "a.xml") == expected
+    assert cli.main(["info", "a.pbrt"]) == 0
+    said = capsys.readouterr().err
+    assert all(f"pymlt: warning: {text}\n" in said for text in expected)
+
+
 @pytest.mark.parametrize(
     ("text", "message"),
     [
@@ -431,6 +596,12 @@ def test_what_has_no_counterpart_is_named():
         ("ObjectEnd", "ends nothing"),
         ('CoordSysTransform "x"', "no coordinate system 'x'"),
         ("LookAt 0 0 0 0 1 0 0 1 0", "parallel"),
+        ('Shape "loopsubdiv"', "needs 'P' and 'indices'"),
+        (OCTAHEDRON + '"integer levels" 99', "'levels' is 99"),
+        (OCTAHEDRON.replace("0 4 5", "0 4 9"), "does not exist"),
+        ('Attribute "camera" "float x" 1', "Attribute 'camera' is not known"),
+        ('Film "rgb" "float iso" 0', "'iso' should be above 0"),
+        ('Camera "perspective" "float shutteropen" 1', "later than 'shutteropen'"),
         ('Shape "sphere', "ends on this line"),
     ],
 )

@@ -271,6 +271,8 @@ def test_signatures_and_the_paths_to_look_at(found):
     signatures = found.signatures()
     assert sum(count for count, _ in signatures.values()) == len(found.paths)
     assert sum(share for _, share in signatures.values()) == pytest.approx(1)
+    for signature, (count, _) in signatures.items():
+        assert [path.signature for path in found.of(signature)] == [signature] * count
     some = found.some(len(signatures))
     assert [path.signature for path in some] == list(signatures)
     assert len(found.some(10_000)) == len(found.paths)
@@ -282,6 +284,10 @@ def test_tables_name_every_technique_and_vertex(found):
     assert [f"s={s}, t={4 - s}" in text for s in range(5)] == [True] * 5
     assert text.count("found it") == 1
     assert all(f">x{i}<" in text for i in range(4))
+    assert "area⁻¹" in text
+    assert "area<sup>-4</sup>" in text
+    assert "light vertex<br>" in text
+    assert "diffuse vertex<br>" in text
     assert path.signature in path_tables.signature_table(found)
     assert "t=0" in path_tables.strategy_table(found)
 

@@ -12,6 +12,8 @@ import numpy as np
 import pytest
 
 import pymlt as mlt
+from pymlt.algorithms.integrators import integrator_schema
+from pymlt.viewing import shown
 
 pytest.importorskip("viser", reason="the view needs viser (pip install viser)")
 playwright = pytest.importorskip("playwright.sync_api", reason="playwright drives the browser")
@@ -92,8 +94,8 @@ def tab(browser, view):
 
 
 def neighbours(picture: np.ndarray) -> float:
-    """The mean difference of neighbouring pixels: noise, mostly."""
-    return float(abs(picture[:, 1:] - picture[:, :-1]).mean())
+    """The median difference of neighbouring pixels: noise, mostly, and no spark."""
+    return float(np.median(abs(picture[:, 1:] - picture[:, :-1])))
 
 
 def test_the_page_opens_and_the_image_refines(tab):
@@ -135,8 +137,9 @@ def test_a_move_restarts_the_render_with_a_picture_at_once(tab):
 
 
 def test_a_click_shows_the_paths_through_a_pixel(tab):
-    tab.open("Paths")
+    assert tab.page.title() == "pymlt"
     tab.page.mouse.click(300, 400)
+    tab.page.get_by_role("tab", name="Paths", selected=True).wait_for()
     tab.until(lambda: tab.session.inspector._found is not None, "no click arrived")
     found = tab.session.inspector._found
     tab.until(lambda: tab.session.inspector._path is not None, "no path")
@@ -149,6 +152,57 @@ def test_a_click_shows_the_paths_through_a_pixel(tab):
     with_paths = tab.picture()
     tab.session.post(lambda: [tab.session.inspector._lines.clear(n) for n in ("all", "chosen")])
     tab.until(lambda: abs(tab.picture() - with_paths).mean() > 1e-3, "the path is not drawn")
+
+
+def test_paths_are_drawn_by_signature(tab):
+    inspector = tab.session.inspector
+    post, lines = tab.session.post, inspector._lines
+
+    def edges() -> int:
+        node = lines._nodes.get("all")
+        return 0 if node is None else len(node.points)
+
+    post(lambda: inspector.inspect((48, 60)))
+    tab.until(lambda: inspector._found.pixel == (48, 60) and edges() > 0, "no paths are drawn")
+    most = sum(path.edges for path in inspector._found.some(24))
+    tab.until(lambda: edges() == most, "not 24 of them")
+    first = next(iter(inspector._found.signatures()))
+    few = sum(path.edges for path in inspector._found.of(first)[:24])
+    assert few != most
+    post(lambda: setattr(inspector._kind, "value", first))
+    tab.until(lambda: edges() == few, "not those of one signature")
+    post(lambda: setattr(inspector._kind, "value", "none"))
+    tab.until(lambda: not lines._nodes, "paths are still drawn")
+    post(lambda: setattr(inspector._kind, "value", "all"))
+    tab.until(lambda: edges() == most, "the paths do not come back")
+
+
+def test_the_render_tab_explains_and_tells_the_error(tab):
+    tab.open("Render")
+    about = tab.page.locator("p[data-about]")
+    assert about.inner_text() == integrator_schema("path")["doc"]
+    status = tab.page.locator("p.mlt[data-state] + div").first
+    tab.session.post(tab.session.restart)
+    tab.until(lambda: re.search(r"± [\d.e-]+ %", status.inner_text()), "no error")
+    tab.page.get_by_text("Compare with").wait_for()
+
+
+def test_a_picture_can_be_denoised(tab):
+    pytest.importorskip("pyoidn", reason="denoising needs pyoidn (pip install pyoidn)")
+    live, pictures, look = tab.session.live, tab.session.pictures, tab.session.controls.look()
+    tab.until(lambda: live.image() is not None, "no picture")
+    live.stop()
+    tab.until(lambda: not live.running, "no end")
+    noisy = pictures.make(look, None).astype(float)
+    tab.session.post(lambda: setattr(tab.session.controls._denoise, "value", True))
+    tab.until(lambda: tab.session.controls.look().denoise, "the box has no effect")
+    clean = pictures.make(tab.session.controls.look(), None).astype(float)
+    assert (clean != noisy).any()
+    expected = shown.picture(mlt.denoise(live.image()), look.exposure, look.curve)
+    assert clean == pytest.approx(expected, abs=1)
+    tab.session.post(lambda: setattr(tab.session.controls._denoise, "value", False))
+    tab.session.post(tab.session.restart)
+    tab.open("Paths")
 
 
 def test_shapes_can_be_turned_with_the_paths(tab):
@@ -197,6 +251,8 @@ def test_the_lecture_follows_its_sliders(tab):
     tab.open("Lecture")
     said = tab.page.locator("p[data-example]")
     said.wait_for()
+    tab.session.post(lambda: setattr(tab.session.lecture._choice, "value", "Two states"))
+    tab.until(lambda: "90 %" in said.inner_text(), "the example does not come")
     assert "90 %" in said.inner_text()
     tab.page.locator("canvas").nth(1).wait_for()  # the chart
     slider = tab.session.lecture._sliders[0]

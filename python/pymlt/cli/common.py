@@ -98,5 +98,5 @@ def load_scene(args) -> _core.Scene:
     settings = {name: getattr(args, name, None) for name in ("size", "sensor", "filter")}
     lenient = args.lenient or (False if args.strict else None)
     scene, found = load_with_warnings(args.scene, dict(args.defines), lenient=lenient, **settings)
-    warn([f"{args.scene}: {text}" for text in found])
+    warn(found)
     return scene

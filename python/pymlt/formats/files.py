@@ -6,7 +6,7 @@ import os
 import warnings
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from .. import _core
 from ..scenes.arrays import with_bytes
@@ -70,7 +70,7 @@ def load_foreign(
     # A checkpoint knows the scene by this name.
     name = os.path.abspath(path)
     scene = _core.load_dict(with_bytes(made.scene), size, sensor, filter, name, {})
-    return scene, made.warnings
+    return scene, made.placed_warnings(os.fspath(path))
 
 
 def convert(path: str | os.PathLike[str] | dict, output: str | os.PathLike[str]) -> list[str]:
@@ -96,7 +96,7 @@ def convert(path: str | os.PathLike[str] | dict, output: str | os.PathLike[str])
     made = described(path) if isinstance(path, dict) else read_foreign(path)
     scene = Written(target.parent, target.stem).scene(made.scene)
     target.write_text(to_xml(scene, target.parent), encoding="utf-8")
-    return made.warnings
+    return [] if isinstance(path, dict) else made.placed_warnings(os.fspath(path))
 
 
 def described(scene: dict) -> Imported:
@@ -108,7 +108,7 @@ def described(scene: dict) -> Imported:
     return Imported(plain(scene))
 
 
-def warn_all(path: Any, texts: list[str]) -> None:
+def warn_all(texts: list[str]) -> None:
     """As warnings of Python."""
     for text in texts:
-        warnings.warn(f"{os.fspath(path)}: {text}", stacklevel=3)
+        warnings.warn(text, stacklevel=3)

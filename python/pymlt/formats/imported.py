@@ -18,16 +18,22 @@ class Imported:
     """What a reader has made of a file."""
 
     scene: dict[str, Any] = field(default_factory=lambda: {"type": "scene"})
-    warnings: list[str] = field(default_factory=list)
     _names: dict[str, int] = field(default_factory=dict)  #: and how often each was wanted
-    _warned: set[str] = field(default_factory=set)
+    _warned: dict[str, str] = field(default_factory=dict)  #: what was said, and of which place
     _memory: int = 0
 
-    def warn(self, text: str) -> None:
-        """Names something that has no counterpart, once."""
-        if text not in self._warned:
-            self._warned.add(text)
-            self.warnings.append(text)
+    def warn(self, text: str, place: str = "") -> None:
+        """Names something that has no counterpart, once: where (as file:line) it is met first."""
+        self._warned.setdefault(text, place)
+
+    @property
+    def warnings(self) -> list[str]:
+        """What was said, without the places."""
+        return list(self._warned)
+
+    def placed_warnings(self, source: str) -> list[str]:
+        """What was said, after its file and line, or after `source` where no line is known."""
+        return [f"{place or source}: {text}" for text, place in self._warned.items()]
 
     def name(self, wanted: str) -> str:
         """A name in which XML and file names have no special signs, and that nothing else has."""

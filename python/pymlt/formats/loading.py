@@ -40,7 +40,7 @@ def load(path, /, *, size=None, lenient=None, sensor=None, filter=None, **define
     UsageError, as `load_file` and `convert` do.
     """
     scene, found = load_with_warnings(path, defines, size, lenient, sensor, filter)
-    warn_all(path, found)
+    warn_all(found)
     return scene
 
 
@@ -63,13 +63,13 @@ def load_with_warnings(
 
 
 def built_in_name(text: str) -> str | None:
-    """The name of the built-in scene that somebody means, who may have written door-ajar."""
+    """The name of the built-in scene that `text` means, be it door_ajar or door-ajar."""
     name = text.replace("-", "_")
     return name if name in scenes.names() else None
 
 
 def existing_name(text: str) -> str:
-    """The same. Raises FileError for what looks like a file, else UsageError, if there is none."""
+    """As built_in_name. Raises FileError for what looks like a file, UsageError for other names."""
     if name := built_in_name(text):
         return name
     if "." in text or os.sep in text:

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from .. import _core
+from .._extras import import_extra
+from . import limits
 
 if TYPE_CHECKING:
     import numpy as np
@@ -19,6 +21,19 @@ class Mesh(NamedTuple):
     normals: np.ndarray | None = None  #: (vertices, 3)
     uvs: np.ndarray | None = None  #: (vertices, 2)
     colours: np.ndarray | None = None  #: (vertices, 3)
+
+
+def read_ply(shape: dict[str, Any]) -> tuple[np.ndarray, np.ndarray]:
+    """The corners, (vertices, 3), and triangles, (triangles, 3), of a shape of type `ply`.
+
+    Raises FileError if its file cannot be read, UsageError without the extra `pbrt`.
+    """
+    import io
+
+    trimesh = import_extra("trimesh", "pbrt", "a mesh of pbrt")
+    content = shape.get("data") or _core.read_file(shape["filename"], limits.MEMORY)
+    mesh = trimesh.load_mesh(io.BytesIO(content), file_type="ply", process=False)
+    return mesh.vertices, mesh.faces
 
 
 def write_ply(path: Path, mesh: Mesh) -> None:

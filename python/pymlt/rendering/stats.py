@@ -81,6 +81,7 @@ class Stats(TypedDict):
     samples_carrying_half: NotRequired[int]
     tours: NotRequired[int]
     longest_tour: NotRequired[int]
+    tours_waiting: NotRequired[float]
     invalid_samples: NotRequired[int]
     stuck: NotRequired[list[StuckChain]]
     mutations: NotRequired[list[MutationStats]]

@@ -30,7 +30,8 @@ class Controls:
             self._name = gui.add_dropdown("Integrator", names, initial_value=algorithm.name)
             hint = "NAME=VALUE, ...; press Enter. The table below names them all."
             self._parameters = gui.add_text("Parameters", algorithm.parameters, hint=hint)
-            self._other = gui.add_dropdown("Beside it", [NONE, *names], initial_value=NONE)
+            self._about = gui.add_html("")
+            self._other = gui.add_dropdown("Compare with", [NONE, *names], initial_value=NONE)
             self._others = gui.add_text("Its parameters", "", hint=hint, visible=False)
             self._seconds = gui.add_text("Seconds", str(SECONDS), hint="The render ends then.")
             apply = gui.add_button("Render")
@@ -39,6 +40,9 @@ class Controls:
         with gui.add_folder("How it is shown"):
             self._exposure = gui.add_slider("Exposure", -8.0, 8.0, 0.25, 0.0, hint="in stops")
             self._curve = gui.add_dropdown("Tone curve", list(CURVES))
+            self._denoise = gui.add_checkbox(
+                "Denoise", False, hint="the picture, not what is saved"
+            )
             self._layer = gui.add_dropdown("Layer", list(shown.LAYERS))
         self._save = gui.add_button_group("Save as", ["EXR", "PNG", "JPEG"])
         with gui.add_folder("Parameters of the integrator", expand_by_default=False):
@@ -54,7 +58,7 @@ class Controls:
         self._other.on_update(lambda _: post(self._chosen))
         self._buttons.on_click(lambda event: post(lambda: self._press(event.target.value)))
         self._save.on_click(lambda event: post(lambda: self._download(event.target.value)))
-        for field in (self._exposure, self._curve, self._layer, self._share):
+        for field in (self._exposure, self._curve, self._denoise, self._layer, self._share):
             field.on_update(lambda _: post(self._session.renew))
 
     # ---- what the session asks
@@ -80,7 +84,8 @@ class Controls:
         return seconds
 
     def look(self) -> shown.Look:
-        return shown.Look(self._layer.value, float(self._exposure.value), self._curve.value)
+        exposure, clean = float(self._exposure.value), bool(self._denoise.value)
+        return shown.Look(self._layer.value, exposure, self._curve.value, clean)
 
     def share(self) -> float | None:
         """Of the width that the first of two renders has; None for one."""
@@ -89,14 +94,14 @@ class Controls:
     def show_status(self) -> None:
         live = self._session.live
         rows = [
-            [escape(name), f"{job.samples:.4g} spp"]
+            [escape(name), f"{job.samples:.4g} spp", error_figure(job)]
             for name, job in zip(self._names(), live.jobs, strict=False)
-        ] or [["first pictures", ""]]
+        ] or [["first pictures", "", ""]]
         state = "running" if live.running else "ended"
         width, height = self._session.camera.size
         text = f"{width} x {height}, {state}, {time.monotonic() - self._began:.0f} s"
         said = [] if live.running else [w for job in live.jobs for w in job.stats["warnings"]]
-        rows += [["note", escape(warning)] for warning in said]
+        rows += [["note", escape(warning), ""] for warning in said]
         self._status.content = (
             STYLE + f'<p class="mlt" data-state="{state}">{text}</p>' + table(rows)
         )
@@ -114,8 +119,10 @@ class Controls:
         self._session.restart()
 
     def _explain(self) -> None:
+        schema = integrator_schema(self._name.value)
+        self._about.content = f'<p class="mlt" data-about="1">{escape(schema["doc"])}</p>'
         rows = [["name", "default", "meaning"]]
-        for row in integrator_schema(self._name.value)["parameters"]:
+        for row in schema["parameters"]:
             rows.append([escape(str(row.get(k, ""))) for k in ("name", "default", "doc")])
         self._help.content = table(rows, head=True)
 
@@ -152,3 +159,9 @@ class Controls:
                 look.curve,
             ).write()
             self._session.client.send_file_download(name, path.read_bytes())
+
+
+def error_figure(job: Any) -> str:
+    """The relative error of a render, as it estimates it; "" before that is known."""
+    error = job.stats["error"]
+    return f"\N{PLUS-MINUS SIGN} {100 * error:.2g} %" if error else ""

@@ -11,7 +11,9 @@ from .page import table
 from .pixel_paths import PixelPaths, brightness, paths_through
 from .world import Lines, Meshes
 
-DRAWN = 60  #: paths of a pixel that are drawn and listed
+EVERY, NONE = "all", "none"
+DRAWN = 60  #: paths of a pixel that are listed
+THIN = 24  #: of them that are drawn, since more hide the picture
 CHOSEN = (255, 255, 255)
 ACCEPTED, REJECTED = (70, 220, 110), (240, 70, 70)
 
@@ -35,6 +37,7 @@ class Inspector:
             self._samples = gui.add_text("Samples", "64")
             self._depth = gui.add_text("Longest path", "8", hint="in edges")
             find = gui.add_button("Find its paths")
+        self._kind = gui.add_dropdown("Signature", [EVERY, NONE], hint="which paths are drawn")
         self._list = gui.add_dropdown("Path", ["none yet"])
         self._shown = gui.add_checkbox("Shapes in 3D", False, hint="to turn the paths among them")
         self._opacity = gui.add_slider("Opacity", 0.05, 1.0, 0.05, 0.4, visible=False)
@@ -48,6 +51,7 @@ class Inspector:
         post = session.post
         form.on_submit(lambda _: post(self._typed))
         find.on_click(lambda _: form.submit())
+        self._kind.on_update(lambda _: post(self._draw))
         self._list.on_update(lambda _: post(self._choose))
         self._shown.on_update(lambda _: post(self._toggle))
         self._opacity.on_update(lambda _: post(self._toggle))
@@ -140,14 +144,14 @@ class Inspector:
     def _show_found(self, signature: str) -> None:
         found = self._found
         assert found is not None
-        colours = path_tables.colours(found)
         self._signatures.content = path_tables.signature_table(found)
         self._strategies.content = path_tables.strategy_table(found)
+        options = [EVERY, *found.signatures(), NONE]
+        if tuple(options) != tuple(self._kind.options):
+            self._kind.options, self._kind.value = options, EVERY
         drawn = self._drawn = found.some(DRAWN)
-        last = drawn[::-1]  # the most important lie on top
-        self._lines.draw("all", last, [colours[path.signature] for path in last], 1.5)
+        self._draw()
         if not drawn:
-            self._lines.clear("chosen")
             self._list.options, self._text.content, self._path = ["none yet"], "", None
             return
         names = [f"{i + 1}: {p.signature}, {brightness(p):.3g}" for i, p in enumerate(drawn)]
@@ -156,12 +160,28 @@ class Inspector:
         self._list.value = (wanted or names)[0]
         self._choose()
 
+    def _draw(self) -> None:
+        """The brightest paths of the signature that is chosen, or of all of them; or none."""
+        kind, found = self._kind.value, self._found
+        self._lines.clear("all")
+        if kind == NONE:
+            self._lines.clear("chosen")
+        if found is None or kind == NONE:
+            return
+        drawn = found.some(THIN) if kind == EVERY else found.of(kind)[:THIN]
+        colours = path_tables.colours(found)
+        last = drawn[::-1]  # the most important lie on top
+        self._lines.draw("all", last, [colours[path.signature] for path in last], 1)
+        if self._path is not None:
+            self._lines.draw_one("chosen", self._path, CHOSEN)
+
     def _choose(self) -> None:
         number = self._list.value.split(":")[0]
         if not self._drawn or not number.isdigit():
             return
         self._path = self._drawn[min(int(number), len(self._drawn)) - 1]
-        self._lines.draw_one("chosen", self._path, CHOSEN)
+        if self._kind.value != NONE:
+            self._lines.draw_one("chosen", self._path, CHOSEN)
         self._text.content = path_tables.path_text(self._path)
 
     def _toggle(self) -> None:

@@ -14,6 +14,15 @@ COLOURS = (
 )  # fmt: skip
 
 
+#: The letters D and S of a signature in words, by the lobe that scattered.
+LOBES = {
+    "smooth": "diffuse",
+    "reflection": "specular, reflecting",
+    "transmission": "specular, transmitting",
+    "null": "passed",
+}
+
+
 def colours(found: PixelPaths) -> dict[str, tuple[int, int, int]]:
     """Of each signature; those after the last colour share it."""
     return {
@@ -53,21 +62,21 @@ def _percent(share: float | None) -> str:
 
 def vertex_table(path: _core.LightPath) -> str:
     """Each vertex with the densities, per unit of area, of making it from either side."""
-    rows = [["", "vertex", "shape", "p light", "p camera"]]
+    rows = [["", "vertex", "shape", "p light<br>area⁻¹", "p camera<br>area⁻¹"]]
     forward, backward = path.from_light, path.from_camera
     for i, vertex in enumerate(path.vertices):
         place = ", ".join(f"{c:.3g}" for c in vertex["position"])
-        kind = vertex["lobe"] if vertex["kind"] == "surface" else vertex["kind"]
+        kind = LOBES[vertex["lobe"]] if vertex["kind"] == "surface" else vertex["kind"]
         shape = str(vertex["shape"]) if vertex["shape"] >= 0 else ""
         far = "towards " if vertex["infinite"] else ""
-        name = f"{escape(str(kind))}<br><small>{far}({place})</small>"
+        name = f"{escape(str(kind))} vertex<br><small>{far}({place})</small>"
         rows.append([f"x{i}", name, shape, f"{forward[i]:.3g}", f"{backward[i]:.3g}"])
     return table(rows, head=True)
 
 
 def technique_table(path: _core.LightPath) -> str:
     """p_{s,t} and the weights of every technique that could make the path."""
-    rows = [["technique", "density", "power", "balance"]]
+    rows = [["technique", f"density<br>area<sup>-{path.edges + 1}</sup>", "power", "balance"]]
     power, balance = path.weights("power"), path.weights("balance")
     for s, density in enumerate(path.densities()):
         t = path.edges + 1 - s

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from ..pictures.denoising import denoise
 from ..rendering.start import start
 from . import shown
 
@@ -46,6 +47,8 @@ class Pictures:
             error = live.jobs[index].error_map
             if error is not None:
                 return shown.error_picture(image, error)
+        if look.denoise:
+            image = denoise(image)
         return shown.picture(image, look.exposure, look.curve)
 
     @property

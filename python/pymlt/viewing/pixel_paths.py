@@ -32,6 +32,10 @@ class PixelPaths(NamedTuple):
         ordered = sorted(found.items(), key=lambda item: -sum(item[1]))
         return {signature: (len(values), sum(values) / total) for signature, values in ordered}
 
+    def of(self, signature: str) -> list[_core.LightPath]:
+        """Those of one signature, the brightest first."""
+        return [path for path in self.paths if path.signature == signature]
+
     def some(self, most: int) -> list[_core.LightPath]:
         """So many of them, the brightest of each signature in turn."""
         queues: dict[str, list[_core.LightPath]] = {name: [] for name in self.signatures()}

@@ -14,6 +14,7 @@ from collections.abc import Callable
 from typing import Any
 
 from .. import _core
+from .browser import open_tab, set_title
 from .camera import Pose, SceneCamera
 from .controls import Controls
 from .frame import Frame
@@ -41,6 +42,7 @@ class Session:
         self._due, self._final = 0.0, False
         self._canvas = 0.0
         self.post(self.restart)
+        set_title(client, "pymlt")
         tabs = client.gui.add_tab_group()
         with tabs.add_tab("Render"):
             self.controls = Controls(self, algorithm)
@@ -75,7 +77,12 @@ class Session:
     def _clicked(self, event: Any) -> None:
         place = self.frame().place(*event.screen_pos)
         if place is not None:
-            self.post(lambda: self.inspector.inspect(self.camera.pixel(place)))
+            self.post(lambda: self._inspect(self.camera.pixel(place)))
+
+    def _inspect(self, pixel: tuple[int, int]) -> None:
+        if not self.inspector.shows_meshes:
+            open_tab(self.client, "Paths")
+        self.inspector.inspect(pixel)
 
     # ---- the session's thread
 

@@ -21,6 +21,7 @@ class Look(NamedTuple):
     layer: str = IMAGE
     exposure: float = 0.0
     curve: str = "srgb"
+    denoise: bool = False
 
 
 @functools.lru_cache(maxsize=4)

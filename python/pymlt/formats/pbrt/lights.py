@@ -35,7 +35,7 @@ def light(params: Params, folder: Path, to_world: np.ndarray) -> dict[str, Any] 
     if params.type == "spot":
         from ...scenes.transforms import Transform
 
-        params.made.warn("the edge of a spot light falls off linearly with the angle")
+        params.warn("the edge of a spot light falls off linearly with the angle")
         cone = params.number("coneangle", 30)
         up = np.eye(3)[np.argmin(abs(axis))]
         return {
@@ -45,19 +45,8 @@ def light(params: Params, folder: Path, to_world: np.ndarray) -> dict[str, Any] 
             "beam_width": max(0.0, cone - params.number("conedeltaangle", 5)),
             "to_world": Transform.look_at(placed, placed + axis, up).matrix,
         }
-    params.made.warn(f"the light {params.type!r} has no counterpart")
+    params.warn(f"the light {params.type!r} has no counterpart")
     return None
-
-
-def area(params: Params) -> dict[str, Any]:
-    """The light of the shapes that follow."""
-    if params.flag("twosided"):
-        params.made.warn("lights that shine on both sides shine on their outside only")
-    if params.type != "diffuse":
-        params.made.warn(f"the area light {params.type!r} is taken as 'diffuse'")
-    radiance = scaled(params.colour("L", 1.0), params.number("scale", 1))
-    params.finish()
-    return {"type": "area", "radiance": radiance}
 
 
 def _point(params: Params, name: str, default: tuple[float, ...]) -> np.ndarray:

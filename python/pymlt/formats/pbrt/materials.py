@@ -20,7 +20,7 @@ def bsdf(params: Params, textures: Textures, named: Named) -> dict[str, Any]:
         return mix(params, textures, named)
     make = MATERIALS.get(params.type)
     if make is None:
-        params.made.warn(f"the material {params.type!r} has no counterpart; it becomes diffuse")
+        params.warn(f"the material {params.type!r} has no counterpart; it becomes diffuse")
         make = diffuse
     surface = make(params, textures)
     if image := params.text("normalmap"):
@@ -58,7 +58,7 @@ def conductor(params: Params, textures: Textures, prefix: str = "") -> dict[str,
 
 def coated_conductor(params: Params, textures: Textures) -> dict[str, Any]:
     if params.number("interface.roughness", 0):
-        params.made.warn("the roughness of coatings of conductors is left out")
+        params.warn("the roughness of coatings of conductors is left out")
     metal = conductor(params, textures, "conductor.")
     given = params.get("interface.eta")
     eta = given.values[0] if given and isinstance(given.values[0], float) else 1.5
@@ -96,7 +96,7 @@ def rough(
     both = textures.number(params, f"{prefix}roughness", default)
     found = [textures.number(params, f"{prefix}{axis}roughness", both) for axis in "uv"]
     if remap and any(isinstance(value, dict) for value in found):
-        params.made.warn("textures of roughness are taken as alpha, not remapped")
+        params.warn("textures of roughness are taken as alpha, not remapped")
     alphas = [math.sqrt(v) if remap and isinstance(v, float) and v > 0 else v for v in found]
     if all(alpha == 0 for alpha in alphas):
         return {"type": plugin}
@@ -104,7 +104,7 @@ def rough(
     if alphas[0] == alphas[1]:
         return surface | {"alpha": alphas[0]}
     if plugin == "plastic":
-        params.made.warn("anisotropic coatings are left out")
+        params.warn("anisotropic coatings are left out")
         return surface | {"alpha": alphas[0]}
     return surface | {"alpha_u": alphas[0], "alpha_v": alphas[1]}
 
@@ -113,7 +113,7 @@ def index(params: Params, default: float) -> float:
     """Of refraction."""
     found = params.colour("eta", default)
     if isinstance(found, dict):
-        params.made.warn("dispersion is left out: one index of refraction for all wavelengths")
+        params.warn("dispersion is left out: one index of refraction for all wavelengths")
         values = found["value"]
         found = values[len(values) // 2]
         found = found[1] if isinstance(found, tuple) else found

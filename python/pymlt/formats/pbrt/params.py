@@ -15,17 +15,25 @@ if TYPE_CHECKING:
 class Params:
     """What follows a directive; what nobody asked for is named by `finish`."""
 
-    def __init__(self, where: Token, type: str, given: dict[str, Parameter], made: Imported):
+    def __init__(
+        self,
+        where: Token,
+        type: str,
+        given: dict[str, Parameter],
+        made: Imported,
+        defaults: dict[str, Parameter] | None = None,
+    ):
         self.where = where
         self.type = type
         self.made = made
         self._given = given
+        self._defaults = defaults or {}
         self._read: set[str] = set()
 
     def get(self, name: str) -> Parameter | None:
         """A parameter, if it is given."""
         self._read.add(name)
-        return self._given.get(name)
+        return self._given.get(name, self._defaults.get(name))
 
     def number(self, name: str, default: float) -> float:
         found = self.get(name)
@@ -57,7 +65,11 @@ class Params:
         found = self.get(name)
         return colour(found, self.where, self.made) if found else default
 
+    def warn(self, text: str) -> None:
+        """Names something that has no counterpart, with the line of the directive."""
+        self.made.warn(text, self.where.place)
+
     def finish(self, ignored: tuple[str, ...] = ()) -> None:
         """Names what has not been read."""
         for name in sorted(set(self._given) - self._read - set(ignored)):
-            self.made.warn(f"{self.where.text} {self.type!r}: {name!r} is left out")
+            self.warn(f"{self.where.text} {self.type!r}: {name!r} is left out")

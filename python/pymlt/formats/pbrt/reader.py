@@ -12,20 +12,21 @@ from .. import limits
 from ..imported import Imported
 from ..views import complete
 from . import views
-from .lights import area, light
+from .area_lights import area_light
+from .exposure import expose, exposure_time, sensitivity
+from .lights import light
 from .materials import bsdf
 from .params import Params
 from .shapes import shape
-from .state import TRANSFORMS, State
+from .state import ATTRIBUTES, TRANSFORMS, State
 from .textures import Textures
-from .tokens import Token, Words
+from .tokens import Parameter, Token, Words
 
 if TYPE_CHECKING:
     import numpy as np
 
 VIEWS: dict[str, Callable[[Params], dict[str, Any] | None]]
 VIEWS = {
-    "Film": views.film,
     "Integrator": views.integrator,
     "PixelFilter": views.rfilter,
     "Sampler": views.sampler,
@@ -61,6 +62,7 @@ class Reader:
         self._objects: dict[str, str] = {}
         self._group: dict[str, Any] | None = None
         self._views: dict[str, dict[str, Any]] = {}
+        self._exposure_time = self._sensitivity = 1.0
         self._last: Token | None = None
 
     def read(self) -> None:
@@ -74,6 +76,7 @@ class Reader:
                 raise directive.error(f"{directive.text} makes no sense: {error!s:.200}") from None
         if self._saved and self._last is not None:
             raise self._last.error("an AttributeBegin has no AttributeEnd")
+        expose(self._made.scene, self._exposure_time * self._sensitivity)
         self._view()
         complete(self._made)
 
@@ -97,13 +100,19 @@ class Reader:
 
     def _params(self, directive: Token) -> Params:
         kind = self._words.text(directive)
-        return Params(directive, kind, self._words.parameters(), self._made)
+        return Params(
+            directive, kind, self._words.parameters(), self._made, self._defaults(directive)
+        )
+
+    def _defaults(self, directive: Token) -> dict[str, Parameter]:
+        """What Attribute says of directives of this kind."""
+        return self._state.defaults.get(ATTRIBUTES.get(directive.text, ""), {})
 
     def _leave_out(self, directive: Token) -> None:
         """What is not known, with all that follows up to the next directive."""
         if not directive.text[:1].isalpha():
             raise directive.error(f"a directive is expected, not {directive.text!r}")
-        self._made.warn(f"{directive.text} is left out")
+        self._made.warn(f"{directive.text} is left out", directive.place)
         while (token := self._words.peek()) is not None:
             if not token.quoted and token.text[:1].isalpha() and token.text not in _VALUES:
                 return
@@ -122,6 +131,9 @@ class Reader:
             self._state.matrix = saved.matrix
         else:
             self._state = saved
+
+    def _on_attribute(self, directive: Token) -> None:
+        self._state.attribute(directive, self._words)
 
     # ---- transforms, files ---------------------------------------------------------------------
 
@@ -153,8 +165,15 @@ class Reader:
     def _on_camera(self, directive: Token) -> None:
         import numpy as np
 
-        self._views["Camera"] = views.camera(self._params(directive), self._state.matrix)
+        params = self._params(directive)
+        self._exposure_time = exposure_time(params)
+        self._views["Camera"] = views.camera(params, self._state.matrix)
         self._spaces["camera"] = np.linalg.inv(self._state.matrix)
+
+    def _on_film(self, directive: Token) -> None:
+        params = self._params(directive)
+        self._sensitivity = sensitivity(params)
+        self._views["Film"] = views.film(params)
 
     def _on_accelerator(self, directive: Token) -> None:
         """Has no influence on the image."""
@@ -173,7 +192,8 @@ class Reader:
         kind = given.pop("type", None)
         if kind is None:
             raise directive.error(f'the material {name!r} needs a "string type"')
-        params = Params(directive, kind.values[0], given, self._made)
+        defaults = self._defaults(directive)
+        params = Params(directive, kind.values[0], given, self._made, defaults)
         self._named[name] = bsdf(params, self._textures, self._named)
         self._ids[name] = self._made.add(name, self._named[name])
 
@@ -195,7 +215,7 @@ class Reader:
             self._made.add(f"{params.type}-light", found)
 
     def _on_area_light_source(self, directive: Token) -> None:
-        self._state.area_light = area(self._params(directive))
+        self._state.area_light = area_light(self._params(directive))
 
     def _reference(self, id: str) -> dict[str, Any]:
         return {"type": "ref", "id": id}
@@ -214,9 +234,9 @@ class Reader:
             surface = {"type": "mask", "opacity": opacity, "bsdf": surface}
         found["bsdf"] = surface
         if self._state.area_light and self._group is None:
-            found["emitter"] = self._state.area_light
+            found["emitter"] = self._state.area_light.emitter(found, params)
         elif self._state.area_light:
-            self._made.warn("lights in objects that are instanced are left out")
+            params.warn("lights in objects that are instanced are left out")
         params.finish(ignored=("edgelength", "displacement"))
         if self._group is None:
             self._made.add(params.type, found)

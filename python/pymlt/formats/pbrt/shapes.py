@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from ..limits import read_file
 from ..ply import Mesh
 from .params import Params
+from .subdivision import loop_subdivision
 
 if TYPE_CHECKING:
     import numpy as np
@@ -26,7 +27,7 @@ def shape(
 
     make = SHAPES.get(params.type)
     if make is None:
-        params.made.warn(f"the shape {params.type!r} has no counterpart")
+        params.warn(f"the shape {params.type!r} has no counterpart")
         return None
     made = make(params, folder)
     if params.type == "sphere" and not is_similarity(to_world):
@@ -55,7 +56,7 @@ def bilinear_mesh(params: Params, folder: Path) -> dict[str, Any]:
     quads = np.arange(4).reshape(1, 4) if indices is None else indices.astype(int)
     a, b, c, d = quads.T  # at (0, 0), (1, 0), (0, 1), (1, 1)
     triangles = np.concatenate([np.stack([a, b, c], 1), np.stack([b, d, c], 1)])
-    params.made.warn("patches (bilinearmesh) become two triangles each")
+    params.warn("patches (bilinearmesh) become two triangles each")
     return _mesh(params, positions, triangles)
 
 
@@ -70,7 +71,7 @@ def sphere(params: Params, folder: Path) -> dict[str, Any]:
     radius = params.number("radius", 1)
     low, high = params.number("zmin", -radius), params.number("zmax", radius)
     if low > -radius or high < radius or params.number("phimax", 360) < 360:
-        params.made.warn("parts of spheres are left out: they become whole")
+        params.warn("parts of spheres are left out: they become whole")
     return {"type": "sphere", "radius": radius}
 
 
@@ -88,7 +89,7 @@ def ellipsoid(params: Params, radius: float) -> dict[str, Any]:
     a = (np.arange(rows)[:, None] * (columns + 1) + np.arange(columns)).ravel()
     b, c, d = a + columns + 1, a + columns + 2, a + 1
     triangles = np.concatenate([np.stack([a, b, c], 1), np.stack([a, c, d], 1)])
-    params.made.warn("ellipsoids become meshes")
+    params.warn("ellipsoids become meshes")
     mesh = params.made.mesh("ellipsoid", Mesh(radius * normals, triangles, normals, uvs))
     return mesh | {"has_normals": True}
 
@@ -106,7 +107,7 @@ def disk(params: Params, folder: Path) -> dict[str, Any]:
     import numpy as np
 
     if params.number("innerradius", 0) > 0 or params.number("phimax", 360) < 360:
-        params.made.warn("parts of disks are left out: they become whole")
+        params.warn("parts of disks are left out: they become whole")
     radius, height = params.number("radius", 1), params.number("height", 0)
     local = np.diag([radius, radius, 1.0, 1.0])
     local[2, 3] = height
@@ -115,7 +116,7 @@ def disk(params: Params, folder: Path) -> dict[str, Any]:
 
 def cylinder(params: Params, folder: Path) -> dict[str, Any]:
     if params.number("phimax", 360) < 360:
-        params.made.warn("parts of cylinders are left out: they become whole")
+        params.warn("parts of cylinders are left out: they become whole")
     ends = [params.number("zmin", -1), params.number("zmax", 1)]
     points = {f"p{i}": [0.0, 0.0, z] for i, z in enumerate(ends)}
     return {"type": "cylinder", "radius": params.number("radius", 1)} | points
@@ -150,6 +151,7 @@ SHAPES = {
     "bilinearmesh": bilinear_mesh,
     "cylinder": cylinder,
     "disk": disk,
+    "loopsubdiv": loop_subdivision,
     "plymesh": ply_mesh,
     "sphere": sphere,
     "trianglemesh": triangle_mesh,

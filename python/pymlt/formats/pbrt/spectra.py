@@ -29,8 +29,30 @@ def colour(given: Parameter, where: Token, made: Imported) -> Any:
         return 1.0
     if name in GLASSES:
         return GLASSES[name]
-    made.warn(f"the spectrum {name!r} is not known; it is taken as 1")
+    made.warn(f"the spectrum {name!r} is not known; it is taken as 1", where.place)
     return 1.0
+
+
+def luminance_one(value: Any) -> Any:
+    """A spectrum whose luminance is that of an even one of 1.
+
+    pbrt divides by the luminance of the illuminant alone, so colours stay what they are.
+    """
+    if not isinstance(value, dict) or value["type"] != "spectrum":
+        return value
+    waves, heights = zip(*value["value"], strict=True)
+    weights = [luminous(wave) for wave in WAVELENGTHS]
+    found = sum(
+        w * _between(waves, heights, at) for w, at in zip(weights, WAVELENGTHS, strict=True)
+    )
+    return scaled(value, sum(weights) / found)
+
+
+def _between(waves: Any, heights: Any, at: float) -> float:
+    """A spectrum of straight lines; zero beyond its ends."""
+    import numpy as np
+
+    return float(np.interp(at, waves, heights, left=0, right=0))
 
 
 def scaled(value: Any, factor: float) -> Any:

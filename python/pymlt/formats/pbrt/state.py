@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
-from .tokens import Token, Words
+from .area_lights import AreaLight
+from .tokens import Parameter, Token, Words
 
 if TYPE_CHECKING:
     import numpy as np
@@ -19,6 +20,16 @@ TRANSFORMS = {
     "Transform": 16,
     "Translate": 3,
 }
+#: What the parameters of Attribute are for, by the directives that have them.
+ATTRIBUTES = {
+    "AreaLightSource": "light",
+    "LightSource": "light",
+    "MakeNamedMaterial": "material",
+    "MakeNamedMedium": "medium",
+    "Material": "material",
+    "Shape": "shape",
+    "Texture": "texture",
+}
 
 
 @dataclass
@@ -27,11 +38,21 @@ class State:
 
     matrix: np.ndarray  #: object space (or world space, before WorldBegin) to the outer space
     material: dict[str, Any] | None = None  #: as the scene refers to it
-    area_light: dict[str, Any] | None = None
+    area_light: AreaLight | None = None
     reversed: bool = False
+    #: parameters that directives have unless they say otherwise, by what they are for
+    defaults: dict[str, dict[str, Parameter]] = field(default_factory=dict)
 
     def copy(self) -> State:
-        return replace(self, matrix=self.matrix.copy())
+        return replace(self, matrix=self.matrix.copy(), defaults=dict(self.defaults))
+
+    def attribute(self, directive: Token, words: Words) -> None:
+        """Attribute "shape" ...: adds to the defaults."""
+        target = words.text(directive)
+        if target not in ATTRIBUTES.values():
+            valid = ", ".join(sorted(set(ATTRIBUTES.values())))
+            raise directive.error(f"Attribute {target!r} is not known; valid are: {valid}")
+        self.defaults[target] = self.defaults.get(target, {}) | words.parameters()
 
     def transform(self, directive: Token, words: Words) -> None:
         """Applies one of TRANSFORMS; the numbers of a matrix stand column by column."""

@@ -31,7 +31,7 @@ class Textures:
         elif params.type == "checkerboard":
             value = self._checkerboard(params)
         else:
-            params.made.warn(f"the texture {params.type!r} has no counterpart; it becomes 0.5")
+            params.warn(f"the texture {params.type!r} has no counterpart; it becomes 0.5")
             self._known[name] = 0.5
             return
         params.finish(ignored=("mapping", "filter", "maxanisotropy"))
@@ -74,7 +74,7 @@ class Textures:
         elif encoding == "linear":
             bitmap["raw"] = True
         if params.flag("invert"):
-            params.made.warn("'invert' of image textures is left out")
+            params.warn("'invert' of image textures is left out")
         return multiplied(bitmap, params.number("scale", 1.0))
 
     def _scale(self, params: Params) -> Value:
@@ -82,14 +82,14 @@ class Textures:
         if isinstance(factor, dict) and factor["type"] not in ("rgb", "spectrum"):
             inner, factor = factor, inner
         if isinstance(factor, dict) and factor["type"] not in ("rgb", "spectrum"):
-            params.made.warn("a product of two textures is left out; the first is taken")
+            params.warn("a product of two textures is left out; the first is taken")
             return inner
         return multiplied(inner, factor)
 
     def _checkerboard(self, params: Params) -> Value:
         """A period of two squares, where ours has one."""
         if params.number("dimension", 2) != 2:
-            params.made.warn("checkerboards in space are left out; they follow u and v")
+            params.warn("checkerboards in space are left out; they follow u and v")
         colours = {f"color{i}": self.colour(params, f"tex{i + 1}", 1.0 - i) for i in range(2)}
         return {"type": "checkerboard"} | colours | placement(params, 0.5)
 
@@ -97,7 +97,7 @@ class Textures:
 def placement(params: Params, factor: float) -> dict[str, float]:
     """uscale, vscale, udelta and vdelta of the mapping "uv"."""
     if params.text("mapping", "uv") != "uv":
-        params.made.warn(f"the mapping {params.text('mapping')!r} is left out")
+        params.warn(f"the mapping {params.text('mapping')!r} is left out")
     return {
         "uscale": factor * params.number("uscale", 1),
         "vscale": factor * params.number("vscale", 1),

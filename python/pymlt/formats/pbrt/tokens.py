@@ -24,8 +24,12 @@ class Token(NamedTuple):
     file: Path
     line: int
 
+    @property
+    def place(self) -> str:
+        return f"{self.file}:{self.line}"
+
     def error(self, message: str) -> _core.SceneError:
-        return _core.SceneError(f"{self.file}:{self.line}: {message}")
+        return _core.SceneError(f"{self.place}: {message}")
 
 
 class Parameter(NamedTuple):

@@ -29,7 +29,7 @@ def camera(params: Params, camera_from_world: np.ndarray) -> dict[str, Any]:
         width = 1.0 if window is None else (window[0, 1] - window[0, 0]) / 2
         return {"type": "orthographic", "to_world": to_world @ np.diag([width, width, 1, 1])}
     if params.type != "perspective":
-        params.made.warn(f"the camera {params.type!r} is taken as 'perspective'")
+        params.warn(f"the camera {params.type!r} is taken as 'perspective'")
     view = {
         "type": "perspective",
         "fov": params.number("fov", 90),
@@ -39,7 +39,7 @@ def camera(params: Params, camera_from_world: np.ndarray) -> dict[str, Any]:
     if radius := params.number("lensradius", 0):
         distance = params.number("focaldistance", 1e6)
         view |= {"type": "thinlens", "aperture_radius": radius, "focus_distance": distance}
-    params.finish(ignored=("shutteropen", "shutterclose"))
+    params.finish()
     return view
 
 
@@ -70,6 +70,6 @@ def integrator(params: Params) -> dict[str, Any] | None:
     """pbrt counts bounces, we count edges: one more."""
     name = INTEGRATORS.get(params.type)
     if name is None:
-        params.made.warn(f"the integrator {params.type!r} has no counterpart")
+        params.warn(f"the integrator {params.type!r} has no counterpart")
         return None
     return {"type": name, "max_depth": int(params.number("maxdepth", 5)) + 1}

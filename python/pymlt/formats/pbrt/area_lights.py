@@ -1,0 +1,80 @@
+"""Area lights of pbrt-v4: their radiance, or the power that gives it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from ..ply import read_ply
+from .params import Params
+from .spectra import luminance_one, scaled
+
+if TYPE_CHECKING:
+    import numpy as np
+
+
+class AreaLight(NamedTuple):
+    """The light of the shapes that follow."""
+
+    radiance: Any  #: as a scene dict has it; for a light with a power, up to a factor
+    power: float | None  #: of each shape, the radiance's own luminance being 1
+    sides: int  #: among which the power is shared: 1 or 2
+
+    def emitter(self, shape: dict[str, Any], params: Params) -> dict[str, Any]:
+        """The light of one shape, which is placed in the world.
+
+        pbrt makes a light of each triangle, or patch, of a mesh: the power is that of one of them.
+        """
+        import numpy as np
+
+        if self.power is None:
+            return {"type": "area", "radiance": self.radiance}
+        areas = areas_of(shape, params)
+        if len(areas) > 1:
+            what = f"each of the {len(areas)} parts of a {params.type} has the power of its light"
+            differ = not np.allclose(areas, areas.mean(), rtol=1e-3)
+            params.warn(what + (", spread evenly, as their areas differ" * differ))
+        if not areas.mean() > 0:
+            raise params.where.error("a light with 'power' has no area")
+        factor = self.power / (np.pi * float(areas.mean()) * self.sides)
+        return {"type": "area", "radiance": scaled(self.radiance, factor)}
+
+
+def area_light(params: Params) -> AreaLight:
+    """What AreaLightSource says."""
+    both = params.flag("twosided")
+    if both:
+        params.warn("lights that shine on both sides shine on their outside only")
+    if params.type != "diffuse":
+        params.warn(f"the area light {params.type!r} is taken as 'diffuse'")
+    colour, scale = params.colour("L", 1.0), params.number("scale", 1)
+    power = params.number("power", -1)
+    params.finish()
+    if power > 0:
+        return AreaLight(scaled(luminance_one(colour), scale), power, 1 + both)
+    return AreaLight(scaled(colour, scale), None, 1)
+
+
+def areas_of(shape: dict[str, Any], params: Params) -> np.ndarray:
+    """In the world, of each part of a shape that is a light by itself in pbrt."""
+    import numpy as np
+
+    to_world = np.asarray(shape["to_world"])[:3, :3]
+    scale = abs(np.linalg.det(to_world)) ** (2 / 3)  # of areas, by a similarity
+    match shape["type"]:
+        case "sphere":
+            return np.array([4 * np.pi * shape["radius"] ** 2 * scale])
+        case "cylinder":
+            height = np.linalg.norm(np.subtract(shape["p1"], shape["p0"]))
+            return np.array([2 * np.pi * shape["radius"] * height * scale])
+        case "disk":
+            return np.array([np.pi * np.linalg.norm(np.cross(*to_world[:, :2].T))])
+        case "ply":
+            vertices, faces = read_ply(shape)
+        case _:
+            vertices, faces = shape["vertices"], shape["faces"]
+    corners = (vertices @ to_world.T)[faces]
+    sides = corners[:, 1:] - corners[:, :1]
+    areas: np.ndarray = np.linalg.norm(np.cross(sides[:, 0], sides[:, 1]), axis=1) / 2
+    if params.type == "bilinearmesh":
+        return areas.reshape(2, -1).sum(axis=0)
+    return areas.sum(keepdims=True) if params.type == "sphere" else areas
