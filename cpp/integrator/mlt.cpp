@@ -19,6 +19,8 @@ class MltIntegrator : public Integrator {
     settings_.near_specular = params.real_in("near_specular", 0, 1);
     settings_.two_stage = params.boolean("two_stage");
     settings_.delayed_rejection = params.boolean("delayed_rejection");
+    const double patience = params.real_in("patience", 0, 1e6);
+    if (patience > 0) settings_.patience = patience;
     direct_samples_ = static_cast<int>(params.integer_in("direct_samples", -1, 1 << 20));
     if (direct_samples_ >= 0) settings_.rules.min_depth = 3;
     settings_.mixture = read_mixture(params, mutation_plugins());
@@ -73,6 +75,11 @@ Plugin integrator_mlt() {
             "What the independent samples are: those of bidirectional path tracing, or "
             "of path tracing, which are cheaper; by default a pilot chooses.",
             {"auto", "bdpt", "path"}),
+        {"patience", ParamType::real, 2.0,
+         "A tour, the mutations from one start of a chain, waits when it is this many times as "
+         "long "
+         "as all tours of the chain should be by then. 0: none waits; the image is then right in "
+         "the mean from the start, but may be filled by the light of one path."},
         {"direct_samples", ParamType::integer, int64_t{-1},
          "Render light of at most one reflection apart with this many samples per pixel; "
          "0 leaves it out, -1 leaves it to the chains."}}}));

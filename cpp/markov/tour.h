@@ -65,8 +65,8 @@ struct Tour {
 /// Makes steps until the tour dies, or has made `most` in all; returns whether it is dead.
 /// `survival()` is that of the current state.
 template <class Survival, class Step>
-bool run_tour(Tour& tour, uint64_t most, Survival&& survival, Step&& step) {
-  for (; tour.steps < most; ++tour.steps) {
+bool run_tour(Tour& tour, double most, Survival&& survival, Step&& step) {
+  for (; static_cast<double>(tour.steps) < most; ++tour.steps) {
     tour.left *= survival();
     if (!(tour.left > tour.u)) return true;
     step();

@@ -97,10 +97,10 @@ class MltAlgorithm : public MetropolisAlgorithm {
   std::unique_ptr<RenderChain> blank(const ChainId& id, const FamilyWeights& weights,
                                      double steps_per_sample) const override {
     const double kappa0 = id.b / steps_per_sample;
-    return std::make_unique<PathTours>(target_, mixture(), id, weights, steps_per_sample,
-                                       settings_.tour_length
-                                           ? KillRate::constant(kappa0, *settings_.tour_length)
-                                           : KillRate(kappa0));
+    const KillRate rate = settings_.tour_length ? KillRate::constant(kappa0, *settings_.tour_length)
+                                                : KillRate(kappa0);
+    return std::make_unique<PathTours>(target_, mixture(), id, weights, steps_per_sample, rate,
+                                       settings_.patience);
   }
 
   std::vector<MutationStats> rows() const override {

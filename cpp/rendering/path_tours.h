@@ -7,23 +7,27 @@
 #include "rendering/path_kernel.h"
 
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 namespace mlt {
 
 /// A chain of tours. Each advance draws as many samples as have `steps` steps in the mean, and ends
 /// with the last tour. A tour from a path that is found too rarely would take most of a short
-/// render, and fill its image with the light of one sample: such a tour waits until others have
-/// made their steps. What it has yet to do is missing in the image, in the long run nothing.
+/// render, and fill its image with the light of one sample. Such a tour waits when it has made as
+/// many steps as all tours of the chain make in the mean, times `patience`, and goes on as that
+/// grows. What it has yet to do is missing in the image: in the long run, nothing.
 class PathTours : public RenderChain {
  public:
   /// `rate` has kappa0 = id.b / steps_per_sample.
   PathTours(const PathTarget& target, const PathMixture& mixture, const ChainId& id,
-            const FamilyWeights& weights, double steps_per_sample, const KillRate& rate)
+            const FamilyWeights& weights, double steps_per_sample, const KillRate& rate,
+            double patience = std::numeric_limits<double>::infinity())
       : target_(&target),
         weights_(weights),
         kill_rate_(rate),
         steps_per_sample_(steps_per_sample),
+        patience_(patience),
         seeds_(target),
         chain_(PathKernel(target, mixture), id, {}),
         id_(id),
@@ -72,9 +76,6 @@ class PathTours : public RenderChain {
   }
 
  private:
-  /// At this multiple of the steps that all tours of the chain make in the mean a tour must wait.
-  static constexpr double patience = 2;
-
   /// A path that roulette has let through with probability q starts r / q tours in the mean.
   void start_tours(ChainRecorder& recorder) {
     SampleWeights sum;
@@ -137,10 +138,7 @@ class PathTours : public RenderChain {
   }
   double survival(const PathState& x) const { return kill_rate_.survival(over_density(x)); }
   double over_density(const PathState& x) const { return target_->over_bidirectional_density(x); }
-  /// The steps that all tours up to now make in the mean, times patience.
-  uint64_t most_steps() const {
-    return static_cast<uint64_t>(patience * steps_per_sample_ * static_cast<double>(count_));
-  }
+  double most_steps() const { return patience_ * steps_per_sample_ * static_cast<double>(count_); }
 
   /// The chains of a group share its sequences, so that these are stratified over the group.
   uint64_t in_group(uint64_t i) const { return i * id_.count + id_.number; }
@@ -154,7 +152,7 @@ class PathTours : public RenderChain {
   const PathTarget* target_;
   FamilyWeights weights_;
   KillRate kill_rate_;
-  double steps_per_sample_;
+  double steps_per_sample_, patience_;
   PathSeeds seeds_;
   RecordedChain<PathKernel> chain_;
   PathState start_;

@@ -300,6 +300,10 @@ class MLT(Integrator):
     independent : string, default 'auto'
         What the independent samples are: those of bidirectional path tracing, or of path
         tracing, which are cheaper; by default a pilot chooses. One of: auto, bdpt, path.
+    patience : float, default 2.0
+        A tour, the mutations from one start of a chain, waits when it is this many times as
+        long as all tours of the chain should be by then. 0: none waits; the image is then right
+        in the mean from the start, but may be filled by the light of one path.
     direct_samples : integer, default -1
         Render light of at most one reflection apart with this many samples per pixel; 0 leaves
         it out, -1 leaves it to the chains.
@@ -345,6 +349,7 @@ class MLT(Integrator):
     two_stage: bool
     delayed_rejection: bool
     independent: Literal["auto", "bdpt", "path"]
+    patience: float
     direct_samples: int
     mutations: Sequence[Mutation | tuple[Mutation, float]] | None
     def __init__(
@@ -387,6 +392,7 @@ class MLT(Integrator):
         two_stage: bool = ...,
         delayed_rejection: bool = ...,
         independent: Literal["auto", "bdpt", "path"] = ...,
+        patience: float = ...,
         direct_samples: int = ...,
         mutations: Sequence[Mutation | tuple[Mutation, float]] | None = ...,
     ) -> None: ...

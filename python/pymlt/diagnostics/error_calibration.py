@@ -41,25 +41,40 @@ def calibrate(
     spp: float,
     threads: int = 0,
 ) -> list[Calibration]:
-    """Render a scene by each of several unbiased integrators with each seed.
+    """Render a scene by each of two or more integrators with each seed.
 
-    What relMSE divides by comes from the mean of all images, those of an integrator weighted by how
-    well it knows it. Errors are those around the integrator's own mean, so that no reference need
-    be better than all of them.
+    No reference need be better than all of them. What relMSE divides by comes from the mean of all
+    images, those of an integrator weighted by how well it knows it. The square of an error is the
+    variance around the integrator's own mean, and what that differs from the mean of the others by
+    beyond the noise of both: long tours of `mlt` have yet to show some light.
     """
     runs = [
         [start(scene, integrator, spp=spp, seed=seed, threads=threads).result() for seed in seeds]
         for integrator in integrators
     ]
     images = [np.array([target_luminance(result.image) for result in own]) for own in runs]
-    weights = [1 / (own.var(axis=0, ddof=1).mean() + 1e-30) for own in images]
-    means = [weight * own.mean(axis=0) for weight, own in zip(weights, images, strict=True)]
-    truth = sum(means) / sum(weights)
+    means = [own.mean(axis=0) for own in images]
+    noise = [own.var(axis=0, ddof=1) / len(own) for own in images]
+    every = range(len(images))
+    truth, _ = _weighted_mean(means, noise, every)
     scale = truth**2 + 0.01 * truth.mean() ** 2
-    return [
-        _calibration(own, float(np.sqrt((image.var(axis=0, ddof=1) / scale).mean())))
-        for own, image in zip(runs, images, strict=True)
-    ]
+
+    def true_error(i: int) -> float:
+        others, others_noise = _weighted_mean(means, noise, [j for j in every if j != i])
+        bias = ((means[i] - others) ** 2 - noise[i] - others_noise) / scale
+        return float(np.sqrt((len(images[i]) * noise[i] / scale).mean() + max(bias.mean(), 0)))
+
+    return [_calibration(own, true_error(i)) for i, own in enumerate(runs)]
+
+
+def _weighted_mean(
+    means: list[np.ndarray], noise: list[np.ndarray], chosen: Iterable[int]
+) -> tuple[np.ndarray, np.ndarray]:
+    """The mean of the chosen means, weighted by how little noise each has; and its variance."""
+    weights = {i: 1 / (noise[i].mean() + 1e-30) for i in chosen}
+    total = sum(weights.values())
+    mean = sum(weight * means[i] for i, weight in weights.items()) / total
+    return mean, sum(weight**2 * noise[i] for i, weight in weights.items()) / total**2
 
 
 def _calibration(results: list[Result], true: float) -> Calibration:

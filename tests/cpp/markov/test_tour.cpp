@@ -16,6 +16,7 @@ namespace mlt {
 namespace {
 
 constexpr int states = 12;
+constexpr double forever = std::numeric_limits<double>::infinity();
 using Values = std::array<double, states>;
 
 /// Two peaks, with hardly anything between them.
@@ -50,7 +51,7 @@ double deviation(double kappa0, const std::function<double(int)>& survival) {
     chain.restart(static_cast<int>(starts.sample(rng.next())));
     Tour tour{rng.next()};
     run_tour(
-        tour, std::numeric_limits<uint64_t>::max(), [&] { return survival(chain.state()); },
+        tour, forever, [&] { return survival(chain.state()); },
         [&] {
           ++visits[0][chain.state()];
           chain.step([](int, double) {});
@@ -98,7 +99,7 @@ INSTANTIATE_TEST_SUITE_P(StepsPerSample, Tours, testing::Values(3.0, 30.0, 300.0
 /// A tour that waits now and then goes where it would have gone at once.
 TEST_P(Tours, MayBeInterrupted) {
   const KillRate rate(sum(target) / GetParam());
-  const auto states = [&](uint64_t patience) {
+  const auto visited_states = [&](double patience) {
     Chain<int, Walk> chain(Walk(), Rng(3, Purpose::test, 1), 4);
     const auto survival = [&] { return rate.survival(over_density(chain.state())); };
     std::vector<int> visited;
@@ -107,15 +108,15 @@ TEST_P(Tours, MayBeInterrupted) {
       visited.push_back(chain.state());
     };
     Tour tour{1e-3};
-    for (uint64_t most = patience; !run_tour(tour, most, survival, step); most += patience)
-      EXPECT_EQ(tour.steps, most);
+    for (double most = patience; !run_tour(tour, most, survival, step); most += patience)
+      EXPECT_EQ(static_cast<double>(tour.steps), most);
     EXPECT_EQ(tour.steps, visited.size());
     return visited;
   };
-  const auto whole = states(std::numeric_limits<uint64_t>::max());
+  const auto whole = visited_states(forever);
   EXPECT_GT(whole.size(), 3);
-  EXPECT_EQ(states(1), whole);
-  EXPECT_EQ(states(3), whole);
+  EXPECT_EQ(visited_states(1), whole);
+  EXPECT_EQ(visited_states(3), whole);
 }
 
 TEST(KillRate, IsNoneWhereNoSampleStarts) {

@@ -78,7 +78,9 @@ class LongTours : public testing::Test {
  protected:
   PathTours tours() const {
     constexpr double b = 1e-5, steps_per_sample = 10;
-    return {target, mixture, {7, 0, 0, 1, b}, {}, steps_per_sample, KillRate(b / steps_per_sample)};
+    const double patience = 2;
+    return {target,  mixture, {7, 0, 0, 1, b}, {}, steps_per_sample, KillRate(b / steps_per_sample),
+            patience};
   }
   static double brightness(PathTours& tours, uint64_t steps) {
     Brightness recorder{FamilyWeights()};
