@@ -13,6 +13,7 @@ import pytest
 
 import pymlt as mlt
 from pymlt.algorithms.integrators import integrator_schema
+from pymlt.pictures.tonemapping import stops_of
 from pymlt.viewing import shown
 
 pytest.importorskip("viser", reason="the view needs viser (pip install viser)")
@@ -185,6 +186,17 @@ def test_the_render_tab_explains_and_tells_the_error(tab):
     tab.session.post(tab.session.restart)
     tab.until(lambda: re.search(r"± [\d.e-]+ %", status.inner_text()), "no error")
     tab.page.get_by_text("Compare with").wait_for()
+
+
+def test_the_exposure_fits_the_picture(tab):
+    live, controls = tab.session.live, tab.session.controls
+    tab.until(lambda: live.image() is not None, "no picture")
+    stops = stops_of("auto", live.image())
+    tab.session.post(lambda: setattr(controls._exposure, "value", -8.0))
+    tab.until(lambda: controls.look().exposure == -8, "the slider has no effect")
+    tab.press("Fit exposure")
+    tab.until(lambda: abs(controls.look().exposure - stops) < 1, "the exposure does not fit")
+    tab.session.post(lambda: setattr(controls._exposure, "value", 0.0))
 
 
 def test_a_picture_can_be_denoised(tab):

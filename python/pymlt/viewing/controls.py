@@ -9,7 +9,7 @@ from typing import Any
 from .. import _core
 from ..algorithms.integrators import integrator_schema
 from ..pictures.output import OutputFile
-from ..pictures.tonemapping import CURVES
+from ..pictures.tonemapping import CURVES, stops_of
 from . import shown
 from .live import Algorithm
 from .page import STYLE, table
@@ -39,6 +39,7 @@ class Controls:
         self._buttons = gui.add_button_group("", ["Stop", "Resume", "Scene's view"])
         with gui.add_folder("How it is shown"):
             self._exposure = gui.add_slider("Exposure", -8.0, 8.0, 0.25, 0.0, hint="in stops")
+            fit = gui.add_button("Fit exposure", hint="to the picture as it is now")
             self._curve = gui.add_dropdown("Tone curve", list(CURVES))
             self._denoise = gui.add_checkbox(
                 "Denoise", False, hint="the picture, not what is saved"
@@ -49,6 +50,7 @@ class Controls:
             self._help = gui.add_html("")
         self._explain()
         self._connect(form, apply)
+        fit.on_click(lambda _: session.post(self._fit_exposure))
 
     def _connect(self, form: Any, apply: Any) -> None:
         post = self._session.post
@@ -137,15 +139,24 @@ class Controls:
             self._session.camera.place(self._session.client.camera)
         self._session.renew()
 
+    def _first_job(self) -> Any:
+        """Raises UsageError if it has no sample yet."""
+        jobs = self._session.live.jobs
+        if not jobs or jobs[0].samples == 0:
+            raise _core.UsageError("there is no picture yet")
+        return jobs[0]
+
+    def _fit_exposure(self) -> None:
+        stops = stops_of("auto", self._first_job().image)
+        self._exposure.value = min(max(round(4 * stops) / 4, -8.0), 8.0)
+        self._session.renew()
+
     def _download(self, kind: str) -> None:
         """Through the browser: the page writes no file on the machine that renders."""
         import tempfile
         from pathlib import Path
 
-        jobs = self._session.live.jobs
-        if not jobs or jobs[0].samples == 0:
-            raise _core.UsageError("there is nothing to save yet")
-        result, look = jobs[0].snapshot(), self.look()
+        result, look = self._first_job().snapshot(), self.look()
         name = f"{result.integrator['type']}.{kind.lower()}"
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / name
