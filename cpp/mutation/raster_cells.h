@@ -11,6 +11,12 @@ struct RasterCells {
   Raster raster;
   int columns, rows;
 
+  /// Of about `pixels` x `pixels` pixels.
+  static RasterCells of(const Raster& raster, int pixels) {
+    return {raster, std::max(1, (raster.size.x + pixels - 1) / pixels),
+            std::max(1, (raster.size.y + pixels - 1) / pixels)};
+  }
+
   size_t count() const { return static_cast<size_t>(columns) * rows; }
   size_t index(int x, int y) const { return static_cast<size_t>(y) * columns + x; }
   size_t at(const Vec2& position) const {

@@ -3,57 +3,94 @@
 #include "base/error.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace mlt {
+namespace {
+
+/// The coarse image in blocks of one size.
+struct Blocks {
+  int columns, rows;
+  std::vector<double> sums, squares, cells;  ///< Sums over samples, of squares; how many cells.
+  std::vector<double> brightness = {};       ///< Brightness per cell.
+
+  size_t index(int x, int y) const { return static_cast<size_t>(y) * columns + x; }
+};
+
+Blocks larger_blocks(const Blocks& small) {
+  Blocks large{(small.columns + 1) / 2, (small.rows + 1) / 2, {}, {}, {}};
+  for (auto* values : {&large.sums, &large.squares, &large.cells})
+    values->resize(static_cast<size_t>(large.columns) * large.rows);
+  for (int y = 0; y < small.rows; ++y)
+    for (int x = 0; x < small.columns; ++x) {
+      const size_t from = small.index(x, y), to = large.index(x / 2, y / 2);
+      large.sums[to] += small.sums[from];
+      large.squares[to] += small.squares[from];
+      large.cells[to] += small.cells[from];
+    }
+  return large;
+}
+
+/// The brightness, interpolated between the middles of the blocks; x and y are in blocks.
+double interpolated_brightness(const Blocks& blocks, double x, double y) {
+  const double u = std::clamp(x - 0.5, 0.0, blocks.columns - 1.0),
+               v = std::clamp(y - 0.5, 0.0, blocks.rows - 1.0);
+  const int x0 = static_cast<int>(u), y0 = static_cast<int>(v),
+            x1 = std::min(x0 + 1, blocks.columns - 1), y1 = std::min(y0 + 1, blocks.rows - 1);
+  const auto along_row = [&](int row) {
+    const double left = blocks.brightness[blocks.index(x0, row)],
+                 right = blocks.brightness[blocks.index(x1, row)];
+    return left + (u - x0) * (right - left);
+  };
+  return along_row(y0) + (v - y0) * (along_row(y1) - along_row(y0));
+}
+
+/// The effective number of samples in the block.
+double effective_count(const Blocks& blocks, size_t i) {
+  return blocks.squares[i] > 0 ? blocks.sums[i] * blocks.sums[i] / blocks.squares[i] : 0;
+}
+
+void find_brightness(Blocks& small, const Blocks& large) {
+  constexpr double k = 4;
+  small.brightness.resize(small.sums.size());
+  for (int y = 0; y < small.rows; ++y)
+    for (int x = 0; x < small.columns; ++x) {
+      const size_t i = small.index(x, y), around = large.index(x / 2, y / 2);
+      const double n = effective_count(large, around) * small.cells[i] / large.cells[around];
+      small.brightness[i] = (n * small.sums[i] / small.cells[i] +
+                             k * interpolated_brightness(large, (x + 0.5) / 2, (y + 0.5) / 2)) /
+                            (n + k);
+    }
+}
+
+}  // namespace
 
 TargetMap::TargetMap(const Raster& raster, int cell)
-    : cells_{raster, std::max(1, (raster.size.x + cell - 1) / cell),
-             std::max(1, (raster.size.y + cell - 1) / cell)},
-      factors_(cells_.count()) {}
+    : cells_(RasterCells::of(raster, cell)), factors_(cells_.count()), squares_(cells_.count()) {}
 
 void TargetMap::add(const Vec2& raster, double brightness) {
-  factors_[cells_.at(raster)] += brightness;
+  const size_t i = cells_.at(raster);
+  factors_[i] += brightness;
+  squares_[i] += brightness * brightness;
 }
 
 void TargetMap::add(const TargetMap& other) {
-  for (size_t i = 0; i < factors_.size(); ++i) factors_[i] += other.factors_[i];
-}
-
-double TargetMap::brightest_neighbour(int x, int y) const {
-  double brightest = 0;
-  cells_.for_neighbours(x, y, [&](int u, int v) {
-    if (u != x || v != y) brightest = std::max(brightest, factors_[cells_.index(u, v)]);
-  });
-  return brightest;
-}
-
-double TargetMap::smoothed(const std::vector<double>& cells, int x, int y) const {
-  double sum = 0, weights = 0;
-  cells_.for_neighbours(x, y, [&](int u, int v) {
-    const double weight = (2 - std::abs(u - x)) * (2 - std::abs(v - y));  // a tent
-    sum += weight * cells[cells_.index(u, v)];
-    weights += weight;
-  });
-  return sum / weights;
+  for (size_t i = 0; i < factors_.size(); ++i) {
+    factors_[i] += other.factors_[i];
+    squares_[i] += other.squares_[i];
+  }
 }
 
 void TargetMap::finish() {
   constexpr double least_share = 0.05;  // of the mean: no region is preferred more than 20 times
-  // A cell brighter than all around it has had a rare sample, and chains would avoid its region.
-  std::vector<double> limited = factors_;
-  if (factors_.size() > 1)
-    for (int y = 0; y < cells_.rows; ++y)
-      for (int x = 0; x < cells_.columns; ++x)
-        limited[cells_.index(x, y)] =
-            std::min(limited[cells_.index(x, y)], brightest_neighbour(x, y));
-  const double sum = std::accumulate(limited.begin(), limited.end(), 0.0);
-  const double mean = sum / static_cast<double>(limited.size());
-  for (int y = 0; y < cells_.rows; ++y)
-    for (int x = 0; x < cells_.columns; ++x) {
-      const double brightness = mean > 0 ? smoothed(limited, x, y) / mean : 1.0;
-      factors_[cells_.index(x, y)] = 1 / std::max(least_share, brightness);
-    }
+  std::vector<Blocks> sizes{{cells_.columns, cells_.rows, factors_, std::move(squares_),
+                             std::vector<double>(cells_.count(), 1)}};
+  while (sizes.back().sums.size() > 1) sizes.push_back(larger_blocks(sizes.back()));
+  Blocks& whole = sizes.back();
+  const double mean = whole.sums[0] / whole.cells[0];
+  whole.brightness = {mean};
+  for (size_t i = sizes.size() - 1; i > 0; --i) find_brightness(sizes[i - 1], sizes[i]);
+  for (size_t i = 0; i < factors_.size(); ++i)
+    factors_[i] = mean > 0 ? 1 / std::max(least_share, sizes[0].brightness[i] / mean) : 1.0;
 }
 
 void TargetMap::set_factors(std::vector<double> factors) {

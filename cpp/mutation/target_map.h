@@ -1,6 +1,16 @@
-// Two-stage sampling (Veach & Guibas 1997, sec. 5.4; Veach 1997, sec. 11.4.3): a coarse image tells
-// how bright each region is, and the target is divided by it, so that dark regions get their share
-// of the mutations. Any positive map is right; a good one spreads the noise evenly.
+// Two-stage sampling (Veach & Guibas 1997, sec. 5.4; Veach 1997, sec. 11.4.3): a coarse image
+// estimates the brightness of each region, and the target is divided by it, so that dark regions
+// get their share of the mutations. Any positive map is right; a good one spreads noise evenly.
+//
+// The coarse image is made of few samples. The brightness of a cell is a mean of that of its own n
+// samples and, with the weight of k samples, that of the block around it:
+//
+//   I = (n I_own + k I_block) / (n + k)
+//
+// and so is that of this block of 2 x 2 cells, and so on, up to the whole image (the posterior mean
+// of a normal distribution whose prior weighs as much as k samples). Here n is the effective sample
+// size of a block, (sum w)^2 / sum w^2 (L. Kish, "Survey sampling", 1965), shared among its
+// parts, so that one bright sample counts as one, and an empty cell among bright ones is dark.
 #pragma once
 
 #include "math/color.h"
@@ -12,14 +22,14 @@ namespace mlt {
 
 class TargetMap {
  public:
-  /// Cells of about `cell` pixels over the sampled domain.
+  /// A map with cells of about `cell` pixels over the sampled domain.
   TargetMap(const Raster& raster, int cell);
 
   /// Adds one sample of the coarse image.
   void add(const Vec2& raster, double brightness);
   void add(const TargetMap& other);
-  /// Smooths the coarse image, without single bright cells, and turns it into factors: 1 over the
-  /// brightness, at least a share of the mean.
+  /// Smooths the coarse image and turns it into factors: 1 over the brightness, at least a share of
+  /// the mean.
   void finish();
 
   /// The factor of the target at a raster position.
@@ -29,14 +39,12 @@ class TargetMap {
   void set_factors(std::vector<double> factors);
 
  private:
-  double brightest_neighbour(int x, int y) const;
-  double smoothed(const std::vector<double>& cells, int x, int y) const;
-
   RasterCells cells_;
-  std::vector<double> factors_;
+  std::vector<double> factors_;  ///< Factors of the cells; before finish(), sums of brightness.
+  std::vector<double> squares_;  ///< Sums of squares of the brightness.
 };
 
-/// Without any sample yet, of 16 x 16 pixels a cell.
-inline TargetMap blank_image(const Raster& raster) { return TargetMap(raster, 16); }
+/// An empty coarse image with cells of 8 x 8 pixels.
+inline TargetMap blank_image(const Raster& raster) { return TargetMap(raster, 8); }
 
 }  // namespace mlt

@@ -6,6 +6,7 @@
 #include "rendering/metropolis_chain.h"
 #include "rendering/sampled_rendering.h"
 #include "rendering/stats.h"
+#include "rendering/typical_brightness.h"
 
 #include <atomic>
 #include <memory>
@@ -28,10 +29,19 @@ struct FoundLight {
   }
 };
 
-/// A coarse image and its brightness, estimated from independent samples before a render.
+/// What independent samples tell before a render.
 struct CoarseImage {
-  TargetMap map;  ///< The image as cells.
-  double b = 0;   ///< Mean of the weights T / p.
+  explicit CoarseImage(const Raster& raster) : map(blank_image(raster)), typical(raster) {}
+
+  void add(const FoundLight& found) {
+    map.add(found.raster, found.weight);
+    typical.add(found.raster, found.weight);
+    b += found.weight;
+  }
+
+  TargetMap map;              ///< For the target of the chains.
+  TypicalBrightness typical;  ///< For the pilot.
+  double b = 0;               ///< Mean of the weights T / p.
 };
 
 class MetropolisAlgorithm {

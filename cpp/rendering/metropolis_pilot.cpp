@@ -59,11 +59,11 @@ constexpr double hardly = 1.15;
 
 class Pilot {
  public:
-  Pilot(MetropolisAlgorithm& algorithm, const Raster& raster, const TargetMap& coarse,
+  Pilot(MetropolisAlgorithm& algorithm, const Raster& raster, const TypicalBrightness& typical,
         const PilotSettings& settings, const std::atomic<bool>& cancelled)
       : algorithm_(algorithm),
         raster_(raster),
-        coarse_(coarse),
+        typical_(typical),
         settings_(settings),
         cancelled_(cancelled),
         candidates_{settings.seed, Purpose::allocation, settings.samples} {}
@@ -147,7 +147,7 @@ class Pilot {
  private:
   /// The weight of light in the noise: its share of the brightness of its pixel.
   double relative(const Color& rgb, const Vec2& raster) const {
-    return target_luminance(rgb) * coarse_(raster);
+    return target_luminance(rgb) / typical_(raster);
   }
   FamilyWeights weights(size_t i) const { return FamilyWeights(starts_.b * thresholds[i]); }
 
@@ -215,7 +215,7 @@ class Pilot {
 
   MetropolisAlgorithm& algorithm_;
   const Raster& raster_;
-  const TargetMap& coarse_;
+  const TypicalBrightness& typical_;
   const PilotSettings& settings_;
   const std::atomic<bool>& cancelled_;
   Candidates candidates_;
@@ -249,32 +249,32 @@ Allocation chains_alone(double b) {
 
 CoarseImage coarse_image(const MetropolisAlgorithm& algorithm, const Raster& raster,
                          const PilotSettings& pilot, const std::atomic<bool>& cancelled) {
-  std::vector<CoarseImage> images(parts, {blank_image(raster)});
+  std::vector<CoarseImage> images(parts, CoarseImage(raster));
   const uint64_t stream = mix_bits(pilot.seed ^ mix_bits(uint64_t(Purpose::map)));
   in_parts(pilot.coarse_samples, pilot.threads, [&](uint64_t part, uint64_t i, uint64_t last) {
     const auto source = algorithm.source();
     for (; i < last && !cancelled; ++i) {
       PixelSampler sampler(stream, static_cast<uint32_t>(i));
       const Vec2 position = raster.sample(sampler.next2());
-      for (const FoundLight& found : source->sample(position, sampler)) {
-        if (!found.valid()) continue;
-        images[part].map.add(found.raster, found.weight);
-        images[part].b += found.weight / static_cast<double>(pilot.coarse_samples);
-      }
+      for (const FoundLight& found : source->sample(position, sampler))
+        if (found.valid()) images[part].add(found);
     }
   });
-  CoarseImage sum{blank_image(raster)};
+  CoarseImage sum(raster);
   for (const CoarseImage& image : images) {
     sum.map.add(image.map);
-    sum.b += image.b;
+    sum.typical.add(image.typical);
+    sum.b += image.b / static_cast<double>(pilot.coarse_samples);
   }
   sum.map.finish();
+  sum.typical.finish();
   return sum;
 }
 
-Allocation allocate(MetropolisAlgorithm& algorithm, const Raster& raster, const TargetMap& coarse,
-                    const PilotSettings& settings, const std::atomic<bool>& cancelled) {
-  Pilot pilot(algorithm, raster, coarse, settings, cancelled);
+Allocation allocate(MetropolisAlgorithm& algorithm, const Raster& raster,
+                    const TypicalBrightness& typical, const PilotSettings& settings,
+                    const std::atomic<bool>& cancelled) {
+  Pilot pilot(algorithm, raster, typical, settings, cancelled);
   const SampleTechniques first = settings.techniques.value_or(SampleTechniques::all);
   algorithm.set_techniques(first);
   const double b = pilot.find_starts();

@@ -42,8 +42,9 @@ CoarseImage coarse_image(const MetropolisAlgorithm& algorithm, const Raster& ras
                          const PilotSettings& pilot, const std::atomic<bool>& cancelled);
 
 /// Finds the division of time with the smallest expected noise, relative to the brightness of
-/// `coarse`. Without any light for chains to start from, samples are left alone.
-Allocation allocate(MetropolisAlgorithm& algorithm, const Raster& raster, const TargetMap& coarse,
-                    const PilotSettings& settings, const std::atomic<bool>& cancelled);
+/// each region. Without any light for chains to start from, samples are left alone.
+Allocation allocate(MetropolisAlgorithm& algorithm, const Raster& raster,
+                    const TypicalBrightness& typical, const PilotSettings& settings,
+                    const std::atomic<bool>& cancelled);
 
 }  // namespace mlt

@@ -78,7 +78,7 @@ Allocation MetropolisRendering::run_pilot(int threads, const std::atomic<bool>& 
   const CoarseImage coarse = coarse_image(*algorithm_, raster, pilot, cancelled);
   algorithm_->prepare(coarse, seed_, threads, cancelled);
   if (settings_.independent_share == 0 && !algorithm_->has_tours()) return {};
-  Allocation allocation = allocate(*algorithm_, raster, coarse.map, pilot, cancelled);
+  Allocation allocation = allocate(*algorithm_, raster, coarse.typical, pilot, cancelled);
   if (settings_.steps_per_sample) allocation.steps_per_sample = *settings_.steps_per_sample;
   return allocation;
 }
