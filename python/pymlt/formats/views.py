@@ -14,7 +14,7 @@ CAMERAS = ("perspective", "orthographic", "thinlens")
 
 
 def film(aspect: float) -> dict[str, Any]:
-    """An image of so many times its height."""
+    """An image whose width is `aspect` times its height."""
     return {"type": "hdrfilm", "width": max(1, round(HEIGHT * aspect)), "height": HEIGHT}
 
 

@@ -21,7 +21,7 @@ class Calibration:
     known: int = 1  #: samples of the run that told
 
     def samples(self, seconds: float) -> int:
-        """That fit into so many CPU seconds; at least one."""
+        """How many samples fit into `seconds` CPU seconds; at least one."""
         return max(1, round((seconds - self.fixed) / self.each))
 
     def after(self, n: int, seconds: float) -> Calibration:

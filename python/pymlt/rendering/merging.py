@@ -15,7 +15,7 @@ from .result import Result
 if TYPE_CHECKING:
     import numpy as np
 
-SPREAD_FROM = 8  #: so many images tell by their spread how wrong their mean is
+SPREAD_FROM = 8  #: images whose spread tells how wrong their mean is
 BLOCK = 8  #: side in pixels of the blocks of the layer "error_block"
 ERRORS = ("error", "error_block")
 

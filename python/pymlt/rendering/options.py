@@ -26,7 +26,7 @@ class RenderOptions:
         The image depends on the seed (0 to 2**64 - 1) but not on the number of threads (0: all
         there are).
     checkpoint, every, overwrite
-        a file that keeps the state of the render, renewed every so many seconds and at the end;
+        a file that keeps the state of the render, renewed after `every` seconds and at the end;
         `resume` goes on from there. The checkpoint of another render is replaced only with
         `overwrite`.
     aovs

@@ -137,7 +137,7 @@ class LiveRender:
         self.jobs, self.small = [], None
 
     def resume(self, seconds: float) -> bool:
-        """Go on with renders that were stopped, for so many seconds more; False if that cannot be.
+        """Go on with renders that were stopped, for this many seconds; False if that cannot be.
 
         Those that were stopped before their first sample cannot.
         """

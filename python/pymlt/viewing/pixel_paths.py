@@ -53,7 +53,7 @@ def brightness(path: _core.LightPath) -> float:
 def paths_through(
     scene: _core.Scene, pixel: tuple[int, int], samples: int, max_depth: int
 ) -> PixelPaths:
-    """The paths of so many samples of `bdpt`. Raises UsageError for a pixel beside the image."""
+    """The paths that samples of `bdpt` find. Raises UsageError for a pixel beside the image."""
     integrator = as_integrator(scene, "bdpt", [("max_depth", str(max_depth))])
     job = Job(scene, integrator, RenderOptions(spp=samples, threads=1))
     found = []

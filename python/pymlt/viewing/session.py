@@ -23,8 +23,8 @@ from .lecture import Lecture
 from .live import Algorithm, LiveRender
 from .pictures import Pictures
 
-# A picture costs CPU time that the render does not get: so many seconds between two of them, and at
-# most this share of what the processors have.
+# A picture costs CPU time that the render does not get. Between two pictures there are at least
+# INTERVAL seconds, and pictures take at most this SHARE of what the processors have.
 INTERVAL = 0.3
 SHARE = 0.015
 

@@ -93,7 +93,7 @@ class Lines:
     def draw(
         self, name: str, paths: list[_core.LightPath], colours: list[Any], width: float
     ) -> None:
-        """The edges of paths, of so many pixels' width."""
+        """The edges of paths, as lines of this width in pixels."""
         import numpy as np
 
         self.clear(name)

@@ -13,7 +13,7 @@ CORNERS = 2**24  #: of the triangles that one surface is divided into
 
 
 def loop_subdivision(params: Params, folder: Path) -> dict[str, Any]:
-    """Loop's scheme, so many levels deep: corners are not moved on to the limit surface.
+    """A mesh divided by Loop's scheme; corners are not moved to the limit surface.
 
     Raises SceneError for meshes that are no surface or grow too large, UsageError without the
     extra `pbrt`.

@@ -58,7 +58,7 @@ def tours(
 
     In a state x it dies with probability kappa / (1 + kappa), kappa = kappa0 p(x) / f(x), else it
     makes a Metropolis step. Then the states after the steps have the density f / kappa0 per sample,
-    for any kappa0 and any moves. kappa0 is chosen so that a sample has about so many `steps`.
+    for any kappa0 and any moves. kappa0 is chosen so that a sample has about `steps` steps.
 
     `sample(rng, count)` returns an array of states, `density` their p and `target` their f; all
     take arrays, and so do moves written in Python, as for `run` with `vectorized=True`. Raises what

@@ -88,7 +88,7 @@ def embedded(figure: Figure, title: str) -> str:
 
 
 def _axes(height: float) -> Axes:
-    """The axes of a new figure so many inches high."""
+    """The axes of a new figure with this height in inches."""
     figures = import_extra("matplotlib.figure", "plots", "the page of a race")
     axes = figures.Figure(figsize=(4.2, height), layout="constrained").add_subplot()
     axes.tick_params(which="both", colors=INK, labelsize=8)

@@ -27,7 +27,7 @@ EXPLAINED = {
     "shape": "relMSE once each image is scaled to the mean of the reference",
     "level": "mean of the image over the mean of the reference",
     "spread": "standard deviation of the level from seed to seed",
-    "FLIP": "what somebody would notice who flips between image and reference, 0 to 1 "
+    "FLIP": "visible difference when flipping between image and reference, 0 to 1 "
     "(HDR-FLIP, Andersson et al. 2021)",
     "CPU s": "CPU seconds of an image, all threads together",
     "spp": "samples or mutations per pixel",
