@@ -37,7 +37,7 @@ class BdptTaker : public SampleTaker {
         scale_(radiance_scale(scene)),
         bidirectional_(scene, settings.paths),
         techniques_(settings.techniques) {
-    if (!techniques_ && BidirectionalWave::serves(scene, settings.paths))
+    if (!techniques_ && BidirectionalWave::supports(scene, settings.paths))
       wave_ = std::make_unique<BidirectionalWave>(scene, settings.paths);
   }
 
@@ -45,7 +45,7 @@ class BdptTaker : public SampleTaker {
                     RayCounts& rays) override {
     if (!wave_) return SampleTaker::sample_cells(cells, streams, sink, rays);
     for_each_packet_cell(cells, [&](const Vec2i& cell) {
-      if (!wave_pays_) return sample_cell(cell, streams, sink, rays);
+      if (!wave_worthwhile_) return sample_cell(cell, streams, sink, rays);
       wave_->add(streams.stream(cell.x, cell.y), streams.index, cell);
       cells_.push_back(cell);
       if (wave_->full()) trace_wave(streams, sink, rays);
@@ -81,13 +81,13 @@ class BdptTaker : public SampleTaker {
     for (const BidirectionalWave::Splat& splat : wave_->splats())
       sink.splat(splat.raster, splat.weighted);
     for (int i = 0; i < wave_->size(); ++i) {
-      if (wave_->left(i))
+      if (wave_->fell_back(i))
         sample_cell(cells_[i], streams, sink, rays);
       else
         sink.add(wave_->raster(i), wave_->seen(i) * scale_);
-      left += wave_->left(i);
+      left += wave_->fell_back(i);
     }
-    wave_pays_ = 2 * left <= wave_->size();
+    wave_worthwhile_ = 2 * left <= wave_->size();
     wave_->clear();
     cells_.clear();
   }
@@ -98,7 +98,7 @@ class BdptTaker : public SampleTaker {
   bool techniques_;
   std::unique_ptr<BidirectionalWave> wave_;  ///< nullptr if it does not support the scene.
   std::vector<Vec2i> cells_;                 ///< Cells of the samples in the wave.
-  bool wave_pays_ = true;                    ///< Unless most samples of the last one were left.
+  bool wave_worthwhile_ = true;              ///< Unless most samples of the last one were left.
 };
 
 }  // namespace

@@ -130,22 +130,14 @@ class Pssmlt : public MetropolisAlgorithm {
   }
 
  private:
-  struct PssmltSource : Source {
+  struct PssmltSource : SourceOf<PssmltSource> {
     PssmltSource(const PrimaryPaths<Estimator>& p, const LargeStepWeights& w)
         : paths(p), weights(w) {}
-    const std::vector<FoundLight>& sample(const Vec2& raster, PixelSampler& sampler) override {
-      return draw(raster, sampler);
-    }
-    const std::vector<FoundLight>& sample(const Vec2& raster, RandomSampler& sampler) override {
-      return draw(raster, sampler);
-    }
     template <class Sampler>
-    const std::vector<FoundLight>& draw(const Vec2& raster, Sampler& sampler) {
+    void draw(const Vec2& raster, Sampler& sampler, std::vector<FoundLight>& found) {
       paths.sample(raster, sampler, state);
-      found.clear();
       for (const ImageLight& light : state.light)
         found.push_back(weights.found(light, state.target));
-      return found;
     }
     const RayCounts& rays() const override { return paths.rays; }
     /// Cost of a ray of WalkTaker: .56 to .8 in bench_ray_cost.
@@ -156,7 +148,6 @@ class Pssmlt : public MetropolisAlgorithm {
     PrimaryPaths<Estimator> paths;
     LargeStepWeights weights;
     PrimaryState state;
-    std::vector<FoundLight> found;
   };
 
   ScenePtr scene_;

@@ -70,13 +70,13 @@ class Move {
     /// q(x -> y) and q(y -> x), if the proposal was made elsewhere.
     std::optional<std::pair<double, double>> densities;
   };
-  struct Aids {};
+  struct Scratch {};
   struct Context {
     Rng& rng;
-    Aids& aids;
+    Scratch& scratch;
   };
   static size_t row(const State&) { return 0; }
-  static MoveChoice* kept_choice(const State&) { return nullptr; }
+  static MoveChoice* cached_choice(const State&) { return nullptr; }
   double suitability(const State& x) const {
     return checked("a move's suitability", suitability(x.x), x.x);
   }

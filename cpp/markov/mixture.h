@@ -6,9 +6,9 @@
 // A move is a class with
 //
 //   State, Edit              types: of states, and of the record of a proposal
-//   Aids, Context{Rng&, Aids&}   data of a chain for it; the same with random numbers
+//   Scratch, Context{Rng&, Scratch&}   data of a chain for it; the same with random numbers
 //   static size_t row(const State&)   the row of weights for this state
-//   static MoveChoice* kept_choice(const State&)   where the state caches its choice, until
+//   static MoveChoice* cached_choice(const State&)   where the state caches its choice, until
 //                            the state changes; nullptr if it does not
 //   double suitability(const State&) const   may it act on x? A factor of its weight
 //   std::optional<Edit> propose(x, y, context)   makes y from x
@@ -55,7 +55,7 @@ template <class Move>
 class Mixture {
  public:
   using State = typename Move::State;
-  using Aids = typename Move::Aids;
+  using Scratch = typename Move::Scratch;
   using Moves = std::vector<std::shared_ptr<Move>>;
 
   Mixture(Moves moves, std::shared_ptr<const MixtureWeights> weights)
@@ -86,7 +86,7 @@ class Mixture {
   }
   /// Proposes y by the chosen move.
   void draw(const State& x, State& y, Rng& rng) {
-    typename Move::Context context{rng, aids_};
+    typename Move::Context context{rng, scratch_};
     edit_ = moves_[chosen_]->propose(x, y, context);
   }
   /// Sets the edit of the chosen move, if its y was made elsewhere.
@@ -116,8 +116,8 @@ class Mixture {
 
   Move& operator[](size_t i) const { return *moves_[i]; }
   const Moves& moves() const { return moves_; }
-  Aids& aids() { return aids_; }
-  const Aids& aids() const { return aids_; }
+  Scratch& scratch() { return scratch_; }
+  const Scratch& scratch() const { return scratch_; }
 
  protected:
   /// The probability with which the chosen move is chosen at a state.
@@ -129,9 +129,9 @@ class Mixture {
 
  private:
   const MoveChoice& choice(const State& x) {
-    MoveChoice* kept = Move::kept_choice(x);
+    MoveChoice* kept = Move::cached_choice(x);
     if (kept && kept->known && kept->weights == weights_) return *kept;
-    MoveChoice& choice = kept ? *kept : scratch_;
+    MoveChoice& choice = kept ? *kept : uncached_;
     choice.known = true;
     if (choice.weights != weights_) choice.weights = weights_;
     choice.shares.resize(moves_.size());
@@ -147,8 +147,8 @@ class Mixture {
 
   Moves moves_;
   std::shared_ptr<const MixtureWeights> weights_;
-  Aids aids_{};
-  MoveChoice scratch_;  ///< For states that do not cache their choice.
+  Scratch scratch_{};
+  MoveChoice uncached_;  ///< For states that do not cache their choice.
   size_t chosen_ = 0, row_ = 0;
   bool suited_ = false;
   double probability_ = 0;

@@ -1,5 +1,5 @@
-// The vector types. Paths, their terms and densities are in double precision; matte vertices of
-// waves are in single precision, and meshes, textures and images store floats.
+// The vector types. Paths, their terms and densities are in double precision; Lambertian vertices
+// of waves are in single precision, and meshes, textures and images store floats.
 #pragma once
 
 #include <glm/geometric.hpp>

@@ -29,7 +29,7 @@ Table explore(PathChain& chain, const Scene& scene, int steps) {
   const PathMixture& mixture = chain.kernel();
   Table table(longest_row + 1, std::vector<Experience>(mixture.moves().size()));
   for (int i = 0; i < steps; ++i) {
-    const uint64_t rays_before = mixture.aids().rays.total();
+    const uint64_t rays_before = mixture.scratch().rays.total();
     double jump = 0;
     chain.step([&](const PathState& state, double weight) {
       if (&state != &chain.state()) jump += weight * squared_jump(scene, chain.state(), state);
@@ -37,7 +37,7 @@ Table explore(PathChain& chain, const Scene& scene, int steps) {
     Experience& e = table[std::min(mixture.row(), longest_row)][mixture.chosen()];
     e.jumps += jump;
     ++e.proposed;
-    e.rays += mixture.aids().rays.total() - rays_before;
+    e.rays += mixture.scratch().rays.total() - rays_before;
   }
   return table;
 }

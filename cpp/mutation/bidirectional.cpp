@@ -11,7 +11,7 @@
 //
 // Divided by |f| of the inserted part, p_s is 1 / C_s, with the unweighted contribution C_s of one
 // connection.
-#include "mutation/join.h"
+#include "mutation/edge_visibility.h"
 #include "mutation/measured_mutation.h"
 #include "mutation/mutation_registry.h"
 
@@ -172,7 +172,7 @@ class BidirectionalMutation final : public MeasuredMutation<BidirectionalMutatio
     if (!grow(y, edit.first, s, 1, context)) return std::nullopt;
     target().evaluate(edit.first, edit.first + n - 1, y);
     const int joint = edit.first + s;
-    if (joint > 0 && joint <= y.edges()) join(scene(), joint, y, context.rays);
+    if (joint > 0 && joint <= y.edges()) scale_by_visibility(scene(), joint, y, context.rays);
     return edit;
   }
 

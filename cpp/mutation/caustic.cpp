@@ -8,8 +8,8 @@
 // about as far as the lens perturbation would move it: estimated from the path's lengths, or from
 // the derivatives of the chain (`anisotropic`).
 #include "mutation/chain_perturbation.h"
+#include "mutation/edge_visibility.h"
 #include "mutation/image_footprint.h"
-#include "mutation/join.h"
 #include "mutation/measured_mutation.h"
 #include "mutation/mutation_registry.h"
 
@@ -44,7 +44,7 @@ class CausticPerturbation final : public MeasuredMutation<CausticPerturbation> {
     }
     if (!chain_.carry(x, {a, k - 1, 1}, ray, y, context)) return std::nullopt;
     target().evaluate(a + 1, k - 1, y);
-    join(scene(), k, y, context.rays);
+    scale_by_visibility(scene(), k, y, context.rays);
     return edit;
   }
 

@@ -16,8 +16,8 @@
 // hit a light again. So they explore a lamp in a mirror, and surfaces lit through glass that are
 // seen through glass.
 #include "mutation/chain_perturbation.h"
+#include "mutation/edge_visibility.h"
 #include "mutation/image_move.h"
-#include "mutation/join.h"
 #include "mutation/measured_mutation.h"
 #include "mutation/mutation_registry.h"
 
@@ -61,7 +61,7 @@ class CameraPerturbation final : public MeasuredMutation<CameraPerturbation> {
     const auto ray = image_.move(x, y, context.rng);
     if (!ray || !chain_.carry(x, {k, stop, -1}, *ray, y, context)) return std::nullopt;
     target().evaluate(stop, k, y);
-    if (stop > 0) join(scene(), stop, y, context.rays);
+    if (stop > 0) scale_by_visibility(scene(), stop, y, context.rays);
     return edit;
   }
 

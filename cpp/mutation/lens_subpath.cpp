@@ -2,7 +2,7 @@
 // fresh one, for paths of the form ...(L|D)DS*E. A new point on the lens and a new image position
 // are drawn, the walk goes on over (nearly) specular surfaces by sampling their BSDFs, and the
 // vertex where it stops is connected to the rest of the path.
-#include "mutation/join.h"
+#include "mutation/edge_visibility.h"
 #include "mutation/measured_mutation.h"
 #include "mutation/mutation_registry.h"
 
@@ -47,7 +47,7 @@ class LensSubpathMutation final : public MeasuredMutation<LensSubpathMutation> {
     y.path[k] = camera_vertex(lens.at);
     std::reverse(vertices.begin() + first, vertices.end() - 1);
     target().evaluate(first, k, y);
-    join(scene(), first, y, context.rays);
+    scale_by_visibility(scene(), first, y, context.rays);
     return edit;
   }
 
@@ -76,7 +76,7 @@ class LensSubpathMutation final : public MeasuredMutation<LensSubpathMutation> {
   /// Probability with which a walk stops at this surface, to be joined there: 0 where all
   /// scattering is (nearly) specular, 1 where none is a delta.
   double stop_probability(const SurfacePoint& at) const {
-    if (at.matte.known()) return 1;
+    if (at.lambertian.known()) return 1;
     const Bsdf& bsdf = scene().bsdf(at);
     const Vec3 up(0, 0, 1);
     if (!bsdf.has_smooth() || bsdf.roughness(at, up, up) < target().near_specular()) return 0;

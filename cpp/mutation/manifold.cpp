@@ -12,8 +12,8 @@
 //
 // The walk is a function of x and of the new b, but not always an invertible one: if the walk back
 // from y does not lead to x, y is rejected.
+#include "mutation/edge_visibility.h"
 #include "mutation/image_move.h"
-#include "mutation/join.h"
 #include "mutation/manifold_walk.h"
 #include "mutation/measured_mutation.h"
 #include "mutation/mutation_registry.h"

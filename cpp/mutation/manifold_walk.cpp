@@ -27,7 +27,7 @@ bool ManifoldWalk::go(const SurfacePoint& end, double time, RayCounts& rays) {
     const Vec3 missing = end.p - chain_[count_ + 1].at.p;
     const double distance = length(missing);
     if (distance <= tolerance * length(end.p - chain_[count_].at.p))
-      return Walker{*scene_, time, rays}.join(chain_[count_].at, end) > 0;
+      return Walker{*scene_, time, rays}.visibility(chain_[count_].at, end) > 0;
     if (moved) {
       const SpecularChain chain(*scene_, chain_.data(), count_);
       if (!(chain.density() > 0)) return false;

@@ -30,7 +30,7 @@ struct WalkFailures {
 };
 
 /// Data of a chain that its mutations share, beside random numbers.
-struct MutationAids {
+struct MutationScratch {
   RayCounts rays;                             ///< Rays that its mutations have traced so far.
   WalkFailures failures;                      ///< Failures since the counts were last taken.
   std::optional<PrimaryWalks> primary_walks;  ///< Made at their first use.
@@ -38,8 +38,8 @@ struct MutationAids {
 
 /// The random numbers and the data of the chain that a proposal may use.
 struct MutationContext {
-  MutationContext(Rng& rng, MutationAids& aids)
-      : rng(rng), rays(aids.rays), failures(aids.failures), aids_(&aids) {}
+  MutationContext(Rng& rng, MutationScratch& scratch)
+      : rng(rng), rays(scratch.rays), failures(scratch.failures), scratch_(&scratch) {}
 
   /// A uniform raster position.
   Vec2 raster_position(const Raster& raster) const {
@@ -49,13 +49,13 @@ struct MutationContext {
 
   /// Walks in primary sample space, without Russian roulette.
   PrimaryWalks& primary_walks(const Scene& scene, const PathRules& rules) {
-    if (!aids_->primary_walks) {
+    if (!scratch_->primary_walks) {
       BidirectionalSettings settings;
       settings.rules = rules;
       settings.rules.rr_depth = PathRules::no_roulette;
-      aids_->primary_walks = {{}, {scene, settings}};
+      scratch_->primary_walks = {{}, {scene, settings}};
     }
-    return *aids_->primary_walks;
+    return *scratch_->primary_walks;
   }
 
   Rng& rng;
@@ -63,13 +63,13 @@ struct MutationContext {
   WalkFailures& failures;
 
  private:
-  MutationAids* aids_;
+  MutationScratch* scratch_;
 };
 
 class Mutation {
  public:
   using State = PathState;
-  using Aids = MutationAids;
+  using Scratch = MutationScratch;
   using Context = MutationContext;
   using Edit = mlt::Edit;
 
@@ -109,7 +109,7 @@ class Mutation {
 
   /// The row of the weights of mutations for x: they depend on path length.
   static size_t row(const PathState& x) { return static_cast<size_t>(x.edges()); }
-  static MoveChoice* kept_choice(const PathState& x) { return &x.choice; }
+  static MoveChoice* cached_choice(const PathState& x) { return &x.choice; }
 
  protected:
   const Scene& scene() const { return target_->scene(); }

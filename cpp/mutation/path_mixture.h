@@ -1,5 +1,5 @@
-// The mixture of mutations that moves a light path, with delayed rejection: after a bold proposal
-// that was rejected comes a timid one (Tierney & Mira 1999; for light transport Rioux-Lavoie et al.
+// The mixture of mutations that moves a light path, with delayed rejection: after a rejected
+// proposal comes a smaller one (Tierney & Mira 1999; for light transport Rioux-Lavoie et al.
 // 2020, "Delayed rejection Metropolis light transport").
 //
 // With q1 and q2 the densities of both stages and a1 the acceptance of the first, the second
@@ -27,10 +27,11 @@ class PathMixture : public Mixture<const Mutation> {
  public:
   static constexpr size_t stages = 2;
 
-  /// A rejected proposal of mutation i is followed by one of timid[i], unless that is nullptr or
-  /// missing.
-  PathMixture(Mutations moves, std::shared_ptr<const MixtureWeights> weights, Mutations timid = {})
-      : Mixture(std::move(moves), std::move(weights)), timid_(std::move(timid)) {}
+  /// A rejected proposal of mutation i is followed by one of second_stage[i], unless that is
+  /// nullptr or missing.
+  PathMixture(Mutations moves, std::shared_ptr<const MixtureWeights> weights,
+              Mutations second_stage = {})
+      : Mixture(std::move(moves), std::move(weights)), second_stage_(std::move(second_stage)) {}
 
   Transition propose(const PathState& x, std::array<PathState, stages>& y, size_t stage, Rng& rng) {
     if (stage > 0) return propose_again(x, y[0], y[1], rng);
@@ -41,9 +42,9 @@ class PathMixture : public Mixture<const Mutation> {
  private:
   Transition propose_again(const PathState& x, const PathState& y1, PathState& y2, Rng& rng);
   /// The transition of the mutation that was chosen for the first stage, from any state.
-  Transition bold_transition(const PathState& x, const PathState& y);
+  Transition first_transition(const PathState& x, const PathState& y);
 
-  Mutations timid_;
+  Mutations second_stage_;
   Transition first_;  ///< Transition of the first stage.
 };
 

@@ -1,7 +1,7 @@
 // The state of Metropolis light transport: a light path with its terms and its target L*.
 #pragma once
 
-#include "base/kept.h"
+#include "base/cached.h"
 #include "markov/mixture.h"
 #include "mutation/image_footprint.h"
 #include "path/measure.h"
@@ -40,17 +40,17 @@ struct PathState {
 
   /// Functions of the path, cached when first evaluated.
   struct Known {
-    Kept<double> over_density, over_bidirectional_density;  ///< See PathTarget.
-    Kept<std::optional<ImageFootprint>> footprint;          ///< For the caustic perturbation.
-    Kept<CameraChains> camera_chains;
-    Kept<int> triples;  ///< Number of triples that the manifold perturbation may move.
+    Cached<double> over_density, over_bidirectional_density;  ///< See PathTarget.
+    Cached<std::optional<ImageFootprint>> footprint;          ///< For the caustic perturbation.
+    Cached<CameraChains> camera_chains;
+    Cached<int> triples;  ///< Number of triples that the manifold perturbation may move.
 
-    void forget() {
-      over_density.forget();
-      over_bidirectional_density.forget();
-      footprint.forget();
-      camera_chains.forget();
-      triples.forget();
+    void invalidate() {
+      over_density.invalidate();
+      over_bidirectional_density.invalidate();
+      footprint.invalidate();
+      camera_chains.invalidate();
+      triples.invalidate();
     }
   };
   mutable Known known;

@@ -13,7 +13,7 @@ void PathTarget::evaluate(PathState& x) const {
   x.path.set_time(x.path.time);
   for (Vertex& vertex : x.path.vertices)
     if (vertex.kind == VertexKind::surface)
-      vertex.at.matte = scene_->bsdf(vertex.at).matte(vertex.at);
+      vertex.at.lambertian = scene_->bsdf(vertex.at).lambertian(vertex.at);
   compute_terms(*scene_, x.path, term_settings(), x.terms);
   evaluate_target(x);
 }
@@ -21,7 +21,7 @@ void PathTarget::evaluate(PathState& x) const {
 void PathTarget::evaluate_target(PathState& x) const {
   x.target = 0;
   x.choice.known = false;
-  x.known.forget();
+  x.known.invalidate();
   if (!rules_.wants(x.edges())) return;
   if (x.edges() == 1 && !(x.terms.light_can_be_hit || x.terms.camera_can_be_hit)) return;
   x.rgb = relative_contribution(x.terms);

@@ -24,17 +24,17 @@ JointEnd any_end(const Scene& scene, const WalkVertex& x, Subpath::From from, co
 inline bool find_end(const Scene& scene, const WalkVertex& x, Subpath::From from, const Vec3& w,
                      bool strict, JointEnd& end) {
   const SurfacePoint& at = x.vertex.at;
-  if (!at.matte.known()) {
+  if (!at.lambertian.known()) {
     end = any_end(scene, x, from, w, strict);
     return !is_black(end.value);
   }
   const double geometric = std::abs(dot(at.ng, w)), cosine = dot(at.shading.n, w);
-  if (geometric == 0 || !(cosine * x.matte.cosine > 0) || !consistent_sides(at, w, strict))
+  if (geometric == 0 || !(cosine * x.lambertian.cosine > 0) || !consistent_sides(at, w, strict))
     return false;
   const double quotient = std::abs(cosine) / geometric;
-  end.value = from == Subpath::From::light ? x.matte.value : x.matte.value * quotient;
+  end.value = from == Subpath::From::light ? x.lambertian.value : x.lambertian.value * quotient;
   end.onwards = quotient * inv_pi;
-  end.back = x.matte.back;
+  end.back = x.lambertian.back;
   return true;
 }
 
@@ -106,16 +106,17 @@ bool BidirectionalSampler::evaluate_hit_light(Connection& connection) {
   return weigh(connection, 1, {}, above, end.survival);
 }
 
-/// See above; a matte vertex has its density `back`, so the walk has computed the sums already.
+/// See above; a Lambertian vertex has its density `back`, so the walk has computed the sums
+/// already.
 inline TechniqueSums BidirectionalSampler::below_joint(int i, const WalkVertex& x,
                                                        double back) const {
-  if (x.vertex.at.matte.known()) return light_sums_[i];
+  if (x.vertex.at.lambertian.known()) return light_sums_[i];
   if (i == 0) return TechniqueSums().with(can_be_hit(*scene_, x.vertex) ? 1 : 0);
   return below_light(i - 1, back * x.G).with(light_technique(i, true));
 }
 inline TechniqueSums BidirectionalSampler::above_joint(int i, const WalkVertex& x,
                                                        double back) const {
-  if (x.vertex.at.matte.known()) return camera_sums_[i];
+  if (x.vertex.at.lambertian.known()) return camera_sums_[i];
   const TechniqueSums before = i > 0 ? above_camera(i - 1, back * x.G) : TechniqueSums();
   return before.with(camera_technique(i, true));
 }
@@ -143,7 +144,7 @@ bool BidirectionalSampler::evaluate_connection(Connection& connection, RayCounts
   }
   connection.contribution = at_a.value * at_b.value * edge.G;
   if (is_black(connection.contribution)) return false;
-  const double seen = walker(rays).join(a.vertex.at, b.vertex.at);
+  const double seen = walker(rays).visibility(a.vertex.at, b.vertex.at);
   if (seen == 0) return false;
   connection.contribution *= seen;
   connection.certainty = k == 1 ? 1 : 0;
@@ -200,7 +201,7 @@ bool BidirectionalSampler::evaluate_hit_lens(Connection& connection, RayCounts& 
   connection.contribution = last.next_throughput * terms.f;
   if (is_black(connection.contribution)) return false;
   if (light_.goes_on() && s - 1 == static_cast<int>(light_.size())) {  // Not yet traced.
-    const double seen = walker(rays).join(last.vertex.at, *hit);
+    const double seen = walker(rays).visibility(last.vertex.at, *hit);
     if (seen == 0) return false;
     connection.contribution *= seen;
   }

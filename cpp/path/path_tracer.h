@@ -87,7 +87,7 @@ Color direct_light(const Walker& walker, const SurfacePoint& at, const Vec3& wc,
                    bool strict, Weight&& weight) {
   const LightSample chosen = sample_direct_position(walker.scene, at, u);
   const DirectLight light = unshadowed_light(walker.scene, chosen, at, wc, strict, weight);
-  return is_black(light.radiance) ? Color(0) : light.radiance * walker.join(at, light.x0);
+  return is_black(light.radiance) ? Color(0) : light.radiance * walker.visibility(at, light.x0);
 }
 
 /// One scattering event of a walk from the camera.
@@ -107,8 +107,8 @@ inline std::optional<ScatterSample> scatter_to_light(const Walker& walker, const
   const auto& [w, local_c, local_l, lobe] = *sample;
   if (lobe != Lobe::null && !consistent_sides(at, w, strict)) return std::nullopt;
   const Bsdf& bsdf = walker.scene.bsdf(at);
-  const Scattering s = at.matte.known() ? at.matte.scattering(local_l.z, local_c.z, lobe)
-                                        : bsdf.scattering(at, local_l, local_c, lobe);
+  const Scattering s = at.lambertian.known() ? at.lambertian.scattering(local_l.z, local_c.z, lobe)
+                                             : bsdf.scattering(at, local_l, local_c, lobe);
   if (!(s.pdf_from_camera > 0) || is_black(s.f)) return std::nullopt;
 
   const bool refracted =
@@ -233,7 +233,7 @@ bool scatter(const Walker& walker, const PathRules& rules, int depth, const Surf
 /// Whether lights are sampled for the depth-th vertex after the lens.
 inline bool wants_direct_light(const Scene& scene, const PathRules& rules, int depth,
                                const SurfacePoint& at) {
-  return (at.matte.known() || scene.bsdf(at).has_smooth()) && rules.wants(depth + 1);
+  return (at.lambertian.known() || scene.bsdf(at).has_smooth()) && rules.wants(depth + 1);
 }
 
 /// The radiance from the scene along the ray of a walk. Every vertex draws the same number of

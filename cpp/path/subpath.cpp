@@ -46,9 +46,9 @@ bool Subpath::trace(const Walker& walker, const PathRules& rules, const Ray& ray
   next.towards_previous = -ray.d;
   next.G = geometry(previous.vertex.at, at);
   next.forward = previous.next_coefficient * next.G;
-  if (!at.matte.known()) return hit;
+  if (!at.lambertian.known()) return hit;
   prepare_joints(next, rules.strict_normals);
-  previous.reverse = next.matte.back * next.G;
+  previous.reverse = next.lambertian.back * next.G;
   return true;
 }
 
@@ -56,21 +56,22 @@ void Subpath::prepare_joints(WalkVertex& x, bool strict_normals) const {
   const SurfacePoint& at = x.vertex.at;
   const Vec3& w = x.towards_previous;
   const double geometric = std::abs(dot(at.ng, w)), cosine = dot(at.shading.n, w);
-  x.matte = {};
-  if (geometric == 0 || !at.matte.scatters(cosine) || !consistent_sides(at, w, strict_normals))
+  x.lambertian = {};
+  if (geometric == 0 || !at.lambertian.scatters(cosine) || !consistent_sides(at, w, strict_normals))
     return;
-  x.matte.cosine = cosine;
-  x.matte.value = x.throughput * at.matte.f;
-  if (from_ == From::light) x.matte.value *= std::abs(cosine) / geometric;
-  x.matte.back = std::abs(cosine) * inv_pi / geometric;
+  x.lambertian.cosine = cosine;
+  x.lambertian.value = x.throughput * at.lambertian.f;
+  if (from_ == From::light) x.lambertian.value *= std::abs(cosine) / geometric;
+  x.lambertian.back = std::abs(cosine) * inv_pi / geometric;
 }
 
 bool Subpath::scatter(const Walker& walker, const PathRules& rules, const Vec3& u,
                       double u_roulette) {
   WalkVertex& x = last();
   Step step;
-  if (!(x.vertex.at.matte.known() ? scatter_matte(x, {u.y, u.z}, rules.strict_normals, step)
-                                  : scatter(walker, x, u, rules.strict_normals, step)))
+  if (!(x.vertex.at.lambertian.known()
+            ? scatter_lambertian(x, {u.y, u.z}, rules.strict_normals, step)
+            : scatter(walker, x, u, rules.strict_normals, step)))
     return false;
   double survival = 1;
   if (static_cast<int>(size()) > rules.rr_depth)
@@ -99,18 +100,19 @@ bool Subpath::scatter(const Walker& walker, WalkVertex& x, const Vec3& u, bool s
   return true;
 }
 
-/// See scatter(); on a matte surface the coefficient is |w.ns| / (pi |w.ng|), and f has the same
-/// quotient of cosines, of the direction on the light side (see VertexTerms).
-bool Subpath::scatter_matte(const WalkVertex& x, const Vec2& u, bool strict, Step& step) const {
+/// See scatter(); on a Lambertian surface the coefficient is |w.ns| / (pi |w.ng|), and f has the
+/// same quotient of cosines, of the direction on the light side (see VertexTerms).
+bool Subpath::scatter_lambertian(const WalkVertex& x, const Vec2& u, bool strict,
+                                 Step& step) const {
   const SurfacePoint& at = x.vertex.at;
-  const auto to = at.matte.sample(x.matte.cosine, u);
+  const auto to = at.lambertian.sample(x.lambertian.cosine, u);
   if (!to) return false;
   const Vec3 w = at.shading.to_world(*to);
   const double geometric = std::abs(dot(at.ng, w)), cosine = std::abs(to->z);
-  if (geometric == 0 || !consistent_sides(at, w, strict) || is_black(at.matte.f)) return false;
+  if (geometric == 0 || !consistent_sides(at, w, strict) || is_black(at.lambertian.f)) return false;
   const double coefficient = cosine * inv_pi / geometric;
   step = {w, coefficient,
-          at.matte.f * (from_ == From::light ? x.matte.back * pi / coefficient : pi)};
+          at.lambertian.f * (from_ == From::light ? x.lambertian.back * pi / coefficient : pi)};
   return true;
 }
 

@@ -53,15 +53,15 @@ struct LensTerms {
 };
 LensTerms lens_terms(const Scene& scene, const SurfacePoint& xk, const Vec3& wl);
 
-/// The terms of a smooth vertex on a matte surface.
-inline VertexTerms matte_terms(const SurfacePoint& at, const Vec3& wl, const Vec3& wc,
-                               bool strict_normals) {
+/// The terms of a smooth vertex on a Lambertian surface.
+inline VertexTerms lambertian_terms(const SurfacePoint& at, const Vec3& wl, const Vec3& wc,
+                                    bool strict_normals) {
   const double geometric_l = std::abs(dot(at.ng, wl)), geometric_c = std::abs(dot(at.ng, wc));
   if (geometric_l == 0 || geometric_c == 0) return {};
   if (!(consistent_sides(at, wl, strict_normals) && consistent_sides(at, wc, strict_normals)))
     return {};
   const double cos_l = dot(wl, at.shading.n), cos_c = dot(wc, at.shading.n);
-  const Scattering s = at.matte.scattering(cos_l, cos_c, Lobe::smooth);
+  const Scattering s = at.lambertian.scattering(cos_l, cos_c, Lobe::smooth);
   return {s.f * (std::abs(cos_l) / geometric_l), s.pdf_from_light / geometric_c,
           s.pdf_from_camera / geometric_l};
 }
@@ -71,7 +71,8 @@ VertexTerms plugin_terms(const Scene& scene, const SurfacePoint& at, Lobe lobe, 
 /// The terms of a surface vertex that scatters by `lobe`.
 inline VertexTerms surface_terms(const Scene& scene, const SurfacePoint& at, Lobe lobe,
                                  const Vec3& wl, const Vec3& wc, bool strict_normals) {
-  if (lobe == Lobe::smooth && at.matte.known()) return matte_terms(at, wl, wc, strict_normals);
+  if (lobe == Lobe::smooth && at.lambertian.known())
+    return lambertian_terms(at, wl, wc, strict_normals);
   return plugin_terms(scene, at, lobe, wl, wc, strict_normals);
 }
 

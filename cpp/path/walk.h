@@ -59,7 +59,7 @@ LensDeparture leave_lens(const Camera& camera, const Vec2& raster, Sampler& samp
 /// A direction that a BSDF has sampled, and its lobe.
 struct ScatteredDirection {
   Vec3 w;         ///< Direction in world space.
-  Vec3 from, to;  ///< In local space: to the previous vertex (z alone if matte), and w.
+  Vec3 from, to;  ///< In local space: to the previous vertex (z alone if Lambertian), and w.
   Lobe lobe;
 };
 
@@ -77,9 +77,9 @@ struct Walker {
   /// Samples a direction: u.x chooses the lobe, (u.y, u.z) the direction; nullopt if there is none.
   std::optional<ScatteredDirection> scatter(const SurfacePoint& at, const Vec3& towards_previous,
                                             const Vec3& u) const {
-    if (at.matte.known()) {
+    if (at.lambertian.known()) {
       const double cos_from = dot(towards_previous, at.shading.n);
-      const auto to = at.matte.sample(cos_from, {u.y, u.z});
+      const auto to = at.lambertian.sample(cos_from, {u.y, u.z});
       if (!to) return std::nullopt;
       return ScatteredDirection{at.shading.to_world(*to), {0, 0, cos_from}, *to, Lobe::smooth};
     }
@@ -113,7 +113,7 @@ struct Walker {
   bool arrive_at_lens(const Ray& ray, Vertex& xk) const;
 
   /// The visibility between two vertices: 1 or 0.
-  double join(const SurfacePoint& a, const SurfacePoint& b) const {
+  double visibility(const SurfacePoint& a, const SurfacePoint& b) const {
     rays.count_occluded();
     return scene.visible(a, b, time) ? 1 : 0;
   }

@@ -103,6 +103,27 @@ class MetropolisAlgorithm {
   virtual void load(const std::string& /*bytes*/) {}
 };
 
+/// A source of light that Own finds by draw(raster, sampler, found), a template over the sampler.
+template <class Own>
+class SourceOf : public MetropolisAlgorithm::Source {
+ public:
+  const std::vector<FoundLight>& sample(const Vec2& raster, PixelSampler& sampler) override {
+    return drawn(raster, sampler);
+  }
+  const std::vector<FoundLight>& sample(const Vec2& raster, RandomSampler& sampler) override {
+    return drawn(raster, sampler);
+  }
+
+ private:
+  template <class Sampler>
+  const std::vector<FoundLight>& drawn(const Vec2& raster, Sampler& sampler) {
+    found_.clear();
+    static_cast<Own&>(*this).draw(raster, sampler, found_);
+    return found_;
+  }
+  std::vector<FoundLight> found_;
+};
+
 /// The weights of a sample of the whole image, summed over its paths.
 struct SampleWeights {
   double target = 0;      ///< T / p.

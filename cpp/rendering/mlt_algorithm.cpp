@@ -10,7 +10,7 @@ namespace mlt {
 namespace {
 
 /// The step of a second stage over that of the first.
-constexpr double timid_share = 0.1;
+constexpr double second_stage_share = 0.1;
 
 /// Number of walks that look for the lights that the camera sees (CertainLight).
 constexpr uint64_t walks_to_lights = 50000;
@@ -45,7 +45,8 @@ class MltAlgorithm : public MetropolisAlgorithm {
       for (const auto& [own, weight] : in_all_sizes(mixed)) {
         mutations_.push_back(make_mutation(mixed.name, target_, own));
         step_sizes_.push_back(step_size(mixed.name, own));
-        timid_.push_back(settings_.delayed_rejection ? timid(mixed.name, own) : nullptr);
+        second_stage_.push_back(settings_.delayed_rejection ? second_stage(mixed.name, own)
+                                                            : nullptr);
         weights.push_back(weight);
       }
     for (const ExtraMutation& extra : settings_.extra) {
@@ -158,11 +159,12 @@ class MltAlgorithm : public MetropolisAlgorithm {
     return sizes;
   }
 
-  /// A perturbation with the step reduced by timid_share, so that it is likely to be accepted.
-  MutationPtr timid(const std::string& name, const MutationValues& own) const {
+  /// A perturbation with the step reduced by second_stage_share, so that it is likely to be
+  /// accepted.
+  MutationPtr second_stage(const std::string& name, const MutationValues& own) const {
     const MutationPlugin& plugin = mutation_plugin(name);
     if (!can_be_retried(plugin)) return nullptr;
-    const double size = timid_share * step_size(name, own);
+    const double size = second_stage_share * step_size(name, own);
     MutationValues smaller{{"largest_share", size}};
     for (const auto& value : own)
       if (value.first != "largest_share") smaller.push_back(value);
@@ -175,13 +177,13 @@ class MltAlgorithm : public MetropolisAlgorithm {
     return choice ? own_parameters(plugin, own).real(choice->parameter) : 0;
   }
 
-  PathMixture mixture() const { return {mutations_, weights_, timid_}; }
+  PathMixture mixture() const { return {mutations_, weights_, second_stage_}; }
 
   MltSettings settings_;
   PathTarget target_;
   Mutations mutations_;
   std::vector<double> step_sizes_;
-  Mutations timid_;  ///< Mutations of the second stage, after a rejected proposal.
+  Mutations second_stage_;  ///< Mutations of the second stage, after a rejected proposal.
   std::shared_ptr<const MixtureWeights> weights_;
 };
 

@@ -3,7 +3,7 @@
 
 #include "mutation/path_chain.h"
 #include "mutation/path_target.h"
-#include "path/possible_path.h"
+#include "path/valid_path.h"
 #include "rendering/metropolis_chain.h"
 
 namespace mlt {
@@ -23,9 +23,9 @@ class PathKernel : public PathMixture {
   /// The row of the statistics: there is one for each mutation and row of its weights.
   size_t stats_row() const { return chosen() * (longest_row + 1) + std::min(row(), longest_row); }
   size_t stats_rows() const { return moves().size() * (longest_row + 1); }
-  RayCounts& rays() { return aids().rays; }
+  RayCounts& rays() { return scratch().rays; }
   void count_own(ChainStats::Row& row) {
-    WalkFailures& failures = aids().failures;
+    WalkFailures& failures = scratch().failures;
     row.failed_walks += failures.there;
     row.failed_returns += failures.back;
     failures = {};
@@ -35,7 +35,7 @@ class PathKernel : public PathMixture {
   void save(ByteWriter& bytes, const PathState& x) const { mlt::save(bytes, x.path); }
   void load(ByteReader& bytes, PathState& x) {
     mlt::load(bytes, x.path);
-    if (!possible(target_->scene(), x.path))
+    if (!is_valid_path(target_->scene(), x.path))
       throw RenderError("the saved state has a path that the scene cannot have");
     target_->evaluate(x);
   }

@@ -7,49 +7,41 @@
 
 namespace mlt {
 
-/// Returns each path that a sample finds, one sample after the other: for the pilot.
-class TracedSource : public MetropolisAlgorithm::Source {
+/// Finds the paths of one sample after the other: for the pilot.
+class TracedSource : public SourceOf<TracedSource> {
  public:
   explicit TracedSource(const PathTarget& target)
       : target_(&target), scale_(radiance_scale(target.scene())) {}
 
-  const std::vector<FoundLight>& sample(const Vec2& raster, PixelSampler& sampler) override {
-    return trace(raster, sampler);
-  }
-  const std::vector<FoundLight>& sample(const Vec2& raster, RandomSampler& sampler) override {
-    return trace(raster, sampler);
+  template <class Sampler>
+  void draw(const Vec2& raster, Sampler& sampler, std::vector<FoundLight>& found) {
+    const Scene& scene = target_->scene();
+    CameraWalk walk(leave_lens(scene.camera(), raster, sampler).ray);
+    walk.heuristic = Heuristic::balance;
+    trace_path(scene, target_->rules(), walk, sampler, rays_, Finder(*this, raster, found));
   }
   const RayCounts& rays() const override { return rays_; }
-  /// Cost of a ray of TracedTaker: .29 to .46 in bench_ray_cost, less where all is matte.
+  /// Cost of a ray of TracedTaker: .29 to .46 in bench_ray_cost, less where all is Lambertian.
   double cost_of_ray() const override { return 0.35; }
 
  private:
   struct Finder : IgnorePaths {
-    Finder(TracedSource& of, const Vec2& at) : source(of), raster(at) {}
+    Finder(const TracedSource& of, const Vec2& at, std::vector<FoundLight>& to)
+        : source(of), raster(at), found(to) {}
     void find(const CameraWalk& walk, const Color& radiance, double certainty) {
       const Color rgb = radiance / source.scale_;
       const double weight = source.target_->of(rgb, raster, certainty);
       if (target_luminance(rgb) > 0)
-        source.found_.push_back({raster, rgb, weight, weight * walk.survival, true});
+        found.push_back({raster, rgb, weight, weight * walk.survival, true});
     }
-    TracedSource& source;
+    const TracedSource& source;
     Vec2 raster;
+    std::vector<FoundLight>& found;
   };
-
-  template <class Sampler>
-  const std::vector<FoundLight>& trace(const Vec2& raster, Sampler& sampler) {
-    found_.clear();
-    const Scene& scene = target_->scene();
-    CameraWalk walk(leave_lens(scene.camera(), raster, sampler).ray);
-    walk.heuristic = Heuristic::balance;
-    trace_path(scene, target_->rules(), walk, sampler, rays_, Finder(*this, raster));
-    return found_;
-  }
 
   const PathTarget* target_;
   double scale_;
   RayCounts rays_;
-  std::vector<FoundLight> found_;
 };
 
 /// Traces samples side by side and adds them to the image with the weights w1 (FamilyWeights), for

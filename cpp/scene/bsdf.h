@@ -16,16 +16,17 @@ struct BsdfSample {
   Lobe lobe;
 };
 
-/// A surface that is matte everywhere.
-struct MatteSurface {
-  /// Unknown sides: the surface is not matte. f is that of all points, unless there is a texture.
-  Matte matte;
+/// A surface that is Lambertian everywhere.
+struct LambertianSurface {
+  /// Unknown sides: the surface is not Lambertian. f is that of all points, unless there is a
+  /// texture.
+  Lambertian lambertian;
   const Texture* reflectance = nullptr;  ///< pi f, if that depends on the point.
 
-  bool known() const { return matte.known(); }
+  bool known() const { return lambertian.known(); }
   bool uniform() const { return known() && !reflectance; }
-  Matte at(const SurfacePoint& at) const {
-    return reflectance ? Matte{reflectance->eval(at) * inv_pi, matte.sides} : matte;
+  Lambertian at(const SurfacePoint& at) const {
+    return reflectance ? Lambertian{reflectance->eval(at) * inv_pi, lambertian.sides} : lambertian;
   }
 };
 
@@ -85,12 +86,12 @@ class Bsdf : public Object {
   /// Average reflectance, for previews and sampling weights.
   virtual Color albedo(const SurfacePoint& at) const = 0;
 
-  /// The scattering as a Matte where the surface is matte; unknown where it is not.
-  Matte matte(const SurfacePoint& at) const { return matte_.at(at); }
-  const MatteSurface& matte() const { return matte_; }
+  /// The scattering as a Lambertian where the surface is Lambertian; unknown where it is not.
+  Lambertian lambertian(const SurfacePoint& at) const { return lambertian_.at(at); }
+  const LambertianSurface& lambertian() const { return lambertian_; }
 
  protected:
-  MatteSurface matte_;  ///< Set by the constructor.
+  LambertianSurface lambertian_;  ///< Set by the constructor.
 };
 
 using BsdfPtr = std::shared_ptr<const Bsdf>;
@@ -102,9 +103,9 @@ struct WorldScattering : Scattering {
 };
 inline WorldScattering scattering(const Bsdf& bsdf, const SurfacePoint& at, const Vec3& wl,
                                   const Vec3& wc, Lobe lobe) {
-  if (at.matte.known()) {
+  if (at.lambertian.known()) {
     const double cos_l = dot(wl, at.shading.n), cos_c = dot(wc, at.shading.n);
-    return {at.matte.scattering(cos_l, cos_c, lobe), cos_l, cos_c};
+    return {at.lambertian.scattering(cos_l, cos_c, lobe), cos_l, cos_c};
   }
   const Vec3 local_l = at.shading.to_local(wl), local_c = at.shading.to_local(wc);
   const Scattering s = bsdf.scattering(at, local_l, local_c, lobe);

@@ -71,7 +71,7 @@ class Mesh : public Shape {
     return {static_cast<uint32_t>(chosen.index), sample_triangle({chosen.remainder, u.y})};
   }
   void surface_point(const Ray& ray, const Hit& hit, SurfacePoint& at) const override;
-  bool has_tangent() const override { return uvs_ && !(bsdf_ && bsdf_->matte().known()); }
+  bool has_tangent() const override { return uvs_ && !(bsdf_ && bsdf_->lambertian().known()); }
   double area() const override { return area_; }
   PositionSample sample_position(const Vec2& u) const override;
   Vec2 invert_position(const SurfacePoint& at) const override;

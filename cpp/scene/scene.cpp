@@ -49,10 +49,10 @@ Discrete choose_by_power(const std::vector<EmitterPtr>& emitters) {
   return Discrete(weights);
 }
 
-MatteMesh matte_mesh(const Shape& shape) {
+LambertianMesh lambertian_mesh(const Shape& shape) {
   const Mesh* mesh = shape.as_mesh();
-  if (!mesh || !mesh->bsdf().matte().known()) return {};
-  return {mesh, &mesh->bsdf().matte(), shape.emitter() != nullptr};
+  if (!mesh || !mesh->bsdf().lambertian().known()) return {};
+  return {mesh, &mesh->bsdf().lambertian(), shape.emitter() != nullptr};
 }
 
 MeshLight mesh_light(const Emitter& emitter, double probability) {
@@ -104,7 +104,7 @@ Scene::Scene(std::vector<ShapePtr> shapes, std::vector<EmitterPtr> emitters, Cam
   const std::vector<ShapePtr> grouped = grouped_shapes(shapes_);
   shapes_.insert(shapes_.end(), grouped.begin(), grouped.end());
   for (size_t i = 0; i < shapes_.size(); ++i) shapes_[i]->set_index(static_cast<uint32_t>(i));
-  for (const ShapePtr& shape : shapes_) matte_meshes_.push_back(mlt::matte_mesh(*shape));
+  for (const ShapePtr& shape : shapes_) lambertian_meshes_.push_back(mlt::lambertian_mesh(*shape));
 }
 
 bool Scene::intersect(const Ray& ray, SurfacePoint& at) const {
@@ -121,7 +121,7 @@ inline void Scene::arrive(const Ray& ray, const Hit& hit, SurfacePoint& at) cons
   at.instance = SurfacePoint::no_shape;
   shapes_[hit.shape]->surface_point(ray, hit, at);
   at.time = ray.time;
-  at.matte = bsdf(at).matte(at);
+  at.lambertian = bsdf(at).lambertian(at);
 }
 
 SurfacePoint Scene::surface_point(const Ray& ray, const Hit& hit) const {

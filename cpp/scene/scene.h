@@ -29,10 +29,10 @@ struct MeshLight {
   double pdf = 0;  ///< Area measure, the choice of the light included.
 };
 
-/// A mesh that is matte everywhere.
-struct MatteMesh {
+/// A mesh that is Lambertian everywhere.
+struct LambertianMesh {
   const Mesh* mesh = nullptr;  ///< nullptr if this shape is of another kind.
-  const MatteSurface* matte = nullptr;
+  const LambertianSurface* lambertian = nullptr;
   bool emits = false;
 };
 
@@ -82,8 +82,8 @@ class Scene {
   /// Chooses a light; u is rescaled so that it can be used again.
   EmitterChoice choose_emitter(double& u) const;
   double emitter_probability(uint32_t index) const { return emitter_choice_.pdf(index); }
-  /// The shape at this place in shapes(), if it is a matte mesh.
-  const MatteMesh& matte_mesh(uint32_t shape) const { return matte_meshes_[shape]; }
+  /// The shape at this place in shapes(), if it is a Lambertian mesh.
+  const LambertianMesh& lambertian_mesh(uint32_t shape) const { return lambertian_meshes_[shape]; }
   /// The light at this place in emitters(), if it is a glowing mesh.
   const MeshLight& mesh_light(uint32_t index) const { return mesh_lights_[index]; }
   /// The light that choose_emitter(u) chooses, if it is a glowing mesh.
@@ -111,8 +111,8 @@ class Scene {
   std::shared_ptr<const Accel> accel_;
   std::vector<uint32_t> infinite_, backgrounds_;
   Discrete emitter_choice_;
-  std::vector<MeshLight> mesh_lights_;   ///< One for each emitter.
-  std::vector<MatteMesh> matte_meshes_;  ///< One for each shape.
+  std::vector<MeshLight> mesh_lights_;             ///< One for each emitter.
+  std::vector<LambertianMesh> lambertian_meshes_;  ///< One for each shape.
 };
 
 using ScenePtr = std::shared_ptr<const Scene>;

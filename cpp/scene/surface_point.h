@@ -2,7 +2,7 @@
 #pragma once
 
 #include "math/frame.h"
-#include "scene/matte.h"
+#include "scene/lambertian.h"
 
 #include <cstdint>
 
@@ -18,7 +18,7 @@ enum class PointKind : uint8_t {
 struct SurfacePoint {
   Vec3 p{0};                  ///< Position; for an infinite point, the unit direction towards it.
   Vec3 ng{0};                 ///< Geometric normal, on the same side as the shading normal.
-  Frame shading{};            ///< n: the shading normal; s follows dp/du, unless it is matte.
+  Frame shading{};            ///< n: the shading normal; s follows dp/du, unless it is Lambertian.
   Vec2 uv{0};                 ///< Texture coordinates.
   uint32_t shape = no_shape;  ///< Index into Scene::shapes().
   uint32_t primitive = 0;     ///< Triangle of a mesh.
@@ -27,7 +27,7 @@ struct SurfacePoint {
   double time = 0;  ///< Time, on moving shapes.
   /// Largest coordinate of the primitive: the scale of float rounding in the accelerator.
   double extent = 0;
-  Matte matte{};  ///< Its scattering, if it is matte and was hit by a ray.
+  Lambertian lambertian{};  ///< Its scattering, if it is Lambertian and was hit by a ray.
 
   static constexpr uint32_t no_shape = ~0u;
   bool infinite() const { return kind == PointKind::infinite; }

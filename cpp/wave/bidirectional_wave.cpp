@@ -28,7 +28,7 @@ void find_edges(const JointLanes& a, const SurfacePoint& lens, bool strict,
 
 }  // namespace
 
-bool BidirectionalWave::serves(const Scene& scene, const BidirectionalSettings& settings) {
+bool BidirectionalWave::supports(const Scene& scene, const BidirectionalSettings& settings) {
   const Shutter& shutter = scene.camera().shutter();
   if (!settings.sample_direct || settings.heuristic == Heuristic::maximum) return false;
   if (!scene.camera().delta_position() || shutter.open != shutter.close || scene.accel().moves())
@@ -61,7 +61,7 @@ void BidirectionalWave::clear() {
 void BidirectionalWave::trace(RayCounts& rays) {
   walk_from_camera(rays);
   walk_from_lights(rays);
-  leave_what_is_left();
+  fall_back_together();
   take_hits();
   direct_at_ = PixelSampler::Position().begin(Stream::direct);
   const PathRules& rules = settings_.rules;
@@ -118,7 +118,7 @@ inline void BidirectionalWave::draw_light(int sample, int to) {
   lights_.set_light(to, scene_->choose_mesh_light(u_choice_[sample]), {u_x_[sample], u_y_[sample]});
 }
 
-/// Starts walks at lights, which emit as a matte surface scatters light from above.
+/// Starts walks at lights, which emit as a Lambertian surface scatters light from above.
 void BidirectionalWave::start_at_lights(int begin, int count) {
   numbers_.next2(begin, count, &u_x_[begin], &u_y_[begin]);
   numbers_.next2(begin, count, &lights_.u_x[0], &lights_.u_y[0]);
@@ -135,7 +135,8 @@ void BidirectionalWave::start_at_lights(int begin, int count) {
   lights_.sample_directions(count, false);
   for (int i = 0; i < count; ++i) {
     const float pdf = lights_.scatter_pdf[i], forward = lights_.light_pdf[i];
-    if (camera_.left(begin + i) || !(pdf > 0) || !(forward > 0) || is_black(*lights_.radiance[i]))
+    if (camera_.fell_back(begin + i) || !(pdf > 0) || !(forward > 0) ||
+        is_black(*lights_.radiance[i]))
       continue;
     const float cosine = std::fabs(dot(lights_.surface.ng[i], lights_.w[i]));
     light_.start(begin + i, {lights_.p[i], lights_.o[i], lights_.w[i], cosine, pdf, forward, 1,
@@ -143,17 +144,17 @@ void BidirectionalWave::start_at_lights(int begin, int count) {
   }
 }
 
-void BidirectionalWave::leave_what_is_left() {
+void BidirectionalWave::fall_back_together() {
   for (int i = 0; i < size(); ++i)
-    if (camera_.left(i) || light_.left(i)) {
-      camera_.leave(i);
-      light_.leave(i);
+    if (camera_.fell_back(i) || light_.fell_back(i)) {
+      camera_.fall_back(i);
+      light_.fall_back(i);
     }
 }
 
 void BidirectionalWave::take_hits() {
   for (const SubpathWave::Hit& hit : camera_.hits())
-    if (!left(hit.sample)) seen_[hit.sample] += hit.weighted;
+    if (!fell_back(hit.sample)) seen_[hit.sample] += hit.weighted;
 }
 
 /// See BidirectionalSampler::choose_direct.
@@ -181,7 +182,7 @@ void BidirectionalWave::choose_direct(int place, int block, int first) {
     const int i = block * JointLanes::size + lane;
     to.cosine[lane] = 0;
     const bool seen =
-        place > 0 ? camera_.joints(place, block).cosine[lane] != 0 : i < size() && !left(i);
+        place > 0 ? camera_.joints(place, block).cosine[lane] != 0 : i < size() && !fell_back(i);
     if (!seen) continue;
     draw_light(i, first + lane);
     const double pdf = lights_.light_pdf[first + lane];

@@ -17,8 +17,8 @@ class BidirectionalWave {
   static constexpr int capacity = SubpathWave::capacity;
 
   /// Whether all lights are glowing meshes, the camera has no aperture, and nothing moves.
-  static bool serves(const Scene& scene, const BidirectionalSettings& settings);
-  /// Requires serves(scene, settings).
+  static bool supports(const Scene& scene, const BidirectionalSettings& settings);
+  /// Requires supports(scene, settings).
   BidirectionalWave(const Scene& scene, const BidirectionalSettings& settings);
 
   /// Adds a sample with the numbers of PixelSampler(stream, index): the first two are its position
@@ -42,7 +42,7 @@ class BidirectionalWave {
   };
   const std::vector<Splat>& splats() const { return splats_; }
   /// Whether the i-th sample has to be taken by BidirectionalSampler; it has no results then.
-  bool left(int i) const { return camera_.left(i); }
+  bool fell_back(int i) const { return camera_.fell_back(i); }
 
  private:
   template <class T>
@@ -53,7 +53,7 @@ class BidirectionalWave {
   void walk_from_camera(RayCounts& rays);
   void walk_from_lights(RayCounts& rays);
   void start_at_lights(int begin, int count);
-  void leave_what_is_left();
+  void fall_back_together();
   void take_hits();
   void draw_light(int sample, int to);
   void choose_direct(int place);
@@ -78,7 +78,7 @@ class BidirectionalWave {
   Samples<Color> seen_;
   std::vector<Splat> splats_, unseen_;  ///< unseen_: those that wait for shadow rays.
   Samples<double> u_x_, u_y_, u_choice_;
-  MatteVertices lights_;       ///< Points on lights, for a block of samples.
+  LambertianVertices lights_;  ///< Points on lights, for a block of samples.
   JointLanes direct_[blocks];  ///< Points on lights for s = 1, sampled for the camera vertex.
   WaveShadows shadows_;
 };

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "math/color.h"
-#include "wave/matte_vertices.h"
+#include "wave/lambertian_vertices.h"
 
 namespace mlt {
 
@@ -28,7 +28,7 @@ struct JointLanes {
   Lanes<float, size> extent;
   /// Cosine of the direction to the previous vertex with n; 0: no path is joined here.
   Lanes<float, size> cosine;
-  ColorLanes value;             ///< See WalkVertex::MatteJoint::value.
+  ColorLanes value;             ///< See WalkVertex::LambertianJoint::value.
   Lanes<double, size> forward;  ///< Density of the vertex, made by its walk.
   /// Sum of r_i^beta over the techniques with a joint before the vertex or at it (TechniqueSums).
   Lanes<double, size> sums;

@@ -72,13 +72,14 @@ void BasicPathWave<Numbers>::shade_block(int depth, RayCounts& rays) {
   single_count_ = 0;
   for (int i = 0; i < count_; ++i) find_vertex(i, depth);
   if (last) return;
-  matte_.find_textures();
-  matte_.find_points(count_, &d_.x[begin_], &d_.y[begin_], &d_.z[begin_], rules_.strict_normals);
+  lambertian_.find_textures();
+  lambertian_.find_points(count_, &d_.x[begin_], &d_.y[begin_], &d_.z[begin_],
+                          rules_.strict_normals);
   if (rules_.wants(depth + 1)) {
     choose_lights(depth);
     queue_lights();
   }
-  matte_.sample_directions(count_, rules_.strict_normals);
+  lambertian_.sample_directions(count_, rules_.strict_normals);
   take_step(depth, rays);
 }
 
@@ -91,7 +92,7 @@ void BasicPathWave<Numbers>::draw_numbers(int depth) {
     numbers_.next2(begin_, count_, &u_light_x_[0], &u_light_y_[0]);
   else
     numbers_.skip2();
-  numbers_.next2(begin_, count_, &matte_.u_x[0], &matte_.u_y[0]);
+  numbers_.next2(begin_, count_, &lambertian_.u_x[0], &lambertian_.u_y[0]);
 }
 
 template <class Numbers>
@@ -105,25 +106,25 @@ inline void BasicPathWave<Numbers>::find_vertex(int i, int depth) {
   const PacketHits& hits = this->hits(i);
   const int lane = i % RayPacket::size;
   const uint32_t shape = hits.shape[lane];
-  matte_.f[i] = nullptr;
+  lambertian_.f[i] = nullptr;
   single_[i] = -1;
   if (shape == SurfacePoint::no_shape) {
     if (rules_.wants(depth)) find_light(*scene_, exact_walk(begin_ + i), nullptr);
     return;
   }
-  const MatteMesh& matte = scene_->matte_mesh(shape);
-  if (matte.emits || !matte.mesh) find_bright_or_other(i, hits.hit(lane), depth);
-  if (depth < rules_.most_edges() && matte.mesh)
-    matte_.set(i, matte, hits.primitive[lane], hits.u[lane], hits.v[lane]);
+  const LambertianMesh& lambertian = scene_->lambertian_mesh(shape);
+  if (lambertian.emits || !lambertian.mesh) find_bright_or_other(i, hits.hit(lane), depth);
+  if (depth < rules_.most_edges() && lambertian.mesh)
+    lambertian_.set(i, lambertian, hits.primitive[lane], hits.u[lane], hits.v[lane]);
 }
 
-/// Finds the vertex on a surface that glows, or is not matte.
+/// Finds the vertex on a surface that glows, or is not Lambertian.
 template <class Numbers>
 void BasicPathWave<Numbers>::find_bright_or_other(int i, const Hit& hit, int depth) {
   CameraWalk& walk = exact_walk(begin_ + i);
   const SurfacePoint at = scene_->surface_point(walk.ray, hit);
   if (rules_.wants(depth)) find_light(*scene_, walk, &at);
-  if (scene_->matte_mesh(hit.shape).mesh) return;
+  if (scene_->lambertian_mesh(hit.shape).mesh) return;
   if (consistent_sides(at, -walk.ray.d, rules_.strict_normals)) add_single(i, at);
 }
 
@@ -134,37 +135,37 @@ void BasicPathWave<Numbers>::add_single(int i, const SurfacePoint& at) {
   SingleVertex& single = singles_[single_count_++];
   single.path = i;
   single.at = at;
-  single.looks = false;
+  single.samples_light = false;
 }
 
 template <class Numbers>
 void BasicPathWave<Numbers>::choose_lights(int depth) {
   const auto wants_light = [&](int i) {
-    return matte_.f[i] ||
+    return lambertian_.f[i] ||
            (single_[i] >= 0 && wants_direct_light(*scene_, rules_, depth, singles_[single_[i]].at));
   };
   for (int i = 0; i < count_; ++i) {
     if (!wants_light(i)) continue;
     const Vec3 u = numbers_for_light(i);
     const MeshLight& light = scene_->choose_mesh_light(u.x);
-    if (matte_.f[i] && light.mesh)
-      matte_.set_light(i, light, {u.y, u.z});
+    if (lambertian_.f[i] && light.mesh)
+      lambertian_.set_light(i, light, {u.y, u.z});
     else
       choose_other_light(i, u);
   }
   sample_other_lights();
 }
 
-/// Takes the numbers for a light that is no glowing mesh, or for a vertex that is not matte.
+/// Takes the numbers for a light that is no glowing mesh, or for a vertex that is not Lambertian.
 template <class Numbers>
 void BasicPathWave<Numbers>::choose_other_light(int i, const Vec3& u) {
-  if (matte_.f[i]) {
-    matte_.light_pdf[i] = 0;
-    if (!(matte_.sides[i] > 0)) return;
-    add_single(i, matte_.point(i, hits(i).shape[i % RayPacket::size], walk(i).ray.time));
+  if (lambertian_.f[i]) {
+    lambertian_.light_pdf[i] = 0;
+    if (!(lambertian_.sides[i] > 0)) return;
+    add_single(i, lambertian_.point(i, hits(i).shape[i % RayPacket::size], walk(i).ray.time));
   }
   SingleVertex& single = singles_[single_[i]];
-  single.looks = true;
+  single.samples_light = true;
   single.u = u;
 }
 
@@ -172,7 +173,7 @@ template <class Numbers>
 void BasicPathWave<Numbers>::sample_other_lights() {
   for (int j = 0; j < single_count_; ++j) {
     SingleVertex& single = singles_[j];
-    if (single.looks && !backgrounds_.add(*scene_, single.u, single.light))
+    if (single.samples_light && !backgrounds_.add(*scene_, single.u, single.light))
       single.light = sample_direct_position(*scene_, single.at, single.u);
   }
   backgrounds_.sample_all(*scene_);
@@ -180,13 +181,14 @@ void BasicPathWave<Numbers>::sample_other_lights() {
 
 template <class Numbers>
 void BasicPathWave<Numbers>::queue_lights() {
-  matte_.unshadowed_lights(count_, rules_.strict_normals, heuristic_);
+  lambertian_.unshadowed_lights(count_, rules_.strict_normals, heuristic_);
   for (int i = 0; i < count_; ++i)
-    if (matte_.f[i] && matte_.light_weight[i] > 0)
-      queue_shadow(i, *matte_.radiance[i] * *matte_.f[i] * double{matte_.light_weight[i]},
-                   matte_.shadow_o[i], matte_.shadow_w[i], matte_.shadow_length[i]);
+    if (lambertian_.f[i] && lambertian_.light_weight[i] > 0)
+      queue_shadow(
+          i, *lambertian_.radiance[i] * *lambertian_.f[i] * double{lambertian_.light_weight[i]},
+          lambertian_.shadow_o[i], lambertian_.shadow_w[i], lambertian_.shadow_length[i]);
   for (int j = 0; j < single_count_; ++j)
-    if (singles_[j].looks) queue_other_light(singles_[j]);
+    if (singles_[j].samples_light) queue_other_light(singles_[j]);
 }
 
 /// See direct_light() of path_tracer.h.
@@ -195,7 +197,7 @@ void BasicPathWave<Numbers>::queue_other_light(const SingleVertex& single) {
   const int i = single.path;
   const SurfacePoint& at = single.at;
   const CameraWalk& walk = this->walk(i);
-  const Vec3 wc = matte_.f[i] ? -Vec3(d_[begin_ + i]) : -walk.ray.d;
+  const Vec3 wc = lambertian_.f[i] ? -Vec3(d_[begin_ + i]) : -walk.ray.d;
   const auto mis = [&](double light, double bsdf) { return walk.mis(light, bsdf); };
   const DirectLight light =
       unshadowed_light(*scene_, single.light, at, wc, rules_.strict_normals, mis);
@@ -217,39 +219,40 @@ template <class Numbers>
 void BasicPathWave<Numbers>::take_step(int depth, RayCounts& rays) {
   for (int i = 0; i < count_; ++i) {
     CameraWalk& walk = this->walk(i);
-    const bool matte = matte_.f[i];
-    if (!(matte ? scatter_matte(i, depth, walk) : scatter_other(i, depth, walk, rays))) continue;
-    o_.set(next_, matte ? matte_.o[i] : Vec3f(walk.ray.o));
-    d_.set(next_, matte ? matte_.w[i] : Vec3f(walk.ray.d));
+    const bool lambertian = lambertian_.f[i];
+    if (!(lambertian ? scatter_lambertian(i, depth, walk) : scatter_other(i, depth, walk, rays)))
+      continue;
+    o_.set(next_, lambertian ? lambertian_.o[i] : Vec3f(walk.ray.o));
+    d_.set(next_, lambertian ? lambertian_.w[i] : Vec3f(walk.ray.d));
     ++walk.rays.intersect;
-    exact_[next_] = !matte;
+    exact_[next_] = !lambertian;
     path_[next_] = path_[begin_ + i];
     numbers_.move(next_++, begin_ + i);
   }
   numbers_.skip(3);
 }
 
-/// See scatter() of path_tracer.h; for a matte vertex.
+/// See scatter() of path_tracer.h; for a Lambertian vertex.
 template <class Numbers>
-bool BasicPathWave<Numbers>::scatter_matte(int i, int depth, CameraWalk& walk) {
-  const double pdf = matte_.scatter_pdf[i];
-  walk.throughput *= *matte_.f[i] * pi;
+bool BasicPathWave<Numbers>::scatter_lambertian(int i, int depth, CameraWalk& walk) {
+  const double pdf = lambertian_.scatter_pdf[i];
+  walk.throughput *= *lambertian_.f[i] * pi;
   if (!(pdf > 0) || vanishes(walk.throughput)) return false;
   if (depth >= rules_.rr_depth && !survive(rules_, depth, numbers_.peek(begin_ + i, 2), walk))
     return false;
   walk.scatter_pdf = pdf;
   walk.delta = false;
   walk.certainty = 0;
-  walk.previous = Vec3(matte_.p[i]);
+  walk.previous = Vec3(lambertian_.p[i]);
   return true;
 }
 
-/// See scatter() of path_tracer.h; for a vertex that is not matte, if there is one.
+/// See scatter() of path_tracer.h; for a vertex that is not Lambertian, if there is one.
 template <class Numbers>
 bool BasicPathWave<Numbers>::scatter_other(int i, int depth, CameraWalk& walk, RayCounts& rays) {
   if (single_[i] < 0) return false;
   const VertexNumbers numbers{{u_light_x_[i], u_light_y_[i]},
-                              {matte_.u_x[i], matte_.u_y[i]},
+                              {lambertian_.u_x[i], lambertian_.u_y[i]},
                               numbers_.peek(begin_ + i, 0),
                               numbers_.peek(begin_ + i, 1),
                               numbers_.peek(begin_ + i, 2)};

@@ -1,14 +1,13 @@
 // Paths from the camera that are traced side by side: all take their first step, then all take the
-// second one. The accelerator gets their rays in packets, and matte vertices are computed together.
-// Every path is that of trace_path, up to rounding.
-// S. Laine, T. Karras, T. Aila, "Megakernels considered harmful: wavefront path tracing on GPUs",
-// High-Performance Graphics 2013.
+// second one. The accelerator gets their rays in packets, and Lambertian vertices are computed
+// together. Every path is that of trace_path, up to rounding. S. Laine, T. Karras, T. Aila,
+// "Megakernels considered harmful: wavefront path tracing on GPUs", High-Performance Graphics 2013.
 #pragma once
 
 #include "path/background_positions.h"
 #include "path/path_tracer.h"
 #include "wave/drawn_numbers.h"
-#include "wave/matte_vertices.h"
+#include "wave/lambertian_vertices.h"
 #include "wave/wave_numbers.h"
 #include "wave/wave_shadows.h"
 
@@ -52,13 +51,13 @@ class BasicPathWave {
   }
 
  private:
-  /// A vertex that is not matte, or samples a light that is no glowing mesh.
+  /// A vertex that is not Lambertian, or samples a light that is no glowing mesh.
   struct SingleVertex {
     int path;
     SurfacePoint at;
-    bool looks;         ///< Whether it samples a light.
-    Vec3 u;             ///< The numbers for the light.
-    LightSample light;  ///< The sampled light.
+    bool samples_light;  ///< Whether it samples a light.
+    Vec3 u;              ///< The numbers for the light.
+    LightSample light;   ///< The sampled light.
   };
 
   void find_hits(bool coherent, RayCounts& rays);
@@ -78,7 +77,7 @@ class BasicPathWave {
   void queue_other_light(const SingleVertex& single);
   void queue_shadow(int i, const Color& radiance, const Vec3f& o, const Vec3f& w, float length);
   void take_step(int depth, RayCounts& rays);
-  bool scatter_matte(int i, int depth, CameraWalk& walk);
+  bool scatter_lambertian(int i, int depth, CameraWalk& walk);
   bool scatter_other(int i, int depth, CameraWalk& walk, RayCounts& rays);
 
   /// The walk at this place of the wave, with its ray in double precision.
@@ -104,7 +103,7 @@ class BasicPathWave {
   // Values of each path of the block:
   int begin_ = 0, count_ = 0;
   Block<double> u_light_x_, u_light_y_;
-  MatteVertices matte_;
+  LambertianVertices lambertian_;
   std::vector<SingleVertex> singles_;  ///< The first `single_count_` are in use.
   int single_count_ = 0;
   Block<int> single_;  ///< Index in singles_ of the path's vertex; -1: none.

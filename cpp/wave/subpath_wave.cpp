@@ -13,7 +13,7 @@ SubpathWave::SubpathWave(const Scene& scene, const PathRules& rules, Subpath::Fr
       beta_(heuristic) {}
 
 void SubpathWave::clear(int count) {
-  for (int i = 0; i < count; ++i) left_[i] = false;
+  for (int i = 0; i < count; ++i) fell_back_[i] = false;
   for (int i = 0; i < blocks; ++i) longest_[i] = 0;
   last_place_ = live_ = 0;
   hits_.clear();
@@ -32,8 +32,8 @@ void SubpathWave::start(int sample, const Start& start) {
   throughput_[i] = start.throughput;
 }
 
-void SubpathWave::leave(int sample) {
-  left_[sample] = true;
+void SubpathWave::fall_back(int sample) {
+  fell_back_[sample] = true;
   for (int place = 1; place <= last_place_; ++place)
     at(place, sample / JointLanes::size).cosine[sample % JointLanes::size] = 0;
 }
@@ -43,7 +43,7 @@ void SubpathWave::walk(const WaveNumbers& numbers, int most, RayCounts& rays) {
   for (int i = 0; i < live_; ++i) numbers_.move(i, sample_[i]);
   for (int place = 1; live_ > 0 && place < most; ++place) {
     if (place == most_vertices) {
-      for (int i = 0; i < live_; ++i) left_[sample_[i]] = true;
+      for (int i = 0; i < live_; ++i) fell_back_[sample_[i]] = true;
       return;
     }
     open(place);
@@ -79,14 +79,15 @@ void SubpathWave::find_hits(bool coherent, RayCounts& rays) {
 }
 
 void SubpathWave::shade(int place, bool last) {
-  if (!last) numbers_.next2(begin_, count_, &matte_.u_x[0], &matte_.u_y[0]);
+  if (!last) numbers_.next2(begin_, count_, &lambertian_.u_x[0], &lambertian_.u_y[0]);
   for (int i = 0; i < count_; ++i) find_vertex(i);
-  matte_.find_textures();
-  matte_.find_points(count_, &d_.x[begin_], &d_.y[begin_], &d_.z[begin_], rules_.strict_normals);
-  if (!last) matte_.sample_directions(count_, rules_.strict_normals);
+  lambertian_.find_textures();
+  lambertian_.find_points(count_, &d_.x[begin_], &d_.y[begin_], &d_.z[begin_],
+                          rules_.strict_normals);
+  if (!last) lambertian_.sample_directions(count_, rules_.strict_normals);
   arrive(place);
   for (int i = 0; i < count_; ++i) {
-    if (!matte_.f[i]) continue;
+    if (!lambertian_.f[i]) continue;
     if (emits_[i] && !from_light_ && rules_.wants(place)) hit_light(i, place);
     keep(i, place);
   }
@@ -96,15 +97,15 @@ void SubpathWave::shade(int place, bool last) {
 inline void SubpathWave::find_vertex(int i) {
   const PacketHits& found = found_[(begin_ + i) / RayPacket::size];
   const int lane = i % RayPacket::size;
-  matte_.f[i] = nullptr;
+  lambertian_.f[i] = nullptr;
   if (found.shape[lane] == SurfacePoint::no_shape) return;
-  const MatteMesh& shape = scene_->matte_mesh(found.shape[lane]);
+  const LambertianMesh& shape = scene_->lambertian_mesh(found.shape[lane]);
   if (!shape.mesh) {
-    left_[sample_[begin_ + i]] = true;
+    fell_back_[sample_[begin_ + i]] = true;
     return;
   }
   emits_[i] = shape.emits;
-  matte_.set(i, shape, found.primitive[lane], found.u[lane], found.v[lane]);
+  lambertian_.set(i, shape, found.primitive[lane], found.u[lane], found.v[lane]);
 }
 
 /// Computes the densities with which the two walks make the vertex and the one before it. A
@@ -114,10 +115,10 @@ void SubpathWave::arrive(int place) {
   const int end = whole_vectors(count_);
   for (int i = 0; i < end; ++i) {
     const int k = begin_ + i;
-    const Vec3f w = d_[k], between = matte_.p[i] - p_[k], ng = matte_.surface.ng[i];
-    const float geometric = std::fabs(dot(ng, w)), cosine = -dot(matte_.n[i], w);
-    const bool ok = (geometric > 0) & (matte_.sides[i] > 0) &
-                    ((cosine > 0) | ((cosine < 0) & (matte_.back[i] > 0)));
+    const Vec3f w = d_[k], between = lambertian_.p[i] - p_[k], ng = lambertian_.surface.ng[i];
+    const float geometric = std::fabs(dot(ng, w)), cosine = -dot(lambertian_.n[i], w);
+    const bool ok = (geometric > 0) & (lambertian_.sides[i] > 0) &
+                    ((cosine > 0) | ((cosine < 0) & (lambertian_.back[i] > 0)));
     const double per_distance2 = 1 / double{dot(between, between)};
     const double previous = cosine_[k] * per_distance2;
     const double reverse = ok ? std::fabs(cosine) * inv_pi * previous : 0;
@@ -126,14 +127,14 @@ void SubpathWave::arrive(int place) {
     sums_here_[i] = technique + sums_[k] * beta_.raise(reverse / forward_[k]);
     reverse_emission_[i] = geometric * inv_pi * previous;
     light_factor_[i] = std::fabs(cosine) / geometric;
-    next_cosine_[i] = std::fabs(dot(ng, matte_.w[i]));
+    next_cosine_[i] = std::fabs(dot(ng, lambertian_.w[i]));
   }
 }
 
 /// See BidirectionalSampler::evaluate_hit_light.
 void SubpathWave::hit_light(int i, int place) {
   const int k = begin_ + i;
-  if (!(dot(matte_.surface.ng[i], d_[k]) < 0)) return;
+  if (!(dot(lambertian_.surface.ng[i], d_[k]) < 0)) return;
   const uint32_t shape = found_[k / RayPacket::size].shape[k % RayPacket::size];
   const MeshLight& light = scene_->mesh_light(scene_->shapes()[shape]->emitter()->index());
   const double technique = place > 1 || light_image_ ? 1 : 0;
@@ -149,14 +150,14 @@ inline void SubpathWave::keep(int i, int place) {
   const int lane = sample % JointLanes::size;
   JointLanes& x = at(place, block);
   longest_[block] = place;
-  x.p.set(lane, matte_.p[i]);
-  x.ng.set(lane, matte_.surface.ng[i]);
-  x.n.set(lane, matte_.n[i]);
-  x.extent[lane] = matte_.surface.extent[i];
+  x.p.set(lane, lambertian_.p[i]);
+  x.ng.set(lane, lambertian_.surface.ng[i]);
+  x.n.set(lane, lambertian_.n[i]);
+  x.extent[lane] = lambertian_.surface.extent[i];
   x.cosine[lane] = cosine_to_previous_[i];
   x.forward[lane] = forward_here_[i];
   x.sums[lane] = sums_here_[i];
-  x.value.set(lane, throughput_[begin_ + i] * *matte_.f[i] *
+  x.value.set(lane, throughput_[begin_ + i] * *lambertian_.f[i] *
                         (from_light_ ? double{light_factor_[i]} : 1.0));
 }
 
@@ -164,17 +165,17 @@ inline void SubpathWave::keep(int i, int place) {
 void SubpathWave::take_steps(int place) {
   for (int i = 0; i < count_; ++i) {
     const int k = begin_ + i;
-    if (!matte_.f[i] || cosine_to_previous_[i] == 0) continue;
-    const float pdf = matte_.scatter_pdf[i];
-    if (!(pdf > 0 && next_cosine_[i] > 0) || is_black(*matte_.f[i])) continue;
-    Color ratio = *matte_.f[i] * pi;
+    if (!lambertian_.f[i] || cosine_to_previous_[i] == 0) continue;
+    const float pdf = lambertian_.scatter_pdf[i];
+    if (!(pdf > 0 && next_cosine_[i] > 0) || is_black(*lambertian_.f[i])) continue;
+    Color ratio = *lambertian_.f[i] * pi;
     if (from_light_) ratio *= light_factor_[i] * next_cosine_[i] / (pdf * pi);
     if (!survive(i, place, ratio)) continue;
     const int n = next_++;
     sample_[n] = sample_[k];
-    o_.set(n, matte_.o[i]);
-    d_.set(n, matte_.w[i]);
-    p_.set(n, matte_.p[i]);
+    o_.set(n, lambertian_.o[i]);
+    d_.set(n, lambertian_.w[i]);
+    p_.set(n, lambertian_.p[i]);
     cosine_[n] = next_cosine_[i];
     pdf_[n] = pdf;
     forward_[n] = forward_here_[i];

@@ -1,6 +1,6 @@
-// Subpaths of many samples that are traced side by side, among surfaces that are matte and lights
-// that are glowing meshes. Each is that of Subpath, up to rounding. Samples with subpaths that hit
-// another kind of surface, or are very long, are left to Subpath.
+// Subpaths of many samples that are traced side by side, among surfaces that are Lambertian and
+// lights that are glowing meshes. Each is that of Subpath, up to rounding. Samples with subpaths
+// that hit another kind of surface, or are very long, are left to Subpath.
 #pragma once
 
 #include "path/path_rules.h"
@@ -50,9 +50,9 @@ class SubpathWave {
   bool reaches(int place, int block) const { return longest_[block] >= place; }
   int last_place() const { return last_place_; }
   /// Whether the sample has to be traced by itself.
-  bool left(int sample) const { return left_[sample]; }
+  bool fell_back(int sample) const { return fell_back_[sample]; }
   /// Marks the sample to be traced by itself: nothing is joined to its vertices.
-  void leave(int sample);
+  void fall_back(int sample);
   const std::vector<Hit>& hits() const { return hits_; }
 
  private:
@@ -79,7 +79,7 @@ class SubpathWave {
   std::vector<JointLanes> joints_;
   Lanes<int, blocks> longest_;  ///< Last place of the samples of each block.
   int last_place_ = 0;
-  Samples<bool> left_;
+  Samples<bool> fell_back_;
   std::vector<Hit> hits_;
 
   // Values of each walk that takes this step:
@@ -96,7 +96,7 @@ class SubpathWave {
 
   // Values of each walk of the block:
   int begin_ = 0, count_ = 0;
-  MatteVertices matte_;
+  LambertianVertices lambertian_;
   Block<bool> emits_;
   Block<float> cosine_to_previous_;  ///< See JointLanes.
   Block<float> next_cosine_;         ///< |w.ng| of the sampled direction.

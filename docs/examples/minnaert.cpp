@@ -1,7 +1,7 @@
 // A surface that darkens towards its rim, as the moon's seas do (Minnaert 1941, "The reciprocity
 // principle in lunar photometry"):
 //   f = reflectance (k + 1) / (2 pi) (cos_l cos_c)^(k - 1).
-// Matte for k = 1. Left out: k < 1, where more light may leave than arrives.
+// Lambertian for k = 1. Left out: k < 1, where more light may leave than arrives.
 #include "base/registry.h"
 #include "math/warp.h"
 #include "scene/bsdf.h"
@@ -45,7 +45,7 @@ Plugin bsdf_minnaert() {
   return make_plugin<Minnaert>(
       "bsdf", "minnaert", "A surface that darkens towards its rim (Minnaert 1941).",
       {{"reflectance", ParamType::texture, 0.5, "Fraction scattered of light from right above."},
-       {"k", ParamType::real, 1.5, "1 is matte; the larger, the darker the rim."}});
+       {"k", ParamType::real, 1.5, "1 is diffuse; the larger, the darker the rim."}});
 }
 
 }  // namespace mlt

@@ -2,7 +2,7 @@
 // place of x_{k-1}. On the image a step is as likely as its reverse; in the area measure of x_{k-1}
 //   q(x -> y) = 1 / side^2 * d(pixels) / d(area),
 // where a camera walk, which fills the sampled pixels evenly, has the latter in its density.
-#include "mutation/join.h"
+#include "mutation/edge_visibility.h"
 #include "mutation/mutation_registry.h"
 
 namespace mlt {
@@ -27,7 +27,7 @@ class Nudge final : public Mutation {
     const Ray ray = leave_lens(scene().camera(), x[k].at, raster);
     if (!Walker{scene(), ray.time, context.rays}.arrive(ray, y.path[k - 1])) return std::nullopt;
     target().evaluate(k - 1, k - 1, y);
-    join(scene(), k - 1, y, context.rays);
+    scale_by_visibility(scene(), k - 1, y, context.rays);
     return edit;
   }
   double density(const PathState&, const PathState& y, const Edit& edit) const override {

@@ -1,6 +1,5 @@
 """Makes the pictures of the README and the docs: python docs/images/make.py [NAME ...]
 
-door-ajar     the picture at the head of the README
 motion        the scene of the page on motion blur
 equal-time    the same scene by path, bdpt and mlt, with equal CPU time
 two-families  what independent samples and chains show of an image
@@ -28,11 +27,6 @@ def render(name, integrator, cpu_seconds, size, seed=1):
     result = render_for(scene, integrator, cpu_seconds, seed=seed, threads=0).result
     print(f"{name}, {result.integrator['type']}: {result.stats['spp_done']:.1f} spp", flush=True)
     return result.image
-
-
-def door_ajar():
-    image = render("door_ajar", mlt.MLT(max_depth=10), 240, (640, 360))
-    mlt.write_image(HERE / "door-ajar.png", image)
 
 
 def motion():
@@ -86,7 +80,6 @@ def race():
 
 if __name__ == "__main__":
     pictures = {
-        "door-ajar": door_ajar,
         "motion": motion,
         "equal-time": equal_time,
         "two-families": two_families,

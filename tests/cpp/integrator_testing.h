@@ -105,8 +105,7 @@ inline std::vector<Algorithm> algorithms() {
 /// All kinds of light, on more than one tile of the film, with a filter that reaches over their
 /// borders.
 inline ScenePtr lights_on_tiles() {
-  static const ScenePtr made =
-      make_scene("mixed_lights", {70, 40, "<rfilter type='gaussian'/>"}).scene;
+  static const ScenePtr made = make_scene("mixed_lights", with_size(70, 40, "gaussian")).scene;
   return made;
 }
 

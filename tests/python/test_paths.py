@@ -153,7 +153,7 @@ def test_replays_of_all_pixels_are_the_render(scene, integrator):
     replays = [job.replay(pixel) for pixel in pixels]
     assert box_image(scene, replays) == pytest.approx(image, rel=1e-5, abs=1e-7)
     if integrator.name == "path":
-        # A render computes matte vertices in single precision, a replay in double.
+        # A render computes diffuse vertices in single precision, a replay in double.
         seen = np.reshape([r.radiance for r in replays], image.shape)
         assert seen == pytest.approx(image, rel=1e-5)
     for replay in replays:

@@ -1,4 +1,4 @@
-// A matte surface: light is scattered equally to all directions above it (Lambert 1760,
+// A Lambertian surface: light is scattered equally to all directions above it (Lambert 1760,
 // "Photometria"). f = reflectance / pi.
 #include "base/registry.h"
 #include "scene/bsdf/cosine_sampled.h"
@@ -10,8 +10,8 @@ namespace {
 class Diffuse final : public CosineSampled {
  public:
   explicit Diffuse(Params& params) : reflectance_(texture_param(params, "reflectance")) {
-    matte_.matte = {reflectance_->mean() * inv_pi, Matte::Sides::front};
-    if (!reflectance_->is_constant()) matte_.reflectance = reflectance_.get();
+    lambertian_.lambertian = {reflectance_->mean() * inv_pi, Lambertian::Sides::front};
+    if (!reflectance_->is_constant()) lambertian_.reflectance = reflectance_.get();
   }
 
   Color albedo(const SurfacePoint& at) const override { return reflectance_->eval(at); }
@@ -29,7 +29,7 @@ class Diffuse final : public CosineSampled {
 Plugin bsdf_diffuse() {
   return make_plugin<Diffuse>(
       "bsdf", "diffuse",
-      "A matte surface that scatters light equally to all directions on its front side.",
+      "A Lambertian surface that scatters light equally to all directions on its front side.",
       {{"reflectance", ParamType::texture, 0.5, "Fraction of the light that is scattered."}});
 }
 

@@ -54,9 +54,9 @@ std::optional<Vec3> GlossyOverDiffuse::invert(const SurfacePoint& at, const Vec3
                                               const Vec3& to, Lobe lobe, const Vec3& v) const {
   if (lobe != Lobe::smooth || !above(from, to)) return std::nullopt;
   const double glossy = specular_share_ * gloss(at, from, to).pdf_from_light;
-  const double matte = diffuse_pdf(to);
-  if (!(glossy + matte > 0)) return std::nullopt;
-  const LobeGuess guess = guess_lobe(glossy, matte, v.x);
+  const double lambertian = diffuse_pdf(to);
+  if (!(glossy + lambertian > 0)) return std::nullopt;
+  const LobeGuess guess = guess_lobe(glossy, lambertian, v.x);
   if (guess.first) return u_of(u_of_first(specular_share_, guess.rest), invert_gloss(at, from, to));
   return u_of(u_of_second(specular_share_, guess.rest), invert_cosine_hemisphere(to));
 }

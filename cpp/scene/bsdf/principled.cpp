@@ -1,5 +1,5 @@
-// Mitsuba 3's principled material, after Burley 2012 and 2015: a matte base with sheen, a GGX lobe
-// that is metallic or dielectric, refraction through it, and a clear coat.
+// Mitsuba 3's principled material, after Burley 2012 and 2015: a Lambertian base with sheen, a GGX
+// lobe that is metallic or dielectric, refraction through it, and a clear coat.
 #include "base/registry.h"
 #include "math/fresnel.h"
 #include "scene/bsdf.h"
@@ -264,7 +264,7 @@ std::vector<Parameter> principled_parameters() {
 Plugin bsdf_principled() {
   Plugin plugin = make_plugin<Principled>("bsdf", "principled",
                                           "A material for many purposes (Burley 2012, 2015): "
-                                          "matte, metallic, clear, coated, with sheen.",
+                                          "diffuse, metallic, clear, coated, with sheen.",
                                           principled_parameters());
   plugin.schema.conserves_energy = false;
   plugin.schema.reciprocal = false;

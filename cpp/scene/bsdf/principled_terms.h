@@ -44,9 +44,9 @@ inline Microfacet principled_microfacet(double roughness, double anisotropic) {
           std::max(0.001, sqr(roughness) * aspect)};
 }
 
-/// The BSDF of a matte base over colour / pi: Burley's diffuse term with retroreflection, mixed by
-/// `flatness` with his approximation of subsurface scattering. cos_d is the cosine with the half
-/// vector.
+/// The BSDF of a Lambertian base over colour / pi: Burley's diffuse term with retroreflection,
+/// mixed by `flatness` with his approximation of subsurface scattering. cos_d is the cosine with
+/// the half vector.
 inline double principled_diffuse(double cos_l, double cos_c, double cos_d, double roughness,
                                  double flatness) {
   const double Fl = schlick_weight(cos_l), Fc = schlick_weight(cos_c);

@@ -1,6 +1,6 @@
-// A rough matte surface: V-shaped grooves of Lambertian facets, which shadow, mask and light each
-// other (Oren & Nayar 1994, "Generalization of Lambert's reflectance model"). sigma is the standard
-// deviation of the facets' slope angle; at 0 the surface is Lambert's.
+// A rough Lambertian surface: V-shaped grooves of Lambertian facets, which shadow, mask and light
+// each other (Oren & Nayar 1994, "Generalization of Lambert's reflectance model"). sigma is the
+// standard deviation of the facets' slope angle; at 0 the surface is Lambert's.
 #include "base/registry.h"
 #include "scene/bsdf/cosine_sampled.h"
 #include "scene/texture.h"
@@ -49,7 +49,7 @@ class RoughDiffuse final : public CosineSampled {
 
 Plugin bsdf_roughdiffuse() {
   return make_plugin<RoughDiffuse>(
-      "bsdf", "roughdiffuse", "A rough matte surface (Oren & Nayar 1994), such as clay.",
+      "bsdf", "roughdiffuse", "A rough diffuse surface (Oren & Nayar 1994), such as clay.",
       {{"reflectance", ParamType::texture, 0.5, "Fraction of the light that is scattered."},
        {"alpha", ParamType::texture, 0.2,
         "Roughness: sqrt(2) times the standard deviation of the facets' slope."},

@@ -56,8 +56,8 @@ class RoughPlastic final : public Bsdf {
     const double total = pdf(at, from, to, lobe);
     if (!(total > 0)) return std::nullopt;
     const double p = specular_share(coating_.at(from.z));
-    const double matte = (1 - p) * inv_pi * to.z;
-    const LobeGuess guess = guess_lobe(std::max(0.0, total - matte), matte, v.x);
+    const double lambertian = (1 - p) * inv_pi * to.z;
+    const LobeGuess guess = guess_lobe(std::max(0.0, total - lambertian), lambertian, v.x);
     if (guess.first)
       return u_of(u_of_first(p, guess.rest), microfacet_.invert(from, normalize(from + to)));
     return u_of(u_of_second(p, guess.rest), invert_cosine_hemisphere(to));

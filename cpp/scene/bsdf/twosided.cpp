@@ -18,9 +18,9 @@ class TwoSided final : public Bsdf {
         params.fail("cannot hold a bsdf that transmits light: it is two-sided already");
     front_ = nested.front();
     back_ = nested.back();
-    if (front_ == back_ && front_->matte().known()) {
-      matte_ = front_->matte();
-      matte_.matte.sides = Matte::Sides::both;
+    if (front_ == back_ && front_->lambertian().known()) {
+      lambertian_ = front_->lambertian();
+      lambertian_.lambertian.sides = Lambertian::Sides::both;
     }
   }
 

@@ -44,13 +44,13 @@ std::string moon_above_the_floor(const std::string& bsdf) {
          sphere(0.2, -0.4, 0, 0.6, bsdf);
 }
 
-TEST(MinnaertExample, IsMatteForAnExponentOfOne) {
-  const BsdfPtr moon = make_bsdf("minnaert", {{"k", 1.0}}), matte = make_bsdf("diffuse");
+TEST(MinnaertExample, IsLambertianForAnExponentOfOne) {
+  const BsdfPtr moon = make_bsdf("minnaert", {{"k", 1.0}}), lambertian = make_bsdf("diffuse");
   Rng rng(1, Purpose::test, 0);
   for (int i = 0; i < 1000; ++i) {
     const Vec3 wl = random_direction(rng), wc = random_direction(rng);
     const Color f = moon->eval(point(), wl, wc, Lobe::smooth);
-    EXPECT_NEAR(f.x, matte->eval(point(), wl, wc, Lobe::smooth).x, 1e-15);
+    EXPECT_NEAR(f.x, lambertian->eval(point(), wl, wc, Lobe::smooth).x, 1e-15);
   }
 }
 
@@ -98,7 +98,7 @@ MutationPtr nudge(const PathTarget& target, double side) {
 }
 
 AuditReport audit_nudge(const std::string& scene, double side, bool spoilt = false) {
-  const PathTarget target = path_target(make_mutation_scene(scene).scene);
+  const PathTarget target = path_target(make_scene(scene).scene);
   MutationPtr mutation = nudge(target, side);
   if (spoilt)
     mutation = std::make_shared<BrokenTwin>(
@@ -156,7 +156,7 @@ TEST(NextEventExample, HasThePixelsOfDirectWithoutSamplesOfBsdfs) {
     }
 }
 
-TEST(NextEventExample, ConvergesToTheImageOfPathOnMatteSurfaces) {
+TEST(NextEventExample, ConvergesToTheImageOfPathOnLambertianSurfaces) {
   const ScenePtr scene = make_scene("cornell").scene;
   SameImageSettings settings;
   settings.whole = 0.02;

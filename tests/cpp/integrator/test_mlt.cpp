@@ -2,8 +2,8 @@
 // samples its bootstrap has, how many threads there are, and whether it was saved on the way.
 #include "integrator_testing.h"
 #include "mutation/mutation_registry.h"
-#include "mutation/mutation_scenes.h"
 #include "rendering/stats.h"
+#include "scenes.h"
 
 namespace mlt::test {
 namespace {
@@ -61,7 +61,7 @@ Assignments with_samples(const std::string& kind, Assignments settings = {}) {
 
 TEST_P(MltImage, IsThatOfBdpt) {
   const auto& [name, samples] = GetParam();
-  const ScenePtr scene = make_mutation_scene(name).scene;
+  const ScenePtr scene = make_scene(name).scene;
   const SameImage found =
       same_image(mlt_side(scene, with_samples(samples, {{"adaptive", "false"}})), bdpt_side(scene),
                  in_short());
@@ -86,7 +86,7 @@ class LongMltImage : public testing::TestWithParam<std::tuple<std::string, std::
 TEST_P(LongMltImage, IsThatOfBdpt) {
   const auto& [name, samples] = GetParam();
   const bool wet = name.find("water") != std::string::npos;
-  const ScenePtr scene = make_mutation_scene(name).scene;
+  const ScenePtr scene = make_scene(name).scene;
   const SameImage found = same_image(mlt_side(scene, with_samples(samples)), bdpt_side(scene),
                                      wet ? under_water() : at_length());
   EXPECT_TRUE(found) << found.text;
@@ -101,7 +101,7 @@ class LongMltVariant : public testing::TestWithParam<Assignments> {};
 
 TEST_P(LongMltVariant, HasTheSameImage) {
   for (const char* name : {"cornell", "mirrors", "glass_torus"}) {
-    const ScenePtr scene = make_mutation_scene(name).scene;
+    const ScenePtr scene = make_scene(name).scene;
     const SameImage found = same_image(mlt_side(scene, GetParam()), bdpt_side(scene), at_length());
     EXPECT_TRUE(found) << name << ": " << found.text;
   }
@@ -133,7 +133,7 @@ INSTANTIATE_TEST_SUITE_P(Variants, LongMltVariant, testing::ValuesIn(long_varian
 
 TEST(MltRuns, AgreeWhateverTheBootstrap) {
   // Start-up bias must vanish in the mean over seeds.
-  const ScenePtr scene = make_mutation_scene("cornell").scene;
+  const ScenePtr scene = make_scene("cornell").scene;
   const SameImage found = same_image(
       mlt_side(scene, {{"adaptive", "false"}, {"independent_share", "0"}}, 2000),
       mlt_side(scene, {{"adaptive", "false"}, {"independent_share", "0"}}, 16000), in_short());
@@ -141,7 +141,7 @@ TEST(MltRuns, AgreeWhateverTheBootstrap) {
 }
 
 TEST(MltRuns, EstimateBAsTheMeanOfTheImage) {
-  const ScenePtr scene = make_mutation_scene("caustic").scene;
+  const ScenePtr scene = make_scene("caustic").scene;
   Moments b, errors, mean;
   for (uint64_t seed = 1; seed <= 16; ++seed) {
     Stats stats;
@@ -172,7 +172,7 @@ TEST(MltRuns, EstimateBAsTheMeanOfTheImage) {
 
 TEST(MltRuns, MakeNoInvalidSteps) {
   for (const std::string& name : mutation_scene_names()) {
-    const ScenePtr scene = make_mutation_scene(name).scene;
+    const ScenePtr scene = make_scene(name).scene;
     Stats stats;
     rendered(scene, integrator("mlt", mlt_settings(2000)), 3, 16)->add_stats(stats);
     EXPECT_EQ(stats.invalid_samples, 0u) << name;
@@ -192,7 +192,7 @@ std::vector<Assignments> variants() {
 }
 
 TEST(MltBits, AreTheSameForAnyNumberOfThreads) {
-  const ScenePtr scene = make_mutation_scene("near_specular").scene;
+  const ScenePtr scene = make_scene("near_specular").scene;
   for (const Assignments& settings : variants()) {
     const IntegratorPtr made = integrator("mlt", settings);
     const Image one = rendered(scene, made, 5, 20, 1)->image();
@@ -203,7 +203,7 @@ TEST(MltBits, AreTheSameForAnyNumberOfThreads) {
 }
 
 TEST(MltBits, AreTheSameWhenARenderGoesOnAfterItWasSaved) {
-  const ScenePtr scene = make_mutation_scene("thin_lens").scene;
+  const ScenePtr scene = make_scene("thin_lens").scene;
   for (const Assignments& settings : variants()) {
     const IntegratorPtr made = integrator("mlt", settings);
     const auto straight = prepared(scene, made, 7);

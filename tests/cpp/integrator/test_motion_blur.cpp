@@ -1,7 +1,10 @@
 // Motion blur is the mean of what is seen at each moment: a render with an open shutter equals the
 // mean of 64 renders with a closed one, by the integrators that share no estimator of time with it.
+#include <fstream>
+#include <regex>
+
 #include "integrator_testing.h"
-#include "moving_scenes.h"
+#include "scenes.h"
 
 namespace mlt::test {
 namespace {
@@ -21,7 +24,7 @@ Side mean_of_stills(const std::string& name) {
   std::vector<ScenePtr> scenes;
   for (int i = 0; i < stills; ++i) {
     const double time = (i + 0.5) / stills;
-    scenes.push_back(load_scene(moving_scene(name, time, time)));
+    scenes.push_back(make_scene(name, with_shutter(time, time)).scene);
   }
   return {"stills", [=](uint64_t seed, double effort) {
             Image sum(16, 12, 3);
@@ -42,7 +45,7 @@ std::string name_of(const testing::TestParamInfo<std::string>& info) { return in
 
 void expect_mean_of_stills(const std::string& name, const std::string& algorithm,
                            const SameImageSettings& settings) {
-  const ScenePtr scene = load_scene(moving_scene(name));
+  const ScenePtr scene = make_scene(name).scene;
   const double spp = algorithm == "mlt" || algorithm == "pssmlt" ? 128 : 32;
   const SameImage found =
       same_image(side(scene, algorithm, {{"max_depth", "5"}}, spp), mean_of_stills(name), settings);
@@ -71,22 +74,25 @@ TEST(LongLightTracing, SeesMotionToo) {
     expect_mean_of_stills(name, "ptracer", precision(0.02, 0.1, 10000));
 }
 
-/// What the scene would be with transforms in the place of its animations.
-std::string without_animations(std::string scene) {
-  for (size_t i; (i = scene.find("<animation name='to_world'><transform time='0.000000'>")) !=
-                 std::string::npos;) {
-    const size_t first = scene.find("<transform", i), end = scene.find("</transform>", first),
-                 after = scene.find("</animation>", end) + 12;
-    const size_t steps = scene.find('>', first) + 1;
-    scene = scene.substr(0, i) + to_world(scene.substr(steps, end - steps)) + scene.substr(after);
-  }
-  return scene;
+/// The scene with the transforms of time 0 in the place of its animations.
+ScenePtr without_animations(const std::string& name, const LoadOptions& options) {
+  std::ifstream file("tests/scenes/" + name + ".xml");
+  const std::string text(std::istreambuf_iterator<char>(file), {});
+  const std::regex animation(
+      R"(<animation name="to_world">\s*<transform time="0">([^]*?)</transform>)"
+      R"([^]*?</animation>)");
+  const std::string still =
+      std::regex_replace(text, animation, R"(<transform name="to_world">$1</transform>)");
+  EXPECT_NE(still, text);
+  return without_warnings(load_string(still, "tests/scenes", plugins(), options));
 }
 
-void expect_same_bits(const std::string& a, const std::string& b) {
+void expect_same_bits(const std::string& name, const LoadOptions& options) {
+  const ScenePtr moving = make_scene(name, options).scene,
+                 still = without_animations(name, options);
   for (const char* algorithm : {"path", "bdpt", "ptracer", "pssmlt", "mlt"}) {
-    const auto image = [&](const std::string& scene) {
-      return rendered(load_scene(scene),
+    const auto image = [&](const ScenePtr& scene) {
+      return rendered(scene,
                       integrator(algorithm, std::string(algorithm).find("mlt") == std::string::npos
                                                 ? Assignments{}
                                                 : Assignments{{"luminance_samples", "2000"},
@@ -94,18 +100,17 @@ void expect_same_bits(const std::string& a, const std::string& b) {
                       7, 2)
           ->image();
     };
-    EXPECT_EQ(image(a).data, image(b).data) << algorithm;
+    EXPECT_EQ(image(moving).data, image(still).data) << algorithm;
   }
 }
 
 TEST(ClosedShutter, IsAStillBitForBit) {
-  for (const std::string& name : moving_scene_names())
-    expect_same_bits(moving_scene(name, 0, 0), without_animations(moving_scene(name, 0, 0)));
+  for (const std::string& name : moving_scene_names()) expect_same_bits(name, with_shutter(0, 0));
 }
 
 TEST(OpenShutter, ChangesNothingWhereNothingMoves) {
   for (const char* name : {"moving_ball", "moving_lamp", "spinning_instance"})
-    expect_same_bits(moving_scene(name, -2, -1), without_animations(moving_scene(name, -2, -1)));
+    expect_same_bits(name, with_shutter(-2, -1));
 }
 
 }  // namespace

@@ -40,8 +40,7 @@ TEST(Techniques, HaveWeightedImagesThatSumToTheImage) {
   for (const char* filter : {"box", "gaussian"})
     for (const char* name : {"cornell", "thin_lens"}) {
       SCOPED_TRACE(std::string(name) + " " + filter);
-      const ScenePtr scene =
-          make_scene(name, {40, 30, std::string("<rfilter type='") + filter + "'/>"}).scene;
+      const ScenePtr scene = make_scene(name, with_size(40, 30, filter)).scene;
       const auto rendering =
           rendered(scene, integrator("bdpt", {{"max_depth", "4"}, {"techniques", "true"}}), 3, 32);
       const Image image = rendering->image();
@@ -65,7 +64,7 @@ TEST(Techniques, HaveWeightedImagesThatSumToTheImage) {
 }
 
 TEST(Techniques, ShowNothingWhereTheyCannotWork) {
-  const ScenePtr scene = make_scene("caustic", {16, 12}).scene;
+  const ScenePtr scene = make_scene("caustic").scene;
   const auto layers = layers_of(*rendered(
       scene,
       integrator("bdpt", {{"max_depth", "4"}, {"techniques", "true"}, {"light_image", "false"}}), 3,
@@ -109,7 +108,7 @@ void expect_same_techniques(const std::string& scene_name, const ScenePtr& scene
 }
 
 TEST(Techniques, EachAloneMakeTheImageOfDirectLight) {
-  expect_same_techniques("cornell", make_scene("cornell", {8, 6}).scene, 2, {0});
+  expect_same_techniques("cornell", make_scene("cornell", with_size(8, 6)).scene, 2, {0});
 }
 
 /// A lamp in a hollow ball of radius R. Where surfaces meet, the G of a connection has no bound,

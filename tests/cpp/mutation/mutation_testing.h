@@ -7,8 +7,8 @@
 
 #include "mutation/audit.h"
 #include "mutation/mutation_registry.h"
-#include "mutation/mutation_scenes.h"
 #include "mutation/path_seeds.h"
+#include "scenes.h"
 
 namespace mlt::test {
 
@@ -20,8 +20,8 @@ inline PathTarget path_target(const ScenePtr& scene, int max_depth = 8) {
 
 /// With steps of primary samples that are large: small ones change too little for a fault to be
 /// seen.
-inline MutationPtr make_bold_mutation(const MutationPlugin& plugin, const PathTarget& target,
-                                      MutationValues values = {}) {
+inline MutationPtr make_large_mutation(const MutationPlugin& plugin, const PathTarget& target,
+                                       MutationValues values = {}) {
   if (plugin.schema.find("step_size")) values.push_back({"step_size", 0.4});
   return make_mutation(plugin.name(), target, values);
 }
@@ -29,7 +29,7 @@ inline MutationPtr make_bold_mutation(const MutationPlugin& plugin, const PathTa
 inline Mutations all_mutations(const PathTarget& target) {
   Mutations all;
   for (const MutationPlugin& plugin : mutation_plugins())
-    all.push_back(make_bold_mutation(plugin, target));
+    all.push_back(make_large_mutation(plugin, target));
   return all;
 }
 
@@ -58,13 +58,13 @@ template <class Found>
 void for_each_proposal(const PathTarget& target, const Mutations& all, uint64_t seed, int samples,
                        Found&& found) {
   Rng rng(1, Purpose::test, 0);
-  MutationAids aids;
+  MutationScratch scratch;
   PathState y;
   for_each_light_path(target, seed, samples, [&](const PathState& x) {
     if (!(x.target > 0)) return;
     for (size_t i = 0; i < all.size(); ++i) {
       if (all[i]->suitability(x) == 0) continue;
-      MutationContext context{rng, aids};
+      MutationContext context{rng, scratch};
       const auto edit = all[i]->propose(x, y, context);
       if (edit && y.target > 0) found(i, x, y, *edit);
     }

@@ -24,13 +24,13 @@ std::vector<Case> cases(const std::vector<std::string>& scenes) {
 }
 
 AuditReport audit_case(const Case& c, uint64_t paths) {
-  const ScenePtr scene = make_mutation_scene(c.scene).scene;
+  const ScenePtr scene = make_scene(c.scene).scene;
   const PathTarget target = path_target(scene);
   AuditSettings how;
   how.paths = paths;
   how.significance = 1e-5;  // of each of many cases
   if (c.mutation != "mixture")
-    return audit(target, make_bold_mutation(mutation_plugin(c.mutation), target), how);
+    return audit(target, make_large_mutation(mutation_plugin(c.mutation), target), how);
   return audit(target, all_mutations(target), default_weights(), how);
 }
 
@@ -87,7 +87,7 @@ INSTANTIATE_TEST_SUITE_P(Mutations, LongAudit, testing::ValuesIn(cases(mutation_
 /// What the render may do besides: other step sizes, weights for each path length, a target divided
 /// by a coarse image, short paths left to others.
 AuditReport audit_variant(const std::string& name, bool two_stage, int min_depth, uint64_t paths) {
-  const ScenePtr scene = make_mutation_scene(name).scene;
+  const ScenePtr scene = make_scene(name).scene;
   PathRules rules;
   rules.max_depth = 8;
   rules.min_depth = min_depth;
@@ -105,7 +105,7 @@ AuditReport audit_variant(const std::string& name, bool two_stage, int min_depth
     for (const MutationPlugin& plugin : mutation_plugins()) {
       MutationValues own;
       if (plugin.has_step_size()) own.push_back({"largest_share", share});
-      all.push_back(make_bold_mutation(plugin, target, own));
+      all.push_back(make_large_mutation(plugin, target, own));
     }
   std::vector<std::vector<double>> rows;
   for (int k = 0; k < 6; ++k) {
@@ -137,7 +137,7 @@ TEST(AuditOfLensSubpaths, HoldsForPlastic) {
 
 /// Small ones hardly change the cosines at the vertex that they start from.
 TEST(AuditOfManifolds, HoldsForLargeMoves) {
-  const ScenePtr scene = make_mutation_scene("mirrors").scene;
+  const ScenePtr scene = make_scene("mirrors").scene;
   const PathTarget target = path_target(scene);
   AuditSettings how;
   how.paths = 400000;
@@ -148,7 +148,7 @@ TEST(AuditOfManifolds, HoldsForLargeMoves) {
 }
 
 TEST(AuditOfCaustics, HoldsForRoundMovesOfTheDirection) {
-  const ScenePtr scene = make_mutation_scene("caustic").scene;
+  const ScenePtr scene = make_scene("caustic").scene;
   const PathTarget target = path_target(scene);
   AuditSettings how;
   how.paths = 20000;

@@ -160,7 +160,7 @@ class BrokenTwins : public testing::TestWithParam<Twin> {};
 
 TEST_P(BrokenTwins, AreFound) {
   const Twin& twin = GetParam();
-  const ScenePtr scene = make_mutation_scene(twin.scene).scene;
+  const ScenePtr scene = make_scene(twin.scene).scene;
   const PathTarget target = path_target(scene);
   const Mutations all = all_mutations(target);
   const BrokenTwin::Factor dropped = twin.dropped(*scene, all);

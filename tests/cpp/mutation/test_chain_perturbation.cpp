@@ -71,12 +71,12 @@ TEST(ChainPerturbation, MovesTheImageAboutAsFarAsTheLensPerturbation) {
   const auto caustic = make_mutation("caustic", target);
   const ChainPerturbation chain(*scene, StepSizes());
   Rng rng(3, Purpose::test, 0);
-  MutationAids aids;
+  MutationScratch scratch;
   PathState y;
   double sum = 0, count = 0;
   for_each_light_path(target, 4, 1000, [&](const PathState& x) {
     if (caustic->suitability(x) == 0) return;
-    MutationContext context{rng, aids};
+    MutationContext context{rng, scratch};
     if (!caustic->propose(x, y, context) || !(y.target > 0)) return;
     sum += std::log(glm::length(y.raster - x.raster));
     ++count;
@@ -104,7 +104,7 @@ TEST(ChainPerturbation, FindsTheVertexThatEndsAChain) {
 /// Veach's forms, (L|D)DS*E, (L|D)S*DE and (L|D)(DS+)+DS*E, the light side of the joint not being
 /// specular; and those whose chains lead on to a light that can be hit, LS*E and L(S+D)+S*E.
 TEST(Mutations, SuitTheirForms) {
-  const ScenePtr scene = make_mutation_scene("mirrors").scene;
+  const ScenePtr scene = make_scene("mirrors").scene;
   const PathTarget target = path_target(scene);
   const auto suits = [&](const std::string& mutation, const std::string& signature) {
     const PathState x = find_path(target, signature);

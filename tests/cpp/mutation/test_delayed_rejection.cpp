@@ -48,14 +48,15 @@ class MoreOnTheRight : public Changed {
   }
 };
 
-AuditReport audit_two_stages(const PathTarget& target, const MutationPtr& bold,
-                             const std::string& timid, uint64_t paths, double significance = 1e-5) {
+AuditReport audit_two_stages(const PathTarget& target, const MutationPtr& first,
+                             const std::string& second, uint64_t paths,
+                             double significance = 1e-5) {
   AuditSettings how;
   how.paths = paths;
   how.significance = significance;
   const auto weights = std::make_shared<MixtureWeights>(std::vector<double>{1.0});
-  // Not very timid: q(y2 -> y1) is to differ from q(x -> y1).
-  return audit(target, PathMixture({bold}, weights, {perturbation(timid, target, 0.3)}), how);
+  // A large second stage: q(y2 -> y1) is to differ from q(x -> y1).
+  return audit(target, PathMixture({first}, weights, {perturbation(second, target, 0.3)}), how);
 }
 
 struct Case {
@@ -66,7 +67,7 @@ void PrintTo(const Case& c, std::ostream* out) { *out << c.mutation << " on " <<
 class DelayedRejectionOfPaths : public testing::TestWithParam<Case> {};
 
 TEST_P(DelayedRejectionOfPaths, LeavesTheTargetUnchanged) {
-  const ScenePtr scene = make_mutation_scene(GetParam().scene).scene;
+  const ScenePtr scene = make_scene(GetParam().scene).scene;
   const PathTarget target = path_target(scene);
   const std::string& name = GetParam().mutation;
   const AuditReport report = audit_two_stages(target, perturbation(name, target, 0.5), name, 60000);
@@ -83,7 +84,7 @@ INSTANTIATE_TEST_SUITE_P(Mutations, DelayedRejectionOfPaths,
                          });
 
 TEST(DelayedRejectionOfPaths, NeedsTheDensityOfTheFirstStage) {
-  const ScenePtr scene = make_mutation_scene("near_specular").scene;
+  const ScenePtr scene = make_scene("near_specular").scene;
   const PathTarget target = path_target(scene);
   const auto wrong = std::make_shared<WrongInSecondStage>(perturbation("lens", target, 0.5));
   const AuditReport report = audit_two_stages(target, wrong, "lens", 200000, 1e-4);
@@ -93,21 +94,21 @@ TEST(DelayedRejectionOfPaths, NeedsTheDensityOfTheFirstStage) {
 /// The formula of path_mixture.h by plain products, where the choice of the mutation depends on the
 /// path.
 TEST(DelayedRejectionOfPaths, HasTheQuotientOfPlainProducts) {
-  const ScenePtr scene = make_mutation_scene("cornell").scene;
+  const ScenePtr scene = make_scene("cornell").scene;
   const PathTarget target = path_target(scene);
-  const auto bold = std::make_shared<MoreOnTheRight>(perturbation("lens", target, 0.5));
-  const MutationPtr other = perturbation("lens", target, 0.1), timid = other;
+  const auto first = std::make_shared<MoreOnTheRight>(perturbation("lens", target, 0.5));
+  const MutationPtr other = perturbation("lens", target, 0.1), smaller = other;
   const auto weights = std::make_shared<MixtureWeights>(std::vector<double>{1.0, 1.0});
-  PathMixture mixture({bold, other}, weights, {timid, nullptr});
+  PathMixture mixture({first, other}, weights, {smaller, nullptr});
   const auto q1 = [&](const PathState& x, const PathState& y) {
-    const double share = bold->suitability(x);
-    return share / (share + other->suitability(x)) * bold->density(x, y, mixture.edit());
+    const double share = first->suitability(x);
+    return share / (share + other->suitability(x)) * first->density(x, y, mixture.edit());
   };
   const auto rejection = [&](const PathState& x, const PathState& y) {
     return 1 - std::min(1.0, y.brightness() * q1(y, x) / (x.brightness() * q1(x, y)));
   };
   const auto one_way = [&](const PathState& x, const PathState& y1, const PathState& y2) {
-    return x.brightness() * q1(x, y1) * rejection(x, y1) * timid->density(x, y2, mixture.edit());
+    return x.brightness() * q1(x, y1) * rejection(x, y1) * smaller->density(x, y2, mixture.edit());
   };
   int compared = 0;
   Rng rng(4, Purpose::test, 0);
@@ -126,13 +127,13 @@ TEST(DelayedRejectionOfPaths, HasTheQuotientOfPlainProducts) {
 }
 
 TEST(DelayedRejectionOfPaths, FindsMovesWhereTheFirstStageFails) {
-  const ScenePtr scene = make_mutation_scene("cornell").scene;
+  const ScenePtr scene = make_scene("cornell").scene;
   const PathTarget target = path_target(scene);
-  const auto bold = perturbation("lens", target, 0.5);
+  const auto first = perturbation("lens", target, 0.5);
   AuditSettings how;
   how.paths = 20000;
-  const AuditReport one = audit(target, bold, how);
-  const AuditReport two = audit_two_stages(target, bold, "lens", how.paths);
+  const AuditReport one = audit(target, first, how);
+  const AuditReport two = audit_two_stages(target, first, "lens", how.paths);
   const auto rejected = [](const AuditReport& report) { return report.steps - report.accepted; };
   EXPECT_LT(static_cast<double>(rejected(two)), 0.9 * static_cast<double>(rejected(one)));
 }

@@ -7,7 +7,7 @@ namespace mlt::test {
 namespace {
 
 TEST(Difference, IsTheSmallestEdit) {
-  const ScenePtr scene = make_mutation_scene("cornell").scene;
+  const ScenePtr scene = make_scene("cornell").scene;
   const PathTarget target = path_target(scene);
   const PathState x = find_path(target, "LDDE"), other = find_path(target, "LDDDE");
   const auto edit = [](const Edit& e) { return std::vector<int>{e.first, e.last, e.inserted}; };
@@ -28,7 +28,7 @@ class Adopt : public testing::TestWithParam<std::string> {};
 
 /// What the mutations know about their proposals is found from the vertices alone.
 TEST_P(Adopt, ValuesProposalsAsTheirMutationsDo) {
-  const ScenePtr scene = make_mutation_scene(GetParam()).scene;
+  const ScenePtr scene = make_scene(GetParam()).scene;
   const PathTarget target = path_target(scene);
   const Mutations all = all_mutations(target);
   RayCounts rays;
@@ -56,7 +56,7 @@ std::string as_name(const testing::TestParamInfo<std::string>& info) { return in
 INSTANTIATE_TEST_SUITE_P(Scenes, Adopt, testing::ValuesIn(mutation_scene_names()), as_name);
 
 TEST(Passable, IsNoPathThroughAWall) {
-  const ScenePtr scene = make_mutation_scene("cornell").scene;
+  const ScenePtr scene = make_scene("cornell").scene;
   const PathState x = find_path(path_target(scene), "LDDE");
   RayCounts rays;
   EXPECT_TRUE(passable(*scene, x.path, 0, x.edges(), rays));
@@ -66,7 +66,7 @@ TEST(Passable, IsNoPathThroughAWall) {
 }
 
 TEST(Passable, IsNoPathThatBendsAMirrorsLaw) {
-  const ScenePtr scene = make_mutation_scene("mirrors").scene;
+  const ScenePtr scene = make_scene("mirrors").scene;
   const PathTarget target = path_target(scene);
   RayCounts rays;
   for (const char* signature : {"LDSE", "LSDE"}) {

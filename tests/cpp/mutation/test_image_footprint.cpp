@@ -14,7 +14,7 @@ struct Lengths {
 /// How many of the moves through `wanted` that are to be 1e-4 to 2e-4 pixels long are so.
 Lengths moves(const std::string& name, bool anisotropic, const std::string& wanted,
               int samples = 3000) {
-  const ScenePtr scene = make_mutation_scene(name).scene;
+  const ScenePtr scene = make_scene(name).scene;
   const PathTarget target = path_target(scene);
   const double shortest = 1e-4, longest = 2 * shortest;
   const auto caustic = make_mutation(
@@ -41,7 +41,7 @@ TEST(ImageFootprint, SaysHowFarTheImageOfAChainsEndMoves) {
 
 /// Moments of directions, by samples of the footprint and by samples of a wide cone with weights.
 TEST(ImageFootprint, HasDirectionsOfItsDensity) {
-  const ScenePtr scene = make_mutation_scene("cornell").scene;
+  const ScenePtr scene = make_scene("cornell").scene;
   const PathState x = find_path(path_target(scene), "LDE");
   const ChainPerturbation chain(*scene, StepSizes());
   const auto footprint = ImageFootprint::of(*scene, x, 0, chain.pixel_angle(x));

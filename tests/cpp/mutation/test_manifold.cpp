@@ -61,7 +61,7 @@ std::optional<Vec3> first_ray(const Scene& scene, const PathState& x, const Span
 }
 
 TEST_P(SpecularChains, MoveAsTheirDerivativesSay) {
-  const ScenePtr scene = make_mutation_scene(GetParam()).scene;
+  const ScenePtr scene = make_scene(GetParam()).scene;
   const PathTarget target = path_target(scene);
   int tested = 0, wrong_moves = 0, wrong_densities = 0;
   for_each_chain(target, 3000, [&](const PathState& x, const Span& span) {
@@ -110,7 +110,7 @@ TEST_P(SpecularChains, MoveAsTheirDerivativesSay) {
 
 /// The tilt of the shading normal along each surface, by two rays that hit it side by side.
 TEST_P(SpecularChains, KnowHowNormalsTurn) {
-  const ScenePtr scene = make_mutation_scene(GetParam()).scene;
+  const ScenePtr scene = make_scene(GetParam()).scene;
   const PathTarget target = path_target(scene);
   int tested = 0, wrong = 0;
   for_each_light_path(target, 6, 1000, [&](const PathState& x) {

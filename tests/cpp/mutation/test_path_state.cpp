@@ -45,7 +45,7 @@ std::string difference(const PathState& a, const PathState& b) {
 class LightPaths : public testing::TestWithParam<std::string> {};
 
 TEST_P(LightPaths, AreTheSameBitsWhenAnEditIsComputedAndWhenAllIs) {
-  const ScenePtr scene = make_mutation_scene(GetParam()).scene;
+  const ScenePtr scene = make_scene(GetParam()).scene;
   const PathTarget target = path_target(scene);
   const Mutations all = all_mutations(target);
   std::vector<int> compared(all.size(), 0);
@@ -69,7 +69,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, LightPaths,
                          [](const auto& info) { return info.param; });
 
 TEST(LightPaths, KeepTheChoiceOfTheMutationsThatSuitThem) {
-  const PathTarget target = path_target(make_mutation_scene("mirrors").scene);
+  const PathTarget target = path_target(make_scene("mirrors").scene);
   const Mutations all = all_mutations(target);
   const std::vector<double> weights = default_weights()[0];
   PathChain chain(path_mixture(all, weights), Rng(5, Purpose::test, 0), find_path(target, "LDDE"));

@@ -19,7 +19,7 @@ class Proposals {
  public:
   Proposals(const std::string& scene, const std::string& mutation, int max_depth = 8,
             const MutationValues& values = {})
-      : scene_(make_mutation_scene(scene).scene),
+      : scene_(make_scene(scene).scene),
         target_(path_target(scene_, max_depth)),
         mutation_(make_mutation(mutation, target_, values)) {}
 
@@ -31,7 +31,7 @@ class Proposals {
 
   /// A proposal of this edit that carries light.
   bool propose(Rng& rng) {
-    MutationContext context{rng, aids_};
+    MutationContext context{rng, scratch_};
     const auto edit = mutation_->propose(x, y, context);
     return edit && *edit == edit_ && y.target > 0;
   }
@@ -66,7 +66,7 @@ class Proposals {
   PathTarget target_;
   MutationPtr mutation_;
   Edit edit_{};
-  MutationAids aids_;
+  MutationScratch scratch_;
 };
 
 /// Density in solid angle at `from` of a point with this density in area.

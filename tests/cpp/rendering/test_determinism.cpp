@@ -67,7 +67,7 @@ TEST(Render, CountsTheSameRaysForAnyNumberOfThreadsAndNothingInvalid) {
 TEST(Render, RefusesTheStateOfAnotherImage) {
   for (const Algorithm& algorithm : algorithms()) {
     const IntegratorPtr made = integrator(algorithm.name, algorithm.assignments);
-    const ScenePtr other = make_scene("mixed_lights", {30, 20, "<rfilter type='gaussian'/>"}).scene;
+    const ScenePtr other = make_scene("mixed_lights", with_size(30, 20, "gaussian")).scene;
     const std::string saved = rendered(other, made, 7, 1)->save();
     EXPECT_THROW(made->start(lights_on_tiles(), 7)->load(saved), RenderError) << algorithm.name;
     EXPECT_THROW(made->start(other, 7)->load(saved.substr(0, saved.size() / 2)), RenderError)

@@ -1,12 +1,12 @@
 // Chains and independent samples see the same T / P of a path, so that their weights sum to one.
 #include "harness/statistics.h"
-#include "mutation/mutation_scenes.h"
 #include "mutation/path_seeds.h"
 #include "rendering/family_taker.h"
 #include "rendering/family_weights.h"
 #include "rendering/primary_estimators.h"
 #include "rendering/traced_source.h"
 #include "rendering/walk_taker.h"
+#include "scenes.h"
 
 #include <gtest/gtest.h>
 
@@ -52,7 +52,7 @@ double median(std::vector<double>& values) {
 class TargetOverDensity : public testing::TestWithParam<std::string> {};
 
 TEST_P(TargetOverDensity, IsTheSameForSamplesAndChains) {
-  const TestScene made = make_mutation_scene(GetParam());
+  const TestScene made = make_scene(GetParam());
   const PathTarget target = target_of(made);
   PathSeeds seeds(target);
   PathState x;
@@ -77,7 +77,7 @@ TEST_P(TargetOverDensity, IsTheSameForSamplesAndChains) {
 }
 
 TEST_P(TargetOverDensity, IsTheSameForSamplesOfPathTracingAndChains) {
-  const TestScene made = make_mutation_scene(GetParam());
+  const TestScene made = make_scene(GetParam());
   PathTarget target = target_of(made);
   target.set_techniques(SampleTechniques::path_tracing);
   const Scene& scene = *made.scene;
@@ -115,7 +115,7 @@ TEST_P(TargetOverDensity, IsTheSameForSamplesOfPathTracingAndChains) {
 
 /// Samples of either kind and chains agree on which paths are left to the samples.
 TEST_P(TargetOverDensity, IsZeroForTheSameCertainPaths) {
-  const TestScene made = make_mutation_scene(GetParam());
+  const TestScene made = make_scene(GetParam());
   PathTarget target = target_of(made);
   leave_certain_light(target);
   PathSeeds seeds(target);
@@ -202,7 +202,7 @@ void expect_the_same(const ScenePtr& scene, const SamplesOnly& algorithm,
 class TracedTakerOf : public testing::TestWithParam<bool> {};
 
 TEST_P(TracedTakerOf, ShowsWhatItsSourceFindsWithTheWeightsOfSamples) {
-  const TestScene made = make_mutation_scene("cornell");
+  const TestScene made = make_scene("cornell");
   PathTarget target = target_of(made);
   if (GetParam()) leave_certain_light(target);
   const SamplesOnly algorithm(*made.scene, [&] { return std::make_unique<TracedSource>(target); });
@@ -238,7 +238,7 @@ struct WalkSource : MetropolisAlgorithm::Source {
 };
 
 TEST(WalkTaker, ShowsWhatSingleSamplesFindWithTheWeightsOfSamples) {
-  const TestScene made = make_mutation_scene("cornell");
+  const TestScene made = make_scene("cornell");
   const PathRules rules{8};
   const LargeStepWeights large_steps{0.1};
   const SamplesOnly algorithm(

@@ -34,7 +34,7 @@ TEST_P(PathToursOf, HaveTheBrightnessOfTheirSamples) {
   PathRules rules;
   rules.max_depth = 8;
   rules.rr_depth = rr_depth;
-  const PathTarget target(make_mutation_scene(name).scene, rules);
+  const PathTarget target(make_scene(name).scene, rules);
   const PathMixture mixture(all_mutations(target),
                             std::make_shared<MixtureWeights>(default_weights()));
   constexpr int groups = 16;
@@ -88,7 +88,7 @@ class LongTours : public testing::Test {
     return recorder.sum;
   }
 
-  const PathTarget target{make_mutation_scene("cornell").scene, PathRules{8}};
+  const PathTarget target{make_scene("cornell").scene, PathRules{8}};
   const PathMixture mixture{all_mutations(target),
                             std::make_shared<MixtureWeights>(default_weights())};
 };

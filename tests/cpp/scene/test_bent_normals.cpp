@@ -1,7 +1,10 @@
 // The tangents along u and v of every shape, and bump maps, which need them.
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "base/rng.h"
+#include "image/image_io.h"
 #include "scene/mesh.h"
 #include "scenes.h"
 

@@ -1,5 +1,7 @@
 #include "scene/instance.h"
 
+#include <fstream>
+
 #include "scene/same_points.h"
 
 namespace mlt {
@@ -77,13 +79,13 @@ void expect_same_scattering(const ScenePtr& a, const ScenePtr& b) {
 }
 
 TEST(Instance, HasTheBumpsOfTheShapeWrittenOut) {
-  const TemporaryFile mesh("textured.obj"), waves("waves.exr");
+  const TemporaryFile mesh("textured.obj");
   write_textured_ball(mesh.path());
-  write_waves(waves.path());
   const std::string bumpy =
       "<bsdf type='bumpmap'><float name='scale' value='0.1'/><texture type='bitmap'><string "
-      "name='filename' value='" +
-      waves.path() + "'/><boolean name='raw' value='true'/></texture>" + white + "</bsdf>";
+      "name='filename' value='tests/scenes/waves.exr'/><boolean name='raw' value='true'/>"
+      "</texture>" +
+      white + "</bsdf>";
   for (const std::string& steps : {tilt + shift, scale(0.4) + tilt, uneven + tilt + shift})
     expect_same_scattering(
         load_scene(lens + light + group(obj(mesh.path(), "", bumpy)) + instance(steps)),
@@ -211,11 +213,10 @@ TEST(Instance, GivesTheImageOfTheSceneWrittenOut) {
 }
 
 TEST(Instance, KeepsOneCopyOfTheGroup) {
-  const TemporaryFile file("ball.obj");
-  write_coarse_ball(file.path(), 40);
-  std::string many = lens + light + group(obj(file.path(), "", white));
+  const std::string torus = obj("tests/scenes/torus.obj", "", white);
+  std::string many = lens + light + group(torus);
   for (int i = 0; i < 100; ++i) many += instance(translate(i, 0, 0));
-  const ScenePtr one = load_scene(lens + light + obj(file.path(), "", white));
+  const ScenePtr one = load_scene(lens + light + torus);
   const ScenePtr hundred = load_scene(many);
   EXPECT_EQ(hundred->triangle_count(), one->triangle_count());
   EXPECT_EQ(hundred->bytes(), one->bytes());

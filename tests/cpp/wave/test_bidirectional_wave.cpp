@@ -70,7 +70,7 @@ Samples side_by_side(const Scene& scene, const BidirectionalSettings& settings) 
     for (int i = 0; i < wave.size(); ++i) {
       Sample sample;
       sample.seen = wave.seen(i);
-      sample.by_itself = wave.left(i);
+      sample.by_itself = wave.fell_back(i);
       found.samples.push_back(sample);
     }
     for (const BidirectionalWave::Splat& s : wave.splats())
@@ -128,7 +128,7 @@ class BidirectionalWaveOf : public testing::TestWithParam<std::string> {};
 TEST_P(BidirectionalWaveOf, FindsWhatSingleSamplesFind) {
   const ScenePtr scene = make_scene(GetParam()).scene;
   for (const BidirectionalSettings& settings : all_settings()) {
-    if (!BidirectionalWave::serves(*scene, settings)) continue;
+    if (!BidirectionalWave::supports(*scene, settings)) continue;
     const Samples single = one_by_one(*scene, settings), wave = side_by_side(*scene, settings);
     ASSERT_EQ(single.samples.size(), wave.samples.size());
     const Compared compared = compare(single, wave);
@@ -149,7 +149,7 @@ TEST(BidirectionalWave, ServesManyScenes) {
   for (const std::string& name : scene_names()) {
     const ScenePtr scene = make_scene(name).scene;
     const BidirectionalSettings settings;
-    if (!BidirectionalWave::serves(*scene, settings)) continue;
+    if (!BidirectionalWave::supports(*scene, settings)) continue;
     ++served;
     lit += compare(one_by_one(*scene, settings), side_by_side(*scene, settings)).lit;
   }
@@ -160,7 +160,7 @@ TEST(BidirectionalWave, ServesManyScenes) {
 TEST(BidirectionalWave, TracesAnIncompleteWave) {
   const ScenePtr scene = make_scene("smooth_normals").scene;
   const BidirectionalSettings settings;
-  ASSERT_TRUE(BidirectionalWave::serves(*scene, settings));
+  ASSERT_TRUE(BidirectionalWave::supports(*scene, settings));
   BidirectionalWave wave(*scene, settings);
   RayCounts rays;
   wave.trace(rays);
@@ -169,7 +169,7 @@ TEST(BidirectionalWave, TracesAnIncompleteWave) {
   for (int i = 0; i < 11; ++i) wave.add(stream(0), static_cast<uint32_t>(i), pixel(*scene, i));
   wave.trace(rays);
   for (int i = 0; i < wave.size(); ++i) {
-    EXPECT_FALSE(wave.left(i));
+    EXPECT_FALSE(wave.fell_back(i));
     EXPECT_TRUE(close(wave.seen(i), single.samples[i].seen)) << i;
   }
 }
@@ -178,10 +178,10 @@ TEST(BidirectionalWave, LeavesOtherTechniquesAlone) {
   const ScenePtr scene = make_scene(scene_names().front()).scene;
   BidirectionalSettings settings;
   settings.heuristic = Heuristic::maximum;
-  EXPECT_FALSE(BidirectionalWave::serves(*scene, settings));
+  EXPECT_FALSE(BidirectionalWave::supports(*scene, settings));
   settings = {};
   settings.sample_direct = false;
-  EXPECT_FALSE(BidirectionalWave::serves(*scene, settings));
+  EXPECT_FALSE(BidirectionalWave::supports(*scene, settings));
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // Paths traced side by side are those that trace_path traces one by one.
 #include <gtest/gtest.h>
 
-#include "moving_scenes.h"
+#include "scenes.h"
 #include "wave/path_wave.h"
 
 namespace mlt {
@@ -90,7 +90,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, PathWaveOf, testing::ValuesIn(scene_names()),
 TEST(PathWave, FindsWhatSinglePathsFindWhereThingsMove) {
   for (const std::string& name : moving_scene_names()) {
     SCOPED_TRACE(name);
-    expect_the_same(*load_scene(moving_scene(name)));
+    expect_the_same(*make_scene(name).scene);
   }
 }
 

@@ -133,8 +133,8 @@ TEST(BsdfParameters, TwoSidedRefusesWhatItCannotHold) {
   for (const char* name : {"dielectric", "roughdielectric", "null"})
     EXPECT_THAT(error_of("twosided", {}, {make_bsdf(name)}), HasSubstr("transmits")) << name;
   EXPECT_THAT(error_of("twosided", {}), HasSubstr("0"));
-  const BsdfPtr matte = make_bsdf("diffuse");
-  EXPECT_THAT(error_of("twosided", {}, {matte, matte, matte}), HasSubstr("3"));
+  const BsdfPtr lambertian = make_bsdf("diffuse");
+  EXPECT_THAT(error_of("twosided", {}, {lambertian, lambertian, lambertian}), HasSubstr("3"));
 }
 
 TEST(BsdfParameters, ReflectancesMustLieBetweenZeroAndOne) {
@@ -239,7 +239,7 @@ TEST(BsdfParameters, AThinPaneReflectsFromBothItsSides) {
 }
 
 /// Oren & Nayar 1994: without slopes Lambert's; with them more light goes back where it came from.
-TEST(BsdfParameters, ARoughMatteSurfaceScattersBack) {
+TEST(BsdfParameters, ARoughLambertianSurfaceScattersBack) {
   const Vec3 w = normalize(Vec3(1, 0, 0.5)), mirrored = normalize(Vec3(-1, 0, 0.5));
   for (const bool fast : {false, true}) {
     const BsdfPtr flat = make_bsdf("roughdiffuse", {{"alpha", 0.0}, {"use_fast_approx", fast}});

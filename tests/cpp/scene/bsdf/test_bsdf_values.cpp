@@ -224,26 +224,26 @@ TEST(BsdfValues, AreFiniteAndNotNegative) {
     }
 }
 
-TEST(BsdfValues, OfMatteSurfacesAreThoseOfThePlugIn) {
+TEST(BsdfValues, OfLambertianSurfacesAreThoseOfThePlugIn) {
   const BsdfPtr pink = make_bsdf("diffuse", {{"reflectance", Triple{0.9, 0.5, 0.3}}});
   const BsdfPtr gray = make_bsdf("diffuse", {{"reflectance", 0.4}});
   Rng rng(8, Purpose::test, 0);
   const BsdfPtr ramp = make_bsdf("diffuse", {{"reflectance", ramp_texture(0.1, 0.9)}});
   for (const BsdfPtr& bsdf :
        {pink, gray, ramp, make_bsdf("twosided", {}, {pink}), make_bsdf("twosided", {}, {ramp})}) {
-    const Matte matte = bsdf->matte(point());
-    ASSERT_TRUE(matte.known()) << bsdf->type;
-    EXPECT_TRUE(bsdf->matte().known());
+    const Lambertian lambertian = bsdf->lambertian(point());
+    ASSERT_TRUE(lambertian.known()) << bsdf->type;
+    EXPECT_TRUE(bsdf->lambertian().known());
     for (int i = 0; i < 1000; ++i) {
       const Vec3 wl = random_direction(rng), wc = random_direction(rng), u = random_u(rng);
       for (const Lobe lobe : lobes) {
-        const Scattering a = matte.scattering(wl.z, wc.z, lobe),
+        const Scattering a = lambertian.scattering(wl.z, wc.z, lobe),
                          b = bsdf->scattering(point(), wl, wc, lobe);
         EXPECT_EQ(a.f, b.f);
         EXPECT_EQ(a.pdf_from_light, b.pdf_from_light);
         EXPECT_EQ(a.pdf_from_camera, b.pdf_from_camera);
       }
-      const auto a = matte.sample(wl.z, {u.y, u.z});
+      const auto a = lambertian.sample(wl.z, {u.y, u.z});
       const auto b = bsdf->sample(point(), wl, u);
       ASSERT_EQ(a.has_value(), b.has_value());
       if (a) {
@@ -253,14 +253,14 @@ TEST(BsdfValues, OfMatteSurfacesAreThoseOfThePlugIn) {
   }
 }
 
-TEST(BsdfValues, ThatDependOnMoreThanTheCosinesAreNoMatteSurface) {
+TEST(BsdfValues, ThatDependOnMoreThanTheCosinesAreNoLambertianSurface) {
   const BsdfPtr gray = make_bsdf("diffuse"), phong = make_bsdf("phong");
   const BsdfPtr pink = make_bsdf("diffuse", {{"reflectance", Triple{0.9, 0.5, 0.3}}});
-  EXPECT_FALSE(phong->matte(point()).known());
-  EXPECT_FALSE(make_bsdf("twosided", {}, {phong})->matte(point()).known());
-  EXPECT_FALSE(make_bsdf("twosided", {}, {gray, phong})->matte(point()).known());
-  EXPECT_FALSE(make_bsdf("twosided", {}, {gray, phong})->matte().known());
-  EXPECT_FALSE(make_bsdf("twosided", {}, {gray, pink})->matte().known());
+  EXPECT_FALSE(phong->lambertian(point()).known());
+  EXPECT_FALSE(make_bsdf("twosided", {}, {phong})->lambertian(point()).known());
+  EXPECT_FALSE(make_bsdf("twosided", {}, {gray, phong})->lambertian(point()).known());
+  EXPECT_FALSE(make_bsdf("twosided", {}, {gray, phong})->lambertian().known());
+  EXPECT_FALSE(make_bsdf("twosided", {}, {gray, pink})->lambertian().known());
 }
 
 TEST(BsdfValues, OneSidedMaterialsAreBlackFromBelow) {

@@ -6,7 +6,7 @@
 namespace mlt {
 
 template <class T>
-class Kept {
+class Cached {
  public:
   template <class Find>
   const T& get(Find&& find) {
@@ -14,7 +14,7 @@ class Kept {
     known_ = true;
     return value_;
   }
-  void forget() { known_ = false; }
+  void invalidate() { known_ = false; }
 
  private:
   bool known_ = false;

@@ -1,9 +1,9 @@
-// Matte vertices of many paths from the camera, side by side in single precision. Lanes of paths
-// without a matte vertex are computed too, and ignored.
+// Lambertian vertices of many paths from the camera, side by side in single precision. Lanes of
+// paths without a Lambertian vertex are computed too, and ignored.
 #pragma once
 
 #include "path/mis.h"
-#include "scene/matte.h"
+#include "scene/lambertian.h"
 #include "scene/mesh.h"
 #include "scene/scene.h"
 #include "wave/lanes.h"
@@ -42,12 +42,12 @@ struct TriangleBlock {
   }
 };
 
-struct MatteVertices {
+struct LambertianVertices {
   TriangleBlock surface;
   VectorBlock p, n;       ///< n has any length until find_points().
   Block<float> back;      ///< 1 if the back side scatters light too, else 0.
   Block<float> sides;     ///< 0 if strict normals reject the incident ray, else 1.
-  Block<const Color*> f;  ///< BSDF; nullptr: there is no matte vertex.
+  Block<const Color*> f;  ///< BSDF; nullptr: there is no Lambertian vertex.
 
   // A point on a glowing mesh, sampled by next-event estimation:
   TriangleBlock light;
@@ -64,28 +64,28 @@ struct MatteVertices {
   Block<float> scatter_pdf;  ///< Solid angle; 0: there is none.
 
   /// Sets the vertex of the i-th path to these barycentrics of a triangle.
-  void set(int i, const MatteMesh& shape, uint32_t triangle, float b1, float b2) {
+  void set(int i, const LambertianMesh& shape, uint32_t triangle, float b1, float b2) {
     const Mesh& mesh = *shape.mesh;
     const TriangleRecord& record = mesh.record(triangle);
     surface.set(i, record, b1, b2);
     n.set(i, mesh.has_normals() ? mesh.normal_sum(triangle, {b1, b2}) : Vec3f(record.ng));
-    back[i] = shape.matte->matte.sides == Matte::Sides::both ? 1 : 0;
-    if (shape.matte->uniform()) {
-      f[i] = &shape.matte->matte.f;
+    back[i] = shape.lambertian->lambertian.sides == Lambertian::Sides::both ? 1 : 0;
+    if (shape.lambertian->uniform()) {
+      f[i] = &shape.lambertian->lambertian.f;
       return;
     }
     f[i] = &textured_f_[i];
     TexturedPoint& point = textured_[textured_count_++];
     point.path = i;
-    point.matte = shape.matte;
+    point.lambertian = shape.lambertian;
     mesh.textured_point(triangle, {b1, b2}, point.at);
-    point.matte->reflectance->prefetch(point.at);
+    point.lambertian->reflectance->prefetch(point.at);
   }
   /// Looks up the textures of all that were set.
   void find_textures() {
     for (int j = 0; j < textured_count_; ++j) {
       const TexturedPoint& point = textured_[j];
-      textured_f_[point.path] = point.matte->at(point.at).f;
+      textured_f_[point.path] = point.lambertian->at(point.at).f;
     }
     textured_count_ = 0;
   }
@@ -116,7 +116,7 @@ struct MatteVertices {
   /// A point whose texture is still to be looked up.
   struct TexturedPoint {
     int path;
-    const MatteSurface* matte;
+    const LambertianSurface* lambertian;
     SurfacePoint at;
   };
   int textured_count_ = 0;

@@ -1,4 +1,4 @@
-#include "wave/matte_vertices.h"
+#include "wave/lambertian_vertices.h"
 
 #include "base/whole_vectors.h"
 #include "scene/scene.h"
@@ -32,7 +32,7 @@ Vec3f to_world(const Vec3f& n, const Vec3f& v) {
 
 }  // namespace
 
-SurfacePoint MatteVertices::point(int i, uint32_t shape, double time) const {
+SurfacePoint LambertianVertices::point(int i, uint32_t shape, double time) const {
   SurfacePoint at;
   at.p = Vec3(p[i]);
   at.ng = normalize(Vec3(surface.ng[i]));
@@ -40,12 +40,12 @@ SurfacePoint MatteVertices::point(int i, uint32_t shape, double time) const {
   at.shape = shape;
   at.time = time;
   at.extent = surface.extent[i];
-  at.matte = {*f[i], back[i] > 0 ? Matte::Sides::both : Matte::Sides::front};
+  at.lambertian = {*f[i], back[i] > 0 ? Lambertian::Sides::both : Lambertian::Sides::front};
   return at;
 }
 
-void MatteVertices::find_points(int count, const float* d_x, const float* d_y, const float* d_z,
-                                bool strict_normals) {
+void LambertianVertices::find_points(int count, const float* d_x, const float* d_y,
+                                     const float* d_z, bool strict_normals) {
   const int end = whole_vectors(count);
   for (int i = 0; i < end; ++i) {
     const Vec3f m = n[i], unit = m * (1 / std::sqrt(dot(m, m))), ng = surface.ng[i];
@@ -59,7 +59,7 @@ void MatteVertices::find_points(int count, const float* d_x, const float* d_y, c
 }
 
 /// See direct_light() of path_tracer.h.
-void MatteVertices::unshadowed_lights(int count, bool strict_normals, Heuristic heuristic) {
+void LambertianVertices::unshadowed_lights(int count, bool strict_normals, Heuristic heuristic) {
   const bool balance = heuristic == Heuristic::balance;
   const int end = whole_vectors(count);
   for (int i = 0; i < end; ++i) {
@@ -87,7 +87,7 @@ void MatteVertices::unshadowed_lights(int count, bool strict_normals, Heuristic 
 
 /// See scatter_to_light() of path_tracer.h: with a density in proportion to the cosine, the weight
 /// is pi f.
-void MatteVertices::sample_directions(int count, bool strict_normals) {
+void LambertianVertices::sample_directions(int count, bool strict_normals) {
   const int end = whole_vectors(count);
   for (int i = 0; i < end; ++i) {
     const float cos_c = dot(wc_[i], n[i]);

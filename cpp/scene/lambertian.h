@@ -10,7 +10,7 @@
 namespace mlt {
 
 /// Directions are given by their cosines against the shading normal.
-struct Matte {
+struct Lambertian {
   enum class Sides : uint8_t { unknown, front, both };
 
   Color f{0};

@@ -1,4 +1,4 @@
-#include "path/possible_path.h"
+#include "path/valid_path.h"
 
 #include "scene/mesh.h"
 
@@ -21,7 +21,7 @@ bool in_scene(const Scene& scene, const Vertex& x) {
 
 }  // namespace
 
-bool possible(const Scene& scene, const Path& path) {
+bool is_valid_path(const Scene& scene, const Path& path) {
   const size_t count = path.vertices.size();
   for (size_t i = 0; i < count; ++i) {
     const Vertex& x = path[i];

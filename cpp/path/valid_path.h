@@ -7,6 +7,6 @@ namespace mlt {
 
 /// Whether a path leads from a light over surfaces to the camera, all of which exist in the scene.
 /// The positions of the vertices are not checked.
-bool possible(const Scene& scene, const Path& path);
+bool is_valid_path(const Scene& scene, const Path& path);
 
 }  // namespace mlt
