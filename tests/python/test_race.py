@@ -6,6 +6,7 @@ import re
 import sys
 from math import sqrt
 from time import process_time
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -16,6 +17,7 @@ import pymlt as mlt
 from pymlt.race.calibration import Calibration, calibrate
 from pymlt.race.child import run_child
 from pymlt.race.report.insets import choose_insets
+from pymlt.race.report.table import levels_apart
 from pymlt.race.result import Entry, Settings, judged
 from pymlt.race.run import Run, Snapshot
 from pymlt.race.score import Judge, Mean, mean_of
@@ -406,6 +408,19 @@ def test_the_table_has_a_line_for_each_algorithm(result):
     assert str(result) == result.table()
     assert "CPU seconds instead of" not in result.table()
     assert ("bias is not seen" in result.table()) == (result.reference_error is None)
+
+
+def test_levels_that_are_apart_are_remarked_upon_without_a_reference():
+    def entry(label, level, error):
+        score = SimpleNamespace(level=Mean(level, error))
+        return SimpleNamespace(label=label, score=score)
+
+    entries = [entry("a", 1.0, 0.01), entry("b", 1.02, 0.01), entry("dark", 0.8, 0.01)]
+    assert levels_apart(entries) == [
+        "dark is 20 % darker than the median of the algorithms, which its error does not show."
+    ]
+    assert levels_apart([*entries, entry("noisy", 1.3, 0.2)])[1:] == []
+    assert levels_apart([]) == []
 
 
 def test_the_page_stands_alone(result, tmp_path):

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import exp, log
+from statistics import median
 from typing import TYPE_CHECKING
 
 from ..score import Mean
@@ -14,6 +15,7 @@ if TYPE_CHECKING:
 
 EMPTY = "–"
 UNEQUAL = 0.1  #: of the budget: a time that is farther from it is remarked upon
+APART = 0.05  #: of the level of the others: one that is farther from it is remarked upon
 
 
 @dataclass(frozen=True)
@@ -100,11 +102,25 @@ def notes(result: RaceResult) -> list[str]:
             "Without a reference errors are variances between seeds: a bias is not seen. Level is "
             "relative to the median of the algorithms."
         )
+        made += levels_apart(result.ranked)
         if all(len(entry.runs) < 2 for entry in result.ranked):
             made.append("One image has no error: give a reference, or more seeds.")
     elif result.reference_error > 0:
         made.append(f"The reference's own relMSE, {result.reference_error:.2g}, is subtracted.")
     return made
+
+
+def levels_apart(entries: Sequence[Entry]) -> list[str]:
+    """Who shows another amount of light than most; a bias that errors between seeds do not show."""
+    levels = {entry.label: entry.score.level for entry in entries if entry.score}
+    middle = median(level.value for level in levels.values()) if levels else 1.0
+    return [
+        f"{label} is {100 * abs(level.value / middle - 1):.0f} % "
+        f"{'brighter' if level.value > middle else 'darker'} than the median of the algorithms, "
+        "which its error does not show."
+        for label, level in levels.items()
+        if abs(level.value - middle) > max(APART * middle, 4 * (level.error or 0))
+    ]
 
 
 def table(result: RaceResult) -> str:
