@@ -21,12 +21,13 @@ TEXT = """# How true the claimed error is
 error that the same renders have: each of the built-in scenes at {width} x {height}, by the default
 settings of each integrator, {spp} spp, {seeds} seeds. The first number is the claimed error over
 the true one (roots of mean squares over the seeds); the second, in brackets, the true error, root
-of relMSE: how much the renders of an integrator differ from each other, and their mean from that of
-the other integrators beyond the noise of both. With a star: most of the mean square of the claims
-is of renders that warn that their error may be larger than they say, since a few pixels carry it,
-or since long tours have yet to make many of the mutations. Of {count} cells {good} lie between
-{low} and {high}, and {rest} of the others have a star. Where a few pixels of a few renders decide,
-the true error is itself known only roughly from so few seeds.
+of relMSE: how much the renders of an integrator differ from each other; where long tours of `mlt`
+wait, also how much their mean differs from that of the others, beyond the noise of both. With a
+star: most of the mean square of the claims is of renders that warn that their error may be larger
+than they say, since a few pixels carry it, or since long tours have yet to make many of the
+mutations. Of {count} cells {good} lie between {low} and {high}, and {rest} of the others have a
+star. Where a few pixels of a few renders decide, the true error is itself known only roughly from
+so few seeds.
 
 Made by `python benchmarks/error_calibration.py`.
 

@@ -41,12 +41,13 @@ def calibrate(
     spp: float,
     threads: int = 0,
 ) -> list[Calibration]:
-    """Render a scene by each of two or more integrators with each seed.
+    """Render a scene by each of several integrators with each seed.
 
-    No reference need be better than all of them. What relMSE divides by comes from the mean of all
-    images, those of an integrator weighted by how well it knows it. The square of an error is the
-    variance around the integrator's own mean, and what that differs from the mean of the others by
-    beyond the noise of both: long tours of `mlt` have yet to show some light.
+    No reference need be better than all of them: the truth is the mean of all images, those of an
+    integrator weighted by how well it knows it, but without integrators whose tours wait, which
+    have yet to show some light. The square of an error, relative to the truth, is the variance
+    around the integrator's own mean; where tours wait, also what that mean differs from the truth
+    by, beyond the noise of both.
     """
     runs = [
         [start(scene, integrator, spp=spp, seed=seed, threads=threads).result() for seed in seeds]
@@ -55,14 +56,17 @@ def calibrate(
     images = [np.array([target_luminance(result.image) for result in own]) for own in runs]
     means = [own.mean(axis=0) for own in images]
     noise = [own.var(axis=0, ddof=1) / len(own) for own in images]
-    every = range(len(images))
-    truth, _ = _weighted_mean(means, noise, every)
+    waiting = [any(result.stats["tours_waiting"] > 0 for result in own) for own in runs]
+    fair = [i for i, waits in enumerate(waiting) if not waits] or range(len(runs))
+    truth, truth_noise = _weighted_mean(means, noise, fair)
     scale = truth**2 + 0.01 * truth.mean() ** 2
 
     def true_error(i: int) -> float:
-        others, others_noise = _weighted_mean(means, noise, [j for j in every if j != i])
-        bias = ((means[i] - others) ** 2 - noise[i] - others_noise) / scale
-        return float(np.sqrt((len(images[i]) * noise[i] / scale).mean() + max(bias.mean(), 0)))
+        square = (len(images[i]) * noise[i] / scale).mean()
+        if i not in fair:
+            bias = ((means[i] - truth) ** 2 - noise[i] - truth_noise) / scale
+            square += max(bias.mean(), 0)
+        return float(np.sqrt(square))
 
     return [_calibration(own, true_error(i)) for i, own in enumerate(runs)]
 
