@@ -77,9 +77,8 @@ Plugin integrator_mlt() {
             {"auto", "bdpt", "path"}),
         {"patience", ParamType::real, 2.0,
          "A tour, the mutations from one start of a chain, waits when it is this many times as "
-         "long "
-         "as all tours of the chain should be by then. 0: none waits; the image is then right in "
-         "the mean from the start, but may be filled by the light of one path."},
+         "long as all tours of the chain should be by then. 0: none waits; the image is then right "
+         "in the mean from the start, but may be filled by the light of one path."},
         {"direct_samples", ParamType::integer, int64_t{-1},
          "Render light of at most one reflection apart with this many samples per pixel; "
          "0 leaves it out, -1 leaves it to the chains."}}}));

@@ -25,15 +25,15 @@ void warn_of_waiting_tours(Stats& stats) {
 
 /// The share of the steps that waiting tours have yet to make.
 double MetropolisRendering::waiting() const {
-  double made = 0, due = 0;
+  double due = 0;
   for (const auto& team : teams_) {
     const std::lock_guard lock(team->mutex);
-    for (const auto& chain : team->chains) {
+    for (const auto& chain : team->chains)
       if (chain) due += chain->steps_due();
-      made += static_cast<double>(team->units * steps_per_unit_);
-    }
   }
-  return due > 0 ? 1 / (1 + made / due) : 0;
+  uint64_t made = 0;
+  for (const Group& group : groups_) made += group.steps;
+  return due > 0 ? 1 / (1 + static_cast<double>(made) / due) : 0;
 }
 
 /// Sums the statistics of all chains; `stuck` becomes the one with the longest run of rejections.
