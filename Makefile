@@ -94,7 +94,7 @@ docs: build $(STAMPS)/docs
 test: build
 	@status=0; \
 	$(CTEST) -j $(JOBS) -LE '^long$$' --timeout 300 || status=1; \
-	$(BIN)/python -m pytest -n $(JOBS) || status=1; \
+	$(BIN)/python -m pytest -n $(JOBS) --dist loadgroup || status=1; \
 	exit $$status
 
 # The tests that take minutes; SHARD=2/4 runs the second of four parts.

@@ -8,6 +8,7 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace mlt::python {
 namespace {
@@ -62,6 +63,11 @@ py::tuple groups(PyJob& job) {
   }
   return py::make_tuple(images, py::array_t<double>(count, weights.data()),
                         py::array_t<double>(count, b.data()));
+}
+
+std::optional<double> relative_error(const PyJob& job) {
+  const double error = without_gil([&] { return job.error()->relative.value; });
+  return std::isnan(error) ? std::nullopt : std::optional(error);
 }
 
 py::dict layers(PyJob& job) {
@@ -131,6 +137,8 @@ void bind_render(py::module_& m) {
            [](PyJob& job) {
              return to_array(without_gil([&] { return job.image_without_fireflies(); }));
            })
+      .def("relative_error", &relative_error,
+           "The relative error so far, or None if nothing is known.")
       .def("layers", &layers, "Further images that the render was asked to keep, by name.")
       .def(
           "stats", [](PyJob& job) { return to_json(job.stats()); }, NoGil(), "As JSON.")

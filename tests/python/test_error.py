@@ -310,3 +310,15 @@ def test_convergence_explains_mistakes(integrator, wrong, what):
     pytest.importorskip("arviz", reason="ArviZ is not installed (pip install arviz)")
     with pytest.raises(mlt.UsageError, match=what):
         mlt.convergence(load("cornell_box"), integrator, **{"spp": 16, "draws": 8, **wrong})
+
+
+def test_a_job_knows_its_error_while_it_runs():
+    job = mlt.start(load("cornell_box"), "path", spp=64, seed=1)
+    job.wait(60)
+    assert job.error == job.stats["error"]
+    running = mlt.start(load("cornell_box"), "path", time=600, seed=1)
+    while running.samples < 64:
+        running.wait(0.01)
+    assert 0 < running.error < 1
+    assert running.stats["error"] is None
+    running.cancel()

@@ -25,6 +25,7 @@ PATIENCE = 100  #: seconds: WebGL in software, on a machine that may have more t
 LEFT = {"x": 0, "y": 180, "width": 600, "height": 370}  #: of the window, without messages and panel
 
 pytestmark = [
+    pytest.mark.xdist_group("browser"),  # these tests share one page
     pytest.mark.skipif(CHROMIUM is None, reason="there is no chromium (apt-get install chromium)"),
     pytest.mark.filterwarnings("ignore:Queued a .* on a closed connection"),
 ]
@@ -164,7 +165,7 @@ def test_paths_are_drawn_by_signature(tab):
         return 0 if node is None else len(node.points)
 
     post(lambda: inspector.inspect((48, 60)))
-    tab.until(lambda: inspector._found.pixel == (48, 60) and edges() > 0, "no paths are drawn")
+    tab.until(lambda: inspector._found is not None and edges() > 0, "no paths are drawn")
     most = sum(path.edges for path in inspector._found.some(24))
     tab.until(lambda: edges() == most, "not 24 of them")
     first = next(iter(inspector._found.signatures()))
@@ -197,6 +198,7 @@ def test_the_exposure_fits_the_picture(tab):
     tab.press("Fit exposure")
     tab.until(lambda: abs(controls.look().exposure - stops) < 1, "the exposure does not fit")
     tab.session.post(lambda: setattr(controls._exposure, "value", 0.0))
+    tab.until(lambda: controls.look().exposure == 0, "the slider does not return")
 
 
 def test_a_picture_can_be_denoised(tab):

@@ -74,6 +74,14 @@ class Job:
         return Groups(*self._job.groups())
 
     @property
+    def error(self) -> float | None:
+        """The relative error so far, as `stats["error"]` has it after the end; None if unknown.
+
+        It costs about as much as making the image of each group.
+        """
+        return self._job.relative_error()
+
+    @property
     def error_map(self) -> np.ndarray | None:
         """The standard error of each pixel so far; see `Result.error_map`."""
         return self._job.layers().get("error")

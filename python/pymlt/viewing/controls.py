@@ -5,11 +5,13 @@ from __future__ import annotations
 import time
 from html import escape
 from typing import Any
+from weakref import WeakKeyDictionary
 
 from .. import _core
 from ..algorithms.integrators import integrator_schema
 from ..pictures.output import OutputFile
 from ..pictures.tonemapping import CURVES, stops_of
+from ..rendering.job import Job
 from . import shown
 from .live import Algorithm
 from .page import STYLE, table
@@ -24,6 +26,7 @@ class Controls:
     def __init__(self, session: Any, algorithm: Algorithm):
         self._session, gui = session, session.client.gui
         self._began = time.monotonic()
+        self._errors = ErrorFigures()
         names = sorted(_core.names("integrator"))
         self._status = gui.add_html(STYLE)
         with gui.add_form("What is rendered") as form:
@@ -96,7 +99,7 @@ class Controls:
     def show_status(self) -> None:
         live = self._session.live
         rows = [
-            [escape(name), f"{job.samples:.4g} spp", error_figure(job)]
+            [escape(name), f"{job.samples:.4g} spp", self._errors.figure(job)]
             for name, job in zip(self._names(), live.jobs, strict=False)
         ] or [["first pictures", "", ""]]
         state = "running" if live.running else "ended"
@@ -172,7 +175,17 @@ class Controls:
             self._session.client.send_file_download(name, path.read_bytes())
 
 
-def error_figure(job: Any) -> str:
-    """The relative error of a render, as it estimates it; "" before that is known."""
-    error = job.stats["error"]
-    return f"\N{PLUS-MINUS SIGN} {100 * error:.2g} %" if error else ""
+class ErrorFigures:
+    """The relative errors of renders, estimated again when they have grown by a fifth."""
+
+    def __init__(self) -> None:
+        self._known: WeakKeyDictionary[Job, tuple[float, str]] = WeakKeyDictionary()
+
+    def figure(self, job: Job) -> str:
+        """The error with its unit; "" before it is known."""
+        samples, text = self._known.get(job, (0.0, ""))
+        if job.samples > 1.2 * samples:
+            error = job.error
+            text = f"\N{PLUS-MINUS SIGN} {100 * error:.2g} %" if error else ""
+            self._known[job] = job.samples, text
+        return text
