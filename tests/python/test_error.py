@@ -40,9 +40,9 @@ def claimed_over_true(scene, integrator, spp) -> float:
     return math.sqrt((claims**2).mean() / squares.mean())
 
 
-@pytest.mark.parametrize("integrator", ["path", "pssmlt"])
+@pytest.mark.parametrize("integrator", ["path", mlt.PSSMLT(chains=16)], ids=["path", "pssmlt"])
 def test_the_claimed_error_is_the_true_one(integrator):
-    ratio = claimed_over_true(load("cornell_box"), integrator, spp=128)
+    ratio = claimed_over_true(load("cornell_box"), integrator, spp=64)
     assert LOWEST < ratio < HIGHEST
 
 
@@ -77,13 +77,16 @@ def test_the_relative_error_is_the_true_one_in_all_scenes(name):
 
 
 @pytest.mark.parametrize(
-    ("name", "integrator", "error"),
-    [("dof", "path", 0.3), pytest.param("ring", "bdpt", 0.1, marks=pytest.mark.long)],
+    ("name", "integrator", "error", "spp"),
+    [("dof", "path", 0.3, 1000), pytest.param("ring", "bdpt", 0.1, 3000, marks=pytest.mark.long)],
 )
-def test_a_render_ends_as_wrong_as_it_was_asked_to(name, integrator, error):
-    """Bright samples are rare in these scenes: who stops early has not seen them."""
+def test_a_render_ends_as_wrong_as_it_was_asked_to(name, integrator, error, spp):
+    """Bright samples are rare in these scenes: who stops early has not seen them.
+
+    Errors of the truth, the mean of six renders of `spp`, make the test harder, not easier.
+    """
     scene = load(name, (48, 32))
-    images = [mlt.render(scene, integrator, spp=3000, seed=s) for s in range(90, 96)]
+    images = [mlt.render(scene, integrator, spp=spp, seed=s) for s in range(90, 96)]
     truth = luminance(np.mean(images, axis=0, dtype=np.float64))
     scale = truth**2 + 0.01 * truth.mean() ** 2
     ends = [mlt.render(scene, integrator, error=error, seed=s) for s in range(8)]

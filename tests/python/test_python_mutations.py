@@ -383,13 +383,14 @@ def test_a_mixture_with_python_is_audited_as_a_whole(scene):
 # ---- renders ------------------------------------------------------------------------------------
 
 
-def small(*mixture):
+def small(*mixture, chains=32, **settings):
     return mlt.MLT(
         max_depth=5,
-        chains=32,
+        chains=chains,
         luminance_samples=2000,
         independent_share=0.1,
         mutations=list(mixture),
+        **settings,
     )
 
 
@@ -405,16 +406,22 @@ def test_python_takes_part_in_a_render(scene):
 
 
 @pytest.mark.parametrize(
-    ("spp", "visible"), [(16, 0.1), pytest.param(64, 0.05, marks=pytest.mark.long)]
+    ("settings", "spp", "visible"),
+    [
+        ({"chains": 16, "independent": "bdpt"}, 16, 0.1),  # with a short pilot
+        pytest.param({}, 64, 0.05, marks=pytest.mark.long),
+    ],
+    ids=["short", "long"],
 )
-def test_python_makes_the_same_image(scene, spp, visible):
+def test_python_makes_the_same_image(scene, settings, spp, visible):
     """The means of independent renders, over the image and over its quarters."""
 
     def means(algorithm, spp):
         images = [mlt.render(scene, algorithm, spp=spp, seed=s, threads=1) for s in range(16)]
         return np.array([[i.mean(), *(h.mean() for h in np.array_split(i, 4))] for i in images])
 
-    mine = means(small((mlt.Bidirectional(), 0.4), (Nudge(), 0.3), (MoveVertex(), 0.3)), spp)
+    mixture = [(mlt.Bidirectional(), 0.4), (Nudge(), 0.3), (MoveVertex(), 0.3)]
+    mine = means(small(*mixture, **settings), spp)
     truth = means(mlt.Path(max_depth=5), 64)
     error = np.sqrt(np.var(mine, axis=0, ddof=1) / 16 + np.var(truth, axis=0, ddof=1) / 16)
     # Where light is found by few tours, 16 renders do not tell how far their mean may be off.

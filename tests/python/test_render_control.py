@@ -272,41 +272,47 @@ def white_room():
 
 
 def endless(name: str) -> dict:
-    roulette = {"rr_depth": 2**31 - 1} if name in ("path", "bdpt", "ptracer") else {}
+    roulette = {"rr_depth": 2**31 - 1} if name in SAMPLERS else {}
     return {"type": name, "max_depth": 2**31 - 1, **roulette}
 
 
-ALGORITHMS = ["path", "bdpt", "ptracer", "pssmlt", "mlt"]
+SAMPLERS = ["path", "bdpt", "ptracer"]
+CHAINS = ["pssmlt", "mlt"]
 
 
-@pytest.mark.parametrize("name", ALGORITHMS)
-def test_time_ends_a_render_whose_paths_do_not_end(name):
-    """Without chains, for which the time is too short, samples have Russian roulette."""
-    job = mlt.start(white_room(), endless(name), time=0.3)
-    if "rr_depth" in endless(name):
+def test_time_ends_samples_whose_paths_do_not_end():
+    """All at once, since a render waits seconds for a path before it gives it up."""
+    scene = white_room()
+    jobs = [mlt.start(scene, endless(name), time=0.3, threads=1) for name in SAMPLERS]
+    for job in jobs:
         with pytest.raises(mlt.RenderError, match="before the first sample"):
             job.result()
-    else:
-        assert job.result().stats["ended_by"] == "time"
 
 
-@pytest.mark.parametrize("name", ALGORITHMS)
-def test_cancel_ends_a_render_whose_paths_do_not_end(name):
-    job = mlt.start(white_room(), endless(name), spp=64)
-    assert not job.wait(0.5)
-    job.cancel()
-    job.wait()
-    assert job.ended
+@pytest.mark.parametrize("name", CHAINS)
+def test_time_ends_chains_whose_paths_do_not_end(name):
+    """The time is too short for chains; the samples in their place have Russian roulette."""
+    assert mlt.start(white_room(), endless(name), time=0.3).result().stats["ended_by"] == "time"
 
 
-def test_a_render_that_gave_up_a_path_says_so_and_does_not_go_on(tmp_path):
-    job = mlt.start(white_room(), endless("path"), spp=64)
-    assert not job.wait(0.5)
-    job.cancel()
+def test_cancel_ends_renders_whose_paths_do_not_end(tmp_path):
+    scene = white_room()
+    jobs = [mlt.start(scene, endless(name), spp=64, threads=1) for name in SAMPLERS + CHAINS]
+    assert not jobs[0].wait(0.5)
+    assert not any(job.ended for job in jobs)
+    for job in jobs:
+        job.cancel()
+    for job in jobs:
+        job.wait()
+    check_that_it_gave_up_a_path(jobs[0], tmp_path)
+
+
+def check_that_it_gave_up_a_path(job, folder):
+    """It says so and does not go on."""
     (warning,) = job.result().stats["warnings"]
     assert "had not ended" in warning
     assert "max_depth" in warning
-    for action in lambda: job.extend(spp=65), lambda: job.checkpoint(tmp_path / "a.mlt"):
+    for action in lambda: job.extend(spp=65), lambda: job.checkpoint(folder / "a.mlt"):
         with pytest.raises(mlt.UsageError, match="gave up a light path"):
             action()
 

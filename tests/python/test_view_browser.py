@@ -22,6 +22,7 @@ playwright = pytest.importorskip("playwright.sync_api", reason="playwright drive
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
 FLAGS = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
 PATIENCE = 100  #: seconds: WebGL in software, on a machine that may have more to do
+WINDOW = {"width": 1000, "height": 560}
 LEFT = {"x": 0, "y": 180, "width": 600, "height": 370}  #: of the window, without messages and panel
 
 pytestmark = [
@@ -40,11 +41,13 @@ def browser():
 
 
 class Tab:
-    """A page of the view, and the session that belongs to it."""
+    """A page of the view, and the session that belongs to it; renders of other pages are stopped."""
 
-    def __init__(self, browser, view, width=1000, height=560):
+    def __init__(self, browser, view):
         known = view.sessions
-        self.page = browser.new_page(viewport={"width": width, "height": height})
+        for session in known:
+            session.post(session.live.stop)
+        self.page = browser.new_page(viewport=WINDOW)
         self.page.set_default_timeout(1000 * PATIENCE)
         self.errors = []
         self.page.on("pageerror", lambda error: self.errors.append(str(error)))
@@ -86,7 +89,9 @@ class Tab:
 
 @pytest.fixture(scope="module")
 def view():
-    with mlt.view(mlt.load_dict(mlt.scenes.glass_ball(), size=(96, 96)), "path", port=0) as made:
+    """Renders on one processor, since the browser draws on the other."""
+    scene = mlt.load_dict(mlt.scenes.glass_ball(), size=(96, 96))
+    with mlt.view(scene, "path", port=0, threads=1) as made:
         yield made
 
 
@@ -258,6 +263,8 @@ def test_what_makes_no_sense_gives_a_message(tab):
     fields.nth(1).fill("max_depht=3")
     fields.nth(1).press("Enter")
     tab.message("max_depth")
+    fields.nth(1).fill("")
+    fields.nth(1).press("Enter")
     assert not tab.errors
 
 
@@ -305,9 +312,9 @@ def test_the_view_costs_the_render_little(browser):
 
 
 @pytest.mark.parametrize("width", [1280, 400])
-def test_text_is_readable(browser, view, width):
+def test_text_is_readable(tab, width):
     """Letters of 11 pixels and more, and nothing is cut off at the right."""
-    tab = Tab(browser, view, width)
+    tab.page.set_viewport_size({**WINDOW, "width": width})
     tab.session.post(lambda: tab.session.inspector.inspect((48, 60)))
     for name in ("Render", "Paths", "Lecture"):
         tab.open(name)
@@ -327,7 +334,17 @@ def test_text_is_readable(browser, view, width):
         assert not cut, name
     panel = tab.page.get_by_role("tab", name="Render").bounding_box()
     assert 0 <= panel["x"] < width
-    tab.page.close()
+    tab.page.set_viewport_size(WINDOW)
+
+
+def test_two_integrators_stand_side_by_side(tab):
+    controls = tab.session.controls
+    tab.open("Render")
+    tab.session.post(lambda: setattr(controls._other, "value", "mlt"))
+    tab.until(lambda: len(tab.session.live.jobs) == 2, "no second render")
+    tab.until(lambda: tab.session.live.image(1) is not None, "it shows nothing")
+    assert controls.share() == 0.5
+    tab.page.get_by_text("Left / right").wait_for()
 
 
 def test_a_closed_tab_ends_its_render(browser, view):
@@ -345,7 +362,7 @@ def test_a_closed_tab_ends_its_render(browser, view):
 
 def test_a_token_opens_the_page_in_a_browser(browser):
     scene = mlt.load_dict(mlt.scenes.cornell_box(), size=(32, 32))
-    with mlt.view(scene, port=0, token="let me in") as view:
+    with mlt.view(scene, port=0, token="let me in", threads=1) as view:
         page = browser.new_page()
         page.goto(view.url.split("?")[0])
         assert "token is needed" in page.content()
@@ -354,14 +371,3 @@ def test_a_token_opens_the_page_in_a_browser(browser):
         tab.until(lambda: tab.samples() > 1, "no render")
         assert "let" not in tab.page.url
         tab.page.close()
-
-
-def test_two_integrators_stand_side_by_side(browser, view):
-    tab = Tab(browser, view)
-    controls = tab.session.controls
-    tab.session.post(lambda: setattr(controls._other, "value", "mlt"))
-    tab.until(lambda: len(tab.session.live.jobs) == 2, "no second render")
-    tab.until(lambda: tab.session.live.image(1) is not None, "it shows nothing")
-    assert controls.share() == 0.5
-    tab.page.get_by_text("Left / right").wait_for()
-    tab.page.close()
