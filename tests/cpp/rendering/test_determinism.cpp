@@ -37,9 +37,11 @@ TEST(Render, GoesOnAfterItHasBeenSaved) {
     const auto straight = prepared(lights_on_tiles(), made, 7);
     const uint64_t units = straight->plan().unit_count(4);
     run_units(*straight, 0, units);
+    const auto first = prepared(lights_on_tiles(), made, 7);
+    uint64_t done = 0;
     for (const uint64_t stop : {uint64_t{0}, uint64_t{1}, units / 2 + 1, units}) {
-      const auto first = prepared(lights_on_tiles(), made, 7);
-      run_units(*first, 0, stop);
+      run_units(*first, done, stop);
+      done = stop;
       const auto second = made->start(lights_on_tiles(), 7);
       second->load(first->save());
       EXPECT_EQ(second->plan().unit_count(4), units);
