@@ -90,11 +90,12 @@ demo: $(STAMPS)/program
 docs: build $(STAMPS)/docs
 	$(BIN)/python -m sphinx -b html docs build/docs
 
-# Both suites run, whatever the first one says.
+# Both suites run, whatever the first one says. One process runs a whole file of Python tests, which
+# share browsers, workers and images.
 test: build
 	@status=0; \
 	$(CTEST) -j $(JOBS) -LE '^long$$' --timeout 300 || status=1; \
-	$(BIN)/python -m pytest -n $(JOBS) --dist loadgroup || status=1; \
+	$(BIN)/python -m pytest -n $(JOBS) --dist loadfile || status=1; \
 	exit $$status
 
 # The tests that take minutes; SHARD=2/4 runs the second of four parts.

@@ -26,7 +26,6 @@ WINDOW = {"width": 1000, "height": 560}
 LEFT = {"x": 0, "y": 180, "width": 600, "height": 370}  #: of the window, without messages and panel
 
 pytestmark = [
-    pytest.mark.xdist_group("browser"),  # these tests share one page
     pytest.mark.skipif(CHROMIUM is None, reason="there is no chromium (apt-get install chromium)"),
     pytest.mark.filterwarnings("ignore:Queued a .* on a closed connection"),
 ]
@@ -41,7 +40,7 @@ def browser():
 
 
 class Tab:
-    """A page of the view, and the session that belongs to it; renders of other pages are stopped."""
+    """A page of the view and its session; renders of other pages are stopped."""
 
     def __init__(self, browser, view):
         known = view.sessions
