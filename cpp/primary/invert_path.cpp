@@ -3,6 +3,7 @@
 #include <glm/common.hpp>
 
 #include <algorithm>
+#include <cstring>
 
 namespace mlt {
 namespace {
@@ -16,10 +17,11 @@ class PrimaryWriter {
     stream_ = stream;
     next_ = 0;
   }
-  void write(double u) { numbers_->set(stream_, next_++, glm::clamp(u, 0.0, 1 - 0x1p-53)); }
-  void write(const Vec2& u) {
-    write(u.x);
-    write(u.y);
+  template <class Numbers>
+  void write(const Numbers& numbers) {
+    double values[count_of<Numbers>];
+    std::memcpy(values, &numbers, sizeof values);
+    for (const double u : values) numbers_->set(stream_, next_++, glm::clamp(u, 0.0, 1 - 0x1p-53));
   }
 
  private:
@@ -50,8 +52,7 @@ class PathInverter {
   const SurfacePoint& at(int i) const { return path_[i].at; }
   Vec3 direction(int from, int to) const { return mlt::direction(at(from), at(to)); }
 
-  /// Inverts a camera walk: raster position, lens, time; then the directions of its first t - 1
-  /// vertices.
+  /// Inverts a camera walk with the directions of its first t - 1 vertices.
   bool invert_camera_walk(int t) {
     const Camera& camera = scene_.camera();
     const int k = path_.edges();
@@ -64,34 +65,34 @@ class PathInverter {
     } else {
       out_.write(any2());
     }
-    out_.write(t == 0 || camera.delta_position() ? any2() : camera.invert_position(at(k)));
-    out_.write(shutter.close > shutter.open
-                   ? (path_.time - shutter.open) / (shutter.close - shutter.open)
-                   : any());
+    out_.write(LensNumbers{
+        t == 0 || camera.delta_position() ? any2() : camera.invert_position(at(k)),
+        shutter.close > shutter.open ? (path_.time - shutter.open) / (shutter.close - shutter.open)
+                                     : any()});
     for (int i = k - 1; i > k + 1 - t; --i)
       if (!invert_scattering(i, i + 1, i - 1)) return false;
     return true;
   }
 
-  /// Inverts a light walk: position, direction, choice of the light; then the directions of the
-  /// vertices after x_0: of all of them if the walk `goes_on`, or of all but the last.
+  /// Inverts a light walk with the directions of the vertices after x_0: of all of them if the walk
+  /// `goes_on`, or of all but the last.
   bool invert_light_walk(int vertices, bool goes_on) {
     const Emitter& emitter = *scene_.emitters()[path_[0].emitter];
     out_.begin(Stream::light);
-    out_.write(emitter.delta() ? any2() : emitter.invert_position(at(0)));
-    out_.write(vertices >= 2 || goes_on ? emitter.invert_ray(at(0), at(1).p) : any2());
-    out_.write(scene_.invert_choice(path_[0].emitter, any()));
+    out_.write(LightNumbers{emitter.delta() ? any2() : emitter.invert_position(at(0)),
+                            vertices >= 2 || goes_on ? emitter.invert_ray(at(0), at(1).p) : any2(),
+                            scene_.invert_choice(path_[0].emitter, any())});
     for (int i = 1; i < vertices - (goes_on ? 0 : 1); ++i)
       if (!invert_scattering(i, i - 1, i + 1)) return false;
     return true;
   }
 
-  /// Inverts next-event estimation at x_1: the position on a light, then the choice of the light.
+  /// Inverts next-event estimation at x_1.
   bool invert_direct() {
     const Emitter& emitter = *scene_.emitters()[path_[0].emitter];
     out_.begin(Stream::direct);
-    out_.write(emitter.delta() ? any2() : emitter.invert_direct(at(1).p, at(0)));
-    out_.write(scene_.invert_choice(path_[0].emitter, any()));
+    out_.write(DirectNumbers{emitter.delta() ? any2() : emitter.invert_direct(at(1).p, at(0)),
+                             scene_.invert_choice(path_[0].emitter, any())});
     return true;
   }
 
@@ -112,8 +113,7 @@ class PathInverter {
     const auto u = scene_.bsdf(x).invert(x, x.shading.to_local(direction(i, from)),
                                          x.shading.to_local(direction(i, to)), path_[i].lobe, v);
     if (!u) return false;
-    out_.write(Vec2(u->y, u->z));
-    out_.write(u->x);
+    out_.write(StepNumbers{Vec2(u->y, u->z), u->x, any()});
     return true;
   }
 

@@ -88,7 +88,7 @@ class MultiplexedAlgorithm : public MetropolisAlgorithm {
       sum += weight;
       if (choice.next() * sum < weight) x.technique = {c.s, c.t};
     });
-    x.numbers = TechniqueNumbers(drawn, candidate).of(x.technique, settings_.rules);
+    x.numbers = TechniqueNumbers(drawn, candidate).of(x.technique);
     paths()(x, choice);
     return chain(id, std::move(x));
   }

@@ -1,6 +1,23 @@
 #include "wave/walk_wave.h"
 
 namespace mlt {
+namespace {
+
+/// The image position, the lens and the time.
+constexpr size_t of_camera = count_of<Vec2> + count_of<LensNumbers>;
+
+/// Reads numbers one after the other.
+struct Reader {
+  const double* u;
+
+  double next() { return *u++; }
+  Vec2 next2() {
+    const double x = next();
+    return {x, next()};
+  }
+};
+
+}  // namespace
 
 WalkWave::WalkWave(const Scene& scene, const PathRules& rules, const SmallStep& small_step)
     : camera_(&scene.camera()), small_step_(small_step), wave_(scene, rules) {
@@ -21,7 +38,7 @@ void WalkWave::draw(int count, size_t first, size_t numbers, Get&& get) {
 
 void WalkWave::draw(const int* paths, int count, size_t first, const double** numbers) {
   const auto get = [&](int i) -> const Proposal& { return proposals_[paths[i]]; };
-  draw(count, first, DrawnNumbers::of_vertex, get);
+  draw(count, first, count_of<VertexNumbers>, get);
   for (int i = 0; i < count; ++i) numbers[i] = get(i).y->numbers.data();
 }
 
@@ -32,12 +49,13 @@ void WalkWave::leave_camera() {
          [&](int i) -> const Proposal& { return proposals_[begin + i]; });
   rasters_.clear();
   for (const Proposal& proposal : proposals_) {
-    const double* u = proposal.y->numbers.data();
-    rasters_.push_back(camera_->raster().sample({u[0], u[1]}));
+    Reader numbers{proposal.y->numbers.data()};
+    rasters_.push_back(camera_->raster().sample(numbers.next2()));
+    const LensNumbers lens = LensNumbers::draw(numbers);
     wave_.numbers().add();
-    wave_.add(camera_->ray(rasters_.back(), {u[2], u[3]}, camera_->time(u[4])));
+    wave_.add(camera_->ray(rasters_.back(), lens.position, camera_->time(lens.time)));
   }
-  wave_.numbers().set_position(of_camera);
+  wave_.numbers().places() = {of_camera};
 }
 
 void WalkWave::trace() {

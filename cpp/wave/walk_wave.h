@@ -34,9 +34,6 @@ class WalkWave : private DrawnNumbers::Source {
     RayCounts* rays;
   };
 
-  /// Numbers of the image position, the lens and the time.
-  static constexpr size_t of_camera = 5;
-
   void leave_camera();
   void draw(const int* paths, int count, size_t first, const double** numbers) override;
   /// Draws `numbers` numbers, from the first-th on, of the proposals get(0), ..., get(count - 1).

@@ -49,7 +49,7 @@ TEST_P(TechniqueNumbersOn, MakeThePathThatItHasFoundAmongAll) {
         if (c.s == 0 && !one_sky) return;  // One of them is chosen by a further number.
         MultiplexedState state;
         state.technique = {c.s, c.t};
-        state.numbers = TechniqueNumbers(drawn, rng).of(state.technique, rules);
+        state.numbers = TechniqueNumbers(drawn, rng).of(state.technique);
         alone(state, rng);
         ++found;
         EXPECT_EQ(state.raster.x, c.raster.x) << c.s << ", " << c.t;
