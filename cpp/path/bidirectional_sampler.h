@@ -162,9 +162,11 @@ class BidirectionalSampler {
   template <class Sampler, class Found>
   void hit_one_light(int t, Sampler& sampler, Found& found) {
     const std::vector<uint32_t>& infinite = scene_->infinite_emitters();
+    const double u =
+        sampler.next();  // for all paths, so that all of a technique draw as many numbers
     if (!camera_[t - 1].vertex.at.infinite() || infinite.size() == 1) return hit_light(t, found);
     const double count = static_cast<double>(infinite.size());
-    const auto chosen = static_cast<size_t>(sampler.next() * count);
+    const auto chosen = static_cast<size_t>(u * count);
     emit(*scene_->emitters()[infinite[chosen]], t, [&](Connection& connection) {
       connection.contribution *= count;
       connection.own_share /= count;

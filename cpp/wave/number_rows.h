@@ -4,7 +4,8 @@
 #include "primary/small_step.h"
 #include "wave/lanes.h"
 
-#include <cstring>
+#include <algorithm>
+#include <vector>
 
 namespace mlt {
 
@@ -18,10 +19,12 @@ class NumberRows {
     moving_ = 0;
     fresh_ = capacity;
   }
-  /// Adds a row that is drawn by `key`: near `from`, or afresh if it is nullptr. Returns its index.
-  int add(uint64_t key, const double* from) {
-    const int i = from ? moving_++ : --fresh_;
-    if (from) std::memcpy(&x_[row * i], from, row * sizeof(double));
+  /// Adds a row that is drawn by `key`: near the row of x, or afresh if x has none or is nullptr.
+  /// Returns its index.
+  int add(uint64_t key, const std::vector<double>* x) {
+    const size_t known = x && x->size() > first_ ? std::min<size_t>(row, x->size() - first_) : 0;
+    const int i = known > 0 ? moving_++ : --fresh_;
+    for (size_t k = 0; k < known; ++k) x_[row * i + k] = (*x)[first_ + k];
     const auto low = static_cast<uint32_t>(key) + first_, high = static_cast<uint32_t>(key >> 32);
     for (int k = 0; k < row; ++k) {
       low_[row * i + k] = low + k;

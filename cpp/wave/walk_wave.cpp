@@ -24,32 +24,36 @@ WalkWave::WalkWave(const Scene& scene, const PathRules& rules, const SmallStep& 
   wave_.numbers().set_source(*this);
 }
 
-template <class Get>
-void WalkWave::draw(int count, size_t first, size_t numbers, Get&& get) {
+template <size_t numbers, class Get>
+void WalkWave::draw(int count, size_t first, Get&& get) {
   Block<int> row;
   rows_.begin(first);
   for (int i = 0; i < count; ++i) {
     const Proposal& proposal = get(i);
-    row[i] = rows_.add(proposal.key, proposal.from ? proposal.from->row(first) : nullptr);
+    row[i] = rows_.add(proposal.key, proposal.from);
   }
   rows_.draw(small_step_);
-  for (int i = 0; i < count; ++i) get(i).y->numbers.end_with(rows_[row[i]], first, numbers);
+  for (int i = 0; i < count; ++i) {
+    std::vector<double>& y = get(i).numbers();
+    y.resize(first + numbers);
+    std::copy_n(rows_[row[i]], numbers, &y[first]);
+  }
 }
 
 void WalkWave::draw(const int* paths, int count, size_t first, const double** numbers) {
   const auto get = [&](int i) -> const Proposal& { return proposals_[paths[i]]; };
-  draw(count, first, count_of<VertexNumbers>, get);
-  for (int i = 0; i < count; ++i) numbers[i] = get(i).y->numbers.data();
+  draw<count_of<VertexNumbers>>(count, first, get);
+  for (int i = 0; i < count; ++i) numbers[i] = get(i).numbers().data();
 }
 
 void WalkWave::leave_camera() {
   const int all = static_cast<int>(proposals_.size());
   for (int begin = 0; begin < all; begin += block_size)
-    draw(std::min(block_size, all - begin), 0, of_camera,
-         [&](int i) -> const Proposal& { return proposals_[begin + i]; });
+    draw<of_camera>(std::min(block_size, all - begin), 0,
+                    [&](int i) -> const Proposal& { return proposals_[begin + i]; });
   rasters_.clear();
   for (const Proposal& proposal : proposals_) {
-    Reader numbers{proposal.y->numbers.data()};
+    Reader numbers{proposal.numbers().data()};
     rasters_.push_back(camera_->raster().sample(numbers.next2()));
     const LensNumbers lens = LensNumbers::draw(numbers);
     wave_.numbers().add();
@@ -65,7 +69,7 @@ void WalkWave::trace() {
   const Raster& image = camera_->raster();
   const double scale = image.sampled_area() / image.pixels();
   for (size_t i = 0; i < proposals_.size(); ++i) {
-    WalkState& y = *proposals_[i].y;
+    PrimaryState& y = *proposals_[i].y;
     y.light.clear();
     if (!is_black(wave_.radiance(i))) y.light.push_back({rasters_[i], wave_.radiance(i) * scale});
     y.find_target();
