@@ -19,12 +19,13 @@ class NumberRows {
     moving_ = 0;
     fresh_ = capacity;
   }
-  /// Adds a row that is drawn by `key`: near the row of x, or afresh if x has none or is nullptr.
-  /// Returns its index.
+  /// Adds a row that is drawn by `key`: near that of x, which has `count` numbers, or afresh if x
+  /// has none or is nullptr. Returns its index.
+  template <size_t count = row>
   int add(uint64_t key, const std::vector<double>* x) {
-    const size_t known = x && x->size() > first_ ? std::min<size_t>(row, x->size() - first_) : 0;
-    const int i = known > 0 ? moving_++ : --fresh_;
-    for (size_t k = 0; k < known; ++k) x_[row * i + k] = (*x)[first_ + k];
+    const bool known = x && x->size() > first_;
+    const int i = known ? moving_++ : --fresh_;
+    if (known) std::copy_n(&(*x)[first_], count, &x_[row * i]);
     const auto low = static_cast<uint32_t>(key) + first_, high = static_cast<uint32_t>(key >> 32);
     for (int k = 0; k < row; ++k) {
       low_[row * i + k] = low + k;

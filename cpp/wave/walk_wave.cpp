@@ -30,18 +30,19 @@ void WalkWave::draw(int count, size_t first, Get&& get) {
   rows_.begin(first);
   for (int i = 0; i < count; ++i) {
     const Proposal& proposal = get(i);
-    row[i] = rows_.add(proposal.key, proposal.from);
+    row[i] = rows_.add<numbers>(proposal.key, proposal.from);
   }
   rows_.draw(small_step_);
   for (int i = 0; i < count; ++i) {
     std::vector<double>& y = get(i).numbers();
-    y.resize(first + numbers);
+    get(i).length = first + numbers;
+    if (y.size() < first + numbers) y.resize(first + numbers);
     std::copy_n(rows_[row[i]], numbers, &y[first]);
   }
 }
 
 void WalkWave::draw(const int* paths, int count, size_t first, const double** numbers) {
-  const auto get = [&](int i) -> const Proposal& { return proposals_[paths[i]]; };
+  const auto get = [&](int i) -> Proposal& { return proposals_[paths[i]]; };
   draw<count_of<VertexNumbers>>(count, first, get);
   for (int i = 0; i < count; ++i) numbers[i] = get(i).numbers().data();
 }
@@ -50,7 +51,7 @@ void WalkWave::leave_camera() {
   const int all = static_cast<int>(proposals_.size());
   for (int begin = 0; begin < all; begin += block_size)
     draw<of_camera>(std::min(block_size, all - begin), 0,
-                    [&](int i) -> const Proposal& { return proposals_[begin + i]; });
+                    [&](int i) -> Proposal& { return proposals_[begin + i]; });
   rasters_.clear();
   for (const Proposal& proposal : proposals_) {
     Reader numbers{proposal.numbers().data()};
@@ -70,6 +71,7 @@ void WalkWave::trace() {
   const double scale = image.sampled_area() / image.pixels();
   for (size_t i = 0; i < proposals_.size(); ++i) {
     PrimaryState& y = *proposals_[i].y;
+    proposals_[i].numbers().resize(proposals_[i].length);
     y.light.clear();
     if (!is_black(wave_.radiance(i))) y.light.push_back({rasters_[i], wave_.radiance(i) * scale});
     y.find_target();

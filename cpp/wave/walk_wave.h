@@ -19,7 +19,7 @@ class WalkWave : private DrawnNumbers::Source {
   /// Adds a proposal from x, to be stored in y, by the random numbers of `key`: a small step, or a
   /// large one. `rays` counts its rays.
   void add(const PrimaryState& x, bool large, uint64_t key, PrimaryState& y, RayCounts& rays) {
-    proposals_.push_back({key, large ? nullptr : &x.numbers[Stream::camera], &y, &rays});
+    proposals_.push_back({key, large ? nullptr : &x.numbers[Stream::camera], &y, &rays, 0});
   }
   /// Traces all proposals that were added, and clears the wave.
   void trace();
@@ -30,6 +30,7 @@ class WalkWave : private DrawnNumbers::Source {
     const std::vector<double>* from;
     PrimaryState* y;
     RayCounts* rays;
+    size_t length;  ///< How many numbers it has drawn; its buffer may hold more.
     std::vector<double>& numbers() const { return y->numbers[Stream::camera]; }
   };
 
