@@ -55,14 +55,12 @@ class DirectTaker : public SampleTaker {
 
   Color by_light(const Walker& walker, const SurfacePoint& at, const Ray& ray,
                  PixelSampler& sampler) const {
-    const Vec2 u = sampler.next2();
+    const Vec3 u = DirectNumbers::draw(sampler).for_light();
     const double n = settings_.emitter_samples, m = settings_.bsdf_samples;
     const auto weight = [&](double light, double bsdf) {
       return power_heuristic(n * light, m * bsdf);
     };
-    return direct_light(walker, at, -ray.d, {sampler.next(), u}, settings_.rules.strict_normals,
-                        weight) /
-           n;
+    return direct_light(walker, at, -ray.d, u, settings_.rules.strict_normals, weight) / n;
   }
 
   Color by_bsdf(const Walker& walker, const SurfacePoint& at, const Ray& ray,

@@ -26,39 +26,29 @@ struct PrimaryPaths {
   Estimator estimator;
   RayCounts rays = {};
 
-  void operator()(PrimaryState& state, Rng& rng) {
-    PrimarySampler sampler(state.numbers, small_step, rng);
-    sample(image->sample(sampler.next2()), sampler, state);
+  void operator()(const PrimarySamples* x, PrimaryState& y, Rng& rng) {
+    PrimarySampler sampler(x, y.numbers, small_step, rng);
+    sample(image->sample(sampler.next2()), sampler, y);
   }
-  template <class Sampler, class State>
-  void sample(const Vec2& raster, Sampler& sampler, State& state) {
+  template <class Sampler>
+  void sample(const Vec2& raster, Sampler& sampler, PrimaryState& state) {
     state.light.clear();
     estimator(raster, sampler, state.light, rays);
     state.find_target();
   }
 };
 
-/// The steps of chains that advance one after the other.
-template <class Estimator>
-class SingleStep : public PrimaryStep<PrimaryState, PrimaryPaths<Estimator>> {
- public:
-  using PrimaryStep<PrimaryState, PrimaryPaths<Estimator>>::PrimaryStep;
-  RayCounts& rays() { return this->evaluate().rays; }
-};
-
 /// Moves a chain that renders.
 template <class Step>
 class PssmltKernel : public Step {
  public:
-  using State = typename Step::State;
-
   /// `b` is that of the group of chains.
   PssmltKernel(const Step& step, const LargeStepWeights& weights, double b)
       : Step(step),
         weights_(weights),
         large_step_weight_(weights.share / (step.large_probability() * b)) {}
 
-  void record(ChainRecorder& recorder, const State& x, double weight) const {
+  void record(ChainRecorder& recorder, const PrimaryState& x, double weight) const {
     const double denominator = weights_.denominator(x.target);
     for (const ImageLight& light : x.light)
       recorder.record(light.raster, light.rgb / denominator, weight, denominator);
@@ -67,15 +57,17 @@ class PssmltKernel : public Step {
 
   size_t stats_row() const { return this->last(); }
   size_t stats_rows() const { return 2; }
-  std::string signature(const State&) const { return ""; }
-  Vec2 raster_of(const State& x) const { return x.light.empty() ? Vec2(0) : x.light[0].raster; }
+  std::string signature(const PrimaryState&) const { return ""; }
+  Vec2 raster_of(const PrimaryState& x) const {
+    return x.light.empty() ? Vec2(0) : x.light[0].raster;
+  }
 
-  void save(ByteWriter& bytes, const State& x) const {
+  void save(ByteWriter& bytes, const PrimaryState& x) const {
     x.numbers.save(bytes);
     bytes.write(x.light);
     bytes.write(x.target);
   }
-  void load(ByteReader& bytes, State& x) const {
+  void load(ByteReader& bytes, PrimaryState& x) const {
     x.numbers.load(bytes);
     bytes.read(x.light);
     x.target = bytes.read<double>();
@@ -86,8 +78,8 @@ class PssmltKernel : public Step {
   double large_step_weight_;
 };
 
-/// Pssmlt over any estimator.
-template <class Estimator>
+/// Pssmlt over any estimator. With PrimaryStep chains advance one after the other.
+template <class Estimator, class Step = PrimaryStep<PrimaryPaths<Estimator>>>
 class Pssmlt : public MetropolisAlgorithm {
  public:
   Pssmlt(ScenePtr scene, const PssmltSettings& settings)
@@ -99,6 +91,15 @@ class Pssmlt : public MetropolisAlgorithm {
   const Scene& scene() const override { return *scene_; }
   std::unique_ptr<Source> source() const override {
     return std::make_unique<PssmltSource>(paths(), weights_);
+  }
+  std::unique_ptr<RenderChain> start(const ChainId& id, Rng candidate, Rng) const override {
+    PrimaryState x;
+    paths()(nullptr, x, candidate);
+    return chain(id, std::move(x));
+  }
+  std::unique_ptr<RenderChain> blank(const ChainId& id, const FamilyWeights&,
+                                     double) const override {
+    return chain(id, {});
   }
   std::vector<MutationStats> rows() const override {
     MutationStats large, small;
@@ -123,13 +124,19 @@ class Pssmlt : public MetropolisAlgorithm {
   }
   const PssmltSettings& settings() const { return settings_; }
   const LargeStepWeights& weights() const { return weights_; }
-  template <class Step, class State>
-  std::unique_ptr<RenderChain> chain(const ChainId& id, const Step& step, State start) const {
-    return std::make_unique<RecordedChain<PssmltKernel<Step>>>(
-        PssmltKernel<Step>(step, weights_, id.b), id, std::move(start));
-  }
 
  private:
+  Step step() const {
+    if constexpr (std::is_same_v<Step, WalkStep>)
+      return {settings_.large_probability, settings_.delayed_rejection};
+    else
+      return {settings_.large_probability, settings_.delayed_rejection, paths()};
+  }
+  std::unique_ptr<RenderChain> chain(const ChainId& id, PrimaryState start) const {
+    return std::make_unique<RecordedChain<PssmltKernel<Step>>>(
+        PssmltKernel<Step>(step(), weights_, id.b), id, std::move(start));
+  }
+
   struct PssmltSource : SourceOf<PssmltSource> {
     PssmltSource(const PrimaryPaths<Estimator>& p, const LargeStepWeights& w)
         : paths(p), weights(w) {}
@@ -155,45 +162,11 @@ class Pssmlt : public MetropolisAlgorithm {
   LargeStepWeights weights_;
 };
 
-/// Chains that advance one after the other.
-template <class Estimator>
-class SinglePssmlt : public Pssmlt<Estimator> {
- public:
-  using Pssmlt<Estimator>::Pssmlt;
-
-  std::unique_ptr<RenderChain> start(const ChainId& id, Rng candidate, Rng) const override {
-    PrimaryState x;
-    this->paths()(x, candidate);
-    return this->chain(id, step(), std::move(x));
-  }
-  std::unique_ptr<RenderChain> blank(const ChainId& id, const FamilyWeights&,
-                                     double) const override {
-    return this->chain(id, step(), PrimaryState());
-  }
-
- private:
-  SingleStep<Estimator> step() const {
-    const PssmltSettings& settings = this->settings();
-    return {settings.large_probability, settings.delayed_rejection, this->paths()};
-  }
-};
-
 /// Pssmlt over path tracing: the proposals of many chains are traced side by side.
-class WalkPssmlt : public Pssmlt<PathEstimator> {
+class WalkPssmlt : public Pssmlt<PathEstimator, WalkStep> {
  public:
   using Pssmlt::Pssmlt;
 
-  std::unique_ptr<RenderChain> start(const ChainId& id, Rng candidate, Rng) const override {
-    WalkState x;
-    WalkNumbersSampler sampler(x.numbers, candidate);
-    const Vec2 raster = scene().camera().raster().sample(sampler.next2());
-    paths().sample(raster, sampler, x);
-    return chain(id, step(), std::move(x));
-  }
-  std::unique_ptr<RenderChain> blank(const ChainId& id, const FamilyWeights&,
-                                     double) const override {
-    return chain(id, step(), WalkState());
-  }
   std::unique_ptr<SampleTaker> sample_taker(const FamilyWeights& weights) const override {
     return std::make_unique<WalkTaker>(scene(), settings().path, this->weights(), weights);
   }
@@ -216,9 +189,6 @@ class WalkPssmlt : public Pssmlt<PathEstimator> {
     }
     for (StepRecorder<Kernel>& recorder : recorders) recorder.finish();
   }
-
- private:
-  WalkStep step() const { return {settings().large_probability, settings().delayed_rejection}; }
 };
 
 class PssmltIntegrator : public Integrator {
@@ -243,9 +213,8 @@ class PssmltIntegrator : public Integrator {
  private:
   std::unique_ptr<MetropolisAlgorithm> algorithm(const ScenePtr& scene) const {
     if (estimator_ == "bdpt")
-      return std::make_unique<SinglePssmlt<BidirectionalEstimator>>(scene, settings_);
-    if (estimator_ == "ptracer")
-      return std::make_unique<SinglePssmlt<LightEstimator>>(scene, settings_);
+      return std::make_unique<Pssmlt<BidirectionalEstimator>>(scene, settings_);
+    if (estimator_ == "ptracer") return std::make_unique<Pssmlt<LightEstimator>>(scene, settings_);
     return std::make_unique<WalkPssmlt>(scene, settings_);
   }
 

@@ -25,9 +25,7 @@ bool sees_light(const Scene& scene, const PathRules& rules, const Vec2& raster,
     if (!is_black(walk.radiance)) return true;
     if (!hit || depth == rules.most_edges()) return false;
     if (!consistent_sides(at, -walk.ray.d, rules.strict_normals)) return false;
-    const VertexNumbers numbers{sampler.next2(), sampler.next2(), sampler.next(), sampler.next(),
-                                sampler.next()};
-    if (!scatter(walker, rules, depth, at, numbers, walk)) return false;
+    if (!scatter(walker, rules, depth, at, VertexNumbers::draw(sampler), walk)) return false;
   }
   return false;
 }

@@ -38,11 +38,8 @@ class MultiplexedMutation final : public MeasuredMutation<MultiplexedMutation> {
     if (s < 0) return std::nullopt;
     const Technique technique{s, k + 1 - s};
     PrimaryWalks& walks = context.primary_walks(scene(), target().rules());
-    PrimaryNumbers& numbers = walks.numbers;
-    numbers.clear();
-    if (!invert_path(scene(), x.path, technique, context.rng, numbers)) return std::nullopt;
-    numbers.step(false);
-    PrimarySampler sampler(numbers, small_step_, context.rng);
+    if (!invert_path(scene(), x.path, technique, context.rng, walks.numbers)) return std::nullopt;
+    PrimarySampler sampler(&walks.numbers, walks.moved, small_step_, context.rng);
     bool found = false;
     walks.paths.sample_technique(technique, sampler, context.rays, [&](const Connection& c) {
       walks.paths.assemble(c, y.path);
@@ -50,7 +47,7 @@ class MultiplexedMutation final : public MeasuredMutation<MultiplexedMutation> {
     });
     if (!found) return std::nullopt;
     // a step that cannot be reversed, because of rounding, must not be proposed
-    if (!invert_path(scene(), y.path, technique, context.rng, numbers)) return std::nullopt;
+    if (!invert_path(scene(), y.path, technique, context.rng, walks.numbers)) return std::nullopt;
     target().evaluate(y);
     return Edit{0, k, k + 1};
   }

@@ -10,7 +10,7 @@
 #include "mutation/path_target.h"
 #include "path/bidirectional_sampler.h"
 #include "path/ray_counts.h"
-#include "primary/primary_numbers.h"
+#include "primary/primary_samples.h"
 
 #include <limits>
 #include <optional>
@@ -20,7 +20,7 @@ namespace mlt {
 
 /// Paths made of primary samples, and the samples; both reuse their buffers.
 struct PrimaryWalks {
-  PrimaryNumbers numbers;
+  PrimarySamples numbers, moved;
   BidirectionalSampler paths;
 };
 
@@ -53,7 +53,7 @@ struct MutationContext {
       BidirectionalSettings settings;
       settings.rules = rules;
       settings.rules.rr_depth = PathRules::no_roulette;
-      scratch_->primary_walks = {{}, {scene, settings}};
+      scratch_->primary_walks = {{}, {}, {scene, settings}};
     }
     return *scratch_->primary_walks;
   }

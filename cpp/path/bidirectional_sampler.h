@@ -84,9 +84,9 @@ class BidirectionalSampler {
   template <class Sampler>
   void sample_light(Sampler& sampler, RayCounts& rays) {
     sampler.begin(Stream::camera);
-    const Vec2 u = sampler.next2();
-    time_ = scene_->camera().time(sampler.next());
-    const PositionSample lens = scene_->camera().sample_position(u, time_);
+    const LensNumbers u = LensNumbers::draw(sampler);
+    time_ = scene_->camera().time(u.time);
+    const PositionSample lens = scene_->camera().sample_position(u.position, time_);
     camera_.start(camera_vertex(lens.at), lens.pdf);
     walk_from_light(walker(rays), settings_.rules, longest_light_walk(), sampler, light_);
     draw_direct(sampler);
@@ -144,20 +144,16 @@ class BidirectionalSampler {
   void draw_direct(Sampler& sampler) {
     sampler.begin(Stream::direct);
     direct_u_.clear();
-    for (size_t i = 0; i < camera_.size(); ++i) direct_u_.push_back(next_direct(sampler));
+    for (size_t i = 0; i < camera_.size(); ++i)
+      direct_u_.push_back(DirectNumbers::draw(sampler).for_light());
     if (!scene_->infinite_emitters().empty()) sample_backgrounds();
-  }
-  template <class Sampler>
-  static Vec3 next_direct(Sampler& sampler) {
-    const Vec2 u = sampler.next2();
-    return {sampler.next(), u};
   }
 
   template <class Sampler, class Found>
   void connect_one(int s, int t, bool direct, Sampler& sampler, RayCounts& rays, Found& found) {
     if (direct) {
       direct_u_.resize(t);
-      direct_u_.back() = next_direct(sampler);
+      direct_u_.back() = DirectNumbers::draw(sampler).for_light();
       direct_backgrounds_.clear();
     }
     connect(s, t, rays, found);
@@ -166,9 +162,11 @@ class BidirectionalSampler {
   template <class Sampler, class Found>
   void hit_one_light(int t, Sampler& sampler, Found& found) {
     const std::vector<uint32_t>& infinite = scene_->infinite_emitters();
+    const double u =
+        sampler.next();  // for all paths, so that all of a technique draw as many numbers
     if (!camera_[t - 1].vertex.at.infinite() || infinite.size() == 1) return hit_light(t, found);
     const double count = static_cast<double>(infinite.size());
-    const auto chosen = static_cast<size_t>(sampler.next() * count);
+    const auto chosen = static_cast<size_t>(u * count);
     emit(*scene_->emitters()[infinite[chosen]], t, [&](Connection& connection) {
       connection.contribution *= count;
       connection.own_share /= count;

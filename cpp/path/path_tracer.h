@@ -174,15 +174,6 @@ struct CameraWalk {
   void take(const Color& found, double share) { radiance += found * share; }
 };
 
-/// The random numbers of a vertex.
-struct VertexNumbers {
-  Vec2 light, direction;
-  double choice, lobe, roulette;
-
-  Vec3 for_light() const { return {choice, light}; }
-  Vec3 for_scattering() const { return {lobe, direction}; }
-};
-
 /// Adds the emission where the ray ends: at the surface `at`, or (nullptr) outside the scene.
 template <class Watcher = IgnorePaths>
 void find_light(const Scene& scene, CameraWalk& walk, const SurfacePoint* at,
@@ -251,8 +242,7 @@ Color trace_path(const Scene& scene, const PathRules& rules, CameraWalk walk, Sa
 
     const Vec3 wc = -walk.ray.d;
     if (!consistent_sides(at, wc, rules.strict_normals)) break;
-    const VertexNumbers numbers{sampler.next2(), sampler.next2(), sampler.next(), sampler.next(),
-                                sampler.next()};
+    const VertexNumbers numbers = VertexNumbers::draw(sampler);
     if (wants_direct_light(scene, rules, depth, at)) {
       const auto mis = [&](double light, double bsdf) { return walk.mis(light, bsdf); };
       const Color direct = walk.throughput * direct_light(walker, at, wc, numbers.for_light(),

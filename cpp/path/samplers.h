@@ -39,6 +39,22 @@ class PixelSampler {
     uint32_t words = 0;  ///< Independent numbers that have been taken.
     uint32_t last_pair = stratified_pairs;
 
+    bool stratified() const { return pairs < last_pair; }
+    /// The places of the next numbers, as if it were a sampler.
+    Position next() {
+      const Position at = *this;
+      ++words;
+      return at;
+    }
+    Position next2() {
+      const Position at = *this;
+      if (stratified())
+        ++pairs;
+      else
+        words += 2;
+      return at;
+    }
+
     /// Where the numbers of a stream begin, whatever the others have taken: those of the camera
     /// after the image position, those of the light with its position and direction, and direct
     /// light with the lens and the vertex after it.
@@ -66,14 +82,11 @@ class PixelSampler {
   }
 
   void begin(Stream stream) { at_ = at_.begin(stream); }
-  double next() { return unit_interval(nth_bits(key_, at_.words++)); }
+  double next() { return word(at_.next().words); }
   Vec2 next2() {
-    if (at_.pairs < at_.last_pair) {
-      const uint32_t i = at_.pairs++;
-      return {x_[i], y_[i]};
-    }
-    const double x = next();
-    return {x, next()};
+    const Position at = at_.next2();
+    if (at.stratified()) return {x_[at.pairs], y_[at.pairs]};
+    return {word(at.words), word(at.words + 1)};
   }
 
   uint64_t stream() const { return stream_; }
@@ -85,6 +98,8 @@ class PixelSampler {
   }
 
  private:
+  double word(uint64_t n) const { return unit_interval(nth_bits(key_, n)); }
+
   static constexpr uint32_t lanes = 8;  ///< Enough for the stratified pairs of all streams.
 
   uint64_t stream_, key_;

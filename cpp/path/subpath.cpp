@@ -65,18 +65,17 @@ void Subpath::prepare_joints(WalkVertex& x, bool strict_normals) const {
   x.lambertian.back = std::abs(cosine) * inv_pi / geometric;
 }
 
-bool Subpath::scatter(const Walker& walker, const PathRules& rules, const Vec3& u,
-                      double u_roulette) {
+bool Subpath::scatter(const Walker& walker, const PathRules& rules, const StepNumbers& u) {
   WalkVertex& x = last();
   Step step;
   if (!(x.vertex.at.lambertian.known()
-            ? scatter_lambertian(x, {u.y, u.z}, rules.strict_normals, step)
-            : scatter(walker, x, u, rules.strict_normals, step)))
+            ? scatter_lambertian(x, u.direction, rules.strict_normals, step)
+            : scatter(walker, x, u.for_scattering(), rules.strict_normals, step)))
     return false;
   double survival = 1;
   if (static_cast<int>(size()) > rules.rr_depth)
     survival = std::min(max_component(step.ratio), 0.95);
-  if (!(u_roulette < survival)) return false;
+  if (!(u.roulette < survival)) return false;
   x.towards_next = step.w;
   x.next_coefficient = step.coefficient;
   x.next_throughput = x.throughput * step.ratio / survival;

@@ -72,10 +72,7 @@ class Subpath {
       goes_on_ = false;
       if (!trace(walker, rules, ray)) return;
       if (static_cast<int>(size()) == most.vertices && !most.goes_on) return;
-      const Vec2 u_direction = sampler.next2();
-      const double u_lobe = sampler.next();
-      const double u_roulette = rules.rr_depth == PathRules::no_roulette ? 0 : sampler.next();
-      if (!scatter(walker, rules, {u_lobe, u_direction}, u_roulette)) return;
+      if (!scatter(walker, rules, StepNumbers::draw(sampler))) return;
       ray = walker.leave(last().vertex.at, last().towards_next);
       goes_on_ = true;
     }
@@ -89,7 +86,7 @@ class Subpath {
   /// Computes the terms for joints at a Lambertian vertex.
   void prepare_joints(WalkVertex& x, bool strict_normals) const;
   /// Samples a direction at the last vertex; false if the walk ends there.
-  bool scatter(const Walker& walker, const PathRules& rules, const Vec3& u, double u_roulette);
+  bool scatter(const Walker& walker, const PathRules& rules, const StepNumbers& u);
   struct Step {
     Vec3 w;              ///< The sampled direction.
     double coefficient;  ///< Density of w in projected solid angle.
@@ -117,13 +114,13 @@ void walk_from_light(const Walker& walker, const PathRules& rules, const WalkLen
                      Sampler& sampler, Subpath& subpath) {
   subpath.clear();
   sampler.begin(Stream::light);
-  const Vec2 u_position = sampler.next2(), u_direction = sampler.next2();
+  const LightNumbers u = LightNumbers::draw(sampler);
   const LightSample light =
-      sample_light_position(walker.scene, {sampler.next(), u_position}, walker.time);
+      sample_light_position(walker.scene, {u.choice, u.position}, walker.time);
   if (!(light.x0.pdf > 0)) return;
   const Vertex x0 = light_vertex(*light.emitter, light.x0.at);
   subpath.start(x0, light.x0.pdf);
-  const Departure first = walker.leave_light(x0, u_direction);
+  const Departure first = walker.leave_light(x0, u.direction);
   if (first.pdf > 0) subpath.walk(walker, rules, first, most, sampler);
 }
 

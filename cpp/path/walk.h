@@ -4,6 +4,7 @@
 #pragma once
 
 #include "path/ray_counts.h"
+#include "path/sample_layout.h"
 #include "path/vertex.h"
 
 #include <optional>
@@ -51,8 +52,8 @@ struct LensDeparture {
 /// Samples a point on the lens and a time, and returns the ray from there.
 template <class Sampler>
 LensDeparture leave_lens(const Camera& camera, const Vec2& raster, Sampler& sampler) {
-  const Vec2 u = sampler.next2();
-  const PositionSample lens = camera.sample_position(u, camera.time(sampler.next()));
+  const LensNumbers u = LensNumbers::draw(sampler);
+  const PositionSample lens = camera.sample_position(u.position, camera.time(u.time));
   return {lens, leave_lens(camera, lens.at, raster)};
 }
 

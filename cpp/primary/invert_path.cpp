@@ -3,35 +3,17 @@
 #include <glm/common.hpp>
 
 #include <algorithm>
+#include <cstring>
 
 namespace mlt {
 namespace {
 
-/// Writes numbers in the order in which a sampler reads them.
-class PrimaryWriter {
- public:
-  explicit PrimaryWriter(PrimaryNumbers& numbers) : numbers_(&numbers) {}
-
-  void begin(Stream stream) {
-    stream_ = stream;
-    next_ = 0;
-  }
-  void write(double u) { numbers_->set(stream_, next_++, glm::clamp(u, 0.0, 1 - 0x1p-53)); }
-  void write(const Vec2& u) {
-    write(u.x);
-    write(u.y);
-  }
-
- private:
-  PrimaryNumbers* numbers_;
-  Stream stream_ = Stream::camera;
-  size_t next_ = 0;
-};
-
 class PathInverter {
  public:
-  PathInverter(const Scene& scene, const Path& path, Rng& rng, PrimaryNumbers& numbers)
-      : scene_(scene), path_(path), rng_(rng), out_(numbers) {}
+  PathInverter(const Scene& scene, const Path& path, Rng& rng, PrimarySamples& numbers)
+      : scene_(scene), path_(path), any_(rng), numbers_(numbers) {
+    numbers.clear();
+  }
 
   bool invert(const Technique& technique) {
     const auto [s, t] = technique;
@@ -42,56 +24,59 @@ class PathInverter {
   }
 
  private:
-  double any() { return rng_.next(); }
-  Vec2 any2() {
-    const double x = any();
-    return {x, any()};
+  /// Adds numbers to a stream, in the order of the members.
+  template <class Numbers>
+  void write(Stream stream, const Numbers& numbers) {
+    double values[count_of<Numbers>];
+    std::memcpy(values, &numbers, sizeof values);
+    for (const double u : values) numbers_[stream].push_back(glm::clamp(u, 0.0, 1 - 0x1p-53));
   }
   const SurfacePoint& at(int i) const { return path_[i].at; }
   Vec3 direction(int from, int to) const { return mlt::direction(at(from), at(to)); }
 
-  /// Inverts a camera walk: raster position, lens, time; then the directions of its first t - 1
-  /// vertices.
+  /// Inverts a camera walk with the directions of its first t - 1 vertices.
   bool invert_camera_walk(int t) {
     const Camera& camera = scene_.camera();
     const int k = path_.edges();
     const Shutter& shutter = camera.shutter();
-    out_.begin(Stream::camera);
+    Vec2 u_raster = any_.next2();
     if (t >= 2) {
       const auto raster = camera.raster_position(at(k), direction(k, k - 1));
       if (!raster || !camera.raster().contains(*raster)) return false;
-      out_.write(camera.raster().invert(*raster));
-    } else {
-      out_.write(any2());
+      u_raster = camera.raster().invert(*raster);
     }
-    out_.write(t == 0 || camera.delta_position() ? any2() : camera.invert_position(at(k)));
-    out_.write(shutter.close > shutter.open
-                   ? (path_.time - shutter.open) / (shutter.close - shutter.open)
-                   : any());
+    write(Stream::camera, u_raster);
+    LensNumbers u = LensNumbers::draw(any_);
+    if (t > 0 && !camera.delta_position()) u.position = camera.invert_position(at(k));
+    if (shutter.close > shutter.open)
+      u.time = (path_.time - shutter.open) / (shutter.close - shutter.open);
+    write(Stream::camera, u);
     for (int i = k - 1; i > k + 1 - t; --i)
-      if (!invert_scattering(i, i + 1, i - 1)) return false;
+      if (!invert_scattering(Stream::camera, i, i + 1, i - 1)) return false;
     return true;
   }
 
-  /// Inverts a light walk: position, direction, choice of the light; then the directions of the
-  /// vertices after x_0: of all of them if the walk `goes_on`, or of all but the last.
+  /// Inverts a light walk with the directions of the vertices after x_0: of all of them if the walk
+  /// `goes_on`, or of all but the last.
   bool invert_light_walk(int vertices, bool goes_on) {
     const Emitter& emitter = *scene_.emitters()[path_[0].emitter];
-    out_.begin(Stream::light);
-    out_.write(emitter.delta() ? any2() : emitter.invert_position(at(0)));
-    out_.write(vertices >= 2 || goes_on ? emitter.invert_ray(at(0), at(1).p) : any2());
-    out_.write(scene_.invert_choice(path_[0].emitter, any()));
+    LightNumbers u = LightNumbers::draw(any_);
+    if (!emitter.delta()) u.position = emitter.invert_position(at(0));
+    if (vertices >= 2 || goes_on) u.direction = emitter.invert_ray(at(0), at(1).p);
+    u.choice = scene_.invert_choice(path_[0].emitter, u.choice);
+    write(Stream::light, u);
     for (int i = 1; i < vertices - (goes_on ? 0 : 1); ++i)
-      if (!invert_scattering(i, i - 1, i + 1)) return false;
+      if (!invert_scattering(Stream::light, i, i - 1, i + 1)) return false;
     return true;
   }
 
-  /// Inverts next-event estimation at x_1: the position on a light, then the choice of the light.
+  /// Inverts next-event estimation at x_1.
   bool invert_direct() {
     const Emitter& emitter = *scene_.emitters()[path_[0].emitter];
-    out_.begin(Stream::direct);
-    out_.write(emitter.delta() ? any2() : emitter.invert_direct(at(1).p, at(0)));
-    out_.write(scene_.invert_choice(path_[0].emitter, any()));
+    DirectNumbers u = DirectNumbers::draw(any_);
+    if (!emitter.delta()) u.position = emitter.invert_direct(at(1).p, at(0));
+    u.choice = scene_.invert_choice(path_[0].emitter, u.choice);
+    write(Stream::direct, u);
     return true;
   }
 
@@ -100,33 +85,34 @@ class PathInverter {
     const std::vector<uint32_t>& infinite = scene_.infinite_emitters();
     const auto found = std::find(infinite.begin(), infinite.end(), path_[0].emitter);
     if (!at(0).infinite() || found == infinite.end()) return true;
-    out_.begin(Stream::direct);
-    out_.write((static_cast<double>(found - infinite.begin()) + any()) /
-               static_cast<double>(infinite.size()));
+    write(Stream::direct, (static_cast<double>(found - infinite.begin()) + any_.next()) /
+                              static_cast<double>(infinite.size()));
     return true;
   }
 
-  bool invert_scattering(int i, int from, int to) {
+  bool invert_scattering(Stream stream, int i, int from, int to) {
     const SurfacePoint& x = at(i);
-    const Vec3 v(any(), any2());
-    const auto u = scene_.bsdf(x).invert(x, x.shading.to_local(direction(i, from)),
-                                         x.shading.to_local(direction(i, to)), path_[i].lobe, v);
-    if (!u) return false;
-    out_.write(Vec2(u->y, u->z));
-    out_.write(u->x);
+    StepNumbers u = StepNumbers::draw(any_);
+    const auto inverted = scene_.bsdf(x).invert(x, x.shading.to_local(direction(i, from)),
+                                                x.shading.to_local(direction(i, to)), path_[i].lobe,
+                                                u.for_scattering());
+    if (!inverted) return false;
+    u.lobe = inverted->x;
+    u.direction = {inverted->y, inverted->z};
+    write(stream, u);
     return true;
   }
 
   const Scene& scene_;
   const Path& path_;
-  Rng& rng_;
-  PrimaryWriter out_;
+  RandomSampler any_;  ///< Numbers that the path does not decide.
+  PrimarySamples& numbers_;
 };
 
 }  // namespace
 
 bool invert_path(const Scene& scene, const Path& path, const Technique& technique, Rng& rng,
-                 PrimaryNumbers& numbers) {
+                 PrimarySamples& numbers) {
   return PathInverter(scene, path, rng, numbers).invert(technique);
 }
 

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "path/bidirectional_sampler.h"
-#include "primary/primary_numbers.h"
+#include "primary/primary_samples.h"
 
 namespace mlt {
 
@@ -13,6 +13,6 @@ namespace mlt {
 /// direction, they are drawn with the density that they have, given the path. False if the
 /// technique cannot make it.
 bool invert_path(const Scene& scene, const Path& path, const Technique& technique, Rng& rng,
-                 PrimaryNumbers& numbers);
+                 PrimarySamples& numbers);
 
 }  // namespace mlt

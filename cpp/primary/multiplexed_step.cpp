@@ -22,10 +22,8 @@ bool same_path(const MultiplexedState& x, const MultiplexedState& y) {
 /// drawing both anew, given the path, leaves the target unchanged (a Gibbs step).
 /// Bitterli et al. (2018) propose a technique and then accept it with w_s' / w_s.
 Transition MultiplexedStep::keep_path(const State& x, State& y, Rng& rng) {
-  y.numbers = x.numbers;
   y.technique = x.technique;
-  y.clear();
-  paths_(y, rng, path_);
+  paths_.make_from(x.numbers, y, rng, &path_);
   const bool found = y.target > 0;
   y.clear();
   if (!found) return impossible;
@@ -43,9 +41,8 @@ Transition MultiplexedStep::keep_path(const State& x, State& y, Rng& rng) {
 /// technique without a step back would not leave the target unchanged, so that of x is tried too.
 bool MultiplexedStep::remake(const State& x, const Technique& technique, State& y, Rng& rng) {
   y.technique = technique;
-  y.numbers.step(false);
-  if (!invert_path(*paths_.scene, path_, technique, rng, y.numbers)) return false;
-  paths_(y, rng);
+  if (!invert_path(*paths_.scene, path_, technique, rng, inverted_)) return false;
+  paths_.make_from(inverted_, y, rng);
   return same_path(x, y);
 }
 

@@ -9,7 +9,7 @@
 
 #include "markov/step.h"
 #include "path/path_terms.h"
-#include "primary/primary_numbers.h"
+#include "primary/primary_samples.h"
 #include "primary/technique_choice.h"
 
 #include <array>
@@ -17,7 +17,7 @@
 namespace mlt {
 
 struct MultiplexedState {
-  PrimaryNumbers numbers;
+  PrimarySamples numbers;
   Technique technique;
   Vec2 raster{0};
   Color rgb{0};                    ///< f / p, weighted among techniques.
@@ -36,41 +36,56 @@ struct MultiplexedState {
   }
 };
 
-/// Makes the path of the numbers.
+/// The numbers by which a technique makes its path, from those of a whole sample: the first ones of
+/// each stream.
+inline PrimarySamples numbers_of(const Technique& technique, PrimarySamples sample) {
+  std::vector<double>& direct = sample[Stream::direct];
+  if (technique.s == 1)
+    direct.erase(direct.begin(), direct.begin() + count_of<DirectNumbers> * (technique.t - 1));
+  return sample;
+}
+
+/// Makes the path of a state by its technique.
 struct MultiplexedPaths {
   const Scene* scene;
   BidirectionalSampler paths;  ///< Without Russian roulette: the technique fixes the walks.
   SmallStep small_step;
   RayCounts rays = {};
 
-  void operator()(MultiplexedState& state, Rng& rng) {
-    make(state, rng, [](const Connection&) {});
+  /// Makes the path of numbers near x, or of fresh ones if x is nullptr.
+  void operator()(const PrimarySamples* x, MultiplexedState& y, Rng& rng) {
+    make(x, small_step, y, rng, nullptr);
   }
-  /// Makes the path of the numbers, and assembles it in `path`.
-  void operator()(MultiplexedState& state, Rng& rng, Path& path) {
-    make(state, rng, [&](const Connection& c) { paths.assemble(c, path); });
+  /// Makes the path of the numbers u, and assembles it in `path`, if there is one.
+  void make_from(const PrimarySamples& u, MultiplexedState& y, Rng& rng, Path* path = nullptr) {
+    make(&u, no_step, y, rng, path);
   }
 
  private:
-  template <class Found>
-  void make(MultiplexedState& state, Rng& rng, Found&& found) {
-    PrimarySampler sampler(state.numbers, small_step, rng);
-    state.clear();
-    paths.sample_technique(state.technique, sampler, rays, [&](const Connection& c) {
-      state.show(c);
-      found(c);
+  void make(const PrimarySamples* x, const SmallStep& step, MultiplexedState& y, Rng& rng,
+            Path* path) {
+    PrimarySampler sampler(x, y.numbers, step, rng);
+    y.clear();
+    paths.sample_technique(y.technique, sampler, rays, [&](const Connection& c) {
+      y.show(c);
+      if (path) paths.assemble(c, *path);
     });
+    if (x) y.numbers.add_rest(*x);
   }
 };
 
 /// How a chain changes the technique, beside large steps.
 enum class TechniqueChange {
-  keeps_numbers,  ///< The numbers make another path, and move a little (Hachisuka et al. 2014).
+  keeps_numbers,  ///< The numbers make another path (Hachisuka et al. 2014).
   keeps_path      ///< The numbers of the path are found by inversion (Bitterli et al. 2018).
 };
 
 /// Large steps draw technique and numbers afresh, small steps move the numbers a little, and others
 /// change the technique for the same length.
+///
+/// A technique draws the same count of numbers for each path, so small steps are symmetric although
+/// they leave the numbers of other techniques alone. A change of the technique moves no number, and
+/// draws those that are missing afresh.
 class MultiplexedStep {
  public:
   using State = MultiplexedState;
@@ -97,7 +112,11 @@ class MultiplexedStep {
       const int edges = last_ == large ? choice_->sample_length(rng.next()) : chosen.edges();
       chosen = choice_->sample_technique(edges, rng.next());
     }
-    make(x, chosen, last_ == large, y[0], rng);
+    y[0].technique = chosen;
+    if (last_ == technique)
+      paths_.make_from(x.numbers, y[0], rng);
+    else
+      paths_(last_ == large ? nullptr : &x.numbers, y[0], rng);
     return quotients(last_, x, y[0]);
   }
 
@@ -113,19 +132,14 @@ class MultiplexedStep {
     if (u < moves_.large_probability) return large;
     return u < moves_.large_probability + moves_.technique_probability ? technique : small;
   }
-  void make(const State& x, const Technique& chosen, bool is_large, State& y, Rng& rng) {
-    y.technique = chosen;
-    y.numbers = x.numbers;
-    y.numbers.step(is_large);
-    paths_(y, rng);
-  }
   Transition quotients(Move of, const State& x, const State& y) const {
     if (!generated(y)) return impossible;
     return {density(of, y.technique) / y.target, density(of, x.technique) / x.target};
   }
   Transition propose_again(const State& x, const State& y1, State& y2, Rng& rng) {
     if (!moves_.delayed_rejection || last_ != large) return impossible;
-    make(x, x.technique, false, y2, rng);
+    y2.technique = x.technique;
+    paths_(&x.numbers, y2, rng);
     const Transition own = quotients(small, x, y2);
     return after_rejection(own, quotients(large, x, y1), quotients(large, y2, y1));
   }
@@ -146,8 +160,10 @@ class MultiplexedStep {
   MultiplexedPaths paths_;
   const TechniqueChoice* choice_;
   Move last_ = large;
-  Path path_;  ///< Scratch space of keep_path.
+  // Scratch space of keep_path:
+  Path path_;
   PathTerms terms_;
+  PrimarySamples inverted_;
 };
 
 }  // namespace mlt

@@ -4,7 +4,8 @@
 
 #include "markov/step.h"
 #include "math/color.h"
-#include "primary/primary_numbers.h"
+#include "path/ray_counts.h"
+#include "primary/primary_samples.h"
 
 #include <cmath>
 #include <vector>
@@ -18,9 +19,8 @@ struct ImageLight {
   bool own_pixel = true;  ///< At the camera walk's own position, not by light tracing.
 };
 
-template <class Numbers>
-struct StateOf {
-  Numbers numbers;
+struct PrimaryState {
+  PrimarySamples numbers;
   std::vector<ImageLight> light;  ///< Light of all paths of these numbers.
   double target = 0;              ///< Sum of L* of `light`; NaN if the estimator failed.
 
@@ -31,7 +31,6 @@ struct StateOf {
     if (!std::isfinite(target)) target = std::nan("");
   }
 };
-using PrimaryState = StateOf<PrimaryNumbers>;
 
 /// Large steps draw all numbers afresh, small steps move each a little. Both are symmetric, so the
 /// quotients of the step are the targets alone.
@@ -39,7 +38,6 @@ using PrimaryState = StateOf<PrimaryNumbers>;
 /// With delayed rejection (Tierney & Mira 1999) a small step follows a large one that was rejected.
 /// The proposal of a large step does not depend on the state, so its density cancels in the
 /// second stage's quotient, and only the probabilities of rejection remain.
-template <class PrimaryState>
 class PrimaryMoves {
  public:
   using State = PrimaryState;
@@ -78,23 +76,20 @@ class PrimaryMoves {
   Move last_ = large;
 };
 
-/// `evaluate(state, rng)` makes the state's paths.
-template <class PrimaryState, class Evaluate>
-class PrimaryStep : public PrimaryMoves<PrimaryState> {
-  using Moves = PrimaryMoves<PrimaryState>;
-
+/// `evaluate(x, y, rng)` makes the paths of y by PrimarySampler(x, y.numbers, ...); its `rays` are
+/// those that it has traced.
+template <class Evaluate>
+class PrimaryStep : public PrimaryMoves {
  public:
   PrimaryStep(double large_probability, bool delayed_rejection, Evaluate evaluate)
-      : Moves(large_probability, delayed_rejection), evaluate_(std::move(evaluate)) {}
+      : PrimaryMoves(large_probability, delayed_rejection), evaluate_(std::move(evaluate)) {}
 
-  Transition propose(const PrimaryState& x, typename Moves::Proposals& y, size_t stage, Rng& rng) {
-    if (!Moves::choose(stage, rng)) return impossible;
-    y[stage].numbers = x.numbers;
-    y[stage].numbers.step(stage == 0 && Moves::last() == Moves::large);
-    evaluate_(y[stage], rng);
-    return Moves::quotients(x, y, stage);
+  Transition propose(const PrimaryState& x, Proposals& y, size_t stage, Rng& rng) {
+    if (!choose(stage, rng)) return impossible;
+    evaluate_(stage == 0 && last() == large ? nullptr : &x.numbers, y[stage], rng);
+    return quotients(x, y, stage);
   }
-  Evaluate& evaluate() { return evaluate_; }
+  RayCounts& rays() { return evaluate_.rays; }
 
  private:
   Evaluate evaluate_;

@@ -27,14 +27,9 @@ struct SmallStep {
   /// makes less noise in most scenes.
   static constexpr double smallest_share = 1. / 16;
 
-  /// Takes `count` steps in a row.
-  double operator()(double u, uint64_t count, Rng& rng) const {
-    if (shape == Shape::gaussian) {
-      const double sample = rng.next();
-      return gaussian(u, std::sqrt(static_cast<double>(count)), sample, rng.next());
-    }
-    for (; count > 0; --count) u = kelemen(u, rng.next());
-    return u;
+  double operator()(double u, Rng& rng) const {
+    const double sample = rng.next();
+    return shape == Shape::gaussian ? gaussian(u, sample, rng.next()) : kelemen(u, sample);
   }
 
   /// One step by the random number `sample`; |s| lies between the smallest and the largest move,
@@ -44,10 +39,10 @@ struct SmallStep {
     const double move = size * power_of_smallest_share(up ? 2 * sample : 2 * sample - 1);
     return wrapped(u + (up ? move : -move));
   }
-  /// One Gaussian step that is `times` as large, by two random numbers (Box & Muller 1958).
-  double gaussian(double u, double times, double sample, double angle) const {
+  /// One Gaussian step by two random numbers (Box & Muller 1958).
+  double gaussian(double u, double sample, double angle) const {
     const double radius = std::sqrt(-2 * std::log(1 - sample));
-    return wrapped(u + size * times * radius * std::cos(2 * pi * angle));
+    return wrapped(u + size * radius * std::cos(2 * pi * angle));
   }
 
  private:
@@ -66,5 +61,8 @@ struct SmallStep {
     return sqr(sqr(sqr(sqr(root))));
   }
 };
+
+/// Leaves a number as it is.
+inline constexpr SmallStep no_step{SmallStep::Shape::kelemen, 0};
 
 }  // namespace mlt

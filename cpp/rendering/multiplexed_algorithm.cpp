@@ -1,6 +1,5 @@
 #include "rendering/multiplexed_algorithm.h"
 
-#include "primary/technique_numbers.h"
 #include "rendering/path_source.h"
 
 namespace mlt {
@@ -79,8 +78,8 @@ class MultiplexedAlgorithm : public MetropolisAlgorithm {
   std::unique_ptr<Source> source() const override { return std::make_unique<PathSource>(target_); }
   /// Starts from one of the candidate's paths, chosen in proportion to its weight.
   std::unique_ptr<RenderChain> start(const ChainId& id, Rng candidate, Rng choice) const override {
-    PrimaryNumbers drawn;
-    PrimarySampler sampler(drawn, {}, candidate);
+    PrimarySamples drawn;
+    PrimarySampler sampler(nullptr, drawn, {}, candidate);
     const Vec2 raster = target_.scene().camera().raster().sample(sampler.next2());
     MultiplexedState x;
     double sum = 0;
@@ -88,8 +87,7 @@ class MultiplexedAlgorithm : public MetropolisAlgorithm {
       sum += weight;
       if (choice.next() * sum < weight) x.technique = {c.s, c.t};
     });
-    x.numbers = TechniqueNumbers(drawn, candidate).of(x.technique, settings_.rules);
-    paths()(x, choice);
+    paths().make_from(numbers_of(x.technique, std::move(drawn)), x, choice);
     return chain(id, std::move(x));
   }
   std::unique_ptr<RenderChain> blank(const ChainId& id, const FamilyWeights&,

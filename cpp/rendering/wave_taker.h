@@ -46,16 +46,12 @@ class WaveTaker : public SampleTaker {
     const Camera& camera = scene_->camera();
     const Shutter& shutter = camera.shutter();
     WaveNumbers& numbers = wave_.numbers();
-    numbers.next2(0, numbers.count(), &u_x_[0], &u_y_[0]);
+    numbers.read2(numbers.places().next2(), 0, numbers.count(), &u_x_[0], &u_y_[0]);
     for (size_t i = 0; i < rasters_.size(); ++i) rasters_[i] += Vec2(u_x_[i], u_y_[i]);
-    if (camera.delta_position())
-      numbers.skip2();
-    else
-      numbers.next2(0, numbers.count(), &u_x_[0], &u_y_[0]);
-    if (shutter.open == shutter.close)
-      numbers.skip(1);
-    else
-      numbers.next(0, numbers.count(), &u_time_[0]);
+    const auto at = LensNumbersOf<WaveNumbers::Place>::draw(numbers.places());
+    if (!camera.delta_position())
+      numbers.read2(at.position, 0, numbers.count(), &u_x_[0], &u_y_[0]);
+    if (shutter.open != shutter.close) numbers.read(at.time, 0, numbers.count(), &u_time_[0]);
     for (size_t i = 0; i < rasters_.size(); ++i)
       wave_.add(camera.ray(rasters_[i], {u_x_[i], u_y_[i]}, camera.time(u_time_[i])),
                 chain_factor(rasters_[i]));

@@ -63,7 +63,7 @@ void BidirectionalWave::trace(RayCounts& rays) {
   walk_from_lights(rays);
   fall_back_together();
   take_hits();
-  direct_at_ = PixelSampler::Position().begin(Stream::direct);
+  direct_places_ = WaveNumbers::Place().begin(Stream::direct);
   const PathRules& rules = settings_.rules;
   const int most = std::min(camera_.last_place() + 1, rules.most_edges());
   for (int t = 1; t <= most; ++t) {
@@ -83,8 +83,9 @@ void BidirectionalWave::trace(RayCounts& rays) {
 void BidirectionalWave::walk_from_camera(RayCounts& rays) {
   const Camera& camera = scene_->camera();
   camera_.clear(size());
-  numbers_.set_position({});
-  numbers_.next2(0, size(), &u_x_[0], &u_y_[0]);
+  WaveNumbers::Place& places = numbers_.places();
+  places = {};
+  numbers_.read2(places.next2(), 0, size(), &u_x_[0], &u_y_[0]);
   for (int i = 0; i < size(); ++i) {
     rasters_[i] += Vec2(u_x_[i], u_y_[i]);
     seen_[i] = Color(0);
@@ -96,20 +97,18 @@ void BidirectionalWave::walk_from_camera(RayCounts& rays) {
                       static_cast<float>(projection->pdf_direction * cosine), 1, 0,
                       Color(projection->importance / projection->pdf_direction)});
   }
-  numbers_.set_position(numbers_.position().begin(Stream::camera));
-  numbers_.skip2();  // the lens
-  numbers_.skip(1);  // the time
+  places = places.begin(Stream::camera);
+  LensNumbersOf<WaveNumbers::Place>::draw(places);
   camera_.walk(numbers_, settings_.rules.most_edges() + 1, rays);
 }
 
 void BidirectionalWave::walk_from_lights(RayCounts& rays) {
   light_.clear(size());
-  numbers_.set_position(numbers_.position().begin(Stream::light));
-  const PixelSampler::Position at = numbers_.position();
-  for (int begin = 0; begin < size(); begin += block_size) {
-    numbers_.set_position(at);
-    start_at_lights(begin, std::min(block_size, size() - begin));
-  }
+  WaveNumbers::Place& places = numbers_.places();
+  places = places.begin(Stream::light);
+  const auto at = LightNumbersOf<WaveNumbers::Place>::draw(places);
+  for (int begin = 0; begin < size(); begin += block_size)
+    start_at_lights(at, begin, std::min(block_size, size() - begin));
   light_.walk(numbers_, settings_.rules.most_edges(), rays);
 }
 
@@ -119,10 +118,11 @@ inline void BidirectionalWave::draw_light(int sample, int to) {
 }
 
 /// Starts walks at lights, which emit as a Lambertian surface scatters light from above.
-void BidirectionalWave::start_at_lights(int begin, int count) {
-  numbers_.next2(begin, count, &u_x_[begin], &u_y_[begin]);
-  numbers_.next2(begin, count, &lights_.u_x[0], &lights_.u_y[0]);
-  numbers_.next(begin, count, &u_choice_[begin]);
+void BidirectionalWave::start_at_lights(const LightNumbersOf<WaveNumbers::Place>& at, int begin,
+                                        int count) {
+  numbers_.read2(at.position, begin, count, &u_x_[begin], &u_y_[begin]);
+  numbers_.read2(at.direction, begin, count, &lights_.u_x[0], &lights_.u_y[0]);
+  numbers_.read(at.choice, begin, count, &u_choice_[begin]);
   for (int i = 0; i < count; ++i) draw_light(begin + i, i);
   lights_.surface = lights_.light;
   lights_.n = lights_.light.ng;
@@ -159,19 +159,14 @@ void BidirectionalWave::take_hits() {
 
 /// See BidirectionalSampler::choose_direct.
 void BidirectionalWave::choose_direct(int place) {
-  const PixelSampler::Position at = direct_at_;
+  const auto at = DirectNumbersOf<WaveNumbers::Place>::draw(direct_places_);
   for (int begin = 0; begin < size(); begin += block_size) {
     const int count = std::min(block_size, size() - begin);
-    numbers_.set_position(at);
-    numbers_.next2(begin, count, &u_x_[begin], &u_y_[begin]);
-    if (scene_->emitters().size() > 1)
-      numbers_.next(begin, count, &u_choice_[begin]);
-    else
-      numbers_.skip(1);
+    numbers_.read2(at.position, begin, count, &u_x_[begin], &u_y_[begin]);
+    if (scene_->emitters().size() > 1) numbers_.read(at.choice, begin, count, &u_choice_[begin]);
     for (int i = 0; i < count; i += JointLanes::size)
       choose_direct(place, (begin + i) / JointLanes::size, i);
   }
-  direct_at_ = numbers_.position();
 }
 
 /// Samples lights for s = 1 for eight samples, of which the first is number `first` of `lights_`.

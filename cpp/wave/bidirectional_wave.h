@@ -52,7 +52,7 @@ class BidirectionalWave {
 
   void walk_from_camera(RayCounts& rays);
   void walk_from_lights(RayCounts& rays);
-  void start_at_lights(int begin, int count);
+  void start_at_lights(const LightNumbersOf<WaveNumbers::Place>& at, int begin, int count);
   void fall_back_together();
   void take_hits();
   void draw_light(int sample, int to);
@@ -73,7 +73,7 @@ class BidirectionalWave {
   PositionSample lens_;
   SubpathWave camera_, light_;
   WaveNumbers numbers_;
-  PixelSampler::Position direct_at_;  ///< Position of the numbers for s = 1.
+  WaveNumbers::Place direct_places_;  ///< Places of the next numbers for s = 1.
   Samples<Vec2> rasters_;
   Samples<Color> seen_;
   std::vector<Splat> splats_, unseen_;  ///< unseen_: those that wait for shadow rays.

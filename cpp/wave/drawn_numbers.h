@@ -9,9 +9,6 @@ namespace mlt {
 
 class DrawnNumbers {
  public:
-  /// How many numbers a vertex takes (VertexNumbers).
-  static constexpr size_t of_vertex = 7;
-
   class Source {
    public:
     virtual ~Source() = default;
@@ -21,36 +18,38 @@ class DrawnNumbers {
   };
 
   void set_source(Source& source) { source_ = &source; }
-  void clear() { at_ = count_ = 0; }
+  void clear() {
+    next_ = {};
+    count_ = 0;
+  }
   void add() {
     path_[count_] = count_;
     ++count_;
   }
   int count() const { return count_; }
 
-  /// The position of the next numbers, for all paths.
-  size_t position() const { return at_; }
-  void set_position(size_t at) { at_ = at; }
-  void begin_vertex(int begin, int count) {
-    source_->draw(&path_[begin], count, at_, &numbers_[begin]);
+  // See WaveNumbers.
+  struct Place {
+    size_t index = 0;
+    Place next() { return {index++}; }
+    Place next2() { return {(index += 2) - 2}; }
+  };
+  Place& places() { return next_; }
+  void begin_vertex(const Place& at, int begin, int count) {
+    source_->draw(&path_[begin], count, at.index, &numbers_[begin]);
   }
-
-  /// See WaveNumbers::next2.
-  void next2(int begin, int count, double* x, double* y) {
+  void read2(const Place& at, int begin, int count, double* x, double* y) const {
     for (int i = 0; i < count; ++i) {
-      x[i] = numbers_[begin + i][at_];
-      y[i] = numbers_[begin + i][at_ + 1];
+      x[i] = numbers_[begin + i][at.index];
+      y[i] = numbers_[begin + i][at.index + 1];
     }
-    at_ += 2;
   }
-  void skip(size_t numbers) { at_ += numbers; }
-  void skip2() { skip(2); }
-  double peek(int i, size_t ahead) const { return numbers_[i][at_ + ahead]; }
+  double read(const Place& at, int i) const { return numbers_[i][at.index]; }
   void move(int i, int from) { path_[i] = path_[from]; }
 
  private:
   Source* source_ = nullptr;
-  size_t at_ = 0;
+  Place next_;
   int count_ = 0;
   Wave<int> path_;
   Wave<const double*> numbers_;

@@ -18,7 +18,7 @@ void NumberRows::draw(const SmallStep& step) {
     return;
   }
   draw_fresh(0, end, ~0u, angle_);
-  for (int i = 0; i < end; ++i) u_[i] = step.gaussian(x_[i], 1, u_[i], angle_[i]);
+  for (int i = 0; i < end; ++i) u_[i] = step.gaussian(x_[i], u_[i], angle_[i]);
 }
 
 }  // namespace mlt

@@ -4,7 +4,8 @@
 #include "primary/small_step.h"
 #include "wave/lanes.h"
 
-#include <cstring>
+#include <algorithm>
+#include <vector>
 
 namespace mlt {
 
@@ -18,10 +19,13 @@ class NumberRows {
     moving_ = 0;
     fresh_ = capacity;
   }
-  /// Adds a row that is drawn by `key`: near `from`, or afresh if it is nullptr. Returns its index.
-  int add(uint64_t key, const double* from) {
-    const int i = from ? moving_++ : --fresh_;
-    if (from) std::memcpy(&x_[row * i], from, row * sizeof(double));
+  /// Adds a row that is drawn by `key`: near that of x, which has `count` numbers, or afresh if x
+  /// has none or is nullptr. Returns its index.
+  template <size_t count = row>
+  int add(uint64_t key, const std::vector<double>* x) {
+    const bool known = x && x->size() > first_;
+    const int i = known ? moving_++ : --fresh_;
+    if (known) std::copy_n(&(*x)[first_], count, &x_[row * i]);
     const auto low = static_cast<uint32_t>(key) + first_, high = static_cast<uint32_t>(key >> 32);
     for (int k = 0; k < row; ++k) {
       low_[row * i + k] = low + k;

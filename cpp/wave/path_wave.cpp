@@ -19,10 +19,9 @@ void BasicPathWave<Numbers>::trace(RayCounts& rays, bool coherent) {
   for (int depth = 1; live_ > 0; ++depth) {
     find_hits(coherent && depth == 1, rays);
     next_ = 0;
-    const auto at = numbers_.position();
+    at_ = decltype(at_)::draw(numbers_.places());
     for (begin_ = 0; begin_ < live_; begin_ += block_size) {
       count_ = std::min(block_size, live_ - begin_);
-      numbers_.set_position(at);
       shade_block(depth, rays);
     }
     find_shadows(rays);
@@ -68,7 +67,7 @@ void BasicPathWave<Numbers>::find_shadows(RayCounts& rays) {
 template <class Numbers>
 void BasicPathWave<Numbers>::shade_block(int depth, RayCounts& rays) {
   const bool last = depth == rules_.most_edges();
-  if (!last) draw_numbers(depth);
+  if (!last) read_numbers(depth);
   single_count_ = 0;
   for (int i = 0; i < count_; ++i) find_vertex(i, depth);
   if (last) return;
@@ -83,22 +82,19 @@ void BasicPathWave<Numbers>::shade_block(int depth, RayCounts& rays) {
   take_step(depth, rays);
 }
 
-/// Draws the numbers of a vertex (VertexNumbers), except the last three.
+/// Reads the pairs of numbers of a vertex.
 template <class Numbers>
-void BasicPathWave<Numbers>::draw_numbers(int depth) {
-  numbers_.begin_vertex(begin_, count_);
-  const bool lit = rules_.wants(depth + 1);
-  if (lit)
-    numbers_.next2(begin_, count_, &u_light_x_[0], &u_light_y_[0]);
-  else
-    numbers_.skip2();
-  numbers_.next2(begin_, count_, &lambertian_.u_x[0], &lambertian_.u_y[0]);
+void BasicPathWave<Numbers>::read_numbers(int depth) {
+  numbers_.begin_vertex(at_.light, begin_, count_);
+  if (rules_.wants(depth + 1))
+    numbers_.read2(at_.light, begin_, count_, &u_light_x_[0], &u_light_y_[0]);
+  numbers_.read2(at_.direction, begin_, count_, &lambertian_.u_x[0], &lambertian_.u_y[0]);
 }
 
 template <class Numbers>
 Vec3 BasicPathWave<Numbers>::numbers_for_light(int i) const {
   const bool several = scene_->emitters().size() > 1;
-  return {several ? numbers_.peek(begin_ + i, 0) : 0, u_light_x_[i], u_light_y_[i]};
+  return {several ? numbers_.read(at_.choice, begin_ + i) : 0, u_light_x_[i], u_light_y_[i]};
 }
 
 template <class Numbers>
@@ -229,7 +225,6 @@ void BasicPathWave<Numbers>::take_step(int depth, RayCounts& rays) {
     path_[next_] = path_[begin_ + i];
     numbers_.move(next_++, begin_ + i);
   }
-  numbers_.skip(3);
 }
 
 /// See scatter() of path_tracer.h; for a Lambertian vertex.
@@ -238,7 +233,8 @@ bool BasicPathWave<Numbers>::scatter_lambertian(int i, int depth, CameraWalk& wa
   const double pdf = lambertian_.scatter_pdf[i];
   walk.throughput *= *lambertian_.f[i] * pi;
   if (!(pdf > 0) || vanishes(walk.throughput)) return false;
-  if (depth >= rules_.rr_depth && !survive(rules_, depth, numbers_.peek(begin_ + i, 2), walk))
+  if (depth >= rules_.rr_depth &&
+      !survive(rules_, depth, numbers_.read(at_.roulette, begin_ + i), walk))
     return false;
   walk.scatter_pdf = pdf;
   walk.delta = false;
@@ -253,9 +249,9 @@ bool BasicPathWave<Numbers>::scatter_other(int i, int depth, CameraWalk& walk, R
   if (single_[i] < 0) return false;
   const VertexNumbers numbers{{u_light_x_[i], u_light_y_[i]},
                               {lambertian_.u_x[i], lambertian_.u_y[i]},
-                              numbers_.peek(begin_ + i, 0),
-                              numbers_.peek(begin_ + i, 1),
-                              numbers_.peek(begin_ + i, 2)};
+                              numbers_.read(at_.choice, begin_ + i),
+                              numbers_.read(at_.lobe, begin_ + i),
+                              numbers_.read(at_.roulette, begin_ + i)};
   return scatter(Walker{*scene_, walk.ray.time, rays}, rules_, depth, singles_[single_[i]].at,
                  numbers, walk);
 }

@@ -33,7 +33,7 @@ class BasicPathWave {
   template <class Sampler>
   void add(const Ray& ray, const Sampler& sampler) {
     numbers_.add(sampler.stream(), sampler.index());
-    numbers_.set_position(sampler.position());
+    numbers_.places() = sampler.position();
     add(ray);
   }
   size_t size() const { return walks_.size(); }
@@ -65,7 +65,7 @@ class BasicPathWave {
 
   // Functions of the `count_` paths from the begin_-th one on:
   void shade_block(int depth, RayCounts& rays);
-  void draw_numbers(int depth);
+  void read_numbers(int depth);
   Vec3 numbers_for_light(int i) const;
   void find_vertex(int i, int depth);
   void find_bright_or_other(int i, const Hit& hit, int depth);
@@ -98,6 +98,7 @@ class BasicPathWave {
   Wave<bool> exact_;  ///< Whether its walk has the ray in double precision.
   PacketHits hits_[wave_size / RayPacket::size];
   Numbers numbers_;
+  VertexNumbersOf<typename Numbers::Place> at_;  ///< The places of the numbers of this step.
   int next_ = 0;  ///< How many take the next step; they are compacted.
 
   // Values of each path of the block:

@@ -49,10 +49,9 @@ void SubpathWave::walk(const WaveNumbers& numbers, int most, RayCounts& rays) {
     open(place);
     find_hits(place == 1 && !from_light_, rays);
     next_ = 0;
-    const PixelSampler::Position at = numbers_.position();
+    at_ = decltype(at_)::draw(numbers_.places());
     for (begin_ = 0; begin_ < live_; begin_ += block_size) {
       count_ = std::min(block_size, live_ - begin_);
-      numbers_.set_position(at);
       shade(place, place + 1 == most);
     }
     live_ = next_;
@@ -79,7 +78,8 @@ void SubpathWave::find_hits(bool coherent, RayCounts& rays) {
 }
 
 void SubpathWave::shade(int place, bool last) {
-  if (!last) numbers_.next2(begin_, count_, &lambertian_.u_x[0], &lambertian_.u_y[0]);
+  if (!last)
+    numbers_.read2(at_.direction, begin_, count_, &lambertian_.u_x[0], &lambertian_.u_y[0]);
   for (int i = 0; i < count_; ++i) find_vertex(i);
   lambertian_.find_textures();
   lambertian_.find_points(count_, &d_.x[begin_], &d_.y[begin_], &d_.z[begin_],
@@ -183,14 +183,13 @@ void SubpathWave::take_steps(int place) {
     throughput_[n] = throughput_[k] * ratio;
     numbers_.move(n, k);
   }
-  numbers_.skip(rules_.rr_depth == PathRules::no_roulette ? 1 : 2);
 }
 
 /// Russian roulette; false ends the walk.
 inline bool SubpathWave::survive(int i, int place, Color& ratio) {
   if (place < rules_.rr_depth) return true;
   const double survival = std::min(max_component(ratio), 0.95);
-  if (!(numbers_.peek(begin_ + i, 1) < survival)) return false;
+  if (!(numbers_.read(at_.roulette, begin_ + i) < survival)) return false;
   ratio /= survival;
   return true;
 }

@@ -92,7 +92,8 @@ class SubpathWave {
   Samples<Color> throughput_;
   PacketHits found_[capacity / RayPacket::size];
   WaveNumbers numbers_;
-  int next_ = 0;  ///< How many take the next step; they are compacted.
+  StepNumbersOf<WaveNumbers::Place> at_;  ///< The places of the numbers of this step.
+  int next_ = 0;                          ///< How many take the next step; they are compacted.
 
   // Values of each walk of the block:
   int begin_ = 0, count_ = 0;

@@ -6,19 +6,19 @@
 
 namespace mlt {
 
-class WalkStep : public PrimaryMoves<WalkState> {
+class WalkStep : public PrimaryMoves {
  public:
   WalkStep(double large_probability, bool delayed_rejection)
       : PrimaryMoves(large_probability, delayed_rejection) {}
 
   /// Adds this stage's proposal to the wave, if there is one.
-  void prepare(const WalkState& x, Proposals& y, size_t stage, Rng& rng, WalkWave& wave) {
+  void prepare(const PrimaryState& x, Proposals& y, size_t stage, Rng& rng, WalkWave& wave) {
     proposed_[stage] = choose(stage, rng) && (stage == 0 || !(acceptance(quotients(x, y[0])) >= 1));
     if (proposed_[stage])
       wave.add(x, stage == 0 && last() == large, rng.next_bits(), y[stage], rays_);
   }
   /// The transition to this stage's proposal, after it was traced.
-  Transition propose(const WalkState& x, const Proposals& y, size_t stage, Rng&) const {
+  Transition propose(const PrimaryState& x, const Proposals& y, size_t stage, Rng&) const {
     return proposed_[stage] ? quotients(x, y, stage) : impossible;
   }
   RayCounts& rays() { return rays_; }

@@ -1,43 +1,66 @@
 #include "wave/walk_wave.h"
 
 namespace mlt {
+namespace {
+
+/// The image position, the lens and the time.
+constexpr size_t of_camera = count_of<Vec2> + count_of<LensNumbers>;
+
+/// Reads numbers one after the other.
+struct Reader {
+  const double* u;
+
+  double next() { return *u++; }
+  Vec2 next2() {
+    const double x = next();
+    return {x, next()};
+  }
+};
+
+}  // namespace
 
 WalkWave::WalkWave(const Scene& scene, const PathRules& rules, const SmallStep& small_step)
     : camera_(&scene.camera()), small_step_(small_step), wave_(scene, rules) {
   wave_.numbers().set_source(*this);
 }
 
-template <class Get>
-void WalkWave::draw(int count, size_t first, size_t numbers, Get&& get) {
+template <size_t numbers, class Get>
+void WalkWave::draw(int count, size_t first, Get&& get) {
   Block<int> row;
   rows_.begin(first);
   for (int i = 0; i < count; ++i) {
     const Proposal& proposal = get(i);
-    row[i] = rows_.add(proposal.key, proposal.from ? proposal.from->row(first) : nullptr);
+    row[i] = rows_.add<numbers>(proposal.key, proposal.from);
   }
   rows_.draw(small_step_);
-  for (int i = 0; i < count; ++i) get(i).y->numbers.end_with(rows_[row[i]], first, numbers);
+  for (int i = 0; i < count; ++i) {
+    std::vector<double>& y = get(i).numbers();
+    get(i).length = first + numbers;
+    if (y.size() < first + numbers) y.resize(first + numbers);
+    std::copy_n(rows_[row[i]], numbers, &y[first]);
+  }
 }
 
 void WalkWave::draw(const int* paths, int count, size_t first, const double** numbers) {
-  const auto get = [&](int i) -> const Proposal& { return proposals_[paths[i]]; };
-  draw(count, first, DrawnNumbers::of_vertex, get);
-  for (int i = 0; i < count; ++i) numbers[i] = get(i).y->numbers.data();
+  const auto get = [&](int i) -> Proposal& { return proposals_[paths[i]]; };
+  draw<count_of<VertexNumbers>>(count, first, get);
+  for (int i = 0; i < count; ++i) numbers[i] = get(i).numbers().data();
 }
 
 void WalkWave::leave_camera() {
   const int all = static_cast<int>(proposals_.size());
   for (int begin = 0; begin < all; begin += block_size)
-    draw(std::min(block_size, all - begin), 0, of_camera,
-         [&](int i) -> const Proposal& { return proposals_[begin + i]; });
+    draw<of_camera>(std::min(block_size, all - begin), 0,
+                    [&](int i) -> Proposal& { return proposals_[begin + i]; });
   rasters_.clear();
   for (const Proposal& proposal : proposals_) {
-    const double* u = proposal.y->numbers.data();
-    rasters_.push_back(camera_->raster().sample({u[0], u[1]}));
+    Reader numbers{proposal.numbers().data()};
+    rasters_.push_back(camera_->raster().sample(numbers.next2()));
+    const LensNumbers lens = LensNumbers::draw(numbers);
     wave_.numbers().add();
-    wave_.add(camera_->ray(rasters_.back(), {u[2], u[3]}, camera_->time(u[4])));
+    wave_.add(camera_->ray(rasters_.back(), lens.position, camera_->time(lens.time)));
   }
-  wave_.numbers().set_position(of_camera);
+  wave_.numbers().places() = {of_camera};
 }
 
 void WalkWave::trace() {
@@ -47,7 +70,8 @@ void WalkWave::trace() {
   const Raster& image = camera_->raster();
   const double scale = image.sampled_area() / image.pixels();
   for (size_t i = 0; i < proposals_.size(); ++i) {
-    WalkState& y = *proposals_[i].y;
+    PrimaryState& y = *proposals_[i].y;
+    proposals_[i].numbers().resize(proposals_[i].length);
     y.light.clear();
     if (!is_black(wave_.radiance(i))) y.light.push_back({rasters_[i], wave_.radiance(i) * scale});
     y.find_target();

@@ -2,16 +2,14 @@
 #pragma once
 
 #include "primary/primary_step.h"
+#include "wave/number_rows.h"
 #include "wave/path_wave.h"
-#include "wave/walk_numbers.h"
 
 #include <vector>
 
 namespace mlt {
 
-/// A state: the numbers of a walk, and the light that it finds at its own image position.
-using WalkState = StateOf<WalkNumbers>;
-
+/// The states have numbers of the walk from the camera alone, and light at its own image position.
 class WalkWave : private DrawnNumbers::Source {
  public:
   static constexpr size_t capacity = BasicPathWave<DrawnNumbers>::capacity;
@@ -20,8 +18,8 @@ class WalkWave : private DrawnNumbers::Source {
 
   /// Adds a proposal from x, to be stored in y, by the random numbers of `key`: a small step, or a
   /// large one. `rays` counts its rays.
-  void add(const WalkState& x, bool large, uint64_t key, WalkState& y, RayCounts& rays) {
-    proposals_.push_back({key, large ? nullptr : &x.numbers, &y, &rays});
+  void add(const PrimaryState& x, bool large, uint64_t key, PrimaryState& y, RayCounts& rays) {
+    proposals_.push_back({key, large ? nullptr : &x.numbers[Stream::camera], &y, &rays, 0});
   }
   /// Traces all proposals that were added, and clears the wave.
   void trace();
@@ -29,19 +27,18 @@ class WalkWave : private DrawnNumbers::Source {
  private:
   struct Proposal {
     uint64_t key;
-    const WalkNumbers* from;
-    WalkState* y;
+    const std::vector<double>* from;
+    PrimaryState* y;
     RayCounts* rays;
+    size_t length;  ///< How many numbers it has drawn; its buffer may hold more.
+    std::vector<double>& numbers() const { return y->numbers[Stream::camera]; }
   };
-
-  /// Numbers of the image position, the lens and the time.
-  static constexpr size_t of_camera = 5;
 
   void leave_camera();
   void draw(const int* paths, int count, size_t first, const double** numbers) override;
   /// Draws `numbers` numbers, from the first-th on, of the proposals get(0), ..., get(count - 1).
-  template <class Get>
-  void draw(int count, size_t first, size_t numbers, Get&& get);
+  template <size_t numbers, class Get>
+  void draw(int count, size_t first, Get&& get);
 
   const Camera* camera_;
   SmallStep small_step_;

@@ -10,7 +10,7 @@ class WaveNumbers {
  public:
   void clear() {
     count_ = 0;
-    at_ = {};
+    next_ = {};
   }
   void add(uint64_t stream, uint32_t index) {
     stream_[count_] = stream;
@@ -18,21 +18,19 @@ class WaveNumbers {
     index_[count_++] = index;
   }
   int count() const { return count_; }
-  /// Sets the position of the next numbers, for all samples.
-  void set_position(const PixelSampler::Position& at) { at_ = at; }
 
-  const PixelSampler::Position& position() const { return at_; }
-  /// To be called before the numbers of a vertex are taken.
-  void begin_vertex(int /*begin*/, int /*count*/) {}
+  /// The place of a number, or of a pair, among those of each sample.
+  using Place = PixelSampler::Position;
+  /// The place of the next numbers, for all samples: a sampler of places.
+  Place& places() { return next_; }
+  /// To be called before the numbers of a vertex, from this place on, are read.
+  void begin_vertex(const Place&, int /*begin*/, int /*count*/) {}
 
-  /// The next numbers of the `count` samples from the begin-th on; advances the position, as a
-  /// sampler does.
-  void next(int begin, int count, double* x);
-  void next2(int begin, int count, double* x, double* y);
-  void skip(uint32_t numbers) { at_.words += numbers; }
-  void skip2();
-  /// The number that next() would give the i-th sample, `ahead` calls later.
-  double peek(int i, uint32_t ahead) const { return word(i, at_.words + ahead); }
+  /// Reads the numbers at a place of the `count` samples from the begin-th on.
+  void read(const Place& at, int begin, int count, double* x) const;
+  void read2(const Place& at, int begin, int count, double* x, double* y) const;
+  /// The number at a place of the i-th sample.
+  double read(const Place& at, int i) const { return word(i, at.words); }
 
   /// Moves the sample at `from` to the i-th place.
   void move(int i, int from) {
@@ -45,7 +43,7 @@ class WaveNumbers {
   double word(int i, uint64_t n) const { return unit_interval(nth_bits(key_[i], n)); }
 
   int count_ = 0;
-  PixelSampler::Position at_;
+  Place next_;
   Wave<uint64_t> stream_, key_;
   Wave<uint32_t> index_;
 };

@@ -27,7 +27,7 @@ TEST(SmallStep, IsSymmetricAndFollowsItsDensity) {
     std::vector<double> observed(2 * cells), expected(2 * cells, n / (2.0 * cells));
     Rng rng(51, Purpose::test, 0);
     for (int i = 0; i < n; ++i) {
-      const double v = SmallStep()(u, 1, rng);
+      const double v = SmallStep()(u, rng);
       ASSERT_GE(v, 0);
       ASSERT_LT(v, 1);
       double s = v - u;
@@ -47,14 +47,14 @@ TEST(SmallStep, NeverReachesOne) {
   // Just less than 0 wraps to what is rounded to 1.
   for (uint64_t stream = 0; stream < 1000; ++stream) {
     Rng rng(52, Purpose::test, stream), same = rng;
-    const double from_zero = SmallStep()(0, 1, same);
+    const double from_zero = SmallStep()(0, same);
     if (from_zero < 0.5) continue;  // a step upwards
     Rng probe = rng;
     const double sample = probe.next();
     double u = 1. / 32 * std::exp(-std::log(16.0) * (2 * sample - 1));
     for (int i = 0; i < 4; ++i, u = std::nextafter(u, 0)) {
       Rng again = rng;
-      const double v = SmallStep()(u, 1, again);
+      const double v = SmallStep()(u, again);
       ASSERT_GE(v, 0);
       ASSERT_LT(v, 1);
     }
@@ -63,24 +63,29 @@ TEST(SmallStep, NeverReachesOne) {
 
 // ---- one step of a kernel
 
-/// A state that also knows the numbers that it has used.
-struct WalkState {
-  PrimaryNumbers numbers;
-  std::vector<double> used;
-  double target = 0;
-};
+/// The numbers of a state, in the order in which walk_with() draws them.
+std::vector<double> used(const PrimaryState& x) {
+  const auto &camera = x.numbers[Stream::camera], &light = x.numbers[Stream::light];
+  std::vector<double> all;
+  for (size_t i = 0; i < camera.size(); ++i) {
+    if (i > 0) all.push_back(light[i - 1]);
+    all.push_back(camera[i]);
+  }
+  return all;
+}
+size_t used_count(const PrimaryState& x) {
+  return x.numbers[Stream::camera].size() + x.numbers[Stream::light].size();
+}
 
 constexpr SmallStep steps[] = {{}, {SmallStep::Shape::gaussian, 0.02}};
 
 /// A walk that uses two more numbers per bounce, of two streams, and ends when one of them says so.
 /// Its value may be 0.
-void walk_with(const SmallStep& step, WalkState& state, Rng& rng) {
-  PrimarySampler sampler(state.numbers, step, rng);
-  state.used.clear();
+void walk_with(const SmallStep& step, const PrimarySamples* x, PrimaryState& y, Rng& rng) {
+  PrimarySampler sampler(x, y.numbers, step, rng);
   const auto next = [&](Stream stream) {
     sampler.begin(stream);
-    state.used.push_back(sampler.next());
-    return state.used.back();
+    return sampler.next();
   };
   double throughput = 1 + next(Stream::camera), value = 0;
   for (int bounce = 0; bounce < 8; ++bounce) {
@@ -89,25 +94,26 @@ void walk_with(const SmallStep& step, WalkState& state, Rng& rng) {
     if (u > 0.3) value += throughput;
     if (next(Stream::camera) > 0.5 + 0.3 * u) break;
   }
-  state.target = value;
+  y.target = value;
 }
-void walk(WalkState& state, Rng& rng) { walk_with({}, state, rng); }
+void walk(const PrimarySamples* x, PrimaryState& y, Rng& rng) { walk_with({}, x, y, rng); }
 
-using Kernel = PrimaryStep<WalkState, std::function<void(WalkState&, Rng&)>>;
+using Kernel = PrimaryStep<std::function<void(const PrimarySamples* x, PrimaryState& y, Rng& rng)>>;
 
 /// What is observed of a state.
-std::vector<double> observe(const WalkState& s) {
-  const double count = static_cast<double>(s.used.size());
-  return {std::cos(2 * pi * s.used[0]),
-          std::sin(2 * pi * s.used[0]),
-          s.used[0] < 0.25 ? 1. : 0.,
+std::vector<double> observe(const PrimaryState& s) {
+  const std::vector<double> u = used(s);
+  const double count = static_cast<double>(u.size());
+  return {std::cos(2 * pi * u[0]),
+          std::sin(2 * pi * u[0]),
+          u[0] < 0.25 ? 1. : 0.,
           count,
           count == 3 ? 1. : 0.,
           count == 5 ? 1. : 0.,
-          s.used.back(),
-          std::cos(2 * pi * s.used.back()),
-          s.used[1],
-          std::sin(2 * pi * s.used[1]),
+          u.back(),
+          std::cos(2 * pi * u.back()),
+          u[1],
+          std::sin(2 * pi * u[1]),
           std::log(s.target),
           s.target < 0.5 ? 1. : 0.};
 }
@@ -124,20 +130,20 @@ Invariance invariance(Kernel kernel, int n = 300'000, int steps = 1) {
   std::vector<Moments> differences;
   Rng rng(53, Purpose::test, 0);
   for (int i = 0; i < n; ++i) {
-    WalkState x;
-    walk(x, rng);
+    PrimaryState x;
+    walk(nullptr, x, rng);
     const double weight = x.target;  // the numbers' density is 1
     std::vector<double> change(observe(x).size());
     if (weight > 0) {
-      const size_t before = x.used.size();
-      std::array<WalkState, 2> y;
+      const size_t before = used_count(x);
+      std::array<PrimaryState, 2> y;
       const std::vector<double> g = observe(x);
       for (int k = 0; k < steps; ++k) {
         const StepResult step = metropolis_step(x, y, kernel, rng, forget);
         EXPECT_FALSE(step.invalid);
         if (step.accepted >= 0) ++out.accepted;
       }
-      if (x.used.size() != before) ++out.dimension_changed;
+      if (used_count(x) != before) ++out.dimension_changed;
       const std::vector<double> h = observe(x);
       for (size_t k = 0; k < g.size(); ++k) change[k] = weight * (h[k] - g[k]);
     }
@@ -151,8 +157,9 @@ Invariance invariance(Kernel kernel, int n = 300'000, int steps = 1) {
 TEST(PrimaryStep, LeavesItsTargetUnchanged) {
   for (const SmallStep& step : steps)
     for (const double large : {1.0, 0.3, 0.0}) {
-      const Kernel kernel(large, false,
-                          [&](WalkState& state, Rng& rng) { walk_with(step, state, rng); });
+      const Kernel kernel(large, false, [&](const PrimarySamples* x, PrimaryState& y, Rng& rng) {
+        walk_with(step, x, y, rng);
+      });
       const Invariance result = invariance(kernel);
       EXPECT_GT(result.p_value, alpha) << large;
       EXPECT_GT(result.accepted, 50'000) << large;
@@ -160,8 +167,8 @@ TEST(PrimaryStep, LeavesItsTargetUnchanged) {
     }
 }
 
-/// Several steps: numbers that were not used in between have to catch up.
-TEST(PrimaryStep, LeavesItsTargetUnchangedWhenNumbersAreMovedLater) {
+/// Several steps: numbers that were dropped in between are drawn again.
+TEST(PrimaryStep, LeavesItsTargetUnchangedOverSeveralSteps) {
   for (const double large : {0.2, 0.0}) {
     const Invariance result = invariance(Kernel(large, false, walk), 60'000, 12);
     EXPECT_GT(result.p_value, alpha) << large;
@@ -181,12 +188,13 @@ TEST(PrimaryStep, LeavesItsTargetUnchangedWithDelayedRejection) {
 /// A second stage that forgets that the first was rejected.
 struct Forgetful {
   Kernel kernel{1, true, walk};
-  Kernel small{0, false, [](WalkState& state, Rng& rng) {
-                 walk_with({SmallStep::Shape::gaussian, 0.2}, state, rng);
+  Kernel small{0, false, [](const PrimarySamples* x, PrimaryState& y, Rng& rng) {
+                 walk_with({SmallStep::Shape::gaussian, 0.2}, x, y, rng);
                }};
-  Transition propose(const WalkState& x, std::array<WalkState, 2>& y, size_t stage, Rng& rng) {
+  Transition propose(const PrimaryState& x, std::array<PrimaryState, 2>& y, size_t stage,
+                     Rng& rng) {
     if (stage == 0) return kernel.propose(x, y, 0, rng);
-    std::array<WalkState, 2> own;
+    std::array<PrimaryState, 2> own;
     const Transition t = small.propose(x, own, 0, rng);
     y[1] = own[0];
     return t;
@@ -202,7 +210,8 @@ template <class Spoil>
 struct SpoiltQuotient {
   Kernel kernel;
   Spoil spoil;
-  Transition propose(const WalkState& x, std::array<WalkState, 2>& y, size_t stage, Rng& rng) {
+  Transition propose(const PrimaryState& x, std::array<PrimaryState, 2>& y, size_t stage,
+                     Rng& rng) {
     const Transition t = kernel.propose(x, y, stage, rng);
     return stage > 0 || y[0].target == 0 ? t : spoil(t, x, y[0]);
   }
@@ -221,26 +230,26 @@ TEST(PrimaryStep, WithAWrongQuotientIsFound) {
               alpha);
     // Counting the numbers as if they were not of density 1.
     EXPECT_LT(invariance(spoilt(large,
-                                [](Transition t, const WalkState& x, const WalkState& y) {
-                                  return Transition{t.forward * std::pow(1.1, y.used.size()),
-                                                    t.backward * std::pow(1.1, x.used.size())};
+                                [](Transition t, const PrimaryState& x, const PrimaryState& y) {
+                                  return Transition{t.forward * std::pow(1.1, used_count(y)),
+                                                    t.backward * std::pow(1.1, used_count(x))};
                                 }))
                   .p_value,
               alpha);
   }
 }
 
-/// Small steps with a flaw: flaw(x's numbers) gives those of y.
+/// Small steps with a flaw: flaw(numbers, rng) changes those of x into those of y.
 template <class Flaw>
 struct Flawed {
   Flaw flaw;
-  Transition propose(const WalkState& x, std::array<WalkState, 2>& proposals, size_t stage,
+  Transition propose(const PrimaryState& x, std::array<PrimaryState, 2>& proposals, size_t stage,
                      Rng& rng) {
     if (stage > 0) return impossible;
-    WalkState& y = proposals[0];
-    y.numbers = x.numbers;
-    flaw(x, y, rng);
-    walk(y, rng);
+    PrimaryState& y = proposals[0];
+    PrimarySamples numbers = x.numbers;
+    flaw(numbers, rng);
+    walk_with(no_step, &numbers, y, rng);
     if (y.target == 0) return impossible;
     return {1 / y.target, 1 / x.target};
   }
@@ -251,34 +260,33 @@ Flawed<Flaw> flawed(Flaw flaw) {
 }
 
 TEST(PrimaryStep, WithALopsidedStepIsFound) {
-  EXPECT_LT(invariance(flawed([](const WalkState& x, WalkState& y, Rng& rng) {
-              for (size_t i = 0; i < x.used.size() / 2; ++i) {
-                const double u = x.used[2 * i + 1];
-                const double v = SmallStep()(u, 1, rng);
+  EXPECT_LT(invariance(flawed([](PrimarySamples& numbers, Rng& rng) {
+              for (double& u : numbers[Stream::light]) {
+                const double v = SmallStep()(u, rng);
                 const bool down = v < u && u - v < 0.5;
-                y.numbers.set(Stream::light, i, down && rng.next() < 0.2 ? u : v);
+                if (!(down && rng.next() < 0.2)) u = v;
               }
             })).p_value,
             alpha);
 }
 
 TEST(PrimaryStep, ThatContinuesWithNumbersThatAreNotUniformIsFound) {
-  EXPECT_LT(invariance(flawed([](const WalkState& x, WalkState& y, Rng& rng) {
-              y.numbers = {};
-              for (size_t i = 0; i < 10; ++i)
-                y.numbers.set(Stream::light, i,
-                              2 * i + 1 < x.used.size() ? SmallStep()(x.used[2 * i + 1], 1, rng)
-                                                        : std::sqrt(rng.next()));
+  EXPECT_LT(invariance(flawed([](PrimarySamples& numbers, Rng& rng) {
+              std::vector<double> light = std::move(numbers[Stream::light]);
+              for (double& u : light) u = SmallStep()(u, rng);
+              while (light.size() < 10) light.push_back(std::sqrt(rng.next()));
+              numbers = {};
+              numbers[Stream::light] = std::move(light);
             })).p_value,
             alpha);
 }
 
 TEST(PrimaryStep, MovesEveryNumberALittleOrDrawsAllAfresh) {
   Rng rng(54, Purpose::test, 0);
-  WalkState x;
-  do walk(x, rng);
+  PrimaryState x;
+  do walk(nullptr, x, rng);
   while (x.target == 0);
-  std::array<WalkState, 2> y;
+  std::array<PrimaryState, 2> y;
   Kernel kernel(0.3, false, walk);
   int large = 0;
   for (int i = 0; i < 10'000; ++i) {
@@ -287,8 +295,9 @@ TEST(PrimaryStep, MovesEveryNumberALittleOrDrawsAllAfresh) {
       ++large;
       continue;
     }
-    for (size_t k = 0; k < std::min(x.used.size(), y[0].used.size()); ++k) {
-      const double distance = std::abs(x.used[k] - y[0].used[k]);
+    const std::vector<double> u = used(x), v = used(y[0]);
+    for (size_t k = 0; k < std::min(u.size(), v.size()); ++k) {
+      const double distance = std::abs(u[k] - v[k]);
       EXPECT_LE(std::min(distance, 1 - distance), 1. / 32 + 1e-15);
     }
   }
@@ -296,43 +305,47 @@ TEST(PrimaryStep, MovesEveryNumberALittleOrDrawsAllAfresh) {
 }
 
 TEST(PrimaryStep, RejectsWhatIsBlack) {
-  Kernel kernel(1, false, [](WalkState& state, Rng&) { state.target = 0; });
-  WalkState x;
+  Kernel kernel(1, false, [](auto*, PrimaryState& y, Rng&) { y.target = 0; });
+  PrimaryState x;
   x.target = 1;
-  std::array<WalkState, 2> y;
+  std::array<PrimaryState, 2> y;
   Rng rng(55, Purpose::test, 0);
   EXPECT_EQ(acceptance(kernel.propose(x, y, 0, rng)), 0);
 }
 
 // ---- numbers
 
-TEST(PrimaryNumbers, CatchUpWithTheStepsThatTheyHaveMissed) {
+TEST(PrimarySamples, AreThoseThatWereDrawnLast) {
   Rng rng(56, Purpose::test, 0);
-  const SmallStep gaussian = steps[1];
-  Moments squares;
-  for (int i = 0; i < 20'000; ++i) {
-    PrimaryNumbers numbers;
-    numbers.set(Stream::camera, 0, 0.5);
-    for (int k = 0; k < 9; ++k) numbers.step(false);
-    squares.add(sqr(numbers.get(Stream::camera, 0, gaussian, rng) - 0.5));
-  }
-  EXPECT_NEAR(squares.mean(), 9 * sqr(gaussian.size), 5 * std::sqrt(squares.variance_of_mean()));
+  PrimarySamples x, y;
+  x[Stream::light] = {0.25, 0.5, 0.75};
+  x[Stream::direct] = {0.5};
+  PrimarySampler sampler(&x, y, no_step, rng);
+  const double fresh = sampler.next();
+  sampler.begin(Stream::light);
+  EXPECT_EQ(sampler.next(), 0.25);
+  sampler.begin(Stream::camera);
+  const double fresh_again = sampler.next();
+  sampler.begin(Stream::light);
+  EXPECT_EQ(sampler.next(), 0.5);
+  EXPECT_EQ(y[Stream::camera], std::vector({fresh, fresh_again}));
+  EXPECT_EQ(y[Stream::light], std::vector({0.25, 0.5}));
+  EXPECT_TRUE(y[Stream::direct].empty());
 }
 
-TEST(PrimaryNumbers, AreReadBackAsTheyWere) {
+TEST(PrimarySamples, AreReadBackAsTheyWere) {
   Rng rng(57, Purpose::test, 0);
-  PrimaryNumbers numbers;
-  for (size_t i = 0; i < 5; ++i) numbers.get(Stream::direct, i, {}, rng);
-  numbers.step(false);
+  PrimaryState x;
+  walk(nullptr, x, rng);
   ByteWriter bytes;
-  numbers.save(bytes);
-  PrimaryNumbers same;
+  x.numbers.save(bytes);
   const std::string saved = bytes.take();
   ByteReader reader(saved);
+  PrimarySamples same;
   same.load(reader);
-  Rng twin = rng;
-  for (size_t i = 0; i < 5; ++i)
-    EXPECT_EQ(numbers.get(Stream::direct, i, {}, rng), same.get(Stream::direct, i, {}, twin));
+  reader.finish();
+  for (const Stream stream : {Stream::camera, Stream::light, Stream::direct})
+    EXPECT_EQ(same[stream], x.numbers[stream]);
 }
 
 }  // namespace

@@ -28,16 +28,17 @@ TEST(SmallStep, IsAsLongAsItsExponentialSays) {
 TEST(NumberRows, AreTheSameInWhateverPlace) {
   for (const auto shape : {SmallStep::Shape::kelemen, SmallStep::Shape::gaussian}) {
     const SmallStep step{shape, 1. / 32};
-    const double x[NumberRows::row] = {0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.75, 1 - 0x1p-53};
+    std::vector<double> x(12);
+    for (const double u : {0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.75, 1 - 0x1p-53}) x.push_back(u);
     NumberRows alone, together;
-    for (const double* from : {static_cast<const double*>(nullptr), x}) {
+    for (const std::vector<double>* from : {static_cast<decltype(&x)>(nullptr), &x}) {
       alone.begin(12);
       const int a = alone.add(77, from);
       alone.draw(step);
       together.begin(12);
-      for (int i = 0; i < 5; ++i) together.add(i, i % 2 ? x : nullptr);
+      for (int i = 0; i < 5; ++i) together.add(i, i % 2 ? &x : nullptr);
       const int b = together.add(77, from);
-      while (together.size() < NumberRows::capacity) together.add(together.size(), x);
+      while (together.size() < NumberRows::capacity) together.add(together.size(), &x);
       together.draw(step);
       for (int k = 0; k < NumberRows::row; ++k) {
         EXPECT_EQ(alone[a][k], together[b][k]);
@@ -71,15 +72,17 @@ TEST(NumberRows, AreUniformAndDifferForEachKeyAndPlace) {
 
 // ---- walks
 
+const std::vector<double>& numbers_of(const PrimaryState& x) { return x.numbers[Stream::camera]; }
+
 /// Reads the numbers of a walk.
 struct WalkReader {
-  const WalkNumbers& numbers;
+  const std::vector<double>& numbers;
   size_t used = 0;
 
   void begin(Stream) {}
   double next() {
     EXPECT_LT(used, numbers.size());
-    return numbers.data()[used++];
+    return numbers[used++];
   }
   Vec2 next2() {
     const double x = next();
@@ -89,8 +92,8 @@ struct WalkReader {
 
 /// What a sampler's numbers show.
 template <class Sampler>
-WalkState walk_of(const Scene& scene, const PathRules& rules, Sampler&& sampler) {
-  WalkState x;
+PrimaryState walk_of(const Scene& scene, const PathRules& rules, Sampler&& sampler) {
+  PrimaryState x;
   RayCounts rays;
   const Raster& image = scene.camera().raster();
   const Vec2 raster = image.sample(sampler.next2());
@@ -102,14 +105,14 @@ WalkState walk_of(const Scene& scene, const PathRules& rules, Sampler&& sampler)
   return x;
 }
 
-WalkState fresh_walk(const Scene& scene, const PathRules& rules, Rng& rng) {
-  WalkNumbers numbers;
-  WalkState x = walk_of(scene, rules, WalkNumbersSampler(numbers, rng));
+PrimaryState fresh_walk(const Scene& scene, const PathRules& rules, Rng& rng) {
+  PrimarySamples numbers;
+  PrimaryState x = walk_of(scene, rules, PrimarySampler(nullptr, numbers, {}, rng));
   x.numbers = numbers;
   return x;
 }
 
-bool same_up_to_rounding(const WalkState& a, const WalkState& b) {
+bool same_up_to_rounding(const PrimaryState& a, const PrimaryState& b) {
   return std::abs(a.target - b.target) <= 1e-3 * (a.target + b.target);
 }
 
@@ -123,7 +126,7 @@ TEST_P(WalkWaveOf, MakesWhatSingleWalksMake) {
   WalkWave together(*scene, rules, {}), alone(*scene, rules, {});
   int lit = 0, other_than_single = 0, other_than_alone = 0, all = 0;
   for (int wave = 0; wave < 30; ++wave) {
-    std::vector<WalkState> x(70), y(70), z(70);  // more than a block
+    std::vector<PrimaryState> x(70), y(70), z(70);  // more than a block
     std::vector<RayCounts> rays(70), rays_alone(70);
     for (size_t i = 0; i < x.size(); ++i) {
       x[i] = fresh_walk(*scene, rules, rng);
@@ -133,17 +136,17 @@ TEST_P(WalkWaveOf, MakesWhatSingleWalksMake) {
     for (size_t i = 0; i < x.size(); ++i, ++all) {
       alone.add(x[i], i % 4 == 0, 1000 * wave + i, z[i], rays_alone[i]);
       alone.trace();
-      const WalkState single = walk_of(*scene, rules, WalkReader{y[i].numbers});
+      const PrimaryState single = walk_of(*scene, rules, WalkReader{numbers_of(y[i])});
       lit += y[i].target > 0;
       other_than_single += !same_up_to_rounding(y[i], single);
       other_than_alone += !same_up_to_rounding(y[i], z[i]) ||
-                          y[i].numbers.size() != z[i].numbers.size() ||
+                          numbers_of(y[i]).size() != numbers_of(z[i]).size() ||
                           rays[i].intersect != rays_alone[i].intersect ||
                           rays[i].occluded != rays_alone[i].occluded;
       // A small step moves each number a little.
-      for (size_t k = 0; i % 4 != 0 && k < std::min(x[i].numbers.size(), y[i].numbers.size());
-           ++k) {
-        const double distance = std::abs(x[i].numbers.data()[k] - y[i].numbers.data()[k]);
+      for (size_t k = 0;
+           i % 4 != 0 && k < std::min(numbers_of(x[i]).size(), numbers_of(y[i]).size()); ++k) {
+        const double distance = std::abs(numbers_of(x[i])[k] - numbers_of(y[i])[k]);
         EXPECT_LE(std::min(distance, 1 - distance), 1. / 32 + 1e-15);
       }
     }
@@ -156,28 +159,13 @@ TEST_P(WalkWaveOf, MakesWhatSingleWalksMake) {
 INSTANTIATE_TEST_SUITE_P(Scenes, WalkWaveOf, testing::ValuesIn(scene_names()),
                          [](const auto& info) { return info.param; });
 
-TEST(WalkNumbers, AreReadBackAsTheyWere) {
-  Rng rng(62, Purpose::test, 0);
-  const ScenePtr scene = make_scene("cornell").scene;
-  const WalkState x = fresh_walk(*scene, {}, rng);
-  ByteWriter bytes;
-  x.numbers.save(bytes);
-  const std::string saved = bytes.take();
-  ByteReader reader(saved);
-  WalkNumbers same;
-  same.load(reader);
-  reader.finish();
-  ASSERT_EQ(same.size(), x.numbers.size());
-  for (size_t i = 0; i < same.size(); ++i) EXPECT_EQ(same.data()[i], x.numbers.data()[i]);
-}
-
 // ---- one step
 
 /// What is observed of a state.
-std::vector<double> observe(const WalkState& x, const Raster& image) {
+std::vector<double> observe(const PrimaryState& x, const Raster& image) {
   const Vec2 u = image.invert(x.light[0].raster);
-  const double* last = x.numbers.data() + x.numbers.size();
-  const double count = static_cast<double>(x.numbers.size());
+  const double* last = numbers_of(x).data() + numbers_of(x).size();
+  const double count = static_cast<double>(numbers_of(x).size());
   return {std::cos(2 * pi * u.x),
           std::sin(2 * pi * u.y),
           u.x + u.y < 0.8 ? 1. : 0.,
@@ -187,7 +175,7 @@ std::vector<double> observe(const WalkState& x, const Raster& image) {
           std::cos(2 * pi * last[-4]),  // of the last direction
           std::sin(2 * pi * last[-5]),
           last[-5],
-          x.numbers.data()[5],
+          numbers_of(x)[5],
           std::log(x.target),
           max_component(x.light[0].rgb) > 2 * x.light[0].rgb.x ? 1. : 0.};
 }
@@ -210,9 +198,9 @@ WalkInvariance invariance_of(const Step& step, const SmallStep& small_step, int 
   Rng rng(63, Purpose::test, 0);
   for (int team = 0; team < teams; ++team) {
     constexpr size_t size = 40;
-    const std::vector<WalkState> from(size);
-    std::vector<WalkState> x(size);
-    std::vector<std::array<WalkState, 2>> y(size);
+    const std::vector<PrimaryState> from(size);
+    std::vector<PrimaryState> x(size);
+    std::vector<std::array<PrimaryState, 2>> y(size);
     std::vector<Step> steps(size, step);
     std::vector<RayCounts> rays(size);
     for (size_t i = 0; i < size; ++i) wave.add(from[i], true, rng.next_bits(), x[i], rays[i]);
@@ -225,11 +213,11 @@ WalkInvariance invariance_of(const Step& step, const SmallStep& small_step, int 
       const double weight = x[i].target;  // the numbers' density is 1
       if (!(weight > 0)) continue;
       const std::vector<double> g = observe(x[i], scene->camera().raster());
-      const size_t before = x[i].numbers.size();
+      const size_t before = numbers_of(x[i]).size();
       const StepResult result = metropolis_step(x[i], y[i], steps[i], rng, forget);
       EXPECT_FALSE(result.invalid);
       out.accepted += result.accepted >= 0;
-      out.longer_or_shorter += x[i].numbers.size() != before;
+      out.longer_or_shorter += numbers_of(x[i]).size() != before;
       const std::vector<double> h = observe(x[i], scene->camera().raster());
       differences.resize(g.size());
       for (size_t k = 0; k < g.size(); ++k) differences[k].add(weight * (h[k] - g[k]));
@@ -261,10 +249,10 @@ TEST(WalkStep, LeavesItsTargetUnchangedWithDelayedRejection) {
 /// Numbers as if they were not of density 1.
 struct CountsNumbers : WalkStep {
   using WalkStep::WalkStep;
-  Transition propose(const WalkState& x, const Proposals& y, size_t stage, Rng& rng) const {
+  Transition propose(const PrimaryState& x, const Proposals& y, size_t stage, Rng& rng) const {
     const Transition t = WalkStep::propose(x, y, stage, rng);
     if (stage > 0 || t.backward == 0) return t;
-    const auto spoil = [](const WalkState& z) { return std::pow(1.05, z.numbers.size()); };
+    const auto spoil = [](const PrimaryState& z) { return std::pow(1.05, numbers_of(z).size()); };
     return {t.forward * spoil(y[0]), t.backward * spoil(x)};
   }
 };
@@ -272,7 +260,7 @@ struct CountsNumbers : WalkStep {
 /// The second stage forgets that the first was rejected.
 struct ForgetsRejection : WalkStep {
   using WalkStep::WalkStep;
-  Transition propose(const WalkState& x, const Proposals& y, size_t stage, Rng& rng) const {
+  Transition propose(const PrimaryState& x, const Proposals& y, size_t stage, Rng& rng) const {
     const Transition t = WalkStep::propose(x, y, stage, rng);
     if (stage == 0 || t.backward == 0) return t;
     return {1 / y[1].target, 1 / x.target};
