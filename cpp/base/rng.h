@@ -21,7 +21,8 @@ enum class Purpose : uint64_t {
   inspect,
   allocation,
   sample,
-  certain_light
+  certain_light,
+  manifold
 };
 
 /// SplitMix64 (Steele, Lea & Flood 2014): a bijective mixer of 64 bits.

@@ -11,17 +11,24 @@ namespace {
 
 struct BdptSettings {
   BidirectionalSettings paths;
-  bool techniques = false;
+  bool techniques = false, manifolds = false;
 };
 
 class BdptTaker : public SampleTaker {
  public:
   static BdptSettings settings(Params& params) {
-    const BdptSettings settings{bidirectional_settings(params), params.boolean("techniques")};
+    const BdptSettings settings{bidirectional_settings(params), params.boolean("techniques"),
+                                params.boolean("manifolds")};
+    if (settings.manifolds && !settings.paths.light_image)
+      params.fail("manifolds", "needs light_image");
     if (settings.techniques &&
         (settings.paths.rules.max_depth < 0 || settings.paths.rules.max_depth > 16))
       params.fail("techniques",
                   "needs a max_depth from 1 to 16: it keeps an image for each technique");
+    return settings;
+  }
+  static BdptSettings prepared(BdptSettings settings, const Scene& scene) {
+    if (settings.manifolds) settings.paths.manifolds = learn_manifolds(scene, settings.paths.rules);
     return settings;
   }
   /// The lecture's table of strategies: layers "raw.s0.t2", "weighted.s0.t2", "raw.s1.t1", ...
@@ -112,7 +119,11 @@ Plugin integrator_bdpt() {
        bidirectional_parameters(),
        {{"techniques", ParamType::boolean, false,
          "Keep the image of each technique, raw and weighted; needs a max_depth of 16 or "
-         "less."}}}));
+         "less."},
+        {"manifolds", ParamType::boolean, false,
+         "Find lights across chains of mirrors and glass, too (specular manifold sampling, "
+         "Zeltner, "
+         "Georgiev & Jakob 2020), which other techniques hit by chance."}}}));
 }
 
 }  // namespace mlt

@@ -18,6 +18,7 @@ class MltIntegrator : public Integrator {
     settings_.samples_beside = metropolis_.independent_share != 0;
     settings_.near_specular = params.real_in("near_specular", 0, 1);
     settings_.two_stage = params.boolean("two_stage");
+    settings_.manifolds = params.boolean("manifolds");
     settings_.delayed_rejection = params.boolean("delayed_rejection");
     const double patience = params.real_in("patience", 0, 1e6);
     if (patience > 0) settings_.patience = patience;
@@ -68,6 +69,9 @@ Plugin integrator_mlt() {
          "only if no weight is given, and never for a step size that is given."},
         {"two_stage", ParamType::boolean, true,
          "Divide the target by a coarse image, so that dark regions get their share."},
+        {"manifolds", ParamType::boolean, true,
+         "Samples find lights across chains of mirrors and glass, too (specular manifold sampling, "
+         "Zeltner, Georgiev & Jakob 2020), where tours start that other samples find by chance."},
         {"delayed_rejection", ParamType::boolean, false,
          "Let a smaller step follow where a perturbation's proposal was rejected."},
         choice_parameter(

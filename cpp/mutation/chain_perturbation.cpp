@@ -1,6 +1,6 @@
 #include "mutation/chain_perturbation.h"
 
-#include "mutation/half_vector.h"
+#include "path/half_vector.h"
 #include "path/walk.h"
 
 namespace mlt {

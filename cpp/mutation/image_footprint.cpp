@@ -1,7 +1,7 @@
 #include "mutation/image_footprint.h"
 
 #include "mutation/path_state.h"
-#include "mutation/specular_chain.h"
+#include "path/specular_chain.h"
 
 namespace mlt {
 namespace {

@@ -14,9 +14,9 @@
 // from y does not lead to x, y is rejected.
 #include "mutation/edge_visibility.h"
 #include "mutation/image_move.h"
-#include "mutation/manifold_walk.h"
 #include "mutation/measured_mutation.h"
 #include "mutation/mutation_registry.h"
+#include "path/manifold_walk.h"
 
 namespace mlt {
 namespace {
@@ -67,7 +67,7 @@ class ManifoldPerturbation final : public MeasuredMutation<ManifoldPerturbation>
     target().evaluate(t.c + 1, last, y);
     if (!(y.target > 0)) return edit;
     if (!same_form(x, y, t)) return std::nullopt;
-    if (!(follow(walk, y, t, x[t.b].at, context) && found_again(walk, x, t))) {
+    if (!(follow(walk, y, t, x[t.b].at, context) && walk.ended_in(&x[t.c]))) {
       ++context.failures.back;
       return std::nullopt;
     }
@@ -154,19 +154,8 @@ class ManifoldPerturbation final : public MeasuredMutation<ManifoldPerturbation>
   /// Walks the chain of x from c to `end`, where b is now.
   bool follow(ManifoldWalk& walk, const PathState& x, const Triple& t, const SurfacePoint& end,
               MutationContext& context) const {
-    return walk.start(scene(), x, t.c, t.b) && walk.go(end, x.path.time, context.rays);
+    return walk.start(scene(), &x[t.c], t.b - t.c - 1) && walk.go(end, x.path.time, context.rays);
   }
-  /// Whether the walk has ended in the chain of x.
-  static bool found_again(const ManifoldWalk& walk, const PathState& x, const Triple& t) {
-    constexpr double tolerance = 1e-3;  // of the shorter edge
-    for (int i = 0; i < walk.count(); ++i) {
-      const int j = t.c + 1 + i;
-      const double edge = std::min(x.terms[j - 1].distance, x.terms[j].distance);
-      if (!(length(walk[i].at.p - x[j].at.p) < tolerance * edge)) return false;
-    }
-    return true;
-  }
-
   ChainPerturbation chain_;
   ImageMove image_;
 };

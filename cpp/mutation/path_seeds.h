@@ -12,7 +12,7 @@ namespace mlt {
 class PathSeeds {
  public:
   explicit PathSeeds(const PathTarget& target)
-      : target_(&target), paths_(target.scene(), settings(target.rules())) {}
+      : target_(&target), paths_(target.scene(), settings(target)) {}
 
   /// Sum of the weights of a candidate's paths.
   double weigh(Rng& rng) {
@@ -73,9 +73,10 @@ class PathSeeds {
   Vec2 position(Sampler& sampler) const {
     return target_->scene().camera().raster().sample(sampler.next2());
   }
-  static BidirectionalSettings settings(const PathRules& rules) {
+  static BidirectionalSettings settings(const PathTarget& target) {
     BidirectionalSettings settings;
-    settings.rules = rules;
+    settings.rules = target.rules();
+    settings.manifolds = target.manifolds();
     return settings;
   }
 

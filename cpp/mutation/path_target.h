@@ -4,6 +4,7 @@
 #include "mutation/certain_light.h"
 #include "mutation/path_state.h"
 #include "mutation/target_map.h"
+#include "path/manifold_sampler.h"
 #include "path/path_rules.h"
 
 #include <memory>
@@ -35,6 +36,14 @@ class PathTarget {
   SampleTechniques techniques() const { return techniques_; }
   void set_techniques(SampleTechniques techniques) { techniques_ = techniques; }
 
+  /// What the samples of bidirectional path tracing know of chains that join lights; nullptr if
+  /// they do not join any.
+  const std::shared_ptr<const ManifoldGuide>& manifolds() const { return manifolds_; }
+  void set_manifolds(std::shared_ptr<const ManifoldGuide> guide) {
+    manifolds_ = std::move(guide);
+    if (manifolds_) manifold_ = std::make_shared<ManifoldSampler>(*scene_, manifolds_);
+  }
+
   /// The light that is left to the samples; nullptr if there is none.
   const CertainLight* certain_light() const { return certain_light_ ? &*certain_light_ : nullptr; }
   void leave_to_samples(CertainLight light) { certain_light_ = std::move(light); }
@@ -60,8 +69,11 @@ class PathTarget {
   }
   /// T(x) / P(x) for all techniques of bidirectional path tracing.
   double over_bidirectional_density(const PathState& x) const {
-    return x.known.over_bidirectional_density.get(
-        [&] { return x.target / total_density(ContributionMeasure{x.terms}); });
+    return x.known.over_bidirectional_density.get([&] {
+      const ManifoldTechnique manifold =
+          manifold_ ? manifold_->technique(x.path, x.terms) : ManifoldTechnique();
+      return x.target / total_density(ContributionMeasure{x.terms}, manifold);
+    });
   }
   /// Computes the terms that depend on vertices first ... last and their neighbours, then f and L*,
   /// without visibility. target = 0 if the path has no light, misses the image or breaks the rules.
@@ -86,6 +98,8 @@ class PathTarget {
   double near_specular_;
   std::optional<TargetMap> map_;
   std::optional<CertainLight> certain_light_;
+  std::shared_ptr<const ManifoldGuide> manifolds_;
+  std::shared_ptr<const ManifoldSampler> manifold_;
   SampleTechniques techniques_ = SampleTechniques::all;
 };
 

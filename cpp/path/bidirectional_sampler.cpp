@@ -50,7 +50,8 @@ double BidirectionalSampler::direct_over_walk(const Vertex& x0, double from_ligh
 /// light subpath. `joined`: vertex i scatters smoothly, since the path is joined there.
 double BidirectionalSampler::light_technique(int i, bool joined) const {
   if (i == 0) return can_be_hit(*scene_, light_[0].vertex) ? 1 : 0;
-  if (!connectable(light_[i - 1].vertex)) return 0;
+  if (!connectable(light_[i - 1].vertex))
+    return joined || connectable(light_[i].vertex) ? manifold_count(i - 1, light_[i].vertex) : 0;
   if (!joined && !connectable(light_[i].vertex)) return 0;
   return i == 1 ? light_direct_over_walk_ : 1;
 }
@@ -87,6 +88,20 @@ bool BidirectionalSampler::weigh(Connection& connection, double own, const Techn
   return connection.weight > 0;
 }
 
+double BidirectionalSampler::certainty_of_hit_light(int t) const {
+  double p = 1;
+  for (int i = 1; i < t - 1; ++i)
+    p *= connectable(camera_[i].vertex) ? 0 : camera_[i].next_coefficient;
+  return p;
+}
+
+double BidirectionalSampler::certainty_of_hit_lens(int s) const {
+  double p = 1;
+  for (int i = 1; i < s - 1; ++i)
+    p *= connectable(light_[i].vertex) ? 0 : light_[i - 1].reverse / light_[i].G;
+  return p;
+}
+
 /// s = 0: the camera walk has hit a light.
 bool BidirectionalSampler::evaluate_hit_light(Connection& connection) {
   const int t = connection.t;
@@ -102,7 +117,8 @@ bool BidirectionalSampler::evaluate_hit_light(Connection& connection) {
   const double direct = direct_over_walk(x0, from_light, camera_[t - 2].vertex.at);
   const TechniqueSums above = above_camera(t - 2, terms.pdf_from_light * end.G)
                                   .with(direct * camera_technique(t - 1, true))
-                                  .over(from_light / end.forward);
+                                  .over(from_light / end.forward)
+                                  .with(manifold_over_hit_light(x0, from_light, t));
   return weigh(connection, 1, {}, above, end.survival);
 }
 
@@ -207,7 +223,7 @@ bool BidirectionalSampler::evaluate_hit_lens(Connection& connection, RayCounts& 
   }
   connection.certainty = certainty_of_hit_lens(s);
   const double G = geometry(last.vertex.at, *hit);
-  const double before_lens = !connectable(last.vertex) ? 0
+  const double before_lens = !connectable(last.vertex) ? manifold_count(k - 1, lens_)
                              : k == 1 ? direct_over_walk(last.vertex, last.forward, *hit)
                                       : 1;
   const TechniqueSums below =
@@ -219,6 +235,10 @@ bool BidirectionalSampler::evaluate_hit_lens(Connection& connection, RayCounts& 
 
 void BidirectionalSampler::assemble(const Connection& connection, Path& path) const {
   const int s = connection.s, t = connection.t;
+  if (connection.searches > 0) {
+    path = manifold_path_;
+    return;
+  }
   path.vertices.clear();
   path.time = time_;
   const int lights = t == 0 ? s - 1 : s;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "path/background_positions.h"
+#include "path/manifold_sampler.h"
 #include "path/mis.h"
 #include "path/path_terms.h"
 #include "path/subpath.h"
@@ -16,6 +17,8 @@ struct BidirectionalSettings {
   bool light_image = true;    ///< Techniques t <= 1, which splat anywhere on the image.
   bool sample_direct = true;  ///< s = 1 samples x_0 for x_1.
   Heuristic heuristic = Heuristic::power;
+  /// Set to join lights to smooth vertices and to the lens across chains, by ManifoldSampler.
+  std::shared_ptr<const ManifoldGuide> manifolds = nullptr;
 };
 
 /// How a path is made: s vertices by a walk from the light, t by one from the camera.
@@ -34,7 +37,11 @@ struct Connection {
   const Emitter* emitter = nullptr;  ///< The light of a path with s = 0.
   /// The factor that turns the contribution into f / P, with P the density of all techniques.
   double own_share = 0;
-  double survival = 1;   ///< Probability of both subpaths in Russian roulette.
+  double survival = 1;  ///< Probability of both subpaths in Russian roulette.
+  /// For a path found by ManifoldSampler the number of searches that have found it again, and what
+  /// its contribution is multiplied by since the probability of finding it is estimated.
+  int searches = 0;
+  double found_again = 1;
   double certainty = 0;  ///< See certainty() of path_terms.h.
 };
 
@@ -43,7 +50,9 @@ struct Connection {
 class BidirectionalSampler {
  public:
   BidirectionalSampler(const Scene& scene, const BidirectionalSettings& settings)
-      : scene_(&scene), settings_(settings), lens_can_be_hit_(!scene.camera().delta_position()) {}
+      : scene_(&scene), settings_(settings), lens_can_be_hit_(!scene.camera().delta_position()) {
+    if (settings.manifolds) manifold_.emplace(scene, settings.manifolds);
+  }
 
   /// Draws both subpaths for a raster position.
   template <class Sampler>
@@ -53,6 +62,7 @@ class BidirectionalSampler {
     walk_from_camera(raster, {edges + 1, false}, sampler, rays);
     walk_from_light(walker(rays), settings_.rules, longest_light_walk(), sampler, light_);
     draw_direct(sampler);
+    if (manifold_) manifold_seed_ = static_cast<uint64_t>(0x1p53 * sampler.next());
     sum_techniques();
   }
 
@@ -96,6 +106,12 @@ class BidirectionalSampler {
   /// Calls found(connection) for each path with a positive contribution.
   template <class Found>
   void connect_all(RayCounts& rays, Found&& found) {
+    connect_walks(rays, found);
+    if (manifold_) connect_by_manifolds(rays, found);
+  }
+  /// As above, for the techniques that join two walks by an edge.
+  template <class Found>
+  void connect_walks(RayCounts& rays, Found&& found) {
     if (settings_.light_image) connect_to_lens(rays, found);
     for (int t = 2; t <= static_cast<int>(camera_.size()); ++t) {
       hit_light(t, found);
@@ -111,6 +127,16 @@ class BidirectionalSampler {
   void connect_to_lens(RayCounts& rays, Found&& found) {
     for (int s = 1; s <= std::max(1, static_cast<int>(light_.size())); ++s)
       connect(s, 1, rays, found);
+  }
+
+  /// Calls found(connection) for paths in which a chain joins the light to the camera subpath.
+  template <class Found>
+  void connect_by_manifolds(RayCounts& rays, Found&& found) {
+    Rng rng(manifold_seed_, Purpose::manifold, 0);
+    for (int t = 1; t <= static_cast<int>(camera_.size()) && light_.size() > 0; ++t) {
+      Connection connection{0, t, raster_, Color(0), 0};
+      if (evaluate_manifold(connection, rng, rays)) found(connection);
+    }
   }
 
   /// Assembles the path of a connection that was just found.
@@ -205,18 +231,8 @@ class BidirectionalSampler {
   }
 
   // certainty() of a path that one walk alone has made.
-  double certainty_of_hit_light(int t) const {
-    double p = 1;
-    for (int i = 1; i < t - 1; ++i)
-      p *= connectable(camera_[i].vertex) ? 0 : camera_[i].next_coefficient;
-    return p;
-  }
-  double certainty_of_hit_lens(int s) const {
-    double p = 1;
-    for (int i = 1; i < s - 1; ++i)
-      p *= connectable(light_[i].vertex) ? 0 : light_[i - 1].reverse / light_[i].G;
-    return p;
-  }
+  double certainty_of_hit_light(int t) const;
+  double certainty_of_hit_lens(int s) const;
   /// The sums over the techniques whose joint lies beyond vertex i of a subpath, for a path joined
   /// at x, which is that vertex or one sampled in its place; `back` is the density of the
   /// direction to the previous vertex, in projected solid angle.
@@ -226,6 +242,9 @@ class BidirectionalSampler {
   bool evaluate_hit_light(Connection& connection);
   bool evaluate_connection(Connection& connection, RayCounts& rays);
   bool evaluate_hit_lens(Connection& connection, RayCounts& rays);
+  bool evaluate_manifold(Connection& connection, Rng& rng, RayCounts& rays);
+  double manifold_count(int m, const Vertex& end) const;
+  double manifold_over_hit_light(const Vertex& x0, double from_light, int t) const;
   void sample_backgrounds();
   bool choose_direct(int t);
 
@@ -264,6 +283,11 @@ class BidirectionalSampler {
   /// Sums over the techniques whose joint is in one of the subpaths, up to vertex i: of their
   /// densities over that of the technique which joins before vertex i.
   std::vector<TechniqueSums> light_sums_, camera_sums_;
+  std::optional<ManifoldSampler> manifold_;
+  uint64_t manifold_seed_ = 0;
+  Path manifold_path_;  ///< The path of the last evaluate_manifold().
+  PathTerms manifold_terms_;
+  mutable std::vector<Vertex> chain_;  ///< Scratch: a chain and its ends.
   double light_direct_over_walk_ = 1;  ///< direct_over_walk() of the first two vertices of light_.
 };
 

@@ -52,8 +52,12 @@ double from_camera(const Measure& in, int i) {
 /// or to their neighbours: sum_s l_first ... l_{s-1} joint(s) c_s ... c_{end-1}, with the densities
 /// l and c of light and camera walks. Technique 0 counts `hit_light` times.
 template <class Measure>
-double total_density(const Measure& in, int first, int end, double hit_light = 1) {
-  const auto joint = [&](int s) { return can_sample(in.x, s) ? in.joint(s) : 0.0; };
+double total_density(const Measure& in, int first, int end, double hit_light = 1,
+                     const ManifoldTechnique& manifold = {}) {
+  const auto joint = [&](int s) {
+    if (s == manifold.s) return manifold.count * in.joint(s);
+    return can_sample(in.x, s) ? in.joint(s) : 0.0;
+  };
   double walk = 1;  // density of the vertices before i
   double sum = joint(first) * (first == 0 ? hit_light : 1);
   for (int i = first; i < end; ++i) {
@@ -64,8 +68,8 @@ double total_density(const Measure& in, int first, int end, double hit_light = 1
 }
 /// P(x) = sum over s of p_{s,t}(x), the density of all techniques together.
 template <class Measure>
-double total_density(const Measure& in) {
-  return total_density(in, 0, in.x.edges() + 1);
+double total_density(const Measure& in, const ManifoldTechnique& manifold = {}) {
+  return total_density(in, 0, in.x.edges() + 1, 1, manifold);
 }
 
 /// p_{0,k+1}(x) + p_{1,k}(x), the density of the two techniques of path tracing, which does not

@@ -13,7 +13,7 @@ enum class Heuristic { balance, power, maximum };
 /// The weights of one technique: by the chosen heuristic, and by the balance heuristic, which is
 /// p_s / P.
 struct MisWeights {
-  double chosen, balance;
+  double chosen = 0, balance = 0;
 };
 
 /// The quotients r_i = p_i / p_s of the techniques on one side of s: their sum, that of their

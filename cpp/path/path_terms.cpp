@@ -104,17 +104,19 @@ double certainty(const PathTerms& terms) {
   return p;
 }
 
-double mis_weight(const PathTerms& terms, int s, Heuristic heuristic) {
-  if (!can_sample(terms, s)) return 0;
+MisWeights mis_weights(const PathTerms& terms, int s, Heuristic heuristic,
+                       const ManifoldTechnique& manifold) {
   const auto technique = [&](int i) {
+    if (i == manifold.s) return manifold.count;
     return !can_sample(terms, i) ? 0 : i == 1 ? terms.direct / terms[0].from_light : 1.0;
   };
+  if (technique(s) == 0) return {};
   TechniqueSums below, above;
   for (int i = 0; i < s; ++i)
     below = below.with(technique(i)).over(terms[i].from_camera / terms[i].from_light);
   for (int i = terms.edges(); i >= s; --i)
     above = above.with(technique(i + 1)).over(terms[i].from_light / terms[i].from_camera);
-  return mis_weights(technique(s), below, above, heuristic).chosen;
+  return mis_weights(technique(s), below, above, heuristic);
 }
 
 int sample_technique(const PathTerms& terms, Heuristic heuristic, double u) {

@@ -110,12 +110,23 @@ inline bool can_sample(const PathTerms& terms, int s) {
 /// p_{s,t}(x), the density of technique s in the product-area measure (Veach 1997, sec. 10.2).
 double technique_density(const PathTerms& terms, int s);
 
+/// A technique beside those of can_sample (manifold_sampler.h): it makes the path with s vertices
+/// from the light, and counts `count` times in TechniqueSums. s = -1: none.
+struct ManifoldTechnique {
+  int s = -1;
+  double count = 0;
+};
+
 /// The probability that a walk from the camera chooses these lobes, if all of them are delta; else
 /// 0.
 double certainty(const PathTerms& terms);
 
-/// The MIS weight of technique s (Veach 1997, eqs. 9.8, 9.13 with beta = 2, 9.12).
-double mis_weight(const PathTerms& terms, int s, Heuristic heuristic);
+/// The MIS weights of technique s (Veach 1997, eqs. 9.8, 9.13 with beta = 2, 9.12).
+MisWeights mis_weights(const PathTerms& terms, int s, Heuristic heuristic,
+                       const ManifoldTechnique& manifold = {});
+inline double mis_weight(const PathTerms& terms, int s, Heuristic heuristic) {
+  return mis_weights(terms, s, heuristic).chosen;
+}
 /// A technique s with the probability of its MIS weight; -1 if none can make the path.
 int sample_technique(const PathTerms& terms, Heuristic heuristic, double u);
 

@@ -40,6 +40,8 @@ class MltAlgorithm : public MetropolisAlgorithm {
  public:
   MltAlgorithm(ScenePtr scene, const MltSettings& settings)
       : settings_(settings), target_(std::move(scene), settings.rules, settings.near_specular) {
+    if (settings_.manifolds)
+      target_.set_manifolds(learn_manifolds(target_.scene(), target_.rules()));
     std::vector<double> weights;
     for (const MixedMutation& mixed : settings_.mixture)
       for (const auto& [own, weight] : in_all_sizes(mixed)) {

@@ -27,6 +27,7 @@ struct MltSettings {
   std::vector<ExtraMutation> extra;
   bool adaptive = true;
   bool two_stage = true;
+  bool manifolds = false;  ///< Whether samples join lights across chains (ManifoldSampler).
   bool delayed_rejection = false;
   bool samples_beside = true;         ///< Whether independent samples go to the image, too.
   std::optional<double> tour_length;  ///< Mean steps of a tour, alike for all.

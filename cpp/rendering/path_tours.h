@@ -76,7 +76,8 @@ class PathTours : public RenderChain {
   }
 
  private:
-  /// A path that roulette has let through with probability q starts r / q tours in the mean.
+  /// A path that roulette has let through with probability q starts r / q tours in the mean, times
+  /// found_again where the probability of finding it is estimated.
   void start_tours(ChainRecorder& recorder) {
     SampleWeights sum;
     PixelSampler sampler(stream_, static_cast<uint32_t>(in_group(count_++)));
@@ -87,7 +88,7 @@ class PathTours : public RenderChain {
       sum.brightness += luminance;
       sum.of_chains += luminance * weights_.of_chain(over_density);
       if (!std::isfinite(over_density)) return;
-      const double starts = kill_rate_.starts(over_density) / c.survival;
+      const double starts = kill_rate_.starts(over_density) / c.survival * c.found_again;
       bool assembled = false;
       for (double n = std::floor(starts + chain_.rng().next()); n > 0; --n) {
         const double u = next_kill();

@@ -120,6 +120,11 @@ class SampleTaker {
   }
   /// To be called after the last sample.
   virtual void finish(SampleSink& /*sink*/, RayCounts& /*rays*/) {}
+  /// The settings with what has to be known of the scene.
+  template <class Settings>
+  static Settings prepared(const Settings& settings, const Scene& /*scene*/) {
+    return settings;
+  }
   /// The film that its settings ask for.
   template <class Settings>
   static SampledSettings film(const Settings&) {
@@ -182,8 +187,9 @@ class SampledIntegrator : public Integrator {
  public:
   explicit SampledIntegrator(Params& params) : settings_(Taker::settings(params)) {}
   std::unique_ptr<Rendering> start(ScenePtr scene, uint64_t seed) const override {
+    const auto prepared = Taker::prepared(settings_, *scene);
     return std::make_unique<SampledRendering>(std::move(scene), seed, Taker::film(settings_),
-                                              [settings = settings_](const Scene& scene) {
+                                              [settings = prepared](const Scene& scene) {
                                                 return std::make_unique<Taker>(scene, settings);
                                               });
   }

@@ -30,7 +30,8 @@ void find_edges(const JointLanes& a, const SurfacePoint& lens, bool strict,
 
 bool BidirectionalWave::supports(const Scene& scene, const BidirectionalSettings& settings) {
   const Shutter& shutter = scene.camera().shutter();
-  if (!settings.sample_direct || settings.heuristic == Heuristic::maximum) return false;
+  if (!settings.sample_direct || settings.heuristic == Heuristic::maximum || settings.manifolds)
+    return false;
   if (!scene.camera().delta_position() || shutter.open != shutter.close || scene.accel().moves())
     return false;
   for (const EmitterPtr& emitter : scene.emitters())

@@ -31,6 +31,9 @@ class BDPT(Integrator):
         How techniques are combined (Veach 1997, sec. 9.2). One of: balance, power, maximum.
     techniques : boolean, default False
         Keep the image of each technique, raw and weighted; needs a max_depth of 16 or less.
+    manifolds : boolean, default False
+        Find lights across chains of mirrors and glass, too (specular manifold sampling,
+        Zeltner, Georgiev & Jakob 2020), which other techniques hit by chance.
     """
 
     max_depth: int
@@ -41,6 +44,7 @@ class BDPT(Integrator):
     sample_direct: bool
     heuristic: Literal["balance", "power", "maximum"]
     techniques: bool
+    manifolds: bool
     def __init__(
         self,
         *,
@@ -52,6 +56,7 @@ class BDPT(Integrator):
         sample_direct: bool = ...,
         heuristic: Literal["balance", "power", "maximum"] = ...,
         techniques: bool = ...,
+        manifolds: bool = ...,
     ) -> None: ...
 
 class Direct(Integrator):
@@ -295,6 +300,9 @@ class MLT(Integrator):
         weight is given, and never for a step size that is given.
     two_stage : boolean, default True
         Divide the target by a coarse image, so that dark regions get their share.
+    manifolds : boolean, default True
+        Samples find lights across chains of mirrors and glass, too (specular manifold sampling,
+        Zeltner, Georgiev & Jakob 2020), where tours start that other samples find by chance.
     delayed_rejection : boolean, default False
         Let a smaller step follow where a perturbation's proposal was rejected.
     independent : string, default 'auto'
@@ -347,6 +355,7 @@ class MLT(Integrator):
     near_specular: float
     adaptive: bool
     two_stage: bool
+    manifolds: bool
     delayed_rejection: bool
     independent: Literal["auto", "bdpt", "path"]
     patience: float
@@ -390,6 +399,7 @@ class MLT(Integrator):
         near_specular: float = ...,
         adaptive: bool = ...,
         two_stage: bool = ...,
+        manifolds: bool = ...,
         delayed_rejection: bool = ...,
         independent: Literal["auto", "bdpt", "path"] = ...,
         patience: float = ...,

@@ -107,6 +107,12 @@ TEST(BdptParameters, ChangeTheNoiseNotTheImage) {
     expect_same_with("thin_lens_sky", "bdpt", {{"max_depth", "4"}, {name, value}}, plain);
 }
 
+TEST(BdptParameters, JoinLightsAcrossChainsInTheSameImage) {
+  const Assignments plain{{"max_depth", "6"}};
+  for (const char* scene : {"caustic", "light_under_water"})
+    expect_same_with(scene, "bdpt", {{"max_depth", "6"}, {"manifolds", "true"}}, plain);
+}
+
 TEST(SharedParameters, MeanTheSameForPathAndBdpt) {
   for (const auto& [scene, name, value] :
        std::vector<std::array<std::string, 3>>{{"sky", "max_depth", "-1"},

@@ -1,8 +1,8 @@
 // The invariance test must fail where a mutation's density lacks a factor, or else it says nothing.
 #include "mutation/chain_perturbation.h"
-#include "mutation/half_vector.h"
 #include "mutation/mutation_testing.h"
-#include "mutation/specular_chain.h"
+#include "path/half_vector.h"
+#include "path/specular_chain.h"
 
 namespace mlt::test {
 namespace {

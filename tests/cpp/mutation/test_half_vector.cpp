@@ -4,7 +4,7 @@
 
 #include "base/rng.h"
 #include "math/warp.h"
-#include "mutation/half_vector.h"
+#include "path/half_vector.h"
 
 namespace mlt::test {
 namespace {

@@ -1,8 +1,8 @@
 // The derivatives of specular chains, their density and the walk that follows them, by finite
 // differences: the end of a chain is moved a little, and the chain is found again.
-#include "mutation/half_vector.h"
-#include "mutation/manifold_walk.h"
 #include "mutation/mutation_testing.h"
+#include "path/half_vector.h"
+#include "path/manifold_walk.h"
 #include "scene/normal_gradient.h"
 
 namespace mlt::test {
@@ -53,7 +53,7 @@ std::optional<Vec3> first_ray(const Scene& scene, const PathState& x, const Span
                               const SurfacePoint& end, Vec3& first) {
   ManifoldWalk walk;
   RayCounts rays;
-  if (!walk.start(scene, x, span.c, span.b) || !walk.go(end, x.path.time, rays))
+  if (!walk.start(scene, &x[span.c], span.b - span.c - 1) || !walk.go(end, x.path.time, rays))
     return std::nullopt;
   first = walk[0].at.p;
   if (!x[span.c].at.infinite()) return direction(x[span.c].at, walk[0].at);

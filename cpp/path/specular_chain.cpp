@@ -1,4 +1,4 @@
-#include "mutation/specular_chain.h"
+#include "path/specular_chain.h"
 
 namespace mlt {
 

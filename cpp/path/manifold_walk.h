@@ -6,24 +6,28 @@
 // halved. So all chains on the way are ones that light can take.
 #pragma once
 
-#include "mutation/path_state.h"
-#include "mutation/specular_chain.h"
+#include "path/specular_chain.h"
 #include "path/walk.h"
 
 namespace mlt {
 
+/// The ray from the end of a chain through p.
+Ray ray_through(const Scene& scene, const SurfacePoint& end, const Vec3& p, double time);
+
 class ManifoldWalk {
  public:
-  /// Starts with the chain of x between vertex c and vertex b > c, of which c stays. False if no
-  /// walk is possible from it.
-  bool start(const Scene& scene, const PathState& x, int c, int b);
+  /// Starts with the chain of `count` vertices between first[0], which stays, and first[count + 1].
+  /// False if no walk is possible from it.
+  bool start(const Scene& scene, const Vertex* first, int count);
 
   /// Walks until the chain ends in `end`, with visibility; false if it does not converge.
   bool go(const SurfacePoint& end, double time, RayCounts& rays);
 
-  /// Vertices c + 1 ... b - 1 of the chain.
+  /// The vertices between the ends.
   int count() const { return count_; }
   const Vertex& operator[](int i) const { return chain_[i + 1]; }
+  /// Whether the chain is that between first[0] and first[count() + 1], up to rounding.
+  bool ended_in(const Vertex* first) const;
 
  private:
   static constexpr int most = SpecularChain::most_vertices;
@@ -36,7 +40,6 @@ class ManifoldWalk {
   /// last ray that is nearest to `end`.
   bool trace(const Vec3& p, const SurfacePoint& end, double time, RayCounts& rays,
              Chain& chain) const;
-  Ray first_ray(const Vec3& p, double time) const;
 
   const Scene* scene_ = nullptr;
   int count_ = 0;

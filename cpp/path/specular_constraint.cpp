@@ -1,6 +1,6 @@
-#include "mutation/specular_constraint.h"
+#include "path/specular_constraint.h"
 
-#include "mutation/half_vector.h"
+#include "path/half_vector.h"
 #include "scene/normal_gradient.h"
 
 namespace mlt {

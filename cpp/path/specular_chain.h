@@ -3,7 +3,7 @@
 // 2012, sec. 4.2).
 #pragma once
 
-#include "mutation/specular_constraint.h"
+#include "path/specular_constraint.h"
 
 #include <array>
 

@@ -1,12 +1,23 @@
-#include "mutation/manifold_walk.h"
+#include "path/manifold_walk.h"
 
 namespace mlt {
 
-bool ManifoldWalk::start(const Scene& scene, const PathState& x, int c, int b) {
+Ray ray_through(const Scene& scene, const SurfacePoint& end, const Vec3& p, double time) {
+  if (!end.infinite()) {
+    // the ray starts a little off the surface, but has to pass through p
+    const Vec3 start = scene.spawn(end, normalize(p - end.p), time).o;
+    return {start, normalize(p - start), time};
+  }
+  const Bounds& bounds = scene.bounds();
+  const double back = dot(bounds.center - p, end.p) + bounds.radius;
+  return {p + back * end.p, -end.p, time};
+}
+
+bool ManifoldWalk::start(const Scene& scene, const Vertex* first, int count) {
   scene_ = &scene;
-  count_ = b - c - 1;
+  count_ = count;
   if (count_ > most) return false;
-  chain_.assign(x.path.vertices.begin() + c, x.path.vertices.begin() + b + 1);
+  chain_.assign(first, first + count + 2);
   next_.resize(chain_.size());
   for (int i = 0; i < count_; ++i) {
     const auto kept = specular_scattering(scene, chain_[i].at, chain_[i + 1], chain_[i + 2].at);
@@ -42,22 +53,23 @@ bool ManifoldWalk::go(const SurfacePoint& end, double time, RayCounts& rays) {
   return false;
 }
 
-Ray ManifoldWalk::first_ray(const Vec3& p, double time) const {
-  const SurfacePoint& from = chain_[0].at;
-  if (!from.infinite()) {
-    // the ray starts a little off the surface, but has to pass through p
-    const Vec3 start = scene_->spawn(from, normalize(p - from.p), time).o;
-    return {start, normalize(p - start), time};
+bool ManifoldWalk::ended_in(const Vertex* first) const {
+  constexpr double tolerance = 1e-3;  // of the shorter edge
+  const auto length_of = [&](int i) {
+    const SurfacePoint &a = first[i].at, &b = first[i + 1].at;
+    return a.infinite() ? infinity : length(b.p - a.p);
+  };
+  for (int i = 1; i <= count_; ++i) {
+    const double edge = std::min(length_of(i - 1), length_of(i));
+    if (!(length(chain_[i].at.p - first[i].at.p) < tolerance * edge)) return false;
   }
-  const Bounds& bounds = scene_->bounds();
-  const double back = dot(bounds.center - p, from.p) + bounds.radius;
-  return {p + back * from.p, -from.p, time};
+  return true;
 }
 
 bool ManifoldWalk::trace(const Vec3& p, const SurfacePoint& end, double time, RayCounts& rays,
                          Chain& chain) const {
   const Walker walker{*scene_, time, rays};
-  Ray ray = first_ray(p, time);
+  Ray ray = ray_through(*scene_, chain_[0].at, p, time);
   for (int i = 1; i <= count_; ++i) {
     if (!walker.arrive(ray, chain[i]) || !has_constraint(*scene_, chain[i])) return false;
     chain[i].lobe = chain_[i].lobe;

@@ -1,0 +1,140 @@
+#include "path/manifold_guide.h"
+
+#include "path/bidirectional_sampler.h"
+#include "scene/instance.h"
+
+#include <algorithm>
+#include <unordered_set>
+
+namespace mlt {
+
+uint64_t lobes_of(const Vertex* first, int m) {
+  uint64_t key = 1;
+  for (int i = 1; i <= m; ++i) key = 4 * key + static_cast<uint64_t>(first[i].lobe);
+  return key;
+}
+
+ManifoldGuide::ManifoldGuide(const Scene& scene) {
+  const auto has_delta = [](const ShapePtr& shape) { return shape->bsdf().has_delta(); };
+  std::unordered_set<const Shape*> grouped;
+  for (const ShapePtr& shape : scene.shapes())
+    if (const Instance* instance = shape->as_instance())
+      for (const ShapePtr& member : instance->group().shapes()) grouped.insert(member.get());
+  for (const ShapePtr& shape : scene.shapes()) {
+    if (grouped.count(shape.get()) > 0) continue;
+    const Instance* instance = shape->as_instance();
+    const auto delta = [&] {
+      if (!instance) return has_delta(shape);
+      const auto& members = instance->group().shapes();
+      return std::any_of(members.begin(), members.end(), has_delta);
+    };
+    if (!delta()) continue;
+    Box& box = boxes_.emplace_back();
+    shape->bounds(box.low, box.high);
+  }
+}
+
+Vec3 ManifoldGuide::aim(Rng& rng) const {
+  const Box& box = boxes_[rng.below(boxes_.size())];
+  const double x = rng.next(), y = rng.next();
+  return box.low + Vec3(x, y, rng.next()) * (box.high - box.low);
+}
+
+double ManifoldGuide::guess(const Vertex* first, int m, double lobes) const {
+  if (!ratios_) return lobes;
+  const auto ratio = ratios_->find(lobes_of(first, m));
+  return ratio == ratios_->end() ? 0 : lobes * ratio->second;
+}
+
+namespace {
+
+/// Light is rare if other techniques have less than this share of its density.
+constexpr double rare_share = 0.01;
+/// The least share of rare light, scattered before it comes to the lens, for which chains are
+/// searched, and the least share of those with the same lobes.
+constexpr double least_rare = 0.05, least_rare_of_lobes = 0.01;
+
+/// Samples of bidirectional path tracing that search for all chains.
+class ManifoldLessons {
+ public:
+  ManifoldLessons(const Scene& scene, const PathRules& rules,
+                  const std::shared_ptr<const ManifoldGuide>& all)
+      : scene_(&scene), manifolds_(scene, all), paths_(scene, settings(rules, all)) {}
+
+  void take(int samples) {
+    RayCounts rays;
+    for (int i = 0; i < samples; ++i) {
+      Rng rng(0, Purpose::manifold, static_cast<uint64_t>(i));
+      RandomSampler sampler(rng);
+      paths_.sample(scene_->camera().raster().sample(sampler.next2()), sampler, rays);
+      paths_.connect_all(rays, [&](const Connection& c) { learn(c); });
+    }
+  }
+
+  /// For the lobes of the chains to be found, how often these are over the probability of the lobes.
+  std::unordered_map<uint64_t, double> ratios() const {
+    std::unordered_map<uint64_t, double> ratios;
+    if (rare_scattered_ < least_rare * light_) return ratios;
+    for (const auto& [lobes, chains] : classes_)
+      if (chains.rare >= least_rare_of_lobes * light_) ratios[lobes] = chains.found / chains.again;
+    return ratios;
+  }
+
+ private:
+  struct Chains {
+    double rare = 0;              ///< The rare light along them.
+    double found = 1, again = 1;  ///< Chains that were found, and the sum of their found_again.
+  };
+
+  static BidirectionalSettings settings(const PathRules& rules,
+                                        const std::shared_ptr<const ManifoldGuide>& all) {
+    BidirectionalSettings settings;
+    settings.rules = rules;
+    settings.manifolds = all;
+    return settings;
+  }
+
+  void learn(const Connection& c) {
+    paths_.assemble(c, path_);
+    compute_terms(*scene_, path_, {true, paths_.settings().rules.strict_normals}, terms_);
+    // weighted by the balance heuristic, so that sums are those of all techniques
+    const double light = luminance(c.contribution) * c.own_share / c.survival * c.found_again;
+    if (!std::isfinite(light)) return;
+    light_ += light;
+    const ManifoldTechnique technique = manifolds_.technique(path_, terms_);
+    if (!(technique.count > 0)) return;
+    Chains& chains = classes_[lobes_of(&path_[0], technique.s - 1)];
+    const MisWeights weights = mis_weights(terms_, technique.s, Heuristic::balance, technique);
+    if (1 - weights.balance < rare_share) {
+      chains.rare += light;
+      if (technique.s < terms_.edges()) rare_scattered_ += light;
+    }
+    if (c.searches == 0) return;
+    ++chains.found;
+    chains.again += c.found_again;
+  }
+
+  const Scene* scene_;
+  ManifoldSampler manifolds_;
+  BidirectionalSampler paths_;
+  std::unordered_map<uint64_t, Chains> classes_;
+  double light_ = 0, rare_scattered_ = 0;
+  Path path_;
+  PathTerms terms_;
+};
+
+}  // namespace
+
+std::shared_ptr<const ManifoldGuide> learn_manifolds(const Scene& scene, const PathRules& rules) {
+  constexpr int samples = 1024;
+  auto guide = std::make_shared<ManifoldGuide>(scene);
+  if (!guide->useful()) return nullptr;
+  ManifoldLessons lessons(scene, rules, std::make_shared<ManifoldGuide>(*guide));
+  lessons.take(samples);
+  auto ratios = lessons.ratios();
+  if (ratios.empty()) return nullptr;
+  guide->choose(std::move(ratios));
+  return guide;
+}
+
+}  // namespace mlt

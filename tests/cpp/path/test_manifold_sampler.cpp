@@ -1,0 +1,118 @@
+// Manifold sampling as a technique of bidirectional path tracing: its densities and weights, and
+// the light that it finds.
+#include <gtest/gtest.h>
+
+#include "path_testing.h"
+
+namespace mlt {
+namespace {
+
+using namespace test;
+
+constexpr int max_depth = 7;
+
+BidirectionalSettings with_manifolds(const Scene& scene) {
+  BidirectionalSettings settings = without_roulette(max_depth);
+  settings.manifolds = std::make_shared<ManifoldGuide>(scene);
+  return settings;
+}
+
+class ManifoldsOf : public testing::TestWithParam<std::string> {
+ protected:
+  void SetUp() override { scene_ = make_scene(GetParam()).scene; }
+
+  ScenePtr scene_;
+};
+
+/// The sampler caches sums along its walks; the terms of the whole path have the same weights.
+TEST_P(ManifoldsOf, WeighPathsByTheirTerms) {
+  BidirectionalSettings settings = with_manifolds(*scene_);
+  const ManifoldSampler manifolds(*scene_, settings.manifolds);
+  for (const Heuristic heuristic : {Heuristic::balance, Heuristic::power}) {
+    settings.heuristic = heuristic;
+    Worst worst;
+    int joined = 0, others = 0;
+    for_each_path(*scene_, settings, 1, 2000, [&](const Connection& c, const Path& path) {
+      PathTerms terms;
+      const auto weight_of = [&](const Path& x) {
+        compute_terms(*scene_, x, {settings.sample_direct}, terms);
+        return std::vector<double>{
+            mis_weights(terms, c.s, heuristic, manifolds.technique(x, terms)).chosen};
+      };
+      worst.add(excess(*scene_, path, weight_of, {c.weight}), technique_name(*scene_, c, path));
+      compute_terms(*scene_, path, {settings.sample_direct}, terms);
+      const ManifoldTechnique technique = manifolds.technique(path, terms);
+      joined += c.searches > 0;
+      others += c.searches == 0 && technique.count > 0;
+      if (c.searches > 0) {
+        ASSERT_EQ(technique.s, c.s);
+        ASSERT_TRUE(raster_position(*scene_, path));
+        ASSERT_LT(glm::length(*raster_position(*scene_, path) - c.raster), 1e-3);
+      }
+    });
+    EXPECT_LT(worst.value, 1) << worst.where;
+    EXPECT_GT(joined, 20);
+    EXPECT_GT(others, 0);
+  }
+}
+
+/// Light by a path that a walk from the light could have made, whichever technique has found it.
+/// The mean of it over the samples of the technique alone, and of all others together.
+TEST_P(ManifoldsOf, FindTheLightThatOtherTechniquesFind) {
+  const BidirectionalSettings plain = without_roulette(max_depth);
+  const BidirectionalSettings settings = with_manifolds(*scene_);
+  const ManifoldSampler manifolds(*scene_, settings.manifolds);
+  BidirectionalSampler with(*scene_, settings), without(*scene_, plain);
+  constexpr int samples = 20000;
+  constexpr double most =
+      20;  // of the light of a sample, alike for both: damped, as a function of x
+  double mean[2] = {0, 0}, square[2] = {0, 0};
+  Path path;
+  PathTerms terms;
+  RayCounts rays;
+  /// T / (1 + T / most) for the quotient T of the path's light and the density of all techniques.
+  const auto damped = [&](const Connection& c, bool manifold) {
+    manifold ? with.assemble(c, path) : without.assemble(c, path);
+    compute_terms(*scene_, path, {true}, terms);
+    const ManifoldTechnique technique = manifolds.technique(path, terms);
+    if (!(technique.count > 0)) return 0.0;
+    const double share = mis_weights(terms, c.s, Heuristic::balance, technique).balance;
+    if (!(share > 0)) return 0.0;
+    const double over_density = luminance(c.contribution) / c.found_again * share;
+    const double factor = 1 / (1 + over_density / most);
+    return luminance(c.contribution) * factor * (manifold ? 1 : c.weight);
+  };
+  for (int i = 0; i < samples; ++i) {
+    for (const bool manifold : {false, true}) {
+      Rng rng(2 + manifold, Purpose::test, static_cast<uint64_t>(i));
+      RandomSampler sampler(rng);
+      BidirectionalSampler& paths = manifold ? with : without;
+      double sum = 0;
+      const auto add = [&](const Connection& c) { sum += damped(c, manifold); };
+      paths.sample(scene_->camera().raster().sample(sampler.next2()), sampler, rays);
+      if (manifold)
+        paths.connect_by_manifolds(rays, add);
+      else
+        paths.connect_all(rays, add);
+      mean[manifold] += sum / samples;
+      square[manifold] += sum * sum / samples;
+    }
+  }
+  double variance = 0;
+  for (int k = 0; k < 2; ++k) variance += (square[k] - sqr(mean[k])) / samples;
+  EXPECT_GT(mean[0], 0);
+  EXPECT_LT(std::abs(mean[1] - mean[0]), 4 * std::sqrt(variance))
+      << mean[0] << " by the others, " << mean[1] << " by chains, +- " << std::sqrt(variance);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, ManifoldsOf,
+                         testing::Values("caustic", "smooth_glass", "light_under_water",
+                                         "spinning_instance", "glass_torus"),
+                         [](const auto& info) { return info.param; });
+
+TEST(ManifoldSampler, IsNotUsedWhereNothingIsSpecular) {
+  EXPECT_FALSE(learn_manifolds(*make_scene("cornell").scene, {}));
+}
+
+}  // namespace
+}  // namespace mlt
