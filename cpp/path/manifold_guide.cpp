@@ -71,7 +71,8 @@ class ManifoldLessons {
     }
   }
 
-  /// For the lobes of the chains to be found, how often these are over the probability of the lobes.
+  /// For the lobes of the chains to be found, how often these are found over the probability of
+  /// the lobes.
   std::unordered_map<uint64_t, double> ratios() const {
     std::unordered_map<uint64_t, double> ratios;
     if (rare_scattered_ < least_rare * light_) return ratios;

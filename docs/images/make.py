@@ -4,6 +4,7 @@ motion        the scene of the page on motion blur
 equal-time    the same scene by path, bdpt and mlt, with equal CPU time
 two-families  what independent samples and chains show of an image
 strategies    the techniques of bidirectional path tracing
+manifolds     light through water without and with manifold sampling
 tone-curves   one render by the three tone curves
 comparison    what pymlt compare --picture draws
 race          what pymlt race -o race.png draws
@@ -53,6 +54,12 @@ def strategies():
     technique_figure(result.techniques, exposure=1).savefig(HERE / "strategies.png", dpi=100)
 
 
+def manifolds():
+    integrators = [mlt.MLT(max_depth=8, manifolds=used) for used in (False, True)]
+    images = [render("pool", i, 30, (400, 225)) for i in integrators]
+    mlt.write_image(HERE / "manifolds.jpg", np.concatenate(images, axis=1))
+
+
 def tone_curves():
     image = render("glass_ball", mlt.BDPT(max_depth=8), 20, (200, 200))
     shown = [mlt.tonemap(image, curve, exposure=1) for curve in ("srgb", "reinhard", "filmic")]
@@ -84,6 +91,7 @@ if __name__ == "__main__":
         "equal-time": equal_time,
         "two-families": two_families,
         "strategies": strategies,
+        "manifolds": manifolds,
         "tone-curves": tone_curves,
         "comparison": comparison,
         "race": race,
