@@ -23,6 +23,7 @@ struct TourCase {
   int rr_depth;
   double steps_per_sample;
   double tour_length = 0;  ///< 0: they die in proportion to P / T.
+  bool manifolds = false;  ///< Whether samples join lights across chains.
 };
 
 class PathToursOf : public testing::TestWithParam<TourCase> {};
@@ -30,11 +31,12 @@ class PathToursOf : public testing::TestWithParam<TourCase> {};
 /// The means over groups of what tours have recorded times kappa0, and of w2 L* / p, differ by
 /// chance alone, and by a few per cent of the brightness at the most.
 TEST_P(PathToursOf, HaveTheBrightnessOfTheirSamples) {
-  const auto [name, rr_depth, steps_per_sample, tour_length] = GetParam();
+  const auto [name, rr_depth, steps_per_sample, tour_length, manifolds] = GetParam();
   PathRules rules;
   rules.max_depth = 8;
   rules.rr_depth = rr_depth;
-  const PathTarget target(make_scene(name).scene, rules);
+  PathTarget target(make_scene(name).scene, rules);
+  if (manifolds) target.set_manifolds(std::make_shared<ManifoldGuide>(target.scene()));
   const PathMixture mixture(all_mutations(target),
                             std::make_shared<MixtureWeights>(default_weights()));
   constexpr int groups = 16;
@@ -65,12 +67,14 @@ INSTANTIATE_TEST_SUITE_P(Scenes, PathToursOf,
                                          TourCase{"glass_torus", 100, 10},
                                          TourCase{"caustic", 2, 30}, TourCase{"mirrors", 2, 30},
                                          TourCase{"cornell", 2, 10, 20},
-                                         TourCase{"caustic", 2, 10, 50}),
+                                         TourCase{"caustic", 2, 10, 50},
+                                         TourCase{"sun_caustic", 2, 2, 0, true}),
                          [](const auto& info) {
                            return info.param.scene + "_" + std::to_string(info.param.rr_depth) +
                                   "_" +
                                   std::to_string(static_cast<int>(info.param.steps_per_sample)) +
-                                  (info.param.tour_length > 0 ? "_constant" : "");
+                                  (info.param.tour_length > 0 ? "_constant" : "") +
+                                  (info.param.manifolds ? "_manifolds" : "");
                          });
 
 /// Tours of a million steps in the mean, if they were not interrupted.
