@@ -60,7 +60,7 @@ CASES = {
     "veach-bidir": Case("scenes/veach-bidir/scene.xml", (320, 180), "bdpt"),
     "glass-ball": Case("scenes/glass-ball/scene.xml", (256, 256), "mlt"),
     "door-ajar": Case("scenes/door-ajar/scene.xml", (320, 240), None),
-    "pool": Case("scenes/pool/scene.xml", (320, 240), None),
+    "pool": Case("scenes/pool/scene.xml", (320, 240), "mlt"),
 }
 
 
