@@ -122,8 +122,7 @@ Plugin integrator_bdpt() {
          "less."},
         {"manifolds", ParamType::boolean, false,
          "Find lights across chains of mirrors and glass, too (specular manifold sampling, "
-         "Zeltner, "
-         "Georgiev & Jakob 2020), which other techniques hit by chance."}}}));
+         "Zeltner, Georgiev & Jakob 2020), where other techniques find them too rarely."}}}));
 }
 
 }  // namespace mlt

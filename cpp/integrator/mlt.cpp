@@ -70,8 +70,8 @@ Plugin integrator_mlt() {
         {"two_stage", ParamType::boolean, true,
          "Divide the target by a coarse image, so that dark regions get their share."},
         {"manifolds", ParamType::boolean, true,
-         "Samples find lights across chains of mirrors and glass, too (specular manifold sampling, "
-         "Zeltner, Georgiev & Jakob 2020), where tours start that other samples find by chance."},
+         "Tours start from lights found across chains of mirrors and glass, too (specular manifold "
+         "sampling, Zeltner, Georgiev & Jakob 2020), where other samples find them too rarely."},
         {"delayed_rejection", ParamType::boolean, false,
          "Let a smaller step follow where a perturbation's proposal was rejected."},
         choice_parameter(

@@ -50,9 +50,9 @@ namespace {
 
 /// Light is rare if other techniques have less than this share of its density.
 constexpr double rare_share = 0.01;
-/// The least share of rare light, scattered before it comes to the lens, for which chains are
-/// searched, and the least share of those with the same lobes.
-constexpr double least_rare = 0.05, least_rare_of_lobes = 0.01;
+/// The least share of rare light for which chains are searched, and that of chains with the same
+/// lobes.
+constexpr double least_rare = 0.04, least_rare_of_lobes = 0.01;
 
 /// Samples of bidirectional path tracing that search for all chains.
 class ManifoldLessons {
@@ -61,21 +61,23 @@ class ManifoldLessons {
                   const std::shared_ptr<const ManifoldGuide>& all)
       : scene_(&scene), manifolds_(scene, all), paths_(scene, settings(rules, all)) {}
 
-  void take(int samples) {
+  /// Takes samples until there are `count`.
+  void take(uint64_t count) {
     RayCounts rays;
-    for (int i = 0; i < samples; ++i) {
-      Rng rng(0, Purpose::manifold, static_cast<uint64_t>(i));
+    for (; taken_ < count; ++taken_) {
+      Rng rng(0, Purpose::manifold, taken_);
       RandomSampler sampler(rng);
       paths_.sample(scene_->camera().raster().sample(sampler.next2()), sampler, rays);
       paths_.connect_all(rays, [&](const Connection& c) { learn(c); });
     }
   }
 
+  /// The share of rare light, scattered before it comes to the lens.
+  double rare() const { return light_ > 0 ? rare_scattered_ / light_ : 0; }
   /// For the lobes of the chains to be found, how often these are found over the probability of
   /// the lobes.
   std::unordered_map<uint64_t, double> ratios() const {
     std::unordered_map<uint64_t, double> ratios;
-    if (rare_scattered_ < least_rare * light_) return ratios;
     for (const auto& [lobes, chains] : classes_)
       if (chains.rare >= least_rare_of_lobes * light_) ratios[lobes] = chains.found / chains.again;
     return ratios;
@@ -120,6 +122,7 @@ class ManifoldLessons {
   BidirectionalSampler paths_;
   std::unordered_map<uint64_t, Chains> classes_;
   double light_ = 0, rare_scattered_ = 0;
+  uint64_t taken_ = 0;
   Path path_;
   PathTerms terms_;
 };
@@ -127,11 +130,14 @@ class ManifoldLessons {
 }  // namespace
 
 std::shared_ptr<const ManifoldGuide> learn_manifolds(const Scene& scene, const PathRules& rules) {
-  constexpr int samples = 1024;
+  constexpr uint64_t first_samples = 1024, samples = 8192;
   auto guide = std::make_shared<ManifoldGuide>(scene);
   if (!guide->useful()) return nullptr;
   ManifoldLessons lessons(scene, rules, std::make_shared<ManifoldGuide>(*guide));
+  lessons.take(first_samples);
+  if (lessons.rare() < least_rare / 2) return nullptr;
   lessons.take(samples);
+  if (lessons.rare() < least_rare) return nullptr;
   auto ratios = lessons.ratios();
   if (ratios.empty()) return nullptr;
   guide->choose(std::move(ratios));

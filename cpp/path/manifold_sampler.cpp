@@ -1,6 +1,7 @@
 #include "path/manifold_sampler.h"
 
 namespace mlt {
+
 double ManifoldSampler::chain_density(const Vertex* x0, int m, double lobes) const {
   if (m < 1 || m > SpecularChain::most_vertices || !starts_chains(*scene_, *x0)) return 0;
   for (int i = 1; i <= m; ++i)

@@ -40,8 +40,6 @@ class MltAlgorithm : public MetropolisAlgorithm {
  public:
   MltAlgorithm(ScenePtr scene, const MltSettings& settings)
       : settings_(settings), target_(std::move(scene), settings.rules, settings.near_specular) {
-    if (settings_.manifolds)
-      target_.set_manifolds(learn_manifolds(target_.scene(), target_.rules()));
     std::vector<double> weights;
     for (const MixedMutation& mixed : settings_.mixture)
       for (const auto& [own, weight] : in_all_sizes(mixed)) {
@@ -60,6 +58,7 @@ class MltAlgorithm : public MetropolisAlgorithm {
   }
 
   void look_around(uint64_t seed, int threads, const std::atomic<bool>& cancelled) override {
+    learn();
     if (settings_.samples_beside)
       target_.leave_to_samples(
           {scene(), target_.rules(), walks_to_lights, seed, threads, cancelled});
@@ -122,6 +121,7 @@ class MltAlgorithm : public MetropolisAlgorithm {
     return bytes.take();
   }
   void load(const std::string& saved) override {
+    learn();
     ByteReader bytes(saved);
     std::vector<double> factors;
     bytes.read(factors);
@@ -145,6 +145,10 @@ class MltAlgorithm : public MetropolisAlgorithm {
   }
 
  private:
+  /// Learns which chains are searched for: the same for each render of the scene.
+  void learn() {
+    if (settings_.manifolds) target_.set_manifolds(learn_manifolds(scene(), target_.rules()));
+  }
   bool are_traced() const { return target_.techniques() == SampleTechniques::path_tracing; }
   /// The mutation as it is, or once for each step size that adaptation chooses from.
   std::vector<std::pair<MutationValues, double>> in_all_sizes(const MixedMutation& mixed) const {

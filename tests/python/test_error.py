@@ -83,7 +83,7 @@ def test_the_relative_error_is_the_true_one_in_all_scenes(name):
 def test_a_render_ends_as_wrong_as_it_was_asked_to(name, integrator, error, spp):
     """Bright samples are rare in these scenes: who stops early has not seen them.
 
-    Errors of the truth, the mean of six renders of `spp`, make the test harder, not easier.
+    The truth is the mean of six renders of `spp`.
     """
     scene = load(name, (48, 32))
     images = [mlt.render(scene, integrator, spp=spp, seed=s) for s in range(90, 96)]

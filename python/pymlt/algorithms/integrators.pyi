@@ -33,7 +33,7 @@ class BDPT(Integrator):
         Keep the image of each technique, raw and weighted; needs a max_depth of 16 or less.
     manifolds : boolean, default False
         Find lights across chains of mirrors and glass, too (specular manifold sampling,
-        Zeltner, Georgiev & Jakob 2020), which other techniques hit by chance.
+        Zeltner, Georgiev & Jakob 2020), where other techniques find them too rarely.
     """
 
     max_depth: int
@@ -301,8 +301,8 @@ class MLT(Integrator):
     two_stage : boolean, default True
         Divide the target by a coarse image, so that dark regions get their share.
     manifolds : boolean, default True
-        Samples find lights across chains of mirrors and glass, too (specular manifold sampling,
-        Zeltner, Georgiev & Jakob 2020), where tours start that other samples find by chance.
+        Tours start from lights found across chains of mirrors and glass, too (specular manifold
+        sampling, Zeltner, Georgiev & Jakob 2020), where other samples find them too rarely.
     delayed_rejection : boolean, default False
         Let a smaller step follow where a perturbation's proposal was rejected.
     independent : string, default 'auto'
