@@ -47,7 +47,7 @@ class DirectTaker : public SampleTaker {
     if (!settings_.rules.hide_emitters)
       sum += emission(*scene_, hit ? &at : nullptr, ray.d, always);
     if (!hit || !consistent_sides(at, -ray.d, settings_.rules.strict_normals)) return sum;
-    if (scene_->bsdf(at).has_smooth())
+    if (BsdfAt(*scene_, at).has_smooth())
       for (int i = 0; i < settings_.emitter_samples; ++i) sum += by_light(walker, at, ray, sampler);
     for (int i = 0; i < settings_.bsdf_samples; ++i) sum += by_bsdf(walker, at, ray, sampler);
     return sum;
@@ -58,7 +58,7 @@ class DirectTaker : public SampleTaker {
     const Vec3 u = DirectNumbers::draw(sampler).for_light();
     const double n = settings_.emitter_samples, m = settings_.bsdf_samples;
     const auto weight = [&](double light, double bsdf) {
-      return power_heuristic(n * light, m * bsdf);
+      return MisExponent(Heuristic::power).weight(n * light, m * bsdf);
     };
     return direct_light(walker, at, -ray.d, u, settings_.rules.strict_normals, weight) / n;
   }
@@ -73,7 +73,7 @@ class DirectTaker : public SampleTaker {
     const auto weight = [&](const Emitter& emitter, const SurfacePoint& x0) {
       if (sample->lobe != Lobe::smooth) return 1.0;
       const double light = direct_pdf(*scene_, emitter, at.p, x0, sample->w);
-      return power_heuristic(m * sample->pdf, n * light);
+      return MisExponent(Heuristic::power).weight(m * sample->pdf, n * light);
     };
     SurfacePoint next;
     const bool hit = walker.arrive(walker.leave(at, sample->w), next);

@@ -24,6 +24,11 @@ using Mat4 = glm::dmat4;  // column-major: m[column][row]
 using Vec2i = glm::ivec2;
 using Vec2f = glm::vec2;
 using Vec3f = glm::vec3;
+/// For formulas of double precision and of the single precision of waves.
+template <class F>
+using Vec2Of = glm::vec<2, F>;
+template <class F>
+using Vec3Of = glm::vec<3, F>;
 
 using glm::cross;
 using glm::dot;

@@ -12,9 +12,11 @@
 
 namespace mlt {
 
-struct SinCos {
-  double sin, cos;
+template <class F>
+struct SinCosOf {
+  F sin, cos;
 };
+using SinCos = SinCosOf<double>;
 
 namespace detail {
 
@@ -25,6 +27,13 @@ inline SinCos sincos_octant(double x) {
                                   -1. / 5040, 1. / 120, -1. / 6});
   const double c = polynomial(y, {1. / 20922789888000, -1. / 87178291200, 1. / 479001600,
                                   -1. / 3628800, 1. / 40320, -1. / 720, 1. / 24, -0.5});
+  return {x + x * y * s, 1 + y * c};
+}
+/// The same in single precision (x^10 / 10! < 3e-8).
+inline SinCosOf<float> sincos_octant(float x) {
+  const float y = x * x;
+  const float s = polynomial(y, {-1.f / 5040, 1.f / 120, -1.f / 6});
+  const float c = polynomial(y, {1.f / 40320, -1.f / 720, 1.f / 24, -0.5f});
   return {x + x * y * s, 1 + y * c};
 }
 
@@ -48,19 +57,20 @@ inline double turns(double x, double y) {
 
 namespace detail {
 
+template <class F>
 struct DiskPoint {
-  Vec2 p;
-  double radius;
+  Vec2Of<F> p;
+  F r;  ///< The radius, or its negative.
 };
 
-inline DiskPoint concentric(const Vec2& u) {
-  const double a = 2 * u.x - 1, b = 2 * u.y - 1;
+/// Without branches, so that loops over it are vectorised.
+template <class F>
+DiskPoint<F> concentric(const Vec2Of<F>& u) {
+  const F a = 2 * u.x - 1, b = 2 * u.y - 1;
   const bool wide = std::abs(a) > std::abs(b);
-  const double r = wide ? a : b;
-  if (r == 0) return {{0, 0}, 0};
-  const SinCos angle = sincos_octant((pi / 4) * ((wide ? b : a) / r));
-  const Vec2 p = wide ? Vec2(r * angle.cos, r * angle.sin) : Vec2(r * angle.sin, r * angle.cos);
-  return {p, std::abs(r)};
+  const F r = wide ? a : b, other = wide ? b : a;
+  const SinCosOf<F> angle = sincos_octant(F(pi / 4) * (r == 0 ? F(0) : other / r));
+  return {{r * (wide ? angle.cos : angle.sin), r * (wide ? angle.sin : angle.cos)}, r};
 }
 
 }  // namespace detail
@@ -85,7 +95,8 @@ inline Vec2 invert_disk(const Vec2& p) {
 // The hemisphere with density cos / pi: the disk, lifted (Malley's method; Pharr et al., PBRT 3rd
 // ed., sec. 13.6.3).
 
-inline Vec3 sample_cosine_hemisphere(const Vec2& u) {
+template <class F>
+Vec3Of<F> sample_cosine_hemisphere(const Vec2Of<F>& u) {
   const auto [p, r] = detail::concentric(u);
   return {p.x, p.y, std::sqrt((1 - r) * (1 + r))};
 }

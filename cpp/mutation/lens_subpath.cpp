@@ -76,10 +76,9 @@ class LensSubpathMutation final : public MeasuredMutation<LensSubpathMutation> {
   /// Probability with which a walk stops at this surface, to be joined there: 0 where all
   /// scattering is (nearly) specular, 1 where none is a delta.
   double stop_probability(const SurfacePoint& at) const {
-    if (at.lambertian.known()) return 1;
-    const Bsdf& bsdf = scene().bsdf(at);
-    const Vec3 up(0, 0, 1);
-    if (!bsdf.has_smooth() || bsdf.roughness(at, up, up) < target().near_specular()) return 0;
+    const BsdfAt bsdf(scene(), at);
+    const Vec3& n = at.shading.n;
+    if (!bsdf.has_smooth() || bsdf.smoother_than(target().near_specular(), n, n)) return 0;
     return bsdf.has_delta() ? 0.5 : 1.0;
   }
 };

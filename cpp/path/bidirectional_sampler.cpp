@@ -23,19 +23,16 @@ JointEnd any_end(const Scene& scene, const WalkVertex& x, Subpath::From from, co
 /// Finds the terms at the vertex for an edge along w; false if it carries no light.
 inline bool find_end(const Scene& scene, const WalkVertex& x, Subpath::From from, const Vec3& w,
                      bool strict, JointEnd& end) {
-  const SurfacePoint& at = x.vertex.at;
-  if (!at.lambertian.known()) {
+  if (!x.joint.known) {
     end = any_end(scene, x, from, w, strict);
     return !is_black(end.value);
   }
-  const double geometric = std::abs(dot(at.ng, w)), cosine = dot(at.shading.n, w);
-  if (geometric == 0 || !(cosine * x.lambertian.cosine > 0) || !consistent_sides(at, w, strict))
-    return false;
-  const double quotient = std::abs(cosine) / geometric;
-  end.value = from == Subpath::From::light ? x.lambertian.value : x.lambertian.value * quotient;
-  end.onwards = quotient * inv_pi;
-  end.back = x.lambertian.back;
-  return true;
+  const SurfacePoint& at = x.vertex.at;
+  const auto edge = lambertian_edge(at.ng, at.shading.n, w, x.joint.cosine, strict);
+  end.value = from == Subpath::From::light ? x.joint.value : x.joint.value * edge.quotient;
+  end.onwards = edge.quotient * inv_pi;
+  end.back = x.joint.back;
+  return edge.scatters;
 }
 
 }  // namespace
@@ -126,13 +123,13 @@ bool BidirectionalSampler::evaluate_hit_light(Connection& connection) {
 /// already.
 inline TechniqueSums BidirectionalSampler::below_joint(int i, const WalkVertex& x,
                                                        double back) const {
-  if (x.vertex.at.lambertian.known()) return light_sums_[i];
+  if (x.joint.known) return light_sums_[i];
   if (i == 0) return TechniqueSums().with(can_be_hit(*scene_, x.vertex) ? 1 : 0);
   return below_light(i - 1, back * x.G).with(light_technique(i, true));
 }
 inline TechniqueSums BidirectionalSampler::above_joint(int i, const WalkVertex& x,
                                                        double back) const {
-  if (x.vertex.at.lambertian.known()) return camera_sums_[i];
+  if (x.joint.known) return camera_sums_[i];
   const TechniqueSums before = i > 0 ? above_camera(i - 1, back * x.G) : TechniqueSums();
   return before.with(camera_technique(i, true));
 }

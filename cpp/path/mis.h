@@ -10,6 +10,24 @@ namespace mlt {
 
 enum class Heuristic { balance, power, maximum };
 
+/// The beta of the heuristic to which quotients of densities are raised: 1 for the balance
+/// heuristic, 2 for the power heuristic. Without a branch: by a factor of 1 or of the quotient.
+class MisExponent {
+ public:
+  explicit MisExponent(Heuristic heuristic) {
+    if (heuristic == Heuristic::balance) least_ = most_ = 1;
+  }
+  template <class F>
+  F raise(F quotient) const {
+    return quotient * std::min(std::max(quotient, F(least_)), F(most_));
+  }
+  /// The weight of one of two techniques (Veach 1997, eq. 9.13), by their densities.
+  double weight(double own, double other) const { return 1 / (1 + raise(other / own)); }
+
+ private:
+  double least_ = 0, most_ = infinity;
+};
+
 /// The weights of one technique: by the chosen heuristic, and by the balance heuristic, which is
 /// p_s / P.
 struct MisWeights {

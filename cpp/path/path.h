@@ -36,11 +36,7 @@ std::optional<Vec2> raster_position(const Scene& scene, const Path& path);
 inline bool is_specular(const Scene& scene, const Vertex& x, const Vec3& wl, const Vec3& wc,
                         double near_specular) {
   if (x.delta()) return true;
-  if (x.kind != VertexKind::surface || x.at.lambertian.known() || near_specular <= 0) return false;
-  const Bsdf& bsdf = scene.bsdf(x.at);
-  if (bsdf.least_roughness() >= near_specular) return false;
-  const Frame& frame = x.at.shading;
-  return bsdf.roughness(x.at, frame.to_local(wl), frame.to_local(wc)) < near_specular;
+  return x.kind == VertexKind::surface && BsdfAt(scene, x.at).smoother_than(near_specular, wl, wc);
 }
 
 }  // namespace mlt

@@ -14,6 +14,9 @@ struct PathRules {
   bool hide_emitters = false;   ///< Leave out lights that the camera sees directly.
   bool strict_normals = false;  ///< See `consistent_sides`.
 
+  /// The probability of surviving Russian roulette, of a walk whose throughput has this factor.
+  static double survival(double factor) { return std::min(factor, 0.95); }
+
   /// Edges of the longest path that is ever found: vertices take memory.
   static constexpr int longest = 1 << 16;
   int most_edges() const { return max_depth < 0 ? longest : std::min(max_depth, longest); }

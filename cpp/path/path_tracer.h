@@ -8,11 +8,6 @@
 
 namespace mlt {
 
-/// The power heuristic with beta = 2 (Veach 1997, eq. 9.13) for two techniques.
-inline double power_heuristic(double pdf, double other) {
-  return sqr(pdf) / (sqr(pdf) + sqr(other));
-}
-
 /// d(measure of x0) / d(solid angle of w at `from`): turns a density at x0 into one over
 /// directions. w points from `from` to x0.
 inline double per_solid_angle(const Vec3& from, const SurfacePoint& x0, const Vec3& w) {
@@ -74,7 +69,7 @@ DirectLight unshadowed_light(const Scene& scene, const LightSample& light, const
   if (!consistent_sides(at, wl, strict)) return {};
   const Color radiance = light.emitter->eval(light.x0.at, -wl);
   if (is_black(radiance)) return {};
-  const WorldScattering s = scattering(scene.bsdf(at), at, wl, wc, Lobe::smooth);
+  const WorldScattering s = BsdfAt(scene, at).scattering(wl, wc, Lobe::smooth);
   if (is_black(s.f)) return {};
   const double pdf = light.x0.pdf * per_solid_angle(at.p, light.x0.at, wl);
   const double mis = light.emitter->delta() ? 1.0 : weight(pdf, s.pdf_from_camera);
@@ -102,18 +97,17 @@ struct ScatterSample {
 /// Samples the direction of the incident light that is scattered towards wc.
 inline std::optional<ScatterSample> scatter_to_light(const Walker& walker, const SurfacePoint& at,
                                                      const Vec3& wc, const Vec3& u, bool strict) {
-  const auto sample = walker.scatter(at, wc, u);
+  const BsdfAt bsdf(walker.scene, at);
+  const auto sample = bsdf.sample(wc, u);
   if (!sample) return std::nullopt;
   const auto& [w, local_c, local_l, lobe] = *sample;
   if (lobe != Lobe::null && !consistent_sides(at, w, strict)) return std::nullopt;
-  const Bsdf& bsdf = walker.scene.bsdf(at);
-  const Scattering s = at.lambertian.known() ? at.lambertian.scattering(local_l.z, local_c.z, lobe)
-                                             : bsdf.scattering(at, local_l, local_c, lobe);
+  const Scattering s = bsdf.local_scattering(local_l, local_c, lobe);
   if (!(s.pdf_from_camera > 0) || is_black(s.f)) return std::nullopt;
 
   const bool refracted =
       lobe == Lobe::transmission || (lobe == Lobe::smooth && !same_side(local_l, local_c));
-  const double eta2 = refracted ? sqr(bsdf.relative_eta(at, local_c)) : 1.0;
+  const double eta2 = refracted ? sqr(bsdf.relative_eta(local_c)) : 1.0;
   const double factor = lobe == Lobe::smooth ? abs_cos_theta(local_l) : eta2;
   return ScatterSample{w, s.f * (factor / s.pdf_from_camera), s.pdf_from_camera, lobe, eta2};
 }
@@ -157,13 +151,9 @@ struct CameraWalk {
   double survival = 1;     ///< Probability of having survived Russian roulette.
   RayCounts rays;          ///< Rays that a PathWave has traced for it.
 
-  Heuristic heuristic = Heuristic::power;  ///< For the two techniques.
+  MisExponent mis{Heuristic::power};  ///< For the two techniques.
   ChainFactor chain_factor;
 
-  /// The MIS weight of one of the two techniques.
-  double mis(double pdf, double other) const {
-    return heuristic == Heuristic::balance ? pdf / (pdf + other) : power_heuristic(pdf, other);
-  }
   /// The weight w1 of a path with this certainty and radiance.
   double own_share(const Color& found, double its_certainty = 0) const {
     const auto& [factor, most_certain] = chain_factor;
@@ -181,8 +171,9 @@ void find_light(const Scene& scene, CameraWalk& walk, const SurfacePoint* at,
   const Vec3& w = walk.ray.d;
   const auto take = [&](const Emitter& emitter, const SurfacePoint& x0, const Color& emitted) {
     const double weight =
-        walk.delta ? 1.0
-                   : walk.mis(walk.scatter_pdf, direct_pdf(scene, emitter, walk.previous, x0, w));
+        walk.delta
+            ? 1.0
+            : walk.mis.weight(walk.scatter_pdf, direct_pdf(scene, emitter, walk.previous, x0, w));
     const Color weighted = walk.throughput * weight, found = weighted * emitted;
     watcher.find(walk, found, walk.certainty);
     watcher.hit(emitter, x0, -w, weighted);
@@ -195,7 +186,7 @@ void find_light(const Scene& scene, CameraWalk& walk, const SurfacePoint* at,
 inline bool survive(const PathRules& rules, int depth, double u, CameraWalk& walk) {
   if (vanishes(walk.throughput)) return false;
   if (depth < rules.rr_depth) return true;
-  const double survival = std::min(max_component(walk.throughput) * walk.eta2, 0.95);
+  const double survival = PathRules::survival(max_component(walk.throughput) * walk.eta2);
   if (!(u < survival)) return false;
   walk.throughput /= survival;
   walk.survival *= survival;
@@ -224,7 +215,7 @@ bool scatter(const Walker& walker, const PathRules& rules, int depth, const Surf
 /// Whether lights are sampled for the depth-th vertex after the lens.
 inline bool wants_direct_light(const Scene& scene, const PathRules& rules, int depth,
                                const SurfacePoint& at) {
-  return (at.lambertian.known() || scene.bsdf(at).has_smooth()) && rules.wants(depth + 1);
+  return BsdfAt(scene, at).has_smooth() && rules.wants(depth + 1);
 }
 
 /// The radiance from the scene along the ray of a walk. Every vertex draws the same number of
@@ -244,7 +235,7 @@ Color trace_path(const Scene& scene, const PathRules& rules, CameraWalk walk, Sa
     if (!consistent_sides(at, wc, rules.strict_normals)) break;
     const VertexNumbers numbers = VertexNumbers::draw(sampler);
     if (wants_direct_light(scene, rules, depth, at)) {
-      const auto mis = [&](double light, double bsdf) { return walk.mis(light, bsdf); };
+      const auto mis = [&](double light, double bsdf) { return walk.mis.weight(light, bsdf); };
       const Color direct = walk.throughput * direct_light(walker, at, wc, numbers.for_light(),
                                                           rules.strict_normals, mis);
       watcher.find(walk, direct, 0);

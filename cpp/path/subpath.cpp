@@ -16,6 +16,7 @@ WalkVertex& Subpath::add() {
   added.survival = added.next_survival = 1;
   added.towards_previous = Vec3(0);
   added.G = added.reverse = added.next_coefficient = 0;
+  added.joint = {};
   return added;
 }
 
@@ -46,72 +47,48 @@ bool Subpath::trace(const Walker& walker, const PathRules& rules, const Ray& ray
   next.towards_previous = -ray.d;
   next.G = geometry(previous.vertex.at, at);
   next.forward = previous.next_coefficient * next.G;
-  if (!at.lambertian.known()) return hit;
-  prepare_joints(next, rules.strict_normals);
-  previous.reverse = next.lambertian.back * next.G;
-  return true;
+  if (hit && BsdfAt(walker.scene, at).knows_density()) prepare_joints(next, rules.strict_normals);
+  return hit;
 }
 
-void Subpath::prepare_joints(WalkVertex& x, bool strict_normals) const {
+void Subpath::prepare_joints(WalkVertex& x, bool strict_normals) {
   const SurfacePoint& at = x.vertex.at;
-  const Vec3& w = x.towards_previous;
-  const double geometric = std::abs(dot(at.ng, w)), cosine = dot(at.shading.n, w);
-  x.lambertian = {};
-  if (geometric == 0 || !at.lambertian.scatters(cosine) || !consistent_sides(at, w, strict_normals))
-    return;
-  x.lambertian.cosine = cosine;
-  x.lambertian.value = x.throughput * at.lambertian.f;
-  if (from_ == From::light) x.lambertian.value *= std::abs(cosine) / geometric;
-  x.lambertian.back = std::abs(cosine) * inv_pi / geometric;
+  const double cosine = dot(at.shading.n, x.towards_previous);
+  const auto edge = lambertian_edge(at.ng, at.shading.n, x.towards_previous,
+                                    at.lambertian.scatters(cosine) ? cosine : 0, strict_normals);
+  x.joint.known = true;
+  if (edge.scatters) {
+    x.joint.cosine = cosine;
+    x.joint.value = x.throughput * at.lambertian.f;
+    if (from_ == From::light) x.joint.value *= edge.quotient;
+    x.joint.back = edge.quotient * inv_pi;
+  }
+  vertices_[size() - 2].reverse = x.joint.back * x.G;
 }
 
 bool Subpath::scatter(const Walker& walker, const PathRules& rules, const StepNumbers& u) {
   WalkVertex& x = last();
-  Step step;
-  if (!(x.vertex.at.lambertian.known()
-            ? scatter_lambertian(x, u.direction, rules.strict_normals, step)
-            : scatter(walker, x, u.for_scattering(), rules.strict_normals, step)))
-    return false;
-  double survival = 1;
-  if (static_cast<int>(size()) > rules.rr_depth)
-    survival = std::min(max_component(step.ratio), 0.95);
-  if (!(u.roulette < survival)) return false;
-  x.towards_next = step.w;
-  x.next_coefficient = step.coefficient;
-  x.next_throughput = x.throughput * step.ratio / survival;
-  x.next_survival = x.survival * survival;
-  return true;
-}
-
-bool Subpath::scatter(const Walker& walker, WalkVertex& x, const Vec3& u, bool strict, Step& step) {
-  const auto sample = walker.scatter(x.vertex.at, x.towards_previous, u);
+  const auto sample =
+      BsdfAt(walker.scene, x.vertex.at).sample(x.towards_previous, u.for_scattering());
   if (!sample) return false;
   const bool from_light = from_ == From::light;
-  const VertexTerms terms = surface_terms(walker.scene, x.vertex.at, sample->lobe,
-                                          from_light ? x.towards_previous : sample->w,
-                                          from_light ? sample->w : x.towards_previous, strict);
+  const VertexTerms terms = surface_terms(
+      walker.scene, x.vertex.at, sample->lobe, from_light ? x.towards_previous : sample->w,
+      from_light ? sample->w : x.towards_previous, rules.strict_normals);
   const double coefficient = from_light ? terms.pdf_from_light : terms.pdf_from_camera;
   const double back = from_light ? terms.pdf_from_camera : terms.pdf_from_light;
   if (!(coefficient > 0) || is_black(terms.f)) return false;
-  step = {sample->w, coefficient, terms.f / coefficient};
+  const Color ratio = terms.f / coefficient;
+  double survival = 1;
+  if (static_cast<int>(size()) > rules.rr_depth)
+    survival = PathRules::survival(max_component(ratio));
+  if (!(u.roulette < survival)) return false;
   x.vertex.lobe = sample->lobe;
+  x.towards_next = sample->w;
+  x.next_coefficient = coefficient;
+  x.next_throughput = x.throughput * ratio / survival;
+  x.next_survival = x.survival * survival;
   vertices_[size() - 2].reverse = back * x.G;
-  return true;
-}
-
-/// See scatter(); on a Lambertian surface the coefficient is |w.ns| / (pi |w.ng|), and f has the
-/// same quotient of cosines, of the direction on the light side (see VertexTerms).
-bool Subpath::scatter_lambertian(const WalkVertex& x, const Vec2& u, bool strict,
-                                 Step& step) const {
-  const SurfacePoint& at = x.vertex.at;
-  const auto to = at.lambertian.sample(x.lambertian.cosine, u);
-  if (!to) return false;
-  const Vec3 w = at.shading.to_world(*to);
-  const double geometric = std::abs(dot(at.ng, w)), cosine = std::abs(to->z);
-  if (geometric == 0 || !consistent_sides(at, w, strict) || is_black(at.lambertian.f)) return false;
-  const double coefficient = cosine * inv_pi / geometric;
-  step = {w, coefficient,
-          at.lambertian.f * (from_ == From::light ? x.lambertian.back * pi / coefficient : pi)};
   return true;
 }
 

@@ -25,14 +25,16 @@ struct WalkVertex {
   /// Density of towards_next in projected solid angle, for this walk.
   double next_coefficient = 0;
 
-  /// The terms that all joints of a Lambertian vertex have in common, where a path may be joined.
-  struct LambertianJoint {
+  /// The terms that all joints of a vertex have in common, where they are known on arrival: on
+  /// Lambertian surfaces.
+  struct Joint {
+    bool known = false;
     /// Cosine of towards_previous with the shading normal; 0: nothing is scattered there.
     double cosine = 0;
     Color value{0};   ///< Throughput times f, for joints of a camera walk without |w.ns| / |w.ng|.
     double back = 0;  ///< Density of towards_previous in projected solid angle.
   };
-  LambertianJoint lambertian;
+  Joint joint;
 
   bool absorbed() const { return next_coefficient == 0; }  ///< No direction was sampled here.
 };
@@ -84,16 +86,9 @@ class Subpath {
   /// Adds the vertex that the ray hits; false if the walk ends there or the ray hits none.
   bool trace(const Walker& walker, const PathRules& rules, const Ray& ray);
   /// Computes the terms for joints at a Lambertian vertex.
-  void prepare_joints(WalkVertex& x, bool strict_normals) const;
+  void prepare_joints(WalkVertex& x, bool strict_normals);
   /// Samples a direction at the last vertex; false if the walk ends there.
   bool scatter(const Walker& walker, const PathRules& rules, const StepNumbers& u);
-  struct Step {
-    Vec3 w;              ///< The sampled direction.
-    double coefficient;  ///< Density of w in projected solid angle.
-    Color ratio;         ///< f over `coefficient`.
-  };
-  bool scatter(const Walker& walker, WalkVertex& x, const Vec3& u, bool strict, Step& step);
-  bool scatter_lambertian(const WalkVertex& x, const Vec2& u, bool strict, Step& step) const;
   /// Sets the direction of the walk from its end vertex.
   void leave(const Scene& scene, const Vec3& w, double coefficient);
 

@@ -2,22 +2,15 @@
 
 namespace mlt {
 
-VertexTerms plugin_terms(const Scene& scene, const SurfacePoint& at, Lobe lobe, const Vec3& wl,
-                         const Vec3& wc, bool strict_normals) {
-  const double geometric_l = std::abs(dot(at.ng, wl)), geometric_c = std::abs(dot(at.ng, wc));
-  if (geometric_l == 0 || geometric_c == 0) return {};
-  if (lobe != Lobe::null &&
-      !(consistent_sides(at, wl, strict_normals) && consistent_sides(at, wc, strict_normals)))
-    return {};
-  const Bsdf& bsdf = scene.bsdf(at);
-  const WorldScattering s = scattering(bsdf, at, wl, wc, lobe);
-  if (lobe == Lobe::smooth)
-    return {s.f * (std::abs(s.cos_l) / geometric_l), s.pdf_from_light / geometric_c,
-            s.pdf_from_camera / geometric_l};
+VertexTerms delta_terms(const Scene& scene, const SurfacePoint& at, Lobe lobe, const Vec3& wl,
+                        const Vec3& wc) {
+  const BsdfAt bsdf(scene, at);
+  const WorldScattering s = bsdf.scattering(wl, wc, lobe);
   if (lobe == Lobe::null) return {s.f, s.pdf_from_light, s.pdf_from_camera};
+  const double geometric_l = std::abs(dot(at.ng, wl)), geometric_c = std::abs(dot(at.ng, wc));
   const double adjoint = std::abs(s.cos_l) * geometric_c / (std::abs(s.cos_c) * geometric_l);
   const double eta2 =
-      lobe == Lobe::transmission ? sqr(bsdf.relative_eta(at, at.shading.to_local(wl))) : 1.0;
+      lobe == Lobe::transmission ? sqr(bsdf.relative_eta(at.shading.to_local(wl))) : 1.0;
   return {s.f * adjoint, s.pdf_from_light, s.pdf_from_camera * eta2 * adjoint};
 }
 

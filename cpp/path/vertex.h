@@ -2,7 +2,7 @@
 // other: the terms of a path are formed without regard to the kinds of its vertices.
 #pragma once
 
-#include "scene/scene.h"
+#include "scene/bsdf_at.h"
 
 namespace mlt {
 
@@ -17,12 +17,6 @@ struct Vertex {
 
   bool delta() const { return lobe != Lobe::smooth; }
 };
-
-/// Light leaks through or vanishes where a direction is on different sides of the geometric and
-/// the shading normal. By default the shading normal alone decides; `strict` rejects them.
-inline bool consistent_sides(const SurfacePoint& at, const Vec3& w, bool strict) {
-  return !strict || dot(at.ng, w) * dot(at.shading.n, w) > 0;
-}
 
 /// The factors that one vertex contributes to a path through `towards_light` and `towards_camera`.
 ///
@@ -53,27 +47,38 @@ struct LensTerms {
 };
 LensTerms lens_terms(const Scene& scene, const SurfacePoint& xk, const Vec3& wl);
 
-/// The terms of a smooth vertex on a Lambertian surface.
-inline VertexTerms lambertian_terms(const SurfacePoint& at, const Vec3& wl, const Vec3& wc,
-                                    bool strict_normals) {
-  const double geometric_l = std::abs(dot(at.ng, wl)), geometric_c = std::abs(dot(at.ng, wc));
-  if (geometric_l == 0 || geometric_c == 0) return {};
-  if (!(consistent_sides(at, wl, strict_normals) && consistent_sides(at, wc, strict_normals)))
-    return {};
-  const double cos_l = dot(wl, at.shading.n), cos_c = dot(wc, at.shading.n);
-  const Scattering s = at.lambertian.scattering(cos_l, cos_c, Lobe::smooth);
-  return {s.f * (std::abs(cos_l) / geometric_l), s.pdf_from_light / geometric_c,
-          s.pdf_from_camera / geometric_l};
-}
-/// The terms of a vertex on any surface, by its plug-in.
-VertexTerms plugin_terms(const Scene& scene, const SurfacePoint& at, Lobe lobe, const Vec3& wl,
-                         const Vec3& wc, bool strict_normals);
+/// The terms of a surface vertex that scatters by a delta lobe.
+VertexTerms delta_terms(const Scene& scene, const SurfacePoint& at, Lobe lobe, const Vec3& wl,
+                        const Vec3& wc);
 /// The terms of a surface vertex that scatters by `lobe`.
 inline VertexTerms surface_terms(const Scene& scene, const SurfacePoint& at, Lobe lobe,
                                  const Vec3& wl, const Vec3& wc, bool strict_normals) {
-  if (lobe == Lobe::smooth && at.lambertian.known())
-    return lambertian_terms(at, wl, wc, strict_normals);
-  return plugin_terms(scene, at, lobe, wl, wc, strict_normals);
+  const double geometric_l = std::abs(dot(at.ng, wl)), geometric_c = std::abs(dot(at.ng, wc));
+  if (geometric_l == 0 || geometric_c == 0) return {};
+  if (lobe != Lobe::null &&
+      !(consistent_sides(at, wl, strict_normals) && consistent_sides(at, wc, strict_normals)))
+    return {};
+  if (lobe != Lobe::smooth) return delta_terms(scene, at, lobe, wl, wc);
+  const WorldScattering s = BsdfAt(scene, at).scattering(wl, wc, lobe);
+  return {s.f * (std::abs(s.cos_l) / geometric_l), s.pdf_from_light / geometric_c,
+          s.pdf_from_camera / geometric_l};
+}
+
+/// An edge along w at a Lambertian vertex (its VertexTerms, of one direction), in double precision
+/// or in the single precision of waves.
+template <class F>
+struct LambertianEdge {
+  F geometric;    ///< |w.ng|
+  F quotient;     ///< |w.ns| / |w.ng|; the density of w in projected solid angle is this over pi.
+  bool scatters;  ///< Whether light is scattered between w and the previous vertex.
+};
+/// `cosine` is that of the direction to the previous vertex with ns; 0: nothing is scattered.
+template <class F>
+LambertianEdge<F> lambertian_edge(const Vec3Of<F>& ng, const Vec3Of<F>& ns, const Vec3Of<F>& w,
+                                  F cosine, bool strict_normals) {
+  const F geometric = std::abs(dot(ng, w)), shading = dot(ns, w);
+  return {geometric, std::abs(shading) / geometric,
+          (shading * cosine > 0) & (geometric > 0) & consistent_sides(ng, ns, w, strict_normals)};
 }
 
 /// Terms of a vertex with the unit directions `wl` to the vertex on its light side and `wc` to the

@@ -11,7 +11,7 @@ Departure Walker::leave_light(const Vertex& x0, const Vec2& u) const {
 }
 
 std::optional<Ray> Walker::scatter(Vertex& x, const Vec3& towards_previous, const Vec3& u) const {
-  const auto sample = scatter(x.at, towards_previous, u);
+  const auto sample = BsdfAt(scene, x.at).sample(towards_previous, u);
   if (!sample) return std::nullopt;
   x.lobe = sample->lobe;
   return leave(x.at, sample->w);

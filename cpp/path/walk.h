@@ -57,13 +57,6 @@ LensDeparture leave_lens(const Camera& camera, const Vec2& raster, Sampler& samp
   return {lens, leave_lens(camera, lens.at, raster)};
 }
 
-/// A direction that a BSDF has sampled, and its lobe.
-struct ScatteredDirection {
-  Vec3 w;         ///< Direction in world space.
-  Vec3 from, to;  ///< In local space: to the previous vertex (z alone if Lambertian), and w.
-  Lobe lobe;
-};
-
 /// Takes the other steps of walks at one time, and counts their rays.
 struct Walker {
   const Scene& scene;
@@ -75,21 +68,7 @@ struct Walker {
   /// The ray from a surface along w.
   Ray leave(const SurfacePoint& at, const Vec3& w) const { return scene.spawn(at, w, time); }
 
-  /// Samples a direction: u.x chooses the lobe, (u.y, u.z) the direction; nullopt if there is none.
-  std::optional<ScatteredDirection> scatter(const SurfacePoint& at, const Vec3& towards_previous,
-                                            const Vec3& u) const {
-    if (at.lambertian.known()) {
-      const double cos_from = dot(towards_previous, at.shading.n);
-      const auto to = at.lambertian.sample(cos_from, {u.y, u.z});
-      if (!to) return std::nullopt;
-      return ScatteredDirection{at.shading.to_world(*to), {0, 0, cos_from}, *to, Lobe::smooth};
-    }
-    const Vec3 from = at.shading.to_local(towards_previous);
-    const auto sample = scene.bsdf(at).sample(at, from, u);
-    if (!sample) return std::nullopt;
-    return ScatteredDirection{at.shading.to_world(sample->to), from, sample->to, sample->lobe};
-  }
-  /// Samples a direction, as above, and returns the scattered ray; x records the lobe.
+  /// Samples a direction (BsdfAt::sample) and returns the scattered ray; x records the lobe.
   std::optional<Ray> scatter(Vertex& x, const Vec3& towards_previous, const Vec3& u) const;
 
   /// Intersects the ray with the surfaces; false if it hits none.

@@ -17,7 +17,7 @@ class TracedSource : public SourceOf<TracedSource> {
   void draw(const Vec2& raster, Sampler& sampler, std::vector<FoundLight>& found) {
     const Scene& scene = target_->scene();
     CameraWalk walk(leave_lens(scene.camera(), raster, sampler).ray);
-    walk.heuristic = Heuristic::balance;
+    walk.mis = MisExponent(Heuristic::balance);
     trace_path(scene, target_->rules(), walk, sampler, rays_, Finder(*this, raster, found));
   }
   const RayCounts& rays() const override { return rays_; }
@@ -58,7 +58,7 @@ class TracedTaker : public WaveTaker {
   void sample(const Vec2& raster, PixelSampler& sampler, SampleSink& sink,
               RayCounts& rays) override {
     CameraWalk walk(leave_lens(scene().camera(), raster, sampler).ray);
-    walk.heuristic = Heuristic::balance;
+    walk.mis = MisExponent(Heuristic::balance);
     walk.chain_factor = chain_factor(raster);
     sink.add(raster, trace_path(scene(), rules(), walk, sampler, rays));
   }

@@ -96,23 +96,4 @@ class Bsdf : public Object {
 
 using BsdfPtr = std::shared_ptr<const Bsdf>;
 
-/// Scattering between two directions in the world, and their cosines against the shading normal;
-/// for a delta lobe, against the normal about which it reflects or refracts.
-struct WorldScattering : Scattering {
-  double cos_l, cos_c;
-};
-inline WorldScattering scattering(const Bsdf& bsdf, const SurfacePoint& at, const Vec3& wl,
-                                  const Vec3& wc, Lobe lobe) {
-  if (at.lambertian.known()) {
-    const double cos_l = dot(wl, at.shading.n), cos_c = dot(wc, at.shading.n);
-    return {at.lambertian.scattering(cos_l, cos_c, lobe), cos_l, cos_c};
-  }
-  const Vec3 local_l = at.shading.to_local(wl), local_c = at.shading.to_local(wc);
-  const Scattering s = bsdf.scattering(at, local_l, local_c, lobe);
-  if (lobe == Lobe::smooth || !bsdf.bends_normal()) return {s, local_l.z, local_c.z};
-  const Vec3 n = bsdf.delta_normal(at, local_l);
-  const double cos_l = dot(local_l, n);
-  return {s, cos_l, lobe == Lobe::reflection ? cos_l : dot(local_c, n)};
-}
-
 }  // namespace mlt

@@ -131,8 +131,7 @@ SurfacePoint Scene::surface_point(const Ray& ray, const Hit& hit) const {
 }
 
 inline Vec3 Scene::departure(const SurfacePoint& at, const Vec3& w) const {
-  if (at.shape != SurfacePoint::no_shape)
-    return at.p + at.ng * std::copysign(ray_offset * at.extent, dot(at.ng, w));
+  if (at.shape != SurfacePoint::no_shape) return ray_origin(at.p, at.ng, w, at.extent);
   return at.kind == PointKind::surface ? camera_->entrance(at, w) : at.p;
 }
 

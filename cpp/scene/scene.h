@@ -66,9 +66,6 @@ class Scene {
   bool visible(const SurfacePoint& a, const SurfacePoint& b, double time) const;
   /// The shadow ray between two points; nullopt if they cannot be mutually visible.
   std::optional<Ray> segment(const SurfacePoint& a, const SurfacePoint& b, double time) const;
-  /// How far rays start and end off their surfaces, relative to the largest coordinate of the
-  /// primitive: 16 units in the last place of the accelerator's floats.
-  static constexpr double ray_offset = 0x1p-20;
   /// A ray from `from` along w, moved off the surface it starts on.
   Ray spawn(const SurfacePoint& from, const Vec3& w, double time) const;
 

@@ -33,6 +33,28 @@ struct SurfacePoint {
   bool infinite() const { return kind == PointKind::infinite; }
 };
 
+// Formulas of single paths, in double precision, and of waves, in single precision:
+
+/// Light leaks through or vanishes where a direction is on different sides of the geometric and
+/// the shading normal. By default the shading normal alone decides; `strict` rejects them.
+template <class F>
+bool consistent_sides(const Vec3Of<F>& ng, const Vec3Of<F>& ns, const Vec3Of<F>& w, bool strict) {
+  return !strict | (dot(ng, w) * dot(ns, w) > 0);
+}
+inline bool consistent_sides(const SurfacePoint& at, const Vec3& w, bool strict) {
+  return consistent_sides(at.ng, at.shading.n, w, strict);
+}
+
+/// How far rays start and end off their surfaces, relative to the largest coordinate of the
+/// primitive: 16 units in the last place of the accelerator's floats.
+inline constexpr double ray_offset = 0x1p-20;
+
+/// The origin of a ray from p along w (of any length), moved off its surface; `extent` as above.
+template <class F>
+Vec3Of<F> ray_origin(const Vec3Of<F>& p, const Vec3Of<F>& ng, const Vec3Of<F>& w, F extent) {
+  return p + ng * std::copysign(F(ray_offset) * extent, dot(ng, w));
+}
+
 /// The unit direction in which `to` is seen from `from`. At most one of the two may be infinite.
 inline Vec3 direction(const SurfacePoint& from, const SurfacePoint& to) {
   if (to.infinite()) return to.p;

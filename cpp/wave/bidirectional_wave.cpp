@@ -16,13 +16,13 @@ void find_edges(const JointLanes& a, const SurfacePoint& lens, bool strict,
     const Vec3 to_lens = p - Vec3(a.p[i]);
     const double distance2 = dot(to_lens, to_lens);
     const Vec3 w = to_lens * (1 / std::sqrt(distance2));
-    const double geometric = dot(Vec3(a.ng[i]), w), cosine = dot(Vec3(a.n[i]), w);
-    const bool possible = (cosine * a.cosine[i] > 0) & (!strict | (geometric * cosine > 0));
-    const double G = std::fabs(geometric * dot(axis, w)) / distance2;
+    const auto [geometric, quotient, scatters] =
+        lambertian_edge(Vec3(a.ng[i]), Vec3(a.n[i]), w, double{a.cosine[i]}, strict);
+    const double G = geometric * std::fabs(dot(axis, w)) / distance2;
     edges.x[i] = w.x;
     edges.y[i] = w.y;
     edges.z[i] = w.z;
-    edges.G[i] = possible ? G : 0;
+    edges.G[i] = scatters ? G : 0;
   }
 }
 
@@ -231,12 +231,12 @@ void BidirectionalWave::connect_to_lens(const JointLanes& a, int block, RayCount
     const double below = a.sums[i] * beta_.raise(projection->pdf_direction * G / a.forward[i]);
     const Color weighted = a.value[i] * (projection->importance * G / (1 + below));
     if (is_black(weighted)) continue;
-    const Vec3f start = departure(a.p[i], a.ng[i], Vec3f(w), a.extent[i]);
+    const Vec3f start = ray_origin(a.p[i], a.ng[i], Vec3f(w), a.extent[i]);
     const Vec3 ray = camera.entrance(lens_.at, -w) - Vec3(start);
     if (!(dot(ray, w) > 0)) continue;  // behind the camera
     const double length = mlt::length(ray);
     shadows_.add(capacity + static_cast<int>(unseen_.size()), weighted, 1, start,
-                 Vec3f(ray * (1 / length)), static_cast<float>(length * (1 - Scene::ray_offset)));
+                 Vec3f(ray * (1 / length)), static_cast<float>(length * (1 - ray_offset)));
     unseen_.push_back({block * JointLanes::size + i, projection->raster, weighted});
   }
 }

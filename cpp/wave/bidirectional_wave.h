@@ -69,7 +69,7 @@ class BidirectionalWave {
 
   const Scene* scene_;
   BidirectionalSettings settings_;
-  Exponent beta_;
+  MisExponent beta_;
   PositionSample lens_;
   SubpathWave camera_, light_;
   WaveNumbers numbers_;

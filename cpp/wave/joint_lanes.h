@@ -28,25 +28,10 @@ struct JointLanes {
   Lanes<float, size> extent;
   /// Cosine of the direction to the previous vertex with n; 0: no path is joined here.
   Lanes<float, size> cosine;
-  ColorLanes value;             ///< See WalkVertex::LambertianJoint::value.
+  ColorLanes value;             ///< See WalkVertex::Joint::value.
   Lanes<double, size> forward;  ///< Density of the vertex, made by its walk.
   /// Sum of r_i^beta over the techniques with a joint before the vertex or at it (TechniqueSums).
   Lanes<double, size> sums;
-};
-
-/// Raises quotients of densities to the beta of the balance heuristic, which is 1, or of the power
-/// heuristic, which is 2, without a branch: by a factor of 1 or of the quotient.
-class Exponent {
- public:
-  explicit Exponent(Heuristic heuristic) {
-    if (heuristic == Heuristic::balance) least_ = most_ = 1;
-  }
-  double raise(double quotient) const {
-    return quotient * std::min(std::max(quotient, least_), most_);
-  }
-
- private:
-  double least_ = 0, most_ = std::numeric_limits<double>::infinity();
 };
 
 /// Shadow rays between the vertices of a joint.
@@ -58,35 +43,29 @@ struct JoiningRays {
 /// Joins vertices of light subpaths to those of camera subpaths; `weighted` is f w / p. The results
 /// are two parameters that do not overlap, so that the compiler vectorises the loop.
 inline void join(const JointLanes& from_light, const JointLanes& from_camera, bool strict,
-                 const Exponent& beta, JoiningRays& __restrict rays,
+                 const MisExponent& beta, JoiningRays& __restrict rays,
                  ColorLanes& __restrict weighted) {
   const JointLanes &a = from_light, &b = from_camera;
   for (int i = 0; i < JointLanes::size; ++i) {
     const Vec3f between = b.p[i] - a.p[i];
     const float distance2 = dot(between, between);
     const Vec3f w = between * (1 / std::sqrt(distance2));
-    const float geometric_a = std::fabs(dot(a.ng[i], w)), cos_a = dot(a.n[i], w);
-    const float geometric_b = std::fabs(dot(b.ng[i], w)), cos_b = -dot(b.n[i], w);
-    const bool possible = (cos_a * a.cosine[i] > 0) & (cos_b * b.cosine[i] > 0) &
-                          (geometric_a > 0) & (geometric_b > 0) &
-                          consistent_sides(a.ng[i], a.n[i], w, strict) &
-                          consistent_sides(b.ng[i], b.n[i], -w, strict);
-    // |w.ns| / |w.ng| times G: one of the geometric cosines cancels.
-    const double per_distance2 = 1 / double{distance2};
-    const double at_b = geometric_a * std::fabs(cos_b) * per_distance2;
-    const double at_a = geometric_b * std::fabs(cos_a) * per_distance2;
-    const double below = a.sums[i] * beta.raise(at_b * inv_pi / a.forward[i]);
-    const double above = b.sums[i] * beta.raise(at_a * inv_pi / b.forward[i]);
-    const double share = at_b / (1 + below + above);
+    const auto at_a = lambertian_edge(a.ng[i], a.n[i], w, a.cosine[i], strict);
+    const auto at_b = lambertian_edge(b.ng[i], b.n[i], -w, b.cosine[i], strict);
+    const double G = double{at_a.geometric} * at_b.geometric / distance2;
+    const double below = a.sums[i] * beta.raise(at_b.quotient * inv_pi * G / a.forward[i]);
+    const double above = b.sums[i] * beta.raise(at_a.quotient * inv_pi * G / b.forward[i]);
+    const double share = at_b.quotient * G / (1 + below + above);
     weighted.r[i] = a.value.r[i] * b.value.r[i] * share;
     weighted.g[i] = a.value.g[i] * b.value.g[i] * share;
     weighted.b[i] = a.value.b[i] * b.value.b[i] * share;
-    const Vec3f start = departure(a.p[i], a.ng[i], w, a.extent[i]);
-    const Vec3f ray = departure(b.p[i], b.ng[i], -w, b.extent[i]) - start;
+    const Vec3f start = ray_origin(a.p[i], a.ng[i], w, a.extent[i]);
+    const Vec3f ray = ray_origin(b.p[i], b.ng[i], -w, b.extent[i]) - start;
     const float length = std::sqrt(dot(ray, ray));
     rays.o.set(i, start);
     rays.w.set(i, ray * (1 / length));
-    rays.length[i] = possible ? length * static_cast<float>(1 - Scene::ray_offset) : 0;
+    rays.length[i] =
+        at_a.scatters & at_b.scatters ? length * static_cast<float>(1 - ray_offset) : 0;
   }
 }
 

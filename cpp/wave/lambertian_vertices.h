@@ -12,17 +12,6 @@
 
 namespace mlt {
 
-/// See consistent_sides of vertex.h; in single precision and without branches.
-inline bool consistent_sides(const Vec3f& ng, const Vec3f& n, const Vec3f& w, bool strict) {
-  return !strict | (dot(ng, w) * dot(n, w) > 0);
-}
-
-/// The origin of a ray along w, a little off its surface.
-inline Vec3f departure(const Vec3f& p, const Vec3f& ng, const Vec3f& w, float extent) {
-  constexpr auto offset = static_cast<float>(Scene::ray_offset);
-  return p + ng * std::copysign(offset * extent, dot(ng, w));
-}
-
 /// Points on triangles.
 struct TriangleBlock {
   VectorBlock p0, p1, p2, ng;
@@ -107,7 +96,7 @@ struct LambertianVertices {
   // Each function works on the first `count` paths; d are the directions of their incident rays.
   void find_points(int count, const float* d_x, const float* d_y, const float* d_z,
                    bool strict_normals);
-  void unshadowed_lights(int count, bool strict_normals, Heuristic heuristic);
+  void unshadowed_lights(int count, bool strict_normals, const MisExponent& mis);
   void sample_directions(int count, bool strict_normals);
 
  private:

@@ -9,7 +9,7 @@ void BasicPathWave<Numbers>::add(const Ray& ray, const ChainFactor& chain_factor
   o_.set(live_, Vec3f(ray.o));
   d_.set(live_++, Vec3f(ray.d));
   walks_.emplace_back(ray);
-  walks_.back().heuristic = heuristic_;
+  walks_.back().mis = mis_;
   walks_.back().chain_factor = chain_factor;
   walks_.back().rays.intersect = 1;
 }
@@ -177,7 +177,7 @@ void BasicPathWave<Numbers>::sample_other_lights() {
 
 template <class Numbers>
 void BasicPathWave<Numbers>::queue_lights() {
-  lambertian_.unshadowed_lights(count_, rules_.strict_normals, heuristic_);
+  lambertian_.unshadowed_lights(count_, rules_.strict_normals, mis_);
   for (int i = 0; i < count_; ++i)
     if (lambertian_.f[i] && lambertian_.light_weight[i] > 0)
       queue_shadow(
@@ -194,7 +194,7 @@ void BasicPathWave<Numbers>::queue_other_light(const SingleVertex& single) {
   const SurfacePoint& at = single.at;
   const CameraWalk& walk = this->walk(i);
   const Vec3 wc = lambertian_.f[i] ? -Vec3(d_[begin_ + i]) : -walk.ray.d;
-  const auto mis = [&](double light, double bsdf) { return walk.mis(light, bsdf); };
+  const auto mis = [&](double light, double bsdf) { return walk.mis.weight(light, bsdf); };
   const DirectLight light =
       unshadowed_light(*scene_, single.light, at, wc, rules_.strict_normals, mis);
   if (is_black(light.radiance)) return;

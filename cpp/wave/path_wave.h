@@ -20,7 +20,7 @@ class BasicPathWave {
   static constexpr size_t capacity = wave_size;
 
   BasicPathWave(const Scene& scene, const PathRules& rules, Heuristic heuristic = Heuristic::power)
-      : scene_(&scene), rules_(rules), heuristic_(heuristic) {
+      : scene_(&scene), rules_(rules), mis_(heuristic) {
     walks_.reserve(capacity);
   }
 
@@ -87,7 +87,7 @@ class BasicPathWave {
 
   const Scene* scene_;
   PathRules rules_;
-  Heuristic heuristic_;
+  MisExponent mis_;
   std::vector<CameraWalk> walks_;
   WaveShadows shadows_;
 

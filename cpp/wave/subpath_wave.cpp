@@ -188,7 +188,7 @@ void SubpathWave::take_steps(int place) {
 /// Russian roulette; false ends the walk.
 inline bool SubpathWave::survive(int i, int place, Color& ratio) {
   if (place < rules_.rr_depth) return true;
-  const double survival = std::min(max_component(ratio), 0.95);
+  const double survival = PathRules::survival(max_component(ratio));
   if (!(numbers_.read(at_.roulette, begin_ + i) < survival)) return false;
   ratio /= survival;
   return true;

@@ -75,7 +75,7 @@ class SubpathWave {
   const Scene* scene_;
   PathRules rules_;
   bool from_light_, light_image_;
-  Exponent beta_;
+  MisExponent beta_;
   std::vector<JointLanes> joints_;
   Lanes<int, blocks> longest_;  ///< Last place of the samples of each block.
   int last_place_ = 0;

@@ -74,7 +74,8 @@ TEST(Warp, Disk) {
 }
 
 TEST(Warp, CosineHemisphere) {
-  check_direction(sample_cosine_hemisphere, cosine_hemisphere_pdf, invert_cosine_hemisphere, false);
+  check_direction(sample_cosine_hemisphere<double>, cosine_hemisphere_pdf, invert_cosine_hemisphere,
+                  false);
 }
 
 TEST(Warp, UniformSphere) {

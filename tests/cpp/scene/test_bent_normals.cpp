@@ -5,6 +5,7 @@
 
 #include "base/rng.h"
 #include "image/image_io.h"
+#include "scene/bsdf_at.h"
 #include "scene/mesh.h"
 #include "scenes.h"
 
@@ -117,8 +118,9 @@ TEST(BumpMap, MirrorsAreThoseOfTheBentNormalOnEitherSide) {
     ASSERT_TRUE(s);
     const Vec3 n = bsdf.delta_normal(at, from);
     EXPECT_LT(length(reflect(from, n) - s->to), 1e-12);
-    const WorldScattering w = scattering(bsdf, at, at.shading.to_world(from),
-                                         at.shading.to_world(s->to), Lobe::reflection);
+    const WorldScattering w =
+        BsdfAt(*scene, at)
+            .scattering(at.shading.to_world(from), at.shading.to_world(s->to), Lobe::reflection);
     EXPECT_NEAR(std::abs(w.cos_l), std::abs(w.cos_c), 1e-12);
     EXPECT_NEAR(std::abs(w.cos_l), std::abs(dot(from, n)), 1e-12);
   }

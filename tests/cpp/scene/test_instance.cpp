@@ -2,6 +2,7 @@
 
 #include <fstream>
 
+#include "scene/bsdf_at.h"
 #include "scene/same_points.h"
 
 namespace mlt {
@@ -72,8 +73,8 @@ void expect_same_scattering(const ScenePtr& a, const ScenePtr& b) {
     ++hits;
     const Vec3 wl = x.shading.to_world(normalize(Vec3(0.3, 0.2, 0.9))),
                wc = x.shading.to_world(normalize(Vec3(-0.1, -0.4, 0.8)));
-    const Color f = scattering(a->bsdf(x), x, wl, wc, Lobe::smooth).f;
-    expect_near(f, scattering(b->bsdf(y), y, wl, wc, Lobe::smooth).f, 1e-3);
+    const Color f = BsdfAt(*a, x).scattering(wl, wc, Lobe::smooth).f;
+    expect_near(f, BsdfAt(*b, y).scattering(wl, wc, Lobe::smooth).f, 1e-3);
   }
   EXPECT_GT(hits, 500);
 }
