@@ -1,0 +1,40 @@
+"""What has faces, after its modifiers, as triangles; each material becomes a shape of its own."""
+
+import numpy as np
+
+KINDS = ("MESH", "CURVE", "SURFACE", "FONT", "META")
+
+
+def read(items, attribute: str, width: int, dtype=np.float32) -> np.ndarray:
+    """An attribute of all items of a collection, (n, width)."""
+    values = np.empty(len(items) * width, dtype)
+    items.foreach_get(attribute, values)
+    return values.reshape(-1, width)
+
+
+def parts(thing) -> list[tuple[int, dict]]:
+    """Slot of material and mesh, for each material that the faces of an evaluated object have."""
+    mesh = thing.to_mesh()
+    if mesh is None:
+        return []
+    try:
+        return list(split(mesh))
+    finally:
+        thing.to_mesh_clear()
+
+
+def split(mesh):
+    mesh.calc_loop_triangles()
+    triangles = mesh.loop_triangles
+    if not len(triangles):
+        return
+    loops = read(triangles, "loops", 3, np.int32)
+    slots = read(triangles, "material_index", 1, np.int32)[:, 0]
+    places = read(mesh.vertices, "co", 3)[read(mesh.loops, "vertex_index", 1, np.int32)[:, 0]]
+    of_corners = {"vertices": places, "normals": read(mesh.corner_normals, "vector", 3)}
+    if layer := next((layer for layer in mesh.uv_layers if layer.active_render), None):
+        of_corners["uv"] = read(layer.uv, "vector", 2)
+    for slot in np.unique(slots):
+        used, faces = np.unique(loops[slots == slot], return_inverse=True)
+        arrays = {name: values[used] for name, values in of_corners.items()}
+        yield int(slot), {"type": "mesh", "faces": faces.reshape(-1, 3), **arrays}
