@@ -1,4 +1,4 @@
-"""The render engine: final renders."""
+"""The render engine and its final renders."""
 
 import bpy
 
@@ -6,11 +6,12 @@ import pymlt as mlt
 
 from . import passes
 from .export import stepped_export
+from .viewport import Viewport
 
 INTERVAL = 0.5  #: seconds between two looks at a render
 
 
-class PymltEngine(bpy.types.RenderEngine):
+class PymltEngine(Viewport, bpy.types.RenderEngine):
     """Renders by pymlt."""
 
     bl_idname = "PYMLT"

@@ -2,7 +2,7 @@
 
 import bpy
 
-from .settings import INTEGRATORS
+from .settings import INTEGRATORS, PymltSettings
 
 NOT_CARRIED = (
     "Volumes, displacement, hair, point clouds",
@@ -36,8 +36,9 @@ class SamplingPanel(PymltPanel):
 
     def draw(self, context) -> None:
         self.layout.use_property_split = True
-        for name in ("integrator", "time", "error", "samples", "seed", "animate_seed", "denoise"):
-            self.layout.prop(context.scene.pymlt, name)
+        for name in PymltSettings.__annotations__:
+            if name not in INTEGRATORS:
+                self.layout.prop(context.scene.pymlt, name)
 
 
 class ParametersPanel(PymltPanel):

@@ -70,6 +70,18 @@ class PymltSettings(bpy.types.PropertyGroup):
         description="Let Open Image Denoise guess what is left of the noise",
     )
 
+    preview_integrator: EnumProperty(
+        name="Viewport Integrator", items=integrator_items(), default="path"
+    )
+    preview_time: FloatProperty(
+        name="Viewport Time",
+        default=20,
+        min=0.1,
+        subtype="TIME_ABSOLUTE",
+        unit="TIME_ABSOLUTE",
+        description="Seconds after which a view is good enough",
+    )
+
     def chosen_integrator(self) -> dict:
         """The integrator as a scene dict has it, with the parameters that are no defaults."""
         group = getattr(self, self.integrator)

@@ -2,13 +2,11 @@
 
 import importlib.util
 import json
-import os
-import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
+from blender_run import run
 
 import pymlt as mlt
 
@@ -17,18 +15,6 @@ pytestmark = pytest.mark.skipif(
 )
 HERE = Path(__file__).parent
 BLOCK = 6  #: pixels, of which the means are compared
-
-
-def run(script: str, *arguments, user: Path) -> None:
-    """Runs a script with `bpy`, for which there are no settings yet."""
-    done = subprocess.run(
-        [sys.executable, HERE / script, *arguments],
-        env=os.environ | {"BLENDER_USER_RESOURCES": str(user)},
-        capture_output=True,
-        text=True,
-        timeout=250,
-    )
-    assert done.returncode == 0, done.stderr + done.stdout
 
 
 @pytest.fixture(scope="module")

@@ -1,0 +1,20 @@
+"""Runs a script with `bpy` in a process of its own."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).parent
+
+
+def run(script: str, *arguments, user: Path) -> None:
+    """Raises AssertionError with what it said if it fails; `user` is for Blender's settings."""
+    done = subprocess.run(
+        [sys.executable, HERE / script, *arguments],
+        env=os.environ | {"BLENDER_USER_RESOURCES": str(user)},
+        capture_output=True,
+        text=True,
+        timeout=250,
+    )
+    assert done.returncode == 0, done.stderr + done.stdout
