@@ -1,8 +1,9 @@
-"""What has faces, after its modifiers, as triangles; each material becomes a shape of its own."""
+"""Evaluated meshes as triangles; each material becomes a shape of its own.
+
+Curves, texts, surfaces and metaballs are among them: Blender has a mesh for each as an instance.
+"""
 
 import numpy as np
-
-KINDS = ("MESH", "CURVE", "SURFACE", "FONT", "META")
 
 
 def read(items, attribute: str, width: int, dtype=np.float32) -> np.ndarray:

@@ -63,7 +63,7 @@ class Objects:
             still[key] = np.array(instance.matrix_world)
             if thing.type == "LIGHT":
                 self._add_lamp(thing, self._motion.matrices(key, still[key]))
-            elif thing.type in meshes.KINDS:
+            elif thing.type == "MESH":
                 self._placed.append((self._shape(thing), thing.name, key))
             elif thing.type in ("CURVES", "POINTCLOUD", "VOLUME"):
                 self._made.warn("hair, point clouds and volumes are left out")

@@ -111,6 +111,25 @@ def textured():
     bpy.context.scene.camera.data.shift_y = -0.1
 
 
+def lettering():
+    """A text that glows beside a ball of two shaders, through a lens that is shifted."""
+    fresh(sky=0.3)
+    glow = material("glow", Emission_Color=(1, 0.9, 0.8, 1), Emission_Strength=3.0)
+    text = add(bpy.ops.object.text_add, glow, location=(0, -1, 0.5), rotation=(1.2, 0, 0))
+    text.data.body, text.data.extrude = "Hi", 0.1
+    both = material("both")
+    tree = both.node_tree
+    mix, glossy = (tree.nodes.new(f"Shader{name}") for name in ("NodeMixShader", "NodeBsdfGlossy"))
+    mix.inputs[0].default_value = 0.4
+    tree.links.new(tree.nodes["Principled BSDF"].outputs[0], mix.inputs[1])
+    tree.links.new(glossy.outputs[0], mix.inputs[2])
+    tree.links.new(mix.outputs[0], tree.nodes["Material Output"].inputs["Surface"])
+    add(bpy.ops.mesh.primitive_uv_sphere_add, both, location=(-1.5, 0, 1))
+    camera = bpy.context.scene.camera.data
+    camera.shift_y, camera.dof.use_dof = -0.1, True
+    camera.dof.focus_distance, camera.dof.aperture_fstop = 6.0, 0.2
+
+
 def moving():
     """A cube that glows and goes to the right by two metres a frame; the shutter is open."""
     fresh()
@@ -159,7 +178,7 @@ def main(folder: Path) -> None:
     import blender
 
     blender.register()
-    for make in (cube, glass, instances, textured):
+    for make in (cube, glass, instances, textured, lettering):
         make()
         for engine, name in (("PYMLT", make.__name__), ("CYCLES", f"{make.__name__}-cycles")):
             render(folder / f"{name}.exr", engine)
