@@ -1,5 +1,7 @@
 """The render engine and its final renders."""
 
+from functools import partial
+
 import bpy
 
 import pymlt as mlt
@@ -39,12 +41,13 @@ class PymltEngine(Viewport, bpy.types.RenderEngine):
         tell_left_out(self, made.warnings)
         world = mlt.load_dict(made.scene)
         passes.add(self)
-        found = follow(start(world, depsgraph.scene), self.test_break, self._show)
-        self._show(found.denoise() if depsgraph.scene.pymlt.denoise else found, 1)
+        show = partial(self._show, depsgraph.view_layer.name)
+        found = follow(start(world, depsgraph.scene), self.test_break, show)
+        show(found.denoise() if depsgraph.scene.pymlt.denoise else found, 1)
 
-    def _show(self, found: mlt.Result, progress: float) -> None:
+    def _show(self, layer: str, found: mlt.Result, progress: float) -> None:
         height, width = found.image.shape[:2]
-        result = self.begin_result(0, 0, width, height)
+        result = self.begin_result(0, 0, width, height, layer=layer)
         passes.write(result.layers[0], found.image, found.layers)
         self.end_result(result)
         self.update_stats("", statistics(found))

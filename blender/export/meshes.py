@@ -36,6 +36,8 @@ def split(mesh):
     if layer := next((layer for layer in mesh.uv_layers if layer.active_render), None):
         of_corners["uv"] = read(layer.uv, "vector", 2)
     for slot in np.unique(slots):
-        used, faces = np.unique(loops[slots == slot], return_inverse=True)
+        corners = loops[slots == slot]
+        used = np.zeros(len(places), bool)
+        used[corners] = True
         arrays = {name: values[used] for name, values in of_corners.items()}
-        yield int(slot), {"type": "mesh", "faces": faces.reshape(-1, 3), **arrays}
+        yield int(slot), {"type": "mesh", "faces": (np.cumsum(used) - 1)[corners], **arrays}

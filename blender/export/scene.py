@@ -4,6 +4,7 @@ from collections import Counter
 
 import numpy as np
 
+import pymlt as mlt
 from pymlt.formats.imported import Imported
 
 from . import camera, meshes, world
@@ -32,6 +33,8 @@ def final_sensor(engine, depsgraph, motion: Motion) -> dict:
     """The camera of the scene as pymlt's, with the image that is to be rendered."""
     scene = depsgraph.scene_eval
     eye, render = scene.camera, scene.render
+    if eye.data.type not in ("PERSP", "ORTHO"):
+        raise mlt.SceneError(f"the camera {eye.name!r} should be perspective or orthographic")
     scale = render.resolution_percentage / 100
     size = int(render.resolution_x * scale), int(render.resolution_y * scale)
     projection = eye.calc_matrix_camera(

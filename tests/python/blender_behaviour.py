@@ -1,6 +1,6 @@
 """Run by Python with `bpy`: what the extension, installed from a zip, does beside pictures.
 
-Writes facts.json, and passes.exr with all passes, into a folder.
+Writes facts.json and pictures into a folder.
 """
 
 import json
@@ -67,8 +67,29 @@ def shown(engine) -> list[str]:
     return texts
 
 
+def noisy(path: Path, denoise: bool) -> None:
+    scene = small(samples=1, denoise=denoise)
+    scene.render.resolution_x, scene.render.resolution_y = 64, 36
+    scene.render.image_settings.file_format = "OPEN_EXR"
+    scene.render.filepath = str(path)
+    bpy.ops.render.render(write_still=True)
+
+
+def layers(path: Path) -> None:
+    """A second view layer, without the cube."""
+    scene = small()
+    scene.view_layers.new("Second").layer_collection.children[0].exclude = True
+    save(path)
+
+
 def passes(path: Path) -> None:
-    image = small().render.image_settings
+    small()
+    save(path)
+
+
+def save(path: Path) -> None:
+    """Renders into a file with all passes of all layers."""
+    image = bpy.context.scene.render.image_settings
     if hasattr(image, "media_type"):  # Blender 5
         image.media_type = "MULTI_LAYER_IMAGE"
     image.file_format, image.color_depth = "OPEN_EXR_MULTILAYER", "32"
@@ -91,6 +112,9 @@ def main(archive: str, folder: Path) -> None:
         "shown": shown(engine),
     }
     passes(folder / "passes.exr")
+    layers(folder / "layers.exr")
+    noisy(folder / "noisy.exr", denoise=False)
+    noisy(folder / "denoised.exr", denoise=True)
     bpy.ops.preferences.addon_disable(module=name)
     facts["disabled"] = not hasattr(bpy.types.Scene, "pymlt")
     (folder / "facts.json").write_text(json.dumps(facts))

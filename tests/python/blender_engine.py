@@ -1,6 +1,6 @@
 """Run by Python with `bpy`: scenes rendered by the extension, most of them also by Cycles.
 
-Writes NAME.exr and NAME-cycles.exr into a folder; FRAME at the end for those that move.
+Writes NAME.exr and NAME-cycles.exr into a folder, with the number of the frame for what moves.
 """
 
 import sys
@@ -146,9 +146,10 @@ def moving():
             key.interpolation = "LINEAR"
     bpy.context.scene.render.use_motion_blur = True
     bpy.context.scene.render.motion_blur_shutter = 1.0
+    bpy.context.scene.frame_start, bpy.context.scene.frame_end = 1, 3
 
 
-def render(path, engine):
+def render(path, engine, **how):
     scene = bpy.context.scene
     scene.render.engine = engine
     scene.render.resolution_x, scene.render.resolution_y = SIZE
@@ -160,7 +161,7 @@ def render(path, engine):
     scene.render.threads_mode, scene.render.threads = "FIXED", 1
     scene.render.image_settings.file_format = "OPEN_EXR"
     scene.render.filepath = str(path)
-    bpy.ops.render.render(write_still=True)
+    bpy.ops.render.render(**(how or {"write_still": True}))
 
 
 def part(folder):
@@ -184,10 +185,8 @@ def main(folder: Path) -> None:
             render(folder / f"{name}.exr", engine)
     part(folder)
     moving()
-    for frame in (1, 2, 3):
-        bpy.context.scene.frame_set(frame)
-        for engine, name in (("PYMLT", "moving"), ("CYCLES", "moving-cycles")):
-            render(folder / f"{name}{frame}.exr", engine)
+    for engine, name in (("PYMLT", "moving"), ("CYCLES", "moving-cycles")):
+        render(folder / f"{name}#.exr", engine, animation=True)
 
 
 if __name__ == "__main__":

@@ -102,21 +102,44 @@ def test_the_line_of_statistics_tells_the_error(facts):
     assert facts["shown"][-1].startswith("16 samples per pixel, error ")
 
 
-def test_passes_are_in_the_file(facts):
+def channels(path: Path) -> dict[str, np.ndarray]:
+    """The channels of an image of several parts, by LAYER.PASS.CHANNEL."""
     import OpenImageIO
 
-    name = str(facts["folder"] / "passes.exr")
-    parts = [OpenImageIO.ImageBuf(name, i, 0) for i in range(5)]
-    found = {
-        channel.removeprefix("ViewLayer."): part.get_pixels()[..., i]
+    count = OpenImageIO.ImageBuf(str(path)).nsubimages
+    parts = [OpenImageIO.ImageBuf(str(path), i, 0) for i in range(count)]
+    return {
+        channel: part.get_pixels()[..., i]
         for part in parts
         for i, channel in enumerate(part.spec().channelnames)
     }
-    middle = {name: values[9, 15] for name, values in found.items()}
+
+
+def test_passes_are_in_the_file(facts):
+    found = channels(facts["folder"] / "passes.exr")
+    middle = {name.removeprefix("ViewLayer."): values[9, 15] for name, values in found.items()}
     # What Schlick's reflectance of the index 1.5 leaves of 0.8, in the mean.
     assert middle["Albedo.R"] == pytest.approx(0.8 * (1 - 0.04 - 0.96 / 21), abs=0.005)
     assert middle["Depth.Z"] == pytest.approx(10.3, abs=0.5)
     normal = [middle[f"Normal.{axis}"] for axis in "XYZ"]
     assert np.linalg.norm(normal) == pytest.approx(1, abs=0.2)
     assert 0 < middle["Error.R"] < middle["Combined.R"]
-    assert found["Depth.Z"][0, 0] == 1e10
+    assert found["ViewLayer.Depth.Z"][0, 0] == 1e10
+
+
+def test_each_view_layer_has_its_picture(facts):
+    found = channels(facts["folder"] / "layers.exr")
+    assert found["ViewLayer.Combined.R"].std() > 0.02
+    assert found["Second.Combined.R"].std() < 0.002
+    assert found["Second.Combined.R"].mean() > 0.04
+
+
+def test_the_denoiser_takes_noise_away(facts, rendered):
+    cube = np.s_[12:24, 27:37]
+    clean = picture(rendered / "cube.exr")[cube]
+
+    def error(name):
+        return np.abs(picture(facts["folder"] / f"{name}.exr")[cube] - clean).mean()
+
+    # Without the denoiser the same samples would have the same error.
+    assert error("denoised") < error("noisy")
