@@ -144,11 +144,12 @@ soak: build
 wheel: $(STAMPS)/dev
 	$(BIN)/python release/make_wheels.py $(PYTHONS)
 
-# The extension for Blender with the wheels of dist/, which are made if there are none, and that of the
-# denoiser.
+# The extension for Blender with the wheels of dist/, which are made if there are none, and those of the
+# denoiser; Blender has numpy itself.
 blender: $(STAMPS)/dev
 	test -n "$(wildcard dist/*.whl)" || $(MAKE) wheel
-	$(BIN)/pip download -q --no-deps -c requirements/constraints.txt -d build/blender pyoidn
+	$(BIN)/pip download -q --no-deps -c requirements/constraints.txt -d build/blender \
+	  pyoidn cffi pycparser
 	$(BIN)/python release/make_extension.py dist/*.whl build/blender/*.whl
 
 # Where debootstrap runs (as root), in fresh systems; else in fresh virtual environments.
