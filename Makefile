@@ -33,8 +33,8 @@ export PIP_DISABLE_PIP_VERSION_CHECK = 1
 
 .DEFAULT_GOAL := build
 .DELETE_ON_ERROR:
-.PHONY: setup build demo docs test test-long mutants asan separate fuzz soak wheel release-check lint format \
-        clean distclean
+.PHONY: setup build demo docs test test-long mutants asan separate fuzz soak wheel blender release-check \
+        lint format clean distclean
 
 # ---- set-up ------------------------------------------------------------------------------------
 setup: $(STAMPS)/dev
@@ -143,6 +143,14 @@ soak: build
 # ---- the release: dist/*.whl and dist/*.tar.gz ----------------------------------------------------
 wheel: $(STAMPS)/dev
 	$(BIN)/python release/make_wheels.py $(PYTHONS)
+
+# The extension for Blender with the wheels of dist/, which are made if there are none, and those of the
+# denoiser; Blender has numpy itself.
+blender: $(STAMPS)/dev
+	test -n "$(wildcard dist/*.whl)" || $(MAKE) wheel
+	$(BIN)/pip download -q --no-deps -c requirements/constraints.txt -d build/blender \
+	  pyoidn cffi pycparser
+	$(BIN)/python release/make_extension.py dist/*.whl build/blender/*.whl
 
 # Where debootstrap runs (as root), in fresh systems; else in fresh virtual environments.
 release-check: build

@@ -107,9 +107,10 @@ Placement read_placement(Params& params);
 
 /// The parameters of the field of view.
 std::vector<Parameter> field_of_view_parameters();
-/// The parameters of placement and field of view.
-std::vector<Parameter> view_parameters();
 ProjectiveCamera::View read_view(Params& params);
+/// The parameters of placement, field of view and principal point.
+std::vector<Parameter> view_parameters();
+ProjectiveCamera::View read_shifted_view(Params& params);
 std::shared_ptr<ProjectiveCamera> make_projective(Params& params,
                                                   const ProjectiveCamera::View& view,
                                                   const ProjectiveCamera::Lens& lens);

@@ -12,7 +12,7 @@ double positive(Params& params, const std::string& name) {
 }
 
 ObjectPtr create_thin_lens(Params& params) {
-  const ProjectiveCamera::View view = read_view(params);
+  const ProjectiveCamera::View view = read_shifted_view(params);
   const double far_clip = positive(params, "far_clip");
   const double focus = params.has("focus_distance") ? positive(params, "focus_distance") : far_clip;
   const double radius = params.real("aperture_radius");

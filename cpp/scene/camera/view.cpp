@@ -54,7 +54,12 @@ std::vector<Parameter> field_of_view_parameters() {
 }
 
 std::vector<Parameter> view_parameters() {
-  return concat({placement_parameters(), field_of_view_parameters()});
+  return concat({placement_parameters(),
+                 field_of_view_parameters(),
+                 {{"principal_point_offset_x", ParamType::real, 0.0,
+                   "Horizontal shift of the optical axis, as a fraction of the image's width."},
+                  {"principal_point_offset_y", ParamType::real, 0.0,
+                   "Vertical shift of the optical axis, as a fraction of the image's height."}}});
 }
 
 ProjectiveCamera::View read_view(Params& params) {
@@ -70,6 +75,13 @@ ProjectiveCamera::View read_view(Params& params) {
     view.fov = 2 * std::atan(film_diagonal / (2 * focal_length_mm(params)));
     view.axis = ProjectiveCamera::View::Axis::diagonal;
   }
+  return view;
+}
+
+ProjectiveCamera::View read_shifted_view(Params& params) {
+  ProjectiveCamera::View view = read_view(params);
+  view.principal_offset = {params.real("principal_point_offset_x"),
+                           params.real("principal_point_offset_y")};
   return view;
 }
 

@@ -73,6 +73,7 @@ std::vector<CameraPtr> all_cameras() {
       camera(sensor_thinlens(),
              {{"fov", 60.0},
               {"aperture_radius", 2.0},
+              {"principal_point_offset_y", -0.2},
               {"to_world", with_scaled_axes(placed, 1, -1, 1)}},
              whole(20, 30, 2)),
       camera(sensor_orthographic(), {{"to_world", with_scaled_axes(placed, 3, -2, 1)}}, odd)};
@@ -346,8 +347,11 @@ TEST(ThinLens, FindsTheRaysThatPassThroughIt) {
 }
 
 TEST(ThinLens, WithoutExtentIsAPinhole) {
-  const CameraPtr made = camera(sensor_thinlens(), {{"aperture_radius", 0.0}}, whole(64, 36));
-  const CameraPtr pinhole = camera(sensor_perspective(), {}, whole(64, 36));
+  const Given shifted = {{"principal_point_offset_x", 0.2}, {"principal_point_offset_y", -0.1}};
+  Given given = shifted;
+  given["aperture_radius"] = 0.0;
+  const CameraPtr made = camera(sensor_thinlens(), given, whole(64, 36));
+  const CameraPtr pinhole = camera(sensor_perspective(), shifted, whole(64, 36));
   EXPECT_TRUE(made->delta_position());
   const Vec3 w = made->direction(lens_center(*made), {3, 4});
   EXPECT_EQ(w, pinhole->direction(lens_center(*pinhole), {3, 4}));

@@ -1,0 +1,182 @@
+"""Node trees of materials as a BSDF and the light that they emit."""
+
+from typing import NamedTuple
+
+from pymlt.formats.imported import Imported, rgb
+
+from . import surfaces
+from .surfaces import blend, is_number, scaled, twosided
+from .textures import Textures, source
+
+BLACK = surfaces.diffuse(rgb([0, 0, 0]))
+UNCARRIED = ("Subsurface Weight", "Sheen Weight", "Anisotropic", "Thin Film Thickness",
+             "Diffuse Roughness")  # fmt: skip
+
+
+class Surface(NamedTuple):
+    """What a shader does with light."""
+
+    bsdf: dict
+    radiance: dict | None = None  #: of what glows
+
+
+class Materials:
+    """The materials of a scene, each of which is added once."""
+
+    def __init__(self, made: Imported):
+        self._made = made
+        self._textures = Textures(made)
+        self._added: dict[str, Surface] = {}
+        self._shaders = {
+            "BSDF_PRINCIPLED": self._principled,
+            "BSDF_DIFFUSE": self._diffuse,
+            "BSDF_GLOSSY": self._glossy,
+            "BSDF_METALLIC": self._metallic,
+            "BSDF_GLASS": self._glass,
+            "BSDF_REFRACTION": self._glass,
+            "BSDF_TRANSPARENT": self._transparent,
+            "EMISSION": self._emission,
+            "MIX_SHADER": self._mix,
+            "ADD_SHADER": self._add,
+        }
+
+    def surface(self, material) -> Surface:
+        """A reference to the BSDF of a material, which is added with its first use."""
+        if material is None:
+            return Surface(twosided(surfaces.diffuse(rgb([0.8, 0.8, 0.8]))))
+        if material.name_full not in self._added:
+            found = self._of_tree(material)
+            reference = {"type": "ref", "id": self._made.add(material.name, found.bsdf)}
+            self._added[material.name_full] = Surface(reference, found.radiance)
+        return self._added[material.name_full]
+
+    def _of_tree(self, material) -> Surface:
+        if not material.node_tree:
+            return Surface(twosided(surfaces.diffuse(rgb(material.diffuse_color[:3]))))
+        output = material.node_tree.get_output_node("CYCLES")
+        if output is None:
+            return Surface(BLACK)
+        for name in ("Volume", "Displacement"):
+            if output.inputs[name].is_linked:
+                self._made.warn(f"the {name.lower()} of materials is left out")
+        return self._shader(output.inputs["Surface"])
+
+    def _shader(self, socket) -> Surface:
+        found = source(socket)
+        if found is None:
+            return Surface(BLACK)
+        if found.node.type in self._shaders:
+            return self._shaders[found.node.type](found.node)
+        self._made.warn(f"the shader {found.node.bl_label!r} is rendered as a diffuse one")
+        return Surface(twosided(surfaces.diffuse(rgb([0.8, 0.8, 0.8]))))
+
+    def _bent(self, surface: dict, node) -> dict:
+        """With the normals that are plugged in."""
+        normal = node.inputs.get("Normal")
+        found = normal and source(normal)
+        if not found:
+            return surface
+        if found.node.type != "NORMAL_MAP" or found.node.space != "TANGENT":
+            self._made.warn(
+                f"the node {found.node.bl_label!r} is left out where normals are wanted"
+            )
+            return surface
+        if found.node.inputs["Strength"].default_value != 1:
+            self._made.warn("the strength of normal maps is left out")
+        image = self._textures.colour(found.node.inputs["Color"])
+        if image["type"] == "rgb":
+            return surface
+        return {"type": "normalmap", "normalmap": image, "bsdf": surface}
+
+    def _opaque(self, surface: dict, node) -> dict:
+        return twosided(self._bent(surface, node))
+
+    def _principled(self, node) -> Surface:
+        sockets, number = node.inputs, self._textures.number
+        for name in UNCARRIED:
+            if name in sockets and (sockets[name].is_linked or sockets[name].default_value):
+                self._made.warn(f"{name} of the Principled BSDF is left out")
+        colour, roughness = (
+            self._textures.colour(sockets["Base Color"]),
+            number(sockets["Roughness"]),
+        )
+        ior = sockets["IOR"].default_value
+        scaled = surfaces.scaled_ior(ior, sockets["Specular IOR Level"].default_value)
+        made = self._opaque(self._coated(surfaces.plastic(colour, roughness, scaled), node), node)
+        clear = self._bent(surfaces.glass(colour, roughness, ior), node)
+        made = blend(number(sockets["Transmission Weight"]), made, clear)
+        shiny = self._opaque(self._coated(surfaces.metal(colour, roughness), node), node)
+        made = blend(number(sockets["Metallic"]), made, shiny)
+        opacity = number(sockets["Alpha"])
+        if not is_number(opacity) or opacity < 1:
+            made = {"type": "mask", "opacity": opacity, "bsdf": made}
+        return Surface(
+            made, self._radiance(sockets["Emission Color"], sockets["Emission Strength"])
+        )
+
+    def _coated(self, surface: dict, node) -> dict:
+        """With the clear coat of `principled`, which is a part of that material."""
+        weight = self._textures.number(node.inputs["Coat Weight"])
+        if is_number(weight) and weight <= 0:
+            return surface
+        self._made.warn("coats reflect a quarter of what they do in Cycles")
+        gloss = 1 - min(node.inputs["Coat Roughness"].default_value, 1)
+        coat = {"clearcoat": weight, "clearcoat_gloss": gloss}
+        if surface["type"] != "principled":
+            colour = surface.get("diffuse_reflectance", surface.get("reflectance"))
+            eta = surface.get("int_ior", 1.001)
+            surface = {"type": "principled", "base_color": colour, "roughness": 0.0, "eta": eta}
+        return surface | coat
+
+    def _diffuse(self, node) -> Surface:
+        return Surface(self._opaque(surfaces.diffuse(self._textures.colour(node.inputs[0])), node))
+
+    def _glossy(self, node) -> Surface:
+        """All colours are reflected alike at all angles."""
+        colour, roughness = self._shine(node, "Color")
+        if is_number(roughness) and roughness**2 < surfaces.SMOOTH:
+            mirror = {"type": "conductor", "material": "none", "specular_reflectance": colour}
+            return Surface(self._opaque(mirror, node))
+        return Surface(self._opaque(surfaces.metal(colour, roughness), node))
+
+    def _metallic(self, node) -> Surface:
+        return Surface(self._opaque(surfaces.metal(*self._shine(node, "Base Color")), node))
+
+    def _shine(self, node, colour: str) -> tuple:
+        sockets = node.inputs
+        return self._textures.colour(sockets[colour]), self._textures.number(sockets["Roughness"])
+
+    def _glass(self, node) -> Surface:
+        made = surfaces.glass(*self._shine(node, "Color"), node.inputs["IOR"].default_value)
+        return Surface(self._bent(made, node))
+
+    def _transparent(self, node) -> Surface:
+        return Surface({"type": "null"})
+
+    def _emission(self, node) -> Surface:
+        return Surface(BLACK, self._radiance(node.inputs["Color"], node.inputs["Strength"]))
+
+    def _radiance(self, colour, strength) -> dict | None:
+        """Colour times strength; None where that is black."""
+        factor, tint = strength.default_value, self._textures.colour(colour)
+        if strength.is_linked:
+            self._made.warn("a texture of the strength of emission is left out")
+        if not factor > 0 or not any(tint.get("value", [1])):
+            return None
+        return scaled(tint, factor)
+
+    def _mix(self, node) -> Surface:
+        weight = self._textures.number(node.inputs[0])
+        first, second = (self._shader(socket) for socket in node.inputs[1:3])
+        share = weight if is_number(weight) else 0.5
+        glow = first.radiance and scaled(first.radiance, 1 - share)
+        glow = glow or (second.radiance and scaled(second.radiance, share))
+        return Surface(blend(weight, first.bsdf, second.bsdf), glow)
+
+    def _add(self, node) -> Surface:
+        """One of the two glows: of BSDFs, only one counts."""
+        first, second = (self._shader(socket) for socket in node.inputs[:2])
+        if BLACK not in (first.bsdf, second.bsdf):
+            self._made.warn("of two shaders that are added, the first counts")
+        bsdf = second.bsdf if first.bsdf == BLACK else first.bsdf
+        return Surface(bsdf, first.radiance or second.radiance)

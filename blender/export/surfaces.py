@@ -1,0 +1,85 @@
+"""Closures of Blender's shaders, each as a BSDF of pymlt.
+
+The diffuse base of a dielectric has only the light that its interface does not reflect: in Cycles
+by the direction of view, here by the mean. Roughness is the root of alpha in both.
+"""
+
+import math
+
+from pymlt.formats.imported import rgb
+
+SMOOTH = 1e-3  #: alpha below which a surface counts as a mirror
+
+
+def is_number(value) -> bool:
+    return not isinstance(value, dict)
+
+
+def twosided(surface: dict) -> dict:
+    return {"type": "twosided", "bsdf": surface}
+
+
+def diffuse(colour) -> dict:
+    return {"type": "diffuse", "reflectance": colour}
+
+
+def plastic(colour, roughness, ior: float) -> dict:
+    """The opaque dielectric of Principled."""
+    if ior <= 1:
+        return diffuse(colour)
+    if is_number(roughness) and roughness**2 < SMOOTH:
+        return {"type": "plastic", "diffuse_reflectance": colour, "int_ior": ior, "ext_ior": 1.0}
+    base = scaled(colour, 1 - mean_reflectance(ior))
+    return {"type": "principled", "base_color": base, "roughness": roughness, "eta": ior}
+
+
+def mean_reflectance(ior: float) -> float:
+    """Schlick's R_0 + (1 - R_0) (1 - cos)^5, integrated over the directions of even light."""
+    r = ((ior - 1) / (ior + 1)) ** 2
+    return r + (1 - r) / 21
+
+
+def metal(colour, roughness) -> dict:
+    """Schlick's reflectance, which is `colour` for light along the normal."""
+    return {"type": "principled", "metallic": 1.0, "base_color": colour, "roughness": roughness}
+
+
+def glass(colour, roughness, ior: float) -> dict:
+    """A refracting interface; light that enters and leaves is filtered by `colour`."""
+    ior = max(ior, 1.001)
+    if not is_number(roughness):
+        made = {"base_color": colour, "roughness": roughness}
+        return {"type": "principled", "spec_trans": 1.0, "eta": ior, **made}
+    made = {"int_ior": ior, "ext_ior": 1.0, "specular_transmittance": root(colour)}
+    if roughness**2 < SMOOTH:
+        return {"type": "dielectric", **made}
+    return {"type": "roughdielectric", "distribution": "ggx", "alpha": roughness**2, **made}
+
+
+def root(colour: dict) -> dict:
+    """The root of a colour, which a path through a thing meets twice (Burley 2015, sec. 4)."""
+    if colour["type"] != "rgb":
+        return colour
+    return colour | {"value": [math.sqrt(max(value, 0)) for value in colour["value"]]}
+
+
+def scaled(colour: dict, factor: float) -> dict:
+    """A colour or a texture times a number."""
+    if colour["type"] == "rgb":
+        return rgb(factor * value for value in colour["value"])
+    return {"type": "scale", "scale": factor, "texture": colour}
+
+
+def blend(weight, first: dict, second: dict) -> dict:
+    """A mix of which `weight` is the share of the second."""
+    if is_number(weight) and weight <= 0:
+        return first
+    if is_number(weight) and weight >= 1:
+        return second
+    return {"type": "blendbsdf", "weight": weight, "first": first, "second": second}
+
+
+def scaled_ior(ior: float, level: float) -> float:
+    """The index of which the reflectance along the normal is 2 `level` times that of `ior`."""
+    r = min(math.sqrt(2 * max(level, 0)) * abs(ior - 1) / (ior + 1), 0.99)
+    return (1 + r) / (1 - r)

@@ -1,0 +1,145 @@
+"""The extension for Blender: its pictures beside those of Cycles, and how it behaves."""
+
+import importlib.util
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from blender_run import run
+
+import pymlt as mlt
+
+pytestmark = pytest.mark.skipif(
+    not importlib.util.find_spec("bpy"), reason="needs bpy (pip install bpy)"
+)
+HERE = Path(__file__).parent
+BLOCK = 6  #: pixels, of which the means are compared
+
+
+@pytest.fixture(scope="module")
+def rendered(tmp_path_factory) -> Path:
+    folder = tmp_path_factory.mktemp("rendered")
+    run("blender_engine.py", folder, user=tmp_path_factory.mktemp("user"))
+    return folder
+
+
+@pytest.fixture(scope="module")
+def facts(tmp_path_factory) -> dict:
+    """What the behaviour script found, with the folder of its files."""
+    folder = tmp_path_factory.mktemp("behaviour")
+    spec = importlib.util.spec_from_file_location(
+        "make_extension", HERE.parents[1] / "release" / "make_extension.py"
+    )
+    maker = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(maker)
+    archive = maker.make([], folder)
+    run("blender_behaviour.py", archive, folder, user=folder / "user")
+    return json.loads((folder / "facts.json").read_text()) | {"folder": folder}
+
+
+def picture(path: Path) -> np.ndarray:
+    return mlt.read_image(path)[..., :3]
+
+
+def blocks(image: np.ndarray) -> np.ndarray:
+    """Means over blocks, in which noise and edges count little."""
+    rows, columns = (side // BLOCK for side in image.shape[:2])
+    cut = image[: rows * BLOCK, : columns * BLOCK]
+    return cut.reshape(rows, BLOCK, columns, BLOCK, 3).mean(axis=(1, 3))
+
+
+MOVING = [f"moving{frame}" for frame in (1, 2, 3)]
+
+
+@pytest.mark.parametrize("name", ["cube", "glass", "instances", "textured", "lettering", *MOVING])
+def test_a_picture_is_that_of_cycles(rendered, name):
+    ours = picture(rendered / f"{name}.exr")
+    cycles = f"moving-cycles{name[-1]}" if name in MOVING else f"{name}-cycles"
+    theirs = picture(rendered / f"{cycles}.exr")
+    np.testing.assert_allclose(ours.mean(axis=(0, 1)), theirs.mean(axis=(0, 1)), rtol=0.05)
+    # A thing that is elsewhere, or turned, would change blocks by more than that.
+    away = np.abs(blocks(ours) - blocks(theirs)).mean() / theirs.mean()
+    assert away < 0.08
+
+
+def test_what_moves_is_elsewhere_in_each_frame(rendered):
+    across = np.arange(64) @ np.stack(
+        [picture(rendered / f"{name}.exr").sum(axis=(0, 2)) for name in MOVING], axis=1
+    )
+    middles = across / [picture(rendered / f"{name}.exr").sum() for name in MOVING]
+    assert (np.diff(middles) > 5).all()
+
+
+def test_the_border_shows_a_part_of_the_picture(rendered):
+    part, whole = (picture(rendered / f"{name}.exr") for name in ("part", "cube"))
+    assert part.shape[:2] == (18, 32)
+    np.testing.assert_allclose(blocks(part), blocks(whole[:18, 16:48]), rtol=0.1)
+
+
+def test_the_extension_is_installed_and_enabled(facts):
+    assert facts["enabled"] == "bl_ext.user_default.pymlt"
+    assert facts["disabled"]
+
+
+def test_the_parameters_are_those_of_the_schemas(facts):
+    from pymlt import _core
+
+    for name, shown in facts["parameters"].items():
+        known = _core.schema("integrator", name)["parameters"]
+        assert shown == [p["name"] for p in known if p["default"] is not None]
+
+
+def test_what_is_wrong_is_told(facts):
+    assert "max_depth" in facts["error"]
+
+
+def test_a_render_can_be_cancelled(facts):
+    assert facts["cancelled"] < 10
+
+
+def test_the_line_of_statistics_tells_the_error(facts):
+    assert facts["shown"][-1].startswith("16 samples per pixel, error ")
+
+
+def channels(path: Path) -> dict[str, np.ndarray]:
+    """The channels of an image of several parts, by LAYER.PASS.CHANNEL."""
+    import OpenImageIO
+
+    count = OpenImageIO.ImageBuf(str(path)).nsubimages
+    parts = [OpenImageIO.ImageBuf(str(path), i, 0) for i in range(count)]
+    return {
+        channel: part.get_pixels()[..., i]
+        for part in parts
+        for i, channel in enumerate(part.spec().channelnames)
+    }
+
+
+def test_passes_are_in_the_file(facts):
+    found = channels(facts["folder"] / "passes.exr")
+    middle = {name.removeprefix("ViewLayer."): values[9, 15] for name, values in found.items()}
+    # What Schlick's reflectance of the index 1.5 leaves of 0.8, in the mean.
+    assert middle["Albedo.R"] == pytest.approx(0.8 * (1 - 0.04 - 0.96 / 21), abs=0.005)
+    assert middle["Depth.Z"] == pytest.approx(10.3, abs=0.5)
+    normal = [middle[f"Normal.{axis}"] for axis in "XYZ"]
+    assert np.linalg.norm(normal) == pytest.approx(1, abs=0.2)
+    assert 0 < middle["Error.R"] < middle["Combined.R"]
+    assert found["ViewLayer.Depth.Z"][0, 0] == 1e10
+
+
+def test_each_view_layer_has_its_picture(facts):
+    found = channels(facts["folder"] / "layers.exr")
+    assert found["ViewLayer.Combined.R"].std() > 0.02
+    assert found["Second.Combined.R"].std() < 0.002
+    assert found["Second.Combined.R"].mean() > 0.04
+
+
+def test_the_denoiser_takes_noise_away(facts, rendered):
+    cube = np.s_[12:24, 27:37]
+    clean = picture(rendered / "cube.exr")[cube]
+
+    def error(name):
+        return np.abs(picture(facts["folder"] / f"{name}.exr")[cube] - clean).mean()
+
+    # Without the denoiser the same samples would have the same error.
+    assert error("denoised") < error("noisy")
