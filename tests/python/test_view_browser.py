@@ -166,14 +166,18 @@ def test_paths_are_drawn_by_signature(tab):
 
     def edges() -> int:
         node = lines._nodes.get("all")
-        return 0 if node is None else len(node.points)
+        return 0 if node is None else len(node.batched_positions)
+
+    def tubes(paths) -> int:
+        """All edges but those to the lens."""
+        return sum(path.edges - 1 for path in paths)
 
     post(lambda: inspector.inspect((48, 60)))
     tab.until(lambda: inspector._found is not None and edges() > 0, "no paths are drawn")
-    most = sum(path.edges for path in inspector._found.some(24))
+    most = tubes(inspector._found.some(24))
     tab.until(lambda: edges() == most, "not 24 of them")
     first = next(iter(inspector._found.signatures()))
-    few = sum(path.edges for path in inspector._found.of(first)[:24])
+    few = tubes(inspector._found.of(first)[:24])
     assert few != most
     post(lambda: setattr(inspector._kind, "value", first))
     tab.until(lambda: edges() == few, "not those of one signature")
@@ -181,6 +185,19 @@ def test_paths_are_drawn_by_signature(tab):
     tab.until(lambda: not lines._nodes, "paths are still drawn")
     post(lambda: setattr(inspector._kind, "value", "all"))
     tab.until(lambda: edges() == most, "the paths do not come back")
+
+
+def test_paths_are_hidden_while_another_tab_is_open(tab):
+    tab.session.live.stop()
+    tab.until(lambda: not tab.session.live.running, "no end")
+    tab.open("Paths")
+    tab.page.wait_for_timeout(1000)
+    with_paths = tab.picture()
+    tab.open("Render")
+    tab.until(lambda: abs(tab.picture() - with_paths).mean() > 1e-3, "the paths stay")
+    tab.open("Paths")
+    tab.until(lambda: abs(tab.picture() - with_paths).mean() < 1e-4, "they do not come back")
+    assert not tab.page.get_by_text("Paths is open").is_visible()
 
 
 def test_the_render_tab_explains_and_tells_the_error(tab):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from typing import Any
 
 
@@ -17,6 +18,27 @@ def open_tab(client: Any, name: str) -> None:
     wanted = f"tab => tab.innerText.trim() === {json.dumps(name)}"
     enter = "new KeyboardEvent('keydown', {key: 'Enter', bubbles: true})"
     _run(client, f"[...{tabs}].filter({wanted}).forEach(tab => tab.dispatchEvent({enter}));")
+
+
+def follow_tab(client: Any, name: str, tell: Callable[[bool], object]) -> None:
+    """Tell whether a tab is open, whenever that changes; until told, it counts as open.
+
+    Only the page knows. There a script ticks a checkbox, which is not displayed, as the tab is.
+    """
+    box = client.gui.add_checkbox(f"{name} is open", True)
+    uuid = box._impl.uuid
+    hidden = f'div:has(> .mantine-Flex-root input[id="{uuid}"]) {{ display: none }}'
+    client.gui.add_html(f"<style>{hidden}</style>")
+    box.on_update(lambda _: tell(box.value))
+    _run(client, FOLLOW % (json.dumps(uuid), json.dumps(name)))
+
+
+FOLLOW = """new MutationObserver(() => {
+    const box = document.getElementById(%s);
+    const tabs = [...document.querySelectorAll('[role=tab]')];
+    const tab = tabs.find(tab => tab.textContent.trim() === %s);
+    if (box && tab && box.checked !== (tab.ariaSelected === 'true')) box.click();
+}).observe(document.body, {subtree: true, childList: true, attributeFilter: ['aria-selected']});"""
 
 
 def _run(client: Any, script: str) -> None:

@@ -74,6 +74,10 @@ class Inspector:
         """Whether the page shows shapes in place of the picture."""
         return bool(self._shown.value)
 
+    def show_paths(self, visible: bool) -> None:
+        """Paths are drawn while their tab is open."""
+        self._lines.show(visible)
+
     def pause(self) -> float | None:
         """Seconds to the next step of a chain that walks by itself."""
         return None if self._next_step is None else max(0.0, self._next_step - time.monotonic())
@@ -171,7 +175,7 @@ class Inspector:
         drawn = found.some(THIN) if kind == EVERY else found.of(kind)[:THIN]
         colours = path_tables.colours(found)
         last = drawn[::-1]  # the most important lie on top
-        self._lines.draw("all", last, [colours[path.signature] for path in last], 1)
+        self._lines.draw_tubes("all", last, [colours[path.signature] for path in last])
         if self._path is not None:
             self._lines.draw_one("chosen", self._path, CHOSEN)
 
@@ -221,7 +225,7 @@ class Inspector:
         self._lines.clear("proposal")
         if step.proposal is not None:
             colour = ACCEPTED if step.accepted else REJECTED
-            self._lines.draw("proposal", [step.proposal], [colour], 2.5)
+            self._lines.draw("proposal", step.proposal, colour, 2.5)
         self._lines.draw_one("chosen", self._walk.path, CHOSEN)
         self._session.client.flush()
 

@@ -14,7 +14,7 @@ from collections.abc import Callable
 from typing import Any
 
 from .. import _core
-from .browser import open_tab, set_title
+from .browser import follow_tab, open_tab, set_title
 from .camera import Pose, SceneCamera
 from .controls import Controls
 from .frame import Frame
@@ -50,6 +50,8 @@ class Session:
             self.inspector = Inspector(self)
         with tabs.add_tab("Lecture"):
             self.lecture = Lecture(self)
+        show = self.inspector.show_paths
+        follow_tab(client, "Paths", lambda is_open: self.post(lambda: show(is_open)))
         self._thread = threading.Thread(target=self._run, name="pymlt view: tab", daemon=True)
         self._thread.start()
         client.camera.on_update(self._camera_moved)

@@ -79,42 +79,38 @@ def simplified(points: np.ndarray, faces: np.ndarray, most: int) -> tuple[np.nda
 
 
 class Lines:
-    """Light paths as lines in a tab, each under a name."""
+    """Light paths as lines and tubes in a tab, each under a name."""
 
     def __init__(self, api: Any, radius: float):
         self._api, self._reach, self._dot = api, 2 * radius, 0.008 * radius
+        self._root = api.add_frame("/paths", show_axes=False)
         self._nodes: dict[str, Any] = {}
+
+    def show(self, visible: bool) -> None:
+        self._root.visible = visible
 
     def clear(self, name: str) -> None:
         node = self._nodes.pop(name, None)
         if node is not None:
             node.remove()  # with what stands under its name
 
-    def draw(
-        self, name: str, paths: list[_core.LightPath], colours: list[Any], width: float
-    ) -> None:
-        """The edges of paths, as lines of this width in pixels."""
+    def draw(self, name: str, path: _core.LightPath, colour: Any, width: float) -> None:
+        """The edges of a path, as lines of this width in pixels."""
         import numpy as np
 
         self.clear(name)
-        segments, shades = [], []
-        for path, colour in zip(paths, colours, strict=True):
-            points = polyline(path, self._reach)
-            edges = np.stack([points[:-1], points[1:]], axis=1)
-            segments.append(edges)
-            shades.append(np.broadcast_to(_line_colour(colour), edges.shape))
-        if segments:
-            self._nodes[name] = self._api.add_line_segments(
-                f"/paths/{name}",
-                np.concatenate(segments).astype(np.float32),
-                np.concatenate(shades),
-                thickness=width,
-                thickness_units="screen",
-            )
+        points = polyline(path, self._reach).astype(np.float32)
+        self._nodes[name] = self._api.add_line_segments(
+            f"/paths/{name}",
+            np.stack([points[:-1], points[1:]], axis=1),
+            _linear(colour),
+            thickness=width,
+            thickness_units="screen",
+        )
 
-    def draw_one(self, name: str, path: _core.LightPath, colour: Any, width: float = 4) -> None:
+    def draw_one(self, name: str, path: _core.LightPath, colour: Any) -> None:
         """One path with a dot and a name at each vertex but that on the lens."""
-        self.draw(name, [path], [colour], width)
+        self.draw(name, path, colour, 4)
         for i, point in enumerate(polyline(path, self._reach)[:-1]):
             place = tuple(map(float, point))
             label = f"/paths/{name}/x{i}"
@@ -129,9 +125,54 @@ class Lines:
             )
             self._api.add_label(f"{label}/name", f"x{i}", position=place)
 
+    def draw_tubes(self, name: str, paths: list[_core.LightPath], colours: list[Any]) -> None:
+        """Half transparent, which lines cannot be; without the edges to the lens, since a tube
+        around the eye would hide the picture.
+        """
+        import numpy as np
 
-def _line_colour(colour: Any) -> np.ndarray:
-    """The page takes colours of lines as linear light."""
+        self.clear(name)
+        lines = [polyline(path, self._reach)[:-1] for path in paths]
+        starts, ends = (
+            np.concatenate([line[part] for line in lines] or [np.empty((0, 3))])
+            for part in (slice(-1), slice(1, None))
+        )
+        if len(starts):
+            self._nodes[name] = self._api.add_batched_meshes_simple(
+                f"/paths/{name}",
+                **_tubes(starts, ends, 0.3 * self._dot),
+                batched_colors=np.repeat(
+                    _linear(colours), [len(line) - 1 for line in lines], axis=0
+                ),
+                opacity=0.5,
+                lod="off",
+                cast_shadow=False,
+                receive_shadow=False,
+            )
+
+
+def _tubes(starts: np.ndarray, ends: np.ndarray, radius: float) -> dict[str, np.ndarray]:
+    """A cylinder along z, and what turns it into one from each start to its end."""
+    import numpy as np
+    import trimesh
+
+    edges = ends - starts
+    lengths = np.maximum(np.linalg.norm(edges, axis=1), 1e-20)
+    x, y, z = (edges * np.where(edges[:, 2] < 0, -1, 1)[:, None] / lengths[:, None]).T
+    # The rotation from z to d is the quaternion (1 + cos, z x d) at unit length.
+    turns = np.stack([1 + z, -y, x, 0 * z], axis=1)
+    cylinder = trimesh.creation.cylinder(1.0, 1.0, sections=8)
+    return {
+        "vertices": cylinder.vertices,
+        "faces": cylinder.faces,
+        "batched_wxyzs": turns / np.linalg.norm(turns, axis=1, keepdims=True),
+        "batched_positions": (starts + ends) / 2,
+        "batched_scales": np.stack([0 * lengths + radius, 0 * lengths + radius, lengths], axis=1),
+    }
+
+
+def _linear(colour: Any) -> np.ndarray:
+    """The page takes colours of lines and tubes as linear light."""
     import numpy as np
 
     return (255 * (np.array(colour) / 255) ** 2.2).astype(np.uint8)
