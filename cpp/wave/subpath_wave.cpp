@@ -116,9 +116,10 @@ void SubpathWave::arrive(int place) {
   for (int i = 0; i < end; ++i) {
     const int k = begin_ + i;
     const Vec3f w = d_[k], between = lambertian_.p[i] - p_[k], ng = lambertian_.surface.ng[i];
-    const float geometric = std::fabs(dot(ng, w)), cosine = -dot(lambertian_.n[i], w);
-    const bool ok = (geometric > 0) & (lambertian_.sides[i] > 0) &
-                    ((cosine > 0) | ((cosine < 0) & (lambertian_.back[i] > 0)));
+    const float cosine = -dot(lambertian_.n[i], w);
+    const auto [geometric, quotient, ok] = lambertian_edge(
+        ng, lambertian_.n[i], -w, scatters(cosine, lambertian_.back[i] > 0) ? cosine : 0,
+        rules_.strict_normals);
     const double per_distance2 = 1 / double{dot(between, between)};
     const double previous = cosine_[k] * per_distance2;
     const double reverse = ok ? std::fabs(cosine) * inv_pi * previous : 0;
@@ -126,7 +127,7 @@ void SubpathWave::arrive(int place) {
     forward_here_[i] = pdf_[k] * geometric * per_distance2;
     sums_here_[i] = technique + sums_[k] * beta_.raise(reverse / forward_[k]);
     reverse_emission_[i] = geometric * inv_pi * previous;
-    light_factor_[i] = std::fabs(cosine) / geometric;
+    light_factor_[i] = quotient;
     next_cosine_[i] = std::fabs(dot(ng, lambertian_.w[i]));
   }
 }
