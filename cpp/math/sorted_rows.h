@@ -7,6 +7,7 @@
 #include "base/shared_array.h"
 
 #include <algorithm>
+#include <experimental/simd>
 #include <vector>
 
 namespace mlt {
@@ -58,8 +59,10 @@ class SortedRows {
     T numbers[per_line];
 
     size_t last_up_to(T x) const {
+      using Lanes = std::experimental::native_simd<T>;
       size_t count = 0;
-      for (const T number : numbers) count += number <= x;
+      for (size_t i = 0; i < per_line; i += Lanes::size())
+        count += popcount(Lanes(numbers + i, std::experimental::vector_aligned) <= x);
       return count - 1;
     }
   };

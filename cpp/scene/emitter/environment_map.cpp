@@ -3,8 +3,10 @@
 namespace mlt {
 namespace {
 
-/// Polar angle against the y axis, exact near the poles too.
-double theta_of(const Vec3& d) { return std::atan2(std::sqrt(sqr(d.x) + sqr(d.z)), d.y); }
+/// Polar angle against the y axis over pi, exact near the poles too.
+double polar_share(const Vec3& d) {
+  return 2 * signed_turns(d.y, std::sqrt(sqr(d.x) + sqr(d.z)));
+}
 
 }  // namespace
 
@@ -21,7 +23,7 @@ EnvironmentMap::EnvironmentMap(Image image, const Frame& axes, double scale)
 Color EnvironmentMap::eval(const SurfacePoint& x0, const Vec3&) const {
   const Vec3 d = axes_.to_local(x0.p);
   const double x = column_at(d) * width_;
-  const double y = theta_of(d) * inv_pi * cell_rows();
+  const double y = polar_share(d) * cell_rows();
   const int i = std::min(static_cast<int>(x), width_ - 1);
   const int j = std::min(static_cast<int>(y), cell_rows() - 1);
   const double a = x - i, b = y - j;
@@ -139,7 +141,7 @@ Vec3 EnvironmentMap::direction_of(const Vec2& p) const {
 }
 
 Vec2 EnvironmentMap::place_of(const Vec3& d) const {
-  const int j = row_at(theta_of(d) * inv_pi);
+  const int j = row_at(polar_share(d));
   const double top = cos_rows_[size_t(j)], bottom = cos_rows_[size_t(j) + 1];
   const double t = std::clamp((top - d.y) / (top - bottom), 0.0, 1 - 0x1p-40);
   return {column_at(d), (j + t) / cell_rows()};

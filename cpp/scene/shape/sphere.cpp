@@ -100,7 +100,7 @@ SurfacePoint Sphere::point(const Vec3& outward) const {
   const Vec3 ng = outward * side_;
   return point_at(
       center_ + outward * radius_, ng, Frame::around(ng, Vec3(-local.y, local.x, 0) * to_object_),
-      {turns(local.x, local.y), std::atan2(std::hypot(local.x, local.y), local.z) * inv_pi});
+      {turns(local.x, local.y), 2 * signed_turns(local.z, std::hypot(local.x, local.y))});
 }
 
 Shape::UvTangents Sphere::uv_tangents(const SurfacePoint& at) const {

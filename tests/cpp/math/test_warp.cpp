@@ -53,6 +53,23 @@ TEST(Warp, SinCosOfTurns) {
   EXPECT_EQ(sincos_turns(0.5).cos, -1);
 }
 
+TEST(Warp, SignedTurnsAreThoseOfTheArcTangent) {
+  Rng rng(3, Purpose::test, 0);
+  double worst = 0;
+  for (int i = 0; i < 1000000; ++i) {
+    const double azimuth = 2 * pi * rng.next(), stretch = std::exp2(120 * rng.next() - 60);
+    const double x = std::cos(azimuth), y = std::sin(azimuth) * (i % 2 ? 1 : stretch);
+    const long double expected =
+        std::atan2(static_cast<long double>(y), static_cast<long double>(x)) /
+        (2 * 3.14159265358979323846264338327950288L);
+    worst = std::max(worst, std::abs(static_cast<double>(signed_turns(x, y) / expected - 1)));
+  }
+  EXPECT_LT(worst, 5e-16);
+  EXPECT_EQ(signed_turns(-1, 0), 0.5);
+  EXPECT_EQ(signed_turns(0, -2), -0.25);
+  EXPECT_EQ(signed_turns(3, 3), 0.125);
+}
+
 TEST(Warp, TurnsStayBelowOne) {
   EXPECT_LT(turns(1, -1e-300), 1);
   EXPECT_EQ(turns(1, 0), 0);
