@@ -4,9 +4,7 @@ namespace mlt {
 namespace {
 
 /// Polar angle against the y axis over pi, exact near the poles too.
-double polar_share(const Vec3& d) {
-  return 2 * signed_turns(d.y, std::sqrt(sqr(d.x) + sqr(d.z)));
-}
+double polar_share(const Vec3& d) { return 2 * signed_turns(d.y, std::sqrt(sqr(d.x) + sqr(d.z))); }
 
 }  // namespace
 
