@@ -87,6 +87,11 @@ class Scene {
   const MeshLight& choose_mesh_light(double u) const {
     return mesh_lights_[mesh_lights_.size() > 1 ? emitter_choice_.sample(u) : 0];
   }
+  /// Whether the light that choose_emitter(u) chooses is at infinity.
+  bool chooses_infinite(double u) const {
+    return !infinite_.empty() &&
+           emitters_[emitters_.size() > 1 ? emitter_choice_.sample(u) : 0]->infinite();
+  }
   /// A u with which choose_emitter chooses this light and leaves v.
   double invert_choice(uint32_t index, double v) const { return emitter_choice_.invert(index, v); }
 

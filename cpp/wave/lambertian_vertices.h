@@ -99,6 +99,17 @@ struct LambertianVertices {
   void unshadowed_lights(int count, bool strict_normals, const MisExponent& mis);
   void sample_directions(int count, bool strict_normals);
 
+  /// The unshadowed light of the i-th vertex from a light at infinity in the direction w, as a
+  /// factor of its radiance and of f: |cos| mis / pdf. `pdf` is that of w in solid angle.
+  float weight_from_infinity(int i, const Vec3f& w, float pdf, bool delta, bool strict_normals,
+                             const MisExponent& mis) const {
+    const float cos_l = dot(w, n[i]), cos_c = dot(wc_[i], n[i]);
+    if (!(cos_l * cos_c > 0 && scatters(cos_c, back[i] > 0) && pdf > 0)) return 0;
+    if (!consistent_sides(surface.ng[i], n[i], w, strict_normals)) return 0;
+    const float quotient = delta ? 0 : std::fabs(cos_l) * float(inv_pi) / pdf;
+    return std::fabs(cos_l) / (pdf * (1 + mis.raise(quotient)));
+  }
+
  private:
   VectorBlock wc_;  ///< Direction towards the camera.
 

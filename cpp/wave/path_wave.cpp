@@ -68,7 +68,7 @@ template <class Numbers>
 void BasicPathWave<Numbers>::shade_block(int depth, RayCounts& rays) {
   const bool last = depth == rules_.most_edges();
   if (!last) read_numbers(depth);
-  single_count_ = 0;
+  single_count_ = sky_count_ = 0;
   for (int i = 0; i < count_; ++i) find_vertex(i, depth);
   if (last) return;
   lambertian_.find_textures();
@@ -152,12 +152,21 @@ void BasicPathWave<Numbers>::choose_lights(int depth) {
   sample_other_lights();
 }
 
+template <class Numbers>
+void BasicPathWave<Numbers>::add_sky_vertex(int i, const Vec3& u) {
+  if (sky_count_ == static_cast<int>(sky_vertices_.size())) sky_vertices_.emplace_back();
+  SkyVertex& vertex = sky_vertices_[sky_count_++];
+  vertex.path = i;
+  vertex.u = u;
+}
+
 /// Takes the numbers for a light that is no glowing mesh, or for a vertex that is not Lambertian.
 template <class Numbers>
 void BasicPathWave<Numbers>::choose_other_light(int i, const Vec3& u) {
   if (lambertian_.f[i]) {
     lambertian_.light_pdf[i] = 0;
     if (!(lambertian_.sides[i] > 0)) return;
+    if (scene_->chooses_infinite(u.x)) return add_sky_vertex(i, u);
     add_single(i, lambertian_.point(i, hits(i).shape[i % RayPacket::size], walk(i).ray.time));
   }
   SingleVertex& single = singles_[single_[i]];
@@ -172,6 +181,8 @@ void BasicPathWave<Numbers>::sample_other_lights() {
     if (single.samples_light && !backgrounds_.add(*scene_, single.u, single.light))
       single.light = sample_direct_position(*scene_, single.at, single.u);
   }
+  for (int j = 0; j < sky_count_; ++j)
+    backgrounds_.add(*scene_, sky_vertices_[j].u, sky_vertices_[j].light);
   backgrounds_.sample_all(*scene_);
 }
 
@@ -183,8 +194,26 @@ void BasicPathWave<Numbers>::queue_lights() {
       queue_shadow(
           i, *lambertian_.radiance[i] * *lambertian_.f[i] * double{lambertian_.light_weight[i]},
           lambertian_.shadow_o[i], lambertian_.shadow_w[i], lambertian_.shadow_length[i]);
+  for (int j = 0; j < sky_count_; ++j) queue_sky(sky_vertices_[j]);
   for (int j = 0; j < single_count_; ++j)
     if (singles_[j].samples_light) queue_other_light(singles_[j]);
+}
+
+/// See direct_light() of path_tracer.h; for a Lambertian vertex.
+template <class Numbers>
+void BasicPathWave<Numbers>::queue_sky(const SkyVertex& vertex) {
+  const int i = vertex.path;
+  const auto& [emitter, x0] = vertex.light;
+  const Vec3f w(x0.at.p);
+  const float weight = lambertian_.weight_from_infinity(
+      i, w, static_cast<float>(x0.pdf), emitter->delta(), rules_.strict_normals, walk(i).mis);
+  if (!(weight > 0)) return;
+  const Color radiance = emitter->eval(x0.at, -x0.at.p);
+  if (is_black(radiance)) return;
+  const Vec3f o =
+      ray_origin(lambertian_.p[i], lambertian_.surface.ng[i], w, lambertian_.surface.extent[i]);
+  queue_shadow(i, radiance * *lambertian_.f[i] * double{weight}, o, w,
+               std::numeric_limits<float>::infinity());
 }
 
 /// See direct_light() of path_tracer.h.

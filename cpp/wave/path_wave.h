@@ -51,13 +51,21 @@ class BasicPathWave {
   }
 
  private:
-  /// A vertex that is not Lambertian, or samples a light that is no glowing mesh.
+  /// A vertex that is not Lambertian, or samples a light that is neither a glowing mesh nor at
+  /// infinity.
   struct SingleVertex {
     int path;
     SurfacePoint at;
     bool samples_light;  ///< Whether it samples a light.
     Vec3 u;              ///< The numbers for the light.
     LightSample light;   ///< The sampled light.
+  };
+
+  /// A Lambertian vertex that samples a light at infinity.
+  struct SkyVertex {
+    int path;
+    Vec3 u;
+    LightSample light;
   };
 
   void find_hits(bool coherent, RayCounts& rays);
@@ -72,8 +80,10 @@ class BasicPathWave {
   void choose_lights(int depth);
   void choose_other_light(int i, const Vec3& u);
   void add_single(int i, const SurfacePoint& at);
+  void add_sky_vertex(int i, const Vec3& u);
   void sample_other_lights();
   void queue_lights();
+  void queue_sky(const SkyVertex& vertex);
   void queue_other_light(const SingleVertex& single);
   void queue_shadow(int i, const Color& radiance, const Vec3f& o, const Vec3f& w, float length);
   void take_step(int depth, RayCounts& rays);
@@ -107,6 +117,8 @@ class BasicPathWave {
   LambertianVertices lambertian_;
   std::vector<SingleVertex> singles_;  ///< The first `single_count_` are in use.
   int single_count_ = 0;
+  std::vector<SkyVertex> sky_vertices_;  ///< The first `sky_count_` are in use.
+  int sky_count_ = 0;
   Block<int> single_;  ///< Index in singles_ of the path's vertex; -1: none.
   BackgroundPositions backgrounds_;
 };
