@@ -77,8 +77,9 @@ template <class F>
 LambertianEdge<F> lambertian_edge(const Vec3Of<F>& ng, const Vec3Of<F>& ns, const Vec3Of<F>& w,
                                   F cosine, bool strict_normals) {
   const F geometric = std::abs(dot(ng, w)), shading = dot(ns, w);
-  return {geometric, std::abs(shading) / geometric,
-          (shading * cosine > 0) & (geometric > 0) & consistent_sides(ng, ns, w, strict_normals)};
+  const bool scatters =
+      (shading * cosine > 0) & (geometric > 0) & consistent_sides(ng, ns, w, strict_normals);
+  return {geometric, std::abs(shading) / geometric, scatters};
 }
 
 /// Terms of a vertex with the unit directions `wl` to the vertex on its light side and `wc` to the

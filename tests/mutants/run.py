@@ -150,7 +150,8 @@ def ctest(pattern: str) -> str:
     )
     if ok:
         return ""
-    failed = re.search(r"^\s+\d+ - (\S+) ", output, re.MULTILINE)
+    listed = output.partition("The following tests FAILED:")[2]  # not those that were skipped
+    failed = re.search(r"^\s+\d+ - (\S+) ", listed, re.MULTILINE)
     if not failed:
         raise MutantError(f"ctest ('{pattern}') fails, but names no test: see {LOG}")
     return failed[1]
