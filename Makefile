@@ -33,7 +33,7 @@ export PIP_DISABLE_PIP_VERSION_CHECK = 1
 
 .DEFAULT_GOAL := build
 .DELETE_ON_ERROR:
-.PHONY: setup build demo docs test test-long mutants asan separate fuzz soak wheel blender release-check \
+.PHONY: setup editor build quick demo docs test test-long mutants asan separate fuzz soak wheel blender release-check \
         lint format clean distclean
 
 # ---- set-up ------------------------------------------------------------------------------------
@@ -97,6 +97,16 @@ test: build
 	$(CTEST) -j $(JOBS) -LE '^long$$' --timeout 300 || status=1; \
 	$(BIN)/python -m pytest -n $(JOBS) --dist loadfile || status=1; \
 	exit $$status
+
+# Builds and runs the short C++ tests of one file's floor: make quick FILE=cpp/scene/bsdf/phong.cpp.
+# TESTS='[Ll]ens' runs those alone whose names match.
+FLOOR = $(firstword $(subst /, ,$(patsubst cpp/%,%,$(FILE:tests/%=%))))
+quick:
+	@test -f "$(FILE)" && test -d "tests/cpp/$(FLOOR)" || { \
+	  echo 'FILE must be a file of a floor in tests/cpp: make quick FILE=cpp/scene/bsdf/phong.cpp'; exit 2; }
+	@test -f $(BUILD)/build.ninja || $(MAKE) build
+	cmake --build $(BUILD) --target test_$(FLOOR)
+	$(CTEST) -j $(JOBS) -R '^$(FLOOR)\..*$(TESTS)' -LE '^long$$' --timeout 300
 
 # The tests that take minutes; SHARD=2/4 runs the second of four parts.
 test-long: build
