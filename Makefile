@@ -57,6 +57,12 @@ $(STAMPS)/dev $(STAMPS)/docs $(STAMPS)/fuzz: $(STAMPS)/%: $(VENV)/.stamp | $(STA
 	$(call install_for,$*)
 	@mkdir -p $(@D) && touch $@
 
+# What clangd reads: how each file is compiled by itself, and the headers that CMake writes.
+editor: $(STAMPS)/dev
+	cmake -S . -B build/editor -G Ninja -DPYMLT_UNITY=OFF -DPYMLT_TESTS=ON -DPYMLT_PYTHON=ON \
+	  -DPython_EXECUTABLE=$(abspath $(BIN)/python)
+	cmake --build build/editor --target generated/mlt_build_id.h
+
 # ---- one build: library, mlt-render and the extension, installed editable; and the C++ tests ------
 build: $(STAMPS)/build
 
