@@ -33,7 +33,7 @@ export PIP_DISABLE_PIP_VERSION_CHECK = 1
 
 .DEFAULT_GOAL := build
 .DELETE_ON_ERROR:
-.PHONY: setup build demo docs test test-long mutants asan separate fuzz soak wheel blender release-check \
+.PHONY: setup editor build quick demo docs test test-long mutants asan separate fuzz soak wheel blender release-check \
         lint format clean distclean
 
 # ---- set-up ------------------------------------------------------------------------------------
@@ -56,6 +56,12 @@ install_for = $(BIN)/pip install -q -c requirements/constraints.txt \
 $(STAMPS)/dev $(STAMPS)/docs $(STAMPS)/fuzz: $(STAMPS)/%: $(VENV)/.stamp | $(STAMPS)/apt-test
 	$(call install_for,$*)
 	@mkdir -p $(@D) && touch $@
+
+# What clangd reads: how each file is compiled by itself, and the headers that CMake writes.
+editor: $(STAMPS)/dev
+	cmake -S . -B build/editor -G Ninja -DPYMLT_UNITY=OFF -DPYMLT_TESTS=ON -DPYMLT_PYTHON=ON \
+	  -DPython_EXECUTABLE=$(abspath $(BIN)/python)
+	cmake --build build/editor --target generated/mlt_build_id.h
 
 # ---- one build: library, mlt-render and the extension, installed editable; and the C++ tests ------
 build: $(STAMPS)/build
@@ -97,6 +103,16 @@ test: build
 	$(CTEST) -j $(JOBS) -LE '^long$$' --timeout 300 || status=1; \
 	$(BIN)/python -m pytest -n $(JOBS) --dist loadfile || status=1; \
 	exit $$status
+
+# Builds and runs the short C++ tests of one file's floor: make quick FILE=cpp/scene/bsdf/phong.cpp.
+# TESTS='[Ll]ens' runs those alone whose names match.
+FLOOR = $(firstword $(subst /, ,$(patsubst cpp/%,%,$(FILE:tests/%=%))))
+quick:
+	@test -f "$(FILE)" && test -d "tests/cpp/$(FLOOR)" || { \
+	  echo 'FILE must be a file of a floor in tests/cpp: make quick FILE=cpp/scene/bsdf/phong.cpp'; exit 2; }
+	@test -f $(BUILD)/build.ninja || $(MAKE) build
+	cmake --build $(BUILD) --target test_$(FLOOR)
+	$(CTEST) -j $(JOBS) -R '^$(FLOOR)\..*$(TESTS)' -LE '^long$$' --timeout 300
 
 # The tests that take minutes; SHARD=2/4 runs the second of four parts.
 test-long: build

@@ -5,7 +5,7 @@
 #include "base/file_lock.h"
 #include "io/node_bytes.h"
 #include "io/pack.h"
-#include "mlt_build_id.h"
+#include "job/build_id.h"
 #include "mlt_version.h"
 
 #include <fmt/format.h>
@@ -107,12 +107,12 @@ Checkpoint decode_checkpoint(const std::string& file, const std::string& path) {
     std::string version, build;
     bytes.read(version);
     bytes.read(build);
-    if (version != MLT_VERSION || build != MLT_BUILD_ID)
+    if (version != MLT_VERSION || build != build_id())
       throw FileError(
           fmt::format("{}: the checkpoint was written by pymlt {} (build {}), but this is {} "
                       "(build {}); only the "
                       "same build goes on with the same pixels",
-                      path, version, build, MLT_VERSION, MLT_BUILD_ID));
+                      path, version, build, MLT_VERSION, build_id()));
     checkpoint.scene = load_source(bytes);
     checkpoint.scene_hash = bytes.read<uint64_t>();
     checkpoint.integrator = load_node(bytes);
@@ -126,7 +126,7 @@ Checkpoint decode_checkpoint(const std::string& file, const std::string& path) {
 void write_checkpoint(const std::string& path, const Checkpoint& checkpoint) {
   ByteWriter bytes;
   bytes.write(std::string(MLT_VERSION));
-  bytes.write(std::string(MLT_BUILD_ID));
+  bytes.write(std::string(build_id()));
   save(bytes, checkpoint.scene);
   bytes.write(checkpoint.scene_hash);
   save(bytes, checkpoint.integrator);
