@@ -50,7 +50,7 @@ const std::vector<Refusal>& refusals() {
        {"measured", "roughcoating", "irawan", "hapke"}},
       {"bsdf", "subsurface scattering is not supported", {"hk", "sss", "dipole"}},
       {"bsdf", curves, {"hair"}},
-      {"emitter", not_yet, {"directionalarea", "timed_sunsky", "collimated"}},
+      {"emitter", not_yet, {"timed_sunsky", "collimated"}},
       {"sensor", not_yet, {"telecentric", "spherical", "perspective_rdist"}},
       {"sensor",
        "sensors that measure a single value are not supported",

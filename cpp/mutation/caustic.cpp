@@ -70,7 +70,7 @@ class CausticPerturbation final : public MeasuredMutation<CausticPerturbation> {
     if (last < 1 || x.specular(last)) return -1;
     int i = last - 1;
     while (i > 0 && x.specular(i)) --i;
-    return i;
+    return x[i].delta() ? -1 : i;
   }
 
   std::optional<ImageFootprint> footprint(const PathState& x, int a) const {

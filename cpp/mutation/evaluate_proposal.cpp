@@ -17,13 +17,19 @@ double delta_tolerance(const Scene& scene, const Path& path, int i) {
   const double near = 1e-2 * scene.bounds().radius;
   double shortest = near;
   for (const int j : {i - 1, i + 1})
-    if (!path[j].at.infinite()) shortest = std::min(shortest, length(path[j].at.p - path[i].at.p));
+    if (j >= 0 && !path[j].at.infinite())
+      shortest = std::min(shortest, length(path[j].at.p - path[i].at.p));
   return 1e-3 * near / shortest;
 }
 
-/// Whether delta vertex i scatters light from one of its neighbours to the other.
+/// Whether delta vertex i scatters light from one of its neighbours to the other, or, as a light,
+/// emits it to x_1.
 bool obeys_delta(const Scene& scene, const Path& path, int i) {
   const Vertex& x = path[i];
+  if (i == 0) {
+    const Vec3 w = scene.emitters()[x.emitter]->sample_ray(x.at, Vec2(0.5)).direction;
+    return length(direction(x.at, path[1].at) - w) < delta_tolerance(scene, path, 0);
+  }
   const Bsdf& bsdf = scene.bsdf(x.at);
   const Vec3 from = x.at.shading.to_local(direction(x.at, path[i - 1].at));
   const Vec3 to = x.at.shading.to_local(direction(x.at, path[i + 1].at));
@@ -49,7 +55,7 @@ Edit difference(const Path& x, const Path& y) {
 bool passable(const Scene& scene, const Path& path, int first, int last, RayCounts& rays) {
   const int k = path.edges();
   const Walker walker{scene, path.time, rays};
-  for (int i = std::max(1, first - 1); i <= std::min(k - 1, last + 1); ++i)
+  for (int i = std::max(0, first - 1); i <= std::min(k - 1, last + 1); ++i)
     if (path[i].delta() && !obeys_delta(scene, path, i)) return false;
   for (int i = std::max(0, first - 1); i <= std::min(k - 1, last); ++i) {
     if (path[i].at.infinite() && path[i + 1].at.infinite()) return false;

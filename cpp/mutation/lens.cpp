@@ -34,7 +34,7 @@ CameraChains camera_chains(const PathState& x) {
   CameraChains chains;
   int i = ChainPerturbation::chain_end(x, x.edges(), -1);
   for (; i > 1 && x.specular(i - 1); i = ChainPerturbation::chain_end(x, i, -1)) ++chains.further;
-  if (i > 0 || x.terms.light_can_be_hit) chains.stop = i;
+  if (i > 0 ? x.terms[i - 1].connectable : x.terms.light_can_be_hit) chains.stop = i;
   return chains;
 }
 

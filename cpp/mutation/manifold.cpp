@@ -102,7 +102,7 @@ class ManifoldPerturbation final : public MeasuredMutation<ManifoldPerturbation>
     }
   }
   bool can_be_walked(const PathState& x, int c, int b) const {
-    if (b - c < 2 || b - c - 1 > SpecularChain::most_vertices) return false;
+    if (b - c < 2 || b - c - 1 > SpecularChain::most_vertices || x[c].delta()) return false;
     for (int i = c + 1; i < b; ++i)
       if (!has_constraint(scene(), x[i])) return false;
     return true;

@@ -28,7 +28,7 @@ template <class Visit>
 void visit_emission(const Scene& scene, const SurfacePoint* at, const Vec3& w, Visit&& visit) {
   if (at) {
     const Emitter* emitter = scene.emitter(*at);
-    if (!emitter) return;
+    if (!emitter || emitter->delta_direction()) return;
     const Color radiance = emitter->eval(*at, -w);
     if (!is_black(radiance)) visit(*emitter, *at, radiance);
     return;

@@ -16,6 +16,7 @@ bool in_scene(const Scene& scene, const Vertex& x) {
   if (x.kind != VertexKind::light) return on_shape == (x.kind == VertexKind::surface);
   if (x.emitter >= scene.emitters().size()) return false;
   const Emitter* emitter = scene.emitters()[x.emitter].get();
+  if (x.delta() != emitter->delta_direction()) return false;
   return on_shape ? scene.emitter(x.at) == emitter : emitter->infinite() || emitter->delta();
 }
 

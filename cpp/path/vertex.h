@@ -11,8 +11,10 @@ enum class VertexKind : uint8_t { light, surface, camera };
 /// A small value without pointers: it can be stored and read back in another process.
 struct Vertex {
   VertexKind kind = VertexKind::surface;
-  Lobe lobe = Lobe::smooth;  ///< Lobe of its scattering: smooth, or one of the deltas.
-  uint32_t emitter = 0;      ///< For a light vertex: position in Scene::emitters().
+  /// Lobe of its scattering: smooth, or one of the deltas. Lights that shine in one direction alone
+  /// have `reflection`.
+  Lobe lobe = Lobe::smooth;
+  uint32_t emitter = 0;  ///< For a light vertex: position in Scene::emitters().
   SurfacePoint at;
 
   bool delta() const { return lobe != Lobe::smooth; }
@@ -89,9 +91,11 @@ inline VertexTerms vertex_terms(const Scene& scene, const Vertex& x, const Vec3&
   if (x.kind != VertexKind::surface) return end_terms(scene, x, wl, wc);
   return surface_terms(scene, x.at, x.lobe, wl, wc, strict_normals);
 }
-/// Terms of a vertex at which a path is joined, whatever its lobe: it scatters smoothly there.
+/// Terms of a vertex at which a path is joined, whatever its lobe: it scatters smoothly there, if
+/// it can.
 inline VertexTerms joint_terms(const Scene& scene, const Vertex& x, const Vec3& wl, const Vec3& wc,
                                bool strict_normals) {
+  if (x.kind == VertexKind::light && x.delta()) return {};
   if (x.kind != VertexKind::surface) return end_terms(scene, x, wl, wc);
   return surface_terms(scene, x.at, Lobe::smooth, wl, wc, strict_normals);
 }
@@ -103,14 +107,15 @@ double direct_position_pdf(const Scene& scene, const Vertex& x0, const SurfacePo
 /// Density with which a camera walk starts at x_k.
 double camera_position_pdf(const Scene& scene, const Vertex& xk);
 
-/// Whether a walk from the other end can hit this end vertex: not a point or directional light,
-/// not a pinhole.
+/// Whether a walk from the other end can hit this end vertex and find light: not a point or
+/// directional light, not one that shines in one direction alone, not a pinhole.
 bool can_be_hit(const Scene& scene, const Vertex& end);
 /// Whether an edge may be made by connection at this vertex.
 inline bool connectable(const Vertex& x) { return !x.delta(); }
 
 inline Vertex light_vertex(const Emitter& emitter, const SurfacePoint& at) {
-  return {VertexKind::light, Lobe::smooth, emitter.index(), at};
+  const Lobe lobe = emitter.delta_direction() ? Lobe::reflection : Lobe::smooth;
+  return {VertexKind::light, lobe, emitter.index(), at};
 }
 inline Vertex camera_vertex(const SurfacePoint& at) {
   return {VertexKind::camera, Lobe::smooth, 0, at};

@@ -84,7 +84,7 @@ struct Walker {
     SurfacePoint at;
     const bool hit = arrive(ray, at);
     const Emitter* emitter = hit ? scene.emitter(at) : background();
-    if (!emitter) return false;
+    if (!emitter || emitter->delta_direction()) return false;
     x0 = light_vertex(*emitter, hit ? at : Scene::point_at_infinity(ray.d));
     return true;
   }

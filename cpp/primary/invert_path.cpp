@@ -62,7 +62,8 @@ class PathInverter {
     const Emitter& emitter = *scene_.emitters()[path_[0].emitter];
     LightNumbers u = LightNumbers::draw(any_);
     if (!emitter.delta()) u.position = emitter.invert_position(at(0));
-    if (vertices >= 2 || goes_on) u.direction = emitter.invert_ray(at(0), at(1).p);
+    if ((vertices >= 2 || goes_on) && !emitter.delta_direction())
+      u.direction = emitter.invert_ray(at(0), at(1).p);
     u.choice = scene_.invert_choice(path_[0].emitter, u.choice);
     write(Stream::light, u);
     for (int i = 1; i < vertices - (goes_on ? 0 : 1); ++i)

@@ -32,6 +32,12 @@ bool is_hidden(const Scene& scene, const Emitter& light) {
 
 void warn_of_hidden_lights(const Scene& scene, Stats& stats) {
   for (const EmitterPtr& light : scene.emitters())
+    if (light->delta_direction())
+      stats.warnings.push_back(
+          fmt::format("{} cannot find the light of emitter '{}', which shines along its normals "
+                      "alone; use bdpt or mlt",
+                      stats.integrator, light->type));
+  for (const EmitterPtr& light : scene.emitters())
     if (light->delta() && is_hidden(scene, *light))
       stats.warnings.push_back(
           fmt::format("{} cannot find the light of emitter '{}', which has no size and shines "

@@ -5,9 +5,9 @@
 
 namespace mlt {
 
-/// Warns of lights of no size behind mirrors or glass, for algorithms whose walks begin at the
-/// camera alone: no such walk can hit these lights, nor connect to them from a surface that
-/// scatters.
+/// For algorithms whose walks begin at the camera alone: warns of lights that these can neither hit
+/// nor connect to, which shine along their normals alone, or have no size and are behind mirrors or
+/// glass.
 void warn_of_hidden_lights(const Scene& scene, Stats& stats);
 
 }  // namespace mlt

@@ -1,6 +1,7 @@
 #include "rendering/separate_direct.h"
 
 #include "base/registry.h"
+#include "scene/scene.h"
 
 namespace mlt {
 
@@ -9,6 +10,10 @@ Plugin integrator_direct();
 SeparateDirect separate_direct(ScenePtr scene, uint64_t seed, int samples, bool hide_emitters,
                                bool strict_normals) {
   if (samples == 0) return {};
+  for (const EmitterPtr& light : scene->emitters())
+    if (light->delta_direction())
+      throw UsageError("direct_samples would lose the direct light of emitter '" + light->type +
+                       "', which next-event estimation cannot find; leave direct_samples out");
   const Plugin plugin = integrator_direct();
   Params params(plugin.schema, {});
   params.set("hide_emitters", hide_emitters, {});

@@ -79,6 +79,10 @@ class Emitter : public Object {
   virtual bool infinite() const { return false; }
   /// Whether it is a point or directional light, which no walk can hit.
   virtual bool delta() const { return false; }
+  /// Whether each position shines in one direction alone: then eval() and pdf_ray() are the
+  /// coefficients of one delta in projected solid angle, and neither next-event estimation nor a
+  /// walk that hits the light can find it.
+  virtual bool delta_direction() const { return false; }
 
   /// Emitted power (W per RGB), for sampling emitters.
   virtual Color power() const = 0;

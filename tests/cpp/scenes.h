@@ -68,7 +68,7 @@ inline std::vector<std::string> mutation_scene_names() {
   std::vector<std::string> names = scene_names();
   for (const char* name : {"mirrors", "near_specular", "near_specular_mirrors", "sun_caustic",
                            "point_caustic", "lens_through_mirror", "moving_mirror", "moving_lamp",
-                           "moving_lens", "spinning_instance", "glass_torus"})
+                           "moving_lens", "spinning_instance", "glass_torus", "beam"})
     names.push_back(name);
   return names;
 }

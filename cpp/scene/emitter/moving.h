@@ -39,6 +39,8 @@ class MovingEmitter final : public Emitter {
     return light_->invert_ray(x0, x1);
   }
 
+  bool delta_direction() const override { return light_->delta_direction(); }
+
   /// Emitted power for the mean area, as if the shape were scaled evenly.
   Color power() const override;
   const Shape* shape() const override { return light_->shape(); }

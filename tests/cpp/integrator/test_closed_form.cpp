@@ -197,6 +197,65 @@ INSTANTIATE_TEST_SUITE_P(Integrators, LongLightOverPlane,
                          testing::Values("ptracer", "pssmlt", "mlt"),
                          [](const auto& info) { return info.param; });
 
+// ---- lights that shine along their normals alone
+
+std::string beam(const std::string& power_per_area) {
+  return "<emitter type='directionalarea'><rgb name='radiance' value='" + power_per_area +
+         "'/></emitter>";
+}
+
+std::vector<Light> beams() {
+  const Vec3 center(0.3, 0.4, 1.5);
+  return {
+      {"square", rectangle(scale(4) + rotate("x", 150) + translate(0, 0, 5), beam("3 2 1")),
+       [](const Vec3&) { return Color(3, 2, 1) * std::cos(pi / 6); }},
+      // It shines like a point whose intensity is the power per area times the squared radius.
+      {"sphere", sphere(center.x, center.y, center.z, 0.3, diffuse("0 0 0") + beam("30 20 10")),
+       [=](const Vec3& p) {
+         const Vec3 d = center - p;
+         return Color(30, 20, 10) * (sqr(0.3) * d.z / (length_squared(d) * length(d)));
+       }},
+  };
+}
+
+void expect_beams_over_plane(const std::string& integrator) {
+  for (const Light& light : beams()) {
+    SCOPED_TRACE(light.name);
+    const ScenePtr scene = plane_below(light.xml);
+    expect_image(scene, integrator, {{"max_depth", "2"}}, image_of_plane(*scene, light.irradiance));
+  }
+}
+
+class BeamOverPlane : public testing::TestWithParam<std::string> {};
+
+TEST_P(BeamOverPlane, HasItsIrradiance) { expect_beams_over_plane(GetParam()); }
+
+INSTANTIATE_TEST_SUITE_P(Integrators, BeamOverPlane, testing::Values("ptracer", "bdpt"),
+                         [](const auto& info) { return info.param; });
+
+class LongBeamOverPlane : public testing::TestWithParam<std::string> {};
+
+TEST_P(LongBeamOverPlane, HasItsIrradiance) { expect_beams_over_plane(GetParam()); }
+
+INSTANTIATE_TEST_SUITE_P(Integrators, LongBeamOverPlane,
+                         testing::Values("pssmlt_bdpt", "mmlt", "rjmlt", "erpt", "mlt"),
+                         [](const auto& info) { return info.param; });
+
+TEST(Beams, AreDarkForWalksFromTheCameraAloneWhichSaySo) {
+  const ScenePtr scene = plane_below(beams()[0].xml);
+  Stats stats;
+  const auto rendering = rendered(scene, integrator("path"), 1, 4);
+  rendering->add_stats(stats);
+  EXPECT_TRUE(rendering->image() == constant_image(*scene, Color(0)));
+  ASSERT_EQ(stats.warnings.size(), 1u);
+  EXPECT_NE(stats.warnings[0].find("along its normals alone"), std::string::npos);
+}
+
+TEST(Beams, AreNotLeftToDirectSamples) {
+  const ScenePtr scene = plane_below(beams()[0].xml);
+  EXPECT_THROW(integrator("mlt", {{"direct_samples", "4"}})->start(scene, 1), UsageError);
+}
+
 // ---- the camera's lens and the film's filter do not change a constant
 
 TEST(FurnaceInAPicture, IsTheSameThroughAnyLensAndFilter) {

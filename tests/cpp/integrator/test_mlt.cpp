@@ -69,7 +69,7 @@ TEST_P(MltImage, IsThatOfBdpt) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, MltImage,
-                         testing::Combine(testing::Values("cornell", "caustic"),
+                         testing::Combine(testing::Values("cornell", "caustic", "beam"),
                                           testing::Values("none", "bdpt", "path")));
 
 /// Scenes that bdpt renders in reasonable time; in the others it hardly sees some features.

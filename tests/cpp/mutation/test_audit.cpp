@@ -57,9 +57,10 @@ bool has_paths(const Case& c) {
   if (c.mutation == "caustic") return c.scene != "camera_in_glass" && c.scene != "both_in_glass";
   if (c.mutation != "multi_chain" && c.mutation != "manifold" && c.mutation != "multiplexed")
     return true;
-  for (const char* scene : {"caustic", "plastic", "camera_under_water", "light_under_water",
-                            "smooth_glass", "null_surface", "mirror", "mirrors", "near_specular",
-                            "near_specular_mirrors", "sun_caustic", "point_caustic", "glass_torus"})
+  for (const char* scene :
+       {"caustic", "plastic", "camera_under_water", "light_under_water", "smooth_glass",
+        "null_surface", "mirror", "mirrors", "near_specular", "near_specular_mirrors",
+        "sun_caustic", "point_caustic", "glass_torus", "beam"})
     if (c.scene == scene) return true;
   return false;
 }
@@ -154,6 +155,12 @@ TEST(AuditOfCaustics, HoldsForRoundMovesOfTheDirection) {
   how.paths = 20000;
   const AuditReport report =
       audit(target, make_mutation("caustic", target, {{"anisotropic", false}}), how);
+  EXPECT_EQ(report.verdict, Verdict::right) << report.text();
+}
+
+/// A mutation that turned the first direction would break its delta.
+TEST(AuditOfTheMixture, HoldsForLightAlongNormals) {
+  const AuditReport report = audit_case({"beam", "mixture"}, 20000);
   EXPECT_EQ(report.verdict, Verdict::right) << report.text();
 }
 
