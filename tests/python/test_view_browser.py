@@ -81,6 +81,18 @@ class Tab:
         """The pixels of the left part of the window, linear."""
         return mlt._core.decode_image(self.page.screenshot(clip=LEFT), "screenshot.png")
 
+    def settled_picture(self) -> np.ndarray:
+        """One that has not changed for half a second."""
+        pictures = [self.picture()]
+
+        def settled() -> bool:
+            self.page.wait_for_timeout(500)
+            pictures.append(self.picture())
+            return np.array_equal(*pictures[-2:])
+
+        self.until(settled, "the picture goes on changing")
+        return pictures[-1]
+
     def samples(self) -> float:
         jobs = self.session.live.jobs
         return jobs[0].samples if jobs else 0.0
@@ -191,12 +203,14 @@ def test_paths_are_hidden_while_another_tab_is_open(tab):
     tab.session.live.stop()
     tab.until(lambda: not tab.session.live.running, "no end")
     tab.open("Paths")
-    tab.page.wait_for_timeout(1000)
-    with_paths = tab.picture()
+    paths = tab.session.inspector._lines._root
+    tab.until(lambda: paths.visible, "no paths")
+    with_paths = tab.settled_picture()
     tab.open("Render")
-    tab.until(lambda: abs(tab.picture() - with_paths).mean() > 1e-3, "the paths stay")
+    tab.until(lambda: not paths.visible, "the paths stay")
+    tab.until(lambda: abs(tab.picture() - with_paths).mean() > 1e-3, "their picture stays")
     tab.open("Paths")
-    tab.until(lambda: abs(tab.picture() - with_paths).mean() < 1e-4, "they do not come back")
+    tab.until(lambda: paths.visible, "they do not come back")
     assert not tab.page.get_by_text("Paths is open").is_visible()
 
 

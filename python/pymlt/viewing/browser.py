@@ -21,7 +21,7 @@ def open_tab(client: Any, name: str) -> None:
 
 
 def follow_tab(client: Any, name: str, tell: Callable[[bool], object]) -> None:
-    """Tell whether a tab is open, whenever that changes; until told, it counts as open.
+    """Tell whether a tab is open, soon after that changes; until told, it counts as open.
 
     Only the page knows. There a script ticks a checkbox, which is not displayed, as the tab is.
     """
@@ -33,12 +33,13 @@ def follow_tab(client: Any, name: str, tell: Callable[[bool], object]) -> None:
     _run(client, FOLLOW % (json.dumps(uuid), json.dumps(name)))
 
 
-FOLLOW = """new MutationObserver(() => {
+# By the clock, so that a tick which the page or viser has undone is set again.
+FOLLOW = """setInterval(() => {
     const box = document.getElementById(%s);
     const tabs = [...document.querySelectorAll('[role=tab]')];
     const tab = tabs.find(tab => tab.textContent.trim() === %s);
     if (box && tab && box.checked !== (tab.ariaSelected === 'true')) box.click();
-}).observe(document.body, {subtree: true, childList: true, attributeFilter: ['aria-selected']});"""
+}, 200);"""
 
 
 def _run(client: Any, script: str) -> None:
