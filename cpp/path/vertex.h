@@ -66,8 +66,8 @@ inline VertexTerms surface_terms(const Scene& scene, const SurfacePoint& at, Lob
           s.pdf_from_camera / geometric_l};
 }
 
-/// An edge along w at a Lambertian vertex (its VertexTerms, of one direction), in double precision
-/// or in the single precision of waves.
+/// The part of an edge along w in the terms of a Lambertian vertex (VertexTerms), in double
+/// precision or in the single precision of waves.
 template <class F>
 struct LambertianEdge {
   F geometric;    ///< |w.ng|

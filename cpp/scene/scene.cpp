@@ -57,9 +57,9 @@ LambertianMesh lambertian_mesh(const Shape& shape) {
 
 MeshLight mesh_light(const Emitter& emitter, double probability) {
   const Color* radiance = emitter.uniform_radiance();
-  if (!radiance) return {};
+  if (!radiance) return {nullptr, emitter.infinite()};
   const Mesh* mesh = emitter.shape()->as_mesh();
-  return {mesh, radiance, probability / mesh->area()};
+  return {mesh, false, radiance, probability / mesh->area()};
 }
 
 /// The shapes of all groups of which there are instances.

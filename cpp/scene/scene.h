@@ -25,6 +25,7 @@ struct EmitterChoice {
 /// A mesh that glows the same everywhere on its front side, as next-event estimation needs it.
 struct MeshLight {
   const Mesh* mesh = nullptr;  ///< nullptr if this light is of another kind.
+  bool infinite = false;       ///< Whether this light is at infinity instead.
   const Color* radiance = nullptr;
   double pdf = 0;  ///< Area measure, the choice of the light included.
 };
@@ -86,11 +87,6 @@ class Scene {
   /// The light that choose_emitter(u) chooses, if it is a glowing mesh.
   const MeshLight& choose_mesh_light(double u) const {
     return mesh_lights_[mesh_lights_.size() > 1 ? emitter_choice_.sample(u) : 0];
-  }
-  /// Whether the light that choose_emitter(u) chooses is at infinity.
-  bool chooses_infinite(double u) const {
-    return !infinite_.empty() &&
-           emitters_[emitters_.size() > 1 ? emitter_choice_.sample(u) : 0]->infinite();
   }
   /// A u with which choose_emitter chooses this light and leaves v.
   double invert_choice(uint32_t index, double v) const { return emitter_choice_.invert(index, v); }

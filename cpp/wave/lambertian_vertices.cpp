@@ -39,14 +39,10 @@ void LambertianVertices::unshadowed_lights(int count, bool strict_normals, const
     const Vec3f to_light = y - p[i];
     const float distance2 = dot(to_light, to_light);
     const Vec3f wl = to_light * (1 / std::sqrt(distance2));
-    const float cos_l = dot(wl, n[i]), cos_c = dot(wc_[i], n[i]), cos_y = -dot(wl, ny);
-    const bool lit = (light_pdf[i] > 0) & (cos_y > 0) & (cos_l * cos_c > 0) &
-                     scatters(cos_c, back[i] > 0) & (sides[i] > 0) &
-                     consistent_sides(ng, n[i], wl, strict_normals);
+    const float cos_y = -dot(wl, ny);
+    const bool lit = (light_pdf[i] > 0) & (cos_y > 0) & is_lit_from(i, wl, strict_normals);
     const float pdf = light_pdf[i] * distance2 / cos_y;
-    const float abs_cos = std::fabs(cos_l);
-    const float quotient = abs_cos * float(inv_pi) / pdf;
-    const float weight = abs_cos / (pdf * (1 + mis.raise(quotient)));
+    const float weight = direct_weight(std::fabs(dot(wl, n[i])), pdf, mis);
     light_weight[i] = lit ? weight : 0;
     const Vec3f start = ray_origin(p[i], ng, to_light, surface.extent[i]);
     const Vec3f between = ray_origin(y, ny, -to_light, light.extent[i]) - start;

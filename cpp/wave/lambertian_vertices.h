@@ -103,14 +103,24 @@ struct LambertianVertices {
   /// factor of its radiance and of f: |cos| mis / pdf. `pdf` is that of w in solid angle.
   float weight_from_infinity(int i, const Vec3f& w, float pdf, bool delta, bool strict_normals,
                              const MisExponent& mis) const {
-    const float cos_l = dot(w, n[i]), cos_c = dot(wc_[i], n[i]);
-    if (!(cos_l * cos_c > 0 && scatters(cos_c, back[i] > 0) && pdf > 0)) return 0;
-    if (!consistent_sides(surface.ng[i], n[i], w, strict_normals)) return 0;
-    const float quotient = delta ? 0 : std::fabs(cos_l) * float(inv_pi) / pdf;
-    return std::fabs(cos_l) / (pdf * (1 + mis.raise(quotient)));
+    if (!(pdf > 0 && is_lit_from(i, w, strict_normals))) return 0;
+    const float cosine = std::fabs(dot(w, n[i]));
+    return delta ? cosine / pdf : direct_weight(cosine, pdf, mis);
   }
 
  private:
+  /// Whether light from the direction wl is scattered to the camera.
+  bool is_lit_from(int i, const Vec3f& wl, bool strict_normals) const {
+    const float cos_l = dot(wl, n[i]), cos_c = dot(wc_[i], n[i]);
+    return (cos_l * cos_c > 0) & scatters(cos_c, back[i] > 0) & (sides[i] > 0) &
+           consistent_sides(surface.ng[i], n[i], wl, strict_normals);
+  }
+  /// |cos| mis / pdf of next-event estimation with this density in solid angle: scattered directions
+  /// have |cos| / pi.
+  static float direct_weight(float cosine, float pdf, const MisExponent& mis) {
+    return cosine / (pdf * (1 + mis.raise(cosine * float(inv_pi) / pdf)));
+  }
+
   VectorBlock wc_;  ///< Direction towards the camera.
 
   /// A point whose texture is still to be looked up.

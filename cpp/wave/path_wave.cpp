@@ -68,7 +68,8 @@ template <class Numbers>
 void BasicPathWave<Numbers>::shade_block(int depth, RayCounts& rays) {
   const bool last = depth == rules_.most_edges();
   if (!last) read_numbers(depth);
-  single_count_ = sky_count_ = 0;
+  single_count_ = 0;
+  sky_vertices_.clear();
   for (int i = 0; i < count_; ++i) find_vertex(i, depth);
   if (last) return;
   lambertian_.find_textures();
@@ -147,26 +148,21 @@ void BasicPathWave<Numbers>::choose_lights(int depth) {
     if (lambertian_.f[i] && light.mesh)
       lambertian_.set_light(i, light, {u.y, u.z});
     else
-      choose_other_light(i, u);
+      choose_other_light(i, u, light.infinite);
   }
   sample_other_lights();
 }
 
-template <class Numbers>
-void BasicPathWave<Numbers>::add_sky_vertex(int i, const Vec3& u) {
-  if (sky_count_ == static_cast<int>(sky_vertices_.size())) sky_vertices_.emplace_back();
-  SkyVertex& vertex = sky_vertices_[sky_count_++];
-  vertex.path = i;
-  vertex.u = u;
-}
-
 /// Takes the numbers for a light that is no glowing mesh, or for a vertex that is not Lambertian.
 template <class Numbers>
-void BasicPathWave<Numbers>::choose_other_light(int i, const Vec3& u) {
+void BasicPathWave<Numbers>::choose_other_light(int i, const Vec3& u, bool infinite) {
   if (lambertian_.f[i]) {
     lambertian_.light_pdf[i] = 0;
     if (!(lambertian_.sides[i] > 0)) return;
-    if (scene_->chooses_infinite(u.x)) return add_sky_vertex(i, u);
+    if (infinite) {
+      sky_vertices_.push_back({i, u, {}});
+      return;
+    }
     add_single(i, lambertian_.point(i, hits(i).shape[i % RayPacket::size], walk(i).ray.time));
   }
   SingleVertex& single = singles_[single_[i]];
@@ -181,8 +177,7 @@ void BasicPathWave<Numbers>::sample_other_lights() {
     if (single.samples_light && !backgrounds_.add(*scene_, single.u, single.light))
       single.light = sample_direct_position(*scene_, single.at, single.u);
   }
-  for (int j = 0; j < sky_count_; ++j)
-    backgrounds_.add(*scene_, sky_vertices_[j].u, sky_vertices_[j].light);
+  for (SkyVertex& vertex : sky_vertices_) backgrounds_.add(*scene_, vertex.u, vertex.light);
   backgrounds_.sample_all(*scene_);
 }
 
@@ -194,7 +189,7 @@ void BasicPathWave<Numbers>::queue_lights() {
       queue_shadow(
           i, *lambertian_.radiance[i] * *lambertian_.f[i] * double{lambertian_.light_weight[i]},
           lambertian_.shadow_o[i], lambertian_.shadow_w[i], lambertian_.shadow_length[i]);
-  for (int j = 0; j < sky_count_; ++j) queue_sky(sky_vertices_[j]);
+  for (const SkyVertex& vertex : sky_vertices_) queue_sky(vertex);
   for (int j = 0; j < single_count_; ++j)
     if (singles_[j].samples_light) queue_other_light(singles_[j]);
 }

@@ -78,9 +78,8 @@ class BasicPathWave {
   void find_vertex(int i, int depth);
   void find_bright_or_other(int i, const Hit& hit, int depth);
   void choose_lights(int depth);
-  void choose_other_light(int i, const Vec3& u);
+  void choose_other_light(int i, const Vec3& u, bool infinite);
   void add_single(int i, const SurfacePoint& at);
-  void add_sky_vertex(int i, const Vec3& u);
   void sample_other_lights();
   void queue_lights();
   void queue_sky(const SkyVertex& vertex);
@@ -117,8 +116,7 @@ class BasicPathWave {
   LambertianVertices lambertian_;
   std::vector<SingleVertex> singles_;  ///< The first `single_count_` are in use.
   int single_count_ = 0;
-  std::vector<SkyVertex> sky_vertices_;  ///< The first `sky_count_` are in use.
-  int sky_count_ = 0;
+  std::vector<SkyVertex> sky_vertices_;
   Block<int> single_;  ///< Index in singles_ of the path's vertex; -1: none.
   BackgroundPositions backgrounds_;
 };

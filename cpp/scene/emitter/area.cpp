@@ -1,39 +1,24 @@
 // A surface that glows with the same radiance in all directions on its front side, that of the
 // geometric normal.
 #include "math/warp.h"
-#include "scene/emitter.h"
 #include "scene/emitter/emitter_plugin.h"
-#include "scene/shape.h"
-#include "scene/texture.h"
+#include "scene/emitter/surface_light.h"
 
 namespace mlt {
 namespace {
 
-class AreaLight final : public Emitter {
+class AreaLight final : public SurfaceLight {
  public:
-  explicit AreaLight(Params& params) : radiance_(texture_param(params, "radiance")) {}
-
-  Color eval(const SurfacePoint& x0, const Vec3& w) const override {
-    if (!(dot(x0.ng, w) > 0)) return Color(0);
-    return glm::max(radiance_->eval(x0), Color(0));
-  }
-
-  PositionSample sample_position(const Vec2& u, double) const override {
-    return shape_->sample_position(u);
-  }
-  double pdf_position(const SurfacePoint&) const override { return 1 / shape_->area(); }
-  Vec2 invert_position(const SurfacePoint& x0) const override {
-    return shape_->invert_position(x0);
-  }
+  using SurfaceLight::SurfaceLight;
 
   PositionSample sample_direct(const Vec3& from, const Vec2& u, double) const override {
-    return shape_->sample_direct(from, u);
+    return shape()->sample_direct(from, u);
   }
   double pdf_direct(const Vec3& from, const SurfacePoint& x0) const override {
-    return shape_->pdf_direct(from, x0);
+    return shape()->pdf_direct(from, x0);
   }
   Vec2 invert_direct(const Vec3& from, const SurfacePoint& x0) const override {
-    return shape_->invert_direct(from, x0);
+    return shape()->invert_direct(from, x0);
   }
 
   /// Samples in proportion to the cosine, so the coefficient in projected solid angle is 1 / pi.
@@ -50,18 +35,15 @@ class AreaLight final : public Emitter {
 
   const Color* uniform_radiance() const override { return uniform_ ? &*uniform_ : nullptr; }
 
-  Color power() const override { return radiance_->mean() * (pi * shape_->area()); }
+  Color power() const override { return radiance().mean() * (pi * shape()->area()); }
 
   void set_shape(const Shape* shape) override {
-    shape_ = shape;
-    if (shape->as_mesh() && radiance_->is_constant())
-      uniform_ = glm::max(radiance_->mean(), Color(0));
+    SurfaceLight::set_shape(shape);
+    if (shape->as_mesh() && radiance().is_constant())
+      uniform_ = glm::max(radiance().mean(), Color(0));
   }
-  const Shape* shape() const override { return shape_; }
 
  private:
-  TexturePtr radiance_;
-  const Shape* shape_ = nullptr;
   std::optional<Color> uniform_;
 };
 

@@ -1,29 +1,14 @@
 // A surface that shines along its normals alone. Its radiance is a delta of direction, whose
 // coefficient in projected solid angle is the power per area (as in Mitsuba 3).
-#include "scene/emitter.h"
 #include "scene/emitter/emitter_plugin.h"
-#include "scene/shape.h"
-#include "scene/texture.h"
+#include "scene/emitter/surface_light.h"
 
 namespace mlt {
 namespace {
 
-class DirectionalAreaLight final : public Emitter {
+class DirectionalAreaLight final : public SurfaceLight {
  public:
-  explicit DirectionalAreaLight(Params& params) : radiance_(texture_param(params, "radiance")) {}
-
-  Color eval(const SurfacePoint& x0, const Vec3& w) const override {
-    if (!(dot(x0.ng, w) > 0)) return Color(0);
-    return glm::max(radiance_->eval(x0), Color(0));
-  }
-
-  PositionSample sample_position(const Vec2& u, double) const override {
-    return shape_->sample_position(u);
-  }
-  double pdf_position(const SurfacePoint&) const override { return 1 / shape_->area(); }
-  Vec2 invert_position(const SurfacePoint& x0) const override {
-    return shape_->invert_position(x0);
-  }
+  using SurfaceLight::SurfaceLight;
 
   PositionSample sample_direct(const Vec3&, const Vec2&, double) const override { return {}; }
   double pdf_direct(const Vec3&, const SurfacePoint&) const override { return 0; }
@@ -36,14 +21,7 @@ class DirectionalAreaLight final : public Emitter {
 
   bool delta_direction() const override { return true; }
 
-  Color power() const override { return radiance_->mean() * shape_->area(); }
-
-  void set_shape(const Shape* shape) override { shape_ = shape; }
-  const Shape* shape() const override { return shape_; }
-
- private:
-  TexturePtr radiance_;
-  const Shape* shape_ = nullptr;
+  Color power() const override { return radiance().mean() * shape()->area(); }
 };
 
 }  // namespace
