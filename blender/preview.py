@@ -6,6 +6,8 @@ import numpy as np
 
 import pymlt as mlt
 
+from .passes import opaque
+
 INTERVAL = 0.1  #: seconds for which pixels are shown before newer ones are asked for
 
 
@@ -59,9 +61,7 @@ class Preview:
         if self._job and (self._job.ended or monotonic() >= self._next):
             self._next = monotonic() + INTERVAL
             if self.samples:
-                image = self._job.image[::-1]
-                opaque = np.ones((*image.shape[:2], 1), np.float32)
-                self._pixels = np.concatenate([image, opaque], axis=2)
+                self._pixels = opaque(self._job.image[::-1])
         return self._pixels
 
     def stop(self) -> None:

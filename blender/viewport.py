@@ -50,7 +50,7 @@ class Viewport:
 
 
 def view_sensor(context, pixel_size: int = 1) -> dict:
-    """The camera of a 3D view, of which a pixel covers so many pixels of the screen."""
+    """The camera of a 3D view; its pixels are `pixel_size` pixels of the screen wide."""
     region, view = context.region, context.region_data
     image = camera.film(*(max(side // pixel_size, 1) for side in (region.width, region.height)))
     through = view.view_perspective == "CAMERA" and context.space_data.camera

@@ -8,6 +8,13 @@ TURNED = np.diag([-1.0, 1.0, -1.0, 1.0])
 KINDS = ("perspective", "thinlens", "orthographic")
 
 
+def unscaled(to_world: np.ndarray) -> np.ndarray:
+    """A placement with axes of length 1, of a thing whose scale does not count."""
+    placed = to_world.copy()
+    placed[:3, :3] /= np.linalg.norm(placed[:3, :3], axis=0)
+    return placed
+
+
 def film(width: int, height: int, crop: tuple[int, int, int, int] | None = None) -> dict:
     """An image, or the part of it that begins at `crop[:2]` and is `crop[2:]` large."""
     made = {"type": "hdrfilm", "width": width, "height": height}
@@ -26,8 +33,7 @@ def border(render, width: int, height: int) -> tuple[int, int, int, int] | None:
 
 def sensor(to_world, projection, image: dict, lens: dict) -> dict:
     """The camera with this projection matrix (OpenGL's), whose film is `image`."""
-    placed, projection = np.array(to_world), np.array(projection)
-    placed[:3, :3] /= np.linalg.norm(placed[:3, :3], axis=0)
+    placed, projection = unscaled(np.array(to_world)), np.array(projection)
     half = 1 / projection[0, 0], 1 / projection[1, 1]
     if projection[3, 3] == 1:
         shift = [-projection[0, 3] * half[0], -projection[1, 3] * half[1], 0]

@@ -2,20 +2,24 @@
 
 import numpy as np
 
+from pymlt.formats.imported import Imported
 
-def samples(image) -> np.ndarray:
+
+def samples(image, made: Imported) -> np.ndarray | None:
     """What an image holds, as (height, width, channels): uint8 (encoded) or float32 (linear).
 
-    Empty where Blender cannot load its file.
+    None, and a warning, where Blender cannot load its file.
     """
     width, height = image.size
     values = np.empty(width * height * image.channels, np.float32)
-    if values.size:
-        image.pixels.foreach_get(values)
+    if not values.size:
+        made.warn(f"the image {image.name!r} cannot be loaded")
+        return None
+    image.pixels.foreach_get(values)
     values = values.reshape(height, width, image.channels)
     return values if image.is_float else np.round(values * 255).astype(np.uint8)
 
 
 def colours(values: np.ndarray) -> np.ndarray:
-    """The same without alpha."""
+    """The colours of such an array, without its alpha."""
     return values[..., :3] if values.shape[2] == 4 else values[..., :1]

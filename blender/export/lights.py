@@ -6,6 +6,8 @@ import numpy as np
 
 from pymlt.formats.imported import Imported, rgb
 
+from .camera import unscaled
+
 FLIPPED = np.diag([1.0, -1.0, -1.0, 1.0])  #: lamps shine along their -z
 PROFILE = 256  #: texels across the beam of a spot
 
@@ -20,12 +22,6 @@ def lamp(light, to_world: np.ndarray, made: Imported) -> dict:
     if light.node_tree and light.use_nodes:
         made.warn("nodes of lights are left out")
     return LAMPS[light.type](light, colour, unscaled(to_world), to_world, made)
-
-
-def unscaled(to_world: np.ndarray) -> np.ndarray:
-    placed = to_world.copy()
-    placed[:3, :3] /= np.linalg.norm(placed[:3, :3], axis=0)
-    return placed
 
 
 def sun(light, colour, placed, _, made: Imported) -> dict:

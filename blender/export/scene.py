@@ -24,7 +24,7 @@ def export(depsgraph, sensor: dict, motion: Motion | None = None) -> Imported:
 
 
 def stepped_export(engine, depsgraph) -> Imported:
-    """The same of a final render: seen by the scene's camera, with the motion of the frame."""
+    """A scene dict for a final render: seen by its camera, with the motion of the frame."""
     motion = Motion.of_frame(engine, depsgraph)
     return export(depsgraph, final_sensor(engine, depsgraph, motion), motion)
 

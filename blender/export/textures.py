@@ -66,9 +66,8 @@ class Textures:
         return {"type": "ref", "id": self._added[key]}
 
     def _bitmap(self, node, channel: int | None) -> dict | None:
-        values = samples(node.image)
-        if not values.size:
-            self._made.warn(f"the image {node.image.name!r} cannot be loaded")
+        values = samples(node.image, self._made)
+        if values is None:
             return None
         if channel is None:
             values = colours(values)

@@ -39,9 +39,8 @@ def even(colour) -> dict | None:
 
 
 def surroundings(node, factor: float, made: Imported) -> dict | None:
-    values = samples(node.image)
-    if not values.size:
-        made.warn(f"the image {node.image.name!r} cannot be loaded")
+    values = samples(node.image, made)
+    if values is None:
         return None
     if node.projection != "EQUIRECTANGULAR":
         made.warn("images of the world are taken as equirectangular")

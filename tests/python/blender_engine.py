@@ -8,18 +8,11 @@ from pathlib import Path
 
 import bpy
 import numpy as np
+from blender_material import material
 
 ROOT = Path(__file__).resolve().parents[2]
 SIZE = 64, 36
 SAMPLES = 256
-
-
-def material(name, **inputs):
-    made = bpy.data.materials.new(name)
-    made.use_nodes = True
-    for key, value in inputs.items():
-        made.node_tree.nodes["Principled BSDF"].inputs[key.replace("_", " ")].default_value = value
-    return made
 
 
 def add(make, surface=None, **options):

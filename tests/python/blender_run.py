@@ -10,6 +10,7 @@ HERE = Path(__file__).parent
 START = """
 import os, runpy, sys
 del sys.argv[0]
+sys.path.insert(0, os.path.dirname(sys.argv[0]))
 runpy.run_path(sys.argv[0], run_name="__main__")
 os._exit(0)
 """

@@ -9,17 +9,10 @@ import sys
 from pathlib import Path
 
 import bpy
+from blender_material import material
 from mathutils import Vector
 
 WIDTH, HEIGHT = 32, 18
-
-
-def material(name, **inputs):
-    made = bpy.data.materials.new(name)
-    made.use_nodes = True
-    for key, value in inputs.items():
-        made.node_tree.nodes["Principled BSDF"].inputs[key.replace("_", " ")].default_value = value
-    return made
 
 
 def add(make, *, surface, **options):
