@@ -115,8 +115,8 @@ struct LambertianVertices {
     return (cos_l * cos_c > 0) & scatters(cos_c, back[i] > 0) & (sides[i] > 0) &
            consistent_sides(surface.ng[i], n[i], wl, strict_normals);
   }
-  /// |cos| mis / pdf of next-event estimation with this density in solid angle: scattered directions
-  /// have |cos| / pi.
+  /// |cos| mis / pdf of next-event estimation with this density in solid angle; scattered
+  /// directions have |cos| / pi.
   static float direct_weight(float cosine, float pdf, const MisExponent& mis) {
     return cosine / (pdf * (1 + mis.raise(cosine * float(inv_pi) / pdf)));
   }

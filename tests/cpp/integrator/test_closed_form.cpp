@@ -11,7 +11,7 @@ using namespace test;
 /// Samples per pixel of a first attempt. The pixels are few, and a chain's steps are to cost more
 /// than its bootstrap.
 double first_spp(const std::string& integrator) {
-  if (integrator == "pssmlt" || integrator == "mlt") return 1024;
+  if (integrator == "pssmlt" || integrator == "mlt" || integrator == "erpt") return 1024;
   return integrator == "ptracer" ? 64 : 8;
 }
 
@@ -19,7 +19,8 @@ double first_spp(const std::string& integrator) {
 SameImageSettings settings_of(const std::string& integrator, bool is_long) {
   SameImageSettings settings;
   settings.max_effort = 5000;
-  if (integrator != "mlt" && (is_long || first_spp(integrator) == 8)) return settings;
+  if (integrator == "erpt" || first_spp(integrator) == 8) return settings;
+  if (integrator != "mlt" && is_long) return settings;
   settings.whole = 0.02;
   settings.block = 0.1;
   return settings;
