@@ -215,7 +215,7 @@ const char* name_of(VertexKind kind) {
 }
 
 const char* name_of(Lobe lobe) {
-  constexpr const char* names[] = {"smooth", "reflection", "transmission", "null"};
+  constexpr const char* names[] = {"smooth", "reflection", "transmission"};
   return names[static_cast<size_t>(lobe)];
 }
 

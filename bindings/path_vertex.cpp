@@ -83,7 +83,7 @@ void bind_vertex_class(py::module_& m) {
                              [](const Vertex& x) { return py::make_tuple(x.at.uv.x, x.at.uv.y); })
       .def_property_readonly(
           "lobe", [](const Vertex& x) { return name_of(x.lobe); },
-          "How it scatters: 'smooth', or by which delta, 'reflection', 'transmission', 'null'.")
+          "How it scatters: 'smooth', or by which delta, 'reflection' or 'transmission'.")
       .def_property_readonly("delta", &Vertex::delta, "Whether it scatters in one direction only.")
       .def_property_readonly("infinite", [](const Vertex& x) { return x.at.infinite(); })
       .def_property_readonly(

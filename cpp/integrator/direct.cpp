@@ -40,17 +40,19 @@ class DirectTaker : public SampleTaker {
  private:
   Color radiance(const Ray& ray, PixelSampler& sampler, RayCounts& rays) const {
     const Walker walker{*scene_, ray.time, rays};
+    CameraWalk walk(ray);
     SurfacePoint at;
-    const bool hit = walker.arrive(ray, at);
+    const bool hit = arrive(walker, sampler, walk, at);
     const auto always = [](const Emitter&, const SurfacePoint&) { return 1.0; };
     Color sum(0);
     if (!settings_.rules.hide_emitters)
       sum += emission(*scene_, hit ? &at : nullptr, ray.d, always);
-    if (!hit || !consistent_sides(at, -ray.d, settings_.rules.strict_normals)) return sum;
+    if (!hit || !consistent_sides(at, -ray.d, settings_.rules.strict_normals))
+      return sum * walk.throughput;
     if (BsdfAt(*scene_, at).has_smooth())
       for (int i = 0; i < settings_.emitter_samples; ++i) sum += by_light(walker, at, ray, sampler);
     for (int i = 0; i < settings_.bsdf_samples; ++i) sum += by_bsdf(walker, at, ray, sampler);
-    return sum;
+    return sum * walk.throughput;
   }
 
   Color by_light(const Walker& walker, const SurfacePoint& at, const Ray& ray,
@@ -70,14 +72,17 @@ class DirectTaker : public SampleTaker {
         scatter_to_light(walker, at, -ray.d, {sampler.next(), u}, settings_.rules.strict_normals);
     if (!sample) return Color(0);
     const double n = settings_.emitter_samples, m = settings_.bsdf_samples;
+    CameraWalk walk(walker.leave(at, sample->w));
+    walk.throughput = sample->weight;
+    walk.scatter_pdf = sample->pdf;
+    SurfacePoint next;
+    const bool hit = arrive(walker, sampler, walk, next);
     const auto weight = [&](const Emitter& emitter, const SurfacePoint& x0) {
       if (sample->lobe != Lobe::smooth) return 1.0;
       const double light = direct_pdf(*scene_, emitter, at.p, x0, sample->w);
-      return MisExponent(Heuristic::power).weight(m * sample->pdf, n * light);
+      return MisExponent(Heuristic::power).weight(m * walk.scatter_pdf, n * light);
     };
-    SurfacePoint next;
-    const bool hit = walker.arrive(walker.leave(at, sample->w), next);
-    return sample->weight * emission(*scene_, hit ? &next : nullptr, sample->w, weight) / m;
+    return walk.throughput * emission(*scene_, hit ? &next : nullptr, sample->w, weight) / m;
   }
 
   const Scene* scene_;

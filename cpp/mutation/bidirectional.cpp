@@ -135,13 +135,14 @@ std::optional<Ray> leave_end(const Walker& walker, const Vertex& end, Rng& rng) 
 /// Intersects the ray to find vertex i: on a surface, on a light at infinity, or on the lens.
 bool arrive(const Walker& walker, const Ray& ray, Path& path, int i, Rng& rng) {
   if (i == path.edges()) return walker.arrive_at_lens(ray, path[i]);
-  if (i > 0) return walker.arrive(ray, path[i]);
+  const double u_leg = walker.draw_leg(rng);
+  if (i > 0) return walker.arrive(ray, u_leg, path[i]);
   const auto any_background = [&]() -> const Emitter* {
     const std::vector<uint32_t>& indices = walker.scene.backgrounds();
     if (indices.empty()) return nullptr;
     return walker.scene.emitters()[indices[rng.below(indices.size())]].get();
   };
-  return walker.arrive_at_light(ray, any_background, path[0]);
+  return walker.arrive_at_light(ray, u_leg, any_background, path[0]);
 }
 
 class BidirectionalMutation final : public MeasuredMutation<BidirectionalMutation> {
@@ -172,7 +173,7 @@ class BidirectionalMutation final : public MeasuredMutation<BidirectionalMutatio
     if (!grow(y, edit.first, s, 1, context)) return std::nullopt;
     target().evaluate(edit.first, edit.first + n - 1, y);
     const int joint = edit.first + s;
-    if (joint > 0 && joint <= y.edges()) scale_by_visibility(scene(), joint, y, context.rays);
+    if (joint > 0 && joint <= y.edges()) test_visibility(scene(), joint, y, context.rays);
     return edit;
   }
 

@@ -44,7 +44,7 @@ class CausticPerturbation final : public MeasuredMutation<CausticPerturbation> {
     }
     if (!chain_.carry(x, {a, k - 1, 1}, ray, y, context)) return std::nullopt;
     target().evaluate(a + 1, k - 1, y);
-    scale_by_visibility(scene(), k, y, context.rays);
+    test_visibility(scene(), k, y, context.rays);
     return edit;
   }
 

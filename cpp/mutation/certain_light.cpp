@@ -20,7 +20,7 @@ bool sees_light(const Scene& scene, const PathRules& rules, const Vec2& raster,
   const Walker walker{scene, walk.ray.time, rays};
   for (int depth = 1; walk.delta; ++depth) {
     SurfacePoint at;
-    const bool hit = walker.arrive(walk.ray, at);
+    const bool hit = arrive(walker, sampler, walk, at);
     if (rules.wants(depth)) find_light(scene, walk, hit ? &at : nullptr);
     if (!is_black(walk.radiance)) return true;
     if (!hit || depth == rules.most_edges()) return false;

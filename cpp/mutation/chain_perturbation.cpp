@@ -25,7 +25,12 @@ ChainPerturbation::ChainPerturbation(const Scene& scene, const StepSizes& steps)
 }
 
 double ChainPerturbation::raster_per_direction(const PathState& x) const {
-  return x.terms[x.edges()].vertex.pdf_from_camera * scene_->camera().raster().sampled_area();
+  const Camera& camera = scene_->camera();
+  const int k = x.edges();
+  const double direction = x.terms.passages.empty()
+                               ? x.terms[k].vertex.pdf_from_camera
+                               : camera.pdf_direction(x[k].at, x.terms.direction(k, -1));
+  return direction * camera.raster().sampled_area();
 }
 
 double ChainPerturbation::pixel_angle(const PathState& x) const {
@@ -63,9 +68,9 @@ bool ChainPerturbation::carry(const PathState& x, const Span& span, Ray ray, Pat
   };
   for (int i = span.start + span.step;; i += span.step) {
     if (i == 0)
-      return walker.arrive_at_light(ray, background, y.path[0]) &&
+      return walker.arrive_at_light(ray, walker.draw_leg(context.rng), background, y.path[0]) &&
              y[0].at.infinite() == x[0].at.infinite();
-    if (!walker.arrive(ray, y.path[i])) return false;
+    if (!walker.arrive(ray, walker.draw_leg(context.rng), y.path[i])) return false;
     y.path[i].lobe = x[i].lobe;
     if (i == span.stop) return true;
     const auto out = carried_direction(x, y, i, span.step, -ray.d, context);
@@ -83,7 +88,6 @@ std::optional<Vec3> ChainPerturbation::carried_direction(const PathState& x, con
   }
   const SurfacePoint& from = x[i].at;
   const SurfacePoint& at = y[i].at;
-  if (x[i].lobe == Lobe::null) return -in;
   const Vec3 x_in = from.shading.to_local(x.terms.direction(i, -step));
   const Vec3 x_out = from.shading.to_local(x.terms.direction(i, step));
   const Vec3 y_in = at.shading.to_local(in);
@@ -103,10 +107,11 @@ double ChainPerturbation::coefficient(const PathState& x, const PathState& y, in
                                       int step) const {
   const SurfacePoint& at = y[i].at;
   const Vec3 in = y.terms.direction(i, -step), out = y.terms.direction(i, step);
+  const double arrival = y.terms.arrival(i, step);
   if (!x.specular(i)) {
     const int stop = chain_end(x, i, step);
     const double theta = angle_between(out, x.terms.direction(i, step));
-    return angle(x, i, stop, step).angular_pdf(theta) / abs_cos(at, out);
+    return angle(x, i, stop, step).angular_pdf(theta) / abs_cos(at, out) * arrival;
   }
   const Bsdf& bsdf = scene_->bsdf(at);
   const Vec3 local_in = at.shading.to_local(in), local_out = at.shading.to_local(out);
@@ -119,7 +124,7 @@ double ChainPerturbation::coefficient(const PathState& x, const PathState& y, in
   const double eta = bsdf.relative_eta(at, local_in);
   const auto h = half_vector(local_in, local_out, eta);
   if (!h) return 0;
-  return half_vector_jacobian(local_in, local_out, *h, eta) / abs_cos(at, out);
+  return half_vector_jacobian(local_in, local_out, *h, eta) / abs_cos(at, out) * arrival;
 }
 
 }  // namespace mlt

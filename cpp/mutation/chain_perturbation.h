@@ -55,7 +55,8 @@ class ChainPerturbation {
   double walked_density(const Measure& in, const PathState& x, const PathState& y, const Span& span,
                         double first_coefficient) const {
     const int s = span.step;
-    double p = first_coefficient * in.step(span.start, span.start + s);
+    double p =
+        first_coefficient * y.terms.arrival(span.start, s) * in.step(span.start, span.start + s);
     for (int i = span.start + s; i != span.stop; i += s)
       p *= coefficient(x, y, i, s) * in.step(i, i + s);
     return p;
@@ -86,7 +87,8 @@ class ChainPerturbation {
  private:
   std::optional<Vec3> carried_direction(const PathState& x, const PathState& y, int i, int step,
                                         const Vec3& in, MutationContext& context) const;
-  /// Density of the direction from y's vertex i, in projected solid angle, when x is perturbed.
+  /// Density of the direction from y's vertex i, in projected solid angle, when x is perturbed, and
+  /// of arriving at the next vertex.
   double coefficient(const PathState& x, const PathState& y, int i, int step) const;
 
   const Scene* scene_;

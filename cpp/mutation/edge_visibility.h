@@ -6,13 +6,11 @@
 
 namespace mlt {
 
-/// Tests the visibility of the edge between vertices i - 1 and i of y, which has been evaluated,
-/// and scales y by it.
-inline void scale_by_visibility(const Scene& scene, int i, PathState& y, RayCounts& rays) {
-  if (!(y.target > 0)) return;
-  const double seen = Walker{scene, y.path.time, rays}.visibility(y[i - 1].at, y[i].at);
-  y.rgb *= seen;
-  y.target = seen > 0 ? seen * y.target : 0;
+/// Tests the visibility of the edge between vertices i - 1 and i of y, which has been evaluated:
+/// target = 0 if they do not see each other. What surfaces let pass is a part of the terms.
+inline void test_visibility(const Scene& scene, int i, PathState& y, RayCounts& rays) {
+  if (!(y.target > 0) || scene.has_passages()) return;
+  if (!Walker{scene, y.path.time, rays}.sees(y[i - 1].at, y[i].at)) y.target = 0;
 }
 
 }  // namespace mlt

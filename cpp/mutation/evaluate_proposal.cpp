@@ -59,7 +59,7 @@ bool passable(const Scene& scene, const Path& path, int first, int last, RayCoun
     if (path[i].delta() && !obeys_delta(scene, path, i)) return false;
   for (int i = std::max(0, first - 1); i <= std::min(k - 1, last); ++i) {
     if (path[i].at.infinite() && path[i + 1].at.infinite()) return false;
-    if (walker.visibility(path[i].at, path[i + 1].at) == 0) return false;
+    if (!walker.sees(path[i].at, path[i + 1].at)) return false;
   }
   return true;
 }

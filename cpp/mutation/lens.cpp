@@ -61,7 +61,7 @@ class CameraPerturbation final : public MeasuredMutation<CameraPerturbation> {
     const auto ray = image_.move(x, y, context.rng);
     if (!ray || !chain_.carry(x, {k, stop, -1}, *ray, y, context)) return std::nullopt;
     target().evaluate(stop, k, y);
-    if (stop > 0) scale_by_visibility(scene(), stop, y, context.rays);
+    if (stop > 0) test_visibility(scene(), stop, y, context.rays);
     return edit;
   }
 

@@ -33,7 +33,7 @@ class LensSubpathMutation final : public MeasuredMutation<LensSubpathMutation> {
       if (count == most_vertices) return std::nullopt;
       vertices.resize(first + count + 1);
       Vertex& end = vertices.back();
-      if (!walker.arrive(ray, end)) return std::nullopt;
+      if (!walker.arrive(ray, walker.draw_leg(rng), end)) return std::nullopt;
       const double stops = stop_probability(end.at);
       if (rng.next() < stops) break;
       const auto next = walker.scatter(end, -ray.d, {rng.next(), rng.next(), rng.next()});
@@ -47,7 +47,7 @@ class LensSubpathMutation final : public MeasuredMutation<LensSubpathMutation> {
     y.path[k] = camera_vertex(lens.at);
     std::reverse(vertices.begin() + first, vertices.end() - 1);
     target().evaluate(first, k, y);
-    scale_by_visibility(scene(), first, y, context.rays);
+    test_visibility(scene(), first, y, context.rays);
     return edit;
   }
 

@@ -18,6 +18,7 @@ void splice(const PathState& x, const Edit& edit, PathState& y) {
   splice(x.path.vertices, count, edit, y.path.vertices);
   y.path.time = x.path.time;
   splice(x.terms.at, count, edit, y.terms.at);
+  if (!x.terms.passages.empty()) splice(x.terms.passages, count, edit, y.terms.passages);
   y.terms.direct = x.terms.direct;
   y.terms.raster = x.terms.raster;
   y.terms.light_can_be_hit = x.terms.light_can_be_hit;

@@ -30,7 +30,7 @@ double BidirectionalSampler::manifold_over_hit_light(const Vertex& x0, double fr
   for (; !connectable(camera_[i].vertex); --i) {
     chain_.push_back(camera_[i].vertex);
     walk *= camera_[i].forward;
-    lobes *= camera_[i - 1].reverse / camera_[i].G;
+    lobes *= camera_[i - 1].reverse / camera_[i].density_back(1);
   }
   const int m = t - 2 - i;
   chain_.push_back(camera_[i].vertex);
@@ -57,7 +57,9 @@ bool BidirectionalSampler::evaluate_manifold(Connection& connection, Rng& rng, R
                 manifold_terms_);
   const ManifoldTechnique technique = manifold_->technique(path, terms);
   if (!(technique.count > 0) || !terms.raster) return false;
-  Color value = y.throughput * terms[s].vertex.f / technique.count;
+  const Vec3 wl = terms.direction(s, -1), wc = t > 1 ? terms.direction(s, 1) : Vec3(0);
+  const VertexTerms at_y = vertex_terms(*scene_, path[s], wl, wc, settings_.rules.strict_normals);
+  Color value = y.throughput * at_y.f / technique.count;
   for (int i = 0; i < s; ++i) value *= terms[i].vertex.f * (terms[i].G / terms[i].from_light);
   if (is_black(value)) return false;
   connection.raster = *terms.raster;

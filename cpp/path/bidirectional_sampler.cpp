@@ -86,14 +86,14 @@ bool BidirectionalSampler::weigh(Connection& connection, double own, const Techn
 }
 
 double BidirectionalSampler::certainty_of_hit_light(int t) const {
-  double p = 1;
+  double p = camera_[1].passes;
   for (int i = 1; i < t - 1; ++i)
-    p *= connectable(camera_[i].vertex) ? 0 : camera_[i].next_coefficient;
+    p *= connectable(camera_[i].vertex) ? 0 : camera_[i].next_coefficient * camera_[i + 1].passes;
   return p;
 }
 
-double BidirectionalSampler::certainty_of_hit_lens(int s) const {
-  double p = 1;
+double BidirectionalSampler::certainty_of_hit_lens(int s, double passes) const {
+  double p = passes;
   for (int i = 1; i < s - 1; ++i)
     p *= connectable(light_[i].vertex) ? 0 : light_[i - 1].reverse / light_[i].G;
   return p;
@@ -112,7 +112,7 @@ bool BidirectionalSampler::evaluate_hit_light(Connection& connection) {
   connection.certainty = certainty_of_hit_light(t);
   const double from_light = light_position_pdf(*scene_, x0);
   const double direct = direct_over_walk(x0, from_light, camera_[t - 2].vertex.at);
-  const TechniqueSums above = above_camera(t - 2, terms.pdf_from_light * end.G)
+  const TechniqueSums above = above_camera(t - 2, end.density_back(terms.pdf_from_light))
                                   .with(direct * camera_technique(t - 1, true))
                                   .over(from_light / end.forward)
                                   .with(manifold_over_hit_light(x0, from_light, t));
@@ -125,12 +125,12 @@ inline TechniqueSums BidirectionalSampler::below_joint(int i, const WalkVertex& 
                                                        double back) const {
   if (x.joint.known) return light_sums_[i];
   if (i == 0) return TechniqueSums().with(can_be_hit(*scene_, x.vertex) ? 1 : 0);
-  return below_light(i - 1, back * x.G).with(light_technique(i, true));
+  return below_light(i - 1, x.density_back(back)).with(light_technique(i, true));
 }
 inline TechniqueSums BidirectionalSampler::above_joint(int i, const WalkVertex& x,
                                                        double back) const {
   if (x.joint.known) return camera_sums_[i];
-  const TechniqueSums before = i > 0 ? above_camera(i - 1, back * x.G) : TechniqueSums();
+  const TechniqueSums before = i > 0 ? above_camera(i - 1, x.density_back(back)) : TechniqueSums();
   return before.with(camera_technique(i, true));
 }
 
@@ -157,10 +157,16 @@ bool BidirectionalSampler::evaluate_connection(Connection& connection, RayCounts
   }
   connection.contribution = at_a.value * at_b.value * edge.G;
   if (is_black(connection.contribution)) return false;
-  const double seen = walker(rays).visibility(a.vertex.at, b.vertex.at);
-  if (seen == 0) return false;
-  connection.contribution *= seen;
+  const Passage seen = walker(rays).passage(a.vertex.at, b.vertex.at);
+  if (seen.is_blocked()) return false;
   connection.certainty = k == 1 ? 1 : 0;
+  if (scene_->has_passages()) {
+    const EdgePassage ends(*scene_, a.vertex.at, b.vertex.at, seen, t == 1);
+    connection.contribution *= ends.transmittance;
+    at_a.onwards *= ends.from_light;
+    at_b.onwards *= ends.from_camera;
+    connection.certainty *= ends.from_camera;
+  }
 
   const TechniqueSums below =
       below_joint(s - 1, a, at_a.back).over(at_b.onwards * edge.G / a.forward);
@@ -200,11 +206,12 @@ bool BidirectionalSampler::evaluate_hit_lens(Connection& connection, RayCounts& 
   const int s = connection.s, k = s - 1;
   const WalkVertex& last = light_[s - 2];
   if (last.absorbed()) return false;
+  const bool passages = scene_->has_passages();
   const Ray ray =
       s == 2 ? light_.first_ray() : walker(rays).leave(last.vertex.at, last.towards_next);
   const auto hit = scene_->camera().hit_lens(ray);
   if (!hit) return false;
-  if (s <= static_cast<int>(light_.size()) &&
+  if (!passages && s <= static_cast<int>(light_.size()) &&
       length_squared(hit->p - ray.o) >= length_squared(light_[s - 1].vertex.at.p - ray.o))
     return false;
   lens_ = camera_vertex(*hit);
@@ -213,18 +220,20 @@ bool BidirectionalSampler::evaluate_hit_lens(Connection& connection, RayCounts& 
   connection.raster = *raster;
   connection.contribution = last.next_throughput * terms.f;
   if (is_black(connection.contribution)) return false;
-  if (light_.goes_on() && s - 1 == static_cast<int>(light_.size())) {  // Not yet traced.
-    const double seen = walker(rays).visibility(last.vertex.at, *hit);
-    if (seen == 0) return false;
-    connection.contribution *= seen;
-  }
-  connection.certainty = certainty_of_hit_lens(s);
+  Passage seen;
+  const bool traced = !light_.goes_on() || s - 1 < static_cast<int>(light_.size());
+  if (passages || !traced) seen = walker(rays).passage(last.vertex.at, *hit);
+  if (seen.is_blocked()) return false;
+  const EdgePassage edge =
+      passages ? EdgePassage(*scene_, last.vertex.at, *hit, seen, true) : EdgePassage();
+  connection.contribution *= edge.transmittance;
+  connection.certainty = certainty_of_hit_lens(s, edge.from_camera);
   const double G = geometry(last.vertex.at, *hit);
   const double before_lens = !connectable(last.vertex) ? manifold_count(k - 1, lens_)
                              : k == 1 ? direct_over_walk(last.vertex, last.forward, *hit)
                                       : 1;
   const TechniqueSums below =
-      below_light(k - 1, terms.pdf_from_camera * G)
+      below_light(k - 1, terms.pdf_from_camera * G * edge.from_camera)
           .with(before_lens)
           .over(camera_position_pdf(*scene_, lens_) / (last.next_coefficient * G));
   return weigh(connection, 1, below, {}, last.next_survival);

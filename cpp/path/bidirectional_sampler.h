@@ -232,7 +232,7 @@ class BidirectionalSampler {
 
   // certainty() of a path that one walk alone has made.
   double certainty_of_hit_light(int t) const;
-  double certainty_of_hit_lens(int s) const;
+  double certainty_of_hit_lens(int s, double passes) const;
   /// The sums over the techniques whose joint lies beyond vertex i of a subpath, for a path joined
   /// at x, which is that vertex or one sampled in its place; `back` is the density of the
   /// direction to the previous vertex, in projected solid angle.

@@ -22,7 +22,7 @@ bool ManifoldSampler::draw_seed(const Vertex& x0, double time, Rng& rng, RayCoun
   Ray ray = ray_through(*scene_, x0.at, guide_->aim(rng), time);
   seed_.assign(1, x0);
   Vertex x;
-  while (walker.arrive(ray, x) && scene_->bsdf(x.at).has_delta()) {
+  while (walker.arrive(ray, 0, x) && scene_->bsdf(x.at).has_delta()) {
     // where a surface is smooth, too, the chain may have ended
     if (seed_.size() > 1 && scene_->bsdf(x.at).has_smooth() && rng.next() < 0.5) break;
     if (seed_.size() > SpecularChain::most_vertices || !has_constraint(*scene_, x)) return false;

@@ -29,7 +29,10 @@ inline bool starts_chains(const Scene& scene, const Vertex& x0) {
 /// The probability that a walk from the light chooses the lobes of x_1 ... x_m.
 inline double lobes_pdf(const PathTerms& terms, int m) {
   double p = 1;
-  for (int i = 1; i <= m; ++i) p *= terms[i].vertex.pdf_from_light;
+  for (int i = 1; i <= m; ++i) {
+    const double arrival = terms.arrival(i, 1);
+    p *= arrival > 0 ? terms[i].vertex.pdf_from_light / arrival : 0;
+  }
   return p;
 }
 

@@ -38,7 +38,7 @@ bool ManifoldWalk::go(const SurfacePoint& end, double time, RayCounts& rays) {
     const Vec3 missing = end.p - chain_[count_ + 1].at.p;
     const double distance = length(missing);
     if (distance <= tolerance * length(end.p - chain_[count_].at.p))
-      return Walker{*scene_, time, rays}.visibility(chain_[count_].at, end) > 0;
+      return Walker{*scene_, time, rays}.sees(chain_[count_].at, end);
     if (moved) {
       const SpecularChain chain(*scene_, chain_.data(), count_);
       if (!(chain.density() > 0)) return false;
@@ -71,7 +71,7 @@ bool ManifoldWalk::trace(const Vec3& p, const SurfacePoint& end, double time, Ra
   const Walker walker{*scene_, time, rays};
   Ray ray = ray_through(*scene_, chain_[0].at, p, time);
   for (int i = 1; i <= count_; ++i) {
-    if (!walker.arrive(ray, chain[i]) || !has_constraint(*scene_, chain[i])) return false;
+    if (!walker.arrive(ray, 0, chain[i]) || !has_constraint(*scene_, chain[i])) return false;
     chain[i].lobe = chain_[i].lobe;
     const auto out = scattered_direction(*scene_, chain[i], kept_[i - 1], -ray.d);
     if (!out) return false;

@@ -6,12 +6,28 @@ namespace {
 /// The least |f_i| that is not black: in the tail of a lobe, products of 1 / |f_i| might overflow.
 constexpr double least_f = 1e-100;
 
+EdgePassage passage(const Scene& scene, const Path& path, int i) {
+  const SurfacePoint &a = path[i].at, &b = path[i + 1].at;
+  return {scene, a, b, scene.passage(a, b, path.time), i + 1 == path.edges()};
+}
+
+/// Includes the passages of the edges at x_i in its terms.
+void include_passages(PathTerms& terms, int i) {
+  VertexTerms& x = terms[i].vertex;
+  if (i < terms.edges()) {
+    x.f *= terms.passages[i].transmittance;
+    x.pdf_from_light *= terms.passages[i].from_light;
+  }
+  if (i > 0) x.pdf_from_camera *= terms.passages[i - 1].from_camera;
+}
+
 }  // namespace
 
 void compute_terms(const Scene& scene, const Path& path, const TermSettings& settings,
                    PathTerms& terms) {
   const int k = path.edges();
   terms.at.resize(k + 1);
+  if (scene.has_passages()) terms.passages.resize(k + 1);
   update_terms(scene, path, settings, 0, k, terms);
 }
 
@@ -20,8 +36,9 @@ void update_terms(const Scene& scene, const Path& path, const TermSettings& sett
   const int k = path.edges(), begin = std::max(0, first - 1), end = std::min(k, last + 1);
   const Vertex* vertices = path.vertices.data();
   TermsAt* at = terms.at.data();
+  const bool passages = scene.has_passages();
   // The terms of a light at infinity do not depend on its neighbour.
-  const bool same_light = first > 0 && vertices[0].at.infinite();
+  const bool same_light = first > 0 && vertices[0].at.infinite() && !passages;
   Vec3 wl = begin > 0 ? terms.direction(begin, -1) : Vec3(0);
   for (int i = begin; i <= end; ++i) {
     const Vertex& vertex = vertices[i];
@@ -37,6 +54,10 @@ void update_terms(const Scene& scene, const Path& path, const TermSettings& sett
         const LensTerms lens = lens_terms(scene, vertex.at, wl);
         x.vertex = lens.vertex;
         terms.raster = lens.raster;
+      }
+      if (passages) {
+        if (i < k && i <= last) terms.passages[i] = passage(scene, path, i);
+        include_passages(terms, i);
       }
       const double size = max_component(x.vertex.f);
       x.inverse_f = size > least_f ? 1 / size : 0;
@@ -98,7 +119,7 @@ double technique_density(const PathTerms& terms, int s) {
 }
 
 double certainty(const PathTerms& terms) {
-  double p = 1;
+  double p = terms.arrival(terms.edges(), -1);
   for (int i = 1; i < terms.edges(); ++i)
     p *= terms[i].connectable ? 0 : terms[i].vertex.pdf_from_camera;
   return p;

@@ -56,8 +56,29 @@ struct TermsAt : VertexDensities, Edge {
   double inverse_f = 0;
 };
 
+/// The light that goes straight along an edge, and the probabilities that a walk from either end
+/// does and stops at the other. A light walk goes through the lens, whatever lies behind it.
+struct EdgePassage {
+  EdgePassage() = default;
+  /// Of the edge from a to b, which is on the lens if `to_lens`.
+  EdgePassage(const Scene& scene, const SurfacePoint& a, const SurfacePoint& b, const Passage& edge,
+              bool to_lens)
+      : transmittance(edge.transmittance), from_camera(edge.probability) {
+    const Vec3 w = direction(a, b);
+    from_camera *= scene.stop_probability(a, -w);
+    if (!to_lens) from_light = edge.probability * scene.stop_probability(b, w);
+  }
+
+  Color transmittance{1};
+  double from_light = 1, from_camera = 1;
+};
+
+/// The terms include what surfaces let pass on the way to the next vertex: f_i the transmittance of
+/// edge i, a coefficient the probability of arriving at the next vertex.
 struct PathTerms {
   std::vector<TermsAt> at;  ///< i = 0 ... k.
+  /// Those of the edges from x_i to x_{i+1}; empty where no surface of the scene lets light pass.
+  std::vector<EdgePassage> passages;
   bool light_can_be_hit = false, camera_can_be_hit = false;
   /// Density of x_0 in the technique s = 1, which may sample it for x_1.
   double direct = 0;
@@ -66,6 +87,11 @@ struct PathTerms {
   int edges() const { return static_cast<int>(at.size()) - 1; }  ///< k
   /// Unit direction at x_i towards x_{i + step}, where step is 1 or -1.
   Vec3 direction(int i, int step) const { return step > 0 ? at[i].w : -at[i - 1].w; }
+  /// The probability that a walk from x_i towards x_{i + step} stops there.
+  double arrival(int i, int step) const {
+    if (passages.empty()) return 1;
+    return step > 0 ? passages[i].from_light : passages[i - 1].from_camera;
+  }
   TermsAt& operator[](size_t i) { return at[i]; }
   const TermsAt& operator[](size_t i) const { return at[i]; }
 };

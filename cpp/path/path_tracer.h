@@ -80,9 +80,19 @@ DirectLight unshadowed_light(const Scene& scene, const LightSample& light, const
 template <class Weight>
 Color direct_light(const Walker& walker, const SurfacePoint& at, const Vec3& wc, const Vec3& u,
                    bool strict, Weight&& weight) {
-  const LightSample chosen = sample_direct_position(walker.scene, at, u);
-  const DirectLight light = unshadowed_light(walker.scene, chosen, at, wc, strict, weight);
-  return is_black(light.radiance) ? Color(0) : light.radiance * walker.visibility(at, light.x0);
+  const Scene& scene = walker.scene;
+  const LightSample chosen = sample_direct_position(scene, at, u);
+  if (!scene.has_passages()) {
+    const DirectLight light = unshadowed_light(scene, chosen, at, wc, strict, weight);
+    return !is_black(light.radiance) && walker.sees(at, light.x0) ? light.radiance : Color(0);
+  }
+  if (!(chosen.x0.pdf > 0)) return Color(0);
+  const SurfacePoint& x0 = chosen.x0.at;
+  const Passage seen = walker.passage(at, x0);
+  if (seen.is_blocked()) return Color(0);
+  const double arrives = seen.probability * scene.stop_probability(x0, direction(at, x0));
+  const auto through = [&](double light, double bsdf) { return weight(light, bsdf * arrives); };
+  return unshadowed_light(scene, chosen, at, wc, strict, through).radiance * seen.transmittance;
 }
 
 /// One scattering event of a walk from the camera.
@@ -101,7 +111,7 @@ inline std::optional<ScatterSample> scatter_to_light(const Walker& walker, const
   const auto sample = bsdf.sample(wc, u);
   if (!sample) return std::nullopt;
   const auto& [w, local_c, local_l, lobe] = *sample;
-  if (lobe != Lobe::null && !consistent_sides(at, w, strict)) return std::nullopt;
+  if (!consistent_sides(at, w, strict)) return std::nullopt;
   const Scattering s = bsdf.local_scattering(local_l, local_c, lobe);
   if (!(s.pdf_from_camera > 0) || is_black(s.f)) return std::nullopt;
 
@@ -162,7 +172,23 @@ struct CameraWalk {
                : 1.0;
   }
   void take(const Color& found, double share) { radiance += found * share; }
+
+  /// Goes along the ray up to the surface where it stops.
+  void pass(const Passage& leg) {
+    throughput *= leg.transmittance / leg.probability;
+    scatter_pdf *= leg.probability;
+    certainty *= leg.probability;
+  }
 };
+
+/// Follows the ray of a walk to the next vertex, on a surface; false if it leaves the scene.
+template <class Sampler>
+bool arrive(const Walker& walker, Sampler& sampler, CameraWalk& walk, SurfacePoint& at) {
+  Passage leg;
+  const bool hit = walker.arrive(walk.ray, walker.draw_leg(sampler), at, leg);
+  if (walker.scene.has_passages()) walk.pass(leg);
+  return hit;
+}
 
 /// Adds the emission where the ray ends: at the surface `at`, or (nullptr) outside the scene.
 template <class Watcher = IgnorePaths>
@@ -226,7 +252,7 @@ Color trace_path(const Scene& scene, const PathRules& rules, CameraWalk walk, Sa
   const Walker walker{scene, walk.ray.time, rays};
   for (int depth = 1;; ++depth) {
     SurfacePoint at;
-    const bool hit = walker.arrive(walk.ray, at);
+    const bool hit = arrive(walker, sampler, walk, at);
     if (rules.wants(depth)) find_light(scene, walk, hit ? &at : nullptr, watcher);
     if (!hit || depth == rules.most_edges()) break;
     watcher.arrive(at);

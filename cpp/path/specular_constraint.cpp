@@ -20,8 +20,7 @@ Sum sum_at(const Scene& scene, const SurfacePoint& before, const Vertex& own,
   sum.wc = direction(own.at, after);
   const Vec3 l = own.at.shading.to_local(sum.wl), c = own.at.shading.to_local(sum.wc);
   sum.reflected = own.delta() ? own.lobe == Lobe::reflection : same_side(l, c);
-  sum.eta =
-      sum.reflected || own.lobe == Lobe::null ? 1 : scene.bsdf(own.at).relative_eta(own.at, l);
+  sum.eta = sum.reflected ? 1 : scene.bsdf(own.at).relative_eta(own.at, l);
   sum.value = sum.eta * sum.wl + sum.wc;
   return sum;
 }
@@ -88,7 +87,6 @@ std::optional<SpecularScattering> specular_scattering(const Scene& scene,
 
 std::optional<Vec3> scattered_direction(const Scene& scene, const Vertex& own,
                                         const SpecularScattering& s, const Vec3& wl) {
-  if (own.lobe == Lobe::null) return -wl;
   const SurfacePoint& at = own.at;
   const Frame frame = Frame::around(at.shading.n);
   const Vec3 in = frame.to_local(wl);

@@ -13,7 +13,7 @@ void Subpath::start(const Vertex& end, double position_pdf) {
 WalkVertex& Subpath::add() {
   if (size_ == vertices_.size()) vertices_.emplace_back();
   WalkVertex& added = vertices_[size_++];
-  added.survival = added.next_survival = 1;
+  added.survival = added.next_survival = added.passes = added.passes_back = 1;
   added.towards_previous = Vec3(0);
   added.G = added.reverse = added.next_coefficient = 0;
   added.joint = {};
@@ -28,13 +28,14 @@ void Subpath::leave(const Scene& scene, const Vec3& w, double coefficient) {
       end.throughput * vertex_terms(scene, end.vertex, w, w, false).f / coefficient;
 }
 
-bool Subpath::trace(const Walker& walker, const PathRules& rules, const Ray& ray) {
+bool Subpath::trace(const Walker& walker, const PathRules& rules, const Ray& ray, double u_leg) {
   if (vanishes(last().next_throughput * vertices_[0].forward)) return false;
   WalkVertex& next = add();
   WalkVertex& previous = vertices_[size() - 2];
   next.vertex = {};
   SurfacePoint& at = next.vertex.at;
-  const bool hit = walker.arrive(ray, at);
+  Passage leg;
+  const bool hit = walker.arrive(ray, u_leg, at, leg);
   if (!hit) {
     if (from_ == From::light || walker.scene.infinite_emitters().empty()) {
       --size_;
@@ -47,8 +48,19 @@ bool Subpath::trace(const Walker& walker, const PathRules& rules, const Ray& ray
   next.towards_previous = -ray.d;
   next.G = geometry(previous.vertex.at, at);
   next.forward = previous.next_coefficient * next.G;
+  if (walker.scene.has_passages()) pass(walker.scene, leg);
   if (hit && BsdfAt(walker.scene, at).knows_density()) prepare_joints(next, rules.strict_normals);
   return hit;
+}
+
+void Subpath::pass(const Scene& scene, const Passage& leg) {
+  WalkVertex& x = last();
+  const SurfacePoint& previous = vertices_[size() - 2].vertex.at;
+  const double stops = scene.stop_probability(x.vertex.at, -x.towards_previous);
+  x.throughput *= leg.transmittance / leg.probability;
+  x.forward *= leg.probability;
+  x.passes = leg.probability;
+  x.passes_back = leg.probability / stops * scene.stop_probability(previous, x.towards_previous);
 }
 
 void Subpath::prepare_joints(WalkVertex& x, bool strict_normals) {
@@ -63,7 +75,7 @@ void Subpath::prepare_joints(WalkVertex& x, bool strict_normals) {
     if (from_ == From::light) x.joint.value *= edge.quotient;
     x.joint.back = edge.quotient * inv_pi;
   }
-  vertices_[size() - 2].reverse = x.joint.back * x.G;
+  vertices_[size() - 2].reverse = x.density_back(x.joint.back);
 }
 
 bool Subpath::scatter(const Walker& walker, const PathRules& rules, const StepNumbers& u) {
@@ -88,7 +100,7 @@ bool Subpath::scatter(const Walker& walker, const PathRules& rules, const StepNu
   x.next_coefficient = coefficient;
   x.next_throughput = x.throughput * ratio / survival;
   x.next_survival = x.survival * survival;
-  vertices_[size() - 2].reverse = back * x.G;
+  vertices_[size() - 2].reverse = x.density_back(back);
   return true;
 }
 

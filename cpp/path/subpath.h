@@ -20,8 +20,11 @@ struct WalkVertex {
   Vec3 towards_previous{0};
   Vec3 towards_next{0};  ///< As sampled; meaningless if `absorbed`.
   double G = 0;          ///< G between this vertex and the previous one.
-  double forward = 0;    ///< Density of this vertex, made by this walk.
-  double reverse = 0;    ///< Density of this vertex, made by a walk from the other end (if known).
+  /// The probability that a walk from the previous vertex in this direction stops here, and the
+  /// other way around.
+  double passes = 1, passes_back = 1;
+  double forward = 0;  ///< Density of this vertex, made by this walk.
+  double reverse = 0;  ///< Density of this vertex, made by a walk from the other end (if known).
   /// Density of towards_next in projected solid angle, for this walk.
   double next_coefficient = 0;
 
@@ -36,6 +39,9 @@ struct WalkVertex {
   };
   Joint joint;
 
+  /// Density of the previous vertex, made by a walk from the other end through this one, where the
+  /// coefficient is that of its direction.
+  double density_back(double coefficient) const { return coefficient * G * passes_back; }
   bool absorbed() const { return next_coefficient == 0; }  ///< No direction was sampled here.
 };
 
@@ -72,7 +78,7 @@ class Subpath {
     goes_on_ = true;
     while (static_cast<int>(size()) < most.vertices) {
       goes_on_ = false;
-      if (!trace(walker, rules, ray)) return;
+      if (!trace(walker, rules, ray, walker.draw_leg(sampler))) return;
       if (static_cast<int>(size()) == most.vertices && !most.goes_on) return;
       if (!scatter(walker, rules, StepNumbers::draw(sampler))) return;
       ray = walker.leave(last().vertex.at, last().towards_next);
@@ -84,7 +90,9 @@ class Subpath {
 
  private:
   /// Adds the vertex that the ray hits; false if the walk ends there or the ray hits none.
-  bool trace(const Walker& walker, const PathRules& rules, const Ray& ray);
+  bool trace(const Walker& walker, const PathRules& rules, const Ray& ray, double u_leg);
+  /// Takes what surfaces on the way to the last vertex let pass.
+  void pass(const Scene& scene, const Passage& leg);
   /// Computes the terms for joints at a Lambertian vertex.
   void prepare_joints(WalkVertex& x, bool strict_normals);
   /// Samples a direction at the last vertex; false if the walk ends there.

@@ -29,7 +29,7 @@ bool is_valid_path(const Scene& scene, const Path& path) {
     const VertexKind expected = i == 0           ? VertexKind::light
                                 : i == count - 1 ? VertexKind::camera
                                                  : VertexKind::surface;
-    if (x.kind != expected || x.lobe > Lobe::null || x.at.kind > PointKind::infinite ||
+    if (x.kind != expected || x.lobe > Lobe::transmission || x.at.kind > PointKind::infinite ||
         !in_scene(scene, x))
       return false;
   }

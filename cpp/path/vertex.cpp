@@ -6,7 +6,6 @@ VertexTerms delta_terms(const Scene& scene, const SurfacePoint& at, Lobe lobe, c
                         const Vec3& wc) {
   const BsdfAt bsdf(scene, at);
   const WorldScattering s = bsdf.scattering(wl, wc, lobe);
-  if (lobe == Lobe::null) return {s.f, s.pdf_from_light, s.pdf_from_camera};
   const double geometric_l = std::abs(dot(at.ng, wl)), geometric_c = std::abs(dot(at.ng, wc));
   const double adjoint = std::abs(s.cos_l) * geometric_c / (std::abs(s.cos_c) * geometric_l);
   const double eta2 =

@@ -57,8 +57,7 @@ inline VertexTerms surface_terms(const Scene& scene, const SurfacePoint& at, Lob
                                  const Vec3& wl, const Vec3& wc, bool strict_normals) {
   const double geometric_l = std::abs(dot(at.ng, wl)), geometric_c = std::abs(dot(at.ng, wc));
   if (geometric_l == 0 || geometric_c == 0) return {};
-  if (lobe != Lobe::null &&
-      !(consistent_sides(at, wl, strict_normals) && consistent_sides(at, wc, strict_normals)))
+  if (!(consistent_sides(at, wl, strict_normals) && consistent_sides(at, wc, strict_normals)))
     return {};
   if (lobe != Lobe::smooth) return delta_terms(scene, at, lobe, wl, wc);
   const WorldScattering s = BsdfAt(scene, at).scattering(wl, wc, lobe);

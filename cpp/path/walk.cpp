@@ -17,17 +17,34 @@ std::optional<Ray> Walker::scatter(Vertex& x, const Vec3& towards_previous, cons
   return leave(x.at, sample->w);
 }
 
-bool Walker::arrive(const Ray& ray, Vertex& next) const {
+bool Walker::arrive(const Ray& ray, double u_leg, Vertex& next) const {
   next = {};
-  return arrive(ray, next.at);
+  return arrive(ray, u_leg, next.at);
+}
+
+bool Walker::go_on(Ray ray, double u_leg, SurfacePoint& at, Passage& leg) const {
+  for (;;) {
+    const Passage here = scene.passage(at, ray.d);
+    if (!(u_leg < here.probability)) {
+      leg.probability *= 1 - here.probability;
+      return true;
+    }
+    u_leg /= here.probability;
+    leg *= here;
+    ray = scene.beyond(ray, at);
+    rays.count_intersect();
+    if (!scene.intersect(ray, at)) return false;
+  }
 }
 
 bool Walker::arrive_at_lens(const Ray& ray, Vertex& xk) const {
   const auto lens = scene.camera().hit_lens(ray);
   if (!lens) return false;
   xk = camera_vertex(*lens);
-  SurfacePoint at;
-  return !arrive(ray, at) || length_squared(at.p - ray.o) > length_squared(lens->p - ray.o);
+  SurfacePoint start;
+  start.p = ray.o;
+  start.kind = PointKind::isolated;
+  return sees(start, *lens);
 }
 
 }  // namespace mlt

@@ -71,18 +71,30 @@ struct Walker {
   /// Samples a direction (BsdfAt::sample) and returns the scattered ray; x records the lobe.
   std::optional<Ray> scatter(Vertex& x, const Vec3& towards_previous, const Vec3& u) const;
 
-  /// Intersects the ray with the surfaces; false if it hits none.
-  bool arrive(const Ray& ray, SurfacePoint& at) const {
-    rays.count_intersect();
-    return scene.intersect(ray, at);
+  /// The number of a leg, a ray up to the next vertex, which decides where surfaces are passed.
+  template <class Sampler>
+  double draw_leg(Sampler& sampler) const {
+    return scene.has_passages() ? sampler.next() : 0;
   }
-  bool arrive(const Ray& ray, Vertex& next) const;
+  /// Follows a leg to the surface where it stops; false if it leaves the scene. With u_leg = 0 all
+  /// surfaces are passed through which light goes.
+  bool arrive(const Ray& ray, double u_leg, SurfacePoint& at) const {
+    Passage leg;
+    return arrive(ray, u_leg, at, leg);
+  }
+  /// As above, with the light that has passed, and the probability of that and of stopping there.
+  bool arrive(const Ray& ray, double u_leg, SurfacePoint& at, Passage& leg) const {
+    rays.count_intersect();
+    const bool hit = scene.intersect(ray, at);
+    return hit && scene.has_passages() ? go_on(ray, u_leg, at, leg) : hit;
+  }
+  bool arrive(const Ray& ray, double u_leg, Vertex& next) const;
 
-  /// Intersects the ray with a light: one on the surface that is hit, or background() if none is.
+  /// Follows a leg to a light: one on the surface where it stops, or background() if there is none.
   template <class Background>
-  bool arrive_at_light(const Ray& ray, Background&& background, Vertex& x0) const {
+  bool arrive_at_light(const Ray& ray, double u_leg, Background&& background, Vertex& x0) const {
     SurfacePoint at;
-    const bool hit = arrive(ray, at);
+    const bool hit = arrive(ray, u_leg, at);
     const Emitter* emitter = hit ? scene.emitter(at) : background();
     if (!emitter || emitter->delta_direction()) return false;
     x0 = light_vertex(*emitter, hit ? at : Scene::point_at_infinity(ray.d));
@@ -92,11 +104,19 @@ struct Walker {
   /// Intersects the ray with the lens, unless a surface blocks it before.
   bool arrive_at_lens(const Ray& ray, Vertex& xk) const;
 
-  /// The visibility between two vertices: 1 or 0.
-  double visibility(const SurfacePoint& a, const SurfacePoint& b) const {
+  /// The light that goes straight from a to b.
+  Passage passage(const SurfacePoint& a, const SurfacePoint& b) const {
     rays.count_occluded();
-    return scene.visible(a, b, time) ? 1 : 0;
+    if (scene.has_passages()) return scene.passage(a, b, time);
+    return scene.visible(a, b, time) ? Passage() : Passage::blocked();
   }
+  bool sees(const SurfacePoint& a, const SurfacePoint& b) const {
+    return !passage(a, b).is_blocked();
+  }
+
+ private:
+  /// Follows a leg on from the surface that was hit first.
+  bool go_on(Ray ray, double u_leg, SurfacePoint& at, Passage& leg) const;
 };
 
 }  // namespace mlt

@@ -51,8 +51,10 @@ class PathInverter {
     if (shutter.close > shutter.open)
       u.time = (path_.time - shutter.open) / (shutter.close - shutter.open);
     write(Stream::camera, u);
-    for (int i = k - 1; i > k + 1 - t; --i)
-      if (!invert_scattering(Stream::camera, i, i + 1, i - 1)) return false;
+    for (int i = k - 1; i >= k + 1 - t; --i) {
+      invert_leg(Stream::camera, i + 1, i);
+      if (i > k + 1 - t && !invert_scattering(Stream::camera, i, i + 1, i - 1)) return false;
+    }
     return true;
   }
 
@@ -66,8 +68,11 @@ class PathInverter {
       u.direction = emitter.invert_ray(at(0), at(1).p);
     u.choice = scene_.invert_choice(path_[0].emitter, u.choice);
     write(Stream::light, u);
-    for (int i = 1; i < vertices - (goes_on ? 0 : 1); ++i)
-      if (!invert_scattering(Stream::light, i, i - 1, i + 1)) return false;
+    for (int i = 1; i < vertices; ++i) {
+      invert_leg(Stream::light, i - 1, i);
+      if ((i < vertices - 1 || goes_on) && !invert_scattering(Stream::light, i, i - 1, i + 1))
+        return false;
+    }
     return true;
   }
 
@@ -89,6 +94,15 @@ class PathInverter {
     write(Stream::direct, (static_cast<double>(found - infinite.begin()) + any_.next()) /
                               static_cast<double>(infinite.size()));
     return true;
+  }
+
+  /// The numbers of a leg that stops at `to` are those from A P to A, if it passes all surfaces
+  /// before with the probability A and that of `to` with P.
+  void invert_leg(Stream stream, int from, int to) {
+    if (!scene_.has_passages()) return;
+    const double before = scene_.passage(at(from), at(to), path_.time).probability;
+    const double stops = scene_.stop_probability(at(to), direction(from, to));
+    write(stream, before * (1 - stops + stops * any_.next()));
   }
 
   bool invert_scattering(Stream stream, int i, int from, int to) {

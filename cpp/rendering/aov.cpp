@@ -60,7 +60,8 @@ class PixelAovs {
     for (uint32_t i = 0; i < aov_samples; ++i) {
       PixelSampler sampler(stream, i);
       const Vec2 raster = Vec2(pixel) + sampler.next2();
-      add(leave_lens(scene_.camera(), raster, sampler).ray);
+      const Ray ray = leave_lens(scene_.camera(), raster, sampler).ray;
+      add(ray, walker(ray).draw_leg(sampler));
     }
     set_indices(middle_ray(pixel));
     return values_;
@@ -72,15 +73,16 @@ class PixelAovs {
     const SurfacePoint lens = camera.sample_position({0.5, 0.5}, camera.time(0.5)).at;
     return leave_lens(camera, lens, Vec2(pixel) + 0.5);
   }
-  void add(const Ray& ray) {
+  Walker walker(const Ray& ray) { return {scene_, ray.time, rays_}; }
+  void add(const Ray& ray, double u_leg) {
     SurfacePoint at;
-    if (!scene_.intersect(ray, at)) return;
+    if (!walker(ray).arrive(ray, u_leg, at)) return;
     for (size_t i = 0; i < aovs_.size(); ++i)
       values_[i] += value(aovs_[i].kind, scene_, ray, at) * (1.0 / aov_samples);
   }
   void set_indices(const Ray& ray) {
     SurfacePoint at;
-    const bool hit = scene_.intersect(ray, at);
+    const bool hit = walker(ray).arrive(ray, 0.5, at);
     for (size_t i = 0; i < aovs_.size(); ++i)
       if (is_index(aovs_[i].kind))
         values_[i] = hit ? value(aovs_[i].kind, scene_, ray, at) : Vec3(-1);
@@ -89,6 +91,7 @@ class PixelAovs {
   const Scene& scene_;
   const std::vector<Aov>& aovs_;
   std::vector<Vec3> values_;
+  RayCounts rays_;
 };
 
 }  // namespace

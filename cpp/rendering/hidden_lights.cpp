@@ -21,7 +21,7 @@ bool is_hidden(const Scene& scene, const Emitter& light) {
     const Vertex x0 = light_vertex(light, light.sample_position(u_position, time).at);
     const Departure first = walker.leave_light(x0, u_direction);
     SurfacePoint at;
-    if (!(first.pdf > 0) || !walker.arrive(first.ray, at)) continue;
+    if (!(first.pdf > 0) || !walker.arrive(first.ray, 0, at)) continue;
     if (scene.bsdf(at).has_smooth()) return false;
     shines = true;
   }

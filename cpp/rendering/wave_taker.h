@@ -1,4 +1,4 @@
-// Samples of path tracing, traced side by side.
+// Samples of path tracing, traced side by side where no surface lets light pass.
 #pragma once
 
 #include "path/inspect.h"
@@ -14,6 +14,7 @@ class WaveTaker : public SampleTaker {
 
   void sample_cells(const PixelRect& cells, const CellStreams& streams, SampleSink& sink,
                     RayCounts& rays) override {
+    if (scene_->has_passages()) return SampleTaker::sample_cells(cells, streams, sink, rays);
     for_each_packet_cell(cells, [&](const Vec2i& cell) {
       wave_.numbers().add(streams.stream(cell.x, cell.y), streams.index);
       rasters_.emplace_back(cell);

@@ -4,6 +4,7 @@
 
 #include "base/object.h"
 #include "math/frame.h"
+#include "scene/passage.h"
 #include "scene/surface_point.h"
 #include "scene/texture.h"
 
@@ -30,8 +31,16 @@ struct LambertianSurface {
   }
 };
 
+/// Light goes straight through the surface (see Passage) or is scattered there: densities are those
+/// of scattered light.
 class Bsdf : public Object {
  public:
+  /// The light along w that goes straight through; as much as along -w.
+  virtual Passage passage(const SurfacePoint& /*at*/, const Vec3& /*w*/) const {
+    return Passage::blocked();
+  }
+  virtual bool has_passage() const { return false; }
+
   /// Evaluates the scattering between wl and wc. For a delta lobe the directions are assumed to
   /// match it.
   virtual Scattering scattering(const SurfacePoint& at, const Vec3& wl, const Vec3& wc,
@@ -60,7 +69,7 @@ class Bsdf : public Object {
   virtual bool has_smooth() const { return true; }
   virtual bool has_delta() const { return false; }
 
-  /// Whether any lobe scatters to the other side of the surface.
+  /// Whether light can reach the other side of the surface.
   virtual bool has_transmission() const { return false; }
 
   /// eta on the side that `w` is on, over eta on the other side; 1 for surfaces that do not

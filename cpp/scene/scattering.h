@@ -10,10 +10,9 @@ namespace mlt {
 /// The kind of scattering at a path vertex: by a density over directions, or by one of the delta
 /// distributions.
 enum class Lobe : uint8_t {
-  smooth,        ///< All non-delta lobes, summed.
-  reflection,    ///< Perfect mirror reflection.
-  transmission,  ///< Perfect refraction.
-  null           ///< Straight through, unchanged.
+  smooth,       ///< All non-delta lobes, summed.
+  reflection,   ///< Perfect mirror reflection.
+  transmission  ///< Perfect refraction.
 };
 
 /// smooth: `f` is the BSDF for radiance that flows from wl to wc (without a cosine; for refraction

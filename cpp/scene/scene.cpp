@@ -104,7 +104,10 @@ Scene::Scene(std::vector<ShapePtr> shapes, std::vector<EmitterPtr> emitters, Cam
   const std::vector<ShapePtr> grouped = grouped_shapes(shapes_);
   shapes_.insert(shapes_.end(), grouped.begin(), grouped.end());
   for (size_t i = 0; i < shapes_.size(); ++i) shapes_[i]->set_index(static_cast<uint32_t>(i));
-  for (const ShapePtr& shape : shapes_) lambertian_meshes_.push_back(mlt::lambertian_mesh(*shape));
+  for (const ShapePtr& shape : shapes_) {
+    lambertian_meshes_.push_back(mlt::lambertian_mesh(*shape));
+    has_passages_ = has_passages_ || (!shape->as_instance() && shape->bsdf().has_passage());
+  }
 }
 
 bool Scene::intersect(const Ray& ray, SurfacePoint& at) const {
@@ -162,6 +165,35 @@ std::optional<Ray> Scene::segment(const SurfacePoint& a, const SurfacePoint& b, 
 bool Scene::visible(const SurfacePoint& a, const SurfacePoint& b, double time) const {
   Ray ray;
   return find_segment(a, b, time, ray) && !accel_->occluded(ray);
+}
+
+Ray Scene::beyond(const Ray& ray, const SurfacePoint& at) const {
+  constexpr double grazing = 1e-3;  // there the ray moves aside
+  const double cosine = abs_cos(at, ray.d);
+  const Vec3 start =
+      cosine > grazing ? at.p + ray.d * (ray_offset * at.extent / cosine) : departure(at, ray.d);
+  return {start, ray.d, ray.time, ray.t_max - dot(start - ray.o, ray.d)};
+}
+
+Passage Scene::passage(const SurfacePoint& at, const Vec3& w) const {
+  const Bsdf& surface = bsdf(at);
+  if (!surface.has_passage()) return Passage::blocked();
+  Passage passage = surface.passage(at, at.shading.to_local(w));
+  const Emitter* light = emitter(at);
+  if (light && !light->delta_direction()) passage.probability = std::min(passage.probability, 0.5);
+  return passage;
+}
+
+Passage Scene::passage(const SurfacePoint& a, const SurfacePoint& b, double time) const {
+  Ray ray;
+  if (!find_segment(a, b, time, ray)) return Passage::blocked();
+  Passage all;
+  SurfacePoint at;
+  while (!all.is_blocked() && ray.t_max > 0 && intersect(ray, at)) {
+    all *= passage(at, ray.d);
+    ray = beyond(ray, at);
+  }
+  return all;
 }
 
 SurfacePoint Scene::point_at_infinity(const Vec3& w) { return InfiniteEmitter::point_towards(w); }

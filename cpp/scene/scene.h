@@ -63,8 +63,23 @@ class Scene {
   SurfacePoint surface_point(const Ray& ray, const Hit& hit) const;
   /// The nearest surface along the ray; false if there is none.
   bool intersect(const Ray& ray, SurfacePoint& at) const;
-  /// Whether two points (at most one of them infinite) are mutually visible. Null surfaces block.
+  /// Whether two points (at most one of them infinite) are mutually visible. All surfaces block.
   bool visible(const SurfacePoint& a, const SurfacePoint& b, double time) const;
+
+  /// Whether light goes straight through any surface.
+  bool has_passages() const { return has_passages_; }
+  /// The light along w that goes straight through the surface. Walks stop at every second surface
+  /// that emits, to find its light, even if nothing is scattered there.
+  Passage passage(const SurfacePoint& at, const Vec3& w) const;
+  /// The rest of a ray, along the same line, beyond a surface that it passes.
+  Ray beyond(const Ray& ray, const SurfacePoint& at) const;
+  /// The light that goes straight from a to b, through all surfaces between them.
+  Passage passage(const SurfacePoint& a, const SurfacePoint& b, double time) const;
+  /// The probability that a walk along w stops at this point, and does not go through it.
+  double stop_probability(const SurfacePoint& at, const Vec3& w) const {
+    return at.shape == SurfacePoint::no_shape ? 1 : 1 - passage(at, w).probability;
+  }
+
   /// The shadow ray between two points; nullopt if they cannot be mutually visible.
   std::optional<Ray> segment(const SurfacePoint& a, const SurfacePoint& b, double time) const;
   /// A ray from `from` along w, moved off the surface it starts on.
@@ -108,6 +123,7 @@ class Scene {
   Bounds bounds_;
   std::shared_ptr<const Accel> accel_;
   std::vector<uint32_t> infinite_, backgrounds_;
+  bool has_passages_ = false;
   Discrete emitter_choice_;
   std::vector<MeshLight> mesh_lights_;             ///< One for each emitter.
   std::vector<LambertianMesh> lambertian_meshes_;  ///< One for each shape.

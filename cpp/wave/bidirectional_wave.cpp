@@ -32,6 +32,7 @@ bool BidirectionalWave::supports(const Scene& scene, const BidirectionalSettings
   const Shutter& shutter = scene.camera().shutter();
   if (!settings.sample_direct || settings.heuristic == Heuristic::maximum || settings.manifolds)
     return false;
+  if (scene.has_passages()) return false;
   if (!scene.camera().delta_position() || shutter.open != shutter.close || scene.accel().moves())
     return false;
   for (const EmitterPtr& emitter : scene.emitters())

@@ -15,17 +15,18 @@ class NextEventTaker : public SampleTaker {
 
   void sample(const Vec2& raster, PixelSampler& sampler, SampleSink& sink,
               RayCounts& rays) override {
-    const Ray ray = leave_lens(scene_->camera(), raster, sampler).ray;
-    const Walker walker{*scene_, ray.time, rays};
+    CameraWalk walk(leave_lens(scene_->camera(), raster, sampler).ray);
+    const Walker walker{*scene_, walk.ray.time, rays};
     SurfacePoint at;
-    const bool hit = walker.arrive(ray, at);
+    const bool hit = arrive(walker, sampler, walk, at);
+    const Vec3 w = walk.ray.d;
     const auto alone = [](auto&&...) { return 1.0; };  // its weight: no other technique takes part
-    Color radiance = emission(*scene_, hit ? &at : nullptr, ray.d, alone);
+    Color radiance = emission(*scene_, hit ? &at : nullptr, w, alone);
     for (int i = 0; hit && i < n_; ++i) {
       const Vec2 u = sampler.next2();
-      radiance += direct_light(walker, at, -ray.d, {sampler.next(), u}, false, alone) / double(n_);
+      radiance += direct_light(walker, at, -w, {sampler.next(), u}, false, alone) / double(n_);
     }
-    sink.add(raster, radiance);
+    sink.add(raster, radiance * walk.throughput);
   }
 
  private:

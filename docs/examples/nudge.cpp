@@ -22,12 +22,12 @@ class Nudge final : public Mutation {
     const int k = x.edges();
     const Edit edit{k - 1, k - 1, 1};
     splice(x, edit, y);
-    const double u = context.rng.next() - 0.5, v = context.rng.next() - 0.5;
-    const Vec2 raster = x.raster + side_ * Vec2(u, v);
+    const Vec2 u{context.rng.next(), context.rng.next()}, raster = x.raster + side_ * (u - 0.5);
     const Ray ray = leave_lens(scene().camera(), x[k].at, raster);
-    if (!Walker{scene(), ray.time, context.rays}.arrive(ray, y.path[k - 1])) return std::nullopt;
+    const Walker walk{scene(), ray.time, context.rays};
+    if (!walk.arrive(ray, walk.draw_leg(context.rng), y.path[k - 1])) return std::nullopt;
     target().evaluate(k - 1, k - 1, y);
-    scale_by_visibility(scene(), k - 1, y, context.rays);
+    test_visibility(scene(), k - 1, y, context.rays);
     return edit;
   }
   double density(const PathState&, const PathState& y, const Edit& edit) const override {

@@ -159,7 +159,7 @@ class Vertex:
     @property
     def uv(self) -> tuple[float, float]: ...
     @property
-    def lobe(self) -> Literal["smooth", "reflection", "transmission", "null"]:
+    def lobe(self) -> Literal["smooth", "reflection", "transmission"]:
         """How it scatters: smooth, or by which delta."""
 
     @property

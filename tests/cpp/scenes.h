@@ -34,6 +34,7 @@ inline std::vector<std::string> scene_names() {
           "smooth_normals",
           "smooth_glass",
           "null_surface",
+          "windows",
           "mirror",
           "sphere_light",
           "spot",
@@ -44,6 +45,14 @@ inline std::vector<std::string> scene_names() {
           "daylight",
           "bent_normals",
           "more_materials"};
+}
+
+/// Those in which no surface lets light pass, as waves require.
+inline std::vector<std::string> wave_scene_names() {
+  std::vector<std::string> names = scene_names();
+  for (const char* passed : {"null_surface", "windows", "materials"})
+    names.erase(std::find(names.begin(), names.end(), passed));
+  return names;
 }
 
 /// Whether walks from the lights see everything in one of scene_names(). In the others something is
@@ -66,9 +75,10 @@ inline std::vector<std::string> moving_scene_names() {
 /// walk can hit.
 inline std::vector<std::string> mutation_scene_names() {
   std::vector<std::string> names = scene_names();
-  for (const char* name : {"mirrors", "near_specular", "near_specular_mirrors", "sun_caustic",
-                           "point_caustic", "lens_through_mirror", "moving_mirror", "moving_lamp",
-                           "moving_lens", "spinning_instance", "glass_torus", "beam"})
+  for (const char* name :
+       {"mirrors", "near_specular", "near_specular_mirrors", "sun_caustic", "point_caustic",
+        "lens_through_mirror", "moving_mirror", "moving_lamp", "moving_lens", "spinning_instance",
+        "glass_torus", "beam", "window_caustic"})
     names.push_back(name);
   return names;
 }

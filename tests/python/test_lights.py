@@ -22,8 +22,8 @@ def test_a_point_light_in_glass_is_a_warning_where_it_cannot_be_found(integrator
     assert glass.image.max() == 0
     for other in {"type": "null"}, {"type": "roughdielectric", "alpha": 0.3}:
         result = mlt.start(lit_by_a_point(other), integrator, spp=1).result()
-        hidden = any("cannot find" in w for w in result.stats["warnings"])
-        assert hidden == (other["type"] == "null")
+        assert not any("cannot find" in w for w in result.stats["warnings"])
+        assert result.image.max() > 0
 
 
 @pytest.mark.parametrize("integrator", ["bdpt", "mlt", mlt.PSSMLT(estimator="bdpt")])

@@ -15,8 +15,6 @@ double shadowing(const Vec3& n, const Vec3& wl) {
   return 2 / (1 + std::sqrt(1 + alpha2 * sin2_theta(wl) / sqr(wl.z)));
 }
 
-bool is_mirror(Lobe lobe) { return lobe == Lobe::reflection || lobe == Lobe::transmission; }
-
 }  // namespace
 
 /// The bent surface at one point, with N or with N turned around.
@@ -51,9 +49,16 @@ double BentNormal::turned_share(const Vec3& n, const Vec3& w) const {
 bool BentNormal::scatters(const Vec3& n, bool turned, const Vec3& a, const Vec3& b,
                           Lobe lobe) const {
   if (turned != !(faces(n, a) && faces(n, b))) return false;
-  if (turned && (!flips_ || is_mirror(lobe))) return false;
+  if (turned && (!flips_ || lobe != Lobe::smooth)) return false;
   const Vec3 h = turned ? reflect(n) : n;
   return faces(h, a) && faces(h, b);
+}
+
+Passage BentNormal::passage(const SurfacePoint& at, const Vec3& w) const {
+  if (!has_passage()) return Passage::blocked();
+  const Vec3 n = normal(at);
+  const Bend bend(at, n, !faces(n, w));
+  return nested_->passage(bend.at(), bend.to_inner(w));
 }
 
 Scattering BentNormal::scattering(const SurfacePoint& at, const Vec3& wl, const Vec3& wc,
@@ -69,7 +74,7 @@ Scattering BentNormal::scattering(const SurfacePoint& at, const Vec3& wl, const 
   s.pdf_from_camera *= turned ? share_c : 1 - share_c;
   if (turned && faces(n, wc)) s.f = Color(0);  // the camera side sees the unturned N
   if (lobe == Lobe::smooth) s.f *= std::abs(l.z / wl.z);
-  if (lobe != Lobe::null && shadows_) s.f *= shadowing(bend.n(), wl);
+  if (shadows_) s.f *= shadowing(bend.n(), wl);
   return s;
 }
 
@@ -83,7 +88,7 @@ std::optional<BsdfSample> BentNormal::sample(const SurfacePoint& at, const Vec3&
   const double rest = turned ? u.x / share : (u.x - share) / (1 - share);
   auto sampled = nested_->sample(bend.at(), bend.to_inner(from), {rest, u.y, u.z});
   if (!sampled) return std::nullopt;
-  sampled->to = sampled->lobe == Lobe::null ? -from : bend.to_outer(sampled->to);
+  sampled->to = bend.to_outer(sampled->to);
   if (!scatters(n, turned, from, sampled->to, sampled->lobe)) return std::nullopt;
   return sampled;
 }

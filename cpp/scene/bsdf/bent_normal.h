@@ -19,6 +19,9 @@ class BentNormal : public Bsdf {
  public:
   explicit BentNormal(Params& params);
 
+  Passage passage(const SurfacePoint& at, const Vec3& w) const final;
+  bool has_passage() const final { return nested_->has_passage(); }
+
   Scattering scattering(const SurfacePoint& at, const Vec3& wl, const Vec3& wc,
                         Lobe lobe) const final;
   std::optional<BsdfSample> sample(const SurfacePoint& at, const Vec3& from,
@@ -32,6 +35,7 @@ class BentNormal : public Bsdf {
   double relative_eta(const SurfacePoint& at, const Vec3& w) const final {
     return nested_->relative_eta(at, w);
   }
+  double least_roughness() const final { return nested_->least_roughness(); }
   double roughness(const SurfacePoint& at, const Vec3& wl, const Vec3& wc) const final;
   Vec3 delta_normal(const SurfacePoint& at, const Vec3& w) const final;
   bool bends_normal() const final { return true; }

@@ -28,26 +28,40 @@ Blend::Blend(BsdfPtr first, BsdfPtr second, TexturePtr weight, double scale, con
     params.fail("cannot blend two bsdfs that reflect light like mirrors of different normals");
 }
 
+Passage Blend::passage(const SurfacePoint& at, const Vec3& w) const {
+  const Passage a = first_->passage(at, w), b = second_->passage(at, w);
+  const double s = weight(at);
+  return {scale_ * ((1 - s) * a.transmittance + s * b.transmittance),
+          (1 - s) * a.probability + s * b.probability};
+}
+
+double Blend::probability_of_first(const SurfacePoint& at, const Vec3& from) const {
+  const double w = weight(at);
+  if (!has_passage()) return 1 - w;
+  return first_share((1 - w) * (1 - first_->passage(at, from).probability),
+                     w * (1 - second_->passage(at, from).probability));
+}
+
 Scattering Blend::scattering(const SurfacePoint& at, const Vec3& wl, const Vec3& wc,
                              Lobe lobe) const {
   const Scattering a = first_->scattering(at, wl, wc, lobe);
   const Scattering b = second_->scattering(at, wl, wc, lobe);
-  const double w = weight(at);
-  const auto blend = [&](const auto& x, const auto& y) { return (1 - w) * x + w * y; };
-  return {scale_ * blend(a.f, b.f), blend(a.pdf_from_light, b.pdf_from_light),
-          blend(a.pdf_from_camera, b.pdf_from_camera)};
+  const auto blend = [](double p, const auto& x, const auto& y) { return p * x + (1 - p) * y; };
+  return {scale_ * blend(1 - weight(at), a.f, b.f),
+          blend(probability_of_first(at, wl), a.pdf_from_light, b.pdf_from_light),
+          blend(probability_of_first(at, wc), a.pdf_from_camera, b.pdf_from_camera)};
 }
 
 std::optional<BsdfSample> Blend::sample(const SurfacePoint& at, const Vec3& from,
                                         const Vec3& u) const {
-  const double p = 1 - weight(at);
+  const double p = probability_of_first(at, from);
   if (u.x < p) return first_->sample(at, from, {u.x / p, u.y, u.z});
   return second_->sample(at, from, {(u.x - p) / (1 - p), u.y, u.z});
 }
 
 std::optional<Vec3> Blend::invert(const SurfacePoint& at, const Vec3& from, const Vec3& to,
                                   Lobe lobe, const Vec3& v) const {
-  const double p = 1 - weight(at);
+  const double p = probability_of_first(at, from);
   const double first = p * first_->pdf(at, from, to, lobe),
                second = (1 - p) * second_->pdf(at, from, to, lobe);
   if (!(first + second > 0)) return std::nullopt;

@@ -13,6 +13,9 @@ class Blend final : public Bsdf {
   /// of `params` if the two cannot be blended.
   Blend(BsdfPtr first, BsdfPtr second, TexturePtr weight, double scale, const Params& params);
 
+  Passage passage(const SurfacePoint& at, const Vec3& w) const override;
+  bool has_passage() const override { return first_->has_passage() || second_->has_passage(); }
+
   Scattering scattering(const SurfacePoint& at, const Vec3& wl, const Vec3& wc,
                         Lobe lobe) const override;
   std::optional<BsdfSample> sample(const SurfacePoint& at, const Vec3& from,
@@ -33,6 +36,8 @@ class Blend final : public Bsdf {
 
  private:
   double weight(const SurfacePoint& at) const { return weight_->eval_scalar(at); }
+  /// The probability that what scatters light from this direction is the first material.
+  double probability_of_first(const SurfacePoint& at, const Vec3& from) const;
 
   BsdfPtr first_, second_;
   TexturePtr weight_;

@@ -32,7 +32,7 @@ class Coating final : public Bsdf {
 
   Scattering scattering(const SurfacePoint& at, const Vec3& wl, const Vec3& wc,
                         Lobe lobe) const override {
-    if (!same_side(wl, wc) || lobe == Lobe::null) return {};
+    if (!same_side(wl, wc)) return {};
     const Inside l = inside(wl), c = inside(wc);
     const double pl = specular_share(l.F), pc = specular_share(c.F);
     Scattering s{};

@@ -14,27 +14,25 @@ class ThinDielectric final : public Bsdf {
  public:
   explicit ThinDielectric(Params& params) : interface_(params) {}
 
+  Passage passage(const SurfacePoint& at, const Vec3& w) const override {
+    const double R = reflected(w);
+    return {(1 - R) * interface_.transmittance->eval(at), 1 - interface_.reflection_probability(R)};
+  }
+  bool has_passage() const override { return true; }
+
   Scattering scattering(const SurfacePoint& at, const Vec3& wl, const Vec3&,
                         Lobe lobe) const override {
-    const double R = reflected(wl), p = interface_.reflection_probability(R);
-    if (lobe == Lobe::reflection) return {R * interface_.reflectance->eval(at), p, p};
-    if (lobe == Lobe::null) return {(1 - R) * interface_.transmittance->eval(at), 1 - p, 1 - p};
-    return {};
+    if (lobe != Lobe::reflection) return {};
+    return {reflected(wl) * interface_.reflectance->eval(at), 1, 1};
   }
-
   std::optional<BsdfSample> sample(const SurfacePoint&, const Vec3& from,
-                                   const Vec3& u) const override {
-    if (u.x < interface_.reflection_probability(reflected(from)))
-      return BsdfSample{reflect(from), Lobe::reflection};
-    return BsdfSample{-from, Lobe::null};
+                                   const Vec3&) const override {
+    return BsdfSample{reflect(from), Lobe::reflection};
   }
-
-  std::optional<Vec3> invert(const SurfacePoint&, const Vec3& from, const Vec3&, Lobe lobe,
+  std::optional<Vec3> invert(const SurfacePoint&, const Vec3&, const Vec3&, Lobe lobe,
                              const Vec3& v) const override {
-    const double p = interface_.reflection_probability(reflected(from));
-    if (lobe == Lobe::reflection && p > 0) return Vec3(u_of_first(p, v.x), v.y, v.z);
-    if (lobe == Lobe::null && p < 1) return Vec3(u_of_second(p, v.x), v.y, v.z);
-    return std::nullopt;
+    if (lobe != Lobe::reflection) return std::nullopt;
+    return v;
   }
 
   bool has_smooth() const override { return false; }

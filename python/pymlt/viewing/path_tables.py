@@ -19,7 +19,6 @@ LOBES = {
     "smooth": "diffuse",
     "reflection": "specular, reflecting",
     "transmission": "specular, transmitting",
-    "null": "passed",
 }
 
 

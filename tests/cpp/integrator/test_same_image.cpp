@@ -64,8 +64,9 @@ INSTANTIATE_TEST_SUITE_P(
         Pair{"thin_lens_sky", "rjmlt_chains"}, Pair{"thin_lens_sky", "erpt"},
         Pair{"instances", "path"}, Pair{"orthographic", "path"}, Pair{"orthographic", "ptracer"},
         Pair{"projector", "ptracer"}, Pair{"daylight", "path"}, Pair{"bent_normals", "path"},
-        Pair{"more_materials", "path"}, Pair{"beam", "ptracer"}, Pair{"beam", "pssmlt_bdpt"},
-        Pair{"beam", "mmlt"}, Pair{"beam", "rjmlt"}, Pair{"beam", "erpt"}),
+        Pair{"more_materials", "path"}, Pair{"windows", "path"}, Pair{"windows", "mmlt"},
+        Pair{"beam", "ptracer"}, Pair{"beam", "pssmlt_bdpt"}, Pair{"beam", "mmlt"},
+        Pair{"beam", "rjmlt"}, Pair{"beam", "erpt"}),
     pair_name);
 
 class LongSameImageOf : public testing::TestWithParam<Pair> {};

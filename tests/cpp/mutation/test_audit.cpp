@@ -49,7 +49,8 @@ TEST_P(Audit, LeavesTheTargetUnchanged) {
   EXPECT_EQ(report.verdict, Verdict::right) << report.text();
 }
 
-INSTANTIATE_TEST_SUITE_P(Mutations, Audit, testing::ValuesIn(cases({"mirrors", "near_specular"})),
+INSTANTIATE_TEST_SUITE_P(Mutations, Audit,
+                         testing::ValuesIn(cases({"mirrors", "near_specular", "windows"})),
                          name_of_case);
 
 /// Whether the scene has enough paths for something to be said.
@@ -58,9 +59,9 @@ bool has_paths(const Case& c) {
   if (c.mutation != "multi_chain" && c.mutation != "manifold" && c.mutation != "multiplexed")
     return true;
   for (const char* scene :
-       {"caustic", "plastic", "camera_under_water", "light_under_water", "smooth_glass",
-        "null_surface", "mirror", "mirrors", "near_specular", "near_specular_mirrors",
-        "sun_caustic", "point_caustic", "glass_torus", "beam"})
+       {"caustic", "plastic", "camera_under_water", "light_under_water", "smooth_glass", "windows",
+        "mirror", "mirrors", "near_specular", "near_specular_mirrors", "sun_caustic",
+        "point_caustic", "glass_torus", "beam"})
     if (c.scene == scene) return true;
   return false;
 }

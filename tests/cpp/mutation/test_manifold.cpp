@@ -40,9 +40,9 @@ void for_each_chain(const PathTarget& target, int samples, See&& see) {
 /// Scenes whose chains reflect and refract, at deltas and nearly so, on spheres, meshes with
 /// normals and without, and instances; with lights of every kind.
 std::vector<std::string> scenes_of_chains() {
-  return {"caustic",       "mirrors",      "near_specular",     "near_specular_mirrors",
-          "point_caustic", "smooth_glass", "light_under_water", "spinning_instance",
-          "null_surface",  "sun_caustic",  "glass_torus"};
+  return {"caustic",        "mirrors",      "near_specular",     "near_specular_mirrors",
+          "point_caustic",  "smooth_glass", "light_under_water", "spinning_instance",
+          "window_caustic", "sun_caustic",  "glass_torus"};
 }
 
 class SpecularChains : public testing::TestWithParam<std::string> {};

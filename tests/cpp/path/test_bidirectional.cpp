@@ -40,22 +40,35 @@ class PathsOf : public testing::TestWithParam<std::string> {
  protected:
   void SetUp() override { scene_ = make_scene(GetParam()).scene; }
 
-  /// Calls found(connection, path, terms, settings) for paths of all variants.
+  /// Calls found(connection, path, terms, settings) for paths of all variants. Rays that graze an
+  /// edge may disagree with what the vertices alone see, since they start elsewhere: such paths are
+  /// left out.
   template <class Found>
   void for_all(uint64_t seed, Found&& found) {
     for (const Variant& variant : variants()) {
       const BidirectionalSettings settings = settings_of(variant);
       PathTerms terms;
-      int paths = 0;
+      int paths = 0, hidden = 0;
       for_each_path(*scene_, settings, seed, samples,
                     [&](const Connection& connection, const Path& path) {
                       ++paths;
+                      hidden += !is_free(path);
+                      if (!is_free(path)) return;
                       compute_terms(*scene_, path,
                                     {settings.sample_direct, settings.rules.strict_normals}, terms);
                       found(connection, path, terms, settings);
                     });
       EXPECT_GT(paths, samples) << variant.name;
+      EXPECT_LE(hidden, 1 + paths / (scene_->has_passages() ? 200 : 2000)) << variant.name;
     }
+  }
+
+  bool is_free(const Path& path) const {
+    for (int i = 0; i < path.edges(); ++i) {
+      const double p = scene_->passage(path[i].at, path[i + 1].at, path.time).probability;
+      if (p == 0 || relative_difference(p, naive_passage(*scene_, path, i)) > 1e-3) return false;
+    }
+    return true;
   }
 
   ScenePtr scene_;
@@ -70,8 +83,6 @@ void expect_same_densities(const PathTerms& a, const PathTerms& b) {
 }
 
 TEST_P(PathsOf, AreAssembledAsTheyWereFound) {
-  int hidden = 0, all = 0;
-  std::string which;
   for_all(1, [&](const Connection& c, const Path& path, const PathTerms&,
                  const BidirectionalSettings& settings) {
     const std::string name = technique_name(*scene_, c, path);
@@ -88,15 +99,7 @@ TEST_P(PathsOf, AreAssembledAsTheyWereFound) {
     const auto raster = raster_position(*scene_, path);
     ASSERT_TRUE(raster) << name;
     ASSERT_LT(glm::length(*raster - c.raster), 1e-3) << name;
-    all += k;
-    for (int i = 0; i < k; ++i) {
-      if (scene_->visible(path[i].at, path[i + 1].at, path.time)) continue;
-      ++hidden;
-      which = name + ", edge " + std::to_string(i);
-    }
   });
-  // Rays that graze an edge may disagree with the test of visibility, which starts elsewhere.
-  EXPECT_LE(hidden, all / 10000) << "of " << all << " edges are not free, such as " << which;
 }
 
 TEST_P(PathsOf, CarryTheContributionOverTheDensityOfTheirTechnique) {
@@ -167,7 +170,8 @@ TEST_P(PathsOf, HaveTheDensitiesOfThePlugIns) {
     worst.add(relative_difference(terms.direct, direct),
               technique_name(*scene_, c, path) + ", direct");
   });
-  EXPECT_LT(worst.value, 1e-9) << worst.where;
+  // The reflectance of a pane that is passed depends on the direction of the ray.
+  EXPECT_LT(worst.value, scene_->has_passages() ? 1e-4 : 1e-9) << worst.where;
   EXPECT_LT(at_deltas.value, 1) << at_deltas.where;
 }
 
@@ -288,12 +292,14 @@ TEST(TestScenes, TogetherHaveEveryKindOfTechniqueAndVertex) {
                     seen.insert(c.s == 0 ? "s = 0" : c.s == 1 ? "s = 1" : "s > 1");
                     seen.insert(c.t == 0 ? "t = 0" : c.t == 1 ? "t = 1" : "t > 1");
                     if (path[0].at.infinite()) seen.insert("light at infinity");
+                    for (int i = 0; i < path.edges(); ++i)
+                      if (!scene->visible(path[i].at, path[i + 1].at, path.time))
+                        seen.insert("passage");
                     if (path[0].at.infinite() && c.t == 0)
                       seen.insert("light at infinity that reaches the lens");
                     for (const Vertex& x : path.vertices) {
                       if (x.lobe == Lobe::reflection) seen.insert("reflection");
                       if (x.lobe == Lobe::transmission) seen.insert("transmission");
-                      if (x.lobe == Lobe::null) seen.insert("null");
                       if (x.kind == VertexKind::surface && dot(x.at.ng, x.at.shading.n) < 0.99)
                         seen.insert("shading normal");
                     }
@@ -302,7 +308,7 @@ TEST(TestScenes, TogetherHaveEveryKindOfTechniqueAndVertex) {
   EXPECT_EQ(seen,
             (std::set<std::string>{"s = 0", "s = 1", "s > 1", "t = 0", "t = 1", "t > 1",
                                    "light at infinity", "light at infinity that reaches the lens",
-                                   "reflection", "transmission", "null", "shading normal"}));
+                                   "passage", "reflection", "transmission", "shading normal"}));
 }
 
 }  // namespace

@@ -107,7 +107,7 @@ TEST_P(ManifoldsOf, FindTheLightThatOtherTechniquesFind) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, ManifoldsOf,
                          testing::Values("caustic", "smooth_glass", "light_under_water",
-                                         "null_surface", "spinning_instance", "glass_torus"),
+                                         "window_caustic", "spinning_instance", "glass_torus"),
                          [](const auto& info) { return info.param; });
 
 TEST(ManifoldSampler, IsNotUsedWhereNothingIsSpecular) {

@@ -140,7 +140,7 @@ TEST_P(BidirectionalWaveOf, FindsWhatSingleSamplesFind) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, BidirectionalWaveOf, testing::ValuesIn(scene_names()),
+INSTANTIATE_TEST_SUITE_P(Scenes, BidirectionalWaveOf, testing::ValuesIn(wave_scene_names()),
                          [](const auto& info) { return info.param; });
 
 /// So that the comparison is not one of nothing with nothing.

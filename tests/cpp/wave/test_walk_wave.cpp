@@ -156,7 +156,7 @@ TEST_P(WalkWaveOf, MakesWhatSingleWalksMake) {
   EXPECT_LE(other_than_alone, all / 200);
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, WalkWaveOf, testing::ValuesIn(scene_names()),
+INSTANTIATE_TEST_SUITE_P(Scenes, WalkWaveOf, testing::ValuesIn(wave_scene_names()),
                          [](const auto& info) { return info.param; });
 
 // ---- one step

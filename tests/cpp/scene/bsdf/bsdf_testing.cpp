@@ -185,6 +185,8 @@ std::vector<Case> make_cases() {
             {find(maker, "phong"), find(maker, "plastic")});
   maker.add("blend of glass and twosided", "blendbsdf", {{"weight", 0.25}}, 1, gray, true,
             {find(maker, "dielectric"), find(maker, "twosided")});
+  maker.add("blend of pane and mask", "blendbsdf", {{"weight", ramp_texture(0.2, 0.6)}}, 1,
+            infinity, true, {find(maker, "thindielectric"), find(maker, "mask of phong")});
   maker.add("mixture", "mixturebsdf", {{"weights", "0.3, 0.5 0.1"s}}, 1, gray / 0.9, false,
             {find(maker, "phong"), find(maker, "plastic"), find(maker, "diffuse")});
   for (const char* variant : {"ward", "ward-duer", "balanced"})

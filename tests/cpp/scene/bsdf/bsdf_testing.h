@@ -46,9 +46,10 @@ std::vector<Vec3> incident_directions(const Case& test_case);
 Vec3 random_direction(Rng& rng);
 Vec3 random_u(Rng& rng);
 
-constexpr Lobe lobes[] = {Lobe::smooth, Lobe::reflection, Lobe::transmission, Lobe::null};
+constexpr Lobe lobes[] = {Lobe::smooth, Lobe::reflection, Lobe::transmission};
 
-/// f |cos| / pdf of light that comes from `wl` and is scattered to `s.to`; for a delta lobe F / P.
+/// f |cos| / pdf of light from `wl` that does not pass and is scattered to `s.to`; for a delta lobe
+/// F / P.
 Color weight_from_light(const Bsdf& bsdf, const Vec3& wl, const BsdfSample& s);
 
 }  // namespace mlt::test

@@ -156,10 +156,10 @@ TEST(BsdfParameters, EveryParameterIsDocumented) {
 TEST(BsdfParameters, MaskSharesLightBetweenTheNestedOneAndAPassage) {
   const BsdfPtr mask = make_bsdf("mask", {{"opacity", 0.25}}, {make_bsdf("diffuse")});
   EXPECT_DOUBLE_EQ(value_at_normal(mask, Lobe::smooth), 0.25 * 0.5 * inv_pi);
-  EXPECT_DOUBLE_EQ(mask->eval(point(), normal, -normal, Lobe::null).x, 0.75);
-  EXPECT_DOUBLE_EQ(mask->pdf(point(), normal, -normal, Lobe::null), 0.75);
+  EXPECT_DOUBLE_EQ(mask->passage(point(), normal).transmittance.x, 0.75);
+  EXPECT_DOUBLE_EQ(mask->passage(point(), normal).probability, 0.75);
   const BsdfPtr twice = make_bsdf("mask", {{"opacity", 0.5}}, {mask});
-  EXPECT_DOUBLE_EQ(twice->eval(point(), normal, -normal, Lobe::null).x, 0.5 + 0.5 * 0.75);
+  EXPECT_DOUBLE_EQ(twice->passage(point(), normal).transmittance.x, 0.5 + 0.5 * 0.75);
   EXPECT_THAT(error_of("mask", {}), HasSubstr("needs one nested bsdf, but has 0"));
 }
 
@@ -167,6 +167,10 @@ TEST(BsdfParameters, ABlendIsBetweenItsParts) {
   const BsdfPtr white = make_bsdf("diffuse", {{"reflectance", 1.0}});
   const BsdfPtr blend = make_bsdf("blendbsdf", {{"weight", 0.25}}, {white, make_bsdf("diffuse")});
   EXPECT_DOUBLE_EQ(value_at_normal(blend, Lobe::smooth), (0.75 + 0.25 * 0.5) * inv_pi);
+  const BsdfPtr veil = make_bsdf("blendbsdf", {{"weight", 0.25}}, {white, make_bsdf("null")});
+  EXPECT_DOUBLE_EQ(value_at_normal(veil, Lobe::smooth), 0.75 * inv_pi);
+  EXPECT_DOUBLE_EQ(veil->pdf(point(), normal, normal, Lobe::smooth), inv_pi);
+  EXPECT_DOUBLE_EQ(veil->passage(point(), normal).transmittance.x, 0.25);
   EXPECT_THAT(error_of("blendbsdf", {}, {white}), HasSubstr("needs two nested bsdfs, but has 1"));
   EXPECT_THAT(error_of("blendbsdf", {},
                        {make_bsdf("dielectric"), make_bsdf("dielectric", {{"int_ior", 1.2}})}),
@@ -235,7 +239,7 @@ TEST(BsdfParameters, AThinPaneReflectsFromBothItsSides) {
   double sum = F;
   for (int n = 0; n < 20; ++n) sum += sqr(1 - F) * std::pow(F, 2 * n + 1);
   EXPECT_NEAR(value_at_normal(pane, Lobe::reflection), sum, 1e-12);
-  EXPECT_NEAR(pane->eval(point(), normal, -normal, Lobe::null).x, 1 - sum, 1e-12);
+  EXPECT_NEAR(pane->passage(point(), normal).transmittance.x, 1 - sum, 1e-12);
 }
 
 /// Oren & Nayar 1994: without slopes Lambert's; with them more light goes back where it came from.

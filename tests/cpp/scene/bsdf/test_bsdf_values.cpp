@@ -114,11 +114,30 @@ TEST(BsdfValues, NoMoreLightLeavesThanArrives) {
       }
       for (const Moments& m : scattered) {
         const double error = std::sqrt(m.variance() / static_cast<double>(m.count()));
-        EXPECT_LE(m.mean(), 1 + 5 * error + 1e-12) << c.label << ", cos " << wl.z;
-        EXPECT_GT(m.mean(), 0) << c.label << ", cos " << wl.z;
+        const double passes = min_component(c.bsdf->passage(point(), wl).transmittance);
+        EXPECT_LE(passes + m.mean(), 1 + 5 * error + 1e-12) << c.label << ", cos " << wl.z;
+        EXPECT_GT(passes + m.mean(), 0) << c.label << ", cos " << wl.z;
       }
     }
   }
+}
+
+TEST(BsdfValues, AsMuchLightGoesThroughFromBothSides) {
+  int passed = 0;
+  for (const Case& c : cases()) {
+    Rng rng(9, Purpose::test, 0);
+    for (int i = 0; i < 1000; ++i) {
+      const Vec3 w = random_direction(rng);
+      const Passage forth = c.bsdf->passage(point(), w), back = c.bsdf->passage(point(), -w);
+      EXPECT_NEAR(forth.probability, back.probability, 1e-12) << c.label;
+      EXPECT_LT(max_component(glm::abs(forth.transmittance - back.transmittance)), 1e-12)
+          << c.label;
+      EXPECT_TRUE(forth.probability >= 0 && forth.probability <= 1) << c.label;
+      EXPECT_TRUE(c.bsdf->has_passage() || forth.is_blocked()) << c.label;
+      passed += !forth.is_blocked();
+    }
+  }
+  EXPECT_GE(passed, 5000);
 }
 
 TEST(BsdfValues, LosslessDielectricLosesNothing) {
@@ -159,7 +178,12 @@ TEST(BsdfValues, SamplingWeightsAreBounded) {
     for (int i = 0; i < 20000; ++i) {
       const Vec3 wl = random_direction(rng);
       const auto s = c.bsdf->sample(point(), wl, random_u(rng));
-      if (s) worst = std::max(worst, max_component(weight_from_light(*c.bsdf, wl, *s)));
+      const Passage passage = c.bsdf->passage(point(), wl);
+      if (s && passage.probability < 1)
+        worst = std::max(
+            worst, max_component(weight_from_light(*c.bsdf, wl, *s)) / (1 - passage.probability));
+      if (!passage.is_blocked())
+        worst = std::max(worst, max_component(passage.transmittance) / passage.probability);
     }
     EXPECT_LE(worst, c.max_weight + 1e-9) << c.label;
     EXPECT_TRUE(std::isfinite(worst)) << c.label;
