@@ -6,19 +6,38 @@ namespace {
 /// The least |f_i| that is not black: in the tail of a lobe, products of 1 / |f_i| might overflow.
 constexpr double least_f = 1e-100;
 
-EdgePassage passage(const Scene& scene, const Path& path, int i) {
-  const SurfacePoint &a = path[i].at, &b = path[i + 1].at;
-  return {scene, a, b, scene.passage(a, b, path.time), i + 1 == path.edges()};
+double inverse_size(const Color& f) {
+  const double size = max_component(f);
+  return size > least_f ? 1 / size : 0;
 }
 
-/// Includes the passages of the edges at x_i in its terms.
-void include_passages(PathTerms& terms, int i) {
-  VertexTerms& x = terms[i].vertex;
-  if (i < terms.edges()) {
-    x.f *= terms.passages[i].transmittance;
-    x.pdf_from_light *= terms.passages[i].from_light;
+/// Finds the passages of the edges at vertices first ... last, where any light comes so far, and
+/// includes those of all edges at vertices begin ... end in the terms. Not inlined: update_terms
+/// would become too large for what it needs in each scene.
+[[gnu::noinline]] void include_passages(const Scene& scene, const Path& path, int first, int last,
+                                        int begin, int end, PathTerms& terms) {
+  const int k = path.edges();
+  terms.passages.resize(k + 1);
+  bool lit = true;
+  for (int i = begin; i <= end; ++i) lit = lit && terms[i].inverse_f > 0;
+  for (int i = std::max(first - 1, 0); i <= std::min(last, k - 1); ++i) {
+    const SurfacePoint &a = path[i].at, &b = path[i + 1].at;
+    const Passage edge = lit ? scene.passage(a, b, path.time) : Passage::blocked();
+    terms.passages[i] = {scene, a, b, edge, i + 1 == k};
   }
-  if (i > 0) x.pdf_from_camera *= terms.passages[i - 1].from_camera;
+  for (int i = begin; i <= end; ++i) {
+    VertexTerms& x = terms[i].vertex;
+    if (i < k) {
+      x.f *= terms.passages[i].transmittance;
+      x.pdf_from_light *= terms.passages[i].from_light;
+      terms[i + 1].from_light = x.pdf_from_light * terms[i].G;
+    }
+    if (i > 0) {
+      x.pdf_from_camera *= terms.passages[i - 1].from_camera;
+      terms[i - 1].from_camera = x.pdf_from_camera * terms[i - 1].G;
+    }
+    terms[i].inverse_f = inverse_size(x.f);
+  }
 }
 
 }  // namespace
@@ -27,7 +46,6 @@ void compute_terms(const Scene& scene, const Path& path, const TermSettings& set
                    PathTerms& terms) {
   const int k = path.edges();
   terms.at.resize(k + 1);
-  if (scene.has_passages()) terms.passages.resize(k + 1);
   update_terms(scene, path, settings, 0, k, terms);
 }
 
@@ -55,17 +73,13 @@ void update_terms(const Scene& scene, const Path& path, const TermSettings& sett
         x.vertex = lens.vertex;
         terms.raster = lens.raster;
       }
-      if (passages) {
-        if (i < k && i <= last) terms.passages[i] = passage(scene, path, i);
-        include_passages(terms, i);
-      }
-      const double size = max_component(x.vertex.f);
-      x.inverse_f = size > least_f ? 1 / size : 0;
+      x.inverse_f = inverse_size(x.vertex.f);
     }
     if (i > 0) at[i - 1].from_camera = x.vertex.pdf_from_camera * at[i - 1].G;
     if (i < k) at[i + 1].from_light = x.vertex.pdf_from_light * x.G;
     wl = -wc;
   }
+  if (passages) include_passages(scene, path, first, last, begin, end, terms);
   if (first == 0) {
     at[0].from_light = light_position_pdf(scene, vertices[0]);
     terms.light_can_be_hit = can_be_hit(scene, vertices[0]);

@@ -1,4 +1,4 @@
-// Samples of path tracing, traced side by side where no surface lets light pass.
+// Samples of path tracing, traced side by side; alone where they meet a surface that light passes.
 #pragma once
 
 #include "path/inspect.h"
@@ -14,13 +14,12 @@ class WaveTaker : public SampleTaker {
 
   void sample_cells(const PixelRect& cells, const CellStreams& streams, SampleSink& sink,
                     RayCounts& rays) override {
-    if (scene_->has_passages()) return SampleTaker::sample_cells(cells, streams, sink, rays);
     for_each_packet_cell(cells, [&](const Vec2i& cell) {
       wave_.numbers().add(streams.stream(cell.x, cell.y), streams.index);
       rasters_.emplace_back(cell);
-      if (rasters_.size() == PathWave::capacity) trace_wave(sink, rays);
+      if (rasters_.size() == PathWave::capacity) trace_wave(streams, sink, rays);
     });
-    trace_wave(sink, rays);
+    trace_wave(streams, sink, rays);
   }
 
  protected:
@@ -34,10 +33,14 @@ class WaveTaker : public SampleTaker {
     sink.add(raster, radiance);
   }
   /// Traces the paths through all cells in rasters_.
-  void trace_wave(SampleSink& sink, RayCounts& rays) {
+  void trace_wave(const CellStreams& streams, SampleSink& sink, RayCounts& rays) {
     start_wave();
     wave_.trace(rays);
-    for (size_t i = 0; i < wave_.size(); ++i) show(rasters_[i], wave_.radiance(i), sink);
+    for (size_t i = 0; i < wave_.size(); ++i)
+      if (wave_.is_left(i))
+        sample_cell(Vec2i(glm::floor(rasters_[i])), streams, sink, rays);
+      else
+        show(rasters_[i], wave_.radiance(i), sink);
     wave_.clear();
     rasters_.clear();
   }

@@ -34,6 +34,7 @@ static_assert(SurfacePoint::no_shape == RTC_INVALID_GEOMETRY_ID);
 struct Query {
   Context base;
   const Ray* const* rays;
+  unsigned passed = 0;  ///< See Occlusion.
 #if MLT_EMBREE_MAJOR >= 4
   RTCIntersectArguments intersect;
   RTCOccludedArguments occluded;
@@ -121,6 +122,23 @@ void analytic_occluded(const RTCOccludedFunctionNArguments* args) {
       RTCRayN_tfar(args->ray, args->N, i) = -std::numeric_limits<float>::infinity();
 }
 
+/// Lets light through an analytic shape, and remembers the rays that meet it.
+void analytic_passed(const RTCOccludedFunctionNArguments* args) {
+  auto& query = *reinterpret_cast<Query*>(args->context);
+  for (unsigned i = 0; i < args->N; ++i)
+    if (args->valid[i] && analytic_hit(args->geometryUserPtr, args->context, args->ray, args->N, i))
+      query.passed |= 1u << RTCRayN_id(args->ray, args->N, i);
+}
+/// The same for a mesh.
+void mesh_passed(const RTCFilterFunctionNArguments* args) {
+  auto& query = *reinterpret_cast<Query*>(args->context);
+  for (unsigned i = 0; i < args->N; ++i) {
+    if (args->valid[i] != -1) continue;
+    query.passed |= 1u << RTCRayN_id(args->ray, args->N, i);
+    args->valid[i] = 0;
+  }
+}
+
 RTCGeometry mesh_geometry(RTCDevice device, const Mesh& mesh) {
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
   const MeshData& data = mesh.data();
@@ -180,7 +198,7 @@ struct Accel::Impl {
   void build();
   template <class Elements, class MakeGeometry>
   RTCScene build(const Elements& elements, const MakeGeometry& make);
-  RTCGeometry form_geometry(const Shape& form) const;
+  RTCGeometry form_geometry(const PlacedForm& form) const;
   RTCGeometry instance_geometry(const Placement& instance) const;
 
   /// The time of a ray in [0, 1]; 0 for NaN.
@@ -210,15 +228,22 @@ RTCScene Accel::Impl::build(const Elements& elements, const MakeGeometry& make) 
 
 void Accel::Impl::build() {
   for (const auto& group : placements.groups)
-    groups.push_back(build(group, [&](const FormPtr& form) { return form_geometry(*form); }));
+    groups.push_back(build(group, [&](const PlacedForm& form) { return form_geometry(form); }));
   scene = build(placements.all, [&](const Placement& placed) {
-    return placed.form ? form_geometry(*placed.form) : instance_geometry(placed);
+    return placed.form.shape ? form_geometry(placed.form) : instance_geometry(placed);
   });
 }
 
-RTCGeometry Accel::Impl::form_geometry(const Shape& form) const {
-  const Mesh* mesh = form.as_mesh();
-  return mesh ? mesh_geometry(device, *mesh) : analytic_geometry(device, *form.as_analytic());
+RTCGeometry Accel::Impl::form_geometry(const PlacedForm& form) const {
+  const Mesh* mesh = form.shape->as_mesh();
+  const RTCGeometry made =
+      mesh ? mesh_geometry(device, *mesh) : analytic_geometry(device, *form.shape->as_analytic());
+  if (!form.has_passage) return made;
+  if (mesh)
+    rtcSetGeometryOccludedFilterFunction(made, mesh_passed);
+  else
+    rtcSetGeometryOccludedFunction(made, analytic_passed);
+  return made;
 }
 
 RTCGeometry Accel::Impl::instance_geometry(const Placement& instance) const {
@@ -238,7 +263,7 @@ Accel::Accel(const std::vector<ShapePtr>& shapes, const Shutter& shutter, int bu
   impl_->placements = Placements(shapes);
   impl_->moves = impl_->placements.moves();
   for (const Placement& placed : impl_->placements.all)
-    impl_->analytic |= placed.form && placed.form->as_analytic();
+    impl_->analytic |= placed.form.shape && placed.form.shape->as_analytic();
   impl_->shutter = shutter;
   // A fixed instruction set, so that the bits do not depend on the machine's vector width.
   const std::string config = "max_isa=avx2,threads=" + std::to_string(build_threads);
@@ -311,7 +336,7 @@ bool Accel::intersect(const Ray& ray, Hit& hit) const {
   return true;
 }
 
-bool Accel::occluded(const Ray& ray) const {
+Occlusion Accel::occluded(const Ray& ray) const {
   const Ray* rays = &ray;
   Query query;
   init(query, &rays);
@@ -322,7 +347,7 @@ bool Accel::occluded(const Ray& ray) const {
 #else
   rtcOccluded1(impl_->scene, &query.base, &r);
 #endif
-  return r.tfar < 0;
+  return {r.tfar < 0, query.passed};
 }
 
 void Accel::intersect(const RayPacket& packet, const Ray* const* exact, bool coherent,
@@ -357,7 +382,7 @@ void Accel::intersect(const RayPacket& packet, const Ray* const* exact, bool coh
 bool Accel::wants_exact_rays() const { return impl_->analytic; }
 bool Accel::moves() const { return impl_->moves; }
 
-unsigned Accel::occluded(const RayPacket& packet) const {
+Occlusion Accel::occluded(const RayPacket& packet) const {
   Query query;
   init(query, nullptr);
   alignas(32) int valid[RayPacket::size];
@@ -370,9 +395,9 @@ unsigned Accel::occluded(const RayPacket& packet) const {
 #else
   rtcOccluded8(valid, impl_->scene, &query.base, &rays);
 #endif
-  unsigned blocked = 0;
-  for (int i = 0; i < packet.count; ++i) blocked |= unsigned{rays.tfar[i] < 0} << i;
-  return blocked;
+  Occlusion found{0, query.passed};
+  for (int i = 0; i < packet.count; ++i) found.blocked |= unsigned{rays.tfar[i] < 0} << i;
+  return found;
 }
 
 }  // namespace mlt

@@ -57,6 +57,11 @@ struct alignas(32) PacketHits {
   Hit hit(int i) const { return {t[i], shape[i], primitive[i], u[i], v[i], member[i]}; }
 };
 
+/// What rays meet, one bit for each: surfaces that block them, and surfaces that light passes.
+struct Occlusion {
+  unsigned blocked = 0, passed = 0;
+};
+
 class Accel {
  public:
   /// Builds the hierarchy; the result does not depend on `build_threads`.
@@ -68,14 +73,14 @@ class Accel {
   bool serves(const std::vector<ShapePtr>& shapes, const Shutter& shutter) const;
 
   bool intersect(const Ray& ray, Hit& hit) const;
-  bool occluded(const Ray& ray) const;
+  /// Where a ray is blocked, it is not known what it would have passed.
+  Occlusion occluded(const Ray& ray) const;
 
   /// Intersects up to RayPacket::size rays; `exact` has them in double precision, if
   /// wants_exact_rays(). Rays from one place in nearly one direction are `coherent`.
   void intersect(const RayPacket& packet, const Ray* const* exact, bool coherent,
                  PacketHits& hits) const;
-  /// Bit i is set if ray i is blocked.
-  unsigned occluded(const RayPacket& packet) const;
+  Occlusion occluded(const RayPacket& packet) const;
 
   /// Whether there are analytic shapes, which need rays in double precision.
   bool wants_exact_rays() const;

@@ -8,10 +8,13 @@
 namespace mlt {
 namespace {
 
-FormPtr form_of(const ShapePtr& shape) { return shape->form() ? shape->form() : shape; }
+PlacedForm form_of(const ShapePtr& shape) {
+  const BsdfPtr& bsdf = shape->bsdf_ptr();
+  return {shape->form() ? shape->form() : shape, bsdf && bsdf->has_passage()};
+}
 
-std::vector<FormPtr> forms_of(const std::vector<ShapePtr>& shapes) {
-  std::vector<FormPtr> forms;
+std::vector<PlacedForm> forms_of(const std::vector<ShapePtr>& shapes) {
+  std::vector<PlacedForm> forms;
   for (const ShapePtr& shape : shapes) forms.push_back(form_of(shape));
   return forms;
 }
@@ -28,7 +31,7 @@ Placements::Placements(const std::vector<ShapePtr>& shapes) {
     }
     const auto [group, is_new] = met.emplace(&instance->group(), groups.size());
     if (is_new) groups.push_back(forms_of(instance->group().shapes()));
-    all.push_back({nullptr, group->second, instance->motion().steps()});
+    all.push_back({{}, group->second, instance->motion().steps()});
   }
 }
 

@@ -57,7 +57,7 @@ LambertianMesh lambertian_mesh(const Shape& shape) {
 
 MeshLight mesh_light(const Emitter& emitter, double probability) {
   const Color* radiance = emitter.uniform_radiance();
-  if (!radiance) return {nullptr, emitter.infinite()};
+  if (!radiance || emitter.shape()->bsdf().has_passage()) return {nullptr, emitter.infinite()};
   const Mesh* mesh = emitter.shape()->as_mesh();
   return {mesh, false, radiance, probability / mesh->area()};
 }
@@ -164,7 +164,9 @@ std::optional<Ray> Scene::segment(const SurfacePoint& a, const SurfacePoint& b, 
 
 bool Scene::visible(const SurfacePoint& a, const SurfacePoint& b, double time) const {
   Ray ray;
-  return find_segment(a, b, time, ray) && !accel_->occluded(ray);
+  if (!find_segment(a, b, time, ray)) return false;
+  const Occlusion found = accel_->occluded(ray);
+  return !(found.blocked | found.passed);
 }
 
 Ray Scene::beyond(const Ray& ray, const SurfacePoint& at) const {
@@ -187,7 +189,10 @@ Passage Scene::passage(const SurfacePoint& at, const Vec3& w) const {
 Passage Scene::passage(const SurfacePoint& a, const SurfacePoint& b, double time) const {
   Ray ray;
   if (!find_segment(a, b, time, ray)) return Passage::blocked();
+  const Occlusion found = accel_->occluded(ray);
+  if (found.blocked) return Passage::blocked();
   Passage all;
+  if (!found.passed) return all;
   SurfacePoint at;
   while (!all.is_blocked() && ray.t_max > 0 && intersect(ray, at)) {
     all *= passage(at, ray.d);

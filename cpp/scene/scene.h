@@ -22,7 +22,8 @@ struct EmitterChoice {
   double probability;
 };
 
-/// A mesh that glows the same everywhere on its front side, as next-event estimation needs it.
+/// A mesh that glows the same everywhere on its front side and that light does not pass, as next-
+/// event estimation needs it.
 struct MeshLight {
   const Mesh* mesh = nullptr;  ///< nullptr if this light is of another kind.
   bool infinite = false;       ///< Whether this light is at infinity instead.

@@ -251,7 +251,8 @@ void BidirectionalWave::find_shadows(RayCounts& rays) {
           seen_[target] += weighted;
         else
           splats_.push_back(unseen_[target - capacity]);
-      });
+      },
+      [](int) {});
   unseen_.clear();
 }
 

@@ -5,6 +5,7 @@ namespace mlt {
 template <class Numbers>
 void BasicPathWave<Numbers>::add(const Ray& ray, const ChainFactor& chain_factor) {
   path_[live_] = live_;
+  left_[live_] = false;
   exact_[live_] = true;
   o_.set(live_, Vec3f(ray.o));
   d_.set(live_++, Vec3f(ray.d));
@@ -19,6 +20,7 @@ void BasicPathWave<Numbers>::trace(RayCounts& rays, bool coherent) {
   for (int depth = 1; live_ > 0; ++depth) {
     find_hits(coherent && depth == 1, rays);
     next_ = 0;
+    if (scene_->has_passages()) numbers_.places().next();  // that of the leg
     at_ = decltype(at_)::draw(numbers_.places());
     for (begin_ = 0; begin_ < live_; begin_ += block_size) {
       count_ = std::min(block_size, live_ - begin_);
@@ -60,7 +62,8 @@ void BasicPathWave<Numbers>::find_shadows(RayCounts& rays) {
   rays.count_occluded(shadows_.count());
   shadows_.trace(
       scene_->accel(), [&](int path) { return walks_[path].ray.time; },
-      [&](int path, const Color& radiance, double share) { walks_[path].take(radiance, share); });
+      [&](int path, const Color& radiance, double share) { walks_[path].take(radiance, share); },
+      [&](int path) { left_[path] = true; });
 }
 
 /// Takes one step of trace_path for all paths of the block.
@@ -119,6 +122,10 @@ inline void BasicPathWave<Numbers>::find_vertex(int i, int depth) {
 template <class Numbers>
 void BasicPathWave<Numbers>::find_bright_or_other(int i, const Hit& hit, int depth) {
   CameraWalk& walk = exact_walk(begin_ + i);
+  if (scene_->shapes()[hit.shape]->bsdf().has_passage()) {
+    left_[path_[begin_ + i]] = true;
+    return;
+  }
   const SurfacePoint at = scene_->surface_point(walk.ray, hit);
   if (rules_.wants(depth)) find_light(*scene_, walk, &at);
   if (scene_->lambertian_mesh(hit.shape).mesh) return;
@@ -218,7 +225,10 @@ void BasicPathWave<Numbers>::queue_other_light(const SingleVertex& single) {
   const SurfacePoint& at = single.at;
   const CameraWalk& walk = this->walk(i);
   const Vec3 wc = lambertian_.f[i] ? -Vec3(d_[begin_ + i]) : -walk.ray.d;
-  const auto mis = [&](double light, double bsdf) { return walk.mis.weight(light, bsdf); };
+  double stops = 1;
+  if (scene_->has_passages() && single.light.x0.pdf > 0)
+    stops = scene_->stop_probability(single.light.x0.at, direction(at, single.light.x0.at));
+  const auto mis = [&](double light, double bsdf) { return walk.mis.weight(light, bsdf * stops); };
   const DirectLight light =
       unshadowed_light(*scene_, single.light, at, wc, rules_.strict_normals, mis);
   if (is_black(light.radiance)) return;

@@ -42,6 +42,8 @@ class BasicPathWave {
   void trace(RayCounts& rays, bool coherent = true);
   /// The radiance that the i-th path has found.
   const Color& radiance(size_t i) const { return walks_[i].radiance; }
+  /// Whether the i-th path has met a surface that light passes: it has to be traced alone.
+  bool is_left(size_t i) const { return left_[i]; }
   /// The number of rays of the i-th path.
   const RayCounts& rays(size_t i) const { return walks_[i].rays; }
   void clear() {
@@ -98,6 +100,7 @@ class BasicPathWave {
   PathRules rules_;
   MisExponent mis_;
   std::vector<CameraWalk> walks_;
+  Wave<bool> left_;
   WaveShadows shadows_;
 
   // Values of each path that takes this step:

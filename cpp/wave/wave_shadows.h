@@ -23,10 +23,10 @@ class WaveShadows {
     radiance_[count_++] = radiance;
   }
 
-  /// Calls receive(path, radiance, share) for the light that is not blocked, and clears all rays;
-  /// time(path) is the time of a path.
-  template <class Time, class Receive>
-  void trace(const Accel& accel, Time&& time, Receive&& receive) {
+  /// Calls receive(path, radiance, share) for the light that is not blocked, or pass(path) where it
+  /// passes surfaces, and clears all rays; time(path) is the time of a path.
+  template <class Time, class Receive, class Pass>
+  void trace(const Accel& accel, Time&& time, Receive&& receive, Pass&& pass) {
     for (int begin = 0; begin < count_; begin += RayPacket::size) {
       RayPacket packet(std::min(RayPacket::size, count_ - begin));
       packet.set_lines(&o_.x[begin], &o_.y[begin], &o_.z[begin], &w_.x[begin], &w_.y[begin],
@@ -34,9 +34,14 @@ class WaveShadows {
       for (int i = 0; i < RayPacket::size; ++i) packet.t_max[i] = length_[begin + i];
       for (int i = 0; accel.moves() && i < packet.count; ++i)
         packet.time[i] = time(path_[begin + i]);
-      const unsigned blocked = accel.occluded(packet);
-      for (int i = 0; i < packet.count; ++i)
-        if (!(blocked >> i & 1)) receive(path_[begin + i], radiance_[begin + i], share_[begin + i]);
+      const auto [blocked, passed] = accel.occluded(packet);
+      for (int i = 0; i < packet.count; ++i) {
+        if (blocked >> i & 1) continue;
+        if (passed >> i & 1)
+          pass(path_[begin + i]);
+        else
+          receive(path_[begin + i], radiance_[begin + i], share_[begin + i]);
+      }
     }
     count_ = 0;
   }

@@ -101,3 +101,23 @@ def test_a_glowing_surface_may_be_passed():
     del scene["veil"]
     plain = render(mlt.load_dict(scene), "path", spp=1024)
     np.testing.assert_allclose(means[0][1], plain[..., 1].mean(), rtol=0.01)
+
+
+def test_leaves_of_instances_let_light_through():
+    """The same leaf in the scene and in an instance, as a mesh and as a disk."""
+    for kind in "rectangle", "disk":
+        means = []
+        for instanced in False, True:
+            scene = tiny.scene()
+            del scene["ball"]
+            scene["lamp"] = {"type": "point", "position": [0, 3, 0], "intensity": 10.0}
+            placed = mlt.Transform().translate(0, 2, 0).rotate([1, 0, 0], 90)
+            leaves = {"type": kind, "to_world": placed, "bsdf": leaf(0.4)}
+            if instanced:
+                scene["leaves"] = {"type": "shapegroup", "leaf": leaves}
+                scene["tree"] = {"type": "instance", "group": {"type": "ref", "id": "leaves"}}
+            else:
+                scene["leaf"] = leaves
+            loaded = mlt.load_dict(scene)
+            means += [render(loaded, i, spp=1024).mean() for i in ("path", "bdpt")]
+        np.testing.assert_allclose(means, means[0], rtol=0.01)

