@@ -1,4 +1,4 @@
-"""Equal-time error of all algorithms, and of other programs, on eight scenes.
+"""Equal-time error of all algorithms, and of other programs, on scenes of many kinds.
 
 Some are Metropolis's own ground (doors that let little light in, a torus in a glass block, light
 through water), some are caustics, and in some, as the Cornell box, chains alone have nothing to
@@ -61,6 +61,18 @@ CASES = {
     "glass-ball": Case("scenes/glass-ball/scene.xml", (256, 256), "mlt"),
     "door-ajar": Case("scenes/door-ajar/scene.xml", (320, 240), None),
     "pool": Case("scenes/pool/scene.xml", (320, 240), "mlt"),
+    "goblets": Case("scenes/goblets/scene.xml", (320, 180), None),
+    "temple": Case("scenes/temple/scene.xml", (320, 180), None),
+    "living-room": Case("scenes/living-room/scene.xml", (320, 180), None),
+    "ring": Case("scenes/ring/scene.xml", (256, 256), None),
+    "bulb": Case("scenes/bulb/scene.xml", (256, 256), None),
+    "orrery": Case("scenes/orrery/scene.xml", (320, 180), None),
+    "motion": Case("scenes/motion/scene.xml", (320, 180), None),
+    "dof": Case("scenes/dof/scene.xml", (256, 256), None),
+    "furnace": Case("scenes/furnace/scene.xml", (128, 128), None),
+    "cbox-ppg": Case("scenes/cbox-ppg/scene.xml", (256, 256), None),
+    "matpreview": Case("scenes/matpreview/scene.xml", (256, 256), None),
+    "veach-mi": Case("scenes/veach-mi/scene.xml", (320, 180), None),
 }
 
 
