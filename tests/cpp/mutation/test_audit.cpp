@@ -66,6 +66,12 @@ bool has_paths(const Case& c) {
   return false;
 }
 
+/// The edge of a perturbation may pass leaves and panes, or end at them.
+TEST(AuditOfPassages, HoldsForTheLensPerturbation) {
+  const AuditReport report = audit_case({"windows", "lens"}, 100000);
+  EXPECT_EQ(report.verdict, Verdict::right) << report.text();
+}
+
 class LongAudit : public testing::TestWithParam<Case> {};
 
 TEST_P(LongAudit, LeavesTheTargetUnchanged) {
