@@ -53,26 +53,29 @@ class Case(NamedTuple):
 
 
 CASES = {
-    "veachdoor": Case("scenes/veachdoor/scene.xml", (320, 180), "veachdoor-320x180.exr"),
-    "torus-lmc": Case("scenes/torus-lmc/scene.xml", (320, 240), "mlt"),
-    "ring-caustic": Case("scenes/ring-caustic/scene.xml", (320, 240), "mlt"),
-    "cornell-box": Case("scenes/cornell-box/scene.xml", (256, 256), "bdpt"),
-    "veach-bidir": Case("scenes/veach-bidir/scene.xml", (320, 180), "bdpt"),
-    "glass-ball": Case("scenes/glass-ball/scene.xml", (256, 256), "mlt"),
-    "door-ajar": Case("scenes/door-ajar/scene.xml", (320, 240), None),
-    "pool": Case("scenes/pool/scene.xml", (320, 240), "mlt"),
-    "goblets": Case("scenes/goblets/scene.xml", (320, 180), None),
-    "temple": Case("scenes/temple/scene.xml", (320, 180), None),
-    "living-room": Case("scenes/living-room/scene.xml", (320, 180), None),
-    "ring": Case("scenes/ring/scene.xml", (256, 256), None),
-    "bulb": Case("scenes/bulb/scene.xml", (256, 256), None),
-    "orrery": Case("scenes/orrery/scene.xml", (320, 180), None),
-    "motion": Case("scenes/motion/scene.xml", (320, 180), None),
-    "dof": Case("scenes/dof/scene.xml", (256, 256), None),
-    "furnace": Case("scenes/furnace/scene.xml", (128, 128), None),
-    "cbox-ppg": Case("scenes/cbox-ppg/scene.xml", (256, 256), None),
-    "matpreview": Case("scenes/matpreview/scene.xml", (256, 256), None),
-    "veach-mi": Case("scenes/veach-mi/scene.xml", (320, 180), None),
+    name: Case(f"scenes/{name}/scene.xml", size, reference)
+    for name, size, reference in (
+        ("veachdoor", (320, 180), "veachdoor-320x180.exr"),
+        ("torus-lmc", (320, 240), "mlt"),
+        ("ring-caustic", (320, 240), "mlt"),
+        ("cornell-box", (256, 256), "bdpt"),
+        ("veach-bidir", (320, 180), "bdpt"),
+        ("glass-ball", (256, 256), "mlt"),
+        ("door-ajar", (320, 240), None),
+        ("pool", (320, 240), "mlt"),
+        ("goblets", (320, 180), None),
+        ("temple", (320, 180), None),
+        ("living-room", (320, 180), None),
+        ("ring", (256, 256), None),
+        ("bulb", (256, 256), None),
+        ("orrery", (320, 180), None),
+        ("motion", (320, 180), None),
+        ("dof", (256, 256), None),
+        ("furnace", (128, 128), None),
+        ("cbox-ppg", (256, 256), None),
+        ("matpreview", (256, 256), None),
+        ("veach-mi", (320, 180), None),
+    )
 }
 
 

@@ -11,7 +11,7 @@ double inverse_size(const Color& f) {
   return size > least_f ? 1 / size : 0;
 }
 
-/// Finds the passages of the edges at vertices first ... last, where any light comes so far, and
+/// Finds the passages of the edges at vertices first ... last, unless a vertex is black, and
 /// includes those of all edges at vertices begin ... end in the terms. Not inlined: update_terms
 /// would become too large for what it needs in each scene.
 [[gnu::noinline]] void include_passages(const Scene& scene, const Path& path, int first, int last,

@@ -64,7 +64,8 @@ std::optional<Vec3> scattered_direction(const Scene& scene, const Vertex& own,
                                         const SpecularScattering& scattering, const Vec3& wl);
 
 /// Whether constraints can be formed for this vertex, if it is specular: where images bend the
-/// shading normal, how it turns is not known, and manifold walks pass where light can.
+/// shading normal, how it turns is not known, and manifold walks go through the surfaces that
+/// light passes.
 inline bool has_constraint(const Scene& scene, const Vertex& x) {
   const Bsdf& bsdf = scene.bsdf(x.at);
   return !bsdf.bends_normal() && !bsdf.has_passage();

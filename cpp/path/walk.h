@@ -79,9 +79,8 @@ struct Walker {
   /// Follows a leg to the surface where it stops; false if it leaves the scene. With u_leg = 0 all
   /// surfaces are passed through which light goes.
   bool arrive(const Ray& ray, double u_leg, SurfacePoint& at) const {
-    rays.count_intersect();
-    const bool hit = scene.intersect(ray, at);
-    return hit && scene.has_passages() ? go_on(ray, u_leg, at) : hit;
+    Passage leg;
+    return arrive(ray, u_leg, at, leg);
   }
   /// As above, with the light that has passed, and the probability of that and of stopping there.
   bool arrive(const Ray& ray, double u_leg, SurfacePoint& at, Passage& leg) const {
@@ -111,6 +110,7 @@ struct Walker {
     if (scene.has_passages()) return scene.passage(a, b, time);
     return scene.visible(a, b, time) ? Passage() : Passage::blocked();
   }
+  /// Whether any does; without a colour, since most mutations ask for it.
   bool sees(const SurfacePoint& a, const SurfacePoint& b) const {
     rays.count_occluded();
     return scene.has_passages() ? !scene.passage(a, b, time).is_blocked()
@@ -120,10 +120,6 @@ struct Walker {
  private:
   /// Follows a leg on from the surface that was hit first.
   bool go_on(Ray ray, double u_leg, SurfacePoint& at, Passage& leg) const;
-  bool go_on(const Ray& ray, double u_leg, SurfacePoint& at) const {
-    Passage leg;
-    return go_on(ray, u_leg, at, leg);
-  }
 };
 
 }  // namespace mlt

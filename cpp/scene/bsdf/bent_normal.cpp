@@ -55,7 +55,6 @@ bool BentNormal::scatters(const Vec3& n, bool turned, const Vec3& a, const Vec3&
 }
 
 Passage BentNormal::passage(const SurfacePoint& at, const Vec3& w) const {
-  if (!has_passage()) return Passage::blocked();
   const Vec3 n = normal(at);
   const Bend bend(at, n, !faces(n, w));
   return nested_->passage(bend.at(), bend.to_inner(w));
