@@ -19,7 +19,7 @@ py::tuple row(const Vertex& x) {
   const SurfacePoint& at = x.at;
   const auto triple = [](const Vec3& v) { return py::make_tuple(v.x, v.y, v.z); };
   const int64_t emitter = x.kind == VertexKind::light ? int64_t{x.emitter} : -1;
-  return py::make_tuple(name_of(x.kind), triple(at.p), triple(at.ng), triple(at.shading.n),
+  return py::make_tuple(kind_of(x), triple(at.p), triple(at.ng), triple(at.shading.n),
                         py::make_tuple(at.uv.x, at.uv.y), name_of(x.lobe), at.infinite(),
                         shape_of(x), at.primitive, emitter);
 }
@@ -54,10 +54,11 @@ PyLightPath with_vertices(const PyLightPath& x, std::vector<Vertex> vertices) {
   const size_t n = vertices.size();
   bool right =
       n >= 2 && vertices[0].kind == VertexKind::light && vertices[n - 1].kind == VertexKind::camera;
-  for (size_t i = 1; right && i + 1 < n; ++i) right = vertices[i].kind == VertexKind::surface;
+  for (size_t i = 1; right && i + 1 < n; ++i) right = vertices[i].kind == VertexKind::inner;
   if (!right)
     throw UsageError(
-        "a path should be one vertex on a light, any number on surfaces, and one on the lens");
+        "a path should be one vertex on a light, any number on surfaces or in media, and one on the "
+        "lens");
   Path y{std::move(vertices)};
   y.set_time(x.path.time);
   const Vec2 raster = raster_position(*x.scene->scene, y).value_or(Vec2(std::nan("")));
@@ -209,9 +210,9 @@ void bind_path_class(py::module_& m) {
 
 }  // namespace
 
-const char* name_of(VertexKind kind) {
+const char* kind_of(const Vertex& x) {
   constexpr const char* names[] = {"light", "surface", "camera"};
-  return names[static_cast<size_t>(kind)];
+  return x.at.in_medium() ? "medium" : names[static_cast<size_t>(x.kind)];
 }
 
 const char* name_of(Lobe lobe) {

@@ -25,7 +25,8 @@ PyLightPath light_path(LoadedPtr scene, const PathState& x, bool strict_normals)
 
 py::array_t<double> to_array(const Color& color);
 
-const char* name_of(VertexKind kind);
+/// "light", "surface", "medium" or "camera".
+const char* kind_of(const Vertex& x);
 const char* name_of(Lobe lobe);
 /// Index of the shape that a vertex is on; -1: none.
 int64_t shape_of(const Vertex& x);

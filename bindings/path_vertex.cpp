@@ -24,7 +24,7 @@ Vec3 to_direction(const Doubles& array, const char* what) {
 std::optional<Vertex> first_hit(const LoadedScene& loaded, const Ray& ray) {
   SurfacePoint at;
   if (!loaded.scene->intersect(ray, at)) return std::nullopt;
-  return surface_vertex(at);
+  return inner_vertex(at);
 }
 
 std::optional<Vertex> seen_from_vertex(const LoadedScene& loaded, const Vertex& from,
@@ -50,12 +50,12 @@ bool visible(const LoadedScene& loaded, const Vertex& a, const Vertex& b,
 
 py::object scatter(const LoadedScene& loaded, const Vertex& at, const Doubles& from,
                    const Doubles& u) {
-  if (at.kind != VertexKind::surface) throw UsageError("only a vertex on a surface scatters");
+  if (at.kind != VertexKind::inner) throw UsageError("only a vertex on a surface or in a medium scatters");
   const Frame& frame = at.at.shading;
   const auto sample = loaded.scene->bsdf(at.at).sample(
       at.at, frame.to_local(to_direction(from, "direction")), to_vector(u, "u"));
   if (!sample) return py::none();
-  return py::make_tuple(surface_vertex(at.at, sample->lobe), to_array(frame.to_world(sample->to)));
+  return py::make_tuple(inner_vertex(at.at, sample->lobe), to_array(frame.to_world(sample->to)));
 }
 
 py::object camera_direction(const LoadedScene& loaded, const Vertex& lens, const Doubles& raster) {
@@ -71,8 +71,8 @@ py::object camera_direction(const LoadedScene& loaded, const Vertex& lens, const
 void bind_vertex_class(py::module_& m) {
   py::class_<Vertex>(m, "Vertex", "A vertex of a light path; it belongs to the scene of its path.")
       .def_property_readonly(
-          "kind", [](const Vertex& x) { return name_of(x.kind); },
-          "'light', 'surface' or 'camera'.")
+          "kind", &kind_of,
+          "'light', 'surface', 'medium' or 'camera'.")
       .def_property_readonly(
           "position", [](const Vertex& x) { return to_array(x.at.p); },
           "Where it is; at infinity, the direction towards it.")
@@ -95,7 +95,7 @@ void bind_vertex_class(py::module_& m) {
           py::arg("other"), "The unit direction in which another vertex is seen.")
       .def("__repr__", [](const Vertex& x) {
         return py::str("Vertex({}, ({:.4g}, {:.4g}, {:.4g}), {})")
-            .format(name_of(x.kind), x.at.p.x, x.at.p.y, x.at.p.z, name_of(x.lobe));
+            .format(kind_of(x), x.at.p.x, x.at.p.y, x.at.p.z, name_of(x.lobe));
       });
 }
 

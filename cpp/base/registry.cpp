@@ -22,6 +22,11 @@ void Registry::add(Plugin plugin) {
   insert(family, name, {std::move(plugin), ""});
 }
 
+void Registry::alias(const std::string& family, const std::string& name,
+                     const std::string& meant) {
+  insert(family, name, {{}, "", meant});
+}
+
 void Registry::refuse(const std::string& family, const std::string& name,
                       const std::string& reason) {
   insert(family, name, {{}, reason});
@@ -31,8 +36,9 @@ const Plugin& Registry::find(const std::string& family, const std::string& name,
                              const Location& where) const {
   if (const auto members = entries_.find(family); members != entries_.end())
     if (const auto found = members->second.find(name); found != members->second.end()) {
-      const auto& [plugin, refusal] = found->second;
+      const auto& [plugin, refusal, meant] = found->second;
       if (plugin.create) return plugin;
+      if (!meant.empty()) return find(family, meant, where);
       throw SceneError(at(where, "{} '{}' is not supported: {}", family, name, refusal));
     }
   const std::vector<std::string> known = names(family);
@@ -45,7 +51,8 @@ bool Registry::has(const std::string& family, const std::string& name) const {
   const auto members = entries_.find(family);
   if (members == entries_.end()) return false;
   const auto found = members->second.find(name);
-  return found != members->second.end() && found->second.plugin.create;
+  if (found == members->second.end()) return false;
+  return found->second.plugin.create || !found->second.meant.empty();
 }
 
 std::vector<std::string> Registry::families() const {

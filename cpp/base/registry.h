@@ -37,6 +37,8 @@ class Registry {
  public:
   /// Adds a plug-in. Each name is added or refused once: a second time throws Error.
   void add(Plugin plugin);
+  /// Makes `name` another name of the plug-in `meant`.
+  void alias(const std::string& family, const std::string& name, const std::string& meant);
   /// Refuses Mitsuba's plug-in `name` by name, in one line that ends with `reason`.
   void refuse(const std::string& family, const std::string& name, const std::string& reason);
 
@@ -53,10 +55,10 @@ class Registry {
   std::vector<std::string> families_of(const std::string& name) const;
 
  private:
-  /// A plug-in, or the reason why there is none.
+  /// A plug-in, or the name of the one that is meant, or the reason why there is none.
   struct Entry {
     Plugin plugin;
-    std::string refusal;
+    std::string refusal, meant = {};
   };
   void insert(const std::string& family, const std::string& name, Entry entry);
 

@@ -19,7 +19,8 @@ namespace {
 /// Whether the builder itself takes this child out of its parent's parameters, whatever its name.
 bool is_part(const std::string& parent, const std::string& child) {
   if (parent == "shape") return child == "bsdf" || child == "emitter";
-  return parent == "sensor" && (child == "film" || child == "sampler");
+  if (parent == "emitter") return child == "medium";
+  return parent == "sensor" && (child == "film" || child == "sampler" || child == "medium");
 }
 
 /// Whether a nested object is given by its name. Textures always are, so that a misspelt name is an
@@ -35,7 +36,16 @@ bool is_given_by_name(const Schema& schema, const std::string& name, const std::
 /// The families of objects that are attached to a shape once it is made.
 std::vector<std::string> attached(const std::string& family) {
   if (family != "shape") return {};
-  return {"bsdf", "emitter"};
+  return {"bsdf", "emitter", "interior", "exterior"};
+}
+
+/// The side of a shape on which a medium is.
+const std::string& side_of_medium(const Node& medium) {
+  if (medium.name != "interior" && medium.name != "exterior")
+    throw SceneError(at(medium.where,
+                        "a medium of a shape should be named 'interior' or 'exterior'{}",
+                        medium.name.empty() ? "" : ", not " + quote(medium.name)));
+  return medium.name;
 }
 
 bool needs_a_shape(const Emitter& emitter) { return !emitter.infinite() && !emitter.delta(); }
@@ -132,9 +142,13 @@ ObjectPtr Builder::make(const Node& node) {
     shape_readers_.push_back(std::move(reader));
   if (const auto shape = std::dynamic_pointer_cast<Shape>(object)) {
     attach(*shape, params, params.objects<Bsdf>(), params.objects<Emitter>());
+    shape->set_media({params.object<Medium>("interior"), params.object<Medium>("exterior")});
     if (!shape->as_instance()) object = moving(shape, params);
   }
+  if (const auto emitter = std::dynamic_pointer_cast<Emitter>(object))
+    emitter->set_medium(only_one(params.objects<Medium>(), "medium", params));
   if (const auto camera = std::dynamic_pointer_cast<Camera>(object)) {
+    camera->set_medium(only_one(params.objects<Medium>(), "medium", params));
     const auto sampler = only_one(params.objects<SamplerSettings>(), "sampler", params);
     views_[object.get()] = {camera, only_one(params.objects<FilmSettings>(), "film", params),
                             sampler ? sampler->sample_count : 0};
@@ -179,6 +193,8 @@ void Builder::give(Params& params, const Node& parent, const Node& child) {
   ObjectPtr nested = own ? make(target) : object(target);
 
   const Schema& schema = params.schema();
+  if (parent.family == "shape" && target.family == "medium")
+    return params.add(side_of_medium(child), std::move(nested), child.where);
   if (is_part(parent.family, target.family) || !is_given_by_name(schema, child.name, target.family))
     return params.add(target.family, std::move(nested), child.where);
   const std::string name = current_name(parent, child.name, schema);

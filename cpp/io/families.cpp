@@ -9,7 +9,8 @@ namespace mlt {
 
 const std::vector<std::string>& plugin_families() {
   static const std::vector<std::string> families{
-      "bsdf", "emitter", "film", "integrator", "rfilter", "sampler", "sensor", "shape", "texture"};
+      "bsdf",    "emitter", "film",   "integrator", "medium", "phase",
+      "rfilter", "sampler", "sensor", "shape",      "texture"};
   return families;
 }
 
@@ -21,11 +22,8 @@ bool is_plugin_family(const std::string& tag) {
 namespace {
 
 const std::map<std::string, std::string>& refused_elements() {
-  static const std::string media = "participating media are not supported";
   static const std::map<std::string, std::string> reasons{
-      {"medium", media},
-      {"phase", media},
-      {"volume", media},
+      {"volume", "media that vary in space are not supported"},
       {"subsurface", "subsurface scattering is not supported"},
       {"spectrum", "spectra are values here, not plug-ins; give rgb or wavelength:value pairs"},
       {"blackbody", "colour temperatures are not supported; give rgb or wavelength:value pairs"},

@@ -20,6 +20,7 @@ class Pruner {
       prune_parameters(node, registry_.find(node.family, node.type, node.where).schema);
     remove(node.children, [&](const Node& child) {
       if (child.family != "integrator" || holds_integrator(child) ||
+          registry_.has("integrator", child.type) ||
           !is_unknown(child.type, registry_.names("integrator")))
         return false;
       warnings_.push_back(

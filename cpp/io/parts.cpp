@@ -15,7 +15,8 @@ const Part* PartSource::take(const std::string& key) {
 
 ObjectPtr for_scene(const ObjectPtr& object) {
   if (std::dynamic_pointer_cast<ShapeReader>(object)) return nullptr;
-  if (std::dynamic_pointer_cast<Bsdf>(object) || std::dynamic_pointer_cast<Texture>(object))
+  if (std::dynamic_pointer_cast<Bsdf>(object) || std::dynamic_pointer_cast<Texture>(object) ||
+      std::dynamic_pointer_cast<Medium>(object))
     return object;
   ObjectPtr copy = object->copy();
   if (const auto shape = std::dynamic_pointer_cast<Shape>(copy))

@@ -17,6 +17,8 @@ static void add_all(Registry& registry) {
 #include "scene/camera/list.inc"
 #include "scene/emitter/list.inc"
 #include "scene/film/list.inc"
+#include "scene/medium/list.inc"
+#include "scene/phase/list.inc"
 #include "scene/shape/list.inc"
 #include "scene/texture/list.inc"
 #undef MLT_PLUGIN
@@ -33,7 +35,7 @@ struct Refusal {
 /// The plug-ins of Mitsuba 0.6 and 3 that do not exist here.
 const std::vector<Refusal>& refusals() {
   static const char* not_yet = "not implemented yet";
-  static const char* media = "participating media are not supported";
+  static const char* media = "media that vary in space are not supported";
   static const char* polarised = "polarised rendering is not supported";
   static const char* curves = "hair and curves are not supported";
   static const std::vector<Refusal> table{
@@ -61,16 +63,13 @@ const std::vector<Refusal>& refusals() {
       {"film", "spectral rendering is not supported; use hdrfilm", {"specfilm"}},
       {"texture", not_yet, {"gridtexture", "wireframe", "curvature", "vertexcolors"}},
       {"texture", media, {"volume"}},
-      {"medium", media, {"homogeneous", "heterogeneous"}},
-      {"phase",
-       media,
-       {"hg", "isotropic", "rayleigh", "sggx", "tabphase", "blendphase", "kkay", "microflake"}},
+      {"medium", media, {"heterogeneous"}},
+      {"phase", not_yet, {"sggx", "tabphase", "kkay", "microflake"}},
       {"volume", media, {"constvolume", "gridvolume"}},
       {"spectrum",
        "give rgb or wavelength:value pairs",
        {"blackbody", "d65", "uniform", "regular", "irregular", "rawconstant"}},
       {"integrator", not_yet, {"ao", "depth", "field", "aov", "moment"}},
-      {"integrator", media, {"volpath", "volpath_simple", "volpathmis"}},
       {"integrator",
        "photon mapping and virtual point lights are not supported (they are biased)",
        {"photonmapper", "ppm", "sppm", "vpl", "irrcache"}},
@@ -87,6 +86,8 @@ const std::vector<Refusal>& refusals() {
 Registry make_registry() {
   Registry registry;
   add_all(registry);
+  for (const char* name : {"volpath", "volpath_simple", "volpathmis"})
+    registry.alias("integrator", name, "path");
   for (const Refusal& refusal : refusals())
     for (const char* name : refusal.names) registry.refuse(refusal.family, name, refusal.reason);
   return registry;

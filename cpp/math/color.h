@@ -11,6 +11,10 @@ using Color = Vec3;
 
 inline bool is_black(const Color& c) { return c.x == 0 && c.y == 0 && c.z == 0; }
 
+inline double mean(const Color& c) { return (c.x + c.y + c.z) / 3; }
+/// e^c, channel by channel.
+inline Color exp(const Color& c) { return {std::exp(c.x), std::exp(c.y), std::exp(c.z)}; }
+
 /// Whether light of this throughput is zero in single precision, the precision of images.
 inline bool vanishes(const Color& throughput) {
   return max_component(throughput) < double{std::numeric_limits<float>::min()};

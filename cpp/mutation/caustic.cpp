@@ -38,7 +38,7 @@ class CausticPerturbation final : public MeasuredMutation<CausticPerturbation> {
       const Vec3 through = x[1].at.p + r * (std::cos(phi) * frame.s + std::sin(phi) * frame.t);
       const Bounds& bounds = scene().bounds();
       const double back = dot(bounds.center - through, x[0].at.p) + bounds.radius;
-      ray = {through + back * x[0].at.p, -x[0].at.p, y.path.time};
+      ray = {through + back * x[0].at.p, -x[0].at.p, y.path.time, infinity, x[0].at.medium};
     } else {
       ray = scene().spawn(x[a].at, perturbed(x, a, rng), y.path.time);
     }

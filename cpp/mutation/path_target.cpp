@@ -12,7 +12,7 @@ void PathTarget::evaluate(int first, int last, PathState& x) const {
 void PathTarget::evaluate(PathState& x) const {
   x.path.set_time(x.path.time);
   for (Vertex& vertex : x.path.vertices)
-    if (vertex.kind == VertexKind::surface)
+    if (vertex.kind == VertexKind::inner)
       vertex.at.lambertian = scene_->bsdf(vertex.at).lambertian(vertex.at);
   compute_terms(*scene_, x.path, term_settings(), x.terms);
   evaluate_target(x);

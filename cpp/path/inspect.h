@@ -41,7 +41,7 @@ class PathRecorder : public IgnorePaths {
   PathRecorder(const Scene& scene, const Vec2& raster, const SurfacePoint& lens, double time,
                std::vector<FoundPath>& found);
 
-  void arrive(const SurfacePoint& at) { walk_.push_back(surface_vertex(at)); }
+  void arrive(const SurfacePoint& at) { walk_.push_back(inner_vertex(at)); }
   void scatter(Lobe lobe) { walk_.back().lobe = lobe; }
   void hit(const Emitter& emitter, const SurfacePoint& x0, const Vec3& w, const Color& throughput);
   void connect(const Vec3& u_light, const Color& estimate);

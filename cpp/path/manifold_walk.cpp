@@ -5,12 +5,13 @@ namespace mlt {
 Ray ray_through(const Scene& scene, const SurfacePoint& end, const Vec3& p, double time) {
   if (!end.infinite()) {
     // the ray starts a little off the surface, but has to pass through p
-    const Vec3 start = scene.spawn(end, normalize(p - end.p), time).o;
-    return {start, normalize(p - start), time};
+    Ray ray = scene.spawn(end, normalize(p - end.p), time);
+    ray.d = normalize(p - ray.o);
+    return ray;
   }
   const Bounds& bounds = scene.bounds();
   const double back = dot(bounds.center - p, end.p) + bounds.radius;
-  return {p + back * end.p, -end.p, time};
+  return {p + back * end.p, -end.p, time, infinity, end.medium};
 }
 
 bool ManifoldWalk::start(const Scene& scene, const Vertex* first, int count) {

@@ -21,6 +21,7 @@ void for_each_member(V& x, Visit&& visit) {
   visit(at.primitive);
   visit(at.instance);
   visit(at.kind);
+  visit(at.medium);
   visit(at.extent);
 }
 

@@ -36,7 +36,7 @@ std::optional<Vec2> raster_position(const Scene& scene, const Path& path);
 inline bool is_specular(const Scene& scene, const Vertex& x, const Vec3& wl, const Vec3& wc,
                         double near_specular) {
   if (x.delta()) return true;
-  return x.kind == VertexKind::surface && BsdfAt(scene, x.at).smoother_than(near_specular, wl, wc);
+  return x.kind == VertexKind::inner && BsdfAt(scene, x.at).smoother_than(near_specular, wl, wc);
 }
 
 }  // namespace mlt

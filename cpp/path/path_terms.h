@@ -57,27 +57,28 @@ struct TermsAt : VertexDensities, Edge {
 };
 
 /// The light that goes straight along an edge, and the probabilities that a walk from either end
-/// does and stops at the other. A light walk goes through the lens, whatever lies behind it.
+/// does and stops at the other (in a medium, their densities per unit of length). A light walk goes
+/// through the lens, whatever lies before or behind it.
 struct EdgePassage {
   EdgePassage() = default;
   /// Of the edge from a to b, which is on the lens if `to_lens`.
   EdgePassage(const Scene& scene, const SurfacePoint& a, const SurfacePoint& b, const Passage& edge,
               bool to_lens)
-      : transmittance(edge.transmittance), from_camera(edge.probability) {
+      : transmittance(edge.transmittance) {
     const Vec3 w = direction(a, b);
-    from_camera *= scene.stop_probability(a, -w);
-    if (!to_lens) from_light = edge.probability * scene.stop_probability(b, w);
+    from_camera = scene.arrival(edge, a, -w);
+    if (!to_lens) from_light = scene.arrival(edge, b, w);
   }
 
   Color transmittance{1};
   double from_light = 1, from_camera = 1;
 };
 
-/// The terms include what surfaces let pass on the way to the next vertex: f_i the transmittance of
-/// edge i, a coefficient the probability of arriving at the next vertex.
+/// The terms include what surfaces and media let pass on the way to the next vertex: f_i the
+/// transmittance of edge i, a coefficient the probability of arriving at the next vertex.
 struct PathTerms {
   std::vector<TermsAt> at;  ///< i = 0 ... k.
-  /// Those of the edges from x_i to x_{i+1}; empty where no surface of the scene lets light pass.
+  /// Those of the edges from x_i to x_{i+1}; empty in scenes without passages.
   std::vector<EdgePassage> passages;
   bool light_can_be_hit = false, camera_can_be_hit = false;
   /// Density of x_0 in the technique s = 1, which may sample it for x_1.
@@ -112,7 +113,7 @@ void compute_terms(const Scene& scene, const Path& path, const TermSettings& set
 void update_terms(const Scene& scene, const Path& path, const TermSettings& settings, int first,
                   int last, PathTerms& terms);
 
-/// Heckbert's notation: L, then D or S for each surface vertex, then E. A smooth vertex counts as S
+/// Heckbert's notation: L, then D or S for each inner vertex, then E. A smooth vertex counts as S
 /// when its roughness between its two directions is below `near_specular`.
 std::string signature(const PathTerms& terms);
 std::string signature(const Scene& scene, const Path& path, double near_specular = 0);

@@ -90,7 +90,7 @@ Color direct_light(const Walker& walker, const SurfacePoint& at, const Vec3& wc,
   const SurfacePoint& x0 = chosen.x0.at;
   const Passage seen = walker.passage(at, x0);
   if (seen.is_blocked()) return Color(0);
-  const double arrives = seen.probability * scene.stop_probability(x0, direction(at, x0));
+  const double arrives = scene.arrival(seen, x0, direction(at, x0));
   const auto through = [&](double light, double bsdf) { return weight(light, bsdf * arrives); };
   return unshadowed_light(scene, chosen, at, wc, strict, through).radiance * seen.transmittance;
 }
@@ -118,7 +118,7 @@ inline std::optional<ScatterSample> scatter_to_light(const Walker& walker, const
   const bool refracted =
       lobe == Lobe::transmission || (lobe == Lobe::smooth && !same_side(local_l, local_c));
   const double eta2 = refracted ? sqr(bsdf.relative_eta(local_c)) : 1.0;
-  const double factor = lobe == Lobe::smooth ? abs_cos_theta(local_l) : eta2;
+  const double factor = lobe == Lobe::smooth ? bsdf.abs_cos(local_l) : eta2;
   return ScatterSample{w, s.f * (factor / s.pdf_from_camera), s.pdf_from_camera, lobe, eta2};
 }
 
@@ -173,20 +173,22 @@ struct CameraWalk {
   }
   void take(const Color& found, double share) { radiance += found * share; }
 
-  /// Goes along the ray up to the surface where it stops.
-  void pass(const Passage& leg) {
-    throughput *= leg.transmittance / leg.probability;
-    scatter_pdf *= leg.probability;
-    certainty *= leg.probability;
+  /// Goes along the ray up to where it stops, which had this probability or density.
+  void pass(const Passage& leg, double arrival) {
+    throughput = leg.is_blocked() ? Color(0) : throughput * (leg.transmittance / arrival);
+    scatter_pdf *= arrival;
+    certainty *= arrival;
   }
 };
 
-/// Follows the ray of a walk to the next vertex, on a surface; false if it leaves the scene.
+/// Follows the ray of a walk to the next vertex; false if it leaves the scene.
 template <class Sampler>
 bool arrive(const Walker& walker, Sampler& sampler, CameraWalk& walk, SurfacePoint& at) {
   Passage leg;
   const bool hit = walker.arrive(walk.ray, walker.draw_leg(sampler), at, leg);
-  if (walker.scene.has_passages()) walk.pass(leg);
+  if (!walker.scene.has_passages()) return hit;
+  const Vec3& w = walk.ray.d;
+  walk.pass(leg, walker.scene.arrival(leg, hit ? at : Scene::point_at_infinity(w), w));
   return hit;
 }
 

@@ -56,11 +56,10 @@ bool Subpath::trace(const Walker& walker, const PathRules& rules, const Ray& ray
 void Subpath::pass(const Scene& scene, const Passage& leg) {
   WalkVertex& x = last();
   const SurfacePoint& previous = vertices_[size() - 2].vertex.at;
-  const double stops = scene.stop_probability(x.vertex.at, -x.towards_previous);
-  x.throughput *= leg.transmittance / leg.probability;
-  x.forward *= leg.probability;
-  x.passes = leg.probability;
-  x.passes_back = leg.probability / stops * scene.stop_probability(previous, x.towards_previous);
+  x.passes = scene.arrival(leg, x.vertex.at, -x.towards_previous);
+  x.passes_back = scene.arrival(leg, previous, x.towards_previous);
+  x.throughput = leg.is_blocked() ? Color(0) : x.throughput * (leg.transmittance / x.passes);
+  x.forward *= x.passes;
 }
 
 void Subpath::prepare_joints(WalkVertex& x, bool strict_normals) {
@@ -84,7 +83,7 @@ bool Subpath::scatter(const Walker& walker, const PathRules& rules, const StepNu
       BsdfAt(walker.scene, x.vertex.at).sample(x.towards_previous, u.for_scattering());
   if (!sample) return false;
   const bool from_light = from_ == From::light;
-  const VertexTerms terms = surface_terms(
+  const VertexTerms terms = inner_terms(
       walker.scene, x.vertex.at, sample->lobe, from_light ? x.towards_previous : sample->w,
       from_light ? sample->w : x.towards_previous, rules.strict_normals);
   const double coefficient = from_light ? terms.pdf_from_light : terms.pdf_from_camera;

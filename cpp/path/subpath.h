@@ -91,7 +91,7 @@ class Subpath {
  private:
   /// Adds the vertex that the ray hits; false if the walk ends there or the ray hits none.
   bool trace(const Walker& walker, const PathRules& rules, const Ray& ray, double u_leg);
-  /// Takes what surfaces on the way to the last vertex let pass.
+  /// Takes what was passed on the way to the last vertex.
   void pass(const Scene& scene, const Passage& leg);
   /// Computes the terms for joints at a Lambertian vertex.
   void prepare_joints(WalkVertex& x, bool strict_normals);

@@ -5,15 +5,18 @@
 namespace mlt {
 namespace {
 
-/// Whether the light or surface of the vertex exists in the scene.
+/// Whether the light, surface or medium of the vertex exists in the scene.
 bool in_scene(const Scene& scene, const Vertex& x) {
+  if (x.at.medium != no_medium && x.at.medium >= scene.media().size()) return false;
+  if (x.at.in_medium())
+    return x.kind == VertexKind::inner && !x.delta() && x.at.medium != no_medium;
   const bool on_shape = x.at.shape != SurfacePoint::no_shape;
   if (on_shape) {
     if (x.at.shape >= scene.shapes().size()) return false;
     const Mesh* mesh = scene.shapes()[x.at.shape]->as_mesh();
     if (mesh && x.at.primitive >= mesh->data().triangles.size()) return false;
   }
-  if (x.kind != VertexKind::light) return on_shape == (x.kind == VertexKind::surface);
+  if (x.kind != VertexKind::light) return on_shape == (x.kind == VertexKind::inner);
   if (x.emitter >= scene.emitters().size()) return false;
   const Emitter* emitter = scene.emitters()[x.emitter].get();
   if (x.delta() != emitter->delta_direction()) return false;
@@ -28,7 +31,7 @@ bool is_valid_path(const Scene& scene, const Path& path) {
     const Vertex& x = path[i];
     const VertexKind expected = i == 0           ? VertexKind::light
                                 : i == count - 1 ? VertexKind::camera
-                                                 : VertexKind::surface;
+                                                 : VertexKind::inner;
     if (x.kind != expected || x.lobe > Lobe::transmission || x.at.kind > PointKind::infinite ||
         !in_scene(scene, x))
       return false;

@@ -6,11 +6,12 @@
 
 namespace mlt {
 
-enum class VertexKind : uint8_t { light, surface, camera };
+/// `inner` vertices scatter light, on a surface or in a medium.
+enum class VertexKind : uint8_t { light, inner, camera };
 
 /// A small value without pointers: it can be stored and read back in another process.
 struct Vertex {
-  VertexKind kind = VertexKind::surface;
+  VertexKind kind = VertexKind::inner;
   /// Lobe of its scattering: smooth, or one of the deltas. Lights that shine in one direction alone
   /// have `reflection`.
   Lobe lobe = Lobe::smooth;
@@ -23,9 +24,10 @@ struct Vertex {
 /// The factors that one vertex contributes to a path through `towards_light` and `towards_camera`.
 ///
 /// `f` is the scattering factor f_i of the measurement contribution (Veach 1997, eq. 8.7): emitted
-/// radiance at x_0, the BSDF in between, importance at x_k. The densities are coefficients in
-/// projected solid angle at this vertex, of having sampled the next vertex from the light or from
-/// the camera; times G they are densities in the measure of the next vertex.
+/// radiance at x_0, the BSDF in between, importance at x_k; in a medium sigma_s times the phase
+/// function. The densities are coefficients in projected solid angle at this vertex (in a medium, in
+/// solid angle), of having sampled the next vertex from the light or from the camera; times G they
+/// are densities in the measure of the next vertex.
 ///
 /// With a shading normal ns beside the geometric one ng, f = f_s |wl.ns| / |wl.ng| (Veach 1997,
 /// sec. 5.3.2), so the same f serves walks from both ends.
@@ -52,10 +54,10 @@ LensTerms lens_terms(const Scene& scene, const SurfacePoint& xk, const Vec3& wl)
 /// The terms of a surface vertex that scatters by a delta lobe.
 VertexTerms delta_terms(const Scene& scene, const SurfacePoint& at, Lobe lobe, const Vec3& wl,
                         const Vec3& wc);
-/// The terms of a surface vertex that scatters by `lobe`.
-inline VertexTerms surface_terms(const Scene& scene, const SurfacePoint& at, Lobe lobe,
-                                 const Vec3& wl, const Vec3& wc, bool strict_normals) {
-  const double geometric_l = std::abs(dot(at.ng, wl)), geometric_c = std::abs(dot(at.ng, wc));
+/// The terms of an inner vertex that scatters by `lobe`.
+inline VertexTerms inner_terms(const Scene& scene, const SurfacePoint& at, Lobe lobe,
+                               const Vec3& wl, const Vec3& wc, bool strict_normals) {
+  const double geometric_l = abs_cos(at, wl), geometric_c = abs_cos(at, wc);
   if (geometric_l == 0 || geometric_c == 0) return {};
   if (!(consistent_sides(at, wl, strict_normals) && consistent_sides(at, wc, strict_normals)))
     return {};
@@ -87,16 +89,16 @@ LambertianEdge<F> lambertian_edge(const Vec3Of<F>& ng, const Vec3Of<F>& ns, cons
 /// one on its camera side.
 inline VertexTerms vertex_terms(const Scene& scene, const Vertex& x, const Vec3& wl, const Vec3& wc,
                                 bool strict_normals) {
-  if (x.kind != VertexKind::surface) return end_terms(scene, x, wl, wc);
-  return surface_terms(scene, x.at, x.lobe, wl, wc, strict_normals);
+  if (x.kind != VertexKind::inner) return end_terms(scene, x, wl, wc);
+  return inner_terms(scene, x.at, x.lobe, wl, wc, strict_normals);
 }
 /// Terms of a vertex at which a path is joined, whatever its lobe: it scatters smoothly there, if
 /// it can.
 inline VertexTerms joint_terms(const Scene& scene, const Vertex& x, const Vec3& wl, const Vec3& wc,
                                bool strict_normals) {
   if (x.kind == VertexKind::light && x.delta()) return {};
-  if (x.kind != VertexKind::surface) return end_terms(scene, x, wl, wc);
-  return surface_terms(scene, x.at, Lobe::smooth, wl, wc, strict_normals);
+  if (x.kind != VertexKind::inner) return end_terms(scene, x, wl, wc);
+  return inner_terms(scene, x.at, Lobe::smooth, wl, wc, strict_normals);
 }
 
 /// Density with which a light walk starts at x_0, the choice of the light included.
@@ -119,8 +121,8 @@ inline Vertex light_vertex(const Emitter& emitter, const SurfacePoint& at) {
 inline Vertex camera_vertex(const SurfacePoint& at) {
   return {VertexKind::camera, Lobe::smooth, 0, at};
 }
-inline Vertex surface_vertex(const SurfacePoint& at, Lobe lobe = Lobe::smooth) {
-  return {VertexKind::surface, lobe, 0, at};
+inline Vertex inner_vertex(const SurfacePoint& at, Lobe lobe = Lobe::smooth) {
+  return {VertexKind::inner, lobe, 0, at};
 }
 
 }  // namespace mlt

@@ -5,7 +5,7 @@ namespace mlt {
 Departure Walker::leave_light(const Vertex& x0, const Vec2& u) const {
   const RaySample sample = scene.emitters()[x0.emitter]->sample_ray(x0.at, u);
   if (!(sample.pdf > 0)) return {{}, 0};
-  return {x0.at.infinite() ? Ray{sample.origin, sample.direction, time}
+  return {x0.at.infinite() ? Ray{sample.origin, sample.direction, time, infinity, x0.at.medium}
                            : leave(x0.at, sample.direction),
           sample.pdf};
 }
@@ -22,18 +22,23 @@ bool Walker::arrive(const Ray& ray, double u_leg, Vertex& next) const {
   return arrive(ray, u_leg, next.at);
 }
 
-bool Walker::go_on(Ray ray, double u_leg, SurfacePoint& at, Passage& leg) const {
+bool Walker::go_on(Ray ray, double u_leg, bool hit, SurfacePoint& at, Passage& leg) const {
   for (;;) {
-    const Passage here = scene.passage(at, ray.d);
-    if (!(u_leg < here.probability)) {
-      leg.probability *= 1 - here.probability;
-      return true;
+    if (ray.medium != no_medium) {
+      const double distance = hit ? dot(at.p - ray.o, ray.d) : infinity;
+      if (const auto stop = fly(scene.media()[ray.medium], ray, distance, u_leg, leg)) {
+        at = Scene::medium_point(ray, *stop);
+        return true;
+      }
     }
+    if (!hit) return false;
+    const Passage here = scene.passage(at, ray.d);
+    if (!(u_leg < here.probability)) return true;
     u_leg /= here.probability;
     leg *= here;
     ray = scene.beyond(ray, at);
     rays.count_intersect();
-    if (!scene.intersect(ray, at)) return false;
+    hit = scene.intersect(ray, at);
   }
 }
 

@@ -22,6 +22,7 @@ inline LightSample sample_light_position(const Scene& scene, Vec3 u, double time
   const EmitterChoice choice = scene.choose_emitter(u.x);
   LightSample light{choice.emitter, choice.emitter->sample_position({u.y, u.z}, time)};
   light.x0.pdf *= choice.probability;
+  light.x0.at.medium = choice.emitter->surroundings();
   return light;
 }
 /// Samples a position on a light for next-event estimation at the point `from`, at its time.
@@ -29,6 +30,7 @@ inline LightSample sample_direct_position(const Scene& scene, const SurfacePoint
   const EmitterChoice choice = scene.choose_emitter(u.x);
   LightSample light{choice.emitter, choice.emitter->sample_direct(from.p, {u.y, u.z}, from.time)};
   light.x0.pdf *= choice.probability;
+  light.x0.at.medium = choice.emitter->surroundings();
   return light;
 }
 
@@ -41,7 +43,7 @@ struct Departure {
 /// The ray from a point on the lens, at its time, through a raster position.
 inline Ray leave_lens(const Camera& camera, const SurfacePoint& xk, const Vec2& raster) {
   const Vec3 w = camera.direction(xk, raster);
-  return {camera.entrance(xk, w), w, xk.time};
+  return {camera.entrance(xk, w), w, xk.time, infinity, camera.surroundings()};
 }
 
 struct LensDeparture {
@@ -65,28 +67,28 @@ struct Walker {
 
   Departure leave_light(const Vertex& x0, const Vec2& u) const;
 
-  /// The ray from a surface along w.
+  /// The ray from a vertex along w.
   Ray leave(const SurfacePoint& at, const Vec3& w) const { return scene.spawn(at, w, time); }
 
   /// Samples a direction (BsdfAt::sample) and returns the scattered ray; x records the lobe.
   std::optional<Ray> scatter(Vertex& x, const Vec3& towards_previous, const Vec3& u) const;
 
-  /// The number of a leg, a ray up to the next vertex, which decides where surfaces are passed.
+  /// The number of a leg, a ray up to the next vertex, which decides what is passed on the way.
   template <class Sampler>
   double draw_leg(Sampler& sampler) const {
     return scene.has_passages() ? sampler.next() : 0;
   }
-  /// Follows a leg to the surface where it stops; false if it leaves the scene. With u_leg = 0 all
-  /// surfaces are passed through which light goes.
+  /// Follows a leg to where it stops, on a surface or in a medium; false if it leaves the scene.
+  /// With u_leg = 0 all is passed through which light goes.
   bool arrive(const Ray& ray, double u_leg, SurfacePoint& at) const {
     Passage leg;
     return arrive(ray, u_leg, at, leg);
   }
-  /// As above, with the light that has passed, and the probability of that and of stopping there.
+  /// As above, with what has been passed.
   bool arrive(const Ray& ray, double u_leg, SurfacePoint& at, Passage& leg) const {
     rays.count_intersect();
     const bool hit = scene.intersect(ray, at);
-    return hit && scene.has_passages() ? go_on(ray, u_leg, at, leg) : hit;
+    return scene.has_passages() ? go_on(ray, u_leg, hit, at, leg) : hit;
   }
   bool arrive(const Ray& ray, double u_leg, Vertex& next) const;
 
@@ -118,8 +120,8 @@ struct Walker {
   }
 
  private:
-  /// Follows a leg on from the surface that was hit first.
-  bool go_on(Ray ray, double u_leg, SurfacePoint& at, Passage& leg) const;
+  /// Follows a leg on, knowing whether it has hit a surface, and the first that it has.
+  bool go_on(Ray ray, double u_leg, bool hit, SurfacePoint& at, Passage& leg) const;
 };
 
 }  // namespace mlt

@@ -96,12 +96,14 @@ class PathInverter {
     return true;
   }
 
-  /// The numbers of a leg that stops at `to` are those from A P to A, if it passes all surfaces
-  /// before with the probability A and that of `to` with P.
+  /// The numbers of a leg that stops at `to` are those from A P to A, if it passes all before with
+  /// the probability A, and the surface of `to` with P; in a medium it is A.
   void invert_leg(Stream stream, int from, int to) {
     if (!scene_.has_passages()) return;
-    const double before = scene_.passage(at(from), at(to), path_.time).probability;
-    const double stops = scene_.stop_probability(at(to), direction(from, to));
+    const Passage edge = scene_.passage(at(from), at(to), path_.time);
+    const double before = edge.probability * mean(edge.flight);
+    const double stops =
+        at(to).in_medium() ? 0 : scene_.stop_probability(at(to), direction(from, to));
     write(stream, before * (1 - stops + stops * any_.next()));
   }
 

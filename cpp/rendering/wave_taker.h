@@ -1,4 +1,5 @@
-// Samples of path tracing, traced side by side; alone where they meet a surface that light passes.
+// Samples of path tracing, traced side by side; alone where they meet a surface that light passes,
+// and in scenes with media.
 #pragma once
 
 #include "path/inspect.h"
@@ -14,6 +15,7 @@ class WaveTaker : public SampleTaker {
 
   void sample_cells(const PixelRect& cells, const CellStreams& streams, SampleSink& sink,
                     RayCounts& rays) override {
+    if (!scene_->media().empty()) return SampleTaker::sample_cells(cells, streams, sink, rays);
     for_each_packet_cell(cells, [&](const Vec2i& cell) {
       wave_.numbers().add(streams.stream(cell.x, cell.y), streams.index);
       rasters_.emplace_back(cell);

@@ -1,5 +1,5 @@
-// What scatters light at a point of a surface: the Lambertian that it is there, or its plug-in.
-// Directions are unit vectors in the world, unless they are called local.
+// What scatters light at a point: on a surface the Lambertian that it is there, or its plug-in; in a
+// medium its phase function. Directions are unit vectors in the world, unless they are called local.
 #pragma once
 
 #include "scene/scene.h"
@@ -31,6 +31,7 @@ class BsdfAt {
 
   WorldScattering scattering(const Vec3& wl, const Vec3& wc, Lobe lobe) const {
     const Frame& shading = at_->shading;
+    if (at_->in_medium()) return {in_medium(wl, wc, lobe), 1, 1};
     if (lambertian().known()) {
       const double cos_l = dot(wl, shading.n), cos_c = dot(wc, shading.n);
       return {lambertian().scattering(cos_l, cos_c, lobe), cos_l, cos_c};
@@ -45,9 +46,12 @@ class BsdfAt {
   }
   /// The scattering between two local directions.
   Scattering local_scattering(const Vec3& wl, const Vec3& wc, Lobe lobe) const {
+    if (at_->in_medium()) return in_medium(wl, wc, lobe);
     return lambertian().known() ? lambertian().scattering(wl.z, wc.z, lobe)
                                 : plugin().scattering(*at_, wl, wc, lobe);
   }
+  /// |cos| of a local direction; 1 in a medium.
+  double abs_cos(const Vec3& w) const { return at_->in_medium() ? 1 : abs_cos_theta(w); }
 
   /// Samples a direction: u.x chooses the lobe, (u.y, u.z) the direction; nullopt if there is none.
   std::optional<ScatteredDirection> sample(const Vec3& from, const Vec3& u) const {
@@ -75,6 +79,12 @@ class BsdfAt {
   double relative_eta(const Vec3& w) const { return plugin().relative_eta(*at_, w); }
 
  private:
+  /// sigma_s times the phase function.
+  Scattering in_medium(const Vec3& wl, const Vec3& wc, Lobe lobe) const {
+    Scattering s = plugin().scattering(*at_, wl, wc, lobe);
+    s.f *= scene_->medium(*at_).at(at_->p).scattering;
+    return s;
+  }
   const Lambertian& lambertian() const { return at_->lambertian; }
   const Bsdf& plugin() const { return scene_->bsdf(*at_); }
 

@@ -63,7 +63,7 @@ class Camera : public Object {
   virtual Ray ray(const Vec2& raster, const Vec2& u_lens, double time) const {
     const SurfacePoint xk = sample_position(u_lens, time).at;
     const Vec3 w = direction(xk, raster);
-    return {entrance(xk, w), w, time};
+    return {entrance(xk, w), w, time, infinity, surroundings()};
   }
   /// Projects a direction to the image; nullopt behind the camera or outside the sampled domain.
   virtual std::optional<Projection> project(const SurfacePoint& xk, const Vec3& w) const = 0;
@@ -97,6 +97,13 @@ class Camera : public Object {
   double time(double u) const { return shutter_.open + u * (shutter_.close - shutter_.open); }
   const Shutter& shutter() const { return shutter_; }
 
+  /// The medium that the scene file puts the lens into, or nullptr.
+  const MediumPtr& medium() const { return medium_; }
+  void set_medium(MediumPtr medium) { medium_ = std::move(medium); }
+  /// The place of the medium around the lens, in Media.
+  MediumIndex surroundings() const { return surroundings_; }
+  void set_surroundings(MediumIndex medium) { surroundings_ = medium; }
+
   /// Sets the raster of the film; called once by the scene builder.
   virtual void set_raster(const Raster& raster) { raster_ = raster; }
   /// Sets the size of the scene; called once before rendering.
@@ -105,6 +112,10 @@ class Camera : public Object {
  protected:
   Raster raster_;
   Shutter shutter_;
+
+ private:
+  MediumPtr medium_;
+  MediumIndex surroundings_ = no_medium;
 };
 
 using CameraPtr = std::shared_ptr<Camera>;

@@ -10,7 +10,9 @@
 
 namespace mlt {
 
+class Medium;
 class Shape;
+using MediumPtr = std::shared_ptr<const Medium>;
 
 struct PositionSample {
   SurfacePoint at;
@@ -97,6 +99,13 @@ class Emitter : public Object {
   double sampling_weight() const { return sampling_weight_; }
   void set_sampling_weight(double weight) { sampling_weight_ = weight; }
 
+  /// The medium that the scene file puts the light into, or nullptr.
+  const MediumPtr& medium() const { return medium_; }
+  void set_medium(MediumPtr medium) { medium_ = std::move(medium); }
+  /// The place of the medium around the light, in Media.
+  MediumIndex surroundings() const { return surroundings_; }
+  void set_surroundings(MediumIndex medium) { surroundings_ = medium; }
+
   /// Index in Scene::emitters().
   uint32_t index() const { return index_; }
   void set_index(uint32_t index) { index_ = index; }
@@ -104,6 +113,8 @@ class Emitter : public Object {
  private:
   uint32_t index_ = 0;
   double sampling_weight_ = 1;
+  MediumPtr medium_;
+  MediumIndex surroundings_ = no_medium;
 };
 
 using EmitterPtr = std::shared_ptr<Emitter>;

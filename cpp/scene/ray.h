@@ -6,11 +6,16 @@
 
 namespace mlt {
 
+/// The place of a medium in Media; `no_medium` is empty space.
+using MediumIndex = uint16_t;
+inline constexpr MediumIndex no_medium = 0xffff;
+
 struct Ray {
   Vec3 o;
   Vec3 d;  ///< Unit length.
   double time = 0;
   double t_max = infinity;
+  MediumIndex medium = no_medium;  ///< In which it starts.
 };
 
 /// The times when the shutter opens and closes.

@@ -104,6 +104,9 @@ Scene::Scene(std::vector<ShapePtr> shapes, std::vector<EmitterPtr> emitters, Cam
   const std::vector<ShapePtr> grouped = grouped_shapes(shapes_);
   shapes_.insert(shapes_.end(), grouped.begin(), grouped.end());
   for (size_t i = 0; i < shapes_.size(); ++i) shapes_[i]->set_index(static_cast<uint32_t>(i));
+  media_.add(shapes_);
+  find_surroundings();
+  has_passages_ = !media_.empty();
   for (const ShapePtr& shape : shapes_) {
     lambertian_meshes_.push_back(mlt::lambertian_mesh(*shape));
     has_passages_ = has_passages_ || (!shape->as_instance() && shape->bsdf().has_passage());
@@ -124,6 +127,7 @@ inline void Scene::arrive(const Ray& ray, const Hit& hit, SurfacePoint& at) cons
   at.instance = SurfacePoint::no_shape;
   shapes_[hit.shape]->surface_point(ray, hit, at);
   at.time = ray.time;
+  at.medium = ray.medium;
   at.lambertian = bsdf(at).lambertian(at);
 }
 
@@ -139,7 +143,7 @@ inline Vec3 Scene::departure(const SurfacePoint& at, const Vec3& w) const {
 }
 
 Ray Scene::spawn(const SurfacePoint& from, const Vec3& w, double time) const {
-  return {departure(from, w), w, time};
+  return {departure(from, w), w, time, infinity, medium_towards(from, w)};
 }
 
 inline bool Scene::find_segment(const SurfacePoint& a, const SurfacePoint& b, double time,
@@ -153,7 +157,8 @@ inline bool Scene::find_segment(const SurfacePoint& a, const SurfacePoint& b, do
   const bool has_end = a.shape == SurfacePoint::no_shape || b.shape == SurfacePoint::no_shape;
   if (has_end && !(dot(between, ab) > 0)) return false;  // behind the camera
   const double distance = length(between);
-  ray = {start, between * (1 / distance), time, distance * (1 - ray_offset)};
+  ray = {start, between * (1 / distance), time, distance * (1 - ray_offset),
+         medium_towards(a, between)};
   return true;
 }
 
@@ -174,7 +179,8 @@ Ray Scene::beyond(const Ray& ray, const SurfacePoint& at) const {
   const double cosine = abs_cos(at, ray.d);
   const Vec3 start =
       cosine > grazing ? at.p + ray.d * (ray_offset * at.extent / cosine) : departure(at, ray.d);
-  return {start, ray.d, ray.time, ray.t_max - dot(start - ray.o, ray.d)};
+  return {start, ray.d, ray.time, ray.t_max - dot(start - ray.o, ray.d),
+          media_.empty() ? no_medium : media_.beside(at, ray.d)};
 }
 
 Passage Scene::passage(const SurfacePoint& at, const Vec3& w) const {
@@ -192,13 +198,58 @@ Passage Scene::passage(const SurfacePoint& a, const SurfacePoint& b, double time
   const Occlusion found = accel_->occluded(ray);
   if (found.blocked) return Passage::blocked();
   Passage all;
-  if (!found.passed) return all;
   SurfacePoint at;
-  while (!all.is_blocked() && ray.t_max > 0 && intersect(ray, at)) {
+  while (found.passed && !all.is_blocked() && ray.t_max > 0 && intersect(ray, at)) {
+    if (ray.medium != no_medium) fly(media_[ray.medium], ray, dot(at.p - ray.o, ray.d), all);
     all *= passage(at, ray.d);
     ray = beyond(ray, at);
   }
+  if (ray.medium != no_medium && ray.t_max > 0) fly(media_[ray.medium], ray, ray.t_max, all);
   return all;
+}
+
+SurfacePoint Scene::medium_point(const Ray& ray, double distance) {
+  SurfacePoint at;
+  at.p = ray.o + distance * ray.d;
+  at.ng = {0, 0, 1};
+  at.shading = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  at.kind = PointKind::medium;
+  at.medium = ray.medium;
+  at.time = ray.time;
+  return at;
+}
+
+MediumIndex Scene::medium_around(const SurfacePoint& at, const Vec3& w,
+                                 MediumIndex outside) const {
+  Ray ray = spawn(at, w, at.time);
+  SurfacePoint hit;
+  while (intersect(ray, hit)) {
+    if (media_.is_boundary(hit.shape)) return media_.beside(hit, -w);
+    ray = beyond(ray, hit);
+  }
+  return outside;
+}
+
+void Scene::find_surroundings() {
+  for (const EmitterPtr& light : emitters_) media_.add(light->medium());
+  const MediumIndex declared = media_.add(camera_->medium());
+  if (media_.empty()) return;
+  const double time = camera_->time(0.5);
+  const Vec2 middle(0.5);
+  const SurfacePoint lens = camera_->sample_position(middle, time).at;
+  const MediumIndex at_lens = medium_around(lens, lens.ng, declared);
+  camera_->set_surroundings(camera_->medium() ? declared : at_lens);
+  // A medium without a boundary, in which the lens is, is everywhere.
+  const MediumIndex outside = medium_around(lens, lens.ng, no_medium) == at_lens ? no_medium : declared;
+  for (const EmitterPtr& light : emitters_) {
+    if (light->infinite()) {
+      light->set_surroundings(outside);
+      continue;
+    }
+    const SurfacePoint at = light->sample_position(middle, time).at;
+    light->set_surroundings(light->medium() ? media_.add(light->medium())
+                                            : medium_around(at, at.ng, outside));
+  }
 }
 
 SurfacePoint Scene::point_at_infinity(const Vec3& w) { return InfiniteEmitter::point_towards(w); }

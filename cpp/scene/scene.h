@@ -6,6 +6,7 @@
 #include "scene/camera.h"
 #include "scene/emitter.h"
 #include "scene/film_settings.h"
+#include "scene/media.h"
 #include "scene/shape.h"
 
 #include <atomic>
@@ -54,9 +55,19 @@ class Scene {
   const Bounds& bounds() const { return bounds_; }
   int64_t sample_count() const { return sample_count_; }  ///< That of the scene file, or 0.
 
-  const Bsdf& bsdf(const SurfacePoint& at) const { return shapes_[at.shape]->bsdf(); }
-  /// The light that the surface point belongs to, or nullptr.
-  const Emitter* emitter(const SurfacePoint& at) const { return shapes_[at.shape]->emitter(); }
+  /// What scatters light at a point: the material of its surface, or the phase function.
+  const Bsdf& bsdf(const SurfacePoint& at) const {
+    return at.in_medium() ? media_[at.medium].phase() : shapes_[at.shape]->bsdf();
+  }
+  /// The light that the point belongs to, or nullptr.
+  const Emitter* emitter(const SurfacePoint& at) const {
+    return at.in_medium() ? nullptr : shapes_[at.shape]->emitter();
+  }
+  const Media& media() const { return media_; }
+  /// The medium of a point in one.
+  const Medium& medium(const SurfacePoint& at) const { return media_[at.medium]; }
+  /// The point at a distance along a ray, in the medium that the ray is in.
+  static SurfacePoint medium_point(const Ray& ray, double distance);
 
   const Accel& accel() const { return *accel_; }
   const std::shared_ptr<const Accel>& accel_ptr() const { return accel_; }
@@ -67,18 +78,27 @@ class Scene {
   /// Whether two points (at most one of them infinite) are mutually visible. All surfaces block.
   bool visible(const SurfacePoint& a, const SurfacePoint& b, double time) const;
 
-  /// Whether light goes straight through any surface.
+  /// Whether light goes straight through any surface, or there is any medium.
   bool has_passages() const { return has_passages_; }
   /// The light along w that goes straight through the surface. Walks stop at every second surface
   /// that emits, to find its light, even if nothing is scattered there.
   Passage passage(const SurfacePoint& at, const Vec3& w) const;
-  /// The rest of a ray, along the same line, beyond a surface that it passes.
+  /// The rest of a ray, along the same line, beyond a surface that it passes; its distances count
+  /// from there.
   Ray beyond(const Ray& ray, const SurfacePoint& at) const;
-  /// The light that goes straight from a to b, through all surfaces between them.
+  /// The light that goes straight from a to b, through all surfaces and media between them.
   Passage passage(const SurfacePoint& a, const SurfacePoint& b, double time) const;
-  /// The probability that a walk along w stops at this point, and does not go through it.
+  /// The probability that a walk along w, which leads to this point on a surface or at infinity,
+  /// stops there and does not go through it.
   double stop_probability(const SurfacePoint& at, const Vec3& w) const {
     return at.shape == SurfacePoint::no_shape ? 1 : 1 - passage(at, w).probability;
+  }
+  /// The probability that a walk goes along an edge and stops at its end, where w points; in a
+  /// medium, its density per unit of length.
+  double arrival(const Passage& edge, const SurfacePoint& end, const Vec3& w) const {
+    if (end.in_medium())
+      return edge.probability * mean(edge.flight * medium(end).at(end.p).extinction);
+    return edge.probability * mean(edge.flight) * stop_probability(end, w);
   }
 
   /// The shadow ray between two points; nullopt if they cannot be mutually visible.
@@ -113,6 +133,16 @@ class Scene {
  private:
   void arrive(const Ray& ray, const Hit& hit, SurfacePoint& at) const;
   bool find_segment(const SurfacePoint& a, const SurfacePoint& b, double time, Ray& ray) const;
+  /// The medium in which a ray from the point along w starts.
+  MediumIndex medium_towards(const SurfacePoint& at, const Vec3& w) const {
+    if (media_.empty()) return no_medium;
+    if (at.shape != SurfacePoint::no_shape) return media_.beside(at, w);
+    return at.kind == PointKind::surface ? camera_->surroundings() : at.medium;
+  }
+  /// Finds the media around lights and the lens.
+  void find_surroundings();
+  /// The medium around a point: that on the near side of the first boundary along w.
+  MediumIndex medium_around(const SurfacePoint& at, const Vec3& w, MediumIndex outside) const;
   /// The origin of a ray from the point along w (of any length), moved off its surface.
   Vec3 departure(const SurfacePoint& at, const Vec3& w) const;
 
@@ -125,6 +155,7 @@ class Scene {
   std::shared_ptr<const Accel> accel_;
   std::vector<uint32_t> infinite_, backgrounds_;
   bool has_passages_ = false;
+  Media media_;
   Discrete emitter_choice_;
   std::vector<MeshLight> mesh_lights_;             ///< One for each emitter.
   std::vector<LambertianMesh> lambertian_meshes_;  ///< One for each shape.

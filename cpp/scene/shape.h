@@ -55,6 +55,13 @@ class Shape : public Object {
   virtual const AnalyticShape* as_analytic() const { return nullptr; }
   virtual const Instance* as_instance() const { return nullptr; }
 
+  /// The media that the shape bounds; a shape with neither is in one.
+  struct BoundedMedia {
+    MediumPtr interior, exterior;
+  };
+  const BoundedMedia& media() const { return media_; }
+  void set_media(BoundedMedia media) { media_ = std::move(media); }
+
   const Bsdf& bsdf() const { return *bsdf_; }
   const BsdfPtr& bsdf_ptr() const { return bsdf_; }
   const Emitter* emitter() const { return emitter_.get(); }
@@ -70,6 +77,7 @@ class Shape : public Object {
  protected:
   BsdfPtr bsdf_;
   EmitterPtr emitter_;
+  BoundedMedia media_;
   uint32_t index_ = SurfacePoint::no_shape;
 
  private:

@@ -3,6 +3,7 @@
 
 #include "math/frame.h"
 #include "scene/lambertian.h"
+#include "scene/ray.h"
 
 #include <cstdint>
 
@@ -12,6 +13,7 @@ namespace mlt {
 enum class PointKind : uint8_t {
   surface,   ///< On a surface (or a lens): the measure is area, the cosine is against `ng`.
   isolated,  ///< A point without a surface (a point light): there is no cosine, it counts as 1.
+  medium,    ///< In a medium: the measure is volume; again there is no cosine.
   infinite   ///< At infinity: `p` is the unit direction towards it, the measure is solid angle.
 };
 
@@ -24,6 +26,9 @@ struct SurfacePoint {
   uint32_t primitive = 0;     ///< Triangle of a mesh.
   uint32_t instance = no_shape;  ///< Index of the Instance of the shape, if any.
   PointKind kind = PointKind::surface;
+  /// The medium that it is in. At a surface: the one that it was hit or is lit through, which is
+  /// that of both sides unless the surface is a boundary (Media).
+  MediumIndex medium = no_medium;
   double time = 0;  ///< Time, on moving shapes.
   /// Largest coordinate of the primitive: the scale of float rounding in the accelerator.
   double extent = 0;
@@ -31,6 +36,7 @@ struct SurfacePoint {
 
   static constexpr uint32_t no_shape = ~0u;
   bool infinite() const { return kind == PointKind::infinite; }
+  bool in_medium() const { return kind == PointKind::medium; }
 };
 
 // Formulas of single paths, in double precision, and of waves, in single precision:

@@ -58,7 +58,8 @@ class ProjectiveCamera : public Camera {
   Ray ray(const Vec2& raster, const Vec2& u_lens, double time) const override {
     if (lens_.radius > 0 || motion_.moves()) return Camera::ray(raster, u_lens, time);
     const Vec2 plane = (raster - to_raster_offset_) * from_raster_scale_;
-    return {pose_.position, pose_.axes.to_world(normalize(Vec3(plane, 1))), time};
+    return {pose_.position, pose_.axes.to_world(normalize(Vec3(plane, 1))), time, infinity,
+            surroundings()};
   }
   std::optional<Projection> project(const SurfacePoint& xk, const Vec3& w) const override;
   bool delta_position() const override { return lens_.radius == 0; }

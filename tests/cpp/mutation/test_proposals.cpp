@@ -90,7 +90,7 @@ TEST(Proposals, BidirectionalMutationInsertsOneVertexBetweenTwo) {
   };
   const auto pdf = [&](const Vec3& w) {
     const auto at = p.trace(from, from.shading.to_world(w));
-    return at ? per_direction(from, *at, p.density({surface_vertex(*at)})) : 0.0;
+    return at ? per_direction(from, *at, p.density({inner_vertex(*at)})) : 0.0;
   };
   const ChiSquareResult result = chi_square_sphere(sample, pdf, proposals, 1);
   EXPECT_GT(result.p_value, alpha) << result;
@@ -108,7 +108,7 @@ TEST(Proposals, BidirectionalMutationInsertsTheVertexThatIsSeen) {
   };
   const auto pdf = [&](const Vec2& raster) {
     const auto at = p.trace(lens, p.scene().camera().direction(lens, raster));
-    const double density = at ? p.density({surface_vertex(*at)}) : 0.0;
+    const double density = at ? p.density({inner_vertex(*at)}) : 0.0;
     return density > 0 ? per_pixel(p.y, chain, density) : 0;
   };
   const ChiSquareResult result = chi_square_rect(sample, pdf, {0, 0}, {16, 12}, proposals, 2);
@@ -178,7 +178,7 @@ TEST(Proposals, LensPerturbationMovesTheImagePosition) {
     const double r = std::exp(polar.x);
     const Vec2 raster = p.x.raster + r * Vec2(std::cos(polar.y), std::sin(polar.y));
     const auto at = p.trace(p.x[2].at, p.scene().camera().direction(p.x[2].at, raster));
-    const double density = at ? p.density({surface_vertex(*at), p.x[2]}) : 0.0;
+    const double density = at ? p.density({inner_vertex(*at), p.x[2]}) : 0.0;
     return density > 0 ? per_pixel(p.y, chain, density) * r * r : 0;
   };
   const ChiSquareResult result =
@@ -237,7 +237,7 @@ void expect_caustic_follows_density(const std::string& scene, const std::string&
     const Vec3 w = frame.to_world({std::sin(theta) * std::cos(polar.y),
                                    std::sin(theta) * std::sin(polar.y), std::cos(theta)});
     const auto at = p.trace(from, w);
-    return at ? per_direction(from, *at, p.density({surface_vertex(*at)})) * std::sin(theta) * theta
+    return at ? per_direction(from, *at, p.density({inner_vertex(*at)})) * std::sin(theta) * theta
               : 0.0;
   };
   const ChiSquareResult result =
@@ -273,7 +273,7 @@ TEST(Proposals, CausticPerturbationMovesARayFromInfinity) {
         p.x[1].at.p + r * (std::cos(polar.y) * frame.s + std::sin(polar.y) * frame.t);
     SurfacePoint at;
     if (!p.scene().intersect({through + 100.0 * sun, -sun, 0}, at)) return 0.0;
-    return p.density({surface_vertex(at)}) / abs_cos(at, sun) * r * r;
+    return p.density({inner_vertex(at)}) / abs_cos(at, sun) * r * r;
   };
   const ChiSquareResult result =
       chi_square_rect(sample, pdf, {std::log(1e-6), -pi}, {std::log(10.0), pi}, proposals, 10);
@@ -294,7 +294,7 @@ void expect_lens_subpath_follows_density(const std::string& scene, const std::st
   };
   const auto pdf = [&](const Vec2& raster) {
     const auto at = p.trace(lens, p.scene().camera().direction(lens, raster));
-    const double density = at ? p.density({surface_vertex(*at), p.x[k]}) : 0.0;
+    const double density = at ? p.density({inner_vertex(*at), p.x[k]}) : 0.0;
     return density > 0 ? per_pixel(p.y, chain, density) : 0;
   };
   const ChiSquareResult result = chi_square_rect(sample, pdf, {0, 0}, {16, 12}, proposals, seed);

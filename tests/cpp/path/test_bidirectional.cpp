@@ -91,7 +91,7 @@ TEST_P(PathsOf, AreAssembledAsTheyWereFound) {
     ASSERT_LE(k, settings.rules.max_depth) << name;
     ASSERT_EQ(path[0].kind, VertexKind::light) << name;
     ASSERT_EQ(path[k].kind, VertexKind::camera) << name;
-    for (int i = 1; i < k; ++i) ASSERT_EQ(path[i].kind, VertexKind::surface) << name;
+    for (int i = 1; i < k; ++i) ASSERT_EQ(path[i].kind, VertexKind::inner) << name;
     ASSERT_TRUE(is_finite(c.contribution) && min_component(c.contribution) >= 0) << name;
     ASSERT_FALSE(is_black(c.contribution)) << name;
     ASSERT_TRUE(c.weight > 0 && c.weight <= 1) << name << " has weight " << c.weight;
@@ -302,7 +302,7 @@ TEST(TestScenes, TogetherHaveEveryKindOfTechniqueAndVertex) {
                     for (const Vertex& x : path.vertices) {
                       if (x.lobe == Lobe::reflection) seen.insert("reflection");
                       if (x.lobe == Lobe::transmission) seen.insert("transmission");
-                      if (x.kind == VertexKind::surface && dot(x.at.ng, x.at.shading.n) < 0.99)
+                      if (x.kind == VertexKind::inner && dot(x.at.ng, x.at.shading.n) < 0.99)
                         seen.insert("shading normal");
                     }
                   });

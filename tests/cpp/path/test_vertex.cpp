@@ -19,7 +19,7 @@ TEST(VertexTerms, HaveTheCosinesOfTheLightSide) {
   ASSERT_TRUE(scene->intersect({{0.1, 0.2, 2}, {0, 0, -1}, 0}, at));
   at.shading = Frame::around(normalize(Vec3(0.3, -0.1, 1)));
   const Vec3 wl = normalize(Vec3(0.8, 0.1, 1)), wc = normalize(Vec3(-0.2, -0.4, 1));
-  const VertexTerms terms = surface_terms(*scene, at, Lobe::smooth, wl, wc, false);
+  const VertexTerms terms = inner_terms(*scene, at, Lobe::smooth, wl, wc, false);
   const Scattering s = scene->bsdf(at).scattering(at, at.shading.to_local(wl),
                                                   at.shading.to_local(wc), Lobe::smooth);
   const auto quotient = [&](const Vec3& w) { return dot(w, at.shading.n) / dot(w, at.ng); };

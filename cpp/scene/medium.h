@@ -1,0 +1,51 @@
+// What fills the space between surfaces: fog, milk, smoke. Light is absorbed and scattered there
+// (Chandrasekhar 1960, "Radiative transfer"; Pharr et al., PBRT 3rd ed., sec. 11.1).
+#pragma once
+
+#include "base/object.h"
+#include "math/color.h"
+#include "scene/bsdf.h"
+#include "scene/passage.h"
+#include "scene/ray.h"
+
+#include <optional>
+
+namespace mlt {
+
+/// Per unit of length.
+struct MediumCoefficients {
+  Color extinction{0};  ///< sigma_t: of the light along a ray, what is absorbed or scattered.
+  Color scattering{0};  ///< sigma_s: the part of it that is scattered.
+};
+
+class Medium : public Object {
+ public:
+  /// `phase` is the phase function: a Bsdf without a surface, so that its densities and values are
+  /// per solid angle; its directions are those of the world.
+  explicit Medium(BsdfPtr phase) : phase_(std::move(phase)) {}
+
+  virtual MediumCoefficients at(const Vec3& p) const = 0;
+  /// tau, the integral of sigma_t along a ray from its origin to a distance, which may be infinite.
+  virtual Color optical_depth(const Ray& ray, double distance) const = 0;
+  /// The distance at which the mean over the channels of flight e^-tau has fallen to `left` > 0.
+  virtual double flight_distance(const Ray& ray, const Color& flight, double left) const = 0;
+  /// Whether light is scattered, and not only absorbed: then walks stop in the medium.
+  virtual bool scatters() const = 0;
+
+  const Bsdf& phase() const { return *phase_; }
+
+ private:
+  BsdfPtr phase_;
+};
+
+using MediumPtr = std::shared_ptr<const Medium>;
+
+/// Adds what a medium lets pass of the light along a ray, up to a distance.
+void fly(const Medium& medium, const Ray& ray, double distance, Passage& passed);
+/// The same for a walk that stops where the probability of having come so far is `u_leg`: returns
+/// the distance at which it stops in the medium, or nullopt, and rescales u_leg to what comes after
+/// it. With u_leg = 0 it flies on.
+std::optional<double> fly(const Medium& medium, const Ray& ray, double distance, double& u_leg,
+                          Passage& passed);
+
+}  // namespace mlt

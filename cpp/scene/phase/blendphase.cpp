@@ -1,0 +1,27 @@
+// A blend of two phase functions.
+#include "base/registry.h"
+#include "scene/bsdf/blend.h"
+
+namespace mlt {
+namespace {
+
+ObjectPtr create_blend(Params& params) {
+  const auto nested = params.objects<Bsdf>();
+  if (nested.size() != 2)
+    params.fail("needs two nested phase functions, but has " + std::to_string(nested.size()));
+  const TexturePtr weight = constant_texture(Color(params.real_in("weight", 0, 1)));
+  return std::make_shared<Blend>(nested[0], nested[1], weight, 1, params);
+}
+
+}  // namespace
+
+Plugin phase_blendphase() {
+  return {{"phase",
+           "blendphase",
+           "A blend of two nested phase functions.",
+           {{"weight", ParamType::real, 0.5,
+             "Share of the second phase function; that of the first is 1 less it."}}},
+          create_blend};
+}
+
+}  // namespace mlt
