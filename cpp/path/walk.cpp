@@ -25,7 +25,7 @@ bool Walker::arrive(const Ray& ray, double u_leg, Vertex& next) const {
 bool Walker::go_on(Ray ray, double u_leg, bool hit, SurfacePoint& at, Passage& leg) const {
   for (;;) {
     if (ray.medium != no_medium) {
-      const double distance = hit ? dot(at.p - ray.o, ray.d) : infinity;
+      const double distance = hit ? distance_to(at.p, ray) : infinity;
       if (const auto stop = fly(scene.media()[ray.medium], ray, distance, u_leg, leg)) {
         at = Scene::medium_point(ray, *stop);
         return true;

@@ -143,7 +143,9 @@ inline Vec3 Scene::departure(const SurfacePoint& at, const Vec3& w) const {
 }
 
 Ray Scene::spawn(const SurfacePoint& from, const Vec3& w, double time) const {
-  return {departure(from, w), w, time, infinity, medium_towards(from, w)};
+  Ray ray{departure(from, w), w, time};
+  enter_medium(from, ray);
+  return ray;
 }
 
 inline bool Scene::find_segment(const SurfacePoint& a, const SurfacePoint& b, double time,
@@ -157,8 +159,8 @@ inline bool Scene::find_segment(const SurfacePoint& a, const SurfacePoint& b, do
   const bool has_end = a.shape == SurfacePoint::no_shape || b.shape == SurfacePoint::no_shape;
   if (has_end && !(dot(between, ab) > 0)) return false;  // behind the camera
   const double distance = length(between);
-  ray = {start, between * (1 / distance), time, distance * (1 - ray_offset),
-         medium_towards(a, between)};
+  ray = {start, between * (1 / distance), time, distance * (1 - ray_offset)};
+  enter_medium(a, ray);
   return true;
 }
 
@@ -179,8 +181,9 @@ Ray Scene::beyond(const Ray& ray, const SurfacePoint& at) const {
   const double cosine = abs_cos(at, ray.d);
   const Vec3 start =
       cosine > grazing ? at.p + ray.d * (ray_offset * at.extent / cosine) : departure(at, ray.d);
-  return {start, ray.d, ray.time, ray.t_max - dot(start - ray.o, ray.d),
-          media_.empty() ? no_medium : media_.beside(at, ray.d)};
+  Ray rest{start, ray.d, ray.time, ray.t_max - dot(start - ray.o, ray.d)};
+  enter_medium(at, rest);
+  return rest;
 }
 
 Passage Scene::passage(const SurfacePoint& at, const Vec3& w) const {
@@ -200,17 +203,19 @@ Passage Scene::passage(const SurfacePoint& a, const SurfacePoint& b, double time
   Passage all;
   SurfacePoint at;
   while (found.passed && !all.is_blocked() && ray.t_max > 0 && intersect(ray, at)) {
-    if (ray.medium != no_medium) fly(media_[ray.medium], ray, dot(at.p - ray.o, ray.d), all);
+    if (ray.medium != no_medium) fly(media_[ray.medium], ray, distance_to(at.p, ray), all);
     all *= passage(at, ray.d);
     ray = beyond(ray, at);
   }
-  if (ray.medium != no_medium && ray.t_max > 0) fly(media_[ray.medium], ray, ray.t_max, all);
+  if (ray.medium == no_medium) return all;
+  const bool ends = !a.infinite() && !b.infinite();
+  fly(media_[ray.medium], ray, ends ? distance_to(edge_end(b, -ray.d), ray) : infinity, all);
   return all;
 }
 
 SurfacePoint Scene::medium_point(const Ray& ray, double distance) {
   SurfacePoint at;
-  at.p = ray.o + distance * ray.d;
+  at.p = ray.o + (distance - ray.before) * ray.d;
   at.ng = {0, 0, 1};
   at.shading = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   at.kind = PointKind::medium;

@@ -66,7 +66,7 @@ class Scene {
   const Media& media() const { return media_; }
   /// The medium of a point in one.
   const Medium& medium(const SurfacePoint& at) const { return media_[at.medium]; }
-  /// The point at a distance along a ray, in the medium that the ray is in.
+  /// The point at a distance along an edge, in the medium that its ray is in.
   static SurfacePoint medium_point(const Ray& ray, double distance);
 
   const Accel& accel() const { return *accel_; }
@@ -133,9 +133,19 @@ class Scene {
  private:
   void arrive(const Ray& ray, const Hit& hit, SurfacePoint& at) const;
   bool find_segment(const SurfacePoint& a, const SurfacePoint& b, double time, Ray& ray) const;
+  /// Where an edge at this point starts or ends, for distances in media: where rays enter the scene,
+  /// if the lens is far away.
+  Vec3 edge_end(const SurfacePoint& at, const Vec3& w) const {
+    return at.shape == SurfacePoint::no_shape ? departure(at, w) : at.p;
+  }
+  /// Puts a ray that starts an edge at this point into its medium.
+  void enter_medium(const SurfacePoint& at, Ray& ray) const {
+    if (media_.empty()) return;
+    ray.medium = medium_towards(at, ray.d);
+    ray.before = dot(ray.o - edge_end(at, ray.d), ray.d);
+  }
   /// The medium in which a ray from the point along w starts.
   MediumIndex medium_towards(const SurfacePoint& at, const Vec3& w) const {
-    if (media_.empty()) return no_medium;
     if (at.shape != SurfacePoint::no_shape) return media_.beside(at, w);
     return at.kind == PointKind::surface ? camera_->surroundings() : at.medium;
   }

@@ -35,6 +35,8 @@ inline std::vector<std::string> scene_names() {
           "smooth_glass",
           "null_surface",
           "windows",
+          "fog",
+          "smoke_box",
           "mirror",
           "sphere_light",
           "spot",
@@ -47,10 +49,10 @@ inline std::vector<std::string> scene_names() {
           "more_materials"};
 }
 
-/// Those in which no surface lets light pass, as waves require.
+/// Those without surfaces or media that let light pass, as waves require.
 inline std::vector<std::string> wave_scene_names() {
   std::vector<std::string> names = scene_names();
-  for (const char* passed : {"null_surface", "windows", "materials"})
+  for (const char* passed : {"null_surface", "windows", "materials", "fog", "smoke_box"})
     names.erase(std::find(names.begin(), names.end(), passed));
   return names;
 }
@@ -78,7 +80,7 @@ inline std::vector<std::string> mutation_scene_names() {
   for (const char* name :
        {"mirrors", "near_specular", "near_specular_mirrors", "sun_caustic", "point_caustic",
         "lens_through_mirror", "moving_mirror", "moving_lamp", "moving_lens", "spinning_instance",
-        "glass_torus", "beam", "window_caustic"})
+        "glass_torus", "beam", "window_caustic", "volume_caustic"})
     names.push_back(name);
   return names;
 }

@@ -50,7 +50,7 @@ TEST_P(Audit, LeavesTheTargetUnchanged) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Mutations, Audit,
-                         testing::ValuesIn(cases({"mirrors", "near_specular", "windows"})),
+                         testing::ValuesIn(cases({"mirrors", "near_specular", "windows", "fog"})),
                          name_of_case);
 
 /// Whether the scene has enough paths for something to be said.
@@ -60,7 +60,7 @@ bool has_paths(const Case& c) {
     return true;
   for (const char* scene :
        {"caustic", "plastic", "camera_under_water", "light_under_water", "smooth_glass", "windows",
-        "mirror", "mirrors", "near_specular", "near_specular_mirrors", "sun_caustic",
+        "fog", "volume_caustic", "mirror", "mirrors", "near_specular", "near_specular_mirrors", "sun_caustic",
         "point_caustic", "glass_torus", "beam"})
     if (c.scene == scene) return true;
   return false;

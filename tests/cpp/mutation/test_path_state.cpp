@@ -65,7 +65,7 @@ TEST_P(LightPaths, AreTheSameBitsWhenAnEditIsComputedAndWhenAllIs) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, LightPaths,
                          testing::Values("mirrors", "near_specular", "mixed_lights", "thin_lens",
-                                         "light_under_water", "smooth_normals", "windows"),
+                                         "light_under_water", "smooth_normals", "windows", "fog"),
                          [](const auto& info) { return info.param; });
 
 TEST(LightPaths, KeepTheChoiceOfTheMutationsThatSuitThem) {

@@ -69,20 +69,59 @@ inline double naive_stop(const Scene& scene, const Vertex& x, const Vertex& from
   const double passes = scene.bsdf(x.at).passage(x.at, w).probability;
   return scene.emitter(x.at) ? std::max(1 - passes, 0.5) : 1 - passes;
 }
-/// The probability that a walk passes all surfaces on edge i: they are met from the camera's end.
-inline double naive_passage(const Scene& scene, const Path& path, int i) {
+/// What a walk passes on an edge: surfaces, with this probability, and media, whose optical depth
+/// counts where they scatter.
+struct NaivePassage {
+  double probability = 1;
+  Color depth{0};
+
+  /// The probability that a walk goes along the edge, or its density of stopping at x.
+  double arrival(const Scene& scene, const Vertex& x, const Vertex& from) const {
+    double flies = 0;
+    for (int j = 0; j < 3; ++j)
+      flies += std::exp(-depth[j]) / 3 *
+               (x.at.in_medium() ? scene.medium(x.at).at(x.at.p).extinction[j] : 1);
+    return probability * flies * (x.at.in_medium() ? 1 : naive_stop(scene, x, from));
+  }
+};
+/// The medium next to a point, on the side of w.
+inline const Medium* naive_medium(const Scene& scene, const SurfacePoint& at, const Vec3& w) {
+  if (at.shape != SurfacePoint::no_shape) {
+    const auto& [interior, exterior] = scene.shapes()[at.shape]->media();
+    if (interior || exterior) return (dot(at.ng, w) > 0 ? exterior : interior).get();
+  }
+  const bool lens = at.shape == SurfacePoint::no_shape && at.kind == PointKind::surface;
+  const MediumIndex index = lens ? scene.camera().surroundings() : at.medium;
+  return index == no_medium ? nullptr : &scene.media()[index];
+}
+/// Follows edge i from the camera's end.
+inline NaivePassage naive_passage(const Scene& scene, const Path& path, int i) {
   const SurfacePoint &a = path[i].at, &b = path[i + 1].at;
   const Vec3 w = direction(b, a);
   const double length = a.infinite() ? infinity : mlt::length(a.p - b.p);
   Ray ray = scene.spawn(b, w, path.time);
-  double p = 1;
+  NaivePassage passed;
+  const Medium* medium = naive_medium(scene, b, w);
+  double gone = 0;
+  const auto go_to = [&](double distance) {
+    if (medium && medium->scatters())
+      for (int j = 0; j < 3; ++j)
+        if (const double sigma = medium->at(b.p).extinction[j]; sigma > 0)
+          passed.depth[j] += sigma * (distance - gone);
+    gone = distance;
+  };
   SurfacePoint at;
   while (scene.intersect(ray, at) && mlt::length(at.p - b.p) < length * (1 - 1e-3) - 1e-4) {
     const double passes = scene.bsdf(at).passage(at, at.shading.to_local(w)).probability;
-    p *= scene.emitter(at) ? std::min(passes, 0.5) : passes;
+    passed.probability *= scene.emitter(at) ? std::min(passes, 0.5) : passes;
+    go_to(mlt::length(at.p - b.p));
+    at.medium = no_medium;
+    if (const auto& [interior, exterior] = scene.shapes()[at.shape]->media(); interior || exterior)
+      medium = naive_medium(scene, at, w);
     ray = scene.spawn(at, w, path.time);
   }
-  return p;
+  go_to(length);
+  return passed;
 }
 
 inline NaiveDensities naive_densities(const Scene& scene, const Path& path, Flaw flaw = Flaw::none,
@@ -141,9 +180,9 @@ inline NaiveDensities naive_densities(const Scene& scene, const Path& path, Flaw
   }
   if (!scene.has_passages()) return p;
   for (int i = 0; i < k; ++i) {
-    const double passes = naive_passage(scene, path, i);
-    p.from_light[i + 1] *= i + 1 == k ? 1 : passes * naive_stop(scene, path[i + 1], path[i]);
-    p.from_camera[i] *= passes * naive_stop(scene, path[i], path[i + 1]);
+    const NaivePassage passed = naive_passage(scene, path, i);
+    p.from_light[i + 1] *= i + 1 == k ? 1 : passed.arrival(scene, path[i + 1], path[i]);
+    p.from_camera[i] *= passed.arrival(scene, path[i], path[i + 1]);
   }
   return p;
 }

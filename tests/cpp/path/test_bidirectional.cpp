@@ -66,7 +66,8 @@ class PathsOf : public testing::TestWithParam<std::string> {
   bool is_free(const Path& path) const {
     for (int i = 0; i < path.edges(); ++i) {
       const double p = scene_->passage(path[i].at, path[i + 1].at, path.time).probability;
-      if (p == 0 || relative_difference(p, naive_passage(*scene_, path, i)) > 1e-3) return false;
+      if (p == 0 || relative_difference(p, naive_passage(*scene_, path, i).probability) > 1e-3)
+        return false;
     }
     return true;
   }
@@ -300,6 +301,7 @@ TEST(TestScenes, TogetherHaveEveryKindOfTechniqueAndVertex) {
                     if (path[0].at.infinite() && c.t == 0)
                       seen.insert("light at infinity that reaches the lens");
                     for (const Vertex& x : path.vertices) {
+                      if (x.at.in_medium()) seen.insert("medium");
                       if (x.lobe == Lobe::reflection) seen.insert("reflection");
                       if (x.lobe == Lobe::transmission) seen.insert("transmission");
                       if (x.kind == VertexKind::inner && dot(x.at.ng, x.at.shading.n) < 0.99)
@@ -310,7 +312,7 @@ TEST(TestScenes, TogetherHaveEveryKindOfTechniqueAndVertex) {
   EXPECT_EQ(seen,
             (std::set<std::string>{"s = 0", "s = 1", "s > 1", "t = 0", "t = 1", "t > 1",
                                    "light at infinity", "light at infinity that reaches the lens",
-                                   "passage", "reflection", "transmission", "shading normal"}));
+                                   "medium", "passage", "reflection", "transmission", "shading normal"}));
 }
 
 }  // namespace
