@@ -57,7 +57,8 @@ void Subpath::pass(const Scene& scene, const Passage& leg) {
   WalkVertex& x = last();
   const SurfacePoint& previous = vertices_[size() - 2].vertex.at;
   x.passes = scene.arrival(leg, x.vertex.at, -x.towards_previous);
-  x.passes_back = scene.arrival(leg, previous, x.towards_previous);
+  const bool from_lens = from_ == From::camera && size() == 2;  // see EdgePassage
+  x.passes_back = from_lens ? 1 : scene.arrival(leg, previous, x.towards_previous);
   x.throughput = leg.is_blocked() ? Color(0) : x.throughput * (leg.transmittance / x.passes);
   x.forward *= x.passes;
 }

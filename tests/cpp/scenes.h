@@ -49,10 +49,18 @@ inline std::vector<std::string> scene_names() {
           "more_materials"};
 }
 
-/// Those without surfaces or media that let light pass, as waves require.
-inline std::vector<std::string> wave_scene_names() {
+/// Those without media, as waves require.
+inline std::vector<std::string> clear_scene_names() {
   std::vector<std::string> names = scene_names();
-  for (const char* passed : {"null_surface", "windows", "materials", "fog", "smoke_box"})
+  for (const char* medium : {"fog", "smoke_box"})
+    names.erase(std::find(names.begin(), names.end(), medium));
+  return names;
+}
+
+/// Those in which no surface lets light pass either, as most waves require.
+inline std::vector<std::string> wave_scene_names() {
+  std::vector<std::string> names = clear_scene_names();
+  for (const char* passed : {"null_surface", "windows", "materials"})
     names.erase(std::find(names.begin(), names.end(), passed));
   return names;
 }

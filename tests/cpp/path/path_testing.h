@@ -111,7 +111,8 @@ inline NaivePassage naive_passage(const Scene& scene, const Path& path, int i) {
     gone = distance;
   };
   SurfacePoint at;
-  while (scene.intersect(ray, at) && mlt::length(at.p - b.p) < length * (1 - 1e-3) - 1e-4) {
+  const double before_surface = a.in_medium() ? length : length * (1 - 1e-3) - 1e-4;
+  while (scene.intersect(ray, at) && mlt::length(at.p - b.p) < before_surface) {
     const double passes = scene.bsdf(at).passage(at, at.shading.to_local(w)).probability;
     passed.probability *= scene.emitter(at) ? std::min(passes, 0.5) : passes;
     go_to(mlt::length(at.p - b.p));
@@ -263,7 +264,9 @@ double excess(const Scene& scene, const Path& path, F&& f, const std::vector<dou
       for (int next = std::max(v - 1, 0); next <= std::min(v + 1, path.edges()); ++next) {
         if (path[next].at.infinite()) continue;
         Path moved = path;
-        moved[next].at.p += moves * (scene.spawn(at, side * at.ng, path.time).o - at.p);
+        const Vec3 off = at.in_medium() ? side * ray_offset * at.ng
+                                        : scene.spawn(at, side * at.ng, path.time).o - at.p;
+        moved[next].at.p += moves * off;
         const std::vector<double> other = f(moved);
         for (size_t i = 0; i < other.size(); ++i)  // the edges may not be free
           if (!std::isnan(other[i])) tolerance[i] += std::abs(other[i] - expected[i]);
