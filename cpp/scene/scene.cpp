@@ -235,6 +235,25 @@ MediumIndex Scene::medium_around(const SurfacePoint& at, const Vec3& w,
   return outside;
 }
 
+bool Scene::may_cross_boundaries(const Emitter& light) const {
+  if (light.infinite() || light.medium()) return false;
+  const Shape* shape = light.shape();
+  if (!shape) {
+    const Shutter& shutter = camera_->shutter();
+    const auto position = [&](double time) { return light.sample_position(Vec2(0.5), time).at.p; };
+    return position(shutter.open) != position(shutter.close);
+  }
+  Vec3 low, high, other_low, other_high;
+  shape->bounds(low, high);
+  for (size_t i = 0; i < shapes_.size(); ++i) {
+    if (!media_.is_boundary(static_cast<uint32_t>(i)) || shapes_[i].get() == shape) continue;
+    shapes_[i]->bounds(other_low, other_high);
+    if (glm::all(glm::lessThan(low, other_high)) && glm::all(glm::lessThan(other_low, high)))
+      return true;
+  }
+  return false;
+}
+
 void Scene::find_surroundings() {
   for (const EmitterPtr& light : emitters_) media_.add(light->medium());
   const MediumIndex declared = media_.add(camera_->medium());
@@ -245,15 +264,15 @@ void Scene::find_surroundings() {
   const MediumIndex at_lens = medium_around(lens, lens.ng, declared);
   camera_->set_surroundings(camera_->medium() ? declared : at_lens);
   // A medium without a boundary, in which the lens is, is everywhere.
-  const MediumIndex outside = medium_around(lens, lens.ng, no_medium) == at_lens ? no_medium : declared;
+  if (medium_around(lens, lens.ng, no_medium) != at_lens) outside_ = declared;
   for (const EmitterPtr& light : emitters_) {
-    if (light->infinite()) {
-      light->set_surroundings(outside);
-      continue;
+    lights_in_many_media_.push_back(may_cross_boundaries(*light));
+    MediumIndex around = light->medium() ? media_.add(light->medium()) : outside_;
+    if (!light->medium() && !light->infinite()) {
+      const SurfacePoint at = light->sample_position(middle, time).at;
+      around = medium_around(at, at.ng, outside_);
     }
-    const SurfacePoint at = light->sample_position(middle, time).at;
-    light->set_surroundings(light->medium() ? media_.add(light->medium())
-                                            : medium_around(at, at.ng, outside));
+    light->set_surroundings(around);
   }
 }
 

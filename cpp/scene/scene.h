@@ -64,6 +64,11 @@ class Scene {
     return at.in_medium() ? nullptr : shapes_[at.shape]->emitter();
   }
   const Media& media() const { return media_; }
+  /// The medium around a point that was sampled on a light.
+  MediumIndex medium_at_light(const Emitter& light, const SurfacePoint& at) const {
+    if (media_.empty() || !lights_in_many_media_[light.index()]) return light.surroundings();
+    return medium_around(at, at.ng, outside_);
+  }
   /// The medium of a point in one.
   const Medium& medium(const SurfacePoint& at) const { return media_[at.medium]; }
   /// The point at a distance along an edge, in the medium that its ray is in.
@@ -153,6 +158,8 @@ class Scene {
   void find_surroundings();
   /// The medium around a point: that on the near side of the first boundary along w.
   MediumIndex medium_around(const SurfacePoint& at, const Vec3& w, MediumIndex outside) const;
+  /// Whether one part of the light may be in another medium than the rest.
+  bool may_cross_boundaries(const Emitter& light) const;
   /// The origin of a ray from the point along w (of any length), moved off its surface.
   Vec3 departure(const SurfacePoint& at, const Vec3& w) const;
 
@@ -166,6 +173,8 @@ class Scene {
   std::vector<uint32_t> infinite_, backgrounds_;
   bool has_passages_ = false;
   Media media_;
+  MediumIndex outside_ = no_medium;         ///< Where no boundary is met.
+  std::vector<bool> lights_in_many_media_;  ///< One for each emitter.
   Discrete emitter_choice_;
   std::vector<MeshLight> mesh_lights_;             ///< One for each emitter.
   std::vector<LambertianMesh> lambertian_meshes_;  ///< One for each shape.

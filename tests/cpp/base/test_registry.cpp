@@ -21,7 +21,7 @@ Registry example() {
   registry.add(plugin("bsdf", "conductor"));
   registry.add(plugin("shape", "sphere"));
   registry.refuse("bsdf", "measured", "measured materials are not supported");
-  registry.refuse("medium", "homogeneous", "participating media are not supported");
+  registry.refuse("medium", "heterogeneous", "grids are not supported");
   return registry;
 }
 
@@ -58,8 +58,17 @@ TEST(Registry, RefusesByNameWithTheReason) {
 
 TEST(Registry, RefusesInFamiliesThatHaveNoPlugin) {
   EXPECT_EQ(
-      error_of(example(), "medium", "homogeneous"),
-      "s.xml:4: medium 'homogeneous' is not supported: participating media are not supported");
+      error_of(example(), "medium", "heterogeneous"),
+      "s.xml:4: medium 'heterogeneous' is not supported: grids are not supported");
+}
+
+TEST(Registry, KnowsPlugInsByOtherNames) {
+  Registry registry = example();
+  registry.alias("bsdf", "lambertian", "diffuse");
+  EXPECT_EQ(registry.find("bsdf", "lambertian", {}).schema.name, "diffuse");
+  EXPECT_TRUE(registry.has("bsdf", "lambertian"));
+  EXPECT_EQ(registry.names("bsdf"), (std::vector<std::string>{"conductor", "diffuse"}));
+  EXPECT_THROW(registry.alias("bsdf", "diffuse", "conductor"), Error);
 }
 
 TEST(Registry, NoNameIsRegisteredOrRefusedTwice) {

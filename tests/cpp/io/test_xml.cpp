@@ -100,8 +100,9 @@ TEST(Xml, RefusesByNameWhatMitsubaHas) {
     return message_of([&] { refuse_missing(read(in_scene(element)).scene, plugins()); });
   };
   EXPECT_EQ(
-      refused("<medium type='homogeneous'/>"),
-      "<string>:2: medium 'homogeneous' is not supported: participating media are not supported");
+      refused("<medium type='heterogeneous'/>"),
+      "<string>:2: medium 'heterogeneous' is not supported: media that vary in space are not "
+      "supported");
   EXPECT_EQ(
       refused("<shape type='cube'><subsurface type='dipole'/></shape>"),
       "<string>:2: subsurface 'dipole' is not supported: subsurface scattering is not supported");
