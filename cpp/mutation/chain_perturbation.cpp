@@ -67,16 +67,29 @@ bool ChainPerturbation::carry(const PathState& x, const Span& span, Ray ray, Pat
     return x[0].at.infinite() ? scene_->emitters()[x[0].emitter].get() : nullptr;
   };
   for (int i = span.start + span.step;; i += span.step) {
+    const double u_leg = walker.draw_leg(context.rng);
+    SurfacePoint at;
+    const bool hit = scene_->media().empty()
+                         ? walker.arrive(ray, u_leg, at)
+                         : walker.arrive_at(kept_distance(x, i, span.step, ray), ray, u_leg, at);
     if (i == 0)
-      return walker.arrive_at_light(ray, walker.draw_leg(context.rng), background, y.path[0]) &&
+      return walker.find_light(ray, hit, at, background, y.path[0]) &&
              y[0].at.infinite() == x[0].at.infinite();
-    if (!walker.arrive(ray, walker.draw_leg(context.rng), y.path[i])) return false;
-    y.path[i].lobe = x[i].lobe;
+    if (!hit) return false;
+    y.path[i] = inner_vertex(at, x[i].lobe);
     if (i == span.stop) return true;
     const auto out = carried_direction(x, y, i, span.step, -ray.d, context);
     if (!out) return false;
     ray = walker.leave(y[i].at, *out);
   }
+}
+
+double ChainPerturbation::kept_distance(const PathState& x, int i, int step,
+                                        const Ray& ray) const {
+  const SurfacePoint &from = x[i - step].at, &to = x[i].at;
+  if (!to.in_medium()) return infinity;
+  if (from.infinite()) return dot(to.p - ray.o, ray.d);
+  return length(to.p - scene_->edge_end(from, x.terms.direction(i - step, step)));
 }
 
 std::optional<Vec3> ChainPerturbation::carried_direction(const PathState& x, const PathState& y,
@@ -107,7 +120,7 @@ double ChainPerturbation::coefficient(const PathState& x, const PathState& y, in
                                       int step) const {
   const SurfacePoint& at = y[i].at;
   const Vec3 in = y.terms.direction(i, -step), out = y.terms.direction(i, step);
-  const double arrival = y.terms.arrival(i, step);
+  const double arrival = kept_arrival(y, i, step);
   if (!x.specular(i)) {
     const int stop = chain_end(x, i, step);
     const double theta = angle_between(out, x.terms.direction(i, step));
@@ -119,7 +132,8 @@ double ChainPerturbation::coefficient(const PathState& x, const PathState& y, in
     // The coefficient of the one delta without the probability of having chosen it: the lobe stays.
     const double chosen = bsdf.pdf(at, local_in, local_out, y[i].lobe);
     const VertexTerms& terms = y.terms[i].vertex;
-    return (step < 0 ? terms.pdf_from_camera : terms.pdf_from_light) / chosen;
+    return (step < 0 ? terms.pdf_from_camera : terms.pdf_from_light) /
+           (chosen * y.terms.flown(i, step));
   }
   const double eta = bsdf.relative_eta(at, local_in);
   const auto h = half_vector(local_in, local_out, eta);

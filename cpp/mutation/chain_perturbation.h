@@ -6,6 +6,9 @@
 // to `stop`; the vertices after `start` up to `stop` move. At a specular vertex the half vector is
 // kept. At a diffuse vertex in between (multi-chain) the direction is perturbed by a small angle.
 // If `stop` is the light, the last ray has to hit a light.
+//
+// In media the kind of each vertex is kept, and the distance at which one in a medium follows the
+// one before it: distances are not sampled, but are factors of one delta in both directions.
 #pragma once
 
 #include "base/params.h"
@@ -56,7 +59,7 @@ class ChainPerturbation {
                         double first_coefficient) const {
     const int s = span.step;
     double p =
-        first_coefficient * y.terms.arrival(span.start, s) * in.step(span.start, span.start + s);
+        first_coefficient * kept_arrival(y, span.start, s) * in.step(span.start, span.start + s);
     for (int i = span.start + s; i != span.stop; i += s)
       p *= coefficient(x, y, i, s) * in.step(i, i + s);
     return p;
@@ -87,6 +90,13 @@ class ChainPerturbation {
  private:
   std::optional<Vec3> carried_direction(const PathState& x, const PathState& y, int i, int step,
                                         const Vec3& in, MutationContext& context) const;
+  /// The distance from vertex i - step that vertex i of y keeps, if it is in a medium; else infinity.
+  double kept_distance(const PathState& x, int i, int step, const Ray& ray) const;
+  /// The probability of passing and stopping at surfaces from y's vertex i on.
+  static double kept_arrival(const PathState& y, int i, int step) {
+    const double flown = y.terms.flown(i, step);
+    return flown > 0 ? y.terms.arrival(i, step) / flown : 0;
+  }
   /// Density of the direction from y's vertex i, in projected solid angle, when x is perturbed, and
   /// of arriving at the next vertex.
   double coefficient(const PathState& x, const PathState& y, int i, int step) const;

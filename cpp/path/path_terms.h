@@ -67,11 +67,15 @@ struct EdgePassage {
       : transmittance(edge.transmittance) {
     const Vec3 w = direction(a, b);
     from_camera = scene.arrival(edge, a, -w);
-    if (!to_lens) from_light = scene.arrival(edge, b, w);
+    flown_from_camera = scene.flown(edge, a);
+    if (to_lens) return;
+    from_light = scene.arrival(edge, b, w);
+    flown_from_light = scene.flown(edge, b);
   }
 
   Color transmittance{1};
   double from_light = 1, from_camera = 1;
+  double flown_from_light = 1, flown_from_camera = 1;  ///< The parts that are due to media.
 };
 
 /// The terms include what surfaces and media let pass on the way to the next vertex: f_i the
@@ -92,6 +96,11 @@ struct PathTerms {
   double arrival(int i, int step) const {
     if (passages.empty()) return 1;
     return step > 0 ? passages[i].from_light : passages[i - 1].from_camera;
+  }
+  /// The part of it that is due to media.
+  double flown(int i, int step) const {
+    if (passages.empty()) return 1;
+    return step > 0 ? passages[i].flown_from_light : passages[i - 1].flown_from_camera;
   }
   TermsAt& operator[](size_t i) { return at[i]; }
   const TermsAt& operator[](size_t i) const { return at[i]; }

@@ -32,13 +32,36 @@ bool Walker::go_on(Ray ray, double u_leg, bool hit, SurfacePoint& at, Passage& l
       }
     }
     if (!hit) return false;
-    const Passage here = scene.passage(at, ray.d);
-    if (!(u_leg < here.probability)) return true;
-    u_leg /= here.probability;
-    leg *= here;
-    ray = scene.beyond(ray, at);
-    rays.count_intersect();
-    hit = scene.intersect(ray, at);
+    if (!pass(ray, u_leg, hit, at, leg)) return true;
+  }
+}
+
+bool Walker::pass(Ray& ray, double& u_leg, bool& hit, SurfacePoint& at, Passage& leg) const {
+  const Passage here = scene.passage(at, ray.d);
+  if (!(u_leg < here.probability)) return false;
+  u_leg /= here.probability;
+  leg *= here;
+  ray = scene.beyond(ray, at);
+  rays.count_intersect();
+  hit = scene.intersect(ray, at);
+  return true;
+}
+
+bool Walker::arrive_at(double distance, const Ray& first, double u_leg, SurfacePoint& at) const {
+  Ray ray = first;
+  Passage leg;
+  rays.count_intersect();
+  bool hit = scene.intersect(ray, at);
+  for (;;) {
+    const double segment = hit ? distance_to(at.p, ray) : infinity;
+    if (distance < segment) {
+      if (ray.medium == no_medium || !scene.media()[ray.medium].scatters()) return false;
+      at = Scene::medium_point(ray, distance);
+      return true;
+    }
+    distance -= segment;
+    if (!hit) return false;
+    if (!pass(ray, u_leg, hit, at, leg)) return !std::isfinite(distance);
   }
 }
 

@@ -91,12 +91,20 @@ struct Walker {
     return scene.has_passages() ? go_on(ray, u_leg, hit, at, leg) : hit;
   }
   bool arrive(const Ray& ray, double u_leg, Vertex& next) const;
+  /// Follows a leg through all media, to the surface where it stops or, if it is not infinite, to a
+  /// distance in a medium; false if it does not come so far, or leaves the scene.
+  bool arrive_at(double distance, const Ray& ray, double u_leg, SurfacePoint& at) const;
 
   /// Follows a leg to a light: one on the surface where it stops, or background() if there is none.
   template <class Background>
   bool arrive_at_light(const Ray& ray, double u_leg, Background&& background, Vertex& x0) const {
     SurfacePoint at;
-    const bool hit = arrive(ray, u_leg, at);
+    return find_light(ray, arrive(ray, u_leg, at), at, background, x0);
+  }
+  /// The same, after the leg has been followed.
+  template <class Background>
+  bool find_light(const Ray& ray, bool hit, const SurfacePoint& at, Background&& background,
+                  Vertex& x0) const {
     const Emitter* emitter = hit ? scene.emitter(at) : background();
     if (!emitter || emitter->delta_direction()) return false;
     x0 = light_vertex(*emitter, hit ? at : Scene::point_at_infinity(ray.d));
@@ -122,6 +130,8 @@ struct Walker {
  private:
   /// Follows a leg on, knowing whether it has hit a surface, and the first that it has.
   bool go_on(Ray ray, double u_leg, bool hit, SurfacePoint& at, Passage& leg) const;
+  /// Goes on behind a surface; false if the leg stops there.
+  bool pass(Ray& ray, double& u_leg, bool& hit, SurfacePoint& at, Passage& leg) const;
 };
 
 }  // namespace mlt

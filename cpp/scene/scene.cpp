@@ -142,6 +142,16 @@ inline Vec3 Scene::departure(const SurfacePoint& at, const Vec3& w) const {
   return at.kind == PointKind::surface ? camera_->entrance(at, w) : at.p;
 }
 
+Vec3 Scene::edge_end(const SurfacePoint& at, const Vec3& w) const {
+  return at.shape == SurfacePoint::no_shape ? departure(at, w) : at.p;
+}
+
+inline void Scene::enter_medium(const SurfacePoint& at, Ray& ray) const {
+  if (media_.empty()) return;
+  ray.medium = medium_towards(at, ray.d);
+  ray.before = dot(ray.o - edge_end(at, ray.d), ray.d);
+}
+
 Ray Scene::spawn(const SurfacePoint& from, const Vec3& w, double time) const {
   Ray ray{departure(from, w), w, time};
   enter_medium(from, ray);

@@ -93,18 +93,24 @@ class Scene {
   Ray beyond(const Ray& ray, const SurfacePoint& at) const;
   /// The light that goes straight from a to b, through all surfaces and media between them.
   Passage passage(const SurfacePoint& a, const SurfacePoint& b, double time) const;
-  /// The probability that a walk along w, which leads to this point on a surface or at infinity,
-  /// stops there and does not go through it.
+  /// The probability that a walk along w, which has come to this point, stops there and does not go
+  /// through its surface.
   double stop_probability(const SurfacePoint& at, const Vec3& w) const {
     return at.shape == SurfacePoint::no_shape ? 1 : 1 - passage(at, w).probability;
   }
   /// The probability that a walk goes along an edge and stops at its end, where w points; in a
   /// medium, its density per unit of length.
   double arrival(const Passage& edge, const SurfacePoint& end, const Vec3& w) const {
-    if (end.in_medium())
-      return edge.probability * mean(edge.flight * medium(end).at(end.p).extinction);
-    return edge.probability * mean(edge.flight) * stop_probability(end, w);
+    return edge.probability * stop_probability(end, w) * flown(edge, end);
   }
+  /// The part of it that is due to media.
+  double flown(const Passage& edge, const SurfacePoint& end) const {
+    return end.in_medium() ? mean(edge.flight * medium(end).at(end.p).extinction)
+                           : mean(edge.flight);
+  }
+  /// Where an edge at this point starts or ends, for distances in media: where rays enter the scene,
+  /// if the lens is far away.
+  Vec3 edge_end(const SurfacePoint& at, const Vec3& w) const;
 
   /// The shadow ray between two points; nullopt if they cannot be mutually visible.
   std::optional<Ray> segment(const SurfacePoint& a, const SurfacePoint& b, double time) const;
@@ -138,17 +144,8 @@ class Scene {
  private:
   void arrive(const Ray& ray, const Hit& hit, SurfacePoint& at) const;
   bool find_segment(const SurfacePoint& a, const SurfacePoint& b, double time, Ray& ray) const;
-  /// Where an edge at this point starts or ends, for distances in media: where rays enter the scene,
-  /// if the lens is far away.
-  Vec3 edge_end(const SurfacePoint& at, const Vec3& w) const {
-    return at.shape == SurfacePoint::no_shape ? departure(at, w) : at.p;
-  }
   /// Puts a ray that starts an edge at this point into its medium.
-  void enter_medium(const SurfacePoint& at, Ray& ray) const {
-    if (media_.empty()) return;
-    ray.medium = medium_towards(at, ray.d);
-    ray.before = dot(ray.o - edge_end(at, ray.d), ray.d);
-  }
+  void enter_medium(const SurfacePoint& at, Ray& ray) const;
   /// The medium in which a ray from the point along w starts.
   MediumIndex medium_towards(const SurfacePoint& at, const Vec3& w) const {
     if (at.shape != SurfacePoint::no_shape) return media_.beside(at, w);

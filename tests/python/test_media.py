@@ -1,0 +1,236 @@
+"""Light in participating media: closed forms, all algorithms, and what scenes may say."""
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import pymlt as mlt
+
+ALL = ["path", "bdpt", "ptracer", "pssmlt", "mmlt", "rjmlt", "erpt", "mlt"]
+SHARED = Path(__file__).parents[3] / "shared/scenes/mitsuba-tests/tests/scenes"
+
+
+def medium(sigma_t, albedo=0.0, **more) -> dict:
+    return {"type": "homogeneous", "sigma_t": colour(sigma_t), "albedo": colour(albedo)} | more
+
+
+def colour(value):
+    return value if np.isscalar(value) else {"type": "rgb", "value": list(value)}
+
+
+def camera(**more) -> dict:
+    view = mlt.Transform().look_at(origin=[0, 0, 4], target=[0, 0, 0], up=[0, 1, 0])
+    return {
+        "type": "perspective",
+        "to_world": view,
+        "fov": 30.0,
+        "film": {"type": "hdrfilm", "width": 8, "height": 8, "rfilter": {"type": "box"}},
+    } | more
+
+
+def box(inside: dict, **more) -> dict:
+    return {"type": "cube", "bsdf": {"type": "null"}, "interior": inside} | more
+
+
+def scene(**parts) -> mlt.Scene:
+    return mlt.load_dict({"type": "scene", "sensor": camera()} | parts)
+
+
+def mean(scene, integrator="path", spp=64, seed=1, **params) -> np.ndarray:
+    return mlt.render(scene, {"type": integrator} | params, spp=spp, seed=seed).mean((0, 1))
+
+
+def lit(radiance=1.0) -> dict:
+    return {"type": "constant", "radiance": radiance}
+
+
+SIGMA = (0.3, 0.7, 1.9)
+
+
+@pytest.mark.parametrize("integrator", ["path", "bdpt", "direct", "mlt"])
+def test_an_absorbing_slab_passes_what_beer_and_lambert_say(integrator):
+    """A slab of thickness 2 before a light, seen by an orthographic camera."""
+    sensor = camera(type="orthographic")
+    del sensor["fov"]
+    made = scene(sensor=sensor, slab=box(medium(SIGMA)), light=lit())
+    expected = np.exp(-2 * np.array(SIGMA))
+    spp = 1024 if integrator == "mlt" else 16
+    found = mean(made, integrator, spp)
+    np.testing.assert_allclose(found, expected, rtol=0.05 if integrator == "mlt" else 1e-5)
+
+
+@pytest.mark.parametrize("integrator", ["path", "bdpt", "pssmlt", "mmlt", "mlt"])
+def test_a_furnace_of_white_fog_is_white(integrator):
+    """Neither a medium of albedo 1 nor an index-matched boundary takes light away."""
+    fog = medium((0.7, 0.8, 1), 1.0, phase={"type": "hg", "g": 0.4})
+    made = scene(fog=box(fog), light=lit())
+    found = mean(made, integrator, 256, max_depth=200, rr_depth=200)
+    np.testing.assert_allclose(found, 1, rtol=0.02)
+
+
+@pytest.mark.parametrize(
+    ("phase", "density"),
+    [
+        ({"type": "isotropic"}, lambda c: 1 / (4 * math.pi)),
+        ({"type": "rayleigh"}, lambda c: 3 * (1 + c * c) / (16 * math.pi)),
+        (
+            {"type": "hg", "g": 0.6},
+            lambda c: (1 - 0.36) / (4 * math.pi * (1.36 - 1.2 * c) ** 1.5),
+        ),
+    ],
+    ids=["isotropic", "rayleigh", "hg"],
+)
+@pytest.mark.parametrize("integrator", ["path", "bdpt", "mmlt", "mlt"])
+def test_single_scattering_is_that_of_a_quadrature(integrator, phase, density):
+    """A point light beside the ray of a narrow view through a box of fog."""
+    sigma_t, sigma_s = np.array([0.4, 0.8, 1.5]), np.array([0.3, 0.4, 1.2])
+    lamp, intensity = np.array([1.6, 0.3, 0.2]), 5.0
+    fog = medium(sigma_t, sigma_s / sigma_t, phase=phase)
+    made = scene(
+        sensor=camera(fov=0.5),
+        fog=box(fog),
+        lamp={"type": "point", "position": lamp.tolist(), "intensity": intensity},
+    )
+    nodes, weights = np.polynomial.legendre.leggauss(200)
+    expected = np.zeros(3)
+    for z, weight in zip(nodes, weights, strict=True):
+        to_lamp = lamp - [0, 0, z]
+        distance = np.linalg.norm(to_lamp)
+        w = to_lamp / distance
+        in_fog = 1 / w[0]  # the face at x = 1 is the nearest one
+        cosine = w @ [0, 0, -1]  # light comes along -w and goes on along +z
+        passed = np.exp(-sigma_t * (in_fog + 1 - z))
+        expected += weight * sigma_s * density(cosine) * passed * intensity / distance**2
+    spp = {"path": 256, "bdpt": 256}.get(integrator, 2048)
+    found = mean(made, integrator, spp, max_depth=2)
+    np.testing.assert_allclose(found, expected, rtol=0.02)
+
+
+@pytest.mark.parametrize("integrator", ["path", "bdpt", "mmlt", "mlt"])
+def test_media_are_found_where_no_one_names_them(integrator):
+    """A lamp and a lens within a boundary are in its medium, named or not."""
+    fog = {"id": "fog"} | medium(0.4, 0.9)
+
+    def foggy(named: bool) -> mlt.Scene:
+        ref = {"medium": {"type": "ref", "id": "fog"}} if named else {}
+        lamp = {"type": "area", "radiance": 4.0} | ref
+        return scene(
+            fog=fog,
+            sensor=camera() | ref,
+            room={"type": "sphere", "radius": 6.0, "bsdf": {"type": "null"}}
+            | {"interior": {"type": "ref", "id": "fog"}},
+            lamp={"type": "sphere", "center": [0, 1.5, 0], "radius": 0.5, "emitter": lamp},
+            floor={"type": "sphere", "center": [0, -3, 0], "radius": 2.5},
+        )
+
+    images = [
+        mlt.render(foggy(named), {"type": integrator, "max_depth": 4}, spp=64, seed=1)
+        for named in (True, False)
+    ]
+    np.testing.assert_array_equal(*images)
+
+
+def test_a_lamp_may_stand_in_two_media():
+    """Half of it is in the fog; walks from either end see the same light."""
+    made = scene(
+        fog=box(medium(1.5, 0.8)),
+        lamp={
+            "type": "sphere",
+            "center": [0, 1, 0],
+            "radius": 0.3,
+            "emitter": {"type": "area", "radiance": 5.0},
+        },
+    )
+    path, bdpt = (mean(made, name, 4096, max_depth=3) for name in ("path", "bdpt"))
+    np.testing.assert_allclose(bdpt, path, rtol=0.01)
+
+
+def test_presets_and_both_ways_to_give_coefficients():
+    milk = {"type": "homogeneous", "material": "skimmilk", "scale": 2.0}
+    same = [
+        {
+            "type": "homogeneous",
+            "sigma_s": colour((1.40, 2.44, 3.80)),
+            "sigma_a": colour((0.0028, 0.0050, 0.0284)),
+        },
+        medium((1.4028, 2.4450, 3.8284), (1.40 / 1.4028, 2.44 / 2.4450, 3.80 / 3.8284)),
+    ]
+    reference = mean(scene(milk=box(milk), light=lit()), max_depth=6)
+    for other in same:
+        np.testing.assert_allclose(
+            mean(scene(milk=box(other), light=lit()), max_depth=6), reference, rtol=1e-5
+        )
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({"type": "homogeneous", "albedo": 1.5}, "albedo"),
+        ({"type": "homogeneous", "sigma_t": -1.0}, "sigma_t"),
+        ({"type": "homogeneous", "sigma_t": 1.0, "sigma_s": 1.0}, "given twice"),
+        ({"type": "homogeneous", "material": "skimmilc"}, "did you mean 'skimmilk'"),
+        ({"type": "homogeneous", "phase": {"type": "hg", "g": 1.0}}, "'g'"),
+        ({"type": "heterogeneous"}, "vary in space"),
+    ],
+)
+def test_mistakes_are_named(given, message):
+    with pytest.raises(mlt.SceneError, match=message):
+        scene(fog=box(given), light=lit())
+
+
+def test_a_medium_of_a_shape_needs_its_side():
+    wrong = {"type": "cube", "bsdf": {"type": "null"}, "inside": medium(1.0)}
+    with pytest.raises(mlt.SceneError, match="'interior' or 'exterior', not 'inside'"):
+        scene(fog=wrong, light=lit())
+
+
+@pytest.mark.parametrize("sigma", [0.0, 1e6])
+@pytest.mark.parametrize("integrator", ALL)
+def test_extreme_densities_give_numbers(sigma, integrator):
+    """Nothing, and what is as good as a wall."""
+    made = scene(
+        fog=box(medium(sigma, 0.5)),
+        lamp={"type": "point", "position": [0, 0, 3], "intensity": 5.0},
+        wall={"type": "rectangle", "to_world": mlt.Transform().translate(0, 0, -2).scale(3)},
+    )
+    image = mlt.render(made, {"type": integrator, "max_depth": 6}, spp=16, seed=1)
+    assert np.isfinite(image).all()
+    assert (image >= 0).all()
+
+
+def test_vertices_in_a_medium_can_be_inspected():
+    made = scene(
+        fog=box(medium(2.0, 0.9)),
+        lamp={"type": "point", "position": [0, 0, 3], "intensity": 5.0},
+    )
+    paths = [made.sample_path(seed=seed, max_depth=3) for seed in range(20)]
+    kinds = {kind for path in paths for kind in path.vertices["kind"]}
+    assert kinds == {"light", "medium", "camera"}
+
+
+MITSUBA = sorted(
+    file.name.removesuffix(".xml")
+    for pattern in ("test_homo_*.xml", "test_surf_*.xml")
+    for file in (SHARED / "participating_media").glob(pattern)
+) or [pytest.param("", marks=pytest.mark.skip("no Mitsuba scenes here"))]
+
+
+@pytest.mark.parametrize("name", MITSUBA)
+def test_mitsubas_scenes_of_media(name):
+    """Six scenes of Mitsuba's, against its own references and their variances."""
+    file = SHARED / "participating_media" / f"{name}.xml"
+    stem = name.removesuffix("_volpathmis").removesuffix("_volpath")
+    made = mlt.load(file)
+    references = file.parent / "refs"
+    expected = mlt.read_image(references / f"{stem}_ref_rgb.exr")
+    runs = np.stack([mlt.render(made, "path", spp=16, seed=seed) for seed in range(8)])
+    blocks = [
+        x.reshape(*x.shape[:-3], 6, 8, 6, 8, 3).mean((-5, -3, -2, -1))[..., None]
+        for x in (runs, expected)
+    ]
+    error = blocks[0].std(0, ddof=1) / math.sqrt(8)
+    z = (blocks[0].mean(0) - blocks[1]) / np.hypot(error, 0.002 * blocks[1])
+    # t with 7 degrees of freedom: beyond 8.8 once in 20,000 blocks
+    assert np.abs(z).max() < 8.8
