@@ -57,7 +57,8 @@ PyLightPath with_vertices(const PyLightPath& x, std::vector<Vertex> vertices) {
   for (size_t i = 1; right && i + 1 < n; ++i) right = vertices[i].kind == VertexKind::inner;
   if (!right)
     throw UsageError(
-        "a path should be one vertex on a light, any number on surfaces or in media, and one on the "
+        "a path should be one vertex on a light, any number on surfaces or in media, and one on "
+        "the "
         "lens");
   Path y{std::move(vertices)};
   y.set_time(x.path.time);

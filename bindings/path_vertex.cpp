@@ -50,7 +50,8 @@ bool visible(const LoadedScene& loaded, const Vertex& a, const Vertex& b,
 
 py::object scatter(const LoadedScene& loaded, const Vertex& at, const Doubles& from,
                    const Doubles& u) {
-  if (at.kind != VertexKind::inner) throw UsageError("only a vertex on a surface or in a medium scatters");
+  if (at.kind != VertexKind::inner)
+    throw UsageError("only a vertex on a surface or in a medium scatters");
   const Frame& frame = at.at.shading;
   const auto sample = loaded.scene->bsdf(at.at).sample(
       at.at, frame.to_local(to_direction(from, "direction")), to_vector(u, "u"));
@@ -70,9 +71,7 @@ py::object camera_direction(const LoadedScene& loaded, const Vertex& lens, const
 
 void bind_vertex_class(py::module_& m) {
   py::class_<Vertex>(m, "Vertex", "A vertex of a light path; it belongs to the scene of its path.")
-      .def_property_readonly(
-          "kind", &kind_of,
-          "'light', 'surface', 'medium' or 'camera'.")
+      .def_property_readonly("kind", &kind_of, "'light', 'surface', 'medium' or 'camera'.")
       .def_property_readonly(
           "position", [](const Vertex& x) { return to_array(x.at.p); },
           "Where it is; at infinity, the direction towards it.")

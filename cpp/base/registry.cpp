@@ -22,8 +22,7 @@ void Registry::add(Plugin plugin) {
   insert(family, name, {std::move(plugin), ""});
 }
 
-void Registry::alias(const std::string& family, const std::string& name,
-                     const std::string& meant) {
+void Registry::alias(const std::string& family, const std::string& name, const std::string& meant) {
   insert(family, name, {{}, "", meant});
 }
 

@@ -8,9 +8,9 @@
 namespace mlt {
 
 const std::vector<std::string>& plugin_families() {
-  static const std::vector<std::string> families{
-      "bsdf",    "emitter", "film",   "integrator", "medium", "phase",
-      "rfilter", "sampler", "sensor", "shape",      "texture"};
+  static const std::vector<std::string> families{"bsdf",   "emitter", "film",    "integrator",
+                                                 "medium", "phase",   "rfilter", "sampler",
+                                                 "sensor", "shape",   "texture"};
   return families;
 }
 

@@ -234,8 +234,7 @@ SurfacePoint Scene::medium_point(const Ray& ray, double distance) {
   return at;
 }
 
-MediumIndex Scene::medium_around(const SurfacePoint& at, const Vec3& w,
-                                 MediumIndex outside) const {
+MediumIndex Scene::medium_around(const SurfacePoint& at, const Vec3& w, MediumIndex outside) const {
   Ray ray = spawn(at, w, at.time);
   SurfacePoint hit;
   while (intersect(ray, hit)) {

@@ -35,8 +35,7 @@ class HenyeyGreenstein final : public PhaseFunction {
 
 Plugin phase_hg() {
   return make_plugin<HenyeyGreenstein>(
-      "phase", "hg",
-      "Scatters light mostly forward or backward (Henyey & Greenstein 1941).",
+      "phase", "hg", "Scatters light mostly forward or backward (Henyey & Greenstein 1941).",
       {{"g", ParamType::real, 0.8,
         "Mean cosine of the deflection, -0.999 to 0.999: 0 is isotropic, positive is forward."}});
 }

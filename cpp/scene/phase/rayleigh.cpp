@@ -11,9 +11,7 @@ class Rayleigh final : public PhaseFunction {
   explicit Rayleigh(Params&) {}
 
  protected:
-  double density(double cosine) const override {
-    return 3 * inv_pi / 16 * (1 + cosine * cosine);
-  }
+  double density(double cosine) const override { return 3 * inv_pi / 16 * (1 + cosine * cosine); }
   /// The root of cos^3 + 3 cos = 4 - 8 u, by Cardano's formula.
   double sample_cosine(double u) const override {
     const double a = 2 - 4 * u;

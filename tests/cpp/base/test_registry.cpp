@@ -57,9 +57,8 @@ TEST(Registry, RefusesByNameWithTheReason) {
 }
 
 TEST(Registry, RefusesInFamiliesThatHaveNoPlugin) {
-  EXPECT_EQ(
-      error_of(example(), "medium", "heterogeneous"),
-      "s.xml:4: medium 'heterogeneous' is not supported: grids are not supported");
+  EXPECT_EQ(error_of(example(), "medium", "heterogeneous"),
+            "s.xml:4: medium 'heterogeneous' is not supported: grids are not supported");
 }
 
 TEST(Registry, KnowsPlugInsByOtherNames) {

@@ -309,10 +309,10 @@ TEST(TestScenes, TogetherHaveEveryKindOfTechniqueAndVertex) {
                     }
                   });
   }
-  EXPECT_EQ(seen,
-            (std::set<std::string>{"s = 0", "s = 1", "s > 1", "t = 0", "t = 1", "t > 1",
-                                   "light at infinity", "light at infinity that reaches the lens",
-                                   "medium", "passage", "reflection", "transmission", "shading normal"}));
+  EXPECT_EQ(seen, (std::set<std::string>{
+                      "s = 0", "s = 1", "s > 1", "t = 0", "t = 1", "t > 1", "light at infinity",
+                      "light at infinity that reaches the lens", "medium", "passage", "reflection",
+                      "transmission", "shading normal"}));
 }
 
 }  // namespace

@@ -25,7 +25,8 @@ BsdfPtr make(const Plugin& plugin, const Given& given = {},
   const Location where{"test.xml", 7};
   Params params(plugin.schema, where);
   for (const auto& [key, value] : given) params.set(key, value, where);
-  for (const BsdfPtr& part : nested) params.add("phase", std::const_pointer_cast<Bsdf>(part), where);
+  for (const BsdfPtr& part : nested)
+    params.add("phase", std::const_pointer_cast<Bsdf>(part), where);
   BsdfPtr made = std::dynamic_pointer_cast<const Bsdf>(plugin.create(params));
   params.expect_all_read();
   return made;
@@ -56,7 +57,8 @@ TEST(PhaseFunction, FollowsItsDensity) {
     options.pilot_samples = 4000;
     const ChiSquareResult r = chi_square_sphere(
         [&](Rng& u) { return std::optional(p.phase->sample(at, from, random_u(u))->to); },
-        [&](const Vec3& to) { return p.phase->pdf(at, from, to, Lobe::smooth); }, 50000, 3, options);
+        [&](const Vec3& to) { return p.phase->pdf(at, from, to, Lobe::smooth); }, 50000, 3,
+        options);
     EXPECT_NEAR(r.integral, 1, 1e-3) << p.label;
     p_values.push_back(r.p_value);
     messages.push_back(p.label);
