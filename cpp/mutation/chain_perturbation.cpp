@@ -68,15 +68,19 @@ bool ChainPerturbation::carry(const PathState& x, const Span& span, Ray ray, Pat
   };
   for (int i = span.start + span.step;; i += span.step) {
     const double u_leg = walker.draw_leg(context.rng);
-    SurfacePoint at;
-    const bool hit = scene_->media().empty()
-                         ? walker.arrive(ray, u_leg, at)
-                         : walker.arrive_at(kept_distance(x, i, span.step, ray), ray, u_leg, at);
-    if (i == 0)
+    const auto arrive = [&](SurfacePoint& at) {
+      if (!scene_->has_media()) return walker.arrive(ray, u_leg, at);
+      return walker.arrive_at(kept_distance(x, i, span.step, ray), ray, u_leg, at);
+    };
+    if (i == 0) {
+      SurfacePoint at;
+      const bool hit = arrive(at);
       return walker.find_light(ray, hit, at, background, y.path[0]) &&
              y[0].at.infinite() == x[0].at.infinite();
-    if (!hit) return false;
-    y.path[i] = inner_vertex(at, x[i].lobe);
+    }
+    y.path[i] = {};
+    if (!arrive(y.path[i].at)) return false;
+    y.path[i].lobe = x[i].lobe;
     if (i == span.stop) return true;
     const auto out = carried_direction(x, y, i, span.step, -ray.d, context);
     if (!out) return false;

@@ -90,7 +90,8 @@ class ChainPerturbation {
  private:
   std::optional<Vec3> carried_direction(const PathState& x, const PathState& y, int i, int step,
                                         const Vec3& in, MutationContext& context) const;
-  /// The distance from vertex i - step that vertex i of y keeps, if it is in a medium; else infinity.
+  /// The distance from vertex i - step that vertex i of y keeps, if it is in a medium; else
+  /// infinity.
   double kept_distance(const PathState& x, int i, int step, const Ray& ray) const;
   /// The probability of passing and stopping at surfaces from y's vertex i on.
   static double kept_arrival(const PathState& y, int i, int step) {

@@ -25,9 +25,9 @@ struct Vertex {
 ///
 /// `f` is the scattering factor f_i of the measurement contribution (Veach 1997, eq. 8.7): emitted
 /// radiance at x_0, the BSDF in between, importance at x_k; in a medium sigma_s times the phase
-/// function. The densities are coefficients in projected solid angle at this vertex (in a medium, in
-/// solid angle), of having sampled the next vertex from the light or from the camera; times G they
-/// are densities in the measure of the next vertex.
+/// function. The densities are coefficients in projected solid angle at this vertex (in a medium,
+/// in solid angle), of having sampled the next vertex from the light or from the camera; times G
+/// they are densities in the measure of the next vertex.
 ///
 /// With a shading normal ns beside the geometric one ng, f = f_s |wl.ns| / |wl.ng| (Veach 1997,
 /// sec. 5.3.2), so the same f serves walks from both ends.

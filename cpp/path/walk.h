@@ -22,7 +22,7 @@ inline LightSample sample_light_position(const Scene& scene, Vec3 u, double time
   const EmitterChoice choice = scene.choose_emitter(u.x);
   LightSample light{choice.emitter, choice.emitter->sample_position({u.y, u.z}, time)};
   light.x0.pdf *= choice.probability;
-  light.x0.at.medium = scene.medium_at_light(*choice.emitter, light.x0.at);
+  if (scene.has_media()) light.x0.at.medium = scene.medium_at_light(*choice.emitter, light.x0.at);
   return light;
 }
 /// Samples a position on a light for next-event estimation at the point `from`, at its time.
@@ -30,7 +30,7 @@ inline LightSample sample_direct_position(const Scene& scene, const SurfacePoint
   const EmitterChoice choice = scene.choose_emitter(u.x);
   LightSample light{choice.emitter, choice.emitter->sample_direct(from.p, {u.y, u.z}, from.time)};
   light.x0.pdf *= choice.probability;
-  light.x0.at.medium = scene.medium_at_light(*choice.emitter, light.x0.at);
+  if (scene.has_media()) light.x0.at.medium = scene.medium_at_light(*choice.emitter, light.x0.at);
   return light;
 }
 

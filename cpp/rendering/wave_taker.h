@@ -15,7 +15,7 @@ class WaveTaker : public SampleTaker {
 
   void sample_cells(const PixelRect& cells, const CellStreams& streams, SampleSink& sink,
                     RayCounts& rays) override {
-    if (!scene_->media().empty()) return SampleTaker::sample_cells(cells, streams, sink, rays);
+    if (scene_->has_media()) return SampleTaker::sample_cells(cells, streams, sink, rays);
     for_each_packet_cell(cells, [&](const Vec2i& cell) {
       wave_.numbers().add(streams.stream(cell.x, cell.y), streams.index);
       rasters_.emplace_back(cell);

@@ -1,5 +1,6 @@
-// What scatters light at a point: on a surface the Lambertian that it is there, or its plug-in; in a
-// medium its phase function. Directions are unit vectors in the world, unless they are called local.
+// What scatters light at a point: on a surface the Lambertian that it is there, or its plug-in; in
+// a medium its phase function. Directions are unit vectors in the world, unless they are called
+// local.
 #pragma once
 
 #include "scene/scene.h"
@@ -30,19 +31,13 @@ class BsdfAt {
   bool knows_density() const { return lambertian().known(); }
 
   WorldScattering scattering(const Vec3& wl, const Vec3& wc, Lobe lobe) const {
-    const Frame& shading = at_->shading;
-    if (at_->in_medium()) return {in_medium(wl, wc, lobe), 1, 1};
     if (lambertian().known()) {
-      const double cos_l = dot(wl, shading.n), cos_c = dot(wc, shading.n);
+      const Vec3& n = at_->shading.n;
+      const double cos_l = dot(wl, n), cos_c = dot(wc, n);
       return {lambertian().scattering(cos_l, cos_c, lobe), cos_l, cos_c};
     }
-    const Bsdf& bsdf = plugin();
-    const Vec3 local_l = shading.to_local(wl), local_c = shading.to_local(wc);
-    const Scattering s = bsdf.scattering(*at_, local_l, local_c, lobe);
-    if (lobe == Lobe::smooth || !bsdf.bends_normal()) return {s, local_l.z, local_c.z};
-    const Vec3 n = bsdf.delta_normal(*at_, local_l);
-    const double cos_l = dot(local_l, n);
-    return {s, cos_l, lobe == Lobe::reflection ? cos_l : dot(local_c, n)};
+    if (at_->in_medium()) return {in_medium(wl, wc, lobe), 1, 1};
+    return on_surface(wl, wc, lobe);
   }
   /// The scattering between two local directions.
   Scattering local_scattering(const Vec3& wl, const Vec3& wc, Lobe lobe) const {
@@ -79,8 +74,21 @@ class BsdfAt {
   double relative_eta(const Vec3& w) const { return plugin().relative_eta(*at_, w); }
 
  private:
+  // Not inlined: what most surfaces need of scattering() should be.
+
+  /// That of the plug-in.
+  [[gnu::noinline]] WorldScattering on_surface(const Vec3& wl, const Vec3& wc, Lobe lobe) const {
+    const Bsdf& bsdf = plugin();
+    const Frame& shading = at_->shading;
+    const Vec3 local_l = shading.to_local(wl), local_c = shading.to_local(wc);
+    const Scattering s = bsdf.scattering(*at_, local_l, local_c, lobe);
+    if (lobe == Lobe::smooth || !bsdf.bends_normal()) return {s, local_l.z, local_c.z};
+    const Vec3 n = bsdf.delta_normal(*at_, local_l);
+    const double cos_l = dot(local_l, n);
+    return {s, cos_l, lobe == Lobe::reflection ? cos_l : dot(local_c, n)};
+  }
   /// sigma_s times the phase function.
-  Scattering in_medium(const Vec3& wl, const Vec3& wc, Lobe lobe) const {
+  [[gnu::noinline]] Scattering in_medium(const Vec3& wl, const Vec3& wc, Lobe lobe) const {
     Scattering s = plugin().scattering(*at_, wl, wc, lobe);
     s.f *= scene_->medium(*at_).at(at_->p).scattering;
     return s;

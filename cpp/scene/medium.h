@@ -25,8 +25,8 @@ class Medium : public Object {
   explicit Medium(BsdfPtr phase) : phase_(std::move(phase)) {}
 
   virtual MediumCoefficients at(const Vec3& p) const = 0;
-  /// tau, the integral of sigma_t along a ray from the start of its edge to a distance, which may be
-  /// infinite.
+  /// tau, the integral of sigma_t along a ray from the start of its edge to a distance, which may
+  /// be infinite.
   virtual Color optical_depth(const Ray& ray, double distance) const = 0;
   /// The distance at which the mean over the channels of flight e^-tau has fallen to `left` > 0.
   virtual double flight_distance(const Ray& ray, const Color& flight, double left) const = 0;

@@ -104,9 +104,8 @@ Scene::Scene(std::vector<ShapePtr> shapes, std::vector<EmitterPtr> emitters, Cam
   const std::vector<ShapePtr> grouped = grouped_shapes(shapes_);
   shapes_.insert(shapes_.end(), grouped.begin(), grouped.end());
   for (size_t i = 0; i < shapes_.size(); ++i) shapes_[i]->set_index(static_cast<uint32_t>(i));
-  media_.add(shapes_);
-  find_surroundings();
-  has_passages_ = !media_.empty();
+  find_media(grouped.size());
+  has_passages_ = has_media_;
   for (const ShapePtr& shape : shapes_) {
     lambertian_meshes_.push_back(mlt::lambertian_mesh(*shape));
     has_passages_ = has_passages_ || (!shape->as_instance() && shape->bsdf().has_passage());
@@ -146,15 +145,14 @@ Vec3 Scene::edge_end(const SurfacePoint& at, const Vec3& w) const {
   return at.shape == SurfacePoint::no_shape ? departure(at, w) : at.p;
 }
 
-inline void Scene::enter_medium(const SurfacePoint& at, Ray& ray) const {
-  if (media_.empty()) return;
+void Scene::enter_medium(const SurfacePoint& at, Ray& ray) const {
   ray.medium = medium_towards(at, ray.d);
   ray.before = dot(ray.o - edge_end(at, ray.d), ray.d);
 }
 
 Ray Scene::spawn(const SurfacePoint& from, const Vec3& w, double time) const {
   Ray ray{departure(from, w), w, time};
-  enter_medium(from, ray);
+  if (has_media_) enter_medium(from, ray);
   return ray;
 }
 
@@ -170,7 +168,6 @@ inline bool Scene::find_segment(const SurfacePoint& a, const SurfacePoint& b, do
   if (has_end && !(dot(between, ab) > 0)) return false;  // behind the camera
   const double distance = length(between);
   ray = {start, between * (1 / distance), time, distance * (1 - ray_offset)};
-  enter_medium(a, ray);
   return true;
 }
 
@@ -192,7 +189,7 @@ Ray Scene::beyond(const Ray& ray, const SurfacePoint& at) const {
   const Vec3 start =
       cosine > grazing ? at.p + ray.d * (ray_offset * at.extent / cosine) : departure(at, ray.d);
   Ray rest{start, ray.d, ray.time, ray.t_max - dot(start - ray.o, ray.d)};
-  enter_medium(at, rest);
+  if (has_media_) enter_medium(at, rest);
   return rest;
 }
 
@@ -208,6 +205,7 @@ Passage Scene::passage(const SurfacePoint& at, const Vec3& w) const {
 Passage Scene::passage(const SurfacePoint& a, const SurfacePoint& b, double time) const {
   Ray ray;
   if (!find_segment(a, b, time, ray)) return Passage::blocked();
+  if (has_media_) enter_medium(a, ray);
   const Occlusion found = accel_->occluded(ray);
   if (found.blocked) return Passage::blocked();
   Passage all;
@@ -244,8 +242,10 @@ MediumIndex Scene::medium_around(const SurfacePoint& at, const Vec3& w, MediumIn
   return outside;
 }
 
-bool Scene::may_cross_boundaries(const Emitter& light) const {
+bool Scene::may_cross_boundaries(const Emitter& light, size_t grouped) const {
   if (light.infinite() || light.medium()) return false;
+  for (size_t i = shapes_.size() - grouped; i < shapes_.size(); ++i)
+    if (media_.is_boundary(static_cast<uint32_t>(i))) return true;  // wherever its instances are
   const Shape* shape = light.shape();
   if (!shape) {
     const Shutter& shutter = camera_->shutter();
@@ -263,10 +263,12 @@ bool Scene::may_cross_boundaries(const Emitter& light) const {
   return false;
 }
 
-void Scene::find_surroundings() {
+void Scene::find_media(size_t grouped) {
+  media_.add(shapes_);
   for (const EmitterPtr& light : emitters_) media_.add(light->medium());
   const MediumIndex declared = media_.add(camera_->medium());
-  if (media_.empty()) return;
+  has_media_ = !media_.empty();
+  if (!has_media_) return;
   const double time = camera_->time(0.5);
   const Vec2 middle(0.5);
   const SurfacePoint lens = camera_->sample_position(middle, time).at;
@@ -275,7 +277,7 @@ void Scene::find_surroundings() {
   // A medium without a boundary, in which the lens is, is everywhere.
   if (medium_around(lens, lens.ng, no_medium) != at_lens) outside_ = declared;
   for (const EmitterPtr& light : emitters_) {
-    lights_in_many_media_.push_back(may_cross_boundaries(*light));
+    lights_in_many_media_.push_back(may_cross_boundaries(*light, grouped));
     MediumIndex around = light->medium() ? media_.add(light->medium()) : outside_;
     if (!light->medium() && !light->infinite()) {
       const SurfacePoint at = light->sample_position(middle, time).at;

@@ -64,10 +64,11 @@ class Scene {
     return at.in_medium() ? nullptr : shapes_[at.shape]->emitter();
   }
   const Media& media() const { return media_; }
-  /// The medium around a point that was sampled on a light.
+  bool has_media() const { return has_media_; }
+  /// The medium around a point that was sampled on a light, in a scene with media.
   MediumIndex medium_at_light(const Emitter& light, const SurfacePoint& at) const {
-    if (media_.empty() || !lights_in_many_media_[light.index()]) return light.surroundings();
-    return medium_around(at, at.ng, outside_);
+    return lights_in_many_media_[light.index()] ? medium_around(at, at.ng, outside_)
+                                                : light.surroundings();
   }
   /// The medium of a point in one.
   const Medium& medium(const SurfacePoint& at) const { return media_[at.medium]; }
@@ -108,8 +109,8 @@ class Scene {
     return end.in_medium() ? mean(edge.flight * medium(end).at(end.p).extinction)
                            : mean(edge.flight);
   }
-  /// Where an edge at this point starts or ends, for distances in media: where rays enter the scene,
-  /// if the lens is far away.
+  /// Where an edge at this point starts or ends, for distances in media: where rays enter the
+  /// scene, if the lens is far away.
   Vec3 edge_end(const SurfacePoint& at, const Vec3& w) const;
 
   /// The shadow ray between two points; nullopt if they cannot be mutually visible.
@@ -144,19 +145,20 @@ class Scene {
  private:
   void arrive(const Ray& ray, const Hit& hit, SurfacePoint& at) const;
   bool find_segment(const SurfacePoint& a, const SurfacePoint& b, double time, Ray& ray) const;
-  /// Puts a ray that starts an edge at this point into its medium.
-  void enter_medium(const SurfacePoint& at, Ray& ray) const;
+  /// Puts a ray that starts an edge at this point into its medium. Not inlined: most scenes have
+  /// none.
+  [[gnu::noinline]] void enter_medium(const SurfacePoint& at, Ray& ray) const;
   /// The medium in which a ray from the point along w starts.
   MediumIndex medium_towards(const SurfacePoint& at, const Vec3& w) const {
     if (at.shape != SurfacePoint::no_shape) return media_.beside(at, w);
     return at.kind == PointKind::surface ? camera_->surroundings() : at.medium;
   }
-  /// Finds the media around lights and the lens.
-  void find_surroundings();
+  /// Finds all media, and those around lights and the lens; the last shapes are `grouped`.
+  void find_media(size_t grouped);
   /// The medium around a point: that on the near side of the first boundary along w.
   MediumIndex medium_around(const SurfacePoint& at, const Vec3& w, MediumIndex outside) const;
   /// Whether one part of the light may be in another medium than the rest.
-  bool may_cross_boundaries(const Emitter& light) const;
+  bool may_cross_boundaries(const Emitter& light, size_t grouped) const;
   /// The origin of a ray from the point along w (of any length), moved off its surface.
   Vec3 departure(const SurfacePoint& at, const Vec3& w) const;
 
@@ -168,7 +170,7 @@ class Scene {
   Bounds bounds_;
   std::shared_ptr<const Accel> accel_;
   std::vector<uint32_t> infinite_, backgrounds_;
-  bool has_passages_ = false;
+  bool has_passages_ = false, has_media_ = false;
   Media media_;
   MediumIndex outside_ = no_medium;         ///< Where no boundary is met.
   std::vector<bool> lights_in_many_media_;  ///< One for each emitter.
