@@ -205,7 +205,8 @@ Passage Scene::passage(const SurfacePoint& at, const Vec3& w) const {
 Passage Scene::passage(const SurfacePoint& a, const SurfacePoint& b, double time) const {
   Ray ray;
   if (!find_segment(a, b, time, ray)) return Passage::blocked();
-  if (has_media_) enter_medium(a, ray);
+  const bool ends = !a.infinite() && !b.infinite();
+  if (has_media_ && ends) enter_medium(a, ray);  // spawn() has done it for the others
   const Occlusion found = accel_->occluded(ray);
   if (found.blocked) return Passage::blocked();
   Passage all;
@@ -216,7 +217,6 @@ Passage Scene::passage(const SurfacePoint& a, const SurfacePoint& b, double time
     ray = beyond(ray, at);
   }
   if (ray.medium == no_medium) return all;
-  const bool ends = !a.infinite() && !b.infinite();
   fly(media_[ray.medium], ray, ends ? distance_to(edge_end(b, -ray.d), ray) : infinity, all);
   return all;
 }
