@@ -58,8 +58,7 @@ PyLightPath with_vertices(const PyLightPath& x, std::vector<Vertex> vertices) {
   if (!right)
     throw UsageError(
         "a path should be one vertex on a light, any number on surfaces or in media, and one on "
-        "the "
-        "lens");
+        "the lens");
   Path y{std::move(vertices)};
   y.set_time(x.path.time);
   const Vec2 raster = raster_position(*x.scene->scene, y).value_or(Vec2(std::nan("")));

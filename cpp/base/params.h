@@ -53,12 +53,14 @@ class Params {
     if (given && !found) fail(name, "cannot be a '" + given->type + "'");
     return found;
   }
-  /// All nested objects of type T, in the order they were given.
+  /// All nested objects of type T, in the order they were given; of one family, if it is named.
   template <class T>
-  std::vector<std::shared_ptr<T>> objects() {
+  std::vector<std::shared_ptr<T>> objects(const std::string& family = "") {
     std::vector<std::shared_ptr<T>> found;
     for (Nested& nested : nested_)
-      if (auto object = std::dynamic_pointer_cast<T>(nested.object)) {
+      if (!family.empty() && nested.family != family)
+        continue;
+      else if (auto object = std::dynamic_pointer_cast<T>(nested.object)) {
         nested.read = true;
         found.push_back(object);
       }

@@ -8,6 +8,7 @@
 #include "scene/emitter/moving.h"
 #include "scene/mesh.h"
 #include "scene/motion.h"
+#include "scene/nested.h"
 #include "scene/shape/sphere.h"
 #include "scene/texture.h"
 
@@ -49,14 +50,6 @@ const std::string& side_of_medium(const Node& medium) {
 }
 
 bool needs_a_shape(const Emitter& emitter) { return !emitter.infinite() && !emitter.delta(); }
-
-template <class T>
-std::shared_ptr<T> only_one(const std::vector<std::shared_ptr<T>>& found, const char* family,
-                            const Params& params) {
-  if (found.size() > 1)
-    params.fail(fmt::format("has {} nested elements <{}>, but can have one", found.size(), family));
-  return found.empty() ? nullptr : found.front();
-}
 
 /// The shape, or an instance that moves it if its transform is an animation.
 ShapePtr moving(const ShapePtr& shape, Params& params) {
@@ -141,16 +134,15 @@ ObjectPtr Builder::make(const Node& node) {
   if (auto reader = std::dynamic_pointer_cast<ShapeReader>(object))
     shape_readers_.push_back(std::move(reader));
   if (const auto shape = std::dynamic_pointer_cast<Shape>(object)) {
-    attach(*shape, params, params.objects<Bsdf>(), params.objects<Emitter>());
-    shape->set_media({params.object<Medium>("interior"), params.object<Medium>("exterior")});
+    attach(*shape, params);
     if (!shape->as_instance()) object = moving(shape, params);
   }
   if (const auto emitter = std::dynamic_pointer_cast<Emitter>(object))
-    emitter->set_medium(only_one(params.objects<Medium>(), "medium", params));
+    emitter->set_medium(optional_nested<Medium>(params, "medium"));
   if (const auto camera = std::dynamic_pointer_cast<Camera>(object)) {
-    camera->set_medium(only_one(params.objects<Medium>(), "medium", params));
-    const auto sampler = only_one(params.objects<SamplerSettings>(), "sampler", params);
-    views_[object.get()] = {camera, only_one(params.objects<FilmSettings>(), "film", params),
+    camera->set_medium(optional_nested<Medium>(params, "medium"));
+    const auto sampler = optional_nested<SamplerSettings>(params, "sampler");
+    views_[object.get()] = {camera, optional_nested<FilmSettings>(params, "film"),
                             sampler ? sampler->sample_count : 0};
   }
   if (!known) params.expect_all_read();
@@ -207,10 +199,10 @@ void Builder::give(Params& params, const Node& parent, const Node& child) {
   params.set(name, std::move(nested), child.where);
 }
 
-void Builder::attach(Shape& shape, const Params& params, std::vector<std::shared_ptr<Bsdf>> bsdfs,
-                     std::vector<EmitterPtr> emitters) {
-  const BsdfPtr bsdf = only_one(bsdfs, "bsdf", params);
-  const EmitterPtr emitter = only_one(emitters, "emitter", params);
+void Builder::attach(Shape& shape, Params& params) {
+  const BsdfPtr bsdf = optional_nested<Bsdf>(params, "bsdf");
+  const EmitterPtr emitter = optional_nested<Emitter>(params, "emitter");
+  shape.set_media({params.object<Medium>("interior"), params.object<Medium>("exterior")});
   shape.set_bsdf(bsdf ? bsdf : default_bsdf(emitter != nullptr, params.where()));
   if (!emitter) return;
   if (!needs_a_shape(*emitter))

@@ -55,8 +55,7 @@ class Builder {
   void check_size(const Node& node);
   Part new_part(const Node& node, const Plugin& plugin, Params& params);
   void give(Params& params, const Node& parent, const Node& child);
-  void attach(Shape& shape, const Params& params, std::vector<std::shared_ptr<Bsdf>> bsdfs,
-              std::vector<EmitterPtr> emitters);
+  void attach(Shape& shape, Params& params);
   void take_animation(Params& params, const std::string& name, bool by_shutter) const;
   BsdfPtr default_bsdf(bool on_light, const Location& where);
 

@@ -91,7 +91,7 @@ bool ChainPerturbation::carry(const PathState& x, const Span& span, Ray ray, Pat
 double ChainPerturbation::kept_distance(const PathState& x, int i, int step, const Ray& ray) const {
   const SurfacePoint &from = x[i - step].at, &to = x[i].at;
   if (!to.in_medium()) return infinity;
-  if (from.infinite()) return dot(to.p - ray.o, ray.d);
+  if (from.infinite()) return distance_to(to.p, ray);
   return length(to.p - scene_->edge_end(from, x.terms.direction(i - step, step)));
 }
 

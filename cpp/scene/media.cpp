@@ -16,7 +16,7 @@ MediumIndex Media::add(const MediumPtr& medium) {
   const auto found = std::find(all_.begin(), all_.end(), medium);
   const auto index = found - all_.begin();
   if (index == no_medium)
-    throw SceneError(at(medium->where, "is one medium too many; {} are the most", no_medium));
+    throw SceneError(at(medium->where, "this is one medium too many; {} are the most", no_medium));
   if (found == all_.end()) all_.push_back(medium);
   return static_cast<MediumIndex>(index);
 }

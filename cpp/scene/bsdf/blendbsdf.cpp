@@ -1,15 +1,14 @@
 // A blend of two materials, by a weight that may vary over the surface.
 #include "base/registry.h"
 #include "scene/bsdf/blend.h"
+#include "scene/nested.h"
 
 namespace mlt {
 namespace {
 
 ObjectPtr create_blend(Params& params) {
-  const auto nested = params.objects<Bsdf>();
-  if (nested.size() != 2)
-    params.fail("needs two nested bsdfs, but has " + std::to_string(nested.size()));
-  return std::make_shared<Blend>(nested[0], nested[1], texture_param(params, "weight"), 1, params);
+  const auto [first, second] = nested_pair<Bsdf>(params, "bsdf");
+  return std::make_shared<Blend>(first, second, texture_param(params, "weight"), 1, params);
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ std::vector<double> weights_param(Params& params) {
 }
 
 ObjectPtr create_mixture(Params& params) {
-  const auto nested = params.objects<Bsdf>();
+  const auto nested = params.objects<Bsdf>("bsdf");
   const std::vector<double> weights = weights_param(params);
   if (nested.empty() || nested.size() != weights.size())
     params.fail(fmt::format("has {} weights for {} nested bsdfs", weights.size(), nested.size()));

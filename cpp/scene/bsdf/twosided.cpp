@@ -9,7 +9,7 @@ namespace {
 class TwoSided final : public Bsdf {
  public:
   explicit TwoSided(Params& params) {
-    const auto nested = params.objects<Bsdf>();
+    const auto nested = params.objects<Bsdf>("bsdf");
     if (nested.empty() || nested.size() > 2)
       params.fail("needs one nested bsdf, or two (front and back), but has " +
                   std::to_string(nested.size()));

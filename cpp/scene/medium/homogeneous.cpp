@@ -2,6 +2,7 @@
 #include "base/registry.h"
 #include "scene/medium.h"
 #include "scene/medium/presets.h"
+#include "scene/nested.h"
 #include "scene/phase/isotropic.h"
 #include "scene/texture.h"
 
@@ -30,9 +31,8 @@ MediumCoefficients read_coefficients(Params& params) {
 }
 
 BsdfPtr read_phase(Params& params) {
-  const auto nested = params.objects<Bsdf>();
-  if (nested.size() > 1) params.fail("has several phase functions, but can have one");
-  return nested.empty() ? isotropic_phase() : nested.front();
+  const BsdfPtr nested = optional_nested<Bsdf>(params, "phase");
+  return nested ? nested : isotropic_phase();
 }
 
 class Homogeneous final : public Medium {

@@ -1,16 +1,15 @@
 // A blend of two phase functions.
 #include "base/registry.h"
 #include "scene/bsdf/blend.h"
+#include "scene/nested.h"
 
 namespace mlt {
 namespace {
 
 ObjectPtr create_blend(Params& params) {
-  const auto nested = params.objects<Bsdf>();
-  if (nested.size() != 2)
-    params.fail("needs two nested phase functions, but has " + std::to_string(nested.size()));
+  const auto [first, second] = nested_pair<Bsdf>(params, "phase");
   const TexturePtr weight = constant_texture(Color(params.real_in("weight", 0, 1)));
-  return std::make_shared<Blend>(nested[0], nested[1], weight, 1, params);
+  return std::make_shared<Blend>(first, second, weight, 1, params);
 }
 
 }  // namespace

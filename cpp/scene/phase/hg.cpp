@@ -14,8 +14,8 @@ class HenyeyGreenstein final : public PhaseFunction {
     const double d = 1 + g_ * g_ - 2 * g_ * cosine;
     return (1 - g_ * g_) * 0.25 * inv_pi / (d * std::sqrt(d));
   }
-  /// With s = (1 - g^2) / (1 + g - 2 g u): cos = (1 + g^2 - s^2) / (2 g). Written with s - 1 + g,
-  /// which is g times a factor, so that a small g keeps its digits.
+  /// With s = (1 - g^2) / (1 + g - 2 g u): cos = (1 + g^2 - s^2) / (2 g). Written with (s - 1) / g,
+  /// so that a small g keeps its digits.
   double sample_cosine(double u) const override {
     const double d = 1 + g_ - 2 * g_ * u;
     const double over_g = (2 * u - 1 - g_) / d;  // (s - 1) / g
