@@ -189,7 +189,7 @@ def test_a_medium_of_a_shape_needs_its_side():
 def test_materials_and_phase_functions_do_not_stand_for_one_another():
     diffuse, isotropic = {"type": "diffuse"}, {"type": "isotropic"}
     for wrong in (box(medium(1.0, 0.5, nested=diffuse)), {"type": "cube", "nested": isotropic}):
-        with pytest.raises(mlt.SceneError, match="does not take a nested (bsdf|phase)"):
+        with pytest.raises(mlt.SceneError, match=r"does not take a nested (bsdf|phase)"):
             scene(part=wrong, light=lit())
 
 
