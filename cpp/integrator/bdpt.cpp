@@ -3,8 +3,7 @@
 // Guibas, "Bidirectional estimators for light transport", EGWR 1994; Veach 1997, ch. 10.
 #include "integrator/parameters.h"
 #include "path/technique_names.h"
-#include "rendering/sampled_rendering.h"
-#include "wave/bidirectional_wave.h"
+#include "rendering/bidirectional_taker.h"
 
 namespace mlt {
 namespace {
@@ -14,7 +13,7 @@ struct BdptSettings {
   bool techniques = false, manifolds = false;
 };
 
-class BdptTaker : public SampleTaker {
+class BdptTaker : public BidirectionalTaker {
  public:
   static BdptSettings settings(Params& params) {
     const BdptSettings settings{bidirectional_settings(params), params.boolean("techniques"),
@@ -40,25 +39,11 @@ class BdptTaker : public SampleTaker {
     return film;
   }
   BdptTaker(const Scene& scene, const BdptSettings& settings)
-      : scene_(&scene),
+      : BidirectionalTaker(scene, settings.paths, !settings.techniques),
+        scene_(&scene),
         scale_(radiance_scale(scene)),
         bidirectional_(scene, settings.paths),
-        techniques_(settings.techniques) {
-    if (!techniques_ && BidirectionalWave::supports(scene, settings.paths))
-      wave_ = std::make_unique<BidirectionalWave>(scene, settings.paths);
-  }
-
-  void sample_cells(const PixelRect& cells, const CellStreams& streams, SampleSink& sink,
-                    RayCounts& rays) override {
-    if (!wave_) return SampleTaker::sample_cells(cells, streams, sink, rays);
-    for_each_packet_cell(cells, [&](const Vec2i& cell) {
-      if (!wave_worthwhile_) return sample_cell(cell, streams, sink, rays);
-      wave_->add(streams.stream(cell.x, cell.y), streams.index, cell);
-      cells_.push_back(cell);
-      if (wave_->full()) trace_wave(streams, sink, rays);
-    });
-    trace_wave(streams, sink, rays);
-  }
+        techniques_(settings.techniques) {}
 
   void sample(const Vec2& raster, PixelSampler& sampler, SampleSink& sink,
               RayCounts& rays) override {
@@ -82,30 +67,21 @@ class BdptTaker : public SampleTaker {
   }
 
  private:
-  void trace_wave(const CellStreams& streams, SampleSink& sink, RayCounts& rays) {
-    int left = 0;
-    wave_->trace(rays);
-    for (const BidirectionalWave::Splat& splat : wave_->splats())
-      sink.splat(splat.raster, splat.weighted);
-    for (int i = 0; i < wave_->size(); ++i) {
-      if (wave_->fell_back(i))
-        sample_cell(cells_[i], streams, sink, rays);
+  void show(const BidirectionalWave& wave, int i, SampleSink& sink) override {
+    Color seen(0);
+    wave.show_lights(i, [&](const BidirectionalWave::Light& light) {
+      if (light.own_pixel)
+        seen += light.weighted;
       else
-        sink.add(wave_->raster(i), wave_->seen(i) * scale_);
-      left += wave_->fell_back(i);
-    }
-    wave_worthwhile_ = 2 * left <= wave_->size();
-    wave_->clear();
-    cells_.clear();
+        sink.splat(light.raster, light.weighted);
+    });
+    sink.add(wave.raster(i), seen * scale_);
   }
 
   const Scene* scene_;
   double scale_;
   BidirectionalSampler bidirectional_;
   bool techniques_;
-  std::unique_ptr<BidirectionalWave> wave_;  ///< nullptr if it does not support the scene.
-  std::vector<Vec2i> cells_;                 ///< Cells of the samples in the wave.
-  bool wave_worthwhile_ = true;              ///< Unless most samples of the last one were left.
 };
 
 }  // namespace

@@ -11,8 +11,16 @@ namespace mlt {
 
 class PathSeeds {
  public:
-  explicit PathSeeds(const PathTarget& target)
-      : target_(&target), paths_(target.scene(), settings(target)) {}
+  explicit PathSeeds(const PathTarget& target) : PathSeeds(target, settings(target)) {}
+  PathSeeds(const PathTarget& target, const BidirectionalSettings& settings)
+      : target_(&target), paths_(target.scene(), settings) {}
+
+  static BidirectionalSettings settings(const PathTarget& target) {
+    BidirectionalSettings settings;
+    settings.rules = target.rules();
+    settings.manifolds = target.manifolds();
+    return settings;
+  }
 
   /// Sum of the weights of a candidate's paths.
   double weigh(Rng& rng) {
@@ -73,13 +81,6 @@ class PathSeeds {
   Vec2 position(Sampler& sampler) const {
     return target_->scene().camera().raster().sample(sampler.next2());
   }
-  static BidirectionalSettings settings(const PathTarget& target) {
-    BidirectionalSettings settings;
-    settings.rules = target.rules();
-    settings.manifolds = target.manifolds();
-    return settings;
-  }
-
   const PathTarget* target_;
   BidirectionalSampler paths_;
   RayCounts rays_;

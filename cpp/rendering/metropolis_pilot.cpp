@@ -29,11 +29,13 @@ using PixelSums = std::map<std::pair<int, int>, PerThreshold>;
 /// The noise of one family, in units of the brightness of each pixel, and its cost.
 struct Noise {
   PerThreshold squares{};
+  PerThreshold of_samples{};  ///< The squares of samples, as chains tell them.
   uint64_t count = 0, rays = 0;
   double cost_of_ray = 1;
 
   Noise& operator+=(const Noise& other) {
     for (size_t i = 0; i < thresholds.size(); ++i) squares[i] += other.squares[i];
+    for (size_t i = 0; i < thresholds.size(); ++i) of_samples[i] += other.of_samples[i];
     count += other.count;
     rays += other.rays;
     cost_of_ray = other.cost_of_ray;
@@ -44,6 +46,11 @@ struct Noise {
   double cost() const { return cost_of_ray * (1 + static_cast<double>(rays) / n()); }
   double square(size_t threshold) const { return squares[threshold] / n(); }
 };
+
+/// The share of paths with a T / P above 64 b in the noise of samples.
+double share_of_rare_light(const PerThreshold& squares) {
+  return 1 - squares[thresholds.size() - 3] / squares.back();
+}
 
 struct Forecast {
   Allocation allocation;
@@ -56,6 +63,9 @@ constexpr double least_steps_per_sample = 16;
 
 /// Up to this ratio of variances the samples are preferred: their noise is known better.
 constexpr double hardly = 1.15;
+
+/// From this ratio of variances on, rare light is no reason to prefer chains.
+constexpr double surely_better = 4;
 
 class Pilot {
  public:
@@ -113,35 +123,100 @@ class Pilot {
   double noise_of_samples() const {
     return samples_.cost() * samples_.square(thresholds.size() - 1);
   }
-  /// Whether paths with a T / P above 64 b make most of the noise of samples. The chains of a pilot
-  /// have hardly found them, and seem less noisy than they will be.
-  bool has_rare_light() const {
-    return samples_.squares.back() > 2 * samples_.squares[thresholds.size() - 3];
+  /// The same as chains tell it: the mean of f^2 / P over all paths, from states of density T / b.
+  /// Chains find light that is so rare among samples that the pilot's have missed it.
+  double noise_by_chains() const {
+    return samples_.cost() * chains_.of_samples.back() / chains_.n();
+  }
+  /// Whether rare paths make most of the noise of samples. The chains of a pilot have hardly found
+  /// them, and seem less noisy than they will be.
+  bool has_rare_light() const { return share_of_rare_light(samples_.squares) > 0.5; }
+  /// Whether they make much of it as chains tell it. What is rare for path tracing alone does not
+  /// count: tours start from samples of all techniques.
+  bool misses_rare_light() const {
+    return techniques_ == SampleTechniques::all && share_of_rare_light(chains_.of_samples) > 0.4;
+  }
+  /// The greatest share of the samples as long as there are chains.
+  double greatest_share() const {
+    if (has_rare_light()) return settings_.greatest_share_with_rare_light;
+    return misses_rare_light() ? settings_.greatest_share_if_missed : settings_.greatest_share;
   }
 
   /// With a share s of the time the variance is v1 c1 / s + v2 c2 / (1 - s); it is least, and (sqrt
   /// (v1 c1) + sqrt(v2 c2))^2, for s / (1 - s) = sqrt(v1 c1) / sqrt(v2 c2).
-  Forecast forecast() {
-    run_chains();
+  Forecast forecast(double greatest_share) {
     Allocation best;
     best.techniques = techniques_;
     if (samples_.count == 0 || chains_.count == 0) return {best};  // cancelled
     best.mutations_per_sample = samples_.cost() / chains_.cost();
-    const double greatest =
-        has_rare_light() ? settings_.greatest_share_with_rare_light : settings_.greatest_share;
+    const double mutations_per_start =
+        best.mutations_per_sample * algorithm_.source()->cost_of_ray() / samples_.cost_of_ray;
     double least = std::numeric_limits<double>::infinity();
     for (size_t i = 0; i < thresholds.size(); ++i) {
       const double v1 = samples_.cost() * samples_.square(i),
                    v2 = chains_.cost() * chains_.square(i);
       const double share = settings_.share.value_or(std::clamp(
-          std::sqrt(v1) / (std::sqrt(v1) + std::sqrt(v2)), settings_.least_share, greatest));
+          std::sqrt(v1) / (std::sqrt(v1) + std::sqrt(v2)), settings_.least_share, greatest_share));
       const double variance = v1 / share + v2 / (1 - share);
       if (!(variance < hardly * least)) continue;
       least = std::min(least, variance);
       best.share = share;
       best.weights = weights(i);
+      best.steps_per_sample = mutations_per_start * (1 - share) / share;
     }
     return {best, least};
+  }
+
+  /// Sums squares of all that a chain adds to a pixel: staying in one makes the image noisier.
+  void run_chains() {
+    chains_ = {};
+    const std::vector<uint32_t>& seeds = starts_.seeds;
+    struct Recorder : ChainRecorder {
+      explicit Recorder(const Pilot& p) : pilot(p) {}
+      void record(const Vec2& raster, const Color& rgb_per_target, double weight,
+                  double target_over_density) override {
+        const double relative = pilot.relative(rgb_per_target, raster),
+                     value = weight * pilot.starts_.b * relative;
+        PerThreshold& sums = pixels[{static_cast<int>(std::floor(raster.x)),
+                                     static_cast<int>(std::floor(raster.y))}];
+        for (size_t t = 0; t < thresholds.size(); ++t) {
+          const FamilyWeights weights = pilot.weights(t);
+          sums[t] += value * weights.of_chain(target_over_density);
+          of_samples[t] +=
+              value * relative * target_over_density * sqr(weights.of_sample(target_over_density));
+        }
+      }
+      const Pilot& pilot;
+      PixelSums pixels;
+      PerThreshold of_samples{};
+    };
+    const auto together = static_cast<size_t>(algorithm_.chains_together());
+    std::vector<Noise> noise((seeds.size() + together - 1) / together);
+    parallel_for(settings_.threads, noise.size(), [&](uint64_t team) {
+      if (cancelled_) return;
+      const size_t first = team * together, last = std::min(first + together, seeds.size());
+      std::vector<std::unique_ptr<RenderChain>> chains;
+      std::vector<Recorder> recorders(last - first, Recorder(*this));
+      std::vector<ChainVisit> visits;
+      for (size_t i = first; i < last; ++i) {
+        const ChainId id{settings_.seed,      0,
+                         static_cast<int>(i), static_cast<int>(seeds.size()),
+                         starts_.b,           Purpose::allocation};
+        chains.push_back(algorithm_.start(id, candidates_.rng(seeds[i]),
+                                          candidates_.rng(candidates_.count + 1 + i)));
+        visits.push_back({chains.back().get(), &recorders[i - first]});
+      }
+      algorithm_.advance(visits, settings_.steps);
+      Noise& sum = noise[team];
+      for (const Recorder& recorder : recorders) {
+        for (size_t t = 0; t < thresholds.size(); ++t) sum.of_samples[t] += recorder.of_samples[t];
+        for (const auto& [pixel, sums] : recorder.pixels)
+          for (size_t t = 0; t < thresholds.size(); ++t) sum.squares[t] += sqr(sums[t]);
+      }
+      sum.count = settings_.steps * chains.size();
+      for (const auto& chain : chains) sum.rays += chain->stats().rays.total();
+    });
+    for (const Noise& one : noise) chains_ += one;
   }
 
  private:
@@ -169,50 +244,6 @@ class Pilot {
     return own_pixel;
   }
 
-  /// Sums squares of all that a chain adds to a pixel: staying in one makes the image noisier.
-  void run_chains() {
-    chains_ = {};
-    const std::vector<uint32_t>& seeds = starts_.seeds;
-    struct Recorder : ChainRecorder {
-      explicit Recorder(const Pilot& p) : pilot(p) {}
-      void record(const Vec2& raster, const Color& rgb_per_target, double weight,
-                  double target_over_density) override {
-        const double value = weight * pilot.starts_.b * pilot.relative(rgb_per_target, raster);
-        PerThreshold& sums = pixels[{static_cast<int>(std::floor(raster.x)),
-                                     static_cast<int>(std::floor(raster.y))}];
-        for (size_t t = 0; t < thresholds.size(); ++t)
-          sums[t] += value * pilot.weights(t).of_chain(target_over_density);
-      }
-      const Pilot& pilot;
-      PixelSums pixels;
-    };
-    const auto together = static_cast<size_t>(algorithm_.chains_together());
-    std::vector<Noise> noise((seeds.size() + together - 1) / together);
-    parallel_for(settings_.threads, noise.size(), [&](uint64_t team) {
-      if (cancelled_) return;
-      const size_t first = team * together, last = std::min(first + together, seeds.size());
-      std::vector<std::unique_ptr<RenderChain>> chains;
-      std::vector<Recorder> recorders(last - first, Recorder(*this));
-      std::vector<ChainVisit> visits;
-      for (size_t i = first; i < last; ++i) {
-        const ChainId id{settings_.seed,      0,
-                         static_cast<int>(i), static_cast<int>(seeds.size()),
-                         starts_.b,           Purpose::allocation};
-        chains.push_back(algorithm_.start(id, candidates_.rng(seeds[i]),
-                                          candidates_.rng(candidates_.count + 1 + i)));
-        visits.push_back({chains.back().get(), &recorders[i - first]});
-      }
-      algorithm_.advance(visits, settings_.steps);
-      Noise& sum = noise[team];
-      for (const Recorder& recorder : recorders)
-        for (const auto& [pixel, sums] : recorder.pixels)
-          for (size_t t = 0; t < thresholds.size(); ++t) sum.squares[t] += sqr(sums[t]);
-      sum.count = settings_.steps * chains.size();
-      for (const auto& chain : chains) sum.rays += chain->stats().rays.total();
-    });
-    for (const Noise& one : noise) chains_ += one;
-  }
-
   MetropolisAlgorithm& algorithm_;
   const Raster& raster_;
   const TypicalBrightness& typical_;
@@ -235,7 +266,8 @@ void set_tours(Allocation& allocation, double b) {
                steps = allocation.mutations_per_sample * (1 - share) / share;
   allocation.weights = FamilyWeights(b / to_half_octaves(steps * std::sqrt(1 - share)));
   allocation.b = b;
-  allocation.steps_per_sample = std::max(to_half_octaves(steps), least_steps_per_sample);
+  allocation.steps_per_sample =
+      std::max(to_half_octaves(allocation.steps_per_sample), least_steps_per_sample);
 }
 
 Allocation chains_alone(double b) {
@@ -282,11 +314,16 @@ Allocation allocate(MetropolisAlgorithm& algorithm, const Raster& raster,
   if (!(b > 0)) return samples_alone(first);
   if (settings.share == 0) return chains_alone(b);
   pilot.draw_samples(first);
-  Forecast best = pilot.forecast();
+  pilot.run_chains();
+  Forecast best = pilot.forecast(pilot.greatest_share());
   const double noise = pilot.noise_of_samples();
   if (!settings.techniques && pilot.draw_samples(SampleTechniques::path_tracing) &&
-      pilot.noise_of_samples() < noise && !pilot.has_rare_light()) {
-    const Forecast other = pilot.forecast();
+      pilot.noise_of_samples() < noise) {
+    pilot.run_chains();
+    const bool surely =
+        surely_better * std::max(pilot.noise_of_samples(), pilot.noise_by_chains()) < noise;
+    const Forecast other =
+        pilot.forecast(surely ? settings.greatest_share : pilot.greatest_share());
     if (other.allocation.share > 0.5 && hardly * other.variance < best.variance) best = other;
   }
   algorithm.set_techniques(best.allocation.techniques);

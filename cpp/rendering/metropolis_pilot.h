@@ -30,7 +30,8 @@ struct PilotSettings {
   std::optional<double> share;                 ///< See Allocation; fixed if given.
   std::optional<SampleTechniques> techniques;  ///< See Allocation; fixed if given.
   /// Bounds of the share of the independent samples, as long as there are chains.
-  double least_share = 0.05, greatest_share = 0.95, greatest_share_with_rare_light = 0.2;
+  double least_share = 0.05, greatest_share = 0.95, greatest_share_with_rare_light = 0.2,
+         greatest_share_if_missed = 0.5;
 };
 
 /// The division of a render without chains.

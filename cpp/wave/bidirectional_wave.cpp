@@ -57,7 +57,7 @@ void BidirectionalWave::add(uint64_t stream, uint32_t index, const Vec2& pixel) 
 
 void BidirectionalWave::clear() {
   numbers_.clear();
-  splats_.clear();
+  lights_found_.clear();
 }
 
 void BidirectionalWave::trace(RayCounts& rays) {
@@ -90,7 +90,7 @@ void BidirectionalWave::walk_from_camera(RayCounts& rays) {
   numbers_.read2(places.next2(), 0, size(), &u_x_[0], &u_y_[0]);
   for (int i = 0; i < size(); ++i) {
     rasters_[i] += Vec2(u_x_[i], u_y_[i]);
-    seen_[i] = Color(0);
+    first_[i] = last_[i] = -1;
     const Ray ray = camera.ray(rasters_[i], {}, lens_.at.time);
     const auto projection = camera.project(lens_.at, ray.d);
     if (!projection) continue;
@@ -156,7 +156,20 @@ void BidirectionalWave::fall_back_together() {
 
 void BidirectionalWave::take_hits() {
   for (const SubpathWave::Hit& hit : camera_.hits())
-    if (!fell_back(hit.sample)) seen_[hit.sample] += hit.weighted;
+    if (!fell_back(hit.sample))
+      take(add({hit.sample, hit.place, true, hit.survival, rasters_[hit.sample], hit.weighted}));
+}
+
+inline int BidirectionalWave::add(const Light& light) {
+  lights_found_.push_back(light);
+  return static_cast<int>(lights_found_.size()) - 1;
+}
+
+/// Links a light to those of its sample.
+inline void BidirectionalWave::take(int light) {
+  int& last = last_[lights_found_[light].sample];
+  (last < 0 ? first_[lights_found_[light].sample] : lights_found_[last].next) = light;
+  last = light;
 }
 
 /// See BidirectionalSampler::choose_direct.
@@ -195,6 +208,7 @@ void BidirectionalWave::choose_direct(int place, int block, int first) {
     to.extent[lane] = lights_.light.extent[first + lane];
   }
   for (double& sum : to.sums.values) sum = 1;
+  for (double& survival : to.survival.values) survival = 1;
 }
 
 void BidirectionalWave::connect(int s, int t, RayCounts& rays) {
@@ -202,27 +216,32 @@ void BidirectionalWave::connect(int s, int t, RayCounts& rays) {
   ColorLanes joined;
   for (int block = 0; block < block_count(); ++block) {
     if (!light_reaches(s, block) || !camera_.reaches(t - 1, block)) continue;
-    join(light_joints(s, block), camera_.joints(t - 1, block), settings_.rules.strict_normals,
-         beta_, joining, joined);
-    if (shadows_.count() + JointLanes::size > wave_size) find_shadows(rays);
-    for (int i = 0; i < JointLanes::size; ++i)
-      if (joining.length[i] > 0)
-        if (const Color weighted = joined[i]; !is_black(weighted))
-          shadows_.add(block * JointLanes::size + i, weighted, 1, joining.o[i], joining.w[i],
-                       joining.length[i]);
+    const JointLanes &a = light_joints(s, block), &b = camera_.joints(t - 1, block);
+    join(a, b, settings_.rules.strict_normals, beta_, joining, joined);
+    make_room_for_shadows(rays);
+    for (int i = 0; i < JointLanes::size; ++i) {
+      const Color weighted = joined[i];
+      if (!(joining.length[i] > 0) || is_black(weighted)) continue;
+      const int sample = block * JointLanes::size + i;
+      wait_for_shadow(
+          {sample, s + t - 1, true, a.survival[i] * b.survival[i], rasters_[sample], weighted},
+          joining.o[i], joining.w[i], joining.length[i]);
+    }
   }
 }
 
 void BidirectionalWave::connect_to_lens(int s, RayCounts& rays) {
   for (int block = 0; block < block_count(); ++block)
-    if (light_reaches(s, block)) connect_to_lens(light_joints(s, block), block, rays);
+    if (light_reaches(s, block)) {
+      make_room_for_shadows(rays);
+      connect_to_lens(s, light_joints(s, block), block);
+    }
 }
 
-void BidirectionalWave::connect_to_lens(const JointLanes& a, int block, RayCounts& rays) {
+void BidirectionalWave::connect_to_lens(int s, const JointLanes& a, int block) {
   const Camera& camera = scene_->camera();
   LensEdges edges;
   find_edges(a, lens_.at, settings_.rules.strict_normals, edges);
-  if (shadows_.count() + JointLanes::size > wave_size) find_shadows(rays);
   for (int i = 0; i < JointLanes::size; ++i) {
     if (!(edges.G[i] > 0)) continue;
     const Vec3 w(edges.x[i], edges.y[i], edges.z[i]);
@@ -236,24 +255,27 @@ void BidirectionalWave::connect_to_lens(const JointLanes& a, int block, RayCount
     const Vec3 ray = camera.entrance(lens_.at, -w) - Vec3(start);
     if (!(dot(ray, w) > 0)) continue;  // behind the camera
     const double length = mlt::length(ray);
-    shadows_.add(capacity + static_cast<int>(unseen_.size()), weighted, 1, start,
-                 Vec3f(ray * (1 / length)), static_cast<float>(length * (1 - ray_offset)));
-    unseen_.push_back({block * JointLanes::size + i, projection->raster, weighted});
+    wait_for_shadow(
+        {block * JointLanes::size + i, s, false, a.survival[i], projection->raster, weighted},
+        start, Vec3f(ray * (1 / length)), static_cast<float>(length * (1 - ray_offset)));
   }
+}
+
+inline void BidirectionalWave::wait_for_shadow(const Light& light, const Vec3f& o, const Vec3f& w,
+                                               float length) {
+  shadows_.add(add(light), light.weighted, light.survival, o, w, length);
+}
+
+/// Makes room for eight more shadow rays.
+inline void BidirectionalWave::make_room_for_shadows(RayCounts& rays) {
+  if (shadows_.count() + JointLanes::size > wave_size) find_shadows(rays);
 }
 
 void BidirectionalWave::find_shadows(RayCounts& rays) {
   rays.count_occluded(shadows_.count());
   shadows_.trace(
       scene_->accel(), [](int) { return 0.0; },
-      [&](int target, const Color& weighted, double) {
-        if (target < capacity)
-          seen_[target] += weighted;
-        else
-          splats_.push_back(unseen_[target - capacity]);
-      },
-      [](int) {});
-  unseen_.clear();
+      [&](int light, const Color&, double) { take(light); }, [](int) {});
 }
 
 }  // namespace mlt

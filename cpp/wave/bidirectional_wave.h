@@ -32,15 +32,21 @@ class BidirectionalWave {
 
   // The results of the samples:
   const Vec2& raster(int i) const { return rasters_[i]; }
-  /// Light found by the techniques with t >= 2, at the raster position of the sample.
-  const Color& seen(int i) const { return seen_[i]; }
-  /// Light found by the techniques with t = 1.
-  struct Splat {
+  /// Light that a sample has found.
+  struct Light {
     int sample;
+    int edges;        ///< Of its path.
+    bool own_pixel;   ///< Whether t >= 2: at the raster position of the sample.
+    double survival;  ///< Probability that its walks have survived Russian roulette.
     Vec2 raster;
-    Color weighted;
+    Color weighted;  ///< f w / p.
+    int next = -1;   ///< The sample's next light; -1: there is none.
   };
-  const std::vector<Splat>& splats() const { return splats_; }
+  /// Calls show(light) for all light that the i-th sample has found.
+  template <class Show>
+  void show_lights(int i, Show&& show) const {
+    for (int k = first_[i]; k >= 0; k = lights_found_[k].next) show(lights_found_[k]);
+  }
   /// Whether the i-th sample has to be taken by BidirectionalSampler; it has no results then.
   bool fell_back(int i) const { return camera_.fell_back(i); }
 
@@ -55,12 +61,16 @@ class BidirectionalWave {
   void start_at_lights(const LightNumbersOf<WaveNumbers::Place>& at, int begin, int count);
   void fall_back_together();
   void take_hits();
+  int add(const Light& light);
+  void take(int light);
   void draw_light(int sample, int to);
   void choose_direct(int place);
   void choose_direct(int place, int block, int first);
   void connect(int s, int t, RayCounts& rays);
   void connect_to_lens(int s, RayCounts& rays);
-  void connect_to_lens(const JointLanes& a, int block, RayCounts& rays);
+  void make_room_for_shadows(RayCounts& rays);
+  void wait_for_shadow(const Light& light, const Vec3f& o, const Vec3f& w, float length);
+  void connect_to_lens(int s, const JointLanes& a, int block);
   const JointLanes& light_joints(int s, int block) const {
     return s == 1 ? direct_[block] : light_.joints(s - 1, block);
   }
@@ -75,8 +85,8 @@ class BidirectionalWave {
   WaveNumbers numbers_;
   WaveNumbers::Place direct_places_;  ///< Places of the next numbers for s = 1.
   Samples<Vec2> rasters_;
-  Samples<Color> seen_;
-  std::vector<Splat> splats_, unseen_;  ///< unseen_: those that wait for shadow rays.
+  Samples<int> first_, last_;        ///< Each sample's first and last light; -1: there is none.
+  std::vector<Light> lights_found_;  ///< Those that no sample links to are in shadow.
   Samples<double> u_x_, u_y_, u_choice_;
   LambertianVertices lights_;  ///< Points on lights, for a block of samples.
   JointLanes direct_[blocks];  ///< Points on lights for s = 1, sampled for the camera vertex.

@@ -32,6 +32,7 @@ struct JointLanes {
   Lanes<double, size> forward;  ///< Density of the vertex, made by its walk.
   /// Sum of r_i^beta over the techniques with a joint before the vertex or at it (TechniqueSums).
   Lanes<double, size> sums;
+  Lanes<double, size> survival;  ///< Probability that its walk has survived Russian roulette.
 };
 
 /// Shadow rays between the vertices of a joint.

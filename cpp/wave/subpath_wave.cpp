@@ -29,6 +29,7 @@ void SubpathWave::start(int sample, const Start& start) {
   pdf_[i] = start.pdf;
   forward_[i] = start.forward;
   sums_[i] = start.sums;
+  survival_[i] = 1;
   throughput_[i] = start.throughput;
 }
 
@@ -141,7 +142,8 @@ void SubpathWave::hit_light(int i, int place) {
   const double technique = place > 1 || light_image_ ? 1 : 0;
   const double above = (technique + sums_[k] * beta_.raise(reverse_emission_[i] / forward_[k])) *
                        beta_.raise(light.pdf / forward_here_[i]);
-  hits_.push_back({sample_[k], throughput_[k] * *light.radiance / (1 + above)});
+  hits_.push_back(
+      {sample_[k], place, throughput_[k] * *light.radiance / (1 + above), survival_[k]});
 }
 
 /// Stores the vertex of a walk for joints.
@@ -158,6 +160,7 @@ inline void SubpathWave::keep(int i, int place) {
   x.cosine[lane] = cosine_to_previous_[i];
   x.forward[lane] = forward_here_[i];
   x.sums[lane] = sums_here_[i];
+  x.survival[lane] = survival_[begin_ + i];
   x.value.set(lane, throughput_[begin_ + i] * *lambertian_.f[i] *
                         (from_light_ ? double{light_factor_[i]} : 1.0));
 }
@@ -171,7 +174,8 @@ void SubpathWave::take_steps(int place) {
     if (!(pdf > 0 && next_cosine_[i] > 0) || is_black(*lambertian_.f[i])) continue;
     Color ratio = *lambertian_.f[i] * pi;
     if (from_light_) ratio *= light_factor_[i] * next_cosine_[i] / (pdf * pi);
-    if (!survive(i, place, ratio)) continue;
+    const double survival = survive(i, place, max_component(ratio));
+    if (survival == 0) continue;
     const int n = next_++;
     sample_[n] = sample_[k];
     o_.set(n, lambertian_.o[i]);
@@ -181,18 +185,17 @@ void SubpathWave::take_steps(int place) {
     pdf_[n] = pdf;
     forward_[n] = forward_here_[i];
     sums_[n] = sums_here_[i];
-    throughput_[n] = throughput_[k] * ratio;
+    throughput_[n] = throughput_[k] * (ratio / survival);
+    survival_[n] = survival_[k] * survival;
     numbers_.move(n, k);
   }
 }
 
-/// Russian roulette; false ends the walk.
-inline bool SubpathWave::survive(int i, int place, Color& ratio) {
-  if (place < rules_.rr_depth) return true;
-  const double survival = PathRules::survival(max_component(ratio));
-  if (!(numbers_.read(at_.roulette, begin_ + i) < survival)) return false;
-  ratio /= survival;
-  return true;
+/// The probability of surviving Russian roulette; 0 ends the walk.
+inline double SubpathWave::survive(int i, int place, double ratio) {
+  if (place < rules_.rr_depth) return 1;
+  const double survival = PathRules::survival(ratio);
+  return numbers_.read(at_.roulette, begin_ + i) < survival ? survival : 0;
 }
 
 }  // namespace mlt

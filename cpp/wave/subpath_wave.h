@@ -21,7 +21,9 @@ class SubpathWave {
   /// Light that a camera walk has hit: the technique s = 0.
   struct Hit {
     int sample;
+    int place;  ///< Of the vertex on the light.
     Color weighted;
+    double survival;  ///< See JointLanes.
   };
 
   /// `light_image`: whether vertex 1 of a camera walk can be joined to the lens.
@@ -68,7 +70,7 @@ class SubpathWave {
   void hit_light(int i, int place);
   void keep(int i, int place);
   void take_steps(int place);
-  bool survive(int i, int place, Color& ratio);
+  double survive(int i, int place, double ratio);
 
   JointLanes& at(int place, int block) { return joints_[place * blocks + block]; }
 
@@ -88,7 +90,7 @@ class SubpathWave {
   VectorLanes<capacity> o_, d_;  ///< Its ray.
   VectorLanes<capacity> p_;      ///< Its last vertex; below, the values of Start for it.
   Samples<float> cosine_, pdf_;
-  Samples<double> forward_, sums_;
+  Samples<double> forward_, sums_, survival_;
   Samples<Color> throughput_;
   PacketHits found_[capacity / RayPacket::size];
   WaveNumbers numbers_;

@@ -16,6 +16,7 @@ struct Sample {
   Color seen{0};           ///< By the techniques with t >= 2.
   Color splats{0};         ///< By the others,
   Vec2 where{0};           ///< and the sum of L* times raster position.
+  double survived = 0;     ///< Sum of L* times survival times edges, of all.
   bool by_itself = false;  ///< The wave has left it.
 };
 
@@ -30,9 +31,16 @@ Vec2 pixel(const Scene& scene, int i) {
   return Vec2(i % size.x, i / size.x % size.y);
 }
 
-void splat(Sample& sample, const Vec2& raster, const Color& weighted) {
-  sample.splats += weighted;
-  sample.where += raster * target_luminance(weighted);
+void add(Sample& sample, bool own_pixel, const Vec2& raster, const Color& weighted, double survival,
+         int edges) {
+  const double luminance = target_luminance(weighted);
+  sample.survived += luminance * survival * edges;
+  if (own_pixel) {
+    sample.seen += weighted;
+  } else {
+    sample.splats += weighted;
+    sample.where += raster * luminance;
+  }
 }
 
 Samples one_by_one(const Scene& scene, const BidirectionalSettings& settings) {
@@ -45,11 +53,7 @@ Samples one_by_one(const Scene& scene, const BidirectionalSettings& settings) {
       bidirectional.sample(raster, sampler, found.rays);
       Sample sample;
       bidirectional.connect_all(found.rays, [&](const Connection& c) {
-        const Color weighted = c.contribution * c.weight;
-        if (c.t >= 2)
-          sample.seen += weighted;
-        else
-          splat(sample, c.raster, weighted);
+        add(sample, c.t >= 2, c.raster, c.contribution * c.weight, c.survival, c.s + c.t - 1);
       });
       found.samples.push_back(sample);
     }
@@ -66,15 +70,14 @@ Samples side_by_side(const Scene& scene, const BidirectionalSettings& settings) 
     }
     EXPECT_TRUE(wave.full());
     wave.trace(found.rays);
-    const size_t first = found.samples.size();
     for (int i = 0; i < wave.size(); ++i) {
       Sample sample;
-      sample.seen = wave.seen(i);
+      wave.show_lights(i, [&](const BidirectionalWave::Light& light) {
+        add(sample, light.own_pixel, light.raster, light.weighted, light.survival, light.edges);
+      });
       sample.by_itself = wave.fell_back(i);
       found.samples.push_back(sample);
     }
-    for (const BidirectionalWave::Splat& s : wave.splats())
-      splat(found.samples[first + s.sample], s.raster, s.weighted);
     wave.clear();
   }
   return found;
@@ -85,6 +88,7 @@ bool close(const Color& a, const Color& b) {
 }
 bool close(const Sample& a, const Sample& b) {
   return close(a.seen, b.seen) && close(a.splats, b.splats) &&
+         std::fabs(a.survived - b.survived) <= 1e-3 * (a.survived + b.survived) &&
          length(a.where - b.where) <= 1e-3 * (length(a.where) + length(b.where));
 }
 
@@ -170,7 +174,11 @@ TEST(BidirectionalWave, TracesAnIncompleteWave) {
   wave.trace(rays);
   for (int i = 0; i < wave.size(); ++i) {
     EXPECT_FALSE(wave.fell_back(i));
-    EXPECT_TRUE(close(wave.seen(i), single.samples[i].seen)) << i;
+    Color seen(0);
+    wave.show_lights(i, [&](const BidirectionalWave::Light& light) {
+      if (light.own_pixel) seen += light.weighted;
+    });
+    EXPECT_TRUE(close(seen, single.samples[i].seen)) << i;
   }
 }
 
