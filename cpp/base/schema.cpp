@@ -17,6 +17,7 @@ std::string to_string(ParamType type) {
     case ParamType::radiance: return "radiance (number, rgb or spectrum)";
     case ParamType::texture: return "reflectance or texture";
     case ParamType::emission: return "radiance or texture";
+    case ParamType::volume: return "radiance or volume";
     case ParamType::buffer: return "array";
     case ParamType::ior: return "number or material name";
     case ParamType::object: return "nested object";

@@ -48,6 +48,7 @@ enum class ParamType {
   radiance,     ///< A number, RGB or spectrum, unbounded.
   texture,      ///< A reflectance, or a Texture.
   emission,     ///< A radiance, or a Texture.
+  volume,       ///< A radiance, or a Volume.
   buffer,       ///< The bytes of an array.
   ior,          ///< An index of refraction: a number, or the name of a material.
   object  ///< Another plug-in, of the family that the parameter is named after or its doc names.

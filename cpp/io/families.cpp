@@ -10,7 +10,7 @@ namespace mlt {
 const std::vector<std::string>& plugin_families() {
   static const std::vector<std::string> families{"bsdf",   "emitter", "film",    "integrator",
                                                  "medium", "phase",   "rfilter", "sampler",
-                                                 "sensor", "shape",   "texture"};
+                                                 "sensor", "shape",   "texture", "volume"};
   return families;
 }
 
@@ -23,7 +23,6 @@ namespace {
 
 const std::map<std::string, std::string>& refused_elements() {
   static const std::map<std::string, std::string> reasons{
-      {"volume", "media that vary in space are not supported"},
       {"subsurface", "subsurface scattering is not supported"},
       {"spectrum", "spectra are values here, not plug-ins; give rgb or wavelength:value pairs"},
       {"blackbody", "colour temperatures are not supported; give rgb or wavelength:value pairs"},

@@ -9,14 +9,14 @@
 namespace mlt {
 
 /// "bsdf", "emitter", "film", "integrator", "medium", "phase", "rfilter", "sampler", "sensor",
-/// "shape", "texture".
+/// "shape", "texture", "volume".
 const std::vector<std::string>& plugin_families();
 bool is_plugin_family(const std::string& tag);
 
 /// Whether refuse_element() refuses this element.
 bool is_refused_element(const std::string& tag);
 /// Throws SceneError, in one line with the reason, for an element that Mitsuba has and this
-/// renderer refuses (volumes, spectra as plug-ins, ...). `type` may be "".
+/// renderer refuses (cameras of old versions, spectra as plug-ins, ...). `type` may be "".
 void refuse_element(const std::string& tag, const std::string& type, const Location& where);
 
 }  // namespace mlt

@@ -102,7 +102,8 @@ std::string tag_of(ParamType type) {
     case ParamType::reflectance:
     case ParamType::radiance:
     case ParamType::texture:
-    case ParamType::emission: return "spectrum";
+    case ParamType::emission:
+    case ParamType::volume: return "spectrum";
     case ParamType::transform:
     case ParamType::motion:
     case ParamType::buffer:

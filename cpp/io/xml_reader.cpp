@@ -27,7 +27,8 @@ constexpr size_t max_attributes = 100;
 
 /// Whether the string `filename` of a family is a file to read. (A film's is one to write.)
 bool reads_a_file(const std::string& family) {
-  return family == "shape" || family == "texture" || family == "emitter" || family == "bsdf";
+  return family == "shape" || family == "texture" || family == "emitter" || family == "bsdf" ||
+         family == "volume";
 }
 
 std::string canonical(const std::string& path) {

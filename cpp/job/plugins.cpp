@@ -21,6 +21,7 @@ static void add_all(Registry& registry) {
 #include "scene/phase/list.inc"
 #include "scene/shape/list.inc"
 #include "scene/texture/list.inc"
+#include "scene/volume/list.inc"
 #undef MLT_PLUGIN
 }
 
@@ -35,7 +36,6 @@ struct Refusal {
 /// The plug-ins of Mitsuba 0.6 and 3 that do not exist here.
 const std::vector<Refusal>& refusals() {
   static const char* not_yet = "not implemented yet";
-  static const char* media = "media that vary in space are not supported";
   static const char* polarised = "polarised rendering is not supported";
   static const char* curves = "hair and curves are not supported";
   static const std::vector<Refusal> table{
@@ -62,10 +62,8 @@ const std::vector<Refusal>& refusals() {
       {"film", "the command line writes images; use hdrfilm", {"mfilm"}},
       {"film", "spectral rendering is not supported; use hdrfilm", {"specfilm"}},
       {"texture", not_yet, {"gridtexture", "wireframe", "curvature", "vertexcolors"}},
-      {"texture", media, {"volume"}},
-      {"medium", media, {"heterogeneous"}},
+      {"texture", "textures of volumes are not supported", {"volume"}},
       {"phase", not_yet, {"sggx", "tabphase", "kkay", "microflake"}},
-      {"volume", media, {"constvolume", "gridvolume"}},
       {"spectrum",
        "give rgb or wavelength:value pairs",
        {"blackbody", "d65", "uniform", "regular", "irregular", "rawconstant"}},

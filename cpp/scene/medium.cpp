@@ -1,27 +1,28 @@
 #include "scene/medium.h"
 
 namespace mlt {
+namespace {
 
-void fly(const Medium& medium, const Ray& ray, double distance, Passage& passed) {
-  const Color left = exp(-medium.optical_depth(ray, distance));
+void pass(const Medium& medium, const Flight& flight, Passage& passed) {
+  const Color left = exp(-flight.depth);
   passed.transmittance *= left;
   if (medium.scatters()) passed.flight *= left;
 }
 
+}  // namespace
+
+void fly(const Medium& medium, const Ray& ray, double distance, Passage& passed) {
+  pass(medium, medium.fly(ray, {distance}), passed);
+}
+
 std::optional<double> fly(const Medium& medium, const Ray& ray, double distance, double& u_leg,
                           Passage& passed) {
-  const Color before = passed.flight;
-  Passage beyond = passed;
-  fly(medium, ray, distance, beyond);
-  const double left = u_leg * mean(before), least = mean(beyond.flight);
-  if (left < least || u_leg == 0) {
-    if (left > 0) u_leg = left / least;
-    passed = beyond;
-    return std::nullopt;
-  }
-  const double stop = std::min(medium.flight_distance(ray, before, left), distance);
-  fly(medium, ray, stop, passed);
-  return stop;
+  const double left = medium.scatters() ? u_leg * mean(passed.flight) : 0;
+  const Flight flight = medium.fly(ray, {distance, passed.flight, left});
+  pass(medium, flight, passed);
+  if (flight.stops) return flight.distance;
+  if (left > 0) u_leg = left / mean(passed.flight);
+  return std::nullopt;
 }
 
 }  // namespace mlt

@@ -5,8 +5,8 @@
 #include "base/object.h"
 #include "math/color.h"
 #include "scene/bsdf.h"
+#include "scene/flight.h"
 #include "scene/passage.h"
-#include "scene/ray.h"
 
 #include <optional>
 
@@ -25,11 +25,8 @@ class Medium : public Object {
   explicit Medium(BsdfPtr phase) : phase_(std::move(phase)) {}
 
   virtual MediumCoefficients at(const Vec3& p) const = 0;
-  /// tau, the integral of sigma_t along a ray from the start of its edge to a distance, which may
-  /// be infinite.
-  virtual Color optical_depth(const Ray& ray, double distance) const = 0;
-  /// The distance at which the mean over the channels of flight e^-tau has fallen to `left` > 0.
-  virtual double flight_distance(const Ray& ray, const Color& flight, double left) const = 0;
+  /// How far light flies along a ray through the medium.
+  virtual Flight fly(const Ray& ray, const FlightLimit& limit) const = 0;
   /// Whether light is scattered, and not only absorbed: then walks stop in the medium.
   virtual bool scatters() const = 0;
 

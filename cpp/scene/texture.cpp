@@ -55,7 +55,7 @@ namespace {
 
 bool is_emission(const Params& params, const std::string& name) {
   const ParamType type = params.schema().find(name)->type;
-  return type == ParamType::radiance || type == ParamType::emission;
+  return type == ParamType::radiance || type == ParamType::emission || type == ParamType::volume;
 }
 
 Color color_from_0(Params& params, const std::string& name) {

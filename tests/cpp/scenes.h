@@ -37,6 +37,7 @@ inline std::vector<std::string> scene_names() {
           "windows",
           "fog",
           "smoke_box",
+          "smoke",
           "mirror",
           "sphere_light",
           "spot",
@@ -52,7 +53,7 @@ inline std::vector<std::string> scene_names() {
 /// Those without media, as waves require.
 inline std::vector<std::string> clear_scene_names() {
   std::vector<std::string> names = scene_names();
-  for (const char* medium : {"fog", "smoke_box"})
+  for (const char* medium : {"fog", "smoke_box", "smoke"})
     names.erase(std::find(names.begin(), names.end(), medium));
   return names;
 }

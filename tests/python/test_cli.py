@@ -229,7 +229,7 @@ SCENE_MISTAKES = {
     "wrong value": ('value="40"', 'value="forty"', "forty"),
     "dangling reference": ('<ref id="clay"/>', '<ref id="clya"/>', "did you mean 'clay'?"),
     "no end": ("</scene>", "", "scene"),
-    "medium": ('<bsdf type="dielectric"/>', '<medium type="heterogeneous"/>', "not supported"),
+    "missing": ('<bsdf type="dielectric"/>', '<phase type="sggx"/>', "not supported"),
 }
 
 

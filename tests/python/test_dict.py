@@ -128,7 +128,7 @@ MISTAKES = {
     "unknown type": (change([], x={"type": "sphre"}), "scene['x']: ", "'sphere'"),
     "no type": (change([], x={}), "scene['x']: ", "needs a 'type'"),
     "type is a number": (change([], x={"type": 3}), "scene['x']: ", "'type' is of type int"),
-    "refused": (change([], x={"type": "heterogeneous"}), "scene['x']: ", "heterogeneous"),
+    "refused": (change([], x={"type": "sggx"}), "scene['x']: ", "sggx"),
     "dangling reference": (
         change(["ball"], bsdf={"type": "ref", "id": "clya"}),
         "scene['ball']['bsdf']: ",

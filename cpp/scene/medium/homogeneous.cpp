@@ -2,7 +2,6 @@
 #include "base/registry.h"
 #include "scene/medium.h"
 #include "scene/medium/presets.h"
-#include "scene/nested.h"
 #include "scene/phase/isotropic.h"
 #include "scene/texture.h"
 
@@ -30,38 +29,16 @@ MediumCoefficients read_coefficients(Params& params) {
   return {scale * found.extinction, scale * found.scattering};
 }
 
-BsdfPtr read_phase(Params& params) {
-  const BsdfPtr nested = optional_nested<Bsdf>(params, "phase");
-  return nested ? nested : isotropic_phase();
-}
-
 class Homogeneous final : public Medium {
  public:
   explicit Homogeneous(Params& params)
-      : Medium(read_phase(params)), coefficients_(read_coefficients(params)) {}
+      : Medium(phase_param(params)), coefficients_(read_coefficients(params)) {}
 
   MediumCoefficients at(const Vec3&) const override { return coefficients_; }
   bool scatters() const override { return !is_black(coefficients_.scattering); }
 
-  Color optical_depth(const Ray&, double distance) const override {
-    Color depth = coefficients_.extinction;
-    for (int i = 0; i < 3; ++i) depth[i] = depth[i] > 0 ? depth[i] * distance : 0;
-    return depth;
-  }
-
-  /// In a grey medium -log(left / flight) / sigma_t. In others Newton's method, from a distance
-  /// that is too short: since the sum of exponentials is convex, it comes closer from there.
-  double flight_distance(const Ray&, const Color& flight, double left) const override {
-    const Color& sigma = coefficients_.extinction;
-    double t = std::log(mean(flight) / left) / max_component(sigma);
-    if (sigma.x == sigma.y && sigma.y == sigma.z) return t;
-    for (int i = 0; i < 100; ++i) {
-      const Color now = flight * exp(-sigma * t);
-      const double step = (mean(now) - left) / mean(sigma * now);
-      t += step;
-      if (!(step > 1e-14 * t)) break;
-    }
-    return t;
+  Flight fly(const Ray&, const FlightLimit& limit) const override {
+    return uniform_flight(coefficients_.extinction, limit);
   }
 
  private:

@@ -1,6 +1,7 @@
 // Light that is scattered in all directions alike.
 #include "scene/phase/isotropic.h"
 
+#include "scene/nested.h"
 #include "scene/phase/phase_function.h"
 
 namespace mlt {
@@ -19,7 +20,10 @@ class Isotropic final : public PhaseFunction {
 
 }  // namespace
 
-BsdfPtr isotropic_phase() { return std::make_shared<Isotropic>(); }
+BsdfPtr phase_param(Params& params) {
+  const BsdfPtr nested = optional_nested<Bsdf>(params, "phase");
+  return nested ? nested : std::make_shared<Isotropic>();
+}
 
 Plugin phase_isotropic() {
   return make_plugin<Isotropic>("phase", "isotropic", "Scatters light in all directions alike.");

@@ -1,10 +1,11 @@
-// The phase function of media for which none is given.
+// The phase function of a medium.
 #pragma once
 
 #include "scene/bsdf.h"
 
 namespace mlt {
 
-BsdfPtr isotropic_phase();
+/// The nested phase function of a medium; the isotropic one if there is none.
+BsdfPtr phase_param(Params& params);
 
 }  // namespace mlt

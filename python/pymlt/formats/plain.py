@@ -7,13 +7,13 @@ from typing import Any
 
 import numpy as np
 
-from ..scenes.arrays import IMAGES, MESH_BUFFERS, is_mesh_object, mesh_dict, with_data
+from ..scenes.arrays import HELD, MESH_BUFFERS, is_mesh_object, mesh_dict, with_data
 
 COLOURS = {"rgb": "value", "srgb": "color"}
 
 
 def plain(value: Any, path: str = "scene") -> Any:
-    """Plug-ins are dicts, transforms (4, 4) arrays, triples lists; meshes and images stay arrays.
+    """Plug-ins are dicts, transforms (4, 4) arrays, triples lists; other arrays stay what they are.
 
     Raises SceneError for an image that is given twice.
     """
@@ -39,9 +39,9 @@ def _plugin(value: dict, path: str) -> dict:
         return {"type": "rgb", "value": plain(value[COLOURS[kind]], path)}
     if kind == "spectrum":
         return value
-    if kind in IMAGES and "bitmap" in value:
-        value = with_data(value, path)
-    arrays = {"data", *MESH_BUFFERS} if kind in ("mesh", *IMAGES) else set()
+    if HELD.get(kind) in value:
+        value = with_data(value, HELD[kind], path)
+    arrays = {"data", *MESH_BUFFERS} if kind in ("mesh", *HELD) else set()
     return {
         key: inner if key in arrays else plain(inner, f"{path}[{key!r}]")
         for key, inner in value.items()

@@ -12,7 +12,7 @@ from ..images import write_image
 from ..scenes.arrays import MESH_BUFFERS
 from .ply import Mesh, write_ply
 
-SUFFIXES = {b"\x89PNG": ".png", b"\xff\xd8": ".jpg", b"ply": ".ply"}
+SUFFIXES = {b"\x89PNG": ".png", b"\xff\xd8": ".jpg", b"ply": ".ply", b"VOL": ".vol"}
 
 
 class Written:
@@ -34,6 +34,8 @@ class Written:
             buffers = {key: made.pop(key, None) for key in MESH_BUFFERS}
             file = self._file(list(buffers.values()), f"{name}-mesh", ".ply")
             return {**made, "type": "ply", "filename": file}
+        if plugin["type"] == "gridvolume" and "data" in made:
+            made["filename"] = self._file([vol(made.pop("data"))], f"{name}-grid", ".vol")
         if "data" in made:
             made["filename"] = self._file([made.pop("data")], f"{name}-image", ".exr")
         return made
@@ -48,6 +50,15 @@ class Written:
             write(path, arrays)
             self._files[key] = str(path)
         return self._files[key]
+
+
+def vol(grid: Any) -> bytes:
+    """A grid, (depth, height, width[, channels]), as Mitsuba's .vol."""
+    array = np.ascontiguousarray(grid, np.float32)
+    channels = array.shape[3] if array.ndim == 4 else 1
+    size = np.array([1, *array.shape[2::-1], channels], np.int32)
+    box = np.array([0, 0, 0, 1, 1, 1], np.float32)
+    return b"VOL\x03" + size.tobytes() + box.tobytes() + array.tobytes()
 
 
 def suffix_of(content: bytes) -> str:

@@ -1,12 +1,13 @@
-"""Arrays in scene dicts: meshes, textures and environment maps that are in memory already.
+"""Arrays in scene dicts: meshes, images and grids that are in memory already.
 
 A mesh is `{"type": "mesh", "vertices": (n, 3), "faces": (m, 3), "normals": (n, 3), "uv": (n, 2),
 "vertex_color": (n, 3)}`, of which only the first two are needed, or an object with `vertices` and
 `faces`, such as a `trimesh.Trimesh`, in the place of a shape. An image is `{"type": "bitmap",
 "data": (height, width[, channels])}`; `envmap` takes `data` too. Both also take the bytes of an
-image file; `bitmap`, under which Mitsuba takes an `mi.Bitmap`, is another name for `data`. The core
-gets arrays as bytes: so they are part of the scene where it is hashed, pickled, saved in a
-checkpoint or sent to a cluster.
+image file. A volume is `{"type": "gridvolume", "data": (depth, height, width[, channels])}`. In the
+place of `data`, images have `bitmap` and volumes `grid`, under which Mitsuba takes an `mi.Bitmap`
+and an `mi.VolumeGrid`. The core gets arrays as bytes: so they are part of the scene where it is
+hashed, pickled, saved in a checkpoint or sent to a cluster.
 """
 
 from __future__ import annotations
@@ -23,13 +24,16 @@ MOST_LEVELS = 64
 
 MESH_BUFFERS = {"vertices": 3, "faces": 3, "normals": 3, "uv": 2, "vertex_color": 3}
 IMAGES = ("bitmap", "envmap")
+# What Mitsuba calls `data`.
+HELD = {"bitmap": "bitmap", "envmap": "bitmap", "gridvolume": "grid"}
 
 
 def with_bytes(scene: dict, path: str = "scene") -> dict:
     """The same dict with bytes in the place of its arrays. Raises SceneError, which names them."""
     changed: dict[str, Any] = {}
-    if scene.get("type") in IMAGES and "bitmap" in scene:
-        scene = with_data(scene, path)
+    other_name = HELD.get(scene.get("type"))
+    if other_name in scene:
+        scene = with_data(scene, other_name, path)
     if path.count("[") > MOST_LEVELS:
         return scene
     for key, value in scene.items():
@@ -44,14 +48,16 @@ def with_bytes(scene: dict, path: str = "scene") -> dict:
         changed |= {k: mesh_buffer(scene[k], k, path) for k in MESH_BUFFERS if k in scene}
     elif scene.get("type") in IMAGES and "data" in scene:
         changed |= image_buffer(scene, path)
+    elif scene.get("type") == "gridvolume" and "data" in scene:
+        changed |= grid_buffer(scene["data"], path)
     return scene | changed if changed else scene
 
 
-def with_data(image: dict, path: str) -> dict:
-    """The same image, whose array is called `data`."""
-    if "data" in image:
-        raise _core.SceneError(f"{path}: 'data' and 'bitmap' are the same; give one")
-    return {"data" if key == "bitmap" else key: value for key, value in image.items()}
+def with_data(holder: dict, name: str, path: str) -> dict:
+    """The same plug-in, whose array is called `data` instead of `name`."""
+    if "data" in holder:
+        raise _core.SceneError(f"{path}: 'data' and '{name}' are the same; give one")
+    return {"data" if key == name else key: value for key, value in holder.items()}
 
 
 def with_arrays(values: dict) -> dict:
@@ -65,7 +71,11 @@ def with_arrays(values: dict) -> dict:
         if key in MESH_BUFFERS:
             dtype = np.uint32 if key == "faces" else np.float32
             arrays[key] = np.frombuffer(value, dtype).reshape(-1, MESH_BUFFERS[key])
-        elif key == "data" and values.get("data_type") in ("uint8", "float32"):
+        elif key == "data" and "data_type" not in values:
+            shape = [int(length) for length in values["data_shape"]]
+            grid = np.frombuffer(value, np.float32).reshape(*shape, -1)
+            arrays[key] = grid[..., 0] if grid.shape[-1] == 1 else grid
+        elif key == "data" and values["data_type"] in ("uint8", "float32"):
             shape = [int(length) for length in values["data_shape"]]
             arrays[key] = np.frombuffer(value, values["data_type"]).reshape(shape)
     return values | arrays
@@ -151,3 +161,17 @@ def image_buffer(image: dict, path: str) -> dict:
         "data_type": "uint8" if uint8 else "float32",
         "data_shape": [*array.shape, 1][:3],
     }
+
+
+def grid_buffer(data: Any, path: str) -> dict:
+    if isinstance(data, bytes):
+        return {}
+    array = as_array(data, "data", path)
+    if array.ndim == 4 and array.shape[3] == 1:
+        array = array[..., 0]
+    if array.ndim not in (3, 4) or (array.ndim == 4 and array.shape[3] != 3):
+        raise _core.SceneError(
+            f"{path}: 'data' has the shape {array.shape}, but should have (depth, height, width), "
+            "or with 3 channels"
+        )
+    return {"data": float_bytes(array, "data", path), "data_shape": list(array.shape[:3])}

@@ -66,8 +66,9 @@ INSTANTIATE_TEST_SUITE_P(
         Pair{"projector", "ptracer"}, Pair{"daylight", "path"}, Pair{"bent_normals", "path"},
         Pair{"more_materials", "path"}, Pair{"windows", "path"}, Pair{"windows", "mmlt"},
         Pair{"fog", "path"}, Pair{"fog", "mmlt"}, Pair{"smoke_box", "path"},
-        Pair{"smoke_box", "mmlt"}, Pair{"beam", "ptracer"}, Pair{"beam", "pssmlt_bdpt"},
-        Pair{"beam", "mmlt"}, Pair{"beam", "rjmlt"}, Pair{"beam", "erpt"}),
+        Pair{"smoke_box", "mmlt"}, Pair{"smoke", "path"}, Pair{"smoke", "mmlt"},
+        Pair{"beam", "ptracer"}, Pair{"beam", "pssmlt_bdpt"}, Pair{"beam", "mmlt"},
+        Pair{"beam", "rjmlt"}, Pair{"beam", "erpt"}),
     pair_name);
 
 class LongSameImageOf : public testing::TestWithParam<Pair> {};

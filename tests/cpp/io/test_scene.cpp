@@ -322,13 +322,12 @@ TEST(SceneMistake, AllThatIsMissingIsNamedAtOnce) {
 <shape type='hair'/>
 <shape type='sphere'><bsdf type='hapke'/><float name='raduis' value='1'/></shape>
 <shape type='sphere'><bsdf type='hapke'/></shape>
-<medium type='heterogeneous'/>)"),
+<phase type='sggx'/>)"),
             "<string>:3: shape 'hair' is not supported: hair and curves are not supported; "
             "line 4: unknown parameter 'raduis' for shape 'sphere'; did you mean 'radius'?; "
             "line 4: bsdf 'hapke' is not supported: layered and measured materials are not "
             "supported; "
-            "line 6: medium 'heterogeneous' is not supported: media that vary in space are not "
-            "supported");
+            "line 6: phase 'sggx' is not supported: not implemented yet");
 }
 
 TEST(Sensors, AreChosenByNumber) {

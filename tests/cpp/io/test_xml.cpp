@@ -99,9 +99,8 @@ TEST(Xml, RefusesByNameWhatMitsubaHas) {
   const auto refused = [](const std::string& element) {
     return message_of([&] { refuse_missing(read(in_scene(element)).scene, plugins()); });
   };
-  EXPECT_EQ(refused("<medium type='heterogeneous'/>"),
-            "<string>:2: medium 'heterogeneous' is not supported: media that vary in space are not "
-            "supported");
+  EXPECT_EQ(refused("<phase type='sggx'/>"),
+            "<string>:2: phase 'sggx' is not supported: not implemented yet");
   EXPECT_EQ(
       refused("<shape type='cube'><subsurface type='dipole'/></shape>"),
       "<string>:2: subsurface 'dipole' is not supported: subsurface scattering is not supported");

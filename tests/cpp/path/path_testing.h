@@ -94,6 +94,18 @@ inline const Medium* naive_medium(const Scene& scene, const SurfacePoint& at, co
   const MediumIndex index = lens ? scene.camera().surroundings() : at.medium;
   return index == no_medium ? nullptr : &scene.media()[index];
 }
+/// The extinction along a line: where it varies, summed in the middles of many short steps.
+inline Color naive_depth(const Medium& medium, const Vec3& p, const Vec3& w, double distance) {
+  const int steps = medium.type == "homogeneous" ? 1 : 250;
+  Color depth(0);
+  for (int i = 0; i < steps; ++i) {
+    const double step = distance / steps;
+    const Color sigma = medium.at(steps == 1 ? p : p + (i + 0.5) * step * w).extinction;
+    for (int j = 0; j < 3; ++j)
+      if (sigma[j] > 0) depth[j] += sigma[j] * step;
+  }
+  return depth;
+}
 /// Follows edge i from the camera's end.
 inline NaivePassage naive_passage(const Scene& scene, const Path& path, int i) {
   const SurfacePoint &a = path[i].at, &b = path[i + 1].at;
@@ -105,9 +117,7 @@ inline NaivePassage naive_passage(const Scene& scene, const Path& path, int i) {
   double gone = 0;
   const auto go_to = [&](double distance) {
     if (medium && medium->scatters())
-      for (int j = 0; j < 3; ++j)
-        if (const double sigma = medium->at(b.p).extinction[j]; sigma > 0)
-          passed.depth[j] += sigma * (distance - gone);
+      passed.depth += naive_depth(*medium, b.p + gone * w, w, distance - gone);
     gone = distance;
   };
   SurfacePoint at;

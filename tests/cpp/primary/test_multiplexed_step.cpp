@@ -117,7 +117,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, InvertPathOn,
                                          "projector", "sphere_light", "smooth_normals", "materials",
                                          "more_materials", "bent_normals", "instances",
                                          "orthographic", "daylight", "windows", "null_surface",
-                                         "fog", "smoke_box"));
+                                         "fog", "smoke_box", "smoke"));
 
 // ---- the choice of a technique
 

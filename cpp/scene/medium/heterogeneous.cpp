@@ -1,0 +1,51 @@
+// A medium that varies in space. What lies along a ray is integrated exactly, cell by cell, without
+// null collisions: so a path has no other vertices than those where it is scattered, and all that
+// holds for homogeneous media holds here.
+#include "base/registry.h"
+#include "scene/medium.h"
+#include "scene/phase/isotropic.h"
+#include "scene/volume.h"
+
+namespace mlt {
+namespace {
+
+class Heterogeneous final : public Medium {
+ public:
+  explicit Heterogeneous(Params& params)
+      : Medium(phase_param(params)),
+        extinction_(volume_param(params, "sigma_t")),
+        albedo_(volume_param(params, "albedo")),
+        scale_(params.real_in("scale", 0, 1e12)) {
+    if (max_component(albedo_->maximum()) > 1)
+      params.fail("albedo", fmt::format("reaches {:f}, but must lie between 0 and 1",
+                                        max_component(albedo_->maximum())));
+  }
+
+  MediumCoefficients at(const Vec3& p) const override {
+    const Color extinction = scale_ * extinction_->at(p);
+    return {extinction, albedo_->at(p) * extinction};
+  }
+  Flight fly(const Ray& ray, const FlightLimit& limit) const override {
+    return extinction_->fly(ray, limit, scale_);
+  }
+  bool scatters() const override {
+    return scale_ > 0 && !is_black(albedo_->maximum() * extinction_->maximum());
+  }
+
+ private:
+  VolumePtr extinction_, albedo_;
+  double scale_;
+};
+
+}  // namespace
+
+Plugin medium_heterogeneous() {
+  return make_plugin<Heterogeneous>(
+      "medium", "heterogeneous", "A medium that varies in space: smoke, clouds.",
+      {{"sigma_t", ParamType::volume, 1.0, "Extinction coefficient, per unit of length."},
+       {"albedo", ParamType::volume, 0.75, "Share of the extinction that is scattered."},
+       {"scale", ParamType::real, 1.0, "Factor of the extinction."}},
+      {"majorant_resolution_factor", "majorant_grid", "sample_emitters", "majorant_factor"});
+}
+
+}  // namespace mlt

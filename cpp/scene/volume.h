@@ -1,0 +1,23 @@
+// A quantity that varies in space: the extinction or the albedo of a medium.
+#pragma once
+
+#include "base/params.h"
+#include "scene/flight.h"
+
+namespace mlt {
+
+class Volume : public Object {
+ public:
+  virtual Color at(const Vec3& p) const = 0;
+  virtual Color maximum() const = 0;
+  /// How far light flies along a ray through a medium whose extinction is `scale` times this.
+  virtual Flight fly(const Ray& ray, const FlightLimit& limit, double scale) const = 0;
+};
+
+using VolumePtr = std::shared_ptr<const Volume>;
+
+/// The volume parameter `name`: a nested Volume, or the same number, rgb or spectrum everywhere.
+/// Throws SceneError if it is negative.
+VolumePtr volume_param(Params& params, const std::string& name);
+
+}  // namespace mlt

@@ -1,0 +1,52 @@
+// The same value everywhere, or in a box.
+#include "base/registry.h"
+#include "scene/texture.h"
+#include "scene/volume/grid_volume.h"
+
+namespace mlt {
+namespace {
+
+class ConstVolume final : public Volume {
+ public:
+  explicit ConstVolume(const Color& value) : value_(value) {}
+
+  Color at(const Vec3&) const override { return value_; }
+  Color maximum() const override { return value_; }
+  Flight fly(const Ray&, const FlightLimit& limit, double scale) const override {
+    return uniform_flight(scale * value_, limit);
+  }
+
+ private:
+  Color value_;
+};
+
+/// In a box it is a grid of one value.
+std::shared_ptr<Volume> make_const(Params& params) {
+  const Color value = color_param(params, "value");
+  if (!params.has("to_world")) return std::make_shared<ConstVolume>(value);
+  GridData one{{1, 1, 1}, 3, {float(value.x), float(value.y), float(value.z)}};
+  return std::make_shared<GridVolume>(Grid(std::move(one), true, "'value'"),
+                                      matrix_param(params, "to_world"));
+}
+
+}  // namespace
+
+VolumePtr volume_param(Params& params, const std::string& name) {
+  const ObjectPtr* object = std::get_if<ObjectPtr>(&params.value(name));
+  if (!object) return std::make_shared<ConstVolume>(color_param(params, name));
+  VolumePtr volume = std::dynamic_pointer_cast<const Volume>(*object);
+  if (!volume) params.fail(name, "is an object, but not a volume");
+  return volume;
+}
+
+Plugin volume_constvolume() {
+  return {{"volume",
+           "constvolume",
+           "The same value everywhere, or in the unit cube, where to_world moves it.",
+           {{"value", ParamType::radiance, 1.0, "The value."},
+            {"to_world", ParamType::transform, no_default,
+             "Where the unit cube is; without it the value is everywhere."}}},
+          make_const};
+}
+
+}  // namespace mlt

@@ -1,0 +1,97 @@
+#include "scene/volume/grid_volume.h"
+
+#include "scene/volume/grid_walk.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace mlt {
+namespace {
+
+/// The integral of a value along a line, and where it reaches the end of a flight.
+template <class T>
+class Flying {
+ public:
+  Flying(const Grid& grid, const Vec3& o, const Vec3& d, double scale)
+      : grid_(&grid), o_(o), d_(d), scale_(scale) {}
+
+  Flight fly(const FlightLimit& limit) const {
+    Flight flight{limit.distance};
+    T depth(0);
+    GridWalk(*grid_, o_, d_, limit.distance)
+        .run([&](const Grid::Index& index, double from, double to) {
+          const Cell cell(*this, index);
+          const T here = cell.integral(from, to);
+          if (limit.ends(Color(depth + here))) {
+            flight = stop(limit, depth, cell, from, to);
+            return false;
+          }
+          depth += here;
+          return true;
+        });
+    if (!flight.stops) flight.depth = Color(depth);
+    return flight;
+  }
+
+ private:
+  struct Cell {
+    Cell(const Flying& f, const Grid::Index& index) : flying(&f), values(f.grid_->cell<T>(index)) {
+      for (int axis = 0; axis < 3; ++axis) low[axis] = f.grid_->begin_of_cell(index[axis]);
+    }
+    T at(double t) const { return values.at(flying->o_ + t * flying->d_ - low) * flying->scale_; }
+    /// Along a line the value is a cubic polynomial, whose integral two points of Gauss give
+    /// exactly.
+    T integral(double from, double to) const {
+      const double middle = 0.5 * (from + to), half = 0.5 * (to - from),
+                   aside = half * 0.57735026918962576;  // 1 / sqrt(3)
+      return (at(middle - aside) + at(middle + aside)) * half;
+    }
+
+    const Flying* flying;
+    Grid::Cell<T> values;
+    Vec3 low;
+  };
+
+  static Flight stop(const FlightLimit& limit, const T& before, const Cell& cell, double from,
+                     double to) {
+    const auto depth = [&](double t) { return Color(before + cell.integral(from, t)); };
+    const double t =
+        flight_end(limit, from, to, depth, [&](double t) { return Color(cell.at(t)); });
+    return {t, depth(t), true};
+  }
+
+  const Grid* grid_;
+  Vec3 o_, d_;
+  double scale_;
+};
+
+}  // namespace
+
+GridVolume::GridVolume(Grid grid, const Mat4& to_world) : grid_(std::move(grid)) {
+  if (!(std::fabs(glm::determinant(to_world)) > 0))
+    throw SceneError("'to_world' should have a volume, but is flat");
+  const auto& n = grid_.size();
+  to_grid_ = glm::scale(Mat4(1), Vec3(n[0], n[1], n[2])) * glm::inverse(to_world);
+}
+
+Color GridVolume::at(const Vec3& p) const {
+  const Vec3 x = transform_point(to_grid_, p);
+  Grid::Index index;
+  Vec3 in_cell;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!(0 <= x[axis] && x[axis] <= grid_.size()[axis])) return Color(0);
+    index[axis] =
+        std::min(static_cast<int>(x[axis] - grid_.begin_of_cell(0)), grid_.cells(axis) - 1);
+    in_cell[axis] = x[axis] - grid_.begin_of_cell(index[axis]);
+  }
+  return grid_.is_coloured() ? grid_.cell<Color>(index).at(in_cell)
+                             : Color(grid_.cell<double>(index).at(in_cell));
+}
+
+Flight GridVolume::fly(const Ray& ray, const FlightLimit& limit, double scale) const {
+  const Vec3 o = transform_point(to_grid_, ray.o - ray.before * ray.d),
+             d = transform_vector(to_grid_, ray.d);
+  return grid_.is_coloured() ? Flying<Color>(grid_, o, d, scale).fly(limit)
+                             : Flying<double>(grid_, o, d, scale).fly(limit);
+}
+
+}  // namespace mlt

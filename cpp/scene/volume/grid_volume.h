@@ -1,0 +1,23 @@
+// A grid of values in a box, which the unit cube becomes by a transform; nothing is outside of it.
+#pragma once
+
+#include "scene/volume.h"
+#include "scene/volume/grid.h"
+
+namespace mlt {
+
+class GridVolume final : public Volume {
+ public:
+  /// Throws SceneError if the transform is flat.
+  GridVolume(Grid grid, const Mat4& to_world);
+
+  Color at(const Vec3& p) const override;
+  Color maximum() const override { return grid_.maximum(); }
+  Flight fly(const Ray& ray, const FlightLimit& limit, double scale) const override;
+
+ private:
+  Grid grid_;
+  Mat4 to_grid_;
+};
+
+}  // namespace mlt

@@ -1,0 +1,18 @@
+// Grids in files: Mitsuba's .vol, version 3.
+#pragma once
+
+#include "scene/volume/grid.h"
+
+namespace mlt {
+
+struct VolFile {
+  GridData grid;
+  Vec3 low{0}, high{1};  ///< The box that the file gives.
+};
+
+/// Throws FileError or SceneError.
+VolFile read_vol(const std::string& path);
+/// The same from a file's content, called `name` in errors.
+VolFile parse_vol(const std::string& bytes, const std::string& name);
+
+}  // namespace mlt
