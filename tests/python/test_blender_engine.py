@@ -158,5 +158,6 @@ def test_the_denoiser_takes_noise_away(facts, rendered):
     def error(name):
         return np.abs(picture(facts["folder"] / f"{name}.exr")[cube] - clean).mean()
 
-    # Without the denoiser the same samples would have the same error.
-    assert error("denoised") < error("noisy")
+    # Without the denoiser the same samples would have the same error; with it more than half of
+    # that would be left if a filter had spread the noise over several pixels.
+    assert error("denoised") < 0.4 * error("noisy")
