@@ -76,7 +76,7 @@ STEPS = [
     *drag(1100, 268, 0, -195),
     (1, mouse("mousemove", 1000, 490)),  # the panel Integrator, which is closed
     (0.5, mouse("click", 1)),
-    (1, picture("panel", f"374x703+{LEFT + 1}+{TOP + 1}", "-colors", "64")),
+    (4, picture("panel", f"374x703+{LEFT + 1}+{TOP + 1}", "-colors", "64")),
     (1, render),
     (8, move_window),
     (190, picture("render", "1000x660+0+0", "-colors", "256")),
