@@ -104,15 +104,22 @@ test: build
 	$(BIN)/python -m pytest -n $(JOBS) --dist loadfile || status=1; \
 	exit $$status
 
-# Builds and runs the short C++ tests of one file's floor: make quick FILE=cpp/scene/bsdf/phong.cpp.
-# TESTS='[Ll]ens' runs those alone whose names match.
+# Builds the C++ tests of one file's floor, and runs the short ones whose names contain the file's or
+# its family's, in any case and with or without underscores; all of the floor if there are none. For
+# FILE=cpp/scene/bsdf/phong.cpp they contain "bsdf" or "phong". TESTS='[Ll]ens' runs those whose names
+# match that instead.
 FLOOR = $(firstword $(subst /, ,$(patsubst cpp/%,%,$(FILE:tests/%=%))))
+SHORT_TESTS = $(CTEST) -LE '^long$$' -R "^$(FLOOR)\..*($$names)"
 quick:
 	@test -f "$(FILE)" && test -d "tests/cpp/$(FLOOR)" || { \
 	  echo 'FILE must be a file of a floor in tests/cpp: make quick FILE=cpp/scene/bsdf/phong.cpp'; exit 2; }
 	@test -f $(BUILD)/build.ninja || $(MAKE) build
 	cmake --build $(BUILD) --target test_$(FLOOR)
-	$(CTEST) -j $(JOBS) -R '^$(FLOOR)\..*$(TESTS)' -LE '^long$$' --timeout 300
+	@names='$(TESTS)'; test "$$names" || { \
+	  names=$$(echo "$(FILE:tests/%=%)" | sed \
+	    's|^cpp/$(FLOOR)/||; s/[.].*//; s/test_//; s/_/_?/g; s/[a-z]/[&\U&]/g; s:/:|:g'); \
+	  $(SHORT_TESTS) -N >/dev/null || names=.; }; \
+	$(SHORT_TESTS) -j $(JOBS) --timeout 300
 
 # The tests that take minutes; SHARD=2/4 runs the second of four parts.
 test-long: build

@@ -42,6 +42,8 @@ def final_sensor(engine, depsgraph, motion: Motion) -> dict:
         scale_x=render.pixel_aspect_x, scale_y=render.pixel_aspect_y,
     )  # fmt: skip
     image = camera.film(*size, camera.border(render, *size))
+    if depsgraph.scene.pymlt.denoise:  # which needs pixels whose noise is independent
+        image["rfilter"] = {"type": "box"}
     places = motion.matrices(("camera",), np.array(eye.matrix_world))
     made = [camera.sensor(place, projection, image, camera.lens(eye)) for place in places]
     return animated(made, motion) | motion.shutter()

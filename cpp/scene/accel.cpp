@@ -5,13 +5,8 @@
 #include "scene/accel.h"
 
 #include "scene/analytic_shape.h"
+#include "scene/embree.h"
 #include "scene/mesh.h"
-
-#if MLT_EMBREE_MAJOR >= 4
-#include <embree4/rtcore.h>
-#else
-#include <embree3/rtcore.h>
-#endif
 
 #include <algorithm>
 #include <cstring>

@@ -63,6 +63,23 @@ def test_a_picture_is_that_of_cycles(rendered, name):
     assert away < 0.08
 
 
+@pytest.fixture(scope="module")
+def goblets(tmp_path_factory) -> Path:
+    folder = tmp_path_factory.mktemp("goblets")
+    run("blender_goblets.py", folder, user=folder / "user")
+    return folder
+
+
+@pytest.mark.parametrize("name", ["kept", "made"])
+def test_the_goblets_in_blender_are_those_of_the_gallery(goblets, name):
+    found = picture(goblets / f"{name}.exr")
+    scene = mlt.load_dict(mlt.scenes.goblets(), size=found.shape[1::-1])
+    expected = mlt.render(scene, "path", spp=1024, seed=1)
+    np.testing.assert_allclose(found.mean(axis=(0, 1)), expected.mean(axis=(0, 1)), rtol=0.05)
+    # By chance half of the blocks are within 1.5 %; a thing that is elsewhere changes more.
+    assert np.median(np.abs(blocks(found) / blocks(expected) - 1)) < 0.04
+
+
 def test_what_moves_is_elsewhere_in_each_frame(rendered):
     across = np.arange(64) @ np.stack(
         [picture(rendered / f"{name}.exr").sum(axis=(0, 2)) for name in MOVING], axis=1
@@ -141,5 +158,6 @@ def test_the_denoiser_takes_noise_away(facts, rendered):
     def error(name):
         return np.abs(picture(facts["folder"] / f"{name}.exr")[cube] - clean).mean()
 
-    # Without the denoiser the same samples would have the same error.
-    assert error("denoised") < error("noisy")
+    # Without the denoiser the same samples would have the same error; with it more than half of
+    # that would be left if a filter had spread the noise over several pixels.
+    assert error("denoised") < 0.4 * error("noisy")
