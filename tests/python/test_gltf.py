@@ -169,6 +169,36 @@ def test_packed_textures_are_taken_apart():
         assert bsdf[name]["data"] == pytest.approx(value, abs=1e-5)
 
 
+def test_what_is_in_glass_absorbs_light():
+    file = GltfFile()
+    volume = {"thicknessFactor": 1, "attenuationDistance": 0.5, "attenuationColor": [1, 0.5, 0.25]}
+    clear = {"KHR_materials_transmission": {"transmissionFactor": 1}}
+    file.material(extensions=clear | {"KHR_materials_volume": volume})
+    file.material(extensions=clear | {"KHR_materials_volume": volume | {"thicknessFactor": 0}})
+    file.material(extensions={"KHR_materials_volume": volume})
+    for index in range(3):
+        file.node(mesh=file.mesh(index), name=f"part-{index}")
+    made = converted(file)
+    assert "KHR_materials_volume is left out" not in made.warnings
+    shapes = [made.scene[f"part-{index}"] for index in range(3)]
+    assert ["interior" in shape for shape in shapes] == [True, False, False]
+    inside = shapes[0]["interior"]
+    assert inside["sigma_s"] == 0
+    np.testing.assert_allclose(inside["sigma_a"]["value"], 2 * np.log([1, 2, 4]))
+    mlt.render(mlt.load_dict(made.scene, size=SIZE), spp=1)
+
+
+@pytest.mark.parametrize("wrong", [{"attenuationColor": [1, 2]}, {"attenuationDistance": "far"}])
+def test_a_wrong_volume_is_named(wrong):
+    volume = {"thicknessFactor": 1, "attenuationDistance": 1} | wrong
+    file = GltfFile()
+    clear = {"KHR_materials_transmission": {"transmissionFactor": 1}}
+    file.material(extensions=clear | {"KHR_materials_volume": volume})
+    file.node(mesh=file.mesh(0))
+    with pytest.raises(mlt.SceneError, match=next(iter(wrong))):
+        converted(file)
+
+
 def test_normals_alpha_and_extensions_of_materials():
     file = GltfFile()
     base, normals = file.texture(CODES), file.texture(np.full((2, 2, 4), 128))

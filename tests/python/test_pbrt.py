@@ -541,13 +541,13 @@ def test_a_converted_scene_is_the_same_scene(capsys):
 def test_what_has_no_counterpart_is_named():
     made = read(
         VIEW.replace('"box"', '"box" "float xradius" 1'),
-        'MakeNamedMedium "fog" "string type" "homogeneous" "rgb sigma_a" [1 1 1]\n',
-        'MediumInterface "" "fog"\n',
+        'MakeNamedMedium "fog" "string type" "cloud" "rgb sigma_a" [1 1 1]\n',
+        'MediumInterface "" "fog"\nColorSpace "srgb"\n',
         'Material "hair" Shape "curve" Shape "sphere" "float zmax" .5 "float beauty" 1\n',
         'LightSource "goniometric"\n',
     )
     said = " ".join(made.warnings)
-    for word in ("MakeNamedMedium", "MediumInterface", "'hair'", "'curve'", "parts of spheres"):
+    for word in ("ColorSpace", "'cloud'", "'hair'", "'curve'", "parts of spheres"):
         assert word in said
     assert "Shape 'sphere': 'beauty' is left out" in made.warnings
     assert "there is no light" in said
@@ -617,3 +617,109 @@ def test_missing_and_endless_files_are_refused():
         mlt.load(written('Include "a.pbrt"'))
     with pytest.raises(mlt.UsageError, match="only Mitsuba XML"):
         mlt.load(written(VIEW), depth=3)
+
+
+FOG = """
+MakeNamedMedium "fog" "string type" "homogeneous" "rgb sigma_a" [ .1 .2 .3 ]
+    "rgb sigma_s" [ .4 .4 .2 ] "float scale" 2 "float g" .5
+"""
+
+
+def test_media_are_on_the_sides_that_an_interface_names():
+    found = read(
+        VIEW,
+        FOG,
+        'AttributeBegin\nMediumInterface "fog" ""\nMaterial "interface"\nShape "sphere"\n',
+        'AttributeEnd\nMediumInterface "" "fog"\nShape "sphere" "float radius" 9\n',
+        'MediumInterface "fog"\nShape "sphere" "float radius" 2\n',
+        LAMP,
+    )
+    assert not found.warnings
+    made = found.scene
+    fog = {"type": "ref", "id": "fog-medium"}
+    first, second, third = (s for s in made.values() if s in spheres(made))
+    assert (first["interior"], first.get("exterior")) == (fog, None)
+    assert (second.get("interior"), second["exterior"]) == (None, fog)
+    assert not {"interior", "exterior"} & set(third)  # no boundary
+    assert made["point-light"]["medium"] == fog
+    assert made["fog-medium"] == {
+        "type": "homogeneous",
+        "sigma_a": colour(0.1, 0.2, 0.3),
+        "sigma_s": colour(0.4, 0.4, 0.2),
+        "scale": 2.0,
+        "phase": {"type": "hg", "g": 0.5},
+    }
+
+
+def spheres(made: dict) -> list[dict]:
+    return [s for s in made.values() if isinstance(s, dict) and s.get("type") == "sphere"]
+
+
+def test_the_camera_is_in_the_medium_that_is_named_before_it():
+    parts = (FOG, 'MediumInterface "" "fog"\n', VIEW, FLOOR, LAMP)
+    assert read(*parts).scene["camera"]["medium"] == {"type": "ref", "id": "fog-medium"}
+    assert mlt.render(mlt.load(written(*parts)), "path", spp=1).any()
+
+
+def test_smoke_is_a_grid_between_two_corners():
+    """The light through it falls off by the sum of its layers, between which pbrt interpolates, as
+    it does between the outermost ones and 0 beyond the box.
+    """
+    grid = """
+Translate 0 1 0
+MakeNamedMedium "smoke" "string type" "uniformgrid" "integer nx" 1 "integer ny" 1 "integer nz" 3
+    "float density" [ .5 0 2 ] "point3 p0" [ -8 -8 -1 ] "point3 p1" [ 8 8 1 ]
+    "rgb sigma_a" [ .2 .4 .6 ] "rgb sigma_s" [ 0 0 0 ] "float scale" 1.5
+AttributeBegin
+MediumInterface "smoke" ""
+Material "interface"
+Scale 6 6 1
+Shape "trianglemesh" "point3 P" [ -1 -1 -1  1 -1 -1  -1 1 -1  1 1 -1  -1 -1 1  1 -1 1  -1 1 1  1 1 1 ]
+    "integer indices" [ 0 2 1 1 2 3  4 5 6 5 7 6  0 4 2 4 6 2  1 3 5 5 3 7  0 1 4 1 5 4  2 6 3 6 7 3 ]
+AttributeEnd
+LightSource "infinite"
+"""
+    image = mlt.render(mlt.load(written(VIEW, grid)), "path", spp=16)
+    centre = image[15, 20]
+    # Layers at z = -2/3, 0 and 2/3; at the ends, where the box cuts, half of .5 and of 2. Along x and
+    # y the one value falls from the middle of the box to half of it at its sides.
+    layers = [0.25, 0.5, 0, 2, 1]
+    widths = [1 / 3, 2 / 3, 2 / 3, 1 / 3]
+    depth = sum(w * (a + b) / 2 for w, a, b in zip(widths, layers, layers[1:], strict=False))
+    np.testing.assert_allclose(centre, np.exp(-1.5 * depth * np.array([0.2, 0.4, 0.6])), rtol=0.01)
+
+
+def test_a_grid_of_colours_has_their_sum_and_quotient():
+    found = read(
+        VIEW,
+        'MakeNamedMedium "smoke" "string type" "rgbgrid"\n'
+        '"integer nx" 1 "integer ny" 1 "integer nz" 2\n'
+        '"rgb sigma_a" [ 1 2 3 0 0 0 ] "rgb sigma_s" [ 1 1 1 0 0 2 ]\n',
+        FLOOR,
+        LAMP,
+    )
+    assert not found.warnings
+    made = found.scene
+    smoke = made["smoke-medium"]
+    np.testing.assert_allclose(
+        smoke["sigma_t"]["data"][1:3, 1, 1], [[2, 3, 4], [0, 0, 2]], rtol=1e-6
+    )
+    np.testing.assert_allclose(
+        smoke["albedo"]["data"][1:3, 1, 1], [[1 / 2, 1 / 3, 1 / 4], [0, 0, 1]], rtol=1e-6
+    )
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ('MediumInterface "fog" ""', "there is no medium 'fog' above this line"),
+        ('MakeNamedMedium "fog" "float g" 0', "the medium 'fog' needs a \"string type\""),
+        (
+            'MakeNamedMedium "fog" "string type" "uniformgrid" "integer nx" 2 "float density" 1',
+            "'density' has 1 values, but nx, ny and nz say 2 x 1 x 1",
+        ),
+    ],
+)
+def test_mistakes_in_media_are_named(text, message):
+    with pytest.raises(mlt.SceneError, match=message):
+        read(VIEW, text)

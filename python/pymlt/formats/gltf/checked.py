@@ -63,6 +63,14 @@ def at(items: Sequence[Item] | None, index: Any, kind: str) -> Item:
     return items[index]
 
 
+def three_numbers(value: Any, name: str) -> list[float]:
+    """As `number`."""
+    check_types(value, list[float], name)
+    if len(value) != 3:
+        raise _core.SceneError(f"{name} has {len(value)} numbers, but should have 3")
+    return [float(v) for v in value]
+
+
 def number(value: Any, name: str) -> float:
     """A number of an extension, whose types nobody has checked."""
     check_types(value, float, name)

@@ -5,10 +5,11 @@ Roughness is the root of alpha in both; a dielectric has the index 1.5, hence `e
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 from ..imported import Imported, rgb
-from .checked import number
+from .checked import number, three_numbers
 from .textures import Textures
 
 KNOWN = {
@@ -16,7 +17,12 @@ KNOWN = {
     "KHR_materials_emissive_strength",
     "KHR_materials_ior",
     "KHR_materials_transmission",
+    "KHR_materials_volume",
 }
+
+
+DISTANCE = "attenuationDistance"  #: infinite if it is not given
+DARKEST = 1e-6  #: of attenuation colours, whose logarithm is taken
 
 
 def bsdf(material: Any, textures: Textures, made: Imported, *, of_vertices: bool) -> dict[str, Any]:
@@ -61,6 +67,21 @@ def principled(material: Any, extensions: dict[str, Any], textures: Textures) ->
         roughness = extensions["KHR_materials_clearcoat"].get("clearcoatRoughnessFactor", 0)
         given["clearcoat_gloss"] = 1 - number(roughness, "clearcoatRoughnessFactor")
     return given
+
+
+def interior(material: Any) -> dict[str, Any] | None:
+    """What is in a closed mesh (KHR_materials_volume): a medium that absorbs, so that white light
+    has the attenuation colour after the attenuation distance. The mesh itself says how thick it is.
+    """
+    extensions = material.extensions or {}
+    volume = extensions.get("KHR_materials_volume", {})
+    given = {name: number(volume.get(name, 0), name) for name in ("thicknessFactor", DISTANCE)}
+    transmits = extensions.get("KHR_materials_transmission", {}).get("transmissionFactor")
+    if not transmits or min(given.values()) <= 0:
+        return None
+    colour = three_numbers(volume.get("attenuationColor", [1, 1, 1]), "attenuationColor")
+    absorbed = [-math.log(min(max(c, DARKEST), 1)) / given[DISTANCE] for c in colour]
+    return {"type": "homogeneous", "sigma_s": 0.0, "sigma_a": rgb(absorbed)}
 
 
 def masked(surface: dict[str, Any], material: Any, textures: Textures) -> dict[str, Any]:

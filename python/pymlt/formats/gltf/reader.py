@@ -16,7 +16,7 @@ from .buffers import Buffers
 from .checked import at, check_types
 from .lights import light, sensor
 from .materials import KNOWN as MATERIALS
-from .materials import bsdf, emission
+from .materials import bsdf, emission, interior
 from .meshes import triangle_mesh
 from .textures import Textures
 
@@ -137,6 +137,9 @@ class Reader:
                 glow = emission(material, self._textures, self._made)
                 if glow:
                     shape["emitter"] = glow
+                inside = interior(material)
+                if inside:
+                    shape["interior"] = inside
             self._made.add(name, shape)
 
     def _material(self, index: int) -> Any:

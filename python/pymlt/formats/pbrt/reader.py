@@ -16,6 +16,7 @@ from .area_lights import area_light
 from .exposure import expose, exposure_time, sensitivity
 from .lights import light
 from .materials import bsdf
+from .media import Interface, medium
 from .params import Params
 from .shapes import shape
 from .state import ATTRIBUTES, TRANSFORMS, State
@@ -59,6 +60,7 @@ class Reader:
         self._textures = Textures(path.parent)
         self._named: dict[str, dict[str, Any]] = {}
         self._ids: dict[str, str] = {}
+        self._media = {"": ""}
         self._objects: dict[str, str] = {}
         self._group: dict[str, Any] | None = None
         self._views: dict[str, dict[str, Any]] = {}
@@ -168,6 +170,7 @@ class Reader:
         params = self._params(directive)
         self._exposure_time = exposure_time(params)
         self._views["Camera"] = views.camera(params, self._state.matrix)
+        self._views["Camera"] |= self._state.interface.around()
         self._spaces["camera"] = np.linalg.inv(self._state.matrix)
 
     def _on_film(self, directive: Token) -> None:
@@ -188,12 +191,7 @@ class Reader:
 
     def _on_make_named_material(self, directive: Token) -> None:
         name = self._words.text(directive)
-        given = self._words.parameters()
-        kind = given.pop("type", None)
-        if kind is None:
-            raise directive.error(f'the material {name!r} needs a "string type"')
-        defaults = self._defaults(directive)
-        params = Params(directive, kind.values[0], given, self._made, defaults)
+        params = self._typed(directive, f"the material {name!r}")
         self._named[name] = bsdf(params, self._textures, self._named)
         self._ids[name] = self._made.add(name, self._named[name])
 
@@ -202,6 +200,30 @@ class Reader:
         if name not in self._ids:
             raise directive.error(f"there is no material {name!r} above this line")
         self._state.material = self._reference(self._ids[name])
+
+    def _on_make_named_medium(self, directive: Token) -> None:
+        name = self._words.text(directive)
+        params = self._typed(directive, f"the medium {name!r}")
+        found = medium(params, self._state.matrix)
+        self._media[name] = self._made.add(f"{name}-medium", found) if found else ""
+
+    def _on_medium_interface(self, directive: Token) -> None:
+        """With one name it is the medium on both sides."""
+        names = [self._words.text(directive)]
+        following = self._words.peek()
+        names.append(self._words.text(directive) if following and following.quoted else names[0])
+        for name in names:
+            if name not in self._media:
+                raise directive.error(f"there is no medium {name!r} above this line")
+        self._state.interface = Interface(*(self._media[name] for name in names))
+
+    def _typed(self, directive: Token, what: str) -> Params:
+        """The parameters of a directive that gives its kind as one of them."""
+        given = self._words.parameters()
+        kind = given.pop("type", None)
+        if kind is None:
+            raise directive.error(f'{what} needs a "string type"')
+        return Params(directive, kind.values[0], given, self._made, self._defaults(directive))
 
     def _on_texture(self, directive: Token) -> None:
         name, kind = self._words.text(directive), self._words.text(directive)
@@ -212,7 +234,7 @@ class Reader:
         found = light(params, self._folder, self._state.matrix)
         if found:
             params.finish()
-            self._made.add(f"{params.type}-light", found)
+            self._made.add(f"{params.type}-light", found | self._state.interface.around())
 
     def _on_area_light_source(self, directive: Token) -> None:
         self._state.area_light = area_light(self._params(directive))
@@ -232,7 +254,7 @@ class Reader:
         if params.get("alpha"):
             opacity = self._textures.number(params, "alpha", 1.0)
             surface = {"type": "mask", "opacity": opacity, "bsdf": surface}
-        found["bsdf"] = surface
+        found |= {"bsdf": surface} | self._state.interface.sides()
         if self._state.area_light and self._group is None:
             found["emitter"] = self._state.area_light.emitter(found, params)
         elif self._state.area_light:

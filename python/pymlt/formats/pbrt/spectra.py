@@ -64,6 +64,16 @@ def scaled(value: Any, factor: float) -> Any:
     return value | {"value": [(wave, factor * v) for wave, v in value["value"]]}
 
 
+def numbers(value: Any) -> list[float]:
+    """A colour as three numbers; a spectrum as its luminance."""
+    if isinstance(value, dict) and value["type"] == "spectrum":
+        even = luminance_one(value)
+        value = value["value"][0][1] / even["value"][0][1] if value["value"][0][1] else 1.0
+    if isinstance(value, dict):
+        value = value["value"]
+    return [float(v) for v in value] if isinstance(value, list | tuple) else [float(value)] * 3
+
+
 def blackbody(kelvin: float) -> dict[str, Any]:
     """Planck's spectrum with the luminance of an even spectrum of 1, as pbrt-v4 has it."""
     values = [planck(wave, kelvin) for wave in WAVELENGTHS]

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 from .area_lights import AreaLight
+from .media import Interface
 from .tokens import Parameter, Token, Words
 
 if TYPE_CHECKING:
@@ -39,6 +40,7 @@ class State:
     matrix: np.ndarray  #: object space (or world space, before WorldBegin) to the outer space
     material: dict[str, Any] | None = None  #: as the scene refers to it
     area_light: AreaLight | None = None
+    interface: Interface = Interface()  # noqa: RUF009 (it is never changed)
     reversed: bool = False
     #: parameters that directives have unless they say otherwise, by what they are for
     defaults: dict[str, dict[str, Parameter]] = field(default_factory=dict)
