@@ -674,15 +674,16 @@ AttributeBegin
 MediumInterface "smoke" ""
 Material "interface"
 Scale 6 6 1
-Shape "trianglemesh" "point3 P" [ -1 -1 -1  1 -1 -1  -1 1 -1  1 1 -1  -1 -1 1  1 -1 1  -1 1 1  1 1 1 ]
-    "integer indices" [ 0 2 1 1 2 3  4 5 6 5 7 6  0 4 2 4 6 2  1 3 5 5 3 7  0 1 4 1 5 4  2 6 3 6 7 3 ]
+Shape "trianglemesh"
+    "point3 P" [ -1 -1 -1  1 -1 -1  -1 1 -1  1 1 -1  -1 -1 1  1 -1 1  -1 1 1  1 1 1 ]
+    "integer indices" [ 0 2 1 1 2 3  4 5 6 5 7 6  0 4 2 4 6 2
+                        1 3 5 5 3 7  0 1 4 1 5 4  2 6 3 6 7 3 ]
 AttributeEnd
 LightSource "infinite"
 """
     image = mlt.render(mlt.load(written(VIEW, grid)), "path", spp=16)
     centre = image[15, 20]
-    # Layers at z = -2/3, 0 and 2/3; at the ends, where the box cuts, half of .5 and of 2. Along x and
-    # y the one value falls from the middle of the box to half of it at its sides.
+    # Layers at z = -2/3, 0 and 2/3; at the ends, where the box cuts, half of .5 and of 2.
     layers = [0.25, 0.5, 0, 2, 1]
     widths = [1 / 3, 2 / 3, 2 / 3, 1 / 3]
     depth = sum(w * (a + b) / 2 for w, a, b in zip(widths, layers, layers[1:], strict=False))
