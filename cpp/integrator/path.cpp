@@ -17,9 +17,13 @@ class PathTaker : public WaveTaker {
   void sample(const Vec2& raster, PixelSampler& sampler, SampleSink& sink,
               RayCounts& rays) override {
     const auto [lens, ray] = leave_lens(scene().camera(), raster, sampler);
-    std::vector<FoundPath> unwatched, &paths = sink.paths() ? *sink.paths() : unwatched;
-    sink.add(raster, trace_path(scene(), rules(), ray, sampler, rays,
-                                PathRecorder(scene(), raster, lens.at, ray.time, paths)));
+    const auto trace = [&](auto&& watcher) {
+      sink.add(raster, trace_path(scene(), rules(), ray, sampler, rays, watcher));
+    };
+    if (sink.paths())
+      trace(PathRecorder(scene(), raster, lens.at, ray.time, *sink.paths()));
+    else
+      trace(IgnorePaths());
   }
 };
 

@@ -24,9 +24,8 @@ class ConstVolume final : public Volume {
 std::shared_ptr<Volume> make_const(Params& params) {
   const Color value = color_param(params, "value");
   if (!params.has("to_world")) return std::make_shared<ConstVolume>(value);
-  GridData one{{1, 1, 1}, 3, {float(value.x), float(value.y), float(value.z)}};
-  return std::make_shared<GridVolume>(Grid(std::move(one), true, "'value'"),
-                                      matrix_param(params, "to_world"));
+  const GridData one{{1, 1, 1}, 3, {float(value.x), float(value.y), float(value.z)}};
+  return std::make_shared<GridVolume>(Grid(one, true, "'value'"), matrix_param(params, "to_world"));
 }
 
 }  // namespace

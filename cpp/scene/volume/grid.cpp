@@ -23,40 +23,53 @@ void check_grid_size(const std::array<int64_t, 3>& size, int64_t channels,
         name, size[0], size[1], size[2], channels));
 }
 
-Grid::Grid(GridData data, bool nearest, const std::string& name)
-    : data_(std::move(data)), nearest_(nearest) {
-  check_values(name);
-  find_empty_bricks();
+Grid::Grid(const GridData& data, bool nearest, const std::string& name)
+    : size_(data.size), channels_(data.channels), nearest_(nearest) {
+  check(data, name);
+  store(data);
+  find_empty_bricks(data);
 }
 
-void Grid::check_values(const std::string& name) {
-  const std::vector<float>& values = data_.values;
-  for (size_t i = 0; i < values.size(); ++i) {
-    if (!(values[i] >= 0 && std::isfinite(values[i]))) {
-      const size_t at = i / data_.channels, x = at % data_.size[0],
-                   y = at / data_.size[0] % data_.size[1], z = at / data_.size[0] / data_.size[1];
+void Grid::check(const GridData& data, const std::string& name) {
+  const auto channels = static_cast<size_t>(channels_);
+  for (size_t i = 0; i < data.values.size(); ++i) {
+    const float value = data.values[i];
+    if (!(value >= 0 && std::isfinite(value))) {
+      const size_t at = i / channels, width = size_[0], height = size_[1];
       throw SceneError(fmt::format(
           "{}: the value at x = {}, y = {}, z = {} is {}, but must be finite and not negative",
-          name, x, y, z, values[i]));
+          name, at % width, at / width % height, at / width / height, value));
     }
+    double& most = maximum_[static_cast<int>(i % channels)];
+    most = std::max(most, double{value});
   }
-  const auto channels = static_cast<size_t>(data_.channels);
-  for (size_t i = 0; i < values.size(); i += channels)
-    for (int c = 0; c < 3; ++c)
-      maximum_[c] = std::max(maximum_[c], double{values[i + c % channels]});
+  if (channels_ == 1) maximum_ = Color(maximum_.x);
 }
 
-void Grid::find_empty_bricks() {
+void Grid::store(const GridData& data) {
+  const auto inside = [&](int i, int axis) { return std::clamp(i - 1, 0, size_[axis] - 1); };
+  values_.reserve(channels_ * place(0, 0, size_[2] + 2));
+  for (int z = 0; z < size_[2] + 2; ++z)
+    for (int y = 0; y < size_[1] + 2; ++y) {
+      const size_t row = (size_t(inside(z, 2)) * size_[1] + inside(y, 1)) * size_[0];
+      for (int x = 0; x < size_[0] + 2; ++x)
+        for (int c = 0; c < channels_; ++c)
+          values_.push_back(data.values[channels_ * (row + inside(x, 0)) + c]);
+    }
+  for (int i = 0; i < 8; ++i)
+    to_corner_[i] = nearest_ ? place(1, 1, 1) : place(i & 1, i >> 1 & 1, i >> 2 & 1);
+}
+
+void Grid::find_empty_bricks(const GridData& data) {
   for (int axis = 0; axis < 3; ++axis) bricks_[axis] = (cells(axis) + brick - 1) / brick;
   empty_.assign(size_t(bricks_[0]) * bricks_[1] * bricks_[2], 1);
-  const auto channels = static_cast<size_t>(data_.channels);
   // The cells that have value i at a corner are i and i + 1; where values are constant, i alone.
   const int further = nearest_ ? 0 : 1;
-  for (int z = 0; z < data_.size[2]; ++z)
-    for (int y = 0; y < data_.size[1]; ++y)
-      for (int x = 0; x < data_.size[0]; ++x) {
-        const float* value = &data_.values[channels * place(x, y, z)];
-        if (std::all_of(value, value + channels, [](float v) { return v == 0; })) continue;
+  const float* value = data.values.data();
+  for (int z = 0; z < size_[2]; ++z)
+    for (int y = 0; y < size_[1]; ++y)
+      for (int x = 0; x < size_[0]; ++x, value += channels_) {
+        if (std::all_of(value, value + channels_, [](float v) { return v == 0; })) continue;
         for (int k = z / brick; k <= (z + further) / brick; ++k)
           for (int j = y / brick; j <= (y + further) / brick; ++j)
             for (int i = x / brick; i <= (x + further) / brick; ++i)

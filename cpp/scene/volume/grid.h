@@ -43,40 +43,37 @@ class Grid {
   };
 
   /// Throws SceneError, which begins with `name`, if a value is negative or not finite.
-  Grid(GridData data, bool nearest, const std::string& name);
+  Grid(const GridData& data, bool nearest, const std::string& name);
 
-  const std::array<int, 3>& size() const { return data_.size; }
-  bool is_coloured() const { return data_.channels == 3; }
+  const std::array<int, 3>& size() const { return size_; }
+  bool is_coloured() const { return channels_ == 3; }
   const Color& maximum() const { return maximum_; }
 
-  /// Cells have a value at each corner, and begin at x = i + 1/2. They are numbered from 0, half of
-  /// which lies outside of the grid, as does the last: there the outermost values continue. Where
-  /// values are constant, cells begin at x = i, and none lies outside.
-  int cells(int axis) const { return data_.size[axis] + (nearest_ ? 0 : 1); }
+  /// Cells have a value at each corner, and begin at x = i - 1/2. Half of the first lies outside of
+  /// the grid, as does half of the last: there the outermost values continue. Where values are
+  /// constant, cells begin at x = i, and none lies outside.
+  int cells(int axis) const { return size_[axis] + (nearest_ ? 0 : 1); }
   double begin_of_cell(int i) const { return nearest_ ? i : i - 0.5; }
   template <class T>
   Cell<T> cell(const Index& index) const {
-    Index low = index, high = index;
-    for (int axis = 0; axis < 3 && !nearest_; ++axis) {
-      low[axis] = std::max(index[axis] - 1, 0);
-      high[axis] = std::min(index[axis], data_.size[axis] - 1);
-    }
+    const size_t low = place(index[0], index[1], index[2]);
     Cell<T> cell;
-    for (int i = 0; i < 8; ++i)
-      cell.corner[i] = value<T>(
-          place(i & 1 ? high[0] : low[0], i & 2 ? high[1] : low[1], i & 4 ? high[2] : low[2]));
+    for (int i = 0; i < 8; ++i) cell.corner[i] = value<T>(low + to_corner_[i]);
     return cell;
   }
 
   /// Bricks are cubes of cells; an empty one can be skipped.
   static constexpr int brick = 8;
   bool is_empty(const Index& cell) const {
-    return empty_[brick_place(cell[0] / brick, cell[1] / brick, cell[2] / brick)];
+    const auto of = [&](int axis) { return static_cast<int>(unsigned(cell[axis]) / brick); };
+    return empty_[brick_place(of(0), of(1), of(2))];
   }
 
  private:
+  /// Of the value at the low corner of a cell. The values are stored with those that continue them
+  /// around the grid.
   size_t place(int x, int y, int z) const {
-    return (size_t(z) * data_.size[1] + y) * data_.size[0] + x;
+    return (size_t(z) * (size_[1] + 2) + y) * (size_[0] + 2) + x;
   }
   size_t brick_place(int x, int y, int z) const {
     return (size_t(z) * bricks_[1] + y) * bricks_[0] + x;
@@ -84,17 +81,21 @@ class Grid {
   template <class T>
   T value(size_t place) const {
     if constexpr (std::is_same_v<T, Color>) {
-      const float* rgb = &data_.values[3 * place];
+      const float* rgb = &values_[3 * place];
       return {rgb[0], rgb[1], rgb[2]};
     } else {
-      return data_.values[place];
+      return values_[place];
     }
   }
-  void check_values(const std::string& name);
-  void find_empty_bricks();
+  void check(const GridData& data, const std::string& name);
+  void store(const GridData& data);
+  void find_empty_bricks(const GridData& data);
 
-  GridData data_;
+  std::array<int, 3> size_;
+  int channels_;
   bool nearest_;
+  std::vector<float> values_;
+  std::array<size_t, 8> to_corner_;  ///< From the low corner of a cell to each.
   Color maximum_{0};
   std::array<int, 3> bricks_{};
   std::vector<uint8_t> empty_;

@@ -12,7 +12,7 @@ class GridWalk {
  public:
   /// The part of the line o + t d, 0 <= t <= distance, that is in the grid.
   GridWalk(const Grid& grid, const Vec3& o, const Vec3& d, double distance)
-      : grid_(&grid), o_(o), d_(d), t_(0), end_(distance) {
+      : grid_(&grid), o_(o), d_(d), per_d_(1.0 / d), t_(0), end_(distance) {
     for (int axis = 0; axis < 3; ++axis) {
       const double to_low = (0 - o[axis]) / d[axis],
                    to_high = (grid.size()[axis] - o[axis]) / d[axis];
@@ -54,7 +54,7 @@ class GridWalk {
   /// Where the line leaves cells first ... last along an axis.
   double far_side(int axis, int first, int last) const {
     if (d_[axis] == 0) return std::numeric_limits<double>::infinity();
-    return (grid_->begin_of_cell(d_[axis] > 0 ? last + 1 : first) - o_[axis]) / d_[axis];
+    return (grid_->begin_of_cell(d_[axis] > 0 ? last + 1 : first) - o_[axis]) * per_d_[axis];
   }
   void enter(int axis, int cell) {
     cell_[axis] = cell;
@@ -85,7 +85,7 @@ class GridWalk {
   }
 
   const Grid* grid_;
-  Vec3 o_, d_;
+  Vec3 o_, d_, per_d_;
   double t_, end_;
   Grid::Index cell_{};
   Vec3 side_{0};  ///< Where the line leaves the cell along each axis.

@@ -35,10 +35,9 @@ std::shared_ptr<GridVolume> make_grid(Params& params) {
   Mat4 to_world = matrix_param(params, "to_world");
   if (params.boolean("use_grid_bbox"))
     to_world = to_world * glm::scale(glm::translate(Mat4(1), file.low), file.high - file.low);
-  return std::make_shared<GridVolume>(
-      Grid(std::move(file.grid), params.text("filter_type") == "nearest",
-           held ? "the array 'data'" : params.text("filename")),
-      to_world);
+  return std::make_shared<GridVolume>(Grid(file.grid, params.text("filter_type") == "nearest",
+                                           held ? "the array 'data'" : params.text("filename")),
+                                      to_world);
 }
 
 }  // namespace
