@@ -7,6 +7,7 @@
 #include "io/missing.h"
 #include "io/node_bytes.h"
 #include "scene/coincident_lights.h"
+#include "scene/crossing_boundaries.h"
 #include "scene/emitter/daylight.h"
 
 #include <algorithm>
@@ -194,9 +195,9 @@ LoadedScene build_scene(const Node& tree, const Registry& registry, const LoadOp
   loaded.scene =
       std::make_shared<Scene>(std::move(shapes), std::move(emitters), view.camera, view.film,
                               view.sample_count, known ? known->accel : nullptr);
-  const std::vector<std::string> coincident =
-      warnings_of_coincident_lights(loaded.scene->emitters());
-  loaded.warnings.insert(loaded.warnings.end(), coincident.begin(), coincident.end());
+  for (const auto& warnings : {warnings_of_coincident_lights(loaded.scene->emitters()),
+                               warnings_of_crossing_boundaries(*loaded.scene)})
+    loaded.warnings.insert(loaded.warnings.end(), warnings.begin(), warnings.end());
   builder.show_shapes(loaded.scene->shapes());
   loaded.size = options.size;
   loaded.known = known_of(builder, known, loaded.scene->accel_ptr());

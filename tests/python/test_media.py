@@ -148,6 +148,24 @@ def test_a_lamp_may_stand_in_two_media():
     np.testing.assert_allclose(bdpt, path, rtol=0.01)
 
 
+def test_boundaries_that_cross_are_named():
+    """A ball of fog that is half in a box of another fog; and one that is all of it, as it should."""
+    fog, other = ({"type": "ref", "id": name} for name in ("fog", "other"))
+    media = {"fog": medium(0.5, 0.5) | {"id": "fog"}, "other": medium(1.0) | {"id": "other"}}
+    ball = {"type": "sphere", "radius": 0.5, "bsdf": {"type": "null"}, "interior": fog}
+
+    def warnings(center, **sides):
+        placed = ball | {"center": center} | sides
+        return scene(ball=placed, box=box(other), light=lit(), **media).warnings
+
+    (warning,) = warnings([1, 0, 0])
+    assert "boundaries should not cross or touch" in warning
+    assert int(warning.split(": ")[1].split(" of ")[0]) > 20
+    assert warnings([0, 0, 0])  # it says that around it is nothing
+    assert not warnings([0, 0, 0], exterior=other)
+    assert not warnings([3, 0, 0])
+
+
 def test_presets_and_both_ways_to_give_coefficients():
     milk = {"type": "homogeneous", "material": "skimmilk", "scale": 2.0}
     same = [

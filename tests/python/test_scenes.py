@@ -13,6 +13,7 @@ import pymlt as mlt
 ROOT = Path(__file__).resolve().parents[2]
 FILES = sorted((ROOT / "scenes").glob("*/scene.xml"))
 NAMES = [path.parent.name for path in FILES]
+MADE = (".ply", ".png", ".vol")  # files that scripts make
 
 
 def built_in(name, **values):
@@ -78,8 +79,8 @@ def test_the_script_makes_the_files_that_are_there(path, tmp_path):
     (folder / "make.py").write_text(path.read_text())
     (tmp_path / "modeling.py").write_text((ROOT / "scenes" / "modeling.py").read_text())
     subprocess.run([sys.executable, str(folder / "make.py")], check=True)
-    made = sorted(p.name for p in folder.iterdir() if p.suffix in (".ply", ".png"))
-    assert made == sorted(p.name for p in path.parent.iterdir() if p.suffix in (".ply", ".png"))
+    made = sorted(p.name for p in folder.iterdir() if p.suffix in MADE)
+    assert made == sorted(p.name for p in path.parent.iterdir() if p.suffix in MADE)
     for name in made:
         if name.endswith(".png"):
             a, b = (mlt.read_image(p / name) for p in (folder, path.parent))

@@ -83,3 +83,18 @@ def orrery(shutter: float = 1) -> dict:
 def temple() -> dict:
     """A round temple by a lake, below a low sun and its sky."""
     return _load("temple")
+
+
+def fog(filter: str = "gaussian") -> dict:
+    """A dark attic full of dust, and the sun through the slats of its shutter."""
+    return _load("fog", filter=filter)
+
+
+def volcaustic(filter: str = "gaussian") -> dict:
+    """Balls of glass in haze under a small lamp: what they gather is seen in the haze itself."""
+    return _load("volcaustic", filter=filter)
+
+
+def smoke(filter: str = "gaussian") -> dict:
+    """A plume of smoke, a grid, before a dark wall and beside a low lamp."""
+    return _load("smoke", filter=filter)
