@@ -149,7 +149,7 @@ def test_a_lamp_may_stand_in_two_media():
 
 
 def test_boundaries_that_cross_are_named():
-    """A ball of fog that is half in a box of another fog; and one that is all of it, as it should."""
+    """A ball of fog that is half in a box of another fog, and one that is all in it."""
     fog, other = ({"type": "ref", "id": name} for name in ("fog", "other"))
     media = {"fog": medium(0.5, 0.5) | {"id": "fog"}, "other": medium(1.0) | {"id": "other"}}
     ball = {"type": "sphere", "radius": 0.5, "bsdf": {"type": "null"}, "interior": fog}

@@ -56,8 +56,8 @@ void Grid::store(const GridData& data) {
         for (int c = 0; c < channels_; ++c)
           values_.push_back(data.values[channels_ * (row + inside(x, 0)) + c]);
     }
-  for (int i = 0; i < 8; ++i)
-    to_corner_[i] = nearest_ ? place(1, 1, 1) : place(i & 1, i >> 1 & 1, i >> 2 & 1);
+  along_edge_ = nearest_ ? 0 : 1;
+  for (int i = 0; i < 4; ++i) to_edge_[i] = nearest_ ? place(1, 1, 1) : place(0, i >> 1, i & 1);
 }
 
 void Grid::find_empty_bricks(const GridData& data) {

@@ -25,20 +25,19 @@ class Grid {
  public:
   using Index = std::array<int, 3>;
 
-  /// The eight values around a place, at the corners of a cell; T is double or Color.
+  /// The values around a place: those of four edges along x, in loops that the compiler
+  /// vectorises. T is double or Color.
   template <class T>
   struct Cell {
-    std::array<T, 8> corner;  ///< Bit 0 of the index: x, bit 1: y, bit 2: z.
+    T begin[4];  ///< Bit 0 of the index: z, bit 1: y.
+    T rise[4];   ///< From the beginning of the edge to its end.
 
     /// `f`: position in the cell, from 0 to 1.
     T at(const Vec3& f) const {
-      T plane[2];
-      for (int z = 0; z < 2; ++z) {
-        const T *row = &corner[4 * z], low = row[0] + f.x * (row[1] - row[0]),
-                high = row[2] + f.x * (row[3] - row[2]);
-        plane[z] = low + f.y * (high - low);
-      }
-      return plane[0] + f.z * (plane[1] - plane[0]);
+      T value[4];
+      for (int i = 0; i < 4; ++i) value[i] = begin[i] + f.x * rise[i];
+      for (int i = 0; i < 2; ++i) value[i] += f.y * (value[i + 2] - value[i]);
+      return value[0] + f.z * (value[1] - value[0]);
     }
   };
 
@@ -53,20 +52,22 @@ class Grid {
   /// the grid, as does half of the last: there the outermost values continue. Where values are
   /// constant, cells begin at x = i, and none lies outside.
   int cells(int axis) const { return size_[axis] + (nearest_ ? 0 : 1); }
-  double begin_of_cell(int i) const { return nearest_ ? i : i - 0.5; }
+  double begin() const { return nearest_ ? 0 : -0.5; }  ///< Of the first cell, along each axis.
   template <class T>
   Cell<T> cell(const Index& index) const {
     const size_t low = place(index[0], index[1], index[2]);
     Cell<T> cell;
-    for (int i = 0; i < 8; ++i) cell.corner[i] = value<T>(low + to_corner_[i]);
+    for (int i = 0; i < 4; ++i) {
+      cell.begin[i] = value<T>(low + to_edge_[i]);
+      cell.rise[i] = value<T>(low + to_edge_[i] + along_edge_) - cell.begin[i];
+    }
     return cell;
   }
 
   /// Bricks are cubes of cells; an empty one can be skipped.
   static constexpr int brick = 8;
   bool is_empty(const Index& cell) const {
-    const auto of = [&](int axis) { return static_cast<int>(unsigned(cell[axis]) / brick); };
-    return empty_[brick_place(of(0), of(1), of(2))];
+    return empty_[brick_place(cell[0] / brick, cell[1] / brick, cell[2] / brick)];
   }
 
  private:
@@ -95,7 +96,8 @@ class Grid {
   int channels_;
   bool nearest_;
   std::vector<float> values_;
-  std::array<size_t, 8> to_corner_;  ///< From the low corner of a cell to each.
+  std::array<size_t, 4> to_edge_;  ///< From the low corner of a cell to its edges; see Cell.
+  size_t along_edge_;
   Color maximum_{0};
   std::array<int, 3> bricks_{};
   std::vector<uint8_t> empty_;

@@ -12,7 +12,7 @@ template <class T>
 class Flying {
  public:
   Flying(const Grid& grid, const Vec3& o, const Vec3& d, double scale)
-      : grid_(&grid), o_(o), d_(d), scale_(scale) {}
+      : grid_(&grid), o_(o), d_(d), from_begin_(o - grid.begin()), scale_(scale) {}
 
   Flight fly(const FlightLimit& limit) const {
     Flight flight{limit.distance};
@@ -34,10 +34,12 @@ class Flying {
 
  private:
   struct Cell {
-    Cell(const Flying& f, const Grid::Index& index) : flying(&f), values(f.grid_->cell<T>(index)) {
-      for (int axis = 0; axis < 3; ++axis) low[axis] = f.grid_->begin_of_cell(index[axis]);
-    }
-    T at(double t) const { return values.at(flying->o_ + t * flying->d_ - low) * flying->scale_; }
+    Cell(const Flying& flying, const Grid::Index& i)
+        : values(flying.grid_->cell<T>(i)),
+          o(flying.from_begin_ - Vec3(i[0], i[1], i[2])),
+          d(flying.d_),
+          scale(flying.scale_) {}
+    T at(double t) const { return values.at(o + t * d) * scale; }
     /// Along a line the value is a cubic polynomial, whose integral two points of Gauss give
     /// exactly.
     T integral(double from, double to) const {
@@ -46,9 +48,9 @@ class Flying {
       return (at(middle - aside) + at(middle + aside)) * half;
     }
 
-    const Flying* flying;
     Grid::Cell<T> values;
-    Vec3 low;
+    Vec3 o, d;  ///< The line, in this cell's coordinates.
+    double scale;
   };
 
   static Flight stop(const FlightLimit& limit, const T& before, const Cell& cell, double from,
@@ -60,7 +62,7 @@ class Flying {
   }
 
   const Grid* grid_;
-  Vec3 o_, d_;
+  Vec3 o_, d_, from_begin_;
   double scale_;
 };
 
@@ -79,9 +81,9 @@ Color GridVolume::at(const Vec3& p) const {
   Vec3 in_cell;
   for (int axis = 0; axis < 3; ++axis) {
     if (!(0 <= x[axis] && x[axis] <= grid_.size()[axis])) return Color(0);
-    index[axis] =
-        std::min(static_cast<int>(x[axis] - grid_.begin_of_cell(0)), grid_.cells(axis) - 1);
-    in_cell[axis] = x[axis] - grid_.begin_of_cell(index[axis]);
+    const double from_begin = x[axis] - grid_.begin();
+    index[axis] = std::min(static_cast<int>(from_begin), grid_.cells(axis) - 1);
+    in_cell[axis] = from_begin - index[axis];
   }
   return grid_.is_coloured() ? grid_.cell<Color>(index).at(in_cell)
                              : Color(grid_.cell<double>(index).at(in_cell));

@@ -159,8 +159,8 @@ TEST_P(GridOf, IsWalkedThroughInOrder) {
           EXPECT_LT(from, to);
           const Vec3 middle = ray.o + 0.5 * (from + to) * ray.d;
           for (int axis = 0; axis < 3; ++axis) {
-            EXPECT_GE(middle[axis], grid.begin_of_cell(cell[axis]) - 1e-9);
-            EXPECT_LE(middle[axis], grid.begin_of_cell(cell[axis] + 1) + 1e-9);
+            EXPECT_GE(middle[axis], grid.begin() + cell[axis] - 1e-9);
+            EXPECT_LE(middle[axis], grid.begin() + cell[axis] + 1 + 1e-9);
           }
           for (double t = last; t < from; t += 0.5)
             EXPECT_TRUE(is_black(naive_value(data, GetParam().nearest, ray.o + t * ray.d)));
