@@ -5,7 +5,7 @@ import bpy
 from .settings import INTEGRATORS, PymltSettings
 
 NOT_CARRIED = (
-    "Volumes, displacement, hair, point clouds",
+    "Volumes of objects, grids and worlds; displacement, hair, point clouds",
     "Procedural textures, groups of nodes",
     "Subsurface, sheen, anisotropy, thin films",
     "Sizes of suns and spots, spread of areas",

@@ -7,6 +7,7 @@ from pymlt.formats.imported import Imported, rgb
 from . import surfaces
 from .surfaces import blend, is_number, scaled, twosided
 from .textures import Textures, source
+from .volumes import Volumes
 
 BLACK = surfaces.diffuse(rgb([0, 0, 0]))
 UNCARRIED = ("Subsurface Weight", "Sheen Weight", "Anisotropic", "Thin Film Thickness",
@@ -18,6 +19,7 @@ class Surface(NamedTuple):
 
     bsdf: dict
     radiance: dict | None = None  #: of what glows
+    medium: dict | None = None  #: what is inside
 
 
 class Materials:
@@ -26,6 +28,7 @@ class Materials:
     def __init__(self, made: Imported):
         self._made = made
         self._textures = Textures(made)
+        self._volumes = Volumes(made)
         self._added: dict[str, Surface] = {}
         self._shaders = {
             "BSDF_PRINCIPLED": self._principled,
@@ -47,7 +50,9 @@ class Materials:
         if material.name_full not in self._added:
             found = self._of_tree(material)
             reference = {"type": "ref", "id": self._made.add(material.name, found.bsdf)}
-            self._added[material.name_full] = Surface(reference, found.radiance)
+            inside = found.medium and self._made.add(f"{material.name}-volume", found.medium)
+            medium = {"type": "ref", "id": inside} if inside else None
+            self._added[material.name_full] = Surface(reference, found.radiance, medium)
         return self._added[material.name_full]
 
     def _of_tree(self, material) -> Surface:
@@ -56,10 +61,12 @@ class Materials:
         output = material.node_tree.get_output_node("CYCLES")
         if output is None:
             return Surface(BLACK)
-        for name in ("Volume", "Displacement"):
-            if output.inputs[name].is_linked:
-                self._made.warn(f"the {name.lower()} of materials is left out")
-        return self._shader(output.inputs["Surface"])
+        if output.inputs["Displacement"].is_linked:
+            self._made.warn("the displacement of materials is left out")
+        medium = self._volumes.medium(output.inputs["Volume"])
+        if medium and not output.inputs["Surface"].is_linked:
+            return Surface({"type": "null"}, medium=medium)
+        return self._shader(output.inputs["Surface"])._replace(medium=medium)
 
     def _shader(self, socket) -> Surface:
         found = source(socket)

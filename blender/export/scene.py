@@ -71,7 +71,7 @@ class Objects:
             elif thing.type == "MESH":
                 self._placed.append((self._shape(thing), thing.name, key))
             elif thing.type in ("CURVES", "POINTCLOUD", "VOLUME"):
-                self._made.warn("hair, point clouds and volumes are left out")
+                self._made.warn("hair, point clouds and volume objects are left out")
         self._add_placed(still)
 
     def _add_lamp(self, thing, places) -> None:
@@ -90,7 +90,8 @@ class Objects:
         material = slots[min(index, len(slots) - 1)] if slots else None
         surface = self._materials.surface(material)
         glow = surface.radiance and {"emitter": {"type": "area", "radiance": surface.radiance}}
-        return mesh | {"bsdf": surface.bsdf} | (glow or {})
+        inside = surface.medium and {"interior": surface.medium}
+        return mesh | {"bsdf": surface.bsdf} | (glow or {}) | (inside or {})
 
     def _add_placed(self, still: dict[tuple, np.ndarray]) -> None:
         uses = Counter(key for key, *_ in self._placed)

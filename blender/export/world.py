@@ -19,6 +19,8 @@ def light(world, made: Imported) -> dict | None:
     output = world.node_tree and world.node_tree.get_output_node("CYCLES")
     if not output:
         return even(world.color)
+    if source(output.inputs["Volume"]):
+        made.warn("the volume of the world is left out")
     found = source(output.inputs["Surface"])
     if found is None:
         return None

@@ -123,6 +123,36 @@ def lettering():
     camera.dof.focus_distance, camera.dof.aperture_fstop = 6.0, 0.2
 
 
+def foggy():
+    """A box of fog, scattered and absorbed by two nodes, and a ball of a principled volume."""
+    fresh(sky=0.3)
+    fog, smoke = material("fog"), material("smoke")
+    for made in (fog, smoke):
+        made.node_tree.nodes.remove(made.node_tree.nodes["Principled BSDF"])
+    tree = fog.node_tree
+    both, scatter, absorb = (
+        tree.nodes.new(f"ShaderNode{name}")
+        for name in ("AddShader", "VolumeScatter", "VolumeAbsorption")
+    )
+    values(scatter, Color=(0.8, 0.9, 1, 1), Density=0.8, Anisotropy=0.4)
+    values(absorb, Color=(0.9, 0.6, 0.3, 1), Density=0.5)
+    for i, node in enumerate((scatter, absorb)):
+        tree.links.new(node.outputs[0], both.inputs[i])
+    tree.links.new(both.outputs[0], tree.nodes["Material Output"].inputs["Volume"])
+    add(bpy.ops.mesh.primitive_cube_add, fog, size=1.6, location=(-1, 0, 1))
+    tree = smoke.node_tree
+    node = tree.nodes.new("ShaderNodeVolumePrincipled")
+    values(node, Color=(0.9, 0.7, 0.5, 1), Density=2.0, Anisotropy=-0.2)
+    tree.links.new(node.outputs[0], tree.nodes["Material Output"].inputs["Volume"])
+    add(bpy.ops.mesh.primitive_uv_sphere_add, smoke, radius=0.8, location=(1.2, 0, 1.1))
+    lamp("AREA", 150, (2, -2, 4), (0.5, 0.4, 0), size=1.5)
+
+
+def values(node, **inputs):
+    for name, value in inputs.items():
+        node.inputs[name].default_value = value
+
+
 def moving():
     """A cube that glows and goes to the right by two metres a frame; the shutter is open."""
     fresh()
@@ -148,6 +178,7 @@ def render(path, engine, **how):
     scene.render.resolution_x, scene.render.resolution_y = SIZE
     scene.render.resolution_percentage = 100
     scene.cycles.samples = SAMPLES
+    scene.cycles.volume_bounces = 12
     scene.cycles.use_denoising = scene.cycles.use_adaptive_sampling = False
     scene.pymlt.integrator, scene.pymlt.samples = "path", SAMPLES
     scene.pymlt.time = scene.pymlt.error = 0
@@ -172,7 +203,7 @@ def main(folder: Path) -> None:
     import blender
 
     blender.register()
-    for make in (cube, glass, instances, textured, lettering):
+    for make in (cube, glass, instances, textured, lettering, foggy):
         make()
         for engine, name in (("PYMLT", make.__name__), ("CYCLES", f"{make.__name__}-cycles")):
             render(folder / f"{name}.exr", engine)

@@ -52,7 +52,9 @@ def blocks(image: np.ndarray) -> np.ndarray:
 MOVING = [f"moving{frame}" for frame in (1, 2, 3)]
 
 
-@pytest.mark.parametrize("name", ["cube", "glass", "instances", "textured", "lettering", *MOVING])
+@pytest.mark.parametrize(
+    "name", ["cube", "glass", "instances", "textured", "lettering", "foggy", *MOVING]
+)
 def test_a_picture_is_that_of_cycles(rendered, name):
     ours = picture(rendered / f"{name}.exr")
     cycles = f"moving-cycles{name[-1]}" if name in MOVING else f"{name}-cycles"
