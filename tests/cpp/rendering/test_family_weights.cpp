@@ -3,6 +3,7 @@
 #include "mutation/path_seeds.h"
 #include "rendering/family_taker.h"
 #include "rendering/family_weights.h"
+#include "rendering/path_source.h"
 #include "rendering/primary_estimators.h"
 #include "rendering/traced_source.h"
 #include "rendering/walk_taker.h"
@@ -212,6 +213,29 @@ TEST_P(TracedTakerOf, ShowsWhatItsSourceFindsWithTheWeightsOfSamples) {
 }
 
 INSTANTIATE_TEST_SUITE_P(CertainPaths, TracedTakerOf, testing::Bool(), [](const auto& info) {
+  return info.param ? "LeftToTheSamples" : "LikeOthers";
+});
+
+/// With roulette from the first vertex on.
+class PathSampleTakerOf : public testing::TestWithParam<bool> {};
+
+TEST_P(PathSampleTakerOf, ShowsWhatItsSourceFindsWithTheWeightsOfSamples) {
+  const TestScene made = make_scene("cornell");
+  PathRules rules{8};
+  rules.rr_depth = 1;
+  PathTarget target(made.scene, rules);
+  if (GetParam()) leave_certain_light(target);
+  const PathSampling sampling(target);
+  ASSERT_TRUE(sampling.in_waves);
+  const SamplesOnly algorithm(*made.scene,
+                              [&] { return std::make_unique<PathSampleSource>(target, sampling); });
+  const FamilyWeights weights(0.1);
+  expect_the_same(made.scene, algorithm, weights, [&](const Scene&) {
+    return std::make_unique<PathSampleTaker>(target, sampling, weights);
+  });
+}
+
+INSTANTIATE_TEST_SUITE_P(CertainPaths, PathSampleTakerOf, testing::Bool(), [](const auto& info) {
   return info.param ? "LeftToTheSamples" : "LikeOthers";
 });
 
