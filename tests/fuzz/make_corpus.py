@@ -136,6 +136,15 @@ def make_serialized() -> None:
 # ---- scenes --------------------------------------------------------------------------------------
 
 
+def make_vol() -> None:
+    values = np.linspace(0, 1, 24, dtype=np.float32)
+    for encoding, kept in ((1, values), (2, values.astype(np.float16)), (3, values * 255)):
+        data = (kept.astype(np.uint8) if encoding == 3 else kept).tobytes()
+        for channels, size in ((1, (2, 3, 4)), (3, (2, 2, 2))):
+            header = struct.pack("<5i6f", encoding, *size, channels, 0, 0, 0, 1, 1, 1)
+            write("vol", f"{encoding}-{channels}.vol", b"VOL\x03" + header + data)
+
+
 def scenes_of_every_kind(encode: Callable[[str], bytes]) -> Iterator[tuple[int, bytes]]:
     """Random scenes that are short enough, each with a plug-in that those before it lack."""
     known: set[str] = set()
@@ -279,6 +288,7 @@ if __name__ == "__main__":
     make_obj()
     make_ply()
     make_serialized()
+    make_vol()
     make_scenes()
     make_gltf()
     make_pbrt()
