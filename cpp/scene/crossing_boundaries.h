@@ -7,8 +7,8 @@
 
 namespace mlt {
 
-/// A warning, with a count, if boundaries of media cross or touch each other. Along rays through them
-/// the medium behind one surface should be the medium before the next.
+/// A warning, with a count, if boundaries of media cross or touch each other: along rays through
+/// them, the medium behind one surface should be the medium before the next.
 std::vector<std::string> warnings_of_crossing_boundaries(const Scene& scene);
 
 }  // namespace mlt
