@@ -57,13 +57,13 @@ class Params {
   template <class T>
   std::vector<std::shared_ptr<T>> objects(const std::string& family = "") {
     std::vector<std::shared_ptr<T>> found;
-    for (Nested& nested : nested_)
-      if (!family.empty() && nested.family != family)
-        continue;
-      else if (auto object = std::dynamic_pointer_cast<T>(nested.object)) {
+    for (Nested& nested : nested_) {
+      if (!family.empty() && nested.family != family) continue;
+      if (auto object = std::dynamic_pointer_cast<T>(nested.object)) {
         nested.read = true;
         found.push_back(object);
       }
+    }
     return found;
   }
 

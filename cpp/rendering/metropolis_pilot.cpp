@@ -34,8 +34,10 @@ struct Noise {
   double cost_of_ray = 1;
 
   Noise& operator+=(const Noise& other) {
-    for (size_t i = 0; i < thresholds.size(); ++i) squares[i] += other.squares[i];
-    for (size_t i = 0; i < thresholds.size(); ++i) of_samples[i] += other.of_samples[i];
+    for (size_t i = 0; i < thresholds.size(); ++i) {
+      squares[i] += other.squares[i];
+      of_samples[i] += other.of_samples[i];
+    }
     count += other.count;
     rays += other.rays;
     cost_of_ray = other.cost_of_ray;

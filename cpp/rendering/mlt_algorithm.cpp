@@ -84,7 +84,7 @@ class MltAlgorithm : public MetropolisAlgorithm {
   std::string samples_name() const override { return are_traced() ? "path" : "bdpt"; }
   std::unique_ptr<Source> sample_source() const override {
     if (are_traced()) return std::make_unique<TracedSource>(target_);
-    return std::make_unique<PathSampleSource>(target_, PathSampling(target_));
+    return std::make_unique<PathSource>(target_, PathSampling(target_));
   }
   std::unique_ptr<SampleTaker> sample_taker(const FamilyWeights& weights) const override {
     if (are_traced()) return std::make_unique<TracedTaker>(target_, weights);

@@ -8,28 +8,6 @@
 
 namespace mlt {
 
-class PathSource : public SourceOf<PathSource> {
- public:
-  explicit PathSource(const PathTarget& target) : seeds_(target) {}
-  PathSource(const PathTarget& target, const BidirectionalSettings& settings)
-      : seeds_(target, settings) {}
-
-  template <class Sampler>
-  void draw(const Vec2& raster, Sampler& sampler, std::vector<FoundLight>& found) {
-    seeds_.draw(raster, sampler, [&](const Connection& c, double weight) {
-      found.push_back(
-          {c.raster, c.contribution * c.weight, weight, weight / c.weight * c.own_share, c.t >= 2});
-    });
-  }
-  const RayCounts& rays() const override { return seeds_.rays(); }
-  RayCounts take_rays() { return seeds_.take_rays(); }
-  /// Cost of a ray, measured in bench_ray_cost: .75 to .93.
-  double cost_of_ray() const override { return 0.8; }
-
- private:
-  PathSeeds seeds_;
-};
-
 /// How samples that go to the image are taken. Waves know the balance heuristic alone: with it f/P
 /// is the weighted f / p of a path, without roulette.
 struct PathSampling {
@@ -43,17 +21,28 @@ struct PathSampling {
   bool in_waves;
 };
 
-/// Finds the paths of one sample of PathSampleTaker after the other: for the pilot.
-class PathSampleSource : public PathSource {
+class PathSource : public SourceOf<PathSource> {
  public:
-  PathSampleSource(const PathTarget& target, const PathSampling& sampling)
-      : PathSource(target, sampling.settings), in_waves_(sampling.in_waves) {}
+  explicit PathSource(const PathTarget& target) : seeds_(target) {}
+  /// One after the other, what PathSampleTaker takes: for the pilot.
+  PathSource(const PathTarget& target, const PathSampling& sampling)
+      : seeds_(target, sampling.settings), in_waves_(sampling.in_waves) {}
 
-  /// In waves .3 to .4.
-  double cost_of_ray() const override { return in_waves_ ? 0.35 : PathSource::cost_of_ray(); }
+  template <class Sampler>
+  void draw(const Vec2& raster, Sampler& sampler, std::vector<FoundLight>& found) {
+    seeds_.draw(raster, sampler, [&](const Connection& c, double weight) {
+      found.push_back(
+          {c.raster, c.contribution * c.weight, weight, weight / c.weight * c.own_share, c.t >= 2});
+    });
+  }
+  const RayCounts& rays() const override { return seeds_.rays(); }
+  RayCounts take_rays() { return seeds_.take_rays(); }
+  /// Cost of a ray, measured in bench_ray_cost: .75 to .93, in waves .3 to .4.
+  double cost_of_ray() const override { return in_waves_ ? 0.35 : 0.8; }
 
  private:
-  bool in_waves_;
+  PathSeeds seeds_;
+  bool in_waves_ = false;
 };
 
 /// Adds the samples to the image with the weights w1 (FamilyWeights).
@@ -63,7 +52,7 @@ class PathSampleTaker : public BidirectionalTaker {
                   const FamilyWeights& weights)
       : BidirectionalTaker(target.scene(), sampling.settings, sampling.in_waves),
         target_(&target),
-        source_(target, sampling.settings),
+        source_(target, sampling),
         weighting_(target.scene(), weights) {}
 
   void sample(const Vec2& raster, PixelSampler& sampler, SampleSink& sink,

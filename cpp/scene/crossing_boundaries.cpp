@@ -5,8 +5,7 @@
 namespace mlt {
 namespace {
 
-constexpr uint32_t most_shapes = 64;
-constexpr int rays_per_shape = 200;
+constexpr size_t ray_count = 2000;
 constexpr int most_surfaces = 100;  ///< Along a ray.
 
 /// What rays have met.
@@ -53,14 +52,13 @@ Ray ray_through(const Scene& scene, const Shape& shape, Rng& rng) {
 
 std::vector<std::string> warnings_of_crossing_boundaries(const Scene& scene) {
   if (!scene.has_media()) return {};
+  std::vector<const Shape*> boundaries;
+  for (uint32_t i = 0; i < scene.shapes().size(); ++i)
+    if (scene.media().is_boundary(i)) boundaries.push_back(scene.shapes()[i].get());
   Crossings found;
-  uint32_t shapes = 0;
-  for (uint32_t i = 0; i < scene.shapes().size() && shapes < most_shapes; ++i) {
-    if (!scene.media().is_boundary(i)) continue;
-    Rng rng(i, Purpose::inspect, shapes++);
-    for (int k = 0; k < rays_per_shape; ++k)
-      follow(scene, ray_through(scene, *scene.shapes()[i], rng), found);
-  }
+  Rng rng(0, Purpose::inspect, 0);
+  for (size_t i = 0; i < ray_count && !boundaries.empty(); ++i)
+    follow(scene, ray_through(scene, *boundaries[i % boundaries.size()], rng), found);
   if (found.wrong == 0) return {};
   const std::string other = describe(found.behind->where);
   return {at(found.before->where,

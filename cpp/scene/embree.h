@@ -15,14 +15,21 @@
 
 namespace mlt {
 
+/// The file that this code is in, a library or a program; nullptr if that is not known.
+inline void* own_file() {
+  static void* const file = [] {
+    Dl_info here;
+    return dladdr(reinterpret_cast<void*>(&own_file), &here)
+               ? dlopen(here.dli_fname, RTLD_LAZY | RTLD_NOLOAD)
+               : nullptr;
+  }();
+  return file;
+}
+
 /// The function `name` of our library; `linked`, which the dynamic linker has found, in a program.
 template <class Function>
 Function own_function(const char* name, Function linked) {
-  Dl_info here;
-  const auto inside = reinterpret_cast<void*>(&own_function<Function>);
-  if (!dladdr(inside, &here)) return linked;
-  void* const file = dlopen(here.dli_fname, RTLD_LAZY | RTLD_NOLOAD);
-  void* const found = file ? dlsym(file, name) : nullptr;
+  void* const found = own_file() ? dlsym(own_file(), name) : nullptr;
   return found ? reinterpret_cast<Function>(found) : linked;
 }
 

@@ -17,7 +17,7 @@ void check_grid_size(const std::array<int64_t, 3>& size, int64_t channels,
     if (ok) values *= n;
   }
   if (!ok || values >= most)
-    throw SceneError(fmt::format(
+    throw UsageError(fmt::format(
         "{}: a grid cannot have {} x {} x {} values with {} channels; there should be at least one "
         "value and fewer than 2^31 numbers, with 1 or 3 channels",
         name, size[0], size[1], size[2], channels));
@@ -36,7 +36,7 @@ void Grid::check(const GridData& data, const std::string& name) {
     const float value = data.values[i];
     if (!(value >= 0 && std::isfinite(value))) {
       const size_t at = i / channels, width = size_[0], height = size_[1];
-      throw SceneError(fmt::format(
+      throw UsageError(fmt::format(
           "{}: the value at x = {}, y = {}, z = {} is {}, but must be finite and not negative",
           name, at % width, at / width % height, at / width / height, value));
     }

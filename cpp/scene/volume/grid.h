@@ -17,7 +17,7 @@ struct GridData {
   std::vector<float> values;  ///< Channels first, then x, y and z.
 };
 
-/// Throws SceneError, which begins with `name`, if a grid would have no values, more than 2^31, or
+/// Throws UsageError, which begins with `name`, if a grid would have no values, more than 2^31, or
 /// another number of channels than 1 or 3.
 void check_grid_size(const std::array<int64_t, 3>& size, int64_t channels, const std::string& name);
 
@@ -41,7 +41,7 @@ class Grid {
     }
   };
 
-  /// Throws SceneError, which begins with `name`, if a value is negative or not finite.
+  /// Throws UsageError, which begins with `name`, if a value is negative or not finite.
   Grid(const GridData& data, bool nearest, const std::string& name);
 
   const std::array<int, 3>& size() const { return size_; }
@@ -52,7 +52,9 @@ class Grid {
   /// the grid, as does half of the last: there the outermost values continue. Where values are
   /// constant, cells begin at x = i, and none lies outside.
   int cells(int axis) const { return size_[axis] + (nearest_ ? 0 : 1); }
-  double begin() const { return nearest_ ? 0 : -0.5; }  ///< Of the first cell, along each axis.
+  /// The sides of the grid, counted in cells from the beginning of the first.
+  double low() const { return nearest_ ? 0 : 0.5; }
+  double high(int axis) const { return low() + size_[axis]; }
   template <class T>
   Cell<T> cell(const Index& index) const {
     const size_t low = place(index[0], index[1], index[2]);

@@ -12,7 +12,7 @@ template <class T>
 class Flying {
  public:
   Flying(const Grid& grid, const Vec3& o, const Vec3& d, double scale)
-      : grid_(&grid), o_(o), d_(d), from_begin_(o - grid.begin()), scale_(scale) {}
+      : grid_(&grid), o_(o), d_(d), scale_(scale) {}
 
   Flight fly(const FlightLimit& limit) const {
     Flight flight{limit.distance};
@@ -36,7 +36,7 @@ class Flying {
   struct Cell {
     Cell(const Flying& flying, const Grid::Index& i)
         : values(flying.grid_->cell<T>(i)),
-          o(flying.from_begin_ - Vec3(i[0], i[1], i[2])),
+          o(flying.o_ - Vec3(i[0], i[1], i[2])),
           d(flying.d_),
           scale(flying.scale_) {}
     T at(double t) const { return values.at(o + t * d) * scale; }
@@ -62,7 +62,7 @@ class Flying {
   }
 
   const Grid* grid_;
-  Vec3 o_, d_, from_begin_;
+  Vec3 o_, d_;
   double scale_;
 };
 
@@ -70,9 +70,10 @@ class Flying {
 
 GridVolume::GridVolume(Grid grid, const Mat4& to_world) : grid_(std::move(grid)) {
   if (!(std::fabs(glm::determinant(to_world)) > 0))
-    throw SceneError("'to_world' should have a volume, but is flat");
+    throw UsageError("'to_world' should have a volume, but is flat");
   const auto& n = grid_.size();
-  to_grid_ = glm::scale(Mat4(1), Vec3(n[0], n[1], n[2])) * glm::inverse(to_world);
+  to_grid_ = glm::scale(glm::translate(Mat4(1), Vec3(grid_.low())), Vec3(n[0], n[1], n[2])) *
+             glm::inverse(to_world);
 }
 
 Color GridVolume::at(const Vec3& p) const {
@@ -80,10 +81,9 @@ Color GridVolume::at(const Vec3& p) const {
   Grid::Index index;
   Vec3 in_cell;
   for (int axis = 0; axis < 3; ++axis) {
-    if (!(0 <= x[axis] && x[axis] <= grid_.size()[axis])) return Color(0);
-    const double from_begin = x[axis] - grid_.begin();
-    index[axis] = std::min(static_cast<int>(from_begin), grid_.cells(axis) - 1);
-    in_cell[axis] = from_begin - index[axis];
+    if (!(grid_.low() <= x[axis] && x[axis] <= grid_.high(axis))) return Color(0);
+    index[axis] = std::min(static_cast<int>(x[axis]), grid_.cells(axis) - 1);
+    in_cell[axis] = x[axis] - index[axis];
   }
   return grid_.is_coloured() ? grid_.cell<Color>(index).at(in_cell)
                              : Color(grid_.cell<double>(index).at(in_cell));

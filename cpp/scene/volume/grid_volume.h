@@ -8,7 +8,7 @@ namespace mlt {
 
 class GridVolume final : public Volume {
  public:
-  /// Throws SceneError if the transform is flat.
+  /// Throws UsageError if the transform is flat.
   GridVolume(Grid grid, const Mat4& to_world);
 
   Color at(const Vec3& p) const override;
@@ -17,7 +17,7 @@ class GridVolume final : public Volume {
 
  private:
   Grid grid_;
-  Mat4 to_grid_;
+  Mat4 to_grid_;  ///< To cells, from the beginning of the first.
 };
 
 }  // namespace mlt

@@ -10,17 +10,19 @@ namespace mlt {
 
 class GridWalk {
  public:
-  /// The part of the line o + t d, 0 <= t <= distance, that is in the grid.
+  /// The part of the line o + t d, 0 <= t <= distance, that is in the grid; in cells, from the
+  /// beginning of the first.
   GridWalk(const Grid& grid, const Vec3& o, const Vec3& d, double distance)
-      : grid_(&grid), o_(o - grid.begin()), d_(d), per_d_(1.0 / d), t_(0), end_(distance) {
+      : grid_(&grid), o_(o), d_(d), per_d_(1.0 / d), t_(0), end_(distance) {
     for (int axis = 0; axis < 3; ++axis) {
       step_[axis] = d[axis] > 0 ? 1 : -1;
-      const double size = grid.size()[axis], to_low = -o[axis] * per_d_[axis],
-                   to_high = (size - o[axis]) * per_d_[axis];
+      const double low = grid.low(), high = grid.high(axis);
       if (d[axis] == 0) {
-        if (!(0 <= o[axis] && o[axis] <= size)) end_ = -1;
+        if (!(low <= o[axis] && o[axis] <= high)) end_ = -1;
         continue;
       }
+      const double to_low = (low - o[axis]) * per_d_[axis],
+                   to_high = (high - o[axis]) * per_d_[axis];
       t_ = std::max(t_, std::min(to_low, to_high));
       end_ = std::min(end_, std::max(to_low, to_high));
     }
@@ -87,7 +89,7 @@ class GridWalk {
   }
 
   const Grid* grid_;
-  Vec3 o_, d_, per_d_;  ///< In cells, from the beginning of the first.
+  Vec3 o_, d_, per_d_;
   double t_, end_;
   Grid::Index step_, cell_{};
   Vec3 side_{0};  ///< See far_side().

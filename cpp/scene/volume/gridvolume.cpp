@@ -6,6 +6,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include <algorithm>
 #include <cstring>
 
 namespace mlt {
@@ -16,7 +17,10 @@ GridData held_grid(Params& params) {
   if (params.has("filename")) params.fail("data", "and 'filename' exclude each other");
   const Buffer data = params.buffer("data");
   const Vec3 shape = vector_param(params, "data_shape");
-  const std::array<int64_t, 3> size{int64_t(shape.z), int64_t(shape.y), int64_t(shape.x)};
+  const auto length = [&](int i) {
+    return static_cast<int64_t>(std::clamp(shape[i], 0.0, double{1L << 31}));
+  };
+  const std::array<int64_t, 3> size{length(2), length(1), length(0)};
   check_grid_size(size, 1, "'data'");
   const size_t values = size_t(size[0]) * size[1] * size[2];
   const size_t channels = data.bytes().size() / (values * sizeof(float));

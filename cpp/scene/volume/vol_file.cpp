@@ -1,7 +1,8 @@
 #include "scene/volume/vol_file.h"
 
-#include <half.h>
 #include "base/atomic_file.h"
+
+#include <half.h>
 
 #include <cstring>
 

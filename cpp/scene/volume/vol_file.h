@@ -10,7 +10,7 @@ struct VolFile {
   Vec3 low{0}, high{1};  ///< The box that the file gives.
 };
 
-/// Throws FileError or SceneError.
+/// Throws FileError or UsageError.
 VolFile read_vol(const std::string& path);
 /// The same from a file's content, called `name` in errors.
 VolFile parse_vol(const std::string& bytes, const std::string& name);

@@ -35,7 +35,7 @@ class Written:
             file = self._file(list(buffers.values()), f"{name}-mesh", ".ply")
             return {**made, "type": "ply", "filename": file}
         if plugin["type"] == "gridvolume" and "data" in made:
-            made["filename"] = self._file([vol(made.pop("data"))], f"{name}-grid", ".vol")
+            made["filename"] = self._file([made.pop("data")], f"{name}-grid", ".vol")
         if "data" in made:
             made["filename"] = self._file([made.pop("data")], f"{name}-image", ".exr")
         return made
@@ -67,12 +67,14 @@ def suffix_of(content: bytes) -> str:
 
 
 def write(path: Path, arrays: list[Any]) -> None:
-    """Bytes as they are, an image, or a mesh."""
+    """Bytes as they are, a grid, an image, or a mesh."""
     if isinstance(arrays[0], bytes):
         try:
             path.write_bytes(arrays[0])
         except OSError as error:
             raise _core.FileError(f"{path}: cannot write it: {error.strerror}") from None
+    elif path.suffix == ".vol":
+        write(path, [vol(arrays[0])])
     elif len(arrays) == 1:
         write_image(path, np.asarray(arrays[0], np.float32))
     else:

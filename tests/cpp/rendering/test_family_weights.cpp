@@ -228,7 +228,7 @@ TEST_P(PathSampleTakerOf, ShowsWhatItsSourceFindsWithTheWeightsOfSamples) {
   const PathSampling sampling(target);
   ASSERT_TRUE(sampling.in_waves);
   const SamplesOnly algorithm(*made.scene,
-                              [&] { return std::make_unique<PathSampleSource>(target, sampling); });
+                              [&] { return std::make_unique<PathSource>(target, sampling); });
   const FamilyWeights weights(0.1);
   expect_the_same(made.scene, algorithm, weights, [&](const Scene&) {
     return std::make_unique<PathSampleTaker>(target, sampling, weights);

@@ -6,12 +6,15 @@
 #include "scene/volume/grid_volume.h"
 #include "scene/volume/grid_walk.h"
 #include "scene/volume/vol_file.h"
+#include "shape_testing.h"
 
 #include <algorithm>
 #include <cstring>
 
 namespace mlt {
 namespace {
+
+using shape_testing::error_of;
 
 /// Values of which most are 0, in clusters, some of which end where a brick does.
 GridData sparse_grid(std::array<int, 3> size, int channels, uint64_t seed) {
@@ -153,14 +156,14 @@ TEST_P(GridOf, IsWalkedThroughInOrder) {
   for (int i = 0; i < 500; ++i) {
     const Ray ray = this->ray(rng);
     double last = 0;
-    GridWalk(grid, ray.o, ray.d, infinity)
+    GridWalk(grid, ray.o + grid.low(), ray.d, infinity)
         .run([&](const Grid::Index& cell, double from, double to) {
           EXPECT_LE(last, from);
           EXPECT_LT(from, to);
           const Vec3 middle = ray.o + 0.5 * (from + to) * ray.d;
           for (int axis = 0; axis < 3; ++axis) {
-            EXPECT_GE(middle[axis], grid.begin() + cell[axis] - 1e-9);
-            EXPECT_LE(middle[axis], grid.begin() + cell[axis] + 1 + 1e-9);
+            EXPECT_GE(middle[axis], cell[axis] - grid.low() - 1e-9);
+            EXPECT_LE(middle[axis], cell[axis] - grid.low() + 1 + 1e-9);
           }
           for (double t = last + 1e-6; t < from - 1e-6; t += 0.5)
             EXPECT_TRUE(is_black(naive_value(data, GetParam().nearest, ray.o + t * ray.d)));
@@ -174,15 +177,6 @@ INSTANTIATE_TEST_SUITE_P(Grids, GridOf,
                          testing::Values(Case{{40, 27, 33}, 1, false}, Case{{40, 27, 33}, 1, true},
                                          Case{{19, 1, 23}, 3, false}, Case{{9, 20, 2}, 3, true},
                                          Case{{1, 1, 1}, 1, false}));
-
-std::string error_of(const std::function<void()>& act) {
-  try {
-    act();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
-}
 
 TEST(Grid, RefusesWhatIsNoExtinction) {
   GridData grid = sparse_grid({4, 5, 6}, 1, 1);
