@@ -50,31 +50,34 @@ class DirectTaker : public SampleTaker {
     if (!hit || !consistent_sides(at, -ray.d, settings_.rules.strict_normals))
       return sum * walk.throughput;
     if (BsdfAt(*scene_, at).has_smooth())
-      for (int i = 0; i < settings_.emitter_samples; ++i) sum += by_light(walker, at, ray, sampler);
-    for (int i = 0; i < settings_.bsdf_samples; ++i) sum += by_bsdf(walker, at, ray, sampler);
+      for (int i = 0; i < settings_.emitter_samples; ++i) sum += by_light(walker, at, walk, sampler);
+    for (int i = 0; i < settings_.bsdf_samples; ++i) sum += by_bsdf(walker, at, walk, sampler);
     return sum * walk.throughput;
   }
 
-  Color by_light(const Walker& walker, const SurfacePoint& at, const Ray& ray,
+  Color by_light(const Walker& walker, const SurfacePoint& at, const CameraWalk& seen,
                  PixelSampler& sampler) const {
     const Vec3 u = DirectNumbers::draw(sampler).for_light();
     const double n = settings_.emitter_samples, m = settings_.bsdf_samples;
     const auto weight = [&](double light, double bsdf) {
       return MisExponent(Heuristic::power).weight(n * light, m * bsdf);
     };
-    return direct_light(walker, at, -ray.d, u, settings_.rules.strict_normals, weight) / n;
+    return direct_light(walker, at, -seen.ray.d, u, settings_.rules.strict_normals, weight,
+                        seen.likelihood) /
+           n;
   }
 
-  Color by_bsdf(const Walker& walker, const SurfacePoint& at, const Ray& ray,
+  Color by_bsdf(const Walker& walker, const SurfacePoint& at, const CameraWalk& seen,
                 PixelSampler& sampler) const {
     const Vec2 u = sampler.next2();
     const auto sample =
-        scatter_to_light(walker, at, -ray.d, {sampler.next(), u}, settings_.rules.strict_normals);
+        scatter_to_light(walker, at, -seen.ray.d, {sampler.next(), u}, settings_.rules.strict_normals);
     if (!sample) return Color(0);
     const double n = settings_.emitter_samples, m = settings_.bsdf_samples;
     CameraWalk walk(walker.leave(at, sample->w));
     walk.throughput = sample->weight;
     walk.scatter_pdf = sample->pdf;
+    walk.likelihood = seen.likelihood;
     SurfacePoint next;
     const bool hit = arrive(walker, sampler, walk, next);
     const auto weight = [&](const Emitter& emitter, const SurfacePoint& x0) {

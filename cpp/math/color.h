@@ -10,6 +10,7 @@ namespace mlt {
 using Color = Vec3;
 
 inline bool is_black(const Color& c) { return c.x == 0 && c.y == 0 && c.z == 0; }
+inline bool is_grey(const Color& c) { return c.x == c.y && c.y == c.z; }
 
 inline double mean(const Color& c) { return (c.x + c.y + c.z) / 3; }
 /// e^c, channel by channel.

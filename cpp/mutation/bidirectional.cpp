@@ -132,17 +132,19 @@ std::optional<Ray> leave_end(const Walker& walker, const Vertex& end, Rng& rng) 
   return first.ray;
 }
 
-/// Intersects the ray to find vertex i: on a surface, on a light at infinity, or on the lens.
-bool arrive(const Walker& walker, const Ray& ray, Path& path, int i, Rng& rng) {
+/// Follows a leg with this likelihood to vertex i: on a surface, in a medium, on a light at
+/// infinity, or on the lens.
+bool arrive(const Walker& walker, const Ray& ray, Color& likelihood, Path& path, int i, Rng& rng) {
   if (i == path.edges()) return walker.arrive_at_lens(ray, path[i]);
   const double u_leg = walker.draw_leg(rng);
-  if (i > 0) return walker.arrive(ray, u_leg, path[i]);
+  path[i] = {};
+  if (i > 0) return walker.arrive(ray, u_leg, path[i].at, likelihood);
   const auto any_background = [&]() -> const Emitter* {
     const std::vector<uint32_t>& indices = walker.scene.backgrounds();
     if (indices.empty()) return nullptr;
     return walker.scene.emitters()[indices[rng.below(indices.size())]].get();
   };
-  return walker.arrive_at_light(ray, u_leg, any_background, path[0]);
+  return walker.arrive_at_light(ray, u_leg, likelihood, any_background, path[0]);
 }
 
 class BidirectionalMutation final : public MeasuredMutation<BidirectionalMutation> {
@@ -199,6 +201,7 @@ class BidirectionalMutation final : public MeasuredMutation<BidirectionalMutatio
     Rng& rng = context.rng;
     const Walker walker{scene(), path.time, context.rays};
     const int begin = step > 0 ? 0 : path.edges();
+    Color likelihood = y.terms.likelihood(first - step, step);
     for (int i = first; i != first + count * step; i += step) {
       if (i == begin) {
         if (!new_end(scene(), path, i, count == 1, rng)) return false;
@@ -213,7 +216,7 @@ class BidirectionalMutation final : public MeasuredMutation<BidirectionalMutatio
         ray = walker.scatter(from, direction(from.at, path[i - 2 * step].at), u);
         if (i == first && from.delta()) return false;  // it must go on scattering smoothly
       }
-      if (!ray || !arrive(walker, *ray, path, i, rng)) return false;
+      if (!ray || !arrive(walker, *ray, likelihood, path, i, rng)) return false;
     }
     return true;
   }

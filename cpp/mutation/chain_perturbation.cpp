@@ -123,11 +123,11 @@ double ChainPerturbation::coefficient(const PathState& x, const PathState& y, in
                                       int step) const {
   const SurfacePoint& at = y[i].at;
   const Vec3 in = y.terms.direction(i, -step), out = y.terms.direction(i, step);
-  const double arrival = kept_arrival(y, i, step);
+  const Arrival arrival = y.terms.arrival(i, step);
   if (!x.specular(i)) {
     const int stop = chain_end(x, i, step);
     const double theta = angle_between(out, x.terms.direction(i, step));
-    return angle(x, i, stop, step).angular_pdf(theta) / abs_cos(at, out) * arrival;
+    return angle(x, i, stop, step).angular_pdf(theta) / abs_cos(at, out) * arrival.stops;
   }
   const Bsdf& bsdf = scene_->bsdf(at);
   const Vec3 local_in = at.shading.to_local(in), local_out = at.shading.to_local(out);
@@ -136,12 +136,12 @@ double ChainPerturbation::coefficient(const PathState& x, const PathState& y, in
     const double chosen = bsdf.pdf(at, local_in, local_out, y[i].lobe);
     const VertexTerms& terms = y.terms[i].vertex;
     return (step < 0 ? terms.pdf_from_camera : terms.pdf_from_light) /
-           (chosen * y.terms.flown(i, step));
+           (chosen * arrival.flown());
   }
   const double eta = bsdf.relative_eta(at, local_in);
   const auto h = half_vector(local_in, local_out, eta);
   if (!h) return 0;
-  return half_vector_jacobian(local_in, local_out, *h, eta) / abs_cos(at, out) * arrival;
+  return half_vector_jacobian(local_in, local_out, *h, eta) / abs_cos(at, out) * arrival.stops;
 }
 
 }  // namespace mlt

@@ -59,7 +59,7 @@ class ChainPerturbation {
                         double first_coefficient) const {
     const int s = span.step;
     double p =
-        first_coefficient * kept_arrival(y, span.start, s) * in.step(span.start, span.start + s);
+        first_coefficient * y.terms.arrival(span.start, s).stops * in.step(span.start, span.start + s);
     for (int i = span.start + s; i != span.stop; i += s)
       p *= coefficient(x, y, i, s) * in.step(i, i + s);
     return p;
@@ -93,11 +93,6 @@ class ChainPerturbation {
   /// The distance from vertex i - step that vertex i of y keeps, if it is in a medium; else
   /// infinity.
   double kept_distance(const PathState& x, int i, int step, const Ray& ray) const;
-  /// The probability of passing and stopping at surfaces from y's vertex i on.
-  static double kept_arrival(const PathState& y, int i, int step) {
-    const double flown = y.terms.flown(i, step);
-    return flown > 0 ? y.terms.arrival(i, step) / flown : 0;
-  }
   /// Density of the direction from y's vertex i, in projected solid angle, when x is perturbed, and
   /// of arriving at the next vertex.
   double coefficient(const PathState& x, const PathState& y, int i, int step) const;

@@ -26,6 +26,7 @@ class LensSubpathMutation final : public MeasuredMutation<LensSubpathMutation> {
 
     // The walk comes first, backwards: only then is the length of the path known.
     constexpr int most_vertices = 32;
+    Color likelihood(1);
     const int first = stop(x);
     std::vector<Vertex>& vertices = y.path.vertices;
     int count = 0;
@@ -33,7 +34,8 @@ class LensSubpathMutation final : public MeasuredMutation<LensSubpathMutation> {
       if (count == most_vertices) return std::nullopt;
       vertices.resize(first + count + 1);
       Vertex& end = vertices.back();
-      if (!walker.arrive(ray, walker.draw_leg(rng), end)) return std::nullopt;
+      end = {};
+      if (!walker.arrive(ray, walker.draw_leg(rng), end.at, likelihood)) return std::nullopt;
       const double stops = stop_probability(end.at);
       if (rng.next() < stops) break;
       const auto next = walker.scatter(end, -ray.d, {rng.next(), rng.next(), rng.next()});

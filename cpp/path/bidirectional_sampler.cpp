@@ -35,6 +35,31 @@ inline bool find_end(const Scene& scene, const WalkVertex& x, Subpath::From from
   return edge.scatters;
 }
 
+/// The probability of what a walk from the other end flies from x to the vertex before it, which
+/// passes_back does not have; changes the likelihood of that walk.
+double fly_back(const Scene& scene, const WalkVertex& x, Color& likelihood) {
+  if (!scene.has_coloured_media()) return 1;
+  const Arrival arrival = x.back.after(likelihood);
+  likelihood = arrival.next_likelihood();
+  return arrival.flown();
+}
+
+/// The sums over the techniques with a joint before or at vertex i of a subpath, from there to its
+/// end: in coloured media densities by the other walk depend on all that it has flown before.
+template <class CountTechnique>
+TechniqueSums sum_back(const Scene& scene, const Subpath& walk, int i, double reverse,
+                       Color likelihood, CountTechnique&& count) {
+  TechniqueSums sums;
+  double quotient = reverse / walk[i].forward;
+  while (quotient > 0) {
+    if (const double technique = count(i); technique > 0) sums = sums.with(technique * quotient);
+    if (--i < 0) break;
+    const double flown = fly_back(scene, walk[i + 1], likelihood);
+    quotient *= walk[i].reverse * flown / walk[i].forward;
+  }
+  return sums;
+}
+
 }  // namespace
 
 /// The density of x_0 in technique s = 1 over that of a walk that starts there.
@@ -68,12 +93,29 @@ void BidirectionalSampler::sum_techniques() {
   if (lights >= 2)
     light_direct_over_walk_ =
         direct_over_walk(light_[0].vertex, light_[0].forward, light_[1].vertex.at);
+  if (scene_->has_coloured_media()) return;  // see sum_back()
+  const Color grey(1);
   for (int i = 0; i < lights; ++i)
-    light_sums_.push_back((i > 0 ? below_light(i - 1, light_[i - 1].reverse) : TechniqueSums())
-                              .with(light_technique(i)));
+    light_sums_.push_back(
+        (i > 0 ? below_light(i - 1, light_[i - 1].reverse, grey) : TechniqueSums())
+            .with(light_technique(i)));
   for (int i = 0; i < cameras; ++i)
-    camera_sums_.push_back((i > 0 ? above_camera(i - 1, camera_[i - 1].reverse) : TechniqueSums())
-                               .with(camera_technique(i)));
+    camera_sums_.push_back(
+        (i > 0 ? above_camera(i - 1, camera_[i - 1].reverse, grey) : TechniqueSums())
+            .with(camera_technique(i)));
+}
+
+TechniqueSums BidirectionalSampler::below_light(int i, double reverse,
+                                                const Color& likelihood) const {
+  if (!scene_->has_coloured_media()) return light_sums_[i].over(reverse / light_[i].forward);
+  return sum_back(*scene_, light_, i, reverse, likelihood,
+                  [&](int j) { return light_technique(j); });
+}
+TechniqueSums BidirectionalSampler::above_camera(int i, double reverse,
+                                                 const Color& likelihood) const {
+  if (!scene_->has_coloured_media()) return camera_sums_[i].over(reverse / camera_[i].forward);
+  return sum_back(*scene_, camera_, i, reverse, likelihood,
+                  [&](int j) { return camera_technique(j); });
 }
 
 bool BidirectionalSampler::weigh(Connection& connection, double own, const TechniqueSums& below,
@@ -92,10 +134,13 @@ double BidirectionalSampler::certainty_of_hit_light(int t) const {
   return p;
 }
 
-double BidirectionalSampler::certainty_of_hit_lens(int s, double passes) const {
-  double p = passes;
-  for (int i = 1; i < s - 1; ++i)
-    p *= connectable(light_[i].vertex) ? 0 : light_[i - 1].reverse / light_[i].G;
+double BidirectionalSampler::certainty_of_hit_lens(int s, const Arrival& from_lens) const {
+  double p = from_lens.probability();
+  Color likelihood = from_lens.next_likelihood();
+  for (int i = s - 2; i > 0 && p > 0; --i)
+    p *= connectable(light_[i].vertex)
+             ? 0
+             : light_[i - 1].reverse / light_[i].G * fly_back(*scene_, light_[i], likelihood);
   return p;
 }
 
@@ -112,7 +157,10 @@ bool BidirectionalSampler::evaluate_hit_light(Connection& connection) {
   connection.certainty = certainty_of_hit_light(t);
   const double from_light = light_position_pdf(*scene_, x0);
   const double direct = direct_over_walk(x0, from_light, camera_[t - 2].vertex.at);
-  const TechniqueSums above = above_camera(t - 2, end.density_back(terms.pdf_from_light))
+  Color likelihood(1);
+  const double flown = fly_back(*scene_, end, likelihood);
+  const double reverse = end.density_back(terms.pdf_from_light) * flown;
+  const TechniqueSums above = above_camera(t - 2, reverse, likelihood)
                                   .with(direct * camera_technique(t - 1, true))
                                   .over(from_light / end.forward)
                                   .with(manifold_over_hit_light(x0, from_light, t));
@@ -121,17 +169,21 @@ bool BidirectionalSampler::evaluate_hit_light(Connection& connection) {
 
 /// See above; a Lambertian vertex has its density `back`, so the walk has computed the sums
 /// already.
-inline TechniqueSums BidirectionalSampler::below_joint(int i, const WalkVertex& x,
-                                                       double back) const {
-  if (x.joint.known) return light_sums_[i];
+inline TechniqueSums BidirectionalSampler::below_joint(int i, const WalkVertex& x, double back,
+                                                       Color likelihood) const {
+  if (x.joint.known && !scene_->has_coloured_media()) return light_sums_[i];
   if (i == 0) return TechniqueSums().with(can_be_hit(*scene_, x.vertex) ? 1 : 0);
-  return below_light(i - 1, x.density_back(back)).with(light_technique(i, true));
+  const double flown = fly_back(*scene_, x, likelihood);
+  return below_light(i - 1, x.density_back(back) * flown, likelihood)
+      .with(light_technique(i, true));
 }
-inline TechniqueSums BidirectionalSampler::above_joint(int i, const WalkVertex& x,
-                                                       double back) const {
-  if (x.joint.known) return camera_sums_[i];
-  const TechniqueSums before = i > 0 ? above_camera(i - 1, x.density_back(back)) : TechniqueSums();
-  return before.with(camera_technique(i, true));
+inline TechniqueSums BidirectionalSampler::above_joint(int i, const WalkVertex& x, double back,
+                                                       Color likelihood) const {
+  if (x.joint.known && !scene_->has_coloured_media()) return camera_sums_[i];
+  if (i == 0) return TechniqueSums().with(camera_technique(i, true));
+  const double flown = fly_back(*scene_, x, likelihood);
+  return above_camera(i - 1, x.density_back(back) * flown, likelihood)
+      .with(camera_technique(i, true));
 }
 
 /// s >= 1, t >= 1: the last vertices of the two subpaths see each other.
@@ -160,18 +212,23 @@ bool BidirectionalSampler::evaluate_connection(Connection& connection, RayCounts
   const Passage seen = walker(rays).passage(a.vertex.at, b.vertex.at);
   if (seen.is_blocked()) return false;
   connection.certainty = k == 1 ? 1 : 0;
+  Color light_likelihood(1), camera_likelihood(1);
   if (scene_->has_passages()) {
     const EdgePassage ends(*scene_, a.vertex.at, b.vertex.at, seen, t == 1);
+    const Arrival from_light = ends.from_light.after(a.likelihood),
+                  from_camera = ends.from_camera.after(b.likelihood);
+    light_likelihood = from_light.next_likelihood();
+    camera_likelihood = from_camera.next_likelihood();
     connection.contribution *= ends.transmittance;
-    at_a.onwards *= ends.from_light;
-    at_b.onwards *= ends.from_camera;
-    connection.certainty *= ends.from_camera;
+    at_a.onwards *= from_light.probability();
+    at_b.onwards *= from_camera.probability();
+    connection.certainty *= from_camera.probability();
   }
 
-  const TechniqueSums below =
-      below_joint(s - 1, a, at_a.back).over(at_b.onwards * edge.G / a.forward);
-  const TechniqueSums above =
-      above_joint(t - 1, b, at_b.back).over(at_a.onwards * edge.G / b.forward);
+  const TechniqueSums below = below_joint(s - 1, a, at_a.back, camera_likelihood)
+                                  .over(at_b.onwards * edge.G / a.forward);
+  const TechniqueSums above = above_joint(t - 1, b, at_b.back, light_likelihood)
+                                  .over(at_a.onwards * edge.G / b.forward);
   return weigh(connection, direct ? direct_pdf_ / a.forward : 1, below, above,
                a.survival * b.survival);
 }
@@ -232,8 +289,9 @@ bool BidirectionalSampler::evaluate_hit_lens(Connection& connection, RayCounts& 
   const double before_lens = !connectable(last.vertex) ? manifold_count(k - 1, lens_)
                              : k == 1 ? direct_over_walk(last.vertex, last.forward, *hit)
                                       : 1;
+  const double reverse = terms.pdf_from_camera * G * edge.from_camera.probability();
   const TechniqueSums below =
-      below_light(k - 1, terms.pdf_from_camera * G * edge.from_camera)
+      below_light(k - 1, reverse, edge.from_camera.next_likelihood())
           .with(before_lens)
           .over(camera_position_pdf(*scene_, lens_) / (last.next_coefficient * G));
   return weigh(connection, 1, below, {}, last.next_survival);

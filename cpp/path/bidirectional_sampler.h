@@ -232,12 +232,13 @@ class BidirectionalSampler {
 
   // certainty() of a path that one walk alone has made.
   double certainty_of_hit_light(int t) const;
-  double certainty_of_hit_lens(int s, double passes) const;
+  double certainty_of_hit_lens(int s, const Arrival& from_lens) const;
   /// The sums over the techniques whose joint lies beyond vertex i of a subpath, for a path joined
   /// at x, which is that vertex or one sampled in its place; `back` is the density of the
-  /// direction to the previous vertex, in projected solid angle.
-  TechniqueSums below_joint(int i, const WalkVertex& x, double back) const;
-  TechniqueSums above_joint(int i, const WalkVertex& x, double back) const;
+  /// direction to the previous vertex, in projected solid angle, and the likelihood is that of the
+  /// other walk, which has come to x.
+  TechniqueSums below_joint(int i, const WalkVertex& x, double back, Color likelihood) const;
+  TechniqueSums above_joint(int i, const WalkVertex& x, double back, Color likelihood) const;
 
   bool evaluate_hit_light(Connection& connection);
   bool evaluate_connection(Connection& connection, RayCounts& rays);
@@ -254,13 +255,9 @@ class BidirectionalSampler {
   double light_technique(int i, bool joined = false) const;
   double camera_technique(int i, bool joined = false) const;
   /// The sums over techniques with a joint before or at vertex i of a subpath, whose density by a
-  /// walk from the other end is `reverse`.
-  TechniqueSums below_light(int i, double reverse) const {
-    return light_sums_[i].over(reverse / light_[i].forward);
-  }
-  TechniqueSums above_camera(int i, double reverse) const {
-    return camera_sums_[i].over(reverse / camera_[i].forward);
-  }
+  /// walk from the other end is `reverse`, and at which its likelihood is given.
+  TechniqueSums below_light(int i, double reverse, const Color& likelihood) const;
+  TechniqueSums above_camera(int i, double reverse, const Color& likelihood) const;
   double direct_over_walk(const Vertex& x0, double from_light, const SurfacePoint& x1) const;
 
   /// Computes the weights; false if that of this technique is 0.

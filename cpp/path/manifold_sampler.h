@@ -30,7 +30,7 @@ inline bool starts_chains(const Scene& scene, const Vertex& x0) {
 inline double lobes_pdf(const PathTerms& terms, int m) {
   double p = 1;
   for (int i = 1; i <= m; ++i) {
-    const double arrival = terms.arrival(i, 1);
+    const double arrival = terms.arrival(i, 1).probability();
     p *= arrival > 0 ? terms[i].vertex.pdf_from_light / arrival : 0;
   }
   return p;

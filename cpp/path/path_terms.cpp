@@ -11,6 +11,15 @@ double inverse_size(const Color& f) {
   return size > least_f ? 1 / size : 0;
 }
 
+/// The likelihoods of walks along the whole path, from either end.
+void find_likelihoods(PathTerms& terms) {
+  const int k = terms.edges();
+  for (int i = 1; i < k; ++i)
+    terms.passages[i].from_light.likelihood = terms.likelihood(i, 1);
+  for (int i = k - 1; i > 0; --i)
+    terms.passages[i - 1].from_camera.likelihood = terms.likelihood(i, -1);
+}
+
 /// Finds the passages of the edges at vertices first ... last, unless a vertex is black, and
 /// includes those of all edges at vertices begin ... end in the terms. Not inlined: update_terms
 /// would become too large for what it needs in each scene.
@@ -25,15 +34,16 @@ double inverse_size(const Color& f) {
     const Passage edge = lit ? scene.passage(a, b, path.time) : Passage::blocked();
     terms.passages[i] = {scene, a, b, edge, i + 1 == k};
   }
+  if (scene.has_coloured_media()) find_likelihoods(terms);
   for (int i = begin; i <= end; ++i) {
     VertexTerms& x = terms[i].vertex;
     if (i < k) {
       x.f *= terms.passages[i].transmittance;
-      x.pdf_from_light *= terms.passages[i].from_light;
+      x.pdf_from_light *= terms.passages[i].from_light.probability();
       terms[i + 1].from_light = x.pdf_from_light * terms[i].G;
     }
     if (i > 0) {
-      x.pdf_from_camera *= terms.passages[i - 1].from_camera;
+      x.pdf_from_camera *= terms.passages[i - 1].from_camera.probability();
       terms[i - 1].from_camera = x.pdf_from_camera * terms[i - 1].G;
     }
     terms[i].inverse_f = inverse_size(x.f);
@@ -51,7 +61,10 @@ void compute_terms(const Scene& scene, const Path& path, const TermSettings& set
 
 void update_terms(const Scene& scene, const Path& path, const TermSettings& settings, int first,
                   int last, PathTerms& terms) {
-  const int k = path.edges(), begin = std::max(0, first - 1), end = std::min(k, last + 1);
+  // In coloured media densities depend on all that a walk has flown before.
+  const bool whole = scene.has_coloured_media();
+  const int k = path.edges(), begin = whole ? 0 : std::max(0, first - 1),
+            end = whole ? k : std::min(k, last + 1);
   const Vertex* vertices = path.vertices.data();
   TermsAt* at = terms.at.data();
   const bool passages = scene.has_passages();
@@ -133,7 +146,7 @@ double technique_density(const PathTerms& terms, int s) {
 }
 
 double certainty(const PathTerms& terms) {
-  double p = terms.arrival(terms.edges(), -1);
+  double p = terms.arrival(terms.edges(), -1).probability();
   for (int i = 1; i < terms.edges(); ++i)
     p *= terms[i].connectable ? 0 : terms[i].vertex.pdf_from_camera;
   return p;

@@ -56,9 +56,8 @@ struct TermsAt : VertexDensities, Edge {
   double inverse_f = 0;
 };
 
-/// The light that goes straight along an edge, and the probabilities that a walk from either end
-/// does and stops at the other (in a medium, their densities per unit of length). A light walk goes
-/// through the lens, whatever lies before or behind it.
+/// The light that goes straight along an edge, and the arrivals of walks from either end at the
+/// other. A light walk goes through the lens, whatever lies before or behind it.
 struct EdgePassage {
   EdgePassage() = default;
   /// Of the edge from a to b, which is on the lens if `to_lens`.
@@ -67,15 +66,11 @@ struct EdgePassage {
       : transmittance(edge.transmittance) {
     const Vec3 w = direction(a, b);
     from_camera = scene.arrival(edge, a, -w);
-    flown_from_camera = scene.flown(edge, a);
-    if (to_lens) return;
-    from_light = scene.arrival(edge, b, w);
-    flown_from_light = scene.flown(edge, b);
+    if (!to_lens) from_light = scene.arrival(edge, b, w);
   }
 
   Color transmittance{1};
-  double from_light = 1, from_camera = 1;
-  double flown_from_light = 1, flown_from_camera = 1;  ///< The parts that are due to media.
+  Arrival from_light, from_camera;
 };
 
 /// The terms include what surfaces and media let pass on the way to the next vertex: f_i the
@@ -92,15 +87,16 @@ struct PathTerms {
   int edges() const { return static_cast<int>(at.size()) - 1; }  ///< k
   /// Unit direction at x_i towards x_{i + step}, where step is 1 or -1.
   Vec3 direction(int i, int step) const { return step > 0 ? at[i].w : -at[i - 1].w; }
-  /// The probability that a walk from x_i towards x_{i + step} stops there.
-  double arrival(int i, int step) const {
-    if (passages.empty()) return 1;
+  /// The arrival at x_{i + step} of a walk from x_i.
+  Arrival arrival(int i, int step) const {
+    if (passages.empty()) return {};
     return step > 0 ? passages[i].from_light : passages[i - 1].from_camera;
   }
-  /// The part of it that is due to media.
-  double flown(int i, int step) const {
-    if (passages.empty()) return 1;
-    return step > 0 ? passages[i].flown_from_light : passages[i - 1].flown_from_camera;
+  /// The likelihood of a walk that has come to x_i in steps of `step`.
+  Color likelihood(int i, int step) const {
+    const int previous = i - step;
+    if (previous < 0 || previous > edges()) return Color(1);
+    return arrival(previous, step).next_likelihood();
   }
   TermsAt& operator[](size_t i) { return at[i]; }
   const TermsAt& operator[](size_t i) const { return at[i]; }

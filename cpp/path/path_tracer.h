@@ -76,10 +76,11 @@ DirectLight unshadowed_light(const Scene& scene, const LightSample& light, const
   return {light.x0.at, radiance * s.f * (std::abs(s.cos_l) * mis / pdf)};
 }
 
-/// The light that is scattered at `at` towards wc from a light sampled by u, with visibility.
+/// The light that is scattered at `at` towards wc from a light sampled by u, with visibility. A walk
+/// would go on from `at` with this likelihood.
 template <class Weight>
 Color direct_light(const Walker& walker, const SurfacePoint& at, const Vec3& wc, const Vec3& u,
-                   bool strict, Weight&& weight) {
+                   bool strict, Weight&& weight, const Color& likelihood = Color(1)) {
   const Scene& scene = walker.scene;
   const LightSample chosen = sample_direct_position(scene, at, u);
   if (!scene.has_passages()) {
@@ -90,7 +91,8 @@ Color direct_light(const Walker& walker, const SurfacePoint& at, const Vec3& wc,
   const SurfacePoint& x0 = chosen.x0.at;
   const Passage seen = walker.passage(at, x0);
   if (seen.is_blocked()) return Color(0);
-  const double arrives = scene.arrival(seen, x0, direction(at, x0));
+  const double arrives =
+      scene.arrival(seen, x0, direction(at, x0)).after(likelihood).probability();
   const auto through = [&](double light, double bsdf) { return weight(light, bsdf * arrives); };
   return unshadowed_light(scene, chosen, at, wc, strict, through).radiance * seen.transmittance;
 }
@@ -159,6 +161,7 @@ struct CameraWalk {
   double eta2 = 1;         ///< Factor that cancels refraction in the throughput.
   double certainty = 1;    ///< See certainty() of path_terms.h; up to here.
   double survival = 1;     ///< Probability of having survived Russian roulette.
+  Color likelihood{1};     ///< See Passage.
   RayCounts rays;          ///< Rays that a PathWave has traced for it.
 
   MisExponent mis{Heuristic::power};  ///< For the two techniques.
@@ -173,18 +176,20 @@ struct CameraWalk {
   }
   void take(const Color& found, double share) { radiance += found * share; }
 
-  /// Goes along the ray up to where it stops, which had this probability or density.
-  void pass(const Passage& leg, double arrival) {
-    throughput = leg.is_blocked() ? Color(0) : throughput * (leg.transmittance / arrival);
-    scatter_pdf *= arrival;
-    certainty *= arrival;
+  /// Goes along the ray up to where it stops.
+  void pass(const Passage& leg, const Arrival& arrival) {
+    const double p = arrival.probability();
+    throughput = leg.is_blocked() ? Color(0) : throughput * (leg.transmittance / p);
+    scatter_pdf *= p;
+    certainty *= p;
+    likelihood = arrival.next_likelihood();
   }
 };
 
 /// Follows the ray of a walk to the next vertex; false if it leaves the scene.
 template <class Sampler>
 bool arrive(const Walker& walker, Sampler& sampler, CameraWalk& walk, SurfacePoint& at) {
-  Passage leg;
+  Passage leg{.likelihood = walk.likelihood};
   const bool hit = walker.arrive(walk.ray, walker.draw_leg(sampler), at, leg);
   if (!walker.scene.has_passages()) return hit;
   const Vec3& w = walk.ray.d;
@@ -264,8 +269,9 @@ Color trace_path(const Scene& scene, const PathRules& rules, CameraWalk walk, Sa
     const VertexNumbers numbers = VertexNumbers::draw(sampler);
     if (wants_direct_light(scene, rules, depth, at)) {
       const auto mis = [&](double light, double bsdf) { return walk.mis.weight(light, bsdf); };
-      const Color direct = walk.throughput * direct_light(walker, at, wc, numbers.for_light(),
-                                                          rules.strict_normals, mis);
+      const Color direct =
+          walk.throughput * direct_light(walker, at, wc, numbers.for_light(), rules.strict_normals,
+                                         mis, walk.likelihood);
       watcher.find(walk, direct, 0);
       watcher.connect(numbers.for_light(), direct);
       walk.take(direct, walk.own_share(direct));

@@ -34,7 +34,7 @@ bool Subpath::trace(const Walker& walker, const PathRules& rules, const Ray& ray
   WalkVertex& previous = vertices_[size() - 2];
   next.vertex = {};
   SurfacePoint& at = next.vertex.at;
-  Passage leg;
+  Passage leg{.likelihood = previous.likelihood};
   const bool hit = walker.arrive(ray, u_leg, at, leg);
   if (!hit) {
     if (from_ == From::light || walker.scene.infinite_emitters().empty()) {
@@ -56,9 +56,13 @@ bool Subpath::trace(const Walker& walker, const PathRules& rules, const Ray& ray
 void Subpath::pass(const Scene& scene, const Passage& leg) {
   WalkVertex& x = last();
   const SurfacePoint& previous = vertices_[size() - 2].vertex.at;
-  x.passes = scene.arrival(leg, x.vertex.at, -x.towards_previous);
+  const Arrival arrival = scene.arrival(leg, x.vertex.at, -x.towards_previous);
+  x.passes = arrival.probability();
+  x.likelihood = arrival.next_likelihood();
   const bool from_lens = from_ == From::camera && size() == 2;  // see EdgePassage
-  x.passes_back = from_lens ? 1 : scene.arrival(leg, previous, x.towards_previous);
+  x.back = from_lens ? Arrival()
+                     : scene.arrival(leg, previous, x.towards_previous).after(Color(1));
+  x.passes_back = scene.has_coloured_media() ? x.back.stops : x.back.probability();
   x.throughput = leg.is_blocked() ? Color(0) : x.throughput * (leg.transmittance / x.passes);
   x.forward *= x.passes;
 }

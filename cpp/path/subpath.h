@@ -20,9 +20,13 @@ struct WalkVertex {
   Vec3 towards_previous{0};
   Vec3 towards_next{0};  ///< As sampled; meaningless if `absorbed`.
   double G = 0;          ///< G between this vertex and the previous one.
-  /// The probability that a walk from the previous vertex in this direction stops here, and the
-  /// other way around.
-  double passes = 1, passes_back = 1;
+  /// The probability that a walk from the previous vertex in this direction stops here.
+  double passes = 1;
+  Color likelihood{1};  ///< Of the walk after that (see Passage).
+  /// The arrival from here of a walk from the other end, and what of its probability is known: all
+  /// in grey media; in coloured ones that is without what it flies, which its likelihood decides.
+  Arrival back;
+  double passes_back = 1;
   double forward = 0;  ///< Density of this vertex, made by this walk.
   double reverse = 0;  ///< Density of this vertex, made by a walk from the other end (if known).
   /// Density of towards_next in projected solid angle, for this walk.
@@ -40,7 +44,7 @@ struct WalkVertex {
   Joint joint;
 
   /// Density of the previous vertex, made by a walk from the other end through this one, where the
-  /// coefficient is that of its direction.
+  /// coefficient is that of its direction; see passes_back.
   double density_back(double coefficient) const { return coefficient * G * passes_back; }
   bool absorbed() const { return next_coefficient == 0; }  ///< No direction was sampled here.
 };

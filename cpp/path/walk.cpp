@@ -22,6 +22,14 @@ bool Walker::arrive(const Ray& ray, double u_leg, Vertex& next) const {
   return arrive(ray, u_leg, next.at);
 }
 
+bool Walker::arrive(const Ray& ray, double u_leg, SurfacePoint& at, Color& likelihood) const {
+  Passage leg{.likelihood = likelihood};
+  const bool hit = arrive(ray, u_leg, at, leg);
+  if (hit && scene.has_coloured_media())
+    likelihood = scene.arrival(leg, at, ray.d).next_likelihood();
+  return hit;
+}
+
 bool Walker::go_on(Ray ray, double u_leg, bool hit, SurfacePoint& at, Passage& leg) const {
   for (;;) {
     if (ray.medium != no_medium) {

@@ -16,8 +16,7 @@ Flight uniform_flight(const Color& sigma, const FlightLimit& limit) {
   const Color depth = uniform_depth(sigma, limit.distance);
   if (!limit.ends(depth)) return {limit.distance, depth};
   double t = std::log(mean(limit.before) / limit.left) / max_component(sigma);
-  const bool grey = sigma.x == sigma.y && sigma.y == sigma.z;
-  for (int i = 0; !grey && i < 100; ++i) {
+  for (int i = 0; !is_grey(sigma) && i < 100; ++i) {
     const Color now = limit.before * exp(-sigma * t);
     const double step = (mean(now) - limit.left) / mean(sigma * now);
     t += step;

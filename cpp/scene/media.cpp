@@ -21,4 +21,10 @@ MediumIndex Media::add(const MediumPtr& medium) {
   return static_cast<MediumIndex>(index);
 }
 
+bool Media::any_coloured() const {
+  return std::any_of(all_.begin(), all_.end(), [](const MediumPtr& medium) {
+    return medium->scatters() && !medium->grey();
+  });
+}
+
 }  // namespace mlt

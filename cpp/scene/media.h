@@ -17,6 +17,8 @@ class Media {
 
   bool empty() const { return all_.empty(); }
   size_t size() const { return all_.size(); }
+  /// Whether any scatters light, and is not grey.
+  bool any_coloured() const;
   const Medium& operator[](MediumIndex index) const { return *all_[index]; }
 
   bool is_boundary(uint32_t shape) const { return boundaries_[shape].exists; }

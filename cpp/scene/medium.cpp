@@ -17,11 +17,12 @@ void fly(const Medium& medium, const Ray& ray, double distance, Passage& passed)
 
 std::optional<double> fly(const Medium& medium, const Ray& ray, double distance, double& u_leg,
                           Passage& passed) {
-  const double left = medium.scatters() ? u_leg * mean(passed.flight) : 0;
-  const Flight flight = medium.fly(ray, {distance, passed.flight, left});
+  const Color before = passed.likelihood * passed.flight;
+  const double left = medium.scatters() ? u_leg * mean(before) : 0;
+  const Flight flight = medium.fly(ray, {distance, before, left});
   pass(medium, flight, passed);
   if (flight.stops) return flight.distance;
-  if (left > 0) u_leg = left / mean(passed.flight);
+  if (left > 0) u_leg = left / mean(passed.likelihood * passed.flight);
   return std::nullopt;
 }
 

@@ -29,6 +29,8 @@ class Medium : public Object {
   virtual Flight fly(const Ray& ray, const FlightLimit& limit) const = 0;
   /// Whether light is scattered, and not only absorbed: then walks stop in the medium.
   virtual bool scatters() const = 0;
+  /// Whether the extinction is the same in all channels.
+  virtual bool grey() const = 0;
 
   const Bsdf& phase() const { return *phase_; }
 

@@ -268,6 +268,7 @@ void Scene::find_media(size_t grouped) {
   for (const EmitterPtr& light : emitters_) media_.add(light->medium());
   const MediumIndex declared = media_.add(camera_->medium());
   has_media_ = !media_.empty();
+  has_coloured_media_ = media_.any_coloured();
   if (!has_media_) return;
   const double time = camera_->time(0.5);
   const Vec2 middle(0.5);

@@ -86,6 +86,9 @@ class Scene {
 
   /// Whether light goes straight through any surface, or there is any medium.
   bool has_passages() const { return has_passages_; }
+  /// Whether walks may stop in a medium whose extinction differs between channels, so that their
+  /// likelihood changes on the way.
+  bool has_coloured_media() const { return has_coloured_media_; }
   /// The light along w that goes straight through the surface. Walks stop at every second surface
   /// that emits, to find its light, even if nothing is scattered there.
   Passage passage(const SurfacePoint& at, const Vec3& w) const;
@@ -99,15 +102,11 @@ class Scene {
   double stop_probability(const SurfacePoint& at, const Vec3& w) const {
     return at.shape == SurfacePoint::no_shape ? 1 : 1 - passage(at, w).probability;
   }
-  /// The probability that a walk goes along an edge and stops at its end, where w points; in a
-  /// medium, its density per unit of length.
-  double arrival(const Passage& edge, const SurfacePoint& end, const Vec3& w) const {
-    return edge.probability * stop_probability(end, w) * flown(edge, end);
-  }
-  /// The part of it that is due to media.
-  double flown(const Passage& edge, const SurfacePoint& end) const {
-    return end.in_medium() ? mean(edge.flight * medium(end).at(end.p).extinction)
-                           : mean(edge.flight);
+  /// The arrival of a walk that goes along an edge to its end, where w points.
+  Arrival arrival(const Passage& edge, const SurfacePoint& end, const Vec3& w) const {
+    const double stops = edge.probability * stop_probability(end, w);
+    return {stops, end.in_medium() ? edge.flight * medium(end).at(end.p).extinction : edge.flight,
+            edge.likelihood};
   }
   /// Where an edge at this point starts or ends, for distances in media: where rays enter the
   /// scene, if the lens is far away.
@@ -170,7 +169,7 @@ class Scene {
   Bounds bounds_;
   std::shared_ptr<const Accel> accel_;
   std::vector<uint32_t> infinite_, backgrounds_;
-  bool has_passages_ = false, has_media_ = false;
+  bool has_passages_ = false, has_media_ = false, has_coloured_media_ = false;
   Media media_;
   MediumIndex outside_ = no_medium;         ///< Where no boundary is met.
   std::vector<bool> lights_in_many_media_;  ///< One for each emitter.

@@ -10,6 +10,8 @@ class Volume : public Object {
  public:
   virtual Color at(const Vec3& p) const = 0;
   virtual Color maximum() const = 0;
+  /// Whether it is the same in all channels.
+  virtual bool grey() const = 0;
   /// How far light flies along a ray through a medium whose extinction is `scale` times this.
   virtual Flight fly(const Ray& ray, const FlightLimit& limit, double scale) const = 0;
 };

@@ -31,6 +31,7 @@ class Heterogeneous final : public Medium {
   bool scatters() const override {
     return scale_ > 0 && !is_black(albedo_->maximum() * extinction_->maximum());
   }
+  bool grey() const override { return extinction_->grey(); }
 
  private:
   VolumePtr extinction_, albedo_;

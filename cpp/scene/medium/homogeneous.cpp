@@ -36,6 +36,7 @@ class Homogeneous final : public Medium {
 
   MediumCoefficients at(const Vec3&) const override { return coefficients_; }
   bool scatters() const override { return !is_black(coefficients_.scattering); }
+  bool grey() const override { return is_grey(coefficients_.extinction); }
 
   Flight fly(const Ray&, const FlightLimit& limit) const override {
     return uniform_flight(coefficients_.extinction, limit);

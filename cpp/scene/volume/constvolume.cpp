@@ -12,6 +12,7 @@ class ConstVolume final : public Volume {
 
   Color at(const Vec3&) const override { return value_; }
   Color maximum() const override { return value_; }
+  bool grey() const override { return is_grey(value_); }
   Flight fly(const Ray&, const FlightLimit& limit, double scale) const override {
     return uniform_flight(scale * value_, limit);
   }

@@ -13,6 +13,7 @@ class GridVolume final : public Volume {
 
   Color at(const Vec3& p) const override;
   Color maximum() const override { return grid_.maximum(); }
+  bool grey() const override { return !grid_.is_coloured(); }
   Flight fly(const Ray& ray, const FlightLimit& limit, double scale) const override;
 
  private:

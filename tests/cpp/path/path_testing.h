@@ -75,13 +75,17 @@ struct NaivePassage {
   double probability = 1;
   Color depth{0};
 
-  /// The probability that a walk goes along the edge, or its density of stopping at x.
-  double arrival(const Scene& scene, const Vertex& x, const Vertex& from) const {
-    double flies = 0;
-    for (int j = 0; j < 3; ++j)
-      flies += std::exp(-depth[j]) / 3 *
-               (x.at.in_medium() ? scene.medium(x.at).at(x.at.p).extinction[j] : 1);
-    return probability * flies * (x.at.in_medium() ? 1 : naive_stop(scene, x, from));
+  /// The probability that a walk goes along the edge, or its density of stopping at x. A walk with
+  /// one of the channels has flown all that was before with the probability `flown`, which changes.
+  double arrival(const Scene& scene, const Vertex& x, const Vertex& from, Color& flown) const {
+    double before = 0, after = 0;
+    for (int j = 0; j < 3; ++j) {
+      before += flown[j];
+      flown[j] *= std::exp(-depth[j]) *
+                  (x.at.in_medium() ? scene.medium(x.at).at(x.at.p).extinction[j] : 1);
+      after += flown[j];
+    }
+    return probability * after / before * (x.at.in_medium() ? 1 : naive_stop(scene, x, from));
   }
 };
 /// The medium next to a point, on the side of w.
@@ -190,11 +194,14 @@ inline NaiveDensities naive_densities(const Scene& scene, const Path& path, Flaw
     }
   }
   if (!scene.has_passages()) return p;
-  for (int i = 0; i < k; ++i) {
-    const NaivePassage passed = naive_passage(scene, path, i);
-    p.from_light[i + 1] *= i + 1 == k ? 1 : passed.arrival(scene, path[i + 1], path[i]);
-    p.from_camera[i] *= passed.arrival(scene, path[i], path[i + 1]);
-  }
+  std::vector<NaivePassage> passed;
+  for (int i = 0; i < k; ++i) passed.push_back(naive_passage(scene, path, i));
+  Color flown(1);
+  for (int i = 0; i + 1 < k; ++i)
+    p.from_light[i + 1] *= passed[i].arrival(scene, path[i + 1], path[i], flown);
+  flown = Color(1);
+  for (int i = k - 1; i >= 0; --i)
+    p.from_camera[i] *= passed[i].arrival(scene, path[i], path[i + 1], flown);
   return p;
 }
 
