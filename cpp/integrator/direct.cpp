@@ -50,7 +50,8 @@ class DirectTaker : public SampleTaker {
     if (!hit || !consistent_sides(at, -ray.d, settings_.rules.strict_normals))
       return sum * walk.throughput;
     if (BsdfAt(*scene_, at).has_smooth())
-      for (int i = 0; i < settings_.emitter_samples; ++i) sum += by_light(walker, at, walk, sampler);
+      for (int i = 0; i < settings_.emitter_samples; ++i)
+        sum += by_light(walker, at, walk, sampler);
     for (int i = 0; i < settings_.bsdf_samples; ++i) sum += by_bsdf(walker, at, walk, sampler);
     return sum * walk.throughput;
   }
@@ -70,8 +71,8 @@ class DirectTaker : public SampleTaker {
   Color by_bsdf(const Walker& walker, const SurfacePoint& at, const CameraWalk& seen,
                 PixelSampler& sampler) const {
     const Vec2 u = sampler.next2();
-    const auto sample =
-        scatter_to_light(walker, at, -seen.ray.d, {sampler.next(), u}, settings_.rules.strict_normals);
+    const auto sample = scatter_to_light(walker, at, -seen.ray.d, {sampler.next(), u},
+                                         settings_.rules.strict_normals);
     if (!sample) return Color(0);
     const double n = settings_.emitter_samples, m = settings_.bsdf_samples;
     CameraWalk walk(walker.leave(at, sample->w));

@@ -135,8 +135,7 @@ double ChainPerturbation::coefficient(const PathState& x, const PathState& y, in
     // The coefficient of the one delta without the probability of having chosen it: the lobe stays.
     const double chosen = bsdf.pdf(at, local_in, local_out, y[i].lobe);
     const VertexTerms& terms = y.terms[i].vertex;
-    return (step < 0 ? terms.pdf_from_camera : terms.pdf_from_light) /
-           (chosen * arrival.flown());
+    return (step < 0 ? terms.pdf_from_camera : terms.pdf_from_light) / (chosen * arrival.flown());
   }
   const double eta = bsdf.relative_eta(at, local_in);
   const auto h = half_vector(local_in, local_out, eta);

@@ -58,8 +58,8 @@ class ChainPerturbation {
   double walked_density(const Measure& in, const PathState& x, const PathState& y, const Span& span,
                         double first_coefficient) const {
     const int s = span.step;
-    double p =
-        first_coefficient * y.terms.arrival(span.start, s).stops * in.step(span.start, span.start + s);
+    double p = first_coefficient * y.terms.arrival(span.start, s).stops *
+               in.step(span.start, span.start + s);
     for (int i = span.start + s; i != span.stop; i += s)
       p *= coefficient(x, y, i, s) * in.step(i, i + s);
     return p;

@@ -18,6 +18,11 @@ struct ExponentialRadius {
       : smallest(smallest), largest(largest), log_ratio(std::log(largest / smallest)) {}
 
   double sample(double u) const { return largest * std::exp(-log_ratio * u); }
+  /// Density of an offset of length r to either side on a line.
+  double linear_pdf(double r) const {
+    if (!(r > smallest && r < largest)) return 0;
+    return 1 / (2 * r * log_ratio);
+  }
   /// Density of an offset of length r in the plane.
   double planar_pdf(double r) const {
     if (!(r > smallest && r < largest)) return 0;

@@ -9,14 +9,11 @@
 // chain from a to b, and the chain from b to c is found by a manifold walk. So light that reaches b
 // through glass from a small lamp, even a point, is explored, which a ray traced on from b would
 // hardly hit.
-//
-// The walk is a function of x and of the new b, but not always an invertible one: if the walk back
-// from y does not lead to x, y is rejected.
 #include "mutation/edge_visibility.h"
 #include "mutation/image_move.h"
+#include "mutation/manifold_chain.h"
 #include "mutation/measured_mutation.h"
 #include "mutation/mutation_registry.h"
-#include "path/manifold_walk.h"
 
 namespace mlt {
 namespace {
@@ -25,19 +22,11 @@ namespace {
 struct Triple {
   int a, b, c;
 
+  ManifoldChain chain() const { return {c, b}; }
   bool operator==(const Triple& other) const {
     return a == other.a && b == other.b && c == other.c;
   }
 };
-
-/// The factor, in a measure, of the density of vertices i ... j that are found by a walk and not
-/// sampled one by one.
-double between(const AreaMeasure&, int, int) { return 1; }
-double between(const ContributionMeasure& in, int i, int j) {
-  double p = in.x[i].inverse_f;
-  for (; i < j; ++i) p *= in.x[i + 1].inverse_f / in.x[i].G;
-  return p;
-}
 
 class ManifoldPerturbation final : public MeasuredMutation<ManifoldPerturbation> {
  public:
@@ -58,19 +47,10 @@ class ManifoldPerturbation final : public MeasuredMutation<ManifoldPerturbation>
     const auto ray = first_ray(x, t, y, context.rng);
     if (!ray || !chain_.carry(x, {t.a, t.b, -1}, *ray, y, context)) return std::nullopt;
     if (!scene().bsdf(y[t.b].at).has_smooth()) return std::nullopt;
-    ManifoldWalk walk;
-    if (!follow(walk, x, t, y[t.b].at, context)) {
-      ++context.failures.there;
-      return std::nullopt;
-    }
-    for (int i = 0; i < walk.count(); ++i) y.path[t.c + 1 + i] = walk[i];
+    if (!t.chain().find(scene(), x, y, context)) return std::nullopt;
     target().evaluate(t.c + 1, last, y);
     if (!(y.target > 0)) return edit;
-    if (!same_form(x, y, t)) return std::nullopt;
-    if (!(follow(walk, y, t, x[t.b].at, context) && walk.ended_in(&x[t.c]))) {
-      ++context.failures.back;
-      return std::nullopt;
-    }
+    if (!same_form(x, y, t) || !t.chain().leads_back(scene(), x, y, context)) return std::nullopt;
     return edit;
   }
 
@@ -79,8 +59,7 @@ class ManifoldPerturbation final : public MeasuredMutation<ManifoldPerturbation>
                     const Edit& edit) const {
     const Triple t = triple_of(x, edit);
     if (t.a < 0 || !(t == triple_of(y, edit)) || !same_form(x, y, t)) return 0;
-    const SpecularChain chain(scene(), &y[t.c], t.b - t.c - 1);
-    return chain.density() * between(in, t.c, t.b) / count_triples(x) *
+    return t.chain().density(in, scene(), y) / count_triples(x) *
            chain_.walked_density(in, x, y, {t.a, t.b, -1}, first_coefficient(x, y, t));
   }
 
@@ -96,18 +75,12 @@ class ManifoldPerturbation final : public MeasuredMutation<ManifoldPerturbation>
     int b = ChainPerturbation::chain_end(x, a, -1);
     while (b > 0) {
       const int c = ChainPerturbation::chain_end(x, b, -1);
-      if (can_be_walked(x, c, b)) see(Triple{a, b, c});
+      const Triple triple{a, b, c};
+      if (triple.chain().can_be_walked(scene(), x)) see(triple);
       a = b;
       b = c;
     }
   }
-  bool can_be_walked(const PathState& x, int c, int b) const {
-    if (b - c < 2 || b - c - 1 > SpecularChain::most_vertices || x[c].delta()) return false;
-    for (int i = c + 1; i < b; ++i)
-      if (!has_constraint(scene(), x[i])) return false;
-    return true;
-  }
-
   int count_triples(const PathState& x) const {
     return x.known.triples.get([&] {
       int count = 0;
@@ -151,11 +124,6 @@ class ManifoldPerturbation final : public MeasuredMutation<ManifoldPerturbation>
            abs_cos(y[t.a].at, to);
   }
 
-  /// Walks the chain of x from c to `end`, where b is now.
-  bool follow(ManifoldWalk& walk, const PathState& x, const Triple& t, const SurfacePoint& end,
-              MutationContext& context) const {
-    return walk.start(scene(), &x[t.c], t.b - t.c - 1) && walk.go(end, x.path.time, context.rays);
-  }
   ChainPerturbation chain_;
   ImageMove image_;
 };

@@ -43,7 +43,8 @@ struct PathState {
     Cached<double> over_density, over_bidirectional_density;  ///< See PathTarget.
     Cached<std::optional<ImageFootprint>> footprint;          ///< For the caustic perturbation.
     Cached<CameraChains> camera_chains;
-    Cached<int> triples;  ///< Number of triples that the manifold perturbation may move.
+    Cached<int> triples;       ///< Number of triples that the manifold perturbation may move.
+    Cached<int> propagations;  ///< Number of ways in which the propagation may move a vertex.
 
     void invalidate() {
       over_density.invalidate();
@@ -51,6 +52,7 @@ struct PathState {
       footprint.invalidate();
       camera_chains.invalidate();
       triples.invalidate();
+      propagations.invalidate();
     }
   };
   mutable Known known;

@@ -225,10 +225,10 @@ bool BidirectionalSampler::evaluate_connection(Connection& connection, RayCounts
     connection.certainty *= from_camera.probability();
   }
 
-  const TechniqueSums below = below_joint(s - 1, a, at_a.back, camera_likelihood)
-                                  .over(at_b.onwards * edge.G / a.forward);
-  const TechniqueSums above = above_joint(t - 1, b, at_b.back, light_likelihood)
-                                  .over(at_a.onwards * edge.G / b.forward);
+  const TechniqueSums below =
+      below_joint(s - 1, a, at_a.back, camera_likelihood).over(at_b.onwards * edge.G / a.forward);
+  const TechniqueSums above =
+      above_joint(t - 1, b, at_b.back, light_likelihood).over(at_a.onwards * edge.G / b.forward);
   return weigh(connection, direct ? direct_pdf_ / a.forward : 1, below, above,
                a.survival * b.survival);
 }

@@ -14,8 +14,7 @@ double inverse_size(const Color& f) {
 /// The likelihoods of walks along the whole path, from either end.
 void find_likelihoods(PathTerms& terms) {
   const int k = terms.edges();
-  for (int i = 1; i < k; ++i)
-    terms.passages[i].from_light.likelihood = terms.likelihood(i, 1);
+  for (int i = 1; i < k; ++i) terms.passages[i].from_light.likelihood = terms.likelihood(i, 1);
   for (int i = k - 1; i > 0; --i)
     terms.passages[i - 1].from_camera.likelihood = terms.likelihood(i, -1);
 }

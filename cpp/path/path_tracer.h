@@ -91,8 +91,7 @@ Color direct_light(const Walker& walker, const SurfacePoint& at, const Vec3& wc,
   const SurfacePoint& x0 = chosen.x0.at;
   const Passage seen = walker.passage(at, x0);
   if (seen.is_blocked()) return Color(0);
-  const double arrives =
-      scene.arrival(seen, x0, direction(at, x0)).after(likelihood).probability();
+  const double arrives = scene.arrival(seen, x0, direction(at, x0)).after(likelihood).probability();
   const auto through = [&](double light, double bsdf) { return weight(light, bsdf * arrives); };
   return unshadowed_light(scene, chosen, at, wc, strict, through).radiance * seen.transmittance;
 }

@@ -60,8 +60,7 @@ void Subpath::pass(const Scene& scene, const Passage& leg) {
   x.passes = arrival.probability();
   x.likelihood = arrival.next_likelihood();
   const bool from_lens = from_ == From::camera && size() == 2;  // see EdgePassage
-  x.back = from_lens ? Arrival()
-                     : scene.arrival(leg, previous, x.towards_previous).after(Color(1));
+  x.back = from_lens ? Arrival() : scene.arrival(leg, previous, x.towards_previous).after(Color(1));
   x.passes_back = scene.has_coloured_media() ? x.back.stops : x.back.probability();
   x.throughput = leg.is_blocked() ? Color(0) : x.throughput * (leg.transmittance / x.passes);
   x.forward *= x.passes;

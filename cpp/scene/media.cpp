@@ -22,9 +22,8 @@ MediumIndex Media::add(const MediumPtr& medium) {
 }
 
 bool Media::any_coloured() const {
-  return std::any_of(all_.begin(), all_.end(), [](const MediumPtr& medium) {
-    return medium->scatters() && !medium->grey();
-  });
+  return std::any_of(all_.begin(), all_.end(),
+                     [](const MediumPtr& medium) { return medium->scatters() && !medium->grey(); });
 }
 
 }  // namespace mlt

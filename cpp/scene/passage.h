@@ -29,8 +29,8 @@ struct Passage {
 
 /// How a walk goes along an edge and stops at its end.
 struct Arrival {
-  double stops = 1;     ///< The probability that surfaces let it pass, and that of the end does not.
-  Color flies{1};       ///< e^-tau, times sigma_t where it stops in a medium.
+  double stops = 1;  ///< The probability that surfaces let it pass, and that of the end does not.
+  Color flies{1};    ///< e^-tau, times sigma_t where it stops in a medium.
   Color likelihood{1};  ///< That with which it begins.
 
   Arrival after(const Color& before) const { return {stops, flies, before}; }

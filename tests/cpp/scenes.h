@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -50,11 +51,14 @@ inline std::vector<std::string> scene_names() {
           "more_materials"};
 }
 
+inline std::set<std::string> media_scene_names() {
+  return {"fog", "smoke_box", "smoke", "volume_caustic"};
+}
 /// Those without media, as waves require.
 inline std::vector<std::string> clear_scene_names() {
   std::vector<std::string> names = scene_names();
-  for (const char* medium : {"fog", "smoke_box", "smoke"})
-    names.erase(std::find(names.begin(), names.end(), medium));
+  const auto has_media = [](const std::string& name) { return media_scene_names().count(name); };
+  names.erase(std::remove_if(names.begin(), names.end(), has_media), names.end());
   return names;
 }
 

@@ -11,7 +11,6 @@ from ..scenes.loading import (
     image_size,
     load_built_in,
     load_dict,
-    load_file,
     sensor_index,
 )
 from ..scenes.traversal import SceneParameters
@@ -48,13 +47,12 @@ def load_with_warnings(
     path, defines: dict, size=None, lenient=None, sensor=None, filter=None
 ) -> tuple[_core.Scene, list[str]]:
     """What `load` loads, and what of the file has no counterpart in a Mitsuba scene."""
-    asked = image_size(size), sensor_index(sensor), filter_name(filter)
+    asked = size, sensor, filter = image_size(size), sensor_index(sensor), filter_name(filter)
     text = os.fspath(path)
     if not os.path.exists(text):
         return load_built_in(existing_name(text), define_texts(defines), *asked), []
     if not is_foreign(text):
-        settings = {"size": size, "lenient": lenient, "sensor": sensor, "filter": filter}
-        return load_file(text, **settings, **defines), []
+        return _core.load_file(text, define_texts(defines), size, lenient, sensor, filter), []
     if defines or lenient is not None:
         raise _core.UsageError(
             f"{text}: only Mitsuba XML has parameters (-D) and is read leniently or strictly"
