@@ -155,15 +155,6 @@ std::vector<Twin> twins() {
                                  b = step > 0 ? edit.first : edit.last - 1;
                        return length(x[b - step].at.p - y[b].at.p);
                      }));
-  all.push_back({"density_of_the_chain", "propagation", "volume_caustic",
-                 [](const Scene& scene, const Mutations&) {
-                   return BrokenTwin::Factor(
-                       [&scene](const PathState&, const PathState& y, const Edit& edit) {
-                         const int c = edit.first - 1, b = edit.last - 1;
-                         return b - c > 1 ? SpecularChain(scene, &y[c], b - c - 1).density() : 1.0;
-                       });
-                 },
-                 100000});
   return all;
 }
 

@@ -102,29 +102,35 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Quotients, testing::ValuesIn(mutation_scene_nam
 
 // ---- where q and L* are no numbers
 
-/// A closed box, `unit` long, in which light goes on and on.
+/// A closed box, `unit` long, in which light goes on and on, with fog in its middle.
 ScenePtr closed_box(double unit) {
   std::ostringstream text;
   text.precision(17);
   text << "<scale value='" << unit << "'/>";
   const std::string in_units = text.str();
   text.str("");
+  text
+      << "<bsdf type='null'/><medium name='interior' type='homogeneous'><rgb name='sigma_t' value='"
+      << 1 / unit << " " << 1.2 / unit << " " << 1.5 / unit
+      << "'/><float name='albedo' value='0.9'/></medium>";
+  const std::string fog = text.str();
+  text.str("");
   text << "0, 0, " << 0.9 * unit;
   const std::string pale = diffuse("0.9 0.8 0.85");
   const auto wall = [&](const std::string& steps, const std::string& bsdf) {
     return rectangle(steps + in_units, bsdf);
   };
-  return load_scene(camera(text.str(), "0, 0, 0", 60, film(16, 12)) +
-                    wall(rotate("x", -90) + translate(0, -1, 0), pale) +
-                    wall(rotate("x", 90) + translate(0, 1, 0), pale) +
-                    wall(translate(0, 0, -1), pale) +
-                    wall(rotate("y", 180) + translate(0, 0, 1), pale) +
-                    wall(rotate("y", 90) + translate(-1, 0, 0), mirror) +
-                    wall(rotate("y", -90) + translate(1, 0, 0),
-                         "<bsdf type='roughconductor'><float name='alpha' value='0.06'/>"
-                         "<string name='material' value='Al'/></bsdf>") +
-                    wall(scale(0.5) + rotate("x", 90) + translate(0, 0.98, 0),
-                         diffuse("0.2 0.2 0.2") + area_light("6 5 4")));
+  return load_scene(
+      camera(text.str(), "0, 0, 0", 60, film(16, 12)) + cube(scale(0.7) + in_units, fog) +
+      wall(rotate("x", -90) + translate(0, -1, 0), pale) +
+      wall(rotate("x", 90) + translate(0, 1, 0), pale) + wall(translate(0, 0, -1), pale) +
+      wall(rotate("y", 180) + translate(0, 0, 1), pale) +
+      wall(rotate("y", 90) + translate(-1, 0, 0), mirror) +
+      wall(rotate("y", -90) + translate(1, 0, 0),
+           "<bsdf type='roughconductor'><float name='alpha' value='0.06'/>"
+           "<string name='material' value='Al'/></bsdf>") +
+      wall(scale(0.5) + rotate("x", 90) + translate(0, 0.98, 0),
+           diffuse("0.2 0.2 0.2") + area_light("6 5 4")));
 }
 
 PathTarget target_of_long_paths(const ScenePtr& scene) {
