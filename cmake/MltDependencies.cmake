@@ -50,6 +50,8 @@ mlt_require("CLI11" CLI11_FOUND)
 find_path(MLT_STB_DIR stb/stb_image.h)
 mlt_require("stb" MLT_STB_DIR)
 find_package(Threads REQUIRED)
+# Optional: without it, the volume `nanovdb` says what to install.
+find_path(MLT_NANOVDB_DIR nanovdb/util/IO.h)
 
 if(PYMLT_TESTS)
   find_package(GTest QUIET)

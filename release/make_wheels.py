@@ -18,7 +18,7 @@ ROOT = Path(__file__).resolve().parents[1]
 BUILD, DIST = ROOT / "build" / "wheels", ROOT / "dist"
 CONSTRAINTS = ROOT / "requirements" / "constraints.txt"
 # Their code is in headers, so no library tells of them.
-HEADERS_ONLY = ["libcli11-dev", "libglm-dev", "libstb-dev"]
+HEADERS_ONLY = ["libcli11-dev", "libglm-dev", "libnanovdb-dev", "libstb-dev"]
 
 
 def run(*command: object) -> str:
@@ -71,7 +71,8 @@ def add_licences(wheel: Path, bin_folder: Path) -> None:
     (package,) = folder.iterdir()
     # auditwheel puts a hash into the names: libpng16-2c6c2b1f.so.16.1.0
     libraries = [re.sub(r"-[0-9a-f]{8}(?=\.)", "", p.name) for p in package.glob("*.libs/*")]
-    sources = sorted({package_of(name) for name in libraries} | set(HEADERS_ONLY))
+    headers = {name for name in HEADERS_ONLY if Path("/usr/share/doc", name).exists()}
+    sources = sorted({package_of(name) for name in libraries} | headers)
     (info,) = package.glob("*.dist-info")
     (info / "licenses" / "bundled").mkdir(exist_ok=True)
     for source in sources:

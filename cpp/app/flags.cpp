@@ -113,7 +113,8 @@ const std::vector<Flag>& render_flags() {
       {"error", "--error", "E", &positive, "relative error to reach, such as 0.02"},
       {"aovs", "--aov", "LIST", &any_text,
        "layers of what the camera sees first: albedo, depth, position, uv, geo_normal, sh_normal, "
-       "shape_index, prim_index; each may have a name, as in n:sh_normal"},
+       "shape_index, prim_index, optical_depth (of the media before it); each may have a name, as "
+       "in n:sh_normal"},
       {"seed", "--seed", "N", &seed, "seed of all random numbers (0)", Flag::fixed_by_resume},
       {"threads", "--threads", "N", &threads, "0: as many as the machine has"},
       {"checkpoint", "--checkpoint", "FILE", &any_text, "keep the state of the render in this file",

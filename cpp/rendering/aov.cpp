@@ -15,11 +15,15 @@ struct KindName {
   const char* name;
   AovKind kind;
 };
-constexpr KindName kinds[] = {
-    {"albedo", AovKind::albedo},           {"depth", AovKind::depth},
-    {"position", AovKind::position},       {"uv", AovKind::uv},
-    {"geo_normal", AovKind::geo_normal},   {"sh_normal", AovKind::sh_normal},
-    {"shape_index", AovKind::shape_index}, {"prim_index", AovKind::prim_index}};
+constexpr KindName kinds[] = {{"albedo", AovKind::albedo},
+                              {"depth", AovKind::depth},
+                              {"position", AovKind::position},
+                              {"uv", AovKind::uv},
+                              {"geo_normal", AovKind::geo_normal},
+                              {"sh_normal", AovKind::sh_normal},
+                              {"shape_index", AovKind::shape_index},
+                              {"prim_index", AovKind::prim_index},
+                              {"optical_depth", AovKind::optical_depth}};
 
 AovKind kind_of(const std::string& name) {
   std::vector<std::string> names;
@@ -34,7 +38,33 @@ AovKind kind_of(const std::string& name) {
 bool is_index(AovKind kind) { return kind == AovKind::shape_index || kind == AovKind::prim_index; }
 int channels(AovKind kind) { return kind == AovKind::depth || is_index(kind) ? 1 : 3; }
 
-Vec3 value(AovKind kind, const Scene& scene, const Ray& ray, const SurfacePoint& at) {
+/// Where a ray leaves what can be passed.
+struct FirstSurface {
+  bool hit;  ///< Else the ray leaves the scene.
+  SurfacePoint at;
+  Color optical_depth{0};
+};
+
+/// Follows a ray through all media, and with u_leg through surfaces as a walk does.
+FirstSurface first_surface(const Scene& scene, Ray ray, double u_leg) {
+  FirstSurface first;
+  for (;;) {
+    first.hit = scene.intersect(ray, first.at);
+    if (ray.medium != no_medium) {
+      const double distance = first.hit ? distance_to(first.at.p, ray) : infinity;
+      first.optical_depth += scene.media()[ray.medium].fly(ray, {distance}).depth;
+    }
+    if (!first.hit) return first;
+    const double passes = scene.passage(first.at, ray.d).probability;
+    if (!(u_leg < passes)) return first;
+    u_leg /= passes;
+    ray = scene.beyond(ray, first.at);
+  }
+}
+
+Vec3 value(AovKind kind, const Scene& scene, const Ray& ray, const FirstSurface& first) {
+  if (!first.hit && kind != AovKind::optical_depth) return Vec3(is_index(kind) ? -1 : 0);
+  const SurfacePoint& at = first.at;
   switch (kind) {
     case AovKind::albedo: return scene.bsdf(at).albedo(at);
     case AovKind::depth: return Vec3(length(at.p - ray.o), 0, 0);
@@ -45,6 +75,7 @@ Vec3 value(AovKind kind, const Scene& scene, const Ray& ray, const SurfacePoint&
     case AovKind::shape_index:
       return Vec3(at.instance == SurfacePoint::no_shape ? at.shape : at.instance, 0, 0);
     case AovKind::prim_index: return Vec3(at.primitive, 0, 0);
+    case AovKind::optical_depth: return first.optical_depth;
   }
   return Vec3(0);
 }
@@ -61,7 +92,7 @@ class PixelAovs {
       PixelSampler sampler(stream, i);
       const Vec2 raster = Vec2(pixel) + sampler.next2();
       const Ray ray = leave_lens(scene_.camera(), raster, sampler).ray;
-      add(ray, walker(ray).draw_leg(sampler));
+      add(ray, scene_.has_passages() ? sampler.next() : 0);
     }
     set_indices(middle_ray(pixel));
     return values_;
@@ -73,25 +104,20 @@ class PixelAovs {
     const SurfacePoint lens = camera.sample_position({0.5, 0.5}, camera.time(0.5)).at;
     return leave_lens(camera, lens, Vec2(pixel) + 0.5);
   }
-  Walker walker(const Ray& ray) { return {scene_, ray.time, rays_}; }
   void add(const Ray& ray, double u_leg) {
-    SurfacePoint at;
-    if (!walker(ray).arrive(ray, u_leg, at)) return;
+    const FirstSurface first = first_surface(scene_, ray, u_leg);
     for (size_t i = 0; i < aovs_.size(); ++i)
-      values_[i] += value(aovs_[i].kind, scene_, ray, at) * (1.0 / aov_samples);
+      values_[i] += value(aovs_[i].kind, scene_, ray, first) * (1.0 / aov_samples);
   }
   void set_indices(const Ray& ray) {
-    SurfacePoint at;
-    const bool hit = walker(ray).arrive(ray, 0.5, at);
+    const FirstSurface first = first_surface(scene_, ray, 0.5);
     for (size_t i = 0; i < aovs_.size(); ++i)
-      if (is_index(aovs_[i].kind))
-        values_[i] = hit ? value(aovs_[i].kind, scene_, ray, at) : Vec3(-1);
+      if (is_index(aovs_[i].kind)) values_[i] = value(aovs_[i].kind, scene_, ray, first);
   }
 
   const Scene& scene_;
   const std::vector<Aov>& aovs_;
   std::vector<Vec3> values_;
-  RayCounts rays_;
 };
 
 }  // namespace

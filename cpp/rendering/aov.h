@@ -9,16 +9,18 @@
 namespace mlt {
 
 /// The quantity of the first surface in a layer. Means over the pixel, but for the indices: those
-/// are of the ray through its middle. 0 where there is no surface; indices are -1 there.
+/// are of the ray through its middle. 0 where there is no surface; indices are -1 there. Media are
+/// looked through.
 enum class AovKind {
-  albedo,       ///< Reflectance of the material, RGB.
-  depth,        ///< Distance from the camera along the ray.
-  position,     ///< In world space.
-  uv,           ///< Texture coordinates, and 0.
-  geo_normal,   ///< Geometric normal, of length 1 before the mean is taken.
-  sh_normal,    ///< Shading normal, of length 1 before the mean is taken.
-  shape_index,  ///< Index in the order of the scene; instances have an index of their own.
-  prim_index    ///< Index of the triangle in its mesh.
+  albedo,        ///< Reflectance of the material, RGB.
+  depth,         ///< Distance from the camera along the ray.
+  position,      ///< In world space.
+  uv,            ///< Texture coordinates, and 0.
+  geo_normal,    ///< Geometric normal, of length 1 before the mean is taken.
+  sh_normal,     ///< Shading normal, of length 1 before the mean is taken.
+  shape_index,   ///< Index in the order of the scene; instances have an index of their own.
+  prim_index,    ///< Index of the triangle in its mesh.
+  optical_depth  ///< Of the media before the surface, or on all of the ray, RGB; may be infinite.
 };
 
 struct Aov {

@@ -7,6 +7,9 @@ from pathlib import Path
 import pytest
 import tiny
 from command_line import PYMLT, mlt_render
+from nanovdb_files import nanovdb as nanovdb_file
+
+import pymlt as mlt
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 
@@ -39,6 +42,18 @@ def scene(tmp_path, monkeypatch) -> str:
     monkeypatch.chdir(tmp_path)
     (tmp_path / "scene.xml").write_text(tiny.XML)
     return "scene.xml"
+
+
+@pytest.fixture
+def nanovdb():
+    """What makes NanoVDB files, where the build reads them."""
+    no_volume = {"type": "nanovdb", "filename": __file__}
+    fog = {"type": "heterogeneous", "sigma_t": no_volume}
+    with pytest.raises(mlt.FileError) as error:
+        mlt.load_dict({"type": "scene", "sensor": {"type": "perspective", "medium": fog}})
+    if "does not read" in str(error.value):
+        pytest.skip(str(error.value))
+    return nanovdb_file
 
 
 def pytest_addoption(parser):

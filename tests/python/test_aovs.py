@@ -140,6 +140,64 @@ def test_mistakes_are_named():
         layers(tiny.scene(), ":depth")
 
 
+FOG = {"type": "homogeneous", "sigma_t": {"type": "rgb", "value": [0, 0.5, 2]}, "albedo": 0.5}
+VOID = {"bsdf": {"type": "null"}}
+
+
+def foggy(**parts) -> dict:
+    """The wall, all over the image, 2 before an orthographic lens."""
+    scene = wall() | parts
+    scene["wall"]["to_world"] = mlt.Transform().scale([5, 5, 1])
+    scene["sensor"]["type"] = "orthographic"
+    del scene["sensor"]["fov"]
+    return scene
+
+
+def test_optical_depths_of_nested_media_add_up():
+    """A slab from z = 0.5 to 1.5; in it one of half its thickness, and another medium."""
+    middle = mlt.Transform().translate([0, 0, 1])
+    slab = {"type": "cube", "to_world": middle.scale([3, 3, 0.5]), "interior": FOG} | VOID
+    milk = {"type": "homogeneous", "sigma_t": 3.0}
+    inner = {"type": "cube", "to_world": middle.scale([2, 2, 0.25]), "interior": milk} | VOID
+    for parts, expected in (
+        ({}, [0, 0, 0]),
+        ({"slab": slab}, [0, 0.5, 2]),
+        ({"slab": slab, "inner": inner | {"exterior": FOG}}, [1.5, 1.75, 2.5]),
+    ):
+        found = layers(foggy(**parts), "optical_depth")["optical_depth"]
+        np.testing.assert_allclose(found, np.broadcast_to(expected, found.shape), rtol=1e-5)
+
+
+def test_optical_depths_end_at_surfaces_and_nowhere_else():
+    """In fog without an end the depth is that of the way to the wall; beside it, infinite."""
+    scene = wall()
+    scene["sensor"]["medium"] = FOG
+    found = layers(scene, "depth,optical_depth")
+    depth, tau = found["depth"][:, :12], found["optical_depth"]
+    np.testing.assert_allclose(tau[:, :12], depth * [0, 0.5, 2], rtol=1e-4)
+    np.testing.assert_array_equal(tau[:, 13:], np.broadcast_to([0, np.inf, np.inf], (10, 7, 3)))
+    assert not layers(wall(), "optical_depth")["optical_depth"].any()
+
+
+def test_optical_depth_of_smoke_is_the_sum_of_its_values():
+    data = np.random.default_rng(1).random((6, 1, 1), dtype=np.float32)
+    around = mlt.Transform().translate([-2, -2, 0.5]).scale([4, 4, 1])
+    grid = {"type": "gridvolume", "data": data, "to_world": around}
+    smoke = {"type": "heterogeneous", "sigma_t": grid, "scale": 3.0}
+    cube = mlt.Transform().translate([0, 0, 1]).scale([3, 3, 0.7])
+    slab = {"type": "cube", "to_world": cube, "interior": smoke} | VOID
+    found = layers(foggy(slab=slab), "optical_depth")["optical_depth"]
+    np.testing.assert_allclose(found, np.full_like(found, 3 * data.mean()), rtol=1e-5)
+
+
+def test_layers_look_through_fog():
+    clear = layers(foggy())
+    slab = {"type": "cube", "to_world": mlt.Transform().translate([0, 0, 1]).scale([3, 3, 0.5])}
+    found = layers(foggy(slab=slab | {"interior": FOG} | VOID))
+    for kind in KINDS.split(","):
+        np.testing.assert_allclose(found[kind], clear[kind], atol=0.05, err_msg=kind)
+
+
 @pytest.mark.peer
 def test_layers_are_those_of_mitsuba():
     import mitsuba

@@ -340,3 +340,40 @@ def test_mitsubas_scenes_of_media(name):
     z = (blocks[0].mean(0) - blocks[1]) / np.hypot(error, 0.002 * blocks[1])
     # t with 7 degrees of freedom: beyond 8.8 once in 20,000 blocks
     assert np.abs(z).max() < 8.8
+
+
+def test_a_nanovdb_file_is_the_grid_of_its_voxels(tmp_path, nanovdb):
+    """Its values are at voxels, and next to the outermost ones there are zeros."""
+    values = np.random.default_rng(1).random((8, 8, 8), dtype=np.float32)
+    (tmp_path / "smoke.nvdb").write_bytes(nanovdb(values, "smoke", 0.2, (-0.7, -0.7, -0.7)))
+    file = {"type": "nanovdb", "filename": str(tmp_path / "smoke.nvdb"), "grid": "smoke"}
+    around = mlt.Transform().translate(-1, -1, -1).scale(2)
+    dense = {"type": "gridvolume", "data": np.pad(values.T, 1), "to_world": around}
+    scale = {"type": "rgb", "value": [1, 2, 3]}
+    images = [
+        mean(scene(smoke=box(smoke() | {"sigma_t": volume}), light=lit()), spp=16)
+        for volume in (dense, file, file | {"scale": 2.0}, file | {"scale": scale})
+    ]
+    assert images[0].max() < 0.9
+    np.testing.assert_allclose(images[1], images[0], rtol=1e-4)
+    assert images[2][0] < images[1][0]
+    np.testing.assert_allclose(images[3][:2], [images[1][0], images[2][0]], rtol=1e-5)
+    turned = file | {"to_world": mlt.Transform().scale([-1, 1, 1])}
+    mirrored = scene(smoke=box(smoke() | {"sigma_t": turned}), light=lit())
+    np.testing.assert_allclose(
+        mlt.render(mirrored, "path", spp=256)[:, ::-1],
+        mlt.render(scene(smoke=box(smoke() | {"sigma_t": file}), light=lit()), "path", spp=256),
+        rtol=0.02,
+    )
+    with pytest.raises(mlt.FileError, match=r"smoke.nvdb: has no grid 'fog'; there are: smoke"):
+        scene(smoke=box(smoke() | {"sigma_t": file | {"grid": "fog"}}), light=lit())
+
+
+def test_a_nanovdb_file_may_not_be_negative(tmp_path, nanovdb):
+    values = np.ones((8, 8, 8))
+    values[1, 2, 3] = -1
+    (tmp_path / "a.nvdb").write_bytes(nanovdb(values))
+    file = {"type": "nanovdb", "filename": str(tmp_path / "a.nvdb")}
+    expected = r"a.nvdb, from voxel \(-1, -1, -1\) on: the value at x = 2, y = 3, z = 4 is -1"
+    with pytest.raises(mlt.SceneError, match=expected):
+        scene(smoke=box(smoke() | {"sigma_t": file}), light=lit())

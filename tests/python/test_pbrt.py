@@ -690,6 +690,40 @@ LightSource "infinite"
     np.testing.assert_allclose(centre, np.exp(-1.5 * depth * np.array([0.2, 0.4, 0.6])), rtol=0.01)
 
 
+def test_smoke_may_be_in_a_nanovdb_file(nanovdb):
+    values = np.random.default_rng(1).random((8, 8, 8))
+    Path("smoke.nvdb").write_bytes(nanovdb(values, voxel=0.25, low=(-0.875, 0.125, -0.875)))
+    medium = """
+Translate 0 1 0
+MakeNamedMedium "smoke" "string type" "%s" %s "float g" .3
+    "rgb sigma_a" [ .2 .4 .6 ] "rgb sigma_s" [ .4 .4 .6 ] "float scale" 1.5
+MediumInterface "smoke" ""
+Material "interface"
+Shape "sphere"
+LightSource "infinite"
+"""
+    file = '"string filename" "smoke.nvdb"'
+    found = read(VIEW, medium % ("nanovdb", file + '"float Lescale" 2'))
+    assert ["'Lescale' is left out" in warning for warning in found.warnings] == [True]
+    made = found.scene["smoke-medium"]
+    assert made["sigma_t"] == made["sigma_t"] | {
+        "type": "nanovdb",
+        "filename": str(Path("smoke.nvdb").resolve()),
+        "grid": "density",
+        "scale": colour(*np.add([0.2, 0.4, 0.6], [0.4, 0.4, 0.6])),
+    }
+    # The voxels of the file are the middles of the cells of a box.
+    box = (
+        '"point3 p0" [ -1 0 -1 ] "point3 p1" [ 1 2 1 ] "integer nx" 8 "integer ny" 8 "integer nz" 8'
+    )
+    density = f'"float density" [ {" ".join(map(str, values.T.ravel()))} ]'
+    images = [
+        mlt.render(mlt.load(written(VIEW, medium % of)), "path", spp=4, seed=1)
+        for of in (("nanovdb", file), ("uniformgrid", box + density))
+    ]
+    np.testing.assert_allclose(images[0].mean((0, 1)), images[1].mean((0, 1)), rtol=1e-3)
+
+
 def test_a_grid_of_colours_has_their_sum_and_quotient():
     found = read(
         VIEW,

@@ -69,11 +69,13 @@ class Flying {
 }  // namespace
 
 GridVolume::GridVolume(Grid grid, const Mat4& to_world) : grid_(std::move(grid)) {
-  if (!(std::fabs(glm::determinant(to_world)) > 0))
-    throw UsageError("'to_world' should have a volume, but is flat");
   const auto& n = grid_.size();
   to_grid_ = glm::scale(glm::translate(Mat4(1), Vec3(grid_.low())), Vec3(n[0], n[1], n[2])) *
              glm::inverse(to_world);
+  constexpr double most = 1e30;  // cells per length, of which products are finite
+  for (int i = 0; i < 16; ++i)
+    if (!(std::fabs(to_grid_[i / 4][i % 4]) < most))
+      throw UsageError("'to_world' should have a volume, but is flat");
 }
 
 Color GridVolume::at(const Vec3& p) const {

@@ -31,10 +31,11 @@ class RenderOptions:
         `overwrite`.
     aovs
         layers of what the camera sees first, in `result.layers`: "albedo", "depth", "position",
-        "uv", "geo_normal", "sh_normal", "shape_index", "prim_index". A list, or one string with
-        commas; "n:sh_normal" calls the layer "n". Means over 16 camera rays per pixel (indices:
-        of the ray through its middle; -1 where there is nothing). float32, (height, width, 3);
-        depth and indices (height, width, 1). None are those of the scene's integrator `aov`.
+        "uv", "geo_normal", "sh_normal", "shape_index", "prim_index", "optical_depth" (of the media
+        before it; infinite where a ray does not leave them). A list, or one string with commas;
+        "n:sh_normal" calls the layer "n". Means over 16 camera rays per pixel (indices: of the
+        ray through its middle; -1 where there is nothing). float32, (height, width, 3); depth and
+        indices (height, width, 1). None are those of the scene's integrator `aov`.
     fireflies
         "groups" shows each pixel without what one of the 16 independent groups of the render alone
         has found there (adaptive median of means, Buisine et al. 2021). Sparks go, and so does

@@ -12,6 +12,7 @@ if TYPE_CHECKING:
 
 IMAGE, ERROR = "image", "error map"
 AOVS = ("albedo", "sh_normal", "geo_normal", "depth", "position", "uv", "shape_index", "prim_index")
+AOVS += ("optical_depth",)
 LAYERS = (IMAGE, ERROR, *AOVS)
 
 
@@ -76,6 +77,8 @@ def layer_picture(layer: str, values: np.ndarray) -> np.ndarray:
     """A layer of what the camera sees first."""
     import numpy as np
 
+    if layer == "optical_depth":
+        return picture(1 - np.exp(-values), 0, "srgb")
     values = np.nan_to_num(np.asarray(values, dtype=np.float64), posinf=0, neginf=0)
     if layer == "albedo":
         return picture(values, 0, "srgb")

@@ -190,6 +190,12 @@ TEST(Grid, RefusesWhatIsNoExtinction) {
             std::string::npos);
 }
 
+TEST(Grid, RefusesAPlaceThatHasNoVolume) {
+  const Grid grid(sparse_grid({4, 5, 6}, 1, 1), false, "smoke");
+  for (const double scale : {0.0, 1e-40, 1e200 * 1e200, double{std::nanf("")}})
+    EXPECT_NE(error_of([&] { GridVolume(grid, Mat4(scale)); }).find("is flat"), std::string::npos);
+}
+
 std::string vol(int version, int32_t encoding, std::array<int32_t, 4> size,
                 const std::string& data) {
   std::string bytes = "VOL";

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from .params import Params
@@ -37,13 +38,15 @@ class Interface:
         return {"medium": {"type": "ref", "id": self.exterior}} if self.exterior else {}
 
 
-def medium(params: Params, to_world: np.ndarray) -> dict[str, Any] | None:
+def medium(params: Params, folder: Path, to_world: np.ndarray) -> dict[str, Any] | None:
     """A medium; None, with a warning, for those without a counterpart."""
     make = MEDIA.get(params.type)
     if make is None:
         params.warn(f"the medium {params.type!r} has no counterpart")
         return None
     made = make(params, to_world)
+    if params.type == "nanovdb":
+        made["sigma_t"]["filename"] = str((folder / params.text("filename")).resolve())
     if g := params.number("g", 0):
         made["phase"] = {"type": "hg", "g": g}
     params.finish()
@@ -62,15 +65,19 @@ def homogeneous(params: Params, to_world: np.ndarray) -> dict[str, Any]:
 
 def uniform_grid(params: Params, to_world: np.ndarray) -> dict[str, Any]:
     """Coefficients everywhere alike, times a density."""
-    import numpy as np
-
-    absorbed, scattered = (np.array(numbers(params.colour(name, 1.0))) for name in MILK)
-    extinction = absorbed + scattered
+    extinction, albedo = _coefficients(params)
     density = _grid(params, "density", 1)
     grey = extinction.min() == extinction.max()
     values = density * extinction[0] if grey else density[..., None] * extinction
-    albedo = np.divide(scattered, extinction, where=extinction > 0, out=np.zeros(3))
-    return _heterogeneous(params, to_world, values, albedo.tolist())
+    return _heterogeneous(params, _volume(params, to_world, values), albedo)
+
+
+def nanovdb(params: Params, to_world: np.ndarray) -> dict[str, Any]:
+    """The same with a density from a file, of which a grid of temperatures does not glow."""
+    extinction, albedo = _coefficients(params)
+    factor = {"type": "rgb", "value": extinction.tolist()}
+    volume = {"type": "nanovdb", "grid": "density", "to_world": to_world, "scale": factor}
+    return _heterogeneous(params, volume, albedo)
 
 
 def rgb_grid(params: Params, to_world: np.ndarray) -> dict[str, Any]:
@@ -82,13 +89,21 @@ def rgb_grid(params: Params, to_world: np.ndarray) -> dict[str, Any]:
     )
     extinction = absorbed + scattered
     albedo = np.divide(scattered, extinction, where=extinction > 0, out=np.zeros_like(extinction))
-    return _heterogeneous(params, to_world, extinction, _volume(params, to_world, albedo, "edge"))
+    volume = _volume(params, to_world, extinction)
+    return _heterogeneous(params, volume, _volume(params, to_world, albedo, "edge"))
 
 
-def _heterogeneous(
-    params: Params, to_world: np.ndarray, values: np.ndarray, albedo: Any
-) -> dict[str, Any]:
-    volume = _volume(params, to_world, values)
+def _coefficients(params: Params) -> tuple[np.ndarray, list[float]]:
+    """The extinction and the albedo of what is everywhere alike."""
+    import numpy as np
+
+    absorbed, scattered = (np.array(numbers(params.colour(name, 1.0))) for name in MILK)
+    extinction = absorbed + scattered
+    albedo = np.divide(scattered, extinction, where=extinction > 0, out=np.zeros(3))
+    return extinction, albedo.tolist()
+
+
+def _heterogeneous(params: Params, volume: dict[str, Any], albedo: Any) -> dict[str, Any]:
     scale = params.number("scale", 1)
     return {"type": "heterogeneous", "sigma_t": volume, "albedo": albedo, "scale": scale}
 
@@ -128,3 +143,4 @@ def _volume(
 
 
 MEDIA = {"homogeneous": homogeneous, "uniformgrid": uniform_grid, "rgbgrid": rgb_grid}
+MEDIA |= {"nanovdb": nanovdb}

@@ -204,7 +204,7 @@ class Reader:
     def _on_make_named_medium(self, directive: Token) -> None:
         name = self._words.text(directive)
         params = self._typed(directive, f"the medium {name!r}")
-        found = medium(params, self._state.matrix)
+        found = medium(params, self._folder, self._state.matrix)
         self._media[name] = self._made.add(f"{name}-medium", found) if found else ""
 
     def _on_medium_interface(self, directive: Token) -> None:
