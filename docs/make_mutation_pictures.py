@@ -42,6 +42,7 @@ PICTURES = [
     Picture(mlt.MultiChain(), "glass_ball", "LDSSDE", ("x", "y"), (0.3, 0.8)),
     Picture(mlt.Multiplexed(), "glass_ball", "LSSDE", ("x", "y"), (0.32, 0.85)),
     Picture(mlt.Manifold(), "glass_ball", "LDSSDE", ("x", "y"), (0.3, 0.8)),
+    Picture(mlt.Propagation(), "fog", "LDDE", ("x", "y"), (0.55, 0.5), exposure=3),
     Picture(mlt.LensSubpath(), "cornell_box", "LDDE", ("x", "y"), (0.4, 0.9), shortest=0.8),
 ]
 

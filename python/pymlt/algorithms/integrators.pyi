@@ -293,6 +293,15 @@ class MLT(Integrator):
         Smallest move on the image, in pixels.
     manifold_largest_share : float, default 0.1
         Largest move on the image, as a share of its diagonal.
+    propagation_mutation : boolean, default True
+        Use the propagation of vertices in media along their edges (Pauly et al. 2000, sec.
+        4.2).
+    propagation_weight : float, default 0.2
+        Weight of the propagation mutation among those that suit a path.
+    propagation_smallest_move : float, default 0.001
+        Smallest change of the logarithm of the distance.
+    propagation_largest_move : float, default 1.0
+        Largest change of the logarithm of the distance.
     near_specular : float, default 0.1
         Smooth vertices below this roughness count as specular in perturbations.
     adaptive : boolean, default True
@@ -352,6 +361,10 @@ class MLT(Integrator):
     manifold_weight: float
     manifold_smallest_pixels: float
     manifold_largest_share: float
+    propagation_mutation: bool
+    propagation_weight: float
+    propagation_smallest_move: float
+    propagation_largest_move: float
     near_specular: float
     adaptive: bool
     two_stage: bool
@@ -396,6 +409,10 @@ class MLT(Integrator):
         manifold_weight: float = ...,
         manifold_smallest_pixels: float = ...,
         manifold_largest_share: float = ...,
+        propagation_mutation: bool = ...,
+        propagation_weight: float = ...,
+        propagation_smallest_move: float = ...,
+        propagation_largest_move: float = ...,
         near_specular: float = ...,
         adaptive: bool = ...,
         two_stage: bool = ...,

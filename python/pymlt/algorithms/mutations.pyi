@@ -127,6 +127,26 @@ class Manifold(BuiltIn):
         largest_share: float = ...,
     ) -> None: ...
 
+class Propagation(BuiltIn):
+    """The propagation of vertices in media along their edges (Pauly et al. 2000, sec. 4.2).
+
+    Parameters
+    ----------
+    smallest_move : float, default 0.001
+        Smallest change of the logarithm of the distance.
+    largest_move : float, default 1.0
+        Largest change of the logarithm of the distance.
+    """
+
+    smallest_move: float
+    largest_move: float
+    def __init__(
+        self,
+        *,
+        smallest_move: float = ...,
+        largest_move: float = ...,
+    ) -> None: ...
+
 __all__ = [
     "Bidirectional",
     "Caustic",
@@ -135,4 +155,5 @@ __all__ = [
     "Manifold",
     "MultiChain",
     "Multiplexed",
+    "Propagation",
 ]

@@ -95,6 +95,16 @@ def volcaustic(filter: str = "gaussian") -> dict:
     return _load("volcaustic", filter=filter)
 
 
+def milk(filter: str = "gaussian") -> dict:
+    """A glass of water with a little milk in it, in the light of a low lamp."""
+    return _load("milk", filter=filter)
+
+
+def candle(filter: str = "gaussian") -> dict:
+    """A candle whose wax glows in the light of its flame, and two marbles."""
+    return _load("candle", filter=filter)
+
+
 def smoke(filter: str = "gaussian") -> dict:
     """A plume of smoke, a grid, before a dark wall and beside a low lamp."""
     return _load("smoke", filter=filter)

@@ -146,6 +146,24 @@ TEST(AuditOfLensSubpaths, HoldsForPlastic) {
   EXPECT_EQ(report.verdict, Verdict::right) << report.text();
 }
 
+/// Where what a walk has flown before says much about the channels that it may go on in.
+TEST(AuditOfColouredMedia, HoldsForWalksThatGoOn) {
+  const std::string coloured =
+      "<bsdf type='null'/><medium name='interior' type='homogeneous'>"
+      "<rgb name='sigma_t' value='0.5 3 16'/><float name='albedo' value='0.98'/></medium>";
+  const ScenePtr scene = load_scene(
+      camera("0, 0, 3.4", "0, 0, 0", 40, film(16, 12)) + sphere(0, 0, 0, 0.8, coloured) +
+      rectangle(rotate("y", 180) + translate(0, 0, 4), diffuse("0.2 0.2 0.2") + area_light("6 5 4")));
+  const PathTarget target = path_target(scene);
+  AuditSettings how;
+  how.paths = 100000;
+  how.significance = 1e-5;
+  for (const char* mutation : {"bidirectional", "lens_subpath"}) {
+    const AuditReport report = audit(target, make_mutation(mutation, target), how);
+    EXPECT_EQ(report.verdict, Verdict::right) << report.text();
+  }
+}
+
 /// Small ones hardly change the cosines at the vertex that they start from.
 TEST(AuditOfManifolds, HoldsForLargeMoves) {
   const ScenePtr scene = make_scene("mirrors").scene;
