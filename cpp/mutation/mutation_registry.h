@@ -18,7 +18,8 @@ struct MutationPlugin {
   std::string switch_name;  ///< The parameter of mlt that turns it on: Mitsuba's, where it has one.
   double weight;            ///< Its weight by default.
   MutationPtr (*make)(const PathTarget& target, Params& own);
-  bool on = true;  ///< Whether it is on by default.
+  bool on = true;           ///< Whether it is on by default.
+  bool media_only = false;  ///< Whether it moves nothing but vertices in media.
 
   const std::string& name() const { return schema.name; }
   std::string weight_name() const { return name() + "_weight"; }

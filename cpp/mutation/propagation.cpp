@@ -90,7 +90,6 @@ class PropagationMutation final : public MeasuredMutation<PropagationMutation> {
 
   template <class See>
   void for_each(const PathState& x, See&& see) const {
-    if (!scene().has_media()) return;
     for (int b = 1; b < x.edges(); ++b)
       for (const int step : {-1, 1})
         if (const Propagation p = propagation(x, b, step); p.b > 0) see(p);
@@ -161,7 +160,9 @@ MutationPlugin mutation_propagation() {
              "Largest change of the logarithm of the distance."}}},
           "propagation_mutation",
           0.2,
-          make_shared_mutation<PropagationMutation>};
+          make_shared_mutation<PropagationMutation>,
+          true,
+          true};
 }
 
 }  // namespace mlt

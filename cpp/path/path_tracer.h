@@ -158,7 +158,7 @@ struct CameraWalk {
   double scatter_pdf = 0;  ///< Density of the ray in solid angle.
   bool delta = true;       ///< Whether `previous` is the lens, or scattered by a delta.
   double eta2 = 1;         ///< Factor that cancels refraction in the throughput.
-  double certainty = 1;    ///< See certainty() of path_terms.h; up to here.
+  double certainty = 0;    ///< See certainty() of path_terms.h; up to here, if it began with 1.
   double survival = 1;     ///< Probability of having survived Russian roulette.
   Color likelihood{1};     ///< See Passage.
   RayCounts rays;          ///< Rays that a PathWave has traced for it.
@@ -236,7 +236,11 @@ bool scatter(const Walker& walker, const PathRules& rules, int depth, const Surf
   walk.throughput *= sample->weight;
   walk.scatter_pdf = sample->pdf;
   walk.delta = sample->lobe != Lobe::smooth;
-  walk.certainty *= walk.delta ? sample->pdf : 0;
+  if (walk.certainty > 0)
+    walk.certainty *=
+        walk.delta
+            ? delta_terms(walker.scene, at, sample->lobe, sample->w, -walk.ray.d).pdf_from_camera
+            : 0;
   walk.eta2 /= sample->eta2;
   if (!survive(rules, depth, numbers.roulette, walk)) return false;
   walk.previous = at.p;

@@ -41,7 +41,10 @@ class MltAlgorithm : public MetropolisAlgorithm {
   MltAlgorithm(ScenePtr scene, const MltSettings& settings)
       : settings_(settings), target_(std::move(scene), settings.rules, settings.near_specular) {
     std::vector<double> weights;
-    for (const MixedMutation& mixed : settings_.mixture)
+    for (const MixedMutation& mixed : settings_.mixture) {
+      if (mutation_plugin(mixed.name).media_only && !target_.scene().has_media() &&
+          settings_.mixture.size() > 1)
+        continue;
       for (const auto& [own, weight] : in_all_sizes(mixed)) {
         mutations_.push_back(make_mutation(mixed.name, target_, own));
         step_sizes_.push_back(step_size(mixed.name, own));
@@ -49,6 +52,7 @@ class MltAlgorithm : public MetropolisAlgorithm {
                                                             : nullptr);
         weights.push_back(weight);
       }
+    }
     for (const ExtraMutation& extra : settings_.extra) {
       mutations_.push_back(extra.make(target_));
       step_sizes_.push_back(0);

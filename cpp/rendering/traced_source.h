@@ -18,6 +18,7 @@ class TracedSource : public SourceOf<TracedSource> {
     const Scene& scene = target_->scene();
     CameraWalk walk(leave_lens(scene.camera(), raster, sampler).ray);
     walk.mis = MisExponent(Heuristic::balance);
+    walk.certainty = 1;
     trace_path(scene, target_->rules(), walk, sampler, rays_, Finder(*this, raster, found));
   }
   const RayCounts& rays() const override { return rays_; }
@@ -60,6 +61,7 @@ class TracedTaker : public WaveTaker {
     CameraWalk walk(leave_lens(scene().camera(), raster, sampler).ray);
     walk.mis = MisExponent(Heuristic::balance);
     walk.chain_factor = chain_factor(raster);
+    walk.certainty = 1;
     sink.add(raster, trace_path(scene(), rules(), walk, sampler, rays));
   }
 

@@ -12,6 +12,7 @@ void BasicPathWave<Numbers>::add(const Ray& ray, const ChainFactor& chain_factor
   walks_.emplace_back(ray);
   walks_.back().mis = mis_;
   walks_.back().chain_factor = chain_factor;
+  walks_.back().certainty = chain_factor.factor > 0;
   walks_.back().rays.intersect = 1;
 }
 

@@ -419,6 +419,12 @@ def test_info_tells_what_a_scene_holds(scene):
     assert "40 x 12" in run(PYMLT, "info", scene, "-D", "res=40").stdout
 
 
+def test_a_parameter_of_a_scene_may_have_the_name_of_an_argument():
+    scene = Path(__file__).parents[2] / "scenes" / "fog" / "scene.xml"
+    told = json.loads(run(PYMLT, "info", scene, "-D", "filter=tent", "--json").stdout)
+    assert told["filter"] == "tent"
+
+
 def test_info_has_numbers_for_people():
     assert [info.count(n) for n in (8194, 1_234_567, 2 * 10**9)] == [
         "8194",

@@ -151,9 +151,10 @@ TEST(AuditOfColouredMedia, HoldsForWalksThatGoOn) {
   const std::string coloured =
       "<bsdf type='null'/><medium name='interior' type='homogeneous'>"
       "<rgb name='sigma_t' value='0.5 3 16'/><float name='albedo' value='0.98'/></medium>";
-  const ScenePtr scene = load_scene(
-      camera("0, 0, 3.4", "0, 0, 0", 40, film(16, 12)) + sphere(0, 0, 0, 0.8, coloured) +
-      rectangle(rotate("y", 180) + translate(0, 0, 4), diffuse("0.2 0.2 0.2") + area_light("6 5 4")));
+  const ScenePtr scene =
+      load_scene(camera("0, 0, 3.4", "0, 0, 0", 40, film(16, 12)) + sphere(0, 0, 0, 0.8, coloured) +
+                 rectangle(rotate("y", 180) + translate(0, 0, 4),
+                           diffuse("0.2 0.2 0.2") + area_light("6 5 4")));
   const PathTarget target = path_target(scene);
   AuditSettings how;
   how.paths = 100000;

@@ -77,6 +77,16 @@ TEST_P(TargetOverDensity, IsTheSameForSamplesAndChains) {
   }
 }
 
+/// Records the certainty of each path, too.
+struct CertaintyRecorder : PathRecorder {
+  CertaintyRecorder(const PathRecorder& paths, std::vector<double>& found)
+      : PathRecorder(paths), certainties(&found) {}
+  void find(const CameraWalk&, const Color& radiance, double certainty) {
+    if (target_luminance(radiance) > 0) certainties->push_back(certainty);
+  }
+  std::vector<double>* certainties;
+};
+
 TEST_P(TargetOverDensity, IsTheSameForSamplesOfPathTracingAndChains) {
   const TestScene made = make_scene(GetParam());
   PathTarget target = target_of(made);
@@ -84,8 +94,8 @@ TEST_P(TargetOverDensity, IsTheSameForSamplesOfPathTracingAndChains) {
   const Scene& scene = *made.scene;
   TracedSource source(target);
   PathState x;
-  std::vector<double> errors;
-  int roulette = 0;
+  std::vector<double> errors, certainties;
+  int roulette = 0, wrong = 0;
   RayCounts rays;
   for (uint64_t i = 0; i < 20000; ++i) {
     Rng rng(1, Purpose::test, i);
@@ -96,19 +106,25 @@ TEST_P(TargetOverDensity, IsTheSameForSamplesOfPathTracingAndChains) {
     RandomSampler same(again);
     const auto [lens, ray] = leave_lens(scene.camera(), raster, same);
     std::vector<FoundPath> paths;
-    trace_path(scene, target.rules(), ray, same, rays,
-               PathRecorder(scene, raster, lens.at, ray.time, paths));
+    certainties.clear();
+    CameraWalk walk(ray);
+    walk.certainty = 1;
+    trace_path(scene, target.rules(), walk, same, rays,
+               CertaintyRecorder({scene, raster, lens.at, ray.time, paths}, certainties));
     ASSERT_EQ(found.size(), paths.size());
+    ASSERT_EQ(found.size(), certainties.size());
     for (size_t k = 0; k < found.size(); ++k) {
       x.path = paths[k].path;
       target.evaluate(x);
       if (!(x.target > 0)) continue;  // as above
       errors.push_back(std::abs(found[k].target_over_density / target.over_density(x) - 1));
+      wrong += !(std::abs(certainty(x.terms) - certainties[k]) <= 1e-3 * certainties[k]);
       roulette += x.edges() > 6;
     }
   }
   if (errors.empty()) GTEST_SKIP() << "path tracing finds no light here";
   EXPECT_LT(median(errors), 1e-6);
+  EXPECT_LE(wrong, errors.size() / 1000);
   if (GetParam() == "cornell") {
     EXPECT_GT(roulette, 0);
   }
