@@ -1,7 +1,7 @@
 // The propagation mutation (Pauly, Kollig & Keller 2000, "Metropolis light transport for
 // participating media", sec. 4.2): a vertex in a medium moves along one of its two edges, and is
-// joined to its other neighbour anew. What the perturbations of directions keep, distances in media,
-// it explores.
+// joined to its other neighbour anew. So it explores what the perturbations of directions keep:
+// distances in media.
 //
 // The distance d becomes d e^xi, with the density g(xi) of a symmetric distribution. By volume the
 // new vertex has the density g(xi) / d'^3, times that of its direction, which stays: so
@@ -18,8 +18,8 @@
 namespace mlt {
 namespace {
 
-/// Vertex b moves along the edge from vertex b - step, and is joined to vertex b + step or, across a
-/// specular chain on the light side, to c.
+/// Vertex b moves along the edge from vertex b - step, and is joined to vertex b + step or, across
+/// a specular chain on the light side, to c.
 struct Propagation {
   int b = -1, step = -1, c = -1;
 

@@ -76,8 +76,8 @@ DirectLight unshadowed_light(const Scene& scene, const LightSample& light, const
   return {light.x0.at, radiance * s.f * (std::abs(s.cos_l) * mis / pdf)};
 }
 
-/// The light that is scattered at `at` towards wc from a light sampled by u, with visibility. A walk
-/// would go on from `at` with this likelihood.
+/// The light that is scattered at `at` towards wc from a light sampled by u, with visibility. A
+/// walk would go on from `at` with this likelihood.
 template <class Weight>
 Color direct_light(const Walker& walker, const SurfacePoint& at, const Vec3& wc, const Vec3& u,
                    bool strict, Weight&& weight, const Color& likelihood = Color(1)) {

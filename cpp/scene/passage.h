@@ -6,11 +6,11 @@
 
 namespace mlt {
 
-/// A walk flies through media as if it had drawn one of the channels when it began, and had not told
-/// which: the probability of a leg is the mean over the channels, by their likelihood. That is how
-/// probable what the walk has flown before is in each of them, over its mean; so the probabilities
-/// of all legs multiply to the mean over the channels of those of the whole walk (for wavelengths:
-/// Wilkie et al. 2014, "Hero wavelength spectral sampling"). In grey media it stays 1.
+/// A walk flies through media as if it had drawn one of the channels when it began, and had not
+/// told which: the probability of a leg is the mean over the channels, by their likelihood. That is
+/// how probable what the walk has flown before is in each of them, over its mean; so the
+/// probabilities of all legs multiply to the mean over the channels of those of the whole walk (for
+/// wavelengths: Wilkie et al. 2014, "Hero wavelength spectral sampling"). In grey media it stays 1.
 struct Passage {
   Color transmittance{1};  ///< The share of the light that passes.
   double probability = 1;  ///< That a walk does not stop at one of the surfaces.

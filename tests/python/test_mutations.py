@@ -22,7 +22,11 @@ def settings_of(integrator) -> dict:
 def test_there_is_a_class_for_each_mutation():
     names = {c.__name__ for c in CLASSES}
     veach = {"Bidirectional", "Lens", "Caustic", "MultiChain", "LensSubpath"}
-    others = {"Multiplexed": "Otsu et al. 2017", "Manifold": "Jakob & Marschner 2012, sec. 5"}
+    others = {
+        "Multiplexed": "Otsu et al. 2017",
+        "Manifold": "Jakob & Marschner 2012, sec. 5",
+        "Propagation": "Pauly et al. 2000, sec. 4.2",
+    }
     assert names == veach | others.keys()
     for made in CLASSES:
         source = others.get(made.__name__, "sec. 11.3")

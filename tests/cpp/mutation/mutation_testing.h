@@ -18,8 +18,8 @@ inline PathTarget path_target(const ScenePtr& scene, int max_depth = 8) {
   return PathTarget(scene, rules);
 }
 
-/// With steps of primary samples and moves in media that are large: small ones change too little for
-/// a fault to be seen.
+/// With steps of primary samples and moves in media that are large: small ones change too little
+/// for a fault to be seen.
 inline MutationPtr make_large_mutation(const MutationPlugin& plugin, const PathTarget& target,
                                        MutationValues values = {}) {
   if (plugin.schema.find("step_size")) values.push_back({"step_size", 0.4});
