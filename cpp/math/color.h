@@ -13,8 +13,10 @@ inline bool is_black(const Color& c) { return c.x == 0 && c.y == 0 && c.z == 0; 
 inline bool is_grey(const Color& c) { return c.x == c.y && c.y == c.z; }
 
 inline double mean(const Color& c) { return (c.x + c.y + c.z) / 3; }
-/// e^c, channel by channel.
-inline Color exp(const Color& c) { return {std::exp(c.x), std::exp(c.y), std::exp(c.z)}; }
+/// e^c, channel by channel; of a grey one once.
+inline Color exp(const Color& c) {
+  return is_grey(c) ? Color(std::exp(c.x)) : Color{std::exp(c.x), std::exp(c.y), std::exp(c.z)};
+}
 
 /// Whether light of this throughput is zero in single precision, the precision of images.
 inline bool vanishes(const Color& throughput) {
