@@ -106,9 +106,7 @@ class ManifoldPerturbation final : public MeasuredMutation<ManifoldPerturbation>
 
   /// Whether light is scattered in the same ways from a to c in x and in y.
   static bool same_form(const PathState& x, const PathState& y, const Triple& t) {
-    for (int i = std::max(t.c, 1); i <= std::min(t.a, x.edges() - 1); ++i)
-      if (x.specular(i) != y.specular(i) || x[i].lobe != y[i].lobe) return false;
-    return true;
+    return mlt::same_form(x, y, std::max(t.c, 1), std::min(t.a, x.edges() - 1));
   }
 
   std::optional<Ray> first_ray(const PathState& x, const Triple& t, PathState& y, Rng& rng) const {

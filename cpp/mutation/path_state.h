@@ -66,6 +66,13 @@ struct PathState {
   bool specular(int i) const { return terms[i].specular; }  ///< Whether inner vertex i is S, not D.
 };
 
+/// Whether light is scattered in the same ways at vertices first ... last of x and of y.
+inline bool same_form(const PathState& x, const PathState& y, int first, int last) {
+  for (int i = first; i <= last; ++i)
+    if (x.specular(i) != y.specular(i) || x[i].lobe != y[i].lobe) return false;
+  return true;
+}
+
 /// Sets y to x with the edit applied; the inserted vertices and their terms are yet to be filled
 /// in.
 void splice(const PathState& x, const Edit& edit, PathState& y);

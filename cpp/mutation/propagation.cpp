@@ -138,11 +138,9 @@ class PropagationMutation final : public MeasuredMutation<PropagationMutation> {
     return p.step < 0 && next <= in.x.edges() ? in.step(next, start) / in.x[start].G : 1;
   }
 
-  /// Whether light is scattered in the same ways from b to c in x and in y.
+  /// Whether light is scattered in the same ways between c and b in x and in y.
   static bool same_form(const PathState& x, const PathState& y, const Propagation& p) {
-    for (int i = p.c + 1; i < p.b; ++i)
-      if (x.specular(i) != y.specular(i) || x[i].lobe != y[i].lobe) return false;
-    return true;
+    return mlt::same_form(x, y, p.c + 1, p.b - 1);
   }
 
   ExponentialRadius move_;  ///< Of the logarithm of the distance.
@@ -161,8 +159,8 @@ MutationPlugin mutation_propagation() {
           "propagation_mutation",
           0.2,
           make_shared_mutation<PropagationMutation>,
-          true,
-          true};
+          /*on=*/true,
+          /*media_only=*/true};
 }
 
 }  // namespace mlt

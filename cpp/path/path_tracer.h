@@ -188,7 +188,8 @@ struct CameraWalk {
 /// Follows the ray of a walk to the next vertex; false if it leaves the scene.
 template <class Sampler>
 bool arrive(const Walker& walker, Sampler& sampler, CameraWalk& walk, SurfacePoint& at) {
-  Passage leg{.likelihood = walk.likelihood};
+  Passage leg;
+  leg.likelihood = walk.likelihood;
   const bool hit = walker.arrive(walk.ray, walker.draw_leg(sampler), at, leg);
   if (!walker.scene.has_passages()) return hit;
   const Vec3& w = walk.ray.d;

@@ -34,7 +34,8 @@ bool Subpath::trace(const Walker& walker, const PathRules& rules, const Ray& ray
   WalkVertex& previous = vertices_[size() - 2];
   next.vertex = {};
   SurfacePoint& at = next.vertex.at;
-  Passage leg{.likelihood = previous.likelihood};
+  Passage leg;
+  leg.likelihood = previous.likelihood;
   const bool hit = walker.arrive(ray, u_leg, at, leg);
   if (!hit) {
     if (from_ == From::light || walker.scene.infinite_emitters().empty()) {

@@ -23,7 +23,8 @@ bool Walker::arrive(const Ray& ray, double u_leg, Vertex& next) const {
 }
 
 bool Walker::arrive(const Ray& ray, double u_leg, SurfacePoint& at, Color& likelihood) const {
-  Passage leg{.likelihood = likelihood};
+  Passage leg;
+  leg.likelihood = likelihood;
   const bool hit = arrive(ray, u_leg, at, leg);
   if (hit && scene.has_coloured_media())
     likelihood = scene.arrival(leg, at, ray.d).next_likelihood();
