@@ -117,7 +117,7 @@ Value from_color(const py::dict& dict, const std::string& type, const std::strin
   const py::object value = dict[held];
   if (type == "spectrum" && (py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value))) {
     try {
-      return value.cast<Spectrum>();
+      return value.cast<WavelengthTable>();
     } catch (const py::cast_error&) {
       refuse(where, key, "should be a number or a list of (wavelength, value) pairs");
     }

@@ -16,7 +16,7 @@ bool is(const Value& value) {
 bool is_number(const Value& value) { return is<int64_t>(value) || is<double>(value); }
 
 bool is_color(const Value& value) {
-  return is_number(value) || is<Triple>(value) || is<Spectrum>(value);
+  return is_number(value) || is<Triple>(value) || is<WavelengthTable>(value);
 }
 
 bool is_finite(const Value& value) {
@@ -26,7 +26,7 @@ bool is_finite(const Value& value) {
   };
   if (const Triple* t = std::get_if<Triple>(&value)) return all_finite(*t);
   if (const Matrix* m = std::get_if<Matrix>(&value)) return all_finite(*m);
-  if (const Spectrum* s = std::get_if<Spectrum>(&value))
+  if (const WavelengthTable* s = std::get_if<WavelengthTable>(&value))
     return std::all_of(s->begin(), s->end(), [](const auto& sample) {
       return std::isfinite(sample.first) && std::isfinite(sample.second);
     });

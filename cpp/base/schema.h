@@ -20,8 +20,8 @@ using Triple = std::array<double, 3>;
 /// A 4 x 4 matrix, row by row as scenes write it.
 using Matrix = std::array<double, 16>;
 /// Samples (wavelength in nm, value) of a spectrum. A single one stands for all wavelengths.
-using Spectrum = std::vector<std::pair<double, double>>;
-inline Spectrum constant_spectrum(double value) { return {{550, value}}; }
+using WavelengthTable = std::vector<std::pair<double, double>>;
+inline WavelengthTable constant_spectrum(double value) { return {{550, value}}; }
 /// A transform at one time; below, several of them in the order of time.
 struct Keyframe {
   double time;
@@ -34,7 +34,7 @@ struct Keyframe {
 using Animation = std::vector<Keyframe>;
 
 using Value = std::variant<std::monostate, bool, int64_t, double, std::string, Triple, Matrix,
-                           Spectrum, Animation, ObjectPtr, Buffer>;
+                           WavelengthTable, Animation, ObjectPtr, Buffer>;
 
 enum class ParamType {
   boolean,

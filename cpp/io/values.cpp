@@ -45,7 +45,7 @@ std::optional<Triple> parse_hex(std::string_view text) {
   return decode_srgb({(bits >> 16) / 255.0, (bits >> 8 & 255) / 255.0, (bits & 255) / 255.0});
 }
 
-std::optional<Spectrum> checked(Spectrum samples) {
+std::optional<WavelengthTable> checked(WavelengthTable samples) {
   if (samples.size() < 2) return std::nullopt;
   for (size_t i = 1; i < samples.size(); ++i)
     if (!(samples[i - 1].first < samples[i].first)) return std::nullopt;
@@ -53,8 +53,8 @@ std::optional<Spectrum> checked(Spectrum samples) {
 }
 
 /// Samples (wavelength, value) from "400:0.1, 700:0.3": two or more, wavelengths increasing.
-std::optional<Spectrum> parse_spectrum(const std::string& text) {
-  Spectrum samples;
+std::optional<WavelengthTable> parse_spectrum(const std::string& text) {
+  WavelengthTable samples;
   for (std::string_view word : split(text)) {
     const size_t colon = word.find(':');
     if (colon == std::string_view::npos) return std::nullopt;
@@ -113,11 +113,11 @@ std::string tag_of(ParamType type) {
 }
 
 /// A table with a wavelength and a value on each line; '#' begins a comment.
-Spectrum read_spectrum_file(const Element& element, const SearchPath& search) {
+WavelengthTable read_spectrum_file(const Element& element, const SearchPath& search) {
   const std::string path = search.find_file(element.require("filename"), element.where);
   std::ifstream file(path);
   if (!file) throw FileError(at(element.where, "cannot read " + path));
-  Spectrum samples;
+  WavelengthTable samples;
   std::string line;
   for (int number = 1; std::getline(file, line); ++number) {
     const std::string_view content = trim(std::string_view(line).substr(0, line.find('#')));

@@ -1,6 +1,6 @@
 #include "scene/texture.h"
 
-#include "math/spectrum.h"
+#include "math/colorimetry.h"
 #include "scene/matrix_rows.h"
 #include "scene/motion.h"
 
@@ -19,7 +19,7 @@ class Constant final : public Texture {
   Color color_;
 };
 
-Color spectrum_color(Params& params, const std::string& name, const Spectrum& spectrum,
+Color spectrum_color(Params& params, const std::string& name, const WavelengthTable& spectrum,
                      SpectrumUse use) {
   if (spectrum.size() == 1) return uniform_spectrum_to_rgb(spectrum[0].second, use);
   try {
@@ -44,7 +44,7 @@ TexturePtr constant_texture(const Color& color) { return std::make_shared<Consta
 Color to_color(Params& params, const std::string& name, SpectrumUse use) {
   const Value& value = params.value(name);
   if (const Triple* rgb = std::get_if<Triple>(&value)) return {(*rgb)[0], (*rgb)[1], (*rgb)[2]};
-  if (const Spectrum* spectrum = std::get_if<Spectrum>(&value))
+  if (const WavelengthTable* spectrum = std::get_if<WavelengthTable>(&value))
     return spectrum_color(params, name, *spectrum, use);
   if (std::holds_alternative<ObjectPtr>(value))
     params.fail(name, "should be a number, an rgb triple or a spectrum");

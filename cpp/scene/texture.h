@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/params.h"
-#include "math/spectrum.h"
+#include "math/colorimetry.h"
 #include "scene/surface_point.h"
 
 namespace mlt {

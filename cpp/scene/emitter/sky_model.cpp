@@ -1,6 +1,6 @@
 #include "scene/emitter/sky_model.h"
 
-#include "math/spectrum.h"
+#include "math/colorimetry.h"
 
 namespace mlt {
 namespace {
@@ -66,7 +66,7 @@ Color SkyModel::radiance(double cos_theta, double gamma) const {
 namespace {
 
 /// Absorption coefficients by wavelength in nm; 0 beyond the ends of a table.
-const Spectrum ozone{{300, 10},   {305, 4.8},  {310, 2.7},  {315, 1.35}, {320, .8},   {325, .38},
+const WavelengthTable ozone{{300, 10},   {305, 4.8},  {310, 2.7},  {315, 1.35}, {320, .8},   {325, .38},
                      {330, .16},  {335, .075}, {340, .04},  {345, .019}, {350, .007}, {355, 0},
                      {445, .003}, {450, .003}, {455, .004}, {460, .006}, {465, .008}, {470, .009},
                      {475, .012}, {480, .014}, {485, .017}, {490, .021}, {495, .025}, {500, .03},
@@ -77,13 +77,13 @@ const Spectrum ozone{{300, 10},   {305, 4.8},  {310, 2.7},  {315, 1.35}, {320, .
                      {640, .079}, {650, .067}, {660, .057}, {670, .048}, {680, .036}, {690, .028},
                      {700, .023}, {710, .018}, {720, .014}, {730, .011}, {740, .01},  {750, .009},
                      {760, .007}, {770, .004}, {780, 0},    {790, 0}};
-const Spectrum mixed_gases{{759, 0}, {760, 3}, {770, .21}, {771, 0}};
-const Spectrum water_vapour{{689, 0},    {690, .016},  {700, .024}, {710, .0125}, {720, 1},
+const WavelengthTable mixed_gases{{759, 0}, {760, 3}, {770, .21}, {771, 0}};
+const WavelengthTable water_vapour{{689, 0},    {690, .016},  {700, .024}, {710, .0125}, {720, 1},
                             {730, .87},  {740, .061},  {750, 1e-3}, {760, 1e-5},  {770, 1e-5},
                             {780, 6e-4}, {790, .0175}, {800, .036}};
 
 /// Radiance of the sun outside of the atmosphere, in 100 W / (m^2 nm sr).
-const Spectrum solar{{380, 165.5}, {390, 162.3}, {400, 211.2}, {410, 258.8}, {420, 258.2},
+const WavelengthTable solar{{380, 165.5}, {390, 162.3}, {400, 211.2}, {410, 258.8}, {420, 258.2},
                      {430, 242.3}, {440, 267.6}, {450, 296.6}, {460, 305.4}, {470, 300.6},
                      {480, 306.6}, {490, 288.3}, {500, 287.1}, {510, 278.2}, {520, 271.0},
                      {530, 272.3}, {540, 263.6}, {550, 255.0}, {560, 250.6}, {570, 253.1},
@@ -92,7 +92,7 @@ const Spectrum solar{{380, 165.5}, {390, 162.3}, {400, 211.2}, {410, 258.8}, {42
                      {680, 211.0}, {690, 207.3}, {700, 202.4}, {710, 198.7}, {720, 194.3},
                      {730, 190.7}, {740, 186.3}, {750, 182.6}};
 
-double at_wavelength(const Spectrum& table, double wavelength) {
+double at_wavelength(const WavelengthTable& table, double wavelength) {
   for (size_t i = 1; i < table.size(); ++i) {
     const auto& [x0, y0] = table[i - 1];
     const auto& [x1, y1] = table[i];
@@ -119,7 +119,7 @@ double transmittance(double wavelength, double mass, double turbidity) {
 
 Color sun_radiance(double theta, double turbidity) {
   const double mass = 1 / (std::cos(theta) + 0.000940 * std::pow(1.6386 - theta, -1.253));
-  Spectrum spectrum;
+  WavelengthTable spectrum;
   for (double wavelength = solar.front().first; wavelength <= solar.back().first; wavelength += 5)
     spectrum.emplace_back(wavelength, 100 * at_wavelength(solar, wavelength) *
                                           transmittance(wavelength, mass, turbidity));

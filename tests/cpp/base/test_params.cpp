@@ -101,7 +101,7 @@ TEST_F(ParamsTest, AWrongTypeNamesBothTypes) {
             here + "'origin' is a matrix, but should be a point or vector");
   EXPECT_EQ(error_of_set("to_world", Triple{}),
             here + "'to_world' is a triple, but should be a transform");
-  EXPECT_EQ(error_of_set("lamp", Spectrum{}),
+  EXPECT_EQ(error_of_set("lamp", WavelengthTable{}),
             here + "'lamp' is a spectrum, but should be a nested object");
   EXPECT_EQ(error_of_set("albedo", ObjectPtr(std::make_shared<Lamp>())),
             here + "'albedo' is an object, but should be a reflectance (number, rgb or spectrum)");
@@ -112,7 +112,7 @@ TEST_F(ParamsTest, EachTypeTakesWhatItSays) {
   const ObjectPtr object = std::make_shared<Lamp>();
   const std::vector<Value> values{
       true,     int64_t{1},         1.0,   std::string("fast"), Triple{1, 1, 1},
-      Matrix{}, Spectrum{{500, 1}}, object};
+      Matrix{}, WavelengthTable{{500, 1}}, object};
   const std::string kinds = "bifstmSo";  // of the values above
   const std::map<std::string, std::string> accepted{
       {"strict", "b"},      {"max_depth", "i"}, {"radius", "if"},   {"title", "s"},
@@ -133,9 +133,9 @@ TEST_F(ParamsTest, NumbersMustBeFinite) {
   Matrix matrix{};
   matrix[15] = not_a_number;
   EXPECT_EQ(error_of_set("to_world", matrix), here + "'to_world' must be finite");
-  EXPECT_EQ(error_of_set("power", Spectrum{{400, 1}, {500, infinite}}),
+  EXPECT_EQ(error_of_set("power", WavelengthTable{{400, 1}, {500, infinite}}),
             here + "'power' must be finite");
-  EXPECT_EQ(error_of_set("power", Spectrum{{not_a_number, 1}}), here + "'power' must be finite");
+  EXPECT_EQ(error_of_set("power", WavelengthTable{{not_a_number, 1}}), here + "'power' must be finite");
 }
 
 TEST_F(ParamsTest, TextIsOneOfTheChoices) {

@@ -42,7 +42,7 @@ TEST(Values, Colours) {
   EXPECT_EQ(read("<spectrum name='a' value='0.789000'/>"), Value(0.789));
   EXPECT_EQ(read("<spectrum name='a' value='1,2,3'/>"), Value(Triple{1, 2, 3}));
   EXPECT_EQ(read("<spectrum name='a' value='400:0, 500:8, 600:15.6'/>"),
-            Value(Spectrum{{400, 0}, {500, 8}, {600, 15.6}}));
+            Value(WavelengthTable{{400, 0}, {500, 8}, {600, 15.6}}));
 }
 
 TEST(Values, ASpectrumOfOneNumberHoldsForAllWavelengthsSinceMitsuba2) {
@@ -117,7 +117,7 @@ TEST_F(SpectrumFile, IsATableOfWavelengths) {
   std::vector<std::string> warnings;
   const Node bsdf = read_xml_string(
       "<bsdf type='diffuse'><spectrum name='a' filename='a.spd'/></bsdf>", path(""), {}, warnings);
-  EXPECT_EQ(bsdf.properties[0].value, Value(Spectrum{{400, 0.1}, {500, 0.2}, {600, 0.3}}));
+  EXPECT_EQ(bsdf.properties[0].value, Value(WavelengthTable{{400, 0.1}, {500, 0.2}, {600, 0.3}}));
 }
 
 TEST_F(SpectrumFile, NamesTheLineThatIsWrong) {
@@ -142,7 +142,7 @@ TEST(CommandLineValue, FollowsTheTypeOfTheParameter) {
   EXPECT_EQ(from_command_line("1 2,3", ParamType::point), Value(Triple{1, 2, 3}));
   EXPECT_EQ(from_command_line("0.5", ParamType::texture), Value(0.5));
   EXPECT_EQ(from_command_line("400:1 500:2", ParamType::radiance),
-            Value(Spectrum{{400, 1}, {500, 2}}));
+            Value(WavelengthTable{{400, 1}, {500, 2}}));
   EXPECT_EQ(from_command_line("1.5", ParamType::ior), Value(1.5));
   EXPECT_EQ(from_command_line("bk7", ParamType::ior), Value(std::string("bk7")));
 }

@@ -285,11 +285,11 @@ TEST(ColourParameters, TakeNumbersTriplesAndSpectra) {
   EXPECT_EQ(colour("power", int64_t{7}), Color(7));
   EXPECT_EQ(colour("glow", (Triple{1, 2, 3})), Color(1, 2, 3));
   // Mitsuba 3.9.1, scalar_rgb, for the same reflectance.
-  const Spectrum ramp{{400, 0.2}, {550, 0.5}, {700, 0.7}};
+  const WavelengthTable ramp{{400, 0.2}, {550, 0.5}, {700, 0.7}};
   expect_close(colour("map", ramp), {0.626819, 0.483389, 0.28201}, 2e-3);
   // ... and for <spectrum name="radiance" value="2"/>.
-  expect_close(colour("glow", Spectrum{{0, 2}}), {2.40959, 1.89658, 1.81783}, 1e-3);
-  EXPECT_EQ(colour("map", Spectrum{{0, 0.5}}), Color(0.5));
+  expect_close(colour("glow", WavelengthTable{{0, 2}}), {2.40959, 1.89658, 1.81783}, 1e-3);
+  EXPECT_EQ(colour("map", WavelengthTable{{0, 0.5}}), Color(0.5));
 }
 
 TEST(Bitmap, GradientIsThatOfTheLuminance) {
@@ -338,7 +338,7 @@ TEST(ColourParameters, AreBounded) {
     EXPECT_THAT(colour_error(name, (Triple{1, 1, -0.1})), HasSubstr("negative"));
   EXPECT_EQ(colour_error("power", 1e6), "");
   EXPECT_THAT(colour_error("map", std::make_shared<Object>()), HasSubstr("not a texture"));
-  EXPECT_THAT(colour_error("glow", (Spectrum{{500, 1}, {400, 1}})), HasSubstr("spectrum"));
+  EXPECT_THAT(colour_error("glow", (WavelengthTable{{500, 1}, {400, 1}})), HasSubstr("spectrum"));
 }
 
 TEST(MatrixParameter, IsReadRowByRowAndMayBeMissing) {

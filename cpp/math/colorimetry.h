@@ -7,6 +7,17 @@
 
 namespace mlt {
 
+/// The range of visible wavelengths, in nm.
+inline constexpr double first_wavelength = 360, last_wavelength = 830;
+
+/// The CIE 1931 2-degree colour-matching functions (x, y, z), linear between values every 5 nm, for
+/// a wavelength in the visible range; the integral of y is 1.
+Vec3 matching_functions(double wavelength);
+/// CIE standard illuminant D65, likewise, so that its luminance is 1.
+double d65(double wavelength);
+/// XYZ to linear sRGB, with the digits that Mitsuba uses.
+Color xyz_to_srgb(const Vec3& xyz);
+
 /// The use of a spectrum, which decides its illuminant and range.
 enum class SpectrumUse {
   reflectance,  // seen under D65, clamped to [0, 1]
@@ -21,7 +32,7 @@ struct SpectrumColor {
 
 /// The pairs are interpolated linearly and are zero outside. Throws UsageError unless there are at
 /// least two, in strictly increasing wavelength, all finite.
-SpectrumColor spectrum_to_rgb(const Spectrum& samples, SpectrumUse use);
+SpectrumColor spectrum_to_rgb(const WavelengthTable& samples, SpectrumUse use);
 
 /// A spectrum with the same value everywhere: grey, except for an emitter, where it is the
 /// equal-energy illuminant (slightly red beside the D65 white of sRGB).

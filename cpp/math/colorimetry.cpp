@@ -1,4 +1,4 @@
-#include "math/spectrum.h"
+#include "math/colorimetry.h"
 
 #include "base/error.h"
 
@@ -12,7 +12,7 @@ namespace mlt {
 
 namespace {
 
-constexpr double first_wavelength = 360, last_wavelength = 830, table_step = 5;
+constexpr double table_step = 5;
 constexpr size_t table_size = 95;
 
 using Table = std::array<double, table_size>;
@@ -63,7 +63,7 @@ constexpr Table z_bar{{
 constexpr double y_sum = 106.7502593994140625;  // the integral of y_bar
 
 /// CIE standard illuminant D65 (ISO/CIE 11664-2), relative power every 5 nm from 360 to 830 nm.
-constexpr Table d65{{
+constexpr Table d65_power{{
     46.6383, 49.3637, 52.0891, 51.0323, 49.9755, 52.3118, 54.6482, 68.7015, 82.7549, 87.1204,
     91.486,  92.4589, 93.4318, 90.057,  86.6823, 95.7736, 104.865, 110.936, 117.008, 117.41,
     117.812, 116.336, 114.861, 115.392, 115.923, 112.367, 108.811, 109.082, 109.354, 108.578,
@@ -77,25 +77,24 @@ constexpr Table d65{{
 }};
 constexpr double d65_mean = 98.99741751876255;  // its mean, weighted with y_bar: white has Y = 1
 
-/// XYZ to linear sRGB, with the digits that Mitsuba uses.
-Color xyz_to_srgb(const Vec3& v) {
-  return {3.240479 * v.x - 1.537150 * v.y - 0.498535 * v.z,
-          -0.969256 * v.x + 1.875991 * v.y + 0.041556 * v.z,
-          0.055648 * v.x - 0.204043 * v.y + 1.057311 * v.z};
-}
+/// The place of a wavelength in the tables.
+struct Place {
+  size_t i;
+  double f;
 
-/// Linear interpolation in the tables: XYZ response of one wavelength, D65 included if asked.
-Vec3 response(double wavelength, bool under_d65) {
-  const double t = (wavelength - first_wavelength) / table_step;
-  const size_t i = std::min(static_cast<size_t>(t), table_size - 2);
-  const double f = t - static_cast<double>(i);
-  const Vec3 low(x_bar[i], y_bar[i], z_bar[i]), high(x_bar[i + 1], y_bar[i + 1], z_bar[i + 1]);
-  const Vec3 xyz = low * (1 - f) + high * f;
-  const double light = under_d65 ? (d65[i] * (1 - f) + d65[i + 1] * f) / d65_mean : 1;
-  return xyz * (light / y_sum);
-}
+  explicit Place(double wavelength) {
+    const double t = std::clamp((wavelength - first_wavelength) / table_step, 0.0,
+                                static_cast<double>(table_size - 1));
+    i = std::min(static_cast<size_t>(t), table_size - 2);
+    f = t - static_cast<double>(i);
+  }
+  template <class T>
+  T between(const T& low, const T& high) const {
+    return low * (1 - f) + high * f;
+  }
+};
 
-void check(const Spectrum& samples) {
+void check(const WavelengthTable& samples) {
   if (samples.size() < 2)
     throw UsageError(fmt::format(
         "a spectrum needs at least two wavelength:value pairs, this one has {}", samples.size()));
@@ -112,7 +111,7 @@ void check(const Spectrum& samples) {
 }
 
 /// Mitsuba's quadrature: 1000 points that include both ends, each worth 470 nm / 1000.
-Vec3 spectrum_to_xyz(const Spectrum& samples, bool under_d65) {
+Vec3 spectrum_to_xyz(const WavelengthTable& samples, bool under_d65) {
   constexpr int points = 1000;
   constexpr double range = last_wavelength - first_wavelength;
   Vec3 xyz(0.0);
@@ -124,14 +123,31 @@ Vec3 spectrum_to_xyz(const Spectrum& samples, bool under_d65) {
     const auto [wa, a] = samples[i];
     const auto [wb, b] = samples[i + 1];
     const double f = (w - wa) / (wb - wa);
-    xyz += response(w, under_d65) * (a + f * (b - a));
+    xyz += matching_functions(w) * ((a + f * (b - a)) * (under_d65 ? d65(w) : 1));
   }
   return xyz * (range / points);
 }
 
 }  // namespace
 
-SpectrumColor spectrum_to_rgb(const Spectrum& samples, SpectrumUse use) {
+Vec3 matching_functions(double wavelength) {
+  const Place at(wavelength);
+  const auto value = [](size_t i) { return Vec3(x_bar[i], y_bar[i], z_bar[i]); };
+  return at.between(value(at.i), value(at.i + 1)) / y_sum;
+}
+
+double d65(double wavelength) {
+  const Place at(wavelength);
+  return at.between(d65_power[at.i], d65_power[at.i + 1]) / d65_mean;
+}
+
+Color xyz_to_srgb(const Vec3& v) {
+  return {3.240479 * v.x - 1.537150 * v.y - 0.498535 * v.z,
+          -0.969256 * v.x + 1.875991 * v.y + 0.041556 * v.z,
+          0.055648 * v.x - 0.204043 * v.y + 1.057311 * v.z};
+}
+
+SpectrumColor spectrum_to_rgb(const WavelengthTable& samples, SpectrumUse use) {
   check(samples);
   const bool under_d65 = use == SpectrumUse::reflectance || use == SpectrumUse::unbounded;
   const Color rgb = xyz_to_srgb(spectrum_to_xyz(samples, under_d65));

@@ -1,6 +1,6 @@
 // Spectra and named indices against values read from Mitsuba 3.9 (variant scalar_rgb): the
 // `reflectance` of a diffuse BSDF, the `eta` of a conductor, the `intensity` of a point light.
-#include "math/spectrum.h"
+#include "math/colorimetry.h"
 
 #include "base/error.h"
 #include "math/ior.h"
@@ -11,12 +11,12 @@ namespace mlt::test {
 namespace {
 
 struct Case {
-  Spectrum samples;
+  WavelengthTable samples;
   SpectrumUse use;
   Color expected;
 };
 
-TEST(Spectrum, MatchesMitsuba) {
+TEST(Colorimetry, MatchesMitsuba) {
   const std::vector<Case> cases{
       {{{400, 1}, {700, 1}}, SpectrumUse::reflectance, {0.995342, 0.9997564, 0.9949091}},
       {{{400, 1}, {700, 1}}, SpectrumUse::unbounded, {0.995342, 0.9997564, 0.9949091}},
@@ -108,7 +108,7 @@ TEST(Spectrum, MatchesMitsuba) {
   }
 }
 
-TEST(Spectrum, UniformMatchesMitsuba) {
+TEST(Colorimetry, UniformMatchesMitsuba) {
   const Color c = uniform_spectrum_to_rgb(0.5, SpectrumUse::emission);
   EXPECT_NEAR(c.x, 0.602397, 1e-6);
   EXPECT_NEAR(c.y, 0.474146, 1e-6);
@@ -117,15 +117,15 @@ TEST(Spectrum, UniformMatchesMitsuba) {
   EXPECT_EQ(uniform_spectrum_to_rgb(0.5, SpectrumUse::unbounded), Color(0.5));
 }
 
-TEST(Spectrum, SaysWhenItClamps) {
+TEST(Colorimetry, SaysWhenItClamps) {
   EXPECT_TRUE(spectrum_to_rgb({{500, 1}, {600, 1}}, SpectrumUse::reflectance).clamped);
   EXPECT_FALSE(spectrum_to_rgb({{400, 0.5}, {700, 0.5}}, SpectrumUse::reflectance).clamped);
   EXPECT_TRUE(spectrum_to_rgb({{400, 1.5}, {700, 1.5}}, SpectrumUse::reflectance).clamped);
   EXPECT_FALSE(spectrum_to_rgb({{400, 1.5}, {700, 1.5}}, SpectrumUse::unbounded).clamped);
 }
 
-TEST(Spectrum, RefusesBadLists) {
-  const auto convert = [](const Spectrum& s) { return spectrum_to_rgb(s, SpectrumUse::emission); };
+TEST(Colorimetry, RefusesBadLists) {
+  const auto convert = [](const WavelengthTable& s) { return spectrum_to_rgb(s, SpectrumUse::emission); };
   EXPECT_THROW(convert({}), UsageError);
   EXPECT_THROW(convert({{500, 1}}), UsageError);
   EXPECT_THROW(convert({{500, 1}, {500, 2}}), UsageError);
