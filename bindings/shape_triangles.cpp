@@ -73,7 +73,7 @@ py::dict described(const Shape& shape, uint32_t index) {
     mesh->textured_point(0, Vec2(1 / 3.0), sample.at);
   else
     sample = part.sample_position({0.5, 0.5});
-  const Color albedo = part.bsdf().albedo(sample.at);
+  const Color albedo = part.bsdf().albedo(sample.at).rgb();
   py::dict shown;
   shown["shape"] = index;
   shown["positions"] = py::array_t<float>({found.corners.size(), size_t{3}},

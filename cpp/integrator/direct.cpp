@@ -34,17 +34,17 @@ class DirectTaker : public SampleTaker {
   void sample(const Vec2& raster, PixelSampler& sampler, SampleSink& sink,
               RayCounts& rays) override {
     const Ray ray = leave_lens(scene_->camera(), raster, sampler).ray;
-    sink.add(raster, radiance(ray, sampler, rays));
+    sink.add(raster, radiance(ray, sampler, rays).rgb());
   }
 
  private:
-  Color radiance(const Ray& ray, PixelSampler& sampler, RayCounts& rays) const {
+  Spectrum radiance(const Ray& ray, PixelSampler& sampler, RayCounts& rays) const {
     const Walker walker{*scene_, ray.time, rays};
     CameraWalk walk(ray);
     SurfacePoint at;
     const bool hit = arrive(walker, sampler, walk, at);
     const auto always = [](const Emitter&, const SurfacePoint&) { return 1.0; };
-    Color sum(0);
+    Spectrum sum(0);
     if (!settings_.rules.hide_emitters)
       sum += emission(*scene_, hit ? &at : nullptr, ray.d, always);
     if (!hit || !consistent_sides(at, -ray.d, settings_.rules.strict_normals))
@@ -56,8 +56,8 @@ class DirectTaker : public SampleTaker {
     return sum * walk.throughput;
   }
 
-  Color by_light(const Walker& walker, const SurfacePoint& at, const CameraWalk& seen,
-                 PixelSampler& sampler) const {
+  Spectrum by_light(const Walker& walker, const SurfacePoint& at, const CameraWalk& seen,
+                    PixelSampler& sampler) const {
     const Vec3 u = DirectNumbers::draw(sampler).for_light();
     const double n = settings_.emitter_samples, m = settings_.bsdf_samples;
     const auto weight = [&](double light, double bsdf) {
@@ -68,12 +68,12 @@ class DirectTaker : public SampleTaker {
            n;
   }
 
-  Color by_bsdf(const Walker& walker, const SurfacePoint& at, const CameraWalk& seen,
-                PixelSampler& sampler) const {
+  Spectrum by_bsdf(const Walker& walker, const SurfacePoint& at, const CameraWalk& seen,
+                   PixelSampler& sampler) const {
     const Vec2 u = sampler.next2();
     const auto sample = scatter_to_light(walker, at, -seen.ray.d, {sampler.next(), u},
                                          settings_.rules.strict_normals);
-    if (!sample) return Color(0);
+    if (!sample) return Spectrum(0);
     const double n = settings_.emitter_samples, m = settings_.bsdf_samples;
     CameraWalk walk(walker.leave(at, sample->w));
     walk.throughput = sample->weight;

@@ -1,9 +1,8 @@
-// Linear Rec. 709 / sRGB-primaries colour, and the scalar that Metropolis sampling targets.
+// Linear Rec. 709 / sRGB-primaries colour, of images and of scene descriptions, and the scalar that
+// Metropolis sampling targets.
 #pragma once
 
 #include "math/vec.h"
-
-#include <limits>
 
 namespace mlt {
 
@@ -11,17 +10,6 @@ using Color = Vec3;
 
 inline bool is_black(const Color& c) { return c.x == 0 && c.y == 0 && c.z == 0; }
 inline bool is_grey(const Color& c) { return c.x == c.y && c.y == c.z; }
-
-inline double mean(const Color& c) { return (c.x + c.y + c.z) / 3; }
-/// e^c, channel by channel; of a grey one once.
-inline Color exp(const Color& c) {
-  return is_grey(c) ? Color(std::exp(c.x)) : Color{std::exp(c.x), std::exp(c.y), std::exp(c.z)};
-}
-
-/// Whether light of this throughput is zero in single precision, the precision of images.
-inline bool vanishes(const Color& throughput) {
-  return max_component(throughput) < double{std::numeric_limits<float>::min()};
-}
 
 /// Rec. 709 luminance (ITU-R BT.709, sec. 3).
 inline double luminance(const Color& c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }

@@ -4,8 +4,8 @@
 // Cosines are signed: positive above. Directions point away from the surface.
 #pragma once
 
-#include "math/color.h"
 #include "math/frame.h"
+#include "math/spectrum.h"
 
 namespace mlt {
 
@@ -56,9 +56,8 @@ inline double fresnel_conductor(double cos_i, double eta, double k) {
   return 0.5 * r_s * (1 + (p - q) / (p + q));
 }
 
-inline Color fresnel_conductor(double cos_i, const Color& eta, const Color& k) {
-  return {fresnel_conductor(cos_i, eta.x, k.x), fresnel_conductor(cos_i, eta.y, k.y),
-          fresnel_conductor(cos_i, eta.z, k.z)};
+inline Spectrum fresnel_conductor(double cos_i, const Spectrum& eta, const Spectrum& k) {
+  return lane_by_lane(eta, k, [&](double n, double a) { return fresnel_conductor(cos_i, n, a); });
 }
 
 /// The mean reflectance for diffuse light that arrives from above, 2 int_0^1 F(c) c dc. Use 1 / eta

@@ -134,7 +134,8 @@ std::optional<Ray> leave_end(const Walker& walker, const Vertex& end, Rng& rng) 
 
 /// Follows a leg with this likelihood to vertex i: on a surface, in a medium, on a light at
 /// infinity, or on the lens.
-bool arrive(const Walker& walker, const Ray& ray, Color& likelihood, Path& path, int i, Rng& rng) {
+bool arrive(const Walker& walker, const Ray& ray, Spectrum& likelihood, Path& path, int i,
+            Rng& rng) {
   if (i == path.edges()) return walker.arrive_at_lens(ray, path[i]);
   const double u_leg = walker.draw_leg(rng);
   path[i] = {};
@@ -201,7 +202,7 @@ class BidirectionalMutation final : public MeasuredMutation<BidirectionalMutatio
     Rng& rng = context.rng;
     const Walker walker{scene(), path.time, context.rays};
     const int begin = step > 0 ? 0 : path.edges();
-    Color likelihood = y.terms.likelihood(first - step, step);
+    Spectrum likelihood = y.terms.likelihood(first - step, step);
     for (int i = first; i != first + count * step; i += step) {
       if (i == begin) {
         if (!new_end(scene(), path, i, count == 1, rng)) return false;

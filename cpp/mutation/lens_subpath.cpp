@@ -26,7 +26,7 @@ class LensSubpathMutation final : public MeasuredMutation<LensSubpathMutation> {
 
     // The walk comes first, backwards: only then is the length of the path known.
     constexpr int most_vertices = 32;
-    Color likelihood(1);
+    Spectrum likelihood(1);
     const int first = stop(x);
     std::vector<Vertex>& vertices = y.path.vertices;
     int count = 0;

@@ -24,15 +24,16 @@ void PathTarget::evaluate_target(PathState& x) const {
   x.known.invalidate();
   if (!rules_.wants(x.edges())) return;
   if (x.edges() == 1 && !(x.terms.light_can_be_hit || x.terms.camera_can_be_hit)) return;
-  x.rgb = relative_contribution(x.terms);
-  const double target = target_luminance(x.rgb);
+  const Spectrum f = relative_contribution(x.terms);
+  const double target = target_luminance(f);
   if (!(target > 0)) {
     if (std::isnan(target)) x.target = target;
     return;
   }
   if (!x.terms.raster) return;
   x.raster = *x.terms.raster;
-  x.target = of(x.rgb, x.raster, certainty(x.terms));
+  x.rgb = f.rgb();
+  x.target = of(f, x.raster, certainty(x.terms));
 }
 
 PathSeeds PathTarget::seeds() const { return PathSeeds(*this); }

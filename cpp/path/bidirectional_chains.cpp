@@ -59,7 +59,7 @@ bool BidirectionalSampler::evaluate_manifold(Connection& connection, Rng& rng, R
   if (!(technique.count > 0) || !terms.raster) return false;
   const Vec3 wl = terms.direction(s, -1), wc = t > 1 ? terms.direction(s, 1) : Vec3(0);
   const VertexTerms at_y = vertex_terms(*scene_, path[s], wl, wc, settings_.rules.strict_normals);
-  Color value = y.throughput * at_y.f / technique.count;
+  Spectrum value = y.throughput * at_y.f / technique.count;
   for (int i = 0; i < s; ++i) value *= terms[i].vertex.f * (terms[i].G / terms[i].from_light);
   if (is_black(value)) return false;
   connection.raster = *terms.raster;

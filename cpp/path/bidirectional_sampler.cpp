@@ -5,7 +5,7 @@ namespace {
 
 /// The terms of a connecting edge at the vertex of one of the subpaths.
 struct JointEnd {
-  Color value{0};      ///< Throughput times f.
+  Spectrum value{0};   ///< Throughput times f.
   double onwards = 0;  ///< Density of the edge's direction in projected solid angle.
   double back = 0;     ///< Density of the direction to the previous vertex.
 };
@@ -37,7 +37,7 @@ inline bool find_end(const Scene& scene, const WalkVertex& x, Subpath::From from
 
 /// The probability of what a walk from the other end flies from x to the vertex before it, which
 /// passes_back does not have; changes the likelihood of that walk.
-double fly_back(const Scene& scene, const WalkVertex& x, Color& likelihood) {
+double fly_back(const Scene& scene, const WalkVertex& x, Spectrum& likelihood) {
   if (!scene.has_coloured_media()) return 1;
   const Arrival arrival = x.back.after(likelihood);
   likelihood = arrival.next_likelihood();
@@ -48,7 +48,7 @@ double fly_back(const Scene& scene, const WalkVertex& x, Color& likelihood) {
 /// end: in coloured media densities by the other walk depend on all that it has flown before.
 template <class CountTechnique>
 TechniqueSums sum_back(const Scene& scene, const Subpath& walk, int i, double reverse,
-                       Color likelihood, CountTechnique&& count) {
+                       Spectrum likelihood, CountTechnique&& count) {
   TechniqueSums sums;
   double quotient = reverse / walk[i].forward;
   while (quotient > 0) {
@@ -94,7 +94,7 @@ void BidirectionalSampler::sum_techniques() {
     light_direct_over_walk_ =
         direct_over_walk(light_[0].vertex, light_[0].forward, light_[1].vertex.at);
   if (scene_->has_coloured_media()) return;  // see sum_back()
-  const Color grey(1);
+  const Spectrum grey(1);
   for (int i = 0; i < lights; ++i)
     light_sums_.push_back(
         (i > 0 ? below_light(i - 1, light_[i - 1].reverse, grey) : TechniqueSums())
@@ -106,13 +106,13 @@ void BidirectionalSampler::sum_techniques() {
 }
 
 TechniqueSums BidirectionalSampler::below_light(int i, double reverse,
-                                                const Color& likelihood) const {
+                                                const Spectrum& likelihood) const {
   if (!scene_->has_coloured_media()) return light_sums_[i].over(reverse / light_[i].forward);
   return sum_back(*scene_, light_, i, reverse, likelihood,
                   [&](int j) { return light_technique(j); });
 }
 TechniqueSums BidirectionalSampler::above_camera(int i, double reverse,
-                                                 const Color& likelihood) const {
+                                                 const Spectrum& likelihood) const {
   if (!scene_->has_coloured_media()) return camera_sums_[i].over(reverse / camera_[i].forward);
   return sum_back(*scene_, camera_, i, reverse, likelihood,
                   [&](int j) { return camera_technique(j); });
@@ -136,7 +136,7 @@ double BidirectionalSampler::certainty_of_hit_light(int t) const {
 
 double BidirectionalSampler::certainty_of_hit_lens(int s, const Arrival& from_lens) const {
   double p = from_lens.probability();
-  Color likelihood = from_lens.next_likelihood();
+  Spectrum likelihood = from_lens.next_likelihood();
   for (int i = s - 2; i > 0 && p > 0; --i)
     p *= connectable(light_[i].vertex)
              ? 0
@@ -157,7 +157,7 @@ bool BidirectionalSampler::evaluate_hit_light(Connection& connection) {
   connection.certainty = certainty_of_hit_light(t);
   const double from_light = light_position_pdf(*scene_, x0);
   const double direct = direct_over_walk(x0, from_light, camera_[t - 2].vertex.at);
-  Color likelihood(1);
+  Spectrum likelihood(1);
   const double flown = fly_back(*scene_, end, likelihood);
   const double reverse = end.density_back(terms.pdf_from_light) * flown;
   const TechniqueSums above = above_camera(t - 2, reverse, likelihood)
@@ -170,7 +170,7 @@ bool BidirectionalSampler::evaluate_hit_light(Connection& connection) {
 /// See above; a Lambertian vertex has its density `back`, so the walk has computed the sums
 /// already.
 inline TechniqueSums BidirectionalSampler::below_joint(int i, const WalkVertex& x, double back,
-                                                       Color likelihood) const {
+                                                       Spectrum likelihood) const {
   if (x.joint.known && !scene_->has_coloured_media()) return light_sums_[i];
   if (i == 0) return TechniqueSums().with(can_be_hit(*scene_, x.vertex) ? 1 : 0);
   const double flown = fly_back(*scene_, x, likelihood);
@@ -178,7 +178,7 @@ inline TechniqueSums BidirectionalSampler::below_joint(int i, const WalkVertex& 
       .with(light_technique(i, true));
 }
 inline TechniqueSums BidirectionalSampler::above_joint(int i, const WalkVertex& x, double back,
-                                                       Color likelihood) const {
+                                                       Spectrum likelihood) const {
   if (x.joint.known && !scene_->has_coloured_media()) return camera_sums_[i];
   if (i == 0) return TechniqueSums().with(camera_technique(i, true));
   const double flown = fly_back(*scene_, x, likelihood);
@@ -212,7 +212,7 @@ bool BidirectionalSampler::evaluate_connection(Connection& connection, RayCounts
   const Passage seen = walker(rays).passage(a.vertex.at, b.vertex.at);
   if (seen.is_blocked()) return false;
   connection.certainty = k == 1 ? 1 : 0;
-  Color light_likelihood(1), camera_likelihood(1);
+  Spectrum light_likelihood(1), camera_likelihood(1);
   if (scene_->has_passages()) {
     const EdgePassage ends(*scene_, a.vertex.at, b.vertex.at, seen, t == 1);
     const Arrival from_light = ends.from_light.after(a.likelihood),
@@ -251,7 +251,7 @@ bool BidirectionalSampler::choose_direct(int t) {
   direct_pdf_ = chosen.x0.pdf;
   if (!(direct_pdf_ > 0)) return false;
   direct_.vertex = light_vertex(*chosen.emitter, chosen.x0.at);
-  direct_.throughput = Color(1 / direct_pdf_);
+  direct_.throughput = Spectrum(1 / direct_pdf_);
   // The density on a light at infinity does not depend on x_1.
   direct_.forward =
       chosen.emitter->infinite() ? direct_pdf_ : light_position_pdf(*scene_, direct_.vertex);

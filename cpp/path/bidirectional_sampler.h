@@ -32,7 +32,7 @@ struct Technique {
 struct Connection {
   int s, t;
   Vec2 raster;
-  Color contribution;  ///< f / p, without the weight.
+  Spectrum contribution;  ///< f / p, without the weight.
   double weight;
   const Emitter* emitter = nullptr;  ///< The light of a path with s = 0.
   /// The factor that turns the contribution into f / P, with P the density of all techniques.
@@ -134,7 +134,7 @@ class BidirectionalSampler {
   void connect_by_manifolds(RayCounts& rays, Found&& found) {
     Rng rng(manifold_seed_, Purpose::manifold, 0);
     for (int t = 1; t <= static_cast<int>(camera_.size()) && light_.size() > 0; ++t) {
-      Connection connection{0, t, raster_, Color(0), 0};
+      Connection connection{0, t, raster_, Spectrum(0), 0};
       if (evaluate_manifold(connection, rng, rays)) found(connection);
     }
   }
@@ -214,19 +214,19 @@ class BidirectionalSampler {
 
   template <class Found>
   void emit(const Emitter& emitter, int t, Found&& found) {
-    Connection connection{0, t, raster_, Color(0), 0, &emitter};
+    Connection connection{0, t, raster_, Spectrum(0), 0, &emitter};
     if (evaluate_hit_light(connection)) found(connection);
   }
 
   template <class Found>
   void connect(int s, int t, RayCounts& rays, Found& found) {
-    Connection connection{s, t, raster_, Color(0), 0};
+    Connection connection{s, t, raster_, Spectrum(0), 0};
     if (wanted(s, t) && evaluate_connection(connection, rays)) found(connection);
   }
 
   template <class Found>
   void hit_lens(int s, RayCounts& rays, Found& found) {
-    Connection connection{s, 0, raster_, Color(0), 0};
+    Connection connection{s, 0, raster_, Spectrum(0), 0};
     if (wanted(s, 0) && evaluate_hit_lens(connection, rays)) found(connection);
   }
 
@@ -237,8 +237,8 @@ class BidirectionalSampler {
   /// at x, which is that vertex or one sampled in its place; `back` is the density of the
   /// direction to the previous vertex, in projected solid angle, and the likelihood is that of the
   /// other walk, which has come to x.
-  TechniqueSums below_joint(int i, const WalkVertex& x, double back, Color likelihood) const;
-  TechniqueSums above_joint(int i, const WalkVertex& x, double back, Color likelihood) const;
+  TechniqueSums below_joint(int i, const WalkVertex& x, double back, Spectrum likelihood) const;
+  TechniqueSums above_joint(int i, const WalkVertex& x, double back, Spectrum likelihood) const;
 
   bool evaluate_hit_light(Connection& connection);
   bool evaluate_connection(Connection& connection, RayCounts& rays);
@@ -256,8 +256,8 @@ class BidirectionalSampler {
   double camera_technique(int i, bool joined = false) const;
   /// The sums over techniques with a joint before or at vertex i of a subpath, whose density by a
   /// walk from the other end is `reverse`, and at which its likelihood is given.
-  TechniqueSums below_light(int i, double reverse, const Color& likelihood) const;
-  TechniqueSums above_camera(int i, double reverse, const Color& likelihood) const;
+  TechniqueSums below_light(int i, double reverse, const Spectrum& likelihood) const;
+  TechniqueSums above_camera(int i, double reverse, const Spectrum& likelihood) const;
   double direct_over_walk(const Vertex& x0, double from_light, const SurfacePoint& x1) const;
 
   /// Computes the weights; false if that of this technique is 0.

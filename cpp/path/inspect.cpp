@@ -77,7 +77,7 @@ FoundPath found_path(const Scene& scene, const BidirectionalSampler& paths,
   found.s = connection.s;
   found.t = connection.t;
   found.raster = connection.raster;
-  found.estimate = connection.contribution * (connection.weight * radiance_scale(scene));
+  found.estimate = connection.contribution.rgb() * (connection.weight * radiance_scale(scene));
   return found;
 }
 
@@ -86,16 +86,16 @@ PathRecorder::PathRecorder(const Scene& scene, const Vec2& raster, const Surface
     : scene_(&scene), raster_(raster), time_(time), walk_{camera_vertex(lens)}, found_(&found) {}
 
 void PathRecorder::hit(const Emitter& emitter, const SurfacePoint& x0, const Vec3& w,
-                       const Color& throughput) {
+                       const Spectrum& throughput) {
   keep(light_vertex(emitter, x0), false, throughput * emitter.eval(x0, w));
 }
 
-void PathRecorder::connect(const Vec3& u_light, const Color& estimate) {
+void PathRecorder::connect(const Vec3& u_light, const Spectrum& estimate) {
   const LightSample light = sample_direct_position(*scene_, walk_.back().at, u_light);
   if (light.x0.pdf > 0) keep(light_vertex(*light.emitter, light.x0.at), true, estimate);
 }
 
-void PathRecorder::keep(const Vertex& x0, bool connected, const Color& estimate) {
+void PathRecorder::keep(const Vertex& x0, bool connected, const Spectrum& estimate) {
   if (is_black(estimate)) return;
   FoundPath found;
   found.path.time = time_;
@@ -104,7 +104,7 @@ void PathRecorder::keep(const Vertex& x0, bool connected, const Color& estimate)
   found.s = connected ? 1 : 0;
   found.t = found.path.edges() + 1 - found.s;
   found.raster = raster_;
-  found.estimate = estimate;
+  found.estimate = estimate.rgb();
   found_->push_back(std::move(found));
 }
 

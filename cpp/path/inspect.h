@@ -43,11 +43,12 @@ class PathRecorder : public IgnorePaths {
 
   void arrive(const SurfacePoint& at) { walk_.push_back(inner_vertex(at)); }
   void scatter(Lobe lobe) { walk_.back().lobe = lobe; }
-  void hit(const Emitter& emitter, const SurfacePoint& x0, const Vec3& w, const Color& throughput);
-  void connect(const Vec3& u_light, const Color& estimate);
+  void hit(const Emitter& emitter, const SurfacePoint& x0, const Vec3& w,
+           const Spectrum& throughput);
+  void connect(const Vec3& u_light, const Spectrum& estimate);
 
  private:
-  void keep(const Vertex& x0, bool connected, const Color& estimate);
+  void keep(const Vertex& x0, bool connected, const Spectrum& estimate);
 
   const Scene* scene_;
   Vec2 raster_;

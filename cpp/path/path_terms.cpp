@@ -6,7 +6,7 @@ namespace {
 /// The least |f_i| that is not black: in the tail of a lobe, products of 1 / |f_i| might overflow.
 constexpr double least_f = 1e-100;
 
-double inverse_size(const Color& f) {
+double inverse_size(const Spectrum& f) {
   const double size = max_component(f);
   return size > least_f ? 1 / size : 0;
 }
@@ -118,8 +118,8 @@ std::string signature(const Scene& scene, const Path& path, double near_specular
   return signature(terms);
 }
 
-Color contribution(const PathTerms& terms) {
-  Color product = terms[0].vertex.f;
+Spectrum contribution(const PathTerms& terms) {
+  Spectrum product = terms[0].vertex.f;
   for (int i = 0; i < terms.edges(); ++i) product *= terms[i].G * terms[i + 1].vertex.f;
   return product;
 }
@@ -130,8 +130,8 @@ double magnitude(const PathTerms& terms, int i, int j) {
   return product;
 }
 
-Color relative_contribution(const PathTerms& terms) {
-  Color product(1);
+Spectrum relative_contribution(const PathTerms& terms) {
+  Spectrum product(1);
   for (const TermsAt& x : terms.at) product *= x.vertex.f * x.inverse_f;
   return product;
 }

@@ -69,7 +69,7 @@ struct EdgePassage {
     if (!to_lens) from_light = scene.arrival(edge, b, w);
   }
 
-  Color transmittance{1};
+  Spectrum transmittance{1};
   Arrival from_light, from_camera;
 };
 
@@ -93,9 +93,9 @@ struct PathTerms {
     return step > 0 ? passages[i].from_light : passages[i - 1].from_camera;
   }
   /// The likelihood of a walk that has come to x_i in steps of `step`.
-  Color likelihood(int i, int step) const {
+  Spectrum likelihood(int i, int step) const {
     const int previous = i - step;
-    if (previous < 0 || previous > edges()) return Color(1);
+    if (previous < 0 || previous > edges()) return Spectrum(1);
     return arrival(previous, step).next_likelihood();
   }
   TermsAt& operator[](size_t i) { return at[i]; }
@@ -124,12 +124,12 @@ std::string signature(const PathTerms& terms);
 std::string signature(const Scene& scene, const Path& path, double near_specular = 0);
 
 /// f(x) = f_0 G_0 f_1 G_1 ... G_{k-1} f_k (Veach 1997, eq. 8.7), without visibility.
-Color contribution(const PathTerms& terms);
+Spectrum contribution(const PathTerms& terms);
 
 /// |f_i| G_i |f_{i+1}| ... |f_j|; of a whole path it is |f(x)|, which may overflow or underflow.
 double magnitude(const PathTerms& terms, int i, int j);
 /// f(x) / |f(x)|: a colour, whatever the length of the path and the scale of the scene.
-Color relative_contribution(const PathTerms& terms);
+Spectrum relative_contribution(const PathTerms& terms);
 
 /// Whether technique s can make the path: only if neither end of the connecting edge is a delta
 /// vertex; s = 0 needs a light, s = k + 1 a lens, that a walk can hit.

@@ -29,7 +29,7 @@ void visit_emission(const Scene& scene, const SurfacePoint* at, const Vec3& w, V
   if (at) {
     const Emitter* emitter = scene.emitter(*at);
     if (!emitter || emitter->delta_direction()) return;
-    const Color radiance = emitter->eval(*at, -w);
+    const Spectrum radiance = emitter->eval(*at, -w);
     if (!is_black(radiance)) visit(*emitter, *at, radiance);
     return;
   }
@@ -43,10 +43,10 @@ void visit_emission(const Scene& scene, const SurfacePoint* at, const Vec3& w, V
 
 /// The sum of that emission; `weight(emitter, x0)` is the MIS weight of having hit x0.
 template <class Weight>
-Color emission(const Scene& scene, const SurfacePoint* at, const Vec3& w, Weight&& weight) {
-  Color sum(0);
+Spectrum emission(const Scene& scene, const SurfacePoint* at, const Vec3& w, Weight&& weight) {
+  Spectrum sum(0);
   visit_emission(scene, at, w,
-                 [&](const Emitter& emitter, const SurfacePoint& x0, const Color& radiance) {
+                 [&](const Emitter& emitter, const SurfacePoint& x0, const Spectrum& radiance) {
                    sum += radiance * weight(emitter, x0);
                  });
   return sum;
@@ -56,7 +56,7 @@ Color emission(const Scene& scene, const SurfacePoint* at, const Vec3& w, Weight
 /// is visible from there.
 struct DirectLight {
   SurfacePoint x0;
-  Color radiance{0};
+  Spectrum radiance{0};
 };
 
 /// The light that is scattered at `at` towards wc, without visibility; `weight(pdf_light,
@@ -67,7 +67,7 @@ DirectLight unshadowed_light(const Scene& scene, const LightSample& light, const
   if (!(light.x0.pdf > 0)) return {};
   const Vec3 wl = direction(at, light.x0.at);
   if (!consistent_sides(at, wl, strict)) return {};
-  const Color radiance = light.emitter->eval(light.x0.at, -wl);
+  const Spectrum radiance = light.emitter->eval(light.x0.at, -wl);
   if (is_black(radiance)) return {};
   const WorldScattering s = BsdfAt(scene, at).scattering(wl, wc, Lobe::smooth);
   if (is_black(s.f)) return {};
@@ -79,18 +79,18 @@ DirectLight unshadowed_light(const Scene& scene, const LightSample& light, const
 /// The light that is scattered at `at` towards wc from a light sampled by u, with visibility. A
 /// walk would go on from `at` with this likelihood.
 template <class Weight>
-Color direct_light(const Walker& walker, const SurfacePoint& at, const Vec3& wc, const Vec3& u,
-                   bool strict, Weight&& weight, const Color& likelihood = Color(1)) {
+Spectrum direct_light(const Walker& walker, const SurfacePoint& at, const Vec3& wc, const Vec3& u,
+                      bool strict, Weight&& weight, const Spectrum& likelihood = Spectrum(1)) {
   const Scene& scene = walker.scene;
   const LightSample chosen = sample_direct_position(scene, at, u);
   if (!scene.has_passages()) {
     const DirectLight light = unshadowed_light(scene, chosen, at, wc, strict, weight);
-    return !is_black(light.radiance) && walker.sees(at, light.x0) ? light.radiance : Color(0);
+    return !is_black(light.radiance) && walker.sees(at, light.x0) ? light.radiance : Spectrum(0);
   }
-  if (!(chosen.x0.pdf > 0)) return Color(0);
+  if (!(chosen.x0.pdf > 0)) return Spectrum(0);
   const SurfacePoint& x0 = chosen.x0.at;
   const Passage seen = walker.passage(at, x0);
-  if (seen.is_blocked()) return Color(0);
+  if (seen.is_blocked()) return Spectrum(0);
   const double arrives = scene.arrival(seen, x0, direction(at, x0)).after(likelihood).probability();
   const auto through = [&](double light, double bsdf) { return weight(light, bsdf * arrives); };
   return unshadowed_light(scene, chosen, at, wc, strict, through).radiance * seen.transmittance;
@@ -98,9 +98,9 @@ Color direct_light(const Walker& walker, const SurfacePoint& at, const Vec3& wc,
 
 /// One scattering event of a walk from the camera.
 struct ScatterSample {
-  Vec3 w;        ///< Direction to the light side.
-  Color weight;  ///< Factor of radiance: f |cos| / pdf.
-  double pdf;    ///< In solid angle, or the probability of the delta lobe.
+  Vec3 w;           ///< Direction to the light side.
+  Spectrum weight;  ///< Factor of radiance: f |cos| / pdf.
+  double pdf;       ///< In solid angle, or the probability of the delta lobe.
   Lobe lobe;
   double eta2;  ///< The factor of radiance in `weight` that is due to refraction alone.
 };
@@ -137,14 +137,14 @@ struct CameraWalk;
 /// them.
 struct IgnorePaths {
   /// Called before hit() or connect(): a path with this radiance was found.
-  void find(const CameraWalk&, const Color& /*radiance*/, double /*certainty*/) {}
+  void find(const CameraWalk&, const Spectrum& /*radiance*/, double /*certainty*/) {}
   /// A light was hit at x0; `throughput` is the factor of its radiance towards w.
   void hit(const Emitter&, const SurfacePoint& /*x0*/, const Vec3& /*w*/,
-           const Color& /*throughput*/) {}
+           const Spectrum& /*throughput*/) {}
   void arrive(const SurfacePoint&) {}
   /// The last vertex was connected to a position on a light, sampled by sample_direct_position with
   /// `u`; `radiance` is the result.
-  void connect(const Vec3& /*u*/, const Color& /*radiance*/) {}
+  void connect(const Vec3& /*u*/, const Spectrum& /*radiance*/) {}
   void scatter(Lobe) {}
 };
 
@@ -153,32 +153,32 @@ struct CameraWalk {
   CameraWalk(const Ray& first) : ray(first), previous(first.o) {}
 
   Ray ray;  ///< The next ray.
-  Color radiance{0}, throughput{1};
+  Spectrum radiance{0}, throughput{1};
   Vec3 previous;           ///< Its last vertex.
   double scatter_pdf = 0;  ///< Density of the ray in solid angle.
   bool delta = true;       ///< Whether `previous` is the lens, or scattered by a delta.
   double eta2 = 1;         ///< Factor that cancels refraction in the throughput.
   double certainty = 0;    ///< See certainty() of path_terms.h; up to here, if it began with 1.
   double survival = 1;     ///< Probability of having survived Russian roulette.
-  Color likelihood{1};     ///< See Passage.
+  Spectrum likelihood{1};  ///< See Passage.
   RayCounts rays;          ///< Rays that a PathWave has traced for it.
 
   MisExponent mis{Heuristic::power};  ///< For the two techniques.
   ChainFactor chain_factor;
 
   /// The weight w1 of a path with this certainty and radiance.
-  double own_share(const Color& found, double its_certainty = 0) const {
+  double own_share(const Spectrum& found, double its_certainty = 0) const {
     const auto& [factor, most_certain] = chain_factor;
     return factor > 0 && its_certainty <= most_certain
                ? 1 / (1 + factor * survival * target_luminance(found))
                : 1.0;
   }
-  void take(const Color& found, double share) { radiance += found * share; }
+  void take(const Spectrum& found, double share) { radiance += found * share; }
 
   /// Goes along the ray up to where it stops.
   void pass(const Passage& leg, const Arrival& arrival) {
     const double p = arrival.probability();
-    throughput = leg.is_blocked() ? Color(0) : throughput * (leg.transmittance / p);
+    throughput = leg.is_blocked() ? Spectrum(0) : throughput * (leg.transmittance / p);
     scatter_pdf *= p;
     certainty *= p;
     likelihood = arrival.next_likelihood();
@@ -202,12 +202,12 @@ template <class Watcher = IgnorePaths>
 void find_light(const Scene& scene, CameraWalk& walk, const SurfacePoint* at,
                 Watcher&& watcher = Watcher()) {
   const Vec3& w = walk.ray.d;
-  const auto take = [&](const Emitter& emitter, const SurfacePoint& x0, const Color& emitted) {
+  const auto take = [&](const Emitter& emitter, const SurfacePoint& x0, const Spectrum& emitted) {
     const double weight =
         walk.delta
             ? 1.0
             : walk.mis.weight(walk.scatter_pdf, direct_pdf(scene, emitter, walk.previous, x0, w));
-    const Color weighted = walk.throughput * weight, found = weighted * emitted;
+    const Spectrum weighted = walk.throughput * weight, found = weighted * emitted;
     watcher.find(walk, found, walk.certainty);
     watcher.hit(emitter, x0, -w, weighted);
     walk.take(found, walk.own_share(found, walk.certainty));
@@ -258,8 +258,8 @@ inline bool wants_direct_light(const Scene& scene, const PathRules& rules, int d
 /// The radiance from the scene along the ray of a walk. Every vertex draws the same number of
 /// random numbers, so that a small change of the numbers is a small change of the path.
 template <class Sampler, class Watcher = IgnorePaths>
-Color trace_path(const Scene& scene, const PathRules& rules, CameraWalk walk, Sampler& sampler,
-                 RayCounts& rays, Watcher&& watcher = Watcher()) {
+Spectrum trace_path(const Scene& scene, const PathRules& rules, CameraWalk walk, Sampler& sampler,
+                    RayCounts& rays, Watcher&& watcher = Watcher()) {
   const Walker walker{scene, walk.ray.time, rays};
   for (int depth = 1;; ++depth) {
     SurfacePoint at;
@@ -273,7 +273,7 @@ Color trace_path(const Scene& scene, const PathRules& rules, CameraWalk walk, Sa
     const VertexNumbers numbers = VertexNumbers::draw(sampler);
     if (wants_direct_light(scene, rules, depth, at)) {
       const auto mis = [&](double light, double bsdf) { return walk.mis.weight(light, bsdf); };
-      const Color direct =
+      const Spectrum direct =
           walk.throughput * direct_light(walker, at, wc, numbers.for_light(), rules.strict_normals,
                                          mis, walk.likelihood);
       watcher.find(walk, direct, 0);

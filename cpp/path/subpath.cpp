@@ -6,7 +6,7 @@ void Subpath::start(const Vertex& end, double position_pdf) {
   clear();
   WalkVertex& first = add();
   first.vertex = end;
-  first.throughput = Color(1 / position_pdf);
+  first.throughput = Spectrum(1 / position_pdf);
   first.forward = position_pdf;
 }
 
@@ -61,9 +61,10 @@ void Subpath::pass(const Scene& scene, const Passage& leg) {
   x.passes = arrival.probability();
   x.likelihood = arrival.next_likelihood();
   const bool from_lens = from_ == From::camera && size() == 2;  // see EdgePassage
-  x.back = from_lens ? Arrival() : scene.arrival(leg, previous, x.towards_previous).after(Color(1));
+  x.back =
+      from_lens ? Arrival() : scene.arrival(leg, previous, x.towards_previous).after(Spectrum(1));
   x.passes_back = scene.has_coloured_media() ? x.back.stops : x.back.probability();
-  x.throughput = leg.is_blocked() ? Color(0) : x.throughput * (leg.transmittance / x.passes);
+  x.throughput = leg.is_blocked() ? Spectrum(0) : x.throughput * (leg.transmittance / x.passes);
   x.forward *= x.passes;
 }
 
@@ -94,7 +95,7 @@ bool Subpath::scatter(const Walker& walker, const PathRules& rules, const StepNu
   const double coefficient = from_light ? terms.pdf_from_light : terms.pdf_from_camera;
   const double back = from_light ? terms.pdf_from_camera : terms.pdf_from_light;
   if (!(coefficient > 0) || is_black(terms.f)) return false;
-  const Color ratio = terms.f / coefficient;
+  const Spectrum ratio = terms.f / coefficient;
   double survival = 1;
   if (static_cast<int>(size()) > rules.rr_depth)
     survival = PathRules::survival(max_component(ratio));

@@ -12,9 +12,9 @@ namespace mlt {
 
 /// One vertex of a subpath; number 0 is the end of the path (on the light, or on the lens).
 struct WalkVertex {
-  Vertex vertex;             ///< With the lobe by which the walk was scattered.
-  Color throughput{0};       ///< alpha: f / p of everything before this vertex scatters.
-  Color next_throughput{0};  ///< alpha of the next vertex.
+  Vertex vertex;                ///< With the lobe by which the walk was scattered.
+  Spectrum throughput{0};       ///< alpha: f / p of everything before this vertex scatters.
+  Spectrum next_throughput{0};  ///< alpha of the next vertex.
   /// Probability of surviving Russian roulette up to here, and up to the next vertex.
   double survival = 1, next_survival = 1;
   Vec3 towards_previous{0};
@@ -22,7 +22,7 @@ struct WalkVertex {
   double G = 0;          ///< G between this vertex and the previous one.
   /// The probability that a walk from the previous vertex in this direction stops here.
   double passes = 1;
-  Color likelihood{1};  ///< Of the walk after that (see Passage).
+  Spectrum likelihood{1};  ///< Of the walk after that (see Passage).
   /// The arrival from here of a walk from the other end, and what of its probability is known: all
   /// in grey media; in coloured ones that is without what it flies, which its likelihood decides.
   Arrival back;
@@ -38,7 +38,8 @@ struct WalkVertex {
     bool known = false;
     /// Cosine of towards_previous with the shading normal; 0: nothing is scattered there.
     double cosine = 0;
-    Color value{0};   ///< Throughput times f, for joints of a camera walk without |w.ns| / |w.ng|.
+    Spectrum value{
+        0};           ///< Throughput times f, for joints of a camera walk without |w.ns| / |w.ng|.
     double back = 0;  ///< Density of towards_previous in projected solid angle.
   };
   Joint joint;

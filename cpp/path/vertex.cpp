@@ -22,7 +22,7 @@ VertexTerms end_terms(const Scene& scene, const Vertex& x, const Vec3& wl, const
 LensTerms lens_terms(const Scene& scene, const SurfacePoint& xk, const Vec3& wl) {
   const auto projection = scene.camera().project(xk, wl);
   if (!projection) return {};
-  return {{Color(projection->importance), 0, projection->pdf_direction}, projection->raster};
+  return {{Spectrum(projection->importance), 0, projection->pdf_direction}, projection->raster};
 }
 
 double light_position_pdf(const Scene& scene, const Vertex& x0) {

@@ -37,7 +37,7 @@ struct Vertex {
 /// where f and pdf_from_camera also carry S = |wl.ns| |wc.ng| / (|wc.ns| |wl.ng|), which is 1
 /// without shading normals.
 struct VertexTerms {
-  Color f{0};
+  Spectrum f{0};
   double pdf_from_light = 0;
   double pdf_from_camera = 0;
 };

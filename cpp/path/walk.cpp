@@ -22,7 +22,7 @@ bool Walker::arrive(const Ray& ray, double u_leg, Vertex& next) const {
   return arrive(ray, u_leg, next.at);
 }
 
-bool Walker::arrive(const Ray& ray, double u_leg, SurfacePoint& at, Color& likelihood) const {
+bool Walker::arrive(const Ray& ray, double u_leg, SurfacePoint& at, Spectrum& likelihood) const {
   Passage leg;
   leg.likelihood = likelihood;
   const bool hit = arrive(ray, u_leg, at, leg);

@@ -92,14 +92,14 @@ struct Walker {
   }
   bool arrive(const Ray& ray, double u_leg, Vertex& next) const;
   /// As above, with the likelihood (see Passage) with which the leg begins, and then ends.
-  bool arrive(const Ray& ray, double u_leg, SurfacePoint& at, Color& likelihood) const;
+  bool arrive(const Ray& ray, double u_leg, SurfacePoint& at, Spectrum& likelihood) const;
   /// Follows a leg through all media, to the surface where it stops or, if it is not infinite, to a
   /// distance in a medium; false if it does not come so far, or leaves the scene.
   bool arrive_at(double distance, const Ray& ray, double u_leg, SurfacePoint& at) const;
 
   /// Follows a leg to a light: one on the surface where it stops, or background() if there is none.
   template <class Background>
-  bool arrive_at_light(const Ray& ray, double u_leg, Color& likelihood, Background&& background,
+  bool arrive_at_light(const Ray& ray, double u_leg, Spectrum& likelihood, Background&& background,
                        Vertex& x0) const {
     SurfacePoint at;
     return find_light(ray, arrive(ray, u_leg, at, likelihood), at, background, x0);

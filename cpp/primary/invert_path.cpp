@@ -51,7 +51,7 @@ class PathInverter {
     if (shutter.close > shutter.open)
       u.time = (path_.time - shutter.open) / (shutter.close - shutter.open);
     write(Stream::camera, u);
-    Color likelihood(1);
+    Spectrum likelihood(1);
     for (int i = k - 1; i >= k + 1 - t; --i) {
       invert_leg(Stream::camera, i + 1, i, likelihood);
       if (i > k + 1 - t && !invert_scattering(Stream::camera, i, i + 1, i - 1)) return false;
@@ -69,7 +69,7 @@ class PathInverter {
       u.direction = emitter.invert_ray(at(0), at(1).p);
     u.choice = scene_.invert_choice(path_[0].emitter, u.choice);
     write(Stream::light, u);
-    Color likelihood(1);
+    Spectrum likelihood(1);
     for (int i = 1; i < vertices; ++i) {
       invert_leg(Stream::light, i - 1, i, likelihood);
       if ((i < vertices - 1 || goes_on) && !invert_scattering(Stream::light, i, i - 1, i + 1))
@@ -101,7 +101,7 @@ class PathInverter {
   /// The numbers of a leg that stops at `to` are those from A P to A, if it passes all before with
   /// the probability A, and the surface of `to` with P; in a medium it is A. The likelihood is that
   /// with which the leg begins, and then ends.
-  void invert_leg(Stream stream, int from, int to, Color& likelihood) {
+  void invert_leg(Stream stream, int from, int to, Spectrum& likelihood) {
     if (!scene_.has_passages()) return;
     const Vec3 w = direction(from, to);
     const Passage edge = scene_.passage(at(from), at(to), path_.time);

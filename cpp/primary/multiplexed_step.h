@@ -30,8 +30,9 @@ struct MultiplexedState {
   }
   void show(const Connection& c) {
     raster = c.raster;
-    rgb = c.contribution * c.weight;
-    target = min_component(rgb) >= 0 ? target_luminance(rgb) : std::nan("");
+    const Spectrum weighted = c.contribution * c.weight;
+    rgb = weighted.rgb();
+    target = min_component(weighted) >= 0 ? target_luminance(weighted) : std::nan("");
     target_over_density = target_luminance(c.contribution) * c.own_share;
   }
 };

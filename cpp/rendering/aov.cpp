@@ -52,7 +52,7 @@ FirstSurface first_surface(const Scene& scene, Ray ray, double u_leg) {
     first.hit = scene.intersect(ray, first.at);
     if (ray.medium != no_medium) {
       const double distance = first.hit ? distance_to(first.at.p, ray) : infinity;
-      first.optical_depth += scene.media()[ray.medium].fly(ray, {distance}).depth;
+      first.optical_depth += scene.media()[ray.medium].fly(ray, {distance}).depth.rgb();
     }
     if (!first.hit) return first;
     const double passes = scene.passage(first.at, ray.d).probability;
@@ -66,7 +66,7 @@ Vec3 value(AovKind kind, const Scene& scene, const Ray& ray, const FirstSurface&
   if (!first.hit && kind != AovKind::optical_depth) return Vec3(is_index(kind) ? -1 : 0);
   const SurfacePoint& at = first.at;
   switch (kind) {
-    case AovKind::albedo: return scene.bsdf(at).albedo(at);
+    case AovKind::albedo: return scene.bsdf(at).albedo(at).rgb();
     case AovKind::depth: return Vec3(length(at.p - ray.o), 0, 0);
     case AovKind::position: return at.p;
     case AovKind::uv: return {at.uv, 0};

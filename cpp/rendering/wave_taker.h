@@ -42,7 +42,7 @@ class WaveTaker : public SampleTaker {
       if (wave_.is_left(i))
         sample_cell(Vec2i(glm::floor(rasters_[i])), streams, sink, rays);
       else
-        show(rasters_[i], wave_.radiance(i), sink);
+        show(rasters_[i], wave_.radiance(i).rgb(), sink);
     wave_.clear();
     rasters_.clear();
   }

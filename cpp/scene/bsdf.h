@@ -45,7 +45,7 @@ class Bsdf : public Object {
   /// match it.
   virtual Scattering scattering(const SurfacePoint& at, const Vec3& wl, const Vec3& wc,
                                 Lobe lobe) const = 0;
-  Color eval(const SurfacePoint& at, const Vec3& wl, const Vec3& wc, Lobe lobe) const {
+  Spectrum eval(const SurfacePoint& at, const Vec3& wl, const Vec3& wc, Lobe lobe) const {
     return scattering(at, wl, wc, lobe).f;
   }
   /// Density (smooth: solid angle; delta: probability) of sampling `to`, given `from`.
@@ -93,7 +93,7 @@ class Bsdf : public Object {
   virtual bool bends_normal() const { return false; }
 
   /// Average reflectance, for previews and sampling weights.
-  virtual Color albedo(const SurfacePoint& at) const = 0;
+  virtual Spectrum albedo(const SurfacePoint& at) const = 0;
 
   /// The scattering as a Lambertian where the surface is Lambertian; unknown where it is not.
   Lambertian lambertian(const SurfacePoint& at) const { return lambertian_.at(at); }

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "base/object.h"
-#include "math/color.h"
+#include "math/spectrum.h"
 #include "scene/ray.h"
 #include "scene/surface_point.h"
 
@@ -44,7 +44,7 @@ class Emitter : public Object {
  public:
   /// The radiance (area lights, lights at infinity) or intensity (point lights) emitted from x0
   /// along w. For a delta position: the coefficient of the delta.
-  virtual Color eval(const SurfacePoint& x0, const Vec3& w) const = 0;
+  virtual Spectrum eval(const SurfacePoint& x0, const Vec3& w) const = 0;
 
   /// Samples a position. The densities and inverses below are those at the time of x0.
   virtual PositionSample sample_position(const Vec2& u, double time) const = 0;
@@ -76,7 +76,7 @@ class Emitter : public Object {
 
   /// The radiance of a mesh that glows the same everywhere on its front side; nullptr for any other
   /// light.
-  virtual const Color* uniform_radiance() const { return nullptr; }
+  virtual const Spectrum* uniform_radiance() const { return nullptr; }
 
   virtual bool infinite() const { return false; }
   /// Whether it is a point or directional light, which no walk can hit.

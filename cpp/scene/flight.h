@@ -1,7 +1,7 @@
 // The flight of light along a ray through a medium.
 #pragma once
 
-#include "math/color.h"
+#include "math/spectrum.h"
 #include "scene/ray.h"
 
 #include <cmath>
@@ -12,17 +12,17 @@ namespace mlt {
 /// where the mean over the channels of before e^-tau has fallen to `left`.
 struct FlightLimit {
   double distance;
-  Color before{1};
+  Spectrum before{1};
   double left = 0;
 
   /// Whether the flight ends where the optical depth is tau.
-  bool ends(const Color& tau) const { return left > 0 && mean(before * exp(-tau)) <= left; }
+  bool ends(const Spectrum& tau) const { return left > 0 && mean(before * exp(-tau)) <= left; }
 };
 
 /// A flight that has ended.
 struct Flight {
   double distance;
-  Color depth{0};      ///< tau, the integral of sigma_t up to there.
+  Spectrum depth{0};   ///< tau, the integral of sigma_t up to there.
   bool stops = false;  ///< Whether it ends in the medium.
 };
 
@@ -34,7 +34,7 @@ double flight_end(const FlightLimit& limit, double from, double to, Depth&& dept
                   Extinction&& extinction) {
   double t = 0.5 * (from + to);
   for (int i = 0; i < 100 && from < to; ++i) {
-    const Color now = limit.before * exp(-Color(depth(t)));
+    const Spectrum now = limit.before * exp(-depth(t));
     const double excess = mean(now) - limit.left;
     (excess > 0 ? from : to) = t;
     const double step = excess / mean(now * extinction(t)), next = t + step;
@@ -47,6 +47,6 @@ double flight_end(const FlightLimit& limit, double from, double to, Depth&& dept
 /// A flight where the extinction is the same everywhere. In grey media it ends at
 /// log(mean(before) / left) / sigma; in others Newton's method begins there, which is too short:
 /// since the sum of exponentials is convex, it comes closer from there.
-Flight uniform_flight(const Color& extinction, const FlightLimit& limit);
+Flight uniform_flight(const Spectrum& extinction, const FlightLimit& limit);
 
 }  // namespace mlt

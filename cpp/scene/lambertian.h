@@ -29,7 +29,7 @@ Vec3Of<F> sample_lambertian(F cos_from, const Vec2Of<F>& u) {
 struct Lambertian {
   enum class Sides : uint8_t { unknown, front, both };
 
-  Color f{0};
+  Spectrum f{0};
   Sides sides = Sides::unknown;  ///< Sides that scatter light; unknown: use the plug-in.
 
   bool known() const { return sides != Sides::unknown; }

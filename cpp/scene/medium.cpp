@@ -4,7 +4,7 @@ namespace mlt {
 namespace {
 
 void pass(const Medium& medium, const Flight& flight, Passage& passed) {
-  const Color left = exp(-flight.depth);
+  const Spectrum left = exp(-flight.depth);
   passed.transmittance *= left;
   if (medium.scatters()) passed.flight *= left;
 }
@@ -17,7 +17,7 @@ void fly(const Medium& medium, const Ray& ray, double distance, Passage& passed)
 
 std::optional<double> fly(const Medium& medium, const Ray& ray, double distance, double& u_leg,
                           Passage& passed) {
-  const Color before = passed.likelihood * passed.flight;
+  const Spectrum before = passed.likelihood * passed.flight;
   const double left = medium.scatters() ? u_leg * mean(before) : 0;
   const Flight flight = medium.fly(ray, {distance, before, left});
   pass(medium, flight, passed);

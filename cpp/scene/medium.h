@@ -3,7 +3,7 @@
 #pragma once
 
 #include "base/object.h"
-#include "math/color.h"
+#include "math/spectrum.h"
 #include "scene/bsdf.h"
 #include "scene/flight.h"
 #include "scene/passage.h"
@@ -14,8 +14,8 @@ namespace mlt {
 
 /// Per unit of length.
 struct MediumCoefficients {
-  Color extinction{0};  ///< sigma_t: of the light along a ray, what is absorbed or scattered.
-  Color scattering{0};  ///< sigma_s: the part of it that is scattered.
+  Spectrum extinction{0};  ///< sigma_t: of the light along a ray, what is absorbed or scattered.
+  Spectrum scattering{0};  ///< sigma_s: the part of it that is scattered.
 };
 
 class Medium : public Object {

@@ -2,7 +2,7 @@
 // edge, not a vertex: connections go through windows, leaves and fog.
 #pragma once
 
-#include "math/color.h"
+#include "math/spectrum.h"
 
 namespace mlt {
 
@@ -12,12 +12,12 @@ namespace mlt {
 /// probabilities of all legs multiply to the mean over the channels of those of the whole walk (for
 /// wavelengths: Wilkie et al. 2014, "Hero wavelength spectral sampling"). In grey media it stays 1.
 struct Passage {
-  Color transmittance{1};  ///< The share of the light that passes.
-  double probability = 1;  ///< That a walk does not stop at one of the surfaces.
-  Color flight{1};         ///< e^-tau of the media in which walks may stop.
-  Color likelihood{1};     ///< That with which a leg begins.
+  Spectrum transmittance{1};  ///< The share of the light that passes.
+  double probability = 1;     ///< That a walk does not stop at one of the surfaces.
+  Spectrum flight{1};         ///< e^-tau of the media in which walks may stop.
+  Spectrum likelihood{1};     ///< That with which a leg begins.
 
-  static Passage blocked() { return {Color(0), 0}; }
+  static Passage blocked() { return {Spectrum(0), 0}; }
   bool is_blocked() const { return is_black(transmittance); }
   Passage& operator*=(const Passage& next) {
     transmittance *= next.transmittance;
@@ -29,18 +29,18 @@ struct Passage {
 
 /// How a walk goes along an edge and stops at its end.
 struct Arrival {
-  double stops = 1;  ///< The probability that surfaces let it pass, and that of the end does not.
-  Color flies{1};    ///< e^-tau, times sigma_t where it stops in a medium.
-  Color likelihood{1};  ///< That with which it begins.
+  double stops = 1;   ///< The probability that surfaces let it pass, and that of the end does not.
+  Spectrum flies{1};  ///< e^-tau, times sigma_t where it stops in a medium.
+  Spectrum likelihood{1};  ///< That with which it begins.
 
-  Arrival after(const Color& before) const { return {stops, flies, before}; }
+  Arrival after(const Spectrum& before) const { return {stops, flies, before}; }
   /// The probability, in a medium per unit of length, that is due to media.
   double flown() const { return mean(likelihood * flies); }
   double probability() const { return stops * flown(); }
   /// The likelihood with which the walk goes on.
-  Color next_likelihood() const {
+  Spectrum next_likelihood() const {
     const double p = flown();
-    return p > 0 ? likelihood * flies / p : Color(1);
+    return p > 0 ? likelihood * flies / p : Spectrum(1);
   }
 };
 

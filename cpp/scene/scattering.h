@@ -1,7 +1,7 @@
 // The terms of one scattering event at a surface.
 #pragma once
 
-#include "math/color.h"
+#include "math/spectrum.h"
 
 #include <cstdint>
 
@@ -21,7 +21,7 @@ enum class Lobe : uint8_t {
 /// delta: `f` is the fraction F of power that this lobe carries (without the eta^2 of radiance: see
 /// `relative_eta`), the densities are the discrete probabilities of choosing this delta.
 struct Scattering {
-  Color f{0};
+  Spectrum f{0};
   double pdf_from_light = 0;   ///< Density of wc, given wl.
   double pdf_from_camera = 0;  ///< Density of wl, given wc.
 };

@@ -56,7 +56,7 @@ LambertianMesh lambertian_mesh(const Shape& shape) {
 }
 
 MeshLight mesh_light(const Emitter& emitter, double probability) {
-  const Color* radiance = emitter.uniform_radiance();
+  const Spectrum* radiance = emitter.uniform_radiance();
   if (!radiance || emitter.shape()->bsdf().has_passage()) return {nullptr, emitter.infinite()};
   const Mesh* mesh = emitter.shape()->as_mesh();
   return {mesh, false, radiance, probability / mesh->area()};

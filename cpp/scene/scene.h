@@ -28,7 +28,7 @@ struct EmitterChoice {
 struct MeshLight {
   const Mesh* mesh = nullptr;  ///< nullptr if this light is of another kind.
   bool infinite = false;       ///< Whether this light is at infinity instead.
-  const Color* radiance = nullptr;
+  const Spectrum* radiance = nullptr;
   double pdf = 0;  ///< Area measure, the choice of the light included.
 };
 

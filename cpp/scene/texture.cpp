@@ -10,7 +10,7 @@ namespace {
 class Constant final : public Texture {
  public:
   explicit Constant(const Color& color) : color_(color) {}
-  Color eval(const SurfacePoint&) const override { return color_; }
+  Spectrum eval(const SurfacePoint&) const override { return Spectrum(color_); }
   bool is_constant() const override { return true; }
   Color mean() const override { return color_; }
   Color maximum() const override { return color_; }
@@ -35,7 +35,7 @@ Color spectrum_color(Params& params, const std::string& name, const WavelengthTa
 }  // namespace
 
 double Texture::eval_scalar(const SurfacePoint& at) const {
-  const Color c = eval(at);
+  const Color c = eval(at).rgb();
   return (c.x + c.y + c.z) / 3;
 }
 

@@ -3,13 +3,14 @@
 
 #include "base/params.h"
 #include "math/colorimetry.h"
+#include "math/spectrum.h"
 #include "scene/surface_point.h"
 
 namespace mlt {
 
 class Texture : public Object {
  public:
-  virtual Color eval(const SurfacePoint& at) const = 0;
+  virtual Spectrum eval(const SurfacePoint& at) const = 0;
   /// Prefetches the memory that eval() is about to read there.
   virtual void prefetch(const SurfacePoint& /*at*/) const {}
   /// The mean of the channels, for textures of a scalar such as roughness.

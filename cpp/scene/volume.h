@@ -8,7 +8,7 @@ namespace mlt {
 
 class Volume : public Object {
  public:
-  virtual Color at(const Vec3& p) const = 0;
+  virtual Spectrum at(const Vec3& p) const = 0;
   virtual Color maximum() const = 0;
   /// Whether it is the same in all channels.
   virtual bool grey() const = 0;

@@ -97,7 +97,7 @@ void BidirectionalWave::walk_from_camera(RayCounts& rays) {
     const double cosine = abs_cos(lens_.at, ray.d);
     camera_.start(i, {Vec3f(lens_.at.p), Vec3f(ray.o), Vec3f(ray.d), static_cast<float>(cosine),
                       static_cast<float>(projection->pdf_direction * cosine), 1, 0,
-                      Color(projection->importance / projection->pdf_direction)});
+                      Spectrum(projection->importance / projection->pdf_direction)});
   }
   places = places.begin(Stream::camera);
   LensNumbersOf<WaveNumbers::Place>::draw(places);
@@ -220,7 +220,7 @@ void BidirectionalWave::connect(int s, int t, RayCounts& rays) {
     join(a, b, settings_.rules.strict_normals, beta_, joining, joined);
     make_room_for_shadows(rays);
     for (int i = 0; i < JointLanes::size; ++i) {
-      const Color weighted = joined[i];
+      const Spectrum weighted = joined[i];
       if (!(joining.length[i] > 0) || is_black(weighted)) continue;
       const int sample = block * JointLanes::size + i;
       wait_for_shadow(
@@ -249,7 +249,7 @@ void BidirectionalWave::connect_to_lens(int s, const JointLanes& a, int block) {
     if (!projection) continue;
     const double G = edges.G[i];
     const double below = a.sums[i] * beta_.raise(projection->pdf_direction * G / a.forward[i]);
-    const Color weighted = a.value[i] * (projection->importance * G / (1 + below));
+    const Spectrum weighted = a.value[i] * (projection->importance * G / (1 + below));
     if (is_black(weighted)) continue;
     const Vec3f start = ray_origin(a.p[i], a.ng[i], Vec3f(w), a.extent[i]);
     const Vec3 ray = camera.entrance(lens_.at, -w) - Vec3(start);
@@ -275,7 +275,7 @@ void BidirectionalWave::find_shadows(RayCounts& rays) {
   rays.count_occluded(shadows_.count());
   shadows_.trace(
       scene_->accel(), [](int) { return 0.0; },
-      [&](int light, const Color&, double) { take(light); }, [](int) {});
+      [&](int light, const Spectrum&, double) { take(light); }, [](int) {});
 }
 
 }  // namespace mlt

@@ -39,8 +39,8 @@ class BidirectionalWave {
     bool own_pixel;   ///< Whether t >= 2: at the raster position of the sample.
     double survival;  ///< Probability that its walks have survived Russian roulette.
     Vec2 raster;
-    Color weighted;  ///< f w / p.
-    int next = -1;   ///< The sample's next light; -1: there is none.
+    Spectrum weighted;  ///< f w / p.
+    int next = -1;      ///< The sample's next light; -1: there is none.
   };
   /// Calls show(light) for all light that the i-th sample has found.
   template <class Show>

@@ -3,7 +3,7 @@
 // Directions and cosines are in single precision, throughputs and densities in double.
 #pragma once
 
-#include "math/color.h"
+#include "math/spectrum.h"
 #include "wave/lambertian_vertices.h"
 
 namespace mlt {
@@ -12,11 +12,11 @@ struct ColorLanes {
   static constexpr int size = 8;
   Lanes<double, size> r, g, b;
 
-  Color operator[](int i) const { return {r[i], g[i], b[i]}; }
-  void set(int i, const Color& color) {
-    r[i] = color.x;
-    g[i] = color.y;
-    b[i] = color.z;
+  Spectrum operator[](int i) const { return Spectrum(Color(r[i], g[i], b[i])); }
+  void set(int i, const Spectrum& color) {
+    r[i] = color[0];
+    g[i] = color[1];
+    b[i] = color[2];
   }
 };
 

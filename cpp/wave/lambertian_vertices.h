@@ -33,15 +33,15 @@ struct TriangleBlock {
 
 struct LambertianVertices {
   TriangleBlock surface;
-  VectorBlock p, n;       ///< n has any length until find_points().
-  Block<float> back;      ///< 1 if the back side scatters light too, else 0.
-  Block<float> sides;     ///< 0 if strict normals reject the incident ray, else 1.
-  Block<const Color*> f;  ///< BSDF; nullptr: there is no Lambertian vertex.
+  VectorBlock p, n;          ///< n has any length until find_points().
+  Block<float> back;         ///< 1 if the back side scatters light too, else 0.
+  Block<float> sides;        ///< 0 if strict normals reject the incident ray, else 1.
+  Block<const Spectrum*> f;  ///< BSDF; nullptr: there is no Lambertian vertex.
 
   // A point on a glowing mesh, sampled by next-event estimation:
   TriangleBlock light;
-  Block<float> light_pdf;        ///< Area measure; 0: there is none.
-  Block<const Color*> radiance;  ///< Emitted by the point.
+  Block<float> light_pdf;           ///< Area measure; 0: there is none.
+  Block<const Spectrum*> radiance;  ///< Emitted by the point.
 
   // The results of unshadowed_lights(): the shadow ray to the point, and |cos| mis / pdf.
   VectorBlock shadow_o, shadow_w;
@@ -131,7 +131,7 @@ struct LambertianVertices {
   };
   int textured_count_ = 0;
   std::array<TexturedPoint, block_size> textured_;
-  Block<Color> textured_f_;
+  Block<Spectrum> textured_f_;
 };
 
 }  // namespace mlt

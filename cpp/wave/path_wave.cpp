@@ -63,7 +63,7 @@ void BasicPathWave<Numbers>::find_shadows(RayCounts& rays) {
   rays.count_occluded(shadows_.count());
   shadows_.trace(
       scene_->accel(), [&](int path) { return walks_[path].ray.time; },
-      [&](int path, const Color& radiance, double share) { walks_[path].take(radiance, share); },
+      [&](int path, const Spectrum& radiance, double share) { walks_[path].take(radiance, share); },
       [&](int path) { left_[path] = true; });
 }
 
@@ -211,7 +211,7 @@ void BasicPathWave<Numbers>::queue_sky(const SkyVertex& vertex) {
   const float weight = lambertian_.weight_from_infinity(
       i, w, static_cast<float>(x0.pdf), emitter->delta(), rules_.strict_normals, walk(i).mis);
   if (!(weight > 0)) return;
-  const Color radiance = emitter->eval(x0.at, -x0.at.p);
+  const Spectrum radiance = emitter->eval(x0.at, -x0.at.p);
   if (is_black(radiance)) return;
   const Vec3f o =
       ray_origin(lambertian_.p[i], lambertian_.surface.ng[i], w, lambertian_.surface.extent[i]);
@@ -238,10 +238,10 @@ void BasicPathWave<Numbers>::queue_other_light(const SingleVertex& single) {
 }
 
 template <class Numbers>
-void BasicPathWave<Numbers>::queue_shadow(int i, const Color& radiance, const Vec3f& o,
+void BasicPathWave<Numbers>::queue_shadow(int i, const Spectrum& radiance, const Vec3f& o,
                                           const Vec3f& w, float length) {
   CameraWalk& walk = this->walk(i);
-  const Color found = walk.throughput * radiance;
+  const Spectrum found = walk.throughput * radiance;
   ++walk.rays.occluded;
   shadows_.add(path_[begin_ + i], found, walk.own_share(found), o, w, length);
 }

@@ -41,7 +41,7 @@ class BasicPathWave {
   /// Traces all paths to their ends. `coherent`: the first rays of adjacent paths are similar.
   void trace(RayCounts& rays, bool coherent = true);
   /// The radiance that the i-th path has found.
-  const Color& radiance(size_t i) const { return walks_[i].radiance; }
+  const Spectrum& radiance(size_t i) const { return walks_[i].radiance; }
   /// Whether the i-th path has met a surface that light passes: it has to be traced alone.
   bool is_left(size_t i) const { return left_[i]; }
   /// The number of rays of the i-th path.
@@ -86,7 +86,7 @@ class BasicPathWave {
   void queue_lights();
   void queue_sky(const SkyVertex& vertex);
   void queue_other_light(const SingleVertex& single);
-  void queue_shadow(int i, const Color& radiance, const Vec3f& o, const Vec3f& w, float length);
+  void queue_shadow(int i, const Spectrum& radiance, const Vec3f& o, const Vec3f& w, float length);
   void take_step(int depth, RayCounts& rays);
   bool scatter_lambertian(int i, int depth, CameraWalk& walk);
   bool scatter_other(int i, int depth, CameraWalk& walk, RayCounts& rays);

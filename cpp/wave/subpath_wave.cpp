@@ -172,7 +172,7 @@ void SubpathWave::take_steps(int place) {
     if (!lambertian_.f[i] || cosine_to_previous_[i] == 0) continue;
     const float pdf = lambertian_.scatter_pdf[i];
     if (!(pdf > 0 && next_cosine_[i] > 0) || is_black(*lambertian_.f[i])) continue;
-    Color ratio = *lambertian_.f[i] * pi;
+    Spectrum ratio = *lambertian_.f[i] * pi;
     if (from_light_) ratio *= light_factor_[i] * next_cosine_[i] / (pdf * pi);
     const double survival = survive(i, place, max_component(ratio));
     if (survival == 0) continue;

@@ -22,7 +22,7 @@ class SubpathWave {
   struct Hit {
     int sample;
     int place;  ///< Of the vertex on the light.
-    Color weighted;
+    Spectrum weighted;
     double survival;  ///< See JointLanes.
   };
 
@@ -39,7 +39,7 @@ class SubpathWave {
     float cosine;          ///< |w.ng| at vertex 0.
     float pdf;             ///< Density of w in solid angle.
     double forward, sums;  ///< See JointLanes.
-    Color throughput;      ///< Throughput of vertex 1.
+    Spectrum throughput;   ///< Throughput of vertex 1.
   };
   void start(int sample, const Start& start);
   /// Walks all subpaths to their ends, with `most` vertices at most. The next of the `numbers` are
@@ -91,7 +91,7 @@ class SubpathWave {
   VectorLanes<capacity> p_;      ///< Its last vertex; below, the values of Start for it.
   Samples<float> cosine_, pdf_;
   Samples<double> forward_, sums_, survival_;
-  Samples<Color> throughput_;
+  Samples<Spectrum> throughput_;
   PacketHits found_[capacity / RayPacket::size];
   WaveNumbers numbers_;
   StepNumbersOf<WaveNumbers::Place> at_;  ///< The places of the numbers of this step.

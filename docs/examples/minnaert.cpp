@@ -32,7 +32,7 @@ class Minnaert final : public Bsdf {
     if (lobe != Lobe::smooth || !above(from, to)) return std::nullopt;
     return u_of(v.x, invert_cosine_power(to, k_));
   }
-  Color albedo(const SurfacePoint& at) const override { return 2 / (k_ + 1) * rho_->eval(at); }
+  Spectrum albedo(const SurfacePoint& at) const override { return 2 / (k_ + 1) * rho_->eval(at); }
 
  private:
   TexturePtr rho_;

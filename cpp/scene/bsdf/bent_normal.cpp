@@ -71,7 +71,7 @@ Scattering BentNormal::scattering(const SurfacePoint& at, const Vec3& wl, const 
   const double share_l = turned_share(n, wl), share_c = turned_share(n, wc);
   s.pdf_from_light *= turned ? share_l : 1 - share_l;
   s.pdf_from_camera *= turned ? share_c : 1 - share_c;
-  if (turned && faces(n, wc)) s.f = Color(0);  // the camera side sees the unturned N
+  if (turned && faces(n, wc)) s.f = Spectrum(0);  // the camera side sees the unturned N
   if (lobe == Lobe::smooth) s.f *= std::abs(l.z / wl.z);
   if (shadows_) s.f *= shadowing(bend.n(), wl);
   return s;

@@ -39,7 +39,7 @@ class BentNormal : public Bsdf {
   double roughness(const SurfacePoint& at, const Vec3& wl, const Vec3& wc) const final;
   Vec3 delta_normal(const SurfacePoint& at, const Vec3& w) const final;
   bool bends_normal() const final { return true; }
-  Color albedo(const SurfacePoint& at) const final { return nested_->albedo(at); }
+  Spectrum albedo(const SurfacePoint& at) const final { return nested_->albedo(at); }
 
  protected:
   /// N in the shading frame, a unit vector.

@@ -89,7 +89,7 @@ double Blend::roughness(const SurfacePoint& at, const Vec3& wl, const Vec3& wc) 
       .roughness(at, wl, wc);
 }
 
-Color Blend::albedo(const SurfacePoint& at) const {
+Spectrum Blend::albedo(const SurfacePoint& at) const {
   const double w = weight(at);
   return scale_ * ((1 - w) * first_->albedo(at) + w * second_->albedo(at));
 }

@@ -32,7 +32,7 @@ class Blend final : public Bsdf {
   Vec3 delta_normal(const SurfacePoint& at, const Vec3& w) const override;
   bool bends_normal() const override { return first_->bends_normal() || second_->bends_normal(); }
   double roughness(const SurfacePoint& at, const Vec3& wl, const Vec3& wc) const override;
-  Color albedo(const SurfacePoint& at) const override;
+  Spectrum albedo(const SurfacePoint& at) const override;
 
  private:
   double weight(const SurfacePoint& at) const { return weight_->eval_scalar(at); }

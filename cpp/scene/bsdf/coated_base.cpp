@@ -24,7 +24,7 @@ CoatedBase::CoatedBase(Params& params, double eta, double internal_reflectance,
       diffuse_weight_(pi * target_luminance(scattered(reflectance_->mean())) * mean_transmittance) {
 }
 
-Color CoatedBase::albedo(const SurfacePoint& at) const {
+Spectrum CoatedBase::albedo(const SurfacePoint& at) const {
   const double F = fresnel_dielectric(1, eta_).reflectance;
   return F * specular_->eval(at) + (1 - F) * reflectance_->eval(at);
 }

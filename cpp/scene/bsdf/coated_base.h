@@ -17,10 +17,10 @@ class CoatedBase {
   CoatedBase(Params& params, double eta, double internal_reflectance, double mean_transmittance);
 
   /// The BSDF without the transmittances of the coating in the two directions.
-  Color eval(const SurfacePoint& at) const { return scattered(reflectance_->eval(at)); }
+  Spectrum eval(const SurfacePoint& at) const { return scattered(reflectance_->eval(at)); }
   /// The factor of the coating's reflection.
-  Color specular(const SurfacePoint& at) const { return specular_->eval(at); }
-  Color albedo(const SurfacePoint& at) const;
+  Spectrum specular(const SurfacePoint& at) const { return specular_->eval(at); }
+  Spectrum albedo(const SurfacePoint& at) const;
 
   /// The coating's share of the light that it and the base reflect from one direction, if the
   /// coating reflects and transmits these fractions.
@@ -29,9 +29,11 @@ class CoatedBase {
   }
 
  private:
-  Color scattered(const Color& d) const {
+  /// Of a reflectance, Spectrum or Color.
+  template <class T>
+  T scattered(const T& d) const {
     return d * scale_ /
-           (nonlinear_ ? Color(1) - d * internal_reflectance_ : Color(1 - internal_reflectance_));
+           (nonlinear_ ? T(1) - d * internal_reflectance_ : T(1 - internal_reflectance_));
   }
 
   double eta_;

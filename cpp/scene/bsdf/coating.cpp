@@ -87,7 +87,7 @@ class Coating final : public Bsdf {
   double roughness(const SurfacePoint& at, const Vec3& wl, const Vec3& wc) const override {
     return nested_->roughness(at, inside(wl).w, inside(wc).w);
   }
-  Color albedo(const SurfacePoint& at) const override {
+  Spectrum albedo(const SurfacePoint& at) const override {
     const double F = inside({0, 0, 1}).F;
     return F * reflectance_->eval(at) + sqr(1 - F) * nested_->albedo(at);
   }
@@ -114,9 +114,8 @@ class Coating final : public Bsdf {
   double compression(const Vec3& outer, const Vec3& inner) const {
     return std::abs(outer.z / inner.z) / sqr(eta_);
   }
-  Color transmittance(const SurfacePoint& at, const Vec3& l, const Vec3& c) const {
-    return glm::exp(absorption_->eval(at) *
-                    (-thickness_ * (1 / std::abs(l.z) + 1 / std::abs(c.z))));
+  Spectrum transmittance(const SurfacePoint& at, const Vec3& l, const Vec3& c) const {
+    return exp(absorption_->eval(at) * (-thickness_ * (1 / std::abs(l.z) + 1 / std::abs(c.z))));
   }
   double specular_share(double F) const {
     return first_share(F * specular_weight_, (1 - F) * (1 - specular_weight_));

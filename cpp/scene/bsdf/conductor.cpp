@@ -19,8 +19,9 @@ class Conductor final : public Bsdf {
   Scattering scattering(const SurfacePoint& at, const Vec3& wl, const Vec3& wc,
                         Lobe lobe) const override {
     if (lobe != Lobe::reflection || !above(wl, wc)) return {};
-    return {reflectance_->eval(at) * fresnel_conductor(std::min(wl.z, 1.0), ior_.eta, ior_.k), 1,
-            1};
+    return {reflectance_->eval(at) *
+                fresnel_conductor(std::min(wl.z, 1.0), Spectrum(ior_.eta), Spectrum(ior_.k)),
+            1, 1};
   }
 
   std::optional<BsdfSample> sample(const SurfacePoint&, const Vec3& from,
@@ -39,8 +40,8 @@ class Conductor final : public Bsdf {
   bool has_delta() const override { return true; }
   double roughness(const SurfacePoint&, const Vec3&, const Vec3&) const override { return 0; }
 
-  Color albedo(const SurfacePoint& at) const override {
-    return reflectance_->eval(at) * fresnel_conductor(1, ior_.eta, ior_.k);
+  Spectrum albedo(const SurfacePoint& at) const override {
+    return reflectance_->eval(at) * fresnel_conductor(1, Spectrum(ior_.eta), Spectrum(ior_.k));
   }
 
  private:

@@ -31,7 +31,7 @@ class CosineSampled : public Bsdf {
 
  protected:
   /// f between two directions above the surface.
-  virtual Color value(const SurfacePoint& at, const Vec3& wl, const Vec3& wc) const = 0;
+  virtual Spectrum value(const SurfacePoint& at, const Vec3& wl, const Vec3& wc) const = 0;
 };
 
 }  // namespace mlt

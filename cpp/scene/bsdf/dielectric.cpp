@@ -47,7 +47,7 @@ class Dielectric final : public Bsdf {
   }
   double roughness(const SurfacePoint&, const Vec3&, const Vec3&) const override { return 0; }
 
-  Color albedo(const SurfacePoint& at) const override {
+  Spectrum albedo(const SurfacePoint& at) const override {
     const double F = fresnel_dielectric(1, interface_.eta).reflectance;
     return interface_.albedo(at, F);
   }

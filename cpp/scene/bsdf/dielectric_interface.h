@@ -23,7 +23,7 @@ class DielectricInterface {
     return first_share(F * reflection_weight_, (1 - F) * transmission_weight_);
   }
   /// The albedo of an interface that reflects the fraction F.
-  Color albedo(const SurfacePoint& at, double F) const {
+  Spectrum albedo(const SurfacePoint& at, double F) const {
     return F * reflectance->eval(at) + (1 - F) * transmittance->eval(at);
   }
 

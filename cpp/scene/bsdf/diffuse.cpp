@@ -10,14 +10,14 @@ namespace {
 class Diffuse final : public CosineSampled {
  public:
   explicit Diffuse(Params& params) : reflectance_(texture_param(params, "reflectance")) {
-    lambertian_.lambertian = {reflectance_->mean() * inv_pi, Lambertian::Sides::front};
+    lambertian_.lambertian = {Spectrum(reflectance_->mean() * inv_pi), Lambertian::Sides::front};
     if (!reflectance_->is_constant()) lambertian_.reflectance = reflectance_.get();
   }
 
-  Color albedo(const SurfacePoint& at) const override { return reflectance_->eval(at); }
+  Spectrum albedo(const SurfacePoint& at) const override { return reflectance_->eval(at); }
 
  private:
-  Color value(const SurfacePoint& at, const Vec3&, const Vec3&) const override {
+  Spectrum value(const SurfacePoint& at, const Vec3&, const Vec3&) const override {
     return reflectance_->eval(at) * inv_pi;
   }
 

@@ -68,15 +68,15 @@ double GlossyOverDiffuse::roughness(const SurfacePoint& at, const Vec3& wl, cons
   return glossy > target_luminance(diffuse_part(at)) ? gloss_roughness(at) : infinity;
 }
 
-Color GlossyOverDiffuse::albedo(const SurfacePoint& at) const {
+Spectrum GlossyOverDiffuse::albedo(const SurfacePoint& at) const {
   return scale_ * (diffuse_->eval(at) + specular_->eval(at));
 }
 
-Color GlossyOverDiffuse::diffuse_part(const SurfacePoint& at) const {
+Spectrum GlossyOverDiffuse::diffuse_part(const SurfacePoint& at) const {
   return scale_ * inv_pi * diffuse_->eval(at);
 }
 
-Color GlossyOverDiffuse::glossy_part(const SurfacePoint& at, const Gloss& gloss) const {
+Spectrum GlossyOverDiffuse::glossy_part(const SurfacePoint& at, const Gloss& gloss) const {
   return scale_ * gloss.f * specular_->eval(at);
 }
 

@@ -20,7 +20,7 @@ class GlossyOverDiffuse : public Bsdf {
   std::optional<Vec3> invert(const SurfacePoint& at, const Vec3& from, const Vec3& to, Lobe lobe,
                              const Vec3& v) const final;
   double roughness(const SurfacePoint& at, const Vec3& wl, const Vec3& wc) const final;
-  Color albedo(const SurfacePoint& at) const final;
+  Spectrum albedo(const SurfacePoint& at) const final;
 
  protected:
   /// The glossy lobe alone: its value, and its densities in solid angle. Both directions are above.
@@ -33,8 +33,8 @@ class GlossyOverDiffuse : public Bsdf {
   virtual double gloss_roughness(const SurfacePoint& at) const = 0;
 
  private:
-  Color diffuse_part(const SurfacePoint& at) const;
-  Color glossy_part(const SurfacePoint& at, const Gloss& gloss) const;
+  Spectrum diffuse_part(const SurfacePoint& at) const;
+  Spectrum glossy_part(const SurfacePoint& at, const Gloss& gloss) const;
   double diffuse_pdf(const Vec3& to) const;
 
   TexturePtr diffuse_, specular_;

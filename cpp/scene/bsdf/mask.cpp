@@ -14,10 +14,10 @@ class Mask final : public Bsdf {
       : opacity_(texture_param(params, "opacity")), nested_(only_nested<Bsdf>(params, "bsdf")) {}
 
   Passage passage(const SurfacePoint& at, const Vec3& w) const override {
-    const Color opacity = opacity_->eval(at);
+    const Spectrum opacity = opacity_->eval(at);
     const double p = target_luminance(opacity);
     const Passage nested = nested_->passage(at, w);
-    return {Color(1) - opacity + opacity * nested.transmittance, 1 - p + p * nested.probability};
+    return {Spectrum(1) - opacity + opacity * nested.transmittance, 1 - p + p * nested.probability};
   }
   bool has_passage() const override { return true; }
 
@@ -50,9 +50,9 @@ class Mask final : public Bsdf {
     return nested_->roughness(at, wl, wc);
   }
   double least_roughness() const override { return nested_->least_roughness(); }
-  Color albedo(const SurfacePoint& at) const override {
-    const Color opacity = opacity_->eval(at);
-    return opacity * nested_->albedo(at) + Color(1) - opacity;
+  Spectrum albedo(const SurfacePoint& at) const override {
+    const Spectrum opacity = opacity_->eval(at);
+    return opacity * nested_->albedo(at) + Spectrum(1) - opacity;
   }
 
  private:

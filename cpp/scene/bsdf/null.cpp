@@ -26,7 +26,7 @@ class Null final : public Bsdf {
   bool has_smooth() const override { return false; }
   bool has_transmission() const override { return true; }
   double roughness(const SurfacePoint&, const Vec3&, const Vec3&) const override { return 0; }
-  Color albedo(const SurfacePoint&) const override { return Color(1); }
+  Spectrum albedo(const SurfacePoint&) const override { return Spectrum(1); }
 };
 
 }  // namespace

@@ -53,7 +53,7 @@ class Plastic final : public Bsdf {
 
   bool has_delta() const override { return true; }
 
-  Color albedo(const SurfacePoint& at) const override { return base_.albedo(at); }
+  Spectrum albedo(const SurfacePoint& at) const override { return base_.albedo(at); }
 
  private:
   double fresnel(const Vec3& w) const { return fresnel_dielectric(w.z, eta_).reflectance; }

@@ -104,7 +104,7 @@ class Principled final : public Bsdf {
       return std::min(p.microfacet.alpha_u(), p.microfacet.alpha_v());
     return c > d ? std::sqrt(p.coat.alpha2) : infinity;
   }
-  Color albedo(const SurfacePoint& at) const override { return base_color_->eval(at); }
+  Spectrum albedo(const SurfacePoint& at) const override { return base_color_->eval(at); }
 
  private:
   /// The parameters at one point that values and densities share.
@@ -151,18 +151,18 @@ class Principled final : public Bsdf {
   }
 
   struct Parts {
-    Color diffuse{0}, clearcoat{0}, specular{0};
+    Spectrum diffuse{0}, clearcoat{0}, specular{0};
   };
   Parts values(const Point& p, const SurfacePoint& at, const Vec3& wl, const Vec3& wc,
                const Half& half) const {
-    const Color base = base_color_->eval(at);
+    const Spectrum base = base_color_->eval(at);
     Parts parts;
     if (half.microfacet) parts.specular = specular_part(p, at, base, wl, wc, half);
     if (!half.reflects || wl.z < 0) return parts;
     const double cos_h = dot(wl, half.h);
     if (half.microfacet && p.clearcoat > 0)
-      parts.clearcoat = Color(0.25 * p.clearcoat * ClearCoat::fresnel(cos_h, eta_) *
-                              p.coat.D(half.h) * ClearCoat::G(wl, wc, half.h));
+      parts.clearcoat = Spectrum(0.25 * p.clearcoat * ClearCoat::fresnel(cos_h, eta_) *
+                                 p.coat.D(half.h) * ClearCoat::G(wl, wc, half.h));
     if (p.brdf > 0)
       parts.diffuse =
           base * (p.brdf * inv_pi *
@@ -173,20 +173,20 @@ class Principled final : public Bsdf {
     return parts;
   }
 
-  Color specular_part(const Point& p, const SurfacePoint& at, const Color& base, const Vec3& wl,
-                      const Vec3& wc, const Half& half) const {
+  Spectrum specular_part(const Point& p, const SurfacePoint& at, const Spectrum& base,
+                         const Vec3& wl, const Vec3& wc, const Half& half) const {
     const double DG = p.microfacet.D(half.h) * p.microfacet.G(wl, wc, half.h);
     const double cosines = std::abs(wl.z * wc.z), l = dot(wl, half.h), c = dot(wc, half.h);
     if (!half.reflects) {
       const double jacobian = std::abs(l * c) / sqr(l * eta_on_side(wl) + c);
-      return glm::sqrt(base) * (p.bsdf * (1 - half.F) * DG * jacobian / cosines);
+      return sqrt(base) * (p.bsdf * (1 - half.F) * DG * jacobian / cosines);
     }
-    if (!(half.F > 0)) return Color(0);
-    if (wl.z < 0) return Color(p.bsdf * half.F * DG / (4 * cosines));
+    if (!(half.F > 0)) return Spectrum(0);
+    if (wl.z < 0) return Spectrum(p.bsdf * half.F * DG / (4 * cosines));
     const double tint = spec_tint_->eval_scalar(at);
-    const Color F = Color((1 - p.metallic) * (1 - tint) * half.F) +
-                    p.metallic * schlick(base, l, eta_) +
-                    (1 - p.metallic) * tint * tinted_schlick(base, l, eta_);
+    const Spectrum F = Spectrum((1 - p.metallic) * (1 - tint) * half.F) +
+                       p.metallic * schlick(base, l, eta_) +
+                       (1 - p.metallic) * tint * tinted_schlick(base, l, eta_);
     return F * (DG / (4 * cosines));
   }
 

@@ -18,22 +18,22 @@ inline double schlick_weight(double cosine) {
 }
 
 /// Schlick's reflectance R0 + (1 - R0) (1 - cos)^5, by the cosine >= 0 in the thinner medium.
-inline Color schlick(const Color& R0, double cosine, double eta) {
+inline Spectrum schlick(const Spectrum& R0, double cosine, double eta) {
   if (eta <= 1) cosine = std::sqrt(std::max(0.0, 1 - (1 - sqr(cosine)) / sqr(eta)));
   const double w = schlick_weight(cosine);
-  return R0 + w * (Color(1) - R0);
+  return R0 + w * (Spectrum(1) - R0);
 }
 
 /// The hue of the base colour, at luminance 1.
-inline Color tint_of(const Color& base) {
+inline Spectrum tint_of(const Spectrum& base) {
   const double l = luminance(base);
-  return l > 0 ? base / l : Color(1);
+  return l > 0 ? base / l : Spectrum(1);
 }
-inline Color tinted(const Color& base, double amount) {
-  return Color(1) + amount * (tint_of(base) - Color(1));
+inline Spectrum tinted(const Spectrum& base, double amount) {
+  return Spectrum(1) + amount * (tint_of(base) - Spectrum(1));
 }
 /// Schlick's reflectance of a tinted dielectric.
-inline Color tinted_schlick(const Color& base, double cosine, double eta) {
+inline Spectrum tinted_schlick(const Spectrum& base, double cosine, double eta) {
   return schlick(tint_of(base) * sqr((eta - 1) / (eta + 1)), cosine, eta);
 }
 
@@ -80,7 +80,9 @@ struct ClearCoat {
   static double G(const Vec3& wl, const Vec3& wc, const Vec3& h) {
     return Microfacet(MicrofacetType::ggx, 0.25, 0.25).G(wl, wc, h);
   }
-  static double fresnel(double cosine, double eta) { return schlick(Color(0.04), cosine, eta).x; }
+  static double fresnel(double cosine, double eta) {
+    return schlick(Spectrum(0.04), cosine, eta)[0];
+  }
 };
 
 /// The probabilities of the lobes that a sample chooses from.

@@ -86,7 +86,7 @@ class PrincipledThin final : public Bsdf {
     const Microfacet microfacet = p.microfacet(!same_side(wl, wc));
     return std::min(microfacet.alpha_u(), microfacet.alpha_v());
   }
-  Color albedo(const SurfacePoint& at) const override { return base_color_->eval(at); }
+  Spectrum albedo(const SurfacePoint& at) const override { return base_color_->eval(at); }
 
  private:
   /// The parameters at one point that values and densities share.
@@ -119,22 +119,22 @@ class PrincipledThin final : public Bsdf {
   }
 
   struct Parts {
-    Color diffuse{0}, specular{0};
+    Spectrum diffuse{0}, specular{0};
   };
   Parts values(const Point& p, const SurfacePoint& at, const Vec3& wl, const Vec3& wc) const {
     const Vec3 wi = upwards(wc), wo = wc.z < 0 ? -wl : wl;  // Mitsuba's names: wi to the camera.
     const Vec3 h = half(wi, wo);
     const bool reflects = wo.z > 0;
-    const Color base = base_color_->eval(at);
+    const Spectrum base = base_color_->eval(at);
     Parts parts;
     if (p.spec_trans > 0) {
       const double cos_h = dot(wi, h), F = fresnel_dielectric(cos_h, p.eta).reflectance;
       const Microfacet microfacet = p.microfacet(!reflects);
       const double DG = microfacet.D(h) * microfacet.G(wi, wo, h);
-      Color factor = (1 - F) * base;
+      Spectrum factor = (1 - F) * base;
       if (reflects) {
         const double tint = spec_tint_->eval_scalar(at);
-        factor = Color((1 - tint) * F) + tint * tinted_schlick(base, cos_h, p.eta);
+        factor = Spectrum((1 - tint) * F) + tint * tinted_schlick(base, cos_h, p.eta);
       }
       parts.specular = p.spec_trans * DG / (4 * std::abs(wi.z * wo.z)) * factor;
     }

@@ -49,15 +49,16 @@ class RoughConductor final : public Bsdf {
     return surface_.alpha(at);
   }
 
-  Color albedo(const SurfacePoint& at) const override {
-    return reflectance_->eval(at) * fresnel_conductor(1, ior_.eta, ior_.k);
+  Spectrum albedo(const SurfacePoint& at) const override {
+    return reflectance_->eval(at) * fresnel_conductor(1, Spectrum(ior_.eta), Spectrum(ior_.k));
   }
 
  private:
-  Color value(const SurfacePoint& at, const Vec3& wl, const Vec3& wc, const Vec3& h, double D,
-              double G) const {
-    if (!(D * G > 0)) return Color(0);
-    const Color F = fresnel_conductor(std::min(dot(wl, h), 1.0), ior_.eta, ior_.k);
+  Spectrum value(const SurfacePoint& at, const Vec3& wl, const Vec3& wc, const Vec3& h, double D,
+                 double G) const {
+    if (!(D * G > 0)) return Spectrum(0);
+    const Spectrum F =
+        fresnel_conductor(std::min(dot(wl, h), 1.0), Spectrum(ior_.eta), Spectrum(ior_.k));
     return reflectance_->eval(at) * F * (D * G / (4 * wl.z * wc.z));
   }
 

@@ -58,7 +58,7 @@ class RoughDielectric final : public Bsdf {
     return surface_.alpha(at);
   }
 
-  Color albedo(const SurfacePoint& at) const override {
+  Spectrum albedo(const SurfacePoint& at) const override {
     const double F = fresnel_dielectric(1, interface_.eta).reflectance;
     return interface_.albedo(at, F);
   }
@@ -89,8 +89,8 @@ class RoughDielectric final : public Bsdf {
   }
 
   /// Value of the BSDF, given D G.
-  Color value(const SurfacePoint& at, const Vec3& wl, const Vec3& wc, const Facet& facet,
-              double DG) const {
+  Spectrum value(const SurfacePoint& at, const Vec3& wl, const Vec3& wc, const Facet& facet,
+                 double DG) const {
     const double cosines = std::abs(wl.z * wc.z);
     if (facet.reflects) return facet.F * DG / (4 * cosines) * interface_.reflectance->eval(at);
     const double l = dot(wl, facet.h), c = dot(wc, facet.h);

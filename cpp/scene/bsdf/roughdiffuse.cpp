@@ -15,12 +15,12 @@ class RoughDiffuse final : public CosineSampled {
         alpha_(texture_param(params, "alpha")),
         fast_(params.boolean("use_fast_approx")) {}
 
-  Color albedo(const SurfacePoint& at) const override { return reflectance_->eval(at); }
+  Spectrum albedo(const SurfacePoint& at) const override { return reflectance_->eval(at); }
 
  private:
   /// Slopes whose root mean square along one axis is alpha / sqrt(2), as Beckmann's are: sigma.
-  Color value(const SurfacePoint& at, const Vec3& wl, const Vec3& wc) const override {
-    const Color rho = reflectance_->eval(at);
+  Spectrum value(const SurfacePoint& at, const Vec3& wl, const Vec3& wc) const override {
+    const Spectrum rho = reflectance_->eval(at);
     const double sigma2 = 0.5 * sqr(alpha_->eval_scalar(at));
     const double sin_l = std::sqrt(sin2_theta(wl)), sin_c = std::sqrt(sin2_theta(wc));
     const double across = sin_l * sin_c;
@@ -38,7 +38,7 @@ class RoughDiffuse final : public CosineSampled {
     const double once = a + cos_phi * c2 * tan_b +
                         (1 - std::abs(cos_phi)) * c3 * std::tan(0.5 * (angle_a + angle_b));  // 27
     const double twice = 0.17 * sigma2 / (sigma2 + 0.13) * (1 - cos_phi * far * far);        // 28
-    return rho * inv_pi * (Color(once) + rho * twice);
+    return rho * inv_pi * (Spectrum(once) + rho * twice);
   }
 
   TexturePtr reflectance_, alpha_;

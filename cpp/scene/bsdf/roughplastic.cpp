@@ -67,16 +67,16 @@ class RoughPlastic final : public Bsdf {
   double roughness(const SurfacePoint& at, const Vec3& wl, const Vec3& wc) const override {
     if (!above(wl, wc)) return infinity;
     const Vec3 h = normalize(wl + wc);
-    const Color specular =
+    const Spectrum specular =
         specular_part(at, wl, wc, h, microfacet_.D(h) * microfacet_.G(wl, wc, h));
-    const Color diffuse = diffuse_part(at, coating_.at(wl.z), coating_.at(wc.z));
+    const Spectrum diffuse = diffuse_part(at, coating_.at(wl.z), coating_.at(wc.z));
     return target_luminance(specular) > target_luminance(diffuse) ? microfacet_.alpha_u()
                                                                   : infinity;
   }
 
   double least_roughness() const override { return microfacet_.alpha_u(); }
 
-  Color albedo(const SurfacePoint& at) const override { return base_.albedo(at); }
+  Spectrum albedo(const SurfacePoint& at) const override { return base_.albedo(at); }
 
  private:
   static Microfacet microfacet_of(Params& params) {
@@ -84,14 +84,14 @@ class RoughPlastic final : public Bsdf {
     return {microfacet_type_param(params), alpha, alpha, params.boolean("sample_visible")};
   }
 
-  Color specular_part(const SurfacePoint& at, const Vec3& wl, const Vec3& wc, const Vec3& h,
-                      double DG) const {
+  Spectrum specular_part(const SurfacePoint& at, const Vec3& wl, const Vec3& wc, const Vec3& h,
+                         double DG) const {
     const double F = fresnel_dielectric(dot(wl, h), eta_).reflectance;
     return F * DG / (4 * wl.z * wc.z) * base_.specular(at);
   }
 
-  Color diffuse_part(const SurfacePoint& at, const RoughFresnel& light,
-                     const RoughFresnel& camera) const {
+  Spectrum diffuse_part(const SurfacePoint& at, const RoughFresnel& light,
+                        const RoughFresnel& camera) const {
     return light.transmittance * camera.transmittance * base_.eval(at);
   }
 

@@ -39,7 +39,7 @@ class ThinDielectric final : public Bsdf {
   bool has_delta() const override { return true; }
   bool has_transmission() const override { return true; }
   double roughness(const SurfacePoint&, const Vec3&, const Vec3&) const override { return 0; }
-  Color albedo(const SurfacePoint& at) const override {
+  Spectrum albedo(const SurfacePoint& at) const override {
     const double R = reflected({0, 0, 1});
     return interface_.albedo(at, R);
   }

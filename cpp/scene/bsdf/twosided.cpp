@@ -60,7 +60,7 @@ class TwoSided final : public Bsdf {
     return std::min(front_->least_roughness(), back_->least_roughness());
   }
 
-  Color albedo(const SurfacePoint& at) const override {
+  Spectrum albedo(const SurfacePoint& at) const override {
     return 0.5 * (front_->albedo(at) + back_->albedo(at));
   }
 

@@ -33,18 +33,18 @@ class AreaLight final : public SurfaceLight {
     return invert_cosine_hemisphere(Frame::around(x0.ng).to_local(normalize(x1 - x0.p)));
   }
 
-  const Color* uniform_radiance() const override { return uniform_ ? &*uniform_ : nullptr; }
+  const Spectrum* uniform_radiance() const override { return uniform_ ? &*uniform_ : nullptr; }
 
   Color power() const override { return radiance().mean() * (pi * shape()->area()); }
 
   void set_shape(const Shape* shape) override {
     SurfaceLight::set_shape(shape);
     if (shape->as_mesh() && radiance().is_constant())
-      uniform_ = glm::max(radiance().mean(), Color(0));
+      uniform_ = Spectrum(glm::max(radiance().mean(), Color(0)));
   }
 
  private:
-  std::optional<Color> uniform_;
+  std::optional<Spectrum> uniform_;
 };
 
 }  // namespace

@@ -10,7 +10,7 @@ class ConstantSky final : public InfiniteEmitter {
  public:
   explicit ConstantSky(Params& params) : radiance_(color_param(params, "radiance")) {}
 
-  Color eval(const SurfacePoint&, const Vec3&) const override { return radiance_; }
+  Spectrum eval(const SurfacePoint&, const Vec3&) const override { return Spectrum(radiance_); }
 
   PositionSample sample_position(const Vec2& u, double) const override {
     return {point_towards(sample_uniform_sphere(u)), uniform_sphere_pdf()};

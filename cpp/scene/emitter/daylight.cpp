@@ -65,9 +65,9 @@ bool Sun::contains(const SurfacePoint& x0) const {
   return 0.5 * length_squared(x0.p - axes_.n) <= height_ * (1 + 1e-12);
 }
 
-Color Sun::eval(const SurfacePoint& x0, const Vec3&) const {
-  if (delta()) return irradiance_;
-  return contains(x0) ? irradiance_ * cone_pdf(height_) : Color(0);
+Spectrum Sun::eval(const SurfacePoint& x0, const Vec3&) const {
+  if (delta()) return Spectrum(irradiance_);
+  return contains(x0) ? Spectrum(irradiance_ * cone_pdf(height_)) : Spectrum(0);
 }
 
 PositionSample Sun::sample_position(const Vec2& u, double) const {

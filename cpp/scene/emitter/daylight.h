@@ -20,7 +20,7 @@ class Sun final : public InfiniteEmitter {
 
   ObjectPtr copy() const override { return std::make_shared<Sun>(*this); }
 
-  Color eval(const SurfacePoint& x0, const Vec3& w) const override;
+  Spectrum eval(const SurfacePoint& x0, const Vec3& w) const override;
   PositionSample sample_position(const Vec2& u, double time) const override;
   double pdf_position(const SurfacePoint& x0) const override;
   Vec2 invert_position(const SurfacePoint& x0) const override;

@@ -24,7 +24,7 @@ class DirectionalLight final : public InfiniteEmitter {
     towards_ = -normalize(d);
   }
 
-  Color eval(const SurfacePoint&, const Vec3&) const override { return irradiance_; }
+  Spectrum eval(const SurfacePoint&, const Vec3&) const override { return Spectrum(irradiance_); }
 
   PositionSample sample_position(const Vec2&, double) const override {
     return {point_towards(towards_), 1};

@@ -18,15 +18,15 @@ EnvironmentMap::EnvironmentMap(Image image, const Frame& axes, double scale)
   tabulate();
 }
 
-Color EnvironmentMap::eval(const SurfacePoint& x0, const Vec3&) const {
+Spectrum EnvironmentMap::eval(const SurfacePoint& x0, const Vec3&) const {
   const Vec3 d = axes_.to_local(x0.p);
   const double x = column_at(d) * width_;
   const double y = polar_share(d) * cell_rows();
   const int i = std::min(static_cast<int>(x), width_ - 1);
   const int j = std::min(static_cast<int>(y), cell_rows() - 1);
   const double a = x - i, b = y - j;
-  return scale_ * ((1 - b) * ((1 - a) * texel(i, j) + a * texel(i + 1, j)) +
-                   b * ((1 - a) * texel(i, j + 1) + a * texel(i + 1, j + 1)));
+  return Spectrum(scale_ * ((1 - b) * ((1 - a) * texel(i, j) + a * texel(i + 1, j)) +
+                            b * ((1 - a) * texel(i, j + 1) + a * texel(i + 1, j + 1))));
 }
 
 PositionSample EnvironmentMap::sample_position(const Vec2& u, double) const {

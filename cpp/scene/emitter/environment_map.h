@@ -29,7 +29,7 @@ class EnvironmentMap : public InfiniteEmitter {
   /// The image has at least 2 x 3 pixels; `axes` are those of the map's own space.
   EnvironmentMap(Image image, const Frame& axes, double scale);
 
-  Color eval(const SurfacePoint& x0, const Vec3& w) const final;
+  Spectrum eval(const SurfacePoint& x0, const Vec3& w) const final;
   PositionSample sample_position(const Vec2& u, double time) const final;
   void sample_positions(const PositionRequest* requests, int count) const final;
   double pdf_position(const SurfacePoint& x0) const final;

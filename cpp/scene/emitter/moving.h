@@ -19,7 +19,9 @@ class MovingEmitter final : public Emitter {
     set_sampling_weight(light_->sampling_weight());
   }
 
-  Color eval(const SurfacePoint& x0, const Vec3& w) const override { return light_->eval(x0, w); }
+  Spectrum eval(const SurfacePoint& x0, const Vec3& w) const override {
+    return light_->eval(x0, w);
+  }
 
   PositionSample sample_position(const Vec2& u, double time) const override;
   double pdf_position(const SurfacePoint& x0) const override;

@@ -12,7 +12,7 @@ class PointLight final : public IsolatedEmitter {
   explicit PointLight(Params& params)
       : IsolatedEmitter(read_motion(params)), intensity_(color_param(params, "intensity")) {}
 
-  Color eval(const SurfacePoint&, const Vec3&) const override { return intensity_; }
+  Spectrum eval(const SurfacePoint&, const Vec3&) const override { return Spectrum(intensity_); }
 
   RaySample sample_ray(const SurfacePoint& x0, const Vec2& u) const override {
     return {x0.p, sample_uniform_sphere(u), uniform_sphere_pdf()};

@@ -20,10 +20,10 @@ class Projector final : public TurnedEmitter {
     half_ = read_view(params).half_size(size.x / size.y);
   }
 
-  Color eval(const SurfacePoint& x0, const Vec3& w) const override {
+  Spectrum eval(const SurfacePoint& x0, const Vec3& w) const override {
     const Vec3 local = axes(x0.time).to_local(w);
     const auto u = place(local);
-    if (!u) return Color(0);
+    if (!u) return Spectrum(0);
     SurfacePoint at;
     at.uv = *u;
     return irradiance_->eval(at) * (pi * scale_ / cube(local.z));

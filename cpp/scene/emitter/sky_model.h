@@ -3,7 +3,7 @@
 // analytic model for daylight", appendix. Radiances are in the units of Mitsuba 0.6.
 #pragma once
 
-#include "math/color.h"
+#include "math/spectrum.h"
 
 #include <array>
 

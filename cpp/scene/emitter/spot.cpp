@@ -32,12 +32,12 @@ class Spot final : public TurnedEmitter {
       params.fail("texture", "needs a cutoff_angle below 90 degrees");
   }
 
-  Color eval(const SurfacePoint& x0, const Vec3& w) const override {
+  Spectrum eval(const SurfacePoint& x0, const Vec3& w) const override {
     const Frame frame = axes(x0.time);
     const double theta = std::atan2(length(cross(frame.n, w)), dot(frame.n, w));
-    if (theta >= cutoff_) return Color(0);
+    if (theta >= cutoff_) return Spectrum(0);
     const double share = theta <= beam_ ? 1 : (cutoff_ - theta) / (cutoff_ - beam_);
-    return intensity_ * texture(frame.to_local(w)) * share;
+    return Spectrum(intensity_) * texture(frame.to_local(w)) * share;
   }
 
   RaySample sample_ray(const SurfacePoint& x0, const Vec2& u) const override {
@@ -60,7 +60,7 @@ class Spot final : public TurnedEmitter {
 
  private:
   /// The texture, projected on a plane across the axis, of which the cone fills the unit square.
-  Color texture(const Vec3& local) const {
+  Spectrum texture(const Vec3& local) const {
     SurfacePoint at;
     at.uv = Vec2(0.5) + 0.5 * Vec2(local) / (local.z * std::tan(cutoff_));
     return texture_->eval(at);

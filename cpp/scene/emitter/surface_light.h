@@ -2,7 +2,7 @@
 // that of the geometric normal.
 #pragma once
 
-#include "math/color.h"
+#include "math/spectrum.h"
 #include "scene/emitter.h"
 #include "scene/shape.h"
 #include "scene/texture.h"
@@ -13,9 +13,9 @@ class SurfaceLight : public Emitter {
  public:
   explicit SurfaceLight(Params& params) : radiance_(texture_param(params, "radiance")) {}
 
-  Color eval(const SurfacePoint& x0, const Vec3& w) const override {
-    if (!(dot(x0.ng, w) > 0)) return Color(0);
-    return glm::max(radiance_->eval(x0), Color(0));
+  Spectrum eval(const SurfacePoint& x0, const Vec3& w) const override {
+    if (!(dot(x0.ng, w) > 0)) return Spectrum(0);
+    return max(radiance_->eval(x0), Spectrum(0));
   }
 
   PositionSample sample_position(const Vec2& u, double) const override {

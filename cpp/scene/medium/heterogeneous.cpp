@@ -22,7 +22,7 @@ class Heterogeneous final : public Medium {
   }
 
   MediumCoefficients at(const Vec3& p) const override {
-    const Color extinction = scale_ * extinction_->at(p);
+    const Spectrum extinction = scale_ * extinction_->at(p);
     return {extinction, albedo_->at(p) * extinction};
   }
   Flight fly(const Ray& ray, const FlightLimit& limit) const override {

@@ -20,11 +20,11 @@ MediumCoefficients read_coefficients(Params& params) {
   if (params.has("material")) {
     found = medium_preset(params, "material");
   } else if (by_parts) {
-    found.scattering = color_param(params, "sigma_s");
-    found.extinction = color_param(params, "sigma_a") + found.scattering;
+    found.scattering = Spectrum(color_param(params, "sigma_s"));
+    found.extinction = Spectrum(color_param(params, "sigma_a")) + found.scattering;
   } else {
-    found.extinction = color_param(params, "sigma_t");
-    found.scattering = color_param(params, "albedo") * found.extinction;
+    found.extinction = Spectrum(color_param(params, "sigma_t"));
+    found.scattering = Spectrum(color_param(params, "albedo")) * found.extinction;
   }
   return {scale * found.extinction, scale * found.scattering};
 }

@@ -30,7 +30,8 @@ constexpr Preset presets[] = {
 MediumCoefficients medium_preset(Params& params, const std::string& parameter) {
   const std::string name = params.text(parameter);
   for (const Preset& preset : presets)
-    if (name == preset.name) return {preset.scattering + preset.absorption, preset.scattering};
+    if (name == preset.name)
+      return {Spectrum(preset.scattering + preset.absorption), Spectrum(preset.scattering)};
   params.fail(parameter, fmt::format("{} is not known{}", quote(name),
                                      suggestion(name, medium_preset_names())));
 }

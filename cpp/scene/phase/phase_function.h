@@ -16,7 +16,7 @@ class PhaseFunction : public Bsdf {
                         Lobe lobe) const final {
     if (lobe != Lobe::smooth) return {};
     const double p = density(-dot(wl, wc));
-    return {Color(p), p, p};
+    return {Spectrum(p), p, p};
   }
   std::optional<BsdfSample> sample(const SurfacePoint&, const Vec3& from,
                                    const Vec3& u) const final {
@@ -32,7 +32,7 @@ class PhaseFunction : public Bsdf {
     const Vec3 local = Frame::around(-from).to_local(to);
     return u_of(v.x, {invert_cosine(local.z), turns(local.x, local.y)});
   }
-  Color albedo(const SurfacePoint&) const final { return Color(1); }
+  Spectrum albedo(const SurfacePoint&) const final { return Spectrum(1); }
   bool has_transmission() const final { return true; }
 
  protected:

@@ -63,16 +63,16 @@ class Bitmap final : public Texture {
       if (x >= 0 && j >= 0) texels_.prefetch(x, j);
   }
 
-  Color eval(const SurfacePoint& at) const override {
+  Spectrum eval(const SurfacePoint& at) const override {
     const Vec2 p = position(at);
-    if (!is_finite(p)) return mean_;
+    if (!is_finite(p)) return Spectrum(mean_);
     if (nearest_)
-      return lookup(column(static_cast<int>(std::floor(p.x))),
-                    row(static_cast<int>(std::floor(p.y))));
+      return Spectrum(lookup(column(static_cast<int>(std::floor(p.x))),
+                             row(static_cast<int>(std::floor(p.y)))));
     const Texels::Cell c = cell(p);
-    if (std::min({c.x[0], c.x[1], c.y[0], c.y[1]}) >= 0) return texels_.bilinear(c);
-    return (1 - c.b) * ((1 - c.a) * corner(c, 0, 0) + c.a * corner(c, 1, 0)) +
-           c.b * ((1 - c.a) * corner(c, 0, 1) + c.a * corner(c, 1, 1));
+    if (std::min({c.x[0], c.x[1], c.y[0], c.y[1]}) >= 0) return Spectrum(texels_.bilinear(c));
+    return Spectrum((1 - c.b) * ((1 - c.a) * corner(c, 0, 0) + c.a * corner(c, 1, 0)) +
+                    c.b * ((1 - c.a) * corner(c, 0, 1) + c.a * corner(c, 1, 1)));
   }
 
   Vec2 gradient(const SurfacePoint& at) const override {

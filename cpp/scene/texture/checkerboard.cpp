@@ -13,7 +13,7 @@ class Checkerboard final : public Texture {
         color1_(unbounded_texture_param(params, "color1")),
         to_uv_(params) {}
 
-  Color eval(const SurfacePoint& at) const override {
+  Spectrum eval(const SurfacePoint& at) const override {
     const Vec2 uv = to_uv_(at.uv);
     return upper_half(uv.x) == upper_half(uv.y) ? color0_->eval(at) : color1_->eval(at);
   }

@@ -34,8 +34,8 @@ class MeshAttributeTexture final : public Texture, public ShapeReader {
   }
 
   /// The attribute; black on shapes without it.
-  Color eval(const SurfacePoint& at) const override {
-    if (at.shape >= meshes_.size() || !meshes_[at.shape].attribute) return Color(0);
+  Spectrum eval(const SurfacePoint& at) const override {
+    if (at.shape >= meshes_.size() || !meshes_[at.shape].attribute) return Spectrum(0);
     const auto& [mesh, attribute] = meshes_[at.shape];
     Color value(0);
     if (attribute->on_faces) {
@@ -46,7 +46,7 @@ class MeshAttributeTexture final : public Texture, public ShapeReader {
       value = (1 - b.x - b.y) * element(*attribute, corners[0]) +
               b.x * element(*attribute, corners[1]) + b.y * element(*attribute, corners[2]);
     }
-    return scale_ * glm::max(value, Color(0));
+    return Spectrum(scale_ * glm::max(value, Color(0)));
   }
 
   // The meshes are not known yet when materials are made: attributes are assumed to lie in [0, 1].

@@ -12,7 +12,9 @@ class Scale final : public Texture {
       : scale_(to_color(params, "scale", SpectrumUse::unbounded)),
         nested_(only_nested<Texture>(params, "texture")) {}
 
-  Color eval(const SurfacePoint& at) const override { return scale_ * nested_->eval(at); }
+  Spectrum eval(const SurfacePoint& at) const override {
+    return Spectrum(scale_) * nested_->eval(at);
+  }
   /// The gradient, exact if the factor is the same in all channels.
   Vec2 gradient(const SurfacePoint& at) const override {
     return luminance(scale_) * nested_->gradient(at);

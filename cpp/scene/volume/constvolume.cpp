@@ -10,11 +10,11 @@ class ConstVolume final : public Volume {
  public:
   explicit ConstVolume(const Color& value) : value_(value) {}
 
-  Color at(const Vec3&) const override { return value_; }
+  Spectrum at(const Vec3&) const override { return Spectrum(value_); }
   Color maximum() const override { return value_; }
   bool grey() const override { return is_grey(value_); }
   Flight fly(const Ray&, const FlightLimit& limit, double scale) const override {
-    return uniform_flight(scale * value_, limit);
+    return uniform_flight(Spectrum(scale * value_), limit);
   }
 
  private:

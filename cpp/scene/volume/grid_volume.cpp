@@ -21,14 +21,14 @@ class Flying {
         .run([&](const Grid::Index& index, double from, double to) {
           const Cell cell(*this, index);
           const T here = cell.integral(from, to);
-          if (limit.ends(Color(depth + here))) {
+          if (limit.ends(Spectrum(depth + here))) {
             flight = stop(limit, depth, cell, from, to);
             return false;
           }
           depth += here;
           return true;
         });
-    if (!flight.stops) flight.depth = Color(depth);
+    if (!flight.stops) flight.depth = Spectrum(depth);
     return flight;
   }
 
@@ -55,9 +55,9 @@ class Flying {
 
   static Flight stop(const FlightLimit& limit, const T& before, const Cell& cell, double from,
                      double to) {
-    const auto depth = [&](double t) { return Color(before + cell.integral(from, t)); };
+    const auto depth = [&](double t) { return Spectrum(before + cell.integral(from, t)); };
     const double t =
-        flight_end(limit, from, to, depth, [&](double t) { return Color(cell.at(t)); });
+        flight_end(limit, from, to, depth, [&](double t) { return Spectrum(cell.at(t)); });
     return {t, depth(t), true};
   }
 
@@ -78,17 +78,17 @@ GridVolume::GridVolume(Grid grid, const Mat4& to_world) : grid_(std::move(grid))
       throw UsageError("'to_world' should have a volume, but is flat");
 }
 
-Color GridVolume::at(const Vec3& p) const {
+Spectrum GridVolume::at(const Vec3& p) const {
   const Vec3 x = transform_point(to_grid_, p);
   Grid::Index index;
   Vec3 in_cell;
   for (int axis = 0; axis < 3; ++axis) {
-    if (!(grid_.low() <= x[axis] && x[axis] <= grid_.high(axis))) return Color(0);
+    if (!(grid_.low() <= x[axis] && x[axis] <= grid_.high(axis))) return Spectrum(0);
     index[axis] = std::min(static_cast<int>(x[axis]), grid_.cells(axis) - 1);
     in_cell[axis] = x[axis] - index[axis];
   }
-  return grid_.is_coloured() ? grid_.cell<Color>(index).at(in_cell)
-                             : Color(grid_.cell<double>(index).at(in_cell));
+  return grid_.is_coloured() ? Spectrum(grid_.cell<Color>(index).at(in_cell))
+                             : Spectrum(grid_.cell<double>(index).at(in_cell));
 }
 
 Flight GridVolume::fly(const Ray& ray, const FlightLimit& limit, double scale) const {

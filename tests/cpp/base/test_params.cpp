@@ -110,9 +110,14 @@ TEST_F(ParamsTest, AWrongTypeNamesBothTypes) {
 
 TEST_F(ParamsTest, EachTypeTakesWhatItSays) {
   const ObjectPtr object = std::make_shared<Lamp>();
-  const std::vector<Value> values{
-      true,     int64_t{1},         1.0,   std::string("fast"), Triple{1, 1, 1},
-      Matrix{}, WavelengthTable{{500, 1}}, object};
+  const std::vector<Value> values{true,
+                                  int64_t{1},
+                                  1.0,
+                                  std::string("fast"),
+                                  Triple{1, 1, 1},
+                                  Matrix{},
+                                  WavelengthTable{{500, 1}},
+                                  object};
   const std::string kinds = "bifstmSo";  // of the values above
   const std::map<std::string, std::string> accepted{
       {"strict", "b"},      {"max_depth", "i"}, {"radius", "if"},   {"title", "s"},
@@ -135,7 +140,8 @@ TEST_F(ParamsTest, NumbersMustBeFinite) {
   EXPECT_EQ(error_of_set("to_world", matrix), here + "'to_world' must be finite");
   EXPECT_EQ(error_of_set("power", WavelengthTable{{400, 1}, {500, infinite}}),
             here + "'power' must be finite");
-  EXPECT_EQ(error_of_set("power", WavelengthTable{{not_a_number, 1}}), here + "'power' must be finite");
+  EXPECT_EQ(error_of_set("power", WavelengthTable{{not_a_number, 1}}),
+            here + "'power' must be finite");
 }
 
 TEST_F(ParamsTest, TextIsOneOfTheChoices) {

@@ -49,8 +49,8 @@ TEST(MinnaertExample, IsLambertianForAnExponentOfOne) {
   Rng rng(1, Purpose::test, 0);
   for (int i = 0; i < 1000; ++i) {
     const Vec3 wl = random_direction(rng), wc = random_direction(rng);
-    const Color f = moon->eval(point(), wl, wc, Lobe::smooth);
-    EXPECT_NEAR(f.x, lambertian->eval(point(), wl, wc, Lobe::smooth).x, 1e-15);
+    const Spectrum f = moon->eval(point(), wl, wc, Lobe::smooth);
+    EXPECT_NEAR(f[0], lambertian->eval(point(), wl, wc, Lobe::smooth)[0], 1e-15);
   }
 }
 
@@ -58,9 +58,9 @@ TEST(MinnaertExample, IsLambertianForAnExponentOfOne) {
 TEST(MinnaertExample, HasTheFormulaOfThePage) {
   const BsdfPtr moon = make_bsdf("minnaert", {{"reflectance", 0.6}, {"k", 3.0}});
   const Vec3 wl = normalize(Vec3(0.6, 0, 0.8)), wc = normalize(Vec3(0, 0.8, 0.6));
-  EXPECT_NEAR(moon->eval(point(), wl, wc, Lobe::smooth).x, 0.6 * 4 / (2 * pi) * sqr(0.8 * 0.6),
+  EXPECT_NEAR(moon->eval(point(), wl, wc, Lobe::smooth)[0], 0.6 * 4 / (2 * pi) * sqr(0.8 * 0.6),
               1e-15);
-  EXPECT_NEAR(moon->albedo(point()).x, 0.3, 1e-15);
+  EXPECT_NEAR(moon->albedo(point())[0], 0.3, 1e-15);
 }
 
 TEST(MinnaertExample, IsOneMoreMaterialOfASceneFile) {

@@ -125,7 +125,9 @@ TEST(Colorimetry, SaysWhenItClamps) {
 }
 
 TEST(Colorimetry, RefusesBadLists) {
-  const auto convert = [](const WavelengthTable& s) { return spectrum_to_rgb(s, SpectrumUse::emission); };
+  const auto convert = [](const WavelengthTable& s) {
+    return spectrum_to_rgb(s, SpectrumUse::emission);
+  };
   EXPECT_THROW(convert({}), UsageError);
   EXPECT_THROW(convert({{500, 1}}), UsageError);
   EXPECT_THROW(convert({{500, 1}, {500, 2}}), UsageError);

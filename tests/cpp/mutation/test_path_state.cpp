@@ -13,6 +13,7 @@ bool same_bits(const Vec2& a, const Vec2& b) { return same_bits(a.x, b.x) && sam
 bool same_bits(const Vec3& a, const Vec3& b) {
   return same_bits(a.x, b.x) && same_bits(a.y, b.y) && same_bits(a.z, b.z);
 }
+bool same_bits(const Spectrum& a, const Spectrum& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 std::string difference(const TermsAt& a, const TermsAt& b, bool has_edge) {
   if (has_edge && !same_bits(a.G, b.G)) return "G";
   if (!same_bits(a.from_light, b.from_light)) return "from_light";

@@ -73,13 +73,13 @@ inline double naive_stop(const Scene& scene, const Vertex& x, const Vertex& from
 /// counts where they scatter.
 struct NaivePassage {
   double probability = 1;
-  Color depth{0};
+  Spectrum depth{0};
 
   /// The probability that a walk goes along the edge, or its density of stopping at x. A walk with
   /// one of the channels has flown all that was before with the probability `flown`, which changes.
-  double arrival(const Scene& scene, const Vertex& x, const Vertex& from, Color& flown) const {
+  double arrival(const Scene& scene, const Vertex& x, const Vertex& from, Spectrum& flown) const {
     double before = 0, after = 0;
-    for (int j = 0; j < 3; ++j) {
+    for (int j = 0; j < 3; ++j) {  // R, G and B
       before += flown[j];
       flown[j] *= std::exp(-depth[j]) *
                   (x.at.in_medium() ? scene.medium(x.at).at(x.at.p).extinction[j] : 1);
@@ -99,13 +99,13 @@ inline const Medium* naive_medium(const Scene& scene, const SurfacePoint& at, co
   return index == no_medium ? nullptr : &scene.media()[index];
 }
 /// The extinction along a line: where it varies, summed in the middles of many short steps.
-inline Color naive_depth(const Medium& medium, const Vec3& p, const Vec3& w, double distance) {
+inline Spectrum naive_depth(const Medium& medium, const Vec3& p, const Vec3& w, double distance) {
   const int steps = medium.type == "homogeneous" ? 1 : 250;
-  Color depth(0);
+  Spectrum depth(0);
   for (int i = 0; i < steps; ++i) {
     const double step = distance / steps;
-    const Color sigma = medium.at(steps == 1 ? p : p + (i + 0.5) * step * w).extinction;
-    for (int j = 0; j < 3; ++j)
+    const Spectrum sigma = medium.at(steps == 1 ? p : p + (i + 0.5) * step * w).extinction;
+    for (int j = 0; j < Spectrum::lanes; ++j)
       if (sigma[j] > 0) depth[j] += sigma[j] * step;
   }
   return depth;
@@ -196,10 +196,10 @@ inline NaiveDensities naive_densities(const Scene& scene, const Path& path, Flaw
   if (!scene.has_passages()) return p;
   std::vector<NaivePassage> passed;
   for (int i = 0; i < k; ++i) passed.push_back(naive_passage(scene, path, i));
-  Color flown(1);
+  Spectrum flown(1);
   for (int i = 0; i + 1 < k; ++i)
     p.from_light[i + 1] *= passed[i].arrival(scene, path[i + 1], path[i], flown);
-  flown = Color(1);
+  flown = Spectrum(1);
   for (int i = k - 1; i >= 0; --i)
     p.from_camera[i] *= passed[i].arrival(scene, path[i], path[i + 1], flown);
   return p;

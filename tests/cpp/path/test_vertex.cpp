@@ -24,7 +24,7 @@ TEST(VertexTerms, HaveTheCosinesOfTheLightSide) {
                                                   at.shading.to_local(wc), Lobe::smooth);
   const auto quotient = [&](const Vec3& w) { return dot(w, at.shading.n) / dot(w, at.ng); };
   ASSERT_GT(std::abs(quotient(wl) - quotient(wc)), 0.1);
-  EXPECT_NEAR(terms.f.y, s.f.y * quotient(wl), 1e-12 * s.f.y);
+  EXPECT_NEAR(terms.f[1], s.f[1] * quotient(wl), 1e-12 * s.f[1]);
   EXPECT_NEAR(terms.pdf_from_light, s.pdf_from_light / wc.z, 1e-12 * s.pdf_from_light);
   EXPECT_NEAR(terms.pdf_from_camera, s.pdf_from_camera / wl.z, 1e-12 * s.pdf_from_camera);
 }

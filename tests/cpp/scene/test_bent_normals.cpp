@@ -90,7 +90,7 @@ TEST(BumpMap, BendsNormalsAsTheirImageWould) {
     const Vec3 wl = random_direction(rng), wc = random_direction(rng), u = random_u(rng);
     const Scattering x = bumps->bsdf(at).scattering(at, wl, wc, Lobe::smooth);
     const Scattering y = normals->bsdf(at).scattering(at, wl, wc, Lobe::smooth);
-    EXPECT_LT(length(x.f - y.f), 1e-4 * (1 + length(y.f)));
+    EXPECT_LT(length((x.f - y.f).rgb()), 1e-4 * (1 + length(y.f.rgb())));
     EXPECT_NEAR(x.pdf_from_light, y.pdf_from_light, 1e-5);
     const auto s = bumps->bsdf(at).sample(at, wc, u), t = normals->bsdf(at).sample(at, wc, u);
     if (s && t) {
@@ -155,7 +155,7 @@ TEST(MeshAttributes, AreTextures) {
   const auto albedo = [&](const ScenePtr& scene, double x, double y) {
     SurfacePoint at;
     EXPECT_TRUE(scene->intersect({{x, y, 5}, {0, 0, -1}, 0}, at));
-    return scene->bsdf(at).albedo(at);
+    return scene->bsdf(at).albedo(at).rgb();
   };
   const ScenePtr colours = scene_with("vertex_color"), weights = scene_with("face_weight");
   EXPECT_LT(length(albedo(colours, 0.5, -0.5) - Color(0.25, 0.5, 0.25)), 1e-6);

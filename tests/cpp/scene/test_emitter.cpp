@@ -268,7 +268,7 @@ TEST(Emitters, PowerIsWhatTheirRaysCarry) {
     for (int i = 0; i < 40'000; ++i) {
       const PositionSample x0 = emitter.sample_position({rng.next(), rng.next()}, 0);
       const RaySample ray = emitter.sample_ray(x0.at, {rng.next(), rng.next()});
-      const Color power = emitter.eval(x0.at, ray.direction) / (x0.pdf * ray.pdf);
+      const Spectrum power = emitter.eval(x0.at, ray.direction) / (x0.pdf * ray.pdf);
       for (int c = 0; c < 3; ++c) channels[c].add(power[c]);
     }
     for (int c = 0; c < 3; ++c) {
@@ -288,8 +288,8 @@ TEST(Area, ShinesOnItsFrontOnly) {
   const Light light =
       area_light("rectangle", shape_rectangle(), test::identity_rows, Triple{1, 2, 3});
   const SurfacePoint x0 = light.emitter->sample_position({0.3, 0.6}, 0).at;
-  EXPECT_EQ(light.emitter->eval(x0, normalize(Vec3(1, 1, 0.1))), Color(1, 2, 3));
-  EXPECT_EQ(light.emitter->eval(x0, normalize(Vec3(1, 1, -0.1))), Color(0));
+  EXPECT_EQ(light.emitter->eval(x0, normalize(Vec3(1, 1, 0.1))).rgb(), Color(1, 2, 3));
+  EXPECT_EQ(light.emitter->eval(x0, normalize(Vec3(1, 1, -0.1))), Spectrum(0));
   EXPECT_EQ(light.emitter->pdf_ray(x0, {0, 0, -1}), 0);
   expect_close(light.emitter->power(), Color(1, 2, 3) * (4 * pi), 1e-12);
   EXPECT_EQ(light.emitter->shape(), light.shape.get());
@@ -303,7 +303,7 @@ TEST(Area, MayBeTextured) {
   for (int i = 0; i < 100; ++i) {
     const SurfacePoint x0 = light.emitter->sample_position({rng.next(), rng.next()}, 0).at;
     const bool bright = (x0.uv.x > 0.5) == (x0.uv.y > 0.5);
-    EXPECT_EQ(light.emitter->eval(x0, {0, 0, 1}), Color(bright ? 1 : 0));
+    EXPECT_EQ(light.emitter->eval(x0, {0, 0, 1}), Spectrum(bright ? 1 : 0));
   }
 }
 
@@ -331,7 +331,7 @@ TEST(Spot, FallsOffLinearlyWithTheAngle) {
   EXPECT_EQ(x0.p, Vec3(0.2, 0, 2));
   const auto at = [&](double degrees) {
     const double angle = degrees * pi / 180;
-    return light->eval(x0, {std::sin(angle), 0, -std::cos(angle)}).x;
+    return light->eval(x0, {std::sin(angle), 0, -std::cos(angle)})[0];
   };
   EXPECT_EQ(at(0), 2);
   EXPECT_EQ(at(29.9), 2);
@@ -365,7 +365,7 @@ Color radiance_from(const Emitter& light, const Vec3& towards) {
   x0.p = normalize(towards);
   x0.ng = -x0.p;
   x0.kind = PointKind::infinite;
-  return light.eval(x0, -x0.p);
+  return light.eval(x0, -x0.p).rgb();
 }
 
 TEST(Environment, AgreesWithMitsuba) {
@@ -419,7 +419,7 @@ TEST(Environment, MayBeMirrored) {
   for (int i = 0; i < 200; ++i) {
     const PositionSample x0 = other->sample_position({rng.next(), rng.next()}, 0);
     const Vec3 reflected(-x0.at.p.x, x0.at.p.y, x0.at.p.z);
-    expect_close(other->eval(x0.at, x0.at.ng), radiance_from(*plain, reflected), 1e-12);
+    expect_close(other->eval(x0.at, x0.at.ng).rgb(), radiance_from(*plain, reflected), 1e-12);
   }
 }
 
@@ -462,7 +462,7 @@ TEST(Environment, CanSampleWhateverShines) {
       x0.kind = PointKind::infinite;
       const double z = 2 * rng.next() - 1, phi = 2 * pi * rng.next(), r = std::sqrt(1 - z * z);
       x0.p = {r * std::cos(phi), z, r * std::sin(phi)};
-      const bool shines = light->eval(x0, -x0.p).x > 0;
+      const bool shines = light->eval(x0, -x0.p)[0] > 0;
       bright += shines;
       if (shines) {
         EXPECT_GT(light->pdf_position(x0), 0);
@@ -482,7 +482,7 @@ TEST(Environment, MayBeBlackOrGrey) {
   expect_close(light->power(), Color(2 * 4 * pi * pi * sqr(bounds.radius)), 1e-9);
   const PositionSample x0 = light->sample_position({0.3, 0.4}, 0);
   EXPECT_NEAR(x0.pdf, 1 / (4 * pi), 1e-7);
-  EXPECT_EQ(light->eval(x0.at, x0.at.ng), Color(2));
+  EXPECT_EQ(light->eval(x0.at, x0.at.ng), Spectrum(2));
 }
 
 TEST(Environment, RefusesWhatItCannotUse) {
@@ -518,7 +518,7 @@ TEST(Projector, ShowsItsImageOnAWhitePlaneAcrossItsAxis) {
   const auto shown = [&](double x, double y, double distance) {
     const Vec3 to = Vec3(0.2, 0, 2) + distance * Vec3(x, -y, -1);
     const Vec3 w = normalize(to - x0.p);
-    return light->eval(x0, w).x * inv_pi * -w.z / length_squared(to - x0.p);
+    return light->eval(x0, w)[0] * inv_pi * -w.z / length_squared(to - x0.p);
   };
   for (const double distance : {1.0, 3.0}) {
     const double falloff = 1 / (distance * distance);
@@ -536,7 +536,7 @@ Color radiance(const Emitter& light, const Vec3& up) {
   SurfacePoint x0;
   x0.p = normalize(up);
   x0.kind = PointKind::infinite;
-  return light.eval(x0, -x0.p);
+  return light.eval(x0, -x0.p).rgb();
 }
 
 TEST(Sun, StandsWhereMitsubaHasIt) {
@@ -627,7 +627,7 @@ TEST(Sun, IsAsBrightAsMitsubas) {
         emitter_sun(),
         {{"turbidity", c.turbidity}, {"sun_direction", c.towards}, {"sun_radius_scale", 0.0}});
     const SurfacePoint x0 = sun->sample_position({0.5, 0.5}, 0).at;
-    const Color shown = sun->eval(x0, {}) * (inv_pi * x0.p.y);
+    const Color shown = sun->eval(x0, {}).rgb() * (inv_pi * x0.p.y);
     for (int channel = 0; channel < 3; ++channel)
       EXPECT_NEAR(shown[channel], c.shown[channel], 0.003 * c.shown.x) << channel;
   }
@@ -638,7 +638,7 @@ TEST(Sun, HasTheSameIrradianceWhateverItsSize) {
     const auto sun = make<Emitter>(
         emitter_sun(), {{"sun_direction", Triple{0, 1, 0}}, {"sun_radius_scale", size}});
     const PositionSample sample = sun->sample_position({0.5, 0.5}, 0);
-    return sun->eval(sample.at, {}).y / sample.pdf;
+    return sun->eval(sample.at, {})[1] / sample.pdf;
   };
   EXPECT_NEAR(irradiance(1) / irradiance(0), 1, 1e-12);
   EXPECT_NEAR(irradiance(20) / irradiance(0), 1, 1e-12);

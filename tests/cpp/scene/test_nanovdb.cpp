@@ -105,8 +105,8 @@ TYPED_TEST(NanovdbOf, HasTheValuesThatNanovdbSamples) {
       index[axis] = low[axis] - 3 + rng.next() * (high[axis] - low[axis] + 6);
     const nanovdb::Vec3d world = grid.indexToWorld(index);
     const auto expected = sampler(index);
-    const Color found = volume.at({world[0], world[1], world[2]});
-    positive += found.x > 0;
+    const Spectrum found = volume.at({world[0], world[1], world[2]});
+    positive += found[0] > 0;
     for (int c = 0; c < 3; ++c) {
       if constexpr (std::is_same_v<TypeParam, nanovdb::Vec3f>)
         ASSERT_NEAR(found[c], expected[c], 1e-5);

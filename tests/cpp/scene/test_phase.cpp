@@ -97,7 +97,7 @@ TEST(PhaseFunction, GivesTheNumbersBackAndIsReciprocal) {
       }
       const Scattering s = p.phase->scattering(at, from, to, Lobe::smooth);
       ASSERT_EQ(s.pdf_from_light, s.pdf_from_camera) << p.label;
-      ASSERT_NEAR(s.f.x, s.pdf_from_light, 1e-12 * s.f.x) << p.label;
+      ASSERT_NEAR(s.f[0], s.pdf_from_light, 1e-12 * s.f[0]) << p.label;
       ASSERT_EQ(p.phase->eval(at, to, from, Lobe::smooth), s.f) << p.label;
     }
 }

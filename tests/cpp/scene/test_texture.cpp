@@ -25,7 +25,7 @@ using testing::IsEmpty;
 Color look_up(const Texture& texture, double u, double v) {
   SurfacePoint at;
   at.uv = {u, v};
-  return texture.eval(at);
+  return texture.eval(at).rgb();
 }
 
 /// 4 x 3 texels whose values are all different.

@@ -92,7 +92,7 @@ TEST_P(GridOf, HasItsValues) {
   for (int i = 0; i < 5000; ++i) {
     const auto& n = data.size;
     const Vec3 x = Vec3(n[0], n[1], n[2]) * (Vec3(rng.next(), rng.next(), rng.next()) * 1.2 - 0.1);
-    const Color expected = naive_value(data, GetParam().nearest, x), found = volume.at(x);
+    const Color expected = naive_value(data, GetParam().nearest, x), found = volume.at(x).rgb();
     for (int c = 0; c < 3; ++c) ASSERT_NEAR(found[c], expected[c], 1e-12);
   }
 }
@@ -133,15 +133,15 @@ TEST_P(GridOf, StopsFlightsWhereEnoughIsLost) {
   int stopped = 0;
   for (int i = 0; i < 3000; ++i) {
     const Ray ray = this->ray(rng);
-    const Color before(0.2 + rng.next(), 0.2 + rng.next(), 0.2 + rng.next());
+    const Spectrum before(Color(0.2 + rng.next(), 0.2 + rng.next(), 0.2 + rng.next()));
     const FlightLimit limit{infinity, before, mean(before) * rng.next()};
     const Flight flight = volume.fly(ray, limit, 3);
-    const Color all = volume.fly(ray, {infinity}, 3).depth;
+    const Spectrum all = volume.fly(ray, {infinity}, 3).depth;
     ASSERT_EQ(flight.stops, limit.ends(all));
     if (!flight.stops) continue;
     ++stopped;
     EXPECT_NEAR(mean(before * exp(-flight.depth)), limit.left, 1e-12);
-    const Color depth = volume.fly(ray, {flight.distance}, 3).depth;
+    const Spectrum depth = volume.fly(ray, {flight.distance}, 3).depth;
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(flight.depth[c], depth[c], 1e-10);
     EXPECT_GT(max_component(volume.at(ray.o + flight.distance * ray.d)), 0);
   }

@@ -32,8 +32,8 @@ const Plugin& plugin(const std::string& name) {
 class Ramp final : public Texture {
  public:
   Ramp(double low, double high) : low_(low), high_(high) {}
-  Color eval(const SurfacePoint& at) const override {
-    return Color(low_ + at.uv.x * (high_ - low_));
+  Spectrum eval(const SurfacePoint& at) const override {
+    return Spectrum(low_ + at.uv.x * (high_ - low_));
   }
   Color mean() const override { return Color(0.5 * (low_ + high_)); }
   Color maximum() const override { return Color(std::max(low_, high_)); }
@@ -261,7 +261,7 @@ Vec3 random_u(Rng& rng) {
   return {x, y, rng.next()};
 }
 
-Color weight_from_light(const Bsdf& bsdf, const Vec3& wl, const BsdfSample& s) {
+Spectrum weight_from_light(const Bsdf& bsdf, const Vec3& wl, const BsdfSample& s) {
   const Scattering scattering = bsdf.scattering(point(), wl, s.to, s.lobe);
   const double cosine = s.lobe == Lobe::smooth ? std::abs(s.to.z) : 1;
   return scattering.f * (cosine / scattering.pdf_from_light);

@@ -50,6 +50,6 @@ constexpr Lobe lobes[] = {Lobe::smooth, Lobe::reflection, Lobe::transmission};
 
 /// f |cos| / pdf of light from `wl` that does not pass and is scattered to `s.to`; for a delta lobe
 /// F / P.
-Color weight_from_light(const Bsdf& bsdf, const Vec3& wl, const BsdfSample& s);
+Spectrum weight_from_light(const Bsdf& bsdf, const Vec3& wl, const BsdfSample& s);
 
 }  // namespace mlt::test

@@ -34,7 +34,7 @@ TEST(BsdfMitsuba, ValuesAgree) {
   for (const Row& row : rows) {
     const Case& c = find_case(row.label);
     const Vec3 wl = normalize(row.wl), wc = normalize(row.wc);
-    const Color f = c.bsdf->eval(point(), wl, wc, Lobe::smooth);
+    const Spectrum f = c.bsdf->eval(point(), wl, wc, Lobe::smooth);
     const double bound = contains(row.label, "plastic") ? coating : single_precision;
     for (int k = 0; k < 3; ++k)
       EXPECT_NEAR(f[k], row.f[k], bound * row.f[k]) << row.label << ", cos " << wl.z << " " << wc.z;

@@ -50,8 +50,8 @@ TEST(BsdfValues, SmoothLobesAreReciprocal) {
       if (c.reciprocal) {
         EXPECT_EQ(ratio, 1) << c.label;
       }
-      const Color forth = sqr(ratio) * c.bsdf->eval(point(), a, b, Lobe::smooth);
-      const Color back = c.bsdf->eval(point(), b, a, Lobe::smooth);
+      const Spectrum forth = sqr(ratio) * c.bsdf->eval(point(), a, b, Lobe::smooth);
+      const Spectrum back = c.bsdf->eval(point(), b, a, Lobe::smooth);
       for (int k = 0; k < 3; ++k) expect_close(forth[k], back[k], 1e-7, c.label);
       compared += !is_black(forth);
     }
@@ -67,8 +67,8 @@ TEST(BsdfValues, DeltaLobesCarryTheSameFractionBothWays) {
       const Vec3 a = random_direction(rng);
       const auto s = c.bsdf->sample(point(), a, random_u(rng));
       if (!s || s->lobe == Lobe::smooth) continue;
-      const Color forth = c.bsdf->eval(point(), a, s->to, s->lobe);
-      const Color back = c.bsdf->eval(point(), s->to, a, s->lobe);
+      const Spectrum forth = c.bsdf->eval(point(), a, s->to, s->lobe);
+      const Spectrum back = c.bsdf->eval(point(), s->to, a, s->lobe);
       for (int k = 0; k < 3; ++k) expect_close(forth[k], back[k], 1e-9, c.label);
     }
   }
@@ -109,7 +109,7 @@ TEST(BsdfValues, NoMoreLightLeavesThanArrives) {
       Rng rng(5, Purpose::test, 0);
       for (int i = 0; i < 20000; ++i) {
         const auto s = c.bsdf->sample(point(), wl, random_u(rng));
-        const Color w = s ? weight_from_light(*c.bsdf, wl, *s) : Color(0);
+        const Spectrum w = s ? weight_from_light(*c.bsdf, wl, *s) : Spectrum(0);
         for (int k = 0; k < 3; ++k) scattered[k].add(w[k]);
       }
       for (const Moments& m : scattered) {
@@ -130,7 +130,7 @@ TEST(BsdfValues, AsMuchLightGoesThroughFromBothSides) {
       const Vec3 w = random_direction(rng);
       const Passage forth = c.bsdf->passage(point(), w), back = c.bsdf->passage(point(), -w);
       EXPECT_NEAR(forth.probability, back.probability, 1e-12) << c.label;
-      EXPECT_LT(max_component(glm::abs(forth.transmittance - back.transmittance)), 1e-12)
+      EXPECT_LT(max_component(glm::abs((forth.transmittance - back.transmittance).rgb())), 1e-12)
           << c.label;
       EXPECT_TRUE(forth.probability >= 0 && forth.probability <= 1) << c.label;
       EXPECT_TRUE(c.bsdf->has_passage() || forth.is_blocked()) << c.label;
@@ -143,7 +143,7 @@ TEST(BsdfValues, AsMuchLightGoesThroughFromBothSides) {
 TEST(BsdfValues, LosslessDielectricLosesNothing) {
   const Case& glass = find_case("dielectric");
   for (const Vec3& wl : incident_directions(glass)) {
-    Color sum(0);
+    Spectrum sum(0);
     const Vec3 mirrored = reflect(wl);
     sum += glass.bsdf->eval(point(), wl, mirrored, Lobe::reflection);
     const auto through = glass.bsdf->sample(point(), wl, {1 - 1e-12, 0.5, 0.5});
@@ -164,7 +164,7 @@ TEST(BsdfValues, AlmostSmoothDielectricLosesAlmostNothing) {
       Rng rng(6, Purpose::test, 0);
       for (int i = 0; i < 5000; ++i) {
         const auto s = glass->sample(point(), wl, random_u(rng));
-        scattered.add(s ? weight_from_light(*glass, wl, *s).x : 0);
+        scattered.add(s ? weight_from_light(*glass, wl, *s)[0] : 0);
       }
       EXPECT_NEAR(scattered.mean(), 1, 1e-4) << type;
     }
@@ -222,9 +222,9 @@ void expect_sound(const Bsdf& bsdf, const Vec3& wl, const Vec3& wc, Lobe lobe,
                   const std::string& label) {
   const Scattering s = bsdf.scattering(point(), wl, wc, lobe);
   const double smallest = std::min({min_component(s.f), s.pdf_from_light, s.pdf_from_camera});
-  ASSERT_TRUE(is_finite(s.f) && std::isfinite(s.pdf_from_light + s.pdf_from_camera) &&
+  ASSERT_TRUE(is_finite(s.f.rgb()) && std::isfinite(s.pdf_from_light + s.pdf_from_camera) &&
               smallest >= 0)
-      << label << ": f " << s.f.x << " densities " << s.pdf_from_light << " " << s.pdf_from_camera
+      << label << ": f " << s.f[0] << " densities " << s.pdf_from_light << " " << s.pdf_from_camera
       << " for wl " << wl.x << " " << wl.y << " " << wl.z << ", wc " << wc.x << " " << wc.y << " "
       << wc.z;
 }
