@@ -25,7 +25,7 @@ void check_pole(double c) {
   if (first_wavelength <= pole && pole <= last_wavelength)
     throw UsageError(fmt::format(
         "a Sellmeier term with C = {} um^2 has its pole at {:.4g} nm; it must lie outside of {} to "
-        "{} nm (are these nm, or the square root of C?)",
+        "{} nm (C is the square of the pole's wavelength)",
         c, pole, first_wavelength, last_wavelength));
 }
 
