@@ -94,22 +94,6 @@ struct Place {
   }
 };
 
-void check(const WavelengthTable& samples) {
-  if (samples.size() < 2)
-    throw UsageError(fmt::format(
-        "a spectrum needs at least two wavelength:value pairs, this one has {}", samples.size()));
-  for (size_t i = 0; i < samples.size(); ++i) {
-    const auto [wavelength, value] = samples[i];
-    if (!std::isfinite(wavelength) || !std::isfinite(value))
-      throw UsageError(fmt::format("pair {} of a spectrum is {}:{}, not two finite numbers", i + 1,
-                                   wavelength, value));
-    if (i > 0 && wavelength <= samples[i - 1].first)
-      throw UsageError(
-          fmt::format("the wavelengths of a spectrum must increase, but {} comes after {}",
-                      wavelength, samples[i - 1].first));
-  }
-}
-
 /// Mitsuba's quadrature: 1000 points that include both ends, each worth 470 nm / 1000.
 Vec3 spectrum_to_xyz(const WavelengthTable& samples, bool under_d65) {
   constexpr int points = 1000;
@@ -130,6 +114,22 @@ Vec3 spectrum_to_xyz(const WavelengthTable& samples, bool under_d65) {
 
 }  // namespace
 
+void check_spectrum(const WavelengthTable& samples) {
+  if (samples.size() < 2)
+    throw UsageError(fmt::format(
+        "a spectrum needs at least two wavelength:value pairs, this one has {}", samples.size()));
+  for (size_t i = 0; i < samples.size(); ++i) {
+    const auto [wavelength, value] = samples[i];
+    if (!std::isfinite(wavelength) || !std::isfinite(value))
+      throw UsageError(fmt::format("pair {} of a spectrum is {}:{}, not two finite numbers", i + 1,
+                                   wavelength, value));
+    if (i > 0 && wavelength <= samples[i - 1].first)
+      throw UsageError(
+          fmt::format("the wavelengths of a spectrum must increase, but {} comes after {}",
+                      wavelength, samples[i - 1].first));
+  }
+}
+
 Vec3 matching_functions(double wavelength) {
   const Place at(wavelength);
   const auto value = [](size_t i) { return Vec3(x_bar[i], y_bar[i], z_bar[i]); };
@@ -148,7 +148,7 @@ Color xyz_to_srgb(const Vec3& v) {
 }
 
 SpectrumColor spectrum_to_rgb(const WavelengthTable& samples, SpectrumUse use) {
-  check(samples);
+  check_spectrum(samples);
   const bool under_d65 = use == SpectrumUse::reflectance || use == SpectrumUse::unbounded;
   const Color rgb = xyz_to_srgb(spectrum_to_xyz(samples, under_d65));
   const double top = use == SpectrumUse::reflectance ? 1 : infinity;

@@ -25,13 +25,16 @@ enum class SpectrumUse {
   emission,     // as it is, clamped to >= 0
 };
 
+/// Throws UsageError unless there are at least two pairs, in strictly increasing wavelength, all
+/// finite.
+void check_spectrum(const WavelengthTable& samples);
+
 struct SpectrumColor {
   Color color;
   bool clamped;  // the colour was outside of the range, and was clamped
 };
 
-/// The pairs are interpolated linearly and are zero outside. Throws UsageError unless there are at
-/// least two, in strictly increasing wavelength, all finite.
+/// The pairs, which are checked, are interpolated linearly and are zero outside.
 SpectrumColor spectrum_to_rgb(const WavelengthTable& samples, SpectrumUse use);
 
 /// A spectrum with the same value everywhere: grey, except for an emitter, where it is the

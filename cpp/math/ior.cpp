@@ -12,6 +12,7 @@ struct DielectricEntry {
 };
 
 /// Indices at 589 nm and 0 to 20 degrees Celsius, mostly from Hecht, "Optics", 4th ed.
+/// Those of sapphire (the ordinary ray) and of N-SF11 are from the sources in ior_curves.cpp.
 constexpr DielectricEntry dielectrics[] = {
     {"vacuum", 1.0},      {"helium", 1.000036},        {"hydrogen", 1.000132},
     {"air", 1.000277},    {"carbon dioxide", 1.00045}, {"water", 1.3330},
@@ -20,7 +21,8 @@ constexpr DielectricEntry dielectrics[] = {
     {"bromine", 1.661},   {"water ice", 1.31},         {"fused quartz", 1.458},
     {"pyrex", 1.470},     {"acrylic glass", 1.49},     {"polypropylene", 1.49},
     {"bk7", 1.5046},      {"sodium chloride", 1.544},  {"amber", 1.55},
-    {"pet", 1.5750},      {"diamond", 2.419},
+    {"pet", 1.5750},      {"sapphire", 1.7681},        {"sf11", 1.7845},
+    {"diamond", 2.419},
 };
 
 /// The source of the measurements: luxpop.com, or Palik, "Handbook of Optical Constants of Solids",

@@ -140,6 +140,8 @@ TEST(Ior, NamesAreFound) {
   EXPECT_EQ(find_dielectric("bk7"), 1.5046);
   EXPECT_EQ(find_dielectric("BK7"), 1.5046);
   EXPECT_EQ(find_dielectric("diamond"), 2.419);
+  EXPECT_EQ(find_dielectric("sapphire"), 1.7681);
+  EXPECT_EQ(find_dielectric("SF11"), 1.7845);
   EXPECT_FALSE(find_dielectric("unobtainium"));
   ASSERT_TRUE(find_conductor("Au"));
   EXPECT_NEAR(find_conductor("Au")->k.x, 3.983, 1e-4);
