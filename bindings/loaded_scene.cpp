@@ -83,6 +83,7 @@ py::dict info(const LoadedScene& loaded) {
   info["integrator"] =
       loaded.integrator ? py::object(py::str(loaded.integrator->type)) : py::none();
   info["sample_count"] = scene.sample_count();
+  info["spectral"] = scene.camera().spectral();
   info["filter"] =
       scene.film().filter ? py::object(py::str(scene.film().filter->name())) : py::none();
   info["seconds"] = loaded.seconds;
@@ -119,6 +120,10 @@ void bind_scene(py::module_& m) {
                         const ReleasedGil release;
                         return std::make_shared<LoadedScene>(unpack_scene(packed, plugins()));
                       }))
+      .def(
+          "with_wavelengths",
+          [](const LoadedScene& s) { return with_wavelengths(s, plugins()); }, NoGil(),
+          "The same scene, with spectral films: light has wavelengths instead of R, G and B.")
       .def(
           "with_sensor",
           [](const LoadedScene& s, int64_t sensor) { return with_sensor(s, sensor, plugins()); },

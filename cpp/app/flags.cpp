@@ -102,6 +102,9 @@ const std::vector<Flag>& render_flags() {
        "reconstruction filter, in place of the scene's own: box, tent, gaussian, mitchell, "
        "catmullrom, lanczos",
        Flag::fixed_by_resume},
+      {"spectral", "--spectral", "", nullptr,
+       "light has wavelengths instead of R, G and B, even if the scene does not ask for it",
+       Flag::fixed_by_resume},
       {"lenient", "--lenient", "", nullptr,
        "leave out unknown parameters of the scene with a warning, as in files of Mitsuba 0.x",
        Flag::fixed_by_resume},

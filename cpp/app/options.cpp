@@ -43,6 +43,7 @@ Options read_options(const FlagValues& given) {
   for (const uint64_t sensor : all<uint64_t>(given, "sensor"))
     options.load.sensor = static_cast<int64_t>(sensor);
   text("filter", options.load.filter);
+  options.load.spectral = given.count("spectral") > 0;
   if (given.count("lenient") && given.count("strict"))
     throw UsageError("--lenient and --strict exclude each other");
   if (given.count("lenient")) options.load.lenient = true;

@@ -48,34 +48,34 @@ class BdptTaker : public BidirectionalTaker {
   void sample(const Vec2& raster, PixelSampler& sampler, SampleSink& sink,
               RayCounts& rays) override {
     bidirectional_.sample(raster, sampler, rays);
-    Spectrum seen(0);
+    Color seen(0);
     bidirectional_.connect_all(rays, [&](const Connection& c) {
-      const Spectrum weighted = c.contribution * c.weight;
+      const Color weighted = c.contribution * c.weight;
       if (c.t >= 2)
         seen += weighted;
       else
-        sink.splat(c.raster, weighted.rgb());
+        sink.splat(c.raster, weighted);
       if (std::vector<FoundPath>* paths = sink.paths())
         paths->push_back(found_path(*scene_, bidirectional_, c));
       if (!techniques_) return;
       const int layer = 2 * technique_index(c.s, c.t);
-      sink.splat_layer(layer, c.raster, c.contribution.rgb());
-      sink.splat_layer(layer + 1, c.raster, weighted.rgb());
+      sink.splat_layer(layer, c.raster, c.contribution);
+      sink.splat_layer(layer + 1, c.raster, weighted);
     });
     // Importance over the density of raster positions is divided out: what is left is radiance.
-    sink.add(raster, seen.rgb() * scale_);
+    sink.add(raster, seen * scale_);
   }
 
  private:
   void show(const BidirectionalWave& wave, int i, SampleSink& sink) override {
-    Spectrum seen(0);
+    Color seen(0);
     wave.show_lights(i, [&](const BidirectionalWave::Light& light) {
       if (light.own_pixel)
         seen += light.weighted;
       else
-        sink.splat(light.raster, light.weighted.rgb());
+        sink.splat(light.raster, light.weighted);
     });
-    sink.add(wave.raster(i), seen.rgb() * scale_);
+    sink.add(wave.raster(i), seen * scale_);
   }
 
   const Scene* scene_;

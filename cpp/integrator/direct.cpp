@@ -34,7 +34,7 @@ class DirectTaker : public SampleTaker {
   void sample(const Vec2& raster, PixelSampler& sampler, SampleSink& sink,
               RayCounts& rays) override {
     const Ray ray = leave_lens(scene_->camera(), raster, sampler).ray;
-    sink.add(raster, radiance(ray, sampler, rays).rgb());
+    sink.add(raster, recorded(radiance(ray, sampler, rays), ray.wavelength));
   }
 
  private:
@@ -46,7 +46,7 @@ class DirectTaker : public SampleTaker {
     const auto always = [](const Emitter&, const SurfacePoint&) { return 1.0; };
     Spectrum sum(0);
     if (!settings_.rules.hide_emitters)
-      sum += emission(*scene_, hit ? &at : nullptr, ray.d, always);
+      sum += emission(*scene_, hit ? &at : nullptr, ray, always);
     if (!hit || !consistent_sides(at, -ray.d, settings_.rules.strict_normals))
       return sum * walk.throughput;
     if (BsdfAt(*scene_, at).has_smooth())
@@ -86,7 +86,7 @@ class DirectTaker : public SampleTaker {
       const double light = direct_pdf(*scene_, emitter, at.p, x0, sample->w);
       return MisExponent(Heuristic::power).weight(m * walk.scatter_pdf, n * light);
     };
-    return walk.throughput * emission(*scene_, hit ? &next : nullptr, sample->w, weight) / m;
+    return walk.throughput * emission(*scene_, hit ? &next : nullptr, walk.ray, weight) / m;
   }
 
   const Scene* scene_;

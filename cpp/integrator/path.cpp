@@ -18,7 +18,7 @@ class PathTaker : public WaveTaker {
               RayCounts& rays) override {
     const auto [lens, ray] = leave_lens(scene().camera(), raster, sampler);
     const auto trace = [&](auto&& watcher) {
-      sink.add(raster, trace_path(scene(), rules(), ray, sampler, rays, watcher).rgb());
+      sink.add(raster, trace_path(scene(), rules(), ray, sampler, rays, watcher));
     };
     if (sink.paths())
       trace(PathRecorder(scene(), raster, lens.at, ray.time, *sink.paths()));

@@ -19,7 +19,7 @@ class LightTaker : public SampleTaker {
     bidirectional_.sample_light(sampler, rays);
     bidirectional_.connect_to_lens(rays, [&](Connection c) {
       c.weight = 1;
-      sink.splat(c.raster, c.contribution.rgb());
+      sink.splat(c.raster, c.contribution);
       if (std::vector<FoundPath>* paths = sink.paths())
         paths->push_back(found_path(*scene_, bidirectional_, c));
     });

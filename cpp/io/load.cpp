@@ -52,14 +52,23 @@ Node asking_for(Node scene, int64_t sensor) {
   return scene;
 }
 
-/// Sets the reconstruction filter of all films, and adds a film to sensors that have none.
-void use_filter(Node& node, const std::string& filter) {
+/// Calls change(film) for all films, and adds a film to sensors that have none.
+template <class Change>
+void change_films(Node& node, const Change& change) {
   const auto is_film = [](const Node& n) { return n.family == "film" || n.family == "ref"; };
   auto& children = node.children;
-  if (node.family == "film") children = {Node{"rfilter", filter, "", "", node.where, {}, {}}};
+  if (node.family == "film") change(node);
   if (node.family == "sensor" && std::none_of(children.begin(), children.end(), is_film))
     children.push_back({"film", "hdrfilm", "", "", node.where, {}, {}});
-  for (Node& child : children) use_filter(child, filter);
+  for (Node& child : children) change_films(child, change);
+}
+
+void make_spectral(Node& film) {
+  auto& all = film.properties;
+  all.erase(std::remove_if(all.begin(), all.end(),
+                           [](const auto& property) { return property.name == "spectral"; }),
+            all.end());
+  all.push_back({"spectral", true, film.where});
 }
 
 const Node& chosen_sensor(const Node& scene, std::vector<std::string>& warnings) {
@@ -176,8 +185,11 @@ LoadedScene build_scene(const Node& tree, const Registry& registry, const LoadOp
   loaded.tree = options.sensor ? asking_for(tree, *options.sensor) : tree;
   if (!options.filter.empty()) {
     registry.find("rfilter", options.filter, {});
-    use_filter(loaded.tree, options.filter);
+    change_films(loaded.tree, [&](Node& film) {
+      film.children = {Node{"rfilter", options.filter, "", "", film.where, {}, {}}};
+    });
   }
+  if (options.spectral) change_films(loaded.tree, make_spectral);
   const Node& scene = loaded.tree;
   if (scene.family != "scene")
     throw SceneError(at(scene.where, "the root is a {}, but should be a scene", scene.family));
@@ -220,6 +232,15 @@ LoadedScene with_sensor(const LoadedScene& loaded, int64_t sensor, const Registr
   LoadedScene other = build_again(loaded, asking_for(loaded.tree, sensor), registry);
   other.source = loaded.source;
   other.source.options.sensor = sensor;
+  return other;
+}
+
+LoadedScene with_wavelengths(const LoadedScene& loaded, const Registry& registry) {
+  Node tree = loaded.tree;
+  change_films(tree, make_spectral);
+  LoadedScene other = build_again(loaded, tree, registry);
+  other.source = loaded.source;
+  other.source.options.spectral = true;
   return other;
 }
 

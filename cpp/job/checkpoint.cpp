@@ -36,6 +36,7 @@ void save(ByteWriter& bytes, const SceneSource& scene) {
   bytes.write(scene.options.lenient);
   bytes.write(scene.options.sensor);
   bytes.write(scene.options.filter);
+  bytes.write(scene.options.spectral);
 }
 
 SceneSource load_source(ByteReader& bytes) {
@@ -48,6 +49,7 @@ SceneSource load_source(ByteReader& bytes) {
   bytes.read(scene.options.lenient);
   bytes.read(scene.options.sensor);
   bytes.read(scene.options.filter);
+  scene.options.spectral = bytes.read<bool>();
   return scene;
 }
 

@@ -114,7 +114,8 @@ Stats Job::stats() const {
   if (units_done_ == 0) return stats;
   const std::shared_ptr<const ErrorEstimate> estimate = error();
   add_error(*estimate, stats);
-  if (estimate->negative_pixels > 0 && !scene_->film().filter->has_negative_lobes())
+  if (estimate->negative_pixels > 0 && !scene_->film().filter->has_negative_lobes() &&
+      !scene_->camera().spectral())
     stats.warnings.push_back(
         fmt::format("{} pixels are negative, which no light is; please report it with the scene",
                     estimate->negative_pixels));

@@ -11,6 +11,8 @@ using Color = Vec3;
 inline bool is_black(const Color& c) { return c.x == 0 && c.y == 0 && c.z == 0; }
 inline bool is_grey(const Color& c) { return c.x == c.y && c.y == c.z; }
 
+inline double mean(const Color& c) { return (c.x + c.y + c.z) / 3; }
+
 /// Rec. 709 luminance (ITU-R BT.709, sec. 3).
 inline double luminance(const Color& c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
 

@@ -96,10 +96,11 @@ inline double target_luminance(const Spectrum& s) {
 inline bool is_black(const Spectrum& s) { return s == Spectrum(0); }
 inline bool is_grey(const Spectrum& s) { return s == Spectrum(s[0]); }
 
-/// e^s, lane by lane; of a grey one once.
+/// e^s, lane by lane; of equal lanes once.
 inline Spectrum exp(const Spectrum& s) {
-  return is_grey(s) ? Spectrum(std::exp(s[0]))
-                    : lane_by_lane(s, [](double x) { return std::exp(x); });
+  if (is_grey(s)) return Spectrum(std::exp(s[0]));
+  const double second = std::exp(s[1]);
+  return {std::exp(s[0]), second, std::exp(s[2]), s[3] == s[1] ? second : std::exp(s[3])};
 }
 
 /// Whether light of this throughput is zero in single precision, the precision of images.

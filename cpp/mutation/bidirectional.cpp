@@ -113,11 +113,12 @@ int most_from_light(int n, bool lens_is_missing, const Scene& scene) {
 bool new_end(const Scene& scene, Path& path, int i, bool alone, Rng& rng) {
   if (i > 0) {
     path[i] = camera_vertex(scene.camera().sample_position({rng.next(), rng.next()}, path.time).at);
+    path[i].at.wavelength = path.wavelength;
     return true;
   }
   const Vec3 u{rng.next(), rng.next(), rng.next()};
   const LightSample light = alone ? sample_direct_position(scene, path[1].at, u)
-                                  : sample_light_position(scene, u, path.time);
+                                  : sample_light_position(scene, u, path.time, path.wavelength);
   if (!(light.x0.pdf > 0)) return false;
   path[0] = light_vertex(*light.emitter, light.x0.at);
   return true;
@@ -170,7 +171,11 @@ class BidirectionalMutation final : public MeasuredMutation<BidirectionalMutatio
     const int s = static_cast<int>(context.rng.below(most_from_light(n, m > k, scene()) + 1)),
               t = n - s;
     splice(x, edit, y);
-    if (l < 0 && m > k) y.path.time = scene().camera().time(context.rng.next());
+    if (l < 0 && m > k) {
+      const Camera& camera = scene().camera();
+      y.path.time = camera.time(context.rng.next());
+      y.path.wavelength = camera.wavelength([&] { return context.rng.next(); });
+    }
     // Sampling an emitter for x_1 needs x_1, so the camera side grows first.
     if (!grow(y, edit.first + n - 1, t, -1, context)) return std::nullopt;
     if (!grow(y, edit.first, s, 1, context)) return std::nullopt;

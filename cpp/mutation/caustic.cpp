@@ -39,6 +39,7 @@ class CausticPerturbation final : public MeasuredMutation<CausticPerturbation> {
       const Bounds& bounds = scene().bounds();
       const double back = dot(bounds.center - through, x[0].at.p) + bounds.radius;
       ray = {through + back * x[0].at.p, -x[0].at.p, y.path.time, infinity, x[0].at.medium};
+      ray.wavelength = y.path.wavelength;
     } else {
       ray = scene().spawn(x[a].at, perturbed(x, a, rng), y.path.time);
     }

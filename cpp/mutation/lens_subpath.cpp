@@ -20,7 +20,8 @@ class LensSubpathMutation final : public MeasuredMutation<LensSubpathMutation> {
                               MutationContext& context) const override {
     const Camera& camera = scene().camera();
     Rng& rng = context.rng;
-    const PositionSample lens = camera.sample_position({rng.next(), rng.next()}, x.path.time);
+    PositionSample lens = camera.sample_position({rng.next(), rng.next()}, x.path.time);
+    lens.at.wavelength = x.path.wavelength;
     const Walker walker{scene(), x.path.time, context.rays};
     Ray ray = leave_lens(camera, lens.at, context.raster_position(camera.raster()));
 

@@ -17,6 +17,7 @@ void splice(const PathState& x, const Edit& edit, PathState& y) {
   const int count = x.edges() + 1;
   splice(x.path.vertices, count, edit, y.path.vertices);
   y.path.time = x.path.time;
+  y.path.wavelength = x.path.wavelength;
   splice(x.terms.at, count, edit, y.terms.at);
   if (!x.terms.passages.empty()) splice(x.terms.passages, count, edit, y.terms.passages);
   y.terms.direct = x.terms.direct;

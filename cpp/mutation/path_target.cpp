@@ -11,6 +11,7 @@ void PathTarget::evaluate(int first, int last, PathState& x) const {
 
 void PathTarget::evaluate(PathState& x) const {
   x.path.set_time(x.path.time);
+  x.path.set_wavelength(x.path.wavelength);
   for (Vertex& vertex : x.path.vertices)
     if (vertex.kind == VertexKind::inner)
       vertex.at.lambertian = scene_->bsdf(vertex.at).lambertian(vertex.at);
@@ -24,7 +25,7 @@ void PathTarget::evaluate_target(PathState& x) const {
   x.known.invalidate();
   if (!rules_.wants(x.edges())) return;
   if (x.edges() == 1 && !(x.terms.light_can_be_hit || x.terms.camera_can_be_hit)) return;
-  const Spectrum f = relative_contribution(x.terms);
+  const Color f = relative_contribution(x.terms);
   const double target = target_luminance(f);
   if (!(target > 0)) {
     if (std::isnan(target)) x.target = target;
@@ -32,7 +33,7 @@ void PathTarget::evaluate_target(PathState& x) const {
   }
   if (!x.terms.raster) return;
   x.raster = *x.terms.raster;
-  x.rgb = f.rgb();
+  x.rgb = f;
   x.target = of(f, x.raster, certainty(x.terms));
 }
 

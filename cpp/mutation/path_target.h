@@ -56,7 +56,7 @@ class PathTarget {
   double factor(const Vec2& raster) const { return map_ ? (*map_)(raster) : 1.0; }
   /// The target of light of this color, f or f / p, at a raster position, by a path of this
   /// certainty.
-  double of(const Spectrum& color, const Vec2& raster, double certainty) const {
+  double of(const Color& color, const Vec2& raster, double certainty) const {
     return certainty > most_certain(raster) ? 0 : target_luminance(color) * factor(raster);
   }
   /// T(x) / P(x), where P is the density of the techniques together (see FamilyWeights).

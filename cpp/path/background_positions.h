@@ -20,7 +20,8 @@ class BackgroundPositions {
     waiting_.push_back({choice, {{u.y, u.z}, &light.x0}});
     return true;
   }
-  void sample_all(const Scene& scene) {
+  /// `wavelength` is that of all of them.
+  void sample_all(const Scene& scene, double wavelength = rgb_lanes) {
     for (const uint32_t index : scene.infinite_emitters()) {
       requests_.clear();
       for (const Waiting& waiting : waiting_)
@@ -28,8 +29,10 @@ class BackgroundPositions {
       scene.emitters()[index]->sample_positions(requests_.data(),
                                                 static_cast<int>(requests_.size()));
     }
-    for (const Waiting& waiting : waiting_)
+    for (const Waiting& waiting : waiting_) {
       waiting.request.sample->pdf *= waiting.choice.probability;
+      waiting.request.sample->at.wavelength = wavelength;
+    }
     waiting_.clear();
   }
 

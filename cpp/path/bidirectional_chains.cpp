@@ -52,6 +52,7 @@ bool BidirectionalSampler::evaluate_manifold(Connection& connection, Rng& rng, R
   path[s].lobe = Lobe::smooth;
   for (int j = t - 2; j >= 0; --j) path.vertices.push_back(camera_[j].vertex);
   path.time = time_;
+  path.wavelength = wavelength_;
   const PathTerms& terms = manifold_terms_;
   compute_terms(*scene_, path, {settings_.sample_direct, settings_.rules.strict_normals},
                 manifold_terms_);
@@ -71,7 +72,7 @@ bool BidirectionalSampler::evaluate_manifold(Connection& connection, Rng& rng, R
   if (!(rng.next() < roulette)) return false;
   connection.searches = manifold_->find_again(time_, rng, rays);
   connection.found_again = manifold_->guess(terms) * connection.searches / roulette;
-  connection.contribution = value * connection.found_again;
+  connection.contribution = recorded(value * connection.found_again, wavelength_);
   connection.survival = y.survival;
   connection.own_share = weights.balance * y.survival / connection.found_again;
   return connection.weight > 0;

@@ -152,7 +152,7 @@ bool BidirectionalSampler::evaluate_hit_light(Connection& connection) {
   if (!can_be_hit(*scene_, x0)) return false;
   const VertexTerms terms = vertex_terms(*scene_, x0, end.towards_previous, end.towards_previous,
                                          settings_.rules.strict_normals);
-  connection.contribution = end.throughput * terms.f;
+  connection.contribution = recorded(end.throughput * terms.f, wavelength_);
   if (is_black(connection.contribution)) return false;
   connection.certainty = certainty_of_hit_light(t);
   const double from_light = light_position_pdf(*scene_, x0);
@@ -207,8 +207,8 @@ bool BidirectionalSampler::evaluate_connection(Connection& connection, RayCounts
   } else if (!find_end(*scene_, b, Subpath::From::camera, -edge.w, strict, at_b)) {
     return false;
   }
-  connection.contribution = at_a.value * at_b.value * edge.G;
-  if (is_black(connection.contribution)) return false;
+  Spectrum light = at_a.value * at_b.value * edge.G;
+  if (is_black(light)) return false;
   const Passage seen = walker(rays).passage(a.vertex.at, b.vertex.at);
   if (seen.is_blocked()) return false;
   connection.certainty = k == 1 ? 1 : 0;
@@ -219,11 +219,12 @@ bool BidirectionalSampler::evaluate_connection(Connection& connection, RayCounts
                   from_camera = ends.from_camera.after(b.likelihood);
     light_likelihood = from_light.next_likelihood();
     camera_likelihood = from_camera.next_likelihood();
-    connection.contribution *= ends.transmittance;
+    light *= ends.transmittance;
     at_a.onwards *= from_light.probability();
     at_b.onwards *= from_camera.probability();
     connection.certainty *= from_camera.probability();
   }
+  connection.contribution = recorded(light, wavelength_);
 
   const TechniqueSums below =
       below_joint(s - 1, a, at_a.back, camera_likelihood).over(at_b.onwards * edge.G / a.forward);
@@ -239,7 +240,7 @@ void BidirectionalSampler::sample_backgrounds() {
     LightSample& light = direct_backgrounds_[i];
     if (!backgrounds_.add(*scene_, direct_u_[i], light)) light.emitter = nullptr;
   }
-  backgrounds_.sample_all(*scene_);
+  backgrounds_.sample_all(*scene_, wavelength_);
 }
 
 /// Samples x_0 for camera vertex t - 1 (next-event estimation).
@@ -266,8 +267,9 @@ bool BidirectionalSampler::evaluate_hit_lens(Connection& connection, RayCounts& 
   const bool passages = scene_->has_passages();
   const Ray ray =
       s == 2 ? light_.first_ray() : walker(rays).leave(last.vertex.at, last.towards_next);
-  const auto hit = scene_->camera().hit_lens(ray);
+  auto hit = scene_->camera().hit_lens(ray);
   if (!hit) return false;
+  hit->wavelength = wavelength_;
   if (!passages && s <= static_cast<int>(light_.size()) &&
       length_squared(hit->p - ray.o) >= length_squared(light_[s - 1].vertex.at.p - ray.o))
     return false;
@@ -275,15 +277,15 @@ bool BidirectionalSampler::evaluate_hit_lens(Connection& connection, RayCounts& 
   const auto [terms, raster] = lens_terms(*scene_, *hit, -last.towards_next);
   if (is_black(terms.f) || !raster) return false;
   connection.raster = *raster;
-  connection.contribution = last.next_throughput * terms.f;
-  if (is_black(connection.contribution)) return false;
+  const Spectrum light = last.next_throughput * terms.f;
+  if (is_black(light)) return false;
   Passage seen;
   const bool traced = !light_.goes_on() || s - 1 < static_cast<int>(light_.size());
   if (passages || !traced) seen = walker(rays).passage(last.vertex.at, *hit);
   if (seen.is_blocked()) return false;
   const EdgePassage edge =
       passages ? EdgePassage(*scene_, last.vertex.at, *hit, seen, true) : EdgePassage();
-  connection.contribution *= edge.transmittance;
+  connection.contribution = recorded(light * edge.transmittance, wavelength_);
   connection.certainty = certainty_of_hit_lens(s, edge.from_camera);
   const double G = geometry(last.vertex.at, *hit);
   const double before_lens = !connectable(last.vertex) ? manifold_count(k - 1, lens_)
@@ -305,6 +307,7 @@ void BidirectionalSampler::assemble(const Connection& connection, Path& path) co
   }
   path.vertices.clear();
   path.time = time_;
+  path.wavelength = wavelength_;
   const int lights = t == 0 ? s - 1 : s;
   for (int i = 0; i < lights; ++i)
     path.vertices.push_back(is_direct(s) ? direct_.vertex : light_[i].vertex);

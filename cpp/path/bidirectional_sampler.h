@@ -32,7 +32,7 @@ struct Technique {
 struct Connection {
   int s, t;
   Vec2 raster;
-  Spectrum contribution;  ///< f / p, without the weight.
+  Color contribution;  ///< f / p as a film records it, without the weight.
   double weight;
   const Emitter* emitter = nullptr;  ///< The light of a path with s = 0.
   /// The factor that turns the contribution into f / P, with P the density of all techniques.
@@ -94,9 +94,7 @@ class BidirectionalSampler {
   template <class Sampler>
   void sample_light(Sampler& sampler, RayCounts& rays) {
     sampler.begin(Stream::camera);
-    const LensNumbers u = LensNumbers::draw(sampler);
-    time_ = scene_->camera().time(u.time);
-    const PositionSample lens = scene_->camera().sample_position(u.position, time_);
+    const PositionSample lens = start_from_lens(sampler);
     camera_.start(camera_vertex(lens.at), lens.pdf);
     walk_from_light(walker(rays), settings_.rules, longest_light_walk(), sampler, light_);
     draw_direct(sampler);
@@ -134,7 +132,7 @@ class BidirectionalSampler {
   void connect_by_manifolds(RayCounts& rays, Found&& found) {
     Rng rng(manifold_seed_, Purpose::manifold, 0);
     for (int t = 1; t <= static_cast<int>(camera_.size()) && light_.size() > 0; ++t) {
-      Connection connection{0, t, raster_, Spectrum(0), 0};
+      Connection connection{0, t, raster_, Color(0), 0};
       if (evaluate_manifold(connection, rng, rays)) found(connection);
     }
   }
@@ -151,16 +149,26 @@ class BidirectionalSampler {
   bool wanted(int s, int t) const { return settings_.rules.wants(s + t - 1); }
   /// Whether x_0 is sampled for x_1 (next-event estimation).
   bool is_direct(int s) const { return s == 1 && settings_.sample_direct; }
-  Walker walker(RayCounts& rays) const { return {*scene_, time_, rays}; }
+  Walker walker(RayCounts& rays) const {
+    return {*scene_, time_, rays, wavelength_};
+  }
   /// A light walk may still hit the lens from its last vertex.
   WalkLength longest_light_walk() const { return {settings_.rules.most_edges(), true}; }
 
+  /// Draws a point on the lens, and with it the time and the wavelength.
+  template <class Sampler>
+  PositionSample start_from_lens(Sampler& sampler) {
+    const PositionSample lens = sample_lens(scene_->camera(), sampler);
+    time_ = lens.at.time;
+    wavelength_ = lens.at.wavelength;
+    return lens;
+  }
   template <class Sampler>
   void walk_from_camera(const Vec2& raster, const WalkLength& most, Sampler& sampler,
                         RayCounts& rays) {
     raster_ = raster;
-    const auto [lens, ray] = leave_lens(scene_->camera(), raster, sampler);
-    time_ = ray.time;
+    const PositionSample lens = start_from_lens(sampler);
+    const Ray ray = leave_lens(scene_->camera(), lens.at, raster);
     camera_.start(camera_vertex(lens.at), lens.pdf);
     camera_.walk(walker(rays), settings_.rules,
                  {ray, scene_->camera().pdf_direction(lens.at, ray.d)}, most, sampler);
@@ -214,19 +222,19 @@ class BidirectionalSampler {
 
   template <class Found>
   void emit(const Emitter& emitter, int t, Found&& found) {
-    Connection connection{0, t, raster_, Spectrum(0), 0, &emitter};
+    Connection connection{0, t, raster_, Color(0), 0, &emitter};
     if (evaluate_hit_light(connection)) found(connection);
   }
 
   template <class Found>
   void connect(int s, int t, RayCounts& rays, Found& found) {
-    Connection connection{s, t, raster_, Spectrum(0), 0};
+    Connection connection{s, t, raster_, Color(0), 0};
     if (wanted(s, t) && evaluate_connection(connection, rays)) found(connection);
   }
 
   template <class Found>
   void hit_lens(int s, RayCounts& rays, Found& found) {
-    Connection connection{s, 0, raster_, Spectrum(0), 0};
+    Connection connection{s, 0, raster_, Color(0), 0};
     if (wanted(s, 0) && evaluate_hit_lens(connection, rays)) found(connection);
   }
 
@@ -269,7 +277,7 @@ class BidirectionalSampler {
   bool lens_can_be_hit_;
   Subpath light_{Subpath::From::light}, camera_{Subpath::From::camera};
   Vec2 raster_{0};
-  double time_ = 0;
+  double time_ = 0, wavelength_ = rgb_lanes;
   std::vector<Vec3> direct_u_;  ///< Numbers for s = 1, one triple for each camera vertex.
   BackgroundPositions backgrounds_;
   /// Lights at infinity sampled by direct_u_; without an emitter where another is chosen. Or empty.

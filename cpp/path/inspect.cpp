@@ -77,7 +77,7 @@ FoundPath found_path(const Scene& scene, const BidirectionalSampler& paths,
   found.s = connection.s;
   found.t = connection.t;
   found.raster = connection.raster;
-  found.estimate = connection.contribution.rgb() * (connection.weight * radiance_scale(scene));
+  found.estimate = connection.contribution * (connection.weight * radiance_scale(scene));
   return found;
 }
 
@@ -87,24 +87,25 @@ PathRecorder::PathRecorder(const Scene& scene, const Vec2& raster, const Surface
 
 void PathRecorder::hit(const Emitter& emitter, const SurfacePoint& x0, const Vec3& w,
                        const Spectrum& throughput) {
-  keep(light_vertex(emitter, x0), false, throughput * emitter.eval(x0, w));
+  keep(light_vertex(emitter, x0), false, recorded(throughput * emitter.eval(x0, w), x0.wavelength));
 }
 
-void PathRecorder::connect(const Vec3& u_light, const Spectrum& estimate) {
+void PathRecorder::connect(const Vec3& u_light, const Color& estimate) {
   const LightSample light = sample_direct_position(*scene_, walk_.back().at, u_light);
   if (light.x0.pdf > 0) keep(light_vertex(*light.emitter, light.x0.at), true, estimate);
 }
 
-void PathRecorder::keep(const Vertex& x0, bool connected, const Spectrum& estimate) {
+void PathRecorder::keep(const Vertex& x0, bool connected, const Color& estimate) {
   if (is_black(estimate)) return;
   FoundPath found;
   found.path.time = time_;
+  found.path.wavelength = walk_[0].at.wavelength;
   found.path.vertices.push_back(x0);
   found.path.vertices.insert(found.path.vertices.end(), walk_.rbegin(), walk_.rend());
   found.s = connected ? 1 : 0;
   found.t = found.path.edges() + 1 - found.s;
   found.raster = raster_;
-  found.estimate = estimate.rgb();
+  found.estimate = estimate;
   found_->push_back(std::move(found));
 }
 

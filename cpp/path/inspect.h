@@ -31,6 +31,11 @@ inline double radiance_scale(const Scene& scene) {
   return scene.camera().raster().pixels() / scene.camera().raster().sampled_area();
 }
 
+/// The linear sRGB of what a film of the scene has recorded.
+inline Color shown(const Scene& scene, const Color& recorded) {
+  return scene.camera().spectral() ? developed(recorded) : recorded;
+}
+
 /// A connection that `paths` has just found, with its path.
 FoundPath found_path(const Scene& scene, const BidirectionalSampler& paths,
                      const Connection& connection);
@@ -45,10 +50,10 @@ class PathRecorder : public IgnorePaths {
   void scatter(Lobe lobe) { walk_.back().lobe = lobe; }
   void hit(const Emitter& emitter, const SurfacePoint& x0, const Vec3& w,
            const Spectrum& throughput);
-  void connect(const Vec3& u_light, const Spectrum& estimate);
+  void connect(const Vec3& u_light, const Color& estimate);
 
  private:
-  void keep(const Vertex& x0, bool connected, const Spectrum& estimate);
+  void keep(const Vertex& x0, bool connected, const Color& estimate);
 
   const Scene* scene_;
   Vec2 raster_;

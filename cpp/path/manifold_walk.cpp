@@ -11,7 +11,9 @@ Ray ray_through(const Scene& scene, const SurfacePoint& end, const Vec3& p, doub
   }
   const Bounds& bounds = scene.bounds();
   const double back = dot(bounds.center - p, end.p) + bounds.radius;
-  return {p + back * end.p, -end.p, time, infinity, end.medium};
+  Ray ray{p + back * end.p, -end.p, time, infinity, end.medium};
+  ray.wavelength = end.wavelength;
+  return ray;
 }
 
 bool ManifoldWalk::start(const Scene& scene, const Vertex* first, int count) {

@@ -32,6 +32,7 @@ void save(ByteWriter& bytes, const Path& path) {
   for (const Vertex& x : path.vertices)
     for_each_member(x, [&](const auto& member) { bytes.write(member); });
   bytes.write(path.time);
+  bytes.write(path.wavelength);
 }
 
 void load(ByteReader& bytes, Path& path) {
@@ -43,6 +44,7 @@ void load(ByteReader& bytes, Path& path) {
                     [&](auto& member) { member = bytes.read<std::decay_t<decltype(member)>>(); });
   }
   path.set_time(bytes.read<double>());
+  path.set_wavelength(bytes.read<double>());
 }
 
 std::optional<Vec2> raster_position(const Scene& scene, const Path& path) {

@@ -12,11 +12,17 @@ namespace mlt {
 struct Path {
   std::vector<Vertex> vertices;
   double time = 0;
+  double wavelength = rgb_lanes;  ///< See wavelengths.h.
 
   /// Sets the time of all vertices; their positions stay the same.
   void set_time(double moment) {
     time = moment;
     for (Vertex& x : vertices) x.at.time = moment;
+  }
+  /// Sets the wavelength of all vertices.
+  void set_wavelength(double u) {
+    wavelength = u;
+    for (Vertex& x : vertices) x.at.wavelength = u;
   }
 
   int edges() const { return static_cast<int>(vertices.size()) - 1; }  ///< k

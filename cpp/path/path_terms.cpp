@@ -91,6 +91,7 @@ void update_terms(const Scene& scene, const Path& path, const TermSettings& sett
     if (i < k) at[i + 1].from_light = x.vertex.pdf_from_light * x.G;
     wl = -wc;
   }
+  terms.wavelength = path.wavelength;
   if (passages) include_passages(scene, path, first, last, begin, end, terms);
   if (first == 0) {
     at[0].from_light = light_position_pdf(scene, vertices[0]);
@@ -118,10 +119,10 @@ std::string signature(const Scene& scene, const Path& path, double near_specular
   return signature(terms);
 }
 
-Spectrum contribution(const PathTerms& terms) {
+Color contribution(const PathTerms& terms) {
   Spectrum product = terms[0].vertex.f;
   for (int i = 0; i < terms.edges(); ++i) product *= terms[i].G * terms[i + 1].vertex.f;
-  return product;
+  return recorded(product, terms.wavelength);
 }
 
 double magnitude(const PathTerms& terms, int i, int j) {
@@ -130,10 +131,10 @@ double magnitude(const PathTerms& terms, int i, int j) {
   return product;
 }
 
-Spectrum relative_contribution(const PathTerms& terms) {
+Color relative_contribution(const PathTerms& terms) {
   Spectrum product(1);
   for (const TermsAt& x : terms.at) product *= x.vertex.f * x.inverse_f;
-  return product;
+  return recorded(product, terms.wavelength);
 }
 
 double technique_density(const PathTerms& terms, int s) {

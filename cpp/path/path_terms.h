@@ -83,6 +83,7 @@ struct PathTerms {
   /// Density of x_0 in the technique s = 1, which may sample it for x_1.
   double direct = 0;
   std::optional<Vec2> raster;  ///< Raster position; nullopt if the path misses the image.
+  double wavelength = rgb_lanes;
 
   int edges() const { return static_cast<int>(at.size()) - 1; }  ///< k
   /// Unit direction at x_i towards x_{i + step}, where step is 1 or -1.
@@ -123,13 +124,14 @@ void update_terms(const Scene& scene, const Path& path, const TermSettings& sett
 std::string signature(const PathTerms& terms);
 std::string signature(const Scene& scene, const Path& path, double near_specular = 0);
 
-/// f(x) = f_0 G_0 f_1 G_1 ... G_{k-1} f_k (Veach 1997, eq. 8.7), without visibility.
-Spectrum contribution(const PathTerms& terms);
+/// f(x) = f_0 G_0 f_1 G_1 ... G_{k-1} f_k (Veach 1997, eq. 8.7), without visibility, as a film
+/// records it.
+Color contribution(const PathTerms& terms);
 
 /// |f_i| G_i |f_{i+1}| ... |f_j|; of a whole path it is |f(x)|, which may overflow or underflow.
 double magnitude(const PathTerms& terms, int i, int j);
 /// f(x) / |f(x)|: a colour, whatever the length of the path and the scale of the scene.
-Spectrum relative_contribution(const PathTerms& terms);
+Color relative_contribution(const PathTerms& terms);
 
 /// Whether technique s can make the path: only if neither end of the connecting edge is a delta
 /// vertex; s = 0 needs a light, s = k + 1 a lens, that a walk can hit.

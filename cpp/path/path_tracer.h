@@ -22,10 +22,11 @@ inline double direct_pdf(const Scene& scene, const Emitter& emitter, const Vec3&
          per_solid_angle(from, x0, w);
 }
 
-/// Finds the emission towards the camera where a ray along w ends: calls visit(emitter, x0,
+/// Finds the emission towards the camera where a ray ends: calls visit(emitter, x0,
 /// radiance) for the surface `at` that was hit, or (nullptr) for every light at infinity.
 template <class Visit>
-void visit_emission(const Scene& scene, const SurfacePoint* at, const Vec3& w, Visit&& visit) {
+void visit_emission(const Scene& scene, const SurfacePoint* at, const Ray& ray, Visit&& visit) {
+  const Vec3& w = ray.d;
   if (at) {
     const Emitter* emitter = scene.emitter(*at);
     if (!emitter || emitter->delta_direction()) return;
@@ -34,7 +35,7 @@ void visit_emission(const Scene& scene, const SurfacePoint* at, const Vec3& w, V
     return;
   }
   if (scene.backgrounds().empty()) return;
-  const SurfacePoint x0 = Scene::point_at_infinity(w);
+  const SurfacePoint x0 = Scene::point_at_infinity(w, ray.wavelength);
   for (const uint32_t index : scene.backgrounds()) {
     const Emitter& emitter = *scene.emitters()[index];
     visit(emitter, x0, emitter.eval(x0, -w));
@@ -43,9 +44,9 @@ void visit_emission(const Scene& scene, const SurfacePoint* at, const Vec3& w, V
 
 /// The sum of that emission; `weight(emitter, x0)` is the MIS weight of having hit x0.
 template <class Weight>
-Spectrum emission(const Scene& scene, const SurfacePoint* at, const Vec3& w, Weight&& weight) {
+Spectrum emission(const Scene& scene, const SurfacePoint* at, const Ray& ray, Weight&& weight) {
   Spectrum sum(0);
-  visit_emission(scene, at, w,
+  visit_emission(scene, at, ray,
                  [&](const Emitter& emitter, const SurfacePoint& x0, const Spectrum& radiance) {
                    sum += radiance * weight(emitter, x0);
                  });
@@ -137,14 +138,14 @@ struct CameraWalk;
 /// them.
 struct IgnorePaths {
   /// Called before hit() or connect(): a path with this radiance was found.
-  void find(const CameraWalk&, const Spectrum& /*radiance*/, double /*certainty*/) {}
+  void find(const CameraWalk&, const Color& /*radiance*/, double /*certainty*/) {}
   /// A light was hit at x0; `throughput` is the factor of its radiance towards w.
   void hit(const Emitter&, const SurfacePoint& /*x0*/, const Vec3& /*w*/,
            const Spectrum& /*throughput*/) {}
   void arrive(const SurfacePoint&) {}
   /// The last vertex was connected to a position on a light, sampled by sample_direct_position with
   /// `u`; `radiance` is the result.
-  void connect(const Vec3& /*u*/, const Spectrum& /*radiance*/) {}
+  void connect(const Vec3& /*u*/, const Color& /*radiance*/) {}
   void scatter(Lobe) {}
 };
 
@@ -153,7 +154,8 @@ struct CameraWalk {
   CameraWalk(const Ray& first) : ray(first), previous(first.o) {}
 
   Ray ray;  ///< The next ray.
-  Spectrum radiance{0}, throughput{1};
+  Color radiance{0};  ///< As a film records it.
+  Spectrum throughput{1};
   Vec3 previous;           ///< Its last vertex.
   double scatter_pdf = 0;  ///< Density of the ray in solid angle.
   bool delta = true;       ///< Whether `previous` is the lens, or scattered by a delta.
@@ -167,13 +169,15 @@ struct CameraWalk {
   ChainFactor chain_factor;
 
   /// The weight w1 of a path with this certainty and radiance.
-  double own_share(const Spectrum& found, double its_certainty = 0) const {
+  double own_share(const Color& found, double its_certainty = 0) const {
     const auto& [factor, most_certain] = chain_factor;
     return factor > 0 && its_certainty <= most_certain
                ? 1 / (1 + factor * survival * target_luminance(found))
                : 1.0;
   }
-  void take(const Spectrum& found, double share) { radiance += found * share; }
+  void take(const Color& found, double share) { radiance += found * share; }
+  /// The light of a path as a film records it.
+  Color seen(const Spectrum& light) const { return recorded(light, ray.wavelength); }
 
   /// Goes along the ray up to where it stops.
   void pass(const Passage& leg, const Arrival& arrival) {
@@ -207,12 +211,13 @@ void find_light(const Scene& scene, CameraWalk& walk, const SurfacePoint* at,
         walk.delta
             ? 1.0
             : walk.mis.weight(walk.scatter_pdf, direct_pdf(scene, emitter, walk.previous, x0, w));
-    const Spectrum weighted = walk.throughput * weight, found = weighted * emitted;
+    const Spectrum weighted = walk.throughput * weight;
+    const Color found = walk.seen(weighted * emitted);
     watcher.find(walk, found, walk.certainty);
     watcher.hit(emitter, x0, -w, weighted);
     walk.take(found, walk.own_share(found, walk.certainty));
   };
-  visit_emission(scene, at, w, take);
+  visit_emission(scene, at, walk.ray, take);
 }
 
 /// Russian roulette with the throughput, from rr_depth on; false ends the walk.
@@ -255,10 +260,10 @@ inline bool wants_direct_light(const Scene& scene, const PathRules& rules, int d
   return BsdfAt(scene, at).has_smooth() && rules.wants(depth + 1);
 }
 
-/// The radiance from the scene along the ray of a walk. Every vertex draws the same number of
+/// The radiance from the scene along the ray of a walk, as a film records it. Every vertex draws the same number of
 /// random numbers, so that a small change of the numbers is a small change of the path.
 template <class Sampler, class Watcher = IgnorePaths>
-Spectrum trace_path(const Scene& scene, const PathRules& rules, CameraWalk walk, Sampler& sampler,
+Color trace_path(const Scene& scene, const PathRules& rules, CameraWalk walk, Sampler& sampler,
                     RayCounts& rays, Watcher&& watcher = Watcher()) {
   const Walker walker{scene, walk.ray.time, rays};
   for (int depth = 1;; ++depth) {
@@ -273,9 +278,9 @@ Spectrum trace_path(const Scene& scene, const PathRules& rules, CameraWalk walk,
     const VertexNumbers numbers = VertexNumbers::draw(sampler);
     if (wants_direct_light(scene, rules, depth, at)) {
       const auto mis = [&](double light, double bsdf) { return walk.mis.weight(light, bsdf); };
-      const Spectrum direct =
-          walk.throughput * direct_light(walker, at, wc, numbers.for_light(), rules.strict_normals,
-                                         mis, walk.likelihood);
+      const Color direct = walk.seen(walk.throughput *
+                                     direct_light(walker, at, wc, numbers.for_light(),
+                                                  rules.strict_normals, mis, walk.likelihood));
       watcher.find(walk, direct, 0);
       watcher.connect(numbers.for_light(), direct);
       walk.take(direct, walk.own_share(direct));

@@ -5,9 +5,10 @@ namespace mlt {
 Departure Walker::leave_light(const Vertex& x0, const Vec2& u) const {
   const RaySample sample = scene.emitters()[x0.emitter]->sample_ray(x0.at, u);
   if (!(sample.pdf > 0)) return {{}, 0};
-  return {x0.at.infinite() ? Ray{sample.origin, sample.direction, time, infinity, x0.at.medium}
-                           : leave(x0.at, sample.direction),
-          sample.pdf};
+  if (!x0.at.infinite()) return {leave(x0.at, sample.direction), sample.pdf};
+  Ray ray{sample.origin, sample.direction, time, infinity, x0.at.medium};
+  ray.wavelength = x0.at.wavelength;
+  return {ray, sample.pdf};
 }
 
 std::optional<Ray> Walker::scatter(Vertex& x, const Vec3& towards_previous, const Vec3& u) const {
@@ -78,6 +79,7 @@ bool Walker::arrive_at_lens(const Ray& ray, Vertex& xk) const {
   const auto lens = scene.camera().hit_lens(ray);
   if (!lens) return false;
   xk = camera_vertex(*lens);
+  xk.at.wavelength = ray.wavelength;
   SurfacePoint start;
   start.p = ray.o;
   start.kind = PointKind::isolated;

@@ -18,9 +18,11 @@ struct LightSample {
 };
 
 /// Samples the start of a walk from a light: u.x chooses it, (u.y, u.z) the position on it.
-inline LightSample sample_light_position(const Scene& scene, Vec3 u, double time) {
+inline LightSample sample_light_position(const Scene& scene, Vec3 u, double time,
+                                         double wavelength) {
   const EmitterChoice choice = scene.choose_emitter(u.x);
   LightSample light{choice.emitter, choice.emitter->sample_position({u.y, u.z}, time)};
+  light.x0.at.wavelength = wavelength;
   light.x0.pdf *= choice.probability;
   if (scene.has_media()) light.x0.at.medium = scene.medium_at_light(*choice.emitter, light.x0.at);
   return light;
@@ -29,6 +31,7 @@ inline LightSample sample_light_position(const Scene& scene, Vec3 u, double time
 inline LightSample sample_direct_position(const Scene& scene, const SurfacePoint& from, Vec3 u) {
   const EmitterChoice choice = scene.choose_emitter(u.x);
   LightSample light{choice.emitter, choice.emitter->sample_direct(from.p, {u.y, u.z}, from.time)};
+  light.x0.at.wavelength = from.wavelength;
   light.x0.pdf *= choice.probability;
   if (scene.has_media()) light.x0.at.medium = scene.medium_at_light(*choice.emitter, light.x0.at);
   return light;
@@ -43,7 +46,9 @@ struct Departure {
 /// The ray from a point on the lens, at its time, through a raster position.
 inline Ray leave_lens(const Camera& camera, const SurfacePoint& xk, const Vec2& raster) {
   const Vec3 w = camera.direction(xk, raster);
-  return {camera.entrance(xk, w), w, xk.time, infinity, camera.surroundings()};
+  Ray ray{camera.entrance(xk, w), w, xk.time, infinity, camera.surroundings()};
+  ray.wavelength = xk.wavelength;
+  return ray;
 }
 
 struct LensDeparture {
@@ -51,11 +56,18 @@ struct LensDeparture {
   Ray ray;
 };
 
-/// Samples a point on the lens and a time, and returns the ray from there.
+/// Samples a point on the lens, a time and a wavelength.
+template <class Sampler>
+PositionSample sample_lens(const Camera& camera, Sampler& sampler) {
+  const LensNumbers u = LensNumbers::draw(sampler);
+  PositionSample lens = camera.sample_position(u.position, camera.time(u.time));
+  lens.at.wavelength = camera.wavelength([&] { return sampler.next(); });
+  return lens;
+}
+/// The same, with the ray from there.
 template <class Sampler>
 LensDeparture leave_lens(const Camera& camera, const Vec2& raster, Sampler& sampler) {
-  const LensNumbers u = LensNumbers::draw(sampler);
-  const PositionSample lens = camera.sample_position(u.position, camera.time(u.time));
+  const PositionSample lens = sample_lens(camera, sampler);
   return {lens, leave_lens(camera, lens.at, raster)};
 }
 
@@ -64,6 +76,7 @@ struct Walker {
   const Scene& scene;
   double time;
   RayCounts& rays;
+  double wavelength = rgb_lanes;  ///< For walks from lights; others have that of their start.
 
   Departure leave_light(const Vertex& x0, const Vec2& u) const;
 
@@ -110,7 +123,7 @@ struct Walker {
                   Vertex& x0) const {
     const Emitter* emitter = hit ? scene.emitter(at) : background();
     if (!emitter || emitter->delta_direction()) return false;
-    x0 = light_vertex(*emitter, hit ? at : Scene::point_at_infinity(ray.d));
+    x0 = light_vertex(*emitter, hit ? at : Scene::point_at_infinity(ray.d, ray.wavelength));
     return true;
   }
 

@@ -30,9 +30,8 @@ struct MultiplexedState {
   }
   void show(const Connection& c) {
     raster = c.raster;
-    const Spectrum weighted = c.contribution * c.weight;
-    rgb = weighted.rgb();
-    target = min_component(weighted) >= 0 ? target_luminance(weighted) : std::nan("");
+    rgb = c.contribution * c.weight;
+    target = min_component(rgb) >= 0 ? target_luminance(rgb) : std::nan("");
     target_over_density = target_luminance(c.contribution) * c.own_share;
   }
 };

@@ -92,6 +92,8 @@ class Rendering {
 
  protected:
   const Scene& scene() const { return *scene_; }
+  /// A film's image in linear sRGB.
+  Image shown(Image recorded) const;
 
   ScenePtr scene_;
   uint64_t seed_;

@@ -172,7 +172,7 @@ GroupCombination MetropolisRendering::combination() const {
 /// A pixel's value is the pixel count times the light that falls into it.
 Image MetropolisRendering::chain_image(GroupScales scales) const {
   for (double& scale : scales) scale *= pixels();
-  return film_.image(scales);
+  return shown(film_.image(scales));
 }
 
 std::vector<const Rendering*> MetropolisRendering::parts() const {

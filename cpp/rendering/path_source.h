@@ -31,7 +31,7 @@ class PathSource : public SourceOf<PathSource> {
   template <class Sampler>
   void draw(const Vec2& raster, Sampler& sampler, std::vector<FoundLight>& found) {
     seeds_.draw(raster, sampler, [&](const Connection& c, double weight) {
-      found.push_back({c.raster, (c.contribution * c.weight).rgb(), weight,
+      found.push_back({c.raster, c.contribution * c.weight, weight,
                        weight / c.weight * c.own_share, c.t >= 2});
     });
   }
@@ -70,7 +70,7 @@ class PathSampleTaker : public BidirectionalTaker {
       const double certainty = light.edges == 1 ? 1 : 0;  // all surfaces are Lambertian
       const double weight = target_->of(light.weighted, light.raster, certainty);
       found_.push_back(
-          {light.raster, light.weighted.rgb(), weight, weight * light.survival, light.own_pixel});
+          {light.raster, light.weighted, weight, weight * light.survival, light.own_pixel});
     });
     weighting_.show(wave.raster(i), found_, sink);
   }

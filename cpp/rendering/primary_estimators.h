@@ -20,9 +20,9 @@ class PathEstimator {
                   RayCounts& rays) const {
     const Raster& image = scene_->camera().raster();
     const Ray ray = leave_lens(scene_->camera(), raster, sampler).ray;
-    const Spectrum radiance = trace_path(*scene_, rules_, ray, sampler, rays);
+    const Color radiance = trace_path(*scene_, rules_, ray, sampler, rays);
     if (!is_black(radiance))
-      light.push_back({raster, radiance.rgb() * (image.sampled_area() / image.pixels()), true});
+      light.push_back({raster, radiance * (image.sampled_area() / image.pixels()), true});
   }
 
  private:
@@ -41,7 +41,7 @@ class BidirectionalEstimator {
     paths_.sample(raster, sampler, rays);
     size_t own_pixel = no_light;  // light at the sample's own position is one entry
     paths_.connect_all(rays, [&](const Connection& c) {
-      const Color rgb = (c.contribution * c.weight).rgb();
+      const Color rgb = c.contribution * c.weight;
       if (c.t >= 2 && own_pixel != no_light) {
         light[own_pixel].rgb += rgb;
         return;
@@ -66,7 +66,7 @@ class LightEstimator {
   void operator()(const Vec2&, Sampler& sampler, std::vector<ImageLight>& light, RayCounts& rays) {
     paths_.sample_light(sampler, rays);
     paths_.connect_to_lens(rays, [&](const Connection& c) {
-      light.push_back({c.raster, c.contribution.rgb(), false});
+      light.push_back({c.raster, c.contribution, false});
     });
   }
 

@@ -61,6 +61,8 @@ Replay SampledRendering::replay(const Vec2i& pixel, uint64_t sample) {
   PixelSampler numbers = streams(place_of(sample)).sampler(pixel.x, pixel.y);
   replay.raster = Vec2(pixel) + numbers.next2();
   make_taker_(scene())->sample(replay.raster, numbers, sink, rays);
+  replay.radiance = mlt::shown(scene(), replay.radiance);
+  for (FoundPath& path : replay.paths) path.estimate = mlt::shown(scene(), path.estimate);
   return replay;
 }
 
@@ -101,7 +103,7 @@ std::vector<NamedImage> SampledRendering::layers() const {
   for (size_t i = 0; i < layer_names_.size(); ++i) {
     std::vector<double> scales(layer_names_.size(), 0.0);
     scales[i] = scale;
-    layers.push_back({layer_names_[i], layers_.image(scales)});
+    layers.push_back({layer_names_[i], shown(layers_.image(scales))});
   }
   return layers;
 }

@@ -141,9 +141,9 @@ class SampledRendering : public Rendering {
   Memory memory(double spp) const override;
   /// Takes one sample for each cell of one tile.
   void run_unit(uint64_t unit) override;
-  Image image() const override { return film_.image(); }
+  Image image() const override { return shown(film_.image()); }
   GroupImage group(int index) const override {
-    return {film_.group_image(index), static_cast<double>(film_.passes(index))};
+    return {shown(film_.group_image(index)), static_cast<double>(film_.passes(index))};
   }
   const SampleFilm& film() const { return film_; }
   /// The mean brightness of its samples (SampleSums), if they record it.

@@ -29,11 +29,11 @@ class TracedSource : public SourceOf<TracedSource> {
   struct Finder : IgnorePaths {
     Finder(const TracedSource& of, const Vec2& at, std::vector<FoundLight>& to)
         : source(of), raster(at), found(to) {}
-    void find(const CameraWalk& walk, const Spectrum& radiance, double certainty) {
-      const Spectrum seen = radiance / source.scale_;
+    void find(const CameraWalk& walk, const Color& radiance, double certainty) {
+      const Color seen = radiance / source.scale_;
       const double weight = source.target_->of(seen, raster, certainty);
       if (target_luminance(seen) > 0)
-        found.push_back({raster, seen.rgb(), weight, weight * walk.survival, true});
+        found.push_back({raster, seen, weight, weight * walk.survival, true});
     }
     const TracedSource& source;
     Vec2 raster;
@@ -62,7 +62,7 @@ class TracedTaker : public WaveTaker {
     walk.mis = MisExponent(Heuristic::balance);
     walk.chain_factor = chain_factor(raster);
     walk.certainty = 1;
-    sink.add(raster, trace_path(scene(), rules(), walk, sampler, rays).rgb());
+    sink.add(raster, trace_path(scene(), rules(), walk, sampler, rays));
   }
 
  private:

@@ -19,7 +19,7 @@ class WalkTaker : public WaveTaker {
   void sample(const Vec2& raster, PixelSampler& sampler, SampleSink& sink,
               RayCounts& rays) override {
     const Ray ray = leave_lens(scene().camera(), raster, sampler).ray;
-    show(raster, trace_path(scene(), rules(), ray, sampler, rays).rgb(), sink);
+    show(raster, trace_path(scene(), rules(), ray, sampler, rays), sink);
   }
 
  private:

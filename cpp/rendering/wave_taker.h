@@ -1,5 +1,6 @@
 // Samples of path tracing, traced side by side; alone where they meet a surface that light passes,
-// and in scenes with media.
+// and in scenes with media
+// or wavelengths.
 #pragma once
 
 #include "path/inspect.h"
@@ -15,7 +16,8 @@ class WaveTaker : public SampleTaker {
 
   void sample_cells(const PixelRect& cells, const CellStreams& streams, SampleSink& sink,
                     RayCounts& rays) override {
-    if (scene_->has_media()) return SampleTaker::sample_cells(cells, streams, sink, rays);
+    if (scene_->has_media() || scene_->camera().spectral())
+      return SampleTaker::sample_cells(cells, streams, sink, rays);
     for_each_packet_cell(cells, [&](const Vec2i& cell) {
       wave_.numbers().add(streams.stream(cell.x, cell.y), streams.index);
       rasters_.emplace_back(cell);
@@ -42,7 +44,7 @@ class WaveTaker : public SampleTaker {
       if (wave_.is_left(i))
         sample_cell(Vec2i(glm::floor(rasters_[i])), streams, sink, rays);
       else
-        show(rasters_[i], wave_.radiance(i).rgb(), sink);
+        show(rasters_[i], wave_.radiance(i), sink);
     wave_.clear();
     rasters_.clear();
   }

@@ -19,15 +19,17 @@ struct BsdfSample {
 
 /// A surface that is Lambertian everywhere.
 struct LambertianSurface {
-  /// Unknown sides: the surface is not Lambertian. f is that of all points, unless there is a
-  /// texture.
+  /// Unknown sides: the surface is not Lambertian. f is that of all points of an RGB scene, unless
+  /// there is a texture.
   Lambertian lambertian;
-  const Texture* reflectance = nullptr;  ///< pi f, if that depends on the point.
+  const Texture* reflectance = nullptr;  ///< pi f
+  bool textured = false;
 
   bool known() const { return lambertian.known(); }
-  bool uniform() const { return known() && !reflectance; }
+  bool uniform() const { return known() && !textured; }
   Lambertian at(const SurfacePoint& at) const {
-    return reflectance ? Lambertian{reflectance->eval(at) * inv_pi, lambertian.sides} : lambertian;
+    if (!textured && (at.wavelength < 0 || !known())) return lambertian;
+    return {reflectance->eval(at) * inv_pi, lambertian.sides};
   }
 };
 

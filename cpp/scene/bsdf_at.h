@@ -90,7 +90,7 @@ class BsdfAt {
   /// sigma_s times the phase function.
   [[gnu::noinline]] Scattering in_medium(const Vec3& wl, const Vec3& wc, Lobe lobe) const {
     Scattering s = plugin().scattering(*at_, wl, wc, lobe);
-    s.f *= scene_->medium(*at_).at(at_->p).scattering;
+    s.f *= scene_->medium(*at_).at(at_->p, at_->wavelength).scattering;
     return s;
   }
   const Lambertian& lambertian() const { return at_->lambertian; }

@@ -96,6 +96,14 @@ class Camera : public Object {
   /// Camera time: uniform between shutter open and shutter close.
   double time(double u) const { return shutter_.open + u * (shutter_.close - shutter_.open); }
   const Shutter& shutter() const { return shutter_; }
+  /// Whether paths have wavelengths, and else R, G and B.
+  bool spectral() const { return spectral_; }
+  void set_spectral(bool spectral) { spectral_ = spectral; }
+  /// The wavelength of a path by a random number, which is drawn in spectral scenes alone.
+  template <class Draw>
+  double wavelength(Draw&& draw) const {
+    return spectral_ ? draw() : rgb_lanes;
+  }
 
   /// The medium that the scene file puts the lens into, or nullptr.
   const MediumPtr& medium() const { return medium_; }
@@ -116,6 +124,7 @@ class Camera : public Object {
  private:
   MediumPtr medium_;
   MediumIndex surroundings_ = no_medium;
+  bool spectral_ = false;
 };
 
 using CameraPtr = std::shared_ptr<Camera>;

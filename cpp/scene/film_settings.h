@@ -18,6 +18,7 @@ struct FilmSettings : Object {
   Vec2i crop_size{0};  ///< 0: the whole image.
   std::shared_ptr<const Filter> filter;
   bool half_precision = true;  ///< EXR component format.
+  bool spectral = false;       ///< Whether paths have wavelengths, and else R, G and B.
 };
 
 struct SamplerSettings : Object {

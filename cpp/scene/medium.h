@@ -24,7 +24,8 @@ class Medium : public Object {
   /// per solid angle; its directions are those of the world.
   explicit Medium(BsdfPtr phase) : phase_(std::move(phase)) {}
 
-  virtual MediumCoefficients at(const Vec3& p) const = 0;
+  /// `wavelength`: that of the path (wavelengths.h).
+  virtual MediumCoefficients at(const Vec3& p, double wavelength) const = 0;
   /// How far light flies along a ray through the medium.
   virtual Flight fly(const Ray& ray, const FlightLimit& limit) const = 0;
   /// Whether light is scattered, and not only absorbed: then walks stop in the medium.

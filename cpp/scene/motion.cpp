@@ -47,9 +47,9 @@ struct Parts {
 };
 
 /// The animation itself.
-class Curve {
+class KeyframeCurve {
  public:
-  explicit Curve(const Animation& keys) : keys_(keys) {
+  explicit KeyframeCurve(const Animation& keys) : keys_(keys) {
     for (const Keyframe& key : keys) parts_.emplace_back(from_rows(key.transform));
   }
 
@@ -81,7 +81,7 @@ class Curve {
 
 /// Whether linear motion in these steps is close to the curve, relative to its size and length: in
 /// the middle of each step, and at the keys.
-bool is_near(const Curve& curve, const Motion& motion, const Animation& keys) {
+bool is_near(const KeyframeCurve& curve, const Motion& motion, const Animation& keys) {
   double size = 0, way = 0, turned = 0, moved = 0;
   const auto compare = [&](double time) {
     const Mat4 m = curve.at(time), error = motion.at(time) - m;
@@ -124,7 +124,7 @@ std::string animation_problem(const Animation& animation) {
 }
 
 Value during(const Animation& animation, const Shutter& shutter) {
-  const Curve curve(animation);
+  const KeyframeCurve curve(animation);
   const auto key_at = [&](double time) { return Keyframe{time, to_rows(curve.at(time))}; };
   Animation keys = {key_at(shutter.open)};
   for (const Keyframe& key : animation)
@@ -147,7 +147,7 @@ Motion::Motion(const Animation& animation) : open_(animation.front().time) {
     steps_ = {from_rows(animation[0].transform)};
     return;
   }
-  const Curve curve(animation);
+  const KeyframeCurve curve(animation);
   for (int n = 1; n <= most_steps; n *= 2) {
     steps_.clear();
     for (int i = 0; i <= n; ++i) steps_.push_back(curve.at(curve.time(1.0 * i / n)));

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "math/vec.h"
+#include "math/wavelengths.h"
 
 #include <cstdint>
 
@@ -17,6 +17,7 @@ struct Ray {
   double t_max = infinity;
   MediumIndex medium = no_medium;  ///< In which it starts.
   double before = 0;  ///< In media: how far the start of its edge is before the origin.
+  double wavelength = rgb_lanes;  ///< See wavelengths.h.
 };
 
 /// The distance of a point of the ray from the start of its edge.

@@ -88,6 +88,7 @@ Scene::Scene(std::vector<ShapePtr> shapes, std::vector<EmitterPtr> emitters, Cam
     throw SceneError("the scene has no emitter; add a light, or everything is black");
   bounds_ = enclosing_sphere(shapes_, *camera_);
   camera_->set_bounds(bounds_);
+  camera_->set_spectral(film_ && film_->spectral);
   for (size_t i = 0; i < emitters_.size(); ++i) {
     emitters_[i]->set_bounds(bounds_);
     emitters_[i]->set_index(static_cast<uint32_t>(i));
@@ -126,6 +127,7 @@ inline void Scene::arrive(const Ray& ray, const Hit& hit, SurfacePoint& at) cons
   at.instance = SurfacePoint::no_shape;
   shapes_[hit.shape]->surface_point(ray, hit, at);
   at.time = ray.time;
+  at.wavelength = ray.wavelength;
   at.medium = ray.medium;
   at.lambertian = bsdf(at).lambertian(at);
 }
@@ -152,6 +154,7 @@ void Scene::enter_medium(const SurfacePoint& at, Ray& ray) const {
 
 Ray Scene::spawn(const SurfacePoint& from, const Vec3& w, double time) const {
   Ray ray{departure(from, w), w, time};
+  ray.wavelength = from.wavelength;
   if (has_media_) enter_medium(from, ray);
   return ray;
 }
@@ -168,6 +171,7 @@ inline bool Scene::find_segment(const SurfacePoint& a, const SurfacePoint& b, do
   if (has_end && !(dot(between, ab) > 0)) return false;  // behind the camera
   const double distance = length(between);
   ray = {start, between * (1 / distance), time, distance * (1 - ray_offset)};
+  ray.wavelength = a.wavelength;
   return true;
 }
 
@@ -189,6 +193,7 @@ Ray Scene::beyond(const Ray& ray, const SurfacePoint& at) const {
   const Vec3 start =
       cosine > grazing ? at.p + ray.d * (ray_offset * at.extent / cosine) : departure(at, ray.d);
   Ray rest{start, ray.d, ray.time, ray.t_max - dot(start - ray.o, ray.d)};
+  rest.wavelength = ray.wavelength;
   if (has_media_) enter_medium(at, rest);
   return rest;
 }
@@ -229,6 +234,7 @@ SurfacePoint Scene::medium_point(const Ray& ray, double distance) {
   at.kind = PointKind::medium;
   at.medium = ray.medium;
   at.time = ray.time;
+  at.wavelength = ray.wavelength;
   return at;
 }
 
@@ -288,7 +294,11 @@ void Scene::find_media(size_t grouped) {
   }
 }
 
-SurfacePoint Scene::point_at_infinity(const Vec3& w) { return InfiniteEmitter::point_towards(w); }
+SurfacePoint Scene::point_at_infinity(const Vec3& w, double wavelength) {
+  SurfacePoint at = InfiniteEmitter::point_towards(w);
+  at.wavelength = wavelength;
+  return at;
+}
 
 EmitterChoice Scene::choose_emitter(double& u) const {
   const auto [index, remainder] = emitter_choice_.sample_reuse(u);

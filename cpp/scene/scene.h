@@ -105,8 +105,10 @@ class Scene {
   /// The arrival of a walk that goes along an edge to its end, where w points.
   Arrival arrival(const Passage& edge, const SurfacePoint& end, const Vec3& w) const {
     const double stops = edge.probability * stop_probability(end, w);
-    return {stops, end.in_medium() ? edge.flight * medium(end).at(end.p).extinction : edge.flight,
-            edge.likelihood};
+    const Spectrum flies =
+        end.in_medium() ? edge.flight * medium(end).at(end.p, end.wavelength).extinction
+                        : edge.flight;
+    return {stops, flies, edge.likelihood};
   }
   /// Where an edge at this point starts or ends, for distances in media: where rays enter the
   /// scene, if the lens is far away.
@@ -122,7 +124,7 @@ class Scene {
   /// Lights at infinity that a ray can hit: all but directional lights.
   const std::vector<uint32_t>& backgrounds() const { return backgrounds_; }
   /// The vertex at infinity that a ray along w ends in.
-  static SurfacePoint point_at_infinity(const Vec3& w);
+  static SurfacePoint point_at_infinity(const Vec3& w, double wavelength = rgb_lanes);
 
   /// Chooses a light; u is rescaled so that it can be used again.
   EmitterChoice choose_emitter(double& u) const;

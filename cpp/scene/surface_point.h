@@ -30,6 +30,7 @@ struct SurfacePoint {
   /// that of both sides unless the surface is a boundary (Media).
   MediumIndex medium = no_medium;
   double time = 0;  ///< Time, on moving shapes.
+  double wavelength = rgb_lanes;  ///< That of its path: see wavelengths.h.
   /// Largest coordinate of the primitive: the scale of float rounding in the accelerator.
   double extent = 0;
   Lambertian lambertian{};  ///< Its scattering, if it is Lambertian and was hit by a ray.

@@ -9,24 +9,57 @@ namespace {
 
 class Constant final : public Texture {
  public:
-  explicit Constant(const Color& color) : color_(color) {}
-  Spectrum eval(const SurfacePoint&) const override { return Spectrum(color_); }
+  explicit Constant(const SpectralColor& color) : color_(color) {}
+  Spectrum eval(const SurfacePoint& at) const override { return color_.at(at.wavelength); }
+  double eval_scalar(const SurfacePoint&) const override {
+    return mlt::mean(color_.rgb());
+  }
   bool is_constant() const override { return true; }
-  Color mean() const override { return color_; }
-  Color maximum() const override { return color_; }
+  Color mean() const override { return color_.rgb(); }
+  Color maximum() const override { return color_.rgb(); }
 
  private:
-  Color color_;
+  SpectralColor color_;
 };
 
-Color spectrum_color(Params& params, const std::string& name, const WavelengthTable& spectrum,
-                     SpectrumUse use) {
-  if (spectrum.size() == 1) return uniform_spectrum_to_rgb(spectrum[0].second, use);
+/// A texture that lights up, such as an image: in a spectral scene its white is that of D65.
+class Illuminated final : public Texture {
+ public:
+  explicit Illuminated(TexturePtr texture) : texture_(std::move(texture)) {}
+  Spectrum eval(const SurfacePoint& at) const override {
+    const Spectrum value = texture_->eval(at);
+    return at.wavelength < 0 ? value : value * at_wavelengths(at.wavelength, d65);
+  }
+  void prefetch(const SurfacePoint& at) const override { texture_->prefetch(at); }
+  Vec2 gradient(const SurfacePoint& at) const override { return texture_->gradient(at); }
+  Vec2i resolution() const override { return texture_->resolution(); }
+  bool is_constant() const override { return texture_->is_constant(); }
+  Color mean() const override { return texture_->mean(); }
+  Color maximum() const override { return texture_->maximum(); }
+
+ private:
+  TexturePtr texture_;
+};
+
+RgbMeaning meaning_of(SpectrumUse use) {
+  switch (use) {
+    case SpectrumUse::reflectance: return RgbMeaning::reflectance;
+    case SpectrumUse::unbounded: return RgbMeaning::coefficient;
+    case SpectrumUse::emission: break;
+  }
+  return RgbMeaning::light;
+}
+
+SpectralColor spectrum_color(Params& params, const std::string& name,
+                             const WavelengthTable& spectrum, SpectrumUse use) {
   try {
+    const Curve curve = Curve::table(spectrum);
+    if (spectrum.size() == 1)
+      return {uniform_spectrum_to_rgb(spectrum[0].second, use), curve};
     const SpectrumColor found = spectrum_to_rgb(spectrum, use);
     if (found.clamped && use != SpectrumUse::unbounded)
       params.warn("'" + name + "' is outside of the sRGB gamut and was clamped");
-    return found.color;
+    return {found.color, curve};
   } catch (const UsageError& error) {
     params.fail(name, std::string("is no valid spectrum: ") + error.what());
   }
@@ -36,19 +69,22 @@ Color spectrum_color(Params& params, const std::string& name, const WavelengthTa
 
 double Texture::eval_scalar(const SurfacePoint& at) const {
   const Color c = eval(at).rgb();
-  return (c.x + c.y + c.z) / 3;
+  return mlt::mean(c);
 }
 
-TexturePtr constant_texture(const Color& color) { return std::make_shared<Constant>(color); }
+TexturePtr constant_texture(const SpectralColor& color) {
+  return std::make_shared<Constant>(color);
+}
 
-Color to_color(Params& params, const std::string& name, SpectrumUse use) {
+SpectralColor to_spectral(Params& params, const std::string& name, SpectrumUse use) {
   const Value& value = params.value(name);
-  if (const Triple* rgb = std::get_if<Triple>(&value)) return {(*rgb)[0], (*rgb)[1], (*rgb)[2]};
+  if (const Triple* rgb = std::get_if<Triple>(&value))
+    return {Color((*rgb)[0], (*rgb)[1], (*rgb)[2]), meaning_of(use)};
   if (const WavelengthTable* spectrum = std::get_if<WavelengthTable>(&value))
     return spectrum_color(params, name, *spectrum, use);
   if (std::holds_alternative<ObjectPtr>(value))
     params.fail(name, "should be a number, an rgb triple or a spectrum");
-  return Color(params.real(name));
+  return {Color(params.real(name)), meaning_of(use)};
 }
 
 namespace {
@@ -58,11 +94,11 @@ bool is_emission(const Params& params, const std::string& name) {
   return type == ParamType::radiance || type == ParamType::emission || type == ParamType::volume;
 }
 
-Color color_from_0(Params& params, const std::string& name) {
+SpectralColor color_from_0(Params& params, const std::string& name) {
   const bool emission = is_emission(params, name);
-  const Color color =
-      to_color(params, name, emission ? SpectrumUse::emission : SpectrumUse::reflectance);
-  if (min_component(color) < 0) params.fail(name, "must not be negative");
+  SpectralColor color =
+      to_spectral(params, name, emission ? SpectrumUse::emission : SpectrumUse::reflectance);
+  if (min_component(color.rgb()) < 0) params.fail(name, "must not be negative");
   return color;
 }
 
@@ -72,22 +108,22 @@ TexturePtr nested_texture(Params& params, const std::string& name) {
   if (!object) return nullptr;
   TexturePtr texture = std::dynamic_pointer_cast<const Texture>(*object);
   if (!texture) params.fail(name, "is an object, but not a texture");
-  return texture;
+  return is_emission(params, name) ? std::make_shared<Illuminated>(texture) : texture;
 }
 
 }  // namespace
 
-Color color_param(Params& params, const std::string& name) {
-  const Color color = color_from_0(params, name);
-  if (!is_emission(params, name) && max_component(color) > 1)
-    params.fail(name,
-                fmt::format("reaches {:f}, but must lie between 0 and 1", max_component(color)));
+SpectralColor spectral_param(Params& params, const std::string& name) {
+  SpectralColor color = color_from_0(params, name);
+  const double most = max_component(color.rgb());
+  if (!is_emission(params, name) && most > 1)
+    params.fail(name, fmt::format("reaches {:f}, but must lie between 0 and 1", most));
   return color;
 }
 
 TexturePtr texture_param(Params& params, const std::string& name) {
   const TexturePtr texture = nested_texture(params, name);
-  return texture ? texture : constant_texture(color_param(params, name));
+  return texture ? texture : constant_texture(spectral_param(params, name));
 }
 
 TexturePtr unbounded_texture_param(Params& params, const std::string& name) {

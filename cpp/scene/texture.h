@@ -3,7 +3,7 @@
 
 #include "base/params.h"
 #include "math/colorimetry.h"
-#include "math/spectrum.h"
+#include "scene/spectral_color.h"
 #include "scene/surface_point.h"
 
 namespace mlt {
@@ -27,7 +27,10 @@ class Texture : public Object {
 
 using TexturePtr = std::shared_ptr<const Texture>;
 
-TexturePtr constant_texture(const Color& color);
+TexturePtr constant_texture(const SpectralColor& color);
+inline TexturePtr constant_texture(double grey) {
+  return constant_texture({Color(grey), RgbMeaning::coefficient});
+}
 
 /// The texture parameter `name`: a nested Texture, or a constant from a number, rgb or spectrum.
 /// `texture` parameters are bounded to [0, 1] (SceneError otherwise), `emission` ones must be >= 0.
@@ -35,9 +38,15 @@ TexturePtr texture_param(Params& params, const std::string& name);
 /// A texture parameter, as above, with a constant that may be larger than 1.
 TexturePtr unbounded_texture_param(Params& params, const std::string& name);
 /// The colour parameter `name` (type reflectance or radiance).
-Color color_param(Params& params, const std::string& name);
+SpectralColor spectral_param(Params& params, const std::string& name);
+inline Color color_param(Params& params, const std::string& name) {
+  return spectral_param(params, name).rgb();
+}
 /// Converts a number, rgb or spectrum to a colour for `use`, without checking its range.
-Color to_color(Params& params, const std::string& name, SpectrumUse use);
+SpectralColor to_spectral(Params& params, const std::string& name, SpectrumUse use);
+inline Color to_color(Params& params, const std::string& name, SpectrumUse use) {
+  return to_spectral(params, name, use).rgb();
+}
 Vec3 vector_param(Params& params, const std::string& name);
 /// A transform; the identity if it has no default and is not given. at_rest() of an animation.
 Mat4 matrix_param(Params& params, const std::string& name);

@@ -8,7 +8,8 @@ namespace mlt {
 
 class Volume : public Object {
  public:
-  virtual Spectrum at(const Vec3& p) const = 0;
+  /// `wavelength`: that of the path (wavelengths.h).
+  virtual Spectrum at(const Vec3& p, double wavelength) const = 0;
   virtual Color maximum() const = 0;
   /// Whether it is the same in all channels.
   virtual bool grey() const = 0;

@@ -32,7 +32,7 @@ bool BidirectionalWave::supports(const Scene& scene, const BidirectionalSettings
   const Shutter& shutter = scene.camera().shutter();
   if (!settings.sample_direct || settings.heuristic == Heuristic::maximum || settings.manifolds)
     return false;
-  if (scene.has_passages()) return false;
+  if (scene.has_passages() || scene.camera().spectral()) return false;
   if (!scene.camera().delta_position() || shutter.open != shutter.close || scene.accel().moves())
     return false;
   for (const EmitterPtr& emitter : scene.emitters())
@@ -220,7 +220,7 @@ void BidirectionalWave::connect(int s, int t, RayCounts& rays) {
     join(a, b, settings_.rules.strict_normals, beta_, joining, joined);
     make_room_for_shadows(rays);
     for (int i = 0; i < JointLanes::size; ++i) {
-      const Spectrum weighted = joined[i];
+      const Color weighted = joined[i];
       if (!(joining.length[i] > 0) || is_black(weighted)) continue;
       const int sample = block * JointLanes::size + i;
       wait_for_shadow(
@@ -249,7 +249,7 @@ void BidirectionalWave::connect_to_lens(int s, const JointLanes& a, int block) {
     if (!projection) continue;
     const double G = edges.G[i];
     const double below = a.sums[i] * beta_.raise(projection->pdf_direction * G / a.forward[i]);
-    const Spectrum weighted = a.value[i] * (projection->importance * G / (1 + below));
+    const Color weighted = a.value[i] * (projection->importance * G / (1 + below));
     if (is_black(weighted)) continue;
     const Vec3f start = ray_origin(a.p[i], a.ng[i], Vec3f(w), a.extent[i]);
     const Vec3 ray = camera.entrance(lens_.at, -w) - Vec3(start);
@@ -275,7 +275,7 @@ void BidirectionalWave::find_shadows(RayCounts& rays) {
   rays.count_occluded(shadows_.count());
   shadows_.trace(
       scene_->accel(), [](int) { return 0.0; },
-      [&](int light, const Spectrum&, double) { take(light); }, [](int) {});
+      [&](int light, const Color&, double) { take(light); }, [](int) {});
 }
 
 }  // namespace mlt

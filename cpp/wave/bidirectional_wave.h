@@ -39,7 +39,7 @@ class BidirectionalWave {
     bool own_pixel;   ///< Whether t >= 2: at the raster position of the sample.
     double survival;  ///< Probability that its walks have survived Russian roulette.
     Vec2 raster;
-    Spectrum weighted;  ///< f w / p.
+    Color weighted;  ///< f w / p.
     int next = -1;      ///< The sample's next light; -1: there is none.
   };
   /// Calls show(light) for all light that the i-th sample has found.

@@ -12,7 +12,7 @@ struct ColorLanes {
   static constexpr int size = 8;
   Lanes<double, size> r, g, b;
 
-  Spectrum operator[](int i) const { return Spectrum(Color(r[i], g[i], b[i])); }
+  Color operator[](int i) const { return {r[i], g[i], b[i]}; }
   void set(int i, const Spectrum& color) {
     r[i] = color[0];
     g[i] = color[1];

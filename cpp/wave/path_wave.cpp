@@ -63,7 +63,7 @@ void BasicPathWave<Numbers>::find_shadows(RayCounts& rays) {
   rays.count_occluded(shadows_.count());
   shadows_.trace(
       scene_->accel(), [&](int path) { return walks_[path].ray.time; },
-      [&](int path, const Spectrum& radiance, double share) { walks_[path].take(radiance, share); },
+      [&](int path, const Color& radiance, double share) { walks_[path].take(radiance, share); },
       [&](int path) { left_[path] = true; });
 }
 
@@ -241,7 +241,7 @@ template <class Numbers>
 void BasicPathWave<Numbers>::queue_shadow(int i, const Spectrum& radiance, const Vec3f& o,
                                           const Vec3f& w, float length) {
   CameraWalk& walk = this->walk(i);
-  const Spectrum found = walk.throughput * radiance;
+  const Color found = walk.seen(walk.throughput * radiance);
   ++walk.rays.occluded;
   shadows_.add(path_[begin_ + i], found, walk.own_share(found), o, w, length);
 }

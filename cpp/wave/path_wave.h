@@ -41,7 +41,7 @@ class BasicPathWave {
   /// Traces all paths to their ends. `coherent`: the first rays of adjacent paths are similar.
   void trace(RayCounts& rays, bool coherent = true);
   /// The radiance that the i-th path has found.
-  const Spectrum& radiance(size_t i) const { return walks_[i].radiance; }
+  const Color& radiance(size_t i) const { return walks_[i].radiance; }
   /// Whether the i-th path has met a surface that light passes: it has to be traced alone.
   bool is_left(size_t i) const { return left_[i]; }
   /// The number of rays of the i-th path.

@@ -143,7 +143,7 @@ void SubpathWave::hit_light(int i, int place) {
   const double above = (technique + sums_[k] * beta_.raise(reverse_emission_[i] / forward_[k])) *
                        beta_.raise(light.pdf / forward_here_[i]);
   hits_.push_back(
-      {sample_[k], place, throughput_[k] * *light.radiance / (1 + above), survival_[k]});
+      {sample_[k], place, (throughput_[k] * *light.radiance / (1 + above)).rgb(), survival_[k]});
 }
 
 /// Stores the vertex of a walk for joints.

@@ -22,7 +22,7 @@ class SubpathWave {
   struct Hit {
     int sample;
     int place;  ///< Of the vertex on the light.
-    Spectrum weighted;
+    Color weighted;
     double survival;  ///< See JointLanes.
   };
 

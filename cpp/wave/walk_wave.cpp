@@ -74,7 +74,7 @@ void WalkWave::trace() {
     proposals_[i].numbers().resize(proposals_[i].length);
     y.light.clear();
     if (!is_black(wave_.radiance(i)))
-      y.light.push_back({rasters_[i], wave_.radiance(i).rgb() * scale});
+      y.light.push_back({rasters_[i], wave_.radiance(i) * scale});
     y.find_target();
     *proposals_[i].rays += wave_.rays(i);
   }

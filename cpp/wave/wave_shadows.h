@@ -13,7 +13,7 @@ class WaveShadows {
   int count() const { return count_; }
   /// Adds a shadow ray: the path receives `share` of `radiance` unless the ray is blocked between
   /// its ends.
-  void add(int path, const Spectrum& radiance, double share, const Vec3f& o, const Vec3f& w,
+  void add(int path, const Color& radiance, double share, const Vec3f& o, const Vec3f& w,
            float length) {
     o_.set(count_, o);
     w_.set(count_, w);
@@ -51,7 +51,7 @@ class WaveShadows {
   VectorWave o_, w_;
   Wave<float> length_;
   Wave<int> path_;
-  Wave<Spectrum> radiance_;
+  Wave<Color> radiance_;
   Wave<double> share_;
 };
 

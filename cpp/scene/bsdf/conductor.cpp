@@ -20,7 +20,7 @@ class Conductor final : public Bsdf {
                         Lobe lobe) const override {
     if (lobe != Lobe::reflection || !above(wl, wc)) return {};
     return {reflectance_->eval(at) *
-                fresnel_conductor(std::min(wl.z, 1.0), Spectrum(ior_.eta), Spectrum(ior_.k)),
+                ior_.fresnel(std::min(wl.z, 1.0), at.wavelength),
             1, 1};
   }
 
@@ -41,11 +41,11 @@ class Conductor final : public Bsdf {
   double roughness(const SurfacePoint&, const Vec3&, const Vec3&) const override { return 0; }
 
   Spectrum albedo(const SurfacePoint& at) const override {
-    return reflectance_->eval(at) * fresnel_conductor(1, Spectrum(ior_.eta), Spectrum(ior_.k));
+    return reflectance_->eval(at) * ior_.fresnel(1, at.wavelength);
   }
 
  private:
-  ComplexIor ior_;
+  ConductorIor ior_;
   TexturePtr reflectance_;
 };
 

@@ -11,7 +11,8 @@ class Diffuse final : public CosineSampled {
  public:
   explicit Diffuse(Params& params) : reflectance_(texture_param(params, "reflectance")) {
     lambertian_.lambertian = {Spectrum(reflectance_->mean() * inv_pi), Lambertian::Sides::front};
-    if (!reflectance_->is_constant()) lambertian_.reflectance = reflectance_.get();
+    lambertian_.reflectance = reflectance_.get();
+    lambertian_.textured = !reflectance_->is_constant();
   }
 
   Spectrum albedo(const SurfacePoint& at) const override { return reflectance_->eval(at); }

@@ -1,5 +1,7 @@
 #include "scene/bsdf/ior_params.h"
 
+#include "math/ior.h"
+#include "math/ior_curves.h"
 #include "scene/texture.h"
 
 namespace mlt {
@@ -19,11 +21,11 @@ double ior_param(Params& params, const std::string& name) {
 
 /// A component of a complex index: a number, an RGB triple or a spectrum. The colour of a metal
 /// that is out of gamut may be negative; Mitsuba 3 has only its square in the Fresnel equations.
-Color index_param(Params& params, const std::string& name) {
-  const Color color = to_color(params, name, SpectrumUse::unbounded);
-  if (min_component(color) < 0)
-    params.warn("'" + name + "' is negative; it is taken without its sign, as in Mitsuba 3");
-  return glm::abs(color);
+SpectralColor index_param(Params& params, const std::string& name) {
+  const SpectralColor color = to_spectral(params, name, SpectrumUse::unbounded);
+  if (min_component(color.rgb()) >= 0) return color;
+  params.warn("'" + name + "' is negative; it is taken without its sign, as in Mitsuba 3");
+  return {glm::abs(color.rgb()), RgbMeaning::coefficient};
 }
 
 }  // namespace
@@ -59,18 +61,17 @@ std::vector<Parameter> conductor_parameters() {
       {"specular_reflectance", ParamType::texture, 1.0, "Factor on the reflection."}};
 }
 
-ComplexIor conductor_param(Params& params) {
+ConductorIor conductor_param(Params& params) {
   const std::string material = params.text("material");
   const double outside = ior_param(params, "ext_eta");
-  ComplexIor ior;
-  if (material == "none") {
-    ior = {index_param(params, "eta"), index_param(params, "k")};
-  } else {
-    for (const char* name : {"eta", "k"})
-      if (params.has(name)) params.fail(name, "cannot be given together with a material");
-    ior = find_conductor(material).value();
-  }
-  return {ior.eta / outside, ior.k / outside};
+  if (material == "none")
+    return {index_param(params, "eta").over(outside), index_param(params, "k").over(outside)};
+  for (const char* name : {"eta", "k"})
+    if (params.has(name)) params.fail(name, "cannot be given together with a material");
+  const ComplexIor rgb = find_conductor(material).value();
+  const ConductorCurves curves = find_conductor_curves(material).value();
+  return {SpectralColor(rgb.eta, curves.eta).over(outside),
+          SpectralColor(rgb.k, curves.k).over(outside)};
 }
 
 }  // namespace mlt

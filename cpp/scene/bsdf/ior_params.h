@@ -2,7 +2,8 @@
 #pragma once
 
 #include "base/params.h"
-#include "math/ior.h"
+#include "math/fresnel.h"
+#include "scene/spectral_color.h"
 
 namespace mlt {
 
@@ -16,7 +17,15 @@ std::vector<Parameter> interface_factors();
 
 /// The parameters `material`, `eta`, `k`, `ext_eta` and `specular_reflectance` of a conductor.
 std::vector<Parameter> conductor_parameters();
-/// The complex index by the parameters of a conductor, relative to the outside.
-ComplexIor conductor_param(Params& params);
+/// A complex index, relative to the outside.
+struct ConductorIor {
+  SpectralColor eta, k;
+
+  Spectrum fresnel(double cosine, double wavelength) const {
+    return fresnel_conductor(cosine, eta.at(wavelength), k.at(wavelength));
+  }
+};
+/// That by the parameters of a conductor.
+ConductorIor conductor_param(Params& params);
 
 }  // namespace mlt

@@ -39,7 +39,7 @@ ObjectPtr create_mixture(Params& params) {
     if (nested.size() > 1) behind += weights[i];
     const double share = behind > 0 ? 1 - weights[i] / behind : 0.5;
     const double scale = i == 0 ? std::min(sum, 1.0) : 1;
-    all = std::make_shared<Blend>(nested[i], rest, constant_texture(Color(share)), scale, params);
+    all = std::make_shared<Blend>(nested[i], rest, constant_texture(share), scale, params);
     rest = all;
   }
   return all;

@@ -50,7 +50,7 @@ class RoughConductor final : public Bsdf {
   }
 
   Spectrum albedo(const SurfacePoint& at) const override {
-    return reflectance_->eval(at) * fresnel_conductor(1, Spectrum(ior_.eta), Spectrum(ior_.k));
+    return reflectance_->eval(at) * ior_.fresnel(1, at.wavelength);
   }
 
  private:
@@ -58,12 +58,12 @@ class RoughConductor final : public Bsdf {
                  double G) const {
     if (!(D * G > 0)) return Spectrum(0);
     const Spectrum F =
-        fresnel_conductor(std::min(dot(wl, h), 1.0), Spectrum(ior_.eta), Spectrum(ior_.k));
+        ior_.fresnel(std::min(dot(wl, h), 1.0), at.wavelength);
     return reflectance_->eval(at) * F * (D * G / (4 * wl.z * wc.z));
   }
 
   RoughSurface surface_;
-  ComplexIor ior_;
+  ConductorIor ior_;
   TexturePtr reflectance_;
 };
 

@@ -103,7 +103,9 @@ std::optional<SurfacePoint> ProjectiveCamera::move_on_lens(const SurfacePoint& x
                                                            const Vec2& by) const {
   const Vec3 p = xk.p + xk.shading.s * by.x + xk.shading.t * by.y;
   if (!(length_squared(p - pose(xk.time).position) < sqr(lens_.radius))) return std::nullopt;
-  return point_at(p, xk.shading, xk.time);
+  SurfacePoint moved = point_at(p, xk.shading, xk.time);
+  moved.wavelength = xk.wavelength;
+  return moved;
 }
 
 std::optional<SurfacePoint> ProjectiveCamera::hit_lens(const Ray& ray) const {

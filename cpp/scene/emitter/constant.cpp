@@ -8,9 +8,9 @@ namespace {
 
 class ConstantSky final : public InfiniteEmitter {
  public:
-  explicit ConstantSky(Params& params) : radiance_(color_param(params, "radiance")) {}
+  explicit ConstantSky(Params& params) : radiance_(spectral_param(params, "radiance")) {}
 
-  Spectrum eval(const SurfacePoint&, const Vec3&) const override { return Spectrum(radiance_); }
+  Spectrum eval(const SurfacePoint& x0, const Vec3&) const override { return radiance_.at(x0.wavelength); }
 
   PositionSample sample_position(const Vec2& u, double) const override {
     return {point_towards(sample_uniform_sphere(u)), uniform_sphere_pdf()};
@@ -20,10 +20,10 @@ class ConstantSky final : public InfiniteEmitter {
     return invert_uniform_sphere(x0.p);
   }
 
-  Color power() const override { return radiance_ * (4 * pi * disk_area()); }
+  Color power() const override { return radiance_.rgb() * (4 * pi * disk_area()); }
 
  private:
-  Color radiance_;
+  SpectralColor radiance_;
 };
 
 }  // namespace

@@ -66,8 +66,8 @@ bool Sun::contains(const SurfacePoint& x0) const {
 }
 
 Spectrum Sun::eval(const SurfacePoint& x0, const Vec3&) const {
-  if (delta()) return Spectrum(irradiance_);
-  return contains(x0) ? Spectrum(irradiance_ * cone_pdf(height_)) : Spectrum(0);
+  const double density = delta() ? 1 : contains(x0) ? cone_pdf(height_) : 0;
+  return spectrum_of(irradiance_ * density, RgbMeaning::light, x0.wavelength);
 }
 
 PositionSample Sun::sample_position(const Vec2& u, double) const {

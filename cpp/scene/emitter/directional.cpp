@@ -9,7 +9,7 @@ namespace {
 
 class DirectionalLight final : public InfiniteEmitter {
  public:
-  explicit DirectionalLight(Params& params) : irradiance_(color_param(params, "irradiance")) {
+  explicit DirectionalLight(Params& params) : irradiance_(spectral_param(params, "irradiance")) {
     const bool given = params.has("direction");
     const std::string name = given ? "direction" : "to_world";
     Vec3 d;
@@ -24,7 +24,7 @@ class DirectionalLight final : public InfiniteEmitter {
     towards_ = -normalize(d);
   }
 
-  Spectrum eval(const SurfacePoint&, const Vec3&) const override { return Spectrum(irradiance_); }
+  Spectrum eval(const SurfacePoint& x0, const Vec3&) const override { return irradiance_.at(x0.wavelength); }
 
   PositionSample sample_position(const Vec2&, double) const override {
     return {point_towards(towards_), 1};
@@ -33,10 +33,10 @@ class DirectionalLight final : public InfiniteEmitter {
   Vec2 invert_position(const SurfacePoint&) const override { return Vec2(0.5); }
 
   bool delta() const override { return true; }
-  Color power() const override { return irradiance_ * disk_area(); }
+  Color power() const override { return irradiance_.rgb() * disk_area(); }
 
  private:
-  Color irradiance_;
+  SpectralColor irradiance_;
   Vec3 towards_;
 };
 

@@ -25,8 +25,9 @@ Spectrum EnvironmentMap::eval(const SurfacePoint& x0, const Vec3&) const {
   const int i = std::min(static_cast<int>(x), width_ - 1);
   const int j = std::min(static_cast<int>(y), cell_rows() - 1);
   const double a = x - i, b = y - j;
-  return Spectrum(scale_ * ((1 - b) * ((1 - a) * texel(i, j) + a * texel(i + 1, j)) +
-                            b * ((1 - a) * texel(i, j + 1) + a * texel(i + 1, j + 1))));
+  const Color rgb = scale_ * ((1 - b) * ((1 - a) * texel(i, j) + a * texel(i + 1, j)) +
+                              b * ((1 - a) * texel(i, j + 1) + a * texel(i + 1, j + 1)));
+  return spectrum_of(rgb, RgbMeaning::light, x0.wavelength);
 }
 
 PositionSample EnvironmentMap::sample_position(const Vec2& u, double) const {

@@ -10,9 +10,9 @@ namespace {
 class PointLight final : public IsolatedEmitter {
  public:
   explicit PointLight(Params& params)
-      : IsolatedEmitter(read_motion(params)), intensity_(color_param(params, "intensity")) {}
+      : IsolatedEmitter(read_motion(params)), intensity_(spectral_param(params, "intensity")) {}
 
-  Spectrum eval(const SurfacePoint&, const Vec3&) const override { return Spectrum(intensity_); }
+  Spectrum eval(const SurfacePoint& x0, const Vec3&) const override { return intensity_.at(x0.wavelength); }
 
   RaySample sample_ray(const SurfacePoint& x0, const Vec2& u) const override {
     return {x0.p, sample_uniform_sphere(u), uniform_sphere_pdf()};
@@ -22,7 +22,7 @@ class PointLight final : public IsolatedEmitter {
     return invert_uniform_sphere(normalize(x1 - x0.p));
   }
 
-  Color power() const override { return intensity_ * (4 * pi); }
+  Color power() const override { return intensity_.rgb() * (4 * pi); }
 
  private:
   static Motion read_motion(Params& params) {
@@ -33,7 +33,7 @@ class PointLight final : public IsolatedEmitter {
     return Motion(to_world);
   }
 
-  Color intensity_;
+  SpectralColor intensity_;
 };
 
 }  // namespace

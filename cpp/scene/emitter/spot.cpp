@@ -17,7 +17,7 @@ class Spot final : public TurnedEmitter {
  public:
   explicit Spot(Params& params)
       : TurnedEmitter(motion_param(params, "to_world"), beam_axes),
-        intensity_(color_param(params, "intensity")),
+        intensity_(spectral_param(params, "intensity")),
         texture_(texture_param(params, "texture")) {
     const double cutoff = params.real_in("cutoff_angle", 1e-3, 179.999);
     const double beam =
@@ -37,7 +37,7 @@ class Spot final : public TurnedEmitter {
     const double theta = std::atan2(length(cross(frame.n, w)), dot(frame.n, w));
     if (theta >= cutoff_) return Spectrum(0);
     const double share = theta <= beam_ ? 1 : (cutoff_ - theta) / (cutoff_ - beam_);
-    return Spectrum(intensity_) * texture(frame.to_local(w)) * share;
+    return intensity_.at(x0.wavelength) * texture(frame.to_local(w), x0.wavelength) * share;
   }
 
   RaySample sample_ray(const SurfacePoint& x0, const Vec2& u) const override {
@@ -55,18 +55,19 @@ class Spot final : public TurnedEmitter {
     const double width = cutoff_ - beam_;
     const double slope =
         width > 0 ? (std::sin(cutoff_) - std::sin(beam_)) / width : std::cos(beam_);
-    return intensity_ * texture_->mean() * (2 * pi * (1 - slope));
+    return intensity_.rgb() * texture_->mean() * (2 * pi * (1 - slope));
   }
 
  private:
   /// The texture, projected on a plane across the axis, of which the cone fills the unit square.
-  Spectrum texture(const Vec3& local) const {
+  Spectrum texture(const Vec3& local, double wavelength) const {
     SurfacePoint at;
+    at.wavelength = wavelength;
     at.uv = Vec2(0.5) + 0.5 * Vec2(local) / (local.z * std::tan(cutoff_));
     return texture_->eval(at);
   }
 
-  Color intensity_;
+  SpectralColor intensity_;
   TexturePtr texture_;
   double cutoff_, beam_;  ///< In radians.
   double height_;         ///< 1 - cos(cutoff)

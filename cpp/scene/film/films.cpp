@@ -51,6 +51,7 @@ ObjectPtr create_film(Params& params) {
   read_crop(params, *film);
   read_format(params, *film);
   const auto filter = params.object<FilterObject>("rfilter");
+  film->spectral = params.boolean("spectral");
   film->filter = filter ? filter->filter : std::make_shared<const Filter>(gaussian_filter());
   return film;
 }
@@ -64,6 +65,8 @@ std::vector<Parameter> parameters() {
       {"crop_width", ParamType::integer, no_default, "Width of the crop window; all if not given."},
       {"crop_height", ParamType::integer, no_default,
        "Height of the crop window; all if not given."},
+      {"spectral", ParamType::boolean, false,
+       "Whether light has wavelengths instead of R, G and B; the image is RGB all the same."},
       {"rfilter", ParamType::object, no_default, "Reconstruction filter; gaussian if not given."},
       choice_parameter("component_format", "float16", "Precision of EXR files: half or single.",
                        {"float16", "float32"}),

@@ -21,9 +21,9 @@ class Heterogeneous final : public Medium {
                                         max_component(albedo_->maximum())));
   }
 
-  MediumCoefficients at(const Vec3& p) const override {
-    const Spectrum extinction = scale_ * extinction_->at(p);
-    return {extinction, albedo_->at(p) * extinction};
+  MediumCoefficients at(const Vec3& p, double wavelength) const override {
+    const Spectrum extinction = scale_ * extinction_->at(p, wavelength);
+    return {extinction, albedo_->at(p, wavelength) * extinction};
   }
   Flight fly(const Ray& ray, const FlightLimit& limit) const override {
     return extinction_->fly(ray, limit, scale_);

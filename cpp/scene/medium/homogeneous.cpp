@@ -10,40 +10,62 @@
 namespace mlt {
 namespace {
 
-MediumCoefficients read_coefficients(Params& params) {
+/// sigma_s and sigma_a or, `by_albedo`, sigma_t and the albedo.
+struct Coefficients {
+  SpectralColor first, second;
+  bool by_albedo;
+  double scale;
+
+  MediumCoefficients at(double wavelength) const {
+    const Spectrum a = first.at(wavelength), b = second.at(wavelength);
+    return by_albedo ? MediumCoefficients{scale * a, scale * (b * a)}
+                     : MediumCoefficients{scale * (b + a), scale * a};
+  }
+  bool grey() const {
+    return is_grey(at(rgb_lanes).extinction) && first.grey() && (by_albedo || second.grey());
+  }
+};
+
+Coefficients read_coefficients(Params& params) {
   const bool by_albedo = params.has("sigma_t") || params.has("albedo");
   const bool by_parts = params.has("sigma_s") || params.has("sigma_a");
   if (by_albedo + by_parts + params.has("material") > 1)
     params.fail("is given twice: give sigma_t and albedo, or sigma_s and sigma_a, or material");
   const double scale = params.real_in("scale", 0, 1e12);
-  MediumCoefficients found;
   if (params.has("material")) {
-    found = medium_preset(params, "material");
-  } else if (by_parts) {
-    found.scattering = Spectrum(color_param(params, "sigma_s"));
-    found.extinction = Spectrum(color_param(params, "sigma_a")) + found.scattering;
-  } else {
-    found.extinction = Spectrum(color_param(params, "sigma_t"));
-    found.scattering = Spectrum(color_param(params, "albedo")) * found.extinction;
+    const MediumPreset& preset = medium_preset(params, "material");
+    return {{preset.scattering, RgbMeaning::coefficient},
+            {preset.absorption, RgbMeaning::coefficient},
+            false,
+            scale};
   }
-  return {scale * found.extinction, scale * found.scattering};
+  const auto coefficient = [&](const char* name) {
+    return spectral_param(params, name).meaning(RgbMeaning::coefficient);
+  };
+  if (by_parts) return {coefficient("sigma_s"), coefficient("sigma_a"), false, scale};
+  return {coefficient("sigma_t"), spectral_param(params, "albedo"), true, scale};
 }
 
 class Homogeneous final : public Medium {
  public:
   explicit Homogeneous(Params& params)
-      : Medium(phase_param(params)), coefficients_(read_coefficients(params)) {}
+      : Medium(phase_param(params)), coefficients_(read_coefficients(params)) {
+    in_rgb_ = coefficients_.at(rgb_lanes);
+  }
 
-  MediumCoefficients at(const Vec3&) const override { return coefficients_; }
-  bool scatters() const override { return !is_black(coefficients_.scattering); }
-  bool grey() const override { return is_grey(coefficients_.extinction); }
+  MediumCoefficients at(const Vec3&, double wavelength) const override {
+    return wavelength < 0 ? in_rgb_ : coefficients_.at(wavelength);
+  }
+  bool scatters() const override { return !is_black(in_rgb_.scattering); }
+  bool grey() const override { return coefficients_.grey(); }
 
-  Flight fly(const Ray&, const FlightLimit& limit) const override {
-    return uniform_flight(coefficients_.extinction, limit);
+  Flight fly(const Ray& ray, const FlightLimit& limit) const override {
+    return uniform_flight(at(ray.o, ray.wavelength).extinction, limit);
   }
 
  private:
-  MediumCoefficients coefficients_;
+  Coefficients coefficients_;
+  MediumCoefficients in_rgb_;
 };
 
 }  // namespace

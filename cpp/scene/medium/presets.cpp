@@ -5,12 +5,7 @@
 namespace mlt {
 namespace {
 
-struct Preset {
-  const char* name;
-  Color scattering, absorption;  ///< sigma'_s and sigma_a
-};
-
-constexpr Preset presets[] = {
+constexpr MediumPreset presets[] = {
     {"apple", {2.29, 2.39, 1.97}, {0.0030, 0.0034, 0.046}},
     {"chicken1", {0.15, 0.21, 0.38}, {0.015, 0.077, 0.19}},
     {"chicken2", {0.19, 0.25, 0.32}, {0.018, 0.088, 0.20}},
@@ -27,18 +22,17 @@ constexpr Preset presets[] = {
 
 }  // namespace
 
-MediumCoefficients medium_preset(Params& params, const std::string& parameter) {
+const MediumPreset& medium_preset(Params& params, const std::string& parameter) {
   const std::string name = params.text(parameter);
-  for (const Preset& preset : presets)
-    if (name == preset.name)
-      return {Spectrum(preset.scattering + preset.absorption), Spectrum(preset.scattering)};
+  for (const MediumPreset& preset : presets)
+    if (name == preset.name) return preset;
   params.fail(parameter, fmt::format("{} is not known{}", quote(name),
                                      suggestion(name, medium_preset_names())));
 }
 
 std::vector<std::string> medium_preset_names() {
   std::vector<std::string> names;
-  for (const Preset& preset : presets) names.emplace_back(preset.name);
+  for (const MediumPreset& preset : presets) names.emplace_back(preset.name);
   return names;
 }
 

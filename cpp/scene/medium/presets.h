@@ -10,8 +10,13 @@
 
 namespace mlt {
 
-/// The coefficients of the material that the text parameter names. Throws SceneError.
-MediumCoefficients medium_preset(Params& params, const std::string& parameter);
+struct MediumPreset {
+  const char* name;
+  Color scattering, absorption;  ///< sigma'_s and sigma_a
+};
+
+/// The material that the text parameter names. Throws SceneError.
+const MediumPreset& medium_preset(Params& params, const std::string& parameter);
 std::vector<std::string> medium_preset_names();
 
 }  // namespace mlt

@@ -8,7 +8,7 @@ namespace {
 
 ObjectPtr create_blend(Params& params) {
   const auto [first, second] = nested_pair<Bsdf>(params, "phase");
-  const TexturePtr weight = constant_texture(Color(params.real_in("weight", 0, 1)));
+  const TexturePtr weight = constant_texture(params.real_in("weight", 0, 1));
   return std::make_shared<Blend>(first, second, weight, 1, params);
 }
 

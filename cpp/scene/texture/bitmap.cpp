@@ -64,15 +64,11 @@ class Bitmap final : public Texture {
   }
 
   Spectrum eval(const SurfacePoint& at) const override {
-    const Vec2 p = position(at);
-    if (!is_finite(p)) return Spectrum(mean_);
-    if (nearest_)
-      return Spectrum(lookup(column(static_cast<int>(std::floor(p.x))),
-                             row(static_cast<int>(std::floor(p.y)))));
-    const Texels::Cell c = cell(p);
-    if (std::min({c.x[0], c.x[1], c.y[0], c.y[1]}) >= 0) return Spectrum(texels_.bilinear(c));
-    return Spectrum((1 - c.b) * ((1 - c.a) * corner(c, 0, 0) + c.a * corner(c, 1, 0)) +
-                    c.b * ((1 - c.a) * corner(c, 0, 1) + c.a * corner(c, 1, 1)));
+    return spectrum_of(color(at), RgbMeaning::coefficient, at.wavelength);
+  }
+  double eval_scalar(const SurfacePoint& at) const override {
+    const Color c = color(at);
+    return mlt::mean(c);
   }
 
   Vec2 gradient(const SurfacePoint& at) const override {
@@ -91,6 +87,18 @@ class Bitmap final : public Texture {
   Color maximum() const override { return maximum_; }
 
  private:
+  Color color(const SurfacePoint& at) const {
+    const Vec2 p = position(at);
+    if (!is_finite(p)) return mean_;
+    if (nearest_)
+      return lookup(column(static_cast<int>(std::floor(p.x))),
+                    row(static_cast<int>(std::floor(p.y))));
+    const Texels::Cell c = cell(p);
+    if (std::min({c.x[0], c.x[1], c.y[0], c.y[1]}) >= 0) return texels_.bilinear(c);
+    return (1 - c.b) * ((1 - c.a) * corner(c, 0, 0) + c.a * corner(c, 1, 0)) +
+           c.b * ((1 - c.a) * corner(c, 0, 1) + c.a * corner(c, 1, 1));
+  }
+
   /// The position in texels; not finite where uv is not.
   Vec2 position(const SurfacePoint& at) const {
     const Vec2 uv = to_uv_(at.uv);

@@ -10,7 +10,7 @@ Plugin texture_rawconstant() {
            "The same everywhere.",
            {{"value", ParamType::radiance, no_default, "A number, a vector or a colour."}}},
           [](Params& params) -> ObjectPtr {
-            const Color value = to_color(params, "value", SpectrumUse::unbounded);
+            const SpectralColor value = to_spectral(params, "value", SpectrumUse::unbounded);
             return std::const_pointer_cast<Texture>(constant_texture(value));
           }};
 }

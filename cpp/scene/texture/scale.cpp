@@ -9,22 +9,22 @@ namespace {
 class Scale final : public Texture {
  public:
   explicit Scale(Params& params)
-      : scale_(to_color(params, "scale", SpectrumUse::unbounded)),
+      : scale_(to_spectral(params, "scale", SpectrumUse::unbounded)),
         nested_(only_nested<Texture>(params, "texture")) {}
 
   Spectrum eval(const SurfacePoint& at) const override {
-    return Spectrum(scale_) * nested_->eval(at);
+    return scale_.at(at.wavelength) * nested_->eval(at);
   }
   /// The gradient, exact if the factor is the same in all channels.
   Vec2 gradient(const SurfacePoint& at) const override {
-    return luminance(scale_) * nested_->gradient(at);
+    return luminance(scale_.rgb()) * nested_->gradient(at);
   }
   bool is_constant() const override { return nested_->is_constant(); }
-  Color mean() const override { return scale_ * nested_->mean(); }
-  Color maximum() const override { return scale_ * nested_->maximum(); }
+  Color mean() const override { return scale_.rgb() * nested_->mean(); }
+  Color maximum() const override { return scale_.rgb() * nested_->maximum(); }
 
  private:
-  Color scale_;
+  SpectralColor scale_;
   TexturePtr nested_;
 };
 

@@ -8,23 +8,25 @@ namespace {
 
 class ConstVolume final : public Volume {
  public:
-  explicit ConstVolume(const Color& value) : value_(value) {}
+  explicit ConstVolume(const SpectralColor& value)
+      : value_(value.meaning(RgbMeaning::coefficient)) {}
 
-  Spectrum at(const Vec3&) const override { return Spectrum(value_); }
-  Color maximum() const override { return value_; }
-  bool grey() const override { return is_grey(value_); }
-  Flight fly(const Ray&, const FlightLimit& limit, double scale) const override {
-    return uniform_flight(Spectrum(scale * value_), limit);
+  Spectrum at(const Vec3&, double wavelength) const override { return value_.at(wavelength); }
+  Color maximum() const override { return value_.rgb(); }
+  bool grey() const override { return value_.grey(); }
+  Flight fly(const Ray& ray, const FlightLimit& limit, double scale) const override {
+    return uniform_flight(scale * value_.at(ray.wavelength), limit);
   }
 
  private:
-  Color value_;
+  SpectralColor value_;
 };
 
 /// In a box it is a grid of one value.
 std::shared_ptr<Volume> make_const(Params& params) {
+  if (!params.has("to_world"))
+    return std::make_shared<ConstVolume>(spectral_param(params, "value"));
   const Color value = color_param(params, "value");
-  if (!params.has("to_world")) return std::make_shared<ConstVolume>(value);
   const GridData one{{1, 1, 1}, 3, {float(value.x), float(value.y), float(value.z)}};
   return std::make_shared<GridVolume>(Grid(one, true, "'value'"), matrix_param(params, "to_world"));
 }
@@ -33,7 +35,7 @@ std::shared_ptr<Volume> make_const(Params& params) {
 
 VolumePtr volume_param(Params& params, const std::string& name) {
   const ObjectPtr* object = std::get_if<ObjectPtr>(&params.value(name));
-  if (!object) return std::make_shared<ConstVolume>(color_param(params, name));
+  if (!object) return std::make_shared<ConstVolume>(spectral_param(params, name));
   VolumePtr volume = std::dynamic_pointer_cast<const Volume>(*object);
   if (!volume) params.fail(name, "is an object, but not a volume");
   return volume;

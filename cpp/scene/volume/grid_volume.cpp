@@ -1,5 +1,6 @@
 #include "scene/volume/grid_volume.h"
 
+#include "scene/spectral_color.h"
 #include "scene/volume/grid_walk.h"
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -7,12 +8,21 @@
 namespace mlt {
 namespace {
 
-/// The integral of a value along a line, and where it reaches the end of a flight.
-template <class T>
+/// The spectrum of a number or of a colour.
+struct GreyLanes {
+  Spectrum operator()(double value) const { return Spectrum(value); }
+};
+struct RgbLanes {
+  Spectrum operator()(const Color& value) const { return Spectrum(value); }
+};
+
+/// The integral of a value along a line, and where it reaches the end of a flight; ToLanes makes a
+/// spectrum of it.
+template <class T, class ToLanes>
 class Flying {
  public:
-  Flying(const Grid& grid, const Vec3& o, const Vec3& d, double scale)
-      : grid_(&grid), o_(o), d_(d), scale_(scale) {}
+  Flying(const Grid& grid, const Vec3& o, const Vec3& d, double scale, const ToLanes& lanes)
+      : grid_(&grid), o_(o), d_(d), scale_(scale), lanes_(lanes) {}
 
   Flight fly(const FlightLimit& limit) const {
     Flight flight{limit.distance};
@@ -21,14 +31,14 @@ class Flying {
         .run([&](const Grid::Index& index, double from, double to) {
           const Cell cell(*this, index);
           const T here = cell.integral(from, to);
-          if (limit.ends(Spectrum(depth + here))) {
+          if (limit.ends(lanes_(depth + here))) {
             flight = stop(limit, depth, cell, from, to);
             return false;
           }
           depth += here;
           return true;
         });
-    if (!flight.stops) flight.depth = Spectrum(depth);
+    if (!flight.stops) flight.depth = lanes_(depth);
     return flight;
   }
 
@@ -53,17 +63,18 @@ class Flying {
     double scale;
   };
 
-  static Flight stop(const FlightLimit& limit, const T& before, const Cell& cell, double from,
-                     double to) {
-    const auto depth = [&](double t) { return Spectrum(before + cell.integral(from, t)); };
+  Flight stop(const FlightLimit& limit, const T& before, const Cell& cell, double from,
+              double to) const {
+    const auto depth = [&](double t) { return lanes_(before + cell.integral(from, t)); };
     const double t =
-        flight_end(limit, from, to, depth, [&](double t) { return Spectrum(cell.at(t)); });
+        flight_end(limit, from, to, depth, [&](double t) { return lanes_(cell.at(t)); });
     return {t, depth(t), true};
   }
 
   const Grid* grid_;
   Vec3 o_, d_;
   double scale_;
+  ToLanes lanes_;
 };
 
 }  // namespace
@@ -78,7 +89,7 @@ GridVolume::GridVolume(Grid grid, const Mat4& to_world) : grid_(std::move(grid))
       throw UsageError("'to_world' should have a volume, but is flat");
 }
 
-Spectrum GridVolume::at(const Vec3& p) const {
+Spectrum GridVolume::at(const Vec3& p, double wavelength) const {
   const Vec3 x = transform_point(to_grid_, p);
   Grid::Index index;
   Vec3 in_cell;
@@ -87,15 +98,19 @@ Spectrum GridVolume::at(const Vec3& p) const {
     index[axis] = std::min(static_cast<int>(x[axis]), grid_.cells(axis) - 1);
     in_cell[axis] = x[axis] - index[axis];
   }
-  return grid_.is_coloured() ? Spectrum(grid_.cell<Color>(index).at(in_cell))
-                             : Spectrum(grid_.cell<double>(index).at(in_cell));
+  if (!grid_.is_coloured()) return Spectrum(grid_.cell<double>(index).at(in_cell));
+  const Color rgb = grid_.cell<Color>(index).at(in_cell);
+  return wavelength < 0 ? Spectrum(rgb) : LinearUpsampling(wavelength)(rgb);
 }
 
 Flight GridVolume::fly(const Ray& ray, const FlightLimit& limit, double scale) const {
   const Vec3 o = transform_point(to_grid_, ray.o - ray.before * ray.d),
              d = transform_vector(to_grid_, ray.d);
-  return grid_.is_coloured() ? Flying<Color>(grid_, o, d, scale).fly(limit)
-                             : Flying<double>(grid_, o, d, scale).fly(limit);
+  if (!grid_.is_coloured())
+    return Flying<double, GreyLanes>(grid_, o, d, scale, {}).fly(limit);
+  if (ray.wavelength < 0) return Flying<Color, RgbLanes>(grid_, o, d, scale, {}).fly(limit);
+  return Flying<Color, LinearUpsampling>(grid_, o, d, scale, LinearUpsampling(ray.wavelength))
+      .fly(limit);
 }
 
 }  // namespace mlt

@@ -99,4 +99,4 @@ def load_scene(args) -> _core.Scene:
     lenient = args.lenient or (False if args.strict else None)
     scene, found = load_with_warnings(args.scene, dict(args.defines), lenient=lenient, **settings)
     warn(found)
-    return scene
+    return scene.with_wavelengths() if getattr(args, "spectral", False) else scene

@@ -19,7 +19,9 @@ from .files import is_foreign, load_foreign, warn_all
 SceneLike = _core.Scene | SceneParameters | dict | str | os.PathLike
 
 
-def load(path, /, *, size=None, lenient=None, sensor=None, filter=None, **defines) -> _core.Scene:
+def load(
+    path, /, *, size=None, lenient=None, sensor=None, filter=None, spectral=False, **defines
+) -> _core.Scene:
     """Load a scene from a file of any known format, which its extension tells, or by its name.
 
     .gltf, .glb
@@ -34,13 +36,14 @@ def load(path, /, *, size=None, lenient=None, sensor=None, filter=None, **define
         that scene; `defines` are its parameters.
 
     `size` is the image's (width, height) in pixels, `sensor` says which of several cameras is
-    meant, `filter` names another reconstruction filter. What a file of another program has and a
+    meant, `filter` names another reconstruction filter; with `spectral` light has wavelengths
+    instead of R, G and B. What a file of another program has and a
     Mitsuba scene cannot say is named in a warning of Python. Raises FileError, SceneError and
     UsageError, as `load_file` and `convert` do.
     """
     scene, found = load_with_warnings(path, defines, size, lenient, sensor, filter)
     warn_all(found)
-    return scene
+    return scene.with_wavelengths() if spectral else scene
 
 
 def load_with_warnings(
@@ -78,8 +81,10 @@ def existing_name(text: str) -> str:
     )
 
 
-def as_scene(scene, sensor=None) -> _core.Scene:
+def as_scene(scene, sensor=None, spectral=False) -> _core.Scene:
     """What `scene` means: itself, a dict, the path of a file, or a built-in scene's name."""
+    if spectral:
+        return as_scene(scene, sensor).with_wavelengths()
     if isinstance(scene, SceneParameters):
         scene = scene.scene
     if isinstance(scene, _core.Scene):

@@ -28,6 +28,7 @@ def start(
     integrator: IntegratorLike | None = None,
     *,
     sensor: int | None = None,
+    spectral: bool = False,
     options: RenderOptions,
 ) -> Job:
     """Start a render and return at once.
@@ -41,13 +42,15 @@ def start(
     sensor
         which of the scene's sensors sees it, counted from 0; None is the first one, or that with
         which `scene` was loaded.
+    spectral
+        whether light has wavelengths instead of R, G and B; so it is too if the film says so.
     <options>
 
     Raises UsageError for options that make no sense, SceneError for such a scene or integrator, and
     FileError for files that cannot be read or a checkpoint that cannot be written. What goes wrong
     later is raised by `Job.wait` and `Job.result`.
     """
-    scene = as_scene(scene, sensor)
+    scene = as_scene(scene, sensor, spectral)
     return Job(scene, as_integrator(scene, integrator), options)._start()
 
 
@@ -109,6 +112,7 @@ def render(
     integrator: IntegratorLike | None = None,
     *,
     sensor: int | None = None,
+    spectral: bool = False,
     options: RenderOptions,
     progress: bool | Callable[[float], object] | None = None,
     callback: Callable[[Result], object] | None = None,
@@ -122,7 +126,7 @@ def render(
     KeyboardInterrupt carries what there is so far, a Result, as `error.result`; so does a
     RenderError, for a render that fails. Other errors are those of `start`.
     """
-    scene = as_scene(scene, sensor)
+    scene = as_scene(scene, sensor, spectral)
     job = Job(scene, as_integrator(scene, integrator), options)._start()
     try:
         job.wait(progress=progress, callback=callback, interval=interval)
@@ -166,11 +170,12 @@ def replay(
     sample: int = 0,
     seed: int = 0,
     sensor: int | None = None,
+    spectral: bool = False,
 ) -> Replay:
     """Repeat one sample of the pixel (x, y) of the render that these arguments mean.
 
     See `Job.replay`.
     """
-    scene = as_scene(scene, sensor)
+    scene = as_scene(scene, sensor, spectral)
     options = RenderOptions(spp=1, seed=seed, threads=1)
     return Job(scene, as_integrator(scene, integrator), options).replay(pixel, sample)

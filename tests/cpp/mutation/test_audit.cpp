@@ -106,7 +106,7 @@ AuditReport audit_variant(const std::string& name, bool two_stage, int min_depth
   TargetMap map(scene->camera().raster(), 2);
   if (two_stage) {
     for_each_light_path(target, 9, 2000, [&](const PathState& x) {
-      map.add(x.raster, 1 + contribution(x.terms)[1]);
+      map.add(x.raster, 1 + contribution(x.terms).y);
     });
     map.finish();
     target.set_map(map);

@@ -93,7 +93,7 @@ TEST_P(PathsOf, AreAssembledAsTheyWereFound) {
     ASSERT_EQ(path[0].kind, VertexKind::light) << name;
     ASSERT_EQ(path[k].kind, VertexKind::camera) << name;
     for (int i = 1; i < k; ++i) ASSERT_EQ(path[i].kind, VertexKind::inner) << name;
-    ASSERT_TRUE(is_finite(c.contribution.rgb()) && min_component(c.contribution) >= 0) << name;
+    ASSERT_TRUE(is_finite(c.contribution) && min_component(c.contribution) >= 0) << name;
     ASSERT_FALSE(is_black(c.contribution)) << name;
     ASSERT_TRUE(c.weight > 0 && c.weight <= 1) << name << " has weight " << c.weight;
 
@@ -111,11 +111,11 @@ TEST_P(PathsOf, CarryTheContributionOverTheDensityOfTheirTechnique) {
     const auto carried = [&](const Path& x) {
       PathTerms of_x;
       compute_terms(*scene_, x, {settings.sample_direct, settings.rules.strict_normals}, of_x);
-      const Color carries = contribution(of_x).rgb() / technique_density(of_x, c.s);
+      const Color carries = contribution(of_x) / technique_density(of_x, c.s);
       return std::vector<double>{carries.x, carries.y, carries.z};
     };
-    const Color expected = contribution(terms).rgb() / technique_density(terms, c.s),
-                found = c.contribution.rgb();
+    const Color expected = contribution(terms) / technique_density(terms, c.s),
+                found = c.contribution;
     all.push_back(relative_difference(found, expected));
     worst.add(excess(*scene_, path, carried, {found.x, found.y, found.z}),
               technique_name(*scene_, c, path));

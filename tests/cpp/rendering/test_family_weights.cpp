@@ -81,7 +81,7 @@ TEST_P(TargetOverDensity, IsTheSameForSamplesAndChains) {
 struct CertaintyRecorder : PathRecorder {
   CertaintyRecorder(const PathRecorder& paths, std::vector<double>& found)
       : PathRecorder(paths), certainties(&found) {}
-  void find(const CameraWalk&, const Spectrum& radiance, double certainty) {
+  void find(const CameraWalk&, const Color& radiance, double certainty) {
     if (target_luminance(radiance) > 0) certainties->push_back(certainty);
   }
   std::vector<double>* certainties;

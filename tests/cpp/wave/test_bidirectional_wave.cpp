@@ -53,7 +53,7 @@ Samples one_by_one(const Scene& scene, const BidirectionalSettings& settings) {
       bidirectional.sample(raster, sampler, found.rays);
       Sample sample;
       bidirectional.connect_all(found.rays, [&](const Connection& c) {
-        add(sample, c.t >= 2, c.raster, (c.contribution * c.weight).rgb(), c.survival,
+        add(sample, c.t >= 2, c.raster, c.contribution * c.weight, c.survival,
             c.s + c.t - 1);
       });
       found.samples.push_back(sample);
@@ -74,7 +74,7 @@ Samples side_by_side(const Scene& scene, const BidirectionalSettings& settings) 
     for (int i = 0; i < wave.size(); ++i) {
       Sample sample;
       wave.show_lights(i, [&](const BidirectionalWave::Light& light) {
-        add(sample, light.own_pixel, light.raster, light.weighted.rgb(), light.survival,
+        add(sample, light.own_pixel, light.raster, light.weighted, light.survival,
             light.edges);
       });
       sample.by_itself = wave.fell_back(i);
@@ -176,11 +176,11 @@ TEST(BidirectionalWave, TracesAnIncompleteWave) {
   wave.trace(rays);
   for (int i = 0; i < wave.size(); ++i) {
     EXPECT_FALSE(wave.fell_back(i));
-    Spectrum seen(0);
+    Color seen(0);
     wave.show_lights(i, [&](const BidirectionalWave::Light& light) {
       if (light.own_pixel) seen += light.weighted;
     });
-    EXPECT_TRUE(close(seen.rgb(), single.samples[i].seen)) << i;
+    EXPECT_TRUE(close(seen, single.samples[i].seen)) << i;
   }
 }
 

@@ -34,7 +34,7 @@ Traced one_by_one(const Scene& scene, const PathRules& rules) {
   Traced traced;
   for (int w = 0; w < waves; ++w)
     start_paths(scene, w, [&](const Ray& ray, PixelSampler& sampler) {
-      traced.radiance.push_back(trace_path(scene, rules, ray, sampler, traced.rays).rgb());
+      traced.radiance.push_back(trace_path(scene, rules, ray, sampler, traced.rays));
     });
   return traced;
 }
@@ -50,7 +50,7 @@ Traced side_by_side(const Scene& scene, const PathRules& rules) {
     EXPECT_TRUE(wavefront.full());
     wavefront.trace(traced.rays);
     for (size_t i = 0; i < wavefront.size(); ++i)
-      traced.radiance.push_back(wavefront.is_left(i) ? left : wavefront.radiance(i).rgb());
+      traced.radiance.push_back(wavefront.is_left(i) ? left : wavefront.radiance(i));
     wavefront.clear();
   }
   return traced;
@@ -115,7 +115,7 @@ TEST(PathWave, TracesAnIncompleteWave) {
   wavefront.add(ray, sampler);
   wavefront.trace(rays);
   RayCounts single;
-  EXPECT_TRUE(close(wavefront.radiance(0).rgb(), trace_path(*scene, {}, ray, again, single).rgb()));
+  EXPECT_TRUE(close(wavefront.radiance(0), trace_path(*scene, {}, ray, again, single)));
   EXPECT_EQ(rays.total(), single.total());
 }
 
