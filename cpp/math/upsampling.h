@@ -1,0 +1,52 @@
+// Reflectance spectra for RGB colours: W. Jakob and J. Hanika, "A Low-Dimensional Function Space for
+// Efficient Spectral Upsampling", Computer Graphics Forum 38 (2), 2019.
+// r(lambda) = 1/2 + v / (2 sqrt(1 + v^2)) with v = (c0 lambda + c1) lambda + c2 lies in (0, 1), and its
+// colour under D65 is the given one. Beside the paper, the table holds coefficients that are scaled so
+// that they have limits at black and at white, and all fits are slightly regularised.
+#pragma once
+
+#include "math/color.h"
+
+#include <array>
+#include <vector>
+
+namespace mlt {
+
+struct SmoothReflectance {
+  double c0 = 0, c1 = 0, c2 = 0;  // for wavelengths in nm
+
+  double at(double wavelength) const {
+    const double v = (c0 * wavelength + c1) * wavelength + c2;
+    return 0.5 + 0.5 * v / std::sqrt(1 + v * v);
+  }
+};
+
+/// The spectrum of a colour in linear sRGB, which is clamped to [0, 1]; of a grey it is flat. Colours
+/// near the most saturated ones of sRGB are approximated.
+SmoothReflectance fit_reflectance(const Color& rgb);
+
+/// The coefficients of all colours, to be interpolated: for textures.
+class ReflectanceTable {
+ public:
+  /// Made by the first call, which takes a part of a second.
+  static const ReflectanceTable& get();
+
+  /// fit_reflectance, nearly.
+  SmoothReflectance at(const Color& rgb) const;
+
+ private:
+  static constexpr size_t brightness_count = 32, ratio_count = 32;
+  using Coefficients = Vec3f;
+
+  ReflectanceTable();
+  void fill(size_t largest, size_t brightness);
+  size_t index(size_t largest, size_t brightness, size_t i, size_t j) const {
+    return ((largest * brightness_count + brightness) * ratio_count + i) * ratio_count + j;
+  }
+
+  std::array<double, brightness_count> brightness_;  // values of the largest component
+  std::array<double, ratio_count> ratio_;            // of the next and last components to it
+  std::vector<Coefficients> coefficients_;
+};
+
+}  // namespace mlt
