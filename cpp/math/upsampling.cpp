@@ -2,9 +2,8 @@
 
 #include "math/colorimetry.h"
 
-#include <glm/common.hpp>
-
 #include <algorithm>
+#include <array>
 
 namespace mlt {
 
@@ -102,7 +101,7 @@ class Fit {
   };
   static constexpr int max_steps = 100;
   /// Weighs the squares of the unknowns: keeps them bounded where no spectrum has the colour.
-  static constexpr double regularisation = 1e-10;
+  static constexpr double regularisation = 1e-9;
   static constexpr double tiny_cost = 1e-12;
 
   State evaluate(const Vec3& q) const {
@@ -133,31 +132,46 @@ class Fit {
   double inverse_, scale_;
 };
 
-/// The interval of an increasing axis that holds a value, and the place in it.
-template <size_t n>
+constexpr double axis_steps = ReflectanceTable::size - 1;
+
+/// The values along an axis of the table, quadratically closer to each other towards 0 and 1 like
+/// the paper's smoothstep, but with a simple inverse.
+double axis_value(size_t i) {
+  const double u = static_cast<double>(i) / axis_steps;
+  return u < 0.5 ? 2 * sqr(u) : 1 - 2 * sqr(1 - u);
+}
+double axis_place(double value) {
+  return value < 0.5 ? std::sqrt(value / 2) : 1 - std::sqrt((1 - value) / 2);
+}
+
+/// The interval of an axis that holds a value in [0, 1], and the place in it.
 struct Interval {
   size_t low;
   double f;
 
-  Interval(const std::array<double, n>& axis, double value) {
-    const auto above = std::upper_bound(axis.begin() + 1, axis.end() - 1, value);
-    low = static_cast<size_t>(above - axis.begin()) - 1;
-    f = (value - axis[low]) / (axis[low + 1] - axis[low]);
+  explicit Interval(double value) {
+    const double t = axis_place(value) * axis_steps;
+    low = std::min(static_cast<size_t>(t), ReflectanceTable::size - 2);
+    f = t - static_cast<double>(low);
   }
 };
 
-Color within_unit_cube(const Color& rgb) { return glm::clamp(rgb, Color(0.0), Color(1.0)); }
+/// Of the arguments of std::max, NaN loses.
+double within_unit(double x) { return std::min(1.0, std::max(0.0, x)); }
+Color within_unit_cube(const Color& c) {
+  return {within_unit(c.x), within_unit(c.y), within_unit(c.z)};
+}
 
 /// Colours this dark have no precision left; they are grey.
 constexpr double darkest = 1e-8;
 bool is_flat(const Color& rgb) { return is_grey(rgb) || max_component(rgb) < darkest; }
 
-/// The coefficients of a flat reflectance are about (m - 1/2) over this, so that their product with
-/// it is smooth from black to white. The constant is the distance from white of its regularised fit.
-double table_scale(double m) { return std::sqrt(m * (1.00025 - m)); }
+/// The table interpolates coefficients times this, which vary less: those of a flat reflectance are
+/// (m - 1/2) / sqrt(m (1 - m)), and those of saturated colours near white are bounded.
+double table_scale(double m) { return std::sqrt(m * (1.05 - m)); }
 
-/// The brightness at which the table has the limit of its scaled coefficients at black.
-double table_brightness(double m) { return std::max(m, 1e-4); }
+/// The brightness of a layer; the first has the limit of its scaled coefficients at black.
+double layer_brightness(size_t layer) { return std::max(axis_value(layer), 1e-4); }
 
 Color color_of(size_t largest, double m, double next, double last) {
   Color rgb;
@@ -166,8 +180,6 @@ Color color_of(size_t largest, double m, double next, double last) {
   rgb[static_cast<int>((largest + 2) % 3)] = m * last;
   return rgb;
 }
-
-double smoothstep(double x) { return x * x * (3 - 2 * x); }
 
 size_t largest_component(const Color& c) {
   return c.x >= c.y && c.x >= c.z ? 0 : c.y >= c.z ? 1 : 2;
@@ -186,31 +198,26 @@ const ReflectanceTable& ReflectanceTable::get() {
   return table;
 }
 
-ReflectanceTable::ReflectanceTable()
-    : coefficients_(3 * brightness_count * ratio_count * ratio_count) {
-  for (size_t k = 0; k < brightness_count; ++k)
-    brightness_[k] = smoothstep(static_cast<double>(k) / (brightness_count - 1));
-  for (size_t i = 0; i < ratio_count; ++i)
-    ratio_[i] = sqr(static_cast<double>(i) / (ratio_count - 1));
+ReflectanceTable::ReflectanceTable() : coefficients_(3 * size * size * size) {
   for (size_t largest = 0; largest < 3; ++largest)
-    for (size_t k = 0; k < brightness_count; ++k) fill(largest, k);
+    for (size_t k = 0; k < size; ++k) fill(largest, k);
 }
 
 /// Each fit starts at what scales to the coefficients of the next darker one; the first layer, from
 /// grey outwards, at those of a neighbour.
 void ReflectanceTable::fill(size_t largest, size_t brightness) {
-  const double m = table_brightness(brightness_[brightness]);
-  const double darker = brightness > 0 ? table_brightness(brightness_[brightness - 1]) : m;
+  const double m = layer_brightness(brightness);
+  const double darker = layer_brightness(brightness > 0 ? brightness - 1 : 0);
   const double from_darker = std::sqrt(darker / m) / table_scale(darker);
-  std::array<Vec3, ratio_count> row;  // of the greater i
+  std::array<Vec3, size> row;  // of the greater i
   row.fill(flat_start(m));
-  for (size_t i = ratio_count; i-- > 0;)
-    for (size_t j = ratio_count; j-- > 0;) {
-      Vec3 start = row[std::min(j + 1, ratio_count - 1)];
+  for (size_t i = size; i-- > 0;)
+    for (size_t j = size; j-- > 0;) {
+      Vec3 start = row[std::min(j + 1, size - 1)];
       if (brightness > 0)
         start = from_darker * Vec3(coefficients_[index(largest, brightness - 1, i, j)]);
-      row[j] = Fit(color_of(largest, m, ratio_[i], ratio_[j])).solve(start);
-      coefficients_[index(largest, brightness, i, j)] = Coefficients(row[j] * table_scale(m));
+      row[j] = Fit(color_of(largest, m, axis_value(i), axis_value(j))).solve(start);
+      coefficients_[index(largest, brightness, i, j)] = Vec3f(row[j] * table_scale(m));
     }
 }
 
@@ -219,9 +226,9 @@ SmoothReflectance ReflectanceTable::at(const Color& rgb) const {
   if (is_flat(c)) return in_nm({0, 0, flat_coefficient(mean(c))});
   const size_t largest = largest_component(c);
   const double m = c[static_cast<int>(largest)];
-  const Interval<brightness_count> k(brightness_, m);
-  const Interval<ratio_count> i(ratio_, c[static_cast<int>((largest + 1) % 3)] / m);
-  const Interval<ratio_count> j(ratio_, c[static_cast<int>((largest + 2) % 3)] / m);
+  const Interval k(m);
+  const Interval i(c[static_cast<int>((largest + 1) % 3)] / m);
+  const Interval j(c[static_cast<int>((largest + 2) % 3)] / m);
   Vec3 sum(0.0);
   for (size_t corner = 0; corner < 8; ++corner) {
     const size_t dk = corner & 1, di = corner >> 1 & 1, dj = corner >> 2;

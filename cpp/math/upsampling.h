@@ -7,7 +7,6 @@
 
 #include "math/color.h"
 
-#include <array>
 #include <vector>
 
 namespace mlt {
@@ -28,6 +27,8 @@ SmoothReflectance fit_reflectance(const Color& rgb);
 /// The coefficients of all colours, to be interpolated: for textures.
 class ReflectanceTable {
  public:
+  static constexpr size_t size = 32;  // along each axis
+
   /// Made by the first call, which takes a part of a second.
   static const ReflectanceTable& get();
 
@@ -35,18 +36,13 @@ class ReflectanceTable {
   SmoothReflectance at(const Color& rgb) const;
 
  private:
-  static constexpr size_t brightness_count = 32, ratio_count = 32;
-  using Coefficients = Vec3f;
-
   ReflectanceTable();
   void fill(size_t largest, size_t brightness);
   size_t index(size_t largest, size_t brightness, size_t i, size_t j) const {
-    return ((largest * brightness_count + brightness) * ratio_count + i) * ratio_count + j;
+    return ((largest * size + brightness) * size + i) * size + j;
   }
 
-  std::array<double, brightness_count> brightness_;  // values of the largest component
-  std::array<double, ratio_count> ratio_;            // of the next and last components to it
-  std::vector<Coefficients> coefficients_;
+  std::vector<Vec3f> coefficients_;
 };
 
 }  // namespace mlt
