@@ -13,9 +13,9 @@ namespace {
 constexpr double middle = (first_wavelength + last_wavelength) / 2;
 constexpr double half = (last_wavelength - first_wavelength) / 2;
 
-SmoothReflectance in_nm(const Vec3& c) {
+SmoothReflectance in_nm(const Vec3& c, double scale) {
   const double a = c.x / sqr(half), b = c.y / half;
-  return {a, b - 2 * a * middle, (a * middle - b) * middle + c.z};
+  return {a, b - 2 * a * middle, (a * middle - b) * middle + c.z, scale};
 }
 
 /// The constant v of a flat reflectance, which stays within (0, 1).
@@ -162,16 +162,17 @@ Color within_unit_cube(const Color& c) {
   return {within_unit(c.x), within_unit(c.y), within_unit(c.z)};
 }
 
-/// Colours this dark have no precision left; they are grey.
-constexpr double darkest = 1e-8;
-bool is_flat(const Color& rgb) { return is_grey(rgb) || max_component(rgb) < darkest; }
+/// Darker colours have the spectrum of the colour of this brightness, times a scale: without it, the
+/// saturated ones would have peaks that are as high as before and ever narrower.
+constexpr double darkest = 0.02;
+
+SmoothReflectance flat(double value) { return {0, 0, flat_coefficient(value)}; }
 
 /// The table interpolates coefficients times this, which vary less: those of a flat reflectance are
 /// (m - 1/2) / sqrt(m (1 - m)), and those of saturated colours near white are bounded.
 double table_scale(double m) { return std::sqrt(m * (1.05 - m)); }
 
-/// The brightness of a layer; the first has the limit of its scaled coefficients at black.
-double layer_brightness(size_t layer) { return std::max(axis_value(layer), 1e-4); }
+double layer_brightness(size_t layer) { return darkest + (1 - darkest) * axis_value(layer); }
 
 Color color_of(size_t largest, double m, double next, double last) {
   Color rgb;
@@ -189,8 +190,10 @@ size_t largest_component(const Color& c) {
 
 SmoothReflectance fit_reflectance(const Color& rgb) {
   const Color c = within_unit_cube(rgb);
-  if (is_flat(c)) return in_nm({0, 0, flat_coefficient(mean(c))});
-  return in_nm(Fit(c).solve(flat_start(mean(c))));
+  if (is_grey(c)) return flat(c.x);
+  const double m = max_component(c);
+  const Color bright = m < darkest ? c / m * darkest : c;
+  return in_nm(Fit(bright).solve(flat_start(mean(bright))), std::min(1.0, m / darkest));
 }
 
 const ReflectanceTable& ReflectanceTable::get() {
@@ -223,10 +226,11 @@ void ReflectanceTable::fill(size_t largest, size_t brightness) {
 
 SmoothReflectance ReflectanceTable::at(const Color& rgb) const {
   const Color c = within_unit_cube(rgb);
-  if (is_flat(c)) return in_nm({0, 0, flat_coefficient(mean(c))});
+  if (is_grey(c)) return flat(c.x);
   const size_t largest = largest_component(c);
   const double m = c[static_cast<int>(largest)];
-  const Interval k(m);
+  const double bright = std::max(m, darkest);
+  const Interval k((bright - darkest) / (1 - darkest));
   const Interval i(c[static_cast<int>((largest + 1) % 3)] / m);
   const Interval j(c[static_cast<int>((largest + 2) % 3)] / m);
   Vec3 sum(0.0);
@@ -235,7 +239,7 @@ SmoothReflectance ReflectanceTable::at(const Color& rgb) const {
     const double weight = (dk ? k.f : 1 - k.f) * (di ? i.f : 1 - i.f) * (dj ? j.f : 1 - j.f);
     sum += weight * Vec3(coefficients_[index(largest, k.low + dk, i.low + di, j.low + dj)]);
   }
-  return in_nm(sum / table_scale(m));
+  return in_nm(sum / table_scale(bright), std::min(1.0, m / darkest));
 }
 
 }  // namespace mlt

@@ -1,8 +1,8 @@
 // Reflectance spectra for RGB colours: W. Jakob and J. Hanika, "A Low-Dimensional Function Space for
 // Efficient Spectral Upsampling", Computer Graphics Forum 38 (2), 2019.
 // r(lambda) = 1/2 + v / (2 sqrt(1 + v^2)) with v = (c0 lambda + c1) lambda + c2 lies in (0, 1), and its
-// colour under D65 is the given one. Beside the paper, the table holds coefficients that are scaled so
-// that they have limits at black and at white, and all fits are slightly regularised.
+// colour under D65 is the given one. Beside the paper, fits are slightly regularised, the table holds
+// scaled coefficients, which vary less, and the darkest colours have scaled spectra of brighter ones.
 #pragma once
 
 #include "math/color.h"
@@ -13,10 +13,11 @@ namespace mlt {
 
 struct SmoothReflectance {
   double c0 = 0, c1 = 0, c2 = 0;  // for wavelengths in nm
+  double scale = 1;               // less for colours without a component above 0.02
 
   double at(double wavelength) const {
     const double v = (c0 * wavelength + c1) * wavelength + c2;
-    return 0.5 + 0.5 * v / std::sqrt(1 + v * v);
+    return scale * (0.5 + 0.5 * v / std::sqrt(1 + v * v));
   }
 };
 
