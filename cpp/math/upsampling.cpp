@@ -64,7 +64,7 @@ class Observer {
 };
 
 /// The least squares problem of one colour. Its unknowns are q = c sqrt(m), and residuals are
-/// divided by m, the largest component: both have limits as the colour becomes black.
+/// divided by m, the largest component, so that dark colours are found as well as bright ones.
 class Fit {
  public:
   explicit Fit(const Color& rgb)
@@ -100,7 +100,7 @@ class Fit {
     Mat3 curvature;
   };
   static constexpr int max_steps = 100;
-  /// Weighs the squares of the unknowns: keeps them bounded where no spectrum has the colour.
+  /// Weighs the squares of the unknowns: keeps them bounded near white and black components.
   static constexpr double regularisation = 1e-9;
   static constexpr double tiny_cost = 1e-12;
 
@@ -135,7 +135,7 @@ class Fit {
 constexpr double axis_steps = ReflectanceTable::size - 1;
 
 /// The values along an axis of the table, quadratically closer to each other towards 0 and 1 like
-/// the paper's smoothstep, but with a simple inverse.
+/// the paper's smoothstep, but with a simple inverse: interpolation is linear in the index.
 double axis_value(size_t i) {
   const double u = static_cast<double>(i) / axis_steps;
   return u < 0.5 ? 2 * sqr(u) : 1 - 2 * sqr(1 - u);
@@ -162,8 +162,8 @@ Color within_unit_cube(const Color& c) {
   return {within_unit(c.x), within_unit(c.y), within_unit(c.z)};
 }
 
-/// Darker colours have the spectrum of the colour of this brightness, times a scale: without it, the
-/// saturated ones would have peaks that are as high as before and ever narrower.
+/// Darker colours have the spectrum of the colour of this brightness, times a scale: without it,
+/// the saturated ones would have peaks that are as high as before and ever narrower.
 constexpr double darkest = 0.02;
 
 SmoothReflectance flat(double value) { return {0, 0, flat_coefficient(value)}; }

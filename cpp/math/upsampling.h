@@ -1,8 +1,9 @@
-// Reflectance spectra for RGB colours: W. Jakob and J. Hanika, "A Low-Dimensional Function Space for
-// Efficient Spectral Upsampling", Computer Graphics Forum 38 (2), 2019.
-// r(lambda) = 1/2 + v / (2 sqrt(1 + v^2)) with v = (c0 lambda + c1) lambda + c2 lies in (0, 1), and its
-// colour under D65 is the given one. Beside the paper, fits are slightly regularised, the table holds
-// scaled coefficients, which vary less, and the darkest colours have scaled spectra of brighter ones.
+// Reflectance spectra for RGB colours: W. Jakob and J. Hanika, "A Low-Dimensional Function Space
+// for Efficient Spectral Upsampling", Computer Graphics Forum 38 (2), 2019.
+// r(lambda) = 1/2 + v / (2 sqrt(1 + v^2)) with v = (c0 lambda + c1) lambda + c2 lies in (0, 1), and
+// its colour under D65 is the given one. Beside the paper, fits are slightly regularised, the table
+// holds scaled coefficients, which vary less, and the darkest colours have scaled spectra of
+// brighter ones.
 #pragma once
 
 #include "math/color.h"
@@ -21,8 +22,7 @@ struct SmoothReflectance {
   }
 };
 
-/// The spectrum of a colour in linear sRGB, which is clamped to [0, 1]; of a grey it is flat. Colours
-/// near the most saturated ones of sRGB are approximated.
+/// The spectrum of a colour in linear sRGB, which is clamped to [0, 1]; of a grey it is flat.
 SmoothReflectance fit_reflectance(const Color& rgb);
 
 /// The coefficients of all colours, to be interpolated: for textures.
@@ -30,10 +30,10 @@ class ReflectanceTable {
  public:
   static constexpr size_t size = 32;  // along each axis
 
-  /// Made by the first call, which takes a part of a second.
+  /// Made by the first call, which takes a third of a second.
   static const ReflectanceTable& get();
 
-  /// fit_reflectance, nearly.
+  /// What fit_reflectance finds, but for interpolation: colours differ by less than 0.005.
   SmoothReflectance at(const Color& rgb) const;
 
  private:

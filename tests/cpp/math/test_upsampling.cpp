@@ -122,8 +122,8 @@ struct Reference {
   std::array<double, 6> values;  // at 420, 480, 540, 600, 660 and 720 nm
 };
 
-/// From colour-science 0.4.7: `colour.recovery.jakob2019.find_coefficients_Jakob2019`, for XYZ by the
-/// inverse of xyz_to_srgb, with max_error = 1e-3 (of Delta E 1976), from 360 to 780 nm.
+/// From colour-science 0.4.7: `colour.recovery.jakob2019.find_coefficients_Jakob2019`, for XYZ by
+/// the inverse of xyz_to_srgb, with max_error = 1e-3 (of Delta E 1976), from 360 to 780 nm.
 const std::vector<Reference> references{
     {{0.8, 0.2, 0.1}, {0.1366, 0.1196, 0.1916, 0.5537, 0.9163, 0.9797}},
     {{0.1, 0.6, 0.2}, {0.0710, 0.4068, 0.6018, 0.2843, 0.0432, 0.0093}},
