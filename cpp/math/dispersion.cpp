@@ -89,11 +89,10 @@ RefractiveIndex RefractiveIndex::table(const WavelengthTable& pairs) {
     if (!(std::isfinite(n) && n > 0))
       throw UsageError(fmt::format(
           "a table has an index of refraction of {} at {} nm; it must be positive", n, nm));
-  if (pairs.size() == 1) return constant(pairs.front().second);
   const bool disperses = std::any_of(pairs.begin(), pairs.end(), [&](const auto& pair) {
     return pair.second != pairs.front().second;
   });
-  return {Curve::table(pairs), disperses, "a table"};
+  return {Curve::held_table(pairs), disperses, "a table"};
 }
 
 }  // namespace mlt

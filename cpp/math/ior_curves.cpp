@@ -126,7 +126,7 @@ std::optional<ConductorCurves> find_conductor_curves(const std::string& name) {
   const auto tables = find_conductor_tables(name);
   if (!tables) return std::nullopt;
   if (tables->eta.empty()) return ConductorCurves{Curve::constant(0), Curve::constant(1)};
-  return ConductorCurves{Curve::table(tables->eta), Curve::table(tables->k)};
+  return ConductorCurves{Curve::held_table(tables->eta), Curve::held_table(tables->k)};
 }
 
 }  // namespace mlt
