@@ -31,7 +31,7 @@ double largest_difference(const SmoothReflectance& a, const SmoothReflectance& b
   return largest;
 }
 
-/// All of [0, 1]^3 with its faces, edges and corners, and one that Newton's method misses from grey.
+/// All of [0, 1]^3 with its faces, edges and corners, and a colour that one fit from grey misses.
 std::vector<Color> grid() {
   std::vector<Color> colors{{3.62033322e-07, 0.285820648, 3.62033322e-07}};
   const std::array<double, 9> values{0, 1e-3, 0.02, 0.1, 0.3, 0.6, 0.9, 0.999, 1};
