@@ -193,7 +193,12 @@ SmoothReflectance fit_reflectance(const Color& rgb) {
   if (is_grey(c)) return flat(c.x);
   const double m = max_component(c);
   const Color bright = m < darkest ? c / m * darkest : c;
-  return in_nm(Fit(bright).solve(flat_start(mean(bright))), std::min(1.0, m / darkest));
+  const Color grey(mean(bright));
+  Vec3 found = flat_start(grey.x);
+  // Each fit starts near to its solution: from grey at once, a few saturated colours are not found.
+  for (const double share : {0.5, 0.8, 0.95, 1.0})
+    found = Fit(grey + share * (bright - grey)).solve(found);
+  return in_nm(found, std::min(1.0, m / darkest));
 }
 
 const ReflectanceTable& ReflectanceTable::get() {
