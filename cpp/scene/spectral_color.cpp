@@ -1,0 +1,64 @@
+#include "scene/spectral_color.h"
+
+#include "math/colorimetry.h"
+
+namespace mlt {
+namespace {
+
+/// The scale of a reflectance: light has one of 1/2 at the most, which leaves room for a smooth
+/// spectrum, as in Mitsuba 3.
+double scale_of(const Color& rgb, RgbMeaning meaning) {
+  const double most = max_component(rgb);
+  return meaning == RgbMeaning::light ? 2 * most : std::max(1.0, most);
+}
+
+}  // namespace
+
+Spectrum SmoothSpectrum::at(double u) const {
+  return at_wavelengths(u, [&](double nm) {
+    const double value = scale * reflectance.at(nm);
+    return light ? value * d65(nm) : value;
+  });
+}
+
+Spectrum upsampled(const Color& rgb, RgbMeaning meaning, double u) {
+  const bool light = meaning == RgbMeaning::light;
+  if (is_grey(rgb)) return light ? rgb.x * at_wavelengths(u, d65) : Spectrum(rgb.x);
+  const double scale = scale_of(rgb, meaning);
+  return SmoothSpectrum{ReflectanceTable::get().at(rgb / scale), scale, light}.at(u);
+}
+
+SpectralColor::SpectralColor(const Color& rgb, RgbMeaning meaning) : rgb_(rgb), meaning_(meaning) {
+  if (is_grey(rgb)) return;
+  const double scale = scale_of(rgb, meaning);
+  smooth_ = {fit_reflectance(rgb / scale), scale, meaning == RgbMeaning::light};
+}
+
+Spectrum SpectralColor::at_wavelengths_of(double u) const {
+  if (curve_) return at_wavelengths(u, [&](double nm) { return curve_->at(nm); });
+  return is_grey(rgb_) ? upsampled(rgb_, meaning_, u) : smooth_.at(u);
+}
+
+SpectralColor SpectralColor::over(double divisor) const {
+  SpectralColor color = *this;
+  color.rgb_ /= divisor;
+  color.smooth_.scale /= divisor;
+  if (curve_) color.curve_ = curve_->scaled(1 / divisor);
+  return color;
+}
+
+SpectralColor SpectralColor::meaning(RgbMeaning meaning) const {
+  return curve_ ? *this : SpectralColor(rgb_, meaning);
+}
+
+LinearUpsampling::LinearUpsampling(double u)
+    : red_(upsampled({1, 0, 0}, RgbMeaning::reflectance, u)),
+      green_(upsampled({0, 1, 0}, RgbMeaning::reflectance, u)),
+      blue_(upsampled({0, 0, 1}, RgbMeaning::reflectance, u)) {
+  const Spectrum sum = red_ + green_ + blue_;
+  red_ /= sum;
+  green_ /= sum;
+  blue_ /= sum;
+}
+
+}  // namespace mlt
