@@ -52,7 +52,8 @@ bool fits(const Value& value, ParamType type) {
     case ParamType::emission:
     case ParamType::volume: return is_color(value) || is<ObjectPtr>(value);
     case ParamType::buffer: return is<Buffer>(value);
-    case ParamType::ior: return is_number(value) || is<std::string>(value);
+    case ParamType::ior:
+      return is_number(value) || is<std::string>(value) || is<WavelengthTable>(value);
     case ParamType::object: return is<ObjectPtr>(value);
   }
   return false;

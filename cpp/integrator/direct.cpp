@@ -34,49 +34,49 @@ class DirectTaker : public SampleTaker {
   void sample(const Vec2& raster, PixelSampler& sampler, SampleSink& sink,
               RayCounts& rays) override {
     const Ray ray = leave_lens(scene_->camera(), raster, sampler).ray;
-    sink.add(raster, recorded(radiance(ray, sampler, rays), ray.wavelength));
+    sink.add(raster, radiance(ray, sampler, rays));
   }
 
  private:
-  Spectrum radiance(const Ray& ray, PixelSampler& sampler, RayCounts& rays) const {
+  Color radiance(const Ray& ray, PixelSampler& sampler, RayCounts& rays) const {
     const Walker walker{*scene_, ray.time, rays};
     CameraWalk walk(ray);
     SurfacePoint at;
     const bool hit = arrive(walker, sampler, walk, at);
     const auto always = [](const Emitter&, const SurfacePoint&) { return 1.0; };
-    Spectrum sum(0);
+    Color sum(0);
     if (!settings_.rules.hide_emitters)
-      sum += emission(*scene_, hit ? &at : nullptr, ray, always);
-    if (!hit || !consistent_sides(at, -ray.d, settings_.rules.strict_normals))
-      return sum * walk.throughput;
+      sum += walk.seen(walk.throughput * emission(*scene_, hit ? &at : nullptr, ray, always));
+    if (!hit || !consistent_sides(at, -ray.d, settings_.rules.strict_normals)) return sum;
     if (BsdfAt(*scene_, at).has_smooth())
       for (int i = 0; i < settings_.emitter_samples; ++i)
         sum += by_light(walker, at, walk, sampler);
     for (int i = 0; i < settings_.bsdf_samples; ++i) sum += by_bsdf(walker, at, walk, sampler);
-    return sum * walk.throughput;
+    return sum;
   }
 
-  Spectrum by_light(const Walker& walker, const SurfacePoint& at, const CameraWalk& seen,
+  Color by_light(const Walker& walker, const SurfacePoint& at, const CameraWalk& seen,
                     PixelSampler& sampler) const {
     const Vec3 u = DirectNumbers::draw(sampler).for_light();
     const double n = settings_.emitter_samples, m = settings_.bsdf_samples;
     const auto weight = [&](double light, double bsdf) {
       return MisExponent(Heuristic::power).weight(n * light, m * bsdf);
     };
-    return direct_light(walker, at, -seen.ray.d, u, settings_.rules.strict_normals, weight,
-                        seen.likelihood) /
-           n;
+    const DirectLight light = direct_light(walker, at, -seen.ray.d, u,
+                                           settings_.rules.strict_normals, weight, seen.likelihood);
+    return seen.seen(seen.throughput * light.radiance, light.disperses) / n;
   }
 
-  Spectrum by_bsdf(const Walker& walker, const SurfacePoint& at, const CameraWalk& seen,
+  Color by_bsdf(const Walker& walker, const SurfacePoint& at, const CameraWalk& seen,
                    PixelSampler& sampler) const {
     const Vec2 u = sampler.next2();
     const auto sample = scatter_to_light(walker, at, -seen.ray.d, {sampler.next(), u},
                                          settings_.rules.strict_normals);
-    if (!sample) return Spectrum(0);
+    if (!sample) return Color(0);
     const double n = settings_.emitter_samples, m = settings_.bsdf_samples;
     CameraWalk walk(walker.leave(at, sample->w));
-    walk.throughput = sample->weight;
+    walk.throughput = seen.throughput * sample->weight;
+    walk.dispersed = sample->disperses;
     walk.scatter_pdf = sample->pdf;
     walk.likelihood = seen.likelihood;
     SurfacePoint next;
@@ -86,7 +86,9 @@ class DirectTaker : public SampleTaker {
       const double light = direct_pdf(*scene_, emitter, at.p, x0, sample->w);
       return MisExponent(Heuristic::power).weight(m * walk.scatter_pdf, n * light);
     };
-    return walk.throughput * emission(*scene_, hit ? &next : nullptr, walk.ray, weight) / m;
+    return walk.seen(walk.throughput *
+                     emission(*scene_, hit ? &next : nullptr, walk.ray, weight)) /
+           m;
   }
 
   const Scene* scene_;

@@ -44,11 +44,12 @@ Wavelength wavelength_of(double u) {
   return {table[i] + (u * cells - i) * across, across * cells};
 }
 
-Color recorded_spectrum(const Spectrum& light, double u) {
+Color recorded_spectrum(const Spectrum& light, double u, bool dispersed) {
+  const int lanes = dispersed ? 1 : Spectrum::lanes;
   Vec3 xyz(0);
-  for (int j = 0; j < Spectrum::lanes; ++j) {
+  for (int j = 0; j < lanes; ++j) {
     const Wavelength w = wavelength_of(lane_of(u, j));
-    xyz += matching_functions(w.nm) * (light[j] * w.per_u / Spectrum::lanes);
+    xyz += matching_functions(w.nm) * (light[j] * w.per_u / lanes);
   }
   return xyz / white();
 }

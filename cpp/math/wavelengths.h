@@ -34,10 +34,14 @@ Spectrum at_wavelengths(double u, F&& f) {
 
 /// What a film records of the light of a path: in an RGB scene its colour; in a spectral one its
 /// X, Y and Z over those of D65, which cannot be negative as the colour of one wavelength can.
-Color recorded_spectrum(const Spectrum& light, double u);
-inline Color recorded(const Spectrum& light, double u) {
-  return u < 0 ? light.rgb() : recorded_spectrum(light, u);
+///
+/// Refraction that depends on the wavelength, anywhere on the path, sends the other wavelengths
+/// elsewhere: then the first lane alone counts, four times. Both have the same mean over u.
+Color recorded_spectrum(const Spectrum& light, double u, bool dispersed);
+inline Color recorded(const Spectrum& light, double u, bool dispersed = false) {
+  return u < 0 ? light.rgb() : recorded_spectrum(light, u, dispersed);
 }
+inline Spectrum first_lane(const Spectrum& s) { return {s[0], 0, 0, 0}; }
 /// The linear sRGB of such X, Y and Z.
 Color developed(const Color& recorded);
 

@@ -61,7 +61,11 @@ bool BidirectionalSampler::evaluate_manifold(Connection& connection, Rng& rng, R
   const Vec3 wl = terms.direction(s, -1), wc = t > 1 ? terms.direction(s, 1) : Vec3(0);
   const VertexTerms at_y = vertex_terms(*scene_, path[s], wl, wc, settings_.rules.strict_normals);
   Spectrum value = y.throughput * at_y.f / technique.count;
-  for (int i = 0; i < s; ++i) value *= terms[i].vertex.f * (terms[i].G / terms[i].from_light);
+  bool dispersed = y.dispersed || at_y.disperses;
+  for (int i = 0; i < s; ++i) {
+    value *= terms[i].vertex.f * (terms[i].G / terms[i].from_light);
+    dispersed = dispersed || terms[i].vertex.disperses;
+  }
   if (is_black(value)) return false;
   connection.raster = *terms.raster;
   connection.certainty = certainty(terms);
@@ -72,7 +76,7 @@ bool BidirectionalSampler::evaluate_manifold(Connection& connection, Rng& rng, R
   if (!(rng.next() < roulette)) return false;
   connection.searches = manifold_->find_again(time_, rng, rays);
   connection.found_again = manifold_->guess(terms) * connection.searches / roulette;
-  connection.contribution = recorded(value * connection.found_again, wavelength_);
+  connection.contribution = recorded(value * connection.found_again, wavelength_, dispersed);
   connection.survival = y.survival;
   connection.own_share = weights.balance * y.survival / connection.found_again;
   return connection.weight > 0;

@@ -8,16 +8,19 @@ struct JointEnd {
   Spectrum value{0};   ///< Throughput times f.
   double onwards = 0;  ///< Density of the edge's direction in projected solid angle.
   double back = 0;     ///< Density of the direction to the previous vertex.
+  bool dispersed = false;  ///< Whether the vertex, or one before it, disperses.
 };
 
 JointEnd any_end(const Scene& scene, const WalkVertex& x, Subpath::From from, const Vec3& w,
                  bool strict) {
   if (from == Subpath::From::light) {
     const VertexTerms terms = joint_terms(scene, x.vertex, x.towards_previous, w, strict);
-    return {x.throughput * terms.f, terms.pdf_from_light, terms.pdf_from_camera};
+    return {x.throughput * terms.f, terms.pdf_from_light, terms.pdf_from_camera,
+            x.dispersed || terms.disperses};
   }
   const VertexTerms terms = joint_terms(scene, x.vertex, w, x.towards_previous, strict);
-  return {x.throughput * terms.f, terms.pdf_from_camera, terms.pdf_from_light};
+  return {x.throughput * terms.f, terms.pdf_from_camera, terms.pdf_from_light,
+          x.dispersed || terms.disperses};
 }
 
 /// Finds the terms at the vertex for an edge along w; false if it carries no light.
@@ -32,6 +35,7 @@ inline bool find_end(const Scene& scene, const WalkVertex& x, Subpath::From from
   end.value = from == Subpath::From::light ? x.joint.value : x.joint.value * edge.quotient;
   end.onwards = edge.quotient * inv_pi;
   end.back = x.joint.back;
+  end.dispersed = x.dispersed;
   return edge.scatters;
 }
 
@@ -152,7 +156,7 @@ bool BidirectionalSampler::evaluate_hit_light(Connection& connection) {
   if (!can_be_hit(*scene_, x0)) return false;
   const VertexTerms terms = vertex_terms(*scene_, x0, end.towards_previous, end.towards_previous,
                                          settings_.rules.strict_normals);
-  connection.contribution = recorded(end.throughput * terms.f, wavelength_);
+  connection.contribution = recorded(end.throughput * terms.f, wavelength_, end.dispersed);
   if (is_black(connection.contribution)) return false;
   connection.certainty = certainty_of_hit_light(t);
   const double from_light = light_position_pdf(*scene_, x0);
@@ -224,7 +228,7 @@ bool BidirectionalSampler::evaluate_connection(Connection& connection, RayCounts
     at_b.onwards *= from_camera.probability();
     connection.certainty *= from_camera.probability();
   }
-  connection.contribution = recorded(light, wavelength_);
+  connection.contribution = recorded(light, wavelength_, at_a.dispersed || at_b.dispersed);
 
   const TechniqueSums below =
       below_joint(s - 1, a, at_a.back, camera_likelihood).over(at_b.onwards * edge.G / a.forward);
@@ -285,7 +289,7 @@ bool BidirectionalSampler::evaluate_hit_lens(Connection& connection, RayCounts& 
   if (seen.is_blocked()) return false;
   const EdgePassage edge =
       passages ? EdgePassage(*scene_, last.vertex.at, *hit, seen, true) : EdgePassage();
-  connection.contribution = recorded(light * edge.transmittance, wavelength_);
+  connection.contribution = recorded(light * edge.transmittance, wavelength_, last.next_dispersed);
   connection.certainty = certainty_of_hit_lens(s, edge.from_camera);
   const double G = geometry(last.vertex.at, *hit);
   const double before_lens = !connectable(last.vertex) ? manifold_count(k - 1, lens_)

@@ -85,11 +85,6 @@ PathRecorder::PathRecorder(const Scene& scene, const Vec2& raster, const Surface
                            double time, std::vector<FoundPath>& found)
     : scene_(&scene), raster_(raster), time_(time), walk_{camera_vertex(lens)}, found_(&found) {}
 
-void PathRecorder::hit(const Emitter& emitter, const SurfacePoint& x0, const Vec3& w,
-                       const Spectrum& throughput) {
-  keep(light_vertex(emitter, x0), false, recorded(throughput * emitter.eval(x0, w), x0.wavelength));
-}
-
 void PathRecorder::connect(const Vec3& u_light, const Color& estimate) {
   const LightSample light = sample_direct_position(*scene_, walk_.back().at, u_light);
   if (light.x0.pdf > 0) keep(light_vertex(*light.emitter, light.x0.at), true, estimate);

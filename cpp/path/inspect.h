@@ -48,8 +48,9 @@ class PathRecorder : public IgnorePaths {
 
   void arrive(const SurfacePoint& at) { walk_.push_back(inner_vertex(at)); }
   void scatter(Lobe lobe) { walk_.back().lobe = lobe; }
-  void hit(const Emitter& emitter, const SurfacePoint& x0, const Vec3& w,
-           const Spectrum& throughput);
+  void hit(const Emitter& emitter, const SurfacePoint& x0, const Color& estimate) {
+    keep(light_vertex(emitter, x0), false, estimate);
+  }
   void connect(const Vec3& u_light, const Color& estimate);
 
  private:

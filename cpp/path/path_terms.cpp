@@ -122,7 +122,7 @@ std::string signature(const Scene& scene, const Path& path, double near_specular
 Color contribution(const PathTerms& terms) {
   Spectrum product = terms[0].vertex.f;
   for (int i = 0; i < terms.edges(); ++i) product *= terms[i].G * terms[i + 1].vertex.f;
-  return recorded(product, terms.wavelength);
+  return recorded(product, terms.wavelength, terms.dispersed());
 }
 
 double magnitude(const PathTerms& terms, int i, int j) {
@@ -134,7 +134,7 @@ double magnitude(const PathTerms& terms, int i, int j) {
 Color relative_contribution(const PathTerms& terms) {
   Spectrum product(1);
   for (const TermsAt& x : terms.at) product *= x.vertex.f * x.inverse_f;
-  return recorded(product, terms.wavelength);
+  return recorded(product, terms.wavelength, terms.dispersed());
 }
 
 double technique_density(const PathTerms& terms, int s) {

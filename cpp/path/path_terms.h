@@ -9,6 +9,7 @@
 #include "path/mis.h"
 #include "path/path.h"
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -86,6 +87,10 @@ struct PathTerms {
   double wavelength = rgb_lanes;
 
   int edges() const { return static_cast<int>(at.size()) - 1; }  ///< k
+  /// Whether any vertex disperses (see Scattering).
+  bool dispersed() const {
+    return std::any_of(at.begin(), at.end(), [](const TermsAt& x) { return x.vertex.disperses; });
+  }
   /// Unit direction at x_i towards x_{i + step}, where step is 1 or -1.
   Vec3 direction(int i, int step) const { return step > 0 ? at[i].w : -at[i - 1].w; }
   /// The arrival at x_{i + step} of a walk from x_i.

@@ -58,6 +58,7 @@ Spectrum emission(const Scene& scene, const SurfacePoint* at, const Ray& ray, We
 struct DirectLight {
   SurfacePoint x0;
   Spectrum radiance{0};
+  bool disperses = false;  ///< See Scattering.
 };
 
 /// The light that is scattered at `at` towards wc, without visibility; `weight(pdf_light,
@@ -74,27 +75,29 @@ DirectLight unshadowed_light(const Scene& scene, const LightSample& light, const
   if (is_black(s.f)) return {};
   const double pdf = light.x0.pdf * per_solid_angle(at.p, light.x0.at, wl);
   const double mis = light.emitter->delta() ? 1.0 : weight(pdf, s.pdf_from_camera);
-  return {light.x0.at, radiance * s.f * (std::abs(s.cos_l) * mis / pdf)};
+  return {light.x0.at, radiance * s.f * (std::abs(s.cos_l) * mis / pdf), s.disperses};
 }
 
 /// The light that is scattered at `at` towards wc from a light sampled by u, with visibility. A
 /// walk would go on from `at` with this likelihood.
 template <class Weight>
-Spectrum direct_light(const Walker& walker, const SurfacePoint& at, const Vec3& wc, const Vec3& u,
+DirectLight direct_light(const Walker& walker, const SurfacePoint& at, const Vec3& wc, const Vec3& u,
                       bool strict, Weight&& weight, const Spectrum& likelihood = Spectrum(1)) {
   const Scene& scene = walker.scene;
   const LightSample chosen = sample_direct_position(scene, at, u);
   if (!scene.has_passages()) {
     const DirectLight light = unshadowed_light(scene, chosen, at, wc, strict, weight);
-    return !is_black(light.radiance) && walker.sees(at, light.x0) ? light.radiance : Spectrum(0);
+    return !is_black(light.radiance) && walker.sees(at, light.x0) ? light : DirectLight();
   }
-  if (!(chosen.x0.pdf > 0)) return Spectrum(0);
+  if (!(chosen.x0.pdf > 0)) return {};
   const SurfacePoint& x0 = chosen.x0.at;
   const Passage seen = walker.passage(at, x0);
-  if (seen.is_blocked()) return Spectrum(0);
+  if (seen.is_blocked()) return {};
   const double arrives = scene.arrival(seen, x0, direction(at, x0)).after(likelihood).probability();
   const auto through = [&](double light, double bsdf) { return weight(light, bsdf * arrives); };
-  return unshadowed_light(scene, chosen, at, wc, strict, through).radiance * seen.transmittance;
+  DirectLight light = unshadowed_light(scene, chosen, at, wc, strict, through);
+  light.radiance *= seen.transmittance;
+  return light;
 }
 
 /// One scattering event of a walk from the camera.
@@ -104,6 +107,7 @@ struct ScatterSample {
   double pdf;       ///< In solid angle, or the probability of the delta lobe.
   Lobe lobe;
   double eta2;  ///< The factor of radiance in `weight` that is due to refraction alone.
+  bool disperses;  ///< See Scattering.
 };
 
 /// Samples the direction of the incident light that is scattered towards wc.
@@ -121,7 +125,8 @@ inline std::optional<ScatterSample> scatter_to_light(const Walker& walker, const
       lobe == Lobe::transmission || (lobe == Lobe::smooth && !same_side(local_l, local_c));
   const double eta2 = refracted ? sqr(bsdf.relative_eta(local_c)) : 1.0;
   const double factor = lobe == Lobe::smooth ? bsdf.abs_cos(local_l) : eta2;
-  return ScatterSample{w, s.f * (factor / s.pdf_from_camera), s.pdf_from_camera, lobe, eta2};
+  return ScatterSample{w, s.f * (factor / s.pdf_from_camera), s.pdf_from_camera, lobe, eta2,
+                       s.disperses};
 }
 
 /// For the weight w1 of paths that chains find too (FamilyWeights): T / (P c) of a path whose f / P
@@ -139,9 +144,8 @@ struct CameraWalk;
 struct IgnorePaths {
   /// Called before hit() or connect(): a path with this radiance was found.
   void find(const CameraWalk&, const Color& /*radiance*/, double /*certainty*/) {}
-  /// A light was hit at x0; `throughput` is the factor of its radiance towards w.
-  void hit(const Emitter&, const SurfacePoint& /*x0*/, const Vec3& /*w*/,
-           const Spectrum& /*throughput*/) {}
+  /// A light was hit at x0; `radiance` is the result.
+  void hit(const Emitter&, const SurfacePoint& /*x0*/, const Color& /*radiance*/) {}
   void arrive(const SurfacePoint&) {}
   /// The last vertex was connected to a position on a light, sampled by sample_direct_position with
   /// `u`; `radiance` is the result.
@@ -158,6 +162,7 @@ struct CameraWalk {
   Spectrum throughput{1};
   Vec3 previous;           ///< Its last vertex.
   double scatter_pdf = 0;  ///< Density of the ray in solid angle.
+  bool dispersed = false;  ///< See Scattering.
   bool delta = true;       ///< Whether `previous` is the lens, or scattered by a delta.
   double eta2 = 1;         ///< Factor that cancels refraction in the throughput.
   double certainty = 0;    ///< See certainty() of path_terms.h; up to here, if it began with 1.
@@ -176,8 +181,10 @@ struct CameraWalk {
                : 1.0;
   }
   void take(const Color& found, double share) { radiance += found * share; }
-  /// The light of a path as a film records it.
-  Color seen(const Spectrum& light) const { return recorded(light, ray.wavelength); }
+  /// The light of a path as a film records it; its last vertex may disperse, too.
+  Color seen(const Spectrum& light, bool disperses = false) const {
+    return recorded(light, ray.wavelength, dispersed || disperses);
+  }
 
   /// Goes along the ray up to where it stops.
   void pass(const Passage& leg, const Arrival& arrival) {
@@ -214,7 +221,7 @@ void find_light(const Scene& scene, CameraWalk& walk, const SurfacePoint* at,
     const Spectrum weighted = walk.throughput * weight;
     const Color found = walk.seen(weighted * emitted);
     watcher.find(walk, found, walk.certainty);
-    watcher.hit(emitter, x0, -w, weighted);
+    watcher.hit(emitter, x0, found);
     walk.take(found, walk.own_share(found, walk.certainty));
   };
   visit_emission(scene, at, walk.ray, take);
@@ -241,6 +248,7 @@ bool scatter(const Walker& walker, const PathRules& rules, int depth, const Surf
   watcher.scatter(sample->lobe);
   walk.throughput *= sample->weight;
   walk.scatter_pdf = sample->pdf;
+  walk.dispersed = walk.dispersed || sample->disperses;
   walk.delta = sample->lobe != Lobe::smooth;
   if (walk.certainty > 0)
     walk.certainty *=
@@ -278,9 +286,9 @@ Color trace_path(const Scene& scene, const PathRules& rules, CameraWalk walk, Sa
     const VertexNumbers numbers = VertexNumbers::draw(sampler);
     if (wants_direct_light(scene, rules, depth, at)) {
       const auto mis = [&](double light, double bsdf) { return walk.mis.weight(light, bsdf); };
-      const Color direct = walk.seen(walk.throughput *
-                                     direct_light(walker, at, wc, numbers.for_light(),
-                                                  rules.strict_normals, mis, walk.likelihood));
+      const DirectLight light = direct_light(walker, at, wc, numbers.for_light(),
+                                             rules.strict_normals, mis, walk.likelihood);
+      const Color direct = walk.seen(walk.throughput * light.radiance, light.disperses);
       watcher.find(walk, direct, 0);
       watcher.connect(numbers.for_light(), direct);
       walk.take(direct, walk.own_share(direct));

@@ -17,6 +17,7 @@ WalkVertex& Subpath::add() {
   added.towards_previous = Vec3(0);
   added.G = added.reverse = added.next_coefficient = 0;
   added.joint = {};
+  added.dispersed = added.next_dispersed = false;
   return added;
 }
 
@@ -46,6 +47,7 @@ bool Subpath::trace(const Walker& walker, const PathRules& rules, const Ray& ray
   }
   next.throughput = previous.next_throughput;
   next.survival = previous.next_survival;
+  next.dispersed = previous.next_dispersed;
   next.towards_previous = -ray.d;
   next.G = geometry(previous.vertex.at, at);
   next.forward = previous.next_coefficient * next.G;
@@ -105,6 +107,7 @@ bool Subpath::scatter(const Walker& walker, const PathRules& rules, const StepNu
   x.next_coefficient = coefficient;
   x.next_throughput = x.throughput * ratio / survival;
   x.next_survival = x.survival * survival;
+  x.next_dispersed = x.dispersed || terms.disperses;
   vertices_[size() - 2].reverse = x.density_back(back);
   return true;
 }

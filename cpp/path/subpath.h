@@ -15,6 +15,7 @@ struct WalkVertex {
   Vertex vertex;                ///< With the lobe by which the walk was scattered.
   Spectrum throughput{0};       ///< alpha: f / p of everything before this vertex scatters.
   Spectrum next_throughput{0};  ///< alpha of the next vertex.
+  bool dispersed = false, next_dispersed = false;  ///< Whether any of these vertices disperses.
   /// Probability of surviving Russian roulette up to here, and up to the next vertex.
   double survival = 1, next_survival = 1;
   Vec3 towards_previous{0};

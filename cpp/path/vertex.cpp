@@ -10,7 +10,7 @@ VertexTerms delta_terms(const Scene& scene, const SurfacePoint& at, Lobe lobe, c
   const double adjoint = std::abs(s.cos_l) * geometric_c / (std::abs(s.cos_c) * geometric_l);
   const double eta2 =
       lobe == Lobe::transmission ? sqr(bsdf.relative_eta(at.shading.to_local(wl))) : 1.0;
-  return {s.f * adjoint, s.pdf_from_light, s.pdf_from_camera * eta2 * adjoint};
+  return {s.f * adjoint, s.pdf_from_light, s.pdf_from_camera * eta2 * adjoint, s.disperses};
 }
 
 VertexTerms end_terms(const Scene& scene, const Vertex& x, const Vec3& wl, const Vec3& wc) {

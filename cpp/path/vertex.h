@@ -40,6 +40,7 @@ struct VertexTerms {
   Spectrum f{0};
   double pdf_from_light = 0;
   double pdf_from_camera = 0;
+  bool disperses = false;  ///< See Scattering.
 };
 
 /// The terms of an end vertex. x_0 has no wl and x_k no wc; they are ignored.
@@ -64,7 +65,7 @@ inline VertexTerms inner_terms(const Scene& scene, const SurfacePoint& at, Lobe 
   if (lobe != Lobe::smooth) return delta_terms(scene, at, lobe, wl, wc);
   const WorldScattering s = BsdfAt(scene, at).scattering(wl, wc, lobe);
   return {s.f * (std::abs(s.cos_l) / geometric_l), s.pdf_from_light / geometric_c,
-          s.pdf_from_camera / geometric_l};
+          s.pdf_from_camera / geometric_l, s.disperses};
 }
 
 /// The part of an edge along w in the terms of a Lambertian vertex (VertexTerms), in double

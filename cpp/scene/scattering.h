@@ -24,6 +24,8 @@ struct Scattering {
   Spectrum f{0};
   double pdf_from_light = 0;   ///< Density of wc, given wl.
   double pdf_from_camera = 0;  ///< Density of wl, given wc.
+  /// Whether the directions depend on the wavelength: f has the first lane alone.
+  bool disperses = false;
 };
 
 }  // namespace mlt

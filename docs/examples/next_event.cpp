@@ -21,12 +21,14 @@ class NextEventTaker : public SampleTaker {
     const bool hit = arrive(walker, sampler, walk, at);
     const Vec3 w = walk.ray.d;
     const auto alone = [](auto&&...) { return 1.0; };  // its weight: no other technique takes part
-    Spectrum radiance = emission(*scene_, hit ? &at : nullptr, walk.ray, alone);
+    Color radiance = walk.seen(walk.throughput *
+                               emission(*scene_, hit ? &at : nullptr, walk.ray, alone));
     for (int i = 0; hit && i < n_; ++i) {
       const Vec2 u = sampler.next2();
-      radiance += direct_light(walker, at, -w, {sampler.next(), u}, false, alone) / double(n_);
+      const auto light = direct_light(walker, at, -w, {sampler.next(), u}, false, alone);
+      radiance += walk.seen(walk.throughput * light.radiance, light.disperses) / double(n_);
     }
-    sink.add(raster, walk.seen(radiance * walk.throughput));
+    sink.add(raster, radiance);
   }
 
  private:

@@ -49,7 +49,8 @@ Scattering Blend::scattering(const SurfacePoint& at, const Vec3& wl, const Vec3&
   const auto blend = [](double p, const auto& x, const auto& y) { return p * x + (1 - p) * y; };
   return {scale_ * blend(1 - weight(at), a.f, b.f),
           blend(probability_of_first(at, wl), a.pdf_from_light, b.pdf_from_light),
-          blend(probability_of_first(at, wc), a.pdf_from_camera, b.pdf_from_camera)};
+          blend(probability_of_first(at, wc), a.pdf_from_camera, b.pdf_from_camera),
+          a.disperses || b.disperses};
 }
 
 std::optional<BsdfSample> Blend::sample(const SurfacePoint& at, const Vec3& from,

@@ -15,26 +15,29 @@ class Dielectric final : public Bsdf {
   Scattering scattering(const SurfacePoint& at, const Vec3& wl, const Vec3& wc,
                         Lobe lobe) const override {
     if (!matches(wl, wc, lobe)) return {};
-    const double F = fresnel(wl, wc);
+    const double F = fresnel(at, wl, wc);
     const double p = interface_.reflection_probability(F);
-    if (lobe == Lobe::reflection) return {F * interface_.reflectance->eval(at), p, p};
-    return {(1 - F) * interface_.transmittance->eval(at), 1 - p, 1 - p};
+    if (lobe == Lobe::transmission)
+      return interface_.refracted(at, (1 - F) * interface_.transmittance->eval(at), 1 - p, 1 - p);
+    const Spectrum reflected = interface_.at_wavelengths(
+        at, F, [&](double eta) { return fresnel_dielectric(wl.z, eta).reflectance; });
+    return {reflected * interface_.reflectance->eval(at), p, p};
   }
 
-  std::optional<BsdfSample> sample(const SurfacePoint&, const Vec3& from,
+  std::optional<BsdfSample> sample(const SurfacePoint& at, const Vec3& from,
                                    const Vec3& u) const override {
     if (from.z == 0) return std::nullopt;
-    const Fresnel fresnel = fresnel_dielectric(from.z, interface_.eta);
+    const Fresnel fresnel = fresnel_dielectric(from.z, interface_.eta(at));
     if (u.x < interface_.reflection_probability(fresnel.reflectance))
       return BsdfSample{reflect(from), Lobe::reflection};
     if (fresnel.cos_t == 0) return std::nullopt;
     return BsdfSample{refract(from, fresnel.cos_t, fresnel.eta_ti), Lobe::transmission};
   }
 
-  std::optional<Vec3> invert(const SurfacePoint&, const Vec3& from, const Vec3& to, Lobe lobe,
+  std::optional<Vec3> invert(const SurfacePoint& at, const Vec3& from, const Vec3& to, Lobe lobe,
                              const Vec3& v) const override {
     if (!matches(from, to, lobe)) return std::nullopt;
-    const double p = interface_.reflection_probability(fresnel(from, to));
+    const double p = interface_.reflection_probability(fresnel(at, from, to));
     if (!((lobe == Lobe::reflection ? p : 1 - p) > 0)) return std::nullopt;
     return Vec3(lobe == Lobe::reflection ? u_of_first(p, v.x) : u_of_second(p, v.x), v.y, v.z);
   }
@@ -42,13 +45,13 @@ class Dielectric final : public Bsdf {
   bool has_smooth() const override { return false; }
   bool has_delta() const override { return true; }
   bool has_transmission() const override { return true; }
-  double relative_eta(const SurfacePoint&, const Vec3& w) const override {
-    return w.z > 0 ? 1 / interface_.eta : interface_.eta;
+  double relative_eta(const SurfacePoint& at, const Vec3& w) const override {
+    return w.z > 0 ? 1 / interface_.eta(at) : interface_.eta(at);
   }
   double roughness(const SurfacePoint&, const Vec3&, const Vec3&) const override { return 0; }
 
   Spectrum albedo(const SurfacePoint& at) const override {
-    const double F = fresnel_dielectric(1, interface_.eta).reflectance;
+    const double F = fresnel_dielectric(1, interface_.eta()).reflectance;
     return interface_.albedo(at, F);
   }
 
@@ -61,9 +64,10 @@ class Dielectric final : public Bsdf {
 
   /// F of a reflection or refraction from a to b. For a refraction it is computed from the
   /// direction in the thinner medium: F is the same from both, but well conditioned there.
-  double fresnel(const Vec3& a, const Vec3& b) const {
-    const bool thin_is_above = interface_.eta >= 1;
-    return fresnel_dielectric((a.z > 0) == thin_is_above ? a.z : b.z, interface_.eta).reflectance;
+  double fresnel(const SurfacePoint& at, const Vec3& a, const Vec3& b) const {
+    const double eta = interface_.eta(at);
+    const bool thin_is_above = eta >= 1;
+    return fresnel_dielectric((a.z > 0) == thin_is_above ? a.z : b.z, eta).reflectance;
   }
 
   DielectricInterface interface_;

@@ -11,11 +11,32 @@ namespace mlt {
 class DielectricInterface {
  public:
   explicit DielectricInterface(Params& params)
-      : eta(relative_ior_param(params)),
-        reflectance(texture_param(params, "specular_reflectance")),
+      : reflectance(texture_param(params, "specular_reflectance")),
         transmittance(texture_param(params, "specular_transmittance")),
+        index_(relative_index_param(params)),
         reflection_weight_(target_luminance(reflectance->mean())),
         transmission_weight_(target_luminance(transmittance->mean())) {}
+
+  /// n_below / n_above where there are no wavelengths, and at a point: that of its first wavelength.
+  double eta() const { return index_.in_rgb; }
+  double eta(const SurfacePoint& at) const {
+    return disperses(at) ? index_.at_nm(wavelength_of(at.wavelength).nm) : index_.in_rgb;
+  }
+  /// Whether light of different wavelengths is refracted differently.
+  bool disperses(const SurfacePoint& at) const { return at.wavelength >= 0 && index_.disperses(); }
+  /// reflected(eta) at the wavelengths of a point, of which the first has `first`.
+  template <class Reflected>
+  Spectrum at_wavelengths(const SurfacePoint& at, double first, Reflected&& reflected) const {
+    if (!disperses(at)) return Spectrum(first);
+    return mlt::at_wavelengths(at.wavelength,
+                               [&](double nm) { return reflected(index_.at_nm(nm)); });
+  }
+  /// Light that is refracted, of which the first wavelength goes on where the others do not.
+  Scattering refracted(const SurfacePoint& at, const Spectrum& f, double from_light,
+                       double from_camera) const {
+    const bool alone = disperses(at);
+    return {alone ? first_lane(f) : f, from_light, from_camera, alone};
+  }
 
   /// Probability of choosing reflection where the fraction F is reflected: in proportion to the
   /// mean power of both.
@@ -27,10 +48,10 @@ class DielectricInterface {
     return F * reflectance->eval(at) + (1 - F) * transmittance->eval(at);
   }
 
-  double eta;
   TexturePtr reflectance, transmittance;
 
  private:
+  RelativeIndex index_;
   double reflection_weight_, transmission_weight_;
 };
 

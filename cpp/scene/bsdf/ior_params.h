@@ -2,15 +2,27 @@
 #pragma once
 
 #include "base/params.h"
+#include "math/dispersion.h"
 #include "math/fresnel.h"
 #include "scene/spectral_color.h"
 
 namespace mlt {
 
-/// The parameters `int_ior` and `ext_ior`, with the given default inside and air outside.
+/// The parameters `int_ior` and `ext_ior`, of which RefractiveIndex tells the forms, with the given default inside and air outside.
 std::vector<Parameter> ior_parameters(const std::string& default_inside);
-/// The relative index int_ior / ext_ior.
+/// The relative index int_ior / ext_ior where there are no wavelengths.
 double relative_ior_param(Params& params);
+
+/// A relative index that may depend on the wavelength.
+struct RelativeIndex {
+  RefractiveIndex inside, outside;
+  double in_rgb;  ///< Where there are no wavelengths.
+
+  bool disperses() const { return inside.disperses() || outside.disperses(); }
+  double at_nm(double nm) const { return inside.at(nm) / outside.at(nm); }
+};
+/// That of int_ior and ext_ior. A default does not disperse.
+RelativeIndex relative_index_param(Params& params);
 
 /// The parameters `specular_reflectance` and `specular_transmittance` of an interface.
 std::vector<Parameter> interface_factors();

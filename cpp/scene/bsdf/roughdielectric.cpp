@@ -13,20 +13,22 @@ namespace {
 class RoughDielectric final : public Bsdf {
  public:
   explicit RoughDielectric(Params& params) : surface_(params), interface_(params) {
-    if (interface_.eta == 1) params.fail("needs an int_ior that differs from ext_ior");
+    if (interface_.eta() == 1) params.fail("needs an int_ior that differs from ext_ior");
   }
 
   Scattering scattering(const SurfacePoint& at, const Vec3& wl, const Vec3& wc,
                         Lobe lobe) const override {
-    const Facet facet = facet_between(wl, wc, lobe);
+    const Facet facet = facet_between(at, wl, wc, lobe);
     if (!facet.exists) return {};
     const Microfacet microfacet = surface_.at(at);
     const double D = microfacet.D(facet.h);
     const Masking light(microfacet, wl, facet.h), camera(microfacet, wc, facet.h);
     const double p = probability(facet);
-    return {value(at, wl, wc, facet, D * light.fit * camera.fit),
-            p * density(microfacet, wl, wc, facet, D, light.exact),
-            p * density(microfacet, wc, wl, facet, D, camera.exact)};
+    const Spectrum f = value(at, wl, wc, facet, D * light.fit * camera.fit);
+    const double from_light = p * density(microfacet, wl, wc, facet, D, light.exact),
+                 from_camera = p * density(microfacet, wc, wl, facet, D, camera.exact);
+    if (facet.reflects) return {f, from_light, from_camera};
+    return interface_.refracted(at, f, from_light, from_camera);
   }
 
   std::optional<BsdfSample> sample(const SurfacePoint& at, const Vec3& from,
@@ -35,7 +37,7 @@ class RoughDielectric final : public Bsdf {
     const Vec3 h = surface_.at(at).sample(upwards(from), direction_part(u));
     const double cos_h = dot(from, h);
     if (cos_h * from.z <= 0) return std::nullopt;
-    const Fresnel fresnel = fresnel_dielectric(cos_h, interface_.eta);
+    const Fresnel fresnel = fresnel_dielectric(cos_h, interface_.eta(at));
     const bool reflects = u.x < interface_.reflection_probability(fresnel.reflectance);
     if (!reflects && fresnel.cos_t == 0) return std::nullopt;
     const Vec3 to = reflects ? reflect(from, h) : refract(from, h, fresnel.cos_t, fresnel.eta_ti);
@@ -46,20 +48,22 @@ class RoughDielectric final : public Bsdf {
   std::optional<Vec3> invert(const SurfacePoint& at, const Vec3& from, const Vec3& to, Lobe lobe,
                              const Vec3& v) const override {
     if (!(pdf(at, from, to, lobe) > 0)) return std::nullopt;
-    const Facet facet = facet_between(from, to, lobe);
+    const Facet facet = facet_between(at, from, to, lobe);
     const double p = interface_.reflection_probability(facet.F);
     return u_of(facet.reflects ? u_of_first(p, v.x) : u_of_second(p, v.x),
                 surface_.at(at).invert(upwards(from), facet.h));
   }
 
   bool has_transmission() const override { return true; }
-  double relative_eta(const SurfacePoint&, const Vec3& w) const override { return eta_on_side(w); }
+  double relative_eta(const SurfacePoint& at, const Vec3& w) const override {
+    return on_side(interface_.eta(at), w);
+  }
   double roughness(const SurfacePoint& at, const Vec3&, const Vec3&) const override {
     return surface_.alpha(at);
   }
 
   Spectrum albedo(const SurfacePoint& at) const override {
-    const double F = fresnel_dielectric(1, interface_.eta).reflectance;
+    const double F = fresnel_dielectric(1, interface_.eta()).reflectance;
     return interface_.albedo(at, F);
   }
 
@@ -69,33 +73,40 @@ class RoughDielectric final : public Bsdf {
     bool exists;
     bool reflects;
     Vec3 h;    ///< Its normal, above the surface.
-    double F;  ///< Its Fresnel reflectance.
+    double eta;  ///< See DielectricInterface::eta.
+    double cosine, F;  ///< Of light in the thinner medium; its Fresnel reflectance.
   };
 
   /// The facet that scatters from a to b; the same from b to a, bit for bit.
-  Facet facet_between(const Vec3& a, const Vec3& b, Lobe lobe) const {
+  Facet facet_between(const SurfacePoint& at, const Vec3& a, const Vec3& b, Lobe lobe) const {
     if (lobe != Lobe::smooth || a.z * b.z == 0) return {};
     const bool reflects = same_side(a, b);
+    const double eta = interface_.eta(at);
     // Walter et al. 2007, eqs. 13 and 16, up to the sign and length.
-    const Vec3 sum = reflects ? a + b : a.z > 0 ? a + interface_.eta * b : b + interface_.eta * a;
+    const Vec3 sum = reflects ? a + b : a.z > 0 ? a + eta * b : b + eta * a;
     if (sum.z == 0) return {};
     const Vec3 h = normalize(sum.z < 0 ? -sum : sum);
     const double cos_a = dot(a, h), cos_b = dot(b, h);
     if (cos_a * a.z <= 0 || cos_b * b.z <= 0) return {};
     // Refraction: in the thinner medium F is well conditioned up to grazing.
-    const bool thin_is_above = interface_.eta > 1;
+    const bool thin_is_above = eta > 1;
     const double cosine = reflects ? 0.5 * dot(sum, h) : (a.z > 0) == thin_is_above ? cos_a : cos_b;
-    return {true, reflects, h, fresnel_dielectric(cosine, interface_.eta).reflectance};
+    return {true, reflects, h, eta, cosine, fresnel_dielectric(cosine, eta).reflectance};
   }
 
   /// Value of the BSDF, given D G.
   Spectrum value(const SurfacePoint& at, const Vec3& wl, const Vec3& wc, const Facet& facet,
                  double DG) const {
     const double cosines = std::abs(wl.z * wc.z);
-    if (facet.reflects) return facet.F * DG / (4 * cosines) * interface_.reflectance->eval(at);
+    if (facet.reflects) {
+      const Spectrum F = interface_.at_wavelengths(at, facet.F, [&](double eta) {
+        return fresnel_dielectric(facet.cosine, eta).reflectance;
+      });
+      return F * DG / (4 * cosines) * interface_.reflectance->eval(at);
+    }
     const double l = dot(wl, facet.h), c = dot(wc, facet.h);
     // eq. 21, both eta divided by eta_c.
-    const double jacobian = std::abs(l * c) / sqr(l * eta_on_side(wl) + c);
+    const double jacobian = std::abs(l * c) / sqr(l * on_side(facet.eta, wl) + c);
     return (1 - facet.F) * DG * jacobian / cosines * interface_.transmittance->eval(at);
   }
 
@@ -106,7 +117,7 @@ class RoughDielectric final : public Bsdf {
     const double f = dot(from, facet.h), t = dot(to, facet.h);
     // eq. 17, both eta divided by the one on the side of `to`.
     return normal_pdf(microfacet, from, facet.h, D, g1) * std::abs(t) /
-           sqr(f * eta_on_side(from) + t);
+           sqr(f * on_side(facet.eta, from) + t);
   }
 
   double probability(const Facet& facet) const {
@@ -114,7 +125,7 @@ class RoughDielectric final : public Bsdf {
     return facet.reflects ? p : 1 - p;
   }
 
-  double eta_on_side(const Vec3& w) const { return w.z > 0 ? 1 / interface_.eta : interface_.eta; }
+  static double on_side(double eta, const Vec3& w) { return w.z > 0 ? 1 / eta : eta; }
 
   RoughSurface surface_;
   DielectricInterface interface_;

@@ -15,15 +15,16 @@ class ThinDielectric final : public Bsdf {
   explicit ThinDielectric(Params& params) : interface_(params) {}
 
   Passage passage(const SurfacePoint& at, const Vec3& w) const override {
-    const double R = reflected(w);
-    return {(1 - R) * interface_.transmittance->eval(at), 1 - interface_.reflection_probability(R)};
+    const double R = reflected(at, w);
+    return {(Spectrum(1) - reflected_spectrum(at, w)) * interface_.transmittance->eval(at),
+            1 - interface_.reflection_probability(R)};
   }
   bool has_passage() const override { return true; }
 
   Scattering scattering(const SurfacePoint& at, const Vec3& wl, const Vec3&,
                         Lobe lobe) const override {
     if (lobe != Lobe::reflection) return {};
-    return {reflected(wl) * interface_.reflectance->eval(at), 1, 1};
+    return {reflected_spectrum(at, wl) * interface_.reflectance->eval(at), 1, 1};
   }
   std::optional<BsdfSample> sample(const SurfacePoint&, const Vec3& from,
                                    const Vec3&) const override {
@@ -40,15 +41,22 @@ class ThinDielectric final : public Bsdf {
   bool has_transmission() const override { return true; }
   double roughness(const SurfacePoint&, const Vec3&, const Vec3&) const override { return 0; }
   Spectrum albedo(const SurfacePoint& at) const override {
-    const double R = reflected({0, 0, 1});
+    const double R = pane(1, interface_.eta());
     return interface_.albedo(at, R);
   }
 
  private:
   /// The reflectance R of the pane, which is the same from both sides.
-  double reflected(const Vec3& w) const {
-    const double F = fresnel_dielectric(std::abs(w.z), interface_.eta).reflectance;
+  static double pane(double cosine, double eta) {
+    const double F = fresnel_dielectric(cosine, eta).reflectance;
     return 2 * F / (1 + F);
+  }
+  double reflected(const SurfacePoint& at, const Vec3& w) const {
+    return pane(std::abs(w.z), interface_.eta(at));
+  }
+  Spectrum reflected_spectrum(const SurfacePoint& at, const Vec3& w) const {
+    return interface_.at_wavelengths(at, reflected(at, w),
+                                     [&](double eta) { return pane(std::abs(w.z), eta); });
   }
 
   DielectricInterface interface_;

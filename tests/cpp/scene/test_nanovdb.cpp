@@ -105,7 +105,7 @@ TYPED_TEST(NanovdbOf, HasTheValuesThatNanovdbSamples) {
       index[axis] = low[axis] - 3 + rng.next() * (high[axis] - low[axis] + 6);
     const nanovdb::Vec3d world = grid.indexToWorld(index);
     const auto expected = sampler(index);
-    const Spectrum found = volume.at({world[0], world[1], world[2]});
+    const Spectrum found = volume.at({world[0], world[1], world[2]}, rgb_lanes);
     positive += found[0] > 0;
     for (int c = 0; c < 3; ++c) {
       if constexpr (std::is_same_v<TypeParam, nanovdb::Vec3f>)

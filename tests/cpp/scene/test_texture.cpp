@@ -352,7 +352,7 @@ TEST(MatrixParameter, IsReadRowByRowAndMayBeMissing) {
 }
 
 TEST(Texture, ScalarIsTheMeanOfTheChannels) {
-  EXPECT_DOUBLE_EQ(constant_texture({1, 2, 6})->eval_scalar({}), 3);
+  EXPECT_DOUBLE_EQ(constant_texture({Color(1, 2, 6), RgbMeaning::coefficient})->eval_scalar({}), 3);
 }
 
 }  // namespace

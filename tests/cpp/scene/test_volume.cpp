@@ -92,7 +92,7 @@ TEST_P(GridOf, HasItsValues) {
   for (int i = 0; i < 5000; ++i) {
     const auto& n = data.size;
     const Vec3 x = Vec3(n[0], n[1], n[2]) * (Vec3(rng.next(), rng.next(), rng.next()) * 1.2 - 0.1);
-    const Color expected = naive_value(data, GetParam().nearest, x), found = volume.at(x).rgb();
+    const Color expected = naive_value(data, GetParam().nearest, x), found = volume.at(x, rgb_lanes).rgb();
     for (int c = 0; c < 3; ++c) ASSERT_NEAR(found[c], expected[c], 1e-12);
   }
 }
@@ -143,7 +143,7 @@ TEST_P(GridOf, StopsFlightsWhereEnoughIsLost) {
     EXPECT_NEAR(mean(before * exp(-flight.depth)), limit.left, 1e-12);
     const Spectrum depth = volume.fly(ray, {flight.distance}, 3).depth;
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(flight.depth[c], depth[c], 1e-10);
-    EXPECT_GT(max_component(volume.at(ray.o + flight.distance * ray.d)), 0);
+    EXPECT_GT(max_component(volume.at(ray.o + flight.distance * ray.d, rgb_lanes)), 0);
   }
   EXPECT_GT(stopped, 300);
 }
