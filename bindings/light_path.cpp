@@ -198,8 +198,7 @@ void bind_path_class(py::module_& m) {
       .def_readonly("acceptance", &PyLightPath::acceptance,
                     "Of a proposal: the probability of accepting it; else None.")
       .def(
-          "contribution",
-          [](const PyLightPath& p) { return to_array(contribution(terms(p))); },
+          "contribution", [](const PyLightPath& p) { return to_array(contribution(terms(p))); },
           "f(x), RGB (Veach 1997, eq. 8.7), without visibility.")
       .def("densities", &densities, py::arg("sample_direct") = true,
            "p_{s,t}(x) in the product-area measure, for s = 0 ... k + 1.")

@@ -121,8 +121,8 @@ void bind_scene(py::module_& m) {
                         return std::make_shared<LoadedScene>(unpack_scene(packed, plugins()));
                       }))
       .def(
-          "with_wavelengths",
-          [](const LoadedScene& s) { return with_wavelengths(s, plugins()); }, NoGil(),
+          "with_wavelengths", [](const LoadedScene& s) { return with_wavelengths(s, plugins()); },
+          NoGil(),
           "The same scene, with spectral films: light has wavelengths instead of R, G and B.")
       .def(
           "with_sensor",

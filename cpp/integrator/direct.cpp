@@ -56,7 +56,7 @@ class DirectTaker : public SampleTaker {
   }
 
   Color by_light(const Walker& walker, const SurfacePoint& at, const CameraWalk& seen,
-                    PixelSampler& sampler) const {
+                 PixelSampler& sampler) const {
     const Vec3 u = DirectNumbers::draw(sampler).for_light();
     const double n = settings_.emitter_samples, m = settings_.bsdf_samples;
     const auto weight = [&](double light, double bsdf) {
@@ -68,7 +68,7 @@ class DirectTaker : public SampleTaker {
   }
 
   Color by_bsdf(const Walker& walker, const SurfacePoint& at, const CameraWalk& seen,
-                   PixelSampler& sampler) const {
+                PixelSampler& sampler) const {
     const Vec2 u = sampler.next2();
     const auto sample = scatter_to_light(walker, at, -seen.ray.d, {sampler.next(), u},
                                          settings_.rules.strict_normals);
@@ -86,8 +86,7 @@ class DirectTaker : public SampleTaker {
       const double light = direct_pdf(*scene_, emitter, at.p, x0, sample->w);
       return MisExponent(Heuristic::power).weight(m * walk.scatter_pdf, n * light);
     };
-    return walk.seen(walk.throughput *
-                     emission(*scene_, hit ? &next : nullptr, walk.ray, weight)) /
+    return walk.seen(walk.throughput * emission(*scene_, hit ? &next : nullptr, walk.ray, weight)) /
            m;
   }
 

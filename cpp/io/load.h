@@ -20,8 +20,8 @@ struct LoadOptions {
   /// without, they are in files of Mitsuba 0.x.
   std::optional<bool> lenient;
   std::optional<int64_t> sensor;  ///< Index of the sensor, from 0; by default the first.
-  std::string filter;     ///< The reconstruction filter that replaces that of films.
-  bool spectral = false;  ///< Whether films become spectral.
+  std::string filter;             ///< The reconstruction filter that replaces that of films.
+  bool spectral = false;          ///< Whether films become spectral.
 };
 
 /// The source of a scene, from which a checkpoint can load it again.

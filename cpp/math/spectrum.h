@@ -85,7 +85,7 @@ inline double min_component(const Spectrum& s) {
   return std::min(std::min(s[0], s[1]), std::min(s[2], s[3]));
 }
 
-// Weights of all four lanes that sum to 1 and, where the fourth equals the second, are those of RGB:
+// Weights of all four lanes, which are those of RGB where the fourth lane equals the second:
 
 inline double mean(const Spectrum& s) { return (s[0] + s[1] + s[2]) / 3 + (s[3] - s[1]) / 6; }
 inline double luminance(const Spectrum& s) { return luminance(s.rgb()) + 0.35 * (s[3] - s[1]); }

@@ -8,8 +8,8 @@ namespace mlt {
 /// Stands in place of a wavelength in an RGB scene: the lanes are R, G, B and G.
 inline constexpr double rgb_lanes = -1;
 
-/// In a spectral scene a path has a number u in [0, 1), and four wavelengths for it, which cover the
-/// visible range evenly in the measure of u (Wilkie et al. 2014, "Hero wavelength spectral
+/// In a spectral scene a path has a number u in [0, 1), and four wavelengths for it, which cover
+/// the visible range evenly in the measure of u (Wilkie et al. 2014, "Hero wavelength spectral
 /// sampling"): Lambda(frac(u + j / 4)). Lambda is linear between values of the inverse of
 /// 1 / cosh^2, which is about proportional to what the eye sees (Radziszewski et al. 2009, "An
 /// improved technique for full spectral rendering").

@@ -43,8 +43,7 @@ bool obeys_delta(const Scene& scene, const Path& path, int i) {
 }  // namespace
 
 Edit difference(const Path& x, const Path& y) {
-  if (x.time != y.time || x.wavelength != y.wavelength)
-    return {0, x.edges(), y.edges() + 1};
+  if (x.time != y.time || x.wavelength != y.wavelength) return {0, x.edges(), y.edges() + 1};
   const int shorter = static_cast<int>(std::min(x.vertices.size(), y.vertices.size()));
   int first = 0;
   while (first < shorter && same(x[first], y[first])) ++first;

@@ -5,9 +5,9 @@ namespace {
 
 /// The terms of a connecting edge at the vertex of one of the subpaths.
 struct JointEnd {
-  Spectrum value{0};   ///< Throughput times f.
-  double onwards = 0;  ///< Density of the edge's direction in projected solid angle.
-  double back = 0;     ///< Density of the direction to the previous vertex.
+  Spectrum value{0};       ///< Throughput times f.
+  double onwards = 0;      ///< Density of the edge's direction in projected solid angle.
+  double back = 0;         ///< Density of the direction to the previous vertex.
   bool dispersed = false;  ///< Whether the vertex, or one before it, disperses.
 };
 

@@ -149,9 +149,7 @@ class BidirectionalSampler {
   bool wanted(int s, int t) const { return settings_.rules.wants(s + t - 1); }
   /// Whether x_0 is sampled for x_1 (next-event estimation).
   bool is_direct(int s) const { return s == 1 && settings_.sample_direct; }
-  Walker walker(RayCounts& rays) const {
-    return {*scene_, time_, rays, wavelength_};
-  }
+  Walker walker(RayCounts& rays) const { return {*scene_, time_, rays, wavelength_}; }
   /// A light walk may still hit the lens from its last vertex.
   WalkLength longest_light_walk() const { return {settings_.rules.most_edges(), true}; }
 

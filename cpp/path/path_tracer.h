@@ -81,8 +81,9 @@ DirectLight unshadowed_light(const Scene& scene, const LightSample& light, const
 /// The light that is scattered at `at` towards wc from a light sampled by u, with visibility. A
 /// walk would go on from `at` with this likelihood.
 template <class Weight>
-DirectLight direct_light(const Walker& walker, const SurfacePoint& at, const Vec3& wc, const Vec3& u,
-                      bool strict, Weight&& weight, const Spectrum& likelihood = Spectrum(1)) {
+DirectLight direct_light(const Walker& walker, const SurfacePoint& at, const Vec3& wc,
+                         const Vec3& u, bool strict, Weight&& weight,
+                         const Spectrum& likelihood = Spectrum(1)) {
   const Scene& scene = walker.scene;
   const LightSample chosen = sample_direct_position(scene, at, u);
   if (!scene.has_passages()) {
@@ -106,7 +107,7 @@ struct ScatterSample {
   Spectrum weight;  ///< Factor of radiance: f |cos| / pdf.
   double pdf;       ///< In solid angle, or the probability of the delta lobe.
   Lobe lobe;
-  double eta2;  ///< The factor of radiance in `weight` that is due to refraction alone.
+  double eta2;     ///< The factor of radiance in `weight` that is due to refraction alone.
   bool disperses;  ///< See Scattering.
 };
 
@@ -125,8 +126,8 @@ inline std::optional<ScatterSample> scatter_to_light(const Walker& walker, const
       lobe == Lobe::transmission || (lobe == Lobe::smooth && !same_side(local_l, local_c));
   const double eta2 = refracted ? sqr(bsdf.relative_eta(local_c)) : 1.0;
   const double factor = lobe == Lobe::smooth ? bsdf.abs_cos(local_l) : eta2;
-  return ScatterSample{w, s.f * (factor / s.pdf_from_camera), s.pdf_from_camera, lobe, eta2,
-                       s.disperses};
+  return ScatterSample{
+      w, s.f * (factor / s.pdf_from_camera), s.pdf_from_camera, lobe, eta2, s.disperses};
 }
 
 /// For the weight w1 of paths that chains find too (FamilyWeights): T / (P c) of a path whose f / P
@@ -157,7 +158,7 @@ struct IgnorePaths {
 struct CameraWalk {
   CameraWalk(const Ray& first) : ray(first), previous(first.o) {}
 
-  Ray ray;  ///< The next ray.
+  Ray ray;            ///< The next ray.
   Color radiance{0};  ///< As a film records it.
   Spectrum throughput{1};
   Vec3 previous;           ///< Its last vertex.
@@ -268,11 +269,12 @@ inline bool wants_direct_light(const Scene& scene, const PathRules& rules, int d
   return BsdfAt(scene, at).has_smooth() && rules.wants(depth + 1);
 }
 
-/// The radiance from the scene along the ray of a walk, as a film records it. Every vertex draws the same number of
-/// random numbers, so that a small change of the numbers is a small change of the path.
+/// The radiance from the scene along the ray of a walk, as a film records it. Every vertex draws
+/// the same number of random numbers, so that a small change of the numbers is a small change of
+/// the path.
 template <class Sampler, class Watcher = IgnorePaths>
 Color trace_path(const Scene& scene, const PathRules& rules, CameraWalk walk, Sampler& sampler,
-                    RayCounts& rays, Watcher&& watcher = Watcher()) {
+                 RayCounts& rays, Watcher&& watcher = Watcher()) {
   const Walker walker{scene, walk.ray.time, rays};
   for (int depth = 1;; ++depth) {
     SurfacePoint at;

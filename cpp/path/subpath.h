@@ -125,8 +125,7 @@ void walk_from_light(const Walker& walker, const PathRules& rules, const WalkLen
   sampler.begin(Stream::light);
   const LightNumbers u = LightNumbers::draw(sampler);
   const LightSample light =
-      sample_light_position(walker.scene, {u.choice, u.position}, walker.time,
-                            walker.wavelength);
+      sample_light_position(walker.scene, {u.choice, u.position}, walker.time, walker.wavelength);
   if (!(light.x0.pdf > 0)) return;
   const Vertex x0 = light_vertex(*light.emitter, light.x0.at);
   subpath.start(x0, light.x0.pdf);

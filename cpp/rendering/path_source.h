@@ -31,8 +31,8 @@ class PathSource : public SourceOf<PathSource> {
   template <class Sampler>
   void draw(const Vec2& raster, Sampler& sampler, std::vector<FoundLight>& found) {
     seeds_.draw(raster, sampler, [&](const Connection& c, double weight) {
-      found.push_back({c.raster, c.contribution * c.weight, weight,
-                       weight / c.weight * c.own_share, c.t >= 2});
+      found.push_back(
+          {c.raster, c.contribution * c.weight, weight, weight / c.weight * c.own_share, c.t >= 2});
     });
   }
   const RayCounts& rays() const override { return seeds_.rays(); }

@@ -65,9 +65,8 @@ class LightEstimator {
   template <class Sampler>
   void operator()(const Vec2&, Sampler& sampler, std::vector<ImageLight>& light, RayCounts& rays) {
     paths_.sample_light(sampler, rays);
-    paths_.connect_to_lens(rays, [&](const Connection& c) {
-      light.push_back({c.raster, c.contribution, false});
-    });
+    paths_.connect_to_lens(
+        rays, [&](const Connection& c) { light.push_back({c.raster, c.contribution, false}); });
   }
 
  private:

@@ -16,7 +16,7 @@ struct Ray {
   double time = 0;
   double t_max = infinity;
   MediumIndex medium = no_medium;  ///< In which it starts.
-  double before = 0;  ///< In media: how far the start of its edge is before the origin.
+  double before = 0;              ///< In media: how far the start of its edge is before the origin.
   double wavelength = rgb_lanes;  ///< See wavelengths.h.
 };
 

@@ -105,9 +105,9 @@ class Scene {
   /// The arrival of a walk that goes along an edge to its end, where w points.
   Arrival arrival(const Passage& edge, const SurfacePoint& end, const Vec3& w) const {
     const double stops = edge.probability * stop_probability(end, w);
-    const Spectrum flies =
-        end.in_medium() ? edge.flight * medium(end).at(end.p, end.wavelength).extinction
-                        : edge.flight;
+    const Spectrum flies = end.in_medium()
+                               ? edge.flight * medium(end).at(end.p, end.wavelength).extinction
+                               : edge.flight;
     return {stops, flies, edge.likelihood};
   }
   /// Where an edge at this point starts or ends, for distances in media: where rays enter the

@@ -29,7 +29,7 @@ struct SurfacePoint {
   /// The medium that it is in. At a surface: the one that it was hit or is lit through, which is
   /// that of both sides unless the surface is a boundary (Media).
   MediumIndex medium = no_medium;
-  double time = 0;  ///< Time, on moving shapes.
+  double time = 0;                ///< Time, on moving shapes.
   double wavelength = rgb_lanes;  ///< That of its path: see wavelengths.h.
   /// Largest coordinate of the primitive: the scale of float rounding in the accelerator.
   double extent = 0;

@@ -11,9 +11,7 @@ class Constant final : public Texture {
  public:
   explicit Constant(const SpectralColor& color) : color_(color) {}
   Spectrum eval(const SurfacePoint& at) const override { return color_.at(at.wavelength); }
-  double eval_scalar(const SurfacePoint&) const override {
-    return mlt::mean(color_.rgb());
-  }
+  double eval_scalar(const SurfacePoint&) const override { return mlt::mean(color_.rgb()); }
   bool is_constant() const override { return true; }
   Color mean() const override { return color_.rgb(); }
   Color maximum() const override { return color_.rgb(); }
@@ -54,8 +52,7 @@ SpectralColor spectrum_color(Params& params, const std::string& name,
                              const WavelengthTable& spectrum, SpectrumUse use) {
   try {
     const Curve curve = Curve::table(spectrum);
-    if (spectrum.size() == 1)
-      return {uniform_spectrum_to_rgb(spectrum[0].second, use), curve};
+    if (spectrum.size() == 1) return {uniform_spectrum_to_rgb(spectrum[0].second, use), curve};
     const SpectrumColor found = spectrum_to_rgb(spectrum, use);
     if (found.clamped && use != SpectrumUse::unbounded)
       params.warn("'" + name + "' is outside of the sRGB gamut and was clamped");

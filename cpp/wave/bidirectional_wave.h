@@ -40,7 +40,7 @@ class BidirectionalWave {
     double survival;  ///< Probability that its walks have survived Russian roulette.
     Vec2 raster;
     Color weighted;  ///< f w / p.
-    int next = -1;      ///< The sample's next light; -1: there is none.
+    int next = -1;   ///< The sample's next light; -1: there is none.
   };
   /// Calls show(light) for all light that the i-th sample has found.
   template <class Show>

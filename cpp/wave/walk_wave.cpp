@@ -73,8 +73,7 @@ void WalkWave::trace() {
     PrimaryState& y = *proposals_[i].y;
     proposals_[i].numbers().resize(proposals_[i].length);
     y.light.clear();
-    if (!is_black(wave_.radiance(i)))
-      y.light.push_back({rasters_[i], wave_.radiance(i) * scale});
+    if (!is_black(wave_.radiance(i))) y.light.push_back({rasters_[i], wave_.radiance(i) * scale});
     y.find_target();
     *proposals_[i].rays += wave_.rays(i);
   }

@@ -21,8 +21,8 @@ class NextEventTaker : public SampleTaker {
     const bool hit = arrive(walker, sampler, walk, at);
     const Vec3 w = walk.ray.d;
     const auto alone = [](auto&&...) { return 1.0; };  // its weight: no other technique takes part
-    Color radiance = walk.seen(walk.throughput *
-                               emission(*scene_, hit ? &at : nullptr, walk.ray, alone));
+    Color radiance =
+        walk.seen(walk.throughput * emission(*scene_, hit ? &at : nullptr, walk.ray, alone));
     for (int i = 0; hit && i < n_; ++i) {
       const Vec2 u = sampler.next2();
       const auto light = direct_light(walker, at, -w, {sampler.next(), u}, false, alone);

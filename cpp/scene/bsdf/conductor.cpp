@@ -19,9 +19,7 @@ class Conductor final : public Bsdf {
   Scattering scattering(const SurfacePoint& at, const Vec3& wl, const Vec3& wc,
                         Lobe lobe) const override {
     if (lobe != Lobe::reflection || !above(wl, wc)) return {};
-    return {reflectance_->eval(at) *
-                ior_.fresnel(std::min(wl.z, 1.0), at.wavelength),
-            1, 1};
+    return {reflectance_->eval(at) * ior_.fresnel(std::min(wl.z, 1.0), at.wavelength), 1, 1};
   }
 
   std::optional<BsdfSample> sample(const SurfacePoint&, const Vec3& from,

@@ -17,7 +17,7 @@ class DielectricInterface {
         reflection_weight_(target_luminance(reflectance->mean())),
         transmission_weight_(target_luminance(transmittance->mean())) {}
 
-  /// n_below / n_above where there are no wavelengths, and at a point: that of its first wavelength.
+  /// n_below / n_above where there are no wavelengths, and at the first wavelength of a point.
   double eta() const { return index_.in_rgb; }
   double eta(const SurfacePoint& at) const {
     return disperses(at) ? index_.at_nm(wavelength_of(at.wavelength).nm) : index_.in_rgb;

@@ -79,7 +79,8 @@ std::vector<Parameter> ior_parameters(const std::string& default_inside) {
   return {
       {"int_ior", ParamType::ior, default_inside,
        "Index of refraction inside (below the surface): a number, a material's name, a table of "
-       "wavelength:index pairs, or a formula as text: cauchy A B, sellmeier B1 B2 B3 C1 C2 C3, abbe "
+       "wavelength:index pairs, or a formula as text: cauchy A B, sellmeier B1 B2 B3 C1 C2 C3, "
+       "abbe "
        "n_d V_d."},
       {"ext_ior", ParamType::ior, std::string("air"),
        "Index of refraction outside (where the normal points), likewise."}};

@@ -8,7 +8,8 @@
 
 namespace mlt {
 
-/// The parameters `int_ior` and `ext_ior`, of which RefractiveIndex tells the forms, with the given default inside and air outside.
+/// The parameters `int_ior` and `ext_ior`, of which RefractiveIndex tells the forms, with the given
+/// default inside and air outside.
 std::vector<Parameter> ior_parameters(const std::string& default_inside);
 /// The relative index int_ior / ext_ior where there are no wavelengths.
 double relative_ior_param(Params& params);

@@ -57,8 +57,7 @@ class RoughConductor final : public Bsdf {
   Spectrum value(const SurfacePoint& at, const Vec3& wl, const Vec3& wc, const Vec3& h, double D,
                  double G) const {
     if (!(D * G > 0)) return Spectrum(0);
-    const Spectrum F =
-        ior_.fresnel(std::min(dot(wl, h), 1.0), at.wavelength);
+    const Spectrum F = ior_.fresnel(std::min(dot(wl, h), 1.0), at.wavelength);
     return reflectance_->eval(at) * F * (D * G / (4 * wl.z * wc.z));
   }
 

@@ -72,8 +72,8 @@ class RoughDielectric final : public Bsdf {
   struct Facet {
     bool exists;
     bool reflects;
-    Vec3 h;    ///< Its normal, above the surface.
-    double eta;  ///< See DielectricInterface::eta.
+    Vec3 h;            ///< Its normal, above the surface.
+    double eta;        ///< See DielectricInterface::eta.
     double cosine, F;  ///< Of light in the thinner medium; its Fresnel reflectance.
   };
 

@@ -10,7 +10,9 @@ class ConstantSky final : public InfiniteEmitter {
  public:
   explicit ConstantSky(Params& params) : radiance_(spectral_param(params, "radiance")) {}
 
-  Spectrum eval(const SurfacePoint& x0, const Vec3&) const override { return radiance_.at(x0.wavelength); }
+  Spectrum eval(const SurfacePoint& x0, const Vec3&) const override {
+    return radiance_.at(x0.wavelength);
+  }
 
   PositionSample sample_position(const Vec2& u, double) const override {
     return {point_towards(sample_uniform_sphere(u)), uniform_sphere_pdf()};

@@ -24,7 +24,9 @@ class DirectionalLight final : public InfiniteEmitter {
     towards_ = -normalize(d);
   }
 
-  Spectrum eval(const SurfacePoint& x0, const Vec3&) const override { return irradiance_.at(x0.wavelength); }
+  Spectrum eval(const SurfacePoint& x0, const Vec3&) const override {
+    return irradiance_.at(x0.wavelength);
+  }
 
   PositionSample sample_position(const Vec2&, double) const override {
     return {point_towards(towards_), 1};

@@ -12,7 +12,9 @@ class PointLight final : public IsolatedEmitter {
   explicit PointLight(Params& params)
       : IsolatedEmitter(read_motion(params)), intensity_(spectral_param(params, "intensity")) {}
 
-  Spectrum eval(const SurfacePoint& x0, const Vec3&) const override { return intensity_.at(x0.wavelength); }
+  Spectrum eval(const SurfacePoint& x0, const Vec3&) const override {
+    return intensity_.at(x0.wavelength);
+  }
 
   RaySample sample_ray(const SurfacePoint& x0, const Vec2& u) const override {
     return {x0.p, sample_uniform_sphere(u), uniform_sphere_pdf()};

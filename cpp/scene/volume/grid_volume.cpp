@@ -106,8 +106,7 @@ Spectrum GridVolume::at(const Vec3& p, double wavelength) const {
 Flight GridVolume::fly(const Ray& ray, const FlightLimit& limit, double scale) const {
   const Vec3 o = transform_point(to_grid_, ray.o - ray.before * ray.d),
              d = transform_vector(to_grid_, ray.d);
-  if (!grid_.is_coloured())
-    return Flying<double, GreyLanes>(grid_, o, d, scale, {}).fly(limit);
+  if (!grid_.is_coloured()) return Flying<double, GreyLanes>(grid_, o, d, scale, {}).fly(limit);
   if (ray.wavelength < 0) return Flying<Color, RgbLanes>(grid_, o, d, scale, {}).fly(limit);
   return Flying<Color, LinearUpsampling>(grid_, o, d, scale, LinearUpsampling(ray.wavelength))
       .fly(limit);

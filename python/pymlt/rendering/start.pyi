@@ -31,6 +31,7 @@ def render(
     fireflies: str = ...,
     cluster: Any = ...,
     sensor: int | None = ...,
+    spectral: bool = ...,
     progress: bool | Callable[[float], object] | None = ...,
     callback: Callable[[Result], object] | None = ...,
     interval: float = ...,
@@ -50,6 +51,7 @@ def replay(
     sample: int = ...,
     seed: int = ...,
     sensor: int | None = ...,
+    spectral: bool = ...,
 ) -> Replay: ...
 def resume(
     path: str | os.PathLike,
@@ -87,4 +89,5 @@ def start(
     fireflies: str = ...,
     cluster: Any = ...,
     sensor: int | None = ...,
+    spectral: bool = ...,
 ) -> Job: ...

@@ -120,9 +120,9 @@ TEST_F(ParamsTest, EachTypeTakesWhatItSays) {
                                   object};
   const std::string kinds = "bifstmSo";  // of the values above
   const std::map<std::string, std::string> accepted{
-      {"strict", "b"},      {"max_depth", "i"}, {"radius", "if"},   {"title", "s"},
-      {"origin", "t"},      {"to_world", "m"},  {"albedo", "iftS"}, {"power", "iftS"},
-      {"pattern", "iftSo"}, {"glow", "iftSo"},  {"int_ior", "ifs"}, {"lamp", "o"}};
+      {"strict", "b"},      {"max_depth", "i"}, {"radius", "if"},    {"title", "s"},
+      {"origin", "t"},      {"to_world", "m"},  {"albedo", "iftS"},  {"power", "iftS"},
+      {"pattern", "iftSo"}, {"glow", "iftSo"},  {"int_ior", "ifsS"}, {"lamp", "o"}};
   for (const auto& [name, takes] : accepted)
     for (size_t i = 0; i < values.size(); ++i) {
       Params fresh(schema, {});

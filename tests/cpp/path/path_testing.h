@@ -81,8 +81,9 @@ struct NaivePassage {
     double before = 0, after = 0;
     for (int j = 0; j < 3; ++j) {  // R, G and B
       before += flown[j];
-      flown[j] *= std::exp(-depth[j]) *
-                  (x.at.in_medium() ? scene.medium(x.at).at(x.at.p, x.at.wavelength).extinction[j] : 1);
+      flown[j] *=
+          std::exp(-depth[j]) *
+          (x.at.in_medium() ? scene.medium(x.at).at(x.at.p, x.at.wavelength).extinction[j] : 1);
       after += flown[j];
     }
     return probability * after / before * (x.at.in_medium() ? 1 : naive_stop(scene, x, from));
@@ -104,7 +105,8 @@ inline Spectrum naive_depth(const Medium& medium, const Vec3& p, const Vec3& w, 
   Spectrum depth(0);
   for (int i = 0; i < steps; ++i) {
     const double step = distance / steps;
-    const Spectrum sigma = medium.at(steps == 1 ? p : p + (i + 0.5) * step * w, rgb_lanes).extinction;
+    const Spectrum sigma =
+        medium.at(steps == 1 ? p : p + (i + 0.5) * step * w, rgb_lanes).extinction;
     for (int j = 0; j < Spectrum::lanes; ++j)
       if (sigma[j] > 0) depth[j] += sigma[j] * step;
   }

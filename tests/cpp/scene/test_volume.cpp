@@ -92,7 +92,8 @@ TEST_P(GridOf, HasItsValues) {
   for (int i = 0; i < 5000; ++i) {
     const auto& n = data.size;
     const Vec3 x = Vec3(n[0], n[1], n[2]) * (Vec3(rng.next(), rng.next(), rng.next()) * 1.2 - 0.1);
-    const Color expected = naive_value(data, GetParam().nearest, x), found = volume.at(x, rgb_lanes).rgb();
+    const Color expected = naive_value(data, GetParam().nearest, x),
+                found = volume.at(x, rgb_lanes).rgb();
     for (int c = 0; c < 3; ++c) ASSERT_NEAR(found[c], expected[c], 1e-12);
   }
 }

@@ -53,8 +53,7 @@ Samples one_by_one(const Scene& scene, const BidirectionalSettings& settings) {
       bidirectional.sample(raster, sampler, found.rays);
       Sample sample;
       bidirectional.connect_all(found.rays, [&](const Connection& c) {
-        add(sample, c.t >= 2, c.raster, c.contribution * c.weight, c.survival,
-            c.s + c.t - 1);
+        add(sample, c.t >= 2, c.raster, c.contribution * c.weight, c.survival, c.s + c.t - 1);
       });
       found.samples.push_back(sample);
     }
@@ -74,8 +73,7 @@ Samples side_by_side(const Scene& scene, const BidirectionalSettings& settings) 
     for (int i = 0; i < wave.size(); ++i) {
       Sample sample;
       wave.show_lights(i, [&](const BidirectionalWave::Light& light) {
-        add(sample, light.own_pixel, light.raster, light.weighted, light.survival,
-            light.edges);
+        add(sample, light.own_pixel, light.raster, light.weighted, light.survival, light.edges);
       });
       sample.by_itself = wave.fell_back(i);
       found.samples.push_back(sample);
