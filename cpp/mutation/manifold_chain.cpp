@@ -11,7 +11,10 @@ bool ManifoldChain::can_be_walked(const Scene& scene, const PathState& x) const 
 
 bool ManifoldChain::follow(ManifoldWalk& walk, const Scene& scene, const PathState& x,
                            const SurfacePoint& end, MutationContext& context) const {
-  return walk.start(scene, &x[c], count()) && walk.go(end, x.path.time, context.rays);
+  return walk.start(scene, &x[c], count()) &&
+         (end.wavelength == x.path.wavelength ||
+          walk.change_wavelength(end.wavelength, x.path.time, context.rays)) &&
+         walk.go(end, x.path.time, context.rays);
 }
 
 bool ManifoldChain::find(const Scene& scene, const PathState& x, PathState& y,

@@ -1,5 +1,5 @@
 // A specular chain that a mutation finds again by a manifold walk after vertex b, the end of it on
-// the camera side, has moved: vertices c + 1 ... b - 1, with c the end that stays.
+// the camera side, has moved, or the wavelength has: vertices c + 1 ... b - 1, with c the end that stays.
 //
 // The walk is a function of x and of the new b, but not always an invertible one: if the walk back
 // from y does not lead to x, y is to be rejected.
@@ -23,25 +23,20 @@ struct ManifoldChain {
   bool leads_back(const Scene& scene, const PathState& x, const PathState& y,
                   MutationContext& context) const;
 
+  /// The determinant of the derivative of the constraints by the vertices.
+  double jacobian(const Scene& scene, const PathState& y) const {
+    return SpecularChain(scene, &y[c], count()).density();
+  }
   /// The factor of a density that is due to the chain, and to its edges, in y.
   template <class Measure>
   double density(const Measure& in, const Scene& scene, const PathState& y) const {
-    return SpecularChain(scene, &y[c], count()).density() * edges(in);
+    return jacobian(scene, y) * unsampled(in, c, b);
   }
 
  private:
-  /// Walks the chain of x to `end`, where b is now.
+  /// Walks the chain of x to `end`, where b is now, perhaps at another wavelength.
   bool follow(ManifoldWalk& walk, const Scene& scene, const PathState& x, const SurfacePoint& end,
               MutationContext& context) const;
-
-  /// The factor, in a measure, of the density of vertices c ... b that are found by a walk and not
-  /// sampled one by one.
-  double edges(const AreaMeasure&) const { return 1; }
-  double edges(const ContributionMeasure& in) const {
-    double p = in.x[c].inverse_f;
-    for (int i = c; i < b; ++i) p *= in.x[i + 1].inverse_f / in.x[i].G;
-    return p;
-  }
 };
 
 }  // namespace mlt

@@ -19,7 +19,8 @@ struct MutationPlugin {
   double weight;            ///< Its weight by default.
   MutationPtr (*make)(const PathTarget& target, Params& own);
   bool on = true;           ///< Whether it is on by default.
-  bool media_only = false;  ///< Whether it moves nothing but vertices in media.
+  /// Whether it can move anything in a scene; nullptr: in all.
+  bool (*serves)(const Scene& scene) = nullptr;
 
   const std::string& name() const { return schema.name; }
   std::string weight_name() const { return name() + "_weight"; }

@@ -160,7 +160,7 @@ MutationPlugin mutation_propagation() {
           0.2,
           make_shared_mutation<PropagationMutation>,
           /*on=*/true,
-          /*media_only=*/true};
+          [](const Scene& scene) { return scene.has_media(); }};
 }
 
 }  // namespace mlt

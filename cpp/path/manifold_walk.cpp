@@ -30,6 +30,14 @@ bool ManifoldWalk::start(const Scene& scene, const Vertex* first, int count) {
   return true;
 }
 
+bool ManifoldWalk::change_wavelength(double u, double time, RayCounts& rays) {
+  for (Vertex& x : chain_) x.at.wavelength = u;
+  next_ = chain_;
+  if (!trace(chain_[1].at.p, chain_[count_ + 1].at, time, rays, next_)) return false;
+  std::swap(chain_, next_);
+  return true;
+}
+
 bool ManifoldWalk::go(const SurfacePoint& end, double time, RayCounts& rays) {
   /// Distance from the end at which a walk has converged, as an angle seen from the last vertex.
   constexpr double tolerance = 1e-7;

@@ -20,6 +20,10 @@ class ManifoldWalk {
   /// False if no walk is possible from it.
   bool start(const Scene& scene, const Vertex* first, int count);
 
+  /// Traces the chain again at another wavelength, with its first vertex and its constraints kept;
+  /// false if that is not possible. It ends somewhere else then.
+  bool change_wavelength(double u, double time, RayCounts& rays);
+
   /// Walks until the chain ends in `end`, with visibility; false if it does not converge.
   bool go(const SurfacePoint& end, double time, RayCounts& rays);
 

@@ -36,6 +36,14 @@ struct ContributionMeasure {
   }
 };
 
+/// The factor of a density of vertices c ... b that are not sampled one by one.
+inline double unsampled(const AreaMeasure&, int /*c*/, int /*b*/) { return 1; }
+inline double unsampled(const ContributionMeasure& in, int c, int b) {
+  double p = in.x[c].inverse_f;
+  for (int i = c; i < b; ++i) p *= in.x[i + 1].inverse_f / in.x[i].G;
+  return p;
+}
+
 /// Density of x_i made by a light walk.
 template <class Measure>
 double from_light(const Measure& in, int i) {

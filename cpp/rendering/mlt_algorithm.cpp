@@ -42,9 +42,8 @@ class MltAlgorithm : public MetropolisAlgorithm {
       : settings_(settings), target_(std::move(scene), settings.rules, settings.near_specular) {
     std::vector<double> weights;
     for (const MixedMutation& mixed : settings_.mixture) {
-      if (mutation_plugin(mixed.name).media_only && !target_.scene().has_media() &&
-          settings_.mixture.size() > 1)
-        continue;
+      const auto serves = mutation_plugin(mixed.name).serves;
+      if (serves && !serves(target_.scene()) && settings_.mixture.size() > 1) continue;
       for (const auto& [own, weight] : in_all_sizes(mixed)) {
         mutations_.push_back(make_mutation(mixed.name, target_, own));
         step_sizes_.push_back(step_size(mixed.name, own));

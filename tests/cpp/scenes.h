@@ -48,17 +48,26 @@ inline std::vector<std::string> scene_names() {
           "projector",
           "daylight",
           "bent_normals",
-          "more_materials"};
+          "more_materials",
+          "spectral_room",
+          "prism",
+          "frosted_prism",
+          "spectral_fog"};
 }
 
 inline std::set<std::string> media_scene_names() {
-  return {"fog", "smoke_box", "smoke", "volume_caustic"};
+  return {"fog", "smoke_box", "smoke", "volume_caustic", "spectral_fog"};
 }
-/// Those without media, as waves require.
+inline std::set<std::string> spectral_scene_names() {
+  return {"spectral_room", "prism", "frosted_prism", "spectral_fog"};
+}
+/// Those without media or wavelengths, as waves require.
 inline std::vector<std::string> clear_scene_names() {
   std::vector<std::string> names = scene_names();
-  const auto has_media = [](const std::string& name) { return media_scene_names().count(name); };
-  names.erase(std::remove_if(names.begin(), names.end(), has_media), names.end());
+  const auto is_left_out = [](const std::string& name) {
+    return media_scene_names().count(name) + spectral_scene_names().count(name) > 0;
+  };
+  names.erase(std::remove_if(names.begin(), names.end(), is_left_out), names.end());
   return names;
 }
 

@@ -18,7 +18,8 @@ std::vector<Case> cases(const std::vector<std::string>& scenes) {
   std::vector<Case> all;
   for (const std::string& scene : scenes) {
     for (const MutationPlugin& plugin : mutation_plugins())
-      if (plugin.name() != "propagation" || media_scene_names().count(scene))
+      if ((plugin.name() != "propagation" || media_scene_names().count(scene)) &&
+          (plugin.name() != "wavelength" || spectral_scene_names().count(scene)))
         all.push_back({scene, plugin.name()});
     all.push_back({scene, "mixture"});
   }

@@ -155,6 +155,21 @@ std::vector<Twin> twins() {
                                  b = step > 0 ? edit.first : edit.last - 1;
                        return length(x[b - step].at.p - y[b].at.p);
                      }));
+  all.push_back({"density_of_the_chain", "wavelength", "prism",
+                 [](const Scene& scene, const Mutations&) {
+                   return BrokenTwin::Factor([&scene](const PathState&, const PathState& y, auto&) {
+                     double product = 1;
+                     for (int b = y.edges(); b > 0;) {
+                       const int c = ChainPerturbation::chain_end(y, b, -1);
+                       if (c < b - 1) product *= SpecularChain(scene, &y[c], b - c - 1).density();
+                       b = c;
+                     }
+                     return product > 0 ? product : 1;
+                   });
+                 },
+                 500000});
+  all.push_back(twin("density_of_the_step", "wavelength", "spectral_room",
+                     [](auto&, const PathState& y, auto&) { return 1 + y.path.wavelength; }));
   return all;
 }
 

@@ -79,12 +79,14 @@ struct NaivePassage {
   /// one of the channels has flown all that was before with the probability `flown`, which changes.
   double arrival(const Scene& scene, const Vertex& x, const Vertex& from, Spectrum& flown) const {
     double before = 0, after = 0;
-    for (int j = 0; j < 3; ++j) {  // R, G and B
-      before += flown[j];
-      flown[j] *=
-          std::exp(-depth[j]) *
-          (x.at.in_medium() ? scene.medium(x.at).at(x.at.p, x.at.wavelength).extinction[j] : 1);
-      after += flown[j];
+    const double weights[] = {1. / 3, 1. / 6, 1. / 3, 1. / 6};  // of the lanes; of RGB 1/3
+    for (int j = 0; j < Spectrum::lanes; ++j) {
+      before += weights[j] * flown[j];
+      flown[j] *= std::exp(-depth[j]) *
+                  (x.at.in_medium()
+                       ? scene.medium(x.at).at(x.at.p, x.at.wavelength).extinction[j]
+                       : 1);
+      after += weights[j] * flown[j];
     }
     return probability * after / before * (x.at.in_medium() ? 1 : naive_stop(scene, x, from));
   }
@@ -100,13 +102,14 @@ inline const Medium* naive_medium(const Scene& scene, const SurfacePoint& at, co
   return index == no_medium ? nullptr : &scene.media()[index];
 }
 /// The extinction along a line: where it varies, summed in the middles of many short steps.
-inline Spectrum naive_depth(const Medium& medium, const Vec3& p, const Vec3& w, double distance) {
+inline Spectrum naive_depth(const Medium& medium, const Vec3& p, const Vec3& w, double distance,
+                            double wavelength) {
   const int steps = medium.type == "homogeneous" ? 1 : 250;
   Spectrum depth(0);
   for (int i = 0; i < steps; ++i) {
     const double step = distance / steps;
     const Spectrum sigma =
-        medium.at(steps == 1 ? p : p + (i + 0.5) * step * w, rgb_lanes).extinction;
+        medium.at(steps == 1 ? p : p + (i + 0.5) * step * w, wavelength).extinction;
     for (int j = 0; j < Spectrum::lanes; ++j)
       if (sigma[j] > 0) depth[j] += sigma[j] * step;
   }
@@ -123,7 +126,7 @@ inline NaivePassage naive_passage(const Scene& scene, const Path& path, int i) {
   double gone = 0;
   const auto go_to = [&](double distance) {
     if (medium && medium->scatters())
-      passed.depth += naive_depth(*medium, b.p + gone * w, w, distance - gone);
+      passed.depth += naive_depth(*medium, b.p + gone * w, w, distance - gone, path.wavelength);
     gone = distance;
   };
   SurfacePoint at;
