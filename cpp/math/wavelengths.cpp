@@ -2,27 +2,34 @@
 
 #include "math/colorimetry.h"
 
-#include <array>
-
 namespace mlt {
 namespace {
-
-constexpr int cells = 512;
 
 /// The inverse of the distribution of the density 0.0039398042 / cosh^2(0.0072 (nm - 538)) over the
 /// visible range.
 double inverse_distribution(double u) {
   const auto area = [](double nm) { return std::tanh(0.0072 * (nm - 538)); };
   const double low = area(first_wavelength), high = area(last_wavelength);
-  return 538 + std::atanh(low + u * (high - low)) / 0.0072;
+  return std::clamp(538 + std::atanh(low + u * (high - low)) / 0.0072, first_wavelength,
+                    last_wavelength);
 }
 
-std::array<double, cells + 1> tabulated() {
-  std::array<double, cells + 1> nm;
-  for (int i = 0; i <= cells; ++i) nm[i] = inverse_distribution(double(i) / cells);
-  nm[0] = first_wavelength;
-  nm[cells] = last_wavelength;
-  return nm;
+/// d nm / d u, one over the density.
+double nm_per_u(double nm) {
+  const double total = std::tanh(0.0072 * (last_wavelength - 538)) -
+                       std::tanh(0.0072 * (first_wavelength - 538));
+  return total * sqr(std::cosh(0.0072 * (nm - 538))) / 0.0072;
+}
+
+/// The X, Y and Z of D65 that a film records by this response.
+Vec3 white_of(const wavelengths::Tables& tables) {
+  constexpr int points = 16;  // in each cell
+  Vec3 sum(0);
+  for (int i = 0; i < points * wavelengths::cells; ++i) {
+    const wavelengths::Place place((i + 0.5) / (points * wavelengths::cells));
+    sum += place.at(tables.response, 0) * d65(place.at(tables.nm, 0));
+  }
+  return sum / (1.0 * points * wavelengths::cells);
 }
 
 const Vec3& white() {
@@ -37,21 +44,28 @@ const Vec3& white() {
 
 }  // namespace
 
-Wavelength wavelength_of(double u) {
-  static const std::array<double, cells + 1> table = tabulated();
-  const int i = std::min(static_cast<int>(u * cells), cells - 1);
-  const double across = table[i + 1] - table[i];
-  return {table[i] + (u * cells - i) * across, across * cells};
+namespace wavelengths {
+
+Tables::Tables() {
+  for (int i = 0; i <= cells; ++i) {
+    nm[i] = inverse_distribution(double(i) / cells);
+    response[i] = matching_functions(nm[i]) * nm_per_u(nm[i]);
+  }
+  const Vec3 unit = white_of(*this);
+  for (Color& xyz : response) xyz /= unit;
 }
 
+const Tables tables;
+
+}  // namespace wavelengths
+
 Color recorded_spectrum(const Spectrum& light, double u, bool dispersed) {
+  const wavelengths::Place place(u);
   const int lanes = dispersed ? 1 : Spectrum::lanes;
-  Vec3 xyz(0);
-  for (int j = 0; j < lanes; ++j) {
-    const Wavelength w = wavelength_of(lane_of(u, j));
-    xyz += matching_functions(w.nm) * (light[j] * w.per_u / lanes);
-  }
-  return xyz / white();
+  Color sum(0);
+  for (int j = 0; j < lanes; ++j)
+    sum += place.at(wavelengths::tables.response, j) * (light[j] / lanes);
+  return sum;
 }
 
 Color developed(const Color& recorded) { return xyz_to_srgb(recorded * white()); }

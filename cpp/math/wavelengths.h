@@ -3,6 +3,8 @@
 
 #include "math/spectrum.h"
 
+#include <array>
+
 namespace mlt {
 
 /// Stands in place of a wavelength in an RGB scene: the lanes are R, G, B and G.
@@ -13,22 +15,48 @@ inline constexpr double rgb_lanes = -1;
 /// sampling"): Lambda(frac(u + j / 4)). Lambda is linear between values of the inverse of
 /// 1 / cosh^2, which is about proportional to what the eye sees (Radziszewski et al. 2009, "An
 /// improved technique for full spectral rendering").
-struct Wavelength {
-  double nm;
-  double per_u;  ///< d nm / d u: one over its density.
+namespace wavelengths {
+
+inline constexpr int cells = 512;
+
+/// Functions of u at the borders of cells.
+struct Tables {
+  std::array<double, cells + 1> nm;
+  /// What a film records of one lane: X, Y and Z over those of D65, over the density of u.
+  std::array<Color, cells + 1> response;
+
+  Tables();
 };
-Wavelength wavelength_of(double u);
-/// The u of the j-th lane.
-inline double lane_of(double u, int j) {
-  const double v = u + 0.25 * j;
-  return v < 1 ? v : v - 1;
+extern const Tables tables;
+
+/// A place in the tables, and that of a lane whose u is frac(u + j / 4).
+struct Place {
+  int cell;
+  double within;
+
+  explicit Place(double u) : cell(std::min(static_cast<int>(u * cells), cells - 1)) {
+    within = u * cells - cell;
+  }
+  template <class T>
+  T at(const std::array<T, cells + 1>& table, int lane) const {
+    const int i = (cell + lane * (cells / Spectrum::lanes)) % cells;
+    return table[i] + within * (table[i + 1] - table[i]);
+  }
+};
+
+}  // namespace wavelengths
+
+/// Lambda(u), in nm.
+inline double wavelength_of(double u) {
+  return wavelengths::Place(u).at(wavelengths::tables.nm, 0);
 }
 
-/// The values f(nm) at the wavelengths of u.
+/// The values f(nm) at the four wavelengths of u.
 template <class F>
 Spectrum at_wavelengths(double u, F&& f) {
+  const wavelengths::Place place(u);
   Spectrum s;
-  for (int j = 0; j < Spectrum::lanes; ++j) s[j] = f(wavelength_of(lane_of(u, j)).nm);
+  for (int j = 0; j < Spectrum::lanes; ++j) s[j] = f(place.at(wavelengths::tables.nm, j));
   return s;
 }
 

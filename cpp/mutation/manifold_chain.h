@@ -1,5 +1,6 @@
 // A specular chain that a mutation finds again by a manifold walk after vertex b, the end of it on
-// the camera side, has moved, or the wavelength has: vertices c + 1 ... b - 1, with c the end that stays.
+// the camera side, has moved, or the wavelength has: vertices c + 1 ... b - 1, where c is the end
+// that stays.
 //
 // The walk is a function of x and of the new b, but not always an invertible one: if the walk back
 // from y does not lead to x, y is to be rejected.

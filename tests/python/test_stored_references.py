@@ -90,9 +90,9 @@ TO_XYZ = np.array(
 )
 
 
-def xyz_reference(folder, name) -> Blocks:
+def xyz_reference(folder, name, kind="rgb") -> Blocks:
     mean, variance = (
-        mlt.read_image(folder / "refs" / f"{name}_ref_rgb{end}.exr").astype(float) @ TO_XYZ.T
+        mlt.read_image(folder / "refs" / f"{name}_ref_{kind}{end}.exr").astype(float) @ TO_XYZ.T
         for end in ("", "_var")
     )
     pixels = block_sizes(mean.shape, FULL)

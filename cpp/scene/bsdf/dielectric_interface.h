@@ -20,7 +20,7 @@ class DielectricInterface {
   /// n_below / n_above where there are no wavelengths, and at the first wavelength of a point.
   double eta() const { return index_.in_rgb; }
   double eta(const SurfacePoint& at) const {
-    return disperses(at) ? index_.at_nm(wavelength_of(at.wavelength).nm) : index_.in_rgb;
+    return disperses(at) ? index_.at_nm(wavelength_of(at.wavelength)) : index_.in_rgb;
   }
   /// Whether light of different wavelengths is refracted differently.
   bool disperses(const SurfacePoint& at) const { return at.wavelength >= 0 && index_.disperses(); }

@@ -302,6 +302,14 @@ class MLT(Integrator):
         Smallest change of the logarithm of the distance.
     propagation_largest_move : float, default 1.0
         Largest change of the logarithm of the distance.
+    wavelength_mutation : boolean, default True
+        Use the another wavelength for the same path; dispersive chains are found again.
+    wavelength_weight : float, default 0.2
+        Weight of the wavelength mutation among those that suit a path.
+    wavelength_smallest_step : float, default 0.0005
+        Smallest step, as a share of the visible range in the measure of what the eye sees.
+    wavelength_largest_step : float, default 0.1
+        Largest step, likewise.
     near_specular : float, default 0.1
         Smooth vertices below this roughness count as specular in perturbations.
     adaptive : boolean, default True
@@ -365,6 +373,10 @@ class MLT(Integrator):
     propagation_weight: float
     propagation_smallest_move: float
     propagation_largest_move: float
+    wavelength_mutation: bool
+    wavelength_weight: float
+    wavelength_smallest_step: float
+    wavelength_largest_step: float
     near_specular: float
     adaptive: bool
     two_stage: bool
@@ -413,6 +425,10 @@ class MLT(Integrator):
         propagation_weight: float = ...,
         propagation_smallest_move: float = ...,
         propagation_largest_move: float = ...,
+        wavelength_mutation: bool = ...,
+        wavelength_weight: float = ...,
+        wavelength_smallest_step: float = ...,
+        wavelength_largest_step: float = ...,
         near_specular: float = ...,
         adaptive: bool = ...,
         two_stage: bool = ...,

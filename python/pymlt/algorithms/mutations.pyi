@@ -147,6 +147,26 @@ class Propagation(BuiltIn):
         largest_move: float = ...,
     ) -> None: ...
 
+class Wavelength(BuiltIn):
+    """The another wavelength for the same path; dispersive chains are found again.
+
+    Parameters
+    ----------
+    smallest_step : float, default 0.0005
+        Smallest step, as a share of the visible range in the measure of what the eye sees.
+    largest_step : float, default 0.1
+        Largest step, likewise.
+    """
+
+    smallest_step: float
+    largest_step: float
+    def __init__(
+        self,
+        *,
+        smallest_step: float = ...,
+        largest_step: float = ...,
+    ) -> None: ...
+
 __all__ = [
     "Bidirectional",
     "Caustic",
@@ -156,4 +176,5 @@ __all__ = [
     "MultiChain",
     "Multiplexed",
     "Propagation",
+    "Wavelength",
 ]

@@ -11,7 +11,7 @@ namespace {
 /// The u of a wavelength: the inverse of wavelength_of.
 double u_of_nm(double nm) {
   double low = 0, high = 1;
-  for (int i = 0; i < 60; ++i) (wavelength_of(0.5 * (low + high)).nm < nm ? low : high) =
+  for (int i = 0; i < 60; ++i) (wavelength_of(0.5 * (low + high)) < nm ? low : high) =
       0.5 * (low + high);
   return low;
 }
