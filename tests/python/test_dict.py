@@ -92,7 +92,7 @@ def lit_by(radiance, reflectance=0.25):
 
 def both_kinds(scene):
     """The pixels of an RGB and of a spectral scene."""
-    return [pixels(mlt.load_dict(scene, spectral=spectral)) for spectral in (False, True)]
+    return [pixels(scene, spectral=spectral) for spectral in (False, True)]
 
 
 WAVES, VALUES = [400, 550, 700], [0.2, 0.5, 0.7]

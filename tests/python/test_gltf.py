@@ -213,7 +213,7 @@ def test_clear_glass_disperses():
     assert made.scene["material-1"] == smooth | rough | {"specular_transmittance": colour(1, 1, 1)}
     assert not [text for text in made.warnings if "dispersion" in text]
     mlt.render(mlt.load_dict(made.scene, size=SIZE), spp=1)
-    mlt.render(mlt.load_dict(made.scene, size=SIZE, spectral=True), spp=1)
+    mlt.render(mlt.load_dict(made.scene, size=SIZE), spp=1, spectral=True)
 
 
 UNCLEAR = {

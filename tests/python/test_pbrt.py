@@ -493,11 +493,11 @@ def test_glasses_have_the_index_and_the_abbe_number_of_the_catalogue(glass):
 def test_glass_disperses_in_spectral_renders_alone():
     glass = 'Material "dielectric" "spectrum eta" "glass-SF11" Shape "sphere" "float radius" .5'
     plain = 'Material "dielectric" "float eta" 1.7845 Shape "sphere" "float radius" .5'
-    paths = [
-        written(VIEW, LAMP, text, name=n) for n, text in (("a.pbrt", glass), ("b.pbrt", plain))
-    ]
+    texts = {"a.pbrt": glass, "b.pbrt": plain}
+    paths = [written(VIEW, LAMP, FLOOR, text, name=name) for name, text in texts.items()]
     assert_same(*(mlt.load(path) for path in paths))
-    spectral = [mlt.render(mlt.load(path, spectral=True), "bdpt", spp=4, seed=1) for path in paths]
+    scenes = [mlt.load(path, spectral=True) for path in paths]
+    spectral = [mlt.render(scene, "bdpt", spp=4, seed=1) for scene in scenes]
     assert not np.allclose(*spectral, rtol=1e-3)
 
 

@@ -121,7 +121,7 @@ TEST_F(ParamsTest, EachTypeTakesWhatItSays) {
   const std::string kinds = "bifstmSo";  // of the values above
   const std::map<std::string, std::string> accepted{
       {"strict", "b"},      {"max_depth", "i"}, {"radius", "if"},    {"title", "s"},
-      {"origin", "t"},      {"to_world", "m"},  {"albedo", "iftS"},  {"power", "iftS"},
+      {"origin", "t"},      {"to_world", "m"},  {"albedo", "iftSo"}, {"power", "iftSo"},
       {"pattern", "iftSo"}, {"glow", "iftSo"},  {"int_ior", "ifsS"}, {"lamp", "o"}};
   for (const auto& [name, takes] : accepted)
     for (size_t i = 0; i < values.size(); ++i) {
