@@ -1,5 +1,5 @@
 // The Mitsuba 3 dict: every plug-in is a dict with its name under "type"; colours, spectra and
-// references are dicts with types of their own ("rgb", "srgb", "spectrum", "uniform", "ref");
+// references are dicts with types of their own ("rgb", "srgb", "spectrum", "ref");
 // transforms are 4 x 4 matrices, or animations of them. A nested plug-in's key is the parameter it
 // is given for, or, in a scene, its id.
 #include "scene_dict.h"

@@ -13,7 +13,10 @@ ObjectPtr make_blackbody(Params& params) {
     params.fail("temperature", fmt::format("is {} K, but must be above 0", kelvin));
   const double scale = params.real_in("scale", 0, largest_scale);
   const Curve curve = Curve::blackbody(kelvin).scaled(scale);
-  return emitted_spectrum({glm::max(curve_to_rgb(curve), Color(0)), curve});
+  const Color rgb = curve_to_rgb(curve);
+  if (!std::isfinite(max_component(rgb)))
+    params.fail("temperature", fmt::format("is {} K, which is too bright", kelvin));
+  return emitted_spectrum({{glm::max(rgb, Color(0)), curve}, min_component(rgb) < 0});
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ ObjectPtr make_d65(Params& params) {
     return std::make_shared<UnderD65>(nested, scale);
   const Color rgb = nested ? nested->mean() : to_color(params, "color", SpectrumUse::unbounded);
   if (min_component(rgb) < 0) params.fail("color", "must not be negative");
-  return emitted_spectrum({scale * rgb, RgbMeaning::light});
+  return emitted_spectrum({{scale * rgb, RgbMeaning::light}});
 }
 
 }  // namespace

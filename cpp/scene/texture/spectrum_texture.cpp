@@ -4,8 +4,8 @@
 
 namespace mlt {
 
-std::shared_ptr<SpectrumTexture> emitted_spectrum(const SpectralColor& color) {
-  return std::make_shared<SpectrumTexture>([color](SpectrumUse) { return UsedSpectrum{color}; });
+std::shared_ptr<SpectrumTexture> emitted_spectrum(const UsedSpectrum& light) {
+  return std::make_shared<SpectrumTexture>([light](SpectrumUse) { return light; });
 }
 
 std::shared_ptr<SpectrumTexture> table_spectrum(Params& params, const std::string& name,

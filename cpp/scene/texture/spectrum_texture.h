@@ -32,7 +32,7 @@ class SpectrumTexture final : public Texture {
 };
 
 /// The same spectrum for every use, light by itself.
-std::shared_ptr<SpectrumTexture> emitted_spectrum(const SpectralColor& color);
+std::shared_ptr<SpectrumTexture> emitted_spectrum(const UsedSpectrum& light);
 /// The spectrum of a table, linear between its values and zero outside. Throws SceneError about the
 /// parameter `name` unless two or more wavelengths increase, the range is partly visible, and no
 /// value is negative.

@@ -12,7 +12,7 @@ ObjectPtr make_uniform(Params& params) {
   if (value < 0) params.fail("value", fmt::format("is {}, but must not be negative", value));
   // In RGB it is grey, also as light, as in Mitsuba.
   if (!params.has("wavelength_min") && !params.has("wavelength_max"))
-    return emitted_spectrum({Color(value), RgbMeaning::coefficient});
+    return emitted_spectrum({{Color(value), RgbMeaning::coefficient}});
   const double low = params.real_in("wavelength_min", 0, widest_wavelength);
   const double high = params.real_in("wavelength_max", 0, widest_wavelength);
   return table_spectrum(params, "value", {{low, value}, {high, value}});

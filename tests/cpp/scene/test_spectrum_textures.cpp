@@ -100,6 +100,16 @@ TEST(SpectrumTextures, BlackbodiesEmitPlancksLaw) {
   }
 }
 
+TEST(SpectrumTextures, RedBlackbodiesAreOutOfGamut) {
+  for (const auto& [kelvin, warnings] : {std::pair(1500.0, 1u), std::pair(3000.0, 0u)}) {
+    Params params = given_as("glow", make<Object>(texture_blackbody(), {{"temperature", kelvin}}));
+    texture_param(params, "glow");
+    EXPECT_EQ(params.warnings().size(), warnings) << kelvin;
+  }
+  EXPECT_THAT(error_in(texture_blackbody(), {{"temperature", 1e300}, {"scale", 1e30}}),
+              HasSubstr("too bright"));
+}
+
 TEST(SpectrumTextures, DaylightIsWhiteInRgb) {
   const TexturePtr light =
       used_as("glow", ObjectPtr(make<Texture>(texture_d65(), {{"scale", 3.0}})));
