@@ -115,6 +115,17 @@ def test_spectra_are_plugins(name):
         assert np.array_equal(pixels(lit_by(3, plugin)), pixels(lit_by(3, value)))
 
 
+@pytest.mark.parametrize("name", [*SPECTRA, "uniform"])
+def test_spectra_are_converted_to_xml(name, tmp_path):
+    given = SPECTRA[name][0] if name in SPECTRA else {"value": 0.5, "wavelength_max": 600}
+    scene = lit_by({"type": name} | given, {"type": "ref", "id": "paint"})
+    scene["paint"] = {"type": "regular", "values": VALUES}
+    mlt.convert(scene, tmp_path / "a.xml")
+    for spectral in (False, True):
+        made = mlt.load(tmp_path / "a.xml", spectral=spectral)
+        np.testing.assert_array_equal(pixels(made), pixels(scene, spectral=spectral))
+
+
 def test_a_black_body_has_the_same_colour_with_and_without_wavelengths():
     lamp = {"type": "blackbody", "temperature": 3500, "scale": 1e-4}
     rgb, spectral = (image.mean(axis=(0, 1)) for image in both_kinds(lit_by(lamp)))
