@@ -1,5 +1,5 @@
 // The Mitsuba 3 dict: every plug-in is a dict with its name under "type"; colours, spectra and
-// references are dicts with types of their own ("rgb", "srgb", "spectrum", "uniform", "ref");
+// references are dicts with types of their own ("rgb", "srgb", "spectrum", "ref");
 // transforms are 4 x 4 matrices, or animations of them. A nested plug-in's key is the parameter it
 // is given for, or, in a scene, its id.
 #include "scene_dict.h"
@@ -110,7 +110,8 @@ Value from_color(const py::dict& dict, const std::string& type, const std::strin
   const char* held = type == "srgb" ? "color" : "value";
   for (const auto& item : dict) {
     const std::string name = str_of(py::str(item.first), key, where);
-    if (name != "type" && name != held)
+    const bool is_permission = type == "srgb" && name == "unbounded";  // it is, in any case
+    if (name != "type" && name != held && !is_permission)
       refuse(where, key, "has an unknown '" + name + "'; valid are: type, " + held);
   }
   if (!dict.contains(held)) refuse(where, key, std::string("needs a '") + held + "'");
@@ -148,8 +149,27 @@ Animation from_animation(const py::dict& dict, const std::string& key, const Loc
   return animation;
 }
 
+/// The colours that are values. In a scene, where others refer to it, rgb is a plug-in.
 bool is_color(const std::string& type) {
-  return type == "rgb" || type == "srgb" || type == "spectrum" || type == "uniform";
+  return type == "rgb" || type == "srgb" || type == "spectrum";
+}
+
+/// Numbers that a spectrum has as text, which reads back as the same numbers.
+bool is_list_of_text(const Node& node, const std::string& key) {
+  return (node.type == "regular" || node.type == "irregular") &&
+         (key == "values" || key == "wavelengths");
+}
+
+Value text_of_numbers(const py::object& list, const std::string& key, const Location& where) {
+  if (py::isinstance<py::str>(list)) return str_of(list, key, where);
+  const auto array = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(list);
+  if (!array || array.ndim() != 1) {
+    PyErr_Clear();
+    refuse(where, key, "should be a list of numbers");
+  }
+  std::string text;
+  for (py::ssize_t i = 0; i < array.size(); ++i) text += fmt::format("{} ", array.data()[i]);
+  return text;
 }
 
 std::string family_of(const std::string& type, const std::string& key, const Location& where,
@@ -193,6 +213,10 @@ class Converter {
   void add(Node& node, const std::string& key, py::object value) {
     const std::string path = node.where.file + "['" + key + "']";
     if (py::hasattr(value, "to_dict")) value = value.attr("to_dict")();
+    if (is_list_of_text(node, key)) {
+      node.properties.push_back({key, text_of_numbers(value, key, node.where), node.where});
+      return;
+    }
     if (!py::isinstance<py::dict>(value)) {
       if (node.family == "scene") refuse(node.where, key, "should be a plug-in (a dict)");
       Value converted = from_scalar_or_array(value, key, node.where);
@@ -203,7 +227,7 @@ class Converter {
     }
     const auto dict = py::reinterpret_borrow<py::dict>(value);
     const std::string type = text_of(dict, "type", {path, 0});
-    if (is_color(type)) {
+    if (is_color(type) && node.family != "scene") {
       node.properties.push_back({key, from_color(dict, type, key, node.where), node.where});
       return;
     }

@@ -46,8 +46,8 @@ bool fits(const Value& value, ParamType type) {
     case ParamType::point: return is<Triple>(value);
     case ParamType::transform: return is<Matrix>(value);
     case ParamType::motion: return is<Matrix>(value) || is<Animation>(value);
-    case ParamType::reflectance:
-    case ParamType::radiance: return is_color(value);
+    case ParamType::reflectance:  // an object may be a spectrum
+    case ParamType::radiance:
     case ParamType::texture:
     case ParamType::emission:
     case ParamType::volume: return is_color(value) || is<ObjectPtr>(value);

@@ -193,7 +193,12 @@ void Builder::give(Params& params, const Node& parent, const Node& child) {
   const Parameter* parameter = schema.find(snake_case(name));
   const bool textured = parameter && (parameter->type == ParamType::texture ||
                                       parameter->type == ParamType::emission);
-  if (textured && !std::dynamic_pointer_cast<Texture>(nested))
+  const bool coloured = parameter && (parameter->type == ParamType::reflectance ||
+                                      parameter->type == ParamType::radiance);
+  const auto texture = std::dynamic_pointer_cast<Texture>(nested);
+  const bool fits =
+      textured ? texture != nullptr : texture && texture->spectrum(SpectrumUse::unbounded);
+  if ((textured || coloured) && !fits)
     throw SceneError(at(child.where, "{} '{}': '{}' is a {}, but should be a {}", parent.family,
                         parent.type, parameter->name, target.family, to_string(parameter->type)));
   params.set(name, std::move(nested), child.where);

@@ -24,8 +24,7 @@ namespace {
 const std::map<std::string, std::string>& refused_elements() {
   static const std::map<std::string, std::string> reasons{
       {"subsurface", "subsurface scattering is not supported"},
-      {"spectrum", "spectra are values here, not plug-ins; give rgb or wavelength:value pairs"},
-      {"blackbody", "colour temperatures are not supported; give rgb or wavelength:value pairs"},
+      {"blackbody", "write <spectrum type=\"blackbody\"> with a temperature"},
       {"camera", "this is the syntax of Mitsuba before 0.4; write <sensor>"},
       {"luminaire", "this is the syntax of Mitsuba before 0.4; write <emitter>"}};
   return reasons;

@@ -127,6 +127,7 @@ WavelengthTable read_spectrum_file(const Element& element, const SearchPath& sea
       throw SceneError(at({path, number}, quote(content) + " should be a wavelength and a value"));
     samples.emplace_back((*numbers)[0], (*numbers)[1]);
   }
+  if (samples.empty()) throw SceneError(at({path, 0}, "the file of a spectrum is empty"));
   const auto result = checked(std::move(samples));
   if (!result)
     throw SceneError(

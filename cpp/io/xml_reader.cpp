@@ -157,7 +157,11 @@ class XmlReader {
       return is_refused_element(tag) ? refuse_later() : skip_foreign({tag, where, {}}, parent);
 
     const Element e = element(xml, source);
-    if (tag == "spectrum" && e.find("type")) return refuse_later();
+    if (tag == "spectrum" && e.find("type")) {
+      parent.children.push_back(read_plugin(xml, e, source, depth));
+      parent.children.back().family = "texture";
+      return;
+    }
     if (is_plugin_family(tag)) {
       parent.children.push_back(read_plugin(xml, e, source, depth));
       return;

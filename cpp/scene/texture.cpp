@@ -39,27 +39,24 @@ class Illuminated final : public Texture {
   TexturePtr texture_;
 };
 
-RgbMeaning meaning_of(SpectrumUse use) {
-  switch (use) {
-    case SpectrumUse::reflectance: return RgbMeaning::reflectance;
-    case SpectrumUse::unbounded: return RgbMeaning::coefficient;
-    case SpectrumUse::emission: break;
-  }
-  return RgbMeaning::light;
-}
-
-SpectralColor spectrum_color(Params& params, const std::string& name,
-                             const WavelengthTable& spectrum, SpectrumUse use) {
+UsedSpectrum used_spectrum(Params& params, const std::string& name, const WavelengthTable& table,
+                           SpectrumUse use) {
   try {
-    const Curve curve = Curve::table(spectrum);
-    if (spectrum.size() == 1) return {uniform_spectrum_to_rgb(spectrum[0].second, use), curve};
-    const SpectrumColor found = spectrum_to_rgb(spectrum, use);
-    if (found.clamped && use != SpectrumUse::unbounded)
-      params.warn("'" + name + "' is outside of the sRGB gamut and was clamped");
-    return {found.color, curve};
+    const UsedSpectrum used = spectrum_of_table(table, use);
+    if (is_invisible(table))
+      params.warn(fmt::format("'{}' has no wavelength from {:.0f} to {:.0f} nm, so it is black",
+                              name, first_wavelength, last_wavelength));
+    return used;
   } catch (const UsageError& error) {
     params.fail(name, std::string("is no valid spectrum: ") + error.what());
   }
+}
+
+/// The spectrum that is nested as this parameter, if one is.
+std::optional<UsedSpectrum> nested_spectrum(const Value& value, SpectrumUse use) {
+  const ObjectPtr* object = std::get_if<ObjectPtr>(&value);
+  const Texture* texture = object ? dynamic_cast<const Texture*>(object->get()) : nullptr;
+  return texture ? texture->spectrum(use) : std::nullopt;
 }
 
 }  // namespace
@@ -73,12 +70,47 @@ TexturePtr constant_texture(const SpectralColor& color) {
   return std::make_shared<Constant>(color);
 }
 
+TexturePtr as_light(const TexturePtr& texture) {
+  const TexturePtr own = texture->own_light();
+  return own ? own : std::make_shared<Illuminated>(texture);
+}
+
+RgbMeaning meaning_of(SpectrumUse use) {
+  switch (use) {
+    case SpectrumUse::reflectance: return RgbMeaning::reflectance;
+    case SpectrumUse::unbounded: return RgbMeaning::coefficient;
+    case SpectrumUse::emission: break;
+  }
+  return RgbMeaning::light;
+}
+
+UsedSpectrum spectrum_of_table(const WavelengthTable& table, SpectrumUse use) {
+  const Curve curve = Curve::table(table);
+  if (use != SpectrumUse::unbounded)
+    for (const auto& [wavelength, value] : table)
+      if (value < 0)
+        throw UsageError(
+            fmt::format("its value at {} nm is {}, but must not be negative", wavelength, value));
+  if (table.size() == 1) return {{uniform_spectrum_to_rgb(table[0].second, use), curve}};
+  const SpectrumColor found = spectrum_to_rgb(table, use);
+  return {{found.color, curve}, found.clamped && use != SpectrumUse::unbounded};
+}
+
+bool is_invisible(const WavelengthTable& table) {
+  return table.size() > 1 &&
+         (table.back().first < first_wavelength || table.front().first > last_wavelength);
+}
+
 SpectralColor to_spectral(Params& params, const std::string& name, SpectrumUse use) {
   const Value& value = params.value(name);
   if (const Triple* rgb = std::get_if<Triple>(&value))
     return {Color((*rgb)[0], (*rgb)[1], (*rgb)[2]), meaning_of(use)};
-  if (const WavelengthTable* spectrum = std::get_if<WavelengthTable>(&value))
-    return spectrum_color(params, name, *spectrum, use);
+  std::optional<UsedSpectrum> used = nested_spectrum(value, use);
+  if (const WavelengthTable* table = std::get_if<WavelengthTable>(&value))
+    used = used_spectrum(params, name, *table, use);
+  if (used && used->clamped)
+    params.warn("'" + name + "' is outside of the sRGB gamut and was clamped");
+  if (used) return used->color;
   if (std::holds_alternative<ObjectPtr>(value))
     params.fail(name, "should be a number, an rgb triple or a spectrum");
   return {Color(params.real(name)), meaning_of(use)};
@@ -99,15 +131,6 @@ SpectralColor color_from_0(Params& params, const std::string& name) {
   return color;
 }
 
-/// The nested texture of this name, or nullptr if a colour is given instead.
-TexturePtr nested_texture(Params& params, const std::string& name) {
-  const ObjectPtr* object = std::get_if<ObjectPtr>(&params.value(name));
-  if (!object) return nullptr;
-  TexturePtr texture = std::dynamic_pointer_cast<const Texture>(*object);
-  if (!texture) params.fail(name, "is an object, but not a texture");
-  return is_emission(params, name) ? std::make_shared<Illuminated>(texture) : texture;
-}
-
 }  // namespace
 
 SpectralColor spectral_param(Params& params, const std::string& name) {
@@ -118,13 +141,32 @@ SpectralColor spectral_param(Params& params, const std::string& name) {
   return color;
 }
 
+namespace {
+
+/// The nested texture of this name, or nullptr if a colour is given instead. The values of a
+/// spectrum are checked.
+TexturePtr nested_texture(Params& params, const std::string& name, bool bounded) {
+  const ObjectPtr* object = std::get_if<ObjectPtr>(&params.value(name));
+  if (!object) return nullptr;
+  TexturePtr texture = std::dynamic_pointer_cast<const Texture>(*object);
+  if (!texture) params.fail(name, "is an object, but not a texture");
+  if (texture->spectrum(SpectrumUse::unbounded)) {
+    const SpectralColor color = bounded ? spectral_param(params, name) : color_from_0(params, name);
+    if (is_emission(params, name)) return constant_texture(color);
+    return texture;
+  }
+  return is_emission(params, name) ? as_light(texture) : texture;
+}
+
+}  // namespace
+
 TexturePtr texture_param(Params& params, const std::string& name) {
-  const TexturePtr texture = nested_texture(params, name);
+  const TexturePtr texture = nested_texture(params, name, true);
   return texture ? texture : constant_texture(spectral_param(params, name));
 }
 
 TexturePtr unbounded_texture_param(Params& params, const std::string& name) {
-  const TexturePtr texture = nested_texture(params, name);
+  const TexturePtr texture = nested_texture(params, name, false);
   return texture ? texture : constant_texture(color_from_0(params, name));
 }
 

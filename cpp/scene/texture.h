@@ -8,6 +8,15 @@
 
 namespace mlt {
 
+class Texture;
+using TexturePtr = std::shared_ptr<const Texture>;
+
+/// A spectrum as the colour of a parameter, and whether its RGB was clamped to what is possible.
+struct UsedSpectrum {
+  SpectralColor color;
+  bool clamped = false;
+};
+
 class Texture : public Object {
  public:
   virtual Spectrum eval(const SurfacePoint& at) const = 0;
@@ -21,16 +30,29 @@ class Texture : public Object {
   /// The resolution of an image, in texels.
   virtual Vec2i resolution() const { return Vec2i(1); }
   virtual bool is_constant() const { return false; }
+  /// The colour of one that is a spectrum, such as a black body; it depends on the use. Others,
+  /// which vary over a surface, have none.
+  virtual std::optional<UsedSpectrum> spectrum(SpectrumUse /*use*/) const { return std::nullopt; }
+  /// What it is where it emits light; nullptr if that is itself times D65, as for images.
+  virtual TexturePtr own_light() const { return nullptr; }
   virtual Color mean() const = 0;     ///< Average over the texture, for sampling probabilities.
   virtual Color maximum() const = 0;  ///< Upper bound, for energy conservation.
 };
-
-using TexturePtr = std::shared_ptr<const Texture>;
 
 TexturePtr constant_texture(const SpectralColor& color);
 inline TexturePtr constant_texture(double grey) {
   return constant_texture({Color(grey), RgbMeaning::coefficient});
 }
+
+/// What a texture is where it emits light: spectra as they are, others under D65.
+TexturePtr as_light(const TexturePtr& texture);
+/// What a colour in RGB stands for in this use.
+RgbMeaning meaning_of(SpectrumUse use);
+/// The colour of a table of wavelengths. Throws UsageError if it is no spectrum, or has negative
+/// values where only optical constants may.
+UsedSpectrum spectrum_of_table(const WavelengthTable& table, SpectrumUse use);
+/// Whether a table has no value at a visible wavelength.
+bool is_invisible(const WavelengthTable& table);
 
 /// The texture parameter `name`: a nested Texture, or a constant from a number, rgb or spectrum.
 /// `texture` parameters are bounded to [0, 1] (SceneError otherwise), `emission` ones must be >= 0.

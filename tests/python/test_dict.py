@@ -83,6 +83,78 @@ def test_the_flat_spectrum_of_a_light_is_not_grey_but_the_uniform_one_is():
     assert not np.allclose(pixels(flat), pixels(grey), rtol=0.05)
 
 
+def lit_by(radiance, reflectance=0.25):
+    scene = tiny.scene()
+    scene["lamp"]["emitter"]["radiance"] = radiance
+    scene["clay"]["reflectance"] = reflectance
+    return scene
+
+
+def both_kinds(scene):
+    """The pixels of an RGB and of a spectral scene."""
+    return [pixels(scene, spectral=spectral) for spectral in (False, True)]
+
+
+WAVES, VALUES = [400, 550, 700], [0.2, 0.5, 0.7]
+TABLE = {"type": "spectrum", "value": list(zip(WAVES, VALUES, strict=True))}
+SPECTRA = {
+    "irregular": ({"wavelengths": WAVES, "values": VALUES}, TABLE),
+    "regular": ({"wavelength_min": 400, "wavelength_max": 700, "values": np.array(VALUES)}, TABLE),
+    "srgb": ({"color": [0.7, 0.4, 0.2]}, {"type": "rgb", "value": [0.7, 0.4, 0.2]}),
+    "d65": ({"scale": 0.5}, {"type": "rgb", "value": 0.5}),
+}
+
+
+@pytest.mark.parametrize("name", SPECTRA)
+def test_spectra_are_plugins(name):
+    given, value = SPECTRA[name]
+    plugin = {"type": name} | given
+    for made, same in zip(both_kinds(lit_by(plugin)), both_kinds(lit_by(value)), strict=True):
+        np.testing.assert_allclose(made, same, rtol=1e-12)
+    if name != "d65":
+        assert np.array_equal(pixels(lit_by(3, plugin)), pixels(lit_by(3, value)))
+
+
+@pytest.mark.parametrize("name", [*SPECTRA, "uniform"])
+def test_spectra_are_converted_to_xml(name, tmp_path):
+    given = SPECTRA[name][0] if name in SPECTRA else {"value": 0.5, "wavelength_max": 600}
+    scene = lit_by({"type": name} | given, {"type": "ref", "id": "paint"})
+    scene["paint"] = {"type": "regular", "values": VALUES}
+    mlt.convert(scene, tmp_path / "a.xml")
+    for spectral in (False, True):
+        made = mlt.load(tmp_path / "a.xml", spectral=spectral)
+        np.testing.assert_array_equal(pixels(made), pixels(scene, spectral=spectral))
+
+
+def test_a_black_body_has_the_same_colour_with_and_without_wavelengths():
+    lamp = {"type": "blackbody", "temperature": 3500, "scale": 1e-4}
+    rgb, spectral = (image.mean(axis=(0, 1)) for image in both_kinds(lit_by(lamp)))
+    assert rgb[0] > 2 * rgb[2] > 0
+    assert spectral == pytest.approx(rgb, rel=0.15)
+
+
+def test_spectra_are_referred_to():
+    scene = lit_by(3, {"type": "ref", "id": "paint"})
+    scene["paint"] = {"type": "rgb", "value": [0.7, 0.4, 0.2]}
+    same = pixels(lit_by(3, {"type": "rgb", "value": [0.7, 0.4, 0.2]}))
+    assert np.array_equal(pixels(scene), same)
+
+
+@pytest.mark.parametrize(
+    ("plugin", "message"),
+    [
+        ({"type": "irregular", "wavelengths": WAVES, "values": [1, "x"]}, "'values'"),
+        ({"type": "irregular", "wavelengths": WAVES, "values": [1, 2]}, "has 2 numbers"),
+        ({"type": "regular", "values": []}, "has 0 numbers"),
+        ({"type": "blackbody", "temperature": -1}, "'temperature' is -1 K"),
+        ({"type": "blackbody"}, "needs 'temperature'"),
+    ],
+)
+def test_wrong_spectra_are_named(plugin, message):
+    with pytest.raises(mlt.SceneError, match=r"scene\['lamp'\].*" + message):
+        mlt.load_dict(lit_by(plugin))
+
+
 def test_file_names_are_relative_to_the_current_directory(tmp_path, monkeypatch):
     mlt.write_image(tmp_path / "grey.exr", np.full((2, 2, 3), 0.25))
     monkeypatch.chdir(tmp_path)

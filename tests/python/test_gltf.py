@@ -188,6 +188,63 @@ def test_what_is_in_glass_absorbs_light():
     mlt.render(mlt.load_dict(made.scene, size=SIZE), spp=1)
 
 
+def glass(**more) -> dict:
+    return {
+        "KHR_materials_transmission": {"transmissionFactor": 1},
+        "KHR_materials_ior": {"ior": 1.6},
+        "KHR_materials_dispersion": {"dispersion": 0.5},
+    } | more
+
+
+def test_clear_glass_disperses():
+    file = GltfFile()
+    file.material(extensions=glass(), colour=(1, 0.5, 0.25, 1), roughness=0.0)
+    file.material(extensions=glass(), roughness=0.5)
+    for index in range(2):
+        file.node(mesh=file.mesh(index))
+    made = converted(file)
+    smooth = {
+        "type": "dielectric",
+        "int_ior": "abbe 1.6 40.0",
+        "specular_transmittance": colour(1, 0.5, 0.25),
+    }
+    assert made.scene["material-0"] == smooth
+    rough = {"type": "roughdielectric", "distribution": "ggx", "alpha": 0.25}
+    assert made.scene["material-1"] == smooth | rough | {"specular_transmittance": colour(1, 1, 1)}
+    assert not [text for text in made.warnings if "dispersion" in text]
+    mlt.render(mlt.load_dict(made.scene, size=SIZE), spp=1)
+    mlt.render(mlt.load_dict(made.scene, size=SIZE), spp=1, spectral=True)
+
+
+UNCLEAR = {
+    "half": {"extensions": glass(KHR_materials_transmission={"transmissionFactor": 0.5})},
+    "opaque": {"extensions": {"KHR_materials_dispersion": {"dispersion": 1}}},
+    "metal": {"extensions": glass(), "metallic": 0.5},
+    "coated": {"extensions": glass(KHR_materials_clearcoat={"clearcoatFactor": 1})},
+}
+
+
+@pytest.mark.parametrize("name", UNCLEAR)
+def test_dispersion_of_other_materials_is_left_out(name):
+    file = GltfFile()
+    file.material(**UNCLEAR[name])
+    file.node(mesh=file.mesh(0))
+    made = converted(file)
+    surface = made.scene["material-0"]
+    assert surface.get("bsdf", surface)["type"] == "principled"
+    said = "dispersion is left out of what is not clear, uncoated glass of one colour"
+    assert said in made.warnings
+
+
+def test_without_dispersion_glass_is_principled():
+    file = GltfFile()
+    file.material(extensions=glass(KHR_materials_dispersion={"dispersion": 0}))
+    file.node(mesh=file.mesh(0))
+    made = converted(file)
+    assert made.scene["material-0"]["type"] == "principled"
+    assert not [text for text in made.warnings if "dispersion" in text]
+
+
 @pytest.mark.parametrize("wrong", [{"attenuationColor": [1, 2]}, {"attenuationDistance": "far"}])
 def test_a_wrong_volume_is_named(wrong):
     volume = {"thicknessFactor": 1, "attenuationDistance": 1} | wrong

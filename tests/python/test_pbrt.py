@@ -10,7 +10,7 @@ import pymlt as mlt
 from pymlt import cli
 from pymlt.formats.files import read_foreign
 from pymlt.formats.pbrt.environment import directions, sampled, square_of
-from pymlt.formats.pbrt.spectra import luminous
+from pymlt.formats.pbrt.spectra import DISPERSIVE, blackbody, luminous
 from pymlt.formats.ply import Mesh, write_ply
 
 T = mlt.Transform
@@ -362,7 +362,15 @@ MATERIALS = {
         "alpha": 0.2,
         "int_ior": 1.5,
     },
-    'Material "dielectric" "spectrum eta" "glass-BK7"': {"type": "dielectric", "int_ior": 1.5046},
+    'Material "dielectric" "spectrum eta" "glass-BK7"': {"type": "dielectric", "int_ior": "bk7"},
+    'Material "dielectric" "spectrum eta" "glass-BAF10"': {
+        "type": "dielectric",
+        "int_ior": "sellmeier 1.5851495 .143559385 1.08521269 .00926681282 .0424489805 105.613573",
+    },
+    'Material "dielectric" "spectrum eta" [400 1.52 700 1.5]': {
+        "type": "dielectric",
+        "int_ior": {"type": "spectrum", "value": [(400, 1.52), (700, 1.5)]},
+    },
     'Material "thindielectric"': {"type": "thindielectric", "int_ior": 1.5},
     'Material "coateddiffuse" "rgb reflectance" [.1 .2 .3] "float roughness" .04': both_sides(
         {
@@ -458,6 +466,48 @@ def test_textures_are_scaled_and_checked():
     assert made.scene["sphere_2"]["bsdf"]["type"] == "mask"
     assert "the texture 'wrinkled' has no counterpart; it becomes 0.5" in made.warnings
     mlt.render(mlt.load_dict(made.scene, size=(8, 8)), spp=1)
+
+
+GLASSES = {"BK7": (1.5168, 64.17), "SF11": (1.78472, 25.68)}
+GLASSES |= {"BAF10": (1.67003, 47.11), "FK51A": (1.48656, 84.47)}
+GLASSES |= {"LASF9": (1.85025, 32.17), "SF5": (1.6727, 32.21)}
+
+
+@pytest.mark.parametrize("glass", GLASSES)
+def test_glasses_have_the_index_and_the_abbe_number_of_the_catalogue(glass):
+    kind, *numbers = DISPERSIVE[f"glass-{glass}"].split()
+    if kind != "sellmeier":
+        assert kind == glass.lower()  # one of the names that dielectrics have here
+        return
+    b, c = np.array(numbers, float).reshape(2, 3)
+
+    def at(nanometres):
+        square = (nanometres / 1000) ** 2
+        return np.sqrt(1 + (b * square / (square - c)).sum())
+
+    yellow, blue, red = (at(line) for line in (587.5618, 486.1327, 656.2725))
+    assert yellow == pytest.approx(GLASSES[glass][0], abs=6e-6)
+    assert (yellow - 1) / (blue - red) == pytest.approx(GLASSES[glass][1], abs=6e-3)
+
+
+def test_glass_disperses_in_spectral_renders_alone():
+    glass = 'Material "dielectric" "spectrum eta" "glass-SF11" Shape "sphere" "float radius" .5'
+    plain = 'Material "dielectric" "float eta" 1.7845 Shape "sphere" "float radius" .5'
+    texts = {"a.pbrt": glass, "b.pbrt": plain}
+    paths = [written(VIEW, LAMP, FLOOR, text, name=name) for name, text in texts.items()]
+    assert_same(*(mlt.load(path) for path in paths))
+    scenes = [mlt.load(path, spectral=True) for path in paths]
+    spectral = [mlt.render(scene, "bdpt", spp=4, seed=1) for scene in scenes]
+    assert not np.allclose(*spectral, rtol=1e-3)
+
+
+def test_metals_and_illuminants_have_their_names():
+    brass = read('Material "conductor" "spectrum eta" "metal-CuZn-eta" Shape "sphere"')
+    (material,) = (v for k, v in brass.scene.items() if "material" in k)
+    assert material["bsdf"]["material"] == "Cu"
+    assert "brass (CuZn) is not known; it is taken as copper" in brass.warnings
+    made = read('LightSource "infinite" "spectrum L" "stdillum-A"')
+    assert made.scene["infinite-light"]["radiance"] == blackbody(2856)
 
 
 def test_a_black_body_has_luminance_one():

@@ -11,7 +11,9 @@ Microfacet constant(Params& params, double alpha_u, double alpha_v) {
 }
 
 bool is_texture(Params& params, const std::string& name) {
-  return std::holds_alternative<ObjectPtr>(params.value(name));
+  const ObjectPtr* object = std::get_if<ObjectPtr>(&params.value(name));
+  const auto* texture = object ? dynamic_cast<const Texture*>(object->get()) : nullptr;
+  return texture && !texture->spectrum(SpectrumUse::unbounded);
 }
 
 }  // namespace

@@ -17,6 +17,12 @@ class Checkerboard final : public Texture {
     const Vec2 uv = to_uv_(at.uv);
     return upper_half(uv.x) == upper_half(uv.y) ? color0_->eval(at) : color1_->eval(at);
   }
+  TexturePtr own_light() const override {
+    auto board = std::make_shared<Checkerboard>(*this);
+    board->color0_ = as_light(color0_);
+    board->color1_ = as_light(color1_);
+    return board;
+  }
   Color mean() const override { return 0.5 * (color0_->mean() + color1_->mean()); }
   Color maximum() const override { return glm::max(color0_->maximum(), color1_->maximum()); }
 

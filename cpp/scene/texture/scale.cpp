@@ -20,6 +20,13 @@ class Scale final : public Texture {
     return luminance(scale_.rgb()) * nested_->gradient(at);
   }
   bool is_constant() const override { return nested_->is_constant(); }
+  TexturePtr own_light() const override {
+    const TexturePtr light = nested_->own_light();
+    if (!light) return nullptr;
+    auto scaled = std::make_shared<Scale>(*this);
+    scaled->nested_ = light;
+    return scaled;
+  }
   Color mean() const override { return scale_.rgb() * nested_->mean(); }
   Color maximum() const override { return scale_.rgb() * nested_->maximum(); }
 

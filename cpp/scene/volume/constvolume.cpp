@@ -35,7 +35,8 @@ std::shared_ptr<Volume> make_const(Params& params) {
 
 VolumePtr volume_param(Params& params, const std::string& name) {
   const ObjectPtr* object = std::get_if<ObjectPtr>(&params.value(name));
-  if (!object) return std::make_shared<ConstVolume>(spectral_param(params, name));
+  if (!object || std::dynamic_pointer_cast<Texture>(*object))
+    return std::make_shared<ConstVolume>(spectral_param(params, name));
   VolumePtr volume = std::dynamic_pointer_cast<const Volume>(*object);
   if (!volume) params.fail(name, "is an object, but not a volume");
   return volume;

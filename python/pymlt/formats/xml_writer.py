@@ -9,6 +9,8 @@ from xml.etree import ElementTree as ET
 
 from .. import _core
 
+SPECTRAL_LISTS = ("values", "wavelengths")  #: of the plug-ins regular and irregular
+
 
 def to_xml(scene: dict[str, Any], folder: Path) -> str:
     """The text of a scene file that lies in `folder`; names of files there become relative."""
@@ -40,7 +42,7 @@ def _value(parent: ET.Element, name: str, value: Any, folder: Path) -> None:
         numbers = value["value"]
         text = _numbers(numbers) if isinstance(numbers, list) else repr(numbers)
         ET.SubElement(parent, "rgb", name=name, value=text)
-    elif isinstance(value, dict) and value["type"] in ("spectrum", "uniform"):
+    elif isinstance(value, dict) and value["type"] == "spectrum":
         text = _spectrum(value["value"])
         ET.SubElement(parent, "spectrum", name=name, value=text)
     elif isinstance(value, dict) and value["type"] == "animation":
@@ -50,6 +52,8 @@ def _value(parent: ET.Element, name: str, value: Any, folder: Path) -> None:
                 _transform(animation, transform, time=str(time))
     elif isinstance(value, dict):
         _plugin(parent, name, value, folder, named="name")
+    elif isinstance(value, list) and name in SPECTRAL_LISTS:
+        ET.SubElement(parent, "string", name=name, value=_numbers(value))
     elif isinstance(value, list):
         ET.SubElement(parent, "point", name=name, value=_numbers(value))
     elif isinstance(value, str):

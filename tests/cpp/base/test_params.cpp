@@ -103,8 +103,8 @@ TEST_F(ParamsTest, AWrongTypeNamesBothTypes) {
             here + "'to_world' is a triple, but should be a transform");
   EXPECT_EQ(error_of_set("lamp", WavelengthTable{}),
             here + "'lamp' is a spectrum, but should be a nested object");
-  EXPECT_EQ(error_of_set("albedo", ObjectPtr(std::make_shared<Lamp>())),
-            here + "'albedo' is an object, but should be a reflectance (number, rgb or spectrum)");
+  EXPECT_EQ(error_of_set("albedo", std::string("red")),
+            here + "'albedo' is a string, but should be a reflectance (number, rgb or spectrum)");
   EXPECT_EQ(error_of_set("radius", Value()), here + "'radius' is nothing, but should be a float");
 }
 
@@ -121,7 +121,7 @@ TEST_F(ParamsTest, EachTypeTakesWhatItSays) {
   const std::string kinds = "bifstmSo";  // of the values above
   const std::map<std::string, std::string> accepted{
       {"strict", "b"},      {"max_depth", "i"}, {"radius", "if"},    {"title", "s"},
-      {"origin", "t"},      {"to_world", "m"},  {"albedo", "iftS"},  {"power", "iftS"},
+      {"origin", "t"},      {"to_world", "m"},  {"albedo", "iftSo"}, {"power", "iftSo"},
       {"pattern", "iftSo"}, {"glow", "iftSo"},  {"int_ior", "ifsS"}, {"lamp", "o"}};
   for (const auto& [name, takes] : accepted)
     for (size_t i = 0; i < values.size(); ++i) {

@@ -64,6 +64,53 @@ TEST(Scene, OneNumberIsAnEqualEnergySpectrumOfALightAndAGreySurface) {
   EXPECT_LT(length(difference), 1e-4);
 }
 
+/// The radiance of the sky, and the albedo of the ball.
+std::pair<Color, Color> colors_of(const std::string& radiance, const std::string& reflectance) {
+  const LoadedScene loaded =
+      load(sensor + "<emitter type='constant'>" + radiance + "</emitter>" +
+           "<shape type='sphere'><bsdf type='diffuse'>" + reflectance + "</bsdf></shape>");
+  EXPECT_TRUE(loaded.warnings.empty());
+  const Emitter& sky = *loaded.scene->emitters().at(0);
+  const SurfacePoint far = loaded.scene->point_at_infinity({0, 0, 1});
+  return {sky.eval(far, {0, 0, -1}).rgb(), albedo(loaded, 0)};
+}
+
+TEST(Scene, TakesSpectraAsPlugins) {
+  const auto both = [](const std::string& element) {
+    const auto named = [&](const std::string& name) {
+      return "<spectrum name='" + name + "' " + element;
+    };
+    return colors_of(named("radiance"), named("reflectance"));
+  };
+  EXPECT_EQ(both("type='irregular'><string name='wavelengths' value='400, 550, 700'/>"
+                 "<string name='values' value='0.2, 0.5, 0.7'/></spectrum>"),
+            both("value='400:0.2, 550:0.5, 700:0.7'/>"));
+  EXPECT_EQ(both("type='srgb'><rgb name='color' value='.1 .2 .3'/></spectrum>").second,
+            Color(.1, .2, .3));
+}
+
+TEST(Scene, TakesSpectraByReferenceAndAsTextures) {
+  const std::string red = "<texture type='srgb' id='red'><rgb name='color' value='.7 .1 .1'/>";
+  const LoadedScene loaded = load(sensor + point_light + red +
+                                  "</texture><shape type='sphere'><bsdf type='diffuse'>"
+                                  "<ref id='red' name='reflectance'/></bsdf></shape>");
+  EXPECT_EQ(albedo(loaded, 0), Color(.7, .1, .1));
+}
+
+TEST(Scene, NamesTheLineOfASpectrumThatIsWrong) {
+  const auto error = [](const std::string& spectrum) {
+    return error_of(sensor + "\n<emitter type='point'>\n" + spectrum + "</emitter>");
+  };
+  EXPECT_EQ(error("<spectrum type='blackbody' name='intensity'>\n"
+                  "<float name='temperature' value='-5'/></spectrum>"),
+            "<string>:5: texture 'blackbody': 'temperature' is -5 K, but must be above 0");
+  EXPECT_EQ(error("<spectrum type='blackbdy' name='intensity'/>"),
+            "<string>:4: unknown texture 'blackbdy'; did you mean 'blackbody'?");
+  EXPECT_EQ(error("<texture type='checkerboard' name='intensity'/>"),
+            "<string>:4: emitter 'point': 'intensity' is a texture, but should be a radiance "
+            "(number, rgb or spectrum)");
+}
+
 TEST(Scene, MustBeTheRoot) {
   EXPECT_EQ(message_of([] { load_string("<bsdf type='diffuse'/>", "", plugins(), {}); }),
             "<string>:1: the root is a bsdf, but should be a scene");

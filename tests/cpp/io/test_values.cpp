@@ -130,6 +130,16 @@ TEST_F(SpectrumFile, NamesTheLineThatIsWrong) {
             path("a.spd") + ":2: '500 x' should be a wavelength and a value");
 }
 
+TEST_F(SpectrumFile, MustNotBeEmpty) {
+  write("a.spd", "# nothing\n\n");
+  std::vector<std::string> warnings;
+  EXPECT_EQ(test::message_of([&] {
+              read_xml_string("<bsdf type='diffuse'><spectrum name='a' filename='a.spd'/></bsdf>",
+                              path(""), {}, warnings);
+            }),
+            path("a.spd") + ": the file of a spectrum is empty");
+}
+
 Value from_command_line(const std::string& text, ParamType type) {
   return parse_value(text, {"max_depth", type, {}, ""});
 }

@@ -104,12 +104,9 @@ TEST(Xml, RefusesByNameWhatMitsubaHas) {
   EXPECT_EQ(
       refused("<shape type='cube'><subsurface type='dipole'/></shape>"),
       "<string>:2: subsurface 'dipole' is not supported: subsurface scattering is not supported");
-  EXPECT_EQ(
-      refused("<bsdf type='diffuse'><blackbody name='a' temperature='5000'/></bsdf>"),
-      "<string>:2: <blackbody> is not supported: colour temperatures are not supported; give rgb "
-      "or wavelength:value pairs");
-  EXPECT_NE(refused("<bsdf type='diffuse'><spectrum name='a' type='d65'/></bsdf>").find("'d65'"),
-            std::string::npos);
+  EXPECT_EQ(refused("<bsdf type='diffuse'><blackbody name='a' temperature='5000'/></bsdf>"),
+            "<string>:2: <blackbody> is not supported: write <spectrum type=\"blackbody\"> with a "
+            "temperature");
   EXPECT_NE(refused("<camera type='perspective'/>").find("write <sensor>"), std::string::npos);
 }
 

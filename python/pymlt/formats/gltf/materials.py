@@ -14,6 +14,7 @@ from .textures import Textures
 
 KNOWN = {
     "KHR_materials_clearcoat",
+    "KHR_materials_dispersion",
     "KHR_materials_emissive_strength",
     "KHR_materials_ior",
     "KHR_materials_transmission",
@@ -22,6 +23,7 @@ KNOWN = {
 
 
 DISTANCE = "attenuationDistance"  #: infinite if it is not given
+ABBE_TIMES_DISPERSION = 20  #: KHR_materials_dispersion has 20 / V_d
 DARKEST = 1e-6  #: of attenuation colours, whose logarithm is taken
 
 
@@ -35,6 +37,8 @@ def bsdf(material: Any, textures: Textures, made: Imported, *, of_vertices: bool
     surface = principled(material, extensions, textures)
     surface["base_color"] = base_color(material.pbrMetallicRoughness, textures, of_vertices)
     transmits = "spec_trans" in surface
+    if dispersion := _dispersion(extensions):
+        surface = dispersive(surface, dispersion, made)
     if material.normalTexture is not None:
         if (material.normalTexture.scale or 1) != 1:
             made.warn("the scale of normal textures is left out")
@@ -67,6 +71,28 @@ def principled(material: Any, extensions: dict[str, Any], textures: Textures) ->
         roughness = extensions["KHR_materials_clearcoat"].get("clearcoatRoughnessFactor", 0)
         given["clearcoat_gloss"] = 1 - number(roughness, "clearcoatRoughnessFactor")
     return given
+
+
+def _dispersion(extensions: dict[str, Any]) -> float:
+    """20 over Abbe's number; 0 for what has the same index at all wavelengths."""
+    given = extensions.get("KHR_materials_dispersion", {}).get("dispersion", 0)
+    return max(number(given, "dispersion"), 0.0)
+
+
+def dispersive(surface: dict[str, Any], dispersion: float, made: Imported) -> dict[str, Any]:
+    """Clear glass, as `principled` has one index alone. Other materials stay what they are."""
+    colour = surface["base_color"]
+    clear = surface.get("spec_trans") == 1 and surface["metallic"] == 0
+    plain = isinstance(surface["roughness"], float | int) and "clearcoat" not in surface
+    if not (clear and plain and colour["type"] == "rgb"):
+        made.warn("dispersion is left out of what is not clear, uncoated glass of one colour")
+        return surface
+    index = f"abbe {surface['eta']!r} {ABBE_TIMES_DISPERSION / dispersion!r}"
+    glass = {"type": "dielectric", "int_ior": index, "specular_transmittance": colour}
+    if not surface["roughness"]:
+        return glass
+    alpha = float(surface["roughness"]) ** 2
+    return glass | {"type": "roughdielectric", "distribution": "ggx", "alpha": alpha}
 
 
 def interior(material: Any) -> dict[str, Any] | None:

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from typing import Any
 
 from .params import Params
+from .spectra import DISPERSIVE
 from .textures import Textures
 
 Named = dict[str, dict[str, Any]]
@@ -51,18 +52,26 @@ def conductor(params: Params, textures: Textures, prefix: str = "") -> dict[str,
     params.get(f"{prefix}k")
     name = given.values[0] if given else "metal-Cu-eta"
     if isinstance(name, str):
-        return surface | {"material": name.split("-")[1] if name.startswith("metal-") else name}
+        return surface | {"material": metal(name, params)}
     eta, k = (params.colour(f"{prefix}{part}", 1.0) for part in ("eta", "k"))
     return surface | {"eta": eta, "k": k}
+
+
+def metal(name: str, params: Params) -> str:
+    """The name that a spectrum such as metal-Au-eta has here."""
+    symbol = name.split("-")[1] if name.startswith("metal-") else name
+    if symbol != "CuZn":
+        return symbol
+    params.warn("brass (CuZn) is not known; it is taken as copper")
+    return "Cu"
 
 
 def coated_conductor(params: Params, textures: Textures) -> dict[str, Any]:
     if params.number("interface.roughness", 0):
         params.warn("the roughness of coatings of conductors is left out")
-    metal = conductor(params, textures, "conductor.")
-    given = params.get("interface.eta")
-    eta = given.values[0] if given and isinstance(given.values[0], float) else 1.5
-    return {"type": "coating", "int_ior": eta, "bsdf": metal}
+    inner = conductor(params, textures, "conductor.")
+    eta = index(params, 1.5, "interface.eta")
+    return {"type": "coating", "int_ior": eta, "bsdf": inner}
 
 
 def dielectric(params: Params, textures: Textures) -> dict[str, Any]:
@@ -109,15 +118,19 @@ def rough(
     return surface | {"alpha_u": alphas[0], "alpha_v": alphas[1]}
 
 
-def index(params: Params, default: float) -> float:
-    """Of refraction."""
-    found = params.colour("eta", default)
-    if isinstance(found, dict):
-        params.warn("dispersion is left out: one index of refraction for all wavelengths")
-        values = found["value"]
-        found = values[len(values) // 2]
-        found = found[1] if isinstance(found, tuple) else found
-    return float(found)
+def index(params: Params, default: float, name: str = "eta") -> Any:
+    """Of refraction: a number, the text of a glass, or a table that depends on the wavelength."""
+    given = params.get(name)
+    if given is not None and given.values and given.values[0] in DISPERSIVE:
+        return DISPERSIVE[given.values[0]]
+    found = params.colour(name, default)
+    if not isinstance(found, dict):
+        return float(found)
+    values = found["value"]
+    if found["type"] == "spectrum":
+        return found if len(values) > 1 else values[0][1]
+    params.warn("an index of refraction has no colour: that of green is taken")
+    return float(values[len(values) // 2]) if isinstance(values, list | tuple) else float(values)
 
 
 MATERIALS: dict[str, Callable[[Params, Textures], dict[str, Any]]]

@@ -10,6 +10,18 @@ from .tokens import Parameter, Token
 
 GLASSES = {"glass-BK7": 1.5046, "glass-BAF10": 1.67, "glass-F11": 1.62066, "glass-SF11": 1.7847}
 GLASSES |= {"glass-FK51A": 1.48656, "glass-LASF9": 1.8502, "glass-SF5": 1.67270}
+#: B1 to B3, and C1 to C3 in um^2, as Schott's catalogue has them (SF5: the glass with lead; the
+#: others are now made without, as N-BAF10 and so on).
+SELLMEIER = {
+    "glass-BAF10": "1.5851495 .143559385 1.08521269 .00926681282 .0424489805 105.613573",
+    "glass-FK51A": ".971247817 .216901417 .904651666 .00472301995 .0153575612 168.68133",
+    "glass-LASF9": "2.00029547 .298926886 1.80691843 .0121426017 .0538736236 156.530829",
+    "glass-SF5": "1.46141885 .247713019 .949995832 .0111826126 .0508594669 112.041888",
+}
+#: Indices of refraction that depend on the wavelength, as scene dicts have them.
+DISPERSIVE = {name: f"sellmeier {terms}" for name, terms in SELLMEIER.items()}
+DISPERSIVE |= {"glass-BK7": "bk7", "glass-SF11": "sf11"}
+TUNGSTEN = 2856  #: kelvin, of CIE standard illuminant A
 WAVELENGTHS = range(360, 831, 5)  #: nm
 
 
@@ -25,6 +37,8 @@ def colour(given: Parameter, where: Token, made: Imported) -> Any:
         pairs = list(zip(given.values[::2], given.values[1::2], strict=True))
         return {"type": "spectrum", "value": pairs}
     name = given.values[0]
+    if name == "stdillum-A":
+        return blackbody(TUNGSTEN)
     if name.startswith("stdillum"):
         return 1.0
     if name in GLASSES:
