@@ -108,3 +108,18 @@ def candle(filter: str = "gaussian") -> dict:
 def smoke(filter: str = "gaussian") -> dict:
     """A plume of smoke, a grid, before a dark wall and beside a low lamp."""
     return _load("smoke", filter=filter)
+
+
+def prism(filter: str = "gaussian") -> dict:
+    """A sheet of white light through a prism of flint glass, and its spectrum on a screen."""
+    return _load("prism", filter=filter)
+
+
+def diamond(filter: str = "gaussian") -> dict:
+    """A diamond of brilliant cut among narrow lamps: its fire, and coloured light about it."""
+    return _load("diamond", filter=filter)
+
+
+def rainbow(filter: str = "gaussian") -> dict:
+    """A sphere of water in parallel light, which throws both rainbows back on a screen."""
+    return _load("rainbow", filter=filter)
