@@ -16,8 +16,8 @@ double inverse_distribution(double u) {
 
 /// d nm / d u, one over the density.
 double nm_per_u(double nm) {
-  const double total = std::tanh(0.0072 * (last_wavelength - 538)) -
-                       std::tanh(0.0072 * (first_wavelength - 538));
+  const double total =
+      std::tanh(0.0072 * (last_wavelength - 538)) - std::tanh(0.0072 * (first_wavelength - 538));
   return total * sqr(std::cosh(0.0072 * (nm - 538))) / 0.0072;
 }
 

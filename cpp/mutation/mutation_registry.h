@@ -18,7 +18,7 @@ struct MutationPlugin {
   std::string switch_name;  ///< The parameter of mlt that turns it on: Mitsuba's, where it has one.
   double weight;            ///< Its weight by default.
   MutationPtr (*make)(const PathTarget& target, Params& own);
-  bool on = true;           ///< Whether it is on by default.
+  bool on = true;  ///< Whether it is on by default.
   /// Whether it can move anything in a scene; nullptr: in all.
   bool (*serves)(const Scene& scene) = nullptr;
 

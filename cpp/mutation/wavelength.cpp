@@ -32,9 +32,8 @@ class WavelengthMutation final : public MeasuredMutation<WavelengthMutation> {
   double suitability(const PathState& x) const override {
     if (!scene().camera().spectral()) return 0;
     bool suits = true;
-    for_each_chain(x, [&](const ManifoldChain& chain) {
-      suits = suits && chain.can_be_walked(scene(), x);
-    });
+    for_each_chain(
+        x, [&](const ManifoldChain& chain) { suits = suits && chain.can_be_walked(scene(), x); });
     return suits ? 1 : 0;
   }
 
@@ -52,7 +51,7 @@ class WavelengthMutation final : public MeasuredMutation<WavelengthMutation> {
     if (!found) return std::nullopt;
     target().evaluate(0, k, y);
     if (!(y.target > 0)) return all;
-    if (!same_form(x, y, 1, k - 1)) return std::nullopt;
+    if (!same_form(x, y, 1, k - 1) || !is_measurable(x) || !is_measurable(y)) return std::nullopt;
     for_each_chain(x, [&](const ManifoldChain& chain) {
       found = found && chain.leads_back(scene(), x, y, context);
     });
@@ -70,6 +69,12 @@ class WavelengthMutation final : public MeasuredMutation<WavelengthMutation> {
   }
 
  private:
+  /// Whether |f| is a number: in long paths of scenes in tiny or huge units it is not.
+  static bool is_measurable(const PathState& x) {
+    const double f = magnitude(x.terms, 0, x.edges());
+    return f > 1e-300 && f < 1e300;
+  }
+
   double moved(double u, Rng& rng) const {
     if (rng.next() < 0.5) return rng.next();
     const double step = step_.sample(rng.next());

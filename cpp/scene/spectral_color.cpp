@@ -5,11 +5,11 @@
 namespace mlt {
 namespace {
 
-/// The scale of a reflectance: light has one of 1/2 at the most, which leaves room for a smooth
-/// spectrum, as in Mitsuba 3.
+/// The factor of the reflectance that stands for a colour. What has a unit is twice as large as its
+/// largest component, in any unit, which leaves room for a smooth spectrum, as in Mitsuba 3.
 double scale_of(const Color& rgb, RgbMeaning meaning) {
   const double most = max_component(rgb);
-  return meaning == RgbMeaning::light ? 2 * most : std::max(1.0, most);
+  return meaning == RgbMeaning::reflectance ? std::max(1.0, most) : 2 * most;
 }
 
 }  // namespace

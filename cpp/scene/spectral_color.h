@@ -11,8 +11,8 @@
 namespace mlt {
 
 /// What an RGB colour stands for where there are wavelengths: a smooth reflectance that looks like
-/// it under D65 (Jakob & Hanika 2019); the same for numbers that may exceed 1, such as extinction
-/// coefficients; or light of that colour, D65 times a smooth reflectance.
+/// it under D65 (Jakob & Hanika 2019); the same for what has a unit, such as an extinction
+/// coefficient; or light of that colour, D65 times a smooth reflectance.
 enum class RgbMeaning { reflectance, coefficient, light };
 
 /// A smooth spectrum: a reflectance times a scale, and D65 if it is light.

@@ -164,7 +164,7 @@ def test_all_algorithms_show_the_same(scene, integrator):
 # environment, which are half a percent redder in spectral mode than in RGB. Images of projectors
 # and spots have the white of equal energy there, and that of D65 here.
 SYSTEMATIC = dict.fromkeys(("test_roughplastic_linear_path", "test_roughplastic_nonlinear_path"))
-SYSTEMATIC = {file: COATING for file in SYSTEMATIC} | {"test_envmap_path": 0.01}
+SYSTEMATIC = dict.fromkeys(SYSTEMATIC, COATING) | {"test_envmap_path": 0.01}
 OTHER_WHITE = {"test_projector_textured_direct", "test_spot_direct"}
 NONE = {"test_instancing_path", "test_texture_interp_direct"}
 

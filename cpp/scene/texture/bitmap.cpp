@@ -64,7 +64,7 @@ class Bitmap final : public Texture {
   }
 
   Spectrum eval(const SurfacePoint& at) const override {
-    return spectrum_of(color(at), RgbMeaning::coefficient, at.wavelength);
+    return spectrum_of(color(at), RgbMeaning::reflectance, at.wavelength);
   }
   double eval_scalar(const SurfacePoint& at) const override {
     const Color c = color(at);

@@ -46,7 +46,7 @@ class MeshAttributeTexture final : public Texture, public ShapeReader {
       value = (1 - b.x - b.y) * element(*attribute, corners[0]) +
               b.x * element(*attribute, corners[1]) + b.y * element(*attribute, corners[2]);
     }
-    return spectrum_of(scale_ * glm::max(value, Color(0)), RgbMeaning::coefficient, at.wavelength);
+    return spectrum_of(scale_ * glm::max(value, Color(0)), RgbMeaning::reflectance, at.wavelength);
   }
 
   // The meshes are not known yet when materials are made: attributes are assumed to lie in [0, 1].

@@ -61,13 +61,15 @@ TEST_P(LightPaths, AreTheSameBitsWhenAnEditIsComputedAndWhenAllIs) {
   for_each_proposal(target, all, 2, 2000, compare);
   std::set<std::string> of_few_paths = {"multi_chain", "multiplexed", "manifold"};
   if (!media_scene_names().count(GetParam())) of_few_paths.insert("propagation");
+  if (!spectral_scene_names().count(GetParam())) of_few_paths.insert("wavelength");
   for (size_t i = 0; i < all.size(); ++i)
     EXPECT_GT(compared[i], of_few_paths.count(all[i]->name()) ? -1 : 50) << all[i]->name();
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, LightPaths,
                          testing::Values("mirrors", "near_specular", "mixed_lights", "thin_lens",
-                                         "light_under_water", "smooth_normals", "windows", "fog"),
+                                         "light_under_water", "smooth_normals", "windows", "fog",
+                                         "prism"),
                          [](const auto& info) { return info.param; });
 
 TEST(LightPaths, KeepTheChoiceOfTheMutationsThatSuitThem) {

@@ -102,7 +102,8 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Quotients, testing::ValuesIn(mutation_scene_nam
 
 // ---- where q and L* are no numbers
 
-/// A closed box, `unit` long, in which light goes on and on, with fog in its middle.
+/// A closed box, `unit` long, in which light of all wavelengths goes on and on, with fog in its
+/// middle.
 ScenePtr closed_box(double unit) {
   std::ostringstream text;
   text.precision(17);
@@ -120,8 +121,9 @@ ScenePtr closed_box(double unit) {
   const auto wall = [&](const std::string& steps, const std::string& bsdf) {
     return rectangle(steps + in_units, bsdf);
   };
+  const std::string spectral = "<rfilter type='box'/><boolean name='spectral' value='true'/>";
   return load_scene(
-      camera(text.str(), "0, 0, 0", 60, film(16, 12)) + cube(scale(0.7) + in_units, fog) +
+      camera(text.str(), "0, 0, 0", 60, film(16, 12, spectral)) + cube(scale(0.7) + in_units, fog) +
       wall(rotate("x", -90) + translate(0, -1, 0), pale) +
       wall(rotate("x", 90) + translate(0, 1, 0), pale) + wall(translate(0, 0, -1), pale) +
       wall(rotate("y", 180) + translate(0, 0, 1), pale) +
@@ -167,6 +169,7 @@ TEST(QuotientsOfLongPaths, AreRightInScenesOfAnySize) {
         const double full = target_luminance(contribution(state->terms));
         ASSERT_TRUE(full == 0 || full == infinity || std::isnan(full)) << full;
       }
+      if (all[i]->name() == "wavelength") return;  // which proposes nothing then
       const Transition own = all[i]->quotients(x, y, edit);
       const Transition large = large_all[i]->quotients(large_x, large_y, edit);
       if (own.forward == 0) {  // y has another form
@@ -179,7 +182,8 @@ TEST(QuotientsOfLongPaths, AreRightInScenesOfAnySize) {
     };
     for_each_proposal(target, all, 5, 20, compare);
     for (size_t i = 0; i < all.size(); ++i)
-      EXPECT_GT(compared[i], 20) << all[i]->name() << " in units of " << unit;
+      if (all[i]->name() != "wavelength")
+        EXPECT_GT(compared[i], 20) << all[i]->name() << " in units of " << unit;
   }
 }
 

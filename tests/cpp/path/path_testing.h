@@ -82,10 +82,9 @@ struct NaivePassage {
     const double weights[] = {1. / 3, 1. / 6, 1. / 3, 1. / 6};  // of the lanes; of RGB 1/3
     for (int j = 0; j < Spectrum::lanes; ++j) {
       before += weights[j] * flown[j];
-      flown[j] *= std::exp(-depth[j]) *
-                  (x.at.in_medium()
-                       ? scene.medium(x.at).at(x.at.p, x.at.wavelength).extinction[j]
-                       : 1);
+      flown[j] *=
+          std::exp(-depth[j]) *
+          (x.at.in_medium() ? scene.medium(x.at).at(x.at.p, x.at.wavelength).extinction[j] : 1);
       after += weights[j] * flown[j];
     }
     return probability * after / before * (x.at.in_medium() ? 1 : naive_stop(scene, x, from));

@@ -11,8 +11,8 @@ namespace {
 /// The u of a wavelength: the inverse of wavelength_of.
 double u_of_nm(double nm) {
   double low = 0, high = 1;
-  for (int i = 0; i < 60; ++i) (wavelength_of(0.5 * (low + high)) < nm ? low : high) =
-      0.5 * (low + high);
+  for (int i = 0; i < 60; ++i)
+    (wavelength_of(0.5 * (low + high)) < nm ? low : high) = 0.5 * (low + high);
   return low;
 }
 
@@ -27,8 +27,8 @@ Vec3 follow(const Scene& scene, const Vec3& o, const Vec3& d, double nm,
     SurfacePoint at;
     EXPECT_TRUE(walker.arrive(ray, 0, at));
     // the first number chooses the lobe: reflection comes first
-    const auto sample = BsdfAt(scene, at).sample(-ray.d, {lobe == Lobe::reflection ? 0 : 0.999999,
-                                                          0.5, 0.5});
+    const auto sample =
+        BsdfAt(scene, at).sample(-ray.d, {lobe == Lobe::reflection ? 0 : 0.999999, 0.5, 0.5});
     if (!sample || sample->lobe != lobe) return Vec3(0);
     ray = walker.leave(at, sample->w);
   }
@@ -36,13 +36,14 @@ Vec3 follow(const Scene& scene, const Vec3& o, const Vec3& d, double nm,
 }
 
 ScenePtr scene_of(const std::string& shape, const std::string& ior) {
-  return load_string("<scene version='3.0.0'><sensor type='perspective'>"
-                     "<transform name='to_world'><lookat origin='0, 0, 9' target='0, 0, 0' "
-                     "up='0, 1, 0'/></transform><film type='hdrfilm'><boolean name='spectral' "
-                     "value='true'/></film></sensor><emitter type='constant'/>" +
-                         shape + "<bsdf type='dielectric'><string name='int_ior' value='" + ior +
-                         "'/><float name='ext_ior' value='1'/></bsdf></shape></scene>",
-                     "", plugins(), {})
+  return load_string(
+             "<scene version='3.0.0'><sensor type='perspective'>"
+             "<transform name='to_world'><lookat origin='0, 0, 9' target='0, 0, 0' "
+             "up='0, 1, 0'/></transform><film type='hdrfilm'><boolean name='spectral' "
+             "value='true'/></film></sensor><emitter type='constant'/>" +
+                 shape + "<bsdf type='dielectric'><string name='int_ior' value='" + ior +
+                 "'/><float name='ext_ior' value='1'/></bsdf></shape></scene>",
+             "", plugins(), {})
       .scene;
 }
 
