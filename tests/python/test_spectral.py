@@ -119,7 +119,8 @@ def test_a_replayed_sample_is_the_sum_of_its_paths():
 def test_layers_are_those_in_rgb():
     scene = mlt.load_dict(room())
     spectral = scene.with_wavelengths()
-    assert spectral.info()["spectral"] and not scene.info()["spectral"]
+    assert spectral.info()["spectral"]
+    assert not scene.info()["spectral"]
     layers = [
         mlt.start(s, mlt.Path(max_depth=2), spp=2, aovs=["albedo"]).result().layers["albedo"]
         for s in (scene, spectral)
