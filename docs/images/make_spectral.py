@@ -7,7 +7,7 @@ from PIL import Image, ImageDraw
 
 import pymlt as mlt
 
-SIZE, SECONDS = (400, 300), 30
+SIZE, SECONDS = (400, 300), 20
 
 
 def main() -> None:
