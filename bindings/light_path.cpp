@@ -61,6 +61,7 @@ PyLightPath with_vertices(const PyLightPath& x, std::vector<Vertex> vertices) {
         "the lens");
   Path y{std::move(vertices)};
   y.set_time(x.path.time);
+  y.set_wavelength(x.path.wavelength);
   const Vec2 raster = raster_position(*x.scene->scene, y).value_or(Vec2(std::nan("")));
   return {x.scene, std::move(y), raster, x.strict_normals, {}, {}, {}};
 }
@@ -170,7 +171,7 @@ void bind_path_class(py::module_& m) {
           },
           py::keep_alive<0, 1>())
       .def("with_vertices", &with_vertices, py::arg("vertices"),
-           "Another path of the same scene and time, through these vertices.")
+           "Another path of the same scene, time and wavelengths, through these vertices.")
       .def_property_readonly("scene", [](const PyLightPath& p) { return p.scene; })
       .def_property_readonly(
           "G", column(&TermsAt::G, 0),
@@ -198,7 +199,10 @@ void bind_path_class(py::module_& m) {
       .def_readonly("acceptance", &PyLightPath::acceptance,
                     "Of a proposal: the probability of accepting it; else None.")
       .def(
-          "contribution", [](const PyLightPath& p) { return to_array(contribution(terms(p))); },
+          "contribution",
+          [](const PyLightPath& p) {
+            return to_array(shown(*p.scene->scene, contribution(terms(p))));
+          },
           "f(x), RGB (Veach 1997, eq. 8.7), without visibility.")
       .def("densities", &densities, py::arg("sample_direct") = true,
            "p_{s,t}(x) in the product-area measure, for s = 0 ... k + 1.")
@@ -226,12 +230,13 @@ int64_t shape_of(const Vertex& x) {
 
 PyLightPath light_path(LoadedPtr scene, FoundPath found, bool strict_normals) {
   const std::pair technique(found.s, found.t);
+  const Color estimate = shown(*scene->scene, found.estimate);
   return {std::move(scene),
           std::move(found.path),
           found.raster,
           strict_normals,
           technique,
-          found.estimate,
+          estimate,
           {}};
 }
 

@@ -94,22 +94,16 @@ struct Place {
   }
 };
 
-/// Mitsuba's quadrature: 1000 points that include both ends, each worth 470 nm / 1000.
 Vec3 spectrum_to_xyz(const WavelengthTable& samples, bool under_d65) {
-  constexpr int points = 1000;
-  constexpr double range = last_wavelength - first_wavelength;
-  Vec3 xyz(0.0);
   size_t i = 0;
-  for (int p = 0; p < points; ++p) {
-    const double w = first_wavelength + p * (range / (points - 1));
-    if (w < samples.front().first || w > samples.back().first) continue;
+  return xyz_of([&](double w) {
+    if (w < samples.front().first || w > samples.back().first) return 0.0;
     while (i + 2 < samples.size() && samples[i + 1].first <= w) ++i;
     const auto [wa, a] = samples[i];
     const auto [wb, b] = samples[i + 1];
     const double f = (w - wa) / (wb - wa);
-    xyz += matching_functions(w) * ((a + f * (b - a)) * (under_d65 ? d65(w) : 1));
-  }
-  return xyz * (range / points);
+    return (a + f * (b - a)) * (under_d65 ? d65(w) : 1);
+  });
 }
 
 }  // namespace

@@ -15,6 +15,19 @@ inline constexpr double first_wavelength = 360, last_wavelength = 830;
 Vec3 matching_functions(double wavelength);
 /// CIE standard illuminant D65, likewise, so that its luminance is 1.
 double d65(double wavelength);
+/// X, Y and Z of f(nm), by Mitsuba's quadrature: 1000 points that include both ends, each worth
+/// 470 nm / 1000.
+template <class F>
+Vec3 xyz_of(F&& f) {
+  constexpr int points = 1000;
+  constexpr double range = last_wavelength - first_wavelength;
+  Vec3 xyz(0.0);
+  for (int p = 0; p < points; ++p) {
+    const double w = first_wavelength + p * (range / (points - 1));
+    xyz += matching_functions(w) * f(w);
+  }
+  return xyz * (range / points);
+}
 /// XYZ to linear sRGB, with the digits that Mitsuba uses.
 Color xyz_to_srgb(const Vec3& xyz);
 

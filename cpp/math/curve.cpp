@@ -127,14 +127,7 @@ double Curve::maximum() const {
 }
 
 Color curve_to_rgb(const Curve& curve) {
-  constexpr int points = 1000;
-  constexpr double range = last_wavelength - first_wavelength;
-  Vec3 xyz(0.0);
-  for (int p = 0; p < points; ++p) {
-    const double w = first_wavelength + p * (range / (points - 1));
-    xyz += matching_functions(w) * curve.at(w);
-  }
-  return xyz_to_srgb(xyz * (range / points));
+  return xyz_to_srgb(xyz_of([&](double w) { return curve.at(w); }));
 }
 
 }  // namespace mlt

@@ -32,16 +32,6 @@ Vec3 white_of(const wavelengths::Tables& tables) {
   return sum / (1.0 * points * wavelengths::cells);
 }
 
-const Vec3& white() {
-  static const Vec3 xyz = [] {
-    Vec3 sum(0);
-    for (double nm = first_wavelength; nm <= last_wavelength; ++nm)
-      sum += matching_functions(nm) * d65(nm);
-    return sum;
-  }();
-  return xyz;
-}
-
 }  // namespace
 
 namespace wavelengths {
@@ -68,6 +58,9 @@ Color recorded_spectrum(const Spectrum& light, double u, bool dispersed) {
   return sum;
 }
 
-Color developed(const Color& recorded) { return xyz_to_srgb(recorded * white()); }
+Color developed(const Color& recorded) {
+  static const Vec3 white = xyz_of(d65);
+  return xyz_to_srgb(recorded * white);
+}
 
 }  // namespace mlt

@@ -13,8 +13,8 @@ struct FoundPath {
   Path path;
   int s = 0, t = 0;  ///< The technique that found it.
   Vec2 raster{0};
-  /// f w / p, as radiance at `raster`; the estimates with t >= 2 of one sample add up to the
-  /// sample.
+  /// f w / p, as radiance at `raster` that a film records (see shown()); the estimates with t >= 2
+  /// of one sample add up to the sample.
   Color estimate{0};
 };
 

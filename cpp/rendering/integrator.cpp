@@ -5,7 +5,8 @@
 namespace mlt {
 
 Image Rendering::shown(Image image) const {
-  for (size_t i = 0; scene().camera().spectral() && i < image.data.size(); i += 3) {
+  if (!scene().camera().spectral()) return image;
+  for (size_t i = 0; i < image.data.size(); i += 3) {
     float* const pixel = &image.data[i];
     const Color rgb = developed({pixel[0], pixel[1], pixel[2]});
     for (int c = 0; c < 3; ++c) pixel[c] = static_cast<float>(rgb[c]);

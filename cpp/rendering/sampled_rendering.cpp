@@ -62,7 +62,6 @@ Replay SampledRendering::replay(const Vec2i& pixel, uint64_t sample) {
   replay.raster = Vec2(pixel) + numbers.next2();
   make_taker_(scene())->sample(replay.raster, numbers, sink, rays);
   replay.radiance = mlt::shown(scene(), replay.radiance);
-  for (FoundPath& path : replay.paths) path.estimate = mlt::shown(scene(), path.estimate);
   return replay;
 }
 

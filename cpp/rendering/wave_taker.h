@@ -1,6 +1,5 @@
 // Samples of path tracing, traced side by side; alone where they meet a surface that light passes,
-// and in scenes with media
-// or wavelengths.
+// and in scenes with media or wavelengths.
 #pragma once
 
 #include "path/inspect.h"

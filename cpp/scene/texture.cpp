@@ -11,7 +11,6 @@ class Constant final : public Texture {
  public:
   explicit Constant(const SpectralColor& color) : color_(color) {}
   Spectrum eval(const SurfacePoint& at) const override { return color_.at(at.wavelength); }
-  double eval_scalar(const SurfacePoint&) const override { return mlt::mean(color_.rgb()); }
   bool is_constant() const override { return true; }
   Color mean() const override { return color_.rgb(); }
   Color maximum() const override { return color_.rgb(); }
@@ -61,9 +60,11 @@ std::optional<UsedSpectrum> nested_spectrum(const Value& value, SpectrumUse use)
 
 }  // namespace
 
-double Texture::eval_scalar(const SurfacePoint& at) const {
-  const Color c = eval(at).rgb();
-  return mlt::mean(c);
+Color Texture::eval_rgb(const SurfacePoint& at) const {
+  if (at.wavelength < 0) return eval(at).rgb();
+  SurfacePoint in_rgb = at;
+  in_rgb.wavelength = rgb_lanes;
+  return eval(in_rgb).rgb();
 }
 
 TexturePtr constant_texture(const SpectralColor& color) {

@@ -22,8 +22,10 @@ class Texture : public Object {
   virtual Spectrum eval(const SurfacePoint& at) const = 0;
   /// Prefetches the memory that eval() is about to read there.
   virtual void prefetch(const SurfacePoint& /*at*/) const {}
-  /// The mean of the channels, for textures of a scalar such as roughness.
-  virtual double eval_scalar(const SurfacePoint& at) const;
+  /// The value in RGB, whatever the wavelength of the path.
+  Color eval_rgb(const SurfacePoint& at) const;
+  /// The mean of R, G and B, for textures of a scalar such as roughness.
+  double eval_scalar(const SurfacePoint& at) const { return mlt::mean(eval_rgb(at)); }
   /// The derivatives of the luminance by u and v, for bump maps; 0 if it is piecewise constant.
   virtual Vec2 gradient(const SurfacePoint& /*at*/) const { return Vec2(0); }
 

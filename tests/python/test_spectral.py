@@ -116,6 +116,19 @@ def test_a_replayed_sample_is_the_sum_of_its_paths():
     assert found > 5
 
 
+def test_paths_keep_their_wavelength_in_python():
+    scene = mlt.load_dict(dispersive())
+    spectral = scene.with_wavelengths()
+    for seed in range(5):
+        path = spectral.sample_path(seed=seed, max_depth=6)
+        value = path.contribution()
+        np.testing.assert_array_equal(path.with_vertices(path[:]).contribution(), value)
+        # what it brought to the image has the colour of its contribution
+        np.testing.assert_allclose(
+            path.estimate / np.abs(path.estimate).max(), value / np.abs(value).max(), atol=1e-9
+        )
+
+
 def test_layers_are_those_in_rgb():
     scene = mlt.load_dict(room())
     spectral = scene.with_wavelengths()

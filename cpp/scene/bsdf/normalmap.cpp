@@ -16,9 +16,7 @@ class NormalMap final : public BentNormal {
 
  private:
   Vec3 normal(const SurfacePoint& at) const override {
-    SurfacePoint rgb = at;
-    rgb.wavelength = rgb_lanes;
-    const Vec3 n = 2.0 * map_->eval(rgb).rgb() - Vec3(1);
+    const Vec3 n = 2.0 * map_->eval_rgb(at) - Vec3(1);
     const double l2 = length_squared(n);
     return l2 > 1e-12 ? n / std::sqrt(l2) : Vec3(0, 0, 1);
   }

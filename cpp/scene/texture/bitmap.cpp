@@ -66,10 +66,6 @@ class Bitmap final : public Texture {
   Spectrum eval(const SurfacePoint& at) const override {
     return spectrum_of(color(at), RgbMeaning::reflectance, at.wavelength);
   }
-  double eval_scalar(const SurfacePoint& at) const override {
-    const Color c = color(at);
-    return mlt::mean(c);
-  }
 
   Vec2 gradient(const SurfacePoint& at) const override {
     const Vec2 p = position(at);

@@ -17,7 +17,6 @@ class SpectrumTexture final : public Texture {
       : of_use_(std::move(of_use)), reflected_(of_use_(SpectrumUse::reflectance).color) {}
 
   Spectrum eval(const SurfacePoint& at) const override { return reflected_.at(at.wavelength); }
-  double eval_scalar(const SurfacePoint&) const override { return mlt::mean(reflected_.rgb()); }
   bool is_constant() const override { return true; }
   Color mean() const override { return reflected_.rgb(); }
   Color maximum() const override { return reflected_.rgb(); }

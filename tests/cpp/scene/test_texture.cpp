@@ -351,6 +351,20 @@ TEST(MatrixParameter, IsReadRowByRowAndMayBeMissing) {
   EXPECT_EQ(transform_point(matrix_param(params, "place"), Vec3(1, 1, 1)), Vec3(6, 7, 1));
 }
 
+/// A roughness does not depend on the wavelength, whatever colour a scene gives for it.
+TEST(Texture, ScalarsAreTheSameAtAllWavelengths) {
+  const auto board = make<Texture>(texture_checkerboard(), {{"color0", Triple{0.1, 0.5, 0.9}}});
+  const auto image = make<Texture>(
+      texture_bitmap(), {{"filename", test::temporary_image("twelve.exr", twelve_texels())}});
+  for (const TexturePtr& texture : {TexturePtr(board), TexturePtr(image)}) {
+    SurfacePoint at;
+    at.uv = {0.2, 0.3};
+    const double in_rgb = texture->eval_scalar(at);
+    at.wavelength = 0.7;
+    EXPECT_EQ(texture->eval_scalar(at), in_rgb);
+  }
+}
+
 TEST(Texture, ScalarIsTheMeanOfTheChannels) {
   EXPECT_DOUBLE_EQ(constant_texture({Color(1, 2, 6), RgbMeaning::coefficient})->eval_scalar({}), 3);
 }
