@@ -170,9 +170,8 @@ class WalkPssmlt : public Pssmlt<PathEstimator, WalkStep> {
   std::unique_ptr<SampleTaker> sample_taker(const FamilyWeights& weights) const override {
     return std::make_unique<WalkTaker>(scene(), settings().path, this->weights(), weights);
   }
-  int chains_together() const override { return scene().camera().spectral() ? 1 : 8; }
+  int chains_together() const override { return 8; }
   void advance(const std::vector<ChainVisit>& visits, uint64_t steps) const override {
-    if (scene().camera().spectral()) return Pssmlt::advance(visits, steps);
     using Kernel = PssmltKernel<WalkStep>;
     WalkWave wave(scene(), settings().path, settings().small_step);
     std::vector<RecordedChain<Kernel>*> chains;

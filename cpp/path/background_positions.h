@@ -12,16 +12,15 @@ class BackgroundPositions {
  public:
   /// Queues the sampling of a position by (u.y, u.z) on the light that u.x chooses, if that light
   /// is at infinity; else returns false. sample_all() writes the result to `light`, which must not
-  /// move until then.
-  bool add(const Scene& scene, Vec3 u, LightSample& light) {
+  /// move until then. `wavelength` is that of its path.
+  bool add(const Scene& scene, Vec3 u, double wavelength, LightSample& light) {
     const EmitterChoice choice = scene.choose_emitter(u.x);
     if (!choice.emitter->infinite()) return false;
     light.emitter = choice.emitter;
-    waiting_.push_back({choice, {{u.y, u.z}, &light.x0}});
+    waiting_.push_back({choice, {{u.y, u.z}, &light.x0}, wavelength});
     return true;
   }
-  /// `wavelength` is that of all of them.
-  void sample_all(const Scene& scene, double wavelength = rgb_lanes) {
+  void sample_all(const Scene& scene) {
     for (const uint32_t index : scene.infinite_emitters()) {
       requests_.clear();
       for (const Waiting& waiting : waiting_)
@@ -31,7 +30,7 @@ class BackgroundPositions {
     }
     for (const Waiting& waiting : waiting_) {
       waiting.request.sample->pdf *= waiting.choice.probability;
-      waiting.request.sample->at.wavelength = wavelength;
+      waiting.request.sample->at.wavelength = waiting.wavelength;
     }
     waiting_.clear();
   }
@@ -40,6 +39,7 @@ class BackgroundPositions {
   struct Waiting {
     EmitterChoice choice;
     PositionRequest request;
+    double wavelength;
   };
   std::vector<Waiting> waiting_;
   std::vector<PositionRequest> requests_;

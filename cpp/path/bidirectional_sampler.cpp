@@ -242,9 +242,9 @@ void BidirectionalSampler::sample_backgrounds() {
   direct_backgrounds_.resize(camera_.size());
   for (size_t i = 0; i < camera_.size(); ++i) {
     LightSample& light = direct_backgrounds_[i];
-    if (!backgrounds_.add(*scene_, direct_u_[i], light)) light.emitter = nullptr;
+    if (!backgrounds_.add(*scene_, direct_u_[i], wavelength_, light)) light.emitter = nullptr;
   }
-  backgrounds_.sample_all(*scene_, wavelength_);
+  backgrounds_.sample_all(*scene_);
 }
 
 /// Samples x_0 for camera vertex t - 1 (next-event estimation).

@@ -1,5 +1,5 @@
 // Samples of path tracing, traced side by side; alone where they meet a surface that light passes,
-// and in scenes with media or wavelengths.
+// and in scenes with media.
 #pragma once
 
 #include "path/inspect.h"
@@ -15,8 +15,7 @@ class WaveTaker : public SampleTaker {
 
   void sample_cells(const PixelRect& cells, const CellStreams& streams, SampleSink& sink,
                     RayCounts& rays) override {
-    if (scene_->has_media() || scene_->camera().spectral())
-      return SampleTaker::sample_cells(cells, streams, sink, rays);
+    if (scene_->has_media()) return SampleTaker::sample_cells(cells, streams, sink, rays);
     for_each_packet_cell(cells, [&](const Vec2i& cell) {
       wave_.numbers().add(streams.stream(cell.x, cell.y), streams.index);
       rasters_.emplace_back(cell);
@@ -59,16 +58,20 @@ class WaveTaker : public SampleTaker {
     if (!camera.delta_position())
       numbers.read2(at.position, 0, numbers.count(), &u_x_[0], &u_y_[0]);
     if (shutter.open != shutter.close) numbers.read(at.time, 0, numbers.count(), &u_time_[0]);
-    for (size_t i = 0; i < rasters_.size(); ++i)
-      wave_.add(camera.ray(rasters_[i], {u_x_[i], u_y_[i]}, camera.time(u_time_[i])),
-                chain_factor(rasters_[i]));
+    if (camera.spectral())
+      numbers.read(numbers.places().next(), 0, numbers.count(), &u_spectral_[0]);
+    for (size_t i = 0; i < rasters_.size(); ++i) {
+      Ray ray = camera.ray(rasters_[i], {u_x_[i], u_y_[i]}, camera.time(u_time_[i]));
+      ray.wavelength = camera.wavelength([&] { return u_spectral_[i]; });
+      wave_.add(ray, chain_factor(rasters_[i]));
+    }
   }
 
   const Scene* scene_;
   PathRules rules_;
   PathWave wave_;
   std::vector<Vec2> rasters_;  ///< Raster positions of the wave's paths; at first, their cells.
-  Wave<double> u_x_, u_y_, u_time_;
+  Wave<double> u_x_, u_y_, u_time_, u_spectral_;
 };
 
 }  // namespace mlt

@@ -12,6 +12,7 @@ namespace mlt {
 
 class Medium;
 class Shape;
+class Texture;
 using MediumPtr = std::shared_ptr<const Medium>;
 
 struct PositionSample {
@@ -76,7 +77,7 @@ class Emitter : public Object {
 
   /// The radiance of a mesh that glows the same everywhere on its front side; nullptr for any other
   /// light.
-  virtual const Spectrum* uniform_radiance() const { return nullptr; }
+  virtual const Texture* uniform_radiance() const { return nullptr; }
 
   virtual bool infinite() const { return false; }
   /// Whether it is a point or directional light, which no walk can hit.

@@ -56,10 +56,11 @@ LambertianMesh lambertian_mesh(const Shape& shape) {
 }
 
 MeshLight mesh_light(const Emitter& emitter, double probability) {
-  const Spectrum* radiance = emitter.uniform_radiance();
+  const Texture* radiance = emitter.uniform_radiance();
   if (!radiance || emitter.shape()->bsdf().has_passage()) return {nullptr, emitter.infinite()};
   const Mesh* mesh = emitter.shape()->as_mesh();
-  return {mesh, false, radiance, probability / mesh->area()};
+  const Spectrum rgb(glm::max(radiance->mean(), Color(0)));
+  return {mesh, false, radiance, rgb, probability / mesh->area()};
 }
 
 /// The shapes of all groups of which there are instances.
@@ -130,6 +131,12 @@ inline void Scene::arrive(const Ray& ray, const Hit& hit, SurfacePoint& at) cons
   at.wavelength = ray.wavelength;
   at.medium = ray.medium;
   at.lambertian = bsdf(at).lambertian(at);
+}
+
+Spectrum MeshLight::radiance_at(double wavelength) const {
+  SurfacePoint at;
+  at.wavelength = wavelength;
+  return max(radiance->eval(at), Spectrum(0));
 }
 
 SurfacePoint Scene::surface_point(const Ray& ray, const Hit& hit) const {

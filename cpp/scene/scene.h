@@ -28,8 +28,11 @@ struct EmitterChoice {
 struct MeshLight {
   const Mesh* mesh = nullptr;  ///< nullptr if this light is of another kind.
   bool infinite = false;       ///< Whether this light is at infinity instead.
-  const Spectrum* radiance = nullptr;
-  double pdf = 0;  ///< Area measure, the choice of the light included.
+  const Texture* radiance = nullptr;
+  Spectrum rgb{0};  ///< The radiance where there are no wavelengths.
+  double pdf = 0;   ///< Area measure, the choice of the light included.
+
+  Spectrum radiance_at(double wavelength) const;
 };
 
 /// A mesh that is Lambertian everywhere.

@@ -32,7 +32,7 @@ bool BidirectionalWave::supports(const Scene& scene, const BidirectionalSettings
   const Shutter& shutter = scene.camera().shutter();
   if (!settings.sample_direct || settings.heuristic == Heuristic::maximum || settings.manifolds)
     return false;
-  if (scene.has_passages() || scene.camera().spectral()) return false;
+  if (scene.has_passages()) return false;
   if (!scene.camera().delta_position() || shutter.open != shutter.close || scene.accel().moves())
     return false;
   for (const EmitterPtr& emitter : scene.emitters())
@@ -88,6 +88,9 @@ void BidirectionalWave::walk_from_camera(RayCounts& rays) {
   WaveNumbers::Place& places = numbers_.places();
   places = {};
   numbers_.read2(places.next2(), 0, size(), &u_x_[0], &u_y_[0]);
+  places = places.begin(Stream::camera);
+  LensNumbersOf<WaveNumbers::Place>::draw(places);
+  draw_wavelengths();
   for (int i = 0; i < size(); ++i) {
     rasters_[i] += Vec2(u_x_[i], u_y_[i]);
     first_[i] = last_[i] = -1;
@@ -95,13 +98,18 @@ void BidirectionalWave::walk_from_camera(RayCounts& rays) {
     const auto projection = camera.project(lens_.at, ray.d);
     if (!projection) continue;
     const double cosine = abs_cos(lens_.at, ray.d);
-    camera_.start(i, {Vec3f(lens_.at.p), Vec3f(ray.o), Vec3f(ray.d), static_cast<float>(cosine),
-                      static_cast<float>(projection->pdf_direction * cosine), 1, 0,
-                      Spectrum(projection->importance / projection->pdf_direction)});
+    camera_.start(i,
+                  {Vec3f(lens_.at.p), Vec3f(ray.o), Vec3f(ray.d), static_cast<float>(cosine),
+                   static_cast<float>(projection->pdf_direction * cosine), 1, 0,
+                   Spectrum(projection->importance / projection->pdf_direction), wavelength_[i]});
   }
-  places = places.begin(Stream::camera);
-  LensNumbersOf<WaveNumbers::Place>::draw(places);
   camera_.walk(numbers_, settings_.rules.most_edges() + 1, rays);
+}
+
+void BidirectionalWave::draw_wavelengths() {
+  const Camera& camera = scene_->camera();
+  if (camera.spectral()) numbers_.read(numbers_.places().next(), 0, size(), &u_choice_[0]);
+  for (int i = 0; i < size(); ++i) wavelength_[i] = camera.wavelength([&] { return u_choice_[i]; });
 }
 
 void BidirectionalWave::walk_from_lights(RayCounts& rays) {
@@ -116,7 +124,8 @@ void BidirectionalWave::walk_from_lights(RayCounts& rays) {
 
 /// Samples a point on a light, by the numbers of this sample.
 inline void BidirectionalWave::draw_light(int sample, int to) {
-  lights_.set_light(to, scene_->choose_mesh_light(u_choice_[sample]), {u_x_[sample], u_y_[sample]});
+  lights_.set_light(to, scene_->choose_mesh_light(u_choice_[sample]), {u_x_[sample], u_y_[sample]},
+                    wavelength_[sample]);
 }
 
 /// Starts walks at lights, which emit as a Lambertian surface scatters light from above.
@@ -142,7 +151,7 @@ void BidirectionalWave::start_at_lights(const LightNumbersOf<WaveNumbers::Place>
       continue;
     const float cosine = std::fabs(dot(lights_.surface.ng[i], lights_.w[i]));
     light_.start(begin + i, {lights_.p[i], lights_.o[i], lights_.w[i], cosine, pdf, forward, 1,
-                             *lights_.radiance[i] * (pi / forward)});
+                             *lights_.radiance[i] * (pi / forward), wavelength_[begin + i]});
   }
 }
 
@@ -157,7 +166,8 @@ void BidirectionalWave::fall_back_together() {
 void BidirectionalWave::take_hits() {
   for (const SubpathWave::Hit& hit : camera_.hits())
     if (!fell_back(hit.sample))
-      take(add({hit.sample, hit.place, true, hit.survival, rasters_[hit.sample], hit.weighted}));
+      take(add({hit.sample, hit.place, true, hit.survival, rasters_[hit.sample],
+                recorded(hit.weighted, wavelength_[hit.sample])}));
 }
 
 inline int BidirectionalWave::add(const Light& light) {
@@ -213,16 +223,17 @@ void BidirectionalWave::choose_direct(int place, int block, int first) {
 
 void BidirectionalWave::connect(int s, int t, RayCounts& rays) {
   JoiningRays joining;
-  ColorLanes joined;
+  SpectrumLanes joined;
   for (int block = 0; block < block_count(); ++block) {
     if (!light_reaches(s, block) || !camera_.reaches(t - 1, block)) continue;
     const JointLanes &a = light_joints(s, block), &b = camera_.joints(t - 1, block);
-    join(a, b, settings_.rules.strict_normals, beta_, joining, joined);
+    join(a, b, settings_.rules.strict_normals, beta_, lanes(), joining, joined);
     make_room_for_shadows(rays);
     for (int i = 0; i < JointLanes::size; ++i) {
-      const Color weighted = joined[i];
-      if (!(joining.length[i] > 0) || is_black(weighted)) continue;
+      if (!(joining.length[i] > 0)) continue;
       const int sample = block * JointLanes::size + i;
+      const Color weighted = recorded(joined.get(i, lanes()), wavelength_[sample]);
+      if (is_black(weighted)) continue;
       wait_for_shadow(
           {sample, s + t - 1, true, a.survival[i] * b.survival[i], rasters_[sample], weighted},
           joining.o[i], joining.w[i], joining.length[i]);
@@ -249,7 +260,9 @@ void BidirectionalWave::connect_to_lens(int s, const JointLanes& a, int block) {
     if (!projection) continue;
     const double G = edges.G[i];
     const double below = a.sums[i] * beta_.raise(projection->pdf_direction * G / a.forward[i]);
-    const Color weighted = a.value[i] * (projection->importance * G / (1 + below));
+    const double share = projection->importance * G / (1 + below);
+    const Color weighted =
+        recorded(a.value.get(i, lanes()) * share, wavelength_[block * JointLanes::size + i]);
     if (is_black(weighted)) continue;
     const Vec3f start = ray_origin(a.p[i], a.ng[i], Vec3f(w), a.extent[i]);
     const Vec3 ray = camera.entrance(lens_.at, -w) - Vec3(start);

@@ -63,6 +63,9 @@ class BidirectionalWave {
   void take_hits();
   int add(const Light& light);
   void take(int light);
+  void draw_wavelengths();
+  /// How many lanes of a spectrum differ.
+  int lanes() const { return scene_->camera().spectral() ? 4 : 3; }
   void draw_light(int sample, int to);
   void choose_direct(int place);
   void choose_direct(int place, int block, int first);
@@ -88,8 +91,9 @@ class BidirectionalWave {
   Samples<int> first_, last_;        ///< Each sample's first and last light; -1: there is none.
   std::vector<Light> lights_found_;  ///< Those that no sample links to are in shadow.
   Samples<double> u_x_, u_y_, u_choice_;
-  LambertianVertices lights_;  ///< Points on lights, for a block of samples.
-  JointLanes direct_[blocks];  ///< Points on lights for s = 1, sampled for the camera vertex.
+  Samples<double> wavelength_;  ///< See wavelengths.h.
+  LambertianVertices lights_;   ///< Points on lights, for a block of samples.
+  JointLanes direct_[blocks];   ///< Points on lights for s = 1, sampled for the camera vertex.
   WaveShadows shadows_;
 };
 

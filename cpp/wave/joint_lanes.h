@@ -8,27 +8,28 @@
 
 namespace mlt {
 
-struct ColorLanes {
+/// The fourth lane of an RGB scene is left out.
+struct SpectrumLanes {
   static constexpr int size = 8;
-  Lanes<double, size> r, g, b;
+  Lanes<double, size> lane[Spectrum::lanes];
 
-  Color operator[](int i) const { return {r[i], g[i], b[i]}; }
-  void set(int i, const Spectrum& color) {
-    r[i] = color[0];
-    g[i] = color[1];
-    b[i] = color[2];
+  Spectrum get(int i, int lanes) const {
+    return {lane[0][i], lane[1][i], lane[2][i], lane[lanes == 4 ? 3 : 1][i]};
+  }
+  void set(int i, const Spectrum& s) {
+    for (int j = 0; j < Spectrum::lanes; ++j) lane[j][i] = s[j];
   }
 };
 
 /// The terms that all joints of a vertex have in common. A point on a light is a vertex too, with
 /// ng for n.
 struct JointLanes {
-  static constexpr int size = ColorLanes::size;
+  static constexpr int size = SpectrumLanes::size;
   VectorLanes<size> p, ng, n;
   Lanes<float, size> extent;
   /// Cosine of the direction to the previous vertex with n; 0: no path is joined here.
   Lanes<float, size> cosine;
-  ColorLanes value;             ///< See WalkVertex::Joint::value.
+  SpectrumLanes value;          ///< See WalkVertex::Joint::value.
   Lanes<double, size> forward;  ///< Density of the vertex, made by its walk.
   /// Sum of r_i^beta over the techniques with a joint before the vertex or at it (TechniqueSums).
   Lanes<double, size> sums;
@@ -41,12 +42,14 @@ struct JoiningRays {
   Lanes<float, JointLanes::size> length;  ///< 0: no light goes that way.
 };
 
-/// Joins vertices of light subpaths to those of camera subpaths; `weighted` is f w / p. The results
-/// are two parameters that do not overlap, so that the compiler vectorises the loop.
+/// Joins vertices of light subpaths to those of camera subpaths; `weighted` is f w / p, in the first
+/// `lanes` lanes. The results are two parameters that do not overlap, so that the compiler
+/// vectorises the loops.
 inline void join(const JointLanes& from_light, const JointLanes& from_camera, bool strict,
-                 const MisExponent& beta, JoiningRays& __restrict rays,
-                 ColorLanes& __restrict weighted) {
+                 const MisExponent& beta, int lanes, JoiningRays& __restrict rays,
+                 SpectrumLanes& __restrict weighted) {
   const JointLanes &a = from_light, &b = from_camera;
+  Lanes<double, JointLanes::size> share;
   for (int i = 0; i < JointLanes::size; ++i) {
     const Vec3f between = b.p[i] - a.p[i];
     const float distance2 = dot(between, between);
@@ -56,10 +59,7 @@ inline void join(const JointLanes& from_light, const JointLanes& from_camera, bo
     const double G = double{at_a.geometric} * at_b.geometric / distance2;
     const double below = a.sums[i] * beta.raise(at_b.quotient * inv_pi * G / a.forward[i]);
     const double above = b.sums[i] * beta.raise(at_a.quotient * inv_pi * G / b.forward[i]);
-    const double share = at_b.quotient * G / (1 + below + above);
-    weighted.r[i] = a.value.r[i] * b.value.r[i] * share;
-    weighted.g[i] = a.value.g[i] * b.value.g[i] * share;
-    weighted.b[i] = a.value.b[i] * b.value.b[i] * share;
+    share[i] = at_b.quotient * G / (1 + below + above);
     const Vec3f start = ray_origin(a.p[i], a.ng[i], w, a.extent[i]);
     const Vec3f ray = ray_origin(b.p[i], b.ng[i], -w, b.extent[i]) - start;
     const float length = std::sqrt(dot(ray, ray));
@@ -68,6 +68,9 @@ inline void join(const JointLanes& from_light, const JointLanes& from_camera, bo
     rays.length[i] =
         at_a.scatters & at_b.scatters ? length * static_cast<float>(1 - ray_offset) : 0;
   }
+  for (int j = 0; j < lanes; ++j)
+    for (int i = 0; i < JointLanes::size; ++i)
+      weighted.lane[j][i] = a.value.lane[j][i] * b.value.lane[j][i] * share[i];
 }
 
 }  // namespace mlt

@@ -5,13 +5,15 @@
 
 namespace mlt {
 
-SurfacePoint LambertianVertices::point(int i, uint32_t shape, double time) const {
+SurfacePoint LambertianVertices::point(int i, uint32_t shape, double time,
+                                       double wavelength) const {
   SurfacePoint at;
   at.p = Vec3(p[i]);
   at.ng = normalize(Vec3(surface.ng[i]));
   at.shading = Frame::around(normalize(Vec3(n[i])));
   at.shape = shape;
   at.time = time;
+  at.wavelength = wavelength;
   at.extent = surface.extent[i];
   at.lambertian = {*f[i], back[i] > 0 ? Lambertian::Sides::both : Lambertian::Sides::front};
   return at;

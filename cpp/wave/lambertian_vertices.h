@@ -53,13 +53,14 @@ struct LambertianVertices {
   Block<float> scatter_pdf;  ///< Solid angle; 0: there is none.
 
   /// Sets the vertex of the i-th path to these barycentrics of a triangle.
-  void set(int i, const LambertianMesh& shape, uint32_t triangle, float b1, float b2) {
+  void set(int i, const LambertianMesh& shape, uint32_t triangle, float b1, float b2,
+           double wavelength) {
     const Mesh& mesh = *shape.mesh;
     const TriangleRecord& record = mesh.record(triangle);
     surface.set(i, record, b1, b2);
     n.set(i, mesh.has_normals() ? mesh.normal_sum(triangle, {b1, b2}) : Vec3f(record.ng));
     back[i] = shape.lambertian->lambertian.sides == Lambertian::Sides::both ? 1 : 0;
-    if (shape.lambertian->uniform()) {
+    if (shape.lambertian->uniform() && wavelength < 0) {
       f[i] = &shape.lambertian->lambertian.f;
       return;
     }
@@ -67,11 +68,14 @@ struct LambertianVertices {
     TexturedPoint& point = textured_[textured_count_++];
     point.path = i;
     point.lambertian = shape.lambertian;
+    point.at.wavelength = wavelength;
+    if (shape.lambertian->uniform()) return;
     mesh.textured_point(triangle, {b1, b2}, point.at);
     point.lambertian->reflectance->prefetch(point.at);
   }
-  /// Looks up the textures of all that were set.
-  void find_textures() {
+  /// Looks up the reflectances of all that were set, where they depend on the point or on the
+  /// wavelength.
+  void find_reflectances() {
     for (int j = 0; j < textured_count_; ++j) {
       const TexturedPoint& point = textured_[j];
       textured_f_[point.path] = point.lambertian->at(point.at).f;
@@ -79,7 +83,7 @@ struct LambertianVertices {
     textured_count_ = 0;
   }
   /// Sets the light point of the i-th path to that of sample_position(u) on this light.
-  void set_light(int i, const MeshLight& chosen, const Vec2& u) {
+  void set_light(int i, const MeshLight& chosen, const Vec2& u, double wavelength) {
     const Mesh& mesh = *chosen.mesh;
     const auto [triangle, b] = mesh.sample_barycentrics(u);
     light.set(i, mesh.record(triangle), static_cast<float>(b.x), static_cast<float>(b.y));
@@ -88,10 +92,15 @@ struct LambertianVertices {
       light.ng.set(i, ng * std::copysign(1.0f, dot(ng, mesh.normal_sum(triangle, Vec2f(b)))));
     }
     light_pdf[i] = static_cast<float>(chosen.pdf);
-    radiance[i] = chosen.radiance;
+    if (wavelength < 0) {
+      radiance[i] = &chosen.rgb;
+    } else {
+      spectral_radiance_[i] = chosen.radiance_at(wavelength);
+      radiance[i] = &spectral_radiance_[i];
+    }
   }
   /// The i-th vertex as a SurfacePoint, for computations of single paths.
-  SurfacePoint point(int i, uint32_t shape, double time) const;
+  SurfacePoint point(int i, uint32_t shape, double time, double wavelength) const;
 
   // Each function works on the first `count` paths; d are the directions of their incident rays.
   void find_points(int count, const float* d_x, const float* d_y, const float* d_z,
@@ -123,7 +132,7 @@ struct LambertianVertices {
 
   VectorBlock wc_;  ///< Direction towards the camera.
 
-  /// A point whose texture is still to be looked up.
+  /// A point whose reflectance is still to be looked up.
   struct TexturedPoint {
     int path;
     const LambertianSurface* lambertian;
@@ -131,7 +140,7 @@ struct LambertianVertices {
   };
   int textured_count_ = 0;
   std::array<TexturedPoint, block_size> textured_;
-  Block<Spectrum> textured_f_;
+  Block<Spectrum> textured_f_, spectral_radiance_;
 };
 
 }  // namespace mlt

@@ -35,7 +35,10 @@ void BasicPathWave<Numbers>::trace(RayCounts& rays, bool coherent) {
 template <class Numbers>
 CameraWalk& BasicPathWave<Numbers>::exact_walk(int place) {
   CameraWalk& walk = walks_[path_[place]];
-  if (!exact_[place]) walk.ray = {Vec3(o_[place]), Vec3(d_[place]), walk.ray.time};
+  if (!exact_[place]) {
+    walk.ray.o = Vec3(o_[place]);
+    walk.ray.d = Vec3(d_[place]);
+  }
   exact_[place] = true;
   return walk;
 }
@@ -76,7 +79,7 @@ void BasicPathWave<Numbers>::shade_block(int depth, RayCounts& rays) {
   sky_vertices_.clear();
   for (int i = 0; i < count_; ++i) find_vertex(i, depth);
   if (last) return;
-  lambertian_.find_textures();
+  lambertian_.find_reflectances();
   lambertian_.find_points(count_, &d_.x[begin_], &d_.y[begin_], &d_.z[begin_],
                           rules_.strict_normals);
   if (rules_.wants(depth + 1)) {
@@ -116,7 +119,8 @@ inline void BasicPathWave<Numbers>::find_vertex(int i, int depth) {
   const LambertianMesh& lambertian = scene_->lambertian_mesh(shape);
   if (lambertian.emits || !lambertian.mesh) find_bright_or_other(i, hits.hit(lane), depth);
   if (depth < rules_.most_edges() && lambertian.mesh)
-    lambertian_.set(i, lambertian, hits.primitive[lane], hits.u[lane], hits.v[lane]);
+    lambertian_.set(i, lambertian, hits.primitive[lane], hits.u[lane], hits.v[lane],
+                    walk(i).ray.wavelength);
 }
 
 /// Finds the vertex on a surface that glows, or is not Lambertian.
@@ -154,7 +158,7 @@ void BasicPathWave<Numbers>::choose_lights(int depth) {
     const Vec3 u = numbers_for_light(i);
     const MeshLight& light = scene_->choose_mesh_light(u.x);
     if (lambertian_.f[i] && light.mesh)
-      lambertian_.set_light(i, light, {u.y, u.z});
+      lambertian_.set_light(i, light, {u.y, u.z}, walk(i).ray.wavelength);
     else
       choose_other_light(i, u, light.infinite);
   }
@@ -171,7 +175,9 @@ void BasicPathWave<Numbers>::choose_other_light(int i, const Vec3& u, bool infin
       sky_vertices_.push_back({i, u, {}});
       return;
     }
-    add_single(i, lambertian_.point(i, hits(i).shape[i % RayPacket::size], walk(i).ray.time));
+    const Ray& ray = walk(i).ray;
+    add_single(i,
+               lambertian_.point(i, hits(i).shape[i % RayPacket::size], ray.time, ray.wavelength));
   }
   SingleVertex& single = singles_[single_[i]];
   single.samples_light = true;
@@ -182,10 +188,12 @@ template <class Numbers>
 void BasicPathWave<Numbers>::sample_other_lights() {
   for (int j = 0; j < single_count_; ++j) {
     SingleVertex& single = singles_[j];
-    if (single.samples_light && !backgrounds_.add(*scene_, single.u, single.light))
+    if (single.samples_light &&
+        !backgrounds_.add(*scene_, single.u, single.at.wavelength, single.light))
       single.light = sample_direct_position(*scene_, single.at, single.u);
   }
-  for (SkyVertex& vertex : sky_vertices_) backgrounds_.add(*scene_, vertex.u, vertex.light);
+  for (SkyVertex& vertex : sky_vertices_)
+    backgrounds_.add(*scene_, vertex.u, walk(vertex.path).ray.wavelength, vertex.light);
   backgrounds_.sample_all(*scene_);
 }
 

@@ -31,6 +31,7 @@ void SubpathWave::start(int sample, const Start& start) {
   sums_[i] = start.sums;
   survival_[i] = 1;
   throughput_[i] = start.throughput;
+  wavelength_[i] = start.wavelength;
 }
 
 void SubpathWave::fall_back(int sample) {
@@ -82,7 +83,7 @@ void SubpathWave::shade(int place, bool last) {
   if (!last)
     numbers_.read2(at_.direction, begin_, count_, &lambertian_.u_x[0], &lambertian_.u_y[0]);
   for (int i = 0; i < count_; ++i) find_vertex(i);
-  lambertian_.find_textures();
+  lambertian_.find_reflectances();
   lambertian_.find_points(count_, &d_.x[begin_], &d_.y[begin_], &d_.z[begin_],
                           rules_.strict_normals);
   if (!last) lambertian_.sample_directions(count_, rules_.strict_normals);
@@ -106,7 +107,8 @@ inline void SubpathWave::find_vertex(int i) {
     return;
   }
   emits_[i] = shape.emits;
-  lambertian_.set(i, shape, found.primitive[lane], found.u[lane], found.v[lane]);
+  lambertian_.set(i, shape, found.primitive[lane], found.u[lane], found.v[lane],
+                  wavelength_[begin_ + i]);
 }
 
 /// Computes the densities with which the two walks make the vertex and the one before it. A
@@ -139,11 +141,12 @@ void SubpathWave::hit_light(int i, int place) {
   if (!(dot(lambertian_.surface.ng[i], d_[k]) < 0)) return;
   const uint32_t shape = found_[k / RayPacket::size].shape[k % RayPacket::size];
   const MeshLight& light = scene_->mesh_light(scene_->shapes()[shape]->emitter()->index());
+  const double wavelength = wavelength_[k];
+  const Spectrum radiance = wavelength < 0 ? light.rgb : light.radiance_at(wavelength);
   const double technique = place > 1 || light_image_ ? 1 : 0;
   const double above = (technique + sums_[k] * beta_.raise(reverse_emission_[i] / forward_[k])) *
                        beta_.raise(light.pdf / forward_here_[i]);
-  hits_.push_back(
-      {sample_[k], place, (throughput_[k] * *light.radiance / (1 + above)).rgb(), survival_[k]});
+  hits_.push_back({sample_[k], place, throughput_[k] * radiance / (1 + above), survival_[k]});
 }
 
 /// Stores the vertex of a walk for joints.
@@ -187,6 +190,7 @@ void SubpathWave::take_steps(int place) {
     sums_[n] = sums_here_[i];
     throughput_[n] = throughput_[k] * (ratio / survival);
     survival_[n] = survival_[k] * survival;
+    wavelength_[n] = wavelength_[k];
     numbers_.move(n, k);
   }
 }

@@ -22,7 +22,7 @@ class SubpathWave {
   struct Hit {
     int sample;
     int place;  ///< Of the vertex on the light.
-    Color weighted;
+    Spectrum weighted;
     double survival;  ///< See JointLanes.
   };
 
@@ -40,6 +40,7 @@ class SubpathWave {
     float pdf;             ///< Density of w in solid angle.
     double forward, sums;  ///< See JointLanes.
     Spectrum throughput;   ///< Throughput of vertex 1.
+    double wavelength;     ///< See wavelengths.h.
   };
   void start(int sample, const Start& start);
   /// Walks all subpaths to their ends, with `most` vertices at most. The next of the `numbers` are
@@ -92,6 +93,7 @@ class SubpathWave {
   Samples<float> cosine_, pdf_;
   Samples<double> forward_, sums_, survival_;
   Samples<Spectrum> throughput_;
+  Samples<double> wavelength_;
   PacketHits found_[capacity / RayPacket::size];
   WaveNumbers numbers_;
   StepNumbersOf<WaveNumbers::Place> at_;  ///< The places of the numbers of this step.

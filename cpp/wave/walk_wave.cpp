@@ -3,7 +3,7 @@
 namespace mlt {
 namespace {
 
-/// The image position, the lens and the time.
+/// The image position, the lens and the time; in spectral scenes the wavelength comes after them.
 constexpr size_t of_camera = count_of<Vec2> + count_of<LensNumbers>;
 
 /// Reads numbers one after the other.
@@ -49,18 +49,22 @@ void WalkWave::draw(const int* paths, int count, size_t first, const double** nu
 
 void WalkWave::leave_camera() {
   const int all = static_cast<int>(proposals_.size());
-  for (int begin = 0; begin < all; begin += block_size)
-    draw<of_camera>(std::min(block_size, all - begin), 0,
-                    [&](int i) -> Proposal& { return proposals_[begin + i]; });
+  for (int begin = 0; begin < all; begin += block_size) {
+    const int count = std::min(block_size, all - begin);
+    const auto get = [&](int i) -> Proposal& { return proposals_[begin + i]; };
+    if (camera_->spectral())
+      draw<of_camera + 1>(count, 0, get);
+    else
+      draw<of_camera>(count, 0, get);
+  }
   rasters_.clear();
   for (const Proposal& proposal : proposals_) {
     Reader numbers{proposal.numbers().data()};
     rasters_.push_back(camera_->raster().sample(numbers.next2()));
-    const LensNumbers lens = LensNumbers::draw(numbers);
     wave_.numbers().add();
-    wave_.add(camera_->ray(rasters_.back(), lens.position, camera_->time(lens.time)));
+    wave_.add(leave_lens(*camera_, rasters_.back(), numbers).ray);
   }
-  wave_.numbers().places() = {of_camera};
+  wave_.numbers().places() = {of_camera + (camera_->spectral() ? 1 : 0)};
 }
 
 void WalkWave::trace() {

@@ -61,11 +61,11 @@ inline std::set<std::string> media_scene_names() {
 inline std::set<std::string> spectral_scene_names() {
   return {"spectral_room", "prism", "frosted_prism", "spectral_fog"};
 }
-/// Those without media or wavelengths, as waves require.
+/// Those without media, as waves require.
 inline std::vector<std::string> clear_scene_names() {
   std::vector<std::string> names = scene_names();
   const auto is_left_out = [](const std::string& name) {
-    return media_scene_names().count(name) + spectral_scene_names().count(name) > 0;
+    return media_scene_names().count(name) > 0;
   };
   names.erase(std::remove_if(names.begin(), names.end(), is_left_out), names.end());
   return names;

@@ -33,18 +33,11 @@ class AreaLight final : public SurfaceLight {
     return invert_cosine_hemisphere(Frame::around(x0.ng).to_local(normalize(x1 - x0.p)));
   }
 
-  const Spectrum* uniform_radiance() const override { return uniform_ ? &*uniform_ : nullptr; }
-
-  Color power() const override { return radiance().mean() * (pi * shape()->area()); }
-
-  void set_shape(const Shape* shape) override {
-    SurfaceLight::set_shape(shape);
-    if (shape->as_mesh() && radiance().is_constant())
-      uniform_ = Spectrum(glm::max(radiance().mean(), Color(0)));
+  const Texture* uniform_radiance() const override {
+    return shape()->as_mesh() && radiance().is_constant() ? &radiance() : nullptr;
   }
 
- private:
-  std::optional<Spectrum> uniform_;
+  Color power() const override { return radiance().mean() * (pi * shape()->area()); }
 };
 
 }  // namespace
