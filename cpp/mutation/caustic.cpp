@@ -4,7 +4,9 @@
 // new image position.
 //
 // Where the chain starts at a light at infinity its direction x_0 stays and the ray moves across
-// the plane perpendicular to it. The angle (or the distance) is such that the image position moves
+// the plane perpendicular to it. A surface that shines in one direction alone is left at another
+// point, whose two numbers (invert_position) move. The angle (or the distance) is such that the
+// image position moves
 // about as far as the lens perturbation would move it: estimated from the path's lengths, or from
 // the derivatives of the chain (`anisotropic`).
 #include "mutation/chain_perturbation.h"
@@ -27,12 +29,15 @@ class CausticPerturbation final : public MeasuredMutation<CausticPerturbation> {
 
   std::optional<Edit> propose(const PathState& x, PathState& y,
                               MutationContext& context) const override {
-    const int k = x.edges(), a = start(x);
-    const Edit edit{a + 1, k - 1, k - 1 - a};
+    const int k = x.edges(), a = start(x), first = first_moved(x, a);
+    const Edit edit{first, k - 1, k - first};
     Rng& rng = context.rng;
     splice(x, edit, y);
     Ray ray;
-    if (x[a].at.infinite()) {
+    if (x[a].delta()) {
+      y.path[0] = moved_along_light(x, rng);
+      ray = scene().spawn(y[0].at, light(x).sample_ray(y[0].at, {}).direction, y.path.time);
+    } else if (x[a].at.infinite()) {
       const double r = offset_radius(x).sample(rng.next()), phi = 2 * pi * rng.next();
       const Frame frame = Frame::around(x[0].at.p);
       const Vec3 through = x[1].at.p + r * (std::cos(phi) * frame.s + std::sin(phi) * frame.t);
@@ -44,7 +49,7 @@ class CausticPerturbation final : public MeasuredMutation<CausticPerturbation> {
       ray = scene().spawn(x[a].at, perturbed(x, a, rng), y.path.time);
     }
     if (!chain_.carry(x, {a, k - 1, 1}, ray, y, context)) return std::nullopt;
-    target().evaluate(a + 1, k - 1, y);
+    target().evaluate(first, k - 1, y);
     test_visibility(scene(), k, y, context.rays);
     return edit;
   }
@@ -53,9 +58,13 @@ class CausticPerturbation final : public MeasuredMutation<CausticPerturbation> {
   double density_in(const Measure& in, const PathState& x, const PathState& y,
                     const Edit& edit) const {
     const int k = x.edges(), a = start(x);
-    if (a < 0 || a != start(y) || a + 1 != edit.first) return 0;
+    if (a < 0 || a != start(y) || first_moved(x, a) != edit.first) return 0;
     double first;
-    if (x[a].at.infinite()) {
+    if (x[a].delta()) {
+      if (x[0].emitter != y[0].emitter) return 0;
+      first = along_light(x).planar_pdf(length(shift(position_numbers(x), position_numbers(y)))) *
+              light(y).pdf_position(y[0].at);
+    } else if (x[a].at.infinite()) {
       const Vec3 d = y[1].at.p - x[1].at.p;
       first = offset_radius(x).planar_pdf(length(d - dot(d, x[0].at.p) * x[0].at.p));
     } else {
@@ -71,7 +80,28 @@ class CausticPerturbation final : public MeasuredMutation<CausticPerturbation> {
     if (last < 1 || x.specular(last)) return -1;
     int i = last - 1;
     while (i > 0 && x.specular(i)) --i;
-    return x[i].delta() ? -1 : i;
+    return x[i].delta() && light(x).delta() ? -1 : i;
+  }
+  /// The first vertex that moves: the light itself, if it shines in one direction alone.
+  static int first_moved(const PathState& x, int a) { return x[a].delta() ? a : a + 1; }
+
+  const Emitter& light(const PathState& x) const { return *scene().emitters()[x[0].emitter]; }
+  Vec2 position_numbers(const PathState& x) const { return light(x).invert_position(x[0].at); }
+  /// The way from u to v on the torus of all pairs of numbers.
+  static Vec2 shift(const Vec2& u, const Vec2& v) { return v - u - glm::round(v - u); }
+  /// Lengths of that way: distances on the light as those of a ray from infinity.
+  ExponentialRadius along_light(const PathState& x) const {
+    const ExponentialRadius radius = offset_radius(x) * std::sqrt(light(x).pdf_position(x[0].at));
+    if (radius.largest <= 0.5) return radius;
+    return {std::min(radius.smallest, 0.25), 0.5};
+  }
+  Vertex moved_along_light(const PathState& x, Rng& rng) const {
+    const double r = along_light(x).sample(rng.next()), phi = 2 * pi * rng.next();
+    const Vec2 u = position_numbers(x) + r * Vec2(std::cos(phi), std::sin(phi));
+    SurfacePoint at = light(x).sample_position(u - glm::floor(u), x.path.time).at;
+    at.wavelength = x.path.wavelength;
+    at.medium = x[0].at.medium;
+    return light_vertex(light(x), at);
   }
 
   std::optional<ImageFootprint> footprint(const PathState& x, int a) const {

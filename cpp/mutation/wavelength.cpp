@@ -6,7 +6,12 @@
 // 2012, sec. 4.3, where an end moves): so a caustic is followed through its colours. The density of
 // u' is symmetric; with o the constraints of the chains, which stay, that of their vertices is the
 // determinant of do / dx, as for the manifold perturbation.
+//
+// A light of one direction leaves no choice of a chain between two ends. Its ray starts where it
+// did and is traced again, up to the first diffuse vertex, which is joined to the rest of the path:
+// a caustic perturbation without a perturbation.
 #include "mutation/chain_perturbation.h"
+#include "mutation/edge_visibility.h"
 #include "mutation/manifold_chain.h"
 #include "mutation/measured_mutation.h"
 #include "mutation/mutation_registry.h"
@@ -25,13 +30,15 @@ class WavelengthMutation final : public MeasuredMutation<WavelengthMutation> {
   WavelengthMutation(const PathTarget& target, Params& params)
       : MeasuredMutation("wavelength", target),
         step_(params.real_in("smallest_step", 1e-9, 0.5),
-              params.real_in("largest_step", 1e-6, 0.5)) {
+              params.real_in("largest_step", 1e-6, 0.5)),
+        carried_(target.scene(), {}) {
     if (!(step_.log_ratio > 0)) params.fail("largest_step", "is not above smallest_step");
   }
 
   double suitability(const PathState& x) const override {
     if (!scene().camera().spectral()) return 0;
-    bool suits = true;
+    const int beam = beam_end(x);
+    bool suits = beam == 0 || (beam < x.edges() && !x.specular(beam + 1));
     for_each_chain(
         x, [&](const ManifoldChain& chain) { suits = suits && chain.can_be_walked(scene(), x); });
     return suits ? 1 : 0;
@@ -44,12 +51,14 @@ class WavelengthMutation final : public MeasuredMutation<WavelengthMutation> {
     splice(x, all, y);
     y.path.vertices = x.path.vertices;
     change_wavelength(y.path, moved(x.path.wavelength, context.rng));
-    bool found = true;
+    const int beam = beam_end(x);
+    bool found = beam == 0 || trace_beam(x, beam, y, context);
     for_each_chain(x, [&](const ManifoldChain& chain) {
       found = found && chain.find(scene(), x, y, context);
     });
     if (!found) return std::nullopt;
     target().evaluate(0, k, y);
+    if (beam > 0) test_visibility(scene(), beam + 1, y, context.rays);
     if (!(y.target > 0)) return all;
     if (!same_form(x, y, 1, k - 1) || !is_measurable(x) || !is_measurable(y)) return std::nullopt;
     for_each_chain(x, [&](const ManifoldChain& chain) {
@@ -63,7 +72,10 @@ class WavelengthMutation final : public MeasuredMutation<WavelengthMutation> {
                     const Edit& edit) const {
     const int k = x.edges();
     if (edit.first != 0 || edit.last != k || y.edges() != k || !same_form(x, y, 1, k - 1)) return 0;
-    double p = step_density(x.path.wavelength, y.path.wavelength) * unsampled(in, 0, k);
+    const int beam = beam_end(y);
+    if (beam != beam_end(x)) return 0;
+    double p = step_density(x.path.wavelength, y.path.wavelength) * unsampled(in, beam, k);
+    if (beam > 0) p *= carried_.walked_density(in, x, y, {0, beam, 1}, 1.0);
     for_each_chain(y, [&](const ManifoldChain& chain) { p *= chain.jacobian(scene(), y); });
     return p;
   }
@@ -91,19 +103,35 @@ class WavelengthMutation final : public MeasuredMutation<WavelengthMutation> {
       if (x.kind == VertexKind::inner) x.at.lambertian = scene().bsdf(x.at).lambertian(x.at);
   }
 
-  /// Calls see(chain) for each specular chain that disperses.
+  /// Whether a vertex between c and b disperses.
+  static bool disperses(const PathState& x, int c, int b) {
+    bool any = false;
+    for (int i = c + 1; i < b; ++i) any = any || x.terms[i].vertex.disperses;
+    return any;
+  }
+  /// The first vertex that is not specular, if light of one direction disperses before it; else 0.
+  static int beam_end(const PathState& x) {
+    if (!x[0].delta()) return 0;
+    const int end = ChainPerturbation::chain_end(x, 0, 1);
+    return disperses(x, 0, end) ? end : 0;
+  }
+  bool trace_beam(const PathState& x, int end, PathState& y, MutationContext& context) const {
+    const Ray ray = scene().spawn(y[0].at, x.terms[0].w, y.path.time);
+    return carried_.carry(x, {0, end, 1}, ray, y, context);
+  }
+  /// Calls see(chain) for each other specular chain that disperses.
   template <class See>
   static void for_each_chain(const PathState& x, See&& see) {
-    for (int b = x.edges(); b > 0;) {
+    const int beam = beam_end(x);
+    for (int b = x.edges(); b > beam;) {
       const int c = ChainPerturbation::chain_end(x, b, -1);
-      bool disperses = false;
-      for (int i = c + 1; i < b; ++i) disperses = disperses || x.terms[i].vertex.disperses;
-      if (disperses) see(ManifoldChain{c, b});
+      if (disperses(x, c, b)) see(ManifoldChain{c, b});
       b = c;
     }
   }
 
   ExponentialRadius step_;
+  ChainPerturbation carried_;
 };
 
 }  // namespace

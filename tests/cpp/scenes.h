@@ -59,7 +59,7 @@ inline std::set<std::string> media_scene_names() {
   return {"fog", "smoke_box", "smoke", "volume_caustic", "spectral_fog"};
 }
 inline std::set<std::string> spectral_scene_names() {
-  return {"spectral_room", "prism", "frosted_prism", "spectral_fog"};
+  return {"spectral_room", "prism", "frosted_prism", "spectral_fog", "prism_beam"};
 }
 /// Those without media, as waves require.
 inline std::vector<std::string> clear_scene_names() {
@@ -102,7 +102,7 @@ inline std::vector<std::string> mutation_scene_names() {
   for (const char* name :
        {"mirrors", "near_specular", "near_specular_mirrors", "sun_caustic", "point_caustic",
         "lens_through_mirror", "moving_mirror", "moving_lamp", "moving_lens", "spinning_instance",
-        "glass_torus", "beam", "window_caustic", "volume_caustic"})
+        "glass_torus", "beam", "prism_beam", "window_caustic", "volume_caustic"})
     names.push_back(name);
   return names;
 }

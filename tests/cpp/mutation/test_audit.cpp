@@ -65,7 +65,7 @@ bool has_paths(const Case& c) {
   for (const char* scene :
        {"caustic", "plastic", "camera_under_water", "light_under_water", "smooth_glass", "windows",
         "fog", "volume_caustic", "mirror", "mirrors", "near_specular", "near_specular_mirrors",
-        "sun_caustic", "point_caustic", "glass_torus", "beam"})
+        "sun_caustic", "point_caustic", "glass_torus", "beam", "prism_beam"})
     if (c.scene == scene) return true;
   return false;
 }
