@@ -117,6 +117,13 @@ class Auditor {
   struct Scratch {
     std::vector<double> before, after, mean;
   };
+  /// The change of a function; 0 if it is no greater than rounding, such as that of a cosine that
+  /// is always 1.
+  static double change_of(const Scratch& s, size_t g) {
+    const double before = s.before[g], after = s.after[g];
+    const double rounding = 1e-13 * std::max(std::abs(before), std::abs(after));
+    return std::abs(after - before) > rounding ? after - before : 0;
+  }
 
   void step(const PathState& x, double weight, PathChain& chain, Scratch& s, Batch& sums) const {
     functions_.evaluate(x, s.before);
@@ -125,7 +132,7 @@ class Auditor {
     const auto record = [&](const PathState& state, double share) {
       functions_.evaluate(state, s.after);
       for (size_t g = 0; g < s.mean.size(); ++g) {
-        const double change = s.after[g] - s.before[g];
+        const double change = change_of(s, g);
         s.mean[g] += share * change;
         if (share > 0) sums.largest[g] = std::max(sums.largest[g], weight * std::abs(change));
       }
@@ -148,8 +155,7 @@ class Auditor {
     }
     if (result.accepted < 0) return;
     functions_.evaluate(chain.state(), s.after);
-    for (size_t g = 0; g < s.after.size(); ++g)
-      sums.chosen[g] += weight * (s.after[g] - s.before[g]);
+    for (size_t g = 0; g < s.after.size(); ++g) sums.chosen[g] += weight * change_of(s, g);
   }
 
   AuditReport report(const std::vector<Batch>& done) const {

@@ -168,6 +168,16 @@ std::vector<Twin> twins() {
                    });
                  },
                  500000});
+  all.push_back({"density_of_the_beam", "wavelength", "prism_beam",
+                 [](const Scene&, const Mutations&) {
+                   return BrokenTwin::Factor([](auto&, const PathState& y, auto&) {
+                     double product = 1;
+                     for (int i = 0; i < ChainPerturbation::chain_end(y, 0, 1); ++i)
+                       product *= y.terms[i].G;
+                     return product;
+                   });
+                 },
+                 500000});
   all.push_back(twin("density_of_the_step", "wavelength", "spectral_room",
                      [](auto&, const PathState& y, auto&) { return 1 + y.path.wavelength; }));
   return all;
