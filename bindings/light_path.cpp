@@ -89,6 +89,13 @@ auto column(double TermsAt::* member, int more) {
   };
 }
 
+py::object wavelengths_in_nm(const PyLightPath& path) {
+  const double u = path.path.wavelength;
+  if (u < 0) return py::none();
+  const Spectrum nm = at_wavelengths(u, [](double at) { return at; });
+  return array_of(Spectrum::lanes, [&](int j) { return nm[j]; });
+}
+
 py::array_t<double> densities(const PyLightPath& path, bool sample_direct) {
   const PathTerms t = terms(path, sample_direct);
   return array_of(t.edges() + 2, [&](int s) { return technique_density(t, s); });
@@ -185,6 +192,13 @@ void bind_path_class(py::module_& m) {
       .def_property_readonly(
           "edges", [](const PyLightPath& p) { return p.path.edges(); }, "k")
       .def_property_readonly("time", [](const PyLightPath& p) { return p.path.time; })
+      .def_property_readonly(
+          "wavelengths", &wavelengths_in_nm,
+          "Its four wavelengths in nm, each about a quarter of what the eye sees apart; None in "
+          "scenes that are not spectral. If it is dispersed, the first one alone counts.")
+      .def_property_readonly(
+          "dispersed", [](const PyLightPath& p) { return terms(p).dispersed(); },
+          "Whether it is refracted by an index that depends on the wavelength.")
       .def_property_readonly(
           "raster", [](const PyLightPath& p) { return py::make_tuple(p.raster.x, p.raster.y); },
           "Where it meets the image, in pixels from the upper left corner.")

@@ -2,7 +2,8 @@
 
 For each mutation: a path x of a scene in black, and what the mutation makes of it, coloured by
 the probability of accepting it. On the left in the image, on the right in the scene, which is drawn
-as the points where sampled paths have their vertices. Needs matplotlib.
+as the points where sampled paths have their vertices. The wavelength mutation, whose proposals meet
+one point of the image, has its acceptance by wavelength on the left. Needs matplotlib.
 """
 
 import sys
@@ -18,6 +19,7 @@ import numpy as np
 from matplotlib.collections import LineCollection
 
 import pymlt as mlt
+from pymlt.viewing.path_tables import colour
 
 HERE = Path(__file__).parent / "mutations"
 SIZE = (320, 320)
@@ -118,6 +120,68 @@ def draw(picture: Picture) -> None:
     plt.close(figure)
 
 
+# ---- the wavelength mutation, whose proposals lie behind one point of the image
+
+
+def lamp_before_prism() -> mlt.Scene:
+    """The built-in scene with a lamp in place of its beam, which has one direction alone."""
+    scene = mlt.scenes.prism()
+    for name in ("slit", "jaw_before", "jaw_behind", "emitter"):
+        del scene[name]
+    lamp = {"type": "area", "radiance": 60.0}
+    scene["lamp"] = {"type": "sphere", "center": [-2.2, 0.7, 0], "radius": 0.06, "emitter": lamp}
+    return mlt.load_dict(scene, size=SIZE)
+
+
+def path_through_prism(scene: mlt.Scene):
+    """Of the paths that go from the lamp to the screen the one closest to its middle, in green."""
+    paths = (scene.sample_path(seed=s, max_depth=4) for s in range(20_000))
+    suited = [p for p in paths if p.signature == "LSSDE" and 520 < p.wavelengths[0] < 550]
+    suited = [p for p in suited if p.vertices["position"][3][2] < -3.9]
+    return min(suited, key=lambda path: abs(path.vertices["position"][3][0] - 1.5))
+
+
+def draw_wavelength() -> None:
+    scene, mutation = lamp_before_prism(), mlt.Wavelength()
+    x = path_through_prism(scene)
+    proposals = scene.propose(x, mutation, seed=1, count=300)
+    print(mutation.name, x, f"{len(proposals)} of 300 tries found a path", flush=True)
+    waves = np.array([y.wavelengths[0] for y in proposals])
+    colours = np.array([colour(y) for y in proposals]) / 255
+    figure, (left, right) = plt.subplots(
+        1, 2, figsize=(10, 4.8), layout="constrained", width_ratios=(1, 1)
+    )
+    for axes in (left, right):
+        axes.set_facecolor("0.07")
+    left.scatter(waves, [y.acceptance for y in proposals], s=22, c=colours, linewidths=0)
+    left.axvline(x.wavelengths[0], color="white", lw=1.2, ls="--")
+    left.set(xlabel="wavelength in nm", ylabel="acceptance", title="the proposals")
+    order = np.argsort(waves)
+    some = order[np.unique(np.searchsorted(waves[order], np.arange(400, 690, 12)))]
+    draw_from_above(
+        right, scene, x, [proposals[i].vertices["position"] for i in some], colours[some]
+    )
+    figure.suptitle(f"{mutation!r} of a path {x.signature} of {x.wavelengths[0]:.0f} nm")
+    figure.savefig(HERE / "wavelength.png", dpi=80, metadata={"Software": None})
+    plt.close(figure)
+
+
+def draw_from_above(axes, scene: mlt.Scene, x, proposals, colours) -> None:
+    """Plan: the prism, the screen, and the paths from the lamp to the screen."""
+    prism = next(shape for shape in scene.triangles() if len(shape["faces"]) == 8)
+    corners = np.unique(np.round(prism["positions"][:, [0, 2]], 6), axis=0)
+    axes.add_patch(plt.Polygon(corners, fc="0.25", ec="none"))
+    lines = [path[:-1, [0, 2]] for path in proposals]
+    axes.add_collection(LineCollection(lines, colors=colours, linewidths=1.3))
+    axes.add_patch(plt.Polygon(corners, fc="none", ec="0.8", lw=1, zorder=3))
+    axes.plot(*x.vertices["position"][:-1, [0, 2]].T, "o--", color="white", ms=5, lw=1.2)
+    axes.axhline(-4, color="0.8", lw=4)
+    axes.text(-2.2, 0.12, "lamp", color="0.8", ha="center")
+    axes.text(-0.3, -3.9, "screen", color="0.8", va="bottom")
+    axes.set(xticks=[], yticks=[], aspect="equal", title="in the scene, along y")
+    axes.set(xlim=(-2.5, 2.1), ylim=(-4.15, 0.45))
+
+
 def along(axes: list[int]) -> str:
     """The axis that a view looks along."""
     return next(name for i, name in enumerate("xyz") if i not in axes)
@@ -127,3 +191,5 @@ if __name__ == "__main__":
     for picture in PICTURES:
         if not sys.argv[1:] or picture.mutation.name in sys.argv[1:]:
             draw(picture)
+    if not sys.argv[1:] or "wavelength" in sys.argv[1:]:
+        draw_wavelength()

@@ -16,12 +16,12 @@ class PathTaker : public WaveTaker {
 
   void sample(const Vec2& raster, PixelSampler& sampler, SampleSink& sink,
               RayCounts& rays) override {
-    const auto [lens, ray] = leave_lens(scene().camera(), raster, sampler);
+    const LensDeparture start = leave_lens(scene().camera(), raster, sampler);
     const auto trace = [&](auto&& watcher) {
-      sink.add(raster, trace_path(scene(), rules(), ray, sampler, rays, watcher));
+      sink.add(raster, trace_path(scene(), rules(), start.ray, sampler, rays, watcher));
     };
     if (sink.paths())
-      trace(PathRecorder(scene(), raster, lens.at, ray.time, *sink.paths()));
+      trace(PathRecorder(scene(), raster, start.lens.at, start.ray.time, *sink.paths()));
     else
       trace(IgnorePaths());
   }

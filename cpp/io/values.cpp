@@ -112,11 +112,26 @@ std::string tag_of(ParamType type) {
   return "";
 }
 
-/// A table with a wavelength and a value on each line; '#' begins a comment.
 WavelengthTable read_spectrum_file(const Element& element, const SearchPath& search) {
   const std::string path = search.find_file(element.require("filename"), element.where);
   std::ifstream file(path);
   if (!file) throw FileError(at(element.where, "cannot read " + path));
+  return read_spectrum_table(file, path);
+}
+
+Value read_spectrum(const Element& element, const SearchPath& search) {
+  element.expect_only({"name", "value", "filename"});
+  if (element.find("filename")) {
+    if (element.find("value"))
+      element.fail("has both a 'value' and a 'filename'; give one of them");
+    return read_spectrum_file(element, search);
+  }
+  return read_as_value(element);
+}
+
+}  // namespace
+
+WavelengthTable read_spectrum_table(std::istream& file, const std::string& path) {
   WavelengthTable samples;
   std::string line;
   for (int number = 1; std::getline(file, line); ++number) {
@@ -134,18 +149,6 @@ WavelengthTable read_spectrum_file(const Element& element, const SearchPath& sea
         at({path, 0}, "a spectrum needs two or more wavelengths, in increasing order"));
   return *result;
 }
-
-Value read_spectrum(const Element& element, const SearchPath& search) {
-  element.expect_only({"name", "value", "filename"});
-  if (element.find("filename")) {
-    if (element.find("value"))
-      element.fail("has both a 'value' and a 'filename'; give one of them");
-    return read_spectrum_file(element, search);
-  }
-  return read_as_value(element);
-}
-
-}  // namespace
 
 bool is_value_tag(const std::string& tag) { return examples().count(tag) > 0; }
 

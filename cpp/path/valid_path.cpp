@@ -23,6 +23,11 @@ bool in_scene(const Scene& scene, const Vertex& x) {
   return on_shape ? scene.emitter(x.at) == emitter : emitter->infinite() || emitter->delta();
 }
 
+bool has_valid_wavelength(const Scene& scene, const Path& path) {
+  if (!scene.camera().spectral()) return path.wavelength == rgb_lanes;
+  return path.wavelength >= 0 && path.wavelength < 1;
+}
+
 }  // namespace
 
 bool is_valid_path(const Scene& scene, const Path& path) {
@@ -36,7 +41,7 @@ bool is_valid_path(const Scene& scene, const Path& path) {
         !in_scene(scene, x))
       return false;
   }
-  return count >= 2;
+  return count >= 2 && has_valid_wavelength(scene, path);
 }
 
 }  // namespace mlt

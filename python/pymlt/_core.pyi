@@ -197,6 +197,15 @@ class LightPath:
     @property
     def time(self) -> float: ...
     @property
+    def wavelengths(self) -> np.ndarray | None:
+        """Its four wavelengths in nm, each about a quarter of what the eye sees apart; None in
+        scenes that are not spectral. If it is dispersed, the first one alone counts."""
+
+    @property
+    def dispersed(self) -> bool:
+        """Whether it is refracted by an index that depends on the wavelength."""
+
+    @property
     def raster(self) -> tuple[float, float]:
         """Where it meets the image, in pixels from the upper left corner."""
 

@@ -1,5 +1,5 @@
-// The body of a checkpoint of tests/fuzz/scene.xml, behind a head that says that this build has
-// written it; then the render goes on.
+// The body of a checkpoint of tests/fuzz/scene.xml, in RGB or with wavelengths, behind a head that
+// says that this build has written it; then the render goes on.
 #include "fuzz.h"
 #include "small_render.h"
 
@@ -24,13 +24,7 @@ std::string sealed(std::string_view rest) {
   return "pymlt checkpoint" + head.take() + whole;
 }
 
-}  // namespace
-
-void read(std::string_view bytes) {
-  static LoadedScene loaded = load_file("tests/fuzz/scene.xml", plugins(), small_film());
-  const bool whole = bytes.substr(0, 5) == "pymlt";
-  const Checkpoint checkpoint =
-      decode_checkpoint(whole ? std::string(bytes) : sealed(bytes), "input");
+void go_on(LoadedScene loaded, const Checkpoint& checkpoint) {
   loaded.integrator = checkpoint.integrator;
   RenderSettings settings;
   settings.budget.spp = 2;
@@ -42,6 +36,22 @@ void read(std::string_view bytes) {
   job.wait(60);
   job.layers();
   job.stats();
+}
+
+}  // namespace
+
+/// In the scene, and in the same with wavelengths, whose checkpoints are other ones.
+void read(std::string_view bytes) {
+  static const LoadedScene rgb = load_file("tests/fuzz/scene.xml", plugins(), small_film());
+  static const LoadedScene spectral = with_wavelengths(rgb, plugins());
+  const bool whole = bytes.substr(0, 5) == "pymlt";
+  const Checkpoint checkpoint =
+      decode_checkpoint(whole ? std::string(bytes) : sealed(bytes), "input");
+  try {
+    go_on(rgb, checkpoint);
+  } catch (const Error&) {  // the other scene may take it
+  }
+  go_on(spectral, checkpoint);
 }
 
 }  // namespace mlt::fuzz

@@ -22,6 +22,7 @@ import OpenImageIO
 import pymlt as mlt
 from pymlt import _core
 
+GLASSES = ("bk7", "sf11", "sapphire", "fused quartz", "water", "diamond")
 COMPRESSIONS = ("none", "rle", "zips", "zip", "piz", "pxr24", "b44", "b44a", "dwaa", "dwab")
 LONGEST = 4096  # bytes of a scene; tests/fuzz/run.sh has libFuzzer cut off what is longer
 FOLDER = Path(__file__).resolve().parent
@@ -159,6 +160,63 @@ def scenes_of_every_kind(encode: Callable[[str], bytes]) -> Iterator[tuple[int, 
             yield seed, content
 
 
+#: What a texture of type spectrum may be.
+SPECTRA = (
+    '<spectrum name="NAME" value="400:0.1, 500:0.7, 600:0.2"/>',
+    '<spectrum name="NAME" filename="red.spd"/>',
+    '<texture name="NAME" type="uniform"><float name="value" value="0.5"/>'
+    '<float name="wavelength_min" value="400"/></texture>',
+    '<texture name="NAME" type="regular"><string name="values" value="0.2, 0.9, 0.4"/></texture>',
+    '<texture name="NAME" type="irregular"><string name="wavelengths" value="400, 480, 700"/>'
+    '<string name="values" value="0.2, 0.9, 0.4"/></texture>',
+    '<texture name="NAME" type="srgb"><rgb name="color" value="0.2, 0.5, 0.9"/></texture>',
+    '<texture name="NAME" type="rgb"><rgb name="value" value="0.9, 0.1, 0.2"/></texture>',
+    '<spectrum name="NAME" type="d65"><float name="scale" value="0.5"/></spectrum>',
+    '<spectrum name="NAME" type="blackbody"><float name="temperature" value="3000"/>'
+    '<float name="scale" value="1e-12"/></spectrum>',
+)
+INDICES = (
+    '<string name="int_ior" value="sf11"/>',
+    '<string name="int_ior" value="bk7"/><string name="ext_ior" value="water"/>',
+    '<string name="int_ior" value="cauchy 1.35 60000"/>',
+    '<string name="int_ior" value="sellmeier 1.0396 0.2318 1.0105 0.006 0.02 103.56"/>',
+    '<string name="int_ior" value="abbe 1.6 20"/>',
+    '<spectrum name="int_ior" value="400:1.7, 500:1.6, 700:1.5"/>',
+    '<spectrum name="int_ior" filename="flint.spd"/>',
+)
+SPECTRAL_SCENE = """<scene version="3.0.0">
+<sensor type="perspective">
+<transform name="to_world"><lookat origin="0, 1, 4" target="0, 0.3, 0" up="0, 1, 0"/></transform>
+<film type="hdrfilm"><boolean name="spectral" value="true"/><rfilter type="box"/></film>
+</sensor>
+<shape type="sphere"><point name="center" x="0" y="0.5" z="0"/><float name="radius" value="0.5"/>
+<bsdf type="GLASS">INDEX</bsdf></shape>
+<shape type="disk">
+<transform name="to_world"><rotate x="1" angle="-90"/><scale value="3"/></transform>
+<bsdf type="diffuse">MATT</bsdf></shape>
+<shape type="sphere"><point name="center" x="1" y="2" z="1"/><float name="radius" value="0.3"/>
+<emitter type="area">LIGHT</emitter></shape>
+</scene>
+"""
+
+
+def spectral_scenes() -> Iterator[tuple[str, str]]:
+    """Every kind of spectrum on a lamp and as a reflectance, every kind of glass."""
+    glasses = ("dielectric", "roughdielectric", "thindielectric")
+    for i, light in enumerate(SPECTRA):
+        matt = SPECTRA[(i + 3) % 7]  # what comes after them is light alone
+        text = SPECTRAL_SCENE.replace("GLASS", glasses[i % 3])
+        text = text.replace("INDEX", INDICES[i % len(INDICES)])
+        text = text.replace("LIGHT", light.replace("NAME", "radiance"))
+        yield f"spectral-{i}", text.replace("MATT", matt.replace("NAME", "reflectance"))
+
+
+def make_spectra() -> None:
+    for name in ("red", "flint"):
+        write("spectrum", f"{name}.spd", (SCENES / f"{name}.spd").read_text())
+    write("spectrum", "dark.spd", "100 0\n900 0\n")
+
+
 def make_scenes() -> None:
     for name in ("stage", "light-spectrum", "mitsuba-cornell-box", "glass-ball"):
         write("xml", f"{name}.xml", (SCENES / f"{name}.xml").read_text())
@@ -172,13 +230,17 @@ def make_scenes() -> None:
 
     for seed, tree in scenes_of_every_kind(packed):
         write("dict", str(seed), tree)
+    for name, text in spectral_scenes():
+        write("scene", f"{name}.xml", text)
+        write("xml", f"{name}.xml", text)
+        write("dict", name, packed(text))
 
 
 # ---- scenes of other programs --------------------------------------------------------------------
 
 
 def make_gltf() -> None:
-    lit, painted, packed = GltfFile(), GltfFile(), GltfFile()
+    lit, painted, packed, glass = GltfFile(), GltfFile(), GltfFile(), GltfFile()
     for kind in ("point", "directional", "spot"):
         lit.light({"type": kind, "color": [1, 0.5, 0.2], "intensity": 6, "spot": {}})
     child = lit.node(root=False, mesh=lit.mesh(indices=None, mode=5), scale=[2, 1.5, 1])
@@ -189,11 +251,16 @@ def make_gltf() -> None:
     coat = {"KHR_materials_clearcoat": {"clearcoatFactor": 1}, "KHR_materials_ior": {"ior": 1.3}}
     paint = {"alphaMode": "MASK", "emissiveFactor": [1, 1, 1], "extensions": glow | coat}
     painted.node(mesh=painted.mesh(painted.material(baseColorTexture=image, packed=image, **paint)))
+    clear = {"KHR_materials_transmission": {"transmissionFactor": 1}}
+    clear |= {"KHR_materials_dispersion": {"dispersion": 0.5}, "KHR_materials_ior": {"ior": 1.6}}
+    for roughness in (0.0, 0.5):
+        glass.node(mesh=glass.mesh(glass.material(roughness=roughness, extensions=clear)))
     indices = {"bufferView": packed.view(bytes(2)), "componentType": 5123}
     sparse = {"count": 1, "indices": indices, "values": {"bufferView": packed.view(bytes(2))}}
     codes = packed.accessor(np.full((4, 2), 255, np.uint8), normalized=True, sparse=sparse)
     packed.node(mesh=packed.mesh(uvs=codes, mode=6))
-    for file, name in ((lit, "lit"), (painted, "painted"), (packed, "packed")):
+    files = {"lit": lit, "painted": painted, "packed": packed, "glass": glass}
+    for name, file in files.items():
         with tempfile.TemporaryDirectory() as folder:
             for extension in ("glb", "gltf"):
                 path = Path(file.save(Path(folder) / f"a.{extension}"))
@@ -238,32 +305,55 @@ Material "coateddiffuse" "float roughness" .1 Shape "sphere"
 Material "dielectric" "float uroughness" .1 "float vroughness" .2 "spectrum eta" "glass-BK7"
 Shape "sphere" Material "coatedconductor" "float interface.eta" 1.4 Shape "sphere"
 """
+PBRT_SPECTRA = """LightSource "infinite" "spectrum L" "stdillum-A" "float scale" 2
+LightSource "distant" "spectrum L" [ 400 .5 550 1 700 2 ] LightSource "point" "blackbody I" 2856
+Texture "a" "spectrum" "constant" "spectrum value" [ 300 .1 500 .7 900 .2 ]
+Material "diffuse" "spectrum reflectance" [ 400 .1 700 .6 ] Shape "sphere"
+Material "dielectric" "spectrum eta" "glass-SF11" Shape "sphere"
+Material "dielectric" "spectrum eta" "glass-BAF10" "float roughness" .2 Shape "sphere"
+Material "thindielectric" "spectrum eta" [ 400 1.6 700 1.5 ] Shape "sphere"
+Material "conductor" "spectrum eta" "metal-Au-eta" "spectrum k" "metal-Au-k" Shape "sphere"
+Material "conductor" "spectrum eta" [ 400 1.6 700 .1 ] "spectrum k" [ 400 2 700 3 ] Shape "disk"
+AttributeBegin AreaLightSource "diffuse" "spectrum L" "stdillum-D65" "float power" 9
+Shape "disk" AttributeEnd
+MakeNamedMedium "m" "string type" "homogeneous" "spectrum sigma_a" [ 400 .1 700 .2 ]
+"""
 
 
 def make_pbrt() -> None:
     write("pbrt", "view.pbrt", PBRT_VIEW + PBRT_LIGHTS)
     write("pbrt", "shapes.pbrt", PBRT_SHAPES)
     write("pbrt", "materials.pbrt", PBRT_MATERIALS)
+    write("pbrt", "spectra.pbrt", PBRT_SPECTRA)
 
 
 def make_checkpoints() -> None:
     """Without their heads, which the target makes."""
     scene = mlt.load_file(FOLDER / "scene.xml", size=(4, 4))
     for name in mlt.available("integrator"):
-        settings = {"type": name}
-        if name in ("mlt", "pssmlt", "mmlt", "rjmlt"):
-            settings |= {"chains": 16, "luminance_samples": 16, "independent_share": 0.3}
-        if name == "mlt":  # each mutation makes it longer
-            settings |= {"adaptive": False, "multi_chain_perturbation": False}
-            settings |= {"caustic_perturbation": False, "lens_subpath_mutation": False}
-            settings |= {"manifold_perturbation": False}
-        with tempfile.TemporaryDirectory() as folder:
-            path = Path(folder) / "a"
-            mlt.start(scene, settings, spp=1, seed=1, checkpoint=path).wait()
-            body = path.read_bytes()[28:]
-        for _ in ("version", "build"):
-            body = body[8 + int.from_bytes(body[:8], "little") :]
-        write("checkpoint", name, body)
+        write("checkpoint", name, checkpoint_body(scene, name))
+    for name in ("mlt", "mmlt"):
+        write("checkpoint", f"spectral-{name}", checkpoint_body(scene.with_wavelengths(), name))
+
+
+def checkpoint_body(scene: mlt.Scene, name: str) -> bytes:
+    settings = {"type": name}
+    if name in ("mlt", "pssmlt", "mmlt", "rjmlt", "erpt"):
+        settings |= {"chains": 16, "luminance_samples": 16}
+    if name in ("mlt", "pssmlt", "mmlt", "rjmlt"):
+        settings |= {"independent_share": 0.3}
+    if name == "mlt":  # each mutation makes it longer
+        settings |= {"adaptive": False, "multi_chain_perturbation": False}
+        settings |= {"caustic_perturbation": False, "lens_subpath_mutation": False}
+        settings |= {"manifold_perturbation": False}
+        settings |= {"lens_perturbation": not scene.info()["spectral"]}
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "a"
+        mlt.start(scene, settings, spp=1, seed=1, checkpoint=path).wait()
+        body = path.read_bytes()[28:]
+    for _ in ("version", "build"):
+        body = body[8 + int.from_bytes(body[:8], "little") :]
+    return body
 
 
 def make_words() -> None:
@@ -277,6 +367,7 @@ def make_words() -> None:
     tags = "default include ref alias scene shape rgb spectrum animation transform translate rotate"
     tags += " lookat"
     words |= set(tags.split())
+    words |= {"cauchy ", "sellmeier ", "abbe ", *GLASSES}
     text = "# Made by make_corpus.py.\n" + "".join(f'"{word}"\n' for word in sorted(words))
     (FOLDER / "scene.dict").write_text(text)
 
@@ -289,6 +380,7 @@ if __name__ == "__main__":
     make_ply()
     make_serialized()
     make_vol()
+    make_spectra()
     make_scenes()
     make_gltf()
     make_pbrt()

@@ -468,6 +468,47 @@ def test_textures_are_scaled_and_checked():
     mlt.render(mlt.load_dict(made.scene, size=(8, 8)), spp=1)
 
 
+SCALED = {  # a constant texture, its factor, and their product
+    '"float value" .5': ('"float scale" .5', 0.25),
+    '"rgb value" [.2 .4 .6]': ('"float scale" .5', colour(0.1, 0.2, 0.3)),
+    '"rgb value" [.2 .4 .8]': ('"rgb scale" [1 .5 .25]', colour(0.2, 0.2, 0.2)),
+    '"spectrum value" [400 .2 700 .4]': ('"float scale" .5', {"type": "spectrum"}),
+    '"spectrum value" [400 .2 700 .8]': ('"rgb scale" [1 .5 .25]', {"type": "scale"}),
+    '"rgb value" [.2 .4 .7]': ('"spectrum scale" [400 .2 700 .4]', {"type": "scale"}),
+    '"float value" .7': ('"spectrum scale" [400 .2 700 .4]', {"type": "spectrum"}),
+}
+
+
+@pytest.mark.parametrize("constant", SCALED)
+def test_constant_textures_are_scaled(constant):
+    factor, product = SCALED[constant]
+    made = read(
+        f'Texture "a" "spectrum" "constant" {constant}\n',
+        f'Texture "b" "spectrum" "scale" "texture tex" "a" {factor}\n',
+        'Material "diffuse" "texture reflectance" "b" Shape "sphere"',
+    )
+    found = made.scene["diffuse-material"]["bsdf"]["reflectance"]
+    if isinstance(product, float):
+        assert found == product
+    else:
+        assert found["type"] == product["type"]
+        if "value" in product:
+            np.testing.assert_allclose(found["value"], product["value"])
+    mlt.render(mlt.load_dict(made.scene, size=(4, 4)), spp=1)
+
+
+def test_black_bodies_that_do_not_shine_are_refused():
+    for kelvin in (0, -3000, 10):
+        with pytest.raises(mlt.Error, match=rf"a black body of {kelvin} K does not shine"):
+            read(f'LightSource "infinite" "blackbody L" {kelvin}')
+
+
+def test_lights_without_visible_power_are_dark():
+    light = 'AreaLightSource "diffuse" "spectrum L" [ 400 0 700 0 ] Shape "disk"'
+    made = read(light)
+    assert not mlt.render(mlt.load_dict(made.scene, size=(4, 4)), mlt.Path(), spp=1).any()
+
+
 GLASSES = {"BK7": (1.5168, 64.17), "SF11": (1.78472, 25.68)}
 GLASSES |= {"BAF10": (1.67003, 47.11), "FK51A": (1.48656, 84.47)}
 GLASSES |= {"LASF9": (1.85025, 32.17), "SF5": (1.6727, 32.21)}

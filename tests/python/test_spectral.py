@@ -129,6 +129,26 @@ def test_paths_keep_their_wavelength_in_python():
         )
 
 
+def test_python_knows_the_wavelengths_of_a_path():
+    scene = mlt.load_dict(dispersive())
+    assert scene.sample_path(seed=1).wavelengths is None
+    assert not any(scene.sample_path(seed=seed, max_depth=6).dispersed for seed in range(50))
+    spectral = scene.with_wavelengths()
+    paths = [spectral.sample_path(seed=seed, max_depth=6) for seed in range(200)]
+    waves = np.array([path.wavelengths for path in paths])
+    assert waves.shape == (200, 4)
+    # One in each quarter of the density, whose borders are these.
+    at = np.array([-178.0, 0, 292]) * 0.0072
+    below, above = np.tanh(at[0]), np.tanh(at[2])
+    middle = 538 + np.arctanh(below + np.array([0.25, 0.5, 0.75]) * (above - below)) / 0.0072
+    assert (np.sort(np.searchsorted(middle, waves)) == np.arange(4)).all()
+    # The glass of the ball is dispersive, and the floor is not.
+    for path in paths:
+        through = (path.vertices["lobe"] == "transmission").any()
+        assert path.dispersed == through
+    assert len({path.dispersed for path in paths}) == 2
+
+
 def test_layers_are_those_in_rgb():
     scene = mlt.load_dict(room())
     spectral = scene.with_wavelengths()

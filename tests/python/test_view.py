@@ -294,6 +294,41 @@ def test_tables_name_every_technique_and_vertex(found):
     assert "t=0" in path_tables.strategy_table(found)
 
 
+@pytest.fixture(scope="module")
+def dispersed():
+    """A path through the prism, and one that is not dispersed."""
+    scene = mlt.load("tests/scenes/prism.xml")
+    paths = [scene.sample_path(seed=seed, max_depth=6) for seed in range(400)]
+    return tuple(next(path for path in paths if path.dispersed == how) for how in (True, False))
+
+
+def test_the_wavelengths_of_a_path_are_told(dispersed):
+    alone, four = dispersed
+    assert f"> {alone.wavelengths[0]:.0f} nm" in path_tables.path_text(alone)
+    first, _, _, last = np.sort(four.wavelengths)
+    for text in (path_tables.path_text(four), path_tables.place_table(four)):
+        assert f"> {first:.0f}, " in text
+        assert f", {last:.0f} nm" in text
+    rgb = box_scene().sample_path(seed=3)
+    assert " nm" not in path_tables.path_text(rgb)
+    assert " nm" not in path_tables.place_table(rgb)
+
+
+def test_a_path_has_the_colour_of_its_wavelengths(dispersed):
+    assert path_tables.colour(box_scene().sample_path(seed=3)) == path_tables.WHITE
+    scene = dispersed[0].scene
+    paths = [scene.sample_path(seed=seed, max_depth=6) for seed in range(400)]
+    alone = [path for path in paths if path.dispersed]
+    shown = {path.wavelengths[0]: path_tables.colour(path) for path in alone}
+    assert all(max(colour) == 255 for colour in shown.values())
+    red = [np.argmax(colour) == 0 for nm, colour in shown.items() if nm > 600]
+    green = [np.argmax(colour) == 1 for nm, colour in shown.items() if 510 < nm < 550]
+    blue = [np.argmax(colour) == 2 for nm, colour in shown.items() if 430 < nm < 480]
+    for right in (red, green, blue):
+        assert right
+        assert all(right)
+
+
 def test_a_walk_is_the_chain_that_renders():
     scene = box_scene()
     start = scene.sample_path(seed=3, max_depth=6)

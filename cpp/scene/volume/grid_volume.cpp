@@ -45,7 +45,7 @@ class Flying {
  private:
   struct Cell {
     Cell(const Flying& flying, const Grid::Index& i)
-        : values(flying.grid_->cell<T>(i)),
+        : values(flying.grid_->template cell<T>(i)),
           o(flying.o_ - Vec3(i[0], i[1], i[2])),
           d(flying.d_),
           scale(flying.scale_) {}

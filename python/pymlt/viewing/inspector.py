@@ -14,7 +14,6 @@ from .world import Lines, Meshes
 EVERY, NONE = "all", "none"
 DRAWN = 60  #: paths of a pixel that are listed
 THIN = 24  #: of them that are drawn, since more hide the picture
-CHOSEN = (255, 255, 255)
 ACCEPTED, REJECTED = (70, 220, 110), (240, 70, 70)
 
 
@@ -117,7 +116,7 @@ class Inspector:
             said += f", {step.proposal.signature}, a = {step.acceptance:.3g}"
         self._chain.content = (
             f'<p class="mlt" data-steps="{self._walk.steps}">Step {self._walk.steps}. {said}</p>'
-            + table([["now at", self._walk.path.signature]])
+            + path_tables.place_table(self._walk.path)
             + table(rows, head=True)
         )
 
@@ -177,7 +176,10 @@ class Inspector:
         last = drawn[::-1]  # the most important lie on top
         self._lines.draw_tubes("all", last, [colours[path.signature] for path in last])
         if self._path is not None:
-            self._lines.draw_one("chosen", self._path, CHOSEN)
+            self._draw_chosen(self._path)
+
+    def _draw_chosen(self, path: _core.LightPath) -> None:
+        self._lines.draw_one("chosen", path, path_tables.colour(path))
 
     def _choose(self) -> None:
         number = self._list.value.split(":")[0]
@@ -185,7 +187,7 @@ class Inspector:
             return
         self._path = self._drawn[min(int(number), len(self._drawn)) - 1]
         if self._kind.value != NONE:
-            self._lines.draw_one("chosen", self._path, CHOSEN)
+            self._draw_chosen(self._path)
         self._text.content = path_tables.path_text(self._path)
 
     def _toggle(self) -> None:
@@ -204,10 +206,10 @@ class Inspector:
             raise _core.UsageError("choose a path first: click into the picture")
         depth = self._whole(self._depth, 1, 64)
         self._walk = walk.Walk(self._path.scene, self._path, depth)
-        self._chain.content = table([["now at", self._walk.path.signature]])
+        self._chain.content = path_tables.place_table(self._walk.path)
         self._lines.clear("all")
         self._lines.clear("proposal")
-        self._lines.draw_one("chosen", self._walk.path, CHOSEN)
+        self._draw_chosen(self._walk.path)
 
     def _press(self, button: str) -> None:
         self._next_step = None
@@ -226,7 +228,7 @@ class Inspector:
         if step.proposal is not None:
             colour = ACCEPTED if step.accepted else REJECTED
             self._lines.draw("proposal", step.proposal, colour, 2.5)
-        self._lines.draw_one("chosen", self._walk.path, CHOSEN)
+        self._draw_chosen(self._walk.path)
         self._session.client.flush()
 
     def _open_stuck(self) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from html import escape
 
 from .. import _core
+from ..pictures.tonemapping import encode_srgb
 from .page import table
 from .pixel_paths import PixelPaths
 
@@ -12,7 +13,7 @@ COLOURS = (
     (66, 135, 245), (240, 140, 40), (60, 180, 110), (230, 70, 70), (170, 110, 230),
     (240, 200, 60), (60, 200, 220), (240, 120, 190), (150, 150, 150),
 )  # fmt: skip
-
+WHITE = (255, 255, 255)
 
 #: The letters D and S of a signature in words, by the lobe that scattered.
 LOBES = {
@@ -30,14 +31,17 @@ def colours(found: PixelPaths) -> dict[str, tuple[int, int, int]]:
     }
 
 
+def _swatch(shown: tuple[int, int, int]) -> str:
+    return f'<b class="swatch" style="background: rgb{shown}"></b>'
+
+
 def signature_table(found: PixelPaths) -> str:
     if not found.paths:
         return table([[f"No light in {found.samples} samples of pixel {found.pixel}."]])
     rows = [["", "signature", "paths", "share"]]
     shown = colours(found)
     for signature, (count, share) in found.signatures().items():
-        swatch = f'<b class="swatch" style="background: rgb{shown[signature]}"></b>'
-        rows.append([swatch, signature, str(count), f"{100 * share:.1f} %"])
+        rows.append([_swatch(shown[signature]), signature, str(count), f"{100 * share:.1f} %"])
     return table(rows, head=True)
 
 
@@ -89,7 +93,42 @@ def technique_table(path: _core.LightPath) -> str:
 def path_title(path: _core.LightPath) -> str:
     x, y = path.raster
     found = f", found by s={path.technique[0]}, t={path.technique[1]}" if path.technique else ""
-    return f'<p class="mlt"><b>{path.signature}</b> at ({x:.2f}, {y:.2f}){found}</p>'
+    waves = f"<br>{wavelengths(path)}" if path.wavelengths is not None else ""
+    return f'<p class="mlt"><b>{path.signature}</b> at ({x:.2f}, {y:.2f}){found}{waves}</p>'
+
+
+def colour(path: _core.LightPath) -> tuple[int, int, int]:
+    """What the wavelengths of a path show, as bright as can be; white in RGB scenes.
+
+    Where a screen cannot show it, it is mixed with as much white as it takes.
+    """
+    import numpy as np
+
+    if path.wavelengths is None:
+        return WHITE
+    light = path.contribution()
+    light = light - min(light.min(), 0.0)
+    if not 0 < light.max() < np.inf:
+        return WHITE
+    red, green, blue = np.round(255 * encode_srgb(light / light.max())).astype(int).tolist()
+    return red, green, blue
+
+
+def wavelengths(path: _core.LightPath) -> str:
+    """Those that count: the first if the path is dispersed, else all four; "" in RGB scenes."""
+    waves = path.wavelengths
+    if waves is None:
+        return ""
+    counted = waves[:1] if path.dispersed else sorted(waves)
+    return f"{_swatch(colour(path))} {', '.join(f'{nm:.0f}' for nm in counted)} nm"
+
+
+def place_table(path: _core.LightPath) -> str:
+    """Where a chain is."""
+    rows = [["now at", path.signature]]
+    if path.wavelengths is not None:
+        rows.append(["wavelengths", wavelengths(path)])
+    return table(rows)
 
 
 def path_text(path: _core.LightPath) -> str:

@@ -178,6 +178,12 @@ TEST(AuditOfManifolds, HoldsForLargeMoves) {
   EXPECT_EQ(report.verdict, Verdict::right) << report.text();
 }
 
+/// Glass that disperses strongly, so that chains of specular vertices move far with the wavelength.
+TEST(AuditOfWavelengths, HoldsBehindAPrism) {
+  const AuditReport report = audit_case({"prism", "wavelength"}, 500000);
+  EXPECT_EQ(report.verdict, Verdict::right) << report.text();
+}
+
 TEST(AuditOfCaustics, HoldsForRoundMovesOfTheDirection) {
   const ScenePtr scene = make_scene("caustic").scene;
   const PathTarget target = path_target(scene);

@@ -21,6 +21,7 @@ SELLMEIER = {
 #: Indices of refraction that depend on the wavelength, as scene dicts have them.
 DISPERSIVE = {name: f"sellmeier {terms}" for name, terms in SELLMEIER.items()}
 DISPERSIVE |= {"glass-BK7": "bk7", "glass-SF11": "sf11"}
+COLDEST = 100  #: kelvin, of black bodies; colder ones have no light that a number can hold
 TUNGSTEN = 2856  #: kelvin, of CIE standard illuminant A
 WAVELENGTHS = range(360, 831, 5)  #: nm
 
@@ -59,7 +60,7 @@ def luminance_one(value: Any) -> Any:
     found = sum(
         w * _between(waves, heights, at) for w, at in zip(weights, WAVELENGTHS, strict=True)
     )
-    return scaled(value, sum(weights) / found)
+    return scaled(value, sum(weights) / found) if found else value
 
 
 def _between(waves: Any, heights: Any, at: float) -> float:
@@ -90,6 +91,8 @@ def numbers(value: Any) -> list[float]:
 
 def blackbody(kelvin: float) -> dict[str, Any]:
     """Planck's spectrum with the luminance of an even spectrum of 1, as pbrt-v4 has it."""
+    if kelvin < COLDEST:
+        raise ValueError(f"a black body of {kelvin:g} K does not shine")
     values = [planck(wave, kelvin) for wave in WAVELENGTHS]
     weights = [luminous(wave) for wave in WAVELENGTHS]
     mean = sum(v * w for v, w in zip(values, weights, strict=True)) / sum(weights)

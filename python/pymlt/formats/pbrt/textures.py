@@ -5,8 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+from ..imported import rgb
 from ..limits import measured
 from .params import Params
+from .spectra import scaled
 
 WRAP = {"repeat": "repeat", "black": "black", "clamp": "clamp", "octahedralsphere": "clamp"}
 Value = float | dict[str, Any]
@@ -79,9 +81,9 @@ class Textures:
 
     def _scale(self, params: Params) -> Value:
         inner, factor = (self.colour(params, name, 1.0) for name in ("tex", "scale"))
-        if isinstance(factor, dict) and factor["type"] not in ("rgb", "spectrum"):
+        if not _is_even(factor):
             inner, factor = factor, inner
-        if isinstance(factor, dict) and factor["type"] not in ("rgb", "spectrum"):
+        if not _is_even(factor):
             params.warn("a product of two textures is left out; the first is taken")
             return inner
         return multiplied(inner, factor)
@@ -106,10 +108,27 @@ def placement(params: Params, factor: float) -> dict[str, float]:
     }
 
 
-def multiplied(inner: Value, factor: Any) -> Value:
-    """A texture times a factor."""
-    if factor == 1:
-        return inner
-    if isinstance(inner, float) and isinstance(factor, float):
-        return inner * factor
-    return {"type": "scale", "scale": factor, "texture": inner}
+def multiplied(inner: Value, factor: Value) -> Value:
+    """A texture or a colour times a factor that is the same everywhere."""
+    if isinstance(factor, float | int):
+        return scaled(inner, factor) if _is_even(inner) else _scale_texture(inner, factor)
+    if not _is_even(inner):
+        return _scale_texture(inner, factor)
+    if isinstance(inner, float | int):
+        return scaled(factor, inner)
+    if inner["type"] == factor["type"] == "rgb":
+        return rgb([a * b for a, b in zip(inner["value"], factor["value"], strict=True)])
+    if inner["type"] == "rgb":
+        inner, factor = factor, inner
+    waves, heights = zip(*inner["value"], strict=True)
+    spectrum = {"type": "irregular", "wavelengths": list(waves), "values": list(heights)}
+    return _scale_texture(spectrum, factor)
+
+
+def _is_even(value: Value) -> bool:
+    """Whether it is the same everywhere."""
+    return not isinstance(value, dict) or value["type"] in ("rgb", "spectrum")
+
+
+def _scale_texture(inner: Value, factor: Value) -> Value:
+    return inner if factor == 1 else {"type": "scale", "scale": factor, "texture": inner}

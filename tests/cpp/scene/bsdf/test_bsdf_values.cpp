@@ -1,5 +1,6 @@
 // Energy, symmetry and soundness of every material's values.
 #include "harness/statistics.h"
+#include "math/fresnel.h"
 #include "scene/bsdf/bsdf_testing.h"
 
 #include <gtest/gtest.h>
@@ -285,6 +286,49 @@ TEST(BsdfValues, ThatDependOnMoreThanTheCosinesAreNoLambertianSurface) {
   EXPECT_FALSE(make_bsdf("twosided", {}, {gray, phong})->lambertian(point()).known());
   EXPECT_FALSE(make_bsdf("twosided", {}, {gray, phong})->lambertian().known());
   EXPECT_FALSE(make_bsdf("twosided", {}, {gray, pink})->lambertian().known());
+}
+
+/// Glass whose index, and what it lets pass, depend on the wavelength.
+struct DispersiveGlass {
+  BsdfPtr bsdf = make_bsdf("dielectric", {{"specular_transmittance", colour},
+                                          {"int_ior", std::string("cauchy 1.5 9000")},
+                                          {"ext_ior", 1.0}});
+  Vec3 from = normalize(Vec3(0.3, 0.2, 0.9));
+
+  static inline const WavelengthTable colour{{360, 0.1}, {830, 0.9}};
+  double transmittance(double nm) const { return 0.1 + 0.8 * (nm - 360) / 470; }
+  double reflectance(double nm) const {
+    return fresnel_dielectric(from.z, 1.5 + 9000 / (nm * nm)).reflectance;
+  }
+  /// Light of the wavelengths of u that is scattered by this lobe, which the number chooses.
+  Scattering scattered(double u, Lobe lobe, double choice) const {
+    SurfacePoint at = point();
+    at.wavelength = u;
+    const auto sample = bsdf->sample(at, from, {choice, 0.5, 0.5});
+    EXPECT_TRUE(sample && sample->lobe == lobe);
+    return bsdf->scattering(at, from, sample->to, lobe);
+  }
+};
+
+TEST(BsdfValues, DispersiveRefractionsKeepTheFirstWavelength) {
+  const DispersiveGlass glass;
+  for (const double u : {0.1, 0.4, 0.8}) {
+    const double nm = wavelength_of(u);
+    const Scattering refracted = glass.scattered(u, Lobe::transmission, 0.999);
+    EXPECT_TRUE(refracted.disperses);
+    EXPECT_NEAR(refracted.f[0], (1 - glass.reflectance(nm)) * glass.transmittance(nm), 1e-9) << nm;
+    for (int j = 1; j < Spectrum::lanes; ++j) EXPECT_EQ(refracted.f[j], 0);
+  }
+}
+
+TEST(BsdfValues, DispersiveGlassReflectsEachWavelengthByItsOwnIndex) {
+  const DispersiveGlass glass;
+  for (const double u : {0.1, 0.4, 0.8}) {
+    const Scattering reflected = glass.scattered(u, Lobe::reflection, 0);
+    EXPECT_FALSE(reflected.disperses);
+    const Spectrum expected = at_wavelengths(u, [&](double nm) { return glass.reflectance(nm); });
+    for (int j = 0; j < Spectrum::lanes; ++j) EXPECT_NEAR(reflected.f[j], expected[j], 1e-12);
+  }
 }
 
 TEST(BsdfValues, OneSidedMaterialsAreBlackFromBelow) {
