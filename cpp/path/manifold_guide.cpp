@@ -131,9 +131,12 @@ class ManifoldLessons {
 
 std::shared_ptr<const ManifoldGuide> learn_manifolds(const Scene& scene, const PathRules& rules) {
   constexpr uint64_t first_samples = 1024, samples = 8192;
+  constexpr int most_searches = 256;  // what is found more rarely would take most of the time
   auto guide = std::make_shared<ManifoldGuide>(scene);
   if (!guide->useful()) return nullptr;
-  ManifoldLessons lessons(scene, rules, std::make_shared<ManifoldGuide>(*guide));
+  const auto all = std::make_shared<ManifoldGuide>(*guide);
+  all->set_most_searches(most_searches);
+  ManifoldLessons lessons(scene, rules, all);
   lessons.take(first_samples);
   if (lessons.rare() < least_rare / 2) return nullptr;
   lessons.take(samples);

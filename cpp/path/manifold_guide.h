@@ -37,11 +37,16 @@ class ManifoldGuide {
   /// a walk from the light chooses its lobes.
   void choose(std::unordered_map<uint64_t, double> ratios) { ratios_ = std::move(ratios); }
 
+  /// The number of searches after which a chain counts as found again.
+  int most_searches() const { return most_searches_; }
+  void set_most_searches(int most) { most_searches_ = most; }
+
  private:
   struct Box {
     Vec3 low, high;
   };
 
+  int most_searches_ = 1 << 16;  ///< Enough but for chains that rounding errors have found.
   std::vector<Box> boxes_;
   std::optional<std::unordered_map<uint64_t, double>> ratios_;
 };

@@ -62,7 +62,7 @@ bool ManifoldSampler::is_found_again() const {
 }
 
 int ManifoldSampler::find_again(double time, Rng& rng, RayCounts& rays) {
-  constexpr int most = 1 << 16;  // for chains that rounding errors have found
+  const int most = guide_->most_searches();
   const SurfacePoint& y = found_.back().at;
   int n = 1;
   while (n < most && !(search(found_.front(), y, time, rng, rays) && is_found_again())) ++n;
