@@ -1,5 +1,6 @@
 // The wavelength mutation: the same path in light of other wavelengths. The number u of its
-// wavelengths (wavelengths.h) moves by a step to either side or, half of the time, anywhere.
+// wavelengths (wavelengths.h), or its place in the band of the film, moves by a step to either side
+// or, half of the time, anywhere.
 //
 // What does not disperse stays where it is. A specular chain that does is found again between its
 // ends, at the new wavelength, by a manifold walk that starts from the old chain (Jakob & Marschner
@@ -30,7 +31,7 @@ class WavelengthMutation final : public MeasuredMutation<WavelengthMutation> {
   }
 
   double suitability(const PathState& x) const override {
-    if (!scene().camera().spectral()) return 0;
+    if (!camera().spectral()) return 0;
     bool suits = true;
     for_each_chain(
         x, [&](const ManifoldChain& chain) { suits = suits && chain.can_be_walked(scene(), x); });
@@ -43,7 +44,7 @@ class WavelengthMutation final : public MeasuredMutation<WavelengthMutation> {
     const Edit all{0, k, k + 1};
     splice(x, all, y);
     y.path.vertices = x.path.vertices;
-    change_wavelength(y.path, moved(x.path.wavelength, context.rng));
+    change_wavelength(y.path, camera().wavelength_at(moved(number(x), context.rng)));
     bool found = true;
     for_each_chain(x, [&](const ManifoldChain& chain) {
       found = found && chain.find(scene(), x, y, context);
@@ -63,12 +64,15 @@ class WavelengthMutation final : public MeasuredMutation<WavelengthMutation> {
                     const Edit& edit) const {
     const int k = x.edges();
     if (edit.first != 0 || edit.last != k || y.edges() != k || !same_form(x, y, 1, k - 1)) return 0;
-    double p = step_density(x.path.wavelength, y.path.wavelength) * unsampled(in, 0, k);
+    double p = step_density(number(x), number(y)) * unsampled(in, 0, k);
     for_each_chain(y, [&](const ManifoldChain& chain) { p *= chain.jacobian(scene(), y); });
     return p;
   }
 
  private:
+  const Camera& camera() const { return scene().camera(); }
+  double number(const PathState& x) const { return camera().invert_wavelength(x.path.wavelength); }
+
   /// Whether |f| is a number: in long paths of scenes in tiny or huge units it is not.
   static bool is_measurable(const PathState& x) {
     const double f = magnitude(x.terms, 0, x.edges());
@@ -109,17 +113,19 @@ class WavelengthMutation final : public MeasuredMutation<WavelengthMutation> {
 }  // namespace
 
 MutationPlugin mutation_wavelength() {
-  return {{"mutation",
-           "wavelength",
-           "another wavelength for the same path; dispersive chains are found again.",
-           {{"smallest_step", ParamType::real, 0.0005,
-             "Smallest step, as a share of the visible range in the measure of what the eye sees."},
-            {"largest_step", ParamType::real, 0.1, "Largest step, likewise."}}},
-          "wavelength_mutation",
-          0.2,
-          make_shared_mutation<WavelengthMutation>,
-          /*on=*/true,
-          [](const Scene& scene) { return scene.camera().spectral(); }};
+  return {
+      {"mutation",
+       "wavelength",
+       "another wavelength for the same path; dispersive chains are found again.",
+       {{"smallest_step", ParamType::real, 0.0005,
+         "Smallest step, as a share of the visible range in the measure of what the eye sees, or "
+         "of a band."},
+        {"largest_step", ParamType::real, 0.1, "Largest step, likewise."}}},
+      "wavelength_mutation",
+      0.2,
+      make_shared_mutation<WavelengthMutation>,
+      /*on=*/true,
+      [](const Scene& scene) { return scene.camera().spectral(); }};
 }
 
 }  // namespace mlt
