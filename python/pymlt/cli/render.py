@@ -45,9 +45,9 @@ def add_arguments(command) -> None:
         "--bands",
         type=reader(parse_bands),
         metavar="[FROM:TO:]N",
-        help="of a spectral scene, also N layers for an .exr, such as spectrum.400-430nm: the mean "
-        "radiance per nm in N equal bands of wavelengths, 360 to 830 nm if FROM and TO are not given; each is "
-        "a render of its own, of --spp samples or with an equal share of --time",
+        help="N layers for an .exr, such as spectrum.400-430nm: the mean radiance per nm of a "
+        "spectral scene in N equal bands of wavelengths, by default from 360 to 830 nm; each is a "
+        "render of its own, of --spp samples or with an equal share of --time",
     )
     command.add_argument(
         "--fireflies",
