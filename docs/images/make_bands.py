@@ -18,11 +18,13 @@ def main() -> None:
         scene, mlt.MLT(), bands=BANDS, time=SECONDS * (1 + len(bands)), seed=1, fireflies="groups"
     )
     layers = [result.layers[band.layer][..., 0] for band in bands]
-    white = np.percentile(layers, 98)
+    white = np.percentile(layers, 99)
     shown = []
     for band, layer in zip(bands, layers, strict=True):
         tile = Image.fromarray((np.clip(layer / white, 0, 1) ** (1 / 2.2) * 255).astype(np.uint8))
-        ImageDraw.Draw(tile).text((8, 6), band.layer.partition(".")[2], fill="white")
+        draw = ImageDraw.Draw(tile)
+        draw.rectangle((4, 4, 78, 20), fill="black")
+        draw.text((8, 6), band.layer.partition(".")[2], fill="white")
         shown.append(np.asarray(tile))
     rows = [np.hstack(shown[k : k + COLUMNS]) for k in range(0, len(shown), COLUMNS)]
     file = Path(__file__).parent / "spectral-bands.jpg"
