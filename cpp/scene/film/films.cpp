@@ -49,11 +49,13 @@ void read_format(Params& params, FilmSettings& film) {
 
 /// A band as in "400:430".
 std::optional<Band> parse_band(const std::string& text) {
-  const size_t colon = std::min(text.find(':'), text.size());
+  const size_t colon = text.find(':');
+  if (colon == std::string::npos) return std::nullopt;
   const auto first = parse_real(text.substr(0, colon));
-  const auto last = parse_real(text.substr(std::min(colon + 1, text.size())));
-  if (!first || !last || !(first_wavelength <= *first && *first < *last)) return std::nullopt;
-  return *last <= last_wavelength ? std::optional<Band>({*first, *last}) : std::nullopt;
+  const auto last = parse_real(text.substr(colon + 1));
+  if (!first || !last) return std::nullopt;
+  if (*first < first_wavelength || *last > last_wavelength || *first >= *last) return std::nullopt;
+  return Band{*first, *last};
 }
 
 void read_wavelengths(Params& params, FilmSettings& film) {

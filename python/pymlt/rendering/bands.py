@@ -76,13 +76,14 @@ def share_of_time(seconds: float | None, bands: list[Band]) -> float | None:
 def add_bands(result: Result, job: Job, bands: list[Band], wait: Callable[[Job], object]) -> None:
     """Renders a layer for each band as `job` was rendered; none after one that was cancelled."""
     options = replace(job._options, aovs="")
+    known = list(result.stats["warnings"])
     for band in bands:
         part = Job(job._scene.with_wavelengths(band), job._integrator, options)
         finish(part._start(), wait)
         if part.samples > 0:
             result.layers[band.layer] = part.image[..., :1].copy()
-        known = result.stats["warnings"]
-        known += [warning for warning in part.stats["warnings"] if warning not in known]
+        new = [warning for warning in part.stats["warnings"] if warning not in known]
+        result.stats["warnings"] += [f"{band.layer}: {warning}" for warning in new]
         if part.cancelled:
             return
 
