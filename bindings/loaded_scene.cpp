@@ -91,6 +91,13 @@ py::dict info(const LoadedScene& loaded) {
   return info;
 }
 
+using BandEnds = std::optional<std::pair<double, double>>;
+
+LoadedScene spectral_scene(const LoadedScene& loaded, const BandEnds& band) {
+  return with_wavelengths(loaded, band ? fmt::format("{}:{}", band->first, band->second) : "",
+                          plugins());
+}
+
 py::str describe_scene(const LoadedScene& loaded) {
   return py::str(
              "Scene({size[0]} x {size[1]}, {shapes} shapes, {triangles} triangles, {emitters} "
@@ -120,10 +127,10 @@ void bind_scene(py::module_& m) {
                         const ReleasedGil release;
                         return std::make_shared<LoadedScene>(unpack_scene(packed, plugins()));
                       }))
-      .def(
-          "with_wavelengths", [](const LoadedScene& s) { return with_wavelengths(s, plugins()); },
-          NoGil(),
-          "The same scene, with spectral films: light has wavelengths instead of R, G and B.")
+      .def("with_wavelengths", &spectral_scene, py::arg("band") = py::none(), NoGil(),
+           "The same scene, with spectral films: light has wavelengths instead of R, G and B.\n\n"
+           "With a `band` of wavelengths, as in (400, 430), the image shows the mean radiance in "
+           "it,\nper nm, as a grey.")
       .def(
           "with_sensor",
           [](const LoadedScene& s, int64_t sensor) { return with_sensor(s, sensor, plugins()); },

@@ -43,12 +43,16 @@ std::optional<int64_t> asked_sensor(const Node& scene) {
   return std::nullopt;
 }
 
-Node asking_for(Node scene, int64_t sensor) {
-  auto& all = scene.properties;
+void set_property(Node& node, const std::string& name, const Value& value) {
+  auto& all = node.properties;
   all.erase(std::remove_if(all.begin(), all.end(),
-                           [](const auto& property) { return property.name == sensor_property; }),
+                           [&](const auto& property) { return property.name == name; }),
             all.end());
-  all.push_back({sensor_property, sensor, scene.where});
+  all.push_back({name, value, node.where});
+}
+
+Node asking_for(Node scene, int64_t sensor) {
+  set_property(scene, sensor_property, sensor);
   return scene;
 }
 
@@ -63,12 +67,12 @@ void change_films(Node& node, const Change& change) {
   for (Node& child : children) change_films(child, change);
 }
 
-void make_spectral(Node& film) {
-  auto& all = film.properties;
-  all.erase(std::remove_if(all.begin(), all.end(),
-                           [](const auto& property) { return property.name == "spectral"; }),
-            all.end());
-  all.push_back({"spectral", true, film.where});
+/// Makes films spectral; those of a band if it is not empty.
+void make_spectral(Node& tree, const std::string& band) {
+  change_films(tree, [&](Node& film) {
+    set_property(film, "spectral", true);
+    if (!band.empty()) set_property(film, "band", band);
+  });
 }
 
 const Node& chosen_sensor(const Node& scene, std::vector<std::string>& warnings) {
@@ -189,7 +193,7 @@ LoadedScene build_scene(const Node& tree, const Registry& registry, const LoadOp
       film.children = {Node{"rfilter", options.filter, "", "", film.where, {}, {}}};
     });
   }
-  if (options.spectral) change_films(loaded.tree, make_spectral);
+  if (options.spectral) make_spectral(loaded.tree, options.band);
   const Node& scene = loaded.tree;
   if (scene.family != "scene")
     throw SceneError(at(scene.where, "the root is a {}, but should be a scene", scene.family));
@@ -235,12 +239,14 @@ LoadedScene with_sensor(const LoadedScene& loaded, int64_t sensor, const Registr
   return other;
 }
 
-LoadedScene with_wavelengths(const LoadedScene& loaded, const Registry& registry) {
+LoadedScene with_wavelengths(const LoadedScene& loaded, const std::string& band,
+                             const Registry& registry) {
   Node tree = loaded.tree;
-  change_films(tree, make_spectral);
+  make_spectral(tree, band);
   LoadedScene other = build_again(loaded, tree, registry);
   other.source = loaded.source;
   other.source.options.spectral = true;
+  if (!band.empty()) other.source.options.band = band;
   return other;
 }
 

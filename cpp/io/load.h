@@ -22,6 +22,7 @@ struct LoadOptions {
   std::optional<int64_t> sensor;  ///< Index of the sensor, from 0; by default the first.
   std::string filter;             ///< The reconstruction filter that replaces that of films.
   bool spectral = false;          ///< Whether films become spectral.
+  std::string band;               ///< The band of spectral films, if one is asked for.
 };
 
 /// The source of a scene, from which a checkpoint can load it again.
@@ -74,8 +75,9 @@ LoadedScene build_scene(const Node& tree, const Registry& registry, const LoadOp
 /// The scene of another tree, built of the same parts as far as possible.
 LoadedScene build_again(const LoadedScene& loaded, const Node& tree, const Registry& registry);
 
-/// The scene with spectral films.
-LoadedScene with_wavelengths(const LoadedScene& loaded, const Registry& registry);
+/// The scene with spectral films; of a band such as "400:430", if that is not empty.
+LoadedScene with_wavelengths(const LoadedScene& loaded, const std::string& band,
+                             const Registry& registry);
 /// The scene with another one of its sensors.
 LoadedScene with_sensor(const LoadedScene& loaded, int64_t sensor, const Registry& registry);
 

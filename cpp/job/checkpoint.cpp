@@ -37,6 +37,7 @@ void save(ByteWriter& bytes, const SceneSource& scene) {
   bytes.write(scene.options.sensor);
   bytes.write(scene.options.filter);
   bytes.write(scene.options.spectral);
+  bytes.write(scene.options.band);
 }
 
 SceneSource load_source(ByteReader& bytes) {
@@ -50,6 +51,7 @@ SceneSource load_source(ByteReader& bytes) {
   bytes.read(scene.options.sensor);
   bytes.read(scene.options.filter);
   scene.options.spectral = bytes.read<bool>();
+  bytes.read(scene.options.band);
   return scene;
 }
 

@@ -50,6 +50,7 @@ const Tables tables;
 }  // namespace wavelengths
 
 Color recorded_spectrum(const Spectrum& light, double u, bool dispersed) {
+  if (is_single(u)) return Color(light[0]);
   const wavelengths::Place place(u);
   const int lanes = dispersed ? 1 : Spectrum::lanes;
   Color sum(0);

@@ -10,11 +10,19 @@ namespace mlt {
 /// Stands in place of a wavelength in an RGB scene: the lanes are R, G, B and G.
 inline constexpr double rgb_lanes = -1;
 
+/// An interval of wavelengths in nm, of which a film may record the mean.
+struct Band {
+  double first, last;
+};
+
 /// In a spectral scene a path has a number u in [0, 1), and four wavelengths for it, which cover
 /// the visible range evenly in the measure of u (Wilkie et al. 2014, "Hero wavelength spectral
 /// sampling"): Lambda(frac(u + j / 4)). Lambda is linear between values of the inverse of
 /// 1 / cosh^2, which is about proportional to what the eye sees (Radziszewski et al. 2009, "An
 /// improved technique for full spectral rendering").
+///
+/// Where a film records a band, a path has one wavelength, in all lanes, and its nm stand in place
+/// of u: they cannot be taken for it.
 namespace wavelengths {
 
 inline constexpr int cells = 512;
@@ -46,14 +54,18 @@ struct Place {
 
 }  // namespace wavelengths
 
+/// Whether u is the only wavelength of a path, in nm.
+inline bool is_single(double u) { return u >= 1; }
+
 /// Lambda(u), in nm.
 inline double wavelength_of(double u) {
-  return wavelengths::Place(u).at(wavelengths::tables.nm, 0);
+  return is_single(u) ? u : wavelengths::Place(u).at(wavelengths::tables.nm, 0);
 }
 
-/// The values f(nm) at the four wavelengths of u.
+/// The values f(nm) at the four wavelengths of u, or at the single one.
 template <class F>
 Spectrum at_wavelengths(double u, F&& f) {
+  if (is_single(u)) return Spectrum(f(u));
   const wavelengths::Place place(u);
   Spectrum s;
   for (int j = 0; j < Spectrum::lanes; ++j) s[j] = f(place.at(wavelengths::tables.nm, j));
@@ -61,7 +73,8 @@ Spectrum at_wavelengths(double u, F&& f) {
 }
 
 /// What a film records of the light of a path: in an RGB scene its colour; in a spectral one its
-/// X, Y and Z over those of D65, which cannot be negative as the colour of one wavelength can.
+/// X, Y and Z over those of D65, which cannot be negative as the colour of one wavelength can, or
+/// the radiance at a single wavelength.
 ///
 /// Refraction that depends on the wavelength, anywhere on the path, sends the other wavelengths
 /// elsewhere: then the first lane alone counts, four times. Both have the same mean over u.

@@ -67,7 +67,8 @@ void collect(const Scene& scene, const PathState& x, Collector& g) {
   const Vec2 lens = scene.camera().invert_position(x[k].at);
   g.cases("quarter of the lens", (lens.x > 0.5) + 2 * (lens.y > 0.5), 4);
   g.number("time", x.path.time);
-  if (scene.camera().spectral()) g.number("wavelength", x.path.wavelength);
+  const Camera& camera = scene.camera();
+  if (camera.spectral()) g.number("wavelength", camera.invert_wavelength(x.path.wavelength));
 
   double shortest = 4, longest_edge = 0, smallest_G = infinity;
   for (int i = 0; i < k; ++i) {

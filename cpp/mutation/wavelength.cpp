@@ -1,5 +1,6 @@
 // The wavelength mutation: the same path in light of other wavelengths. The number u of its
-// wavelengths (wavelengths.h) moves by a step to either side or, half of the time, anywhere.
+// wavelengths (wavelengths.h), or its place in the band of the film, moves by a step to either side
+// or, half of the time, anywhere.
 //
 // What does not disperse stays where it is. A specular chain that does is found again between its
 // ends, at the new wavelength, by a manifold walk that starts from the old chain (Jakob & Marschner
@@ -36,7 +37,7 @@ class WavelengthMutation final : public MeasuredMutation<WavelengthMutation> {
   }
 
   double suitability(const PathState& x) const override {
-    if (!scene().camera().spectral()) return 0;
+    if (!camera().spectral()) return 0;
     const int beam = beam_end(x);
     bool suits = beam == 0 || (beam < x.edges() && !x.specular(beam + 1));
     for_each_chain(
@@ -50,7 +51,7 @@ class WavelengthMutation final : public MeasuredMutation<WavelengthMutation> {
     const Edit all{0, k, k + 1};
     splice(x, all, y);
     y.path.vertices = x.path.vertices;
-    change_wavelength(y.path, moved(x.path.wavelength, context.rng));
+    change_wavelength(y.path, camera().wavelength_at(moved(number(x), context.rng)));
     const int beam = beam_end(x);
     bool found = beam == 0 || trace_beam(x, beam, y, context);
     for_each_chain(x, [&](const ManifoldChain& chain) {
@@ -74,13 +75,16 @@ class WavelengthMutation final : public MeasuredMutation<WavelengthMutation> {
     if (edit.first != 0 || edit.last != k || y.edges() != k || !same_form(x, y, 1, k - 1)) return 0;
     const int beam = beam_end(y);
     if (beam != beam_end(x)) return 0;
-    double p = step_density(x.path.wavelength, y.path.wavelength) * unsampled(in, beam, k);
+    double p = step_density(number(x), number(y)) * unsampled(in, beam, k);
     if (beam > 0) p *= carried_.walked_density(in, x, y, {0, beam, 1}, 1.0);
     for_each_chain(y, [&](const ManifoldChain& chain) { p *= chain.jacobian(scene(), y); });
     return p;
   }
 
  private:
+  const Camera& camera() const { return scene().camera(); }
+  double number(const PathState& x) const { return camera().invert_wavelength(x.path.wavelength); }
+
   /// Whether |f| is a number: in long paths of scenes in tiny or huge units it is not.
   static bool is_measurable(const PathState& x) {
     const double f = magnitude(x.terms, 0, x.edges());
@@ -137,17 +141,19 @@ class WavelengthMutation final : public MeasuredMutation<WavelengthMutation> {
 }  // namespace
 
 MutationPlugin mutation_wavelength() {
-  return {{"mutation",
-           "wavelength",
-           "another wavelength for the same path; dispersive chains are found again.",
-           {{"smallest_step", ParamType::real, 0.0005,
-             "Smallest step, as a share of the visible range in the measure of what the eye sees."},
-            {"largest_step", ParamType::real, 0.1, "Largest step, likewise."}}},
-          "wavelength_mutation",
-          0.2,
-          make_shared_mutation<WavelengthMutation>,
-          /*on=*/true,
-          [](const Scene& scene) { return scene.camera().spectral(); }};
+  return {
+      {"mutation",
+       "wavelength",
+       "another wavelength for the same path; dispersive chains are found again.",
+       {{"smallest_step", ParamType::real, 0.0005,
+         "Smallest step, as a share of the visible range in the measure of what the eye sees, or "
+         "of a band."},
+        {"largest_step", ParamType::real, 0.1, "Largest step, likewise."}}},
+      "wavelength_mutation",
+      0.2,
+      make_shared_mutation<WavelengthMutation>,
+      /*on=*/true,
+      [](const Scene& scene) { return scene.camera().spectral(); }};
 }
 
 }  // namespace mlt

@@ -25,7 +25,8 @@ bool in_scene(const Scene& scene, const Vertex& x) {
 
 bool has_valid_wavelength(const Scene& scene, const Path& path) {
   if (!scene.camera().spectral()) return path.wavelength == rgb_lanes;
-  return path.wavelength >= 0 && path.wavelength < 1;
+  const double u = scene.camera().invert_wavelength(path.wavelength);
+  return u >= 0 && (scene.camera().band() ? u <= 1 : u < 1);
 }
 
 }  // namespace

@@ -51,7 +51,7 @@ class PathInverter {
     if (shutter.close > shutter.open)
       u.time = (path_.time - shutter.open) / (shutter.close - shutter.open);
     write(Stream::camera, u);
-    if (camera.spectral()) write(Stream::camera, path_.wavelength);
+    if (camera.spectral()) write(Stream::camera, camera.invert_wavelength(path_.wavelength));
     Spectrum likelihood(1);
     for (int i = k - 1; i >= k + 1 - t; --i) {
       invert_leg(Stream::camera, i + 1, i, likelihood);

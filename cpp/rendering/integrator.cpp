@@ -5,7 +5,7 @@
 namespace mlt {
 
 Image Rendering::shown(Image image) const {
-  if (!scene().camera().spectral()) return image;
+  if (!scene().camera().records_xyz()) return image;
   for (size_t i = 0; i < image.data.size(); i += 3) {
     float* const pixel = &image.data[i];
     const Color rgb = developed({pixel[0], pixel[1], pixel[2]});

@@ -4,6 +4,7 @@
 
 #include "base/object.h"
 #include "math/color.h"
+#include "math/wavelengths.h"
 #include "scene/emitter.h"
 #include "scene/surface_point.h"
 
@@ -99,10 +100,23 @@ class Camera : public Object {
   /// Whether paths have wavelengths, and else R, G and B.
   bool spectral() const { return spectral_; }
   void set_spectral(bool spectral) { spectral_ = spectral; }
+  /// The wavelengths that the film of a spectral scene records, if not all.
+  const std::optional<Band>& band() const { return band_; }
+  void set_band(const std::optional<Band>& band) { band_ = band; }
+  /// Whether the film records X, Y and Z.
+  bool records_xyz() const { return spectral_ && !band_; }
   /// The wavelength of a path by a random number, which is drawn in spectral scenes alone.
   template <class Draw>
   double wavelength(Draw&& draw) const {
-    return spectral_ ? draw() : rgb_lanes;
+    return spectral_ ? wavelength_at(draw()) : rgb_lanes;
+  }
+  /// The wavelength in a spectral scene for a number in [0, 1), and that number: see wavelengths.h.
+  double wavelength_at(double number) const {
+    return band_ ? std::min(band_->first + number * (band_->last - band_->first), band_->last)
+                 : number;
+  }
+  double invert_wavelength(double u) const {
+    return band_ ? (u - band_->first) / (band_->last - band_->first) : u;
   }
 
   /// The medium that the scene file puts the lens into, or nullptr.
@@ -125,6 +139,7 @@ class Camera : public Object {
   MediumPtr medium_;
   MediumIndex surroundings_ = no_medium;
   bool spectral_ = false;
+  std::optional<Band> band_;
 };
 
 using CameraPtr = std::shared_ptr<Camera>;

@@ -4,8 +4,10 @@
 #include "base/object.h"
 #include "image/filter.h"
 #include "math/vec.h"
+#include "math/wavelengths.h"
 
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace mlt {
@@ -19,6 +21,7 @@ struct FilmSettings : Object {
   std::shared_ptr<const Filter> filter;
   bool half_precision = true;  ///< EXR component format.
   bool spectral = false;       ///< Whether paths have wavelengths, and else R, G and B.
+  std::optional<Band> band;    ///< The wavelengths of a spectral image, if not all.
 };
 
 struct SamplerSettings : Object {

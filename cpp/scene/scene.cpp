@@ -90,6 +90,7 @@ Scene::Scene(std::vector<ShapePtr> shapes, std::vector<EmitterPtr> emitters, Cam
   bounds_ = enclosing_sphere(shapes_, *camera_);
   camera_->set_bounds(bounds_);
   camera_->set_spectral(film_ && film_->spectral);
+  camera_->set_band(film_ ? film_->band : std::nullopt);
   for (size_t i = 0; i < emitters_.size(); ++i) {
     emitters_[i]->set_bounds(bounds_);
     emitters_[i]->set_index(static_cast<uint32_t>(i));

@@ -46,7 +46,14 @@ from .rendering.job import Job
 from .rendering.merging import merge
 from .rendering.preview import preview as _preview
 from .rendering.result import Groups, Replay, Result
-from .rendering.start import render, render_progressive, replay, resume, start
+from .rendering.start import (
+    render,
+    render_bands,
+    render_progressive,
+    replay,
+    resume,
+    start,
+)
 from .scenes.loading import load_dict, load_file, load_string
 from .scenes.transforms import Transform
 from .scenes.traversal import SceneParameters, traverse
@@ -100,6 +107,7 @@ __all__ = [
     "read_image",
     "read_metadata",
     "render",
+    "render_bands",
     "render_progressive",
     "replay",
     "resume",

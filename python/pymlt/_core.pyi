@@ -30,6 +30,13 @@ class Scene:
     def hash(self) -> str:
         """Of the description and of the files that it names, wherever they lie."""
 
+    def with_wavelengths(self, band: tuple[float, float] | None = None) -> Scene:
+        """The same scene, with spectral films: light has wavelengths instead of R, G and B.
+
+        With a `band` of wavelengths, as in (400, 430), the image shows the mean radiance in it,
+        per nm, as a grey.
+        """
+
     def with_sensor(self, sensor: int) -> Scene:
         """The same scene, seen by another of its sensors."""
 

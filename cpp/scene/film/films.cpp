@@ -1,6 +1,8 @@
 // The settings of a scene's image. Every image is linear RGB; hdrfilm and ldrfilm are the same
 // here.
 #include "base/registry.h"
+#include "base/text.h"
+#include "math/colorimetry.h"
 #include "scene/film_settings.h"
 
 namespace mlt {
@@ -45,13 +47,36 @@ void read_format(Params& params, FilmSettings& film) {
   if (params.has("file_format")) params.text("file_format");  // the output's extension decides
 }
 
+/// A band as in "400:430".
+std::optional<Band> parse_band(const std::string& text) {
+  const size_t colon = text.find(':');
+  if (colon == std::string::npos) return std::nullopt;
+  const auto first = parse_real(text.substr(0, colon));
+  const auto last = parse_real(text.substr(colon + 1));
+  if (!first || !last) return std::nullopt;
+  if (*first < first_wavelength || *last > last_wavelength || *first >= *last) return std::nullopt;
+  return Band{*first, *last};
+}
+
+void read_wavelengths(Params& params, FilmSettings& film) {
+  film.spectral = params.boolean("spectral");
+  if (!params.has("band")) return;
+  if (!film.spectral) params.fail("band", "needs spectral = true");
+  const std::string text = params.text("band");
+  film.band = parse_band(text);
+  if (!film.band)
+    params.fail("band", fmt::format("is {}, but should be two wavelengths from {} to {} nm, the "
+                                    "lower one first, as in 400:430",
+                                    quote(text), first_wavelength, last_wavelength));
+}
+
 ObjectPtr create_film(Params& params) {
   auto film = std::make_shared<FilmSettings>();
   read_size(params, *film);
   read_crop(params, *film);
   read_format(params, *film);
   const auto filter = params.object<FilterObject>("rfilter");
-  film->spectral = params.boolean("spectral");
+  read_wavelengths(params, *film);
   film->filter = filter ? filter->filter : std::make_shared<const Filter>(gaussian_filter());
   return film;
 }
@@ -67,6 +92,9 @@ std::vector<Parameter> parameters() {
        "Height of the crop window; all if not given."},
       {"spectral", ParamType::boolean, false,
        "Whether light has wavelengths instead of R, G and B; the image is RGB all the same."},
+      {"band", ParamType::text, no_default,
+       "Wavelengths in nm, as in 400:430, of which the image is to show the mean radiance, as a "
+       "grey; needs spectral."},
       {"rfilter", ParamType::object, no_default, "Reconstruction filter; gaussian if not given."},
       choice_parameter("component_format", "float16", "Precision of EXR files: half or single.",
                        {"float16", "float32"}),

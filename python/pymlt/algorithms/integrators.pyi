@@ -307,7 +307,8 @@ class MLT(Integrator):
     wavelength_weight : float, default 0.2
         Weight of the wavelength mutation among those that suit a path.
     wavelength_smallest_step : float, default 0.0005
-        Smallest step, as a share of the visible range in the measure of what the eye sees.
+        Smallest step, as a share of the visible range in the measure of what the eye sees, or
+        of a band.
     wavelength_largest_step : float, default 0.1
         Largest step, likewise.
     near_specular : float, default 0.1

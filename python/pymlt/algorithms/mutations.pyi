@@ -153,7 +153,8 @@ class Wavelength(BuiltIn):
     Parameters
     ----------
     smallest_step : float, default 0.0005
-        Smallest step, as a share of the visible range in the measure of what the eye sees.
+        Smallest step, as a share of the visible range in the measure of what the eye sees, or
+        of a band.
     largest_step : float, default 0.1
         Largest step, likewise.
     """

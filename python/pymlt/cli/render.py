@@ -11,12 +11,13 @@ from .._extras import import_extra
 from ..algorithms.integrator import as_integrator
 from ..formats.loading import built_in_name
 from ..pictures.output import EXTENSIONS, check_writable
+from ..rendering.bands import add_bands, check_spectral, parse_bands, share_of_time
 from ..rendering.job import Job
 from ..rendering.options import RenderOptions
 from ..rendering.progress import progress_bar
 from ..rendering.result import Result
 from ..rendering.start import saved_job
-from .common import FLAGS, add_flag, load_scene, say, warn
+from .common import FLAGS, add_flag, load_scene, reader, say, warn
 from .display import add_tonemap, exposure
 from .signals import Signals
 
@@ -40,6 +41,14 @@ def add_arguments(command) -> None:
     for name, flag in FLAGS.items():
         add_flag(command, flag, HELP_HERE.get(name, ""))
     add_tonemap(command)
+    command.add_argument(
+        "--bands",
+        type=reader(parse_bands),
+        metavar="[FROM:TO:]N",
+        help="N layers for an .exr, such as spectrum.400-430nm: the mean radiance per nm of a "
+        "spectral scene in N equal bands of wavelengths, by default from 360 to 830 nm; each is a "
+        "render of its own, of --spp samples or with an equal share of --time",
+    )
     command.add_argument(
         "--fireflies",
         choices=("keep", "groups"),
@@ -66,6 +75,8 @@ def check(args) -> None:
         _core.check_flags(set(values))
         files = {name: values[name] for name in values if FLAGS[name].is_file}
         _core.check_files({n: v if isinstance(v, list) else [v] for n, v in files.items()})
+        if args.bands and (args.checkpoint or args.resume):
+            raise _core.UsageError("--bands cannot be given with --checkpoint or --resume")
     except _core.UsageError as error:
         raise _core.UsageError(f"{error}; see pymlt render --help") from None
 
@@ -85,6 +96,9 @@ def start(args, signals: Signals) -> Job:
             raise _core.FileError(f"{args.scene}: there is no such file")
         return signals.abandonable(lambda: saved_job(args.resume, args.scene, options))._start()
     scene = signals.abandonable(lambda: load_scene(args))
+    if args.bands:
+        check_spectral(scene, "--spectral")
+        options.time = share_of_time(options.time, args.bands)
     return Job(scene, as_integrator(scene, args.integrator, args.parameters), options)._start()
 
 
@@ -115,6 +129,9 @@ def run(args) -> int:
             say("interrupted before the first sample; nothing to save")
             return code
         result = job.result()
+        if args.bands and not code:
+            render_bands(args, result, job, signals)
+            code = 128 + signals.caught if signals.caught else 0
         if not args.quiet:
             warn(result.stats["warnings"][len(known) :])
         images, complete = save(args, result)
@@ -142,6 +159,15 @@ def wait(job: Job, signals: Signals, quiet: bool) -> None:
             if signals.caught:
                 job.cancel()
             show(job.progress, {"spp": f"{job.stats['spp_done']:.4g}"})
+
+
+def render_bands(args, result: Result, job: Job, signals: Signals) -> None:
+    """Adds the layers of the bands. What there is so far is saved if one of them fails."""
+    try:
+        add_bands(result, job, args.bands, lambda part: wait(part, signals, args.quiet))
+    except _core.RenderError:
+        save(args, result)
+        raise
 
 
 def save(args, result: Result) -> tuple[list[str], bool]:

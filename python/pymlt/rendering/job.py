@@ -30,6 +30,7 @@ class Job:
     def __init__(self, scene: _core.Scene, integrator: _core.Integrator, options: RenderOptions):
         self._scene = scene
         self._integrator = integrator
+        self._options = options
         self._cluster = options.cluster
         self._filters = options.fireflies == "groups"
         self._job = _core.Job(

@@ -14,8 +14,10 @@ from ..algorithms.integrator import IntegratorLike, as_integrator
 from ..formats.files import is_foreign, load_foreign
 from ..formats.loading import SceneLike, as_scene
 from ..scenes.loading import load_built_in
+from .bands import Bands, add_bands, check_spectral, finish, parse_bands, share_of_time
 from .job import Job
 from .options import RenderOptions, takes_options
+from .progress import progress_bar
 from .result import Replay, Result
 
 if TYPE_CHECKING:
@@ -138,6 +140,58 @@ def render(
         job.cancel()
         raise
     return job.image
+
+
+@functools.partial(takes_options, fixed=("checkpoint", "every", "overwrite"))
+def render_bands(
+    scene: SceneLike,
+    integrator: IntegratorLike | None = None,
+    *,
+    bands: Bands,
+    sensor: int | None = None,
+    spectral: bool = False,
+    options: RenderOptions,
+    progress: bool | Callable[[float], object] | None = None,
+) -> Result:
+    """Render a spectral scene: the image, and a layer for each band of wavelengths.
+
+    bands
+        n: the visible wavelengths, 360 to 830 nm, in n equal bands; (400, 700, 10): ten bands
+        between these ends. Both may be text, "12" and "400:700:10".
+
+    `result.layers["spectrum.400-430nm"]` is the mean radiance per nm in that band: float32,
+    (height, width, 1). The image and each band are renders of their own, with the same seed, of
+    `spp` samples each or with an equal share of `time`. The other arguments are those of `start`,
+    `progress` is that of `render`.
+
+    Raises UsageError for bands that make no sense and for scenes that are not spectral, and what
+    `render` raises. The image and the bands that there are so far are the error's `result`.
+    """
+    scene = as_scene(scene, sensor, spectral)
+    check_spectral(scene, "spectral=True")
+    intervals = parse_bands(bands)
+    options = replace(options, time=share_of_time(options.time, intervals))
+    job = Job(scene, as_integrator(scene, integrator), options)._start()
+    result = None
+    with progress_bar(progress) as show:
+        renders, ended = 1 + len(intervals), 0
+
+        def wait(part: Job) -> None:
+            nonlocal ended
+            part.wait(progress=lambda share: show((ended + share) / renders, {}))
+            ended += 1
+
+        try:
+            finish(job, wait)
+            result = job.result()
+            add_bands(result, job, intervals, wait)
+        except (KeyboardInterrupt, _core.RenderError) as error:
+            if result is not None:
+                error.result = result
+            elif isinstance(error, KeyboardInterrupt):
+                error.result = job.result()
+            raise
+    return result
 
 
 def render_progressive(

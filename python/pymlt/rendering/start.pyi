@@ -7,6 +7,7 @@ import numpy as np
 
 from ..algorithms.integrator import IntegratorLike
 from ..formats.loading import SceneLike
+from .bands import Bands
 from .job import Job
 from .options import RenderOptions
 from .result import Replay, Result
@@ -36,6 +37,23 @@ def render(
     callback: Callable[[Result], object] | None = ...,
     interval: float = ...,
 ) -> np.ndarray: ...
+def render_bands(
+    scene: SceneLike,
+    integrator: IntegratorLike | None = ...,
+    *,
+    spp: float | None = ...,
+    time: float | None = ...,
+    error: float | None = ...,
+    seed: int = ...,
+    threads: int = ...,
+    aovs: str | Sequence[str] | None = ...,
+    fireflies: str = ...,
+    cluster: Any = ...,
+    bands: Bands,
+    sensor: int | None = ...,
+    spectral: bool = ...,
+    progress: bool | Callable[[float], object] | None = ...,
+) -> Result: ...
 def render_progressive(
     scene: SceneLike,
     integrator: IntegratorLike | None = ...,
