@@ -43,7 +43,7 @@ void go_on(LoadedScene loaded, const Checkpoint& checkpoint) {
 /// In the scene, and in the same with wavelengths, whose checkpoints are other ones.
 void read(std::string_view bytes) {
   static const LoadedScene rgb = load_file("tests/fuzz/scene.xml", plugins(), small_film());
-  static const LoadedScene spectral = with_wavelengths(rgb, plugins());
+  static const LoadedScene spectral = with_wavelengths(rgb, "", plugins());
   const bool whole = bytes.substr(0, 5) == "pymlt";
   const Checkpoint checkpoint =
       decode_checkpoint(whole ? std::string(bytes) : sealed(bytes), "input");
