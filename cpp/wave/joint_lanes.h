@@ -42,8 +42,8 @@ struct JoiningRays {
   Lanes<float, JointLanes::size> length;  ///< 0: no light goes that way.
 };
 
-/// Joins vertices of light subpaths to those of camera subpaths; `weighted` is f w / p, in the first
-/// `lanes` lanes. The results are two parameters that do not overlap, so that the compiler
+/// Joins vertices of light subpaths to those of camera subpaths; `weighted` is f w / p, in the
+/// first `lanes` lanes. The results are two parameters that do not overlap, so that the compiler
 /// vectorises the loops.
 inline void join(const JointLanes& from_light, const JointLanes& from_camera, bool strict,
                  const MisExponent& beta, int lanes, JoiningRays& __restrict rays,
