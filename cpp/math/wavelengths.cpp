@@ -39,6 +39,7 @@ namespace wavelengths {
 Tables::Tables() {
   for (int i = 0; i <= cells; ++i) {
     nm[i] = inverse_distribution(double(i) / cells);
+    d65[i] = mlt::d65(nm[i]);
     response[i] = matching_functions(nm[i]) * nm_per_u(nm[i]);
   }
   const Vec3 unit = white_of(*this);
@@ -48,6 +49,14 @@ Tables::Tables() {
 const Tables tables;
 
 }  // namespace wavelengths
+
+Spectrum daylight(double u) {
+  if (is_single(u)) return Spectrum(d65(u));
+  const wavelengths::Place place(u);
+  Spectrum s;
+  for (int j = 0; j < Spectrum::lanes; ++j) s[j] = place.at(wavelengths::tables.d65, j);
+  return s;
+}
 
 Color recorded_spectrum(const Spectrum& light, double u, bool dispersed) {
   if (is_single(u)) return Color(light[0]);

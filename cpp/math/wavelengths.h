@@ -29,7 +29,7 @@ inline constexpr int cells = 512;
 
 /// Functions of u at the borders of cells.
 struct Tables {
-  std::array<double, cells + 1> nm;
+  std::array<double, cells + 1> nm, d65;
   /// What a film records of one lane: X, Y and Z over those of D65, over the density of u.
   std::array<Color, cells + 1> response;
 
@@ -67,10 +67,13 @@ template <class F>
 Spectrum at_wavelengths(double u, F&& f) {
   if (is_single(u)) return Spectrum(f(u));
   const wavelengths::Place place(u);
-  Spectrum s;
-  for (int j = 0; j < Spectrum::lanes; ++j) s[j] = f(place.at(wavelengths::tables.nm, j));
-  return s;
+  Spectrum nm;
+  for (int j = 0; j < Spectrum::lanes; ++j) nm[j] = place.at(wavelengths::tables.nm, j);
+  return lane_by_lane(nm, f);
 }
+
+/// The daylight d65(nm) of math/colorimetry.h at the wavelengths of u.
+Spectrum daylight(double u);
 
 /// What a film records of the light of a path: in an RGB scene its colour; in a spectral one its
 /// X, Y and Z over those of D65, which cannot be negative as the colour of one wavelength can, or

@@ -15,15 +15,13 @@ double scale_of(const Color& rgb, RgbMeaning meaning) {
 }  // namespace
 
 Spectrum SmoothSpectrum::at(double u) const {
-  return at_wavelengths(u, [&](double nm) {
-    const double value = scale * reflectance.at(nm);
-    return light ? value * d65(nm) : value;
-  });
+  const Spectrum value = at_wavelengths(u, [&](double nm) { return scale * reflectance.at(nm); });
+  return light ? value * daylight(u) : value;
 }
 
 Spectrum upsampled(const Color& rgb, RgbMeaning meaning, double u) {
   const bool light = meaning == RgbMeaning::light;
-  if (is_grey(rgb)) return light ? rgb.x * at_wavelengths(u, d65) : Spectrum(rgb.x);
+  if (is_grey(rgb)) return light ? rgb.x * daylight(u) : Spectrum(rgb.x);
   const double scale = scale_of(rgb, meaning);
   return SmoothSpectrum{ReflectanceTable::get().at(rgb / scale), scale, light}.at(u);
 }

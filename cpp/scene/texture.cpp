@@ -25,7 +25,7 @@ class Illuminated final : public Texture {
   explicit Illuminated(TexturePtr texture) : texture_(std::move(texture)) {}
   Spectrum eval(const SurfacePoint& at) const override {
     const Spectrum value = texture_->eval(at);
-    return at.wavelength < 0 ? value : value * at_wavelengths(at.wavelength, d65);
+    return at.wavelength < 0 ? value : value * daylight(at.wavelength);
   }
   void prefetch(const SurfacePoint& at) const override { texture_->prefetch(at); }
   Vec2 gradient(const SurfacePoint& at) const override { return texture_->gradient(at); }
