@@ -34,7 +34,7 @@ SpectralColor::SpectralColor(const Color& rgb, RgbMeaning meaning) : rgb_(rgb), 
 
 Spectrum SpectralColor::at_wavelengths_of(double u) const {
   if (curve_) return at_wavelengths(u, [&](double nm) { return curve_->at(nm); });
-  return is_grey(rgb_) ? upsampled(rgb_, meaning_, u) : smooth_.at(u);
+  return is_grey(rgb_) ? upsampled(rgb(), meaning_, u) : smooth_.at(u);
 }
 
 SpectralColor SpectralColor::over(double divisor) const {
@@ -46,7 +46,7 @@ SpectralColor SpectralColor::over(double divisor) const {
 }
 
 SpectralColor SpectralColor::meaning(RgbMeaning meaning) const {
-  return curve_ ? *this : SpectralColor(rgb_, meaning);
+  return curve_ ? *this : SpectralColor(rgb(), meaning);
 }
 
 LinearUpsampling::LinearUpsampling(double u)

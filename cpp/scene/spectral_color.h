@@ -52,8 +52,8 @@ class SpectralColor {
   /// `rgb` is what stands for the curve where there are no wavelengths.
   SpectralColor(const Color& rgb, Curve curve) : rgb_(rgb), curve_(std::move(curve)) {}
 
-  const Color& rgb() const { return rgb_; }
-  Spectrum at(double u) const { return u < 0 ? Spectrum(rgb_) : at_wavelengths_of(u); }
+  Color rgb() const { return rgb_.rgb(); }
+  Spectrum at(double u) const { return u < 0 ? rgb_ : at_wavelengths_of(u); }
   /// Whether it is the same at all wavelengths, in RGB too.
   bool grey() const { return is_grey(rgb_) && !curve_ && meaning_ != RgbMeaning::light; }
 
@@ -64,7 +64,7 @@ class SpectralColor {
  private:
   Spectrum at_wavelengths_of(double u) const;
 
-  Color rgb_{0};
+  Spectrum rgb_{0};
   RgbMeaning meaning_ = RgbMeaning::reflectance;
   SmoothSpectrum smooth_;
   std::optional<Curve> curve_;
