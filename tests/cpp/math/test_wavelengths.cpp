@@ -48,6 +48,21 @@ TEST(Wavelengths, AreOneInEachQuarterOfTheRange) {
   }
 }
 
+/// Daylight is tabulated for u, in cells that are wide where the eye sees little.
+TEST(Wavelengths, HaveTheDaylightOfTheTables) {
+  constexpr int points = 20'000;
+  Color white(0);
+  for (int i = 0; i < points; ++i) {
+    const double u = (i + 0.5) / points;
+    white += recorded(daylight(u), u) / double{points};
+    if (wavelength_of(u) > 430 && wavelength_of(u) < 680) {
+      EXPECT_NEAR(daylight(u)[0], d65(wavelength_of(u)), 0.006) << u;
+    }
+  }
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(white[c], 1, 2e-5) << c;
+  EXPECT_EQ(daylight(555)[3], d65(555));
+}
+
 /// The first lane stands for all wavelengths where glass sends them four ways.
 TEST(Wavelengths, OfDispersedPathsTheFirstAloneCounts) {
   for (const double u : {0.1, 0.4, 0.8}) {

@@ -114,8 +114,7 @@ TEST(SpectrumTextures, DaylightIsWhiteInRgb) {
   const TexturePtr light =
       used_as("glow", ObjectPtr(make<Texture>(texture_d65(), {{"scale", 3.0}})));
   EXPECT_EQ(light->mean(), Color(3));
-  for (double u : {0.1, 0.5, 0.9})
-    EXPECT_EQ(value_at(*light, u), 3.0 * at_wavelengths(u, d65)) << u;
+  for (double u : {0.1, 0.5, 0.9}) EXPECT_EQ(value_at(*light, u), 3.0 * daylight(u)) << u;
   const Triple orange{1, 0.5, 0.1};
   const ObjectPtr coloured = make<Texture>(texture_d65(), {{"color", orange}});
   expect_equal(*used_as("glow", coloured), *used_as("glow", orange));
@@ -153,11 +152,11 @@ TEST(SpectrumTextures, AreNotPutUnderD65InsideOfOtherTextures) {
 TEST(SpectrumTextures, OtherTexturesEmitD65) {
   const auto board = make<Texture>(texture_checkerboard(), {{"color0", 0.5}, {"color1", 0.5}});
   const TexturePtr light = used_as("glow", ObjectPtr(board));
-  const TexturePtr daylight =
+  const TexturePtr coloured =
       used_as("glow", ObjectPtr(make<Texture>(texture_d65(), {{"color", ObjectPtr(board)}})));
   for (double u : {0.1, 0.5, 0.9}) {
-    EXPECT_EQ(value_at(*light, u), 0.5 * at_wavelengths(u, d65)) << u;
-    EXPECT_EQ(value_at(*daylight, u), value_at(*light, u)) << u;
+    EXPECT_EQ(value_at(*light, u), 0.5 * daylight(u)) << u;
+    EXPECT_EQ(value_at(*coloured, u), value_at(*light, u)) << u;
   }
   EXPECT_EQ(value_at(*light, -1), Spectrum(0.5));
 }
