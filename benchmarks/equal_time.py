@@ -1,4 +1,5 @@
-"""Time to equal error: `path` against Mitsuba 3 (scalar_rgb and llvm_ad_rgb) on the Cornell box.
+"""Time to equal error: `path` against Mitsuba 3 (scalar and llvm_ad) on the Cornell box, in RGB or
+with wavelengths (`--spectral`).
 
 Each renderer runs on one thread in a process of its own, in turn with the others; the first round
 (which compiles LLVM's kernels) is not counted. The error of an image is the variance that the
@@ -23,12 +24,12 @@ import numpy as np
 from common import parser, print_table, say, write_results
 from peers import MissingError, Worker
 
-PEERS = {
-    "Mitsuba scalar_rgb": ("scalar_rgb", "independent"),
-    "Mitsuba scalar_rgb, multijitter": ("scalar_rgb", "multijitter"),
-    "Mitsuba llvm_ad_rgb": ("llvm_ad_rgb", "independent"),
-    "Mitsuba llvm_ad_rgb, multijitter": ("llvm_ad_rgb", "multijitter"),
-}
+PEERS = [
+    ("scalar", "independent"),
+    ("scalar", "multijitter"),
+    ("llvm_ad", "independent"),
+    ("llvm_ad", "multijitter"),
+]
 
 
 def llvm_environment() -> dict[str, str]:
@@ -51,8 +52,11 @@ def _version(path: Path) -> int:
 
 def start_workers(args) -> dict[str, Worker]:
     scene = (str(args.size), str(args.max_depth))
-    workers = {"pymlt": Worker(sys.executable, "worker_pymlt.py", *scene)}
-    for name, (variant, sampler) in PEERS.items():
+    colours = "spectral" if args.spectral else "rgb"
+    workers = {"pymlt": Worker(sys.executable, "worker_pymlt.py", *scene, colours)}
+    for kind, sampler in PEERS:
+        variant = f"{kind}_{colours}"
+        name = f"Mitsuba {variant}" + (", multijitter" if sampler == "multijitter" else "")
         try:
             environment = llvm_environment() if "llvm" in variant else {}
             workers[name] = Worker(
@@ -109,6 +113,7 @@ def main() -> None:
     options.add_argument("--max-depth", type=int, default=8)
     options.add_argument("--spp", type=int, default=64)
     options.add_argument("--rounds", type=int, default=5)
+    options.add_argument("--spectral", action="store_true", help="light has wavelengths")
     args = options.parse_args()
 
     workers = start_workers(args)
@@ -118,7 +123,9 @@ def main() -> None:
         for worker in workers.values():
             worker.close()
     print_table(rows)
-    settings = {key: getattr(args, key) for key in ("size", "max_depth", "spp", "rounds")}
+    settings = {
+        key: getattr(args, key) for key in ("size", "max_depth", "spp", "rounds", "spectral")
+    }
     write_results(args.json, "equal_time", settings, rows)
 
 

@@ -19,12 +19,12 @@ def main(size: int, max_depth: int, variant: str, sampler: str) -> None:
     except ImportError as error:
         print(json.dumps({"skip": f"{error}"}))
         return
-    dr.set_thread_count(1)
     description = mi.cornell_box()
     description["integrator"] = {"type": "path", "max_depth": max_depth}
     description["sensor"]["film"] |= {"width": size, "height": size, "rfilter": {"type": "box"}}
     description["sensor"]["sampler"] = {"type": sampler}
     scene = mi.load_dict(description)
+    dr.set_thread_count(1)  # with one thread, spectra do not load
 
     def render(spp: int, seed: int, output: str) -> dict:
         start = process_time()

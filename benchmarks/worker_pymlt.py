@@ -11,10 +11,12 @@ from peers import serve
 import pymlt as mlt
 
 
-def main(size: int, max_depth: int) -> None:
+def main(size: int, max_depth: int, colours: str) -> None:
     description = mlt.scenes.cornell_box()
     description["sensor"]["film"]["rfilter"] = {"type": "box"}
     scene = mlt.load_dict(description, size=(size, size))
+    if colours == "spectral":
+        scene = scene.with_wavelengths()
 
     def render(spp: int, seed: int, output: str) -> dict:
         start = process_time()
@@ -28,4 +30,4 @@ def main(size: int, max_depth: int) -> None:
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]), int(sys.argv[2]))
+    main(int(sys.argv[1]), int(sys.argv[2]), sys.argv[3])
