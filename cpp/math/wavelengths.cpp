@@ -51,11 +51,7 @@ const Tables tables;
 }  // namespace wavelengths
 
 Spectrum daylight(double u) {
-  if (is_single(u)) return Spectrum(d65(u));
-  const wavelengths::Place place(u);
-  Spectrum s;
-  for (int j = 0; j < Spectrum::lanes; ++j) s[j] = place.at(wavelengths::tables.d65, j);
-  return s;
+  return is_single(u) ? Spectrum(d65(u)) : wavelengths::look_up(wavelengths::tables.d65, u);
 }
 
 Color recorded_spectrum(const Spectrum& light, double u, bool dispersed) {

@@ -26,10 +26,11 @@ struct Band {
 namespace wavelengths {
 
 inline constexpr int cells = 512;
+/// A function of u at the borders of cells.
+using Table = std::array<double, cells + 1>;
 
-/// Functions of u at the borders of cells.
 struct Tables {
-  std::array<double, cells + 1> nm, d65;
+  Table nm, d65;
   /// What a film records of one lane: X, Y and Z over those of D65, over the density of u.
   std::array<Color, cells + 1> response;
 
@@ -52,6 +53,14 @@ struct Place {
   }
 };
 
+/// The values at the four wavelengths of u.
+inline Spectrum look_up(const Table& table, double u) {
+  const Place place(u);
+  Spectrum s;
+  for (int j = 0; j < Spectrum::lanes; ++j) s[j] = place.at(table, j);
+  return s;
+}
+
 }  // namespace wavelengths
 
 /// Whether u is the only wavelength of a path, in nm.
@@ -66,10 +75,7 @@ inline double wavelength_of(double u) {
 template <class F>
 Spectrum at_wavelengths(double u, F&& f) {
   if (is_single(u)) return Spectrum(f(u));
-  const wavelengths::Place place(u);
-  Spectrum nm;
-  for (int j = 0; j < Spectrum::lanes; ++j) nm[j] = place.at(wavelengths::tables.nm, j);
-  return lane_by_lane(nm, f);
+  return lane_by_lane(wavelengths::look_up(wavelengths::tables.nm, u), f);
 }
 
 /// The daylight d65(nm) of math/colorimetry.h at the wavelengths of u.

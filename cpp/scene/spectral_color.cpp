@@ -12,6 +12,13 @@ double scale_of(const Color& rgb, RgbMeaning meaning) {
   return meaning == RgbMeaning::reflectance ? std::max(1.0, most) : 2 * most;
 }
 
+std::shared_ptr<const wavelengths::Table> table_of(const SmoothSpectrum& smooth) {
+  auto table = std::make_shared<wavelengths::Table>();
+  for (int i = 0; i <= wavelengths::cells; ++i)
+    (*table)[i] = smooth.at(wavelengths::tables.nm[i])[0];
+  return table;
+}
+
 }  // namespace
 
 Spectrum SmoothSpectrum::at(double u) const {
@@ -30,10 +37,12 @@ SpectralColor::SpectralColor(const Color& rgb, RgbMeaning meaning) : rgb_(rgb), 
   if (is_grey(rgb)) return;
   const double scale = scale_of(rgb, meaning);
   smooth_ = {fit_reflectance(rgb / scale), scale, meaning == RgbMeaning::light};
+  table_ = table_of(smooth_);
 }
 
 Spectrum SpectralColor::at_wavelengths_of(double u) const {
   if (curve_) return at_wavelengths(u, [&](double nm) { return curve_->at(nm); });
+  if (table_ && !is_single(u)) return wavelengths::look_up(*table_, u);
   return is_grey(rgb_) ? upsampled(rgb(), meaning_, u) : smooth_.at(u);
 }
 
@@ -41,6 +50,7 @@ SpectralColor SpectralColor::over(double divisor) const {
   SpectralColor color = *this;
   color.rgb_ /= divisor;
   color.smooth_.scale /= divisor;
+  if (table_) color.table_ = table_of(color.smooth_);
   if (curve_) color.curve_ = curve_->scaled(1 / divisor);
   return color;
 }

@@ -6,6 +6,7 @@
 #include "math/upsampling.h"
 #include "math/wavelengths.h"
 
+#include <memory>
 #include <optional>
 
 namespace mlt {
@@ -67,6 +68,7 @@ class SpectralColor {
   Spectrum rgb_{0};
   RgbMeaning meaning_ = RgbMeaning::reflectance;
   SmoothSpectrum smooth_;
+  std::shared_ptr<const wavelengths::Table> table_;  ///< Of smooth_, to be looked up.
   std::optional<Curve> curve_;
 };
 
