@@ -68,7 +68,8 @@ INSTANTIATE_TEST_SUITE_P(
         Pair{"fog", "path"}, Pair{"fog", "mmlt"}, Pair{"smoke_box", "path"},
         Pair{"smoke_box", "mmlt"}, Pair{"smoke", "path"}, Pair{"smoke", "mmlt"},
         Pair{"beam", "ptracer"}, Pair{"beam", "pssmlt_bdpt"}, Pair{"beam", "mmlt"},
-        Pair{"beam", "rjmlt"}, Pair{"beam", "erpt"}),
+        Pair{"beam", "rjmlt"}, Pair{"beam", "erpt"}, Pair{"prism_beam", "mmlt"},
+        Pair{"prism_beam", "rjmlt"}),
     pair_name);
 
 class LongSameImageOf : public testing::TestWithParam<Pair> {};
