@@ -198,6 +198,15 @@ void BasicPathWave<Numbers>::sample_other_lights() {
 }
 
 template <class Numbers>
+inline void BasicPathWave<Numbers>::queue_shadow(int i, const Spectrum& radiance, const Vec3f& o,
+                                                 const Vec3f& w, float length) {
+  CameraWalk& walk = this->walk(i);
+  const Color found = walk.seen(walk.throughput * radiance);
+  ++walk.rays.occluded;
+  shadows_.add(path_[begin_ + i], found, walk.own_share(found), o, w, length);
+}
+
+template <class Numbers>
 void BasicPathWave<Numbers>::queue_lights() {
   lambertian_.unshadowed_lights(count_, rules_.strict_normals, mis_);
   for (int i = 0; i < count_; ++i)
@@ -243,15 +252,6 @@ void BasicPathWave<Numbers>::queue_other_light(const SingleVertex& single) {
   if (is_black(light.radiance)) return;
   if (const auto ray = scene_->segment(at, light.x0, walk.ray.time))
     queue_shadow(i, light.radiance, Vec3f(ray->o), Vec3f(ray->d), static_cast<float>(ray->t_max));
-}
-
-template <class Numbers>
-void BasicPathWave<Numbers>::queue_shadow(int i, const Spectrum& radiance, const Vec3f& o,
-                                          const Vec3f& w, float length) {
-  CameraWalk& walk = this->walk(i);
-  const Color found = walk.seen(walk.throughput * radiance);
-  ++walk.rays.occluded;
-  shadows_.add(path_[begin_ + i], found, walk.own_share(found), o, w, length);
 }
 
 template <class Numbers>
