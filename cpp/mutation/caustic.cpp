@@ -5,10 +5,9 @@
 //
 // Where the chain starts at a light at infinity its direction x_0 stays and the ray moves across
 // the plane perpendicular to it. A surface that shines in one direction alone is left at another
-// point, whose two numbers (invert_position) move. The angle (or the distance) is such that the
-// image position moves
-// about as far as the lens perturbation would move it: estimated from the path's lengths, or from
-// the derivatives of the chain (`anisotropic`).
+// point: the two numbers that it is sampled by (invert_position) move. The angle (or the distance)
+// is such that the image position moves about as far as the lens perturbation would move it:
+// estimated from the path's lengths, or from the derivatives of the chain (`anisotropic`).
 #include "mutation/chain_perturbation.h"
 #include "mutation/edge_visibility.h"
 #include "mutation/image_footprint.h"

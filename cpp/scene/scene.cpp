@@ -135,6 +135,7 @@ inline void Scene::arrive(const Ray& ray, const Hit& hit, SurfacePoint& at) cons
 }
 
 Spectrum MeshLight::radiance_at(double wavelength) const {
+  if (wavelength < 0) return rgb;
   SurfacePoint at;
   at.wavelength = wavelength;
   return max(radiance->eval(at), Spectrum(0));

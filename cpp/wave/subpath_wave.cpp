@@ -141,8 +141,7 @@ void SubpathWave::hit_light(int i, int place) {
   if (!(dot(lambertian_.surface.ng[i], d_[k]) < 0)) return;
   const uint32_t shape = found_[k / RayPacket::size].shape[k % RayPacket::size];
   const MeshLight& light = scene_->mesh_light(scene_->shapes()[shape]->emitter()->index());
-  const double wavelength = wavelength_[k];
-  const Spectrum radiance = wavelength < 0 ? light.rgb : light.radiance_at(wavelength);
+  const Spectrum radiance = light.radiance_at(wavelength_[k]);
   const double technique = place > 1 || light_image_ ? 1 : 0;
   const double above = (technique + sums_[k] * beta_.raise(reverse_emission_[i] / forward_[k])) *
                        beta_.raise(light.pdf / forward_here_[i]);
