@@ -46,6 +46,7 @@ class Case(NamedTuple):
     #: The integrator that renders it, or a file of the external references; none where twenty
     #: minutes of rendering are noisier than what is compared: then the seeds tell.
     reference: str | None
+    max_depth: int = 8
 
     def path(self) -> Path:
         own = REPOSITORY / self.file
@@ -53,8 +54,8 @@ class Case(NamedTuple):
 
 
 CASES = {
-    name: Case(f"scenes/{name}/scene.xml", size, reference)
-    for name, size, reference in (
+    name: Case(f"scenes/{name}/scene.xml", size, reference, *max_depth)
+    for name, size, reference, *max_depth in (
         ("veachdoor", (320, 180), "veachdoor-320x180.exr"),
         ("torus-lmc", (320, 240), "mlt"),
         ("ring-caustic", (320, 240), "mlt"),
@@ -75,6 +76,14 @@ CASES = {
         ("cbox-ppg", (256, 256), None),
         ("matpreview", (256, 256), None),
         ("veach-mi", (320, 180), None),
+        ("fog", (320, 180), None),
+        ("volcaustic", (320, 180), None),
+        ("smoke", (320, 180), None, 16),
+        ("milk", (320, 180), None, 64),
+        ("candle", (320, 180), None, 64),
+        ("prism", (320, 180), None, 10),
+        ("diamond", (320, 180), None, 16),
+        ("rainbow", (320, 180), None, 6),
     )
 }
 
@@ -105,12 +114,12 @@ def reference(name: str, scene: mlt.Scene, case: Case, args):
     return list(Reference(name, scene, made, long, threads=args.threads, folder=args.cache).halves)
 
 
-def entrants(args) -> list:
+def entrants(max_depth: int, args) -> list:
     """Labels and algorithms; depths are part of the names."""
     chosen = []
     for label in args.algorithms:
         name, _, parameters = ALGORITHMS[label].partition(":")
-        depth = f"max_depth={args.max_depth}"
+        depth = f"max_depth={max_depth}"
         chosen.append((label, f"{name}:{depth}" + (f",{parameters}" if parameters else "")))
     return [*chosen, *args.programs]
 
@@ -125,7 +134,7 @@ def race_on(name: str, args) -> mlt.RaceResult:
     path = case.path()
     scene = mlt.load_file(path, size=case.size)
     result = mlt.equal_time(
-        entrants(args),
+        entrants(case.max_depth, args),
         scene,
         reference(name, scene, case, args),
         seconds=args.seconds,
@@ -144,7 +153,6 @@ def main() -> None:
     options.add_argument("--seconds", type=float, default=20, help="for each image and thread")
     options.add_argument("--threads", type=int, default=2)
     options.add_argument("--repeats", type=int, default=3, help="with other seeds")
-    options.add_argument("--max-depth", type=int, default=8)
     options.add_argument("--reference-seconds", type=float, default=1200)
     options.add_argument("--scenes", nargs="+", choices=list(CASES), default=list(CASES))
     options.add_argument("--algorithms", nargs="+", choices=there, default=there)

@@ -23,4 +23,16 @@ void parallel_for(int threads, uint64_t count, const std::function<void(uint64_t
 void parallel_blocks(int threads, uint64_t count,
                      const std::function<void(uint64_t, uint64_t)>& body);
 
+/// The number of parts of in_parts().
+inline constexpr uint64_t part_count = 64;
+
+/// Runs a loop in parts, each on one thread: calls body(part, first, end). The parts, and what is
+/// summed in them, do not depend on the number of threads.
+template <class Body>
+void in_parts(int threads, uint64_t count, Body&& body) {
+  parallel_for(threads, part_count, [&](uint64_t part) {
+    body(part, count * part / part_count, count * (part + 1) / part_count);
+  });
+}
+
 }  // namespace mlt

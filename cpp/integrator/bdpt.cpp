@@ -3,7 +3,8 @@
 // Guibas, "Bidirectional estimators for light transport", EGWR 1994; Veach 1997, ch. 10.
 #include "integrator/parameters.h"
 #include "path/technique_names.h"
-#include "rendering/bidirectional_taker.h"
+#include "rendering/estimator_taker.h"
+#include "wave/bidirectional_wave.h"
 
 namespace mlt {
 namespace {
@@ -13,8 +14,34 @@ struct BdptSettings {
   bool techniques = false, manifolds = false;
 };
 
-class BdptTaker : public BidirectionalTaker {
+/// Bidirectional path tracing with an image for each technique.
+class TechniqueTaker : public SampleTaker {
  public:
+  TechniqueTaker(const Scene& scene, const BidirectionalSettings& settings)
+      : estimator_(scene, settings) {}
+
+  void sample(const Vec2& raster, PixelSampler& sampler, SampleSink& sink,
+              RayCounts& rays) override {
+    Color seen(0);
+    estimator_.paths = sink.paths();
+    estimator_.connect_all(raster, sampler, rays, [&](const Connection& c) {
+      const Color weighted = c.contribution * c.weight;
+      if (c.t >= 2)
+        seen += weighted;
+      else
+        sink.splat(c.raster, weighted);
+      const int layer = 2 * technique_index(c.s, c.t);
+      sink.splat_layer(layer, c.raster, c.contribution);
+      sink.splat_layer(layer + 1, c.raster, weighted);
+    });
+    sink.add(raster, seen * estimator_.own_scale());
+  }
+
+ private:
+  BidirectionalEstimator estimator_;
+};
+
+struct BdptIntegrator : SampledDefaults {
   static BdptSettings settings(Params& params) {
     const BdptSettings settings{bidirectional_settings(params), params.boolean("techniques"),
                                 params.boolean("manifolds")};
@@ -38,56 +65,19 @@ class BdptTaker : public BidirectionalTaker {
         for (const char* kind : {"raw.", "weighted."}) film.layers.push_back(kind + name);
     return film;
   }
-  BdptTaker(const Scene& scene, const BdptSettings& settings)
-      : BidirectionalTaker(scene, settings.paths, !settings.techniques),
-        scene_(&scene),
-        scale_(radiance_scale(scene)),
-        bidirectional_(scene, settings.paths),
-        techniques_(settings.techniques) {}
-
-  void sample(const Vec2& raster, PixelSampler& sampler, SampleSink& sink,
-              RayCounts& rays) override {
-    bidirectional_.sample(raster, sampler, rays);
-    Color seen(0);
-    bidirectional_.connect_all(rays, [&](const Connection& c) {
-      const Color weighted = c.contribution * c.weight;
-      if (c.t >= 2)
-        seen += weighted;
-      else
-        sink.splat(c.raster, weighted);
-      if (std::vector<FoundPath>* paths = sink.paths())
-        paths->push_back(found_path(*scene_, bidirectional_, c));
-      if (!techniques_) return;
-      const int layer = 2 * technique_index(c.s, c.t);
-      sink.splat_layer(layer, c.raster, c.contribution);
-      sink.splat_layer(layer + 1, c.raster, weighted);
-    });
-    // Importance over the density of raster positions is divided out: what is left is radiance.
-    sink.add(raster, seen * scale_);
+  static std::unique_ptr<SampleTaker> taker(const Scene& scene, const BdptSettings& settings) {
+    if (settings.techniques) return std::make_unique<TechniqueTaker>(scene, settings.paths);
+    std::unique_ptr<BidirectionalWave> wave;
+    if (BidirectionalWave::supports(scene, settings.paths))
+      wave = std::make_unique<BidirectionalWave>(scene, settings.paths);
+    return take_alone(BidirectionalEstimator(scene, settings.paths), std::move(wave));
   }
-
- private:
-  void show(const BidirectionalWave& wave, int i, SampleSink& sink) override {
-    Color seen(0);
-    wave.show_lights(i, [&](const BidirectionalWave::Light& light) {
-      if (light.own_pixel)
-        seen += light.weighted;
-      else
-        sink.splat(light.raster, light.weighted);
-    });
-    sink.add(wave.raster(i), seen * scale_);
-  }
-
-  const Scene* scene_;
-  double scale_;
-  BidirectionalSampler bidirectional_;
-  bool techniques_;
 };
 
 }  // namespace
 
 Plugin integrator_bdpt() {
-  return make_plugin<SampledIntegrator<BdptTaker>>(integrator_schema(
+  return make_plugin<SampledIntegrator<BdptIntegrator>>(integrator_schema(
       "bdpt",
       "Bidirectional path tracing with every technique (s, t) and multiple importance sampling "
       "(Veach & Guibas 1994; Veach 1997, ch. 10). One spp is a camera and a light path per pixel.",

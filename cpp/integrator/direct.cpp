@@ -1,7 +1,7 @@
 // direct: light that reaches the camera over at most one reflection, by any number of samples of
 // lights and of the BSDF, combined by the multi-sample power heuristic (Veach 1997, sec. 9.2).
 #include "integrator/parameters.h"
-#include "rendering/sampled_rendering.h"
+#include "rendering/estimator_taker.h"
 
 namespace mlt {
 namespace {
@@ -11,7 +11,7 @@ struct DirectSettings {
   PathRules rules;
 };
 
-class DirectTaker : public SampleTaker {
+class DirectEstimator : public Estimator, public SampledDefaults {
  public:
   static DirectSettings settings(Params& params) {
     const int64_t both = params.integer_in("shading_samples", 1, 1 << 20);
@@ -28,17 +28,21 @@ class DirectTaker : public SampleTaker {
     return settings;
   }
   static SampledSettings film(const DirectSettings&) { return camera_walks(); }
-  DirectTaker(const Scene& scene, const DirectSettings& settings)
+  static std::unique_ptr<SampleTaker> taker(const Scene& scene, const DirectSettings& settings) {
+    return take_alone(DirectEstimator(scene, settings));
+  }
+  DirectEstimator(const Scene& scene, const DirectSettings& settings)
       : scene_(&scene), settings_(settings) {}
 
-  void sample(const Vec2& raster, PixelSampler& sampler, SampleSink& sink,
-              RayCounts& rays) override {
+  template <class Sampler, class Found>
+  void operator()(const Vec2& raster, Sampler& sampler, RayCounts& rays, Found&& found) const {
     const Ray ray = leave_lens(scene_->camera(), raster, sampler).ray;
-    sink.add(raster, radiance(ray, sampler, rays));
+    found(FoundLight{{raster, radiance(ray, sampler, rays)}});
   }
 
  private:
-  Color radiance(const Ray& ray, PixelSampler& sampler, RayCounts& rays) const {
+  template <class Sampler>
+  Color radiance(const Ray& ray, Sampler& sampler, RayCounts& rays) const {
     const Walker walker{*scene_, ray.time, rays};
     CameraWalk walk(ray);
     SurfacePoint at;
@@ -55,8 +59,9 @@ class DirectTaker : public SampleTaker {
     return sum;
   }
 
+  template <class Sampler>
   Color by_light(const Walker& walker, const SurfacePoint& at, const CameraWalk& seen,
-                 PixelSampler& sampler) const {
+                 Sampler& sampler) const {
     const Vec3 u = DirectNumbers::draw(sampler).for_light();
     const double n = settings_.emitter_samples, m = settings_.bsdf_samples;
     const auto weight = [&](double light, double bsdf) {
@@ -67,8 +72,9 @@ class DirectTaker : public SampleTaker {
     return seen.seen(seen.throughput * light.radiance, light.disperses) / n;
   }
 
+  template <class Sampler>
   Color by_bsdf(const Walker& walker, const SurfacePoint& at, const CameraWalk& seen,
-                PixelSampler& sampler) const {
+                Sampler& sampler) const {
     const Vec2 u = sampler.next2();
     const auto sample = scatter_to_light(walker, at, -seen.ray.d, {sampler.next(), u},
                                          settings_.rules.strict_normals);
@@ -113,7 +119,7 @@ Plugin integrator_direct() {
   for (const Parameter& shared : path_parameters())
     if (shared.name == "hide_emitters" || shared.name == "strict_normals")
       schema.parameters.push_back(shared);
-  return make_plugin<SampledIntegrator<DirectTaker>>(schema);
+  return make_plugin<SampledIntegrator<DirectEstimator>>(schema);
 }
 
 }  // namespace mlt

@@ -2,28 +2,20 @@
 // J. Kajiya, "The rendering equation", SIGGRAPH 1986; E. Veach and L. Guibas, "Optimally combining
 // sampling techniques for Monte Carlo rendering", SIGGRAPH 1995.
 #include "integrator/parameters.h"
-#include "rendering/wave_taker.h"
+#include "rendering/estimator_taker.h"
+#include "wave/path_sample_wave.h"
 
 namespace mlt {
 namespace {
 
-class PathTaker : public WaveTaker {
- public:
+struct PathIntegrator : SampledDefaults {
   static PathRules settings(Params& params) { return path_rules(params); }
   static SampledSettings film(const PathRules&) { return camera_walks(); }
-  PathTaker(const Scene& scene, const PathRules& rules)
-      : WaveTaker(scene, rules, Heuristic::power) {}
-
-  void sample(const Vec2& raster, PixelSampler& sampler, SampleSink& sink,
-              RayCounts& rays) override {
-    const LensDeparture start = leave_lens(scene().camera(), raster, sampler);
-    const auto trace = [&](auto&& watcher) {
-      sink.add(raster, trace_path(scene(), rules(), start.ray, sampler, rays, watcher));
-    };
-    if (sink.paths())
-      trace(PathRecorder(scene(), raster, start.lens.at, start.ray.time, *sink.paths()));
-    else
-      trace(IgnorePaths());
+  static std::unique_ptr<SampleTaker> taker(const Scene& scene, const PathRules& rules) {
+    std::unique_ptr<PathSampleWave> wave;
+    if (PathSampleWave::supports(scene))
+      wave = std::make_unique<PathSampleWave>(scene, rules, Heuristic::power);
+    return take_alone(PathEstimator(scene, rules), std::move(wave));
   }
 };
 
@@ -36,7 +28,7 @@ Plugin integrator_path() {
       "(Kajiya 1986; Veach & Guibas 1995). One spp is one camera path per pixel.",
       {path_parameters()});
   schema.ignored = {"samples_per_pass", "block_size"};
-  return make_plugin<SampledIntegrator<PathTaker>>(schema);
+  return make_plugin<SampledIntegrator<PathIntegrator>>(schema);
 }
 
 }  // namespace mlt

@@ -3,9 +3,9 @@
 // algorithm", Eurographics 2002.
 #include "base/registry.h"
 #include "integrator/parameters.h"
-#include "rendering/large_step_weights.h"
-#include "rendering/primary_estimators.h"
-#include "rendering/walk_taker.h"
+#include "rendering/beside_chains.h"
+#include "rendering/coarse_image.h"
+#include "wave/path_sample_wave.h"
 #include "wave/walk_step.h"
 
 namespace mlt {
@@ -21,20 +21,18 @@ struct PssmltSettings {
 /// Evaluates states: makes paths from their numbers.
 template <class Estimator>
 struct PrimaryPaths {
-  const Raster* image;
+  const Scene* scene;
   SmallStep small_step;
   Estimator estimator;
   RayCounts rays = {};
 
   void operator()(const PrimarySamples* x, PrimaryState& y, Rng& rng) {
     PrimarySampler sampler(x, y.numbers, small_step, rng);
-    sample(image->sample(sampler.next2()), sampler, y);
-  }
-  template <class Sampler>
-  void sample(const Vec2& raster, Sampler& sampler, PrimaryState& state) {
-    state.light.clear();
-    estimator(raster, sampler, state.light, rays);
-    state.find_target();
+    const Vec2 raster = scene->camera().raster().sample(sampler.next2());
+    const double unit = radiance_scale(*scene) / estimator.own_scale();
+    y.light.clear();
+    estimator(raster, sampler, rays, [&](const FoundLight& light) { y.add(light, unit); });
+    y.find_target();
   }
 };
 
@@ -90,7 +88,13 @@ class Pssmlt : public MetropolisAlgorithm {
   }
   const Scene& scene() const override { return *scene_; }
   std::unique_ptr<Source> source() const override {
-    return std::make_unique<PssmltSource>(paths(), weights_);
+    return make_source(estimator(), targeting(), is_path ? path_cost : 1);
+  }
+  std::unique_ptr<SampleTaker> sample_taker(const FamilyWeights& weights) const override {
+    std::unique_ptr<PathSampleWave> wave;
+    if (is_path && PathSampleWave::supports(*scene_))
+      wave = std::make_unique<PathSampleWave>(*scene_, settings_.path, Heuristic::power);
+    return take_beside_chains(*scene_, estimator(), targeting(), weights, std::move(wave));
   }
   std::unique_ptr<RenderChain> start(const ChainId& id, Rng candidate, Rng) const override {
     PrimaryState x;
@@ -120,12 +124,17 @@ class Pssmlt : public MetropolisAlgorithm {
 
  protected:
   PrimaryPaths<Estimator> paths() const {
-    return {&scene_->camera().raster(), settings_.small_step, {*scene_, settings_.path}};
+    return {scene_.get(), settings_.small_step, estimator()};
   }
   const PssmltSettings& settings() const { return settings_; }
-  const LargeStepWeights& weights() const { return weights_; }
 
  private:
+  static constexpr bool is_path = std::is_same_v<Estimator, PathEstimator>;
+  /// Cost of a ray of path tracing in waves: .56 to .8 in bench_ray_cost.
+  static constexpr double path_cost = 0.65;
+
+  Estimator estimator() const { return {*scene_, settings_.path}; }
+  SampleTargeting targeting() const { return {*scene_, estimator().own_scale(), weights_}; }
   Step step() const {
     if constexpr (std::is_same_v<Step, WalkStep>)
       return {settings_.large_probability, settings_.delayed_rejection};
@@ -137,26 +146,6 @@ class Pssmlt : public MetropolisAlgorithm {
         PssmltKernel<Step>(step(), weights_, id.b), id, std::move(start));
   }
 
-  struct PssmltSource : SourceOf<PssmltSource> {
-    PssmltSource(const PrimaryPaths<Estimator>& p, const LargeStepWeights& w)
-        : paths(p), weights(w) {}
-    template <class Sampler>
-    void draw(const Vec2& raster, Sampler& sampler, std::vector<FoundLight>& found) {
-      paths.sample(raster, sampler, state);
-      for (const ImageLight& light : state.light)
-        found.push_back(weights.found(light, state.target));
-    }
-    const RayCounts& rays() const override { return paths.rays; }
-    /// Cost of a ray of WalkTaker: .56 to .8 in bench_ray_cost.
-    double cost_of_ray() const override {
-      return std::is_same_v<Estimator, PathEstimator> ? 0.65 : 1;
-    }
-
-    PrimaryPaths<Estimator> paths;
-    LargeStepWeights weights;
-    PrimaryState state;
-  };
-
   ScenePtr scene_;
   PssmltSettings settings_;
   LargeStepWeights weights_;
@@ -167,9 +156,6 @@ class WalkPssmlt : public Pssmlt<PathEstimator, WalkStep> {
  public:
   using Pssmlt::Pssmlt;
 
-  std::unique_ptr<SampleTaker> sample_taker(const FamilyWeights& weights) const override {
-    return std::make_unique<WalkTaker>(scene(), settings().path, this->weights(), weights);
-  }
   int chains_together() const override { return 8; }
   void advance(const std::vector<ChainVisit>& visits, uint64_t steps) const override {
     using Kernel = PssmltKernel<WalkStep>;

@@ -15,7 +15,7 @@ class Curve {
   /// Linear between the pairs and zero outside, as Mitsuba's `regular` and `irregular`. A single
   /// pair stands for all wavelengths; more are checked by check_spectrum.
   static Curve table(const WavelengthTable& samples);
-  /// The same for optical constants, which keep their end values outside.
+  /// A curve of optical constants, which keep their end values outside.
   static Curve held_table(const WavelengthTable& samples);
   /// Planck's law, in W / (m^2 sr nm) as Mitsuba's `blackbody`. Throws UsageError unless the
   /// temperature is finite and positive.

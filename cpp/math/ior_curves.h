@@ -21,7 +21,7 @@ struct ConductorTables {
 };
 std::optional<ConductorTables> find_conductor_tables(const std::string& name);
 
-/// The same as curves, which hold the values at the ends of the tables beyond these.
+/// These tables as curves, which hold the values at the ends of the tables beyond these.
 struct ConductorCurves {
   Curve eta, k;
 };

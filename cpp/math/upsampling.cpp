@@ -93,7 +93,7 @@ class Fit {
   }
 
  private:
-  /// Of a sum of squares: half its gradient and, by Gauss and Newton, half its second derivative.
+  /// Half the gradient of a sum of squares and, by Gauss and Newton, half its second derivative.
   struct State {
     double cost;
     Vec3 gradient;
@@ -156,7 +156,7 @@ struct Interval {
   }
 };
 
-/// Of the arguments of std::max, NaN loses.
+/// The greater one; a NaN loses against a number.
 double within_unit(double x) { return std::min(1.0, std::max(0.0, x)); }
 Color within_unit_cube(const Color& c) {
   return {within_unit(c.x), within_unit(c.y), within_unit(c.z)};

@@ -14,13 +14,10 @@ namespace mlt {
 namespace {
 
 constexpr int batches = 128;
-constexpr double least_effective_samples = 1000;
 /// A function that hardly ever changes is not tested, since a t-test needs more than a few events:
 /// many small changes one way may wait for a few large ones the other way. Nor is one that is 0 for
 /// almost all starting paths, since the few that would leave that set are missing.
 constexpr double least_effective_changes = 100;
-/// At grazing angles a walk's directions and those of its vertices differ by rounding.
-constexpr double most_lost = 1e-4;
 constexpr double most_splits = 4096;
 
 using RowKey = std::pair<size_t, std::string>;  // mutation, signature
@@ -192,7 +189,7 @@ class Auditor {
     report.lost /= light;
     report.effective_samples = weight > 0 ? sqr(weight) / weight_squared : 0;
     if (weight > 0) add_tests(done, weight, report);
-    judge(report);
+    report.judge(how_);
     return report;
   }
 
@@ -246,40 +243,6 @@ class Auditor {
   static double two_sided(double t, double n) {
     const double z = std::sqrt(n * std::log1p(sqr(t) / n)) * (8 * n + 1) / (8 * n + 3);
     return std::erfc(z * std::sqrt(0.5));
-  }
-
-  void judge(AuditReport& report) const {
-    const auto say = [&](Verdict verdict, std::string reason) {
-      report.verdict = verdict;
-      report.reason = std::move(reason);
-    };
-    if (report.lost > most_lost)
-      return say(Verdict::wrong,
-                 fmt::format("{:.2g} of the light is in paths without a target", report.lost));
-    if (report.invalid > 0)
-      return say(Verdict::wrong,
-                 fmt::format("{} steps had an acceptance that is not a number", report.invalid));
-    if (report.suited == 0) return say(Verdict::inconclusive, "no path suits");
-    if (report.effective_samples < least_effective_samples)
-      return say(
-          Verdict::inconclusive,
-          fmt::format(
-              "the samples are worth only {:.0f} of equal weight; at least {:.0f} are needed",
-              report.effective_samples, least_effective_samples));
-    if (!report.tests.empty() && report.tests[0].adjusted_p <= how_.significance) {
-      const AuditTest& t = report.tests[0];
-      return say(Verdict::wrong,
-                 fmt::format("the mean of '{}' changes by {:.3g} +- {:.2g} (z = {:.1f})",
-                             t.function, t.change, t.error, t.z));
-    }
-    if (report.accepted < how_.least_accepted)
-      return say(Verdict::inconclusive,
-                 fmt::format("only {} moves were accepted; at least {} are needed", report.accepted,
-                             how_.least_accepted));
-    if (report.tests.empty()) return say(Verdict::inconclusive, "nothing that is measured changes");
-    const size_t n = report.tests.size();
-    say(Verdict::right, fmt::format("none of {} means changes (least p = {:.2g} after correction)",
-                                    n, report.tests[0].adjusted_p));
   }
 
   const PathTarget* target_;

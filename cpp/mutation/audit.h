@@ -68,6 +68,8 @@ struct AuditReport {
   std::vector<AuditTest> tests;  ///< In order of p, the least first.
   std::vector<AuditRow> rows;    ///< In order of steps, the most frequent first.
 
+  /// Sets the verdict and its reason.
+  void judge(const AuditSettings& how);
   /// A table as text, with the `most` least probable functions and most frequent signatures.
   std::string text(size_t most = 8) const;
 };

@@ -3,6 +3,13 @@
 #include <fmt/format.h>
 
 namespace mlt {
+namespace {
+
+constexpr double least_effective_samples = 1000;
+/// At grazing angles a walk's directions and those of its vertices differ by rounding.
+constexpr double most_lost = 1e-4;
+
+}  // namespace
 
 const char* name_of(Verdict verdict) {
   switch (verdict) {
@@ -11,6 +18,39 @@ const char* name_of(Verdict verdict) {
     case Verdict::inconclusive: break;
   }
   return "inconclusive";
+}
+
+void AuditReport::judge(const AuditSettings& how) {
+  const auto say = [&](Verdict v, std::string why) {
+    verdict = v;
+    reason = std::move(why);
+  };
+  if (lost > most_lost)
+    return say(Verdict::wrong,
+               fmt::format("{:.2g} of the light is in paths without a target", lost));
+  if (invalid > 0)
+    return say(Verdict::wrong,
+               fmt::format("{} steps had an acceptance that is not a number", invalid));
+  if (suited == 0) return say(Verdict::inconclusive, "no path suits");
+  if (effective_samples < least_effective_samples)
+    return say(
+        Verdict::inconclusive,
+        fmt::format("the samples are worth only {:.0f} of equal weight; at least {:.0f} are needed",
+                    effective_samples, least_effective_samples));
+  if (!tests.empty() && tests[0].adjusted_p <= how.significance) {
+    const AuditTest& t = tests[0];
+    return say(Verdict::wrong,
+               fmt::format("the mean of '{}' changes by {:.3g} +- {:.2g} (z = {:.1f})", t.function,
+                           t.change, t.error, t.z));
+  }
+  if (accepted < how.least_accepted)
+    return say(Verdict::inconclusive,
+               fmt::format("only {} moves were accepted; at least {} are needed", accepted,
+                           how.least_accepted));
+  if (tests.empty()) return say(Verdict::inconclusive, "nothing that is measured changes");
+  const size_t n = tests.size();
+  say(Verdict::right, fmt::format("none of {} means changes (least p = {:.2g} after correction)", n,
+                                  tests[0].adjusted_p));
 }
 
 std::string AuditReport::text(size_t most) const {

@@ -11,7 +11,7 @@ struct RasterCells {
   Raster raster;
   int columns, rows;
 
-  /// Of about `pixels` x `pixels` pixels.
+  /// Cells of about `pixels` x `pixels` pixels.
   static RasterCells of(const Raster& raster, int pixels) {
     return {raster, std::max(1, (raster.size.x + pixels - 1) / pixels),
             std::max(1, (raster.size.y + pixels - 1) / pixels)};

@@ -39,87 +39,12 @@ inline bool find_end(const Scene& scene, const WalkVertex& x, Subpath::From from
   return edge.scatters;
 }
 
-/// The probability of what a walk from the other end flies from x to the vertex before it, which
-/// passes_back does not have; changes the likelihood of that walk.
-double fly_back(const Scene& scene, const WalkVertex& x, Spectrum& likelihood) {
-  if (!scene.has_coloured_media()) return 1;
-  const Arrival arrival = x.back.after(likelihood);
-  likelihood = arrival.next_likelihood();
-  return arrival.flown();
-}
-
-/// The sums over the techniques with a joint before or at vertex i of a subpath, from there to its
-/// end: in coloured media densities by the other walk depend on all that it has flown before.
-template <class CountTechnique>
-TechniqueSums sum_back(const Scene& scene, const Subpath& walk, int i, double reverse,
-                       Spectrum likelihood, CountTechnique&& count) {
-  TechniqueSums sums;
-  double quotient = reverse / walk[i].forward;
-  while (quotient > 0) {
-    if (const double technique = count(i); technique > 0) sums = sums.with(technique * quotient);
-    if (--i < 0) break;
-    const double flown = fly_back(scene, walk[i + 1], likelihood);
-    quotient *= walk[i].reverse * flown / walk[i].forward;
-  }
-  return sums;
-}
-
 }  // namespace
 
 /// The density of x_0 in technique s = 1 over that of a walk that starts there.
 double BidirectionalSampler::direct_over_walk(const Vertex& x0, double from_light,
                                               const SurfacePoint& x1) const {
   return settings_.sample_direct ? direct_position_pdf(*scene_, x0, x1) / from_light : 1;
-}
-
-/// How often technique s = i counts (TechniqueSums::with), with its joint before vertex i of the
-/// light subpath. `joined`: vertex i scatters smoothly, since the path is joined there.
-double BidirectionalSampler::light_technique(int i, bool joined) const {
-  if (i == 0) return can_be_hit(*scene_, light_[0].vertex) ? 1 : 0;
-  if (!connectable(light_[i - 1].vertex))
-    return joined || connectable(light_[i].vertex) ? manifold_count(i - 1, light_[i].vertex) : 0;
-  if (!joined && !connectable(light_[i].vertex)) return 0;
-  return i == 1 ? light_direct_over_walk_ : 1;
-}
-
-/// How often technique t = i counts, with its joint before vertex i of the camera subpath.
-double BidirectionalSampler::camera_technique(int i, bool joined) const {
-  if (i <= 1 && !settings_.light_image) return 0;
-  if (i == 0) return lens_can_be_hit_ ? 1 : 0;
-  return connectable(camera_[i - 1].vertex) && (joined || connectable(camera_[i].vertex)) ? 1 : 0;
-}
-
-/// Computes light_sums_ and camera_sums_ up to each vertex.
-void BidirectionalSampler::sum_techniques() {
-  light_sums_.clear();
-  camera_sums_.clear();
-  const int lights = static_cast<int>(light_.size()), cameras = static_cast<int>(camera_.size());
-  if (lights >= 2)
-    light_direct_over_walk_ =
-        direct_over_walk(light_[0].vertex, light_[0].forward, light_[1].vertex.at);
-  if (scene_->has_coloured_media()) return;  // see sum_back()
-  const Spectrum grey(1);
-  for (int i = 0; i < lights; ++i)
-    light_sums_.push_back(
-        (i > 0 ? below_light(i - 1, light_[i - 1].reverse, grey) : TechniqueSums())
-            .with(light_technique(i)));
-  for (int i = 0; i < cameras; ++i)
-    camera_sums_.push_back(
-        (i > 0 ? above_camera(i - 1, camera_[i - 1].reverse, grey) : TechniqueSums())
-            .with(camera_technique(i)));
-}
-
-TechniqueSums BidirectionalSampler::below_light(int i, double reverse,
-                                                const Spectrum& likelihood) const {
-  if (!scene_->has_coloured_media()) return light_sums_[i].over(reverse / light_[i].forward);
-  return sum_back(*scene_, light_, i, reverse, likelihood,
-                  [&](int j) { return light_technique(j); });
-}
-TechniqueSums BidirectionalSampler::above_camera(int i, double reverse,
-                                                 const Spectrum& likelihood) const {
-  if (!scene_->has_coloured_media()) return camera_sums_[i].over(reverse / camera_[i].forward);
-  return sum_back(*scene_, camera_, i, reverse, likelihood,
-                  [&](int j) { return camera_technique(j); });
 }
 
 bool BidirectionalSampler::weigh(Connection& connection, double own, const TechniqueSums& below,

@@ -61,7 +61,7 @@ struct TermsAt : VertexDensities, Edge {
 /// other. A light walk goes through the lens, whatever lies before or behind it.
 struct EdgePassage {
   EdgePassage() = default;
-  /// Of the edge from a to b, which is on the lens if `to_lens`.
+  /// The passage along the edge from a to b, which is on the lens if `to_lens`.
   EdgePassage(const Scene& scene, const SurfacePoint& a, const SurfacePoint& b, const Passage& edge,
               bool to_lens)
       : transmittance(edge.transmittance) {

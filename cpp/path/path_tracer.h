@@ -130,21 +130,16 @@ inline std::optional<ScatterSample> scatter_to_light(const Walker& walker, const
       w, s.f * (factor / s.pdf_from_camera), s.pdf_from_camera, lobe, eta2, s.disperses};
 }
 
-/// For the weight w1 of paths that chains find too (FamilyWeights): T / (P c) of a path whose f / P
-/// has L* = 1. With the balance heuristic f / P is the radiance of a path, without roulette.
-struct ChainFactor {
-  double factor = 0;
-  /// Chains do not find paths with a greater `certainty`.
-  double most_certain = std::numeric_limits<double>::infinity();
-};
-
 struct CameraWalk;
 
 /// A watcher of trace_path: its functions are called at each step, in this order. This one ignores
 /// them.
 struct IgnorePaths {
-  /// Called before hit() or connect(): a path with this radiance was found.
-  void find(const CameraWalk&, const Color& /*radiance*/, double /*certainty*/) {}
+  /// Called before hit() or connect(): a path with this radiance was found. Returns the weight with
+  /// which it counts in the radiance of the walk.
+  double find(const CameraWalk&, const Color& /*radiance*/, double /*certainty*/) const {
+    return 1;
+  }
   /// A light was hit at x0; `radiance` is the result.
   void hit(const Emitter&, const SurfacePoint& /*x0*/, const Color& /*radiance*/) {}
   void arrive(const SurfacePoint&) {}
@@ -169,19 +164,9 @@ struct CameraWalk {
   double certainty = 0;    ///< See certainty() of path_terms.h; up to here, if it began with 1.
   double survival = 1;     ///< Probability of having survived Russian roulette.
   Spectrum likelihood{1};  ///< See Passage.
-  RayCounts rays;          ///< Rays that a PathWave has traced for it.
 
   MisExponent mis{Heuristic::power};  ///< For the two techniques.
-  ChainFactor chain_factor;
 
-  /// The weight w1 of a path with this certainty and radiance.
-  double own_share(const Color& found, double its_certainty = 0) const {
-    const auto& [factor, most_certain] = chain_factor;
-    return factor > 0 && its_certainty <= most_certain
-               ? 1 / (1 + factor * survival * target_luminance(found))
-               : 1.0;
-  }
-  void take(const Color& found, double share) { radiance += found * share; }
   /// The light of a path as a film records it; its last vertex may disperse, too.
   Color seen(const Spectrum& light, bool disperses = false) const {
     return recorded(light, ray.wavelength, dispersed || disperses);
@@ -221,9 +206,8 @@ void find_light(const Scene& scene, CameraWalk& walk, const SurfacePoint* at,
             : walk.mis.weight(walk.scatter_pdf, direct_pdf(scene, emitter, walk.previous, x0, w));
     const Spectrum weighted = walk.throughput * weight;
     const Color found = walk.seen(weighted * emitted);
-    watcher.find(walk, found, walk.certainty);
+    walk.radiance += found * watcher.find(walk, found, walk.certainty);
     watcher.hit(emitter, x0, found);
-    walk.take(found, walk.own_share(found, walk.certainty));
   };
   visit_emission(scene, at, walk.ray, take);
 }
@@ -291,9 +275,8 @@ Color trace_path(const Scene& scene, const PathRules& rules, CameraWalk walk, Sa
       const DirectLight light = direct_light(walker, at, wc, numbers.for_light(),
                                              rules.strict_normals, mis, walk.likelihood);
       const Color direct = walk.seen(walk.throughput * light.radiance, light.disperses);
-      watcher.find(walk, direct, 0);
+      walk.radiance += direct * watcher.find(walk, direct, 0);
       watcher.connect(numbers.for_light(), direct);
-      walk.take(direct, walk.own_share(direct));
     }
     if (!scatter(walker, rules, depth, at, numbers, walk, watcher)) break;
   }

@@ -133,4 +133,13 @@ void walk_from_light(const Walker& walker, const PathRules& rules, const WalkLen
   if (first.pdf > 0) subpath.walk(walker, rules, first, most, sampler);
 }
 
+/// The probability of what a walk from the other end flies from x to the vertex before it, which
+/// passes_back does not have; changes the likelihood of that walk.
+inline double fly_back(const Scene& scene, const WalkVertex& x, Spectrum& likelihood) {
+  if (!scene.has_coloured_media()) return 1;
+  const Arrival arrival = x.back.after(likelihood);
+  likelihood = arrival.next_likelihood();
+  return arrival.flown();
+}
+
 }  // namespace mlt

@@ -4,26 +4,33 @@
 
 #include "markov/step.h"
 #include "math/color.h"
+#include "path/found_light.h"
 #include "path/ray_counts.h"
 #include "primary/primary_samples.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
 namespace mlt {
-
-/// Light at one position of the image.
-struct ImageLight {
-  Vec2 raster{0};
-  Color rgb{0};           ///< f / p, weighted among techniques.
-  bool own_pixel = true;  ///< At the camera walk's own position, not by light tracing.
-};
 
 struct PrimaryState {
   PrimarySamples numbers;
   std::vector<ImageLight> light;  ///< Light of all paths of these numbers.
   double target = 0;              ///< Sum of L* of `light`; NaN if the estimator failed.
 
+  /// Adds the light of a path, which is divided by `unit` where it is at the sample's own position:
+  /// there all light is one entry.
+  void add(const ImageLight& found, double unit) {
+    if (is_black(found.rgb)) return;
+    if (!found.own_pixel) return light.push_back(found);
+    const auto is_own = [](const ImageLight& one) { return one.own_pixel; };
+    const auto own = std::find_if(light.rbegin(), light.rend(), is_own);
+    if (own != light.rend())
+      own->rgb += found.rgb / unit;
+    else
+      light.push_back({found.raster, found.rgb / unit, true});
+  }
   void find_target() {
     target = 0;
     for (const ImageLight& one : light)

@@ -2,11 +2,11 @@
 #pragma once
 
 #include "mutation/path_target.h"
+#include "path/found_light.h"
 #include "path/samplers.h"
 #include "rendering/metropolis_chain.h"
 #include "rendering/sampled_rendering.h"
 #include "rendering/stats.h"
-#include "rendering/typical_brightness.h"
 
 #include <atomic>
 #include <memory>
@@ -15,34 +15,7 @@
 
 namespace mlt {
 
-/// A path that an independent sample has found.
-struct FoundLight {
-  Vec2 raster;
-  Color rgb;                   ///< Its contribution to the image: f / p, weighted among techniques.
-  double weight;               ///< Its contribution to b, the integral of the target: T / p.
-  double target_over_density;  ///< T / P, see FamilyWeights.
-  bool own_pixel;              ///< At the sample's own image position, not by light tracing.
-
-  bool valid() const {
-    return is_finite(rgb) && min_component(rgb) >= 0 && weight >= 0 && std::isfinite(weight) &&
-           target_over_density >= 0;
-  }
-};
-
-/// What independent samples tell before a render.
-struct CoarseImage {
-  explicit CoarseImage(const Raster& raster) : map(blank_image(raster)), typical(raster) {}
-
-  void add(const FoundLight& found) {
-    map.add(found.raster, found.weight);
-    typical.add(found.raster, found.weight);
-    b += found.weight;
-  }
-
-  TargetMap map;              ///< For the target of the chains.
-  TypicalBrightness typical;  ///< For the pilot.
-  double b = 0;               ///< Mean of the weights T / p.
-};
+struct CoarseImage;
 
 class MetropolisAlgorithm {
  public:
@@ -72,7 +45,7 @@ class MetropolisAlgorithm {
   /// The source of the samples that go to the image, for the pilot.
   virtual std::unique_ptr<Source> sample_source() const { return source(); }
   /// Takes the samples that go to the image, for the render.
-  virtual std::unique_ptr<SampleTaker> sample_taker(const FamilyWeights& weights) const;
+  virtual std::unique_ptr<SampleTaker> sample_taker(const FamilyWeights& weights) const = 0;
   virtual const Scene& scene() const = 0;
   /// Starts a chain from the candidate that the same stream gave; `choice` chooses one of the
   /// paths that the candidate consists of.
@@ -101,27 +74,6 @@ class MetropolisAlgorithm {
                        const std::atomic<bool>& /*cancelled*/) {}
   virtual std::string save() const { return ""; }
   virtual void load(const std::string& /*bytes*/) {}
-};
-
-/// A source of light that Own finds by draw(raster, sampler, found), a template over the sampler.
-template <class Own>
-class SourceOf : public MetropolisAlgorithm::Source {
- public:
-  const std::vector<FoundLight>& sample(const Vec2& raster, PixelSampler& sampler) override {
-    return drawn(raster, sampler);
-  }
-  const std::vector<FoundLight>& sample(const Vec2& raster, RandomSampler& sampler) override {
-    return drawn(raster, sampler);
-  }
-
- private:
-  template <class Sampler>
-  const std::vector<FoundLight>& drawn(const Vec2& raster, Sampler& sampler) {
-    found_.clear();
-    static_cast<Own&>(*this).draw(raster, sampler, found_);
-    return found_;
-  }
-  std::vector<FoundLight> found_;
 };
 
 /// The weights of a sample of the whole image, summed over its paths.

@@ -7,9 +7,9 @@
 #include "base/rng.h"
 #include "image/splat_film.h"
 #include "markov/chain.h"
+#include "markov/family_weights.h"
 #include "math/weight_sums.h"
 #include "path/ray_counts.h"
-#include "rendering/family_weights.h"
 #include "rendering/stats.h"
 
 #include <memory>

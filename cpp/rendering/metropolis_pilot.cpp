@@ -1,58 +1,17 @@
 #include "rendering/metropolis_pilot.h"
 
+#include "base/parallel.h"
 #include "markov/bootstrap.h"
+#include "rendering/pilot_noise.h"
 
-#include <array>
 #include <cmath>
 #include <map>
 
 namespace mlt {
 namespace {
 
-/// The thresholds c of FamilyWeights that are tried, in units of b.
-constexpr std::array<double, 8> thresholds = {1. / 16, 1. / 4, 1, 4, 16, 64, 256, 1024};
-using PerThreshold = std::array<double, thresholds.size()>;
-
-/// The number of parts that are drawn in parallel; in each, samples are drawn one after the other.
-constexpr uint64_t parts = 64;
-
-/// Runs part(i, first, last) for each part of `count` samples.
-template <class Part>
-void in_parts(uint64_t count, int threads, Part&& part) {
-  parallel_for(threads, parts,
-               [&](uint64_t i) { part(i, count * i / parts, count * (i + 1) / parts); });
-}
-
 /// The light that one chain adds to the pixels, for each of `thresholds`.
 using PixelSums = std::map<std::pair<int, int>, PerThreshold>;
-
-/// The noise of one family, in units of the brightness of each pixel, and its cost.
-struct Noise {
-  PerThreshold squares{};
-  PerThreshold of_samples{};  ///< The squares of samples, as chains tell them.
-  uint64_t count = 0, rays = 0;
-  double cost_of_ray = 1;
-
-  Noise& operator+=(const Noise& other) {
-    for (size_t i = 0; i < thresholds.size(); ++i) {
-      squares[i] += other.squares[i];
-      of_samples[i] += other.of_samples[i];
-    }
-    count += other.count;
-    rays += other.rays;
-    cost_of_ray = other.cost_of_ray;
-    return *this;
-  }
-  double n() const { return static_cast<double>(count); }
-  /// Cost of a sample in rays; everything else costs about as much as one ray more.
-  double cost() const { return cost_of_ray * (1 + static_cast<double>(rays) / n()); }
-  double square(size_t threshold) const { return squares[threshold] / n(); }
-};
-
-/// The share of paths with a T / P above 64 b in the noise of samples.
-double share_of_rare_light(const PerThreshold& squares) {
-  return 1 - squares[thresholds.size() - 3] / squares.back();
-}
 
 struct Forecast {
   Allocation allocation;
@@ -100,9 +59,9 @@ class Pilot {
     if (!algorithm_.set_techniques(techniques)) return false;
     techniques_ = techniques;
     samples_ = {};
-    std::array<Noise, parts> noise;
+    std::array<Noise, part_count> noise;
     const uint64_t stream = mix_bits(settings_.seed ^ mix_bits(uint64_t(Purpose::allocation)));
-    in_parts(settings_.samples / 2, settings_.threads,
+    in_parts(settings_.threads, settings_.samples / 2,
              [&](uint64_t part, uint64_t i, uint64_t last) {
                const auto source = algorithm_.sample_source();
                for (; i < last && !cancelled_; ++i) {
@@ -125,7 +84,7 @@ class Pilot {
   double noise_of_samples() const {
     return samples_.cost() * samples_.square(thresholds.size() - 1);
   }
-  /// The same as chains tell it: the mean of f^2 / P over all paths, from states of density T / b.
+  /// That noise as chains tell it: the mean of f^2 / P over all paths, from states of density T / b.
   /// Chains find light that is so rare among samples that the pilot's have missed it.
   double noise_by_chains() const {
     return samples_.cost() * chains_.of_samples.back() / chains_.n();
@@ -280,30 +239,6 @@ Allocation chains_alone(double b) {
 }
 
 }  // namespace
-
-CoarseImage coarse_image(const MetropolisAlgorithm& algorithm, const Raster& raster,
-                         const PilotSettings& pilot, const std::atomic<bool>& cancelled) {
-  std::vector<CoarseImage> images(parts, CoarseImage(raster));
-  const uint64_t stream = mix_bits(pilot.seed ^ mix_bits(uint64_t(Purpose::map)));
-  in_parts(pilot.coarse_samples, pilot.threads, [&](uint64_t part, uint64_t i, uint64_t last) {
-    const auto source = algorithm.source();
-    for (; i < last && !cancelled; ++i) {
-      PixelSampler sampler(stream, static_cast<uint32_t>(i));
-      const Vec2 position = raster.sample(sampler.next2());
-      for (const FoundLight& found : source->sample(position, sampler))
-        if (found.valid()) images[part].add(found);
-    }
-  });
-  CoarseImage sum(raster);
-  for (const CoarseImage& image : images) {
-    sum.map.add(image.map);
-    sum.typical.add(image.typical);
-    sum.b += image.b / static_cast<double>(pilot.coarse_samples);
-  }
-  sum.map.finish();
-  sum.typical.finish();
-  return sum;
-}
 
 Allocation allocate(MetropolisAlgorithm& algorithm, const Raster& raster,
                     const TypicalBrightness& typical, const PilotSettings& settings,

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "rendering/metropolis_algorithm.h"
+#include "rendering/typical_brightness.h"
 
 #include <limits>
 #include <optional>
@@ -23,8 +24,7 @@ struct Allocation {
 struct PilotSettings {
   uint64_t seed = 0;
   int threads = 1;
-  uint64_t coarse_samples = 0;  ///< For the coarse image.
-  uint64_t samples = 0;         ///< Candidates for the starts of chains, and as many samples.
+  uint64_t samples = 0;  ///< Candidates for the starts of chains, and as many samples.
   int chains = 64;
   uint64_t steps = 2000;                       ///< Steps of each chain.
   std::optional<double> share;                 ///< See Allocation; fixed if given.
@@ -38,9 +38,6 @@ struct PilotSettings {
 inline Allocation samples_alone(SampleTechniques techniques) {
   return {1, FamilyWeights(std::numeric_limits<double>::max()), 1, techniques};
 }
-
-CoarseImage coarse_image(const MetropolisAlgorithm& algorithm, const Raster& raster,
-                         const PilotSettings& pilot, const std::atomic<bool>& cancelled);
 
 /// Finds the division of time with the smallest expected noise, relative to the brightness of
 /// each region. Without any light for chains to start from, samples are left alone.

@@ -2,6 +2,7 @@
 // chains.
 #include "base/parallel.h"
 #include "base/watchdog.h"
+#include "rendering/coarse_image.h"
 #include "rendering/metropolis_rendering.h"
 
 #include <algorithm>
@@ -68,14 +69,14 @@ Allocation MetropolisRendering::run_pilot(int threads, const std::atomic<bool>& 
   PilotSettings pilot;
   pilot.seed = seed_;
   pilot.threads = threads;
-  pilot.coarse_samples = settings_.luminance_samples / 3;
   pilot.samples = settings_.luminance_samples / 6;
   pilot.chains = std::min(pilot.chains, settings_.chains);
   pilot.share = settings_.independent_share;
   pilot.techniques = settings_.techniques;
   const Raster& raster = scene_->camera().raster();
   algorithm_->look_around(seed_, threads, cancelled);
-  const CoarseImage coarse = coarse_image(*algorithm_, raster, pilot, cancelled);
+  const CoarseImage coarse =
+      coarse_image(*algorithm_, raster, seed_, settings_.luminance_samples / 3, threads, cancelled);
   algorithm_->prepare(coarse, seed_, threads, cancelled);
   if (settings_.independent_share == 0 && !algorithm_->has_tours()) return {};
   Allocation allocation = allocate(*algorithm_, raster, coarse.typical, pilot, cancelled);

@@ -1,10 +1,10 @@
 #include "rendering/mlt_algorithm.h"
 
 #include "mutation/adaptation.h"
+#include "rendering/coarse_image.h"
 #include "rendering/path_kernel.h"
-#include "rendering/path_source.h"
+#include "rendering/path_samples.h"
 #include "rendering/path_tours.h"
-#include "rendering/traced_source.h"
 
 namespace mlt {
 namespace {
@@ -78,20 +78,18 @@ class MltAlgorithm : public MetropolisAlgorithm {
   }
 
   const Scene& scene() const override { return target_.scene(); }
-  std::unique_ptr<Source> source() const override { return std::make_unique<PathSource>(target_); }
+  std::unique_ptr<Source> source() const override { return path_candidates(target_); }
   bool set_techniques(SampleTechniques techniques) override {
     if (techniques > SampleTechniques::path_tracing) return false;
     target_.set_techniques(techniques);
     return true;
   }
-  std::string samples_name() const override { return are_traced() ? "path" : "bdpt"; }
-  std::unique_ptr<Source> sample_source() const override {
-    if (are_traced()) return std::make_unique<TracedSource>(target_);
-    return std::make_unique<PathSource>(target_, PathSampling(target_));
+  std::string samples_name() const override {
+    return target_.techniques() == SampleTechniques::path_tracing ? "path" : "bdpt";
   }
+  std::unique_ptr<Source> sample_source() const override { return path_samples(target_); }
   std::unique_ptr<SampleTaker> sample_taker(const FamilyWeights& weights) const override {
-    if (are_traced()) return std::make_unique<TracedTaker>(target_, weights);
-    return std::make_unique<PathSampleTaker>(target_, PathSampling(target_), weights);
+    return path_sample_taker(target_, weights);
   }
 
   std::unique_ptr<RenderChain> start(const ChainId& id, Rng candidate, Rng choice) const override {
@@ -152,7 +150,6 @@ class MltAlgorithm : public MetropolisAlgorithm {
   void learn() {
     if (settings_.manifolds) target_.set_manifolds(learn_manifolds(scene(), target_.rules()));
   }
-  bool are_traced() const { return target_.techniques() == SampleTechniques::path_tracing; }
   /// The mutation as it is, or once for each step size that adaptation chooses from.
   std::vector<std::pair<MutationValues, double>> in_all_sizes(const MixedMutation& mixed) const {
     const StepSizeChoice* choice = step_size_choice(mutation_plugin(mixed.name));

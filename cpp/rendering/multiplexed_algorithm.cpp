@@ -1,6 +1,7 @@
 #include "rendering/multiplexed_algorithm.h"
 
-#include "rendering/path_source.h"
+#include "mutation/path_seeds.h"
+#include "rendering/path_samples.h"
 
 namespace mlt {
 namespace {
@@ -75,7 +76,11 @@ class MultiplexedAlgorithm : public MetropolisAlgorithm {
   }
 
   const Scene& scene() const override { return target_.scene(); }
-  std::unique_ptr<Source> source() const override { return std::make_unique<PathSource>(target_); }
+  std::unique_ptr<Source> source() const override { return path_candidates(target_); }
+  std::unique_ptr<Source> sample_source() const override { return path_samples(target_); }
+  std::unique_ptr<SampleTaker> sample_taker(const FamilyWeights& weights) const override {
+    return path_sample_taker(target_, weights);
+  }
   /// Starts from one of the candidate's paths, chosen in proportion to its weight.
   std::unique_ptr<RenderChain> start(const ChainId& id, Rng candidate, Rng choice) const override {
     PrimarySamples drawn;

@@ -120,16 +120,6 @@ class SampleTaker {
   }
   /// To be called after the last sample.
   virtual void finish(SampleSink& /*sink*/, RayCounts& /*rays*/) {}
-  /// The settings with what has to be known of the scene.
-  template <class Settings>
-  static Settings prepared(const Settings& settings, const Scene& /*scene*/) {
-    return settings;
-  }
-  /// The film that its settings ask for.
-  template <class Settings>
-  static SampledSettings film(const Settings&) {
-    return {};
-  }
 };
 
 class SampledRendering : public Rendering {
@@ -181,21 +171,35 @@ class SampledRendering : public Rendering {
   std::atomic<uint64_t> intersect_{0}, occluded_{0}, invalid_{0};
 };
 
-/// An integrator whose samples are taken by a Taker(scene, settings), with Taker::settings(params).
-template <class Taker>
+/// What a sampled integrator is if it does not say otherwise.
+struct SampledDefaults {
+  /// The settings with what has to be known of the scene.
+  template <class Settings>
+  static Settings prepared(const Settings& settings, const Scene& /*scene*/) {
+    return settings;
+  }
+  /// The film that its settings ask for.
+  template <class Settings>
+  static SampledSettings film(const Settings&) {
+    return {};
+  }
+};
+
+/// An integrator by Own, a SampledDefaults with Own::settings(params), and Own::taker(scene,
+/// settings) that takes its samples.
+template <class Own>
 class SampledIntegrator : public Integrator {
  public:
-  explicit SampledIntegrator(Params& params) : settings_(Taker::settings(params)) {}
+  explicit SampledIntegrator(Params& params) : settings_(Own::settings(params)) {}
   std::unique_ptr<Rendering> start(ScenePtr scene, uint64_t seed) const override {
-    const auto prepared = Taker::prepared(settings_, *scene);
-    return std::make_unique<SampledRendering>(std::move(scene), seed, Taker::film(settings_),
-                                              [settings = prepared](const Scene& scene) {
-                                                return std::make_unique<Taker>(scene, settings);
-                                              });
+    const auto prepared = Own::prepared(settings_, *scene);
+    return std::make_unique<SampledRendering>(
+        std::move(scene), seed, Own::film(settings_),
+        [settings = prepared](const Scene& scene) { return Own::taker(scene, settings); });
   }
 
  private:
-  decltype(Taker::settings(std::declval<Params&>())) settings_;
+  decltype(Own::settings(std::declval<Params&>())) settings_;
 };
 
 }  // namespace mlt

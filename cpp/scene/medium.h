@@ -43,9 +43,9 @@ using MediumPtr = std::shared_ptr<const Medium>;
 
 /// Adds what a medium lets pass of the light along a ray, up to a distance.
 void fly(const Medium& medium, const Ray& ray, double distance, Passage& passed);
-/// The same for a walk that stops where the probability of having come so far is `u_leg`: returns
-/// the distance at which it stops in the medium, or nullopt, and rescales u_leg to what comes after
-/// it. With u_leg = 0 it flies on.
+/// Flies along the ray of a walk that stops where the probability of having come so far is `u_leg`:
+/// returns the distance at which it stops in the medium, or nullopt, and rescales u_leg to what
+/// comes after it. With u_leg = 0 it flies on.
 std::optional<double> fly(const Medium& medium, const Ray& ray, double distance, double& u_leg,
                           Passage& passed);
 

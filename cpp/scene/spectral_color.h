@@ -27,7 +27,7 @@ struct SmoothSpectrum {
 
 /// The smooth spectrum of a colour at the wavelengths of u.
 Spectrum upsampled(const Color& rgb, RgbMeaning meaning, double u);
-/// The same for paths of any scene.
+/// The spectrum for paths of any scene: without wavelengths (u < 0), the colour itself.
 inline Spectrum spectrum_of(const Color& rgb, RgbMeaning meaning, double u) {
   return u < 0 ? Spectrum(rgb) : upsampled(rgb, meaning, u);
 }
@@ -59,7 +59,7 @@ class SpectralColor {
   bool grey() const { return is_grey(rgb_) && !curve_ && meaning_ != RgbMeaning::light; }
 
   SpectralColor over(double divisor) const;
-  /// The same colour, where RGB stands for something else.
+  /// This colour, where RGB stands for something else.
   SpectralColor meaning(RgbMeaning meaning) const;
 
  private:

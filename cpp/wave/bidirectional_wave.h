@@ -7,6 +7,7 @@
 
 #include "base/whole_vectors.h"
 #include "path/bidirectional_sampler.h"
+#include "path/found_light.h"
 #include "wave/subpath_wave.h"
 #include "wave/wave_shadows.h"
 
@@ -32,6 +33,22 @@ class BidirectionalWave {
 
   // The results of the samples:
   const Vec2& raster(int i) const { return rasters_[i]; }
+  /// Calls show(FoundLight) for all light that the i-th sample has found. With the balance
+  /// heuristic f / P is the weighted f / p of a path, without roulette. All surfaces are Lambertian,
+  /// so that only the directly visible lights are certain.
+  template <class Show>
+  void show_lights(int i, Show&& show) const {
+    for (int k = first_[i]; k >= 0; k = lights_found_[k].next) {
+      const Light& light = lights_found_[k];
+      show(FoundLight{{light.raster, light.weighted, light.own_pixel},
+                      light.survival,
+                      light.edges == 1 ? 1. : 0.});
+    }
+  }
+  /// Whether the i-th sample has to be taken by BidirectionalSampler; it has no results then.
+  bool fell_back(int i) const { return camera_.fell_back(i); }
+
+ private:
   /// Light that a sample has found.
   struct Light {
     int sample;
@@ -42,15 +59,6 @@ class BidirectionalWave {
     Color weighted;  ///< f w / p.
     int next = -1;   ///< The sample's next light; -1: there is none.
   };
-  /// Calls show(light) for all light that the i-th sample has found.
-  template <class Show>
-  void show_lights(int i, Show&& show) const {
-    for (int k = first_[i]; k >= 0; k = lights_found_[k].next) show(lights_found_[k]);
-  }
-  /// Whether the i-th sample has to be taken by BidirectionalSampler; it has no results then.
-  bool fell_back(int i) const { return camera_.fell_back(i); }
-
- private:
   template <class T>
   using Samples = SubpathWave::Samples<T>;
   static constexpr int blocks = capacity / JointLanes::size;

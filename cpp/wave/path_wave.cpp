@@ -3,20 +3,6 @@
 namespace mlt {
 
 template <class Numbers>
-void BasicPathWave<Numbers>::add(const Ray& ray, const ChainFactor& chain_factor) {
-  path_[live_] = live_;
-  left_[live_] = false;
-  exact_[live_] = true;
-  o_.set(live_, Vec3f(ray.o));
-  d_.set(live_++, Vec3f(ray.d));
-  walks_.emplace_back(ray);
-  walks_.back().mis = mis_;
-  walks_.back().chain_factor = chain_factor;
-  walks_.back().certainty = chain_factor.factor > 0;
-  walks_.back().rays.intersect = 1;
-}
-
-template <class Numbers>
 void BasicPathWave<Numbers>::trace(RayCounts& rays, bool coherent) {
   for (int depth = 1; live_ > 0; ++depth) {
     find_hits(coherent && depth == 1, rays);
@@ -33,8 +19,8 @@ void BasicPathWave<Numbers>::trace(RayCounts& rays, bool coherent) {
 }
 
 template <class Numbers>
-CameraWalk& BasicPathWave<Numbers>::exact_walk(int place) {
-  CameraWalk& walk = walks_[path_[place]];
+WaveWalk& BasicPathWave<Numbers>::exact_walk(int place) {
+  WaveWalk& walk = walks_[path_[place]];
   if (!exact_[place]) {
     walk.ray.o = Vec3(o_[place]);
     walk.ray.d = Vec3(d_[place]);
@@ -66,7 +52,9 @@ void BasicPathWave<Numbers>::find_shadows(RayCounts& rays) {
   rays.count_occluded(shadows_.count());
   shadows_.trace(
       scene_->accel(), [&](int path) { return walks_[path].ray.time; },
-      [&](int path, const Color& radiance, double share) { walks_[path].take(radiance, share); },
+      [&](int path, const Color& radiance, double share) {
+        walks_[path].radiance += radiance * share;
+      },
       [&](int path) { left_[path] = true; });
 }
 
@@ -113,7 +101,9 @@ inline void BasicPathWave<Numbers>::find_vertex(int i, int depth) {
   lambertian_.f[i] = nullptr;
   single_[i] = -1;
   if (shape == SurfacePoint::no_shape) {
-    if (rules_.wants(depth)) find_light(*scene_, exact_walk(begin_ + i), nullptr);
+    if (!rules_.wants(depth)) return;
+    WaveWalk& walk = exact_walk(begin_ + i);
+    find_light(*scene_, walk, nullptr, walk);
     return;
   }
   const LambertianMesh& lambertian = scene_->lambertian_mesh(shape);
@@ -126,13 +116,13 @@ inline void BasicPathWave<Numbers>::find_vertex(int i, int depth) {
 /// Finds the vertex on a surface that glows, or is not Lambertian.
 template <class Numbers>
 void BasicPathWave<Numbers>::find_bright_or_other(int i, const Hit& hit, int depth) {
-  CameraWalk& walk = exact_walk(begin_ + i);
+  WaveWalk& walk = exact_walk(begin_ + i);
   if (scene_->shapes()[hit.shape]->bsdf().has_passage()) {
     left_[path_[begin_ + i]] = true;
     return;
   }
   const SurfacePoint at = scene_->surface_point(walk.ray, hit);
-  if (rules_.wants(depth)) find_light(*scene_, walk, &at);
+  if (rules_.wants(depth)) find_light(*scene_, walk, &at, walk);
   if (scene_->lambertian_mesh(hit.shape).mesh) return;
   if (consistent_sides(at, -walk.ray.d, rules_.strict_normals)) add_single(i, at);
 }
@@ -200,10 +190,10 @@ void BasicPathWave<Numbers>::sample_other_lights() {
 template <class Numbers>
 inline void BasicPathWave<Numbers>::queue_shadow(int i, const Spectrum& radiance, const Vec3f& o,
                                                  const Vec3f& w, float length) {
-  CameraWalk& walk = this->walk(i);
+  WaveWalk& walk = this->walk(i);
   const Color found = walk.seen(walk.throughput * radiance);
   ++walk.rays.occluded;
-  shadows_.add(path_[begin_ + i], found, walk.own_share(found), o, w, length);
+  shadows_.add(path_[begin_ + i], found, walk.find(walk, found, 0), o, w, length);
 }
 
 template <class Numbers>
@@ -241,7 +231,7 @@ template <class Numbers>
 void BasicPathWave<Numbers>::queue_other_light(const SingleVertex& single) {
   const int i = single.path;
   const SurfacePoint& at = single.at;
-  const CameraWalk& walk = this->walk(i);
+  const WaveWalk& walk = this->walk(i);
   const Vec3 wc = lambertian_.f[i] ? -Vec3(d_[begin_ + i]) : -walk.ray.d;
   double stops = 1;
   if (scene_->has_passages() && single.light.x0.pdf > 0)
@@ -257,7 +247,7 @@ void BasicPathWave<Numbers>::queue_other_light(const SingleVertex& single) {
 template <class Numbers>
 void BasicPathWave<Numbers>::take_step(int depth, RayCounts& rays) {
   for (int i = 0; i < count_; ++i) {
-    CameraWalk& walk = this->walk(i);
+    WaveWalk& walk = this->walk(i);
     const bool lambertian = lambertian_.f[i];
     if (!(lambertian ? scatter_lambertian(i, depth, walk) : scatter_other(i, depth, walk, rays)))
       continue;
@@ -272,7 +262,7 @@ void BasicPathWave<Numbers>::take_step(int depth, RayCounts& rays) {
 
 /// See scatter() of path_tracer.h; for a Lambertian vertex.
 template <class Numbers>
-bool BasicPathWave<Numbers>::scatter_lambertian(int i, int depth, CameraWalk& walk) {
+bool BasicPathWave<Numbers>::scatter_lambertian(int i, int depth, WaveWalk& walk) {
   const double pdf = lambertian_.scatter_pdf[i];
   walk.throughput *= *lambertian_.f[i] * pi;
   if (!(pdf > 0) || vanishes(walk.throughput)) return false;
@@ -288,7 +278,7 @@ bool BasicPathWave<Numbers>::scatter_lambertian(int i, int depth, CameraWalk& wa
 
 /// See scatter() of path_tracer.h; for a vertex that is not Lambertian, if there is one.
 template <class Numbers>
-bool BasicPathWave<Numbers>::scatter_other(int i, int depth, CameraWalk& walk, RayCounts& rays) {
+bool BasicPathWave<Numbers>::scatter_other(int i, int depth, WaveWalk& walk, RayCounts& rays) {
   if (single_[i] < 0) return false;
   const VertexNumbers numbers{{u_light_x_[i], u_light_y_[i]},
                               {lambertian_.u_x[i], lambertian_.u_y[i]},

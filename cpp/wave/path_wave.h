@@ -4,6 +4,7 @@
 // "Megakernels considered harmful: wavefront path tracing on GPUs", High-Performance Graphics 2013.
 #pragma once
 
+#include "markov/family_weights.h"
 #include "path/background_positions.h"
 #include "path/path_tracer.h"
 #include "wave/drawn_numbers.h"
@@ -12,6 +13,31 @@
 #include "wave/wave_shadows.h"
 
 namespace mlt {
+
+/// The weights w1 (FamilyWeights) of paths at one raster position.
+struct PathWeights {
+  /// T / (P c) of a path whose f / P has L* = 1; 0: all weights are 1.
+  double factor = 0;
+  /// Chains do not find paths with a greater `certainty`.
+  double most_certain = std::numeric_limits<double>::infinity();
+
+  /// The weight of a path; with the balance heuristic f / P is its radiance, without roulette.
+  double of(const Color& radiance, double survival, double certainty) const {
+    if (!(factor > 0 && certainty <= most_certain)) return 1;
+    return FamilyWeights::of_sample(factor * survival * target_luminance(radiance), 1);
+  }
+};
+
+/// A walk in a wave, which watches itself.
+struct WaveWalk : CameraWalk, IgnorePaths {
+  using CameraWalk::CameraWalk;
+  double find(const CameraWalk&, const Color& found, double its_certainty) const {
+    return weights.of(found, survival, its_certainty);
+  }
+
+  RayCounts rays;
+  PathWeights weights;
+};
 
 /// `Numbers` is the source of the random numbers of the paths: WaveNumbers or DrawnNumbers.
 template <class Numbers>
@@ -27,8 +53,18 @@ class BasicPathWave {
   /// The random numbers of the paths that are added.
   Numbers& numbers() { return numbers_; }
   /// Adds a path that begins with `ray`, and takes the numbers of the sample that was added last.
-  /// For `chain_factor` see ChainFactor.
-  void add(const Ray& ray, const ChainFactor& chain_factor = {});
+  void add(const Ray& ray, const PathWeights& weights = {}) {
+    path_[live_] = live_;
+    left_[live_] = false;
+    exact_[live_] = true;
+    o_.set(live_, Vec3f(ray.o));
+    d_.set(live_++, Vec3f(ray.d));
+    WaveWalk& walk = walks_.emplace_back(ray);
+    walk.mis = mis_;
+    walk.weights = weights;
+    walk.certainty = weights.factor > 0;
+    walk.rays.intersect = 1;
+  }
   /// Adds a path that begins with `ray` and takes the next numbers of `sampler`, a PixelSampler.
   template <class Sampler>
   void add(const Ray& ray, const Sampler& sampler) {
@@ -88,18 +124,18 @@ class BasicPathWave {
   void queue_other_light(const SingleVertex& single);
   void queue_shadow(int i, const Spectrum& radiance, const Vec3f& o, const Vec3f& w, float length);
   void take_step(int depth, RayCounts& rays);
-  bool scatter_lambertian(int i, int depth, CameraWalk& walk);
-  bool scatter_other(int i, int depth, CameraWalk& walk, RayCounts& rays);
+  bool scatter_lambertian(int i, int depth, WaveWalk& walk);
+  bool scatter_other(int i, int depth, WaveWalk& walk, RayCounts& rays);
 
   /// The walk at this place of the wave, with its ray in double precision.
-  CameraWalk& exact_walk(int place);
-  CameraWalk& walk(int i) { return walks_[path_[begin_ + i]]; }
+  WaveWalk& exact_walk(int place);
+  WaveWalk& walk(int i) { return walks_[path_[begin_ + i]]; }
   const PacketHits& hits(int i) const { return hits_[(begin_ + i) / RayPacket::size]; }
 
   const Scene* scene_;
   PathRules rules_;
   MisExponent mis_;
-  std::vector<CameraWalk> walks_;
+  std::vector<WaveWalk> walks_;
   Wave<bool> left_;
   WaveShadows shadows_;
 

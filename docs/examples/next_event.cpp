@@ -1,20 +1,22 @@
 // Light that comes over at most one reflection, by samples of the lights alone (Shirley, Wang &
 // Zimmerman 1996, "Monte Carlo techniques for direct lighting calculations"). Mirrors stay black.
-#include "path/path_tracer.h"
-#include "rendering/sampled_rendering.h"
+#include "rendering/estimator_taker.h"
 
 namespace mlt {
 namespace {
 
-class NextEventTaker : public SampleTaker {
+class NextEventEstimator : public Estimator, public SampledDefaults {
  public:
   static int settings(Params& params) {
     return static_cast<int>(params.integer_in("light_samples", 1, 1000));
   }
-  NextEventTaker(const Scene& scene, int light_samples) : scene_(&scene), n_(light_samples) {}
+  static std::unique_ptr<SampleTaker> taker(const Scene& scene, int light_samples) {
+    return take_alone(NextEventEstimator(scene, light_samples));
+  }
+  NextEventEstimator(const Scene& scene, int light_samples) : scene_(&scene), n_(light_samples) {}
 
-  void sample(const Vec2& raster, PixelSampler& sampler, SampleSink& sink,
-              RayCounts& rays) override {
+  template <class Sampler, class Found>
+  void operator()(const Vec2& raster, Sampler& sampler, RayCounts& rays, Found&& found) const {
     CameraWalk walk(leave_lens(scene_->camera(), raster, sampler).ray);
     const Walker walker{*scene_, walk.ray.time, rays};
     SurfacePoint at;
@@ -28,7 +30,7 @@ class NextEventTaker : public SampleTaker {
       const auto light = direct_light(walker, at, -w, {sampler.next(), u}, false, alone);
       radiance += walk.seen(walk.throughput * light.radiance, light.disperses) / double(n_);
     }
-    sink.add(raster, radiance);
+    found(FoundLight{{raster, radiance}});
   }
 
  private:
@@ -39,7 +41,7 @@ class NextEventTaker : public SampleTaker {
 }  // namespace
 
 Plugin integrator_next_event() {
-  return make_plugin<SampledIntegrator<NextEventTaker>>(integrator_schema(
+  return make_plugin<SampledIntegrator<NextEventEstimator>>(integrator_schema(
       "next_event", "Direct light by samples of the lights alone.",
       {{{"light_samples", ParamType::integer, int64_t{1}, "Samples of lights per camera ray."}}}));
 }

@@ -29,7 +29,7 @@ class CoatedBase {
   }
 
  private:
-  /// Of a reflectance, Spectrum or Color.
+  /// What the base scatters with a reflectance d, a Spectrum or a Color.
   template <class T>
   T scattered(const T& d) const {
     return d * scale_ /

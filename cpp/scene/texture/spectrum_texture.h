@@ -30,7 +30,7 @@ class SpectrumTexture final : public Texture {
   SpectralColor reflected_;
 };
 
-/// The same spectrum for every use, light by itself.
+/// One spectrum for every use, light by itself.
 std::shared_ptr<SpectrumTexture> emitted_spectrum(const UsedSpectrum& light);
 /// The spectrum of a table, linear between its values and zero outside. Throws SceneError about the
 /// parameter `name` unless two or more wavelengths increase, the range is partly visible, and no

@@ -1,4 +1,4 @@
-// The same value everywhere, or in a box.
+// One value everywhere, or in a box.
 #include "base/registry.h"
 #include "scene/texture.h"
 #include "scene/volume/grid_volume.h"

@@ -73,8 +73,8 @@ class Grid {
   }
 
  private:
-  /// Of the value at the low corner of a cell. The values are stored with those that continue them
-  /// around the grid.
+  /// The index of the value at the low corner of a cell. The values are stored with those that
+  /// continue them around the grid.
   size_t place(int x, int y, int z) const {
     return (size_t(z) * (size_[1] + 2) + y) * (size_[0] + 2) + x;
   }

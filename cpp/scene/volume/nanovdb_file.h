@@ -14,7 +14,7 @@ struct NanovdbFile {
 
 /// The grid of this name, or the first one if the name is empty. Throws FileError or UsageError.
 NanovdbFile read_nanovdb(const std::string& path, const std::string& grid);
-/// The same from a file's content, called `name` in errors.
+/// Reads the content of a file, called `name` in errors.
 NanovdbFile parse_nanovdb(std::string bytes, const std::string& grid, const std::string& name);
 
 }  // namespace mlt

@@ -12,7 +12,7 @@ struct VolFile {
 
 /// Throws FileError or UsageError.
 VolFile read_vol(const std::string& path);
-/// The same from a file's content, called `name` in errors.
+/// Reads the content of a file, called `name` in errors.
 VolFile parse_vol(const std::string& bytes, const std::string& name);
 
 }  // namespace mlt

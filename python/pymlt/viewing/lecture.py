@@ -5,7 +5,8 @@ from __future__ import annotations
 from html import escape
 from typing import Any
 
-from .lecture_examples import EXAMPLES, Chart, Example
+from .lecture_chart import Chart, Example
+from .lecture_examples import EXAMPLES
 
 STROKES = ("#4aa3ff", "#ff9f43", "#3ecf8e", "#ff6b6b", "#bbbbbb")
 INK = "#c8c8c8"

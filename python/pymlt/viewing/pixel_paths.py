@@ -37,7 +37,7 @@ class PixelPaths(NamedTuple):
         return [path for path in self.paths if path.signature == signature]
 
     def some(self, most: int) -> list[_core.LightPath]:
-        """So many of them, the brightest of each signature in turn."""
+        """This number of them, the brightest of each signature in turn."""
         queues: dict[str, list[_core.LightPath]] = {name: [] for name in self.signatures()}
         for path in self.paths:
             queues[path.signature].append(path)

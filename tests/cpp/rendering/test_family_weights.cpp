@@ -1,18 +1,16 @@
 // Chains and independent samples see the same T / P of a path, so that their weights sum to one.
 #include "harness/statistics.h"
+#include "markov/family_weights.h"
 #include "mutation/path_seeds.h"
-#include "rendering/family_taker.h"
-#include "rendering/family_weights.h"
-#include "rendering/path_source.h"
-#include "rendering/primary_estimators.h"
-#include "rendering/traced_source.h"
-#include "rendering/walk_taker.h"
+#include "rendering/beside_chains.h"
+#include "rendering/path_samples.h"
 #include "scenes.h"
+#include "wave/bidirectional_wave.h"
+#include "wave/path_sample_wave.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <functional>
 
 namespace mlt::test {
 namespace {
@@ -81,8 +79,9 @@ TEST_P(TargetOverDensity, IsTheSameForSamplesAndChains) {
 struct CertaintyRecorder : PathRecorder {
   CertaintyRecorder(const PathRecorder& paths, std::vector<double>& found)
       : PathRecorder(paths), certainties(&found) {}
-  void find(const CameraWalk&, const Color& radiance, double certainty) {
+  double find(const CameraWalk&, const Color& radiance, double certainty) {
     if (target_luminance(radiance) > 0) certainties->push_back(certainty);
+    return 1;
   }
   std::vector<double>* certainties;
 };
@@ -92,7 +91,7 @@ TEST_P(TargetOverDensity, IsTheSameForSamplesOfPathTracingAndChains) {
   PathTarget target = target_of(made);
   target.set_techniques(SampleTechniques::path_tracing);
   const Scene& scene = *made.scene;
-  TracedSource source(target);
+  const auto source = path_samples(target);
   PathState x;
   std::vector<double> errors, certainties;
   int roulette = 0, wrong = 0;
@@ -102,7 +101,7 @@ TEST_P(TargetOverDensity, IsTheSameForSamplesOfPathTracingAndChains) {
     RandomSampler sampler(rng);
     const Vec2 raster = scene.camera().raster().sample(sampler.next2());
     Rng again = rng;
-    const std::vector<FoundLight>& found = source.sample(raster, sampler);
+    const std::vector<FoundLight>& found = source->sample(raster, sampler);
     RandomSampler same(again);
     const auto [lens, ray] = leave_lens(scene.camera(), raster, same);
     std::vector<FoundPath> paths;
@@ -156,13 +155,13 @@ TEST_P(TargetOverDensity, IsZeroForTheSameCertainPaths) {
   EXPECT_LE(wrong, all / 1000) << "of " << all;
 
   target.set_techniques(SampleTechniques::path_tracing);
-  TracedSource source(target);
+  const auto source = path_samples(target);
   for (uint64_t i = 4000; i < 8000; ++i) {
     Rng rng(2, Purpose::test, i);
     RandomSampler sampler(rng);
     const Vec2 raster = made.scene->camera().raster().sample(sampler.next2());
     double sum = 0;
-    for (const FoundLight& found : source.sample(raster, sampler))
+    for (const FoundLight& found : source->sample(raster, sampler))
       if (found.weight == 0) sum += target_luminance(found.rgb);
     left_by_tracing.add(sum);
   }
@@ -182,32 +181,14 @@ std::unique_ptr<SampledRendering> shown_by(const ScenePtr& scene, MakeTaker&& ma
   return rendering;
 }
 
-/// An algorithm without chains.
-struct SamplesOnly : MetropolisAlgorithm {
-  SamplesOnly(const Scene& s, std::function<std::unique_ptr<Source>()> m)
-      : of(s), make_source(std::move(m)) {}
-  const Scene& scene() const override { return of; }
-  std::unique_ptr<Source> source() const override { return make_source(); }
-  std::unique_ptr<RenderChain> start(const ChainId&, Rng, Rng) const override { return nullptr; }
-  std::unique_ptr<RenderChain> blank(const ChainId&, const FamilyWeights&, double) const override {
-    return nullptr;
-  }
-  std::vector<MutationStats> rows() const override { return {}; }
-  const Scene& of;
-  std::function<std::unique_ptr<Source>()> make_source;
-};
-
-/// What a source finds, and what a taker of its own shows, which has half of the light or so.
-template <class MakeTaker>
-void expect_the_same(const ScenePtr& scene, const SamplesOnly& algorithm,
-                     const FamilyWeights& weights, MakeTaker&& make_taker) {
-  const auto one_by_one = shown_by(
-      scene, [&](const Scene&) { return std::make_unique<FamilyTaker>(algorithm, weights); });
-  const auto side_by_side = shown_by(scene, make_taker);
-  const double brightness = one_by_one->mean_brightness().mean;
-  EXPECT_GT(one_by_one->mean_of_chains().mean, 0.1 * brightness);
-  EXPECT_LT(one_by_one->mean_of_chains().mean, 0.9 * brightness);
-  const Image a = one_by_one->image(), b = side_by_side->image();
+/// Samples that are taken one by one and side by side show the same, about half of the light.
+template <class OneByOne, class SideBySide>
+void expect_the_same(const ScenePtr& scene, OneByOne&& one_by_one, SideBySide&& side_by_side) {
+  const auto expected = shown_by(scene, one_by_one);
+  const double brightness = expected->mean_brightness().mean;
+  EXPECT_GT(expected->mean_of_chains().mean, 0.1 * brightness);
+  EXPECT_LT(expected->mean_of_chains().mean, 0.9 * brightness);
+  const Image a = expected->image(), b = shown_by(scene, side_by_side)->image();
   double difference = 0, sum = 0;
   for (size_t i = 0; i < a.data.size(); ++i) {
     difference += std::abs(b.data[i] - a.data[i]);
@@ -216,82 +197,64 @@ void expect_the_same(const ScenePtr& scene, const SamplesOnly& algorithm,
   EXPECT_LT(difference, 0.01 * sum);
 }
 
-class TracedTakerOf : public testing::TestWithParam<bool> {};
+/// Whether certain light is left to the samples.
+class PathSampleTaker : public testing::TestWithParam<bool> {
+ protected:
+  template <class Estimator>
+  void compare(PathTarget& target, const Estimator& estimator, const FamilyWeights& weights) {
+    if (GetParam()) leave_certain_light(target);
+    expect_the_same(
+        target.scene_ptr(),
+        [&](const Scene& scene) {
+          return take_beside_chains(scene, estimator, PathTargeting(target, estimator.own_scale()),
+                                    weights);
+        },
+        [&](const Scene&) { return path_sample_taker(target, weights); });
+  }
+};
 
-TEST_P(TracedTakerOf, ShowsWhatItsSourceFindsWithTheWeightsOfSamples) {
+TEST_P(PathSampleTaker, WeightsPathTracingSideBySideAsOneByOne) {
   const TestScene made = make_scene("cornell");
   PathTarget target = target_of(made);
-  if (GetParam()) leave_certain_light(target);
-  const SamplesOnly algorithm(*made.scene, [&] { return std::make_unique<TracedSource>(target); });
-  const FamilyWeights weights(0.3);
-  expect_the_same(made.scene, algorithm, weights,
-                  [&](const Scene&) { return std::make_unique<TracedTaker>(target, weights); });
+  target.set_techniques(SampleTechniques::path_tracing);
+  compare(target, PathEstimator(*made.scene, target.rules(), Heuristic::balance),
+          FamilyWeights(0.3));
 }
 
-INSTANTIATE_TEST_SUITE_P(CertainPaths, TracedTakerOf, testing::Bool(), [](const auto& info) {
-  return info.param ? "LeftToTheSamples" : "LikeOthers";
-});
-
 /// With roulette from the first vertex on.
-class PathSampleTakerOf : public testing::TestWithParam<bool> {};
-
-TEST_P(PathSampleTakerOf, ShowsWhatItsSourceFindsWithTheWeightsOfSamples) {
+TEST_P(PathSampleTaker, WeightsBidirectionalPathTracingSideBySideAsOneByOne) {
   const TestScene made = make_scene("cornell");
   PathRules rules{8};
   rules.rr_depth = 1;
   PathTarget target(made.scene, rules);
-  if (GetParam()) leave_certain_light(target);
-  const PathSampling sampling(target);
-  ASSERT_TRUE(sampling.in_waves);
-  const SamplesOnly algorithm(*made.scene,
-                              [&] { return std::make_unique<PathSource>(target, sampling); });
-  const FamilyWeights weights(0.1);
-  expect_the_same(made.scene, algorithm, weights, [&](const Scene&) {
-    return std::make_unique<PathSampleTaker>(target, sampling, weights);
-  });
+  BidirectionalSettings settings = PathSeeds::settings(target);
+  settings.heuristic = Heuristic::balance;
+  ASSERT_TRUE(BidirectionalWave::supports(*made.scene, settings));
+  compare(target, BidirectionalEstimator(*made.scene, settings), FamilyWeights(0.1));
 }
 
-INSTANTIATE_TEST_SUITE_P(CertainPaths, PathSampleTakerOf, testing::Bool(), [](const auto& info) {
+INSTANTIATE_TEST_SUITE_P(CertainPaths, PathSampleTaker, testing::Bool(), [](const auto& info) {
   return info.param ? "LeftToTheSamples" : "LikeOthers";
 });
 
-/// Samples of pssmlt, one by one.
-struct WalkSource : MetropolisAlgorithm::Source {
-  WalkSource(const Scene& scene, const PathRules& rules, const LargeStepWeights& w)
-      : estimator(scene, rules), weights(w) {}
-  const std::vector<FoundLight>& sample(const Vec2& raster, PixelSampler& sampler) override {
-    light.clear();
-    found.clear();
-    estimator(raster, sampler, light, counts);
-    for (const ImageLight& one : light)
-      found.push_back(weights.found(one, target_luminance(one.rgb)));
-    return found;
-  }
-  const std::vector<FoundLight>& sample(const Vec2&, RandomSampler&) override { return found; }
-  const RayCounts& rays() const override { return counts; }
-
-  PathEstimator estimator;
-  LargeStepWeights weights;
-  RayCounts counts;
-  std::vector<ImageLight> light;
-  std::vector<FoundLight> found;
-};
-
-TEST(WalkTaker, ShowsWhatSingleSamplesFindWithTheWeightsOfSamples) {
+TEST(SamplesOfPssmlt, AreWeightedSideBySideAsOneByOne) {
   const TestScene made = make_scene("cornell");
   const PathRules rules{8};
-  const LargeStepWeights large_steps{0.1};
-  const SamplesOnly algorithm(
-      *made.scene, [&] { return std::make_unique<WalkSource>(*made.scene, rules, large_steps); });
+  const auto taker = [&](const Scene& scene, const FamilyWeights& weights, bool side_by_side) {
+    const PathEstimator estimator(scene, rules);
+    return take_beside_chains(
+        scene, estimator, SampleTargeting(scene, estimator.own_scale(), LargeStepWeights{0.1}),
+        weights,
+        side_by_side ? std::make_unique<PathSampleWave>(scene, rules, Heuristic::power) : nullptr);
+  };
   const FamilyWeights weights(0.3);
-  expect_the_same(made.scene, algorithm, weights, [&](const Scene& scene) {
-    return std::make_unique<WalkTaker>(scene, rules, large_steps, weights);
-  });
+  expect_the_same(
+      made.scene, [&](const Scene& scene) { return taker(scene, weights, false); },
+      [&](const Scene& scene) { return taker(scene, weights, true); });
   // With all the light, it tells the brightness.
   const FamilyWeights all(std::numeric_limits<double>::max());
-  const auto shown = shown_by(made.scene, [&](const Scene& scene) {
-    return std::make_unique<WalkTaker>(scene, rules, large_steps, all);
-  });
+  const auto shown =
+      shown_by(made.scene, [&](const Scene& scene) { return taker(scene, all, true); });
   EXPECT_GT(shown->mean_brightness().mean, 0);
   EXPECT_LT(shown->mean_of_chains().mean, 1e-100);
 }

@@ -31,15 +31,14 @@ Vec2 pixel(const Scene& scene, int i) {
   return Vec2(i % size.x, i / size.x % size.y);
 }
 
-void add(Sample& sample, bool own_pixel, const Vec2& raster, const Color& weighted, double survival,
-         int edges) {
-  const double luminance = target_luminance(weighted);
-  sample.survived += luminance * survival * edges;
-  if (own_pixel) {
-    sample.seen += weighted;
+void add(Sample& sample, const FoundLight& light) {
+  const double luminance = target_luminance(light.rgb);
+  sample.survived += luminance * light.over_density * (1 + light.certainty);
+  if (light.own_pixel) {
+    sample.seen += light.rgb;
   } else {
-    sample.splats += weighted;
-    sample.where += raster * luminance;
+    sample.splats += light.rgb;
+    sample.where += light.raster * luminance;
   }
 }
 
@@ -53,7 +52,7 @@ Samples one_by_one(const Scene& scene, const BidirectionalSettings& settings) {
       bidirectional.sample(raster, sampler, found.rays);
       Sample sample;
       bidirectional.connect_all(found.rays, [&](const Connection& c) {
-        add(sample, c.t >= 2, c.raster, c.contribution * c.weight, c.survival, c.s + c.t - 1);
+        add(sample, {{c.raster, c.contribution * c.weight, c.t >= 2}, c.survival, c.certainty});
       });
       found.samples.push_back(sample);
     }
@@ -72,9 +71,7 @@ Samples side_by_side(const Scene& scene, const BidirectionalSettings& settings) 
     wave.trace(found.rays);
     for (int i = 0; i < wave.size(); ++i) {
       Sample sample;
-      wave.show_lights(i, [&](const BidirectionalWave::Light& light) {
-        add(sample, light.own_pixel, light.raster, light.weighted, light.survival, light.edges);
-      });
+      wave.show_lights(i, [&](const FoundLight& light) { add(sample, light); });
       sample.by_itself = wave.fell_back(i);
       found.samples.push_back(sample);
     }
@@ -175,8 +172,8 @@ TEST(BidirectionalWave, TracesAnIncompleteWave) {
   for (int i = 0; i < wave.size(); ++i) {
     EXPECT_FALSE(wave.fell_back(i));
     Color seen(0);
-    wave.show_lights(i, [&](const BidirectionalWave::Light& light) {
-      if (light.own_pixel) seen += light.weighted;
+    wave.show_lights(i, [&](const FoundLight& light) {
+      if (light.own_pixel) seen += light.rgb;
     });
     EXPECT_TRUE(close(seen, single.samples[i].seen)) << i;
   }

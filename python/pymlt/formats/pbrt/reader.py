@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -26,7 +25,6 @@ from .tokens import Parameter, Token, Words
 if TYPE_CHECKING:
     import numpy as np
 
-VIEWS: dict[str, Callable[[Params], dict[str, Any] | None]]
 VIEWS = {
     "Integrator": views.integrator,
     "PixelFilter": views.rfilter,
@@ -79,7 +77,8 @@ class Reader:
         if self._saved and self._last is not None:
             raise self._last.error("an AttributeBegin has no AttributeEnd")
         expose(self._made.scene, self._exposure_time * self._sensitivity)
-        self._view()
+        for name, element in views.elements(self._views):
+            self._made.add(name, element)
         complete(self._made)
 
     def _directive(self, directive: Token) -> None:
@@ -293,22 +292,6 @@ class Reader:
             reference = self._reference(self._objects[name])
             placed = {"type": "instance", "group": reference, "to_world": self._state.matrix}
             self._made.add(f"{name}-instance", placed)
-
-    # ---- the view ------------------------------------------------------------------------------
-
-    def _view(self) -> None:
-        """What stands above WorldBegin, as a sensor and an integrator."""
-        found = self._views
-        if found.get("Integrator"):
-            self._made.add("integrator", found["Integrator"])
-        if "Camera" in found:
-            film = found.get("Film", {"type": "hdrfilm", "width": 1280, "height": 720})
-            if "PixelFilter" in found:
-                film = film | {"rfilter": found["PixelFilter"]}
-            sensor = found["Camera"] | {"film": film}
-            if "Sampler" in found:
-                sensor["sampler"] = found["Sampler"]
-            self._made.add("camera", sensor)
 
 
 _VALUES = ("true", "false")

@@ -112,7 +112,7 @@ class Words:
         return token.text
 
     def numbers(self, count: int, after: Token) -> list[float]:
-        """So many numbers, in brackets or not."""
+        """This number of numbers, in brackets or not."""
         found: list[float] = []
         while len(found) < count:
             token = self.take(after)

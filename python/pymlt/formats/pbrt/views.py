@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from .params import Params
@@ -17,6 +18,20 @@ INTEGRATORS = {
     "simplepath": "path",
     "volpath": "path",
 }
+
+
+def elements(found: dict[str, dict[str, Any]]) -> Iterator[tuple[str, dict[str, Any]]]:
+    """What stands above WorldBegin, by the names of its directives, as an integrator and a sensor."""
+    if found.get("Integrator"):
+        yield "integrator", found["Integrator"]
+    if "Camera" in found:
+        film = found.get("Film", {"type": "hdrfilm", "width": 1280, "height": 720})
+        if "PixelFilter" in found:
+            film = film | {"rfilter": found["PixelFilter"]}
+        sensor = found["Camera"] | {"film": film}
+        if "Sampler" in found:
+            sensor["sampler"] = found["Sampler"]
+        yield "camera", sensor
 
 
 def camera(params: Params, camera_from_world: np.ndarray) -> dict[str, Any]:

@@ -46,7 +46,7 @@ def bootstrap(
 
 
 def candidate_weights(target, sample, density, count: int, rng) -> tuple:
-    """So many candidates, and their f / p. Raises UsageError for what these cannot be."""
+    """This number of candidates, and their f / p. Raises UsageError for what these cannot be."""
     import numpy as np
 
     x = np.asarray(sample(rng, count))

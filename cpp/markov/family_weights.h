@@ -22,7 +22,10 @@ class FamilyWeights {
   double threshold() const { return threshold_; }
 
   double of_sample(double target_over_density) const {
-    return threshold_ / (threshold_ + target_over_density);
+    return of_sample(target_over_density, threshold_);
+  }
+  static double of_sample(double target_over_density, double threshold) {
+    return threshold / (threshold + target_over_density);
   }
   double of_chain(double target_over_density) const {
     return target_over_density > 0 ? 1 / (1 + threshold_ / target_over_density) : 0.0;

@@ -1,0 +1,33 @@
+// Light that one sample has found.
+#pragma once
+
+#include "math/color.h"
+#include "math/vec.h"
+
+#include <cmath>
+
+namespace mlt {
+
+/// Light at one position of the image.
+struct ImageLight {
+  Vec2 raster{0};
+  Color rgb{0};           ///< f / p, weighted among techniques.
+  bool own_pixel = true;  ///< At the camera walk's own position, not by light tracing.
+};
+
+/// The light of one path, with what its weight beside chains depends on.
+struct FoundLight : ImageLight {
+  /// The factor that turns rgb into f / P, with P the density of all techniques.
+  double over_density = 1;
+  double certainty = 0;  ///< See certainty() of path_terms.h.
+  /// Set where there is a target T:
+  double weight = 0;               ///< Contribution to b, the integral of the target: T / p.
+  double target_over_density = 0;  ///< T / P, see FamilyWeights.
+
+  bool valid() const {
+    return is_finite(rgb) && min_component(rgb) >= 0 && weight >= 0 && std::isfinite(weight) &&
+           target_over_density >= 0;
+  }
+};
+
+}  // namespace mlt

@@ -1,0 +1,107 @@
+// Takes samples with an estimator (path/estimators.h), side by side where there is a wave for it.
+#pragma once
+
+#include "path/estimators.h"
+#include "rendering/sampled_rendering.h"
+
+namespace mlt {
+
+/// The wave of estimators that have none.
+struct NoWave {};
+
+/// Samples of the image alone: their light is added as it is.
+class ImageSum {
+ public:
+  explicit ImageSum(double own_scale) : own_scale_(own_scale) {}
+
+  /// One sample.
+  class Sample {
+   public:
+    Sample(const ImageSum& of, const Vec2& raster, SampleSink& sink)
+        : own_scale_(of.own_scale_), raster_(raster), sink_(&sink) {}
+    void add(const FoundLight& light) {
+      if (light.own_pixel)
+        own_pixel_ += light.rgb;
+      else
+        sink_->splat(light.raster, light.rgb);
+    }
+    void finish() { sink_->add(raster_, own_pixel_ * own_scale_); }
+
+   private:
+    double own_scale_;
+    Vec2 raster_;
+    SampleSink* sink_;
+    Color own_pixel_{0};
+  };
+
+ private:
+  double own_scale_;
+};
+
+/// `Sum` adds the light of samples to the image: Sum::Sample(sum, raster, sink) has add(light) and
+/// finish(). `wave`: nullptr where it does not serve the scene.
+template <class Estimator, class Sum = ImageSum, class Wave = NoWave>
+class EstimatorTaker : public SampleTaker {
+ public:
+  EstimatorTaker(Estimator estimator, Sum sum, std::unique_ptr<Wave> wave = nullptr)
+      : estimator_(std::move(estimator)), sum_(std::move(sum)), wave_(std::move(wave)) {}
+
+  void sample(const Vec2& raster, PixelSampler& sampler, SampleSink& sink,
+              RayCounts& rays) override {
+    typename Sum::Sample sample(sum_, raster, sink);
+    estimator_.paths = sink.paths();
+    estimator_(raster, sampler, rays, [&](const FoundLight& light) { sample.add(light); });
+    sample.finish();
+  }
+
+  void sample_cells(const PixelRect& cells, const CellStreams& streams, SampleSink& sink,
+                    RayCounts& rays) override {
+    if (!wave_) return SampleTaker::sample_cells(cells, streams, sink, rays);
+    if constexpr (!std::is_same_v<Wave, NoWave>) {
+      for_each_packet_cell(cells, [&](const Vec2i& cell) {
+        if (!wave_worthwhile_) return sample_cell(cell, streams, sink, rays);
+        wave_->add(streams.stream(cell.x, cell.y), streams.index, cell);
+        cells_.push_back(cell);
+        if (wave_->full()) trace_wave(streams, sink, rays);
+      });
+      trace_wave(streams, sink, rays);
+    }
+  }
+
+ private:
+  void trace_wave(const CellStreams& streams, SampleSink& sink, RayCounts& rays) {
+    int left = 0;
+    wave_->trace(rays);
+    for (int i = 0; i < wave_->size(); ++i) {
+      if (wave_->fell_back(i))
+        sample_cell(cells_[i], streams, sink, rays);
+      else
+        show(i, sink);
+      left += wave_->fell_back(i);
+    }
+    wave_worthwhile_ = 2 * left <= wave_->size();
+    wave_->clear();
+    cells_.clear();
+  }
+  void show(int i, SampleSink& sink) {
+    typename Sum::Sample sample(sum_, wave_->raster(i), sink);
+    wave_->show_lights(i, [&](const FoundLight& light) { sample.add(light); });
+    sample.finish();
+  }
+
+  Estimator estimator_;
+  Sum sum_;
+  std::unique_ptr<Wave> wave_;
+  std::vector<Vec2i> cells_;     ///< Cells of the samples in the wave.
+  bool wave_worthwhile_ = true;  ///< Unless most samples of the last one were left.
+};
+
+/// Renders the image by an estimator alone.
+template <class Estimator, class Wave = NoWave>
+std::unique_ptr<SampleTaker> take_alone(Estimator estimator, std::unique_ptr<Wave> wave = nullptr) {
+  const ImageSum sum(estimator.own_scale());
+  return std::make_unique<EstimatorTaker<Estimator, ImageSum, Wave>>(std::move(estimator), sum,
+                                                                     std::move(wave));
+}
+
+}  // namespace mlt

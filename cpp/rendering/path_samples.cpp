@@ -1,0 +1,106 @@
+#include "rendering/path_samples.h"
+
+#include "mutation/path_seeds.h"
+#include "rendering/beside_chains.h"
+#include "wave/bidirectional_wave.h"
+#include "wave/path_sample_wave.h"
+
+namespace mlt {
+namespace {
+
+using Source = MetropolisAlgorithm::Source;
+
+// Costs of a ray, measured in bench_ray_cost; less where all is Lambertian.
+constexpr double traced_cost = 0.35;        ///< .29 to .46.
+constexpr double bidirectional_cost = 0.8;  ///< .75 to .93.
+constexpr double wave_cost = 0.35;          ///< .3 to .4, bidirectional.
+
+bool are_traced(const PathTarget& target) {
+  return target.techniques() == SampleTechniques::path_tracing;
+}
+
+PathEstimator traced(const PathTarget& target) {
+  return {target.scene(), target.rules(), Heuristic::balance};
+}
+
+/// Waves know the balance heuristic alone: with it f/P is the weighted f / p of a path, without
+/// roulette.
+BidirectionalSettings wave_settings(const PathTarget& target) {
+  BidirectionalSettings settings = PathSeeds::settings(target);
+  settings.heuristic = Heuristic::balance;
+  return settings;
+}
+bool in_waves(const PathTarget& target) {
+  return BidirectionalWave::supports(target.scene(), wave_settings(target));
+}
+
+std::unique_ptr<Source> bidirectional(const PathTarget& target,
+                                      const BidirectionalSettings& settings, double cost_of_ray) {
+  const BidirectionalEstimator estimator(target.scene(), settings);
+  return make_source(estimator, PathTargeting(target, estimator.own_scale()), cost_of_ray);
+}
+
+/// Samples of path tracing that count with their weights w1.
+class WeightedPathEstimator : public Estimator {
+ public:
+  WeightedPathEstimator(const PathTarget& target, PathSampleWave::WeightsAt weights)
+      : paths_(traced(target)), weights_(std::move(weights)) {}
+
+  template <class Sampler, class Found>
+  void operator()(const Vec2& raster, Sampler& sampler, RayCounts& rays, Found&& found) {
+    const PathWeights weights = weights_(raster);
+    paths_.paths = paths;
+    paths_(raster, sampler, rays, [&](FoundLight light) {
+      light.rgb *= weights.of(light.rgb, light.over_density, light.certainty);
+      found(light);
+    });
+  }
+
+ private:
+  PathEstimator paths_;
+  PathSampleWave::WeightsAt weights_;
+};
+
+std::unique_ptr<SampleTaker> traced_taker(const PathTarget& target, const FamilyWeights& weights) {
+  const Scene& scene = target.scene();
+  const double threshold = radiance_scale(scene) * weights.threshold();
+  const auto weights_at = [&target, threshold](const Vec2& raster) {
+    return PathWeights{target.factor(raster) / threshold, target.most_certain(raster)};
+  };
+  std::unique_ptr<PathSampleWave> wave;
+  if (PathSampleWave::supports(scene))
+    wave = std::make_unique<PathSampleWave>(scene, target.rules(), Heuristic::balance, weights_at);
+  return take_alone(WeightedPathEstimator(target, weights_at), std::move(wave));
+}
+
+}  // namespace
+
+std::unique_ptr<Source> path_candidates(const PathTarget& target) {
+  return bidirectional(target, PathSeeds::settings(target), 1);
+}
+
+std::unique_ptr<Source> path_samples(const PathTarget& target) {
+  if (are_traced(target)) {
+    const PathEstimator estimator = traced(target);
+    return make_source(estimator, PathTargeting(target, estimator.own_scale()), traced_cost);
+  }
+  if (in_waves(target)) return bidirectional(target, wave_settings(target), wave_cost);
+  return bidirectional(target, PathSeeds::settings(target), bidirectional_cost);
+}
+
+std::unique_ptr<SampleTaker> path_sample_taker(const PathTarget& target,
+                                               const FamilyWeights& weights) {
+  if (are_traced(target)) return traced_taker(target, weights);
+  const Scene& scene = target.scene();
+  std::unique_ptr<BidirectionalWave> wave;
+  BidirectionalSettings settings = PathSeeds::settings(target);
+  if (in_waves(target)) {
+    settings = wave_settings(target);
+    wave = std::make_unique<BidirectionalWave>(scene, settings);
+  }
+  const BidirectionalEstimator estimator(scene, settings);
+  return take_beside_chains(scene, estimator, PathTargeting(target, estimator.own_scale()), weights,
+                            std::move(wave));
+}
+
+}  // namespace mlt

@@ -1,0 +1,76 @@
+// Samples of path tracing (PathEstimator), traced side by side.
+#pragma once
+
+#include "path/found_light.h"
+#include "wave/path_wave.h"
+
+#include <functional>
+#include <vector>
+
+namespace mlt {
+
+class PathSampleWave {
+ public:
+  using WeightsAt = std::function<PathWeights(const Vec2& raster)>;
+
+  /// With `weights` the light of a sample counts with its weights beside chains.
+  PathSampleWave(const Scene& scene, const PathRules& rules, Heuristic heuristic,
+                 WeightsAt weights = nullptr)
+      : scene_(&scene), wave_(scene, rules, heuristic), weights_(std::move(weights)) {}
+
+  static bool supports(const Scene& scene) { return !scene.has_media(); }
+
+  /// Adds a sample with the numbers of PixelSampler(stream, index): the first two are its position
+  /// in this pixel.
+  void add(uint64_t stream, uint32_t index, const Vec2& pixel) {
+    wave_.numbers().add(stream, index);
+    rasters_.push_back(pixel);
+  }
+  int size() const { return static_cast<int>(rasters_.size()); }
+  bool full() const { return rasters_.size() == PathWave::capacity; }
+  void trace(RayCounts& rays) {
+    start();
+    wave_.trace(rays);
+  }
+  const Vec2& raster(int i) const { return rasters_[i]; }
+  /// Calls show(light), once, for all light that the i-th sample has found.
+  template <class Show>
+  void show_lights(int i, Show&& show) const {
+    show(FoundLight{{rasters_[i], wave_.radiance(i), true}});
+  }
+  /// Whether the i-th sample has met a surface that light passes: it has to be traced alone.
+  bool fell_back(int i) const { return wave_.is_left(i); }
+  void clear() {
+    wave_.clear();
+    rasters_.clear();
+  }
+
+ private:
+  /// Starts the paths with the random numbers that PathEstimator takes.
+  void start() {
+    const Camera& camera = scene_->camera();
+    const Shutter& shutter = camera.shutter();
+    WaveNumbers& numbers = wave_.numbers();
+    numbers.read2(numbers.places().next2(), 0, numbers.count(), &u_x_[0], &u_y_[0]);
+    for (int i = 0; i < size(); ++i) rasters_[i] += Vec2(u_x_[i], u_y_[i]);
+    const auto at = LensNumbersOf<WaveNumbers::Place>::draw(numbers.places());
+    if (!camera.delta_position())
+      numbers.read2(at.position, 0, numbers.count(), &u_x_[0], &u_y_[0]);
+    if (shutter.open != shutter.close) numbers.read(at.time, 0, numbers.count(), &u_time_[0]);
+    if (camera.spectral())
+      numbers.read(numbers.places().next(), 0, numbers.count(), &u_spectral_[0]);
+    for (int i = 0; i < size(); ++i) {
+      Ray ray = camera.ray(rasters_[i], {u_x_[i], u_y_[i]}, camera.time(u_time_[i]));
+      ray.wavelength = camera.wavelength([&] { return u_spectral_[i]; });
+      wave_.add(ray, weights_ ? weights_(rasters_[i]) : PathWeights());
+    }
+  }
+
+  const Scene* scene_;
+  PathWave wave_;
+  WeightsAt weights_;
+  std::vector<Vec2> rasters_;  ///< Raster positions of the samples; at first, their pixels.
+  Wave<double> u_x_, u_y_, u_time_, u_spectral_;
+};
+
+}  // namespace mlt
