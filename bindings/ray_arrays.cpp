@@ -123,7 +123,7 @@ py::tuple camera_rays(const LoadedScene& loaded, const Doubles& rasters, double 
   const SurfacePoint lens = camera.sample_position({0.5, 0.5}, time).at;
   for (py::ssize_t i = 0; i < n; ++i) {
     const double* raster = rasters.data() + 2 * i;
-    const Ray ray = leave_lens(camera, lens, {raster[0], raster[1]});
+    const Ray ray = camera_ray(camera, lens, {raster[0], raster[1]});
     for (int c = 0; c < 3; ++c) {
       starts.mutable_data()[3 * i + c] = ray.o[c];
       directions.mutable_data()[3 * i + c] = ray.d[c];

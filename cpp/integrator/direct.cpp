@@ -36,7 +36,7 @@ class DirectEstimator : public Estimator, public SampledDefaults {
 
   template <class Sampler, class Found>
   void operator()(const Vec2& raster, Sampler& sampler, RayCounts& rays, Found&& found) const {
-    const Ray ray = leave_lens(scene_->camera(), raster, sampler).ray;
+    const Ray ray = camera_ray(scene_->camera(), raster, sampler).ray;
     found(FoundLight{{raster, radiance(ray, sampler, rays)}});
   }
 

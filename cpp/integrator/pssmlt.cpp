@@ -38,7 +38,7 @@ struct PrimaryPaths {
 
 /// Moves a chain that renders.
 template <class Step>
-class PssmltKernel : public Step {
+class PssmltKernel : public Step, public KernelDefaults {
  public:
   /// `b` is that of the group of chains.
   PssmltKernel(const Step& step, const LargeStepWeights& weights, double b)

@@ -127,8 +127,8 @@ bool new_end(const Scene& scene, Path& path, int i, bool alone, Rng& rng) {
 std::optional<Ray> leave_end(const Walker& walker, const Vertex& end, Rng& rng) {
   const Vec2 u{rng.next(), rng.next()};
   const Camera& camera = walker.scene.camera();
-  if (end.kind == VertexKind::camera) return leave_lens(camera, end.at, camera.raster().sample(u));
-  const Departure first = walker.leave_light(end, u);
+  if (end.kind == VertexKind::camera) return camera_ray(camera, end.at, camera.raster().sample(u));
+  const Departure first = walker.emitted_ray(end, u);
   if (!(first.pdf > 0)) return std::nullopt;
   return first.ray;
 }

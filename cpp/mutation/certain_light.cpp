@@ -16,7 +16,7 @@ constexpr int walks_per_cell = 4;
 /// Whether a walk by delta lobes ends at a light.
 bool sees_light(const Scene& scene, const PathRules& rules, const Vec2& raster,
                 RandomSampler& sampler, RayCounts& rays) {
-  CameraWalk walk(leave_lens(scene.camera(), raster, sampler).ray);
+  CameraWalk walk(camera_ray(scene.camera(), raster, sampler).ray);
   const Walker walker{scene, walk.ray.time, rays};
   for (int depth = 1; walk.delta; ++depth) {
     SurfacePoint at;

@@ -23,7 +23,7 @@ class ImageMove {
     }
     const Vec2 raster = x.raster + offset(chain_.image_radius(), rng);
     if (!camera_->raster().contains(raster)) return std::nullopt;
-    return leave_lens(*camera_, y[k].at, raster);
+    return camera_ray(*camera_, y[k].at, raster);
   }
 
   /// Density of the point on the lens of y, times that of the direction in projected solid angle.

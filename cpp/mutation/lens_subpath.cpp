@@ -23,7 +23,7 @@ class LensSubpathMutation final : public MeasuredMutation<LensSubpathMutation> {
     PositionSample lens = camera.sample_position({rng.next(), rng.next()}, x.path.time);
     lens.at.wavelength = x.path.wavelength;
     const Walker walker{scene(), x.path.time, context.rays};
-    Ray ray = leave_lens(camera, lens.at, context.raster_position(camera.raster()));
+    Ray ray = camera_ray(camera, lens.at, context.raster_position(camera.raster()));
 
     // The walk comes first, backwards: only then is the length of the path known.
     constexpr int most_vertices = 32;

@@ -166,7 +166,7 @@ class BidirectionalSampler {
                         RayCounts& rays) {
     raster_ = raster;
     const PositionSample lens = start_from_lens(sampler);
-    const Ray ray = leave_lens(scene_->camera(), lens.at, raster);
+    const Ray ray = camera_ray(scene_->camera(), lens.at, raster);
     camera_.start(camera_vertex(lens.at), lens.pdf);
     camera_.walk(walker(rays), settings_.rules,
                  {ray, scene_->camera().pdf_direction(lens.at, ray.d)}, most, sampler);

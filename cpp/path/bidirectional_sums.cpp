@@ -1,5 +1,5 @@
-// The sums over the techniques that can make the path of a connection (TechniqueSums), along both of
-// its subpaths.
+// The sums over the techniques that can make the path of a connection (TechniqueSums), along both
+// of its subpaths.
 #include "path/bidirectional_sampler.h"
 
 namespace mlt {

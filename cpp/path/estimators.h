@@ -31,7 +31,7 @@ class PathEstimator : public Estimator {
 
   template <class Sampler, class Found>
   void operator()(const Vec2& raster, Sampler& sampler, RayCounts& rays, Found&& found) const {
-    const LensDeparture start = leave_lens(scene_->camera(), raster, sampler);
+    const CameraRay start = camera_ray(scene_->camera(), raster, sampler);
     CameraWalk walk(start.ray);
     walk.mis = MisExponent(heuristic_);
     walk.certainty = heuristic_ == Heuristic::balance;

@@ -20,7 +20,7 @@ std::vector<FoundPath> traced(const Scene& scene, const PathRules& rules, const 
                               RandomSampler& sampler) {
   std::vector<FoundPath> found;
   RayCounts rays;
-  const auto [lens, ray] = leave_lens(scene.camera(), raster, sampler);
+  const auto [lens, ray] = camera_ray(scene.camera(), raster, sampler);
   PathRecorder recorder(scene, raster, lens.at, ray.time, found);
   trace_path(scene, without_roulette(rules), ray, sampler, rays, recorder);
   return found;

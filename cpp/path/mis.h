@@ -21,6 +21,11 @@ class MisExponent {
   F raise(F quotient) const {
     return quotient * std::min(std::max(quotient, F(least_)), F(most_));
   }
+  /// The sum of r_i^beta (see TechniqueSums) after the joint has moved inwards over a vertex.
+  template <class F>
+  F over(F sum, F quotient) const {
+    return sum * raise(quotient);
+  }
   /// The weight of one of two techniques (Veach 1997, eq. 9.13), by their densities.
   double weight(double own, double other) const { return 1 / (1 + raise(other / own)); }
 

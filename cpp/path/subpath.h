@@ -129,7 +129,7 @@ void walk_from_light(const Walker& walker, const PathRules& rules, const WalkLen
   if (!(light.x0.pdf > 0)) return;
   const Vertex x0 = light_vertex(*light.emitter, light.x0.at);
   subpath.start(x0, light.x0.pdf);
-  const Departure first = walker.leave_light(x0, u.direction);
+  const Departure first = walker.emitted_ray(x0, u.direction);
   if (first.pdf > 0) subpath.walk(walker, rules, first, most, sampler);
 }
 

@@ -2,7 +2,7 @@
 
 namespace mlt {
 
-Departure Walker::leave_light(const Vertex& x0, const Vec2& u) const {
+Departure Walker::emitted_ray(const Vertex& x0, const Vec2& u) const {
   const RaySample sample = scene.emitters()[x0.emitter]->sample_ray(x0.at, u);
   if (!(sample.pdf > 0)) return {{}, 0};
   if (!x0.at.infinite()) return {leave(x0.at, sample.direction), sample.pdf};

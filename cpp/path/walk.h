@@ -44,14 +44,14 @@ struct Departure {
 };
 
 /// The ray from a point on the lens, at its time, through a raster position.
-inline Ray leave_lens(const Camera& camera, const SurfacePoint& xk, const Vec2& raster) {
+inline Ray camera_ray(const Camera& camera, const SurfacePoint& xk, const Vec2& raster) {
   const Vec3 w = camera.direction(xk, raster);
   Ray ray{camera.entrance(xk, w), w, xk.time, infinity, camera.surroundings()};
   ray.wavelength = xk.wavelength;
   return ray;
 }
 
-struct LensDeparture {
+struct CameraRay {
   PositionSample lens;
   Ray ray;
 };
@@ -64,11 +64,11 @@ PositionSample sample_lens(const Camera& camera, Sampler& sampler) {
   lens.at.wavelength = camera.wavelength([&] { return sampler.next(); });
   return lens;
 }
-/// The same, with the ray from there.
+/// Samples these and the ray through a raster position.
 template <class Sampler>
-LensDeparture leave_lens(const Camera& camera, const Vec2& raster, Sampler& sampler) {
+CameraRay camera_ray(const Camera& camera, const Vec2& raster, Sampler& sampler) {
   const PositionSample lens = sample_lens(camera, sampler);
-  return {lens, leave_lens(camera, lens.at, raster)};
+  return {lens, camera_ray(camera, lens.at, raster)};
 }
 
 /// Takes the other steps of walks at one time, and counts their rays.
@@ -78,7 +78,7 @@ struct Walker {
   RayCounts& rays;
   double wavelength = rgb_lanes;  ///< For walks from lights; others have that of their start.
 
-  Departure leave_light(const Vertex& x0, const Vec2& u) const;
+  Departure emitted_ray(const Vertex& x0, const Vec2& u) const;
 
   /// The ray from a vertex along w.
   Ray leave(const SurfacePoint& at, const Vec3& w) const { return scene.spawn(at, w, time); }

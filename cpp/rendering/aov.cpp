@@ -91,7 +91,7 @@ class PixelAovs {
     for (uint32_t i = 0; i < aov_samples; ++i) {
       PixelSampler sampler(stream, i);
       const Vec2 raster = Vec2(pixel) + sampler.next2();
-      const Ray ray = leave_lens(scene_.camera(), raster, sampler).ray;
+      const Ray ray = camera_ray(scene_.camera(), raster, sampler).ray;
       add(ray, scene_.has_passages() ? sampler.next() : 0);
     }
     set_indices(middle_ray(pixel));
@@ -102,7 +102,7 @@ class PixelAovs {
   Ray middle_ray(const Vec2i& pixel) const {
     const Camera& camera = scene_.camera();
     const SurfacePoint lens = camera.sample_position({0.5, 0.5}, camera.time(0.5)).at;
-    return leave_lens(camera, lens, Vec2(pixel) + 0.5);
+    return camera_ray(camera, lens, Vec2(pixel) + 0.5);
   }
   void add(const Ray& ray, double u_leg) {
     const FirstSurface first = first_surface(scene_, ray, u_leg);

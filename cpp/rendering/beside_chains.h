@@ -66,7 +66,8 @@ class SampleTargeting {
   PrimaryState state_;
 };
 
-/// Adds samples to the image with their weights w1. `Targeting` sets T / p and T / P of their light.
+/// Adds samples to the image with their weights w1. `Targeting` sets T / p and T / P of their
+/// light.
 template <class Targeting>
 class FamilySum {
  public:

@@ -19,7 +19,7 @@ bool is_hidden(const Scene& scene, const Emitter& light) {
   for (int i = 0; i < rays; ++i) {
     const Vec2 u_position{rng.next(), rng.next()}, u_direction{rng.next(), rng.next()};
     const Vertex x0 = light_vertex(light, light.sample_position(u_position, time).at);
-    const Departure first = walker.leave_light(x0, u_direction);
+    const Departure first = walker.emitted_ray(x0, u_direction);
     SurfacePoint at;
     if (!(first.pdf > 0) || !walker.arrive(first.ray, 0, at)) continue;
     if (scene.bsdf(at).has_smooth()) return false;

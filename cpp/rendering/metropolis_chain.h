@@ -176,12 +176,18 @@ struct ChainId {
   Rng rng() const { return Rng(seed, purpose, (uint64_t(group) << 32) | uint32_t(number)); }
 };
 
-/// A chain of any kernel that has State; stages; propose; generated(y); record(recorder, x, weight)
-/// of a state with a target; proposal_weight(), with which the last proposal is recorded beside
-/// that of the step; raster_of(x); stats_row(), the row of the statistics that its last step
-/// belongs to, of stats_rows(); rays(), traced so far; signature(x), for messages; and save(bytes,
-/// x), load(bytes, x) for the state of the chain and its own. It may have count_own(row), for what
-/// else it knows of its last step.
+/// What a kernel has if it does not say otherwise.
+struct KernelDefaults {
+  /// The weight with which the last proposal is recorded beside that of the step.
+  double proposal_weight() const { return 0; }
+  /// Counts what else it knows of its last step.
+  void count_own(ChainStats::Row&) {}
+};
+
+/// A chain of any kernel, of KernelDefaults, that has State; stages; propose; generated(y);
+/// record(recorder, x, weight) of a state with a target; raster_of(x); stats_row(), the row of the
+/// statistics that its last step belongs to, of stats_rows(); rays(), traced so far; signature(x),
+/// for messages; and save(bytes, x), load(bytes, x) for the state of the chain and its own.
 template <class Kernel>
 class RecordedChain : public RenderChain {
   using State = typename Kernel::State;
@@ -219,7 +225,7 @@ class RecordedChain : public RenderChain {
                  glm::length(kernel.raster_of(chain_.state()) - from));
     row.rays += kernel.rays().total() - stats_.rays.total();
     stats_.rays = kernel.rays();
-    count_own(kernel, row, 0);
+    kernel.count_own(row);
     if (stats_.run > stats_.longest.rejections && stats_.run % 64 == 0)
       stats_.longest = {stats_.run, kernel.raster_of(chain_.state()),
                         kernel.signature(chain_.state())};
@@ -268,13 +274,6 @@ class RecordedChain : public RenderChain {
   }
 
  private:
-  template <class K>
-  static auto count_own(K& kernel, ChainStats::Row& row, int) -> decltype(kernel.count_own(row)) {
-    kernel.count_own(row);
-  }
-  template <class K>
-  static void count_own(K&, ChainStats::Row&, long) {}
-
   Chain<State, Kernel, Kernel::stages> chain_;
   ChainStats stats_;
 };

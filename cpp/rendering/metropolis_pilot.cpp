@@ -84,8 +84,8 @@ class Pilot {
   double noise_of_samples() const {
     return samples_.cost() * samples_.square(thresholds.size() - 1);
   }
-  /// That noise as chains tell it: the mean of f^2 / P over all paths, from states of density T / b.
-  /// Chains find light that is so rare among samples that the pilot's have missed it.
+  /// That noise as chains tell it: the mean of f^2 / P over all paths, from states of density
+  /// T / b. Chains find light that is so rare among samples that the pilot's have missed it.
   double noise_by_chains() const {
     return samples_.cost() * chains_.of_samples.back() / chains_.n();
   }

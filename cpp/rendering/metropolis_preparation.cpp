@@ -100,7 +100,7 @@ void MetropolisRendering::start_chains(int threads, const std::atomic<bool>& can
   lay_out();
   if (teams_.empty() && !samples_) throw no_light_found(candidates.count);
   parallel_for(threads, teams_.size(), [&](uint64_t i) {
-    ChainTeam& team = *teams_[i];
+    ChainBatch& team = *teams_[i];
     for (size_t k = 0; k < team.chains.size(); ++k) {
       const ChainId id = chain_id(team, k);
       const uint64_t candidate = id.group * per_group + seeds[id.group][id.number];

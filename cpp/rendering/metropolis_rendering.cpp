@@ -21,12 +21,12 @@ int MetropolisRendering::chains_of(int group) const {
   return (settings_.chains + group_count - 1 - group) / group_count;
 }
 
-ChainId MetropolisRendering::chain_id(const ChainTeam& team, size_t chain) const {
+ChainId MetropolisRendering::chain_id(const ChainBatch& team, size_t chain) const {
   return {seed_, team.group, team.first + static_cast<int>(chain), chains_of(team.group),
           groups_[team.group].b};
 }
 
-std::unique_ptr<RenderChain> MetropolisRendering::blank_chain(const ChainTeam& team,
+std::unique_ptr<RenderChain> MetropolisRendering::blank_chain(const ChainBatch& team,
                                                               size_t chain) const {
   return algorithm_->blank(chain_id(team, chain), allocation_.weights,
                            allocation_.steps_per_sample);
@@ -64,7 +64,7 @@ void MetropolisRendering::form_teams(int group) {
             count = (chains + most - 1) / most;
   for (int i = 0; i < count; ++i) {
     const int first = chains * i / count, last = chains * (i + 1) / count;
-    teams_.push_back(std::make_unique<ChainTeam>());
+    teams_.push_back(std::make_unique<ChainBatch>());
     teams_.back()->group = group;
     teams_.back()->first = first;
     teams_.back()->chains.resize(last - first);
@@ -126,18 +126,18 @@ void MetropolisRendering::run_unit(uint64_t unit) {
   if (place.sampled)
     samples_->run_unit(place.number);
   else
-    run_team(place.number);
+    run_batch(place.number);
 }
 
-void MetropolisRendering::run_team(uint64_t number) {
-  ChainTeam& team = *teams_[number % teams_.size()];
+void MetropolisRendering::run_batch(uint64_t number) {
+  ChainBatch& team = *teams_[number % teams_.size()];
   const uint64_t units_before = number / teams_.size();
   std::unique_lock lock(team.mutex);
   team.turn.wait(lock, [&] { return team.units >= units_before; });
   if (team.units > units_before) return;
   // Whatever happens, the thread that waits for the team's next unit must go on.
   struct Done {
-    ChainTeam& team;
+    ChainBatch& team;
     ~Done() {
       ++team.units;
       team.turn.notify_all();
@@ -165,12 +165,12 @@ std::vector<GroupProgress> MetropolisRendering::progress() const {
   return groups;
 }
 
-GroupCombination MetropolisRendering::combination() const {
+GroupEstimator MetropolisRendering::group_estimator() const {
   return {progress(), samples_ ? samples_->mean_of_chains() : Estimate(), !algorithm_->has_tours()};
 }
 
 /// A pixel's value is the pixel count times the light that falls into it.
-Image MetropolisRendering::chain_image(GroupScales scales) const {
+Image MetropolisRendering::chain_image(GroupWeights scales) const {
   for (double& scale : scales) scale *= pixels();
   return shown(film_.image(scales));
 }
@@ -183,26 +183,26 @@ std::vector<const Rendering*> MetropolisRendering::parts() const {
 }
 
 Image MetropolisRendering::image() const {
-  Image image = chain_image(combination().mean());
+  Image image = chain_image(group_estimator().mean());
   for (const Rendering* part : parts()) image += part->image();
   return image;
 }
 
 GroupImage MetropolisRendering::group(int index) const {
-  const GroupCombination groups = combination();
+  const GroupEstimator groups = group_estimator();
   const MeanSums b = progress()[index].bootstrap.brightness;
   return {chain_image(groups.group(index)), groups.begun(index) ? 1.0 : 0.0, b.mean(),
           std::sqrt(b.variance_of_mean())};
 }
 
 Image MetropolisRendering::common_error() const {
-  return samples_ ? chain_image(combination().common_error()) : Image();
+  return samples_ ? chain_image(group_estimator().common_error()) : Image();
 }
 
 std::vector<NamedImage> MetropolisRendering::layers() const {
   if (!settings_.parts) return {};
   const Vec2i size = scene_->camera().raster().size;
-  return {{"chains", chain_image(combination().mean())},
+  return {{"chains", chain_image(group_estimator().mean())},
           {"samples", samples_ ? samples_->image() : Image(size.x, size.y, 3)}};
 }
 

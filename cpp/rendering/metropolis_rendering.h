@@ -3,13 +3,13 @@
 //
 // A render is a fixed number of chains, each with its own random stream; a unit is some steps of
 // one chain or of a few that advance together, and these are visited in turn. They form independent
-// groups, each with its own bootstrap, which GroupCombination adds up. The samples are a
+// groups, each with its own bootstrap, which GroupEstimator adds up. The samples are a
 // rendering of their own, whose units are interleaved with those of the chains, so that every
 // prefix of a render is a fair image.
 #pragma once
 
 #include "markov/bootstrap.h"
-#include "rendering/group_combination.h"
+#include "rendering/group_estimator.h"
 #include "rendering/interleaving.h"
 #include "rendering/metropolis_pilot.h"
 #include "rendering/sampled_rendering.h"
@@ -55,7 +55,7 @@ class MetropolisRendering : public Rendering {
   static constexpr double most_steps_per_turn = 1 << 19;
 
   /// Chains of a group that advance together: a share of the render, after those of the samples.
-  struct ChainTeam {
+  struct ChainBatch {
     int group, first;  ///< Number of its first chain in the group.
     std::vector<std::unique_ptr<RenderChain>> chains;
     double brightness = 0;  ///< Sum of L* of the states that they have recorded.
@@ -71,8 +71,8 @@ class MetropolisRendering : public Rendering {
 
   double pixels() const { return scene_->camera().raster().pixels(); }
   int chains_of(int group) const;
-  ChainId chain_id(const ChainTeam& share, size_t chain) const;
-  std::unique_ptr<RenderChain> blank_chain(const ChainTeam& team, size_t chain) const;
+  ChainId chain_id(const ChainBatch& share, size_t chain) const;
+  std::unique_ptr<RenderChain> blank_chain(const ChainBatch& team, size_t chain) const;
   uint64_t chain_count() const;
   uint64_t sample_shares() const { return samples_ ? uint64_t{group_count} : 0; }
   void render_direct(int threads, const std::atomic<bool>& cancelled);
@@ -87,11 +87,11 @@ class MetropolisRendering : public Rendering {
   void lay_out();
   void form_teams(int group);
   void lay_out_units();
-  void run_team(uint64_t number);
-  Image chain_image(GroupScales scales) const;
+  void run_batch(uint64_t number);
+  Image chain_image(GroupWeights scales) const;
   /// The sums of each group; the bootstrap of tours consists of the samples that they start from.
   std::vector<GroupProgress> progress() const;
-  GroupCombination combination() const;
+  GroupEstimator group_estimator() const;
   double waiting() const;
   void add_level(Stats& stats) const;
   ChainStats sum_of_stats(StuckChain& stuck) const;
@@ -108,7 +108,7 @@ class MetropolisRendering : public Rendering {
   SplatFilm film_;
   /// The chains of groups that have found light, group after group: the film of one group then
   /// stays in the cache while its chains advance.
-  std::vector<std::unique_ptr<ChainTeam>> teams_;
+  std::vector<std::unique_ptr<ChainBatch>> teams_;
   std::array<Group, group_count> groups_;
   uint64_t steps_per_unit_ = 1;
   Interleaving interleaving_;

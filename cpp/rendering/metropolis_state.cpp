@@ -70,7 +70,7 @@ void MetropolisRendering::save_chains(const Shares& shares, Content content,
                                       ByteWriter& bytes) const {
   bytes.write(shares);
   for (uint64_t i = shares.first; i < shares.last; ++i) {
-    const ChainTeam& team = *teams_[i];
+    const ChainBatch& team = *teams_[i];
     const std::lock_guard lock(team.mutex);
     bytes.write(team.units);
     bytes.write(team.brightness);
@@ -125,7 +125,7 @@ void MetropolisRendering::load_chains(ByteReader& bytes) {
   if (!film.empty()) film_.merge(groups.first, groups.last, film);
   for (size_t i = 0; i < steps.size(); ++i) groups_[groups.first + i].steps += steps[i];
   for (uint64_t i = shares.first; i < shares.last; ++i) {
-    ChainTeam& team = *teams_[i];
+    ChainBatch& team = *teams_[i];
     Loaded& from = teams[i - shares.first];
     const std::lock_guard lock(team.mutex);
     team.units = from.units;

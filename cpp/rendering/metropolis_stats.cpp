@@ -76,7 +76,8 @@ void MetropolisRendering::add_level(Stats& stats) const {
   if (samples_) stats.independent = algorithm_->samples_name();
   stats.independent_samples = b.count;
   stats.samples_carrying_half = classes.carrying_half();
-  if (b.mean > 0) stats.level_error = std::hypot(stats.b_error, combination().missing()) / b.mean;
+  if (b.mean > 0)
+    stats.level_error = std::hypot(stats.b_error, group_estimator().missing()) / b.mean;
   if (stats.level_error > 0.05)
     stats.warnings.push_back(fmt::format(
         "the image may be {:.0f} % too bright or too dark: some light is found so rarely that its "

@@ -7,14 +7,13 @@ namespace mlt {
 namespace {
 
 /// Moves a chain that renders.
-class MultiplexedKernel : public MultiplexedStep {
+class MultiplexedKernel : public MultiplexedStep, public KernelDefaults {
  public:
   using MultiplexedStep::MultiplexedStep;
 
   void record(ChainRecorder& recorder, const MultiplexedState& x, double weight) const {
     recorder.record(x.raster, x.rgb / x.target, weight, x.target_over_density);
   }
-  double proposal_weight() const { return 0; }
   Vec2 raster_of(const MultiplexedState& x) const { return x.raster; }
 
   size_t stats_row() const { return last(); }

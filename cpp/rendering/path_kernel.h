@@ -8,7 +8,7 @@
 
 namespace mlt {
 
-class PathKernel : public PathMixture {
+class PathKernel : public PathMixture, public KernelDefaults {
  public:
   PathKernel(const PathTarget& target, const PathMixture& mixture)
       : PathMixture(mixture), target_(&target) {}
@@ -17,7 +17,6 @@ class PathKernel : public PathMixture {
     recorder.record(x.raster, x.rgb / x.target, weight,
                     recorder.wants_density() ? target_->over_density(x) : 1);
   }
-  double proposal_weight() const { return 0; }
   Vec2 raster_of(const PathState& x) const { return x.raster; }
 
   /// The row of the statistics: there is one for each mutation and row of its weights.

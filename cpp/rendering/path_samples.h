@@ -1,5 +1,5 @@
-// The independent samples of chains of light paths: those from which chains start, and those that go
-// to the image, of bidirectional path tracing or of path tracing (SampleTechniques).
+// The independent samples of chains of light paths: those from which chains start, and those that
+// go to the image, of bidirectional path tracing or of path tracing (SampleTechniques).
 #pragma once
 
 #include "rendering/metropolis_algorithm.h"
@@ -12,8 +12,8 @@ std::unique_ptr<MetropolisAlgorithm::Source> path_candidates(const PathTarget& t
 /// The samples that go to the image, one by one, for the pilot.
 std::unique_ptr<MetropolisAlgorithm::Source> path_samples(const PathTarget& target);
 
-/// The samples that go to the image, side by side where waves serve the scene. Those of path tracing
-/// do not estimate the brightness, since there may be light they cannot find.
+/// The samples that go to the image, side by side where waves serve the scene. Those of path
+/// tracing do not estimate the brightness, since there may be light they cannot find.
 std::unique_ptr<SampleTaker> path_sample_taker(const PathTarget& target,
                                                const FamilyWeights& weights);
 

@@ -1,5 +1,5 @@
-// Shapes as geometry of Embree: meshes are passed to it directly, analytic shapes are user geometry,
-// intersected in double precision with the original ray.
+// Shapes as geometry of Embree: meshes are passed to it directly, analytic shapes are user
+// geometry, intersected in double precision with the original ray.
 #pragma once
 
 #include "scene/analytic_shape.h"

@@ -75,7 +75,7 @@ class Emitter : public Object {
     return invert_position(x0);
   }
 
-  /// The radiance of a mesh that glows the same everywhere on its front side; nullptr for any other
+  /// The radiance of a mesh that emits the same everywhere on its front side; nullptr for any other
   /// light.
   virtual const Texture* uniform_radiance() const { return nullptr; }
 

@@ -23,7 +23,7 @@ struct EmitterChoice {
   double probability;
 };
 
-/// A mesh that glows the same everywhere on its front side and that light does not pass, as next-
+/// A mesh that shines the same everywhere on its front side and that light does not pass, as next-
 /// event estimation needs it.
 struct MeshLight {
   const Mesh* mesh = nullptr;  ///< nullptr if this light is of another kind.
@@ -134,9 +134,9 @@ class Scene {
   double emitter_probability(uint32_t index) const { return emitter_choice_.pdf(index); }
   /// The shape at this place in shapes(), if it is a Lambertian mesh.
   const LambertianMesh& lambertian_mesh(uint32_t shape) const { return lambertian_meshes_[shape]; }
-  /// The light at this place in emitters(), if it is a glowing mesh.
+  /// The light at this place in emitters(), if it is an emissive mesh.
   const MeshLight& mesh_light(uint32_t index) const { return mesh_lights_[index]; }
-  /// The light that choose_emitter(u) chooses, if it is a glowing mesh.
+  /// The light that choose_emitter(u) chooses, if it is an emissive mesh.
   const MeshLight& choose_mesh_light(double u) const {
     return mesh_lights_[mesh_lights_.size() > 1 ? emitter_choice_.sample(u) : 0];
   }

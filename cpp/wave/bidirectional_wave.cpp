@@ -259,7 +259,7 @@ void BidirectionalWave::connect_to_lens(int s, const JointLanes& a, int block) {
     const auto projection = camera.project(lens_.at, -w);
     if (!projection) continue;
     const double G = edges.G[i];
-    const double below = a.sums[i] * beta_.raise(projection->pdf_direction * G / a.forward[i]);
+    const double below = beta_.over(a.sums[i], projection->pdf_direction * G / a.forward[i]);
     const double share = projection->importance * G / (1 + below);
     const Color weighted =
         recorded(a.value.get(i, lanes()) * share, wavelength_[block * JointLanes::size + i]);

@@ -17,7 +17,7 @@ class BidirectionalWave {
  public:
   static constexpr int capacity = SubpathWave::capacity;
 
-  /// Whether all lights are glowing meshes, the camera has no aperture, and nothing moves.
+  /// Whether all lights are emissive meshes, the camera has no aperture, and nothing moves.
   static bool supports(const Scene& scene, const BidirectionalSettings& settings);
   /// Requires supports(scene, settings).
   BidirectionalWave(const Scene& scene, const BidirectionalSettings& settings);
@@ -34,8 +34,8 @@ class BidirectionalWave {
   // The results of the samples:
   const Vec2& raster(int i) const { return rasters_[i]; }
   /// Calls show(FoundLight) for all light that the i-th sample has found. With the balance
-  /// heuristic f / P is the weighted f / p of a path, without roulette. All surfaces are Lambertian,
-  /// so that only the directly visible lights are certain.
+  /// heuristic f / P is the weighted f / p of a path, without roulette. All surfaces are
+  /// Lambertian, so that only the directly visible lights are certain.
   template <class Show>
   void show_lights(int i, Show&& show) const {
     for (int k = first_[i]; k >= 0; k = lights_found_[k].next) {

@@ -38,7 +38,7 @@ struct LambertianVertices {
   Block<float> sides;        ///< 0 if strict normals reject the incident ray, else 1.
   Block<const Spectrum*> f;  ///< BSDF; nullptr: there is no Lambertian vertex.
 
-  // A point on a glowing mesh, sampled by next-event estimation:
+  // A point on an emissive mesh, sampled by next-event estimation:
   TriangleBlock light;
   Block<float> light_pdf;           ///< Area measure; 0: there is none.
   Block<const Spectrum*> radiance;  ///< Emitted by the point.

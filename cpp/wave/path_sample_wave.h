@@ -39,7 +39,7 @@ class PathSampleWave {
     show(FoundLight{{rasters_[i], wave_.radiance(i), true}});
   }
   /// Whether the i-th sample has met a surface that light passes: it has to be traced alone.
-  bool fell_back(int i) const { return wave_.is_left(i); }
+  bool fell_back(int i) const { return wave_.fell_back(i); }
   void clear() {
     wave_.clear();
     rasters_.clear();

@@ -113,7 +113,7 @@ inline void BasicPathWave<Numbers>::find_vertex(int i, int depth) {
                     walk(i).ray.wavelength);
 }
 
-/// Finds the vertex on a surface that glows, or is not Lambertian.
+/// Finds the vertex on a surface that shines, or is not Lambertian.
 template <class Numbers>
 void BasicPathWave<Numbers>::find_bright_or_other(int i, const Hit& hit, int depth) {
   WaveWalk& walk = exact_walk(begin_ + i);
@@ -155,7 +155,7 @@ void BasicPathWave<Numbers>::choose_lights(int depth) {
   sample_other_lights();
 }
 
-/// Takes the numbers for a light that is no glowing mesh, or for a vertex that is not Lambertian.
+/// Takes the numbers for a light that is no emissive mesh, or for a vertex that is not Lambertian.
 template <class Numbers>
 void BasicPathWave<Numbers>::choose_other_light(int i, const Vec3& u, bool infinite) {
   if (lambertian_.f[i]) {

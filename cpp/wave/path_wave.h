@@ -79,7 +79,7 @@ class BasicPathWave {
   /// The radiance that the i-th path has found.
   const Color& radiance(size_t i) const { return walks_[i].radiance; }
   /// Whether the i-th path has met a surface that light passes: it has to be traced alone.
-  bool is_left(size_t i) const { return left_[i]; }
+  bool fell_back(size_t i) const { return left_[i]; }
   /// The number of rays of the i-th path.
   const RayCounts& rays(size_t i) const { return walks_[i].rays; }
   void clear() {
@@ -89,7 +89,7 @@ class BasicPathWave {
   }
 
  private:
-  /// A vertex that is not Lambertian, or samples a light that is neither a glowing mesh nor at
+  /// A vertex that is not Lambertian, or samples a light that is neither an emissive mesh nor at
   /// infinity.
   struct SingleVertex {
     int path;

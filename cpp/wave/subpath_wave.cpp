@@ -128,7 +128,7 @@ void SubpathWave::arrive(int place) {
     const double reverse = ok ? std::fabs(cosine) * inv_pi * previous : 0;
     cosine_to_previous_[i] = ok ? cosine : 0;
     forward_here_[i] = pdf_[k] * geometric * per_distance2;
-    sums_here_[i] = technique + sums_[k] * beta_.raise(reverse / forward_[k]);
+    sums_here_[i] = technique + beta_.over(sums_[k], reverse / forward_[k]);
     reverse_emission_[i] = geometric * inv_pi * previous;
     light_factor_[i] = quotient;
     next_cosine_[i] = std::fabs(dot(ng, lambertian_.w[i]));
@@ -143,8 +143,9 @@ void SubpathWave::hit_light(int i, int place) {
   const MeshLight& light = scene_->mesh_light(scene_->shapes()[shape]->emitter()->index());
   const Spectrum radiance = light.radiance_at(wavelength_[k]);
   const double technique = place > 1 || light_image_ ? 1 : 0;
-  const double above = (technique + sums_[k] * beta_.raise(reverse_emission_[i] / forward_[k])) *
-                       beta_.raise(light.pdf / forward_here_[i]);
+  const double above =
+      beta_.over(technique + beta_.over(sums_[k], reverse_emission_[i] / forward_[k]),
+                 light.pdf / forward_here_[i]);
   hits_.push_back({sample_[k], place, throughput_[k] * radiance / (1 + above), survival_[k]});
 }
 

@@ -1,5 +1,5 @@
 // Subpaths of many samples that are traced side by side, among surfaces that are Lambertian and
-// lights that are glowing meshes. Each is that of Subpath, up to rounding. Samples with subpaths
+// lights that are emissive meshes. Each is that of Subpath, up to rounding. Samples with subpaths
 // that hit another kind of surface, or are very long, are left to Subpath.
 #pragma once
 

@@ -62,7 +62,7 @@ void WalkWave::leave_camera() {
     Reader numbers{proposal.numbers().data()};
     rasters_.push_back(camera_->raster().sample(numbers.next2()));
     wave_.numbers().add();
-    wave_.add(leave_lens(*camera_, rasters_.back(), numbers).ray);
+    wave_.add(camera_ray(*camera_, rasters_.back(), numbers).ray);
   }
   wave_.numbers().places() = {of_camera + (camera_->spectral() ? 1 : 0)};
 }

@@ -17,7 +17,7 @@ class NextEventEstimator : public Estimator, public SampledDefaults {
 
   template <class Sampler, class Found>
   void operator()(const Vec2& raster, Sampler& sampler, RayCounts& rays, Found&& found) const {
-    CameraWalk walk(leave_lens(scene_->camera(), raster, sampler).ray);
+    CameraWalk walk(camera_ray(scene_->camera(), raster, sampler).ray);
     const Walker walker{*scene_, walk.ray.time, rays};
     SurfacePoint at;
     const bool hit = arrive(walker, sampler, walk, at);

@@ -23,7 +23,7 @@ class Nudge final : public Mutation {
     const Edit edit{k - 1, k - 1, 1};
     splice(x, edit, y);
     const Vec2 u{context.rng.next(), context.rng.next()}, raster = x.raster + side_ * (u - 0.5);
-    const Ray ray = leave_lens(scene().camera(), x[k].at, raster);
+    const Ray ray = camera_ray(scene().camera(), x[k].at, raster);
     const Walker walk{scene(), ray.time, context.rays};
     if (!walk.arrive(ray, walk.draw_leg(context.rng), y.path[k - 1])) return std::nullopt;
     target().evaluate(k - 1, k - 1, y);

@@ -1,4 +1,4 @@
-// A surface that glows with the same radiance in all directions on its front side, that of the
+// A surface that shines with the same radiance in all directions on its front side, that of the
 // geometric normal.
 #include "math/warp.h"
 #include "scene/emitter/emitter_plugin.h"

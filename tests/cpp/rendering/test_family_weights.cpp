@@ -103,7 +103,7 @@ TEST_P(TargetOverDensity, IsTheSameForSamplesOfPathTracingAndChains) {
     Rng again = rng;
     const std::vector<FoundLight>& found = source->sample(raster, sampler);
     RandomSampler same(again);
-    const auto [lens, ray] = leave_lens(scene.camera(), raster, same);
+    const auto [lens, ray] = camera_ray(scene.camera(), raster, same);
     std::vector<FoundPath> paths;
     certainties.clear();
     CameraWalk walk(ray);

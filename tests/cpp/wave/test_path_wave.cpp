@@ -22,7 +22,7 @@ void start_paths(const Scene& scene, int wave, Start&& start) {
   for (uint32_t i = 0; i < PathWave::capacity; ++i) {
     PixelSampler sampler(7 + wave, i);
     const Vec2 raster = scene.camera().raster().sample(sampler.next2());
-    const Ray ray = leave_lens(scene.camera(), raster, sampler).ray;
+    const Ray ray = camera_ray(scene.camera(), raster, sampler).ray;
     start(ray, sampler);
   }
 }
@@ -50,7 +50,7 @@ Traced side_by_side(const Scene& scene, const PathRules& rules) {
     EXPECT_TRUE(wavefront.full());
     wavefront.trace(traced.rays);
     for (size_t i = 0; i < wavefront.size(); ++i)
-      traced.radiance.push_back(wavefront.is_left(i) ? left : wavefront.radiance(i));
+      traced.radiance.push_back(wavefront.fell_back(i) ? left : wavefront.radiance(i));
     wavefront.clear();
   }
   return traced;
@@ -110,7 +110,7 @@ TEST(PathWave, TracesAnIncompleteWave) {
   wavefront.trace(rays);
   EXPECT_EQ(rays.total(), 0u);
   PixelSampler sampler(1, 1);
-  const Ray ray = leave_lens(scene->camera(), {1.5, 1.5}, sampler).ray;
+  const Ray ray = camera_ray(scene->camera(), {1.5, 1.5}, sampler).ray;
   PixelSampler again = sampler;
   wavefront.add(ray, sampler);
   wavefront.trace(rays);

@@ -97,7 +97,7 @@ PrimaryState walk_of(const Scene& scene, const PathRules& rules, Sampler&& sampl
   RayCounts rays;
   const Raster& image = scene.camera().raster();
   const Vec2 raster = image.sample(sampler.next2());
-  const Ray ray = leave_lens(scene.camera(), raster, sampler).ray;
+  const Ray ray = camera_ray(scene.camera(), raster, sampler).ray;
   const Color radiance = trace_path(scene, rules, ray, sampler, rays);
   if (!is_black(radiance))
     x.light.push_back({raster, radiance * (image.sampled_area() / image.pixels())});

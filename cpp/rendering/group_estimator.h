@@ -45,21 +45,21 @@ struct GroupProgress {
 };
 
 /// How much of what each group has recorded belongs to an image.
-using GroupScales = std::vector<double>;
+using GroupWeights = std::vector<double>;
 
-class GroupCombination {
+class GroupEstimator {
  public:
   /// `of_chains`: the mean of w2 L* / p over the samples that all groups share. `corrected`: lambda
   /// is not 0.
-  GroupCombination(std::vector<GroupProgress> groups, const Estimate& of_chains,
-                   bool corrected = true);
+  GroupEstimator(std::vector<GroupProgress> groups, const Estimate& of_chains,
+                 bool corrected = true);
 
   /// I_g; from the spread over the groups the error of their mean is estimated.
-  GroupScales group(int g) const;
+  GroupWeights group(int g) const;
   /// The mean of the groups that have begun.
-  GroupScales mean() const;
+  GroupWeights mean() const;
   /// The common error of all groups: R, times the standard error of M, and times missing().
-  GroupScales common_error() const;
+  GroupWeights common_error() const;
   /// The brightness that the samples have found beyond that of the image (or below, if negative),
   /// if it is significant: more than 2.5 standard errors.
   double missing() const { return missing_; }

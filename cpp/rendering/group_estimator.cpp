@@ -1,4 +1,4 @@
-#include "rendering/group_combination.h"
+#include "rendering/group_estimator.h"
 
 #include "math/vec.h"
 
@@ -6,8 +6,8 @@
 
 namespace mlt {
 
-GroupCombination::GroupCombination(std::vector<GroupProgress> groups, const Estimate& of_chains,
-                                   bool corrected)
+GroupEstimator::GroupEstimator(std::vector<GroupProgress> groups, const Estimate& of_chains,
+                               bool corrected)
     : groups_(std::move(groups)), of_chains_(of_chains) {
   MeanSums by_chains, bootstrap;
   for (int g = 0; g < count(); ++g) {
@@ -24,18 +24,18 @@ GroupCombination::GroupCombination(std::vector<GroupProgress> groups, const Esti
 }
 
 /// The estimate M_g.
-Estimate GroupCombination::samples_of(int g) const {
+Estimate GroupEstimator::samples_of(int g) const {
   return pooled(estimate(groups_[g].bootstrap.of_chains), of_chains_);
 }
 
 /// The brightness b_g D_g of the chains of a group; 0 without chains.
-double GroupCombination::chain_brightness(int g) const {
+double GroupEstimator::chain_brightness(int g) const {
   const GroupProgress& group = groups_[g];
   return has_chains(g) ? group.b * group.brightness / static_cast<double>(group.steps) : 0.0;
 }
 
 /// The correction of a group. It takes at most 1 / (count - 1) of the others' light from them.
-GroupCombination::Correction GroupCombination::correction(int g) const {
+GroupEstimator::Correction GroupEstimator::correction(int g) const {
   const double missing = lambda_ * (samples_of(g).mean - chain_brightness(g));
   const double others = chain_brightness_ - chain_brightness(g);
   if (!(others > 0)) return {0, std::min(0.0, missing)};
@@ -43,10 +43,10 @@ GroupCombination::Correction GroupCombination::correction(int g) const {
   return {of_others, missing - of_others};
 }
 
-GroupScales GroupCombination::group(int g) const {
+GroupWeights GroupEstimator::group(int g) const {
   const Correction add = correction(g);
   const double own = chain_brightness(g), others = chain_brightness_ - own;
-  GroupScales scales(count());
+  GroupWeights scales(count());
   for (int h = 0; h < count(); ++h) {
     if (!has_chains(h)) continue;
     const double factor = h != g    ? (others > 0 ? add.of_others / others : 0.0)
@@ -57,13 +57,13 @@ GroupScales GroupCombination::group(int g) const {
   return scales;
 }
 
-GroupScales GroupCombination::mean() const {
-  GroupScales mean(count());
+GroupWeights GroupEstimator::mean() const {
+  GroupWeights mean(count());
   int begun_groups = 0;
   for (int g = 0; g < count(); ++g) begun_groups += begun(g);
   for (int g = 0; g < count(); ++g) {
     if (!begun(g)) continue;
-    const GroupScales own = group(g);
+    const GroupWeights own = group(g);
     for (int h = 0; h < count(); ++h) mean[h] += own[h] / begun_groups;
   }
   // A sum is negative if several groups are that bright.
@@ -71,8 +71,8 @@ GroupScales GroupCombination::mean() const {
   return mean;
 }
 
-GroupScales GroupCombination::common_error() const {
-  GroupScales scales(count());
+GroupWeights GroupEstimator::common_error() const {
+  GroupWeights scales(count());
   if (of_chains_.count == 0 || !(chain_brightness_ > 0)) return scales;
   const double share =
       static_cast<double>(of_chains_.count) / static_cast<double>(samples_of(0).count);

@@ -2,7 +2,7 @@
 // come from the same bootstrap, and the spread of the groups is the error.
 #include "base/rng.h"
 #include "harness/statistics.h"
-#include "rendering/group_combination.h"
+#include "rendering/group_estimator.h"
 
 #include <gtest/gtest.h>
 
@@ -36,8 +36,8 @@ struct Toy {
     for (int i = 0; i < samples; ++i) sums.add(target(rng.next()));
     of_chains = estimate(sums);
   }
-  GroupCombination combination() const { return {progress, of_chains}; }
-  double image(const GroupScales& scales) const {
+  GroupEstimator combination() const { return {progress, of_chains}; }
+  double image(const GroupWeights& scales) const {
     double sum = 0;
     for (size_t g = 0; g < recorded.size(); ++g) sum += scales[g] * recorded[g];
     return sum;
@@ -48,7 +48,7 @@ struct Toy {
   Estimate of_chains;
 };
 
-TEST(GroupCombination, HasNoStartUpBias) {
+TEST(GroupEstimator, HasNoStartUpBias) {
   for (const int samples : {0, 5, 200}) {
     Moments images;
     for (uint64_t seed = 0; seed < 4000; ++seed) {
@@ -60,14 +60,14 @@ TEST(GroupCombination, HasNoStartUpBias) {
   }
 }
 
-TEST(GroupCombination, WithoutSamplesIsTheMeanOfEachGroupTimesItsB) {
+TEST(GroupEstimator, WithoutSamplesIsTheMeanOfEachGroupTimesItsB) {
   const Toy toy(3, 8, 5, 0);
   double mean = 0;
   for (size_t g = 0; g < 8; ++g) mean += toy.progress[g].b * toy.recorded[g] / 100 / 8;
   EXPECT_NEAR(toy.image(toy.combination().mean()), mean, 1e-12);
 }
 
-TEST(GroupCombination, LeavesOutGroupsThatHaveNotBegun) {
+TEST(GroupEstimator, LeavesOutGroupsThatHaveNotBegun) {
   Toy toy(3, 8, 5, 0);
   toy.progress[7].steps = 0;
   double mean = 0;
@@ -75,18 +75,18 @@ TEST(GroupCombination, LeavesOutGroupsThatHaveNotBegun) {
   EXPECT_NEAR(toy.image(toy.combination().mean()), mean, 1e-12);
 }
 
-TEST(GroupCombination, IsAsBrightAsTheSamplesSay) {
+TEST(GroupEstimator, IsAsBrightAsTheSamplesSay) {
   Toy toy(4, 8, 50, 100000);
   for (GroupProgress& group : toy.progress) group.bootstrap = {};
   for (double& recorded : toy.recorded) recorded = 100;  // the whole image
   EXPECT_NEAR(toy.image(toy.combination().mean()), toy.of_chains.mean, 0.01);
 }
 
-TEST(GroupCombination, TakesNoLightThatIsNotThere) {
+TEST(GroupEstimator, TakesNoLightThatIsNotThere) {
   for (const double excess : {1.5, 3.0, 30.0, 1000.0}) {
     Toy toy(5, 16, 50, 100000);
     toy.progress[3].brightness *= excess;
-    const GroupCombination groups = toy.combination();
+    const GroupEstimator groups = toy.combination();
     for (const double scale : groups.mean()) EXPECT_GE(scale, 0) << excess;
     double brightness = 0;
     for (int g = 0; g < 16; ++g)
@@ -96,11 +96,11 @@ TEST(GroupCombination, TakesNoLightThatIsNotThere) {
   }
 }
 
-TEST(GroupCombination, TellsItsError) {
+TEST(GroupEstimator, TellsItsError) {
   Moments images, variances;
   for (uint64_t seed = 0; seed < 4000; ++seed) {
     const Toy toy(seed, 16, 50, 200);
-    const GroupCombination groups = toy.combination();
+    const GroupEstimator groups = toy.combination();
     Moments spread;
     for (int g = 0; g < 16; ++g) spread.add(toy.image(groups.group(g)));
     images.add(toy.image(groups.mean()));
