@@ -167,7 +167,8 @@ void BidirectionalSampler::sample_backgrounds() {
   direct_backgrounds_.resize(camera_.size());
   for (size_t i = 0; i < camera_.size(); ++i) {
     LightSample& light = direct_backgrounds_[i];
-    if (!backgrounds_.add(*scene_, direct_u_[i], wavelength_, light)) light.emitter = nullptr;
+    const Vec3& from = camera_[i].vertex.at.p;
+    if (!backgrounds_.add(*scene_, from, direct_u_[i], wavelength_, light)) light.emitter = nullptr;
   }
   backgrounds_.sample_all(*scene_);
 }

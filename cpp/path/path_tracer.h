@@ -18,7 +18,7 @@ inline double per_solid_angle(const Vec3& from, const SurfacePoint& x0, const Ve
 /// Density in solid angle with which next-event estimation at `from` samples x0, in direction w.
 inline double direct_pdf(const Scene& scene, const Emitter& emitter, const Vec3& from,
                          const SurfacePoint& x0, const Vec3& w) {
-  return scene.emitter_probability(emitter.index()) * emitter.pdf_direct(from, x0) *
+  return scene.emitter_probability_for(emitter.index(), from) * emitter.pdf_direct(from, x0) *
          per_solid_angle(from, x0, w);
 }
 

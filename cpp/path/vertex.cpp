@@ -30,7 +30,7 @@ double light_position_pdf(const Scene& scene, const Vertex& x0) {
 }
 
 double direct_position_pdf(const Scene& scene, const Vertex& x0, const SurfacePoint& from) {
-  return scene.emitter_probability(x0.emitter) *
+  return scene.emitter_probability_for(x0.emitter, from.p) *
          scene.emitters()[x0.emitter]->pdf_direct(from.p, x0.at);
 }
 

@@ -29,7 +29,8 @@ inline LightSample sample_light_position(const Scene& scene, Vec3 u, double time
 }
 /// Samples a position on a light for next-event estimation at the point `from`, at its time.
 inline LightSample sample_direct_position(const Scene& scene, const SurfacePoint& from, Vec3 u) {
-  const EmitterChoice choice = scene.choose_emitter(u.x);
+  const EmitterChoice choice = scene.choose_emitter_for(from.p, u.x);
+  if (!(choice.probability > 0)) return {choice.emitter, {}};
   LightSample light{choice.emitter, choice.emitter->sample_direct(from.p, {u.y, u.z}, from.time)};
   light.x0.at.wavelength = from.wavelength;
   light.x0.pdf *= choice.probability;

@@ -30,25 +30,6 @@ Bounds enclosing_sphere(const std::vector<ShapePtr>& shapes, const Camera& camer
   return {0.5 * (low + high), radius > 0 ? radius * (1 + 1e-6) : 1.0};
 }
 
-/// The probabilities of lights, half uniform and half in proportion to power: a weak light may be
-/// the only one in a room. The sampling weights are factors of them.
-Discrete choose_by_power(const std::vector<EmitterPtr>& emitters) {
-  std::vector<double> weights;
-  double total = 0;
-  for (const EmitterPtr& emitter : emitters) {
-    weights.push_back(std::max(0.0, target_luminance(emitter->power())));
-    total += weights.back();
-  }
-  bool any = false;
-  for (size_t i = 0; i < weights.size(); ++i) {
-    weights[i] = (total > 0 ? weights[i] / total : 0.0) + 1.0 / weights.size();
-    weights[i] *= emitters[i]->sampling_weight();
-    any = any || weights[i] > 0;
-  }
-  if (!any) throw SceneError("the sampling_weight of every emitter is 0; make one positive");
-  return Discrete(weights);
-}
-
 LambertianMesh lambertian_mesh(const Shape& shape) {
   const Mesh* mesh = shape.as_mesh();
   if (!mesh || !mesh->bsdf().lambertian().known()) return {};
@@ -98,9 +79,10 @@ Scene::Scene(std::vector<ShapePtr> shapes, std::vector<EmitterPtr> emitters, Cam
     infinite_.push_back(static_cast<uint32_t>(i));
     if (!emitters_[i]->delta()) backgrounds_.push_back(static_cast<uint32_t>(i));
   }
-  emitter_choice_ = choose_by_power(emitters_);
+  const Shutter& shutter = camera_->shutter();
+  light_choice_ = LightChoice(emitters_, shutter.open, shutter.close);
   for (size_t i = 0; i < emitters_.size(); ++i)
-    mesh_lights_.push_back(mlt::mesh_light(*emitters_[i], emitter_choice_.pdf(i)));
+    mesh_lights_.push_back(mlt::mesh_light(*emitters_[i], light_choice_.probability(i)));
   accel_ = known && known->serves(shapes_, camera_->shutter())
                ? known
                : std::make_shared<const Accel>(shapes_, camera_->shutter());
@@ -241,10 +223,10 @@ SurfacePoint Scene::point_at_infinity(const Vec3& w, double wavelength) {
   return at;
 }
 
-EmitterChoice Scene::choose_emitter(double& u) const {
-  const auto [index, remainder] = emitter_choice_.sample_reuse(u);
-  u = remainder;
-  return {emitters_[index].get(), static_cast<uint32_t>(index), emitter_choice_.pdf(index)};
+EmitterChoice Scene::choose_emitter(double& u) const { return choice(light_choice_.choose(u)); }
+
+EmitterChoice Scene::choose_emitter_for(const Vec3& from, double& u) const {
+  return choice(light_choice_.choose_for(from, u));
 }
 
 size_t Scene::triangle_count() const {

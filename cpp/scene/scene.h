@@ -1,11 +1,11 @@
 // An immutable scene: shapes, lights and a camera, safe to share between threads.
 #pragma once
 
-#include "math/distribution.h"
 #include "scene/accel.h"
 #include "scene/camera.h"
 #include "scene/emitter.h"
 #include "scene/film_settings.h"
+#include "scene/light_choice.h"
 #include "scene/media.h"
 #include "scene/shape.h"
 
@@ -131,23 +131,30 @@ class Scene {
 
   /// Chooses a light; u is rescaled so that it can be used again.
   EmitterChoice choose_emitter(double& u) const;
-  double emitter_probability(uint32_t index) const { return emitter_choice_.pdf(index); }
+  double emitter_probability(uint32_t index) const { return light_choice_.probability(index); }
+  /// As above, for next-event estimation at the point `from`; probability 0: failed.
+  EmitterChoice choose_emitter_for(const Vec3& from, double& u) const;
+  double emitter_probability_for(uint32_t index, const Vec3& from) const {
+    return light_choice_.probability_for(index, from);
+  }
+  const LightChoice& light_choice() const { return light_choice_; }
   /// The shape at this place in shapes(), if it is a Lambertian mesh.
   const LambertianMesh& lambertian_mesh(uint32_t shape) const { return lambertian_meshes_[shape]; }
   /// The light at this place in emitters(), if it is an emissive mesh.
   const MeshLight& mesh_light(uint32_t index) const { return mesh_lights_[index]; }
   /// The light that choose_emitter(u) chooses, if it is an emissive mesh.
   const MeshLight& choose_mesh_light(double u) const {
-    return mesh_lights_[mesh_lights_.size() > 1 ? emitter_choice_.sample(u) : 0];
+    return mesh_lights_[mesh_lights_.size() > 1 ? light_choice_.index_of(u) : 0];
   }
-  /// A u with which choose_emitter chooses this light and leaves v.
-  double invert_choice(uint32_t index, double v) const { return emitter_choice_.invert(index, v); }
 
   size_t triangle_count() const;
   size_t bytes() const;  ///< Bytes of the shapes' buffers.
 
  private:
   void arrive(const Ray& ray, const Hit& hit, SurfacePoint& at) const;
+  EmitterChoice choice(const LightIndex& chosen) const {
+    return {emitters_[chosen.index].get(), chosen.index, chosen.probability};
+  }
   bool find_segment(const SurfacePoint& a, const SurfacePoint& b, double time, Ray& ray) const;
   /// Puts a ray that starts an edge at this point into its medium. Not inlined: most scenes have
   /// none.
@@ -178,7 +185,7 @@ class Scene {
   Media media_;
   MediumIndex outside_ = no_medium;         ///< Where no boundary is met.
   std::vector<bool> lights_in_many_media_;  ///< One for each emitter.
-  Discrete emitter_choice_;
+  LightChoice light_choice_;
   std::vector<MeshLight> mesh_lights_;             ///< One for each emitter.
   std::vector<LambertianMesh> lambertian_meshes_;  ///< One for each shape.
 };

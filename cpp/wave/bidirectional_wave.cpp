@@ -32,7 +32,7 @@ bool BidirectionalWave::supports(const Scene& scene, const BidirectionalSettings
   const Shutter& shutter = scene.camera().shutter();
   if (!settings.sample_direct || settings.heuristic == Heuristic::maximum || settings.manifolds)
     return false;
-  if (scene.has_passages()) return false;
+  if (scene.has_passages() || scene.light_choice().depends_on_point()) return false;
   if (!scene.camera().delta_position() || shutter.open != shutter.close || scene.accel().moves())
     return false;
   for (const EmitterPtr& emitter : scene.emitters())
@@ -124,8 +124,8 @@ void BidirectionalWave::walk_from_lights(RayCounts& rays) {
 
 /// Samples a point on a light, by the numbers of this sample.
 inline void BidirectionalWave::draw_light(int sample, int to) {
-  lights_.set_light(to, scene_->choose_mesh_light(u_choice_[sample]), {u_x_[sample], u_y_[sample]},
-                    wavelength_[sample]);
+  const MeshLight& light = scene_->choose_mesh_light(u_choice_[sample]);
+  lights_.set_light(to, light, light.pdf, {u_x_[sample], u_y_[sample]}, wavelength_[sample]);
 }
 
 /// Starts walks at lights, which emit as a Lambertian surface scatters light from above.

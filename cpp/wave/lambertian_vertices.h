@@ -82,8 +82,9 @@ struct LambertianVertices {
     }
     textured_count_ = 0;
   }
-  /// Sets the light point of the i-th path to that of sample_position(u) on this light.
-  void set_light(int i, const MeshLight& chosen, const Vec2& u, double wavelength) {
+  /// Sets the light point of the i-th path to that of sample_position(u) on this light, which has
+  /// the density `pdf`.
+  void set_light(int i, const MeshLight& chosen, double pdf, const Vec2& u, double wavelength) {
     const Mesh& mesh = *chosen.mesh;
     const auto [triangle, b] = mesh.sample_barycentrics(u);
     light.set(i, mesh.record(triangle), static_cast<float>(b.x), static_cast<float>(b.y));
@@ -91,7 +92,7 @@ struct LambertianVertices {
       const Vec3f ng = light.ng[i];
       light.ng.set(i, ng * std::copysign(1.0f, dot(ng, mesh.normal_sum(triangle, Vec2f(b)))));
     }
-    light_pdf[i] = static_cast<float>(chosen.pdf);
+    light_pdf[i] = static_cast<float>(pdf);
     if (wavelength < 0) {
       radiance[i] = &chosen.rgb;
     } else {

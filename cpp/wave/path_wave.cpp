@@ -146,13 +146,27 @@ void BasicPathWave<Numbers>::choose_lights(int depth) {
   for (int i = 0; i < count_; ++i) {
     if (!wants_light(i)) continue;
     const Vec3 u = numbers_for_light(i);
-    const MeshLight& light = scene_->choose_mesh_light(u.x);
-    if (lambertian_.f[i] && light.mesh)
-      lambertian_.set_light(i, light, {u.y, u.z}, walk(i).ray.wavelength);
+    const auto [light, pdf] = choose_mesh_light(i, u.x);
+    if (lambertian_.f[i] && light->mesh)
+      lambertian_.set_light(i, *light, pdf, {u.y, u.z}, walk(i).ray.wavelength);
     else
-      choose_other_light(i, u, light.infinite);
+      choose_other_light(i, u, light->infinite);
   }
   sample_other_lights();
+}
+
+/// The light that u chooses for the vertex, and the density of positions if it is an emissive mesh.
+template <class Numbers>
+inline std::pair<const MeshLight*, double> BasicPathWave<Numbers>::choose_mesh_light(
+    int i, double u) const {
+  if (!scene_->light_choice().depends_on_point()) {
+    const MeshLight& light = scene_->choose_mesh_light(u);
+    return {&light, light.pdf};
+  }
+  const Vec3 from = single_[i] >= 0 ? singles_[single_[i]].at.p : Vec3(lambertian_.p[i]);
+  const EmitterChoice choice = scene_->choose_emitter_for(from, u);
+  const MeshLight& light = scene_->mesh_light(choice.index);
+  return {&light, light.mesh ? choice.probability / light.mesh->area() : 0};
 }
 
 /// Takes the numbers for a light that is no emissive mesh, or for a vertex that is not Lambertian.
@@ -179,11 +193,12 @@ void BasicPathWave<Numbers>::sample_other_lights() {
   for (int j = 0; j < single_count_; ++j) {
     SingleVertex& single = singles_[j];
     if (single.samples_light &&
-        !backgrounds_.add(*scene_, single.u, single.at.wavelength, single.light))
+        !backgrounds_.add(*scene_, single.at.p, single.u, single.at.wavelength, single.light))
       single.light = sample_direct_position(*scene_, single.at, single.u);
   }
   for (SkyVertex& vertex : sky_vertices_)
-    backgrounds_.add(*scene_, vertex.u, walk(vertex.path).ray.wavelength, vertex.light);
+    backgrounds_.add(*scene_, Vec3(lambertian_.p[vertex.path]), vertex.u,
+                     walk(vertex.path).ray.wavelength, vertex.light);
   backgrounds_.sample_all(*scene_);
 }
 

@@ -116,6 +116,7 @@ class BasicPathWave {
   void find_vertex(int i, int depth);
   void find_bright_or_other(int i, const Hit& hit, int depth);
   void choose_lights(int depth);
+  std::pair<const MeshLight*, double> choose_mesh_light(int i, double u) const;
   void choose_other_light(int i, const Vec3& u, bool infinite);
   void add_single(int i, const SurfacePoint& at);
   void sample_other_lights();

@@ -154,7 +154,10 @@ inline NaiveDensities naive_densities(const Scene& scene, const Path& path, Flaw
   const double choice = scene.emitter_probability(x0.emitter);
   p.from_light[0] = choice * emitter.pdf_position(x0.at);
   p.direct =
-      flaw == Flaw::no_direct ? p.from_light[0] : choice * emitter.pdf_direct(path[1].at.p, x0.at);
+
+      flaw == Flaw::no_direct ? p.from_light[0]
+                              : scene.emitter_probability_for(x0.emitter, path[1].at.p) *
+                                    emitter.pdf_direct(path[1].at.p, x0.at);
   p.from_camera[k] = scene.camera().pdf_position(xk.at);
 
   const auto cosine = [](const SurfacePoint& at, const Vec3& w) {
