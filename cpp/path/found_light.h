@@ -17,12 +17,13 @@ struct ImageLight {
 
 /// The light of one path, with what its weight beside chains depends on.
 struct FoundLight : ImageLight {
-  /// The factor that turns rgb into f / P, with P the density of all techniques.
+  /// The factor that turns rgb into f / P, with P the density of all techniques; set by path
+  /// tracing with the balance heuristic and by bidirectional path tracing.
   double over_density = 1;
   double certainty = 0;  ///< See certainty() of path_terms.h.
   /// Set where there is a target T:
   double weight = 0;               ///< Contribution to b, the integral of the target: T / p.
-  double target_over_density = 0;  ///< T / P, see FamilyWeights.
+  double target_over_density = 0;  ///< T / P (see FamilyWeights), or what stands for it.
 
   bool valid() const {
     return is_finite(rgb) && min_component(rgb) >= 0 && weight >= 0 && std::isfinite(weight) &&

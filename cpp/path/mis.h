@@ -56,8 +56,8 @@ struct TechniqueSums {
   TechniqueSums with(double technique) const {
     return {technique + sum, sqr(technique) + squares, std::max(technique, largest)};
   }
-  /// The sums after the joint has moved inwards over a vertex, which multiplies densities by
-  /// 1 / `quotient`.
+  /// The sums after the joint has moved inwards over a vertex, which divides p_s, and so
+  /// multiplies all r_i by `quotient`.
   TechniqueSums over(double quotient) const {
     if (!(quotient > 0) || sum == 0) return {};  // 0 stays 0, also where the quotient is infinite.
     return {quotient * sum, squares > 0 ? sqr(quotient) * squares : 0, quotient * largest};

@@ -17,7 +17,7 @@ class PathTargeting {
   template <class Found>
   void add(FoundLight light, Found&& found) {
     if (light.own_pixel) light.rgb /= unit_;
-    if (target_luminance(light.rgb) <= 0) return;
+    if (is_black(light.rgb)) return;
     light.weight = target_->of(light.rgb, light.raster, light.certainty);
     light.target_over_density = light.weight * light.over_density;
     found(light);

@@ -70,16 +70,17 @@ class EstimatorTaker : public SampleTaker {
 
  private:
   void trace_wave(const CellStreams& streams, SampleSink& sink, RayCounts& rays) {
-    int left = 0;
+    if (cells_.empty()) return;
+    int fallbacks = 0;
     wave_->trace(rays);
     for (int i = 0; i < wave_->size(); ++i) {
       if (wave_->fell_back(i))
         sample_cell(cells_[i], streams, sink, rays);
       else
         show(i, sink);
-      left += wave_->fell_back(i);
+      fallbacks += wave_->fell_back(i);
     }
-    wave_worthwhile_ = 2 * left <= wave_->size();
+    wave_worthwhile_ = 2 * fallbacks <= wave_->size();
     wave_->clear();
     cells_.clear();
   }
@@ -93,7 +94,7 @@ class EstimatorTaker : public SampleTaker {
   Sum sum_;
   std::unique_ptr<Wave> wave_;
   std::vector<Vec2i> cells_;     ///< Cells of the samples in the wave.
-  bool wave_worthwhile_ = true;  ///< Unless most samples of the last one were left.
+  bool wave_worthwhile_ = true;  ///< False after one of which most samples fell back.
 };
 
 /// Renders the image by an estimator alone.

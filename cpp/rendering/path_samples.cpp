@@ -10,7 +10,7 @@ namespace {
 
 using Source = MetropolisAlgorithm::Source;
 
-// Costs of a ray, measured in bench_ray_cost; less where all is Lambertian.
+// Costs of a ray over that of path_candidates(), and their range in bench_ray_cost.
 constexpr double traced_cost = 0.35;        ///< .29 to .46.
 constexpr double bidirectional_cost = 0.8;  ///< .75 to .93.
 constexpr double wave_cost = 0.35;          ///< .3 to .4, bidirectional.

@@ -64,12 +64,19 @@ double cost(const LightBounds& bounds) {
   return bounds.power * solid_angle * (d.x * d.y + d.y * d.z + d.z * d.x);
 }
 
-using Place = std::vector<uint32_t>::iterator;
+using Iterator = std::vector<uint32_t>::iterator;
 
-/// The place between two buckets along one axis where the children cost least; `last` if all are in
+/// Some of the lights, by their indices.
+struct Range {
+  Iterator first, last;
+  Iterator begin() const { return first; }
+  Iterator end() const { return last; }
+};
+
+/// The place between two buckets along one axis where the children cost least; the end if all are in
 /// one bucket.
-Place split_by_cost(const std::vector<LightBounds>& lights, Place first, Place last,
-                    const Vec3& low, const Vec3& high) {
+Iterator split_by_cost(const std::vector<LightBounds>& lights, const Range& range, const Vec3& low,
+                       const Vec3& high) {
   int best_axis = -1, best_bucket = 0;
   double least = infinity;
   const auto bucket_of = [&](uint32_t light, int axis) {
@@ -79,9 +86,9 @@ Place split_by_cost(const std::vector<LightBounds>& lights, Place first, Place l
   for (int axis = 0; axis < 3; ++axis) {
     if (!(high[axis] > low[axis])) continue;
     LightBounds in_bucket[buckets], above[buckets];
-    for (Place i = first; i != last; ++i) {
-      LightBounds& bucket = in_bucket[bucket_of(*i, axis)];
-      bucket = together(bucket, lights[*i]);
+    for (const uint32_t i : range) {
+      LightBounds& bucket = in_bucket[bucket_of(i, axis)];
+      bucket = together(bucket, lights[i]);
     }
     for (int b = buckets - 2; b >= 0; --b) above[b] = together(above[b + 1], in_bucket[b + 1]);
     LightBounds below;
@@ -95,18 +102,18 @@ Place split_by_cost(const std::vector<LightBounds>& lights, Place first, Place l
       }
     }
   }
-  if (best_axis < 0) return last;
-  return std::partition(first, last,
+  if (best_axis < 0) return range.last;
+  return std::partition(range.first, range.last,
                         [&](uint32_t light) { return bucket_of(light, best_axis) <= best_bucket; });
 }
 
 /// Halves lights along the longest side of the box of their centres.
-Place split_by_number(const std::vector<LightBounds>& lights, Place first, Place last,
-                      const Vec3& low, const Vec3& high) {
+Iterator split_by_number(const std::vector<LightBounds>& lights, const Range& range,
+                         const Vec3& low, const Vec3& high) {
   const Vec3 d = high - low;
   const int axis = d.x > d.y && d.x > d.z ? 0 : d.y > d.z ? 1 : 2;
-  const Place middle = first + (last - first) / 2;
-  std::nth_element(first, middle, last, [&](uint32_t a, uint32_t b) {
+  const Iterator middle = range.first + (range.last - range.first) / 2;
+  std::nth_element(range.first, middle, range.last, [&](uint32_t a, uint32_t b) {
     return centre(lights[a])[axis] < centre(lights[b])[axis];
   });
   return middle;
@@ -114,113 +121,158 @@ Place split_by_number(const std::vector<LightBounds>& lights, Place first, Place
 
 }  // namespace
 
-LightTree::Node::Node(const LightBounds& bounds)
-    : centre(mlt::centre(bounds)),
-      axis(bounds.axis),
-      radius2(0.25 * length_squared(bounds.high - bounds.low)),
-      cos_normals(bounds.cos_normals),
-      sin_normals(sin_of(bounds.cos_normals)),
-      cos_emission(bounds.cos_emission),
-      power(bounds.power) {}
+/// A node of the tree while it is built, with two children or, as a leaf, a light.
+struct LightTree::Binary {
+  LightBounds bounds;
+  uint32_t first = 0, second = 0;  ///< Indices of the children; 0: a leaf.
+  uint32_t light = 0;
 
-double LightTree::Node::importance(const Vec3& p) const {
-  const Vec3 between = p - centre;
-  const double distance2 = length_squared(between);
-  if (distance2 <= radius2) return power / std::max(radius2, 1e-100);
-  const double most = power / distance2;
-  if (cos_emission <= -1) return most;
-  const double cosine = dot(axis, between) / std::sqrt(distance2);
-  if (cosine >= cos_normals) return most;
-  const double sine = sin_of(cosine);
-  // The angle beyond the cone of the normals, less that of the box as p sees it: the least angle
-  // between p and a normal, as seen from a light.
-  const double beyond = cosine * cos_normals + sine * sin_normals;
-  const double sin2_box = radius2 / distance2, cos_box = std::sqrt(1 - sin2_box);
-  if (beyond >= cos_box) return most;
-  const double least =
-      beyond * cos_box + (sine * cos_normals - cosine * sin_normals) * std::sqrt(sin2_box);
-  return least > cos_emission ? most * least : 0;
+  static uint32_t build(const std::vector<LightBounds>& lights, Range range, int depth,
+                        std::vector<Binary>& nodes);
+};
+
+uint32_t LightTree::Binary::build(const std::vector<LightBounds>& lights, Range range, int depth,
+                                  std::vector<Binary>& nodes) {
+  const auto index = static_cast<uint32_t>(nodes.size());
+  nodes.emplace_back();
+  LightBounds all;
+  Vec3 low(infinity), high(-infinity);
+  for (const uint32_t i : range) {
+    all = together(all, lights[i]);
+    low = glm::min(low, centre(lights[i]));
+    high = glm::max(high, centre(lights[i]));
+  }
+  nodes[index].bounds = all;
+  nodes[index].light = *range.first;
+  if (range.last - range.first == 1) return index;
+  Iterator middle = depth < deepest_by_cost ? split_by_cost(lights, range, low, high) : range.last;
+  if (middle == range.last) middle = split_by_number(lights, range, low, high);
+  const uint32_t first = build(lights, {range.first, middle}, depth + 1, nodes);
+  const uint32_t second = build(lights, {middle, range.last}, depth + 1, nodes);
+  nodes[index].first = first;
+  nodes[index].second = second;
+  return index;
 }
 
-LightTree::LightTree(const std::vector<LightBounds>& lights)
-    : turns_(lights.size()), has_(lights.size()) {
+LightTree::LightTree(const std::vector<LightBounds>& lights) : places_(lights.size()) {
   std::vector<uint32_t> order;
   for (uint32_t i = 0; i < lights.size(); ++i)
     if (lights[i].power > 0) order.push_back(i);
   if (order.empty()) throw UsageError("no light has any power");
-  nodes_.reserve(2 * order.size() - 1);
-  build(lights, order.begin(), order.end(), 0, 0);
+  std::vector<Binary> binary;
+  Binary::build(lights, {order.begin(), order.end()}, 0, binary);
+  flatten(binary, 0, {});
 }
 
-uint32_t LightTree::build(const std::vector<LightBounds>& lights, Place first, Place last,
-                          uint64_t turns, int depth) {
-  LightBounds all;
-  Vec3 low(infinity), high(-infinity);
-  for (Place i = first; i != last; ++i) {
-    all = together(all, lights[*i]);
-    low = glm::min(low, centre(lights[*i]));
-    high = glm::max(high, centre(lights[*i]));
+/// Makes one node of a node of the binary tree and of those below it, the most important ones first,
+/// until it has as many children as fit.
+uint32_t LightTree::flatten(const std::vector<Binary>& binary, uint32_t root, const Place& above) {
+  std::vector<uint32_t> children{root};
+  const auto worth = [&](uint32_t i) { return binary[i].first ? cost(binary[i].bounds) : -1; };
+  while (children.size() < width) {
+    const auto next = std::max_element(children.begin(), children.end(),
+                                       [&](uint32_t a, uint32_t b) { return worth(a) < worth(b); });
+    if (!binary[*next].first) break;
+    const Binary& parent = binary[*next];
+    *next = parent.first;
+    children.push_back(parent.second);
   }
   const auto index = static_cast<uint32_t>(nodes_.size());
-  nodes_.emplace_back(all);
-  if (last - first == 1) {
-    nodes_[index].light = *first;
-    turns_[*first] = turns;
-    has_[*first] = true;
-    return index;
+  nodes_.emplace_back();
+  nodes_[index].above = above;
+  for (int lane = 0; lane < static_cast<int>(children.size()); ++lane) {
+    const Binary& child = binary[children[lane]];
+    const bool is_light = !child.first;
+    const Place here{index, lane};
+    const uint32_t below = is_light ? child.light : flatten(binary, children[lane], here);
+    if (is_light) places_[child.light] = here;
+    nodes_[index].set(lane, child.bounds);
+    nodes_[index].child[lane] = below;
+    nodes_[index].is_light[lane] = is_light;
   }
-  Place middle = depth < deepest_by_cost ? split_by_cost(lights, first, last, low, high) : last;
-  if (middle == last) middle = split_by_number(lights, first, last, low, high);
-  build(lights, first, middle, turns, depth + 1);
-  const uint32_t second = build(lights, middle, last, turns | (uint64_t{1} << depth), depth + 1);
-  nodes_[index].second = second;
   return index;
 }
 
-double LightTree::first_share(const Node& node, const Vec3& p) const {
-  const double first = (&node + 1)->importance(p);
-  return first / (first + nodes_[node.second].importance(p));
+void LightTree::Node::set(int lane, const LightBounds& bounds) {
+  const Vec3 middle = centre(bounds);
+  x[lane] = static_cast<float>(middle.x);
+  y[lane] = static_cast<float>(middle.y);
+  z[lane] = static_cast<float>(middle.z);
+  radius2[lane] = static_cast<float>(0.25 * length_squared(bounds.high - bounds.low));
+  axis_x[lane] = static_cast<float>(bounds.axis.x);
+  axis_y[lane] = static_cast<float>(bounds.axis.y);
+  axis_z[lane] = static_cast<float>(bounds.axis.z);
+  cos_normals[lane] = static_cast<float>(bounds.cos_normals);
+  sin_normals[lane] = static_cast<float>(sin_of(bounds.cos_normals));
+  cos_emission[lane] = static_cast<float>(bounds.cos_emission);
+  power[lane] = static_cast<float>(bounds.power);
+}
+
+/// With the angle of p beyond the cone of the normals, less that of the box as p sees it: the least
+/// angle between p and a normal, as seen from a light. In a loop without branches, which the
+/// compiler vectorises.
+void LightTree::Node::find_importances(const Vec3f& p, Importances& __restrict found) const {
+  for (int i = 0; i < width; ++i) {
+    const float dx = p.x - x[i], dy = p.y - y[i], dz = p.z - z[i];
+    const float r2 = std::max(radius2[i], 1e-30f);
+    const float distance2 = std::max(dx * dx + dy * dy + dz * dz, r2);
+    const float cosine = (axis_x[i] * dx + axis_y[i] * dy + axis_z[i] * dz) / std::sqrt(distance2);
+    const float sine = std::sqrt(std::max(0.0f, 1 - cosine * cosine));
+    const float beyond = cosine * cos_normals[i] + sine * sin_normals[i];
+    const float sin2_box = r2 / distance2, cos_box = std::sqrt(1 - sin2_box);
+    const float less =
+        beyond * cos_box + (sine * cos_normals[i] - cosine * sin_normals[i]) * std::sqrt(sin2_box);
+    const bool facing = (cosine >= cos_normals[i]) | (beyond >= cos_box);
+    const float least = facing ? 1.0f : less;
+    const float all_round = cos_emission[i] <= -1 ? 1.0f : least;
+    found[i] = all_round > cos_emission[i] ? power[i] / distance2 * all_round : 0.0f;
+  }
 }
 
 LightTree::Choice LightTree::sample(const Vec3& p, double u) const {
-  const Node* node = &nodes_[0];
-  double probability = 1;
-  while (node->second) {
-    const double share = first_share(*node, p);
-    if (!(share >= 0)) return {0, 0, u};
-    const bool second = !(u < share);
-    const double own = second ? 1 - share : share;
-    u = std::min((second ? u - share : u) / own, 1 - 0x1p-53);
-    probability *= own;
-    node = second ? &nodes_[node->second] : node + 1;
+  uint32_t index = 0;
+  for (double probability = 1;;) {
+    const Node& node = nodes_[index];
+    Importances found;
+    node.find_importances(Vec3f(p), found);
+    double sums[width + 1] = {0};
+    for (int i = 0; i < width; ++i) sums[i + 1] = sums[i] + double{found[i]};
+    if (!(sums[width] > 0)) return {0, 0, u};
+    const double at = u * sums[width];
+    int lane = 0;
+    for (int i = 1; i < width; ++i) lane += at >= sums[i];
+    while (!(found[lane] > 0)) --lane;  // u was rounded past the last one
+    u = std::clamp((at - sums[lane]) / found[lane], 0.0, 1 - 0x1p-53);
+    probability *= found[lane] / sums[width];
+    index = node.child[lane];
+    if (node.is_light[lane]) return {index, probability, u};
   }
-  return {node->light, probability, u};
 }
 
 template <class Visit>
-void LightTree::descend(uint32_t light, const Vec3& p, Visit&& visit) const {
-  const Node* node = &nodes_[0];
-  for (uint64_t turns = turns_[light]; node->second; turns >>= 1) {
-    const bool second = turns & 1;
-    visit(second, first_share(*node, p));
-    node = second ? &nodes_[node->second] : node + 1;
+void LightTree::climb(uint32_t light, const Vec3& p, Visit&& visit) const {
+  for (Place at = places_[light]; at.lane >= 0; at = nodes_[at.node].above) {
+    Importances found;
+    nodes_[at.node].find_importances(Vec3f(p), found);
+    double below = 0, sum = 0;
+    for (int i = 0; i < width; ++i) {
+      below += i < at.lane ? double{found[i]} : 0;
+      sum += double{found[i]};
+    }
+    visit(below / sum, found[at.lane] / sum);
   }
 }
 
 double LightTree::probability(uint32_t light, const Vec3& p) const {
-  if (!has_[light]) return 0;
+  if (places_[light].lane < 0) return 0;
   double probability = 1;
-  descend(light, p, [&](bool second, double share) { probability *= second ? 1 - share : share; });
-  return probability >= 0 ? probability : 0;
+  climb(light, p, [&](double, double share) { probability *= share; });
+  return probability > 0 ? probability : 0;
 }
 
 double LightTree::invert(uint32_t light, const Vec3& p, double remainder) const {
-  double low = 0, width = 1;
-  descend(light, p, [&](bool second, double share) {
-    if (second) low += width * share;
-    width *= second ? 1 - share : share;
-  });
-  return low + remainder * width;
+  climb(light, p, [&](double below, double share) { remainder = below + remainder * share; });
+  return remainder;
 }
 
 }  // namespace mlt

@@ -41,30 +41,36 @@ class LightTree {
   double invert(uint32_t light, const Vec3& p, double remainder) const;
 
  private:
-  struct Node {
-    explicit Node(const LightBounds& bounds);
+  static constexpr int width = 8;
+  using Importances = float[width];
 
-    /// Roughly the irradiance at p, up to a factor; 0 only if no light reaches it.
-    double importance(const Vec3& p) const;
-
-    Vec3 centre, axis;
-    double radius2, cos_normals, sin_normals, cos_emission, power;
-    /// Index of the second child, the first one follows its parent; 0: a leaf.
-    uint32_t second = 0;
-    uint32_t light = 0;  ///< Of a leaf.
+  /// A child of a node, or a light: number `lane` of the children of nodes_[node].
+  struct Place {
+    uint32_t node = 0;
+    int lane = -1;  ///< -1: it has no parent, or the light has no power.
   };
-  uint32_t build(const std::vector<LightBounds>& lights, std::vector<uint32_t>::iterator first,
-                 std::vector<uint32_t>::iterator last, uint64_t turns, int depth);
-  /// The probability of the first child.
-  double first_share(const Node& node, const Vec3& p) const;
-  /// Calls visit(whether it is the second child, its probability) on the way down to a light.
+  struct Node {
+    /// Roughly the irradiance at p by each child, up to a factor; 0 only if no light reaches it.
+    void find_importances(const Vec3f& p, Importances& __restrict found) const;
+    void set(int lane, const LightBounds& bounds);
+
+    // Values of the children:
+    float x[width], y[width], z[width], radius2[width], axis_x[width], axis_y[width], axis_z[width];
+    float cos_normals[width], sin_normals[width], cos_emission[width];
+    float power[width];     ///< 0: there is no such child.
+    uint32_t child[width];  ///< Index in nodes_, or of the light.
+    bool is_light[width];
+    Place above;
+  };
+  struct Binary;
+
+  uint32_t flatten(const std::vector<Binary>& binary, uint32_t root, const Place& above);
+  /// On the way up from a light, calls visit(share of the children before, own share) at each node.
   template <class Visit>
-  void descend(uint32_t light, const Vec3& p, Visit&& visit) const;
+  void climb(uint32_t light, const Vec3& p, Visit&& visit) const;
 
   std::vector<Node> nodes_;
-  std::vector<uint64_t> turns_;  ///< For each light: bit d is set where the way turns to the second
-                                 ///< child at depth d.
-  std::vector<bool> has_;        ///< For each light: whether it has any power.
+  std::vector<Place> places_;  ///< One for each light.
 };
 
 }  // namespace mlt

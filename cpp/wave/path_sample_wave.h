@@ -53,14 +53,17 @@ class PathSampleWave {
     WaveNumbers& numbers = wave_.numbers();
     numbers.read2(numbers.places().next2(), 0, numbers.count(), &u_x_[0], &u_y_[0]);
     for (int i = 0; i < size(); ++i) rasters_[i] += Vec2(u_x_[i], u_y_[i]);
+    // What the camera does not ask for keeps other numbers.
     const auto at = LensNumbersOf<WaveNumbers::Place>::draw(numbers.places());
     if (!camera.delta_position())
       numbers.read2(at.position, 0, numbers.count(), &u_x_[0], &u_y_[0]);
-    if (shutter.open != shutter.close) numbers.read(at.time, 0, numbers.count(), &u_time_[0]);
+    const bool moves = shutter.open != shutter.close;
+    if (moves) numbers.read(at.time, 0, numbers.count(), &u_time_[0]);
     if (camera.spectral())
       numbers.read(numbers.places().next(), 0, numbers.count(), &u_spectral_[0]);
     for (int i = 0; i < size(); ++i) {
-      Ray ray = camera.ray(rasters_[i], {u_x_[i], u_y_[i]}, camera.time(u_time_[i]));
+      const double time = moves ? camera.time(u_time_[i]) : shutter.open;
+      Ray ray = camera.ray(rasters_[i], {u_x_[i], u_y_[i]}, time);
       ray.wavelength = camera.wavelength([&] { return u_spectral_[i]; });
       wave_.add(ray, weights_ ? weights_(rasters_[i]) : PathWeights());
     }
