@@ -143,10 +143,9 @@ TEST(Proposals, BidirectionalMutationMovesTheEndOnTheLens) {
 
 TEST(Proposals, BidirectionalMutationDrawsAFreshLightEnd) {
   Proposals p("mixed_lights", "bidirectional");
-  // On the lamp below the ceiling, as seen from where it is often chosen.
   const auto on_lamp = [&](const PathState& x) {
     return !x[0].at.infinite() && x[0].at.shape != SurfacePoint::no_shape && x[0].at.p.y > 0.97 &&
-           p.scene().emitter_probability_for(x[0].emitter, x[1].at.p) > 0.3;
+           p.scene().emitter_probability_for(x[0].emitter, x[1].at.p) > 0.1;
   };
   p.start("LDDE", [](const PathState&) { return Edit{0, 0, 1}; }, on_lamp);
   const Emitter& lamp = *p.scene().emitters()[p.x[0].emitter];
@@ -160,7 +159,8 @@ TEST(Proposals, BidirectionalMutationDrawsAFreshLightEnd) {
   };
   const ChiSquareResult result = chi_square_rect(sample, pdf, {0, 0}, {1, 1}, proposals, 4);
   EXPECT_GT(result.p_value, alpha) << result;
-  EXPECT_LT(result.failure_rate, 0.99) << result;
+  // Of five lights at most every seventh choice is this lamp; hundreds are enough for these cells.
+  EXPECT_GT((1 - result.failure_rate) * proposals, 500) << result;
 }
 
 TEST(Proposals, LensPerturbationMovesTheImagePosition) {
