@@ -172,7 +172,7 @@ void check_flags(const std::set<std::string>& given) {
     if (resumed && flag.is(Flag::fixed_by_resume))
       throw UsageError(first_spelling(flag) +
                        " cannot be given with --resume: the checkpoint says it");
-    // A resumed render renews its checkpoint anyway.
+    // A resumed render has a checkpoint anyway.
     if (!resumed && *flag.needs && !given.count(flag.needs))
       throw UsageError(first_spelling(flag) + " needs --" + flag.needs);
   }

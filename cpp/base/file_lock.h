@@ -6,8 +6,8 @@
 
 namespace mlt {
 
-/// A lock that is held until it is destroyed, or until the process ends in whatever way. It is a
-/// lock on the file PATH.lock, which exists as long.
+/// A lock that is held until it is destroyed, or until the process ends in whatever way. It locks
+/// the file PATH.lock, which is removed when the lock is destroyed.
 class FileLock {
  public:
   /// The lock of a file, which is shared within one process. Throws FileError if another process

@@ -1,4 +1,4 @@
-// The common part of the decoders of single formats.
+// What the decoders of all formats share.
 #pragma once
 
 #include "image/image.h"

@@ -7,7 +7,7 @@
 namespace mlt {
 namespace {
 
-/// The sizes of types with a fixed size.
+/// Bytes of the types with a fixed size.
 const std::map<std::string_view, size_t>& fixed_sizes() {
   static const std::map<std::string_view, size_t> sizes{{"box2i", 16},
                                                         {"box2f", 16},
@@ -36,7 +36,7 @@ const std::map<std::string_view, size_t>& fixed_sizes() {
   return sizes;
 }
 
-/// Whether the value is names that end in 0, each followed by 16 bytes, and an empty name.
+/// Whether it is a list of channels: names that end in 0, each with 16 bytes, then an empty name.
 bool is_channel_list(std::string_view value) {
   for (size_t begin = 0;;) {
     const size_t end = value.find('\0', begin);
@@ -71,7 +71,7 @@ bool is_whole(std::string_view type, std::string_view value) {
   if (type == "stringvector") return is_text_list(value);
   if (type == "floatvector") return value.size() % 4 == 0;
   if (type == "preview") return is_preview(value);
-  return type != "idmanifest";  // its value includes its size in memory
+  return type != "idmanifest";  // refused: it states its own size in memory
 }
 
 }  // namespace

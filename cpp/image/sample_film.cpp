@@ -18,7 +18,7 @@ std::vector<double> cell_weights(const Filter& filter, int border) {
   return weights;
 }
 
-/// Values behind the pixels of a tile, so that zeros can be added after the last one.
+/// Padding behind the pixels of a tile, since whole vectors are added.
 constexpr size_t spare_values = 8;
 
 float* pixel(std::vector<float>& image, const PixelRect& reach, int x, int y) {
@@ -69,7 +69,8 @@ void SampleFilm::Tile::add(const Vec2& raster, const Color& color) {
              });
 }
 
-/// Adds in single precision, as the sums are; false if the filter covers pixels outside the tile.
+/// Adds in single precision, as the sums are. False, and nothing added, if the filter covers pixels
+/// outside the tile.
 bool SampleFilm::Tile::add_whole(const Vec2& raster, const Color& color) {
   const int n = rows_->pixels();
   const FilterRows<float>::Weights across = rows_->weights(raster.x),
@@ -190,7 +191,7 @@ uint64_t SampleFilm::passes(int group) const {
   return *std::min_element(samples.begin(), samples.end());
 }
 
-/// The expected weight of uniform samples of the cells in each pixel.
+/// The expected sum of the filter weights of all samples in each pixel.
 std::vector<double> SampleFilm::expected_weights(const std::vector<uint64_t>& samples) const {
   std::vector<double> weights(size_t(width_) * height_);
   const auto expected = [&](int pixel, int begin, int end) {
@@ -214,7 +215,7 @@ std::vector<double> SampleFilm::expected_weights(const std::vector<uint64_t>& sa
   return weights;
 }
 
-/// Importance integrates to 1 over the image, so a pixel is the pixel count times the mean.
+/// Pixels per walk, since importance integrates to 1 over the image.
 double SampleFilm::splat_scale(const std::vector<uint64_t>& samples) const {
   double walks = 0;
   for (int tile = 0; tile < tile_count(); ++tile) {

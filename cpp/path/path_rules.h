@@ -10,14 +10,14 @@ struct PathRules {
   int max_depth = -1;  ///< Edges of the longest path; 1: lights seen directly; -1: unbounded.
   int min_depth = 1;   ///< Edges of the shortest path.
   int rr_depth = 5;    ///< From this depth on Russian roulette may end a walk.
-  static constexpr int no_roulette = std::numeric_limits<int>::max();  ///< An rr_depth: never.
+  static constexpr int no_roulette = std::numeric_limits<int>::max();  ///< As rr_depth: never.
   bool hide_emitters = false;   ///< Leave out lights that the camera sees directly.
   bool strict_normals = false;  ///< See `consistent_sides`.
 
-  /// The probability of surviving Russian roulette, of a walk whose throughput has this factor.
+  /// The probability of surviving Russian roulette, by a factor of the throughput.
   static double survival(double factor) { return std::min(factor, 0.95); }
 
-  /// Edges of the longest path that is ever found: vertices take memory.
+  /// The bound on edges also where max_depth is -1: vertices take memory.
   static constexpr int longest = 1 << 16;
   int most_edges() const { return max_depth < 0 ? longest : std::min(max_depth, longest); }
   /// Whether paths with this number of edges are rendered.

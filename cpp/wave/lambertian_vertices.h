@@ -33,24 +33,24 @@ struct TriangleBlock {
 
 struct LambertianVertices {
   TriangleBlock surface;
-  VectorBlock p, n;          ///< n has any length until find_points().
+  VectorBlock p, n;          ///< find_points() normalises n.
   Block<float> back;         ///< 1 if the back side scatters light too, else 0.
   Block<float> sides;        ///< 0 if strict normals reject the incident ray, else 1.
   Block<const Spectrum*> f;  ///< BSDF; nullptr: there is no Lambertian vertex.
 
   // A point on an emissive mesh, sampled by next-event estimation:
   TriangleBlock light;
-  Block<float> light_pdf;           ///< Area measure; 0: there is none.
+  Block<float> light_pdf;           ///< Per area; 0: there is no point.
   Block<const Spectrum*> radiance;  ///< Emitted by the point.
 
   // The results of unshadowed_lights(): the shadow ray to the point, and |cos| mis / pdf.
   VectorBlock shadow_o, shadow_w;
   Block<float> shadow_length, light_weight;
 
-  // The results of sample_directions(): the scattered ray, by two numbers.
+  // For sample_directions(): two random numbers for each path, and the scattered ray.
   Block<double> u_x, u_y;
   VectorBlock o, w;
-  Block<float> scatter_pdf;  ///< Solid angle; 0: there is none.
+  Block<float> scatter_pdf;  ///< Per solid angle; 0: there is no ray.
 
   /// Sets the vertex of the i-th path to these barycentrics of a triangle.
   void set(int i, const LambertianMesh& shape, uint32_t triangle, float b1, float b2,
@@ -73,8 +73,7 @@ struct LambertianVertices {
     mesh.textured_point(triangle, {b1, b2}, point.at);
     point.lambertian->reflectance->prefetch(point.at);
   }
-  /// Looks up the reflectances of all that were set, where they depend on the point or on the
-  /// wavelength.
+  /// Looks up the reflectances that depend on the point or on the wavelength, of all vertices.
   void find_reflectances() {
     for (int j = 0; j < textured_count_; ++j) {
       const TexturedPoint& point = textured_[j];

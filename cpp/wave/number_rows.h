@@ -13,14 +13,14 @@ class NumberRows {
  public:
   static constexpr int row = 8, capacity = block_size;
 
-  /// Clears all rows; the next ones are numbers first ... first + row - 1 of each vector.
+  /// Clears all rows. Those that are added next hold numbers first ... first + row - 1.
   void begin(size_t first) {
     first_ = static_cast<uint32_t>(first);
     moving_ = 0;
     fresh_ = capacity;
   }
-  /// Adds a row that is drawn by `key`: near that of x, which has `count` numbers, or afresh if x
-  /// has none or is nullptr. Returns its index.
+  /// Adds a row that is drawn by `key`: near the `count` numbers of x from `first` on, or afresh if
+  /// x lacks them or is nullptr. Returns its index.
   template <size_t count = row>
   int add(uint64_t key, const std::vector<double>* x) {
     const bool known = x && x->size() > first_;
@@ -45,7 +45,7 @@ class NumberRows {
   void draw_fresh(int begin, int end, uint32_t changed_key, Rows<double>& u) const;
 
   uint32_t first_ = 0;
-  int moving_ = 0, fresh_ = capacity;  ///< Rows that move come first, fresh ones last.
+  int moving_ = 0, fresh_ = capacity;  ///< Number of moving rows; index of the first fresh one.
   Rows<uint32_t> low_, high_;          ///< Halves of the key of each number.
   Rows<double> x_, u_, angle_;
 };

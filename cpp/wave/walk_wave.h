@@ -9,7 +9,7 @@
 
 namespace mlt {
 
-/// The states have numbers of the walk from the camera alone, and light at its own image position.
+/// The states hold numbers of Stream::camera alone, and light at the walk's own position.
 class WalkWave : private DrawnNumbers::Source {
  public:
   static constexpr size_t capacity = BasicPathWave<DrawnNumbers>::capacity;
