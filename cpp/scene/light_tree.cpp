@@ -73,8 +73,8 @@ struct Range {
   Iterator end() const { return last; }
 };
 
-/// The place between two buckets along one axis where the children cost least; the end if all are in
-/// one bucket.
+/// The place between two buckets along one axis where the children cost least; the end if all are
+/// in one bucket.
 Iterator split_by_cost(const std::vector<LightBounds>& lights, const Range& range, const Vec3& low,
                        const Vec3& high) {
   int best_axis = -1, best_bucket = 0;
@@ -164,8 +164,8 @@ LightTree::LightTree(const std::vector<LightBounds>& lights) : places_(lights.si
   flatten(binary, 0, {});
 }
 
-/// Makes one node of a node of the binary tree and of those below it, the most important ones first,
-/// until it has as many children as fit.
+/// Makes one node of a node of the binary tree and of those below it, the most important ones
+/// first, until it has as many children as fit.
 uint32_t LightTree::flatten(const std::vector<Binary>& binary, uint32_t root, const Place& above) {
   std::vector<uint32_t> children{root};
   const auto worth = [&](uint32_t i) { return binary[i].first ? cost(binary[i].bounds) : -1; };

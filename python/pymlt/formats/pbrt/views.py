@@ -21,7 +21,7 @@ INTEGRATORS = {
 
 
 def elements(found: dict[str, dict[str, Any]]) -> Iterator[tuple[str, dict[str, Any]]]:
-    """What stands above WorldBegin, by the names of its directives, as an integrator and a sensor."""
+    """An integrator and a sensor of what stands above WorldBegin, by the names of directives."""
     if found.get("Integrator"):
         yield "integrator", found["Integrator"]
     if "Camera" in found:
