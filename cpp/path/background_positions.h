@@ -11,8 +11,8 @@ namespace mlt {
 class BackgroundPositions {
  public:
   /// Queues the sampling of a position by (u.y, u.z) on the light that u.x chooses for `from`, if
-  /// it is at infinity; else returns false. sample_all() writes the result to `light`, which must not
-  /// move until then. `wavelength` is that of its path.
+  /// it is at infinity; else returns false. sample_all() writes the result to `light`, which must
+  /// not move until then. `wavelength` is that of its path.
   bool add(const Scene& scene, const Vec3& from, Vec3 u, double wavelength, LightSample& light) {
     if (scene.infinite_emitters().empty()) return false;
     const EmitterChoice choice = scene.choose_emitter_for(from, u.x);

@@ -66,8 +66,7 @@ INSTANTIATE_TEST_SUITE_P(
         Pair{"projector", "ptracer"}, Pair{"daylight", "path"}, Pair{"bent_normals", "path"},
         Pair{"more_materials", "path"}, Pair{"windows", "path"}, Pair{"fog", "path"},
         Pair{"smoke_box", "path"}, Pair{"smoke", "path"}, Pair{"beam", "ptracer"},
-        Pair{"beam", "mmlt"},
-        Pair{"beam", "rjmlt"}, Pair{"beam", "erpt"}),
+        Pair{"beam", "mmlt"}, Pair{"beam", "rjmlt"}, Pair{"beam", "erpt"}),
     pair_name);
 
 class LongSameImageOf : public testing::TestWithParam<Pair> {};
