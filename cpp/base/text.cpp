@@ -1,5 +1,7 @@
 #include "base/text.h"
 
+#include "base/error.h"
+
 #include <algorithm>
 #include <cctype>
 #include <charconv>

@@ -1,5 +1,6 @@
 #include "io/parts.h"
 
+#include "scene/medium.h"
 #include "scene/shape_reader.h"
 #include "scene/texture.h"
 

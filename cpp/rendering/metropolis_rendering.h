@@ -25,7 +25,8 @@ namespace mlt {
 struct MetropolisSettings {
   int chains = 128;
   int64_t luminance_samples = 50000;
-  std::optional<double> independent_share;     ///< Samples' share of time; default: by a pilot.
+  /// Samples' share of time, which becomes Allocation::share; default: by a pilot.
+  std::optional<double> independent_share;
   std::optional<SampleTechniques> techniques;  ///< Techniques of samples; default: by a pilot.
   std::optional<double> steps_per_sample;      ///< Steps of tours per sample; default: by a pilot.
   bool parts = false;                          ///< Whether to keep both families' images as layers.
