@@ -1,5 +1,7 @@
 #include "scene/emitter/environment_map.h"
 
+#include "scene/spectral_color.h"
+
 namespace mlt {
 namespace {
 

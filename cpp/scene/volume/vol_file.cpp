@@ -1,6 +1,9 @@
 #include "scene/volume/vol_file.h"
 
 #include "base/atomic_file.h"
+#include "base/error.h"
+
+#include <fmt/format.h>
 
 #include <half.h>
 
