@@ -65,7 +65,7 @@ PositionSample sample_lens(const Camera& camera, Sampler& sampler) {
   lens.at.wavelength = camera.wavelength([&] { return sampler.next(); });
   return lens;
 }
-/// Samples these and the ray through a raster position.
+/// Samples these, and makes the ray through a raster position.
 template <class Sampler>
 CameraRay camera_ray(const Camera& camera, const Vec2& raster, Sampler& sampler) {
   const PositionSample lens = sample_lens(camera, sampler);

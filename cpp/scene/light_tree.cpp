@@ -4,12 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace mlt {
 namespace {
 
-/// Deeper nodes are halved by number, so that a way down fits into 64 bits.
+/// Deeper nodes are halved by number, which bounds the depth of the tree.
 constexpr int deepest_by_cost = 32;
 constexpr int buckets = 12;
 
