@@ -10,16 +10,11 @@ namespace mlt {
 
 class BackgroundPositions {
  public:
-  /// Queues the sampling of a position by (u.y, u.z) on the light that u.x chooses for `from`, if
-  /// it is at infinity; else returns false. sample_all() writes the result to `light`, which must
-  /// not move until then. `wavelength` is that of its path.
-  bool add(const Scene& scene, const Vec3& from, Vec3 u, double wavelength, LightSample& light) {
-    if (scene.infinite_emitters().empty()) return false;
-    const EmitterChoice choice = scene.choose_emitter_for(from, u.x);
-    if (!choice.emitter->infinite()) return false;
+  /// Queues the sampling of a position on a light at infinity. sample_all() writes the result to
+  /// `light`, which must not move until then. `wavelength` is that of its path.
+  void add(const EmitterChoice& choice, const Vec2& u, double wavelength, LightSample& light) {
     light.emitter = choice.emitter;
-    waiting_.push_back({choice, {{u.y, u.z}, &light.x0}, wavelength});
-    return true;
+    waiting_.push_back({choice, {u, &light.x0}, wavelength});
   }
   void sample_all(const Scene& scene) {
     for (const uint32_t index : scene.infinite_emitters()) {

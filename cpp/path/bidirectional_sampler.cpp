@@ -167,8 +167,10 @@ void BidirectionalSampler::sample_backgrounds() {
   direct_backgrounds_.resize(camera_.size());
   for (size_t i = 0; i < camera_.size(); ++i) {
     LightSample& light = direct_backgrounds_[i];
-    const Vec3& from = camera_[i].vertex.at.p;
-    if (!backgrounds_.add(*scene_, from, direct_u_[i], wavelength_, light)) light.emitter = nullptr;
+    Vec3 u = direct_u_[i];
+    const EmitterChoice choice = scene_->choose_emitter_for(camera_[i].vertex.at.p, u.x);
+    light.emitter = nullptr;
+    if (choice.emitter->infinite()) backgrounds_.add(choice, {u.y, u.z}, wavelength_, light);
   }
   backgrounds_.sample_all(*scene_);
 }

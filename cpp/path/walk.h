@@ -27,15 +27,21 @@ inline LightSample sample_light_position(const Scene& scene, Vec3 u, double time
   if (scene.has_media()) light.x0.at.medium = scene.medium_at_light(*choice.emitter, light.x0.at);
   return light;
 }
-/// Samples a position on a light for next-event estimation at the point `from`, at its time.
-inline LightSample sample_direct_position(const Scene& scene, const SurfacePoint& from, Vec3 u) {
-  const EmitterChoice choice = scene.choose_emitter_for(from.p, u.x);
+/// Samples a position on this light for next-event estimation at the point `from`, at its time.
+inline LightSample sample_direct_position(const Scene& scene, const SurfacePoint& from,
+                                          const EmitterChoice& choice, const Vec2& u) {
   if (!(choice.probability > 0)) return {choice.emitter, {}};
-  LightSample light{choice.emitter, choice.emitter->sample_direct(from.p, {u.y, u.z}, from.time)};
+  LightSample light{choice.emitter, choice.emitter->sample_direct(from.p, u, from.time)};
   light.x0.at.wavelength = from.wavelength;
   light.x0.pdf *= choice.probability;
   if (scene.has_media()) light.x0.at.medium = scene.medium_at_light(*choice.emitter, light.x0.at);
   return light;
+}
+
+/// The same for the light that u.x chooses, at the position that (u.y, u.z) choose.
+inline LightSample sample_direct_position(const Scene& scene, const SurfacePoint& from, Vec3 u) {
+  const EmitterChoice choice = scene.choose_emitter_for(from.p, u.x);
+  return sample_direct_position(scene, from, choice, {u.y, u.z});
 }
 
 /// The first ray of a walk.

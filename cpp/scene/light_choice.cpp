@@ -100,14 +100,7 @@ LightChoice::LightChoice(const std::vector<EmitterPtr>& lights, double open, dou
   tree_ = LightTree(bounds);
 }
 
-LightIndex LightChoice::choose(double& u) const {
-  const auto [index, remainder] = by_power_.sample_reuse(u);
-  u = remainder;
-  return {static_cast<uint32_t>(index), by_power_.pdf(index)};
-}
-
-LightIndex LightChoice::choose_for(const Vec3& p, double& u) const {
-  if (tree_.empty()) return choose(u);
+LightIndex LightChoice::choose_in_tree(const Vec3& p, double& u) const {
   const auto [part, remainder] = parts_.sample_reuse(u);
   u = remainder;
   if (part < infinite_.size()) return {infinite_[part], parts_.pdf(part)};

@@ -27,18 +27,26 @@ class LightChoice {
   bool depends_on_point() const { return !tree_.empty(); }
 
   // For walks. u is rescaled so that it can be used again.
-  LightIndex choose(double& u) const;
+  LightIndex choose(double& u) const {
+    if (part_of_.size() == 1) return {0, 1};
+    const auto [index, remainder] = by_power_.sample_reuse(u);
+    u = remainder;
+    return {static_cast<uint32_t>(index), by_power_.pdf(index)};
+  }
   double probability(uint32_t index) const { return by_power_.pdf(index); }
   /// A u with which choose() chooses this light and leaves v.
   double invert(uint32_t index, double v) const { return by_power_.invert(index, v); }
-  size_t index_of(double u) const { return by_power_.sample(u); }
 
   // For next-event estimation at the point p.
-  LightIndex choose_for(const Vec3& p, double& u) const;
+  LightIndex choose_for(const Vec3& p, double& u) const {
+    return depends_on_point() ? choose_in_tree(p, u) : choose(u);
+  }
   double probability_for(uint32_t index, const Vec3& p) const;
   double invert_for(uint32_t index, const Vec3& p, double v) const;
 
  private:
+  LightIndex choose_in_tree(const Vec3& p, double& u) const;
+
   Discrete by_power_;
   LightTree tree_;  ///< Of the lights that are not at infinity; empty if these are few.
   /// The lights at infinity, and all others as one, with a tree.

@@ -36,12 +36,12 @@ LambertianMesh lambertian_mesh(const Shape& shape) {
   return {mesh, &mesh->bsdf().lambertian(), shape.emitter() != nullptr};
 }
 
-MeshLight mesh_light(const Emitter& emitter, double probability) {
+MeshLight mesh_light(const Emitter& emitter) {
   const Texture* radiance = emitter.uniform_radiance();
-  if (!radiance || emitter.shape()->bsdf().has_passage()) return {nullptr, emitter.infinite()};
+  if (!radiance || emitter.shape()->bsdf().has_passage()) return {};
   const Mesh* mesh = emitter.shape()->as_mesh();
   const Spectrum rgb(glm::max(radiance->mean(), Color(0)));
-  return {mesh, false, radiance, rgb, probability / mesh->area()};
+  return {mesh, radiance, rgb, mesh->area()};
 }
 
 /// The shapes of all groups of which there are instances.
@@ -81,8 +81,7 @@ Scene::Scene(std::vector<ShapePtr> shapes, std::vector<EmitterPtr> emitters, Cam
   }
   const Shutter& shutter = camera_->shutter();
   light_choice_ = LightChoice(emitters_, shutter.open, shutter.close);
-  for (size_t i = 0; i < emitters_.size(); ++i)
-    mesh_lights_.push_back(mlt::mesh_light(*emitters_[i], light_choice_.probability(i)));
+  for (const EmitterPtr& emitter : emitters_) mesh_lights_.push_back(mlt::mesh_light(*emitter));
   accel_ = known && known->serves(shapes_, camera_->shutter())
                ? known
                : std::make_shared<const Accel>(shapes_, camera_->shutter());
@@ -221,12 +220,6 @@ SurfacePoint Scene::point_at_infinity(const Vec3& w, double wavelength) {
   SurfacePoint at = InfiniteEmitter::point_towards(w);
   at.wavelength = wavelength;
   return at;
-}
-
-EmitterChoice Scene::choose_emitter(double& u) const { return choice(light_choice_.choose(u)); }
-
-EmitterChoice Scene::choose_emitter_for(const Vec3& from, double& u) const {
-  return choice(light_choice_.choose_for(from, u));
 }
 
 size_t Scene::triangle_count() const {

@@ -27,10 +27,9 @@ struct EmitterChoice {
 /// event estimation needs it.
 struct MeshLight {
   const Mesh* mesh = nullptr;  ///< nullptr if this light is of another kind.
-  bool infinite = false;       ///< Whether this light is at infinity instead.
   const Texture* radiance = nullptr;
   Spectrum rgb{0};  ///< The radiance where there are no wavelengths.
-  double pdf = 0;   ///< Area measure, the choice of the light included.
+  double area = 0;
 
   Spectrum radiance_at(double wavelength) const;
 };
@@ -130,10 +129,12 @@ class Scene {
   static SurfacePoint point_at_infinity(const Vec3& w, double wavelength = rgb_lanes);
 
   /// Chooses a light; u is rescaled so that it can be used again.
-  EmitterChoice choose_emitter(double& u) const;
+  EmitterChoice choose_emitter(double& u) const { return choice(light_choice_.choose(u)); }
   double emitter_probability(uint32_t index) const { return light_choice_.probability(index); }
   /// As above, for next-event estimation at the point `from`; probability 0: failed.
-  EmitterChoice choose_emitter_for(const Vec3& from, double& u) const;
+  EmitterChoice choose_emitter_for(const Vec3& from, double& u) const {
+    return choice(light_choice_.choose_for(from, u));
+  }
   double emitter_probability_for(uint32_t index, const Vec3& from) const {
     return light_choice_.probability_for(index, from);
   }
@@ -142,10 +143,6 @@ class Scene {
   const LambertianMesh& lambertian_mesh(uint32_t shape) const { return lambertian_meshes_[shape]; }
   /// The light at this place in emitters(), if it is an emissive mesh.
   const MeshLight& mesh_light(uint32_t index) const { return mesh_lights_[index]; }
-  /// The light that choose_emitter(u) chooses, if it is an emissive mesh.
-  const MeshLight& choose_mesh_light(double u) const {
-    return mesh_lights_[mesh_lights_.size() > 1 ? light_choice_.index_of(u) : 0];
-  }
 
   size_t triangle_count() const;
   size_t bytes() const;  ///< Bytes of the shapes' buffers.

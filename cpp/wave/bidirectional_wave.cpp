@@ -32,8 +32,8 @@ bool BidirectionalWave::supports(const Scene& scene, const BidirectionalSettings
   const Shutter& shutter = scene.camera().shutter();
   if (!settings.sample_direct || settings.heuristic == Heuristic::maximum || settings.manifolds)
     return false;
-  if (scene.has_passages() || scene.light_choice().depends_on_point()) return false;
-  if (!scene.camera().delta_position() || shutter.open != shutter.close || scene.accel().moves())
+  if (scene.has_passages() || !scene.camera().delta_position() || shutter.open != shutter.close ||
+      scene.accel().moves())
     return false;
   for (const EmitterPtr& emitter : scene.emitters())
     if (!scene.mesh_light(emitter->index()).mesh) return false;
@@ -123,9 +123,10 @@ void BidirectionalWave::walk_from_lights(RayCounts& rays) {
 }
 
 /// Samples a point on a light, by the numbers of this sample.
-inline void BidirectionalWave::draw_light(int sample, int to) {
-  const MeshLight& light = scene_->choose_mesh_light(u_choice_[sample]);
-  lights_.set_light(to, light, light.pdf, {u_x_[sample], u_y_[sample]}, wavelength_[sample]);
+inline void BidirectionalWave::draw_light(int sample, const EmitterChoice& choice, int to) {
+  const MeshLight& light = scene_->mesh_light(choice.index);
+  lights_.set_light(to, light, choice.probability / light.area, {u_x_[sample], u_y_[sample]},
+                    wavelength_[sample]);
 }
 
 /// Starts walks at lights, which emit as a Lambertian surface scatters light from above.
@@ -134,7 +135,12 @@ void BidirectionalWave::start_at_lights(const LightNumbersOf<WaveNumbers::Place>
   numbers_.read2(at.position, begin, count, &u_x_[begin], &u_y_[begin]);
   numbers_.read2(at.direction, begin, count, &lights_.u_x[0], &lights_.u_y[0]);
   numbers_.read(at.choice, begin, count, &u_choice_[begin]);
-  for (int i = 0; i < count; ++i) draw_light(begin + i, i);
+  uint32_t chosen[block_size];
+  for (int i = 0; i < count; ++i) {
+    const EmitterChoice choice = scene_->choose_emitter(u_choice_[begin + i]);
+    draw_light(begin + i, choice, i);
+    chosen[i] = choice.index;
+  }
   lights_.surface = lights_.light;
   lights_.n = lights_.light.ng;
   VectorBlock down = {};
@@ -150,8 +156,9 @@ void BidirectionalWave::start_at_lights(const LightNumbersOf<WaveNumbers::Place>
         is_black(*lights_.radiance[i]))
       continue;
     const float cosine = std::fabs(dot(lights_.surface.ng[i], lights_.w[i]));
-    light_.start(begin + i, {lights_.p[i], lights_.o[i], lights_.w[i], cosine, pdf, forward, 1,
-                             *lights_.radiance[i] * (pi / forward), wavelength_[begin + i]});
+    light_.start(begin + i,
+                 {lights_.p[i], lights_.o[i], lights_.w[i], cosine, pdf, forward, 1,
+                  *lights_.radiance[i] * (pi / forward), wavelength_[begin + i], chosen[i]});
   }
 }
 
@@ -204,11 +211,15 @@ void BidirectionalWave::choose_direct(int place, int block, int first) {
     const bool seen =
         place > 0 ? camera_.joints(place, block).cosine[lane] != 0 : i < size() && !fell_back(i);
     if (!seen) continue;
-    draw_light(i, first + lane);
+    const Vec3 from = place > 0 ? Vec3(camera_.joints(place, block).p[lane]) : lens_.at.p;
+    const EmitterChoice choice = scene_->choose_emitter_for(from, u_choice_[i]);
+    draw_light(i, choice, first + lane);
     const double pdf = lights_.light_pdf[first + lane];
     if (!(pdf > 0)) continue;
+    const double over_walk = choice.probability / scene_->emitter_probability(choice.index);
+    direct_own_[block][lane] = beta_.raise(over_walk);
     to.cosine[lane] = 1;
-    to.forward[lane] = pdf;
+    to.forward[lane] = pdf / over_walk;
     to.value.set(lane, *lights_.radiance[first + lane] * (1 / pdf));
   }
   for (int lane = 0; lane < JointLanes::size; ++lane) {
@@ -227,7 +238,7 @@ void BidirectionalWave::connect(int s, int t, RayCounts& rays) {
   for (int block = 0; block < block_count(); ++block) {
     if (!light_reaches(s, block) || !camera_.reaches(t - 1, block)) continue;
     const JointLanes &a = light_joints(s, block), &b = camera_.joints(t - 1, block);
-    join(a, b, settings_.rules.strict_normals, beta_, lanes(), joining, joined);
+    join(a, b, own(s, block), settings_.rules.strict_normals, beta_, lanes(), joining, joined);
     make_room_for_shadows(rays);
     for (int i = 0; i < JointLanes::size; ++i) {
       if (!(joining.length[i] > 0)) continue;
@@ -245,12 +256,13 @@ void BidirectionalWave::connect_to_lens(int s, RayCounts& rays) {
   for (int block = 0; block < block_count(); ++block)
     if (light_reaches(s, block)) {
       make_room_for_shadows(rays);
-      connect_to_lens(s, light_joints(s, block), block);
+      connect_to_lens(s, block);
     }
 }
 
-void BidirectionalWave::connect_to_lens(int s, const JointLanes& a, int block) {
+void BidirectionalWave::connect_to_lens(int s, int block) {
   const Camera& camera = scene_->camera();
+  const JointLanes& a = light_joints(s, block);
   LensEdges edges;
   find_edges(a, lens_.at, settings_.rules.strict_normals, edges);
   for (int i = 0; i < JointLanes::size; ++i) {
@@ -260,7 +272,8 @@ void BidirectionalWave::connect_to_lens(int s, const JointLanes& a, int block) {
     if (!projection) continue;
     const double G = edges.G[i];
     const double below = beta_.over(a.sums[i], projection->pdf_direction * G / a.forward[i]);
-    const double share = projection->importance * G / (1 + below);
+    const double own = this->own(s, block)[i];
+    const double share = projection->importance * G * own / (own + below);
     const Color weighted =
         recorded(a.value.get(i, lanes()) * share, wavelength_[block * JointLanes::size + i]);
     if (is_black(weighted)) continue;

@@ -74,16 +74,19 @@ class BidirectionalWave {
   void draw_wavelengths();
   /// How many lanes of a spectrum differ.
   int lanes() const { return scene_->camera().spectral() ? 4 : 3; }
-  void draw_light(int sample, int to);
   void choose_direct(int place);
   void choose_direct(int place, int block, int first);
   void connect(int s, int t, RayCounts& rays);
   void connect_to_lens(int s, RayCounts& rays);
   void make_room_for_shadows(RayCounts& rays);
   void wait_for_shadow(const Light& light, const Vec3f& o, const Vec3f& w, float length);
-  void connect_to_lens(int s, const JointLanes& a, int block);
+  void connect_to_lens(int s, int block);
+  void draw_light(int sample, const EmitterChoice& choice, int to);
   const JointLanes& light_joints(int s, int block) const {
     return s == 1 ? direct_[block] : light_.joints(s - 1, block);
+  }
+  const Lanes<double, JointLanes::size>& own(int s, int block) const {
+    return s == 1 ? direct_own_[block] : one_;
   }
   bool light_reaches(int s, int block) const { return s == 1 || light_.reaches(s - 1, block); }
   void find_shadows(RayCounts& rays);
@@ -102,6 +105,8 @@ class BidirectionalWave {
   Samples<double> wavelength_;  ///< See wavelengths.h.
   LambertianVertices lights_;   ///< Points on lights, for a block of samples.
   JointLanes direct_[blocks];   ///< Points on lights for s = 1, sampled for the camera vertex.
+  /// See join(); for s = 1, and for other techniques.
+  Lanes<double, JointLanes::size> direct_own_[blocks], one_{1, 1, 1, 1, 1, 1, 1, 1};
   WaveShadows shadows_;
 };
 

@@ -42,12 +42,12 @@ struct JoiningRays {
   Lanes<float, JointLanes::size> length;  ///< 0: no light goes that way.
 };
 
-/// Joins vertices of light subpaths to those of camera subpaths; `weighted` is f w / p, in the
-/// first `lanes` lanes. The results are two parameters that do not overlap, so that the compiler
-/// vectorises the loops.
-inline void join(const JointLanes& from_light, const JointLanes& from_camera, bool strict,
-                 const MisExponent& beta, int lanes, JoiningRays& __restrict rays,
-                 SpectrumLanes& __restrict weighted) {
+/// Joins vertices of light subpaths to those of camera subpaths; `own` is r^beta of the technique
+/// that does (TechniqueSums), and `weighted` is f w / p, in the first `lanes` lanes. The results are
+/// two parameters that do not overlap, so that the compiler vectorises the loops.
+inline void join(const JointLanes& from_light, const JointLanes& from_camera,
+                 const Lanes<double, JointLanes::size>& own, bool strict, const MisExponent& beta,
+                 int lanes, JoiningRays& __restrict rays, SpectrumLanes& __restrict weighted) {
   const JointLanes &a = from_light, &b = from_camera;
   Lanes<double, JointLanes::size> share;
   for (int i = 0; i < JointLanes::size; ++i) {
@@ -59,7 +59,7 @@ inline void join(const JointLanes& from_light, const JointLanes& from_camera, bo
     const double G = double{at_a.geometric} * at_b.geometric / distance2;
     const double below = beta.over(a.sums[i], at_b.quotient * inv_pi * G / a.forward[i]);
     const double above = beta.over(b.sums[i], at_a.quotient * inv_pi * G / b.forward[i]);
-    share[i] = at_b.quotient * G / (1 + below + above);
+    share[i] = at_b.quotient * G * own[i] / (own[i] + below + above);
     const Vec3f start = ray_origin(a.p[i], a.ng[i], w, a.extent[i]);
     const Vec3f ray = ray_origin(b.p[i], b.ng[i], -w, b.extent[i]) - start;
     const float length = std::sqrt(dot(ray, ray));

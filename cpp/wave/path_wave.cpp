@@ -134,7 +134,7 @@ void BasicPathWave<Numbers>::add_single(int i, const SurfacePoint& at) {
   SingleVertex& single = singles_[single_count_++];
   single.path = i;
   single.at = at;
-  single.samples_light = false;
+  single.choice.probability = 0;
 }
 
 template <class Numbers>
@@ -145,38 +145,27 @@ void BasicPathWave<Numbers>::choose_lights(int depth) {
   };
   for (int i = 0; i < count_; ++i) {
     if (!wants_light(i)) continue;
-    const Vec3 u = numbers_for_light(i);
-    const auto [light, pdf] = choose_mesh_light(i, u.x);
-    if (lambertian_.f[i] && light->mesh)
-      lambertian_.set_light(i, *light, pdf, {u.y, u.z}, walk(i).ray.wavelength);
+    Vec3 u = numbers_for_light(i);
+    const Vec3 from = single_[i] >= 0 ? singles_[single_[i]].at.p : Vec3(lambertian_.p[i]);
+    const EmitterChoice choice = scene_->choose_emitter_for(from, u.x);
+    const MeshLight& light = scene_->mesh_light(choice.index);
+    if (lambertian_.f[i] && light.mesh)
+      lambertian_.set_light(i, light, choice.probability / light.area, {u.y, u.z},
+                            walk(i).ray.wavelength);
     else
-      choose_other_light(i, u, light->infinite);
+      choose_other_light(i, choice, {u.y, u.z});
   }
   sample_other_lights();
 }
 
-/// The light that u chooses for the vertex, and the density of positions if it is an emissive mesh.
+/// Takes a light that is no emissive mesh, or is for a vertex that is not Lambertian.
 template <class Numbers>
-inline std::pair<const MeshLight*, double> BasicPathWave<Numbers>::choose_mesh_light(
-    int i, double u) const {
-  if (!scene_->light_choice().depends_on_point()) {
-    const MeshLight& light = scene_->choose_mesh_light(u);
-    return {&light, light.pdf};
-  }
-  const Vec3 from = single_[i] >= 0 ? singles_[single_[i]].at.p : Vec3(lambertian_.p[i]);
-  const EmitterChoice choice = scene_->choose_emitter_for(from, u);
-  const MeshLight& light = scene_->mesh_light(choice.index);
-  return {&light, light.mesh ? choice.probability / light.mesh->area() : 0};
-}
-
-/// Takes the numbers for a light that is no emissive mesh, or for a vertex that is not Lambertian.
-template <class Numbers>
-void BasicPathWave<Numbers>::choose_other_light(int i, const Vec3& u, bool infinite) {
+void BasicPathWave<Numbers>::choose_other_light(int i, const EmitterChoice& choice, const Vec2& u) {
   if (lambertian_.f[i]) {
     lambertian_.light_pdf[i] = 0;
     if (!(lambertian_.sides[i] > 0)) return;
-    if (infinite) {
-      sky_vertices_.push_back({i, u, {}});
+    if (choice.emitter->infinite()) {
+      sky_vertices_.push_back({i, choice, u, {}});
       return;
     }
     const Ray& ray = walk(i).ray;
@@ -184,7 +173,7 @@ void BasicPathWave<Numbers>::choose_other_light(int i, const Vec3& u, bool infin
                lambertian_.point(i, hits(i).shape[i % RayPacket::size], ray.time, ray.wavelength));
   }
   SingleVertex& single = singles_[single_[i]];
-  single.samples_light = true;
+  single.choice = choice;
   single.u = u;
 }
 
@@ -192,13 +181,14 @@ template <class Numbers>
 void BasicPathWave<Numbers>::sample_other_lights() {
   for (int j = 0; j < single_count_; ++j) {
     SingleVertex& single = singles_[j];
-    if (single.samples_light &&
-        !backgrounds_.add(*scene_, single.at.p, single.u, single.at.wavelength, single.light))
-      single.light = sample_direct_position(*scene_, single.at, single.u);
+    if (!(single.choice.probability > 0)) continue;
+    if (single.choice.emitter->infinite())
+      backgrounds_.add(single.choice, single.u, single.at.wavelength, single.light);
+    else
+      single.light = sample_direct_position(*scene_, single.at, single.choice, single.u);
   }
   for (SkyVertex& vertex : sky_vertices_)
-    backgrounds_.add(*scene_, Vec3(lambertian_.p[vertex.path]), vertex.u,
-                     walk(vertex.path).ray.wavelength, vertex.light);
+    backgrounds_.add(vertex.choice, vertex.u, walk(vertex.path).ray.wavelength, vertex.light);
   backgrounds_.sample_all(*scene_);
 }
 
@@ -221,7 +211,7 @@ void BasicPathWave<Numbers>::queue_lights() {
           lambertian_.shadow_o[i], lambertian_.shadow_w[i], lambertian_.shadow_length[i]);
   for (const SkyVertex& vertex : sky_vertices_) queue_sky(vertex);
   for (int j = 0; j < single_count_; ++j)
-    if (singles_[j].samples_light) queue_other_light(singles_[j]);
+    if (singles_[j].choice.probability > 0) queue_other_light(singles_[j]);
 }
 
 /// See direct_light() of path_tracer.h; for a Lambertian vertex.

@@ -94,15 +94,16 @@ class BasicPathWave {
   struct SingleVertex {
     int path;
     SurfacePoint at;
-    bool samples_light;  ///< Whether it samples a light.
-    Vec3 u;              ///< The numbers for the light.
-    LightSample light;   ///< The sampled light.
+    EmitterChoice choice;  ///< The light that it samples; probability 0: there is none.
+    Vec2 u;                ///< The numbers for the position on it.
+    LightSample light;     ///< The sampled position.
   };
 
   /// A Lambertian vertex that samples a light at infinity.
   struct SkyVertex {
     int path;
-    Vec3 u;
+    EmitterChoice choice;
+    Vec2 u;
     LightSample light;
   };
 
@@ -116,8 +117,7 @@ class BasicPathWave {
   void find_vertex(int i, int depth);
   void find_bright_or_other(int i, const Hit& hit, int depth);
   void choose_lights(int depth);
-  std::pair<const MeshLight*, double> choose_mesh_light(int i, double u) const;
-  void choose_other_light(int i, const Vec3& u, bool infinite);
+  void choose_other_light(int i, const EmitterChoice& choice, const Vec2& u);
   void add_single(int i, const SurfacePoint& at);
   void sample_other_lights();
   void queue_lights();

@@ -32,6 +32,7 @@ void SubpathWave::start(int sample, const Start& start) {
   survival_[i] = 1;
   throughput_[i] = start.throughput;
   wavelength_[i] = start.wavelength;
+  light_[i] = start.light;
 }
 
 void SubpathWave::fall_back(int sample) {
@@ -87,7 +88,8 @@ void SubpathWave::shade(int place, bool last) {
   lambertian_.find_points(count_, &d_.x[begin_], &d_.y[begin_], &d_.z[begin_],
                           rules_.strict_normals);
   if (!last) lambertian_.sample_directions(count_, rules_.strict_normals);
-  arrive(place);
+  find_techniques(place);
+  arrive();
   for (int i = 0; i < count_; ++i) {
     if (!lambertian_.f[i]) continue;
     if (emits_[i] && !from_light_ && rules_.wants(place)) hit_light(i, place);
@@ -111,10 +113,26 @@ inline void SubpathWave::find_vertex(int i) {
                   wavelength_[begin_ + i]);
 }
 
+/// How often next-event estimation at p counts as technique s = 1 with this x_0 (TechniqueSums):
+/// its density over that of a walk.
+double SubpathWave::direct_technique(uint32_t light, const Vec3f& p) const {
+  if (!scene_->light_choice().depends_on_point()) return 1;
+  return scene_->emitter_probability_for(light, Vec3(p)) / scene_->emitter_probability(light);
+}
+
+/// Finds how often the technique with its joint before the vertex counts (TechniqueSums).
+void SubpathWave::find_techniques(int place) {
+  const double all = from_light_ || place > 1 || light_image_ ? 1 : 0;
+  const bool direct = from_light_ && place == 1 && scene_->light_choice().depends_on_point();
+  for (int i = 0; i < whole_vectors(count_); ++i) technique_[i] = all;
+  for (int i = 0; direct && i < count_; ++i)
+    if (lambertian_.f[i])
+      technique_[i] = beta_.raise(direct_technique(light_[begin_ + i], lambertian_.p[i]));
+}
+
 /// Computes the densities with which the two walks make the vertex and the one before it. A
 /// scattered direction has the density |w.ns| / pi in solid angle.
-void SubpathWave::arrive(int place) {
-  const double technique = from_light_ || place > 1 || light_image_ ? 1 : 0;
+void SubpathWave::arrive() {
   const int end = whole_vectors(count_);
   for (int i = 0; i < end; ++i) {
     const int k = begin_ + i;
@@ -128,7 +146,7 @@ void SubpathWave::arrive(int place) {
     const double reverse = ok ? std::fabs(cosine) * inv_pi * previous : 0;
     cosine_to_previous_[i] = ok ? cosine : 0;
     forward_here_[i] = pdf_[k] * geometric * per_distance2;
-    sums_here_[i] = technique + beta_.over(sums_[k], reverse / forward_[k]);
+    sums_here_[i] = technique_[i] + beta_.over(sums_[k], reverse / forward_[k]);
     reverse_emission_[i] = geometric * inv_pi * previous;
     light_factor_[i] = quotient;
     next_cosine_[i] = std::fabs(dot(ng, lambertian_.w[i]));
@@ -140,12 +158,13 @@ void SubpathWave::hit_light(int i, int place) {
   const int k = begin_ + i;
   if (!(dot(lambertian_.surface.ng[i], d_[k]) < 0)) return;
   const uint32_t shape = found_[k / RayPacket::size].shape[k % RayPacket::size];
-  const MeshLight& light = scene_->mesh_light(scene_->shapes()[shape]->emitter()->index());
+  const uint32_t index = scene_->shapes()[shape]->emitter()->index();
+  const MeshLight& light = scene_->mesh_light(index);
   const Spectrum radiance = light.radiance_at(wavelength_[k]);
-  const double technique = place > 1 || light_image_ ? 1 : 0;
+  const double direct = technique_[i] * beta_.raise(direct_technique(index, p_[k]));
   const double above =
-      beta_.over(technique + beta_.over(sums_[k], reverse_emission_[i] / forward_[k]),
-                 light.pdf / forward_here_[i]);
+      beta_.over(direct + beta_.over(sums_[k], reverse_emission_[i] / forward_[k]),
+                 scene_->emitter_probability(index) / light.area / forward_here_[i]);
   hits_.push_back({sample_[k], place, throughput_[k] * radiance / (1 + above), survival_[k]});
 }
 

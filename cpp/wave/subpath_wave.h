@@ -41,6 +41,7 @@ class SubpathWave {
     double forward, sums;  ///< See JointLanes.
     Spectrum throughput;   ///< Throughput of vertex 1.
     double wavelength;     ///< See wavelengths.h.
+    uint32_t light = 0;    ///< Of a walk from a light: its index.
   };
   void start(int sample, const Start& start);
   /// Walks all subpaths to their ends, with `most` vertices at most. The next of the `numbers` are
@@ -67,11 +68,13 @@ class SubpathWave {
   // Functions of the `count_` walks from the begin_-th one on:
   void shade(int place, bool last);
   void find_vertex(int i);
-  void arrive(int place);
+  void find_techniques(int place);
+  void arrive();
   void hit_light(int i, int place);
   void keep(int i, int place);
   void take_steps(int place);
   double survive(int i, int place, double ratio);
+  double direct_technique(uint32_t light, const Vec3f& p) const;
 
   JointLanes& at(int place, int block) { return joints_[place * blocks + block]; }
 
@@ -94,6 +97,7 @@ class SubpathWave {
   Samples<double> forward_, sums_, survival_;
   Samples<Spectrum> throughput_;
   Samples<double> wavelength_;
+  Samples<uint32_t> light_;
   PacketHits found_[capacity / RayPacket::size];
   WaveNumbers numbers_;
   StepNumbersOf<WaveNumbers::Place> at_;  ///< The places of the numbers of this step.
@@ -107,6 +111,7 @@ class SubpathWave {
   Block<float> next_cosine_;         ///< |w.ng| of the sampled direction.
   Block<float> light_factor_;        ///< |w.ns| / |w.ng| of the direction to the previous vertex.
   Block<double> forward_here_, reverse_emission_, sums_here_;
+  Block<double> technique_;  ///< See find_techniques().
 };
 
 }  // namespace mlt
