@@ -43,8 +43,8 @@ struct JoiningRays {
 };
 
 /// Joins vertices of light subpaths to those of camera subpaths; `own` is r^beta of the technique
-/// that does (TechniqueSums), and `weighted` is f w / p, in the first `lanes` lanes. The results are
-/// two parameters that do not overlap, so that the compiler vectorises the loops.
+/// that does (TechniqueSums), and `weighted` is f w / p, in the first `lanes` lanes. The results
+/// are two parameters that do not overlap, so that the compiler vectorises the loops.
 inline void join(const JointLanes& from_light, const JointLanes& from_camera,
                  const Lanes<double, JointLanes::size>& own, bool strict, const MisExponent& beta,
                  int lanes, JoiningRays& __restrict rays, SpectrumLanes& __restrict weighted) {
