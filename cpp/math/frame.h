@@ -1,7 +1,7 @@
 // An orthonormal frame, and the trigonometry of directions in it (n is the z axis).
 #pragma once
 
-#include "math/vec.h"
+#include "math/number.h"
 
 namespace mlt {
 
@@ -43,6 +43,9 @@ inline double sin2_theta(const Vec3& w) { return w.x * w.x + w.y * w.y; }
 inline bool same_side(const Vec3& a, const Vec3& b) { return a.z * b.z > 0; }
 
 inline Vec3 reflect(const Vec3& w) { return {-w.x, -w.y, w.z}; }
-inline Vec3 reflect(const Vec3& w, const Vec3& h) { return 2 * dot(w, h) * h - w; }
+template <class F>
+Vec3Of<F> reflect(const Vec3Of<F>& w, const Vec3Of<F>& h) {
+  return F(2) * dot(w, h) * h - w;
+}
 
 }  // namespace mlt

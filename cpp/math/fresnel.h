@@ -5,6 +5,7 @@
 #pragma once
 
 #include "math/frame.h"
+#include "math/number.h"
 #include "math/spectrum.h"
 
 namespace mlt {
@@ -16,7 +17,24 @@ struct Fresnel {
   double eta_ti;       // n_incident / n_transmitted: scales the tangential component on refraction
 };
 
-/// A dielectric: Born & Wolf, "Principles of Optics", 7th ed., sec. 1.5.2, eqs. (32) and (33).
+/// Fresnel's equations for a dielectric, for positive cosines and eta = n_t / n_i: Born & Wolf,
+/// "Principles of Optics", 7th ed., sec. 1.5.2, eqs. (32) and (33).
+template <class F>
+F dielectric_reflectance(F cos_i, F cos_t, F eta) {
+  const F r_s = (cos_i - eta * cos_t) / (cos_i + eta * cos_t);
+  const F r_p = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
+  return number<F>(0.5) * (r_s * r_s + r_p * r_p);
+}
+/// The reflectance for light from above, 0 <= cos_i.
+template <class F>
+F dielectric_reflectance(F cos_i, double eta) {
+  const F ci = min(F(1), cos_i);
+  const F cos2_t = 1 - number<F>(1 / (eta * eta)) * (1 - ci * ci);  // Snell's law
+  const F reflected = dielectric_reflectance(ci, sqrt(max(cos2_t, F(0))), number<F>(eta));
+  return select(cos2_t > 0, reflected, F(1));
+}
+
+/// A dielectric.
 inline Fresnel fresnel_dielectric(double cos_i, double eta) {
   if (eta == 1) return {0, -cos_i, 1, 1};
   const bool above = cos_i >= 0;
@@ -26,9 +44,7 @@ inline Fresnel fresnel_dielectric(double cos_i, double eta) {
   const double cos2_t = 1 - eta_ti * eta_ti * (1 - ci * ci);  // Snell's law
   if (!(cos2_t > 0)) return {1, 0, eta_it, eta_ti};
   const double ct = std::sqrt(cos2_t);
-  const double r_s = (ci - eta_it * ct) / (ci + eta_it * ct);
-  const double r_p = (eta_it * ci - ct) / (eta_it * ci + ct);
-  return {0.5 * (r_s * r_s + r_p * r_p), above ? -ct : ct, eta_it, eta_ti};
+  return {dielectric_reflectance(ci, ct, eta_it), above ? -ct : ct, eta_it, eta_ti};
 }
 
 /// The direction refracted at a surface with normal (0, 0, 1), for `w` with a cos_t and eta_ti from

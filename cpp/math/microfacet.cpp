@@ -1,7 +1,6 @@
 #include "math/microfacet.h"
 
 #include "math/erf_inverse.h"
-#include "math/warp.h"
 
 #include <glm/common.hpp>
 
@@ -10,6 +9,7 @@ namespace mlt {
 // All normals. In units of the roughness the slopes are isotropic, with squared radius t and
 // 1 - u = exp(-t) for Beckmann, 1 / (1 + t) for GGX (Walter et al. 2007, eqs. 28 and 35).
 
+template <>
 Vec3 Microfacet::sample_any(const Vec2& u) const {
   const double t = type_ == MicrofacetType::ggx ? u.x / (1 - u.x) : -std::log1p(-u.x);
   const double r = std::sqrt(t);
@@ -17,23 +17,14 @@ Vec3 Microfacet::sample_any(const Vec2& u) const {
   return stretch({r * phi.cos, r * phi.sin, 1});
 }
 
+template <>
 Vec2 Microfacet::invert_any(const Vec3& m) const {
   const double x = m.x / (alpha_u_ * m.z), y = m.y / (alpha_v_ * m.z);
   const double t = x * x + y * y;
   return {type_ == MicrofacetType::ggx ? t / (1 + t) : -std::expm1(-t), turns(x, y)};
 }
 
-// Visible GGX normals. On a hemisphere, mirror reflection of wi spreads visible normals evenly over
-// the spherical cap of directions c with c.z > -wi.z (Dupuy & Benyoub 2023, sec. 3).
-
-Vec3 Microfacet::sample_visible_ggx(const Vec3& wi, const Vec2& u) const {
-  const Vec3 w = stretch(wi);
-  const double h = u.x * (1 + w.z);  // 1 - c.z
-  const double r = std::sqrt(h * (2 - h));
-  const SinCos phi = sincos_turns(u.y);
-  return stretch({r * phi.cos + w.x, r * phi.sin + w.y, (1 - u.x) * (1 + w.z)});
-}
-
+template <>
 Vec2 Microfacet::invert_visible_ggx(const Vec3& wi, const Vec3& m) const {
   const Vec3 w = stretch(wi);
   const Vec3 c = reflect(w, unstretch(m));
@@ -111,6 +102,7 @@ struct Incidence {
 
 }  // namespace
 
+template <>
 Vec3 Microfacet::sample_visible_beckmann(const Vec3& wi, const Vec2& u) const {
   const Incidence in(stretch(wi));
   const double x = in.slope.sample(std::max(u.x, 0x1p-54));
@@ -118,6 +110,7 @@ Vec3 Microfacet::sample_visible_beckmann(const Vec3& wi, const Vec2& u) const {
   return stretch({-(in.cos_phi * x - in.sin_phi * y), -(in.sin_phi * x + in.cos_phi * y), 1});
 }
 
+template <>
 Vec2 Microfacet::invert_visible_beckmann(const Vec3& wi, const Vec3& m) const {
   const Incidence in(stretch(wi));
   const double mx = -m.x / (alpha_u_ * m.z), my = -m.y / (alpha_v_ * m.z);

@@ -40,7 +40,10 @@ constexpr double inv_pi = 1 / pi;
 constexpr double degree = pi / 180;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-inline double sqr(double x) { return x * x; }
+template <class F>
+F sqr(const F& x) {
+  return x * x;
+}
 inline double safe_sqrt(double x) { return std::sqrt(std::max(0.0, x)); }
 inline double length_squared(const Vec3& v) { return dot(v, v); }
 inline double max_component(const Vec3& v) { return std::max(v.x, std::max(v.y, v.z)); }

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "math/frame.h"
+#include "math/number.h"
 #include "math/polynomial.h"
 
 #include <cstdint>
@@ -30,23 +31,25 @@ inline SinCos sincos_octant(double x) {
   return {x + x * y * s, 1 + y * c};
 }
 /// sin and cos of x for |x| <= pi/4 in single precision, to 4e-7 (x^9 / 9!).
-inline SinCosOf<float> sincos_octant(float x) {
-  const float y = x * x;
-  const float s = polynomial(y, {-1.f / 5040, 1.f / 120, -1.f / 6});
-  const float c = polynomial(y, {1.f / 40320, -1.f / 720, 1.f / 24, -0.5f});
+template <class F>
+SinCosOf<F> sincos_octant(const F& x) {
+  const F y = x * x;
+  const F s = polynomial(y, {F(-1.f / 5040), F(1.f / 120), F(-1.f / 6)});
+  const F c = polynomial(y, {F(1.f / 40320), F(-1.f / 720), F(1.f / 24), F(-0.5f)});
   return {x + x * y * s, 1 + y * c};
 }
 
 }  // namespace detail
 
 /// sin and cos of 2 pi u for |u| < 2^30: the quarter turns are removed from u exactly.
-inline SinCos sincos_turns(double u) {
-  const double quarter = std::nearbyint(4 * u);
-  const SinCos a = detail::sincos_octant(2 * pi * (u - 0.25 * quarter));
-  const auto k = static_cast<int64_t>(quarter);
-  const double s = k & 1 ? a.cos : a.sin;
-  const double c = k & 1 ? a.sin : a.cos;
-  return {k & 2 ? -s : s, (k + 1) & 2 ? -c : c};
+template <class F>
+SinCosOf<F> sincos_turns(const F& u) {
+  const F quarter = nearbyint(4 * u);
+  const SinCosOf<F> a = detail::sincos_octant(number<F>(2 * pi) * (u - number<F>(0.25) * quarter));
+  const F k = quarter - 4 * floor(number<F>(0.25) * quarter);
+  const auto odd = (k == 1) | (k == 3);
+  const F s = select(odd, a.cos, a.sin), c = select(odd, a.sin, a.cos);
+  return {select(k >= 2, -s, s), select((k == 1) | (k == 2), -c, c)};
 }
 
 /// atan2(y, x) in turns, to 3e-16 of itself and without branches. With t = tan(a - pi/4) or tan(a),
@@ -84,10 +87,10 @@ struct DiskPoint {
 template <class F>
 DiskPoint<F> concentric(const Vec2Of<F>& u) {
   const F a = 2 * u.x - 1, b = 2 * u.y - 1;
-  const bool wide = std::abs(a) > std::abs(b);
-  const F r = wide ? a : b, other = wide ? b : a;
-  const SinCosOf<F> angle = sincos_octant(F(pi / 4) * (r == 0 ? F(0) : other / r));
-  return {{r * (wide ? angle.cos : angle.sin), r * (wide ? angle.sin : angle.cos)}, r};
+  const auto wide = abs(a) > abs(b);
+  const F r = select(wide, a, b), other = select(wide, b, a);
+  const SinCosOf<F> angle = sincos_octant(number<F>(pi / 4) * select(r == 0, F(0), other / r));
+  return {{r * select(wide, angle.cos, angle.sin), r * select(wide, angle.sin, angle.cos)}, r};
 }
 
 }  // namespace detail
@@ -115,7 +118,7 @@ inline Vec2 invert_disk(const Vec2& p) {
 template <class F>
 Vec3Of<F> sample_cosine_hemisphere(const Vec2Of<F>& u) {
   const auto [p, r] = detail::concentric(u);
-  return {p.x, p.y, std::sqrt((1 - r) * (1 + r))};
+  return {p.x, p.y, sqrt((1 - r) * (1 + r))};
 }
 
 inline double cosine_hemisphere_pdf(const Vec3& w) { return w.z > 0 ? w.z * inv_pi : 0; }

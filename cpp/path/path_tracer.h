@@ -61,17 +61,18 @@ struct DirectLight {
   bool disperses = false;  ///< See Scattering.
 };
 
-/// The light that is scattered at `at` towards wc, without visibility; `weight(pdf_light,
-/// pdf_bsdf)` is the MIS weight, of densities in solid angle.
-template <class Weight>
-DirectLight unshadowed_light(const Scene& scene, const LightSample& light, const SurfacePoint& at,
-                             const Vec3& wc, bool strict, Weight&& weight) {
+/// The light that is scattered at `at` towards the camera, without visibility; `scattering(wl)` is
+/// that between the direction to the light and the camera, `weight(pdf_light, pdf_bsdf)` the MIS
+/// weight, of densities in solid angle.
+template <class Scatter, class Weight>
+DirectLight unshadowed_light(const LightSample& light, const SurfacePoint& at, bool strict,
+                             Scatter&& scattering, Weight&& weight) {
   if (!(light.x0.pdf > 0)) return {};
   const Vec3 wl = direction(at, light.x0.at);
   if (!consistent_sides(at, wl, strict)) return {};
   const Spectrum radiance = light.emitter->eval(light.x0.at, -wl);
   if (is_black(radiance)) return {};
-  const WorldScattering s = BsdfAt(scene, at).scattering(wl, wc, Lobe::smooth);
+  const WorldScattering s = scattering(wl);
   if (is_black(s.f)) return {};
   const double pdf = light.x0.pdf * per_solid_angle(at.p, light.x0.at, wl);
   const double mis = light.emitter->delta() ? 1.0 : weight(pdf, s.pdf_from_camera);
@@ -86,8 +87,11 @@ DirectLight direct_light(const Walker& walker, const SurfacePoint& at, const Vec
                          const Spectrum& likelihood = Spectrum(1)) {
   const Scene& scene = walker.scene;
   const LightSample chosen = sample_direct_position(scene, at, u);
+  const auto scattering = [&](const Vec3& wl) {
+    return BsdfAt(scene, at).scattering(wl, wc, Lobe::smooth);
+  };
   if (!scene.has_passages()) {
-    const DirectLight light = unshadowed_light(scene, chosen, at, wc, strict, weight);
+    const DirectLight light = unshadowed_light(chosen, at, strict, scattering, weight);
     return !is_black(light.radiance) && walker.sees(at, light.x0) ? light : DirectLight();
   }
   if (!(chosen.x0.pdf > 0)) return {};
@@ -96,7 +100,7 @@ DirectLight direct_light(const Walker& walker, const SurfacePoint& at, const Vec
   if (seen.is_blocked()) return {};
   const double arrives = scene.arrival(seen, x0, direction(at, x0)).after(likelihood).probability();
   const auto through = [&](double light, double bsdf) { return weight(light, bsdf * arrives); };
-  DirectLight light = unshadowed_light(scene, chosen, at, wc, strict, through);
+  DirectLight light = unshadowed_light(chosen, at, strict, scattering, through);
   light.radiance *= seen.transmittance;
   return light;
 }
@@ -223,28 +227,36 @@ inline bool survive(const PathRules& rules, int depth, double u, CameraWalk& wal
   return true;
 }
 
-/// Scatters at the surface that is the depth-th vertex after the lens; false ends the walk.
+/// Goes on in the direction that was sampled at the surface that is the depth-th vertex after the
+/// lens; false ends the walk.
+template <class Watcher = IgnorePaths>
+bool go_on(const Walker& walker, const PathRules& rules, int depth, const SurfacePoint& at,
+           const ScatterSample& sample, double u_roulette, CameraWalk& walk,
+           Watcher&& watcher = Watcher()) {
+  watcher.scatter(sample.lobe);
+  walk.throughput *= sample.weight;
+  walk.scatter_pdf = sample.pdf;
+  walk.dispersed = walk.dispersed || sample.disperses;
+  walk.delta = sample.lobe != Lobe::smooth;
+  if (walk.certainty > 0)
+    walk.certainty *=
+        walk.delta
+            ? delta_terms(walker.scene, at, sample.lobe, sample.w, -walk.ray.d).pdf_from_camera
+            : 0;
+  walk.eta2 /= sample.eta2;
+  if (!survive(rules, depth, u_roulette, walk)) return false;
+  walk.previous = at.p;
+  walk.ray = walker.leave(at, sample.w);
+  return true;
+}
+
+/// Scatters at this surface; false ends the walk.
 template <class Watcher = IgnorePaths>
 bool scatter(const Walker& walker, const PathRules& rules, int depth, const SurfacePoint& at,
              const VertexNumbers& numbers, CameraWalk& walk, Watcher&& watcher = Watcher()) {
   const auto sample =
       scatter_to_light(walker, at, -walk.ray.d, numbers.for_scattering(), rules.strict_normals);
-  if (!sample) return false;
-  watcher.scatter(sample->lobe);
-  walk.throughput *= sample->weight;
-  walk.scatter_pdf = sample->pdf;
-  walk.dispersed = walk.dispersed || sample->disperses;
-  walk.delta = sample->lobe != Lobe::smooth;
-  if (walk.certainty > 0)
-    walk.certainty *=
-        walk.delta
-            ? delta_terms(walker.scene, at, sample->lobe, sample->w, -walk.ray.d).pdf_from_camera
-            : 0;
-  walk.eta2 /= sample->eta2;
-  if (!survive(rules, depth, numbers.roulette, walk)) return false;
-  walk.previous = at.p;
-  walk.ray = walker.leave(at, sample->w);
-  return true;
+  return sample && go_on(walker, rules, depth, at, *sample, numbers.roulette, walk, watcher);
 }
 
 /// Whether lights are sampled for the depth-th vertex after the lens.

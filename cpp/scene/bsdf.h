@@ -5,6 +5,7 @@
 #include "base/object.h"
 #include "math/frame.h"
 #include "scene/passage.h"
+#include "scene/scattering_lanes.h"
 #include "scene/surface_point.h"
 #include "scene/texture.h"
 
@@ -66,6 +67,11 @@ class Bsdf : public Object {
   /// lobe).
   virtual std::optional<Vec3> invert(const SurfacePoint& at, const Vec3& from, const Vec3& to,
                                      Lobe lobe, const Vec3& v) const = 0;
+
+  /// Whether scatter() computes scattering() and sample() for many points together; of materials
+  /// that are opaque, and smooth alone.
+  virtual bool serves_lanes() const { return false; }
+  virtual void scatter(ScatteringLanes&) const {}
 
   /// Whether the smooth lobes are present, and whether a delta lobe is.
   virtual bool has_smooth() const { return true; }

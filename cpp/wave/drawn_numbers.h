@@ -1,7 +1,7 @@
 // The random numbers of many paths side by side, drawn by a Source as soon as a path needs them.
 #pragma once
 
-#include "wave/lanes.h"
+#include "math/lanes.h"
 
 #include <cstddef>
 

@@ -2,11 +2,11 @@
 // paths without a Lambertian vertex are computed too, and ignored.
 #pragma once
 
+#include "math/lanes.h"
 #include "path/mis.h"
 #include "scene/lambertian.h"
 #include "scene/mesh.h"
 #include "scene/scene.h"
-#include "wave/lanes.h"
 
 #include <array>
 

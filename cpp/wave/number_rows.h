@@ -1,8 +1,8 @@
 // Rows of uniform numbers, drawn afresh or moved by small steps side by side.
 #pragma once
 
+#include "math/lanes.h"
 #include "primary/small_step.h"
-#include "wave/lanes.h"
 
 #include <algorithm>
 #include <vector>

@@ -63,17 +63,17 @@ template <class Numbers>
 void BasicPathWave<Numbers>::shade_block(int depth, RayCounts& rays) {
   const bool last = depth == rules_.most_edges();
   if (!last) read_numbers(depth);
-  single_count_ = 0;
+  singles_.clear();
   sky_vertices_.clear();
   for (int i = 0; i < count_; ++i) find_vertex(i, depth);
   if (last) return;
   lambertian_.find_reflectances();
   lambertian_.find_points(count_, &d_.x[begin_], &d_.y[begin_], &d_.z[begin_],
                           rules_.strict_normals);
-  if (rules_.wants(depth + 1)) {
-    choose_lights(depth);
-    queue_lights();
-  }
+  const bool lit = rules_.wants(depth + 1);
+  if (lit) choose_lights(depth);
+  scatter_in_lanes();
+  if (lit) queue_lights();
   lambertian_.sample_directions(count_, rules_.strict_normals);
   take_step(depth, rays);
 }
@@ -124,17 +124,8 @@ void BasicPathWave<Numbers>::find_bright_or_other(int i, const Hit& hit, int dep
   const SurfacePoint at = scene_->surface_point(walk.ray, hit);
   if (rules_.wants(depth)) find_light(*scene_, walk, &at, walk);
   if (scene_->lambertian_mesh(hit.shape).mesh) return;
-  if (consistent_sides(at, -walk.ray.d, rules_.strict_normals)) add_single(i, at);
-}
-
-template <class Numbers>
-void BasicPathWave<Numbers>::add_single(int i, const SurfacePoint& at) {
-  single_[i] = single_count_;
-  if (single_count_ == static_cast<int>(singles_.size())) singles_.emplace_back();
-  SingleVertex& single = singles_[single_count_++];
-  single.path = i;
-  single.at = at;
-  single.choice.probability = 0;
+  if (consistent_sides(at, -walk.ray.d, rules_.strict_normals))
+    single_[i] = singles_.add(i, at, -walk.ray.d);
 }
 
 template <class Numbers>
@@ -169,23 +160,23 @@ void BasicPathWave<Numbers>::choose_other_light(int i, const EmitterChoice& choi
       return;
     }
     const Ray& ray = walk(i).ray;
-    add_single(i,
-               lambertian_.point(i, hits(i).shape[i % RayPacket::size], ray.time, ray.wavelength));
+    single_[i] = singles_.add(
+        i, lambertian_.point(i, hits(i).shape[i % RayPacket::size], ray.time, ray.wavelength),
+        -Vec3(d_[begin_ + i]));
   }
   SingleVertex& single = singles_[single_[i]];
   single.choice = choice;
-  single.u = u;
+  single.u_light = u;
 }
 
 template <class Numbers>
 void BasicPathWave<Numbers>::sample_other_lights() {
-  for (int j = 0; j < single_count_; ++j) {
-    SingleVertex& single = singles_[j];
-    if (!(single.choice.probability > 0)) continue;
+  for (SingleVertex& single : singles_) {
+    if (!single.samples_light()) continue;
     if (single.choice.emitter->infinite())
-      backgrounds_.add(single.choice, single.u, single.at.wavelength, single.light);
+      backgrounds_.add(single.choice, single.u_light, single.at.wavelength, single.light);
     else
-      single.light = sample_direct_position(*scene_, single.at, single.choice, single.u);
+      single.light = sample_direct_position(*scene_, single.at, single.choice, single.u_light);
   }
   for (SkyVertex& vertex : sky_vertices_)
     backgrounds_.add(vertex.choice, vertex.u, walk(vertex.path).ray.wavelength, vertex.light);
@@ -210,8 +201,8 @@ void BasicPathWave<Numbers>::queue_lights() {
           i, *lambertian_.radiance[i] * *lambertian_.f[i] * double{lambertian_.light_weight[i]},
           lambertian_.shadow_o[i], lambertian_.shadow_w[i], lambertian_.shadow_length[i]);
   for (const SkyVertex& vertex : sky_vertices_) queue_sky(vertex);
-  for (int j = 0; j < single_count_; ++j)
-    if (singles_[j].choice.probability > 0) queue_other_light(singles_[j]);
+  for (const SingleVertex& single : singles_)
+    if (single.samples_light()) queue_other_light(single);
 }
 
 /// See direct_light() of path_tracer.h; for a Lambertian vertex.
@@ -237,13 +228,13 @@ void BasicPathWave<Numbers>::queue_other_light(const SingleVertex& single) {
   const int i = single.path;
   const SurfacePoint& at = single.at;
   const WaveWalk& walk = this->walk(i);
-  const Vec3 wc = lambertian_.f[i] ? -Vec3(d_[begin_ + i]) : -walk.ray.d;
   double stops = 1;
   if (scene_->has_passages() && single.light.x0.pdf > 0)
     stops = scene_->stop_probability(single.light.x0.at, direction(at, single.light.x0.at));
   const auto mis = [&](double light, double bsdf) { return walk.mis.weight(light, bsdf * stops); };
+  const auto scattering = [&](const Vec3& wl) { return single.scattering(*scene_, wl); };
   const DirectLight light =
-      unshadowed_light(*scene_, single.light, at, wc, rules_.strict_normals, mis);
+      unshadowed_light(single.light, at, rules_.strict_normals, scattering, mis);
   if (is_black(light.radiance)) return;
   if (const auto ray = scene_->segment(at, light.x0, walk.ray.time))
     queue_shadow(i, light.radiance, Vec3f(ray->o), Vec3f(ray->d), static_cast<float>(ray->t_max));
@@ -265,7 +256,7 @@ void BasicPathWave<Numbers>::take_step(int depth, RayCounts& rays) {
   }
 }
 
-/// See scatter() of path_tracer.h; for a Lambertian vertex.
+/// See go_on() of path_tracer.h; for a Lambertian vertex.
 template <class Numbers>
 bool BasicPathWave<Numbers>::scatter_lambertian(int i, int depth, WaveWalk& walk) {
   const double pdf = lambertian_.scatter_pdf[i];
@@ -281,17 +272,27 @@ bool BasicPathWave<Numbers>::scatter_lambertian(int i, int depth, WaveWalk& walk
   return true;
 }
 
-/// See scatter() of path_tracer.h; for a vertex that is not Lambertian, if there is one.
+template <class Numbers>
+void BasicPathWave<Numbers>::scatter_in_lanes() {
+  for (SingleVertex& single : singles_) {
+    const int i = single.path;
+    single.u_scatter = {numbers_.read(at_.lobe, begin_ + i), lambertian_.u_x[i],
+                        lambertian_.u_y[i]};
+  }
+  singles_.scatter_in_lanes(*scene_, rules_.strict_normals);
+}
+
+/// For a vertex that is not Lambertian, if there is one.
 template <class Numbers>
 bool BasicPathWave<Numbers>::scatter_other(int i, int depth, WaveWalk& walk, RayCounts& rays) {
   if (single_[i] < 0) return false;
-  const VertexNumbers numbers{{u_light_x_[i], u_light_y_[i]},
-                              {lambertian_.u_x[i], lambertian_.u_y[i]},
-                              numbers_.read(at_.choice, begin_ + i),
-                              numbers_.read(at_.lobe, begin_ + i),
-                              numbers_.read(at_.roulette, begin_ + i)};
-  return scatter(Walker{*scene_, walk.ray.time, rays}, rules_, depth, singles_[single_[i]].at,
-                 numbers, walk);
+  const SingleVertex& single = singles_[single_[i]];
+  const Walker walker{*scene_, walk.ray.time, rays};
+  const auto sample = single.in_lanes ? single.scattered
+                                      : scatter_to_light(walker, single.at, single.wc,
+                                                         single.u_scatter, rules_.strict_normals);
+  return sample && go_on(walker, rules_, depth, single.at, *sample,
+                         numbers_.read(at_.roulette, begin_ + i), walk);
 }
 
 template class BasicPathWave<WaveNumbers>;

@@ -9,6 +9,7 @@
 #include "path/path_tracer.h"
 #include "wave/drawn_numbers.h"
 #include "wave/lambertian_vertices.h"
+#include "wave/single_vertices.h"
 #include "wave/wave_numbers.h"
 #include "wave/wave_shadows.h"
 
@@ -89,16 +90,6 @@ class BasicPathWave {
   }
 
  private:
-  /// A vertex that is not Lambertian, or samples a light that is neither an emissive mesh nor at
-  /// infinity.
-  struct SingleVertex {
-    int path;
-    SurfacePoint at;
-    EmitterChoice choice;  ///< The light that it samples; probability 0: there is none.
-    Vec2 u;                ///< The numbers for the position on it.
-    LightSample light;     ///< The sampled position.
-  };
-
   /// A Lambertian vertex that samples a light at infinity.
   struct SkyVertex {
     int path;
@@ -118,7 +109,6 @@ class BasicPathWave {
   void find_bright_or_other(int i, const Hit& hit, int depth);
   void choose_lights(int depth);
   void choose_other_light(int i, const EmitterChoice& choice, const Vec2& u);
-  void add_single(int i, const SurfacePoint& at);
   void sample_other_lights();
   void queue_lights();
   void queue_sky(const SkyVertex& vertex);
@@ -126,6 +116,7 @@ class BasicPathWave {
   void queue_shadow(int i, const Spectrum& radiance, const Vec3f& o, const Vec3f& w, float length);
   void take_step(int depth, RayCounts& rays);
   bool scatter_lambertian(int i, int depth, WaveWalk& walk);
+  void scatter_in_lanes();
   bool scatter_other(int i, int depth, WaveWalk& walk, RayCounts& rays);
 
   /// The walk at this place of the wave, with its ray in double precision.
@@ -154,8 +145,7 @@ class BasicPathWave {
   int begin_ = 0, count_ = 0;
   Block<double> u_light_x_, u_light_y_;
   LambertianVertices lambertian_;
-  std::vector<SingleVertex> singles_;  ///< The first `single_count_` are in use.
-  int single_count_ = 0;
+  SingleVertices singles_;
   std::vector<SkyVertex> sky_vertices_;
   Block<int> single_;  ///< Index in singles_ of the path's vertex; -1: none.
   BackgroundPositions backgrounds_;

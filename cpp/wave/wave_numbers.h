@@ -1,8 +1,8 @@
 // The random numbers of many samples side by side, equal to those of the PixelSampler of each.
 #pragma once
 
+#include "math/lanes.h"
 #include "path/samplers.h"
-#include "wave/lanes.h"
 
 namespace mlt {
 

@@ -1,8 +1,8 @@
 // Shadow rays of many paths: light that reaches their vertices unless it is blocked.
 #pragma once
 
+#include "math/lanes.h"
 #include "scene/scene.h"
-#include "wave/lanes.h"
 
 #include <array>
 

@@ -24,8 +24,10 @@ class CoatedBase {
 
   /// The coating's share of the light that it and the base reflect from one direction, if the
   /// coating reflects and transmits these fractions.
-  double specular_share(double reflectance, double transmittance) const {
-    return first_share(reflectance * specular_weight_, transmittance * diffuse_weight_);
+  template <class F>
+  F specular_share(const F& reflectance, const F& transmittance) const {
+    return first_share(reflectance * number<F>(specular_weight_),
+                       transmittance * number<F>(diffuse_weight_));
   }
 
  private:

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "math/frame.h"
+#include "math/number.h"
 
 #include <glm/common.hpp>
 
@@ -40,6 +41,9 @@ inline Vec3 u_of(double lobe, const Vec2& direction) {
 }
 
 /// a / (a + b), the probability of the first lobe; 0 where both weights are 0.
-inline double first_share(double a, double b) { return a > 0 ? a / (a + b) : 0; }
+template <class F>
+F first_share(F a, F b) {
+  return select(a > 0, a / (a + b), F(0));
+}
 
 }  // namespace mlt

@@ -13,22 +13,30 @@ namespace mlt {
 /// from this direction,
 ///   R = mean of F G1(reflected, m),  T = mean of (1 - F) G1(refracted, m)
 /// (the albedos of Walter et al. 2007, eqs. 20 and 21, by eq. 41).
-struct RoughFresnel {
-  double reflectance, transmittance;
+template <class F>
+struct RoughFresnelOf {
+  F reflectance, transmittance;
 };
+using RoughFresnel = RoughFresnelOf<double>;
 
 class RoughCoating {
  public:
   RoughCoating(MicrofacetType type, double alpha, double eta);
 
   /// The fractions for a direction with this cosine from outside, 0 <= cos_i <= 1.
-  RoughFresnel at(double cos_i) const {
-    const double x = std::min(cos_i, 1.0) * (size - 1);
-    const auto i = std::min(static_cast<size_t>(x), size - 2);
-    const double t = x - static_cast<double>(i);
-    const RoughFresnel &a = table_[i], &b = table_[i + 1];
-    return {a.reflectance + t * (b.reflectance - a.reflectance),
-            a.transmittance + t * (b.transmittance - a.transmittance)};
+  template <class F>
+  RoughFresnelOf<F> at(F cos_i) const {
+    const F x = max(F(0), min(cos_i, F(1))) * number<F>(size - 1);
+    const F i = min(floor(x), number<F>(size - 2)), t = x - i;
+    const auto interpolated = [&](double RoughFresnel::* part) {
+      const auto node = [&](int next) {
+        return for_each_lane<F>(
+            [&](int lane) { return table_[static_cast<int>(lane_of(i, lane)) + next].*part; });
+      };
+      const F a = node(0), b = node(1);
+      return a + t * (b - a);
+    };
+    return {interpolated(&RoughFresnel::reflectance), interpolated(&RoughFresnel::transmittance)};
   }
 
   /// The mean reflectance for diffuse light from inside.

@@ -3,40 +3,54 @@
 //   f = F(wl . h) D(h) G(wl, wc, h) / (4 cos_l cos_c),   h = (wl + wc) / |wl + wc|.
 #include "base/registry.h"
 #include "math/fresnel.h"
-#include "scene/bsdf.h"
 #include "scene/bsdf/ior_params.h"
-#include "scene/bsdf/lobes.h"
-#include "scene/bsdf/rough_surface.h"
+#include "scene/bsdf/microfacet_reflector.h"
 
 namespace mlt {
 namespace {
 
-class RoughConductor final : public Bsdf {
+class RoughConductor final : public MicrofacetReflector<RoughConductor> {
  public:
   explicit RoughConductor(Params& params)
       : surface_(params),
         ior_(conductor_param(params)),
         reflectance_(texture_param(params, "specular_reflectance")) {}
 
-  Scattering scattering(const SurfacePoint& at, const Vec3& wl, const Vec3& wc,
-                        Lobe lobe) const override {
-    if (lobe != Lobe::smooth || !above(wl, wc)) return {};
-    const Microfacet microfacet = surface_.at(at);
-    const Vec3 h = normalize(wl + wc);
-    const double D = microfacet.D(h);
+  template <class F>
+  MicrofacetOf<F> microfacet(const SurfacePoint& at) const {
+    return MicrofacetOf<F>(surface_.at(at));
+  }
+
+  template <class F>
+  struct Terms {
+    F factor, cos_h, pdf_from_light, pdf_from_camera;
+    Terms<double> of_lane(int i) const { return {factor[i], cos_h[i], 0, 0}; }
+  };
+  template <class F>
+  Terms<F> terms(const MicrofacetOf<F>& microfacet, const Vec3Of<F>& wl,
+                 const Vec3Of<F>& wc) const {
+    const Vec3Of<F> h = normalize(wl + wc);
+    const F D = microfacet.D(h);
     const Masking light(microfacet, wl, h), camera(microfacet, wc, h);
-    return {value(at, wl, wc, h, D, light.fit * camera.fit),
+    return {D * (light.fit * camera.fit) / (4 * wl.z * wc.z), min(dot(wl, h), F(1)),
             reflection_pdf(microfacet, wl, h, D, light.exact),
             reflection_pdf(microfacet, wc, h, D, camera.exact)};
   }
 
-  std::optional<BsdfSample> sample(const SurfacePoint& at, const Vec3& from,
-                                   const Vec3& u) const override {
-    if (from.z <= 0) return std::nullopt;
-    const Vec3 h = surface_.at(at).sample(from, direction_part(u));
-    const Vec3 to = reflect(from, h);
-    if (dot(from, h) <= 0 || to.z <= 0) return std::nullopt;
-    return BsdfSample{to, Lobe::smooth};
+  template <class F>
+  Vec3Of<F> direction(const MicrofacetOf<F>& microfacet, const Vec3Of<F>& from,
+                      const Vec3Of<F>& u) const {
+    return mirrored(microfacet, from, {u.y, u.z});
+  }
+
+  struct Colors {
+    Spectrum specular;
+    double wavelength;
+  };
+  Colors colors(const SurfacePoint& at) const { return {reflectance_->eval(at), at.wavelength}; }
+  Spectrum value(const Colors& colors, const Terms<double>& terms) const {
+    if (!(terms.factor > 0)) return Spectrum(0);
+    return colors.specular * ior_.fresnel(terms.cos_h, colors.wavelength) * terms.factor;
   }
 
   std::optional<Vec3> invert(const SurfacePoint& at, const Vec3& from, const Vec3& to, Lobe lobe,
@@ -48,19 +62,13 @@ class RoughConductor final : public Bsdf {
   double roughness(const SurfacePoint& at, const Vec3&, const Vec3&) const override {
     return surface_.alpha(at);
   }
+  double least_roughness() const override { return surface_.least_alpha(); }
 
   Spectrum albedo(const SurfacePoint& at) const override {
     return reflectance_->eval(at) * ior_.fresnel(1, at.wavelength);
   }
 
  private:
-  Spectrum value(const SurfacePoint& at, const Vec3& wl, const Vec3& wc, const Vec3& h, double D,
-                 double G) const {
-    if (!(D * G > 0)) return Spectrum(0);
-    const Spectrum F = ior_.fresnel(std::min(dot(wl, h), 1.0), at.wavelength);
-    return reflectance_->eval(at) * F * (D * G / (4 * wl.z * wc.z));
-  }
-
   RoughSurface surface_;
   ConductorIor ior_;
   TexturePtr reflectance_;

@@ -6,16 +6,15 @@
 #include "base/registry.h"
 #include "math/fresnel.h"
 #include "math/warp.h"
-#include "scene/bsdf.h"
 #include "scene/bsdf/coated_base.h"
 #include "scene/bsdf/ior_params.h"
+#include "scene/bsdf/microfacet_reflector.h"
 #include "scene/bsdf/rough_coating.h"
-#include "scene/bsdf/rough_surface.h"
 
 namespace mlt {
 namespace {
 
-class RoughPlastic final : public Bsdf {
+class RoughPlastic final : public MicrofacetReflector<RoughPlastic> {
  public:
   explicit RoughPlastic(Params& params)
       : eta_(relative_ior_param(params)),
@@ -23,32 +22,48 @@ class RoughPlastic final : public Bsdf {
         coating_(microfacet_.type(), microfacet_.alpha_u(), eta_),
         base_(params, eta_, coating_.internal_reflectance(), coating_.mean_transmittance()) {}
 
-  Scattering scattering(const SurfacePoint& at, const Vec3& wl, const Vec3& wc,
-                        Lobe lobe) const override {
-    if (lobe != Lobe::smooth || !above(wl, wc)) return {};
-    const Vec3 h = normalize(wl + wc);
-    const double D = microfacet_.D(h);
-    const Masking light(microfacet_, wl, h), camera(microfacet_, wc, h);
-    const RoughFresnel coat_l = coating_.at(wl.z), coat_c = coating_.at(wc.z);
-    const double pl = specular_share(coat_l), pc = specular_share(coat_c);
-    return {
-        specular_part(at, wl, wc, h, D * light.fit * camera.fit) + diffuse_part(at, coat_l, coat_c),
-        pl * reflection_pdf(microfacet_, wl, h, D, light.exact) + (1 - pl) * inv_pi * wc.z,
-        pc * reflection_pdf(microfacet_, wc, h, D, camera.exact) + (1 - pc) * inv_pi * wl.z};
+  template <class F>
+  MicrofacetOf<F> microfacet(const SurfacePoint&) const {
+    return MicrofacetOf<F>(microfacet_);
   }
 
-  std::optional<BsdfSample> sample(const SurfacePoint&, const Vec3& from,
-                                   const Vec3& u) const override {
-    if (from.z <= 0) return std::nullopt;
-    if (u.x >= specular_share(coating_.at(from.z))) {
-      const Vec3 to = sample_cosine_hemisphere(direction_part(u));
-      if (to.z <= 0) return std::nullopt;
-      return BsdfSample{to, Lobe::smooth};
-    }
-    const Vec3 h = microfacet_.sample(from, direction_part(u));
-    const Vec3 to = reflect(from, h);
-    if (dot(from, h) <= 0 || to.z <= 0) return std::nullopt;
-    return BsdfSample{to, Lobe::smooth};
+  template <class F>
+  struct Terms {
+    F specular, diffuse, pdf_from_light, pdf_from_camera;
+    Terms<double> of_lane(int i) const { return {specular[i], diffuse[i], 0, 0}; }
+  };
+  template <class F>
+  Terms<F> terms(const MicrofacetOf<F>& microfacet, const Vec3Of<F>& wl,
+                 const Vec3Of<F>& wc) const {
+    const Vec3Of<F> h = normalize(wl + wc);
+    const F D = microfacet.D(h);
+    const Masking light(microfacet, wl, h), camera(microfacet, wc, h);
+    const RoughFresnelOf<F> coat_l = coating_.at(wl.z), coat_c = coating_.at(wc.z);
+    const F pl = specular_share(coat_l), pc = specular_share(coat_c);
+    const F reflected = dielectric_reflectance(dot(wl, h), eta_);
+    return {reflected * (D * (light.fit * camera.fit)) / (4 * wl.z * wc.z),
+            coat_l.transmittance * coat_c.transmittance,
+            pl * reflection_pdf(microfacet, wl, h, D, light.exact) + (1 - pl) * number<F>(inv_pi) * wc.z,
+            pc * reflection_pdf(microfacet, wc, h, D, camera.exact) + (1 - pc) * number<F>(inv_pi) * wl.z};
+  }
+
+  template <class F>
+  Vec3Of<F> direction(const MicrofacetOf<F>& microfacet, const Vec3Of<F>& from,
+                      const Vec3Of<F>& u) const {
+    const Vec2Of<F> v(u.y, u.z);
+    const auto below_coat = u.x >= specular_share(coating_.at(from.z));
+    if constexpr (is_number<F>)
+      return below_coat ? sample_cosine_hemisphere(v) : mirrored(microfacet, from, v);
+    else
+      return select(below_coat, sample_cosine_hemisphere(v), mirrored(microfacet, from, v));
+  }
+
+  struct Colors {
+    Spectrum specular, base;
+  };
+  Colors colors(const SurfacePoint& at) const { return {base_.specular(at), base_.eval(at)}; }
+  Spectrum value(const Colors& colors, const Terms<double>& terms) const {
+    return terms.specular * colors.specular + terms.diffuse * colors.base;
   }
 
   std::optional<Vec3> invert(const SurfacePoint& at, const Vec3& from, const Vec3& to, Lobe lobe,
@@ -66,12 +81,11 @@ class RoughPlastic final : public Bsdf {
   /// The roughness of the lobe that contributes more between the two directions.
   double roughness(const SurfacePoint& at, const Vec3& wl, const Vec3& wc) const override {
     if (!above(wl, wc)) return infinity;
-    const Vec3 h = normalize(wl + wc);
-    const Spectrum specular =
-        specular_part(at, wl, wc, h, microfacet_.D(h) * microfacet_.G(wl, wc, h));
-    const Spectrum diffuse = diffuse_part(at, coating_.at(wl.z), coating_.at(wc.z));
-    return target_luminance(specular) > target_luminance(diffuse) ? microfacet_.alpha_u()
-                                                                  : infinity;
+    const Terms<double> terms = this->terms(microfacet_, wl, wc);
+    const auto [specular, base] = colors(at);
+    return target_luminance(terms.specular * specular) > target_luminance(terms.diffuse * base)
+               ? microfacet_.alpha_u()
+               : infinity;
   }
 
   double least_roughness() const override { return microfacet_.alpha_u(); }
@@ -84,18 +98,8 @@ class RoughPlastic final : public Bsdf {
     return {microfacet_type_param(params), alpha, alpha, params.boolean("sample_visible")};
   }
 
-  Spectrum specular_part(const SurfacePoint& at, const Vec3& wl, const Vec3& wc, const Vec3& h,
-                         double DG) const {
-    const double F = fresnel_dielectric(dot(wl, h), eta_).reflectance;
-    return F * DG / (4 * wl.z * wc.z) * base_.specular(at);
-  }
-
-  Spectrum diffuse_part(const SurfacePoint& at, const RoughFresnel& light,
-                        const RoughFresnel& camera) const {
-    return light.transmittance * camera.transmittance * base_.eval(at);
-  }
-
-  double specular_share(const RoughFresnel& coat) const {
+  template <class F>
+  F specular_share(const RoughFresnelOf<F>& coat) const {
     return base_.specular_share(coat.reflectance, coat.transmittance);
   }
 

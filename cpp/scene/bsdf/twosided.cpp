@@ -37,6 +37,18 @@ class TwoSided final : public Bsdf {
     return sampled;
   }
 
+  bool serves_lanes() const override { return front_ == back_ && front_->serves_lanes(); }
+  void scatter(ScatteringLanes& x) const override {
+    Block<float> side;
+    for (int i = 0; i < x.count; ++i) {
+      side[i] = std::copysign(1.0f, x.wc.z[i]);
+      x.wc.z[i] *= side[i];
+      x.wl.z[i] *= side[i];
+    }
+    front_->scatter(x);
+    for (int i = 0; i < x.count; ++i) x.to.z[i] *= side[i];
+  }
+
   std::optional<Vec3> invert(const SurfacePoint& at, const Vec3& from, const Vec3& to, Lobe lobe,
                              const Vec3& v) const override {
     if (!same_side(from, to)) return std::nullopt;

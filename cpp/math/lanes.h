@@ -2,7 +2,7 @@
 // compiler vectorises the loops over them.
 #pragma once
 
-#include "math/vec.h"
+#include "math/number.h"
 
 namespace mlt {
 
@@ -12,6 +12,9 @@ struct alignas(32) Lanes {
   T values[size];
   T& operator[](int i) { return values[i]; }
   const T& operator[](int i) const { return values[i]; }
+  /// Eight floats from the i-th on.
+  Float8 eight(int i) const { return Float8(&values[i], stdx::element_aligned); }
+  void set_eight(int i, const Float8& x) { x.copy_to(&values[i], stdx::element_aligned); }
 };
 
 template <int size>
@@ -22,6 +25,12 @@ struct VectorLanes {
     x[i] = v.x;
     y[i] = v.y;
     z[i] = v.z;
+  }
+  Vec3Of<Float8> eight(int i) const { return {x.eight(i), y.eight(i), z.eight(i)}; }
+  void set_eight(int i, const Vec3Of<Float8>& v) {
+    x.set_eight(i, v.x);
+    y.set_eight(i, v.y);
+    z.set_eight(i, v.z);
   }
 };
 

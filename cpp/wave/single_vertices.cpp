@@ -1,0 +1,61 @@
+#include "wave/single_vertices.h"
+
+namespace mlt {
+namespace {
+
+/// The direction to the sampled light in the shading frame; 0 if no light comes from there.
+Vec3 local_light(const SingleVertex& vertex, bool strict_normals) {
+  if (!vertex.samples_light() || !(vertex.light.x0.pdf > 0)) return Vec3(0);
+  const Vec3 wl = direction(vertex.at, vertex.light.x0.at);
+  return consistent_sides(vertex.at, wl, strict_normals) ? vertex.at.shading.to_local(wl) : Vec3(0);
+}
+
+/// The i-th result, of a smooth reflection (see scatter_to_light).
+std::optional<ScatterSample> scattered(const ScatteringLanes& lanes, int i, const SurfacePoint& at,
+                                       bool strict_normals) {
+  if (!(lanes.pdf[i] > 0) || is_black(lanes.f[i])) return std::nullopt;
+  const Vec3 to(lanes.to[i]), w = normalize(at.shading.to_world(to));
+  if (!consistent_sides(at, w, strict_normals)) return std::nullopt;
+  const double pdf = lanes.pdf[i];
+  return ScatterSample{w, lanes.f[i] * (abs_cos_theta(to) / pdf), pdf, Lobe::smooth, 1, false};
+}
+
+}  // namespace
+
+void SingleVertices::scatter_in_lanes(const Scene& scene, bool strict_normals) {
+  for (int first = 0; first < count_; ++first) {
+    const SingleVertex& vertex = vertices_[first];
+    if (vertex.in_lanes || vertex.at.lambertian.known()) continue;
+    const Bsdf& bsdf = scene.bsdf(vertex.at);
+    if (bsdf.serves_lanes()) scatter_in_lanes(bsdf, first, scene, strict_normals);
+  }
+}
+
+/// Computes the scattering of all vertices of this material, from the first one on.
+void SingleVertices::scatter_in_lanes(const Bsdf& bsdf, int first, const Scene& scene,
+                                      bool strict_normals) {
+  SingleVertex* chosen[ScatteringLanes::capacity];
+  lanes_.count = 0;
+  for (int j = first; j < count_; ++j) {
+    SingleVertex& vertex = vertices_[j];
+    if (vertex.at.lambertian.known() || &scene.bsdf(vertex.at) != &bsdf) continue;
+    const int i = lanes_.count++;
+    chosen[i] = &vertex;
+    lanes_.at[i] = &vertex.at;
+    lanes_.wc.set(i, Vec3f(vertex.at.shading.to_local(vertex.wc)));
+    lanes_.wl.set(i, Vec3f(local_light(vertex, strict_normals)));
+    lanes_.u_lobe[i] = below_one(vertex.u_scatter.x);
+    lanes_.u_x[i] = below_one(vertex.u_scatter.y);
+    lanes_.u_y[i] = below_one(vertex.u_scatter.z);
+  }
+  bsdf.scatter(lanes_);
+  for (int i = 0; i < lanes_.count; ++i) {
+    SingleVertex& vertex = *chosen[i];
+    vertex.in_lanes = true;
+    vertex.from_light = {
+        {lanes_.f_light[i], 0, lanes_.pdf_light[i]}, lanes_.wl.z[i], lanes_.wc.z[i]};
+    vertex.scattered = scattered(lanes_, i, vertex.at, strict_normals);
+  }
+}
+
+}  // namespace mlt

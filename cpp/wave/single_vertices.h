@@ -1,0 +1,65 @@
+// Vertices of a block of paths that are not Lambertian, or sample a light that is neither an
+// emissive mesh nor at infinity. They are computed one by one, in double precision, but for
+// scattering by materials that serve lanes.
+#pragma once
+
+#include "path/path_tracer.h"
+
+#include <optional>
+#include <vector>
+
+namespace mlt {
+
+struct SingleVertex {
+  int path;
+  SurfacePoint at;
+  Vec3 wc;               ///< Towards the camera.
+  EmitterChoice choice;  ///< The light that it samples; probability 0: there is none.
+  Vec2 u_light;          ///< The numbers for the position on it.
+  LightSample light;     ///< The sampled position.
+  Vec3 u_scatter;        ///< The numbers for the scattered direction.
+
+  /// Whether the results below were computed together with other vertices.
+  bool in_lanes;
+  WorldScattering from_light;  ///< Between the light and the camera.
+  std::optional<ScatterSample> scattered;
+
+  bool samples_light() const { return choice.probability > 0; }
+  /// See unshadowed_light(); wl points to the light.
+  WorldScattering scattering(const Scene& scene, const Vec3& wl) const {
+    return in_lanes ? from_light : BsdfAt(scene, at).scattering(wl, wc, Lobe::smooth);
+  }
+};
+
+class SingleVertices {
+ public:
+  void clear() { count_ = 0; }
+  int size() const { return count_; }
+  SingleVertex& operator[](int i) { return vertices_[i]; }
+  SingleVertex* begin() { return vertices_.data(); }
+  SingleVertex* end() { return begin() + count_; }
+
+  /// Adds a vertex and returns its index. References to others become invalid.
+  int add(int path, const SurfacePoint& at, const Vec3& wc) {
+    if (count_ == static_cast<int>(vertices_.size())) vertices_.emplace_back();
+    SingleVertex& vertex = vertices_[count_];
+    vertex.path = path;
+    vertex.at = at;
+    vertex.wc = wc;
+    vertex.choice.probability = 0;
+    vertex.in_lanes = false;
+    return count_++;
+  }
+
+  /// Computes the scattering of all vertices whose materials serve lanes.
+  void scatter_in_lanes(const Scene& scene, bool strict_normals);
+
+ private:
+  void scatter_in_lanes(const Bsdf& bsdf, int first, const Scene& scene, bool strict_normals);
+
+  std::vector<SingleVertex> vertices_;  ///< The first `count_` are in use.
+  int count_ = 0;
+  ScatteringLanes lanes_;
+};
+
+}  // namespace mlt
