@@ -1,6 +1,7 @@
 #include "math/microfacet.h"
 
 #include "math/erf_inverse.h"
+#include "math/warp.h"
 
 #include <glm/common.hpp>
 
@@ -9,7 +10,6 @@ namespace mlt {
 // All normals. In units of the roughness the slopes are isotropic, with squared radius t and
 // 1 - u = exp(-t) for Beckmann, 1 / (1 + t) for GGX (Walter et al. 2007, eqs. 28 and 35).
 
-template <>
 Vec3 Microfacet::sample_any(const Vec2& u) const {
   const double t = type_ == MicrofacetType::ggx ? u.x / (1 - u.x) : -std::log1p(-u.x);
   const double r = std::sqrt(t);
@@ -17,14 +17,14 @@ Vec3 Microfacet::sample_any(const Vec2& u) const {
   return stretch({r * phi.cos, r * phi.sin, 1});
 }
 
-template <>
 Vec2 Microfacet::invert_any(const Vec3& m) const {
   const double x = m.x / (alpha_u_ * m.z), y = m.y / (alpha_v_ * m.z);
   const double t = x * x + y * y;
   return {type_ == MicrofacetType::ggx ? t / (1 + t) : -std::expm1(-t), turns(x, y)};
 }
 
-template <>
+// Visible GGX normals: the inverse of Ggx::sample.
+
 Vec2 Microfacet::invert_visible_ggx(const Vec3& wi, const Vec3& m) const {
   const Vec3 w = stretch(wi);
   const Vec3 c = reflect(w, unstretch(m));
@@ -102,7 +102,6 @@ struct Incidence {
 
 }  // namespace
 
-template <>
 Vec3 Microfacet::sample_visible_beckmann(const Vec3& wi, const Vec2& u) const {
   const Incidence in(stretch(wi));
   const double x = in.slope.sample(std::max(u.x, 0x1p-54));
@@ -110,7 +109,6 @@ Vec3 Microfacet::sample_visible_beckmann(const Vec3& wi, const Vec2& u) const {
   return stretch({-(in.cos_phi * x - in.sin_phi * y), -(in.sin_phi * x + in.cos_phi * y), 1});
 }
 
-template <>
 Vec2 Microfacet::invert_visible_beckmann(const Vec3& wi, const Vec3& m) const {
   const Incidence in(stretch(wi));
   const double mx = -m.x / (alpha_u_ * m.z), my = -m.y / (alpha_v_ * m.z);

@@ -47,9 +47,6 @@ inline float lane_of(const Float8& x, int i) { return x[i]; }
 
 // Functions of numbers, for formulas over both kinds:
 using std::abs;
-using std::copysign;
-using std::erf;
-using std::exp;
 using std::floor;
 using std::max;
 using std::min;

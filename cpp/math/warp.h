@@ -42,13 +42,20 @@ SinCosOf<F> sincos_octant(const F& x) {
 }  // namespace detail
 
 /// sin and cos of 2 pi u for |u| < 2^30: the quarter turns are removed from u exactly.
-template <class F>
-SinCosOf<F> sincos_turns(const F& u) {
-  const F quarter = nearbyint(4 * u);
-  const SinCosOf<F> a = detail::sincos_octant(number<F>(2 * pi) * (u - number<F>(0.25) * quarter));
-  const F k = quarter - 4 * floor(number<F>(0.25) * quarter);
+inline SinCos sincos_turns(double u) {
+  const double quarter = std::nearbyint(4 * u);
+  const SinCos a = detail::sincos_octant(2 * pi * (u - 0.25 * quarter));
+  const auto k = static_cast<int64_t>(quarter);
+  const double s = k & 1 ? a.cos : a.sin;
+  const double c = k & 1 ? a.sin : a.cos;
+  return {k & 2 ? -s : s, (k + 1) & 2 ? -c : c};
+}
+inline SinCosOf<Float8> sincos_turns(const Float8& u) {
+  const Float8 quarter = nearbyint(4 * u);
+  const auto a = detail::sincos_octant(number<Float8>(2 * pi) * (u - 0.25f * quarter));
+  const Float8 k = quarter - 4 * floor(0.25f * quarter);
   const auto odd = (k == 1) | (k == 3);
-  const F s = select(odd, a.cos, a.sin), c = select(odd, a.sin, a.cos);
+  const Float8 s = select(odd, a.cos, a.sin), c = select(odd, a.sin, a.cos);
   return {select(k >= 2, -s, s), select((k == 1) | (k == 2), -c, c)};
 }
 

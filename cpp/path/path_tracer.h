@@ -56,7 +56,6 @@ Spectrum emission(const Scene& scene, const SurfacePoint* at, const Ray& ray, We
 /// The light from a position sampled by next-event estimation that is scattered at a point, if it
 /// is visible from there.
 struct DirectLight {
-  SurfacePoint x0;
   Spectrum radiance{0};
   bool disperses = false;  ///< See Scattering.
 };
@@ -76,7 +75,7 @@ DirectLight unshadowed_light(const LightSample& light, const SurfacePoint& at, b
   if (is_black(s.f)) return {};
   const double pdf = light.x0.pdf * per_solid_angle(at.p, light.x0.at, wl);
   const double mis = light.emitter->delta() ? 1.0 : weight(pdf, s.pdf_from_camera);
-  return {light.x0.at, radiance * s.f * (std::abs(s.cos_l) * mis / pdf), s.disperses};
+  return {radiance * s.f * (std::abs(s.cos_l) * mis / pdf), s.disperses};
 }
 
 /// The light that is scattered at `at` towards wc from a light sampled by u, with visibility. A
@@ -92,7 +91,7 @@ DirectLight direct_light(const Walker& walker, const SurfacePoint& at, const Vec
   };
   if (!scene.has_passages()) {
     const DirectLight light = unshadowed_light(chosen, at, strict, scattering, weight);
-    return !is_black(light.radiance) && walker.sees(at, light.x0) ? light : DirectLight();
+    return !is_black(light.radiance) && walker.sees(at, chosen.x0.at) ? light : DirectLight();
   }
   if (!(chosen.x0.pdf > 0)) return {};
   const SurfacePoint& x0 = chosen.x0.at;

@@ -99,11 +99,11 @@ Scene::Scene(std::vector<ShapePtr> shapes, std::vector<EmitterPtr> emitters, Cam
 bool Scene::intersect(const Ray& ray, SurfacePoint& at) const {
   Hit hit;
   if (!accel_->intersect(ray, hit)) return false;
-  arrive(ray, hit, at);
+  find_surface_point(ray, hit, at);
   return true;
 }
 
-inline void Scene::arrive(const Ray& ray, const Hit& hit, SurfacePoint& at) const {
+void Scene::find_surface_point(const Ray& ray, const Hit& hit, SurfacePoint& at) const {
   at.kind = PointKind::surface;
   at.shape = hit.shape;
   at.primitive = hit.primitive;
@@ -120,12 +120,6 @@ Spectrum MeshLight::radiance_at(double wavelength) const {
   SurfacePoint at;
   at.wavelength = wavelength;
   return max(radiance->eval(at), Spectrum(0));
-}
-
-SurfacePoint Scene::surface_point(const Ray& ray, const Hit& hit) const {
-  SurfacePoint at;
-  arrive(ray, hit, at);
-  return at;
 }
 
 inline Vec3 Scene::departure(const SurfacePoint& at, const Vec3& w) const {

@@ -79,8 +79,8 @@ class Scene {
 
   const Accel& accel() const { return *accel_; }
   const std::shared_ptr<const Accel>& accel_ptr() const { return accel_; }
-  /// The point in which the ray hit a surface.
-  SurfacePoint surface_point(const Ray& ray, const Hit& hit) const;
+  /// Finds the point in which the ray hit a surface.
+  void find_surface_point(const Ray& ray, const Hit& hit, SurfacePoint& at) const;
   /// The nearest surface along the ray; false if there is none.
   bool intersect(const Ray& ray, SurfacePoint& at) const;
   /// Whether two points (at most one of them infinite) are mutually visible. All surfaces block.
@@ -148,7 +148,6 @@ class Scene {
   size_t bytes() const;  ///< Bytes of the shapes' buffers.
 
  private:
-  void arrive(const Ray& ray, const Hit& hit, SurfacePoint& at) const;
   EmitterChoice choice(const LightIndex& chosen) const {
     return {emitters_[chosen.index].get(), chosen.index, chosen.probability};
   }

@@ -64,7 +64,7 @@ void BasicPathWave<Numbers>::shade_block(int depth, RayCounts& rays) {
   const bool last = depth == rules_.most_edges();
   if (!last) read_numbers(depth);
   singles_.clear();
-  sky_vertices_.clear();
+  sky_count_ = 0;
   for (int i = 0; i < count_; ++i) find_vertex(i, depth);
   if (last) return;
   lambertian_.find_reflectances();
@@ -121,11 +121,15 @@ void BasicPathWave<Numbers>::find_bright_or_other(int i, const Hit& hit, int dep
     left_[path_[begin_ + i]] = true;
     return;
   }
-  const SurfacePoint at = scene_->surface_point(walk.ray, hit);
+  const int added = singles_.add(i, -walk.ray.d);
+  SurfacePoint& at = singles_[added].at;
+  scene_->find_surface_point(walk.ray, hit, at);
   if (rules_.wants(depth)) find_light(*scene_, walk, &at, walk);
-  if (scene_->lambertian_mesh(hit.shape).mesh) return;
-  if (consistent_sides(at, -walk.ray.d, rules_.strict_normals))
-    single_[i] = singles_.add(i, at, -walk.ray.d);
+  if (!scene_->lambertian_mesh(hit.shape).mesh &&
+      consistent_sides(at, -walk.ray.d, rules_.strict_normals))
+    single_[i] = added;
+  else
+    singles_.drop_last();
 }
 
 template <class Numbers>
@@ -156,13 +160,17 @@ void BasicPathWave<Numbers>::choose_other_light(int i, const EmitterChoice& choi
     lambertian_.light_pdf[i] = 0;
     if (!(lambertian_.sides[i] > 0)) return;
     if (choice.emitter->infinite()) {
-      sky_vertices_.push_back({i, choice, u, {}});
+      if (sky_count_ == static_cast<int>(sky_vertices_.size())) sky_vertices_.emplace_back();
+      SkyVertex& vertex = sky_vertices_[sky_count_++];
+      vertex.path = i;
+      vertex.choice = choice;
+      vertex.u = u;
       return;
     }
     const Ray& ray = walk(i).ray;
-    single_[i] = singles_.add(
-        i, lambertian_.point(i, hits(i).shape[i % RayPacket::size], ray.time, ray.wavelength),
-        -Vec3(d_[begin_ + i]));
+    single_[i] = singles_.add(i, -Vec3(d_[begin_ + i]));
+    singles_[single_[i]].at =
+        lambertian_.point(i, hits(i).shape[i % RayPacket::size], ray.time, ray.wavelength);
   }
   SingleVertex& single = singles_[single_[i]];
   single.choice = choice;
@@ -178,8 +186,10 @@ void BasicPathWave<Numbers>::sample_other_lights() {
     else
       single.light = sample_direct_position(*scene_, single.at, single.choice, single.u_light);
   }
-  for (SkyVertex& vertex : sky_vertices_)
+  for (int j = 0; j < sky_count_; ++j) {
+    SkyVertex& vertex = sky_vertices_[j];
     backgrounds_.add(vertex.choice, vertex.u, walk(vertex.path).ray.wavelength, vertex.light);
+  }
   backgrounds_.sample_all(*scene_);
 }
 
@@ -200,7 +210,7 @@ void BasicPathWave<Numbers>::queue_lights() {
       queue_shadow(
           i, *lambertian_.radiance[i] * *lambertian_.f[i] * double{lambertian_.light_weight[i]},
           lambertian_.shadow_o[i], lambertian_.shadow_w[i], lambertian_.shadow_length[i]);
-  for (const SkyVertex& vertex : sky_vertices_) queue_sky(vertex);
+  for (int j = 0; j < sky_count_; ++j) queue_sky(sky_vertices_[j]);
   for (const SingleVertex& single : singles_)
     if (single.samples_light()) queue_other_light(single);
 }
@@ -236,7 +246,7 @@ void BasicPathWave<Numbers>::queue_other_light(const SingleVertex& single) {
   const DirectLight light =
       unshadowed_light(single.light, at, rules_.strict_normals, scattering, mis);
   if (is_black(light.radiance)) return;
-  if (const auto ray = scene_->segment(at, light.x0, walk.ray.time))
+  if (const auto ray = scene_->segment(at, single.light.x0.at, walk.ray.time))
     queue_shadow(i, light.radiance, Vec3f(ray->o), Vec3f(ray->d), static_cast<float>(ray->t_max));
 }
 

@@ -147,6 +147,7 @@ class BasicPathWave {
   LambertianVertices lambertian_;
   SingleVertices singles_;
   std::vector<SkyVertex> sky_vertices_;
+  int sky_count_ = 0;  ///< How many are in use.
   Block<int> single_;  ///< Index in singles_ of the path's vertex; -1: none.
   BackgroundPositions backgrounds_;
 };

@@ -39,17 +39,18 @@ class SingleVertices {
   SingleVertex* begin() { return vertices_.data(); }
   SingleVertex* end() { return begin() + count_; }
 
-  /// Adds a vertex and returns its index. References to others become invalid.
-  int add(int path, const SurfacePoint& at, const Vec3& wc) {
+  /// Adds a vertex, whose place is still to be set, and returns its index. References to others
+  /// become invalid.
+  int add(int path, const Vec3& wc) {
     if (count_ == static_cast<int>(vertices_.size())) vertices_.emplace_back();
     SingleVertex& vertex = vertices_[count_];
     vertex.path = path;
-    vertex.at = at;
     vertex.wc = wc;
     vertex.choice.probability = 0;
     vertex.in_lanes = false;
     return count_++;
   }
+  void drop_last() { --count_; }
 
   /// Computes the scattering of all vertices whose materials serve lanes.
   void scatter_in_lanes(const Scene& scene, bool strict_normals);
@@ -57,8 +58,8 @@ class SingleVertices {
  private:
   void scatter_in_lanes(const Bsdf& bsdf, int first, const Scene& scene, bool strict_normals);
 
-  std::vector<SingleVertex> vertices_;  ///< The first `count_` are in use.
-  int count_ = 0;
+  std::vector<SingleVertex> vertices_;
+  int count_ = 0;  ///< How many are in use.
   ScatteringLanes lanes_;
 };
 

@@ -1,11 +1,12 @@
 // The base of materials that reflect light smoothly, on one side, by microfacets and what is below
-// them. A model has, over numbers F that are double or Float8:
+// them. A model has, over numbers F that are double or, with Ggx for its normals, Float8:
 //
-//   MicrofacetOf<F> microfacet<F>(at)      the distribution of normals
-//   Terms<F>        terms(microfacet, wl, wc)   factors of its colours, and densities
-//   Vec3Of<F>       direction(microfacet, from, u)   sampled; below the surface: none
-//   Colors          colors(at)             what its textures say of the point
-//   Spectrum        value(colors, terms)   the BSDF
+//   Microfacet microfacet(at)                  the distribution of normals
+//   bool       is_constant()                   whether it is the same everywhere
+//   Terms<F>   terms(microfacet, wl, wc)       factors of its colours, and densities
+//   Vec3Of<F>  direction(microfacet, from, u)  a sample; not above the surface: there is none
+//   Colors     colors(at)                      what its textures say of the point
+//   Spectrum   value(colors, terms)            the BSDF
 #pragma once
 
 #include "scene/bsdf.h"
@@ -20,19 +21,24 @@ class MicrofacetReflector : public Bsdf {
   Scattering scattering(const SurfacePoint& at, const Vec3& wl, const Vec3& wc,
                         Lobe lobe) const final {
     if (lobe != Lobe::smooth || !above(wl, wc)) return {};
-    const auto terms = model().terms(model().template microfacet<double>(at), wl, wc);
+    const auto terms = model().terms(model().microfacet(at), wl, wc);
     return {model().value(model().colors(at), terms), terms.pdf_from_light, terms.pdf_from_camera};
   }
 
   std::optional<BsdfSample> sample(const SurfacePoint& at, const Vec3& from,
                                    const Vec3& u) const final {
     if (from.z <= 0) return std::nullopt;
-    const Vec3 to = model().direction(model().template microfacet<double>(at), from, u);
+    const Vec3 to = model().direction(model().microfacet(at), from, u);
     return to.z > 0 ? std::optional<BsdfSample>({to, Lobe::smooth}) : std::nullopt;
   }
 
-  /// Narrow lobes need the double precision of single points.
-  bool serves_lanes() const final { return least_roughness() >= 0.02; }
+  /// Where eight points together are faster, and single precision is enough.
+  bool serves_lanes() const final {
+    if (!model().is_constant()) return false;
+    const Microfacet microfacet = model().microfacet({});
+    return microfacet.type() == MicrofacetType::ggx && microfacet.sample_visible() &&
+           std::min(microfacet.alpha_u(), microfacet.alpha_v()) >= 0.02;
+  }
   void scatter(ScatteringLanes& x) const final {
     x.fill_up();
     for (int i = 0; i < x.count; i += 8) scatter_eight(x, i);
@@ -42,7 +48,8 @@ class MicrofacetReflector : public Bsdf {
   const Model& model() const { return static_cast<const Model&>(*this); }
 
   void scatter_eight(ScatteringLanes& x, int first) const {
-    const auto microfacet = model().template microfacet<Float8>(*x.at[first]);
+    const Ggx<double> ggx = model().microfacet(*x.at[first]).ggx();
+    const Ggx<Float8> microfacet{number<Float8>(ggx.alpha_u), number<Float8>(ggx.alpha_v)};
     const Vec3Of<Float8> wc = x.wc.eight(first), wl = x.wl.eight(first);
     const Vec3Of<Float8> u{x.u_lobe.eight(first), x.u_x.eight(first), x.u_y.eight(first)};
     const Vec3Of<Float8> sampled = model().direction(microfacet, wc, u);

@@ -18,6 +18,7 @@ class RoughSurface {
 
   Microfacet at(const SurfacePoint& at) const { return alpha_u_ ? textured(at) : constant_; }
 
+  bool is_constant() const { return !alpha_u_; }
   /// A lower bound of alpha().
   double least_alpha() const {
     return alpha_u_ ? 0 : std::min(constant_.alpha_u(), constant_.alpha_v());
@@ -45,31 +46,30 @@ template <class F>
 struct Masking {
   F exact, fit;
 
-  Masking(const MicrofacetOf<F>& microfacet, const Vec3Of<F>& w, const Vec3Of<F>& h)
+  template <class Normals>
+  Masking(const Normals& microfacet, const Vec3Of<F>& w, const Vec3Of<F>& h)
       : exact(microfacet.g1(w, h)),
         fit(microfacet.type() == MicrofacetType::ggx ? exact : microfacet.g1_fit(w, h)) {}
 };
 
 /// Density of the normal h when it is sampled for the direction `from`, which may be on either side
 /// (Heitz & d'Eon 2014, eq. 2; Walter et al. 2007, eq. 24). `g1` is the exact one of `from`.
-template <class F>
-F normal_pdf(const MicrofacetOf<F>& microfacet, const Vec3Of<F>& from, const Vec3Of<F>& h, F D,
-             F g1) {
+template <class Normals, class F>
+F normal_pdf(const Normals& microfacet, const Vec3Of<F>& from, const Vec3Of<F>& h, F D, F g1) {
   if (microfacet.sample_visible()) return D * g1 * abs(dot(from, h) / from.z);
   return select(g1 > 0, D * h.z, F(0));
 }
 
 /// The density of the direction into which `from` is mirrored by h: |dh / dto| = 1 / (4 |from . h|)
 /// (Walter et al. 2007, eq. 14).
-template <class F>
-F reflection_pdf(const MicrofacetOf<F>& microfacet, const Vec3Of<F>& from, const Vec3Of<F>& h, F D,
-                 F g1) {
+template <class Normals, class F>
+F reflection_pdf(const Normals& microfacet, const Vec3Of<F>& from, const Vec3Of<F>& h, F D, F g1) {
   return normal_pdf(microfacet, from, h, D, g1) / (4 * abs(dot(from, h)));
 }
 
 /// The direction into which a normal sampled for `from` mirrors it; (0, 0, 0) if there is none.
-template <class F>
-Vec3Of<F> mirrored(const MicrofacetOf<F>& microfacet, const Vec3Of<F>& from, const Vec2Of<F>& u) {
+template <class Normals, class F>
+Vec3Of<F> mirrored(const Normals& microfacet, const Vec3Of<F>& from, const Vec2Of<F>& u) {
   const Vec3Of<F> h = microfacet.sample(from, u);
   return reflect(from, h) * select(dot(from, h) > 0, F(1), F(0));
 }

@@ -16,19 +16,16 @@ class RoughConductor final : public MicrofacetReflector<RoughConductor> {
         ior_(conductor_param(params)),
         reflectance_(texture_param(params, "specular_reflectance")) {}
 
-  template <class F>
-  MicrofacetOf<F> microfacet(const SurfacePoint& at) const {
-    return MicrofacetOf<F>(surface_.at(at));
-  }
+  Microfacet microfacet(const SurfacePoint& at) const { return surface_.at(at); }
+  bool is_constant() const { return surface_.is_constant(); }
 
   template <class F>
   struct Terms {
     F factor, cos_h, pdf_from_light, pdf_from_camera;
     Terms<double> of_lane(int i) const { return {factor[i], cos_h[i], 0, 0}; }
   };
-  template <class F>
-  Terms<F> terms(const MicrofacetOf<F>& microfacet, const Vec3Of<F>& wl,
-                 const Vec3Of<F>& wc) const {
+  template <class Normals, class F>
+  Terms<F> terms(const Normals& microfacet, const Vec3Of<F>& wl, const Vec3Of<F>& wc) const {
     const Vec3Of<F> h = normalize(wl + wc);
     const F D = microfacet.D(h);
     const Masking light(microfacet, wl, h), camera(microfacet, wc, h);
@@ -37,10 +34,9 @@ class RoughConductor final : public MicrofacetReflector<RoughConductor> {
             reflection_pdf(microfacet, wc, h, D, camera.exact)};
   }
 
-  template <class F>
-  Vec3Of<F> direction(const MicrofacetOf<F>& microfacet, const Vec3Of<F>& from,
-                      const Vec3Of<F>& u) const {
-    return mirrored(microfacet, from, {u.y, u.z});
+  template <class Normals, class F>
+  Vec3Of<F> direction(const Normals& microfacet, const Vec3Of<F>& from, const Vec3Of<F>& u) const {
+    return mirrored(microfacet, from, Vec2Of<F>(u.y, u.z));
   }
 
   struct Colors {

@@ -22,19 +22,16 @@ class RoughPlastic final : public MicrofacetReflector<RoughPlastic> {
         coating_(microfacet_.type(), microfacet_.alpha_u(), eta_),
         base_(params, eta_, coating_.internal_reflectance(), coating_.mean_transmittance()) {}
 
-  template <class F>
-  MicrofacetOf<F> microfacet(const SurfacePoint&) const {
-    return MicrofacetOf<F>(microfacet_);
-  }
+  Microfacet microfacet(const SurfacePoint&) const { return microfacet_; }
+  bool is_constant() const { return true; }
 
   template <class F>
   struct Terms {
     F specular, diffuse, pdf_from_light, pdf_from_camera;
     Terms<double> of_lane(int i) const { return {specular[i], diffuse[i], 0, 0}; }
   };
-  template <class F>
-  Terms<F> terms(const MicrofacetOf<F>& microfacet, const Vec3Of<F>& wl,
-                 const Vec3Of<F>& wc) const {
+  template <class Normals, class F>
+  Terms<F> terms(const Normals& microfacet, const Vec3Of<F>& wl, const Vec3Of<F>& wc) const {
     const Vec3Of<F> h = normalize(wl + wc);
     const F D = microfacet.D(h);
     const Masking light(microfacet, wl, h), camera(microfacet, wc, h);
@@ -43,13 +40,14 @@ class RoughPlastic final : public MicrofacetReflector<RoughPlastic> {
     const F reflected = dielectric_reflectance(dot(wl, h), eta_);
     return {reflected * (D * (light.fit * camera.fit)) / (4 * wl.z * wc.z),
             coat_l.transmittance * coat_c.transmittance,
-            pl * reflection_pdf(microfacet, wl, h, D, light.exact) + (1 - pl) * number<F>(inv_pi) * wc.z,
-            pc * reflection_pdf(microfacet, wc, h, D, camera.exact) + (1 - pc) * number<F>(inv_pi) * wl.z};
+            pl * reflection_pdf(microfacet, wl, h, D, light.exact) +
+                (1 - pl) * number<F>(inv_pi) * wc.z,
+            pc * reflection_pdf(microfacet, wc, h, D, camera.exact) +
+                (1 - pc) * number<F>(inv_pi) * wl.z};
   }
 
-  template <class F>
-  Vec3Of<F> direction(const MicrofacetOf<F>& microfacet, const Vec3Of<F>& from,
-                      const Vec3Of<F>& u) const {
+  template <class Normals, class F>
+  Vec3Of<F> direction(const Normals& microfacet, const Vec3Of<F>& from, const Vec3Of<F>& u) const {
     const Vec2Of<F> v(u.y, u.z);
     const auto below_coat = u.x >= specular_share(coating_.at(from.z));
     if constexpr (is_number<F>)
