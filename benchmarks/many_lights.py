@@ -1,7 +1,8 @@
 """A hall with 1, 5, 30, 1,000 or 100,000 lamps: how noisy an image is after equal CPU time.
 
 The lamps are small rectangles below the ceiling that face anywhere, of different power, all
-together as bright whatever their number; six boxes of rough plastic stand on the floor. The error
+together as bright whatever their number; six boxes of rough plastic stand on the floor. With
+--one-mesh all lamps are triangles of one mesh, so that they have one radiance. The error
 is the variance between seeds, relative as in relMSE: mean of var / (r^2 + 0.001), with r the mean
 of all images. To compare two builds, run it with each.
 """
@@ -27,6 +28,10 @@ WALLS = [
 ]
 
 
+#: Of a rectangle.
+CORNERS = np.array([[-1, -1, 0, 1], [1, -1, 0, 1], [1, 1, 0, 1], [-1, 1, 0, 1]], float)
+
+
 def shape(kind: str, to_world: mlt.Transform, bsdf: dict, **more) -> dict:
     return {"type": kind, "to_world": to_world, "bsdf": bsdf, **more}
 
@@ -35,7 +40,7 @@ def rgb(*value: float) -> dict:
     return {"type": "rgb", "value": list(value)}
 
 
-def hall(lamps: int) -> dict:
+def hall(lamps: int, *, one_mesh: bool = False) -> dict:
     """The scene with this number of lamps."""
     draw = random.Random(lamps)
     side = 0.5 / lamps**0.5
@@ -56,6 +61,7 @@ def hall(lamps: int) -> dict:
         place = mlt.Transform().translate([draw.uniform(-3.5, 3.5), 0.5, draw.uniform(-3.5, 2)])
         size = [0.4, draw.uniform(0.3, 1), 0.4]
         scene[f"box{i}"] = shape("cube", place.scale(size), plastic)
+    corners: list[list[np.ndarray]] = []  # of all lamps, if they are one mesh
     for i in range(lamps):
         at = [draw.uniform(-4.8, 4.8), draw.uniform(1.5, 2.9), draw.uniform(-4.8, 4.8)]
         turn = 90 + draw.uniform(-60, 60)
@@ -63,7 +69,16 @@ def hall(lamps: int) -> dict:
         power = draw.uniform(0.2, 1) * 10 / (lamps * side**2)
         colour = rgb(power, power * draw.uniform(0.4, 1), power * draw.uniform(0.3, 1))
         light = {"type": "area", "radiance": colour}
-        scene[f"lamp{i}"] = shape("rectangle", to_world, {"type": "diffuse"}, emitter=light)
+        if one_mesh:
+            corners.append([to_world.matrix @ corner for corner in CORNERS])
+        else:
+            scene[f"lamp{i}"] = shape("rectangle", to_world, {"type": "diffuse"}, emitter=light)
+    if one_mesh:
+        light = {"type": "area", "radiance": rgb(*np.array([6, 4, 3]) / (lamps * side**2))}
+        vertices = np.array(corners).reshape(-1, 4)[:, :3]
+        faces = np.arange(4 * lamps).reshape(-1, 4)[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
+        mesh = {"vertices": vertices, "faces": faces, "emitter": light}
+        scene["lamps"] = shape("mesh", mlt.Transform(), {"type": "diffuse"}, **mesh)
     return scene
 
 
@@ -85,15 +100,16 @@ def main() -> None:
     options.add_argument("--integrators", nargs="+", choices=INTEGRATORS, default=list(INTEGRATORS))
     options.add_argument("--seconds", type=float, default=5)
     options.add_argument("--seeds", type=int, default=4)
+    options.add_argument("--one-mesh", action="store_true", help="of which all lamps are a part")
     args = options.parse_args()
     rows = []
     for lamps in args.lamps:
-        scene = mlt.load_dict(hall(lamps))
+        scene = mlt.load_dict(hall(lamps, one_mesh=args.one_mesh))
         for name in args.integrators:
             error, spp = measure(scene, INTEGRATORS[name](max_depth=6), args)
             rows.append({"lamps": lamps, "integrator": name, "relMSE": error, "spp": spp})
     print_table(rows)
-    settings = {"seconds": args.seconds, "seeds": args.seeds}
+    settings = {"seconds": args.seconds, "seeds": args.seeds, "one_mesh": args.one_mesh}
     write_results(args.json, "many_lights", settings, rows)
 
 

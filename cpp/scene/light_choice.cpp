@@ -30,23 +30,12 @@ Discrete choose_by_power(const std::vector<EmitterPtr>& lights) {
   return Discrete(weights);
 }
 
-/// The normal of a triangle on the side where the light is; nullopt if that may be either side.
-std::optional<Vec3> bright_side(const Mesh& mesh, uint32_t triangle) {
-  const Vec3 ng = mesh.record(triangle).ng;
-  if (!mesh.has_normals()) return ng;
-  int turned = 0;
-  for (const Vec2f& corner : {Vec2f(0, 0), Vec2f(1, 0), Vec2f(0, 1)})
-    turned += dot(mesh.normal_sum(triangle, corner), Vec3f(ng)) < 0;
-  if (turned == 0) return ng;
-  return turned == 3 ? std::optional<Vec3>(-ng) : std::nullopt;
-}
-
 /// Sets the cone of the normals of a mesh, if there is a narrower one than all directions.
 void bound_normals(const Mesh& mesh, LightBounds& bounds) {
   const auto count = static_cast<uint32_t>(mesh.data().triangles.size());
   Vec3 sum(0);
   for (uint32_t i = 0; i < count; ++i) {
-    const auto normal = bright_side(mesh, i);
+    const auto normal = mesh.bright_side(i);
     if (!normal) return;
     sum += *normal;
   }
@@ -54,7 +43,7 @@ void bound_normals(const Mesh& mesh, LightBounds& bounds) {
   bounds.axis = normalize(sum);
   double cosine = 1;
   for (uint32_t i = 0; i < count; ++i)
-    cosine = std::min(cosine, dot(bounds.axis, *bright_side(mesh, i)));
+    cosine = std::min(cosine, dot(bounds.axis, *mesh.bright_side(i)));
   bounds.cos_normals = std::max(-1.0, cosine - 1e-6);
 }
 

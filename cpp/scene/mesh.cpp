@@ -99,8 +99,7 @@ void Mesh::surface_point(const Ray& ray, const Hit& hit, SurfacePoint& at) const
   fill(tri, hit.primitive, b1, b2, at);
 }
 
-inline void Mesh::fill(const Edges& tri, uint32_t index, double b1, double b2,
-                       SurfacePoint& at) const {
+void Mesh::fill(const Edges& tri, uint32_t index, double b1, double b2, SurfacePoint& at) const {
   const TriangleRecord& record = records_[index];
   at.ng = record.ng;
   at.extent = record.extent;
@@ -138,25 +137,6 @@ inline void Mesh::fill(const Edges& tri, uint32_t index, double b1, double b2,
   at.shading = Frame::around(n, m, dp_du);
 }
 
-void Mesh::prepare_sampling() {
-  if (!triangle_areas_.empty()) return;
-  if (!(area_ > 0)) throw SceneError(at(where, "a mesh without area cannot emit light"));
-  std::vector<double> areas(data_->triangles.size());
-  for (uint32_t i = 0; i < areas.size(); ++i)
-    areas[i] = length(data_->triangle(triangles_[i]).normal);
-  triangle_areas_ = Discrete(areas);
-}
-
-PositionSample Mesh::sample_position(const Vec2& u) const {
-  const auto [index, b] = sample_barycentrics(u);
-  const Edges tri = records_[index].edges();
-  PositionSample sample;
-  sample.at.p = tri.p0 + tri.e1 * b.x + tri.e2 * b.y;
-  fill(tri, index, b.x, b.y, sample.at);
-  sample.pdf = 1 / area_;
-  return sample;
-}
-
 void Mesh::textured_point(uint32_t triangle, const Vec2& b, SurfacePoint& at) const {
   const TriangleRecord& record = records_[triangle];
   const double b0 = 1 - b.x - b.y;
@@ -169,13 +149,6 @@ void Mesh::textured_point(uint32_t triangle, const Vec2& b, SurfacePoint& at) co
   at.uv = Vec2(uvs_[corners[0]]) * b0 + Vec2(uvs_[corners[1]]) * b.x + Vec2(uvs_[corners[2]]) * b.y;
 }
 
-Vec2 Mesh::barycentrics(const SurfacePoint& at) const {
-  const Edges tri = records_[at.primitive].edges();
-  const Vec3 q = at.p - tri.p0, normal = cross(tri.e1, tri.e2);
-  const double scale = 1 / length_squared(normal);
-  return {dot(cross(q, tri.e2), normal) * scale, dot(cross(tri.e1, q), normal) * scale};
-}
-
 std::optional<Vec3> Mesh::moved_normal(const SurfacePoint& at, const Mat3& inverse) const {
   if (!normals_) return std::nullopt;
   const auto& corners = triangles_[at.primitive];
@@ -185,12 +158,6 @@ std::optional<Vec3> Mesh::moved_normal(const SurfacePoint& at, const Mat3& inver
   for (int i = 0; i < 3; ++i) sum += normalize(Vec3(normals_[corners[i]]) * inverse) * weights[i];
   if (!(length_squared(sum) > 1e-12)) return std::nullopt;
   return normalize(sum) * side_;
-}
-
-Vec2 Mesh::invert_position(const SurfacePoint& at) const {
-  const Vec2 u = invert_triangle(barycentrics(at));
-  const auto clamp = [](double x) { return std::min(std::max(x, 0.0), 1 - 0x1p-53); };
-  return {triangle_areas_.invert(at.primitive, clamp(u.x)), clamp(u.y)};
 }
 
 Shape::UvTangents Mesh::uv_tangents(const SurfacePoint& at) const {

@@ -4,6 +4,7 @@
 #include "base/shared_array.h"
 #include "math/distribution.h"
 #include "math/warp.h"
+#include "scene/light_tree.h"
 #include "scene/mesh_data.h"
 #include "scene/shape.h"
 
@@ -64,17 +65,32 @@ class Mesh : public Shape {
   struct Barycentrics {
     uint32_t triangle;
     Vec2 b;
+    double per_pdf;  ///< 1 / density per area.
   };
-  /// The triangle and barycentrics that sample_position() samples.
+  /// The triangle and barycentrics that sample_position() and sample_direct() sample.
   Barycentrics sample_barycentrics(const Vec2& u) const {
     const Discrete::Sample chosen = triangle_areas_.sample_reuse(u.x);
-    return {static_cast<uint32_t>(chosen.index), sample_triangle({chosen.remainder, u.y})};
+    return {static_cast<uint32_t>(chosen.index), sample_triangle({chosen.remainder, u.y}), area_};
   }
+  Barycentrics sample_barycentrics_for(const Vec3& from, const Vec2& u) const;
+  /// Whether the latter depends on `from`.
+  bool chooses_by_point() const { return !triangle_tree_.empty(); }
+  /// The density per area with which sample_direct() samples the points of a triangle.
+  double direct_density(uint32_t triangle, const Vec3& from) const;
+  /// The normal of a triangle on the side where its light is; nullopt if that may be either side.
+  std::optional<Vec3> bright_side(uint32_t triangle) const;
   void surface_point(const Ray& ray, const Hit& hit, SurfacePoint& at) const override;
   bool has_tangent() const override { return uvs_ && !(bsdf_ && bsdf_->lambertian().known()); }
   double area() const override { return area_; }
-  PositionSample sample_position(const Vec2& u) const override;
+  PositionSample sample_position(const Vec2& u) const override {
+    return position(sample_barycentrics(u));
+  }
   Vec2 invert_position(const SurfacePoint& at) const override;
+  PositionSample sample_direct(const Vec3& from, const Vec2& u) const override;
+  double pdf_direct(const Vec3& from, const SurfacePoint& at) const override {
+    return direct_density(at.primitive, from);
+  }
+  Vec2 invert_direct(const Vec3& from, const SurfacePoint& at) const override;
   UvTangents uv_tangents(const SurfacePoint& at) const override;
   void bounds(Vec3& low, Vec3& high) const override {
     low = low_;
@@ -85,7 +101,7 @@ class Mesh : public Shape {
   /// Barycentrics of the corners after the first one, at a point of this mesh.
   Vec2 barycentrics(const SurfacePoint& at) const;
 
-  /// Builds the table that sample_position needs, once; called for meshes that carry an emitter.
+  /// Builds the tables that these need, once; called for meshes that carry an emitter.
   /// Throws SceneError if the mesh has no area.
   void prepare_sampling();
 
@@ -93,6 +109,10 @@ class Mesh : public Shape {
   using Edges = TriangleRecord::Edges;
   /// Whether the vertices have normals that are not those of the triangles.
   bool has_smooth_normals() const;
+  PositionSample position(const Barycentrics& point) const;
+  double area_of(uint32_t triangle) const { return triangle_areas_.pdf(triangle) * area_; }
+  LightBounds bounds_of(uint32_t triangle) const;
+  Vec2 invert_in_triangle(const SurfacePoint& at) const;
   void fill(const Edges& edges, uint32_t index, double b1, double b2, SurfacePoint& at) const;
 
   std::shared_ptr<const MeshData> data_;
@@ -104,7 +124,9 @@ class Mesh : public Shape {
   double side_;                          ///< -1 with flip_normals, else 1.
   double area_ = 0;
   Vec3 low_, high_;
-  Discrete triangle_areas_;  ///< Built only for meshes that emit (see prepare_sampling).
+  // Built only for meshes that emit (see prepare_sampling):
+  Discrete triangle_areas_;
+  LightTree triangle_tree_;  ///< Empty if the triangles are few.
 };
 
 }  // namespace mlt

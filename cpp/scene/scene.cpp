@@ -41,7 +41,7 @@ MeshLight mesh_light(const Emitter& emitter) {
   if (!radiance || emitter.shape()->bsdf().has_passage()) return {};
   const Mesh* mesh = emitter.shape()->as_mesh();
   const Spectrum rgb(glm::max(radiance->mean(), Color(0)));
-  return {mesh, radiance, rgb, mesh->area()};
+  return {mesh, radiance, rgb};
 }
 
 /// The shapes of all groups of which there are instances.

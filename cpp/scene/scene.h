@@ -29,7 +29,6 @@ struct MeshLight {
   const Mesh* mesh = nullptr;  ///< nullptr if this light is of another kind.
   const Texture* radiance = nullptr;
   Spectrum rgb{0};  ///< The radiance where there are no wavelengths.
-  double area = 0;
 
   Spectrum radiance_at(double wavelength) const;
 };

@@ -122,24 +122,20 @@ void BidirectionalWave::walk_from_lights(RayCounts& rays) {
   light_.walk(numbers_, settings_.rules.most_edges(), rays);
 }
 
-/// Samples a point on a light, by the numbers of this sample.
-inline void BidirectionalWave::draw_light(int sample, const EmitterChoice& choice, int to) {
-  const MeshLight& light = scene_->mesh_light(choice.index);
-  lights_.set_light(to, light, choice.probability / light.area, {u_x_[sample], u_y_[sample]},
-                    wavelength_[sample]);
-}
-
 /// Starts walks at lights, which emit as a Lambertian surface scatters light from above.
 void BidirectionalWave::start_at_lights(const LightNumbersOf<WaveNumbers::Place>& at, int begin,
                                         int count) {
   numbers_.read2(at.position, begin, count, &u_x_[begin], &u_y_[begin]);
   numbers_.read2(at.direction, begin, count, &lights_.u_x[0], &lights_.u_y[0]);
   numbers_.read(at.choice, begin, count, &u_choice_[begin]);
-  uint32_t chosen[block_size];
+  uint32_t chosen[block_size], triangles[block_size];
   for (int i = 0; i < count; ++i) {
     const EmitterChoice choice = scene_->choose_emitter(u_choice_[begin + i]);
-    draw_light(begin + i, choice, i);
+    const MeshLight& light = scene_->mesh_light(choice.index);
+    const auto point = light.mesh->sample_barycentrics({u_x_[begin + i], u_y_[begin + i]});
+    lights_.set_light(i, light, choice.probability, point, wavelength_[begin + i]);
     chosen[i] = choice.index;
+    triangles[i] = point.triangle;
   }
   lights_.surface = lights_.light;
   lights_.n = lights_.light.ng;
@@ -156,9 +152,9 @@ void BidirectionalWave::start_at_lights(const LightNumbersOf<WaveNumbers::Place>
         is_black(*lights_.radiance[i]))
       continue;
     const float cosine = std::fabs(dot(lights_.surface.ng[i], lights_.w[i]));
-    light_.start(begin + i,
-                 {lights_.p[i], lights_.o[i], lights_.w[i], cosine, pdf, forward, 1,
-                  *lights_.radiance[i] * (pi / forward), wavelength_[begin + i], chosen[i]});
+    light_.start(begin + i, {lights_.p[i], lights_.o[i], lights_.w[i], cosine, pdf, forward, 1,
+                             *lights_.radiance[i] * (pi / forward), wavelength_[begin + i],
+                             chosen[i], triangles[i]});
   }
 }
 
@@ -213,10 +209,13 @@ void BidirectionalWave::choose_direct(int place, int block, int first) {
     if (!seen) continue;
     const Vec3 from = place > 0 ? Vec3(camera_.joints(place, block).p[lane]) : lens_.at.p;
     const EmitterChoice choice = scene_->choose_emitter_for(from, u_choice_[i]);
-    draw_light(i, choice, first + lane);
+    const MeshLight& light = scene_->mesh_light(choice.index);
+    const auto point = light.mesh->sample_barycentrics_for(from, {u_x_[i], u_y_[i]});
+    lights_.set_light(first + lane, light, choice.probability, point, wavelength_[i]);
     const double pdf = lights_.light_pdf[first + lane];
     if (!(pdf > 0)) continue;
-    const double over_walk = choice.probability / scene_->emitter_probability(choice.index);
+    const double over_walk = choice.probability / scene_->emitter_probability(choice.index) *
+                             (light.mesh->area() / point.per_pdf);
     direct_own_[block][lane] = beta_.raise(over_walk);
     to.cosine[lane] = 1;
     to.forward[lane] = pdf / over_walk;

@@ -81,7 +81,6 @@ class BidirectionalWave {
   void make_room_for_shadows(RayCounts& rays);
   void wait_for_shadow(const Light& light, const Vec3f& o, const Vec3f& w, float length);
   void connect_to_lens(int s, int block);
-  void draw_light(int sample, const EmitterChoice& choice, int to);
   const JointLanes& light_joints(int s, int block) const {
     return s == 1 ? direct_[block] : light_.joints(s - 1, block);
   }

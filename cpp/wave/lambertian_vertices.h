@@ -81,17 +81,18 @@ struct LambertianVertices {
     }
     textured_count_ = 0;
   }
-  /// Sets the light point of the i-th path to that of sample_position(u) on this light, which has
-  /// the density `pdf`.
-  void set_light(int i, const MeshLight& chosen, double pdf, const Vec2& u, double wavelength) {
+  /// Sets the light point of the i-th path to this one, if the light was chosen with this
+  /// probability.
+  void set_light(int i, const MeshLight& chosen, double probability,
+                 const Mesh::Barycentrics& point, double wavelength) {
     const Mesh& mesh = *chosen.mesh;
-    const auto [triangle, b] = mesh.sample_barycentrics(u);
+    const auto& [triangle, b, per_pdf] = point;
     light.set(i, mesh.record(triangle), static_cast<float>(b.x), static_cast<float>(b.y));
     if (mesh.has_normals()) {
       const Vec3f ng = light.ng[i];
       light.ng.set(i, ng * std::copysign(1.0f, dot(ng, mesh.normal_sum(triangle, Vec2f(b)))));
     }
-    light_pdf[i] = static_cast<float>(pdf);
+    light_pdf[i] = static_cast<float>(probability / per_pdf);
     if (wavelength < 0) {
       radiance[i] = &chosen.rgb;
     } else {

@@ -145,7 +145,8 @@ void BasicPathWave<Numbers>::choose_lights(int depth) {
     const EmitterChoice choice = scene_->choose_emitter_for(from, u.x);
     const MeshLight& light = scene_->mesh_light(choice.index);
     if (lambertian_.f[i] && light.mesh)
-      lambertian_.set_light(i, light, choice.probability / light.area, {u.y, u.z},
+      lambertian_.set_light(i, light, choice.probability,
+                            light.mesh->sample_barycentrics_for(from, {u.y, u.z}),
                             walk(i).ray.wavelength);
     else
       choose_other_light(i, choice, {u.y, u.z});

@@ -33,6 +33,7 @@ void SubpathWave::start(int sample, const Start& start) {
   throughput_[i] = start.throughput;
   wavelength_[i] = start.wavelength;
   light_[i] = start.light;
+  triangle_[i] = start.triangle;
 }
 
 void SubpathWave::fall_back(int sample) {
@@ -113,21 +114,25 @@ inline void SubpathWave::find_vertex(int i) {
                   wavelength_[begin_ + i]);
 }
 
-/// How often next-event estimation at p counts as technique s = 1 with this x_0 (TechniqueSums):
-/// its density over that of a walk.
-double SubpathWave::direct_technique(uint32_t light, const Vec3f& p) const {
-  if (!scene_->light_choice().depends_on_point()) return 1;
-  return scene_->emitter_probability_for(light, Vec3(p)) / scene_->emitter_probability(light);
+/// How often next-event estimation at p counts as technique s = 1 with x_0 on this triangle
+/// (TechniqueSums): its density over that of a walk.
+double SubpathWave::direct_technique(uint32_t light, uint32_t triangle, const Vec3f& p) const {
+  double quotient = 1;
+  if (scene_->light_choice().depends_on_point())
+    quotient *=
+        scene_->emitter_probability_for(light, Vec3(p)) / scene_->emitter_probability(light);
+  if (const Mesh& mesh = *scene_->mesh_light(light).mesh; mesh.chooses_by_point())
+    quotient *= mesh.direct_density(triangle, Vec3(p)) * mesh.area();
+  return quotient;
 }
 
 /// Finds how often the technique with its joint before the vertex counts (TechniqueSums).
 void SubpathWave::find_techniques(int place) {
   const double all = from_light_ || place > 1 || light_image_ ? 1 : 0;
-  const bool direct = from_light_ && place == 1 && scene_->light_choice().depends_on_point();
   for (int i = 0; i < whole_vectors(count_); ++i) technique_[i] = all;
-  for (int i = 0; direct && i < count_; ++i)
-    if (lambertian_.f[i])
-      technique_[i] = beta_.raise(direct_technique(light_[begin_ + i], lambertian_.p[i]));
+  for (int i = 0; from_light_ && place == 1 && i < count_; ++i)
+    if (const int k = begin_ + i; lambertian_.f[i])
+      technique_[i] = beta_.raise(direct_technique(light_[k], triangle_[k], lambertian_.p[i]));
 }
 
 /// Computes the densities with which the two walks make the vertex and the one before it. A
@@ -157,14 +162,17 @@ void SubpathWave::arrive() {
 void SubpathWave::hit_light(int i, int place) {
   const int k = begin_ + i;
   if (!(dot(lambertian_.surface.ng[i], d_[k]) < 0)) return;
-  const uint32_t shape = found_[k / RayPacket::size].shape[k % RayPacket::size];
+  const PacketHits& found = found_[k / RayPacket::size];
+  const int lane = k % RayPacket::size;
+  const uint32_t shape = found.shape[lane];
   const uint32_t index = scene_->shapes()[shape]->emitter()->index();
   const MeshLight& light = scene_->mesh_light(index);
   const Spectrum radiance = light.radiance_at(wavelength_[k]);
-  const double direct = technique_[i] * beta_.raise(direct_technique(index, p_[k]));
+  const double direct =
+      technique_[i] * beta_.raise(direct_technique(index, found.primitive[lane], p_[k]));
   const double above =
       beta_.over(direct + beta_.over(sums_[k], reverse_emission_[i] / forward_[k]),
-                 scene_->emitter_probability(index) / light.area / forward_here_[i]);
+                 scene_->emitter_probability(index) / light.mesh->area() / forward_here_[i]);
   hits_.push_back({sample_[k], place, throughput_[k] * radiance / (1 + above), survival_[k]});
 }
 

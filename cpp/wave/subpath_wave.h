@@ -36,12 +36,12 @@ class SubpathWave {
   struct Start {
     Vec3f p;  ///< Position of vertex 0; o, w: the ray from there.
     Vec3f o, w;
-    float cosine;          ///< |w.ng| at vertex 0.
-    float pdf;             ///< Density of w in solid angle.
-    double forward, sums;  ///< See JointLanes.
-    Spectrum throughput;   ///< Throughput of vertex 1.
-    double wavelength;     ///< See wavelengths.h.
-    uint32_t light = 0;    ///< Of a walk from a light: its index.
+    float cosine;                      ///< |w.ng| at vertex 0.
+    float pdf;                         ///< Density of w in solid angle.
+    double forward, sums;              ///< See JointLanes.
+    Spectrum throughput;               ///< Throughput of vertex 1.
+    double wavelength;                 ///< See wavelengths.h.
+    uint32_t light = 0, triangle = 0;  ///< Of a walk from a light: where on which it starts.
   };
   void start(int sample, const Start& start);
   /// Walks all subpaths to their ends, with `most` vertices at most. The next of the `numbers` are
@@ -74,7 +74,7 @@ class SubpathWave {
   void keep(int i, int place);
   void take_steps(int place);
   double survive(int i, int place, double ratio);
-  double direct_technique(uint32_t light, const Vec3f& p) const;
+  double direct_technique(uint32_t light, uint32_t triangle, const Vec3f& p) const;
 
   JointLanes& at(int place, int block) { return joints_[place * blocks + block]; }
 
@@ -97,7 +97,7 @@ class SubpathWave {
   Samples<double> forward_, sums_, survival_;
   Samples<Spectrum> throughput_;
   Samples<double> wavelength_;
-  Samples<uint32_t> light_;
+  Samples<uint32_t> light_, triangle_;
   PacketHits found_[capacity / RayPacket::size];
   WaveNumbers numbers_;
   StepNumbersOf<WaveNumbers::Place> at_;  ///< The places of the numbers of this step.

@@ -21,6 +21,7 @@ Plugin emitter_sky();
 Plugin emitter_spot();
 Plugin emitter_sun();
 Plugin emitter_sunsky();
+Plugin shape_cube();
 Plugin shape_rectangle();
 Plugin shape_sphere();
 Plugin texture_checkerboard();
@@ -104,6 +105,7 @@ std::vector<Light> all_lights() {
   std::vector<Light> lights = {
       area_light("rectangle", shape_rectangle(), small, rgb),
       area_light("textured rectangle", shape_rectangle(), turned, board),
+      area_light("cube", shape_cube(), small, rgb),
       area_light("sphere", shape_sphere(), small, rgb),
       {"point",
        make<Emitter>(emitter_point(), {{"intensity", rgb}, {"position", Triple{0, 0, 2}}}),
