@@ -70,7 +70,7 @@ class Bsdf : public Object {
 
   /// Whether scatter() computes scattering() and sample() for many points together; of materials
   /// that are opaque, and smooth alone.
-  virtual bool serves_lanes() const { return false; }
+  bool serves_lanes() const { return serves_lanes_; }
   virtual void scatter(ScatteringLanes&) const {}
 
   /// Whether the smooth lobes are present, and whether a delta lobe is.
@@ -108,7 +108,9 @@ class Bsdf : public Object {
   const LambertianSurface& lambertian() const { return lambertian_; }
 
  protected:
-  LambertianSurface lambertian_;  ///< Set by the constructor.
+  // Set by constructors:
+  LambertianSurface lambertian_;
+  bool serves_lanes_ = false;
 };
 
 using BsdfPtr = std::shared_ptr<const Bsdf>;

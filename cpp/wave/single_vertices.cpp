@@ -23,22 +23,23 @@ std::optional<ScatterSample> scattered(const ScatteringLanes& lanes, int i, cons
 }  // namespace
 
 void SingleVertices::scatter_in_lanes(const Scene& scene, bool strict_normals) {
-  for (int first = 0; first < count_; ++first) {
-    const SingleVertex& vertex = vertices_[first];
-    if (vertex.in_lanes || vertex.at.lambertian.known()) continue;
-    const Bsdf& bsdf = scene.bsdf(vertex.at);
-    if (bsdf.serves_lanes()) scatter_in_lanes(bsdf, first, scene, strict_normals);
+  for (SingleVertex& vertex : *this) {
+    const Bsdf* bsdf = vertex.at.lambertian.known() ? nullptr : &scene.bsdf(vertex.at);
+    vertex.bsdf = bsdf && bsdf->serves_lanes() ? bsdf : nullptr;
   }
+  for (int first = 0; first < count_; ++first)
+    if (vertices_[first].bsdf && !vertices_[first].in_lanes)
+      scatter_in_lanes(first, strict_normals);
 }
 
-/// Computes the scattering of all vertices of this material, from the first one on.
-void SingleVertices::scatter_in_lanes(const Bsdf& bsdf, int first, const Scene& scene,
-                                      bool strict_normals) {
+/// Computes the scattering of all vertices of the material of this one, which is the first.
+void SingleVertices::scatter_in_lanes(int first, bool strict_normals) {
+  const Bsdf& bsdf = *vertices_[first].bsdf;
   SingleVertex* chosen[ScatteringLanes::capacity];
   lanes_.count = 0;
   for (int j = first; j < count_; ++j) {
     SingleVertex& vertex = vertices_[j];
-    if (vertex.at.lambertian.known() || &scene.bsdf(vertex.at) != &bsdf) continue;
+    if (vertex.bsdf != &bsdf) continue;
     const int i = lanes_.count++;
     chosen[i] = &vertex;
     lanes_.at[i] = &vertex.at;

@@ -19,6 +19,7 @@ struct SingleVertex {
   LightSample light;     ///< The sampled position.
   Vec3 u_scatter;        ///< The numbers for the scattered direction.
 
+  const Bsdf* bsdf;  ///< Its material if that serves lanes, else nullptr.
   /// Whether the results below were computed together with other vertices.
   bool in_lanes;
   WorldScattering from_light;  ///< Between the light and the camera.
@@ -56,7 +57,7 @@ class SingleVertices {
   void scatter_in_lanes(const Scene& scene, bool strict_normals);
 
  private:
-  void scatter_in_lanes(const Bsdf& bsdf, int first, const Scene& scene, bool strict_normals);
+  void scatter_in_lanes(int first, bool strict_normals);
 
   std::vector<SingleVertex> vertices_;
   int count_ = 0;  ///< How many are in use.

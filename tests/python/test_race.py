@@ -103,6 +103,15 @@ def test_without_a_reference_the_error_is_that_of_the_noise(count):
     assert np.std(found, ddof=1) / sqrt(len(found)) < 0.01 * 0.01 / 0.26  # 4 % would be seen
 
 
+def test_black_images_have_no_error_between_seeds():
+    black, lit = np.zeros((4, 6, 3)), np.ones((4, 6, 3))
+    judge = Judge.between_seeds([[black, black], [lit, 2 * lit]])
+    score = judge.score([black, black], 1)
+    assert score.relmse is score.median is score.trimmed is None
+    assert score.level.value == 0
+    assert judge.score([lit, 2 * lit], 1).relmse.value > 0
+
+
 def test_the_error_between_seeds_is_that_of_the_jackknife():
     images, scale = noisy(5, 0.1, 5, (8, 8)), np.full((8, 8, 3), 0.5)
     judge = Judge(scale, None, np.zeros((8, 8)))

@@ -32,16 +32,19 @@ class MicrofacetReflector : public Bsdf {
     return to.z > 0 ? std::optional<BsdfSample>({to, Lobe::smooth}) : std::nullopt;
   }
 
-  /// Where eight points together are faster, and single precision is enough.
-  bool serves_lanes() const final {
-    if (!model().is_constant()) return false;
-    const Microfacet microfacet = model().microfacet({});
-    return microfacet.type() == MicrofacetType::ggx && microfacet.sample_visible() &&
-           std::min(microfacet.alpha_u(), microfacet.alpha_v()) >= 0.02;
-  }
   void scatter(ScatteringLanes& x) const final {
     x.fill_up();
     for (int i = 0; i < x.count; i += 8) scatter_eight(x, i);
+  }
+
+ protected:
+  /// Serves lanes where eight points together are faster, and single precision is enough; to be
+  /// called by the constructor of a model.
+  void find_lanes() {
+    if (!model().is_constant()) return;
+    const Microfacet microfacet = model().microfacet({});
+    serves_lanes_ = microfacet.type() == MicrofacetType::ggx && microfacet.sample_visible() &&
+                    std::min(microfacet.alpha_u(), microfacet.alpha_v()) >= 0.02;
   }
 
  private:

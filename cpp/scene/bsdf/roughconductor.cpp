@@ -14,7 +14,9 @@ class RoughConductor final : public MicrofacetReflector<RoughConductor> {
   explicit RoughConductor(Params& params)
       : surface_(params),
         ior_(conductor_param(params)),
-        reflectance_(texture_param(params, "specular_reflectance")) {}
+        reflectance_(texture_param(params, "specular_reflectance")) {
+    find_lanes();
+  }
 
   Microfacet microfacet(const SurfacePoint& at) const { return surface_.at(at); }
   bool is_constant() const { return surface_.is_constant(); }

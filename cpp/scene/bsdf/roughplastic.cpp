@@ -20,7 +20,9 @@ class RoughPlastic final : public MicrofacetReflector<RoughPlastic> {
       : eta_(relative_ior_param(params)),
         microfacet_(microfacet_of(params)),
         coating_(microfacet_.type(), microfacet_.alpha_u(), eta_),
-        base_(params, eta_, coating_.internal_reflectance(), coating_.mean_transmittance()) {}
+        base_(params, eta_, coating_.internal_reflectance(), coating_.mean_transmittance()) {
+    find_lanes();
+  }
 
   Microfacet microfacet(const SurfacePoint&) const { return microfacet_; }
   bool is_constant() const { return true; }

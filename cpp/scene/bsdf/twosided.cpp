@@ -18,6 +18,7 @@ class TwoSided final : public Bsdf {
         params.fail("cannot hold a bsdf that transmits light: it is two-sided already");
     front_ = nested.front();
     back_ = nested.back();
+    serves_lanes_ = front_ == back_ && front_->serves_lanes();
     if (front_ == back_ && front_->lambertian().known()) {
       lambertian_ = front_->lambertian();
       lambertian_.lambertian.sides = Lambertian::Sides::both;
@@ -37,7 +38,6 @@ class TwoSided final : public Bsdf {
     return sampled;
   }
 
-  bool serves_lanes() const override { return front_ == back_ && front_->serves_lanes(); }
   void scatter(ScatteringLanes& x) const override {
     Block<float> side;
     for (int i = 0; i < x.count; ++i) {

@@ -53,7 +53,7 @@ class Score:
 
     seconds: float  #: CPU time of an image, all threads together; the mean
     images: int  #: how many there are
-    relmse: Mean | None  #: None: without a reference a single image has no error
+    relmse: Mean | None  #: None: without a reference a single image, or black ones, have no error
     median: float | None  #: of relmse over the images
     trimmed: Mean | None  #: relmse without the 0.1 % of the pixels that are worst
     shape: Mean | None  #: relmse once the mean of each image is that of the reference
@@ -91,12 +91,12 @@ class Judge:
 
     def errors(self, images: Sequence[np.ndarray]) -> list[np.ndarray]:
         """Relative squared errors by pixel, (height, width), of each image; without a reference
-        none of a single one."""
+        none of a single one, nor of black ones, which agree about nothing."""
         exact = [np.asarray(image, dtype=np.float64) for image in images]
         if self.reference is not None:
             return [relative_square(image, self.reference) for image in exact]
         n, mean = len(exact), np.mean(exact, axis=0)
-        if n < 2:
+        if n < 2 or not np.any(mean):
             return []
         return [n / (n - 1) * relative_square(image, mean, self.scale) for image in exact]
 
