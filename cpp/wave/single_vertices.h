@@ -35,7 +35,6 @@ struct SingleVertex {
 class SingleVertices {
  public:
   void clear() { count_ = 0; }
-  int size() const { return count_; }
   SingleVertex& operator[](int i) { return vertices_[i]; }
   SingleVertex* begin() { return vertices_.data(); }
   SingleVertex* end() { return begin() + count_; }

@@ -51,13 +51,13 @@ def test_every_flag_has_an_example(command):
 
 
 def test_the_figures_of_the_readme_are_those_of_the_comparison():
-    table = (ROOT / "docs" / "comparison.md").read_text()
-    means = dict(re.findall(r"^\| (\w+)[^|]*\|.*\| \**([\d.]+)\** \|$", table, re.MULTILINE)[:8])
+    table = (ROOT / "docs" / "comparison.md").read_text().split("\n## ")[0]
+    means = dict(re.findall(r"^\| (\w+)[^|]*\|.*\| \**([\d.]+)\** \|$", table, re.MULTILINE))
     next_best = min(set(means) - {"mlt"}, key=lambda name: float(means[name]))
     said = " ".join((ROOT / "README.md").read_text().split())
     for figure in (
         f"error is {means['mlt']} times",
-        f"`path` has {means['path']} times, `bdpt` {means['bdpt']} times",
+        f"`bdpt` has {means['bdpt']} times",
         f"(`{next_best}`) {means[next_best]} times",
     ):
         assert figure in said, figure
