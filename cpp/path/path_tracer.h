@@ -249,7 +249,7 @@ bool go_on(const Walker& walker, const PathRules& rules, int depth, const Surfac
   return true;
 }
 
-/// Scatters at this surface; false ends the walk.
+/// Samples a direction at that surface and goes on in it; false ends the walk.
 template <class Watcher = IgnorePaths>
 bool scatter(const Walker& walker, const PathRules& rules, int depth, const SurfacePoint& at,
              const VertexNumbers& numbers, CameraWalk& walk, Watcher&& watcher = Watcher()) {
