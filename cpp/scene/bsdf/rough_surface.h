@@ -67,6 +67,24 @@ F reflection_pdf(const Normals& microfacet, const Vec3Of<F>& from, const Vec3Of<
   return normal_pdf(microfacet, from, h, D, g1) / (4 * abs(dot(from, h)));
 }
 
+/// Reflection by the normals half-way between two directions: D G, and the densities with which the
+/// two are sampled for each other.
+template <class F>
+struct MicrofacetReflection {
+  Vec3Of<F> h;
+  F DG, pdf_from_light, pdf_from_camera;
+
+  template <class Normals>
+  MicrofacetReflection(const Normals& microfacet, const Vec3Of<F>& wl, const Vec3Of<F>& wc)
+      : h(normalize(wl + wc)) {
+    const F D = microfacet.D(h);
+    const Masking light(microfacet, wl, h), camera(microfacet, wc, h);
+    DG = D * (light.fit * camera.fit);
+    pdf_from_light = reflection_pdf(microfacet, wl, h, D, light.exact);
+    pdf_from_camera = reflection_pdf(microfacet, wc, h, D, camera.exact);
+  }
+};
+
 /// The direction into which a normal sampled for `from` mirrors it; (0, 0, 0) if there is none.
 template <class Normals, class F>
 Vec3Of<F> mirrored(const Normals& microfacet, const Vec3Of<F>& from, const Vec2Of<F>& u) {

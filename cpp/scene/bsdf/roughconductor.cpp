@@ -28,12 +28,9 @@ class RoughConductor final : public MicrofacetReflector<RoughConductor> {
   };
   template <class Normals, class F>
   Terms<F> terms(const Normals& microfacet, const Vec3Of<F>& wl, const Vec3Of<F>& wc) const {
-    const Vec3Of<F> h = normalize(wl + wc);
-    const F D = microfacet.D(h);
-    const Masking light(microfacet, wl, h), camera(microfacet, wc, h);
-    return {D * (light.fit * camera.fit) / (4 * wl.z * wc.z), min(dot(wl, h), F(1)),
-            reflection_pdf(microfacet, wl, h, D, light.exact),
-            reflection_pdf(microfacet, wc, h, D, camera.exact)};
+    const MicrofacetReflection mirror(microfacet, wl, wc);
+    return {mirror.DG / (4 * wl.z * wc.z), min(dot(wl, mirror.h), F(1)), mirror.pdf_from_light,
+            mirror.pdf_from_camera};
   }
 
   template <class Normals, class F>

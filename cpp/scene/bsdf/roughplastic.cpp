@@ -34,18 +34,13 @@ class RoughPlastic final : public MicrofacetReflector<RoughPlastic> {
   };
   template <class Normals, class F>
   Terms<F> terms(const Normals& microfacet, const Vec3Of<F>& wl, const Vec3Of<F>& wc) const {
-    const Vec3Of<F> h = normalize(wl + wc);
-    const F D = microfacet.D(h);
-    const Masking light(microfacet, wl, h), camera(microfacet, wc, h);
+    const MicrofacetReflection mirror(microfacet, wl, wc);
     const RoughFresnelOf<F> coat_l = coating_.at(wl.z), coat_c = coating_.at(wc.z);
     const F pl = specular_share(coat_l), pc = specular_share(coat_c);
-    const F reflected = dielectric_reflectance(dot(wl, h), eta_);
-    return {reflected * (D * (light.fit * camera.fit)) / (4 * wl.z * wc.z),
-            coat_l.transmittance * coat_c.transmittance,
-            pl * reflection_pdf(microfacet, wl, h, D, light.exact) +
-                (1 - pl) * number<F>(inv_pi) * wc.z,
-            pc * reflection_pdf(microfacet, wc, h, D, camera.exact) +
-                (1 - pc) * number<F>(inv_pi) * wl.z};
+    const F reflected = dielectric_reflectance(dot(wl, mirror.h), eta_);
+    return {reflected * mirror.DG / (4 * wl.z * wc.z), coat_l.transmittance * coat_c.transmittance,
+            pl * mirror.pdf_from_light + (1 - pl) * number<F>(inv_pi) * wc.z,
+            pc * mirror.pdf_from_camera + (1 - pc) * number<F>(inv_pi) * wl.z};
   }
 
   template <class Normals, class F>
