@@ -3,11 +3,11 @@
 // in any multiple importance sampling (Veach 1997, eq. 9.4) each path has two weights that sum to
 // one, for the case that samples have found it and for the case that chains have:
 //
-//   w1(x) = c / (c + T(x) / P(x)),   w2(x) = (T(x) / P(x)) / (c + T(x) / P(x))
+//   w1(x) = c^2 / (c^2 + (T(x) / P(x))^2),   w2(x) = 1 - w1(x)
 //
-// With c = b N1 / N2 this is the balance heuristic for N2 independent states. States of a chain are
-// not, so that c is a larger number, which a pilot finds. T / P is high where the samples are
-// noisy: there the chains get the weight.
+// With c = b N1 / N2 this is the power heuristic (sec. 9.2.3) for N2 independent states. States of a
+// chain are not, so that c is a larger number, which a pilot finds. T / P is high where the samples
+// are noisy: there the chains get the weight, and hardly any elsewhere.
 #pragma once
 
 namespace mlt {
@@ -25,13 +25,18 @@ class FamilyWeights {
     return of_sample(target_over_density, threshold_);
   }
   static double of_sample(double target_over_density, double threshold) {
-    return threshold / (threshold + target_over_density);
+    return power_weight(threshold, target_over_density);
   }
   double of_chain(double target_over_density) const {
-    return target_over_density > 0 ? 1 / (1 + threshold_ / target_over_density) : 0.0;
+    return target_over_density > 0 ? power_weight(target_over_density, threshold_) : 0.0;
   }
 
  private:
+  static double power_weight(double own, double other) {
+    const double ratio = other / own;
+    return 1 / (1 + ratio * ratio);
+  }
+
   double threshold_ = 0;
 };
 

@@ -25,6 +25,9 @@ class Microfacet {
         alpha_u_(std::max(alpha_u, min_alpha)),
         alpha_v_(std::max(alpha_v, min_alpha)) {}
 
+  explicit Microfacet(const Ggx<double>& ggx)
+      : Microfacet(MicrofacetType::ggx, ggx.alpha_u, ggx.alpha_v) {}
+
   MicrofacetType type() const { return type_; }
   double alpha_u() const { return alpha_u_; }
   double alpha_v() const { return alpha_v_; }

@@ -89,18 +89,16 @@ class Pilot {
   double noise_by_chains() const {
     return samples_.cost() * chains_.of_samples.back() / chains_.n();
   }
-  /// Whether rare paths make most of the noise of samples. The chains of a pilot have hardly found
-  /// them, and seem less noisy than they will be.
-  bool has_rare_light() const { return share_of_rare_light(samples_.squares) > 0.5; }
-  /// Whether they make much of it as chains tell it. What is rare for path tracing alone does not
-  /// count: tours start from samples of all techniques.
-  bool misses_rare_light() const {
-    return techniques_ == SampleTechniques::all && share_of_rare_light(chains_.of_samples) > 0.4;
+  /// Whether rare paths make most of the noise of samples, or much of it as chains tell it. The
+  /// chains of a pilot have hardly found them, and seem less noisy than they will be. What is rare
+  /// for path tracing alone does not count for chains: tours start from samples of all techniques.
+  bool has_rare_light() const {
+    return share_of_rare_light(samples_.squares) > 0.5 ||
+           (techniques_ == SampleTechniques::all && share_of_rare_light(chains_.of_samples) > 0.4);
   }
   /// The greatest share of the samples as long as there are chains.
   double greatest_share() const {
-    if (has_rare_light()) return settings_.greatest_share_with_rare_light;
-    return misses_rare_light() ? settings_.greatest_share_if_missed : settings_.greatest_share;
+    return has_rare_light() ? settings_.greatest_share_with_rare_light : settings_.greatest_share;
   }
 
   /// With a share s of the time the variance is v1 c1 / s + v2 c2 / (1 - s); it is least, and (sqrt
@@ -219,8 +217,8 @@ class Pilot {
 /// Rounds x, so that a scene in another unit of length has the same image to the last bit.
 double to_half_octaves(double x) { return std::exp2(std::round(2 * std::log2(x)) / 2); }
 
-/// Sets weights and lengths of tours. For N1 samples and N2 independent steps, c = b N1 / N2 would
-/// be the balance heuristic (Veach 1997, eq. 9.8). The larger the share of the samples, the noisier
+/// Sets weights and lengths of tours. For N1 samples and N2 independent steps c would be b N1 / N2
+/// (see FamilyWeights). The larger the share of the samples, the noisier
 /// the chains were in the pilot: 1 / sqrt(1 - share) steps count as one.
 void set_tours(Allocation& allocation, double b) {
   const double share = allocation.share,

@@ -26,12 +26,13 @@ struct PilotSettings {
   int threads = 1;
   uint64_t samples = 0;  ///< Candidates for the starts of chains, and as many samples.
   int chains = 64;
-  uint64_t steps = 2000;                       ///< Steps of each chain.
+  /// Steps of each chain. In more steps some chain gets stuck, and chains seem noisier than they
+  /// are.
+  uint64_t steps = 500;
   std::optional<double> share;                 ///< See Allocation; fixed if given.
   std::optional<SampleTechniques> techniques;  ///< See Allocation; fixed if given.
   /// Bounds of the share of the independent samples, as long as there are chains.
-  double least_share = 0.05, greatest_share = 0.95, greatest_share_with_rare_light = 0.2,
-         greatest_share_if_missed = 0.5;
+  double least_share = 0.05, greatest_share = 0.95, greatest_share_with_rare_light = 0.5;
 };
 
 /// The division of a render without chains.

@@ -25,6 +25,7 @@ struct ScatteringLanes {
   /// Fills the lanes up to a multiple of eight.
   void fill_up() {
     for (int i = count; i < whole_vectors(count); ++i) {
+      at[i] = at[0];
       wc.set(i, wc[0]);
       wl.set(i, wl[0]);
       u_lobe[i] = u_x[i] = u_y[i] = 0;

@@ -2,7 +2,7 @@
 // lobe that is metallic or dielectric, refraction through it, and a clear coat.
 #include "base/registry.h"
 #include "math/fresnel.h"
-#include "scene/bsdf.h"
+#include "scene/bsdf/eight_points.h"
 #include "scene/bsdf/principled_terms.h"
 #include "scene/bsdf/rough_surface.h"
 
@@ -15,20 +15,21 @@ class Principled final : public Bsdf {
  public:
   explicit Principled(Params& params)
       : base_color_(texture_param(params, "base_color")),
-        roughness_(texture_param(params, "roughness")),
-        anisotropic_(texture_param(params, "anisotropic")),
-        metallic_(texture_param(params, "metallic")),
-        spec_trans_(texture_param(params, "spec_trans")),
-        spec_tint_(texture_param(params, "spec_tint")),
-        sheen_(texture_param(params, "sheen")),
-        sheen_tint_(texture_param(params, "sheen_tint")),
-        flatness_(texture_param(params, "flatness")),
-        clearcoat_(texture_param(params, "clearcoat")),
-        clearcoat_gloss_(texture_param(params, "clearcoat_gloss")),
+        roughness_(scalar_param(params, "roughness")),
+        anisotropic_(scalar_param(params, "anisotropic")),
+        metallic_(scalar_param(params, "metallic")),
+        spec_trans_(scalar_param(params, "spec_trans")),
+        spec_tint_(scalar_param(params, "spec_tint")),
+        sheen_(scalar_param(params, "sheen")),
+        sheen_tint_(scalar_param(params, "sheen_tint")),
+        flatness_(scalar_param(params, "flatness")),
+        clearcoat_(scalar_param(params, "clearcoat")),
+        clearcoat_gloss_(scalar_param(params, "clearcoat_gloss")),
         diffuse_rate_(params.real_in("diffuse_reflectance_sampling_rate", 0, 1e6)),
         specular_rate_(params.real_in("main_specular_sampling_rate", 0, 1e6)),
         clearcoat_rate_(params.real_in("clearcoat_sampling_rate", 0, 1e6)),
-        refracts_(max_component(spec_trans_->maximum()) > 0) {
+        refracts_(!spec_trans_.vanishes()),
+        coated_(!clearcoat_.vanishes()) {
     if (params.has("eta") && params.has("specular"))
       params.fail("eta", "and 'specular' exclude each other");
     if (params.has("eta")) {
@@ -40,21 +41,27 @@ class Principled final : public Bsdf {
       eta_ = 2 / (1 - r) - 1;
     }
     if (refracts_ && eta_ == 1) eta_ = 1.001;
+    const double alpha = sqr(roughness_.mean());
+    const double coat = coated_ ? ClearCoat<double>::alpha(clearcoat_gloss_.mean()) : infinity;
+    serves_lanes_ = !refracts_ && std::min(alpha, coat) >= least_alpha_in_lanes;
   }
 
   Scattering scattering(const SurfacePoint& at, const Vec3& wl, const Vec3& wc,
                         Lobe lobe) const override {
-    const Half half = half_between(wl, wc, lobe);
-    if (!half.exists) return {};
-    const Point p = point(at);
-    const Parts parts = values(p, at, wl, wc, half);
-    return {parts.diffuse + parts.clearcoat + parts.specular, sum(densities(p, wl, wc, half)),
-            sum(densities(p, wc, wl, half))};
+    if (lobe != Lobe::smooth) return {};
+    const Point<double> p = point(at);
+    if (above(wl, wc)) {
+      const Terms<double> t = terms(p, wl, wc);
+      return {value(colors(at), t), t.pdf_from_light, t.pdf_from_camera};
+    }
+    const Facet facet = facet_of_glass(wl, wc);
+    if (!facet.exists) return {};
+    return {glass(p, at, wl, wc, facet), glass_pdf(p, wl, wc, facet), glass_pdf(p, wc, wl, facet)};
   }
 
   std::optional<BsdfSample> sample(const SurfacePoint& at, const Vec3& from,
                                    const Vec3& u) const override {
-    const Point p = point(at);
+    const Point<double> p = point(at);
     double rest = u.x;
     const size_t chosen = shares(p, from).choose(rest);
     if (from.z == 0 || chosen == lobe_count) return std::nullopt;
@@ -71,21 +78,24 @@ class Principled final : public Bsdf {
                   reflects);
   }
 
+  void scatter(ScatteringLanes& x) const override { scatter_by_eight(*this, x); }
+
   std::optional<Vec3> invert(const SurfacePoint& at, const Vec3& from, const Vec3& to, Lobe lobe,
                              const Vec3& v) const override {
-    const Half half = half_between(from, to, lobe);
-    if (!half.exists) return std::nullopt;
-    const Point p = point(at);
-    const Densities d = densities(p, from, to, half);
+    if (lobe != Lobe::smooth) return std::nullopt;
+    const Point<double> p = point(at);
+    if (!above(from, to)) return invert_glass(p, from, to, v.x);
+    const Vec3 h = normalize(from + to);
+    const double fresnel = reflectance(dot(from, h));
+    const Densities<double> d = densities(p, from, to, h, fresnel);
     if (!(sum(d) > 0)) return std::nullopt;
     double rest = v.x;
     const size_t guess = LobeShares<lobe_count>::guess(d, rest);
-    const LobeShares<lobe_count> chosen = shares(p, from);
+    const LobeShares<lobe_count> chosen = shares_above(p);
     if (guess == diffuse) return u_of(chosen.invert(diffuse, rest), invert_cosine_hemisphere(to));
-    if (guess == clearcoat) return u_of(chosen.invert(clearcoat, rest), p.coat.invert(half.h));
-    const double reflected = reflected_share(p, from, half.F);
-    const double u = half.reflects ? u_of_first(reflected, rest) : u_of_second(reflected, rest);
-    return u_of(chosen.invert(specular, u), p.microfacet.invert(upwards(from), half.h));
+    if (guess == clearcoat) return u_of(chosen.invert(clearcoat, rest), p.coat.invert(h));
+    return u_of(chosen.invert(specular, u_of_first(reflected_above(p, fresnel), rest)),
+                Microfacet(p.microfacet).invert(from, h));
   }
 
   bool has_transmission() const override { return refracts_; }
@@ -94,147 +104,220 @@ class Principled final : public Bsdf {
   }
   /// The roughness of the lobe that scatters most between these directions.
   double roughness(const SurfacePoint& at, const Vec3& wl, const Vec3& wc) const override {
-    const Half half = half_between(wl, wc, Lobe::smooth);
-    if (!half.exists) return infinity;
-    const Point p = point(at);
-    const Parts parts = values(p, at, wl, wc, half);
-    const double d = target_luminance(parts.diffuse), c = target_luminance(parts.clearcoat),
-                 s = target_luminance(parts.specular);
-    if (s >= std::max(c, d) && s > 0)
-      return std::min(p.microfacet.alpha_u(), p.microfacet.alpha_v());
+    const Point<double> p = point(at);
+    const double alpha = std::min(p.microfacet.alpha_u, p.microfacet.alpha_v);
+    if (!above(wl, wc)) {
+      const Facet facet = facet_of_glass(wl, wc);
+      const bool scatters = facet.exists && target_luminance(glass(p, at, wl, wc, facet)) > 0;
+      return scatters ? alpha : infinity;
+    }
+    const Terms<double> t = terms(p, wl, wc);
+    const auto [base, hue] = colors(at);
+    const double d = target_luminance(color_of(t.diffuse, base, hue)),
+                 s = target_luminance(color_of(t.specular, base, hue)), c = t.clearcoat;
+    if (s >= std::max(c, d) && s > 0) return alpha;
     return c > d ? std::sqrt(p.coat.alpha2) : infinity;
   }
   Spectrum albedo(const SurfacePoint& at) const override { return base_color_->eval(at); }
 
- private:
-  /// The parameters at one point that values and densities share.
+  // The model of eight_points.h:
+
+  template <class F>
   struct Point {
-    double roughness, metallic, clearcoat, clearcoat_gloss;
-    double brdf, bsdf;  ///< Shares of the opaque and of the refracting dielectric.
-    Microfacet microfacet;
-    ClearCoat coat;
+    F roughness, metallic, spec_tint, sheen, sheen_tint, flatness, clearcoat;
+    F brdf, bsdf;  ///< Shares of the opaque and of the refracting dielectric.
+    Ggx<F> microfacet;
+    ClearCoat<F> coat;
   };
-  Point point(const SurfacePoint& at) const {
-    const double roughness = roughness_->eval_scalar(at), metallic = metallic_->eval_scalar(at);
-    const double spec_trans = spec_trans_->eval_scalar(at),
-                 gloss = clearcoat_gloss_->eval_scalar(at);
+  template <class F>
+  Point<F> point(const SurfacePoint* const* at) const {
+    const F roughness = roughness_.eval<F>(at), metallic = metallic_.eval<F>(at),
+            spec_trans = spec_trans_.eval<F>(at);
     return {roughness,
             metallic,
-            clearcoat_->eval_scalar(at),
-            gloss,
+            spec_tint_.eval<F>(at),
+            sheen_.eval<F>(at),
+            sheen_tint_.eval<F>(at),
+            flatness_.eval<F>(at),
+            clearcoat_.eval<F>(at),
             (1 - metallic) * (1 - spec_trans),
             (1 - metallic) * spec_trans,
-            principled_microfacet(roughness, anisotropic_->eval_scalar(at)),
-            ClearCoat(gloss)};
+            principled_microfacet(roughness, anisotropic_.eval<F>(at)),
+            coated_ ? ClearCoat<F>::of_gloss(clearcoat_gloss_.eval<F>(at)) : ClearCoat<F>{}};
+  }
+  template <class F>
+  F narrowest(const Point<F>& p) const {
+    const F alpha = min(p.microfacet.alpha_u, p.microfacet.alpha_v);
+    return coated_ ? min(alpha, sqrt(p.coat.alpha2)) : alpha;
   }
 
-  /// The microfacet that scatters between two directions; the same in either order, bit for bit.
-  struct Half {
-    bool exists, reflects;
-    bool microfacet;  ///< Whether each direction is on the same side of h as of the surface.
-    Vec3 h;           ///< Above the surface.
-    double F;
+  /// Of reflection above the surface.
+  template <class F>
+  struct Terms {
+    TintedOf<F> diffuse, specular;
+    F clearcoat, pdf_from_light, pdf_from_camera;
+    Terms<double> of_lane(int i) const {
+      return {diffuse.of_lane(i), specular.of_lane(i), clearcoat[i], 0, 0};
+    }
   };
-  Half half_between(const Vec3& a, const Vec3& b, Lobe lobe) const {
-    if (lobe != Lobe::smooth || a.z * b.z == 0) return {};
+  template <class F>
+  Terms<F> terms(const Point<F>& p, const Vec3Of<F>& wl, const Vec3Of<F>& wc) const {
+    const Vec3Of<F> h = normalize(wl + wc);
+    const F cos_h = dot(wl, h), w = schlick_weight(cos_h, eta_), fresnel = reflectance(cos_h);
+    const F dielectric = 1 - p.metallic;
+    TintedOf<F> diffuse = dielectric * principled_sheen(cos_h, p.sheen, p.sheen_tint);
+    diffuse.base +=
+        p.brdf * number<F>(inv_pi) * principled_diffuse(wl.z, wc.z, cos_h, p.roughness, p.flatness);
+    TintedOf<F> specular = p.metallic * schlick_metal(w);
+    specular += (dielectric * p.spec_tint) * schlick_tinted(w, eta_);
+    specular.white += dielectric * (1 - p.spec_tint) * fresnel;
+    const F DG = p.microfacet.D(h) * p.microfacet.g1(wl, h) * p.microfacet.g1(wc, h);
+    const F factor = select(fresnel > 0, DG / (4 * wl.z * wc.z), F(0));
+    F coat(0);
+    if (coated_)
+      coat = number<F>(0.25) * p.clearcoat * ClearCoat<F>::fresnel(cos_h, eta_) * p.coat.D(h) *
+             ClearCoat<F>::G(wl, wc, h);
+    return {diffuse, factor * specular, coat, sum(densities(p, wl, wc, h, fresnel)),
+            sum(densities(p, wc, wl, h, fresnel))};
+  }
+
+  Vec3Of<Float8> direction(const Point<Float8>& p, const Vec3Of<Float8>& from,
+                           const Vec3Of<Float8>& u) const {
+    const auto chosen = shares_above(p);
+    const Float8 first = chosen.share[diffuse];
+    const Vec2Of<Float8> v(u.y, u.z);
+    Vec3Of<Float8> to = mirrored(from, p.microfacet.sample(from, v));
+    if (coated_)
+      to = select(u.x < first + chosen.share[clearcoat], mirrored(from, p.coat.sample(v)), to);
+    return select(u.x < first, sample_cosine_hemisphere(v), to);
+  }
+
+  struct Colors {
+    Spectrum base, hue;
+  };
+  Colors colors(const SurfacePoint& at) const {
+    const Spectrum base = base_color_->eval(at);
+    return {base, tint_of(base)};
+  }
+  static Spectrum value(const Colors& colors, const Terms<double>& terms) {
+    Tinted sum = terms.diffuse;
+    sum += terms.specular;
+    sum.white += terms.clearcoat;
+    return color_of(sum, colors.base, colors.hue);
+  }
+
+ private:
+  Point<double> point(const SurfacePoint& at) const {
+    const SurfacePoint* one = &at;
+    return point<double>(&one);
+  }
+
+  /// Fresnel's reflectance for light from above.
+  template <class F>
+  F reflectance(F cosine) const {
+    return eta_ == 1 ? F(0) : dielectric_reflectance(cosine, eta_);
+  }
+
+  /// Those of a direction, lobe by lobe.
+  template <class F>
+  using Densities = std::array<F, lobe_count>;
+  template <class F>
+  static F sum(const Densities<F>& d) {
+    return d[diffuse] + d[clearcoat] + d[specular];
+  }
+  /// The densities of `to`; both directions are above the surface.
+  template <class F>
+  Densities<F> densities(const Point<F>& p, const Vec3Of<F>& from, const Vec3Of<F>& to,
+                         const Vec3Of<F>& h, F fresnel) const {
+    const auto chosen = shares_above(p);
+    const F normals =
+        reflection_pdf(p.microfacet, from, h, p.microfacet.D(h), p.microfacet.g1(from, h));
+    return {chosen.share[diffuse] * number<F>(inv_pi) * to.z,
+            coated_ ? chosen.share[clearcoat] * p.coat.D(h) * h.z / (4 * abs(dot(from, h))) : F(0),
+            chosen.share[specular] * reflected_above(p, fresnel) * normals};
+  }
+
+  /// The probabilities of the lobes, as in Mitsuba.
+  template <class F>
+  LobeShares<lobe_count, F> shares_above(const Point<F>& p) const {
+    return LobeShares<lobe_count, F>({p.brdf * number<F>(diffuse_rate_),
+                                      p.clearcoat * number<F>(0.25 * clearcoat_rate_),
+                                      number<F>(specular_rate_)});
+  }
+  /// From below there are only microfacets.
+  LobeShares<lobe_count> shares(const Point<double>& p, const Vec3& from) const {
+    if (from.z < 0) return LobeShares<lobe_count>({0, 0, p.bsdf > 0 ? 1.0 : 0.0});
+    return shares_above(p);
+  }
+  /// The probability that a sampled microfacet reflects.
+  template <class F>
+  static F reflected_above(const Point<F>& p, F fresnel) {
+    return 1 - p.bsdf * (1 - fresnel);
+  }
+  static double reflected_share(const Point<double>& p, const Vec3& from, double fresnel) {
+    return from.z < 0 ? fresnel : reflected_above(p, fresnel);
+  }
+
+  // Where one direction is not above the surface there are only the microfacets of glass.
+
+  /// The microfacet that scatters between two directions; the same in either order, bit for bit.
+  struct Facet {
+    bool exists, reflects;
+    Vec3 h;  ///< Above the surface.
+    double fresnel;
+  };
+  Facet facet_of_glass(const Vec3& a, const Vec3& b) const {
+    if (a.z * b.z == 0 || !refracts_) return {};
     const bool reflects = same_side(a, b);
-    if (!reflects && !refracts_) return {};
-    if (reflects && a.z < 0 && !refracts_) return {};
     const Vec3 sum = reflects ? a + b : a.z > 0 ? a + eta_ * b : b + eta_ * a;
     if (sum.z == 0) return {};
     const Vec3 h = normalize(sum.z < 0 ? -sum : sum);
     const double cos_a = dot(a, h), cos_b = dot(b, h);
-    const bool microfacet = cos_a * a.z > 0 && cos_b * b.z > 0;
     const bool thin_is_above = eta_ > 1;
     const double cosine = reflects ? 0.5 * dot(sum, h) : (a.z > 0) == thin_is_above ? cos_a : cos_b;
-    return {true, reflects, microfacet, h, fresnel_dielectric(cosine, eta_).reflectance};
+    return {cos_a * a.z > 0 && cos_b * b.z > 0, reflects, h,
+            fresnel_dielectric(cosine, eta_).reflectance};
   }
-
-  struct Parts {
-    Spectrum diffuse{0}, clearcoat{0}, specular{0};
-  };
-  Parts values(const Point& p, const SurfacePoint& at, const Vec3& wl, const Vec3& wc,
-               const Half& half) const {
-    const Spectrum base = base_color_->eval(at);
-    Parts parts;
-    if (half.microfacet) parts.specular = specular_part(p, at, base, wl, wc, half);
-    if (!half.reflects || wl.z < 0) return parts;
-    const double cos_h = dot(wl, half.h);
-    if (half.microfacet && p.clearcoat > 0)
-      parts.clearcoat = Spectrum(0.25 * p.clearcoat * ClearCoat::fresnel(cos_h, eta_) *
-                                 p.coat.D(half.h) * ClearCoat::G(wl, wc, half.h));
-    if (p.brdf > 0)
-      parts.diffuse =
-          base * (p.brdf * inv_pi *
-                  principled_diffuse(wl.z, wc.z, cos_h, p.roughness, flatness_->eval_scalar(at)));
-    if (p.metallic < 1)
-      parts.diffuse += sheen_->eval_scalar(at) * (1 - p.metallic) *
-                       schlick_weight(std::abs(cos_h)) * tinted(base, sheen_tint_->eval_scalar(at));
-    return parts;
+  Spectrum glass(const Point<double>& p, const SurfacePoint& at, const Vec3& wl, const Vec3& wc,
+                 const Facet& facet) const {
+    const auto& [exists, reflects, h, F] = facet;
+    const double DG = p.microfacet.D(h) * p.microfacet.g1(wl, h) * p.microfacet.g1(wc, h);
+    const double cosines = std::abs(wl.z * wc.z), l = dot(wl, h), c = dot(wc, h);
+    if (reflects) return Spectrum(p.bsdf * F * DG / (4 * cosines));
+    const double jacobian = std::abs(l * c) / sqr(l * eta_on_side(wl) + c);
+    return sqrt(base_color_->eval(at)) * (p.bsdf * (1 - F) * DG * jacobian / cosines);
   }
-
-  Spectrum specular_part(const Point& p, const SurfacePoint& at, const Spectrum& base,
-                         const Vec3& wl, const Vec3& wc, const Half& half) const {
-    const double DG = p.microfacet.D(half.h) * p.microfacet.G(wl, wc, half.h);
-    const double cosines = std::abs(wl.z * wc.z), l = dot(wl, half.h), c = dot(wc, half.h);
-    if (!half.reflects) {
-      const double jacobian = std::abs(l * c) / sqr(l * eta_on_side(wl) + c);
-      return sqrt(base) * (p.bsdf * (1 - half.F) * DG * jacobian / cosines);
-    }
-    if (!(half.F > 0)) return Spectrum(0);
-    if (wl.z < 0) return Spectrum(p.bsdf * half.F * DG / (4 * cosines));
-    const double tint = spec_tint_->eval_scalar(at);
-    const Spectrum F = Spectrum((1 - p.metallic) * (1 - tint) * half.F) +
-                       p.metallic * schlick(base, l, eta_) +
-                       (1 - p.metallic) * tint * tinted_schlick(base, l, eta_);
-    return F * (DG / (4 * cosines));
-  }
-
-  using Densities = std::array<double, lobe_count>;
-  static double sum(const Densities& d) { return d[diffuse] + d[clearcoat] + d[specular]; }
-  /// The densities of `to`, lobe by lobe.
-  Densities densities(const Point& p, const Vec3& from, const Vec3& to, const Half& half) const {
-    const LobeShares<lobe_count> chosen = shares(p, from);
-    Densities d{};
-    if (half.reflects && from.z > 0) d[diffuse] = chosen.share[diffuse] * to.z * inv_pi;
-    if (!half.microfacet) return d;
-    const double D = p.microfacet.D(half.h), g1 = p.microfacet.g1(from, half.h);
-    const double f = dot(from, half.h), t = dot(to, half.h);
-    const double reflected = reflected_share(p, from, half.F);
-    if (!half.reflects) {
-      d[specular] = chosen.share[specular] * (1 - reflected) *
-                    normal_pdf(p.microfacet, from, half.h, D, g1) * std::abs(t) /
-                    sqr(f * eta_on_side(from) + t);
-      return d;
-    }
-    d[specular] =
-        chosen.share[specular] * reflected * reflection_pdf(p.microfacet, from, half.h, D, g1);
-    if (from.z > 0)
-      d[clearcoat] = chosen.share[clearcoat] * p.coat.D(half.h) * half.h.z / (4 * std::abs(f));
-    return d;
-  }
-
-  /// The probabilities of the lobes, as in Mitsuba. From below there are only microfacets.
-  LobeShares<lobe_count> shares(const Point& p, const Vec3& from) const {
-    if (from.z < 0) return LobeShares<lobe_count>({0, 0, p.bsdf > 0 ? 1.0 : 0.0});
-    return LobeShares<lobe_count>(
-        {p.brdf * diffuse_rate_, 0.25 * p.clearcoat * clearcoat_rate_, specular_rate_});
-  }
-  /// The probability that a sampled microfacet reflects.
-  static double reflected_share(const Point& p, const Vec3& from, double F) {
-    return from.z < 0 ? F : 1 - p.bsdf * (1 - F);
+  double glass_pdf(const Point<double>& p, const Vec3& from, const Vec3& to,
+                   const Facet& facet) const {
+    const auto& [exists, reflects, h, F] = facet;
+    const double D = p.microfacet.D(h), g1 = p.microfacet.g1(from, h);
+    const double share = shares(p, from).share[specular], reflected = reflected_share(p, from, F);
+    if (reflects) return share * reflected * reflection_pdf(p.microfacet, from, h, D, g1);
+    const double t = dot(to, h);
+    return share * (1 - reflected) * normal_pdf(p.microfacet, from, h, D, g1) * std::abs(t) /
+           sqr(dot(from, h) * eta_on_side(from) + t);
   }
 
   static std::optional<BsdfSample> usable(const Vec3& from, const Vec3& to, bool reflects) {
     if (to.z == 0 || same_side(from, to) != reflects) return std::nullopt;
     return BsdfSample{to, Lobe::smooth};
   }
+  std::optional<Vec3> invert_glass(const Point<double>& p, const Vec3& from, const Vec3& to,
+                                   double v) const {
+    const Facet facet = facet_of_glass(from, to);
+    if (!facet.exists || !(glass_pdf(p, from, to, facet) > 0)) return std::nullopt;
+    const double reflected = reflected_share(p, from, facet.fresnel);
+    const double u = facet.reflects ? u_of_first(reflected, v) : u_of_second(reflected, v);
+    return u_of(shares(p, from).invert(specular, u),
+                Microfacet(p.microfacet).invert(upwards(from), facet.h));
+  }
   double eta_on_side(const Vec3& w) const { return w.z > 0 ? 1 / eta_ : eta_; }
 
-  TexturePtr base_color_, roughness_, anisotropic_, metallic_, spec_trans_, spec_tint_, sheen_,
-      sheen_tint_, flatness_, clearcoat_, clearcoat_gloss_;
+  TexturePtr base_color_;
+  ScalarTexture roughness_, anisotropic_, metallic_, spec_trans_, spec_tint_, sheen_, sheen_tint_,
+      flatness_, clearcoat_, clearcoat_gloss_;
   double diffuse_rate_, specular_rate_, clearcoat_rate_;
-  bool refracts_;
+  bool refracts_, coated_;
   double eta_;
 };
 

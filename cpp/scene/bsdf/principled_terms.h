@@ -3,25 +3,24 @@
 // scattering", in the form of Mitsuba 3.
 #pragma once
 
-#include "base/params.h"
 #include "math/microfacet.h"
-#include "math/warp.h"
+#include "math/spectrum.h"
 #include "scene/bsdf/lobes.h"
-#include "scene/texture.h"
 
 namespace mlt {
 
 /// Schlick's weight (1 - cos)^5 (Schlick 1994, eq. 24).
-inline double schlick_weight(double cosine) {
-  const double m = std::clamp(1 - cosine, 0.0, 1.0);
+template <class F>
+F schlick_weight(F cosine) {
+  const F m = min(max(1 - cosine, F(0)), F(1));
   return sqr(sqr(m)) * m;
 }
-
-/// Schlick's reflectance R0 + (1 - R0) (1 - cos)^5, by the cosine >= 0 in the thinner medium.
-inline Spectrum schlick(const Spectrum& R0, double cosine, double eta) {
-  if (eta <= 1) cosine = std::sqrt(std::max(0.0, 1 - (1 - sqr(cosine)) / sqr(eta)));
-  const double w = schlick_weight(cosine);
-  return R0 + w * (Spectrum(1) - R0);
+/// The weight w of Schlick's reflectance R0 + (1 - R0) w of an interface, by the cosine >= 0 of
+/// light from above.
+template <class F>
+F schlick_weight(F cosine, double eta) {
+  if (eta > 1) return schlick_weight(cosine);
+  return schlick_weight(sqrt(max(F(0), 1 - (1 - sqr(cosine)) * number<F>(1 / sqr(eta)))));
 }
 
 /// The hue of the base colour, at luminance 1.
@@ -29,72 +28,113 @@ inline Spectrum tint_of(const Spectrum& base) {
   const double l = luminance(base);
   return l > 0 ? base / l : Spectrum(1);
 }
-inline Spectrum tinted(const Spectrum& base, double amount) {
-  return Spectrum(1) + amount * (tint_of(base) - Spectrum(1));
+
+/// A colour: `base` times the base colour, `tint` times its hue, and white.
+template <class F>
+struct TintedOf {
+  F base{0}, tint{0}, white{0};
+
+  TintedOf& operator+=(const TintedOf& other) {
+    base += other.base;
+    tint += other.tint;
+    white += other.white;
+    return *this;
+  }
+  TintedOf<double> of_lane(int i) const { return {base[i], tint[i], white[i]}; }
+};
+using Tinted = TintedOf<double>;
+template <class F>
+TintedOf<F> operator*(F factor, const TintedOf<F>& c) {
+  return {factor * c.base, factor * c.tint, factor * c.white};
 }
-/// Schlick's reflectance of a tinted dielectric.
-inline Spectrum tinted_schlick(const Spectrum& base, double cosine, double eta) {
-  return schlick(tint_of(base) * sqr((eta - 1) / (eta + 1)), cosine, eta);
+inline Spectrum color_of(const Tinted& c, const Spectrum& base, const Spectrum& hue) {
+  return c.base * base + c.tint * hue + Spectrum(c.white);
+}
+
+/// Schlick's reflectance of a metal of the base colour, by the weight w.
+template <class F>
+TintedOf<F> schlick_metal(F w) {
+  return {1 - w, F(0), w};
+}
+/// Schlick's reflectance of a dielectric of the base's hue, by the weight w.
+template <class F>
+TintedOf<F> schlick_tinted(F w, double eta) {
+  return {F(0), (1 - w) * number<F>(sqr((eta - 1) / (eta + 1))), w};
 }
 
 /// GGX with Burley's roughness^2, and anisotropy by the aspect sqrt(1 - 0.9 anisotropic).
-inline Microfacet principled_microfacet(double roughness, double anisotropic) {
-  const double aspect = std::sqrt(1 - 0.9 * anisotropic);
-  return {MicrofacetType::ggx, std::max(0.001, sqr(roughness) / aspect),
-          std::max(0.001, sqr(roughness) * aspect)};
+template <class F>
+Ggx<F> principled_microfacet(F roughness, F anisotropic) {
+  const F aspect = sqrt(1 - number<F>(0.9) * anisotropic), least = number<F>(0.001);
+  return {max(least, sqr(roughness) / aspect), max(least, sqr(roughness) * aspect)};
 }
 
 /// The BSDF of a Lambertian base over colour / pi: Burley's diffuse term with retroreflection,
 /// mixed by `flatness` with his approximation of subsurface scattering. cos_d is the cosine with
 /// the half vector.
-inline double principled_diffuse(double cos_l, double cos_c, double cos_d, double roughness,
-                                 double flatness) {
-  const double Fl = schlick_weight(cos_l), Fc = schlick_weight(cos_c);
-  const double Rr = 2 * roughness * sqr(cos_d);
-  const double diffuse = (1 - 0.5 * Fl) * (1 - 0.5 * Fc) + Rr * (Fl + Fc + Fl * Fc * (Rr - 1));
-  const double Fss = (1 + Fl * (0.5 * Rr - 1)) * (1 + Fc * (0.5 * Rr - 1));
-  const double flat = 1.25 * (Fss * (1 / (cos_l + cos_c) - 0.5) + 0.5);
+template <class F>
+F principled_diffuse(F cos_l, F cos_c, F cos_d, F roughness, F flatness) {
+  const F half = number<F>(0.5), Fl = schlick_weight(cos_l), Fc = schlick_weight(cos_c);
+  const F Rr = 2 * roughness * sqr(cos_d);
+  const F diffuse = (1 - half * Fl) * (1 - half * Fc) + Rr * (Fl + Fc + Fl * Fc * (Rr - 1));
+  const F Fss = (1 + Fl * (half * Rr - 1)) * (1 + Fc * (half * Rr - 1));
+  const F flat = number<F>(1.25) * (Fss * (1 / (cos_l + cos_c) - half) + half);
   return diffuse + flatness * (flat - diffuse);
+}
+/// Its sheen, a layer that brightens grazing angles.
+template <class F>
+TintedOf<F> principled_sheen(F cos_d, F sheen, F sheen_tint) {
+  const F w = sheen * schlick_weight(abs(cos_d));
+  return {F(0), w * sheen_tint, w * (1 - sheen_tint)};
 }
 
 /// The distribution of the clear coat's normals, with the tails of gamma = 1 (Burley 2012, appendix
 /// B.2): D = (alpha^2 - 1) / (pi log alpha^2 (1 + (alpha^2 - 1) cos^2)).
+template <class F>
 struct ClearCoat {
-  double alpha2;
+  F alpha2, log_alpha2;
 
-  explicit ClearCoat(double gloss) : alpha2(sqr(0.1 + gloss * (0.001 - 0.1))) {}
-
-  double D(const Vec3& h) const {
-    return (alpha2 - 1) / (pi * std::log(alpha2) * (sin2_theta(h) + alpha2 * sqr(h.z)));
+  static F alpha(F gloss) { return number<F>(0.1) + gloss * number<F>(0.001 - 0.1); }
+  static ClearCoat of_gloss(F gloss) {
+    const F alpha2 = sqr(alpha(gloss));
+    return {alpha2, for_each_lane<F>([&](int i) { return std::log(lane_of(alpha2, i)); })};
   }
-  Vec3 sample(const Vec2& u) const {
-    const double sin2 = alpha2 * std::expm1(-u.x * std::log(alpha2)) / (1 - alpha2);
-    const SinCos phi = sincos_turns(u.y);
-    const double r = std::sqrt(std::min(sin2, 1.0));
-    return {r * phi.cos, r * phi.sin, std::sqrt(std::max(0.0, 1 - sin2))};
+
+  F D(const Vec3Of<F>& h) const {
+    const F sin2 = sqr(h.x) + sqr(h.y);
+    return (alpha2 - 1) / (number<F>(pi) * log_alpha2 * (sin2 + alpha2 * sqr(h.z)));
+  }
+  Vec3Of<F> sample(const Vec2Of<F>& u) const {
+    const F power = -u.x * log_alpha2;
+    const F sin2 = alpha2 / (1 - alpha2) *
+                   for_each_lane<F>([&](int i) { return std::expm1(lane_of(power, i)); });
+    const SinCosOf<F> phi = sincos_turns(u.y);
+    const F r = sqrt(min(sin2, F(1)));
+    return {r * phi.cos, r * phi.sin, sqrt(max(F(0), 1 - sin2))};
   }
   Vec2 invert(const Vec3& h) const {
-    return {-std::log1p(sin2_theta(h) * (1 - alpha2) / alpha2) / std::log(alpha2), turns(h.x, h.y)};
+    return {-std::log1p(sin2_theta(h) * (1 - alpha2) / alpha2) / log_alpha2, turns(h.x, h.y)};
   }
   /// Masking and shadowing, as of GGX of roughness 0.25.
-  static double G(const Vec3& wl, const Vec3& wc, const Vec3& h) {
-    return Microfacet(MicrofacetType::ggx, 0.25, 0.25).G(wl, wc, h);
+  static F G(const Vec3Of<F>& wl, const Vec3Of<F>& wc, const Vec3Of<F>& h) {
+    const Ggx<F> microfacet{number<F>(0.25), number<F>(0.25)};
+    return microfacet.g1(wl, h) * microfacet.g1(wc, h);
   }
-  static double fresnel(double cosine, double eta) {
-    return schlick(Spectrum(0.04), cosine, eta)[0];
+  static F fresnel(F cosine, double eta) {
+    return number<F>(0.04) + number<F>(0.96) * schlick_weight(cosine, eta);
   }
 };
 
 /// The probabilities of the lobes that a sample chooses from.
-template <size_t n>
+template <size_t n, class F = double>
 struct LobeShares {
-  double share[n];
+  F share[n];
 
   /// Probabilities in proportion to weights that are not negative.
-  explicit LobeShares(const double (&weight)[n]) {
-    double sum = 0;
-    for (const double w : weight) sum += w;
-    for (size_t i = 0; i < n; ++i) share[i] = sum > 0 ? weight[i] / sum : 0;
+  explicit LobeShares(const F (&weight)[n]) {
+    F sum(0);
+    for (const F& w : weight) sum += w;
+    for (size_t i = 0; i < n; ++i) share[i] = select(sum > 0, weight[i] / sum, F(0));
   }
   /// The lobe that u chooses; u is rescaled. n if all weights are 0.
   size_t choose(double& u) const {

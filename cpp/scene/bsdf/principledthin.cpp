@@ -6,6 +6,7 @@
 #include "scene/bsdf.h"
 #include "scene/bsdf/principled_terms.h"
 #include "scene/bsdf/rough_surface.h"
+#include "scene/scalar_texture.h"
 
 namespace mlt {
 namespace {
@@ -16,14 +17,14 @@ class PrincipledThin final : public Bsdf {
  public:
   explicit PrincipledThin(Params& params)
       : base_color_(texture_param(params, "base_color")),
-        roughness_(texture_param(params, "roughness")),
-        anisotropic_(texture_param(params, "anisotropic")),
-        spec_trans_(texture_param(params, "spec_trans")),
+        roughness_(scalar_param(params, "roughness")),
+        anisotropic_(scalar_param(params, "anisotropic")),
+        spec_trans_(scalar_param(params, "spec_trans")),
         eta_(unbounded_texture_param(params, "eta")),
-        spec_tint_(texture_param(params, "spec_tint")),
-        sheen_(texture_param(params, "sheen")),
-        sheen_tint_(texture_param(params, "sheen_tint")),
-        flatness_(texture_param(params, "flatness")),
+        spec_tint_(scalar_param(params, "spec_tint")),
+        sheen_(scalar_param(params, "sheen")),
+        sheen_tint_(scalar_param(params, "sheen_tint")),
+        flatness_(scalar_param(params, "flatness")),
         diff_trans_(unbounded_texture_param(params, "diff_trans")),
         rate_{params.real_in("specular_reflectance_sampling_rate", 0, 1e6),
               params.real_in("specular_transmittance_sampling_rate", 0, 1e6),
@@ -97,14 +98,14 @@ class PrincipledThin final : public Bsdf {
 
     /// The microfacets for light that is refracted twice (Burley 2015, fig. 15), or mirrored.
     Microfacet microfacet(bool refracted) const {
-      return principled_microfacet(refracted ? (0.65 * eta - 0.35) * roughness : roughness,
-                                   anisotropic);
+      return Microfacet(principled_microfacet(
+          refracted ? (0.65 * eta - 0.35) * roughness : roughness, anisotropic));
     }
   };
   Point point(const SurfacePoint& at) const {
-    const double s = spec_trans_->eval_scalar(at), t = 0.5 * diff_trans_->eval_scalar(at);
-    return {roughness_->eval_scalar(at),
-            anisotropic_->eval_scalar(at),
+    const double s = spec_trans_.eval(at), t = 0.5 * diff_trans_->eval_scalar(at);
+    return {roughness_.eval(at),
+            anisotropic_.eval(at),
             s,
             eta_->eval_scalar(at),
             t,
@@ -131,24 +132,24 @@ class PrincipledThin final : public Bsdf {
       const double cos_h = dot(wi, h), F = fresnel_dielectric(cos_h, p.eta).reflectance;
       const Microfacet microfacet = p.microfacet(!reflects);
       const double DG = microfacet.D(h) * microfacet.G(wi, wo, h);
-      Spectrum factor = (1 - F) * base;
+      Tinted factor{1 - F, 0, 0};
       if (reflects) {
-        const double tint = spec_tint_->eval_scalar(at);
-        factor = Spectrum((1 - tint) * F) + tint * tinted_schlick(base, cos_h, p.eta);
+        const double tint = spec_tint_.eval(at);
+        factor = tint * schlick_tinted(schlick_weight(cos_h, p.eta), p.eta);
+        factor.white += (1 - tint) * F;
       }
-      parts.specular = p.spec_trans * DG / (4 * std::abs(wi.z * wo.z)) * factor;
+      parts.specular =
+          color_of(p.spec_trans * DG / (4 * std::abs(wi.z * wo.z)) * factor, base, tint_of(base));
     }
     if (!reflects) {
       parts.diffuse = (1 - p.spec_trans) * p.diff_trans * inv_pi * base;
       return parts;
     }
     const double cos_d = dot(h, wo);
+    Tinted diffuse = principled_sheen(cos_d, sheen_.eval(at), sheen_tint_.eval(at));
+    diffuse.base += inv_pi * principled_diffuse(wi.z, wo.z, cos_d, p.roughness, flatness_.eval(at));
     parts.diffuse =
-        (1 - p.spec_trans) * (1 - p.diff_trans) *
-        (inv_pi * principled_diffuse(wi.z, wo.z, cos_d, p.roughness, flatness_->eval_scalar(at)) *
-             base +
-         sheen_->eval_scalar(at) * schlick_weight(std::abs(cos_d)) *
-             tinted(base, sheen_tint_->eval_scalar(at)));
+        color_of((1 - p.spec_trans) * (1 - p.diff_trans) * diffuse, base, tint_of(base));
     return parts;
   }
 
@@ -171,8 +172,11 @@ class PrincipledThin final : public Bsdf {
     return d;
   }
 
-  TexturePtr base_color_, roughness_, anisotropic_, spec_trans_, eta_, spec_tint_, sheen_,
-      sheen_tint_, flatness_, diff_trans_;
+  TexturePtr base_color_;
+  ScalarTexture roughness_, anisotropic_, spec_trans_;
+  TexturePtr eta_;
+  ScalarTexture spec_tint_, sheen_, sheen_tint_, flatness_;
+  TexturePtr diff_trans_;
   double rate_[lobe_count];
 };
 

@@ -6,16 +6,6 @@ namespace {
 /// Whether the roughness is given along both axes.
 bool anisotropic(const Params& params) { return params.has("alpha_u") || params.has("alpha_v"); }
 
-Microfacet constant(Params& params, double alpha_u, double alpha_v) {
-  return {microfacet_type_param(params), alpha_u, alpha_v, params.boolean("sample_visible")};
-}
-
-bool is_texture(Params& params, const std::string& name) {
-  const ObjectPtr* object = std::get_if<ObjectPtr>(&params.value(name));
-  const auto* texture = object ? dynamic_cast<const Texture*>(object->get()) : nullptr;
-  return texture && !texture->spectrum(SpectrumUse::unbounded);
-}
-
 }  // namespace
 
 Parameter microfacet_type_parameter() {
@@ -44,20 +34,11 @@ std::vector<Parameter> rough_surface_parameters() {
           sample_visible_parameter()};
 }
 
-RoughSurface::RoughSurface(Params& params) : constant_(constant(params, 1, 1)) {
-  const bool two = anisotropic(params);
-  const std::string u = two ? "alpha_u" : "alpha", v = two ? "alpha_v" : "alpha";
-  alpha_u_ = texture_param(params, u);
-  alpha_v_ = texture_param(params, v);
-  if (is_texture(params, u) || is_texture(params, v)) return;
-  constant_ = constant(params, alpha_u_->mean().x, alpha_v_->mean().x);
-  alpha_u_ = alpha_v_ = nullptr;
-}
-
-Microfacet RoughSurface::textured(const SurfacePoint& at) const {
-  const double alpha_u = alpha_u_->eval_scalar(at);
-  const double alpha_v = alpha_v_ == alpha_u_ ? alpha_u : alpha_v_->eval_scalar(at);
-  return {constant_.type(), alpha_u, alpha_v, constant_.sample_visible()};
+RoughSurface::RoughSurface(Params& params)
+    : type_(microfacet_type_param(params)),
+      sample_visible_(params.boolean("sample_visible")),
+      alpha_u_(scalar_param(params, anisotropic(params) ? "alpha_u" : "alpha")) {
+  if (anisotropic(params)) alpha_v_ = scalar_param(params, "alpha_v");
 }
 
 }  // namespace mlt

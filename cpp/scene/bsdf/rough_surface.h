@@ -2,9 +2,11 @@
 // of normals at one pair of directions.
 #pragma once
 
-#include "base/params.h"
 #include "math/microfacet.h"
-#include "scene/texture.h"
+#include "scene/scalar_texture.h"
+
+#include <optional>
+#include <utility>
 
 namespace mlt {
 
@@ -16,12 +18,26 @@ class RoughSurface {
  public:
   explicit RoughSurface(Params& params);
 
-  Microfacet at(const SurfacePoint& at) const { return alpha_u_ ? textured(at) : constant_; }
+  Microfacet at(const SurfacePoint& at) const {
+    const SurfacePoint* one = &at;
+    const auto [u, v] = alphas<double>(&one);
+    return {type_, u, v, sample_visible_};
+  }
+  /// That of eight points, for GGX.
+  Ggx<Float8> ggx(const SurfacePoint* const* at) const {
+    const Float8 least = number<Float8>(Microfacet::min_alpha);
+    const auto [u, v] = alphas<Float8>(at);
+    return {max(least, u), max(least, v)};
+  }
+  /// The distribution of mean roughness.
+  Microfacet typical() const {
+    return {type_, alpha_u_.mean(), alpha_v_ ? alpha_v_->mean() : alpha_u_.mean(), sample_visible_};
+  }
 
-  bool is_constant() const { return !alpha_u_; }
   /// A lower bound of alpha().
   double least_alpha() const {
-    return alpha_u_ ? 0 : std::min(constant_.alpha_u(), constant_.alpha_v());
+    const bool constant = alpha_u_.is_constant() && (!alpha_v_ || alpha_v_->is_constant());
+    return constant ? std::min(typical().alpha_u(), typical().alpha_v()) : 0;
   }
   /// The smaller one of the two roughnesses.
   double alpha(const SurfacePoint& point) const {
@@ -30,10 +46,16 @@ class RoughSurface {
   }
 
  private:
-  Microfacet textured(const SurfacePoint& at) const;
+  template <class F>
+  std::pair<F, F> alphas(const SurfacePoint* const* at) const {
+    const F u = alpha_u_.eval<F>(at);
+    return {u, alpha_v_ ? alpha_v_->eval<F>(at) : u};
+  }
 
-  Microfacet constant_;
-  TexturePtr alpha_u_, alpha_v_;  ///< Null if the roughness is the same everywhere.
+  MicrofacetType type_;
+  bool sample_visible_;
+  ScalarTexture alpha_u_;
+  std::optional<ScalarTexture> alpha_v_;  ///< Empty if it is alpha_u.
 };
 
 /// The parameter `distribution`: "beckmann" or "ggx".
@@ -85,11 +107,15 @@ struct MicrofacetReflection {
   }
 };
 
-/// The direction into which a normal sampled for `from` mirrors it; (0, 0, 0) if there is none.
+/// The direction into which the normal h mirrors `from`; (0, 0, 0) if it faces away.
+template <class F>
+Vec3Of<F> mirrored(const Vec3Of<F>& from, const Vec3Of<F>& h) {
+  return reflect(from, h) * select(dot(from, h) > 0, F(1), F(0));
+}
+/// As above, with a normal sampled for `from`.
 template <class Normals, class F>
 Vec3Of<F> mirrored(const Normals& microfacet, const Vec3Of<F>& from, const Vec2Of<F>& u) {
-  const Vec3Of<F> h = microfacet.sample(from, u);
-  return reflect(from, h) * select(dot(from, h) > 0, F(1), F(0));
+  return mirrored(from, microfacet.sample(from, u));
 }
 
 }  // namespace mlt

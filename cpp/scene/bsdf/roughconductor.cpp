@@ -15,11 +15,16 @@ class RoughConductor final : public MicrofacetReflector<RoughConductor> {
       : surface_(params),
         ior_(conductor_param(params)),
         reflectance_(texture_param(params, "specular_reflectance")) {
-    find_lanes();
+    find_lanes(surface_.typical());
   }
 
-  Microfacet microfacet(const SurfacePoint& at) const { return surface_.at(at); }
-  bool is_constant() const { return surface_.is_constant(); }
+  template <class F>
+  auto point(const SurfacePoint* const* at) const {
+    if constexpr (is_number<F>)
+      return surface_.at(**at);
+    else
+      return surface_.ggx(at);
+  }
 
   template <class F>
   struct Terms {

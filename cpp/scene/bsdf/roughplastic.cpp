@@ -21,11 +21,16 @@ class RoughPlastic final : public MicrofacetReflector<RoughPlastic> {
         microfacet_(microfacet_of(params)),
         coating_(microfacet_.type(), microfacet_.alpha_u(), eta_),
         base_(params, eta_, coating_.internal_reflectance(), coating_.mean_transmittance()) {
-    find_lanes();
+    find_lanes(microfacet_);
   }
 
-  Microfacet microfacet(const SurfacePoint&) const { return microfacet_; }
-  bool is_constant() const { return true; }
+  template <class F>
+  auto point(const SurfacePoint* const*) const {
+    if constexpr (is_number<F>)
+      return microfacet_;
+    else
+      return Ggx<F>{number<F>(microfacet_.alpha_u()), number<F>(microfacet_.alpha_v())};
+  }
 
   template <class F>
   struct Terms {

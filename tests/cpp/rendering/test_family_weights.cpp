@@ -218,7 +218,7 @@ TEST_P(PathSampleTaker, WeightsPathTracingSideBySideAsOneByOne) {
   PathTarget target = target_of(made);
   target.set_techniques(SampleTechniques::path_tracing);
   compare(target, PathEstimator(*made.scene, target.rules(), Heuristic::balance),
-          FamilyWeights(0.3));
+          FamilyWeights(0.2));
 }
 
 /// With roulette from the first vertex on.

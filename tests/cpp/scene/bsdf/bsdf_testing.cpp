@@ -122,6 +122,9 @@ void add_principled(Maker& maker) {
       false);
   add("principled coated",
       {{"clearcoat", 0.9}, {"clearcoat_gloss", 0.3}, {"roughness", 0.6}, {"eta", 1.7}}, false);
+  add("principled textured",
+      {{"metallic", ramp_texture(0, 1)}, {"roughness", ramp_texture(0, 1)}, {"spec_tint", 0.3}},
+      false);
   add("principled glass",
       {{"spec_trans", 0.8}, {"metallic", 0.1}, {"eta", 1.4}, {"spec_tint", 0.5}}, true);
   add("principled sharp glass",
