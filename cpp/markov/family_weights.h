@@ -5,9 +5,9 @@
 //
 //   w1(x) = c^2 / (c^2 + (T(x) / P(x))^2),   w2(x) = 1 - w1(x)
 //
-// With c = b N1 / N2 this is the power heuristic (sec. 9.2.3) for N2 independent states. States of a
-// chain are not, so that c is a larger number, which a pilot finds. T / P is high where the samples
-// are noisy: there the chains get the weight, and hardly any elsewhere.
+// With c = b N1 / N2 this is the power heuristic (sec. 9.2.3) for N2 independent states. States of
+// a chain are not, so that c is a larger number, which a pilot finds. T / P is high where the
+// samples are noisy: there the chains get the weight, and hardly any elsewhere.
 #pragma once
 
 namespace mlt {

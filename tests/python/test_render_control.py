@@ -137,7 +137,7 @@ def test_a_progress_bar_can_be_asked_for(capsys):
 
 
 def test_stats_have_the_promised_members(scene):
-    stats = mlt.start(scene, "pssmlt", spp=4, seed=9).result().stats
+    stats = mlt.start(scene, "pssmlt", spp=64, seed=9).result().stats
     assert {k: type(v) for k, v in stats.items()} == {
         "version": str,
         "integrator": str,
