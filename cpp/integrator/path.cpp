@@ -12,10 +12,8 @@ struct PathIntegrator : SampledDefaults {
   static PathRules settings(Params& params) { return path_rules(params); }
   static SampledSettings film(const PathRules&) { return camera_walks(); }
   static std::unique_ptr<SampleTaker> taker(const Scene& scene, const PathRules& rules) {
-    std::unique_ptr<PathSampleWave> wave;
-    if (PathSampleWave::supports(scene))
-      wave = std::make_unique<PathSampleWave>(scene, rules, Heuristic::power);
-    return take_alone(PathEstimator(scene, rules), std::move(wave));
+    return take_alone(PathEstimator(scene, rules),
+                      std::make_unique<PathSampleWave>(scene, rules, Heuristic::power));
   }
 };
 

@@ -185,16 +185,25 @@ struct CameraWalk {
   }
 };
 
+/// Follows the ray of a walk to where it stops, knowing whether it has hit a surface, and the first
+/// that it has; false if it leaves the scene.
+inline bool go_through(const Walker& walker, double u_leg, bool hit, CameraWalk& walk,
+                       SurfacePoint& at) {
+  Passage leg;
+  leg.likelihood = walk.likelihood;
+  const Vec3& w = walk.ray.d;
+  hit = walker.go_on(walk.ray, u_leg, hit, at, leg);
+  walk.pass(leg, walker.scene.arrival(leg, hit ? at : Scene::point_at_infinity(w), w));
+  return hit;
+}
+
 /// Follows the ray of a walk to the next vertex; false if it leaves the scene.
 template <class Sampler>
 bool arrive(const Walker& walker, Sampler& sampler, CameraWalk& walk, SurfacePoint& at) {
-  Passage leg;
-  leg.likelihood = walk.likelihood;
-  const bool hit = walker.arrive(walk.ray, walker.draw_leg(sampler), at, leg);
-  if (!walker.scene.has_passages()) return hit;
-  const Vec3& w = walk.ray.d;
-  walk.pass(leg, walker.scene.arrival(leg, hit ? at : Scene::point_at_infinity(w), w));
-  return hit;
+  const double u_leg = walker.draw_leg(sampler);
+  walker.rays.count_intersect();
+  const bool hit = walker.scene.intersect(walk.ray, at);
+  return walker.scene.has_passages() ? go_through(walker, u_leg, hit, walk, at) : hit;
 }
 
 /// Adds the emission where the ray ends: at the surface `at`, or (nullptr) outside the scene.

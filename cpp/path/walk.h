@@ -117,6 +117,9 @@ struct Walker {
   /// distance in a medium; false if it does not come so far, or leaves the scene.
   bool arrive_at(double distance, const Ray& ray, double u_leg, SurfacePoint& at) const;
 
+  /// Follows a leg on, knowing whether it has hit a surface, and the first that it has.
+  bool go_on(Ray ray, double u_leg, bool hit, SurfacePoint& at, Passage& leg) const;
+
   /// Follows a leg to a light: one on the surface where it stops, or background() if there is none.
   template <class Background>
   bool arrive_at_light(const Ray& ray, double u_leg, Spectrum& likelihood, Background&& background,
@@ -151,8 +154,6 @@ struct Walker {
   }
 
  private:
-  /// Follows a leg on, knowing whether it has hit a surface, and the first that it has.
-  bool go_on(Ray ray, double u_leg, bool hit, SurfacePoint& at, Passage& leg) const;
   /// Goes on behind a surface; false if the leg stops there.
   bool pass(Ray& ray, double& u_leg, bool& hit, SurfacePoint& at, Passage& leg) const;
 };

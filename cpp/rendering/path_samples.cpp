@@ -67,10 +67,9 @@ std::unique_ptr<SampleTaker> traced_taker(const PathTarget& target, const Family
   const auto weights_at = [&target, threshold](const Vec2& raster) {
     return PathWeights{target.factor(raster) / threshold, target.most_certain(raster)};
   };
-  std::unique_ptr<PathSampleWave> wave;
-  if (PathSampleWave::supports(scene))
-    wave = std::make_unique<PathSampleWave>(scene, target.rules(), Heuristic::balance, weights_at);
-  return take_alone(WeightedPathEstimator(target, weights_at), std::move(wave));
+  return take_alone(
+      WeightedPathEstimator(target, weights_at),
+      std::make_unique<PathSampleWave>(scene, target.rules(), Heuristic::balance, weights_at));
 }
 
 }  // namespace

@@ -191,11 +191,7 @@ Passage Scene::passage(const SurfacePoint& at, const Vec3& w) const {
   return passage;
 }
 
-Passage Scene::passage(const SurfacePoint& a, const SurfacePoint& b, double time) const {
-  Ray ray;
-  if (!find_segment(a, b, time, ray)) return Passage::blocked();
-  const bool ends = !a.infinite() && !b.infinite();
-  if (has_media_ && ends) enter_medium(a, ray);  // spawn() has done it for the others
+Passage Scene::passage(Ray& ray) const {
   const Occlusion found = accel_->occluded(ray);
   if (found.blocked) return Passage::blocked();
   Passage all;
@@ -205,7 +201,16 @@ Passage Scene::passage(const SurfacePoint& a, const SurfacePoint& b, double time
     all *= passage(at, ray.d);
     ray = beyond(ray, at);
   }
-  if (ray.medium == no_medium) return all;
+  return all;
+}
+
+Passage Scene::passage(const SurfacePoint& a, const SurfacePoint& b, double time) const {
+  Ray ray;
+  if (!find_segment(a, b, time, ray)) return Passage::blocked();
+  const bool ends = !a.infinite() && !b.infinite();
+  if (has_media_ && ends) enter_medium(a, ray);  // spawn() has done it for the others
+  Passage all = passage(ray);
+  if (all.is_blocked() || ray.medium == no_medium) return all;
   fly(media_[ray.medium], ray, ends ? distance_to(edge_end(b, -ray.d), ray) : infinity, all);
   return all;
 }

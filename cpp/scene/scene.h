@@ -96,6 +96,9 @@ class Scene {
   /// The rest of a ray, along the same line, beyond a surface that it passes; its distances count
   /// from there.
   Ray beyond(const Ray& ray, const SurfacePoint& at) const;
+  /// The light that goes through all surfaces on a ray of finite length, and the media before them;
+  /// the ray becomes the rest of it, behind the last one.
+  Passage passage(Ray& ray) const;
   /// The light that goes straight from a to b, through all surfaces and media between them.
   Passage passage(const SurfacePoint& a, const SurfacePoint& b, double time) const;
   /// The probability that a walk along w, which has come to this point, stops there and does not go

@@ -114,11 +114,30 @@ struct LambertianVertices {
   float weight_from_infinity(int i, const Vec3f& w, float pdf, bool delta, bool strict_normals,
                              const MisExponent& mis) const {
     if (!(pdf > 0 && is_lit_from(i, w, strict_normals))) return 0;
-    const float cosine = std::fabs(dot(w, n[i]));
-    return delta ? cosine / pdf : direct_weight(cosine, pdf, mis);
+    return delta ? cosine(i, w) / pdf : direct_weight(cosine(i, w), pdf, mis);
   }
+  /// The mis in the light_weight of the i-th vertex.
+  double light_mis(int i) const {
+    const ToLight to = to_light(i);
+    return light_weight[i] * to.pdf / cosine(i, to.w);
+  }
+  /// |cos| of a direction from the i-th vertex.
+  float cosine(int i, const Vec3f& w) const { return std::fabs(dot(w, n[i])); }
 
  private:
+  /// From the i-th vertex to its point on a light.
+  struct ToLight {
+    Vec3f between, w;
+    float cosine;  ///< At the light.
+    float pdf;     ///< Density of w in solid angle.
+  };
+  ToLight to_light(int i) const {
+    const Vec3f between = light.position(i) - p[i];
+    const float distance2 = dot(between, between);
+    const Vec3f w = between * (1 / std::sqrt(distance2));
+    const float cosine = -dot(w, light.ng[i]);
+    return {between, w, cosine, light_pdf[i] * distance2 / cosine};
+  }
   /// Whether light from the direction wl is scattered to the camera.
   bool is_lit_from(int i, const Vec3f& wl, bool strict_normals) const {
     const float cos_l = dot(wl, n[i]), cos_c = dot(wc_[i], n[i]);

@@ -18,8 +18,6 @@ class PathSampleWave {
                  WeightsAt weights = nullptr)
       : scene_(&scene), wave_(scene, rules, heuristic), weights_(std::move(weights)) {}
 
-  static bool supports(const Scene& scene) { return !scene.has_media(); }
-
   /// Adds a sample with the numbers of PixelSampler(stream, index): the first two are its position
   /// in this pixel.
   void add(uint64_t stream, uint32_t index, const Vec2& pixel) {
@@ -38,8 +36,8 @@ class PathSampleWave {
   void show_lights(int i, Show&& show) const {
     show(FoundLight{{rasters_[i], wave_.radiance(i), true}});
   }
-  /// Whether the i-th sample has met a surface that light passes: it has to be traced alone.
-  bool fell_back(int i) const { return wave_.fell_back(i); }
+  /// Whether the i-th sample has to be taken alone.
+  static constexpr bool fell_back(int /*i*/) { return false; }
   void clear() {
     wave_.clear();
     rasters_.clear();
@@ -64,6 +62,7 @@ class PathSampleWave {
     for (int i = 0; i < size(); ++i) {
       const double time = moves ? camera.time(u_time_[i]) : shutter.open;
       Ray ray = camera.ray(rasters_[i], {u_x_[i], u_y_[i]}, time);
+      ray.medium = camera.surroundings();
       ray.wavelength = camera.wavelength([&] { return u_spectral_[i]; });
       wave_.add(ray, weights_ ? weights_(rasters_[i]) : PathWeights());
     }

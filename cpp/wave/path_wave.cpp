@@ -7,7 +7,7 @@ void BasicPathWave<Numbers>::trace(RayCounts& rays, bool coherent) {
   for (int depth = 1; live_ > 0; ++depth) {
     find_hits(coherent && depth == 1, rays);
     next_ = 0;
-    if (scene_->has_passages()) numbers_.places().next();  // that of the leg
+    if (scene_->has_passages()) leg_ = numbers_.places().next();
     at_ = decltype(at_)::draw(numbers_.places());
     for (begin_ = 0; begin_ < live_; begin_ += block_size) {
       count_ = std::min(block_size, live_ - begin_);
@@ -55,7 +55,25 @@ void BasicPathWave<Numbers>::find_shadows(RayCounts& rays) {
       [&](int path, const Color& radiance, double share) {
         walks_[path].radiance += radiance * share;
       },
-      [&](int path) { left_[path] = true; });
+      [&](int shadow) { receive_through(shadow); });
+  lights_to_pass_.clear();
+}
+
+/// See direct_light() of path_tracer.h: the surfaces change the light, and its weight, since a walk
+/// may stop there.
+template <class Numbers>
+void BasicPathWave<Numbers>::receive_through(int shadow) {
+  const LightToPass& to_pass = lights_to_pass_[shadow];
+  WaveWalk& walk = walks_[shadows_.path(shadow)];
+  Ray ray = shadows_.ray(shadow);
+  ray.time = walk.ray.time;
+  ray.wavelength = walk.ray.wavelength;
+  const Passage seen = scene_->passage(ray);
+  if (seen.is_blocked()) return;
+  const double mis = 1 / (1 + (1 / to_pass.mis - 1) * walk.mis.raise(seen.probability));
+  const Color found = recorded(to_pass.light * seen.transmittance * (mis / to_pass.mis),
+                               ray.wavelength, to_pass.disperses);
+  walk.radiance += found * walk.weights.of(found, to_pass.survival, 0);
 }
 
 /// Takes one step of trace_path for all paths of the block.
@@ -65,12 +83,13 @@ void BasicPathWave<Numbers>::shade_block(int depth, RayCounts& rays) {
   if (!last) read_numbers(depth);
   singles_.clear();
   sky_count_ = 0;
-  for (int i = 0; i < count_; ++i) find_vertex(i, depth);
+  for (int i = 0; i < count_; ++i) find_vertex(i, depth, rays);
   if (last) return;
   lambertian_.find_reflectances();
   lambertian_.find_points(count_, &d_.x[begin_], &d_.y[begin_], &d_.z[begin_],
                           rules_.strict_normals);
-  const bool lit = rules_.wants(depth + 1);
+  const bool lit = rules_.wants(depth + 1) && !scene_->has_media();
+  if (scene_->has_media()) light_singles(depth, rays);
   if (lit) choose_lights(depth);
   scatter_in_lanes();
   if (lit) queue_lights();
@@ -94,12 +113,13 @@ Vec3 BasicPathWave<Numbers>::numbers_for_light(int i) const {
 }
 
 template <class Numbers>
-inline void BasicPathWave<Numbers>::find_vertex(int i, int depth) {
+inline void BasicPathWave<Numbers>::find_vertex(int i, int depth, RayCounts& rays) {
   const PacketHits& hits = this->hits(i);
   const int lane = i % RayPacket::size;
   const uint32_t shape = hits.shape[lane];
   lambertian_.f[i] = nullptr;
   single_[i] = -1;
+  if (scene_->has_media()) return find_single(i, hits.hit(lane), depth, rays);
   if (shape == SurfacePoint::no_shape) {
     if (!rules_.wants(depth)) return;
     WaveWalk& walk = exact_walk(begin_ + i);
@@ -107,29 +127,45 @@ inline void BasicPathWave<Numbers>::find_vertex(int i, int depth) {
     return;
   }
   const LambertianMesh& lambertian = scene_->lambertian_mesh(shape);
-  if (lambertian.emits || !lambertian.mesh) find_bright_or_other(i, hits.hit(lane), depth);
+  if (lambertian.emits || !lambertian.mesh) find_single(i, hits.hit(lane), depth, rays);
   if (depth < rules_.most_edges() && lambertian.mesh)
     lambertian_.set(i, lambertian, hits.primitive[lane], hits.u[lane], hits.v[lane],
                     walk(i).ray.wavelength);
 }
 
-/// Finds the vertex on a surface that shines, or is not Lambertian.
+/// Finds the vertex on a surface that shines, or is not Lambertian, or behind one that light passes;
+/// in scenes with media any vertex.
 template <class Numbers>
-void BasicPathWave<Numbers>::find_bright_or_other(int i, const Hit& hit, int depth) {
+void BasicPathWave<Numbers>::find_single(int i, const Hit& hit, int depth, RayCounts& rays) {
   WaveWalk& walk = exact_walk(begin_ + i);
-  if (scene_->shapes()[hit.shape]->bsdf().has_passage()) {
-    left_[path_[begin_ + i]] = true;
-    return;
-  }
   const int added = singles_.add(i, -walk.ray.d);
   SurfacePoint& at = singles_[added].at;
-  scene_->find_surface_point(walk.ray, hit, at);
-  if (rules_.wants(depth)) find_light(*scene_, walk, &at, walk);
-  if (!scene_->lambertian_mesh(hit.shape).mesh &&
-      consistent_sides(at, -walk.ray.d, rules_.strict_normals))
+  bool stops = hit.shape != SurfacePoint::no_shape;
+  if (stops) scene_->find_surface_point(walk.ray, hit, at);
+  if (walk.ray.medium != no_medium || (stops && scene_->bsdf(at).has_passage()))
+    stops = go_through(Walker{*scene_, walk.ray.time, rays}, numbers_.read(leg_, begin_ + i), stops,
+                       walk, at);
+  if (rules_.wants(depth)) find_light(*scene_, walk, stops ? &at : nullptr, walk);
+  const bool in_lanes = !scene_->has_media() && scene_->lambertian_mesh(hit.shape).mesh;
+  if (stops && !in_lanes && consistent_sides(at, -walk.ray.d, rules_.strict_normals))
     single_[i] = added;
   else
     singles_.drop_last();
+}
+
+/// Lights the vertices in scenes with media, one by one.
+template <class Numbers>
+void BasicPathWave<Numbers>::light_singles(int depth, RayCounts& rays) {
+  for (const SingleVertex& single : singles_) {
+    WaveWalk& walk = this->walk(single.path);
+    if (!wants_direct_light(*scene_, rules_, depth, single.at)) continue;
+    const auto mis = [&](double light, double bsdf) { return walk.mis.weight(light, bsdf); };
+    const DirectLight light =
+        direct_light(Walker{*scene_, walk.ray.time, rays}, single.at, single.wc,
+                     numbers_for_light(single.path), rules_.strict_normals, mis, walk.likelihood);
+    const Color found = walk.seen(walk.throughput * light.radiance, light.disperses);
+    walk.radiance += found * walk.find(walk, found, 0);
+  }
 }
 
 template <class Numbers>
@@ -195,11 +231,14 @@ void BasicPathWave<Numbers>::sample_other_lights() {
 }
 
 template <class Numbers>
-inline void BasicPathWave<Numbers>::queue_shadow(int i, const Spectrum& radiance, const Vec3f& o,
-                                                 const Vec3f& w, float length) {
+inline void BasicPathWave<Numbers>::queue_shadow(int i, const DirectLight& direct, double mis,
+                                                 const Vec3f& o, const Vec3f& w, float length) {
   WaveWalk& walk = this->walk(i);
-  const Color found = walk.seen(walk.throughput * radiance);
+  const Spectrum light = walk.throughput * direct.radiance;
+  const Color found = walk.seen(light, direct.disperses);
   ++walk.rays.occluded;
+  if (scene_->has_passages())
+    lights_to_pass_.push_back({light, walk.dispersed || direct.disperses, mis, walk.survival});
   shadows_.add(path_[begin_ + i], found, walk.find(walk, found, 0), o, w, length);
 }
 
@@ -209,8 +248,9 @@ void BasicPathWave<Numbers>::queue_lights() {
   for (int i = 0; i < count_; ++i)
     if (lambertian_.f[i] && lambertian_.light_weight[i] > 0)
       queue_shadow(
-          i, *lambertian_.radiance[i] * *lambertian_.f[i] * double{lambertian_.light_weight[i]},
-          lambertian_.shadow_o[i], lambertian_.shadow_w[i], lambertian_.shadow_length[i]);
+          i, {*lambertian_.radiance[i] * *lambertian_.f[i] * double{lambertian_.light_weight[i]}},
+          scene_->has_passages() ? lambertian_.light_mis(i) : 1, lambertian_.shadow_o[i],
+          lambertian_.shadow_w[i], lambertian_.shadow_length[i]);
   for (int j = 0; j < sky_count_; ++j) queue_sky(sky_vertices_[j]);
   for (const SingleVertex& single : singles_)
     if (single.samples_light()) queue_other_light(single);
@@ -229,7 +269,8 @@ void BasicPathWave<Numbers>::queue_sky(const SkyVertex& vertex) {
   if (is_black(radiance)) return;
   const Vec3f o =
       ray_origin(lambertian_.p[i], lambertian_.surface.ng[i], w, lambertian_.surface.extent[i]);
-  queue_shadow(i, radiance * *lambertian_.f[i] * double{weight}, o, w,
+  const double mis = emitter->delta() ? 1 : weight * x0.pdf / lambertian_.cosine(i, w);
+  queue_shadow(i, {radiance * *lambertian_.f[i] * double{weight}}, mis, o, w,
                std::numeric_limits<float>::infinity());
 }
 
@@ -242,13 +283,16 @@ void BasicPathWave<Numbers>::queue_other_light(const SingleVertex& single) {
   double stops = 1;
   if (scene_->has_passages() && single.light.x0.pdf > 0)
     stops = scene_->stop_probability(single.light.x0.at, direction(at, single.light.x0.at));
-  const auto mis = [&](double light, double bsdf) { return walk.mis.weight(light, bsdf * stops); };
+  double weight = 1;
+  const auto mis = [&](double light, double bsdf) {
+    return weight = walk.mis.weight(light, bsdf * stops);
+  };
   const auto scattering = [&](const Vec3& wl) { return single.scattering(*scene_, wl); };
   const DirectLight light =
       unshadowed_light(single.light, at, rules_.strict_normals, scattering, mis);
   if (is_black(light.radiance)) return;
   if (const auto ray = scene_->segment(at, single.light.x0.at, walk.ray.time))
-    queue_shadow(i, light.radiance, Vec3f(ray->o), Vec3f(ray->d), static_cast<float>(ray->t_max));
+    queue_shadow(i, light, weight, Vec3f(ray->o), Vec3f(ray->d), static_cast<float>(ray->t_max));
 }
 
 template <class Numbers>

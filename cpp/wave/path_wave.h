@@ -56,7 +56,6 @@ class BasicPathWave {
   /// Adds a path that begins with `ray`, and takes the numbers of the sample that was added last.
   void add(const Ray& ray, const PathWeights& weights = {}) {
     path_[live_] = live_;
-    left_[live_] = false;
     exact_[live_] = true;
     o_.set(live_, Vec3f(ray.o));
     d_.set(live_++, Vec3f(ray.d));
@@ -79,8 +78,6 @@ class BasicPathWave {
   void trace(RayCounts& rays, bool coherent = true);
   /// The radiance that the i-th path has found.
   const Color& radiance(size_t i) const { return walks_[i].radiance; }
-  /// Whether the i-th path has met a surface that light passes: it has to be traced alone.
-  bool fell_back(size_t i) const { return left_[i]; }
   /// The number of rays of the i-th path.
   const RayCounts& rays(size_t i) const { return walks_[i].rays; }
   void clear() {
@@ -98,22 +95,32 @@ class BasicPathWave {
     LightSample light;
   };
 
+  /// Light behind surfaces that it may have to pass, as if there were none.
+  struct LightToPass {
+    Spectrum light;
+    bool disperses;
+    double mis, survival;
+  };
+
   void find_hits(bool coherent, RayCounts& rays);
   void find_shadows(RayCounts& rays);
+  void receive_through(int shadow);
 
   // Functions of the `count_` paths from the begin_-th one on:
   void shade_block(int depth, RayCounts& rays);
   void read_numbers(int depth);
   Vec3 numbers_for_light(int i) const;
-  void find_vertex(int i, int depth);
-  void find_bright_or_other(int i, const Hit& hit, int depth);
+  void find_vertex(int i, int depth, RayCounts& rays);
+  void find_single(int i, const Hit& hit, int depth, RayCounts& rays);
+  void light_singles(int depth, RayCounts& rays);
   void choose_lights(int depth);
   void choose_other_light(int i, const EmitterChoice& choice, const Vec2& u);
   void sample_other_lights();
   void queue_lights();
   void queue_sky(const SkyVertex& vertex);
   void queue_other_light(const SingleVertex& single);
-  void queue_shadow(int i, const Spectrum& radiance, const Vec3f& o, const Vec3f& w, float length);
+  void queue_shadow(int i, const DirectLight& direct, double mis, const Vec3f& o, const Vec3f& w,
+                    float length);
   void take_step(int depth, RayCounts& rays);
   bool scatter_lambertian(int i, int depth, WaveWalk& walk);
   void scatter_in_lanes();
@@ -128,8 +135,8 @@ class BasicPathWave {
   PathRules rules_;
   MisExponent mis_;
   std::vector<WaveWalk> walks_;
-  Wave<bool> left_;
   WaveShadows shadows_;
+  std::vector<LightToPass> lights_to_pass_;  ///< One for each shadow ray, if there are passages.
 
   // Values of each path that takes this step:
   int live_ = 0;
@@ -138,7 +145,8 @@ class BasicPathWave {
   Wave<bool> exact_;  ///< Whether its walk has the ray in double precision.
   PacketHits hits_[wave_size / RayPacket::size];
   Numbers numbers_;
-  VertexNumbersOf<typename Numbers::Place> at_;  ///< The places of the numbers of this step.
+  typename Numbers::Place leg_;  ///< The places of the numbers of this step.
+  VertexNumbersOf<typename Numbers::Place> at_;
   int next_ = 0;  ///< How many take the next step; they are compacted.
 
   // Values of each path of the block:

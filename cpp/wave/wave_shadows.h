@@ -23,8 +23,12 @@ class WaveShadows {
     radiance_[count_++] = radiance;
   }
 
-  /// Calls receive(path, radiance, share) for the light that is not blocked, or pass(path) where it
-  /// passes surfaces, and clears all rays; time(path) is the time of a path.
+  int path(int i) const { return path_[i]; }
+  /// The i-th ray, at no particular time.
+  Ray ray(int i) const { return {Vec3(o_[i]), Vec3(w_[i]), 0, length_[i]}; }
+
+  /// Calls receive(path, radiance, share) for the light that is not blocked, or pass(i) where the
+  /// i-th ray passes surfaces, and clears all rays; time(path) is the time of a path.
   template <class Time, class Receive, class Pass>
   void trace(const Accel& accel, Time&& time, Receive&& receive, Pass&& pass) {
     for (int begin = 0; begin < count_; begin += RayPacket::size) {
@@ -38,7 +42,7 @@ class WaveShadows {
       for (int i = 0; i < packet.count; ++i) {
         if (blocked >> i & 1) continue;
         if (passed >> i & 1)
-          pass(path_[begin + i]);
+          pass(begin + i);
         else
           receive(path_[begin + i], radiance_[begin + i], share_[begin + i]);
       }
