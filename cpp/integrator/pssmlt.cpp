@@ -92,8 +92,7 @@ class Pssmlt : public MetropolisAlgorithm {
   }
   std::unique_ptr<SampleTaker> sample_taker(const FamilyWeights& weights) const override {
     std::unique_ptr<PathSampleWave> wave;
-    if (is_path)
-      wave = std::make_unique<PathSampleWave>(*scene_, settings_.path, Heuristic::power);
+    if (is_path) wave = std::make_unique<PathSampleWave>(*scene_, settings_.path, Heuristic::power);
     return take_beside_chains(*scene_, estimator(), targeting(), weights, std::move(wave));
   }
   std::unique_ptr<RenderChain> start(const ChainId& id, Rng candidate, Rng) const override {

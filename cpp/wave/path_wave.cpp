@@ -133,7 +133,7 @@ inline void BasicPathWave<Numbers>::find_vertex(int i, int depth, RayCounts& ray
                     walk(i).ray.wavelength);
 }
 
-/// Finds a vertex on a surface that shines, is not Lambertian, or lies behind one that light passes;
+/// Finds a vertex on a surface that shines, is not Lambertian, or is behind one that light passes;
 /// in scenes with media any vertex.
 template <class Numbers>
 void BasicPathWave<Numbers>::find_single(int i, const Hit& hit, int depth, RayCounts& rays) {
