@@ -201,8 +201,7 @@ inline bool go_through(const Walker& walker, double u_leg, bool hit, CameraWalk&
 template <class Sampler>
 bool arrive(const Walker& walker, Sampler& sampler, CameraWalk& walk, SurfacePoint& at) {
   const double u_leg = walker.draw_leg(sampler);
-  walker.rays.count_intersect();
-  const bool hit = walker.scene.intersect(walk.ray, at);
+  const bool hit = walker.intersect(walk.ray, at);
   return walker.scene.has_passages() ? go_through(walker, u_leg, hit, walk, at) : hit;
 }
 
@@ -267,6 +266,18 @@ bool scatter(const Walker& walker, const PathRules& rules, int depth, const Surf
   return sample && go_on(walker, rules, depth, at, *sample, numbers.roulette, walk, watcher);
 }
 
+/// Adds the light of a light that u samples for that surface.
+template <class Watcher = IgnorePaths>
+void add_direct_light(const Walker& walker, const PathRules& rules, const SurfacePoint& at,
+                      const Vec3& u, CameraWalk& walk, Watcher&& watcher = Watcher()) {
+  const auto mis = [&](double light, double bsdf) { return walk.mis.weight(light, bsdf); };
+  const DirectLight light =
+      direct_light(walker, at, -walk.ray.d, u, rules.strict_normals, mis, walk.likelihood);
+  const Color direct = walk.seen(walk.throughput * light.radiance, light.disperses);
+  walk.radiance += direct * watcher.find(walk, direct, 0);
+  watcher.connect(u, direct);
+}
+
 /// Whether lights are sampled for the depth-th vertex after the lens.
 inline bool wants_direct_light(const Scene& scene, const PathRules& rules, int depth,
                                const SurfacePoint& at) {
@@ -287,17 +298,10 @@ Color trace_path(const Scene& scene, const PathRules& rules, CameraWalk walk, Sa
     if (!hit || depth == rules.most_edges()) break;
     watcher.arrive(at);
 
-    const Vec3 wc = -walk.ray.d;
-    if (!consistent_sides(at, wc, rules.strict_normals)) break;
+    if (!consistent_sides(at, -walk.ray.d, rules.strict_normals)) break;
     const VertexNumbers numbers = VertexNumbers::draw(sampler);
-    if (wants_direct_light(scene, rules, depth, at)) {
-      const auto mis = [&](double light, double bsdf) { return walk.mis.weight(light, bsdf); };
-      const DirectLight light = direct_light(walker, at, wc, numbers.for_light(),
-                                             rules.strict_normals, mis, walk.likelihood);
-      const Color direct = walk.seen(walk.throughput * light.radiance, light.disperses);
-      walk.radiance += direct * watcher.find(walk, direct, 0);
-      watcher.connect(numbers.for_light(), direct);
-    }
+    if (wants_direct_light(scene, rules, depth, at))
+      add_direct_light(walker, rules, at, numbers.for_light(), walk, watcher);
     if (!scatter(walker, rules, depth, at, numbers, walk, watcher)) break;
   }
   return walk.radiance;

@@ -52,16 +52,14 @@ bool Walker::pass(Ray& ray, double& u_leg, bool& hit, SurfacePoint& at, Passage&
   u_leg /= here.probability;
   leg *= here;
   ray = scene.beyond(ray, at);
-  rays.count_intersect();
-  hit = scene.intersect(ray, at);
+  hit = intersect(ray, at);
   return true;
 }
 
 bool Walker::arrive_at(double distance, const Ray& first, double u_leg, SurfacePoint& at) const {
   Ray ray = first;
   Passage leg;
-  rays.count_intersect();
-  bool hit = scene.intersect(ray, at);
+  bool hit = intersect(ray, at);
   for (;;) {
     const double segment = hit ? distance_to(at.p, ray) : infinity;
     if (distance < segment) {

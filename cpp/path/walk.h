@@ -93,6 +93,12 @@ struct Walker {
   /// Samples a direction (BsdfAt::sample) and returns the scattered ray; x records the lobe.
   std::optional<Ray> scatter(Vertex& x, const Vec3& towards_previous, const Vec3& u) const;
 
+  /// Finds the nearest surface along the ray; false if there is none.
+  bool intersect(const Ray& ray, SurfacePoint& at) const {
+    rays.count_intersect();
+    return scene.intersect(ray, at);
+  }
+
   /// The number of a leg, a ray up to the next vertex, which decides what is passed on the way.
   template <class Sampler>
   double draw_leg(Sampler& sampler) const {
@@ -106,8 +112,7 @@ struct Walker {
   }
   /// As above, with what has been passed.
   bool arrive(const Ray& ray, double u_leg, SurfacePoint& at, Passage& leg) const {
-    rays.count_intersect();
-    const bool hit = scene.intersect(ray, at);
+    const bool hit = intersect(ray, at);
     return scene.has_passages() ? go_on(ray, u_leg, hit, at, leg) : hit;
   }
   bool arrive(const Ray& ray, double u_leg, Vertex& next) const;

@@ -218,8 +218,8 @@ class Pilot {
 double to_half_octaves(double x) { return std::exp2(std::round(2 * std::log2(x)) / 2); }
 
 /// Sets weights and lengths of tours. For N1 samples and N2 independent steps c would be b N1 / N2
-/// (see FamilyWeights). The larger the share of the samples, the noisier
-/// the chains were in the pilot: 1 / sqrt(1 - share) steps count as one.
+/// (see FamilyWeights). The larger the share of the samples, the noisier the chains were in the
+/// pilot: 1 / sqrt(1 - share) steps count as one.
 void set_tours(Allocation& allocation, double b) {
   const double share = allocation.share,
                steps = allocation.mutations_per_sample * (1 - share) / share;

@@ -24,8 +24,7 @@ class ScalarTexture {
     return for_each_lane<F>([&](int i) { return texture_->eval_scalar(*at[i]); });
   }
   double eval(const SurfacePoint& at) const {
-    const SurfacePoint* one = &at;
-    return eval<double>(&one);
+    return is_constant() ? mean_ : texture_->eval_scalar(at);
   }
 
  private:

@@ -65,8 +65,7 @@ template <class Numbers>
 void BasicPathWave<Numbers>::receive_through(int shadow) {
   const LightToPass& to_pass = lights_to_pass_[shadow];
   WaveWalk& walk = walks_[shadows_.path(shadow)];
-  Ray ray = shadows_.ray(shadow);
-  ray.time = walk.ray.time;
+  Ray ray = shadows_.ray(shadow, walk.ray.time);
   ray.wavelength = walk.ray.wavelength;
   const Passage seen = scene_->passage(ray);
   if (seen.is_blocked()) return;
@@ -159,12 +158,8 @@ void BasicPathWave<Numbers>::light_singles(int depth, RayCounts& rays) {
   for (const SingleVertex& single : singles_) {
     WaveWalk& walk = this->walk(single.path);
     if (!wants_direct_light(*scene_, rules_, depth, single.at)) continue;
-    const auto mis = [&](double light, double bsdf) { return walk.mis.weight(light, bsdf); };
-    const DirectLight light =
-        direct_light(Walker{*scene_, walk.ray.time, rays}, single.at, single.wc,
-                     numbers_for_light(single.path), rules_.strict_normals, mis, walk.likelihood);
-    const Color found = walk.seen(walk.throughput * light.radiance, light.disperses);
-    walk.radiance += found * walk.find(walk, found, 0);
+    add_direct_light(Walker{*scene_, walk.ray.time, rays}, rules_, single.at,
+                     numbers_for_light(single.path), walk, walk);
   }
 }
 
@@ -269,7 +264,8 @@ void BasicPathWave<Numbers>::queue_sky(const SkyVertex& vertex) {
   if (is_black(radiance)) return;
   const Vec3f o =
       ray_origin(lambertian_.p[i], lambertian_.surface.ng[i], w, lambertian_.surface.extent[i]);
-  const double mis = emitter->delta() ? 1 : weight * x0.pdf / lambertian_.cosine(i, w);
+  const bool weighted = scene_->has_passages() && !emitter->delta();
+  const double mis = weighted ? weight * x0.pdf / lambertian_.cosine(i, w) : 1;
   queue_shadow(i, {radiance * *lambertian_.f[i] * double{weight}}, mis, o, w,
                std::numeric_limits<float>::infinity());
 }

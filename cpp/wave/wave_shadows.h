@@ -24,8 +24,7 @@ class WaveShadows {
   }
 
   int path(int i) const { return path_[i]; }
-  /// The i-th ray, at no particular time.
-  Ray ray(int i) const { return {Vec3(o_[i]), Vec3(w_[i]), 0, length_[i]}; }
+  Ray ray(int i, double time) const { return {Vec3(o_[i]), Vec3(w_[i]), time, length_[i]}; }
 
   /// Calls receive(path, radiance, share) for the light that is not blocked, or pass(i) where the
   /// i-th ray passes surfaces, and clears all rays; time(path) is the time of a path.

@@ -85,9 +85,10 @@ class Principled final : public Bsdf {
     if (lobe != Lobe::smooth) return std::nullopt;
     const Point<double> p = point(at);
     if (!above(from, to)) return invert_glass(p, from, to, v.x);
-    const Vec3 h = normalize(from + to);
+    const MicrofacetReflection mirror(p.microfacet, from, to);
+    const Vec3& h = mirror.h;
     const double fresnel = reflectance(dot(from, h));
-    const Densities<double> d = densities(p, from, to, h, fresnel);
+    const Densities<double> d = densities(p, from, to, h, fresnel, mirror.pdf_from_light);
     if (!(sum(d) > 0)) return std::nullopt;
     double rest = v.x;
     const size_t guess = LobeShares<lobe_count>::guess(d, rest);
@@ -162,7 +163,8 @@ class Principled final : public Bsdf {
   };
   template <class F>
   Terms<F> terms(const Point<F>& p, const Vec3Of<F>& wl, const Vec3Of<F>& wc) const {
-    const Vec3Of<F> h = normalize(wl + wc);
+    const MicrofacetReflection mirror(p.microfacet, wl, wc);
+    const Vec3Of<F>& h = mirror.h;
     const F cos_h = dot(wl, h), w = schlick_weight(cos_h, eta_), fresnel = reflectance(cos_h);
     const F dielectric = 1 - p.metallic;
     TintedOf<F> diffuse = dielectric * principled_sheen(cos_h, p.sheen, p.sheen_tint);
@@ -171,14 +173,14 @@ class Principled final : public Bsdf {
     TintedOf<F> specular = p.metallic * schlick_metal(w);
     specular += (dielectric * p.spec_tint) * schlick_tinted(w, eta_);
     specular.white += dielectric * (1 - p.spec_tint) * fresnel;
-    const F DG = p.microfacet.D(h) * p.microfacet.g1(wl, h) * p.microfacet.g1(wc, h);
-    const F factor = select(fresnel > 0, DG / (4 * wl.z * wc.z), F(0));
+    const F factor = select(fresnel > 0, mirror.DG / (4 * wl.z * wc.z), F(0));
     F coat(0);
     if (coated_)
       coat = number<F>(0.25) * p.clearcoat * ClearCoat<F>::fresnel(cos_h, eta_) * p.coat.D(h) *
              ClearCoat<F>::G(wl, wc, h);
-    return {diffuse, factor * specular, coat, sum(densities(p, wl, wc, h, fresnel)),
-            sum(densities(p, wc, wl, h, fresnel))};
+    return {diffuse, factor * specular, coat,
+            sum(densities(p, wl, wc, h, fresnel, mirror.pdf_from_light)),
+            sum(densities(p, wc, wl, h, fresnel, mirror.pdf_from_camera))};
   }
 
   Vec3Of<Float8> direction(const Point<Float8>& p, const Vec3Of<Float8>& from,
@@ -225,16 +227,15 @@ class Principled final : public Bsdf {
   static F sum(const Densities<F>& d) {
     return d[diffuse] + d[clearcoat] + d[specular];
   }
-  /// The densities of `to`; both directions are above the surface.
+  /// The densities of `to`; both directions are above the surface. `mirrored` is that of the main
+  /// lobe alone.
   template <class F>
   Densities<F> densities(const Point<F>& p, const Vec3Of<F>& from, const Vec3Of<F>& to,
-                         const Vec3Of<F>& h, F fresnel) const {
+                         const Vec3Of<F>& h, F fresnel, F mirrored) const {
     const auto chosen = shares_above(p);
-    const F normals =
-        reflection_pdf(p.microfacet, from, h, p.microfacet.D(h), p.microfacet.g1(from, h));
     return {chosen.share[diffuse] * number<F>(inv_pi) * to.z,
             coated_ ? chosen.share[clearcoat] * p.coat.D(h) * h.z / (4 * abs(dot(from, h))) : F(0),
-            chosen.share[specular] * reflected_above(p, fresnel) * normals};
+            chosen.share[specular] * reflected_above(p, fresnel) * mirrored};
   }
 
   /// The probabilities of the lobes, as in Mitsuba.
