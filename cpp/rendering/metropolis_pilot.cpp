@@ -218,12 +218,12 @@ class Pilot {
 double to_half_octaves(double x) { return std::exp2(std::round(2 * std::log2(x)) / 2); }
 
 /// Sets weights and lengths of tours. For N1 samples and N2 independent steps c would be b N1 / N2
-/// (see FamilyWeights). The larger the share of the samples, the noisier the chains were in the
-/// pilot: 1 / sqrt(1 - share) steps count as one.
+/// (see FamilyWeights). Steps that follow each other are alike, and the larger the share of the
+/// samples, the noisier the chains were in the pilot: 3 / sqrt(1 - share) of them count as one.
 void set_tours(Allocation& allocation, double b) {
   const double share = allocation.share,
                steps = allocation.mutations_per_sample * (1 - share) / share;
-  allocation.weights = FamilyWeights(b / to_half_octaves(steps * std::sqrt(1 - share)));
+  allocation.weights = FamilyWeights(b / to_half_octaves(steps * std::sqrt(1 - share) / 3));
   allocation.b = b;
   allocation.steps_per_sample =
       std::max(to_half_octaves(allocation.steps_per_sample), least_steps_per_sample);
@@ -252,14 +252,13 @@ Allocation allocate(MetropolisAlgorithm& algorithm, const Raster& raster,
   pilot.run_chains();
   Forecast best = pilot.forecast(pilot.greatest_share());
   const double noise = pilot.noise_of_samples();
-  if (!settings.techniques && pilot.draw_samples(SampleTechniques::path_tracing) &&
-      pilot.noise_of_samples() < noise) {
+  if (!settings.techniques && pilot.draw_samples(SampleTechniques::path_tracing)) {
     pilot.run_chains();
     const bool surely =
         surely_better * std::max(pilot.noise_of_samples(), pilot.noise_by_chains()) < noise;
     const Forecast other =
         pilot.forecast(surely ? settings.greatest_share : pilot.greatest_share());
-    if (other.allocation.share > 0.5 && hardly * other.variance < best.variance) best = other;
+    if (other.variance < best.variance) best = other;
   }
   algorithm.set_techniques(best.allocation.techniques);
   if (algorithm.has_tours() && best.variance > 0) set_tours(best.allocation, b);
