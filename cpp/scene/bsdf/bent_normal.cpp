@@ -1,5 +1,6 @@
 #include "scene/bsdf/bent_normal.h"
 
+#include "scene/bsdf/eight_points.h"
 #include "scene/bsdf/lobes.h"
 #include "scene/nested.h"
 
@@ -38,7 +39,9 @@ class BentNormal::Bend {
 BentNormal::BentNormal(Params& params)
     : nested_(only_nested<Bsdf>(params, "bsdf")),
       flips_(params.boolean("flip_invalid_normals")),
-      shadows_(params.boolean("use_shadowing_function")) {}
+      shadows_(params.boolean("use_shadowing_function")) {
+  serves_lanes_ = nested_->serves_lanes();
+}
 
 double BentNormal::turned_share(const Vec3& n, const Vec3& w) const {
   if (!flips_) return 0;
@@ -54,6 +57,11 @@ bool BentNormal::scatters(const Vec3& n, bool turned, const Vec3& a, const Vec3&
   return faces(h, a) && faces(h, b);
 }
 
+double BentNormal::brightening(const Bend& bend, const Vec3& wl) const {
+  const double cosines = std::abs(dot(bend.n(), wl) / wl.z);
+  return shadows_ ? cosines * shadowing(bend.n(), wl) : cosines;
+}
+
 Passage BentNormal::passage(const SurfacePoint& at, const Vec3& w) const {
   const Vec3 n = normal(at);
   const Bend bend(at, n, !faces(n, w));
@@ -66,15 +74,54 @@ Scattering BentNormal::scattering(const SurfacePoint& at, const Vec3& wl, const 
   const bool turned = !(faces(n, wl) && faces(n, wc));
   if (!scatters(n, turned, wl, wc, lobe)) return {};
   const Bend bend(at, n, turned);
-  const Vec3 l = bend.to_inner(wl), c = bend.to_inner(wc);
-  Scattering s = nested_->scattering(bend.at(), l, c, lobe);
+  Scattering s = nested_->scattering(bend.at(), bend.to_inner(wl), bend.to_inner(wc), lobe);
   const double share_l = turned_share(n, wl), share_c = turned_share(n, wc);
   s.pdf_from_light *= turned ? share_l : 1 - share_l;
   s.pdf_from_camera *= turned ? share_c : 1 - share_c;
   if (turned && faces(n, wc)) s.f = Spectrum(0);  // the camera side sees the unturned N
-  if (lobe == Lobe::smooth) s.f *= std::abs(l.z / wl.z);
-  if (shadows_) s.f *= shadowing(bend.n(), wl);
+  if (lobe == Lobe::smooth)
+    s.f *= brightening(bend, wl);
+  else if (shadows_)
+    s.f *= shadowing(bend.n(), wl);
   return s;
+}
+
+/// Points where N is turned around, for the light or for the sample, are done one by one.
+void BentNormal::scatter(ScatteringLanes& x) const {
+  ScatteringLanes inner;
+  Block<std::optional<Bend>> bends;
+  Block<int> outer;
+  for (int i = 0; i < x.count; ++i) {
+    const Vec3 n = normal(*x.at[i]), wc(x.wc[i]), wl(x.wl[i]);
+    const double share = turned_share(n, wc), rest = (x.u_lobe[i] - share) / (1 - share);
+    const bool is_lit = wl.z != 0;
+    if (!faces(n, wc) || rest < 0 || (is_lit && !faces(n, wl))) {
+      scatter_one(*this, x, i);
+      continue;
+    }
+    const int j = inner.count++;
+    outer[j] = i;
+    const Bend& bend = bends[j].emplace(*x.at[i], n, false);
+    inner.at[j] = &bend.at();
+    inner.wc.set(j, Vec3f(bend.to_inner(wc)));
+    inner.wl.set(j, Vec3f(bend.to_inner(wl)));
+    inner.u_lobe[j] = below_one(rest);
+    inner.u_x[j] = x.u_x[i];
+    inner.u_y[j] = x.u_y[i];
+  }
+  if (inner.count > 0) nested_->scatter(inner);
+  for (int j = 0; j < inner.count; ++j) {
+    const int i = outer[j];
+    const Bend& bend = *bends[j];
+    const Vec3 wl(x.wl[i]), to = bend.to_outer(Vec3(inner.to[j]));
+    const double share = 1 - turned_share(bend.n(), Vec3(x.wc[i]));
+    x.pdf_light[i] = static_cast<float>(inner.pdf_light[j] * share);
+    x.f_light[i] = wl.z != 0 ? inner.f_light[j] * brightening(bend, wl) : Spectrum(0);
+    x.to.set(i, Vec3f(to));
+    const bool goes_on = inner.pdf[j] > 0 && faces(bend.n(), to);
+    x.pdf[i] = goes_on ? static_cast<float>(inner.pdf[j] * share) : 0;
+    x.f[i] = goes_on ? inner.f[j] * brightening(bend, to) : Spectrum(0);
+  }
 }
 
 std::optional<BsdfSample> BentNormal::sample(const SurfacePoint& at, const Vec3& from,

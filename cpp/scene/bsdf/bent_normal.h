@@ -26,6 +26,7 @@ class BentNormal : public Bsdf {
                         Lobe lobe) const final;
   std::optional<BsdfSample> sample(const SurfacePoint& at, const Vec3& from,
                                    const Vec3& u) const final;
+  void scatter(ScatteringLanes& x) const final;
   std::optional<Vec3> invert(const SurfacePoint& at, const Vec3& from, const Vec3& to, Lobe lobe,
                              const Vec3& v) const final;
 
@@ -54,6 +55,8 @@ class BentNormal : public Bsdf {
   /// turned for both or for none, and both are on the same side of the surface and of the bent one.
   /// Mirrors do not use the turned frame, so that each has one normal at each point.
   bool scatters(const Vec3& n, bool turned, const Vec3& a, const Vec3& b, Lobe lobe) const;
+  /// How much brighter the bent surface looks in light from wl than a plane with its material.
+  double brightening(const Bend& bend, const Vec3& wl) const;
 
   BsdfPtr nested_;
   bool flips_, shadows_;
