@@ -25,9 +25,6 @@ constexpr double least_steps_per_sample = 16;
 /// Up to this ratio of variances the samples are preferred: their noise is known better.
 constexpr double hardly = 1.15;
 
-/// From this ratio of variances on, rare light is no reason to prefer chains.
-constexpr double surely_better = 4;
-
 class Pilot {
  public:
   Pilot(MetropolisAlgorithm& algorithm, const Raster& raster, const TypicalBrightness& typical,
@@ -80,15 +77,6 @@ class Pilot {
     for (const Noise& one : noise) samples_ += one;
     return true;
   }
-  /// The noise of samples alone: variance times cost.
-  double noise_of_samples() const {
-    return samples_.cost() * samples_.square(thresholds.size() - 1);
-  }
-  /// That noise as chains tell it: the mean of f^2 / P over all paths, from states of density
-  /// T / b. Chains find light that is so rare among samples that the pilot's have missed it.
-  double noise_by_chains() const {
-    return samples_.cost() * chains_.of_samples.back() / chains_.n();
-  }
   /// Whether rare paths make most of the noise of samples, or much of it as chains tell it. The
   /// chains of a pilot have hardly found them, and seem less noisy than they will be. What is rare
   /// for path tracing alone does not count for chains: tours start from samples of all techniques.
@@ -96,14 +84,11 @@ class Pilot {
     return share_of_rare_light(samples_.squares) > 0.5 ||
            (techniques_ == SampleTechniques::all && share_of_rare_light(chains_.of_samples) > 0.4);
   }
-  /// The greatest share of the samples as long as there are chains.
-  double greatest_share() const {
-    return has_rare_light() ? settings_.greatest_share_with_rare_light : settings_.greatest_share;
-  }
-
   /// With a share s of the time the variance is v1 c1 / s + v2 c2 / (1 - s); it is least, and (sqrt
   /// (v1 c1) + sqrt(v2 c2))^2, for s / (1 - s) = sqrt(v1 c1) / sqrt(v2 c2).
-  Forecast forecast(double greatest_share) {
+  Forecast forecast() {
+    const double greatest_share =
+        has_rare_light() ? settings_.greatest_share_with_rare_light : settings_.greatest_share;
     Allocation best;
     best.techniques = techniques_;
     if (samples_.count == 0 || chains_.count == 0) return {best};  // cancelled
@@ -250,15 +235,10 @@ Allocation allocate(MetropolisAlgorithm& algorithm, const Raster& raster,
   if (settings.share == 0) return chains_alone(b);
   pilot.draw_samples(first);
   pilot.run_chains();
-  Forecast best = pilot.forecast(pilot.greatest_share());
-  const double noise = pilot.noise_of_samples();
+  Forecast best = pilot.forecast();
   if (!settings.techniques && pilot.draw_samples(SampleTechniques::path_tracing)) {
     pilot.run_chains();
-    const bool surely =
-        surely_better * std::max(pilot.noise_of_samples(), pilot.noise_by_chains()) < noise;
-    const Forecast other =
-        pilot.forecast(surely ? settings.greatest_share : pilot.greatest_share());
-    if (other.variance < best.variance) best = other;
+    if (const Forecast other = pilot.forecast(); other.variance < best.variance) best = other;
   }
   algorithm.set_techniques(best.allocation.techniques);
   if (algorithm.has_tours() && best.variance > 0) set_tours(best.allocation, b);
