@@ -84,6 +84,7 @@ class Pilot {
     return share_of_rare_light(samples_.squares) > 0.5 ||
            (techniques_ == SampleTechniques::all && share_of_rare_light(chains_.of_samples) > 0.4);
   }
+
   /// With a share s of the time the variance is v1 c1 / s + v2 c2 / (1 - s); it is least, and (sqrt
   /// (v1 c1) + sqrt(v2 c2))^2, for s / (1 - s) = sqrt(v1 c1) / sqrt(v2 c2).
   Forecast forecast() {

@@ -13,7 +13,7 @@ using PerThreshold = std::array<double, thresholds.size()>;
 /// The noise of one family, in units of the brightness of each pixel, and its cost.
 struct Noise {
   PerThreshold squares{};
-  PerThreshold of_samples{};  ///< The squares of samples, as chains tell them.
+  PerThreshold of_samples{};  ///< The squares of samples, estimated by chains: f^2 / P.
   uint64_t count = 0, rays = 0;
   double cost_of_ray = 1;
 

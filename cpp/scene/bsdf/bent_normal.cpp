@@ -57,8 +57,8 @@ bool BentNormal::scatters(const Vec3& n, bool turned, const Vec3& a, const Vec3&
   return faces(h, a) && faces(h, b);
 }
 
-double BentNormal::brightening(const Bend& bend, const Vec3& wl) const {
-  const double cosines = std::abs(dot(bend.n(), wl) / wl.z);
+double BentNormal::factor(const Bend& bend, const Vec3& wl, Lobe lobe) const {
+  const double cosines = lobe == Lobe::smooth ? std::abs(dot(bend.n(), wl) / wl.z) : 1;
   return shadows_ ? cosines * shadowing(bend.n(), wl) : cosines;
 }
 
@@ -79,10 +79,7 @@ Scattering BentNormal::scattering(const SurfacePoint& at, const Vec3& wl, const 
   s.pdf_from_light *= turned ? share_l : 1 - share_l;
   s.pdf_from_camera *= turned ? share_c : 1 - share_c;
   if (turned && faces(n, wc)) s.f = Spectrum(0);  // the camera side sees the unturned N
-  if (lobe == Lobe::smooth)
-    s.f *= brightening(bend, wl);
-  else if (shadows_)
-    s.f *= shadowing(bend.n(), wl);
+  s.f *= factor(bend, wl, lobe);
   return s;
 }
 
@@ -114,13 +111,13 @@ void BentNormal::scatter(ScatteringLanes& x) const {
     const int i = outer[j];
     const Bend& bend = *bends[j];
     const Vec3 wl(x.wl[i]), to = bend.to_outer(Vec3(inner.to[j]));
-    const double share = 1 - turned_share(bend.n(), Vec3(x.wc[i]));
-    x.pdf_light[i] = static_cast<float>(inner.pdf_light[j] * share);
-    x.f_light[i] = wl.z != 0 ? inner.f_light[j] * brightening(bend, wl) : Spectrum(0);
+    const double unturned = 1 - turned_share(bend.n(), Vec3(x.wc[i]));
+    x.pdf_light[i] = static_cast<float>(inner.pdf_light[j] * unturned);
+    x.f_light[i] = wl.z != 0 ? inner.f_light[j] * factor(bend, wl, Lobe::smooth) : Spectrum(0);
     x.to.set(i, Vec3f(to));
     const bool goes_on = inner.pdf[j] > 0 && faces(bend.n(), to);
-    x.pdf[i] = goes_on ? static_cast<float>(inner.pdf[j] * share) : 0;
-    x.f[i] = goes_on ? inner.f[j] * brightening(bend, to) : Spectrum(0);
+    x.pdf[i] = goes_on ? static_cast<float>(inner.pdf[j] * unturned) : 0;
+    x.f[i] = goes_on ? inner.f[j] * factor(bend, to, Lobe::smooth) : Spectrum(0);
   }
 }
 

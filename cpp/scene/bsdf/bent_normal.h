@@ -55,8 +55,8 @@ class BentNormal : public Bsdf {
   /// turned for both or for none, and both are on the same side of the surface and of the bent one.
   /// Mirrors do not use the turned frame, so that each has one normal at each point.
   bool scatters(const Vec3& n, bool turned, const Vec3& a, const Vec3& b, Lobe lobe) const;
-  /// How much brighter the bent surface looks in light from wl than a plane with its material.
-  double brightening(const Bend& bend, const Vec3& wl) const;
+  /// The factor of the nested material's f: the ratio of cosines, unless f has none, and shadowing.
+  double factor(const Bend& bend, const Vec3& wl, Lobe lobe) const;
 
   BsdfPtr nested_;
   bool flips_, shadows_;

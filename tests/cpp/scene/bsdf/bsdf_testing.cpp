@@ -96,14 +96,13 @@ void add_bent(Maker& maker) {
     maker.add(label, "normalmap", tilted, 1, infinity, c.two_sided, {c.bsdf});
     maker.made.back().symmetric = false;
   }
-  for (const bool in_lanes : {false, true}) {
-    const BsdfPtr gold =
-        make_bsdf("roughconductor", {{"distribution", in_lanes ? "ggx"s : "beckmann"s},
-                                     {"alpha_u", 0.2},
-                                     {"alpha_v", 0.5},
-                                     {"material", "Au"s}});
-    maker.add(in_lanes ? "normalmap in lanes" : "normalmap of roughconductor", "normalmap", tilted,
-              1, infinity, false, {gold});
+  for (const auto& [distribution, label] :
+       {std::pair("beckmann"s, "normalmap of roughconductor"),
+        std::pair("ggx"s, "normalmap of roughconductor, ggx")}) {
+    const BsdfPtr gold = make_bsdf(
+        "roughconductor",
+        {{"distribution", distribution}, {"alpha_u", 0.2}, {"alpha_v", 0.5}, {"material", "Au"s}});
+    maker.add(label, "normalmap", tilted, 1, infinity, false, {gold});
     maker.made.back().symmetric = false;
   }
 }
