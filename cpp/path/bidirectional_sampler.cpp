@@ -1,45 +1,8 @@
 #include "path/bidirectional_sampler.h"
 
+#include "path/joined_edge.h"
+
 namespace mlt {
-namespace {
-
-/// The terms of a connecting edge at the vertex of one of the subpaths.
-struct JointEnd {
-  Spectrum value{0};       ///< Throughput times f.
-  double onwards = 0;      ///< Density of the edge's direction in projected solid angle.
-  double back = 0;         ///< Density of the direction to the previous vertex.
-  bool dispersed = false;  ///< Whether the vertex, or one before it, disperses.
-};
-
-JointEnd any_end(const Scene& scene, const WalkVertex& x, Subpath::From from, const Vec3& w,
-                 bool strict) {
-  if (from == Subpath::From::light) {
-    const VertexTerms terms = joint_terms(scene, x.vertex, x.towards_previous, w, strict);
-    return {x.throughput * terms.f, terms.pdf_from_light, terms.pdf_from_camera,
-            x.dispersed || terms.disperses};
-  }
-  const VertexTerms terms = joint_terms(scene, x.vertex, w, x.towards_previous, strict);
-  return {x.throughput * terms.f, terms.pdf_from_camera, terms.pdf_from_light,
-          x.dispersed || terms.disperses};
-}
-
-/// Finds the terms at the vertex for an edge along w; false if it carries no light.
-inline bool find_end(const Scene& scene, const WalkVertex& x, Subpath::From from, const Vec3& w,
-                     bool strict, JointEnd& end) {
-  if (!x.joint.known) {
-    end = any_end(scene, x, from, w, strict);
-    return !is_black(end.value);
-  }
-  const SurfacePoint& at = x.vertex.at;
-  const auto edge = lambertian_edge(at.ng, at.shading.n, w, x.joint.cosine, strict);
-  end.value = from == Subpath::From::light ? x.joint.value : x.joint.value * edge.quotient;
-  end.onwards = edge.quotient * inv_pi;
-  end.back = x.joint.back;
-  end.dispersed = x.dispersed;
-  return edge.scatters;
-}
-
-}  // namespace
 
 /// The density of x_0 in technique s = 1 over that of a walk that starts there.
 double BidirectionalSampler::direct_over_walk(const Vertex& x0, double from_light,
@@ -125,19 +88,10 @@ bool BidirectionalSampler::evaluate_connection(Connection& connection, RayCounts
   const WalkVertex& a = direct ? direct_ : light_[s - 1];
   if (k == 1 && !lens_can_be_hit_ && !can_be_hit(*scene_, a.vertex)) return false;
 
-  const Edge edge = edge_between(a.vertex.at, b.vertex.at);
-  JointEnd at_a, at_b;
-  if (!find_end(*scene_, a, Subpath::From::light, edge.w, strict, at_a)) return false;
-  if (t == 1) {
-    const auto [terms, raster] = lens_terms(*scene_, b.vertex.at, -edge.w);
-    if (!raster) return false;
-    connection.raster = *raster;
-    at_b = {b.throughput * terms.f, terms.pdf_from_camera, 0};
-  } else if (!find_end(*scene_, b, Subpath::From::camera, -edge.w, strict, at_b)) {
-    return false;
-  }
-  Spectrum light = at_a.value * at_b.value * edge.G;
-  if (is_black(light)) return false;
+  JoinedEdge joined;
+  if (!joined.find(*scene_, a, b, strict)) return false;
+  auto& [edge, at_a, at_b, light, raster] = joined;
+  if (t == 1) connection.raster = raster;
   const Passage seen = walker(rays).passage(a.vertex.at, b.vertex.at);
   if (seen.is_blocked()) return false;
   connection.certainty = k == 1 ? 1 : 0;

@@ -85,31 +85,34 @@ void Subpath::prepare_joints(WalkVertex& x, bool strict_normals) {
   vertices_[size() - 2].reverse = x.density_back(x.joint.back);
 }
 
-bool Subpath::scatter(const Walker& walker, const PathRules& rules, const StepNumbers& u) {
-  WalkVertex& x = last();
+std::optional<double> scatter(const Walker& walker, const PathRules& rules, Subpath::From from,
+                              const StepNumbers& u, int place, WalkVertex& x) {
   const auto sample =
       BsdfAt(walker.scene, x.vertex.at).sample(x.towards_previous, u.for_scattering());
-  if (!sample) return false;
-  const bool from_light = from_ == From::light;
+  if (!sample) return std::nullopt;
+  const bool from_light = from == Subpath::From::light;
   const VertexTerms terms = inner_terms(
       walker.scene, x.vertex.at, sample->lobe, from_light ? x.towards_previous : sample->w,
       from_light ? sample->w : x.towards_previous, rules.strict_normals);
   const double coefficient = from_light ? terms.pdf_from_light : terms.pdf_from_camera;
-  const double back = from_light ? terms.pdf_from_camera : terms.pdf_from_light;
-  if (!(coefficient > 0) || is_black(terms.f)) return false;
+  if (!(coefficient > 0) || is_black(terms.f)) return std::nullopt;
   const Spectrum ratio = terms.f / coefficient;
-  double survival = 1;
-  if (static_cast<int>(size()) > rules.rr_depth)
-    survival = PathRules::survival(max_component(ratio));
-  if (!(u.roulette < survival)) return false;
+  const double survival = place < rules.rr_depth ? 1 : PathRules::survival(max_component(ratio));
+  if (!(u.roulette < survival)) return std::nullopt;
   x.vertex.lobe = sample->lobe;
   x.towards_next = sample->w;
   x.next_coefficient = coefficient;
   x.next_throughput = x.throughput * ratio / survival;
   x.next_survival = x.survival * survival;
   x.next_dispersed = x.dispersed || terms.disperses;
-  vertices_[size() - 2].reverse = x.density_back(back);
-  return true;
+  return from_light ? terms.pdf_from_camera : terms.pdf_from_light;
+}
+
+bool Subpath::scatter(const Walker& walker, const PathRules& rules, const StepNumbers& u) {
+  const int place = static_cast<int>(size()) - 1;
+  const auto back = mlt::scatter(walker, rules, from_, u, place, last());
+  if (back) vertices_[place - 1].reverse = last().density_back(*back);
+  return back.has_value();
 }
 
 }  // namespace mlt

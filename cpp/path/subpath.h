@@ -117,6 +117,12 @@ class Subpath {
   std::vector<WalkVertex> vertices_;  ///< The first size_ are in use.
 };
 
+/// Samples a direction at x, the vertex of a walk at this place, and returns the density of the
+/// direction to the previous vertex, in projected solid angle, for a walk from the other end;
+/// nullopt if the walk ends there.
+std::optional<double> scatter(const Walker& walker, const PathRules& rules, Subpath::From from,
+                              const StepNumbers& u, int place, WalkVertex& x);
+
 /// Samples a subpath from a random point of a light.
 template <class Sampler>
 void walk_from_light(const Walker& walker, const PathRules& rules, const WalkLength& most,

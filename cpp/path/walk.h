@@ -17,15 +17,20 @@ struct LightSample {
   PositionSample x0;  ///< Its density includes the choice of the light. 0: failed.
 };
 
-/// Samples the start of a walk from a light: u.x chooses it, (u.y, u.z) the position on it.
-inline LightSample sample_light_position(const Scene& scene, Vec3 u, double time,
-                                         double wavelength) {
-  const EmitterChoice choice = scene.choose_emitter(u.x);
-  LightSample light{choice.emitter, choice.emitter->sample_position({u.y, u.z}, time)};
+/// Samples the start of a walk from this light.
+inline LightSample sample_light_position(const Scene& scene, const EmitterChoice& choice,
+                                         const Vec2& u, double time, double wavelength) {
+  LightSample light{choice.emitter, choice.emitter->sample_position(u, time)};
   light.x0.at.wavelength = wavelength;
   light.x0.pdf *= choice.probability;
   if (scene.has_media()) light.x0.at.medium = scene.medium_at_light(*choice.emitter, light.x0.at);
   return light;
+}
+/// The same for the light that u.x chooses, at the position that (u.y, u.z) choose.
+inline LightSample sample_light_position(const Scene& scene, Vec3 u, double time,
+                                         double wavelength) {
+  const EmitterChoice choice = scene.choose_emitter(u.x);
+  return sample_light_position(scene, choice, {u.y, u.z}, time, wavelength);
 }
 /// Samples a position on this light for next-event estimation at the point `from`, at its time.
 inline LightSample sample_direct_position(const Scene& scene, const SurfacePoint& from,

@@ -59,30 +59,19 @@ class EstimatorTaker : public SampleTaker {
     if (!wave_) return SampleTaker::sample_cells(cells, streams, sink, rays);
     if constexpr (!std::is_same_v<Wave, NoWave>) {
       for_each_packet_cell(cells, [&](const Vec2i& cell) {
-        if (!wave_worthwhile_) return sample_cell(cell, streams, sink, rays);
         wave_->add(streams.stream(cell.x, cell.y), streams.index, cell);
-        cells_.push_back(cell);
-        if (wave_->full()) trace_wave(streams, sink, rays);
+        if (wave_->full()) trace_wave(sink, rays);
       });
-      trace_wave(streams, sink, rays);
+      trace_wave(sink, rays);
     }
   }
 
  private:
-  void trace_wave(const CellStreams& streams, SampleSink& sink, RayCounts& rays) {
-    if (cells_.empty()) return;
-    int fallbacks = 0;
+  void trace_wave(SampleSink& sink, RayCounts& rays) {
+    if (wave_->size() == 0) return;
     wave_->trace(rays);
-    for (int i = 0; i < wave_->size(); ++i) {
-      if (wave_->fell_back(i))
-        sample_cell(cells_[i], streams, sink, rays);
-      else
-        show(i, sink);
-      fallbacks += wave_->fell_back(i);
-    }
-    wave_worthwhile_ = 2 * fallbacks <= wave_->size();
+    for (int i = 0; i < wave_->size(); ++i) show(i, sink);
     wave_->clear();
-    cells_.clear();
   }
   void show(int i, SampleSink& sink) {
     typename Sum::Sample sample(sum_, wave_->raster(i), sink);
@@ -93,8 +82,6 @@ class EstimatorTaker : public SampleTaker {
   Estimator estimator_;
   Sum sum_;
   std::unique_ptr<Wave> wave_;
-  std::vector<Vec2i> cells_;     ///< Cells of the samples in the wave.
-  bool wave_worthwhile_ = true;  ///< False after one of which most samples fell back.
 };
 
 /// Renders the image by an estimator alone.

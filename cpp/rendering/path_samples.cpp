@@ -13,7 +13,8 @@ using Source = MetropolisAlgorithm::Source;
 // Costs of a ray over that of path_candidates(), and their range in bench_ray_cost.
 constexpr double traced_cost = 0.35;        ///< .29 to .46.
 constexpr double bidirectional_cost = 0.8;  ///< .75 to .93.
-constexpr double wave_cost = 0.35;          ///< .3 to .4, bidirectional.
+constexpr double wave_cost = 0.35;          ///< .3 to .4, of waves where all lights are meshes.
+constexpr double other_wave_cost = 0.7;     ///< .65 to .85, of other waves.
 
 bool are_traced(const PathTarget& target) {
   return target.techniques() == SampleTechniques::path_tracing;
@@ -32,6 +33,11 @@ BidirectionalSettings wave_settings(const PathTarget& target) {
 }
 bool in_waves(const PathTarget& target) {
   return BidirectionalWave::supports(target.scene(), wave_settings(target));
+}
+bool has_mesh_lights_alone(const Scene& scene) {
+  for (const EmitterPtr& emitter : scene.emitters())
+    if (!scene.mesh_light(emitter->index()).mesh) return false;
+  return true;
 }
 
 std::unique_ptr<Source> bidirectional(const PathTarget& target,
@@ -83,7 +89,9 @@ std::unique_ptr<Source> path_samples(const PathTarget& target) {
     const PathEstimator estimator = traced(target);
     return make_source(estimator, PathTargeting(target, estimator.own_scale()), traced_cost);
   }
-  if (in_waves(target)) return bidirectional(target, wave_settings(target), wave_cost);
+  if (in_waves(target))
+    return bidirectional(target, wave_settings(target),
+                         has_mesh_lights_alone(target.scene()) ? wave_cost : other_wave_cost);
   return bidirectional(target, PathSeeds::settings(target), bidirectional_cost);
 }
 

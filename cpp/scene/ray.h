@@ -28,6 +28,8 @@ inline double distance_to(const Vec3& p, const Ray& ray) {
 /// The times when the shutter opens and closes.
 struct Shutter {
   double open = 0, close = 0;
+
+  bool opens() const { return open != close; }  ///< Else it shows one instant.
 };
 
 /// A hit of the accelerator: the primitive, and the barycentrics of Embree on it.

@@ -3,17 +3,26 @@
 namespace mlt {
 namespace {
 
+constexpr float endless = std::numeric_limits<float>::infinity();
+
+/// Makes a shadow ray from a vertex to a light at infinity in the direction w.
+void leave_scene(const JointLanes& from, int i, const Vec3f& w, JoiningRays& rays) {
+  rays.o.set(i, ray_origin(from.p[i], from.ng[i], w, from.extent[i]));
+  rays.w.set(i, w);
+  rays.length[i] = endless;
+}
+
 /// Edges from vertices to the lens.
 struct LensEdges {
   Lanes<double, JointLanes::size> x, y, z, G;  ///< Direction; G = 0: no light goes that way.
 };
 
 /// Computes edges to the lens, in double precision: an orthographic camera is far away.
-void find_edges(const JointLanes& a, const SurfacePoint& lens, bool strict,
-                LensEdges& __restrict edges) {
+void find_edges(const JointLanes& a, const JointTechnique& technique, const SurfacePoint& lens,
+                bool strict, LensEdges& __restrict edges) {
   const Vec3 p = lens.p, axis = lens.ng;
   for (int i = 0; i < JointLanes::size; ++i) {
-    const Vec3 to_lens = p - Vec3(a.p[i]);
+    const Vec3 to_lens = p * double{technique.near[i]} - Vec3(a.p[i]);
     const double distance2 = dot(to_lens, to_lens);
     const Vec3 w = to_lens * (1 / std::sqrt(distance2));
     const auto [geometric, quotient, scatters] =
@@ -29,26 +38,26 @@ void find_edges(const JointLanes& a, const SurfacePoint& lens, bool strict,
 }  // namespace
 
 bool BidirectionalWave::supports(const Scene& scene, const BidirectionalSettings& settings) {
-  const Shutter& shutter = scene.camera().shutter();
-  if (!settings.sample_direct || settings.heuristic == Heuristic::maximum || settings.manifolds)
-    return false;
-  if (scene.has_passages() || !scene.camera().delta_position() || shutter.open != shutter.close ||
-      scene.accel().moves())
-    return false;
-  for (const EmitterPtr& emitter : scene.emitters())
-    if (!scene.mesh_light(emitter->index()).mesh) return false;
-  return true;
+  return settings.sample_direct && settings.heuristic != Heuristic::maximum &&
+         !settings.manifolds && !scene.has_media();
 }
 
 BidirectionalWave::BidirectionalWave(const Scene& scene, const BidirectionalSettings& settings)
     : scene_(&scene),
       settings_(settings),
       beta_(settings.heuristic),
-      lens_(scene.camera().sample_position({0.5, 0.5}, scene.camera().shutter().open)),
+      one_lens_(scene.camera().delta_position() && !scene.camera().shutter().opens()),
+      lenses_(one_lens_ ? 1 : capacity),
       camera_(scene, settings.rules, Subpath::From::camera, settings.heuristic,
               settings.light_image),
       light_(scene, settings.rules, Subpath::From::light, settings.heuristic,
-             settings.light_image) {}
+             settings.light_image) {
+  other_direct_.reserve(capacity);  // so that none moves
+  for (int lane = 0; lane < JointLanes::size; ++lane) {
+    joins_walks_.own[lane] = joins_walks_.near[lane] = 1;
+    joins_walks_.onwards[lane] = inv_pi;
+  }
+}
 
 void BidirectionalWave::add(uint64_t stream, uint32_t index, const Vec2& pixel) {
   rasters_[size()] = pixel;
@@ -61,10 +70,10 @@ void BidirectionalWave::clear() {
 }
 
 void BidirectionalWave::trace(RayCounts& rays) {
+  others_.clear();
   walk_from_camera(rays);
   walk_from_lights(rays);
-  fall_back_together();
-  take_hits();
+  take_hits(rays);
   direct_places_ = WaveNumbers::Place().begin(Stream::direct);
   const PathRules& rules = settings_.rules;
   const int most = std::min(camera_.last_place() + 1, rules.most_edges());
@@ -84,36 +93,55 @@ void BidirectionalWave::trace(RayCounts& rays) {
 /// See BidirectionalSampler::walk_from_camera.
 void BidirectionalWave::walk_from_camera(RayCounts& rays) {
   const Camera& camera = scene_->camera();
-  camera_.clear(size());
+  camera_.clear();
   WaveNumbers::Place& places = numbers_.places();
   places = {};
   numbers_.read2(places.next2(), 0, size(), &u_x_[0], &u_y_[0]);
+  for (int i = 0; i < size(); ++i) rasters_[i] += Vec2(u_x_[i], u_y_[i]);
   places = places.begin(Stream::camera);
-  LensNumbersOf<WaveNumbers::Place>::draw(places);
-  draw_wavelengths();
+  draw_lens();
   for (int i = 0; i < size(); ++i) {
-    rasters_[i] += Vec2(u_x_[i], u_y_[i]);
     first_[i] = last_[i] = -1;
-    const Ray ray = camera.ray(rasters_[i], {}, lens_.at.time);
-    const auto projection = camera.project(lens_.at, ray.d);
+    const WalkVertex& lens = this->lens(i).x;
+    SurfacePoint at = lens.vertex.at;
+    at.wavelength = wavelength_[i];
+    const Ray ray = camera_ray(camera, at, rasters_[i]);
+    const auto projection = camera.project(at, ray.d);
     if (!projection) continue;
-    const double cosine = abs_cos(lens_.at, ray.d);
-    camera_.start(i,
-                  {Vec3f(lens_.at.p), Vec3f(ray.o), Vec3f(ray.d), static_cast<float>(cosine),
-                   static_cast<float>(projection->pdf_direction * cosine), 1, 0,
-                   Spectrum(projection->importance / projection->pdf_direction), wavelength_[i]});
+    const double cosine = abs_cos(at, ray.d);
+    camera_.start({i, at.p, Vec3f(ray.o), Vec3f(ray.d), static_cast<float>(cosine),
+                   static_cast<float>(projection->pdf_direction * cosine), lens.forward,
+                   this->lens(i).technique,
+                   lens.throughput * (projection->importance / projection->pdf_direction)},
+                  ray);
   }
   camera_.walk(numbers_, settings_.rules.most_edges() + 1, rays);
 }
 
-void BidirectionalWave::draw_wavelengths() {
+/// See sample_lens() of walk.h. What the camera does not ask for keeps other numbers.
+void BidirectionalWave::draw_lens() {
   const Camera& camera = scene_->camera();
+  const auto at = LensNumbersOf<WaveNumbers::Place>::draw(numbers_.places());
+  if (!one_lens_) {
+    numbers_.read2(at.position, 0, size(), &u_x_[0], &u_y_[0]);
+    numbers_.read(at.time, 0, size(), &u_time_[0]);
+  }
   if (camera.spectral()) numbers_.read(numbers_.places().next(), 0, size(), &u_choice_[0]);
   for (int i = 0; i < size(); ++i) wavelength_[i] = camera.wavelength([&] { return u_choice_[i]; });
+  const int count = one_lens_ ? 1 : size();
+  for (int i = 0; i < count; ++i) {
+    const PositionSample lens =
+        one_lens_ ? camera.sample_position({0.5, 0.5}, camera.shutter().open)
+                  : camera.sample_position({u_x_[i], u_y_[i]}, camera.time(u_time_[i]));
+    lenses_[i].x.vertex = camera_vertex(lens.at);
+    lenses_[i].x.forward = lens.pdf;
+    lenses_[i].x.throughput = Spectrum(1 / lens.pdf);
+    lenses_[i].technique = camera.delta_position() ? 0 : 1;
+  }
 }
 
 void BidirectionalWave::walk_from_lights(RayCounts& rays) {
-  light_.clear(size());
+  light_.clear();
   WaveNumbers::Place& places = numbers_.places();
   places = places.begin(Stream::light);
   const auto at = LightNumbersOf<WaveNumbers::Place>::draw(places);
@@ -122,19 +150,21 @@ void BidirectionalWave::walk_from_lights(RayCounts& rays) {
   light_.walk(numbers_, settings_.rules.most_edges(), rays);
 }
 
-/// Starts walks at lights, which emit as a Lambertian surface scatters light from above.
+/// Starts walks at lights. Emissive meshes emit as a Lambertian surface scatters light from above.
 void BidirectionalWave::start_at_lights(const LightNumbersOf<WaveNumbers::Place>& at, int begin,
                                         int count) {
   numbers_.read2(at.position, begin, count, &u_x_[begin], &u_y_[begin]);
   numbers_.read2(at.direction, begin, count, &lights_.u_x[0], &lights_.u_y[0]);
   numbers_.read(at.choice, begin, count, &u_choice_[begin]);
-  uint32_t chosen[block_size], triangles[block_size];
+  EmitterChoice choices[block_size];
+  uint32_t triangles[block_size];
   for (int i = 0; i < count; ++i) {
     const EmitterChoice choice = scene_->choose_emitter(u_choice_[begin + i]);
     const MeshLight& light = scene_->mesh_light(choice.index);
+    choices[i] = choice;
+    if (!light.mesh) continue;
     const auto point = light.mesh->sample_barycentrics({u_x_[begin + i], u_y_[begin + i]});
     lights_.set_light(i, light, choice.probability, point, wavelength_[begin + i]);
-    chosen[i] = choice.index;
     triangles[i] = point.triangle;
   }
   lights_.surface = lights_.light;
@@ -147,30 +177,65 @@ void BidirectionalWave::start_at_lights(const LightNumbersOf<WaveNumbers::Place>
   lights_.find_points(count, &down.x[0], &down.y[0], &down.z[0], false);
   lights_.sample_directions(count, false);
   for (int i = 0; i < count; ++i) {
-    const float pdf = lights_.scatter_pdf[i], forward = lights_.light_pdf[i];
-    if (camera_.fell_back(begin + i) || !(pdf > 0) || !(forward > 0) ||
-        is_black(*lights_.radiance[i]))
+    if (!scene_->mesh_light(choices[i].index).mesh) {
+      start_at_other_light(begin + i, choices[i], {lights_.u_x[i], lights_.u_y[i]});
       continue;
+    }
+    const float pdf = lights_.scatter_pdf[i], forward = lights_.light_pdf[i];
+    if (!(pdf > 0) || !(forward > 0) || is_black(*lights_.radiance[i])) continue;
     const float cosine = std::fabs(dot(lights_.surface.ng[i], lights_.w[i]));
-    light_.start(begin + i, {lights_.p[i], lights_.o[i], lights_.w[i], cosine, pdf, forward, 1,
-                             *lights_.radiance[i] * (pi / forward), wavelength_[begin + i],
-                             chosen[i], triangles[i]});
+    light_.start({begin + i, Vec3(lights_.p[i]), lights_.o[i], lights_.w[i], cosine, pdf, forward,
+                  1, *lights_.radiance[i] * (pi / forward)},
+                 time(begin + i), wavelength_[begin + i], choices[i].index, triangles[i]);
   }
 }
 
-void BidirectionalWave::fall_back_together() {
-  for (int i = 0; i < size(); ++i)
-    if (camera_.fell_back(i) || light_.fell_back(i)) {
-      camera_.fall_back(i);
-      light_.fall_back(i);
-    }
+/// See walk_from_light() of subpath.h.
+void BidirectionalWave::start_at_other_light(int i, const EmitterChoice& choice,
+                                             const Vec2& u_direction) {
+  RayCounts none;
+  const Walker walker{*scene_, time(i), none, wavelength_[i]};
+  const LightSample light =
+      sample_light_position(*scene_, choice, {u_x_[i], u_y_[i]}, walker.time, wavelength_[i]);
+  if (!(light.x0.pdf > 0)) return;
+  OtherVertex& end = others_.add();
+  Vertex& x0 = end.x.vertex;
+  x0 = light_vertex(*light.emitter, light.x0.at);
+  end.x.forward = light.x0.pdf;
+  const auto [ray, pdf] = walker.emitted_ray(x0, u_direction);
+  if (!(pdf > 0)) return;
+  const double cosine = abs_cos(x0.at, ray.d);
+  const Spectrum radiance = vertex_terms(*scene_, x0, ray.d, ray.d, false).f;
+  if (is_black(radiance)) return;
+  light_.start({i, x0.at.p, Vec3f(ray.o), Vec3f(ray.d), static_cast<float>(cosine),
+                static_cast<float>(pdf * cosine), end.x.forward, can_be_hit(*scene_, x0) ? 1. : 0.,
+                radiance / (end.x.forward * pdf)},
+               ray, end);
 }
 
-void BidirectionalWave::take_hits() {
+inline void BidirectionalWave::wait_for_shadow(const Light& light, const Waiting& waiting,
+                                               const Vec3f& o, const Vec3f& w, float length) {
+  const Color weighted = recorded(waiting.weighted, wavelength_[light.sample], waiting.dispersed);
+  if (is_black(weighted)) return;
+  const int added = add(light);
+  lights_found_[added].weighted = weighted;
+  if (scene_->has_passages()) waiting_.push_back(waiting);
+  shadows_.add(added, weighted, light.survival, o, w, length);
+}
+
+void BidirectionalWave::take_hits(RayCounts& rays) {
+  const auto weighted = [](const SubpathWave::Hit& hit) {
+    return hit.light * (1 / (1 + hit.scaled + hit.fixed));
+  };
   for (const SubpathWave::Hit& hit : camera_.hits())
-    if (!fell_back(hit.sample))
-      take(add({hit.sample, hit.place, true, hit.survival, rasters_[hit.sample],
-                recorded(hit.weighted, wavelength_[hit.sample])}));
+    take(add({hit.sample, true, hit.survival, hit.certainty, rasters_[hit.sample],
+              recorded(weighted(hit), wavelength_[hit.sample], hit.dispersed)}));
+  for (const SubpathWave::Hit& hit : light_.hits()) {
+    make_room_for_shadows(rays);
+    wait_for_shadow({hit.sample, false, hit.survival, hit.certainty, hit.raster},
+                    {weighted(hit), hit.dispersed, hit.scaled, hit.fixed}, Vec3f(hit.to_lens.o),
+                    Vec3f(hit.to_lens.d), static_cast<float>(hit.to_lens.t_max));
+  }
 }
 
 inline int BidirectionalWave::add(const Light& light) {
@@ -188,6 +253,7 @@ inline void BidirectionalWave::take(int light) {
 /// See BidirectionalSampler::choose_direct.
 void BidirectionalWave::choose_direct(int place) {
   const auto at = DirectNumbersOf<WaveNumbers::Place>::draw(direct_places_);
+  other_direct_count_ = 0;
   for (int begin = 0; begin < size(); begin += block_size) {
     const int count = std::min(block_size, size() - begin);
     numbers_.read2(at.position, begin, count, &u_x_[begin], &u_y_[begin]);
@@ -195,28 +261,40 @@ void BidirectionalWave::choose_direct(int place) {
     for (int i = 0; i < count; i += JointLanes::size)
       choose_direct(place, (begin + i) / JointLanes::size, i);
   }
+  backgrounds_.sample_all(*scene_);
+  for (int j = 0; j < other_direct_count_; ++j)
+    take_other_direct(other_direct_[j].sample, other_direct_[j].light);
 }
 
 /// Samples lights for s = 1 for eight samples, of which the first is number `first` of `lights_`.
 void BidirectionalWave::choose_direct(int place, int block, int first) {
   if (place > 0 && !camera_.reaches(place, block)) return;
   JointLanes& to = direct_[block];
+  JointTechnique& technique = direct_technique_[block];
+  technique = joins_walks_;
+  SurfacePoint from;
   for (int lane = 0; lane < JointLanes::size; ++lane) {
     const int i = block * JointLanes::size + lane;
     to.cosine[lane] = 0;
-    const bool seen =
-        place > 0 ? camera_.joints(place, block).cosine[lane] != 0 : i < size() && !fell_back(i);
+    to.other[lane] = nullptr;
+    to.dispersed[lane] = false;
+    to.sums[lane] = to.survival[lane] = 1;
+    const bool seen = place > 0 ? camera_.joints(place, block).cosine[lane] != 0 : i < size();
     if (!seen) continue;
-    const Vec3 from = place > 0 ? Vec3(camera_.joints(place, block).p[lane]) : lens_.at.p;
-    const EmitterChoice choice = scene_->choose_emitter_for(from, u_choice_[i]);
+    from.p = place > 0 ? position(camera_.joints(place, block), lane) : lens(i).x.vertex.at.p;
+    const EmitterChoice choice = scene_->choose_emitter_for(from.p, u_choice_[i]);
     const MeshLight& light = scene_->mesh_light(choice.index);
-    const auto point = light.mesh->sample_barycentrics_for(from, {u_x_[i], u_y_[i]});
+    if (!light.mesh) {
+      choose_other_direct(i, from, choice);
+      continue;
+    }
+    const auto point = light.mesh->sample_barycentrics_for(from.p, {u_x_[i], u_y_[i]});
     lights_.set_light(first + lane, light, choice.probability, point, wavelength_[i]);
     const double pdf = lights_.light_pdf[first + lane];
     if (!(pdf > 0)) continue;
     const double over_walk = choice.probability / scene_->emitter_probability(choice.index) *
                              (light.mesh->area() / point.per_pdf);
-    direct_own_[block][lane] = beta_.raise(over_walk);
+    technique.own[lane] = beta_.raise(over_walk);
     to.cosine[lane] = 1;
     to.forward[lane] = pdf / over_walk;
     to.value.set(lane, *lights_.radiance[first + lane] * (1 / pdf));
@@ -227,8 +305,61 @@ void BidirectionalWave::choose_direct(int place, int block, int first) {
     to.n.set(lane, lights_.light.ng[first + lane]);
     to.extent[lane] = lights_.light.extent[first + lane];
   }
-  for (double& sum : to.sums.values) sum = 1;
-  for (double& survival : to.survival.values) survival = 1;
+}
+
+void BidirectionalWave::choose_other_direct(int i, const SurfacePoint& from,
+                                            const EmitterChoice& choice) {
+  const Vec2 u(u_x_[i], u_y_[i]);
+  const int added = other_direct_count_++;
+  if (added == static_cast<int>(other_direct_.size())) other_direct_.emplace_back();
+  other_direct_[added].sample = i;
+  LightSample& light = other_direct_[added].light;
+  if (choice.probability > 0 && choice.emitter->infinite()) {
+    backgrounds_.add(choice, u, wavelength_[i], light);
+    return;
+  }
+  SurfacePoint at = from;
+  at.time = time(i);
+  at.wavelength = wavelength_[i];
+  light = sample_direct_position(*scene_, at, choice, u);
+}
+
+void BidirectionalWave::take_other_direct(int i, const LightSample& light) {
+  const auto& [emitter, x0] = light;
+  if (!(x0.pdf > 0)) return;
+  if (emitter->infinite()) return take_infinite_direct(i, light);
+  OtherVertex& other = others_.add();
+  other.x.vertex = light_vertex(*emitter, x0.at);
+  other.x.throughput = Spectrum(1 / x0.pdf);
+  other.x.forward = light_position_pdf(*scene_, other.x.vertex);
+  other.technique = can_be_hit(*scene_, other.x.vertex) ? 1 : 0;
+  const int block = i / JointLanes::size, lane = i % JointLanes::size;
+  JointLanes& to = direct_[block];
+  to.other[lane] = &other;
+  to.cosine[lane] = 1;
+  to.forward[lane] = other.x.forward;
+  direct_technique_[block].own[lane] = beta_.raise(x0.pdf / other.x.forward);
+}
+
+/// The density of a light at infinity is that of a walk.
+void BidirectionalWave::take_infinite_direct(int i, const LightSample& light) {
+  const auto& [emitter, x0] = light;
+  if (emitter->delta_direction()) return;
+  const Vec3 w = -x0.at.p;
+  const Spectrum radiance = emitter->eval(x0.at, w);
+  if (is_black(radiance)) return;
+  const int block = i / JointLanes::size, lane = i % JointLanes::size;
+  JointLanes& to = direct_[block];
+  to.p.set(lane, Vec3f(x0.at.p));
+  to.ng.set(lane, Vec3f(w));
+  to.n.set(lane, Vec3f(w));
+  to.extent[lane] = 0;
+  to.cosine[lane] = 1;
+  to.forward[lane] = x0.pdf;
+  to.sums[lane] = emitter->delta() ? 0 : 1;
+  to.value.set(lane, radiance * (1 / x0.pdf));
+  direct_technique_[block].onwards[lane] = emitter->pdf_ray(x0.at, w);
+  direct_technique_[block].near[lane] = 0;
 }
 
 void BidirectionalWave::connect(int s, int t, RayCounts& rays) {
@@ -237,18 +368,59 @@ void BidirectionalWave::connect(int s, int t, RayCounts& rays) {
   for (int block = 0; block < block_count(); ++block) {
     if (!light_reaches(s, block) || !camera_.reaches(t - 1, block)) continue;
     const JointLanes &a = light_joints(s, block), &b = camera_.joints(t - 1, block);
-    join(a, b, own(s, block), settings_.rules.strict_normals, beta_, lanes(), joining, joined);
+    join(a, b, technique(s, block), settings_.rules.strict_normals, beta_, lanes(), joining,
+         joined);
     make_room_for_shadows(rays);
     for (int i = 0; i < JointLanes::size; ++i) {
-      if (!(joining.length[i] > 0)) continue;
+      if (a.cosine[i] == 0 || b.cosine[i] == 0) continue;
       const int sample = block * JointLanes::size + i;
-      const Color weighted = recorded(joined.get(i, lanes()), wavelength_[sample]);
-      if (is_black(weighted)) continue;
+      if (a.other[i] || b.other[i]) {
+        join_alone(s, sample, a, b);
+        continue;
+      }
+      if (!(joining.length[i] > 0)) continue;
+      if (technique(s, block).near[i] == 0) leave_scene(b, i, a.p[i], joining);
       wait_for_shadow(
-          {sample, s + t - 1, true, a.survival[i] * b.survival[i], rasters_[sample], weighted},
+          {sample, true, a.survival[i] * b.survival[i], 0, rasters_[sample]},
+          {joined.get(i, lanes()), a.dispersed[i] || b.dispersed[i], joining.others[i], 0},
           joining.o[i], joining.w[i], joining.length[i]);
     }
   }
+}
+
+/// Joins two vertices of a sample one of which is another one, or on a lens with an area. See
+/// BidirectionalSampler::evaluate_connection.
+void BidirectionalWave::join_alone(int s, int sample, const JointLanes& a, const JointLanes& b) {
+  const int i = sample % JointLanes::size;
+  const JointTechnique& technique = this->technique(s, sample / JointLanes::size);
+  const WalkVertex &x = single_vertex(a, i, scratch_[0]), &y = single_vertex(b, i, scratch_[1]);
+  const bool infinite = technique.near[i] == 0;
+  scratch_[0].vertex.at.kind = infinite ? PointKind::infinite : PointKind::surface;
+  const bool to_lens = y.vertex.kind == VertexKind::camera, sees_light = s == 1 && to_lens;
+  if (sees_light && sums(a, i, 0) == 0 && sums(b, i, 0) == 0) return;
+  JoinedEdge joined;
+  if (!joined.find(*scene_, x, y, settings_.rules.strict_normals)) return;
+  if (infinite) joined.a.onwards = technique.onwards[i];
+  double certainty = sees_light ? 1 : 0;
+  if (scene_->has_passages()) {
+    if (!to_lens) joined.a.onwards *= scene_->stop_probability(y.vertex.at, joined.edge.w);
+    const double stops = scene_->stop_probability(x.vertex.at, -joined.edge.w);
+    joined.b.onwards *= stops;
+    certainty *= stops;
+  }
+  const double G = joined.edge.G, own = technique.own[i];
+  const double below =
+      beta_.over(sums(a, i, joined.a.back), joined.b.onwards * G / a.forward[i]) / own;
+  const double above =
+      beta_.over(sums(b, i, joined.b.back), joined.a.onwards * G / b.forward[i]) / own;
+  const auto ray = scene_->segment(x.vertex.at, y.vertex.at, time(sample));
+  if (!ray) return;
+  wait_for_shadow(
+      {sample, !to_lens, a.survival[i] * b.survival[i], certainty,
+       to_lens ? joined.raster : rasters_[sample]},
+      {joined.light * (1 / (1 + below + above)), joined.a.dispersed || joined.b.dispersed,
+       to_lens ? below : below + above, to_lens ? above : 0},
+      Vec3f(ray->o), Vec3f(ray->d), static_cast<float>(ray->t_max));
 }
 
 void BidirectionalWave::connect_to_lens(int s, RayCounts& rays) {
@@ -259,36 +431,56 @@ void BidirectionalWave::connect_to_lens(int s, RayCounts& rays) {
     }
 }
 
+/// The lens, as vertices of eight samples.
+const JointLanes& BidirectionalWave::lens_joints(int block) {
+  for (int lane = 0; lane < JointLanes::size; ++lane) {
+    const OtherVertex& lens = this->lens(block * JointLanes::size + lane);
+    lens_joints_.other[lane] = &lens;
+    lens_joints_.forward[lane] = lens.x.forward;
+    lens_joints_.survival[lane] = 1;
+    lens_joints_.dispersed[lane] = false;
+  }
+  return lens_joints_;
+}
+
 void BidirectionalWave::connect_to_lens(int s, int block) {
   const Camera& camera = scene_->camera();
   const JointLanes& a = light_joints(s, block);
+  const JointTechnique& technique = this->technique(s, block);
+  const JointLanes* lenses = nullptr;
+  const SurfacePoint& lens = lenses_[0].x.vertex.at;
   LensEdges edges;
-  find_edges(a, lens_.at, settings_.rules.strict_normals, edges);
+  if (one_lens_) find_edges(a, technique, lens, settings_.rules.strict_normals, edges);
   for (int i = 0; i < JointLanes::size; ++i) {
-    if (!(edges.G[i] > 0)) continue;
+    if (a.cosine[i] == 0) continue;
+    const int sample = block * JointLanes::size + i;
+    if (!one_lens_ || a.other[i]) {
+      if (!lenses) lenses = &lens_joints(block);
+      join_alone(s, sample, a, *lenses);
+      continue;
+    }
+    if (!(edges.G[i] > 0) || (s == 1 && a.sums[i] == 0)) continue;
     const Vec3 w(edges.x[i], edges.y[i], edges.z[i]);
-    const auto projection = camera.project(lens_.at, -w);
+    const auto projection = camera.project(lens, -w);
     if (!projection) continue;
     const double G = edges.G[i];
     const double below = beta_.over(a.sums[i], projection->pdf_direction * G / a.forward[i]);
-    const double own = this->own(s, block)[i];
+    const Light light{sample, false, a.survival[i], s == 1 ? 1. : 0., projection->raster};
+    const double own = technique.own[i];
     const double share = projection->importance * G * own / (own + below);
-    const Color weighted =
-        recorded(a.value.get(i, lanes()) * share, wavelength_[block * JointLanes::size + i]);
-    if (is_black(weighted)) continue;
+    const Waiting waiting{a.value.get(i, lanes()) * share, a.dispersed[i], below / own, 0};
+    const Vec3 entrance = camera.entrance(lens, -w);
+    if (technique.near[i] == 0) {
+      wait_for_shadow(light, waiting, Vec3f(entrance), Vec3f(-w), endless);
+      continue;
+    }
     const Vec3f start = ray_origin(a.p[i], a.ng[i], Vec3f(w), a.extent[i]);
-    const Vec3 ray = camera.entrance(lens_.at, -w) - Vec3(start);
+    const Vec3 ray = entrance - Vec3(start);
     if (!(dot(ray, w) > 0)) continue;  // behind the camera
     const double length = mlt::length(ray);
-    wait_for_shadow(
-        {block * JointLanes::size + i, s, false, a.survival[i], projection->raster, weighted},
-        start, Vec3f(ray * (1 / length)), static_cast<float>(length * (1 - ray_offset)));
+    wait_for_shadow(light, waiting, start, Vec3f(ray * (1 / length)),
+                    static_cast<float>(length * (1 - ray_offset)));
   }
-}
-
-inline void BidirectionalWave::wait_for_shadow(const Light& light, const Vec3f& o, const Vec3f& w,
-                                               float length) {
-  shadows_.add(add(light), light.weighted, light.survival, o, w, length);
 }
 
 /// Makes room for eight more shadow rays.
@@ -299,8 +491,25 @@ inline void BidirectionalWave::make_room_for_shadows(RayCounts& rays) {
 void BidirectionalWave::find_shadows(RayCounts& rays) {
   rays.count_occluded(shadows_.count());
   shadows_.trace(
-      scene_->accel(), [](int) { return 0.0; },
-      [&](int light, const Color&, double) { take(light); }, [](int) {});
+      scene_->accel(), [&](int light) { return time(lights_found_[light].sample); },
+      [&](int light, const Color&, double) { take(light); }, [&](int shadow) { pass(shadow); });
+  waiting_.clear();
+}
+
+/// Takes light through surfaces, which change its weight, too, since a walk may stop there.
+void BidirectionalWave::pass(int shadow) {
+  const int found = shadows_.path(shadow);
+  Light& light = lights_found_[found];
+  Ray ray = shadows_.ray(shadow, time(light.sample));
+  ray.wavelength = wavelength_[light.sample];
+  const Passage seen = scene_->passage(ray);
+  if (seen.is_blocked()) return;
+  const auto& [weighted, dispersed, scaled, fixed] = waiting_[shadow];
+  const double mis = 1 / (1 + beta_.over(scaled, seen.probability) + fixed);
+  light.weighted = recorded(weighted * seen.transmittance * (mis * (1 + scaled + fixed)),
+                            ray.wavelength, dispersed);
+  light.certainty *= seen.probability;
+  take(found);
 }
 
 }  // namespace mlt

@@ -1,13 +1,15 @@
 // Samples of bidirectional path tracing that are traced side by side: their subpaths, and all
 // connections of one technique (s, t). Each sample is that of BidirectionalSampler, up to
-// rounding.
+// rounding. Joints of vertices that are not Lambertian are computed one by one.
 // D. van Antwerpen, "Improving SIMD efficiency for parallel Monte Carlo light transport on the
 // GPU", High-Performance Graphics 2011.
 #pragma once
 
 #include "base/whole_vectors.h"
+#include "path/background_positions.h"
 #include "path/bidirectional_sampler.h"
 #include "path/found_light.h"
+#include "path/joined_edge.h"
 #include "wave/subpath_wave.h"
 #include "wave/wave_shadows.h"
 
@@ -17,7 +19,7 @@ class BidirectionalWave {
  public:
   static constexpr int capacity = SubpathWave::capacity;
 
-  /// Whether all lights are emissive meshes, the camera has no aperture, and nothing moves.
+  /// Whether there are no media, and the techniques are those of a wave.
   static bool supports(const Scene& scene, const BidirectionalSettings& settings);
   /// Requires supports(scene, settings).
   BidirectionalWave(const Scene& scene, const BidirectionalSettings& settings);
@@ -34,30 +36,32 @@ class BidirectionalWave {
   // The results of the samples:
   const Vec2& raster(int i) const { return rasters_[i]; }
   /// Calls show(FoundLight) for all light that the i-th sample has found. With the balance
-  /// heuristic f / P is the weighted f / p of a path, without roulette. All surfaces are
-  /// Lambertian, so that only the directly visible lights are certain.
+  /// heuristic f / P is the weighted f / p of a path, without roulette.
   template <class Show>
   void show_lights(int i, Show&& show) const {
     for (int k = first_[i]; k >= 0; k = lights_found_[k].next) {
       const Light& light = lights_found_[k];
-      show(FoundLight{{light.raster, light.weighted, light.own_pixel},
-                      light.survival,
-                      light.edges == 1 ? 1. : 0.});
+      show(FoundLight{
+          {light.raster, light.weighted, light.own_pixel}, light.survival, light.certainty});
     }
   }
-  /// Whether the i-th sample has to be taken by BidirectionalSampler; it has no results then.
-  bool fell_back(int i) const { return camera_.fell_back(i); }
 
  private:
   /// Light that a sample has found.
   struct Light {
     int sample;
-    int edges;        ///< Of its path.
-    bool own_pixel;   ///< Whether t >= 2: at the raster position of the sample.
-    double survival;  ///< Probability that its walks have survived Russian roulette.
+    bool own_pixel;              ///< At the raster position of the sample.
+    double survival, certainty;  ///< See Connection.
     Vec2 raster;
-    Color weighted;  ///< f w / p.
-    int next = -1;   ///< The sample's next light; -1: there is none.
+    Color weighted{0};  ///< f w / p.
+    int next = -1;      ///< The sample's next light; -1: there is none.
+  };
+  /// Light on a shadow ray, as if there were no surfaces that it may have to pass. The sums are
+  /// those of SubpathWave::Hit.
+  struct Waiting {
+    Spectrum weighted;  ///< f w / p.
+    bool dispersed;
+    double scaled, fixed;
   };
   template <class T>
   using Samples = SubpathWave::Samples<T>;
@@ -65,27 +69,39 @@ class BidirectionalWave {
   int block_count() const { return whole_vectors(size()) / JointLanes::size; }
 
   void walk_from_camera(RayCounts& rays);
+  void draw_lens();
   void walk_from_lights(RayCounts& rays);
   void start_at_lights(const LightNumbersOf<WaveNumbers::Place>& at, int begin, int count);
-  void fall_back_together();
-  void take_hits();
+  void start_at_other_light(int i, const EmitterChoice& choice, const Vec2& u_direction);
+  void take_hits(RayCounts& rays);
   int add(const Light& light);
   void take(int light);
-  void draw_wavelengths();
   /// How many lanes of a spectrum differ.
   int lanes() const { return scene_->camera().spectral() ? 4 : 3; }
   void choose_direct(int place);
   void choose_direct(int place, int block, int first);
+  void choose_other_direct(int i, const SurfacePoint& from, const EmitterChoice& choice);
+  void take_other_direct(int i, const LightSample& light);
+  void take_infinite_direct(int i, const LightSample& light);
   void connect(int s, int t, RayCounts& rays);
   void connect_to_lens(int s, RayCounts& rays);
-  void make_room_for_shadows(RayCounts& rays);
-  void wait_for_shadow(const Light& light, const Vec3f& o, const Vec3f& w, float length);
   void connect_to_lens(int s, int block);
+  const JointLanes& lens_joints(int block);
+  void join_alone(int s, int sample, const JointLanes& a, const JointLanes& b);
+  double sums(const JointLanes& joints, int lane, double back) const {
+    return joints.other[lane] ? joints.other[lane]->sums(beta_, back) : joints.sums[lane];
+  }
+  void make_room_for_shadows(RayCounts& rays);
+  [[gnu::always_inline]] void wait_for_shadow(const Light& light, const Waiting& waiting,
+                                              const Vec3f& o, const Vec3f& w, float length);
+  void pass(int shadow);
+  const OtherVertex& lens(int sample) const { return lenses_[one_lens_ ? 0 : sample]; }
+  double time(int sample) const { return lens(sample).x.vertex.at.time; }
   const JointLanes& light_joints(int s, int block) const {
     return s == 1 ? direct_[block] : light_.joints(s - 1, block);
   }
-  const Lanes<double, JointLanes::size>& own(int s, int block) const {
-    return s == 1 ? direct_own_[block] : one_;
+  const JointTechnique& technique(int s, int block) const {
+    return s == 1 ? direct_technique_[block] : joins_walks_;
   }
   bool light_reaches(int s, int block) const { return s == 1 || light_.reaches(s - 1, block); }
   void find_shadows(RayCounts& rays);
@@ -93,20 +109,33 @@ class BidirectionalWave {
   const Scene* scene_;
   BidirectionalSettings settings_;
   MisExponent beta_;
-  PositionSample lens_;
+  bool one_lens_;  ///< Whether all samples have the same position on the lens, and the same time.
+  std::vector<OtherVertex> lenses_;
   SubpathWave camera_, light_;
   WaveNumbers numbers_;
   WaveNumbers::Place direct_places_;  ///< Places of the next numbers for s = 1.
   Samples<Vec2> rasters_;
   Samples<int> first_, last_;        ///< Each sample's first and last light; -1: there is none.
   std::vector<Light> lights_found_;  ///< Those that no sample links to are in shadow.
-  Samples<double> u_x_, u_y_, u_choice_;
+  Samples<double> u_x_, u_y_, u_choice_, u_time_;
   Samples<double> wavelength_;  ///< See wavelengths.h.
   LambertianVertices lights_;   ///< Points on lights, for a block of samples.
   JointLanes direct_[blocks];   ///< Points on lights for s = 1, sampled for the camera vertex.
-  /// See join(); for s = 1, and for other techniques.
-  Lanes<double, JointLanes::size> direct_own_[blocks], one_{1, 1, 1, 1, 1, 1, 1, 1};
+  OtherVertices others_;        ///< Points on lights that are no emissive meshes.
+  BackgroundPositions backgrounds_;
+  /// Their positions, while others are chosen for the same camera vertex.
+  struct OtherDirect {
+    int sample;
+    LightSample light;
+  };
+  std::vector<OtherDirect> other_direct_;
+  int other_direct_count_ = 0;  ///< How many are in use.
+  JointLanes lens_joints_;
+  WalkVertex scratch_[2];                    ///< See single_vertex().
+  JointTechnique direct_technique_[blocks];  ///< For s = 1,
+  JointTechnique joins_walks_;               ///< and for s > 1.
   WaveShadows shadows_;
+  std::vector<Waiting> waiting_;  ///< One for each shadow ray, if there are passages.
 };
 
 }  // namespace mlt

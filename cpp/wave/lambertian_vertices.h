@@ -73,6 +73,18 @@ struct LambertianVertices {
     mesh.textured_point(triangle, {b1, b2}, point.at);
     point.lambertian->reflectance->prefetch(point.at);
   }
+  /// Sets the position of the i-th path to that of a vertex which is not Lambertian.
+  void set_position(int i, const SurfacePoint& at) {
+    const Vec3f p0(at.p);
+    surface.p0.set(i, p0);
+    surface.p1.set(i, p0);
+    surface.p2.set(i, p0);
+    surface.ng.set(i, Vec3f(at.ng));
+    surface.b1[i] = surface.b2[i] = 0;
+    surface.extent[i] = static_cast<float>(at.extent);
+    n.set(i, Vec3f(at.shading.n));
+    back[i] = 1;
+  }
   /// Looks up the reflectances that depend on the point or on the wavelength, of all vertices.
   void find_reflectances() {
     for (int j = 0; j < textured_count_; ++j) {

@@ -36,8 +36,6 @@ class PathSampleWave {
   void show_lights(int i, Show&& show) const {
     show(FoundLight{{rasters_[i], wave_.radiance(i), true}});
   }
-  /// Whether the i-th sample has to be taken alone.
-  static constexpr bool fell_back(int /*i*/) { return false; }
   void clear() {
     wave_.clear();
     rasters_.clear();
@@ -55,7 +53,7 @@ class PathSampleWave {
     const auto at = LensNumbersOf<WaveNumbers::Place>::draw(numbers.places());
     if (!camera.delta_position())
       numbers.read2(at.position, 0, numbers.count(), &u_x_[0], &u_y_[0]);
-    const bool moves = shutter.open != shutter.close;
+    const bool moves = shutter.opens();
     if (moves) numbers.read(at.time, 0, numbers.count(), &u_time_[0]);
     if (camera.spectral())
       numbers.read(numbers.places().next(), 0, numbers.count(), &u_spectral_[0]);

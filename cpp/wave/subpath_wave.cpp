@@ -10,53 +10,95 @@ SubpathWave::SubpathWave(const Scene& scene, const PathRules& rules, Subpath::Fr
       rules_(rules),
       from_light_(from == Subpath::From::light),
       light_image_(light_image),
+      meets_lens_(from_light_ && light_image && !scene.camera().delta_position()),
       beta_(heuristic) {}
 
-void SubpathWave::clear(int count) {
-  for (int i = 0; i < count; ++i) fell_back_[i] = false;
+void SubpathWave::clear() {
   for (int i = 0; i < blocks; ++i) longest_[i] = 0;
   last_place_ = live_ = 0;
   hits_.clear();
+  others_.clear();
 }
 
-void SubpathWave::start(int sample, const Start& start) {
-  const int i = live_++;
-  sample_[i] = sample;
-  o_.set(i, start.o);
-  d_.set(i, start.w);
-  p_.set(i, start.p);
-  cosine_[i] = start.cosine;
-  pdf_[i] = start.pdf;
-  forward_[i] = start.forward;
-  sums_[i] = start.sums;
-  survival_[i] = 1;
-  throughput_[i] = start.throughput;
-  wavelength_[i] = start.wavelength;
-  light_[i] = start.light;
-  triangle_[i] = start.triangle;
+inline void SubpathWave::set(int walk, const Step& step) {
+  sample_[walk] = step.sample;
+  previous_[walk] = step.p;
+  p_.set(walk, Vec3f(step.p));
+  o_.set(walk, step.o);
+  d_.set(walk, step.w);
+  cosine_[walk] = step.cosine;
+  pdf_[walk] = step.pdf;
+  forward_[walk] = step.forward;
+  sums_[walk] = step.sums;
+  throughput_[walk] = step.throughput;
+  survival_[walk] = step.survival;
+  certainty_[walk] = step.certainty;
+  delta_[walk] = step.delta;
+  dispersed_[walk] = step.dispersed;
+  near_[walk] = 1;
+  stops_back_[walk] = 1;
+  exact_[walk] = false;
 }
 
-void SubpathWave::fall_back(int sample) {
-  fell_back_[sample] = true;
-  for (int place = 1; place <= last_place_; ++place)
-    at(place, sample / JointLanes::size).cosine[sample % JointLanes::size] = 0;
+inline void SubpathWave::set(int walk, const Ray& ray) {
+  ray_[walk] = ray;
+  exact_[walk] = true;
+}
+
+inline void SubpathWave::start(const Step& first, double time, double wavelength) {
+  set(live_, first);
+  start_forward_[first.sample] = first.forward;
+  time_[first.sample] = time;
+  wavelength_[first.sample] = wavelength;
+}
+
+void SubpathWave::start(const Step& first, const Ray& ray) {
+  start(first, ray.time, ray.wavelength);
+  set(live_++, ray);
+}
+
+void SubpathWave::start(const Step& first, double time, double wavelength, uint32_t light,
+                        uint32_t triangle) {
+  start(first, time, wavelength);
+  light_[live_] = light;
+  triangle_[live_] = triangle;
+  other_light_[live_] = nullptr;
+  if (meets_lens_) hit_lens(live_, 0);
+  ++live_;
+}
+
+void SubpathWave::start(const Step& first, const Ray& ray, const OtherVertex& light) {
+  start(first, ray.time, ray.wavelength);
+  set(live_, ray);
+  near_[live_] = light.x.vertex.at.infinite() ? 0 : 1;
+  stops_back_[live_] = scene_->stop_probability(light.x.vertex.at, -ray.d);
+  other_light_[live_] = &light;
+  if (meets_lens_) hit_lens(live_, 0);
+  ++live_;
+}
+
+const Ray& SubpathWave::exact_ray(int walk) {
+  Ray& ray = ray_[walk];
+  if (!exact_[walk]) {
+    ray = {Vec3(o_[walk]), Vec3(d_[walk]), time_[sample_[walk]]};
+    ray.wavelength = wavelength_[sample_[walk]];
+  }
+  exact_[walk] = true;
+  return ray;
 }
 
 void SubpathWave::walk(const WaveNumbers& numbers, int most, RayCounts& rays) {
   numbers_ = numbers;
   for (int i = 0; i < live_; ++i) numbers_.move(i, sample_[i]);
   for (int place = 1; live_ > 0 && place < most; ++place) {
-    if (place == most_vertices) {
-      for (int i = 0; i < live_; ++i) fell_back_[sample_[i]] = true;
-      return;
-    }
     open(place);
     find_hits(place == 1 && !from_light_, rays);
     next_ = 0;
+    if (scene_->has_passages()) leg_ = numbers_.places().next();
     at_ = decltype(at_)::draw(numbers_.places());
     for (begin_ = 0; begin_ < live_; begin_ += block_size) {
       count_ = std::min(block_size, live_ - begin_);
-      shade(place, place + 1 == most);
+      shade(place, place + 1 < most || meets_lens_, rays);
     }
     live_ = next_;
   }
@@ -65,74 +107,144 @@ void SubpathWave::walk(const WaveNumbers& numbers, int most, RayCounts& rays) {
 /// Makes room for the vertices at a place, where nothing is joined yet.
 void SubpathWave::open(int place) {
   last_place_ = place;
-  joints_.reserve(size_t{most_vertices} * blocks);  // reserves address space alone
+  joints_.reserve(size_t{32} * blocks);  // reserves address space alone
   if (joints_.size() < size_t(place + 1) * blocks) joints_.resize(size_t(place + 1) * blocks);
   for (int block = 0; block < blocks; ++block) at(place, block).cosine = {};
 }
 
 void SubpathWave::find_hits(bool coherent, RayCounts& rays) {
+  const Accel& accel = scene_->accel();
+  const bool exact = accel.wants_exact_rays(), moves = accel.moves();
   for (int begin = 0; begin < live_; begin += RayPacket::size) {
     RayPacket packet(std::min(RayPacket::size, live_ - begin));
     packet.set_lines(&o_.x[begin], &o_.y[begin], &o_.z[begin], &d_.x[begin], &d_.y[begin],
                      &d_.z[begin]);
     packet.set_endless();
-    scene_->accel().intersect(packet, nullptr, coherent, found_[begin / RayPacket::size]);
+    const Ray* exact_rays[RayPacket::size];
+    for (int i = 0; exact && i < packet.count; ++i) exact_rays[i] = &exact_ray(begin + i);
+    for (int i = 0; moves && i < packet.count; ++i) packet.time[i] = time_[sample_[begin + i]];
+    accel.intersect(packet, exact_rays, coherent, found_[begin / RayPacket::size]);
   }
   rays.count_intersect(live_);
 }
 
-void SubpathWave::shade(int place, bool last) {
-  if (!last)
+void SubpathWave::shade(int place, bool goes_on, RayCounts& rays) {
+  if (goes_on)
     numbers_.read2(at_.direction, begin_, count_, &lambertian_.u_x[0], &lambertian_.u_y[0]);
-  for (int i = 0; i < count_; ++i) find_vertex(i);
+  passed_.clear();
+  for (int i = 0; i < count_; ++i) find_vertex(i, place, rays);
   lambertian_.find_reflectances();
   lambertian_.find_points(count_, &d_.x[begin_], &d_.y[begin_], &d_.z[begin_],
                           rules_.strict_normals);
-  if (!last) lambertian_.sample_directions(count_, rules_.strict_normals);
+  if (goes_on) lambertian_.sample_directions(count_, rules_.strict_normals);
   find_techniques(place);
   arrive();
   for (int i = 0; i < count_; ++i) {
-    if (!lambertian_.f[i]) continue;
-    if (emits_[i] && !from_light_ && rules_.wants(place)) hit_light(i, place);
-    keep(i, place);
+    if (cosine_to_previous_[i] == 0) continue;
+    if (lambertian_.f[i])
+      keep_lambertian(i, place);
+    else if (other_[i])
+      keep_other(i, place);
   }
-  if (!last) take_steps(place);
+  if (goes_on) take_steps(place, rays);
 }
 
-inline void SubpathWave::find_vertex(int i) {
-  const PacketHits& found = found_[(begin_ + i) / RayPacket::size];
-  const int lane = i % RayPacket::size;
+inline void SubpathWave::find_vertex(int i, int place, RayCounts& rays) {
+  const int walk = begin_ + i, lane = walk % RayPacket::size;
+  const PacketHits& found = found_[walk / RayPacket::size];
+  const uint32_t index = found.shape[lane];
   lambertian_.f[i] = nullptr;
-  if (found.shape[lane] == SurfacePoint::no_shape) return;
-  const LambertianMesh& shape = scene_->lambertian_mesh(found.shape[lane]);
-  if (!shape.mesh) {
-    fell_back_[sample_[begin_ + i]] = true;
-    return;
+  other_[i] = nullptr;
+  if (index == SurfacePoint::no_shape) return leave_scene(walk, place);
+  const LambertianMesh& shape = scene_->lambertian_mesh(index);
+  if (!shape.mesh) return find_other(i, place, rays);
+  if (shape.emits && !from_light_) {
+    SurfacePoint at;
+    find_surface_point(walk, at);
+    find_light(walk, place, at);
   }
-  emits_[i] = shape.emits;
   lambertian_.set(i, shape, found.primitive[lane], found.u[lane], found.v[lane],
-                  wavelength_[begin_ + i]);
+                  wavelength_[sample_[walk]]);
 }
 
-/// How often next-event estimation at p counts as technique s = 1 with x_0 on this triangle
-/// (TechniqueSums): its density over that of a walk.
-double SubpathWave::direct_technique(uint32_t light, uint32_t triangle, const Vec3f& p) const {
+void SubpathWave::find_surface_point(int walk, SurfacePoint& at) {
+  const PacketHits& found = found_[walk / RayPacket::size];
+  scene_->find_surface_point(exact_ray(walk), found.hit(walk % RayPacket::size), at);
+}
+
+void SubpathWave::leave_scene(int walk, int place) {
+  if (from_light_ || !rules_.wants(place) || scene_->infinite_emitters().empty()) return;
+  const Ray& ray = exact_ray(walk);
+  for (const uint32_t emitter : scene_->infinite_emitters())
+    hit_light(*scene_->emitters()[emitter], walk, place,
+              Scene::point_at_infinity(ray.d, ray.wavelength));
+}
+
+void SubpathWave::find_light(int walk, int place, const SurfacePoint& at) {
+  if (from_light_ || !rules_.wants(place)) return;
+  if (const Emitter* emitter = scene_->emitter(at)) hit_light(*emitter, walk, place, at);
+}
+
+/// Finds a vertex that is not Lambertian, or is behind a surface that the walk passes.
+void SubpathWave::find_other(int i, int place, RayCounts& rays) {
+  const int walk = begin_ + i;
+  SurfacePoint at;
+  find_surface_point(walk, at);
+  if (scene_->bsdf(at).has_passage() && !go_through(walk, place, at, rays)) return;
+  find_light(walk, place, at);
+  other_[i] = &(BsdfAt(*scene_, at).has_smooth() ? others_ : passed_).add();
+  WalkVertex& x = other_[i]->x;
+  x.vertex.at = at;
+  x.towards_previous = -ray_[walk].d;
+  x.throughput = throughput_[walk];
+  x.survival = survival_[walk];
+  x.dispersed = dispersed_[walk];
+  lambertian_.set_position(i, at);
+}
+
+/// Follows a walk on from a surface that light passes, and takes what it passes (Subpath::pass);
+/// false if it does not stop in the scene.
+bool SubpathWave::go_through(int walk, int place, SurfacePoint& at, RayCounts& rays) {
+  const Ray& ray = exact_ray(walk);
+  Passage leg;
+  const double u = numbers_.read(leg_, walk);
+  const bool hit = Walker{*scene_, ray.time, rays}.go_on(ray, u, true, at, leg);
+  if (leg.is_blocked()) return false;
+  const double passes = leg.probability * (hit ? scene_->stop_probability(at, ray.d) : 1);
+  throughput_[walk] *= leg.transmittance / passes;
+  pdf_[walk] *= static_cast<float>(passes);
+  if (from_light_ || place > 1) stops_back_[walk] *= leg.probability;
+  if (!from_light_) certainty_[walk] *= passes;
+  if (!hit) leave_scene(walk, place);
+  return hit;
+}
+
+/// How often next-event estimation at a point counts as technique s = 1 with x_0 where the walk has
+/// started (TechniqueSums): its density over that of a walk.
+double SubpathWave::direct_technique(int walk, const SurfacePoint& from) const {
+  if (const OtherVertex* light = other_light_[walk])
+    return beta_.raise(direct_position_pdf(*scene_, light->x.vertex, from) / light->x.forward);
+  const uint32_t light = light_[walk];
   double quotient = 1;
   if (scene_->light_choice().depends_on_point())
-    quotient *=
-        scene_->emitter_probability_for(light, Vec3(p)) / scene_->emitter_probability(light);
+    quotient *= scene_->emitter_probability_for(light, from.p) / scene_->emitter_probability(light);
   if (const Mesh& mesh = *scene_->mesh_light(light).mesh; mesh.chooses_by_point())
-    quotient *= mesh.direct_density(triangle, Vec3(p)) * mesh.area();
-  return quotient;
+    quotient *= mesh.direct_density(triangle_[walk], from.p) * mesh.area();
+  return beta_.raise(quotient);
 }
 
-/// Finds how often the technique with its joint before the vertex counts (TechniqueSums).
+/// Finds how often the technique with its joint before the vertex counts (TechniqueSums), if a path
+/// is joined there.
 void SubpathWave::find_techniques(int place) {
-  const double all = from_light_ || place > 1 || light_image_ ? 1 : 0;
-  for (int i = 0; i < whole_vectors(count_); ++i) technique_[i] = all;
-  for (int i = 0; from_light_ && place == 1 && i < count_; ++i)
-    if (const int k = begin_ + i; lambertian_.f[i])
-      technique_[i] = beta_.raise(direct_technique(light_[k], triangle_[k], lambertian_.p[i]));
+  const bool counts = from_light_ || place > 1 || light_image_;
+  for (int i = 0; i < count_; ++i) technique_[i] = counts && !delta_[begin_ + i] ? 1 : 0;
+  if (!(from_light_ && place == 1)) return;
+  SurfacePoint from;
+  for (int i = 0; i < count_; ++i) {
+    if (!lambertian_.f[i] && !other_[i]) continue;
+    from.p = other_[i] ? other_[i]->x.vertex.at.p : Vec3(lambertian_.p[i]);
+    technique_[i] = direct_technique(begin_ + i, from);
+  }
 }
 
 /// Computes the densities with which the two walks make the vertex and the one before it. A
@@ -146,80 +258,152 @@ void SubpathWave::arrive() {
     const auto [geometric, quotient, ok] = lambertian_edge(
         ng, lambertian_.n[i], -w, scatters(cosine, lambertian_.back[i] > 0) ? cosine : 0,
         rules_.strict_normals);
-    const double per_distance2 = 1 / double{dot(between, between)};
+    const double per_distance2 = 1 / double{near_[k] * dot(between, between) + (1 - near_[k])};
     const double previous = cosine_[k] * per_distance2;
-    const double reverse = ok ? std::fabs(cosine) * inv_pi * previous : 0;
+    const double reverse = ok ? std::fabs(cosine) * inv_pi * previous * stops_back_[k] : 0;
     cosine_to_previous_[i] = ok ? cosine : 0;
     forward_here_[i] = pdf_[k] * geometric * per_distance2;
     sums_here_[i] = technique_[i] + beta_.over(sums_[k], reverse / forward_[k]);
-    reverse_emission_[i] = geometric * inv_pi * previous;
+    G_[i] = geometric * previous;
     light_factor_[i] = quotient;
     next_cosine_[i] = std::fabs(dot(ng, lambertian_.w[i]));
   }
 }
 
 /// See BidirectionalSampler::evaluate_hit_light.
-void SubpathWave::hit_light(int i, int place) {
-  const int k = begin_ + i;
-  if (!(dot(lambertian_.surface.ng[i], d_[k]) < 0)) return;
-  const PacketHits& found = found_[k / RayPacket::size];
-  const int lane = k % RayPacket::size;
-  const uint32_t shape = found.shape[lane];
-  const uint32_t index = scene_->shapes()[shape]->emitter()->index();
-  const MeshLight& light = scene_->mesh_light(index);
-  const Spectrum radiance = light.radiance_at(wavelength_[k]);
+void SubpathWave::hit_light(const Emitter& emitter, int walk, int place, const SurfacePoint& at) {
+  const Vertex x0 = light_vertex(emitter, at);
+  if (!can_be_hit(*scene_, x0)) return;
+  const Vec3 w = -ray_[walk].d;
+  const VertexTerms terms = vertex_terms(*scene_, x0, w, w, rules_.strict_normals);
+  if (is_black(terms.f)) return;
+  SurfacePoint previous;
+  previous.p = previous_[walk];
+  const bool counts = (place > 1 || light_image_) && !delta_[walk];
+  const double from_light = light_position_pdf(*scene_, x0);
   const double direct =
-      technique_[i] * beta_.raise(direct_technique(index, found.primitive[lane], p_[k]));
-  const double above =
-      beta_.over(direct + beta_.over(sums_[k], reverse_emission_[i] / forward_[k]),
-                 scene_->emitter_probability(index) / light.mesh->area() / forward_here_[i]);
-  hits_.push_back({sample_[k], place, throughput_[k] * radiance / (1 + above), survival_[k]});
+      counts ? beta_.raise(direct_position_pdf(*scene_, x0, previous) / from_light) : 0;
+  const double per_area = at.infinite() ? 1 : abs_cos(at, w) / distance2(walk, at.p);
+  const double reverse = terms.pdf_from_light * cosine_[walk] * per_area * stops_back_[walk];
+  const double above = beta_.over(direct + beta_.over(sums_[walk], reverse / forward_[walk]),
+                                  from_light / (pdf_[walk] * per_area));
+  hits_.push_back({sample_[walk], throughput_[walk] * terms.f, 0, above, dispersed_[walk],
+                   survival_[walk], certainty_[walk]});
 }
 
-/// Stores the vertex of a walk for joints.
-inline void SubpathWave::keep(int i, int place) {
-  if (cosine_to_previous_[i] == 0) return;
-  const int sample = sample_[begin_ + i], block = sample / JointLanes::size;
-  const int lane = sample % JointLanes::size;
+/// See BidirectionalSampler::evaluate_hit_lens; the walk goes on at its vertex of this place.
+void SubpathWave::hit_lens(int walk, int place) {
+  if (!rules_.wants(place + 1)) return;
+  const Camera& camera = scene_->camera();
+  Ray ray = exact_ray(walk);
+  auto hit = camera.hit_lens(ray);
+  if (!hit) return;
+  hit->wavelength = ray.wavelength;
+  const auto [terms, raster] = lens_terms(*scene_, *hit, -ray.d);
+  if (is_black(terms.f) || !raster) return;
+  const double technique = place == 0 ? direct_technique(walk, *hit) : !delta_[walk];
+  const double per_area = abs_cos(*hit, ray.d) / distance2(walk, hit->p);
+  const double stops = stops_back_[walk];
+  const double reverse = terms.pdf_from_camera * cosine_[walk] * per_area * stops;
+  const double over_lens = camera.pdf_position(*hit) / (pdf_[walk] * per_area);
+  const double before = beta_.over(sums_[walk], reverse / forward_[walk]);
+  ray.t_max = length(hit->p - ray.o) * (1 - ray_offset);
+  hits_.push_back({sample_[walk], throughput_[walk] * terms.f, beta_.over(before, over_lens),
+                   beta_.over(technique, over_lens), dispersed_[walk], survival_[walk],
+                   certainty_[walk] * stops, *raster, ray});
+}
+
+/// The joints of the sample of a walk, in its lane.
+inline JointLanes& SubpathWave::joint(int i, int place, int lane) {
+  const int block = sample_[begin_ + i] / JointLanes::size;
   JointLanes& x = at(place, block);
   longest_[block] = place;
   x.p.set(lane, lambertian_.p[i]);
+  x.cosine[lane] = cosine_to_previous_[i];
+  x.forward[lane] = forward_here_[i];
+  x.survival[lane] = survival_[begin_ + i];
+  x.dispersed[lane] = dispersed_[begin_ + i];
+  x.other[lane] = other_[i];
+  return x;
+}
+
+/// Stores the vertex of a walk for joints.
+inline void SubpathWave::keep_lambertian(int i, int place) {
+  const int lane = sample_[begin_ + i] % JointLanes::size;
+  JointLanes& x = joint(i, place, lane);
   x.ng.set(lane, lambertian_.surface.ng[i]);
   x.n.set(lane, lambertian_.n[i]);
   x.extent[lane] = lambertian_.surface.extent[i];
-  x.cosine[lane] = cosine_to_previous_[i];
-  x.forward[lane] = forward_here_[i];
   x.sums[lane] = sums_here_[i];
-  x.survival[lane] = survival_[begin_ + i];
   x.value.set(lane, throughput_[begin_ + i] * *lambertian_.f[i] *
                         (from_light_ ? double{light_factor_[i]} : 1.0));
 }
 
+/// The same for another vertex.
+void SubpathWave::keep_other(int i, int place) {
+  OtherVertex& other = *other_[i];
+  other.x.forward = forward_here_[i];
+  other.x.G = G_[i];
+  other.x.passes_back = stops_back_[begin_ + i];
+  other.technique = technique_[i];
+  other.sums_before = sums_[begin_ + i];
+  other.forward_before = forward_[begin_ + i];
+  if (BsdfAt(*scene_, other.x.vertex.at).has_smooth())
+    joint(i, place, sample_[begin_ + i] % JointLanes::size);
+}
+
 /// See Subpath::scatter.
-void SubpathWave::take_steps(int place) {
+void SubpathWave::take_steps(int place, RayCounts& rays) {
   for (int i = 0; i < count_; ++i) {
-    const int k = begin_ + i;
-    if (!lambertian_.f[i] || cosine_to_previous_[i] == 0) continue;
-    const float pdf = lambertian_.scatter_pdf[i];
-    if (!(pdf > 0 && next_cosine_[i] > 0) || is_black(*lambertian_.f[i])) continue;
-    Spectrum ratio = *lambertian_.f[i] * pi;
-    if (from_light_) ratio *= light_factor_[i] * next_cosine_[i] / (pdf * pi);
-    const double survival = survive(i, place, max_component(ratio));
-    if (survival == 0) continue;
-    const int n = next_++;
-    sample_[n] = sample_[k];
-    o_.set(n, lambertian_.o[i]);
-    d_.set(n, lambertian_.w[i]);
-    p_.set(n, lambertian_.p[i]);
-    cosine_[n] = next_cosine_[i];
-    pdf_[n] = pdf;
-    forward_[n] = forward_here_[i];
-    sums_[n] = sums_here_[i];
-    throughput_[n] = throughput_[k] * (ratio / survival);
-    survival_[n] = survival_[k] * survival;
-    wavelength_[n] = wavelength_[k];
-    numbers_.move(n, k);
+    if (cosine_to_previous_[i] == 0) continue;
+    const int next = next_;
+    if (lambertian_.f[i])
+      scatter_lambertian(i, place);
+    else if (other_[i])
+      scatter_other(i, place, rays);
+    if (next_ == next) continue;
+    if (meets_lens_) hit_lens(next, place);
+    if (vanishes(throughput_[next] * start_forward_[sample_[next]])) next_ = next;
   }
+}
+
+inline void SubpathWave::scatter_lambertian(int i, int place) {
+  const int k = begin_ + i;
+  const float pdf = lambertian_.scatter_pdf[i];
+  if (!(pdf > 0 && next_cosine_[i] > 0) || is_black(*lambertian_.f[i])) return;
+  Spectrum ratio = *lambertian_.f[i] * pi;
+  if (from_light_) ratio *= light_factor_[i] * next_cosine_[i] / (pdf * pi);
+  const double survival = survive(i, place, max_component(ratio));
+  if (survival == 0) return;
+  numbers_.move(next_, k);
+  set(next_++,
+      {sample_[k], Vec3(lambertian_.p[i]), lambertian_.o[i], lambertian_.w[i], next_cosine_[i], pdf,
+       forward_here_[i], sums_here_[i], throughput_[k] * (ratio / survival),
+       survival_[k] * survival, 0, false, dispersed_[k]});
+}
+
+void SubpathWave::scatter_other(int i, int place, RayCounts& rays) {
+  const int k = begin_ + i;
+  WalkVertex& x = other_[i]->x;
+  const Walker walker{*scene_, time_[sample_[k]], rays};
+  const StepNumbers u{{lambertian_.u_x[i], lambertian_.u_y[i]},
+                      numbers_.read(at_.lobe, k),
+                      numbers_.read(at_.roulette, k)};
+  const auto from = from_light_ ? Subpath::From::light : Subpath::From::camera;
+  const auto back = scatter(walker, rules_, from, u, place, x);
+  if (!back) return;
+  const Ray ray = walker.leave(x.vertex.at, x.towards_next);
+  const double cosine = abs_cos(x.vertex.at, ray.d);
+  const bool delta = x.vertex.delta();
+  const double chance = from_light_ ? *back * x.passes_back : x.next_coefficient;
+  numbers_.move(next_, k);
+  set(next_, {sample_[k], x.vertex.at.p, Vec3f(ray.o), Vec3f(ray.d), static_cast<float>(cosine),
+              static_cast<float>(x.next_coefficient * cosine), forward_here_[i],
+              other_[i]->walk_sums(beta_, *back), x.next_throughput, x.next_survival,
+              delta ? certainty_[k] * chance : 0, delta, x.next_dispersed});
+  set(next_, ray);
+  if (scene_->has_passages()) stops_back_[next_] = scene_->stop_probability(x.vertex.at, -ray.d);
+  ++next_;
 }
 
 /// The probability of surviving Russian roulette; 0 ends the walk.

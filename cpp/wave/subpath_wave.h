@@ -1,6 +1,5 @@
-// Subpaths of many samples that are traced side by side, among surfaces that are Lambertian and
-// lights that are emissive meshes. Each is that of Subpath, up to rounding. Samples with subpaths
-// that hit another kind of surface, or are very long, are left to Subpath.
+// Subpaths of many samples that are traced side by side. Each is that of Subpath, up to rounding.
+// Vertices that are not Lambertian are computed one by one.
 #pragma once
 
 #include "path/path_rules.h"
@@ -14,36 +13,48 @@ namespace mlt {
 class SubpathWave {
  public:
   static constexpr int capacity = 256;
-  static constexpr int most_vertices = 32;
   template <class T>
   using Samples = Lanes<T, capacity>;
 
-  /// Light that a camera walk has hit: the technique s = 0.
+  /// A path that a walk has made alone: a camera walk has hit a light (s = 0), or a light walk the
+  /// lens (t = 0).
   struct Hit {
     int sample;
-    int place;  ///< Of the vertex on the light.
-    Spectrum weighted;
-    double survival;  ///< See JointLanes.
+    Spectrum light;  ///< f / p.
+    /// The sums over the other techniques (TechniqueSums): over those that make the edge to the
+    /// lens by a walk which passes what lies between, and over the rest.
+    double scaled, fixed;
+    bool dispersed;
+    double survival, certainty;  ///< See Connection.
+    // For the lens alone:
+    Vec2 raster{};
+    Ray to_lens{};  ///< It has still to be seen.
   };
 
-  /// `light_image`: whether vertex 1 of a camera walk can be joined to the lens.
+  /// `light_image`: whether techniques with t <= 1 count.
   SubpathWave(const Scene& scene, const PathRules& rules, Subpath::From from, Heuristic heuristic,
               bool light_image);
 
-  /// Clears all subpaths; there are `count` samples now.
-  void clear(int count);
-  /// The first step of a sample's walk.
-  struct Start {
-    Vec3f p;  ///< Position of vertex 0; o, w: the ray from there.
+  void clear();
+  /// A step of a walk: where it leaves a vertex.
+  struct Step {
+    int sample;
+    Vec3 p;  ///< Position of the vertex; o, w: the ray from there.
     Vec3f o, w;
-    float cosine;                      ///< |w.ng| at vertex 0.
-    float pdf;                         ///< Density of w in solid angle.
-    double forward, sums;              ///< See JointLanes.
-    Spectrum throughput;               ///< Throughput of vertex 1.
-    double wavelength;                 ///< See wavelengths.h.
-    uint32_t light = 0, triangle = 0;  ///< Of a walk from a light: where on which it starts.
+    float cosine;                        ///< |w.ng| at the vertex.
+    float pdf;                           ///< Density of w in solid angle.
+    double forward, sums;                ///< See JointLanes; the sums are for a walk that goes on.
+    Spectrum throughput;                 ///< Throughput of the next vertex.
+    double survival = 1, certainty = 1;  ///< See Connection.
+    bool delta = false;                  ///< Whether the vertex scatters by a delta lobe.
+    bool dispersed = false;              ///< Whether a vertex so far disperses.
   };
-  void start(int sample, const Start& start);
+  /// A walk begins with a step from the lens,
+  void start(const Step& first, const Ray& ray);
+  /// from a triangle of an emissive mesh,
+  void start(const Step& first, double time, double wavelength, uint32_t light, uint32_t triangle);
+  /// or from another light.
+  void start(const Step& first, const Ray& ray, const OtherVertex& light);
   /// Walks all subpaths to their ends, with `most` vertices at most. The next of the `numbers` are
   /// those after the first step.
   void walk(const WaveNumbers& numbers, int most, RayCounts& rays);
@@ -53,10 +64,6 @@ class SubpathWave {
   /// Whether any of eight samples can be joined at the place.
   bool reaches(int place, int block) const { return longest_[block] >= place; }
   int last_place() const { return last_place_; }
-  /// Whether the sample has to be traced by itself.
-  bool fell_back(int sample) const { return fell_back_[sample]; }
-  /// Marks the sample to be traced by itself: nothing is joined to its vertices.
-  void fall_back(int sample);
   const std::vector<Hit>& hits() const { return hits_; }
 
  private:
@@ -66,51 +73,87 @@ class SubpathWave {
   void find_hits(bool coherent, RayCounts& rays);
 
   // Functions of the `count_` walks from the begin_-th one on:
-  void shade(int place, bool last);
-  void find_vertex(int i);
+  void shade(int place, bool goes_on, RayCounts& rays);
+  void find_vertex(int i, int place, RayCounts& rays);
+  void find_other(int i, int place, RayCounts& rays);
   void find_techniques(int place);
   void arrive();
-  void hit_light(int i, int place);
-  void keep(int i, int place);
-  void take_steps(int place);
+  void keep_lambertian(int i, int place);
+  void keep_other(int i, int place);
+  JointLanes& joint(int i, int place, int lane);
+  void take_steps(int place, RayCounts& rays);
+  void scatter_lambertian(int i, int place);
+  void scatter_other(int i, int place, RayCounts& rays);
   double survive(int i, int place, double ratio);
-  double direct_technique(uint32_t light, uint32_t triangle, const Vec3f& p) const;
+
+  // Functions of one walk:
+  void start(const Step& first, double time, double wavelength);
+  void set(int walk, const Step& step);
+  void set(int walk, const Ray& ray);
+  bool go_through(int walk, int place, SurfacePoint& at, RayCounts& rays);
+  void leave_scene(int walk, int place);
+  void find_light(int walk, int place, const SurfacePoint& at);
+  void hit_light(const Emitter& emitter, int walk, int place, const SurfacePoint& at);
+  void hit_lens(int walk, int place);
+  double direct_technique(int walk, const SurfacePoint& from) const;
+  /// Its ray in double precision.
+  const Ray& exact_ray(int walk);
+  void find_surface_point(int walk, SurfacePoint& at);
+  /// |p - q|^2 for its last vertex q; 1 if that is at infinity.
+  double distance2(int walk, const Vec3& p) const {
+    return near_[walk] == 0 ? 1 : length_squared(p - previous_[walk]);
+  }
 
   JointLanes& at(int place, int block) { return joints_[place * blocks + block]; }
 
   const Scene* scene_;
   PathRules rules_;
   bool from_light_, light_image_;
+  bool meets_lens_;  ///< Whether the walks may hit the lens.
   MisExponent beta_;
   std::vector<JointLanes> joints_;
+  OtherVertices others_;        ///< Those that are joined.
   Lanes<int, blocks> longest_;  ///< Last place of the samples of each block.
   int last_place_ = 0;
-  Samples<bool> fell_back_;
   std::vector<Hit> hits_;
 
-  // Values of each walk that takes this step:
+  // Values of each sample:
+  Samples<double> time_, wavelength_, start_forward_;  ///< The density of vertex 0.
+
+  // Values of each walk at its start:
+  Samples<uint32_t> light_, triangle_;
+  Samples<const OtherVertex*> other_light_;  ///< nullptr: it starts on an emissive mesh.
+
+  // Values of each walk that takes this step (see Step):
   int live_ = 0;
   Samples<int> sample_;
-  VectorLanes<capacity> o_, d_;  ///< Its ray.
-  VectorLanes<capacity> p_;      ///< Its last vertex; below, the values of Start for it.
+  VectorLanes<capacity> o_, d_, p_;
+  Samples<Vec3> previous_;  ///< Its last vertex, of which p_ is rounded.
   Samples<float> cosine_, pdf_;
-  Samples<double> forward_, sums_, survival_;
+  Samples<double> forward_, sums_, survival_, certainty_;
   Samples<Spectrum> throughput_;
-  Samples<double> wavelength_;
-  Samples<uint32_t> light_, triangle_;
+  Samples<bool> delta_, dispersed_;
+  Samples<float> near_;  ///< 0 if its last vertex is at infinity, else 1.
+  /// The probability that a walk from the other end stops at its last vertex, if it comes that way.
+  Samples<double> stops_back_;
+  Samples<Ray> ray_;  ///< See exact_ray(); not known unless `exact_`.
+  Samples<bool> exact_;
   PacketHits found_[capacity / RayPacket::size];
   WaveNumbers numbers_;
-  StepNumbersOf<WaveNumbers::Place> at_;  ///< The places of the numbers of this step.
-  int next_ = 0;                          ///< How many take the next step; they are compacted.
+  WaveNumbers::Place leg_;  ///< The places of the numbers of this step.
+  StepNumbersOf<WaveNumbers::Place> at_;
+  int next_ = 0;  ///< How many take the next step; they are compacted.
 
   // Values of each walk of the block:
   int begin_ = 0, count_ = 0;
   LambertianVertices lambertian_;
-  Block<bool> emits_;
+  OtherVertices passed_;             ///< Vertices that no path is joined to.
+  Block<OtherVertex*> other_;        ///< nullptr: its vertex is Lambertian, or there is none.
   Block<float> cosine_to_previous_;  ///< See JointLanes.
   Block<float> next_cosine_;         ///< |w.ng| of the sampled direction.
   Block<float> light_factor_;        ///< |w.ns| / |w.ng| of the direction to the previous vertex.
-  Block<double> forward_here_, reverse_emission_, sums_here_;
+  Block<double> forward_here_, sums_here_;
+  Block<double> G_;          ///< Between the vertex and the previous one.
   Block<double> technique_;  ///< See find_techniques().
 };
 
