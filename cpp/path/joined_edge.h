@@ -14,6 +14,7 @@ struct JointEnd {
   bool dispersed = false;  ///< Whether the vertex, or one before it, disperses.
 };
 
+/// The terms at any vertex; see WalkVertex::Joint for those that are known on arrival.
 inline JointEnd any_end(const Scene& scene, const WalkVertex& x, Subpath::From from, const Vec3& w,
                         bool strict) {
   if (from == Subpath::From::light) {

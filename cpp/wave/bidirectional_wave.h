@@ -19,7 +19,8 @@ class BidirectionalWave {
  public:
   static constexpr int capacity = SubpathWave::capacity;
 
-  /// Whether there are no media, and the techniques are those of a wave.
+  /// Whether the scene has no media, and the settings ask for next-event estimation, for no
+  /// manifold samples and for a heuristic with an exponent.
   static bool supports(const Scene& scene, const BidirectionalSettings& settings);
   /// Requires supports(scene, settings).
   BidirectionalWave(const Scene& scene, const BidirectionalSettings& settings);
@@ -80,7 +81,7 @@ class BidirectionalWave {
   int lanes() const { return scene_->camera().spectral() ? 4 : 3; }
   void choose_direct(int place);
   void choose_direct(int place, int block, int first);
-  void choose_other_direct(int i, const SurfacePoint& from, const EmitterChoice& choice);
+  void choose_other_direct(int i, const Vec3& from, const EmitterChoice& choice);
   void take_other_direct(int i, const LightSample& light);
   void take_infinite_direct(int i, const LightSample& light);
   void connect(int s, int t, RayCounts& rays);

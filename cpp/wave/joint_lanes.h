@@ -56,10 +56,13 @@ struct JointTechnique {
   Lanes<float, JointLanes::size> near;
 };
 
-/// The vertex of a lane as one of a single walk. Writes those that are not other ones to `scratch`.
-inline const WalkVertex& single_vertex(const JointLanes& lanes, int i, WalkVertex& scratch) {
+/// The vertex of a lane as one of a single walk: that in double precision, or what `scratch` then
+/// holds, which is a point of this kind.
+inline const WalkVertex& single_vertex(const JointLanes& lanes, int i, PointKind kind,
+                                       WalkVertex& scratch) {
   if (lanes.other[i]) return lanes.other[i]->x;
   SurfacePoint& at = scratch.vertex.at;
+  at.kind = kind;
   at.p = Vec3(lanes.p[i]);
   at.ng = Vec3(lanes.ng[i]);
   at.shading.n = Vec3(lanes.n[i]);

@@ -31,19 +31,9 @@ WaveWalk& BasicPathWave<Numbers>::exact_walk(int place) {
 
 template <class Numbers>
 void BasicPathWave<Numbers>::find_hits(bool coherent, RayCounts& rays) {
-  const Accel& accel = scene_->accel();
-  const bool exact = accel.wants_exact_rays(), moves = accel.moves();
-  for (int begin = 0; begin < live_; begin += RayPacket::size) {
-    RayPacket packet(std::min(RayPacket::size, live_ - begin));
-    packet.set_lines(&o_.x[begin], &o_.y[begin], &o_.z[begin], &d_.x[begin], &d_.y[begin],
-                     &d_.z[begin]);
-    packet.set_endless();
-    const Ray* exact_rays[RayPacket::size];
-    for (int i = 0; exact && i < packet.count; ++i) exact_rays[i] = &exact_walk(begin + i).ray;
-    for (int i = 0; moves && i < packet.count; ++i)
-      packet.time[i] = walks_[path_[begin + i]].ray.time;
-    accel.intersect(packet, exact_rays, coherent, hits_[begin / RayPacket::size]);
-  }
+  find_wave_hits(
+      scene_->accel(), live_, o_, d_, [&](int i) -> const Ray& { return exact_walk(i).ray; },
+      [&](int i) { return walks_[path_[i]].ray.time; }, coherent, hits_);
   rays.count_intersect(live_);
 }
 

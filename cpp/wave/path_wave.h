@@ -10,6 +10,7 @@
 #include "wave/drawn_numbers.h"
 #include "wave/lambertian_vertices.h"
 #include "wave/single_vertices.h"
+#include "wave/wave_hits.h"
 #include "wave/wave_numbers.h"
 #include "wave/wave_shadows.h"
 

@@ -113,18 +113,9 @@ void SubpathWave::open(int place) {
 }
 
 void SubpathWave::find_hits(bool coherent, RayCounts& rays) {
-  const Accel& accel = scene_->accel();
-  const bool exact = accel.wants_exact_rays(), moves = accel.moves();
-  for (int begin = 0; begin < live_; begin += RayPacket::size) {
-    RayPacket packet(std::min(RayPacket::size, live_ - begin));
-    packet.set_lines(&o_.x[begin], &o_.y[begin], &o_.z[begin], &d_.x[begin], &d_.y[begin],
-                     &d_.z[begin]);
-    packet.set_endless();
-    const Ray* exact_rays[RayPacket::size];
-    for (int i = 0; exact && i < packet.count; ++i) exact_rays[i] = &exact_ray(begin + i);
-    for (int i = 0; moves && i < packet.count; ++i) packet.time[i] = time_[sample_[begin + i]];
-    accel.intersect(packet, exact_rays, coherent, found_[begin / RayPacket::size]);
-  }
+  find_wave_hits(
+      scene_->accel(), live_, o_, d_, [&](int i) -> const Ray& { return exact_ray(i); },
+      [&](int i) { return time_[sample_[i]]; }, coherent, found_);
   rays.count_intersect(live_);
 }
 
@@ -210,7 +201,8 @@ bool SubpathWave::go_through(int walk, int place, SurfacePoint& at, RayCounts& r
   const double u = numbers_.read(leg_, walk);
   const bool hit = Walker{*scene_, ray.time, rays}.go_on(ray, u, true, at, leg);
   if (leg.is_blocked()) return false;
-  const double passes = leg.probability * (hit ? scene_->stop_probability(at, ray.d) : 1);
+  if (!hit) at = Scene::point_at_infinity(ray.d, ray.wavelength);
+  const double passes = scene_->arrival(leg, at, ray.d).probability();
   throughput_[walk] *= leg.transmittance / passes;
   pdf_[walk] *= static_cast<float>(passes);
   if (from_light_ || place > 1) stops_back_[walk] *= leg.probability;
@@ -236,8 +228,7 @@ double SubpathWave::direct_technique(int walk, const SurfacePoint& from) const {
 /// Finds how often the technique with its joint before the vertex counts (TechniqueSums), if a path
 /// is joined there.
 void SubpathWave::find_techniques(int place) {
-  const bool counts = from_light_ || place > 1 || light_image_;
-  for (int i = 0; i < count_; ++i) technique_[i] = counts && !delta_[begin_ + i] ? 1 : 0;
+  for (int i = 0; i < count_; ++i) technique_[i] = can_join_before(begin_ + i, place) ? 1 : 0;
   if (!(from_light_ && place == 1)) return;
   SurfacePoint from;
   for (int i = 0; i < count_; ++i) {
@@ -279,10 +270,10 @@ void SubpathWave::hit_light(const Emitter& emitter, int walk, int place, const S
   if (is_black(terms.f)) return;
   SurfacePoint previous;
   previous.p = previous_[walk];
-  const bool counts = (place > 1 || light_image_) && !delta_[walk];
   const double from_light = light_position_pdf(*scene_, x0);
-  const double direct =
-      counts ? beta_.raise(direct_position_pdf(*scene_, x0, previous) / from_light) : 0;
+  const double direct = can_join_before(walk, place)
+                            ? beta_.raise(direct_position_pdf(*scene_, x0, previous) / from_light)
+                            : 0;
   const double per_area = at.infinite() ? 1 : abs_cos(at, w) / distance2(walk, at.p);
   const double reverse = terms.pdf_from_light * cosine_[walk] * per_area * stops_back_[walk];
   const double above = beta_.over(direct + beta_.over(sums_[walk], reverse / forward_[walk]),

@@ -6,6 +6,7 @@
 #include "path/ray_counts.h"
 #include "path/subpath.h"
 #include "wave/joint_lanes.h"
+#include "wave/wave_hits.h"
 #include "wave/wave_numbers.h"
 
 namespace mlt {
@@ -96,6 +97,10 @@ class SubpathWave {
   void hit_light(const Emitter& emitter, int walk, int place, const SurfacePoint& at);
   void hit_lens(int walk, int place);
   double direct_technique(int walk, const SurfacePoint& from) const;
+  /// Whether some technique joins a vertex at this place to the one before it.
+  bool can_join_before(int walk, int place) const {
+    return (from_light_ || place > 1 || light_image_) && !delta_[walk];
+  }
   /// Its ray in double precision.
   const Ray& exact_ray(int walk);
   void find_surface_point(int walk, SurfacePoint& at);

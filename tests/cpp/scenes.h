@@ -72,7 +72,7 @@ inline std::vector<std::string> clear_scene_names() {
   return names;
 }
 
-/// Those in which no surface lets light pass either, as most waves require.
+/// Those in which no surface lets light pass either, as WalkWave requires.
 inline std::vector<std::string> wave_scene_names() {
   std::vector<std::string> names = clear_scene_names();
   for (const char* passed : {"null_surface", "windows", "materials"})

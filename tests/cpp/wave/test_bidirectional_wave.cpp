@@ -146,7 +146,7 @@ TEST(BidirectionalWave, ServesManyScenes) {
     ++served;
     lit += compare(one_by_one(*scene, settings), side_by_side(*scene, settings)).lit;
   }
-  EXPECT_GE(served, 10);
+  EXPECT_GE(served, 30);
   EXPECT_GE(lit, 1000);
 }
 
