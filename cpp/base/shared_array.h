@@ -1,6 +1,8 @@
 // An array that never changes again: copies of it share the elements.
 #pragma once
 
+#include "base/huge_pages.h"
+
 #include <cstddef>
 #include <memory>
 #include <utility>
@@ -15,7 +17,9 @@ class SharedArray {
   SharedArray(std::vector<T> elements)
       : owner_(std::make_shared<const std::vector<T>>(std::move(elements))),
         data_(owner_->data()),
-        size_(owner_->size()) {}
+        size_(owner_->size()) {
+    prefer_huge_pages(data_, size_ * sizeof(T));
+  }
 
   const T* data() const { return data_; }
   const T* begin() const { return data_; }

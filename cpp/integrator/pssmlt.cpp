@@ -200,7 +200,6 @@ class PssmltIntegrator : public Integrator {
     if (estimator_ == "bdpt")
       return std::make_unique<Pssmlt<BidirectionalEstimator>>(scene, settings_);
     if (estimator_ == "ptracer") return std::make_unique<Pssmlt<LightEstimator>>(scene, settings_);
-    if (scene->has_passages()) return std::make_unique<Pssmlt<PathEstimator>>(scene, settings_);
     return std::make_unique<WalkPssmlt>(scene, settings_);
   }
 

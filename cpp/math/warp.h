@@ -42,20 +42,14 @@ SinCosOf<F> sincos_octant(const F& x) {
 }  // namespace detail
 
 /// sin and cos of 2 pi u for |u| < 2^30: the quarter turns are removed from u exactly.
-inline SinCos sincos_turns(double u) {
-  const double quarter = std::nearbyint(4 * u);
-  const SinCos a = detail::sincos_octant(2 * pi * (u - 0.25 * quarter));
-  const auto k = static_cast<int64_t>(quarter);
-  const double s = k & 1 ? a.cos : a.sin;
-  const double c = k & 1 ? a.sin : a.cos;
-  return {k & 2 ? -s : s, (k + 1) & 2 ? -c : c};
-}
-inline SinCosOf<Float8> sincos_turns(const Float8& u) {
-  const Float8 quarter = nearbyint(4 * u);
-  const auto a = detail::sincos_octant(number<Float8>(2 * pi) * (u - 0.25f * quarter));
-  const Float8 k = quarter - 4 * floor(0.25f * quarter);
+/// Without branches, so that loops over it are vectorised.
+template <class F>
+SinCosOf<F> sincos_turns(const F& u) {
+  const F quarter = nearbyint(4 * u);
+  const SinCosOf<F> a = detail::sincos_octant(number<F>(2 * pi) * (u - number<F>(0.25) * quarter));
+  const F k = quarter - 4 * floor(number<F>(0.25) * quarter);
   const auto odd = (k == 1) | (k == 3);
-  const Float8 s = select(odd, a.cos, a.sin), c = select(odd, a.sin, a.cos);
+  const F s = select(odd, a.cos, a.sin), c = select(odd, a.sin, a.cos);
   return {select(k >= 2, -s, s), select((k == 1) | (k == 2), -c, c)};
 }
 
@@ -66,7 +60,7 @@ inline double signed_turns(double x, double y) {
   const double less = std::min(std::abs(x), std::abs(y)), more = std::max(std::abs(x), std::abs(y));
   const bool beyond = less > tan_pi_8 * more;
   const double above = beyond ? less - more : less, below = beyond ? less + more : more;
-  const double t = below > 0 ? above / below : 0, y2 = t * t;
+  const double t = above / (below > 0 ? below : 1), y2 = t * t;
   const double p = polynomial(
       y2, {-0.0030520961421563173, 0.0062439121507638935, -0.00809374456969308,
            0.009323533555664051, -0.010606899399966464, 0.01224248977977944, -0.01446862400784712,

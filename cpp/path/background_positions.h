@@ -14,7 +14,7 @@ class BackgroundPositions {
   /// `light`, which must not move until then. `wavelength` is that of its path.
   void add(const EmitterChoice& choice, const Vec2& u, double wavelength, LightSample& light) {
     light.emitter = choice.emitter;
-    waiting_.push_back({choice, {u, &light.x0}, wavelength});
+    waiting_.push_back({choice, {u, wavelength, &light.x0, &light.radiance}});
   }
   void sample_all(const Scene& scene) {
     for (const uint32_t index : scene.infinite_emitters()) {
@@ -24,10 +24,8 @@ class BackgroundPositions {
       scene.emitters()[index]->sample_positions(requests_.data(),
                                                 static_cast<int>(requests_.size()));
     }
-    for (const Waiting& waiting : waiting_) {
+    for (const Waiting& waiting : waiting_)
       waiting.request.sample->pdf *= waiting.choice.probability;
-      waiting.request.sample->at.wavelength = waiting.wavelength;
-    }
     waiting_.clear();
   }
 
@@ -35,7 +33,6 @@ class BackgroundPositions {
   struct Waiting {
     EmitterChoice choice;
     PositionRequest request;
-    double wavelength;
   };
   std::vector<Waiting> waiting_;
   std::vector<PositionRequest> requests_;

@@ -69,7 +69,7 @@ DirectLight unshadowed_light(const LightSample& light, const SurfacePoint& at, b
   if (!(light.x0.pdf > 0)) return {};
   const Vec3 wl = direction(at, light.x0.at);
   if (!consistent_sides(at, wl, strict)) return {};
-  const Spectrum radiance = light.emitter->eval(light.x0.at, -wl);
+  const Spectrum radiance = light.emitted(-wl);
   if (is_black(radiance)) return {};
   const WorldScattering s = scattering(wl);
   if (is_black(s.f)) return {};

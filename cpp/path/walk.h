@@ -15,12 +15,16 @@ namespace mlt {
 struct LightSample {
   const Emitter* emitter;
   PositionSample x0;  ///< Its density includes the choice of the light. 0: failed.
+  std::optional<Spectrum> radiance;  ///< At infinity, if it was sampled together with others.
+
+  /// The radiance in the direction w.
+  Spectrum emitted(const Vec3& w) const { return radiance ? *radiance : emitter->eval(x0.at, w); }
 };
 
 /// Samples the start of a walk from this light.
 inline LightSample sample_light_position(const Scene& scene, const EmitterChoice& choice,
                                          const Vec2& u, double time, double wavelength) {
-  LightSample light{choice.emitter, choice.emitter->sample_position(u, time)};
+  LightSample light{choice.emitter, choice.emitter->sample_position(u, time), {}};
   light.x0.at.wavelength = wavelength;
   light.x0.pdf *= choice.probability;
   if (scene.has_media()) light.x0.at.medium = scene.medium_at_light(*choice.emitter, light.x0.at);
@@ -35,8 +39,8 @@ inline LightSample sample_light_position(const Scene& scene, Vec3 u, double time
 /// Samples a position on this light for next-event estimation at the point `from`, at its time.
 inline LightSample sample_direct_position(const Scene& scene, const SurfacePoint& from,
                                           const EmitterChoice& choice, const Vec2& u) {
-  if (!(choice.probability > 0)) return {choice.emitter, {}};
-  LightSample light{choice.emitter, choice.emitter->sample_direct(from.p, u, from.time)};
+  if (!(choice.probability > 0)) return {choice.emitter, {}, {}};
+  LightSample light{choice.emitter, choice.emitter->sample_direct(from.p, u, from.time), {}};
   light.x0.at.wavelength = from.wavelength;
   light.x0.pdf *= choice.probability;
   if (scene.has_media()) light.x0.at.medium = scene.medium_at_light(*choice.emitter, light.x0.at);

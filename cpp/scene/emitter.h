@@ -8,6 +8,8 @@
 #include "scene/ray.h"
 #include "scene/surface_point.h"
 
+#include <optional>
+
 namespace mlt {
 
 class Medium;
@@ -20,10 +22,13 @@ struct PositionSample {
   double pdf;  ///< In the measure of `at`; 0 means that sampling failed.
 };
 
-/// A request for a position: the result of sample_position(u) is stored in `sample`.
+/// A request for a position on a light at infinity, for a path of this wavelength: the result of
+/// sample_position(u) is stored in `sample`, and what comes from there in `radiance`.
 struct PositionRequest {
   Vec2 u;
+  double wavelength;
   PositionSample* sample;
+  std::optional<Spectrum>* radiance;
 };
 
 /// A sampled direction from a given position, with the origin of its ray (for a light at infinity a
@@ -51,7 +56,11 @@ class Emitter : public Object {
   virtual PositionSample sample_position(const Vec2& u, double time) const = 0;
   /// Samples many positions on a light at infinity, independent of time.
   virtual void sample_positions(const PositionRequest* requests, int count) const {
-    for (int i = 0; i < count; ++i) *requests[i].sample = sample_position(requests[i].u, 0);
+    for (int i = 0; i < count; ++i) {
+      SurfacePoint& at = (*requests[i].sample = sample_position(requests[i].u, 0)).at;
+      at.wavelength = requests[i].wavelength;
+      *requests[i].radiance = eval(at, -at.p);
+    }
   }
   virtual double pdf_position(const SurfacePoint& x0) const = 0;
   virtual Vec2 invert_position(const SurfacePoint& x0) const = 0;

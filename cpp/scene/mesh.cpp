@@ -131,10 +131,7 @@ void Mesh::fill(const Edges& tri, uint32_t index, double b1, double b2, SurfaceP
   const Vec2 d2 = Vec2(uvs_[corners[2]]) - uv0;
   at.uv = uv0 + d1 * b1 + d2 * b2;
   if (bsdf_ && bsdf_->lambertian().known()) return;  // its scattering is the same in any frame
-  // Solves e1 = d1.x dp/du + d1.y dp/dv and e2 likewise, up to a positive factor.
-  const Vec3 dp_du =
-      (tri.e1 * d2.y - tri.e2 * d1.y) * std::copysign(1.0, d1.x * d2.y - d1.y * d2.x);
-  at.shading = Frame::around(n, m, dp_du);
+  at.shading = Frame::around(n, m, multiple_of_dp_du(tri.e1, tri.e2, d1, d2));
 }
 
 void Mesh::textured_point(uint32_t triangle, const Vec2& b, SurfacePoint& at) const {

@@ -29,6 +29,13 @@ struct alignas(64) TriangleRecord {
   }
 };
 
+/// Solves e1 = d1.x dp/du + d1.y dp/dv and e2 likewise for dp/du, up to a positive factor.
+template <class F>
+Vec3Of<F> multiple_of_dp_du(const Vec3Of<F>& e1, const Vec3Of<F>& e2, const Vec2Of<F>& d1,
+                            const Vec2Of<F>& d2) {
+  return (e1 * d2.y - e2 * d1.y) * std::copysign(F(1), d1.x * d2.y - d1.y * d2.x);
+}
+
 class Mesh : public Shape {
  public:
   /// Takes buffers in object space and moves them to world space.
@@ -58,6 +65,15 @@ class Mesh : public Shape {
     const Vec3f sum = normals_[corners[0]] * (1 - b.x - b.y) + normals_[corners[1]] * b.x +
                       normals_[corners[2]] * b.y;
     return dot(sum, sum) > 1e-12f ? sum * static_cast<float>(side_) : ng;
+  }
+  /// In single precision, a positive multiple of dp/du; 0 without uvs.
+  Vec3f along_u(uint32_t triangle) const {
+    if (!uvs_) return Vec3f(0);
+    const TriangleRecord& record = records_[triangle];
+    const auto& corners = triangles_[triangle];
+    const Vec2f uv0 = uvs_[corners[0]];
+    return multiple_of_dp_du(record.p1 - record.p0, record.p2 - record.p0, uvs_[corners[1]] - uv0,
+                             uvs_[corners[2]] - uv0);
   }
   /// Sets the members of a point that textures use: position, uv, shape and primitive.
   void textured_point(uint32_t triangle, const Vec2& b, SurfacePoint& at) const;

@@ -22,6 +22,11 @@ struct ScatteringLanes {
   Block<Spectrum> f;        ///< the BSDF between them,
   Block<float> pdf;         ///< and its density.
 
+  void set_numbers(int i, const Vec3& u) {
+    u_lobe[i] = below_one(u.x);
+    u_x[i] = below_one(u.y);
+    u_y[i] = below_one(u.z);
+  }
   /// Fills the lanes up to a multiple of eight.
   void fill_up() {
     for (int i = count; i < whole_vectors(count); ++i) {

@@ -30,10 +30,14 @@ Bounds enclosing_sphere(const std::vector<ShapePtr>& shapes, const Camera& camer
   return {0.5 * (low + high), radius > 0 ? radius * (1 + 1e-6) : 1.0};
 }
 
-LambertianMesh lambertian_mesh(const Shape& shape) {
+LaneMesh lane_mesh(const Shape& shape) {
   const Mesh* mesh = shape.as_mesh();
-  if (!mesh || !mesh->bsdf().lambertian().known()) return {};
-  return {mesh, &mesh->bsdf().lambertian(), shape.emitter() != nullptr};
+  if (!mesh) return {};
+  const Bsdf& bsdf = mesh->bsdf();
+  const bool emits = shape.emitter() != nullptr;
+  if (bsdf.lambertian().known()) return {mesh, &bsdf.lambertian(), nullptr, emits};
+  if (bsdf.serves_lanes() && !bsdf.bends_normal()) return {mesh, nullptr, &bsdf, emits};
+  return {};
 }
 
 MeshLight mesh_light(const Emitter& emitter) {
@@ -91,7 +95,7 @@ Scene::Scene(std::vector<ShapePtr> shapes, std::vector<EmitterPtr> emitters, Cam
   find_media(grouped.size());
   has_passages_ = has_media_;
   for (const ShapePtr& shape : shapes_) {
-    lambertian_meshes_.push_back(mlt::lambertian_mesh(*shape));
+    lane_meshes_.push_back(mlt::lane_mesh(*shape));
     has_passages_ = has_passages_ || (!shape->as_instance() && shape->bsdf().has_passage());
   }
 }

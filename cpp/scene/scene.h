@@ -33,10 +33,11 @@ struct MeshLight {
   Spectrum radiance_at(double wavelength) const;
 };
 
-/// A mesh that is Lambertian everywhere.
-struct LambertianMesh {
-  const Mesh* mesh = nullptr;  ///< nullptr if this shape is of another kind.
-  const LambertianSurface* lambertian = nullptr;
+/// A mesh whose vertices are computed together in waves.
+struct LaneMesh {
+  const Mesh* mesh = nullptr;                     ///< nullptr if this shape is of another kind.
+  const LambertianSurface* lambertian = nullptr;  ///< If it is Lambertian everywhere.
+  const Bsdf* glossy = nullptr;                   ///< Else its material, which serves lanes.
   bool emits = false;
 };
 
@@ -141,8 +142,8 @@ class Scene {
     return light_choice_.probability_for(index, from);
   }
   const LightChoice& light_choice() const { return light_choice_; }
-  /// The shape at this place in shapes(), if it is a Lambertian mesh.
-  const LambertianMesh& lambertian_mesh(uint32_t shape) const { return lambertian_meshes_[shape]; }
+  /// The shape at this place in shapes(), if it is such a mesh.
+  const LaneMesh& lane_mesh(uint32_t shape) const { return lane_meshes_[shape]; }
   /// The light at this place in emitters(), if it is an emissive mesh.
   const MeshLight& mesh_light(uint32_t index) const { return mesh_lights_[index]; }
 
@@ -184,8 +185,8 @@ class Scene {
   MediumIndex outside_ = no_medium;         ///< Where no boundary is met.
   std::vector<bool> lights_in_many_media_;  ///< One for each emitter.
   LightChoice light_choice_;
-  std::vector<MeshLight> mesh_lights_;             ///< One for each emitter.
-  std::vector<LambertianMesh> lambertian_meshes_;  ///< One for each shape.
+  std::vector<MeshLight> mesh_lights_;  ///< One for each emitter.
+  std::vector<LaneMesh> lane_meshes_;   ///< One for each shape.
 };
 
 using ScenePtr = std::shared_ptr<const Scene>;

@@ -152,7 +152,7 @@ void BidirectionalWave::choose_other_direct(int i, const Vec3& from, const Emitt
 }
 
 void BidirectionalWave::take_other_direct(int i, const LightSample& light) {
-  const auto& [emitter, x0] = light;
+  const auto& [emitter, x0, radiance] = light;
   if (!(x0.pdf > 0)) return;
   if (emitter->infinite()) return take_infinite_direct(i, light);
   OtherVertex& other = others_.add();
@@ -170,9 +170,10 @@ void BidirectionalWave::take_other_direct(int i, const LightSample& light) {
 
 /// The density of a light at infinity is that of a walk.
 void BidirectionalWave::take_infinite_direct(int i, const LightSample& light) {
-  const auto& [emitter, x0] = light;
+  const Emitter* emitter = light.emitter;
+  const PositionSample& x0 = light.x0;
   const Vec3 w = -x0.at.p;
-  const Spectrum radiance = emitter->eval(x0.at, w);
+  const Spectrum radiance = light.emitted(w);
   if (is_black(radiance)) return;
   const int block = i / JointLanes::size, lane = i % JointLanes::size;
   JointLanes& to = direct_[block];

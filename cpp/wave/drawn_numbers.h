@@ -12,9 +12,10 @@ class DrawnNumbers {
   class Source {
    public:
     virtual ~Source() = default;
-    /// Draws the numbers of a vertex of these paths, from the first-th on, and sets `numbers` to
-    /// where those of each path begin.
-    virtual void draw(const int* paths, int count, size_t first, const double** numbers) = 0;
+    /// Draws the numbers of a vertex of these paths, from the first-th on, or only the one of the
+    /// leg to it, and sets `numbers` to where those of each path begin.
+    virtual void draw(const int* paths, int count, size_t first, bool leg_alone,
+                      const double** numbers) = 0;
   };
 
   void set_source(Source& source) { source_ = &source; }
@@ -35,8 +36,8 @@ class DrawnNumbers {
     Place next2() { return {(index += 2) - 2}; }
   };
   Place& places() { return next_; }
-  void begin_vertex(const Place& at, int begin, int count) {
-    source_->draw(&path_[begin], count, at.index, &numbers_[begin]);
+  void begin_vertex(const Place& at, int begin, int count, bool leg_alone) {
+    source_->draw(&path_[begin], count, at.index, leg_alone, &numbers_[begin]);
   }
   void read2(const Place& at, int begin, int count, double* x, double* y) const {
     for (int i = 0; i < count; ++i) {

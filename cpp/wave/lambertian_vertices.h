@@ -52,14 +52,18 @@ struct LambertianVertices {
   VectorBlock o, w;
   Block<float> scatter_pdf;  ///< Per solid angle; 0: there is no ray.
 
-  /// Sets the vertex of the i-th path to these barycentrics of a triangle.
-  void set(int i, const LambertianMesh& shape, uint32_t triangle, float b1, float b2,
-           double wavelength) {
-    const Mesh& mesh = *shape.mesh;
+  /// Sets the place of the i-th path to these barycentrics of a triangle.
+  void set_place(int i, const Mesh& mesh, uint32_t triangle, float b1, float b2, bool both_sides) {
     const TriangleRecord& record = mesh.record(triangle);
     surface.set(i, record, b1, b2);
     n.set(i, mesh.has_normals() ? mesh.normal_sum(triangle, {b1, b2}) : Vec3f(record.ng));
-    back[i] = shape.lambertian->lambertian.sides == Lambertian::Sides::both ? 1 : 0;
+    back[i] = both_sides ? 1 : 0;
+  }
+  /// Sets the vertex of the i-th path to these barycentrics of a triangle.
+  void set(int i, const LaneMesh& shape, uint32_t triangle, float b1, float b2, double wavelength) {
+    const Mesh& mesh = *shape.mesh;
+    set_place(i, mesh, triangle, b1, b2,
+              shape.lambertian->lambertian.sides == Lambertian::Sides::both);
     if (shape.lambertian->uniform() && wavelength < 0) {
       f[i] = &shape.lambertian->lambertian.f;
       return;
@@ -133,6 +137,28 @@ struct LambertianVertices {
     const ToLight to = to_light(i);
     return light_weight[i] * to.pdf / cosine(i, to.w);
   }
+  /// The direction of the point on an emissive mesh.
+  Vec3f light_direction(int i) const { return to_light(i).w; }
+  /// Its density in solid angle.
+  float light_solid_pdf(int i) const { return to_light(i).pdf; }
+  /// Whether light from the direction wl is scattered to the camera.
+  bool is_lit_from(int i, const Vec3f& wl, bool strict_normals) const {
+    const float cos_l = dot(wl, n[i]), cos_c = dot(wc_[i], n[i]);
+    return (cos_l * cos_c > 0) & scatters(cos_c, back[i] > 0) & (sides[i] > 0) &
+           consistent_sides(surface.ng[i], n[i], wl, strict_normals);
+  }
+  /// Sets the shadow ray of the i-th vertex to one in this direction.
+  void aim_at_infinity(int i, const Vec3f& direction) {
+    shadow_o.set(i, ray_origin(p[i], surface.ng[i], direction, surface.extent[i]));
+    shadow_w.set(i, direction);
+    shadow_length[i] = std::numeric_limits<float>::infinity();
+  }
+  /// Sets the scattered ray of the i-th vertex; false: strict normals reject it.
+  bool leave_in(int i, const Vec3f& direction, bool strict_normals) {
+    o.set(i, ray_origin(p[i], surface.ng[i], direction, surface.extent[i]));
+    w.set(i, direction);
+    return (sides[i] > 0) & consistent_sides(surface.ng[i], n[i], direction, strict_normals);
+  }
   /// |cos| of a direction from the i-th vertex.
   float cosine(int i, const Vec3f& w) const { return std::fabs(dot(w, n[i])); }
 
@@ -149,12 +175,6 @@ struct LambertianVertices {
     const Vec3f w = between * (1 / std::sqrt(distance2));
     const float cosine = -dot(w, light.ng[i]);
     return {between, w, cosine, light_pdf[i] * distance2 / cosine};
-  }
-  /// Whether light from the direction wl is scattered to the camera.
-  bool is_lit_from(int i, const Vec3f& wl, bool strict_normals) const {
-    const float cos_l = dot(wl, n[i]), cos_c = dot(wc_[i], n[i]);
-    return (cos_l * cos_c > 0) & scatters(cos_c, back[i] > 0) & (sides[i] > 0) &
-           consistent_sides(surface.ng[i], n[i], wl, strict_normals);
   }
   /// |cos| mis / pdf of next-event estimation with this density in solid angle; scattered
   /// directions have |cos| / pi.

@@ -17,7 +17,7 @@ void NumberRows::draw(const SmallStep& step) {
     for (int i = 0; i < end; ++i) u_[i] = step.kelemen(x_[i], u_[i]);
     return;
   }
-  draw_fresh(0, end, ~0u, angle_);
+  draw_fresh(0, end, angle_key, angle_);
   for (int i = 0; i < end; ++i) u_[i] = step.gaussian(x_[i], u_[i], angle_[i]);
 }
 

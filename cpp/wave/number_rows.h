@@ -20,17 +20,21 @@ class NumberRows {
     fresh_ = capacity;
   }
   /// Adds a row that is drawn by `key`: near the `count` numbers of x from `first` on, or afresh if
-  /// x lacks them or is nullptr. Returns its index.
+  /// x lacks them or is nullptr. If x lacks some, these are as if they had been drawn. Returns its
+  /// index.
   template <size_t count = row>
   int add(uint64_t key, const std::vector<double>* x) {
     const bool known = x && x->size() > first_;
     const int i = known ? moving_++ : --fresh_;
-    if (known) std::copy_n(&(*x)[first_], count, &x_[row * i]);
     const auto low = static_cast<uint32_t>(key) + first_, high = static_cast<uint32_t>(key >> 32);
     for (int k = 0; k < row; ++k) {
       low_[row * i + k] = low + k;
       high_[row * i + k] = high;
     }
+    if (!known) return i;
+    const size_t there = std::min(count, x->size() - first_);
+    if (there < count) draw_fresh(row * i, row * (i + 1), lacking_key, x_);
+    std::copy_n(&(*x)[first_], there, &x_[row * i]);
     return i;
   }
   int size() const { return moving_ + capacity - fresh_; }
@@ -41,6 +45,9 @@ class NumberRows {
  private:
   template <class T>
   using Rows = Lanes<T, row * capacity>;
+
+  // Keys of numbers that are not the result: of a second number, and of one that x lacks.
+  static constexpr uint32_t angle_key = ~0u, lacking_key = 0x55555555u;
 
   void draw_fresh(int begin, int end, uint32_t changed_key, Rows<double>& u) const;
 

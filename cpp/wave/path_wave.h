@@ -8,7 +8,7 @@
 #include "path/background_positions.h"
 #include "path/path_tracer.h"
 #include "wave/drawn_numbers.h"
-#include "wave/lambertian_vertices.h"
+#include "wave/glossy_vertices.h"
 #include "wave/single_vertices.h"
 #include "wave/wave_hits.h"
 #include "wave/wave_numbers.h"
@@ -48,7 +48,7 @@ class BasicPathWave {
   static constexpr size_t capacity = wave_size;
 
   BasicPathWave(const Scene& scene, const PathRules& rules, Heuristic heuristic = Heuristic::power)
-      : scene_(&scene), rules_(rules), mis_(heuristic) {
+      : scene_(&scene), rules_(rules), mis_(heuristic), serves_glossy_(serves_glossy(scene)) {
     walks_.reserve(capacity);
   }
 
@@ -88,7 +88,10 @@ class BasicPathWave {
   }
 
  private:
-  /// A Lambertian vertex that samples a light at infinity.
+  /// Whether all lights are emissive meshes or at infinity, and no light passes a medium.
+  static bool serves_glossy(const Scene& scene);
+
+  /// A vertex on a mesh that samples a light at infinity.
   struct SkyVertex {
     int path;
     EmitterChoice choice;
@@ -117,13 +120,19 @@ class BasicPathWave {
   void choose_lights(int depth);
   void choose_other_light(int i, const EmitterChoice& choice, const Vec2& u);
   void sample_other_lights();
+  void light_glossy();
   void queue_lights();
+  void queue_mesh_lights();
   void queue_sky(const SkyVertex& vertex);
+  void queue_glossy(const GlossyVertex& vertex);
   void queue_other_light(const SingleVertex& single);
   void queue_shadow(int i, const DirectLight& direct, double mis, const Vec3f& o, const Vec3f& w,
                     float length);
+  void queue_shadow(int i, const DirectLight& direct, double mis);
   void take_step(int depth, RayCounts& rays);
   bool scatter_lambertian(int i, int depth, WaveWalk& walk);
+  bool scatter_glossy(int i, int depth, WaveWalk& walk);
+  bool leave_mesh(int i, int depth, double pdf, WaveWalk& walk);
   void scatter_in_lanes();
   bool scatter_other(int i, int depth, WaveWalk& walk, RayCounts& rays);
 
@@ -135,6 +144,7 @@ class BasicPathWave {
   const Scene* scene_;
   PathRules rules_;
   MisExponent mis_;
+  bool serves_glossy_;
   std::vector<WaveWalk> walks_;
   WaveShadows shadows_;
   std::vector<LightToPass> lights_to_pass_;  ///< One for each shadow ray, if there are passages.
@@ -146,7 +156,7 @@ class BasicPathWave {
   Wave<bool> exact_;  ///< Whether its walk has the ray in double precision.
   PacketHits hits_[wave_size / RayPacket::size];
   Numbers numbers_;
-  typename Numbers::Place leg_;  ///< The places of the numbers of this step.
+  typename Numbers::Place first_, leg_;  ///< The places of the numbers of this step.
   VertexNumbersOf<typename Numbers::Place> at_;
   int next_ = 0;  ///< How many take the next step; they are compacted.
 
@@ -154,11 +164,13 @@ class BasicPathWave {
   int begin_ = 0, count_ = 0;
   Block<double> u_light_x_, u_light_y_;
   LambertianVertices lambertian_;
+  GlossyVertices glossy_;
   SingleVertices singles_;
   std::vector<SkyVertex> sky_vertices_;
-  int sky_count_ = 0;  ///< How many are in use.
-  Block<int> single_;  ///< Index in singles_ of the path's vertex; -1: none.
+  int sky_count_ = 0;              ///< How many are in use.
+  Block<int> glossy_at_, single_;  ///< Index in glossy_ or singles_ of its vertex; -1: none.
   BackgroundPositions backgrounds_;
+  bool mesh_lights_;  ///< Whether any vertex on a mesh samples an emissive mesh.
 };
 
 using PathWave = BasicPathWave<WaveNumbers>;

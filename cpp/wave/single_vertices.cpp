@@ -1,5 +1,7 @@
 #include "wave/single_vertices.h"
 
+#include "wave/scatter_by_material.h"
+
 namespace mlt {
 namespace {
 
@@ -27,36 +29,18 @@ void SingleVertices::scatter_in_lanes(const Scene& scene, bool strict_normals) {
     const Bsdf* bsdf = vertex.at.lambertian.known() ? nullptr : &scene.bsdf(vertex.at);
     vertex.bsdf = bsdf && bsdf->serves_lanes() ? bsdf : nullptr;
   }
-  for (int first = 0; first < count_; ++first)
-    if (vertices_[first].bsdf && !vertices_[first].in_lanes)
-      scatter_in_lanes(first, strict_normals);
-}
-
-/// Computes the scattering of all vertices of the material of this one, which is the first.
-void SingleVertices::scatter_in_lanes(int first, bool strict_normals) {
-  const Bsdf& bsdf = *vertices_[first].bsdf;
-  SingleVertex* chosen[ScatteringLanes::capacity];
-  lanes_.count = 0;
-  for (int j = first; j < count_; ++j) {
-    SingleVertex& vertex = vertices_[j];
-    if (vertex.bsdf != &bsdf) continue;
-    const int i = lanes_.count++;
-    chosen[i] = &vertex;
+  const auto put = [&](const SingleVertex& vertex, int i) {
     lanes_.at[i] = &vertex.at;
     lanes_.wc.set(i, Vec3f(vertex.at.shading.to_local(vertex.wc)));
     lanes_.wl.set(i, Vec3f(local_light(vertex, strict_normals)));
-    lanes_.u_lobe[i] = below_one(vertex.u_scatter.x);
-    lanes_.u_x[i] = below_one(vertex.u_scatter.y);
-    lanes_.u_y[i] = below_one(vertex.u_scatter.z);
-  }
-  bsdf.scatter(lanes_);
-  for (int i = 0; i < lanes_.count; ++i) {
-    SingleVertex& vertex = *chosen[i];
-    vertex.in_lanes = true;
+    lanes_.set_numbers(i, vertex.u_scatter);
+  };
+  const auto take = [&](SingleVertex& vertex, int i) {
     vertex.from_light = {
         {lanes_.f_light[i], 0, lanes_.pdf_light[i]}, lanes_.wl.z[i], lanes_.wc.z[i]};
     vertex.scattered = scattered(lanes_, i, vertex.at, strict_normals);
-  }
+  };
+  scatter_by_material(begin(), end(), lanes_, put, take);
 }
 
 }  // namespace mlt

@@ -56,8 +56,6 @@ class SingleVertices {
   void scatter_in_lanes(const Scene& scene, bool strict_normals);
 
  private:
-  void scatter_in_lanes(int first, bool strict_normals);
-
   std::vector<SingleVertex> vertices_;
   int count_ = 0;  ///< How many are in use.
   ScatteringLanes lanes_;

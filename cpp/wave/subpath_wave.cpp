@@ -147,8 +147,8 @@ inline void SubpathWave::find_vertex(int i, int place, RayCounts& rays) {
   lambertian_.f[i] = nullptr;
   other_[i] = nullptr;
   if (index == SurfacePoint::no_shape) return leave_scene(walk, place);
-  const LambertianMesh& shape = scene_->lambertian_mesh(index);
-  if (!shape.mesh) return find_other(i, place, rays);
+  const LaneMesh& shape = scene_->lane_mesh(index);
+  if (!shape.lambertian) return find_other(i, place, rays);
   if (shape.emits && !from_light_) {
     SurfacePoint at;
     find_surface_point(walk, at);

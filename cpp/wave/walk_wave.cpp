@@ -5,6 +5,8 @@ namespace {
 
 /// The image position, the lens and the time; in spectral scenes the wavelength comes after them.
 constexpr size_t of_camera = count_of<Vec2> + count_of<LensNumbers>;
+/// Where light passes surfaces or media; see Walker::draw_leg().
+constexpr size_t of_leg = 1;
 
 /// Reads numbers one after the other.
 struct Reader {
@@ -20,7 +22,7 @@ struct Reader {
 }  // namespace
 
 WalkWave::WalkWave(const Scene& scene, const PathRules& rules, const SmallStep& small_step)
-    : camera_(&scene.camera()), small_step_(small_step), wave_(scene, rules) {
+    : scene_(&scene), small_step_(small_step), wave_(scene, rules) {
   wave_.numbers().set_source(*this);
 }
 
@@ -41,18 +43,25 @@ void WalkWave::draw(int count, size_t first, Get&& get) {
   }
 }
 
-void WalkWave::draw(const int* paths, int count, size_t first, const double** numbers) {
+void WalkWave::draw(const int* paths, int count, size_t first, bool leg_alone,
+                    const double** numbers) {
   const auto get = [&](int i) -> Proposal& { return proposals_[paths[i]]; };
-  draw<count_of<VertexNumbers>>(count, first, get);
+  if (leg_alone)
+    draw<of_leg>(count, first, get);
+  else if (scene_->has_passages())
+    draw<of_leg + count_of<VertexNumbers>>(count, first, get);
+  else
+    draw<count_of<VertexNumbers>>(count, first, get);
   for (int i = 0; i < count; ++i) numbers[i] = get(i).numbers().data();
 }
 
 void WalkWave::leave_camera() {
+  const Camera& camera = scene_->camera();
   const int all = static_cast<int>(proposals_.size());
   for (int begin = 0; begin < all; begin += block_size) {
     const int count = std::min(block_size, all - begin);
     const auto get = [&](int i) -> Proposal& { return proposals_[begin + i]; };
-    if (camera_->spectral())
+    if (camera.spectral())
       draw<of_camera + 1>(count, 0, get);
     else
       draw<of_camera>(count, 0, get);
@@ -60,18 +69,18 @@ void WalkWave::leave_camera() {
   rasters_.clear();
   for (const Proposal& proposal : proposals_) {
     Reader numbers{proposal.numbers().data()};
-    rasters_.push_back(camera_->raster().sample(numbers.next2()));
+    rasters_.push_back(camera.raster().sample(numbers.next2()));
     wave_.numbers().add();
-    wave_.add(camera_ray(*camera_, rasters_.back(), numbers).ray);
+    wave_.add(camera_ray(camera, rasters_.back(), numbers).ray);
   }
-  wave_.numbers().places() = {of_camera + (camera_->spectral() ? 1 : 0)};
+  wave_.numbers().places() = {of_camera + (camera.spectral() ? 1 : 0)};
 }
 
 void WalkWave::trace() {
   leave_camera();
   RayCounts all;
   wave_.trace(all, false);
-  const Raster& image = camera_->raster();
+  const Raster& image = scene_->camera().raster();
   const double scale = image.sampled_area() / image.pixels();
   for (size_t i = 0; i < proposals_.size(); ++i) {
     PrimaryState& y = *proposals_[i].y;

@@ -35,12 +35,13 @@ class WalkWave : private DrawnNumbers::Source {
   };
 
   void leave_camera();
-  void draw(const int* paths, int count, size_t first, const double** numbers) override;
+  void draw(const int* paths, int count, size_t first, bool leg_alone,
+            const double** numbers) override;
   /// Draws `numbers` numbers, from the first-th on, of the proposals get(0), ..., get(count - 1).
   template <size_t numbers, class Get>
   void draw(int count, size_t first, Get&& get);
 
-  const Camera* camera_;
+  const Scene* scene_;
   SmallStep small_step_;
   BasicPathWave<DrawnNumbers> wave_;
   std::vector<Proposal> proposals_;

@@ -23,8 +23,9 @@ class WaveNumbers {
   using Place = PixelSampler::Position;
   /// The place of the next numbers, for all samples: a sampler of places.
   Place& places() { return next_; }
-  /// To be called before the numbers of a vertex, from this place on, are read.
-  void begin_vertex(const Place&, int /*begin*/, int /*count*/) {}
+  /// To be called before the numbers of a vertex, from this place on, are read, or only the one of
+  /// the leg to it.
+  void begin_vertex(const Place&, int /*begin*/, int /*count*/, bool /*leg_alone*/) {}
 
   /// Reads the numbers at a place of the `count` samples from the begin-th on.
   void read(const Place& at, int begin, int count, double* x) const;

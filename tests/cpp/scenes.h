@@ -61,7 +61,7 @@ inline std::set<std::string> media_scene_names() {
 inline std::set<std::string> spectral_scene_names() {
   return {"spectral_room", "prism", "frosted_prism", "spectral_fog", "prism_beam"};
 }
-/// Those without media, as waves require, and one of many lights.
+/// Those without media, as BidirectionalWave requires, and one of many lights.
 inline std::vector<std::string> clear_scene_names() {
   std::vector<std::string> names = scene_names();
   const auto is_left_out = [](const std::string& name) {
@@ -69,14 +69,6 @@ inline std::vector<std::string> clear_scene_names() {
   };
   names.erase(std::remove_if(names.begin(), names.end(), is_left_out), names.end());
   names.push_back("lamps");
-  return names;
-}
-
-/// Those in which no surface lets light pass either, as WalkWave requires.
-inline std::vector<std::string> wave_scene_names() {
-  std::vector<std::string> names = clear_scene_names();
-  for (const char* passed : {"null_surface", "windows", "materials"})
-    names.erase(std::find(names.begin(), names.end(), passed));
   return names;
 }
 

@@ -8,6 +8,30 @@ namespace {
 /// Polar angle against the y axis over pi, exact near the poles too.
 double polar_share(const Vec3& d) { return 2 * signed_turns(d.y, std::sqrt(sqr(d.x) + sqr(d.z))); }
 
+/// The direction with this cosine of the polar angle and this azimuth in turns.
+Vec3 direction_of(double cos_theta, double turns) {
+  const double sin_theta = safe_sqrt((1 - cos_theta) * (1 + cos_theta));
+  const SinCos phi = sincos_turns(turns);
+  return {sin_theta * phi.sin, cos_theta, -sin_theta * phi.cos};
+}
+
+/// Directions by their azimuths and y, in loops that the compiler vectorises.
+template <int most>
+struct Directions {
+  double turns[most], x[most], y[most], z[most];
+  double polar[most];  ///< See polar_share().
+
+  Vec3 operator[](int i) const { return {x[i], y[i], z[i]}; }
+  [[gnu::flatten]] void find(int count) {
+    for (int i = 0; i < count; ++i) {
+      const Vec3 d = direction_of(y[i], turns[i]);
+      x[i] = d.x;
+      z[i] = d.z;
+      polar[i] = polar_share(d);
+    }
+  }
+};
+
 }  // namespace
 
 EnvironmentMap::EnvironmentMap(Image image, const Frame& axes, double scale)
@@ -22,18 +46,23 @@ EnvironmentMap::EnvironmentMap(Image image, const Frame& axes, double scale)
 
 Spectrum EnvironmentMap::eval(const SurfacePoint& x0, const Vec3&) const {
   const Vec3 d = axes_.to_local(x0.p);
-  const double x = column_at(d) * width_;
-  const double y = polar_share(d) * cell_rows();
-  const int i = std::min(static_cast<int>(x), width_ - 1);
-  const int j = std::min(static_cast<int>(y), cell_rows() - 1);
-  const double a = x - i, b = y - j;
-  const Color rgb = scale_ * ((1 - b) * ((1 - a) * texel(i, j) + a * texel(i + 1, j)) +
-                              b * ((1 - a) * texel(i, j + 1) + a * texel(i + 1, j + 1)));
+  const Color rgb = radiance_at(column_at(d), polar_share(d));
   return spectrum_of(rgb, RgbMeaning::light, x0.wavelength);
 }
 
+Color EnvironmentMap::radiance_at(double column, double polar_share) const {
+  const double x = column * width_, y = polar_share * cell_rows();
+  const int i = std::min(static_cast<int>(x), width_ - 1);
+  const int j = std::min(static_cast<int>(y), cell_rows() - 1);
+  const double a = x - i, b = y - j;
+  return scale_ * ((1 - b) * ((1 - a) * texel(i, j) + a * texel(i + 1, j)) +
+                   b * ((1 - a) * texel(i, j + 1) + a * texel(i + 1, j + 1)));
+}
+
 PositionSample EnvironmentMap::sample_position(const Vec2& u, double) const {
-  return position_of(table_.sample(u));
+  const Piecewise2D::Sample sample = table_.sample(u);
+  const Vec3 d = direction_of(cosine_at(sample.at.y), sample.at.x + 0.5 / width_);
+  return {point_towards(axes_.to_world(d)), pdf_of(sample)};
 }
 
 void EnvironmentMap::sample_positions(const PositionRequest* requests, int count) const {
@@ -44,16 +73,24 @@ void EnvironmentMap::sample_positions(const PositionRequest* requests, int count
     Piecewise2D::Sample samples[most];
     for (int i = 0; i < together; ++i) u[i] = requests[i].u;
     table_.sample(u, together, samples);
-    for (int i = 0; i < together; ++i) *requests[i].sample = position_of(samples[i]);
+    Directions<most> towards;
+    for (int i = 0; i < together; ++i) {
+      const Vec2& at = samples[i].at;
+      towards.turns[i] = at.x + 0.5 / width_;
+      towards.y[i] = cosine_at(at.y);
+      const float* corner = texel_data(static_cast<int>(at.x * width_), row_at(at.y));
+      __builtin_prefetch(corner);
+      __builtin_prefetch(corner + size_t(width_) * size_t(channels_));
+    }
+    towards.find(together);
+    for (int i = 0; i < together; ++i) {
+      const auto& [u_of, wavelength, sample, radiance] = requests[i];
+      *sample = {point_towards(axes_.to_world(towards[i])), pdf_of(samples[i])};
+      sample->at.wavelength = wavelength;
+      *radiance = spectrum_of(radiance_at(samples[i].at.x, towards.polar[i]), RgbMeaning::light,
+                              wavelength);
+    }
   }
-}
-
-PositionSample EnvironmentMap::position_of(const Piecewise2D::Sample& sample) const {
-  // prefetches its radiance
-  const int i = static_cast<int>(sample.at.x * width_), j = row_at(sample.at.y);
-  __builtin_prefetch(texel_data(i, j));
-  __builtin_prefetch(texel_data(i, j + 1));
-  return {point_towards(axes_.to_world(direction_of(sample.at))), pdf_of(sample)};
 }
 
 double EnvironmentMap::pdf_position(const SurfacePoint& x0) const {
@@ -131,14 +168,10 @@ int EnvironmentMap::row_at(double y) const {
   return std::clamp(static_cast<int>(y * cell_rows()), 0, cell_rows() - 1);
 }
 
-Vec3 EnvironmentMap::direction_of(const Vec2& p) const {
-  const int j = row_at(p.y);
-  const double t = p.y * cell_rows() - j;
+double EnvironmentMap::cosine_at(double y) const {
+  const int j = row_at(y);
   const double top = cos_rows_[size_t(j)], bottom = cos_rows_[size_t(j) + 1];
-  const double cos_theta = top + t * (bottom - top);
-  const double sin_theta = safe_sqrt((1 - cos_theta) * (1 + cos_theta));
-  const SinCos phi = sincos_turns(p.x + 0.5 / width_);
-  return {sin_theta * phi.sin, cos_theta, -sin_theta * phi.cos};
+  return top + (y * cell_rows() - j) * (bottom - top);
 }
 
 Vec2 EnvironmentMap::place_of(const Vec3& d) const {

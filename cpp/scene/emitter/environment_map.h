@@ -46,10 +46,10 @@ class EnvironmentMap : public InfiniteEmitter {
   void integrate();
   double cell_solid_angle(int row) const;
   int row_at(double y) const;
-  PositionSample position_of(const Piecewise2D::Sample& sample) const;
+  Color radiance_at(double column, double polar_share) const;
   /// Density in solid angle of a direction, by that of its place in the table.
   double pdf_of(const Piecewise2D::Sample& sample) const;
-  Vec3 direction_of(const Vec2& p) const;
+  double cosine_at(double y) const;
   Vec2 place_of(const Vec3& d) const;
 
   Frame axes_;

@@ -30,8 +30,10 @@ TEST(NumberRows, AreTheSameInWhateverPlace) {
     const SmallStep step{shape, 1. / 32};
     std::vector<double> x(12);
     for (const double u : {0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.75, 1 - 0x1p-53}) x.push_back(u);
+    const std::vector<double> part(x.begin(), x.begin() + 15);
     NumberRows alone, together;
-    for (const std::vector<double>* from : {static_cast<decltype(&x)>(nullptr), &x}) {
+    const std::vector<double>* const sources[] = {nullptr, &part, &x};
+    for (const std::vector<double>* from : sources) {
       alone.begin(12);
       const int a = alone.add(77, from);
       alone.draw(step);
@@ -40,6 +42,11 @@ TEST(NumberRows, AreTheSameInWhateverPlace) {
       const int b = together.add(77, from);
       while (together.size() < NumberRows::capacity) together.add(together.size(), &x);
       together.draw(step);
+      for (size_t k = 0; from && k < from->size() - 12; ++k) {
+        const double distance = std::abs(alone[a][k] - x[12 + k]);
+        if (shape == SmallStep::Shape::kelemen)
+          EXPECT_LE(std::min(distance, 1 - distance), step.size);
+      }
       for (int k = 0; k < NumberRows::row; ++k) {
         EXPECT_EQ(alone[a][k], together[b][k]);
         EXPECT_GE(alone[a][k], 0);
@@ -156,7 +163,7 @@ TEST_P(WalkWaveOf, MakesWhatSingleWalksMake) {
   EXPECT_LE(other_than_alone, all / 200);
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, WalkWaveOf, testing::ValuesIn(wave_scene_names()),
+INSTANTIATE_TEST_SUITE_P(Scenes, WalkWaveOf, testing::ValuesIn(scene_names()),
                          [](const auto& info) { return info.param; });
 
 // ---- one step
