@@ -14,7 +14,7 @@ namespace mlt {
 /// A position on a light, as the end of a path.
 struct LightSample {
   const Emitter* emitter;
-  PositionSample x0;  ///< Its density includes the choice of the light. 0: failed.
+  PositionSample x0;                 ///< Its density includes the choice of the light. 0: failed.
   std::optional<Spectrum> radiance;  ///< At infinity, if it was sampled together with others.
 
   /// The radiance in the direction w.
