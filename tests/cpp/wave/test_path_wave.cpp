@@ -99,6 +99,15 @@ TEST(PathWave, FindsWhatSinglePathsFindWhereTheLastScatteringDisperses) {
   expect_the_same(*make_scene("frosted_pane").scene);
 }
 
+TEST(PathWave, FindsWhatSinglePathsFindOnGlossyMeshes) {
+  const ScenePtr scene = make_scene("glossy_meshes").scene;
+  int glossy = 0;
+  for (uint32_t shape = 0; shape < scene->shapes().size(); ++shape)
+    glossy += scene->lane_mesh(shape).glossy != nullptr;
+  EXPECT_EQ(glossy, 3);
+  expect_the_same(*scene);
+}
+
 TEST(PathWave, TracesAnIncompleteWave) {
   const ScenePtr scene = make_scene(scene_names().front()).scene;
   PathWave wavefront(*scene, {});
