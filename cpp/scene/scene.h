@@ -37,7 +37,8 @@ struct MeshLight {
 struct LaneMesh {
   const Mesh* mesh = nullptr;                     ///< nullptr if this shape is of another kind.
   const LambertianSurface* lambertian = nullptr;  ///< If it is Lambertian everywhere.
-  const Bsdf* glossy = nullptr;                   ///< Else its material, which serves lanes.
+  /// Else its material: it serves lanes, and its normal is that of the mesh.
+  const Bsdf* glossy = nullptr;
   bool emits = false;
 };
 

@@ -137,10 +137,19 @@ struct LambertianVertices {
     const ToLight to = to_light(i);
     return light_weight[i] * to.pdf / cosine(i, to.w);
   }
-  /// The direction of the point on an emissive mesh.
-  Vec3f light_direction(int i) const { return to_light(i).w; }
-  /// Its density in solid angle.
-  float light_solid_pdf(int i) const { return to_light(i).pdf; }
+  /// From the i-th vertex to its point on a light.
+  struct ToLight {
+    Vec3f between, w;
+    float cosine;  ///< At the light.
+    float pdf;     ///< Density of w in solid angle.
+  };
+  ToLight to_light(int i) const {
+    const Vec3f between = light.position(i) - p[i];
+    const float distance2 = dot(between, between);
+    const Vec3f w = between * (1 / std::sqrt(distance2));
+    const float cosine = -dot(w, light.ng[i]);
+    return {between, w, cosine, light_pdf[i] * distance2 / cosine};
+  }
   /// Whether light from the direction wl is scattered to the camera.
   bool is_lit_from(int i, const Vec3f& wl, bool strict_normals) const {
     const float cos_l = dot(wl, n[i]), cos_c = dot(wc_[i], n[i]);
@@ -163,19 +172,6 @@ struct LambertianVertices {
   float cosine(int i, const Vec3f& w) const { return std::fabs(dot(w, n[i])); }
 
  private:
-  /// From the i-th vertex to its point on a light.
-  struct ToLight {
-    Vec3f between, w;
-    float cosine;  ///< At the light.
-    float pdf;     ///< Density of w in solid angle.
-  };
-  ToLight to_light(int i) const {
-    const Vec3f between = light.position(i) - p[i];
-    const float distance2 = dot(between, between);
-    const Vec3f w = between * (1 / std::sqrt(distance2));
-    const float cosine = -dot(w, light.ng[i]);
-    return {between, w, cosine, light_pdf[i] * distance2 / cosine};
-  }
   /// |cos| mis / pdf of next-event estimation with this density in solid angle; scattered
   /// directions have |cos| / pi.
   static float direct_weight(float cosine, float pdf, const MisExponent& mis) {

@@ -16,8 +16,8 @@ Vec3 direction_of(double cos_theta, double turns) {
 }
 
 /// Directions by their azimuths and y, in loops that the compiler vectorises.
-template <int most>
 struct Directions {
+  static constexpr int most = Piecewise2D::most_together;
   double turns[most], x[most], y[most], z[most];
   double polar[most];  ///< See polar_share().
 
@@ -66,14 +66,14 @@ PositionSample EnvironmentMap::sample_position(const Vec2& u, double) const {
 }
 
 void EnvironmentMap::sample_positions(const PositionRequest* requests, int count) const {
-  constexpr int most = Piecewise2D::most_together;
+  constexpr int most = Directions::most;
   for (; count > 0; requests += most, count -= most) {
     const int together = std::min(count, most);
     Vec2 u[most];
     Piecewise2D::Sample samples[most];
     for (int i = 0; i < together; ++i) u[i] = requests[i].u;
     table_.sample(u, together, samples);
-    Directions<most> towards;
+    Directions towards;
     for (int i = 0; i < together; ++i) {
       const Vec2& at = samples[i].at;
       towards.turns[i] = at.x + 0.5 / width_;
@@ -84,11 +84,11 @@ void EnvironmentMap::sample_positions(const PositionRequest* requests, int count
     }
     towards.find(together);
     for (int i = 0; i < together; ++i) {
-      const auto& [u_of, wavelength, sample, radiance] = requests[i];
-      *sample = {point_towards(axes_.to_world(towards[i])), pdf_of(samples[i])};
-      sample->at.wavelength = wavelength;
-      *radiance = spectrum_of(radiance_at(samples[i].at.x, towards.polar[i]), RgbMeaning::light,
-                              wavelength);
+      const PositionRequest& request = requests[i];
+      const Color rgb = radiance_at(samples[i].at.x, towards.polar[i]);
+      *request.sample = {point_towards(axes_.to_world(towards[i])), pdf_of(samples[i])};
+      request.sample->at.wavelength = request.wavelength;
+      *request.radiance = spectrum_of(rgb, RgbMeaning::light, request.wavelength);
     }
   }
 }
