@@ -1,10 +1,11 @@
-"""Time to equal error: `path` against Mitsuba 3 (scalar and llvm_ad) on the Cornell box, in RGB or
-with wavelengths (`--spectral`).
+"""Time to equal error: `path` against Mitsuba 3 (scalar and llvm_ad) on scene files, by default the
+Cornell box, in RGB or with wavelengths (`--spectral`).
 
 Each renderer runs on one thread in a process of its own, in turn with the others; the first round
 (which compiles LLVM's kernels) is not counted. The error of an image is the variance that the
-rounds show, relative as in relMSE: mean of var / (r^2 + 0.01), with r the mean of all images. No
-renderer's image is the reference of another, and the means are compared as a check of bias.
+rounds show, relative as in relMSE: mean of var / (r^2 + 0.01), with r the mean of all images;
+*trimmed* leaves out the worst .1 % of the pixels. No renderer's image is the reference of another,
+and the means are compared as a check of bias.
 
 error x time does not depend on the number of samples, as long as samples are independent; its
 quotient is the time to equal error. Stratified samples do better the more there are: ours are
@@ -21,9 +22,13 @@ from pathlib import Path
 from statistics import median
 
 import numpy as np
-from common import parser, print_table, say, write_results
+from common import REPOSITORY, parser, print_table, say, write_results
 from peers import MissingError, Worker
 
+from pymlt.diagnostics.metrics import trimmed_mean
+
+CORNELL_BOX = REPOSITORY / "scenes" / "cornell-box" / "scene.xml"
+KINDS = ["scalar", "llvm_ad"]
 PEERS = [
     ("scalar", "independent"),
     ("scalar", "multijitter"),
@@ -50,11 +55,13 @@ def _version(path: Path) -> int:
     return int(digits[0]) if digits else 0
 
 
-def start_workers(args) -> dict[str, Worker]:
-    scene = (str(args.size), str(args.max_depth))
+def start_workers(path: Path, args) -> dict[str, Worker]:
+    scene = (str(path), *map(str, args.size), str(args.max_depth))
     colours = "spectral" if args.spectral else "rgb"
     workers = {"pymlt": Worker(sys.executable, "worker_pymlt.py", *scene, colours)}
     for kind, sampler in PEERS:
+        if kind not in args.kinds:
+            continue
         variant = f"{kind}_{colours}"
         name = f"Mitsuba {variant}" + (", multijitter" if sampler == "multijitter" else "")
         try:
@@ -72,7 +79,7 @@ def start_workers(args) -> dict[str, Worker]:
     return workers
 
 
-def measure(workers: dict[str, Worker], args) -> list[dict]:
+def measure(path: Path, workers: dict[str, Worker], args) -> list[dict]:
     seconds = {name: [] for name in workers}
     images = {name: [] for name in workers}
     with tempfile.TemporaryDirectory() as folder:
@@ -85,43 +92,55 @@ def measure(workers: dict[str, Worker], args) -> list[dict]:
                 seconds[name].append(answer["seconds"])
                 images[name].append(np.load(output).astype(np.float64))
     mean = np.mean([image for own in images.values() for image in own], axis=0)
-    samples = args.size**2 * args.spp
+    samples = args.size[0] * args.size[1] * args.spp
     rows = []
     for name in workers:
-        error = np.mean(np.var(images[name], axis=0, ddof=1) / (mean**2 + 0.01))
+        by_pixel = np.var(images[name], axis=0, ddof=1) / (mean**2 + 0.01)
+        error, trimmed = float(np.mean(by_pixel)), trimmed_mean(by_pixel)
         time = median(seconds[name])
         rows.append(
             {
+                "scene": path.parent.name if path.stem == "scene" else path.stem,
                 "renderer": name,
                 "Msamples/s": samples / time / 1e6,
-                "relMSE": float(error),
-                "relMSE x s": float(error * time),
-                "time to equal error": float(error * time),
+                "relMSE": error,
+                "relMSE x s": error * time,
+                "time to equal error": error * time,
+                "trimmed": trimmed * time,
                 "mean / all": float(np.mean(images[name]) / mean.mean()),
             }
         )
-    ours = rows[0]["relMSE x s"]
+    ours = dict(rows[0])
     for row in rows:
-        row["time to equal error"] /= ours
+        for column in ("time to equal error", "trimmed"):
+            row[column] /= ours[column]
     return rows
+
+
+def race(path: Path, args) -> list[dict]:
+    workers = start_workers(path, args)
+    try:
+        return measure(path, workers, args)
+    finally:
+        for worker in workers.values():
+            worker.close()
 
 
 def main() -> None:
     options = parser(__doc__)
+    options.add_argument("scenes", metavar="SCENE.xml", nargs="*", type=Path, default=[CORNELL_BOX])
     options.add_argument("--mitsuba-python", default=sys.executable, help="one that has mitsuba")
-    options.add_argument("--size", type=int, default=512)
+    options.add_argument("--kinds", nargs="+", choices=KINDS, default=KINDS)
+    options.add_argument("--size", type=int, nargs=2, default=[512, 512], help="width and height")
     options.add_argument("--max-depth", type=int, default=8)
     options.add_argument("--spp", type=int, default=64)
     options.add_argument("--rounds", type=int, default=5)
     options.add_argument("--spectral", action="store_true", help="light has wavelengths")
     args = options.parse_args()
 
-    workers = start_workers(args)
-    try:
-        rows = measure(workers, args)
-    finally:
-        for worker in workers.values():
-            worker.close()
+    rows = []
+    for path in args.scenes:
+        rows += race(path.resolve(), args)
     print_table(rows)
     settings = {
         key: getattr(args, key) for key in ("size", "max_depth", "spp", "rounds", "spectral")

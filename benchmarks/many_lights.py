@@ -4,17 +4,20 @@ The lamps are small rectangles below the ceiling that face anywhere, of differen
 together as bright whatever their number; six boxes of rough plastic stand on the floor. With
 --one-mesh all lamps are triangles of one mesh, so that they have one radiance. The error
 is the variance between seeds, relative as in relMSE: mean of var / (r^2 + 0.001), with r the mean
-of all images. To compare two builds, run it with each.
+of all images. To compare two builds, run it with each. `--write FOLDER` writes the scenes as files,
+for equal_time.py.
 """
 
 from __future__ import annotations
 
 import random
+from pathlib import Path
 
 import numpy as np
 from common import parser, print_table, write_results
 
 import pymlt as mlt
+from pymlt.formats.xml_writer import to_xml
 from pymlt.race.cpu_time import render_for
 
 INTEGRATORS = {"path": mlt.Path, "bdpt": mlt.BDPT, "mlt": mlt.MLT}
@@ -94,6 +97,13 @@ def measure(scene, integrator, args) -> tuple[float, float]:
     return float(error), float(np.mean(spp))
 
 
+def write(args) -> None:
+    args.write.mkdir(parents=True, exist_ok=True)
+    for lamps in args.lamps:
+        text = to_xml(hall(lamps, one_mesh=args.one_mesh), args.write)
+        (args.write / f"hall-{lamps}.xml").write_text(text)
+
+
 def main() -> None:
     options = parser(__doc__)
     options.add_argument("--lamps", type=int, nargs="+", default=[1, 5, 30, 1000, 100_000])
@@ -101,7 +111,11 @@ def main() -> None:
     options.add_argument("--seconds", type=float, default=5)
     options.add_argument("--seeds", type=int, default=4)
     options.add_argument("--one-mesh", action="store_true", help="of which all lamps are a part")
+    options.add_argument("--write", metavar="FOLDER", type=Path, help="and do not measure")
     args = options.parse_args()
+    if args.write:
+        write(args)
+        return
     rows = []
     for lamps in args.lamps:
         scene = mlt.load_dict(hall(lamps, one_mesh=args.one_mesh))

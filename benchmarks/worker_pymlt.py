@@ -1,4 +1,4 @@
-"""pymlt's `path` on its Cornell box, as a worker of equal_time.py."""
+"""pymlt's `path` on a scene file, as a worker of equal_time.py."""
 
 from __future__ import annotations
 
@@ -11,10 +11,8 @@ from peers import serve
 import pymlt as mlt
 
 
-def main(size: int, max_depth: int, colours: str) -> None:
-    description = mlt.scenes.cornell_box()
-    description["sensor"]["film"]["rfilter"] = {"type": "box"}
-    scene = mlt.load_dict(description, size=(size, size))
+def main(path: str, width: int, height: int, max_depth: int, colours: str) -> None:
+    scene = mlt.load_file(path, size=(width, height), filter="box", lenient=True)
     if colours == "spectral":
         scene = scene.with_wavelengths()
 
@@ -30,4 +28,4 @@ def main(size: int, max_depth: int, colours: str) -> None:
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]), int(sys.argv[2]), sys.argv[3])
+    main(sys.argv[1], *map(int, sys.argv[2:5]), sys.argv[5])

@@ -57,6 +57,23 @@ void scrambled_sobol(const uint32_t* indices, const uint64_t* seeds, double* x, 
   }
 }
 
+/// The first coordinates of such points.
+template <int count>
+void scrambled_radical_inverse(const uint32_t* indices, const uint64_t* seeds, double* x) {
+  for (int i = 0; i < count; ++i) {
+    const auto low = static_cast<uint32_t>(seeds[i]);
+    const uint32_t key = mix_bits_32(mix_bits_32(low) ^ static_cast<uint32_t>(seeds[i] >> 32));
+    const uint32_t shuffled = reverse_bits(scramble_reversed(reverse_bits(indices[i]), key));
+    x[i] = reverse_bits(scramble_reversed(shuffled, mix_bits_32(key + low))) * 0x1p-32;
+  }
+}
+
+inline double scrambled_radical_inverse(uint32_t index, uint64_t seed) {
+  double x;
+  scrambled_radical_inverse<1>(&index, &seed, &x);
+  return x;
+}
+
 inline Vec2 scrambled_sobol(uint32_t index, uint64_t seed) {
   Vec2 point;
   scrambled_sobol<1>(&index, &seed, &point.x, &point.y);

@@ -28,27 +28,33 @@ class RandomSampler {
   Rng* rng_;
 };
 
-/// The samples of one pixel: the first pairs of numbers are stratified over the pixel's samples,
-/// the others are independent. Each is computed directly from its position.
+/// The samples of one pixel: the first numbers and the first pairs are stratified over the pixel's
+/// samples, the others are independent. Each is computed directly from its position.
 class PixelSampler {
  public:
   /// Stratified pairs: image position, lens, and the light and direction of the first vertices.
   static constexpr uint32_t stratified_pairs = 6;
+  /// Stratified numbers: time, wavelength, and those of the first vertices: choice of a light, of a
+  /// lobe, roulette.
+  static constexpr uint32_t stratified_singles = 8;
+  static constexpr uint32_t lanes = 8;  ///< Enough for the stratified pairs of all streams.
   struct Position {
-    uint32_t pairs = 0;  ///< Stratified pairs that have been taken.
-    uint32_t words = 0;  ///< Independent numbers that have been taken.
-    uint32_t last_pair = stratified_pairs;
+    uint32_t pairs = 0;    ///< Stratified pairs that have been taken.
+    uint32_t singles = 0;  ///< Stratified numbers that have been taken.
+    uint32_t words = 0;    ///< Independent numbers that have been taken.
+    uint32_t last_pair = stratified_pairs, last_single = stratified_singles;
 
-    bool stratified() const { return pairs < last_pair; }
+    bool stratified_pair() const { return pairs < last_pair; }
+    bool stratified_single() const { return singles < last_single; }
     /// The places of the next numbers, as if it were a sampler.
     Position next() {
       const Position at = *this;
-      ++words;
+      ++(stratified_single() ? singles : words);
       return at;
     }
     Position next2() {
       const Position at = *this;
-      if (stratified())
+      if (stratified_pair())
         ++pairs;
       else
         words += 2;
@@ -62,10 +68,10 @@ class PixelSampler {
       constexpr uint32_t words_of_stream = 1 << 20;  // a walk has most_edges() vertices at most
       switch (stream) {
         case Stream::camera: break;
-        case Stream::light: return {4, words_of_stream, 6};
-        case Stream::direct: return {6, 2 * words_of_stream, 8};
+        case Stream::light: return {4, 8, words_of_stream, 6, 12};
+        case Stream::direct: return {6, 12, 2 * words_of_stream, 8, 14};
       }
-      return {pairs, words, 4};
+      return {pairs, singles, words, 4, 8};
     }
   };
 
@@ -82,11 +88,22 @@ class PixelSampler {
   }
 
   void begin(Stream stream) { at_ = at_.begin(stream); }
-  double next() { return word(at_.next().words); }
+  double next() {
+    const Position at = at_.next();
+    return at.stratified_single() ? single(stream_, index_, at) : word(at.words);
+  }
   Vec2 next2() {
     const Position at = at_.next2();
-    if (at.stratified()) return {x_[at.pairs], y_[at.pairs]};
+    if (at.stratified_pair()) return {x_[at.pairs], y_[at.pairs]};
     return {word(at.words), word(at.words + 1)};
+  }
+
+  /// The sequence of a stratified number; it comes after those of all pairs.
+  static uint64_t seed_of_single(uint64_t stream, const Position& at) {
+    return stream + lanes + at.singles;
+  }
+  static double single(uint64_t stream, uint32_t index, const Position& at) {
+    return scrambled_radical_inverse(index, seed_of_single(stream, at));
   }
 
   uint64_t stream() const { return stream_; }
@@ -99,8 +116,6 @@ class PixelSampler {
 
  private:
   double word(uint64_t n) const { return unit_interval(nth_bits(key_, n)); }
-
-  static constexpr uint32_t lanes = 8;  ///< Enough for the stratified pairs of all streams.
 
   uint64_t stream_, key_;
   uint32_t index_;

@@ -39,6 +39,9 @@ class DrawnNumbers {
   void begin_vertex(const Place& at, int begin, int count, bool leg_alone) {
     source_->draw(&path_[begin], count, at.index, leg_alone, &numbers_[begin]);
   }
+  void read(const Place& at, int begin, int count, double* x) const {
+    for (int i = 0; i < count; ++i) x[i] = read(at, begin + i);
+  }
   void read2(const Place& at, int begin, int count, double* x, double* y) const {
     for (int i = 0; i < count; ++i) {
       x[i] = numbers_[begin + i][at.index];

@@ -69,11 +69,13 @@ void BasicPathWave<Numbers>::shade_block(int depth, RayCounts& rays) {
   take_step(depth, rays);
 }
 
-/// Reads the pairs of numbers of a vertex.
+/// Reads the numbers of a vertex but those of some vertices.
 template <class Numbers>
 void BasicPathWave<Numbers>::read_numbers(int depth) {
-  if (rules_.wants(depth + 1))
+  if (rules_.wants(depth + 1)) {
     numbers_.read2(at_.light, begin_, count_, &u_light_x_[0], &u_light_y_[0]);
+    if (scene_->emitters().size() > 1) numbers_.read(at_.choice, begin_, count_, &u_choice_[0]);
+  }
   numbers_.read2(at_.direction, begin_, count_, &lambertian_.u_x[0], &lambertian_.u_y[0]);
 }
 
@@ -160,10 +162,7 @@ bool BasicPathWave<Numbers>::scatter_glossy(int i, int depth, WaveWalk& walk) {
 /// See go_on() of path_tracer.h.
 template <class Numbers>
 bool BasicPathWave<Numbers>::leave_mesh(int i, int depth, double pdf, WaveWalk& walk) {
-  if (!(pdf > 0) || vanishes(walk.throughput)) return false;
-  if (depth >= rules_.rr_depth &&
-      !survive(rules_, depth, numbers_.read(at_.roulette, begin_ + i), walk))
-    return false;
+  if (!(pdf > 0) || !survive(rules_, depth, roulette(i, depth), walk)) return false;
   walk.scatter_pdf = pdf;
   walk.delta = false;
   walk.certainty = 0;
@@ -173,8 +172,10 @@ bool BasicPathWave<Numbers>::leave_mesh(int i, int depth, double pdf, WaveWalk& 
 
 template <class Numbers>
 void BasicPathWave<Numbers>::scatter_in_lanes() {
+  if (glossy_.begin() == glossy_.end() && singles_.begin() == singles_.end()) return;
+  numbers_.read(at_.lobe, begin_, count_, &u_lobe_[0]);
   const auto numbers = [&](int i) {
-    return Vec3(numbers_.read(at_.lobe, begin_ + i), lambertian_.u_x[i], lambertian_.u_y[i]);
+    return Vec3(u_lobe_[i], lambertian_.u_x[i], lambertian_.u_y[i]);
   };
   for (GlossyVertex& vertex : glossy_) vertex.u_scatter = numbers(vertex.path);
   glossy_.scatter();
@@ -191,8 +192,7 @@ bool BasicPathWave<Numbers>::scatter_other(int i, int depth, WaveWalk& walk, Ray
   const auto sample = single.in_lanes ? single.scattered
                                       : scatter_to_light(walker, single.at, single.wc,
                                                          single.u_scatter, rules_.strict_normals);
-  return sample && go_on(walker, rules_, depth, single.at, *sample,
-                         numbers_.read(at_.roulette, begin_ + i), walk);
+  return sample && go_on(walker, rules_, depth, single.at, *sample, roulette(i, depth), walk);
 }
 
 template class BasicPathWave<WaveNumbers>;

@@ -133,6 +133,10 @@ class BasicPathWave {
   bool scatter_lambertian(int i, int depth, WaveWalk& walk);
   bool scatter_glossy(int i, int depth, WaveWalk& walk);
   bool leave_mesh(int i, int depth, double pdf, WaveWalk& walk);
+  /// The number for Russian roulette, if that may end a walk.
+  double roulette(int i, int depth) const {
+    return depth < rules_.rr_depth ? 0 : numbers_.read(at_.roulette, begin_ + i);
+  }
   void scatter_in_lanes();
   bool scatter_other(int i, int depth, WaveWalk& walk, RayCounts& rays);
 
@@ -162,7 +166,7 @@ class BasicPathWave {
 
   // Values of each path of the block:
   int begin_ = 0, count_ = 0;
-  Block<double> u_light_x_, u_light_y_;
+  Block<double> u_light_x_, u_light_y_, u_choice_, u_lobe_;
   LambertianVertices lambertian_;
   GlossyVertices glossy_;
   SingleVertices singles_;

@@ -379,7 +379,7 @@ void SubpathWave::scatter_other(int i, int place, RayCounts& rays) {
   const Walker walker{*scene_, time_[sample_[k]], rays};
   const StepNumbers u{{lambertian_.u_x[i], lambertian_.u_y[i]},
                       numbers_.read(at_.lobe, k),
-                      numbers_.read(at_.roulette, k)};
+                      place < rules_.rr_depth ? 0 : numbers_.read(at_.roulette, k)};
   const auto from = from_light_ ? Subpath::From::light : Subpath::From::camera;
   const auto back = scatter(walker, rules_, from, u, place, x);
   if (!back) return;

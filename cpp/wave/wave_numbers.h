@@ -31,7 +31,10 @@ class WaveNumbers {
   void read(const Place& at, int begin, int count, double* x) const;
   void read2(const Place& at, int begin, int count, double* x, double* y) const;
   /// The number at a place of the i-th sample.
-  double read(const Place& at, int i) const { return word(i, at.words); }
+  double read(const Place& at, int i) const {
+    return at.stratified_single() ? PixelSampler::single(stream_[i], index_[i], at)
+                                  : word(i, at.words);
+  }
 
   /// Moves the sample at `from` to the i-th place.
   void move(int i, int from) {
@@ -41,6 +44,7 @@ class WaveNumbers {
   }
 
  private:
+  void read_words(uint64_t n, int begin, int count, double* x) const;
   double word(int i, uint64_t n) const { return unit_interval(nth_bits(key_[i], n)); }
 
   int count_ = 0;

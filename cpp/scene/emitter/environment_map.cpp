@@ -60,7 +60,7 @@ Color EnvironmentMap::radiance_at(double column, double polar_share) const {
 }
 
 PositionSample EnvironmentMap::sample_position(const Vec2& u, double) const {
-  const Piecewise2D::Sample sample = table_.sample(u);
+  const Piecewise2D::Sample sample = in_patch(table_.sample(u));
   const Vec3 d = direction_of(cosine_at(sample.at.y), sample.at.x + 0.5 / width_);
   return {point_towards(axes_.to_world(d)), pdf_of(sample)};
 }
@@ -73,14 +73,17 @@ void EnvironmentMap::sample_positions(const PositionRequest* requests, int count
     Piecewise2D::Sample samples[most];
     for (int i = 0; i < together; ++i) u[i] = requests[i].u;
     table_.sample(u, together, samples);
-    Directions towards;
     for (int i = 0; i < together; ++i) {
       const Vec2& at = samples[i].at;
-      towards.turns[i] = at.x + 0.5 / width_;
-      towards.y[i] = cosine_at(at.y);
       const float* corner = texel_data(static_cast<int>(at.x * width_), row_at(at.y));
       __builtin_prefetch(corner);
       __builtin_prefetch(corner + size_t(width_) * size_t(channels_));
+    }
+    Directions towards;
+    for (int i = 0; i < together; ++i) {
+      samples[i] = in_patch(samples[i]);
+      towards.turns[i] = samples[i].at.x + 0.5 / width_;
+      towards.y[i] = cosine_at(samples[i].at.y);
     }
     towards.find(together);
     for (int i = 0; i < together; ++i) {
@@ -95,7 +98,31 @@ void EnvironmentMap::sample_positions(const PositionRequest* requests, int count
 
 double EnvironmentMap::pdf_position(const SurfacePoint& x0) const {
   const Vec2 place = place_of(axes_.to_local(x0.p));
-  return pdf_of({place, table_.pdf(place)});
+  const Cell cell = this->cell(place);
+  return pdf_of({place, table_.pdf(place) * cell.patch.density(cell.within)});
+}
+
+/// The cell of a place in the table.
+EnvironmentMap::Cell EnvironmentMap::cell(const Vec2& place) const {
+  const int i = std::min(static_cast<int>(place.x * width_), width_ - 1), j = row_at(place.y);
+  Cell cell{{i, j},
+            {place.x * width_ - i, place.y * cell_rows() - j},
+            {luminance(texel(i, j)), luminance(texel(i + 1, j)), luminance(texel(i, j + 1)),
+             luminance(texel(i + 1, j + 1))}};
+  const BilinearPatch& v = cell.patch;
+  if (!(v.v00 + v.v10 + v.v01 + v.v11 > 0)) cell.patch = {1, 1, 1, 1};
+  return cell;
+}
+
+Vec2 EnvironmentMap::place_in(const Cell& cell, const Vec2& within) const {
+  return (Vec2(cell.at) + within) / Vec2(width_, cell_rows());
+}
+
+/// A sample of the cells moved to one of the interpolated radiance.
+Piecewise2D::Sample EnvironmentMap::in_patch(const Piecewise2D::Sample& sample) const {
+  const Cell cell = this->cell(sample.at);
+  const Vec2 within = cell.patch.sample(cell.within);
+  return {place_in(cell, within), sample.pdf * cell.patch.density(within)};
 }
 
 double EnvironmentMap::pdf_of(const Piecewise2D::Sample& sample) const {
@@ -104,7 +131,8 @@ double EnvironmentMap::pdf_of(const Piecewise2D::Sample& sample) const {
 }
 
 Vec2 EnvironmentMap::invert_position(const SurfacePoint& x0) const {
-  return table_.invert(place_of(axes_.to_local(x0.p)));
+  const Cell cell = this->cell(place_of(axes_.to_local(x0.p)));
+  return table_.invert(place_in(cell, cell.patch.invert(cell.within)));
 }
 
 const float* EnvironmentMap::texel_data(int i, int j) const {

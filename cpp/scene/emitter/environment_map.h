@@ -8,15 +8,18 @@
 // v = j / (height - 1), so that the first and the last row are the poles; between them values are
 // interpolated bilinearly.
 //
-// Directions are drawn with a density that is constant in solid angle over each cell between four
-// texels, proportional to their mean luminance times the cell's solid angle. It is positive
-// wherever the interpolated radiance is. (Pharr et al., PBRT 3rd ed., sec. 14.2.4, tabulate
-// sin theta at texel centres instead; drawing cos theta uniformly within a row needs no such
-// approximation and keeps the density finite at the poles.)
+// Directions are drawn by choosing a cell between four texels, proportional to their mean luminance
+// times the cell's solid angle, and a place in it by their bilinear interpolation in phi and
+// cos theta. The density in solid angle is that of the interpolated luminance but for the bend of
+// cos theta within a row: it is positive wherever the radiance is, and finite at the poles. (Pharr
+// et al., PBRT 3rd ed., sec. 14.2.4, draw from cells of constant density, with sin theta at texel
+// centres: next to a lamp of a few texels, radiance over density is then noise that no
+// stratification removes.)
 #pragma once
 
 #include "base/shared_array.h"
 #include "image/image.h"
+#include "math/bilinear_patch.h"
 #include "math/distribution.h"
 #include "scene/emitter/infinite.h"
 
@@ -47,6 +50,14 @@ class EnvironmentMap : public InfiniteEmitter {
   double cell_solid_angle(int row) const;
   int row_at(double y) const;
   Color radiance_at(double column, double polar_share) const;
+  struct Cell {
+    Vec2i at;             ///< Column and row.
+    Vec2 within;          ///< A place in it, in [0, 1]^2.
+    BilinearPatch patch;  ///< The luminance of its texels.
+  };
+  Cell cell(const Vec2& place) const;
+  Vec2 place_in(const Cell& cell, const Vec2& within) const;
+  Piecewise2D::Sample in_patch(const Piecewise2D::Sample& sample) const;
   /// Density in solid angle of a direction, by that of its place in the table.
   double pdf_of(const Piecewise2D::Sample& sample) const;
   double cosine_at(double y) const;

@@ -63,6 +63,15 @@ TEST(ScrambledSobol, LiesInTheUnitSquare) {
   }
 }
 
+TEST(ScrambledRadicalInverse, IsTheFirstCoordinate) {
+  Rng rng(7, Purpose::test, 0);
+  for (int i = 0; i < 1000; ++i) {
+    const auto index = static_cast<uint32_t>(rng.next_bits());
+    const uint64_t seed = rng.next_bits();
+    ASSERT_EQ(scrambled_radical_inverse(index, seed), scrambled_sobol(index, seed).x);
+  }
+}
+
 TEST(ReverseBits, IsAnInvolution) {
   EXPECT_EQ(reverse_bits(1), 0x80000000u);
   EXPECT_EQ(reverse_bits(0x0000000du), 0xb0000000u);

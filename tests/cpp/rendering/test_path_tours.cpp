@@ -24,14 +24,16 @@ struct TourCase {
   double steps_per_sample;
   double tour_length = 0;  ///< 0: they die in proportion to P / T.
   bool manifolds = false;  ///< Whether samples join lights across chains.
+  uint64_t steps = 20000;  ///< In each group.
 };
 
 class PathToursOf : public testing::TestWithParam<TourCase> {};
+class LongPathToursOf : public PathToursOf {};
 
 /// The means over groups of what tours have recorded times kappa0, and of w2 L* / p, differ by
 /// chance alone, and by a few per cent of the brightness at the most.
-TEST_P(PathToursOf, HaveTheBrightnessOfTheirSamples) {
-  const auto [name, rr_depth, steps_per_sample, tour_length, manifolds] = GetParam();
+void expect_brightness_of_samples(const TourCase& tour) {
+  const auto& [name, rr_depth, steps_per_sample, tour_length, manifolds, steps] = tour;
   PathRules rules;
   rules.max_depth = 8;
   rules.rr_depth = rr_depth;
@@ -40,7 +42,6 @@ TEST_P(PathToursOf, HaveTheBrightnessOfTheirSamples) {
   const PathMixture mixture(all_mutations(target),
                             std::make_shared<MixtureWeights>(default_weights()));
   constexpr int groups = 16;
-  constexpr uint64_t steps = 20000;
   constexpr double b = 0.3;  // Any number is right.
   const FamilyWeights weights(0.1);
   const double kappa0 = b / steps_per_sample;
@@ -61,6 +62,18 @@ TEST_P(PathToursOf, HaveTheBrightnessOfTheirSamples) {
   EXPECT_LT(std::sqrt(difference.variance_of_mean()), 0.03 * samples.mean());
 }
 
+TEST_P(PathToursOf, HaveTheBrightnessOfTheirSamples) { expect_brightness_of_samples(GetParam()); }
+TEST_P(LongPathToursOf, HaveTheBrightnessOfTheirSamples) {
+  expect_brightness_of_samples(GetParam());
+}
+
+std::string name_of(const testing::TestParamInfo<TourCase>& info) {
+  return info.param.scene + "_" + std::to_string(info.param.rr_depth) + "_" +
+         std::to_string(static_cast<int>(info.param.steps_per_sample)) +
+         (info.param.tour_length > 0 ? "_constant" : "") +
+         (info.param.manifolds ? "_manifolds" : "");
+}
+
 INSTANTIATE_TEST_SUITE_P(Scenes, PathToursOf,
                          testing::Values(TourCase{"cornell", 100, 10}, TourCase{"cornell", 2, 10},
                                          TourCase{"cornell", 2, 100},
@@ -68,14 +81,10 @@ INSTANTIATE_TEST_SUITE_P(Scenes, PathToursOf,
                                          TourCase{"caustic", 2, 30}, TourCase{"mirrors", 2, 30},
                                          TourCase{"cornell", 2, 10, 20},
                                          TourCase{"caustic", 2, 10, 50},
-                                         TourCase{"sun_caustic", 2, 2, 0, true}),
-                         [](const auto& info) {
-                           return info.param.scene + "_" + std::to_string(info.param.rr_depth) +
-                                  "_" +
-                                  std::to_string(static_cast<int>(info.param.steps_per_sample)) +
-                                  (info.param.tour_length > 0 ? "_constant" : "") +
-                                  (info.param.manifolds ? "_manifolds" : "");
-                         });
+                                         TourCase{"sun_caustic", 2, 10, 50, true}),
+                         name_of);
+INSTANTIATE_TEST_SUITE_P(Scenes, LongPathToursOf,
+                         testing::Values(TourCase{"sun_caustic", 2, 2, 0, true, 120'000}), name_of);
 
 /// Tours of a million steps in the mean, if they were not interrupted.
 class LongTours : public testing::Test {
