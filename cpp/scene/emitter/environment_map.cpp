@@ -54,13 +54,13 @@ Color EnvironmentMap::radiance_at(double column, double polar_share) const {
   const double x = column * width_, y = polar_share * cell_rows();
   const int i = std::min(static_cast<int>(x), width_ - 1);
   const int j = std::min(static_cast<int>(y), cell_rows() - 1);
-  const double a = x - i, b = y - j;
-  return scale_ * ((1 - b) * ((1 - a) * texel(i, j) + a * texel(i + 1, j)) +
-                   b * ((1 - a) * texel(i, j + 1) + a * texel(i + 1, j + 1)));
+  return scale_ * corners(i, j).at({x - i, y - j});
 }
 
 PositionSample EnvironmentMap::sample_position(const Vec2& u, double) const {
-  const Piecewise2D::Sample sample = in_patch(table_.sample(u));
+  Piecewise2D::Sample sample = table_.sample(u);
+  Cell cell = this->cell(sample.at);
+  sample = in_cell(cell, sample);
   const Vec3 d = direction_of(cosine_at(sample.at.y), sample.at.x + 0.5 / width_);
   return {point_towards(axes_.to_world(d)), pdf_of(sample)};
 }
@@ -80,15 +80,18 @@ void EnvironmentMap::sample_positions(const PositionRequest* requests, int count
       __builtin_prefetch(corner + size_t(width_) * size_t(channels_));
     }
     Directions towards;
+    Cell cells[most];
     for (int i = 0; i < together; ++i) {
-      samples[i] = in_patch(samples[i]);
+      cells[i] = cell(samples[i].at);
+      samples[i] = in_cell(cells[i], samples[i]);
       towards.turns[i] = samples[i].at.x + 0.5 / width_;
       towards.y[i] = cosine_at(samples[i].at.y);
     }
     towards.find(together);
     for (int i = 0; i < together; ++i) {
       const PositionRequest& request = requests[i];
-      const Color rgb = radiance_at(samples[i].at.x, towards.polar[i]);
+      const double y = std::clamp(towards.polar[i] * cell_rows() - cells[i].at.y, 0.0, 1.0);
+      const Color rgb = scale_ * cells[i].corners.at({cells[i].within.x, y});
       *request.sample = {point_towards(axes_.to_world(towards[i])), pdf_of(samples[i])};
       request.sample->at.wavelength = request.wavelength;
       *request.radiance = spectrum_of(rgb, RgbMeaning::light, request.wavelength);
@@ -99,30 +102,24 @@ void EnvironmentMap::sample_positions(const PositionRequest* requests, int count
 double EnvironmentMap::pdf_position(const SurfacePoint& x0) const {
   const Vec2 place = place_of(axes_.to_local(x0.p));
   const Cell cell = this->cell(place);
-  return pdf_of({place, table_.pdf(place) * cell.patch.density(cell.within)});
+  return pdf_of({place, table_.pdf(place) * cell.corners.luminances().density(cell.within)});
 }
 
 /// The cell of a place in the table.
 EnvironmentMap::Cell EnvironmentMap::cell(const Vec2& place) const {
   const int i = std::min(static_cast<int>(place.x * width_), width_ - 1), j = row_at(place.y);
-  Cell cell{{i, j},
-            {place.x * width_ - i, place.y * cell_rows() - j},
-            {luminance(texel(i, j)), luminance(texel(i + 1, j)), luminance(texel(i, j + 1)),
-             luminance(texel(i + 1, j + 1))}};
-  const BilinearPatch& v = cell.patch;
-  if (!(v.v00 + v.v10 + v.v01 + v.v11 > 0)) cell.patch = {1, 1, 1, 1};
-  return cell;
+  return {{i, j}, {place.x * width_ - i, place.y * cell_rows() - j}, corners(i, j)};
 }
 
-Vec2 EnvironmentMap::place_in(const Cell& cell, const Vec2& within) const {
-  return (Vec2(cell.at) + within) / Vec2(width_, cell_rows());
+Vec2 EnvironmentMap::place_in(const Cell& cell) const {
+  return (Vec2(cell.at) + cell.within) / Vec2(width_, cell_rows());
 }
 
-/// A sample of the cells moved to one of the interpolated radiance.
-Piecewise2D::Sample EnvironmentMap::in_patch(const Piecewise2D::Sample& sample) const {
-  const Cell cell = this->cell(sample.at);
-  const Vec2 within = cell.patch.sample(cell.within);
-  return {place_in(cell, within), sample.pdf * cell.patch.density(within)};
+/// Moves a sample of the cells within its cell, to one of the interpolated radiance.
+Piecewise2D::Sample EnvironmentMap::in_cell(Cell& cell, const Piecewise2D::Sample& sample) const {
+  const BilinearPatch luminances = cell.corners.luminances();
+  cell.within = luminances.sample(cell.within);
+  return {place_in(cell), sample.pdf * luminances.density(cell.within)};
 }
 
 double EnvironmentMap::pdf_of(const Piecewise2D::Sample& sample) const {
@@ -131,8 +128,9 @@ double EnvironmentMap::pdf_of(const Piecewise2D::Sample& sample) const {
 }
 
 Vec2 EnvironmentMap::invert_position(const SurfacePoint& x0) const {
-  const Cell cell = this->cell(place_of(axes_.to_local(x0.p)));
-  return table_.invert(place_in(cell, cell.patch.invert(cell.within)));
+  Cell cell = this->cell(place_of(axes_.to_local(x0.p)));
+  cell.within = cell.corners.luminances().invert(cell.within);
+  return table_.invert(place_in(cell));
 }
 
 const float* EnvironmentMap::texel_data(int i, int j) const {
@@ -143,6 +141,20 @@ const float* EnvironmentMap::texel_data(int i, int j) const {
 Color EnvironmentMap::texel(int i, int j) const {
   const float* c = texel_data(i, j);
   return channels_ == 1 ? Color(c[0]) : Color(c[0], c[1], c[2]);
+}
+
+EnvironmentMap::Corners EnvironmentMap::corners(int i, int j) const {
+  const float *left = texel_data(i, j), *right = texel_data(i + 1, j);
+  const size_t below = size_t(width_) * size_t(channels_);
+  if (channels_ == 1) return {Color(*left), Color(*right), Color(left[below]), Color(right[below])};
+  const auto color = [](const float* c) { return Color(c[0], c[1], c[2]); };
+  return {color(left), color(right), color(left + below), color(right + below)};
+}
+
+BilinearPatch EnvironmentMap::Corners::luminances() const {
+  const BilinearPatch patch{luminance(c00), luminance(c10), luminance(c01), luminance(c11)};
+  if (patch.v00 + patch.v10 + patch.v01 + patch.v11 > 0) return patch;
+  return {1, 1, 1, 1};
 }
 
 /// The azimuth of d in turns from the first column; in [0, 1).
@@ -162,8 +174,7 @@ void EnvironmentMap::tabulate() {
   bool black = true;
   for (int j = 0; j < h; ++j)
     for (int i = 0; i < w; ++i) {
-      const Color mean =
-          0.25 * (texel(i, j) + texel(i + 1, j) + texel(i, j + 1) + texel(i + 1, j + 1));
+      const Color mean = corners(i, j).at(Vec2(0.5));
       weights.push_back(static_cast<float>(luminance(mean) * cell_solid_angle(j)));
       black = black && !(weights.back() > 0);
     }

@@ -50,14 +50,25 @@ class EnvironmentMap : public InfiniteEmitter {
   double cell_solid_angle(int row) const;
   int row_at(double y) const;
   Color radiance_at(double column, double polar_share) const;
+  /// The texels around a cell.
+  struct Corners {
+    Color c00, c10, c01, c11;
+
+    /// Their bilinear interpolation.
+    Color at(const Vec2& p) const {
+      return (1 - p.y) * ((1 - p.x) * c00 + p.x * c10) + p.y * ((1 - p.x) * c01 + p.x * c11);
+    }
+    BilinearPatch luminances() const;
+  };
+  Corners corners(int i, int j) const;
   struct Cell {
-    Vec2i at;             ///< Column and row.
-    Vec2 within;          ///< A place in it, in [0, 1]^2.
-    BilinearPatch patch;  ///< The luminance of its texels.
+    Vec2i at{};     ///< Column and row.
+    Vec2 within{};  ///< A place in it, in [0, 1]^2.
+    Corners corners{};
   };
   Cell cell(const Vec2& place) const;
-  Vec2 place_in(const Cell& cell, const Vec2& within) const;
-  Piecewise2D::Sample in_patch(const Piecewise2D::Sample& sample) const;
+  Vec2 place_in(const Cell& cell) const;
+  Piecewise2D::Sample in_cell(Cell& cell, const Piecewise2D::Sample& sample) const;
   /// Density in solid angle of a direction, by that of its place in the table.
   double pdf_of(const Piecewise2D::Sample& sample) const;
   double cosine_at(double y) const;
