@@ -24,7 +24,8 @@ struct Samples {
   RayCounts rays;
 };
 
-uint64_t stream(int wave) { return 11 + wave; }
+/// Eight samples have the same one.
+uint64_t stream(int wave, int i) { return 11 + wave + 10007 * (i / 8); }
 Vec2 pixel(const Scene& scene, int i) {
   const Vec2i size = scene.camera().raster().size;
   return Vec2(i % size.x, i / size.x % size.y);
@@ -46,7 +47,7 @@ Samples one_by_one(const Scene& scene, const BidirectionalSettings& settings) {
   BidirectionalSampler bidirectional(scene, settings);
   for (int w = 0; w < waves; ++w)
     for (int i = 0; i < BidirectionalWave::capacity; ++i) {
-      PixelSampler sampler(stream(w), static_cast<uint32_t>(i));
+      PixelSampler sampler(stream(w, i), static_cast<uint32_t>(i));
       const Vec2 raster = pixel(scene, i) + sampler.next2();
       bidirectional.sample(raster, sampler, found.rays);
       Sample sample;
@@ -64,7 +65,7 @@ Samples side_by_side(const Scene& scene, const BidirectionalSettings& settings) 
   for (int w = 0; w < waves; ++w) {
     for (int i = 0; i < BidirectionalWave::capacity; ++i) {
       EXPECT_FALSE(wave.full());
-      wave.add(stream(w), static_cast<uint32_t>(i), pixel(scene, i));
+      wave.add(stream(w, i), static_cast<uint32_t>(i), pixel(scene, i));
     }
     EXPECT_TRUE(wave.full());
     wave.trace(found.rays);
@@ -159,7 +160,7 @@ TEST(BidirectionalWave, TracesAnIncompleteWave) {
   wave.trace(rays);
   EXPECT_EQ(rays.total(), 0u);
   const Samples single = one_by_one(*scene, settings);
-  for (int i = 0; i < 11; ++i) wave.add(stream(0), static_cast<uint32_t>(i), pixel(*scene, i));
+  for (int i = 0; i < 11; ++i) wave.add(stream(0, i), static_cast<uint32_t>(i), pixel(*scene, i));
   wave.trace(rays);
   for (int i = 0; i < wave.size(); ++i) {
     Color seen(0);

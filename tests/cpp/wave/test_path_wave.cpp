@@ -20,7 +20,7 @@ struct Traced {
 template <class Start>
 void start_paths(const Scene& scene, int wave, Start&& start) {
   for (uint32_t i = 0; i < PathWave::capacity; ++i) {
-    PixelSampler sampler(7 + wave, i);
+    PixelSampler sampler(7 + wave + 1000 * (i / 8), i);  // eight of each stream
     const Vec2 raster = scene.camera().raster().sample(sampler.next2());
     const Ray ray = camera_ray(scene.camera(), raster, sampler).ray;
     start(ray, sampler);
