@@ -15,8 +15,8 @@ struct LinearDensity {
 
   /// The root of u (a + b) = x (2 a + x (b - a)), in a form without cancellation.
   double sample(double u) const {
-    const double x = u * (a + b) / (a + std::sqrt((1 - u) * a * a + u * b * b));
-    return std::min(x, 1 - 0x1p-53);
+    const double divisor = a + std::sqrt((1 - u) * a * a + u * b * b);
+    return divisor > 0 ? std::min(u * (a + b) / divisor, 1 - 0x1p-53) : u;
   }
   double invert(double x) const { return x * (2 * a + x * (b - a)) / (a + b); }
 };

@@ -69,7 +69,7 @@ void BasicPathWave<Numbers>::shade_block(int depth, RayCounts& rays) {
   take_step(depth, rays);
 }
 
-/// Reads the numbers of a vertex but those of some vertices.
+/// Reads the numbers that vertices of all kinds need.
 template <class Numbers>
 void BasicPathWave<Numbers>::read_numbers(int depth) {
   if (rules_.wants(depth + 1)) {

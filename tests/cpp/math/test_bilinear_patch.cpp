@@ -33,6 +33,14 @@ TEST(BilinearPatch, IsAsDenseAsItsValues) {
   EXPECT_DOUBLE_EQ(patch.density({0.5, 0.5}), 1);
 }
 
+TEST(BilinearPatch, StaysInTheSquare) {
+  for (const BilinearPatch& patch : patches)
+    for (const Vec2 u : {Vec2(0, 0), Vec2(0, 0.5), Vec2(0.5, 0), Vec2(1 - 0x1p-53, 1 - 0x1p-53)}) {
+      const Vec2 p = patch.sample(u);
+      EXPECT_TRUE(p.x >= 0 && p.x < 1 && p.y >= 0 && p.y < 1) << p.x << " " << p.y;
+    }
+}
+
 TEST(BilinearPatch, Inverts) {
   Rng rng(1, Purpose::test, 0);
   for (const BilinearPatch& patch : patches)
