@@ -38,6 +38,19 @@ inline uint32_t sobol_1_reversed(uint32_t index) {
   return index;
 }
 
+/// The key of a sequence, from the halves of its seed.
+inline uint32_t sequence_key(uint32_t low, uint32_t high) {
+  return mix_bits_32(mix_bits_32(low) ^ high);
+}
+/// The place of a point in the sequence in its order before shuffling.
+inline uint32_t shuffled(uint32_t index, uint32_t key) {
+  return reverse_bits(scramble_reversed(reverse_bits(index), key));
+}
+/// A scrambled coordinate, from its bits in reversed order.
+inline double scrambled_coordinate(uint32_t reversed, uint32_t key) {
+  return reverse_bits(scramble_reversed(reversed, key)) * 0x1p-32;
+}
+
 /// Computes point indices[i] in [0, 1)^2 of sequence seeds[i], for `count` sequences. Every
 /// power-of-two block of a sequence is stratified in all elementary intervals. Sequences are
 /// independent, so the compiler vectorises the loops.
@@ -49,11 +62,11 @@ void scrambled_sobol(const uint32_t* indices, const uint64_t* seeds, double* x, 
     high[i] = static_cast<uint32_t>(seeds[i] >> 32);
   }
   for (int i = 0; i < count; ++i) {
-    const uint32_t key = mix_bits_32(mix_bits_32(low[i]) ^ high[i]);
+    const uint32_t key = sequence_key(low[i], high[i]);
     const uint32_t key_x = mix_bits_32(key + low[i]), key_y = mix_bits_32(key_x + low[i]);
-    const uint32_t shuffled = reverse_bits(scramble_reversed(reverse_bits(indices[i]), key));
-    x[i] = reverse_bits(scramble_reversed(shuffled, key_x)) * 0x1p-32;
-    y[i] = reverse_bits(scramble_reversed(sobol_1_reversed(shuffled), key_y)) * 0x1p-32;
+    const uint32_t place = shuffled(indices[i], key);
+    x[i] = scrambled_coordinate(place, key_x);
+    y[i] = scrambled_coordinate(sobol_1_reversed(place), key_y);
   }
 }
 
@@ -62,9 +75,8 @@ template <int count>
 void scrambled_radical_inverse(const uint32_t* indices, const uint64_t* seeds, double* x) {
   for (int i = 0; i < count; ++i) {
     const auto low = static_cast<uint32_t>(seeds[i]);
-    const uint32_t key = mix_bits_32(mix_bits_32(low) ^ static_cast<uint32_t>(seeds[i] >> 32));
-    const uint32_t shuffled = reverse_bits(scramble_reversed(reverse_bits(indices[i]), key));
-    x[i] = reverse_bits(scramble_reversed(shuffled, mix_bits_32(key + low))) * 0x1p-32;
+    const uint32_t key = sequence_key(low, static_cast<uint32_t>(seeds[i] >> 32));
+    x[i] = scrambled_coordinate(shuffled(indices[i], key), mix_bits_32(key + low));
   }
 }
 

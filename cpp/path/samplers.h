@@ -37,7 +37,6 @@ class PixelSampler {
   /// Stratified numbers: time, wavelength, and those of the first vertices: choice of a light, of a
   /// lobe, roulette.
   static constexpr uint32_t stratified_singles = 8;
-  static constexpr uint32_t lanes = 8;  ///< Enough for the stratified pairs of all streams.
   struct Position {
     uint32_t pairs = 0;    ///< Stratified pairs that have been taken.
     uint32_t singles = 0;  ///< Stratified numbers that have been taken.
@@ -116,6 +115,8 @@ class PixelSampler {
 
  private:
   double word(uint64_t n) const { return unit_interval(nth_bits(key_, n)); }
+
+  static constexpr uint32_t lanes = 8;  ///< Enough for the stratified pairs of all streams.
 
   uint64_t stream_, key_;
   uint32_t index_;

@@ -138,17 +138,14 @@ const float* EnvironmentMap::texel_data(int i, int j) const {
   return &texels_[index * size_t(channels_)];
 }
 
-Color EnvironmentMap::texel(int i, int j) const {
-  const float* c = texel_data(i, j);
-  return channels_ == 1 ? Color(c[0]) : Color(c[0], c[1], c[2]);
+Color EnvironmentMap::color_of(const float* texel) const {
+  return channels_ == 1 ? Color(*texel) : Color(texel[0], texel[1], texel[2]);
 }
 
 EnvironmentMap::Corners EnvironmentMap::corners(int i, int j) const {
   const float *left = texel_data(i, j), *right = texel_data(i + 1, j);
   const size_t below = size_t(width_) * size_t(channels_);
-  if (channels_ == 1) return {Color(*left), Color(*right), Color(left[below]), Color(right[below])};
-  const auto color = [](const float* c) { return Color(c[0], c[1], c[2]); };
-  return {color(left), color(right), color(left + below), color(right + below)};
+  return {color_of(left), color_of(right), color_of(left + below), color_of(right + below)};
 }
 
 BilinearPatch EnvironmentMap::Corners::luminances() const {
@@ -191,7 +188,7 @@ void EnvironmentMap::integrate() {
   const double d = pi / cell_rows();
   for (int j = 0; j < height_; ++j) {
     Color row(0);
-    for (int i = 0; i < width_; ++i) row += texel(i, j);
+    for (int i = 0; i < width_; ++i) row += color_of(texel_data(i, j));
     const bool pole = j == 0 || j == cell_rows();
     const double tent = pole ? 1 - std::sin(d) / d : 2 * std::sin(j * d) * (1 - std::cos(d)) / d;
     integral_ += row * (tent * 2 * pi / width_);

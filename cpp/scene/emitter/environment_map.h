@@ -43,7 +43,7 @@ class EnvironmentMap : public InfiniteEmitter {
   int cell_rows() const { return height_ - 1; }
   size_t pixel_count() const { return texels_.size() / size_t(channels_); }
   const float* texel_data(int i, int j) const;
-  Color texel(int i, int j) const;
+  Color color_of(const float* texel) const;
   double column_at(const Vec3& d) const;
   void tabulate();
   void integrate();
