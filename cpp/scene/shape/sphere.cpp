@@ -144,17 +144,20 @@ PositionSample Sphere::sample_direct(const Vec3& from, const Vec2& u) const {
   const SinCos phi = sincos_turns(u.y);
   const Vec3 outward = normalize(c->frame.to_world({sin_a * phi.cos, sin_a * phi.sin, cos_a}));
   const SurfacePoint at = point(outward);
-  return {at, pdf_direct(from, at)};
+  return {at, pdf_in(*c, from, at)};
 }
 
 double Sphere::pdf_direct(const Vec3& from, const SurfacePoint& at) const {
   const std::optional<Cone> c = cone(from);
-  if (!c) return 1 / area();
+  return c ? pdf_in(*c, from, at) : 1 / area();
+}
+
+double Sphere::pdf_in(const Cone& cone, const Vec3& from, const SurfacePoint& at) const {
   const Vec3 back = from - at.p;
   const double distance2 = length_squared(back);
   const double cosine = dot(at.ng, back) * side_ / std::sqrt(distance2);
   if (!(cosine > 0)) return 0;
-  return cone_pdf(c->one_minus_cos) * cosine / distance2;
+  return cone_pdf(cone.one_minus_cos) * cosine / distance2;
 }
 
 Vec2 Sphere::invert_direct(const Vec3& from, const SurfacePoint& at) const {

@@ -39,6 +39,8 @@ class Sphere : public AnalyticShape {
   struct Cone;
   /// The cone of directions from `from` that hit the sphere; nullopt from inside.
   std::optional<Cone> cone(const Vec3& from) const;
+  /// pdf_direct() for `from`, whose cone this is.
+  double pdf_in(const Cone& cone, const Vec3& from, const SurfacePoint& at) const;
   SurfacePoint point(const Vec3& outward) const;
 
   Vec3 center_;

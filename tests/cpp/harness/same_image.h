@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <functional>
 #include <optional>
@@ -169,12 +170,13 @@ class SameImageTest {
     const double lack =
         sqr(std::max(detectable_whole() / settings_.whole, detectable_block() / settings_.block));
     if (!(lack >= 1)) return false;
+    // The efforts with the least sum for this sum of variances (Neyman's allocation), with a margin
+    // for chance.
     const double noise[2] = {noise_of(0), noise_of(1)};
+    const double root = std::sqrt(noise[0] * efforts_[0]) + std::sqrt(noise[1] * efforts_[1]);
     for (int side = 0; side < 2; ++side) {
-      // Half of the variance for each side that has any, with a margin for chance.
-      const double share = noise[side] / (0.5 * (noise[0] + noise[1]));
-      const double sides = sides_[1].known ? 0.5 : 1.0;
-      efforts_[side] *= std::max(1.0, 1.4 * lack * share * sides);
+      const double share = root * std::sqrt(noise[side] / efforts_[side]) / (noise[0] + noise[1]);
+      efforts_[side] *= std::max(1.0, 1.4 * lack * share);
     }
     if (std::max(efforts_[0], efforts_[1]) > settings_.max_effort) return false;
     run_all();
