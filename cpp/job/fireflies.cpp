@@ -29,7 +29,7 @@ Image adaptive_median(const std::vector<Image>& groups) {
     for (size_t k = c; k < order.size() - c; ++k) sum += pixel(groups[order[k]], i);
     for (int channel = 0; channel < 3; ++channel)
       image.data[3 * i + channel] =
-          static_cast<float>(sum[channel] / static_cast<double>(order.size() - 2 * c));
+          std::max(0.0f, static_cast<float>(sum[channel] / double(order.size() - 2 * c)));
   }
   return image;
 }

@@ -43,7 +43,7 @@ GroupEstimator::Correction GroupEstimator::correction(int g) const {
   return {of_others, missing - of_others};
 }
 
-GroupWeights GroupEstimator::group(int g) const {
+GroupWeights GroupEstimator::corrected(int g) const {
   const Correction add = correction(g);
   const double own = chain_brightness(g), others = chain_brightness_ - own;
   GroupWeights scales(count());
@@ -63,12 +63,34 @@ GroupWeights GroupEstimator::mean() const {
   for (int g = 0; g < count(); ++g) begun_groups += begun(g);
   for (int g = 0; g < count(); ++g) {
     if (!begun(g)) continue;
-    const GroupWeights own = group(g);
+    const GroupWeights own = corrected(g);
     for (int h = 0; h < count(); ++h) mean[h] += own[h] / begun_groups;
   }
   // A sum is negative if several groups are that bright.
   for (double& scale : mean) scale = std::max(0.0, scale);
   return mean;
+}
+
+GroupWeights GroupEstimator::mean_without(int g) const {
+  std::vector<GroupProgress> others = groups_;
+  others.erase(others.begin() + g);
+  GroupWeights mean = GroupEstimator(std::move(others), of_chains_).mean();
+  mean.insert(mean.begin() + g, 0.0);
+  return mean;
+}
+
+GroupWeights GroupEstimator::group(int g) const {
+  if (lambda_ == 0) return corrected(g);
+  std::vector<int> begun_groups;
+  for (int h = 0; h < count(); ++h)
+    if (begun(h)) begun_groups.push_back(h);
+  const double n = static_cast<double>(begun_groups.size());
+  GroupWeights scales = mean();
+  for (const int h : begun_groups) {
+    const GroupWeights without = mean_without(h);
+    for (int i = 0; i < count(); ++i) scales[i] += (n - 1) * (1 / n - (h == g)) * without[i];
+  }
+  return scales;
 }
 
 GroupWeights GroupEstimator::common_error() const {

@@ -21,6 +21,14 @@
 // which leaves a bias that vanishes as the render goes on. Without samples that estimate M, as with
 // those of path tracing, lambda is 0.
 //
+// The I_g are not independent: if one group alone has found some light, all others have it in R. The
+// error of their mean I is therefore that of a jackknife (Efron & Stein 1981, "The jackknife
+// estimate of variance"): with I_-g, the mean without a group, it is told by the spread of
+//
+//   J_g = I + (n - 1) (mean over h of I_-h - I_-g),
+//
+// whose mean is I. Where lambda is 0, J_g is I_g.
+//
 // Tours (markov/tour.h) are scaled by a known number: their b C_g is right by itself, and lambda is
 // 0 too.
 //
@@ -54,7 +62,7 @@ class GroupEstimator {
   GroupEstimator(std::vector<GroupProgress> groups, const Estimate& of_chains,
                  bool corrected = true);
 
-  /// I_g; from the spread over the groups the error of their mean is estimated.
+  /// J_g; from the spread over the groups the error of their mean is estimated.
   GroupWeights group(int g) const;
   /// The mean of the groups that have begun.
   GroupWeights mean() const;
@@ -71,6 +79,8 @@ class GroupEstimator {
   bool has_chains(int g) const { return groups_[g].steps > 0; }
   double chain_brightness(int g) const;
   Estimate samples_of(int g) const;
+  GroupWeights corrected(int g) const;  ///< I_g
+  GroupWeights mean_without(int g) const;
   /// By how much I_g is brighter than b_g C_g.
   struct Correction {
     double of_others;  ///< Added to it as the others' image.

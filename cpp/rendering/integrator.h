@@ -23,9 +23,10 @@ struct NamedImage {
   Image image;
 };
 
-/// The image of one of the independent groups of a render by itself: unbiased, and independent of
-/// the other groups. Linear RGB.
+/// One of the independent groups of a render.
 struct GroupImage {
+  /// What the mean owes to this group: from its spread over the groups the error follows. Linear
+  /// RGB; where groups borrow light from each other (GroupEstimator) it may be negative.
   Image image;
   /// Its weight in the mean that is the render's image: finished passes, or 1 for a group of
   /// chains; 0 as long as it has no samples.

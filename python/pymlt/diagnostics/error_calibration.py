@@ -45,9 +45,9 @@ def calibrate(
 
     No reference need be better than all of them: the truth is the mean of all images, those of an
     integrator weighted by how well it knows it, but without integrators whose tours wait, which
-    have yet to show some light. The square of an error, relative to the truth, is the variance
-    around the integrator's own mean; where tours wait, also what that mean differs from the truth
-    by, beyond the noise of both.
+    have yet to show some light. The square of an error, relative to the truth that the other images
+    tell, is the variance around the integrator's own mean; where tours wait, also what that mean
+    differs from the truth by, beyond the noise of both.
     """
     runs = [
         [start(scene, integrator, spp=spp, seed=seed, threads=threads).result() for seed in seeds]
@@ -58,27 +58,33 @@ def calibrate(
     noise = [own.var(axis=0, ddof=1) / len(own) for own in images]
     waiting = [any(result.stats["tours_waiting"] > 0 for result in own) for own in runs]
     fair = [i for i, waits in enumerate(waiting) if not waits] or range(len(runs))
-    truth, truth_noise = _weighted_mean(means, noise, fair)
-    scale = truth**2 + 0.01 * truth.mean() ** 2
+    shares = _shares(noise, fair)
+    truth = sum(share * means[i] for i, share in shares.items())
+    truth_noise = sum(share**2 * noise[i] for i, share in shares.items())
 
     def true_error(i: int) -> float:
-        square = (len(images[i]) * noise[i] / scale).mean()
+        n = len(images[i])
+        square = 0.0
+        for image in images[i]:
+            others = truth - shares.get(i, 0) * (image - means[i]) / (n - 1)
+            square += ((image - means[i]) ** 2 / (n - 1) / _scale(others)).mean()
         if i not in fair:
-            bias = ((means[i] - truth) ** 2 - noise[i] - truth_noise) / scale
+            bias = ((means[i] - truth) ** 2 - noise[i] - truth_noise) / _scale(truth)
             square += max(bias.mean(), 0)
         return float(np.sqrt(square))
 
     return [_calibration(own, true_error(i)) for i, own in enumerate(runs)]
 
 
-def _weighted_mean(
-    means: list[np.ndarray], noise: list[np.ndarray], chosen: Iterable[int]
-) -> tuple[np.ndarray, np.ndarray]:
-    """The mean of the chosen means, weighted by how little noise each has; and its variance."""
+def _scale(truth: np.ndarray) -> np.ndarray:
+    """What squares of errors are divided by, to be relative."""
+    return truth**2 + 0.01 * truth.mean() ** 2
+
+
+def _shares(noise: list[np.ndarray], chosen: Iterable[int]) -> dict[int, float]:
+    """The shares of the chosen means in the truth, by how little noise each has."""
     weights = {i: 1 / (noise[i].mean() + 1e-30) for i in chosen}
-    total = sum(weights.values())
-    mean = sum(weight * means[i] for i, weight in weights.items()) / total
-    return mean, sum(weight**2 * noise[i] for i, weight in weights.items()) / total**2
+    return {i: weight / sum(weights.values()) for i, weight in weights.items()}
 
 
 def _calibration(results: list[Result], true: float) -> Calibration:

@@ -137,7 +137,9 @@ class Groups(NamedTuple):
     Direct light that is rendered separately (`direct_samples` of `mlt`) is not in them.
     """
 
-    images: np.ndarray  #: float32, (groups, height, width, 3)
+    #: float32, (groups, height, width, 3): what the mean owes to each. May be negative where groups
+    #: borrow light from each other, as those of `pssmlt` do.
+    images: np.ndarray
     weights: np.ndarray  #: of each in the mean, 0 for one that has nothing to say yet
     b: np.ndarray  #: by which each image is scaled, for Metropolis integrators; else 0
 

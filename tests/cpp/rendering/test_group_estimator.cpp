@@ -9,13 +9,14 @@
 namespace mlt::test {
 namespace {
 
-/// A toy render with the same dependence: T takes the values 1 and 9 on two halves of the unit
-/// interval, and the image is the integral of T over the second half, 4.5. A group's chains stand
-/// still where they have started, which is the largest start-up bias that there can be.
+/// A toy render with the same dependence: T takes the values 1 and 9 on two parts of the unit
+/// interval, and the image is the integral of T over the second one: if they are halves, 4.5. A
+/// group's chains stand still where they have started, which is the largest start-up bias that
+/// there can be.
 struct Toy {
-  static double target(double u) { return u < 0.5 ? 1 : 9; }
+  double target(double u) const { return u < dark ? 1 : 9; }
 
-  Toy(uint64_t seed, int groups, int candidates, int samples) {
+  Toy(uint64_t seed, int groups, int candidates, int samples, double dark = 0.5) : dark(dark) {
     Rng rng(seed, Purpose::test, 0);
     for (int g = 0; g < groups; ++g) {
       GroupProgress group;
@@ -43,6 +44,7 @@ struct Toy {
     return sum;
   }
 
+  double dark;  ///< The size of the first part.
   std::vector<GroupProgress> progress;
   std::vector<double> recorded;
   Estimate of_chains;
@@ -96,18 +98,27 @@ TEST(GroupEstimator, TakesNoLightThatIsNotThere) {
   }
 }
 
-TEST(GroupEstimator, TellsItsError) {
+/// The variance that renders tell, over that of their images.
+double told_over_true(int candidates, int samples, double dark) {
   Moments images, variances;
   for (uint64_t seed = 0; seed < 4000; ++seed) {
-    const Toy toy(seed, 16, 50, 200);
+    const Toy toy(seed, 16, candidates, samples, dark);
     const GroupEstimator groups = toy.combination();
     Moments spread;
     for (int g = 0; g < 16; ++g) spread.add(toy.image(groups.group(g)));
+    EXPECT_NEAR(spread.mean(), toy.image(groups.mean()), 1e-9);
     images.add(toy.image(groups.mean()));
     const double common = toy.image(groups.common_error());
     variances.add(spread.variance_of_mean() + common * common);
   }
-  EXPECT_NEAR(variances.mean() / images.variance(), 1, 0.1);
+  return variances.mean() / images.variance();
+}
+
+TEST(GroupEstimator, TellsItsError) { EXPECT_NEAR(told_over_true(50, 200, 0.5), 1, 0.1); }
+
+/// The others are corrected by the image of the group that has found it.
+TEST(GroupEstimator, TellsItsErrorWhereOneGroupFindsLight) {
+  EXPECT_NEAR(told_over_true(3, 200, 0.98), 1, 0.1);
 }
 
 }  // namespace
