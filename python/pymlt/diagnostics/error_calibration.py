@@ -16,6 +16,8 @@ from .metrics import target_luminance
 #: In the warnings of a render whose error is carried by few pixels, and of one in which long tours
 #: have yet to make many of the mutations.
 WARNINGS = ("true error", "some light was found rarely")
+#: In the warning of an integrator to which some lights of the scene are invisible.
+BLIND = "cannot find the light"
 
 
 @dataclass(frozen=True)
@@ -43,7 +45,7 @@ def calibrate(
 ) -> list[Calibration]:
     """Render a scene by each of several integrators with each seed.
 
-    No reference need be better than all of them: the truth is the mean of all images, those of an
+    Integrators that warn that they cannot find some light are left out. No reference need be better than all of them: the truth is the mean of all images, those of an
     integrator weighted by how well it knows it, but without integrators whose tours wait, which
     have yet to show some light. The square of an error, relative to the truth that the other images
     tell, is the variance around the integrator's own mean; where tours wait, also what that mean
@@ -53,6 +55,7 @@ def calibrate(
         [start(scene, integrator, spp=spp, seed=seed, threads=threads).result() for seed in seeds]
         for integrator in integrators
     ]
+    runs = [own for own in runs if not any(BLIND in text for text in own[0].stats["warnings"])]
     images = [np.array([target_luminance(result.image) for result in own]) for own in runs]
     means = [own.mean(axis=0) for own in images]
     noise = [own.var(axis=0, ddof=1) / len(own) for own in images]
