@@ -28,6 +28,7 @@ class Calibration:
     true: float  #: root of relMSE, over all renders
     claimed: float  #: root of the mean square of `stats["error"]`
     warned: float  #: the share of `claimed` squared that is of renders which warn of rare light
+    quiet_ratio: float  #: claimed over true error of the others alone; nan if there are none
 
     @property
     def ratio(self) -> float:
@@ -65,18 +66,19 @@ def calibrate(
     truth = sum(share * means[i] for i, share in shares.items())
     truth_noise = sum(share**2 * noise[i] for i, share in shares.items())
 
-    def true_error(i: int) -> float:
+    def true_squares(i: int) -> np.ndarray:
+        """Of each render, so that their mean is right."""
         n = len(images[i])
-        square = 0.0
-        for image in images[i]:
+        squares = np.zeros(n)
+        for k, image in enumerate(images[i]):
             others = truth - shares.get(i, 0) * (image - means[i]) / (n - 1)
-            square += ((image - means[i]) ** 2 / (n - 1) / _scale(others)).mean()
+            squares[k] = ((image - means[i]) ** 2 * n / (n - 1) / _scale(others)).mean()
         if i not in fair:
             bias = ((means[i] - truth) ** 2 - noise[i] - truth_noise) / _scale(truth)
-            square += max(bias.mean(), 0)
-        return float(np.sqrt(square))
+            squares += max(bias.mean(), 0)
+        return squares
 
-    return [_calibration(own, true_error(i)) for i, own in enumerate(runs)]
+    return [_calibration(own, true_squares(i)) for i, own in enumerate(runs)]
 
 
 def _scale(truth: np.ndarray) -> np.ndarray:
@@ -90,15 +92,19 @@ def _shares(noise: list[np.ndarray], chosen: Iterable[int]) -> dict[int, float]:
     return {i: weight / sum(weights.values()) for i, weight in weights.items()}
 
 
-def _calibration(results: list[Result], true: float) -> Calibration:
-    squares = np.array([result.stats["error"] ** 2 for result in results])
-    warned = [
-        any(warning in text for text in result.stats["warnings"] for warning in WARNINGS)
-        for result in results
-    ]
+def _calibration(results: list[Result], true: np.ndarray) -> Calibration:
+    claimed = np.array([result.stats["error"] ** 2 for result in results])
+    warned = np.array(
+        [
+            any(warning in text for text in result.stats["warnings"] for warning in WARNINGS)
+            for result in results
+        ]
+    )
+    quiet = ~warned
     return Calibration(
         results[0].stats["integrator"],
-        true,
-        float(np.sqrt(squares.mean())),
-        float(squares[warned].sum() / squares.sum()),
+        float(np.sqrt(true.mean())),
+        float(np.sqrt(claimed.mean())),
+        float(claimed[warned].sum() / claimed.sum()),
+        float(np.sqrt(claimed[quiet].sum() / true[quiet].sum())) if quiet.any() else float("nan"),
     )
