@@ -21,8 +21,8 @@
 // which leaves a bias that vanishes as the render goes on. Without samples that estimate M, as with
 // those of path tracing, lambda is 0.
 //
-// The I_g are not independent: if one group alone has found some light, all others have it in R. The
-// error of their mean I is therefore that of a jackknife (Efron & Stein 1981, "The jackknife
+// The I_g are not independent: if one group alone has found some light, all others have it in R.
+// The error of their mean I is therefore that of a jackknife (Efron & Stein 1981, "The jackknife
 // estimate of variance"): with I_-g, the mean without a group, it is told by the spread of
 //
 //   J_g = I + (n - 1) (mean over h of I_-h - I_-g),

@@ -129,7 +129,7 @@ def without_holes(scene):
     """The scene with opaque leaves, if it has leaves: through their holes we connect vertices with
     lights, and Mitsuba does not (see docs/mitsuba.md)."""
     holes = [name for name in scene.parameters() if name.endswith(".opacity")]
-    return scene.updated({name: 1.0 for name in holes}) if holes else None
+    return scene.updated(dict.fromkeys(holes, 1.0)) if holes else None
 
 
 @pytest.mark.long

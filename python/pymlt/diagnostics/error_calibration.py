@@ -46,11 +46,12 @@ def calibrate(
 ) -> list[Calibration]:
     """Render a scene by each of several integrators with each seed.
 
-    Integrators that warn that they cannot find some light are left out. No reference need be better than all of them: the truth is the mean of all images, those of an
-    integrator weighted by how well it knows it, but without integrators whose tours wait, which
-    have yet to show some light. The square of an error, relative to the truth that the other images
-    tell, is the variance around the integrator's own mean; where tours wait, also what that mean
-    differs from the truth by, beyond the noise of both.
+    Integrators that warn that they cannot find some light are left out. No reference need be better
+    than all of them: the truth is the mean of all images, those of an integrator weighted by how
+    well it knows it, but without integrators whose tours wait, which have yet to show some light.
+    The square of an error, relative to the truth that the other images tell, is the variance around
+    the integrator's own mean; where tours wait, also what that mean differs from the truth by,
+    beyond the noise of both.
     """
     runs = [
         [start(scene, integrator, spp=spp, seed=seed, threads=threads).result() for seed in seeds]
