@@ -16,6 +16,7 @@ GroupEstimator::GroupEstimator(std::vector<GroupProgress> groups, const Estimate
     bootstrap += groups_[g].bootstrap.of_chains;
   }
   const Estimate chains = estimate(by_chains), samples = pooled(estimate(bootstrap), of_chains_);
+  mean_brightness_ = chains.mean;
   if (!(chains.variance > 0) || samples.count == 0) return;
   if (corrected) lambda_ = chains.variance / (chains.variance + samples.variance);
   const double difference = samples.mean - chains.mean;
@@ -93,12 +94,17 @@ GroupWeights GroupEstimator::group(int g) const {
   return scales;
 }
 
+double GroupEstimator::excess() const {
+  return mean_brightness_ > 0 ? std::max(0.0, std::abs(missing_) / mean_brightness_ - 1) : 0;
+}
+
 GroupWeights GroupEstimator::common_error() const {
   GroupWeights scales(count());
   if (of_chains_.count == 0 || !(chain_brightness_ > 0)) return scales;
   const double share =
       static_cast<double>(of_chains_.count) / static_cast<double>(samples_of(0).count);
-  const double error = std::hypot(lambda_ * share * std::sqrt(of_chains_.variance), missing_);
+  const double placed = std::abs(missing_) / (1 + excess());
+  const double error = std::hypot(lambda_ * share * std::sqrt(of_chains_.variance), placed);
   for (int h = 0; h < count(); ++h)
     if (has_chains(h))
       scales[h] = error / chain_brightness_ * groups_[h].b / static_cast<double>(groups_[h].steps);

@@ -66,8 +66,11 @@ class GroupEstimator {
   GroupWeights group(int g) const;
   /// The mean of the groups that have begun.
   GroupWeights mean() const;
-  /// The common error of all groups: R, times the standard error of M, and times missing().
+  /// The common error of all groups: R, times the standard error of M, and times missing(), but no
+  /// more of this than the chains show: the excess may be anywhere.
   GroupWeights common_error() const;
+  /// missing() beyond the brightness of all that the chains show, over this.
+  double excess() const;
   /// The brightness that the samples have found beyond that of the image (or below, if negative),
   /// if it is significant: more than 2.5 standard errors.
   double missing() const { return missing_; }
@@ -91,6 +94,7 @@ class GroupEstimator {
   std::vector<GroupProgress> groups_;
   Estimate of_chains_;
   double chain_brightness_ = 0;  ///< Sum of b_g D_g.
+  double mean_brightness_ = 0;   ///< Its mean over the groups that have begun.
   double lambda_ = 0, missing_ = 0;
 };
 

@@ -6,6 +6,14 @@
 
 namespace mlt {
 
+namespace {
+
+double sum(const Image& image) {
+  return std::accumulate(image.data.begin(), image.data.end(), 0.0);
+}
+
+}  // namespace
+
 MetropolisRendering::MetropolisRendering(ScenePtr scene, uint64_t seed,
                                          const MetropolisSettings& settings,
                                          std::unique_ptr<MetropolisAlgorithm> algorithm,
@@ -196,7 +204,16 @@ GroupImage MetropolisRendering::group(int index) const {
 }
 
 Image MetropolisRendering::common_error() const {
-  return samples_ ? chain_image(group_estimator().common_error()) : Image();
+  if (!samples_) return {};
+  const GroupEstimator groups = group_estimator();
+  Image error = chain_image(groups.common_error());
+  if (const double excess = groups.excess(); excess > 0) {
+    const Image whole = image();
+    const double share = excess * sum(chain_image(groups.mean())) / sum(whole);
+    for (size_t i = 0; i < error.data.size(); ++i)
+      error.data[i] += static_cast<float>(share * whole.data[i]);
+  }
+  return error;
 }
 
 std::vector<NamedImage> MetropolisRendering::layers() const {

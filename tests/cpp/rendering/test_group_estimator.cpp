@@ -98,6 +98,22 @@ TEST(GroupEstimator, TakesNoLightThatIsNotThere) {
   }
 }
 
+TEST(GroupEstimator, PlacesNoMoreMissingLightThanTheChainsShow) {
+  Toy toy(6, 16, 50, 1);
+  for (GroupProgress& group : toy.progress) group.bootstrap = {};
+  toy.of_chains = {50, 100, 1000};  // of which the chains show a tenth
+  const GroupEstimator groups = toy.combination();
+  const GroupWeights common = groups.common_error(), mean = groups.mean();
+  double placed = 0, shown = 0;
+  for (int g = 0; g < 16; ++g) {
+    placed += common[g] * toy.progress[g].brightness;
+    shown += mean[g] * toy.progress[g].brightness;
+  }
+  EXPECT_NEAR(shown, 5, 0.5);
+  EXPECT_NEAR(placed, shown, 0.1 * shown);
+  EXPECT_NEAR(placed * (1 + groups.excess()), 50 - shown, 1);
+}
+
 /// The variance that renders tell, over that of their images.
 double told_over_true(int candidates, int samples, double dark) {
   Moments images, variances;
