@@ -27,9 +27,10 @@ Image adaptive_median(const std::vector<Image>& groups) {
     const size_t c = left_out(sorted);
     Color sum(0);
     for (size_t k = c; k < order.size() - c; ++k) sum += pixel(groups[order[k]], i);
+    if (target_luminance(sum) < 0) sum = Color(0);  // some groups owe light to the others
     for (int channel = 0; channel < 3; ++channel)
       image.data[3 * i + channel] =
-          std::max(0.0f, static_cast<float>(sum[channel] / double(order.size() - 2 * c)));
+          static_cast<float>(sum[channel] / static_cast<double>(order.size() - 2 * c));
   }
   return image;
 }

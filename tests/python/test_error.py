@@ -47,9 +47,11 @@ def test_the_claimed_error_is_the_true_one(integrator):
     assert LOWEST < ratio < HIGHEST
 
 
-def test_blocks_are_better_known_than_their_pixels():
-    stats = mlt.start(load("cornell_box"), "path", spp=64, seed=1).result().stats
-    assert stats["block_error"] < 0.25 * stats["error"]
+@pytest.mark.parametrize("integrator", ["path", mlt.PSSMLT(chains=16)], ids=["path", "pssmlt"])
+def test_blocks_are_better_known_than_their_pixels(integrator):
+    for seed in range(1, SEEDS + 1):
+        stats = mlt.start(load("cornell_box"), integrator, spp=64, seed=seed).result().stats
+        assert stats["block_error"] < stats["error"]
 
 
 SCENES = ["cornell_box", "dof", "furnace", "glass_ball", "ring"]
@@ -63,24 +65,26 @@ def test_the_claimed_error_is_the_true_one_in_scenes_of_all_kinds(name, integrat
     assert LOWEST < ratio < HIGHEST
 
 
-def check_calibration(name, integrators, seeds):
-    """Most of what is claimed comes with a warning, or what is claimed without one is right."""
+def check_calibration(name, integrators, seeds, highest, vague):
+    """Most of what is claimed comes with a warning, or what is claimed without one is right, where
+    it is not above `vague`."""
     scene = load(name, (48, 32))
     for one in calibrate(scene, integrators, seeds=range(1, seeds + 1), spp=128):
-        told = LOWEST < one.quiet_ratio < HIGHEST_OF_PIXELS or one.claimed > VAGUE
+        told = LOWEST < one.quiet_ratio < highest or one.claimed > vague
         assert one.warned >= 0.5 or told, one
 
 
 @pytest.mark.parametrize("name", ["cornell_box", "dof"])
 def test_the_relative_error_is_the_true_one(name):
     """In the second scene single pixels are much too bright."""
-    check_calibration(name, ["path", "bdpt"], seeds=12)
+    check_calibration(name, ["path", "bdpt"], seeds=12, highest=HIGHEST, vague=math.inf)
 
 
 @pytest.mark.long
 @pytest.mark.parametrize("name", mlt.scenes.names())
 def test_the_relative_error_is_the_true_one_in_all_scenes(name):
-    check_calibration(name, ["path", "bdpt", "pssmlt", "mmlt", "mlt"], seeds=24)
+    every = ["path", "bdpt", "pssmlt", "mmlt", "mlt"]
+    check_calibration(name, every, seeds=24, highest=HIGHEST_OF_PIXELS, vague=VAGUE)
 
 
 @pytest.mark.parametrize(
