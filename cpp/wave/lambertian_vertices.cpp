@@ -38,14 +38,20 @@ void LambertianVertices::unshadowed_lights(int count, bool strict_normals, const
   const int end = whole_vectors(count);
   for (int i = 0; i < end; ++i) {
     const Vec3f y = light.position(i), ny = light.ng[i], ng = surface.ng[i];
-    const ToLight to = to_light(i);
-    const bool lit = (light_pdf[i] > 0) & (to.cosine > 0) & is_lit_from(i, to.w, strict_normals);
-    light_weight[i] = lit ? direct_weight(cosine(i, to.w), to.pdf, mis) : 0;
-    const Vec3f start = ray_origin(p[i], ng, to.between, surface.extent[i]);
-    const Vec3f between = ray_origin(y, ny, -to.between, light.extent[i]) - start;
-    const float length = std::sqrt(dot(between, between));
+    const Vec3f to_light = y - p[i];
+    const float distance2 = dot(to_light, to_light);
+    const Vec3f w = to_light * (1 / std::sqrt(distance2));
+    const float cos_y = -dot(w, ny), pdf = light_pdf[i] * distance2 / cos_y;
+    const bool lit = (light_pdf[i] > 0) & (cos_y > 0) & is_lit_from(i, w, strict_normals);
+    const float weight = direct_weight(cosine(i, w), pdf, mis);
+    light_weight[i] = lit ? weight : 0;
+    wl.set(i, w);
+    direction_pdf[i] = pdf;
+    const Vec3f start = ray_origin(p[i], ng, to_light, surface.extent[i]);
+    const Vec3f ray = ray_origin(y, ny, -to_light, light.extent[i]) - start;
+    const float length = std::sqrt(dot(ray, ray));
     shadow_o.set(i, start);
-    shadow_w.set(i, between * (1 / length));
+    shadow_w.set(i, ray * (1 / length));
     shadow_length[i] = length * float(1 - ray_offset);
   }
 }

@@ -43,9 +43,10 @@ struct LambertianVertices {
   Block<float> light_pdf;           ///< Per area; 0: there is no point.
   Block<const Spectrum*> radiance;  ///< Emitted by the point.
 
-  // The results of unshadowed_lights(): the shadow ray to the point, and |cos| mis / pdf.
-  VectorBlock shadow_o, shadow_w;
-  Block<float> shadow_length, light_weight;
+  // The results of unshadowed_lights(): the direction to the point, its density in solid angle, the
+  // shadow ray, and |cos| mis / pdf.
+  VectorBlock wl, shadow_o, shadow_w;
+  Block<float> direction_pdf, shadow_length, light_weight;
 
   // For sample_directions(): two random numbers for each path, and the scattered ray.
   Block<double> u_x, u_y;
@@ -133,23 +134,7 @@ struct LambertianVertices {
     return delta ? cosine(i, w) / pdf : direct_weight(cosine(i, w), pdf, mis);
   }
   /// The mis in the light_weight of the i-th vertex.
-  double light_mis(int i) const {
-    const ToLight to = to_light(i);
-    return light_weight[i] * to.pdf / cosine(i, to.w);
-  }
-  /// From the i-th vertex to its point on a light.
-  struct ToLight {
-    Vec3f between, w;
-    float cosine;  ///< At the light.
-    float pdf;     ///< Density of w in solid angle.
-  };
-  ToLight to_light(int i) const {
-    const Vec3f between = light.position(i) - p[i];
-    const float distance2 = dot(between, between);
-    const Vec3f w = between * (1 / std::sqrt(distance2));
-    const float cosine = -dot(w, light.ng[i]);
-    return {between, w, cosine, light_pdf[i] * distance2 / cosine};
-  }
+  double light_mis(int i) const { return light_weight[i] * direction_pdf[i] / cosine(i, wl[i]); }
   /// Whether light from the direction wl is scattered to the camera.
   bool is_lit_from(int i, const Vec3f& wl, bool strict_normals) const {
     const float cos_l = dot(wl, n[i]), cos_c = dot(wc_[i], n[i]);

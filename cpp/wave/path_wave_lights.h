@@ -95,8 +95,8 @@ void BasicPathWave<Numbers>::light_glossy() {
   for (GlossyVertex& vertex : glossy_) {
     const int i = vertex.path;
     if (!mesh_lights_ || !(lambertian_.light_weight[i] > 0)) continue;
-    const LambertianVertices::ToLight to = lambertian_.to_light(i);
-    vertex.set_light(to.w, to.pdf, *lambertian_.radiance[i], false);
+    vertex.set_light(lambertian_.wl[i], lambertian_.direction_pdf[i], *lambertian_.radiance[i],
+                     false);
   }
   for (int j = 0; j < sky_count_; ++j) {
     const auto& [i, choice, u, light] = sky_vertices_[j];
