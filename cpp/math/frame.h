@@ -15,7 +15,7 @@ struct FrameOf {
 
   /// A frame around `n`: Duff et al. 2017, "Building an orthonormal basis, revisited".
   static FrameOf around(const Vec3& n) {
-    const F sign = std::copysign(F(1), n.z);
+    const F sign = copysign(F(1), n.z);
     const F a = -1 / (sign + n.z);
     const F b = n.x * n.y * a;
     return {{1 + sign * n.x * n.x * a, sign * b, -sign * n.x}, {b, sign + n.y * n.y * a, -n.y}, n};
@@ -42,7 +42,10 @@ inline double abs_cos_theta(const Vec3& w) { return std::abs(w.z); }
 inline double sin2_theta(const Vec3& w) { return w.x * w.x + w.y * w.y; }
 inline bool same_side(const Vec3& a, const Vec3& b) { return a.z * b.z > 0; }
 
-inline Vec3 reflect(const Vec3& w) { return {-w.x, -w.y, w.z}; }
+template <class F>
+Vec3Of<F> reflect(const Vec3Of<F>& w) {
+  return {-w.x, -w.y, w.z};
+}
 template <class F>
 Vec3Of<F> reflect(const Vec3Of<F>& w, const Vec3Of<F>& h) {
   return F(2) * dot(w, h) * h - w;

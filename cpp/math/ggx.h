@@ -15,6 +15,7 @@ struct Ggx {
 
   static constexpr MicrofacetType type() { return MicrofacetType::ggx; }
   static constexpr bool sample_visible() { return true; }
+  F least_alpha() const { return min(alpha_u, alpha_v); }
 
   /// Walter et al. 2007, eq. 33.
   F D(const Vec3& m) const {

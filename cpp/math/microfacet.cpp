@@ -7,20 +7,20 @@
 
 namespace mlt {
 
-// All normals. In units of the roughness the slopes are isotropic, with squared radius t and
-// 1 - u = exp(-t) for Beckmann, 1 / (1 + t) for GGX (Walter et al. 2007, eqs. 28 and 35).
+// All normals of GGX: as those of Beckmann, with 1 - u = 1 / (1 + t) (Walter et al. 2007, eq. 35).
 
 Vec3 Microfacet::sample_any(const Vec2& u) const {
-  const double t = type_ == MicrofacetType::ggx ? u.x / (1 - u.x) : -std::log1p(-u.x);
-  const double r = std::sqrt(t);
+  if (type_ == MicrofacetType::beckmann) return beckmann().sample(u);
+  const double r = std::sqrt(u.x / (1 - u.x));
   const SinCos phi = sincos_turns(u.y);
   return stretch({r * phi.cos, r * phi.sin, 1});
 }
 
 Vec2 Microfacet::invert_any(const Vec3& m) const {
+  if (type_ == MicrofacetType::beckmann) return beckmann().invert(m);
   const double x = m.x / (alpha_u_ * m.z), y = m.y / (alpha_v_ * m.z);
   const double t = x * x + y * y;
-  return {type_ == MicrofacetType::ggx ? t / (1 + t) : -std::expm1(-t), turns(x, y)};
+  return {t / (1 + t), turns(x, y)};
 }
 
 // Visible GGX normals: the inverse of Ggx::sample.

@@ -9,6 +9,7 @@
 // becomes (alpha_u x, alpha_v y, z), normalised, and directions transform likewise.
 #pragma once
 
+#include "math/beckmann.h"
 #include "math/ggx.h"
 
 namespace mlt {
@@ -32,16 +33,14 @@ class Microfacet {
   double alpha_u() const { return alpha_u_; }
   double alpha_v() const { return alpha_v_; }
   bool sample_visible() const { return sample_visible_; }
-  /// This distribution, if it is one of GGX.
+  // This distribution, if it is of that kind:
   Ggx<double> ggx() const { return {alpha_u_, alpha_v_}; }
+  Beckmann<double> beckmann() const { return {alpha_u_, alpha_v_}; }
 
   /// D(m), the density of microfacet area by normal; 0 below the surface.
   double D(const Vec3& m) const {
     if (type_ == MicrofacetType::ggx) return ggx().D(m);
-    if (!(m.z > 0)) return 0;
-    const double s2 = sqr(m.x / alpha_u_) + sqr(m.y / alpha_v_), z2 = m.z * m.z;
-    const double area = pi * alpha_u_ * alpha_v_;
-    return s2 < 700 * z2 ? std::exp(-s2 / z2) / (area * z2 * z2) : 0;  // Walter eq. 25
+    return beckmann().D(m);
   }
 
   /// The exact masking function of Smith: int G1(v, m) |<v, m>| D(m) dm = |cos v|. It is 0 if v is

@@ -47,11 +47,18 @@ inline float lane_of(const Float8& x, int i) { return x[i]; }
 
 // Functions of numbers, for formulas over both kinds:
 using std::abs;
+using std::copysign;
 using std::floor;
 using std::max;
 using std::min;
 using std::nearbyint;
 using std::sqrt;
+
+/// x^y.
+template <class F>
+F power(const F& x, const F& y) {
+  return for_each_lane<F>([&](int i) { return std::pow(lane_of(x, i), lane_of(y, i)); });
+}
 
 inline Vec3Of<Float8> select(const Float8::mask_type& condition, const Vec3Of<Float8>& a,
                              const Vec3Of<Float8>& b) {

@@ -162,12 +162,13 @@ inline Vec2 invert_cone(const Vec3& w, double height) {
 // A lobe cos^n about the z axis, as in the Phong model (Lafortune & Willems 1994, "Using the
 // modified Phong reflectance model for physically based rendering").
 
-inline Vec3 sample_cosine_power(const Vec2& u, double n) {
-  const double log_cos = std::log(1 - u.x) / (n + 1);
-  const double sin2 = -std::expm1(2 * log_cos);
-  const SinCos phi = sincos_turns(u.y);
-  const double r = std::sqrt(sin2);
-  return {r * phi.cos, r * phi.sin, std::sqrt(1 - sin2)};
+template <class F>
+Vec3Of<F> sample_cosine_power(const Vec2Of<F>& u, F n) {
+  const F sin2 = for_each_lane<F>(
+      [&](int i) { return -std::expm1(2 / (lane_of(n, i) + 1) * std::log1p(-lane_of(u.x, i))); });
+  const SinCosOf<F> phi = sincos_turns(u.y);
+  const F r = sqrt(sin2);
+  return {r * phi.cos, r * phi.sin, sqrt(1 - sin2)};
 }
 
 inline double cosine_power_pdf(const Vec3& w, double n) {
@@ -183,8 +184,9 @@ inline Vec2 invert_cosine_power(const Vec3& w, double n) {
 
 // A lobe cos^n about any unit axis.
 
-inline Vec3 sample_lobe(const Vec2& u, const Vec3& axis, double n) {
-  return Frame::around(axis).to_world(sample_cosine_power(u, n));
+template <class F>
+Vec3Of<F> sample_lobe(const Vec2Of<F>& u, const Vec3Of<F>& axis, F n) {
+  return FrameOf<F>::around(axis).to_world(sample_cosine_power(u, n));
 }
 
 inline double lobe_pdf(const Vec3& w, const Vec3& axis, double n) {

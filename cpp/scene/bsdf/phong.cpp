@@ -3,48 +3,54 @@
 // model for physically based rendering"):
 //   f = k_d / pi + k_s (n + 2) / (2 pi) cos^n alpha.
 #include "base/registry.h"
-#include "math/warp.h"
 #include "scene/bsdf/glossy_over_diffuse.h"
 
 namespace mlt {
 namespace {
 
-class Phong final : public GlossyOverDiffuse {
- public:
-  explicit Phong(Params& params)
-      : GlossyOverDiffuse(params), exponent_(params.real_in("exponent", 0, 1e9)) {}
+template <class F>
+struct PhongLobe {
+  F exponent;
 
- private:
-  Gloss gloss(const SurfacePoint&, const Vec3& wl, const Vec3& wc) const override {
-    const double cos_alpha = dot(reflect(wl), wc);
-    const double cos_n = cos_alpha > 0 ? std::pow(std::min(cos_alpha, 1.0), exponent_) : 0;
-    const double pdf = (exponent_ + 1) * (0.5 * inv_pi) * cos_n;
-    return {(exponent_ + 2) * (0.5 * inv_pi) * cos_n, pdf, pdf};
+  Gloss<F> eval(const Vec3Of<F>& wl, const Vec3Of<F>& wc) const {
+    const F cos_alpha = min(max(dot(reflect(wl), wc), F(0)), F(1));
+    const F cos_n = power(cos_alpha, exponent);
+    return {(exponent + 2) * number<F>(0.5 * inv_pi) * cos_n,
+            (exponent + 1) * number<F>(0.5 * inv_pi) * cos_n};
   }
-  Vec3 sample_gloss(const SurfacePoint&, const Vec3& from, const Vec2& u) const override {
-    return sample_lobe(u, reflect(from), exponent_);
+  Vec3Of<F> sample(const Vec3Of<F>& from, const Vec2Of<F>& u) const {
+    return sample_lobe(u, reflect(from), exponent);
   }
-  Vec2 invert_gloss(const SurfacePoint&, const Vec3& from, const Vec3& to) const override {
-    return invert_lobe(to, reflect(from), exponent_);
+  Vec2 invert(const Vec3& from, const Vec3& to) const {
+    return invert_lobe(to, reflect(from), exponent);
   }
   /// A lobe cos^n is as wide as a Beckmann lobe with alpha^2 = 2 / (n + 2) (Walter et al. 2007,
   /// sec. 5.2).
-  double gloss_roughness(const SurfacePoint&) const override {
-    return std::sqrt(2 / (exponent_ + 2));
-  }
+  F least_alpha() const { return sqrt(2 / (exponent + 2)); }
+};
 
+class PhongLobes {
+ public:
+  explicit PhongLobes(Params& params) : exponent_(params.real_in("exponent", 0, 1e9)) {}
+  template <class F>
+  PhongLobe<F> at(const SurfacePoint* const*) const {
+    return {number<F>(exponent_)};
+  }
+  double typical_alpha() const { return at<double>(nullptr).least_alpha(); }
+
+ private:
   double exponent_;
 };
 
 }  // namespace
 
 Plugin bsdf_phong() {
-  return make_plugin<Phong>(
+  return make_plugin<GlossyOverDiffuse<PhongLobes>>(
       "bsdf", "phong",
       "The modified Phong model: a diffuse part and a glossy lobe about the mirror direction.",
       concat(
           {{{"exponent", ParamType::real, 30.0, "Exponent of the glossy lobe; larger is shinier."}},
-           GlossyOverDiffuse::parameters()}));
+           GlossyReflectances::parameters()}));
 }
 
 }  // namespace mlt

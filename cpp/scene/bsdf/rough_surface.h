@@ -3,6 +3,7 @@
 #pragma once
 
 #include "math/microfacet.h"
+#include "scene/bsdf/eight_points.h"
 #include "scene/scalar_texture.h"
 
 #include <optional>
@@ -57,6 +58,12 @@ class RoughSurface {
   ScalarTexture alpha_u_;
   std::optional<ScalarTexture> alpha_v_;  ///< Empty if it is alpha_u.
 };
+
+/// Whether eight points of this distribution together are faster, and single precision is enough.
+inline bool fits_lanes(const Microfacet& typical) {
+  return typical.type() == MicrofacetType::ggx && typical.sample_visible() &&
+         std::min(typical.alpha_u(), typical.alpha_v()) >= least_alpha_in_lanes;
+}
 
 /// The parameter `distribution`: "beckmann" or "ggx".
 MicrofacetType microfacet_type_param(Params& params);

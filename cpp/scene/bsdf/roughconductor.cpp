@@ -4,18 +4,19 @@
 #include "base/registry.h"
 #include "math/fresnel.h"
 #include "scene/bsdf/ior_params.h"
-#include "scene/bsdf/microfacet_reflector.h"
+#include "scene/bsdf/rough_surface.h"
+#include "scene/bsdf/smooth_reflector.h"
 
 namespace mlt {
 namespace {
 
-class RoughConductor final : public MicrofacetReflector<RoughConductor> {
+class RoughConductor final : public SmoothReflector<RoughConductor> {
  public:
   explicit RoughConductor(Params& params)
       : surface_(params),
         ior_(conductor_param(params)),
         reflectance_(texture_param(params, "specular_reflectance")) {
-    find_lanes(surface_.typical());
+    serves_lanes_ = fits_lanes(surface_.typical());
   }
 
   template <class F>

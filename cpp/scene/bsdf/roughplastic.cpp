@@ -8,20 +8,21 @@
 #include "math/warp.h"
 #include "scene/bsdf/coated_base.h"
 #include "scene/bsdf/ior_params.h"
-#include "scene/bsdf/microfacet_reflector.h"
 #include "scene/bsdf/rough_coating.h"
+#include "scene/bsdf/rough_surface.h"
+#include "scene/bsdf/smooth_reflector.h"
 
 namespace mlt {
 namespace {
 
-class RoughPlastic final : public MicrofacetReflector<RoughPlastic> {
+class RoughPlastic final : public SmoothReflector<RoughPlastic> {
  public:
   explicit RoughPlastic(Params& params)
       : eta_(relative_ior_param(params)),
         microfacet_(microfacet_of(params)),
         coating_(microfacet_.type(), microfacet_.alpha_u(), eta_),
         base_(params, eta_, coating_.internal_reflectance(), coating_.mean_transmittance()) {
-    find_lanes(microfacet_);
+    serves_lanes_ = fits_lanes(microfacet_);
   }
 
   template <class F>

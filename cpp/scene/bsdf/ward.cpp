@@ -8,6 +8,7 @@
 #include "base/registry.h"
 #include "math/microfacet.h"
 #include "scene/bsdf/glossy_over_diffuse.h"
+#include "scene/scalar_texture.h"
 
 namespace mlt {
 namespace {
@@ -19,54 +20,56 @@ Variant variant_param(Params& params) {
   return name == "ward" ? Variant::ward : name == "ward-duer" ? Variant::duer : Variant::balanced;
 }
 
-class Ward final : public GlossyOverDiffuse {
- public:
-  explicit Ward(Params& params)
-      : GlossyOverDiffuse(params),
-        variant_(variant_param(params)),
-        alpha_u_(texture_param(params, "alpha_u")),
-        alpha_v_(texture_param(params, "alpha_v")) {}
+template <class F>
+struct WardLobe {
+  Variant variant;
+  Beckmann<F> normals;
 
- private:
-  Gloss gloss(const SurfacePoint& at, const Vec3& wl, const Vec3& wc) const override {
-    const Vec3 sum = wl + wc, h = normalize(sum);
-    const double D = microfacet(at).D(h);
-    if (!(D > 0)) return {};
-    const double pdf = D * h.z / (4 * dot(wl, h));
-    return {D * sqr(sqr(h.z)) * normalization(wl, wc, sum), pdf, pdf};
+  Gloss<F> eval(const Vec3Of<F>& wl, const Vec3Of<F>& wc) const {
+    const Vec3Of<F> sum = wl + wc, h = normalize(sum);
+    const F D = normals.D(h);
+    return {D * sqr(sqr(h.z)) * normalization(wl, wc, sum), D * h.z / (4 * dot(wl, h))};
   }
   /// The factor of D cos^4 = exp(...) / (pi a_u a_v) in the lobe.
-  double normalization(const Vec3& wl, const Vec3& wc, const Vec3& sum) const {
-    switch (variant_) {
-      case Variant::ward: return 0.25 / std::sqrt(wl.z * wc.z);
-      case Variant::duer: return 0.25 / (wl.z * wc.z);
+  F normalization(const Vec3Of<F>& wl, const Vec3Of<F>& wc, const Vec3Of<F>& sum) const {
+    switch (variant) {
+      case Variant::ward: return number<F>(0.25) / sqrt(wl.z * wc.z);
+      case Variant::duer: return number<F>(0.25) / (wl.z * wc.z);
       case Variant::balanced: break;
     }
-    return length_squared(sum) / sqr(sqr(sum.z));
+    return dot(sum, sum) / sqr(sqr(sum.z));
   }
-  Vec3 sample_gloss(const SurfacePoint& at, const Vec3& from, const Vec2& u) const override {
-    return reflect(from, microfacet(at).sample(from, u));
+  Vec3Of<F> sample(const Vec3Of<F>& from, const Vec2Of<F>& u) const {
+    return reflect(from, normals.sample(u));
   }
-  Vec2 invert_gloss(const SurfacePoint& at, const Vec3& from, const Vec3& to) const override {
-    return microfacet(at).invert(from, normalize(from + to));
+  Vec2 invert(const Vec3& from, const Vec3& to) const {
+    return normals.invert(normalize(from + to));
   }
-  double gloss_roughness(const SurfacePoint& at) const override {
-    const Microfacet m = microfacet(at);
-    return std::min(m.alpha_u(), m.alpha_v());
-  }
+  F least_alpha() const { return normals.least_alpha(); }
+};
 
-  Microfacet microfacet(const SurfacePoint& at) const {
-    return {MicrofacetType::beckmann, alpha_u_->eval_scalar(at), alpha_v_->eval_scalar(at), false};
+class WardLobes {
+ public:
+  explicit WardLobes(Params& params)
+      : variant_(variant_param(params)),
+        alpha_u_(scalar_param(params, "alpha_u")),
+        alpha_v_(scalar_param(params, "alpha_v")) {}
+  template <class F>
+  WardLobe<F> at(const SurfacePoint* const* at) const {
+    const F least = number<F>(Microfacet::min_alpha);
+    return {variant_, {max(least, alpha_u_.eval<F>(at)), max(least, alpha_v_.eval<F>(at))}};
   }
+  double typical_alpha() const { return std::min(alpha_u_.mean(), alpha_v_.mean()); }
 
+ private:
   Variant variant_;
-  TexturePtr alpha_u_, alpha_v_;
+  ScalarTexture alpha_u_, alpha_v_;
 };
 
 }  // namespace
 
 Plugin bsdf_ward() {
-  Plugin plugin = make_plugin<Ward>(
+  Plugin plugin = make_plugin<GlossyOverDiffuse<WardLobes>>(
       "bsdf", "ward", "Ward's model: a diffuse part and a glossy, anisotropic lobe.",
       concat({{choice_parameter("variant", "balanced",
                                 "ward is the first one, ward-duer keeps more energy at grazing "
@@ -74,7 +77,7 @@ Plugin bsdf_ward() {
                                 {"ward", "ward-duer", "balanced"}),
                {"alpha_u", ParamType::texture, 0.1, "Roughness along the tangent."},
                {"alpha_v", ParamType::texture, 0.1, "Roughness across the tangent."}},
-              GlossyOverDiffuse::parameters()}));
+              GlossyReflectances::parameters()}));
   plugin.schema.conserves_energy = false;  // only one of the variants does
   return plugin;
 }

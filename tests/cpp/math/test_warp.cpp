@@ -137,7 +137,7 @@ TEST(Warp, CosinePower) {
 
 TEST(Warp, LobeAboutAnAxis) {
   for (const Vec3& axis : {Vec3(0, 0, 1), Vec3(0, 0, -1), normalize(Vec3(1, -2, 0.1))})
-    check_direction([=](const Vec2& u) { return sample_lobe(u, axis, 30); },
+    check_direction([=](const Vec2& u) { return sample_lobe(u, axis, 30.0); },
                     [=](const Vec3& w) { return lobe_pdf(w, axis, 30); },
                     [=](const Vec3& w) { return invert_lobe(w, axis, 30); }, true);
 }
