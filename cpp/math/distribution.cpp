@@ -73,36 +73,43 @@ Piecewise2D::Piecewise2D(const std::vector<float>& weights, size_t width, size_t
   starts_ = {std::move(starts), width, full};
 }
 
-Piecewise2D::Sample Piecewise2D::sample(const Vec2& u) const {
-  const Discrete::Sample row = rows_.sample_reuse(u.y);
-  return sample_in(row, starts_.last_up_to(row.index, static_cast<uint32_t>(u.x * full)), u.x);
-}
+// Within a row, the numbers of a column are those from its start on, over `full`.
 
-void Piecewise2D::sample(const Vec2* u, int count, Sample* samples) const {
-  Discrete::Sample chosen[most_together];
-  size_t rows[most_together], columns[most_together];
+void Piecewise2D::sample_cells(const Vec2* u, int count, Cells& cells) const {
   uint32_t shares[most_together];
   for (int i = 0; i < count; ++i) {
-    chosen[i] = rows_.sample_reuse(u[i].y);
-    rows[i] = chosen[i].index;
+    cells.row[i] = rows_.sample(u[i].y);
     shares[i] = static_cast<uint32_t>(u[i].x * full);
   }
-  starts_.last_up_to(rows, shares, count, columns);
-  for (int i = 0; i < count; ++i) samples[i] = sample_in(chosen[i], columns[i], u[i].x);
+  starts_.last_up_to(cells.row, shares, count, cells.column);
+  double low[2][most_together], size[2][most_together];
+  for (int i = 0; i < count; ++i) {
+    const size_t row = cells.row[i], column = cells.column[i];
+    low[0][i] = starts_.at(row, column);
+    size[0][i] = starts_.at(row, column + 1) - low[0][i];
+    low[1][i] = rows_.begin(row);
+    size[1][i] = rows_.pdf(row);
+  }
+  for (int i = 0; i < count; ++i) {
+    cells.x[i] = std::min((u[i].x * full - low[0][i]) / size[0][i], 1 - 0x1p-53);
+    cells.y[i] = std::min((u[i].y - low[1][i]) / size[1][i], 1 - 0x1p-53);
+    cells.probability[i] = size[1][i] * (size[0][i] / full);
+  }
 }
 
-/// The sample in a row and a column that have been chosen; u is the number that chose the column.
-Piecewise2D::Sample Piecewise2D::sample_in(const Discrete::Sample& row, size_t column,
-                                           double u) const {
-  const Cell cell{row.index, column, row.remainder, 0};
-  const double low = begin(cell), high = end(cell);
-  const double x = std::min((u * full - low) / (high - low), 1 - 0x1p-53);
-  return {{(static_cast<double>(column) + x) / static_cast<double>(width_),
-           (static_cast<double>(row.index) + row.remainder) / static_cast<double>(height_)},
-          pdf_in(cell)};
+Piecewise2D::Sample Piecewise2D::sample(const Vec2& u) const {
+  Cells cell;
+  sample_cells(&u, 1, cell);
+  return {{(static_cast<double>(cell.column[0]) + cell.x[0]) / static_cast<double>(width_),
+           (static_cast<double>(cell.row[0]) + cell.y[0]) / static_cast<double>(height_)},
+          cell.probability[0] * cells()};
 }
 
-Piecewise2D::Cell Piecewise2D::locate(const Vec2& p) const {
+double Piecewise2D::probability(size_t row, size_t column) const {
+  return rows_.pdf(row) * ((double{starts_.at(row, column + 1)} - starts_.at(row, column)) / full);
+}
+
+Piecewise2D::Place Piecewise2D::locate(const Vec2& p) const {
   const double x = std::min(std::max(p.x, 0.0), 1.0) * static_cast<double>(width_);
   const double y = std::min(std::max(p.y, 0.0), 1.0) * static_cast<double>(height_);
   const size_t column = std::min(static_cast<size_t>(x), width_ - 1);
@@ -110,12 +117,15 @@ Piecewise2D::Cell Piecewise2D::locate(const Vec2& p) const {
   return {row, column, y - static_cast<double>(row), x - static_cast<double>(column)};
 }
 
-double Piecewise2D::pdf(const Vec2& p) const { return pdf_in(locate(p)); }
+double Piecewise2D::pdf(const Vec2& p) const {
+  const Place place = locate(p);
+  return probability(place.row, place.column) * cells();
+}
 
 Vec2 Piecewise2D::invert(const Vec2& p) const {
-  const Cell cell = locate(p);
-  const double low = begin(cell), high = end(cell);
-  return {(low + cell.x * (high - low)) / full, rows_.invert(cell.row, cell.y)};
+  const Place at = locate(p);
+  const double low = starts_.at(at.row, at.column), high = starts_.at(at.row, at.column + 1);
+  return {(low + at.x * (high - low)) / full, rows_.invert(at.row, at.y)};
 }
 
 }  // namespace mlt

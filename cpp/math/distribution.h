@@ -40,6 +40,8 @@ class Discrete {
     return starts_.last_up_to(0, u);
   }
   double pdf(size_t index) const { return cdf_[index + 1] - cdf_[index]; }
+  /// Where the u of an index begin.
+  double begin(size_t index) const { return cdf_[index]; }
 
   Sample sample_reuse(double u) const {
     const size_t i = sample(u);
@@ -77,28 +79,26 @@ class Piecewise2D {
     double pdf;
   };
   Sample sample(const Vec2& u) const;
-  /// Samples by many numbers, at most `most_together`; much faster where the table is large.
-  void sample(const Vec2* u, int count, Sample* samples) const;
   static constexpr int most_together = 64;
+  /// Cells sampled by many numbers, the places in them, in [0, 1), and their probabilities.
+  struct Cells {
+    size_t row[most_together], column[most_together];
+    alignas(64) double y[most_together], x[most_together], probability[most_together];
+  };
+  /// Samples by many numbers, at most `most_together`; much faster where the table is large.
+  void sample_cells(const Vec2* u, int count, Cells& cells) const;
+  double probability(size_t row, size_t column) const;
   double pdf(const Vec2& p) const;
   /// The u that sample maps to p; meaningful where pdf(p) > 0.
   Vec2 invert(const Vec2& p) const;
 
  private:
-  struct Cell {
+  struct Place {
     size_t row, column;
     double y, x;  // place within the cell, in [0, 1]
   };
-  Cell locate(const Vec2& p) const;
-  Sample sample_in(const Discrete::Sample& row, size_t column, double u) const;
-  double pdf_in(const Cell& cell) const {
-    return rows_.pdf(cell.row) * share(cell) * static_cast<double>(width_) *
-           static_cast<double>(height_);
-  }
-  /// The probability of the cell in its row.
-  double share(const Cell& c) const { return (static_cast<double>(end(c)) - begin(c)) / full; }
-  uint32_t begin(const Cell& c) const { return starts_.at(c.row, c.column); }
-  uint32_t end(const Cell& c) const { return starts_.at(c.row, c.column + 1); }
+  Place locate(const Vec2& p) const;
+  double cells() const { return static_cast<double>(width_) * static_cast<double>(height_); }
 
   static constexpr uint32_t full = 0xffffffffu;
   size_t width_ = 0, height_ = 0;

@@ -1,5 +1,6 @@
 // What formulas are written over: double for single paths, and Float8 for eight of them side by
-// side. A formula that is to serve both chooses by select(), and not by a branch.
+// side, or Double4 where single precision is not enough. A formula that is to serve all chooses by
+// select(), and not by a branch.
 #pragma once
 
 #include "math/vec.h"
@@ -11,9 +12,24 @@ namespace mlt {
 
 namespace stdx = std::experimental;
 using Float8 = stdx::simd<float, stdx::simd_abi::deduce_t<float, 8>>;
+using Double4 = stdx::simd<double, stdx::simd_abi::deduce_t<double, 4>>;
 
 template <class F>
 inline constexpr bool is_number = std::is_floating_point_v<F>;
+template <class F>
+using IfLanes = std::enable_if_t<stdx::is_simd_v<F>>;
+
+template <class F, class = void>
+struct ValueType {
+  using type = F;
+};
+template <class F>
+struct ValueType<F, IfLanes<F>> {
+  using type = typename F::value_type;
+};
+/// Whether F has double precision.
+template <class F>
+inline constexpr bool is_double = std::is_same_v<typename ValueType<F>::type, double>;
 
 /// A number in all lanes.
 template <class F>
@@ -21,12 +37,13 @@ F number(double x) {
   if constexpr (is_number<F>)
     return static_cast<F>(x);
   else
-    return F(static_cast<float>(x));
+    return F(static_cast<typename F::value_type>(x));
 }
 
 inline double select(bool condition, double a, double b) { return condition ? a : b; }
 inline float select(bool condition, float a, float b) { return condition ? a : b; }
-inline Float8 select(const Float8::mask_type& condition, const Float8& a, Float8 b) {
+template <class F, class = IfLanes<F>>
+inline F select(const typename F::mask_type& condition, const F& a, F b) {
   stdx::where(condition, b) = a;
   return b;
 }
@@ -40,10 +57,13 @@ F for_each_lane(Get&& get) {
   if constexpr (is_number<F>)
     return get(0);
   else
-    return F([&](auto i) { return static_cast<float>(get(int(i))); });
+    return F([&](auto i) { return static_cast<typename F::value_type>(get(int(i))); });
 }
 inline double lane_of(double x, int) { return x; }
-inline float lane_of(const Float8& x, int i) { return x[i]; }
+template <class F, class = IfLanes<F>>
+typename F::value_type lane_of(const F& x, int i) {
+  return x[i];
+}
 
 // Functions of numbers, for formulas over both kinds:
 using std::abs;
@@ -60,15 +80,20 @@ F power(const F& x, const F& y) {
   return for_each_lane<F>([&](int i) { return std::pow(lane_of(x, i), lane_of(y, i)); });
 }
 
-inline Vec3Of<Float8> select(const Float8::mask_type& condition, const Vec3Of<Float8>& a,
-                             const Vec3Of<Float8>& b) {
+template <class F, class = IfLanes<F>>
+inline Vec3Of<F> select(const typename F::mask_type& condition, const Vec3Of<F>& a,
+                        const Vec3Of<F>& b) {
   return {select(condition, a.x, b.x), select(condition, a.y, b.y), select(condition, a.z, b.z)};
 }
 
-// Vectors of eight directions; glm's functions are for numbers alone.
-inline Float8 dot(const Vec3Of<Float8>& a, const Vec3Of<Float8>& b) {
+// Vectors of many directions; glm's functions are for numbers alone.
+template <class F, class = IfLanes<F>>
+inline F dot(const Vec3Of<F>& a, const Vec3Of<F>& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
-inline Vec3Of<Float8> normalize(const Vec3Of<Float8>& v) { return v * (1 / sqrt(dot(v, v))); }
+template <class F, class = IfLanes<F>>
+inline Vec3Of<F> normalize(const Vec3Of<F>& v) {
+  return v * (1 / sqrt(dot(v, v)));
+}
 
 }  // namespace mlt

@@ -21,22 +21,22 @@ using SinCos = SinCosOf<double>;
 
 namespace detail {
 
-/// sin and cos of x for |x| <= pi/4, by their Taylor series to 1 ulp (x^17 / 17! < 5e-17).
-inline SinCos sincos_octant(double x) {
-  const double y = x * x;
-  const double s = polynomial(y, {-1. / 1307674368000, 1. / 6227020800, -1. / 39916800, 1. / 362880,
-                                  -1. / 5040, 1. / 120, -1. / 6});
-  const double c = polynomial(y, {1. / 20922789888000, -1. / 87178291200, 1. / 479001600,
-                                  -1. / 3628800, 1. / 40320, -1. / 720, 1. / 24, -0.5});
-  return {x + x * y * s, 1 + y * c};
-}
-/// sin and cos of x for |x| <= pi/4 in single precision, to 4e-7 (x^9 / 9!).
+/// sin and cos of x for |x| <= pi/4, by their Taylor series: in double precision to 1 ulp
+/// (x^17 / 17! < 5e-17), in single precision to 4e-7 (x^9 / 9!).
 template <class F>
 SinCosOf<F> sincos_octant(const F& x) {
   const F y = x * x;
-  const F s = polynomial(y, {F(-1.f / 5040), F(1.f / 120), F(-1.f / 6)});
-  const F c = polynomial(y, {F(1.f / 40320), F(-1.f / 720), F(1.f / 24), F(-0.5f)});
-  return {x + x * y * s, 1 + y * c};
+  if constexpr (is_double<F>) {
+    const F s = polynomial(y, {F(-1. / 1307674368000), F(1. / 6227020800), F(-1. / 39916800),
+                               F(1. / 362880), F(-1. / 5040), F(1. / 120), F(-1. / 6)});
+    const F c = polynomial(y, {F(1. / 20922789888000), F(-1. / 87178291200), F(1. / 479001600),
+                               F(-1. / 3628800), F(1. / 40320), F(-1. / 720), F(1. / 24), F(-0.5)});
+    return {x + x * y * s, 1 + y * c};
+  } else {
+    const F s = polynomial(y, {F(-1.f / 5040), F(1.f / 120), F(-1.f / 6)});
+    const F c = polynomial(y, {F(1.f / 40320), F(-1.f / 720), F(1.f / 24), F(-0.5f)});
+    return {x + x * y * s, 1 + y * c};
+  }
 }
 
 }  // namespace detail
@@ -55,19 +55,22 @@ SinCosOf<F> sincos_turns(const F& u) {
 
 /// atan2(y, x) in turns, to 3e-16 of itself and without branches. With t = tan(a - pi/4) or tan(a),
 /// |t| <= tan(pi/8), a is t times a polynomial in t^2 that was fitted to 6e-18 (Chebyshev nodes).
-inline double signed_turns(double x, double y) {
-  constexpr double tan_pi_8 = 0.41421356237309503;
-  const double less = std::min(std::abs(x), std::abs(y)), more = std::max(std::abs(x), std::abs(y));
-  const bool beyond = less > tan_pi_8 * more;
-  const double above = beyond ? less - more : less, below = beyond ? less + more : more;
-  const double t = above / (below > 0 ? below : 1), y2 = t * t;
-  const double p = polynomial(
-      y2, {-0.0030520961421563173, 0.0062439121507638935, -0.00809374456969308,
-           0.009323533555664051, -0.010606899399966464, 0.01224248977977944, -0.01446862400784712,
-           0.017683882413208465, -0.0227364204400318, 0.03183098861837194, -0.05305164769729844});
-  const double in_octant = t * (0.5 * inv_pi) + t * y2 * p + (beyond ? 0.125 : 0);
-  const double in_quarter = std::abs(y) > std::abs(x) ? 0.25 - in_octant : in_octant;
-  return std::copysign(x < 0 ? 0.5 - in_quarter : in_quarter, y);
+template <class F>
+F signed_turns(const F& x, const F& y) {
+  const F tan_pi_8 = number<F>(0.41421356237309503);
+  const F less = min(abs(x), abs(y)), more = max(abs(x), abs(y));
+  const auto beyond = less > tan_pi_8 * more;
+  const F above = select(beyond, less - more, less), below = select(beyond, less + more, more);
+  const F t = above / select(below > 0, below, F(1)), y2 = t * t;
+  const F p =
+      polynomial(y2, {F(-0.0030520961421563173), F(0.0062439121507638935), F(-0.00809374456969308),
+                      F(0.009323533555664051), F(-0.010606899399966464), F(0.01224248977977944),
+                      F(-0.01446862400784712), F(0.017683882413208465), F(-0.0227364204400318),
+                      F(0.03183098861837194), F(-0.05305164769729844)});
+  const F in_octant =
+      t * number<F>(0.5 * inv_pi) + t * y2 * p + select(beyond, number<F>(0.125), F(0));
+  const F in_quarter = select(abs(y) > abs(x), number<F>(0.25) - in_octant, in_octant);
+  return copysign(select(x < 0, number<F>(0.5) - in_quarter, in_quarter), y);
 }
 
 /// The inverse of sincos_turns: the azimuth of (x, y) in turns, in [0, 1).

@@ -6,31 +6,18 @@ namespace mlt {
 namespace {
 
 /// Polar angle against the y axis over pi, exact near the poles too.
-double polar_share(const Vec3& d) { return 2 * signed_turns(d.y, std::sqrt(sqr(d.x) + sqr(d.z))); }
-
-/// The direction with this cosine of the polar angle and this azimuth in turns.
-Vec3 direction_of(double cos_theta, double turns) {
-  const double sin_theta = safe_sqrt((1 - cos_theta) * (1 + cos_theta));
-  const SinCos phi = sincos_turns(turns);
-  return {sin_theta * phi.sin, cos_theta, -sin_theta * phi.cos};
+template <class F>
+F polar_share(const Vec3Of<F>& d) {
+  return 2 * signed_turns(d.y, F(sqrt(sqr(d.x) + sqr(d.z))));
 }
 
-/// Directions by their azimuths and y, in loops that the compiler vectorises.
-struct Directions {
-  static constexpr int most = Piecewise2D::most_together;
-  double turns[most], x[most], y[most], z[most];
-  double polar[most];  ///< See polar_share().
-
-  Vec3 operator[](int i) const { return {x[i], y[i], z[i]}; }
-  [[gnu::flatten]] void find(int count) {
-    for (int i = 0; i < count; ++i) {
-      const Vec3 d = direction_of(y[i], turns[i]);
-      x[i] = d.x;
-      z[i] = d.z;
-      polar[i] = polar_share(d);
-    }
-  }
-};
+/// The direction with this cosine of the polar angle and this azimuth in turns.
+template <class F>
+Vec3Of<F> direction_of(const F& cos_theta, const F& turns) {
+  const F sin_theta = sqrt(max(F(0), (1 - cos_theta) * (1 + cos_theta)));
+  const SinCosOf<F> phi = sincos_turns(turns);
+  return {sin_theta * phi.sin, cos_theta, -sin_theta * phi.cos};
+}
 
 }  // namespace
 
@@ -58,79 +45,110 @@ Color EnvironmentMap::radiance_at(double column, double polar_share) const {
 }
 
 PositionSample EnvironmentMap::sample_position(const Vec2& u, double) const {
-  Piecewise2D::Sample sample = table_.sample(u);
-  Cell cell = this->cell(sample.at);
-  sample = in_cell(cell, sample);
-  const Vec3 d = direction_of(cosine_at(sample.at.y), sample.at.x + 0.5 / width_);
-  return {point_towards(axes_.to_world(d)), pdf_of(sample)};
+  Piecewise2D::Cells cells;
+  table_.sample_cells(&u, 1, cells);
+  Cell<double> cell = this->cell(static_cast<int>(cells.column[0]), static_cast<int>(cells.row[0]),
+                                 {cells.x[0], cells.y[0]});
+  cell.within = cell.corners.luminances().sample(cell.within);
+  return {point_towards(axes_.to_world(direction_to(cell))), pdf(cell, cells.probability[0])};
 }
 
 void EnvironmentMap::sample_positions(const PositionRequest* requests, int count) const {
-  constexpr int most = Directions::most;
+  constexpr int most = Piecewise2D::most_together;
   for (; count > 0; requests += most, count -= most) {
     const int together = std::min(count, most);
     Vec2 u[most];
-    Piecewise2D::Sample samples[most];
+    Piecewise2D::Cells cells;
     for (int i = 0; i < together; ++i) u[i] = requests[i].u;
-    table_.sample(u, together, samples);
+    table_.sample_cells(u, together, cells);
     for (int i = 0; i < together; ++i) {
-      const Vec2& at = samples[i].at;
-      const float* corner = texel_data(static_cast<int>(at.x * width_), row_at(at.y));
+      const float* corner =
+          texel_data(static_cast<int>(cells.column[i]), static_cast<int>(cells.row[i]));
       __builtin_prefetch(corner);
       __builtin_prefetch(corner + size_t(width_) * size_t(channels_));
     }
-    Directions towards;
-    Cell cells[most];
-    for (int i = 0; i < together; ++i) {
-      cells[i] = cell(samples[i].at);
-      samples[i] = in_cell(cells[i], samples[i]);
-      towards.turns[i] = samples[i].at.x + 0.5 / width_;
-      towards.y[i] = cosine_at(samples[i].at.y);
-    }
-    towards.find(together);
-    for (int i = 0; i < together; ++i) {
-      const PositionRequest& request = requests[i];
-      const double y = std::clamp(towards.polar[i] * cell_rows() - cells[i].at.y, 0.0, 1.0);
-      const Color rgb = scale_ * cells[i].corners.at({cells[i].within.x, y});
-      *request.sample = {point_towards(axes_.to_world(towards[i])), pdf_of(samples[i])};
-      request.sample->at.wavelength = request.wavelength;
-      *request.radiance = spectrum_of(rgb, RgbMeaning::light, request.wavelength);
-    }
+    for (int i = 0; i < together; i += 4)
+      take_four(requests + i, std::min(together - i, 4), cells, i);
+  }
+}
+
+/// sample_position() for the requests that have sampled four cells, or fewer.
+void EnvironmentMap::take_four(const PositionRequest* requests, int count,
+                               const Piecewise2D::Cells& cells, int first) const {
+  using F = Double4;
+  constexpr int size = F::size();
+  double column[size], row[size], top[size], bottom[size];
+  float texels[4][3][size];
+  for (int k = 0; k < size; ++k) {
+    const int lane = first + std::min(k, count - 1);
+    const int i = static_cast<int>(cells.column[lane]), j = static_cast<int>(cells.row[lane]);
+    column[k] = i;
+    row[k] = j;
+    top[k] = cos_rows_[size_t(j)];
+    bottom[k] = cos_rows_[size_t(j) + 1];
+    const float* corners[] = {texel_data(i, j), texel_data(i + 1, j), texel_data(i, j + 1),
+                              texel_data(i + 1, j + 1)};
+    for (int corner = 0; corner < 4; ++corner)
+      for (int c = 0; c < 3; ++c) texels[corner][c][k] = corners[corner][channels_ == 1 ? 0 : c];
+  }
+  const auto lanes = [](const auto* numbers) { return F(numbers, stdx::element_aligned); };
+  const auto color = [&](int corner) {
+    const auto& [r, g, b] = texels[corner];
+    return Vec3Of<F>(lanes(r), lanes(g), lanes(b));
+  };
+  Cell<F> cell{{lanes(column), lanes(row)},
+               {lanes(&cells.x[first]), lanes(&cells.y[first])},
+               lanes(top),
+               lanes(bottom),
+               {color(0), color(1), color(2), color(3)}};
+  cell.within = cell.corners.luminances().sample(cell.within);
+  const Vec3Of<F> d = direction_to(cell);
+  const F pdf = this->pdf(cell, lanes(&cells.probability[first]));
+  const F y = min(max(polar_share(d) * F(cell_rows()) - cell.at.y, F(0)), F(1));
+  const Vec3Of<F> rgb = F(scale_) * cell.corners.at({cell.within.x, y});
+  for (int k = 0; k < count; ++k) {
+    const PositionRequest& request = requests[k];
+    *request.sample = {point_towards(axes_.to_world({d.x[k], d.y[k], d.z[k]})), pdf[k]};
+    request.sample->at.wavelength = request.wavelength;
+    *request.radiance =
+        spectrum_of({rgb.x[k], rgb.y[k], rgb.z[k]}, RgbMeaning::light, request.wavelength);
   }
 }
 
 double EnvironmentMap::pdf_position(const SurfacePoint& x0) const {
-  const Vec2 place = place_of(axes_.to_local(x0.p));
-  const Cell cell = this->cell(place);
-  return pdf_of({place, table_.pdf(place) * cell.corners.luminances().density(cell.within)});
+  const Cell<double> cell = this->cell(place_of(axes_.to_local(x0.p)));
+  return pdf(cell,
+             table_.probability(static_cast<size_t>(cell.at.y), static_cast<size_t>(cell.at.x)));
 }
 
 /// The cell of a place in the table.
-EnvironmentMap::Cell EnvironmentMap::cell(const Vec2& place) const {
+EnvironmentMap::Cell<double> EnvironmentMap::cell(const Vec2& place) const {
   const int i = std::min(static_cast<int>(place.x * width_), width_ - 1), j = row_at(place.y);
-  return {{i, j}, {place.x * width_ - i, place.y * cell_rows() - j}, corners(i, j)};
+  return cell(i, j, {place.x * width_ - i, place.y * cell_rows() - j});
+}
+EnvironmentMap::Cell<double> EnvironmentMap::cell(int i, int j, const Vec2& within) const {
+  return {{i, j}, within, cos_rows_[size_t(j)], cos_rows_[size_t(j) + 1], corners(i, j)};
 }
 
-Vec2 EnvironmentMap::place_in(const Cell& cell) const {
-  return (Vec2(cell.at) + cell.within) / Vec2(width_, cell_rows());
+/// The direction of a cell's place, in which y is linear in cos theta; column 0 is the middle of
+/// the first column of texels.
+template <class F>
+Vec3Of<F> EnvironmentMap::direction_to(const Cell<F>& cell) const {
+  const F turns = (cell.at.x + cell.within.x + number<F>(0.5)) / F(width_);
+  return direction_of(F(cell.top + cell.within.y * (cell.bottom - cell.top)), turns);
 }
 
-/// Moves a sample of the cells within its cell, to one of the interpolated radiance.
-Piecewise2D::Sample EnvironmentMap::in_cell(Cell& cell, const Piecewise2D::Sample& sample) const {
-  const BilinearPatch luminances = cell.corners.luminances();
-  cell.within = luminances.sample(cell.within);
-  return {place_in(cell), sample.pdf * luminances.density(cell.within)};
-}
-
-double EnvironmentMap::pdf_of(const Piecewise2D::Sample& sample) const {
-  const double cells = static_cast<double>(width_) * cell_rows();
-  return sample.pdf / (cells * cell_solid_angle(row_at(sample.at.y)));
+/// Density in solid angle of a cell's place, by the probability of the cell.
+template <class F>
+F EnvironmentMap::pdf(const Cell<F>& cell, const F& probability) const {
+  return probability * cell.corners.luminances().density(cell.within) /
+         (number<F>(2 * pi / width_) * (cell.top - cell.bottom));
 }
 
 Vec2 EnvironmentMap::invert_position(const SurfacePoint& x0) const {
-  Cell cell = this->cell(place_of(axes_.to_local(x0.p)));
-  cell.within = cell.corners.luminances().invert(cell.within);
-  return table_.invert(place_in(cell));
+  const Cell<double> cell = this->cell(place_of(axes_.to_local(x0.p)));
+  const Vec2 within = cell.corners.luminances().invert(cell.within);
+  return table_.invert((cell.at + within) / Vec2(width_, cell_rows()));
 }
 
 const float* EnvironmentMap::texel_data(int i, int j) const {
@@ -142,16 +160,19 @@ Color EnvironmentMap::color_of(const float* texel) const {
   return channels_ == 1 ? Color(*texel) : Color(texel[0], texel[1], texel[2]);
 }
 
-EnvironmentMap::Corners EnvironmentMap::corners(int i, int j) const {
+EnvironmentMap::Corners<double> EnvironmentMap::corners(int i, int j) const {
   const float *left = texel_data(i, j), *right = texel_data(i + 1, j);
   const size_t below = size_t(width_) * size_t(channels_);
   return {color_of(left), color_of(right), color_of(left + below), color_of(right + below)};
 }
 
-BilinearPatch EnvironmentMap::Corners::luminances() const {
-  const BilinearPatch patch{luminance(c00), luminance(c10), luminance(c01), luminance(c11)};
-  if (patch.v00 + patch.v10 + patch.v01 + patch.v11 > 0) return patch;
-  return {1, 1, 1, 1};
+/// Where all are black, any place is as good.
+template <class F>
+BilinearPatch<F> EnvironmentMap::Corners<F>::luminances() const {
+  const BilinearPatch<F> patch{luminance(c00), luminance(c10), luminance(c01), luminance(c11)};
+  const auto black = !(patch.v00 + patch.v10 + patch.v01 + patch.v11 > 0);
+  const auto or_one = [&](const F& v) { return select(black, F(1), v); };
+  return {or_one(patch.v00), or_one(patch.v10), or_one(patch.v01), or_one(patch.v11)};
 }
 
 /// The azimuth of d in turns from the first column; in [0, 1).
@@ -202,12 +223,6 @@ double EnvironmentMap::cell_solid_angle(int row) const {
 // The table's unit square: x is column_at; within each row y is linear in cos theta.
 int EnvironmentMap::row_at(double y) const {
   return std::clamp(static_cast<int>(y * cell_rows()), 0, cell_rows() - 1);
-}
-
-double EnvironmentMap::cosine_at(double y) const {
-  const int j = row_at(y);
-  const double top = cos_rows_[size_t(j)], bottom = cos_rows_[size_t(j) + 1];
-  return top + (y * cell_rows() - j) * (bottom - top);
 }
 
 Vec2 EnvironmentMap::place_of(const Vec3& d) const {

@@ -50,28 +50,33 @@ class EnvironmentMap : public InfiniteEmitter {
   double cell_solid_angle(int row) const;
   int row_at(double y) const;
   Color radiance_at(double column, double polar_share) const;
-  /// The texels around a cell.
+  /// The texels around a cell, or around many.
+  template <class F>
   struct Corners {
-    Color c00, c10, c01, c11;
+    Vec3Of<F> c00, c10, c01, c11;
 
     /// Their bilinear interpolation.
-    Color at(const Vec2& p) const {
+    Vec3Of<F> at(const Vec2Of<F>& p) const {
       return (1 - p.y) * ((1 - p.x) * c00 + p.x * c10) + p.y * ((1 - p.x) * c01 + p.x * c11);
     }
-    BilinearPatch luminances() const;
+    BilinearPatch<F> luminances() const;
   };
-  Corners corners(int i, int j) const;
+  Corners<double> corners(int i, int j) const;
+  template <class F>
   struct Cell {
-    Vec2i at{};     ///< Column and row.
-    Vec2 within{};  ///< A place in it, in [0, 1]^2.
-    Corners corners{};
+    Vec2Of<F> at;      ///< Column and row.
+    Vec2Of<F> within;  ///< A place in it, in [0, 1]^2.
+    F top, bottom;     ///< cos theta at its edges.
+    Corners<F> corners;
   };
-  Cell cell(const Vec2& place) const;
-  Vec2 place_in(const Cell& cell) const;
-  Piecewise2D::Sample in_cell(Cell& cell, const Piecewise2D::Sample& sample) const;
-  /// Density in solid angle of a direction, by that of its place in the table.
-  double pdf_of(const Piecewise2D::Sample& sample) const;
-  double cosine_at(double y) const;
+  Cell<double> cell(const Vec2& place) const;
+  Cell<double> cell(int i, int j, const Vec2& within) const;
+  template <class F>
+  Vec3Of<F> direction_to(const Cell<F>& cell) const;
+  template <class F>
+  F pdf(const Cell<F>& cell, const F& probability) const;
+  void take_four(const PositionRequest* requests, int count, const Piecewise2D::Cells& cells,
+                 int first) const;
   Vec2 place_of(const Vec3& d) const;
 
   Frame axes_;

@@ -7,7 +7,7 @@
 namespace mlt::test {
 namespace {
 
-const BilinearPatch patches[] = {{1, 1, 1, 1}, {0, 3, 1, 2}, {0, 0, 0, 5}, {1, 0, 0, 0}};
+const BilinearPatch<double> patches[] = {{1, 1, 1, 1}, {0, 3, 1, 2}, {0, 0, 0, 5}, {1, 0, 0, 0}};
 
 Vec2 uniform2(Rng& rng) {
   const double x = rng.next();
@@ -15,7 +15,7 @@ Vec2 uniform2(Rng& rng) {
 }
 
 TEST(BilinearPatch, SamplesFollowItsDensity) {
-  for (const BilinearPatch& patch : patches) {
+  for (const BilinearPatch<double>& patch : patches) {
     const ChiSquareResult r = chi_square_rect(
         [&](Rng& rng) -> std::optional<Vec2> { return patch.sample(uniform2(rng)); },
         [&](const Vec2& p) { return patch.density(p); }, {0, 0}, {1, 1}, 200000, 5);
@@ -25,7 +25,7 @@ TEST(BilinearPatch, SamplesFollowItsDensity) {
 }
 
 TEST(BilinearPatch, IsAsDenseAsItsValues) {
-  const BilinearPatch patch{1, 2, 3, 6};  // 3 in the mean
+  const BilinearPatch<double> patch{1, 2, 3, 6};  // 3 in the mean
   EXPECT_DOUBLE_EQ(patch.density({0, 0}), 1. / 3);
   EXPECT_DOUBLE_EQ(patch.density({1, 0}), 2. / 3);
   EXPECT_DOUBLE_EQ(patch.density({0, 1}), 1);
@@ -34,7 +34,7 @@ TEST(BilinearPatch, IsAsDenseAsItsValues) {
 }
 
 TEST(BilinearPatch, StaysInTheSquare) {
-  for (const BilinearPatch& patch : patches)
+  for (const BilinearPatch<double>& patch : patches)
     for (const Vec2 u : {Vec2(0, 0), Vec2(0, 0.5), Vec2(0.5, 0), Vec2(1 - 0x1p-53, 1 - 0x1p-53)}) {
       const Vec2 p = patch.sample(u);
       EXPECT_TRUE(p.x >= 0 && p.x < 1 && p.y >= 0 && p.y < 1) << p.x << " " << p.y;
@@ -43,7 +43,7 @@ TEST(BilinearPatch, StaysInTheSquare) {
 
 TEST(BilinearPatch, Inverts) {
   Rng rng(1, Purpose::test, 0);
-  for (const BilinearPatch& patch : patches)
+  for (const BilinearPatch<double>& patch : patches)
     for (int i = 0; i < 10000; ++i) {
       const Vec2 u = uniform2(rng), v = patch.invert(patch.sample(u));
       ASSERT_NEAR(v.x, u.x, 1e-9);

@@ -120,13 +120,15 @@ TEST(Piecewise2D, SamplesManyTogetherAsAlone) {
     for (int round = 0; round < 100; ++round) {
       const int count = static_cast<int>(rng.below(Piecewise2D::most_together + 1));
       Vec2 u[Piecewise2D::most_together];
-      Piecewise2D::Sample together[Piecewise2D::most_together];
+      Piecewise2D::Cells together;
       for (int i = 0; i < count; ++i) u[i] = uniform2(rng);
-      d.sample(u, count, together);
+      d.sample_cells(u, count, together);
       for (int i = 0; i < count; ++i) {
         const Piecewise2D::Sample alone = d.sample(u[i]);
-        ASSERT_EQ(together[i].at, alone.at);
-        ASSERT_EQ(together[i].pdf, alone.pdf);
+        const Vec2 cell(together.column[i], together.row[i]);
+        const Vec2 at = (cell + Vec2(together.x[i], together.y[i])) / Vec2(width, 60);
+        ASSERT_LT(length(at - alone.at), 1e-12);  // rounded in another way
+        ASSERT_DOUBLE_EQ(together.probability[i] * double(width * 60), alone.pdf);
         ASSERT_EQ(alone.pdf, d.pdf(alone.at));
       }
     }

@@ -65,9 +65,9 @@ TEST(Warp, SignedTurnsAreThoseOfTheArcTangent) {
     worst = std::max(worst, std::abs(static_cast<double>(signed_turns(x, y) / expected - 1)));
   }
   EXPECT_LT(worst, 5e-16);
-  EXPECT_EQ(signed_turns(-1, 0), 0.5);
-  EXPECT_EQ(signed_turns(0, -2), -0.25);
-  EXPECT_EQ(signed_turns(3, 3), 0.125);
+  EXPECT_EQ(signed_turns(-1., 0.), 0.5);
+  EXPECT_EQ(signed_turns(0., -2.), -0.25);
+  EXPECT_EQ(signed_turns(3., 3.), 0.125);
 }
 
 TEST(Warp, TurnsStayBelowOne) {
