@@ -121,7 +121,7 @@ std::vector<Assignments> long_variants() {
   std::vector<Assignments> all;
   for (const MutationPlugin& plugin : mutation_plugins()) all.push_back(only(plugin.name()));
   all.push_back({{"two_stage", "false"}});
-  all.push_back({{"direct_samples", "16"}});
+  all.push_back({{"direct_samples", "256"}});
   all.push_back({{"delayed_rejection", "true"}});
   all.push_back({{"caustic_anisotropic", "false"}});
   return all;
