@@ -37,14 +37,19 @@ inline LightSample sample_light_position(const Scene& scene, Vec3 u, double time
   return sample_light_position(scene, choice, {u.y, u.z}, time, wavelength);
 }
 /// Samples a position on this light for next-event estimation at the point `from`, at its time.
-inline LightSample sample_direct_position(const Scene& scene, const SurfacePoint& from,
-                                          const EmitterChoice& choice, const Vec2& u) {
+inline LightSample sample_direct_position(const Scene& scene, const Vec3& from, double time,
+                                          double wavelength, const EmitterChoice& choice,
+                                          const Vec2& u) {
   if (!(choice.probability > 0)) return {choice.emitter, {}, {}};
-  LightSample light{choice.emitter, choice.emitter->sample_direct(from.p, u, from.time), {}};
-  light.x0.at.wavelength = from.wavelength;
+  LightSample light{choice.emitter, choice.emitter->sample_direct(from, u, time), {}};
+  light.x0.at.wavelength = wavelength;
   light.x0.pdf *= choice.probability;
   if (scene.has_media()) light.x0.at.medium = scene.medium_at_light(*choice.emitter, light.x0.at);
   return light;
+}
+inline LightSample sample_direct_position(const Scene& scene, const SurfacePoint& from,
+                                          const EmitterChoice& choice, const Vec2& u) {
+  return sample_direct_position(scene, from.p, from.time, from.wavelength, choice, u);
 }
 
 /// The same for the light that u.x chooses, at the position that (u.y, u.z) choose.

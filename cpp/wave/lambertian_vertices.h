@@ -4,6 +4,7 @@
 
 #include "math/lanes.h"
 #include "path/mis.h"
+#include "path/walk.h"
 #include "scene/lambertian.h"
 #include "scene/mesh.h"
 #include "scene/scene.h"
@@ -25,6 +26,15 @@ struct TriangleBlock {
     b1[i] = b_1;
     b2[i] = b_2;
     extent[i] = record.extent;
+  }
+  /// A point alone.
+  void set(int i, const Vec3f& p, const Vec3f& normal, float extent_of_it) {
+    p0.set(i, p);
+    p1.set(i, p);
+    p2.set(i, p);
+    ng.set(i, normal);
+    b1[i] = b2[i] = 0;
+    extent[i] = extent_of_it;
   }
   Vec3f position(int i) const {
     return p0[i] * (1 - b1[i] - b2[i]) + p1[i] * b1[i] + p2[i] * b2[i];
@@ -80,13 +90,7 @@ struct LambertianVertices {
   }
   /// Sets the position of the i-th path to that of a vertex which is not Lambertian.
   void set_position(int i, const SurfacePoint& at) {
-    const Vec3f p0(at.p);
-    surface.p0.set(i, p0);
-    surface.p1.set(i, p0);
-    surface.p2.set(i, p0);
-    surface.ng.set(i, Vec3f(at.ng));
-    surface.b1[i] = surface.b2[i] = 0;
-    surface.extent[i] = static_cast<float>(at.extent);
+    surface.set(i, Vec3f(at.p), Vec3f(at.ng), static_cast<float>(at.extent));
     n.set(i, Vec3f(at.shading.n));
     back[i] = 1;
   }
@@ -116,6 +120,19 @@ struct LambertianVertices {
       spectral_radiance_[i] = chosen.radiance_at(wavelength);
       radiance[i] = &spectral_radiance_[i];
     }
+  }
+  /// Sets the light point of the i-th path to one of a lamp that is no mesh and not at infinity.
+  void set_lamp(int i, const LightSample& lamp) {
+    const SurfacePoint& y = lamp.x0.at;
+    const Vec3 w = normalize(y.p - Vec3(p[i]));
+    const Spectrum emitted = lamp.x0.pdf > 0 ? lamp.emitted(-w) : Spectrum(0);
+    // So a lamp without size gets a MIS weight of 1.
+    const double large = lamp.emitter->delta() ? 0x1p64 : 1;
+    const Vec3 ng = y.kind == PointKind::surface ? y.ng : -w;
+    light.set(i, Vec3f(y.p), Vec3f(ng), static_cast<float>(y.extent));
+    light_pdf[i] = is_black(emitted) ? 0 : static_cast<float>(large * lamp.x0.pdf);
+    spectral_radiance_[i] = large * emitted;
+    radiance[i] = &spectral_radiance_[i];
   }
   /// The i-th vertex as a SurfacePoint, for computations of single paths.
   SurfacePoint point(int i, uint32_t shape, double time, double wavelength) const;

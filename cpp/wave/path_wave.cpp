@@ -4,6 +4,7 @@ namespace mlt {
 
 template <class Numbers>
 bool BasicPathWave<Numbers>::serves_glossy(const Scene& scene) {
+  if (!scene.has_passages()) return true;
   for (const EmitterPtr& emitter : scene.emitters())
     if (!emitter->infinite() && !scene.mesh_light(emitter->index()).mesh) return false;
   return !scene.has_media();

@@ -48,7 +48,11 @@ class BasicPathWave {
   static constexpr size_t capacity = wave_size;
 
   BasicPathWave(const Scene& scene, const PathRules& rules, Heuristic heuristic = Heuristic::power)
-      : scene_(&scene), rules_(rules), mis_(heuristic), serves_glossy_(serves_glossy(scene)) {
+      : scene_(&scene),
+        rules_(rules),
+        mis_(heuristic),
+        lamps_in_lanes_(!scene.has_passages()),
+        serves_glossy_(serves_glossy(scene)) {
     walks_.reserve(capacity);
   }
 
@@ -88,7 +92,7 @@ class BasicPathWave {
   }
 
  private:
-  /// Whether all lights are emissive meshes or at infinity, and no light passes a medium.
+  /// Whether no vertex on a mesh is computed by itself for the light that it samples.
   static bool serves_glossy(const Scene& scene);
 
   /// A vertex on a mesh that samples a light at infinity.
@@ -122,7 +126,7 @@ class BasicPathWave {
   void sample_other_lights();
   void light_glossy();
   void queue_lights();
-  void queue_mesh_lights();
+  void queue_near_lights();
   void queue_sky(const SkyVertex& vertex);
   void queue_glossy(const GlossyVertex& vertex);
   void queue_other_light(const SingleVertex& single);
@@ -148,6 +152,7 @@ class BasicPathWave {
   const Scene* scene_;
   PathRules rules_;
   MisExponent mis_;
+  bool lamps_in_lanes_;  ///< All lamps, since none of them may be passed.
   bool serves_glossy_;
   std::vector<WaveWalk> walks_;
   WaveShadows shadows_;
@@ -174,7 +179,7 @@ class BasicPathWave {
   int sky_count_ = 0;              ///< How many are in use.
   Block<int> glossy_at_, single_;  ///< Index in glossy_ or singles_ of its vertex; -1: none.
   BackgroundPositions backgrounds_;
-  bool mesh_lights_;  ///< Whether any vertex on a mesh samples an emissive mesh.
+  bool near_lights_;  ///< Whether any vertex on a mesh samples a light that is not at infinity.
 };
 
 using PathWave = BasicPathWave<WaveNumbers>;

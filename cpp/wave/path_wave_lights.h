@@ -28,7 +28,7 @@ void BasicPathWave<Numbers>::choose_lights(int depth) {
     return lambertian_.f[i] || glossy_at_[i] >= 0 ||
            (single_[i] >= 0 && wants_direct_light(*scene_, rules_, depth, singles_[single_[i]].at));
   };
-  mesh_lights_ = false;
+  near_lights_ = false;
   for (int i = 0; i < count_; ++i) {
     if (!wants_light(i)) continue;
     Vec3 u = numbers_for_light(i);
@@ -39,7 +39,7 @@ void BasicPathWave<Numbers>::choose_lights(int depth) {
       lambertian_.set_light(i, light, choice.probability,
                             light.mesh->sample_barycentrics_for(from, {u.y, u.z}),
                             walk(i).ray.wavelength);
-      mesh_lights_ = true;
+      near_lights_ = true;
     } else {
       choose_other_light(i, choice, {u.y, u.z});
     }
@@ -63,6 +63,12 @@ void BasicPathWave<Numbers>::choose_other_light(int i, const EmitterChoice& choi
       return;
     }
     const Ray& ray = walk(i).ray;
+    if (lamps_in_lanes_) {
+      lambertian_.set_lamp(i, sample_direct_position(*scene_, Vec3(lambertian_.p[i]), ray.time,
+                                                     ray.wavelength, choice, u));
+      near_lights_ = true;
+      return;
+    }
     single_[i] = singles_.add(i, -Vec3(d_[begin_ + i]));
     singles_[single_[i]].at =
         lambertian_.point(i, hits(i).shape[i % RayPacket::size], ray.time, ray.wavelength);
@@ -91,10 +97,10 @@ void BasicPathWave<Numbers>::sample_other_lights() {
 /// Gives the lights that were sampled to the glossy vertices.
 template <class Numbers>
 void BasicPathWave<Numbers>::light_glossy() {
-  if (mesh_lights_) lambertian_.unshadowed_lights(count_, rules_.strict_normals, mis_);
+  if (near_lights_) lambertian_.unshadowed_lights(count_, rules_.strict_normals, mis_);
   for (GlossyVertex& vertex : glossy_) {
     const int i = vertex.path;
-    if (!mesh_lights_ || !(lambertian_.light_weight[i] > 0)) continue;
+    if (!near_lights_ || !(lambertian_.light_weight[i] > 0)) continue;
     vertex.set_light(lambertian_.wl[i], lambertian_.direction_pdf[i], *lambertian_.radiance[i],
                      false);
   }
@@ -130,7 +136,7 @@ inline void BasicPathWave<Numbers>::queue_shadow(int i, const DirectLight& direc
 
 template <class Numbers>
 void BasicPathWave<Numbers>::queue_lights() {
-  if (mesh_lights_) queue_mesh_lights();
+  if (near_lights_) queue_near_lights();
   for (int j = 0; j < sky_count_; ++j)
     if (lambertian_.f[sky_vertices_[j].path]) queue_sky(sky_vertices_[j]);
   for (const GlossyVertex& vertex : glossy_) queue_glossy(vertex);
@@ -139,7 +145,7 @@ void BasicPathWave<Numbers>::queue_lights() {
 }
 
 template <class Numbers>
-void BasicPathWave<Numbers>::queue_mesh_lights() {
+void BasicPathWave<Numbers>::queue_near_lights() {
   for (int i = 0; i < count_; ++i)
     if (lambertian_.f[i] && lambertian_.light_weight[i] > 0)
       queue_shadow(
