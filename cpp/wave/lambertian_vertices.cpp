@@ -5,20 +5,6 @@
 
 namespace mlt {
 
-SurfacePoint LambertianVertices::point(int i, uint32_t shape, double time,
-                                       double wavelength) const {
-  SurfacePoint at;
-  at.p = Vec3(p[i]);
-  at.ng = normalize(Vec3(surface.ng[i]));
-  at.shading = Frame::around(normalize(Vec3(n[i])));
-  at.shape = shape;
-  at.time = time;
-  at.wavelength = wavelength;
-  at.extent = surface.extent[i];
-  at.lambertian = {*f[i], back[i] > 0 ? Lambertian::Sides::both : Lambertian::Sides::front};
-  return at;
-}
-
 void LambertianVertices::find_points(int count, const float* d_x, const float* d_y,
                                      const float* d_z, bool strict_normals) {
   const int end = whole_vectors(count);

@@ -122,21 +122,20 @@ struct LambertianVertices {
     }
   }
   /// Sets the light point of the i-th path to one of a lamp that is no mesh and not at infinity.
-  void set_lamp(int i, const LightSample& lamp) {
+  void set_lamp(int i, const LightSample& lamp, const Scene& scene) {
     const SurfacePoint& y = lamp.x0.at;
     const Vec3 w = normalize(y.p - Vec3(p[i]));
     const Spectrum emitted = lamp.x0.pdf > 0 ? lamp.emitted(-w) : Spectrum(0);
-    // So a lamp without size gets a MIS weight of 1.
-    const double large = lamp.emitter->delta() ? 0x1p64 : 1;
+    // A larger density with as much more light has a larger MIS weight: that beside scattered rays
+    // which stop at the lamp with this probability, or never.
+    const double stops = lamp.emitter->delta() ? 0 : scene.stop_probability(y, w);
+    const double large = std::min(1 / stops, 0x1p64);
     const Vec3 ng = y.kind == PointKind::surface ? y.ng : -w;
     light.set(i, Vec3f(y.p), Vec3f(ng), static_cast<float>(y.extent));
     light_pdf[i] = is_black(emitted) ? 0 : static_cast<float>(large * lamp.x0.pdf);
     spectral_radiance_[i] = large * emitted;
     radiance[i] = &spectral_radiance_[i];
   }
-  /// The i-th vertex as a SurfacePoint, for computations of single paths.
-  SurfacePoint point(int i, uint32_t shape, double time, double wavelength) const;
-
   // Each function works on the first `count` paths; d are the directions of their incident rays.
   void find_points(int count, const float* d_x, const float* d_y, const float* d_z,
                    bool strict_normals);

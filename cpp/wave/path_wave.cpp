@@ -3,14 +3,6 @@
 namespace mlt {
 
 template <class Numbers>
-bool BasicPathWave<Numbers>::serves_glossy(const Scene& scene) {
-  if (!scene.has_passages()) return true;
-  for (const EmitterPtr& emitter : scene.emitters())
-    if (!emitter->infinite() && !scene.mesh_light(emitter->index()).mesh) return false;
-  return !scene.has_media();
-}
-
-template <class Numbers>
 void BasicPathWave<Numbers>::trace(RayCounts& rays, bool coherent) {
   for (int depth = 1; live_ > 0; ++depth) {
     find_hits(coherent && depth == 1, rays);
@@ -95,7 +87,7 @@ inline void BasicPathWave<Numbers>::find_vertex(int i, int depth, RayCounts& ray
     return;
   }
   const LaneMesh& mesh = scene_->lane_mesh(shape);
-  const bool glossy = mesh.glossy && serves_glossy_ && !mesh.emits;
+  const bool glossy = mesh.glossy && !mesh.emits;
   if (mesh.emits || !(mesh.lambertian || glossy)) find_single(i, hits.hit(lane), depth, rays);
   if (depth == rules_.most_edges()) return;
   const uint32_t triangle = hits.primitive[lane];

@@ -48,11 +48,7 @@ class BasicPathWave {
   static constexpr size_t capacity = wave_size;
 
   BasicPathWave(const Scene& scene, const PathRules& rules, Heuristic heuristic = Heuristic::power)
-      : scene_(&scene),
-        rules_(rules),
-        mis_(heuristic),
-        lamps_in_lanes_(!scene.has_passages()),
-        serves_glossy_(serves_glossy(scene)) {
+      : scene_(&scene), rules_(rules), mis_(heuristic) {
     walks_.reserve(capacity);
   }
 
@@ -92,9 +88,6 @@ class BasicPathWave {
   }
 
  private:
-  /// Whether no vertex on a mesh is computed by itself for the light that it samples.
-  static bool serves_glossy(const Scene& scene);
-
   /// A vertex on a mesh that samples a light at infinity.
   struct SkyVertex {
     int path;
@@ -152,8 +145,6 @@ class BasicPathWave {
   const Scene* scene_;
   PathRules rules_;
   MisExponent mis_;
-  bool lamps_in_lanes_;  ///< All lamps, since none of them may be passed.
-  bool serves_glossy_;
   std::vector<WaveWalk> walks_;
   WaveShadows shadows_;
   std::vector<LightToPass> lights_to_pass_;  ///< One for each shadow ray, if there are passages.

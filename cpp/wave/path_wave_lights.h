@@ -63,15 +63,11 @@ void BasicPathWave<Numbers>::choose_other_light(int i, const EmitterChoice& choi
       return;
     }
     const Ray& ray = walk(i).ray;
-    if (lamps_in_lanes_) {
-      lambertian_.set_lamp(i, sample_direct_position(*scene_, Vec3(lambertian_.p[i]), ray.time,
-                                                     ray.wavelength, choice, u));
-      near_lights_ = true;
-      return;
-    }
-    single_[i] = singles_.add(i, -Vec3(d_[begin_ + i]));
-    singles_[single_[i]].at =
-        lambertian_.point(i, hits(i).shape[i % RayPacket::size], ray.time, ray.wavelength);
+    const LightSample lamp = sample_direct_position(*scene_, Vec3(lambertian_.p[i]), ray.time,
+                                                    ray.wavelength, choice, u);
+    lambertian_.set_lamp(i, lamp, *scene_);
+    near_lights_ = true;
+    return;
   }
   SingleVertex& single = singles_[single_[i]];
   single.choice = choice;

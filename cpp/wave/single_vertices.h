@@ -1,6 +1,5 @@
 // Vertices of a block of paths that are computed one by one, in double precision, but for
-// scattering by materials that serve lanes: those that are neither Lambertian nor glossy on a mesh,
-// or in scenes with passages sample a lamp that is neither a mesh nor at infinity.
+// scattering by materials that serve lanes: those that are neither Lambertian nor glossy on a mesh.
 #pragma once
 
 #include "path/path_tracer.h"
