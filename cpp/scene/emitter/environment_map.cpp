@@ -2,6 +2,8 @@
 
 #include "scene/spectral_color.h"
 
+#include <algorithm>
+
 namespace mlt {
 namespace {
 
@@ -142,7 +144,7 @@ Vec3Of<F> EnvironmentMap::direction_to(const Cell<F>& cell) const {
 template <class F>
 F EnvironmentMap::pdf(const Cell<F>& cell, const F& probability) const {
   return probability * cell.corners.luminances().density(cell.within) /
-         (number<F>(2 * pi / width_) * (cell.top - cell.bottom));
+         solid_angle(cell.top, cell.bottom);
 }
 
 Vec2 EnvironmentMap::invert_position(const SurfacePoint& x0) const {
@@ -187,18 +189,19 @@ void EnvironmentMap::tabulate() {
   std::vector<double> cos_rows;
   for (int j = 0; j <= h; ++j) cos_rows.push_back(std::cos(pi * j / h));
   cos_rows_ = std::move(cos_rows);
-  std::vector<float> weights;
-  weights.reserve(pixel_count());
-  bool black = true;
-  for (int j = 0; j < h; ++j)
-    for (int i = 0; i < w; ++i) {
-      const Color mean = corners(i, j).at(Vec2(0.5));
-      weights.push_back(static_cast<float>(luminance(mean) * cell_solid_angle(j)));
-      black = black && !(weights.back() > 0);
+  const auto weights_by = [&](auto&& brightness) {
+    std::vector<float> weights;
+    weights.reserve(pixel_count());
+    for (int j = 0; j < h; ++j) {
+      const double angle = solid_angle(cos_rows_[size_t(j)], cos_rows_[size_t(j) + 1]);
+      for (int i = 0; i < w; ++i) weights.push_back(static_cast<float>(brightness(i, j) * angle));
     }
-  if (black)
-    for (size_t k = 0; k < weights.size(); ++k)
-      weights[k] = static_cast<float>(cell_solid_angle(static_cast<int>(k / size_t(w))));
+    return weights;
+  };
+  std::vector<float> weights =
+      weights_by([&](int i, int j) { return luminance(corners(i, j).at(Vec2(0.5))); });
+  if (!(*std::max_element(weights.begin(), weights.end()) > 0))
+    weights = weights_by([](int, int) { return 1.0; });
   table_ = Piecewise2D(weights, size_t(w), size_t(h));
   integrate();
 }
@@ -216,8 +219,10 @@ void EnvironmentMap::integrate() {
   }
 }
 
-double EnvironmentMap::cell_solid_angle(int row) const {
-  return 2 * pi / width_ * (cos_rows_[size_t(row)] - cos_rows_[size_t(row) + 1]);
+/// Of a cell between rows with these cosines.
+template <class F>
+F EnvironmentMap::solid_angle(const F& top, const F& bottom) const {
+  return number<F>(2 * pi / width_) * (top - bottom);
 }
 
 // The table's unit square: x is column_at; within each row y is linear in cos theta.

@@ -47,7 +47,8 @@ class EnvironmentMap : public InfiniteEmitter {
   double column_at(const Vec3& d) const;
   void tabulate();
   void integrate();
-  double cell_solid_angle(int row) const;
+  template <class F>
+  F solid_angle(const F& top, const F& bottom) const;
   int row_at(double y) const;
   Color radiance_at(double column, double polar_share) const;
   /// The texels around a cell, or around many.
