@@ -50,3 +50,13 @@ foreach(file IN LISTS test_files)
   endif()
   target_sources(${target} PRIVATE "${PROJECT_SOURCE_DIR}/tests/cpp/${file}")
 endforeach()
+
+# Eight lanes must compile, too, where no register is wide enough for them: wheels are built for all
+# processors.
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+  add_library(narrow_lanes OBJECT
+    "${PROJECT_SOURCE_DIR}/cpp/scene/bsdf/principled.cpp"
+    "${PROJECT_SOURCE_DIR}/cpp/scene/emitter/environment_map.cpp")
+  target_compile_options(narrow_lanes PRIVATE -march=x86-64)
+  target_link_libraries(narrow_lanes PRIVATE mlt)
+endif()

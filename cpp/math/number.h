@@ -8,6 +8,30 @@
 #include <experimental/simd>
 #include <type_traits>
 
+// Vectors of lanes. Those of glm keep their members in unions, where lanes may not be that a
+// processor has no register for.
+namespace glm {
+
+template <class T, class Abi, qualifier Q>
+struct vec<2, std::experimental::simd<T, Abi>, Q> {
+  using F = std::experimental::simd<T, Abi>;
+  F x, y;
+
+  vec() = default;
+  vec(const F& x, const F& y) : x(x), y(y) {}
+};
+
+template <class T, class Abi, qualifier Q>
+struct vec<3, std::experimental::simd<T, Abi>, Q> {
+  using F = std::experimental::simd<T, Abi>;
+  F x, y, z;
+
+  vec() = default;
+  vec(const F& x, const F& y, const F& z) : x(x), y(y), z(z) {}
+};
+
+}  // namespace glm
+
 namespace mlt {
 
 namespace stdx = std::experimental;
