@@ -55,6 +55,7 @@ endforeach()
 # processors.
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   add_library(narrow_lanes OBJECT
+    "${PROJECT_SOURCE_DIR}/cpp/scene/bsdf/phong.cpp"
     "${PROJECT_SOURCE_DIR}/cpp/scene/bsdf/principled.cpp"
     "${PROJECT_SOURCE_DIR}/cpp/scene/emitter/environment_map.cpp")
   target_compile_options(narrow_lanes PRIVATE -march=x86-64)
