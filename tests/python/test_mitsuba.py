@@ -110,7 +110,7 @@ def test_bdpt_on_larger_scenes(case):
 def test_bdpt_where_paths_are_rare(case):
     """Not pixel by pixel: some light comes so rarely to a path tracer that the 260,000 samples
     which the reference has of a pixel miss some of it, and its standard error is too small."""
-    check(case, mlt.BDPT, spp=case.spp, runs=96, scales=QUICK)
+    check(case, mlt.BDPT, spp=2 * case.spp, runs=96, scales=QUICK)
 
 
 @pytest.mark.long
