@@ -136,6 +136,7 @@ struct LambertianVertices {
     spectral_radiance_[i] = large * emitted;
     radiance[i] = &spectral_radiance_[i];
   }
+
   // Each function works on the first `count` paths; d are the directions of their incident rays.
   void find_points(int count, const float* d_x, const float* d_y, const float* d_z,
                    bool strict_normals);

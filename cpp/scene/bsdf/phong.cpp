@@ -13,8 +13,8 @@ struct PhongLobe {
   F exponent;
 
   Gloss<F> eval(const Vec3Of<F>& wl, const Vec3Of<F>& wc) const {
-    const F cos_alpha = min(max(dot(reflect(wl), wc), F(0)), F(1));
-    const F cos_n = power(cos_alpha, exponent);
+    const F cos_alpha = min(dot(reflect(wl), wc), F(1));
+    const F cos_n = select(cos_alpha > 0, power(max(cos_alpha, F(0)), exponent), F(0));
     return {(exponent + 2) * number<F>(0.5 * inv_pi) * cos_n,
             (exponent + 1) * number<F>(0.5 * inv_pi) * cos_n};
   }

@@ -174,6 +174,8 @@ std::vector<Case> make_cases() {
   maker.add("plastic nonlinear", "plastic",
             {{"diffuse_reflectance", pink}, {"nonlinear", true}, {"int_ior", 1.9}}, 0, gray);
   maker.add("phong", "phong", {{"diffuse_reflectance", pink}}, 1, gray * 32 / 31);
+  maker.add("phong hemisphere", "phong", {{"exponent", 0.0}, {"diffuse_reflectance", pink}}, 1,
+            gray * 2);
   maker.add("phong shiny", "phong",
             {{"exponent", 200.0}, {"specular_reflectance", 0.9}, {"diffuse_reflectance", 0.5}}, 1,
             gray);
