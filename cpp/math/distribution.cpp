@@ -79,20 +79,22 @@ void Piecewise2D::sample_cells(const Vec2* u, int count, Cells& cells) const {
   uint32_t shares[most_together];
   for (int i = 0; i < count; ++i) {
     cells.row[i] = rows_.sample(u[i].y);
-    shares[i] = static_cast<uint32_t>(u[i].x * full);
+    cells.x[i] = u[i].x * full;
+    shares[i] = static_cast<uint32_t>(cells.x[i]);
   }
   starts_.last_up_to(cells.row, shares, count, cells.column);
-  double low[2][most_together], size[2][most_together];
+  double size[2][most_together];
   for (int i = 0; i < count; ++i) {
     const size_t row = cells.row[i], column = cells.column[i];
-    low[0][i] = starts_.at(row, column);
-    size[0][i] = starts_.at(row, column + 1) - low[0][i];
-    low[1][i] = rows_.begin(row);
+    const double low = starts_.at(row, column);
+    cells.x[i] -= low;
+    size[0][i] = starts_.at(row, column + 1) - low;
+    cells.y[i] = u[i].y - rows_.begin(row);
     size[1][i] = rows_.pdf(row);
   }
   for (int i = 0; i < count; ++i) {
-    cells.x[i] = std::min((u[i].x * full - low[0][i]) / size[0][i], 1 - 0x1p-53);
-    cells.y[i] = std::min((u[i].y - low[1][i]) / size[1][i], 1 - 0x1p-53);
+    cells.x[i] = std::min(cells.x[i] / size[0][i], 1 - 0x1p-53);
+    cells.y[i] = std::min(cells.y[i] / size[1][i], 1 - 0x1p-53);
     cells.probability[i] = size[1][i] * (size[0][i] / full);
   }
 }

@@ -47,12 +47,11 @@ Color EnvironmentMap::radiance_at(double column, double polar_share) const {
 }
 
 PositionSample EnvironmentMap::sample_position(const Vec2& u, double) const {
-  Piecewise2D::Cells cells;
-  table_.sample_cells(&u, 1, cells);
-  Cell<double> cell = this->cell(static_cast<int>(cells.column[0]), static_cast<int>(cells.row[0]),
-                                 {cells.x[0], cells.y[0]});
-  cell.within = cell.corners.luminances().sample(cell.within);
-  return {point_towards(axes_.to_world(direction_to(cell))), pdf(cell, cells.probability[0])};
+  PositionSample sample;
+  std::optional<Spectrum> radiance;
+  const PositionRequest request{u, rgb_lanes, &sample, &radiance};
+  sample_positions(&request, 1);
+  return sample;
 }
 
 void EnvironmentMap::sample_positions(const PositionRequest* requests, int count) const {
@@ -74,7 +73,7 @@ void EnvironmentMap::sample_positions(const PositionRequest* requests, int count
   }
 }
 
-/// sample_position() for the requests that have sampled four cells, or fewer.
+/// Answers the requests that have sampled four cells, or fewer.
 void EnvironmentMap::take_four(const PositionRequest* requests, int count,
                                const Piecewise2D::Cells& cells, int first) const {
   using F = Double4;

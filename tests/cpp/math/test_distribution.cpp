@@ -127,8 +127,8 @@ TEST(Piecewise2D, SamplesManyTogetherAsAlone) {
         const Piecewise2D::Sample alone = d.sample(u[i]);
         const Vec2 cell(together.column[i], together.row[i]);
         const Vec2 at = (cell + Vec2(together.x[i], together.y[i])) / Vec2(width, 60);
-        ASSERT_LT(length(at - alone.at), 1e-12);  // rounded in another way
-        ASSERT_DOUBLE_EQ(together.probability[i] * double(width * 60), alone.pdf);
+        ASSERT_EQ(at, alone.at);
+        ASSERT_EQ(together.probability[i] * double(width * 60), alone.pdf);
         ASSERT_EQ(alone.pdf, d.pdf(alone.at));
       }
     }
