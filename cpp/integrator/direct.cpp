@@ -2,6 +2,7 @@
 // lights and of the BSDF, combined by the multi-sample power heuristic (Veach 1997, sec. 9.2).
 #include "integrator/parameters.h"
 #include "rendering/estimator_taker.h"
+#include "wave/path_sample_wave.h"
 
 namespace mlt {
 namespace {
@@ -23,12 +24,19 @@ class DirectEstimator : public Estimator, public SampledDefaults {
     settings.bsdf_samples = count("bsdf_samples");
     if (settings.emitter_samples + settings.bsdf_samples == 0)
       params.fail("needs at least one of emitter_samples and bsdf_samples to be positive");
+    settings.rules.max_depth = 2;
+    settings.rules.rr_depth = PathRules::no_roulette;
     settings.rules.hide_emitters = params.boolean("hide_emitters");
     settings.rules.strict_normals = params.boolean("strict_normals");
     return settings;
   }
   static SampledSettings film(const DirectSettings&) { return camera_walks(); }
+  /// One sample of each kind is path tracing that ends after one reflection.
   static std::unique_ptr<SampleTaker> taker(const Scene& scene, const DirectSettings& settings) {
+    const auto& [emitter_samples, bsdf_samples, rules] = settings;
+    if (emitter_samples == 1 && bsdf_samples == 1)
+      return take_alone(PathEstimator(scene, rules),
+                        std::make_unique<PathSampleWave>(scene, rules, Heuristic::power));
     return take_alone(DirectEstimator(scene, settings));
   }
   DirectEstimator(const Scene& scene, const DirectSettings& settings)

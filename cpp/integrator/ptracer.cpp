@@ -3,6 +3,7 @@
 // alone. It cannot find surfaces that the camera sees only in a mirror or through glass.
 #include "integrator/parameters.h"
 #include "rendering/estimator_taker.h"
+#include "wave/bidirectional_wave.h"
 
 namespace mlt {
 namespace {
@@ -11,7 +12,11 @@ struct LightIntegrator : SampledDefaults {
   static PathRules settings(Params& params) { return path_rules(params); }
   static SampledSettings film(const PathRules&) { return {true}; }
   static std::unique_ptr<SampleTaker> taker(const Scene& scene, const PathRules& rules) {
-    return take_alone(LightEstimator(scene, rules));
+    const BidirectionalSettings settings{rules};
+    std::unique_ptr<BidirectionalWave> wave;
+    if (BidirectionalWave::supports(scene, settings))
+      wave = std::make_unique<BidirectionalWave>(scene, settings, Techniques::to_lens);
+    return take_alone(LightEstimator(scene, rules), std::move(wave));
   }
 };
 

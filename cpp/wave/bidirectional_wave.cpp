@@ -42,16 +42,18 @@ bool BidirectionalWave::supports(const Scene& scene, const BidirectionalSettings
          !settings.manifolds && !scene.has_media();
 }
 
-BidirectionalWave::BidirectionalWave(const Scene& scene, const BidirectionalSettings& settings)
+BidirectionalWave::BidirectionalWave(const Scene& scene, const BidirectionalSettings& settings,
+                                     Techniques techniques)
     : scene_(&scene),
       settings_(settings),
+      techniques_(techniques),
       beta_(settings.heuristic),
       one_lens_(scene.camera().delta_position() && !scene.camera().shutter().opens()),
       lenses_(one_lens_ ? 1 : capacity),
       camera_(scene, settings.rules, Subpath::From::camera, settings.heuristic,
               settings.light_image),
       light_(scene, settings.rules, Subpath::From::light, settings.heuristic,
-             settings.light_image) {
+             settings.light_image && techniques == Techniques::all) {
   other_direct_.reserve(capacity);  // so that none moves
   for (int lane = 0; lane < JointLanes::size; ++lane) {
     joins_walks_.own[lane] = joins_walks_.near[lane] = 1;
@@ -71,7 +73,10 @@ void BidirectionalWave::clear() {
 
 void BidirectionalWave::trace(RayCounts& rays) {
   others_.clear();
-  walk_from_camera(rays);
+  find_rasters();
+  draw_lens();
+  camera_.clear();
+  if (techniques_ == Techniques::all) walk_from_camera(rays);
   walk_from_lights(rays);
   take_hits(rays);
   direct_places_ = WaveNumbers::Place().begin(Stream::direct);
@@ -90,18 +95,20 @@ void BidirectionalWave::trace(RayCounts& rays) {
   find_shadows(rays);
 }
 
-/// See BidirectionalSampler::walk_from_camera.
-void BidirectionalWave::walk_from_camera(RayCounts& rays) {
-  const Camera& camera = scene_->camera();
-  camera_.clear();
+void BidirectionalWave::find_rasters() {
   WaveNumbers::Place& places = numbers_.places();
   places = {};
   numbers_.read2(places.next2(), 0, size(), &u_x_[0], &u_y_[0]);
-  for (int i = 0; i < size(); ++i) rasters_[i] += Vec2(u_x_[i], u_y_[i]);
-  places = places.begin(Stream::camera);
-  draw_lens();
   for (int i = 0; i < size(); ++i) {
+    rasters_[i] += Vec2(u_x_[i], u_y_[i]);
     first_[i] = last_[i] = -1;
+  }
+}
+
+/// See BidirectionalSampler::walk_from_camera.
+void BidirectionalWave::walk_from_camera(RayCounts& rays) {
+  const Camera& camera = scene_->camera();
+  for (int i = 0; i < size(); ++i) {
     const WalkVertex& lens = this->lens(i).x;
     SurfacePoint at = lens.vertex.at;
     at.wavelength = wavelength_[i];
@@ -121,6 +128,7 @@ void BidirectionalWave::walk_from_camera(RayCounts& rays) {
 /// See sample_lens() of walk.h. What the camera does not ask for keeps other numbers.
 void BidirectionalWave::draw_lens() {
   const Camera& camera = scene_->camera();
+  numbers_.places() = numbers_.places().begin(Stream::camera);
   const auto at = LensNumbersOf<WaveNumbers::Place>::draw(numbers_.places());
   if (!one_lens_) {
     numbers_.read2(at.position, 0, size(), &u_x_[0], &u_y_[0]);
@@ -225,10 +233,11 @@ void BidirectionalWave::join_alone(int s, int sample, const JointLanes& a, const
     certainty *= stops;
   }
   const double G = joined.edge.G, own = technique.own[i];
-  const double below =
-      beta_.over(sums(a, i, joined.a.back), joined.b.onwards * G / a.forward[i]) / own;
-  const double above =
-      beta_.over(sums(b, i, joined.b.back), joined.a.onwards * G / b.forward[i]) / own;
+  double below = 0, above = 0;
+  if (techniques_ == Techniques::all) {
+    below = beta_.over(sums(a, i, joined.a.back), joined.b.onwards * G / a.forward[i]) / own;
+    above = beta_.over(sums(b, i, joined.b.back), joined.a.onwards * G / b.forward[i]) / own;
+  }
   const auto ray = scene_->segment(x.vertex.at, y.vertex.at, time(sample));
   if (!ray) return;
   wait_for_shadow(
@@ -280,7 +289,9 @@ void BidirectionalWave::connect_to_lens(int s, int block) {
     const auto projection = camera.project(lens, -w);
     if (!projection) continue;
     const double G = edges.G[i];
-    const double below = beta_.over(a.sums[i], projection->pdf_direction * G / a.forward[i]);
+    double below = 0;
+    if (techniques_ == Techniques::all)
+      below = beta_.over(a.sums[i], projection->pdf_direction * G / a.forward[i]);
     const Light light{sample, false, a.survival[i], s == 1 ? 1. : 0., projection->raster};
     const double own = technique.own[i];
     const double share = projection->importance * G * own / (own + below);

@@ -15,6 +15,12 @@
 
 namespace mlt {
 
+/// The techniques of bidirectional path tracing that a wave uses.
+enum class Techniques {
+  all,
+  to_lens,  ///< t = 1 alone, whose weight is then 1: light tracing (LightEstimator).
+};
+
 class BidirectionalWave {
  public:
   static constexpr int capacity = SubpathWave::capacity;
@@ -23,7 +29,8 @@ class BidirectionalWave {
   /// manifold samples and for a heuristic with an exponent.
   static bool supports(const Scene& scene, const BidirectionalSettings& settings);
   /// Requires supports(scene, settings).
-  BidirectionalWave(const Scene& scene, const BidirectionalSettings& settings);
+  BidirectionalWave(const Scene& scene, const BidirectionalSettings& settings,
+                    Techniques techniques = Techniques::all);
 
   /// Adds a sample with the numbers of PixelSampler(stream, index): the first two are its position
   /// in this pixel.
@@ -69,8 +76,9 @@ class BidirectionalWave {
   static constexpr int blocks = capacity / JointLanes::size;
   int block_count() const { return whole_vectors(size()) / JointLanes::size; }
 
-  void walk_from_camera(RayCounts& rays);
+  void find_rasters();
   void draw_lens();
+  void walk_from_camera(RayCounts& rays);
   void walk_from_lights(RayCounts& rays);
   void start_at_lights(const LightNumbersOf<WaveNumbers::Place>& at, int begin, int count);
   void start_at_other_light(int i, const EmitterChoice& choice, const Vec2& u_direction);
@@ -109,6 +117,7 @@ class BidirectionalWave {
 
   const Scene* scene_;
   BidirectionalSettings settings_;
+  Techniques techniques_;
   MisExponent beta_;
   bool one_lens_;  ///< Whether all samples have the same position on the lens, and the same time.
   std::vector<OtherVertex> lenses_;
