@@ -15,6 +15,7 @@ WalkVertex& Subpath::add() {
   WalkVertex& added = vertices_[size_++];
   added.survival = added.next_survival = added.passes = added.passes_back = 1;
   added.towards_previous = Vec3(0);
+  added.passed = Spectrum(1);
   added.G = added.reverse = added.next_coefficient = 0;
   added.joint = {};
   added.dispersed = added.next_dispersed = false;
@@ -66,7 +67,8 @@ void Subpath::pass(const Scene& scene, const Passage& leg) {
   x.back =
       from_lens ? Arrival() : scene.arrival(leg, previous, x.towards_previous).after(Spectrum(1));
   x.passes_back = scene.has_coloured_media() ? x.back.stops : x.back.probability();
-  x.throughput = leg.is_blocked() ? Spectrum(0) : x.throughput * (leg.transmittance / x.passes);
+  x.passed = leg.is_blocked() ? Spectrum(0) : leg.transmittance / x.passes;
+  x.throughput *= x.passed;
   x.forward *= x.passes;
 }
 
@@ -97,7 +99,8 @@ std::optional<double> scatter(const Walker& walker, const PathRules& rules, Subp
   const double coefficient = from_light ? terms.pdf_from_light : terms.pdf_from_camera;
   if (!(coefficient > 0) || is_black(terms.f)) return std::nullopt;
   const Spectrum ratio = terms.f / coefficient;
-  const double survival = place < rules.rr_depth ? 1 : PathRules::survival(max_component(ratio));
+  const double survival =
+      place < rules.rr_depth ? 1 : PathRules::survival(max_component(x.passed * ratio));
   if (!(u.roulette < survival)) return std::nullopt;
   x.vertex.lobe = sample->lobe;
   x.towards_next = sample->w;

@@ -181,12 +181,14 @@ void SubpathWave::find_other(int i, int place, RayCounts& rays) {
   const int walk = begin_ + i;
   SurfacePoint at;
   find_surface_point(walk, at);
-  if (scene_->bsdf(at).has_passage() && !go_through(walk, place, at, rays)) return;
+  Spectrum passed(1);
+  if (scene_->bsdf(at).has_passage() && !go_through(walk, place, at, passed, rays)) return;
   find_light(walk, place, at);
   other_[i] = &(BsdfAt(*scene_, at).has_smooth() ? others_ : passed_).add();
   WalkVertex& x = other_[i]->x;
   x.vertex.at = at;
   x.towards_previous = -ray_[walk].d;
+  x.passed = passed;
   x.throughput = throughput_[walk];
   x.survival = survival_[walk];
   x.dispersed = dispersed_[walk];
@@ -195,7 +197,8 @@ void SubpathWave::find_other(int i, int place, RayCounts& rays) {
 
 /// Follows a walk on from a surface that light passes, and takes what it passes (Subpath::pass);
 /// false if it does not stop in the scene.
-bool SubpathWave::go_through(int walk, int place, SurfacePoint& at, RayCounts& rays) {
+bool SubpathWave::go_through(int walk, int place, SurfacePoint& at, Spectrum& passed,
+                             RayCounts& rays) {
   const Ray& ray = exact_ray(walk);
   Passage leg;
   const double u = numbers_.read(leg_, walk);
@@ -203,7 +206,8 @@ bool SubpathWave::go_through(int walk, int place, SurfacePoint& at, RayCounts& r
   if (leg.is_blocked()) return false;
   if (!hit) at = Scene::point_at_infinity(ray.d, ray.wavelength);
   const double passes = scene_->arrival(leg, at, ray.d).probability();
-  throughput_[walk] *= leg.transmittance / passes;
+  passed = leg.transmittance / passes;
+  throughput_[walk] *= passed;
   pdf_[walk] *= static_cast<float>(passes);
   if (from_light_ || place > 1) stops_back_[walk] *= leg.probability;
   if (!from_light_) certainty_[walk] *= passes;

@@ -91,7 +91,7 @@ class SubpathWave {
   void start(const Step& first, double time, double wavelength);
   void set(int walk, const Step& step);
   void set(int walk, const Ray& ray);
-  bool go_through(int walk, int place, SurfacePoint& at, RayCounts& rays);
+  bool go_through(int walk, int place, SurfacePoint& at, Spectrum& passed, RayCounts& rays);
   void leave_scene(int walk, int place);
   void find_light(int walk, int place, const SurfacePoint& at);
   void hit_light(const Emitter& emitter, int walk, int place, const SurfacePoint& at);
