@@ -67,10 +67,8 @@ struct BdptIntegrator : SampledDefaults {
   }
   static std::unique_ptr<SampleTaker> taker(const Scene& scene, const BdptSettings& settings) {
     if (settings.techniques) return std::make_unique<TechniqueTaker>(scene, settings.paths);
-    std::unique_ptr<BidirectionalWave> wave;
-    if (BidirectionalWave::supports(scene, settings.paths))
-      wave = std::make_unique<BidirectionalWave>(scene, settings.paths);
-    return take_alone(BidirectionalEstimator(scene, settings.paths), std::move(wave));
+    return take_alone(BidirectionalEstimator(scene, settings.paths),
+                      BidirectionalWave::where_supported(scene, settings.paths));
   }
 };
 

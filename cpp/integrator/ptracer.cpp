@@ -12,11 +12,8 @@ struct LightIntegrator : SampledDefaults {
   static PathRules settings(Params& params) { return path_rules(params); }
   static SampledSettings film(const PathRules&) { return {true}; }
   static std::unique_ptr<SampleTaker> taker(const Scene& scene, const PathRules& rules) {
-    const BidirectionalSettings settings{rules};
-    std::unique_ptr<BidirectionalWave> wave;
-    if (BidirectionalWave::supports(scene, settings))
-      wave = std::make_unique<BidirectionalWave>(scene, settings, Techniques::to_lens);
-    return take_alone(LightEstimator(scene, rules), std::move(wave));
+    return take_alone(LightEstimator(scene, rules),
+                      BidirectionalWave::where_supported(scene, {rules}, Techniques::to_lens));
   }
 };
 

@@ -73,7 +73,7 @@ void BidirectionalWave::clear() {
 
 void BidirectionalWave::trace(RayCounts& rays) {
   others_.clear();
-  find_rasters();
+  start_samples();
   draw_lens();
   camera_.clear();
   if (techniques_ == Techniques::all) walk_from_camera(rays);
@@ -95,7 +95,8 @@ void BidirectionalWave::trace(RayCounts& rays) {
   find_shadows(rays);
 }
 
-void BidirectionalWave::find_rasters() {
+/// Finds the raster positions of samples that have no light yet.
+void BidirectionalWave::start_samples() {
   WaveNumbers::Place& places = numbers_.places();
   places = {};
   numbers_.read2(places.next2(), 0, size(), &u_x_[0], &u_y_[0]);

@@ -13,6 +13,8 @@
 #include "wave/subpath_wave.h"
 #include "wave/wave_shadows.h"
 
+#include <memory>
+
 namespace mlt {
 
 /// The techniques of bidirectional path tracing that a wave uses.
@@ -28,6 +30,13 @@ class BidirectionalWave {
   /// Whether the scene has no media, and the settings ask for next-event estimation, for no
   /// manifold samples and for a heuristic with an exponent.
   static bool supports(const Scene& scene, const BidirectionalSettings& settings);
+  /// A wave, or nullptr where it does not support that.
+  static std::unique_ptr<BidirectionalWave> where_supported(
+      const Scene& scene, const BidirectionalSettings& settings,
+      Techniques techniques = Techniques::all) {
+    if (!supports(scene, settings)) return nullptr;
+    return std::make_unique<BidirectionalWave>(scene, settings, techniques);
+  }
   /// Requires supports(scene, settings).
   BidirectionalWave(const Scene& scene, const BidirectionalSettings& settings,
                     Techniques techniques = Techniques::all);
@@ -76,7 +85,7 @@ class BidirectionalWave {
   static constexpr int blocks = capacity / JointLanes::size;
   int block_count() const { return whole_vectors(size()) / JointLanes::size; }
 
-  void find_rasters();
+  void start_samples();
   void draw_lens();
   void walk_from_camera(RayCounts& rays);
   void walk_from_lights(RayCounts& rays);

@@ -42,8 +42,8 @@ class Room:
     def at(self, *xyz):
         return [self.unit * x for x in xyz]
 
-    def placed(self, placed):
-        return T.scale(self.unit) @ placed
+    def placed(self, transform):
+        return T.scale(self.unit) @ transform
 
     def camera(self, kind: str, **more):
         to_world = T.look_at(origin=self.at(0.2, 0.3, 3.6), target=self.at(0, 0, 0), up=[0, 1, 0])

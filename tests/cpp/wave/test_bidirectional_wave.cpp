@@ -139,15 +139,16 @@ std::vector<BidirectionalSettings> all_settings() {
 
 class BidirectionalWaveOf : public testing::TestWithParam<std::string> {};
 
-/// A difference in rounding may send a path past an edge, or end it, but that is rare. Single
-/// samples also count the shadow rays to a lens that lies behind what they leave.
-void expect_the_same(const Samples& single, const Samples& wave) {
+/// A difference in rounding may send a path past an edge, or end it, but that is rare.
+void expect_the_same(const Samples& single, const Samples& wave, double behind_lens = 0) {
   EXPECT_EQ(single.samples.size(), wave.samples.size());
   const Compared compared = compare(single, wave);
   EXPECT_LE(compared.different, waves * BidirectionalWave::capacity / 100);
-  const auto about = [](uint64_t n) { return 3 + static_cast<double>(n) / 100; };
+  const auto about = [](uint64_t n) { return 3 + static_cast<double>(n) / 200; };
   EXPECT_NEAR(wave.rays.intersect, single.rays.intersect, about(single.rays.intersect));
-  EXPECT_NEAR(wave.rays.occluded, single.rays.occluded, about(single.rays.occluded));
+  EXPECT_LE(wave.rays.occluded, single.rays.occluded + about(single.rays.occluded));
+  EXPECT_GE(wave.rays.occluded,
+            (1 - behind_lens) * single.rays.occluded - about(single.rays.occluded));
 }
 
 TEST_P(BidirectionalWaveOf, FindsWhatSingleSamplesFind) {
@@ -158,11 +159,14 @@ TEST_P(BidirectionalWaveOf, FindsWhatSingleSamplesFind) {
   }
 }
 
+/// Single samples count the shadow rays to an orthographic lens that they are behind, too, but no
+/// wave traces them: 7 of 745 here.
 TEST_P(BidirectionalWaveOf, FindsWhatSingleWalksFromLightsFind) {
   const ScenePtr scene = make_scene(GetParam()).scene;
+  const double behind_lens = GetParam() == "orthographic" ? 0.01 : 0;
   for (const BidirectionalSettings& settings : all_settings())
     expect_the_same(light_one_by_one(*scene, settings.rules),
-                    side_by_side(*scene, {settings.rules}, Techniques::to_lens));
+                    side_by_side(*scene, {settings.rules}, Techniques::to_lens), behind_lens);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, BidirectionalWaveOf, testing::ValuesIn(clear_scene_names()),
