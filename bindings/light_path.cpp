@@ -15,11 +15,11 @@ namespace {
 
 // ---- vertices
 
-py::tuple row(const Vertex& x) {
+py::tuple row(const PyVertex& x) {
   const SurfacePoint& at = x.at;
   const auto triple = [](const Vec3& v) { return py::make_tuple(v.x, v.y, v.z); };
   const int64_t emitter = x.kind == VertexKind::light ? int64_t{x.emitter} : -1;
-  return py::make_tuple(kind_of(x), triple(at.p), triple(at.ng), triple(at.shading.n),
+  return py::make_tuple(kind_of(x), triple(x.position()), triple(at.ng), triple(at.shading.n),
                         py::make_tuple(at.uv.x, at.uv.y), name_of(x.lobe), at.infinite(),
                         shape_of(x), at.primitive, emitter);
 }
@@ -30,27 +30,27 @@ py::object vertices(const PyLightPath& path) {
                                  "infinite", "shape", "primitive", "emitter");
   type["formats"] = py::make_tuple("U7", "3f8", "3f8", "3f8", "2f8", "U12", "?", "i8", "u4", "i8");
   py::list rows;
-  for (const Vertex& x : path.path.vertices) rows.append(row(x));
+  for (const Vertex& x : path.path.vertices) rows.append(row({x, *path.scene}));
   return py::module_::import("numpy").attr("array")(rows, type);
 }
 
-Vertex vertex_at(const PyLightPath& path, py::ssize_t i) {
+PyVertex vertex_at(const PyLightPath& path, py::ssize_t i) {
   const auto count = static_cast<py::ssize_t>(path.path.vertices.size());
   if (i < -count || i >= count)
     throw py::index_error("a path of " + std::to_string(count) + " vertices");
-  return path.path[static_cast<size_t>(i < 0 ? i + count : i)];
+  return {path.path[static_cast<size_t>(i < 0 ? i + count : i)], *path.scene};
 }
 
-std::vector<Vertex> vertices_at(const PyLightPath& path, const py::slice& slice) {
+std::vector<PyVertex> vertices_at(const PyLightPath& path, const py::slice& slice) {
   size_t start, stop, step, length;
   if (!slice.compute(path.path.vertices.size(), &start, &stop, &step, &length))
     throw py::error_already_set();
-  std::vector<Vertex> found;
-  for (size_t i = 0; i < length; ++i) found.push_back(path.path[start + i * step]);
+  std::vector<PyVertex> found;
+  for (size_t i = 0; i < length; ++i) found.emplace_back(path.path[start + i * step], *path.scene);
   return found;
 }
 
-PyLightPath with_vertices(const PyLightPath& x, std::vector<Vertex> vertices) {
+PyLightPath with_vertices(const PyLightPath& x, const std::vector<PyVertex>& vertices) {
   const size_t n = vertices.size();
   bool right =
       n >= 2 && vertices[0].kind == VertexKind::light && vertices[n - 1].kind == VertexKind::camera;
@@ -59,7 +59,7 @@ PyLightPath with_vertices(const PyLightPath& x, std::vector<Vertex> vertices) {
     throw UsageError(
         "a path should be one vertex on a light, any number on surfaces or in media, and one on "
         "the lens");
-  Path y{std::move(vertices)};
+  Path y{{vertices.begin(), vertices.end()}};
   y.set_time(x.path.time);
   y.set_wavelength(x.path.wavelength);
   const Vec2 raster = raster_position(*x.scene->scene, y).value_or(Vec2(std::nan("")));
@@ -173,10 +173,10 @@ void bind_path_class(py::module_& m) {
       .def(
           "__iter__",
           [](const PyLightPath& p) {
-            return py::make_iterator<py::return_value_policy::copy>(p.path.vertices.begin(),
-                                                                    p.path.vertices.end());
-          },
-          py::keep_alive<0, 1>())
+            py::list all;
+            for (const Vertex& x : p.path.vertices) all.append(PyVertex(x, *p.scene));
+            return py::iter(all);
+          })
       .def("with_vertices", &with_vertices, py::arg("vertices"),
            "Another path of the same scene, time and wavelengths, through these vertices.")
       .def_property_readonly("scene", [](const PyLightPath& p) { return p.scene; })

@@ -25,6 +25,15 @@ PyLightPath light_path(LoadedPtr scene, const PathState& x, bool strict_normals)
 
 py::array_t<double> to_array(const Color& color);
 
+/// A vertex of a scene whose description has its origin of coordinates at `origin`.
+struct PyVertex : Vertex {
+  PyVertex(const Vertex& x, const LoadedScene& scene) : Vertex(x), origin(scene.scene->origin()) {}
+  Vec3 origin;
+
+  /// The position in the coordinates of the description; at infinity, the direction towards it.
+  Vec3 position() const { return at.infinite() ? at.p : at.p + origin; }
+};
+
 /// "light", "surface", "medium" or "camera".
 const char* kind_of(const Vertex& x);
 const char* name_of(Lobe lobe);

@@ -71,15 +71,15 @@ LoadedScene scene_from_dict(const py::dict& dict, const Size& size, const Sensor
 py::dict info(const LoadedScene& loaded) {
   const Scene& scene = *loaded.scene;
   const Vec2i size = image_size(scene);
-  const Bounds& sphere = scene.bounds();
+  const Vec3 center = scene.bounds().center + scene.origin();
   py::dict info;
   info["size"] = py::make_tuple(size.x, size.y);
   info["shapes"] = scene.shapes().size();
   info["triangles"] = scene.triangle_count();
   info["bytes"] = scene.bytes();
   info["emitters"] = scene.emitters().size();
-  info["center"] = py::make_tuple(sphere.center.x, sphere.center.y, sphere.center.z);
-  info["radius"] = sphere.radius;
+  info["center"] = py::make_tuple(center.x, center.y, center.z);
+  info["radius"] = scene.bounds().radius;
   info["integrator"] =
       loaded.integrator ? py::object(py::str(loaded.integrator->type)) : py::none();
   info["sample_count"] = scene.sample_count();

@@ -21,14 +21,14 @@ Vec3 to_direction(const Doubles& array, const char* what) {
   return normalize(v);
 }
 
-std::optional<Vertex> first_hit(const LoadedScene& loaded, const Ray& ray) {
+std::optional<PyVertex> first_hit(const LoadedScene& loaded, const Ray& ray) {
   SurfacePoint at;
   if (!loaded.scene->intersect(ray, at)) return std::nullopt;
-  return inner_vertex(at);
+  return PyVertex(inner_vertex(at), loaded);
 }
 
-std::optional<Vertex> seen_from_vertex(const LoadedScene& loaded, const Vertex& from,
-                                       const Doubles& direction, std::optional<double> time) {
+std::optional<PyVertex> seen_from_vertex(const LoadedScene& loaded, const PyVertex& from,
+                                         const Doubles& direction, std::optional<double> time) {
   if (from.at.infinite()) throw UsageError("no ray can start from a vertex at infinity");
   const Vec3 w = to_direction(direction, "direction");
   return first_hit(loaded, loaded.scene->spawn(from.at, w, time.value_or(from.at.time)));
@@ -37,18 +37,19 @@ std::optional<Vertex> seen_from_vertex(const LoadedScene& loaded, const Vertex& 
 py::object seen_from_point(const LoadedScene& loaded, const Doubles& from, const Doubles& direction,
                            double time) {
   if (from.ndim() == 2) return intersect_rays(loaded, from, direction, time);
-  const Ray ray{to_vector(from, "start"), to_direction(direction, "direction"), time};
+  const Vec3 start = to_vector(from, "start") - loaded.scene->origin();
+  const Ray ray{start, to_direction(direction, "direction"), time};
   return py::cast(first_hit(loaded, ray));
 }
 
-bool visible(const LoadedScene& loaded, const Vertex& a, const Vertex& b,
+bool visible(const LoadedScene& loaded, const PyVertex& a, const PyVertex& b,
              std::optional<double> time) {
   if (a.at.infinite() && b.at.infinite())
     throw UsageError("both vertices are at infinity; nothing is between them");
   return loaded.scene->visible(a.at, b.at, time.value_or(a.at.time));
 }
 
-py::object scatter(const LoadedScene& loaded, const Vertex& at, const Doubles& from,
+py::object scatter(const LoadedScene& loaded, const PyVertex& at, const Doubles& from,
                    const Doubles& u) {
   if (at.kind != VertexKind::inner)
     throw UsageError("only a vertex on a surface or in a medium scatters");
@@ -56,10 +57,12 @@ py::object scatter(const LoadedScene& loaded, const Vertex& at, const Doubles& f
   const auto sample = loaded.scene->bsdf(at.at).sample(
       at.at, frame.to_local(to_direction(from, "direction")), to_vector(u, "u"));
   if (!sample) return py::none();
-  return py::make_tuple(inner_vertex(at.at, sample->lobe), to_array(frame.to_world(sample->to)));
+  return py::make_tuple(PyVertex(inner_vertex(at.at, sample->lobe), loaded),
+                        to_array(frame.to_world(sample->to)));
 }
 
-py::object camera_direction(const LoadedScene& loaded, const Vertex& lens, const Doubles& raster) {
+py::object camera_direction(const LoadedScene& loaded, const PyVertex& lens,
+                            const Doubles& raster) {
   if (lens.kind != VertexKind::camera)
     throw UsageError("a path leaves the camera at its last vertex only");
   if (raster.size() != 2) throw UsageError("raster should be two numbers, in pixels");
@@ -70,31 +73,37 @@ py::object camera_direction(const LoadedScene& loaded, const Vertex& lens, const
 }
 
 void bind_vertex_class(py::module_& m) {
-  py::class_<Vertex>(m, "Vertex", "A vertex of a light path; it belongs to the scene of its path.")
-      .def_property_readonly("kind", &kind_of, "'light', 'surface', 'medium' or 'camera'.")
+  py::class_<PyVertex>(m, "Vertex",
+                       "A vertex of a light path; it belongs to the scene of its path.")
       .def_property_readonly(
-          "position", [](const Vertex& x) { return to_array(x.at.p); },
+          "kind", [](const PyVertex& x) { return kind_of(x); },
+          "'light', 'surface', 'medium' or 'camera'.")
+      .def_property_readonly(
+          "position", [](const PyVertex& x) { return to_array(x.position()); },
           "Where it is; at infinity, the direction towards it.")
-      .def_property_readonly("normal", [](const Vertex& x) { return to_array(x.at.ng); })
+      .def_property_readonly("normal", [](const PyVertex& x) { return to_array(x.at.ng); })
       .def_property_readonly("shading_normal",
-                             [](const Vertex& x) { return to_array(x.at.shading.n); })
+                             [](const PyVertex& x) { return to_array(x.at.shading.n); })
       .def_property_readonly("uv",
-                             [](const Vertex& x) { return py::make_tuple(x.at.uv.x, x.at.uv.y); })
+                             [](const PyVertex& x) { return py::make_tuple(x.at.uv.x, x.at.uv.y); })
       .def_property_readonly(
-          "lobe", [](const Vertex& x) { return name_of(x.lobe); },
+          "lobe", [](const PyVertex& x) { return name_of(x.lobe); },
           "How it scatters: 'smooth', or by which delta, 'reflection' or 'transmission'.")
-      .def_property_readonly("delta", &Vertex::delta, "Whether it scatters in one direction only.")
-      .def_property_readonly("infinite", [](const Vertex& x) { return x.at.infinite(); })
       .def_property_readonly(
-          "shape", [](const Vertex& x) { return shape_of(x); },
+          "delta", [](const PyVertex& x) { return x.delta(); },
+          "Whether it scatters in one direction only.")
+      .def_property_readonly("infinite", [](const PyVertex& x) { return x.at.infinite(); })
+      .def_property_readonly(
+          "shape", [](const PyVertex& x) { return shape_of(x); },
           "Which shape of the scene it is on; -1: none.")
       .def(
           "direction_to",
-          [](const Vertex& a, const Vertex& b) { return to_array(direction(a.at, b.at)); },
+          [](const PyVertex& a, const PyVertex& b) { return to_array(direction(a.at, b.at)); },
           py::arg("other"), "The unit direction in which another vertex is seen.")
-      .def("__repr__", [](const Vertex& x) {
+      .def("__repr__", [](const PyVertex& x) {
+        const Vec3 p = x.position();
         return py::str("Vertex({}, ({:.4g}, {:.4g}, {:.4g}), {})")
-            .format(kind_of(x), x.at.p.x, x.at.p.y, x.at.p.z, name_of(x.lobe));
+            .format(kind_of(x), p.x, p.y, p.z, name_of(x.lobe));
       });
 }
 

@@ -49,8 +49,9 @@ struct Columns {
 /// Writes a row; NaN and -1 for a ray that hits nothing.
 class Writer {
  public:
-  explicit Writer(Columns& to)
-      : position_(to.position.mutable_data()),
+  Writer(Columns& to, const Vec3& origin)
+      : origin_(origin),
+        position_(to.position.mutable_data()),
         geo_normal_(to.geo_normal.mutable_data()),
         sh_normal_(to.sh_normal.mutable_data()),
         uv_(to.uv.mutable_data()),
@@ -64,7 +65,7 @@ class Writer {
   }
   void hit(size_t i, const Ray& ray, const SurfacePoint& at) const {
     const uint32_t shape = at.instance == SurfacePoint::no_shape ? at.shape : at.instance;
-    write(i, at.p, at.ng, at.shading.n, at.uv, length(at.p - ray.o), shape, at.primitive);
+    write(i, at.p + origin_, at.ng, at.shading.n, at.uv, length(at.p - ray.o), shape, at.primitive);
   }
 
  private:
@@ -82,6 +83,7 @@ class Writer {
     prim_[i] = prim;
   }
 
+  Vec3 origin_;  ///< Scene::origin().
   double *position_, *geo_normal_, *sh_normal_, *uv_, *distance_;
   int64_t *shape_, *prim_;
 };
@@ -92,11 +94,12 @@ py::dict intersect_rays(const LoadedScene& loaded, const Doubles& starts, const 
                         double time) {
   check_rays(starts, directions);
   Columns columns(starts.shape(0));
-  const Writer writer(columns);
+  const Vec3 origin = loaded.scene->origin();
+  const Writer writer(columns, origin);
   without_gil([&] {
     parallel_blocks(hardware_threads(), starts.shape(0), [&](uint64_t first, uint64_t end) {
       for (uint64_t i = first; i < end; ++i) {
-        const Ray ray{row(starts, i), normalize(row(directions, i)), time};
+        const Ray ray{row(starts, i) - origin, normalize(row(directions, i)), time};
         SurfacePoint at;
         if (loaded.scene->intersect(ray, at))
           writer.hit(i, ray, at);
@@ -125,7 +128,7 @@ py::tuple camera_rays(const LoadedScene& loaded, const Doubles& rasters, double 
     const double* raster = rasters.data() + 2 * i;
     const Ray ray = camera_ray(camera, lens, {raster[0], raster[1]});
     for (int c = 0; c < 3; ++c) {
-      starts.mutable_data()[3 * i + c] = ray.o[c];
+      starts.mutable_data()[3 * i + c] = ray.o[c] + loaded.scene->origin()[c];
       directions.mutable_data()[3 * i + c] = ray.d[c];
     }
   }

@@ -65,8 +65,9 @@ const Shape& shown_part(const Shape& shape) {
   return instance ? *instance->group().shapes().front() : shape;
 }
 
-py::dict described(const Shape& shape, uint32_t index) {
-  const Triangles found = without_gil([&] { return triangles_of(shape); });
+py::dict described(const Shape& shape, uint32_t index, const Vec3f& origin) {
+  Triangles found = without_gil([&] { return triangles_of(shape); });
+  for (Vec3f& p : found.corners) p += origin;
   const Shape& part = shown_part(shape);
   PositionSample sample;
   if (const Mesh* mesh = part.as_mesh())
@@ -95,7 +96,8 @@ py::list shape_triangles(const LoadedScene& loaded) {
       for (const ShapePtr& part : instance->group().shapes()) in_groups.insert(part.get());
   py::list shown;
   for (uint32_t i = 0; i < shapes.size(); ++i)
-    if (!in_groups.count(shapes[i].get())) shown.append(described(*shapes[i], i));
+    if (!in_groups.count(shapes[i].get()))
+      shown.append(described(*shapes[i], i, loaded.scene->origin()));
   return shown;
 }
 

@@ -6,6 +6,7 @@
 #include "io/families.h"
 #include "io/leniency.h"
 #include "scene/emitter/moving.h"
+#include "scene/instance.h"
 #include "scene/mesh.h"
 #include "scene/motion.h"
 #include "scene/nested.h"
@@ -75,11 +76,12 @@ std::shared_ptr<SamplerSettings> foreign_sampler(const Node& node) {
 }  // namespace
 
 Builder::Builder(const Node& root, const Registry& registry, std::vector<std::string>& warnings,
-                 const Known* known)
+                 const Known* known, Origins origins)
     : index_(index_nodes(root)),
       registry_(registry),
       warnings_(warnings),
       known_(known),
+      origins_(std::move(origins)),
       known_parts_(known ? known->parts.get() : nullptr) {}
 
 const Node& Builder::resolve(const Node& child) const {
@@ -115,6 +117,7 @@ ObjectPtr Builder::make(const Node& node) {
       take_animation(params, snake_case(name), node.family != "sensor");
   }
 
+  if (origins_.any()) move(node, params);
   if (node.family == "shape" && node.type == "sphere") place_ellipsoid(params);
 
   in_progress_.push_back(&node);
@@ -147,6 +150,30 @@ ObjectPtr Builder::make(const Node& node) {
   }
   if (!known) params.expect_all_read();
   return object;
+}
+
+Origins Builder::better_origins(const Bounds& scene) const {
+  Origins origins{origin_of(scene), {}};
+  for (const auto& [node, object] : made_)
+    if (const auto group = std::dynamic_pointer_cast<ShapeGroup>(object))
+      if (const Vec3 origin = origin_of(bounds_of_box(group->low(), group->high()));
+          origin != Vec3(0))
+        origins.groups[node] = origin;
+  return origins;
+}
+
+/// Moves an object to where the new origins put it.
+void Builder::move(const Node& node, Params& params) const {
+  const auto group_origin = [&](const Node& group) {
+    const auto found = origins_.groups.find(&group);
+    return found == origins_.groups.end() ? Vec3(0) : found->second;
+  };
+  const Node* parent = in_progress_.empty() ? nullptr : in_progress_.back();
+  const bool in_group = node.family == "shape" && parent && parent->type == "shapegroup";
+  Vec3 before(0);
+  for (const Node& child : node.children)
+    if (node.type == "instance") before += group_origin(resolve(child));
+  move_place(params, before, in_group ? group_origin(*parent) : origins_.scene);
 }
 
 /// Throws SceneError for runaway branching.

@@ -4,6 +4,7 @@
 #include "base/registry.h"
 #include "io/load.h"
 #include "io/node.h"
+#include "io/origins.h"
 #include "io/parts.h"
 #include "scene/shape_reader.h"
 
@@ -19,7 +20,7 @@ class Builder {
  public:
   /// References are looked up in `root`, which must outlive the builder, as `known` must.
   Builder(const Node& root, const Registry& registry, std::vector<std::string>& warnings,
-          const Known* known = nullptr);
+          const Known* known = nullptr, Origins origins = {});
 
   /// The object of a node, made at the first call: all references to it share one object.
   ObjectPtr object(const Node& node);
@@ -41,6 +42,9 @@ class Builder {
     for (const auto& reader : shape_readers_) reader->read_shapes(shapes);
   }
 
+  /// The origins with which the groups that were made, and a scene in these bounds, are near 0.
+  Origins better_origins(const Bounds& scene) const;
+
   /// The parts that were made, for scenes that are nearly the same.
   Parts take_parts() { return std::move(parts_); }
   /// The names of the files that were read.
@@ -53,6 +57,7 @@ class Builder {
   const Node& resolve(const Node& child) const;
   ObjectPtr make(const Node& node);
   void check_size(const Node& node);
+  void move(const Node& node, Params& params) const;
   Part new_part(const Node& node, const Plugin& plugin, Params& params);
   void give(Params& params, const Node& parent, const Node& child);
   void attach(Shape& shape, Params& params);
@@ -64,6 +69,7 @@ class Builder {
   const Registry& registry_;
   std::vector<std::string>& warnings_;
   const Known* known_;
+  Origins origins_;
   PartSource known_parts_;
   Parts parts_;
   std::set<std::string> files_;

@@ -131,9 +131,17 @@ void find_integrator(const Node& scene, LoadedScene& loaded) {
   if (integrator) loaded.integrator = unwrapped(*integrator, loaded);
 }
 
+struct Contents {
+  Builder::View view;
+  std::vector<ShapePtr> shapes;
+  std::vector<EmitterPtr> emitters;
+};
+
 /// Shapes and lights in the order of the scene; everything else is made too, and so checked.
-void build_contents(const Node& scene, Builder& builder, std::vector<ShapePtr>& shapes,
-                    std::vector<EmitterPtr>& emitters) {
+Contents build_contents(const Node& scene, const Node& sensor, const std::optional<Vec2i>& size,
+                        Builder& builder) {
+  Contents contents{builder.view(sensor, size), {}, {}};
+  auto& [view, shapes, emitters] = contents;
   std::vector<std::pair<const Node*, EmitterPtr>> unattached;
   for (const Node& child : scene.children) {
     if (child.family == "sensor" || child.family == "integrator") continue;
@@ -167,6 +175,17 @@ void build_contents(const Node& scene, Builder& builder, std::vector<ShapePtr>& 
   if (emitters.empty())
     throw SceneError(
         at(scene.where, "the scene has no emitter, so the image would be black; add a light"));
+  return contents;
+}
+
+/// Throws SceneError for scenes so small or large that single precision cannot hold their squares.
+void check_extent(const Bounds& bounds, const Location& where) {
+  constexpr double least = 1e-13, most = 1e13;
+  if (!(bounds.radius >= least && bounds.radius <= most))
+    throw SceneError(at(where,
+                        "the scene has a radius of {:.3g}, but should have one between {:g} and "
+                        "{:g}; choose another unit of length",
+                        bounds.radius, least, most));
 }
 
 Known known_of(Builder& builder, const Known* before, std::shared_ptr<const Accel> accel) {
@@ -203,20 +222,27 @@ LoadedScene build_scene(const Node& tree, const Registry& registry, const LoadOp
   if (!known || !known->parts) refuse_missing(scene, registry);
   const Node& sensor = chosen_sensor(scene, loaded.warnings);
   find_integrator(scene, loaded);
-  Builder builder(scene, registry, loaded.warnings, known);
-  const Builder::View view = builder.view(sensor, options.size);
-  std::vector<ShapePtr> shapes;
-  std::vector<EmitterPtr> emitters;
-  build_contents(scene, builder, shapes, emitters);
-  loaded.scene =
-      std::make_shared<Scene>(std::move(shapes), std::move(emitters), view.camera, view.film,
-                              view.sample_count, known ? known->accel : nullptr);
-  for (const auto& warnings : {warnings_of_coincident_lights(loaded.scene->emitters()),
+  const std::vector<std::string> warnings = loaded.warnings;
+  std::optional<Builder> builder(std::in_place, scene, registry, loaded.warnings, known);
+  Contents contents = build_contents(scene, sensor, options.size, *builder);
+  const Bounds bounds = enclosing_sphere(contents.shapes, *contents.view.camera);
+  check_extent(bounds, scene.where);
+  const Origins origins = builder->better_origins(bounds);
+  if (origins.any()) {
+    loaded.warnings = warnings;
+    builder.emplace(scene, registry, loaded.warnings, known, origins);
+    contents = build_contents(scene, sensor, options.size, *builder);
+  }
+  const Builder::View& view = contents.view;
+  loaded.scene = std::make_shared<Scene>(std::move(contents.shapes), std::move(contents.emitters),
+                                         view.camera, view.film, view.sample_count,
+                                         known ? known->accel : nullptr, origins.scene);
+  for (const auto& warnings : {warnings_of_coincident_lights(*loaded.scene),
                                warnings_of_crossing_boundaries(*loaded.scene)})
     loaded.warnings.insert(loaded.warnings.end(), warnings.begin(), warnings.end());
-  builder.show_shapes(loaded.scene->shapes());
+  builder->show_shapes(loaded.scene->shapes());
   loaded.size = options.size;
-  loaded.known = known_of(builder, known, loaded.scene->accel_ptr());
+  loaded.known = known_of(*builder, known, loaded.scene->accel_ptr());
   loaded.hash = fingerprint(scene, options.size, loaded.known.file_hashes);
   loaded.seconds = seconds_since(start);
   return loaded;

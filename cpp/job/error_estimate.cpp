@@ -173,11 +173,12 @@ std::vector<Disagreement> disagreements(const GroupsOfRendering& groups, const T
   return sorted;
 }
 
-size_t count_negative(const Image& image) {
-  size_t count = 0;
-  for (size_t i = 0; i < image.data.size(); i += 3)
-    count += *std::min_element(&image.data[i], &image.data[i] + 3) < 0;
-  return count;
+void count_pixels(const Image& image, ErrorEstimate& estimate) {
+  for (size_t i = 0; i < image.data.size(); i += 3) {
+    const auto [least, most] = std::minmax_element(&image.data[i], &image.data[i] + 3);
+    estimate.negative_pixels += *least < 0;
+    estimate.lit_pixels += *most > 0;
+  }
 }
 
 }  // namespace
@@ -188,7 +189,7 @@ ErrorEstimate estimate_error(const Rendering& rendering) {
   for (const Rendering* part : rendering.parts()) all.emplace_back(*part);
   const GroupsOfRendering& groups = all[0];
   ErrorEstimate estimate;
-  estimate.negative_pixels = count_negative(rendering.image());
+  count_pixels(rendering.image(), estimate);
   estimate.groups = groups.count();
   std::vector<const Groups*> parts_of_pixels, parts_of_blocks;
   for (const GroupsOfRendering& part : all) {

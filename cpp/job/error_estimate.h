@@ -38,6 +38,7 @@ struct ErrorEstimate {
   Image blocks;    ///< Standard error of the means of blocks of 8 x 8 pixels, a pixel for each.
   RelativeError relative, relative_blocks;  ///< Errors of pixels, and of block means.
   size_t negative_pixels = 0;               ///< Pixels with a channel below zero.
+  size_t lit_pixels = 0;                    ///< Pixels with a channel above zero.
   std::vector<Disagreement> disagreements;  ///< In order of brightness, the brightest first.
   int block_count() const { return blocks.width * blocks.height; }
 };

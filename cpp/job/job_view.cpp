@@ -1,5 +1,6 @@
 // Functions of Job that read a render: while it goes on, and when it has ended.
 #include "base/watchdog.h"
+#include "job/empty_image.h"
 #include "job/fireflies.h"
 #include "job/job.h"
 #include "mlt_version.h"
@@ -114,6 +115,10 @@ Stats Job::stats() const {
   if (units_done_ == 0) return stats;
   const std::shared_ptr<const ErrorEstimate> estimate = error();
   add_error(*estimate, stats);
+  const auto pixels = static_cast<size_t>(stats.width) * stats.height;
+  if (estimate->lit_pixels <= pixels / 1000)
+    stats.warnings.push_back(fmt::format("{} of {} pixels have any light: {}", estimate->lit_pixels,
+                                         pixels, cause_of_darkness(*scene_)));
   if (estimate->negative_pixels > 0 && !scene_->film().filter->has_negative_lobes() &&
       !scene_->camera().spectral())
     stats.warnings.push_back(

@@ -68,7 +68,7 @@ Vec3 value(AovKind kind, const Scene& scene, const Ray& ray, const FirstSurface&
   switch (kind) {
     case AovKind::albedo: return scene.bsdf(at).albedo(at).rgb();
     case AovKind::depth: return Vec3(length(at.p - ray.o), 0, 0);
-    case AovKind::position: return at.p;
+    case AovKind::position: return at.p + scene.origin();
     case AovKind::uv: return {at.uv, 0};
     case AovKind::geo_normal: return at.ng;
     case AovKind::sh_normal: return at.shading.n;

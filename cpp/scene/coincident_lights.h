@@ -1,15 +1,15 @@
 #pragma once
 
-#include "scene/emitter.h"
-
 #include <string>
 #include <vector>
 
 namespace mlt {
 
-/// A warning for each emissive shape that coincides with another one: which of them a ray hits
-/// depends on rounding, so that next-event estimation and walks that hit a light have different
-/// images.
-std::vector<std::string> warnings_of_coincident_lights(const std::vector<EmitterPtr>& emitters);
+class Scene;
+
+/// A warning for each emissive shape in whose surface another shape lies, at least partly: which of
+/// them a ray hits depends on rounding, so that next-event estimation and walks that hit a light
+/// have different images.
+std::vector<std::string> warnings_of_coincident_lights(const Scene& scene);
 
 }  // namespace mlt

@@ -45,6 +45,9 @@ struct Bounds {
   Vec3 center{0};
   double radius = 1;
 };
+inline Bounds bounds_of_box(const Vec3& low, const Vec3& high) {
+  return {0.5 * (low + high), 0.5 * length(high - low)};
+}
 
 class Emitter : public Object {
  public:

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 namespace mlt {
 namespace {
@@ -64,12 +65,13 @@ bool is_singular(const Mat4& m) {
 void transform_mesh(MeshData& data, const Mat4& to_world, const Location& where) {
   if (is_singular(to_world))
     throw SceneError(at(where, "'to_world' is singular: it flattens the shape or is not finite"));
-  if (to_world == Mat4(1)) return;
+  const Vec3 origin = std::exchange(data.origin, Vec3(0));
+  if (to_world == Mat4(1) && origin == Vec3(0)) return;
   const bool affine = is_affine(to_world);
   const Mat3 linear(to_world);
-  const Vec3 offset(to_world[3]);
+  const Vec3 offset = linear * origin + Vec3(to_world[3]);
   for (Vec3f& p : data.positions)
-    p = affine ? linear * Vec3(p) + offset : transform_point(to_world, Vec3(p));
+    p = affine ? linear * Vec3(p) + offset : transform_point(to_world, origin + Vec3(p));
   const Mat4 inverse = glm::inverse(to_world);
   for (Vec3f& n : data.normals) {
     const Vec3 moved = transform_normal(inverse, Vec3(n));

@@ -20,11 +20,19 @@ struct MeshAttribute {
 
 /// The buffers of a mesh; normals and uvs are empty or as many as the positions.
 struct MeshData {
-  std::vector<Vec3f> positions;
+  std::vector<Vec3f> positions;  ///< From `origin`.
   std::vector<Vec3f> normals;
   std::vector<Vec2f> uvs;
   std::vector<std::array<uint32_t, 3>> triangles;
   std::vector<MeshAttribute> attributes = {};
+  /// Far away, as survey coordinates are, single precision is too coarse for a mesh; from a point
+  /// nearby it is not.
+  Vec3 origin{0};
+
+  /// The origin for positions of which this is the first: it if it is far away, else 0.
+  static Vec3 origin_for(const Vec3& first) {
+    return max_component(glm::abs(first)) < 1024 ? Vec3(0) : first;
+  }
 
   /// The attribute of this name, or nullptr.
   const MeshAttribute* find_attribute(const std::string& name) const {
@@ -49,7 +57,7 @@ struct MeshData {
 /// not finite, or a buffer has the wrong length.
 void check_mesh(const MeshData& data, const Location& where);
 
-/// Applies a transform to positions and normals. Throws SceneError at `where` if it is singular.
+/// Applies a transform to positions and normals; the origin becomes 0. Throws SceneError at `where` if it is singular.
 void transform_mesh(MeshData& data, const Mat4& to_world, const Location& where);
 
 /// Sets every vertex normal to the mean of the normals of its triangles, weighted by their angles

@@ -8,7 +8,6 @@
 #include <set>
 
 namespace mlt {
-namespace {
 
 Bounds enclosing_sphere(const std::vector<ShapePtr>& shapes, const Camera& camera) {
   Vec3 low(infinity), high(-infinity);
@@ -26,9 +25,11 @@ Bounds enclosing_sphere(const std::vector<ShapePtr>& shapes, const Camera& camer
     low = glm::min(low, l);
     high = glm::max(high, h);
   }
-  const double radius = 0.5 * length(high - low);
-  return {0.5 * (low + high), radius > 0 ? radius * (1 + 1e-6) : 1.0};
+  const auto [center, radius] = bounds_of_box(low, high);
+  return {center, radius > 0 ? radius * (1 + 1e-6) : 1.0};
 }
+
+namespace {
 
 LaneMesh lane_mesh(const Shape& shape) {
   const Mesh* mesh = shape.as_mesh();
@@ -63,12 +64,13 @@ std::vector<ShapePtr> grouped_shapes(const std::vector<ShapePtr>& shapes) {
 
 Scene::Scene(std::vector<ShapePtr> shapes, std::vector<EmitterPtr> emitters, CameraPtr camera,
              std::shared_ptr<FilmSettings> film, int64_t sample_count,
-             const std::shared_ptr<const Accel>& known)
+             const std::shared_ptr<const Accel>& known, const Vec3& origin)
     : shapes_(std::move(shapes)),
       emitters_(std::move(emitters)),
       camera_(std::move(camera)),
       film_(std::move(film)),
-      sample_count_(sample_count) {
+      sample_count_(sample_count),
+      origin_(origin) {
   if (!camera_) throw SceneError("the scene has no sensor; add <sensor type=\"perspective\">");
   if (emitters_.empty())
     throw SceneError("the scene has no emitter; add a light, or everything is black");

@@ -42,13 +42,17 @@ struct LaneMesh {
   bool emits = false;
 };
 
+/// The least sphere around the bounding box of shapes and camera.
+Bounds enclosing_sphere(const std::vector<ShapePtr>& shapes, const Camera& camera);
+
 class Scene {
  public:
   /// Throws SceneError if there is no sensor or nothing that emits. `known` is the accelerator of
-  /// another scene, which this one uses too if the same shapes are in the same places.
+  /// another scene, which this one uses too if the same shapes are in the same places. `origin` is
+  /// where the scene's description has its origin of coordinates.
   Scene(std::vector<ShapePtr> shapes, std::vector<EmitterPtr> emitters, CameraPtr camera,
         std::shared_ptr<FilmSettings> film, int64_t sample_count,
-        const std::shared_ptr<const Accel>& known = nullptr);
+        const std::shared_ptr<const Accel>& known = nullptr, const Vec3& origin = Vec3(0));
 
   /// The shapes of the scene, then those in groups of which there are instances.
   const std::vector<ShapePtr>& shapes() const { return shapes_; }
@@ -56,6 +60,9 @@ class Scene {
   const Camera& camera() const { return *camera_; }
   const FilmSettings& film() const { return *film_; }
   const Bounds& bounds() const { return bounds_; }
+  /// The point of the scene's description that is the origin here: 0, unless the description is
+  /// far from its own.
+  const Vec3& origin() const { return origin_; }
   int64_t sample_count() const { return sample_count_; }  ///< That of the scene file, or 0.
 
   /// What scatters light at a point: the material of its surface, or the phase function.
@@ -178,6 +185,7 @@ class Scene {
   CameraPtr camera_;
   std::shared_ptr<FilmSettings> film_;
   int64_t sample_count_;
+  Vec3 origin_;
   Bounds bounds_;
   std::shared_ptr<const Accel> accel_;
   std::vector<uint32_t> infinite_, backgrounds_;

@@ -36,6 +36,8 @@ struct SurfacePoint {
   Lambertian lambertian{};  ///< Its scattering, if it is Lambertian and was hit by a ray.
 
   static constexpr uint32_t no_shape = ~0u;
+  /// On a surface of which only the point and its normals are known: it has no material to ask.
+  static constexpr uint32_t unknown_shape = no_shape - 1;
   bool infinite() const { return kind == PointKind::infinite; }
   bool in_medium() const { return kind == PointKind::medium; }
 };

@@ -228,8 +228,8 @@ void BidirectionalWave::join_alone(int s, int sample, const JointLanes& a, const
   if (infinite) joined.a.onwards = technique.onwards[i];
   double certainty = sees_light ? 1 : 0;
   if (scene_->has_passages()) {
-    if (!to_lens) joined.a.onwards *= scene_->stop_probability(y.vertex.at, joined.edge.w);
-    const double stops = scene_->stop_probability(x.vertex.at, -joined.edge.w);
+    if (!to_lens) joined.a.onwards *= stop_probability(*scene_, b, i, joined.edge.w);
+    const double stops = stop_probability(*scene_, a, i, -joined.edge.w);
     joined.b.onwards *= stops;
     certainty *= stops;
   }

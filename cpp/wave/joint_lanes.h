@@ -67,12 +67,18 @@ inline const WalkVertex& single_vertex(const JointLanes& lanes, int i, PointKind
   at.ng = Vec3(lanes.ng[i]);
   at.shading.n = Vec3(lanes.n[i]);
   at.extent = lanes.extent[i];
-  at.shape = 0;  // on some surface
+  at.shape = SurfacePoint::unknown_shape;
   scratch.dispersed = lanes.dispersed[i];
   scratch.joint.known = true;
   scratch.joint.cosine = lanes.cosine[i];
   for (int j = 0; j < Spectrum::lanes; ++j) scratch.joint.value[j] = lanes.value.lane[j][i];
   return scratch;
+}
+
+/// The probability that a walk along w, which has come to the vertex, stops there. Light passes
+/// neither Lambertian meshes nor emissive ones, and points at infinity are no surfaces.
+inline double stop_probability(const Scene& scene, const JointLanes& lanes, int i, const Vec3& w) {
+  return lanes.other[i] ? scene.stop_probability(lanes.other[i]->x.vertex.at, w) : 1;
 }
 
 /// Shadow rays between the vertices of a joint.

@@ -110,6 +110,24 @@ inline TestScene make_scene(const std::string& name, const LoadOptions& options 
   return {name, without_warnings(load_file("tests/scenes/" + name + ".xml", plugins(), options))};
 }
 
+/// The same scene for the eye: a pane that light passes and no ray meets stands first in it, and its
+/// shapes are in reversed order if that is asked for. So a scene becomes one with passages, and no
+/// other shape is the first.
+inline TestScene with_pane_first(const std::string& name, bool reversed = false) {
+  std::vector<std::string> warnings;
+  Node tree = read_xml_file("tests/scenes/" + name + ".xml", {}, warnings);
+  std::vector<Node>& parts = tree.children;
+  const auto shapes = std::stable_partition(
+      parts.begin(), parts.end(), [](const Node& node) { return node.family != "shape"; });
+  if (reversed) std::reverse(shapes, parts.end());
+  const Node pane = read_xml_string(
+      "<scene>" + rectangle(scale(1e-5), "<bsdf type='thindielectric'/>") + "</scene>", "", {},
+      warnings);
+  parts.insert(shapes, pane.children.front());
+  EXPECT_TRUE(warnings.empty()) << warnings.front();
+  return {name, without_warnings(build_scene(tree, plugins(), {}))};
+}
+
 inline LoadOptions with_size(int width, int height, const std::string& filter = "") {
   LoadOptions options;
   options.size = Vec2i(width, height);

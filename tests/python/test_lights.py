@@ -1,5 +1,7 @@
 """What a render says about lights that it cannot find, or cannot tell apart."""
 
+import re
+
 import numpy as np
 import pytest
 import tiny
@@ -33,14 +35,94 @@ def test_it_is_none_where_it_is_found(integrator):
     assert result.image.max() > 0
 
 
+def test_light_that_a_pane_mirrors_is_a_warning_although_the_lamp_lights_much_else():
+    scene = tiny.scene()
+    scene["lamp"] = {"type": "point", "position": [0, 2, 1], "intensity": 10.0}
+    scene["ball"] = {
+        "type": "rectangle",
+        "to_world": mlt.Transform().translate(0, 1.5, 0).scale(2),
+        "bsdf": {"type": "thindielectric"},
+    }
+    result = mlt.start(mlt.load_dict(scene), "path", spp=1).result()
+    (warning,) = [w for w in result.stats["warnings"] if "cannot find" in w]
+    share = float(re.search(r"about (\S+) % of all light", warning)[1])
+    assert 2 < share < 10  # 4 % of a fifth or more at normal incidence, and more aslant
+    scene["ball"]["to_world"] = mlt.Transform().translate(0, 1.5, 0).scale(0.01)
+    result = mlt.start(mlt.load_dict(scene), "path", spp=1).result()
+    assert not any("cannot find" in w for w in result.stats["warnings"])
+
+
+def shifted(scene: dict, *shift) -> list[str]:
+    scene["other"]["to_world"] = mlt.Transform().translate(*shift) @ scene["lamp"]["to_world"]
+    return mlt.load_dict(scene).warnings
+
+
 def test_two_lights_in_one_place_are_a_warning():
     scene = tiny.scene()
     assert mlt.load_dict(scene).warnings == []
     scene["other"] = dict(scene["lamp"])
+    for shift in (0, 0, 0), (0.003, 0, 0), (0.5, 0, 0.5), (-1.5, 0, 0):
+        (warning,) = shifted(scene, *shift)
+        assert "lies in the same place as" in warning
+    for shift in (0, 0.01, 0), (2.1, 0, 0):
+        assert shifted(scene, *shift) == []
+
+
+def test_a_light_in_the_plane_of_the_ceiling_is_a_warning():
+    scene = tiny.scene()
+    place = mlt.Transform().translate(0, 3, 0).rotate([1, 0.2, 0], 70)  # where rounding decides
+    scene["lamp"]["to_world"] = place
+    scene["ceiling"] = {"type": "rectangle", "to_world": place @ mlt.Transform().scale(2)}
     (warning,) = mlt.load_dict(scene).warnings
-    assert "lies in the same place as another one" in warning
-    scene["other"]["to_world"] = mlt.Transform().translate(0, 0.01, 0) @ scene["lamp"]["to_world"]
+    assert "lies in the same place as" in warning
+    scene["ceiling"]["to_world"] = place @ mlt.Transform().translate(0, 0, -0.01).scale(2)
     assert mlt.load_dict(scene).warnings == []
+
+
+# ---- pictures without light ----------------------------------------------------------------------
+
+
+def last_warning(scene: dict, integrator="path") -> str:
+    result = mlt.start(mlt.load_dict(scene), integrator, spp=1).result()
+    return result.stats["warnings"][-1]
+
+
+def view(*origin) -> mlt.Transform:
+    return mlt.Transform.look_at(origin=list(origin), target=[0, 0.5, 0], up=[0, 1, 0])
+
+
+@pytest.mark.parametrize("integrator", ["path", "bdpt", "ptracer", "mlt", "mmlt", "pssmlt"])
+def test_a_lamp_in_a_closed_box_says_that_no_light_was_found(integrator):
+    scene = tiny.scene()
+    scene["box"] = {
+        "type": "cube",
+        "to_world": mlt.Transform().translate(0, 3, 0).scale(1.5),
+        "bsdf": {"type": "twosided", "b": {"type": "diffuse"}},
+    }
+    assert "no light was found" in last_warning(scene, integrator)
+
+
+def test_a_lens_inside_a_shape_is_named():
+    scene = tiny.scene()
+    scene["stone"] = {"type": "sphere", "center": [0, 1, 4], "radius": 0.2}
+    assert "the lens is inside the sphere 'stone'" in last_warning(scene)
+
+
+def test_a_camera_that_looks_away_says_so():
+    scene = tiny.scene()
+    scene["sensor"]["to_world"] = mlt.Transform.look_at([0, 1, 4], [0, 2, 9], [0, 1, 0])
+    assert "nothing is in view" in last_warning(scene)
+
+
+def test_a_scene_without_shapes_says_so():
+    scene = tiny.scene()
+    kept = {name: scene[name] for name in ("type", "integrator", "sensor")}
+    assert "has no shapes" in last_warning(kept | {"bulb": {"type": "point"}})
+
+
+def test_a_lit_picture_says_nothing():
+    result = mlt.start(mlt.load_dict(tiny.scene()), "path", spp=4).result()
+    assert not any("have any light" in w for w in result.stats["warnings"])
 
 
 # ---- ellipsoids ----------------------------------------------------------------------------------

@@ -81,7 +81,9 @@ class ObjReader {
   void read_statement() {
     const std::string_view keyword = text_.word();
     if (keyword == "v") {
-      positions_.push_back(read_triple());
+      const Vec3 p = read_triple();
+      if (positions_.empty()) mesh_.origin = MeshData::origin_for(p);
+      positions_.push_back(p - mesh_.origin);
     } else if (keyword == "vt") {
       uvs_.push_back(read_uv());
     } else if (keyword == "vn") {
@@ -96,7 +98,7 @@ class ObjReader {
     return text_.real("a number");
   }
 
-  Vec3f read_triple() {
+  Vec3 read_triple() {
     const double x = number(), y = number(), z = number();
     return Vec3(x, y, z);
   }

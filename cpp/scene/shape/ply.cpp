@@ -167,7 +167,9 @@ class PlyBody {
           value[slots[k]] = source_.real(element.properties[k].type, element.name);
       }
       attributes.end_row(1);
-      mesh_.positions[i] = Vec3(value[x], value[y], value[z]);
+      const Vec3 p(value[x], value[y], value[z]);
+      if (i == 0) mesh_.origin = MeshData::origin_for(p);
+      mesh_.positions[i] = p - mesh_.origin;
       if (normals) mesh_.normals[i] = Vec3(value[nx], value[ny], value[nz]);
       if (uvs) mesh_.uvs[i] = Vec2(value[u], value[v]);
     }

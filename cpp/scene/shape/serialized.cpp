@@ -118,11 +118,14 @@ template <class Real>
 void read_vertices(Inflater& in, uint32_t flags, uint64_t count, MeshData& mesh) {
   using Triple = std::array<Real, 3>;
   using Pair = std::array<Real, 2>;
-  const auto into = [](std::vector<Vec3f>& buffer) {
-    return [&buffer](const Triple& v) { buffer.push_back(Vec3(v[0], v[1], v[2])); };
-  };
-  read_items<Triple>(in, count, into(mesh.positions));
-  if (flags & has_normals) read_items<Triple>(in, count, into(mesh.normals));
+  read_items<Triple>(in, count, [&](const Triple& v) {
+    const Vec3 p(v[0], v[1], v[2]);
+    if (mesh.positions.empty()) mesh.origin = MeshData::origin_for(p);
+    mesh.positions.push_back(p - mesh.origin);
+  });
+  if (flags & has_normals)
+    read_items<Triple>(in, count,
+                       [&](const Triple& v) { mesh.normals.push_back(Vec3(v[0], v[1], v[2])); });
   if (flags & has_uvs)
     read_items<Pair>(in, count, [&](const Pair& v) { mesh.uvs.push_back(Vec2(v[0], v[1])); });
   if (flags & has_colors) read_items<Triple>(in, count, [](const Triple&) {});

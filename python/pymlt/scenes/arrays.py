@@ -71,6 +71,8 @@ def with_arrays(values: dict) -> dict:
         if key in MESH_BUFFERS:
             dtype = np.uint32 if key == "faces" else np.float32
             arrays[key] = np.frombuffer(value, dtype).reshape(-1, MESH_BUFFERS[key])
+        elif key == "data" and "data_shape" not in values:
+            continue  # the bytes of a file
         elif key == "data" and "data_type" not in values:
             shape = [int(length) for length in values["data_shape"]]
             grid = np.frombuffer(value, np.float32).reshape(*shape, -1)

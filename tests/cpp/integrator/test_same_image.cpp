@@ -91,6 +91,59 @@ std::vector<Pair> all_pairs() {
 
 INSTANTIATE_TEST_SUITE_P(Pairs, LongSameImageOf, testing::ValuesIn(all_pairs()), pair_name);
 
+// ---- the order of a scene's shapes, and a pane that no ray meets, change no image
+
+void expect_same_behind_pane(const Pair& pair, const SameImageSettings& settings) {
+  const Assignments depth{{"max_depth", "6"}};
+  const SameImage found =
+      same_image(side(with_pane_first(pair.scene, true).scene, pair.integrator, depth,
+                      has_chains(variant(pair.integrator).integrator) ? 64 : 16),
+                 side(make_scene(pair.scene).scene, "bdpt", depth, 16), settings);
+  EXPECT_TRUE(found) << pair.scene << ": " << found.text;
+}
+
+class ShapeOrderOf : public testing::TestWithParam<Pair> {};
+
+TEST_P(ShapeOrderOf, ChangesNoImage) { expect_same_behind_pane(GetParam(), short_test()); }
+
+INSTANTIATE_TEST_SUITE_P(Pairs, ShapeOrderOf,
+                         testing::Values(Pair{"sky", "bdpt"}, Pair{"sky", "mlt"},
+                                         Pair{"thin_lens_sky", "bdpt"},
+                                         Pair{"thin_lens_sky", "mlt"}, Pair{"materials", "bdpt"},
+                                         Pair{"materials", "mlt"}),
+                         pair_name);
+
+class LongShapeOrderOf : public testing::TestWithParam<Pair> {};
+
+TEST_P(LongShapeOrderOf, ChangesNoImage) { expect_same_behind_pane(GetParam(), long_test()); }
+
+std::vector<Pair> all_pairs_and_their_reference() {
+  std::vector<Pair> pairs = all_pairs();
+  for (const std::string& name : scene_names())
+    for (const char* algorithm : {"bdpt", "mlt"}) pairs.push_back({name, algorithm});
+  return pairs;
+}
+
+INSTANTIATE_TEST_SUITE_P(Pairs, LongShapeOrderOf,
+                         testing::ValuesIn(all_pairs_and_their_reference()), pair_name);
+
+/// Where there are passages before, the pane changes no random number: each bit is the same.
+TEST(ShapeOrder, KeepsAllBitsOfPathAndBdptWhereLightPassesSomeShapeAnyway) {
+  int compared = 0;
+  for (const std::string& name : scene_names()) {
+    const ScenePtr scene = make_scene(name).scene;
+    if (!scene->has_passages() || scene->has_media()) continue;
+    ++compared;
+    for (const char* algorithm : {"path", "bdpt"}) {
+      const auto image = [&](const ScenePtr& of) {
+        return rendered(of, integrator(algorithm, {}), 1, 4)->image().data;
+      };
+      EXPECT_EQ(image(scene), image(with_pane_first(name).scene)) << name << " by " << algorithm;
+    }
+  }
+  EXPECT_GE(compared, 2);
+}
+
 // ---- the parameters of bdpt change the noise, not the image; others change it for all alike
 
 void expect_same_with(const std::string& scene_name, const std::string& other, const Assignments& a,

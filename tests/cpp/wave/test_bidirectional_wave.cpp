@@ -151,12 +151,19 @@ void expect_the_same(const Samples& single, const Samples& wave, double behind_l
             (1 - behind_lens) * single.rays.occluded - about(single.rays.occluded));
 }
 
-TEST_P(BidirectionalWaveOf, FindsWhatSingleSamplesFind) {
-  const ScenePtr scene = make_scene(GetParam()).scene;
+void expect_what_single_samples_find(const Scene& scene) {
   for (const BidirectionalSettings& settings : all_settings()) {
-    if (!BidirectionalWave::supports(*scene, settings)) continue;
-    expect_the_same(one_by_one(*scene, settings), side_by_side(*scene, settings));
+    if (!BidirectionalWave::supports(scene, settings)) continue;
+    expect_the_same(one_by_one(scene, settings), side_by_side(scene, settings));
   }
+}
+
+TEST_P(BidirectionalWaveOf, FindsWhatSingleSamplesFind) {
+  expect_what_single_samples_find(*make_scene(GetParam()).scene);
+}
+
+TEST_P(BidirectionalWaveOf, FindsTheSameWhereTheFirstShapeLetsLightPass) {
+  expect_what_single_samples_find(*with_pane_first(GetParam()).scene);
 }
 
 /// Single samples count the shadow rays to an orthographic lens that they are behind, too, but no

@@ -85,6 +85,10 @@ void expect_the_same(const Scene& scene) {
 
 TEST_P(PathWaveOf, FindsWhatSinglePathsFind) { expect_the_same(*make_scene(GetParam()).scene); }
 
+TEST_P(PathWaveOf, FindsTheSameWhereTheFirstShapeLetsLightPass) {
+  expect_the_same(*with_pane_first(GetParam()).scene);
+}
+
 INSTANTIATE_TEST_SUITE_P(Scenes, PathWaveOf, testing::ValuesIn(scene_names()),
                          [](const auto& info) { return info.param; });
 
