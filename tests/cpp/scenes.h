@@ -117,13 +117,15 @@ inline TestScene with_pane_first(const std::string& name, bool reversed = false)
   std::vector<std::string> warnings;
   Node tree = read_xml_file("tests/scenes/" + name + ".xml", {}, warnings);
   std::vector<Node>& parts = tree.children;
-  const auto shapes = std::stable_partition(
-      parts.begin(), parts.end(), [](const Node& node) { return node.family != "shape"; });
-  if (reversed) std::reverse(shapes, parts.end());
+  if (reversed) {
+    const auto end_of_others = std::stable_partition(
+        parts.begin(), parts.end(), [](const Node& node) { return node.family != "shape"; });
+    std::reverse(end_of_others, parts.end());
+  }
   const Node pane = read_xml_string(
       "<scene>" + rectangle(scale(1e-5), "<bsdf type='thindielectric'/>") + "</scene>", "", {},
       warnings);
-  parts.insert(shapes, pane.children.front());
+  parts.insert(parts.begin(), pane.children.front());
   EXPECT_TRUE(warnings.empty()) << warnings.front();
   return {name, without_warnings(build_scene(tree, plugins(), {}))};
 }
