@@ -9,6 +9,8 @@ DEMO_FLAGS ?= --integrator mlt -p max_depth=3 --spp 200 --seed 2
 SHARD ?= 1/1
 MINUTES ?= 1
 HOURS ?= 1
+N ?= 60
+SEED ?= 1
 # The Pythons that `make wheel` makes wheels for: PYTHONS="python3.11 python3.12 python3.13".
 PYTHONS ?= $(PYTHON)
 
@@ -33,7 +35,7 @@ export PIP_DISABLE_PIP_VERSION_CHECK = 1
 
 .DEFAULT_GOAL := build
 .DELETE_ON_ERROR:
-.PHONY: setup editor build quick demo docs test test-long mutants asan separate fuzz soak wheel blender release-check \
+.PHONY: setup editor build quick demo docs test test-long mutants asan separate fuzz soak differential wheel blender release-check \
         lint format clean distclean
 
 # ---- set-up ------------------------------------------------------------------------------------
@@ -162,6 +164,10 @@ soak: build
 	  LD_PRELOAD="$$($(CXX) -print-file-name=libasan.so) $$($(CXX) -print-file-name=libstdc++.so)" \
 	  ASAN_OPTIONS=detect_leaks=0:quarantine_size_mb=16 \
 	  $(PYTHON) tests/soak.py --hours $(HOURS)
+
+# N random scenes by all algorithms, from number SEED on: do they make the same image?
+differential: build
+	$(BIN)/python tests/differential.py --n $(N) --seed $(SEED)
 
 # ---- the release: dist/*.whl and dist/*.tar.gz ----------------------------------------------------
 wheel: $(STAMPS)/dev

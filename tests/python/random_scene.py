@@ -25,7 +25,7 @@ def point(name: str, xyz) -> str:
 
 
 def random_scene(seed: int, size=(8, 6)) -> str:
-    """A room of which walls may be missing, with some things and lights in it."""
+    """A room of which walls may be missing, with some things and lights in it, in any order."""
     return Draw(seed).scene(*size)
 
 
@@ -35,7 +35,8 @@ class Draw:
         self.between = self.random.uniform
         # Numbers of its own, so that the scenes without motion are what they were before it.
         self.motion = random.Random(f"motion {seed}")
-        self.moves = self.motion.random() < 0.4
+        self.moves = self.motion.random() < 0.3
+        self.fog = ""  # the medium around the lens and all lamps, if there is one
 
     def one_of(self, *choices) -> str:
         """What one of these makes; each is a text or makes one."""
@@ -51,11 +52,15 @@ class Draw:
     # ---- the whole -------------------------------------------------------------------------------
 
     def scene(self, width: int, height: int) -> str:
+        self.fog = self.maybe(self.thin_medium, 0.1)
         things = [self.thing() for _ in range(self.random.randint(1, 4))]
         lights = [self.lamp()] + [self.light() for _ in range(self.random.randint(0, 2))]
         sensors = self.sensor(width, height) + self.maybe(lambda: self.sensor(width, height), 0.2)
-        return tag("scene", self.integrator(), sensors, self.room(), *things, *lights,
-                   version="3.0.0")  # fmt: skip
+        parts = [*self.room(), *things, *lights, self.maybe(self.around_everything, 0.2)]
+        if self.fog:
+            parts = [part.replace("</emitter>", self.fog + "</emitter>") for part in parts]
+        self.random.shuffle(parts)
+        return tag("scene", self.integrator(), sensors, *parts, version="3.0.0")
 
     def integrator(self) -> str:
         depth = value("integer", "max_depth", self.random.choice([-1, -1, 2, 3, 8]))
@@ -68,8 +73,11 @@ class Draw:
         at = tag("lookat", origin=eye, target="0, -0.2, 0", up="0, 1, 0")
         sides = value("integer", "width", width) + value("integer", "height", height)
         names = ("box", "tent", "gaussian", "mitchell", "catmullrom", "lanczos")
+        part = value("integer", "crop_offset_x", 1) + value("integer", "crop_width", width - 2)
+        sides += self.maybe(lambda: part, 0.1)
+        sides += self.maybe(lambda: value("boolean", "spectral", "true"), 0.15)
         film = tag("film", sides, tag("rfilter", type=self.one_of(*names)), type="hdrfilm")
-        film += value("float", "shutter_close", 1) if self.moves else ""
+        film += (value("float", "shutter_close", 1) if self.moves else "") + self.fog
         common = self.to_world(at) + film + value("float", "fov", 45)
         parallel = self.to_world(tag("scale", x=1.2, y=1.2), at)
         lens = value("float", "aperture_radius", self.between(0.05, 0.5))
@@ -80,7 +88,7 @@ class Draw:
             tag("sensor", parallel, film, type="orthographic"),
         )
 
-    def room(self) -> str:
+    def room(self) -> list[str]:
         """Each wall is a rectangle that looks inwards."""
         turns = [("x", -90), ("x", 90), ("x", 0), ("y", 90), ("y", -90)]
         chances = [1, 0.7, 0.8, 0.7, 0.7]
@@ -93,7 +101,55 @@ class Draw:
             return tag("shape", frame, self.matt(), type="rectangle")
 
         walls = zip(turns, places, chances, strict=True)
-        return "".join(self.maybe(lambda t=t, p=p: wall(t, p), c) for t, p, c in walls)
+        return [self.maybe(lambda t=t, p=p: wall(t, p), c) for t, p, c in walls]
+
+    def around_everything(self) -> str:
+        """A surface that light passes, which holds the whole scene, or a pane that nobody sees."""
+        opacity = value("float", "opacity", self.between(0, 0.3))
+        veil = tag("bsdf", opacity, tag("bsdf", type="diffuse"), type="mask")
+        passed = self.one_of(veil, tag("bsdf", type="null"), tag("bsdf", type="thindielectric"))
+        far = tag("transform", tag("translate", x=50), name="to_world")
+        ball = value("float", "radius", 20.0)
+        return self.one_of(
+            tag("shape", ball, passed, type="sphere"),
+            tag("shape", tag("transform", tag("scale", value=20), name="to_world"), passed,
+                type="cube"),
+            tag("shape", far, passed, type="rectangle"),
+        )  # fmt: skip
+
+    # ---- media -----------------------------------------------------------------------------------
+
+    def homogeneous(self, dense: float) -> str:
+        """Grey or coloured."""
+        coloured = self.random.random() < 0.5
+        extinction = self.triple(0.2 * dense, dense) if coloured else [self.between(0, dense)] * 3
+        phase = self.maybe(lambda: tag("phase", value("float", "g", self.between(-0.7, 0.8)),
+                                       type="hg"))  # fmt: skip
+        albedo = value("rgb", "albedo", *self.triple(0.3, 1))
+        return value("rgb", "sigma_t", *extinction) + albedo + phase
+
+    def thin_medium(self) -> str:
+        return tag("medium", self.homogeneous(0.2), type="homogeneous")
+
+    def cloud(self) -> str:
+        """A body of a medium, without a surface or in glass; one in five holds another."""
+        surface = self.one_of(tag("bsdf", type="null"), tag("bsdf", type="null"),
+                              tag("bsdf", type="dielectric"))  # fmt: skip
+        name = f"medium{self.random.randrange(2**30)}"
+        inside = tag("medium", self.homogeneous(3), type="homogeneous", id=name)
+        centre = self.triple(-0.6, 0.6)
+
+        def body(radius, bounded):
+            return tag("shape", point("center", centre), value("float", "radius", radius), surface,
+                       bounded, type="sphere")  # fmt: skip
+
+        def outside(medium):
+            return medium.replace("<medium", '<medium name="exterior"') if medium else ""
+
+        whole = body(0.4, tag("ref", name="interior", id=name) + outside(self.fog))
+        core = tag("medium", self.homogeneous(3), type="homogeneous", name="interior")
+        within = body(0.2, core + tag("ref", name="exterior", id=name))
+        return inside + whole + self.maybe(lambda: within, 0.2)
 
     # ---- things ----------------------------------------------------------------------------------
 
@@ -134,7 +190,7 @@ class Draw:
         self.moves, moves = False, self.moves  # members of a group stand still in it
         members = [self.thing() for _ in range(self.random.randint(1, 2))]
         self.moves = moves
-        if any("instance" in member for member in members):
+        if any("instance" in member or "<medium" in member for member in members):
             return "".join(members)
         places = [self.placed() for _ in range(self.random.randint(1, 3))]
         return tag("shape", *members, id=name, type="shapegroup") + "".join(
@@ -164,7 +220,7 @@ class Draw:
         return self.one_of(
             lambda: self.ball(self.between(0.2, 0.5), self.bsdf()), shape("cube"), shape("disk"),
             shape("rectangle"), cylinder, mesh("obj"), mesh("ply"), mesh("serialized"), painted,
-            self.copies,
+            self.copies, self.cloud,
         )  # fmt: skip
 
     # ---- materials -------------------------------------------------------------------------------
@@ -221,7 +277,7 @@ class Draw:
 
     def principled(self, name: str, *shares: str) -> str:
         """With some of these parameters."""
-        chosen = self.random.sample(shares, self.random.randint(0, 4))
+        chosen = self.random.sample(shares, self.random.randint(0, len(shares)))
         content = [self.share(parameter) for parameter in chosen]
         return tag("bsdf", self.reflectance("base_color"), *content, type=name)
 
@@ -246,21 +302,29 @@ class Draw:
             lambda: tag("bsdf", coated, self.rough(), type="roughplastic"),
         )  # fmt: skip
 
-    def around(self) -> str:
+    def nested(self, levels: int) -> str:
+        """Materials around materials, up to this deep."""
+        return self.around(levels - 1) if levels and self.random.random() < 0.4 else self.opaque()
+
+    def around(self, levels: int = 2) -> str:
         """A material around others."""
         bump = tag("texture", value("string", "filename", "colours.png"), type="bitmap")
         normals = bump.replace("<texture", '<texture name="normalmap"')
         height = value("float", "scale", self.between(0.01, 0.2))
         weights = value("string", "weights", self.between(0.1, 1), self.between(0.1, 1))
         absorbed = value("float", "sigma_a", self.between(0, 1))
+
+        def inner():
+            return self.nested(levels)
+
+        null = tag("bsdf", type="null")
         return self.one_of(
-            lambda: tag(
-                "bsdf", self.share("weight"), self.opaque(), self.opaque(), type="blendbsdf"
-            ),
-            lambda: tag("bsdf", weights, self.opaque(), self.opaque(), type="mixturebsdf"),
-            lambda: tag("bsdf", self.share("opacity"), self.opaque(), type="mask"),
-            lambda: tag("bsdf", bump, height, self.opaque(), type="bumpmap"),
-            lambda: tag("bsdf", normals, self.opaque(), type="normalmap"),
+            lambda: tag("bsdf", self.share("weight"), inner(), inner(), type="blendbsdf"),
+            lambda: tag("bsdf", self.share("weight"), inner(), null, type="blendbsdf"),
+            lambda: tag("bsdf", weights, inner(), inner(), type="mixturebsdf"),
+            lambda: tag("bsdf", self.share("opacity"), inner(), type="mask"),
+            lambda: tag("bsdf", bump, height, inner(), type="bumpmap"),
+            lambda: tag("bsdf", normals, inner(), type="normalmap"),
             lambda: tag("bsdf", absorbed, self.opaque(), type="coating"),
         )
 
@@ -273,12 +337,14 @@ class Draw:
             self.around,
             lambda: tag("bsdf", self.opaque(), type="twosided"),
             self.sheet,
-            lambda: self.principled("principled", "roughness", "spec_trans", "metallic", "sheen"),
+            lambda: self.principled("principled", "roughness", "anisotropic", "spec_trans",
+                                    "metallic", "spec_tint", "sheen", "sheen_tint", "flatness",
+                                    "clearcoat", "clearcoat_gloss"),
             tag("bsdf", index, type="thindielectric"),
             tag("bsdf", index, type="dielectric"),
             lambda: tag("bsdf", index, self.rough(), type="roughdielectric"),
             lambda: self.maybe(lambda: tag("bsdf", type="null"), 0.3),
-        )
+        )  # fmt: skip
 
     # ---- lights ----------------------------------------------------------------------------------
 
@@ -291,9 +357,26 @@ class Draw:
         steps += tag("rotate", x=1, angle=90) + tag("translate", y=0.98)
         return tag("shape", self.to_world(steps), self.glow(), type="rectangle")
 
+    def odd_lamp(self) -> str:
+        """Tiny, in glass, or behind a mask of its own."""
+        centre = point("center", self.triple(-0.6, 0.6))
+
+        def ball(radius, *nested):
+            return tag("shape", centre, value("float", "radius", radius), *nested, type="sphere")
+
+        opacity = value("float", "opacity", self.between(0.1, 0.9))
+        masked = tag("bsdf", opacity, self.matt(), type="mask")
+        glow = self.glow()
+        return self.one_of(
+            ball(0.01, glow),
+            ball(0.1, masked, glow),
+            ball(0.1, glow) + ball(0.2, tag("bsdf", type="dielectric")),
+            ball(0.1, glow) + ball(0.2, tag("bsdf", self.rough(), type="roughdielectric")),
+        )
+
     def light(self) -> str:
         colour = self.triple(0.2, 3)
-        sky = value("string", "filename", "sky.exr")
+        sky = value("string", "filename", self.one_of("sky.exr", "hot_sky.exr"))
         place = point("position", self.triple(-0.8, 0.8)) + value("rgb", "intensity", *colour)
         sun = tag("vector", name="direction", x=-0.3, y=-0.7, z=-1)
         day = tag("vector", name="sun_direction", x=0.3, y=0.7, z=1)
@@ -301,15 +384,20 @@ class Draw:
         map_size = value("integer", "resolution", 16)
         above = tag("lookat", origin="0.3, 0.9, 0.8", target="0, -1, -0.2", up="0, 0, 1")
         down = self.to_world(above)
-        return self.one_of(
+        near = [
             lambda: self.ball(self.between(0.05, 0.2), self.matt(), self.glow()),
+            self.odd_lamp,
+            self.odd_lamp,
             tag("emitter", place, type="point"),
+            tag("emitter", down, value("rgb", "intensity", *colour), type="spot"),
+            lambda: tag("emitter", down, self.reflectance("irradiance"), type="projector"),
+        ]
+        infinite = [
             tag("emitter", sun, value("rgb", "irradiance", *colour), type="directional"),
             tag("emitter", value("rgb", "radiance", *colour), type="constant"),
             tag("emitter", sky, type="envmap"),
-            tag("emitter", down, value("rgb", "intensity", *colour), type="spot"),
-            lambda: tag("emitter", down, self.reflectance("irradiance"), type="projector"),
             tag("emitter", day, map_size, type="sky"),
             tag("emitter", day, type="sun"),
             tag("emitter", day, map_size, type="sunsky"),
-        )
+        ]
+        return self.one_of(*near, *([] if self.fog else infinite))
