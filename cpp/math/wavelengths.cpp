@@ -39,7 +39,6 @@ namespace wavelengths {
 Tables::Tables() {
   for (int i = 0; i <= cells; ++i) {
     nm[i] = inverse_distribution(double(i) / cells);
-    d65[i] = mlt::d65(nm[i]);
     response[i] = matching_functions(nm[i]) * nm_per_u(nm[i]);
   }
   const Vec3 unit = white_of(*this);
@@ -50,9 +49,7 @@ const Tables tables;
 
 }  // namespace wavelengths
 
-Spectrum daylight(double u) {
-  return is_single(u) ? Spectrum(d65(u)) : wavelengths::look_up(wavelengths::tables.d65, u);
-}
+Spectrum daylight(double u) { return at_wavelengths(u, d65); }
 
 Color recorded_spectrum(const Spectrum& light, double u, bool dispersed) {
   if (is_single(u)) return Color(light[0]);
