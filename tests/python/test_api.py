@@ -1,9 +1,9 @@
 """The Python face: classes from schemas, scenes, images, errors."""
 
-import fcntl
 import inspect
 import os
 import pickle
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -318,14 +318,28 @@ def test_a_file_that_is_replaced_keeps_its_permissions(name, tmp_path):
         assert (tmp_path / name).stat().st_mode & 0o777 == mode
 
 
-def test_what_a_killed_process_has_left_is_removed(tmp_path):
-    image = np.ones((4, 4, 3), dtype=np.float32)
-    (tmp_path / ".partial-1-0").touch()
-    (tmp_path / ".partial").mkdir()
-    with open(tmp_path / ".partial-2-0", "w") as busy:
-        fcntl.flock(busy, fcntl.LOCK_EX)
-        mlt.write_image(tmp_path / "a.exr", image)
-        assert sorted(os.listdir(tmp_path)) == [".partial", ".partial-2-0", "a.exr"]
+def test_files_of_others_are_left_alone(tmp_path):
+    names = [".partial-1-0", ".partial-0123456789abcdef", ".partial-thesis.pdf"]
+    for name in names:
+        (tmp_path / name).write_text("mine")
+    mlt.write_image(tmp_path / "a.exr", np.ones((4, 4, 3), dtype=np.float32))
+    assert sorted(os.listdir(tmp_path)) == sorted([*names, "a.exr"])
+
+
+def test_a_process_that_is_killed_while_it_writes_leaves_nothing(tmp_path):
+    program = """if True:
+        import resource, signal, sys
+        import numpy, pymlt
+        image = numpy.random.default_rng(1).random((64, 64, 3), dtype="f")
+        pymlt.write_image("a.exr", image[:4])
+        signal.signal(signal.SIGXFSZ, signal.SIG_DFL)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096))
+        pymlt.write_image("a.exr", image)
+    """
+    done = subprocess.run([sys.executable, "-c", program], cwd=tmp_path)
+    assert done.returncode == -signal.SIGXFSZ
+    assert os.listdir(tmp_path) == ["a.exr"]
+    assert mlt.read_image(tmp_path / "a.exr").shape == (4, 64, 3)
 
 
 # ---- objects of the extension --------------------------------------------------------------------
