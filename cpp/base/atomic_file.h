@@ -11,7 +11,8 @@
 namespace mlt {
 
 /// A file while it is written: a new one in the folder of its target, without a name where the file
-/// system has such files, moved there by commit() and removed otherwise. One that replaces another has its permissions. Everything throws FileError.
+/// system has such files, moved there by commit() and removed otherwise. One that replaces another
+/// has its permissions. Everything throws FileError.
 class AtomicFile {
  public:
   explicit AtomicFile(const std::string& path);
