@@ -701,15 +701,18 @@ def test_mistakes_are_named_with_their_line(text, message):
         mlt.load(written(text))
 
 
-POINT = '\nLightSource "point" "rgb I" [1 1 1]'
+SHINES = '\nLightSource "point" "rgb I" [1 1 1]'
 
 
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ('\nShape "sphere"\n"float radius" -1' + POINT, "a.pbrt:{}: the radius of a sphere"),
-        ('\nMaterial "diffuse" "rgb reflectance" [2 2 2]' + POINT, "a.pbrt:{}: bsdf 'diffuse'"),
-        ('\nShape "plymesh" "string filename" "none.ply"' + POINT, "a.pbrt:{}: .*none.ply"),
+        ('\nShape "sphere"\n"float radius" -1' + SHINES, "a.pbrt:{}: the radius of a sphere"),
+        (
+            '\nMaterial "diffuse" "rgb reflectance" [2 2 2]' + SHINES,
+            "a.pbrt:{}: bsdf 'diffuse'",
+        ),
+        ('\nShape "plymesh" "string filename" "none.ply"' + SHINES, "a.pbrt:{}: .*none.ply"),
         ('\nLightSource "infinite" "string filename" "none.exr"', "a.pbrt:{}: none.exr"),
         ('\nInclude "none.pbrt"', "a.pbrt:{}: none.pbrt"),
         (
