@@ -157,7 +157,13 @@ std::string read_file(const std::string& path, uint64_t largest) {
   if (size > largest)
     throw FileError(path + ": cannot read it: it has more than " + std::to_string(largest) +
                     " bytes");
-  std::string bytes(static_cast<size_t>(size), '\0');
+  std::string bytes;
+  try {
+    bytes.resize(static_cast<size_t>(size));
+  } catch (const std::exception&) {  // bad_alloc, or length_error
+    throw FileError(path + ": cannot read it: there is no memory for its " + std::to_string(size) +
+                    " bytes");
+  }
   file.read(bytes.data(), static_cast<std::streamsize>(size));
   if (static_cast<uintmax_t>(file.gcount()) != size)
     throw FileError(path + ": cannot read it: it ended early");

@@ -297,6 +297,46 @@ def test_the_content_of_a_file_decides_who_reads_it(tmp_path):
     assert np.array_equal(mlt.read_image(tmp_path / "a.tiff"), image)
 
 
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (lambda: mlt.load("ring", size=(2**31, 1)), "size is"),
+        (lambda: mlt.load("ring", size=(1, -(2**40))), "size is"),
+        (lambda: mlt.load("ring", size=(float("inf"), 1)), "size is"),
+        (lambda: mlt.load("ring", sensor=2**70), "sensor is"),
+        (lambda: mlt.start("ring", spp=1, checkpoint=""), "checkpoint is ''"),
+        (lambda: mlt.start("ring", spp=1, aovs=[3]), "3"),
+        (lambda: mlt.render("ring", spp=1, interval=float("nan")), "interval is nan"),
+        (lambda: mlt.render("ring", spp=1, interval=-1), "interval is -1"),
+        (lambda: next(mlt.render_progressive("ring", interval=float("nan"))), "interval is nan"),
+        (lambda: mlt.start("ring", spp=1).wait(float("nan")), "timeout is nan"),
+        (lambda: mlt.replay("ring", "path", pixel=(2**31, 0)), "a coordinate of pixel is"),
+    ],
+)
+def test_arguments_out_of_range_are_refused_in_one_line(call, message):
+    with pytest.raises(mlt.UsageError, match=message) as caught:
+        call()
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("light", ["constant", "point", "area"])
+def test_light_that_would_overflow_an_image_is_refused(light):
+    name = "intensity" if light == "point" else "radiance"
+    emitter = f'<emitter type="{light}">\n<rgb name="{name}" value="1, 3e38, 1"/></emitter>'
+    if light == "area":
+        emitter = f'<shape type="sphere">{emitter}</shape>'
+    with pytest.raises(mlt.SceneError, match=rf":2: emitter '{light}': '{name}' reaches 3e\+38"):
+        mlt.load_string(tiny.XML.replace("\n", "").replace("</scene>", f"{emitter}</scene>"))
+
+
+def test_a_map_that_would_overflow_an_image_is_refused():
+    bright = np.ones((4, 8, 3), dtype=np.float32)
+    bright[1, 1] = 3e38
+    for emitter in {"bitmap": bright}, {"bitmap": bright / 1e30, "scale": 1e31}:
+        with pytest.raises(mlt.SceneError, match="1e\\+30"):
+            mlt.load_dict({**tiny.scene(), "sky": {"type": "envmap", **emitter}})
+
+
 def test_a_lone_surrogate_is_no_file_name():
     with pytest.raises(mlt.UsageError, match="surrogate"):
         mlt.load_file("\ud800")

@@ -1,0 +1,26 @@
+"""Ctrl-C while the command line is being imported ends it without a traceback."""
+
+import os
+import signal
+import sys
+import threading
+
+
+def _end(number, _frame):
+    os._exit(128 + number)
+
+
+def end() -> None:
+    """KeyboardInterrupt is raised from now on."""
+    if signal.getsignal(signal.SIGINT) is _end:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+#: The script `pymlt`, or `python -m pymlt`.
+_program = os.path.basename((getattr(sys, "argv", None) or [""])[0])
+if (
+    _program in ("pymlt", "-m")
+    and threading.current_thread() is threading.main_thread()
+    and signal.getsignal(signal.SIGINT) is signal.default_int_handler
+):
+    signal.signal(signal.SIGINT, _end)
