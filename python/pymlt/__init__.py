@@ -9,10 +9,10 @@
 What is heavy (numpy, tqdm, ...) is imported where it is first used, so this import is quick.
 """
 
+from . import _interrupt as _interrupt  # isort: skip (before anything that takes time)
 import importlib as _importlib
 from typing import TYPE_CHECKING
 
-from . import _interrupt as _interrupt  # isort: skip (before anything that takes time)
 from . import _processor as _processor  # isort: skip (chooses what _core is)
 from . import scenes
 from ._core import (

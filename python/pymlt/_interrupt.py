@@ -3,7 +3,6 @@
 import os
 import signal
 import sys
-import threading
 
 
 def _end(number, _frame):
@@ -18,9 +17,8 @@ def end() -> None:
 
 #: The script `pymlt`, or `python -m pymlt`.
 _program = os.path.basename((getattr(sys, "argv", None) or [""])[0])
-if (
-    _program in ("pymlt", "-m")
-    and threading.current_thread() is threading.main_thread()
-    and signal.getsignal(signal.SIGINT) is signal.default_int_handler
-):
-    signal.signal(signal.SIGINT, _end)
+if _program in ("pymlt", "-m") and signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+    try:  # noqa: SIM105 (contextlib takes a while to import)
+        signal.signal(signal.SIGINT, _end)
+    except ValueError:  # not in the main thread, which alone may do this
+        pass

@@ -269,7 +269,7 @@ def test_ctrl_c_during_the_imports_is_silent():
         from pymlt.cli import main
         sys.exit(main())
     """
-    for module in "pymlt._core", "pymlt.rendering.start", "pymlt.cli.race":
+    for module in "pymlt._processor", "pymlt._core", "pymlt.rendering.start", "pymlt.cli.race":
         done = run([sys.executable, "-c", program.replace("MODULE", repr(module))])
         assert (done.returncode, done.stdout, done.stderr) == (130, "", ""), module
 
