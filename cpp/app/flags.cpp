@@ -151,6 +151,8 @@ void check_files(const std::map<std::string, std::vector<std::string>>& given) {
     const auto texts = given.find(flag.name);
     if (!flag.is(Flag::file) || texts == given.end()) continue;
     for (const std::string& text : texts->second) {
+      if (text.empty())
+        throw UsageError(first_spelling(flag) + " is empty, but should be the name of a file");
       std::error_code error;
       const fs::path absolute = fs::absolute(text, error);
       if (error) throw UsageError(text + ": the current folder is gone; go to another one");

@@ -1,7 +1,6 @@
 #include "base/atomic_file.h"
 
 #include <fcntl.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -9,8 +8,11 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <random>
 #include <system_error>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "base/error.h"
 
@@ -46,57 +48,62 @@ fs::path resolve(const std::string& path) {
   return target;
 }
 
-constexpr std::string_view partial = ".partial-";
+/// How /proc names an open file of this process.
+std::string link_of(int file) { return "/proc/self/fd/" + std::to_string(file); }
 
-/// Whether the file, which was just made, is this process's own: locked, and not removed meanwhile
-/// by another one that took it for a remnant.
-bool claim(int file) {
-  struct stat status;
-  return ::flock(file, LOCK_EX | LOCK_NB) == 0 && ::fstat(file, &status) == 0 &&
-         status.st_nlink > 0;
+/// A file without a name, which a process that is killed does not leave behind; -1 where the file
+/// system or a missing /proc does not allow it.
+int open_unnamed(const fs::path& folder, mode_t mode) {
+  const int file = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, mode);
+  if (file >= 0 && ::access(link_of(file).c_str(), F_OK) != 0) {
+    ::close(file);
+    return -1;
+  }
+  return file;
 }
 
-/// Removes the files that killed processes have left: a process that is alive holds their lock.
-void remove_remnants(const fs::path& folder) {
-  std::error_code ignored;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
-    if (entry.path().filename().string().compare(0, partial.size(), partial) != 0) continue;
-    const int file = ::open(entry.path().c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
-    if (file < 0) continue;
-    struct stat status;
-    if (::fstat(file, &status) == 0 && S_ISREG(status.st_mode) &&
-        ::flock(file, LOCK_EX | LOCK_NB) == 0)
-      ::unlink(entry.path().c_str());
-    ::close(file);
+/// Calls `make` with names in the folder that are not taken, until one works.
+template <class Make>
+std::string with_new_name(const fs::path& folder, Make&& make) {
+  std::random_device random;
+  for (int attempt = 0; attempt < 1000; ++attempt) {
+    std::string name = (folder / fmt::format(".partial-{:08x}{:08x}", random(), random())).string();
+    if (make(name.c_str()) >= 0) return name;
+    if (errno != EEXIST) break;
   }
+  return "";
+}
+
+/// So that the new name of a file survives a loss of power, where the file system can promise it.
+void sync_folder(const fs::path& folder) {
+  const int file = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (file < 0) return;
+  ::fsync(file);
+  ::close(file);
 }
 
 }  // namespace
 
 AtomicFile::AtomicFile(const std::string& path) : path_(path), target_(resolve(path)) {
-  const fs::path folder = target_.has_parent_path() ? target_.parent_path() : fs::path(".");
-  if (!fs::is_directory(folder))
-    throw FileError(path + ": cannot write it: there is no folder '" + folder.string() + "'");
-  remove_remnants(folder);
+  folder_ = target_.has_parent_path() ? target_.parent_path() : fs::path(".");
+  if (!fs::is_directory(folder_))
+    throw FileError(path + ": cannot write it: there is no folder '" + folder_.string() + "'");
   struct stat old;
   const bool replaces = ::stat(target_.c_str(), &old) == 0;
-  const std::string stem = std::string(partial) + std::to_string(::getpid()) + "-";
-  int file = -1;
-  for (int attempt = 0; file < 0 && attempt < 1000; ++attempt) {
-    name_ = (folder / (stem + std::to_string(attempt))).string();
-    file = ::open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC,
-                  replaces ? old.st_mode & 0777 : 0666);
-    if (file < 0 && errno != EEXIST) break;
-    if (file >= 0 && !claim(file)) ::close(std::exchange(file, -1));
-  }
-  if (file < 0) mlt::fail(path, "cannot write into folder '" + folder.string() + "'", errno);
+  const mode_t mode = replaces ? old.st_mode & 0777 : 0666;
+  int file = open_unnamed(folder_, mode);
+  if (file < 0)
+    name_ = with_new_name(folder_, [&](const char* name) {
+      return file = ::open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
+    });
+  if (file < 0) mlt::fail(path, "cannot write into folder '" + folder_.string() + "'", errno);
   file_ = ::fdopen(file, "wb");
   if (!file_) {
     ::close(file);
-    ::unlink(name_.c_str());
+    if (!name_.empty()) ::unlink(name_.c_str());
     fail();
   }
-  if (replaces) ::fchmod(file, old.st_mode & 0777);
+  if (replaces) ::fchmod(file, mode);
 }
 
 AtomicFile::~AtomicFile() {
@@ -123,8 +130,14 @@ uint64_t AtomicFile::position() {
 void AtomicFile::commit() {
   if (std::fflush(file_) != 0) fail();
   if (::fsync(::fileno(file_)) != 0 && errno != EINVAL && errno != EROFS) fail();
-  if (::rename(name_.c_str(), target_.c_str()) != 0) fail();
+  if (name_.empty())
+    name_ = with_new_name(folder_, [&](const char* name) {
+      return ::linkat(AT_FDCWD, link_of(::fileno(file_)).c_str(), AT_FDCWD, name,
+                      AT_SYMLINK_FOLLOW);
+    });
+  if (name_.empty() || ::rename(name_.c_str(), target_.c_str()) != 0) fail();
   name_.clear();
+  sync_folder(folder_);
   if (std::fclose(std::exchange(file_, nullptr)) != 0) fail();
 }
 
@@ -144,7 +157,13 @@ std::string read_file(const std::string& path, uint64_t largest) {
   if (size > largest)
     throw FileError(path + ": cannot read it: it has more than " + std::to_string(largest) +
                     " bytes");
-  std::string bytes(static_cast<size_t>(size), '\0');
+  std::string bytes;
+  try {
+    bytes.resize(static_cast<size_t>(size));
+  } catch (const std::exception&) {  // bad_alloc, or length_error
+    throw FileError(path + ": cannot read it: there is no memory for its " + std::to_string(size) +
+                    " bytes");
+  }
   file.read(bytes.data(), static_cast<std::streamsize>(size));
   if (static_cast<uintmax_t>(file.gcount()) != size)
     throw FileError(path + ": cannot read it: it ended early");

@@ -10,8 +10,9 @@
 
 namespace mlt {
 
-/// A file while it is written: a new one in the folder of its target, moved there by commit() and
-/// removed otherwise. One that replaces another has its permissions. Everything throws FileError.
+/// A file while it is written: a new one in the folder of its target, without a name where the file
+/// system has such files, moved there by commit() and removed otherwise. One that replaces another
+/// has its permissions. Everything throws FileError.
 class AtomicFile {
  public:
   explicit AtomicFile(const std::string& path);
@@ -28,7 +29,7 @@ class AtomicFile {
   [[noreturn]] void fail() const;
 
   std::string path_, name_;
-  std::filesystem::path target_;
+  std::filesystem::path target_, folder_;
   std::FILE* file_ = nullptr;
 };
 

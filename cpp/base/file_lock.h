@@ -7,7 +7,8 @@
 namespace mlt {
 
 /// A lock that is held until it is destroyed, or until the process ends in whatever way. It locks
-/// the file PATH.lock, which is removed when the lock is destroyed.
+/// the file PATH.lock, which is removed when the lock is destroyed, if a lock has made it: a file
+/// of that name with other content stays as it is.
 class FileLock {
  public:
   /// The lock of a file, which is shared within one process. Throws FileError if another process
@@ -23,6 +24,7 @@ class FileLock {
 
   std::string name_;
   int file_ = -1;
+  bool ours_ = false;  ///< The file was made by a lock.
 };
 
 }  // namespace mlt

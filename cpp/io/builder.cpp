@@ -14,6 +14,7 @@
 #include "scene/texture.h"
 
 #include <algorithm>
+#include <new>
 
 namespace mlt {
 namespace {
@@ -71,6 +72,17 @@ std::shared_ptr<SamplerSettings> foreign_sampler(const Node& node) {
     if (const auto* count = std::get_if<int64_t>(&property.value))
       if (snake_case(property.name) == "sample_count" && *count > 0) sampler->sample_count = *count;
   return sampler;
+}
+
+/// What the plug-in makes; if its file holds more than there is memory for, the error names it.
+ObjectPtr make_from_file(const Plugin& plugin, Params& params) {
+  try {
+    return make_object(plugin, params);
+  } catch (const std::bad_alloc&) {
+    if (!params.has("filename")) throw;
+    throw FileError(params.text("filename") +
+                    ": cannot read it: there is not enough memory for what it holds");
+  }
 }
 
 }  // namespace
@@ -194,7 +206,7 @@ Part Builder::new_part(const Node& node, const Plugin& plugin, Params& params) {
     if (known_ && known_->moved_files.count(name))
       params.replace("filename", known_->moved_files.at(name));
   }
-  const ObjectPtr object = make_object(plugin, params);
+  const ObjectPtr object = make_from_file(plugin, params);
   object->type = node.type;
   object->id = node.id;
   object->where = node.where;

@@ -1,11 +1,12 @@
 #include "io/values.h"
 
+#include "base/atomic_file.h"
 #include "base/text.h"
 #include "image/srgb.h"
 
 #include <charconv>
-#include <fstream>
 #include <map>
+#include <sstream>
 
 namespace mlt {
 namespace {
@@ -114,8 +115,7 @@ std::string tag_of(ParamType type) {
 
 WavelengthTable read_spectrum_file(const Element& element, const SearchPath& search) {
   const std::string path = search.find_file(element.require("filename"), element.where);
-  std::ifstream file(path);
-  if (!file) throw FileError(at(element.where, "cannot read " + path));
+  std::istringstream file(read_file(path, uint64_t{1} << 28));
   return read_spectrum_table(file, path);
 }
 

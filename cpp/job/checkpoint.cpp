@@ -14,6 +14,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <new>
 
 namespace mlt {
 namespace {
@@ -100,7 +101,11 @@ Checkpoint checkpoint_of(const LoadedScene& loaded, const MadeIntegrator& made, 
 }
 
 Checkpoint read_checkpoint(const std::string& path) {
-  return decode_checkpoint(read_file(path, UINT64_MAX), path);
+  try {
+    return decode_checkpoint(read_file(path, UINT64_MAX), path);
+  } catch (const std::bad_alloc&) {
+    throw FileError(path + ": cannot read it: there is not enough memory for what it holds");
+  }
 }
 
 Checkpoint decode_checkpoint(const std::string& file, const std::string& path) {

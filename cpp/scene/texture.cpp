@@ -1,6 +1,7 @@
 #include "scene/texture.h"
 
 #include "math/colorimetry.h"
+#include "scene/brightest_light.h"
 #include "scene/matrix_rows.h"
 #include "scene/motion.h"
 
@@ -124,11 +125,20 @@ bool is_emission(const Params& params, const std::string& name) {
   return type == ParamType::radiance || type == ParamType::emission || type == ParamType::volume;
 }
 
+/// Refuses light that would overflow the floats of an image, wherever it goes.
+void check_brightness(const Params& params, const std::string& name, const Color& light) {
+  if (!(max_component(light) <= brightest_light))
+    params.fail(name,
+                fmt::format("reaches {:g}, but must be at most {:g}, so that images can hold it",
+                            max_component(light), brightest_light));
+}
+
 SpectralColor color_from_0(Params& params, const std::string& name) {
   const bool emission = is_emission(params, name);
   SpectralColor color =
       to_spectral(params, name, emission ? SpectrumUse::emission : SpectrumUse::reflectance);
   if (min_component(color.rgb()) < 0) params.fail(name, "must not be negative");
+  if (emission) check_brightness(params, name, color.rgb());
   return color;
 }
 
@@ -156,7 +166,9 @@ TexturePtr nested_texture(Params& params, const std::string& name, bool bounded)
     if (is_emission(params, name)) return constant_texture(color);
     return texture;
   }
-  return is_emission(params, name) ? as_light(texture) : texture;
+  if (!is_emission(params, name)) return texture;
+  check_brightness(params, name, texture->mean());
+  return as_light(texture);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 What is heavy (numpy, tqdm, ...) is imported where it is first used, so this import is quick.
 """
 
+from . import _interrupt as _interrupt  # isort: skip (before anything that takes time)
 import importlib as _importlib
 from typing import TYPE_CHECKING
 

@@ -1,9 +1,9 @@
 """The Python face: classes from schemas, scenes, images, errors."""
 
-import fcntl
 import inspect
 import os
 import pickle
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -297,6 +297,46 @@ def test_the_content_of_a_file_decides_who_reads_it(tmp_path):
     assert np.array_equal(mlt.read_image(tmp_path / "a.tiff"), image)
 
 
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (lambda: mlt.load("ring", size=(2**31, 1)), "size is"),
+        (lambda: mlt.load("ring", size=(1, -(2**40))), "size is"),
+        (lambda: mlt.load("ring", size=(float("inf"), 1)), "size is"),
+        (lambda: mlt.load("ring", sensor=2**70), "sensor is"),
+        (lambda: mlt.start("ring", spp=1, checkpoint=""), "checkpoint is ''"),
+        (lambda: mlt.start("ring", spp=1, aovs=[3]), "3"),
+        (lambda: mlt.render("ring", spp=1, interval=float("nan")), "interval is nan"),
+        (lambda: mlt.render("ring", spp=1, interval=-1), "interval is -1"),
+        (lambda: next(mlt.render_progressive("ring", interval=float("nan"))), "interval is nan"),
+        (lambda: mlt.start("ring", spp=1).wait(float("nan")), "timeout is nan"),
+        (lambda: mlt.replay("ring", "path", pixel=(2**31, 0)), "a coordinate of pixel is"),
+    ],
+)
+def test_arguments_out_of_range_are_refused_in_one_line(call, message):
+    with pytest.raises(mlt.UsageError, match=message) as caught:
+        call()
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("light", ["constant", "point", "area"])
+def test_light_that_would_overflow_an_image_is_refused(light):
+    name = "intensity" if light == "point" else "radiance"
+    emitter = f'<emitter type="{light}">\n<rgb name="{name}" value="1, 3e38, 1"/></emitter>'
+    if light == "area":
+        emitter = f'<shape type="sphere">{emitter}</shape>'
+    with pytest.raises(mlt.SceneError, match=rf":2: emitter '{light}': '{name}' reaches 3e\+38"):
+        mlt.load_string(tiny.XML.replace("\n", "").replace("</scene>", f"{emitter}</scene>"))
+
+
+def test_a_map_that_would_overflow_an_image_is_refused():
+    bright = np.ones((4, 8, 3), dtype=np.float32)
+    bright[1, 1] = 3e38
+    for emitter in {"bitmap": bright}, {"bitmap": bright / 1e30, "scale": 1e31}:
+        with pytest.raises(mlt.SceneError, match="1e\\+30"):
+            mlt.load_dict({**tiny.scene(), "sky": {"type": "envmap", **emitter}})
+
+
 def test_a_lone_surrogate_is_no_file_name():
     with pytest.raises(mlt.UsageError, match="surrogate"):
         mlt.load_file("\ud800")
@@ -318,14 +358,28 @@ def test_a_file_that_is_replaced_keeps_its_permissions(name, tmp_path):
         assert (tmp_path / name).stat().st_mode & 0o777 == mode
 
 
-def test_what_a_killed_process_has_left_is_removed(tmp_path):
-    image = np.ones((4, 4, 3), dtype=np.float32)
-    (tmp_path / ".partial-1-0").touch()
-    (tmp_path / ".partial").mkdir()
-    with open(tmp_path / ".partial-2-0", "w") as busy:
-        fcntl.flock(busy, fcntl.LOCK_EX)
-        mlt.write_image(tmp_path / "a.exr", image)
-        assert sorted(os.listdir(tmp_path)) == [".partial", ".partial-2-0", "a.exr"]
+def test_files_of_others_are_left_alone(tmp_path):
+    names = [".partial-1-0", ".partial-0123456789abcdef", ".partial-thesis.pdf"]
+    for name in names:
+        (tmp_path / name).write_text("mine")
+    mlt.write_image(tmp_path / "a.exr", np.ones((4, 4, 3), dtype=np.float32))
+    assert sorted(os.listdir(tmp_path)) == sorted([*names, "a.exr"])
+
+
+def test_a_process_that_is_killed_while_it_writes_leaves_nothing(tmp_path):
+    program = """if True:
+        import resource, signal, sys
+        import numpy, pymlt
+        image = numpy.random.default_rng(1).random((64, 64, 3), dtype="f")
+        pymlt.write_image("a.exr", image[:4])
+        signal.signal(signal.SIGXFSZ, signal.SIG_DFL)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096))
+        pymlt.write_image("a.exr", image)
+    """
+    done = subprocess.run([sys.executable, "-c", program], cwd=tmp_path)
+    assert done.returncode == -signal.SIGXFSZ
+    assert os.listdir(tmp_path) == ["a.exr"]
+    assert mlt.read_image(tmp_path / "a.exr").shape == (4, 64, 3)
 
 
 # ---- objects of the extension --------------------------------------------------------------------

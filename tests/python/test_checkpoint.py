@@ -372,6 +372,22 @@ def test_two_processes_do_not_share_a_checkpoint(program, scene, small):
     assert not Path("a.mlt.lock").exists()
 
 
+@pytest.mark.parametrize("content", ["", "mine\n"])
+def test_a_file_of_the_name_of_the_lock_is_kept(small, tmp_path, content):
+    mine = tmp_path / "poetry.lock"
+    mine.write_text(content)
+    mlt.start(small, spp=1, checkpoint=tmp_path / "poetry").wait()
+    mlt.start(small, spp=1).checkpoint(tmp_path / "poetry")
+    assert mine.read_text() == content
+
+
+def test_a_link_of_the_name_of_the_lock_is_not_followed(small, tmp_path):
+    (tmp_path / "a.mlt.lock").symlink_to(tmp_path / "elsewhere")
+    with pytest.raises(mlt.FileError, match="cannot lock it"):
+        mlt.start(small, spp=1, checkpoint=tmp_path / "a.mlt")
+    assert os.listdir(tmp_path) == ["a.mlt.lock"]
+
+
 def wait_for(path: Path) -> None:
     deadline = time.monotonic() + 30
     while not path.exists():

@@ -257,6 +257,80 @@ def test_a_render_that_fails_ends_with_3(program, scene):
     assert "light" in the_error(run(program, scene, *OUT, *chains), code=3)
 
 
+def test_ctrl_c_during_the_imports_is_silent():
+    program = """if True:
+        import os, signal, sys
+        class Finder:
+            def find_spec(self, name, *_):
+                if name == MODULE:
+                    os.kill(os.getpid(), signal.SIGINT)
+        sys.meta_path.insert(0, Finder())
+        sys.argv = ["/usr/bin/pymlt", "list"]
+        from pymlt.cli import main
+        sys.exit(main())
+    """
+    for module in "pymlt._processor", "pymlt._core", "pymlt.rendering.start", "pymlt.cli.race":
+        done = run([sys.executable, "-c", program.replace("MODULE", repr(module))])
+        assert (done.returncode, done.stdout, done.stderr) == (130, "", ""), module
+
+
+def test_ctrl_c_is_a_keyboard_interrupt_for_programs_that_import_us():
+    program = "import os, signal, pymlt; os.kill(os.getpid(), signal.SIGINT)"
+    assert "KeyboardInterrupt" in run([sys.executable, "-c", program]).stderr
+
+
+def test_names_that_are_empty_are_refused(program, scene):
+    for arguments in (["", "-o", "a.exr"], [scene, "-o", ""], ["--resume", "", "-o", "a.exr"]):
+        assert "is empty, but should be the name of a file" in the_error(run(program, *arguments))
+
+
+def test_pixels_that_are_no_numbers_are_told_of(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    image = np.ones((4, 4, 3), dtype=np.float32)
+    mlt.write_image("a.exr", image)
+    image[1, 2] = np.nan
+    mlt.write_image("b.exr", image)
+    for arguments in (["a.exr", "b.exr"], ["b.exr", "a.exr"], ["b.exr", "b.exr", "--json"]):
+        done = run([*PYMLT, "compare"], *arguments)
+        assert done.returncode == 1
+        assert done.stderr.startswith("pymlt: the images have pixels that are no numbers")
+        assert done.stderr.count("\n") == 1
+
+
+def sparse(name: str, start: bytes, size: int) -> None:
+    with open(name, "wb") as file:
+        file.write(start)
+        file.truncate(size)
+
+
+LARGE = {
+    "ply": '<shape type="ply">{}</shape>',
+    "obj": '<shape type="obj">{}</shape>',
+    "serialized": '<shape type="serialized">{}</shape>',
+    "vol": '<medium type="heterogeneous"><volume name="sigma_t" type="gridvolume">{}</volume>'
+    "</medium>",
+    "exr": '<emitter type="envmap">{}</emitter>',
+}
+
+
+@pytest.mark.parametrize("kind", LARGE)
+def test_a_file_that_memory_does_not_hold_is_named(program, scene, kind):
+    sparse(f"large.{kind}", b"", 3 << 30)
+    element = LARGE[kind].format(f'<string name="filename" value="large.{kind}"/>')
+    Path("large.xml").write_text(Path(scene).read_text().replace("</scene>", f"{element}</scene>"))
+    done = run(program, "large.xml", "-o", "a.exr", preexec_fn=lambda: little_memory(5 << 19))
+    assert f"large.{kind}: cannot read it: there is no memory" in the_error(done)
+
+
+def test_a_checkpoint_that_memory_does_not_hold_is_named(program, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    sparse("large.mlt", b"pymlt checkpoint" + (1 << 40).to_bytes(8, "little"), (1 << 40) + 28)
+    done = run(
+        program, "--resume", "large.mlt", "-o", "a.exr", preexec_fn=lambda: little_memory(5 << 19)
+    )
+    assert "large.mlt: cannot read it: there is no memory" in the_error(done)
+
+
 def test_help_and_version_succeed(program):
     for flag in "--help", "--version":
         done = run(program if flag == "--help" else program[:3], flag)

@@ -5,8 +5,10 @@ import socket
 import subprocess
 import sys
 import tempfile
+import time
 from pathlib import Path
 
+import psutil
 import pytest
 from listening import listeners
 
@@ -94,3 +96,87 @@ def test_without_cryptography_one_line_says_how_to_install_it(monkeypatch):
     monkeypatch.setitem(sys.modules, "cryptography", None)
     with pytest.raises(mlt.UsageError, match="pip install 'cryptography>="):
         local_cluster("local:1")
+
+
+# ---- the command line ----------------------------------------------------------------------------
+
+RENDER = [sys.executable, "-P", "-m", "pymlt", "render", "cornell-box", "--integrator", "path"]
+RENDER += ["--size", "32x32", "--quiet", "--cluster", "local:1", "-o", "a.exr"]
+
+
+def test_files_of_the_current_folder_are_not_imported(tmp_path):
+    """Whatever they are called: uuid and psutil are imported by dask's own modules."""
+    for name in "uuid", "psutil", "dask", "yaml":
+        (tmp_path / f"{name}.py").write_text("open('ran', 'a')\nraise ImportError('planted')\n")
+    done = subprocess.run([*RENDER, "--spp", "4"], cwd=tmp_path, capture_output=True, text=True)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert not (tmp_path / "ran").exists()
+
+
+def test_a_trap_in_the_folder_for_temporary_files_is_not_stepped_into(tmp_path):
+    trap, victim = tmp_path / "shared", tmp_path / "victim"
+    (trap / "dask-scratch-space").mkdir(parents=True)
+    (trap / "dask-scratch-space/global.lock").symlink_to(victim)
+    (trap / "dask-scratch-space/psutil.py").write_text("open('ran', 'a')\n")
+    victim.write_text("precious")
+    environment = {**os.environ, "TMPDIR": str(trap)}
+    done = subprocess.run([*RENDER, "--spp", "4"], cwd=tmp_path, env=environment)
+    assert done.returncode == 0
+    assert victim.read_text() == "precious"
+    assert not (tmp_path / "ran").exists()
+    assert os.listdir(trap) == ["dask-scratch-space"]
+
+
+@pytest.fixture
+def running(tmp_path):
+    """A render that does not end by itself, and has begun; its temporary files are in a folder of
+    their own. Yields it, its children and that folder."""
+    temporary = tmp_path / "temporary"
+    temporary.mkdir()
+    command = [*RENDER, "--spp", "1e7", "--checkpoint", "state", "--every", "0.5"]
+    render = psutil.Popen(
+        command,
+        cwd=tmp_path,
+        env={**os.environ, "TMPDIR": str(temporary)},
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    deadline = time.monotonic() + 60
+    while not (tmp_path / "state").exists():
+        assert render.poll() is None
+        assert time.monotonic() < deadline
+        time.sleep(0.05)
+    children = render.children(recursive=True)
+    yield render, children, temporary
+    for process in [render, *children]:
+        if process.is_running():
+            process.kill()
+    render.communicate()
+
+
+def test_its_temporary_files_are_its_own(running):
+    (folder,) = running[2].iterdir()
+    assert folder.stat().st_mode & 0o777 == 0o700
+
+
+def test_nothing_of_it_outlives_an_owner_that_is_killed(running):
+    render, children, temporary = running
+    assert len(children) == 2
+    render.kill()
+    _, alive = psutil.wait_procs(children, timeout=10)
+    assert not alive
+    assert not os.listdir(temporary)
+
+
+def test_one_line_tells_at_once_that_the_scheduler_is_gone(running):
+    render, children, temporary = running
+    (scheduler,) = [child for child in children if "distributed.Scheduler" in str(child.cmdline())]
+    begun = time.monotonic()
+    scheduler.kill()
+    said = render.communicate(timeout=30)[1]
+    assert time.monotonic() - begun < 10
+    assert said.startswith("pymlt: the cluster is gone")
+    assert said.count("\n") == 1
+    assert render.returncode == 3
+    assert not os.listdir(temporary)

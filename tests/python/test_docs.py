@@ -234,7 +234,16 @@ def test_each_part_of_the_package_imports_only_what_stands_above_it():
     table = contributing(r"\| where in `python/pymlt` \| what \|\n(.*?)\n\n")
     rows = " ".join(re.findall(r"^\| (.*?) \|", table, re.MULTILINE))
     order = [Path(name).stem for name in re.findall(r"`([\w.]+)`", rows)]
-    order = ["_core", "_processor", "_extras", *order, "_stubs", "__init__", "__main__"]
+    order = [
+        "_core",
+        "_interrupt",
+        "_processor",
+        "_extras",
+        *order,
+        "_stubs",
+        "__init__",
+        "__main__",
+    ]
     for path in (ROOT / "python" / "pymlt").rglob("*.py"):
         part = path.relative_to(ROOT / "python" / "pymlt").with_suffix("").parts[0]
         assert part in order, f"CONTRIBUTING.md does not list {part}"

@@ -401,6 +401,24 @@ def test_a_scene_can_be_sent_to_other_processes():
     assert pickle.loads(pickle.dumps(scene)).hash == scene.hash
 
 
+def test_mistakes_are_named_with_their_file():
+    Path("a.gltf").write_text('{"asset":\n{"version" "2.0"}}')
+    with pytest.raises(mlt.SceneError, match=r"^a.gltf:2: "):
+        mlt.load("a.gltf")
+    camera = {"type": "perspective", "perspective": {"yfov": 40, "znear": 0.1}}
+    scene = {"asset": {"version": "2.0"}, "nodes": [{"camera": 0}], "cameras": [camera]}
+    Path("a.gltf").write_text(json.dumps(scene))
+    with pytest.raises(mlt.SceneError, match=r"^a.gltf: scene\['node-0'\]: .*'fov'"):
+        mlt.load("a.gltf")
+    file = floor_file()
+    file.save("b.gltf")
+    broken = json.loads(Path("b.gltf").read_text())
+    broken["buffers"][0]["uri"] = "none.bin"
+    Path("b.gltf").write_text(json.dumps(broken))
+    with pytest.raises(mlt.FileError, match=r"^b.gltf: none.bin: "):
+        mlt.load("b.gltf")
+
+
 @pytest.mark.parametrize("name", ["a.glb", "a.gltf"])
 def test_other_files_are_refused(name, capsys):
     Path(name).write_bytes(b"This is no scene.")

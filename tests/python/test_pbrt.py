@@ -701,6 +701,32 @@ def test_mistakes_are_named_with_their_line(text, message):
         mlt.load(written(text))
 
 
+SHINES = '\nLightSource "point" "rgb I" [1 1 1]'
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ('\nShape "sphere"\n"float radius" -1' + SHINES, "a.pbrt:{}: the radius of a sphere"),
+        (
+            '\nMaterial "diffuse" "rgb reflectance" [2 2 2]' + SHINES,
+            "a.pbrt:{}: bsdf 'diffuse'",
+        ),
+        ('\nShape "plymesh" "string filename" "none.ply"' + SHINES, "a.pbrt:{}: .*none.ply"),
+        ('\nLightSource "infinite" "string filename" "none.exr"', "a.pbrt:{}: none.exr"),
+        ('\nInclude "none.pbrt"', "a.pbrt:{}: none.pbrt"),
+        (
+            '\nShape "trianglemesh" "point3 P" [0 0 0 1 0 0 0 1 0] "integer indices" [0 1 7]',
+            "a.pbrt:{}: trianglemesh: a triangle",
+        ),
+    ],
+)
+def test_what_a_scene_cannot_hold_is_named_with_file_and_line(text, message):
+    line = VIEW.count("\n") + 2
+    with pytest.raises((mlt.SceneError, mlt.FileError), match=message.format(line)):
+        mlt.load(written(VIEW + text))
+
+
 def test_missing_and_endless_files_are_refused():
     with pytest.raises(mlt.FileError, match="none"):
         mlt.load(written('Include "none.pbrt"'))

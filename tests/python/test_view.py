@@ -5,6 +5,7 @@ import subprocess
 import sys
 import time
 import urllib.request
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,7 +13,8 @@ import tiny
 from command_line import PYMLT
 
 import pymlt as mlt
-from pymlt.cli import main
+from pymlt.cli import main, make_parser
+from pymlt.cli.view import given_token
 from pymlt.pictures.tonemapping import encode_srgb, tonemap
 
 viser = pytest.importorskip("viser", reason="the view needs viser (pip install viser)")
@@ -37,6 +39,39 @@ def test_bad_arguments_are_one_line(capsys, tmp_path):
     assert "token" in capsys.readouterr().err
     assert main(["view", "no-such-scene"]) == 2
     assert main(["view", "ring", "--port", "many"]) == 2
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["--token", "sesame"], "--token-file FILE, or into the environment variable"),
+        (["--token=sesame"], "--token-file FILE, or into the environment variable"),
+        (["--token-file", "no-such-file"], "no-such-file: cannot read the token"),
+        (["--token-file", "/"], "/: cannot read the token"),
+        (["--token-file", "blank"], "the token is blank"),
+        (["--token", "--open"], "--open would show the token"),
+    ],
+)
+def test_a_token_that_others_could_read_or_guess_is_refused(
+    arguments, message, capsys, tmp_path, monkeypatch
+):
+    monkeypatch.chdir(tmp_path)
+    Path("blank").write_text(" \n")
+    assert main(["view", "ring", *arguments]) == 2
+    said = capsys.readouterr().err
+    assert message in said
+    assert said.count("\n") == 1
+
+
+def test_a_token_comes_from_a_file_or_the_environment(tmp_path, monkeypatch):
+    word = tmp_path / "word"
+    word.write_text("sesame\n")
+    parser = make_parser()
+    assert given_token(parser.parse_args(["view", "ring"])) is None
+    assert given_token(parser.parse_args(["view", "ring", "--token-file", str(word)])) == "sesame"
+    monkeypatch.setenv("PYMLT_VIEW_TOKEN", "another")
+    assert given_token(parser.parse_args(["view", "ring"])) == "another"
+    assert given_token(parser.parse_args(["view", "ring", "--token-file", str(word)])) == "sesame"
 
 
 def test_without_the_extra_one_line_says_how_to_install_it(monkeypatch):

@@ -8,9 +8,11 @@ import time
 import urllib.request
 from concurrent.futures import ThreadPoolExecutor
 
+import msgspec
 import pytest
 import tiny
 from listening import listeners
+from websockets.sync.client import connect
 
 import pymlt as mlt
 
@@ -113,7 +115,13 @@ def test_only_pages_of_the_view_may_talk_to_it(page):
         assert status(port, Upgrade="websocket", Origin=here) == 426
         assert status(port, Host="evil.example") == 403
         assert status(port, Host="evil.example", **UPGRADE, Origin=EVIL) == 403
-        for origin in EVIL, "null", f"http://localhost:{port + 1}", f"http://127.0.0.1:{port}":
+        for origin in (
+            EVIL,
+            "null",
+            f"http://localhost:{port + 1}",
+            f"http://127.0.0.1:{port}",
+            *(f"{scheme}://localhost:{port}" for scheme in ("https", "ftp", "chrome-extension")),
+        ):
             assert status(port, Origin=origin) == 403
             assert status(port, **UPGRADE, Origin=origin) == 403
         assert status(port, **UPGRADE) == 403
@@ -155,6 +163,48 @@ def test_what_makes_no_sense_is_refused_without_a_traceback(page, caplog, token)
         assert ask(port, head).status == 400, head[:20]
     view.stop()  # all has been said then
     assert not [record for record in caplog.records if record.levelno >= logging.WARNING]
+
+
+def test_a_page_whose_name_is_too_long_for_a_file_is_not_there(page):
+    port = page().port
+    for target in "/" + 4000 * "a", "/" + 2000 * "a/", "/%00", "/no-such-page":
+        assert get(port, target).status == 404, target[:20]
+
+
+def junk() -> list[bytes | str]:
+    """Messages that nobody's page sends; some are nearly one."""
+    pack = msgspec.msgpack.encode
+    words = [pack(value) for value in (None, 3, "word", [1], {}, {"type": 3}, {"type": "Nonsense"})]
+    words += [pack({"type": kind}) for kind in ("ViewerCameraMessage", "GuiUpdateMessage")]
+    camera = dict.fromkeys(("wxyz", "position", "look_at", "up_direction"), "up")
+    camera |= {key: [] for key in ("fov", "near", "far", "image_height", "image_width")}
+    words.append(pack({"type": "ViewerCameraMessage", **camera}))
+    for updates in None, 3, {"value": [[]]}:
+        words.append(pack({"type": "GuiUpdateMessage", "uuid": "nothing", "updates": updates}))
+    return ["text", b"", b"\xff\xff", b"\x81" * 100, *words]
+
+
+def test_messages_that_make_no_sense_print_nothing(page, capfd, caplog):
+    view = page()
+    for message in junk():
+        with connect(
+            f"ws://localhost:{view.port}",
+            origin=f"http://localhost:{view.port}",
+            subprotocols=[UPGRADE["Sec-WebSocket-Protocol"]],
+        ) as socket:
+            socket.send(message)
+            time.sleep(0.01)
+    time.sleep(0.5)
+    view.stop()
+    assert capfd.readouterr() == ("", "")
+    assert not [record for record in caplog.records if record.levelno >= logging.WARNING]
+
+
+@pytest.mark.parametrize("token", ["", " ", "\t\n"])
+@pytest.mark.parametrize("host", ["localhost", "0.0.0.0"])
+def test_a_blank_token_is_refused(token, host):
+    with pytest.raises(mlt.UsageError, match="the token is blank"):
+        mlt.view(tiny.scene(), host=host, port=0, token=token)
 
 
 def test_no_other_host_without_a_token():

@@ -1,4 +1,5 @@
 // Light from infinitely far away that an image file describes.
+#include "scene/brightest_light.h"
 #include "scene/emitter/emitter_plugin.h"
 #include "scene/emitter/environment_map.h"
 #include "scene/orientation.h"
@@ -15,12 +16,19 @@ Image load_map(Params& params) {
                 fmt::format("is an image of {} x {} pixels; an environment map needs at least "
                             "2 x 3",
                             image.width, image.height));
+  for (const float value : image.data)
+    if (value > brightest_light)
+      params.fail(
+          params.has("data") ? "data" : "filename",
+          fmt::format("has a pixel of {:g}, but must have at most {:g}", value, brightest_light));
   return image;
 }
 
 double read_scale(Params& params) {
   const double scale = params.real("scale");
   if (scale < 0) params.fail("scale", "must not be negative");
+  if (scale > brightest_light)
+    params.fail("scale", fmt::format("is {:g}, but must be at most {:g}", scale, brightest_light));
   return scale;
 }
 

@@ -1,10 +1,11 @@
 """The command line: pymlt render | view | merge | denoise | compare | info | list | convert |
 race | lab.
 
-Exit codes: 0 done; 1 `compare --fail-above` found more; 2 a mistake in usage or in the scene, or an
-output that cannot be written, found before the work began; 3 the render failed, or an output at its
-end is not where it was asked for; 129, 130 and 143 interrupted by SIGHUP, SIGINT or SIGTERM, with
-what was rendered saved. Every error is one line on stderr.
+Exit codes: 0 done; 1 `compare --fail-above` found more, or `compare` pixels that are no numbers; 2
+a mistake in usage or in the scene, or an output that cannot be written, found before the work
+began; 3 the render failed, or an output at its end is not where it was asked for; 129, 130 and 143
+interrupted by SIGHUP, SIGINT or SIGTERM, with what was rendered saved. Every error is one line on
+stderr.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ import signal
 import sys
 import traceback
 
-from .. import _core
+from .. import _core, _interrupt
 from . import compare, convert, denoise, info, lab, listing, merge, race, render, view
 from .common import Parser, open_standard_streams, say
 from .completion import SHELLS, PrintCompletion
@@ -38,6 +39,7 @@ EXAMPLES = (
 def main(arguments: list[str] | None = None) -> int:
     open_standard_streams()
     try:
+        _interrupt.end()
         args = make_parser().parse_args(arguments)
         return args.command(args)
     except (_core.SceneError, _core.UsageError, _core.FileError) as error:

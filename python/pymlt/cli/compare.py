@@ -59,8 +59,11 @@ def run(args) -> int:
     above = [(n, limit) for n, limit in args.fail_above if not abs(metrics[n]) <= limit]
     for name, limit in above:
         say(f"{name} is {metrics[name]:.6g}, above {limit:g}")
+    unknown = math.isnan(metrics["mse"])
+    if unknown:
+        say("the images have pixels that are no numbers, so their errors are none either")
     code = draw(args) if args.picture else 0
-    return code or (1 if above else 0)
+    return code or (1 if above or unknown else 0)
 
 
 def draw(args) -> int:

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import os
 import time
 import webbrowser
+from pathlib import Path
 
+from .. import _core
 from .common import FLAGS, add_flag, load_scene, say, warn
 from .signals import Signals
 
 HELP = "Show a scene in the browser while it renders: orbit the camera, look into its light paths."
+VARIABLE = "PYMLT_VIEW_TOKEN"  #: of the environment: a token
 SHARED = ("parameters", "defines", "size", "sensor", "lenient", "strict", "threads")
 
 
@@ -28,22 +32,48 @@ def add_arguments(command) -> None:
         "--host",
         metavar="ADDRESS",
         default="localhost",
-        help="where the page is served; others than this machine's need --token (localhost)",
+        help="where the page is served; others than this machine's need a token (localhost)",
     )
     command.add_argument(
         "--token",
-        metavar="WORD",
         nargs="?",
         const="",
-        help="let in only who knows this word, a new one if none is given",
+        metavar="",
+        help="let in only who knows the new word that is printed with the address",
+    )
+    command.add_argument(
+        "--token-file",
+        metavar="FILE",
+        help=f"let in only who knows the word in this file, or else in the variable {VARIABLE}",
     )
     command.add_argument("--open", action="store_true", help="open the page in the browser")
+
+
+def given_token(args) -> str | None:
+    """Arguments can be read by every user of the machine, so no word is taken from there."""
+    if args.token is not None:
+        raise _core.UsageError(
+            "--token takes no word, since every user of the machine could read it: put it into a "
+            f"file, --token-file FILE, or into the environment variable {VARIABLE}"
+        )
+    if args.token_file is None:
+        return os.environ.get(VARIABLE)
+    try:
+        return Path(args.token_file).read_text().strip()
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or "it is no text"
+        raise _core.FileError(f"{args.token_file}: cannot read the token: {reason}") from None
 
 
 def run(args) -> int:
     from ..viewing.start import PORT, new_token, view
 
-    token = new_token() if args.token == "" else args.token
+    token = new_token() if args.token == "" else given_token(args)
+    if args.open and token is not None:
+        raise _core.UsageError(
+            "--open would show the token to every user of the machine, among the arguments of the "
+            "browser: open the address that is printed"
+        )
     with Signals() as signals:
         scene = signals.abandonable(lambda: load_scene(args))
         warn(scene.warnings)

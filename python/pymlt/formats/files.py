@@ -69,7 +69,10 @@ def load_foreign(
     made = read_foreign(path)
     # A checkpoint knows the scene by this name.
     name = os.path.abspath(path)
-    scene = _core.load_dict(with_bytes(made.scene), size, sensor, filter, name, {})
+    try:
+        scene = _core.load_dict(with_bytes(made.scene), size, sensor, filter, name, {})
+    except (_core.SceneError, _core.FileError) as error:
+        raise made.placed_error(error, os.fspath(path)) from None
     return scene, made.placed_warnings(os.fspath(path))
 
 

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 from .. import _core
 from ..pictures.tonemapping import Exposure
 from .notebook import show
-from .options import RenderOptions, integer, number
+from .options import RenderOptions, integer, number, seconds
 from .progress import progress_bar
 from .result import Groups, Replay, Result
 from .stats import Stats
@@ -111,8 +111,8 @@ class Job:
         has added up (by `path` in single precision, here in double). For integrators that sample
         pixel by pixel; raises UsageError for others, and for a pixel outside of the image.
         """
-        sample = integer("sample", sample, 2**36)
-        return Replay(*self._job.replay(pixel, sample))
+        x, y = (integer("a coordinate of pixel", value, 2**31) for value in pixel)
+        return Replay(*self._job.replay((x, y), integer("sample", sample, 2**36)))
 
     @property
     def samples(self) -> float:
@@ -147,8 +147,10 @@ class Job:
         returns True the render ends. Ctrl-C ends the waiting, not the render. Raises what went
         wrong in the render; what had been rendered by then is the error's `result`.
         """
+        interval = seconds("interval", interval)
+        patience = math.inf if timeout is None else seconds("timeout", timeout)
         with progress_bar(progress) as show:
-            end = math.inf if timeout is None else monotonic() + timeout
+            end = monotonic() + patience
             next_call = monotonic() + interval
             while not self._ended(min(0.1, max(0.0, end - monotonic()))):
                 if monotonic() >= end:
@@ -196,7 +198,7 @@ class Job:
         `exposure` brightens it, in stops, or "auto". Interrupting the cell ends the showing, not
         the render. Needs IPython.
         """
-        show(self, interval, exposure)
+        show(self, seconds("interval", interval), exposure)
 
     def __repr__(self) -> str:
         state = "cancelled" if self.cancelled else "ended" if self.ended else "running"

@@ -71,8 +71,10 @@ class RenderOptions:
             )
         if self.checkpoint is not None:
             self.checkpoint = os.fspath(self.checkpoint)
+            if not self.checkpoint:
+                raise _core.UsageError("checkpoint is '', but should be the name of a file")
         if self.aovs is not None and not isinstance(self.aovs, str):
-            self.aovs = ",".join(self.aovs)
+            self.aovs = ",".join(map(str, self.aovs))
 
 
 def takes_options(function: Callable, *, fixed: tuple[str, ...] = ()) -> Callable:
@@ -117,6 +119,13 @@ def number(name: str, value) -> float | None:
         return float(value)
     except OverflowError:
         raise _core.UsageError(f"{name} is too large a number") from None
+
+
+def seconds(name: str, value) -> float:
+    found = number(name, value)
+    if found is None or not found >= 0:
+        raise _core.UsageError(f"{name} is {value!r}, but should be a number of seconds")
+    return found
 
 
 def integer(name: str, value, end: int) -> int:

@@ -16,7 +16,7 @@ from ..formats.loading import SceneLike, as_scene
 from ..scenes.loading import load_built_in
 from .bands import Bands, add_bands, check_spectral, finish, parse_bands, share_of_time
 from .job import Job
-from .options import RenderOptions, takes_options
+from .options import RenderOptions, seconds, takes_options
 from .progress import progress_bar
 from .result import Replay, Result
 
@@ -207,6 +207,7 @@ def render_progressive(
     are those of `start`. The render begins with the first step of the loop, and leaving the loop
     ends it.
     """
+    interval = seconds("interval", interval)
     job = start(scene, integrator, **settings)
     try:
         while not job.wait(interval):

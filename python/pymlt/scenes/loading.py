@@ -97,22 +97,22 @@ def image_size(size) -> tuple[int, int] | None:
         return None
     try:
         width, height = size
-        if int(width) == width and int(height) == height:
+        if int(width) == width and int(height) == height and max(abs(width), abs(height)) < 2**31:
             return int(width), int(height)
-    except (TypeError, ValueError):
+    except (OverflowError, TypeError, ValueError):
         pass
-    raise _core.UsageError(f"size is {size!r}, but should be (width, height)")
+    raise _core.UsageError(f"size is {size!r}, but should be (width, height) in pixels")
 
 
 def sensor_index(sensor) -> int | None:
     if sensor is None:
         return None
     try:
-        if not isinstance(sensor, bool):
+        if not isinstance(sensor, bool) and abs(operator.index(sensor)) < 2**31:
             return operator.index(sensor)
     except TypeError:
         pass
-    raise _core.UsageError(f"sensor is {sensor!r}, but should be an integer")
+    raise _core.UsageError(f"sensor is {sensor!r}, but should be the number of a sensor, from 0 on")
 
 
 def filter_name(filter) -> str:

@@ -65,6 +65,8 @@ class Gate:
     """A socket that listens, and the rules for requests that come."""
 
     def __init__(self, host: str, port: int, token: str | None):
+        if token is not None and not token.strip():
+            raise _core.UsageError("the token is blank, but should be a word that nobody guesses")
         self.socket = listening_socket(host, port)
         self.host: str = host
         self.port: int = self.socket.getsockname()[1]
@@ -77,7 +79,7 @@ class Gate:
         if not _is_well_formed(request.path, hosts, origins):
             return connection.respond(HTTPStatus.BAD_REQUEST, "This request makes no sense.")
         asked_by_page = origins or "Upgrade" in request.headers
-        if asked_by_page and [origin.rpartition("://")[2] for origin in origins] != hosts:
+        if asked_by_page and origins != [f"http://{host}" for host in hosts]:
             return connection.respond(HTTPStatus.FORBIDDEN, "This page is not part of the view.")
         if self._token is None:
             name = re.sub(r":\d+$", "", hosts[0]).strip("[]")

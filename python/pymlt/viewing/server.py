@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import asyncio
 import contextlib
 import io
 import logging
 import threading
 from collections.abc import Iterator
+from http import HTTPStatus
 from typing import Any
 
 import websockets.asyncio.server
 from websockets.exceptions import InvalidHandshake, InvalidMessage
+from websockets.frames import CloseCode
 
 from .. import _core
 from .gate import Gate
@@ -55,9 +58,9 @@ def _behind(gate: Gate) -> Iterator[list[bool]]:
         page = settings.pop("process_request")
         served.append(True)
         return serve(
-            handler,
+            lambda connection: _talk(handler, connection),
             sock=gate.socket,
-            process_request=lambda *asked: gate.answer(*asked) or page(*asked),
+            process_request=lambda *asked: gate.answer(*asked) or _file(page, *asked),
             create_connection=Connection,
             logger=_logger(),
             **settings,
@@ -68,6 +71,28 @@ def _behind(gate: Gate) -> Iterator[list[bool]]:
         yield served
     finally:
         websockets.asyncio.server.serve = serve
+
+
+def _file(page: Any, connection: Any, request: Any) -> Any:
+    """viser's answer to a request for one of its files."""
+    try:
+        return page(connection, request)
+    except OSError:  # a name that no file can have
+        return connection.respond(HTTPStatus.NOT_FOUND, "There is no such page.")
+
+
+async def _talk(handler: Any, connection: Any) -> None:
+    """viser's conversation with a page, which ends without a traceback if it makes no sense."""
+    asyncio.get_running_loop().set_exception_handler(_log)
+    try:
+        await handler(connection)
+    except Exception as error:
+        _log(None, {"exception": error})
+        await connection.close(CloseCode.INVALID_DATA, "This message makes no sense.")
+
+
+def _log(_loop: Any, context: dict[str, Any]) -> None:
+    logging.getLogger(__name__).debug("%r", context)
 
 
 class Connection(websockets.asyncio.server.ServerConnection):

@@ -47,7 +47,7 @@ def view(
     UsageError without the extra `view`, for a host without a token, or if no port is free.
     """
     viser = import_extra("viser", "view", "the live view")
-    if not is_local(host) and not token:
+    if not is_local(host) and token is None:
         raise _core.UsageError(
             f"{host} can be reached from other machines: give a token too, the word that opens "
             "the page"

@@ -37,6 +37,10 @@ def read_gltf(path: Path, made: Imported) -> None:
     content = read_file(path) if binary else read_file(path, TEXT)
     try:
         gltf = parse(pygltflib, content, binary)
+    except json.JSONDecodeError as error:
+        raise _core.SceneError(
+            f"{path}:{error.lineno}: this is no glTF 2.0 file: {error.msg}"
+        ) from None
     except Exception as error:  # pygltflib has no errors of its own
         raise _core.SceneError(f"{path}: this is no glTF 2.0 file: {error!s:.200}") from None
     if gltf is None or not str(getattr(gltf.asset, "version", "")).startswith("2"):
@@ -45,8 +49,8 @@ def read_gltf(path: Path, made: Imported) -> None:
         if unknown := sorted(set(gltf.extensionsRequired or []) - EXTENSIONS):
             raise _core.SceneError(f"needs {', '.join(unknown)}, which is not supported")
         Reader(gltf, path, made).read()
-    except _core.SceneError as error:
-        raise _core.SceneError(f"{path}: {error}") from None
+    except (_core.SceneError, _core.FileError) as error:
+        raise type(error)(f"{path}: {error}") from None
 
 
 def parse(library: Any, content: bytes, binary: bool) -> Any:

@@ -30,6 +30,9 @@ VIEWS = {
     "PixelFilter": views.rfilter,
     "Sampler": views.sampler,
 }
+#: What becomes of the directives of the view, by its name in the scene dict.
+NAMES = {"Camera": "camera", "Film": "film", "PixelFilter": "rfilter", "Sampler": "sampler"}
+NAMES["Integrator"] = "integrator"
 BEGIN = ("AttributeBegin", "TransformBegin")
 END = ("AttributeEnd", "TransformEnd")
 
@@ -68,14 +71,20 @@ class Reader:
     def read(self) -> None:
         while self._words.peek() is not None:
             self._last = directive = self._words.take()
+            self._made.place = directive.place
             try:
                 self._directive(directive)
+            except (_core.SceneError, _core.FileError) as error:
+                if re.match(r".*:\d+: ", str(error)):
+                    raise
+                raise type(error)(f"{directive.place}: {error}") from None
             except _core.Error:
                 raise
             except limits.CONTRADICTIONS as error:
                 raise directive.error(f"{directive.text} makes no sense: {error!s:.200}") from None
         if self._saved and self._last is not None:
             raise self._last.error("an AttributeBegin has no AttributeEnd")
+        self._made.place = ""
         expose(self._made.scene, self._exposure_time * self._sensitivity)
         for name, element in views.elements(self._views):
             self._made.add(name, element)
@@ -83,6 +92,8 @@ class Reader:
 
     def _directive(self, directive: Token) -> None:
         name = directive.text
+        if name in NAMES:
+            self._made.note(NAMES[name])
         method = getattr(self, f"_on_{re.sub('(?<!^)(?=[A-Z])', '_', name).lower()}", None)
         if directive.quoted:
             raise directive.error(f"a directive is expected, not {name!r}")

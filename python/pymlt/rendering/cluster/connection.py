@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import asyncio
+import logging
 from contextlib import ExitStack
 
 from ... import _core
@@ -36,6 +38,7 @@ class Connection:
                 f"cluster is {cluster!r}, but should be a dask client, a cluster, an address "
                 "such as 'tcp://host:8786', or 'local:4' for four processes of this machine"
             )
+        logging.getLogger("distributed.client").addFilter(_is_news)
         try:
             # Results of `local:N` are encrypted once only.
             client = Client(cluster, timeout=CONNECT_SECONDS, direct_to_workers=is_local)
@@ -50,3 +53,8 @@ class Connection:
 
     def close(self) -> None:
         self._own.close()
+
+
+def _is_news(record: logging.LogRecord) -> bool:
+    """Not the traceback of an attempt to connect anew that was broken off."""
+    return not (record.exc_info and isinstance(record.exc_info[1], asyncio.CancelledError))

@@ -53,7 +53,7 @@ class ClusterExecutor:
         try:
             self._run_until(job, to)
         except Exception as error:
-            raise _core.RenderError(_reason(error)) from error
+            raise _core.RenderError(self._reason(error)) from error
 
     def _run_until(self, job, to: int) -> None:
         if self.scene is None:
@@ -61,6 +61,8 @@ class ClusterExecutor:
             self.start, self.units_before = monotonic(), job.units_done
             self.frontier = min(job.position(task) for task in range(job.task_count))
         while True:
+            if self._is_gone():
+                raise ConnectionError
             if job.stopping:
                 self._cancel_tasks()
             elif job.interrupted:
@@ -77,11 +79,16 @@ class ClusterExecutor:
             return
         with suppress(Exception):
             self._drop_tasks()
-            self.client.run(worker.forget, self.name, self.scene_name, on_error="ignore")
+            if not self._is_gone():
+                self.client.run(worker.forget, self.name, self.scene_name, on_error="ignore")
         self.scene = None
         with suppress(Exception):
             self.connection.close()
         self.connection = self.client = None
+
+    def _is_gone(self) -> bool:
+        """Whether the connection to the scheduler was lost, and dask tries in vain to renew it."""
+        return self.client.status != "running"
 
     def _workers(self) -> int:
         """How many there are. To ask the scheduler takes a while: every other second."""
@@ -184,16 +191,14 @@ class ClusterExecutor:
         with dask.config.set({"distributed.admin.large-graph-warning-threshold": "1TB"}):
             return self.client.submit(function, *arguments, key=key, pure=False, **place)
 
+    def _reason(self, error: BaseException) -> str:
+        """One line on what went wrong."""
+        from distributed import KilledWorker
 
-def _reason(error: BaseException) -> str:
-    """One line on what went wrong."""
-    from distributed import CancelledError, KilledWorker
-    from distributed.comm import CommClosedError
-
-    if isinstance(error, _core.Error):
-        return str(error)
-    if isinstance(error, KilledWorker):
-        return f"workers of the cluster died, each time with the same task: {error}"
-    gone = isinstance(error, CancelledError | CommClosedError | OSError | TimeoutError)
-    where = "the cluster is gone" if gone else "on the cluster"
-    return f"{where}: {type(error).__name__}: {error}"
+        if isinstance(error, _core.Error):
+            return str(error)
+        if isinstance(error, KilledWorker):
+            return f"workers of the cluster died, each time with the same task: {error}"
+        if self._is_gone():
+            return "the cluster is gone: its scheduler has ended, or cannot be reached any more"
+        return f"on the cluster: {type(error).__name__}: {error}"

@@ -3,7 +3,11 @@
 from __future__ import annotations
 
 import os
-from contextlib import contextmanager
+import signal
+import tempfile
+from collections.abc import Iterator
+from contextlib import AbstractContextManager, contextmanager, suppress
+from typing import Any
 
 from ... import _core
 from ..._extras import import_extra
@@ -16,10 +20,10 @@ QUIET = {
     # dask's scheduler would stop as soon as nobody reads what it says of strangers that knock.
     "DASK_LOGGING__DISTRIBUTED": "error",
 }
-NO_HTTP = {"preload": f"{__package__}.no_http", "dashboard": False}
+SPAWNED = {"preload": f"{__package__}.spawned", "dashboard": False}
 
 
-def local_cluster(text: str):
+def local_cluster(text: str) -> AbstractContextManager:
     """Processes of this machine, one thread each. Scripts need no `if __name__` for them.
 
     Whoever can talk to a dask process can run code in it, so they ask each other for a certificate
@@ -29,20 +33,53 @@ def local_cluster(text: str):
     if not count.isdecimal() or int(count) == 0:
         raise _core.UsageError(f"cluster is {text!r}, but should be local:N with N >= 1")
     import_extra("cryptography", "cluster", "a cluster of processes of this machine")
+    return _processes(int(count))
+
+
+@contextmanager
+def _processes(count: int) -> Iterator[Any]:
     from distributed import Security
     from distributed.deploy.subprocess import SubprocessCluster
 
     security = Security.temporary()
-    with _environment({**QUIET, **os.environ, **_certificate(security)}):
-        return SubprocessCluster(
-            n_workers=int(count),
-            threads_per_worker=1,
-            worker_class="distributed.Worker",
-            worker_kwargs={"memory_limit": 0, **NO_HTTP},
-            # The timeout is for the case that this process is killed and cannot end them.
-            scheduler_kwargs={"protocol": "tls", "idle_timeout": "12h", **NO_HTTP},
-            security=security,
-        )
+    with tempfile.TemporaryDirectory(prefix="pymlt-", ignore_cleanup_errors=True) as scratch:
+        private = {
+            "PYTHONSAFEPATH": "1",  # `python -m dask` would import what lies in the current folder
+            "DASK_TEMPORARY_DIRECTORY": scratch,  # else one that all users of the machine share
+            "TMPDIR": scratch,
+            "PYMLT_CLUSTER_OWNER": str(os.getpid()),
+        }
+        with _environment({**QUIET, **os.environ, **private, **_certificate(security)}):
+            cluster = SubprocessCluster(
+                n_workers=count,
+                threads_per_worker=1,
+                worker_class="distributed.Worker",
+                worker_kwargs={"memory_limit": 0, **SPAWNED},
+                scheduler_kwargs={
+                    "protocol": "tls",
+                    "scheduler_file": f"{scratch}/scheduler.json",
+                    **SPAWNED,
+                },
+                security=security,
+                shutdown_scheduler=False,
+            )
+        with cluster:
+            try:
+                yield cluster
+            finally:
+                cluster.sync(_end, cluster)
+
+
+async def _end(cluster: Any) -> None:
+    """Kills the processes. dask would ask a scheduler that is gone, and wait half a minute."""
+    for started in cluster.scheduler, *cluster.workers.values():
+        process = started.process
+        if process and process.returncode is None:
+            # By process.kill(), asyncio could miss that it has just ended, and would say so.
+            with suppress(ProcessLookupError):
+                os.kill(process.pid, signal.SIGKILL)
+            await process.wait()
+        await started.close()
 
 
 def _certificate(security) -> dict[str, str]:
