@@ -39,6 +39,7 @@ namespace wavelengths {
 Tables::Tables() {
   for (int i = 0; i <= cells; ++i) {
     nm[i] = inverse_distribution(double(i) / cells);
+    d65[i] = mlt::d65(nm[i]);
     response[i] = matching_functions(nm[i]) * nm_per_u(nm[i]);
   }
   const Vec3 unit = white_of(*this);
@@ -49,7 +50,9 @@ const Tables tables;
 
 }  // namespace wavelengths
 
-Spectrum daylight(double u) { return at_wavelengths(u, d65); }
+Spectrum daylight(double u) {
+  return is_single(u) ? Spectrum(d65(u)) : wavelengths::look_up(wavelengths::tables.d65, u);
+}
 
 Color recorded_spectrum(const Spectrum& light, double u, bool dispersed) {
   if (is_single(u)) return Color(light[0]);
@@ -62,7 +65,8 @@ Color recorded_spectrum(const Spectrum& light, double u, bool dispersed) {
 }
 
 Color developed(const Color& recorded) {
-  static const Vec3 white = xyz_of(d65);
+  // Without the quadrature's own error, white light of 1 is shown as 1.
+  static const Vec3 xyz = xyz_of(d65), white = xyz / xyz.y;
   return xyz_to_srgb(recorded * white);
 }
 

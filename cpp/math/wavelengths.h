@@ -30,7 +30,7 @@ inline constexpr int cells = 512;
 using Table = std::array<double, cells + 1>;
 
 struct Tables {
-  Table nm;
+  Table nm, d65;
   /// What a film records of one lane: X, Y and Z over those of D65, over the density of u.
   std::array<Color, cells + 1> response;
 

@@ -39,6 +39,15 @@ def room(**changes) -> dict:
 GLASS = {"type": "dielectric", "int_ior": "cauchy 1.35 60000"}
 
 
+@pytest.mark.parametrize("colour", [(1, 1, 1), (0.2, 0.5, 1)])
+def test_a_sky_is_as_bright_as_its_colour_says(colour):
+    sky = {"type": "constant", "radiance": {"type": "rgb", "value": list(colour)}}
+    scene = room(light=sky)
+    scene["sensor"]["to_world"] = V().look_at([0, 0, 3], [0, 0, 4], [0, 1, 0])
+    image = mlt.render(scene, "path", spp=1024, spectral=True)
+    assert image.mean(axis=(0, 1)) == pytest.approx(colour, rel=3e-4)
+
+
 def dispersive() -> dict:
     scene = room()
     scene["ball"] = scene["ball"] | {"bsdf": GLASS}
