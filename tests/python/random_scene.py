@@ -1,5 +1,7 @@
 """Small scenes drawn at random, with every plug-in among them: `random_scene(seed)` is XML.
 
+Every third is plain: Mitsuba 3 has all that is in it.
+
 File names in it are relative to FOLDER.
 """
 
@@ -35,13 +37,18 @@ class Draw:
         self.between = self.random.uniform
         # Numbers of its own, so that the scenes without motion are what they were before it.
         self.motion = random.Random(f"motion {seed}")
-        self.moves = self.motion.random() < 0.3
+        self.plain = seed % 3 == 0
+        self.moves = self.motion.random() < 0.3 and not self.plain
         self.fog = ""  # the medium around the lens and all lamps, if there is one
 
     def one_of(self, *choices) -> str:
         """What one of these makes; each is a text or makes one."""
         chosen = self.random.choice(choices)
         return chosen if isinstance(chosen, str) else chosen()
+
+    def ours(self, *choices):
+        """Those that Mitsuba 3 does not have."""
+        return () if self.plain else choices
 
     def maybe(self, make, chance=0.5) -> str:
         return make() if self.random.random() < chance else ""
@@ -65,7 +72,8 @@ class Draw:
     def integrator(self) -> str:
         depth = value("integer", "max_depth", self.random.choice([-1, -1, 2, 3, 8]))
         hide = self.maybe(lambda: value("boolean", "hide_emitters", "true"), 0.2)
-        strict = self.maybe(lambda: value("boolean", "strict_normals", "true"), 0.2)
+        chance = 0 if self.plain else 0.2
+        strict = self.maybe(lambda: value("boolean", "strict_normals", "true"), chance)
         return tag("integrator", depth, hide, strict, type="path")
 
     def sensor(self, width: int, height: int) -> str:
@@ -75,7 +83,8 @@ class Draw:
         names = ("box", "tent", "gaussian", "mitchell", "catmullrom", "lanczos")
         part = value("integer", "crop_offset_x", 1) + value("integer", "crop_width", width - 2)
         sides += self.maybe(lambda: part, 0.1)
-        sides += self.maybe(lambda: value("boolean", "spectral", "true"), 0.15)
+        chance = 0 if self.plain else 0.15
+        sides += self.maybe(lambda: value("boolean", "spectral", "true"), chance)
         film = tag("film", sides, tag("rfilter", type=self.one_of(*names)), type="hdrfilm")
         film += (value("float", "shutter_close", 1) if self.moves else "") + self.fog
         common = self.to_world(at) + film + value("float", "fov", 45)
@@ -122,11 +131,13 @@ class Draw:
     def homogeneous(self, dense: float) -> str:
         """Grey or coloured."""
         coloured = self.random.random() < 0.5
-        extinction = self.triple(0.2 * dense, dense) if coloured else [self.between(0, dense)] * 3
+        extinction = self.triple(0.2, 1) if coloured else [self.between(0, 1)] * 3
         phase = self.maybe(lambda: tag("phase", value("float", "g", self.between(-0.7, 0.8)),
                                        type="hg"))  # fmt: skip
         albedo = value("rgb", "albedo", *self.triple(0.3, 1))
-        return value("rgb", "sigma_t", *extinction) + albedo + phase
+        return (
+            value("rgb", "sigma_t", *extinction) + value("float", "scale", dense) + albedo + phase
+        )
 
     def thin_medium(self) -> str:
         return tag("medium", self.homogeneous(0.2), type="homogeneous")
@@ -237,7 +248,8 @@ class Draw:
         def checkerboard():
             colours = colour("color0") + colour("color1")
             scale = value("float", "uvscale", self.between(1, 5))
-            return tag("texture", colours, scale, name=name, type="checkerboard")
+            more = "" if self.plain else scale
+            return tag("texture", colours, more, name=name, type="checkerboard")
 
         def scaled():
             factor = value("float", "scale", self.between(0.2, 1.1))
@@ -246,7 +258,7 @@ class Draw:
 
         spectrum = tag("spectrum", name=name, value="400:0.1, 500:0.7, 600:0.2, 700:0.4")
         return self.one_of(lambda: colour(name), lambda: colour(name), bitmap, checkerboard,
-                           spectrum, scaled)  # fmt: skip
+                           spectrum, *self.ours(scaled))  # fmt: skip
 
     def share(self, name: str) -> str:
         """A number from 0 to 1, or a texture of such."""
@@ -291,9 +303,7 @@ class Draw:
         coated = self.reflectance("diffuse_reflectance")
         return self.one_of(
             self.matt,
-            self.phong,
-            self.ward,
-            self.clay,
+            *self.ours(self.phong, self.ward, self.clay),
             lambda: self.principled("principled", "roughness", "anisotropic", "metallic",
                                     "spec_tint", "sheen", "flatness", "clearcoat"),
             tag("bsdf", metal, type="conductor"),
@@ -321,11 +331,13 @@ class Draw:
         return self.one_of(
             lambda: tag("bsdf", self.share("weight"), inner(), inner(), type="blendbsdf"),
             lambda: tag("bsdf", self.share("weight"), inner(), null, type="blendbsdf"),
-            lambda: tag("bsdf", weights, inner(), inner(), type="mixturebsdf"),
+            *self.ours(
+                lambda: tag("bsdf", weights, inner(), inner(), type="mixturebsdf"),
+                lambda: tag("bsdf", absorbed, self.opaque(), type="coating"),
+            ),
             lambda: tag("bsdf", self.share("opacity"), inner(), type="mask"),
             lambda: tag("bsdf", bump, height, inner(), type="bumpmap"),
             lambda: tag("bsdf", normals, inner(), type="normalmap"),
-            lambda: tag("bsdf", absorbed, self.opaque(), type="coating"),
         )
 
     def bsdf(self) -> str:
@@ -396,8 +408,10 @@ class Draw:
             tag("emitter", sun, value("rgb", "irradiance", *colour), type="directional"),
             tag("emitter", value("rgb", "radiance", *colour), type="constant"),
             tag("emitter", sky, type="envmap"),
-            tag("emitter", day, map_size, type="sky"),
-            tag("emitter", day, type="sun"),
-            tag("emitter", day, map_size, type="sunsky"),
+            *self.ours(
+                tag("emitter", day, map_size, type="sky"),
+                tag("emitter", day, type="sun"),
+                tag("emitter", day, map_size, type="sunsky"),
+            ),
         ]
         return self.one_of(*near, *([] if self.fog else infinite))
