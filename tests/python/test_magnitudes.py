@@ -83,7 +83,9 @@ def test_meshes_and_groups_too_large_are_refused(tmp_path):
 def test_instances_scaled_too_much_are_refused(scale):
     ball = {"type": "shapegroup", "ball": {"type": "sphere", "radius": 1 / scale**0.5}}
     instance = {"type": "instance", "group": ball, "to_world": T().scale([scale] * 3)}
-    with pytest.raises(mlt.SceneError, match=r"'instance' scales lengths by .*, but here .* is right"):
+    with pytest.raises(
+        mlt.SceneError, match=r"'instance' scales lengths by .*, but here .* is right"
+    ):
         mlt.load_dict(tiny.scene() | {"small": instance})
 
 
@@ -135,6 +137,5 @@ def test_no_number_of_a_scene_ends_the_process():
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("scene", sorted(SCENES.glob("*.xml")), ids=lambda path: path.stem)
-def test_no_number_of_any_scene_ends_the_process(scene):
-    assert ends_well(1, 0, [scene], timeout=1800) > 20
+def test_no_number_of_any_scene_ends_the_process():
+    assert ends_well(1, 0, sorted(SCENES.glob("*.xml")), timeout=1800) > 5000

@@ -1,5 +1,6 @@
 """Jobs: determinism, budgets, progress, cancelling, Ctrl-C."""
 
+import contextlib
 import os
 import signal
 import subprocess
@@ -355,3 +356,62 @@ def is_told_of_the_fork(look):
     except mlt.RenderError as error:
         return "in the process that started it" in str(error) and not hasattr(error, "result")
     return False
+
+
+MIRRORS = """\
+<scene version="3.0.0">
+  <sensor type="perspective"><film type="hdrfilm">
+    <integer name="width" value="16"/><integer name="height" value="16"/>
+  </film></sensor>
+  <shape type="cube">
+    <transform name="to_world"><scale value="-5"/></transform>
+    <bsdf type="twosided">
+      <bsdf type="conductor"><string name="material" value="none"/></bsdf>
+    </bsdf>
+  </shape>
+  <emitter type="point"><point name="position" x="0" y="2" z="1"/></emitter>
+</scene>
+"""
+
+
+@pytest.mark.parametrize("name", ["bdpt", "mlt", "mmlt", "erpt"])
+def test_time_ends_walks_between_mirrors(name):
+    """No pair of the thousands of vertices of two walks needs a ray, by which walks are stopped."""
+    start = time.perf_counter()
+    endless = {"type": name, "max_depth": -1, "rr_depth": 2**31 - 1}
+    with contextlib.suppress(mlt.RenderError):  # that the time was too short
+        mlt.start(mlt.load_string(MIRRORS), endless, time=0.5).result()
+    assert time.perf_counter() - start < 20
+
+
+def test_preparation_by_searches_through_glass_is_bounded():
+    """All light comes through a glass ball, and much of it by way of further balls."""
+    rng = np.random.default_rng(1)
+    balls = {
+        f"ball {i}": {
+            "type": "sphere",
+            "center": place.tolist(),
+            "radius": 0.2,
+            "bsdf": {"type": ["dielectric", "conductor"][i % 2]},
+        }
+        for i, place in enumerate(rng.uniform(-0.7, 0.7, (12, 3)))
+    }
+    camera = mlt.Transform.look_at(origin=[0, 0, 0.95], target=[0, 0, -1], up=[0, 1, 0])
+    scene = mlt.load_dict(
+        {
+            "type": "scene",
+            "sensor": {"type": "perspective", "fov": 60.0, "to_world": camera},
+            "walls": {"type": "cube", "bsdf": {"type": "twosided", "bsdf": {"type": "diffuse"}}},
+            "glass": {
+                "type": "sphere",
+                "center": [0, 0.5, 0],
+                "radius": 0.3,
+                "bsdf": {"type": "dielectric"},
+            },
+            "lamp": {"type": "point", "position": [0, 0.5, 0.1]},
+            **balls,
+        },
+        size=(16, 16),
+    )
+    stats = mlt.start(scene, "mlt", spp=0.1, threads=1).result().stats
+    assert stats["seconds"]["bootstrap"] < 8  # three on an idle processor
