@@ -65,7 +65,7 @@ void MetropolisRendering::prepare_chains(int threads, const std::atomic<bool>& c
 /// The share of a pilot's samples that it can afford, if it has as many as by default. Samples that
 /// search for light through glass may take a thousand times as many rays as others. Rays are
 /// counted, not seconds, so that equal seeds have equal pilots: a processor traces them in about
-/// two seconds, or a tenth of the time of the render, of which preparation_seconds_ is three tenths.
+/// two seconds, or in a tenth of the render's time, of which preparation_seconds_ is three tenths.
 double MetropolisRendering::affordable_share(const std::atomic<bool>& cancelled) {
   constexpr double all = 1 << 22, seconds_for_all = 6, to_try = 1. / 32, samples = 50000;
   const double rays = all * std::clamp(preparation_seconds_ / seconds_for_all, 0.25, 1.0);
