@@ -32,9 +32,9 @@ AuditReport run_audit(const LoadedPtr& loaded, const WeightedObjects& mixture, i
   how.seed = seed;
   how.threads = threads > 0 ? threads : hardware_threads();
   how.significance = significance;
-  const auto [mutations, weights] = to_mixture(loaded, target, mixture);
+  const auto mutations = to_mixture(loaded, target, mixture);
   return run_interruptibly([&](const std::atomic<bool>& cancelled) {
-    return audit(target, mutations, weights, how, cancelled);
+    return audit(target, mutations.first, mutations.second, how, cancelled);
   });
 }
 

@@ -15,6 +15,12 @@ Vec3 to_vector(const Doubles& array, const char* what) {
   return v;
 }
 
+Vec3 to_start(const Doubles& array) {
+  const Vec3 v = to_vector(array, "start");
+  check_start(v, "start");
+  return v;
+}
+
 Vec3 to_direction(const Doubles& array, const char* what) {
   const Vec3 v = to_vector(array, what);
   if (!(length_squared(v) > 0)) throw UsageError(std::string(what) + " has no length");
@@ -37,7 +43,7 @@ std::optional<PyVertex> seen_from_vertex(const LoadedScene& loaded, const PyVert
 py::object seen_from_point(const LoadedScene& loaded, const Doubles& from, const Doubles& direction,
                            double time) {
   if (from.ndim() == 2) return intersect_rays(loaded, from, direction, time);
-  const Vec3 start = to_vector(from, "start") - loaded.scene->origin();
+  const Vec3 start = to_start(from) - loaded.scene->origin();
   const Ray ray{start, to_direction(direction, "direction"), time};
   return py::cast(first_hit(loaded, ray));
 }

@@ -1,5 +1,6 @@
 #include "ray_arrays.h"
 
+#include "base/magnitude.h"
 #include "base/parallel.h"
 #include "path/walk.h"
 
@@ -29,6 +30,7 @@ void check_rays(const Doubles& starts, const Doubles& directions) {
     if (!is_finite(row(starts, i)) || !std::isfinite(length2))
       throw UsageError(fmt::format("ray {} is not finite", i));
     if (!(length2 > 0)) throw UsageError(fmt::format("direction {} has no length", i));
+    check_start(row(starts, i), fmt::format("start {}", i));
   }
 }
 
@@ -89,6 +91,13 @@ class Writer {
 };
 
 }  // namespace
+
+void check_start(const Vec3& start, const std::string& what) {
+  const Vec3 size = glm::abs(start);
+  if (too_large(max_component(size)))
+    throw UsageError(fmt::format("{} has the coordinate {:g}, but should have none beyond {:g}",
+                                 what, max_component(size), largest_magnitude));
+}
 
 py::dict intersect_rays(const LoadedScene& loaded, const Doubles& starts, const Doubles& directions,
                         double time) {

@@ -1,9 +1,11 @@
 #include "base/params.h"
 
 #include "base/bytes.h"
+#include "base/magnitude.h"
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace mlt {
 namespace {
@@ -35,6 +37,20 @@ bool is_finite(const Value& value) {
       return std::isfinite(key.time) && all_finite(key.transform);
     });
   return true;
+}
+
+/// A coordinate or an entry of a transform that is too large for rays, if there is one.
+std::optional<double> excess(const Value& value, ParamType type) {
+  const auto first = [](const auto& numbers) -> std::optional<double> {
+    const auto found = std::find_if(numbers.begin(), numbers.end(), too_large);
+    return found == numbers.end() ? std::nullopt : std::optional(*found);
+  };
+  if (type == ParamType::point) return first(std::get<Triple>(value));
+  if (const Matrix* m = std::get_if<Matrix>(&value)) return first(*m);
+  if (const Animation* a = std::get_if<Animation>(&value))
+    for (const Keyframe& key : *a)
+      if (const auto found = first(key.transform)) return found;
+  return std::nullopt;
 }
 
 bool fits(const Value& value, ParamType type) {
@@ -93,6 +109,9 @@ void Params::set(const std::string& given_name, Value value, const Location& whe
   if (!fits(value, parameter->type))
     refuse("is " + kind_of(value) + ", but should be " + with_article(to_string(parameter->type)));
   if (!is_finite(value)) refuse("must be finite");
+  if (const auto number = excess(value, parameter->type))
+    refuse(fmt::format("has the number {:g}, but should have none beyond {:g}", *number,
+                       largest_magnitude));
   const auto& choices = parameter->choices;
   if (const std::string* text = std::get_if<std::string>(&value))
     if (!choices.empty() && std::find(choices.begin(), choices.end(), *text) == choices.end())

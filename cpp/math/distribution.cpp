@@ -108,7 +108,8 @@ Piecewise2D::Sample Piecewise2D::sample(const Vec2& u) const {
 }
 
 double Piecewise2D::probability(size_t row, size_t column) const {
-  return rows_.pdf(row) * ((double{starts_.at(row, column + 1)} - starts_.at(row, column)) / full);
+  const double low = starts_.at(row, column), high = starts_.at(row, column + 1);
+  return rows_.pdf(row) * ((high - low) / full);
 }
 
 Piecewise2D::Place Piecewise2D::locate(const Vec2& p) const {

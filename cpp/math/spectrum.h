@@ -68,7 +68,8 @@ Spectrum& operator/=(Spectrum& a, const T& b) {
   return a = a / b;
 }
 inline bool operator==(const Spectrum& a, const Spectrum& b) {
-  return (a[0] == b[0]) & (a[1] == b[1]) & (a[2] == b[2]) & (a[3] == b[3]);
+  const double *x = a.lane, *y = b.lane;
+  return (x[0] == y[0]) & (x[1] == y[1]) & (x[2] == y[2]) & (x[3] == y[3]);  // without a branch
 }
 inline bool operator!=(const Spectrum& a, const Spectrum& b) { return !(a == b); }
 

@@ -112,6 +112,7 @@ class BidirectionalSampler {
   void connect_walks(RayCounts& rays, Found&& found) {
     if (settings_.light_image) connect_to_lens(rays, found);
     for (int t = 2; t <= static_cast<int>(camera_.size()); ++t) {
+      check_abandoned();  // most pairs of vertices may need no ray, which would be counted
       hit_light(t, found);
       for (int s = 1; s <= std::max(1, static_cast<int>(light_.size())); ++s)
         connect(s, t, rays, found);

@@ -53,6 +53,8 @@ constexpr double rare_share = 0.01;
 /// The least share of rare light for which chains are searched, and that of chains with the same
 /// lobes.
 constexpr double least_rare = 0.04, least_rare_of_lobes = 0.01;
+/// About a second; rays are counted, not seconds, so that each run learns the same.
+constexpr uint64_t most_rays = 1 << 20;
 
 /// Samples of bidirectional path tracing that search for all chains.
 class ManifoldLessons {
@@ -61,14 +63,13 @@ class ManifoldLessons {
                   const std::shared_ptr<const ManifoldGuide>& all)
       : scene_(&scene), manifolds_(scene, all), paths_(scene, settings(rules, all)) {}
 
-  /// Takes samples until there are `count`.
+  /// Takes samples until there are `count`, or they have taken `most_rays`.
   void take(uint64_t count) {
-    RayCounts rays;
-    for (; taken_ < count; ++taken_) {
+    for (; taken_ < count && rays_.total() < most_rays; ++taken_) {
       Rng rng(0, Purpose::manifold, taken_);
       RandomSampler sampler(rng);
-      paths_.sample(scene_->camera().raster().sample(sampler.next2()), sampler, rays);
-      paths_.connect_all(rays, [&](const Connection& c) { learn(c); });
+      paths_.sample(scene_->camera().raster().sample(sampler.next2()), sampler, rays_);
+      paths_.connect_all(rays_, [&](const Connection& c) { learn(c); });
     }
   }
 
@@ -123,6 +124,7 @@ class ManifoldLessons {
   std::unordered_map<uint64_t, Chains> classes_;
   double light_ = 0, rare_scattered_ = 0;
   uint64_t taken_ = 0;
+  RayCounts rays_;
   Path path_;
   PathTerms terms_;
 };

@@ -17,8 +17,9 @@ struct PathRules {
   /// The probability of surviving Russian roulette, by a factor of the throughput.
   static double survival(double factor) { return std::min(factor, 0.95); }
 
-  /// The bound on edges also where max_depth is -1: vertices take memory.
-  static constexpr int longest = 1 << 16;
+  /// The bound on edges also where max_depth is -1: vertices take memory, and the techniques of all
+  /// lengths its square. Russian roulette lets one of 10^90 walks come so far.
+  static constexpr int longest = 1 << 12;
   int most_edges() const { return max_depth < 0 ? longest : std::min(max_depth, longest); }
   /// Whether paths with this number of edges are rendered.
   bool wants(int edges) const {

@@ -81,8 +81,8 @@ template <class F>
 LambertianEdge<F> lambertian_edge(const Vec3Of<F>& ng, const Vec3Of<F>& ns, const Vec3Of<F>& w,
                                   F cosine, bool strict_normals) {
   const F geometric = std::abs(dot(ng, w)), shading = dot(ns, w);
-  const bool scatters =
-      (shading * cosine > 0) & (geometric > 0) & consistent_sides(ng, ns, w, strict_normals);
+  const bool consistent = consistent_sides(ng, ns, w, strict_normals);
+  const bool scatters = (shading * cosine > 0) & (geometric > 0) & consistent;
   return {geometric, std::abs(shading) / geometric, scatters};
 }
 

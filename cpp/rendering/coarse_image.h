@@ -6,6 +6,8 @@
 #include "rendering/metropolis_algorithm.h"
 #include "rendering/typical_brightness.h"
 
+#include <algorithm>
+
 namespace mlt {
 
 struct CoarseImage {
@@ -20,7 +22,14 @@ struct CoarseImage {
   TargetMap map;              ///< For the target of the chains.
   TypicalBrightness typical;  ///< For the pilot.
   double b = 0;               ///< Mean of the weights T / p.
+  double share = 1;           ///< The share of a pilot's usual samples that it can afford.
 };
+
+/// The part of `count` samples that a pilot takes if it can afford this share, but enough to judge.
+inline uint64_t affordable(double share, uint64_t count) {
+  constexpr uint64_t least = 256;
+  return std::max(std::min(count, least), static_cast<uint64_t>(share * count));
+}
 
 /// Draws this number of samples.
 CoarseImage coarse_image(const MetropolisAlgorithm& algorithm, const Raster& raster, uint64_t seed,

@@ -72,6 +72,8 @@ class MetropolisAlgorithm {
   /// may become a part of the target.
   virtual void prepare(const CoarseImage& /*coarse*/, uint64_t /*seed*/, int /*threads*/,
                        const std::atomic<bool>& /*cancelled*/) {}
+  /// Called once after the pilot.
+  virtual void end_pilot() {}
   virtual std::string save() const { return ""; }
   virtual void load(const std::string& /*bytes*/) {}
 };

@@ -231,6 +231,7 @@ Allocation allocate(MetropolisAlgorithm& algorithm, const Raster& raster,
   const SampleTechniques first = settings.techniques.value_or(SampleTechniques::all);
   algorithm.set_techniques(first);
   const double b = pilot.find_starts();
+  if (cancelled) return samples_alone(first);
   if (!(b > 0) && settings.share == 0) throw no_light_found(settings.samples);
   if (!(b > 0)) return samples_alone(first);
   if (settings.share == 0) return chains_alone(b);

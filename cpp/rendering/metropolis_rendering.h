@@ -79,6 +79,7 @@ class MetropolisRendering : public Rendering {
   void render_direct(int threads, const std::atomic<bool>& cancelled);
   void prepare_chains(int threads, const std::atomic<bool>& cancelled);
   void do_without_chains();
+  double affordable_share(const std::atomic<bool>& cancelled);
   Allocation run_pilot(int threads, const std::atomic<bool>& cancelled);
   std::vector<std::vector<uint32_t>> run_bootstrap(const Candidates& candidates, int threads,
                                                    const std::atomic<bool>& cancelled);

@@ -15,6 +15,9 @@ constexpr double second_stage_share = 0.1;
 /// Number of walks that look for the lights that the camera sees (CertainLight).
 constexpr uint64_t walks_to_lights = 50000;
 
+/// In a pilot, where no pixel depends on it, a chain counts as found again after so many searches.
+constexpr int most_searches_of_pilot = 1024;
+
 /// A mutation's own parameter for its step size, and the values among which adaptation chooses.
 struct StepSizeChoice {
   const char* parameter;
@@ -62,6 +65,11 @@ class MltAlgorithm : public MetropolisAlgorithm {
 
   void look_around(uint64_t seed, int threads, const std::atomic<bool>& cancelled) override {
     learn();
+    if (guide_) {
+      const auto hasty = std::make_shared<ManifoldGuide>(*guide_);
+      hasty->set_most_searches(most_searches_of_pilot);
+      target_.set_manifolds(hasty);
+    }
     if (settings_.samples_beside)
       target_.leave_to_samples(
           {scene(), target_.rules(), walks_to_lights, seed, threads, cancelled});
@@ -73,9 +81,12 @@ class MltAlgorithm : public MetropolisAlgorithm {
     AdaptationSettings adaptation;
     adaptation.seed = seed;
     adaptation.threads = threads;
+    adaptation.candidates = affordable(coarse.share, adaptation.candidates);
     weights_ = std::make_shared<MixtureWeights>(
         adapt(target_, mutations_, *weights_, adaptation, cancelled));
   }
+
+  void end_pilot() override { target_.set_manifolds(guide_); }
 
   const Scene& scene() const override { return target_.scene(); }
   std::unique_ptr<Source> source() const override { return path_candidates(target_); }
@@ -148,7 +159,8 @@ class MltAlgorithm : public MetropolisAlgorithm {
  private:
   /// Learns which chains are searched for: the same for each render of the scene.
   void learn() {
-    if (settings_.manifolds) target_.set_manifolds(learn_manifolds(scene(), target_.rules()));
+    if (settings_.manifolds) guide_ = learn_manifolds(scene(), target_.rules());
+    target_.set_manifolds(guide_);
   }
   /// The mutation as it is, or once for each step size that adaptation chooses from.
   std::vector<std::pair<MutationValues, double>> in_all_sizes(const MixedMutation& mixed) const {
@@ -187,6 +199,7 @@ class MltAlgorithm : public MetropolisAlgorithm {
 
   MltSettings settings_;
   PathTarget target_;
+  std::shared_ptr<const ManifoldGuide> guide_;
   Mutations mutations_;
   std::vector<double> step_sizes_;
   Mutations second_stage_;  ///< Mutations of the second stage, after a rejected proposal.

@@ -1,6 +1,7 @@
 #include "rendering/multiplexed_algorithm.h"
 
 #include "mutation/path_seeds.h"
+#include "rendering/coarse_image.h"
 #include "rendering/path_samples.h"
 
 namespace mlt {
@@ -50,11 +51,11 @@ class MultiplexedAlgorithm : public MetropolisAlgorithm {
       : target_(std::move(scene), settings.rules), settings_(settings), choice_(settings.rules) {}
 
   /// Estimates how much light each technique contributes.
-  void prepare(const CoarseImage&, uint64_t seed, int threads,
+  void prepare(const CoarseImage& coarse, uint64_t seed, int threads,
                const std::atomic<bool>& cancelled) override {
     using Light = std::vector<std::pair<Technique, double>>;
     const auto found = draw_candidates(
-        Candidates{seed, Purpose::pilot, 8192}, threads, cancelled,
+        Candidates{seed, Purpose::pilot, affordable(coarse.share, 8192)}, threads, cancelled,
         [&] { return std::make_unique<PathSeeds>(target_); },
         [](PathSeeds& seeds, Rng& rng) {
           Light light;

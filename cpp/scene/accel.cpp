@@ -5,6 +5,7 @@
 #include "scene/accel.h"
 
 #include "scene/embree_geometry.h"
+#include "scene/instance.h"
 
 #include <algorithm>
 #include <cstring>
@@ -25,6 +26,19 @@ void init(EmbreeQuery& query, const Ray* const* rays) {
   rtcInitIntersectContext(&query.base);
 #endif
   query.rays = rays;
+}
+
+/// Whether Embree takes a ray with these numbers of up to `most`; it ends the process for others,
+/// which come from divisions by zero and from callbacks. Its t_max may be infinite, but not NaN.
+bool is_castable(float ox, float oy, float oz, float dx, float dy, float dz, float t_max,
+                 float most) {
+  const float size = std::abs(ox) + std::abs(oy) + std::abs(oz) + std::abs(dx) + std::abs(dy) +
+                     std::abs(dz);  // NaN if one of them is
+  return (size <= most) & (t_max == t_max);
+}
+
+bool is_castable(const RTCRay& r, float most) {
+  return is_castable(r.org_x, r.org_y, r.org_z, r.dir_x, r.dir_y, r.dir_z, r.tfar, most);
 }
 
 RTCRay embree_ray(const Ray& ray) {
@@ -70,6 +84,7 @@ struct Accel::Impl {
   RTCScene scene = nullptr;
   bool moves = false;
   bool analytic = false;  ///< Whether there are analytic shapes outside groups.
+  float most = 1e18f;     ///< Bound of rays, such that instances have them below Embree's.
   Shutter shutter;
   Placements placements;  ///< Embree reads the buffers of their forms.
   std::vector<RTCScene> groups;
@@ -147,8 +162,11 @@ Accel::Accel(const std::vector<ShapePtr>& shapes, const Shutter& shutter, int bu
     : impl_(std::make_unique<Impl>()) {
   impl_->placements = Placements(shapes);
   impl_->moves = impl_->placements.moves();
-  for (const Placement& placed : impl_->placements.all)
+  for (const Placement& placed : impl_->placements.all) {
     impl_->analytic |= placed.form.shape && placed.form.shape->as_analytic();
+    for (const Mat4& step : placed.steps)
+      impl_->most = std::min(impl_->most, float(1e18 * AffineMap(step).least_scale()));
+  }
   impl_->shutter = shutter;
   // A fixed instruction set, so that the bits do not depend on the machine's vector width.
   const std::string config = "max_isa=avx2,threads=" + std::to_string(build_threads);
@@ -178,9 +196,13 @@ void unhit(RTCRayHit& ray) {
   ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
 }
 
-/// The lanes that are in use.
-void fill_valid(int count, int valid[RayPacket::size]) {
-  for (int i = 0; i < RayPacket::size; ++i) valid[i] = i < count ? -1 : 0;
+/// The lanes that are in use, and whose rays can be cast.
+void fill_valid(const RayPacket& r, float most, int valid[RayPacket::size]) {
+  for (int i = 0; i < RayPacket::size; ++i) {
+    const bool castable =
+        is_castable(r.ox[i], r.oy[i], r.oz[i], r.dx[i], r.dy[i], r.dz[i], r.t_max[i], most);
+    valid[i] = -static_cast<int>((i < r.count) & castable);
+  }
 }
 
 void fill(const RayPacket& packet, RTCRay8& rays) {
@@ -208,6 +230,7 @@ bool Accel::intersect(const Ray& ray, Hit& hit) const {
   init(query, &rays);
   RTCRayHit rayhit;
   rayhit.ray = embree_ray(ray);
+  if (!is_castable(rayhit.ray, impl_->most)) return false;
   if (impl_->moves) rayhit.ray.time = impl_->embree_time(ray.time);
   unhit(rayhit);
 #if MLT_EMBREE_MAJOR >= 4
@@ -226,6 +249,7 @@ Occlusion Accel::occluded(const Ray& ray) const {
   EmbreeQuery query;
   init(query, &rays);
   RTCRay r = embree_ray(ray);
+  if (!is_castable(r, impl_->most)) return {1, 0};
   if (impl_->moves) r.time = impl_->embree_time(ray.time);
 #if MLT_EMBREE_MAJOR >= 4
   rtcOccluded1(impl_->scene, &r, &query.occluded);
@@ -240,7 +264,7 @@ void Accel::intersect(const RayPacket& packet, const Ray* const* exact, bool coh
   EmbreeQuery query;
   init(query, exact);
   alignas(32) int valid[RayPacket::size];
-  fill_valid(packet.count, valid);
+  fill_valid(packet, impl_->most, valid);
   RTCRayHit8 rayhit;
   fill(packet, rayhit.ray);
   impl_->set_times(packet, rayhit.ray);
@@ -271,7 +295,7 @@ Occlusion Accel::occluded(const RayPacket& packet) const {
   EmbreeQuery query;
   init(query, nullptr);
   alignas(32) int valid[RayPacket::size];
-  fill_valid(packet.count, valid);
+  fill_valid(packet, impl_->most, valid);
   RTCRay8 rays;
   fill(packet, rays);
   impl_->set_times(packet, rays);
@@ -281,7 +305,10 @@ Occlusion Accel::occluded(const RayPacket& packet) const {
   rtcOccluded8(valid, impl_->scene, &query.base, &rays);
 #endif
   Occlusion found{0, query.passed};
-  for (int i = 0; i < packet.count; ++i) found.blocked |= unsigned{rays.tfar[i] < 0} << i;
+  for (int i = 0; i < packet.count; ++i) {
+    const unsigned blocked = (rays.tfar[i] < 0) | !valid[i];
+    found.blocked |= blocked << i;
+  }
   return found;
 }
 

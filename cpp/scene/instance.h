@@ -44,6 +44,12 @@ struct AffineMap {
 
   Vec3 point(const Vec3& p) const { return linear * p + offset; }
   Vec3 point_back(const Vec3& p) const { return inverse * (p - offset); }
+  /// Bounds of the factors by which lengths grow.
+  double least_scale() const { return 1 / largest(inverse); }
+  double greatest_scale() const { return largest(linear); }
+
+ private:
+  static double largest(const Mat3& m) { return length(m[0]) + length(m[1]) + length(m[2]); }
 };
 
 class Instance final : public Shape {

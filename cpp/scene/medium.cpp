@@ -1,5 +1,8 @@
 #include "scene/medium.h"
 
+#include "base/magnitude.h"
+#include "base/params.h"
+
 namespace mlt {
 namespace {
 
@@ -10,6 +13,12 @@ void pass(const Medium& medium, const Flight& flight, Passage& passed) {
 }
 
 }  // namespace
+
+void check_extinction(const Params& params, double greatest) {
+  if (too_large(greatest))
+    params.fail(fmt::format("has an extinction of {:g}, but at most {:g} is right", greatest,
+                            largest_magnitude));
+}
 
 void fly(const Medium& medium, const Ray& ray, double distance, Passage& passed) {
   pass(medium, medium.fly(ray, {distance}), passed);

@@ -12,6 +12,8 @@
 
 namespace mlt {
 
+class Params;
+
 /// Per unit of length.
 struct MediumCoefficients {
   Spectrum extinction{0};  ///< sigma_t: of the light along a ray, what is absorbed or scattered.
@@ -40,6 +42,9 @@ class Medium : public Object {
 };
 
 using MediumPtr = std::shared_ptr<const Medium>;
+
+/// Throws SceneError for an extinction whose free paths are too short.
+void check_extinction(const Params& params, double greatest);
 
 /// Adds what a medium lets pass of the light along a ray, up to a distance.
 void fly(const Medium& medium, const Ray& ray, double distance, Passage& passed);

@@ -1,5 +1,6 @@
 #include "scene/scene.h"
 
+#include "base/magnitude.h"
 #include "scene/emitter/infinite.h"
 #include "scene/instance.h"
 #include "scene/mesh.h"
@@ -30,6 +31,34 @@ Bounds enclosing_sphere(const std::vector<ShapePtr>& shapes, const Camera& camer
 }
 
 namespace {
+
+/// Throws SceneError for a shape that is too far away or too large for rays.
+void check_extent(const Shape& shape) {
+  Vec3 low, high;
+  shape.bounds(low, high);
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double x : {low[axis], high[axis]})
+      if (too_large(x))
+        throw SceneError(at(shape.where,
+                            "shape '{}' reaches the coordinate {:g}, but should have none beyond "
+                            "{:g}",
+                            shape.type, x, largest_magnitude));
+}
+
+/// Throws SceneError for an instance in whose group's space rays are too large, in a scene with
+/// coordinates up to `reach`.
+void check_scale(const Instance& instance, double reach) {
+  constexpr double most = 1e12;  // whose volume is no infinite float
+  for (const Mat4& step : instance.motion().steps()) {
+    const AffineMap map(step);
+    const double least = std::max(1 / most, (reach + length(map.offset)) / largest_magnitude),
+                 scale = map.least_scale() < least ? map.least_scale() : map.greatest_scale();
+    if (!(scale >= least && scale <= most))
+      throw SceneError(at(instance.where,
+                          "shape '{}' scales lengths by {:g}, but here {:g} to {:g} is right",
+                          instance.type, scale, least, most));
+  }
+}
 
 LaneMesh lane_mesh(const Shape& shape) {
   const Mesh* mesh = shape.as_mesh();
@@ -74,7 +103,16 @@ Scene::Scene(std::vector<ShapePtr> shapes, std::vector<EmitterPtr> emitters, Cam
   if (!camera_) throw SceneError("the scene has no sensor; add <sensor type=\"perspective\">");
   if (emitters_.empty())
     throw SceneError("the scene has no emitter; add a light, or everything is black");
+  const std::vector<ShapePtr> grouped = grouped_shapes(shapes_);
+  for (const auto& some : {shapes_, grouped})
+    for (const ShapePtr& shape : some) check_extent(*shape);
+  if (too_large(camera_->lens_radius()))
+    throw SceneError(at(camera_->where, "the lens has the radius {:g}, but at most {:g} is right",
+                        camera_->lens_radius(), largest_magnitude));
   bounds_ = enclosing_sphere(shapes_, *camera_);
+  for (const ShapePtr& shape : shapes_)
+    if (const Instance* instance = shape->as_instance())
+      check_scale(*instance, length(bounds_.center) + bounds_.radius);
   camera_->set_bounds(bounds_);
   camera_->set_spectral(film_ && film_->spectral);
   camera_->set_band(film_ ? film_->band : std::nullopt);
@@ -91,7 +129,6 @@ Scene::Scene(std::vector<ShapePtr> shapes, std::vector<EmitterPtr> emitters, Cam
   accel_ = known && known->serves(shapes_, camera_->shutter())
                ? known
                : std::make_shared<const Accel>(shapes_, camera_->shutter());
-  const std::vector<ShapePtr> grouped = grouped_shapes(shapes_);
   shapes_.insert(shapes_.end(), grouped.begin(), grouped.end());
   for (size_t i = 0; i < shapes_.size(); ++i) shapes_[i]->set_index(static_cast<uint32_t>(i));
   find_media(grouped.size());

@@ -116,7 +116,7 @@ inline void join(const JointLanes& from_light, const JointLanes& from_camera,
     rays.o.set(i, start);
     rays.w.set(i, ray * (1 / length));
     rays.length[i] =
-        at_a.scatters & at_b.scatters ? length * static_cast<float>(1 - ray_offset) : 0;
+        (at_a.scatters & at_b.scatters) ? length * static_cast<float>(1 - ray_offset) : 0;
   }
   for (int j = 0; j < lanes; ++j)
     for (int i = 0; i < JointLanes::size; ++i)

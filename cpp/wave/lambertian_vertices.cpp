@@ -28,7 +28,8 @@ void LambertianVertices::unshadowed_lights(int count, bool strict_normals, const
     const float distance2 = dot(to_light, to_light);
     const Vec3f w = to_light * (1 / std::sqrt(distance2));
     const float cos_y = -dot(w, ny), pdf = light_pdf[i] * distance2 / cos_y;
-    const bool lit = (light_pdf[i] > 0) & (cos_y > 0) & is_lit_from(i, w, strict_normals);
+    const bool turned = is_lit_from(i, w, strict_normals);
+    const bool lit = (light_pdf[i] > 0) & (cos_y > 0) & turned;
     const float weight = direct_weight(cosine(i, w), pdf, mis);
     light_weight[i] = lit ? weight : 0;
     wl.set(i, w);
@@ -50,8 +51,9 @@ void LambertianVertices::sample_directions(int count, bool strict_normals) {
     const float cos_c = dot(wc_[i], n[i]);
     const Vec3f to = sample_lambertian(cos_c, Vec2f(u_x[i], u_y[i]));
     const Vec3f direction = FrameOf<float>::around(n[i]).to_world(to), ng = surface.ng[i];
-    const bool ok = scatters(cos_c, back[i] > 0) & (sides[i] > 0) &
-                    consistent_sides(ng, n[i], direction, strict_normals);
+    const bool scattered = scatters(cos_c, back[i] > 0),
+               consistent = consistent_sides(ng, n[i], direction, strict_normals);
+    const bool ok = scattered & (sides[i] > 0) & consistent;
     scatter_pdf[i] = ok ? std::fabs(to.z) * float(inv_pi) : 0;
     o.set(i, ray_origin(p[i], ng, direction, surface.extent[i]));
     w.set(i, direction);

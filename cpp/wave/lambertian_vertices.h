@@ -155,8 +155,9 @@ struct LambertianVertices {
   /// Whether light from the direction wl is scattered to the camera.
   bool is_lit_from(int i, const Vec3f& wl, bool strict_normals) const {
     const float cos_l = dot(wl, n[i]), cos_c = dot(wc_[i], n[i]);
-    return (cos_l * cos_c > 0) & scatters(cos_c, back[i] > 0) & (sides[i] > 0) &
-           consistent_sides(surface.ng[i], n[i], wl, strict_normals);
+    const bool scattered = scatters(cos_c, back[i] > 0),
+               consistent = consistent_sides(surface.ng[i], n[i], wl, strict_normals);
+    return (cos_l * cos_c > 0) & scattered & (sides[i] > 0) & consistent;
   }
   /// Sets the shadow ray of the i-th vertex to one in this direction.
   void aim_at_infinity(int i, const Vec3f& direction) {
@@ -168,7 +169,8 @@ struct LambertianVertices {
   bool leave_in(int i, const Vec3f& direction, bool strict_normals) {
     o.set(i, ray_origin(p[i], surface.ng[i], direction, surface.extent[i]));
     w.set(i, direction);
-    return (sides[i] > 0) & consistent_sides(surface.ng[i], n[i], direction, strict_normals);
+    const bool consistent = consistent_sides(surface.ng[i], n[i], direction, strict_normals);
+    return (sides[i] > 0) & consistent;
   }
   /// |cos| of a direction from the i-th vertex.
   float cosine(int i, const Vec3f& w) const { return std::fabs(dot(w, n[i])); }

@@ -1,5 +1,6 @@
 """Jobs: determinism, budgets, progress, cancelling, Ctrl-C."""
 
+import contextlib
 import os
 import signal
 import subprocess
@@ -268,7 +269,7 @@ def white_room():
     """A closed room where nothing is absorbed: only Russian roulette or max_depth end a path."""
     scene = mlt.scenes.furnace()
     scene["shape"]["bsdf"]["reflectance"]["value"] = [1, 1, 1]
-    return mlt.load_dict(scene, size=(64, 48))
+    return mlt.load_dict(scene, size=(512, 384))
 
 
 def endless(name: str) -> dict:
@@ -283,10 +284,12 @@ CHAINS = ["pssmlt", "mlt"]
 def test_time_ends_samples_whose_paths_do_not_end():
     """All at once, since a render waits seconds for a path before it gives it up."""
     scene = white_room()
+    start = time.perf_counter()
     jobs = [mlt.start(scene, endless(name), time=0.3, threads=1) for name in SAMPLERS]
     for job in jobs:
-        with pytest.raises(mlt.RenderError, match="before the first sample"):
+        with contextlib.suppress(mlt.RenderError):  # that there is no sample yet
             job.result()
+    assert time.perf_counter() - start < 20
 
 
 @pytest.mark.parametrize("name", CHAINS)
@@ -304,7 +307,7 @@ def test_cancel_ends_renders_whose_paths_do_not_end(tmp_path):
         job.cancel()
     for job in jobs:
         job.wait()
-    check_that_it_gave_up_a_path(jobs[0], tmp_path)
+    check_that_it_gave_up_a_path(jobs[SAMPLERS.index("bdpt")], tmp_path)
 
 
 def check_that_it_gave_up_a_path(job, folder):
@@ -355,3 +358,62 @@ def is_told_of_the_fork(look):
     except mlt.RenderError as error:
         return "in the process that started it" in str(error) and not hasattr(error, "result")
     return False
+
+
+MIRRORS = """\
+<scene version="3.0.0">
+  <sensor type="perspective"><film type="hdrfilm">
+    <integer name="width" value="16"/><integer name="height" value="16"/>
+  </film></sensor>
+  <shape type="cube">
+    <transform name="to_world"><scale value="-5"/></transform>
+    <bsdf type="twosided">
+      <bsdf type="conductor"><string name="material" value="none"/></bsdf>
+    </bsdf>
+  </shape>
+  <emitter type="point"><point name="position" x="0" y="2" z="1"/></emitter>
+</scene>
+"""
+
+
+@pytest.mark.parametrize("name", ["bdpt", "mlt", "mmlt", "erpt"])
+def test_time_ends_walks_between_mirrors(name):
+    """No pair of the thousands of vertices of two walks needs a ray, by which walks are stopped."""
+    start = time.perf_counter()
+    endless = {"type": name, "max_depth": -1, "rr_depth": 2**31 - 1}
+    with contextlib.suppress(mlt.RenderError):  # that the time was too short
+        mlt.start(mlt.load_string(MIRRORS), endless, time=0.5).result()
+    assert time.perf_counter() - start < 20
+
+
+def test_preparation_by_searches_through_glass_is_bounded():
+    """All light comes through a glass ball, and much of it by way of further balls."""
+    rng = np.random.default_rng(1)
+    balls = {
+        f"ball {i}": {
+            "type": "sphere",
+            "center": place.tolist(),
+            "radius": 0.2,
+            "bsdf": {"type": ["dielectric", "conductor"][i % 2]},
+        }
+        for i, place in enumerate(rng.uniform(-0.7, 0.7, (12, 3)))
+    }
+    camera = mlt.Transform.look_at(origin=[0, 0, 0.95], target=[0, 0, -1], up=[0, 1, 0])
+    scene = mlt.load_dict(
+        {
+            "type": "scene",
+            "sensor": {"type": "perspective", "fov": 60.0, "to_world": camera},
+            "walls": {"type": "cube", "bsdf": {"type": "twosided", "bsdf": {"type": "diffuse"}}},
+            "glass": {
+                "type": "sphere",
+                "center": [0, 0.5, 0],
+                "radius": 0.3,
+                "bsdf": {"type": "dielectric"},
+            },
+            "lamp": {"type": "point", "position": [0, 0.5, 0.1]},
+            **balls,
+        },
+        size=(16, 16),
+    )
+    stats = mlt.start(scene, "mlt", spp=0.1, threads=1).result().stats
+    assert stats["seconds"]["bootstrap"] < 8  # three on an idle processor

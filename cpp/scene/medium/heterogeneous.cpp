@@ -19,6 +19,7 @@ class Heterogeneous final : public Medium {
     if (max_component(albedo_->maximum()) > 1)
       params.fail("albedo", fmt::format("reaches {:f}, but must lie between 0 and 1",
                                         max_component(albedo_->maximum())));
+    check_extinction(params, scale_ * max_component(extinction_->maximum()));
   }
 
   MediumCoefficients at(const Vec3& p, double wavelength) const override {

@@ -51,6 +51,7 @@ class Homogeneous final : public Medium {
   explicit Homogeneous(Params& params)
       : Medium(phase_param(params)), coefficients_(read_coefficients(params)) {
     in_rgb_ = coefficients_.at(rgb_lanes);
+    check_extinction(params, max_component(in_rgb_.extinction));
   }
 
   MediumCoefficients at(const Vec3&, double wavelength) const override {

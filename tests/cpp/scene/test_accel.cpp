@@ -117,5 +117,29 @@ TEST(Accel, FindsTheSameInPackets) {
   EXPECT_GT(hits, 500);
 }
 
+TEST(Accel, TakesNoRayThatWouldEndTheProcess) {
+  Rng rng(3, Purpose::test, 0);
+  const Accel accel(random_shapes(60, rng));
+  const double nan = std::nan("");
+  for (const double x : {nan, infinity, 1e19, -1e30}) {
+    const Ray spoilt[] = {{Vec3(0, x, 0), Vec3(0, 0, 1)},
+                          {Vec3(0, 0, 0), Vec3(0, x, 1)},
+                          {Vec3(0, 0, 0), Vec3(0, 0, 1), 0, nan}};
+    for (const Ray& ray : spoilt) {
+      Hit hit;
+      EXPECT_FALSE(accel.intersect(ray, hit));
+      EXPECT_EQ(accel.occluded(ray).blocked, 1u);
+      RayPacket packet;
+      packet.add(ray);
+      packet.add(ray);
+      const Ray* exact[] = {&ray, &ray};
+      PacketHits found;
+      accel.intersect(packet, exact, false, found);
+      EXPECT_EQ(found.shape[1], SurfacePoint::no_shape);
+      EXPECT_EQ(accel.occluded(packet).blocked, 3u);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace mlt
