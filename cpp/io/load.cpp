@@ -225,9 +225,8 @@ LoadedScene build_scene(const Node& tree, const Registry& registry, const LoadOp
   const std::vector<std::string> warnings = loaded.warnings;
   std::optional<Builder> builder(std::in_place, scene, registry, loaded.warnings, known);
   Contents contents = build_contents(scene, sensor, options.size, *builder);
-  const Bounds bounds = enclosing_sphere(contents.shapes, *contents.view.camera);
-  check_extent(bounds, scene.where);
-  const Origins origins = builder->better_origins(bounds);
+  const Origins origins =
+      builder->better_origins(enclosing_sphere(contents.shapes, *contents.view.camera));
   if (origins.any()) {
     loaded.warnings = warnings;
     builder.emplace(scene, registry, loaded.warnings, known, origins);
@@ -237,6 +236,7 @@ LoadedScene build_scene(const Node& tree, const Registry& registry, const LoadOp
   loaded.scene = std::make_shared<Scene>(std::move(contents.shapes), std::move(contents.emitters),
                                          view.camera, view.film, view.sample_count,
                                          known ? known->accel : nullptr, origins.scene);
+  check_extent(loaded.scene->bounds(), scene.where);
   for (const auto& warnings : {warnings_of_coincident_lights(*loaded.scene),
                                warnings_of_crossing_boundaries(*loaded.scene)})
     loaded.warnings.insert(loaded.warnings.end(), warnings.begin(), warnings.end());
