@@ -145,6 +145,6 @@ def test_a_unit_of_length_that_cannot_be_right_is_refused(integrator):
     right = mean(1.0)
     for size in (1e-12, 1e-6, 1e6, 1e12):
         assert mean(size) == pytest.approx(right, rel=0.02)
-    for size in (1e-15, 1e-14, 1e14, 1e17):
+    for size in (1e-15, 1e-14, 2e13, 1e14):
         with pytest.raises(mlt.SceneError, match="choose another unit of length"):
             mlt.load_dict(cube(size))
