@@ -2,6 +2,7 @@
 # build what is missing; `make demo` leaves out what only tests and documentation need. On Debian and Ubuntu nothing but git, make and python3 needs to be there.
 
 PYTHON ?= python3
+UV ?= uv
 JOBS ?= $(shell nproc)
 DEMO_SCENE ?= scenes/ring/scene.xml
 # Longer paths show the caustic again in the ring's metal: that light needs more time than a demo has.
@@ -35,7 +36,7 @@ export PIP_DISABLE_PIP_VERSION_CHECK = 1
 
 .DEFAULT_GOAL := build
 .DELETE_ON_ERROR:
-.PHONY: setup editor build quick demo docs test test-long mutants asan separate fuzz soak differential wheel blender release-check \
+.PHONY: setup lock editor build quick demo docs test test-long mutants asan separate fuzz soak differential wheel blender release-check \
         lint format clean distclean
 
 # ---- set-up ------------------------------------------------------------------------------------
@@ -45,19 +46,22 @@ $(STAMPS)/apt $(STAMPS)/apt-test $(STAMPS)/apt-fuzz: $(STAMPS)/apt%: cmake/apt-p
 	cmake/install-apt-packages.sh $<
 	@mkdir -p $(@D) && touch $@
 
-$(VENV)/.stamp: requirements/constraints.txt pyproject.toml | $(STAMPS)/apt
+$(VENV)/.stamp: requirements/build.txt | $(STAMPS)/apt
 	test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
 	$(BIN)/python -c 'import sys; assert sys.version_info >= (3, 11), "pymlt needs Python 3.11"'
-	$(call install_for,)
+	$(BIN)/pip install -q --require-hashes -r $<
 	@touch $@
 
-# What `pip install .[$(1)]` would install, but for the package itself.
-install_for = $(BIN)/pip install -q -c requirements/constraints.txt \
-  $$($(BIN)/python cmake/list_dependencies.py pyproject.toml $(1))
-
-$(STAMPS)/dev $(STAMPS)/docs $(STAMPS)/fuzz: $(STAMPS)/%: $(VENV)/.stamp | $(STAMPS)/apt-test
-	$(call install_for,$*)
+$(STAMPS)/dev $(STAMPS)/docs $(STAMPS)/fuzz: $(STAMPS)/%: requirements/%.txt $(VENV)/.stamp | $(STAMPS)/apt-test
+	$(BIN)/pip install -q --require-hashes -r $<
 	@mkdir -p $(@D) && touch $@
+
+# The exact versions, with hashes, that these extras of pyproject.toml need, and what that needs.
+lock:
+	for extra in build dev docs fuzz release; do \
+	  $(UV) pip compile -q --universal --python-version 3.11 --generate-hashes --no-annotate \
+	    --no-header $(LOCK_FLAGS) --extra $$extra -o requirements/$$extra.txt pyproject.toml || exit 1; \
+	done
 
 # What clangd reads: how each file is compiled by itself, and the headers that CMake writes.
 editor: $(STAMPS)/dev
@@ -177,8 +181,9 @@ wheel: $(STAMPS)/dev
 # denoiser; Blender has numpy itself.
 blender: $(STAMPS)/dev
 	test -n "$(wildcard dist/*.whl)" || $(MAKE) wheel
-	$(BIN)/pip download -q --no-deps -c requirements/constraints.txt -d build/blender \
-	  pyoidn cffi pycparser
+	grep -A99 -E '^(pyoidn|cffi|pycparser)==' requirements/dev.txt | awk '/^[a-z]/ {on = /^(pyoidn|cffi|pycparser)==/} on' \
+	  >build/denoiser.txt
+	$(BIN)/pip download -q --no-deps --require-hashes -r build/denoiser.txt -d build/blender
 	$(BIN)/python release/make_extension.py dist/*.whl build/blender/*.whl
 
 # Where debootstrap runs (as root), in fresh systems; else in fresh virtual environments.

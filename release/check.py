@@ -23,6 +23,7 @@ import pymlt as mlt
 
 ROOTS = ROOT / "build" / "roots"
 DEBIAN, UBUNTU = "http://deb.debian.org/debian", "http://archive.ubuntu.com/ubuntu"
+UBUNTU_KEYS = "/usr/share/keyrings/ubuntu-archive-keyring.gpg"
 SUITES = {"bookworm": DEBIAN, "trixie": DEBIAN, "noble": UBUNTU}
 RENDER = ["glass-ball", "--integrator", "mlt", "--size", "64x64", "--spp", "8", "--quiet"]
 INSTALL_SECONDS, FIRST_IMAGE_SECONDS = 30, 5  # of CPU time, which other programs do not change
@@ -84,9 +85,10 @@ def make_root(suite: str) -> Path | None:
         remove_root(folder)
     ROOTS.mkdir(parents=True, exist_ok=True)
     ubuntu = SUITES[suite] == UBUNTU
-    # Debian's debootstrap need not know Ubuntu's newest names, nor its keys.
+    # Debian's debootstrap need not know Ubuntu's newest names, nor where its keys are. Without them
+    # it makes no root.
     script = ["/usr/share/debootstrap/scripts/gutsy"] if ubuntu else []
-    flags = ["--components=main,universe", "--no-check-gpg"] if ubuntu else []
+    flags = ["--components=main,universe", f"--keyring={UBUNTU_KEYS}"] if ubuntu else []
     command = ["debootstrap", "--variant=minbase", "--include=python3,python3-venv"]
     with log.open("w") as output:
         done = subprocess.run(
@@ -184,7 +186,7 @@ def main() -> None:
     files = sorted(DIST.glob("*.whl"))
     assert files, "make wheel first"
     (source,) = DIST.glob("*.tar.gz")
-    twine = tools(sys.executable, BUILD / "twine", "twine")
+    twine = tools(sys.executable, BUILD / "tools", "release")
     run(twine / "twine", "check", "--strict", *files, source)
     check_source(source)
     wheels = {re.search(r"-(cp\d+)-", file.name)[1]: file for file in files}

