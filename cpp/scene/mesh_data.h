@@ -57,7 +57,8 @@ struct MeshData {
 /// not finite, or a buffer has the wrong length.
 void check_mesh(const MeshData& data, const Location& where);
 
-/// Applies a transform to positions and normals; the origin becomes 0. Throws SceneError at `where` if it is singular.
+/// Applies a transform to positions and normals; the origin becomes 0. Throws SceneError at `where`
+/// if the transform is singular.
 void transform_mesh(MeshData& data, const Mat4& to_world, const Location& where);
 
 /// Sets every vertex normal to the mean of the normals of its triangles, weighted by their angles

@@ -110,9 +110,9 @@ inline TestScene make_scene(const std::string& name, const LoadOptions& options 
   return {name, without_warnings(load_file("tests/scenes/" + name + ".xml", plugins(), options))};
 }
 
-/// The same scene for the eye: a pane that light passes and no ray meets stands first in it, and its
-/// shapes are in reversed order if that is asked for. So a scene becomes one with passages, and no
-/// other shape is the first.
+/// The same scene for the eye: a pane that light passes and no ray meets stands first in it, and
+/// its shapes are in reversed order if that is asked for. So a scene becomes one with passages, and
+/// no other shape is the first.
 inline TestScene with_pane_first(const std::string& name, bool reversed = false) {
   std::vector<std::string> warnings;
   Node tree = read_xml_file("tests/scenes/" + name + ".xml", {}, warnings);
