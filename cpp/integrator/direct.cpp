@@ -28,6 +28,7 @@ class DirectEstimator : public Estimator, public SampledDefaults {
     settings.rules.rr_depth = PathRules::no_roulette;
     settings.rules.hide_emitters = params.boolean("hide_emitters");
     settings.rules.strict_normals = params.boolean("strict_normals");
+    settings.rules.waves = params.boolean("waves");
     return settings;
   }
   static SampledSettings film(const DirectSettings&) { return camera_walks(); }
@@ -36,7 +37,7 @@ class DirectEstimator : public Estimator, public SampledDefaults {
     const auto& [emitter_samples, bsdf_samples, rules] = settings;
     if (emitter_samples == 1 && bsdf_samples == 1)
       return take_alone(PathEstimator(scene, rules),
-                        std::make_unique<PathSampleWave>(scene, rules, Heuristic::power));
+                        PathSampleWave::where_wanted(scene, rules, Heuristic::power));
     return take_alone(DirectEstimator(scene, settings));
   }
   DirectEstimator(const Scene& scene, const DirectSettings& settings)
@@ -125,7 +126,7 @@ Plugin integrator_direct() {
          {},
          "Samples of the BSDF per camera ray (default: shading_samples)."}}});
   for (const Parameter& shared : path_parameters())
-    if (shared.name == "hide_emitters" || shared.name == "strict_normals")
+    if (shared.name != "max_depth" && shared.name != "rr_depth")
       schema.parameters.push_back(shared);
   return make_plugin<SampledIntegrator<DirectEstimator>>(schema);
 }

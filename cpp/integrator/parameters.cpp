@@ -9,14 +9,17 @@ namespace mlt {
 std::vector<Parameter> path_parameters() {
   return {
       {"max_depth", ParamType::integer, int64_t{-1},
-       "Edges of the longest path: 1 shows the lights alone, 2 adds direct light, -1 is "
-       "unbounded."},
+       "Edges of the longest path: 1 shows the lights alone, 2 adds direct light, -1 stands for "
+       "4096, which is also the most."},
       {"rr_depth", ParamType::integer, int64_t{5},
        "Depth from which on Russian roulette may end a path."},
       {"hide_emitters", ParamType::boolean, false,
        "Leave out lights that the camera sees directly."},
       {"strict_normals", ParamType::boolean, false,
        "Refuse directions that the geometric and the shading normal see on different sides."},
+      {"waves", ParamType::boolean, true,
+       "Trace many paths side by side where that is possible (cpp/wave); else one by one, by the "
+       "code that defines them (cpp/path). Both make the same image."},
   };
 }
 
@@ -29,6 +32,7 @@ PathRules path_rules(Params& params) {
   rules.rr_depth = static_cast<int>(params.integer_in("rr_depth", 1, most));
   rules.hide_emitters = params.boolean("hide_emitters");
   rules.strict_normals = params.boolean("strict_normals");
+  rules.waves = params.boolean("waves");
   return rules;
 }
 

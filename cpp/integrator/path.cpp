@@ -13,7 +13,7 @@ struct PathIntegrator : SampledDefaults {
   static SampledSettings film(const PathRules&) { return camera_walks(); }
   static std::unique_ptr<SampleTaker> taker(const Scene& scene, const PathRules& rules) {
     return take_alone(PathEstimator(scene, rules),
-                      std::make_unique<PathSampleWave>(scene, rules, Heuristic::power));
+                      PathSampleWave::where_wanted(scene, rules, Heuristic::power));
   }
 };
 

@@ -92,7 +92,7 @@ class Pssmlt : public MetropolisAlgorithm {
   }
   std::unique_ptr<SampleTaker> sample_taker(const FamilyWeights& weights) const override {
     std::unique_ptr<PathSampleWave> wave;
-    if (is_path) wave = std::make_unique<PathSampleWave>(*scene_, settings_.path, Heuristic::power);
+    if (is_path) wave = PathSampleWave::where_wanted(*scene_, settings_.path, Heuristic::power);
     return take_beside_chains(*scene_, estimator(), targeting(), weights, std::move(wave));
   }
   std::unique_ptr<RenderChain> start(const ChainId& id, Rng candidate, Rng) const override {
@@ -200,6 +200,7 @@ class PssmltIntegrator : public Integrator {
     if (estimator_ == "bdpt")
       return std::make_unique<Pssmlt<BidirectionalEstimator>>(scene, settings_);
     if (estimator_ == "ptracer") return std::make_unique<Pssmlt<LightEstimator>>(scene, settings_);
+    if (!settings_.path.waves) return std::make_unique<Pssmlt<PathEstimator>>(scene, settings_);
     return std::make_unique<WalkPssmlt>(scene, settings_);
   }
 

@@ -1,5 +1,6 @@
 // Multiple importance sampling over the techniques that can make a path (Veach 1997, ch. 9 and
-// sec. 10.2).
+// sec. 10.2). Waves find their weights by the same MisExponent (wave/joint_lanes.h,
+// wave/lambertian_vertices.h).
 #pragma once
 
 #include "math/vec.h"

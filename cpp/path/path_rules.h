@@ -13,6 +13,8 @@ struct PathRules {
   static constexpr int no_roulette = std::numeric_limits<int>::max();  ///< As rr_depth: never.
   bool hide_emitters = false;   ///< Leave out lights that the camera sees directly.
   bool strict_normals = false;  ///< See `consistent_sides`.
+  /// Whether waves (cpp/wave) make the paths where they can; else cpp/path, one by one.
+  bool waves = true;
 
   /// The probability of surviving Russian roulette, by a factor of the throughput.
   static double survival(double factor) { return std::min(factor, 0.95); }

@@ -1,5 +1,6 @@
 // Unidirectional path tracing (Kajiya 1986) with next-event estimation, combined with scattering by
-// multiple importance sampling (Veach & Guibas 1995, power heuristic).
+// multiple importance sampling (Veach & Guibas 1995, power heuristic). This is the text to read and
+// to change first; `path` renders by wave/path_wave.h, which is tested against it (docs/waves.md).
 #pragma once
 
 #include "path/mis.h"

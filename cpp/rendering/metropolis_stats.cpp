@@ -9,17 +9,8 @@
 namespace mlt {
 namespace {
 
-/// If half of the light comes from fewer samples, there may well be more that none has found.
-constexpr uint64_t few_samples = 100;
-
-void warn_of_waiting_tours(Stats& stats) {
-  constexpr double much = 0.02;
-  if (stats.tours_waiting > much)
-    stats.warnings.push_back(fmt::format(
-        "{:.0f} % of the mutations wait for their turn in long tours: some light was found rarely, "
-        "and is shown too dark; render for longer",
-        100 * stats.tours_waiting));
-}
+/// From this uncertainty of the brightness on the error of an image is not to be relied on.
+constexpr double uncertain_level = 0.08;
 
 }  // namespace
 
@@ -78,16 +69,12 @@ void MetropolisRendering::add_level(Stats& stats) const {
   stats.samples_carrying_half = classes.carrying_half();
   if (b.mean > 0)
     stats.level_error = std::hypot(stats.b_error, group_estimator().missing()) / b.mean;
-  if (stats.level_error > 0.05)
+  if (stats.level_error > uncertain_level)
     stats.warnings.push_back(fmt::format(
         "the image may be {:.0f} % too bright or too dark: some light is found so rarely that its "
-        "amount is not known yet; render for longer",
-        100 * stats.level_error));
-  if (b.mean > 0 && stats.samples_carrying_half < few_samples)
-    stats.warnings.push_back(fmt::format(
-        "half of the light comes from {} of {} independent samples: there may be more that none "
-        "has found; render for longer",
-        stats.samples_carrying_half, b.count));
+        "amount is not known yet, and {:.0f} % of the mutations wait in long tours; render for "
+        "longer",
+        100 * stats.level_error, 100 * stats.tours_waiting));
   if (!allocation_.in_time)
     stats.warnings.push_back(
         "the time was too short to prepare chains: the image is one of independent samples");
@@ -100,8 +87,6 @@ void MetropolisRendering::add_level(Stats& stats) const {
 void MetropolisRendering::add_stats(Stats& stats) const {
   if (samples_) samples_->add_stats(stats);
   if (settings_.only_camera_walks) warn_of_hidden_lights(scene(), stats);
-  add_level(stats);
-
   StuckChain stuck;
   const ChainStats sum = sum_of_stats(stuck);
   if (stuck.rejections > 0) stats.stuck = {stuck};
@@ -111,8 +96,8 @@ void MetropolisRendering::add_stats(Stats& stats) const {
   stats.tours = sum.tours;
   stats.longest_tour = sum.longest_tour;
   stats.tours_waiting = waiting();
+  add_level(stats);
   add_rows(algorithm_->rows(), sum.rows, stats);
-  warn_of_waiting_tours(stats);
   if (film_.saturated() > 0)
     stats.warnings.push_back(
         "the film's fixed-point range was exceeded; the brightest pixels are wrong");

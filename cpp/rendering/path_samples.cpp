@@ -76,7 +76,7 @@ std::unique_ptr<SampleTaker> traced_taker(const PathTarget& target, const Family
   };
   return take_alone(
       WeightedPathEstimator(target, weights_at),
-      std::make_unique<PathSampleWave>(scene, target.rules(), Heuristic::balance, weights_at));
+      PathSampleWave::where_wanted(scene, target.rules(), Heuristic::balance, weights_at));
 }
 
 }  // namespace

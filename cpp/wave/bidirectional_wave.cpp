@@ -38,8 +38,8 @@ void find_edges(const JointLanes& a, const JointTechnique& technique, const Surf
 }  // namespace
 
 bool BidirectionalWave::supports(const Scene& scene, const BidirectionalSettings& settings) {
-  return settings.sample_direct && settings.heuristic != Heuristic::maximum &&
-         !settings.manifolds && !scene.has_media();
+  return settings.rules.waves && settings.sample_direct &&
+         settings.heuristic != Heuristic::maximum && !settings.manifolds && !scene.has_media();
 }
 
 BidirectionalWave::BidirectionalWave(const Scene& scene, const BidirectionalSettings& settings,

@@ -27,8 +27,8 @@ class BidirectionalWave {
  public:
   static constexpr int capacity = SubpathWave::capacity;
 
-  /// Whether the scene has no media, and the settings ask for next-event estimation, for no
-  /// manifold samples and for a heuristic with an exponent.
+  /// Whether the scene has no media, and the settings ask for waves, for next-event estimation, for
+  /// no manifold samples and for a heuristic with an exponent.
   static bool supports(const Scene& scene, const BidirectionalSettings& settings);
   /// A wave, or nullptr where it does not support that.
   static std::unique_ptr<BidirectionalWave> where_supported(

@@ -5,6 +5,7 @@
 #include "wave/path_wave.h"
 
 #include <functional>
+#include <memory>
 #include <vector>
 
 namespace mlt {
@@ -13,7 +14,14 @@ class PathSampleWave {
  public:
   using WeightsAt = std::function<PathWeights(const Vec2& raster)>;
 
-  /// With `weights` the light of a sample counts with its weights beside chains.
+  /// A wave, or nullptr where the rules want none. With `weights` the light of a sample counts with
+  /// its weights beside chains.
+  static std::unique_ptr<PathSampleWave> where_wanted(const Scene& scene, const PathRules& rules,
+                                                      Heuristic heuristic,
+                                                      WeightsAt weights = nullptr) {
+    if (!rules.waves) return nullptr;
+    return std::make_unique<PathSampleWave>(scene, rules, heuristic, std::move(weights));
+  }
   PathSampleWave(const Scene& scene, const PathRules& rules, Heuristic heuristic,
                  WeightsAt weights = nullptr)
       : scene_(&scene), wave_(scene, rules, heuristic), weights_(std::move(weights)) {}

@@ -13,9 +13,9 @@ from ..rendering.result import Result
 from ..rendering.start import start
 from .metrics import target_luminance
 
-#: In the warnings of a render whose error is carried by few pixels, of one in which long tours have
-#: yet to make many of the mutations, and of one whose brightness is not known.
-WARNINGS = ("true error", "some light was found rarely", "its amount is not known yet")
+#: In the warnings of a render whose error is carried by few pixels, and of one whose brightness is
+#: not known.
+WARNINGS = ("true error", "its amount is not known yet")
 #: In the warning of an integrator to which some lights of the scene are invisible.
 BLIND = "cannot find the light"
 
