@@ -14,7 +14,7 @@ namespace {
 constexpr int channels = 4;       // R, G, B and the target luminance L of each pixel or block
 constexpr int fewest_groups = 8;  // to speak of a disagreement
 /// Where fewer pixels carry a larger error, it is not to be relied on. Of renders of random scenes
-/// by mlt this and its uncertain_level find nine in ten whose error is not .8 to 1.25 times what they
+/// by mlt this and its uncertain_level find most whose error is not .8 to 1.25 times what they
 /// claim (docs/error-calibration.md).
 constexpr double few_pixels = 30, large_error = 0.16;
 constexpr double largest_share = 0.5;  // of a block's light from one of them

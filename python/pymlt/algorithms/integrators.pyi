@@ -23,6 +23,9 @@ class BDPT(Integrator):
         Leave out lights that the camera sees directly.
     strict_normals : boolean, default False
         Refuse directions that the geometric and the shading normal see on different sides.
+    waves : boolean, default True
+        Trace many paths side by side where that is possible (cpp/wave); else one by one, by the
+        code that defines them (cpp/path). Both make the same image.
     light_image : boolean, default True
         Use techniques that connect light paths to the lens (t <= 1).
     sample_direct : boolean, default True
@@ -40,6 +43,7 @@ class BDPT(Integrator):
     rr_depth: int
     hide_emitters: bool
     strict_normals: bool
+    waves: bool
     light_image: bool
     sample_direct: bool
     heuristic: Literal["balance", "power", "maximum"]
@@ -52,6 +56,7 @@ class BDPT(Integrator):
         rr_depth: int = ...,
         hide_emitters: bool = ...,
         strict_normals: bool = ...,
+        waves: bool = ...,
         light_image: bool = ...,
         sample_direct: bool = ...,
         heuristic: Literal["balance", "power", "maximum"] = ...,
@@ -75,6 +80,9 @@ class Direct(Integrator):
         Leave out lights that the camera sees directly.
     strict_normals : boolean, default False
         Refuse directions that the geometric and the shading normal see on different sides.
+    waves : boolean, default True
+        Trace many paths side by side where that is possible (cpp/wave); else one by one, by the
+        code that defines them (cpp/path). Both make the same image.
     """
 
     shading_samples: int
@@ -82,6 +90,7 @@ class Direct(Integrator):
     bsdf_samples: int | None
     hide_emitters: bool
     strict_normals: bool
+    waves: bool
     def __init__(
         self,
         *,
@@ -90,6 +99,7 @@ class Direct(Integrator):
         bsdf_samples: int | None = ...,
         hide_emitters: bool = ...,
         strict_normals: bool = ...,
+        waves: bool = ...,
     ) -> None: ...
 
 class ERPT(Integrator):
@@ -108,6 +118,9 @@ class ERPT(Integrator):
         Leave out lights that the camera sees directly.
     strict_normals : boolean, default False
         Refuse directions that the geometric and the shading normal see on different sides.
+    waves : boolean, default True
+        Trace many paths side by side where that is possible (cpp/wave); else one by one, by the
+        code that defines them (cpp/path). Both make the same image.
     luminance_samples : integer, default 50000
         The pilot before the render draws about as many paths.
     chains : integer, default 512
@@ -162,6 +175,7 @@ class ERPT(Integrator):
     rr_depth: int
     hide_emitters: bool
     strict_normals: bool
+    waves: bool
     luminance_samples: int
     chains: int
     lens_perturbation: bool
@@ -191,6 +205,7 @@ class ERPT(Integrator):
         rr_depth: int = ...,
         hide_emitters: bool = ...,
         strict_normals: bool = ...,
+        waves: bool = ...,
         luminance_samples: int = ...,
         chains: int = ...,
         lens_perturbation: bool = ...,
@@ -230,6 +245,9 @@ class MLT(Integrator):
         Leave out lights that the camera sees directly.
     strict_normals : boolean, default False
         Refuse directions that the geometric and the shading normal see on different sides.
+    waves : boolean, default True
+        Trace many paths side by side where that is possible (cpp/wave); else one by one, by the
+        code that defines them (cpp/path). Both make the same image.
     luminance_samples : integer, default 50000
         The pilot before the render draws about as many paths.
     chains : integer, default 512
@@ -342,6 +360,7 @@ class MLT(Integrator):
     rr_depth: int
     hide_emitters: bool
     strict_normals: bool
+    waves: bool
     luminance_samples: int
     chains: int
     independent_share: float | None
@@ -394,6 +413,7 @@ class MLT(Integrator):
         rr_depth: int = ...,
         hide_emitters: bool = ...,
         strict_normals: bool = ...,
+        waves: bool = ...,
         luminance_samples: int = ...,
         chains: int = ...,
         independent_share: float | None = ...,
@@ -456,6 +476,9 @@ class MMLT(Integrator):
         Leave out lights that the camera sees directly.
     strict_normals : boolean, default False
         Refuse directions that the geometric and the shading normal see on different sides.
+    waves : boolean, default True
+        Trace many paths side by side where that is possible (cpp/wave); else one by one, by the
+        code that defines them (cpp/path). Both make the same image.
     luminance_samples : integer, default 50000
         Paths drawn to start the chains from; a pilot before that draws about as many.
     chains : integer, default 128
@@ -486,6 +509,7 @@ class MMLT(Integrator):
     rr_depth: int
     hide_emitters: bool
     strict_normals: bool
+    waves: bool
     luminance_samples: int
     chains: int
     independent_share: float | None
@@ -502,6 +526,7 @@ class MMLT(Integrator):
         rr_depth: int = ...,
         hide_emitters: bool = ...,
         strict_normals: bool = ...,
+        waves: bool = ...,
         luminance_samples: int = ...,
         chains: int = ...,
         independent_share: float | None = ...,
@@ -528,12 +553,16 @@ class Path(Integrator):
         Leave out lights that the camera sees directly.
     strict_normals : boolean, default False
         Refuse directions that the geometric and the shading normal see on different sides.
+    waves : boolean, default True
+        Trace many paths side by side where that is possible (cpp/wave); else one by one, by the
+        code that defines them (cpp/path). Both make the same image.
     """
 
     max_depth: int
     rr_depth: int
     hide_emitters: bool
     strict_normals: bool
+    waves: bool
     def __init__(
         self,
         *,
@@ -541,6 +570,7 @@ class Path(Integrator):
         rr_depth: int = ...,
         hide_emitters: bool = ...,
         strict_normals: bool = ...,
+        waves: bool = ...,
     ) -> None: ...
 
 class PSSMLT(Integrator):
@@ -558,6 +588,9 @@ class PSSMLT(Integrator):
         Leave out lights that the camera sees directly.
     strict_normals : boolean, default False
         Refuse directions that the geometric and the shading normal see on different sides.
+    waves : boolean, default True
+        Trace many paths side by side where that is possible (cpp/wave); else one by one, by the
+        code that defines them (cpp/path). Both make the same image.
     luminance_samples : integer, default 50000
         Paths drawn to start the chains from; a pilot before that draws about as many.
     chains : integer, default 256
@@ -591,6 +624,7 @@ class PSSMLT(Integrator):
     rr_depth: int
     hide_emitters: bool
     strict_normals: bool
+    waves: bool
     luminance_samples: int
     chains: int
     independent_share: float | None
@@ -608,6 +642,7 @@ class PSSMLT(Integrator):
         rr_depth: int = ...,
         hide_emitters: bool = ...,
         strict_normals: bool = ...,
+        waves: bool = ...,
         luminance_samples: int = ...,
         chains: int = ...,
         independent_share: float | None = ...,
@@ -635,12 +670,16 @@ class PTracer(Integrator):
         Leave out lights that the camera sees directly.
     strict_normals : boolean, default False
         Refuse directions that the geometric and the shading normal see on different sides.
+    waves : boolean, default True
+        Trace many paths side by side where that is possible (cpp/wave); else one by one, by the
+        code that defines them (cpp/path). Both make the same image.
     """
 
     max_depth: int
     rr_depth: int
     hide_emitters: bool
     strict_normals: bool
+    waves: bool
     def __init__(
         self,
         *,
@@ -648,6 +687,7 @@ class PTracer(Integrator):
         rr_depth: int = ...,
         hide_emitters: bool = ...,
         strict_normals: bool = ...,
+        waves: bool = ...,
     ) -> None: ...
 
 class RJMLT(Integrator):
@@ -665,6 +705,9 @@ class RJMLT(Integrator):
         Leave out lights that the camera sees directly.
     strict_normals : boolean, default False
         Refuse directions that the geometric and the shading normal see on different sides.
+    waves : boolean, default True
+        Trace many paths side by side where that is possible (cpp/wave); else one by one, by the
+        code that defines them (cpp/path). Both make the same image.
     luminance_samples : integer, default 50000
         Paths drawn to start the chains from; a pilot before that draws about as many.
     chains : integer, default 128
@@ -695,6 +738,7 @@ class RJMLT(Integrator):
     rr_depth: int
     hide_emitters: bool
     strict_normals: bool
+    waves: bool
     luminance_samples: int
     chains: int
     independent_share: float | None
@@ -711,6 +755,7 @@ class RJMLT(Integrator):
         rr_depth: int = ...,
         hide_emitters: bool = ...,
         strict_normals: bool = ...,
+        waves: bool = ...,
         luminance_samples: int = ...,
         chains: int = ...,
         independent_share: float | None = ...,
