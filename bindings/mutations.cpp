@@ -34,9 +34,16 @@ AuditReport run_audit(const LoadedPtr& loaded, const WeightedObjects& mixture, i
   how.threads = threads > 0 ? threads : hardware_threads();
   how.significance = significance;
   const auto [mutations, weights] = to_mixture(loaded, target, mixture);
-  return run_interruptibly([&](const std::atomic<bool>& cancelled) {
-    return audit(target, mutations, weights, how, cancelled);
-  });
+  repeat_proposals(mutations);
+  AuditReport report =
+      run_interruptibly([&, &mutations = mutations, &weights = weights](const auto& cancelled) {
+        return audit(target, mutations, weights, how, cancelled);
+      });
+  if (std::string fault = fault_of_repeated(mutations); !fault.empty()) {
+    report.verdict = Verdict::wrong;
+    report.reason = std::move(fault);
+  }
+  return report;
 }
 
 py::list tests(const AuditReport& report) {

@@ -1,6 +1,7 @@
 """Mutations that are written in Python: in the laboratory, in the audit, in renders."""
 
 import pickle
+import random
 import traceback
 
 import numpy as np
@@ -424,6 +425,18 @@ def test_an_audit_of_right_steps_ends_at_once(cornell_box):
     found = [mlt.audit(Nudge(4.0), cornell_box, paths=2500, seed=s) for s in range(20)]
     assert all(audit.verdict == "nothing found" for audit in found)
     assert sum(audit.steps > 4000 for audit in found) <= 1
+
+
+@pytest.mark.parametrize("elsewhere", [np.random.uniform, random.uniform])
+def test_an_audit_tells_of_random_numbers_from_elsewhere(scene, elsewhere):
+    class Elsewhere(Nudge):
+        def propose(self, x, rng):
+            return super().propose(x, np.random.default_rng(int(elsewhere(0, 2**32))))
+
+    audit = mlt.audit(Elsewhere(), scene, paths=2000)
+    assert audit.verdict == "wrong", audit.summary()
+    assert "Elsewhere.propose(x, rng) made LightPath" in audit.reason
+    assert "must draw from rng alone, not from np.random" in audit.summary()
 
 
 def test_an_audit_of_python_is_a_function_of_its_seed(scene):
