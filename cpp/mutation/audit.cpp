@@ -254,9 +254,13 @@ class Auditor {
     }
   }
 
+  /// A step, or 0 if it may be rounding.
+  static double no_rounding(double step) { return step > 1e-9 ? step : 0; }
+
   /// How far apart two images of paths are, by the width of the image.
   double step_in_image(const PathState& x, const PathState& y) const {
-    return length(Vec2(y.raster - x.raster) / Vec2(target_->scene().camera().raster().size));
+    return no_rounding(
+        length(Vec2(y.raster - x.raster) / Vec2(target_->scene().camera().raster().size)));
   }
   /// The greatest distance between vertices of the same place, by the size of the scene.
   double step_in_space(const PathState& x, const PathState& y) const {
@@ -265,7 +269,7 @@ class Auditor {
     for (int i = 0; i <= x.edges(); ++i)
       if (x[i].at.infinite() == y[i].at.infinite())
         most = std::max(most, length(y[i].at.p - x[i].at.p));
-    return std::min(1.0, most / target_->scene().bounds().radius);
+    return no_rounding(std::min(1.0, most / target_->scene().bounds().radius));
   }
 
   /// h(x, y) of all functions that a step from x may change: the plain ones, then by blocks.
