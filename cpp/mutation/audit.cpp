@@ -238,8 +238,9 @@ class Auditor {
   void evaluate(const PathState& x, const std::string& signature,
                 std::vector<double>& values) const {
     layout_.functions().evaluate(x, values);
-    for (size_t i = 0; i < layout_.signatures(); ++i)
-      values.push_back(i == layout_.index(signature));
+    values.resize(layout_.plain(), 0);
+    if (const size_t i = layout_.index(signature); i < layout_.signatures())
+      values[layout_.functions().size() + i] = 1;
   }
 
   /// g(y) - g(x) of all functions; 0 if it is no greater than rounding, such as that of a cosine
@@ -319,8 +320,10 @@ class Auditor {
     if (const size_t i = layout_.index(s.signature); i < layout_.signatures())
       s.blocks.push_back(layout_.of_signature(i));
     s.mean.assign(layout_.block(s.blocks.size()), 0);
+    int recorded = 0;
     const auto record = [&](const PathState& state, double share) {
-      if (!(share > 0)) return;
+      if (!(share > 0) || &state == &chain.state()) return;  // x: no change
+      ++recorded;
       evaluate_step(x, state, s, weight * share, sums);
       for_each_range(s, [&](size_t from, size_t to, size_t count) {
         for (size_t i = 0; i < count; ++i) {
@@ -349,7 +352,8 @@ class Auditor {
       }
     });
     if (result.accepted < 0) return;
-    evaluate_change(chain.state(), signature(chain.state().terms), s);
+    // Else what was accepted is what was recorded last.
+    if (recorded > 1) evaluate_change(chain.state(), signature(chain.state().terms), s);
     for (size_t g = 0; g < s.change.size(); ++g) sums.chosen[g] += weight * s.change[g];
   }
 
