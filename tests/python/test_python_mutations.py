@@ -400,6 +400,7 @@ def cornell_box():
 def test_an_audit_sees_steps_whose_width_depends_on_the_path(cornell_box):
     audit = mlt.audit(WideAtTheSide(4.0), cornell_box, paths=5000)
     assert audit.verdict == "wrong", audit.summary()
+    assert audit.steps < 6000  # at once
 
 
 def test_an_audit_goes_on_until_it_can_tell(cornell_box):
