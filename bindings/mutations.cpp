@@ -24,24 +24,38 @@ py::list all_mutations() {
 
 AuditReport run_audit(const LoadedPtr& loaded, const WeightedObjects& mixture, int max_depth,
                       bool hide_emitters, bool strict_normals, double near_specular, uint64_t paths,
-                      uint64_t seed, int threads, double significance) {
+                      uint64_t most_paths, uint64_t seed, int threads, double significance) {
   const PathTarget target(loaded->scene, path_rules(max_depth, hide_emitters, strict_normals),
                           near_specular);
   AuditSettings how;
   how.paths = paths;
+  how.most_paths = most_paths;
   how.seed = seed;
   how.threads = threads > 0 ? threads : hardware_threads();
   how.significance = significance;
-  const auto mutations = to_mixture(loaded, target, mixture);
-  return run_interruptibly([&](const std::atomic<bool>& cancelled) {
-    return audit(target, mutations.first, mutations.second, how, cancelled);
+  const auto mixed = to_mixture(loaded, target, mixture);
+  repeat_proposals(mixed.first);
+  AuditReport report = run_interruptibly([&](const std::atomic<bool>& cancelled) {
+    return audit(target, mixed.first, mixed.second, how, cancelled);
   });
+  if (std::string fault = fault_of_repeated(mixed.first); !fault.empty()) {
+    report.verdict = Verdict::wrong;
+    report.reason = std::move(fault);
+  }
+  return report;
 }
 
 py::list tests(const AuditReport& report) {
   py::list list;
   for (const AuditTest& t : report.tests)
     list.append(py::make_tuple(t.function, t.expected, t.change, t.error, t.z, t.p, t.adjusted_p));
+  return list;
+}
+
+py::list limits(const AuditReport& report) {
+  py::list list;
+  for (const AuditLimit& limit : report.limits)
+    list.append(py::make_tuple(limit.edges, limit.or_more, limit.pixels));
   return list;
 }
 
@@ -60,10 +74,12 @@ void bind_mutations(py::module_& m) {
       .def_readonly("invalid", &AuditReport::invalid)
       .def_property_readonly("tests", &tests,
                              "(function, expected, change, error, z, p, adjusted_p) of each.")
+      .def_property_readonly("limits", &limits, "(edges, or_more, pixels) of each.")
       .def("text", &AuditReport::text, py::arg("most"));
   m.def("audit", &run_audit, py::arg("scene"), py::arg("mixture"), py::arg("max_depth"),
         py::arg("hide_emitters"), py::arg("strict_normals"), py::arg("near_specular"),
-        py::arg("paths"), py::arg("seed"), py::arg("threads"), py::arg("significance"));
+        py::arg("paths"), py::arg("most_paths"), py::arg("seed"), py::arg("threads"),
+        py::arg("significance"));
 }
 
 }  // namespace mlt::python

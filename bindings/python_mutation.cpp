@@ -41,8 +41,19 @@ class PythonMutation final : public Mutation {
   std::optional<Edit> propose(const PathState& x, PathState& y,
                               MutationContext& context) const override {
     const AcquiredGil gil = acquire_gil();
+    Rng same = context.rng;
     const py::object proposed =
         held_->propose(wrap(x), *RandomGenerators::Use(held_->generators, context.rng));
+    // The low bits, which no number in [0, 1) has, so that what propose draws is as usual.
+    if (held_->repeats && Rng(same).next_bits() % 32 == 0 && held_->fault.empty()) {
+      const py::object again =
+          held_->propose(wrap(x), *RandomGenerators::Use(held_->generators, same));
+      if (!equal(proposed, again))
+        held_->fault = name() + ".propose(x, rng) made " + repr(proposed) + " and then " +
+                       repr(again) + " of " + repr(wrap(x)) +
+                       " and the same random numbers; it must draw from rng alone, not from "
+                       "np.random or random, and must not change itself";
+    }
     if (proposed.is_none()) return std::nullopt;
     if (!py::isinstance<PyLightPath>(proposed))
       throw UsageError(name() + ".propose(x, rng) returned " + repr(proposed) +
@@ -60,11 +71,26 @@ class PythonMutation final : public Mutation {
     return checked(held_->density(wrap(x), wrap(y)), "density(x, y)", x);
   }
 
+  void repeat_proposals() const { held_->repeats = true; }
+  const std::string& fault() const { return held_->fault; }
+
  private:
   struct Held {
     py::object suitability, propose, density;
     RandomGenerators generators{Rng(0, Purpose::chain, 0)};
+    bool repeats = false;
+    std::string fault;
   };
+
+  static bool equal(const py::object& a, const py::object& b) {
+    if (!py::isinstance<PyLightPath>(a) || !py::isinstance<PyLightPath>(b)) return a.equal(b);
+    const Path& x = a.cast<const PyLightPath&>().path;
+    const Path& y = b.cast<const PyLightPath&>().path;
+    if (x.edges() != y.edges()) return false;
+    for (int i = 0; i <= x.edges(); ++i)
+      if (x[i].at.p != y[i].at.p) return false;
+    return x.time == y.time && x.wavelength == y.wavelength;
+  }
 
   py::object wrap(const PathState& x) const {
     return py::cast(light_path(scene_, x, target().rules().strict_normals));
@@ -115,6 +141,19 @@ std::pair<Mutations, MixtureWeights> to_mixture(const LoadedPtr& scene, const Pa
     weights.push_back(weight);
   }
   return {mutations, MixtureWeights(std::move(weights))};
+}
+
+void repeat_proposals(const Mutations& mutations) {
+  for (const MutationPtr& mutation : mutations)
+    if (const auto* python = dynamic_cast<const PythonMutation*>(mutation.get()))
+      python->repeat_proposals();
+}
+
+std::string fault_of_repeated(const Mutations& mutations) {
+  for (const MutationPtr& mutation : mutations)
+    if (const auto* python = dynamic_cast<const PythonMutation*>(mutation.get()))
+      if (!python->fault().empty()) return python->fault();
+  return {};
 }
 
 PathRules path_rules(int max_depth, bool hide_emitters, bool strict_normals) {

@@ -9,6 +9,7 @@
 #include <atomic>
 #include <chrono>
 #include <future>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -23,6 +24,11 @@ MutationPtr to_mutation(const LoadedPtr& scene, const PathTarget& target, const 
 /// The mutations of a mixture, as above, with their weights.
 std::pair<Mutations, MixtureWeights> to_mixture(const LoadedPtr& scene, const PathTarget& target,
                                                 const WeightedObjects& objects);
+
+/// Has mutations written in Python propose again now and then, from the same random numbers.
+void repeat_proposals(const Mutations& mutations);
+/// The first fault that this has shown, as a sentence; empty if there is none.
+std::string fault_of_repeated(const Mutations& mutations);
 
 /// The PathRules of Python's arguments. Throws UsageError for an invalid max_depth.
 PathRules path_rules(int max_depth, bool hide_emitters, bool strict_normals);

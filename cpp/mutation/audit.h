@@ -11,6 +11,18 @@
 // g is tested with the state that was chosen, and, with less noise, with the expected value
 // a g(y) + (1 - a) g(x).
 //
+// A Metropolis step does more: it is reversible, so that E[w h(x, y)] = 0 for every h with
+// h(y, x) = -h(x, y). Two kinds of h see what hides in the mean over all paths. g(y) - g(x) where
+// both have one length or one signature sees faults of few paths; |y - x| (g(y) - g(x)) sees steps
+// whose width depends on x, since the wide ones then lead one way.
+//
+// The test is sequential. While the least p is small, but not decisive, as many samples again are
+// drawn as there are, up to a maximum; half of the significance left is spent on each stage, so
+// that the chance of a false alarm over all of them is no greater than was asked for.
+//
+// That nothing was found means little by itself. So the report says which shift of the image
+// position would have been found in nine audits of ten, from the standard errors of these tests.
+//
 // Weights have heavy tails: a path of weight w takes as many steps as w is large, all of one
 // weight, with the remainder left to chance. The variance of the pairs stays small, and a rare
 // bright path is not one outlier but many small ones. Paths that no mutation suits stay unchanged
@@ -28,6 +40,8 @@ namespace mlt {
 
 struct AuditSettings {
   uint64_t paths = 100000;  ///< Samples of bidirectional path tracing; in the mean as many steps.
+  /// Samples at which an audit that is undecided ends; 0: sixteen times as many as at first.
+  uint64_t most_paths = 0;
   uint64_t seed = 1;
   int threads = 1;
   /// Probability of finding any fault in a kernel that has none.
@@ -54,7 +68,15 @@ struct AuditRow {
   double acceptance = 0;  ///< Sum of the acceptance over the steps.
 };
 
-enum class Verdict { right, wrong, inconclusive };
+/// The least shift of the image position in each accepted step that an audit finds nine times in
+/// ten.
+struct AuditLimit {
+  int edges = 0;         ///< Of the paths that are shifted; 0: of all.
+  bool or_more = false;  ///< Whether longer ones count, too.
+  double pixels = 0;
+};
+
+enum class Verdict { nothing_found, wrong, inconclusive };
 
 struct AuditReport {
   Verdict verdict = Verdict::inconclusive;
@@ -65,9 +87,17 @@ struct AuditReport {
   uint64_t samples = 0, steps = 0, accepted = 0;
   uint64_t invalid = 0;  ///< Steps whose acceptance was NaN.
   double lost = 0;  ///< Share of b in paths with a weight but without a target: the two must agree.
-  std::vector<AuditTest> tests;  ///< In order of p, the least first.
-  std::vector<AuditRow> rows;    ///< In order of steps, the most frequent first.
+  std::vector<AuditTest> tests;    ///< In order of p, the least first.
+  std::vector<AuditRow> rows;      ///< In order of steps, the most frequent first.
+  std::vector<AuditLimit> limits;  ///< Of all paths first; no entry where too few moves were made.
+  /// From how many edges on too few steps were accepted, and their share of all accepted steps.
+  std::pair<int, double> untested{0, 0};
+  double level = 0;  ///< The part of the significance that the last stage had.
+  /// Changes of more than this many standard errors are found nine times in ten.
+  double least_z = 0;
 
+  /// Whether more samples may decide: the least p is small, and not small enough.
+  bool undecided() const;
   /// Sets the verdict and its reason.
   void judge(const AuditSettings& how);
   /// A table as text, with the `most` least probable functions and most frequent signatures.

@@ -1,5 +1,7 @@
 #include "mutation/path_functions.h"
 
+#include <array>
+
 namespace mlt {
 namespace {
 
@@ -9,11 +11,15 @@ constexpr int longest = 9, most_lights = 8, most_specular = 5;
 /// Collects the values of all functions; the same calls in the same order give their names.
 class Collector {
  public:
-  Collector(std::vector<double>* values, std::vector<std::string>* names)
-      : values_(values), names_(names) {}
+  explicit Collector(std::vector<double>* values) : values_(values) {}
+  Collector(std::vector<std::string>* names, std::vector<size_t>* numbers)
+      : names_(names), numbers_(numbers) {}
 
   void number(const char* name, double value) {
-    if (names_) names_->push_back(name);
+    if (names_) {
+      numbers_->push_back(names_->size());
+      names_->push_back(name);
+    }
     if (values_) values_->push_back(value);
   }
   /// One function for each of `count` cases: 1 in the case that holds, otherwise 0.
@@ -25,8 +31,9 @@ class Collector {
   }
 
  private:
-  std::vector<double>* values_;
-  std::vector<std::string>* names_;
+  std::vector<double>* values_ = nullptr;
+  std::vector<std::string>* names_ = nullptr;
+  std::vector<size_t>* numbers_ = nullptr;
 };
 
 int octant(const Vec3& v) { return (v.x > 0) + 2 * (v.y > 0) + 4 * (v.z > 0); }
@@ -37,6 +44,15 @@ int octant(const SurfacePoint& at, const Bounds& bounds) {
 
 /// The logarithm, bounded from below, so that no single path outweighs the others.
 double bounded_log(double x) { return std::log(std::max(x, 1e-12)); }
+
+/// Waves of one and of two periods over the image: they see steps that are wider in a part of it.
+void waves(double u, const std::array<const char*, 4>& names, Collector& g) {
+  const double cosine = std::cos(2 * pi * u), sine = std::sin(2 * pi * u);
+  g.number(names[0], cosine);
+  g.number(names[1], sine);
+  g.number(names[2], sqr(cosine) - sqr(sine));
+  g.number(names[3], 2 * sine * cosine);
+}
 
 void collect(const Scene& scene, const PathState& x, Collector& g) {
   const int k = x.edges();
@@ -49,6 +65,8 @@ void collect(const Scene& scene, const PathState& x, Collector& g) {
   g.number("image x", image.x);
   g.number("image y", image.y);
   g.number("distance from the image's centre", glm::length(image - 0.5));
+  waves(image.x, {"cosine of x", "sine of x", "cosine of 2 x", "sine of 2 x"}, g);
+  waves(image.y, {"cosine of y", "sine of y", "cosine of 2 y", "sine of 2 y"}, g);
   g.cases("edges", k, longest + 1);
   g.cases("light", static_cast<int>(x[0].emitter), most_lights);
 
@@ -104,13 +122,13 @@ PathFunctions::PathFunctions(const Scene& scene) : scene_(&scene) {
   any.terms.at.resize(2);
   any.terms[0].G = 1;
   any.target = 1;
-  Collector collector(nullptr, &names_);
+  Collector collector(&names_, &numbers_);
   collect(scene, any, collector);
 }
 
 void PathFunctions::evaluate(const PathState& x, std::vector<double>& values) const {
   values.clear();
-  Collector collector(&values, nullptr);
+  Collector collector(&values);
   collect(*scene_, x, collector);
 }
 

@@ -15,12 +15,15 @@ class PathFunctions {
 
   const std::vector<std::string>& names() const { return names_; }
   size_t size() const { return names_.size(); }
+  /// Which of them are numbers that vary within a kind of paths, not a case that holds or not.
+  const std::vector<size_t>& numbers() const { return numbers_; }
   /// g_0(x) ... g_{n-1}(x).
   void evaluate(const PathState& x, std::vector<double>& values) const;
 
  private:
   const Scene* scene_;
   std::vector<std::string> names_;
+  std::vector<size_t> numbers_;
 };
 
 }  // namespace mlt

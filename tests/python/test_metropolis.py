@@ -6,6 +6,7 @@ Histograms are made of the last states of independent chains, so that chi-square
 import itertools
 import pickle
 import time
+import warnings
 
 import numpy as np
 import pytest
@@ -328,7 +329,8 @@ def test_a_chain_does_not_depend_on_its_neighbours():
 
 def test_python_moves_draw_numpy_distributions_from_the_chain():
     class Wide(metropolis.Move):
-        symmetric = True
+        def density(self, x, y):
+            return 1.0  # so that all are accepted
 
         def propose(self, x, rng):
             assert isinstance(rng, np.random.Generator)
@@ -511,6 +513,112 @@ def test_a_python_move_learns_in_a_copy_of_each_chain():
     run = metropolis.run(metropolis.Normals([0], [1]), move, 0.0, 300, chains=3)
     assert move.count == 0
     assert len(set(run.sizes[:, -1])) == 3
+
+
+# ---- audit -------------------------------------------------------------------------------------
+
+
+class Scaling(metropolis.Move):
+    """Wrong: it says that it is symmetric, but its steps are as wide as x."""
+
+    symmetric = True
+
+    def propose(self, x, rng):
+        return x * (1 + 0.1 * rng.normal(size=np.shape(x) or None))
+
+    def __repr__(self):
+        return "Scaling()"
+
+
+def on_a_sphere(x, rng):
+    y = x + 0.5 * rng.normal(size=3)
+    return y / np.linalg.norm(y)
+
+
+def one_further(k, rng):
+    return (k + 1) % 7
+
+
+def turn(s, rng):
+    return s[1:] + s[:1]
+
+
+def swap(s, rng):
+    i = rng.integers(3)
+    return s[:i] + s[i + 1] + s[i] + s[i + 2 :]
+
+
+def change_one(x, rng):
+    y = x.copy()
+    y[rng.integers(len(y))] += 0.3 * rng.normal()
+    return y
+
+
+def change_to_scale(x, rng):
+    y = x.copy()
+    y[2] *= np.exp(0.3 * rng.normal())
+    return y
+
+
+# A target, a start and a move that is symmetric or not.
+ALIKE = [
+    (lambda x: float(0 < x < 1), 0.5, lambda x, rng: x + 0.1 * rng.normal()),
+    (lambda x: 1 + x, 0.3, lambda x, rng: (x + 0.2 * rng.normal()) % 1),
+    (lambda x: np.exp(-x) if x >= 0 else 0, 1.0, lambda x, rng: abs(x + rng.normal())),
+    (lambda x: 1 + x[0], np.array([1.0, 0, 0]), on_a_sphere),
+    (lambda x: np.exp(-x @ x), np.ones(3), change_one),
+    (lambda k: 1 + k, 0, lambda k, rng: (k + rng.choice([-1, 1])) % 7),
+    (lambda s: 1.0 + (s[0] == "a"), "abcd", swap),
+]
+UNLIKE = [
+    (lambda x: float(0 < x < 1), 0.5, Scaling().propose),
+    (lambda x: np.exp(-x @ x), np.ones(3), change_to_scale),
+    (lambda k: 1 + k, 0, one_further),
+    (lambda s: 1.0 + (s[0] == "a"), "abcd", turn),
+]
+
+
+@pytest.mark.parametrize(("target", "x0", "propose"), ALIKE)
+def test_a_symmetric_move_is_not_accused(target, x0, propose):
+    move = metropolis.Symmetric(propose)
+    for seed in range(5):
+        metropolis.run(target, move, x0, 5000, seed=seed)  # would warn
+    audit = metropolis.audit(target, move, x0, 5000)
+    assert audit.verdict == ("inconclusive" if propose is on_a_sphere else "nothing found")
+    assert audit.reason.endswith("after correction)") or not audit
+
+
+@pytest.mark.parametrize(("target", "x0", "propose"), UNLIKE)
+def test_a_move_that_only_says_that_it_is_symmetric_is_found(target, x0, propose):
+    move = metropolis.Symmetric(propose)
+    with pytest.warns(UserWarning, match=r"Symmetric\(.*claims that q\(x -> y\) = q\(y -> x\)"):
+        metropolis.run(target, move, x0, 20_000)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        audit = metropolis.audit(target, move, x0)  # which says so by itself
+    assert audit.verdict == "wrong"
+    assert "goes one way" in audit.summary()
+    assert audit.tests[0].p < 1e-6
+
+
+def test_the_warning_names_the_move_also_in_lockstep():
+    moves = [(Scaling(), 0.5), (metropolis.RandomWalk(0.1), 0.5)]
+    with pytest.warns(UserWarning, match=r"^Scaling\(\) claims .* Give it density"):
+        metropolis.run(f_of_array, moves, np.full(50, 0.9), 400, chains=50, vectorized=True)
+
+
+@pytest.mark.parametrize("vectorized", [False, True])
+def test_an_audit_of_moves_asks_for_their_density(vectorized):
+    target = f_of_array if vectorized else f
+    x0 = 0.9
+    right = metropolis.audit(target, Downhill(), x0, 20_000, vectorized=vectorized)
+    assert right.verdict == "nothing found", right
+    assert "a shift of x by more than 0.00" in right.summary()
+    wrong = metropolis.audit(target, Downhill(broken=True), x0, 20_000, vectorized=vectorized)
+    assert wrong.verdict == "wrong", wrong
+    assert not wrong
+    mixture = metropolis.audit(metropolis.Parabola(), MIXTURE, x0)
+    assert mixture, mixture
 
 
 # ---- ArviZ -------------------------------------------------------------------------------------

@@ -111,13 +111,22 @@ def scene():
 def test_mutations_pass_their_audit(scene, what):
     audit = mlt.audit(what, scene, paths=10_000, seed=1, max_depth=5)
     assert audit, audit.summary()
-    assert audit.verdict == "right"
+    assert audit.verdict == "nothing found"
     assert audit.accepted > 200
     p = [test.p for test in audit.tests]
     assert p == sorted(p)
     assert all(test.z == pytest.approx(test.change / test.error) for test in audit.tests[:5])
     assert audit.tests[0].function in audit.summary()
-    assert repr(audit).startswith("Audit('right': ")
+    assert repr(audit).startswith("Audit('nothing found'; a ")
+
+
+def test_an_audit_says_what_it_would_have_found(scene):
+    few, many = (mlt.audit(mlt.Lens(), scene, paths=n, max_depth=5) for n in (5_000, 40_000))
+    assert few.limits[0].edges == 0
+    assert 0 < many.limits[0].pixels < 0.5 * few.limits[0].pixels
+    assert len(many.limits) > 2
+    assert f"{many.limits[0].pixels:.2g} pixel would have been" in many.summary()
+    assert "right" not in many.summary()
 
 
 def test_an_audit_is_a_function_of_its_seed(scene):

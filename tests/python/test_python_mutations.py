@@ -1,6 +1,7 @@
 """Mutations that are written in Python: in the laboratory, in the audit, in renders."""
 
 import pickle
+import random
 import traceback
 
 import numpy as np
@@ -361,11 +362,82 @@ def test_mutations_and_functions_do_not_mix():
 @pytest.mark.parametrize("made", MOVES)
 def test_a_right_mutation_passes_and_its_broken_twin_does_not(scene, made):
     right = mlt.audit(made(), scene, paths=6000, seed=1, max_depth=5)
-    assert right.verdict == "right", right.summary()
+    assert right.verdict == "nothing found", right.summary()
     assert right.accepted > 1000
     wrong = mlt.audit(made(broken=True), scene, paths=6000, seed=1, max_depth=5)
     assert wrong.verdict == "wrong", wrong.summary()
     assert made.__name__ in wrong.summary()
+
+
+class WideAtTheSide(Nudge):
+    """Wrong: the width of its steps depends on where they start."""
+
+    def propose(self, x, rng):
+        radius = self.radius * (1 + 0.5 * np.sin(x.raster[0] / 5))
+        return Nudge(radius).propose(x, rng)
+
+
+class Drift(Nudge):
+    """Wrong: moves paths of some edges or more by part of a pixel to the right."""
+
+    def __init__(self, radius, pixels, least_edges=1):
+        super().__init__(radius)
+        self.drift, self.least_edges = np.array([pixels, 0]), least_edges
+
+    def propose(self, x, rng):
+        raster = x.raster + rng.uniform(-self.radius, self.radius, 2)
+        raster += (x.edges >= self.least_edges) * self.drift
+        direction = x.scene.camera_direction(x[-1], raster)
+        seen = None if direction is None else x.scene.intersect(x[-1], direction, x.time)
+        return seen and x.with_vertices([*x[:-2], seen, x[-1]])
+
+
+@pytest.fixture(scope="module")
+def cornell_box():
+    return mlt.load_dict(mlt.scenes.cornell_box(), size=(32, 32))
+
+
+def test_an_audit_sees_steps_whose_width_depends_on_the_path(cornell_box):
+    audit = mlt.audit(WideAtTheSide(4.0), cornell_box, paths=5000)
+    assert audit.verdict == "wrong", audit.summary()
+    assert audit.steps < 6000  # at once
+
+
+def test_an_audit_goes_on_until_it_can_tell(cornell_box):
+    """A fault of few paths, too small for the first samples."""
+    drift = Drift(4.0, 0.3, least_edges=5)
+    audit = mlt.audit(drift, cornell_box, paths=5000)
+    assert audit.verdict == "wrong", audit.summary()
+    assert audit.steps > 7500
+    assert "edges or more" in audit.reason
+    once = mlt.audit(drift, cornell_box, paths=5000, most_paths=5000)
+    assert once.verdict != "wrong", once.summary()
+    assert once.steps < 6000
+
+
+def test_an_audit_finds_what_it_says_it_would(cornell_box):
+    limit = mlt.audit(Nudge(4.0), cornell_box, paths=2500).limits[0]
+    drift = Drift(4.0, limit.pixels)
+    found = [mlt.audit(drift, cornell_box, paths=2500, seed=s).verdict for s in range(1, 21)]
+    assert found.count("wrong") >= 17
+
+
+def test_an_audit_of_right_steps_ends_at_once(cornell_box):
+    found = [mlt.audit(Nudge(4.0), cornell_box, paths=2500, seed=s) for s in range(20)]
+    assert all(audit.verdict == "nothing found" for audit in found)
+    assert sum(audit.steps > 4000 for audit in found) <= 1
+
+
+@pytest.mark.parametrize("elsewhere", [np.random.uniform, random.uniform])
+def test_an_audit_tells_of_random_numbers_from_elsewhere(scene, elsewhere):
+    class Elsewhere(Nudge):
+        def propose(self, x, rng):
+            return super().propose(x, np.random.default_rng(int(elsewhere(0, 2**32))))
+
+    audit = mlt.audit(Elsewhere(), scene, paths=2000)
+    assert audit.verdict == "wrong", audit.summary()
+    assert "Elsewhere.propose(x, rng) made LightPath" in audit.reason
+    assert "must draw from rng alone, not from np.random" in audit.summary()
 
 
 def test_an_audit_of_python_is_a_function_of_its_seed(scene):
@@ -374,7 +446,7 @@ def test_an_audit_of_python_is_a_function_of_its_seed(scene):
 
 
 def test_a_mixture_with_python_is_audited_as_a_whole(scene):
-    for broken, verdict in ((False, "right"), (True, "wrong")):
+    for broken, verdict in ((False, "nothing found"), (True, "wrong")):
         mixture = [(mlt.Bidirectional(), 0.3), (Nudge(broken=broken), 0.7)]
         audit = mlt.audit(mlt.MLT(max_depth=5, mutations=mixture), scene, paths=9000)
         assert audit.verdict == verdict, audit.summary()

@@ -224,6 +224,23 @@ def test_a_density_that_is_one_is_taken(name):
 
 
 @pytest.mark.parametrize(
+    ("sample", "pdf", "n"),
+    [
+        (lambda rng, n: rng.random(n), lambda x: 2 * x, 1000),
+        (sample_line, lambda x: 0.5 + x, 1000),
+        (lambda rng, n: rng.normal(0, 1, n), stats.norm(0.5, 1).pdf, 1000),
+        (lambda rng, n: rng.normal(0, 1, n), stats.norm(0, 1.5).pdf, 10_000),
+        (lambda rng, n: rng.random((n, 2)), lambda x: 4 * x[:, 0] * x[:, 1], 1000),
+    ],
+)
+def test_samples_that_do_not_follow_their_pdf_are_refused(sample, pdf, n):
+    """The pdf integrates to 1, so that nothing but the samples tells."""
+    for seed in range(10):
+        with pytest.raises(mlt.UsageError, match=r"does not draw from pdf: .* % of its integral"):
+            quadrature.importance(lambda x: np.ones(len(x)), sample, pdf, n, seed=seed)
+
+
+@pytest.mark.parametrize(
     ("name", "factor"),
     [("line", 0.9), ("line", 1.1), *((name, factor) for name in RIGHT for factor in (0.5, 2))],
 )

@@ -25,9 +25,9 @@ class Mutation:
     propose(x, rng)
         Returns another path y, made by `x.with_vertices(...)`, or None if it finds none. `rng` is a
         `numpy.random.Generator` on the random stream of the chain; draw from nothing else, and
-        renders depend on their seed alone. Visibility is tested afterwards: a path that light
-        cannot take is rejected, and so is one that breaks the law of reflection or refraction at a
-        delta vertex.
+        renders depend on their seed alone; `mlt.audit` looks at that, too. Visibility is tested
+        afterwards: a path that light cannot take is rejected, and so is one that breaks the law of
+        reflection or refraction at a delta vertex.
     density(x, y)
         q(x -> y), the density with which `propose` makes y of x, given that this mutation was
         chosen, in the product-area measure of the vertices that y has and x has not: the product

@@ -16,7 +16,11 @@ from ..formats.loading import SceneLike, as_scene
 
 
 class AuditTest(NamedTuple):
-    """One function g of a light path, and what one step of the mutation did to its mean."""
+    """One function of a light path, and what one step of the mutation did to its mean.
+
+    "image x at 5 edges" is of the steps between paths of 5 edges, "... along LDDE" of those between
+    paths of this signature; "..., by steps in the image" weighs steps by their length.
+    """
 
     function: str
     expected: bool  #: of both states with their weights, not of the one that was chosen
@@ -27,27 +31,36 @@ class AuditTest(NamedTuple):
     adjusted_p: float  #: after Holm's correction for all tests
 
 
+class AuditLimit(NamedTuple):
+    """A shift of the image position, in each accepted step, that nine audits of ten find."""
+
+    edges: int  #: of the paths that are shifted; 0: of all
+    or_more: bool  #: whether longer paths count, too
+    pixels: float
+
+
 @dataclass(frozen=True)
 class Audit:
-    """What an audit found; true if, as far as it can tell, the target stays unchanged."""
+    """What an audit found; true if it found nothing wrong, which says no more than `limits` do."""
 
-    verdict: str  #: "right", "wrong" or "inconclusive"
+    verdict: str  #: "nothing found", "wrong" or "inconclusive"
     reason: str
     tests: list[AuditTest]  #: the least probable first
     steps: int
     accepted: int
     effective_samples: float
     text: str
+    limits: list[AuditLimit]  #: of all paths first; empty if no step moves the image position
 
     def __bool__(self) -> bool:
-        return self.verdict == "right"
+        return self.verdict == "nothing found"
 
     def summary(self) -> str:
         """A table to read."""
         return self.text
 
     def __repr__(self) -> str:
-        return f"Audit({self.verdict!r}: {self.reason})"
+        return f"Audit({self.verdict!r}{';' if self else ':'} {self.reason})"
 
 
 def audit(
@@ -55,6 +68,7 @@ def audit(
     scene: SceneLike,
     *,
     paths: int = 10_000,
+    most_paths: int | None = None,
     seed: int = 0,
     threads: int = 0,
     significance: float = 1e-4,
@@ -62,12 +76,17 @@ def audit(
 ) -> Audit:
     """Test whether one step of a mutation, or of an `MLT`, leaves the target unchanged.
 
+    No audit can say that it does: the verdict tells which fault would have been found.
+
     what
         a mutation such as `Lens()` or one that is written in Python, or an `MLT` with its mixture.
     paths
         samples of bidirectional path tracing from which steps start.
+    most_paths
+        while something looks suspicious, and no more, the audit doubles its samples, up to this
+        many; by default 16 times `paths`.
     significance
-        the chance of finding fault with a mutation that has none.
+        the chance of finding fault with a mutation that has none, over all stages.
     max_depth
         edges of the longest path; by default that of the `MLT`, or 8 for a mutation.
     """
@@ -92,6 +111,7 @@ def audit(
         depth if max_depth is None else max_depth,
         **settings,
         paths=paths,
+        most_paths=16 * paths if most_paths is None else max(most_paths, paths),
         seed=seed,
         threads=threads,
         significance=significance,
@@ -104,4 +124,5 @@ def audit(
         report.accepted,
         report.effective_samples,
         report.text(8),
+        [AuditLimit(*limit) for limit in report.limits],
     )

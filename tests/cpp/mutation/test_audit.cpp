@@ -50,7 +50,7 @@ uint64_t paths_for(const Case& c, uint64_t paths) {
 
 TEST_P(Audit, LeavesTheTargetUnchanged) {
   const AuditReport report = audit_case(GetParam(), paths_for(GetParam(), 20000));
-  EXPECT_EQ(report.verdict, Verdict::right) << report.text();
+  EXPECT_EQ(report.verdict, Verdict::nothing_found) << report.text();
 }
 
 /// The other mutations in fog, which take many paths, are left to LongAudit.
@@ -79,7 +79,7 @@ bool has_paths(const Case& c) {
 /// The edge of a perturbation may pass leaves and panes, or end at them.
 TEST(AuditOfPassages, HoldsForTheLensPerturbation) {
   const AuditReport report = audit_case({"windows", "lens"}, 100000);
-  EXPECT_EQ(report.verdict, Verdict::right) << report.text();
+  EXPECT_EQ(report.verdict, Verdict::nothing_found) << report.text();
 }
 
 class LongAudit : public testing::TestWithParam<Case> {};
@@ -89,7 +89,7 @@ TEST_P(LongAudit, LeavesTheTargetUnchanged) {
   const AuditReport report = audit_case(c, paths_for(c, 100000));
   EXPECT_NE(report.verdict, Verdict::wrong) << report.text();
   if (has_paths(c)) {
-    EXPECT_EQ(report.verdict, Verdict::right) << report.text();
+    EXPECT_EQ(report.verdict, Verdict::nothing_found) << report.text();
   }
   // A perturbation moves the paths of every signature that it takes on.
   if (c.mutation == "mixture" || !mutation_plugin(c.mutation).has_step_size()) return;
@@ -138,19 +138,19 @@ AuditReport audit_variant(const std::string& name, bool two_stage, int min_depth
 
 TEST(AuditOfTheMixture, HoldsForWeightsByLengthAndManyStepSizes) {
   const AuditReport report = audit_variant("mirrors", false, 1, 20000);
-  EXPECT_EQ(report.verdict, Verdict::right) << report.text();
+  EXPECT_EQ(report.verdict, Verdict::nothing_found) << report.text();
 }
 
 /// Where its techniques are about equally good, so that it matters how often each is drawn.
 TEST(AuditOfMultiplexedSteps, HoldsForCausticsOfAPoint) {
   const AuditReport report = audit_case({"point_caustic", "multiplexed"}, 200000);
-  EXPECT_EQ(report.verdict, Verdict::right) << report.text();
+  EXPECT_EQ(report.verdict, Verdict::nothing_found) << report.text();
 }
 
 /// Where a walk may stop or be reflected, both by chance.
 TEST(AuditOfLensSubpaths, HoldsForPlastic) {
   const AuditReport report = audit_case({"plastic", "lens_subpath"}, 300000);
-  EXPECT_EQ(report.verdict, Verdict::right) << report.text();
+  EXPECT_EQ(report.verdict, Verdict::nothing_found) << report.text();
 }
 
 /// Where what a walk has flown before says much about the channels that it may go on in.
@@ -168,7 +168,7 @@ TEST(AuditOfColouredMedia, HoldsForWalksThatGoOn) {
   how.significance = 1e-5;
   for (const char* mutation : {"bidirectional", "lens_subpath"}) {
     const AuditReport report = audit(target, make_mutation(mutation, target), how);
-    EXPECT_EQ(report.verdict, Verdict::right) << report.text();
+    EXPECT_EQ(report.verdict, Verdict::nothing_found) << report.text();
   }
 }
 
@@ -181,13 +181,13 @@ TEST(AuditOfManifolds, HoldsForLargeMoves) {
   how.significance = 1e-5;
   const MutationValues large = {{"smallest_pixels", 3.0}, {"largest_share", 1.0}};
   const AuditReport report = audit(target, make_mutation("manifold", target, large), how);
-  EXPECT_EQ(report.verdict, Verdict::right) << report.text();
+  EXPECT_EQ(report.verdict, Verdict::nothing_found) << report.text();
 }
 
 /// Glass that disperses strongly, so that chains of specular vertices move far with the wavelength.
 TEST(AuditOfWavelengths, HoldsBehindAPrism) {
   const AuditReport report = audit_case({"prism", "wavelength"}, 500000);
-  EXPECT_EQ(report.verdict, Verdict::right) << report.text();
+  EXPECT_EQ(report.verdict, Verdict::nothing_found) << report.text();
 }
 
 TEST(AuditOfCaustics, HoldsForRoundMovesOfTheDirection) {
@@ -197,23 +197,23 @@ TEST(AuditOfCaustics, HoldsForRoundMovesOfTheDirection) {
   how.paths = 20000;
   const AuditReport report =
       audit(target, make_mutation("caustic", target, {{"anisotropic", false}}), how);
-  EXPECT_EQ(report.verdict, Verdict::right) << report.text();
+  EXPECT_EQ(report.verdict, Verdict::nothing_found) << report.text();
 }
 
 /// A mutation that turned the first direction would break its delta.
 TEST(AuditOfTheMixture, HoldsForLightAlongNormals) {
   const AuditReport report = audit_case({"beam", "mixture"}, 20000);
-  EXPECT_EQ(report.verdict, Verdict::right) << report.text();
+  EXPECT_EQ(report.verdict, Verdict::nothing_found) << report.text();
 }
 
 TEST(AuditOfTheMixture, HoldsForATwoStageTarget) {
   const AuditReport report = audit_variant("cornell", true, 1, 100000);
-  EXPECT_EQ(report.verdict, Verdict::right) << report.text();
+  EXPECT_EQ(report.verdict, Verdict::nothing_found) << report.text();
 }
 
 TEST(AuditOfTheMixture, HoldsWhereShortPathsAreLeftToOthers) {
   const AuditReport report = audit_variant("caustic", false, 3, 20000);
-  EXPECT_EQ(report.verdict, Verdict::right) << report.text();
+  EXPECT_EQ(report.verdict, Verdict::nothing_found) << report.text();
   for (const AuditRow& row : report.rows) EXPECT_GE(row.signature.size(), 4u) << row.signature;
 }
 
@@ -221,7 +221,7 @@ TEST(LongAuditOfTheMixture, HoldsForAllVariants) {
   for (const char* scene :
        {"cornell", "caustic", "mirrors", "near_specular", "thin_lens", "light_under_water"}) {
     const AuditReport report = audit_variant(scene, true, 3, 200000);
-    EXPECT_EQ(report.verdict, Verdict::right) << scene << ": " << report.text();
+    EXPECT_EQ(report.verdict, Verdict::nothing_found) << scene << ": " << report.text();
   }
 }
 
@@ -235,6 +235,29 @@ TEST(AuditReport, IsTheSameForAnyNumberOfThreads) {
     return audit(target, all_mutations(target), default_weights(), how).text(1000);
   };
   EXPECT_EQ(text(1), text(3));
+}
+
+TEST(AuditReport, LeavesSignificanceForLaterStages) {
+  const PathTarget target = path_target(make_scene("cornell").scene);
+  AuditSettings how;
+  how.paths = 5120;
+  for (const auto& [most, stages] : {std::pair{5120, 1}, {10240, 2}, {0, 5}}) {
+    how.most_paths = most;
+    const AuditReport report = audit(target, make_mutation("lens", target), how);
+    EXPECT_EQ(report.samples, how.paths);
+    EXPECT_EQ(report.level, how.significance / (stages > 1 ? 2 : 1));
+  }
+}
+
+TEST(AuditReport, SaysWhatItWouldHaveFound) {
+  const PathTarget target = path_target(make_scene("cornell").scene);
+  AuditSettings how;
+  how.paths = 20000;
+  const AuditReport report = audit(target, make_mutation("lens", target), how);
+  ASSERT_GT(report.limits.size(), 3u);
+  EXPECT_EQ(report.limits[0].edges, 0);
+  for (const AuditLimit& limit : report.limits) EXPECT_GT(limit.pixels, 0);
+  EXPECT_NE(report.reason.find("pixel would have been"), std::string::npos) << report.reason;
 }
 
 TEST(AuditReport, SaysWhyNothingIsConcluded) {

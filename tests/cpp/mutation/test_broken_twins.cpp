@@ -101,6 +101,10 @@ std::vector<Twin> twins() {
                        });
                  },
                  100000});
+  // A fault of few paths.
+  all.push_back(twin(
+      "factor_of_long_paths", "lens", "cornell",
+      [](auto&, const PathState& y, auto&) { return y.edges() > 3 ? std::exp(y.raster.x) : 1; }));
   all.push_back(twin("G_of_the_first_edge", "lens_subpath", "cornell",
                      [](auto&, const PathState& y, auto&) { return y.terms[y.edges() - 1].G; }));
   all.push_back({"stop_probability", "lens_subpath", "plastic",

@@ -18,8 +18,10 @@ a(x -> y) = min(1, f(y) q(y -> x) / (f(x) q(x -> y))) is formed, and the choice 
 Metropolis-Hastings step of the C++ side.
 """
 
+from .audit import audit
 from .balance import DetailedBalance, detailed_balance
 from .moves import AdaptiveWalk, Discrete, Independent, Move, RandomWalk, Symmetric, Uniform
+from .reversal import MoveAudit, MoveTest
 from .run import run
 from .samples import Samples, autocorrelation
 from .start import Start, bootstrap
@@ -33,6 +35,8 @@ __all__ = [
     "Image",
     "Independent",
     "Move",
+    "MoveAudit",
+    "MoveTest",
     "Normals",
     "Parabola",
     "PathTarget",
@@ -44,6 +48,7 @@ __all__ = [
     "Target",
     "Tours",
     "Uniform",
+    "audit",
     "autocorrelation",
     "bootstrap",
     "detailed_balance",

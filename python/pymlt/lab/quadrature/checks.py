@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any, NamedTuple
 
 from ... import _core
 
@@ -47,23 +48,49 @@ def evaluate(function: Callable, x, name: str):
 
 
 def check_density(pdf: Callable, x) -> None:
-    """Refuse a pdf that does not integrate to 1 over where its samples x are.
+    """Refuse a pdf that does not integrate to 1 over where its samples x are, or not as they do.
 
     Looks only in up to three dimensions, at 256 samples or more. The mass beyond the outermost
-    samples is below 20 / n on each side, but for one case in 10^8.
+    samples is below 20 / n on each side, but for one case in 10^8. The samples are compared with
+    the pdf in the halves, quarters and eighths that hold equally many of them.
     """
+    import numpy as np
+
     n, dimensions = x.shape[0], 1 if x.ndim == 1 else x.shape[1]
     if n < 256 or dimensions > 3:
         return
-    integral, error = _integral_among(pdf, x)
-    if abs(integral - 1) > 6 * error + 40 * dimensions / n + 0.02:
+    cells = _cells_among(pdf, x)
+    integral, error = cells.mass.sum(), np.sqrt(cells.variance.sum())
+    margin = 40 * dimensions / n + 0.02
+    if abs(integral - 1) > 6 * error + margin:
         raise _core.UsageError(
             f"pdf integrates to {integral:.3g} over the samples' domain; a density integrates to 1"
         )
+    for level in (1, 2, 3):
+        for part in np.array_split(np.arange(len(cells.mass)), 2**level):
+            share, mass = cells.share[part].sum(), cells.mass[part].sum()
+            error = np.sqrt(cells.variance[part].sum() + share * (1 - share) / n)
+            if abs(mass - share) > 6 * error + margin:
+                low, high = cells.low[part].min(axis=0), cells.high[part].max(axis=0)
+                where = " x ".join(f"[{a:.4g}, {b:.4g}]" for a, b in zip(low, high, strict=True))
+                raise _core.UsageError(
+                    f"sample does not draw from pdf: {100 * share:.3g} % of {n} samples lie in "
+                    f"{where}, where pdf has {100 * mass:.3g} % of its integral"
+                )
 
 
-def _integral_among(pdf: Callable, x):
-    """The integral of a density over the box around samples x, and its standard error.
+class _Cells(NamedTuple):
+    """Boxes that hold about equally many samples: each next to those that it was cut from."""
+
+    low: Any
+    high: Any
+    share: Any  # of the samples
+    mass: Any  # the integral of the pdf
+    variance: Any  # of this estimate of the integral
+
+
+def _cells_among(pdf: Callable, x) -> _Cells:
+    """The integrals of a density over the parts of the box around samples x.
 
     Halves of equal numbers of samples cut the box into cells that hold about the same mass each,
     where uniform samples are good. Where pdf is not finite it counts as 0.
@@ -82,7 +109,10 @@ def _integral_among(pdf: Callable, x):
         values = np.asarray(pdf(at[:, 0] if x.ndim == 1 else at), dtype=float)
     values = np.where(np.isfinite(values), values, 0).reshape(len(cells), per_cell)
     parts = values * (high - low).prod(axis=2)
-    return parts.mean(axis=1).sum(), np.sqrt((parts.var(axis=1, ddof=1) / per_cell).sum())
+    share = np.array([len(cell[2]) for cell in cells]) / len(x)
+    return _Cells(
+        low[:, 0], high[:, 0], share, parts.mean(axis=1), parts.var(axis=1, ddof=1) / per_cell
+    )
 
 
 def _halves(low, high, samples, axis: int):
