@@ -139,7 +139,7 @@ class ObjReader {
     }
   }
 
-  /// Reads a corner: "p", "p/t", "p//n" or "p/t/n"; "p/t/", "p//" and "p/" leave out what would follow.
+  /// Reads a corner: "p", "p/t", "p//n" or "p/t/n"; after a slash there may be nothing.
   Corner read_corner() {
     Corner corner{index(positions_.size(), "vertex"), none, none};
     if (const auto bad = bad_positions_.find(corner.position); bad != bad_positions_.end())
