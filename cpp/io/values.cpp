@@ -113,6 +113,15 @@ std::string tag_of(ParamType type) {
   return "";
 }
 
+/// The text without a byte order mark, its lines ended by newlines, with a carriage return or not.
+std::string with_newlines(std::istream& file) {
+  std::string text(std::istreambuf_iterator<char>(file), {});
+  if (text.compare(0, 3, "\xef\xbb\xbf") == 0) text.erase(0, 3);
+  for (size_t i = 0; i < text.size(); ++i)
+    if (text[i] == '\r' && text.compare(i + 1, 1, "\n") != 0) text[i] = '\n';
+  return text;
+}
+
 WavelengthTable read_spectrum_file(const Element& element, const SearchPath& search) {
   const std::string path = search.find_file(element.require("filename"), element.where);
   std::istringstream file(read_file(path, uint64_t{1} << 28));
@@ -134,7 +143,8 @@ Value read_spectrum(const Element& element, const SearchPath& search) {
 WavelengthTable read_spectrum_table(std::istream& file, const std::string& path) {
   WavelengthTable samples;
   std::string line;
-  for (int number = 1; std::getline(file, line); ++number) {
+  std::istringstream lines(with_newlines(file));
+  for (int number = 1; std::getline(lines, line); ++number) {
     const std::string_view content = trim(std::string_view(line).substr(0, line.find('#')));
     if (content.empty()) continue;
     const auto numbers = parse_reals(content);

@@ -52,6 +52,11 @@ bool is_modern(const std::string& version) {
   return parse_real(version.substr(0, version.find('.'))).value_or(0) >= 2;
 }
 
+bool has_property(const Node& node, const std::string& name) {
+  return std::any_of(node.properties.begin(), node.properties.end(),
+                     [&](const Node::Property& p) { return p.name == name; });
+}
+
 class XmlReader {
  public:
   XmlReader(const LoadOptions& options, std::vector<std::string>& warnings)
@@ -128,6 +133,10 @@ class XmlReader {
     element.expect_only({"type", "id", "name", "version"});
     node.type = element.tag == "scene" ? "scene" : element.require("type");
     read_children(xml, node, source, depth);
+    // Before Mitsuba 2 a grid lies where its file says.
+    if (!source.spectral && node.family == "volume" && node.type == "gridvolume" &&
+        !has_property(node, "use_grid_bbox"))
+      node.properties.insert(node.properties.begin(), {"use_grid_bbox", true, node.where});
     return node;
   }
 

@@ -29,6 +29,9 @@ struct MeshData {
   /// nearby it is not.
   Vec3 origin{0};
 
+  /// What the file has and the mesh has not.
+  std::vector<std::string> warnings = {};
+
   /// The origin for positions of which this is the first: it if it is far away, else 0.
   static Vec3 origin_for(const Vec3& first) {
     return max_component(glm::abs(first)) < 1024 ? Vec3(0) : first;

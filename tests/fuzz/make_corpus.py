@@ -96,6 +96,13 @@ def make_obj() -> None:
     write("obj", "plain.obj", vertices + "f 1 2 3\nf 1 3 4\n")
     write("obj", "all.obj", f"# a comment\no a\ng b\ns 1\n{vertices}{more}f 1/1/1 2/2/1 3/3/1\n")
     write("obj", "normals.obj", f"{vertices}{more}f 1//1 2//1 3//1 4//1\n")
+    concave = "v 0 0 0\nv 2 -1 0\nv 0 2 0\nv -2 -1 0\nv 0 0 0\nf 1 2 3 4 5\nf 2 3\n"
+    write("obj", "concave.obj", "\ufeff" + concave)
+    write(
+        "obj",
+        "old.obj",
+        f"{vertices}vn nan -1.#IND 1\nvt 1 1.#QNAN\nf 1/1/ 2// 3//1\n".replace("\n", "\r"),
+    )
     write("obj", "from-the-end.obj", f"{vertices}{more}f -4/-3 -3/-2 -2/-1\nusemtl x\nmtllib y\n")
 
 
@@ -113,6 +120,9 @@ def make_ply() -> None:
     lines = [f"{x} {y} {z} 0 0 1 {x} {y} 7" for x, y, z in CORNERS]
     lines += [f"{len(face)} {' '.join(map(str, face))}" for face in faces]
     write("ply", "ascii.ply", ply_header("ascii") + "\n".join(lines) + "\n")
+    strips = ply_header("ascii").replace("element face 2", "element tristrips 1")
+    strips = strips.replace("uchar int", "int int")
+    write("ply", "strips.ply", strips + "\n".join(lines[:4]) + "\n8 0 1 2 3 -1 3 2 1\n")
     for form, order in (("binary_little_endian", "<"), ("binary_big_endian", ">")):
         body = b"".join(struct.pack(f"{order}8fB", *p, 0, 0, 1, *p[:2], 7) for p in CORNERS)
         body += b"".join(struct.pack(f"{order}B{len(f)}i", len(f), *f) for f in faces)
@@ -214,12 +224,14 @@ def spectral_scenes() -> Iterator[tuple[str, str]]:
 def make_spectra() -> None:
     for name in ("red", "flint"):
         write("spectrum", f"{name}.spd", (SCENES / f"{name}.spd").read_text())
+    write("spectrum", "old.spd", "\ufeff400 0.1\r700 0.5\r")
     write("spectrum", "dark.spd", "100 0\n900 0\n")
 
 
 def make_scenes() -> None:
     for name in ("stage", "light-spectrum", "mitsuba-cornell-box", "glass-ball"):
         write("xml", f"{name}.xml", (SCENES / f"{name}.xml").read_text())
+    write("xml", "utf16.xml", (SCENES / "glass-ball.xml").read_text().encode("utf-16"))
     for seed, text in scenes_of_every_kind(str.encode):
         write("scene", f"{seed}.xml", text)
         write("xml", f"{seed}.xml", text)

@@ -377,3 +377,25 @@ def test_a_nanovdb_file_may_not_be_negative(tmp_path, nanovdb):
     expected = r"a.nvdb, from voxel \(-1, -1, -1\) on: the value at x = 2, y = 3, z = 4 is -1"
     with pytest.raises(mlt.SceneError, match=expected):
         scene(smoke=box(smoke() | {"sigma_t": file}), light=lit())
+
+
+@pytest.mark.parametrize(("version", "bbox"), [("0.6.0", ""), ("3.0.0", "use_grid_bbox")])
+def test_a_grid_lies_in_the_box_of_its_file(tmp_path, version, bbox):
+    """As always before Mitsuba 2: two units of extinction 1 let e^-2 pass, at x < 0, too."""
+    header = np.array([1, 2, 2, 2, 1], "<i4").tobytes()
+    box_of_file = np.array([-1, -1, -1, 1, 1, 1], "<f4").tobytes()
+    ones = np.ones(8, "<f4").tobytes()
+    (tmp_path / "a.vol").write_bytes(b"VOL\3" + header + box_of_file + ones)
+    flag = f'<boolean name="{bbox}" value="true"/>' if bbox else ""
+    (tmp_path / "a.xml").write_text(f"""<scene version="{version}">
+        <sensor type="orthographic"><transform name="to_world"><scale value="0.4"/>
+        <lookat origin="0, 0, 4" target="0, 0, 0" up="0, 1, 0"/></transform>
+        <film type="hdrfilm"><integer name="width" value="4"/><integer name="height" value="4"/>
+        <rfilter type="box"/></film></sensor>
+        <emitter type="constant"/>
+        <shape type="cube"><bsdf type="null"/><medium type="heterogeneous" name="interior">
+        <volume name="sigma_t" type="gridvolume"><string name="filename" value="a.vol"/>{flag}
+        </volume><spectrum name="albedo" value="0"/></medium></shape></scene>""")
+    image = mlt.render(mlt.load(tmp_path / "a.xml"), "path", spp=256, seed=1)
+    spread = math.sqrt(math.exp(-2) / image[..., 0].size / 256)  # at most, of its mean
+    assert image.mean() == pytest.approx(math.exp(-2), abs=4.5 * spread)

@@ -1,5 +1,6 @@
 """A mesh in a file of its own, as a scene that can be rendered."""
 
+import gzip
 import struct
 
 import numpy as np
@@ -79,6 +80,32 @@ def test_all_formats_show_the_same_mesh(folder):
     assert brightness == pytest.approx(
         [brightness[0]] * len(brightness), rel=0.05
     )  # a .ply is smooth
+
+
+@pytest.mark.parametrize("name", ["a.ply", "a.OBJ"])
+def test_a_mesh_may_be_packed(folder, name):
+    WRITERS[name](folder / name)
+    content = (folder / name).read_bytes()
+    half = len(content) // 2  # gzip files may stand behind each other
+    packed = gzip.compress(content[:half]) + gzip.compress(content[half:])
+    (folder / f"{name}.gz").write_bytes(packed)
+    expected = picture(mlt.load(name, size=(32, 18)))
+    np.testing.assert_array_equal(picture(mlt.load(f"{name}.gz", size=(32, 18))), expected)
+    (folder / f"{name}.gz").write_bytes(packed[:-20])
+    with pytest.raises(mlt.FileError, match=rf"{name}.gz: cannot be unpacked"):
+        mlt.load(f"{name}.gz")
+    (folder / f"{name}.gz").write_bytes(gzip.compress(b" " * (2**28 + 1), 1))
+    with pytest.raises(mlt.FileError, match=rf"{name}.gz: unpacks to more than 268435456 bytes"):
+        mlt.load(f"{name}.gz")
+
+
+def test_faces_that_are_left_out_are_a_warning():
+    shape = {"type": "obj", "data": b"v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\nf 1 2\nf 2 3\n"}
+    rest = {"sensor": {"type": "perspective"}, "light": {"type": "constant"}}
+    scene = mlt.load_dict({"type": "scene", "a": shape, **rest})
+    assert scene.info()["triangles"] == 1
+    (warning,) = scene.info()["warnings"]
+    assert "2 faces are left out: fewer than three corners" in warning
 
 
 def test_the_command_line_renders_a_mesh(folder):

@@ -54,6 +54,17 @@ def both_sides(bsdf: dict) -> dict:
     return {"type": "twosided", "bsdf": bsdf}
 
 
+def test_a_mark_and_carriage_returns_are_no_words():
+    text = VIEW + "# a comment\n" + LAMP + FLOOR
+    plain = read(text)
+    for other in ("\ufeff" + text, text.replace("\n", "\r"), text.replace("\n", "\r\n")):
+        Path("b.pbrt").write_bytes(other.encode())
+        assert str(read_foreign("b.pbrt").scene) == str(plain.scene)
+    Path("b.pbrt").write_bytes(b"WorldBegin\rShape\r7")
+    with pytest.raises(mlt.SceneError, match=r"^b\.pbrt:3: "):
+        mlt.load("b.pbrt")
+
+
 def right_handed_scene() -> dict:
     """What VIEW, LAMP and FLOOR say, seen by a camera with right-handed axes."""
     clay = {"type": "diffuse", "reflectance": colour(0.8, 0.5, 0.2)}

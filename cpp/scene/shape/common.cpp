@@ -1,6 +1,7 @@
 #include "scene/shape/common.h"
 
 #include "base/atomic_file.h"
+#include "base/gzip.h"
 #include "scene/mesh.h"
 #include "scene/texture.h"
 
@@ -50,8 +51,12 @@ Plugin mesh_file_plugin(const char* name, const char* doc, const char* filename_
                                  "Turn the texture upside down: v becomes 1 - v."}}})),
           [read](Params& params) {
             const std::string path = name_of_mesh(params);
-            MeshData data = params.has("data") ? read(params.buffer("data").bytes(), path)
-                                               : read(read_file(path), path);
+            const auto unpack = [&](std::string_view bytes) {
+              return is_gzip(bytes) ? read(unpack_gzip(bytes, path), path) : read(bytes, path);
+            };
+            MeshData data = params.has("data") ? unpack(params.buffer("data").bytes())
+                                               : unpack(read_file(path));
+            for (const std::string& warning : data.warnings) params.warn(path + ": " + warning);
             if (params.boolean("flip_tex_coords"))
               for (Vec2f& uv : data.uvs) uv.y = 1 - uv.y;
             return mesh_from_file(params, std::move(data));

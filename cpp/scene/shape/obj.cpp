@@ -2,8 +2,11 @@
 // Materials, groups, smoothing groups, lines, points and free-form elements are ignored.
 #include "base/rng.h"
 #include "scene/shape/common.h"
+#include "scene/shape/polygons.h"
 #include "scene/shape/readers.h"
 #include "scene/shape/text_scanner.h"
+
+#include <map>
 
 namespace mlt {
 namespace {
@@ -74,6 +77,8 @@ class ObjReader {
     }
     if (mesh_.triangles.empty()) throw SceneError(at({name_}, "the file has no faces"));
     gather();
+    triangulate(mesh_, fans_);
+    warn_of_short_faces(mesh_, short_faces_);
     return std::move(mesh_);
   }
 
@@ -81,9 +86,7 @@ class ObjReader {
   void read_statement() {
     const std::string_view keyword = text_.word();
     if (keyword == "v") {
-      const Vec3 p = read_triple();
-      if (positions_.empty()) mesh_.origin = MeshData::origin_for(p);
-      positions_.push_back(p - mesh_.origin);
+      read_position();
     } else if (keyword == "vt") {
       uvs_.push_back(read_uv());
     } else if (keyword == "vn") {
@@ -95,7 +98,16 @@ class ObjReader {
 
   double number() {
     text_.skip_blanks();
-    return text_.real("a number");
+    return text_.real_or_nan("a number");
+  }
+
+  void read_position() {
+    const Vec3 p = read_triple();
+    if (is_finite(p) && positions_.size() == bad_positions_.size())
+      mesh_.origin = MeshData::origin_for(p);
+    positions_.push_back(p - mesh_.origin);
+    if (!is_finite(Vec3(positions_.back())))
+      bad_positions_[static_cast<uint32_t>(positions_.size() - 1)] = text_.line();
   }
 
   Vec3 read_triple() {
@@ -110,34 +122,45 @@ class ObjReader {
   }
 
   void read_face() {
-    uint32_t first = 0, previous = 0, count = 0;
-    for (;; ++count) {
-      text_.skip_blanks();
-      if (text_.at_line_end()) break;
-      const uint32_t vertex = table_.number_of(read_corner());
-      if (count >= 2) mesh_.triangles.push_back({first, previous, vertex});
-      if (count == 0) first = vertex;
+    face_.clear();
+    for (text_.skip_blanks(); !text_.at_line_end(); text_.skip_blanks())
+      face_.push_back(read_corner());
+    if (face_.size() < 3) {
+      ++short_faces_;
+      return;
+    }
+    if (face_.size() > 3) fans_.push_back({mesh_.triangles.size(), face_.size() - 2});
+    const uint32_t first = table_.number_of(face_[0]);
+    uint32_t previous = table_.number_of(face_[1]);
+    for (size_t i = 2; i < face_.size(); ++i) {
+      const uint32_t vertex = table_.number_of(face_[i]);
+      mesh_.triangles.push_back({first, previous, vertex});
       previous = vertex;
     }
-    if (count < 3)
-      text_.fail("a face needs three vertices or more, but has " + std::to_string(count));
   }
 
-  /// Reads a corner: "p", "p/t", "p//n" or "p/t/n".
+  /// Reads a corner: "p", "p/t", "p//n" or "p/t/n"; after a slash there may be nothing.
   Corner read_corner() {
     Corner corner{index(positions_.size(), "vertex"), none, none};
+    if (const auto bad = bad_positions_.find(corner.position); bad != bad_positions_.end())
+      throw SceneError(
+          at({name_, bad->second},
+             "the position of a vertex that a face uses is not finite (in single precision)"));
     if (text_.accept('/')) {
-      if (text_.accept('/')) {
-        corner.normal = index(normals_.size(), "normal");
-      } else {
-        corner.uv = index(uvs_.size(), "texture coordinate");
-        if (text_.accept('/')) corner.normal = index(normals_.size(), "normal");
-      }
+      if (!text_.is_at('/')) corner.uv = index_if_any(uvs_.size(), "texture coordinate");
+      if (text_.accept('/')) corner.normal = index_if_any(normals_.size(), "normal");
     }
     const std::string_view rest = text_.word();
     if (!rest.empty())
       text_.fail("'" + std::string(rest.substr(0, 40)) + "' after a face's vertex");
+    // What is no number is not given.
+    if (corner.uv != none && !is_finite(Vec2(uvs_[corner.uv]))) corner.uv = none;
+    if (corner.normal != none && !is_finite(Vec3(normals_[corner.normal]))) corner.normal = none;
     return corner;
+  }
+
+  uint32_t index_if_any(size_t count, const char* what) {
+    return text_.at_word_end() ? none : index(count, what);
   }
 
   /// Reads an index, which is counted from 1, or from the end if negative.
@@ -170,6 +193,10 @@ class ObjReader {
   const std::string& name_;
   std::vector<Vec3f> positions_, normals_;
   std::vector<Vec2f> uvs_;
+  std::map<uint32_t, int> bad_positions_;  ///< Those that are not finite, with their lines.
+  std::vector<Corner> face_;
+  std::vector<Fan> fans_;
+  size_t short_faces_ = 0;
   CornerTable table_;
   MeshData mesh_;
 };

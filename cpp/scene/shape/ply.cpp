@@ -1,10 +1,14 @@
 // The elements of a PLY file that make a mesh: positions, normals and texture coordinates of
-// `vertex`, the index lists of `face`, and attributes of both. Everything else is passed over.
+// `vertex`, the index lists of `face` and `tristrips`, and attributes of the first two. Everything
+// else is passed over.
 #include "scene/shape/common.h"
 #include "scene/shape/ply_attributes.h"
+#include "scene/shape/polygons.h"
 #include "scene/shape/readers.h"
 #include "scene/shape/text_scanner.h"
 
+#include <algorithm>
+#include <cstring>
 #include <limits>
 
 namespace mlt {
@@ -121,7 +125,7 @@ class PlyBody {
   explicit PlyBody(Source source) : source_(std::move(source)) {}
 
   MeshData read(const PlyHeader& header) {
-    bool vertices = false, faces = false;
+    bool vertices = false, faces = false, strips = false;
     for (const PlyElement& element : header.elements) {
       source_.expect(element.count, source_.least_size(element), element.name);
       if (element.name == "vertex") {
@@ -132,13 +136,19 @@ class PlyBody {
         if (faces) source_.fail("the PLY header has two elements 'face'");
         faces = true;
         read_faces(element);
+      } else if (element.name == "tristrips") {
+        strips = true;
+        read_strips(element);
       } else if (!element.properties.empty()) {
         for (uint64_t i = 0; i < element.count; ++i)
           for (const PlyProperty& property : element.properties) skip_property(element, property);
       }
     }
     if (!vertices) source_.fail("the PLY file has no element 'vertex'");
-    if (!faces || mesh_.triangles.empty()) source_.fail("the PLY file has no faces");
+    if (mesh_.triangles.empty()) source_.fail("the PLY file has no faces");
+    if (strips) drop_face_attributes();
+    triangulate(mesh_, fans_);
+    warn_of_short_faces(mesh_, short_faces_);
     return std::move(mesh_);
   }
 
@@ -204,12 +214,18 @@ class PlyBody {
     return slots;
   }
 
-  void read_faces(const PlyElement& element) {
+  /// The property of an element that lists vertices.
+  int list_of_vertices(const PlyElement& element) const {
     const int list = element.find({"vertex_indices", "vertex_index"});
     if (list < 0 || !element.properties[static_cast<size_t>(list)].list)
-      source_.fail("the element 'face' needs a list property 'vertex_indices'");
+      source_.fail("the element '" + element.name + "' needs a list property 'vertex_indices'");
     if (!is_integer(element.properties[static_cast<size_t>(list)].type))
       source_.fail("'vertex_indices' must be integers");
+    return list;
+  }
+
+  void read_faces(const PlyElement& element) {
+    const int list = list_of_vertices(element);
     mesh_.triangles.reserve(static_cast<size_t>(element.count));
     PlyAttributes attributes(element, "face_");
     for (uint64_t i = 0; i < element.count; ++i) {
@@ -246,7 +262,11 @@ class PlyBody {
 
   void read_polygon(const PlyElement& element, const PlyProperty& property) {
     const uint64_t count = read_count(element, property);
-    if (count < 3) source_.fail("a face with fewer than three vertices");
+    if (count < 3) {
+      ++short_faces_;
+      return source_.skip(property.type, count, element.name);
+    }
+    if (count > 3) fans_.push_back({mesh_.triangles.size(), static_cast<size_t>(count - 2)});
     const uint32_t first = read_index(element, property);
     uint32_t previous = read_index(element, property);
     for (uint64_t i = 2; i < count; ++i) {
@@ -256,15 +276,57 @@ class PlyBody {
     }
   }
 
-  /// Reads an index; check_mesh checks whether the vertex exists: vertices may follow the faces.
+  /// Strips of triangles, of which every other one turns the other way; -1 begins a new strip.
+  void read_strips(const PlyElement& element) {
+    const int list = list_of_vertices(element);
+    for (uint64_t i = 0; i < element.count; ++i)
+      for (size_t k = 0; k < element.properties.size(); ++k) {
+        if (static_cast<int>(k) == list)
+          read_strip(element, element.properties[k]);
+        else
+          skip_property(element, element.properties[k]);
+      }
+  }
+
+  void read_strip(const PlyElement& element, const PlyProperty& property) {
+    uint32_t before = 0, previous = 0;
+    uint64_t length = 0;
+    for (uint64_t left = read_count(element, property); left > 0; --left) {
+      const int64_t index = source_.integer(property.type, element.name);
+      if (index == -1) {
+        length = 0;
+        continue;
+      }
+      const uint32_t next = checked_index(index);
+      if (++length >= 3 && before != previous && previous != next && next != before) {
+        const bool even = length % 2 == 1;
+        mesh_.triangles.push_back({even ? before : previous, even ? previous : before, next});
+      }
+      before = previous;
+      previous = next;
+    }
+  }
+
+  /// Strips have none, and each triangle would need one.
+  void drop_face_attributes() {
+    auto& all = mesh_.attributes;
+    all.erase(std::remove_if(all.begin(), all.end(), [](const auto& a) { return a.on_faces; }),
+              all.end());
+  }
+
   uint32_t read_index(const PlyElement& element, const PlyProperty& property) {
-    const int64_t index = source_.integer(property.type, element.name);
+    return checked_index(source_.integer(property.type, element.name));
+  }
+  /// check_mesh checks whether the vertex exists: vertices may follow the faces.
+  uint32_t checked_index(int64_t index) const {
     if (index < 0 || index >= std::numeric_limits<uint32_t>::max())
       source_.fail("a face names vertex " + std::to_string(index) + ", which cannot exist");
     return static_cast<uint32_t>(index);
   }
 
   Source source_;
+  std::vector<Fan> fans_;
+  size_t short_faces_ = 0;
   MeshData mesh_;
 };
 

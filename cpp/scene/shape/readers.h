@@ -11,10 +11,11 @@
 namespace mlt {
 
 /// Wavefront OBJ. All groups and objects make one mesh; vertices are shared between faces that name
-/// the same position, texture coordinate and normal. Polygons become fans of triangles.
+/// the same position, texture coordinate and normal. Polygons, concave ones too, become triangles.
+/// Normals and texture coordinates that are no numbers are not given.
 MeshData read_obj(std::string_view bytes, const std::string& name);
 
-/// PLY, ascii or binary of either byte order. Polygons become fans of triangles.
+/// PLY, ascii or binary of either byte order. Polygons, concave ones too, become triangles.
 MeshData read_ply(std::string_view bytes, const std::string& name);
 
 struct SerializedMesh {

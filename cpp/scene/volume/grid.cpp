@@ -6,6 +6,12 @@
 #include <cmath>
 
 namespace mlt {
+namespace {
+
+/// 0 for what a float hardly holds: rounding, which may lie below zero.
+float without_subnormal(float value) { return std::fpclassify(value) == FP_SUBNORMAL ? 0 : value; }
+
+}  // namespace
 
 void check_grid_size(const std::array<int64_t, 3>& size, int64_t channels,
                      const std::string& name) {
@@ -33,7 +39,7 @@ Grid::Grid(const GridData& data, bool nearest, const std::string& name)
 void Grid::check(const GridData& data, const std::string& name) {
   const auto channels = static_cast<size_t>(channels_);
   for (size_t i = 0; i < data.values.size(); ++i) {
-    const float value = data.values[i];
+    const float value = without_subnormal(data.values[i]);
     if (!(value >= 0 && std::isfinite(value))) {
       const size_t at = i / channels, width = size_[0], height = size_[1];
       throw UsageError(fmt::format(
@@ -54,7 +60,7 @@ void Grid::store(const GridData& data) {
       const size_t row = (size_t(inside(z, 2)) * size_[1] + inside(y, 1)) * size_[0];
       for (int x = 0; x < size_[0] + 2; ++x)
         for (int c = 0; c < channels_; ++c)
-          values_.push_back(data.values[channels_ * (row + inside(x, 0)) + c]);
+          values_.push_back(without_subnormal(data.values[channels_ * (row + inside(x, 0)) + c]));
     }
   along_edge_ = nearest_ ? 0 : 1;
   for (int i = 0; i < 4; ++i) to_edge_[i] = nearest_ ? place(1, 1, 1) : place(0, i >> 1, i & 1);
@@ -69,7 +75,9 @@ void Grid::find_empty_bricks(const GridData& data) {
   for (int z = 0; z < size_[2]; ++z)
     for (int y = 0; y < size_[1]; ++y)
       for (int x = 0; x < size_[0]; ++x, value += channels_) {
-        if (std::all_of(value, value + channels_, [](float v) { return v == 0; })) continue;
+        if (std::all_of(value, value + channels_,
+                        [](float v) { return without_subnormal(v) == 0; }))
+          continue;
         for (int k = z / brick; k <= (z + further) / brick; ++k)
           for (int j = y / brick; j <= (y + further) / brick; ++j)
             for (int i = x / brick; i <= (x + further) / brick; ++i)

@@ -41,7 +41,8 @@ class Grid {
     }
   };
 
-  /// Throws UsageError, which begins with `name`, if a value is negative or not finite.
+  /// Throws UsageError, which begins with `name`, if a value is negative or not finite;
+  /// subnormal ones are 0.
   Grid(const GridData& data, bool nearest, const std::string& name);
 
   const std::array<int, 3>& size() const { return size_; }

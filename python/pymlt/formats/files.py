@@ -16,7 +16,7 @@ from . import limits
 if TYPE_CHECKING:
     from .imported import Imported
 
-MESHES = (".ply", ".obj", ".stl")
+MESHES = (".ply", ".obj", ".stl", ".ply.gz", ".obj.gz")
 EXTENSIONS = (".gltf", ".glb", ".pbrt", *MESHES)
 
 
@@ -50,7 +50,7 @@ def reader_of(path: Path) -> Callable[[Path, Imported], None]:
         from .pbrt import read_pbrt
 
         return read_pbrt
-    if path.suffix.lower() in MESHES:
+    if path.name.lower().endswith(MESHES):
         from .mesh_file import read_mesh
 
         return read_mesh

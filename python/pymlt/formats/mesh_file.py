@@ -18,11 +18,11 @@ LIGHTS: dict[str, dict[str, Any]] = {
 
 
 def read_mesh(path: Path, made: Imported) -> None:
-    """Reads a .ply, .obj or .stl file, in which y is up. Raises FileError and SceneError."""
+    """Reads a file of MESHES, in which y is up. Raises FileError and SceneError."""
     if path.suffix.lower() == ".stl":
         shape = made.mesh("mesh", read_stl(path))
     else:
-        kind = path.suffix[1:].lower()
+        kind = path.name.lower().removesuffix(".gz")[-3:]
         shape = {"type": kind, "filename": str(path.absolute())}
     made.add("mesh", shape | {"bsdf": MATERIAL})
     for name, light in LIGHTS.items():

@@ -120,6 +120,14 @@ TEST_F(SpectrumFile, IsATableOfWavelengths) {
   EXPECT_EQ(bsdf.properties[0].value, Value(WavelengthTable{{400, 0.1}, {500, 0.2}, {600, 0.3}}));
 }
 
+TEST_F(SpectrumFile, MayHaveTheMarkAndLineEndsOfOtherSystems) {
+  write("a.spd", "\xef\xbb\xbf# measured\r400 0.1\r500 0.2\r\n600 0.3\r");
+  std::vector<std::string> warnings;
+  const Node bsdf = read_xml_string(
+      "<bsdf type='diffuse'><spectrum name='a' filename='a.spd'/></bsdf>", path(""), {}, warnings);
+  EXPECT_EQ(bsdf.properties[0].value, Value(WavelengthTable{{400, 0.1}, {500, 0.2}, {600, 0.3}}));
+}
+
 TEST_F(SpectrumFile, NamesTheLineThatIsWrong) {
   write("a.spd", "400 0.1\n500 x\n");
   std::vector<std::string> warnings;

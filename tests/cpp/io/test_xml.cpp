@@ -70,6 +70,42 @@ TEST(Xml, MalformedTextIsOneLineWithFileAndLine) {
     EXPECT_EQ(error_of(xml).substr(0, 10), "<string>:1") << xml;
 }
 
+/// The same text in UTF-16, with its byte order mark.
+std::string utf16(const std::u16string& text, bool big_endian) {
+  std::string bytes;
+  for (const char16_t unit : u'\ufeff' + text) {
+    const char low = static_cast<char>(unit & 0xff), high = static_cast<char>(unit >> 8);
+    bytes += big_endian ? std::string{high, low} : std::string{low, high};
+  }
+  return bytes;
+}
+
+TEST(Xml, ReadsUtf16ThatIsMarked) {
+  const std::u16string head =
+      u"<?xml version='1.0' encoding='utf-16'?>\n<!-- \u00fc \u20ac \U0001f308 -->\n";
+  for (const bool big_endian : {false, true}) {
+    const Result result =
+        read(utf16(head + u"<scene>\n<shape type='cube' id='W\u00fcrfel'/></scene>", big_endian));
+    const Node& cube = result.scene.children.at(0);
+    EXPECT_EQ(cube.id, "W\xc3\xbcrfel");
+    EXPECT_EQ(cube.where.line, 4);
+    EXPECT_EQ(error_of(utf16(head + u"<scene>\n<shape type='cube'>\n</scene>", big_endian)),
+              "<string>:5: this is not well-formed XML: Start-end tags mismatch");
+  }
+  EXPECT_EQ(read("\xef\xbb\xbf<scene>\n<shape type='cube'/></scene>").scene.children[0].where.line,
+            2);
+}
+
+TEST(Xml, GridsOfOlderFilesLieWhereTheySay) {
+  const std::string grid =
+      "'><medium type='heterogeneous'><volume name='sigma_t' type='gridvolume'/></medium></scene>";
+  const auto volume = [&](const std::string& version) {
+    return read("<scene version='" + version + grid).scene.children.at(0).children.at(0);
+  };
+  EXPECT_EQ(volume("0.6.0").properties.at(0).name, "use_grid_bbox");
+  EXPECT_TRUE(volume("3.0.0").properties.empty());
+}
+
 TEST(Xml, RefusesDocumentTypes) {
   EXPECT_EQ(error_of("<!DOCTYPE scene [<!ENTITY a 'aa'><!ENTITY b '&a;&a;'>]><scene/>"),
             "<string>:1: a document type (<!DOCTYPE>) is not allowed; remove it");

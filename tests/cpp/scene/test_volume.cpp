@@ -191,6 +191,18 @@ TEST(Grid, RefusesWhatIsNoExtinction) {
             std::string::npos);
 }
 
+TEST(Grid, TakesSubnormalValuesAsNothing) {
+  GridData data{{2, 1, 1}, 1, {-1e-45f, 3e-39f}};
+  const GridVolume volume(Grid(data, true, "smoke"), Mat4(1));
+  EXPECT_EQ(volume.maximum(), Color(0));
+  for (const double x : {0.2, 0.7}) EXPECT_EQ(volume.at({x, 0.5, 0.5}, mlt::rgb_lanes)[0], 0);
+  data.values = {-1e-37f, 0};
+  EXPECT_NE(error_of([&] { Grid(data, true, "smoke"); }).find("not negative"), std::string::npos);
+  data.values = {0, std::numeric_limits<float>::infinity()};
+  EXPECT_NE(error_of([&] { Grid(data, true, "smoke"); }).find("x = 1, y = 0, z = 0 is inf"),
+            std::string::npos);
+}
+
 TEST(Grid, RefusesAPlaceThatHasNoVolume) {
   const Grid grid(sparse_grid({4, 5, 6}, 1, 1), false, "smoke");
   for (const double scale : {0.0, 1e-40, 1e200 * 1e200, double{std::nanf("")}})

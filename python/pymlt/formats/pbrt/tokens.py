@@ -85,7 +85,7 @@ class Words:
         self._included += 1
         self._size += len(content)
         self._paths.append(path.resolve())
-        self._open.append(tokens(path, content.decode("utf-8", "replace")))
+        self._open.append(tokens(path, _decoded(content)))
 
     def peek(self) -> Token | None:
         """The next word, which stays; None at the end."""
@@ -157,6 +157,12 @@ class Words:
             return
         while (token := self.take(declared)).text != "]" or token.quoted:
             yield token
+
+
+def _decoded(content: bytes) -> str:
+    """The text without a byte order mark, its lines ended by newlines."""
+    text = content.decode("utf-8-sig", "replace")
+    return text.replace("\r\n", "\n").replace("\r", "\n")
 
 
 def to_number(token: Token) -> float:
