@@ -5,6 +5,7 @@ Every third is plain: Mitsuba 3 has all that is in it.
 File names in it are relative to FOLDER.
 """
 
+import math
 import random
 from pathlib import Path
 
@@ -166,7 +167,8 @@ class Draw:
 
     def placed(self) -> str:
         x, y, z = self.triple(-0.6, 0.6)
-        axis = dict(zip("xyz", self.triple(-1, 1), strict=True))
+        turn = self.triple(-1, 1)  # of length 1, which Mitsuba 3 takes it to have
+        axis = {k: v / math.hypot(*turn) for k, v in zip("xyz", turn, strict=True)}
         scale = dict(zip("xyz", self.triple(0.2, 0.5), strict=True))
         steps = tag("scale", **{k: f"{v:.3g}" for k, v in scale.items()})
         steps += tag("rotate", angle=self.random.randrange(360),
