@@ -16,7 +16,7 @@ constexpr int fewest_groups = 8;  // to speak of a disagreement
 /// Where fewer pixels carry a larger error, it is not to be relied on. Of renders of random scenes
 /// by mlt this and its uncertain_level find most whose error is not .8 to 1.25 times what they
 /// claim (docs/error-calibration.md).
-constexpr double few_pixels = 30, large_error = 0.16;
+constexpr double few_pixels = 35, large_error = 0.12;
 constexpr double largest_share = 0.5;  // of a block's light from one of them
 constexpr double dark = 0.1;           // of the image's mean: below, blocks and pixels matter less
 /// A pixel is taken to be at least this part as bright as its mean: it may be a light that one

@@ -10,7 +10,7 @@ namespace mlt {
 namespace {
 
 /// From this uncertainty of the brightness on the error of an image is not to be relied on.
-constexpr double uncertain_level = 0.08;
+constexpr double uncertain_level = 0.055;
 
 }  // namespace
 
