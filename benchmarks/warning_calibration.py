@@ -1,6 +1,6 @@
 """Do the warnings of `mlt` tell renders whose claimed error is wrong from the others?
 
-    .venv/bin/python benchmarks/warnings.py --n 40 >build/warnings.txt
+    .venv/bin/python benchmarks/warning_calibration.py --n 40 >build/warnings.txt
 
 Random scenes, three budgets, two seeds; the truth is the mean of long renders by `bdpt` and `mlt`,
 weighted by the errors that they claim. Prints a line for each render, and then the shares that
@@ -16,11 +16,11 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests" / "python"))
-import random_scene  # noqa: E402
+import random_scene
 
-import pymlt as mlt  # noqa: E402
-from pymlt.diagnostics.error_calibration import WARNINGS  # noqa: E402
-from pymlt.diagnostics.metrics import target_luminance  # noqa: E402
+import pymlt as mlt
+from pymlt.diagnostics.error_calibration import WARNINGS
+from pymlt.diagnostics.metrics import target_luminance
 
 SIZE, BUDGETS, SEEDS = (32, 24), (16, 64, 256), (1, 2)
 RIGHT = 0.8, 1.25  # true over claimed error
