@@ -168,7 +168,9 @@ TEST(ShapePlugins, ErrorsNameTheFile) {
   EXPECT_THAT(error("obj", {}), HasSubstr("needs 'filename'"));
   const TemporaryFile nan("nan.obj", "v nan 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n");
   EXPECT_EQ(error("obj", {{"filename", nan.path}}),
-            nan.path + ": the position of vertex 0 is not finite (in single precision)");
+            nan.path +
+                ":1: the position of a vertex that a face uses is not finite (in single "
+                "precision)");
   const TemporaryFile good("good.obj", bent_quad);
   EXPECT_THAT(error("obj", {{"filename", good.path}, {"to_world", Matrix{}}}),
               HasSubstr("scene.xml:7: 'to_world' is singular"));
