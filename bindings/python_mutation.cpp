@@ -79,7 +79,7 @@ class PythonMutation final : public Mutation {
     py::object suitability, propose, density;
     RandomGenerators generators{Rng(0, Purpose::chain, 0)};
     bool repeats = false;
-    std::string fault;
+    std::string fault{};
   };
 
   static bool equal(const py::object& a, const py::object& b) {

@@ -184,6 +184,8 @@ def test_what_cannot_be_replayed_is_refused(scene):
     with pytest.raises(mlt.UsageError, match="no samples of single pixels"):
         mlt.replay(scene, "mlt", pixel=(0, 0))
     with pytest.raises(mlt.UsageError, match="outside of the image"):
+        mlt.replay(scene, "path", pixel=(0, 10**6))
+    with pytest.raises(mlt.UsageError, match="a coordinate of pixel is -1"):
         mlt.replay(scene, "path", pixel=(0, -1))
     with pytest.raises(mlt.UsageError, match="sample is -1"):
         mlt.replay(scene, "path", pixel=(0, 0), sample=-1)

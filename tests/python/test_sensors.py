@@ -53,7 +53,7 @@ def test_a_sensor_that_is_not_there_is_an_error(sensor):
 
 @pytest.mark.parametrize("sensor", ["1", 1.5, True])
 def test_a_sensor_is_an_integer(sensor):
-    with pytest.raises(mlt.UsageError, match="should be an integer"):
+    with pytest.raises(mlt.UsageError, match="should be the number of a sensor"):
         mlt.load_string(TWO, sensor=sensor)
 
 

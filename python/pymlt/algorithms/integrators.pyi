@@ -15,8 +15,8 @@ class BDPT(Integrator):
     Parameters
     ----------
     max_depth : integer, default -1
-        Edges of the longest path: 1 shows the lights alone, 2 adds direct light, -1 is
-        unbounded.
+        Edges of the longest path: 1 shows the lights alone, 2 adds direct light, -1 stands for
+        4096, which is also the most.
     rr_depth : integer, default 5
         Depth from which on Russian roulette may end a path.
     hide_emitters : boolean, default False
@@ -110,8 +110,8 @@ class ERPT(Integrator):
     Parameters
     ----------
     max_depth : integer, default -1
-        Edges of the longest path: 1 shows the lights alone, 2 adds direct light, -1 is
-        unbounded.
+        Edges of the longest path: 1 shows the lights alone, 2 adds direct light, -1 stands for
+        4096, which is also the most.
     rr_depth : integer, default 5
         Depth from which on Russian roulette may end a path.
     hide_emitters : boolean, default False
@@ -237,8 +237,8 @@ class MLT(Integrator):
     Parameters
     ----------
     max_depth : integer, default -1
-        Edges of the longest path: 1 shows the lights alone, 2 adds direct light, -1 is
-        unbounded.
+        Edges of the longest path: 1 shows the lights alone, 2 adds direct light, -1 stands for
+        4096, which is also the most.
     rr_depth : integer, default 5
         Depth from which on Russian roulette may end a path.
     hide_emitters : boolean, default False
@@ -468,8 +468,8 @@ class MMLT(Integrator):
     Parameters
     ----------
     max_depth : integer, default -1
-        Edges of the longest path: 1 shows the lights alone, 2 adds direct light, -1 is
-        unbounded.
+        Edges of the longest path: 1 shows the lights alone, 2 adds direct light, -1 stands for
+        4096, which is also the most.
     rr_depth : integer, default 5
         Depth from which on Russian roulette may end a path.
     hide_emitters : boolean, default False
@@ -545,8 +545,8 @@ class Path(Integrator):
     Parameters
     ----------
     max_depth : integer, default -1
-        Edges of the longest path: 1 shows the lights alone, 2 adds direct light, -1 is
-        unbounded.
+        Edges of the longest path: 1 shows the lights alone, 2 adds direct light, -1 stands for
+        4096, which is also the most.
     rr_depth : integer, default 5
         Depth from which on Russian roulette may end a path.
     hide_emitters : boolean, default False
@@ -580,8 +580,8 @@ class PSSMLT(Integrator):
     Parameters
     ----------
     max_depth : integer, default -1
-        Edges of the longest path: 1 shows the lights alone, 2 adds direct light, -1 is
-        unbounded.
+        Edges of the longest path: 1 shows the lights alone, 2 adds direct light, -1 stands for
+        4096, which is also the most.
     rr_depth : integer, default 5
         Depth from which on Russian roulette may end a path.
     hide_emitters : boolean, default False
@@ -662,8 +662,8 @@ class PTracer(Integrator):
     Parameters
     ----------
     max_depth : integer, default -1
-        Edges of the longest path: 1 shows the lights alone, 2 adds direct light, -1 is
-        unbounded.
+        Edges of the longest path: 1 shows the lights alone, 2 adds direct light, -1 stands for
+        4096, which is also the most.
     rr_depth : integer, default 5
         Depth from which on Russian roulette may end a path.
     hide_emitters : boolean, default False
@@ -697,8 +697,8 @@ class RJMLT(Integrator):
     Parameters
     ----------
     max_depth : integer, default -1
-        Edges of the longest path: 1 shows the lights alone, 2 adds direct light, -1 is
-        unbounded.
+        Edges of the longest path: 1 shows the lights alone, 2 adds direct light, -1 stands for
+        4096, which is also the most.
     rr_depth : integer, default 5
         Depth from which on Russian roulette may end a path.
     hide_emitters : boolean, default False
