@@ -170,13 +170,12 @@ void bind_path_class(py::module_& m) {
           "primitive, emitter. At infinity, position is the direction towards the vertex.")
       .def("__getitem__", &vertex_at, "Vertex i, counted from the light.")
       .def("__getitem__", &vertices_at)
-      .def(
-          "__iter__",
-          [](const PyLightPath& p) {
-            py::list all;
-            for (const Vertex& x : p.path.vertices) all.append(PyVertex(x, *p.scene));
-            return py::iter(all);
-          })
+      .def("__iter__",
+           [](const PyLightPath& p) {
+             py::list all;
+             for (const Vertex& x : p.path.vertices) all.append(PyVertex(x, *p.scene));
+             return py::iter(all);
+           })
       .def("with_vertices", &with_vertices, py::arg("vertices"),
            "Another path of the same scene, time and wavelengths, through these vertices.")
       .def_property_readonly("scene", [](const PyLightPath& p) { return p.scene; })
