@@ -27,7 +27,7 @@ from common import (
 )
 from peers import MissingError, Worker
 
-from pymlt.diagnostics.metrics import relative_square, trimmed_mean
+from pymlt.diagnostics.metrics import percentile_90, relative_square, trimmed_mean
 from pymlt.race.cpu_time import render_for
 
 CAMERA = {"origin": [0, 0, 3.9], "target": [0, 0, 0], "up": [0, 1, 0], "fov": 39.3077}
@@ -141,6 +141,8 @@ def row_of(name: str, images, seconds, samples, reference, pixels) -> dict:
         "spp": median(samples),
         "relMSE": median(float(e.mean()) for e in errors) - float(known.mean()),
         "trimmed": median(trimmed_mean(e) for e in errors) - trimmed_mean(known),
+        "median pixel": median(float(np.median(e)) for e in errors),
+        "90 % of pixels": median(percentile_90(e) for e in errors),
         "mean / reference": float(bright / reference.image[pixels].mean()),
     }
 

@@ -6,7 +6,7 @@ win. `mlt` and `pssmlt` are also measured without independent samples, as "chain
 `--seconds` on each of `--threads` threads, measured as CPU time; see docs/race.md for what is
 measured. References are two long halves of our own, whose error is subtracted, but for veachdoor's,
 which has a relMSE of about 0.002, and those of a folder that is given. With --reference-seconds 0
-there are no others, and the seeds tell.
+there are no others, and the spread of the seeds tells, which does not see light that nobody finds.
 
 --page also writes a page of the documentation, with a picture for each scene beside it.
 """
@@ -43,9 +43,9 @@ class Case(NamedTuple):
 
     file: str  #: of the repository, or of the external scenes
     size: tuple[int, int]
-    #: The integrator that renders it, or a file of the external references; none where twenty
-    #: minutes of rendering are noisier than what is compared: then the seeds tell.
-    reference: str | None
+    #: The integrator that finds all of its light and renders it with the least noise, or a file of
+    #: the external references.
+    reference: str
     max_depth: int = 8
 
     def path(self) -> Path:
@@ -62,28 +62,28 @@ CASES = {
         ("cornell-box", (256, 256), "bdpt"),
         ("veach-bidir", (320, 180), "bdpt"),
         ("glass-ball", (256, 256), "mlt"),
-        ("door-ajar", (320, 240), None),
+        ("door-ajar", (320, 240), "mlt"),
         ("pool", (320, 240), "mlt"),
-        ("goblets", (320, 180), None),
-        ("temple", (320, 180), None),
-        ("living-room", (320, 180), None),
-        ("ring", (256, 256), None),
-        ("bulb", (256, 256), None),
-        ("orrery", (320, 180), None),
-        ("motion", (320, 180), None),
-        ("dof", (256, 256), None),
-        ("furnace", (128, 128), None),
-        ("cbox-ppg", (256, 256), None),
-        ("matpreview", (256, 256), None),
-        ("veach-mi", (320, 180), None),
-        ("fog", (320, 180), None),
-        ("volcaustic", (320, 180), None),
-        ("smoke", (320, 180), None, 16),
-        ("milk", (320, 180), None, 64),
-        ("candle", (320, 180), None, 64),
-        ("prism", (320, 180), None, 10),
-        ("diamond", (320, 180), None, 16),
-        ("rainbow", (320, 180), None, 6),
+        ("goblets", (320, 180), "mlt"),
+        ("temple", (320, 180), "mlt"),
+        ("living-room", (320, 180), "path"),
+        ("ring", (256, 256), "mlt"),
+        ("bulb", (256, 256), "mlt"),
+        ("orrery", (320, 180), "path"),
+        ("motion", (320, 180), "mlt"),
+        ("dof", (256, 256), "mlt"),
+        ("furnace", (128, 128), "path"),
+        ("cbox-ppg", (256, 256), "bdpt"),
+        ("matpreview", (256, 256), "path"),
+        ("veach-mi", (320, 180), "path"),
+        ("fog", (320, 180), "mlt"),
+        ("volcaustic", (320, 180), "mlt"),
+        ("smoke", (320, 180), "path", 16),
+        ("milk", (320, 180), "mlt", 64),
+        ("candle", (320, 180), "bdpt", 64),
+        ("prism", (320, 180), "bdpt", 10),
+        ("diamond", (320, 180), "mlt", 16),
+        ("rainbow", (320, 180), "mlt", 6),
     )
 }
 
@@ -99,8 +99,6 @@ def is_known(text: str) -> bool:
 
 def reference(name: str, scene: mlt.Scene, case: Case, args):
     """A file, or two images of our own."""
-    if case.reference is None:
-        return None
     if args.references and (kept := args.references / f"{name}.exr").exists():
         return kept
     if case.reference.endswith(".exr"):
@@ -109,7 +107,9 @@ def reference(name: str, scene: mlt.Scene, case: Case, args):
         return None
     # Light that one candidate in 100,000 finds must be there as well.
     many = {"luminance_samples": 1_000_000, "independent_share": 0.3}
-    made = mlt.MLT(max_depth=8, **many) if case.reference == "mlt" else mlt.BDPT(max_depth=8)
+    kinds = {"path": (mlt.Path, {}), "bdpt": (mlt.BDPT, {}), "mlt": (mlt.MLT, many)}
+    kind, parameters = kinds[case.reference]
+    made = kind(max_depth=case.max_depth, **parameters)
     long = args.reference_seconds
     return list(Reference(name, scene, made, long, threads=args.threads, folder=args.cache).halves)
 

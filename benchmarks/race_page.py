@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import pymlt as mlt
-from pymlt.race.report.table import Column, columns, heading, notes, summary
+from pymlt.race.report.table import Column, columns, heading, notes, summary, summary_title
 
 HEAD = """\
 # The algorithms compared
@@ -48,9 +48,7 @@ def write_page(race: mlt.Race, path: Path) -> None:
     folder.mkdir(parents=True, exist_ok=True)
     parts = [HEAD]
     if len(race.results) > 1:
-        parts.append(
-            f"relMSE over that of the best algorithm:\n\n{markdown(summary(race.results))}\n"
-        )
+        parts.append(f"{summary_title(race.results)}.\n\n{markdown(summary(race.results))}\n")
     for result in race.results:
         name = f"race-{result.settings.name}.jpg"
         result.figure(tonemap="filmic").savefig(folder / name, dpi=80, pil_kwargs={"quality": 85})

@@ -13,7 +13,8 @@ from .display import add_display_flags, exposure
 from .figures import check_figure_file, save_figure
 
 HELP = "Print how far an image is from a reference."
-METRICS = ("mse", "rmse", "relmse", "relmse_trimmed", "mape", "bias_z", "flip")
+RELATIVE = ("relmse", "relmse_trimmed", "relmse_median", "relmse_p90")
+METRICS = ("mse", "rmse", *RELATIVE, "mape", "bias_z", "flip")
 
 
 def add_arguments(command) -> None:

@@ -8,6 +8,10 @@ b, shape from the chains.
 Without a reference, the images x_1 ... x_n of n seeds tell each other's error: the mean over the
 seeds of n / (n - 1) (x_k - m)^2, m their mean, is the sample variance, the same as the mean of
 (x_j - x_k)^2 / 2 over all pairs. It is unbiased, but does not see what is wrong in all of them.
+
+Of a mean over the pixels, that of the reference's own error is subtracted, since expected squared
+errors of independent images add up. Their quantiles do not, so those over the pixels are of the
+distance to the reference as it is, a little larger by its noise, which all algorithms share.
 """
 
 from __future__ import annotations
@@ -24,6 +28,7 @@ from .. import _core
 from ..diagnostics.metrics import (
     flip_map,
     image_pair,
+    percentile_90,
     relative_square,
     sparks,
     trimmed_mean,
@@ -56,6 +61,8 @@ class Score:
     relmse: Mean | None  #: None: without a reference a single image, or black ones, have no error
     median: float | None  #: of relmse over the images
     trimmed: Mean | None  #: relmse without the 0.1 % of the pixels that are worst
+    pixel_median: Mean | None  #: median over the pixels of an image's relative squared error
+    percentile_90: Mean | None  #: what nine of ten pixels of an image do not exceed, of the same
     shape: Mean | None  #: relmse once the mean of each image is that of the reference
     level: Mean  #: mean of the image over that of the reference
     level_spread: float | None  #: standard deviation of the level of one image; None for one image
@@ -110,10 +117,12 @@ class Judge:
         return Score(
             seconds,
             len(images),
-            self._mean(errors, np.mean),
+            self._excess(errors, np.mean),
             self._median(errors),
-            self._mean(errors, trimmed_mean),
-            self._mean(shapes, np.mean) if all(levels) else None,
+            self._excess(errors, trimmed_mean),
+            self._mean(errors, np.median),
+            self._mean(errors, percentile_90),
+            self._excess(shapes, np.mean) if all(levels) else None,
             mean_of(levels) or Mean(0.0),
             float(np.std(levels, ddof=1)) if len(levels) > 1 else None,
             self._sparks(images),
@@ -121,12 +130,14 @@ class Judge:
         )
 
     def _mean(self, errors: list[np.ndarray], metric: Callable[..., float]) -> Mean | None:
-        """Of a metric of error maps, less that of the reference."""
-        own = float(metric(self.own_error))
-        values = [float(metric(error)) - own for error in errors]
-        if self.reference is not None:
-            return mean_of(values)
-        return mean_of(values, between_seeds=True)
+        """Of a metric of error maps, over the images."""
+        values = [float(metric(error)) for error in errors]
+        return mean_of(values, between_seeds=self.reference is None)
+
+    def _excess(self, errors: list[np.ndarray], metric: Callable[..., float]) -> Mean | None:
+        """Of a mean over the pixels of error maps, less that of the reference."""
+        own = metric(self.own_error)
+        return self._mean(errors, lambda error: metric(error) - own)
 
     def _median(self, errors: list[np.ndarray]) -> float | None:
         if not errors:

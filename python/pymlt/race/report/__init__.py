@@ -30,9 +30,9 @@ class Report:
         """Errors with their standard errors, as text.
 
         For each algorithm: relMSE (see `compare`), and how many times the smallest one it is; its
-        median over the seeds; trimmed of the worst 0.1 % of the pixels; of the shape alone; the
-        level and its spread over the seeds; sparks; HDR-FLIP; CPU seconds and samples per pixel of
-        an image.
+        median over the seeds; trimmed of the worst 0.1 % of the pixels; what half of the pixels and
+        nine of ten do not exceed; of the shape alone; the level and its spread over the seeds;
+        sparks; HDR-FLIP; CPU seconds and samples per pixel of an image.
         """
         parts = [
             "\n".join([table(result), *(f"- {note}" for note in notes(result))])

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure, SubFigure
 
     from ..result import RaceResult
+    from ..score import Score
 
 COLUMN = 2.4  #: inches
 FRAMES = ("#ff3d6e", "#12b5ff", "#ffc400")
@@ -42,7 +43,7 @@ def _height(result: RaceResult) -> float:
     """Inches of a scene: image, insets, titles."""
     width, height = result.settings.size
     insets = COLUMN * _inset_aspect(result) if result.insets else 0
-    return COLUMN * height / width + insets + 0.75
+    return COLUMN * height / width + insets + 0.9
 
 
 def _inset_aspect(result: RaceResult) -> float:
@@ -56,10 +57,10 @@ def _draw_scene(row: SubFigure, result: RaceResult, columns: int, shown: Any) ->
     ratios = [height / width, _inset_aspect(result)] if result.insets else [1]
     grid = row.add_gridspec(len(ratios), count * columns, height_ratios=ratios)
     row.suptitle(result.settings.name, x=0.01, ha="left", fontsize=10, fontweight="bold")
-    reference = "reference" if result.reference_error is not None else "median"
+    blind = result.reference_error is None
+    reference = "median" if blind else "reference"
     images = [(reference, result.scale), *((e.label, e.image) for e in result.ranked)]
-    captions = ["", *(f"relMSE {e.score.relmse}" if e.score and e.score.relmse else ""
-                      for e in result.ranked)]  # fmt: skip
+    captions = ["", *(_caption(e.score, blind) for e in result.ranked)]
     for i, (label, image) in enumerate(images):
         whole = row.add_subplot(grid[0, i * count : (i + 1) * count])
         whole.set_title(f"{label}\n{captions[i]}".rstrip(), fontsize=8)
@@ -70,6 +71,16 @@ def _draw_scene(row: SubFigure, result: RaceResult, columns: int, shown: Any) ->
             part = row.add_subplot(grid[1, i * count + k])
             part.set_anchor("N")
             _show(part, shown(inset.crop(image)), FRAMES[k % len(FRAMES)])
+
+
+def _caption(score: Score | None, blind: bool) -> str:
+    """Two lines: relMSE, or without a reference what is in its place, and the pixels' quantiles."""
+    if not (score and score.relmse and score.pixel_median and score.percentile_90):
+        return ""
+    return (
+        f"{'spread of the seeds' if blind else 'relMSE'} {score.relmse}\n"
+        f"median pixel {score.pixel_median.value:.2g}, 90 % {score.percentile_90.value:.2g}"
+    )
 
 
 def _show(axes: Axes, picture: np.ndarray, frame: str = "") -> None:

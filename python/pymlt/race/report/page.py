@@ -14,7 +14,7 @@ from ...pictures.tonemapping import Exposure, check_tonemap, stops_of
 from .chart import COLOURS, Series, embedded, error_chart, level_chart
 from .insets import Inset
 from .pictures import drawing, error_map, exact, photograph, shows_flip
-from .table import Column, columns, heading, notes, summary
+from .table import Column, columns, heading, notes, summary, summary_title
 
 if TYPE_CHECKING:
     from ..result import Entry, RaceResult
@@ -23,7 +23,10 @@ STYLE = Path(__file__).with_name("page.css")
 EXPLAINED = {
     "relMSE": "mean of (a − r)² / (r² + 0.01) over all pixels",
     "over best": "relMSE over the smallest relMSE",
+    "median seed": "median of relMSE over the seeds",
     "trimmed": "relMSE without the 0.1 % of the pixels that are worst",
+    "median pixel": "(a − r)² / (r² + 0.01) that half of the pixels of an image do not exceed",
+    "90 % of pixels": "the same that nine of ten pixels do not exceed",
     "shape": "relMSE once each image is scaled to the mean of the reference",
     "level": "mean of the image over the mean of the reference",
     "spread": "standard deviation of the level from seed to seed",
@@ -56,7 +59,7 @@ def page(results: Sequence[RaceResult], exposure: Exposure, tonemap: str) -> str
 def _summary(results: Sequence[RaceResult]) -> str:
     labels, *scenes = summary(results)
     return (
-        "<section><h2>All scenes</h2><p>relMSE over that of the best algorithm.</p>"
+        f"<section><h2>All scenes</h2><p>{escape(summary_title(results))}.</p>"
         f"{_table(list(enumerate(labels.cells)), scenes, 'summary')}</section>"
     )
 

@@ -34,8 +34,10 @@ def columns(result: RaceResult) -> list[Column]:
     made = [
         _errors("relMSE", [score.relmse for score in scores]),
         Column("over best", list(map(_ratio, ratios(result)))),
-        Column("median", [_number(score.median) for score in scores]),
+        Column("median seed", [_number(score.median) for score in scores]),
         _errors("trimmed", [score.trimmed for score in scores]),
+        _errors("median pixel", [score.pixel_median for score in scores]),
+        _errors("90 % of pixels", [score.percentile_90 for score in scores]),
         _errors("shape", [score.shape for score in scores]),
         Column("level", [str(score.level) for score in scores]),
         Column("spread", [_number(score.level_spread, 2) for score in scores]),
@@ -99,14 +101,17 @@ def notes(result: RaceResult) -> list[str]:
     ]
     if result.reference_error is None:
         made.append(
-            "Without a reference errors are variances between seeds: a bias is not seen. Level is "
-            "relative to the median of the algorithms."
+            "Without a reference errors are the spread of the seeds: light that nobody finds is not "
+            "seen, nor any other bias. Level is relative to the median of the algorithms."
         )
         made += levels_apart(result.ranked)
         if all(len(entry.runs) < 2 for entry in result.ranked):
             made.append("One image has no error: give a reference, or more seeds.")
     elif result.reference_error > 0:
-        made.append(f"The reference's own relMSE, {result.reference_error:.2g}, is subtracted.")
+        made.append(
+            f"The reference's own relMSE, {result.reference_error:.2g}, is subtracted, but not from "
+            "the median pixel, nor from 90 % of pixels."
+        )
     return made
 
 
@@ -142,6 +147,13 @@ def aligned(columns: Sequence[Column]) -> str:
     )
 
 
+def summary_title(results: Sequence[RaceResult]) -> str:
+    """What `summary` shows, and on which scenes it is no error."""
+    blind = [result.settings.name for result in results if result.reference_error is None]
+    spread = f"; without a reference, by the spread of the seeds: {', '.join(blind)}"
+    return "relMSE over that of the best algorithm" + (spread if blind else "")
+
+
 def summary(results: Sequence[RaceResult]) -> list[Column]:
     """relMSE over the best, for each algorithm and scene, and their geometric mean."""
     labels = list(dict.fromkeys(entry.label for result in results for entry in result.ranked))
@@ -163,4 +175,4 @@ def _ratios(title: str, values: Sequence[float | None]) -> Column:
 
 def summary_table(results: Sequence[RaceResult]) -> str:
     """The same as text."""
-    return "relMSE over that of the best algorithm\n" + aligned(summary(results))
+    return f"{summary_title(results)}\n{aligned(summary(results))}"
