@@ -5,6 +5,7 @@ import pytest
 from scipy import stats
 
 import pymlt as mlt
+from pymlt.cli.compare import METRICS
 
 
 def test_a_constant_error_has_the_metrics_of_its_formulas():
@@ -30,6 +31,26 @@ def test_trimming_drops_the_worst_thousandth():
     metrics = mlt.compare(a, r, flip=False)
     assert metrics["relmse"] > 1e6
     assert metrics["relmse_trimmed"] == pytest.approx(0.01 / 1.01 / 9990)
+
+
+def test_quantiles_are_over_the_pixels_whose_channels_are_averaged():
+    r = np.ones((10, 10, 3))
+    a = r.copy()
+    a[..., 1] += np.sqrt(np.random.default_rng(6).permutation(100)).reshape(10, 10)
+    metrics = mlt.compare(a, r, flip=False)
+    assert metrics["relmse_median"] == pytest.approx(49.5 / 1.01 / 3)
+    assert metrics["relmse_p90"] == pytest.approx(89.1 / 1.01 / 3)
+
+
+def test_a_firefly_moves_the_mean_but_no_quantile():
+    r = np.ones((20, 20, 3))
+    a = r + 0.1
+    before = mlt.compare(a, r, flip=False)
+    a[3, 4] = 1e6
+    after = mlt.compare(a, r, flip=False)
+    assert after["relmse"] > 1e6 * before["relmse"]
+    for name in ("relmse_median", "relmse_p90"):
+        assert after[name] == before[name] == pytest.approx(0.01 / 1.01)
 
 
 def test_bias_z_is_a_standard_normal_number_without_bias_and_large_with_it():
@@ -69,3 +90,8 @@ def test_flip_grows_with_the_error():
     r = rng.random((32, 32, 3))
     small, large = (mlt.compare(r + s * rng.random(r.shape), r)["flip"] for s in (0.05, 0.5))
     assert 0 < small < large < 1
+
+
+def test_the_command_knows_all_metrics():
+    flat = np.ones((4, 4, 3))
+    assert set(METRICS) == {*mlt.compare(flat, flat, flip=False), "flip"}

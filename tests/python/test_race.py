@@ -14,6 +14,7 @@ import tiny
 from command_line import PYMLT, run, the_error
 
 import pymlt as mlt
+from pymlt.diagnostics.metrics import relative_square
 from pymlt.race.calibration import Calibration, calibrate
 from pymlt.race.child import run_child
 from pymlt.race.report.insets import choose_insets
@@ -80,16 +81,21 @@ def test_the_scores_are_those_of_compare():
     metrics = mlt.compare(image, reference, flip=score.flip is not None)
     assert score.relmse.value == pytest.approx(metrics["relmse"])
     assert score.trimmed.value == pytest.approx(metrics["relmse_trimmed"])
+    assert score.pixel_median.value == pytest.approx(metrics["relmse_median"])
+    assert score.percentile_90.value == pytest.approx(metrics["relmse_p90"])
     assert score.flip is None or score.flip.value == pytest.approx(metrics["flip"])
 
 
 def test_two_seeds_tell_half_their_squared_difference():
     a, b = noisy(4, 0.1, 2)
     judge = Judge.between_seeds([[a, b]])
-    pair = ((a - b) ** 2 / 2 / (((a + b) / 2) ** 2 + 0.01)).mean()
+    pair = ((a - b) ** 2 / 2 / (((a + b) / 2) ** 2 + 0.01)).mean(axis=2)
     score = judge.score([a, b], 1)
-    assert score.relmse.value == pytest.approx(pair)
-    assert score.relmse.error is None  # of one pair the spread is not known
+    assert score.relmse.value == pytest.approx(pair.mean())
+    assert score.pixel_median.value == pytest.approx(np.median(pair))
+    assert score.percentile_90.value == pytest.approx(np.quantile(pair, 0.9))
+    # Of one pair the spread is not known.
+    assert score.relmse.error is score.pixel_median.error is score.percentile_90.error is None
 
 
 @pytest.mark.parametrize("count", [2, 3, 8])
@@ -108,6 +114,7 @@ def test_black_images_have_no_error_between_seeds():
     judge = Judge.between_seeds([[black, black], [lit, 2 * lit]])
     score = judge.score([black, black], 1)
     assert score.relmse is score.median is score.trimmed is None
+    assert score.pixel_median is score.percentile_90 is None
     assert score.level.value == 0
     assert judge.score([lit, 2 * lit], 1).relmse.value > 0
 
@@ -128,6 +135,26 @@ def test_the_error_of_a_noisy_reference_is_subtracted():
     assert score.relmse.value == pytest.approx(0.0004 / 0.26, rel=0.05)
 
 
+def test_the_noise_of_a_reference_is_not_subtracted_from_quantiles():
+    references, images = noisy(9, 0.04, 2), noisy(10, 0.02, 3)
+    score = Judge.with_reference(references).score(images, 1)
+    maps = [relative_square(image, np.mean(references, axis=0)) for image in images]
+    assert score.pixel_median == mean_of([float(np.median(errors)) for errors in maps])
+    assert score.percentile_90 == mean_of([float(np.quantile(errors, 0.9)) for errors in maps])
+    assert score.relmse.value < np.mean(maps) / 2  # of which the noise is subtracted
+
+
+def test_light_that_nobody_finds_counts_only_against_a_reference():
+    reference = np.full((10, 10, 3), 0.5)
+    images = noisy(11, 0.01, 3, (10, 10))
+    reference[:3] = 2  # a third of the image, and less than half
+    known = Judge.with_reference([reference]).score(images, 1)
+    spread = Judge.between_seeds([images]).score(images, 1)
+    assert known.percentile_90.value == pytest.approx(1.5**2 / 4.01, rel=0.05)
+    assert known.pixel_median.value < 0.001
+    assert max(spread.relmse.value, spread.percentile_90.value) < 0.001
+
+
 def test_trimming_forgives_a_firefly():
     reference = np.full((50, 50, 3), 0.5)
     image = reference + 0.1
@@ -135,6 +162,8 @@ def test_trimming_forgives_a_firefly():
     score = Judge.with_reference([reference]).score([image], 1)
     assert score.relmse.value > 1e3
     assert score.trimmed.value == pytest.approx(0.01 / 0.26)
+    assert score.pixel_median.value == pytest.approx(0.01 / 0.26)
+    assert score.percentile_90.value == pytest.approx(0.01 / 0.26)
     assert score.sparks == 1
 
 
@@ -160,6 +189,7 @@ def test_one_image_without_a_reference_has_a_level_alone():
     (image,) = noisy(8, 0.1, 1)
     score = Judge.between_seeds([[image]]).score([image], 1)
     assert (score.relmse, score.trimmed, score.shape, score.level_spread) == (None,) * 4
+    assert score.pixel_median is score.percentile_90 is None
     assert score.level.value == pytest.approx(1)
 
 
@@ -412,11 +442,17 @@ def result(request):
 def test_the_table_has_a_line_for_each_algorithm(result):
     lines = result.table().splitlines()
     assert lines[0] == "made <here>: 48 x 32, 2 CPU seconds, 3 seeds"
+    shown = ["algorithm", "relMSE", "over best", "median seed", "trimmed", "median pixel"]
+    assert re.split("  +", lines[1])[:7] == [*shown, "90 % of pixels"]
+    score = result["path"].score
+    path = re.split("  +", lines[2])
+    assert path[5:7] == [str(score.pixel_median), str(score.percentile_90)]
     assert re.match(r"path +0\.0\d+ ± 0\.0\d+ +1 ", lines[2])
     assert lines[3].startswith("<b>& ")
     assert str(result) == result.table()
     assert "CPU seconds instead of" not in result.table()
-    assert ("bias is not seen" in result.table()) == (result.reference_error is None)
+    blind = "errors are the spread of the seeds, which sees neither light that nobody finds"
+    assert (blind in result.table()) == (result.reference_error is None)
 
 
 def test_levels_that_are_apart_are_remarked_upon_without_a_reference():
@@ -447,6 +483,9 @@ def test_the_page_stands_alone(result, tmp_path):
     assert "late has left the race: it was late" in page
     for cell in re.findall(r"\d+\.\d+(?= ± )", result.table()):
         assert cell in page
+    for column in ("median pixel", "90 % of pixels"):
+        assert f">{column}</th>" in page
+        assert f"<dt>{column}</dt>" in page
     assert ("FLIP)" in page) == (result.entries[0].score.flip is not None)
 
 
@@ -465,7 +504,9 @@ def test_numbers_are_strict_json(result, tmp_path):
     (race,) = document["races"]
     assert race["settings"]["size"] == [48, 32]
     path, _, late = race["algorithms"]
-    assert path["scores"][-1]["relmse"]["value"] == result["path"].score.relmse.value
+    for metric in ("relmse", "pixel_median", "percentile_90"):
+        expected = getattr(result["path"].score, metric)
+        assert path["scores"][-1][metric] == {"value": expected.value, "error": expected.error}
     assert [run["seed"] for run in path["runs"]] == [0, 1, 2]
     assert late["problem"] == "it was late"
     assert race["has_reference"] == (result.reference_error is not None)
@@ -480,6 +521,9 @@ def test_the_figure_has_images_and_insets(result):
     pytest.importorskip("matplotlib")
     figure = result.figure(tonemap="filmic")
     assert len(figure.axes) == 3 * (1 + 2)
+    titles = "".join(axes.get_title() for axes in figure.axes)
+    assert titles.count("median pixel") == 2
+    assert ("spread of the seeds" in titles) == (result.reference_error is None)
     with pytest.raises(mlt.UsageError, match="tone curve"):
         result.html(tonemap="sepia")
 
@@ -495,6 +539,15 @@ def test_several_scenes_are_summed_up():
     assert page.count("<section>") == 3
     assert "geometric mean" in page
     assert [entry["scene"] for entry in race.to_dict()["races"]] == ["first", "second"]
+
+
+def test_a_summary_names_scenes_that_the_spread_of_the_seeds_judges():
+    races = [made({"a": 0.1}, "known"), made({"a": 0.1}, "blind", reference=False)]
+    title = "relMSE over that of the best algorithm"
+    blind = f"{title}; without a reference, by the spread of the seeds: blind"
+    assert blind in mlt.Race(races).table().splitlines()
+    assert f"<p>{blind}.</p>" in mlt.Race(races).html()
+    assert title in mlt.Race([races[0]] * 2).table().splitlines()
 
 
 def test_insets_lie_where_algorithms_differ():

@@ -101,16 +101,16 @@ def notes(result: RaceResult) -> list[str]:
     ]
     if result.reference_error is None:
         made.append(
-            "Without a reference errors are the spread of the seeds: light that nobody finds is not "
-            "seen, nor any other bias. Level is relative to the median of the algorithms."
+            "Without a reference errors are the spread of the seeds, which sees neither light that "
+            "nobody finds nor any other bias. Level is relative to the median of the algorithms."
         )
         made += levels_apart(result.ranked)
         if all(len(entry.runs) < 2 for entry in result.ranked):
             made.append("One image has no error: give a reference, or more seeds.")
     elif result.reference_error > 0:
         made.append(
-            f"The reference's own relMSE, {result.reference_error:.2g}, is subtracted, but not from "
-            "the median pixel, nor from 90 % of pixels."
+            f"The reference's own relMSE, {result.reference_error:.2g}, is subtracted, but from "
+            "neither the median pixel nor 90 % of pixels."
         )
     return made
 
