@@ -68,7 +68,7 @@ CASES = {
         ("temple", (320, 180), "mlt"),
         ("living-room", (320, 180), "path"),
         ("ring", (256, 256), "mlt"),
-        ("bulb", (256, 256), "mlt"),
+        ("bulb", (256, 256), "bdpt"),
         ("orrery", (320, 180), "path"),
         ("motion", (320, 180), "mlt"),
         ("dof", (256, 256), "mlt"),
@@ -79,10 +79,10 @@ CASES = {
         ("fog", (320, 180), "mlt"),
         ("volcaustic", (320, 180), "mlt"),
         ("smoke", (320, 180), "path", 16),
-        ("milk", (320, 180), "mlt", 64),
+        ("milk", (320, 180), "bdpt", 64),
         ("candle", (320, 180), "bdpt", 64),
         ("prism", (320, 180), "bdpt", 10),
-        ("diamond", (320, 180), "mlt", 16),
+        ("diamond", (320, 180), "bdpt", 16),
         ("rainbow", (320, 180), "mlt", 6),
     )
 }
