@@ -14,6 +14,10 @@ class Cached {
     known_ = true;
     return value_;
   }
+  void set(const T& value) {
+    value_ = value;
+    known_ = true;
+  }
   void invalidate() { known_ = false; }
 
  private:

@@ -26,7 +26,7 @@ class ErptIntegrator : public Integrator {
     settings_.mixture = read_mixture(params, perturbations());
     settings_.adaptive = settings_.two_stage = settings_.samples_beside = false;
     settings_.tour_length = params.real_in("tour_length", 1, 1 << 24);
-    metropolis_.steps_per_sample = *settings_.tour_length * params.real_in("tours", 1e-6, 1e6);
+    metropolis_.steps_per_start = *settings_.tour_length * params.real_in("tours", 1e-6, 1e6);
   }
   std::unique_ptr<Rendering> start(ScenePtr scene, uint64_t seed) const override {
     return std::make_unique<MetropolisRendering>(scene, seed, metropolis_,
@@ -47,7 +47,7 @@ Plugin integrator_erpt() {
       "bidirectional path tracing, moved by the perturbations of mlt. One spp is one mutation per "
       "pixel.",
       {path_parameters(),
-       tour_parameters(512),
+       tour_parameters(128),
        mixture_parameters(perturbations()),
        {{"near_specular", ParamType::real, 0.1,
          "Smooth vertices below this roughness count as specular in perturbations."},

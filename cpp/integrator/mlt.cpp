@@ -20,8 +20,11 @@ class MltIntegrator : public Integrator {
     settings_.two_stage = params.boolean("two_stage");
     settings_.manifolds = params.boolean("manifolds");
     settings_.delayed_rejection = params.boolean("delayed_rejection");
-    const double patience = params.real_in("patience", 0, 1e6);
-    if (patience > 0) settings_.patience = patience;
+    if (params.has("patience"))
+      params.fail(
+          "patience",
+          "is gone: a tour now waits before it is a spark, not when it is long; see 'spark'");
+    settings_.spark = params.real_in("spark", 0, 1e6);
     direct_samples_ = static_cast<int>(params.integer_in("direct_samples", -1, 1 << 20));
     if (direct_samples_ >= 0) settings_.rules.min_depth = 3;
     settings_.mixture = read_mixture(params, mutation_plugins());
@@ -59,7 +62,7 @@ Plugin integrator_mlt() {
       "Metropolis light transport in path space with Veach's mutations (Veach & Guibas 1997). One "
       "spp is one mutation per pixel.",
       {path_parameters(),
-       tour_parameters(512),
+       tour_parameters(128),
        family_parameters(),
        mixture_parameters(mutation_plugins()),
        {{"near_specular", ParamType::real, 0.1,
@@ -79,10 +82,11 @@ Plugin integrator_mlt() {
             "What the independent samples are: those of bidirectional path tracing, or "
             "of path tracing, which are cheaper; by default a pilot chooses.",
             {"auto", "bdpt", "path"}),
-        {"patience", ParamType::real, 2.0,
-         "A tour, the mutations from one start of a chain, waits when it is this many times as "
-         "long as all tours of the chain should be by then. 0: none waits; the image is then right "
-         "in the mean from the start, but may be filled by the light of one path."},
+        {"spark", ParamType::real, 1.0,
+         "A tour, the mutations from one start of a chain, waits before it leaves more light in a "
+         "pixel than this many times what pixels have received in the mean by then. 0: none "
+         "waits; the image is then right in the mean from the start, but may have sparks."},
+        {"patience", ParamType::real, no_default, "Replaced by `spark`; it is refused."},
         {"direct_samples", ParamType::integer, int64_t{-1},
          "Render light of at most one reflection apart with this many samples per pixel; "
          "0 leaves it out, -1 leaves it to the chains."}}}));

@@ -100,8 +100,9 @@ class Pssmlt : public MetropolisAlgorithm {
     paths()(nullptr, x, candidate);
     return chain(id, std::move(x));
   }
-  std::unique_ptr<RenderChain> blank(const ChainId& id, const FamilyWeights&,
-                                     double) const override {
+  /// A mutation makes a whole sample.
+  double cost_of_mutation(double rays_of_sample) const override { return 1 + rays_of_sample; }
+  std::unique_ptr<RenderChain> blank(const ChainId& id, const Allocation&) const override {
     return chain(id, {});
   }
   std::vector<MutationStats> rows() const override {

@@ -153,7 +153,7 @@ void Job::lead() {
 
 /// Runs the bootstrap. It can be abandoned at once: no rendered unit is lost.
 void Job::prepare() {
-  constexpr double share = 0.3;  // of the time, at most
+  constexpr double share = 0.05;  // of the time
   if (stop_rule_.seconds()) rendering_->limit_preparation(share * *stop_rule_.seconds());
   const Watchdog watchdog([this] { return stopping(); }, 0);
   rendering_->prepare(threads_, watchdog.stop());

@@ -62,11 +62,11 @@ struct Tour {
   uint64_t steps = 0;  ///< Steps that it has made.
 };
 
-/// Makes steps until the tour dies, or has made `most` in all; returns whether it is dead.
-/// `survival()` is that of the current state.
-template <class Survival, class Step>
-bool run_tour(Tour& tour, double most, Survival&& survival, Step&& step) {
-  for (; static_cast<double>(tour.steps) < most; ++tour.steps) {
+/// Makes steps until the tour dies, or must wait in a state from which it may not go on; returns
+/// whether it is dead. `survival()` is that of the current state.
+template <class GoesOn, class Survival, class Step>
+bool run_tour(Tour& tour, GoesOn&& goes_on, Survival&& survival, Step&& step) {
+  for (; goes_on(); ++tour.steps) {
     tour.left *= survival();
     if (!(tour.left > tour.u)) return true;
     step();

@@ -15,8 +15,10 @@ class PathSeeds {
   PathSeeds(const PathTarget& target, const BidirectionalSettings& settings)
       : target_(&target), paths_(target.scene(), settings) {}
 
+  /// With the balance heuristic f / P is the weighted f / p of a path, without roulette.
   static BidirectionalSettings settings(const PathTarget& target) {
     BidirectionalSettings settings;
+    settings.heuristic = Heuristic::balance;
     settings.rules = target.rules();
     settings.manifolds = target.manifolds();
     return settings;

@@ -36,19 +36,19 @@ struct PathState {
   PathTerms terms;
   Vec2 raster{0};
   Color rgb{0};       ///< f(x) / |f(x)|, see relative_contribution.
-  double target = 0;  ///< L*(x) / |f(x)|, times the factor of two-stage sampling.
+  double target = 0;  ///< T'(x) / |f(x)|, see PathTarget.
 
   /// Functions of the path, cached when first evaluated.
   struct Known {
-    Cached<double> over_density, over_bidirectional_density;  ///< See PathTarget.
-    Cached<std::optional<ImageFootprint>> footprint;          ///< For the caustic perturbation.
+    Cached<double> over_density, over_starts;         ///< See PathTarget.
+    Cached<std::optional<ImageFootprint>> footprint;  ///< For the caustic perturbation.
     Cached<CameraChains> camera_chains;
     Cached<int> triples;       ///< Number of triples that the manifold perturbation may move.
     Cached<int> propagations;  ///< Number of ways in which the propagation may move a vertex.
 
     void invalidate() {
       over_density.invalidate();
-      over_bidirectional_density.invalidate();
+      over_starts.invalidate();
       footprint.invalidate();
       camera_chains.invalidate();
       triples.invalidate();
@@ -58,7 +58,7 @@ struct PathState {
   mutable Known known;
   mutable MoveChoice choice;  ///< Cached by the mixture that moves the path.
 
-  /// L*(x), times the factor of two-stage sampling. May over- or underflow; chains do not need it.
+  /// T'(x). May over- or underflow; chains do not need it.
   double brightness() const { return target * magnitude(terms, 0, edges()); }
 
   int edges() const { return path.edges(); }

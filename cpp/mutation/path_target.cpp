@@ -35,8 +35,17 @@ void PathTarget::evaluate_target(PathState& x) const {
   x.raster = *x.terms.raster;
   x.rgb = f;
   x.target = of(f, x.raster, certainty(x.terms));
+  if (weights_.threshold() > 0 && x.target > 0) {
+    const double tau = x.target / density(x);
+    x.known.over_density.set(tau);
+    x.target *= weights_.of_chain(tau);
+  }
 }
 
-PathSeeds PathTarget::seeds() const { return PathSeeds(*this); }
+PathSeeds PathTarget::seeds() const {
+  BidirectionalSettings settings = PathSeeds::settings(*this);
+  settings.heuristic = Heuristic::power;  // has a little less noise
+  return {*this, settings};
+}
 
 }  // namespace mlt

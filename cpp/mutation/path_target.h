@@ -1,6 +1,12 @@
-// L*(x), the target of Metropolis light transport: its value for each path of a scene.
+// The target of Metropolis light transport: its value for each path of a scene.
+//
+//   T(x) = L*(x) m(x),   T'(x) = T(x) w2(x)
+//
+// m is the factor of two-stage sampling, and w2 the share of T that is left to chains where there
+// are independent samples beside them (FamilyWeights). Chains have the target T'.
 #pragma once
 
+#include "markov/family_weights.h"
 #include "mutation/certain_light.h"
 #include "mutation/path_state.h"
 #include "mutation/target_map.h"
@@ -54,26 +60,22 @@ class PathTarget {
 
   /// The factor of two-stage sampling.
   double factor(const Vec2& raster) const { return map_ ? (*map_)(raster) : 1.0; }
-  /// The target of light of this color, f or f / p, at a raster position, by a path of this
-  /// certainty.
+  /// The weights of samples and chains; without any samples, T' is T.
+  const FamilyWeights& weights() const { return weights_; }
+  void set_weights(const FamilyWeights& weights) { weights_ = weights; }
+
+  /// T for light of this color, f or f / p, at a raster position, by a path of this certainty.
   double of(const Color& color, const Vec2& raster, double certainty) const {
     return certainty > most_certain(raster) ? 0 : target_luminance(color) * factor(raster);
   }
-  /// T(x) / P(x), where P is the density of the techniques together (see FamilyWeights).
+  /// tau(x) = T(x) / P(x), where P is the density of the samples of the image.
   double over_density(const PathState& x) const {
-    return x.known.over_density.get([&] {
-      return techniques_ == SampleTechniques::all
-                 ? over_bidirectional_density(x)
-                 : x.target / path_tracing_density(ContributionMeasure{x.terms});
-    });
+    return x.known.over_density.get([&] { return x.target / density(x); });
   }
-  /// T(x) / P(x) for all techniques of bidirectional path tracing.
-  double over_bidirectional_density(const PathState& x) const {
-    return x.known.over_bidirectional_density.get([&] {
-      const ManifoldTechnique manifold =
-          manifold_ ? manifold_->technique(x.path, x.terms) : ManifoldTechnique();
-      return x.target / total_density(ContributionMeasure{x.terms}, manifold);
-    });
+  /// T'(x) / S(x), where S is the density of all techniques of bidirectional path tracing, from
+  /// whose samples tours start.
+  double over_starts(const PathState& x) const {
+    return x.known.over_starts.get([&] { return x.target / bidirectional_density(x); });
   }
   /// Computes the terms that depend on vertices first ... last and their neighbours, then f and L*,
   /// without visibility. target = 0 if the path has no light, misses the image or breaks the rules.
@@ -92,6 +94,17 @@ class PathTarget {
  private:
   TermSettings term_settings() const { return {true, rules_.strict_normals, near_specular_}; }
   void evaluate_target(PathState& x) const;
+  // Over |f(x)|:
+  double density(const PathState& x) const {
+    return techniques_ == SampleTechniques::all
+               ? bidirectional_density(x)
+               : path_tracing_density(ContributionMeasure{x.terms});
+  }
+  double bidirectional_density(const PathState& x) const {
+    const ManifoldTechnique manifold =
+        manifold_ ? manifold_->technique(x.path, x.terms) : ManifoldTechnique();
+    return total_density(ContributionMeasure{x.terms}, manifold);
+  }
 
   ScenePtr scene_;
   PathRules rules_;
@@ -101,6 +114,7 @@ class PathTarget {
   std::shared_ptr<const ManifoldGuide> manifolds_;
   std::shared_ptr<const ManifoldSampler> manifold_;
   SampleTechniques techniques_ = SampleTechniques::all;
+  FamilyWeights weights_;
 };
 
 }  // namespace mlt

@@ -55,7 +55,7 @@ class SampleTargeting {
   void finish(Found&& found) {
     state_.find_target();
     for (const ImageLight& one : state_.light)
-      found(FoundLight{one, 1, 0, target_luminance(one.rgb),
+      found(FoundLight{one, 1, 0, 0, target_luminance(one.rgb),
                        large_steps_.denominator(state_.target)});
     state_.light.clear();
   }

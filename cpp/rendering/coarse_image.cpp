@@ -17,16 +17,17 @@ CoarseImage coarse_image(const MetropolisAlgorithm& algorithm, const Raster& ras
       const Vec2 position = raster.sample(sampler.next2());
       for (const FoundLight& found : source->sample(position, sampler))
         if (found.valid()) images[part].add(found);
+      ++images[part].drawn;
     }
   });
   CoarseImage sum(raster);
   for (const CoarseImage& image : images) {
     sum.map.add(image.map);
-    sum.typical.add(image.typical);
-    sum.b += image.b / static_cast<double>(samples);
+    sum.b += image.b;
+    sum.drawn += image.drawn;
   }
+  if (sum.drawn > 0) sum.b /= static_cast<double>(sum.drawn);
   sum.map.finish();
-  sum.typical.finish();
   return sum;
 }
 

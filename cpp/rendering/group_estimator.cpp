@@ -9,19 +9,22 @@ namespace mlt {
 GroupEstimator::GroupEstimator(std::vector<GroupProgress> groups, const Estimate& of_chains,
                                bool corrected)
     : groups_(std::move(groups)), of_chains_(of_chains) {
-  MeanSums by_chains, bootstrap;
+  MeanSums by_chains, bootstrap, due;
   for (int g = 0; g < count(); ++g) {
     chain_brightness_ += chain_brightness(g);
     if (begun(g)) by_chains.add(chain_brightness(g));
+    if (has_chains(g))
+      due.add(groups_[g].b * groups_[g].due / static_cast<double>(groups_[g].steps));
     bootstrap += groups_[g].bootstrap.of_chains;
   }
   const Estimate chains = estimate(by_chains), samples = pooled(estimate(bootstrap), of_chains_);
   mean_brightness_ = chains.mean;
+  missing_ = waiting_ = due.mean();
   if (!(chains.variance > 0) || samples.count == 0) return;
   if (corrected) lambda_ = chains.variance / (chains.variance + samples.variance);
   const double difference = samples.mean - chains.mean;
   if (sqr(difference) > sqr(2.5) * (chains.variance + samples.variance))
-    missing_ = (1 - lambda_) * difference;
+    missing_ = std::max(waiting_, (1 - lambda_) * difference);
 }
 
 /// The estimate M_g.
@@ -100,11 +103,14 @@ double GroupEstimator::excess() const {
 
 GroupWeights GroupEstimator::common_error() const {
   GroupWeights scales(count());
-  if (of_chains_.count == 0 || !(chain_brightness_ > 0)) return scales;
-  const double share =
-      static_cast<double>(of_chains_.count) / static_cast<double>(samples_of(0).count);
+  if (!(chain_brightness_ > 0)) return scales;
   const double placed = std::abs(missing_) / (1 + excess());
-  const double error = std::hypot(lambda_ * share * std::sqrt(of_chains_.variance), placed);
+  double error = placed;
+  if (of_chains_.count > 0) {
+    const double share =
+        static_cast<double>(of_chains_.count) / static_cast<double>(samples_of(0).count);
+    error = std::hypot(lambda_ * share * std::sqrt(of_chains_.variance), placed);
+  }
   for (int h = 0; h < count(); ++h)
     if (has_chains(h))
       scales[h] = error / chain_brightness_ * groups_[h].b / static_cast<double>(groups_[h].steps);

@@ -30,7 +30,7 @@
 // whose mean is I. Where lambda is 0, J_g is I_g.
 //
 // Tours (markov/tour.h) are scaled by a known number: their b C_g is right by itself, and lambda is
-// 0 too.
+// 0 too. What tours that wait have yet to record is missing in it.
 //
 // The correction subtracts light from the others' image where a group is too bright, but no more
 // than that image can lose: the rest of the excess is subtracted from the group's own C_g, so that
@@ -50,6 +50,7 @@ struct GroupProgress {
   SampleSums bootstrap;   ///< Brightness of the bootstrap samples.
   uint64_t steps = 0;     ///< Number of steps of its chains.
   double brightness = 0;  ///< Sum of L* of what its chains have recorded.
+  double due = 0;         ///< Sum of L* of what they have yet to record.
 };
 
 /// How much of what each group has recorded belongs to an image.
@@ -72,8 +73,10 @@ class GroupEstimator {
   /// missing() beyond the brightness of all that the chains show, over this.
   double excess() const;
   /// The brightness that the samples have found beyond that of the image (or below, if negative),
-  /// if it is significant: more than 2.5 standard errors.
+  /// if it is significant: more than 2.5 standard errors. At least that of waiting tours.
   double missing() const { return missing_; }
+  /// The brightness that waiting tours have yet to record.
+  double waiting() const { return waiting_; }
   /// Whether a group has an image: it has found no light, or its chains have made steps.
   bool begun(int g) const { return groups_[g].b == 0 || has_chains(g); }
 
@@ -95,6 +98,7 @@ class GroupEstimator {
   Estimate of_chains_;
   double chain_brightness_ = 0;  ///< Sum of b_g D_g.
   double mean_brightness_ = 0;   ///< Its mean over the groups that have begun.
+  double waiting_ = 0;
   double lambda_ = 0, missing_ = 0;
 };
 

@@ -48,7 +48,8 @@ class Rendering {
   Rendering(ScenePtr scene, uint64_t seed) : scene_(std::move(scene)), seed_(seed) {}
   virtual ~Rendering() = default;
 
-  /// Sets how many seconds prepare() should take at the most; to be called before it.
+  /// Sets how many seconds prepare() should take, and at most four times as many; to be called
+  /// before it.
   void limit_preparation(double seconds) { preparation_seconds_ = seconds; }
   /// Does the work before the first unit (a bootstrap), on up to `threads` threads. `cancelled` is
   /// checked now and then. Throws RenderError.

@@ -4,8 +4,10 @@
 #include "mutation/path_target.h"
 #include "path/found_light.h"
 #include "path/samplers.h"
+#include "rendering/allocation.h"
 #include "rendering/metropolis_chain.h"
 #include "rendering/sampled_rendering.h"
+#include "rendering/starting_paths.h"
 #include "rendering/stats.h"
 
 #include <atomic>
@@ -49,14 +51,23 @@ class MetropolisAlgorithm {
   virtual const Scene& scene() const = 0;
   /// Starts a chain from the candidate that the same stream gave; `choice` chooses one of the
   /// paths that the candidate consists of.
-  virtual std::unique_ptr<RenderChain> start(const ChainId& id, Rng candidate,
-                                             Rng choice) const = 0;
-  /// Whether chains draw their own starting samples (PathTours), and so may begin blank.
+  virtual std::unique_ptr<RenderChain> start(const ChainId& /*id*/, Rng /*candidate*/,
+                                             Rng /*choice*/) const {
+    return nullptr;
+  }
+  /// Whether chains draw their own starting samples (PathTours), and so begin blank.
   virtual bool has_tours() const { return false; }
-  /// A chain without a state, to be loaded from bytes. Tours make `steps_per_sample` steps in the
-  /// mean from each sample, if id.b is b, and record the weights of the samples.
-  virtual std::unique_ptr<RenderChain> blank(const ChainId& id, const FamilyWeights& weights,
-                                             double steps_per_sample) const = 0;
+  /// Draws samples that tours start from, for the pilot.
+  virtual std::unique_ptr<StartingPaths> starting_paths() const { return nullptr; }
+  /// Cost of a mutation in rays of chains, where a sample has so many; everything else costs about
+  /// as much as one ray more.
+  virtual double cost_of_mutation(double /*rays_of_sample*/) const {
+    constexpr double rays = 3;  // in the mean of all scenes
+    return 1 + rays;
+  }
+  /// A chain without a state, to be loaded from bytes.
+  virtual std::unique_ptr<RenderChain> blank(const ChainId& id,
+                                             const Allocation& allocation) const = 0;
   /// The number of chains of a group that advance together.
   virtual int chains_together() const { return 1; }
   /// Advances chains together; each takes the steps that it would take alone, up to rounding.
@@ -66,12 +77,19 @@ class MetropolisAlgorithm {
   /// Name and path length of each row of the statistics.
   virtual std::vector<MutationStats> rows() const = 0;
   /// Called once before the first sample.
-  virtual void look_around(uint64_t /*seed*/, int /*threads*/,
+  virtual void learn() {}
+  /// Called once before the first sample that is weighed. `share`: that of a pilot's usual work.
+  virtual void look_around(double /*share*/, uint64_t /*seed*/, int /*threads*/,
                            const std::atomic<bool>& /*cancelled*/) {}
-  /// Called once before the first chain, to prepare what the chains need, with a coarse image that
-  /// may become a part of the target.
+  /// Called once before the time is divided, with a coarse image that may become a part of the
+  /// target.
   virtual void prepare(const CoarseImage& /*coarse*/, uint64_t /*seed*/, int /*threads*/,
                        const std::atomic<bool>& /*cancelled*/) {}
+  /// Called once when the time is divided, before the first chain.
+  virtual void set_weights(const FamilyWeights& /*weights*/) {}
+  /// Called once after that, to learn from pilot chains.
+  virtual void adapt(double /*share*/, uint64_t /*seed*/, int /*threads*/,
+                     const std::atomic<bool>& /*cancelled*/) {}
   /// Called once after the pilot.
   virtual void end_pilot() {}
   virtual std::string save() const { return ""; }

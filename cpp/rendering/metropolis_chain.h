@@ -154,8 +154,8 @@ class RenderChain {
   virtual const ChainStats& stats() const = 0;
   /// Sums over the samples that it starts from, if it draws them itself; else nullptr.
   virtual const SampleSums* samples() const { return nullptr; }
-  /// The mean number of steps that it has yet to make for what it has found.
-  virtual double steps_due() const { return 0; }
+  /// The sum of L* that it has yet to record, in the mean, for what it has found.
+  virtual double light_due() const { return 0; }
   virtual void save(ByteWriter& bytes) const = 0;
   virtual void load(ByteReader& bytes) = 0;
 };

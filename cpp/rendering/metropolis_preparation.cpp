@@ -22,19 +22,17 @@ void MetropolisRendering::render_direct(int threads, const std::atomic<bool>& ca
 void MetropolisRendering::prepare(int threads, const std::atomic<bool>& cancelled) {
   if (direct_.rendering) render_direct(threads, cancelled);
   if (std::isinf(preparation_seconds_) || settings_.independent_share == 0) {
-    prepare_chains(threads, cancelled);
+    prepare_chains(threads, cancelled, cancelled);
     return;
   }
   using Clock = std::chrono::steady_clock;
-  const auto end = Clock::now() + std::chrono::duration<double>(preparation_seconds_);
-  bool in_time = false;
+  const auto end = Clock::now() + std::chrono::duration<double>(4 * preparation_seconds_);
   try {
     const Watchdog watchdog([&] { return cancelled || Clock::now() >= end; }, 0);
-    prepare_chains(threads, watchdog.stop());
-    in_time = !watchdog.stop();
+    if (prepare_chains(threads, watchdog.stop(), cancelled)) return;
   } catch (const Abandoned&) {
   }
-  if (!in_time && !cancelled) do_without_chains();
+  if (!cancelled) do_without_chains();
 }
 
 /// Makes a render that is too short for pilot and bootstrap one of independent samples.
@@ -43,32 +41,43 @@ void MetropolisRendering::do_without_chains() {
     group.b = 0;
     group.bootstrap = {};
   }
-  allocation_ = samples_alone(settings_.techniques.value_or(SampleTechniques::all));
+  SampleTechniques techniques = settings_.techniques.value_or(SampleTechniques::path_tracing);
+  if (!algorithm_->set_techniques(techniques))
+    algorithm_->set_techniques(techniques = SampleTechniques::all);
+  allocation_ = samples_alone(techniques);
   allocation_.in_time = false;
   algorithm_->end_pilot();
-  algorithm_->set_techniques(allocation_.techniques);
   lay_out();
 }
 
-void MetropolisRendering::prepare_chains(int threads, const std::atomic<bool>& cancelled) {
-  allocation_ = run_pilot(threads, cancelled);
+/// Prepares all that comes before the first unit; what takes its time ends when `late`. Returns
+/// whether there are chains, or none are wanted.
+bool MetropolisRendering::prepare_chains(int threads, const std::atomic<bool>& late,
+                                         const std::atomic<bool>& cancelled) {
+  allocation_ = run_pilot(threads, late);
   algorithm_->end_pilot();
-  if (cancelled) return;
-  if (allocation_.share == 1)
+  if (cancelled) return false;
+  if (allocation_.share == 1) {
+    if (late && settings_.independent_share != 1) return false;
     lay_out();
-  else if (algorithm_->has_tours())
+  } else if (algorithm_->has_tours()) {
     start_tours();
-  else
-    start_chains(threads, cancelled);
+  } else {
+    start_chains(threads, late);
+    return !late;
+  }
+  return true;
 }
 
-/// The share of a pilot's samples that it can afford, if it has as many as by default. Samples that
-/// search for light through glass may take a thousand times as many rays as others. Rays are
-/// counted, not seconds, so that equal seeds have equal pilots: a processor traces them in about
-/// two seconds, or in a tenth of the render's time, of which preparation_seconds_ is three tenths.
+/// The share of a pilot's samples that it can afford. Samples that search for light through glass
+/// may take a thousand times as many rays as others. Rays are counted, not seconds, so that equal
+/// seeds have equal pilots on any number of threads: one traces them in about preparation_seconds_,
+/// or in two seconds.
 double MetropolisRendering::affordable_share(const std::atomic<bool>& cancelled) {
-  constexpr double all = 1 << 22, seconds_for_all = 6, to_try = 1. / 32, samples = 50000;
-  const double rays = all * std::clamp(preparation_seconds_ / seconds_for_all, 0.25, 1.0);
+  constexpr double per_second = 1 << 21, to_try = 1. / 32, usual = 50000;
+  const double rays = per_second * std::min(preparation_seconds_, 2.0),
+               given = static_cast<double>(settings_.luminance_samples),
+               samples = std::isinf(preparation_seconds_) ? usual : std::max(usual, given);
   const auto source = algorithm_->source();
   const uint64_t stream = mix_bits(seed_ ^ mix_bits(uint64_t(Purpose::map)));
   uint32_t tried = 0;
@@ -87,36 +96,37 @@ Allocation MetropolisRendering::run_pilot(int threads, const std::atomic<bool>& 
     algorithm_->set_techniques(techniques);
     return samples_alone(techniques);
   }
-  algorithm_->look_around(seed_, threads, cancelled);
-  const double share = affordable_share(cancelled);
-  PilotSettings pilot;
-  pilot.seed = seed_;
-  pilot.threads = threads;
-  pilot.samples = affordable(share, settings_.luminance_samples / 6);
-  pilot.chains = std::min(pilot.chains, settings_.chains);
-  pilot.share = settings_.independent_share;
-  pilot.techniques = settings_.techniques;
+  algorithm_->learn();
+  const double share = affordable_share_ = affordable_share(cancelled);
+  algorithm_->look_around(share, seed_, threads, cancelled);
+  const AllocationSettings settings{seed_, threads,
+                                    affordable(share, settings_.luminance_samples / 6),
+                                    settings_.independent_share, settings_.techniques};
   const Raster& raster = scene_->camera().raster();
   const uint64_t samples = affordable(share, settings_.luminance_samples / 3);
   CoarseImage coarse = coarse_image(*algorithm_, raster, seed_, samples, threads, cancelled);
   coarse.share = share;
   algorithm_->prepare(coarse, seed_, threads, cancelled);
   if (settings_.independent_share == 0 && !algorithm_->has_tours()) return {};
-  Allocation allocation = allocate(*algorithm_, raster, coarse.typical, pilot, cancelled);
-  if (settings_.steps_per_sample) allocation.steps_per_sample = *settings_.steps_per_sample;
+  Allocation allocation = allocate(*algorithm_, coarse, settings, cancelled);
+  if (settings_.steps_per_start)
+    allocation = tours_alone(allocation.brightness, *settings_.steps_per_start);
+  algorithm_->set_weights(allocation.weights);
+  if (!cancelled) algorithm_->adapt(share, seed_, threads, cancelled);
   return allocation;
 }
 
 /// Starts tours, which need no bootstrap.
 void MetropolisRendering::start_tours() {
-  for (Group& group : groups_) group.b = allocation_.b;
+  for (Group& group : groups_) group.b = allocation_.kappa0 * allocation_.steps_per_start;
   lay_out();
   for (const auto& team : teams_)
     for (size_t k = 0; k < team->chains.size(); ++k) team->chains[k] = blank_chain(*team, k);
 }
 
 void MetropolisRendering::start_chains(int threads, const std::atomic<bool>& cancelled) {
-  const uint64_t per_group = (settings_.luminance_samples + group_count - 1) / group_count;
+  const uint64_t per_group =
+      (affordable(affordable_share_, settings_.luminance_samples) + group_count - 1) / group_count;
   const Candidates candidates{seed_, Purpose::bootstrap, per_group * group_count};
   const auto seeds = run_bootstrap(candidates, threads, cancelled);
   if (cancelled) return;

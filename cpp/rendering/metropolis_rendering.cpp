@@ -36,8 +36,7 @@ ChainId MetropolisRendering::chain_id(const ChainBatch& team, size_t chain) cons
 
 std::unique_ptr<RenderChain> MetropolisRendering::blank_chain(const ChainBatch& team,
                                                               size_t chain) const {
-  return algorithm_->blank(chain_id(team, chain), allocation_.weights,
-                           allocation_.steps_per_sample);
+  return algorithm_->blank(chain_id(team, chain), allocation_);
 }
 
 // ---- the layout of shares and units -------------------------------------------------------------
@@ -167,8 +166,11 @@ std::vector<GroupProgress> MetropolisRendering::progress() const {
   for (const auto& team : teams_) {
     const std::lock_guard lock(team->mutex);
     groups[team->group].brightness += team->brightness;
-    for (const auto& chain : team->chains)
-      if (chain && chain->samples()) groups[team->group].bootstrap += *chain->samples();
+    for (const auto& chain : team->chains) {
+      if (!chain) continue;
+      groups[team->group].due += chain->light_due();
+      if (chain->samples()) groups[team->group].bootstrap += *chain->samples();
+    }
   }
   return groups;
 }

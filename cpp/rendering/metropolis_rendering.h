@@ -11,7 +11,7 @@
 #include "markov/bootstrap.h"
 #include "rendering/group_estimator.h"
 #include "rendering/interleaving.h"
-#include "rendering/metropolis_pilot.h"
+#include "rendering/metropolis_algorithm.h"
 #include "rendering/sampled_rendering.h"
 #include "rendering/separate_direct.h"
 
@@ -28,7 +28,7 @@ struct MetropolisSettings {
   /// Samples' share of time, which becomes Allocation::share; default: by a pilot.
   std::optional<double> independent_share;
   std::optional<SampleTechniques> techniques;  ///< Techniques of samples; default: by a pilot.
-  std::optional<double> steps_per_sample;      ///< Steps of tours per sample; default: by a pilot.
+  std::optional<double> steps_per_start;       ///< Of tours, per sample that they start from.
   bool parts = false;                          ///< Whether to keep both families' images as layers.
   bool only_camera_walks = false;              ///< See warn_of_hidden_lights.
 };
@@ -77,7 +77,8 @@ class MetropolisRendering : public Rendering {
   uint64_t chain_count() const;
   uint64_t sample_shares() const { return samples_ ? uint64_t{group_count} : 0; }
   void render_direct(int threads, const std::atomic<bool>& cancelled);
-  void prepare_chains(int threads, const std::atomic<bool>& cancelled);
+  bool prepare_chains(int threads, const std::atomic<bool>& late,
+                      const std::atomic<bool>& cancelled);
   void do_without_chains();
   double affordable_share(const std::atomic<bool>& cancelled);
   Allocation run_pilot(int threads, const std::atomic<bool>& cancelled);
@@ -94,7 +95,6 @@ class MetropolisRendering : public Rendering {
   /// The sums of each group; the bootstrap of tours consists of the samples that they start from.
   std::vector<GroupProgress> progress() const;
   GroupEstimator group_estimator() const;
-  double waiting() const;
   void add_level(Stats& stats) const;
   ChainStats sum_of_stats(StuckChain& stuck) const;
   std::string save_prepared() const;
@@ -103,6 +103,7 @@ class MetropolisRendering : public Rendering {
   void load_chains(ByteReader& bytes);
 
   MetropolisSettings settings_;
+  double affordable_share_ = 1;
   Allocation allocation_;
   std::unique_ptr<MetropolisAlgorithm> algorithm_;
   SeparateDirect direct_;

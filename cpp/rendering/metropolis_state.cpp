@@ -30,7 +30,8 @@ void MetropolisRendering::load_prepared(const std::string& prepared) {
   ByteReader bytes(prepared);
   allocation_ = bytes.read<Allocation>();
   if (!(0 <= allocation_.share && allocation_.share <= 1 && 0 < allocation_.mutations_per_sample &&
-        allocation_.mutations_per_sample < 1e6 && 0 < allocation_.steps_per_sample))
+        allocation_.mutations_per_sample < 1e6 && 0 < allocation_.steps_per_start &&
+        0 < allocation_.kappa0))
     throw RenderError("the saved state divides the time as no render does");
   if (!algorithm_->set_techniques(allocation_.techniques))
     throw RenderError("the saved state has techniques that do not exist");
@@ -43,6 +44,7 @@ void MetropolisRendering::load_prepared(const std::string& prepared) {
   bytes.read(algorithm);
   bytes.finish();
   algorithm_->load(algorithm);
+  algorithm_->set_weights(allocation_.weights);
   lay_out();
 }
 

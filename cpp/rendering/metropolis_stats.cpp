@@ -12,20 +12,10 @@ namespace {
 /// From this uncertainty of the brightness on the error of an image is not to be relied on.
 constexpr double uncertain_level = 0.055;
 
-}  // namespace
+/// From this share on it is told that light of waiting tours is missing.
+constexpr double much_waiting = 0.02;
 
-/// The share of the steps that waiting tours have yet to make.
-double MetropolisRendering::waiting() const {
-  double due = 0;
-  for (const auto& team : teams_) {
-    const std::lock_guard lock(team->mutex);
-    for (const auto& chain : team->chains)
-      if (chain) due += chain->steps_due();
-  }
-  uint64_t made = 0;
-  for (const Group& group : groups_) made += group.steps;
-  return due > 0 ? 1 / (1 + static_cast<double>(made) / due) : 0;
-}
+}  // namespace
 
 /// Sums the statistics of all chains; `stuck` becomes the one with the longest run of rejections.
 ChainStats MetropolisRendering::sum_of_stats(StuckChain& stuck) const {
@@ -67,14 +57,21 @@ void MetropolisRendering::add_level(Stats& stats) const {
   if (samples_) stats.independent = algorithm_->samples_name();
   stats.independent_samples = b.count;
   stats.samples_carrying_half = classes.carrying_half();
-  if (b.mean > 0)
-    stats.level_error = std::hypot(stats.b_error, group_estimator().missing()) / b.mean;
+  if (b.mean > 0) {
+    const GroupEstimator groups = group_estimator();
+    stats.level_error = std::hypot(stats.b_error, groups.missing()) / b.mean;
+    stats.tours_waiting = groups.waiting() / b.mean;
+  }
   if (stats.level_error > uncertain_level)
     stats.warnings.push_back(fmt::format(
         "the image may be {:.0f} % too bright or too dark: some light is found so rarely that its "
-        "amount is not known yet, and {:.0f} % of the mutations wait in long tours; render for "
-        "longer",
-        100 * stats.level_error, 100 * stats.tours_waiting));
+        "amount is not known yet; render for longer",
+        100 * stats.level_error));
+  if (stats.tours_waiting > much_waiting)
+    stats.warnings.push_back(fmt::format(
+        "about {:.0f} % of the light is missing yet: it was found by so few samples that it would "
+        "be sparks; it comes as the render goes on",
+        100 * stats.tours_waiting));
   if (!allocation_.in_time)
     stats.warnings.push_back(
         "the time was too short to prepare chains: the image is one of independent samples");
@@ -95,7 +92,6 @@ void MetropolisRendering::add_stats(Stats& stats) const {
   stats.rays_occluded += sum.rays.occluded;
   stats.tours = sum.tours;
   stats.longest_tour = sum.longest_tour;
-  stats.tours_waiting = waiting();
   add_level(stats);
   add_rows(algorithm_->rows(), sum.rows, stats);
   if (film_.saturated() > 0)

@@ -12,7 +12,7 @@ namespace {
 /// The step of a second stage over that of the first.
 constexpr double second_stage_share = 0.1;
 
-/// Number of walks that look for the lights that the camera sees (CertainLight).
+/// Number of walks that look for the lights that the camera sees (CertainLight), at most.
 constexpr uint64_t walks_to_lights = 50000;
 
 /// In a pilot, where no pixel depends on it, a chain counts as found again after so many searches.
@@ -63,27 +63,33 @@ class MltAlgorithm : public MetropolisAlgorithm {
     weights_ = std::make_shared<MixtureWeights>(std::move(weights));
   }
 
-  void look_around(uint64_t seed, int threads, const std::atomic<bool>& cancelled) override {
-    learn();
-    if (guide_) {
-      const auto hasty = std::make_shared<ManifoldGuide>(*guide_);
-      hasty->set_most_searches(most_searches_of_pilot);
-      target_.set_manifolds(hasty);
-    }
-    if (settings_.samples_beside)
-      target_.leave_to_samples(
-          {scene(), target_.rules(), walks_to_lights, seed, threads, cancelled});
+  void learn() override {
+    find_manifolds();
+    if (!guide_) return;
+    const auto hasty = std::make_shared<ManifoldGuide>(*guide_);
+    hasty->set_most_searches(most_searches_of_pilot);
+    target_.set_manifolds(hasty);
   }
-  void prepare(const CoarseImage& coarse, uint64_t seed, int threads,
-               const std::atomic<bool>& cancelled) override {
+  void look_around(double share, uint64_t seed, int threads,
+                   const std::atomic<bool>& cancelled) override {
+    walks_ = affordable(share, walks_to_lights);
+    if (settings_.samples_beside)
+      target_.leave_to_samples({scene(), target_.rules(), walks_, seed, threads, cancelled});
+  }
+  void prepare(const CoarseImage& coarse, uint64_t, int, const std::atomic<bool>&) override {
     if (settings_.two_stage) target_.set_map(coarse.map);
-    if (!settings_.adaptive || cancelled) return;
+  }
+  void set_weights(const FamilyWeights& weights) override { target_.set_weights(weights); }
+  void adapt(double share, uint64_t seed, int threads,
+             const std::atomic<bool>& cancelled) override {
+    if (!settings_.adaptive) return;
     AdaptationSettings adaptation;
     adaptation.seed = seed;
     adaptation.threads = threads;
-    adaptation.candidates = affordable(coarse.share, adaptation.candidates);
+    adaptation.candidates = affordable(share, adaptation.candidates);
+    adaptation.steps = static_cast<int>(affordable(share, adaptation.steps));
     weights_ = std::make_shared<MixtureWeights>(
-        adapt(target_, mutations_, *weights_, adaptation, cancelled));
+        mlt::adapt(target_, mutations_, *weights_, adaptation, cancelled));
   }
 
   void end_pilot() override { target_.set_manifolds(guide_); }
@@ -103,18 +109,20 @@ class MltAlgorithm : public MetropolisAlgorithm {
     return path_sample_taker(target_, weights);
   }
 
-  std::unique_ptr<RenderChain> start(const ChainId& id, Rng candidate, Rng choice) const override {
-    return std::make_unique<RecordedChain<PathKernel>>(PathKernel(target_, mixture()), id,
-                                                       target_.seeds().pick(candidate, choice));
-  }
   bool has_tours() const override { return true; }
-  std::unique_ptr<RenderChain> blank(const ChainId& id, const FamilyWeights& weights,
-                                     double steps_per_sample) const override {
-    const double kappa0 = id.b / steps_per_sample;
-    const KillRate rate = settings_.tour_length ? KillRate::constant(kappa0, *settings_.tour_length)
-                                                : KillRate(kappa0);
-    return std::make_unique<PathTours>(target_, mixture(), id, weights, steps_per_sample, rate,
-                                       settings_.patience);
+  std::unique_ptr<StartingPaths> starting_paths() const override {
+    return std::make_unique<StartingPaths>(target_);
+  }
+  std::unique_ptr<RenderChain> blank(const ChainId& id,
+                                     const Allocation& allocation) const override {
+    const double kappa0 = allocation.kappa0, pixels = scene().camera().raster().pixels(),
+                 chains = static_cast<double>(id.count) * Rendering::group_count;
+    TourRules rules{settings_.tour_length ? KillRate::constant(kappa0, *settings_.tour_length)
+                                          : KillRate(kappa0),
+                    allocation.steps_per_start};
+    if (settings_.spark > 0)
+      rules.steps_in_pixel = settings_.spark * allocation.brightness / kappa0 * chains / pixels;
+    return std::make_unique<PathTours>(target_, mixture(), id, rules);
   }
 
   std::vector<MutationStats> rows() const override {
@@ -127,20 +135,22 @@ class MltAlgorithm : public MetropolisAlgorithm {
     ByteWriter bytes;
     bytes.write(target_.map() ? target_.map()->factors() : std::vector<double>());
     const CertainLight* certain = target_.certain_light();
+    bytes.write(walks_);
     bytes.write(certain ? certain->cells() : std::vector<uint8_t>());
     bytes.write<uint64_t>(weights_->rows().size());
     for (const auto& row : weights_->rows()) bytes.write(row);
     return bytes.take();
   }
   void load(const std::string& saved) override {
-    learn();
+    find_manifolds();
     ByteReader bytes(saved);
     std::vector<double> factors;
     bytes.read(factors);
+    bytes.read(walks_);
     std::vector<uint8_t> cells;
     bytes.read(cells);
     const Raster& raster = scene().camera().raster();
-    if (!cells.empty()) target_.leave_to_samples({raster, walks_to_lights, std::move(cells)});
+    if (!cells.empty()) target_.leave_to_samples({raster, walks_, std::move(cells)});
     if (settings_.two_stage) {
       TargetMap map = blank_image(raster);
       map.set_factors(std::move(factors));
@@ -158,7 +168,7 @@ class MltAlgorithm : public MetropolisAlgorithm {
 
  private:
   /// Learns which chains are searched for: the same for each render of the scene.
-  void learn() {
+  void find_manifolds() {
     if (settings_.manifolds) guide_ = learn_manifolds(scene(), target_.rules());
     target_.set_manifolds(guide_);
   }
@@ -199,6 +209,7 @@ class MltAlgorithm : public MetropolisAlgorithm {
 
   MltSettings settings_;
   PathTarget target_;
+  uint64_t walks_ = 0;  ///< Those that have looked for CertainLight.
   std::shared_ptr<const ManifoldGuide> guide_;
   Mutations mutations_;
   std::vector<double> step_sizes_;

@@ -5,7 +5,6 @@
 #include "mutation/mutation_registry.h"
 #include "rendering/metropolis_algorithm.h"
 
-#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -31,7 +30,7 @@ struct MltSettings {
   bool delayed_rejection = false;
   bool samples_beside = true;         ///< Whether independent samples go to the image, too.
   std::optional<double> tour_length;  ///< Mean steps of a tour, alike for all.
-  double patience = std::numeric_limits<double>::infinity();  ///< See PathTours.
+  double spark = 0;                   ///< q of StepsInPixels; 0: no tour waits.
 };
 
 std::unique_ptr<MetropolisAlgorithm> mlt_algorithm(ScenePtr scene, const MltSettings& settings);

@@ -95,8 +95,7 @@ class MultiplexedAlgorithm : public MetropolisAlgorithm {
     paths().make_from(numbers_of(x.technique, std::move(drawn)), x, choice);
     return chain(id, std::move(x));
   }
-  std::unique_ptr<RenderChain> blank(const ChainId& id, const FamilyWeights&,
-                                     double) const override {
+  std::unique_ptr<RenderChain> blank(const ChainId& id, const Allocation&) const override {
     return chain(id, {});
   }
 

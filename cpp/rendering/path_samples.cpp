@@ -25,15 +25,8 @@ PathEstimator traced(const PathTarget& target) {
   return {target.scene(), target.rules(), Heuristic::balance};
 }
 
-/// Waves know the balance heuristic alone: with it f/P is the weighted f / p of a path, without
-/// roulette.
-BidirectionalSettings wave_settings(const PathTarget& target) {
-  BidirectionalSettings settings = PathSeeds::settings(target);
-  settings.heuristic = Heuristic::balance;
-  return settings;
-}
 bool in_waves(const PathTarget& target) {
-  return BidirectionalWave::supports(target.scene(), wave_settings(target));
+  return BidirectionalWave::supports(target.scene(), PathSeeds::settings(target));
 }
 bool has_mesh_lights_alone(const Scene& scene) {
   for (const EmitterPtr& emitter : scene.emitters())
@@ -85,30 +78,26 @@ std::unique_ptr<Source> path_candidates(const PathTarget& target) {
   return bidirectional(target, PathSeeds::settings(target), 1);
 }
 
+double bidirectional_sample_cost(const PathTarget& target) {
+  if (!in_waves(target)) return bidirectional_cost;
+  return has_mesh_lights_alone(target.scene()) ? wave_cost : other_wave_cost;
+}
+
 std::unique_ptr<Source> path_samples(const PathTarget& target) {
-  if (are_traced(target)) {
-    const PathEstimator estimator = traced(target);
-    return make_source(estimator, PathTargeting(target, estimator.own_scale()), traced_cost);
-  }
-  if (in_waves(target))
-    return bidirectional(target, wave_settings(target),
-                         has_mesh_lights_alone(target.scene()) ? wave_cost : other_wave_cost);
-  return bidirectional(target, PathSeeds::settings(target), bidirectional_cost);
+  if (!are_traced(target))
+    return bidirectional(target, PathSeeds::settings(target), bidirectional_sample_cost(target));
+  const PathEstimator estimator = traced(target);
+  return make_source(estimator, PathTargeting(target, estimator.own_scale()), traced_cost);
 }
 
 std::unique_ptr<SampleTaker> path_sample_taker(const PathTarget& target,
                                                const FamilyWeights& weights) {
   if (are_traced(target)) return traced_taker(target, weights);
   const Scene& scene = target.scene();
-  std::unique_ptr<BidirectionalWave> wave;
-  BidirectionalSettings settings = PathSeeds::settings(target);
-  if (in_waves(target)) {
-    settings = wave_settings(target);
-    wave = std::make_unique<BidirectionalWave>(scene, settings);
-  }
+  const BidirectionalSettings settings = PathSeeds::settings(target);
   const BidirectionalEstimator estimator(scene, settings);
   return take_beside_chains(scene, estimator, PathTargeting(target, estimator.own_scale()), weights,
-                            std::move(wave));
+                            BidirectionalWave::where_supported(scene, settings));
 }
 
 }  // namespace mlt

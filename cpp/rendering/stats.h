@@ -59,8 +59,8 @@ struct Stats {
   /// By how much, relatively, the brightness of the image may be wrong; NaN (null) if not known.
   double level_error = std::numeric_limits<double>::quiet_NaN();
   uint64_t independent_samples = 0, samples_carrying_half = 0;
-  /// Tours that have ended, the mutations of the longest, and the share of all mutations that long
-  /// tours have yet to make, see PathTours; mlt and erpt only.
+  /// Tours that have ended, the mutations of the longest, and the share of the light that waiting
+  /// tours have yet to bring, see StepsInPixels; mlt and erpt only.
   uint64_t tours = 0, longest_tour = 0;
   double tours_waiting = 0;
   uint64_t invalid_samples = 0;

@@ -61,8 +61,8 @@ BidirectionalWave::BidirectionalWave(const Scene& scene, const BidirectionalSett
   }
 }
 
-void BidirectionalWave::add(uint64_t stream, uint32_t index, const Vec2& pixel) {
-  rasters_[size()] = pixel;
+void BidirectionalWave::add(uint64_t stream, uint32_t index, const Vec2& corner) {
+  rasters_[size()] = corner;
   numbers_.add(stream, index);
 }
 
@@ -86,6 +86,7 @@ void BidirectionalWave::trace(RayCounts& rays) {
     choose_direct(t - 1);
     for (int s = 1; s <= light_.last_place() + 1; ++s) {
       if (!rules.wants(s + t - 1)) continue;
+      joint_ = joint_number(s, t);
       if (t > 1)
         connect(s, t, rays);
       else if (settings_.light_image)
@@ -101,7 +102,7 @@ void BidirectionalWave::start_samples() {
   places = {};
   numbers_.read2(places.next2(), 0, size(), &u_x_[0], &u_y_[0]);
   for (int i = 0; i < size(); ++i) {
-    rasters_[i] += Vec2(u_x_[i], u_y_[i]);
+    rasters_[i] += Vec2(u_x_[i], u_y_[i]) * cell_;
     first_[i] = last_[i] = -1;
   }
 }
@@ -160,6 +161,7 @@ inline void BidirectionalWave::wait_for_shadow(const Light& light, const Waiting
 }
 
 void BidirectionalWave::take_hits(RayCounts& rays) {
+  joint_ = 0;
   const auto weighted = [](const SubpathWave::Hit& hit) {
     return hit.light * (1 / (1 + hit.scaled + hit.fixed));
   };
@@ -176,6 +178,7 @@ void BidirectionalWave::take_hits(RayCounts& rays) {
 
 inline int BidirectionalWave::add(const Light& light) {
   lights_found_.push_back(light);
+  lights_found_.back().joint = joint_;
   return static_cast<int>(lights_found_.size()) - 1;
 }
 

@@ -42,8 +42,10 @@ class BidirectionalWave {
                     Techniques techniques = Techniques::all);
 
   /// Adds a sample with the numbers of PixelSampler(stream, index): the first two are its position
-  /// in this pixel.
-  void add(uint64_t stream, uint32_t index, const Vec2& pixel);
+  /// in the cell with this corner.
+  void add(uint64_t stream, uint32_t index, const Vec2& corner);
+  /// The size of the cells; by default that of a pixel.
+  void set_cell(const Vec2& size) { cell_ = size; }
   int size() const { return numbers_.count(); }
   bool full() const { return size() == capacity; }
   /// Traces all samples.
@@ -58,8 +60,10 @@ class BidirectionalWave {
   void show_lights(int i, Show&& show) const {
     for (int k = first_[i]; k >= 0; k = lights_found_[k].next) {
       const Light& light = lights_found_[k];
-      show(FoundLight{
-          {light.raster, light.weighted, light.own_pixel}, light.survival, light.certainty});
+      show(FoundLight{{light.raster, light.weighted, light.own_pixel},
+                      light.survival,
+                      light.certainty,
+                      light.joint});
     }
   }
 
@@ -71,6 +75,7 @@ class BidirectionalWave {
     double survival, certainty;  ///< See Connection.
     Vec2 raster;
     Color weighted{0};  ///< f w / p.
+    int joint = 0;      ///< See FoundLight.
     int next = -1;      ///< The sample's next light; -1: there is none.
   };
   /// Light on a shadow ray, as if there were no surfaces that it may have to pass. The sums are
@@ -133,6 +138,8 @@ class BidirectionalWave {
   SubpathWave camera_, light_;
   WaveNumbers numbers_;
   WaveNumbers::Place direct_places_;  ///< Places of the next numbers for s = 1.
+  Vec2 cell_{1};
+  int joint_ = 0;  ///< That of the light that is being added.
   Samples<Vec2> rasters_;
   Samples<int> first_, last_;        ///< Each sample's first and last light; -1: there is none.
   std::vector<Light> lights_found_;  ///< Those that no sample links to are in shadow.

@@ -3,6 +3,7 @@
 motion        the scene of the page on motion blur
 equal-time    the same scene by path, bdpt and mlt, with equal CPU time
 two-families  what independent samples and chains show of an image
+clamped       glasses by path tracing, by chains alone, and by chains beside clamped samples
 strategies    the techniques of bidirectional path tracing
 manifolds     light through water without and with manifold sampling
 tone-curves   one render by the three tone curves
@@ -48,6 +49,13 @@ def two_families():
     mlt.write_image(HERE / "two-families.png", np.concatenate(parts, axis=1))
 
 
+def clamped():
+    chains = mlt.MLT(max_depth=8, independent_share=0)
+    integrators = [mlt.Path(max_depth=8), chains, mlt.MLT(max_depth=8)]
+    images = [render("goblets", i, 40, (320, 180)) for i in integrators]
+    mlt.write_image(HERE / "clamped.jpg", np.concatenate(images, axis=1))
+
+
 def strategies():
     scene = mlt.load_dict(mlt.scenes.glass_ball(), size=(96, 96))
     result = mlt.start(scene, mlt.BDPT(max_depth=5, techniques=True), spp=192).result()
@@ -90,6 +98,7 @@ if __name__ == "__main__":
         "motion": motion,
         "equal-time": equal_time,
         "two-families": two_families,
+        "clamped": clamped,
         "strategies": strategies,
         "manifolds": manifolds,
         "tone-curves": tone_curves,

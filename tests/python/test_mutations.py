@@ -72,7 +72,9 @@ def test_mutations_without_weights_have_their_defaults():
 
 def test_a_render_by_a_mixture_uses_these_mutations_alone():
     mixture = [(mlt.Bidirectional(), 0.5), (mlt.Lens(), 0.5)]
-    algo = mlt.MLT(max_depth=4, chains=16, luminance_samples=1000, mutations=mixture)
+    algo = mlt.MLT(
+        max_depth=4, chains=16, luminance_samples=1000, independent_share=0.1, mutations=mixture
+    )
     stats = mlt.start(tiny.scene(), algo, spp=8).result().stats
     used = {row["name"] for row in stats["mutations"] if row["proposed"] > 0}
     assert used == {"bidirectional", "lens"}
@@ -167,7 +169,7 @@ def step_sizes(scene, algorithm):
 
 def test_a_mutation_has_parameters_of_its_own():
     scene = mlt.load_string(tiny.XML)
-    small = {"chains": 16, "luminance_samples": 1000}
+    small = {"chains": 16, "luminance_samples": 1000, "independent_share": 0.1}
     lens = mlt.Lens(largest_share=0.05)
     assert repr(lens) == "Lens(largest_share=0.05)"
     assert lens != mlt.Lens()

@@ -462,7 +462,7 @@ def small(*mixture, chains=32, **settings):
         chains=chains,
         luminance_samples=2000,
         independent_share=0.1,
-        patience=0,  # so that the image is right in the mean after few mutations, too
+        spark=0,  # so that the image is right in the mean after few mutations, too
         mutations=list(mixture),
         **settings,
     )

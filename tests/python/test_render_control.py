@@ -250,16 +250,12 @@ def test_leaving_python_ends_running_jobs():
 
 
 @pytest.mark.parametrize("name", ["mlt", "mmlt", "pssmlt"])
-def test_a_time_too_short_for_chains_gives_a_picture(name, scene):
-    job = mlt.start(scene, {"type": name, "luminance_samples": 10**8}, time=3)
-    result = job.result()
-    assert result.image.max() > 0
-    assert result.stats["independent_share"] == 1
-    assert any("too short to prepare chains" in text for text in result.stats["warnings"])
-    assert result.stats["seconds"]["bootstrap"] < 2
-    longer = mlt.start(scene, name, time=20, spp=2).result().stats
-    assert longer["independent_share"] < 1
-    assert not any("too short" in text for text in longer["warnings"])
+def test_preparation_takes_a_small_part_of_the_time(name, scene):
+    """However many samples it has at the most."""
+    stats = mlt.start(scene, {"type": name, "luminance_samples": 10**8}, time=3).result().stats
+    assert stats["seconds"]["bootstrap"] < 1
+    assert 0 < stats["independent_share"] < 1
+    assert sum(row["proposed"] for row in stats["mutations"]) > 0
 
 
 # ---- paths that do not end -----------------------------------------------------------------------

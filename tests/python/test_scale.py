@@ -20,8 +20,8 @@ INTEGRATORS = {
     "mmlt": mlt.MMLT(**START),
     "rjmlt": mlt.RJMLT(**START),
     "erpt": mlt.ERPT(**START),
-    "mlt": mlt.MLT(adaptive=False, **START),
-    "mlt, adaptive and in two stages": mlt.MLT(two_stage=True, **START),
+    "mlt": mlt.MLT(adaptive=False, independent="bdpt", **START),
+    "mlt, adaptive and in two stages": mlt.MLT(two_stage=True, independent="bdpt", **START),
 }
 
 

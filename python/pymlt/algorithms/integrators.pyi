@@ -123,7 +123,7 @@ class ERPT(Integrator):
         code that defines them (cpp/path). Both make the same image.
     luminance_samples : integer, default 50000
         The pilot before the render draws about as many paths.
-    chains : integer, default 512
+    chains : integer, default 128
         Number of Markov chains, each of which starts over and over. It hardly matters, but no
         more threads than chains have work.
     lens_perturbation : boolean, default True
@@ -250,7 +250,7 @@ class MLT(Integrator):
         code that defines them (cpp/path). Both make the same image.
     luminance_samples : integer, default 50000
         The pilot before the render draws about as many paths.
-    chains : integer, default 512
+    chains : integer, default 128
         Number of Markov chains, each of which starts over and over. It hardly matters, but no
         more threads than chains have work.
     independent_share : float
@@ -344,10 +344,12 @@ class MLT(Integrator):
     independent : string, default 'auto'
         What the independent samples are: those of bidirectional path tracing, or of path
         tracing, which are cheaper; by default a pilot chooses. One of: auto, bdpt, path.
-    patience : float, default 2.0
-        A tour, the mutations from one start of a chain, waits when it is this many times as
-        long as all tours of the chain should be by then. 0: none waits; the image is then right
-        in the mean from the start, but may be filled by the light of one path.
+    spark : float, default 1.0
+        A tour, the mutations from one start of a chain, waits before it leaves more light in a
+        pixel than this many times what pixels have received in the mean by then. 0: none waits;
+        the image is then right in the mean from the start, but may have sparks.
+    patience : float
+        Replaced by `spark`; it is refused.
     direct_samples : integer, default -1
         Render light of at most one reflection apart with this many samples per pixel; 0 leaves
         it out, -1 leaves it to the chains.
@@ -403,7 +405,8 @@ class MLT(Integrator):
     manifolds: bool
     delayed_rejection: bool
     independent: Literal["auto", "bdpt", "path"]
-    patience: float
+    spark: float
+    patience: float | None
     direct_samples: int
     mutations: Sequence[Mutation | tuple[Mutation, float]] | None
     def __init__(
@@ -456,7 +459,8 @@ class MLT(Integrator):
         manifolds: bool = ...,
         delayed_rejection: bool = ...,
         independent: Literal["auto", "bdpt", "path"] = ...,
-        patience: float = ...,
+        spark: float = ...,
+        patience: float | None = ...,
         direct_samples: int = ...,
         mutations: Sequence[Mutation | tuple[Mutation, float]] | None = ...,
     ) -> None: ...

@@ -51,7 +51,7 @@ double deviation(double kappa0, const std::function<double(int)>& survival) {
     chain.restart(static_cast<int>(starts.sample(rng.next())));
     Tour tour{rng.next()};
     run_tour(
-        tour, forever, [&] { return survival(chain.state()); },
+        tour, [] { return true; }, [&] { return survival(chain.state()); },
         [&] {
           ++visits[0][chain.state()];
           chain.step([](int, double) {});
@@ -108,7 +108,9 @@ TEST_P(Tours, MayBeInterrupted) {
       visited.push_back(chain.state());
     };
     Tour tour{1e-3};
-    for (double most = patience; !run_tour(tour, most, survival, step); most += patience)
+    double most = patience;
+    const auto goes_on = [&] { return static_cast<double>(tour.steps) < most; };
+    for (; !run_tour(tour, goes_on, survival, step); most += patience)
       EXPECT_EQ(static_cast<double>(tour.steps), most);
     EXPECT_EQ(tour.steps, visited.size());
     return visited;

@@ -24,6 +24,15 @@ TEST(FamilyWeights, SumToOne) {
     }
 }
 
+/// Clamped samples are no brighter than c, and what is cut off is T' = max(0, T - c P).
+TEST(FamilyWeights, ClampSamples) {
+  const FamilyWeights weights(2);
+  for (const double tau : {0.5, 2.0, 3.0, 1e9}) {
+    EXPECT_NEAR(tau * weights.of_sample(tau), std::min(tau, 2.0), 1e-6 * tau);
+    EXPECT_NEAR(tau * weights.of_chain(tau), std::max(0.0, tau - 2), 1e-6 * tau);
+  }
+}
+
 TEST(FamilyWeights, AreNumbersWhereThereIsNoTarget) {
   for (const double even : {0.0, 1.0}) EXPECT_EQ(FamilyWeights(even).of_chain(0), 0);
 }
@@ -218,7 +227,7 @@ TEST_P(PathSampleTaker, WeightsPathTracingSideBySideAsOneByOne) {
   PathTarget target = target_of(made);
   target.set_techniques(SampleTechniques::path_tracing);
   compare(target, PathEstimator(*made.scene, target.rules(), Heuristic::balance),
-          FamilyWeights(0.2));
+          FamilyWeights(0.04));
 }
 
 /// With roulette from the first vertex on.
@@ -227,10 +236,9 @@ TEST_P(PathSampleTaker, WeightsBidirectionalPathTracingSideBySideAsOneByOne) {
   PathRules rules{8};
   rules.rr_depth = 1;
   PathTarget target(made.scene, rules);
-  BidirectionalSettings settings = PathSeeds::settings(target);
-  settings.heuristic = Heuristic::balance;
+  const BidirectionalSettings settings = PathSeeds::settings(target);
   ASSERT_TRUE(BidirectionalWave::supports(*made.scene, settings));
-  compare(target, BidirectionalEstimator(*made.scene, settings), FamilyWeights(0.1));
+  compare(target, BidirectionalEstimator(*made.scene, settings), FamilyWeights(0.02));
 }
 
 INSTANTIATE_TEST_SUITE_P(CertainPaths, PathSampleTaker, testing::Bool(), [](const auto& info) {
