@@ -15,8 +15,8 @@ namespace {
 /// a: steps of a chain that count as an independent one.
 constexpr double like_one = 3;
 
-/// A: pixels of the island in which a tour moves about.
-constexpr double island = 1024;
+/// A, pixels of the island in which a tour moves about: a share of the image, or this many.
+constexpr double island_share = 1. / 64, least_island = 256;
 
 /// Bounds of the samples' share of the time; the greatest where tours have anything to do.
 constexpr double least_share = 0.05, greatest_share = 0.95, greatest_share_beside_tours = 0.8;
@@ -164,8 +164,9 @@ class Forecast {
  public:
   Forecast(SampleTechniques techniques, const Sums& samples, double b, double cost_of_mutation)
       : techniques_(techniques), samples_(samples), b_(b), t_m_(cost_of_mutation) {}
-  void set_starts(const std::vector<Start>& starts, const Sums& samples) {
+  void set_starts(const std::vector<Start>& starts, const Sums& samples, double pixels) {
     starts_ = starts;
+    island_ = std::max(least_island, island_share * pixels);
     start_samples_ = static_cast<double>(samples.count);
     t_0_ = samples.cost();
   }
@@ -187,7 +188,7 @@ class Forecast {
       const double n = starts_per_sample(k), expected = like_one * left.e / c * t_m_ + n * t_0_;
       if (n * t_0_ < least_share_of_starts * (samples_.cost() + expected)) continue;
       const double steps = to_half_octaves(expected / (n * t_m_));
-      Choice one = choice(c, left.e, n * steps * t_m_, variance + left.squares[k] / (n * island));
+      Choice one = choice(c, left.e, n * steps * t_m_, variance + left.squares[k] / (n * island_));
       if (!(one.j < best.j)) continue;
       one.allocation.kappa0 = n * c / like_one;
       one.allocation.steps_per_start = steps;
@@ -214,7 +215,7 @@ class Forecast {
         left.unseen += share * start.energy * sqr(std::min(c, tau)) / tau;
       left.e += share * energy;
       for (int k = 0; k < start_count; ++k)
-        if (energy > starts_per_sample(k) * c * island) left.squares[k] += share * sqr(energy);
+        if (energy > starts_per_sample(k) * c * island_) left.squares[k] += share * sqr(energy);
     }
     return left;
   }
@@ -237,7 +238,7 @@ class Forecast {
   // Of tours:
   std::vector<Start> starts_;
   double start_samples_ = 1;  ///< How many samples have found them.
-  double t_0_ = 0;
+  double t_0_ = 0, island_ = least_island;
 };
 
 std::vector<Forecast> forecasts(MetropolisAlgorithm& algorithm, const CoarseImage& coarse,
@@ -251,7 +252,8 @@ std::vector<Forecast> forecasts(MetropolisAlgorithm& algorithm, const CoarseImag
     const bool known = tours && kind == SampleTechniques::all;
     const Sums sums = known ? of_starts : samples.draw(kind);
     forecasts.emplace_back(kind, sums, coarse.b, algorithm.cost_of_mutation(sums.mean(sums.rays)));
-    if (tours) forecasts.back().set_starts(starts, of_starts);
+    if (tours)
+      forecasts.back().set_starts(starts, of_starts, algorithm.scene().camera().raster().pixels());
   };
   add(first);
   if (!techniques && algorithm.set_techniques(SampleTechniques::path_tracing))

@@ -50,6 +50,23 @@ struct Toy {
   Estimate of_chains;
 };
 
+/// Tours that wait have yet to record a fifth of the light: where, is not known.
+TEST(GroupEstimator, CountsWhatWaitsAsAnError) {
+  std::vector<GroupProgress> groups(4);
+  for (GroupProgress& group : groups) {
+    group.b = 2;
+    group.steps = 100;
+    group.brightness = 40;
+    group.due = 10;
+  }
+  const GroupEstimator estimator(groups, {}, false);
+  EXPECT_NEAR(estimator.waiting(), 0.2, 1e-12);
+  EXPECT_NEAR(estimator.missing(), 0.2, 1e-12);
+  double error = 0;
+  for (const double scale : estimator.common_error()) error += scale * 40;
+  EXPECT_NEAR(error, 0.2, 1e-12);
+}
+
 TEST(GroupEstimator, HasNoStartUpBias) {
   for (const int samples : {0, 5, 200}) {
     Moments images;
