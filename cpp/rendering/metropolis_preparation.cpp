@@ -28,7 +28,9 @@ void MetropolisRendering::prepare(int threads, const std::atomic<bool>& cancelle
   using Clock = std::chrono::steady_clock;
   const auto end = Clock::now() + std::chrono::duration<double>(4 * preparation_seconds_);
   try {
-    const Watchdog watchdog([&] { return cancelled || Clock::now() >= end; }, 0);
+    // What was drawn until then serves; a walk that does not end is abandoned.
+    const Watchdog watchdog([&] { return cancelled || Clock::now() >= end; },
+                            2 * preparation_seconds_);
     if (prepare_chains(threads, watchdog.stop(), cancelled)) return;
   } catch (const Abandoned&) {
   }
@@ -72,10 +74,10 @@ bool MetropolisRendering::prepare_chains(int threads, const std::atomic<bool>& l
 /// The share of a pilot's samples that it can afford. Samples that search for light through glass
 /// may take a thousand times as many rays as others. Rays are counted, not seconds, so that equal
 /// seeds have equal pilots on any number of threads: one traces them in about preparation_seconds_,
-/// or in two seconds.
+/// or in four seconds.
 double MetropolisRendering::affordable_share(const std::atomic<bool>& cancelled) {
-  constexpr double per_second = 1 << 21, to_try = 1. / 32, usual = 50000;
-  const double rays = per_second * std::min(preparation_seconds_, 2.0),
+  constexpr double per_second = 1 << 20, to_try = 1. / 32, usual = 50000;
+  const double rays = per_second * std::min(preparation_seconds_, 4.0),
                given = static_cast<double>(settings_.luminance_samples),
                samples = std::isinf(preparation_seconds_) ? usual : std::max(usual, given);
   const auto source = algorithm_->source();
