@@ -19,12 +19,14 @@ GroupEstimator::GroupEstimator(std::vector<GroupProgress> groups, const Estimate
   }
   const Estimate chains = estimate(by_chains), samples = pooled(estimate(bootstrap), of_chains_);
   mean_brightness_ = chains.mean;
-  missing_ = waiting_ = due.mean();
-  if (!(chains.variance > 0) || samples.count == 0) return;
-  if (corrected) lambda_ = chains.variance / (chains.variance + samples.variance);
-  const double difference = samples.mean - chains.mean;
-  if (sqr(difference) > sqr(2.5) * (chains.variance + samples.variance))
-    missing_ = std::max(waiting_, (1 - lambda_) * difference);
+  waiting_ = due.mean();
+  if (chains.variance > 0 && samples.count > 0) {
+    if (corrected) lambda_ = chains.variance / (chains.variance + samples.variance);
+    const double difference = samples.mean - chains.mean;
+    if (sqr(difference) > sqr(2.5) * (chains.variance + samples.variance))
+      missing_ = (1 - lambda_) * difference;
+  }
+  if (std::abs(missing_) < waiting_) missing_ = waiting_;
 }
 
 /// The estimate M_g.

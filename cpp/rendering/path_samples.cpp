@@ -34,6 +34,12 @@ bool has_mesh_lights_alone(const Scene& scene) {
   return true;
 }
 
+/// Cost of a ray of bidirectional path tracing in the image, over that of a chain.
+double bidirectional_sample_cost(const PathTarget& target) {
+  if (!in_waves(target)) return bidirectional_cost;
+  return has_mesh_lights_alone(target.scene()) ? wave_cost : other_wave_cost;
+}
+
 std::unique_ptr<Source> bidirectional(const PathTarget& target,
                                       const BidirectionalSettings& settings, double cost_of_ray) {
   const BidirectionalEstimator estimator(target.scene(), settings);
@@ -76,11 +82,6 @@ std::unique_ptr<SampleTaker> traced_taker(const PathTarget& target, const Family
 
 std::unique_ptr<Source> path_candidates(const PathTarget& target) {
   return bidirectional(target, PathSeeds::settings(target), 1);
-}
-
-double bidirectional_sample_cost(const PathTarget& target) {
-  if (!in_waves(target)) return bidirectional_cost;
-  return has_mesh_lights_alone(target.scene()) ? wave_cost : other_wave_cost;
 }
 
 std::unique_ptr<Source> path_samples(const PathTarget& target) {

@@ -9,9 +9,6 @@ namespace mlt {
 /// The candidates from which chains start.
 std::unique_ptr<MetropolisAlgorithm::Source> path_candidates(const PathTarget& target);
 
-/// Cost of a ray of bidirectional path tracing in the image, over that of a chain.
-double bidirectional_sample_cost(const PathTarget& target);
-
 /// The samples that go to the image, one by one, for the pilot.
 std::unique_ptr<MetropolisAlgorithm::Source> path_samples(const PathTarget& target);
 

@@ -67,6 +67,19 @@ TEST(GroupEstimator, CountsWhatWaitsAsAnError) {
   EXPECT_NEAR(error, 0.2, 1e-12);
 }
 
+/// Chains that are brighter than the samples: light is missing in the negative.
+TEST(GroupEstimator, KnowsThatChainsAreTooBright) {
+  std::vector<GroupProgress> groups(4);
+  for (size_t g = 0; g < groups.size(); ++g) {
+    groups[g].b = 2;
+    groups[g].steps = 100;
+    groups[g].brightness = 40 + 0.1 * g;
+  }
+  MeanSums samples;
+  for (int i = 0; i < 1000; ++i) samples.add(0.5 + 0.01 * (i % 2));
+  EXPECT_LT(GroupEstimator(groups, estimate(samples), false).missing(), -0.25);
+}
+
 TEST(GroupEstimator, HasNoStartUpBias) {
   for (const int samples : {0, 5, 200}) {
     Moments images;
