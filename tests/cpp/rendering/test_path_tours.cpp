@@ -114,7 +114,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, LongPathToursOf,
                          name_of);
 
 /// Tours of a million steps in the mean, if they were not interrupted.
-class LongTours : public testing::Test {
+class EndlessTours : public testing::Test {
  protected:
   static constexpr double b = 1e-5, steps_per_start = 10, steps_in_pixel = 2;
 
@@ -130,7 +130,7 @@ class LongTours : public testing::Test {
     return recorder.sum;
   }
 
-  const PathTarget target{make_scene("cornell").scene, PathRules{8}};
+  const PathTarget target{make_scene("cornell").scene, PathRules{2}};
   const PathMixture mixture{all_mutations(target),
                             std::make_shared<MixtureWeights>(default_weights())};
 };
@@ -143,9 +143,9 @@ struct Pixels : ChainRecorder {
   std::map<std::pair<int, int>, double> pixels;
 };
 
-/// Of one start, so that pixels do not have several tours. A step from a pixel records at most one
-/// more in it, and steps from others may too.
-TEST_F(LongTours, WaitBeforeTheyAreSparks) {
+/// Of one sample that sees light directly, so that a pixel has one tour or two. A step from a pixel
+/// records at most one more in it, and steps from others may too.
+TEST_F(EndlessTours, WaitBeforeTheyAreSparks) {
   PathTours one = tours();
   Pixels recorder;
   one.advance(static_cast<uint64_t>(steps_per_start), recorder);
@@ -160,7 +160,7 @@ TEST_F(LongTours, WaitBeforeTheyAreSparks) {
   EXPECT_GT(one.light_due(), 0);
 }
 
-TEST_F(LongTours, GoOnAsThereAreMoreSamples) {
+TEST_F(EndlessTours, GoOnAsThereAreMoreSamples) {
   PathTours some = tours();
   const double first = brightness(some, 200), longest = some.stats().longest_tour;
   const double second = brightness(some, 2000);
@@ -168,7 +168,7 @@ TEST_F(LongTours, GoOnAsThereAreMoreSamples) {
   EXPECT_GT(some.stats().longest_tour, 2 * longest);
 }
 
-TEST_F(LongTours, GoOnAfterTheyWereSaved) {
+TEST_F(EndlessTours, GoOnAfterTheyWereSaved) {
   PathTours some = tours(), loaded = tours();
   brightness(some, 100);
   ByteWriter bytes;
