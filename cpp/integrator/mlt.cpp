@@ -84,7 +84,8 @@ Plugin integrator_mlt() {
             {"auto", "bdpt", "path"}),
         {"spark", ParamType::real, 1.0,
          "A tour, the mutations from one start of a chain, waits before it leaves more light in a "
-         "pixel than this many times what pixels have received in the mean by then. 0: none "
+         "pixel than this many times what pixels have received in the mean by then (up to three "
+         "times as much where nearly all light is left to tours). 0: none "
          "waits; the image is then right in the mean from the start, but may have sparks."},
         {"patience", ParamType::real, no_default, "Replaced by `spark`; it is refused."},
         {"direct_samples", ParamType::integer, int64_t{-1},

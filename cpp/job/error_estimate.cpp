@@ -1,5 +1,6 @@
 #include "job/error_estimate.h"
 
+#include "job/blocks_of_sequence.h"
 #include "job/brightness_pyramid.h"
 #include "math/color.h"
 
@@ -74,10 +75,13 @@ struct Groups {
   }
   Spread spread;
   BrightnessPyramid brightness;
+  std::vector<float>
+      remaining;  ///< The share of the variance that is left, for each pixel or block.
 };
 
 struct GroupsOfRendering {
   explicit GroupsOfRendering(const Rendering& rendering) {
+    BlocksOfSequence sequence;
     for (int g = 0; g < Rendering::group_count; ++g) {
       const GroupImage group = rendering.group(g);
       if (group.weight == 0) continue;
@@ -87,13 +91,22 @@ struct GroupsOfRendering {
       const std::vector<float> means = block_means(values, size, grid);
       pixels.add(values, size, group.weight);
       blocks.add(means, grid, group.weight);
+      if (rendering.groups_share_sequence()) sequence.add(luminance_of(values), group.weight);
       weight += group.weight;
       most.resize(means.size() / channels);
       for (size_t b = 0; b < most.size(); ++b)
         most[b] = std::max(most[b], group.weight * means[channels * b + 3]);
     }
+    blocks.remaining = sequence.remaining(size, ErrorEstimate::block_size);
+    for (int y = 0; y < size.y; ++y)
+      for (int x = 0; x < size.x; ++x) pixels.remaining.push_back(blocks.remaining[block(x, y)]);
   }
   int count() const { return pixels.spread.count(); }
+  /// The block of a pixel.
+  size_t block(int x, int y) const {
+    constexpr int n = ErrorEstimate::block_size;
+    return size_t(y / n) * grid.x + x / n;
+  }
 
   Vec2i size{0}, grid{0};
   Groups pixels, blocks;
@@ -112,7 +125,7 @@ class Total {
  public:
   explicit Total(const std::vector<const Groups*>& parts) {
     for (const Groups* part : parts) {
-      add(part->spread);
+      add(part->spread, part->remaining);
       brightness_.push_back(&part->brightness);
     }
   }
@@ -145,12 +158,12 @@ class Total {
   }
 
  private:
-  void add(const Spread& spread) {
+  void add(const Spread& spread, const std::vector<float>& remaining) {
     mean_.resize(spread.size());
     variance_.resize(spread.size());
     for (size_t i = 0; i < spread.size(); ++i) {
       mean_[i] += spread.mean()[i];
-      variance_[i] += static_cast<float>(spread.variance(i));
+      variance_[i] += static_cast<float>(remaining[i / channels] * spread.variance(i));
     }
   }
 

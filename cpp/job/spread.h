@@ -35,6 +35,7 @@ class Spread {
   }
 
   int count() const { return count_; }
+  double weight() const { return weight_; }
   size_t size() const { return mean_.size(); }
   const std::vector<float>& mean() const { return mean_; }
   double variance(size_t i) const { return std::max(0.0f, squares_[i]) / ((count_ - 1) * weight_); }

@@ -156,7 +156,6 @@ double to_half_octaves(double x) { return std::exp2(std::round(2 * std::log2(x))
 struct Choice {
   Allocation allocation;
   double j = std::numeric_limits<double>::infinity();
-  double left = 0;  ///< e, what is left to chains.
 };
 
 /// What is known about one kind of samples, and about what tours start from.
@@ -222,13 +221,13 @@ class Forecast {
 
   Choice choice(double c, double left, double work, double variance) const {
     Choice choice;
-    choice.left = left;
     choice.j = variance * (samples_.cost() + work);
     choice.allocation.share = samples_.cost() / (samples_.cost() + work);
     choice.allocation.weights = FamilyWeights(c);
     choice.allocation.mutations_per_sample = samples_.cost() / t_m_;
     choice.allocation.techniques = techniques_;
     choice.allocation.brightness = b_;
+    choice.allocation.left = left;
     return choice;
   }
 
@@ -273,7 +272,7 @@ Choice best_of(const Forecast& forecast, bool tours, std::optional<double> share
     if (!tours && one.allocation.share > greatest_share) continue;
     choices.push_back(one);
     if (tours && one.allocation.share <= greatest_share_beside_tours) with_tours.push_back(one);
-    if (tours && one.left == 0) break;  // greater thresholds are no other
+    if (tours && one.allocation.left == 0) break;  // greater thresholds are no other
   }
   if (choices.empty()) return {};
   const auto least = [](const std::vector<Choice>& choices, auto&& rank) {
@@ -296,7 +295,7 @@ Choice best_of(const Forecast& forecast, bool tours, std::optional<double> share
 
 Allocation tours_alone(double b, double steps_per_start) {
   Allocation allocation;
-  allocation.brightness = b;
+  allocation.brightness = allocation.left = b;
   allocation.kappa0 = b / steps_per_start;
   allocation.steps_per_start = steps_per_start;
   return allocation;

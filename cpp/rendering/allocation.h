@@ -37,6 +37,7 @@ struct Allocation {
   bool in_time = true;                                  ///< Whether there was time to find it.
   double brightness = 0;                                ///< A rough estimate of b.
   // For tours:
+  double left = 0;             ///< Roughly e, what samples leave to them.
   double kappa0 = 1;           ///< See tour.h; per sample that they start from.
   double steps_per_start = 1;  ///< Expected work for such a sample, in mutations.
 };

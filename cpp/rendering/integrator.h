@@ -40,8 +40,8 @@ struct GroupImage {
 /// of threads. run_unit may be called from many threads at once.
 class Rendering {
  public:
-  /// The groups whose spread measures the error of the image: each has its own random numbers, and
-  /// for Metropolis its own bootstrap. The image is their weighted mean (nearly so, while some are
+  /// The groups whose spread measures the error of the image: each has its own samples, and for
+  /// Metropolis its own bootstrap. The image is their weighted mean (nearly so, while some are
   /// behind others), plus the images of the parts.
   static constexpr int group_count = 16;
 
@@ -67,6 +67,8 @@ class Rendering {
   /// The image after the units that have finished, linear RGB.
   virtual Image image() const = 0;
   virtual GroupImage group(int index) const = 0;
+  /// Whether the groups are blocks of one sequence in each pixel, and not independent.
+  virtual bool groups_share_sequence() const { return false; }
   /// Renderings with groups of their own, whose images are parts of the image of this one.
   virtual std::vector<const Rendering*> parts() const { return {}; }
   /// The standard error that is common to all groups, which their spread does not include; may be

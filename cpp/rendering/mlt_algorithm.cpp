@@ -115,13 +115,13 @@ class MltAlgorithm : public MetropolisAlgorithm {
   }
   std::unique_ptr<RenderChain> blank(const ChainId& id,
                                      const Allocation& allocation) const override {
-    const double kappa0 = allocation.kappa0, pixels = scene().camera().raster().pixels(),
-                 chains = static_cast<double>(id.count) * Rendering::group_count;
+    const double kappa0 = allocation.kappa0;
     TourRules rules{settings_.tour_length ? KillRate::constant(kappa0, *settings_.tour_length)
                                           : KillRate(kappa0),
                     allocation.steps_per_start};
     if (settings_.spark > 0)
-      rules.steps_in_pixel = settings_.spark * allocation.brightness / kappa0 * chains / pixels;
+      rules.steps_in_pixel =
+          settings_.spark * (allocation.brightness + 2 * allocation.left) / kappa0;
     return std::make_unique<PathTours>(target_, mixture(), id, rules);
   }
 

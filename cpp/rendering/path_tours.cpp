@@ -180,8 +180,12 @@ bool PathTours::go_on(const PathState& start, Tour& tour, ChainRecorder& recorde
   return dead;
 }
 
+/// All chains have drawn about as many samples as this one.
 double PathTours::most_in_pixel() const {
-  return std::max(1.0, rules_.steps_in_pixel * static_cast<double>(count_));
+  const double chains = static_cast<double>(id_.count) * Rendering::group_count,
+               samples = static_cast<double>(count_) * chains,
+               pixels = target_->scene().camera().raster().pixels();
+  return most_steps_in_pixel(rules_.steps_in_pixel, samples / pixels);
 }
 
 double PathTours::light_due() const {

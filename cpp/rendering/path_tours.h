@@ -16,7 +16,7 @@ namespace mlt {
 struct TourRules {
   KillRate rate;
   double steps_per_start;  ///< Expected work for a sample that tours start from, in steps.
-  /// The most steps of a tour from one pixel, for each sample of its chain (see StepsInPixels).
+  /// The most steps of a tour from a pixel for each sample of that (see steps_in_pixels.h).
   double steps_in_pixel = std::numeric_limits<double>::infinity();
 };
 

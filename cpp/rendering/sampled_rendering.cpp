@@ -58,7 +58,7 @@ Replay SampledRendering::replay(const Vec2i& pixel, uint64_t sample) {
   Replay replay;
   RayCounts rays;
   SampleSink sink(replay);
-  PixelSampler numbers = streams(place_of(sample)).sampler(pixel.x, pixel.y);
+  PixelSampler numbers = streams(sample).sampler(pixel.x, pixel.y);
   replay.raster = Vec2(pixel) + numbers.next2();
   make_taker_(scene())->sample(replay.raster, numbers, sink, rays);
   replay.radiance = mlt::shown(scene(), replay.radiance);
@@ -75,7 +75,7 @@ void SampledRendering::run_unit(uint64_t unit) {
   RayCounts rays;
   SampleSink sink(tile, layers_);
   const std::unique_ptr<SampleTaker> taker = make_taker_(scene());
-  taker->sample_cells(tile.cells(), streams(place), sink, rays);
+  taker->sample_cells(tile.cells(), streams(pass), sink, rays);
   taker->finish(sink, rays);
   film_.commit(place.group, order, tile_index, std::move(tile), 1);
   invalid_ += sink.invalid();

@@ -75,15 +75,15 @@ inline SampledSettings camera_walks() {
   return settings;
 }
 
-/// The random numbers of one sample of each cell, from its group's stream for that cell.
+/// The random numbers of one sample of each cell. All samples of a cell are from one sequence, of
+/// which each group has blocks: together they are stratified better than each group is.
 struct CellStreams {
   uint64_t seed;  ///< The seed, mixed (mix_bits).
-  int group;
   uint32_t index;
 
   uint64_t stream(int x, int y) const {
     const uint64_t cell = (uint64_t(uint32_t(y)) << 32) | uint32_t(x);
-    return mix_bits(mix_bits(seed ^ cell) + group);
+    return mix_bits(seed ^ cell);
   }
   PixelSampler sampler(int x, int y) const { return {stream(x, y), index}; }
 };
@@ -135,6 +135,7 @@ class SampledRendering : public Rendering {
   GroupImage group(int index) const override {
     return {shown(film_.group_image(index)), static_cast<double>(film_.passes(index))};
   }
+  bool groups_share_sequence() const override { return true; }
   const SampleFilm& film() const { return film_; }
   /// The mean brightness of its samples (SampleSums), if they record it.
   Estimate mean_brightness() const { return mean_of(&SampleSums::brightness); }
@@ -158,8 +159,8 @@ class SampledRendering : public Rendering {
   Estimate mean_of(MeanSums SampleSums::* sums) const;
   /// The film's sums of a task.
   SampleFilm::Selection selection(const Task& task) const;
-  CellStreams streams(const Place& place) const {
-    return {mix_bits(seed_), place.group, static_cast<uint32_t>(place.index)};
+  CellStreams streams(uint64_t pass) const {
+    return {mix_bits(seed_), static_cast<uint32_t>(pass)};
   }
 
   MakeTaker make_taker_;

@@ -1,15 +1,17 @@
 // When a tour waits. Light that stays in a pixel is a spark: a tour waits before it has left more
-// energy in a pixel than samples have left there in the mean of the image,
+// energy in a pixel than samples have left there in the mean of the image, or up to three times as
+// much where most light is left to tours,
 //
-//   steps kappa0 <= q b (samples per pixel so far).
+//   steps kappa0 <= q (b + 2 e) (samples per pixel so far + 2).
 //
 // As that grows, the tour goes on; in the long run nothing is missing. A tour that moves about
-// never waits, however long it is.
+// never waits, however long it is. The 2 keeps the first image from being dark.
 #pragma once
 
 #include "base/bytes.h"
 #include "math/vec.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <map>
@@ -17,6 +19,11 @@
 #include <vector>
 
 namespace mlt {
+
+/// The bound above; `per_sample` is q (b + 2 e) / kappa0.
+inline double most_steps_in_pixel(double per_sample, double samples_per_pixel) {
+  return std::max(1.0, per_sample * (samples_per_pixel + 2));
+}
 
 /// The steps that a tour has made from each pixel.
 class StepsInPixels {

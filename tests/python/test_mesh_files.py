@@ -53,7 +53,7 @@ def picture(scene):
 
 def hidden_emitters(scene):
     """What of the image is not background."""
-    return mlt.render(scene, mlt.Path(hide_emitters=True), spp=4, seed=1).max(axis=2) > 0
+    return mlt.render(scene, mlt.Path(hide_emitters=True), spp=64, seed=1).max(axis=2) > 0
 
 
 @pytest.mark.parametrize("name", WRITERS)

@@ -346,8 +346,9 @@ class MLT(Integrator):
         tracing, which are cheaper; by default a pilot chooses. One of: auto, bdpt, path.
     spark : float, default 1.0
         A tour, the mutations from one start of a chain, waits before it leaves more light in a
-        pixel than this many times what pixels have received in the mean by then. 0: none waits;
-        the image is then right in the mean from the start, but may have sparks.
+        pixel than this many times what pixels have received in the mean by then (up to three
+        times as much where nearly all light is left to tours). 0: none waits; the image is then
+        right in the mean from the start, but may have sparks.
     patience : float
         Replaced by `spark`; it is refused.
     direct_samples : integer, default -1

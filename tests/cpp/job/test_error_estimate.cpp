@@ -20,14 +20,18 @@ Image plain(float left, float right) {
 /// A render whose groups are these, of equal weight.
 class Given : public Rendering {
  public:
-  Given(std::vector<Image> groups, Image common)
-      : Rendering(nullptr, 1), groups_(std::move(groups)), common_(std::move(common)) {}
+  Given(std::vector<Image> groups, Image common, bool share_sequence = false)
+      : Rendering(nullptr, 1),
+        groups_(std::move(groups)),
+        common_(std::move(common)),
+        share_sequence_(share_sequence) {}
 
   GroupImage group(int index) const override {
     if (index >= static_cast<int>(groups_.size())) return {};
     return {groups_[index], 1};
   }
   Image common_error() const override { return common_; }
+  bool groups_share_sequence() const override { return share_sequence_; }
 
   Memory memory(double) const override { return {}; }
   void run_unit(uint64_t) override {}
@@ -39,6 +43,7 @@ class Given : public Rendering {
  private:
   std::vector<Image> groups_;
   Image common_;
+  bool share_sequence_;
 };
 
 /// Three groups that see 1, 2 and 3 on the left and 4 on the right: sqrt(1 / 3) is the standard
@@ -62,6 +67,16 @@ TEST(ErrorEstimate, HasWhatAllGroupsHaveInCommon) {
     EXPECT_NEAR(error.at(0, 0, 0), std::sqrt(1. / 3 + 0.25), 1e-6);
     EXPECT_NEAR(error.at(error.width - 1, error.height - 1, 0), 0.25, 1e-6);
   }
+}
+
+/// The groups have the variance 5/12 of the mean, pairs that follow each other 1/4.
+TEST(ErrorEstimate, CountsTheStratificationOfASharedSequence) {
+  const std::vector<Image> pairs = {plain(1, 1), plain(3, 3), plain(2, 2), plain(4, 4)};
+  const double independent = std::sqrt(5. / 12), pair = 0.25 / (5. / 12);
+  EXPECT_NEAR(estimate_error(Given(pairs, {})).pixels.at(0, 0, 1), independent, 1e-6);
+  const ErrorEstimate shared = estimate_error(Given(pairs, {}, true));
+  for (const Image& error : {shared.pixels, shared.blocks})
+    EXPECT_NEAR(error.at(0, 0, 1), independent * pair, 1e-6);
 }
 
 /// The mean of s^2 / (L^2 + 0.01 M^2), where M = 8/3.

@@ -156,7 +156,7 @@ TEST_F(EndlessTours, WaitBeforeTheyAreSparks) {
     all += weight;
   }
   EXPECT_GT(all, 2);
-  EXPECT_LT(most, 4 * steps_in_pixel);
+  EXPECT_LT(most, 2 * most_steps_in_pixel(steps_in_pixel, 1));
   EXPECT_GT(one.light_due(), 0);
 }
 
@@ -182,6 +182,9 @@ TEST_F(EndlessTours, GoOnAfterTheyWereSaved) {
 }
 
 TEST(StepsInPixels, HaveABound) {
+  EXPECT_EQ(most_steps_in_pixel(3, 0), 6);
+  EXPECT_EQ(most_steps_in_pixel(3, 10), 36);
+  EXPECT_EQ(most_steps_in_pixel(0.001, 10), 1);
   StepsInPixels steps;
   for (int i = 0; i < 3; ++i) EXPECT_TRUE(steps.count({1.5, -0.5}, 3));
   EXPECT_FALSE(steps.count({1.9, -0.1}, 3));
