@@ -13,9 +13,10 @@
 namespace mlt::test {
 namespace {
 
-/// Each sample finds light of brightness 1, and with this probability other light.
+/// Each sample finds light of brightness 1, and with this probability other light. Half of them see
+/// a lamp.
 struct Light {
-  double probability, brightness;
+  double probability, brightness, lamp = 0;
 };
 
 constexpr uint64_t rays_of_sample = 9;
@@ -28,6 +29,7 @@ class KnownSource : public MetropolisAlgorithm::Source {
     found_.clear();
     add(raster, 1);
     if (sampler.next() < light_.probability) add(raster, light_.brightness);
+    if (sampler.next() < 0.5) found_.push_back({{raster, Color(light_.lamp), true}});
     rays_.intersect += rays_of_sample;
     return found_;
   }
@@ -66,7 +68,7 @@ struct Division {
   double j, share;
 };
 Division known_division(const Light& light, double c) {
-  const auto [p, v] = light;
+  const auto [p, v, lamp] = light;
   const double b = 1 + p * v, variance = p * (1 - p) * std::pow(std::min(v, c), 2),
                e = p * std::max(0.0, v - c) + std::max(0.0, 1 - c),
                work = 3 * b / c * cost_of_mutation;
@@ -100,6 +102,17 @@ INSTANTIATE_TEST_SUITE_P(Lights, AllocationOf,
                          [](const auto& info) {
                            return std::to_string(static_cast<int>(info.param.brightness));
                          });
+
+/// Lamps are left to samples whatever the division is.
+TEST(Allocation, DoesNotDependOnLampsThatAreSeen) {
+  const auto share = [](const Light& light) {
+    KnownAlgorithm algorithm(make_scene("cornell").scene, light);
+    const CoarseImage coarse =
+        coarse_image(algorithm, algorithm.scene().camera().raster(), 1, 20000, 1, never_cancelled);
+    return allocate(algorithm, coarse, {1, 1, 20000, {}, {}}, never_cancelled).share;
+  };
+  EXPECT_EQ(share({0.01, 100, 1e4}), share({0.01, 100}));
+}
 
 Allocation allocation_of(const std::string& scene, uint64_t seed) {
   MltSettings settings;
