@@ -122,9 +122,9 @@ class Samples {
   }
 
   /// Returns the light that the sample adds to its own pixel, clamped at each threshold. All light
-  /// that it adds to others by light tracing counts as noise. Light that is left to samples
-  /// whatever c is (CertainLight) does not count: lamps are much brighter than the coarse image says
-  /// of their surroundings, and so their noise is much less.
+  /// that it adds to others by light tracing counts as noise. Light that is left to samples at any
+  /// threshold (CertainLight) does not count: lamps are much brighter than the coarse image says of
+  /// their surroundings, and so their noise is much less.
   PerThreshold add(const std::vector<FoundLight>& found, Sums& sums) const {
     PerThreshold own_pixel{};
     for (const FoundLight& one : found) {
