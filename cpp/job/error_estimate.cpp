@@ -75,8 +75,8 @@ struct Groups {
   }
   Spread spread;
   BrightnessPyramid brightness;
-  std::vector<float>
-      remaining;  ///< The share of the variance that is left, for each pixel or block.
+  /// For each pixel or block the share of the variance that stratification of all groups leaves.
+  std::vector<float> remaining;
 };
 
 struct GroupsOfRendering {

@@ -156,7 +156,7 @@ TEST_F(EndlessTours, WaitBeforeTheyAreSparks) {
     all += weight;
   }
   EXPECT_GT(all, 2);
-  EXPECT_LT(most, 2 * most_steps_in_pixel(steps_in_pixel, 1));
+  EXPECT_LT(most, 2 * most_steps_in_pixel(steps_in_pixel, 0));
   EXPECT_GT(one.light_due(), 0);
 }
 
