@@ -323,6 +323,41 @@ def test_sparse_accessors():
     assert b.info()["radius"] > a.info()["radius"]
 
 
+# ---- what is added to files without light ------------------------------------------------------
+
+SKY, SUN, SUNBEAM = 0.15, 3.0, np.array([1.0, -1.5, -1.2])
+
+
+@pytest.mark.parametrize("behind", [False, True])
+def test_a_white_model_without_lamps_differs_from_its_background(behind):
+    file = GltfFile()
+    turned = {"rotation": [0, 1, 0, 0]} if behind else {}
+    mesh = file.mesh(file.material(colour=(0, 0, 0, 1)))
+    file.gltf.meshes[mesh].primitives[0].material = None
+    file.node(mesh=mesh)
+    file.camera(translation=[0, 0, -4 if behind else 4], **turned)
+    with pytest.warns(UserWarning, match="there is no light; an even sky and a sun are added"):
+        scene = mlt.load(file.save("a.glb"), size=SIZE)
+    image = mlt.render(scene, DIRECT, spp=256, seed=1)
+    # The horizontal part of the beam makes an angle with the view, which is the same from behind.
+    across, along = SUNBEAM[[0, 2]] @ [[2, 1], [-1, 2]] / np.sqrt(5)
+    assert across > 0  # the sun is on the left
+    lit = SKY + SUN * -along / np.linalg.norm(SUNBEAM) / np.pi
+    assert image[0, 0] == pytest.approx(SKY, rel=1e-3)
+    assert image[13:17, 18:22].mean() == pytest.approx(lit, rel=0.02)
+
+
+def test_a_lone_mesh_has_the_same_light_as_a_file_without_lamps():
+    file = GltfFile()
+    file.node(mesh=file.mesh())
+    made = converted(file).scene
+    Path("a.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    alone = read_foreign("a.obj").scene
+    for name in ("sky", "sun"):
+        assert made[name] == alone[name]
+    assert alone["sun"]["direction"] == pytest.approx(SUNBEAM.tolist(), abs=1e-12)
+
+
 # ---- the rest of the interface -----------------------------------------------------------------
 
 
@@ -365,7 +400,7 @@ def test_the_command_line_renders_it_and_resumes(capsys):
     flags = ["--spp", "2", "--integrator", "path", "--size", "16x12"]
     checkpoint = ["--checkpoint", "c.ckpt"]
     assert cli.main(["render", "a.glb", *flags, *checkpoint, "-o", "a.exr"]) == 0
-    assert "a.glb: there is no light; an even one" in capsys.readouterr().err
+    assert "a.glb: there is no light; an even sky and a sun" in capsys.readouterr().err
     assert mlt.read_image("a.exr").mean() > 0.1
     assert cli.main(["info", "a.glb"]) == 0
     more = ["--resume", "c.ckpt", "--spp", "4", "-o", "b.exr"]
