@@ -11,6 +11,7 @@ import pytest
 import pymlt as mlt
 from pymlt import cli
 from pymlt.formats.files import read_foreign
+from pymlt.formats.gltf.glow import mean_radiance
 
 gl = pytest.importorskip("pygltflib", reason="needs pymlt[gltf]")
 
@@ -356,6 +357,41 @@ def test_a_lone_mesh_has_the_same_light_as_a_file_without_lamps():
     for name in ("sky", "sun"):
         assert made[name] == alone[name]
     assert alone["sun"]["direction"] == pytest.approx(SUNBEAM.tolist(), abs=1e-12)
+
+
+def room(emission: float, *, texture=None) -> GltfFile:
+    """Two squares of area 4 and 396, of which the first emits."""
+    file = GltfFile()
+    glow = {"KHR_materials_emissive_strength": {"emissiveStrength": emission}}
+    info = {"emissiveTexture": file.texture(texture)} if texture is not None else {}
+    lamp = file.material(emissiveFactor=[1, 0.5, 0.3], extensions=glow, **info)
+    file.node(mesh=file.mesh(lamp), translation=[0, 0, 1], rotation=[0, 1, 0, 0])
+    file.node(mesh=file.mesh(file.material()), scale=[np.sqrt(99), np.sqrt(99), 1])
+    return file
+
+
+DOTS = np.zeros((10, 10, 4), np.uint8)
+DOTS[..., 3] = 255
+DOTS[:2, 0, :3] = 255  # two texels of a hundred
+
+
+@pytest.mark.parametrize(
+    ("strength", "texture", "mean"),
+    [(10, None, 0.06), (2, None, 0.012), (10, DOTS, 0.0012), (200, DOTS, 0.024)],
+)
+def test_what_glows_lights_a_scene_alone_if_it_is_strong_enough(strength, texture, mean):
+    made = converted(room(strength, texture=texture))
+    shapes = [made.scene[f"node-{i}"] for i in range(2)]
+    assert mean_radiance(shapes) == pytest.approx(mean, rel=1e-5)
+    said = "what glows is too weak to light the scene; an even sky and a sun are added"
+    assert (said in made.warnings) == (mean < 0.02)
+    assert {"sky", "sun"} & made.scene.keys() == ({"sky", "sun"} if mean < 0.02 else set())
+
+
+def test_beside_a_lamp_what_glows_is_no_reason_for_a_sun():
+    file = room(0.1)
+    file.light({"type": "point"}, name="lamp")
+    assert {"sky", "sun"}.isdisjoint(converted(file).scene)
 
 
 # ---- the rest of the interface -----------------------------------------------------------------

@@ -25,19 +25,23 @@ def film(aspect: float) -> dict[str, Any]:
     return {"type": "hdrfilm", "width": max(1, round(HEIGHT * aspect)), "height": HEIGHT}
 
 
-def complete(made: Imported, *, announced: bool = True) -> None:
-    """Adds a camera and daylight where there are none; both are warned of if `announced`."""
+def complete(made: Imported, *, dim: bool = False, announced: bool = True) -> None:
+    """Adds a camera and daylight where there are none; both are warned of if `announced`.
+
+    `dim` says that what emits is too weak to light the scene.
+    """
     added = []
-    dark = not has_light(made.scene)
-    if dark:
-        added.append("there is no light; an even sky and a sun are added")
+    dark = not any(map(emits, plugins(made.scene)))
+    if dark or dim:
+        why = "there is no light" if dark else "what glows is too weak to light the scene"
+        added.append(f"{why}; an even sky and a sun are added")
         made.add("sky", SKY)
     cameras = [plugin for plugin in plugins(made.scene) if plugin["type"] in CAMERAS]
     if not cameras:
         added.append("there is no camera; one that sees everything is added")
         cameras.append(overview(made.scene))
         made.add("camera", cameras[0])
-    if dark:
+    if dark or dim:
         made.add("sun", sun(cameras[0]))
     for text in added if announced else ():
         made.warn(text)
@@ -48,10 +52,9 @@ def plugins(scene: dict[str, Any]) -> list[dict[str, Any]]:
     return [value for value in scene.values() if isinstance(value, dict)]
 
 
-def has_light(scene: dict[str, Any]) -> bool:
-    """Whether anything in it emits."""
-    emitters = set(_core.names("emitter"))
-    return any(one["type"] in emitters or "emitter" in one for one in plugins(scene))
+def emits(plugin: dict[str, Any]) -> bool:
+    """Whether it is a light, or a shape that is one."""
+    return "emitter" in plugin or plugin["type"] in _core.names("emitter")
 
 
 def sun(camera: dict[str, Any]) -> dict[str, Any]:

@@ -14,6 +14,7 @@ from ..limits import TEXT, read_file
 from ..views import complete
 from .buffers import Buffers
 from .checked import at, check_types
+from .glow import too_dim
 from .lights import light, sensor
 from .materials import KNOWN as MATERIALS
 from .materials import bsdf, emission, interior
@@ -78,6 +79,7 @@ class Reader:
         self._buffers = Buffers(gltf, path)
         self._textures = Textures(self._buffers, made)
         self._materials: dict[tuple[int, bool], str] = {}
+        self._lights: dict[int, dict[str, Any]] = {}
         self._seen: set[int] = set()  #: nodes
         self._meshes: dict[tuple[int, int], dict[str, Any]] = {}
 
@@ -101,7 +103,7 @@ class Reader:
             to_world = parent @ local_matrix(node)
             self._node(node, node.name or f"node-{index}", to_world)
             left += [(child, to_world) for child in reversed(node.children or [])]
-        complete(self._made)
+        complete(self._made, dim=too_dim(self._made.scene))
 
     def _roots(self) -> list[int]:
         """Those of the scene that is shown, else of all nodes."""
@@ -137,14 +139,19 @@ class Reader:
                 self._meshes[key] = self._made.mesh(wanted, triangles)
             shape = self._meshes[key] | {"to_world": to_world, "bsdf": self._bsdf(primitive)}
             if primitive.material is not None:
-                material = self._material(primitive.material)
-                glow = emission(material, self._textures, self._made)
-                if glow:
-                    shape["emitter"] = glow
-                inside = interior(material)
-                if inside:
-                    shape["interior"] = inside
+                shape |= self._light_of(primitive.material)
             self._made.add(name, shape)
+
+    def _light_of(self, material: int) -> dict[str, Any]:
+        """What a shape emits and what is in it, the same for all shapes of one material."""
+        if material not in self._lights:
+            given = self._material(material)
+            parts = {
+                "emitter": emission(given, self._textures, self._made),
+                "interior": interior(given),
+            }
+            self._lights[material] = {name: part for name, part in parts.items() if part}
+        return self._lights[material]
 
     def _material(self, index: int) -> Any:
         return at(self._gltf.materials, index, "material")

@@ -1,0 +1,61 @@
+"""Whether the surfaces that glow light a scene, or are details of what is to be lit.
+
+Viewers of glTF bring light along, and models have dials and lamps that glow in it. Their emission
+alone would leave the rest in the dark.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from ... import _core
+from ...pictures.tonemapping import split_alpha
+from ..areas import triangle_areas
+from ..views import emits, plugins
+
+if TYPE_CHECKING:
+    import numpy as np
+
+TINY = 1e-300  #: in place of an area of 0
+LEAST = 0.02  #: of the mean radiance of what is lit by what glows
+
+
+def too_dim(scene: dict[str, Any]) -> bool:
+    """Whether meshes alone emit in a scene dict, and too little to light it."""
+    shapes = [one for one in plugins(scene) if one["type"] == "mesh"]
+    others = [one for one in plugins(scene) if one["type"] != "mesh"]
+    glow = any("emitter" in shape for shape in shapes)
+    return glow and not any(map(emits, others)) and mean_radiance(shapes) < LEAST
+
+
+def mean_radiance(shapes: list[dict[str, Any]]) -> float:
+    """What meshes emit, averaged over the area of all, glowing or not, and over R, G and B.
+
+    A texture counts with the mean of all its texels, whichever of them the mesh shows.
+    """
+    emitters = {id(shape.get("emitter")): shape.get("emitter") for shape in shapes}
+    areas = dict.fromkeys(emitters, 0.0)
+    for shape in shapes:
+        triangles = triangle_areas(shape["vertices"], shape["faces"], shape["to_world"])
+        areas[id(shape.get("emitter"))] += float(triangles.sum())
+    power = sum(
+        areas[key] * float(mean_colour(emitter["radiance"]).mean())
+        for key, emitter in emitters.items()
+        if emitter
+    )
+    return power / max(sum(areas.values()), TINY)
+
+
+def mean_colour(texture: dict[str, Any]) -> np.ndarray:
+    """The linear red, green and blue, (3,), of a colour, or of the mean of an image."""
+    import numpy as np
+
+    match texture["type"]:
+        case "rgb":
+            mean = np.array(texture["value"])
+        case "scale":
+            mean = mean_colour(texture["scale"]) * mean_colour(texture["texture"])
+        case _:
+            colours, _ = split_alpha(_core.decode_image(texture["data"], "an emissive texture"))
+            mean = colours.mean(axis=(0, 1), dtype=float)
+    return np.broadcast_to(mean, 3)
