@@ -6,6 +6,7 @@ alone would leave the rest in the dark.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from ... import _core
@@ -22,10 +23,19 @@ LEAST = 0.02  #: of the mean radiance of what is lit by what glows
 
 def too_dim(scene: dict[str, Any]) -> bool:
     """Whether meshes alone emit in a scene dict, and too little to light it."""
-    shapes = [one for one in plugins(scene) if one["type"] == "mesh"]
-    others = [one for one in plugins(scene) if one["type"] != "mesh"]
-    glow = any("emitter" in shape for shape in shapes)
-    return glow and not any(map(emits, others)) and mean_radiance(shapes) < LEAST
+    lights = list(filter(emits, plugins(scene)))
+    only_meshes = bool(lights) and all(light["type"] == "mesh" for light in lights)
+    return only_meshes and mean_radiance(list(meshes(scene))) < LEAST
+
+
+def meshes(scene: dict[str, Any]) -> Iterator[dict[str, Any]]:
+    """All of a scene, each with its place in the world; groups once for each of their instances."""
+    for plugin in plugins(scene):
+        if plugin["type"] == "mesh":
+            yield plugin
+        if plugin["type"] == "instance":
+            for part in plugins(scene[plugin["group"]["id"]]):
+                yield part | {"to_world": plugin["to_world"]}
 
 
 def mean_radiance(shapes: list[dict[str, Any]]) -> float:

@@ -19,12 +19,13 @@ from .lights import light, sensor
 from .materials import KNOWN as MATERIALS
 from .materials import bsdf, emission, interior
 from .meshes import triangle_mesh
+from .placement import INSTANCING, instances, local_matrix
 from .textures import Textures
 
 if TYPE_CHECKING:
     import numpy as np
 
-EXTENSIONS = MATERIALS | {"KHR_lights_punctual", "KHR_mesh_quantization"}
+EXTENSIONS = MATERIALS | {"KHR_lights_punctual", "KHR_mesh_quantization", INSTANCING}
 
 
 def read_gltf(path: Path, made: Imported) -> None:
@@ -115,7 +116,7 @@ class Reader:
 
     def _node(self, node: Any, name: str, to_world: np.ndarray) -> None:
         if node.mesh is not None:
-            self._mesh(node.mesh, name, to_world)
+            self._meshes_of(node, name, to_world)
         if node.camera is not None:
             camera = at(self._gltf.cameras, node.camera, "camera")
             self._made.add(camera.name or name, sensor(camera, to_world))
@@ -125,8 +126,25 @@ class Reader:
             given = at(lights, punctual["light"], "light")
             self._made.add(given.get("name") or name, light(given, to_world, self._made))
 
-    def _mesh(self, index: int, name: str, to_world: np.ndarray) -> None:
+    def _meshes_of(self, node: Any, name: str, to_world: np.ndarray) -> None:
+        """The mesh of a node, or its copies: of what neither emits nor is filled as instances."""
+        shapes = self._shapes(node.mesh)
+        copies = instances(node, self._buffers, self._made)
+        if copies is not None and len(copies) > 1:
+            members = [shape for shape in shapes if not {"emitter", "interior"} & shape.keys()]
+            shapes = [shape for shape in shapes if {"emitter", "interior"} & shape.keys()]
+            if members:
+                group = {f"part-{number}": shape for number, shape in enumerate(members)}
+                known = self._made.add(f"{name}-group", {"type": "shapegroup", **group})
+                shapes.append({"type": "instance", "group": {"type": "ref", "id": known}})
+        for placed in [to_world] if copies is None else to_world @ copies:
+            for shape in shapes:
+                self._made.add(name, shape | {"to_world": placed})
+
+    def _shapes(self, index: int) -> list[dict[str, Any]]:
+        """The primitives of a mesh in its own frame."""
         mesh = at(self._gltf.meshes, index, "mesh")
+        shapes = []
         for number, primitive in enumerate(mesh.primitives):
             if primitive.targets:
                 self._made.warn("morph targets are left out")
@@ -137,10 +155,11 @@ class Reader:
                     continue
                 wanted = mesh.name or f"mesh-{index}"
                 self._meshes[key] = self._made.mesh(wanted, triangles)
-            shape = self._meshes[key] | {"to_world": to_world, "bsdf": self._bsdf(primitive)}
+            shape = self._meshes[key] | {"bsdf": self._bsdf(primitive)}
             if primitive.material is not None:
                 shape |= self._light_of(primitive.material)
-            self._made.add(name, shape)
+            shapes.append(shape)
+        return shapes
 
     def _light_of(self, material: int) -> dict[str, Any]:
         """What a shape emits and what is in it, the same for all shapes of one material."""
@@ -168,21 +187,3 @@ class Reader:
             surface = bsdf(material, self._textures, self._made, of_vertices=coloured)
             self._materials[key] = self._made.add(material.name or f"material-{index}", surface)
         return {"type": "ref", "id": self._materials[key]}
-
-
-def local_matrix(node: Any) -> np.ndarray:
-    """glTF 2.0, sec. 3.5.3: a matrix by columns, or T R S with a quaternion (x, y, z, w)."""
-    import numpy as np
-
-    if node.matrix:
-        return np.array(node.matrix, dtype=float).reshape(4, 4).T
-    x, y, z, w = node.rotation or (0, 0, 0, 1)
-    matrix = np.eye(4)
-    matrix[:3, :3] = [
-        [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-        [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-        [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
-    ]
-    matrix[:3, :3] *= np.array(node.scale or (1, 1, 1))
-    matrix[:3, 3] = node.translation or (0, 0, 0)
-    return matrix
