@@ -464,6 +464,21 @@ def test_what_has_no_counterpart_is_named():
     assert (mlt.render(scene, "path", spp=4) > 0.1).any()
 
 
+def test_extensions_that_are_not_read_are_named_wherever_they_stand():
+    file = GltfFile()
+    info = file.texture(CODES)
+    info.extensions = {"EXT_of_texture": {}}
+    mesh = file.mesh(file.material(baseColorTexture=info, extensions={"EXT_of_material": {}}))
+    file.gltf.meshes[mesh].primitives[0].extensions = {"EXT_of_primitive": {}}
+    file.node(mesh=mesh, extensions={"KHR_node_visibility": {"visible": False}})
+    file.light({"type": "point"})
+    file.gltf.extensionsUsed += ["EXT_of_nothing", "KHR_mesh_quantization"]
+    unread = {f"EXT_of_{name}" for name in ("texture", "material", "primitive", "nothing")}
+    unread.add("KHR_node_visibility")
+    found = [text for text in converted(file).warnings if text.endswith("is left out")]
+    assert sorted(found) == sorted(f"{name} is left out" for name in unread)
+
+
 def test_a_scene_can_be_sent_to_other_processes():
     file = floor_file(baseColorTexture=None)
     file.node(mesh=file.mesh(file.material(baseColorTexture=file.texture(CODES))))

@@ -5,11 +5,12 @@ from __future__ import annotations
 import functools
 import math
 import reprlib
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import is_dataclass
 from typing import Any, TypeVar, Union, get_args, get_origin, get_type_hints
 
 from ... import _core
+from ..imported import Imported
 
 Item = TypeVar("Item")
 NAMES = {bool: "true or false", float: "a number", int: "an index or a count", str: "a text"}
@@ -61,6 +62,12 @@ def at(items: Sequence[Item] | None, index: Any, kind: str) -> Item:
     if not items or type(index) is not int or not 0 <= index < count:
         raise _core.SceneError(f"{kind} {reprlib.repr(index)} is not among the {count} of the file")
     return items[index]
+
+
+def warn_of_others(names: Iterable[str] | None, read: set[str], made: Imported) -> None:
+    """Of extensions, the keys of an object or those that a file uses, other than those read."""
+    for name in sorted(set(names or ()) - read):
+        made.warn(f"{name:.80} is left out")
 
 
 def three_numbers(value: Any, name: str) -> list[float]:

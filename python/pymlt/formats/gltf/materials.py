@@ -9,7 +9,7 @@ import math
 from typing import Any
 
 from ..imported import Imported, rgb
-from .checked import number, three_numbers
+from .checked import number, three_numbers, warn_of_others
 from .textures import Textures
 
 KNOWN = {
@@ -30,8 +30,7 @@ DARKEST = 1e-6  #: of attenuation colours, whose logarithm is taken
 def bsdf(material: Any, textures: Textures, made: Imported, *, of_vertices: bool) -> dict[str, Any]:
     """The BSDF of a material, whose base colour may be multiplied by colours of vertices."""
     extensions = material.extensions or {}
-    for name in sorted(set(extensions) - KNOWN):
-        made.warn(f"{name} is left out")
+    warn_of_others(extensions, KNOWN, made)
     if material.occlusionTexture is not None:
         made.warn("occlusion textures are left out: what they stand for is rendered")
     surface = principled(material, extensions, textures)

@@ -13,7 +13,7 @@ from ..imported import Imported
 from ..limits import TEXT, read_file
 from ..views import complete
 from .buffers import Buffers
-from .checked import at, check_types
+from .checked import at, check_types, warn_of_others
 from .glow import too_dim
 from .lights import light, sensor
 from .materials import KNOWN as MATERIALS
@@ -25,7 +25,9 @@ from .textures import Textures
 if TYPE_CHECKING:
     import numpy as np
 
-EXTENSIONS = MATERIALS | {"KHR_lights_punctual", "KHR_mesh_quantization", INSTANCING}
+LIGHTS = "KHR_lights_punctual"
+NODES = {LIGHTS, INSTANCING}
+EXTENSIONS = MATERIALS | NODES | {"KHR_mesh_quantization"}
 
 
 def read_gltf(path: Path, made: Imported) -> None:
@@ -86,6 +88,7 @@ class Reader:
 
     def read(self) -> None:
         gltf = self._gltf
+        warn_of_others(gltf.extensionsUsed, EXTENSIONS, self._made)
         for what in ("animations", "skins"):
             if getattr(gltf, what):
                 self._made.warn(f"{what} are left out")
@@ -115,14 +118,15 @@ class Reader:
         return [index for index in range(len(gltf.nodes)) if index not in inner]
 
     def _node(self, node: Any, name: str, to_world: np.ndarray) -> None:
+        warn_of_others(node.extensions, NODES, self._made)
         if node.mesh is not None:
             self._meshes_of(node, name, to_world)
         if node.camera is not None:
             camera = at(self._gltf.cameras, node.camera, "camera")
             self._made.add(camera.name or name, sensor(camera, to_world))
-        punctual = (node.extensions or {}).get("KHR_lights_punctual")
+        punctual = (node.extensions or {}).get(LIGHTS)
         if punctual is not None:
-            lights = self._gltf.extensions["KHR_lights_punctual"]["lights"]
+            lights = self._gltf.extensions[LIGHTS]["lights"]
             given = at(lights, punctual["light"], "light")
             self._made.add(given.get("name") or name, light(given, to_world, self._made))
 
@@ -146,6 +150,7 @@ class Reader:
         mesh = at(self._gltf.meshes, index, "mesh")
         shapes = []
         for number, primitive in enumerate(mesh.primitives):
+            warn_of_others(primitive.extensions, set(), self._made)
             if primitive.targets:
                 self._made.warn("morph targets are left out")
             key = (index, number)

@@ -11,7 +11,7 @@ from ... import _core
 from ..imported import Imported, rgb
 from ..limits import check_pixels
 from .buffers import Buffers
-from .checked import at
+from .checked import at, warn_of_others
 
 if TYPE_CHECKING:
     import numpy as np
@@ -90,8 +90,7 @@ class Textures:
     def _bitmap(self, info: Any, data: bytes | np.ndarray) -> dict[str, Any]:
         if info.texCoord:
             self._made.warn("second texture coordinates are left out; the first are taken")
-        if "KHR_texture_transform" in (info.extensions or {}):
-            self._made.warn("KHR_texture_transform is left out")
+        warn_of_others(info.extensions, set(), self._made)
         bitmap: dict[str, Any] = {"type": "bitmap", "data": data}
         index = self._texture(info).sampler
         if index is not None:
