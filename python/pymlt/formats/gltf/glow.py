@@ -7,25 +7,26 @@ alone would leave the rest in the dark.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from ... import _core
-from ...pictures.tonemapping import split_alpha
 from ..areas import triangle_areas
 from ..views import emits, plugins
-
-if TYPE_CHECKING:
-    import numpy as np
+from .textures import mean_colour
 
 TINY = 1e-300  #: in place of an area of 0
 LEAST = 0.02  #: of the mean radiance of what is lit by what glows
 
 
-def too_dim(scene: dict[str, Any]) -> bool:
-    """Whether meshes alone emit in a scene dict, and too little to light it."""
+def too_dim(scene: dict[str, Any], unlit: list[dict[str, Any]]) -> bool:
+    """Whether meshes alone emit in a scene dict, and too little to light it.
+
+    The emitters of `unlit` materials (KHR_materials_unlit) light nothing, and need no light.
+    """
     lights = list(filter(emits, plugins(scene)))
     only_meshes = bool(lights) and all(light["type"] == "mesh" for light in lights)
-    return only_meshes and mean_radiance(list(meshes(scene))) < LEAST
+    shown = {id(emitter) for emitter in unlit}
+    shapes = [shape for shape in meshes(scene) if id(shape.get("emitter")) not in shown]
+    return only_meshes and bool(shapes) and mean_radiance(shapes) < LEAST
 
 
 def meshes(scene: dict[str, Any]) -> Iterator[dict[str, Any]]:
@@ -54,18 +55,3 @@ def mean_radiance(shapes: list[dict[str, Any]]) -> float:
         if emitter
     )
     return power / max(sum(areas.values()), TINY)
-
-
-def mean_colour(texture: dict[str, Any]) -> np.ndarray:
-    """The linear red, green and blue, (3,), of a colour, or of the mean of an image."""
-    import numpy as np
-
-    match texture["type"]:
-        case "rgb":
-            mean = np.array(texture["value"])
-        case "scale":
-            mean = mean_colour(texture["scale"]) * mean_colour(texture["texture"])
-        case _:
-            colours, _ = split_alpha(_core.decode_image(texture["data"], "an emissive texture"))
-            mean = colours.mean(axis=(0, 1), dtype=float)
-    return np.broadcast_to(mean, 3)

@@ -17,17 +17,18 @@ from .checked import at, check_types, warn_of_others
 from .glow import too_dim
 from .lights import light, sensor
 from .materials import KNOWN as MATERIALS
-from .materials import bsdf, emission, interior
+from .materials import bsdf, emission, interior, is_unlit
 from .meshes import triangle_mesh
 from .placement import INSTANCING, instances, local_matrix
 from .textures import Textures
+from .uv_transform import UV_TRANSFORM
 
 if TYPE_CHECKING:
     import numpy as np
 
 LIGHTS = "KHR_lights_punctual"
 NODES = {LIGHTS, INSTANCING}
-EXTENSIONS = MATERIALS | NODES | {"KHR_mesh_quantization"}
+EXTENSIONS = MATERIALS | NODES | {"KHR_mesh_quantization", UV_TRANSFORM}
 
 
 def read_gltf(path: Path, made: Imported) -> None:
@@ -82,7 +83,7 @@ class Reader:
         self._buffers = Buffers(gltf, path)
         self._textures = Textures(self._buffers, made)
         self._materials: dict[tuple[int, bool], str] = {}
-        self._lights: dict[int, dict[str, Any]] = {}
+        self._lights: dict[tuple[int, bool], dict[str, Any]] = {}
         self._seen: set[int] = set()  #: nodes
         self._meshes: dict[tuple[int, int], dict[str, Any]] = {}
 
@@ -107,7 +108,7 @@ class Reader:
             to_world = parent @ local_matrix(node)
             self._node(node, node.name or f"node-{index}", to_world)
             left += [(child, to_world) for child in reversed(node.children or [])]
-        complete(self._made, dim=too_dim(self._made.scene))
+        complete(self._made, dim=too_dim(self._made.scene, self._unlit()))
 
     def _roots(self) -> list[int]:
         """Those of the scene that is shown, else of all nodes."""
@@ -162,33 +163,41 @@ class Reader:
                 self._meshes[key] = self._made.mesh(wanted, triangles)
             shape = self._meshes[key] | {"bsdf": self._bsdf(primitive)}
             if primitive.material is not None:
-                shape |= self._light_of(primitive.material)
+                shape |= self._light_of(primitive)
             shapes.append(shape)
         return shapes
 
-    def _light_of(self, material: int) -> dict[str, Any]:
+    def _light_of(self, primitive: Any) -> dict[str, Any]:
         """What a shape emits and what is in it, the same for all shapes of one material."""
-        if material not in self._lights:
+        key = material, coloured = material_key(primitive)
+        if key not in self._lights:
             given = self._material(material)
-            parts = {
-                "emitter": emission(given, self._textures, self._made),
-                "interior": interior(given),
-            }
-            self._lights[material] = {name: part for name, part in parts.items() if part}
-        return self._lights[material]
+            glow = emission(given, self._textures, self._made, of_vertices=coloured)
+            parts = {"emitter": glow, "interior": interior(given)}
+            self._lights[key] = {name: part for name, part in parts.items() if part}
+        return self._lights[key]
+
+    def _unlit(self) -> list[dict[str, Any]]:
+        """The emitters of unlit materials."""
+        used = self._lights.items()
+        return [parts["emitter"] for (index, _), parts in used if is_unlit(self._material(index))]
 
     def _material(self, index: int) -> Any:
         return at(self._gltf.materials, index, "material")
 
     def _bsdf(self, primitive: Any) -> dict[str, Any]:
         """A reference to the material, which is added with its first use."""
-        index, coloured = primitive.material, primitive.attributes.COLOR_0 is not None
+        key = index, coloured = material_key(primitive)
         if index is None:
             white = self._textures.colour(None, [1, 1, 1], of_vertices=coloured)
             return {"type": "twosided", "bsdf": {"type": "diffuse", "reflectance": white}}
-        key = (index, coloured)
         if key not in self._materials:
             material = self._material(index)
             surface = bsdf(material, self._textures, self._made, of_vertices=coloured)
             self._materials[key] = self._made.add(material.name or f"material-{index}", surface)
         return {"type": "ref", "id": self._materials[key]}
+
+
+def material_key(primitive: Any) -> tuple[Any, bool]:
+    """The index of its material, None without one, and whether its vertices have colours."""
+    return primitive.material, primitive.attributes.COLOR_0 is not None
