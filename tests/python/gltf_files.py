@@ -6,6 +6,7 @@ import numpy as np
 import pygltflib as gl
 
 KINDS = {"f": gl.FLOAT, "I": gl.UNSIGNED_INT, "B": gl.UNSIGNED_BYTE, "H": gl.UNSIGNED_SHORT}
+KINDS |= {"b": gl.BYTE, "h": gl.SHORT}
 SHAPES = {1: gl.SCALAR, 2: gl.VEC2, 3: gl.VEC3, 4: gl.VEC4}
 CORNERS = np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], np.float32)
 

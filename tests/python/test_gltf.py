@@ -11,6 +11,7 @@ import pytest
 import pymlt as mlt
 from pymlt import cli
 from pymlt.formats.files import read_foreign
+from pymlt.formats.gltf.glow import mean_radiance
 
 gl = pytest.importorskip("pygltflib", reason="needs pymlt[gltf]")
 
@@ -323,6 +324,76 @@ def test_sparse_accessors():
     assert b.info()["radius"] > a.info()["radius"]
 
 
+# ---- what is added to files without light ------------------------------------------------------
+
+SKY, SUN, SUNBEAM = 0.15, 3.0, np.array([1.0, -1.5, -1.2])
+
+
+@pytest.mark.parametrize("behind", [False, True])
+def test_a_white_model_without_lamps_differs_from_its_background(behind):
+    file = GltfFile()
+    turned = {"rotation": [0, 1, 0, 0]} if behind else {}
+    mesh = file.mesh(file.material(colour=(0, 0, 0, 1)))
+    file.gltf.meshes[mesh].primitives[0].material = None
+    file.node(mesh=mesh)
+    file.camera(translation=[0, 0, -4 if behind else 4], **turned)
+    with pytest.warns(UserWarning, match="there is no light; an even sky and a sun are added"):
+        scene = mlt.load(file.save("a.glb"), size=SIZE)
+    image = mlt.render(scene, DIRECT, spp=256, seed=1)
+    # The horizontal part of the beam makes an angle with the view, which is the same from behind.
+    across, along = SUNBEAM[[0, 2]] @ [[2, 1], [-1, 2]] / np.sqrt(5)
+    assert across > 0  # the sun is on the left
+    lit = SKY + SUN * -along / np.linalg.norm(SUNBEAM) / np.pi
+    assert image[0, 0] == pytest.approx(SKY, rel=1e-3)
+    assert image[13:17, 18:22].mean() == pytest.approx(lit, rel=0.02)
+
+
+def test_a_lone_mesh_has_the_same_light_as_a_file_without_lamps():
+    file = GltfFile()
+    file.node(mesh=file.mesh())
+    made = converted(file).scene
+    Path("a.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    alone = read_foreign("a.obj").scene
+    for name in ("sky", "sun"):
+        assert made[name] == alone[name]
+    assert alone["sun"]["direction"] == pytest.approx(SUNBEAM.tolist(), abs=1e-12)
+
+
+def room(emission: float, *, texture=None) -> GltfFile:
+    """Two squares of area 4 and 396, of which the first emits."""
+    file = GltfFile()
+    glow = {"KHR_materials_emissive_strength": {"emissiveStrength": emission}}
+    info = {"emissiveTexture": file.texture(texture)} if texture is not None else {}
+    lamp = file.material(emissiveFactor=[1, 0.5, 0.3], extensions=glow, **info)
+    file.node(mesh=file.mesh(lamp), translation=[0, 0, 1], rotation=[0, 1, 0, 0])
+    file.node(mesh=file.mesh(file.material()), scale=[np.sqrt(99), np.sqrt(99), 1])
+    return file
+
+
+DOTS = np.zeros((10, 10, 4), np.uint8)
+DOTS[..., 3] = 255
+DOTS[:2, 0, :3] = 255  # two texels of a hundred
+
+
+@pytest.mark.parametrize(
+    ("strength", "texture", "mean"),
+    [(10, None, 0.06), (2, None, 0.012), (10, DOTS, 0.0012), (200, DOTS, 0.024)],
+)
+def test_what_glows_lights_a_scene_alone_if_it_is_strong_enough(strength, texture, mean):
+    made = converted(room(strength, texture=texture))
+    shapes = [made.scene[f"node-{i}"] for i in range(2)]
+    assert mean_radiance(shapes) == pytest.approx(mean, rel=1e-5)
+    said = "what glows is too weak to light the scene; an even sky and a sun are added"
+    assert (said in made.warnings) == (mean < 0.02)
+    assert {"sky", "sun"} & made.scene.keys() == ({"sky", "sun"} if mean < 0.02 else set())
+
+
+def test_beside_a_lamp_what_glows_is_no_reason_for_a_sun():
+    file = room(0.1)
+    file.light({"type": "point"}, name="lamp")
+    assert {"sky", "sun"}.isdisjoint(converted(file).scene)
+
+
 # ---- the rest of the interface -----------------------------------------------------------------
 
 
@@ -365,7 +436,7 @@ def test_the_command_line_renders_it_and_resumes(capsys):
     flags = ["--spp", "2", "--integrator", "path", "--size", "16x12"]
     checkpoint = ["--checkpoint", "c.ckpt"]
     assert cli.main(["render", "a.glb", *flags, *checkpoint, "-o", "a.exr"]) == 0
-    assert "a.glb: there is no light; an even one" in capsys.readouterr().err
+    assert "a.glb: there is no light; an even sky and a sun" in capsys.readouterr().err
     assert mlt.read_image("a.exr").mean() > 0.1
     assert cli.main(["info", "a.glb"]) == 0
     more = ["--resume", "c.ckpt", "--spp", "4", "-o", "b.exr"]
@@ -391,6 +462,21 @@ def test_what_has_no_counterpart_is_named():
     for word in ("points and lines", *coloured, "animations", "no camera", "side of their normals"):
         assert word in said
     assert (mlt.render(scene, "path", spp=4) > 0.1).any()
+
+
+def test_extensions_that_are_not_read_are_named_wherever_they_stand():
+    file = GltfFile()
+    info = file.texture(CODES)
+    info.extensions = {"EXT_of_texture": {}}
+    mesh = file.mesh(file.material(baseColorTexture=info, extensions={"EXT_of_material": {}}))
+    file.gltf.meshes[mesh].primitives[0].extensions = {"EXT_of_primitive": {}}
+    file.node(mesh=mesh, extensions={"KHR_node_visibility": {"visible": False}})
+    file.light({"type": "point"})
+    file.gltf.extensionsUsed += ["EXT_of_nothing", "KHR_mesh_quantization"]
+    unread = {f"EXT_of_{name}" for name in ("texture", "material", "primitive", "nothing")}
+    unread.add("KHR_node_visibility")
+    found = [text for text in converted(file).warnings if text.endswith("is left out")]
+    assert sorted(found) == sorted(f"{name} is left out" for name in unread)
 
 
 def test_a_scene_can_be_sent_to_other_processes():

@@ -135,7 +135,7 @@ def test_hostile_gltf_files_are_refused(name, capsys):
 
 def test_the_triangle_that_hostile_files_change_is_read():
     Path("a.gltf").write_text(json.dumps(gltf(accessors=[sparse()])))
-    assert len(read_foreign("a.gltf").scene) == 4  # its type, the triangle, a camera and a light
+    assert len(read_foreign("a.gltf").scene) == 5  # its type, the triangle, a camera, sky and sun
 
 
 def test_deep_json_and_long_integers_are_refused(capsys):

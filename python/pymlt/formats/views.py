@@ -2,15 +2,22 @@
 
 from __future__ import annotations
 
-from typing import Any
+import math
+from typing import TYPE_CHECKING, Any
 
 from .. import _core
 from ..scenes.loading import load_dict
 from ..scenes.transforms import Transform
 from .imported import Imported
 
+if TYPE_CHECKING:
+    import numpy as np
+
 HEIGHT = 720  #: of an image whose size the file does not tell, in pixels
 CAMERAS = ("perspective", "orthographic", "thinlens")
+AWAY = (0.5, 0.4, 1.0)  #: from the middle of a scene to a camera that is added
+SKY = {"type": "constant", "radiance": 0.15}
+SUNBEAM = (1.0, -1.5, -1.2)  #: the way of sunlight, as that camera is turned
 
 
 def film(aspect: float) -> dict[str, Any]:
@@ -18,17 +25,51 @@ def film(aspect: float) -> dict[str, Any]:
     return {"type": "hdrfilm", "width": max(1, round(HEIGHT * aspect)), "height": HEIGHT}
 
 
-def complete(made: Imported) -> None:
-    """Adds a camera and light, with a warning, where there are none."""
-    plugins = list(made.scene.values())[1:]
-    types = {plugin["type"] for plugin in plugins}
-    emitters = set(_core.names("emitter"))
-    if not types & emitters and not any("emitter" in plugin for plugin in plugins):
-        made.warn("there is no light; an even one from everywhere is added")
-        made.add("light", {"type": "constant", "radiance": 1.0})
-    if not types & set(CAMERAS):
-        made.warn("there is no camera; one that sees everything is added")
-        made.add("camera", overview(made.scene))
+def complete(made: Imported, *, dim: bool = False, announced: bool = True) -> None:
+    """Adds a camera and daylight where there are none; both are warned of if `announced`.
+
+    `dim` says that what emits is too weak to light the scene.
+    """
+    added = []
+    dark = not any(map(emits, plugins(made.scene)))
+    if dark or dim:
+        why = "there is no light" if dark else "what glows is too weak to light the scene"
+        added.append(f"{why}; an even sky and a sun are added")
+        made.add("sky", SKY)
+    cameras = [plugin for plugin in plugins(made.scene) if plugin["type"] in CAMERAS]
+    if not cameras:
+        added.append("there is no camera; one that sees everything is added")
+        cameras.append(overview(made.scene))
+        made.add("camera", cameras[0])
+    if dark or dim:
+        made.add("sun", sun(cameras[0]))
+    for text in added if announced else ():
+        made.warn(text)
+
+
+def plugins(scene: dict[str, Any]) -> list[dict[str, Any]]:
+    """All that a scene is made of."""
+    return [value for value in scene.values() if isinstance(value, dict)]
+
+
+def emits(plugin: dict[str, Any]) -> bool:
+    """Whether it is a light, or a shape that is one."""
+    return "emitter" in plugin or plugin["type"] in _core.names("emitter")
+
+
+def sun(camera: dict[str, Any]) -> dict[str, Any]:
+    """A sun over the left shoulder of a camera, which shows the form; y is up."""
+    import numpy as np
+
+    forward = np.asarray(camera["to_world"])[:3, 2]
+    turn = azimuth(forward) - azimuth(-np.array(AWAY)) if forward[[0, 2]].any() else 0.0
+    turned = Transform.rotate([0, 1, 0], math.degrees(turn)).matrix[:3, :3] @ SUNBEAM
+    return {"type": "directional", "direction": turned.tolist(), "irradiance": 3.0}
+
+
+def azimuth(direction: np.ndarray) -> float:
+    """Where a direction points if seen from above: radians from +z towards +x."""
+    return math.atan2(direction[0], direction[2])
 
 
 def overview(scene: dict[str, Any]) -> dict[str, Any]:
@@ -41,7 +82,7 @@ def overview(scene: dict[str, Any]) -> dict[str, Any]:
     for _ in range(3):  # the bounds of a scene hold its camera, which moves into them
         info = seen.updated({"camera.to_world": Transform.translate(center)}).info()
         center, radius = np.array(info["center"]), max(info["radius"], 1e-6)
-    away = np.array([0.5, 0.4, 1.0])
-    origin = center + 1.1 * radius / np.sin(np.radians(20)) * away / np.linalg.norm(away)
+    away = np.array(AWAY) / np.linalg.norm(AWAY)
+    origin = center + 1.1 * radius / np.sin(np.radians(20)) * away
     to_world = Transform.look_at(origin=origin, target=center, up=[0, 1, 0])
     return draft | {"fov_axis": "y", "to_world": to_world}

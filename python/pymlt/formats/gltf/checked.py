@@ -5,11 +5,13 @@ from __future__ import annotations
 import functools
 import math
 import reprlib
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import is_dataclass
+from types import SimpleNamespace
 from typing import Any, TypeVar, Union, get_args, get_origin, get_type_hints
 
 from ... import _core
+from ..imported import Imported
 
 Item = TypeVar("Item")
 NAMES = {bool: "true or false", float: "a number", int: "an index or a count", str: "a text"}
@@ -63,11 +65,17 @@ def at(items: Sequence[Item] | None, index: Any, kind: str) -> Item:
     return items[index]
 
 
-def three_numbers(value: Any, name: str) -> list[float]:
-    """As `number`."""
+def warn_of_others(names: Iterable[str] | None, read: set[str], made: Imported) -> None:
+    """Of extensions, the keys of an object or those that a file uses, other than those read."""
+    for name in sorted(set(names or ()) - read):
+        made.warn(f"{name:.80} is left out")
+
+
+def numbers(value: Any, count: int, name: str) -> list[float]:
+    """As `number`, so many of them."""
     check_types(value, list[float], name)
-    if len(value) != 3:
-        raise _core.SceneError(f"{name} has {len(value)} numbers, but should have 3")
+    if len(value) != count:
+        raise _core.SceneError(f"{name} has {len(value)} numbers, but should have {count}")
     return [float(v) for v in value]
 
 
@@ -75,3 +83,14 @@ def number(value: Any, name: str) -> float:
     """A number of an extension, whose types nobody has checked."""
     check_types(value, float, name)
     return float(value)
+
+
+def texture_info(given: Any, name: str) -> Any:
+    """A texture of an extension with the attributes of pygltflib's TextureInfo; None if None."""
+    if given is None:
+        return None
+    check_types(given, dict[str, Any], name)
+    info = SimpleNamespace(**{"texCoord": None, "extensions": None} | given)
+    check_types(info.texCoord, int, f"{name}.texCoord")
+    check_types(info.extensions, dict[str, Any], f"{name}.extensions")
+    return info

@@ -9,18 +9,19 @@ import math
 from typing import Any
 
 from ..imported import Imported, rgb
-from .checked import number, three_numbers
+from .checked import number, numbers, warn_of_others
 from .textures import Textures
 
+UNLIT = "KHR_materials_unlit"
 KNOWN = {
     "KHR_materials_clearcoat",
     "KHR_materials_dispersion",
     "KHR_materials_emissive_strength",
     "KHR_materials_ior",
     "KHR_materials_transmission",
+    UNLIT,
     "KHR_materials_volume",
 }
-
 
 DISTANCE = "attenuationDistance"  #: infinite if it is not given
 ABBE_TIMES_DISPERSION = 20  #: KHR_materials_dispersion has 20 / V_d
@@ -30,10 +31,11 @@ DARKEST = 1e-6  #: of attenuation colours, whose logarithm is taken
 def bsdf(material: Any, textures: Textures, made: Imported, *, of_vertices: bool) -> dict[str, Any]:
     """The BSDF of a material, whose base colour may be multiplied by colours of vertices."""
     extensions = material.extensions or {}
-    for name in sorted(set(extensions) - KNOWN):
-        made.warn(f"{name} is left out")
+    warn_of_others(extensions, KNOWN, made)
     if material.occlusionTexture is not None:
         made.warn("occlusion textures are left out: what they stand for is rendered")
+    if UNLIT in extensions:
+        return masked({"type": "diffuse", "reflectance": rgb([0, 0, 0])}, material, textures)
     surface = principled(material, extensions, textures)
     surface["base_color"] = base_color(material.pbrMetallicRoughness, textures, of_vertices)
     transmits = "spec_trans" in surface
@@ -95,6 +97,11 @@ def dispersive(surface: dict[str, Any], dispersion: float, made: Imported) -> di
     return glass | {"type": "roughdielectric", "distribution": "ggx", "alpha": alpha}
 
 
+def is_unlit(material: Any) -> bool:
+    """Whether it shows its base colour, whatever the light (KHR_materials_unlit)."""
+    return UNLIT in (material.extensions or {})
+
+
 def interior(material: Any) -> dict[str, Any] | None:
     """What is in a closed mesh (KHR_materials_volume): a medium that absorbs, so that white light
     has the attenuation colour after the attenuation distance. The mesh itself says how thick it is.
@@ -105,7 +112,7 @@ def interior(material: Any) -> dict[str, Any] | None:
     transmits = extensions.get("KHR_materials_transmission", {}).get("transmissionFactor")
     if not transmits or min(given.values()) <= 0:
         return None
-    colour = three_numbers(volume.get("attenuationColor", [1, 1, 1]), "attenuationColor")
+    colour = numbers(volume.get("attenuationColor", [1, 1, 1]), 3, "attenuationColor")
     absorbed = [-math.log(min(max(c, DARKEST), 1)) / given[DISTANCE] for c in colour]
     return {"type": "homogeneous", "sigma_s": 0.0, "sigma_a": rgb(absorbed)}
 
@@ -123,11 +130,19 @@ def masked(surface: dict[str, Any], material: Any, textures: Textures) -> dict[s
     return {"type": "mask", "opacity": opacity, "bsdf": surface}
 
 
-def emission(material: Any, textures: Textures, made: Imported) -> dict[str, Any] | None:
-    """The area light of a material that glows.
+def emission(
+    material: Any, textures: Textures, made: Imported, *, of_vertices: bool
+) -> dict[str, Any] | None:
+    """The area light of a material that glows; that of an unlit one has its base colour.
 
     Its strength is taken as radiance, not as nits: Blender writes and reads it as it is.
     """
+    if is_unlit(material):
+        made.warn("unlit materials are seen from the side of their normals alone, and light others")
+        if (material.alphaMode or "OPAQUE") != "OPAQUE":
+            made.warn("unlit materials that are transparent are as bright as if they were opaque")
+        colour = base_color(material.pbrMetallicRoughness, textures, of_vertices)
+        return {"type": "area", "radiance": colour}
     factor = list(material.emissiveFactor or [0, 0, 0])
     extension = (material.extensions or {}).get("KHR_materials_emissive_strength", {})
     strength = number(extension.get("emissiveStrength", 1), "emissiveStrength")

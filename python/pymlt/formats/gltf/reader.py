@@ -13,17 +13,22 @@ from ..imported import Imported
 from ..limits import TEXT, read_file
 from ..views import complete
 from .buffers import Buffers
-from .checked import at, check_types
+from .checked import at, check_types, warn_of_others
+from .glow import too_dim
 from .lights import light, sensor
 from .materials import KNOWN as MATERIALS
-from .materials import bsdf, emission, interior
+from .materials import bsdf, emission, interior, is_unlit
 from .meshes import triangle_mesh
+from .placement import INSTANCING, instances, local_matrix
 from .textures import Textures
+from .uv_transform import UV_TRANSFORM
 
 if TYPE_CHECKING:
     import numpy as np
 
-EXTENSIONS = MATERIALS | {"KHR_lights_punctual", "KHR_mesh_quantization"}
+LIGHTS = "KHR_lights_punctual"
+NODES = {LIGHTS, INSTANCING}
+EXTENSIONS = MATERIALS | NODES | {"KHR_mesh_quantization", UV_TRANSFORM}
 
 
 def read_gltf(path: Path, made: Imported) -> None:
@@ -78,11 +83,13 @@ class Reader:
         self._buffers = Buffers(gltf, path)
         self._textures = Textures(self._buffers, made)
         self._materials: dict[tuple[int, bool], str] = {}
+        self._lights: dict[tuple[int, bool], dict[str, Any]] = {}
         self._seen: set[int] = set()  #: nodes
         self._meshes: dict[tuple[int, int], dict[str, Any]] = {}
 
     def read(self) -> None:
         gltf = self._gltf
+        warn_of_others(gltf.extensionsUsed, EXTENSIONS, self._made)
         for what in ("animations", "skins"):
             if getattr(gltf, what):
                 self._made.warn(f"{what} are left out")
@@ -101,7 +108,7 @@ class Reader:
             to_world = parent @ local_matrix(node)
             self._node(node, node.name or f"node-{index}", to_world)
             left += [(child, to_world) for child in reversed(node.children or [])]
-        complete(self._made)
+        complete(self._made, dim=too_dim(self._made.scene, self._unlit()))
 
     def _roots(self) -> list[int]:
         """Those of the scene that is shown, else of all nodes."""
@@ -112,20 +119,39 @@ class Reader:
         return [index for index in range(len(gltf.nodes)) if index not in inner]
 
     def _node(self, node: Any, name: str, to_world: np.ndarray) -> None:
+        warn_of_others(node.extensions, NODES, self._made)
         if node.mesh is not None:
-            self._mesh(node.mesh, name, to_world)
+            self._meshes_of(node, name, to_world)
         if node.camera is not None:
             camera = at(self._gltf.cameras, node.camera, "camera")
             self._made.add(camera.name or name, sensor(camera, to_world))
-        punctual = (node.extensions or {}).get("KHR_lights_punctual")
+        punctual = (node.extensions or {}).get(LIGHTS)
         if punctual is not None:
-            lights = self._gltf.extensions["KHR_lights_punctual"]["lights"]
+            lights = self._gltf.extensions[LIGHTS]["lights"]
             given = at(lights, punctual["light"], "light")
             self._made.add(given.get("name") or name, light(given, to_world, self._made))
 
-    def _mesh(self, index: int, name: str, to_world: np.ndarray) -> None:
+    def _meshes_of(self, node: Any, name: str, to_world: np.ndarray) -> None:
+        """The mesh of a node, or its copies: of what neither emits nor is filled as instances."""
+        shapes = self._shapes(node.mesh)
+        copies = instances(node, self._buffers, self._made)
+        if copies is not None and len(copies) > 1:
+            members = [shape for shape in shapes if not {"emitter", "interior"} & shape.keys()]
+            shapes = [shape for shape in shapes if {"emitter", "interior"} & shape.keys()]
+            if members:
+                group = {f"part-{number}": shape for number, shape in enumerate(members)}
+                known = self._made.add(f"{name}-group", {"type": "shapegroup", **group})
+                shapes.append({"type": "instance", "group": {"type": "ref", "id": known}})
+        for placed in [to_world] if copies is None else to_world @ copies:
+            for shape in shapes:
+                self._made.add(name, shape | {"to_world": placed})
+
+    def _shapes(self, index: int) -> list[dict[str, Any]]:
+        """The primitives of a mesh in its own frame."""
         mesh = at(self._gltf.meshes, index, "mesh")
+        shapes = []
         for number, primitive in enumerate(mesh.primitives):
+            warn_of_others(primitive.extensions, set(), self._made)
             if primitive.targets:
                 self._made.warn("morph targets are left out")
             key = (index, number)
@@ -135,27 +161,36 @@ class Reader:
                     continue
                 wanted = mesh.name or f"mesh-{index}"
                 self._meshes[key] = self._made.mesh(wanted, triangles)
-            shape = self._meshes[key] | {"to_world": to_world, "bsdf": self._bsdf(primitive)}
+            shape = self._meshes[key] | {"bsdf": self._bsdf(primitive)}
             if primitive.material is not None:
-                material = self._material(primitive.material)
-                glow = emission(material, self._textures, self._made)
-                if glow:
-                    shape["emitter"] = glow
-                inside = interior(material)
-                if inside:
-                    shape["interior"] = inside
-            self._made.add(name, shape)
+                shape |= self._light_of(primitive)
+            shapes.append(shape)
+        return shapes
+
+    def _light_of(self, primitive: Any) -> dict[str, Any]:
+        """What a shape emits and what is in it, the same for all shapes of one material."""
+        key = material, coloured = material_key(primitive)
+        if key not in self._lights:
+            given = self._material(material)
+            glow = emission(given, self._textures, self._made, of_vertices=coloured)
+            parts = {"emitter": glow, "interior": interior(given)}
+            self._lights[key] = {name: part for name, part in parts.items() if part}
+        return self._lights[key]
+
+    def _unlit(self) -> list[dict[str, Any]]:
+        """The emitters of unlit materials."""
+        used = self._lights.items()
+        return [parts["emitter"] for (index, _), parts in used if is_unlit(self._material(index))]
 
     def _material(self, index: int) -> Any:
         return at(self._gltf.materials, index, "material")
 
     def _bsdf(self, primitive: Any) -> dict[str, Any]:
         """A reference to the material, which is added with its first use."""
-        index, coloured = primitive.material, primitive.attributes.COLOR_0 is not None
+        key = index, coloured = material_key(primitive)
         if index is None:
             white = self._textures.colour(None, [1, 1, 1], of_vertices=coloured)
             return {"type": "twosided", "bsdf": {"type": "diffuse", "reflectance": white}}
-        key = (index, coloured)
         if key not in self._materials:
             material = self._material(index)
             surface = bsdf(material, self._textures, self._made, of_vertices=coloured)
@@ -163,19 +198,6 @@ class Reader:
         return {"type": "ref", "id": self._materials[key]}
 
 
-def local_matrix(node: Any) -> np.ndarray:
-    """glTF 2.0, sec. 3.5.3: a matrix by columns, or T R S with a quaternion (x, y, z, w)."""
-    import numpy as np
-
-    if node.matrix:
-        return np.array(node.matrix, dtype=float).reshape(4, 4).T
-    x, y, z, w = node.rotation or (0, 0, 0, 1)
-    matrix = np.eye(4)
-    matrix[:3, :3] = [
-        [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-        [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-        [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
-    ]
-    matrix[:3, :3] *= np.array(node.scale or (1, 1, 1))
-    matrix[:3, 3] = node.translation or (0, 0, 0)
-    return matrix
+def material_key(primitive: Any) -> tuple[Any, bool]:
+    """The index of its material, None without one, and whether its vertices have colours."""
+    return primitive.material, primitive.attributes.COLOR_0 is not None

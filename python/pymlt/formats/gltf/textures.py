@@ -8,10 +8,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from ... import _core
+from ...pictures.tonemapping import encode_srgb, split_alpha
 from ..imported import Imported, rgb
 from ..limits import check_pixels
 from .buffers import Buffers
-from .checked import at
+from .checked import at, warn_of_others
+from .uv_transform import UV_TRANSFORM, to_uv
 
 if TYPE_CHECKING:
     import numpy as np
@@ -88,11 +90,13 @@ class Textures:
         return stored_samples(self._image(info), name)
 
     def _bitmap(self, info: Any, data: bytes | np.ndarray) -> dict[str, Any]:
-        if info.texCoord:
+        warn_of_others(info.extensions, {UV_TRANSFORM}, self._made)
+        transform = (info.extensions or {}).get(UV_TRANSFORM, {})
+        if transform.get("texCoord", info.texCoord):
             self._made.warn("second texture coordinates are left out; the first are taken")
-        if "KHR_texture_transform" in (info.extensions or {}):
-            self._made.warn("KHR_texture_transform is left out")
         bitmap: dict[str, Any] = {"type": "bitmap", "data": data}
+        if transform:
+            bitmap["to_uv"] = to_uv(transform)
         index = self._texture(info).sampler
         if index is not None:
             sampler = at(self._gltf.samplers, index, "sampler")
@@ -108,9 +112,24 @@ def stored_samples(content: bytes, name: str) -> np.ndarray:
     """The samples of an integer format as they are stored, 0 to 1: (height, width, channels)."""
     import numpy as np
 
-    from ...pictures.tonemapping import encode_srgb, split_alpha
-
     image = _core.decode_image(content, name)
     check_pixels(image, name)
     colours, alpha = split_alpha(image)
     return np.concatenate([encode_srgb(colours), alpha], axis=2)
+
+
+def mean_colour(texture: Any) -> np.ndarray:
+    """The linear red, green and blue, (3,), of a number, a colour, or the mean of an image."""
+    import numpy as np
+
+    if not isinstance(texture, dict):
+        return np.full(3, float(texture))
+    match texture["type"]:
+        case "rgb":
+            return np.array(texture["value"])
+        case "scale":
+            return mean_colour(texture["scale"]) * mean_colour(texture["texture"])
+    data = texture["data"]
+    image = _core.decode_image(data, "a texture") if isinstance(data, bytes) else data
+    colours, _ = split_alpha(image.reshape(*image.shape[:2], -1))
+    return np.broadcast_to(colours.mean(axis=(0, 1), dtype=float), 3)

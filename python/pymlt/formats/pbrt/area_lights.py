@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from ..areas import triangle_areas
 from ..ply import read_ply
 from .params import Params
 from .spectra import luminance_one, scaled
@@ -72,9 +73,7 @@ def areas_of(shape: dict[str, Any], params: Params) -> np.ndarray:
             vertices, faces = read_ply(shape)
         case _:
             vertices, faces = shape["vertices"], shape["faces"]
-    corners = (vertices @ to_world.T)[faces]
-    sides = corners[:, 1:] - corners[:, :1]
-    areas: np.ndarray = np.linalg.norm(np.cross(sides[:, 0], sides[:, 1]), axis=1) / 2
+    areas = triangle_areas(vertices, faces, shape["to_world"])
     if params.type == "bilinearmesh":
         return areas.reshape(2, -1).sum(axis=0)
     return areas.sum(keepdims=True) if params.type == "sphere" else areas
