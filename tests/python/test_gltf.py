@@ -265,7 +265,7 @@ def test_normals_alpha_and_extensions_of_materials():
         "KHR_materials_ior": {"ior": 1.33},
         "KHR_materials_transmission": {"transmissionFactor": 0.75},
         "KHR_materials_clearcoat": {"clearcoatFactor": 0.5, "clearcoatRoughnessFactor": 0.25},
-        "KHR_materials_sheen": {},
+        "KHR_materials_iridescence": {},
     }
     file.material(baseColorTexture=base, normalTexture=bent, alphaMode="MASK", alphaCutoff=0.4)
     file.material(extensions=extensions, alphaMode="BLEND", colour=(1, 1, 1, 0.5))
@@ -287,7 +287,7 @@ def test_normals_alpha_and_extensions_of_materials():
             "clearcoat_gloss": 0.75,
         }.items()
     )
-    assert "KHR_materials_sheen is left out" in made.warnings
+    assert "KHR_materials_iridescence is left out" in made.warnings
     assert "the scale of normal textures is left out" in made.warnings
     mlt.render(mlt.load_dict(made.scene, size=SIZE), spp=1)
 

@@ -88,3 +88,72 @@ def test_unlit_surfaces_light_nothing_and_need_no_light(alone):
     if not alone:
         file.node(mesh=file.mesh(file.material()), translation=[3, 0, 0])
     assert ("sun" in converted(file).scene) == (not alone)
+
+
+def reflectance(index: float) -> float:
+    return ((index - 1) / (index + 1)) ** 2
+
+
+GREY = np.full((2, 2, 4), 255, np.uint8)
+GREY[..., 3] = 51  # a fifth
+SPECULAR = {  # what the extension says; the reflectance at normal incidence; a warning
+    "default": ({}, 1.5, 0.04, ""),
+    "none": ({"specularFactor": 0}, 1.5, 0, ""),
+    "half": ({"specularFactor": 0.5, "specularColorFactor": [0.5] * 3}, 1.5, 0.01, ""),
+    "clamped": ({"specularColorFactor": [5] * 3, "specularFactor": 0.5}, 3, 0.5, ""),
+    "bright": ({"specularColorFactor": [2] * 3, "specularFactor": 0.8}, 3, 0.4, ""),
+    "infinite": ({"specularColorFactor": [0.25] * 3}, 0, 0.25, ""),
+    "coloured": ({"specularColorFactor": [3, 0, 0]}, 1.5, 0.04, "hue of specularColorFactor"),
+}
+
+
+@pytest.mark.parametrize("name", SPECULAR)
+def test_specular_is_the_index_of_that_reflectance(name):
+    given, ior, expected, warning = SPECULAR[name]
+    extensions = {"KHR_materials_specular": given, "KHR_materials_ior": {"ior": ior}}
+    surface, warnings = painted(GltfFile(), extensions=extensions)
+    assert reflectance(surface["eta"]) == pytest.approx(expected, abs=1e-12)
+    said = [text for text in warnings if "specular" in text]
+    assert bool(said) == bool(warning)
+    assert warning in " ".join(said)
+
+
+def test_an_index_of_zero_is_infinite():
+    surface, _ = painted(GltfFile(), extensions={"KHR_materials_ior": {"ior": 0}})
+    assert surface["eta"] > 900
+
+
+def test_textures_of_specular_count_with_their_mean():
+    file = GltfFile()
+    index = file.texture(GREY).index
+    given = {"specularTexture": {"index": index}, "specularFactor": 0.5}
+    surface, warnings = painted(file, extensions={"KHR_materials_specular": given})
+    assert reflectance(surface["eta"]) == pytest.approx(0.04 * 0.5 * 0.2, rel=1e-5)
+    assert "of specularTexture (KHR_materials_specular) the mean is taken" in warnings
+
+
+def test_specular_of_glass_is_left_out():
+    clear = {"KHR_materials_transmission": {"transmissionFactor": 1}}
+    extensions = clear | {"KHR_materials_specular": {"specularFactor": 0}}
+    surface, warnings = painted(GltfFile(), extensions=extensions)
+    assert surface["eta"] == pytest.approx(1.5)
+    assert "KHR_materials_specular is left out of what transmits" in warnings
+
+
+def test_sheen_has_the_strength_of_its_colour():
+    given = {"sheenColorFactor": [0.3, 0.3, 0.3]}
+    surface, warnings = painted(GltfFile(), extensions={"KHR_materials_sheen": given})
+    assert surface["sheen"] == pytest.approx(0.3)
+    assert not [text for text in warnings if "heen" in text]
+    given = {"sheenColorFactor": [0.6, 0.3, 0], "sheenRoughnessFactor": 0.5}
+    surface, warnings = painted(GltfFile(), extensions={"KHR_materials_sheen": given})
+    assert surface["sheen"] == pytest.approx(0.3)
+    assert "the roughness of sheen is left out" in warnings
+    assert "the hue of sheenColorFactor" in " ".join(warnings)
+    assert "sheen" not in painted(GltfFile(), extensions={"KHR_materials_sheen": {}})[0]
+
+
+def test_textures_of_extensions_that_are_not_read_are_named():
+    given = {"transmissionFactor": 0.5, "transmissionTexture": {"index": 0}}
+    _, warnings = painted(GltfFile(), extensions={"KHR_materials_transmission": given})
+    assert "transmissionTexture (KHR_materials_transmission) is left out" in warnings

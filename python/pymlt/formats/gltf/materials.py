@@ -10,6 +10,7 @@ from typing import Any
 
 from ..imported import Imported, rgb
 from .checked import number, numbers, warn_of_others
+from .dielectrics import IOR, SHEEN, SPECULAR, index_of_refraction, sheen
 from .textures import Textures
 
 UNLIT = "KHR_materials_unlit"
@@ -17,12 +18,16 @@ KNOWN = {
     "KHR_materials_clearcoat",
     "KHR_materials_dispersion",
     "KHR_materials_emissive_strength",
-    "KHR_materials_ior",
+    IOR,
+    SHEEN,
+    SPECULAR,
     "KHR_materials_transmission",
     UNLIT,
     "KHR_materials_volume",
 }
 
+#: Extensions of which the factors are read alone.
+UNTEXTURED = ("KHR_materials_clearcoat", "KHR_materials_transmission", "KHR_materials_volume")
 DISTANCE = "attenuationDistance"  #: infinite if it is not given
 ABBE_TIMES_DISPERSION = 20  #: KHR_materials_dispersion has 20 / V_d
 DARKEST = 1e-6  #: of attenuation colours, whose logarithm is taken
@@ -32,11 +37,17 @@ def bsdf(material: Any, textures: Textures, made: Imported, *, of_vertices: bool
     """The BSDF of a material, whose base colour may be multiplied by colours of vertices."""
     extensions = material.extensions or {}
     warn_of_others(extensions, KNOWN, made)
+    for name in UNTEXTURED:
+        for key in sorted(extensions.get(name, {})):
+            if key.endswith("Texture"):
+                made.warn(f"{key} ({name}) is left out")
     if material.occlusionTexture is not None:
         made.warn("occlusion textures are left out: what they stand for is rendered")
     if UNLIT in extensions:
         return masked({"type": "diffuse", "reflectance": rgb([0, 0, 0])}, material, textures)
     surface = principled(material, extensions, textures)
+    surface |= {"eta": index_of_refraction(extensions, textures, made)}
+    surface |= sheen(extensions, textures, made)
     surface["base_color"] = base_color(material.pbrMetallicRoughness, textures, of_vertices)
     transmits = "spec_trans" in surface
     if dispersion := _dispersion(extensions):
@@ -58,11 +69,9 @@ def base_color(pbr: Any, textures: Textures, of_vertices: bool) -> dict[str, Any
 
 
 def principled(material: Any, extensions: dict[str, Any], textures: Textures) -> dict[str, Any]:
-    """Metal, roughness, transmission and clear coat, still without a base colour."""
+    """Metal, roughness, transmission and clear coat, still without colour and index."""
     pbr = material.pbrMetallicRoughness
-    given: dict[str, Any] = {"type": "principled", "eta": 1.5}
-    if ior := extensions.get("KHR_materials_ior"):
-        given["eta"] = max(number(ior.get("ior", 1.5), "ior"), 1.001)
+    given: dict[str, Any] = {"type": "principled"}
     packed = pbr.metallicRoughnessTexture if pbr else None
     given["roughness"] = textures.channel(packed, 1, _number(pbr, "roughnessFactor"))
     given["metallic"] = textures.channel(packed, 2, _number(pbr, "metallicFactor"))
