@@ -21,6 +21,7 @@ from .shapes import shape
 from .state import ATTRIBUTES, TRANSFORMS, State
 from .textures import Textures
 from .tokens import Parameter, Token, Words
+from .version import WARNING, only_in_v3
 
 if TYPE_CHECKING:
     import numpy as np
@@ -112,9 +113,12 @@ class Reader:
 
     def _params(self, directive: Token) -> Params:
         kind = self._words.text(directive)
-        return Params(
-            directive, kind, self._words.parameters(), self._made, self._defaults(directive)
-        )
+        return self._given(directive, kind, self._words.parameters())
+
+    def _given(self, directive: Token, kind: str, given: dict[str, Parameter]) -> Params:
+        if only_in_v3(directive.text, kind, given):
+            self._made.warn(WARNING, directive.place)
+        return Params(directive, kind, given, self._made, self._defaults(directive))
 
     def _defaults(self, directive: Token) -> dict[str, Parameter]:
         """What Attribute says of directives of this kind."""
@@ -233,7 +237,7 @@ class Reader:
         kind = given.pop("type", None)
         if kind is None:
             raise directive.error(f'{what} needs a "string type"')
-        return Params(directive, kind.values[0], given, self._made, self._defaults(directive))
+        return self._given(directive, kind.values[0], given)
 
     def _on_texture(self, directive: Token) -> None:
         name, kind = self._words.text(directive), self._words.text(directive)
