@@ -518,6 +518,15 @@ def test_other_files_are_refused(name, capsys):
     assert capsys.readouterr().err.count("\n") == 2
 
 
+@pytest.mark.parametrize("name", ["KHR_draco_mesh_compression", "EXT_meshopt_compression"])
+def test_compressed_meshes_are_refused_with_what_undoes_it(name):
+    file = floor_file()
+    file.gltf.extensionsRequired = [name]
+    file.save("compressed.glb")
+    with pytest.raises(mlt.SceneError, match=f"{name}.*gltf-transform copy"):
+        mlt.load("compressed.glb")
+
+
 def test_files_that_contradict_themselves_are_refused():
     required = floor_file()
     required.gltf.extensionsRequired = ["KHR_draco_mesh_compression"]

@@ -29,6 +29,8 @@ if TYPE_CHECKING:
 LIGHTS = "KHR_lights_punctual"
 NODES = {LIGHTS, INSTANCING}
 EXTENSIONS = MATERIALS | NODES | {"KHR_mesh_quantization", UV_TRANSFORM}
+COMPRESSIONS = {"KHR_draco_mesh_compression", "EXT_meshopt_compression"}
+COMPRESSED = ": export it without compression, or run `gltf-transform copy IN.glb OUT.glb`"
 
 
 def read_gltf(path: Path, made: Imported) -> None:
@@ -52,7 +54,8 @@ def read_gltf(path: Path, made: Imported) -> None:
         raise _core.SceneError(f"{path}: this is no glTF 2.0 file")
     try:
         if unknown := sorted(set(gltf.extensionsRequired or []) - EXTENSIONS):
-            raise _core.SceneError(f"needs {', '.join(unknown)}, which is not supported")
+            advice = COMPRESSED if COMPRESSIONS.intersection(unknown) else ""
+            raise _core.SceneError(f"needs {', '.join(unknown)}, which is not supported{advice}")
         Reader(gltf, path, made).read()
     except (_core.SceneError, _core.FileError) as error:
         raise type(error)(f"{path}: {error}") from None
