@@ -5,6 +5,8 @@ import io
 import numpy as np
 import pygltflib as gl
 
+from pymlt.formats.files import read_foreign
+
 KINDS = {"f": gl.FLOAT, "I": gl.UNSIGNED_INT, "B": gl.UNSIGNED_BYTE, "H": gl.UNSIGNED_SHORT}
 KINDS |= {"b": gl.BYTE, "h": gl.SHORT}
 SHAPES = {1: gl.SCALAR, 2: gl.VEC2, 3: gl.VEC3, 4: gl.VEC4}
@@ -110,3 +112,8 @@ class GltfFile:
             self.gltf.convert_buffers(gl.BufferFormat.DATAURI)
         self.gltf.save(str(path))
         return str(path)
+
+
+def converted(file: GltfFile):
+    """The scene that is made of a file, in the current folder."""
+    return read_foreign(file.save("a.glb"))

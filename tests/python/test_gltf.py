@@ -15,7 +15,7 @@ from pymlt.formats.gltf.glow import mean_radiance
 
 gl = pytest.importorskip("pygltflib", reason="needs pymlt[gltf]")
 
-from gltf_files import GltfFile  # noqa: E402
+from gltf_files import GltfFile, converted  # noqa: E402
 
 T = mlt.Transform
 SIZE = (40, 30)
@@ -152,10 +152,6 @@ def test_textures_are_the_right_way_up_and_tinted():
         assert others.max() < 0.5 * image[y, x].max()  # white is what the surface reflects
     grey = image[12, 28] - image[12, 28].min()
     assert grey[0] < 0.1 * grey[1] == pytest.approx(0.1 * grey[2], rel=1e-3)
-
-
-def converted(file: GltfFile):
-    return read_foreign(file.save("a.glb"))
 
 
 def test_packed_textures_are_taken_apart():

@@ -4,11 +4,10 @@ import numpy as np
 import pytest
 
 import pymlt as mlt
-from pymlt.formats.files import read_foreign
 
 pytest.importorskip("pygltflib", reason="needs pymlt[gltf]")
 
-from gltf_files import GltfFile
+from gltf_files import GltfFile, converted
 
 SIZE = (40, 30)
 
@@ -16,10 +15,6 @@ SIZE = (40, 30)
 @pytest.fixture(autouse=True)
 def folder(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-
-
-def converted(file: GltfFile):
-    return read_foreign(file.save("a.glb"))
 
 
 def painted(file: GltfFile, **material) -> dict:

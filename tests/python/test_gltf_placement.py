@@ -4,11 +4,10 @@ import numpy as np
 import pytest
 
 import pymlt as mlt
-from pymlt.formats.files import read_foreign
 
 pytest.importorskip("pygltflib", reason="needs pymlt[gltf]")
 
-from gltf_files import CORNERS, GltfFile
+from gltf_files import CORNERS, GltfFile, converted
 
 HALF = np.sqrt(0.5)
 
@@ -16,10 +15,6 @@ HALF = np.sqrt(0.5)
 @pytest.fixture(autouse=True)
 def folder(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-
-
-def converted(file: GltfFile):
-    return read_foreign(file.save("a.glb"))
 
 
 def instanced(file: GltfFile, **attributes) -> dict:

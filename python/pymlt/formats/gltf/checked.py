@@ -66,7 +66,7 @@ def at(items: Sequence[Item] | None, index: Any, kind: str) -> Item:
 
 
 def warn_of_others(names: Iterable[str] | None, read: set[str], made: Imported) -> None:
-    """Of extensions, the keys of an object or those that a file uses, other than those read."""
+    """Warns of the extensions that are not `read`, among the names that a file gives."""
     for name in sorted(set(names or ()) - read):
         made.warn(f"{name:.80} is left out")
 

@@ -20,15 +20,16 @@ LEAST_INDEX, GREATEST_INDEX = 1.001, 999.0
 def index_of_refraction(extensions: dict[str, Any], textures: Textures, made: Imported) -> float:
     """The index whose reflectance at normal incidence is that of the material.
 
-    At grazing angles everything reflects all, whatever `specularFactor` is.
+    At grazing angles all light is reflected, whatever `specularFactor` is.
     """
-    ior = number(extensions.get(IOR, {}).get("ior", 1.5), "ior") or math.inf  # by the extension
+    ior = number(extensions.get(IOR, {}).get("ior", 1.5), "ior")
+    ior = max(ior or math.inf, LEAST_INDEX)  # the extension has 0 for infinity
     given = extensions.get(SPECULAR)
     transmits = extensions.get("KHR_materials_transmission", {}).get("transmissionFactor")
     if given is not None and transmits:
         made.warn(f"{SPECULAR} is left out of what transmits")
     if given is None or transmits:
-        return min(max(ior, LEAST_INDEX), GREATEST_INDEX)
+        return min(ior, GREATEST_INDEX)
     strength = number(given.get("specularFactor", 1), "specularFactor")
     info = texture_info(given.get("specularTexture"), "specularTexture")
     if info is not None:
@@ -49,7 +50,7 @@ def sheen(extensions: dict[str, Any], textures: Textures, made: Imported) -> dic
 
 
 def reflectance_of(index: float) -> float:
-    """Fresnel's at normal incidence, by the index inside over outside."""
+    """Fresnel's reflectance at normal incidence, by the index inside over that outside."""
     return ((index - 1) / (index + 1)) ** 2 if math.isfinite(index) else 1.0
 
 
@@ -62,7 +63,7 @@ def index_of(reflectance: float) -> float:
 def _mean_of(
     given: dict[str, Any], name: str, default: list[float], textures: Textures, made: Imported
 ) -> np.ndarray:
-    """The mean of a factor times a texture, (3,), of which the caller takes a mean again."""
+    """The mean of a factor times a texture, (3,); warns of a texture and of a hue."""
     factor = numbers(given.get(f"{name}Factor", default), 3, f"{name}Factor")
     info = texture_info(given.get(f"{name}Texture"), f"{name}Texture")
     mean = mean_colour(textures.colour(info, factor))

@@ -14,7 +14,7 @@ from ..views import emits, plugins
 from .textures import mean_colour
 
 TINY = 1e-300  #: in place of an area of 0
-LEAST = 0.02  #: of the mean radiance of what is lit by what glows
+LEAST = 0.02  #: mean radiance of all surfaces that lights a scene
 
 
 def too_dim(scene: dict[str, Any], unlit: list[dict[str, Any]]) -> bool:

@@ -26,7 +26,7 @@ KNOWN = {
     "KHR_materials_volume",
 }
 
-#: Extensions of which the factors are read alone.
+#: Extensions whose factors are read, but not their textures.
 UNTEXTURED = ("KHR_materials_clearcoat", "KHR_materials_transmission", "KHR_materials_volume")
 DISTANCE = "attenuationDistance"  #: infinite if it is not given
 ABBE_TIMES_DISPERSION = 20  #: KHR_materials_dispersion has 20 / V_d

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     import numpy as np
 
 INSTANCING = "EXT_mesh_gpu_instancing"
-#: Of T R S: the components, and the value where none is given.
+#: Attributes of copies, and their values where a file gives none.
 PARTS = {"TRANSLATION": (0, 0, 0), "ROTATION": (0, 0, 0, 1), "SCALE": (1, 1, 1)}
 
 

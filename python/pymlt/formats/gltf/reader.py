@@ -135,7 +135,7 @@ class Reader:
             self._made.add(given.get("name") or name, light(given, to_world, self._made))
 
     def _meshes_of(self, node: Any, name: str, to_world: np.ndarray) -> None:
-        """The mesh of a node, or its copies: of what neither emits nor is filled as instances."""
+        """Adds the mesh of a node, or its copies: as instances unless they emit or are filled."""
         shapes = self._shapes(node.mesh)
         copies = instances(node, self._buffers, self._made)
         if copies is not None and len(copies) > 1:

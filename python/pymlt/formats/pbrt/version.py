@@ -1,4 +1,4 @@
-"""What only pbrt-v3 says, by whose names pbrt-v4 means other things."""
+"""How files of pbrt-v3 are told from those of pbrt-v4: by names that only v3 has."""
 
 from __future__ import annotations
 
