@@ -28,7 +28,6 @@ FUZZ_TARGETS := $(basename $(patsubst tests/fuzz/fuzz_%,%,$(wildcard tests/fuzz/
                   tests/fuzz/fuzz_*.py)))
 CXX_FILES = $(shell git ls-files -- '*.h' '*.cpp')
 
-# Without this, make would link cpp/scene/texture.cpp into the folder of that name.
 MAKEFLAGS += --no-builtin-rules
 
 export CMAKE_BUILD_PARALLEL_LEVEL ?= $(JOBS)

@@ -155,11 +155,11 @@ std::vector<PyLightPath> proposals(const LoadedPtr& scene, const PyLightPath& x,
   return result;
 }
 
-void bind_path_class(py::module_& m) {
-  py::class_<PyLightPath>(
-      m, "LightPath",
-      "A light path: x_0 on a light ... x_k on the camera's lens, whichever way it was made.")
-      .def_property_readonly(
+using PathClass = py::class_<PyLightPath>;
+
+/// The vertices of a path, and what each of them has.
+void bind_vertices(PathClass& path) {
+  path.def_property_readonly(
           "signature", [](const PyLightPath& p) { return signature_of(p, 0); },
           "Heckbert's notation, light to camera: L, a D or S for each surface, E.")
       .def("signature_with", &signature_of, py::arg("near_specular"),
@@ -188,7 +188,13 @@ void bind_path_class(py::module_& m) {
       .def_property_readonly(
           "from_camera", column(&TermsAt::from_camera, 1),
           "Density of each x_i when a walk from the camera makes it, per unit of area.")
-      .def_property_readonly(
+      .def("__len__", [](const PyLightPath& p) { return p.path.vertices.size(); })
+      .def("__repr__", &describe_path);
+}
+
+/// What a path has as a whole, and the densities of the techniques that find it.
+void bind_whole(PathClass& path) {
+  path.def_property_readonly(
           "edges", [](const PyLightPath& p) { return p.path.edges(); }, "k")
       .def_property_readonly("time", [](const PyLightPath& p) { return p.path.time; })
       .def_property_readonly(
@@ -220,9 +226,15 @@ void bind_path_class(py::module_& m) {
       .def("densities", &densities, py::arg("sample_direct") = true,
            "p_{s,t}(x) in the product-area measure, for s = 0 ... k + 1.")
       .def("weights", &weights, py::arg("heuristic") = "power", py::arg("sample_direct") = true,
-           "The weights of multiple importance sampling, for s = 0 ... k + 1.")
-      .def("__len__", [](const PyLightPath& p) { return p.path.vertices.size(); })
-      .def("__repr__", &describe_path);
+           "The weights of multiple importance sampling, for s = 0 ... k + 1.");
+}
+
+void bind_path_class(py::module_& m) {
+  PathClass path(
+      m, "LightPath",
+      "A light path: x_0 on a light ... x_k on the camera's lens, whichever way it was made.");
+  bind_vertices(path);
+  bind_whole(path);
 }
 
 }  // namespace

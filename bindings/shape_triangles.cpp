@@ -1,8 +1,8 @@
 // The shapes of a scene as triangles for a viewer: meshes unchanged, analytic shapes as a grid.
 #include "shape_triangles.h"
 
-#include "scene/instance.h"
-#include "scene/mesh.h"
+#include "scene/accel/instance.h"
+#include "scene/mesh/mesh.h"
 
 #include <unordered_set>
 

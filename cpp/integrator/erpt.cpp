@@ -3,7 +3,7 @@
 // beside them.
 #include "base/registry.h"
 #include "integrator/parameters.h"
-#include "rendering/mlt_algorithm.h"
+#include "integrator/tours/mlt_algorithm.h"
 
 namespace mlt {
 namespace {

@@ -2,8 +2,8 @@
 // transport", SIGGRAPH 1997; Veach 1997, ch. 11.
 #include "base/registry.h"
 #include "integrator/parameters.h"
-#include "rendering/mlt_algorithm.h"
-#include "rendering/separate_direct.h"
+#include "integrator/separate_direct.h"
+#include "integrator/tours/mlt_algorithm.h"
 
 namespace mlt {
 namespace {

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "base/registry.h"
+#include "integrator/multiplexed_algorithm.h"
 #include "integrator/parameters.h"
-#include "rendering/multiplexed_algorithm.h"
 
 namespace mlt {
 

@@ -2,10 +2,10 @@
 #pragma once
 
 #include "base/params.h"
+#include "integrator/tours/mlt_algorithm.h"
 #include "path/bidirectional_sampler.h"
 #include "primary/small_step.h"
 #include "rendering/metropolis_rendering.h"
-#include "rendering/mlt_algorithm.h"
 
 namespace mlt {
 

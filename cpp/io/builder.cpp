@@ -5,13 +5,13 @@
 #include "base/text.h"
 #include "io/families.h"
 #include "io/leniency.h"
+#include "scene/accel/instance.h"
 #include "scene/emitter/moving.h"
-#include "scene/instance.h"
-#include "scene/mesh.h"
-#include "scene/motion.h"
+#include "scene/mesh/mesh.h"
 #include "scene/nested.h"
 #include "scene/shape/sphere.h"
-#include "scene/texture.h"
+#include "scene/texture/texture.h"
+#include "scene/transform/motion.h"
 
 #include <algorithm>
 #include <new>

@@ -6,7 +6,7 @@
 #include "io/node.h"
 #include "io/origins.h"
 #include "io/parts.h"
-#include "scene/shape_reader.h"
+#include "scene/shape/shape_reader.h"
 
 #include <map>
 #include <memory>

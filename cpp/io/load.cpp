@@ -6,9 +6,10 @@
 #include "io/leniency.h"
 #include "io/missing.h"
 #include "io/node_bytes.h"
-#include "scene/coincident_lights.h"
-#include "scene/crossing_boundaries.h"
+#include "io/view_nodes.h"
 #include "scene/emitter/daylight.h"
+#include "scene/light/coincident_lights.h"
+#include "scene/medium/crossing_boundaries.h"
 
 #include <algorithm>
 #include <chrono>
@@ -31,104 +32,6 @@ void check_size(const Vec2i& size) {
         "the image size is {} x {}, but each side should lie between 1 and {}, and 2^28 pixels are "
         "the most",
         size.x, size.y, max_side));
-}
-
-/// The property of a scene's node that is the index of the sensor.
-constexpr char sensor_property[] = "sensor";
-
-std::optional<int64_t> asked_sensor(const Node& scene) {
-  for (const Node::Property& property : scene.properties)
-    if (property.name == sensor_property)
-      if (const auto* index = std::get_if<int64_t>(&property.value)) return *index;
-  return std::nullopt;
-}
-
-void set_property(Node& node, const std::string& name, const Value& value) {
-  auto& all = node.properties;
-  all.erase(std::remove_if(all.begin(), all.end(),
-                           [&](const auto& property) { return property.name == name; }),
-            all.end());
-  all.push_back({name, value, node.where});
-}
-
-Node asking_for(Node scene, int64_t sensor) {
-  set_property(scene, sensor_property, sensor);
-  return scene;
-}
-
-/// Calls change(film) for all films, and adds a film to sensors that have none.
-template <class Change>
-void change_films(Node& node, const Change& change) {
-  const auto is_film = [](const Node& n) { return n.family == "film" || n.family == "ref"; };
-  auto& children = node.children;
-  if (node.family == "film") change(node);
-  if (node.family == "sensor" && std::none_of(children.begin(), children.end(), is_film))
-    children.push_back({"film", "hdrfilm", "", "", node.where, {}, {}});
-  for (Node& child : children) change_films(child, change);
-}
-
-/// Makes films spectral; those of a band if it is not empty.
-void make_spectral(Node& tree, const std::string& band) {
-  change_films(tree, [&](Node& film) {
-    set_property(film, "spectral", true);
-    if (!band.empty()) set_property(film, "band", band);
-  });
-}
-
-const Node& chosen_sensor(const Node& scene, std::vector<std::string>& warnings) {
-  std::vector<const Node*> sensors;
-  for (const Node& child : scene.children)
-    if (child.family == "sensor") sensors.push_back(&child);
-  if (sensors.empty())
-    throw SceneError(at(scene.where, "the scene has no sensor; add <sensor type=\"perspective\">"));
-  const auto asked = asked_sensor(scene);
-  const auto last = static_cast<int64_t>(sensors.size()) - 1;
-  if (asked && (*asked < 0 || *asked > last))
-    throw UsageError(
-        last == 0 ? fmt::format("there is no sensor {}: the scene has one, number 0", *asked)
-                  : fmt::format("there is no sensor {}: the scene's are 0 to {}", *asked, last));
-  if (!asked && last > 0)
-    warnings.push_back(at(sensors[1]->where,
-                          "this scene has {} sensors; the first one is used, since none was named",
-                          sensors.size()));
-  return *sensors[static_cast<size_t>(asked.value_or(0))];
-}
-
-/// The property `aovs` of Mitsuba's integrator of that name.
-std::string asked_aovs(const Node& integrator) {
-  for (const Node::Property& property : integrator.properties)
-    if (property.name == "aovs")
-      if (const auto* list = std::get_if<std::string>(&property.value)) return *list;
-  throw SceneError(at(integrator.where,
-                      "integrator 'aov' needs a string 'aovs', such as "
-                      "'albedo:albedo, nn:sh_normal'"));
-}
-
-/// Mitsuba's integrators that only add channels or statistics to the one nested in them.
-const Node& unwrapped(const Node& integrator, LoadedScene& loaded) {
-  if (integrator.type != "moment" && integrator.type != "aov") return integrator;
-  if (integrator.type == "aov") loaded.aovs = asked_aovs(integrator);
-  for (const Node& child : integrator.children)
-    if (child.family == "integrator") {
-      if (integrator.type == "moment")
-        loaded.warnings.push_back(
-            at(integrator.where, "integrator 'moment' is not supported; the '{}' inside it is used",
-               child.type));
-      return unwrapped(child, loaded);
-    }
-  throw SceneError(
-      at(integrator.where, "integrator '{}' has no integrator inside", integrator.type));
-}
-
-void find_integrator(const Node& scene, LoadedScene& loaded) {
-  const Node* integrator = nullptr;
-  for (const Node& child : scene.children) {
-    if (child.family != "integrator") continue;
-    if (integrator)
-      throw SceneError(at(child.where, "the scene has a second integrator; keep one"));
-    integrator = &child;
-  }
-  if (integrator) loaded.integrator = unwrapped(*integrator, loaded);
 }
 
 struct Contents {

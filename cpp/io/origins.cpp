@@ -1,6 +1,6 @@
 #include "io/origins.h"
 
-#include "scene/motion.h"
+#include "scene/transform/motion.h"
 
 namespace mlt {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "base/params.h"
 #include "io/node.h"
-#include "scene/emitter.h"
+#include "scene/emitter/emitter.h"
 
 #include <map>
 

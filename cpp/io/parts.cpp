@@ -1,8 +1,8 @@
 #include "io/parts.h"
 
-#include "scene/medium.h"
-#include "scene/shape_reader.h"
-#include "scene/texture.h"
+#include "scene/medium/medium.h"
+#include "scene/shape/shape_reader.h"
+#include "scene/texture/texture.h"
 
 namespace mlt {
 

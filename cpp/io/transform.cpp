@@ -3,7 +3,7 @@
 #include "base/text.h"
 #include "io/values.h"
 #include "math/frame.h"
-#include "scene/matrix_rows.h"
+#include "scene/transform/matrix_rows.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 

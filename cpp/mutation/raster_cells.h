@@ -1,7 +1,7 @@
 // The image, divided into equal cells.
 #pragma once
 
-#include "scene/camera.h"
+#include "scene/camera/camera.h"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 #include "path/manifold_guide.h"
 
 #include "path/bidirectional_sampler.h"
-#include "scene/instance.h"
+#include "scene/accel/instance.h"
 
 #include <algorithm>
 #include <unordered_set>

@@ -1,7 +1,7 @@
 #include "path/specular_constraint.h"
 
 #include "path/half_vector.h"
-#include "scene/normal_gradient.h"
+#include "scene/shape/normal_gradient.h"
 
 namespace mlt {
 namespace {

@@ -1,6 +1,6 @@
 #include "path/valid_path.h"
 
-#include "scene/mesh.h"
+#include "scene/mesh/mesh.h"
 
 namespace mlt {
 namespace {

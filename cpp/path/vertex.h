@@ -2,7 +2,7 @@
 // other: the terms of a path are formed without regard to the kinds of its vertices.
 #pragma once
 
-#include "scene/bsdf_at.h"
+#include "scene/bsdf/bsdf_at.h"
 
 namespace mlt {
 

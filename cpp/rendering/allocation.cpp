@@ -1,13 +1,8 @@
 #include "rendering/allocation.h"
 
-#include "base/parallel.h"
-#include "rendering/coarse_image.h"
-#include "rendering/metropolis_algorithm.h"
+#include "rendering/allocation_samples.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <vector>
+#include <limits>
 
 namespace mlt {
 namespace {
@@ -31,126 +26,9 @@ constexpr double hardly = 1.15;
 /// Work for a start of tours, in steps, if there are no other samples.
 constexpr double steps_of_tours_alone = 16;
 
-/// The thresholds that are tried: half octaves, in units of b.
-constexpr int threshold_count = 40;
-double threshold(int i) { return std::exp2(0.5 * i - 5); }
 /// The numbers of starts per sample that are tried.
 constexpr int start_count = 10;
 double starts_per_sample(int k) { return std::exp2(k - 7); }
-
-using PerThreshold = std::array<double, threshold_count>;
-
-/// Sums over independent samples of one kind.
-struct Sums {
-  PerThreshold squares{};  ///< For V.
-  PerThreshold above{};    ///< For e.
-  double brightest = 0;    ///< The greatest tau.
-  double rays = 0, cost_of_ray = 1;
-  uint64_t count = 0;
-
-  Sums& operator+=(const Sums& other) {
-    for (int i = 0; i < threshold_count; ++i) {
-      squares[i] += other.squares[i];
-      above[i] += other.above[i];
-    }
-    brightest = std::max(brightest, other.brightest);
-    rays += other.rays;
-    count += other.count;
-    return *this;
-  }
-  double mean(double sum) const { return count > 0 ? sum / static_cast<double>(count) : 0.0; }
-  /// Cost of a sample in rays of chains; everything else costs about as much as one ray more.
-  double cost() const { return cost_of_ray * (1 + mean(rays)); }
-};
-
-/// Draws samples, and sums them up.
-class Samples {
- public:
-  Samples(MetropolisAlgorithm& algorithm, const CoarseImage& coarse,
-          const AllocationSettings& settings, const std::atomic<bool>& cancelled)
-      : algorithm_(algorithm),
-        raster_(algorithm.scene().camera().raster()),
-        coarse_(coarse),
-        settings_(settings),
-        cancelled_(cancelled) {}
-
-  /// Samples that may go to the image.
-  Sums draw(SampleTechniques techniques) {
-    algorithm_.set_techniques(techniques);
-    Sums sums = draw([&] { return algorithm_.sample_source(); }, [](auto&, uint64_t) {});
-    sums.cost_of_ray = algorithm_.sample_source()->cost_of_ray();
-    return sums;
-  }
-  /// Samples that tours start from; `starts` becomes what they have found.
-  Sums draw(std::vector<Start>& starts) {
-    algorithm_.set_techniques(SampleTechniques::all);
-    std::array<std::vector<Start>, part_count> found;
-    Sums sums = draw([&] { return algorithm_.starting_paths(); },
-                     [&](StartingPaths& paths, uint64_t part) { found[part] = paths.starts(); });
-    for (const auto& some : found) starts.insert(starts.end(), some.begin(), some.end());
-    sums.cost_of_ray = algorithm_.sample_source()->cost_of_ray();
-    return sums;
-  }
-
- private:
-  /// Draws pairs of samples with the same image position. The samples of a render are stratified
-  /// over the pixels, so that only differences within a pair are noise. `finished(source, part)` is
-  /// called for each source.
-  template <class MakeSource, class Finished>
-  Sums draw(MakeSource&& make_source, Finished&& finished) const {
-    std::array<Sums, part_count> sums;
-    const uint64_t stream = mix_bits(settings_.seed ^ mix_bits(uint64_t(Purpose::allocation)));
-    in_parts(settings_.threads, settings_.samples / 2,
-             [&](uint64_t part, uint64_t i, uint64_t last) {
-               const auto source = make_source();
-               for (; i < last && !cancelled_; ++i) {
-                 PixelSampler first(stream, static_cast<uint32_t>(i)),
-                     second(mix_bits(stream), static_cast<uint32_t>(i));
-                 const Vec2 position = raster_.sample(first.next2());
-                 second.next2();
-                 const PerThreshold a = add(source->sample(position, first), sums[part]),
-                                    b = add(source->sample(position, second), sums[part]);
-                 for (int t = 0; t < threshold_count; ++t)
-                   sums[part].squares[t] += sqr(a[t] - b[t]);
-               }
-               sums[part].rays = static_cast<double>(source->rays().total());
-               finished(*source, part);
-             });
-    Sums all;
-    for (const Sums& one : sums) all += one;
-    return all;
-  }
-
-  /// Returns the light that the sample adds to its own pixel, clamped at each threshold. All light
-  /// that it adds to others by light tracing counts as noise. Light that is left to samples at any
-  /// threshold (CertainLight) does not count: lamps are much brighter than the coarse image says of
-  /// their surroundings, and so their noise is much less.
-  PerThreshold add(const std::vector<FoundLight>& found, Sums& sums) const {
-    PerThreshold own_pixel{};
-    for (const FoundLight& one : found) {
-      if (!(one.weight > 0)) continue;
-      sums.brightest = std::max(sums.brightest, one.target_over_density);
-      const double value = target_luminance(one.rgb) * coarse_.map(one.raster);
-      for (int t = 0; t < threshold_count; ++t) {
-        const double clamped =
-            value * FamilyWeights::of_sample(one.target_over_density, coarse_.b * threshold(t));
-        sums.above[t] += value - clamped;
-        if (one.own_pixel)
-          own_pixel[t] += clamped;
-        else
-          sums.squares[t] += sqr(clamped);
-      }
-    }
-    ++sums.count;
-    return own_pixel;
-  }
-
-  MetropolisAlgorithm& algorithm_;
-  const Raster& raster_;
-  const CoarseImage& coarse_;
-  const AllocationSettings& settings_;
-  const std::atomic<bool>& cancelled_;
-};
 
 /// Rounds x, so that a scene in another unit of length has the same image to the last bit.
 double to_half_octaves(double x) { return std::exp2(std::round(2 * std::log2(x)) / 2); }
@@ -164,9 +42,10 @@ struct Choice {
 /// What is known about one kind of samples, and about what tours start from.
 class Forecast {
  public:
-  Forecast(SampleTechniques techniques, const Sums& samples, double b, double cost_of_mutation)
+  Forecast(SampleTechniques techniques, const AllocationSums& samples, double b,
+           double cost_of_mutation)
       : techniques_(techniques), samples_(samples), b_(b), t_m_(cost_of_mutation) {}
-  void set_starts(const std::vector<Start>& starts, const Sums& samples, double pixels) {
+  void set_starts(const std::vector<Start>& starts, const AllocationSums& samples, double pixels) {
     starts_ = starts;
     island_ = std::max(least_island, island_share * pixels);
     start_samples_ = static_cast<double>(samples.count);
@@ -235,7 +114,7 @@ class Forecast {
   }
 
   SampleTechniques techniques_;
-  Sums samples_;
+  AllocationSums samples_;
   double b_, t_m_;
   // Of tours:
   std::vector<Start> starts_;
@@ -244,15 +123,16 @@ class Forecast {
 };
 
 std::vector<Forecast> forecasts(MetropolisAlgorithm& algorithm, const CoarseImage& coarse,
-                                std::optional<SampleTechniques> techniques, Samples samples) {
+                                std::optional<SampleTechniques> techniques,
+                                AllocationSamples samples) {
   std::vector<Forecast> forecasts;
   std::vector<Start> starts;
   const SampleTechniques first = techniques.value_or(SampleTechniques::all);
   const bool tours = algorithm.has_tours();
-  const Sums of_starts = tours ? samples.draw(starts) : Sums();
+  const AllocationSums of_starts = tours ? samples.draw(starts) : AllocationSums();
   const auto add = [&](SampleTechniques kind) {
     const bool known = tours && kind == SampleTechniques::all;
-    const Sums sums = known ? of_starts : samples.draw(kind);
+    const AllocationSums sums = known ? of_starts : samples.draw(kind);
     if (sums.count == 0) return;  // it was cancelled
     forecasts.emplace_back(kind, sums, coarse.b, algorithm.cost_of_mutation(sums.mean(sums.rays)));
     if (tours)
@@ -312,8 +192,9 @@ Allocation allocate(MetropolisAlgorithm& algorithm, const CoarseImage& coarse,
   if (!(coarse.b > 0)) return samples_alone(first);
   if (settings.share == 0) return tours_alone(coarse.b, steps_of_tours_alone);
   Choice best;
-  for (const Forecast& forecast : forecasts(algorithm, coarse, settings.techniques,
-                                            Samples(algorithm, coarse, settings, cancelled)))
+  for (const Forecast& forecast :
+       forecasts(algorithm, coarse, settings.techniques,
+                 AllocationSamples(algorithm, coarse, settings, cancelled)))
     if (const Choice one = best_of(forecast, algorithm.has_tours(), settings.share);
         one.j < hardly * best.j)
       best = one;

@@ -13,7 +13,6 @@
 #include "rendering/interleaving.h"
 #include "rendering/metropolis_algorithm.h"
 #include "rendering/sampled_rendering.h"
-#include "rendering/separate_direct.h"
 
 #include <condition_variable>
 #include <memory>
@@ -21,6 +20,12 @@
 #include <vector>
 
 namespace mlt {
+
+/// Direct light that is added to the image of the chains.
+struct SeparateDirect {
+  std::unique_ptr<Rendering> rendering;  ///< nullptr: there is none.
+  double spp = 0;
+};
 
 struct MetropolisSettings {
   int chains = 128;

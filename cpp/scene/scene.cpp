@@ -1,9 +1,9 @@
 #include "scene/scene.h"
 
 #include "base/magnitude.h"
+#include "scene/accel/instance.h"
 #include "scene/emitter/infinite.h"
-#include "scene/instance.h"
-#include "scene/mesh.h"
+#include "scene/mesh/mesh.h"
 
 #include <algorithm>
 #include <set>

@@ -1,13 +1,13 @@
 // An immutable scene: shapes, lights and a camera, safe to share between threads.
 #pragma once
 
-#include "scene/accel.h"
-#include "scene/camera.h"
-#include "scene/emitter.h"
-#include "scene/film_settings.h"
-#include "scene/light_choice.h"
-#include "scene/media.h"
-#include "scene/shape.h"
+#include "scene/accel/accel.h"
+#include "scene/camera/camera.h"
+#include "scene/emitter/emitter.h"
+#include "scene/film/film_settings.h"
+#include "scene/light/light_choice.h"
+#include "scene/medium/media.h"
+#include "scene/shape/shape.h"
 
 #include <atomic>
 #include <memory>

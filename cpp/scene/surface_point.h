@@ -2,7 +2,7 @@
 #pragma once
 
 #include "math/frame.h"
-#include "scene/lambertian.h"
+#include "scene/bsdf/lambertian.h"
 #include "scene/ray.h"
 
 #include <cstdint>

@@ -5,8 +5,8 @@
 #include "math/lanes.h"
 #include "path/mis.h"
 #include "path/walk.h"
-#include "scene/lambertian.h"
-#include "scene/mesh.h"
+#include "scene/bsdf/lambertian.h"
+#include "scene/mesh/mesh.h"
 #include "scene/scene.h"
 
 #include <array>

@@ -1,8 +1,8 @@
 // Scattering at the vertices of a block of paths, those of each material together.
 #pragma once
 
-#include "scene/bsdf.h"
-#include "scene/scattering_lanes.h"
+#include "scene/bsdf/bsdf.h"
+#include "scene/bsdf/scattering_lanes.h"
 
 namespace mlt {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "math/lanes.h"
-#include "scene/accel.h"
+#include "scene/accel/accel.h"
 
 #include <algorithm>
 

@@ -4,9 +4,9 @@
 // Lambertian for k = 1. Left out: k < 1, where more light may leave than arrives.
 #include "base/registry.h"
 #include "math/warp.h"
-#include "scene/bsdf.h"
+#include "scene/bsdf/bsdf.h"
 #include "scene/bsdf/lobes.h"
-#include "scene/texture.h"
+#include "scene/texture/texture.h"
 
 namespace mlt {
 namespace {

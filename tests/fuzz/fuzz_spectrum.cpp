@@ -4,7 +4,7 @@
 #include "io/values.h"
 #include "math/colorimetry.h"
 #include "math/dispersion.h"
-#include "scene/texture.h"
+#include "scene/texture/texture.h"
 
 #include <cmath>
 #include <sstream>

@@ -11,7 +11,7 @@
 #pragma once
 
 #include "base/params.h"
-#include "scene/bsdf.h"
+#include "scene/bsdf/bsdf.h"
 
 namespace mlt {
 

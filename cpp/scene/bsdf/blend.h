@@ -2,8 +2,8 @@
 #pragma once
 
 #include "base/params.h"
-#include "scene/bsdf.h"
-#include "scene/texture.h"
+#include "scene/bsdf/bsdf.h"
+#include "scene/texture/texture.h"
 
 namespace mlt {
 

@@ -4,8 +4,8 @@
 #include "base/registry.h"
 #include "scene/bsdf/bent_normal.h"
 #include "scene/nested.h"
-#include "scene/shape_reader.h"
-#include "scene/texture.h"
+#include "scene/shape/shape_reader.h"
+#include "scene/texture/texture.h"
 
 namespace mlt {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "base/params.h"
 #include "scene/bsdf/lobes.h"
-#include "scene/texture.h"
+#include "scene/texture/texture.h"
 
 namespace mlt {
 

@@ -2,10 +2,10 @@
 // index of refraction.
 #include "base/registry.h"
 #include "math/fresnel.h"
-#include "scene/bsdf.h"
+#include "scene/bsdf/bsdf.h"
 #include "scene/bsdf/ior_params.h"
 #include "scene/bsdf/lobes.h"
-#include "scene/texture.h"
+#include "scene/texture/texture.h"
 
 namespace mlt {
 namespace {

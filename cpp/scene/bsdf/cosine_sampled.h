@@ -3,7 +3,7 @@
 #pragma once
 
 #include "math/warp.h"
-#include "scene/bsdf.h"
+#include "scene/bsdf/bsdf.h"
 #include "scene/bsdf/lobes.h"
 
 namespace mlt {

@@ -2,7 +2,7 @@
 // reflected with the fraction F of Fresnel's equations, and refracted with the fraction 1 - F.
 #include "base/registry.h"
 #include "math/fresnel.h"
-#include "scene/bsdf.h"
+#include "scene/bsdf/bsdf.h"
 #include "scene/bsdf/dielectric_interface.h"
 
 namespace mlt {

@@ -4,7 +4,7 @@
 
 #include "scene/bsdf/ior_params.h"
 #include "scene/bsdf/lobes.h"
-#include "scene/texture.h"
+#include "scene/texture/texture.h"
 
 namespace mlt {
 

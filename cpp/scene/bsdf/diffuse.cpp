@@ -2,7 +2,7 @@
 // "Photometria"). f = reflectance / pi.
 #include "base/registry.h"
 #include "scene/bsdf/cosine_sampled.h"
-#include "scene/texture.h"
+#include "scene/texture/texture.h"
 
 namespace mlt {
 namespace {

@@ -10,7 +10,7 @@
 //   Spectrum   value(colors, terms)      the BSDF
 #pragma once
 
-#include "scene/bsdf.h"
+#include "scene/bsdf/bsdf.h"
 
 namespace mlt {
 

@@ -15,7 +15,7 @@
 #include "base/params.h"
 #include "math/warp.h"
 #include "scene/bsdf/smooth_reflector.h"
-#include "scene/texture.h"
+#include "scene/texture/texture.h"
 
 namespace mlt {
 

@@ -3,7 +3,7 @@
 #include "base/text.h"
 #include "math/ior.h"
 #include "math/ior_curves.h"
-#include "scene/texture.h"
+#include "scene/texture/texture.h"
 
 namespace mlt {
 namespace {

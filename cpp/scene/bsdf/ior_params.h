@@ -4,7 +4,7 @@
 #include "base/params.h"
 #include "math/dispersion.h"
 #include "math/fresnel.h"
-#include "scene/spectral_color.h"
+#include "scene/texture/spectral_color.h"
 
 namespace mlt {
 

@@ -1,9 +1,9 @@
 // A surface with holes: where its opacity is o, light is scattered by the nested material with the
 // weight o, and goes straight through with 1 - o.
 #include "base/registry.h"
-#include "scene/bsdf.h"
+#include "scene/bsdf/bsdf.h"
 #include "scene/nested.h"
-#include "scene/texture.h"
+#include "scene/texture/texture.h"
 
 namespace mlt {
 namespace {

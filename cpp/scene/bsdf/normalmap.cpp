@@ -2,7 +2,7 @@
 #include "base/registry.h"
 #include "scene/bsdf/bent_normal.h"
 #include "scene/nested.h"
-#include "scene/texture.h"
+#include "scene/texture/texture.h"
 
 namespace mlt {
 namespace {

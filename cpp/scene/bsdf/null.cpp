@@ -1,6 +1,6 @@
 // An invisible surface: all light goes straight through it.
 #include "base/registry.h"
-#include "scene/bsdf.h"
+#include "scene/bsdf/bsdf.h"
 
 namespace mlt {
 namespace {

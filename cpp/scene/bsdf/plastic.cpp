@@ -8,7 +8,7 @@
 #include "base/registry.h"
 #include "math/fresnel.h"
 #include "math/warp.h"
-#include "scene/bsdf.h"
+#include "scene/bsdf/bsdf.h"
 #include "scene/bsdf/coated_base.h"
 #include "scene/bsdf/ior_params.h"
 

@@ -3,8 +3,9 @@
 #include "base/registry.h"
 #include "math/fresnel.h"
 #include "scene/bsdf/eight_points.h"
+#include "scene/bsdf/glass_facet.h"
+#include "scene/bsdf/principled_parameters.h"
 #include "scene/bsdf/principled_terms.h"
-#include "scene/bsdf/rough_surface.h"
 
 namespace mlt {
 namespace {
@@ -30,17 +31,7 @@ class Principled final : public Bsdf {
         clearcoat_rate_(params.real_in("clearcoat_sampling_rate", 0, 1e6)),
         refracts_(!spec_trans_.vanishes()),
         coated_(!clearcoat_.vanishes()) {
-    if (params.has("eta") && params.has("specular"))
-      params.fail("eta", "and 'specular' exclude each other");
-    if (params.has("eta")) {
-      eta_ = params.real_in("eta", 1e-3, 1e3);
-    } else {
-      // Burley 2015, sec. 3: R0 = 0.08 specular.
-      const double least = refracts_ ? 1e-3 : 0;
-      const double r = std::sqrt(0.08 * std::max(params.real_in("specular", 0, 1), least));
-      eta_ = 2 / (1 - r) - 1;
-    }
-    if (refracts_ && eta_ == 1) eta_ = 1.001;
+    eta_ = principled_eta(params, refracts_);
     const double alpha = sqr(roughness_.mean());
     const double coat = coated_ ? ClearCoat<double>::alpha(clearcoat_gloss_.mean()) : infinity;
     serves_lanes_ = !refracts_ && std::min(alpha, coat) >= least_alpha_in_lanes;
@@ -54,7 +45,7 @@ class Principled final : public Bsdf {
       const Terms<double> t = terms(p, wl, wc);
       return {value(colors(at), t), t.pdf_from_light, t.pdf_from_camera};
     }
-    const Facet facet = facet_of_glass(wl, wc);
+    const GlassFacet facet = facet_of_glass(wl, wc);
     if (!facet.exists) return {};
     return {glass(p, at, wl, wc, facet), glass_pdf(p, wl, wc, facet), glass_pdf(p, wc, wl, facet)};
   }
@@ -101,14 +92,14 @@ class Principled final : public Bsdf {
 
   bool has_transmission() const override { return refracts_; }
   double relative_eta(const SurfacePoint&, const Vec3& w) const override {
-    return refracts_ ? eta_on_side(w) : 1;
+    return refracts_ ? eta_on_side(eta_, w) : 1;
   }
   /// The roughness of the lobe that scatters most between these directions.
   double roughness(const SurfacePoint& at, const Vec3& wl, const Vec3& wc) const override {
     const Point<double> p = point(at);
     const double alpha = std::min(p.microfacet.alpha_u, p.microfacet.alpha_v);
     if (!above(wl, wc)) {
-      const Facet facet = facet_of_glass(wl, wc);
+      const GlassFacet facet = facet_of_glass(wl, wc);
       const bool scatters = facet.exists && target_luminance(glass(p, at, wl, wc, facet)) > 0;
       return scatters ? alpha : infinity;
     }
@@ -124,12 +115,7 @@ class Principled final : public Bsdf {
   // The model of eight_points.h:
 
   template <class F>
-  struct Point {
-    F roughness, metallic, spec_tint, sheen, sheen_tint, flatness, clearcoat;
-    F brdf, bsdf;  ///< Shares of the opaque and of the refracting dielectric.
-    Ggx<F> microfacet;
-    ClearCoat<F> coat;
-  };
+  using Point = PrincipledPoint<F>;
   template <class F>
   Point<F> point(const SurfacePoint* const* at) const {
     const F roughness = roughness_.eval<F>(at), metallic = metallic_.eval<F>(at),
@@ -152,15 +138,8 @@ class Principled final : public Bsdf {
     return coated_ ? min(alpha, sqrt(p.coat.alpha2)) : alpha;
   }
 
-  /// Of reflection above the surface.
   template <class F>
-  struct Terms {
-    TintedOf<F> diffuse, specular;
-    F clearcoat, pdf_from_light, pdf_from_camera;
-    Terms<double> of_lane(int i) const {
-      return {diffuse.of_lane(i), specular.of_lane(i), clearcoat[i], 0, 0};
-    }
-  };
+  using Terms = PrincipledTerms<F>;
   template <class F>
   Terms<F> terms(const Point<F>& p, const Vec3Of<F>& wl, const Vec3Of<F>& wc) const {
     const MicrofacetReflection mirror(p.microfacet, wl, wc);
@@ -261,42 +240,24 @@ class Principled final : public Bsdf {
 
   // Where one direction is not above the surface there are only the microfacets of glass.
 
-  /// The microfacet that scatters between two directions; the same in either order, bit for bit.
-  struct Facet {
-    bool exists, reflects;
-    Vec3 h;  ///< Above the surface.
-    double fresnel;
-  };
-  Facet facet_of_glass(const Vec3& a, const Vec3& b) const {
-    if (a.z * b.z == 0 || !refracts_) return {};
-    const bool reflects = same_side(a, b);
-    const Vec3 sum = reflects ? a + b : a.z > 0 ? a + eta_ * b : b + eta_ * a;
-    if (sum.z == 0) return {};
-    const Vec3 h = normalize(sum.z < 0 ? -sum : sum);
-    const double cos_a = dot(a, h), cos_b = dot(b, h);
-    const bool thin_is_above = eta_ > 1;
-    const double cosine = reflects ? 0.5 * dot(sum, h) : (a.z > 0) == thin_is_above ? cos_a : cos_b;
-    return {cos_a * a.z > 0 && cos_b * b.z > 0, reflects, h,
-            fresnel_dielectric(cosine, eta_).reflectance};
+  GlassFacet facet_of_glass(const Vec3& a, const Vec3& b) const {
+    return refracts_ ? glass_facet(a, b, eta_) : GlassFacet{};
   }
   Spectrum glass(const Point<double>& p, const SurfacePoint& at, const Vec3& wl, const Vec3& wc,
-                 const Facet& facet) const {
-    const auto& [exists, reflects, h, F] = facet;
-    const double DG = p.microfacet.D(h) * p.microfacet.g1(wl, h) * p.microfacet.g1(wc, h);
-    const double cosines = std::abs(wl.z * wc.z), l = dot(wl, h), c = dot(wc, h);
-    if (reflects) return Spectrum(p.bsdf * F * DG / (4 * cosines));
-    const double jacobian = std::abs(l * c) / sqr(l * eta_on_side(wl) + c);
+                 const GlassFacet& facet) const {
+    const double F = facet.F, cosines = std::abs(wl.z * wc.z);
+    const double DG =
+        p.microfacet.D(facet.h) * p.microfacet.g1(wl, facet.h) * p.microfacet.g1(wc, facet.h);
+    if (facet.reflects) return Spectrum(p.bsdf * F * DG / (4 * cosines));
+    const double jacobian = refraction_jacobian(facet, wl, wc);
     return sqrt(base_color_->eval(at)) * (p.bsdf * (1 - F) * DG * jacobian / cosines);
   }
   double glass_pdf(const Point<double>& p, const Vec3& from, const Vec3& to,
-                   const Facet& facet) const {
-    const auto& [exists, reflects, h, F] = facet;
-    const double D = p.microfacet.D(h), g1 = p.microfacet.g1(from, h);
-    const double share = shares(p, from).share[specular], reflected = reflected_share(p, from, F);
-    if (reflects) return share * reflected * reflection_pdf(p.microfacet, from, h, D, g1);
-    const double t = dot(to, h);
-    return share * (1 - reflected) * normal_pdf(p.microfacet, from, h, D, g1) * std::abs(t) /
-           sqr(dot(from, h) * eta_on_side(from) + t);
+                   const GlassFacet& facet) const {
+    const double D = p.microfacet.D(facet.h), g1 = p.microfacet.g1(from, facet.h);
+    const double reflected = reflected_share(p, from, facet.F);
+    return shares(p, from).share[specular] * (facet.reflects ? reflected : 1 - reflected) *
+           facet_pdf(p.microfacet, from, to, facet, D, g1);
   }
 
   static std::optional<BsdfSample> usable(const Vec3& from, const Vec3& to, bool reflects) {
@@ -305,14 +266,13 @@ class Principled final : public Bsdf {
   }
   std::optional<Vec3> invert_glass(const Point<double>& p, const Vec3& from, const Vec3& to,
                                    double v) const {
-    const Facet facet = facet_of_glass(from, to);
+    const GlassFacet facet = facet_of_glass(from, to);
     if (!facet.exists || !(glass_pdf(p, from, to, facet) > 0)) return std::nullopt;
-    const double reflected = reflected_share(p, from, facet.fresnel);
+    const double reflected = reflected_share(p, from, facet.F);
     const double u = facet.reflects ? u_of_first(reflected, v) : u_of_second(reflected, v);
     return u_of(shares(p, from).invert(specular, u),
                 Microfacet(p.microfacet).invert(upwards(from), facet.h));
   }
-  double eta_on_side(const Vec3& w) const { return w.z > 0 ? 1 / eta_ : eta_; }
 
   TexturePtr base_color_;
   ScalarTexture roughness_, anisotropic_, metallic_, spec_trans_, spec_tint_, sheen_, sheen_tint_,
@@ -321,27 +281,6 @@ class Principled final : public Bsdf {
   bool refracts_, coated_;
   double eta_;
 };
-
-std::vector<Parameter> principled_parameters() {
-  return {
-      {"base_color", ParamType::texture, 0.5, "Colour of the material."},
-      {"roughness", ParamType::texture, 0.5, "Roughness of the main lobe; alpha is its square."},
-      {"anisotropic", ParamType::texture, 0.0, "How much the main lobe is stretched along u."},
-      {"metallic", ParamType::texture, 0.0, "Between a dielectric (0) and a metal (1)."},
-      {"spec_trans", ParamType::texture, 0.0, "Between an opaque (0) and a clear dielectric (1)."},
-      {"eta", ParamType::real, no_default, "Index of refraction inside over outside; or specular."},
-      {"specular", ParamType::real, 0.5,
-       "Reflectance of the dielectric at normal incidence / 0.08."},
-      {"spec_tint", ParamType::texture, 0.0, "How much the base tints the dielectric reflection."},
-      {"sheen", ParamType::texture, 0.0, "Of a layer that brightens grazing angles, as on cloth."},
-      {"sheen_tint", ParamType::texture, 0.0, "How much the base tints the sheen."},
-      {"flatness", ParamType::texture, 0.0, "Between diffuse (0) and subsurface-like (1)."},
-      {"clearcoat", ParamType::texture, 0.0, "Of a second, isotropic lobe above everything."},
-      {"clearcoat_gloss", ParamType::texture, 0.0, "Of the clear coat: 1 is sharpest."},
-      {"diffuse_reflectance_sampling_rate", ParamType::real, 1.0, "How often it is sampled."},
-      {"main_specular_sampling_rate", ParamType::real, 1.0, "How often it is sampled."},
-      {"clearcoat_sampling_rate", ParamType::real, 1.0, "How often it is sampled."}};
-}
 
 }  // namespace
 

@@ -167,4 +167,23 @@ struct LobeShares {
   }
 };
 
+/// The parameters of the material at a point.
+template <class F>
+struct PrincipledPoint {
+  F roughness, metallic, spec_tint, sheen, sheen_tint, flatness, clearcoat;
+  F brdf, bsdf;  ///< Shares of the opaque and of the refracting dielectric.
+  Ggx<F> microfacet;
+  ClearCoat<F> coat;
+};
+
+/// Values and densities of reflection above the surface.
+template <class F>
+struct PrincipledTerms {
+  TintedOf<F> diffuse, specular;
+  F clearcoat, pdf_from_light, pdf_from_camera;
+  PrincipledTerms<double> of_lane(int i) const {
+    return {diffuse.of_lane(i), specular.of_lane(i), clearcoat[i], 0, 0};
+  }
+};
+
 }  // namespace mlt

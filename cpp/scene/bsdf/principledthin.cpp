@@ -3,10 +3,10 @@
 // depends on the index of refraction. Directions are first turned so that light comes from above.
 #include "base/registry.h"
 #include "math/fresnel.h"
-#include "scene/bsdf.h"
+#include "scene/bsdf/bsdf.h"
 #include "scene/bsdf/principled_terms.h"
 #include "scene/bsdf/rough_surface.h"
-#include "scene/scalar_texture.h"
+#include "scene/texture/scalar_texture.h"
 
 namespace mlt {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "math/microfacet.h"
 #include "scene/bsdf/eight_points.h"
-#include "scene/scalar_texture.h"
+#include "scene/texture/scalar_texture.h"
 
 #include <optional>
 #include <utility>

@@ -3,7 +3,7 @@
 // standard deviation of the facets' slope angle; at 0 the surface is Lambert's.
 #include "base/registry.h"
 #include "scene/bsdf/cosine_sampled.h"
-#include "scene/texture.h"
+#include "scene/texture/texture.h"
 
 namespace mlt {
 namespace {

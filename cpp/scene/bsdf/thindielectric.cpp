@@ -4,7 +4,7 @@
 // from or transmitted through a pile of plates").
 #include "base/registry.h"
 #include "math/fresnel.h"
-#include "scene/bsdf.h"
+#include "scene/bsdf/bsdf.h"
 #include "scene/bsdf/dielectric_interface.h"
 
 namespace mlt {

@@ -1,7 +1,7 @@
 // Makes an opaque one-sided material visible from both sides. Seen from the back, the local z axis
 // is mirrored, so that the nested material always finds itself on its front.
 #include "base/registry.h"
-#include "scene/bsdf.h"
+#include "scene/bsdf/bsdf.h"
 
 namespace mlt {
 namespace {

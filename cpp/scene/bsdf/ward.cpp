@@ -8,7 +8,7 @@
 #include "base/registry.h"
 #include "math/microfacet.h"
 #include "scene/bsdf/glossy_over_diffuse.h"
-#include "scene/scalar_texture.h"
+#include "scene/texture/scalar_texture.h"
 
 namespace mlt {
 namespace {

@@ -12,7 +12,7 @@
 // sec. 8.3). Surfaces behind the plane are invisible, and block nothing.
 #include "base/registry.h"
 #include "scene/camera/projective.h"
-#include "scene/texture.h"
+#include "scene/texture/texture.h"
 
 namespace mlt {
 namespace {

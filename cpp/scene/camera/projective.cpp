@@ -1,7 +1,7 @@
 #include "scene/camera/projective.h"
 
 #include "math/warp.h"
-#include "scene/orientation.h"
+#include "scene/transform/orientation.h"
 
 namespace mlt {
 

@@ -17,8 +17,8 @@
 #pragma once
 
 #include "base/params.h"
-#include "scene/camera.h"
-#include "scene/motion.h"
+#include "scene/camera/camera.h"
+#include "scene/transform/motion.h"
 
 namespace mlt {
 

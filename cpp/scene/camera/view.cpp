@@ -1,7 +1,7 @@
 // The field of view and the placement of a projective camera, with Mitsuba's parameters.
 #include "scene/camera/projective.h"
-#include "scene/orientation.h"
-#include "scene/texture.h"
+#include "scene/texture/texture.h"
+#include "scene/transform/orientation.h"
 
 #include <charconv>
 

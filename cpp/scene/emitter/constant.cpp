@@ -1,7 +1,7 @@
 // A sky of the same radiance in all directions.
 #include "scene/emitter/emitter_plugin.h"
 #include "scene/emitter/infinite.h"
-#include "scene/texture.h"
+#include "scene/texture/texture.h"
 
 namespace mlt {
 namespace {

@@ -3,8 +3,9 @@
 #include "math/warp.h"
 #include "scene/emitter/emitter_plugin.h"
 #include "scene/emitter/sky_model.h"
-#include "scene/orientation.h"
-#include "scene/texture.h"
+#include "scene/texture/texture.h"
+#include "scene/transform/orientation.h"
+#include "scene/transform/transform_params.h"
 
 namespace mlt {
 namespace {

@@ -2,7 +2,8 @@
 // direction, whose coefficient is the irradiance on a surface that faces it.
 #include "scene/emitter/emitter_plugin.h"
 #include "scene/emitter/infinite.h"
-#include "scene/texture.h"
+#include "scene/texture/texture.h"
+#include "scene/transform/transform_params.h"
 
 namespace mlt {
 namespace {

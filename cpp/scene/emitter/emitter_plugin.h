@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/registry.h"
-#include "scene/emitter.h"
+#include "scene/emitter/emitter.h"
 
 namespace mlt {
 

@@ -1,6 +1,6 @@
 #include "scene/emitter/environment_map.h"
 
-#include "scene/spectral_color.h"
+#include "scene/texture/spectral_color.h"
 
 #include <algorithm>
 

@@ -1,10 +1,11 @@
 // Light from infinitely far away that an image file describes.
-#include "scene/brightest_light.h"
 #include "scene/emitter/emitter_plugin.h"
 #include "scene/emitter/environment_map.h"
-#include "scene/orientation.h"
-#include "scene/texture.h"
+#include "scene/light/brightest_light.h"
 #include "scene/texture/load_texels.h"
+#include "scene/texture/texture.h"
+#include "scene/transform/orientation.h"
+#include "scene/transform/transform_params.h"
 
 namespace mlt {
 namespace {

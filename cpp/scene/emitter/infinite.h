@@ -5,7 +5,7 @@
 
 #include "math/frame.h"
 #include "math/warp.h"
-#include "scene/emitter.h"
+#include "scene/emitter/emitter.h"
 
 namespace mlt {
 

@@ -1,8 +1,8 @@
 // The common part of all lights of no size: one position, which no walk can hit.
 #pragma once
 
-#include "scene/emitter.h"
-#include "scene/motion.h"
+#include "scene/emitter/emitter.h"
+#include "scene/transform/motion.h"
 
 namespace mlt {
 

@@ -7,7 +7,7 @@
 // area are divided.
 #pragma once
 
-#include "scene/instance.h"
+#include "scene/accel/instance.h"
 
 namespace mlt {
 

@@ -2,7 +2,8 @@
 #include "math/warp.h"
 #include "scene/emitter/emitter_plugin.h"
 #include "scene/emitter/isolated.h"
-#include "scene/texture.h"
+#include "scene/texture/texture.h"
+#include "scene/transform/transform_params.h"
 
 namespace mlt {
 namespace {

@@ -4,8 +4,8 @@
 #include "scene/camera/projective.h"
 #include "scene/emitter/emitter_plugin.h"
 #include "scene/emitter/isolated.h"
-#include "scene/orientation.h"
-#include "scene/texture.h"
+#include "scene/texture/texture.h"
+#include "scene/transform/orientation.h"
 
 namespace mlt {
 namespace {

@@ -3,7 +3,7 @@
 #include "math/warp.h"
 #include "scene/emitter/emitter_plugin.h"
 #include "scene/emitter/isolated.h"
-#include "scene/texture.h"
+#include "scene/texture/texture.h"
 
 namespace mlt {
 namespace {

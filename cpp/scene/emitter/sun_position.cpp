@@ -2,8 +2,9 @@
 // arc minute from 1999 to 2015.
 #include "scene/emitter/sun_position.h"
 
-#include "scene/orientation.h"
-#include "scene/texture.h"
+#include "scene/texture/texture.h"
+#include "scene/transform/orientation.h"
+#include "scene/transform/transform_params.h"
 
 namespace mlt {
 namespace {

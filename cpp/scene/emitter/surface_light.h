@@ -3,9 +3,9 @@
 #pragma once
 
 #include "math/spectrum.h"
-#include "scene/emitter.h"
-#include "scene/shape.h"
-#include "scene/texture.h"
+#include "scene/emitter/emitter.h"
+#include "scene/shape/shape.h"
+#include "scene/texture/texture.h"
 
 namespace mlt {
 

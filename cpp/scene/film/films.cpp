@@ -3,7 +3,7 @@
 #include "base/registry.h"
 #include "base/text.h"
 #include "math/colorimetry.h"
-#include "scene/film_settings.h"
+#include "scene/film/film_settings.h"
 
 namespace mlt {
 namespace {

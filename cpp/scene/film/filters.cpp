@@ -1,6 +1,6 @@
 // The reconstruction filters, by the names and parameters that scenes use.
 #include "base/registry.h"
-#include "scene/film_settings.h"
+#include "scene/film/film_settings.h"
 
 namespace mlt {
 namespace {

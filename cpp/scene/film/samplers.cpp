@@ -1,7 +1,7 @@
 // Scenes choose a sampler; here the integrators choose their own random numbers, and only the
 // number of samples counts.
 #include "base/registry.h"
-#include "scene/film_settings.h"
+#include "scene/film/film_settings.h"
 
 #include <limits>
 

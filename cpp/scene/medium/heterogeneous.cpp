@@ -2,9 +2,9 @@
 // null collisions: so a path has no other vertices than those where it is scattered, and all that
 // holds for homogeneous media holds here.
 #include "base/registry.h"
-#include "scene/medium.h"
+#include "scene/medium/medium.h"
 #include "scene/phase/isotropic.h"
-#include "scene/volume.h"
+#include "scene/volume/volume.h"
 
 namespace mlt {
 namespace {

@@ -1,9 +1,9 @@
 // A medium that is the same everywhere.
 #include "base/registry.h"
-#include "scene/medium.h"
+#include "scene/medium/medium.h"
 #include "scene/medium/presets.h"
 #include "scene/phase/isotropic.h"
-#include "scene/texture.h"
+#include "scene/texture/texture.h"
 
 #include <fmt/format.h>
 

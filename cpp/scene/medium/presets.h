@@ -3,7 +3,7 @@
 #pragma once
 
 #include "base/params.h"
-#include "scene/medium.h"
+#include "scene/medium/medium.h"
 
 #include <string>
 #include <vector>

@@ -1,7 +1,7 @@
 // The phase function of a medium.
 #pragma once
 
-#include "scene/bsdf.h"
+#include "scene/bsdf/bsdf.h"
 
 namespace mlt {
 

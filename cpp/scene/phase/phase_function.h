@@ -5,7 +5,7 @@
 
 #include "base/registry.h"
 #include "math/warp.h"
-#include "scene/bsdf.h"
+#include "scene/bsdf/bsdf.h"
 #include "scene/bsdf/lobes.h"
 
 namespace mlt {

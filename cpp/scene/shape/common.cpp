@@ -2,8 +2,9 @@
 
 #include "base/atomic_file.h"
 #include "base/gzip.h"
-#include "scene/mesh.h"
-#include "scene/texture.h"
+#include "scene/mesh/mesh.h"
+#include "scene/texture/texture.h"
+#include "scene/transform/transform_params.h"
 
 namespace mlt {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/registry.h"
-#include "scene/mesh_data.h"
+#include "scene/mesh/mesh_data.h"
 
 namespace mlt {
 

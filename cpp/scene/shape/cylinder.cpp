@@ -4,10 +4,11 @@
 #include "scene/shape/cylinder.h"
 
 #include "math/warp.h"
-#include "scene/mesh_data.h"
-#include "scene/orientation.h"
+#include "scene/mesh/mesh_data.h"
 #include "scene/shape/common.h"
-#include "scene/texture.h"
+#include "scene/texture/texture.h"
+#include "scene/transform/orientation.h"
+#include "scene/transform/transform_params.h"
 
 namespace mlt {
 

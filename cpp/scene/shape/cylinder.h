@@ -2,7 +2,7 @@
 // the axis.
 #pragma once
 
-#include "scene/analytic_shape.h"
+#include "scene/shape/analytic_shape.h"
 
 namespace mlt {
 

@@ -1,9 +1,10 @@
 #include "scene/shape/disk.h"
 
 #include "math/warp.h"
-#include "scene/mesh_data.h"
+#include "scene/mesh/mesh_data.h"
 #include "scene/shape/common.h"
-#include "scene/texture.h"
+#include "scene/texture/texture.h"
+#include "scene/transform/transform_params.h"
 
 namespace mlt {
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "base/params.h"
-#include "scene/analytic_shape.h"
+#include "scene/shape/analytic_shape.h"
 
 namespace mlt {
 

@@ -1,5 +1,5 @@
-// Instances of groups of shapes, which are described in scene/instance.h.
-#include "scene/instance.h"
+// Instances of groups of shapes, which are described in scene/accel/instance.h.
+#include "scene/accel/instance.h"
 
 #include "base/registry.h"
 

@@ -4,7 +4,7 @@
 // Mitsuba 3.
 #pragma once
 
-#include "scene/mesh_data.h"
+#include "scene/mesh/mesh_data.h"
 #include "scene/shape/ply_header.h"
 
 namespace mlt {

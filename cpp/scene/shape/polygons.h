@@ -1,7 +1,7 @@
 // Polygons of mesh files as triangles.
 #pragma once
 
-#include "scene/mesh_data.h"
+#include "scene/mesh/mesh_data.h"
 
 namespace mlt {
 

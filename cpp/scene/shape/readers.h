@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "scene/mesh_data.h"
+#include "scene/mesh/mesh_data.h"
 
 namespace mlt {
 

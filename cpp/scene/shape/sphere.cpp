@@ -5,10 +5,11 @@
 #include "scene/shape/sphere.h"
 
 #include "math/warp.h"
-#include "scene/matrix_rows.h"
-#include "scene/mesh_data.h"
+#include "scene/mesh/mesh_data.h"
 #include "scene/shape/common.h"
-#include "scene/texture.h"
+#include "scene/texture/texture.h"
+#include "scene/transform/matrix_rows.h"
+#include "scene/transform/transform_params.h"
 
 namespace mlt {
 

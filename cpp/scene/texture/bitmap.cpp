@@ -1,8 +1,8 @@
 // An image as a texture. Conventions are Mitsuba 3's: row 0 of the image is at v = 0, the centre of
 // texel (i, j) is at u = (i + 1/2) / width, v = (j + 1/2) / height.
 #include "base/registry.h"
-#include "scene/texture.h"
 #include "scene/texture/load_texels.h"
+#include "scene/texture/texture.h"
 #include "scene/texture/uv_transform.h"
 
 namespace mlt {

@@ -1,6 +1,6 @@
 // Two colours in the four quarters of the uv square, repeated in both directions.
 #include "base/registry.h"
-#include "scene/texture.h"
+#include "scene/texture/texture.h"
 #include "scene/texture/uv_transform.h"
 
 namespace mlt {

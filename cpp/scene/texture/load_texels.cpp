@@ -2,7 +2,8 @@
 
 #include "image/image_io.h"
 #include "image/srgb.h"
-#include "scene/texture.h"
+#include "scene/texture/texture.h"
+#include "scene/transform/transform_params.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 // Attributes of a mesh, such as the colours of its vertices.
 #include "base/registry.h"
-#include "scene/mesh.h"
-#include "scene/shape_reader.h"
-#include "scene/texture.h"
+#include "scene/mesh/mesh.h"
+#include "scene/shape/shape_reader.h"
+#include "scene/texture/texture.h"
 
 namespace mlt {
 namespace {

@@ -1,6 +1,6 @@
 // Mitsuba 3's texture that is the same everywhere: numbers as they are, such as a normal.
 #include "base/registry.h"
-#include "scene/texture.h"
+#include "scene/texture/texture.h"
 
 namespace mlt {
 

@@ -1,7 +1,7 @@
 // Another texture times a factor, as in Mitsuba 0.6 for heights and brightness.
 #include "base/registry.h"
 #include "scene/nested.h"
-#include "scene/texture.h"
+#include "scene/texture/texture.h"
 
 namespace mlt {
 namespace {

@@ -1,7 +1,7 @@
 // Textures that are spectra: the same everywhere, and a colour that depends on the use.
 #pragma once
 
-#include "scene/texture.h"
+#include "scene/texture/texture.h"
 
 #include <functional>
 

@@ -1,6 +1,7 @@
 #include "scene/texture/uv_transform.h"
 
-#include "scene/texture.h"
+#include "scene/texture/texture.h"
+#include "scene/transform/transform_params.h"
 
 namespace mlt {
 

@@ -1,6 +1,7 @@
 // One value everywhere, or in a box.
 #include "base/registry.h"
-#include "scene/texture.h"
+#include "scene/texture/texture.h"
+#include "scene/transform/transform_params.h"
 #include "scene/volume/grid_volume.h"
 
 namespace mlt {

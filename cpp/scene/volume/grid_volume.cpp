@@ -1,6 +1,6 @@
 #include "scene/volume/grid_volume.h"
 
-#include "scene/spectral_color.h"
+#include "scene/texture/spectral_color.h"
 #include "scene/volume/grid_walk.h"
 
 #include <glm/gtc/matrix_transform.hpp>

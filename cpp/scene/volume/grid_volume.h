@@ -1,8 +1,8 @@
 // A grid of values in a box, which the unit cube becomes by a transform; nothing is outside of it.
 #pragma once
 
-#include "scene/volume.h"
 #include "scene/volume/grid.h"
+#include "scene/volume/volume.h"
 
 namespace mlt {
 

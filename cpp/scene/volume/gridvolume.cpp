@@ -1,6 +1,7 @@
 // A grid of values from a file or an array.
 #include "base/registry.h"
-#include "scene/texture.h"
+#include "scene/texture/texture.h"
+#include "scene/transform/transform_params.h"
 #include "scene/volume/grid_volume.h"
 #include "scene/volume/vol_file.h"
 

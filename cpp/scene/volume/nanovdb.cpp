@@ -1,7 +1,8 @@
 // A grid from a NanoVDB file. It becomes a dense one, so that what lies along a ray is exact as in
 // any other; its values stand at the voxels of the file, and fall to 0 next to the outermost ones.
 #include "base/registry.h"
-#include "scene/texture.h"
+#include "scene/texture/texture.h"
+#include "scene/transform/transform_params.h"
 #include "scene/volume/grid_volume.h"
 #include "scene/volume/nanovdb_file.h"
 

@@ -5,7 +5,7 @@
 #include "io/node_bytes.h"
 #include "io/pack.h"
 #include "job/plugins.h"
-#include "scene/instance.h"
+#include "scene/accel/instance.h"
 #include "scene_files.h"
 
 #include <array>

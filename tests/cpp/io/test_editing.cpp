@@ -4,7 +4,7 @@
 #include "io/editing.h"
 #include "io/load.h"
 #include "job/plugins.h"
-#include "scene/mesh.h"
+#include "scene/mesh/mesh.h"
 
 namespace mlt {
 namespace {

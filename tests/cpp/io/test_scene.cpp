@@ -4,7 +4,7 @@
 #include "io/load.h"
 #include "io/pack.h"
 #include "job/plugins.h"
-#include "scene/texture.h"
+#include "scene/texture/texture.h"
 #include "scene_files.h"
 
 namespace mlt {

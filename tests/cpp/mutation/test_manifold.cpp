@@ -3,7 +3,7 @@
 #include "mutation/mutation_testing.h"
 #include "path/half_vector.h"
 #include "path/manifold_walk.h"
-#include "scene/normal_gradient.h"
+#include "scene/shape/normal_gradient.h"
 
 namespace mlt::test {
 namespace {

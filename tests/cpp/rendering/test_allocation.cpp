@@ -1,9 +1,9 @@
 // How the time is divided: by the least J, where the noise of samples is known, and alike for all
 // seeds.
 #include "base/parallel.h"
+#include "integrator/tours/mlt_algorithm.h"
 #include "mutation/mutation_testing.h"
 #include "rendering/coarse_image.h"
-#include "rendering/mlt_algorithm.h"
 #include "scenes.h"
 
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
 // Chains and independent samples see the same T / P of a path, so that their weights sum to one.
 #include "harness/statistics.h"
+#include "integrator/path_samples.h"
 #include "markov/family_weights.h"
 #include "mutation/path_seeds.h"
 #include "rendering/beside_chains.h"
-#include "rendering/path_samples.h"
 #include "scenes.h"
 #include "wave/bidirectional_wave.h"
 #include "wave/path_sample_wave.h"

@@ -11,9 +11,9 @@
 
 #include "base/registry.h"
 #include "base/rng.h"
-#include "scene/analytic_shape.h"
-#include "scene/mesh.h"
-#include "scene/shape.h"
+#include "scene/mesh/mesh.h"
+#include "scene/shape/analytic_shape.h"
+#include "scene/shape/shape.h"
 
 namespace mlt::shape_testing {
 

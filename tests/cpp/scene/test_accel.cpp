@@ -1,4 +1,4 @@
-#include "scene/accel.h"
+#include "scene/accel/accel.h"
 
 #include "scene/bsdf/bsdf_testing.h"
 #include "scene/shape/cylinder.h"

@@ -5,8 +5,8 @@
 
 #include "base/rng.h"
 #include "image/image_io.h"
-#include "scene/bsdf_at.h"
-#include "scene/mesh.h"
+#include "scene/bsdf/bsdf_at.h"
+#include "scene/mesh/mesh.h"
 #include "scenes.h"
 
 namespace mlt {

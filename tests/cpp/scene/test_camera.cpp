@@ -1,4 +1,4 @@
-#include "scene/camera.h"
+#include "scene/camera/camera.h"
 
 #include <gmock/gmock.h>
 

@@ -1,13 +1,13 @@
-#include "scene/emitter.h"
+#include "scene/emitter/emitter.h"
 
 #include <gmock/gmock.h>
 
 #include "base/rng.h"
 #include "harness/chi_square.h"
-#include "scene/mesh.h"
+#include "scene/mesh/mesh.h"
 #include "scene/plugin_testing.h"
-#include "scene/shape.h"
-#include "scene/texture.h"
+#include "scene/shape/shape.h"
+#include "scene/texture/texture.h"
 
 namespace mlt {
 

@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 
 #include "filters.h"
-#include "scene/film_settings.h"
+#include "scene/film/film_settings.h"
 #include "scene/plugin_testing.h"
 
 namespace mlt {

@@ -1,8 +1,8 @@
-#include "scene/instance.h"
+#include "scene/accel/instance.h"
 
 #include <fstream>
 
-#include "scene/bsdf_at.h"
+#include "scene/bsdf/bsdf_at.h"
 #include "scene/same_points.h"
 
 namespace mlt {

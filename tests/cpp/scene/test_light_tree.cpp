@@ -1,7 +1,7 @@
 // The tree of lights is a distribution, and chooses the light that matters.
 #include "base/error.h"
 #include "base/rng.h"
-#include "scene/light_tree.h"
+#include "scene/light/light_tree.h"
 
 #include <gtest/gtest.h>
 

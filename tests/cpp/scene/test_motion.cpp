@@ -1,11 +1,11 @@
-#include "scene/motion.h"
+#include "scene/transform/motion.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "harness/chi_square.h"
 #include "scene/emitter/moving.h"
-#include "scene/matrix_rows.h"
 #include "scene/same_points.h"
+#include "scene/transform/matrix_rows.h"
 
 namespace mlt {
 namespace {

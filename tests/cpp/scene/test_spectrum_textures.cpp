@@ -2,7 +2,7 @@
 
 #include "math/colorimetry.h"
 #include "plugin_testing.h"
-#include "scene/texture.h"
+#include "scene/texture/texture.h"
 
 namespace mlt {
 

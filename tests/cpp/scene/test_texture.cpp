@@ -1,10 +1,11 @@
-#include "scene/texture.h"
+#include "scene/texture/texture.h"
 
 #include <gmock/gmock.h>
 
 #include "base/rng.h"
 #include "image/srgb.h"
 #include "scene/plugin_testing.h"
+#include "scene/transform/transform_params.h"
 
 namespace mlt {
 

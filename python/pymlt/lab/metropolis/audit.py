@@ -7,8 +7,9 @@ from statistics import NormalDist
 from typing import Any
 
 from ... import _core
-from .reversal import NINE_IN_TEN, MoveAudit, Numbers, sequential, set_around
+from .reversal import NINE_IN_TEN, MoveAudit, sequential
 from .run import _run, _seed
+from .state_sets import Numbers, set_around
 
 
 def audit(

@@ -1,6 +1,6 @@
 #include "scene/bsdf/bsdf_testing.h"
 
-#include "scene/texture.h"
+#include "scene/texture/texture.h"
 
 #include <algorithm>
 #include <stdexcept>

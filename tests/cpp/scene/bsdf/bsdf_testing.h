@@ -3,7 +3,7 @@
 
 #include "base/registry.h"
 #include "base/rng.h"
-#include "scene/bsdf.h"
+#include "scene/bsdf/bsdf.h"
 
 #include <string>
 #include <utility>

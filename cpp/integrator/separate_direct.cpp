@@ -1,0 +1,25 @@
+#include "integrator/separate_direct.h"
+
+#include "base/registry.h"
+#include "scene/scene.h"
+
+namespace mlt {
+
+Plugin integrator_direct();
+
+SeparateDirect separate_direct(ScenePtr scene, uint64_t seed, int samples, bool hide_emitters,
+                               bool strict_normals) {
+  if (samples == 0) return {};
+  for (const EmitterPtr& light : scene->emitters())
+    if (light->delta_direction())
+      throw UsageError("direct_samples would lose the direct light of emitter '" + light->type +
+                       "', which next-event estimation cannot find; leave direct_samples out");
+  const Plugin plugin = integrator_direct();
+  Params params(plugin.schema, {});
+  params.set("hide_emitters", hide_emitters, {});
+  params.set("strict_normals", strict_normals, {});
+  const auto direct = std::dynamic_pointer_cast<Integrator>(plugin.create(params));
+  return {direct->start(std::move(scene), seed), static_cast<double>(samples)};
+}
+
+}  // namespace mlt

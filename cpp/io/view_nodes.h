@@ -1,0 +1,25 @@
+// The nodes of a scene's tree that say how it is looked at: its sensors, films and integrator.
+#pragma once
+
+#include "io/load.h"
+
+#include <functional>
+
+namespace mlt {
+
+/// The scene with the index of the sensor that is asked for.
+Node asking_for(Node scene, int64_t sensor);
+/// The sensor that is asked for, or the first one. Throws SceneError if there is none, UsageError
+/// if there are not so many.
+const Node& chosen_sensor(const Node& scene, std::vector<std::string>& warnings);
+
+/// Calls change(film) for all films, and adds a film to sensors that have none.
+void change_films(Node& node, const std::function<void(Node&)>& change);
+/// Makes films spectral; those of a band if it is not empty.
+void make_spectral(Node& tree, const std::string& band);
+
+/// Finds the integrator of a scene, and the layers of those around it. Throws SceneError if there
+/// are two.
+void find_integrator(const Node& scene, LoadedScene& loaded);
+
+}  // namespace mlt
