@@ -25,7 +25,7 @@ struct Node {
   Location where;
   std::vector<Property> properties;
   std::vector<Node> children;
-  bool modern = true;  ///< Scenes: whether the format is that of Mitsuba 2 or later.
+  bool modern = true;  ///< Whether the format of its file is that of Mitsuba 2 or later.
 };
 
 /// Nodes, includes and references may be nested this deep; deeper is a mistake or an attack.

@@ -1,5 +1,7 @@
 #include "io/view_nodes.h"
 
+#include "io/node_properties.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,14 +17,6 @@ std::optional<int64_t> asked_sensor(const Node& scene) {
     if (property.name == sensor_property)
       if (const auto* index = std::get_if<int64_t>(&property.value)) return *index;
   return std::nullopt;
-}
-
-void set_property(Node& node, const std::string& name, const Value& value) {
-  auto& all = node.properties;
-  all.erase(std::remove_if(all.begin(), all.end(),
-                           [&](const auto& property) { return property.name == name; }),
-            all.end());
-  all.push_back({name, value, node.where});
 }
 
 /// The property `aovs` of Mitsuba's integrator of that name.

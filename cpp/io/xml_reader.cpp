@@ -9,6 +9,7 @@
 #include "io/transform.h"
 #include "io/values.h"
 #include "io/variables.h"
+#include "io/version0.h"
 #include "io/xml_document.h"
 #include "io/xml_transform.h"
 
@@ -52,11 +53,6 @@ bool is_modern(const std::string& version) {
   return parse_real(version.substr(0, version.find('.'))).value_or(0) >= 2;
 }
 
-bool has_property(const Node& node, const std::string& name) {
-  return std::any_of(node.properties.begin(), node.properties.end(),
-                     [&](const Node::Property& p) { return p.name == name; });
-}
-
 class XmlReader {
  public:
   XmlReader(const LoadOptions& options, std::vector<std::string>& warnings)
@@ -78,9 +74,7 @@ class XmlReader {
   struct Source {
     const XmlDocument& document;
     SearchPath search;
-    /// Whether a <spectrum> of one number is the same power at all wavelengths, and not grey, as
-    /// since Mitsuba 2; this differs for emitters.
-    bool spectral;
+    bool modern;  ///< See is_modern().
   };
 
   std::string text_of(const std::string& path) {
@@ -96,13 +90,13 @@ class XmlReader {
     Source source{document, {}, false};
     source.search.prepend(directory);
     const Element root = element(document.root(), source);
-    source.spectral = is_modern(root.get("version"));
+    source.modern = is_modern(root.get("version"));
     if (root.tag != "scene" && !is_plugin_family(root.tag)) {
       refuse_element(root.tag, root.get("type"), root.where);
       root.fail("is not a scene; the root element should be <scene>");
     }
     Node node = read_plugin(document.root(), root, source, 1);
-    node.modern = is_modern(root.get("version"));
+    upgrade_version_0(node, warnings_);
     resolve_aliases(node, aliases_);
     variables_.expect_all_used();
     return node;
@@ -112,6 +106,7 @@ class XmlReader {
     Element e{node.name(), {source.document.file(), source.document.line(node)}, {}};
     for (const pugi::xml_attribute& attribute : node.attributes()) {
       const std::string name = attribute.name();
+      if (name == "intent" && !source.modern) continue;  // which selects a conversion from RGB
       if (e.attributes.size() == max_attributes) e.fail("has more than 100 attributes");
       if (e.find(name)) e.fail("has the attribute " + quote(name) + " twice");
       std::string value = variables_.substitute(attribute.value(), e.where);
@@ -126,6 +121,7 @@ class XmlReader {
 
   Node read_plugin(const pugi::xml_node& xml, const Element& element, Source& source, int depth) {
     Node node;
+    node.modern = source.modern;
     node.family = element.tag;
     node.where = element.where;
     node.id = element.get("id");
@@ -133,10 +129,6 @@ class XmlReader {
     element.expect_only({"type", "id", "name", "version"});
     node.type = element.tag == "scene" ? "scene" : element.require("type");
     read_children(xml, node, source, depth);
-    // Before Mitsuba 2 a grid lies where its file says.
-    if (!source.spectral && node.family == "volume" && node.type == "gridvolume" &&
-        !has_property(node, "use_grid_bbox"))
-      node.properties.insert(node.properties.begin(), {"use_grid_bbox", true, node.where});
     return node;
   }
 
@@ -162,10 +154,14 @@ class XmlReader {
     const auto refuse_later = [&] {
       parent.children.push_back({tag, xml.attribute("type").value(), "", "", where, {}, {}});
     };
-    if (!known)
+    if (!known && !(tag == "blackbody" && !source.modern))
       return is_refused_element(tag) ? refuse_later() : skip_foreign({tag, where, {}}, parent);
 
     const Element e = element(xml, source);
+    if (tag == "blackbody") {
+      parent.children.push_back(blackbody(e));
+      return;
+    }
     if (tag == "spectrum" && e.find("type")) {
       parent.children.push_back(read_plugin(xml, e, source, depth));
       parent.children.back().family = "texture";
@@ -205,6 +201,21 @@ class XmlReader {
     }
   }
 
+  /// The element of Mitsuba 0.x: temperature="5000K".
+  static Node blackbody(const Element& e) {
+    e.expect_only({"name", "temperature", "scale"});
+    Node node{"texture", "blackbody", "", e.require("name"), e.where, {}, {}};
+    for (const char* name : {"temperature", "scale"}) {
+      if (!e.find(name) && name == std::string("scale")) continue;
+      std::string text = e.require(name);
+      if (text.back() == 'K' || text.back() == 'k') text.pop_back();
+      const auto number = parse_real(text);
+      if (!number) e.fail(fmt::format("has {} = {}, but it should be a number", name, quote(text)));
+      node.properties.push_back({name, *number, e.where});
+    }
+    return node;
+  }
+
   void read_property(const Element& element, Node& parent, const Source& source) {
     const std::string& name = element.require("name");
     if (parent.family == "scene") {
@@ -216,7 +227,8 @@ class XmlReader {
     if (name == "filename" && element.tag == "string" && reads_a_file(parent.family))
       value = source.search.find_file(std::get<std::string>(value), element.where);
     const double* number = std::get_if<double>(&value);
-    if (number && element.tag == "spectrum" && source.spectral) value = constant_spectrum(*number);
+    // Since Mitsuba 2 it is the same power at all wavelengths; before, it is grey, also of lights.
+    if (number && element.tag == "spectrum" && source.modern) value = constant_spectrum(*number);
     parent.properties.push_back({name, std::move(value), element.where});
   }
 
@@ -245,10 +257,10 @@ class XmlReader {
 
     open_files_.push_back(identity);
     const XmlDocument document(text_of(path), path);
-    Source inner{document, source.search, source.spectral};
+    Source inner{document, source.search, source.modern};
     inner.search.prepend(fs::path(path).parent_path());
     const Element root = this->element(document.root(), inner);
-    if (root.find("version")) inner.spectral = is_modern(root.get("version"));
+    if (root.find("version")) inner.modern = is_modern(root.get("version"));
     if (root.tag == "scene") {
       read_children(document.root(), parent, inner, depth);
     } else if (is_plugin_family(root.tag)) {

@@ -6,8 +6,6 @@ namespace {
 /// Whether the roughness is given along both axes.
 bool anisotropic(const Params& params) { return params.has("alpha_u") || params.has("alpha_v"); }
 
-}  // namespace
-
 Parameter microfacet_type_parameter() {
   return choice_parameter("distribution", "beckmann",
                           "Distribution of the microfacet normals; ggx has longer tails.",
@@ -21,6 +19,20 @@ Parameter sample_visible_parameter() {
 
 MicrofacetType microfacet_type_param(Params& params) {
   return params.text("distribution") == "ggx" ? MicrofacetType::ggx : MicrofacetType::beckmann;
+}
+
+}  // namespace
+
+std::vector<Parameter> isotropic_microfacet_parameters() {
+  return {microfacet_type_parameter(),
+          {"alpha", ParamType::real, 0.1,
+           "Roughness: about the root mean square slope of the microfacets."},
+          sample_visible_parameter()};
+}
+
+Microfacet isotropic_microfacet_param(Params& params) {
+  const double alpha = params.real_in("alpha", 0, 10);
+  return {microfacet_type_param(params), alpha, alpha, params.boolean("sample_visible")};
 }
 
 std::vector<Parameter> rough_surface_parameters() {

@@ -65,10 +65,10 @@ inline bool fits_lanes(const Microfacet& typical) {
          std::min(typical.alpha_u(), typical.alpha_v()) >= least_alpha_in_lanes;
 }
 
-/// The parameter `distribution`: "beckmann" or "ggx".
-MicrofacetType microfacet_type_param(Params& params);
-Parameter microfacet_type_parameter();
-Parameter sample_visible_parameter();
+/// The parameters `distribution`, `alpha` and `sample_visible` of a distribution that is the same
+/// everywhere.
+std::vector<Parameter> isotropic_microfacet_parameters();
+Microfacet isotropic_microfacet_param(Params& params);
 
 /// G1 of one direction: as densities use it (exact), and as BSDF values use it (Microfacet::G).
 template <class F>

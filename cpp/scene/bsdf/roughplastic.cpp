@@ -19,7 +19,7 @@ class RoughPlastic final : public SmoothReflector<RoughPlastic> {
  public:
   explicit RoughPlastic(Params& params)
       : eta_(relative_ior_param(params)),
-        microfacet_(microfacet_of(params)),
+        microfacet_(isotropic_microfacet_param(params)),
         coating_(microfacet_.type(), microfacet_.alpha_u(), eta_),
         base_(params, eta_, coating_.internal_reflectance(), coating_.mean_transmittance()) {
     serves_lanes_ = fits_lanes(microfacet_);
@@ -94,11 +94,6 @@ class RoughPlastic final : public SmoothReflector<RoughPlastic> {
   Spectrum albedo(const SurfacePoint& at) const override { return base_.albedo(at); }
 
  private:
-  static Microfacet microfacet_of(Params& params) {
-    const double alpha = params.real_in("alpha", 0, 10);
-    return {microfacet_type_param(params), alpha, alpha, params.boolean("sample_visible")};
-  }
-
   template <class F>
   F specular_share(const RoughFresnelOf<F>& coat) const {
     return base_.specular_share(coat.reflectance, coat.transmittance);
@@ -115,11 +110,7 @@ class RoughPlastic final : public SmoothReflector<RoughPlastic> {
 Plugin bsdf_roughplastic() {
   return make_plugin<RoughPlastic>(
       "bsdf", "roughplastic", "Rough plastic: a diffuse base below a rough transparent coating.",
-      concat({ior_parameters("polypropylene"),
-              {microfacet_type_parameter(),
-               {"alpha", ParamType::real, 0.1,
-                "Roughness: about the root mean square slope of the microfacets."},
-               sample_visible_parameter()},
+      concat({ior_parameters("polypropylene"), isotropic_microfacet_parameters(),
               CoatedBase::parameters()}));
 }
 

@@ -1,5 +1,7 @@
-// Measured materials (Jensen, Marschner, Levoy & Hanrahan 2001, "A practical model for subsurface
-// light transport", fig. 5), per millimetre. Names are those of Mitsuba.
+// Measured materials, per millimetre (Jensen, Marschner, Levoy & Hanrahan 2001, "A practical model
+// for subsurface light transport", fig. 5; Narasimhan, Gupta, Donner, Ramamoorthi, Nayar & Jensen
+// 2006, "Acquiring scattering properties of participating media by dilution", table 1). Names are
+// those of Mitsuba, in lower case.
 #pragma once
 
 #include "base/params.h"
@@ -12,7 +14,11 @@ namespace mlt {
 
 struct MediumPreset {
   const char* name;
-  Color scattering, absorption;  ///< sigma'_s and sigma_a
+  Color scattering, absorption;  ///< sigma_s, sigma_a
+  Color g{0};                    ///< The mean cosine of the deflection.
+
+  /// sigma'_s = (1 - g) sigma_s, with which scattering counts as isotropic.
+  Color reduced_scattering() const { return scattering * (1.0 - g); }
 };
 
 /// The material that the text parameter names. Throws SceneError.

@@ -42,18 +42,20 @@ std::string name_of_mesh(Params& params) {
 }  // namespace
 
 Plugin mesh_file_plugin(const char* name, const char* doc, const char* filename_doc,
-                        bool flip_tex_coords, MeshReader read) {
+                        bool flip_tex_coords, MeshReader read, const std::vector<Parameter>& own) {
   return {shape_schema(name, doc,
                        concat({{filename_parameter(filename_doc),
                                 {"data", ParamType::buffer, no_default,
                                  "In place of `filename`: the bytes of such a file."}},
                                normals_parameters(),
                                {{"flip_tex_coords", ParamType::boolean, flip_tex_coords,
-                                 "Turn the texture upside down: v becomes 1 - v."}}})),
+                                 "Turn the texture upside down: v becomes 1 - v."}},
+                               own})),
           [read](Params& params) {
             const std::string path = name_of_mesh(params);
             const auto unpack = [&](std::string_view bytes) {
-              return is_gzip(bytes) ? read(unpack_gzip(bytes, path), path) : read(bytes, path);
+              return is_gzip(bytes) ? read(unpack_gzip(bytes, path), path, params)
+                                    : read(bytes, path, params);
             };
             MeshData data = params.has("data") ? unpack(params.buffer("data").bytes())
                                                : unpack(read_file(path));

@@ -24,10 +24,11 @@ ObjectPtr mesh_from_data(Params& params, MeshData data, bool flat = false);
 /// A Mesh from the buffers of the file `filename`, which are checked.
 ObjectPtr mesh_from_file(Params& params, MeshData data, bool flat = false);
 
-using MeshReader = MeshData (*)(std::string_view bytes, const std::string& name);
+using MeshReader = MeshData (*)(std::string_view bytes, const std::string& name, Params& params);
 /// A mesh from a file that `read` understands; `flip_tex_coords` is the default of the parameter.
 Plugin mesh_file_plugin(const char* name, const char* doc, const char* filename_doc,
-                        bool flip_tex_coords, MeshReader read);
+                        bool flip_tex_coords, MeshReader read,
+                        const std::vector<Parameter>& own = {});
 
 /// A mesh without vertex normals whose triangles turn counter-clockwise seen from outside; they do
 /// so too if `to_world` mirrors it.

@@ -1,5 +1,6 @@
-// Wavefront OBJ (Alias|Wavefront, "Advanced Visualizer" manual, appendix B1): v, vt, vn and f.
-// Materials, groups, smoothing groups, lines, points and free-form elements are ignored.
+// Wavefront OBJ (Alias|Wavefront, "Advanced Visualizer" manual, appendix B1): v, vt, vn, f, and
+// usemtl where one material is asked for. Libraries of materials, groups, smoothing groups, lines,
+// points and free-form elements are ignored.
 #include "base/rng.h"
 #include "scene/shape/common.h"
 #include "scene/shape/polygons.h"
@@ -7,6 +8,7 @@
 #include "scene/shape/text_scanner.h"
 
 #include <map>
+#include <optional>
 
 namespace mlt {
 namespace {
@@ -68,7 +70,12 @@ class CornerTable {
 
 class ObjReader {
  public:
-  ObjReader(std::string_view bytes, const std::string& name) : text_(bytes, name), name_(name) {}
+  ObjReader(std::string_view bytes, const std::string& name,
+            const std::optional<std::string>& material)
+      : text_(bytes, name),
+        name_(name),
+        material_(material),
+        is_wanted_(!material || material->empty()) {}
 
   MeshData read() {
     for (; !text_.at_end(); text_.next_line()) {
@@ -92,7 +99,9 @@ class ObjReader {
     } else if (keyword == "vn") {
       normals_.push_back(read_triple());
     } else if (keyword == "f") {
-      read_face();
+      if (is_wanted_) read_face();
+    } else if (keyword == "usemtl" && material_) {
+      is_wanted_ = text_.rest_of_line() == *material_;
     }
   }
 
@@ -191,6 +200,8 @@ class ObjReader {
 
   TextScanner text_;
   const std::string& name_;
+  std::optional<std::string> material_;  ///< Faces of others are left out.
+  bool is_wanted_;                       ///< Whether the material is that of the next faces.
   std::vector<Vec3f> positions_, normals_;
   std::vector<Vec2f> uvs_;
   std::map<uint32_t, int> bad_positions_;  ///< Those that are not finite, with their lines.
@@ -203,13 +214,21 @@ class ObjReader {
 
 }  // namespace
 
-MeshData read_obj(std::string_view bytes, const std::string& name) {
-  return ObjReader(bytes, name).read();
+MeshData read_obj(std::string_view bytes, const std::string& name,
+                  const std::optional<std::string>& material) {
+  return ObjReader(bytes, name, material).read();
 }
 
 Plugin shape_obj() {
-  return mesh_file_plugin("obj", "A mesh from a Wavefront OBJ file.", "The OBJ file.", true,
-                          read_obj);
+  return mesh_file_plugin(
+      "obj", "A mesh from a Wavefront OBJ file.", "The OBJ file.", true,
+      [](std::string_view bytes, const std::string& name, Params& params) {
+        std::optional<std::string> material;
+        if (params.has("usemtl")) material = params.text("usemtl");
+        return read_obj(bytes, name, material);
+      },
+      {{"usemtl", ParamType::text, no_default,
+        "Of the faces, those of this material alone; empty: those before the first `usemtl`."}});
 }
 
 }  // namespace mlt

@@ -239,7 +239,10 @@ MeshData read_ply(std::string_view bytes, const std::string& name) {
 
 Plugin shape_ply() {
   return mesh_file_plugin("ply", "A mesh from a PLY (Stanford triangle format) file.",
-                          "The PLY file.", false, read_ply);
+                          "The PLY file.", false,
+                          [](std::string_view bytes, const std::string& name, Params&) {
+                            return read_ply(bytes, name);
+                          });
 }
 
 }  // namespace mlt

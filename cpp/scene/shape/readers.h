@@ -3,6 +3,7 @@
 // that they allocate is bounded by the size of the file.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -12,8 +13,10 @@ namespace mlt {
 
 /// Wavefront OBJ. All groups and objects make one mesh; vertices are shared between faces that name
 /// the same position, texture coordinate and normal. Polygons, concave ones too, become triangles.
-/// Normals and texture coordinates that are no numbers are not given.
-MeshData read_obj(std::string_view bytes, const std::string& name);
+/// Normals and texture coordinates that are no numbers are not given. With a `material`, the faces
+/// are those after `usemtl` with this name ("": those before the first one).
+MeshData read_obj(std::string_view bytes, const std::string& name,
+                  const std::optional<std::string>& material = {});
 
 /// PLY, ascii or binary of either byte order. Polygons, concave ones too, become triangles.
 MeshData read_ply(std::string_view bytes, const std::string& name);

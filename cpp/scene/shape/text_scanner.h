@@ -49,6 +49,12 @@ class TextScanner {
     while (!at_word_end()) ++at_;
     return {begin, static_cast<size_t>(at_ - begin)};
   }
+  /// The characters up to the line's end, without blanks around them.
+  std::string rest_of_line() const {
+    const char* end = std::find_if(at_, end_, [&](char c) { return ends_line(c); });
+    while (end != at_ && is_blank(end[-1])) --end;
+    return {std::find_if(at_, end, [&](char c) { return !is_blank(c); }), end};
+  }
   bool at_word_end() const { return at_ == end_ || is_blank(*at_) || ends_line(*at_); }
   bool is_at(char c) const { return at_ != end_ && *at_ == c; }
   /// Whether the next character is `c`, which is then skipped.

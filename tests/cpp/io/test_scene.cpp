@@ -346,7 +346,7 @@ TEST(SceneMistake, InANameGetsASuggestion) {
 TEST(SceneMistake, InAnUnusedMaterialIsFoundToo) {
   EXPECT_EQ(
       error_of(sensor + point_light +
-               "<bsdf type='diffuse' id='unused'>\n<float name='reflectance' value='2'/></bsdf>")
+               "<bsdf type='diffuse' id='unused'>\n<float name='reflectance' value='-2'/></bsdf>")
           .substr(0, 10),
       "<string>:3");
 }

@@ -140,9 +140,6 @@ TEST(Xml, RefusesByNameWhatMitsubaHas) {
   EXPECT_EQ(
       refused("<shape type='cube'><subsurface type='dipole'/></shape>"),
       "<string>:2: subsurface 'dipole' is not supported: subsurface scattering is not supported");
-  EXPECT_EQ(refused("<bsdf type='diffuse'><blackbody name='a' temperature='5000'/></bsdf>"),
-            "<string>:2: <blackbody> is not supported: write <spectrum type=\"blackbody\"> with a "
-            "temperature");
   EXPECT_NE(refused("<camera type='perspective'/>").find("write <sensor>"), std::string::npos);
 }
 

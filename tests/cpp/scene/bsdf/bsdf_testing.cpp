@@ -209,6 +209,23 @@ std::vector<Case> make_cases() {
   maker.add("coating of conductor", "coating", {}, 0, gray, true, {find(maker, "conductor")});
   maker.add("coating of twosided", "coating", {{"int_ior", 1.2}}, 1, infinity, true,
             {find(maker, "twosided")});
+  maker.add("coating of dielectric", "coating", {{"int_ior", 1.3}}, 1, gray, true,
+            {find(maker, "dielectric")});
+  maker.add("coating of roughdielectric", "coating", {{"sigma_a", 0.1}}, 1, infinity, true,
+            {make_bsdf("roughdielectric", {{"alpha", 0.3}})});
+  maker.add("difftrans", "difftrans", {{"transmittance", pink}}, 0, 1, true);
+  maker.add("hk", "hk", {{"sigma_s", pink}, {"sigma_a", 0.2}, {"thickness", 0.7}}, 0, infinity,
+            true);
+  for (const char* distribution : {"beckmann", "ggx"}) {
+    const Given rough = {{"distribution", std::string(distribution)}, {"alpha", 0.3}};
+    const std::string label = "roughcoating "s + distribution;
+    maker.add(label + " of twosided", "roughcoating", rough, 1, infinity, true,
+              {find(maker, "twosided")});
+    maker.add(label + " of conductor", "roughcoating", rough, 1, infinity, true,
+              {find(maker, "conductor")});
+    maker.add(label + " of difftrans", "roughcoating", rough, 1, infinity, true,
+              {find(maker, "difftrans")});
+  }
   add_bent(maker);
   add_principled(maker);
   add_rough(maker, "beckmann");

@@ -229,7 +229,72 @@ TEST(BsdfParameters, ACoatingTakesItsShareAndAbsorbs) {
       coated({{"int_ior", 1.5}, {"ext_ior", 1.0}, {"sigma_a", 0.7}, {"thickness", 2.0}});
   EXPECT_NEAR(value_at_normal(dark, Lobe::smooth),
               std::exp(-2 * 0.7 * 2) * value_at_normal(clear, Lobe::smooth), 1e-12);
-  EXPECT_THAT(error_of("coating", {}, {make_bsdf("dielectric")}), HasSubstr("transmits"));
+  EXPECT_THAT(error_of("coating", {}, {make_bsdf("null")}), HasSubstr("straight on"));
+}
+
+/// As Mitsuba 0.6 has it: the layer is on both sides, where directions change by the nested
+/// interface alone.
+TEST(BsdfParameters, ACoatingOfGlassLetsLightThrough) {
+  const Given glass = {{"int_ior", 1.5}, {"ext_ior", 1.0}};
+  const BsdfPtr coated =
+      make_bsdf("coating", {{"int_ior", 1.25}, {"ext_ior", 1.0}}, {make_bsdf("dielectric", glass)});
+  const double layer = reflectance_at_normal(1.25), interface = reflectance_at_normal(1.5);
+  const Vec3 up(0, 0, 1);
+  EXPECT_NEAR(coated->eval(point(), up, -up, Lobe::transmission)[0],
+              sqr(1 - layer) * (1 - interface), 1e-12);
+  EXPECT_NEAR(value_at_normal(coated, Lobe::reflection), layer + sqr(1 - layer) * interface, 1e-12);
+  Rng rng(1, Purpose::test, 0);
+  const Vec3 from = normalize(Vec3(0.6, 0.2, 0.7));
+  for (int i = 0; i < 100; ++i)
+    if (const auto s = coated->sample(point(), from, random_u(rng));
+        s->lobe == Lobe::transmission) {
+      EXPECT_NEAR(s->to.x, -from.x / 1.5, 1e-12);
+      EXPECT_NEAR(s->to.y, -from.y / 1.5, 1e-12);
+    }
+}
+
+/// The layer's boundary lets pass as much as it does not reflect.
+TEST(BsdfParameters, ARoughCoatingThatIsNearlySmoothIsACoating) {
+  const Given layer = {{"int_ior", 1.5}, {"ext_ior", 1.0}, {"sigma_a", 0.3}, {"thickness", 0.5}};
+  Given rough = layer;
+  rough.push_back({"alpha", 0.01});
+  const BsdfPtr smooth = make_bsdf("coating", layer, {make_bsdf("diffuse")}),
+                nearly = make_bsdf("roughcoating", rough, {make_bsdf("diffuse")});
+  const Vec3 wl = normalize(Vec3(0.5, 0.1, 0.8));
+  for (const Vec3& wc :
+       {Vec3(0, 0, 1), normalize(Vec3(0.3, 0.7, 0.6)), normalize(Vec3(0.9, 0, 0.5))}) {
+    const double wanted = smooth->eval(point(), wl, wc, Lobe::smooth)[0];
+    EXPECT_NEAR(nearly->eval(point(), wl, wc, Lobe::smooth)[0], wanted, 0.01 * wanted);
+  }
+}
+
+/// Light that is scattered once at depth z, summed up over all depths by the midpoint rule.
+TEST(BsdfParameters, AThinLayerScattersOnce) {
+  const double scattering = 0.6, extinction = 0.9, thickness = 1.3;
+  const BsdfPtr layer =
+      make_bsdf("hk", {{"sigma_s", scattering}, {"sigma_a", 0.3}, {"thickness", thickness}});
+  const Vec3 wl = normalize(Vec3(0.5, 0.1, 0.8));
+  for (const Vec3& wc :
+       {Vec3(0, 0, 1), normalize(Vec3(0.3, 0.7, 0.6)), Vec3(0, 0, -1), Vec3(wl.x, wl.y, -wl.z)}) {
+    constexpr int steps = 100000;
+    double sum = 0;
+    for (int i = 0; i < steps; ++i) {
+      const double z = (i + 0.5) / steps * thickness, out = wc.z > 0 ? z : thickness - z;
+      sum += std::exp(-extinction * (z / wl.z + out / std::abs(wc.z))) * thickness / steps;
+    }
+    const double wanted = scattering * 0.25 * inv_pi * sum / (wl.z * std::abs(wc.z));
+    EXPECT_NEAR(layer->eval(point(), wl, wc, Lobe::smooth)[0], wanted, 1e-8);
+    EXPECT_NEAR(layer->passage(point(), wc).transmittance[0],
+                std::exp(-extinction * thickness / std::abs(wc.z)), 1e-12);
+  }
+}
+
+TEST(BsdfParameters, ADiffuseTransmitterScattersToTheOtherSideAlone) {
+  const BsdfPtr leaf = make_bsdf("difftrans", {{"transmittance", 0.7}});
+  const Vec3 a = normalize(Vec3(0.5, 0.1, 0.8)), b = normalize(Vec3(-0.2, 0.7, 0.3));
+  EXPECT_EQ(leaf->eval(point(), a, b, Lobe::smooth)[0], 0);
+  EXPECT_NEAR(leaf->eval(point(), a, -b, Lobe::smooth)[0], 0.7 * inv_pi, 1e-12);
+  EXPECT_NEAR(leaf->eval(point(), -a, b, Lobe::smooth)[0], 0.7 * inv_pi, 1e-12);
 }
 
 /// The sum over the reflections within the pane, term by term.
