@@ -10,6 +10,7 @@ from urllib.parse import unquote
 from ... import _core
 from ..limits import read_file
 from .checked import at
+from .compression import check_buffer
 
 if TYPE_CHECKING:
     import numpy as np
@@ -76,9 +77,10 @@ class Buffers:
         """The bytes of a buffer view."""
         view = at(self.gltf.bufferViews, index, "bufferView")
         if view.buffer not in self._buffers:
-            uri = at(self.gltf.buffers, view.buffer, "buffer").uri
+            given = at(self.gltf.buffers, view.buffer, "buffer")
+            check_buffer(given)
             blob = self.gltf.binary_blob()
-            self._buffers[view.buffer] = self.content(uri) if uri else blob or b""
+            self._buffers[view.buffer] = self.content(given.uri) if given.uri else blob or b""
         buffer, start = self._buffers[view.buffer], view.byteOffset or 0
         if start + view.byteLength > len(buffer):
             raise _core.SceneError(f"bufferView {index} reaches beyond its buffer")
