@@ -10,19 +10,12 @@ from typing import TYPE_CHECKING
 
 from .. import _core
 from ..scenes.arrays import with_bytes
+from ..scenes.kinds import EXTENSIONS, MESHES, check_kind, is_foreign
 from ..scenes.loading import load_dict
 from . import limits
 
 if TYPE_CHECKING:
     from .imported import Imported
-
-MESHES = (".ply", ".obj", ".stl", ".ply.gz", ".obj.gz")
-EXTENSIONS = (".gltf", ".glb", ".pbrt", *MESHES)
-
-
-def is_foreign(path: str | os.PathLike[str]) -> bool:
-    """Whether a file of this name is a scene of another program, or a mesh alone."""
-    return os.fspath(path).lower().endswith(EXTENSIONS)
 
 
 def read_foreign(path: str | os.PathLike[str]) -> Imported:
@@ -90,6 +83,7 @@ def convert(path: str | os.PathLike[str] | dict, output: str | os.PathLike[str])
 
     target = Path(os.fspath(output))
     if not isinstance(path, dict) and not is_foreign(path):
+        check_kind(path)
         raise _core.UsageError(
             f"{os.fspath(path)}: cannot be converted; valid are: {', '.join(EXTENSIONS)}"
         )

@@ -8,6 +8,7 @@ import os
 
 from .. import _core, scenes
 from .arrays import with_bytes
+from .kinds import check_is_mitsuba
 
 
 def load_file(
@@ -23,6 +24,7 @@ def load_file(
     place of the film's own. Raises FileError for files that cannot be read, SceneError (with file
     and line) for what is wrong in them, UsageError for the arguments.
     """
+    check_is_mitsuba(path)
     return _core.load_file(
         os.fspath(path),
         define_texts(defines),
