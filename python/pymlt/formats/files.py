@@ -23,6 +23,7 @@ def read_foreign(path: str | os.PathLike[str]) -> Imported:
     import numpy as np
 
     from .imported import Imported
+    from .missing import refuse_missing
 
     source = Path(os.fspath(path))
     made = Imported()
@@ -30,10 +31,12 @@ def read_foreign(path: str | os.PathLike[str]) -> Imported:
         with np.errstate(over="raise", divide="raise", invalid="raise"):
             reader_of(source)(source, made)
     except _core.Error:
+        refuse_missing(made, source)  # other errors may be due to that
         raise
     except limits.CONTRADICTIONS as error:
         kind = type(error).__name__
         raise _core.SceneError(f"{source}: contradicts itself: {kind}: {error!s:.200}") from None
+    refuse_missing(made, source)
     return made
 
 

@@ -54,10 +54,13 @@ def read_gltf(path: Path, made: Imported) -> None:
         raise _core.SceneError(f"{path}: this is no glTF 2.0 file: {error!s:.200}") from None
     if gltf is None or not str(getattr(gltf.asset, "version", "")).startswith("2"):
         raise _core.SceneError(f"{path}: this is no glTF 2.0 file")
+    buffers = Buffers(gltf, path)
     try:
         refuse_required(set(gltf.extensionsRequired or []) - EXTENSIONS)
-        Reader(gltf, path, made).read()
+        Reader(buffers, made).read()
     except (_core.SceneError, _core.FileError) as error:
+        if isinstance(error, _core.FileError):
+            made.missing |= dict.fromkeys(buffers.missing(), "")
         raise type(error)(f"{path}: {error}") from None
 
 
@@ -86,10 +89,10 @@ def parse(library: Any, content: bytes, binary: bool) -> Any:
 class Reader:
     """One file while it is read."""
 
-    def __init__(self, gltf: Any, path: Path, made: Imported):
-        self._gltf = gltf
+    def __init__(self, buffers: Buffers, made: Imported):
+        self._gltf = buffers.gltf
         self._made = made
-        self._buffers = Buffers(gltf, path)
+        self._buffers = buffers
         self._textures = Textures(self._buffers, made)
         self._materials: dict[tuple[int, bool], str] = {}
         self._lights: dict[tuple[int, bool], dict[str, Any]] = {}
