@@ -111,6 +111,16 @@ def test_the_angle_of_view_may_be_that_of_a_focal_length():
     assert angle == pytest.approx(38.18484115600586, rel=1e-6)
 
 
+def test_the_angle_of_view_is_that_of_the_whole_film_not_of_its_crop():
+    made = scene()
+    made["sensor"] |= {"fov": 40, "fov_axis": "y"}
+    made["sensor"]["film"] |= {"crop_width": 16, "crop_height": 32}
+    params = mlt.traverse(mlt.load_dict(made))
+    assert params["sensor.x_fov"] == pytest.approx(72.10477447509766, rel=1e-6)
+    params["sensor.film.size"] = [32, 32]
+    assert params["sensor.x_fov"] == pytest.approx(40)
+
+
 def test_vertices_are_flat_and_in_the_world():
     params = mlt.traverse(mlt.load_dict(scene()))
     expected = CORNERS @ SHEAR[:3, :3].T + SHEAR[:3, 3]

@@ -64,12 +64,14 @@ def meaning(name: str, known: Mapping[str, Any]) -> Meaning | None:
     return Meaning(plugin, parameter, names) if present else None
 
 
-def read(meant: Meaning, known: Mapping[str, Any], aspect: float) -> Any:
-    """The value of a parameter as Mitsuba has it; `aspect` is the image's width over its height."""
+def read(meant: Meaning, known: Mapping[str, Any], size: tuple[int, int]) -> Any:
+    """The value of a parameter as Mitsuba has it; `size` is that of the image."""
     plugin, parameter, names = meant
     values = [known[name] for name in names]
     if parameter == "x_fov":
-        return x_fov(*values, known[f"{plugin}.focal_length"], aspect)
+        sides = zip((f"{plugin}.film.width", f"{plugin}.film.height"), size, strict=True)
+        width, height = (known.get(name, pixels) for name, pixels in sides)
+        return x_fov(*values, known[f"{plugin}.focal_length"], width / height)
     if parameter == "shutter_open_time":
         return values[1] - values[0]
     if parameter == "crop_size":
@@ -97,7 +99,7 @@ def given(meant: Meaning, value: Any, known: Mapping[str, Any]) -> dict[str, Any
 
 
 def x_fov(fov: float | None, axis: str, focal_length: str, aspect: float) -> float:
-    """The horizontal angle of view in degrees."""
+    """The horizontal angle of view in degrees; `aspect` is a film's width over its height."""
     if fov is None:
         millimetres = float(focal_length.removesuffix("mm"))
         fov, axis = math.degrees(2 * math.atan(FILM_DIAGONAL / 2 / millimetres)), "diagonal"

@@ -34,8 +34,8 @@ class SceneParameters(MutableMapping[str, Any]):
 
     def __getitem__(self, name: str) -> Any:
         """Raises UsageError, which is a KeyError, for a name that the scene does not have."""
-        aspect = self.scene.width / self.scene.height
-        return mitsuba_names.read(self._meaning(name), self._values, aspect)
+        size = (self.scene.width, self.scene.height)
+        return mitsuba_names.read(self._meaning(name), self._values, size)
 
     def __setitem__(self, name: str, value: Any) -> None:
         """Raises UsageError for a name that the scene does not have."""

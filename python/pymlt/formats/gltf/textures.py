@@ -96,9 +96,10 @@ class Textures:
         first = values[0, 0].tolist()
         if (values == values[0, 0]).all():
             return rgb(first) if len(first) == 3 else first[0]
+        pixels = values.astype("f4")
         if len(first) == 3:
-            return self._bitmap(info, values)
-        return self._bitmap(info, values[..., 0]) | {"raw": True}
+            return self._bitmap(info, pixels)
+        return self._bitmap(info, pixels[..., 0]) | {"raw": True}
 
     def _texture(self, info: Any) -> Any:
         return at(self._gltf.textures, info.index, "texture")
