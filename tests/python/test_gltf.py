@@ -15,7 +15,7 @@ from pymlt.formats.gltf.glow import mean_radiance
 
 gl = pytest.importorskip("pygltflib", reason="needs pymlt[gltf]")
 
-from gltf_files import GltfFile, converted  # noqa: E402
+from gltf_files import CORNERS, GltfFile, converted  # noqa: E402
 
 T = mlt.Transform
 SIZE = (40, 30)
@@ -521,6 +521,40 @@ def test_compressed_meshes_are_refused_with_what_undoes_it(name):
     file.save("compressed.glb")
     with pytest.raises(mlt.SceneError, match=f"{name}.*gltf-transform copy"):
         mlt.load("compressed.glb")
+
+
+@pytest.mark.parametrize("fallback", [False, True])
+def test_meshes_that_are_also_compressed_are_read_where_they_are_not(fallback):
+    file = floor_file()
+    file.gltf.extensionsUsed = ["KHR_draco_mesh_compression"]
+    primitive = file.gltf.meshes[0].primitives[0]
+    primitive.extensions = {"KHR_draco_mesh_compression": {"bufferView": 0, "attributes": {}}}
+    if not fallback:
+        file.gltf.accessors[primitive.indices].bufferView = None
+        with pytest.raises(mlt.SceneError, match=r"a\.glb: needs KHR_draco.*gltf-transform copy"):
+            converted(file)
+        return
+    made = converted(file)
+    np.testing.assert_allclose(made.scene["node-0"]["vertices"], CORNERS)
+    assert not [text for text in made.warnings if "draco" in text]
+
+
+@pytest.mark.parametrize("fallback", [False, True])
+def test_buffers_that_stand_for_compressed_ones_are_read_if_they_hold_something(fallback):
+    file = floor_file()
+    file.gltf.extensionsUsed = ["EXT_meshopt_compression"]
+    file.save("a.gltf")
+    given = json.loads(Path("a.gltf").read_text())
+    buffer = given["buffers"][0]
+    buffer["extensions"] = {"EXT_meshopt_compression": {"fallback": True}}
+    if not fallback:
+        del buffer["uri"]
+    Path("a.gltf").write_text(json.dumps(given))
+    if fallback:
+        np.testing.assert_allclose(read_foreign("a.gltf").scene["node-0"]["vertices"], CORNERS)
+        return
+    with pytest.raises(mlt.SceneError, match=r"a\.gltf: needs EXT_meshopt.*gltf-transform copy"):
+        read_foreign("a.gltf")
 
 
 def test_files_that_contradict_themselves_are_refused():

@@ -17,7 +17,7 @@ import traceback
 
 from .. import _core, _interrupt
 from . import compare, convert, denoise, info, lab, listing, merge, race, render, view
-from .common import Parser, open_standard_streams, say
+from .common import Parser, names_leniency, open_standard_streams, say
 from .completion import SHELLS, PrintCompletion
 
 GROUPS = {
@@ -40,8 +40,7 @@ def main(arguments: list[str] | None = None) -> int:
     open_standard_streams()
     try:
         _interrupt.end()
-        args = make_parser().parse_args(arguments)
-        return args.command(args)
+        return run(make_parser().parse_args(arguments))
     except (_core.SceneError, _core.UsageError, _core.FileError) as error:
         return fail(2, error)
     except (_core.Error, MemoryError) as error:
@@ -54,6 +53,13 @@ def main(arguments: list[str] | None = None) -> int:
         if sys.stderr is not None:
             traceback.print_exc()
         return 3
+
+
+def run(args: argparse.Namespace) -> int:
+    try:
+        return args.command(args)
+    except _core.SceneError as error:
+        raise names_leniency(error, args) from None
 
 
 def fail(code: int, error: BaseException) -> int:

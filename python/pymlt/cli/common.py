@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import contextlib
 import os
+import re
 import sys
 from collections.abc import Callable
 
@@ -89,6 +90,24 @@ def reader(read: Callable[[str], object]) -> Callable[[str], object]:
             raise argparse.ArgumentTypeError(str(error)) from None
 
     return call
+
+
+#: What --lenient leaves out of a file, which no error takes for a misspelling; all that is refused.
+LEFT_OUT = re.compile(
+    r"unknown (parameter '[^']*' for \w+|integrator) '[^']*'; valid are"
+    r"|: integrator '[^']*' is not supported"
+)
+REFUSED = re.compile(r"\bunknown \w+ '|' is not supported")
+
+
+def names_leniency(error: _core.SceneError, args) -> _core.SceneError:
+    """The same error, which also names --lenient if that would leave out all that is wrong."""
+    text = str(error)
+    asked = getattr(args, "lenient", True) or args.strict
+    left_out = sum(1 for _ in LEFT_OUT.finditer(text))
+    if asked or not left_out or left_out < len(REFUSED.findall(text)):
+        return error
+    return type(error)(f"{text}; --lenient leaves out what is unknown here")
 
 
 def load_scene(args) -> _core.Scene:

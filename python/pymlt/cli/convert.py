@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from ..formats.files import EXTENSIONS, convert
+from ..formats.files import convert
+from ..scenes.kinds import EXTENSIONS
 from .common import say, warn
 
 HELP = "Write a scene of glTF or pbrt-v4, or a mesh, as Mitsuba XML, meshes and images beside it."

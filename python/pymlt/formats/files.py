@@ -10,19 +10,12 @@ from typing import TYPE_CHECKING
 
 from .. import _core
 from ..scenes.arrays import with_bytes
+from ..scenes.kinds import EXTENSIONS, MESHES, check_kind, is_foreign
 from ..scenes.loading import load_dict
 from . import limits
 
 if TYPE_CHECKING:
     from .imported import Imported
-
-MESHES = (".ply", ".obj", ".stl", ".ply.gz", ".obj.gz")
-EXTENSIONS = (".gltf", ".glb", ".pbrt", *MESHES)
-
-
-def is_foreign(path: str | os.PathLike[str]) -> bool:
-    """Whether a file of this name is a scene of another program, or a mesh alone."""
-    return os.fspath(path).lower().endswith(EXTENSIONS)
 
 
 def read_foreign(path: str | os.PathLike[str]) -> Imported:
@@ -30,6 +23,7 @@ def read_foreign(path: str | os.PathLike[str]) -> Imported:
     import numpy as np
 
     from .imported import Imported
+    from .missing import refuse_missing
 
     source = Path(os.fspath(path))
     made = Imported()
@@ -37,10 +31,12 @@ def read_foreign(path: str | os.PathLike[str]) -> Imported:
         with np.errstate(over="raise", divide="raise", invalid="raise"):
             reader_of(source)(source, made)
     except _core.Error:
+        refuse_missing(made, source)  # other errors may be due to that
         raise
     except limits.CONTRADICTIONS as error:
         kind = type(error).__name__
         raise _core.SceneError(f"{source}: contradicts itself: {kind}: {error!s:.200}") from None
+    refuse_missing(made, source)
     return made
 
 
@@ -90,6 +86,7 @@ def convert(path: str | os.PathLike[str] | dict, output: str | os.PathLike[str])
 
     target = Path(os.fspath(output))
     if not isinstance(path, dict) and not is_foreign(path):
+        check_kind(path)
         raise _core.UsageError(
             f"{os.fspath(path)}: cannot be converted; valid are: {', '.join(EXTENSIONS)}"
         )

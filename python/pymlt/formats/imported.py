@@ -22,7 +22,8 @@ class Imported:
     _warned: dict[str, str] = field(default_factory=dict)  #: what was said, and of which place
     _memory: int = 0
     place: str = ""  #: file:line of what is being read, if the format has lines
-    _places: dict[str, str] = field(default_factory=dict)  #: by name
+    places: dict[str, str] = field(default_factory=dict)  #: of plug-ins, by name
+    missing: dict[str, str] = field(default_factory=dict)  #: that a file is, and where it is named
 
     def warn(self, text: str, place: str = "") -> None:
         """Names something that has no counterpart, once: where (as file:line) it is met first."""
@@ -52,14 +53,14 @@ class Imported:
     def note(self, name: str) -> None:
         """What has this name stands where the reader is."""
         if self.place:
-            self._places[name] = self.place
+            self.places[name] = self.place
 
     def placed_error(self, error: _core.Error, source: str) -> _core.Error:
         """One about the scene dict, such as "scene['sphere']: ...", as one about the file."""
         text = str(error)
         where = re.match(r"scene((?:\['[^']*'\])+): ", text)
         names = re.findall(r"\['([^']*)'\]", where[1]) if where else []
-        places = [self._places[name] for name in reversed(names) if self._places.get(name)]
+        places = [self.places[name] for name in reversed(names) if self.places.get(name)]
         return type(error)(f"{places[0]}: {text[where.end() :]}" if places else f"{source}: {text}")
 
     def add(self, wanted: str, plugin: dict[str, Any]) -> str:

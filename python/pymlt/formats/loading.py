@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 
 from .. import _core, scenes
+from ..scenes.kinds import check_kind, is_foreign
 from ..scenes.loading import (
     define_texts,
     filter_name,
@@ -14,7 +15,7 @@ from ..scenes.loading import (
     sensor_index,
 )
 from ..scenes.traversal import SceneParameters
-from .files import is_foreign, load_foreign, warn_all
+from .files import load_foreign, warn_all
 
 SceneLike = _core.Scene | SceneParameters | dict | str | os.PathLike
 
@@ -30,7 +31,7 @@ def load(
         pbrt-v4.
     .ply, .obj, .stl, .ply.gz, .obj.gz
         one mesh, in which y is up, with a grey material, light, and a camera that it fits.
-    anything else that exists
+    anything else that exists, but files of other programs (.blend, .fbx, ...)
         Mitsuba XML; see `load_file` for `lenient` and `defines`.
     the name of a built-in scene ("ring", "door-ajar"; see `pymlt.scenes`)
         that scene; `defines` are its parameters.
@@ -54,6 +55,7 @@ def load_with_warnings(
     text = os.fspath(path)
     if not os.path.exists(text):
         return load_built_in(existing_name(text), define_texts(defines), *asked), []
+    check_kind(text)
     if not is_foreign(text):
         return _core.load_file(text, define_texts(defines), size, lenient, sensor, filter), []
     if defines or lenient is not None:

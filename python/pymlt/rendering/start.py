@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING, Any
 from .. import _core
 from .._core import Scene
 from ..algorithms.integrator import IntegratorLike, as_integrator
-from ..formats.files import is_foreign, load_foreign
+from ..formats.files import load_foreign
 from ..formats.loading import SceneLike, as_scene
+from ..scenes.kinds import is_foreign
 from ..scenes.loading import load_built_in
 from .bands import Bands, add_bands, check_spectral, finish, parse_bands, share_of_time
 from .job import Job

@@ -8,6 +8,8 @@ import os
 
 from .. import _core, scenes
 from .arrays import with_bytes
+from .kinds import check_is_mitsuba
+from .parts import check_is_scene
 
 
 def load_file(
@@ -23,6 +25,7 @@ def load_file(
     place of the film's own. Raises FileError for files that cannot be read, SceneError (with file
     and line) for what is wrong in them, UsageError for the arguments.
     """
+    check_is_mitsuba(path)
     return _core.load_file(
         os.fspath(path),
         define_texts(defines),
@@ -60,6 +63,7 @@ def load_dict(scene: dict, /, *, size=None, sensor=None, filter=None) -> _core.S
     """
     if not isinstance(scene, dict):
         raise _core.UsageError(f"load_dict needs a dict, not a {type(scene).__name__}")
+    check_is_scene(scene)
     return _core.load_dict(
         with_bytes(scene), image_size(size), sensor_index(sensor), filter_name(filter)
     )

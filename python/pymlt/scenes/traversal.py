@@ -6,11 +6,22 @@ from collections.abc import Iterator, MutableMapping
 from typing import Any
 
 from .. import _core
+from . import mitsuba_names
+from .mitsuba_names import Meaning, meaning
+from .nearest import nearest_names
+
+
+class UnknownParameterError(_core.UsageError, KeyError):
+    """A name that a scene does not have."""
+
+    __str__ = ValueError.__str__  # KeyError would quote its text
 
 
 class SceneParameters(MutableMapping[str, Any]):
     """Names and values of what can be changed in a scene; see `Scene.parameters`.
 
+    The names that Mitsuba 3 has for them are understood, too, with its form of the values:
+    `ball.bsdf.reflectance.value`, `sensor.film.size`, `mesh.vertex_positions`.
     `update` makes the scene of the changed values, which is `scene` from then on; the scene that
     was traversed stays as it was. Where a scene is expected, as in `render`, this stands for
     `scene`.
@@ -22,14 +33,25 @@ class SceneParameters(MutableMapping[str, Any]):
         self._changes: dict[str, Any] = {}
 
     def __getitem__(self, name: str) -> Any:
-        return self._values[name]
+        """Raises UsageError, which is a KeyError, for a name that the scene does not have."""
+        size = (self.scene.width, self.scene.height)
+        return mitsuba_names.read(self._meaning(name), self._values, size)
 
     def __setitem__(self, name: str, value: Any) -> None:
         """Raises UsageError for a name that the scene does not have."""
-        if name not in self._values:
-            near = _core.suggestion(str(name), list(self._values))
-            raise _core.UsageError(f"the scene has no parameter {name!r}{near}")
-        self._values[name] = self._changes[name] = value
+        own = mitsuba_names.given(self._meaning(name), value, self._values)
+        self._values |= own
+        self._changes |= own
+
+    def __contains__(self, name: object) -> bool:
+        return isinstance(name, str) and meaning(name, self._values) is not None
+
+    def _meaning(self, name: str) -> Meaning:
+        found = meaning(str(name), self._values)
+        if found is None:
+            near = nearest_names(str(name), list(self._values))
+            raise UnknownParameterError(f"the scene has no parameter {name!r}{near}")
+        return found
 
     def __delitem__(self, name: str) -> None:
         raise _core.UsageError(f"{name}: a parameter cannot be taken from a scene")

@@ -9,7 +9,9 @@ from urllib.parse import unquote
 
 from ... import _core
 from ..limits import read_file
+from ..missing import ABSENT, is_missing
 from .checked import at
+from .compression import check_buffer
 
 if TYPE_CHECKING:
     import numpy as np
@@ -76,9 +78,10 @@ class Buffers:
         """The bytes of a buffer view."""
         view = at(self.gltf.bufferViews, index, "bufferView")
         if view.buffer not in self._buffers:
-            uri = at(self.gltf.buffers, view.buffer, "buffer").uri
+            given = at(self.gltf.buffers, view.buffer, "buffer")
+            check_buffer(given)
             blob = self.gltf.binary_blob()
-            self._buffers[view.buffer] = self.content(uri) if uri else blob or b""
+            self._buffers[view.buffer] = self.content(given.uri) if given.uri else blob or b""
         buffer, start = self._buffers[view.buffer], view.byteOffset or 0
         if start + view.byteLength > len(buffer):
             raise _core.SceneError(f"bufferView {index} reaches beyond its buffer")
@@ -88,7 +91,16 @@ class Buffers:
         """The bytes that a URI means: base64 data, or a file beside the scene."""
         if uri.startswith("data:"):
             return base64.b64decode(uri.partition(",")[2])
-        return read_file(self.path.parent / unquote(uri))
+        return read_file(self._file(uri))
+
+    def _file(self, uri: str) -> Path:
+        return self.path.parent / unquote(uri)
+
+    def missing(self) -> list[str]:
+        """That files are not there, of all that the scene names."""
+        uris = [given.uri for given in (*self.gltf.buffers, *self.gltf.images) if given.uri]
+        files = [self._file(uri) for uri in uris if not uri.startswith("data:")]
+        return [f"{file}: {ABSENT}" for file in files if is_missing(file)]
 
     def image(self, index: int) -> bytes:
         """The file of an image: PNG or JPEG."""

@@ -65,6 +65,12 @@ def at(items: Sequence[Item] | None, index: Any, kind: str) -> Item:
     return items[index]
 
 
+def attributes_of(given: Any) -> dict[str, int]:
+    """The accessors of the attributes that are there, of a primitive or of a morph target."""
+    named = given if isinstance(given, dict) else vars(given)
+    return {name: index for name, index in named.items() if index is not None}
+
+
 def warn_of_others(names: Iterable[str] | None, read: set[str], made: Imported) -> None:
     """Warns of the extensions that are not `read`, among the names that a file gives."""
     for name in sorted(set(names or ()) - read):

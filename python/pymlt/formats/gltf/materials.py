@@ -11,18 +11,19 @@ from typing import Any
 from ..imported import Imported, rgb
 from .checked import number, numbers, warn_of_others
 from .dielectrics import IOR, SHEEN, SPECULAR, index_of_refraction, sheen
+from .specular_glossiness import SPECULAR_GLOSSINESS, diffuse, specular_glossy
 from .textures import Textures
 
-UNLIT = "KHR_materials_unlit"
-KNOWN = {
+UNLIT, EMISSIVE_STRENGTH = "KHR_materials_unlit", "KHR_materials_emissive_strength"
+#: Those that go with specular colours and glossiness.
+OF_ANY_MODEL = {UNLIT, EMISSIVE_STRENGTH, SPECULAR_GLOSSINESS}
+KNOWN = OF_ANY_MODEL | {
     "KHR_materials_clearcoat",
     "KHR_materials_dispersion",
-    "KHR_materials_emissive_strength",
     IOR,
     SHEEN,
     SPECULAR,
     "KHR_materials_transmission",
-    UNLIT,
     "KHR_materials_volume",
 }
 
@@ -36,36 +37,77 @@ DARKEST = 1e-6  #: of attenuation colours, whose logarithm is taken
 def bsdf(material: Any, textures: Textures, made: Imported, *, of_vertices: bool) -> dict[str, Any]:
     """The BSDF of a material, whose base colour may be multiplied by colours of vertices."""
     extensions = material.extensions or {}
-    warn_of_others(extensions, KNOWN, made)
-    for name in UNTEXTURED:
-        for key in sorted(extensions.get(name, {})):
-            if key.endswith("Texture"):
-                made.warn(f"{key} ({name}) is left out")
-    if material.occlusionTexture is not None:
-        made.warn("occlusion textures are left out: what they stand for is rendered")
-    if UNLIT in extensions:
+    glossy = glossy_part(material)
+    warn_of_others(extensions, KNOWN if glossy is None else OF_ANY_MODEL, made)
+    warn_of_textures(material, made)
+    if is_unlit(material):
         return masked({"type": "diffuse", "reflectance": rgb([0, 0, 0])}, material, textures)
-    surface = principled(material, extensions, textures)
-    surface |= {"eta": index_of_refraction(extensions, textures, made)}
-    surface |= sheen(extensions, textures, made)
-    surface["base_color"] = base_color(material.pbrMetallicRoughness, textures, of_vertices)
-    transmits = "spec_trans" in surface
-    if dispersion := _dispersion(extensions):
-        surface = dispersive(surface, dispersion, made)
+    if glossy is None:
+        surface = metallic_rough(material, textures, made, of_vertices)
+    else:
+        surface = specular_glossy(glossy, textures, made, of_vertices=of_vertices)
     if material.normalTexture is not None:
-        if (material.normalTexture.scale or 1) != 1:
-            made.warn("the scale of normal textures is left out")
         normals = textures.raw(material.normalTexture)
         surface = {"type": "normalmap", "normalmap": normals, "bsdf": surface}
-    if not transmits:
+    if not transmission(material):
         surface = {"type": "twosided", "bsdf": surface}
     return masked(surface, material, textures)
 
 
-def base_color(pbr: Any, textures: Textures, of_vertices: bool) -> dict[str, Any]:
+def warn_of_textures(material: Any, made: Imported) -> None:
+    """Names what of a material's textures is not read."""
+    for name in UNTEXTURED:
+        for key in sorted((material.extensions or {}).get(name, {})):
+            if key.endswith("Texture"):
+                made.warn(f"{key} ({name}) is left out")
+    if material.occlusionTexture is not None:
+        made.warn("occlusion textures are left out: what they stand for is rendered")
+    if material.normalTexture is not None and (material.normalTexture.scale or 1) != 1:
+        made.warn("the scale of normal textures is left out")
+
+
+def glossy_part(material: Any) -> dict[str, Any] | None:
+    """The specular colours and glossiness that take the place of metal and roughness, if any."""
+    if is_unlit(material):
+        return None
+    return (material.extensions or {}).get(SPECULAR_GLOSSINESS)
+
+
+def transmission(material: Any) -> float:
+    """How much of what is not reflected goes through."""
+    if glossy_part(material) is not None:
+        return 0.0
+    given = (material.extensions or {}).get("KHR_materials_transmission", {})
+    return number(given.get("transmissionFactor") or 0, "transmissionFactor")
+
+
+def base(material: Any) -> tuple[list[float], Any]:
+    """The factor of the colour below all reflection, with alpha, and its texture."""
+    glossy, pbr = glossy_part(material), material.pbrMetallicRoughness
+    if glossy is not None:
+        return diffuse(glossy)
+    if pbr is None:
+        return [1, 1, 1, 1], None
+    return list(pbr.baseColorFactor or [1, 1, 1, 1]), pbr.baseColorTexture
+
+
+def base_color(material: Any, textures: Textures, of_vertices: bool) -> dict[str, Any]:
     """A factor times a texture or the colours of vertices."""
-    factor = list(pbr.baseColorFactor or [1, 1, 1, 1]) if pbr else [1, 1, 1, 1]
-    return textures.colour(pbr.baseColorTexture if pbr else None, factor, of_vertices=of_vertices)
+    factor, info = base(material)
+    return textures.colour(info, factor, of_vertices=of_vertices)
+
+
+def metallic_rough(
+    material: Any, textures: Textures, made: Imported, of_vertices: bool
+) -> dict[str, Any]:
+    """The BSDF of what glTF itself gives a material, and of the extensions for that."""
+    extensions = material.extensions or {}
+    surface = principled(material, extensions, textures)
+    surface |= {"eta": index_of_refraction(extensions, textures, made)}
+    surface |= sheen(extensions, textures, made)
+    surface["base_color"] = base_color(material, textures, of_vertices)
+    dispersion = _dispersion(extensions)
+    return dispersive(surface, dispersion, made) if dispersion else surface
 
 
 def principled(material: Any, extensions: dict[str, Any], textures: Textures) -> dict[str, Any]:
@@ -75,8 +117,8 @@ def principled(material: Any, extensions: dict[str, Any], textures: Textures) ->
     packed = pbr.metallicRoughnessTexture if pbr else None
     given["roughness"] = textures.channel(packed, 1, _number(pbr, "roughnessFactor"))
     given["metallic"] = textures.channel(packed, 2, _number(pbr, "metallicFactor"))
-    if transmission := extensions.get("KHR_materials_transmission", {}).get("transmissionFactor"):
-        given["spec_trans"] = number(transmission, "transmissionFactor")
+    if transmitted := transmission(material):
+        given["spec_trans"] = transmitted
     if coat := extensions.get("KHR_materials_clearcoat", {}).get("clearcoatFactor"):
         given["clearcoat"] = number(coat, "clearcoatFactor")
         roughness = extensions["KHR_materials_clearcoat"].get("clearcoatRoughnessFactor", 0)
@@ -115,11 +157,9 @@ def interior(material: Any) -> dict[str, Any] | None:
     """What is in a closed mesh (KHR_materials_volume): a medium that absorbs, so that white light
     has the attenuation colour after the attenuation distance. The mesh itself says how thick it is.
     """
-    extensions = material.extensions or {}
-    volume = extensions.get("KHR_materials_volume", {})
+    volume = (material.extensions or {}).get("KHR_materials_volume", {})
     given = {name: number(volume.get(name, 0), name) for name in ("thicknessFactor", DISTANCE)}
-    transmits = extensions.get("KHR_materials_transmission", {}).get("transmissionFactor")
-    if not transmits or min(given.values()) <= 0:
+    if not transmission(material) or min(given.values()) <= 0:
         return None
     colour = numbers(volume.get("attenuationColor", [1, 1, 1]), 3, "attenuationColor")
     absorbed = [-math.log(min(max(c, DARKEST), 1)) / given[DISTANCE] for c in colour]
@@ -130,12 +170,11 @@ def masked(surface: dict[str, Any], material: Any, textures: Textures) -> dict[s
     """With the transparency of its alpha."""
     if (material.alphaMode or "OPAQUE") == "OPAQUE":
         return surface
-    pbr = material.pbrMetallicRoughness
-    factor = (pbr.baseColorFactor or [1, 1, 1, 1])[3] if pbr else 1
+    factor, info = base(material)
     cutoff = None
     if material.alphaMode == "MASK":
         cutoff = 0.5 if material.alphaCutoff is None else material.alphaCutoff
-    opacity = textures.opacity(pbr.baseColorTexture if pbr else None, factor, cutoff)
+    opacity = textures.opacity(info, factor[3], cutoff)
     return {"type": "mask", "opacity": opacity, "bsdf": surface}
 
 
@@ -150,10 +189,9 @@ def emission(
         made.warn("unlit materials are seen from the side of their normals alone, and light others")
         if (material.alphaMode or "OPAQUE") != "OPAQUE":
             made.warn("unlit materials that are transparent are as bright as if they were opaque")
-        colour = base_color(material.pbrMetallicRoughness, textures, of_vertices)
-        return {"type": "area", "radiance": colour}
+        return {"type": "area", "radiance": base_color(material, textures, of_vertices)}
     factor = list(material.emissiveFactor or [0, 0, 0])
-    extension = (material.extensions or {}).get("KHR_materials_emissive_strength", {})
+    extension = (material.extensions or {}).get(EMISSIVE_STRENGTH, {})
     strength = number(extension.get("emissiveStrength", 1), "emissiveStrength")
     if not any(factor) or not strength:
         return None

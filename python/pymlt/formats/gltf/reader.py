@@ -14,6 +14,8 @@ from ..limits import TEXT, read_file
 from ..views import complete
 from .buffers import Buffers
 from .checked import at, check_types, warn_of_others
+from .compression import COMPRESSIONS, check_uncompressed, refuse_required
+from .deformation import joint_matrices, morphed, skinned
 from .glow import too_dim
 from .lights import light, sensor
 from .materials import KNOWN as MATERIALS
@@ -26,11 +28,11 @@ from .uv_transform import UV_TRANSFORM
 if TYPE_CHECKING:
     import numpy as np
 
+    from ..ply import Mesh
+
 LIGHTS = "KHR_lights_punctual"
 NODES = {LIGHTS, INSTANCING}
 EXTENSIONS = MATERIALS | NODES | {"KHR_mesh_quantization", UV_TRANSFORM}
-COMPRESSIONS = {"KHR_draco_mesh_compression", "EXT_meshopt_compression"}
-COMPRESSED = ": export it without compression, or run `gltf-transform copy IN.glb OUT.glb`"
 
 
 def read_gltf(path: Path, made: Imported) -> None:
@@ -52,12 +54,13 @@ def read_gltf(path: Path, made: Imported) -> None:
         raise _core.SceneError(f"{path}: this is no glTF 2.0 file: {error!s:.200}") from None
     if gltf is None or not str(getattr(gltf.asset, "version", "")).startswith("2"):
         raise _core.SceneError(f"{path}: this is no glTF 2.0 file")
+    buffers = Buffers(gltf, path)
     try:
-        if unknown := sorted(set(gltf.extensionsRequired or []) - EXTENSIONS):
-            advice = COMPRESSED if COMPRESSIONS.intersection(unknown) else ""
-            raise _core.SceneError(f"needs {', '.join(unknown)}, which is not supported{advice}")
-        Reader(gltf, path, made).read()
+        refuse_required(set(gltf.extensionsRequired or []) - EXTENSIONS)
+        Reader(buffers, made).read()
     except (_core.SceneError, _core.FileError) as error:
+        if isinstance(error, _core.FileError):
+            made.missing |= dict.fromkeys(buffers.missing(), "")
         raise type(error)(f"{path}: {error}") from None
 
 
@@ -67,8 +70,14 @@ def parse(library: Any, content: bytes, binary: bool) -> Any:
     class Checked(library.GLTF2):  # type: ignore[misc]
         @classmethod
         def from_json(cls, text: str, **options: Any) -> Any:
-            check_types(json.loads(text), library.GLTF2, "glTF")
-            return super().from_json(text, **options)
+            given = json.loads(text)
+            check_types(given, library.GLTF2, "glTF")
+            read = super().from_json(text, **options)
+            for index, node in enumerate(given.get("nodes") or []):
+                weights = node.get("weights")  # which pygltflib leaves out
+                check_types(weights, list[float], f"glTF.nodes[{index}].weights")
+                read.nodes[index].weights = weights
+            return read
 
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
@@ -80,38 +89,44 @@ def parse(library: Any, content: bytes, binary: bool) -> Any:
 class Reader:
     """One file while it is read."""
 
-    def __init__(self, gltf: Any, path: Path, made: Imported):
-        self._gltf = gltf
+    def __init__(self, buffers: Buffers, made: Imported):
+        self._gltf = buffers.gltf
         self._made = made
-        self._buffers = Buffers(gltf, path)
+        self._buffers = buffers
         self._textures = Textures(self._buffers, made)
         self._materials: dict[tuple[int, bool], str] = {}
         self._lights: dict[tuple[int, bool], dict[str, Any]] = {}
-        self._seen: set[int] = set()  #: nodes
-        self._meshes: dict[tuple[int, int], dict[str, Any]] = {}
+        self._places: dict[int, np.ndarray] = {}  #: of nodes in the world, in their order
+        self._meshes: dict[tuple[Any, ...], dict[str, Any]] = {}
 
     def read(self) -> None:
         gltf = self._gltf
-        warn_of_others(gltf.extensionsUsed, EXTENSIONS, self._made)
-        for what in ("animations", "skins"):
-            if getattr(gltf, what):
-                self._made.warn(f"{what} are left out")
+        warn_of_others(gltf.extensionsUsed, EXTENSIONS | COMPRESSIONS, self._made)
+        if gltf.animations:
+            self._made.warn(
+                "animations are left out: nodes, skins and morph targets have the pose that "
+                "they have without them"
+            )
+        self._place_nodes()
+        for index, to_world in self._places.items():
+            node = gltf.nodes[index]
+            self._node(node, node.name or f"node-{index}", to_world)
+        complete(self._made, dim=too_dim(self._made.scene, self._unlit()))
+
+    def _place_nodes(self) -> None:
         import numpy as np
 
         # Of those that are still to be read, the next one is the last.
         left = [(root, np.eye(4)) for root in reversed(self._roots())]
         while left:
             index, parent = left.pop()
-            node = at(gltf.nodes, index, "node")
-            if index in self._seen:
+            node = at(self._gltf.nodes, index, "node")
+            if index in self._places:
                 raise _core.SceneError(
                     f"node {index} has two parents or is below itself; nodes should form trees"
                 )
-            self._seen.add(index)
-            to_world = parent @ local_matrix(node)
-            self._node(node, node.name or f"node-{index}", to_world)
+            self._places[index] = to_world = parent @ local_matrix(node)
             left += [(child, to_world) for child in reversed(node.children or [])]
-        complete(self._made, dim=too_dim(self._made.scene, self._unlit()))
 
     def _roots(self) -> list[int]:
         """Those of the scene that is shown, else of all nodes."""
@@ -135,8 +150,15 @@ class Reader:
             self._made.add(given.get("name") or name, light(given, to_world, self._made))
 
     def _meshes_of(self, node: Any, name: str, to_world: np.ndarray) -> None:
-        """Adds the mesh of a node, or its copies: as instances unless they emit or are filled."""
-        shapes = self._shapes(node.mesh)
+        """Adds the mesh of a node, or its copies: as instances unless they emit or are filled.
+
+        A skin places its mesh in the world, wherever the node is.
+        """
+        import numpy as np
+
+        shapes = self._shapes(node)
+        if node.skin is not None:
+            to_world = np.eye(4)
         copies = instances(node, self._buffers, self._made)
         if copies is not None and len(copies) > 1:
             members = [shape for shape in shapes if not {"emitter", "interior"} & shape.keys()]
@@ -149,26 +171,39 @@ class Reader:
             for shape in shapes:
                 self._made.add(name, shape | {"to_world": placed})
 
-    def _shapes(self, index: int) -> list[dict[str, Any]]:
-        """The primitives of a mesh in its own frame."""
-        mesh = at(self._gltf.meshes, index, "mesh")
+    def _shapes(self, node: Any) -> list[dict[str, Any]]:
+        """The primitives of a node's mesh in its own frame, or in the world if it has a skin."""
+        mesh = at(self._gltf.meshes, node.mesh, "mesh")
+        weights = tuple(node.weights or mesh.weights or ())
         shapes = []
         for number, primitive in enumerate(mesh.primitives):
-            warn_of_others(primitive.extensions, set(), self._made)
-            if primitive.targets:
-                self._made.warn("morph targets are left out")
-            key = (index, number)
+            warn_of_others(primitive.extensions, COMPRESSIONS, self._made)
+            key = (node.mesh, number, node.skin, weights)
             if key not in self._meshes:
-                triangles = triangle_mesh(primitive, self._buffers, self._made)
+                triangles = self._triangles(primitive, node.skin, weights)
                 if triangles is None:
                     continue
-                wanted = mesh.name or f"mesh-{index}"
+                wanted = mesh.name or f"mesh-{node.mesh}"
                 self._meshes[key] = self._made.mesh(wanted, triangles)
             shape = self._meshes[key] | {"bsdf": self._bsdf(primitive)}
             if primitive.material is not None:
                 shape |= self._light_of(primitive)
             shapes.append(shape)
         return shapes
+
+    def _triangles(
+        self, primitive: Any, skin: int | None, weights: tuple[float, ...]
+    ) -> Mesh | None:
+        """A primitive as its morph targets and its skin deform it; None if it has no triangles."""
+        check_uncompressed(primitive, self._gltf)
+        mesh = triangle_mesh(primitive, self._buffers, self._made)
+        if mesh is not None and primitive.targets:
+            mesh = morphed(mesh, primitive.targets, weights, self._buffers, self._made)
+        if mesh is not None and skin is not None:
+            given = at(self._gltf.skins, skin, "skin")
+            joints = joint_matrices(given, self._places, self._buffers)
+            mesh = skinned(mesh, primitive.attributes, joints, self._buffers)
+        return mesh
 
     def _light_of(self, primitive: Any) -> dict[str, Any]:
         """What a shape emits and what is in it, the same for all shapes of one material."""

@@ -75,6 +75,32 @@ class Textures:
             return float(alpha)
         return self._bitmap(info, alpha) | {"raw": True}
 
+    def linear(self, info: Any) -> np.ndarray:
+        """Linear red, green and blue with alpha: (height, width, 4), a white pixel without image.
+
+        Alpha, which is not encoded, stays as it is.
+        """
+        import numpy as np
+
+        if info is None:
+            return np.ones((1, 1, 4))
+        image = decoded(self._image(info), self._name(info))
+        colours, alpha = split_alpha(image)
+        rgba = np.ones((*image.shape[:2], 4), image.dtype)
+        rgba[..., :3] = colours
+        rgba[..., 3:] = alpha if alpha.size else 1
+        return rgba
+
+    def made_of(self, values: np.ndarray, info: Any) -> Any:
+        """Linear colours, or numbers, of the pixels of an image; one alone if all are the same."""
+        first = values[0, 0].tolist()
+        if (values == values[0, 0]).all():
+            return rgb(first) if len(first) == 3 else first[0]
+        pixels = values.astype("f4")
+        if len(first) == 3:
+            return self._bitmap(info, pixels)
+        return self._bitmap(info, pixels[..., 0]) | {"raw": True}
+
     def _texture(self, info: Any) -> Any:
         return at(self._gltf.textures, info.index, "texture")
 
@@ -86,8 +112,11 @@ class Textures:
         return self._images[index]
 
     def _samples(self, info: Any) -> np.ndarray:
-        name = f"{self._buffers.path}: image {self._texture(info).source}"
-        return stored_samples(self._image(info), name)
+        return stored_samples(self._image(info), self._name(info))
+
+    def _name(self, info: Any) -> str:
+        """The image in errors."""
+        return f"{self._buffers.path}: image {self._texture(info).source}"
 
     def _bitmap(self, info: Any, data: bytes | np.ndarray) -> dict[str, Any]:
         warn_of_others(info.extensions, {UV_TRANSFORM}, self._made)
@@ -112,10 +141,15 @@ def stored_samples(content: bytes, name: str) -> np.ndarray:
     """The samples of an integer format as they are stored, 0 to 1: (height, width, channels)."""
     import numpy as np
 
+    colours, alpha = split_alpha(decoded(content, name))
+    return np.concatenate([encode_srgb(colours), alpha], axis=2)
+
+
+def decoded(content: bytes, name: str) -> np.ndarray:
+    """The linear samples of an image that is to be changed. Raises FileError if it is too large."""
     image = _core.decode_image(content, name)
     check_pixels(image, name)
-    colours, alpha = split_alpha(image)
-    return np.concatenate([encode_srgb(colours), alpha], axis=2)
+    return image
 
 
 def mean_colour(texture: Any) -> np.ndarray:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from ... import _core
 from .. import limits
 from ..imported import Imported
+from ..missing import ABSENT
 from ..views import complete
 from . import views
 from .area_lights import area_light
@@ -76,6 +77,9 @@ class Reader:
             try:
                 self._directive(directive)
             except (_core.SceneError, _core.FileError) as error:
+                if str(error).endswith(ABSENT):
+                    self._made.missing.setdefault(str(error), directive.place)
+                    continue
                 if re.match(r".*:\d+: ", str(error)):
                     raise
                 raise type(error)(f"{directive.place}: {error}") from None
