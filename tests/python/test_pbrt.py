@@ -886,27 +886,3 @@ def test_a_grid_of_colours_has_their_sum_and_quotient():
 def test_mistakes_in_media_are_named(text, message):
     with pytest.raises(mlt.SceneError, match=message):
         read(VIEW, text)
-
-
-# ---- pbrt-v3 -------------------------------------------------------------------------------------
-
-OF_V3 = {
-    "film": 'Film "image" "integer xresolution" 40\n',
-    "material": 'WorldBegin\nMaterial "matte"\n',
-    "named": 'WorldBegin\nMakeNamedMaterial "a" "string type" "uber"\n',
-    "lamp": 'WorldBegin\nLightSource "point" "color I" [ 1 1 1 ]\n',
-}
-
-
-@pytest.mark.parametrize("name", OF_V3)
-def test_a_file_of_pbrt_v3_says_so_and_where(name):
-    made = read_foreign(written(OF_V3[name]))
-    said = [text for text in made.placed_warnings("a.pbrt") if "pbrt-v3" in text]
-    assert len(said) == 1
-    assert f"a.pbrt:{OF_V3[name].count(chr(10))}: " in said[0]
-    assert "pbrt --upgrade" in said[0]
-
-
-def test_a_file_of_pbrt_v4_does_not():
-    made = read_foreign(written(VIEW, FLOOR, LAMP))
-    assert not [text for text in made.warnings if "pbrt-v3" in text]

@@ -14,6 +14,7 @@ from .. import limits
 PATTERN = re.compile(r'\s+|#[^\n]*|"((?:[^"\\\n]++|\\.)*+)"|([\[\]])|([^\s"\[\]#]+)|(.)')
 NUMBERS = {"integer": 1, "float": 1, "point2": 2, "vector2": 2, "point3": 3, "vector3": 3}
 NUMBERS |= {"normal3": 3, "point": 3, "vector": 3, "normal": 3, "rgb": 3, "blackbody": 1}
+NUMBERS |= {"color": 3, "xyz": 3}  #: of pbrt-v3
 
 
 class Token(NamedTuple):
@@ -125,29 +126,22 @@ class Words:
 
     def parameters(self) -> dict[str, Parameter]:
         """All that follows of the kind `"float radius" [ 1 ]`, by name."""
-        found: dict[str, Parameter] = {}
+        return {
+            name: _parameter(kind, declared, values)
+            for declared, kind, name, values in self.declarations()
+        }
+
+    def declarations(self) -> Iterator[tuple[Token, str, str, Iterator[Token]]]:
+        """The same, as words: the declaration, its type and its name, and the values."""
         while (token := self.peek()) is not None and token.quoted:
             self.take()
             kind, _, name = token.text.partition(" ")
             if not name.strip():
                 raise token.error(f"{token.text!r} should be a type and a name")
-            found[name.strip()] = self._parameter(kind, token)
-        return found
-
-    def _parameter(self, kind: str, declared: Token) -> Parameter:
-        values: list[Any] = []
-        numeric = kind in NUMBERS
-        for token in self._list(declared):
-            numeric = numeric or (kind == "spectrum" and not token.quoted)
-            values.append(to_number(token) if numeric else token.text)
-        if numeric:
-            if len(values) % NUMBERS.get(kind, 2):
-                raise declared.error(f"{declared.text!r} has {len(values)} numbers")
-        elif kind == "bool":
-            values = [text == "true" for text in values]
-        if not values and kind not in NUMBERS:
-            raise declared.error(f"{declared.text!r} has no value")
-        return Parameter(kind, values)
+            values = self._list(token)
+            yield token, kind, name.strip(), values
+            for _ in values:  # those that nobody has asked for
+                pass
 
     def _list(self, declared: Token) -> Iterator[Token]:
         """The words between brackets, or the one without."""
@@ -157,6 +151,22 @@ class Words:
             return
         while (token := self.take(declared)).text != "]" or token.quoted:
             yield token
+
+
+def _parameter(kind: str, declared: Token, given: Iterator[Token]) -> Parameter:
+    values: list[Any] = []
+    numeric = kind in NUMBERS
+    for token in given:
+        numeric = numeric or (kind == "spectrum" and not token.quoted)
+        values.append(to_number(token) if numeric else token.text)
+    if numeric:
+        if len(values) % NUMBERS.get(kind, 2):
+            raise declared.error(f"{declared.text!r} has {len(values)} numbers")
+    elif kind == "bool":
+        values = [text == "true" for text in values]
+    if not values and kind not in NUMBERS:
+        raise declared.error(f"{declared.text!r} has no value")
+    return Parameter(kind, values)
 
 
 def _decoded(content: bytes) -> str:

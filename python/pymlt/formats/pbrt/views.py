@@ -78,6 +78,8 @@ def rfilter(params: Params) -> dict[str, Any]:
 
 def sampler(params: Params) -> dict[str, Any]:
     samples = params.number("pixelsamples", 16)
+    if params.type == "stratified":
+        samples = params.number("xsamples", 4) * params.number("ysamples", 4)
     return {"type": "independent", "sample_count": int(samples)}
 
 

@@ -1,0 +1,80 @@
+"""Lights of pbrt-v3 (Pharr, Jakob & Humphreys 2016, ch. 12)."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ....images import read_image
+from ...imported import rgb
+from ...limits import check_pixels
+from ..area_lights import AreaLight
+from ..lights import placed
+from ..params import Params
+from ..spectra import numbers
+from ..textures import multiplied
+
+#: From the axes of our maps, whose columns go around y, to those of pbrt's, around z.
+AROUND_Z = np.array([[0.0, 0, -1, 0], [1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 0, 1]])
+
+
+def light(params: Params, folder: Path, to_world: np.ndarray) -> dict[str, Any] | None:
+    """A light that is no shape; None, with a warning, for those without a counterpart."""
+    _ignore_counts(params)
+    if params.type in ("infinite", "exinfinite"):
+        radiance = strength(params, "L")
+        if filename := params.text("mapname"):
+            return environment(folder / filename, to_world, numbers(radiance))
+        return {"type": "constant", "radiance": radiance}
+    found = placed(params, to_world, strength(params, "L" if params.type == "distant" else "I"))
+    if found and found["type"] == "spot":
+        found["cutoff_angle"] = _same_power(found["beam_width"], found["cutoff_angle"])
+    return found
+
+
+def area_light(params: Params) -> AreaLight:
+    """What AreaLightSource says."""
+    _ignore_counts(params)
+    if params.flag("twosided"):
+        params.warn("lights that shine on both sides shine on their outside only")
+    if params.type not in ("area", "diffuse"):
+        params.warn(f"the area light {params.type!r} is taken as 'diffuse'")
+    radiance = strength(params, "L")
+    params.finish()
+    return AreaLight(radiance, None, 1)
+
+
+def strength(params: Params, name: str) -> Any:
+    """A colour times the scale, which is one, too."""
+    colour, scale = params.colour(name, 1.0), params.colour("scale", 1.0)
+    found = multiplied(colour, scale)
+    if isinstance(found, dict) and found["type"] == "scale":  # a spectrum times a colour
+        return rgb(np.multiply(numbers(colour), numbers(scale)))
+    return found
+
+
+def environment(path: Path, to_world: np.ndarray, colour: list[float]) -> dict[str, Any]:
+    """A map of latitude and longitude, of which the first row is around the z axis."""
+    pixels = read_image(path)
+    check_pixels(pixels, str(path))
+    data = (pixels[..., :3] * colour).astype(np.float32)
+    return {"type": "envmap", "data": data, "scale": 1.0, "to_world": to_world @ AROUND_Z}
+
+
+def _same_power(beam: float, cutoff: float) -> float:
+    """The angle, in degrees, at which a linear edge ends that has the power of pbrt's.
+
+    Between the two cosines pbrt's intensity falls as the fourth power, of which the mean is 1/5;
+    that of a line is 1/2.
+    """
+    inner, outer = (math.cos(math.radians(angle)) for angle in (beam, cutoff))
+    return math.degrees(math.acos(inner - 0.4 * (inner - outer)))
+
+
+def _ignore_counts(params: Params) -> None:
+    """How many samples a light gets does not change the image."""
+    for name in ("nsamples", "samples"):
+        params.get(name)

@@ -1,0 +1,50 @@
+"""Roughness of pbrt-v3's materials: alpha of the GGX distribution (Trowbridge & Reitz 1975)."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from ..params import Params
+from ..textures import Textures, Value
+
+#: Of the polynomial in the logarithm of a roughness that is remapped
+#: (pbrt-v3, TrowbridgeReitzDistribution::RoughnessToAlpha).
+REMAPPED = (1.62142, 0.819955, 0.1734, 0.0171201, 0.000640711)
+
+
+def remapped(roughness: float) -> float:
+    x = math.log(max(roughness, 1e-3))
+    return sum(factor * x**power for power, factor in enumerate(REMAPPED))
+
+
+def alphas(params: Params, textures: Textures, default: float, named: bool = True) -> list[Value]:
+    """Along u and v. Not all materials have a parameter that is `named` roughness alone."""
+    both = textures.number(params, "roughness", default) if named else default
+    found = [textures.number(params, f"{axis}roughness", both) for axis in "uv"]
+    if not params.flag("remaproughness", True):
+        return found
+    if any(isinstance(value, dict) for value in found):
+        params.warn("textures of roughness are taken as alpha, not remapped")
+    return [value if isinstance(value, dict) else remapped(value) for value in found]
+
+
+def even_alpha(params: Params, textures: Textures, default: float, named: bool = True) -> float:
+    """That of a coating, which is the same in all directions, and everywhere."""
+    u, v = alphas(params, textures, default, named)
+    if isinstance(u, dict) or isinstance(v, dict):
+        params.warn(f"textures of the roughness of a {params.type} are left out")
+        return remapped(default)
+    if u != v:
+        params.warn(f"a {params.type} is equally rough in all directions")
+    return math.sqrt(u * v)
+
+
+def microfacets(plugin: str, found: list[Value]) -> dict[str, Any]:
+    """The smooth or the rough plug-in."""
+    if found[0] == found[1] == 0:
+        return {"type": plugin}
+    surface = {"type": f"rough{plugin}", "distribution": "ggx"}
+    if found[0] == found[1]:
+        return surface | {"alpha": found[0]}
+    return surface | {"alpha_u": found[0], "alpha_v": found[1]}
