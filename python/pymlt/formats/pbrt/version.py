@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from ... import _core
+from .. import limits
 from .tokens import Token, Words
 
 #: How many texts follow these directives, before their parameters.
@@ -55,7 +56,7 @@ def is_v3(path: Path) -> bool:
     """Whether a file is written for pbrt-v3; False where nothing tells, or it cannot be read."""
     try:
         return next(_signs(Words(path)), 4) == 3
-    except _core.Error:
+    except (_core.Error, *limits.CONTRADICTIONS):
         return False
 
 

@@ -30,7 +30,7 @@ def light(params: Params, folder: Path, to_world: np.ndarray) -> dict[str, Any] 
             return environment(folder / filename, to_world, numbers(radiance))
         return {"type": "constant", "radiance": radiance}
     found = placed(params, to_world, strength(params, "L" if params.type == "distant" else "I"))
-    if found and found["type"] == "spot":
+    if found and found["type"] == "spot" and found["beam_width"] < found["cutoff_angle"]:
         found["cutoff_angle"] = _same_power(found["beam_width"], found["cutoff_angle"])
     return found
 
@@ -57,21 +57,34 @@ def strength(params: Params, name: str) -> Any:
 
 
 def environment(path: Path, to_world: np.ndarray, colour: list[float]) -> dict[str, Any]:
-    """A map of latitude and longitude, of which the first row is around the z axis."""
-    pixels = read_image(path)
+    """A map of latitude and longitude, of which the first row is around the z axis.
+
+    Our first and last rows are at the poles, pbrt's half a row away from them: with a row between
+    each two of pbrt's the map is the same.
+    """
+    pixels = read_image(path)[..., :3]
     check_pixels(pixels, str(path))
-    data = (pixels[..., :3] * colour).astype(np.float32)
-    return {"type": "envmap", "data": data, "scale": 1.0, "to_world": to_world @ AROUND_Z}
+    data = np.repeat(pixels * np.asarray(colour, np.float32), 2, axis=0)
+    between = (data[1:] + data[:-1]) / 2
+    rows = np.concatenate([data[:1], between, data[-1:]])
+    return {"type": "envmap", "data": rows, "scale": 1.0, "to_world": to_world @ AROUND_Z}
 
 
 def _same_power(beam: float, cutoff: float) -> float:
     """The angle, in degrees, at which a linear edge ends that has the power of pbrt's.
 
     Between the two cosines pbrt's intensity falls as the fourth power, of which the mean is 1/5;
-    that of a line is 1/2.
+    an edge that is linear in the angle has the mean of the cosine between its ends.
     """
-    inner, outer = (math.cos(math.radians(angle)) for angle in (beam, cutoff))
-    return math.degrees(math.acos(inner - 0.4 * (inner - outer)))
+    start, low, high = math.radians(beam), math.radians(beam), math.radians(cutoff)
+    wanted = math.cos(start) - (math.cos(start) - math.cos(high)) / 5
+    for _ in range(50):
+        end = (low + high) / 2
+        if (math.sin(end) - math.sin(start)) / (end - start) > wanted:
+            low = end
+        else:
+            high = end
+    return math.degrees(high)
 
 
 def _ignore_counts(params: Params) -> None:
