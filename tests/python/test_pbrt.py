@@ -606,6 +606,27 @@ def test_an_environment_map_lights_from_where_it_did():
     assert mlt.render(lit, mlt.Path(max_depth=2), spp=64)[22:].mean() > 0.01
 
 
+@pytest.mark.parametrize("degrees", [5, 30, 60, 90, 150])
+def test_an_environment_map_is_seen_where_it_was(degrees):
+    """A map of 1 + z, which is the mean over each of its pixels."""
+    n = 64
+    d = np.random.default_rng(1).normal(size=(1_000_000, 3))
+    d /= np.linalg.norm(d, axis=1, keepdims=True)
+    u, v = square_of(d).T
+    bins = {"bins": n, "range": [[0, 1], [0, 1]]}
+    total, count = (np.histogram2d(v, u, weights=w, **bins)[0] for w in (1 + d[:, 2], None))
+    image = np.repeat((total / count)[..., None], 3, axis=2).astype(np.float32)
+    mlt.write_image("map.exr", image)
+    theta = np.radians(degrees)
+    look = f"LookAt 0 0 0  {np.sin(theta) * 0.6} {np.sin(theta) * 0.8} {np.cos(theta)}  0 1 0"
+    view = VIEW.replace("LookAt 0 1 4  0 1 0  0 1 0", look).replace(
+        '"float fov" 40', '"float fov" 1'
+    )
+    made = read(view, 'LightSource "infinite" "string filename" "map.exr"')
+    found = mlt.render(mlt.load_dict(made.scene), spp=1).mean()
+    assert found == pytest.approx(1 + np.cos(theta), abs=0.006)
+
+
 # ---- files -------------------------------------------------------------------------------------
 
 
