@@ -256,6 +256,13 @@ def test_a_screen_window_is_an_angle():
     )
 
 
+@pytest.mark.parametrize("film", ["image", "rgb"])
+def test_there_is_a_coordinate_system_of_the_world(film):
+    placed = 'Translate 1 2 3 CoordSysTransform "world" Shape "sphere"'
+    made = read(f'Film "{film}" WorldBegin ', SKY, placed)
+    np.testing.assert_array_equal(made.scene["sphere"]["to_world"], np.eye(4))
+
+
 INTEGRATORS = {"path": "path", "volpath": "path", "bdpt": "bdpt", "mlt": "pssmlt"}
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from ..formats.files import EXTENSIONS, convert
 from .common import say, warn
 
-HELP = "Write a scene of glTF or pbrt-v4, or a mesh, as Mitsuba XML, meshes and images beside it."
+HELP = "Write a scene of glTF or pbrt, or a mesh, as Mitsuba XML, meshes and images beside it."
 
 
 def add_arguments(command) -> None:

@@ -121,6 +121,9 @@ class Directives:
         self._state.matrix = np.eye(4)
         self._spaces["world"] = np.eye(4)
 
+    def _on_world_end(self, directive: Token) -> None:
+        """Ends files of pbrt-v3."""
+
     # ---- transforms, files ---------------------------------------------------------------------
 
     def _on_reverse_orientation(self, directive: Token) -> None:

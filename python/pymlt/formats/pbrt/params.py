@@ -61,7 +61,7 @@ class Params:
             raise self.where.error(f"{name!r} has {len(found.values)} numbers")
         return np.array(found.values, dtype=float).reshape(-1, width)
 
-    def colour(self, name: str, default: float) -> Any:
+    def colour(self, name: str, default: float | list[float]) -> Any:
         """A colour or spectrum for a scene dict."""
         found = self.get(name)
         return colour(found, self.where, self.made) if found else default

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
@@ -47,7 +48,7 @@ def camera(params: Params, camera_from_world: np.ndarray) -> dict[str, Any]:
         params.warn(f"the camera {params.type!r} is taken as 'perspective'")
     view = {
         "type": "perspective",
-        "fov": params.number("fov", 90),
+        "fov": angle_of_view(params),
         "fov_axis": "smaller",
         "to_world": to_world,
     }
@@ -56,6 +57,19 @@ def camera(params: Params, camera_from_world: np.ndarray) -> dict[str, Any]:
         view |= {"type": "thinlens", "aperture_radius": radius, "focus_distance": distance}
     params.finish()
     return view
+
+
+def angle_of_view(params: Params) -> float:
+    """In degrees, along the shorter side; a window on the screen changes it."""
+    degrees = params.number("fov", 90)
+    window = params.array("screenwindow", 4)
+    if window is None:
+        return degrees
+    left, right, bottom, top = window[0]
+    if not math.isclose(left, -right) or not math.isclose(bottom, -top):
+        params.warn("a 'screenwindow' is taken as if it were around the middle of the image")
+    side = min(right - left, top - bottom) / 2
+    return 2 * math.degrees(math.atan(side * math.tan(math.radians(degrees) / 2)))
 
 
 def film(params: Params) -> dict[str, Any]:

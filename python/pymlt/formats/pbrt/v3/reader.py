@@ -36,9 +36,6 @@ class ReaderOfV3(Reader):
     def _given(self, directive: Token, kind: str, given: dict[str, Parameter]) -> Params:
         return super()._given(directive, kind, translated(given, directive, self._folder))
 
-    def _on_world_end(self, directive: Token) -> None:
-        """The scene is complete."""
-
     def _on_material(self, directive: Token) -> None:
         params = self._params(directive)
         self._state.made_of = params

@@ -17,20 +17,9 @@ DIRECT = ("directlighting", "whitted")
 
 
 def camera(params: Params, camera_from_world: np.ndarray) -> dict[str, Any]:
-    """The window of a perspective camera is taken as its angle."""
-    window = params.array("screenwindow", 4) if params.type == "perspective" else None
+    """Half of the angle of view may be given."""
     half = params.number("halffov", 0)
-    found = views.camera(params, camera_from_world)
-    if half > 0:
-        found["fov"] = 2 * half
-    if window is not None:
-        left, right, bottom, top = window[0]
-        if not math.isclose(left, -right) or not math.isclose(bottom, -top):
-            params.warn("a 'screenwindow' is taken as if it were around the middle of the image")
-        side = min(right - left, top - bottom) / 2
-        tangent = side * math.tan(math.radians(found["fov"]) / 2)
-        found["fov"] = 2 * math.degrees(math.atan(tangent))
-    return found
+    return views.camera(params, camera_from_world) | ({"fov": 2 * half} if half > 0 else {})
 
 
 def film(params: Params) -> dict[str, Any]:
