@@ -218,6 +218,18 @@ def test_metal_is_copper_by_default_or_has_the_index_of_files():
     Path("k.spd").write_text("400 3 700")
     with pytest.raises(mlt.SceneError, match=r"^a\.pbrt:7: k\.spd should hold pairs"):
         read(VIEW, metal)
+    with pytest.raises(mlt.SceneError, match=r"^a\.pbrt:7: there is no file 'Au\.spd'"):
+        read(VIEW, 'Material "metal" "spectrum eta" "Au.spd" "spectrum k" "Au.spd"')
+
+
+def test_metal_may_have_a_name_of_pbrt_v4_or_a_part_of_an_index():
+    names = '"spectrum eta" "metal-Au-eta" "spectrum k" "metal-Au-k"'
+    assert (
+        read(VIEW, f'Material "metal" {names}').scene["metal-material"]["bsdf"]["material"] == "Au"
+    )
+    made = read(VIEW, SKY, 'Material "metal" "rgb eta" [ 1 2 3 ]')
+    assert made.scene["metal-material"]["bsdf"]["material"] == "Cu"
+    assert made.warnings == ["a metal without both 'eta' and 'k' is copper"]
 
 
 def test_mirrors_reflect_kr():
@@ -291,6 +303,8 @@ MIX = 'Material "mix" "string namedmaterial1" "red" "string namedmaterial2" "blu
 def test_the_amount_of_a_mix_is_the_share_of_the_first_material():
     assert_close(in_the_open(NAMED + MIX), 0.5, 0, 0.5)
     assert_close(in_the_open(NAMED + MIX + '"rgb amount" [ .2 .2 .2 ]'), 0.2, 0, 0.8)
+    coloured = MIX + '"rgb amount" [ .2 .3 .4 ]'
+    assert_close(in_the_open(NAMED + coloured, warnings=1), 0.3, 0, 0.7)
 
 
 def test_a_mix_without_its_materials_is_refused():

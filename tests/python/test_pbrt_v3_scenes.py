@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from test_pbrt_v3 import SKY, VIEW, WALL, assert_close, read, seen, written
+from test_pbrt_v3 import RED, SKY, VIEW, WALL, assert_close, read, seen, written
 
 import pymlt as mlt
 from pymlt.formats.pbrt.spectra import WAVELENGTHS, planck
@@ -119,6 +119,14 @@ def test_a_map_is_of_latitude_and_longitude_around_z(row, column, turn):
     assert_close(looking(turn @ beside, sky), 0)
 
 
+def test_a_map_of_bytes_is_not_decoded():
+    """Its value .5 is .214 in linear light."""
+    decoded = ((0.5 + 0.055) / 1.055) ** 2.4
+    mlt.write_image("a.png", np.full((ROWS, 2 * ROWS, 3), decoded, np.float32))
+    found = looking(RED, 'LightSource "infinite" "string mapname" "a.png"')
+    assert_close(found, 0.5)
+
+
 # ---- textures ----------------------------------------------------------------------------------
 
 
@@ -163,6 +171,20 @@ def test_constants_are_mixed():
     colours = '"color tex1" [ 1 0 0 ] "color tex2" [ 0 1 0 ]'
     assert_close(seen(SKY, texture("mix", f'{colours} "float amount" .2'), WALL), 0.8, 0.2, 0)
     assert_close(seen(SKY, texture("mix", ""), WALL), 0.5)
+    numbers = 'Texture "t" "float" "mix" "float tex1" .2 "float tex2" .4 "float amount" .25\n'
+    made = read(
+        VIEW, numbers, 'Material "metal" "bool remaproughness" "false" "texture roughness" "t"'
+    )
+    assert made.scene["metal-material"]["bsdf"]["alpha"] == pytest.approx(0.25)
+
+
+def test_a_texture_of_numbers_may_have_the_name_of_one_of_colours():
+    both = 'Texture "t" "color" "constant" "color value" [ .8 .4 .2 ]\n'
+    both += 'Texture "t" "float" "constant" "float value" .3\n'
+    text = both + 'Material "uber" "texture Kd" "t" "texture roughness" "t" '
+    made = read(VIEW, text + '"bool remaproughness" "false"').scene["uber-material"]["bsdf"]
+    assert made["bsdf_1"]["alpha"] == 0.3
+    assert_close(seen(SKY, both + 'Material "matte" "texture Kd" "t"', WALL), 0.8, 0.4, 0.2)
 
 
 def test_a_checkerboard_has_the_colours_of_its_squares():

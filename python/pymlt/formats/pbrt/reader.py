@@ -127,9 +127,8 @@ class Reader(Directives):
         self._state.interface = Interface(*(self._media[name] for name in names))
 
     def _on_texture(self, directive: Token) -> None:
-        """A name, and whether it is of numbers or of colours, which its use tells, too."""
-        name, _ = self._words.text(directive), self._words.text(directive)
-        self._textures.declare(name, self._params(directive))
+        name, kind = self._words.text(directive), self._words.text(directive)
+        self._textures.declare(name, kind, self._params(directive))
 
     def _on_light_source(self, directive: Token) -> None:
         params = self._params(directive)

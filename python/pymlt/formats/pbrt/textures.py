@@ -21,26 +21,27 @@ class Textures:
 
     def __init__(self, folder: Path):
         self._folder = folder
-        self._known: dict[str, Value] = {}
+        self._known: dict[tuple[str, bool], Value] = {}  #: by name, and whether of numbers
 
-    def declare(self, name: str, params: Params) -> None:
+    def declare(self, name: str, kind: str, params: Params) -> None:
         """Texture "name" "spectrum" "imagemap" ..."""
+        key = (name, kind == "float")
         make = getattr(self, f"_make_{params.type}", None)
         if make is None:
             params.warn(f"the texture {params.type!r} has no counterpart; it becomes 0.5")
-            self._known[name] = 0.5
+            self._known[key] = 0.5
             return
         value: Value = make(params)
         params.finish(ignored=("mapping", "filter", "maxanisotropy"))
         if isinstance(value, dict):
             measured(value)
-        self._known[name] = value
+        self._known[key] = value
 
     def colour(self, params: Params, name: str, default: float) -> Value:
         """A colour, a spectrum or a texture, for a scene dict."""
         given = params.get(name)
         if given is not None and given.kind == "texture":
-            return self._find(given.values[0], params)
+            return self._find(given.values[0], False, params)
         value: Value = params.colour(name, default)
         return value
 
@@ -48,7 +49,7 @@ class Textures:
         """A number or a texture."""
         given = params.get(name)
         if given is not None and given.kind == "texture":
-            return self._find(given.values[0], params)
+            return self._find(given.values[0], True, params)
         return default if given is None else float(given.values[0])
 
     def bitmap(self, filename: str) -> dict[str, Any]:
@@ -56,10 +57,12 @@ class Textures:
         path = str((self._folder / filename).resolve())
         return {"type": "bitmap", "filename": path, "vscale": -1.0, "voffset": 1.0}
 
-    def _find(self, name: str, params: Params) -> Value:
-        if name not in self._known:
-            raise params.where.error(f"there is no texture {name!r} above this line")
-        return self._known[name]
+    def _find(self, name: str, of_numbers: bool, params: Params) -> Value:
+        """One of the same name that is not of what is looked for serves, too."""
+        for key in ((name, of_numbers), (name, not of_numbers)):
+            if key in self._known:
+                return self._known[key]
+        raise params.where.error(f"there is no texture {name!r} above this line")
 
     def _make_constant(self, params: Params) -> Value:
         value: Value = params.colour("value", 1.0)

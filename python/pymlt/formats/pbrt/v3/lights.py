@@ -64,10 +64,18 @@ def environment(path: Path, to_world: np.ndarray, colour: list[float]) -> dict[s
     """
     pixels = read_image(path)[..., :3]
     check_pixels(pixels, str(path))
+    if path.suffix.lower() in (".png", ".tga"):
+        pixels = _encoded(pixels)
     data = np.repeat(pixels * np.asarray(colour, np.float32), 2, axis=0)
     between = (data[1:] + data[:-1]) / 2
     rows = np.concatenate([data[:1], between, data[-1:]])
     return {"type": "envmap", "data": rows, "scale": 1.0, "to_world": to_world @ AROUND_Z}
+
+
+def _encoded(linear: np.ndarray) -> np.ndarray:
+    """As sRGB: the numbers that are stored, which pbrt takes as they are in maps of light."""
+    dark = linear <= 0.0031308
+    return np.where(dark, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
 
 
 def _same_power(beam: float, cutoff: float) -> float:

@@ -11,7 +11,7 @@ from ..materials import Named, blend
 from ..materials import metal as symbol
 from ..params import Params
 from ..spectra import numbers
-from ..textures import Textures, Value, product
+from ..textures import Textures, Value, is_even, product
 from .disney import disney
 from .lobes import (
     Lobe,
@@ -26,9 +26,6 @@ from .lobes import (
 )
 from .roughness import alphas, even_alpha, microfacets
 
-#: Of copper, for metals of which a file gives one part of the index alone.
-COPPER = {"eta": rgb([0.2004376, 0.9240334, 1.1022119])}
-COPPER |= {"k": rgb([3.9129486, 2.4528477, 2.1421879])}
 #: The parameters of materials, which pbrt-v3 lets shapes change.
 PARAMETERS = "Kd Kr Ks Kt amount bumpmap eta index k opacity reflect remaproughness roughness sigma"
 PARAMETERS += " transmit uroughness vroughness anisotropic clearcoat clearcoatgloss color difftrans"
@@ -72,7 +69,7 @@ def substrate(params: Params, textures: Textures) -> dict[str, Any]:
     """A coating of the index that reflects Ks at normal incidence, where it reflects most."""
     base, coat = (textures.colour(params, name, 0.5) for name in ("Kd", "Ks"))
     params.warn("a substrate becomes a diffuse base below a coating of the same reflectance")
-    if isinstance(coat, dict) and coat["type"] not in ("rgb", "spectrum"):
+    if not is_even(coat):
         params.warn("textures of what a substrate's coating reflects are taken as .5")
         coat = 0.5
     colour, alpha = numbers(coat), even_alpha(params, textures, 0.1, named=False)
@@ -104,16 +101,23 @@ def mirror(params: Params, textures: Textures) -> dict[str, Any]:
 
 def metal(params: Params, textures: Textures) -> dict[str, Any]:
     surface = microfacets("conductor", alphas(params, textures, 0.01))
-    given = params.get("eta")
-    if given is not None and isinstance(given.values[0], str):
-        params.get("k")
-        surface["material"] = symbol(given.values[0], params)
-    elif given is None and params.get("k") is None:
+    eta, k = params.get("eta"), params.get("k")
+    if eta is None or k is None:
+        if eta or k:
+            params.warn("a metal without both 'eta' and 'k' is copper")
         surface["material"] = "Cu"
+    elif eta.kind == "spectrum" and isinstance(eta.values[0], str):
+        surface["material"] = named_metal(eta.values[0], params)
     else:
-        surface |= {part: params.colour(part, 0.0) for part in COPPER if params.get(part)}
-        surface = COPPER | surface
+        surface |= {part: textures.colour(params, part, 0.0) for part in ("eta", "k")}
     return both_sides(surface)
+
+
+def named_metal(name: str, params: Params) -> str:
+    """pbrt-v3 has files of spectra alone, but the names of pbrt-v4 are understood."""
+    if not name.startswith("metal-"):
+        raise params.where.error(f"there is no file {name!r} of a metal's spectrum")
+    return symbol(name, params)
 
 
 def translucent(params: Params, textures: Textures) -> dict[str, Any]:
@@ -160,7 +164,10 @@ def clear(reflected: Value, transmitted: Value, ior: float) -> Lobe:
 def mix(params: Params, textures: Textures, named: Named) -> dict[str, Any]:
     """`amount` is the share of the first material."""
     names = [params.text(f"namedmaterial{i}") for i in (2, 1)]
-    return blend(params, names, named, textures.colour(params, "amount", 0.5))
+    amount = textures.colour(params, "amount", 0.5)
+    if is_even(amount) and len(set(numbers(amount))) > 1:
+        params.warn("the 'amount' of a mix has no colour: the mean of R, G and B is taken")
+    return blend(params, names, named, amount)
 
 
 def index(params: Params) -> float:

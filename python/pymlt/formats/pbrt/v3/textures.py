@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
+
 from ...imported import rgb
 from ..params import Params
 from ..spectra import numbers
@@ -15,10 +17,10 @@ class TexturesOfV3(Textures):
 
     factors = ("tex1", "tex2")
 
-    def declare(self, name: str, params: Params) -> None:
+    def declare(self, name: str, kind: str, params: Params) -> None:
         for quality in ("aamode", "trilinear"):
             params.get(quality)
-        super().declare(name, params)
+        super().declare(name, kind, params)
 
     def _encoding(self, params: Params) -> dict[str, Any]:
         """PNG and TGA are encoded as sRGB unless `gamma` is false, others if it is true."""
@@ -31,9 +33,10 @@ class TexturesOfV3(Textures):
     def _make_mix(self, params: Params) -> Value:
         """Between two constants; of textures the larger share is taken."""
         amount = self.number(params, "amount", 0.5)
-        parts = [self.colour(params, f"tex{i + 1}", float(i)) for i in range(2)]
-        if isinstance(amount, dict) or not all(is_even(part) for part in parts):
+        first, second = (self.colour(params, f"tex{i + 1}", float(i)) for i in range(2))
+        if isinstance(amount, dict) or not is_even(first) or not is_even(second):
             params.warn("a mix of textures is left out; that of the larger share is taken")
-            return parts[0 if isinstance(amount, dict) or amount < 0.5 else 1]
-        first, second = (numbers(part) for part in parts)
-        return rgb([(1 - amount) * a + amount * b for a, b in zip(first, second, strict=True)])
+            return first if isinstance(amount, dict) or amount < 0.5 else second
+        if isinstance(first, float) and isinstance(second, float):
+            return (1 - amount) * first + amount * second
+        return rgb(np.multiply(1 - amount, numbers(first)) + np.multiply(amount, numbers(second)))
