@@ -23,6 +23,8 @@ INTEGRATORS = {
 
 def elements(found: dict[str, dict[str, Any]]) -> Iterator[tuple[str, dict[str, Any]]]:
     """An integrator and a sensor of what stands above WorldBegin, by the names of directives."""
+    import numpy as np
+
     if found.get("Integrator"):
         yield "integrator", found["Integrator"]
     if "Camera" in found:
@@ -30,6 +32,9 @@ def elements(found: dict[str, dict[str, Any]]) -> Iterator[tuple[str, dict[str, 
         if "PixelFilter" in found:
             film = film | {"rfilter": found["PixelFilter"]}
         sensor = found["Camera"] | {"film": film}
+        if sensor.pop("window", True) is False:  # its shorter side is 2
+            width = max(1, film["width"] / film["height"])
+            sensor["to_world"] = sensor["to_world"] @ np.diag([width, width, 1, 1])
         if "Sampler" in found:
             sensor["sampler"] = found["Sampler"]
         yield "camera", sensor
@@ -41,9 +46,7 @@ def camera(params: Params, camera_from_world: np.ndarray) -> dict[str, Any]:
 
     to_world = np.linalg.inv(camera_from_world) @ np.diag([-1.0, 1, 1, 1])
     if params.type == "orthographic":
-        window = params.array("screenwindow", 4)
-        width = 1.0 if window is None else (window[0, 1] - window[0, 0]) / 2
-        return {"type": "orthographic", "to_world": to_world @ np.diag([width, width, 1, 1])}
+        return orthographic(params, to_world)
     if params.type != "perspective":
         params.warn(f"the camera {params.type!r} is taken as 'perspective'")
     view = {
@@ -57,6 +60,20 @@ def camera(params: Params, camera_from_world: np.ndarray) -> dict[str, Any]:
         view |= {"type": "thinlens", "aperture_radius": radius, "focus_distance": distance}
     params.finish()
     return view
+
+
+def orthographic(params: Params, to_world: np.ndarray) -> dict[str, Any]:
+    """Our image is 2 wide, that of pbrt as wide as its window: if it has none, see `elements`."""
+    import numpy as np
+
+    window = params.array("screenwindow", 4)
+    params.finish()
+    if window is None:
+        return {"type": "orthographic", "to_world": to_world, "window": False}
+    left, right, bottom, top = window[0]
+    placed = np.diag([(right - left) / 2, (right - left) / 2, 1, 1])
+    placed[:2, 3] = -(left + right) / 2, (bottom + top) / 2
+    return {"type": "orthographic", "to_world": to_world @ placed}
 
 
 def angle_of_view(params: Params) -> float:

@@ -1,11 +1,10 @@
-"""pbrt-v3 files: lights, textures, media and views, by closed formulas."""
+"""Lights, textures and media of pbrt-v3 files, by closed formulas."""
 
 import math
-from pathlib import Path
 
 import numpy as np
 import pytest
-from test_pbrt_v3 import RED, SKY, VIEW, WALL, assert_close, read, seen, written
+from pbrt_v3_files import RED, SKY, VIEW, WALL, assert_close, read, seen
 
 import pymlt as mlt
 from pymlt.formats.pbrt.spectra import WAVELENGTHS, planck
@@ -227,112 +226,3 @@ def test_a_grid_is_of_milk_by_default():
     scattered, absorbed = np.array([2.55, 3.21, 3.77]), np.array([0.0011, 0.0024, 0.014])
     assert made["albedo"] == pytest.approx(scattered / (scattered + absorbed))
     assert made["sigma_t"]["data"].max((0, 1, 2)) == pytest.approx(2 * (scattered + absorbed))
-
-
-# ---- views -------------------------------------------------------------------------------------
-
-
-def test_the_film_multiplies_the_image_and_the_shutter_does_not():
-    view = VIEW.replace('"image"', '"image" "float scale" 2.5')
-    view = view.replace("[ 2 ]", '[ 2 ] "float shutteropen" 0 "float shutterclose" .25')
-    made = read(view, SKY)
-    assert made.warnings == []
-    assert_close(mlt.render(mlt.load_dict(made.scene), spp=1).mean((0, 1)), 2.5)
-
-
-def test_without_a_filter_it_is_a_box():
-    assert mlt.load(written(VIEW, SKY)).info()["filter"] == "box"
-
-
-FILTERS = {
-    'PixelFilter "box" "float xwidth" 1 "float ywidth" 1': {"type": "box", "radius": 1},
-    'PixelFilter "triangle"': {"type": "tent", "radius": 2},
-    'PixelFilter "gaussian" "float alpha" 8': {"type": "gaussian", "stddev": 0.25},
-    'PixelFilter "mitchell" "float B" .5 "float C" .25': {"type": "mitchell", "b": 0.5, "c": 0.25},
-    'PixelFilter "sinc" "float tau" 4': {"type": "lanczos", "lobes": 4},
-}
-
-
-@pytest.mark.parametrize("text", FILTERS)
-def test_filters_are_those_of_pbrt(text):
-    made = read(text, VIEW, SKY).scene
-    assert made["camera"]["film"]["rfilter"] == FILTERS[text]
-    mlt.load_dict(made)
-
-
-def test_the_crop_window_is_a_part_of_the_image():
-    film = '"integer xresolution" 40 "integer yresolution" 20 "float cropwindow" [ .25 .75 0 .5 ]'
-    made = read(f'Camera "perspective"\nFilm "image" {film}', SKY)
-    image = mlt.render(mlt.load_dict(made.scene), spp=1)
-    assert image.shape[:2] == (10, 20)
-    assert made.scene["camera"]["film"]["crop_offset_x"] == 10
-
-
-def test_a_screen_window_is_an_angle():
-    """A window of half the size shows the half of the tangent."""
-    window = '"float fov" 90 "float screenwindow" [ -.5 .5 -.5 .5 ]'
-    made = read(f'Camera "perspective" {window}\nFilm "image"', SKY)
-    assert made.scene["camera"]["fov"] == pytest.approx(2 * math.degrees(math.atan(0.5)))
-    assert (
-        read('Camera "perspective" "float halffov" 20\nFilm "image"').scene["camera"]["fov"] == 40
-    )
-
-
-@pytest.mark.parametrize("film", ["image", "rgb"])
-def test_there_is_a_coordinate_system_of_the_world(film):
-    placed = 'Translate 1 2 3 CoordSysTransform "world" Shape "sphere"'
-    made = read(f'Film "{film}" WorldBegin ', SKY, placed)
-    np.testing.assert_array_equal(made.scene["sphere"]["to_world"], np.eye(4))
-
-
-INTEGRATORS = {"path": "path", "volpath": "path", "bdpt": "bdpt", "mlt": "pssmlt"}
-
-
-@pytest.mark.parametrize("name", INTEGRATORS)
-def test_integrators_have_one_edge_more_than_bounces(name):
-    made = read(VIEW.replace("path", name), SKY)
-    assert made.scene["integrator"] == {"type": INTEGRATORS[name], "max_depth": 21}
-    assert made.warnings == []
-
-
-@pytest.mark.parametrize("name", ["directlighting", "whitted"])
-def test_integrators_of_direct_light_become_direct(name):
-    made = read(VIEW.replace("path", name), SKY, 'Material "matte"', WALL)
-    assert made.scene["integrator"] == {"type": "direct"}
-    assert f"the integrator '{name}' becomes 'direct'" in " ".join(made.warnings)
-
-
-def test_a_stratified_sampler_has_a_grid_of_samples():
-    sampler = 'Sampler "stratified" "integer xsamples" 3 "integer ysamples" [ 5 ]\n'
-    assert mlt.load(written(sampler, VIEW, SKY)).info()["sample_count"] == 15
-    assert mlt.load(written('Sampler "02sequence"\n', VIEW, SKY)).info()["sample_count"] == 16
-
-
-@pytest.mark.parametrize("kind", ["cone", "curve", "heightfield", "hyperboloid", "nurbs"])
-def test_shapes_without_a_counterpart_are_named(kind):
-    assert read(VIEW, SKY, f'Shape "{kind}"').warnings == [f"the shape '{kind}' has no counterpart"]
-
-
-def test_meshes_have_tangents_that_are_left_out():
-    mesh = WALL + '"vector S" [ 1 0 0 1 0 0 1 0 0 1 0 0 ] "normal N" [ 0 0 1 0 0 1 0 0 1 0 0 1 ]'
-    assert read(VIEW, SKY, mesh).warnings == ["Shape 'trianglemesh': 'S' is left out"]
-
-
-def test_a_red_ball_below_a_lamp_is_what_its_formula_says():
-    """A ball's top, at the distance 4 from the middle of a small lamp of radiance 2000."""
-    lamp = 'AttributeBegin AreaLightSource "area" "color L" [ 2000 2000 2000 ]\nTranslate 0 0 5\n'
-    lamp += 'Shape "sphere" "float radius" [ .2 ]\nAttributeEnd\n'
-    view = VIEW.replace("LookAt 0 0 5  0 0 0  0 1 0", "LookAt 4 0 4  0 0 1  0 0 1").replace(
-        "[ 2 ]", "[ .5 ]"
-    )
-    scene = written(view, lamp, 'Material "matte" "color Kd" [ .8 .1 .1 ] Shape "sphere" WorldEnd')
-    irradiance = math.pi * 2000 * (0.2 / 4) ** 2
-    found = mlt.render(mlt.load(scene), mlt.Path(max_depth=2), spp=256).mean((0, 1))
-    assert_close(found, *np.array([0.8, 0.1, 0.1]) * irradiance / math.pi, rel=0.03)
-
-
-def test_spectra_that_are_no_file_are_named():
-    Path("a.spd").write_text("400 .5 # a half\n700 .5")
-    assert_close(seen(SKY, 'Material "matte" "spectrum Kd" "a.spd"', WALL), 0.5)
-    said = read(VIEW, SKY, 'Material "matte" "spectrum Kd" "b.spd"').warnings
-    assert said == ["the spectrum 'b.spd' is not known; it is taken as 1"]

@@ -1,142 +1,20 @@
-"""pbrt-v3 files: which they are, and what their materials are, by closed formulas."""
+"""Materials of pbrt-v3 files, by closed formulas."""
 
 import math
 from pathlib import Path
 
 import numpy as np
 import pytest
+from pbrt_v3_files import SKY, VIEW, WALL, assert_close, in_the_open, read, seen, written
 
 import pymlt as mlt
-from pymlt.formats.files import read_foreign
 
-VIEW = """
-LookAt 0 0 5  0 0 0  0 1 0
-Camera "perspective" "float fov" [ 2 ]
-Film "image" "integer xresolution" [ 8 ] "integer yresolution" [ 8 ]
-Integrator "path" "integer maxdepth" [ 20 ]
-WorldBegin
-"""
-SKY = 'LightSource "infinite" "rgb L" [ 1 1 1 ]\n'
-WALL = """
-Shape "trianglemesh" "point P" [ -2 -2 0  2 -2 0  2 2 0  -2 2 0 ]
-    "integer indices" [ 0 1 2 0 2 3 ] """
 FRESNEL = 0.04  #: of the index 1.5, at normal incidence
-RED, GREEN, BLUE = np.eye(3)
 
 
 @pytest.fixture(autouse=True)
 def folder(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-
-
-def written(*parts: str, name: str = "a.pbrt") -> str:
-    Path(name).write_text("".join(parts))
-    return name
-
-
-def read(*parts: str):
-    """The dict, and what was said about it."""
-    return read_foreign(written(*parts))
-
-
-def seen(*parts: str, spp: int = 256, warnings: int = 0) -> np.ndarray:
-    """The mean of an image that shows the middle of a wall."""
-    made = read(VIEW, *parts)
-    assert len(made.warnings) == warnings, made.warnings
-    return mlt.render(mlt.load_dict(made.scene), spp=spp).mean(axis=(0, 1))
-
-
-def in_the_open(material: str, **options) -> np.ndarray:
-    """What a wall scatters below an even sky of radiance 1."""
-    return seen(SKY, material, WALL, **options)
-
-
-def assert_close(found, *expected, rel=0.01):
-    np.testing.assert_allclose(found, np.broadcast_to(expected, 3), rtol=rel, atol=1e-6)
-
-
-# ---- which version -----------------------------------------------------------------------------
-
-OF_V3 = {
-    "film": 'Film "image"',
-    "sampler": 'Sampler "02sequence"',
-    "integrator": 'Integrator "directlighting"',
-    "material": 'WorldBegin Material "matte"',
-    "named": 'WorldBegin MakeNamedMaterial "a" "string type" "uber"',
-    "medium": 'MakeNamedMedium "a" "string type" "heterogeneous" "float density" 1',
-    "shape": 'WorldBegin Shape "cone"',
-    "colour": 'WorldBegin LightSource "point" "color I" [ 1 1 1 ]',
-    "xyz": 'WorldBegin LightSource "point" "xyz I" [ 1 1 1 ]',
-    "point": 'WorldBegin LightSource "point" "point from" [ 1 1 1 ]',
-    "black body": 'WorldBegin LightSource "point" "blackbody I" [ 5000 1 ]',
-    "truth": 'WorldBegin Shape "sphere" "bool x" "true"',
-    "map": 'WorldBegin LightSource "infinite" "string mapname" "a.exr"',
-    "texture": 'WorldBegin Texture "a" "color" "constant"',
-    "end": "WorldBegin\nWorldEnd",
-}
-OF_V4 = {
-    "film": 'Film "rgb"',
-    "material": 'WorldBegin Material "diffuse"',
-    "named": 'WorldBegin MakeNamedMaterial "a" "string type" "conductor"',
-    "medium": 'MakeNamedMedium "a" "string type" "uniformgrid" "float density" 1',
-    "attribute": 'WorldBegin Attribute "shape" "float radius" 2',
-    "truth": 'WorldBegin Shape "sphere" "bool x" true',
-    "neither": 'WorldBegin Shape "sphere" "float radius" 2',
-}
-BALL = 'LightSource "infinite"\nMaterial "mirror"\nShape "sphere"\n'  # a mirror, in pbrt-v3 alone
-
-
-def is_v3(text: str) -> bool:
-    return "the material 'mirror' has no counterpart; it becomes diffuse" not in read(text).warnings
-
-
-@pytest.fixture
-def map_of_light():
-    mlt.write_image("a.exr", np.ones((4, 8, 3), np.float32))
-
-
-@pytest.mark.usefixtures("map_of_light")
-@pytest.mark.parametrize("sign", OF_V3)
-def test_what_only_pbrt_v3_has_tells_its_files(sign):
-    assert is_v3(OF_V3[sign] + "\n" + BALL)
-
-
-@pytest.mark.parametrize("sign", set(OF_V4) - {"neither"})
-def test_what_only_pbrt_v4_has_tells_its_files(sign):
-    assert not is_v3(OF_V4[sign] + "\n" + BALL)
-
-
-def test_a_file_without_a_sign_is_of_pbrt_v4():
-    assert "PixelFilter" not in str(read(OF_V4["neither"]).warnings)
-    made = read('Camera "perspective"', OF_V4["neither"])
-    assert "rfilter" not in made.scene["camera"].get("film", {})  # in pbrt-v3 it is a box
-
-
-def test_comments_and_names_are_no_signs():
-    text = (
-        '# Film "image" Material "matte" "color Kd" [ 1 1 1 ]\nTexture "matte" "float" "constant"'
-    )
-    assert not is_v3(text + '\nFilm "rgb"\n' + BALL)
-
-
-@pytest.mark.parametrize("how", ["Include", "Import"])
-def test_files_that_are_included_tell_the_version_too(how):
-    written(OF_V3["film"] if how == "Include" else OF_V4["material"], name="part.pbrt")
-    assert is_v3(f'{how} "part.pbrt"\n' + BALL) == (how == "Include")
-
-
-def test_the_first_sign_decides():
-    assert is_v3('Film "image"\nWorldBegin Material "diffuse"\n' + BALL)
-    assert not is_v3('Film "rgb"\nWorldBegin Material "matte"\n' + BALL)
-
-
-@pytest.mark.parametrize("end", ['Include "a.pbrt"', 'Include "none.pbrt"', 'Shape "sphere'])
-def test_what_cannot_be_read_is_an_error_with_its_line(end):
-    with pytest.raises((mlt.SceneError, mlt.FileError), match=r"^a\.pbrt:2: "):
-        read("WorldBegin\n" + end)
-
-
-# ---- materials ---------------------------------------------------------------------------------
 
 
 def test_matte_scatters_kd():
@@ -148,6 +26,13 @@ def test_matte_scatters_kd():
 def test_colours_may_be_xyz():
     """Here of half the white of D65."""
     assert_close(in_the_open('Material "matte" "xyz Kd" [ .47525 .5 .5444 ]'), 0.5, rel=2e-3)
+
+
+def test_spectra_that_are_no_file_are_named():
+    Path("a.spd").write_text("400 .5 # a half\n700 .5")
+    assert_close(seen(SKY, 'Material "matte" "spectrum Kd" "a.spd"', WALL), 0.5)
+    said = read(VIEW, SKY, 'Material "matte" "spectrum Kd" "b.spd"').warnings
+    assert said == ["the spectrum 'b.spd' is not known; it is taken as 1"]
 
 
 def test_sigma_is_that_of_oren_and_nayar():
