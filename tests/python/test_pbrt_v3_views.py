@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from pbrt_v3_files import SKY, VIEW, WALL, assert_close, read, seen, written
+from pbrt_v3_files import SKY, VIEW, WALL, assert_close, read, written
 
 import pymlt as mlt
 

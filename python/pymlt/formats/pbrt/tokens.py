@@ -12,6 +12,8 @@ from ... import _core
 from .. import limits
 
 PATTERN = re.compile(r'\s+|#[^\n]*|"((?:[^"\\\n]++|\\.)*+)"|([\[\]])|([^\s"\[\]#]+)|(.)')
+#: The same without three or more numbers in a row, for a fast look at the words.
+NO_NUMBERS = re.compile(r'(?:[-+.\d][^\s"\[\]#]*\s+){3,}+|' + PATTERN.pattern)
 NUMBERS = {"integer": 1, "float": 1, "point2": 2, "vector2": 2, "point3": 3, "vector3": 3}
 NUMBERS |= {"normal3": 3, "point": 3, "vector": 3, "normal": 3, "rgb": 3, "blackbody": 1}
 NUMBERS |= {"color": 3, "xyz": 3}  #: of pbrt-v3
@@ -40,10 +42,10 @@ class Parameter(NamedTuple):
     values: list[Any]  #: floats, texts or booleans
 
 
-def tokens(path: Path, text: str) -> Iterator[Token]:
+def tokens(path: Path, text: str, pattern: re.Pattern[str]) -> Iterator[Token]:
     """The words of a file. Raises SceneError."""
     line = 1
-    for match in PATTERN.finditer(text):
+    for match in pattern.finditer(text):
         quoted, bracket, word, other = match.groups()
         token = Token(quoted or bracket or word or "", quoted is not None, path, line)
         if other:
@@ -58,8 +60,9 @@ def tokens(path: Path, text: str) -> Iterator[Token]:
 class Words:
     """The words of a file with the files that it includes, one after the other."""
 
-    def __init__(self, path: Path):
+    def __init__(self, path: Path, pattern: re.Pattern[str] = PATTERN):
         self._root = path.parent
+        self._pattern = pattern
         self._open: list[Iterator[Token]] = []
         self._paths: list[Path] = []  #: of those that are open
         self._included = -1
@@ -86,7 +89,7 @@ class Words:
         self._included += 1
         self._size += len(content)
         self._paths.append(path.resolve())
-        self._open.append(tokens(path, _decoded(content)))
+        self._open.append(tokens(path, _decoded(content), self._pattern))
 
     def peek(self) -> Token | None:
         """The next word, which stays; None at the end."""

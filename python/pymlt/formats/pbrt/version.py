@@ -10,7 +10,7 @@ from pathlib import Path
 
 from ... import _core
 from .. import limits
-from .tokens import Token, Words
+from .tokens import NO_NUMBERS, Token, Words
 
 #: How many texts follow these directives, before their parameters.
 PLUGINS = {"Accelerator": 1, "AreaLightSource": 1, "Camera": 1, "Film": 1, "Integrator": 1}
@@ -55,7 +55,7 @@ ONLY_IN_V4 = {
 def is_v3(path: Path) -> bool:
     """Whether a file is written for pbrt-v3; False where nothing tells, or it cannot be read."""
     try:
-        return next(_signs(Words(path)), 4) == 3
+        return next(_signs(Words(path, NO_NUMBERS)), 4) == 3
     except (_core.Error, *limits.CONTRADICTIONS):
         return False
 
