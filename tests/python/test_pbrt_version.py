@@ -72,6 +72,12 @@ def test_comments_and_names_are_no_signs():
         '# Film "image" Material "matte" "color Kd" [ 1 1 1 ]\nTexture "matte" "float" "constant"'
     )
     assert not is_v3(text + '\nFilm "rgb"\n' + BALL)
+    for named in ('Texture "color" "spectrum" "constant"', 'MakeNamedMedium "a" "string type" "x"'):
+        assert not is_v3(named + '\nFilm "rgb"\n' + BALL)
+    clear = 'MakeNamedMaterial "glass" "string type" "dielectric"\n'
+    assert not is_v3(clear + BALL)
+    red = 'MakeNamedMaterial "diffuse" "string type" "matte"\n'
+    assert is_v3(red + BALL)
 
 
 @pytest.mark.parametrize("how", ["Include", "Import"])

@@ -12,10 +12,12 @@ from ... import _core
 from .. import limits
 from .tokens import NO_NUMBERS, Token, Words
 
-#: How many texts follow these directives, before their parameters.
-PLUGINS = {"Accelerator": 1, "AreaLightSource": 1, "Camera": 1, "Film": 1, "Integrator": 1}
-PLUGINS |= {"LightSource": 1, "MakeNamedMaterial": 1, "MakeNamedMedium": 1, "Material": 1}
-PLUGINS |= {"PixelFilter": 1, "Sampler": 1, "Shape": 1, "Texture": 3}
+#: Directives that have a type, and then parameters.
+PLUGINS = ["Accelerator", "AreaLightSource", "Camera", "Film", "Integrator", "LightSource"]
+PLUGINS += ["Material", "PixelFilter", "Sampler", "Shape"]
+#: What the texts before the parameters of a directive are; a name tells nothing.
+TEXTS = {plugin: [plugin] for plugin in PLUGINS} | {"Texture": ["name", "Texture", "class"]}
+TEXTS |= {"MakeNamedMaterial": ["name"], "MakeNamedMedium": ["name"]}
 #: What only pbrt-v3 has: types of plug-ins by their directives, and other names by what they are.
 ONLY_IN_V3 = {
     "AreaLightSource": ["area"],
@@ -69,13 +71,13 @@ def _signs(words: Words) -> Iterator[int]:
         yield from _only_in("directive", directive.text)
         if directive.text in ("Import", "Include"):
             words.include(words.take(directive))
-        elif directive.text in PLUGINS:
+        elif directive.text in TEXTS:
             yield from _signs_of_plugin(directive, words)
 
 
 def _signs_of_plugin(directive: Token, words: Words) -> Iterator[int]:
-    for _ in range(PLUGINS[directive.text]):
-        yield from _only_in(directive.text, words.text(directive))
+    for what in TEXTS[directive.text]:
+        yield from _only_in(what, words.text(directive))
     for _, kind, name, values in words.declarations():
         yield from _only_in("parameter type", kind)
         yield from _only_in("parameter", name)

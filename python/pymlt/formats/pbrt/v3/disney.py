@@ -25,9 +25,7 @@ def disney(params: Params, textures: Textures) -> dict[str, Any]:
     surface["eta"] = params.number("eta", 1.5)
     for name, default in (NUMBERS | (THIN if thin else SOLID)).items():
         surface[NAMES.get(name, name)] = textures.number(params, name, default)
-    if thin:
-        return surface
-    if surface["spec_trans"] != 0:
+    if thin or surface["spec_trans"] != 0:
         return surface
     del surface["spec_trans"]
     return both_sides(surface)

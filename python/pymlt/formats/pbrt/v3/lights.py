@@ -11,7 +11,7 @@ import numpy as np
 from ....images import read_image
 from ...imported import rgb
 from ...limits import check_pixels
-from ..area_lights import AreaLight
+from ..area_lights import AreaLight, shining_sides
 from ..lights import placed
 from ..params import Params
 from ..spectra import numbers
@@ -38,10 +38,7 @@ def light(params: Params, folder: Path, to_world: np.ndarray) -> dict[str, Any] 
 def area_light(params: Params) -> AreaLight:
     """What AreaLightSource says."""
     _ignore_counts(params)
-    if params.flag("twosided"):
-        params.warn("lights that shine on both sides shine on their outside only")
-    if params.type not in ("area", "diffuse"):
-        params.warn(f"the area light {params.type!r} is taken as 'diffuse'")
+    shining_sides(params, "area", "diffuse")
     radiance = strength(params, "L")
     params.finish()
     return AreaLight(radiance, None, 1)

@@ -24,7 +24,6 @@ def camera(params: Params, camera_from_world: np.ndarray) -> dict[str, Any]:
 
 def film(params: Params) -> dict[str, Any]:
     """Of which the crop window is given as shares of the image, left, right, top and bottom."""
-    params.number("scale", 1)
     crop = params.array("cropwindow", 4)
     found = views.film(params)
     if crop is not None:
