@@ -91,6 +91,22 @@ def test_the_first_sign_decides():
     assert not is_v3('Film "rgb"\nWorldBegin Material "matte"\n' + BALL)
 
 
+OTHERS = {  # the version of a file, and what it has of the other one
+    3: ('Film "image"\nMaterial "diffuse" "rgb reflectance" [ 1 1 1 ]', ["diffuse", "reflectance"]),
+    4: ('Film "rgb"\nMaterial "diffuse" "color Kd" [ 1 1 1 ]', ["color", "Kd"]),
+}
+
+
+@pytest.mark.parametrize("version", OTHERS)
+def test_what_is_of_the_other_version_is_named(version):
+    text, names = OTHERS[version]
+    said = f"is of another version, and the file is read as one of pbrt-v{version}"
+    found = read(text).placed_warnings("a.pbrt")
+    assert {warning for warning in found if said in warning} == {
+        f"a.pbrt:2: {name!r} {said}" for name in names
+    }
+
+
 @pytest.mark.parametrize("end", ['Include "a.pbrt"', 'Include "none.pbrt"', 'Shape "sphere'])
 def test_what_cannot_be_read_is_an_error_with_its_line(end):
     with pytest.raises((mlt.SceneError, mlt.FileError), match=r"^a\.pbrt:2: "):

@@ -12,6 +12,7 @@ from ..imported import Imported
 from .params import Params
 from .state import ATTRIBUTES, TRANSFORMS, State
 from .tokens import Parameter, Token, Words
+from .version import foreign
 
 if TYPE_CHECKING:
     import numpy as np
@@ -23,6 +24,8 @@ _VALUES = ("true", "false")
 
 class Directives:
     """One file, with those that it includes, while it is read."""
+
+    version = 4
 
     def __init__(self, path: Path, made: Imported):
         import numpy as np
@@ -82,6 +85,9 @@ class Directives:
         return self._given(directive, kind.values[0], given)
 
     def _given(self, directive: Token, kind: str, given: dict[str, Parameter]) -> Params:
+        for name in foreign(self.version, directive.text, kind, given):
+            said = f"{name!r} is of another version, and the file is read as one of pbrt"
+            self._made.warn(f"{said}-v{self.version}", directive.place)
         return Params(directive, kind, given, self._made, self._defaults(directive))
 
     def _defaults(self, directive: Token) -> dict[str, Parameter]:

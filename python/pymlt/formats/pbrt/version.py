@@ -10,7 +10,7 @@ from pathlib import Path
 
 from ... import _core
 from .. import limits
-from .tokens import NO_NUMBERS, Token, Words
+from .tokens import NO_NUMBERS, Parameter, Token, Words
 
 #: Directives that have a type, and then parameters.
 PLUGINS = ["Accelerator", "AreaLightSource", "Camera", "Film", "Integrator", "LightSource"]
@@ -60,6 +60,13 @@ def is_v3(path: Path) -> bool:
         return next(_signs(Words(path, NO_NUMBERS)), 4) == 3
     except (_core.Error, *limits.CONTRADICTIONS):
         return False
+
+
+def foreign(version: int, directive: str, kind: str, given: dict[str, Parameter]) -> list[str]:
+    """What of a directive is of the other version than the file."""
+    said = [(directive, kind), *(("parameter", name) for name in given)]
+    said += [("parameter type", parameter.kind) for parameter in given.values()]
+    return [name for what, name in said if next(_only_in(what, name), version) != version]
 
 
 def _signs(words: Words) -> Iterator[int]:

@@ -20,6 +20,7 @@ from .textures import TexturesOfV3
 class ReaderOfV3(Reader):
     """One file while it is read."""
 
+    version = 3
     textures = TexturesOfV3
     views = views
     area_light = staticmethod(area_light)
