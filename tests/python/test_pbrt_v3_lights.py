@@ -138,6 +138,7 @@ def texture(kind: str, parameters: str, surface: str = 'Material "matte" "textur
     [
         ("a.png", "", False),
         ("a.png", '"bool gamma" "false"', True),
+        ("a.jpg", "", False),
         ("a.exr", "", True),
         ("a.exr", '"bool gamma" "true"', False),
     ],

@@ -84,6 +84,12 @@ def test_roughness_is_remapped_by_a_polynomial(roughness):
         assert made.get("bsdf", made)["alpha"] == pytest.approx(roughness)
 
 
+@pytest.mark.parametrize("kind", ["plastic", "translucent"])
+def test_roughness_along_the_axes_is_for_some_materials(kind):
+    said = read(VIEW, SKY, f'Material "{kind}" "float uroughness" .3').warnings
+    assert said == [f"Material '{kind}': 'uroughness' is left out"]
+
+
 def test_metal_may_be_rougher_along_one_axis():
     made = read(VIEW, 'Material "metal" "float roughness" .5 "float vroughness" .1').scene
     found = made["metal-material"]["bsdf"]

@@ -24,7 +24,7 @@ from .lobes import (
     interface,
     total,
 )
-from .roughness import alphas, even_alpha, microfacets
+from .roughness import AXES, EVEN, alphas, even_alpha, microfacets
 
 #: The parameters of materials, which pbrt-v3 lets shapes change.
 PARAMETERS = "Kd Kr Ks Kt amount bumpmap eta index k opacity reflect remaproughness roughness sigma"
@@ -62,7 +62,8 @@ def matte(params: Params, textures: Textures) -> dict[str, Any]:
 
 def plastic(params: Params, textures: Textures) -> dict[str, Any]:
     base, coat = (textures.colour(params, name, 0.25) for name in ("Kd", "Ks"))
-    return total([diffuse(base), glossy(coat, even_alpha(params, textures, 0.1), 1.5)])
+    alpha = even_alpha(params, textures, 0.1, EVEN)
+    return total([diffuse(base), glossy(coat, alpha, 1.5)])
 
 
 def substrate(params: Params, textures: Textures) -> dict[str, Any]:
@@ -72,7 +73,7 @@ def substrate(params: Params, textures: Textures) -> dict[str, Any]:
     if not is_even(coat):
         params.warn("textures of what a substrate's coating reflects are taken as .5")
         coat = 0.5
-    colour, alpha = numbers(coat), even_alpha(params, textures, 0.1, named=False)
+    colour, alpha = numbers(coat), even_alpha(params, textures, 0.1, AXES)
     most = min(max(colour), 0.98)
     if most <= 0:
         return both_sides({"type": "diffuse", "reflectance": base})
@@ -91,7 +92,7 @@ def glass(params: Params, textures: Textures) -> dict[str, Any]:
 def glass_alphas(params: Params, textures: Textures) -> list[Value]:
     """Glass that is rough along neither axis is smooth, also where roughness is remapped."""
     given = [textures.number(params, f"{axis}roughness", 0.0) for axis in "uv"]
-    return [0.0, 0.0] if given == [0, 0] else alphas(params, textures, 0.0, named=False)
+    return [0.0, 0.0] if given == [0, 0] else alphas(params, textures, 0.0, AXES)
 
 
 def mirror(params: Params, textures: Textures) -> dict[str, Any]:
@@ -127,7 +128,7 @@ def translucent(params: Params, textures: Textures) -> dict[str, Any]:
     reflected, transmitted = (
         (product(base, share, params), product(coat, share, params)) for share in shares
     )
-    surface = microfacets("dielectric", alphas(params, textures, 0.1))
+    surface = microfacets("dielectric", alphas(params, textures, 0.1, EVEN))
     return total(
         [
             diffuse(reflected[0]),

@@ -12,16 +12,21 @@ from ..textures import Textures, Value
 #: (pbrt-v3, TrowbridgeReitzDistribution::RoughnessToAlpha).
 REMAPPED = (1.62142, 0.819955, 0.1734, 0.0171201, 0.000640711)
 
+#: Which parameters a material has: `roughness`, the one of each axis, or all of them.
+EVEN, AXES, BOTH = "even", "axes", "both"
+
 
 def remapped(roughness: float) -> float:
     x = math.log(max(roughness, 1e-3))
     return sum(factor * x**power for power, factor in enumerate(REMAPPED))
 
 
-def alphas(params: Params, textures: Textures, default: float, named: bool = True) -> list[Value]:
-    """Along u and v. Not all materials have a parameter that is `named` roughness alone."""
-    both = textures.number(params, "roughness", default) if named else default
-    found = [textures.number(params, f"{axis}roughness", both) for axis in "uv"]
+def alphas(params: Params, textures: Textures, default: float, names: str = BOTH) -> list[Value]:
+    """Along u and v. Some materials have `roughness` alone, some have it along the axes alone."""
+    both = textures.number(params, "roughness", default) if names != AXES else default
+    found = [both, both]
+    if names != EVEN:
+        found = [textures.number(params, f"{axis}roughness", both) for axis in "uv"]
     if not params.flag("remaproughness", True):
         return found
     if any(isinstance(value, dict) for value in found):
@@ -29,9 +34,9 @@ def alphas(params: Params, textures: Textures, default: float, named: bool = Tru
     return [value if isinstance(value, dict) else remapped(value) for value in found]
 
 
-def even_alpha(params: Params, textures: Textures, default: float, named: bool = True) -> float:
+def even_alpha(params: Params, textures: Textures, default: float, names: str = BOTH) -> float:
     """That of a coating, which is the same in all directions, and everywhere."""
-    u, v = alphas(params, textures, default, named)
+    u, v = alphas(params, textures, default, names)
     if isinstance(u, dict) or isinstance(v, dict):
         params.warn(f"textures of the roughness of a {params.type} are left out")
         return remapped(default)

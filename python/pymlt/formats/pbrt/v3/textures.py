@@ -11,6 +11,9 @@ from ..params import Params
 from ..spectra import numbers
 from ..textures import Textures, Value, is_even
 
+#: What pbrt-v3 reads, and what is usual besides.
+BYTES = (".png", ".tga", ".bmp", ".jpg", ".jpeg")
+
 
 class TexturesOfV3(Textures):
     """What has been declared, and what parameters refer to."""
@@ -23,9 +26,8 @@ class TexturesOfV3(Textures):
         super().declare(name, kind, params)
 
     def _encoding(self, params: Params) -> dict[str, Any]:
-        """PNG and TGA are encoded as sRGB unless `gamma` is false, others if it is true."""
-        name = params.text("filename").lower()
-        encoded = name.endswith((".png", ".tga"))
+        """Images of bytes are encoded as sRGB unless `gamma` is false, others if it is true."""
+        encoded = params.text("filename").lower().endswith(BYTES)
         if params.flag("gamma", encoded):
             return {} if encoded else {"gamma": -1.0}
         return {"raw": True} if encoded else {"gamma": 1.0}
