@@ -327,11 +327,12 @@ def test_transforms_and_attributes_are_saved():
         'ConcatTransform [0 1 0 0 -1 0 0 0 0 0 1 0 0 0 0 1] Shape "sphere"\n',
         'Identity CoordSysTransform "here" Shape "sphere" "float radius" 2\n',
     )
-    found = [v for k, v in made.scene.items() if k.startswith("sphere")]
-    assert found[0]["to_world"] == pytest.approx(np.array(T.translate(0, 1, 0) @ T.scale(2)))
-    assert found[1]["to_world"][:3, 3] == pytest.approx([5, 6, 7])
-    assert found[2]["to_world"] == pytest.approx(np.array(T.rotate([0, 0, 1], 90)))
-    assert found[3]["to_world"] == pytest.approx(np.array(T.translate(1, 0, 0)))
+    turned = np.diag([1, 1, -1, 1])  # spheres are upside down
+    found = [v["to_world"] @ turned for k, v in made.scene.items() if k.startswith("sphere")]
+    assert found[0] == pytest.approx(np.array(T.translate(0, 1, 0) @ T.scale(2)))
+    assert found[1][:3, 3] == pytest.approx([5, 6, 7])
+    assert found[2] == pytest.approx(np.array(T.rotate([0, 0, 1], 90)))
+    assert found[3] == pytest.approx(np.array(T.translate(1, 0, 0)))
 
 
 def test_attributes_are_parameters_by_default():
@@ -458,6 +459,36 @@ def test_images_are_the_right_way_up():
     assert image[9, 25, 0] > 0.3
     assert image[21, 14].argmax() == 1
     assert image[21, 14, 1] > 0.3
+
+
+@pytest.mark.parametrize(
+    ("shape", "scale"),
+    [
+        ("sphere", "1 1 1"),
+        ("sphere", "1 1 1.001"),
+        ("sphere", "1 -1 1"),
+        ("cylinder", "1 1 1"),
+        ("cylinder", "1 -1 1"),
+    ],
+)
+def test_images_are_the_right_way_up_around_an_axis(shape, scale):
+    """Along z; u grows around it from x towards y, v from the lower end."""
+    pixels = np.zeros((8, 8, 3), np.float32)
+    pixels[:4, :, 0] = pixels[4:, :, 1] = pixels[:, :4, 2] = 1  # red above, blue where u < 1/2
+    mlt.write_image("image.exr", pixels)
+    text = (
+        'LightSource "infinite"\n'
+        'Texture "image" "spectrum" "imagemap" "string filename" "image.exr"\n'
+        f'Material "diffuse" "texture reflectance" "image"\nScale {scale} Shape "{shape}"\n'
+    )
+    view = VIEW.replace("LookAt 0 1 4  0 1 0  0 1 0", "LookAt {} 0  0 0 0  0 0 1")
+    for at, blue in (("1 4", True), ("1 -4", False)):
+        made = read(view.format(at), text)
+        image = mlt.render(mlt.load_dict(made.scene), mlt.Path(max_depth=2), spp=16)
+        above, below = image[10, 20], image[19, 20]
+        assert above[0] > 0.5 > 0.1 > above[1]
+        assert below[1] > 0.5 > 0.1 > below[0]
+        assert (above[2] > 0.5) == (blue != (scale == "1 -1 1"))
 
 
 def test_textures_are_scaled_and_checked():

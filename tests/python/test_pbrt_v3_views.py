@@ -83,9 +83,9 @@ def test_half_of_the_angle_of_view_may_be_given():
 
 @pytest.mark.parametrize("film", ["image", "rgb"])
 def test_there_is_a_coordinate_system_of_the_world(film):
-    placed = 'Translate 1 2 3 CoordSysTransform "world" Shape "sphere"'
+    placed = 'Translate 1 2 3 CoordSysTransform "world" Shape "cylinder"'
     made = read(f'Film "{film}" WorldBegin ', SKY, placed)
-    np.testing.assert_array_equal(made.scene["sphere"]["to_world"], np.eye(4))
+    np.testing.assert_array_equal(made.scene["cylinder"]["to_world"], np.eye(4))
 
 
 INTEGRATORS = {"path": "path", "volpath": "path", "bdpt": "bdpt", "mlt": "pssmlt"}
