@@ -90,21 +90,32 @@ def angle_of_view(params: Params) -> float:
 
 
 def film(params: Params) -> dict[str, Any]:
-    size = {
-        "width": int(params.number("xresolution", 1280)),
-        "height": int(params.number("yresolution", 720)),
-    }
+    """Of which the crop window is given as shares of the image, left, right, top and bottom."""
+    width = int(params.number("xresolution", 1280))
+    height = int(params.number("yresolution", 720))
+    crop = params.array("cropwindow", 4)
     params.finish(ignored=("filename", "diagonal", "savefp16"))
-    return {"type": "hdrfilm"} | size
+    found: dict[str, Any] = {"type": "hdrfilm", "width": width, "height": height}
+    if crop is not None:
+        sides = zip((width, width, height, height), crop[0].clip(0, 1), strict=True)
+        left, right, top, bottom = (math.ceil(side * share) for side, share in sides)
+        found |= {"crop_offset_x": left, "crop_width": right - left}
+        found |= {"crop_offset_y": top, "crop_height": bottom - top}
+    return found
 
 
-def rfilter(params: Params) -> dict[str, Any]:
-    names = {"box": "box", "gaussian": "gaussian", "mitchell": "mitchell", "triangle": "tent"}
-    if params.type == "gaussian":
-        return {"type": "gaussian", "stddev": params.number("sigma", 0.5)}
-    if params.type == "sinc":
-        return {"type": "lanczos", "lobes": int(params.number("tau", 3))}
-    return {"type": names.get(params.type, "gaussian")}
+def rfilter(params: Params, radius: str = "xradius") -> dict[str, Any]:
+    """Of the radii, that along x is taken, by the name that it has."""
+    match params.type:
+        case "box":
+            return {"type": "box", "radius": params.number(radius, 0.5)}
+        case "triangle":
+            return {"type": "tent", "radius": params.number(radius, 2)}
+        case "mitchell":
+            return {"type": "mitchell"} | {n.lower(): params.number(n, 1 / 3) for n in ("B", "C")}
+        case "sinc":
+            return {"type": "lanczos", "lobes": int(params.number("tau", 3))}
+    return {"type": "gaussian", "stddev": params.number("sigma", 0.5)}
 
 
 def sampler(params: Params) -> dict[str, Any]:
