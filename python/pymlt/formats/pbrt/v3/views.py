@@ -30,12 +30,10 @@ def rfilter(params: Params) -> dict[str, Any]:
 
 
 def integrator(params: Params) -> dict[str, Any] | None:
-    """Those of direct light follow mirrors and glass in pbrt, ours do not."""
+    """Those of direct light follow mirrors and glass in pbrt; ours does not."""
     if params.type not in DIRECT:
         return views.integrator(params)
-    params.warn(
-        f"the integrator {params.type!r} becomes 'direct': in mirrors and glass is no light"
-    )
+    params.warn(f"the integrator {params.type!r} becomes 'direct', without mirrors and glass")
     return {"type": "direct"}
 
 
