@@ -49,6 +49,11 @@ PBRT = {
         "/dev/zero: cannot read it",
     ),
     "sky": ('LightSource "infinite" "string filename" "fifo"', "fifo: cannot read it"),
+    "map": ('LightSource "infinite" "string mapname" "fifo"', "fifo: cannot read it"),
+    "spectrum": (
+        'Material "metal" "spectrum eta" "sparse.bin" "spectrum k" "sparse.bin"',
+        "sparse.bin: cannot read it: it has more than",
+    ),
     "mixes": (MIXES, "more than 1000 parts"),
     "textures": (BOARDS, "more than 1000 parts"),
     "long chains": (SCALES, "nested more than 100 deep"),

@@ -327,11 +327,12 @@ def test_transforms_and_attributes_are_saved():
         'ConcatTransform [0 1 0 0 -1 0 0 0 0 0 1 0 0 0 0 1] Shape "sphere"\n',
         'Identity CoordSysTransform "here" Shape "sphere" "float radius" 2\n',
     )
-    found = [v for k, v in made.scene.items() if k.startswith("sphere")]
-    assert found[0]["to_world"] == pytest.approx(np.array(T.translate(0, 1, 0) @ T.scale(2)))
-    assert found[1]["to_world"][:3, 3] == pytest.approx([5, 6, 7])
-    assert found[2]["to_world"] == pytest.approx(np.array(T.rotate([0, 0, 1], 90)))
-    assert found[3]["to_world"] == pytest.approx(np.array(T.translate(1, 0, 0)))
+    turned = np.diag([1, 1, -1, 1])  # spheres are upside down
+    found = [v["to_world"] @ turned for k, v in made.scene.items() if k.startswith("sphere")]
+    assert found[0] == pytest.approx(np.array(T.translate(0, 1, 0) @ T.scale(2)))
+    assert found[1][:3, 3] == pytest.approx([5, 6, 7])
+    assert found[2] == pytest.approx(np.array(T.rotate([0, 0, 1], 90)))
+    assert found[3] == pytest.approx(np.array(T.translate(1, 0, 0)))
 
 
 def test_attributes_are_parameters_by_default():
@@ -458,6 +459,36 @@ def test_images_are_the_right_way_up():
     assert image[9, 25, 0] > 0.3
     assert image[21, 14].argmax() == 1
     assert image[21, 14, 1] > 0.3
+
+
+@pytest.mark.parametrize(
+    ("shape", "scale"),
+    [
+        ("sphere", "1 1 1"),
+        ("sphere", "1 1 1.001"),
+        ("sphere", "1 -1 1"),
+        ("cylinder", "1 1 1"),
+        ("cylinder", "1 -1 1"),
+    ],
+)
+def test_images_are_the_right_way_up_around_an_axis(shape, scale):
+    """Along z; u grows around it from x towards y, v from the lower end."""
+    pixels = np.zeros((8, 8, 3), np.float32)
+    pixels[:4, :, 0] = pixels[4:, :, 1] = pixels[:, :4, 2] = 1  # red above, blue where u < 1/2
+    mlt.write_image("image.exr", pixels)
+    text = (
+        'LightSource "infinite"\n'
+        'Texture "image" "spectrum" "imagemap" "string filename" "image.exr"\n'
+        f'Material "diffuse" "texture reflectance" "image"\nScale {scale} Shape "{shape}"\n'
+    )
+    view = VIEW.replace("LookAt 0 1 4  0 1 0  0 1 0", "LookAt {} 0  0 0 0  0 0 1")
+    for at, blue in (("1 4", True), ("1 -4", False)):
+        made = read(view.format(at), text)
+        image = mlt.render(mlt.load_dict(made.scene), mlt.Path(max_depth=2), spp=16)
+        above, below = image[10, 20], image[19, 20]
+        assert above[0] > 0.5 > 0.1 > above[1]
+        assert below[1] > 0.5 > 0.1 > below[0]
+        assert (above[2] > 0.5) == (blue != (scale == "1 -1 1"))
 
 
 def test_textures_are_scaled_and_checked():
@@ -604,6 +635,27 @@ def test_an_environment_map_lights_from_where_it_did():
     turned = 'AttributeBegin Rotate 180 1 0 0 LightSource "infinite" "string filename" "map.exr" '
     lit = mlt.load(written(VIEW, turned, "AttributeEnd\n", FLOOR))
     assert mlt.render(lit, mlt.Path(max_depth=2), spp=64)[22:].mean() > 0.01
+
+
+@pytest.mark.parametrize("degrees", [5, 30, 60, 90, 150])
+def test_an_environment_map_is_seen_where_it_was(degrees):
+    """A map of 1 + z, which is the mean over each of its pixels."""
+    n = 64
+    d = np.random.default_rng(1).normal(size=(1_000_000, 3))
+    d /= np.linalg.norm(d, axis=1, keepdims=True)
+    u, v = square_of(d).T
+    bins = {"bins": n, "range": [[0, 1], [0, 1]]}
+    total, count = (np.histogram2d(v, u, weights=w, **bins)[0] for w in (1 + d[:, 2], None))
+    image = np.repeat((total / count)[..., None], 3, axis=2).astype(np.float32)
+    mlt.write_image("map.exr", image)
+    theta = np.radians(degrees)
+    look = f"LookAt 0 0 0  {np.sin(theta) * 0.6} {np.sin(theta) * 0.8} {np.cos(theta)}  0 1 0"
+    view = VIEW.replace("LookAt 0 1 4  0 1 0  0 1 0", look).replace(
+        '"float fov" 40', '"float fov" 1'
+    )
+    made = read(view, 'LightSource "infinite" "string filename" "map.exr"')
+    found = mlt.render(mlt.load_dict(made.scene), spp=1).mean()
+    assert found == pytest.approx(1 + np.cos(theta), abs=0.006)
 
 
 # ---- files -------------------------------------------------------------------------------------
@@ -886,27 +938,3 @@ def test_a_grid_of_colours_has_their_sum_and_quotient():
 def test_mistakes_in_media_are_named(text, message):
     with pytest.raises(mlt.SceneError, match=message):
         read(VIEW, text)
-
-
-# ---- pbrt-v3 -------------------------------------------------------------------------------------
-
-OF_V3 = {
-    "film": 'Film "image" "integer xresolution" 40\n',
-    "material": 'WorldBegin\nMaterial "matte"\n',
-    "named": 'WorldBegin\nMakeNamedMaterial "a" "string type" "uber"\n',
-    "lamp": 'WorldBegin\nLightSource "point" "color I" [ 1 1 1 ]\n',
-}
-
-
-@pytest.mark.parametrize("name", OF_V3)
-def test_a_file_of_pbrt_v3_says_so_and_where(name):
-    made = read_foreign(written(OF_V3[name]))
-    said = [text for text in made.placed_warnings("a.pbrt") if "pbrt-v3" in text]
-    assert len(said) == 1
-    assert f"a.pbrt:{OF_V3[name].count(chr(10))}: " in said[0]
-    assert "pbrt --upgrade" in said[0]
-
-
-def test_a_file_of_pbrt_v4_does_not():
-    made = read_foreign(written(VIEW, FLOOR, LAMP))
-    assert not [text for text in made.warnings if "pbrt-v3" in text]

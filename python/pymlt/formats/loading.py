@@ -28,7 +28,7 @@ def load(
     .gltf, .glb
         glTF 2.0; needs the extra `gltf`.
     .pbrt
-        pbrt-v4.
+        pbrt-v3 and pbrt-v4.
     .ply, .obj, .stl, .ply.gz, .obj.gz
         one mesh, in which y is up, with a grey material, light, and a camera that it fits.
     anything else that exists, but files of other programs (.blend, .fbx, ...)

@@ -42,17 +42,23 @@ class AreaLight(NamedTuple):
 
 def area_light(params: Params) -> AreaLight:
     """What AreaLightSource says."""
-    both = params.flag("twosided")
-    if both:
-        params.warn("lights that shine on both sides shine on their outside only")
-    if params.type != "diffuse":
-        params.warn(f"the area light {params.type!r} is taken as 'diffuse'")
+    sides = shining_sides(params, "diffuse")
     colour, scale = params.colour("L", 1.0), params.number("scale", 1)
     power = params.number("power", -1)
     params.finish()
     if power > 0:
-        return AreaLight(scaled(luminance_one(colour), scale), power, 1 + both)
+        return AreaLight(scaled(luminance_one(colour), scale), power, sides)
     return AreaLight(scaled(colour, scale), None, 1)
+
+
+def shining_sides(params: Params, *types: str) -> int:
+    """How many sides shine in pbrt: 1 or 2; what is not the same here is named."""
+    both = params.flag("twosided")
+    if both:
+        params.warn("lights that shine on both sides shine on their outside only")
+    if params.type not in types:
+        params.warn(f"the area light {params.type!r} is taken as 'diffuse'")
+    return 1 + both
 
 
 def areas_of(shape: dict[str, Any], params: Params) -> np.ndarray:

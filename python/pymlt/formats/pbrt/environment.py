@@ -38,11 +38,12 @@ def environment(params: Params, path: Path, to_world: np.ndarray, scale: float) 
 def directions(rows: int, part: slice = slice(None)) -> np.ndarray:
     """The directions of our pixels in pbrt's light space, (rows, 2 rows, 3), or of some rows.
 
-    Ours: phi = 2 pi u, direction (sin phi sin theta, cos theta, -cos phi sin theta) with y up.
+    Ours: phi = 2 pi u, direction (sin phi sin theta, cos theta, -cos phi sin theta) with y up; the
+    first and the last row are at the poles.
     """
     import numpy as np
 
-    theta = np.pi * (np.arange(rows)[part] + 0.5)[:, None] / rows
+    theta = np.pi * np.arange(rows)[part][:, None] / (rows - 1)
     phi = np.pi * (np.arange(2 * rows) + 0.5)[None, :] / rows
     y = np.broadcast_to(np.cos(theta), (len(theta), 2 * rows))
     x, z = np.sin(phi) * np.sin(theta), -np.cos(phi) * np.sin(theta)

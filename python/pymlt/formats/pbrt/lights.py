@@ -14,8 +14,6 @@ if TYPE_CHECKING:
 
 def light(params: Params, folder: Path, to_world: np.ndarray) -> dict[str, Any] | None:
     """A light that is no shape; None, with a warning, for those without a counterpart."""
-    import numpy as np
-
     scale = params.number("scale", 1)
     if params.type == "infinite":
         if filename := params.text("filename"):
@@ -23,15 +21,21 @@ def light(params: Params, folder: Path, to_world: np.ndarray) -> dict[str, Any] 
 
             return environment(params, folder / filename, to_world, scale)
         return {"type": "constant", "radiance": scaled(params.colour("L", 1.0), scale)}
+    colour = "L" if params.type == "distant" else "I"
+    return placed(params, to_world, scaled(params.colour(colour, 1.0), scale))
+
+
+def placed(params: Params, to_world: np.ndarray, power: Any) -> dict[str, Any] | None:
+    """A light of no size: `power` is its irradiance or intensity."""
+    import numpy as np
+
     start, end = (_point(params, n, d) for n, d in (("from", (0, 0, 0)), ("to", (0, 0, 1))))
-    placed = to_world[:3, :3] @ start + to_world[:3, 3]
+    position = to_world[:3, :3] @ start + to_world[:3, 3]
     axis = to_world[:3, :3] @ (end - start)
     if params.type == "distant":
-        power = scaled(params.colour("L", 1.0), scale)
         return {"type": "directional", "irradiance": power, "direction": axis.tolist()}
-    power = scaled(params.colour("I", 1.0), scale)
     if params.type == "point":
-        return {"type": "point", "intensity": power, "position": placed.tolist()}
+        return {"type": "point", "intensity": power, "position": position.tolist()}
     if params.type == "spot":
         from ...scenes.transforms import Transform
 
@@ -43,7 +47,7 @@ def light(params: Params, folder: Path, to_world: np.ndarray) -> dict[str, Any] 
             "intensity": power,
             "cutoff_angle": cone,
             "beam_width": max(0.0, cone - params.number("conedeltaangle", 5)),
-            "to_world": Transform.look_at(placed, placed + axis, up).matrix,
+            "to_world": Transform.look_at(position, position + axis, up).matrix,
         }
     params.warn(f"the light {params.type!r} has no counterpart")
     return None

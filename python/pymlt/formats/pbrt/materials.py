@@ -86,14 +86,18 @@ def mix(params: Params, textures: Textures, named: Named) -> dict[str, Any]:
     """`amount` is the share of the second material."""
     given = params.get("materials")
     names = given.values if given else []
+    return blend(params, names, named, textures.number(params, "amount", 0.5))
+
+
+def blend(params: Params, names: list[str], named: Named, weight: Any) -> dict[str, Any]:
+    """Two materials by their names; the weight is the share of the second one."""
     if len(names) != 2 or any(name not in named for name in names):
         raise params.where.error("a mix needs the names of two materials that stand above it")
     parts = [named[name] for name in names]
     two_sided = all(part["type"] == "twosided" for part in parts)
     inner = {f"bsdf_{i}": part["bsdf"] if two_sided else part for i, part in enumerate(parts)}
-    weight = textures.number(params, "amount", 0.5)
-    blend = {"type": "blendbsdf", "weight": weight} | inner
-    return {"type": "twosided", "bsdf": blend} if two_sided else blend
+    blended = {"type": "blendbsdf", "weight": weight} | inner
+    return {"type": "twosided", "bsdf": blended} if two_sided else blended
 
 
 def rough(

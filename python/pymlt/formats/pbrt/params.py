@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from ..imported import Imported
@@ -60,10 +61,24 @@ class Params:
             raise self.where.error(f"{name!r} has {len(found.values)} numbers")
         return np.array(found.values, dtype=float).reshape(-1, width)
 
-    def colour(self, name: str, default: float) -> Any:
+    def colour(self, name: str, default: float | list[float]) -> Any:
         """A colour or spectrum for a scene dict."""
         found = self.get(name)
         return colour(found, self.where, self.made) if found else default
+
+    def part(self, names: Iterable[str]) -> dict[str, Parameter]:
+        """Those of the parameters that are given."""
+        found = {name: self._given[name] for name in names if name in self._given}
+        self._read.update(found)
+        return found
+
+    def changed(self, given: dict[str, Parameter]) -> Params:
+        """The same plug-in with some parameters of another value."""
+        return Params(self.where, self.type, self._given | given, self.made, self._defaults)
+
+    def taken_as(self, type: str, defaults: dict[str, Parameter]) -> Params:
+        """The same parameters, of another plug-in."""
+        return Params(self.where, type, self._given, self.made, defaults)
 
     def warn(self, text: str) -> None:
         """Names something that has no counterpart, with the line of the directive."""

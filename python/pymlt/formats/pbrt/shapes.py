@@ -32,12 +32,12 @@ def shape(
     made = make(params, folder)
     if params.type == "sphere" and not is_similarity(to_world):
         made = ellipsoid(params, made["radius"])
-    local = made.pop("local", np.eye(4))
-    mirrored = np.linalg.det(to_world[:3, :3]) < 0
+    placed = to_world @ made.pop("local", np.eye(4))
+    mirrored = np.linalg.det(placed[:3, :3]) < 0
     has_normals = made.pop("has_normals", False)
     if reversed != bool(mirrored and not has_normals):
         made["flip_normals"] = True
-    return made | {"to_world": to_world @ local}
+    return made | {"to_world": placed}
 
 
 def triangle_mesh(params: Params, folder: Path) -> dict[str, Any]:
@@ -68,11 +68,14 @@ def ply_mesh(params: Params, folder: Path) -> dict[str, Any]:
 
 
 def sphere(params: Params, folder: Path) -> dict[str, Any]:
+    """Upside down, for v is 0 at its lower pole in pbrt, and at the upper one here."""
+    import numpy as np
+
     radius = params.number("radius", 1)
     low, high = params.number("zmin", -radius), params.number("zmax", radius)
     if low > -radius or high < radius or params.number("phimax", 360) < 360:
         params.warn("parts of spheres are left out: they become whole")
-    return {"type": "sphere", "radius": radius}
+    return {"type": "sphere", "radius": radius, "local": np.diag([1.0, 1, -1, 1])}
 
 
 def ellipsoid(params: Params, radius: float) -> dict[str, Any]:

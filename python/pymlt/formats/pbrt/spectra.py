@@ -28,7 +28,7 @@ WAVELENGTHS = range(360, 831, 5)  #: nm
 
 def colour(given: Parameter, where: Token, made: Imported) -> Any:
     """The value of a parameter of type rgb, spectrum, float or blackbody."""
-    if given.kind == "rgb":
+    if given.kind in ("rgb", "color"):
         return rgb(given.values)
     if given.kind == "float":
         return given.values[0]

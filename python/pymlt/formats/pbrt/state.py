@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from .area_lights import AreaLight
 from .media import Interface
+from .params import Params
 from .tokens import Parameter, Token, Words
 
 if TYPE_CHECKING:
@@ -39,6 +40,7 @@ class State:
 
     matrix: np.ndarray  #: object space (or world space, before WorldBegin) to the outer space
     material: dict[str, Any] | None = None  #: as the scene refers to it
+    made_of: Params | None = None  #: what gave the material, in pbrt-v3, unless it has a name
     area_light: AreaLight | None = None
     interface: Interface = Interface()  # noqa: RUF009 (it is never changed)
     reversed: bool = False

@@ -21,7 +21,7 @@ def loop_subdivision(params: Params, folder: Path) -> dict[str, Any]:
     positions, indices = params.array("P", 3), params.array("indices", 3)
     if positions is None or indices is None:
         raise params.where.error("a loopsubdiv needs 'P' and 'indices'")
-    levels, faces = int(params.number("levels", 3)), indices.astype(int)
+    levels, faces = int(params.number("levels", params.number("nlevels", 3))), indices.astype(int)
     params.made.mesh(params.type, Mesh(positions, faces))  # its indices are checked
     if not 0 <= levels <= 12 or 3 * len(faces) * 4**levels > CORNERS:
         raise params.where.error(

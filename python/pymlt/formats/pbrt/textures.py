@@ -17,35 +17,31 @@ Value = float | dict[str, Any]
 class Textures:
     """What has been declared, and what parameters refer to."""
 
+    factors = ("tex", "scale")  #: of the texture "scale"
+
     def __init__(self, folder: Path):
         self._folder = folder
-        self._known: dict[str, Value] = {}
+        self._known: dict[tuple[str, bool], Value] = {}  #: by name, and whether of numbers
 
     def declare(self, name: str, kind: str, params: Params) -> None:
         """Texture "name" "spectrum" "imagemap" ..."""
-        value: Value
-        if params.type == "constant":
-            value = params.colour("value", 1.0)
-        elif params.type == "imagemap":
-            value = self._image(params, kind)
-        elif params.type == "scale":
-            value = self._scale(params)
-        elif params.type == "checkerboard":
-            value = self._checkerboard(params)
-        else:
+        key = (name, kind == "float")
+        make = getattr(self, f"_make_{params.type}", None)
+        if make is None:
             params.warn(f"the texture {params.type!r} has no counterpart; it becomes 0.5")
-            self._known[name] = 0.5
+            self._known[key] = 0.5
             return
+        value: Value = make(params)
         params.finish(ignored=("mapping", "filter", "maxanisotropy"))
         if isinstance(value, dict):
             measured(value)
-        self._known[name] = value
+        self._known[key] = value
 
     def colour(self, params: Params, name: str, default: float) -> Value:
         """A colour, a spectrum or a texture, for a scene dict."""
         given = params.get(name)
         if given is not None and given.kind == "texture":
-            return self._find(given.values[0], params)
+            return self._find(given.values[0], False, params)
         value: Value = params.colour(name, default)
         return value
 
@@ -53,7 +49,7 @@ class Textures:
         """A number or a texture."""
         given = params.get(name)
         if given is not None and given.kind == "texture":
-            return self._find(given.values[0], params)
+            return self._find(given.values[0], True, params)
         return default if given is None else float(given.values[0])
 
     def bitmap(self, filename: str) -> dict[str, Any]:
@@ -61,34 +57,37 @@ class Textures:
         path = str((self._folder / filename).resolve())
         return {"type": "bitmap", "filename": path, "vscale": -1.0, "voffset": 1.0}
 
-    def _find(self, name: str, params: Params) -> Value:
-        if name not in self._known:
-            raise params.where.error(f"there is no texture {name!r} above this line")
-        return self._known[name]
+    def _find(self, name: str, of_numbers: bool, params: Params) -> Value:
+        """One of the same name that is not of what is looked for serves, too."""
+        for key in ((name, of_numbers), (name, not of_numbers)):
+            if key in self._known:
+                return self._known[key]
+        raise params.where.error(f"there is no texture {name!r} above this line")
 
-    def _image(self, params: Params, kind: str) -> Value:
+    def _make_constant(self, params: Params) -> Value:
+        value: Value = params.colour("value", 1.0)
+        return value
+
+    def _make_imagemap(self, params: Params) -> Value:
         bitmap = self.bitmap(params.text("filename")) | placement(params, 1.0)
         bitmap["voffset"], bitmap["vscale"] = 1 - bitmap["voffset"], -bitmap["vscale"]
         bitmap["wrap_mode"] = WRAP.get(params.text("wrap", "repeat"), "repeat")
-        encoding = params.text("encoding", "")
-        if encoding.startswith("gamma"):
-            bitmap["gamma"] = float(encoding.split()[1])
-        elif encoding == "linear":
-            bitmap["raw"] = True
         if params.flag("invert"):
             params.warn("'invert' of image textures is left out")
-        return multiplied(bitmap, params.number("scale", 1.0))
+        return multiplied(bitmap | self._encoding(params), params.number("scale", 1.0))
 
-    def _scale(self, params: Params) -> Value:
-        inner, factor = (self.colour(params, name, 1.0) for name in ("tex", "scale"))
-        if not _is_even(factor):
-            inner, factor = factor, inner
-        if not _is_even(factor):
-            params.warn("a product of two textures is left out; the first is taken")
-            return inner
-        return multiplied(inner, factor)
+    def _encoding(self, params: Params) -> dict[str, Any]:
+        """How the values of an image are stored; by its format if nothing is said."""
+        encoding = params.text("encoding", "")
+        if encoding.startswith("gamma"):
+            return {"gamma": float(encoding.split()[1])}
+        return {"raw": True} if encoding == "linear" else {}
 
-    def _checkerboard(self, params: Params) -> Value:
+    def _make_scale(self, params: Params) -> Value:
+        inner, factor = (self.colour(params, name, 1.0) for name in self.factors)
+        return product(inner, factor, params)
+
+    def _make_checkerboard(self, params: Params) -> Value:
         """A period of two squares, where ours has one."""
         if params.number("dimension", 2) != 2:
             params.warn("checkerboards in space are left out; they follow u and v")
@@ -108,11 +107,21 @@ def placement(params: Params, factor: float) -> dict[str, float]:
     }
 
 
+def product(inner: Value, factor: Value, params: Params) -> Value:
+    """Of two colours or textures of which at least one is the same everywhere."""
+    if not is_even(factor):
+        inner, factor = factor, inner
+    if not is_even(factor):
+        params.warn("a product of two textures is left out; the first is taken")
+        return inner
+    return multiplied(inner, factor)
+
+
 def multiplied(inner: Value, factor: Value) -> Value:
     """A texture or a colour times a factor that is the same everywhere."""
     if isinstance(factor, float | int):
-        return scaled(inner, factor) if _is_even(inner) else _scale_texture(inner, factor)
-    if not _is_even(inner):
+        return scaled(inner, factor) if is_even(inner) else _scale_texture(inner, factor)
+    if not is_even(inner):
         return _scale_texture(inner, factor)
     if isinstance(inner, float | int):
         return scaled(factor, inner)
@@ -125,7 +134,7 @@ def multiplied(inner: Value, factor: Value) -> Value:
     return _scale_texture(spectrum, factor)
 
 
-def _is_even(value: Value) -> bool:
+def is_even(value: Value) -> bool:
     """Whether it is the same everywhere."""
     return not isinstance(value, dict) or value["type"] in ("rgb", "spectrum")
 

@@ -12,8 +12,11 @@ from ... import _core
 from .. import limits
 
 PATTERN = re.compile(r'\s+|#[^\n]*|"((?:[^"\\\n]++|\\.)*+)"|([\[\]])|([^\s"\[\]#]+)|(.)')
+#: The same without three or more numbers in a row, for a fast look at the words.
+NO_NUMBERS = re.compile(r'(?:[-+.\d][^\s"\[\]#]*\s+){3,}+|' + PATTERN.pattern)
 NUMBERS = {"integer": 1, "float": 1, "point2": 2, "vector2": 2, "point3": 3, "vector3": 3}
 NUMBERS |= {"normal3": 3, "point": 3, "vector": 3, "normal": 3, "rgb": 3, "blackbody": 1}
+NUMBERS |= {"color": 3, "xyz": 3}  #: of pbrt-v3
 
 
 class Token(NamedTuple):
@@ -39,10 +42,10 @@ class Parameter(NamedTuple):
     values: list[Any]  #: floats, texts or booleans
 
 
-def tokens(path: Path, text: str) -> Iterator[Token]:
+def tokens(path: Path, text: str, pattern: re.Pattern[str]) -> Iterator[Token]:
     """The words of a file. Raises SceneError."""
     line = 1
-    for match in PATTERN.finditer(text):
+    for match in pattern.finditer(text):
         quoted, bracket, word, other = match.groups()
         token = Token(quoted or bracket or word or "", quoted is not None, path, line)
         if other:
@@ -57,8 +60,9 @@ def tokens(path: Path, text: str) -> Iterator[Token]:
 class Words:
     """The words of a file with the files that it includes, one after the other."""
 
-    def __init__(self, path: Path):
+    def __init__(self, path: Path, pattern: re.Pattern[str] = PATTERN):
         self._root = path.parent
+        self._pattern = pattern
         self._open: list[Iterator[Token]] = []
         self._paths: list[Path] = []  #: of those that are open
         self._included = -1
@@ -85,7 +89,7 @@ class Words:
         self._included += 1
         self._size += len(content)
         self._paths.append(path.resolve())
-        self._open.append(tokens(path, _decoded(content)))
+        self._open.append(tokens(path, _decoded(content), self._pattern))
 
     def peek(self) -> Token | None:
         """The next word, which stays; None at the end."""
@@ -125,29 +129,22 @@ class Words:
 
     def parameters(self) -> dict[str, Parameter]:
         """All that follows of the kind `"float radius" [ 1 ]`, by name."""
-        found: dict[str, Parameter] = {}
+        return {
+            name: _parameter(kind, declared, values)
+            for declared, kind, name, values in self.declarations()
+        }
+
+    def declarations(self) -> Iterator[tuple[Token, str, str, Iterator[Token]]]:
+        """The same, as words: the declaration, its type and its name, and the values."""
         while (token := self.peek()) is not None and token.quoted:
             self.take()
             kind, _, name = token.text.partition(" ")
             if not name.strip():
                 raise token.error(f"{token.text!r} should be a type and a name")
-            found[name.strip()] = self._parameter(kind, token)
-        return found
-
-    def _parameter(self, kind: str, declared: Token) -> Parameter:
-        values: list[Any] = []
-        numeric = kind in NUMBERS
-        for token in self._list(declared):
-            numeric = numeric or (kind == "spectrum" and not token.quoted)
-            values.append(to_number(token) if numeric else token.text)
-        if numeric:
-            if len(values) % NUMBERS.get(kind, 2):
-                raise declared.error(f"{declared.text!r} has {len(values)} numbers")
-        elif kind == "bool":
-            values = [text == "true" for text in values]
-        if not values and kind not in NUMBERS:
-            raise declared.error(f"{declared.text!r} has no value")
-        return Parameter(kind, values)
+            values = self._list(token)
+            yield token, kind, name.strip(), values
+            for _ in values:  # those that nobody has asked for
+                pass
 
     def _list(self, declared: Token) -> Iterator[Token]:
         """The words between brackets, or the one without."""
@@ -157,6 +154,22 @@ class Words:
             return
         while (token := self.take(declared)).text != "]" or token.quoted:
             yield token
+
+
+def _parameter(kind: str, declared: Token, given: Iterator[Token]) -> Parameter:
+    values: list[Any] = []
+    numeric = kind in NUMBERS
+    for token in given:
+        numeric = numeric or (kind == "spectrum" and not token.quoted)
+        values.append(to_number(token) if numeric else token.text)
+    if numeric:
+        if len(values) % NUMBERS.get(kind, 2):
+            raise declared.error(f"{declared.text!r} has {len(values)} numbers")
+    elif kind == "bool":
+        values = [text == "true" for text in values]
+    if not values and kind not in NUMBERS:
+        raise declared.error(f"{declared.text!r} has no value")
+    return Parameter(kind, values)
 
 
 def _decoded(content: bytes) -> str:
