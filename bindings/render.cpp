@@ -21,7 +21,8 @@ std::unique_ptr<PyJob> make_job(LoadedPtr loaded, const MadeIntegrator& made,
   settings.budget = {spp, time, error};
   settings.seed = seed;
   settings.threads = threads;
-  settings.aovs = parse_aovs(aovs ? std::string(*aovs) : loaded->aovs);
+  const std::string& asked = made.aovs.empty() ? loaded->aovs : made.aovs;
+  settings.aovs = parse_aovs(aovs ? std::string(*aovs) : asked);
   settings.autosave.every = checkpoint.every;
   if (!checkpoint.path.empty())
     settings.autosave = autosave_to(checkpoint, checkpoint_of(*loaded, made, seed));

@@ -5,8 +5,8 @@
 
 namespace mlt {
 
-/// Of coordinates, entries of transforms, and extinctions. Embree takes rays up to 1.8e18, whose
-/// squares are the largest floats; a thousandth of that leaves room for sums of coordinates.
+/// The largest coordinate, entry of a transform, or extinction. Embree takes rays up to 1.8e18,
+/// whose squares are the largest floats; a thousandth of that leaves room for sums of coordinates.
 constexpr double largest_magnitude = 1e15;
 
 /// Whether a number is too large, or none.

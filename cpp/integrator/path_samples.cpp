@@ -14,7 +14,7 @@ using Source = MetropolisAlgorithm::Source;
 constexpr double traced_cost = 0.35;        ///< .29 to .46.
 constexpr double bidirectional_cost = 0.8;  ///< .75 to .93.
 constexpr double wave_cost = 0.35;          ///< .3 to .4, of waves where all lights are meshes.
-/// Of other waves, which take .83 to 1.03 of the CPU time of single samples.
+/// Cost of a ray of other waves, which take .83 to 1.03 of the CPU time of single samples.
 constexpr double other_wave_cost = 0.7;
 
 bool are_traced(const PathTarget& target) {

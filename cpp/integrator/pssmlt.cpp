@@ -201,7 +201,8 @@ class PssmltIntegrator : public Integrator {
     if (estimator_ == "bdpt")
       return std::make_unique<Pssmlt<BidirectionalEstimator>>(scene, settings_);
     if (estimator_ == "ptracer") return std::make_unique<Pssmlt<LightEstimator>>(scene, settings_);
-    if (!settings_.path.waves) return std::make_unique<Pssmlt<PathEstimator>>(scene, settings_);
+    if (!settings_.path.waves || scene->camera().clips_far())
+      return std::make_unique<Pssmlt<PathEstimator>>(scene, settings_);
     return std::make_unique<WalkPssmlt>(scene, settings_);
   }
 

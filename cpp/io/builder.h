@@ -50,6 +50,12 @@ class Builder {
   /// The names of the files that were read.
   const std::set<std::string>& files() const { return files_; }
 
+  /// A light without light, for scenes that have none.
+  EmitterPtr black_light(const Location& where) {
+    return std::dynamic_pointer_cast<Emitter>(
+        make({"emitter", "constant", "", "", where, {{"radiance", 0.0, where}}, {}}));
+  }
+
   /// Whether a shape has taken this node as its light.
   bool on_a_shape(const Node& emitter) const { return lights_of_shapes_.count(&emitter) > 0; }
 

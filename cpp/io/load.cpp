@@ -75,9 +75,6 @@ Contents build_contents(const Node& scene, const Node& sensor, const std::option
     if (!builder.on_a_shape(*node))
       throw SceneError(
           at(node->where, "emitter '{}' needs a shape; put it inside one", node->type));
-  if (emitters.empty())
-    throw SceneError(
-        at(scene.where, "the scene has no emitter, so the image would be black; add a light"));
   return contents;
 }
 
@@ -100,6 +97,11 @@ Known known_of(Builder& builder, const Known* before, std::shared_ptr<const Acce
   for (const std::string& name : builder.files()) known.file_hashes.erase(name);
   for (const auto& [name, moved] : before->moved_files) known.file_hashes[name] = file_hash(moved);
   return known;
+}
+
+/// Whether an integrator shows surfaces, and no light.
+bool needs_no_light(const Node& integrator) {
+  return integrator.type == "aov" || integrator.type == "depth";
 }
 
 }  // namespace
@@ -136,6 +138,12 @@ LoadedScene build_scene(const Node& tree, const Registry& registry, const LoadOp
     contents = build_contents(scene, sensor, options.size, *builder);
   }
   const Builder::View& view = contents.view;
+  if (contents.emitters.empty()) {
+    contents.emitters.push_back(builder->black_light(scene.where));
+    if (!loaded.integrator || !needs_no_light(*loaded.integrator))
+      loaded.warnings.push_back(
+          at(scene.where, "the scene has no emitter, so the image is black; add a light"));
+  }
   loaded.scene = std::make_shared<Scene>(std::move(contents.shapes), std::move(contents.emitters),
                                          view.camera, view.film, view.sample_count,
                                          known ? known->accel : nullptr, origins.scene);

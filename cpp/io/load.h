@@ -43,7 +43,8 @@ struct Known {
   std::shared_ptr<const Parts> parts;
   std::shared_ptr<const Accel> accel;
   std::map<std::string, std::string> file_hashes;  ///< Hashes of the files read, by name.
-  std::map<std::string, std::string> moved_files;  ///< New paths of files that were moved.
+  std::map<std::string, std::string>
+      moved_files;  ///< Where files are now, by the names in the scene.
 };
 
 struct LoadedScene {

@@ -18,7 +18,7 @@ namespace {
 
 /// What an OBJ file says of materials.
 struct NamedMaterials {
-  std::vector<std::string> used;  ///< Those that have faces; "" for faces before any `usemtl`.
+  std::vector<std::string> used;  ///< Names of materials with faces; "" before any `usemtl`.
   std::string library;
   Location library_where;
 };

@@ -1,5 +1,6 @@
 #include "io/version0.h"
 
+#include "base/text.h"
 #include "io/node_properties.h"
 #include "io/obj_materials.h"
 
@@ -187,6 +188,20 @@ class Upgrade {
 };
 
 }  // namespace
+
+Node read_blackbody(const Element& e) {
+  e.expect_only({"name", "temperature", "scale"});
+  Node node{"texture", "blackbody", "", e.require("name"), e.where, {}, {}};
+  for (const char* name : {"temperature", "scale"}) {
+    if (!e.find(name) && name == std::string("scale")) continue;
+    std::string text = e.require(name);
+    if (text.back() == 'K' || text.back() == 'k') text.pop_back();
+    const auto number = parse_real(text);
+    if (!number) e.fail(fmt::format("has {} = {}, but it should be a number", name, quote(text)));
+    node.properties.push_back({name, *number, e.where});
+  }
+  return node;
+}
 
 void upgrade_version_0(Node& tree, std::vector<std::string>& warnings) {
   Upgrade(tree, warnings).visit(tree);

@@ -29,23 +29,24 @@ std::string asked_aovs(const Node& integrator) {
                       "'albedo:albedo, nn:sh_normal'"));
 }
 
-/// Mitsuba's integrators that only add channels or statistics to the one nested in them.
-const Node& unwrapped(const Node& integrator, LoadedScene& loaded) {
+}  // namespace
+
+const Node& unwrapped(const Node& integrator, std::string& aovs,
+                      std::vector<std::string>& warnings) {
   if (integrator.type != "moment" && integrator.type != "aov") return integrator;
-  if (integrator.type == "aov") loaded.aovs = asked_aovs(integrator);
+  if (integrator.type == "aov") aovs = asked_aovs(integrator);
   for (const Node& child : integrator.children)
     if (child.family == "integrator") {
       if (integrator.type == "moment")
-        loaded.warnings.push_back(
-            at(integrator.where, "integrator 'moment' is not supported; the '{}' inside it is used",
-               child.type));
-      return unwrapped(child, loaded);
+        warnings.push_back(at(integrator.where,
+                              "integrator 'moment' is not supported; the '{}' inside it is used",
+                              child.type));
+      return unwrapped(child, aovs, warnings);
     }
+  if (integrator.type == "aov") return integrator;
   throw SceneError(
       at(integrator.where, "integrator '{}' has no integrator inside", integrator.type));
 }
-
-}  // namespace
 
 Node asking_for(Node scene, int64_t sensor) {
   set_property(scene, sensor_property, sensor);
@@ -95,7 +96,7 @@ void find_integrator(const Node& scene, LoadedScene& loaded) {
       throw SceneError(at(child.where, "the scene has a second integrator; keep one"));
     integrator = &child;
   }
-  if (integrator) loaded.integrator = unwrapped(*integrator, loaded);
+  if (integrator) loaded.integrator = unwrapped(*integrator, loaded.aovs, loaded.warnings);
 }
 
 }  // namespace mlt

@@ -18,6 +18,10 @@ void change_films(Node& node, const std::function<void(Node&)>& change);
 /// Makes films spectral; those of a band if it is not empty.
 void make_spectral(Node& tree, const std::string& band);
 
+/// The integrator inside of those of Mitsuba that only add layers or statistics to another one, or
+/// itself; `aovs` becomes the layers. Throws SceneError where there is none inside.
+const Node& unwrapped(const Node& integrator, std::string& aovs,
+                      std::vector<std::string>& warnings);
 /// Finds the integrator of a scene, and the layers of those around it. Throws SceneError if there
 /// are two.
 void find_integrator(const Node& scene, LoadedScene& loaded);

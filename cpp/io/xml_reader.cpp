@@ -159,7 +159,7 @@ class XmlReader {
 
     const Element e = element(xml, source);
     if (tag == "blackbody") {
-      parent.children.push_back(blackbody(e));
+      parent.children.push_back(read_blackbody(e));
       return;
     }
     if (tag == "spectrum" && e.find("type")) {
@@ -199,21 +199,6 @@ class XmlReader {
       e.fail(tag == "scene" ? "cannot stand inside another element"
                             : "can only stand inside a <transform>");
     }
-  }
-
-  /// The element of Mitsuba 0.x: temperature="5000K".
-  static Node blackbody(const Element& e) {
-    e.expect_only({"name", "temperature", "scale"});
-    Node node{"texture", "blackbody", "", e.require("name"), e.where, {}, {}};
-    for (const char* name : {"temperature", "scale"}) {
-      if (!e.find(name) && name == std::string("scale")) continue;
-      std::string text = e.require(name);
-      if (text.back() == 'K' || text.back() == 'k') text.pop_back();
-      const auto number = parse_real(text);
-      if (!number) e.fail(fmt::format("has {} = {}, but it should be a number", name, quote(text)));
-      node.properties.push_back({name, *number, e.where});
-    }
-    return node;
   }
 
   void read_property(const Element& element, Node& parent, const Source& source) {

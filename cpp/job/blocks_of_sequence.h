@@ -27,7 +27,7 @@ class BlocksOfSequence {
   /// Blocks of 2^k groups. One without another of its size is left out.
   struct Level {
     Spread blocks;
-    std::vector<float> first;  ///< Of two blocks; empty between such.
+    std::vector<float> first;  ///< The first block of a pair; empty between pairs.
     double first_weight = 0;
   };
   std::vector<Level> levels_;

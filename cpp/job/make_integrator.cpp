@@ -1,6 +1,7 @@
 #include "job/make_integrator.h"
 
 #include "io/values.h"
+#include "io/view_nodes.h"
 
 #include <algorithm>
 
@@ -62,8 +63,9 @@ Node choose_integrator(const LoadedScene& loaded, const std::string& name,
   return node;
 }
 
-MadeIntegrator make_integrator(const Node& node, const Registry& registry) {
+MadeIntegrator make_integrator(const Node& given, const Registry& registry) {
   MadeIntegrator made;
+  const Node& node = unwrapped(given, made.aovs, made.warnings);
   const ObjectPtr object = build_object(node, registry, made.warnings);
   made.integrator = std::dynamic_pointer_cast<const Integrator>(object);
   if (!made.integrator)

@@ -20,6 +20,7 @@ struct MadeIntegrator {
   Node node;      ///< The node from which it was made.
   Json settings;  ///< Its type and every parameter, given or default.
   std::vector<std::string> warnings;
+  std::string aovs;              ///< Layers that an integrator `aov` asks for.
   bool extra_mutations = false;  ///< Whether it has mutations that the node does not describe.
 };
 

@@ -64,7 +64,7 @@ const std::vector<Refusal>& refusals() {
       {"texture", not_yet, {"gridtexture", "wireframe", "curvature", "vertexcolors"}},
       {"texture", "textures of volumes are not supported", {"volume"}},
       {"phase", not_yet, {"sggx", "tabphase", "kkay", "microflake"}},
-      {"integrator", not_yet, {"ao", "depth", "field", "aov", "moment"}},
+      {"integrator", not_yet, {"ao", "field", "moment"}},
       {"integrator",
        "photon mapping and virtual point lights are not supported (they are biased)",
        {"photonmapper", "ppm", "sppm", "vpl", "irrcache"}},

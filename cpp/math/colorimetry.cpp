@@ -141,6 +141,12 @@ Color xyz_to_srgb(const Vec3& v) {
           0.055648 * v.x - 0.204043 * v.y + 1.057311 * v.z};
 }
 
+Vec3 srgb_to_xyz(const Color& rgb) {
+  static const Mat3 inverse =
+      glm::inverse(Mat3(xyz_to_srgb({1, 0, 0}), xyz_to_srgb({0, 1, 0}), xyz_to_srgb({0, 0, 1})));
+  return inverse * rgb;
+}
+
 SpectrumColor spectrum_to_rgb(const WavelengthTable& samples, SpectrumUse use) {
   check_spectrum(samples);
   const bool under_d65 = use == SpectrumUse::reflectance || use == SpectrumUse::unbounded;

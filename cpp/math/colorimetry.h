@@ -30,6 +30,7 @@ Vec3 xyz_of(F&& f) {
 }
 /// XYZ to linear sRGB, with the digits that Mitsuba uses.
 Color xyz_to_srgb(const Vec3& xyz);
+Vec3 srgb_to_xyz(const Color& rgb);
 
 /// The use of a spectrum, which decides its illuminant and range.
 enum class SpectrumUse {

@@ -12,7 +12,7 @@ struct DielectricEntry {
 };
 
 /// Indices at 589 nm and 0 to 20 degrees Celsius, mostly from Hecht, "Optics", 4th ed.
-/// Those of sapphire (the ordinary ray) and of N-SF11 are from the sources in ior_curves.cpp.
+/// Curves of sapphire (the ordinary ray) and of N-SF11 are from the sources in ior_curves.cpp.
 constexpr DielectricEntry dielectrics[] = {
     {"vacuum", 1.0},      {"helium", 1.000036},        {"hydrogen", 1.000132},
     {"air", 1.000277},    {"carbon dioxide", 1.00045}, {"water", 1.3330},

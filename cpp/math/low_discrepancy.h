@@ -70,7 +70,7 @@ void scrambled_sobol(const uint32_t* indices, const uint64_t* seeds, double* x, 
   }
 }
 
-/// The first coordinates of such points.
+/// The first coordinates of the points of scrambled_sobol().
 template <int count>
 void scrambled_radical_inverse(const uint32_t* indices, const uint64_t* seeds, double* x) {
   for (int i = 0; i < count; ++i) {

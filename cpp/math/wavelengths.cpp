@@ -64,10 +64,13 @@ Color recorded_spectrum(const Spectrum& light, double u, bool dispersed) {
   return sum;
 }
 
-Color developed(const Color& recorded) {
-  // Without the quadrature's own error, white light of 1 is shown as 1.
+/// XYZ of white light of 1. Without the quadrature's own error, it is shown as 1.
+static const Vec3& white() {
   static const Vec3 xyz = xyz_of(d65), white = xyz / xyz.y;
-  return xyz_to_srgb(recorded * white);
+  return white;
 }
+
+Color developed(const Color& recorded) { return xyz_to_srgb(recorded * white()); }
+Color undeveloped(const Color& rgb) { return srgb_to_xyz(rgb) / white(); }
 
 }  // namespace mlt

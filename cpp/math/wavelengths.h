@@ -92,7 +92,8 @@ inline Color recorded(const Spectrum& light, double u, bool dispersed = false) {
   return u < 0 ? light.rgb() : recorded_spectrum(light, u, dispersed);
 }
 inline Spectrum first_lane(const Spectrum& s) { return {s[0], 0, 0, 0}; }
-/// The linear sRGB of such X, Y and Z.
+/// The linear sRGB of X, Y and Z as recorded_spectrum() has them, and back.
 Color developed(const Color& recorded);
+Color undeveloped(const Color& rgb);
 
 }  // namespace mlt

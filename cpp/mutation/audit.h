@@ -71,7 +71,7 @@ struct AuditRow {
 /// The least shift of the image position in each accepted step that an audit finds nine times in
 /// ten.
 struct AuditLimit {
-  int edges = 0;         ///< Of the paths that are shifted; 0: of all.
+  int edges = 0;         ///< Length of the paths that are shifted; 0: all lengths.
   bool or_more = false;  ///< Whether longer ones count, too.
   double pixels = 0;
 };
@@ -87,9 +87,10 @@ struct AuditReport {
   uint64_t samples = 0, steps = 0, accepted = 0;
   uint64_t invalid = 0;  ///< Steps whose acceptance was NaN.
   double lost = 0;  ///< Share of b in paths with a weight but without a target: the two must agree.
-  std::vector<AuditTest> tests;    ///< In order of p, the least first.
-  std::vector<AuditRow> rows;      ///< In order of steps, the most frequent first.
-  std::vector<AuditLimit> limits;  ///< Of all paths first; no entry where too few moves were made.
+  std::vector<AuditTest> tests;  ///< In order of p, the least first.
+  std::vector<AuditRow> rows;    ///< In order of steps, the most frequent first.
+  std::vector<AuditLimit>
+      limits;  ///< The first is about all paths; no entry where moves were too few.
   /// From how many edges on too few steps were accepted, and their share of all accepted steps.
   std::pair<int, double> untested{0, 0};
   double level = 0;  ///< The part of the significance that the last stage had.

@@ -65,7 +65,7 @@ class AuditLayout {
   const PathFunctions& functions() const { return functions_; }
   size_t plain() const { return functions_.size() + signatures_.size(); }
   size_t numbers() const { return functions_.numbers().size(); }
-  /// Of what is summed, and with the sums over lengths that are made of it at the end.
+  /// Number of sums over samples, and with those over lengths that are made of them at the end.
   size_t summed() const { return of_tail(first_tail, false); }
   size_t size() const { return of_tail(last_tail + 1, false); }
   size_t block(size_t i) const { return plain() + i * numbers(); }

@@ -103,9 +103,9 @@ struct AddedLength {
 };
 
 /// The largest number of n inserted vertices that may come from the light: not all, where the last
-/// one would have to hit a lens that is a point.
+/// one would have to hit a lens that no walk can hit.
 int most_from_light(int n, bool lens_is_missing, const Scene& scene) {
-  return lens_is_missing && scene.camera().delta_position() ? n - 1 : n;
+  return lens_is_missing && !scene.camera().can_be_hit() ? n - 1 : n;
 }
 
 /// Samples the vertex where a walk begins: on the lens, or on a light. If no other vertex is

@@ -3,7 +3,7 @@
 // nearly specular vertices are kept, as by Kaplanyan, Hanika & Dachsbacher 2014, "The natural-
 // constraint representation of the path space for efficient light transport simulation").
 //
-// Of three vertices a, b, c that are not specular and follow one another from the camera to the
+// Let a, b, c be three vertices that are not specular and follow one another from the camera to the
 // light, with specular chains between them, a and c stay unchanged and b moves: the direction
 // that leaves a (the image position, if a is on the lens) is perturbed and propagated through the
 // chain from a to b, and the chain from b to c is found by a manifold walk. So light that reaches b

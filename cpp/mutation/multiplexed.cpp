@@ -1,7 +1,7 @@
 // A small step in primary sample space, for chains of light paths (Otsu, Kaplanyan, Hanika,
 // Dachsbacher & Hachisuka 2017, "Fusing state spaces for Markov chain Monte Carlo rendering").
 //
-// Of the techniques that can make x, one is drawn with the probability p_s(x) / P(x), where P is
+// One of the techniques that can make x is drawn with the probability p_s(x) / P(x), where P is
 // the sum of all p_s: the balance heuristic. Its inverse turns x into numbers u; these move a
 // little, with a symmetric density S; and the technique makes y from the new numbers v:
 //

@@ -143,7 +143,7 @@ class PropagationMutation final : public MeasuredMutation<PropagationMutation> {
     return mlt::same_form(x, y, p.c + 1, p.b - 1);
   }
 
-  ExponentialRadius move_;  ///< Of the logarithm of the distance.
+  ExponentialRadius move_;  ///< Sizes of moves of the logarithm of the distance.
 };
 
 }  // namespace

@@ -149,7 +149,7 @@ bool BidirectionalSampler::choose_direct(int t) {
 bool BidirectionalSampler::evaluate_hit_lens(Connection& connection, RayCounts& rays) {
   const int s = connection.s, k = s - 1;
   const WalkVertex& last = light_[s - 2];
-  if (last.absorbed()) return false;
+  if (last.absorbed() || !lens_can_be_hit_) return false;
   const bool passages = scene_->has_passages();
   const Ray ray =
       s == 2 ? light_.first_ray() : walker(rays).leave(last.vertex.at, last.towards_next);

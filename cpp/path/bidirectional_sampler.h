@@ -52,7 +52,7 @@ struct Connection {
 class BidirectionalSampler {
  public:
   BidirectionalSampler(const Scene& scene, const BidirectionalSettings& settings)
-      : scene_(&scene), settings_(settings), lens_can_be_hit_(!scene.camera().delta_position()) {
+      : scene_(&scene), settings_(settings), lens_can_be_hit_(scene.camera().can_be_hit()) {
     if (settings.manifolds) manifold_.emplace(scene, settings.manifolds);
   }
 

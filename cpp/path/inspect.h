@@ -74,7 +74,8 @@ struct InspectSettings {
 FoundPath trace_path_through(const Scene& scene, const Vec2i& pixel,
                              const InspectSettings& settings);
 
-/// A path anywhere on the image, found by any technique of bidirectional path tracing, as above.
+/// A path anywhere on the image, found by any technique of bidirectional path tracing, and chosen
+/// in proportion to the L* of its estimate.
 FoundPath sample_path(const Scene& scene, const InspectSettings& settings);
 
 }  // namespace mlt

@@ -22,7 +22,8 @@ class MisExponent {
   F raise(F quotient) const {
     return quotient * std::min(std::max(quotient, F(least_)), F(most_));
   }
-  /// The sum of r_i^beta (see TechniqueSums) after the joint has moved inwards over a vertex.
+  /// The sum of r_i^beta (see TechniqueSums) after the connection has moved over one vertex, into
+  /// the path.
   template <class F>
   F over(F sum, F quotient) const {
     return sum * raise(quotient);

@@ -78,7 +78,7 @@ struct EdgePassage {
 /// transmittance of edge i, a coefficient the probability of arriving at the next vertex.
 struct PathTerms {
   std::vector<TermsAt> at;  ///< i = 0 ... k.
-  /// Those of the edges from x_i to x_{i+1}; empty in scenes without passages.
+  /// Passages of the edges from x_i to x_{i+1}; empty in scenes without passages.
   std::vector<EdgePassage> passages;
   bool light_can_be_hit = false, camera_can_be_hit = false;
   /// Density of x_0 in the technique s = 1, which may sample it for x_1.

@@ -24,7 +24,7 @@ struct WalkVertex {
   /// The probability that a walk from the previous vertex in this direction stops here.
   double passes = 1;
   Spectrum passed{1};      ///< Transmittance of the way here, over `passes`.
-  Spectrum likelihood{1};  ///< Of the walk after that (see Passage).
+  Spectrum likelihood{1};  ///< Likelihood of the walk after that (see Passage).
   /// The arrival from here of a walk from the other end, and what of its probability is known: all
   /// in grey media; in coloured ones that is without what it flies, which its likelihood decides.
   Arrival back;

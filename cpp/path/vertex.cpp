@@ -40,7 +40,7 @@ double camera_position_pdf(const Scene& scene, const Vertex& xk) {
 
 bool can_be_hit(const Scene& scene, const Vertex& end) {
   return end.kind == VertexKind::light ? !end.delta() && !scene.emitters()[end.emitter]->delta()
-                                       : !scene.camera().delta_position();
+                                       : scene.camera().can_be_hit();
 }
 
 }  // namespace mlt

@@ -35,7 +35,7 @@ bool Walker::arrive(const Ray& ray, double u_leg, SurfacePoint& at, Spectrum& li
 bool Walker::go_on(Ray ray, double u_leg, bool hit, SurfacePoint& at, Passage& leg) const {
   for (;;) {
     if (ray.medium != no_medium) {
-      const double distance = hit ? distance_to(at.p, ray) : infinity;
+      const double distance = hit ? distance_to(at.p, ray) : ray.t_max;
       if (const auto stop = fly(scene.media()[ray.medium], ray, distance, u_leg, leg)) {
         at = Scene::medium_point(ray, *stop);
         return true;
@@ -61,7 +61,7 @@ bool Walker::arrive_at(double distance, const Ray& first, double u_leg, SurfaceP
   Passage leg;
   bool hit = intersect(ray, at);
   for (;;) {
-    const double segment = hit ? distance_to(at.p, ray) : infinity;
+    const double segment = hit ? distance_to(at.p, ray) : ray.t_max;
     if (distance < segment) {
       if (ray.medium == no_medium || !scene.media()[ray.medium].scatters()) return false;
       at = Scene::medium_point(ray, distance);

@@ -30,7 +30,7 @@ inline LightSample sample_light_position(const Scene& scene, const EmitterChoice
   if (scene.has_media()) light.x0.at.medium = scene.medium_at_light(*choice.emitter, light.x0.at);
   return light;
 }
-/// The same for the light that u.x chooses, at the position that (u.y, u.z) choose.
+/// Samples the start of a walk: the light by u.x, the position on it by (u.y, u.z).
 inline LightSample sample_light_position(const Scene& scene, Vec3 u, double time,
                                          double wavelength) {
   const EmitterChoice choice = scene.choose_emitter(u.x);
@@ -52,7 +52,7 @@ inline LightSample sample_direct_position(const Scene& scene, const SurfacePoint
   return sample_direct_position(scene, from.p, from.time, from.wavelength, choice, u);
 }
 
-/// The same for the light that u.x chooses, at the position that (u.y, u.z) choose.
+/// Samples next-event estimation: the light by u.x, the position on it by (u.y, u.z).
 inline LightSample sample_direct_position(const Scene& scene, const SurfacePoint& from, Vec3 u) {
   const EmitterChoice choice = scene.choose_emitter_for(from.p, u.x);
   return sample_direct_position(scene, from, choice, {u.y, u.z});
@@ -67,7 +67,7 @@ struct Departure {
 /// The ray from a point on the lens, at its time, through a raster position.
 inline Ray camera_ray(const Camera& camera, const SurfacePoint& xk, const Vec2& raster) {
   const Vec3 w = camera.direction(xk, raster);
-  Ray ray{camera.entrance(xk, w), w, xk.time, infinity, camera.surroundings()};
+  Ray ray{camera.entrance(xk, w), w, xk.time, camera.reach(xk, w), camera.surroundings()};
   ray.wavelength = xk.wavelength;
   return ray;
 }
@@ -146,7 +146,7 @@ struct Walker {
     SurfacePoint at;
     return find_light(ray, arrive(ray, u_leg, at, likelihood), at, background, x0);
   }
-  /// The same, after the leg has been followed.
+  /// Finds a light as arrive_at_light() does, after the leg has been followed.
   template <class Background>
   bool find_light(const Ray& ray, bool hit, const SurfacePoint& at, Background&& background,
                   Vertex& x0) const {

@@ -116,7 +116,7 @@ class Forecast {
   SampleTechniques techniques_;
   AllocationSums samples_;
   double b_, t_m_;
-  // Of tours:
+  // What tours start from:
   std::vector<Start> starts_;
   double start_samples_ = 1;  ///< How many samples have found them.
   double t_0_ = 0, island_ = least_island;

@@ -45,7 +45,7 @@ struct Allocation {
 struct AllocationSettings {
   uint64_t seed = 0;
   int threads = 1;
-  uint64_t samples = 0;                        ///< Of each kind.
+  uint64_t samples = 0;                        ///< Number of samples of each kind.
   std::optional<double> share;                 ///< See Allocation; fixed if given.
   std::optional<SampleTechniques> techniques;  ///< See Allocation; fixed if given.
 };

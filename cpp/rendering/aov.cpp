@@ -51,7 +51,7 @@ FirstSurface first_surface(const Scene& scene, Ray ray, double u_leg) {
   for (;;) {
     first.hit = scene.intersect(ray, first.at);
     if (ray.medium != no_medium) {
-      const double distance = first.hit ? distance_to(first.at.p, ray) : infinity;
+      const double distance = first.hit ? distance_to(first.at.p, ray) : ray.t_max;
       first.optical_depth += scene.media()[ray.medium].fly(ray, {distance}).depth.rgb();
     }
     if (!first.hit) return first;
@@ -121,6 +121,11 @@ class PixelAovs {
 };
 
 }  // namespace
+
+Vec3 aov_value(AovKind kind, const Scene& scene, const Ray& ray, double u_leg) {
+  const Vec3 found = value(kind, scene, ray, first_surface(scene, ray, u_leg));
+  return channels(kind) == 1 ? Vec3(found.x) : found;
+}
 
 std::vector<Aov> parse_aovs(const std::string& list) {
   std::vector<Aov> aovs;

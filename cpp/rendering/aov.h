@@ -20,7 +20,7 @@ enum class AovKind {
   sh_normal,     ///< Shading normal, of length 1 before the mean is taken.
   shape_index,   ///< Index in the order of the scene; instances have an index of their own.
   prim_index,    ///< Index of the triangle in its mesh.
-  optical_depth  ///< Of the media before the surface, or on all of the ray, RGB; may be infinite.
+  optical_depth  ///< RGB, of the media before the surface or on all of the ray; may be infinite.
 };
 
 struct Aov {
@@ -31,6 +31,10 @@ struct Aov {
 /// Parses "albedo, n:sh_normal, ...": kinds, each with an optional layer name before it.
 /// Throws UsageError for an unknown kind, or a name that is empty or given twice.
 std::vector<Aov> parse_aovs(const std::string& list);
+
+/// The quantity of the first surface along a ray, in one channel or in three. `u_leg` decides which
+/// surfaces that light passes are passed.
+Vec3 aov_value(AovKind kind, const Scene& scene, const Ray& ray, double u_leg);
 
 /// Number of camera rays per pixel for the means of layers.
 inline constexpr int aov_samples = 16;

@@ -28,7 +28,8 @@ void MetropolisRendering::prepare(int threads, const std::atomic<bool>& cancelle
   using Clock = std::chrono::steady_clock;
   const auto end = Clock::now() + std::chrono::duration<double>(4 * preparation_seconds_);
   try {
-    // What was drawn until then serves; a walk that does not end is abandoned.
+    // At the end of the time, preparation makes do with what was drawn; a walk that goes on and on
+    // is abandoned.
     const Watchdog watchdog([&] { return cancelled || Clock::now() >= end; },
                             2 * preparation_seconds_);
     if (prepare_chains(threads, watchdog.stop(), cancelled)) return;

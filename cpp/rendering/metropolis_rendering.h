@@ -33,7 +33,7 @@ struct MetropolisSettings {
   /// Samples' share of time, which becomes Allocation::share; default: by a pilot.
   std::optional<double> independent_share;
   std::optional<SampleTechniques> techniques;  ///< Techniques of samples; default: by a pilot.
-  std::optional<double> steps_per_start;       ///< Of tours, per sample that they start from.
+  std::optional<double> steps_per_start;       ///< Steps of tours per sample that they start from.
   bool parts = false;                          ///< Whether to keep both families' images as layers.
   bool only_camera_walks = false;              ///< See warn_of_hidden_lights.
 };

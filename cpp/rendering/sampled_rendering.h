@@ -29,6 +29,11 @@ class SampleSink {
     else
       replay_->radiance += radiance;
   }
+  /// Adds values that are no light, and may be negative.
+  void add_signed(const Vec2& raster, const Color& values) {
+    if (!is_finite(values)) return count_invalid();
+    if (tile_) tile_->add(raster, values);
+  }
   /// Adds a contribution of light tracing, over its density, anywhere on the image.
   void splat(const Vec2& raster, const Color& contribution) {
     if (valid(contribution) && tile_) tile_->splat(raster, contribution);

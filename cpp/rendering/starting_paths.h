@@ -48,7 +48,7 @@ class StartingPaths {
   PathSeeds seeds_;
   PathState x_;
   Rng choice_{0, Purpose::allocation, 0};
-  double sum_ = 0;  ///< Of the weights of all paths.
+  double sum_ = 0;  ///< The sum of the weights of all paths.
   uint64_t paths_ = 0;
   std::vector<FoundLight> lights_;
   std::vector<Start> starts_;

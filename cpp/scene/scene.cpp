@@ -16,7 +16,7 @@ Bounds enclosing_sphere(const std::vector<ShapePtr>& shapes, const Camera& camer
   for (int i = 0; i <= moments; ++i) {
     const SurfacePoint middle =
         camera.sample_position({0.5, 0.5}, camera.time(1.0 * i / moments)).at;
-    const Vec3 lens = camera.entrance(middle, middle.ng);
+    const Vec3 lens = camera.place(middle);
     low = glm::min(low, lens);
     high = glm::max(high, lens);
   }
@@ -165,9 +165,14 @@ Spectrum MeshLight::radiance_at(double wavelength) const {
   return max(radiance->eval(at), Spectrum(0));
 }
 
+/// Whether it is a point on the lens.
+inline bool is_on_lens(const SurfacePoint& at) {
+  return at.shape == SurfacePoint::no_shape && at.kind == PointKind::surface;
+}
+
 inline Vec3 Scene::departure(const SurfacePoint& at, const Vec3& w) const {
   if (at.shape != SurfacePoint::no_shape) return ray_origin(at.p, at.ng, w, at.extent);
-  return at.kind == PointKind::surface ? camera_->entrance(at, w) : at.p;
+  return is_on_lens(at) ? camera_->entrance(at, w) : at.p;
 }
 
 Vec3 Scene::edge_end(const SurfacePoint& at, const Vec3& w) const {
@@ -182,6 +187,7 @@ void Scene::enter_medium(const SurfacePoint& at, Ray& ray) const {
 Ray Scene::spawn(const SurfacePoint& from, const Vec3& w, double time) const {
   Ray ray{departure(from, w), w, time};
   ray.wavelength = from.wavelength;
+  if (is_on_lens(from)) ray.t_max = camera_->reach(from, w);
   if (has_media_) enter_medium(from, ray);
   return ray;
 }
@@ -199,7 +205,9 @@ inline bool Scene::find_segment(const SurfacePoint& a, const SurfacePoint& b, do
   const double distance = length(between);
   ray = {start, between * (1 / distance), time, distance * (1 - ray_offset)};
   ray.wavelength = a.wavelength;
-  return true;
+  if (!has_end) return true;
+  if (is_on_lens(a)) return distance <= camera_->reach(a, ray.d);
+  return !is_on_lens(b) || distance <= camera_->reach(b, -ray.d);
 }
 
 std::optional<Ray> Scene::segment(const SurfacePoint& a, const SurfacePoint& b, double time) const {
@@ -254,7 +262,7 @@ Passage Scene::passage(const SurfacePoint& a, const SurfacePoint& b, double time
   if (has_media_ && ends) enter_medium(a, ray);  // spawn() has done it for the others
   Passage all = passage(ray);
   if (all.is_blocked() || ray.medium == no_medium) return all;
-  fly(media_[ray.medium], ray, ends ? distance_to(edge_end(b, -ray.d), ray) : infinity, all);
+  fly(media_[ray.medium], ray, ends ? distance_to(edge_end(b, -ray.d), ray) : ray.t_max, all);
   return all;
 }
 

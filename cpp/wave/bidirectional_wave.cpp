@@ -39,7 +39,8 @@ void find_edges(const JointLanes& a, const JointTechnique& technique, const Surf
 
 bool BidirectionalWave::supports(const Scene& scene, const BidirectionalSettings& settings) {
   return settings.rules.waves && settings.sample_direct &&
-         settings.heuristic != Heuristic::maximum && !settings.manifolds && !scene.has_media();
+         settings.heuristic != Heuristic::maximum && !settings.manifolds && !scene.has_media() &&
+         !scene.camera().clips_far();
 }
 
 BidirectionalWave::BidirectionalWave(const Scene& scene, const BidirectionalSettings& settings,

@@ -142,7 +142,7 @@ class BidirectionalWave {
   int joint_ = 0;  ///< That of the light that is being added.
   Samples<Vec2> rasters_;
   Samples<int> first_, last_;        ///< Each sample's first and last light; -1: there is none.
-  std::vector<Light> lights_found_;  ///< Those that no sample links to are in shadow.
+  std::vector<Light> lights_found_;  ///< One to which no sample links is in shadow.
   Samples<double> u_x_, u_y_, u_choice_, u_time_;
   Samples<double> wavelength_;  ///< See wavelengths.h.
   LambertianVertices lights_;   ///< Points on lights, for a block of samples.

@@ -24,7 +24,7 @@ struct OtherVertex {
   double sums(const MisExponent& beta, double back) const {
     return technique + sums_over(beta, back);
   }
-  /// The same for the walk that goes on here.
+  /// The sums for a walk that goes on here, in place of a connection.
   double walk_sums(const MisExponent& beta, double back) const {
     return (x.vertex.delta() ? 0 : technique) + sums_over(beta, back);
   }

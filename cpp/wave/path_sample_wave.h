@@ -19,7 +19,7 @@ class PathSampleWave {
   static std::unique_ptr<PathSampleWave> where_wanted(const Scene& scene, const PathRules& rules,
                                                       Heuristic heuristic,
                                                       WeightsAt weights = nullptr) {
-    if (!rules.waves) return nullptr;
+    if (!rules.waves || scene.camera().clips_far()) return nullptr;
     return std::make_unique<PathSampleWave>(scene, rules, heuristic, std::move(weights));
   }
   PathSampleWave(const Scene& scene, const PathRules& rules, Heuristic heuristic,

@@ -123,7 +123,7 @@ inline void BasicPathWave<Numbers>::queue_shadow(int i, const DirectLight& direc
   shadows_.add(path_[begin_ + i], found, walk.find(walk, found, 0), o, w, length);
 }
 
-/// The same for a vertex of `lambertian_` or `glossy_`.
+/// Queues the shadow ray of a vertex of `lambertian_` or `glossy_`.
 template <class Numbers>
 inline void BasicPathWave<Numbers>::queue_shadow(int i, const DirectLight& direct, double mis) {
   queue_shadow(i, direct, mis, lambertian_.shadow_o[i], lambertian_.shadow_w[i],

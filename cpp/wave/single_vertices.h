@@ -56,7 +56,7 @@ class SingleVertices {
 
  private:
   std::vector<SingleVertex> vertices_;
-  int count_ = 0;  ///< How many are in use.
+  int count_ = 0;  ///< Number of vertices in use.
   ScatteringLanes lanes_;
 };
 

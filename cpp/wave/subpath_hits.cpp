@@ -111,7 +111,9 @@ void SubpathWave::hit_lens(int walk, int place) {
   const double reverse = terms.pdf_from_camera * cosine_[walk] * per_area * stops;
   const double over_lens = camera.pdf_position(*hit) / (pdf_[walk] * per_area);
   const double before = beta_.over(sums_[walk], reverse / forward_[walk]);
-  ray.t_max = length(hit->p - ray.o) * (1 - ray_offset);
+  const double distance = dot(camera.entrance(*hit, -ray.d) - ray.o, ray.d);
+  if (!(distance > 0)) return;
+  ray.t_max = distance * (1 - ray_offset);
   hits_.push_back({sample_[walk], throughput_[walk] * terms.f, beta_.over(before, over_lens),
                    beta_.over(technique, over_lens), dispersed_[walk], survival_[walk],
                    certainty_[walk] * stops, *raster, ray});

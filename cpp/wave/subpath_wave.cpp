@@ -10,7 +10,7 @@ SubpathWave::SubpathWave(const Scene& scene, const PathRules& rules, Subpath::Fr
       rules_(rules),
       from_light_(from == Subpath::From::light),
       light_image_(light_image),
-      meets_lens_(from_light_ && light_image && !scene.camera().delta_position()),
+      meets_lens_(from_light_ && light_image && scene.camera().can_be_hit()),
       beta_(heuristic) {}
 
 void SubpathWave::clear() {
@@ -220,7 +220,7 @@ inline void SubpathWave::keep_lambertian(int i, int place) {
                         (from_light_ ? double{light_factor_[i]} : 1.0));
 }
 
-/// The same for another vertex.
+/// Stores a vertex that is not Lambertian for joints.
 void SubpathWave::keep_other(int i, int place) {
   OtherVertex& other = *other_[i];
   other.x.forward = forward_here_[i];

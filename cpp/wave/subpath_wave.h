@@ -117,7 +117,7 @@ class SubpathWave {
   bool meets_lens_;  ///< Whether the walks may hit the lens.
   MisExponent beta_;
   std::vector<JointLanes> joints_;
-  OtherVertices others_;        ///< Those that are joined.
+  OtherVertices others_;        ///< Other vertices that are joined.
   Lanes<int, blocks> longest_;  ///< Last place of the samples of each block.
   int last_place_ = 0;
   std::vector<Hit> hits_;

@@ -264,6 +264,24 @@ def test_each_part_of_the_package_imports_only_what_stands_above_it():
 DATA = {"cpp/scene/emitter/sky_model.inc", "tests/cpp/scene/bsdf/mitsuba_values.inc"}
 
 
+def test_comments_can_be_read_alone():
+    """A comment that begins so needs the one above it, which tools do not show."""
+    incomplete = re.compile(r"(?<!/)//[/]?<? ?(Of|The same|Those)\b.*")
+    found = [
+        f"{path.relative_to(ROOT)}: {comment[0]}"
+        for path in [*ROOT.glob("cpp/**/*.h"), *ROOT.glob("cpp/**/*.cpp"), *ROOT.glob("bindings/*")]
+        for comment in incomplete.finditer(path.read_text())
+        if not continues(path.read_text(), comment.start())
+    ]
+    assert not found
+
+
+def continues(text, place):
+    """Whether the line above is a comment, too, of which this one is not the beginning."""
+    above = text[:place].rstrip(" ").removesuffix("\n").rsplit("\n", 1)[-1].strip()
+    return text[:place].rstrip(" ").endswith("\n") and above.startswith("//")
+
+
 @pytest.mark.parametrize("folder", ["cpp", "bindings", "tests/cpp", "tests/fuzz", "benchmarks"])
 def test_no_line_of_cpp_is_longer_than_the_formatter_allows(folder):
     limit = int(re.search(r"ColumnLimit: (\d+)", (ROOT / ".clang-format").read_text())[1])

@@ -209,7 +209,7 @@ class MltAlgorithm : public MetropolisAlgorithm {
 
   MltSettings settings_;
   PathTarget target_;
-  uint64_t walks_ = 0;  ///< Those that have looked for CertainLight.
+  uint64_t walks_ = 0;  ///< Camera walks that have looked for CertainLight.
   std::shared_ptr<const ManifoldGuide> guide_;
   Mutations mutations_;
   std::vector<double> step_sizes_;

@@ -130,7 +130,7 @@ void PathTours::choose(const Chances& chances, double over_starts, double paths,
     if (const double u = fraction(chances.kill + i * tour_turn); survival > u) start(u);
 }
 
-/// Those of the paths of this technique.
+/// The chances of paths of one technique.
 PathTours::Chances PathTours::Chances::of(int joint) const {
   return {fraction(kill + joint * path_turn), fraction(copies + joint * path_turn)};
 }

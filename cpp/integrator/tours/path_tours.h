@@ -76,7 +76,7 @@ class PathTours : public RenderChain {
   bool in_waves_;
   RecordedChain<PathKernel> chain_;
   PathState start_;
-  StepsInPixels steps_;  ///< Of the current tour.
+  StepsInPixels steps_;  ///< Steps of the current tour.
   SampleSums samples_;
   ChainId id_;
   uint64_t stream_;  ///< Random stream of the group.

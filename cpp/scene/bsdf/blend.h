@@ -36,7 +36,7 @@ class Blend final : public Bsdf {
 
  private:
   double weight(const SurfacePoint& at) const { return weight_->eval_scalar(at); }
-  /// The probability that what scatters light from this direction is the first material.
+  /// The probability that light from this direction is scattered by the first material.
   double probability_of_first(const SurfacePoint& at, const Vec3& from) const;
 
   BsdfPtr first_, second_;

@@ -13,7 +13,7 @@ struct GlassFacet {
   bool exists, reflects;
   Vec3 h;            ///< Its normal, above the surface.
   double eta;        ///< n_below / n_above.
-  double cosine, F;  ///< Of light in the thinner medium; its Fresnel reflectance.
+  double cosine, F;  ///< The cosine in the thinner medium, and the Fresnel reflectance.
 };
 
 /// The facet that scatters from a to b; the same from b to a, bit for bit.

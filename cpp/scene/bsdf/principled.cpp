@@ -199,7 +199,7 @@ class Principled final : public Bsdf {
     return eta_ == 1 ? F(0) : dielectric_reflectance(cosine, eta_);
   }
 
-  /// Those of a direction, lobe by lobe.
+  /// The densities of one direction, lobe by lobe.
   template <class F>
   using Densities = std::array<F, lobe_count>;
   template <class F>

@@ -49,6 +49,11 @@ struct Projection {
   double pdf_direction;
 };
 
+/// The planes between which surfaces are seen, by their depths along the axis of the camera.
+struct ClippingPlanes {
+  double near = 0, far = infinity;
+};
+
 class Camera : public Object {
  public:
   /// Samples a point on the lens at this time.
@@ -58,13 +63,23 @@ class Camera : public Object {
 
   /// The direction from xk on the lens for a raster position.
   virtual Vec3 direction(const SurfacePoint& xk, const Vec2& raster) const = 0;
-  /// Where a ray from xk along w enters the scene: at xk, unless the camera is far away.
-  virtual Vec3 entrance(const SurfacePoint& xk, const Vec3& /*w*/) const { return xk.p; }
+  /// Where a ray from xk along w, of any length, enters the scene: at xk, or at the near plane.
+  Vec3 entrance(const SurfacePoint& xk, const Vec3& w) const {
+    return at_depth(xk, w, setback_ + clipping_.near);
+  }
+  /// How far it goes from there to the far plane; w is a unit vector.
+  double reach(const SurfacePoint& xk, const Vec3& w) const {
+    return clips_far() ? (clipping_.far - clipping_.near) / dot(w, xk.ng) : infinity;
+  }
+  bool clips_far() const { return clipping_.far < infinity; }
+  void set_clipping(const ClippingPlanes& planes) { clipping_ = planes; }
+  /// Where the lens is, or the image of a camera whose lens is far away.
+  Vec3 place(const SurfacePoint& xk) const { return at_depth(xk, xk.ng, setback_); }
   /// The ray for a raster position, by sample_position, direction and entrance.
   virtual Ray ray(const Vec2& raster, const Vec2& u_lens, double time) const {
     const SurfacePoint xk = sample_position(u_lens, time).at;
     const Vec3 w = direction(xk, raster);
-    return {entrance(xk, w), w, time, infinity, surroundings()};
+    return {entrance(xk, w), w, time, reach(xk, w), surroundings()};
   }
   /// Projects a direction to the image; nullopt behind the camera or outside the sampled domain.
   virtual std::optional<Projection> project(const SurfacePoint& xk, const Vec3& w) const = 0;
@@ -84,6 +99,9 @@ class Camera : public Object {
 
   /// Whether it is a pinhole, which no walk can hit.
   virtual bool delta_position() const = 0;
+  /// Whether walks from lights can end on the lens. With clipping planes none does: what is not seen
+  /// would block some of them.
+  bool can_be_hit() const { return !delta_position() && !clips(); }
   /// The point of the lens at this offset (in its plane) from xk; nullopt beyond its rim.
   virtual std::optional<SurfacePoint> move_on_lens(const SurfacePoint& /*xk*/,
                                                    const Vec2& /*by*/) const {
@@ -132,10 +150,18 @@ class Camera : public Object {
   virtual void set_bounds(const Bounds&) {}
 
  protected:
+  bool clips() const { return clipping_.near > 0 || clips_far(); }
+
   Raster raster_;
   Shutter shutter_;
+  double setback_ = 0;  ///< Distance of the lens behind the place of the camera.
 
  private:
+  static Vec3 at_depth(const SurfacePoint& xk, const Vec3& w, double depth) {
+    return depth == 0 ? xk.p : xk.p + w * (depth / dot(w, xk.ng));
+  }
+
+  ClippingPlanes clipping_;
   MediumPtr medium_;
   MediumIndex surroundings_ = no_medium;
   bool spectral_ = false;

@@ -32,9 +32,6 @@ class Orthographic final : public ProjectiveCamera {
     stand_back(std::max({bounds.radius + length(middle_ - bounds.center), half_.x, half_.y}));
   }
 
-  Vec3 entrance(const SurfacePoint& xk, const Vec3& w) const override {
-    return xk.p + w * (setback_ / dot(w, xk.ng));
-  }
   Ray ray(const Vec2& raster, const Vec2& u_lens, double time) const override {
     return Camera::ray(raster, u_lens, time);
   }
@@ -65,7 +62,9 @@ ObjectPtr create_orthographic(Params& params) {
   constexpr double most = 1e30;
   if (!(std::min(half.x, half.y) > 1 / most && std::max(half.x, half.y) < most))
     params.fail("to_world", "scales the image to nothing, or to more than 1e30");
-  return std::make_shared<Orthographic>(placement, half);
+  auto camera = std::make_shared<Orthographic>(placement, half);
+  camera->set_clipping(read_clipping(params));
+  return camera;
 }
 
 }  // namespace
@@ -74,8 +73,8 @@ Plugin sensor_orthographic() {
   return {{"sensor",
            "orthographic",
            "A camera whose rays are parallel.",
-           placement_parameters(),
-           {"near_clip", "far_clip", "focus_distance"}},
+           concat({placement_parameters(), clipping_parameters()}),
+           {"focus_distance"}},
           create_orthographic};
 }
 

@@ -12,9 +12,11 @@ ObjectPtr create_perspective(Params& params) {
 }  // namespace
 
 Plugin sensor_perspective() {
-  std::vector<std::string> ignored = {"near_clip", "far_clip", "focus_distance"};
-  return {{"sensor", "perspective", "A pinhole camera: everything is in focus.", view_parameters(),
-           std::move(ignored)},
+  return {{"sensor",
+           "perspective",
+           "A pinhole camera: everything is in focus.",
+           concat({view_parameters(), clipping_parameters()}),
+           {"focus_distance"}},
           create_perspective};
 }
 

@@ -56,7 +56,7 @@ class ProjectiveCamera : public Camera {
   Vec2 invert_position(const SurfacePoint& xk) const override;
   Vec3 direction(const SurfacePoint& xk, const Vec2& raster) const override;
   Ray ray(const Vec2& raster, const Vec2& u_lens, double time) const override {
-    if (lens_.radius > 0 || motion_.moves()) return Camera::ray(raster, u_lens, time);
+    if (lens_.radius > 0 || motion_.moves() || clips()) return Camera::ray(raster, u_lens, time);
     const Vec2 plane = (raster - to_raster_offset_) * from_raster_scale_;
     return {pose_.position, pose_.axes.to_world(normalize(Vec3(plane, 1))), time, infinity,
             surroundings()};
@@ -82,8 +82,7 @@ class ProjectiveCamera : public Camera {
     return moved_pose(time);
   }
 
-  Pose pose_;           ///< Pose when the shutter opens.
-  double setback_ = 0;  ///< Distance of the lens behind the origin of camera space.
+  Pose pose_;  ///< Pose when the shutter opens.
 
  private:
   Pose moved_pose(double time) const;
@@ -109,6 +108,9 @@ Placement read_placement(Params& params);
 /// The parameters of the field of view.
 std::vector<Parameter> field_of_view_parameters();
 ProjectiveCamera::View read_view(Params& params);
+/// The parameters `near_clip` and `far_clip`; without them nothing is clipped.
+std::vector<Parameter> clipping_parameters();
+ClippingPlanes read_clipping(Params& params);
 /// The parameters of placement, field of view and principal point.
 std::vector<Parameter> view_parameters();
 ProjectiveCamera::View read_shifted_view(Params& params);

@@ -13,8 +13,9 @@ double positive(Params& params, const std::string& name) {
 
 ObjectPtr create_thin_lens(Params& params) {
   const ProjectiveCamera::View view = read_shifted_view(params);
-  const double far_clip = positive(params, "far_clip");
-  const double focus = params.has("focus_distance") ? positive(params, "focus_distance") : far_clip;
+  constexpr double far = 1e4;  // of Mitsuba's far_clip by default
+  const char* given = params.has("focus_distance") ? "focus_distance" : "far_clip";
+  const double focus = params.has(given) ? positive(params, given) : far;
   const double radius = params.real("aperture_radius");
   if (radius < 0) params.fail("aperture_radius", "must not be negative");
   return make_projective(params, view, {radius, focus});
@@ -25,13 +26,11 @@ ObjectPtr create_thin_lens(Params& params) {
 Plugin sensor_thinlens() {
   return {{"sensor", "thinlens", "A camera with depth of field.",
            concat({view_parameters(),
+                   clipping_parameters(),
                    {{"aperture_radius", ParamType::real, no_default,
                      "Radius of the lens in scene units; 0 makes it a pinhole."},
                     {"focus_distance", ParamType::real, no_default,
-                     "Distance of the plane in focus; far_clip if not given."},
-                    {"far_clip", ParamType::real, 1e4,
-                     "Only the default of focus_distance; nothing is clipped."}}}),
-           std::vector<std::string>{"near_clip"}},
+                     "Distance of the plane in focus; by default far_clip, or 10000."}}})},
           create_thin_lens};
 }
 

@@ -95,10 +95,29 @@ Placement read_placement(Params& params) {
           motion};
 }
 
+std::vector<Parameter> clipping_parameters() {
+  return {{"near_clip", ParamType::real, no_default,
+           "Depth of the plane in front of which nothing is seen, nor blocks light; 0 by default."},
+          {"far_clip", ParamType::real, no_default,
+           "Depth of the plane behind which nothing but lights at infinity is seen; none by "
+           "default."}};
+}
+
+ClippingPlanes read_clipping(Params& params) {
+  ClippingPlanes planes;
+  if (params.has("near_clip")) planes.near = params.real_in("near_clip", 0, 1e12);
+  if (params.has("far_clip")) planes.far = params.real_in("far_clip", 0, infinity);
+  if (!(planes.near < planes.far))
+    params.fail("far_clip", "should be greater than near_clip, or nothing is seen");
+  return planes;
+}
+
 std::shared_ptr<ProjectiveCamera> make_projective(Params& params,
                                                   const ProjectiveCamera::View& view,
                                                   const ProjectiveCamera::Lens& lens) {
-  return std::make_shared<ProjectiveCamera>(read_placement(params), view, lens);
+  auto camera = std::make_shared<ProjectiveCamera>(read_placement(params), view, lens);
+  camera->set_clipping(read_clipping(params));
+  return camera;
 }
 
 }  // namespace mlt

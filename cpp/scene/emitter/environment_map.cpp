@@ -218,7 +218,7 @@ void EnvironmentMap::integrate() {
   }
 }
 
-/// Of a cell between rows with these cosines.
+/// The solid angle of a cell between rows with these cosines.
 template <class F>
 F EnvironmentMap::solid_angle(const F& top, const F& bottom) const {
   return number<F>(2 * pi / width_) * (top - bottom);

@@ -48,7 +48,7 @@ class LightChoice {
   LightIndex choose_in_tree(const Vec3& p, double& u) const;
 
   Discrete by_power_;
-  LightTree tree_;  ///< Of the lights that are not at infinity; empty if these are few.
+  LightTree tree_;  ///< Lights that are not at infinity; empty if they are few.
   /// The lights at infinity, and all others as one, with a tree.
   Discrete parts_;
   std::vector<uint32_t> infinite_;

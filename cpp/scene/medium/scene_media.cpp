@@ -17,6 +17,7 @@ SurfacePoint Scene::medium_point(const Ray& ray, double distance) {
 
 MediumIndex Scene::medium_around(const SurfacePoint& at, const Vec3& w, MediumIndex outside) const {
   Ray ray = spawn(at, w, at.time);
+  ray.t_max = infinity;  // beyond the far plane of the camera, too
   SurfacePoint hit;
   while (intersect(ray, hit)) {
     if (media_.is_boundary(hit.shape)) return media_.beside(hit, -w);

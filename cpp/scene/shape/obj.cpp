@@ -204,7 +204,7 @@ class ObjReader {
   bool is_wanted_;                       ///< Whether the material is that of the next faces.
   std::vector<Vec3f> positions_, normals_;
   std::vector<Vec2f> uvs_;
-  std::map<uint32_t, int> bad_positions_;  ///< Those that are not finite, with their lines.
+  std::map<uint32_t, int> bad_positions_;  ///< Lines of positions that are not finite.
   std::vector<Corner> face_;
   std::vector<Fan> fans_;
   size_t short_faces_ = 0;

@@ -76,7 +76,8 @@ class TextScanner {
     at_ = next;
     return value;
   }
-  /// The same, or NaN for what Microsoft's C library prints in place of one, such as -1.#IND.
+  /// A number as real() reads it, or NaN for what Microsoft's C library prints in place of one,
+  /// such as -1.#IND.
   double real_or_nan(const char* what) {
     const std::string_view rest(at_, remaining());
     if (rest.substr(is_at('-') || is_at('+'), 3) != "1.#") return real(what);

@@ -68,7 +68,7 @@ class SpectralColor {
   Spectrum rgb_{0};
   RgbMeaning meaning_ = RgbMeaning::reflectance;
   SmoothSpectrum smooth_;
-  std::shared_ptr<const wavelengths::Table> table_;  ///< Of smooth_, to be looked up.
+  std::shared_ptr<const wavelengths::Table> table_;  ///< The values of smooth_ in a table.
   std::optional<Curve> curve_;
 };
 

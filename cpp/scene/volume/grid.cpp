@@ -69,7 +69,8 @@ void Grid::store(const GridData& data) {
 void Grid::find_empty_bricks(const GridData& data) {
   for (int axis = 0; axis < 3; ++axis) bricks_[axis] = (cells(axis) + brick - 1) / brick;
   empty_.assign(size_t(bricks_[0]) * bricks_[1] * bricks_[2], 1);
-  // The cells that have value i at a corner are i and i + 1; where values are constant, i alone.
+  // Along each axis, value i is at a corner of the cells i and i + 1, or of cell i alone where
+  // cells are constant.
   const int further = nearest_ ? 0 : 1;
   const float* value = data.values.data();
   for (int z = 0; z < size_[2]; ++z)

@@ -8,6 +8,23 @@ from .mutation import Mutation
 def class_name(plugin: str) -> str: ...
 def integrator_schema(plugin: str) -> dict[str, Any]: ...
 
+class Aov(Integrator):
+    """What the camera sees first, without light: the image is the first of its layers. Around
+    another integrator it adds its layers to that one's image.
+
+    Parameters
+    ----------
+    aovs : string
+        Layers, each with a name or without: albedo:albedo, nn:sh_normal, ...
+    """
+
+    aovs: str | None
+    def __init__(
+        self,
+        *,
+        aovs: str | None = ...,
+    ) -> None: ...
+
 class BDPT(Integrator):
     """Bidirectional path tracing with every technique (s, t) and multiple importance sampling
     (Veach & Guibas 1994; Veach 1997, ch. 10). One spp is a camera and a light path per pixel.
@@ -62,6 +79,13 @@ class BDPT(Integrator):
         heuristic: Literal["balance", "power", "maximum"] = ...,
         techniques: bool = ...,
         manifolds: bool = ...,
+    ) -> None: ...
+
+class Depth(Integrator):
+    """The distance from the camera to the surface that it sees first, or 0."""
+
+    def __init__(
+        self,
     ) -> None: ...
 
 class Direct(Integrator):
@@ -779,6 +803,8 @@ __all__ = [
     "MMLT",
     "PSSMLT",
     "RJMLT",
+    "Aov",
+    "Depth",
     "Direct",
     "PTracer",
     "Path",

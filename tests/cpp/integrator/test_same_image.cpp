@@ -66,7 +66,9 @@ INSTANTIATE_TEST_SUITE_P(
         Pair{"projector", "ptracer"}, Pair{"daylight", "path"}, Pair{"bent_normals", "path"},
         Pair{"more_materials", "path"}, Pair{"windows", "path"}, Pair{"fog", "path"},
         Pair{"smoke_box", "path"}, Pair{"smoke", "path"}, Pair{"beam", "ptracer"},
-        Pair{"beam", "mmlt"}, Pair{"beam", "rjmlt"}, Pair{"beam", "erpt"}),
+        Pair{"beam", "mmlt"}, Pair{"beam", "rjmlt"}, Pair{"beam", "erpt"}, Pair{"clipped", "path"},
+        Pair{"clipped", "mlt"}, Pair{"clipped", "pssmlt"}, Pair{"clipped", "mmlt"},
+        Pair{"clipped_fog", "path"}, Pair{"clipped_fog", "mlt"}, Pair{"clipped_fog", "pssmlt"}),
     pair_name);
 
 class LongSameImageOf : public testing::TestWithParam<Pair> {};
@@ -79,7 +81,9 @@ std::vector<Pair> all_pairs() {
                           {"beam", "pssmlt_bdpt"},
                           {"prism_beam", "mmlt"},
                           {"prism_beam", "rjmlt"}};
-  for (const std::string& name : scene_names()) {
+  std::vector<std::string> names = scene_names();
+  for (const char* clipped : {"clipped", "clipped_fog"}) names.push_back(clipped);
+  for (const std::string& name : names) {
     for (const char* algorithm : {"path", "pssmlt", "pssmlt_bdpt", "mmlt", "rjmlt", "erpt"})
       pairs.push_back({name, algorithm});
     if (light_sees_all(name))
