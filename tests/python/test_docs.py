@@ -9,6 +9,7 @@ import tomllib
 from pathlib import Path
 
 import pytest
+from test_instructions import CASES
 
 import pymlt as mlt
 from pymlt.cli import make_parser
@@ -16,6 +17,7 @@ from pymlt.cli import make_parser
 ROOT = Path(__file__).resolve().parents[2]
 PAGES = [ROOT / "README.md", *ROOT.glob("docs/*.md"), *ROOT.glob("docs/mutations/*.md")]
 PAGES += ROOT.glob("scenes/**/*.md")
+WITH_NOTES = [*PAGES, ROOT / "CONTRIBUTING.md", ROOT / "CHANGELOG.md"]
 
 
 def script(path):
@@ -48,6 +50,13 @@ def test_every_flag_has_an_example(command):
     used = {word for line in examples for word in line.split() if word.startswith("-")}
     for spelling in re.findall(r"^\| `([^`]*)`", table, re.MULTILINE):
         assert used & set(re.findall(r"-+[a-zA-Z]+", spelling)), spelling
+
+
+def test_the_instructions_of_the_benchmarks_are_those_that_are_guarded():
+    table = (ROOT / "docs" / "benchmarks.md").read_text().partition("### What a sample costs")[2]
+    names, _, numbers = re.findall(r"^\|(.*)\|$", table, re.MULTILINE)[:3]
+    said = dict(zip(re.findall(r"\w+", names), map(int, numbers.split("|")), strict=True))
+    assert said == {name: instructions for name, (_, _, instructions) in CASES.items()}
 
 
 def test_the_figures_of_the_readme_are_those_of_the_comparison():
@@ -114,7 +123,7 @@ def test_each_topic_of_the_lecture_has_its_figure_and_slider():
 
 
 def test_the_headings_that_links_name_exist():
-    for page in PAGES:
+    for page in WITH_NOTES:
         for target, heading in re.findall(r"\]\(([^)#:]*\.md)?#([^)]+)\)", page.read_text()):
             text = ((page.parent / target) if target else page).read_text()
             headings = re.findall(r"^#+ (.*)$", text, re.MULTILINE)
@@ -185,9 +194,6 @@ def test_what_a_page_names_exists_in_the_code(name, words):
     text = re.sub(r"```.*?```", "", (ROOT / name).read_text(), flags=re.DOTALL)
     for span in re.findall(r"`([^`\n]+)`", text):
         assert set(re.findall(r"\b[A-Za-z_]\w{2,}", span)) <= words, span
-
-
-WITH_NOTES = [*PAGES, ROOT / "CONTRIBUTING.md", ROOT / "CHANGELOG.md"]
 
 
 @pytest.mark.parametrize("page", WITH_NOTES, ids=lambda p: str(p.relative_to(ROOT)))
