@@ -322,6 +322,10 @@ def test_nothing_is_found_wrong_on_the_page_on_prototypes(capsys):
     assert "nothing found; a shift of the image position by more than" in capsys.readouterr().out
 
 
+def test_the_names_of_the_migration_note_exist():
+    exec(compile(python_of("docs/migration-0.3.md"), "migration-0.3.md", "exec"), {})
+
+
 @pytest.mark.parametrize("page", ["README.md", "docs/quick-start.md", "docs/editing.md"])
 def test_the_python_examples_of_the_first_pages_run(page, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
