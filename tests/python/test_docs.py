@@ -9,6 +9,7 @@ import tomllib
 from pathlib import Path
 
 import pytest
+from test_instructions import CASES
 
 import pymlt as mlt
 from pymlt.cli import make_parser
@@ -16,6 +17,7 @@ from pymlt.cli import make_parser
 ROOT = Path(__file__).resolve().parents[2]
 PAGES = [ROOT / "README.md", *ROOT.glob("docs/*.md"), *ROOT.glob("docs/mutations/*.md")]
 PAGES += ROOT.glob("scenes/**/*.md")
+WITH_NOTES = [*PAGES, ROOT / "CONTRIBUTING.md", ROOT / "CHANGELOG.md"]
 
 
 def script(path):
@@ -50,17 +52,36 @@ def test_every_flag_has_an_example(command):
         assert used & set(re.findall(r"-+[a-zA-Z]+", spelling)), spelling
 
 
-def test_the_figures_of_the_readme_are_those_of_the_comparison():
+def test_the_instructions_of_the_benchmarks_are_those_that_are_guarded():
+    table = (ROOT / "docs" / "benchmarks.md").read_text().partition("### What a sample costs")[2]
+    names, _, numbers = re.findall(r"^\|(.*)\|$", table, re.MULTILINE)[:3]
+    said = dict(zip(re.findall(r"\w+", names), map(int, numbers.split("|")), strict=True))
+    assert said == {name: instructions for name, (_, _, instructions) in CASES.items()}
+
+
+def test_the_figures_of_the_first_pages_are_those_of_the_comparison():
     table = (ROOT / "docs" / "comparison.md").read_text().split("\n## ")[0]
     means = dict(re.findall(r"^\| (\w+)[^|]*\|.*\| \**([\d.]+)\** \|$", table, re.MULTILINE))
     next_best = min(set(means) - {"mlt"}, key=lambda name: float(means[name]))
-    said = " ".join((ROOT / "README.md").read_text().split())
+    readme, features = (
+        " ".join((ROOT / page).read_text().split()) for page in ("README.md", "docs/features.md")
+    )
+    assert f"error is {means['mlt']} times" in readme
     for figure in (
         f"error is {means['mlt']} times",
         f"`bdpt` has {means['bdpt']} times",
         f"(`{next_best}`) {means[next_best]} times",
     ):
-        assert figure in said, figure
+        assert figure in features, figure
+
+
+def test_the_readme_is_a_screen_and_a_half():
+    assert len((ROOT / "README.md").read_text().splitlines()) <= 75
+
+
+def test_each_page_is_in_the_navigation():
+    pages = {path.stem for path in ROOT.glob("docs/*.md")} - {"index"}
+    assert pages <= set((ROOT / "docs" / "index.md").read_text().splitlines())
 
 
 def test_the_demo_builds_and_installs_nothing_for_tests(tmp_path):
@@ -114,7 +135,7 @@ def test_each_topic_of_the_lecture_has_its_figure_and_slider():
 
 
 def test_the_headings_that_links_name_exist():
-    for page in PAGES:
+    for page in WITH_NOTES:
         for target, heading in re.findall(r"\]\(([^)#:]*\.md)?#([^)]+)\)", page.read_text()):
             text = ((page.parent / target) if target else page).read_text()
             headings = re.findall(r"^#+ (.*)$", text, re.MULTILINE)
@@ -185,9 +206,6 @@ def test_what_a_page_names_exists_in_the_code(name, words):
     text = re.sub(r"```.*?```", "", (ROOT / name).read_text(), flags=re.DOTALL)
     for span in re.findall(r"`([^`\n]+)`", text):
         assert set(re.findall(r"\b[A-Za-z_]\w{2,}", span)) <= words, span
-
-
-WITH_NOTES = [*PAGES, ROOT / "CONTRIBUTING.md", ROOT / "CHANGELOG.md"]
 
 
 @pytest.mark.parametrize("page", WITH_NOTES, ids=lambda p: str(p.relative_to(ROOT)))
@@ -320,6 +338,10 @@ def python_of(page):
 def test_nothing_is_found_wrong_on_the_page_on_prototypes(capsys):
     exec(compile(python_of("docs/prototyping.md"), "prototyping.md", "exec"), {})
     assert "nothing found; a shift of the image position by more than" in capsys.readouterr().out
+
+
+def test_the_names_of_the_migration_note_exist():
+    exec(compile(python_of("docs/migration-0.3.md"), "migration-0.3.md", "exec"), {})
 
 
 @pytest.mark.parametrize("page", ["README.md", "docs/quick-start.md", "docs/editing.md"])
