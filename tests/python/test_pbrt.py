@@ -361,7 +361,8 @@ def test_attributes_are_parameters_by_default():
 # ---- materials, textures -----------------------------------------------------------------------
 
 MATERIALS = {
-    'Material "conductor" "spectrum eta" "metal-Au-eta" "float roughness" .09': both_sides(
+    'Material "conductor" "spectrum eta" "metal-Au-eta" "spectrum k" "metal-Au-k"'
+    ' "float roughness" .09': both_sides(
         {"type": "roughconductor", "distribution": "ggx", "alpha": 0.3, "material": "Au"}
     ),
     'Material "conductor" "rgb reflectance" [.9 .8 .7]': both_sides(

@@ -11,6 +11,7 @@ from .. import limits
 from ..imported import Imported
 from ..missing import ABSENT
 from .params import Params
+from .spectrum_files import with_files
 from .state import ATTRIBUTES, TRANSFORMS, State
 from .tokens import Parameter, Token, Words
 from .version import foreign
@@ -92,7 +93,11 @@ class Directives:
         for name in foreign(self.version, directive.text, kind, given):
             said = f"{name!r} is of another version, and the file is read as one of pbrt"
             self._made.warn(f"{said}-v{self.version}", directive.place)
-        return Params(directive, kind, given, self._made, self._defaults(directive))
+        given, defaults = (
+            with_files(found, directive, self._folder, self._made)
+            for found in (given, self._defaults(directive))
+        )
+        return Params(directive, kind, given, self._made, defaults)
 
     def _defaults(self, directive: Token) -> dict[str, Parameter]:
         """What Attribute says of directives of this kind."""

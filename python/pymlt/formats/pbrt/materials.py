@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable
 from typing import Any
 
+from .metals import complex_index
 from .params import Params
 from .spectra import DISPERSIVE
 from .textures import Textures
@@ -48,22 +49,7 @@ def conductor(params: Params, textures: Textures, prefix: str = "") -> dict[str,
     surface = rough(params, textures, "conductor", 0.0, prefix)
     if params.get("reflectance"):
         return surface | {"specular_reflectance": textures.colour(params, "reflectance", 1.0)}
-    given = params.get(f"{prefix}eta")
-    params.get(f"{prefix}k")
-    name = given.values[0] if given else "metal-Cu-eta"
-    if isinstance(name, str):
-        return surface | {"material": metal(name, params)}
-    eta, k = (params.colour(f"{prefix}{part}", 1.0) for part in ("eta", "k"))
-    return surface | {"eta": eta, "k": k}
-
-
-def metal(name: str, params: Params) -> str:
-    """The name that a spectrum such as metal-Au-eta has here."""
-    symbol = name.split("-")[1] if name.startswith("metal-") else name
-    if symbol != "CuZn":
-        return symbol
-    params.warn("brass (CuZn) is not known; it is taken as copper")
-    return "Cu"
+    return surface | complex_index(params, textures, prefix)
 
 
 def coated_conductor(params: Params, textures: Textures) -> dict[str, Any]:
