@@ -18,7 +18,7 @@ class AreaLight(NamedTuple):
 
     radiance: Any  #: as a scene dict has it; for a light with a power, up to a factor
     power: float | None  #: of each shape, the radiance's own luminance being 1
-    sides: int  #: among which the power is shared: 1 or 2
+    sides: int  #: among which a power is shared: 1 or 2
 
     def emitter(self, shape: dict[str, Any], params: Params) -> dict[str, Any]:
         """The light of one shape, which is placed in the world.
@@ -43,12 +43,10 @@ class AreaLight(NamedTuple):
 def area_light(params: Params) -> AreaLight:
     """What AreaLightSource says."""
     sides = shining_sides(params, "diffuse")
-    colour, scale = params.colour("L", 1.0), params.number("scale", 1)
-    power = params.number("power", -1)
+    radiance = scaled(luminance_one(params.colour("L", 1.0)), params.number("scale", 1))
+    power = params.number("power", 0)
     params.finish()
-    if power > 0:
-        return AreaLight(scaled(luminance_one(colour), scale), power, sides)
-    return AreaLight(scaled(colour, scale), None, 1)
+    return AreaLight(radiance, power if power > 0 else None, sides)
 
 
 def shining_sides(params: Params, *types: str) -> int:
