@@ -6,8 +6,9 @@ import re
 from typing import Any
 
 from ..imported import rgb
+from .arithmetic import is_even
 from .params import Params
-from .textures import Textures, is_even
+from .textures import Textures
 
 PARTS = ("eta", "k")
 #: Both parts in linear Rec. 709, for conductors of which only one part is that of a metal.

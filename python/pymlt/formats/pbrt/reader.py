@@ -181,7 +181,7 @@ class Reader(Directives):
             found["emitter"] = self._state.area_light.emitter(found, params)
         elif self._state.area_light:
             params.warn("lights in objects that are instanced are left out")
-        params.finish(ignored=("edgelength", "displacement"))
+        params.finish()
         if self._group is None:
             found["to_world"] = self._moving(found["to_world"], self._state.matrices)
             self._made.add(params.type, found)

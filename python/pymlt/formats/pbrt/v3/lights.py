@@ -12,10 +12,10 @@ from ....images import read_image
 from ...imported import rgb
 from ...limits import check_pixels
 from ..area_lights import AreaLight, shining_sides
+from ..arithmetic import multiplied
 from ..lights import placed
 from ..params import Params
 from ..spectra import numbers
-from ..textures import multiplied
 
 #: From the axes of our maps, whose columns go around y, to those of pbrt's, around z.
 AROUND_Z = np.array([[0.0, 0, -1, 0], [1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 0, 1]])

@@ -7,13 +7,8 @@ from collections.abc import Callable
 from typing import Any
 
 from ...imported import rgb
-from ..materials import Named, blend
-from ..metals import complex_index
-from ..params import Params
-from ..spectra import numbers
-from ..textures import Textures, Value, is_even, product
-from .disney import disney
-from .lobes import (
+from ..arithmetic import Value, is_even, product
+from ..lobes import (
     Lobe,
     amplified,
     both_sides,
@@ -24,6 +19,12 @@ from .lobes import (
     interface,
     total,
 )
+from ..materials import Named, blend
+from ..metals import complex_index
+from ..params import Params
+from ..spectra import numbers
+from ..textures import Textures
+from .disney import disney
 from .roughness import AXES, EVEN, alphas, even_alpha, microfacets
 
 #: The parameters of materials, which pbrt-v3 lets shapes change.
