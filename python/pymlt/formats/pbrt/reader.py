@@ -10,6 +10,7 @@ from ..views import complete
 from . import views
 from .area_lights import area_light
 from .directives import Directives
+from .disks import on_a_disk
 from .exposure import expose, exposure_time, sensitivity
 from .lights import light
 from .materials import bsdf
@@ -176,6 +177,8 @@ class Reader(Directives):
         if params.get("alpha"):
             opacity = self._textures.number(params, "alpha", 1.0)
             surface = {"type": "mask", "opacity": opacity, "bsdf": surface}
+        if params.type == "disk":
+            surface = on_a_disk(surface, params)
         found |= {"bsdf": surface} | self._state.interface.sides()
         if self._state.area_light and self._group is None:
             found["emitter"] = self._state.area_light.emitter(found, params)
