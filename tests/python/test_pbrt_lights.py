@@ -154,9 +154,29 @@ def test_a_projection_has_the_power_that_is_given():
     assert exposed.mean() == pytest.approx(3 * found.mean(), rel=1e-3)
 
 
+def test_a_projection_may_be_grey():
+    mlt.write_image("slide.exr", np.full((2, 3, 1), 0.5, np.float32))
+    found = cast('LightSource "projection" "string filename" "slide.exr" "float scale" 5')
+    assert_close(found[15:17, 23:25].mean((0, 1)), 5 * 0.5 / math.pi)
+
+
 def test_a_projection_without_an_image_is_refused():
     with pytest.raises(mlt.SceneError, match="projection light needs the 'filename' of its image"):
         read(VIEW, 'LightSource "projection"')
+
+
+@pytest.mark.parametrize(
+    "lamp",
+    [
+        '"spot" "float coneangle" 0 "float conedeltaangle" 0 "float power" 1',
+        '"projection" "string filename" "slide.exr" "float power" 1',
+        '"infinite" "string filename" "slide.exr" "float illuminance" 1',
+    ],
+)
+def test_a_dark_light_with_a_power_is_refused(lamp):
+    mlt.write_image("slide.exr", np.zeros((2, 2, 3), np.float32))
+    with pytest.raises(mlt.SceneError, match=r"^a\.pbrt:7: the light has a '.*', but no direction"):
+        read(VIEW, f"LightSource {lamp}")
 
 
 def test_a_goniometric_light_is_left_out_by_name():

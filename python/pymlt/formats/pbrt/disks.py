@@ -1,4 +1,7 @@
-"""Textures on disks, where pbrt's u goes around and v inwards, ours outwards and around."""
+"""Textures on disks, where pbrt's u goes around and v inwards, ours outwards and around.
+
+Our (u, v) is (v, 1 - u) in pbrt.
+"""
 
 from __future__ import annotations
 
@@ -18,10 +21,8 @@ def on_a_disk(plugin: dict[str, Any], params: Params) -> dict[str, Any]:
         made = on_a_disk(named, params)
         return plugin if made is named else made
     if plugin["type"] in PLACED:
-        to_pbrt = np.array(
-            [[0.0, 1, 0, 0], [-1, 0, 0, 1], [0, 0, 1, 0], [0, 0, 0, 1]]
-        )  # (v, 1 - u)
-        return plugin | {"to_uv": to_pbrt}
+        inwards = np.array([[0.0, 1, 0, 0], [-1, 0, 0, 1], [0, 0, 1, 0], [0, 0, 0, 1]])
+        return plugin | {"to_uv": inwards}
     if plugin["type"] == "normalmap":
         params.warn("the normals of a normal map on a disk are turned by a quarter")
     parts = {key: part for key, part in plugin.items() if isinstance(part, dict)}

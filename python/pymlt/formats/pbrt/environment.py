@@ -5,9 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ...images import read_image
-from ..limits import check_pixels
+from .images import read_rgb
 from .params import Params
+from .photometry import factor
 from .spectra import luminances
 
 if TYPE_CHECKING:
@@ -18,13 +18,12 @@ def environment(params: Params, path: Path, to_world: np.ndarray, scale: float) 
     """An `envmap` of the same light, with as many rows as the octahedral map has."""
     import numpy as np
 
-    given = read_image(path)[..., :3]
-    check_pixels(given, str(path))
+    given = read_rgb(path)
     if given.shape[0] != given.shape[1]:
         raise params.where.error(f"{path.name}: an environment map of pbrt-v4 is square")
     rows = given.shape[0]
-    if (illuminance := params.number("illuminance", 0)) > 0:
-        scale *= illuminance / upward_illuminance(given)
+    if params.get("illuminance"):
+        scale *= factor(params, "illuminance", upward_illuminance(given))
     # Some rows at a time, for their directions take more memory than their colours.
     parts = [slice(first, first + 64) for first in range(0, rows, 64)]
     found = [sampled(given, square_of(directions(rows, p))).astype(np.float32) for p in parts]

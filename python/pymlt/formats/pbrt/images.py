@@ -1,4 +1,4 @@
-"""Images of textures, of which the pixels are changed."""
+"""Images of which the pixels are changed."""
 
 from __future__ import annotations
 
@@ -15,6 +15,15 @@ if TYPE_CHECKING:
 
 #: Formats of bytes, which are encoded as sRGB unless something else is said.
 BYTES = (".png", ".tga", ".bmp", ".jpg", ".jpeg")
+
+
+def read_rgb(path: Path) -> np.ndarray:
+    """In linear light, without alpha: (height, width, 3), also of an image of greys."""
+    import numpy as np
+
+    colours, _ = split_alpha(read_image(path))
+    check_pixels(colours, str(path))
+    return np.broadcast_to(colours, (*colours.shape[:2], 3))
 
 
 def changed(
@@ -43,8 +52,7 @@ def pixels(bitmap: dict[str, Any]) -> np.ndarray:
     if "data" in bitmap:
         return np.asarray(bitmap["data"])
     path = Path(bitmap["filename"])
-    linear, _ = split_alpha(read_image(path))
-    check_pixels(linear, str(path))
+    linear = read_rgb(path)
     gamma = 1.0 if "raw" in bitmap else bitmap.get("gamma")
     if gamma is None or path.suffix.lower() not in BYTES:
         return linear

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from .params import Params
+from .photometry import brightening
 from .spectra import luminance_one, scaled
 
 if TYPE_CHECKING:
@@ -25,32 +25,10 @@ def light(params: Params, folder: Path, to_world: np.ndarray) -> dict[str, Any] 
 
         return environment(params, folder / filename, to_world, scale)
     name = "L" if params.type in ("distant", "infinite") else "I"
-    strength = scaled(luminance_one(params.colour(name, 1.0)), scale * photometric_factor(params))
+    strength = scaled(luminance_one(params.colour(name, 1.0)), scale * brightening(params))
     if params.type == "infinite":
         return {"type": "constant", "radiance": strength}
     return placed(params, to_world, strength)
-
-
-def photometric_factor(params: Params) -> float:
-    """Between a light whose strength has the luminance 1 and one of the power, or illuminance of
-    what faces it, that is given; 1 if none is."""
-    match params.type:
-        case "distant":
-            given, has = params.number("illuminance", 0), 1.0
-        case "infinite":
-            given, has = params.number("illuminance", 0), math.pi
-        case "spot":
-            given, has = params.number("power", 0), 2 * math.pi * beam(params)
-        case _:
-            given, has = params.number("power", 0), 4 * math.pi
-    return given / has if given > 0 else 1.0
-
-
-def beam(params: Params) -> float:
-    """The mean height of the cap that a spot lights: pbrt's edge between two cosines is even."""
-    cone = params.number("coneangle", 30)
-    angles = cone, cone - params.number("conedeltaangle", 5)
-    return 1 - sum(math.cos(math.radians(angle)) for angle in angles) / 2
 
 
 def placed(params: Params, to_world: np.ndarray, power: Any) -> dict[str, Any] | None:

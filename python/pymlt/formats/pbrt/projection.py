@@ -6,9 +6,10 @@ import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ...images import read_image
 from ..limits import check_pixels
+from .images import read_rgb
 from .params import Params
+from .photometry import factor
 from .spectra import luminances
 
 if TYPE_CHECKING:
@@ -17,9 +18,7 @@ if TYPE_CHECKING:
 LEAST = 512  #: pixels along the shorter side, each of which has one cosine for all of it
 
 
-def projection(
-    params: Params, folder: Path, to_world: np.ndarray, scale: float
-) -> dict[str, Any] | None:
+def projection(params: Params, folder: Path, to_world: np.ndarray, scale: float) -> dict[str, Any]:
     """pbrt's image is the intensity I, ours what a white plane across the axis shows: I cos^3 / pi.
 
     Its x axis points to the right, ours to the left.
@@ -28,13 +27,12 @@ def projection(
 
     if not (filename := params.text("filename")):
         raise params.where.error("a projection light needs the 'filename' of its image")
-    given = read_image(folder / filename)[..., :3]
+    given = read_rgb(folder / filename)
     fov = params.number("fov", 90)
     sides = np.array(given.shape[:2])
     half = math.tan(math.radians(fov) / 2) * sides / min(sides)
-    if (power := params.number("power", 0)) > 0:
-        solid_angles = 4 * half.prod() * cubed_cosines(given.shape[:2], half)
-        scale *= power / float((luminances(given) * solid_angles).mean())
+    solid_angles = 4 * half.prod() * cubed_cosines(given.shape[:2], half)
+    scale *= factor(params, "power", float((luminances(given) * solid_angles).mean()))
     times = math.ceil(LEAST / min(sides))
     larger = given.repeat(times, axis=0).repeat(times, axis=1)
     check_pixels(larger, filename)
