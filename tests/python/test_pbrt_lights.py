@@ -103,6 +103,48 @@ def test_only_the_upper_half_of_a_map_gives_illuminance():
     assert_close(seen(sky, view=view), 100 / (math.pi / 2), rel=0.02)
 
 
+# ---- images that shine -------------------------------------------------------------------------
+
+
+def test_an_area_light_may_have_an_image():
+    colours = np.full((4, 4, 3), 9, np.float32)
+    colours[1, 1] = [1, 2, 3]  # its middle is at u = .375 and v = .625, as that of the wall
+    mlt.write_image("a.exr", colours)
+    lamp = 'AreaLightSource "diffuse" "string filename" "a.exr" "float scale" 2\n'
+    wall = WALL + '"point2 uv" [ .37 .62 .38 .62 .38 .63 .37 .63 ]'
+    assert_close(seen(lamp, wall), 2, 4, 6)
+
+
+TRIANGLE = WALL.replace("0 1 2 0 2 3", "0 1 2") + '"point2 uv" [ 0 .1 1 .1 1 .2 0 .2 ]'
+DISK = 'Shape "disk" "float radius" 2'
+
+
+@pytest.mark.parametrize(("shape", "area"), [(TRIANGLE, 8), (DISK, math.pi * 2**2)])
+def test_an_image_that_shines_has_the_power_that_is_given(shape, area):
+    """pi times the area times the mean of the luminance of the image."""
+    colours = np.full((4, 4, 3), [2, 1, 1], np.float32)
+    colours[0] = [0, 0, 8]
+    mlt.write_image("a.exr", colours)
+    lamp = 'AreaLightSource "diffuse" "string filename" "a.exr" "float power" 100\n'
+    mean = (3 * np.array([2, 1, 1]) + [0, 0, 8]) / 4 @ LUMINANCES
+    view = VIEW.replace("LookAt 0 0 5  0 0 0", "LookAt 1.7 0 5  1.7 0 0")  # v = .15, also of a disk
+    radiance = 100 / (math.pi * area) / mean
+    assert_close(seen(lamp, shape, view=view), *np.multiply(radiance, [2, 1, 1]), rel=2e-3)
+
+
+def test_a_black_image_has_no_power():
+    mlt.write_image("a.exr", np.zeros((2, 2, 3), np.float32))
+    with pytest.raises(mlt.SceneError, match="with a 'power' has a black image"):
+        read(VIEW, 'AreaLightSource "diffuse" "string filename" "a.exr" "float power" 1')
+
+
+def test_images_that_shine_are_exposed():
+    mlt.write_image("a.exr", np.full((2, 2, 3), 0.5, np.float32))
+    lamp = 'AreaLightSource "diffuse" "string filename" "a.exr"\n'
+    view = VIEW.replace('"rgb"', '"rgb" "float iso" 300')
+    assert_close(seen(lamp, WALL, view=view), 1.5)
+
+
 # ---- images that are cast ----------------------------------------------------------------------
 
 #: From where the light is: at the side of a cube to which the wall is the opposite side.

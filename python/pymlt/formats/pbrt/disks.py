@@ -13,7 +13,7 @@ PLACED = ("bitmap", "checkerboard")  #: the textures that have coordinates
 
 
 def on_a_disk(plugin: dict[str, Any], params: Params) -> dict[str, Any]:
-    """A BSDF with its textures where pbrt has them; the same object if it has none."""
+    """A BSDF or emitter with its textures where pbrt has them; the same object if it has none."""
     import numpy as np
 
     if plugin["type"] == "ref":

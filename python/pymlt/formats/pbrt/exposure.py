@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+from .arithmetic import multiplied
 from .params import Params
-from .spectra import scaled
 
 STRENGTHS = ("radiance", "irradiance", "intensity")
 
@@ -43,5 +43,5 @@ def _exposed(part: dict[str, Any], ratio: float) -> dict[str, Any]:
     elif part["type"] in ("envmap", "projector"):
         made["scale"] = part["scale"] * ratio
     else:
-        made |= {key: scaled(part[key], ratio) for key in STRENGTHS if key in part}
+        made |= {key: multiplied(part[key], ratio) for key in STRENGTHS if key in part}
     return made

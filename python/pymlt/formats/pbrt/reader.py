@@ -24,6 +24,7 @@ from .tokens import Token
 #: Of the view, its directives by their names in the scene dict.
 NAMES = {"Camera": "camera", "Film": "film", "PixelFilter": "rfilter", "Sampler": "sampler"}
 NAMES["Integrator"] = "integrator"
+PARTS = ("bsdf", "emitter")  #: of shapes, that may have textures
 
 
 class Reader(Directives):
@@ -161,7 +162,7 @@ class Reader(Directives):
             self._made.add(f"{params.type}-light", found | self._state.interface.around())
 
     def _on_area_light_source(self, directive: Token) -> None:
-        self._state.area_light = self.area_light(self._params(directive))
+        self._state.area_light = self.area_light(self._params(directive), self._textures)
 
     def _reference(self, id: str) -> dict[str, Any]:
         return {"type": "ref", "id": id}
@@ -177,13 +178,13 @@ class Reader(Directives):
         if params.get("alpha"):
             opacity = self._textures.number(params, "alpha", 1.0)
             surface = {"type": "mask", "opacity": opacity, "bsdf": surface}
-        if params.type == "disk":
-            surface = on_a_disk(surface, params)
         found |= {"bsdf": surface} | self._state.interface.sides()
         if self._state.area_light and self._group is None:
             found["emitter"] = self._state.area_light.emitter(found, params)
         elif self._state.area_light:
             params.warn("lights in objects that are instanced are left out")
+        if params.type == "disk":
+            found |= {part: on_a_disk(found[part], params) for part in PARTS if part in found}
         params.finish()
         if self._group is None:
             found["to_world"] = self._moving(found["to_world"], self._state.matrices)
