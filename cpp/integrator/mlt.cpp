@@ -80,7 +80,7 @@ Plugin integrator_mlt() {
         choice_parameter(
             "independent", "auto",
             "What the independent samples are: those of bidirectional path tracing, or "
-            "of path tracing, which are cheaper; by default a pilot chooses.",
+            "of path tracing, which are cheaper; by default, those with less noise in the end.",
             {"auto", "bdpt", "path"}),
         {"spark", ParamType::real, 1.0,
          "A tour, the mutations from one start of a chain, waits before it leaves more light in a "

@@ -68,7 +68,7 @@ BidirectionalSettings bidirectional_settings(Params& params) {
 
 std::vector<Parameter> chain_parameters(int64_t chains) {
   return {{"luminance_samples", ParamType::integer, int64_t{50000},
-           "Paths drawn to start the chains from; a pilot before that draws about as many."},
+           "Paths drawn to start the chains from; as many are drawn before, to divide the time."},
           {"chains", ParamType::integer, chains,
            "Number of Markov chains, whatever the budget. The fewer there are, the longer each is, "
            "and the farther it gets from where it started; but one that stands still leaves a "
@@ -77,7 +77,7 @@ std::vector<Parameter> chain_parameters(int64_t chains) {
 
 std::vector<Parameter> tour_parameters(int64_t chains) {
   return {{"luminance_samples", ParamType::integer, int64_t{50000},
-           "The pilot before the render draws about as many paths."},
+           "Paths drawn before the render, from which the division of its time is found."},
           {"chains", ParamType::integer, chains,
            "Number of Markov chains, each of which starts over and over. It hardly matters, but no "
            "more threads than chains have work."}};
@@ -87,7 +87,8 @@ std::vector<Parameter> family_parameters() {
   return {
       {"independent_share", ParamType::real, no_default,
        "Share of the time for samples that are independent of the chains, 0 to 1. They show what "
-       "they are good at, and tell the brightness b. By default a pilot finds the best one; 1: "
+       "they are good at, and tell the brightness b. By default the first samples tell the best "
+       "one; 1: "
        "there are no chains."},
       {"parts", ParamType::boolean, false,
        "Keep what chains and samples show of the image as layers `chains` and `samples`."},

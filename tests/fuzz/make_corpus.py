@@ -330,6 +330,18 @@ AttributeBegin AreaLightSource "diffuse" "spectrum L" "stdillum-D65" "float powe
 Shape "disk" AttributeEnd
 MakeNamedMedium "m" "string type" "homogeneous" "spectrum sigma_a" [ 400 .1 700 .2 ]
 """
+PBRT_MOTION = """TransformTimes 0 2
+ActiveTransform EndTime Translate 1 0 0 ActiveTransform All
+Camera "orthographic" "float shutteropen" .1 "float shutterclose" .9
+WorldBegin
+LightSource "spot" "float power" 3 "float coneangle" 40
+LightSource "infinite" "float illuminance" 2
+Texture "a" "spectrum" "checkerboard" "rgb tex1" [ .1 .2 .3 ]
+Texture "b" "spectrum" "mix" "texture tex1" "a" "rgb tex2" [ 0 1 0 ] "float amount" .3
+Material "diffusetransmission" "texture reflectance" "b" "float scale" 2
+ActiveTransform StartTime Rotate 20 0 0 1 Shape "disk" "texture alpha" "a"
+ObjectBegin "o" Shape "sphere" ObjectEnd ObjectInstance "o"
+"""
 
 
 def make_pbrt() -> None:
@@ -337,6 +349,7 @@ def make_pbrt() -> None:
     write("pbrt", "shapes.pbrt", PBRT_SHAPES)
     write("pbrt", "materials.pbrt", PBRT_MATERIALS)
     write("pbrt", "spectra.pbrt", PBRT_SPECTRA)
+    write("pbrt", "motion.pbrt", PBRT_MOTION)
 
 
 def make_checkpoints() -> None:

@@ -31,9 +31,9 @@ def read(*parts: str):
     return read_foreign(written(*parts))
 
 
-def seen(*parts: str, spp: int = 256, warnings: int = 0) -> np.ndarray:
+def seen(*parts: str, spp: int = 256, warnings: int = 0, view: str = VIEW) -> np.ndarray:
     """The mean of an image that shows the middle of a wall."""
-    made = read(VIEW, *parts)
+    made = read(view, *parts)
     assert len(made.warnings) == warnings, made.warnings
     return mlt.render(mlt.load_dict(made.scene), spp=spp).mean(axis=(0, 1))
 

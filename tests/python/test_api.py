@@ -58,7 +58,7 @@ def test_an_integrator_class_tells_its_parameters(integrator):
         integrator(3)
 
 
-@pytest.mark.parametrize("integrator", CLASSES)
+@pytest.mark.parametrize("integrator", [c for c in CLASSES if c not in (mlt.Aov, mlt.Depth)])
 def test_an_integrator_survives_pickling_and_renders(integrator):
     made = integrator(hide_emitters=True)
     copy = pickle.loads(pickle.dumps(made))

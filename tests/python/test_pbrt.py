@@ -133,7 +133,7 @@ LIGHTS = {
     },
     'LightSource "infinite" "spectrum L" [ 300 .5 900 .5 ]': {
         "type": "constant",
-        "radiance": {"type": "spectrum", "value": [(300, 0.5), (900, 0.5)]},
+        "radiance": {"type": "spectrum", "value": [(300, 1), (900, 1)]},
     },
     LAMP: POINT,
 }
@@ -361,7 +361,8 @@ def test_attributes_are_parameters_by_default():
 # ---- materials, textures -----------------------------------------------------------------------
 
 MATERIALS = {
-    'Material "conductor" "spectrum eta" "metal-Au-eta" "float roughness" .09': both_sides(
+    'Material "conductor" "spectrum eta" "metal-Au-eta" "spectrum k" "metal-Au-k"'
+    ' "float roughness" .09': both_sides(
         {"type": "roughconductor", "distribution": "ggx", "alpha": 0.3, "material": "Au"}
     ),
     'Material "conductor" "rgb reflectance" [.9 .8 .7]': both_sides(
@@ -491,6 +492,51 @@ def test_images_are_the_right_way_up_around_an_axis(shape, scale):
         assert (above[2] > 0.5) == (blue != (scale == "1 -1 1"))
 
 
+@pytest.mark.parametrize("film", ["rgb", "image"])
+@pytest.mark.parametrize("alpha", ["", '"float alpha" 1'])
+def test_images_on_disks_go_around_and_inwards(film, alpha):
+    pixels = np.zeros((8, 8, 3), np.float32)
+    pixels[:4, :, 0] = pixels[4:, :, 1] = pixels[:, :2, 2] = 1  # red above, blue where u < 1/4
+    mlt.write_image("image.exr", pixels)
+    kind, material, colour = (
+        ("spectrum", "diffuse", "reflectance") if film == "rgb" else ("color", "matte", "Kd")
+    )
+    text = (
+        'LightSource "infinite"\n'
+        f'Texture "image" "{kind}" "imagemap" "string filename" "image.exr"\n'
+        f'Material "{material}" "texture {colour}" "image"\n'
+        f'Shape "disk" "float radius" 2 {alpha}\nShape "sphere" "float radius" .001\n'
+    )
+    view = VIEW.replace("LookAt 0 1 4  0 1 0  0 1 0", "LookAt 0 0 9  0 0 0  0 1 0")
+    made = read(view.replace('"rgb"', f'"{film}"'), text)
+    assert made.warnings == []
+    # The image is turned for the disk alone.
+    assert made.scene["sphere"]["bsdf"]["type"] == "ref"
+    image = mlt.render(mlt.load_dict(made.scene), mlt.Path(max_depth=2), spp=16)
+
+    def at(degrees, radius):
+        """The colour there, of an image whose x axis points to the left."""
+        x, y = radius * np.cos(np.radians(degrees)), radius * np.sin(np.radians(degrees))
+        pixel = 30 / (2 * 9 * np.tan(np.radians(20)))
+        return image[int(15 - y * pixel), int(20 - x * pixel)] > 0.5
+
+    for degrees in (45, 135, 225, 315):
+        assert list(at(degrees, 0.6)) == [True, False, degrees == 45]
+        assert list(at(degrees, 1.4)) == [False, True, degrees == 45]
+    mlt.convert("a.pbrt", "a.xml")
+    again = mlt.render(mlt.load("a.xml"), mlt.Path(max_depth=2), spp=16)
+    np.testing.assert_array_equal(again, image)
+
+
+def test_a_normal_map_on_a_disk_is_a_warning():
+    mlt.write_image("n.exr", np.full((2, 2, 3), [0.5, 0.5, 1], np.float32))
+    material = 'Material "diffuse" "string normalmap" "n.exr"\n'
+    made = read(VIEW, LAMP, material, 'Shape "sphere" ')
+    assert made.warnings == []
+    made = read(VIEW, LAMP, material, 'Shape "disk"')
+    assert made.warnings == ["the normals of a normal map on a disk are turned by a quarter"]
+
+
 def test_textures_are_scaled_and_checked():
     made = read(
         'Texture "a" "spectrum" "constant" "rgb value" [.2 .4 .6]\n',
@@ -590,7 +636,8 @@ def test_metals_and_illuminants_have_their_names():
     assert material["bsdf"]["material"] == "Cu"
     assert "brass (CuZn) is not known; it is taken as copper" in brass.warnings
     made = read('LightSource "infinite" "spectrum L" "stdillum-A"')
-    assert made.scene["infinite-light"]["radiance"] == blackbody(2856)
+    pairs = made.scene["infinite-light"]["radiance"]["value"]
+    np.testing.assert_allclose(pairs, blackbody(2856)["value"])
 
 
 def test_a_black_body_has_luminance_one():

@@ -99,8 +99,8 @@ class Camera : public Object {
 
   /// Whether it is a pinhole, which no walk can hit.
   virtual bool delta_position() const = 0;
-  /// Whether walks from lights can end on the lens. With clipping planes none does: what is not seen
-  /// would block some of them.
+  /// Whether walks from lights can end on the lens. With clipping planes none does: what is not
+  /// seen would block some of them.
   bool can_be_hit() const { return !delta_position() && !clips(); }
   /// The point of the lens at this offset (in its plane) from xk; nullopt beyond its rim.
   virtual std::optional<SurfacePoint> move_on_lens(const SurfacePoint& /*xk*/,

@@ -146,7 +146,7 @@ class ERPT(Integrator):
         Trace many paths side by side where that is possible (cpp/wave); else one by one, by the
         code that defines them (cpp/path). Both make the same image.
     luminance_samples : integer, default 50000
-        The pilot before the render draws about as many paths.
+        Paths drawn before the render, from which the division of its time is found.
     chains : integer, default 128
         Number of Markov chains, each of which starts over and over. It hardly matters, but no
         more threads than chains have work.
@@ -273,14 +273,14 @@ class MLT(Integrator):
         Trace many paths side by side where that is possible (cpp/wave); else one by one, by the
         code that defines them (cpp/path). Both make the same image.
     luminance_samples : integer, default 50000
-        The pilot before the render draws about as many paths.
+        Paths drawn before the render, from which the division of its time is found.
     chains : integer, default 128
         Number of Markov chains, each of which starts over and over. It hardly matters, but no
         more threads than chains have work.
     independent_share : float
         Share of the time for samples that are independent of the chains, 0 to 1. They show what
-        they are good at, and tell the brightness b. By default a pilot finds the best one; 1:
-        there are no chains.
+        they are good at, and tell the brightness b. By default the first samples tell the best
+        one; 1: there are no chains.
     parts : boolean, default False
         Keep what chains and samples show of the image as layers `chains` and `samples`.
     bidirectional_mutation : boolean, default True
@@ -367,7 +367,8 @@ class MLT(Integrator):
         Let a smaller step follow where a perturbation's proposal was rejected.
     independent : string, default 'auto'
         What the independent samples are: those of bidirectional path tracing, or of path
-        tracing, which are cheaper; by default a pilot chooses. One of: auto, bdpt, path.
+        tracing, which are cheaper; by default, those with less noise in the end. One of: auto,
+        bdpt, path.
     spark : float, default 1.0
         A tour, the mutations from one start of a chain, waits before it leaves more light in a
         pixel than this many times what pixels have received in the mean by then (up to three
@@ -509,15 +510,15 @@ class MMLT(Integrator):
         Trace many paths side by side where that is possible (cpp/wave); else one by one, by the
         code that defines them (cpp/path). Both make the same image.
     luminance_samples : integer, default 50000
-        Paths drawn to start the chains from; a pilot before that draws about as many.
+        Paths drawn to start the chains from; as many are drawn before, to divide the time.
     chains : integer, default 128
         Number of Markov chains, whatever the budget. The fewer there are, the longer each is,
         and the farther it gets from where it started; but one that stands still leaves a
         brighter spot, and no more threads than chains have work.
     independent_share : float
         Share of the time for samples that are independent of the chains, 0 to 1. They show what
-        they are good at, and tell the brightness b. By default a pilot finds the best one; 1:
-        there are no chains.
+        they are good at, and tell the brightness b. By default the first samples tell the best
+        one; 1: there are no chains.
     parts : boolean, default False
         Keep what chains and samples show of the image as layers `chains` and `samples`.
     p_large : float, default 0.3
@@ -621,15 +622,15 @@ class PSSMLT(Integrator):
         Trace many paths side by side where that is possible (cpp/wave); else one by one, by the
         code that defines them (cpp/path). Both make the same image.
     luminance_samples : integer, default 50000
-        Paths drawn to start the chains from; a pilot before that draws about as many.
+        Paths drawn to start the chains from; as many are drawn before, to divide the time.
     chains : integer, default 256
         Number of Markov chains, whatever the budget. The fewer there are, the longer each is,
         and the farther it gets from where it started; but one that stands still leaves a
         brighter spot, and no more threads than chains have work.
     independent_share : float
         Share of the time for samples that are independent of the chains, 0 to 1. They show what
-        they are good at, and tell the brightness b. By default a pilot finds the best one; 1:
-        there are no chains.
+        they are good at, and tell the brightness b. By default the first samples tell the best
+        one; 1: there are no chains.
     parts : boolean, default False
         Keep what chains and samples show of the image as layers `chains` and `samples`.
     p_large : float, default 0.3
@@ -738,15 +739,15 @@ class RJMLT(Integrator):
         Trace many paths side by side where that is possible (cpp/wave); else one by one, by the
         code that defines them (cpp/path). Both make the same image.
     luminance_samples : integer, default 50000
-        Paths drawn to start the chains from; a pilot before that draws about as many.
+        Paths drawn to start the chains from; as many are drawn before, to divide the time.
     chains : integer, default 128
         Number of Markov chains, whatever the budget. The fewer there are, the longer each is,
         and the farther it gets from where it started; but one that stands still leaves a
         brighter spot, and no more threads than chains have work.
     independent_share : float
         Share of the time for samples that are independent of the chains, 0 to 1. They show what
-        they are good at, and tell the brightness b. By default a pilot finds the best one; 1:
-        there are no chains.
+        they are good at, and tell the brightness b. By default the first samples tell the best
+        one; 1: there are no chains.
     parts : boolean, default False
         Keep what chains and samples show of the image as layers `chains` and `samples`.
     p_large : float, default 0.3

@@ -61,7 +61,10 @@ def sun(camera: dict[str, Any]) -> dict[str, Any]:
     """A sun over the left shoulder of a camera, which shows the form; y is up."""
     import numpy as np
 
-    forward = np.asarray(camera["to_world"])[:3, 2]
+    to_world = camera["to_world"]
+    if isinstance(to_world, dict):  # an animation: as it begins
+        to_world = next(matrix for time, matrix in to_world.items() if time != "type")
+    forward = np.asarray(to_world)[:3, 2]
     turn = azimuth(forward) - azimuth(-np.array(AWAY)) if forward[[0, 2]].any() else 0.0
     turned = Transform.rotate([0, 1, 0], math.degrees(turn)).matrix[:3, :3] @ SUNBEAM
     return {"type": "directional", "direction": turned.tolist(), "irradiance": 3.0}

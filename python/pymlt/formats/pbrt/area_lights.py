@@ -6,8 +6,11 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..areas import triangle_areas
 from ..ply import read_ply
+from .arithmetic import Value, multiplied
+from .images import pixels
 from .params import Params
-from .spectra import luminance_one, scaled
+from .spectra import luminance_one, luminances
+from .textures import Textures
 
 if TYPE_CHECKING:
     import numpy as np
@@ -17,8 +20,8 @@ class AreaLight(NamedTuple):
     """The light of the shapes that follow."""
 
     radiance: Any  #: as a scene dict has it; for a light with a power, up to a factor
-    power: float | None  #: of each shape, the radiance's own luminance being 1
-    sides: int  #: among which the power is shared: 1 or 2
+    power: float | None  #: of each shape, the radiance's own luminance, or its mean, being 1
+    sides: int  #: among which a power is shared: 1 or 2
 
     def emitter(self, shape: dict[str, Any], params: Params) -> dict[str, Any]:
         """The light of one shape, which is placed in the world.
@@ -36,19 +39,27 @@ class AreaLight(NamedTuple):
             params.warn(what + (", spread evenly, as their areas differ" * differ))
         if not areas.mean() > 0:
             raise params.where.error("a light with 'power' has no area")
-        factor = self.power / (np.pi * float(areas.mean()) * self.sides)
-        return {"type": "area", "radiance": scaled(self.radiance, factor)}
+        ratio = self.power / (np.pi * float(areas.mean()) * self.sides)
+        return {"type": "area", "radiance": multiplied(self.radiance, ratio)}
 
 
-def area_light(params: Params) -> AreaLight:
+def area_light(params: Params, textures: Textures) -> AreaLight:
     """What AreaLightSource says."""
     sides = shining_sides(params, "diffuse")
-    colour, scale = params.colour("L", 1.0), params.number("scale", 1)
-    power = params.number("power", -1)
+    scale, power = params.number("scale", 1), params.number("power", 0)
+    radiance: Value = luminance_one(params.colour("L", 1.0))
+    if filename := params.text("filename"):
+        radiance = textures.bitmap(filename) | {"wrap_mode": "clamp"}
+        scale /= mean_luminance(radiance, params) if power > 0 else 1
     params.finish()
-    if power > 0:
-        return AreaLight(scaled(luminance_one(colour), scale), power, sides)
-    return AreaLight(scaled(colour, scale), None, 1)
+    return AreaLight(multiplied(radiance, scale), power if power > 0 else None, sides)
+
+
+def mean_luminance(bitmap: dict[str, Any], params: Params) -> float:
+    found = float(luminances(pixels(bitmap)).mean())
+    if not found > 0:
+        raise params.where.error("an area light with a 'power' has a black image")
+    return found
 
 
 def shining_sides(params: Params, *types: str) -> int:

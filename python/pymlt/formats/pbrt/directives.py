@@ -10,7 +10,9 @@ from ... import _core
 from .. import limits
 from ..imported import Imported
 from ..missing import ABSENT
+from .motion import ACTIVE
 from .params import Params
+from .spectrum_files import with_files
 from .state import ATTRIBUTES, TRANSFORMS, State
 from .tokens import Parameter, Token, Words
 from .version import foreign
@@ -34,9 +36,10 @@ class Directives:
         self._folder = path.parent
         self._made = made
         self._words = Words(path)
-        self._state = State(np.eye(4))
+        self._state = State([np.eye(4), np.eye(4)])
         self._saved: list[State] = []
-        self._spaces: dict[str, np.ndarray] = {}
+        self._spaces: dict[str, list[np.ndarray]] = {}
+        self._times = (0.0, 1.0)  #: of the two transforms
         self._last: Token | None = None
 
     def read(self) -> None:
@@ -92,7 +95,11 @@ class Directives:
         for name in foreign(self.version, directive.text, kind, given):
             said = f"{name!r} is of another version, and the file is read as one of pbrt"
             self._made.warn(f"{said}-v{self.version}", directive.place)
-        return Params(directive, kind, given, self._made, self._defaults(directive))
+        given, defaults = (
+            with_files(found, directive, self._folder, self._made)
+            for found in (given, self._defaults(directive))
+        )
+        return Params(directive, kind, given, self._made, defaults)
 
     def _defaults(self, directive: Token) -> dict[str, Parameter]:
         """What Attribute says of directives of this kind."""
@@ -118,7 +125,7 @@ class Directives:
             raise directive.error(f"{directive.text} ends nothing")
         saved = self._saved.pop()
         if directive.text == "TransformEnd":
-            self._state.matrix = saved.matrix
+            self._state.matrices, self._state.active = saved.matrices, saved.active
         else:
             self._state = saved
 
@@ -128,8 +135,8 @@ class Directives:
     def _on_world_begin(self, directive: Token) -> None:
         import numpy as np
 
-        self._state.matrix = np.eye(4)
-        self._spaces["world"] = np.eye(4)
+        self._state.matrices, self._state.active = [np.eye(4), np.eye(4)], ACTIVE["All"]
+        self._spaces["world"] = list(self._state.matrices)
 
     def _on_world_end(self, directive: Token) -> None:
         """Ends files of pbrt-v3."""
@@ -140,13 +147,26 @@ class Directives:
         self._state.reversed = not self._state.reversed
 
     def _on_coordinate_system(self, directive: Token) -> None:
-        self._spaces[self._words.text(directive)] = self._state.matrix.copy()
+        self._spaces[self._words.text(directive)] = list(self._state.matrices)
 
     def _on_coord_sys_transform(self, directive: Token) -> None:
         name = self._words.text(directive)
         if name not in self._spaces:
             raise directive.error(f"there is no coordinate system {name!r}")
-        self._state.matrix = self._spaces[name].copy()
+        self._state.matrices = list(self._spaces[name])
+
+    def _on_active_transform(self, directive: Token) -> None:
+        name = self._words.take(directive)
+        if name.text not in ACTIVE:
+            valid = ", ".join(ACTIVE)
+            raise name.error(f"ActiveTransform {name.text!r} is not known; valid are: {valid}")
+        self._state.active = ACTIVE[name.text]
+
+    def _on_transform_times(self, directive: Token) -> None:
+        start, end = self._words.numbers(2, directive)
+        if not start < end:
+            raise directive.error("the second of the TransformTimes should be later than the first")
+        self._times = start, end
 
     def _on_include(self, directive: Token) -> None:
         self._words.include(self._words.take(directive))

@@ -5,9 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ...images import read_image
-from ..limits import check_pixels
+from .images import read_rgb
 from .params import Params
+from .photometry import factor
+from .spectra import luminances
 
 if TYPE_CHECKING:
     import numpy as np
@@ -17,11 +18,12 @@ def environment(params: Params, path: Path, to_world: np.ndarray, scale: float) 
     """An `envmap` of the same light, with as many rows as the octahedral map has."""
     import numpy as np
 
-    given = read_image(path)[..., :3]
-    check_pixels(given, str(path))
+    given = read_rgb(path)
     if given.shape[0] != given.shape[1]:
         raise params.where.error(f"{path.name}: an environment map of pbrt-v4 is square")
     rows = given.shape[0]
+    if params.get("illuminance"):
+        scale *= factor(params, "illuminance", upward_illuminance(given))
     # Some rows at a time, for their directions take more memory than their colours.
     parts = [slice(first, first + 64) for first in range(0, rows, 64)]
     found = [sampled(given, square_of(directions(rows, p))).astype(np.float32) for p in parts]
@@ -48,6 +50,18 @@ def directions(rows: int, part: slice = slice(None)) -> np.ndarray:
     y = np.broadcast_to(np.cos(theta), (len(theta), 2 * rows))
     x, z = np.sin(phi) * np.sin(theta), -np.cos(phi) * np.sin(theta)
     return np.stack([x, -z, y], axis=-1)
+
+
+def upward_illuminance(octahedral: np.ndarray) -> float:
+    """Of what faces the z axis of a map, as pbrt-v4 computes it: half of what is right."""
+    import numpy as np
+
+    side = octahedral.shape[0]
+    centres = (np.arange(side) + 0.5) / side * 2 - 1
+    u, v = np.meshgrid(centres, centres)
+    from_border = 1 - (abs(u) + abs(v))  # of the square of the upper half
+    cosines = np.where(from_border > 0, 1 - (1 - from_border) ** 2, 0)
+    return float(2 * np.pi * (luminances(octahedral) * cosines).mean())
 
 
 def square_of(d: np.ndarray) -> np.ndarray:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+from .arithmetic import multiplied
 from .params import Params
-from .spectra import scaled
 
 STRENGTHS = ("radiance", "irradiance", "intensity")
 
@@ -40,8 +40,8 @@ def _exposed(part: dict[str, Any], ratio: float) -> dict[str, Any]:
     made = dict(part)
     if "emitter" in part:
         made["emitter"] = _exposed(part["emitter"], ratio)
-    elif part["type"] == "envmap":
+    elif part["type"] in ("envmap", "projector"):
         made["scale"] = part["scale"] * ratio
     else:
-        made |= {key: scaled(part[key], ratio) for key in STRENGTHS if key in part}
+        made |= {key: multiplied(part[key], ratio) for key in STRENGTHS if key in part}
     return made

@@ -6,7 +6,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from .params import Params
-from .spectra import scaled
+from .photometry import brightening
+from .spectra import luminance_one, scaled
 
 if TYPE_CHECKING:
     import numpy as np
@@ -15,14 +16,19 @@ if TYPE_CHECKING:
 def light(params: Params, folder: Path, to_world: np.ndarray) -> dict[str, Any] | None:
     """A light that is no shape; None, with a warning, for those without a counterpart."""
     scale = params.number("scale", 1)
-    if params.type == "infinite":
-        if filename := params.text("filename"):
-            from .environment import environment
+    if params.type == "projection":
+        from .projection import projection
 
-            return environment(params, folder / filename, to_world, scale)
-        return {"type": "constant", "radiance": scaled(params.colour("L", 1.0), scale)}
-    colour = "L" if params.type == "distant" else "I"
-    return placed(params, to_world, scaled(params.colour(colour, 1.0), scale))
+        return projection(params, folder, to_world, scale)
+    if params.type == "infinite" and (filename := params.text("filename")):
+        from .environment import environment
+
+        return environment(params, folder / filename, to_world, scale)
+    name = "L" if params.type in ("distant", "infinite") else "I"
+    strength = scaled(luminance_one(params.colour(name, 1.0)), scale * brightening(params))
+    if params.type == "infinite":
+        return {"type": "constant", "radiance": strength}
+    return placed(params, to_world, strength)
 
 
 def placed(params: Params, to_world: np.ndarray, power: Any) -> dict[str, Any] | None:

@@ -6,11 +6,17 @@ import math
 from collections.abc import Callable
 from typing import Any
 
+from ..imported import rgb
+from . import lobes
+from .arithmetic import Value, multiplied
+from .metals import complex_index
 from .params import Params
 from .spectra import DISPERSIVE
 from .textures import Textures
 
 Named = dict[str, dict[str, Any]]
+#: Those whose two sides are of one BSDF.
+TRANSMITTING = ("dielectric", "diffusetransmission", "thindielectric")
 
 
 def bsdf(params: Params, textures: Textures, named: Named) -> dict[str, Any]:
@@ -28,13 +34,35 @@ def bsdf(params: Params, textures: Textures, named: Named) -> dict[str, Any]:
         normals = textures.bitmap(image) | {"raw": True}
         surface = {"type": "normalmap", "normalmap": normals, "bsdf": surface}
     params.finish(ignored=("thickness", "maxdepth", "nsamples"))
-    if params.type in ("dielectric", "thindielectric"):
+    if params.type in TRANSMITTING:
         return surface
     return {"type": "twosided", "bsdf": surface}
 
 
 def diffuse(params: Params, textures: Textures) -> dict[str, Any]:
     return {"type": "diffuse", "reflectance": textures.colour(params, "reflectance", 0.5)}
+
+
+def diffuse_transmission(params: Params, textures: Textures) -> dict[str, Any]:
+    """Both shares are cut off at 1, after the scale."""
+    scale = params.number("scale", 1.0)
+    reflected, transmitted = (
+        clamped(multiplied(textures.colour(params, name, 0.25), scale))
+        for name in ("reflectance", "transmittance")
+    )
+    return lobes.total([lobes.diffuse(reflected), lobes.diffuse_transmission(transmitted)])
+
+
+def clamped(colour: Value) -> Value:
+    """At most 1; textures are left as they are."""
+    if not isinstance(colour, dict):
+        return min(colour, 1.0)
+    match colour["type"]:
+        case "rgb":
+            return rgb([min(v, 1.0) for v in colour["value"]])
+        case "spectrum":
+            return colour | {"value": [(wave, min(v, 1.0)) for wave, v in colour["value"]]}
+    return colour
 
 
 def coated_diffuse(params: Params, textures: Textures) -> dict[str, Any]:
@@ -48,22 +76,7 @@ def conductor(params: Params, textures: Textures, prefix: str = "") -> dict[str,
     surface = rough(params, textures, "conductor", 0.0, prefix)
     if params.get("reflectance"):
         return surface | {"specular_reflectance": textures.colour(params, "reflectance", 1.0)}
-    given = params.get(f"{prefix}eta")
-    params.get(f"{prefix}k")
-    name = given.values[0] if given else "metal-Cu-eta"
-    if isinstance(name, str):
-        return surface | {"material": metal(name, params)}
-    eta, k = (params.colour(f"{prefix}{part}", 1.0) for part in ("eta", "k"))
-    return surface | {"eta": eta, "k": k}
-
-
-def metal(name: str, params: Params) -> str:
-    """The name that a spectrum such as metal-Au-eta has here."""
-    symbol = name.split("-")[1] if name.startswith("metal-") else name
-    if symbol != "CuZn":
-        return symbol
-    params.warn("brass (CuZn) is not known; it is taken as copper")
-    return "Cu"
+    return surface | complex_index(params, textures, prefix)
 
 
 def coated_conductor(params: Params, textures: Textures) -> dict[str, Any]:
@@ -144,5 +157,6 @@ MATERIALS = {
     "conductor": conductor,
     "dielectric": dielectric,
     "diffuse": diffuse,
+    "diffusetransmission": diffuse_transmission,
     "thindielectric": thin_dielectric,
 }

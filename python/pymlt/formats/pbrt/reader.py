@@ -10,10 +10,12 @@ from ..views import complete
 from . import views
 from .area_lights import area_light
 from .directives import Directives
+from .disks import on_a_disk
 from .exposure import expose, exposure_time, sensitivity
 from .lights import light
 from .materials import bsdf
 from .media import Interface, medium
+from .motion import animation, moves
 from .params import Params
 from .shapes import shape
 from .textures import Textures
@@ -22,6 +24,7 @@ from .tokens import Token
 #: Of the view, its directives by their names in the scene dict.
 NAMES = {"Camera": "camera", "Film": "film", "PixelFilter": "rfilter", "Sampler": "sampler"}
 NAMES["Integrator"] = "integrator"
+PARTS = ("bsdf", "emitter")  #: of shapes, that may have textures
 
 
 class Reader(Directives):
@@ -46,10 +49,14 @@ class Reader(Directives):
         self._group: dict[str, Any] | None = None
         self._views: dict[str, dict[str, Any]] = {}
         self._exposure_time = self._sensitivity = 1.0
+        self._shutter: dict[str, float] = {}
+        self._moves = False
 
     def read(self) -> None:
         super().read()
         expose(self._made.scene, self._exposure_time * self._sensitivity)
+        if self._moves and "Camera" in self._views:
+            self._views["Camera"] |= self._shutter
         for name, element in views.elements(self._views):
             self._made.add(name, element)
         complete(self._made)
@@ -66,9 +73,13 @@ class Reader(Directives):
 
         params = self._params(directive)
         self._exposure_time = self.exposure_time(params)
-        self._views["Camera"] = self.views.camera(params, self._state.matrix)
-        self._views["Camera"] |= self._state.interface.around()
-        self._spaces["camera"] = np.linalg.inv(self._state.matrix)
+        for side, default in (("open", 0), ("close", 1)):
+            self._shutter[f"shutter_{side}"] = params.number(f"shutter{side}", default)
+        from_camera = [np.linalg.inv(matrix) for matrix in self._state.matrices]
+        camera = self.views.camera(params, self._state.matrix)
+        camera["to_world"] = self._moving(camera["to_world"], from_camera)
+        self._views["Camera"] = camera | self._state.interface.around()
+        self._spaces["camera"] = from_camera
 
     def _on_film(self, directive: Token) -> None:
         params = self._params(directive)
@@ -87,6 +98,19 @@ class Reader(Directives):
     def _on_accelerator(self, directive: Token) -> None:
         """Has no influence on the image."""
         self._params(directive)
+
+    def _moving(self, to_world: Any, matrices: list[Any]) -> Any:
+        """What this transform, that of the start, is while the shutter is open."""
+        if not moves(matrices):
+            return to_world
+        self._moves = True
+        return animation(to_world, matrices, self._times)
+
+    def _still(self, params: Params) -> Any:
+        """The transform, that of the start, of what cannot move."""
+        if moves(self._state.matrices):
+            params.warn(f"{params.where.text} {params.type!r} stays where it starts")
+        return self._state.matrix
 
     # ---- materials, textures, lights -----------------------------------------------------------
 
@@ -113,7 +137,7 @@ class Reader(Directives):
     def _on_make_named_medium(self, directive: Token) -> None:
         name = self._words.text(directive)
         params = self._typed(directive, f"the medium {name!r}")
-        found = self.medium(params, self._folder, self._state.matrix)
+        found = self.medium(params, self._folder, self._still(params))
         self._media[name] = self._made.add(f"{name}-medium", found) if found else ""
 
     def _on_medium_interface(self, directive: Token) -> None:
@@ -132,13 +156,13 @@ class Reader(Directives):
 
     def _on_light_source(self, directive: Token) -> None:
         params = self._params(directive)
-        found = self.light(params, self._folder, self._state.matrix)
+        found = self.light(params, self._folder, self._still(params))
         if found:
             params.finish()
             self._made.add(f"{params.type}-light", found | self._state.interface.around())
 
     def _on_area_light_source(self, directive: Token) -> None:
-        self._state.area_light = self.area_light(self._params(directive))
+        self._state.area_light = self.area_light(self._params(directive), self._textures)
 
     def _reference(self, id: str) -> dict[str, Any]:
         return {"type": "ref", "id": id}
@@ -159,10 +183,14 @@ class Reader(Directives):
             found["emitter"] = self._state.area_light.emitter(found, params)
         elif self._state.area_light:
             params.warn("lights in objects that are instanced are left out")
-        params.finish(ignored=("edgelength", "displacement"))
+        if params.type == "disk":
+            found |= {part: on_a_disk(found[part], params) for part in PARTS if part in found}
+        params.finish()
         if self._group is None:
+            found["to_world"] = self._moving(found["to_world"], self._state.matrices)
             self._made.add(params.type, found)
         else:
+            self._still(params)
             self._made.charge(found)
             self._group[self._made.name(params.type)] = found
 
@@ -196,5 +224,6 @@ class Reader(Directives):
         group = self._made.scene[self._objects[name]]
         if len(group) > 1:
             reference = self._reference(self._objects[name])
-            placed = {"type": "instance", "group": reference, "to_world": self._state.matrix}
+            to_world = self._moving(self._state.matrix, self._state.matrices)
+            placed = {"type": "instance", "group": reference, "to_world": to_world}
             self._made.add(f"{name}-instance", placed)

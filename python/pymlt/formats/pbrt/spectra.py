@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..imported import Imported, rgb
 from .tokens import Parameter, Token
+
+if TYPE_CHECKING:
+    import numpy as np
 
 GLASSES = {"glass-BK7": 1.5046, "glass-BAF10": 1.67, "glass-F11": 1.62066, "glass-SF11": 1.7847}
 GLASSES |= {"glass-FK51A": 1.48656, "glass-LASF9": 1.8502, "glass-SF5": 1.67270}
@@ -21,6 +24,7 @@ SELLMEIER = {
 #: Indices of refraction that depend on the wavelength, as scene dicts have them.
 DISPERSIVE = {name: f"sellmeier {terms}" for name, terms in SELLMEIER.items()}
 DISPERSIVE |= {"glass-BK7": "bk7", "glass-SF11": "sf11"}
+REC_709 = (0.212671, 0.715160, 0.072169)  #: the luminances of red, green and blue
 COLDEST = 100  #: kelvin, of black bodies; colder ones have no light that a number can hold
 TUNGSTEN = 2856  #: kelvin, of CIE standard illuminant A
 WAVELENGTHS = range(360, 831, 5)  #: nm
@@ -61,6 +65,12 @@ def luminance_one(value: Any) -> Any:
         w * _between(waves, heights, at) for w, at in zip(weights, WAVELENGTHS, strict=True)
     )
     return scaled(value, sum(weights) / found) if found else value
+
+
+def luminances(colours: np.ndarray) -> np.ndarray:
+    """Of linear Rec. 709 colours, (..., 3)."""
+    found: np.ndarray = colours @ REC_709
+    return found
 
 
 def _between(waves: Any, heights: Any, at: float) -> float:

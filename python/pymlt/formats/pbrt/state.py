@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from .area_lights import AreaLight
 from .media import Interface
+from .motion import ACTIVE
 from .params import Params
 from .tokens import Parameter, Token, Words
 
@@ -38,7 +39,9 @@ ATTRIBUTES = {
 class State:
     """What directives change for those that follow."""
 
-    matrix: np.ndarray  #: object space (or world space, before WorldBegin) to the outer space
+    #: object space (or world space, before WorldBegin) to the outer space, at two times
+    matrices: list[np.ndarray]
+    active: tuple[int, ...] = ACTIVE["All"]  #: those of them that transforms change
     material: dict[str, Any] | None = None  #: as the scene refers to it
     made_of: Params | None = None  #: what gave the material, in pbrt-v3, unless it has a name
     area_light: AreaLight | None = None
@@ -48,7 +51,12 @@ class State:
     defaults: dict[str, dict[str, Parameter]] = field(default_factory=dict)
 
     def copy(self) -> State:
-        return replace(self, matrix=self.matrix.copy(), defaults=dict(self.defaults))
+        return replace(self, matrices=list(self.matrices), defaults=dict(self.defaults))
+
+    @property
+    def matrix(self) -> np.ndarray:
+        """At the start."""
+        return self.matrices[0]
 
     def attribute(self, directive: Token, words: Words) -> None:
         """Attribute "shape" ...: adds to the defaults."""
@@ -59,27 +67,31 @@ class State:
         self.defaults[target] = self.defaults.get(target, {}) | words.parameters()
 
     def transform(self, directive: Token, words: Words) -> None:
-        """Applies one of TRANSFORMS; the numbers of a matrix stand column by column."""
-        import numpy as np
+        """Applies one of TRANSFORMS to what is active."""
+        local = local_matrix(directive, words.numbers(TRANSFORMS[directive.text], directive))
+        alone = directive.text in ("Identity", "Transform")
+        for i in self.active:
+            self.matrices[i] = local if alone else self.matrices[i] @ local
 
-        from ...scenes.transforms import Transform
 
-        given = words.numbers(TRANSFORMS[directive.text], directive)
-        match directive.text:
-            case "Identity":
-                self.matrix = np.eye(4)
-            case "Transform":
-                self.matrix = np.array(given).reshape(4, 4).T
-            case "ConcatTransform":
-                self.matrix = self.matrix @ np.array(given).reshape(4, 4).T
-            case "Translate":
-                self.matrix = self.matrix @ Transform.translate(given).matrix
-            case "Scale":
-                self.matrix = self.matrix @ Transform.scale(given).matrix
-            case "Rotate":
-                self.matrix = self.matrix @ Transform.rotate(given[1:], given[0]).matrix
-            case "LookAt":
-                self.matrix = self.matrix @ look_at(given, directive)
+def local_matrix(directive: Token, given: list[float]) -> np.ndarray:
+    """Of one of TRANSFORMS; the numbers of a matrix stand column by column."""
+    import numpy as np
+
+    from ...scenes.transforms import Transform
+
+    match directive.text:
+        case "Identity":
+            return np.eye(4)
+        case "Translate":
+            return Transform.translate(given).matrix
+        case "Scale":
+            return Transform.scale(given).matrix
+        case "Rotate":
+            return Transform.rotate(given[1:], given[0]).matrix
+        case "LookAt":
+            return look_at(given, directive)
+    return np.array(given).reshape(4, 4).T
 
 
 def look_at(numbers: list[float], where: Token) -> np.ndarray:

@@ -5,13 +5,12 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from ..imported import rgb
 from ..limits import measured
+from .arithmetic import Value, affine, mixed, multiplied, product
+from .images import BYTES
 from .params import Params
-from .spectra import scaled
 
 WRAP = {"repeat": "repeat", "black": "black", "clamp": "clamp", "octahedralsphere": "clamp"}
-Value = float | dict[str, Any]
 
 
 class Textures:
@@ -72,13 +71,24 @@ class Textures:
         bitmap = self.bitmap(params.text("filename")) | placement(params, 1.0)
         bitmap["voffset"], bitmap["vscale"] = 1 - bitmap["voffset"], -bitmap["vscale"]
         bitmap["wrap_mode"] = WRAP.get(params.text("wrap", "repeat"), "repeat")
-        if params.flag("invert"):
-            params.warn("'invert' of image textures is left out")
-        return multiplied(bitmap | self._encoding(params), params.number("scale", 1.0))
+        image = multiplied(bitmap | self._encoding(params), params.number("scale", 1.0))
+        return self._inverted(image, params) if params.flag("invert") else image
+
+    def _inverted(self, image: Value, params: Params) -> Value:
+        """1 less the image."""
+        import numpy as np
+
+        found = affine(image, -np.ones(3), np.ones(3))
+        if found is None:
+            params.warn("'invert' of an image texture with a black border is left out")
+            return image
+        return found
 
     def _encoding(self, params: Params) -> dict[str, Any]:
-        """How the values of an image are stored; by its format if nothing is said."""
+        """How bytes of an image are stored; other numbers are linear."""
         encoding = params.text("encoding", "")
+        if not params.text("filename").lower().endswith(BYTES):
+            return {}
         if encoding.startswith("gamma"):
             return {"gamma": float(encoding.split()[1])}
         return {"raw": True} if encoding == "linear" else {}
@@ -86,6 +96,10 @@ class Textures:
     def _make_scale(self, params: Params) -> Value:
         inner, factor = (self.colour(params, name, 1.0) for name in self.factors)
         return product(inner, factor, params)
+
+    def _make_mix(self, params: Params) -> Value:
+        ends = (self.colour(params, f"tex{i + 1}", float(i)) for i in range(2))
+        return mixed(*ends, self.number(params, "amount", 0.5), params)
 
     def _make_checkerboard(self, params: Params) -> Value:
         """A period of two squares, where ours has one."""
@@ -105,39 +119,3 @@ def placement(params: Params, factor: float) -> dict[str, float]:
         "uoffset": factor * params.number("udelta", 0),
         "voffset": factor * params.number("vdelta", 0),
     }
-
-
-def product(inner: Value, factor: Value, params: Params) -> Value:
-    """Of two colours or textures of which at least one is the same everywhere."""
-    if not is_even(factor):
-        inner, factor = factor, inner
-    if not is_even(factor):
-        params.warn("a product of two textures is left out; the first is taken")
-        return inner
-    return multiplied(inner, factor)
-
-
-def multiplied(inner: Value, factor: Value) -> Value:
-    """A texture or a colour times a factor that is the same everywhere."""
-    if isinstance(factor, float | int):
-        return scaled(inner, factor) if is_even(inner) else _scale_texture(inner, factor)
-    if not is_even(inner):
-        return _scale_texture(inner, factor)
-    if isinstance(inner, float | int):
-        return scaled(factor, inner)
-    if inner["type"] == factor["type"] == "rgb":
-        return rgb([a * b for a, b in zip(inner["value"], factor["value"], strict=True)])
-    if inner["type"] == "rgb":
-        inner, factor = factor, inner
-    waves, heights = zip(*inner["value"], strict=True)
-    spectrum = {"type": "irregular", "wavelengths": list(waves), "values": list(heights)}
-    return _scale_texture(spectrum, factor)
-
-
-def is_even(value: Value) -> bool:
-    """Whether it is the same everywhere."""
-    return not isinstance(value, dict) or value["type"] in ("rgb", "spectrum")
-
-
-def _scale_texture(inner: Value, factor: Value) -> Value:
-    return inner if factor == 1 else {"type": "scale", "scale": factor, "texture": inner}

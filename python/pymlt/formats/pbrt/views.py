@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
+from .motion import after
 from .params import Params
 
 if TYPE_CHECKING:
@@ -34,7 +35,7 @@ def elements(found: dict[str, dict[str, Any]]) -> Iterator[tuple[str, dict[str, 
         sensor = found["Camera"] | {"film": film}
         if sensor.pop("window", True) is False:  # its shorter side is 2
             width = max(1, film["width"] / film["height"])
-            sensor["to_world"] = sensor["to_world"] @ np.diag([width, width, 1, 1])
+            sensor["to_world"] = after(sensor["to_world"], np.diag([width, width, 1, 1]))
         if "Sampler" in found:
             sensor["sampler"] = found["Sampler"]
         yield "camera", sensor

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
+from ..lobes import both_sides
 from ..params import Params
 from ..textures import Textures
-from .lobes import both_sides
 
 #: Parameters of any value, with their defaults, and what they are called here.
 NUMBERS = {"anisotropic": 0.0, "roughness": 0.5, "sheen": 0.0, "sheentint": 0.5}

@@ -12,10 +12,11 @@ from ....images import read_image
 from ...imported import rgb
 from ...limits import check_pixels
 from ..area_lights import AreaLight, shining_sides
+from ..arithmetic import multiplied
 from ..lights import placed
 from ..params import Params
 from ..spectra import numbers
-from ..textures import multiplied
+from ..textures import Textures
 
 #: From the axes of our maps, whose columns go around y, to those of pbrt's, around z.
 AROUND_Z = np.array([[0.0, 0, -1, 0], [1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 0, 1]])
@@ -35,7 +36,7 @@ def light(params: Params, folder: Path, to_world: np.ndarray) -> dict[str, Any] 
     return found
 
 
-def area_light(params: Params) -> AreaLight:
+def area_light(params: Params, textures: Textures) -> AreaLight:
     """What AreaLightSource says."""
     _ignore_counts(params)
     shining_sides(params, "area", "diffuse")

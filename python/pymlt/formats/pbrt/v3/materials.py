@@ -7,13 +7,8 @@ from collections.abc import Callable
 from typing import Any
 
 from ...imported import rgb
-from ..materials import Named, blend
-from ..materials import metal as symbol
-from ..params import Params
-from ..spectra import numbers
-from ..textures import Textures, Value, is_even, product
-from .disney import disney
-from .lobes import (
+from ..arithmetic import Value, is_even, product
+from ..lobes import (
     Lobe,
     amplified,
     both_sides,
@@ -24,6 +19,12 @@ from .lobes import (
     interface,
     total,
 )
+from ..materials import Named, blend
+from ..metals import complex_index
+from ..params import Params
+from ..spectra import numbers
+from ..textures import Textures
+from .disney import disney
 from .roughness import AXES, EVEN, alphas, even_alpha, microfacets
 
 #: The parameters of materials, which pbrt-v3 lets shapes change.
@@ -102,23 +103,7 @@ def mirror(params: Params, textures: Textures) -> dict[str, Any]:
 
 def metal(params: Params, textures: Textures) -> dict[str, Any]:
     surface = microfacets("conductor", alphas(params, textures, 0.01))
-    eta, k = params.get("eta"), params.get("k")
-    if eta is None or k is None:
-        if eta or k:
-            params.warn("a metal without both 'eta' and 'k' is copper")
-        surface["material"] = "Cu"
-    elif eta.kind == "spectrum" and isinstance(eta.values[0], str):
-        surface["material"] = named_metal(eta.values[0], params)
-    else:
-        surface |= {part: textures.colour(params, part, 0.0) for part in ("eta", "k")}
-    return both_sides(surface)
-
-
-def named_metal(name: str, params: Params) -> str:
-    """pbrt-v3 has files of spectra alone, but the names of pbrt-v4 are understood."""
-    if not name.startswith("metal-"):
-        raise params.where.error(f"there is no file {name!r} of a metal's spectrum")
-    return symbol(name, params)
+    return both_sides(surface | complex_index(params, textures))
 
 
 def translucent(params: Params, textures: Textures) -> dict[str, Any]:

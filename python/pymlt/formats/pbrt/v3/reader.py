@@ -35,7 +35,7 @@ class ReaderOfV3(Reader):
         self._views["PixelFilter"] = {"type": "box"}
 
     def _given(self, directive: Token, kind: str, given: dict[str, Parameter]) -> Params:
-        return super()._given(directive, kind, translated(given, directive, self._folder))
+        return super()._given(directive, kind, translated(given))
 
     def _on_material(self, directive: Token) -> None:
         params = self._params(directive)

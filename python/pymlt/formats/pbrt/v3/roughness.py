@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 from typing import Any
 
+from ..arithmetic import Value
 from ..params import Params
-from ..textures import Textures, Value
+from ..textures import Textures
 
 #: Of the polynomial in the logarithm of a roughness that is remapped
 #: (pbrt-v3, TrowbridgeReitzDistribution::RoughnessToAlpha).

@@ -1,4 +1,4 @@
-"""Sums of lobes, which pbrt-v3's materials are, as mixtures.
+"""Sums of lobes, which many of pbrt's materials are, as mixtures.
 
 A mixture weighs its parts by numbers that add up to 1; a lobe of the weight w has 1/w times its
 colours in return, which may well be above 1: the sum is what pbrt has, whatever the weights.
@@ -9,12 +9,12 @@ from __future__ import annotations
 import math
 from typing import Any, NamedTuple
 
-from ...imported import rgb
-from ..spectra import scaled
-from ..textures import Value
+from ..imported import rgb
+from .arithmetic import Value
+from .spectra import scaled
 
 #: The colours of BSDFs.
-COLOURS = ["base_color", "reflectance", "specular_reflectance", "specular_transmittance"]
+COLOURS = ["reflectance", "specular_reflectance", "specular_transmittance", "transmittance"]
 FRESNEL = 0.3  #: of the light that meets a glossy lobe: a guess, for the choice among the lobes
 
 
@@ -36,8 +36,8 @@ def diffuse(colour: Value) -> Lobe:
 
 
 def diffuse_transmission(colour: Value) -> Lobe:
-    thin = {"type": "principledthin", "base_color": colour, "diff_trans": 2.0, "roughness": 0.0}
-    return Lobe(thin, strength(colour), transmits=True)
+    transmitter = {"type": "difftrans", "transmittance": colour}
+    return Lobe(transmitter, strength(colour), transmits=True)
 
 
 def glossy(colour: Value, alpha: float, index: float) -> Lobe:
