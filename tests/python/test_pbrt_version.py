@@ -56,7 +56,7 @@ def test_what_only_pbrt_v3_has_tells_its_files(sign):
     assert is_v3(OF_V3[sign] + "\n" + BALL)
 
 
-@pytest.mark.parametrize("sign", set(OF_V4) - {"neither"})
+@pytest.mark.parametrize("sign", sorted(set(OF_V4) - {"neither"}))
 def test_what_only_pbrt_v4_has_tells_its_files(sign):
     assert not is_v3(OF_V4[sign] + "\n" + BALL)
 
