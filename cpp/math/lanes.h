@@ -6,7 +6,8 @@
 
 namespace mlt {
 
-/// Lanes are not initialised: a wave is made for every tile, and most of them are written anyway.
+/// Numbers of as many paths, side by side. They are not initialised: a wave is made for every
+/// tile, and most of its numbers are written anyway.
 template <class T, int size>
 struct alignas(32) Lanes {
   T values[size];

@@ -132,7 +132,8 @@ double ChainPerturbation::coefficient(const PathState& x, const PathState& y, in
   const Bsdf& bsdf = scene_->bsdf(at);
   const Vec3 local_in = at.shading.to_local(in), local_out = at.shading.to_local(out);
   if (y[i].delta()) {
-    // The coefficient of the one delta without the probability of having chosen it: the lobe stays.
+    // A perturbation keeps the lobe, so the probability of choosing it is taken out of the
+    // coefficient of the delta (VertexTerms).
     const double chosen = bsdf.pdf(at, local_in, local_out, y[i].lobe);
     const VertexTerms& terms = y.terms[i].vertex;
     return (step < 0 ? terms.pdf_from_camera : terms.pdf_from_light) / (chosen * arrival.flown());

@@ -159,7 +159,7 @@ class SubpathWave {
   Block<float> light_factor_;        ///< |w.ns| / |w.ng| of the direction to the previous vertex.
   Block<double> forward_here_, sums_here_;
   Block<double> G_;          ///< Between the vertex and the previous one.
-  Block<double> technique_;  ///< See find_techniques().
+  Block<double> technique_;  ///< How often the technique with its joint before counts.
 };
 
 }  // namespace mlt

@@ -17,9 +17,10 @@ import pymlt as mlt
 from pymlt.diagnostics.metrics import relative_square
 from pymlt.race.calibration import Calibration, calibrate
 from pymlt.race.child import run_child
-from pymlt.race.report.insets import choose_insets
+from pymlt.race.insets import choose_insets
+from pymlt.race.races import judged
 from pymlt.race.report.table import levels_apart
-from pymlt.race.result import Entry, Settings, judged
+from pymlt.race.result import Entry, Settings
 from pymlt.race.run import Run, Snapshot
 from pymlt.race.score import Judge, Mean, mean_of
 

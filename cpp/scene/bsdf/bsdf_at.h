@@ -76,7 +76,7 @@ class BsdfAt {
  private:
   // Not inlined: what most surfaces need of scattering() should be.
 
-  /// That of the plug-in.
+  /// The scattering by the surface's plug-in, in world space.
   [[gnu::noinline]] WorldScattering on_surface(const Vec3& wl, const Vec3& wc, Lobe lobe) const {
     const Bsdf& bsdf = plugin();
     const Frame& shading = at_->shading;

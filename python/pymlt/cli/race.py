@@ -132,7 +132,7 @@ def inset(text: str) -> tuple[int, ...]:
 
 
 def run(args) -> int:
-    from ..race.result import Race
+    from ..race.races import Race
 
     check(args)
     race, code = Race([]), 0
@@ -203,7 +203,7 @@ def prepared(args, index: int) -> Callable[..., RaceResult]:
     """The race on one of the scenes, with everything that it needs."""
     from ..race.algorithm import parse_algorithm
     from ..race.equal_time import equal_time, scene_name
-    from ..race.report.insets import check_insets
+    from ..race.insets import check_insets
     from ..race.score import reference_images
 
     args.scene = args.scenes[index]

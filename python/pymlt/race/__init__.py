@@ -9,8 +9,9 @@ For example::
 
 from .equal_time import equal_time
 from .program import Program
+from .races import Race, RaceResult
 from .report import Report
-from .result import Entry, Race, RaceResult
+from .result import Entry
 from .run import Run, Snapshot
 from .score import Mean, Score
 

@@ -13,8 +13,9 @@ from ..formats.loading import SceneLike, as_scene
 from ..rendering.options import integer, number
 from ..rendering.progress import progress_bar
 from .algorithm import AlgorithmLike, contestants
-from .report.insets import check_insets
-from .result import Entry, RaceResult, Settings, judged
+from .insets import check_insets
+from .races import RaceResult, judged
+from .result import Entry, Settings
 from .run import Conditions, Contestant
 from .score import reference_images
 

@@ -17,13 +17,13 @@ from .table import notes, summary_table, table
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from ..result import RaceResult
+    from ..result import Outcome
 
 
 class Report:
     """Races on one scene or on several, to be read."""
 
-    def _races(self) -> Sequence[RaceResult]:
+    def _races(self) -> Sequence[Outcome]:
         raise NotImplementedError
 
     def table(self) -> str:

@@ -9,20 +9,20 @@ import numpy as np
 
 from ..._extras import import_extra
 from ...pictures.tonemapping import Exposure, encode_srgb, stops_of, tonemap
-from .insets import Inset
+from ..insets import Inset
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure, SubFigure
 
-    from ..result import RaceResult
+    from ..result import Outcome
     from ..score import Score
 
 COLUMN = 2.4  #: inches
 FRAMES = ("#ff3d6e", "#12b5ff", "#ffc400")
 
 
-def draw(results: Sequence[RaceResult], exposure: Exposure, curve: str) -> Figure:
+def draw(results: Sequence[Outcome], exposure: Exposure, curve: str) -> Figure:
     """For each scene a row of whole images, and below each its insets."""
     figures = import_extra("matplotlib.figure", "plots", "a picture of a race")
     heights = [_height(result) for result in results]
@@ -39,19 +39,19 @@ def draw(results: Sequence[RaceResult], exposure: Exposure, curve: str) -> Figur
     return figure
 
 
-def _height(result: RaceResult) -> float:
+def _height(result: Outcome) -> float:
     """Inches of a scene: image, insets, titles."""
     width, height = result.settings.size
     insets = COLUMN * _inset_aspect(result) if result.insets else 0
     return COLUMN * height / width + insets + 0.9
 
 
-def _inset_aspect(result: RaceResult) -> float:
+def _inset_aspect(result: Outcome) -> float:
     """Height over width of a row of insets."""
     return 1 / sum(inset.width / inset.height for inset in result.insets)
 
 
-def _draw_scene(row: SubFigure, result: RaceResult, columns: int, shown: Any) -> None:
+def _draw_scene(row: SubFigure, result: Outcome, columns: int, shown: Any) -> None:
     width, height = result.settings.size
     count = max(1, len(result.insets))
     ratios = [height / width, _inset_aspect(result)] if result.insets else [1]

@@ -11,10 +11,10 @@ from ... import _core
 from .table import notes
 
 if TYPE_CHECKING:
-    from ..result import Entry, RaceResult
+    from ..result import Entry, Outcome
 
 
-def numbers(results: Sequence[RaceResult]) -> dict[str, Any]:
+def numbers(results: Sequence[Outcome]) -> dict[str, Any]:
     """Everything but the images; what is not known or not finite is None."""
     made: dict[str, Any] = _finite(
         {
@@ -26,7 +26,7 @@ def numbers(results: Sequence[RaceResult]) -> dict[str, Any]:
     return made
 
 
-def _race(result: RaceResult) -> dict[str, Any]:
+def _race(result: Outcome) -> dict[str, Any]:
     return {
         "scene": result.settings.name,
         "settings": asdict(result.settings),

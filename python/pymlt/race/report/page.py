@@ -11,13 +11,13 @@ import numpy as np
 
 from ... import _core
 from ...pictures.tonemapping import Exposure, check_tonemap, stops_of
+from ..insets import Inset
 from .chart import COLOURS, Series, embedded, error_chart, level_chart
-from .insets import Inset
 from .pictures import drawing, error_map, exact, photograph, shows_flip
 from .table import Column, columns, heading, notes, summary, summary_title
 
 if TYPE_CHECKING:
-    from ..result import Entry, RaceResult
+    from ..result import Entry, Outcome
 
 STYLE = Path(__file__).with_name("page.css")
 EXPLAINED = {
@@ -37,7 +37,7 @@ EXPLAINED = {
 }
 
 
-def page(results: Sequence[RaceResult], exposure: Exposure, tonemap: str) -> str:
+def page(results: Sequence[Outcome], exposure: Exposure, tonemap: str) -> str:
     """The whole document. Raises UsageError for an unknown curve."""
     check_tonemap(tonemap)
     title = "Race: " + ", ".join(result.settings.name for result in results)
@@ -56,7 +56,7 @@ def page(results: Sequence[RaceResult], exposure: Exposure, tonemap: str) -> str
     )
 
 
-def _summary(results: Sequence[RaceResult]) -> str:
+def _summary(results: Sequence[Outcome]) -> str:
     labels, *scenes = summary(results)
     return (
         f"<section><h2>All scenes</h2><p>{escape(summary_title(results))}.</p>"
@@ -64,7 +64,7 @@ def _summary(results: Sequence[RaceResult]) -> str:
     )
 
 
-def _race(result: RaceResult, exposure: Exposure, curve: str) -> str:
+def _race(result: Outcome, exposure: Exposure, curve: str) -> str:
     stops = stops_of(exposure, result.scale)
     rows = [(result.entries.index(entry), entry.label) for entry in result.ranked]
     remarks = "".join(f"<li>{escape(note)}</li>" for note in notes(result))
@@ -111,7 +111,7 @@ def _badge(index: int) -> str:
 # ---- charts ------------------------------------------------------------------------------------
 
 
-def _charts(result: RaceResult) -> str:
+def _charts(result: Outcome) -> str:
     ranked = [(result.entries.index(entry), entry) for entry in result.ranked]
     mean = float(result.scale.mean())
     axis = "mean of the image / mean of the " + _standard(result)
@@ -123,7 +123,7 @@ def _charts(result: RaceResult) -> str:
     return "".join(embedded(figure, title) for title, figure in charts.items() if figure)
 
 
-def _standard(result: RaceResult) -> str:
+def _standard(result: Outcome) -> str:
     """What images are compared with."""
     return "reference" if result.reference_error is not None else "median of the algorithms"
 
@@ -146,7 +146,7 @@ def _levels(index: int, entry: Entry, mean: float) -> Series:
 # ---- pictures ----------------------------------------------------------------------------------
 
 
-def _pictures(result: RaceResult, curve: str, stops: float) -> str:
+def _pictures(result: Outcome, curve: str, stops: float) -> str:
     kind = "FLIP" if shows_flip(result) else "relative error, 0 to 1"
     other = _Views.of(result, result.scale, curve, stops)
     addresses = {"whole": other.whole} | {f"part{i}": part for i, part in enumerate(other.parts)}
@@ -173,12 +173,12 @@ class _Views(NamedTuple):
     parts: list[str]
 
     @classmethod
-    def of(cls, result: RaceResult, image: np.ndarray, curve: str, stops: float) -> _Views:
+    def of(cls, result: Outcome, image: np.ndarray, curve: str, stops: float) -> _Views:
         parts = [exact(inset.crop(image), curve, stops) for inset in result.insets]
         return cls(photograph(image, curve, stops), parts)
 
 
-def _card(result: RaceResult, views: _Views, caption: str, errors: str) -> str:
+def _card(result: Outcome, views: _Views, caption: str, errors: str) -> str:
     """One image; what images are compared with has no map of errors, and nothing lies below it."""
     below = "over" if errors else ""
     frames = "".join(
@@ -208,7 +208,7 @@ def _frame(index: int, inset: Inset, size: tuple[int, int]) -> str:
     )
 
 
-def _footer(results: Sequence[RaceResult]) -> str:
+def _footer(results: Sequence[Outcome]) -> str:
     terms = "".join(
         f"<dt>{escape(name)}</dt><dd>{escape(text)}</dd>" for name, text in EXPLAINED.items()
     )

@@ -14,7 +14,7 @@ from ...pictures.notebook import png
 from ...pictures.tonemapping import tonemap
 
 if TYPE_CHECKING:
-    from ..result import Entry, RaceResult
+    from ..result import Entry, Outcome
 
 WIDEST = 800  #: pixels of a picture in a page
 # matplotlib's colours "magma", which FLIP is drawn in, at nine places from 0 to 1.
@@ -25,7 +25,7 @@ MAGMA = [
 ]  # fmt: skip
 
 
-def error_map(result: RaceResult, entry: Entry) -> np.ndarray:
+def error_map(result: Outcome, entry: Entry) -> np.ndarray:
     """FLIP of the shown image, else its relative error: (height, width), 0 to 1."""
     image = np.asarray(entry.image, dtype=np.float64)
     if shows_flip(result):
@@ -33,7 +33,7 @@ def error_map(result: RaceResult, entry: Entry) -> np.ndarray:
     return relative_error(image, result.scale).clip(0, 1)
 
 
-def shows_flip(result: RaceResult) -> bool:
+def shows_flip(result: Outcome) -> bool:
     """Whether `error_map` is FLIP: there is a reference, and flip-evaluator."""
     return result.reference_error is not None and bool(find_spec("flip_evaluator"))
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from ..score import Mean
 
 if TYPE_CHECKING:
-    from ..result import Entry, RaceResult
+    from ..result import Entry, Outcome
 
 EMPTY = "–"
 UNEQUAL = 0.1  #: of the budget: a time that is farther from it is remarked upon
@@ -27,7 +27,7 @@ class Column:
     best: int | None = None  #: the row with the smallest error
 
 
-def columns(result: RaceResult) -> list[Column]:
+def columns(result: Outcome) -> list[Column]:
     """All numbers of a race; what nobody has is left out."""
     entries = result.ranked
     scores = [entry.score for entry in entries if entry.score is not None]
@@ -49,7 +49,7 @@ def columns(result: RaceResult) -> list[Column]:
     return [column for column in made if any(cell != EMPTY for cell in column.cells)]
 
 
-def ratios(result: RaceResult) -> list[float | None]:
+def ratios(result: Outcome) -> list[float | None]:
     """relMSE of each algorithm over the smallest one; None where either is not known."""
     values = [_relmse(entry) for entry in result.ranked]
     known = [value for value in values if value is not None and value > 0]
@@ -74,7 +74,7 @@ def _ratio(value: float | None) -> str:
     return _number(value, 2) if value is None or value < 100 else f"{value:.0f}"
 
 
-def heading(result: RaceResult) -> str:
+def heading(result: Outcome) -> str:
     """What was measured."""
     settings = result.settings
     width, height = settings.size
@@ -83,7 +83,7 @@ def heading(result: RaceResult) -> str:
     return f"{width} x {height}, {settings.seconds:g} CPU seconds{threads}, {seeds}"
 
 
-def notes(result: RaceResult) -> list[str]:
+def notes(result: Outcome) -> list[str]:
     """What a reader must know, one sentence each."""
     made = []
     if result.interrupted:
@@ -128,7 +128,7 @@ def levels_apart(entries: Sequence[Entry]) -> list[str]:
     ]
 
 
-def table(result: RaceResult) -> str:
+def table(result: Outcome) -> str:
     """As text, with a line above."""
     labels = Column("algorithm", [entry.label for entry in result.ranked])
     return f"{result.settings.name}: {heading(result)}\n{aligned([labels, *columns(result)])}"
@@ -147,14 +147,14 @@ def aligned(columns: Sequence[Column]) -> str:
     )
 
 
-def summary_title(results: Sequence[RaceResult]) -> str:
+def summary_title(results: Sequence[Outcome]) -> str:
     """What `summary` shows, and on which scenes it is no error."""
     blind = [result.settings.name for result in results if result.reference_error is None]
     spread = f"; without a reference, by the spread of the seeds: {', '.join(blind)}"
     return "relMSE over that of the best algorithm" + (spread if blind else "")
 
 
-def summary(results: Sequence[RaceResult]) -> list[Column]:
+def summary(results: Sequence[Outcome]) -> list[Column]:
     """relMSE over the best, for each algorithm and scene, and their geometric mean."""
     labels = list(dict.fromkeys(entry.label for result in results for entry in result.ranked))
     made, found = [Column("algorithm", labels)], []
@@ -173,6 +173,6 @@ def _ratios(title: str, values: Sequence[float | None]) -> Column:
     return Column(title, list(map(_ratio, values)), best)
 
 
-def summary_table(results: Sequence[RaceResult]) -> str:
+def summary_table(results: Sequence[Outcome]) -> str:
     """The same as text."""
     return f"{summary_title(results)}\n{aligned(summary(results))}"

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ... import _core
+from .. import _core
 
 SHARE = 6  #: an inset is a sixth of the image's width
 CLIP = 1.0  #: at which the relative squared error of a pixel is cut, so that no firefly decides
