@@ -58,7 +58,7 @@ Plugin integrator_aov() {
       "aov",
       "What the camera sees first, without light: the image is the first of its layers. Around "
       "another integrator it adds its layers to that one's image.",
-      {{{"aovs", ParamType::text, no_default,
+      {{{"aovs", ParamType::text, std::string("albedo"),
          "Layers, each with a name or without: albedo:albedo, nn:sh_normal, ..."}}}));
 }
 

@@ -34,6 +34,9 @@ std::string asked_aovs(const Node& integrator) {
 const Node& unwrapped(const Node& integrator, std::string& aovs,
                       std::vector<std::string>& warnings) {
   if (integrator.type != "moment" && integrator.type != "aov") return integrator;
+  const bool alone = std::none_of(integrator.children.begin(), integrator.children.end(),
+                                  [](const Node& child) { return child.family == "integrator"; });
+  if (integrator.type == "aov" && alone && !find_property(integrator, "aovs")) return integrator;
   if (integrator.type == "aov") aovs = asked_aovs(integrator);
   for (const Node& child : integrator.children)
     if (child.family == "integrator") {

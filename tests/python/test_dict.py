@@ -249,7 +249,6 @@ MISTAKES = {
     ),
     "not a scene": (change([], type="scne"), "scene: ", "'scene'"),
     "no sensor": (lambda s: s.pop("sensor"), "scene: ", "sensor"),
-    "no light": (lambda s: s.pop("lamp"), "scene: ", "no emitter"),
 }
 
 

@@ -14,15 +14,15 @@ class Aov(Integrator):
 
     Parameters
     ----------
-    aovs : string
+    aovs : string, default 'albedo'
         Layers, each with a name or without: albedo:albedo, nn:sh_normal, ...
     """
 
-    aovs: str | None
+    aovs: str
     def __init__(
         self,
         *,
-        aovs: str | None = ...,
+        aovs: str = ...,
     ) -> None: ...
 
 class BDPT(Integrator):
