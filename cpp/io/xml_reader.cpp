@@ -5,6 +5,7 @@
 #include "io/element.h"
 #include "io/families.h"
 #include "io/load.h"
+#include "io/mistakes.h"
 #include "io/search_path.h"
 #include "io/transform.h"
 #include "io/values.h"
@@ -96,6 +97,7 @@ class XmlReader {
       root.fail("is not a scene; the root element should be <scene>");
     }
     Node node = read_plugin(document.root(), root, source, 1);
+    missing_files_.report();
     upgrade_version_0(node, warnings_);
     resolve_aliases(node, aliases_);
     variables_.expect_all_used();
@@ -210,7 +212,9 @@ class XmlReader {
     }
     Value value = read_value(element, source.search);
     if (name == "filename" && element.tag == "string" && reads_a_file(parent.family))
-      value = source.search.find_file(std::get<std::string>(value), element.where);
+      missing_files_.note(
+          [&] { value = source.search.find_file(std::get<std::string>(value), element.where); },
+          element.where);
     const double* number = std::get_if<double>(&value);
     // Since Mitsuba 2 it is the same power at all wavelengths; before, it is grey, also of lights.
     if (number && element.tag == "spectrum" && source.modern) value = constant_spectrum(*number);
@@ -274,6 +278,7 @@ class XmlReader {
   int include_count_ = 0;
   size_t text_size_ = 0;
   Aliases aliases_;
+  Mistakes missing_files_;
 };
 
 }  // namespace

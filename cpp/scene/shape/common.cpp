@@ -6,6 +6,8 @@
 #include "scene/texture/texture.h"
 #include "scene/transform/transform_params.h"
 
+#include <cstring>
+
 namespace mlt {
 
 Schema shape_schema(const std::string& name, const std::string& doc,
@@ -39,6 +41,19 @@ std::string name_of_mesh(Params& params) {
   return params.has("data") ? "'data'" : params.text("filename");
 }
 
+/// Throws SceneError for a file of another program, by its extension.
+void refuse_foreign_mesh(const Params& params, const std::string& path) {
+  for (const char* kind :
+       {".3ds", ".3mf", ".abc", ".blend", ".c4d", ".dae", ".fbx", ".glb",  ".gltf", ".iges",
+        ".igs", ".max", ".off", ".step",  ".stl", ".stp", ".usd", ".usda", ".usdc", ".usdz"}) {
+    const size_t length = std::strlen(kind);
+    if (path.size() > length && path.compare(path.size() - length, length, kind) == 0)
+      params.fail("filename", fmt::format("names a {} file, which is not read as a mesh; export it "
+                                          "as OBJ or PLY",
+                                          kind));
+  }
+}
+
 }  // namespace
 
 Plugin mesh_file_plugin(const char* name, const char* doc, const char* filename_doc,
@@ -53,6 +68,7 @@ Plugin mesh_file_plugin(const char* name, const char* doc, const char* filename_
                                own})),
           [read](Params& params) {
             const std::string path = name_of_mesh(params);
+            refuse_foreign_mesh(params, path);
             const auto unpack = [&](std::string_view bytes) {
               return is_gzip(bytes) ? read(unpack_gzip(bytes, path), path, params)
                                     : read(bytes, path, params);

@@ -315,6 +315,14 @@ TEST_F(XmlFiles, AMissingFileNamesThePlacesLookedAt) {
             std::string::npos);
 }
 
+TEST(Xml, NamesAllMissingFilesAtOnce) {
+  const auto shape = [](const std::string& file) {
+    return "<shape type='obj'><string name='filename' value='" + file + "'/></shape>\n";
+  };
+  EXPECT_EQ(error_of(in_scene(shape("/no/a.obj") + shape("/no/b.obj") + shape("/no/a.obj"))),
+            "<string>:2: there is no file '/no/a.obj'; line 3: there is no file '/no/b.obj'");
+}
+
 TEST_F(XmlFiles, IncludesStandInPlaceOfTheirElement) {
   write("scene.xml", R"(<scene><default name="spp" value="4"/>
     <include filename="parts/inner.xml"/><bsdf type="last"/>

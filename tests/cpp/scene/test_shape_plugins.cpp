@@ -166,6 +166,8 @@ TEST(ShapePlugins, ErrorsNameTheFile) {
   const TemporaryFile empty("empty.obj", "");
   EXPECT_THAT(error("obj", {{"filename", empty.path}}), HasSubstr("the file has no faces"));
   EXPECT_THAT(error("obj", {}), HasSubstr("needs 'filename'"));
+  EXPECT_THAT(error("obj", {{"filename", std::string("a.fbx")}}),
+              HasSubstr("'filename' names a .fbx file, which is not read as a mesh"));
   const TemporaryFile nan("nan.obj", "v nan 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n");
   EXPECT_EQ(error("obj", {{"filename", nan.path}}),
             nan.path +
