@@ -49,8 +49,8 @@ void BidirectionalWave::draw_lens() {
 /// The lens, as vertices of eight samples.
 const JointLanes& BidirectionalWave::lens_joints(int block) {
   for (int lane = 0; lane < JointLanes::size; ++lane) {
-    const OtherVertex& lens = this->lens(block * JointLanes::size + lane);
-    lens_joints_.other[lane] = &lens;
+    const SingleWalkVertex& lens = this->lens(block * JointLanes::size + lane);
+    lens_joints_.single[lane] = &lens;
     lens_joints_.forward[lane] = lens.x.forward;
     lens_joints_.survival[lane] = 1;
     lens_joints_.dispersed[lane] = false;

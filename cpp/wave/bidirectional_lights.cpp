@@ -62,7 +62,7 @@ void BidirectionalWave::start_at_other_light(int i, const EmitterChoice& choice,
   const LightSample light =
       sample_light_position(*scene_, choice, {u_x_[i], u_y_[i]}, walker.time, wavelength_[i]);
   if (!(light.x0.pdf > 0)) return;
-  OtherVertex& end = others_.add();
+  SingleWalkVertex& end = singles_.add();
   Vertex& x0 = end.x.vertex;
   x0 = light_vertex(*light.emitter, light.x0.at);
   end.x.forward = light.x0.pdf;
@@ -102,7 +102,7 @@ void BidirectionalWave::choose_direct(int place, int block, int first) {
   for (int lane = 0; lane < JointLanes::size; ++lane) {
     const int i = block * JointLanes::size + lane;
     to.cosine[lane] = 0;
-    to.other[lane] = nullptr;
+    to.single[lane] = nullptr;
     to.dispersed[lane] = false;
     to.sums[lane] = to.survival[lane] = 1;
     const bool seen = place > 0 ? camera_.joints(place, block).cosine[lane] != 0 : i < size();
@@ -155,17 +155,17 @@ void BidirectionalWave::take_other_direct(int i, const LightSample& light) {
   const auto& [emitter, x0, radiance] = light;
   if (!(x0.pdf > 0)) return;
   if (emitter->infinite()) return take_infinite_direct(i, light);
-  OtherVertex& other = others_.add();
-  other.x.vertex = light_vertex(*emitter, x0.at);
-  other.x.throughput = Spectrum(1 / x0.pdf);
-  other.x.forward = light_position_pdf(*scene_, other.x.vertex);
-  other.technique = can_be_hit(*scene_, other.x.vertex) ? 1 : 0;
+  SingleWalkVertex& single = singles_.add();
+  single.x.vertex = light_vertex(*emitter, x0.at);
+  single.x.throughput = Spectrum(1 / x0.pdf);
+  single.x.forward = light_position_pdf(*scene_, single.x.vertex);
+  single.technique = can_be_hit(*scene_, single.x.vertex) ? 1 : 0;
   const int block = i / JointLanes::size, lane = i % JointLanes::size;
   JointLanes& to = direct_[block];
-  to.other[lane] = &other;
+  to.single[lane] = &single;
   to.cosine[lane] = 1;
-  to.forward[lane] = other.x.forward;
-  direct_technique_[block].own[lane] = beta_.raise(x0.pdf / other.x.forward);
+  to.forward[lane] = single.x.forward;
+  direct_technique_[block].own[lane] = beta_.raise(x0.pdf / single.x.forward);
 }
 
 /// The density of a light at infinity is that of a walk.

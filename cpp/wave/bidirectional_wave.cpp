@@ -73,7 +73,7 @@ void BidirectionalWave::clear() {
 }
 
 void BidirectionalWave::trace(RayCounts& rays) {
-  others_.clear();
+  singles_.clear();
   start_samples();
   draw_lens();
   camera_.clear();
@@ -159,7 +159,7 @@ void BidirectionalWave::connect(int s, int t, RayCounts& rays) {
     for (int i = 0; i < JointLanes::size; ++i) {
       if (a.cosine[i] == 0 || b.cosine[i] == 0) continue;
       const int sample = block * JointLanes::size + i;
-      if (a.other[i] || b.other[i]) {
+      if (a.single[i] || b.single[i]) {
         join_alone(s, sample, a, b);
         continue;
       }
@@ -229,7 +229,7 @@ void BidirectionalWave::connect_to_lens(int s, int block) {
   for (int i = 0; i < JointLanes::size; ++i) {
     if (a.cosine[i] == 0) continue;
     const int sample = block * JointLanes::size + i;
-    if (!one_lens_ || a.other[i]) {
+    if (!one_lens_ || a.single[i]) {
       if (!lenses) lenses = &lens_joints(block);
       join_alone(s, sample, a, *lenses);
       continue;

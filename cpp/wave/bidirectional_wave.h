@@ -112,13 +112,13 @@ class BidirectionalWave {
   const JointLanes& lens_joints(int block);
   void join_alone(int s, int sample, const JointLanes& a, const JointLanes& b);
   double sums(const JointLanes& joints, int lane, double back) const {
-    return joints.other[lane] ? joints.other[lane]->sums(beta_, back) : joints.sums[lane];
+    return joints.single[lane] ? joints.single[lane]->sums(beta_, back) : joints.sums[lane];
   }
   void make_room_for_shadows(RayCounts& rays);
   [[gnu::always_inline]] void wait_for_shadow(const Light& light, const Waiting& waiting,
                                               const Vec3f& o, const Vec3f& w, float length);
   void pass(int shadow);
-  const OtherVertex& lens(int sample) const { return lenses_[one_lens_ ? 0 : sample]; }
+  const SingleWalkVertex& lens(int sample) const { return lenses_[one_lens_ ? 0 : sample]; }
   double time(int sample) const { return lens(sample).x.vertex.at.time; }
   const JointLanes& light_joints(int s, int block) const {
     return s == 1 ? direct_[block] : light_.joints(s - 1, block);
@@ -134,7 +134,7 @@ class BidirectionalWave {
   Techniques techniques_;
   MisExponent beta_;
   bool one_lens_;  ///< Whether all samples have the same position on the lens, and the same time.
-  std::vector<OtherVertex> lenses_;
+  std::vector<SingleWalkVertex> lenses_;
   SubpathWave camera_, light_;
   WaveNumbers numbers_;
   WaveNumbers::Place direct_places_;  ///< Places of the next numbers for s = 1.
@@ -147,7 +147,7 @@ class BidirectionalWave {
   Samples<double> wavelength_;  ///< See wavelengths.h.
   LambertianVertices lights_;   ///< Points on lights, for a block of samples.
   JointLanes direct_[blocks];   ///< Points on lights for s = 1, sampled for the camera vertex.
-  OtherVertices others_;        ///< Points on lights that are no emissive meshes.
+  SingleWalkVertices singles_;  ///< Points on lights that are no emissive meshes.
   BackgroundPositions backgrounds_;
   /// Their positions, while others are chosen for the same camera vertex.
   struct OtherDirect {

@@ -5,7 +5,7 @@
 
 #include "math/spectrum.h"
 #include "wave/lambertian_vertices.h"
-#include "wave/other_vertex.h"
+#include "wave/single_walk_vertex.h"
 
 namespace mlt {
 
@@ -23,7 +23,7 @@ struct SpectrumLanes {
 };
 
 /// The terms that all joints of a vertex have in common. A point on a light is a vertex too, with
-/// ng for n. Other vertices have no more than their position, whether they can be joined (by
+/// ng for n. Single vertices have no more than their position, whether they can be joined (by
 /// `cosine`), the density and the survival.
 struct JointLanes {
   static constexpr int size = SpectrumLanes::size;
@@ -37,12 +37,13 @@ struct JointLanes {
   Lanes<double, size> sums;
   Lanes<double, size> survival;  ///< Probability that its walk has survived Russian roulette.
   Lanes<bool, size> dispersed;   ///< Whether a vertex before it disperses.
-  Lanes<const OtherVertex*, size> other;  ///< nullptr: it is Lambertian, or on an emissive mesh.
+  Lanes<const SingleWalkVertex*, size>
+      single;  ///< nullptr: it is Lambertian, or on an emissive mesh.
 };
 
 /// The position of a vertex: that in double precision, where it is known.
 inline Vec3 position(const JointLanes& lanes, int i) {
-  return lanes.other[i] ? lanes.other[i]->x.vertex.at.p : Vec3(lanes.p[i]);
+  return lanes.single[i] ? lanes.single[i]->x.vertex.at.p : Vec3(lanes.p[i]);
 }
 
 /// What joints with some technique have in common on their light side.
@@ -60,7 +61,7 @@ struct JointTechnique {
 /// holds, which is a point of this kind.
 inline const WalkVertex& single_vertex(const JointLanes& lanes, int i, PointKind kind,
                                        WalkVertex& scratch) {
-  if (lanes.other[i]) return lanes.other[i]->x;
+  if (lanes.single[i]) return lanes.single[i]->x;
   SurfacePoint& at = scratch.vertex.at;
   at.kind = kind;
   at.p = Vec3(lanes.p[i]);
@@ -78,7 +79,7 @@ inline const WalkVertex& single_vertex(const JointLanes& lanes, int i, PointKind
 /// The probability that a walk along w, which has come to the vertex, stops there. Light passes
 /// neither Lambertian meshes nor emissive ones, and points at infinity are no surfaces.
 inline double stop_probability(const Scene& scene, const JointLanes& lanes, int i, const Vec3& w) {
-  return lanes.other[i] ? scene.stop_probability(lanes.other[i]->x.vertex.at, w) : 1;
+  return lanes.single[i] ? scene.stop_probability(lanes.single[i]->x.vertex.at, w) : 1;
 }
 
 /// Shadow rays between the vertices of a joint.

@@ -1,4 +1,4 @@
-// What the walks of a wave meet beside Lambertian surfaces: lights, the lens, other vertices.
+// What the walks of a wave meet beside Lambertian surfaces: lights, the lens, single vertices.
 #include "wave/subpath_wave.h"
 
 namespace mlt {
@@ -29,8 +29,8 @@ void SubpathWave::find_other(int i, int place, RayCounts& rays) {
   Spectrum passed(1);
   if (scene_->bsdf(at).has_passage() && !go_through(walk, place, at, passed, rays)) return;
   find_light(walk, place, at);
-  other_[i] = &(BsdfAt(*scene_, at).has_smooth() ? others_ : passed_).add();
-  WalkVertex& x = other_[i]->x;
+  single_[i] = &(BsdfAt(*scene_, at).has_smooth() ? singles_ : passed_).add();
+  WalkVertex& x = single_[i]->x;
   x.vertex.at = at;
   x.towards_previous = -ray_[walk].d;
   x.passed = passed;
@@ -63,7 +63,7 @@ bool SubpathWave::go_through(int walk, int place, SurfacePoint& at, Spectrum& pa
 /// How often next-event estimation at a point counts as technique s = 1 with x_0 where the walk has
 /// started (TechniqueSums): its density over that of a walk.
 double SubpathWave::direct_technique(int walk, const SurfacePoint& from) const {
-  if (const OtherVertex* light = other_light_[walk])
+  if (const SingleWalkVertex* light = single_light_[walk])
     return beta_.raise(direct_position_pdf(*scene_, light->x.vertex, from) / light->x.forward);
   const uint32_t light = light_[walk];
   double quotient = 1;

@@ -17,7 +17,7 @@ void SubpathWave::clear() {
   for (int i = 0; i < blocks; ++i) longest_[i] = 0;
   last_place_ = live_ = 0;
   hits_.clear();
-  others_.clear();
+  singles_.clear();
 }
 
 inline void SubpathWave::set(int walk, const Step& step) {
@@ -62,17 +62,17 @@ void SubpathWave::start(const Step& first, double time, double wavelength, uint3
   start(first, time, wavelength);
   light_[live_] = light;
   triangle_[live_] = triangle;
-  other_light_[live_] = nullptr;
+  single_light_[live_] = nullptr;
   if (meets_lens_) hit_lens(live_, 0);
   ++live_;
 }
 
-void SubpathWave::start(const Step& first, const Ray& ray, const OtherVertex& light) {
+void SubpathWave::start(const Step& first, const Ray& ray, const SingleWalkVertex& light) {
   start(first, ray.time, ray.wavelength);
   set(live_, ray);
   near_[live_] = light.x.vertex.at.infinite() ? 0 : 1;
   stops_back_[live_] = scene_->stop_probability(light.x.vertex.at, -ray.d);
-  other_light_[live_] = &light;
+  single_light_[live_] = &light;
   if (meets_lens_) hit_lens(live_, 0);
   ++live_;
 }
@@ -134,7 +134,7 @@ void SubpathWave::shade(int place, bool goes_on, RayCounts& rays) {
     if (cosine_to_previous_[i] == 0) continue;
     if (lambertian_.f[i])
       keep_lambertian(i, place);
-    else if (other_[i])
+    else if (single_[i])
       keep_other(i, place);
   }
   if (goes_on) take_steps(place, rays);
@@ -145,7 +145,7 @@ inline void SubpathWave::find_vertex(int i, int place, RayCounts& rays) {
   const PacketHits& found = found_[walk / RayPacket::size];
   const uint32_t index = found.shape[lane];
   lambertian_.f[i] = nullptr;
-  other_[i] = nullptr;
+  single_[i] = nullptr;
   if (index == SurfacePoint::no_shape) return leave_scene(walk, place);
   const LaneMesh& shape = scene_->lane_mesh(index);
   if (!shape.lambertian) return find_other(i, place, rays);
@@ -165,8 +165,8 @@ void SubpathWave::find_techniques(int place) {
   if (!(from_light_ && place == 1)) return;
   SurfacePoint from;
   for (int i = 0; i < count_; ++i) {
-    if (!lambertian_.f[i] && !other_[i]) continue;
-    from.p = other_[i] ? other_[i]->x.vertex.at.p : Vec3(lambertian_.p[i]);
+    if (!lambertian_.f[i] && !single_[i]) continue;
+    from.p = single_[i] ? single_[i]->x.vertex.at.p : Vec3(lambertian_.p[i]);
     technique_[i] = direct_technique(begin_ + i, from);
   }
 }
@@ -204,7 +204,7 @@ inline JointLanes& SubpathWave::joint(int i, int place, int lane) {
   x.forward[lane] = forward_here_[i];
   x.survival[lane] = survival_[begin_ + i];
   x.dispersed[lane] = dispersed_[begin_ + i];
-  x.other[lane] = other_[i];
+  x.single[lane] = single_[i];
   return x;
 }
 
@@ -222,14 +222,14 @@ inline void SubpathWave::keep_lambertian(int i, int place) {
 
 /// Stores a vertex that is not Lambertian for joints.
 void SubpathWave::keep_other(int i, int place) {
-  OtherVertex& other = *other_[i];
-  other.x.forward = forward_here_[i];
-  other.x.G = G_[i];
-  other.x.passes_back = stops_back_[begin_ + i];
-  other.technique = technique_[i];
-  other.sums_before = sums_[begin_ + i];
-  other.forward_before = forward_[begin_ + i];
-  if (BsdfAt(*scene_, other.x.vertex.at).has_smooth())
+  SingleWalkVertex& single = *single_[i];
+  single.x.forward = forward_here_[i];
+  single.x.G = G_[i];
+  single.x.passes_back = stops_back_[begin_ + i];
+  single.technique = technique_[i];
+  single.sums_before = sums_[begin_ + i];
+  single.forward_before = forward_[begin_ + i];
+  if (BsdfAt(*scene_, single.x.vertex.at).has_smooth())
     joint(i, place, sample_[begin_ + i] % JointLanes::size);
 }
 
@@ -240,7 +240,7 @@ void SubpathWave::take_steps(int place, RayCounts& rays) {
     const int next = next_;
     if (lambertian_.f[i])
       scatter_lambertian(i, place);
-    else if (other_[i])
+    else if (single_[i])
       scatter_other(i, place, rays);
     if (next_ == next) continue;
     if (meets_lens_) hit_lens(next, place);
@@ -265,7 +265,7 @@ inline void SubpathWave::scatter_lambertian(int i, int place) {
 
 void SubpathWave::scatter_other(int i, int place, RayCounts& rays) {
   const int k = begin_ + i;
-  WalkVertex& x = other_[i]->x;
+  WalkVertex& x = single_[i]->x;
   const Walker walker{*scene_, time_[sample_[k]], rays};
   const StepNumbers u{{lambertian_.u_x[i], lambertian_.u_y[i]},
                       numbers_.read(at_.lobe, k),
@@ -280,7 +280,7 @@ void SubpathWave::scatter_other(int i, int place, RayCounts& rays) {
   numbers_.move(next_, k);
   set(next_, {sample_[k], x.vertex.at.p, Vec3f(ray.o), Vec3f(ray.d), static_cast<float>(cosine),
               static_cast<float>(x.next_coefficient * cosine), forward_here_[i],
-              other_[i]->walk_sums(beta_, *back), x.next_throughput, x.next_survival,
+              single_[i]->walk_sums(beta_, *back), x.next_throughput, x.next_survival,
               delta ? certainty_[k] * chance : 0, delta, x.next_dispersed});
   set(next_, ray);
   if (scene_->has_passages()) stops_back_[next_] = scene_->stop_probability(x.vertex.at, -ray.d);

@@ -55,7 +55,7 @@ class SubpathWave {
   /// from a triangle of an emissive mesh,
   void start(const Step& first, double time, double wavelength, uint32_t light, uint32_t triangle);
   /// or from another light.
-  void start(const Step& first, const Ray& ray, const OtherVertex& light);
+  void start(const Step& first, const Ray& ray, const SingleWalkVertex& light);
   /// Walks all subpaths to their ends, with `most` vertices at most. The next of the `numbers` are
   /// those after the first step.
   void walk(const WaveNumbers& numbers, int most, RayCounts& rays);
@@ -117,7 +117,7 @@ class SubpathWave {
   bool meets_lens_;  ///< Whether the walks may hit the lens.
   MisExponent beta_;
   std::vector<JointLanes> joints_;
-  OtherVertices others_;        ///< Other vertices that are joined.
+  SingleWalkVertices singles_;  ///< Single vertices that are joined.
   Lanes<int, blocks> longest_;  ///< Last place of the samples of each block.
   int last_place_ = 0;
   std::vector<Hit> hits_;
@@ -127,7 +127,7 @@ class SubpathWave {
 
   // Values of each walk at its start:
   Samples<uint32_t> light_, triangle_;
-  Samples<const OtherVertex*> other_light_;  ///< nullptr: it starts on an emissive mesh.
+  Samples<const SingleWalkVertex*> single_light_;  ///< nullptr: it starts on an emissive mesh.
 
   // Values of each walk that takes this step (see Step):
   int live_ = 0;
@@ -152,8 +152,8 @@ class SubpathWave {
   // Values of each walk of the block:
   int begin_ = 0, count_ = 0;
   LambertianVertices lambertian_;
-  OtherVertices passed_;             ///< Vertices that no path is joined to.
-  Block<OtherVertex*> other_;        ///< nullptr: its vertex is Lambertian, or there is none.
+  SingleWalkVertices passed_;        ///< Vertices that no path is joined to.
+  Block<SingleWalkVertex*> single_;  ///< nullptr: its vertex is Lambertian, or there is none.
   Block<float> cosine_to_previous_;  ///< See JointLanes.
   Block<float> next_cosine_;         ///< |w.ng| of the sampled direction.
   Block<float> light_factor_;        ///< |w.ns| / |w.ng| of the direction to the previous vertex.

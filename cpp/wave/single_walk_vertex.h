@@ -11,7 +11,7 @@
 
 namespace mlt {
 
-struct OtherVertex {
+struct SingleWalkVertex {
   WalkVertex x;
   /// What the technique with its joint before the vertex adds to the sums (TechniqueSums), for a
   /// path that is joined there.
@@ -37,20 +37,20 @@ struct OtherVertex {
 };
 
 /// Vertices that do not move; all are freed together.
-class OtherVertices {
+class SingleWalkVertices {
  public:
   void clear() { count_ = 0; }
-  OtherVertex& add() {
+  SingleWalkVertex& add() {
     if (count_ == chunks_.size() * chunk_size)
-      chunks_.push_back(std::make_unique<OtherVertex[]>(chunk_size));
-    OtherVertex& added = chunks_[count_ / chunk_size][count_ % chunk_size];
+      chunks_.push_back(std::make_unique<SingleWalkVertex[]>(chunk_size));
+    SingleWalkVertex& added = chunks_[count_ / chunk_size][count_ % chunk_size];
     ++count_;
     return added = {};
   }
 
  private:
   static constexpr size_t chunk_size = 32;
-  std::vector<std::unique_ptr<OtherVertex[]>> chunks_;
+  std::vector<std::unique_ptr<SingleWalkVertex[]>> chunks_;
   size_t count_ = 0;  ///< How many are in use.
 };
 
