@@ -24,11 +24,10 @@ the true one (roots of mean squares over the seeds); the second, in brackets, th
 of relMSE: how much the renders of an integrator differ from each other; where long tours of `mlt`
 wait, also how much their mean differs from that of the others, beyond the noise of both. With a
 star: most of the mean square of the claims is of renders that warn that their error may be larger
-than they say, since a few pixels carry it, since long tours have yet to make many of the mutations,
-or since the brightness of the image is not known yet. Of {count} cells {good} lie between {low} and
-{high}, and {rest} of the others have a star. Where a few pixels of a few renders decide, the true
-error is itself known only roughly from so few seeds. `path` and `pssmlt` are left out where they
-say that they cannot find some light.
+than they say, since a few pixels carry it, or since the brightness of the image is not known yet.
+Of {count} cells {good} lie between {low} and {high}, and {rest} of the others have a star. Where a
+few pixels of a few renders decide, the true error is itself known only roughly from so few seeds.
+`path` and `pssmlt` are left out where they say that they cannot find some light.
 
 Made by `python benchmarks/error_calibration.py`.
 
