@@ -1,5 +1,6 @@
 #include "rendering/alpha.h"
 
+#include "base/parallel.h"
 #include "path/walk.h"
 #include "rendering/sampled_rendering.h"
 
@@ -23,11 +24,23 @@ class OpacityTaker : public SampleTaker {
 };
 
 /// The mean that each pixel's weights give: 1 where all samples are, whatever their weights.
-void divide_by_weights(const Image& sums, Image& alpha) {
+Image divided_by_weights(const Image& sums) {
+  Image alpha(sums.width, sums.height, 1);
   for (size_t i = 0; i < alpha.data.size(); ++i) {
     const float weight = sums.data[3 * i + 1];
     alpha.data[i] = weight > 0 ? std::clamp(sums.data[3 * i] / weight, 0.0f, 1.0f) : 0;
   }
+  return alpha;
+}
+
+/// Whether all pixels that samples of these cells reach have the same value.
+bool is_even(const Image& alpha, const PixelRect& cells, int border) {
+  const int x0 = std::max(cells.x0 - border, 0), x1 = std::min(cells.x1 + border, alpha.width);
+  const int y0 = std::max(cells.y0 - border, 0), y1 = std::min(cells.y1 + border, alpha.height);
+  for (int y = y0; y < y1; ++y)
+    for (int x = x0; x < x1; ++x)
+      if (alpha.at(x, y, 0) != alpha.at(x0, y0, 0)) return false;
+  return true;
 }
 
 }  // namespace
@@ -41,6 +54,7 @@ double opacity_along(const Scene& scene, Ray ray) {
 
 Image render_alpha(const ScenePtr& scene, bool hide_emitters, uint64_t seed, int threads) {
   const Vec2i size = scene->camera().raster().size;
+  const int border = filter_border(*scene->film().filter);
   Image alpha(size.x, size.y, 1);
   if (!hide_emitters && !scene->backgrounds().empty()) {
     std::fill(alpha.data.begin(), alpha.data.end(), 1.0f);
@@ -51,9 +65,19 @@ Image render_alpha(const ScenePtr& scene, bool hide_emitters, uint64_t seed, int
   SampledRendering rendering(scene, seed, settings, [](const Scene& seen) {
     return std::make_unique<OpacityTaker>(seen);
   });
-  parallel_for(threads, rendering.plan().units_per_pass * alpha_samples,
-               [&](uint64_t unit) { rendering.run_unit(unit); });
-  divide_by_weights(rendering.film().image(), alpha);
+  const SampleFilm& film = rendering.film();
+  const auto tiles = static_cast<uint64_t>(film.tile_count());
+  std::vector<char> even(tiles);
+  uint64_t done = 0;
+  for (const uint64_t passes : {fewest_alpha_samples, alpha_samples}) {
+    parallel_for(threads, (passes - done) * tiles, [&](uint64_t unit) {
+      if (!even[unit % tiles]) rendering.run_unit(done * tiles + unit);
+    });
+    done = passes;
+    alpha = divided_by_weights(film.image());
+    for (uint64_t tile = 0; tile < tiles; ++tile)
+      even[tile] = is_even(alpha, film.begin(static_cast<int>(tile)).cells(), border);
+  }
   return alpha;
 }
 

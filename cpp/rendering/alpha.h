@@ -7,8 +7,8 @@
 
 namespace mlt {
 
-/// Number of camera rays per pixel for alpha.
-inline constexpr int alpha_samples = 64;
+/// Numbers of camera rays per pixel: in all tiles, and in those where these see different things.
+inline constexpr uint64_t fewest_alpha_samples = 16, alpha_samples = 64;
 
 /// The share of the light from behind the scene along a ray that does not come through: 1 where
 /// there is a surface, less for masks, thin glass and media.

@@ -57,7 +57,7 @@ class Result:
         """How much each pixel hides of what lies behind the scene, or None.
 
         float32, (height, width), from 0 to 1; `image` is multiplied by it. A mean over 64 camera
-        rays per pixel, with the filter of the film.
+        rays per pixel (16 away from edges), with the filter of the film.
         """
         alpha = self.layers.get("alpha")
         return None if alpha is None else alpha[..., 0]
