@@ -116,6 +116,9 @@ void bind_image(py::module_& m) {
   m.def(
       "replace_file", [](const Text& path, const std::string& bytes) { write_file(path, bytes); },
       py::arg("path"), py::arg("bytes"), NoGil(), "At once or not at all. Raises FileError.");
+  m.def(
+      "alpha_problem", [](const Text& path) { return alpha_problem(path); }, py::arg("path"),
+      "Why a file of this name will have no alpha, or \"\".");
   m.def("check_image_writable", [](const Text& path) { check_writable(path); }, py::arg("path"));
   m.def(
       "check_file_writable", [](const Text& path) { check_file_writable(path); }, py::arg("path"));

@@ -16,13 +16,16 @@ namespace {
 std::unique_ptr<PyJob> make_job(LoadedPtr loaded, const MadeIntegrator& made,
                                 std::optional<double> spp, std::optional<double> time,
                                 std::optional<double> error, uint64_t seed, int threads,
-                                const CheckpointFile& checkpoint, const std::optional<Text>& aovs) {
+                                const CheckpointFile& checkpoint, const std::optional<Text>& aovs,
+                                bool alpha) {
   RenderSettings settings;
   settings.budget = {spp, time, error};
   settings.seed = seed;
   settings.threads = threads;
   const std::string& asked = made.aovs.empty() ? loaded->aovs : made.aovs;
   settings.aovs = parse_aovs(aovs ? std::string(*aovs) : asked);
+  settings.alpha = alpha;
+  settings.hide_emitters = made.hide_emitters;
   settings.autosave.every = checkpoint.every;
   if (!checkpoint.path.empty())
     settings.autosave = autosave_to(checkpoint, checkpoint_of(*loaded, made, seed));
@@ -104,7 +107,7 @@ void bind_render(py::module_& m) {
   py::class_<PyJob>(m, "Job")
       .def(py::init(&make_job), py::arg("scene"), py::arg("integrator"), py::arg("spp"),
            py::arg("time"), py::arg("error"), py::arg("seed"), py::arg("threads"),
-           py::arg("checkpoint"), py::arg("aovs"))
+           py::arg("checkpoint"), py::arg("aovs"), py::arg("alpha"))
       .def("start", &PyJob::start, NoGil())
       .def("wait", &wait, py::arg("seconds"))
       .def("cancel", &PyJob::cancel, NoGil())
@@ -128,6 +131,7 @@ void bind_render(py::module_& m) {
       .def("groups", &groups,
            "(images, weights, b) of the independent groups: float32 (G, height, width, 3), float64 "
            "(G,) and (G,); without direct light that is rendered separately.")
+      .def_property_readonly("has_alpha", &PyJob::has_alpha)
       .def_property_readonly("ended", &PyJob::ended)
       .def_property_readonly("cancelled", &PyJob::cancelled)
       .def_property_readonly("progress", &PyJob::progress)

@@ -60,8 +60,10 @@ def start(world: mlt.Scene, scene) -> mlt.Job:
     if scene.render.threads_mode == "FIXED":
         threads = scene.render.threads
     seed = settings.seed + settings.animate_seed * max(scene.frame_current, 0)
-    integrator, budget = settings.chosen_integrator(), settings.budget()
-    return mlt.start(world, integrator, seed=seed, threads=threads, aovs=passes.AOVS, **budget)
+    transparent = scene.render.film_transparent
+    integrator = settings.chosen_integrator(transparent=transparent)
+    options = {"aovs": passes.AOVS, "alpha": transparent, **settings.budget()}
+    return mlt.start(world, integrator, seed=seed, threads=threads, **options)
 
 
 def follow(job: mlt.Job, is_stopped, show) -> mlt.Result:

@@ -38,16 +38,16 @@ def add(engine) -> None:
 
 def write(layer, image: np.ndarray, layers: dict[str, np.ndarray]) -> None:
     """Fills the passes of a layer of Blender's result, whose rows begin at the bottom."""
-    fill(layer, "Combined", opaque(image))
+    fill(layer, "Combined", rgba(image, layers.get("alpha", 1)))
     for name, (key, channels, _) in EXTRA.items():
         if key in layers:
             pixels = layers[key][..., : len(channels)]
             fill(layer, name, np.where(pixels > 0, pixels, NOTHING) if key == "depth" else pixels)
 
 
-def opaque(image: np.ndarray) -> np.ndarray:
-    """A picture with an alpha of 1."""
-    return np.concatenate([image, np.ones((*image.shape[:2], 1), np.float32)], axis=2)
+def rgba(image: np.ndarray, alpha=1) -> np.ndarray:
+    """A picture with its alpha, by which it is multiplied, as Blender's are."""
+    return np.concatenate([image, np.full((*image.shape[:2], 1), alpha, np.float32)], axis=2)
 
 
 def fill(layer, name: str, pixels: np.ndarray) -> None:

@@ -6,7 +6,7 @@ import numpy as np
 
 import pymlt as mlt
 
-from .passes import opaque
+from .passes import rgba
 
 INTERVAL = 0.1  #: seconds for which pixels are shown before newer ones are asked for
 
@@ -61,7 +61,7 @@ class Preview:
         if self._job and (self._job.ended or monotonic() >= self._next):
             self._next = monotonic() + INTERVAL
             if self.samples:
-                self._pixels = opaque(self._job.image[::-1])
+                self._pixels = rgba(self._job.image[::-1])
         return self._pixels
 
     def stop(self) -> None:

@@ -82,10 +82,15 @@ class PymltSettings(bpy.types.PropertyGroup):
         description="Seconds after which a view is good enough",
     )
 
-    def chosen_integrator(self) -> dict:
-        """The integrator as a scene dict has it, with the parameters that are no defaults."""
+    def chosen_integrator(self, *, transparent: bool = False) -> dict:
+        """The integrator as a scene dict has it, with the parameters that are no defaults.
+
+        A film that is transparent hides the world.
+        """
         group = getattr(self, self.integrator)
         given = {n: getattr(group, n) for n in group.__annotations__ if group.is_property_set(n)}
+        if transparent and "hide_emitters" in group.__annotations__:
+            given["hide_emitters"] = True
         return {"type": self.integrator, **given}
 
     def budget(self) -> dict:

@@ -139,6 +139,12 @@ void print_warnings(const Stats& stats, size_t known = 0) {
   for (size_t i = known; i < stats.warnings.size(); ++i) say("warning: {}", stats.warnings[i]);
 }
 
+void warn_of_lost_alpha(const std::vector<std::string>& outputs) {
+  for (const std::string& path : outputs)
+    if (const std::string problem = alpha_problem(path); !problem.empty())
+      say("warning: {}", problem);
+}
+
 /// A summary: samples, time and error.
 std::string summary(const Stats& stats) {
   std::string error;
@@ -167,6 +173,7 @@ int run(Options options) {
             : choose_integrator(loaded, options.integrator, options.parameters, plugins()),
       plugins());
   options.render.aovs = parse_aovs(options.aovs.empty() ? loaded.aovs : options.aovs);
+  options.render.hide_emitters = made.hide_emitters;
   if (!options.checkpoint.path.empty())
     options.render.autosave =
         autosave_to(options.checkpoint, checkpoint_of(loaded, made, options.render.seed));
@@ -174,7 +181,10 @@ int run(Options options) {
   if (saved) resume(job, *saved, options.resume);
   saved.reset();
   const size_t known = render_stats(job, loaded, made).warnings.size();
-  if (!options.quiet) print_warnings(render_stats(job, loaded, made));
+  if (!options.quiet) {
+    print_warnings(render_stats(job, loaded, made));
+    if (job.has_alpha()) warn_of_lost_alpha(options.outputs);
+  }
 
   const std::exception_ptr failure = render(job, options.quiet);
   const int signal = caught_signal;

@@ -55,6 +55,7 @@ Options read_options(const FlagValues& given) {
   take<uint64_t>(given, "seed", render.seed);
   take<uint64_t>(given, "threads", render.threads);
   text("aovs", options.aovs);
+  render.alpha = given.count("alpha") > 0;
   text("checkpoint", options.checkpoint.path);
   take<double>(given, "every", options.checkpoint.every);
   options.checkpoint.overwrite = given.count("overwrite") > 0;

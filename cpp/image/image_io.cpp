@@ -189,6 +189,15 @@ void write_image(const std::string& path, const Image& image, const WriteOptions
   write_image(path, {ExrLayer{"", image}}, options);
 }
 
+bool has_straight_alpha(const std::string& path) { return target_of(path) == Target::png; }
+
+std::string alpha_problem(const std::string& path) {
+  const std::string extension = extension_of(path);
+  if (extension == ".exr" || extension == ".png") return "";
+  return path + ": " + extension +
+         " has no alpha, so the image is shown over black; use EXR or PNG";
+}
+
 void check_writable(const std::string& path) {
   target_of(path);
   check_file_writable(path);

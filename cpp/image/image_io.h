@@ -62,6 +62,11 @@ void write_image(const std::string& path, const Image& image, const WriteOptions
 void write_image(const std::string& path, const std::vector<ExrLayer>& layers,
                  const WriteOptions& options = {});
 
+/// Whether colours in a file of this name are not multiplied by alpha: PNG.
+bool has_straight_alpha(const std::string& path);
+/// Why a file of this name will have no alpha, or "".
+std::string alpha_problem(const std::string& path);
+
 /// Throws now the UsageError or FileError that write_image(path) would throw after a long render.
 void check_writable(const std::string& path);
 

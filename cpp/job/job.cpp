@@ -19,7 +19,9 @@ Job::Job(ScenePtr scene, IntegratorPtr integrator, const RenderSettings& setting
       executor_(std::make_unique<Executor>()),
       stop_rule_(settings.budget, *scene_),
       autosave_(settings.autosave),
-      aovs_(settings.aovs) {
+      aovs_(settings.aovs),
+      alpha_(settings.alpha || scene_->film().alpha),
+      hide_emitters_(settings.hide_emitters) {
   if (threads_ < 0 || threads_ > max_threads)
     throw UsageError(fmt::format("threads must lie between 0 and {}; 0 means all", max_threads));
   try {
@@ -87,21 +89,25 @@ namespace {
 
 /// Bounds on the memory for developing the image, estimating its error and writing both, beside
 /// the sums: bytes per pixel (float images of 3 channels have 12), and a constant.
-/// Each layer of the first surface is kept once, and copied once to the caller.
-constexpr size_t end_per_pixel = 144, end_at_least = size_t{16} << 20, aov_per_pixel = 24;
-
-size_t bytes_for_the_end(const Scene& scene, size_t aovs) {
-  const Vec2i size = scene.camera().raster().size;
-  return end_at_least + (end_per_pixel + aov_per_pixel * aovs) * size.x * size.y;
-}
+/// Each layer of the first surface is kept once, and copied once to the caller; alpha has sums of
+/// its own, and is written beside a copy of the image.
+constexpr size_t end_per_pixel = 144, end_at_least = size_t{16} << 20, aov_per_pixel = 24,
+                 alpha_per_pixel = 64;
 
 }  // namespace
+
+size_t Job::bytes_for_the_end() const {
+  const Vec2i size = scene_->camera().raster().size;
+  const size_t per_pixel =
+      end_per_pixel + aov_per_pixel * aovs_.size() + (alpha_ ? alpha_per_pixel : 0);
+  return end_at_least + per_pixel * size.x * size.y;
+}
 
 size_t Job::bytes_needed() const {
   const Vec2i size = scene_->camera().raster().size;
   const size_t sums = rendering_ ? rendering_->memory(stop_rule_.most_spp()).bytes
                                  : size_t{24} * Rendering::group_count * size.x * size.y;
-  return sums + bytes_for_the_end(*scene_, aovs_.size());
+  return sums + bytes_for_the_end();
 }
 
 void Job::fail_for_memory() const {
@@ -114,7 +120,7 @@ void Job::fail_for_memory() const {
 
 void Job::take_memory() {
   const size_t to_come = rendering_->memory(stop_rule_.most_spp()).to_come;
-  if (!reserve_.take(bytes_for_the_end(*scene_, aovs_.size()), to_come)) fail_for_memory();
+  if (!reserve_.take(bytes_for_the_end(), to_come)) fail_for_memory();
 }
 
 // ---- the leading thread -----------------------------------------------------------------------

@@ -26,6 +26,8 @@ struct RenderSettings {
   int threads = 0;  ///< 0: as many as the machine has.
   AutosaveSettings autosave;
   std::vector<Aov> aovs;  ///< Layers to be rendered beside the image.
+  bool alpha = false;     ///< Whether there is a layer "alpha", too; the film may also ask for it.
+  bool hide_emitters = false;  ///< Whether the background is left out, which else hides all.
 };
 
 class Job {
@@ -72,9 +74,10 @@ class Job {
   Image image() const;      ///< The image so far: linear RGB, row 0 on top.
   /// The image so far, without fireflies (see without_fireflies).
   Image image_without_fireflies() const;
-  /// Further images that the render was asked to keep, layers of the first surface (see aov.h), and
-  /// the error of the image, so far.
+  /// Further images that the render was asked to keep, layers of the first surface (see aov.h),
+  /// alpha, and the error of the image, so far.
   std::vector<NamedImage> layers() const;
+  bool has_alpha() const { return alpha_; }
   /// The error of the image so far; after the end it is estimated only once.
   std::shared_ptr<const ErrorEstimate> error() const;
   /// The rendering with its independent groups, so far.
@@ -108,6 +111,7 @@ class Job {
   void check_waiting() const;
   void take_memory();
   size_t bytes_needed() const;
+  size_t bytes_for_the_end() const;
   [[noreturn]] void fail_for_memory() const;
   void launch();
   void lead();
@@ -115,6 +119,7 @@ class Job {
   void render();
   void let_savers_in();
   std::string state() const;
+  std::vector<NamedImage> first_surface_layers() const;
   double seconds_so_far() const;
 
   ScenePtr scene_;
@@ -151,6 +156,7 @@ class Job {
   std::condition_variable pause_;
 
   std::vector<Aov> aovs_;
+  bool alpha_, hide_emitters_;
   mutable std::mutex aov_mutex_;
   mutable std::vector<NamedImage> aov_layers_;  ///< Empty until they are first asked for.
 

@@ -4,6 +4,7 @@
 #include "job/fireflies.h"
 #include "job/job.h"
 #include "mlt_version.h"
+#include "rendering/alpha.h"
 
 #include <fmt/format.h>
 
@@ -59,6 +60,12 @@ std::shared_ptr<const ErrorEstimate> Job::error() const {
   return final_error_;
 }
 
+std::vector<NamedImage> Job::first_surface_layers() const {
+  std::vector<NamedImage> layers = render_aovs(*scene_, aovs_, seed_, threads_);
+  if (alpha_) layers.push_back({"alpha", render_alpha(scene_, hide_emitters_, seed_, threads_)});
+  return layers;
+}
+
 std::vector<NamedImage> Job::layers() const {
   check_here();
   std::vector<NamedImage> layers;
@@ -68,7 +75,7 @@ std::vector<NamedImage> Job::layers() const {
   }
   {
     const std::lock_guard lock(aov_mutex_);
-    if (aov_layers_.empty()) aov_layers_ = render_aovs(*scene_, aovs_, seed_, threads_);
+    if (aov_layers_.empty()) aov_layers_ = first_surface_layers();
     layers.insert(layers.end(), aov_layers_.begin(), aov_layers_.end());
   }
   for (NamedImage& layer : error_layers(*error())) layers.push_back(std::move(layer));

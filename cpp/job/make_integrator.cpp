@@ -72,6 +72,8 @@ MadeIntegrator make_integrator(const Node& given, const Registry& registry) {
     throw SceneError(at(node.where, "'" + node.type + "' is not an integrator"));
   made.node = node;
   made.settings = describe(node, registry);
+  if (const Node::Property* hides = find(node, "hide_emitters"))
+    made.hide_emitters = std::get<bool>(hides->value);
   return made;
 }
 

@@ -21,6 +21,7 @@ struct MadeIntegrator {
   Json settings;  ///< Its type and every parameter, given or default.
   std::vector<std::string> warnings;
   std::string aovs;              ///< Layers that an integrator `aov` asks for.
+  bool hide_emitters = false;    ///< Whether lights are left out that the camera sees directly.
   bool extra_mutations = false;  ///< Whether it has mutations that the node does not describe.
 };
 

@@ -1,6 +1,7 @@
 #include "job/output.h"
 
 #include "base/atomic_file.h"
+#include "image/alpha.h"
 #include "mlt_version.h"
 
 #include <fmt/format.h>
@@ -39,6 +40,16 @@ std::string rescue(const std::string& path, const Write& write) {
     }
   }
   return "";
+}
+
+/// The layer that is the image's alpha, or nullptr; none of an image that has alpha already.
+const Image* alpha_of(const RenderedImage& render) {
+  if (render.image.channels % 2 == 0) return nullptr;
+  for (const auto& [name, image] : render.layers)
+    if (name == "alpha" && image.channels == 1 && image.width == render.image.width &&
+        image.height == render.image.height)
+      return &image;
+  return nullptr;
 }
 
 Saved save(const std::string& path, const Write& write) {
@@ -85,8 +96,13 @@ Metadata render_metadata(const Stats& stats, const LoadedScene& loaded,
 
 void write_render(const std::string& path, const RenderedImage& render,
                   const WriteOptions& options) {
-  std::vector<ExrLayer> layers = {{"", render.image}};
-  for (const NamedImage& layer : render.layers) layers.push_back({layer.name, layer.image});
+  const Image* const alpha = alpha_of(render);
+  Image whole;
+  if (alpha) whole = with_alpha(render.image, *alpha);
+  if (alpha && has_straight_alpha(path)) whole = straight(std::move(whole));
+  std::vector<ExrLayer> layers = {{"", alpha ? whole : render.image}};
+  for (const NamedImage& layer : render.layers)
+    if (&layer.image != alpha) layers.push_back({layer.name, layer.image});
   write_image(path, layers, options);
 }
 

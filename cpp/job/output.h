@@ -30,7 +30,8 @@ struct RenderedImage {
   std::vector<NamedImage> layers;
 };
 
-/// Writes the image by extension. EXR files hold the layers too.
+/// Writes the image by extension. EXR files hold the layers too. A layer "alpha" becomes the alpha
+/// of the image in EXR and PNG files; HDR files show it over black.
 void write_render(const std::string& path, const RenderedImage& render,
                   const WriteOptions& options);
 

@@ -140,6 +140,8 @@ std::vector<Aov> parse_aovs(const std::string& list) {
     const std::string kind(
         colon == std::string::npos ? name : trim(std::string_view(item).substr(colon + 1)));
     if (name.empty()) throw UsageError("the layer '" + item + "' has no name before its colon");
+    if (name == "alpha")
+      throw UsageError("no layer can be called 'alpha', which the image has by --alpha");
     if (!names.insert(name).second)
       throw UsageError("the layer '" + name + "' is asked for twice; give it two names");
     aovs.push_back({name, kind_of(kind)});

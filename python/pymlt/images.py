@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from . import _core
 from .pictures.output import OutputFile
-from .pictures.tonemapping import Exposure
+from .pictures.tonemapping import Exposure, split_alpha
 
 if TYPE_CHECKING:
     import numpy as np
@@ -74,6 +74,19 @@ def layer_names(path: str | os.PathLike[str]) -> list[str]:
     return sorted({name.rpartition(".")[0] for name in channels if "." in name})
 
 
+def read_with_layers(path: str | os.PathLike[str]) -> tuple[np.ndarray, dict[str, np.ndarray]]:
+    """An image and its layers, by name.
+
+    "alpha" is that of an EXR file, by which its colours are multiplied. Raises FileError for a file
+    that cannot be read.
+    """
+    layers = {name: read_image(path, name) for name in layer_names(path)}
+    image = read_image(path)
+    if image.shape[2] in (2, 4) and read_header(path)["format"] == "openexr":
+        image, layers["alpha"] = split_alpha(image)
+    return image, layers
+
+
 def read_header(path: str | os.PathLike[str]) -> dict[str, Any]:
     """What an image file is, without its pixels.
 
@@ -116,7 +129,9 @@ def write_image(
 
     image
         floats of shape (height, width) or (height, width, channels), with at most 4 channels; 1 is
-        white. What is not a number becomes 0, with a warning, in all files but .exr.
+        white. A second or fourth channel is alpha: in .exr colours are multiplied by it, in .png
+        they are not, and pixels are written as they are given. What is not a number becomes 0, with
+        a warning, in all files but .exr.
     exposure, tonemap
         for pictures, which are sRGB-encoded: stops by which they are brightened ("auto": as suits
         the image), and the curve, as `pymlt.tonemap` has them.

@@ -87,6 +87,11 @@ def passes(path: Path) -> None:
     save(path)
 
 
+def transparent(path: Path) -> None:
+    small().render.film_transparent = True
+    save(path)
+
+
 def save(path: Path) -> None:
     """Renders into a file with all passes of all layers."""
     image = bpy.context.scene.render.image_settings
@@ -113,6 +118,7 @@ def main(archive: str, folder: Path) -> None:
     }
     passes(folder / "passes.exr")
     layers(folder / "layers.exr")
+    transparent(folder / "transparent.exr")
     noisy(folder / "noisy.exr", denoise=False)
     noisy(folder / "denoised.exr", denoise=True)
     bpy.ops.preferences.addon_disable(module=name)

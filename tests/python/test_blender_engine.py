@@ -146,6 +146,17 @@ def test_passes_are_in_the_file(facts):
     assert found["ViewLayer.Depth.Z"][0, 0] == 1e10
 
 
+def test_a_transparent_film_has_alpha_and_no_world(facts):
+    found, whole = (channels(facts["folder"] / f"{name}.exr") for name in ("transparent", "passes"))
+    alpha = found["ViewLayer.Combined.A"]
+    assert (alpha[0, 0], alpha[9, 15]) == (0, 1)
+    for channel in "RGB":
+        name = f"ViewLayer.Combined.{channel}"
+        assert found[name][0, 0] == 0 < whole[name][0, 0]
+        assert found[name][9, 15] == pytest.approx(whole[name][9, 15], rel=0.01)
+    assert (whole["ViewLayer.Combined.A"] == 1).all()
+
+
 def test_each_view_layer_has_its_picture(facts):
     found = channels(facts["folder"] / "layers.exr")
     assert found["ViewLayer.Combined.R"].std() > 0.02

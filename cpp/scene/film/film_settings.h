@@ -20,6 +20,7 @@ struct FilmSettings : Object {
   Vec2i crop_size{0};  ///< 0: the whole image.
   std::shared_ptr<const Filter> filter;
   bool half_precision = true;  ///< EXR component format.
+  bool alpha = false;          ///< Whether the pixel format has alpha.
   bool spectral = false;       ///< Whether paths have wavelengths, and else R, G and B.
   std::optional<Band> band;    ///< The wavelengths of a spectral image, if not all.
 };

@@ -37,13 +37,14 @@ void read_crop(Params& params, FilmSettings& film) {
 }
 
 void read_format(Params& params, FilmSettings& film) {
-  if (params.has("component_format"))
-    film.half_precision = params.text("component_format") == "float16";
-  if (params.has("pixel_format")) {
-    const std::string format = params.text("pixel_format");
-    if (format != "rgb" && format != "rgba" && format != "spectrum")
-      params.warn("pixel_format '" + format + "' is read as 'rgb'");
-  }
+  const std::string component = params.text("component_format");
+  film.half_precision = component == "float16";
+  if (component == "uint32") params.warn("component_format 'uint32' is read as 'float32'");
+  const std::string format = params.text("pixel_format");
+  film.alpha = format == "rgba" || format == "xyza" || format == "luminance_alpha";
+  const char* const made = film.alpha ? "rgba" : "rgb";
+  if (format != made)
+    params.warn(fmt::format("pixel_format {} is read as '{}'", quote(format), made));
   if (params.has("file_format")) params.text("file_format");  // the output's extension decides
 }
 
@@ -97,8 +98,9 @@ std::vector<Parameter> parameters() {
        "grey; needs spectral."},
       {"rfilter", ParamType::object, no_default, "Reconstruction filter; gaussian if not given."},
       choice_parameter("component_format", "float16", "Precision of EXR files: half or single.",
-                       {"float16", "float32"}),
-      {"pixel_format", ParamType::text, std::string("rgb"), "Images are RGB, whatever it says."},
+                       {"float16", "float32", "uint32"}),
+      {"pixel_format", ParamType::text, std::string("rgb"),
+       "rgb, or rgba for images with alpha; others are read as one of these, with a warning."},
       {"file_format", ParamType::text, std::string("openexr"),
        "The extension of the output file decides instead."}};
 }

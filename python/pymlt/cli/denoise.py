@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from .._core import FileError
-from ..images import layer_names, read_image, read_metadata
+from ..images import read_image, read_metadata, read_with_layers
 from ..pictures.denoising import GUIDES, denoise_with_layers
 from ..pictures.output import EXTENSIONS, OutputFile, check_writable
 from .common import say
@@ -28,8 +28,7 @@ def add_arguments(command) -> None:
 
 def run(args) -> int:
     check_writable(args.output)
-    image = read_image(args.image)
-    layers = {name: read_image(args.image, name) for name in layer_names(args.image)}
+    image, layers = read_with_layers(args.image)
     given = {guide: read_image(path) for guide in GUIDES if (path := getattr(args, guide))}
     denoised = denoise_with_layers(image, layers, metadata_of(args.image), **given)
     path, problem = OutputFile(args.output, *denoised, False, exposure(args), args.tonemap).save()

@@ -145,12 +145,13 @@ def run(args) -> int:
 
 def doubts(args, job: Job) -> list[str]:
     """What is to be said of the flags, once the scene is known."""
+    found = [_core.alpha_problem(path) for path in args.output if job.has_alpha]
     if args.denoise and job.filter != "box":
-        return [
+        found.append(
             f"the filter {job.filter!r} spreads noise over several pixels, and --denoise leaves "
             "such noise; use --filter box"
-        ]
-    return []
+        )
+    return list(filter(None, found))
 
 
 def wait(job: Job, signals: Signals, quiet: bool) -> None:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from .. import _core
 from .jpeg import encode_jpeg, is_jpeg
 from .techniques import technique_figure, techniques_of
-from .tonemapping import Exposure, check_tonemap, stops_of, tonemap
+from .tonemapping import Exposure, check_tonemap, stops_of, straight, tonemap
 
 if TYPE_CHECKING:
     import numpy as np
@@ -62,13 +62,13 @@ class OutputFile(NamedTuple):
 
     def _arguments(self) -> tuple[Any, ...]:
         check_extension(self.path)
-        image, exposure = self.image, stops_of(self.exposure, self.image)
+        image, layers, exposure = self.image, self.layers, stops_of(self.exposure, self.image)
         check_tonemap(self.curve)
         if self.curve != "srgb" and self.path.lower().endswith(".png"):
-            # C++ brightens again; powers of 2 are exact.
-            image = tonemap(image, self.curve, exposure=exposure) * 2.0**-exposure
-            image = image.astype("float32")
-        return self.path, image, self.layers, self.metadata, self.half, exposure
+            if "alpha" in layers:
+                image, layers = straight(image, layers["alpha"]), {}
+            image, exposure = tonemap(image, self.curve, exposure=exposure), 0
+        return self.path, image, layers, self.metadata, self.half, exposure
 
 
 def check_extension(path: str) -> None:

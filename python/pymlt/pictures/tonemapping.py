@@ -75,6 +75,14 @@ def split_alpha(pixels: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return pixels[..., :colours], pixels[..., colours:]
 
 
+def straight(image: np.ndarray, alpha: np.ndarray) -> np.ndarray:
+    """Colours that are multiplied by alpha, divided by it (black where it is 0), and alpha."""
+    import numpy as np
+
+    colours = np.divide(image, alpha, out=np.zeros_like(image), where=alpha > 0)
+    return np.concatenate([colours, alpha], axis=2)
+
+
 def encode_srgb(linear: np.ndarray) -> np.ndarray:
     """IEC 61966-2-1, from 0 to 1."""
     import numpy as np

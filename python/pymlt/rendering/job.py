@@ -43,6 +43,7 @@ class Job:
             options.threads,
             _core.CheckpointFile(options.checkpoint or "", options.every, options.overwrite),
             options.aovs,
+            options.alpha,
         )
 
     def _start(self) -> Job:
@@ -113,6 +114,11 @@ class Job:
         """
         x, y = (integer("a coordinate of pixel", value, 2**31) for value in pixel)
         return Replay(*self._job.replay((x, y), integer("sample", sample, 2**36)))
+
+    @property
+    def has_alpha(self) -> bool:
+        """Whether the result has alpha, by the argument or the film."""
+        return self._job.has_alpha
 
     @property
     def samples(self) -> float:

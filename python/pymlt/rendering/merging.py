@@ -9,7 +9,7 @@ from itertools import combinations
 from typing import TYPE_CHECKING
 
 from .. import _core
-from ..images import layer_names, read_image, read_metadata
+from ..images import read_metadata, read_with_layers
 from .result import Result
 
 if TYPE_CHECKING:
@@ -102,8 +102,7 @@ def _render(render) -> _Render:
                 f"{path}: has no {name!r} in its header; only EXR files that pymlt has rendered "
                 "can be merged"
             )
-    layers = {name: read_image(path, name) for name in layer_names(path)}
-    return _Render(path, read_image(path), layers, metadata)
+    return _Render(path, *read_with_layers(path), metadata)
 
 
 def _check(renders: list[_Render], force: bool) -> None:

@@ -36,6 +36,11 @@ class RenderOptions:
         "n:sh_normal" calls the layer "n". Means over 16 camera rays per pixel (indices: of the
         ray through its middle; -1 where there is nothing). float32, (height, width, 3); depth and
         indices (height, width, 1). None are those of the scene's integrator `aov`.
+    alpha
+        whether the result has `result.alpha`, also if the film's `pixel_format` is not "rgba": how
+        much each pixel hides of what lies behind the scene. Masks, thin glass and media count in
+        part, a background that is seen counts in full: `hide_emitters` of the integrator leaves it
+        out.
     fireflies
         "groups" shows each pixel without what one of the 16 independent groups of the render alone
         has found there (adaptive median of means, Buisine et al. 2021). Sparks go, and so does
@@ -57,6 +62,7 @@ class RenderOptions:
     every: float = 60
     overwrite: bool = False
     aovs: str | Sequence[str] | None = None
+    alpha: bool = False
     fireflies: str = "keep"
     cluster: Any = None
 

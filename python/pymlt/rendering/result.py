@@ -53,6 +53,16 @@ class Result:
         return None if spread is None else spread[::8, ::8]
 
     @property
+    def alpha(self) -> np.ndarray | None:
+        """How much each pixel hides of what lies behind the scene, or None.
+
+        float32, (height, width), from 0 to 1; `image` is multiplied by it. A mean over 64 camera
+        rays per pixel (16 away from edges), with the filter of the film.
+        """
+        alpha = self.layers.get("alpha")
+        return None if alpha is None else alpha[..., 0]
+
+    @property
     def techniques(self) -> dict[tuple[int, int], Technique]:
         """The images of the techniques (s, t), of a render by `BDPT(techniques=True)`.
 
@@ -82,11 +92,12 @@ class Result:
     ) -> None:
         """Write the image to .exr (settings, seed and version in its header), .hdr, .png or .jpg.
 
-        An .exr holds the layers too; beside NAME.png, NAME.techniques.png shows the techniques, if
-        there are any, for which it needs the extra `plots`.
-        `exposure` brightens .png and .jpg, in stops, or "auto" as suits the image; `tonemap` names
-        their curve ("srgb", "reinhard", "filmic"; see `pymlt.tonemap`). Raises FileError if it
-        cannot be written, UsageError for an unknown curve or extension.
+        An .exr and a .png have alpha if there is one, the .png with colours that are not multiplied
+        by it; other files show the image over black. An .exr holds the layers too; beside NAME.png,
+        NAME.techniques.png shows the techniques, if there are any, for which it needs the extra
+        `plots`. `exposure` brightens .png and .jpg, in stops, or "auto" as suits the image;
+        `tonemap` names their curve ("srgb", "reinhard", "filmic"; see `pymlt.tonemap`). Raises
+        FileError if it cannot be written, UsageError for an unknown curve or extension.
         """
         self._file(path, exposure, tonemap).write()
 

@@ -123,12 +123,15 @@ def render(
 ) -> np.ndarray:
     """Render and return the image: float32, (height, width, 3), linear Rec. 709, row 0 on top.
 
-    The arguments are those of `start`. `progress` is True, False, None (a bar on a terminal and in
-    a notebook) or a function of the fraction that is done. `callback` is a function of the Result
-    so far, called each `interval` seconds; it ends the render by returning True. After Ctrl-C the
-    KeyboardInterrupt carries what there is so far, a Result, as `error.result`; so does a
-    RenderError, for a render that fails. Other errors are those of `start`.
+    With `alpha` it has a fourth channel, by which the colours are multiplied, as in an .exr and not
+    in a .png. The arguments are those of `start`. `progress` is True, False, None (a bar on a
+    terminal and in a notebook) or a function of the fraction that is done. `callback` is a function
+    of the Result so far, called each `interval` seconds; it ends the render by returning True.
+    After Ctrl-C the KeyboardInterrupt carries what there is so far, a Result, as `error.result`; so
+    does a RenderError, for a render that fails. Other errors are those of `start`.
     """
+    import numpy as np
+
     scene = as_scene(scene, sensor, spectral)
     job = Job(scene, as_integrator(scene, integrator), options)._start()
     try:
@@ -140,7 +143,10 @@ def render(
     except BaseException:
         job.cancel()
         raise
-    return job.image
+    if not options.alpha:
+        return job.image
+    result = job.result()
+    return np.concatenate([result.image, result.layers["alpha"]], axis=2)
 
 
 @functools.partial(takes_options, fixed=("checkpoint", "every", "overwrite"))

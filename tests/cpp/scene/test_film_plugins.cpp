@@ -77,11 +77,32 @@ TEST(FilmPlugins, WarnOnlyAboutWhatChangesTheResult) {
       {{"pixel_format", std::string("rgb")}, {"file_format", std::string("openexr")}}, &warnings);
   EXPECT_THAT(warnings, IsEmpty());
   make<FilmSettings>(film_hdrfilm(), {{"pixelFormat", std::string("luminance")}}, &warnings);
-  EXPECT_THAT(warnings, ElementsAre(HasSubstr("read as 'rgb'")));
+  EXPECT_THAT(warnings, ElementsAre(HasSubstr("'luminance' is read as 'rgb'")));
+  const auto film =
+      make<FilmSettings>(film_hdrfilm(), {{"component_format", std::string("uint32")}}, &warnings);
+  EXPECT_THAT(warnings, ElementsAre(HasSubstr("'uint32' is read as 'float32'")));
+  EXPECT_FALSE(film->half_precision);
   make<FilmSettings>(film_ldrfilm(), {{"banner", false}}, &warnings);
   EXPECT_THAT(warnings, ElementsAre(HasSubstr("no effect")));
   make<FilmSettings>(film_ldrfilm(), {{"gamma", 2.2}}, &warnings);
   EXPECT_THAT(warnings, ElementsAre(HasSubstr("no effect")));
+}
+
+TEST(FilmPlugins, HaveAlphaIfTheFormatOfPixelsHasIt) {
+  std::vector<std::string> warnings;
+  const auto has_alpha = [&](const std::string& format) {
+    return make<FilmSettings>(film_hdrfilm(), {{"pixel_format", format}}, &warnings)->alpha;
+  };
+  EXPECT_TRUE(has_alpha("rgba"));
+  EXPECT_THAT(warnings, IsEmpty());
+  for (const char* format : {"luminance_alpha", "xyza"}) {
+    EXPECT_TRUE(has_alpha(format));
+    EXPECT_THAT(warnings, ElementsAre(HasSubstr("is read as 'rgba'")));
+  }
+  for (const char* format : {"luminance", "xyz", "spectrum"}) {
+    EXPECT_FALSE(has_alpha(format));
+    EXPECT_THAT(warnings, ElementsAre(HasSubstr("is read as 'rgb'")));
+  }
 }
 
 TEST(FilterPlugins, MakeTheFilterTheyName) {
