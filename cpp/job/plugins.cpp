@@ -53,7 +53,7 @@ const std::vector<Refusal>& refusals() {
       {"emitter",
        "a beam has a width here: put a directionalarea emitter into a small disk",
        {"collimated"}},
-      {"sensor", not_yet, {"telecentric", "spherical", "perspective_rdist"}},
+      {"sensor", not_yet, {"telecentric", "perspective_rdist"}},
       {"sensor",
        "sensors that measure a single value are not supported",
        {"irradiancemeter", "radiancemeter", "fluencemeter", "distant"}},
