@@ -16,18 +16,27 @@ PlacedCamera::Pose PlacedCamera::moved_pose(double time) const {
   return {Vec3(to_world[3]) - axes.n * setback_, axes};
 }
 
+std::vector<Parameter> shutter_parameters() {
+  return {{"shutter_open", ParamType::real, 0.0, "Time at which the shutter opens."},
+          {"shutter_close", ParamType::real, 0.0, "Time at which the shutter closes."}};
+}
+
+Shutter read_shutter(Params& params) {
+  const Shutter shutter{params.real("shutter_open"), params.real("shutter_close")};
+  if (shutter.close < shutter.open) params.fail("shutter_close", "is before shutter_open");
+  return shutter;
+}
+
 std::vector<Parameter> placement_parameters() {
-  return {
-      {"to_world", ParamType::motion, no_default,
-       "Camera space to world space: the camera looks along +z, +y is up and +x is to the left. "
-       "Identity if not given."},
-      {"shutter_open", ParamType::real, 0.0, "Time at which the shutter opens."},
-      {"shutter_close", ParamType::real, 0.0, "Time at which the shutter closes."}};
+  return concat(
+      {{{"to_world", ParamType::motion, no_default,
+         "Camera space to world space: the camera looks along +z, +y is up and +x is to the left. "
+         "Identity if not given."}},
+       shutter_parameters()});
 }
 
 Placement read_placement(Params& params) {
-  const Shutter shutter{params.real("shutter_open"), params.real("shutter_close")};
-  if (shutter.close < shutter.open) params.fail("shutter_close", "is before shutter_open");
+  const Shutter shutter = read_shutter(params);
   const Motion motion = motion_param(params, "to_world", shutter);
   for (const Mat4& step : motion.steps()) orientation(params, "to_world", step);
   const Mat4& to_world = motion.steps()[0];

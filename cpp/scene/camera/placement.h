@@ -15,6 +15,9 @@ struct Placement {
   Motion motion;
 };
 
+/// The parameters of the shutter.
+std::vector<Parameter> shutter_parameters();
+Shutter read_shutter(Params& params);
 /// The parameters of the placement of a camera.
 std::vector<Parameter> placement_parameters();
 Placement read_placement(Params& params);

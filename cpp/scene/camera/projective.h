@@ -20,6 +20,9 @@
 
 namespace mlt {
 
+/// Sizes of the scene from which on rays are parallel in single precision.
+inline constexpr double parallel_distance = 0x1p24;
+
 class ProjectiveCamera : public PlacedCamera {
  public:
   /// The scene's parameters of the field of view.
