@@ -17,7 +17,7 @@ Bounds enclosing_sphere(const std::vector<ShapePtr>& shapes, const Camera& camer
     const SurfacePoint middle =
         camera.sample_position({0.5, 0.5}, camera.time(1.0 * i / moments)).at;
     const Vec3 lens = camera.place(middle);
-    if (std::isnan(lens.x)) break;  // It will stand where the shapes say.
+    if (std::isnan(lens.x)) break;  // A distant meter stands where the shapes say.
     low = glm::min(low, lens);
     high = glm::max(high, lens);
   }

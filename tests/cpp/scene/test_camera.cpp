@@ -90,7 +90,7 @@ std::vector<CameraPtr> panoramic_cameras() {
           camera(sensor_fisheye(), {{"fov", 100.0}}, cropped)};
 }
 
-/// Those and all_cameras().
+/// The panoramic cameras and all_cameras().
 std::vector<CameraPtr> cameras_of_all_kinds() {
   std::vector<CameraPtr> cameras = all_cameras();
   for (const CameraPtr& made : panoramic_cameras()) cameras.push_back(made);
