@@ -5,19 +5,6 @@
 namespace mlt {
 namespace {
 
-/// Integral of f over the cell at distance d from the pixel, for d = 0 ... border.
-std::vector<double> cell_weights(const Filter& filter, int border) {
-  std::vector<double> weights;
-  if (filter.is_box()) return {1};
-  constexpr int steps = 4096;
-  for (int d = 0; d <= border; ++d) {
-    double sum = 0;
-    for (int i = 0; i < steps; ++i) sum += filter.eval(d - 0.5 + (i + 0.5) / steps);
-    weights.push_back(sum / steps);
-  }
-  return weights;
-}
-
 /// Padding behind the pixels of a tile, since whole vectors are added.
 constexpr size_t spare_values = 8;
 
@@ -28,16 +15,18 @@ float* pixel(std::vector<float>& image, const PixelRect& reach, int x, int y) {
 }  // namespace
 
 SampleFilm::SampleFilm(int width, int height, std::shared_ptr<const Filter> filter, int groups,
-                       bool splats)
+                       bool splats, bool around)
     : width_(width),
       height_(height),
-      border_(filter_border(*filter)),
+      reach_(filter_border(*filter)),
+      border_(around ? reach_ : 0),
       splats_(splats),
       filter_(std::move(filter)),
+      edge_scale_(around ? EdgeScale() : EdgeScale(*filter_, width, height)),
       rows_(*filter_) {
   tiles_x_ = (width + 2 * border_ + tile_size - 1) / tile_size;
   tiles_y_ = (height + 2 * border_ + tile_size - 1) / tile_size;
-  cell_weight_ = cell_weights(*filter_, border_);
+  cell_weight_ = cell_weights(*filter_);
   std::vector<Strand> strands(splats ? 1 : tile_count());
   for (size_t i = 0; i < strands.size(); ++i) {
     strands[i].reach =
@@ -97,8 +86,8 @@ PixelRect SampleFilm::cells_of(int tile) const {
 }
 
 PixelRect SampleFilm::reach_of(const PixelRect& cells) const {
-  return {std::max(0, cells.x0 - border_), std::max(0, cells.y0 - border_),
-          std::min(width_, cells.x1 + border_), std::min(height_, cells.y1 + border_)};
+  return {std::max(0, cells.x0 - reach_), std::max(0, cells.y0 - reach_),
+          std::min(width_, cells.x1 + reach_), std::min(height_, cells.y1 + reach_)};
 }
 
 size_t SampleFilm::bytes_per_group() const {
@@ -195,11 +184,7 @@ uint64_t SampleFilm::passes(int group) const {
 std::vector<double> SampleFilm::expected_weights(const std::vector<uint64_t>& samples) const {
   std::vector<double> weights(size_t(width_) * height_);
   const auto expected = [&](int pixel, int begin, int end) {
-    double sum = 0;
-    for (int cell = std::max(begin, pixel - border_); cell < std::min(end, pixel + border_ + 1);
-         ++cell)
-      sum += cell_weight_[std::abs(cell - pixel)];
-    return sum;
+    return expected_weight(cell_weight_, pixel, begin, end);
   };
   for (int tile = 0; tile < tile_count(); ++tile) {
     if (samples[tile] == 0) continue;
@@ -257,7 +242,7 @@ Image SampleFilm::develop(const std::vector<const Group*>& groups) const {
   Image image(width_, height_, 3);
   for (size_t i = 0; i < rgb.size(); ++i) {
     double value = weights[i / 3] > 0 ? rgb[i] / weights[i / 3] : 0.0;
-    if (!light.empty()) value += light_scale * light[i];
+    if (!light.empty()) value += light_scale * edge_scale_.at(i / 3) * light[i];
     image.data[i] = static_cast<float>(value);
   }
   return image;

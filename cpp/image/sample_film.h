@@ -4,6 +4,7 @@
 #pragma once
 
 #include "base/bytes.h"
+#include "image/edge_scale.h"
 #include "image/filter_rows.h"
 #include "image/image.h"
 #include "image/splat.h"
@@ -25,9 +26,10 @@ class SampleFilm {
   static constexpr int tile_size = 32;
 
   /// With splats, which reach the whole image, all tiles of a group are added in one sequence;
-  /// without, each place of the image has sums and a sequence of its own.
+  /// without, each place of the image has sums and a sequence of its own. `around`: whether there
+  /// are samples as far outside the image as the filter reaches.
   SampleFilm(int width, int height, std::shared_ptr<const Filter> filter, int groups,
-             bool splats = true);
+             bool splats = true, bool around = true);
 
   struct Splat {
     Vec2 raster;
@@ -136,12 +138,14 @@ class SampleFilm {
   double splat_scale(const std::vector<uint64_t>& samples) const;
   std::vector<double> expected_weights(const std::vector<uint64_t>& samples) const;
 
-  int width_, height_, border_, tiles_x_, tiles_y_;
+  int width_, height_;
+  int reach_, border_;  ///< How far the filter and the samples reach out, in whole pixels.
+  int tiles_x_, tiles_y_;
   bool splats_;
   std::shared_ptr<const Filter> filter_;
+  EdgeScale edge_scale_;
   FilterRows<float> rows_;
-  std::vector<double>
-      cell_weight_;  ///< Expected weight of a uniform sample in a cell at distance d.
+  std::vector<double> cell_weight_;  ///< See cell_weights().
   std::vector<std::unique_ptr<Group>> groups_;
 };
 

@@ -74,12 +74,14 @@ int add_small(const double* __restrict values, double weight, int count, int64_t
 
 }  // namespace
 
-SplatFilm::SplatFilm(int width, int height, std::shared_ptr<const Filter> filter, int groups)
+SplatFilm::SplatFilm(int width, int height, std::shared_ptr<const Filter> filter, int groups,
+                     bool around)
     : width_(width),
       height_(height),
       groups_(groups),
       filter_(std::move(filter)),
       rows_(*filter_),
+      edge_scale_(around ? EdgeScale() : EdgeScale(*filter_, width, height)),
       cells_(static_cast<int64_t*>(std::calloc(group_size() * groups + 1, sizeof(int64_t)))),
       locks_(new Lock[groups * bands()]()) {
   if (!cells_) throw std::bad_alloc();
@@ -143,7 +145,8 @@ Image SplatFilm::image(const std::vector<double>& scale) const {
           sum[y * values + i] += scale[g] / one * static_cast<double>(cells[i]);
       });
   Image image(width_, height_, 3);
-  for (size_t i = 0; i < sum.size(); ++i) image.data[i] = static_cast<float>(sum[i]);
+  for (size_t i = 0; i < sum.size(); ++i)
+    image.data[i] = static_cast<float>(sum[i] * edge_scale_.at(i / 3));
   return image;
 }
 

@@ -2,6 +2,7 @@
 // sums do not depend on their order, and the image has the same bits for any number of threads.
 #pragma once
 
+#include "image/edge_scale.h"
 #include "image/filter_rows.h"
 #include "image/image.h"
 #include "image/splat.h"
@@ -17,7 +18,9 @@ namespace mlt {
 
 class SplatFilm {
  public:
-  SplatFilm(int width, int height, std::shared_ptr<const Filter> filter, int groups);
+  /// `around`: whether there are splats as far outside the image as the filter reaches.
+  SplatFilm(int width, int height, std::shared_ptr<const Filter> filter, int groups,
+            bool around = true);
 
   /// Adds `color` times the filter at a raster position. Thread-safe.
   void add(int group, const Vec2& raster, const Color& color);
@@ -66,6 +69,7 @@ class SplatFilm {
   int width_, height_, groups_;
   std::shared_ptr<const Filter> filter_;
   FilterRows<double> rows_;
+  EdgeScale edge_scale_;
   /// Sums by [group][pixel][channel]; they take memory only where splats have been added.
   std::unique_ptr<int64_t[], Free> cells_;
   std::unique_ptr<Lock[]> locks_;  ///< [group][band]

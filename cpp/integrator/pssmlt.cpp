@@ -2,6 +2,7 @@
 // G. Antal, F. Csonka, "A simple and robust mutation strategy for the Metropolis light transport
 // algorithm", Eurographics 2002.
 #include "base/registry.h"
+#include "integrator/one_ray.h"
 #include "integrator/parameters.h"
 #include "rendering/beside_chains.h"
 #include "rendering/coarse_image.h"
@@ -200,7 +201,10 @@ class PssmltIntegrator : public Integrator {
   std::unique_ptr<MetropolisAlgorithm> algorithm(const ScenePtr& scene) const {
     if (estimator_ == "bdpt")
       return std::make_unique<Pssmlt<BidirectionalEstimator>>(scene, settings_);
-    if (estimator_ == "ptracer") return std::make_unique<Pssmlt<LightEstimator>>(scene, settings_);
+    if (estimator_ == "ptracer") {
+      refuse_one_ray(*scene);
+      return std::make_unique<Pssmlt<LightEstimator>>(scene, settings_);
+    }
     if (!settings_.path.waves || scene->camera().clips_far())
       return std::make_unique<Pssmlt<PathEstimator>>(scene, settings_);
     return std::make_unique<WalkPssmlt>(scene, settings_);

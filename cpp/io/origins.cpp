@@ -25,10 +25,11 @@ Vec3 origin_of(const Bounds& bounds) {
 
 void move_place(Params& params, const Vec3& before, const Vec3& after) {
   if (before == Vec3(0) && after == Vec3(0)) return;
-  if (params.has("position")) {
-    const Triple p = params.triple("position");
-    return params.replace("position", Triple{p[0] - after.x, p[1] - after.y, p[2] - after.z});
-  }
+  for (const char* point : {"position", "origin", "target"})
+    if (params.has(point)) {
+      const Triple p = params.triple(point);
+      return params.replace(point, Triple{p[0] - after.x, p[1] - after.y, p[2] - after.z});
+    }
   const char* name = "to_world";
   const Parameter* place = params.schema().find(name);
   if (!place || (place->type == ParamType::transform && params.schema().family != "volume")) return;

@@ -171,8 +171,8 @@ class BidirectionalSampler {
     const PositionSample lens = start_from_lens(sampler);
     const Ray ray = camera_ray(scene_->camera(), lens.at, raster);
     camera_.start(camera_vertex(lens.at), lens.pdf);
-    camera_.walk(walker(rays), settings_.rules,
-                 {ray, scene_->camera().pdf_direction(lens.at, ray.d)}, most, sampler);
+    const double pdf = scene_->camera().pdf_direction(lens.at, ray.d);
+    if (pdf > 0) camera_.walk(walker(rays), settings_.rules, {ray, pdf}, most, sampler);
   }
 
   template <class Sampler>

@@ -90,11 +90,13 @@ struct IgnorePaths {
 
 /// A walk from the camera, and the radiance that it has found.
 struct CameraWalk {
-  CameraWalk(const Ray& first) : ray(first), previous(first.o) {}
+  /// A ray of no length finds nothing: it is outside the field of view.
+  CameraWalk(const Ray& first)
+      : ray(first), throughput(first.t_max > 0 ? 1.0 : 0.0), previous(first.o) {}
 
   Ray ray;            ///< The next ray.
   Color radiance{0};  ///< As a film records it.
-  Spectrum throughput{1};
+  Spectrum throughput;
   Vec3 previous;           ///< Its last vertex.
   double scatter_pdf = 0;  ///< Density of the ray in solid angle.
   bool dispersed = false;  ///< See Scattering.

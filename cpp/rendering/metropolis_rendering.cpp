@@ -23,7 +23,7 @@ MetropolisRendering::MetropolisRendering(ScenePtr scene, uint64_t seed,
       algorithm_(std::move(algorithm)),
       direct_(std::move(direct)),
       film_(scene_->camera().raster().size.x, scene_->camera().raster().size.y,
-            scene_->film().filter, group_count) {}
+            scene_->film().filter, group_count, scene_->camera().raster().border > 0) {}
 
 int MetropolisRendering::chains_of(int group) const {
   return (settings_.chains + group_count - 1 - group) / group_count;

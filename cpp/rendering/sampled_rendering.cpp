@@ -34,10 +34,12 @@ SampledRendering::SampledRendering(ScenePtr scene, uint64_t seed, const SampledS
       passes_per_turn_(settings.passes_per_turn),
       only_camera_walks_(settings.only_camera_walks),
       film_(scene_->camera().raster().size.x, scene_->camera().raster().size.y,
-            scene_->film().filter, group_count, settings.splats),
+            scene_->film().filter, group_count, settings.splats,
+            scene_->camera().raster().border > 0),
       layer_names_(settings.layers),
       layers_(scene_->camera().raster().size.x, scene_->camera().raster().size.y,
-              scene_->film().filter, static_cast<int>(layer_names_.size())) {
+              scene_->film().filter, static_cast<int>(layer_names_.size()),
+              scene_->camera().raster().border > 0) {
   plan_ = plan_of(film_, passes_per_turn_);
 }
 

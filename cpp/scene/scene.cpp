@@ -17,6 +17,7 @@ Bounds enclosing_sphere(const std::vector<ShapePtr>& shapes, const Camera& camer
     const SurfacePoint middle =
         camera.sample_position({0.5, 0.5}, camera.time(1.0 * i / moments)).at;
     const Vec3 lens = camera.place(middle);
+    if (std::isnan(lens.x)) break;  // A distant meter stands where the shapes say.
     low = glm::min(low, lens);
     high = glm::max(high, lens);
   }
@@ -26,6 +27,7 @@ Bounds enclosing_sphere(const std::vector<ShapePtr>& shapes, const Camera& camer
     low = glm::min(low, l);
     high = glm::max(high, h);
   }
+  if (!(low.x <= high.x)) return {Vec3(0), 1.0};
   const auto [center, radius] = bounds_of_box(low, high);
   return {center, radius > 0 ? radius * (1 + 1e-6) : 1.0};
 }

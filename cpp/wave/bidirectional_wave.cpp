@@ -20,14 +20,14 @@ struct LensEdges {
 /// Computes edges to the lens, in double precision: an orthographic camera is far away.
 void find_edges(const JointLanes& a, const JointTechnique& technique, const SurfacePoint& lens,
                 bool strict, LensEdges& __restrict edges) {
-  const Vec3 p = lens.p, axis = lens.ng;
+  const Vec3 p = lens.p;
   for (int i = 0; i < JointLanes::size; ++i) {
     const Vec3 to_lens = p * double{technique.near[i]} - Vec3(a.p[i]);
     const double distance2 = dot(to_lens, to_lens);
     const Vec3 w = to_lens * (1 / std::sqrt(distance2));
     const auto [geometric, quotient, scatters] =
         lambertian_edge(Vec3(a.ng[i]), Vec3(a.n[i]), w, double{a.cosine[i]}, strict);
-    const double G = geometric * std::fabs(dot(axis, w)) / distance2;
+    const double G = geometric * abs_cos(lens, w) / distance2;
     edges.x[i] = w.x;
     edges.y[i] = w.y;
     edges.z[i] = w.z;

@@ -45,6 +45,8 @@ inline std::vector<std::string> scene_names() {
           "materials",
           "instances",
           "orthographic",
+          "spherical",
+          "fisheye",
           "projector",
           "daylight",
           "bent_normals",

@@ -152,8 +152,3 @@ def test_displacement_and_edge_lengths_are_left_out_by_name():
         "Shape 'trianglemesh': 'displacement' is left out",
         "Shape 'trianglemesh': 'edgelength' is left out",
     ]
-
-
-def test_a_spherical_camera_is_left_out_by_name():
-    said = read(VIEW.replace("perspective", "spherical"), SKY).warnings
-    assert said == ["the camera 'spherical' is taken as 'perspective'"]

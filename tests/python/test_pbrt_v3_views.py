@@ -144,3 +144,25 @@ def test_a_red_ball_below_a_lamp_is_what_its_formula_says():
     irradiance = math.pi * 2000 * (0.2 / 4) ** 2
     found = mlt.render(mlt.load(scene), mlt.Path(max_depth=2), spp=256).mean((0, 1))
     assert_close(found, *np.array([0.8, 0.1, 0.1]) * irradiance / math.pi, rel=0.03)
+
+
+@pytest.mark.parametrize("kind", ["environment", "spherical"])
+def test_a_spherical_camera_looks_where_that_of_pbrt_looks(kind):
+    """The directions of pbrt's SphericalCamera for shares u and v of the image."""
+    film = "image" if kind == "environment" else "rgb"
+    mapping = '"string mapping" "equirectangular"' if kind == "spherical" else ""
+    made = read(f'Camera "{kind}" {mapping} Film "{film}"', SKY)
+    assert made.warnings == []
+    camera = made.scene["camera"]
+    assert camera["type"] == "spherical"
+    for u, v in [(0.1, 0.3), (0.5, 0.5), (0.8, 0.9)]:
+        theta, phi = math.pi * v, 2 * math.pi * u
+        of_pbrt = [math.cos(phi), 1 / math.tan(theta), math.sin(phi)]
+        ours = [-math.sin(phi - math.pi), 1 / math.tan(theta), math.cos(phi - math.pi)]
+        assert np.array(camera["to_world"])[:3, :3] @ ours == pytest.approx(of_pbrt)
+    mlt.load_dict(made.scene)
+
+
+def test_another_mapping_of_a_spherical_camera_is_a_warning():
+    said = read('Camera "spherical" Film "rgb"', SKY).warnings
+    assert said == ["the mapping 'equalarea' is taken as 'equirectangular'"]

@@ -130,6 +130,20 @@ def test_fov_is_that_of_the_image_from_top_to_bottom():
     assert np.degrees(camera.fov) == pytest.approx(60)
 
 
+@pytest.mark.parametrize("sensor", [{"type": "spherical"}, {"type": "fisheye", "fov": 360}])
+def test_a_camera_that_sees_all_around_has_a_pose_of_its_own(sensor):
+    d = tiny.scene()
+    placed = mlt.Transform.look_at([1, 2, 3], [0, 1, 0], [0, 1, 0])
+    d["sensor"] = sensor | {"to_world": placed, "film": d["sensor"]["film"] | {"width": 48}}
+    scene = mlt.load_dict(d)
+    camera = SceneCamera(scene)
+    assert camera.fov == 0.7
+    rasters = np.array([[24.0, 3.0], [26.0, 9.0]])
+    moved = camera.scene(camera.pose)
+    for one, other in zip(scene.camera_rays(rasters), moved.camera_rays(rasters), strict=True):
+        np.testing.assert_allclose(one, other, atol=1e-6)
+
+
 def test_a_pose_is_kept_by_the_way_to_the_scene_and_back():
     from viser.transforms import SO3
 

@@ -13,7 +13,8 @@
 namespace mlt {
 
 /// The image plane in pixels. Samples are drawn over the crop window widened by `border`, the
-/// radius of the reconstruction filter.
+/// radius of the reconstruction filter; it is 0 where positions outside the image have no
+/// directions of their own.
 struct Raster {
   Vec2i full_size{0};    ///< The whole image, which fixes the field of view.
   Vec2i crop_offset{0};  ///< Where the crop window starts in the whole image.
@@ -67,9 +68,12 @@ class Camera : public Object {
   Vec3 entrance(const SurfacePoint& xk, const Vec3& w) const {
     return at_depth(xk, w, setback_ + clipping_.near);
   }
-  /// How far it goes from there to the far plane; w is a unit vector.
+  /// How far it goes from there to the far plane, or 0 outside the field of view; w is a unit
+  /// vector.
   double reach(const SurfacePoint& xk, const Vec3& w) const {
-    return clips_far() ? (clipping_.far - clipping_.near) / dot(w, xk.ng) : infinity;
+    const double cosine = dot(w, xk.ng);
+    if (cosine < least_cosine_) return 0;
+    return clips_far() ? (clipping_.far - clipping_.near) / cosine : infinity;
   }
   bool clips_far() const { return clipping_.far < infinity; }
   void set_clipping(const ClippingPlanes& planes) { clipping_ = planes; }
@@ -155,6 +159,9 @@ class Camera : public Object {
   Raster raster_;
   Shutter shutter_;
   double setback_ = 0;  ///< Distance of the lens behind the place of the camera.
+  /// Cosine with the axis below which nothing is seen, where the image is round: the directions of
+  /// raster positions outside the circle have less, and are not projected.
+  double least_cosine_ = -infinity;
 
  private:
   static Vec3 at_depth(const SurfacePoint& xk, const Vec3& w, double depth) {

@@ -1,9 +1,9 @@
 // A camera whose rays are parallel. The image lies on the plane z = 0 of camera space, which it
 // fills from x = -1 to 1; `to_world` scales it.
 //
-// It is a pinhole so far behind that plane that its rays differ from parallel ones by less than the
-// single precision in which meshes are held: at 2^24 times the size of the scene. So directions are
-// a delta up to the precision of positions, and every formula of a pinhole holds: with the distance
+// It is a pinhole so far behind that plane, at parallel_distance, that its rays differ from
+// parallel ones by less than the single precision in which meshes are held. So directions are a
+// delta up to the precision of positions, and every formula of a pinhole holds: with the distance
 // D, A = A_image / D^2 and c = 1 to 2^-48,
 //
 //   We G = D^2 / A_image * cos / D^2 = cos / A_image,
@@ -16,8 +16,6 @@
 
 namespace mlt {
 namespace {
-
-constexpr double distance_in_sizes = 0x1p24;
 
 class Orthographic final : public ProjectiveCamera {
  public:
@@ -38,7 +36,7 @@ class Orthographic final : public ProjectiveCamera {
 
  private:
   void stand_back(double size) {
-    setback_ = distance_in_sizes * size;
+    setback_ = parallel_distance * size;
     pose_.position = middle_ - pose_.axes.n * setback_;
     const double aspect = static_cast<double>(raster_.full_size.x) / raster_.full_size.y;
     set_image_plane(Vec2(half_.x, half_.y / aspect) / setback_);

@@ -1,23 +1,11 @@
 #include "scene/camera/projective.h"
 
 #include "math/warp.h"
-#include "scene/transform/orientation.h"
 
 namespace mlt {
 
 ProjectiveCamera::ProjectiveCamera(const Placement& placement, const View& view, const Lens& lens)
-    : pose_{placement.position, placement.axes},
-      view_(view),
-      lens_(lens),
-      motion_(placement.motion) {
-  shutter_ = placement.shutter;
-}
-
-ProjectiveCamera::Pose ProjectiveCamera::moved_pose(double time) const {
-  const Mat4 to_world = motion_.at(time);
-  const Frame axes = turned_axes(to_world);
-  return {Vec3(to_world[3]) - axes.n * setback_, axes};
-}
+    : PlacedCamera(placement), view_(view), lens_(lens) {}
 
 Vec2 ProjectiveCamera::View::half_size(double aspect) const {
   const double t = std::tan(fov / 2);
@@ -48,7 +36,7 @@ void ProjectiveCamera::set_image_plane(const Vec2& half) {
 }
 
 Vec2 ProjectiveCamera::lens_offset(const SurfacePoint& xk) const {
-  const Vec3 offset = xk.p - (motion_.moves() ? moved_pose(xk.time) : pose_).position;
+  const Vec3 offset = xk.p - pose(xk.time).position;
   return {dot(offset, xk.shading.s), dot(offset, xk.shading.t)};
 }
 

@@ -16,21 +16,14 @@
 //   We(xk -> w) = 1 / (A_lens A c^4)       (without A_lens for the delta position of a pinhole).
 #pragma once
 
-#include "base/params.h"
-#include "scene/camera/camera.h"
-#include "scene/transform/motion.h"
+#include "scene/camera/placement.h"
 
 namespace mlt {
 
-/// The position and the axes of a camera, and its shutter.
-struct Placement {
-  Vec3 position;  ///< Position and axes are those when the shutter opens.
-  Frame axes;
-  Shutter shutter;
-  Motion motion;
-};
+/// Sizes of the scene from which on rays are parallel in single precision.
+inline constexpr double parallel_distance = 0x1p24;
 
-class ProjectiveCamera : public Camera {
+class ProjectiveCamera : public PlacedCamera {
  public:
   /// The scene's parameters of the field of view.
   struct View {
@@ -56,7 +49,7 @@ class ProjectiveCamera : public Camera {
   Vec2 invert_position(const SurfacePoint& xk) const override;
   Vec3 direction(const SurfacePoint& xk, const Vec2& raster) const override;
   Ray ray(const Vec2& raster, const Vec2& u_lens, double time) const override {
-    if (lens_.radius > 0 || motion_.moves() || clips()) return Camera::ray(raster, u_lens, time);
+    if (lens_.radius > 0 || moves() || clips()) return Camera::ray(raster, u_lens, time);
     const Vec2 plane = (raster - to_raster_offset_) * from_raster_scale_;
     return {pose_.position, pose_.axes.to_world(normalize(Vec3(plane, 1))), time, infinity,
             surroundings()};
@@ -72,20 +65,7 @@ class ProjectiveCamera : public Camera {
   /// offset.
   void set_image_plane(const Vec2& half);
 
-  /// The middle of the lens and the axes of camera space.
-  struct Pose {
-    Vec3 position;
-    Frame axes;
-  };
-  Pose pose(double time) const {
-    if (!motion_.moves()) return pose_;
-    return moved_pose(time);
-  }
-
-  Pose pose_;  ///< Pose when the shutter opens.
-
  private:
-  Pose moved_pose(double time) const;
   static SurfacePoint point_at(const Vec3& p, const Frame& axes, double time);
   /// The position of xk on the lens, in camera space; 0 for a pinhole.
   Vec2 lens_point(const SurfacePoint& xk) const {
@@ -95,15 +75,10 @@ class ProjectiveCamera : public Camera {
 
   View view_;
   Lens lens_;
-  Motion motion_;
   // raster = (X, Y) * to_raster_scale_ + to_raster_offset_
   Vec2 to_raster_scale_{-1}, to_raster_offset_{0}, from_raster_scale_{-1};
   double image_area_ = 1;  ///< A
 };
-
-/// The parameters of the placement of a camera.
-std::vector<Parameter> placement_parameters();
-Placement read_placement(Params& params);
 
 /// The parameters of the field of view.
 std::vector<Parameter> field_of_view_parameters();

@@ -1,7 +1,5 @@
-// The field of view and the placement of a projective camera, with Mitsuba's parameters.
+// The field of view of a projective camera, with Mitsuba's parameters.
 #include "scene/camera/projective.h"
-#include "scene/texture/texture.h"
-#include "scene/transform/orientation.h"
 
 #include <charconv>
 
@@ -34,15 +32,6 @@ ProjectiveCamera::View::Axis read_axis(Params& params) {
 }
 
 }  // namespace
-
-std::vector<Parameter> placement_parameters() {
-  return {
-      {"to_world", ParamType::motion, no_default,
-       "Camera space to world space: the camera looks along +z, +y is up and +x is to the left. "
-       "Identity if not given."},
-      {"shutter_open", ParamType::real, 0.0, "Time at which the shutter opens."},
-      {"shutter_close", ParamType::real, 0.0, "Time at which the shutter closes."}};
-}
 
 std::vector<Parameter> field_of_view_parameters() {
   return {{"fov", ParamType::real, no_default,
@@ -83,16 +72,6 @@ ProjectiveCamera::View read_shifted_view(Params& params) {
   view.principal_offset = {params.real("principal_point_offset_x"),
                            params.real("principal_point_offset_y")};
   return view;
-}
-
-Placement read_placement(Params& params) {
-  const Shutter shutter{params.real("shutter_open"), params.real("shutter_close")};
-  if (shutter.close < shutter.open) params.fail("shutter_close", "is before shutter_open");
-  const Motion motion = motion_param(params, "to_world", shutter);
-  for (const Mat4& step : motion.steps()) orientation(params, "to_world", step);
-  const Mat4& to_world = motion.steps()[0];
-  return {transform_point(to_world, Vec3(0)), orientation(params, "to_world", to_world), shutter,
-          motion};
 }
 
 std::vector<Parameter> clipping_parameters() {

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     import numpy as np
 
 HEIGHT = 720  #: of an image whose size the file does not tell, in pixels
-CAMERAS = ("perspective", "orthographic", "thinlens")
+CAMERAS = ("perspective", "orthographic", "thinlens", "spherical")
 AWAY = (0.5, 0.4, 1.0)  #: from the middle of a scene to a camera that is added
 SKY = {"type": "constant", "radiance": 0.15}
 SUNBEAM = (1.0, -1.5, -1.2)  #: the way of sunlight, as that camera is turned

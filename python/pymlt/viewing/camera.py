@@ -67,7 +67,8 @@ class SceneCamera:
         from viser.transforms import SO3
 
         (w, h) = self.size
-        rasters = [[w / 2, h / 2], [w, h / 2], [w / 2, h], [w / 2, 0]]
+        aside = min(w, h) / 4  # where a round image and one of all directions have an axis
+        rasters = [[w / 2, h / 2], [w / 2 + aside, h / 2], [w / 2, h], [w / 2, 0]]
         starts, directions = self._scene.camera_rays(np.array(rasters, dtype=float))
         z = directions[0]
         x = directions[1] - z * (directions[1] @ z) + (starts[1] - starts[0])
@@ -78,7 +79,8 @@ class SceneCamera:
         rotation = SO3.from_matrix(np.stack([x, y, z], axis=1))
         self.pose = Pose(tuple(starts[0]), tuple(rotation.wxyz))
         angle = np.arccos(np.clip(directions[2] @ directions[3], -1, 1))
-        self.fov = float(angle) if angle > 1e-3 else 0.7  # parallel rays have none
+        # parallel rays have none, nor has a view of more than the browser can show
+        self.fov = float(angle) if 1e-3 < angle < 2.8 else 0.7
         seen = self._scene.intersect(starts[:1], directions[:1])["distance"][0]
         self.target = starts[0] + z * (seen if np.isfinite(seen) else self.radius)
         self.up = _upright(-y, x)

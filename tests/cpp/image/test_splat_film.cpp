@@ -105,6 +105,19 @@ TEST(SplatFilm, KeepsNegativeLobes) {
   EXPECT_LT(*std::min_element(image.data.begin(), image.data.end()), -0.01f);
 }
 
+/// Splats on a fine grid over the image alone.
+TEST(SplatFilm, IsEvenUpToTheEdgesWithoutSplatsAroundTheImage) {
+  constexpr int per_pixel = 32;
+  for (const Filter& each : test::default_filters()) {
+    SplatFilm film(9, 7, shared(each), 1, false);
+    for (int y = 0; y < 7 * per_pixel; ++y)
+      for (int x = 0; x < 9 * per_pixel; ++x)
+        film.add(0, (Vec2(x, y) + 0.5) / double{per_pixel}, Color(1));
+    const Image image = film.image({1.0 / (per_pixel * per_pixel)});
+    for (const float value : image.data) ASSERT_NEAR(value, 1, 1e-3) << each.name();
+  }
+}
+
 TEST(SplatFilm, WhatIsAddedAndTakenAwayLeavesNothing) {
   SplatFilm film(width, height, shared(mitchell_filter()), groups);
   const std::vector<Splat> all = splats(1000);

@@ -63,6 +63,8 @@ INSTANTIATE_TEST_SUITE_P(
         Pair{"cornell", "pssmlt_ptracer"}, Pair{"sky", "pssmlt_gaussian"}, Pair{"sky", "mmlt"},
         Pair{"thin_lens_sky", "rjmlt_chains"}, Pair{"thin_lens_sky", "erpt"},
         Pair{"instances", "path"}, Pair{"orthographic", "path"}, Pair{"orthographic", "ptracer"},
+        Pair{"spherical", "path"}, Pair{"spherical", "mlt"}, Pair{"spherical", "pssmlt_bdpt"},
+        Pair{"spherical", "mmlt"}, Pair{"fisheye", "path"}, Pair{"fisheye", "pssmlt"},
         Pair{"projector", "ptracer"}, Pair{"daylight", "path"}, Pair{"bent_normals", "path"},
         Pair{"more_materials", "path"}, Pair{"windows", "path"}, Pair{"fog", "path"},
         Pair{"smoke_box", "path"}, Pair{"smoke", "path"}, Pair{"beam", "ptracer"},

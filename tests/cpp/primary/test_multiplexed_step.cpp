@@ -116,8 +116,8 @@ INSTANTIATE_TEST_SUITE_P(Scenes, InvertPathOn,
                                          "light_in_glass", "sky_map", "sun", "point", "spot",
                                          "projector", "sphere_light", "smooth_normals", "materials",
                                          "more_materials", "bent_normals", "instances",
-                                         "orthographic", "daylight", "windows", "null_surface",
-                                         "fog", "smoke_box", "smoke"));
+                                         "orthographic", "spherical", "fisheye", "daylight",
+                                         "windows", "null_surface", "fog", "smoke_box", "smoke"));
 
 // ---- the choice of a technique
 

@@ -8,8 +8,10 @@
 
 namespace mlt {
 
+Plugin sensor_fisheye();
 Plugin sensor_orthographic();
 Plugin sensor_perspective();
+Plugin sensor_spherical();
 Plugin sensor_thinlens();
 
 namespace {
@@ -77,6 +79,22 @@ std::vector<CameraPtr> all_cameras() {
               {"to_world", with_scaled_axes(placed, 1, -1, 1)}},
              whole(20, 30, 2)),
       camera(sensor_orthographic(), {{"to_world", with_scaled_axes(placed, 3, -2, 1)}}, odd)};
+}
+
+/// Cameras whose image is no plane.
+std::vector<CameraPtr> panoramic_cameras() {
+  const Raster cropped{{80, 60}, {28, 20}, {31, 23}, 1.5};
+  return {camera(sensor_spherical(), {{"to_world", placed}}, whole(64, 32, 2)),
+          camera(sensor_spherical(), {}, cropped),
+          camera(sensor_fisheye(), {{"to_world", placed}, {"fov", 250.0}}, cropped),
+          camera(sensor_fisheye(), {{"fov", 100.0}}, cropped)};
+}
+
+/// The panoramic cameras and all_cameras().
+std::vector<CameraPtr> cameras_of_all_kinds() {
+  std::vector<CameraPtr> cameras = all_cameras();
+  for (const CameraPtr& made : panoramic_cameras()) cameras.push_back(made);
+  return cameras;
 }
 
 /// Directions that are nearly parallel differ little from pixel to pixel, and linearly.
@@ -202,7 +220,7 @@ TEST(Camera, ScalesOfItsTransformMeanNothing) {
 
 TEST(Camera, RasterPositionInvertsDirection) {
   Rng rng(1, Purpose::test, 0);
-  for (const CameraPtr& made : all_cameras())
+  for (const CameraPtr& made : cameras_of_all_kinds())
     for (int i = 0; i < 1000; ++i) {
       const SurfacePoint xk = made->sample_position({rng.next(), rng.next()}, 0).at;
       const Vec2 raster = made->raster().sample({rng.next(), rng.next()});
@@ -249,7 +267,7 @@ double solid_angle_per_pixel(const Camera& camera, const SurfacePoint& xk, const
 
 TEST(Camera, DirectionsHaveTheDensityThatItReports) {
   Rng rng(2, Purpose::test, 0);
-  for (const CameraPtr& made : all_cameras())
+  for (const CameraPtr& made : cameras_of_all_kinds())
     for (int i = 0; i < 200; ++i) {
       const SurfacePoint xk = made->sample_position({rng.next(), rng.next()}, 0).at;
       const Vec2 raster = made->raster().sample({rng.next(), rng.next()});
@@ -264,7 +282,7 @@ TEST(Camera, DirectionsHaveTheDensityThatItReports) {
 TEST(Camera, ImportanceIntegratesToOneOverTheImage) {
   Rng rng(3, Purpose::test, 0);
   const int n = 64;
-  for (const CameraPtr& made : all_cameras()) {
+  for (const CameraPtr& made : cameras_of_all_kinds()) {
     const Raster& r = made->raster();
     double integral = 0;
     for (int i = 0; i < n; ++i)
@@ -282,11 +300,10 @@ TEST(Camera, ImportanceIntegratesToOneOverTheImage) {
 
 TEST(Camera, PositionsAreATriple) {
   Rng rng(4, Purpose::test, 0);
-  for (const CameraPtr& made : all_cameras()) {
+  for (const CameraPtr& made : cameras_of_all_kinds()) {
     for (int i = 0; i < 200; ++i) {
       const Vec2 u(rng.next(), rng.next());
       const PositionSample sample = made->sample_position(u, 0);
-      EXPECT_EQ(sample.at.kind, PointKind::surface);
       EXPECT_EQ(sample.pdf, made->pdf_position(sample.at));
       if (made->delta_position()) {
         EXPECT_EQ(sample.pdf, 1);
@@ -389,6 +406,61 @@ TEST(Orthographic, RaysAreParallelAndStartOnItsPlane) {
   EXPECT_NEAR(seen->importance * G * area, 1, 1e-6);
 }
 
+TEST(Spherical, LooksAllAroundByLongitudeAndLatitude) {
+  const CameraPtr made = camera(sensor_spherical(), {}, whole(64, 32));
+  const struct {
+    Vec2 raster;
+    Vec3 w;
+  } sights[] = {{{32, 16}, {0, 0, 1}},   // the middle
+                {{48, 16}, {-1, 0, 0}},  // to the right
+                {{16, 16}, {1, 0, 0}},  {{0, 16}, {0, 0, -1}},
+                {{20, 0}, {0, 1, 0}},  // up
+                {{20, 32}, {0, -1, 0}}, {{32, 24}, {0, -std::sqrt(0.5), std::sqrt(0.5)}}};
+  for (const auto& [raster, w] : sights)
+    expect_close(made->direction(lens_center(*made), raster), w, 1e-15);
+  const auto behind = made->raster_position(lens_center(*made), {-0.0, 0, -1});
+  ASSERT_TRUE(behind);
+  EXPECT_EQ(*behind, Vec2(0, 16));
+}
+
+TEST(Spherical, SeesNothingOutsideOfTheCropWindow) {
+  const CameraPtr made = camera(sensor_spherical(), {}, {{80, 60}, {28, 20}, {31, 23}, 1.5});
+  const SurfacePoint xk = lens_center(*made);
+  EXPECT_EQ(made->raster().border, 0);
+  for (const Vec2& outside : {Vec2(-0.1, 5), Vec2(31.1, 5), Vec2(5, -0.1), Vec2(5, 23.1)}) {
+    const Vec3 w = made->direction(xk, outside);
+    EXPECT_FALSE(made->project(xk, w));
+    EXPECT_EQ(made->reach(xk, w), infinity);
+  }
+}
+
+TEST(Fisheye, AnglesAreProportionalToDistancesFromTheMiddle) {
+  const CameraPtr made = camera(sensor_fisheye(), {{"fov", 200.0}}, whole(80, 60));
+  for (const double share : {0.0, 0.3, 0.5, 0.999}) {
+    const double theta = share * 100 * degree;
+    expect_close(made->direction(lens_center(*made), {40 + 30 * share, 30}),
+                 {-std::sin(theta), 0, std::cos(theta)}, 1e-14);
+    expect_close(made->direction(lens_center(*made), {40, 30 - 30 * share}),
+                 {0, std::sin(theta), std::cos(theta)}, 1e-14);
+  }
+}
+
+TEST(Fisheye, IsBlackOutsideOfTheCircle) {
+  for (const double fov : {20.0, 180.0, 360.0}) {
+    const CameraPtr made =
+        camera(sensor_fisheye(), {{"to_world", placed}, {"fov", fov}}, whole(80, 60, 2));
+    for (const Vec2& outside : {Vec2(0, 0), Vec2(9.9, 30), Vec2(40, -1), Vec2(79, 59)}) {
+      const Ray ray = made->ray(outside, Vec2(0.5), 0);
+      EXPECT_EQ(ray.t_max, 0) << fov;
+      EXPECT_NEAR(length(ray.d), 1, 1e-14);
+      EXPECT_FALSE(made->project(lens_center(*made), ray.d)) << fov;
+    }
+    const Ray inside = made->ray({10.1, 30}, Vec2(0.5), 0);
+    EXPECT_EQ(inside.t_max, infinity);
+    EXPECT_TRUE(made->project(lens_center(*made), inside.d));
+  }
+}
+
 TEST(Camera, TimeRunsWhileTheShutterIsOpen) {
   const auto made =
       make<Camera>(sensor_perspective(), {{"shutterOpen", 0.5}, {"shutterClose", 2.5}});
@@ -414,6 +486,10 @@ TEST(Camera, RefusesWhatMakesNoImage) {
   shear[1] = 0.1;
   EXPECT_THAT(error_in(sensor_perspective(), {{"to_world", singular}}), HasSubstr("singular"));
   EXPECT_THAT(error_in(sensor_perspective(), {{"to_world", shear}}), HasSubstr("shear"));
+  for (double fov : {0.0, -10.0, 360.1})
+    EXPECT_THAT(error_in(sensor_fisheye(), {{"fov", fov}}), HasSubstr("fov")) << fov;
+  for (const Plugin& all_around : {sensor_spherical(), sensor_fisheye()})
+    EXPECT_THAT(error_in(all_around, {{"near_clip", 1.0}}), HasSubstr("near_clip"));
   EXPECT_THAT(error_in(sensor_thinlens(), {}), HasSubstr("aperture_radius"));
   EXPECT_THAT(error_in(sensor_thinlens(), {{"aperture_radius", -1.0}}), HasSubstr("negative"));
   EXPECT_THAT(error_in(sensor_thinlens(), {{"aperture_radius", 1.0}, {"focus_distance", 0.0}}),

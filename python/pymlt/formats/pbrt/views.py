@@ -48,6 +48,8 @@ def camera(params: Params, camera_from_world: np.ndarray) -> dict[str, Any]:
     to_world = np.linalg.inv(camera_from_world) @ np.diag([-1.0, 1, 1, 1])
     if params.type == "orthographic":
         return orthographic(params, to_world)
+    if params.type in ("spherical", "environment"):
+        return spherical(params, np.linalg.inv(camera_from_world))
     if params.type != "perspective":
         params.warn(f"the camera {params.type!r} is taken as 'perspective'")
     view = {
@@ -75,6 +77,20 @@ def orthographic(params: Params, to_world: np.ndarray) -> dict[str, Any]:
     placed = np.diag([(right - left) / 2, (right - left) / 2, 1, 1])
     placed[:2, 3] = -(left + right) / 2, (bottom + top) / 2
     return {"type": "orthographic", "to_world": to_world @ placed}
+
+
+def spherical(params: Params, to_world: np.ndarray) -> dict[str, Any]:
+    """The middle of its image looks along -x, that of ours along z; "environment" in pbrt-v3."""
+    import numpy as np
+
+    default = "equalarea" if params.type == "spherical" else "equirectangular"
+    mapping = params.text("mapping", default)
+    if mapping != "equirectangular":
+        params.warn(f"the mapping {mapping!r} is taken as 'equirectangular'")
+    params.finish()
+    turned = np.zeros((4, 4))
+    turned[0, 2], turned[1, 1], turned[2, 0], turned[3, 3] = -1, 1, 1, 1
+    return {"type": "spherical", "to_world": to_world @ turned}
 
 
 def angle_of_view(params: Params) -> float:
