@@ -6,6 +6,7 @@
 #include "text.h"
 
 #include "io/pack.h"
+#include "io/view_nodes.h"
 #include "job/make_integrator.h"
 #include "job/output.h"
 #include "job/plugins.h"
@@ -82,6 +83,7 @@ py::dict info(const LoadedScene& loaded) {
   info["radius"] = scene.bounds().radius;
   info["integrator"] =
       loaded.integrator ? py::object(py::str(loaded.integrator->type)) : py::none();
+  info["sensors"] = sensor_count(loaded.tree);
   info["sample_count"] = scene.sample_count();
   info["spectral"] = scene.camera().spectral();
   info["filter"] =

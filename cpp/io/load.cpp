@@ -1,6 +1,7 @@
 #include "io/load.h"
 
 #include "base/atomic_file.h"
+#include "io/batches.h"
 #include "io/builder.h"
 #include "io/families.h"
 #include "io/leniency.h"
@@ -110,7 +111,8 @@ LoadedScene build_scene(const Node& tree, const Registry& registry, const LoadOp
                         const Known* known) {
   const auto start = Clock::now();
   LoadedScene loaded;
-  loaded.tree = options.sensor ? asking_for(tree, *options.sensor) : tree;
+  loaded.tree = without_batches(tree, registry);
+  if (options.sensor) loaded.tree = asking_for(std::move(loaded.tree), *options.sensor);
   if (!options.filter.empty()) {
     registry.find("rfilter", options.filter, {});
     change_films(loaded.tree, [&](Node& film) {

@@ -19,6 +19,13 @@ std::optional<int64_t> asked_sensor(const Node& scene) {
   return std::nullopt;
 }
 
+std::vector<const Node*> all_sensors(const Node& scene) {
+  std::vector<const Node*> sensors;
+  for (const Node& child : scene.children)
+    if (child.family == "sensor") sensors.push_back(&child);
+  return sensors;
+}
+
 /// The property `aovs` of Mitsuba's integrator of that name.
 std::string asked_aovs(const Node& integrator) {
   for (const Node::Property& property : integrator.properties)
@@ -73,9 +80,7 @@ void make_spectral(Node& tree, const std::string& band) {
 }
 
 const Node& chosen_sensor(const Node& scene, std::vector<std::string>& warnings) {
-  std::vector<const Node*> sensors;
-  for (const Node& child : scene.children)
-    if (child.family == "sensor") sensors.push_back(&child);
+  const std::vector<const Node*> sensors = all_sensors(scene);
   if (sensors.empty())
     throw SceneError(at(scene.where, "the scene has no sensor; add <sensor type=\"perspective\">"));
   const auto asked = asked_sensor(scene);
@@ -90,6 +95,8 @@ const Node& chosen_sensor(const Node& scene, std::vector<std::string>& warnings)
                           sensors.size()));
   return *sensors[static_cast<size_t>(asked.value_or(0))];
 }
+
+size_t sensor_count(const Node& scene) { return all_sensors(scene).size(); }
 
 void find_integrator(const Node& scene, LoadedScene& loaded) {
   const Node* integrator = nullptr;

@@ -9,6 +9,8 @@ namespace mlt {
 
 /// The scene with the index of the sensor that is asked for.
 Node asking_for(Node scene, int64_t sensor);
+/// How many sensors a scene has.
+size_t sensor_count(const Node& scene);
 /// The sensor that is asked for, or the first one. Throws SceneError if there is none, UsageError
 /// if there are not so many.
 const Node& chosen_sensor(const Node& scene, std::vector<std::string>& warnings);

@@ -57,7 +57,7 @@ const std::vector<Refusal>& refusals() {
       {"sensor",
        "sensors on surfaces and in volumes are not supported; radiancemeter measures along a ray",
        {"irradiancemeter", "fluencemeter"}},
-      {"sensor", "render the views one by one", {"batch"}},
+      {"sensor", "put it at the top of the scene, with other sensors inside", {"batch"}},
       {"film", "images are held in memory; use hdrfilm", {"tiledhdrfilm"}},
       {"film", "the command line writes images; use hdrfilm", {"mfilm"}},
       {"film", "spectral rendering is not supported; use hdrfilm", {"specfilm"}},

@@ -41,6 +41,54 @@ def test_a_dict_may_have_several_sensors():
     assert not np.array_equal(image, rendered(scene, sensor=0))
 
 
+FILM = re.search(r"<film.*</film>", ONE, re.DOTALL)[0]
+
+
+def batch(film: str, inside: str = ONE + OTHER) -> str:
+    """A scene whose sensors share this film."""
+    return tiny.XML.replace(ONE, f'<sensor type="batch">{inside}{film}</sensor>')
+
+
+def test_the_sensors_of_a_batch_share_its_film():
+    wide = FILM.replace('"16"', '"32"')
+    scene = mlt.load_string(batch(wide))
+    assert scene.info()["sensors"] == 2
+    side = mlt.load_string(ALONE.replace('"20"', '"12"'))
+    np.testing.assert_array_equal(rendered(scene, sensor=0), rendered(tiny.scene()))
+    np.testing.assert_array_equal(rendered(scene, sensor=1), rendered(side))
+    named = batch('<ref id="shared"/>').replace(
+        "<sensor", wide.replace("<film", '<film id="shared"') + "<sensor", 1
+    )
+    np.testing.assert_array_equal(rendered(mlt.load_string(named), sensor=1), rendered(side))
+
+
+def test_a_batch_may_be_a_dict():
+    scene = tiny.scene()
+    film = scene["sensor"].pop("film")
+    scene["sensor"] = {
+        "type": "batch",
+        "film": film | {"width": 48},
+        **{f"view_{i}": scene["sensor"] for i in range(3)},
+    }
+    loaded = mlt.load_dict(scene)
+    images = [rendered(loaded, sensor=i) for i in range(loaded.info()["sensors"])]
+    assert np.concatenate(images, axis=1).shape == (12, 48, 3)
+    np.testing.assert_array_equal(images[2], rendered(tiny.scene()))
+
+
+@pytest.mark.parametrize(
+    ("scene", "said"),
+    [
+        (batch(FILM.replace('"16"', '"31"')), "31 pixels wide.*2 sensors.*multiple of 2"),
+        (batch(FILM, ""), "has no sensors inside"),
+        (batch(FILM, f'<sensor type="batch">{ONE}</sensor>'), "at the top of the scene"),
+    ],
+)
+def test_a_batch_that_cannot_be_shared_is_an_error(scene, said):
+    with pytest.raises(mlt.SceneError, match=said):
+        mlt.load_string(scene)
+
+
 @pytest.mark.parametrize("sensor", [2, -1])
 def test_a_sensor_that_is_not_there_is_an_error(sensor):
     with pytest.raises(
