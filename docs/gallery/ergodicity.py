@@ -29,17 +29,9 @@ mixtures = {
     "small steps alone": [(walk, 1.0)],
     "5 % uniform proposals": [(walk, 0.95), (metropolis.Uniform(0, 1), 0.05)],
 }
-figure, axes = plt.subplots(2, 3, figsize=(12, 6), width_ratios=[1.2, 1, 1.1])
 truth = (1 - RIGHT) / (1 - RIGHT + LEFT)
-for (name, moves), row, color in zip(
-    mixtures.items(), axes, (gallery.RED, gallery.GREEN), strict=True
-):
-    run = metropolis.run(f, moves, 0.1, STEPS, seed=1)
-    row[0].plot(run.states[:1500], ".", ms=2, color=color)
-    row[0].axhspan(LEFT, RIGHT, color="0.9", lw=0)
-    row[0].set(title=name, xlabel="step", ylabel="x", ylim=(0, 1))
-    row[1].hist(run.samples, 50, range=(0, 1), density=True, color=color, alpha=0.7)
-    row[1].set(xlabel="x", title="histogram")
+runs = {name: metropolis.run(f, moves, 0.1, STEPS, seed=1) for name, moves in mixtures.items()}
+for name, run in runs.items():
     right = (run.samples > RIGHT).mean()
     print(f"{name}: {100 * right:.0f} % on the right, which should be {100 * truth:.0f} %")
 
@@ -57,14 +49,22 @@ light = {
     "caustic perturbations alone": [mlt.Caustic()],
     "and bidirectional mutations": [mlt.Caustic(), mlt.Lens(), mlt.Bidirectional()],
 }
-for (name, moves), row, color in zip(
-    light.items(), axes, (gallery.RED, gallery.GREEN), strict=True
-):
-    run = metropolis.run(target, moves, start, 3000, seed=2)
-    raster = np.array([path.raster for path in run.states])
+chains = {name: metropolis.run(target, moves, start, 3000, seed=2) for name, moves in light.items()}
+for name, run in chains.items():
     kinds = {path.signature for path in run.states}
+    print(f"{name}: {', '.join(sorted(kinds, key=len))}")
+
+figure, axes = plt.subplots(2, 3, figsize=(12, 6), width_ratios=[1.2, 1, 1.1])
+colors = (gallery.RED, gallery.GREEN)
+for (name, run), row, color in zip(runs.items(), axes, colors, strict=True):
+    row[0].plot(run.states[:1500], ".", ms=2, color=color)
+    row[0].axhspan(LEFT, RIGHT, color="0.9", lw=0)
+    row[0].set(title=name, xlabel="step", ylabel="x", ylim=(0, 1))
+    row[1].hist(run.samples, 50, range=(0, 1), density=True, color=color, alpha=0.7)
+    row[1].set(xlabel="x", title="histogram")
+for (name, run), row, color in zip(chains.items(), axes, colors, strict=True):
+    raster = np.array([path.raster for path in run.states])
     row[2].imshow((3 * image / (1 + 3 * image)) ** (1 / 2.2))
     row[2].plot(*raster.T, ".", ms=1.5, color=color)
     row[2].set(title=name, xticks=[], yticks=[], xlim=(0, 160), ylim=(160, 0))
-    print(f"{name}: {', '.join(sorted(kinds, key=len))}")
 plt.show()
