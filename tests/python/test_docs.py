@@ -16,6 +16,7 @@ from pymlt.cli import make_parser
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGES = [ROOT / "README.md", *ROOT.glob("docs/*.md"), *ROOT.glob("docs/mutations/*.md")]
+PAGES += ROOT.glob("docs/course/*.md")
 PAGES += ROOT.glob("scenes/**/*.md")
 WITH_NOTES = [*PAGES, ROOT / "CONTRIBUTING.md", ROOT / "CHANGELOG.md"]
 
