@@ -85,7 +85,7 @@ class SceneParameters(MutableMapping[str, Any]):
 
 
 def traverse(scene: _core.Scene) -> SceneParameters:
-    """The parameters of a scene, to be set by their names and then `update`d.
+    """The parameters of a scene, to be set by their names and then updated by `update`.
 
         params = mlt.traverse(scene)
         params["clay.reflectance"] = [0.1, 0.2, 0.9]
