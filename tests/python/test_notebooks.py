@@ -1,12 +1,18 @@
-"""The notebooks of the documentation run from top to bottom, and warn of nothing."""
+"""The notebooks of the documentation run from top to bottom, and warn of nothing.
+
+Exercises say that nothing is filled in yet, and solutions that all is right.
+"""
 
 import json
+import re
 import warnings
 from pathlib import Path
 
 import pytest
 
-NOTEBOOKS = sorted((Path(__file__).parents[2] / "docs" / "notebooks").glob("*.ipynb"))
+DOCS = Path(__file__).parents[2] / "docs"
+EXERCISES = sorted(DOCS.glob("course/exercises/*.ipynb"))
+NOTEBOOKS = sorted(DOCS.glob("notebooks/*.ipynb")) + EXERCISES
 
 shell_module = pytest.importorskip("IPython.core.interactiveshell")
 
@@ -23,6 +29,8 @@ def shell(tmp_path, monkeypatch):
 
 def test_there_are_notebooks():
     assert len(NOTEBOOKS) >= 2
+    names = {path.stem for path in EXERCISES}
+    assert {f"{name}-solution" for name in names if not name.endswith("-solution")} <= names
 
 
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda p: p.stem)
@@ -36,4 +44,9 @@ def test_a_notebook_runs_without_warnings(path, shell, capsys):
         warnings.simplefilter("error")
         for cell in cells:
             shell.run_cell("".join(cell["source"])).raise_error()
-    assert "Warning" not in capsys.readouterr().err
+    said = capsys.readouterr()
+    assert "Warning" not in said.err
+    if path in EXERCISES:
+        answers = re.findall(r": (not yet|right|WRONG)$", said.out, re.MULTILINE)
+        expected = "right" if path.stem.endswith("-solution") else "not yet"
+        assert set(answers) == {expected}, said.out

@@ -50,7 +50,7 @@ def batch(film: str, inside: str = ONE + OTHER) -> str:
 
 
 def test_the_sensors_of_a_batch_share_its_film():
-    wide = FILM.replace('"16"', '"32"')
+    wide = FILM.replace('"$res"', '"32"')
     scene = mlt.load_string(batch(wide))
     assert scene.info()["sensors"] == 2
     side = mlt.load_string(ALONE.replace('"20"', '"12"'))
@@ -79,7 +79,7 @@ def test_a_batch_may_be_a_dict():
 @pytest.mark.parametrize(
     ("scene", "said"),
     [
-        (batch(FILM.replace('"16"', '"31"')), "31 pixels wide.*2 sensors.*multiple of 2"),
+        (batch(FILM.replace('"$res"', '"31"')), "31 pixels wide.*2 sensors.*multiple of 2"),
         (batch(FILM, ""), "has no sensors inside"),
         (batch(FILM, f'<sensor type="batch">{ONE}</sensor>'), "at the top of the scene"),
     ],
