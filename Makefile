@@ -6,7 +6,7 @@ UV ?= uv
 JOBS ?= $(shell nproc)
 DEMO_SCENE ?= scenes/ring/scene.xml
 # Longer paths show the caustic again in the ring's metal: that light needs more time than a demo has.
-DEMO_FLAGS ?= --integrator mlt -p max_depth=3 --spp 200 --seed 2
+DEMO_FLAGS ?= --integrator mlt -p max_depth=3 --time 15 --seed 2
 SHARD ?= 1/1
 MINUTES ?= 1
 HOURS ?= 1

@@ -65,17 +65,17 @@ void bind_executor(py::module_& m) {
       .def_property_readonly("units_done", &PyJob::units_done)
       .def_property_readonly(
           "units_per_cycle", [](PyJob& job) { return job.rendering().plan().units_per_cycle; },
-          "After this number of units each share has had its turn.")
+          "After this number of units each strand has had its turn.")
       .def_property_readonly("task_count", [](PyJob& job) { return job.tasks().size(); })
       .def(
           "position", [](PyJob& job, size_t task) { return job.tasks().position(task); },
-          py::arg("task"), "Up to which unit the task's shares are done.")
+          py::arg("task"), "Up to which unit the task's strands are done.")
       .def(
           "skip", [](PyJob& job, size_t task, uint64_t to) { return job.tasks().skip(task, to); },
           py::arg("task"), py::arg("to"), "Move a task on that has nothing to do until there.")
       .def(
           "split", [](PyJob& job, size_t task) { return job.tasks().split(task); }, py::arg("task"),
-          "Cut a task in two; False if it has but one share.")
+          "Cut a task in two; False if it has but one strand.")
       .def(
           "task",
           [](PyJob& job, size_t task, uint64_t to) -> py::bytes {

@@ -29,7 +29,7 @@ MadeIntegrator with_python_mutations(const MadeIntegrator& made, const LoadedPtr
     const auto held = hold(object);
     const auto make = [loaded, held](const PathTarget& target) {
       if (target.scene_ptr() != loaded->scene)
-        throw UsageError("an integrator with mutations written in Python serves one scene only");
+        throw UsageError("an integrator with mutations written in Python is for one scene only");
       const AcquiredGil gil;
       return to_mutation(loaded, target, *held);
     };

@@ -78,7 +78,7 @@ class MultiplexedAlgorithm : public MetropolisAlgorithm {
   const Scene& scene() const override { return target_.scene(); }
   std::unique_ptr<Source> source() const override { return path_candidates(target_); }
   std::unique_ptr<Source> sample_source() const override { return path_samples(target_); }
-  std::unique_ptr<SampleTaker> sample_taker(const FamilyWeights& weights) const override {
+  std::unique_ptr<SampleTaker> sample_taker(const ClampingWeights& weights) const override {
     return path_sample_taker(target_, weights);
   }
   /// Starts from one of the candidate's paths, chosen in proportion to its weight.

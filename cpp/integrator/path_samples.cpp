@@ -67,7 +67,8 @@ class WeightedPathEstimator : public Estimator {
   PathSampleWave::WeightsAt weights_;
 };
 
-std::unique_ptr<SampleTaker> traced_taker(const PathTarget& target, const FamilyWeights& weights) {
+std::unique_ptr<SampleTaker> traced_taker(const PathTarget& target,
+                                          const ClampingWeights& weights) {
   const Scene& scene = target.scene();
   const double threshold = radiance_scale(scene) * weights.threshold();
   const auto weights_at = [&target, threshold](const Vec2& raster) {
@@ -92,7 +93,7 @@ std::unique_ptr<Source> path_samples(const PathTarget& target) {
 }
 
 std::unique_ptr<SampleTaker> path_sample_taker(const PathTarget& target,
-                                               const FamilyWeights& weights) {
+                                               const ClampingWeights& weights) {
   if (are_traced(target)) return traced_taker(target, weights);
   const Scene& scene = target.scene();
   const BidirectionalSettings settings = PathSeeds::settings(target);

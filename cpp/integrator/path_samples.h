@@ -12,9 +12,9 @@ std::unique_ptr<MetropolisAlgorithm::Source> path_candidates(const PathTarget& t
 /// The samples that go to the image, one by one, for the pilot.
 std::unique_ptr<MetropolisAlgorithm::Source> path_samples(const PathTarget& target);
 
-/// The samples that go to the image, side by side where waves serve the scene. Those of path
+/// The samples that go to the image, side by side where waves support the scene. Those of path
 /// tracing do not estimate the brightness, since there may be light they cannot find.
 std::unique_ptr<SampleTaker> path_sample_taker(const PathTarget& target,
-                                               const FamilyWeights& weights);
+                                               const ClampingWeights& weights);
 
 }  // namespace mlt

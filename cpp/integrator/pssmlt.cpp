@@ -90,7 +90,7 @@ class Pssmlt : public MetropolisAlgorithm {
   std::unique_ptr<Source> source() const override {
     return make_source(estimator(), targeting(), is_path ? path_cost : 1);
   }
-  std::unique_ptr<SampleTaker> sample_taker(const FamilyWeights& weights) const override {
+  std::unique_ptr<SampleTaker> sample_taker(const ClampingWeights& weights) const override {
     std::unique_ptr<PathSampleWave> wave;
     if (is_path) wave = PathSampleWave::where_wanted(*scene_, settings_.path, Heuristic::power);
     return take_beside_chains(*scene_, estimator(), targeting(), weights, std::move(wave));

@@ -192,7 +192,7 @@ void Job::render() {
 /// Every unit that was begun is finished, so in a pause the units before units_done_ are done.
 void Job::run_units(uint64_t to) {
   mlt::run_units(
-      *rendering_, {Shares(), units_done_, to}, threads_, [this] { return interrupted(); },
+      *rendering_, {Strands(), units_done_, to}, threads_, [this] { return interrupted(); },
       units_done_);
 }
 

@@ -26,7 +26,7 @@ uint64_t run_units(Rendering& rendering, const Task& task, int threads,
     while (!failed && !interrupted()) {
       const uint64_t unit = next++;
       if (unit >= task.to) break;
-      if (!task.shares.has(rendering.plan().share_of(unit))) continue;
+      if (!task.strands.has(rendering.plan().strand_of(unit))) continue;
       try {
         rendering.run_unit(unit);
       } catch (...) {
@@ -41,7 +41,7 @@ uint64_t run_units(Rendering& rendering, const Task& task, int threads,
 
 TaskList::TaskList(Rendering& rendering, uint64_t seed, int wanted, uint64_t done)
     : rendering_(&rendering), seed_(seed) {
-  for (const Shares& shares : rendering.plan().cut(wanted)) tasks_.push_back({shares, done});
+  for (const Strands& strands : rendering.plan().cut(wanted)) tasks_.push_back({strands, done});
 }
 
 uint64_t TaskList::done() const {
@@ -52,10 +52,10 @@ uint64_t TaskList::done() const {
 
 bool TaskList::split(size_t index) {
   Task& task = tasks_.at(index);
-  const uint64_t middle = (task.shares.first + task.shares.last) / 2;
-  if (middle == task.shares.first) return false;
-  const Task second{{middle, task.shares.last}, task.from};
-  task.shares.last = middle;
+  const uint64_t middle = (task.strands.first + task.strands.last) / 2;
+  if (middle == task.strands.first) return false;
+  const Task second{{middle, task.strands.last}, task.from};
+  task.strands.last = middle;
   tasks_.push_back(second);
   return true;
 }
@@ -63,7 +63,7 @@ bool TaskList::split(size_t index) {
 bool TaskList::skip(size_t index, uint64_t to) {
   Task& task = tasks_.at(index);
   for (uint64_t unit = task.from; unit < to; ++unit)
-    if (task.shares.has(rendering_->plan().share_of(unit))) return false;
+    if (task.strands.has(rendering_->plan().strand_of(unit))) return false;
   task.from = std::max(task.from, to);
   return true;
 }
@@ -85,7 +85,7 @@ uint64_t TaskList::merge(size_t index, const std::string& result) {
   std::string state;
   bytes.read(state);
   bytes.finish();
-  if (done.shares.first != task.shares.first || done.shares.last != task.shares.last ||
+  if (done.strands.first != task.strands.first || done.strands.last != task.strands.last ||
       done.from != task.from || done.to < task.from)
     throw RenderError("the result of a task came that was not asked for");
   rendering_->load(state);

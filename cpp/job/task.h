@@ -1,5 +1,5 @@
-// A render on several machines. The owner keeps the whole state; for some shares it writes a task,
-// "units from ... to, and this is where the shares stand", which any machine with the same scene,
+// A render on several machines. The owner keeps the whole state; for some strands it writes a task,
+// "units from ... to, and this is where the strands stand", which any machine with the same scene,
 // integrator and seed can run, any number of times with the same result. A result is merged once.
 // The pixels have the same bits as if one machine had run all units.
 #pragma once
@@ -18,7 +18,7 @@ namespace mlt {
 uint64_t run_units(Rendering& rendering, const Task& task, int threads,
                    const std::function<bool()>& interrupted, std::atomic<uint64_t>& units_done);
 
-/// The owner's side: the shares of a render, cut into sequences that have one task each. Not for
+/// The owner's side: the strands of a render, cut into sequences that have one task each. Not for
 /// several threads at once.
 class TaskList {
  public:
@@ -26,14 +26,14 @@ class TaskList {
   TaskList(Rendering& rendering, uint64_t seed, int wanted, uint64_t done);
 
   size_t size() const { return tasks_.size(); }
-  /// The unit before which the task's shares are done.
+  /// The unit before which the task's strands are done.
   uint64_t position(size_t index) const { return tasks_.at(index).from; }
   /// The units before this one are done, perhaps with some others.
   uint64_t done() const;
-  /// Cuts a task's shares in two, for more machines; false if it has but one share. The second
+  /// Cuts a task's strands in two, for more machines; false if it has but one strand. The second
   /// half becomes the last task.
   bool split(size_t index);
-  /// Moves the task on to the unit `to` if its shares have nothing to do until there.
+  /// Moves the task on to the unit `to` if its strands have nothing to do until there.
   bool skip(size_t index, uint64_t to);
   /// Writes the task, up to the unit `to`, as bytes for `run`.
   std::string task(size_t index, uint64_t to) const;

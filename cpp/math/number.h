@@ -1,5 +1,5 @@
 // What formulas are written over: double for single paths, and Float8 for eight of them side by
-// side, or Double4 where single precision is not enough. A formula that is to serve all chooses by
+// side, or Double4 where single precision is not enough. A formula for all of them chooses by
 // select(), and not by a branch.
 #pragma once
 

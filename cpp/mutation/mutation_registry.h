@@ -20,7 +20,7 @@ struct MutationPlugin {
   MutationPtr (*make)(const PathTarget& target, Params& own);
   bool on = true;  ///< Whether it is on by default.
   /// Whether it can move anything in a scene; nullptr: in all.
-  bool (*serves)(const Scene& scene) = nullptr;
+  bool (*supports)(const Scene& scene) = nullptr;
 
   const std::string& name() const { return schema.name; }
   std::string weight_name() const { return name() + "_weight"; }

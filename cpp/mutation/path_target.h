@@ -3,10 +3,10 @@
 //   T(x) = L*(x) m(x),   T'(x) = T(x) w2(x)
 //
 // m is the factor of two-stage sampling, and w2 the share of T that is left to chains where there
-// are independent samples beside them (FamilyWeights). Chains have the target T'.
+// are independent samples beside them (ClampingWeights). Chains have the target T'.
 #pragma once
 
-#include "markov/family_weights.h"
+#include "markov/clamping_weights.h"
 #include "mutation/certain_light.h"
 #include "mutation/path_state.h"
 #include "mutation/target_map.h"
@@ -61,8 +61,8 @@ class PathTarget {
   /// The factor of two-stage sampling.
   double factor(const Vec2& raster) const { return map_ ? (*map_)(raster) : 1.0; }
   /// The weights of samples and chains; without any samples, T' is T.
-  const FamilyWeights& weights() const { return weights_; }
-  void set_weights(const FamilyWeights& weights) { weights_ = weights; }
+  const ClampingWeights& weights() const { return weights_; }
+  void set_weights(const ClampingWeights& weights) { weights_ = weights; }
 
   /// T for light of this color, f or f / p, at a raster position, by a path of this certainty.
   double of(const Color& color, const Vec2& raster, double certainty) const {
@@ -114,7 +114,7 @@ class PathTarget {
   std::shared_ptr<const ManifoldGuide> manifolds_;
   std::shared_ptr<const ManifoldSampler> manifold_;
   SampleTechniques techniques_ = SampleTechniques::all;
-  FamilyWeights weights_;
+  ClampingWeights weights_;
 };
 
 }  // namespace mlt

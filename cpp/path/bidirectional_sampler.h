@@ -1,6 +1,6 @@
 // All ways of connecting a light and a camera subpath into a path (Veach & Guibas 1994; Lafortune &
 // Willems 1993), each with its multiple importance sampling weight. This is the text to read and to
-// change first; `bdpt` renders by wave/bidirectional_wave.h where that serves, which is tested
+// change first; `bdpt` renders by wave/bidirectional_wave.h where it can, which is tested
 // against it (docs/waves.md).
 #pragma once
 

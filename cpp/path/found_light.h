@@ -28,7 +28,7 @@ struct FoundLight : ImageLight {
   int joint = 0;         ///< See joint_number().
   /// Set where there is a target T:
   double weight = 0;               ///< Contribution to b, the integral of the target: T / p.
-  double target_over_density = 0;  ///< T / P (see FamilyWeights), or what stands for it.
+  double target_over_density = 0;  ///< T / P (see ClampingWeights), or what stands for it.
 
   bool valid() const {
     return is_finite(rgb) && min_component(rgb) >= 0 && weight >= 0 && std::isfinite(weight) &&

@@ -37,7 +37,7 @@ inline bool find_end(const Scene& scene, const WalkVertex& x, Subpath::From from
   const SurfacePoint& at = x.vertex.at;
   const auto edge = lambertian_edge(at.ng, at.shading.n, w, x.joint.cosine, strict);
   end.value = from == Subpath::From::light ? x.joint.value : x.joint.value * edge.quotient;
-  end.onwards = edge.quotient * inv_pi;
+  end.onwards = edge.density();
   end.back = x.joint.back;
   end.dispersed = x.dispersed;
   return edge.scatters;

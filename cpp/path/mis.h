@@ -11,6 +11,12 @@ namespace mlt {
 
 enum class Heuristic { balance, power, maximum };
 
+/// The weight of a technique that counts `own` times beside the others, which count these sums of
+/// r_i^beta: those below it, and those above it (Veach 1997, eq. 9.8, and 9.13 with beta = 2).
+inline double mis_weight(double own, double below, double above = 0) {
+  return own / (own + below + above);
+}
+
 /// The beta of the heuristic to which quotients of densities are raised: 1 for the balance
 /// heuristic, 2 for the power heuristic. Without a branch: by a factor of 1 or of the quotient.
 class MisExponent {
@@ -28,8 +34,8 @@ class MisExponent {
   F over(F sum, F quotient) const {
     return sum * raise(quotient);
   }
-  /// The weight of one of two techniques (Veach 1997, eq. 9.13), by their densities.
-  double weight(double own, double other) const { return 1 / (1 + raise(other / own)); }
+  /// The weight of one of two techniques by their densities.
+  double weight(double own, double other) const { return mis_weight(1, raise(other / own)); }
 
  private:
   double least_ = 0, most_ = infinity;
@@ -66,14 +72,14 @@ struct TechniqueSums {
   }
 };
 
-/// The weights of technique s (Veach 1997, eqs. 9.8, 9.13 with beta = 2, 9.12), which counts `own`
-/// times, from the sums over the techniques below s and above it.
+/// The weights of technique s, which counts `own` times, from the sums over the techniques below s
+/// and above it. For the maximum heuristic see Veach 1997, eq. 9.12.
 inline MisWeights mis_weights(double own, const TechniqueSums& below, const TechniqueSums& above,
                               Heuristic heuristic) {
-  const double balance = own / (own + below.sum + above.sum);
+  const double balance = mis_weight(own, below.sum, above.sum);
   switch (heuristic) {
     case Heuristic::balance: break;
-    case Heuristic::power: return {sqr(own) / (sqr(own) + below.squares + above.squares), balance};
+    case Heuristic::power: return {mis_weight(sqr(own), below.squares, above.squares), balance};
     case Heuristic::maximum:  // the first of equal techniques
       return {below.largest < own && above.largest <= own ? 1.0 : 0.0, balance};
   }

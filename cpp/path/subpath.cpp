@@ -82,7 +82,7 @@ void Subpath::prepare_joints(WalkVertex& x, bool strict_normals) {
     x.joint.cosine = cosine;
     x.joint.value = x.throughput * at.lambertian.f;
     if (from_ == From::light) x.joint.value *= edge.quotient;
-    x.joint.back = edge.quotient * inv_pi;
+    x.joint.back = edge.density();
   }
   vertices_[size() - 2].reverse = x.density_back(x.joint.back);
 }

@@ -30,7 +30,7 @@ struct Vertex {
 /// they are densities in the measure of the next vertex.
 ///
 /// With a shading normal ns beside the geometric one ng, f = f_s |wl.ns| / |wl.ng| (Veach 1997,
-/// sec. 5.3.2), so the same f serves walks from both ends.
+/// sec. 5.3.2), so f is the same for walks from both ends.
 ///
 /// At a delta vertex all three are coefficients of ONE delta, in the projected solid angle of the
 /// camera-side direction: f = F, pdf_from_light = P_l, pdf_from_camera = P_c (eta_l / eta_c)^2,
@@ -73,8 +73,11 @@ inline VertexTerms inner_terms(const Scene& scene, const SurfacePoint& at, Lobe 
 template <class F>
 struct LambertianEdge {
   F geometric;    ///< |w.ng|
-  F quotient;     ///< |w.ns| / |w.ng|; the density of w in projected solid angle is this over pi.
+  F quotient;     ///< |w.ns| / |w.ng|
   bool scatters;  ///< Whether light is scattered between w and the previous vertex.
+
+  /// The density of w in projected solid angle.
+  double density() const { return quotient * inv_pi; }
 };
 /// `cosine` is that of the direction to the previous vertex with ns; 0: nothing is scattered.
 template <class F>

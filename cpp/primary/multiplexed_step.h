@@ -22,7 +22,7 @@ struct MultiplexedState {
   Vec2 raster{0};
   Color rgb{0};                    ///< f / p, weighted among techniques.
   double target = 0;               ///< L* of rgb.
-  double target_over_density = 0;  ///< See FamilyWeights.
+  double target_over_density = 0;  ///< See ClampingWeights.
 
   void clear() {
     rgb = Color(0);

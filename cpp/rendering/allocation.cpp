@@ -90,7 +90,7 @@ class Forecast {
     Left left;
     for (const Start& start : starts_) {
       const double tau = techniques_ == SampleTechniques::all ? start.energy : start.traced,
-                   energy = start.energy * FamilyWeights(c).of_chain(tau),
+                   energy = start.energy * ClampingWeights(c).of_chain(tau),
                    share = start.count / start_samples_;
       if (tau > samples_.brightest)
         left.unseen += share * start.energy * sqr(std::min(c, tau)) / tau;
@@ -105,7 +105,7 @@ class Forecast {
     Choice choice;
     choice.j = variance * (samples_.cost() + work);
     choice.allocation.share = samples_.cost() / (samples_.cost() + work);
-    choice.allocation.weights = FamilyWeights(c);
+    choice.allocation.weights = ClampingWeights(c);
     choice.allocation.mutations_per_sample = samples_.cost() / t_m_;
     choice.allocation.techniques = techniques_;
     choice.allocation.brightness = b_;

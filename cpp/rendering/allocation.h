@@ -1,4 +1,4 @@
-// How a Metropolis render divides its time: the threshold c of FamilyWeights, which samples go to
+// How a Metropolis render divides its time: the threshold c of ClampingWeights, which samples go to
 // the image, and how many samples tours start from. All of it is efficiency alone; any value is
 // right. It is found from independent samples, whose paths are not used again.
 //
@@ -17,7 +17,7 @@
 //   H(c, n) = E[E^2; E > n c A] / (n A).
 #pragma once
 
-#include "markov/family_weights.h"
+#include "markov/clamping_weights.h"
 #include "mutation/path_target.h"
 
 #include <atomic>
@@ -30,8 +30,8 @@ class MetropolisAlgorithm;
 struct CoarseImage;
 
 struct Allocation {
-  double share = 0;       ///< Share of the time for independent samples; 1: there are no chains.
-  FamilyWeights weights;  ///< Weights of both families.
+  double share = 0;         ///< Share of the time for independent samples; 1: there are no chains.
+  ClampingWeights weights;  ///< Weights of samples and chains.
   double mutations_per_sample = 1;                      ///< Cost of an independent sample.
   SampleTechniques techniques = SampleTechniques::all;  ///< Used by the samples.
   bool in_time = true;                                  ///< Whether there was time to find it.
@@ -54,7 +54,7 @@ struct AllocationSettings {
 inline Allocation samples_alone(SampleTechniques techniques) {
   Allocation alone;
   alone.share = 1;
-  alone.weights = FamilyWeights(std::numeric_limits<double>::max());
+  alone.weights = ClampingWeights(std::numeric_limits<double>::max());
   alone.techniques = techniques;
   return alone;
 }

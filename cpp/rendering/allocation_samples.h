@@ -113,7 +113,7 @@ class AllocationSamples {
       const double value = target_luminance(one.rgb) * coarse_.map(one.raster);
       for (int t = 0; t < threshold_count; ++t) {
         const double clamped =
-            value * FamilyWeights::of_sample(one.target_over_density, coarse_.b * threshold(t));
+            value * ClampingWeights::of_sample(one.target_over_density, coarse_.b * threshold(t));
         sums.above[t] += value - clamped;
         if (one.own_pixel)
           own_pixel[t] += clamped;

@@ -1,5 +1,5 @@
 // The independent samples of a Metropolis render: each path that they find is added to the image
-// with its weight w1 (FamilyWeights), or may be where a chain starts.
+// with its weight w1 (ClampingWeights), or may be where a chain starts.
 #pragma once
 
 #include "primary/primary_step.h"
@@ -69,15 +69,15 @@ class SampleTargeting {
 /// Adds samples to the image with their weights w1. `Targeting` sets T / p and T / P of their
 /// light.
 template <class Targeting>
-class FamilySum {
+class ClampedSum {
  public:
-  FamilySum(const Scene& scene, const FamilyWeights& weights, Targeting targeting)
+  ClampedSum(const Scene& scene, const ClampingWeights& weights, Targeting targeting)
       : scale_(radiance_scale(scene)), weights_(weights), targeting_(std::move(targeting)) {}
 
   /// One sample.
   class Sample {
    public:
-    Sample(FamilySum& of, const Vec2& raster, SampleSink& sink)
+    Sample(ClampedSum& of, const Vec2& raster, SampleSink& sink)
         : of_(&of), raster_(raster), sink_(&sink) {}
     void add(const FoundLight& light) {
       of_->targeting_.add(light, [&](const FoundLight& found) { show(found); });
@@ -99,7 +99,7 @@ class FamilySum {
       sum_.add(found, of_->weights_);
     }
 
-    FamilySum* of_;
+    ClampedSum* of_;
     Vec2 raster_;
     SampleSink* sink_;
     Color own_pixel_{0};
@@ -108,15 +108,15 @@ class FamilySum {
 
  private:
   double scale_;
-  FamilyWeights weights_;
+  ClampingWeights weights_;
   Targeting targeting_;
 };
 
 template <class Estimator, class Targeting, class Wave = NoWave>
 std::unique_ptr<SampleTaker> take_beside_chains(const Scene& scene, Estimator estimator,
-                                                Targeting targeting, const FamilyWeights& weights,
+                                                Targeting targeting, const ClampingWeights& weights,
                                                 std::unique_ptr<Wave> wave = nullptr) {
-  using Sum = FamilySum<Targeting>;
+  using Sum = ClampedSum<Targeting>;
   return std::make_unique<EstimatorTaker<Estimator, Sum, Wave>>(
       std::move(estimator), Sum(scene, weights, std::move(targeting)), std::move(wave));
 }

@@ -39,7 +39,7 @@ class ImageSum {
 };
 
 /// `Sum` adds the light of samples to the image: Sum::Sample(sum, raster, sink) has add(light) and
-/// finish(). `wave`: nullptr where it does not serve the scene.
+/// finish(). `wave`: nullptr where it does not support the scene.
 template <class Estimator, class Sum = ImageSum, class Wave = NoWave>
 class EstimatorTaker : public SampleTaker {
  public:

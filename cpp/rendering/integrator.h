@@ -81,15 +81,15 @@ class Rendering {
   /// the image. Throws UsageError if the algorithm does not sample pixel by pixel.
   virtual Replay replay(const Vec2i& pixel, uint64_t sample);
 
-  /// Which content is saved. `task`: what the shares need to go on. `result`: the new state of the
-  /// shares, and the sums over all copies of the rendering (counters, sums in fixed point).
+  /// Which content is saved. `task`: what the strands need to go on. `result`: the new state of the
+  /// strands, and the sums over all copies of the rendering (counters, sums in fixed point).
   enum class Content : uint32_t { task, result, everything };
-  /// The state of some shares as bytes. No unit of these may be running. A checkpoint has
-  /// everything of all shares. A copy of the rendering that was not prepared can load what a task
+  /// The state of some strands as bytes. No unit of these may be running. A checkpoint has
+  /// everything of all strands. A copy of the rendering that was not prepared can load what a task
   /// needs, run its units in their order, and save the result; the rendering that loads this has
   /// the same bits as if it had run the units itself.
   virtual std::string save(const Task& task = {}, Content content = Content::everything) const = 0;
-  /// Replaces the state of the saved shares and adds the sums. Only for bytes that the same build
+  /// Replaces the state of the saved strands and adds the sums. Only for bytes that the same build
   /// has saved of a rendering of the same scene, settings and seed; for one that was just started
   /// it takes the place of `prepare`. Throws RenderError if the bytes do not fit.
   virtual void load(const std::string& state) = 0;

@@ -47,7 +47,7 @@ class MetropolisAlgorithm {
   /// The source of the samples that go to the image, for the pilot.
   virtual std::unique_ptr<Source> sample_source() const { return source(); }
   /// Takes the samples that go to the image, for the render.
-  virtual std::unique_ptr<SampleTaker> sample_taker(const FamilyWeights& weights) const = 0;
+  virtual std::unique_ptr<SampleTaker> sample_taker(const ClampingWeights& weights) const = 0;
   virtual const Scene& scene() const = 0;
   /// Starts a chain from the candidate that the same stream gave; `choice` chooses one of the
   /// paths that the candidate consists of.
@@ -86,7 +86,7 @@ class MetropolisAlgorithm {
   virtual void prepare(const CoarseImage& /*coarse*/, uint64_t /*seed*/, int /*threads*/,
                        const std::atomic<bool>& /*cancelled*/) {}
   /// Called once when the time is divided, before the first chain.
-  virtual void set_weights(const FamilyWeights& /*weights*/) {}
+  virtual void set_weights(const ClampingWeights& /*weights*/) {}
   /// Called once after that, to learn from pilot chains.
   virtual void adapt(double /*share*/, uint64_t /*seed*/, int /*threads*/,
                      const std::atomic<bool>& /*cancelled*/) {}
@@ -102,7 +102,7 @@ struct SampleWeights {
   double brightness = 0;  ///< L* / p.
   double of_chains = 0;   ///< w2 L* / p.
 
-  void add(const FoundLight& found, const FamilyWeights& weights) {
+  void add(const FoundLight& found, const ClampingWeights& weights) {
     const double luminance = target_luminance(found.rgb);
     target += found.weight;
     brightness += luminance;
@@ -112,7 +112,7 @@ struct SampleWeights {
 
 template <class Sampler>
 SampleWeights weigh(MetropolisAlgorithm::Source& source, const Raster& raster, Sampler sampler,
-                    const FamilyWeights& weights = {}) {
+                    const ClampingWeights& weights = {}) {
   SampleWeights sum;
   const Vec2 position = raster.sample(sampler.next2());
   for (const FoundLight& found : source.sample(position, sampler))

@@ -7,7 +7,7 @@
 #include "base/rng.h"
 #include "image/splat_film.h"
 #include "markov/chain.h"
-#include "markov/family_weights.h"
+#include "markov/clamping_weights.h"
 #include "math/weight_sums.h"
 #include "path/ray_counts.h"
 #include "rendering/stats.h"
@@ -22,7 +22,7 @@ namespace mlt {
 class ChainRecorder {
  public:
   virtual ~ChainRecorder() = default;
-  /// Records RGB / T of a state, its expected weight, and its T / P (see FamilyWeights).
+  /// Records RGB / T of a state, its expected weight, and its T / P (see ClampingWeights).
   virtual void record(const Vec2& raster, const Color& rgb_per_target, double weight,
                       double target_over_density) = 0;
   /// Whether record() uses T / P.
@@ -35,7 +35,7 @@ class ChainRecorder {
 /// pixel comes from memory.
 class FilmRecorder : public ChainRecorder {
  public:
-  FilmRecorder(SplatFilm& film, int group, const FamilyWeights& weights)
+  FilmRecorder(SplatFilm& film, int group, const ClampingWeights& weights)
       : film_(&film), group_(group), weights_(&weights) {}
   void record(const Vec2& raster, const Color& rgb_per_target, double weight,
               double target_over_density) override {
@@ -57,7 +57,7 @@ class FilmRecorder : public ChainRecorder {
  private:
   SplatFilm* film_;
   int group_;
-  const FamilyWeights* weights_;
+  const ClampingWeights* weights_;
   Vec2 raster_{0};
   Color color_{0};
   double brightness_ = 0;

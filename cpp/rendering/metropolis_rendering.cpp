@@ -39,7 +39,7 @@ std::unique_ptr<RenderChain> MetropolisRendering::blank_chain(const ChainBatch& 
   return algorithm_->blank(chain_id(team, chain), allocation_);
 }
 
-// ---- the layout of shares and units -------------------------------------------------------------
+// ---- the layout of strands and units ------------------------------------------------------------
 
 /// As many passes as samples alone would have, if they are the greater part; else one.
 uint64_t MetropolisRendering::passes_per_turn() const {
@@ -47,7 +47,7 @@ uint64_t MetropolisRendering::passes_per_turn() const {
   return allocation_.techniques == SampleTechniques::path_tracing ? 8 : 4;
 }
 
-/// Lays out the shares, once b of each group is known.
+/// Lays out the strands, once b of each group is known.
 void MetropolisRendering::lay_out() {
   samples_.reset();
   if (allocation_.share > 0)
@@ -55,12 +55,12 @@ void MetropolisRendering::lay_out() {
         scene_, seed_, SampledSettings{true, {}, passes_per_turn()},
         [this](const Scene&) { return algorithm_->sample_taker(allocation_.weights); });
   plan_.borders.clear();
-  for (uint64_t share = 0; share <= sample_shares(); ++share) plan_.borders.push_back(share);
+  for (uint64_t strand = 0; strand <= sample_strands(); ++strand) plan_.borders.push_back(strand);
   teams_.clear();
   for (int g = 0; g < group_count; ++g) {
     if (groups_[g].b > 0) form_teams(g);
-    if (sample_shares() + teams_.size() > plan_.borders.back())
-      plan_.borders.push_back(sample_shares() + teams_.size());
+    if (sample_strands() + teams_.size() > plan_.borders.back())
+      plan_.borders.push_back(sample_strands() + teams_.size());
   }
   lay_out_units();
 }
@@ -110,10 +110,10 @@ void MetropolisRendering::lay_out_units() {
   plan_.pixels = pixels();
   plan_.units_per_group_turn = round;
   plan_.units_per_cycle = (samples_ ? samples_->plan().units_per_cycle / tiles : 1) * round;
-  plan_.share_of = [this](uint64_t unit) {
+  plan_.strand_of = [this](uint64_t unit) {
     const Interleaving::Place place = interleaving_.place_of(unit);
-    return place.sampled ? samples_->plan().share_of(place.number)
-                         : sample_shares() + place.number % teams_.size();
+    return place.sampled ? samples_->plan().strand_of(place.number)
+                         : sample_strands() + place.number % teams_.size();
   };
 }
 

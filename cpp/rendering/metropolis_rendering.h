@@ -1,5 +1,5 @@
 // Rendering by Markov chains, with independent samples beside them: the common part of all
-// Metropolis integrators. Chains and samples find the same paths, weighted by FamilyWeights.
+// Metropolis integrators. Chains and samples find the same paths, weighted by ClampingWeights.
 //
 // A render is a fixed number of chains, each with its own random stream; a unit is some steps of
 // one chain or of a few that advance together, and these are visited in turn. They form independent
@@ -34,8 +34,8 @@ struct MetropolisSettings {
   std::optional<double> independent_share;
   std::optional<SampleTechniques> techniques;  ///< Techniques of samples; default: by a pilot.
   std::optional<double> steps_per_start;       ///< Steps of tours per sample that they start from.
-  bool parts = false;                          ///< Whether to keep both families' images as layers.
-  bool only_camera_walks = false;              ///< See warn_of_hidden_lights.
+  bool parts = false;              ///< Whether to keep the images of samples and chains as layers.
+  bool only_camera_walks = false;  ///< See warn_of_hidden_lights.
 };
 
 class MetropolisRendering : public Rendering {
@@ -60,7 +60,7 @@ class MetropolisRendering : public Rendering {
   /// The most steps of chains in a turn, so that it ends within about a second for any image size.
   static constexpr double most_steps_per_turn = 1 << 19;
 
-  /// Chains of a group that advance together: a share of the render, after those of the samples.
+  /// Chains of a group that advance together: a strand of the render, after those of the samples.
   struct ChainBatch {
     int group, first;  ///< Number of its first chain in the group.
     std::vector<std::unique_ptr<RenderChain>> chains;
@@ -77,10 +77,10 @@ class MetropolisRendering : public Rendering {
 
   double pixels() const { return scene_->camera().raster().pixels(); }
   int chains_of(int group) const;
-  ChainId chain_id(const ChainBatch& share, size_t chain) const;
+  ChainId chain_id(const ChainBatch& strand, size_t chain) const;
   std::unique_ptr<RenderChain> blank_chain(const ChainBatch& team, size_t chain) const;
   uint64_t chain_count() const;
-  uint64_t sample_shares() const { return samples_ ? uint64_t{group_count} : 0; }
+  uint64_t sample_strands() const { return samples_ ? uint64_t{group_count} : 0; }
   void render_direct(int threads, const std::atomic<bool>& cancelled);
   bool prepare_chains(int threads, const std::atomic<bool>& late,
                       const std::atomic<bool>& cancelled);
@@ -104,7 +104,7 @@ class MetropolisRendering : public Rendering {
   ChainStats sum_of_stats(StuckChain& stuck) const;
   std::string save_prepared() const;
   void load_prepared(const std::string& prepared);
-  void save_chains(const Shares& shares, Content content, ByteWriter& bytes) const;
+  void save_chains(const Strands& strands, Content content, ByteWriter& bytes) const;
   void load_chains(ByteReader& bytes);
 
   MetropolisSettings settings_;

@@ -59,19 +59,19 @@ std::string MetropolisRendering::save(const Task& task, Content content) const {
     samples = samples_->save(own, content);
   }
   bytes.write(samples);
-  const uint64_t before = sample_shares(), all = teams_.size();
-  save_chains({std::clamp(task.shares.first, before, before + all) - before,
-               std::clamp(task.shares.last, before, before + all) - before},
+  const uint64_t before = sample_strands(), all = teams_.size();
+  save_chains({std::clamp(task.strands.first, before, before + all) - before,
+               std::clamp(task.strands.last, before, before + all) - before},
               content, bytes);
   bytes.write(direct_.rendering && content == Content::everything ? direct_.rendering->save()
                                                                   : std::string());
   return bytes.take();
 }
 
-void MetropolisRendering::save_chains(const Shares& shares, Content content,
+void MetropolisRendering::save_chains(const Strands& strands, Content content,
                                       ByteWriter& bytes) const {
-  bytes.write(shares);
-  for (uint64_t i = shares.first; i < shares.last; ++i) {
+  bytes.write(strands);
+  for (uint64_t i = strands.first; i < strands.last; ++i) {
     const ChainBatch& team = *teams_[i];
     const std::lock_guard lock(team.mutex);
     bytes.write(team.units);
@@ -79,8 +79,8 @@ void MetropolisRendering::save_chains(const Shares& shares, Content content,
     for (const auto& chain : team.chains) chain->save(bytes);
   }
   GroupRange groups{0, 0};
-  if (content != Content::task && shares.first < shares.last)
-    groups = {teams_[shares.first]->group, teams_[shares.last - 1]->group + 1};
+  if (content != Content::task && strands.first < strands.last)
+    groups = {teams_[strands.first]->group, teams_[strands.last - 1]->group + 1};
   bytes.write(groups);
   for (int g = groups.first; g < groups.last; ++g) bytes.write(groups_[g].steps.load());
   bytes.write(content != Content::task ? film_.save(groups.first, groups.last) : std::string());
@@ -100,15 +100,15 @@ void MetropolisRendering::load(const std::string& state) {
 }
 
 void MetropolisRendering::load_chains(ByteReader& bytes) {
-  const auto shares = bytes.read<Shares>();
-  if (shares.last > teams_.size()) throw RenderError("the saved state has too many chains");
+  const auto strands = bytes.read<Strands>();
+  if (strands.last > teams_.size()) throw RenderError("the saved state has too many chains");
   struct Loaded {
     uint64_t units;
     double brightness;
     std::vector<std::unique_ptr<RenderChain>> chains;
   };
   std::vector<Loaded> teams;
-  for (uint64_t i = shares.first; i < shares.last; ++i) {
+  for (uint64_t i = strands.first; i < strands.last; ++i) {
     const auto units = bytes.read<uint64_t>();
     const auto brightness = bytes.read<double>();
     teams.push_back({units, brightness, {}});
@@ -126,9 +126,9 @@ void MetropolisRendering::load_chains(ByteReader& bytes) {
   bytes.read(film);
   if (!film.empty()) film_.merge(groups.first, groups.last, film);
   for (size_t i = 0; i < steps.size(); ++i) groups_[groups.first + i].steps += steps[i];
-  for (uint64_t i = shares.first; i < shares.last; ++i) {
+  for (uint64_t i = strands.first; i < strands.last; ++i) {
     ChainBatch& team = *teams_[i];
-    Loaded& from = teams[i - shares.first];
+    Loaded& from = teams[i - strands.first];
     const std::lock_guard lock(team.mutex);
     team.units = from.units;
     team.brightness = from.brightness;

@@ -124,7 +124,7 @@ SampleFilm::Selection SampledRendering::selection(const Task& task) const {
   for (uint64_t pass = task.from / tiles; pass * tiles < task.to && groups.size() < group_count;
        ++pass)
     groups.insert(place_of(pass).group);
-  return {{groups.begin(), groups.end()}, task.shares.first, task.shares.last};
+  return {{groups.begin(), groups.end()}, task.strands.first, task.strands.last};
 }
 
 std::string SampledRendering::save(const Task& task, Content content) const {

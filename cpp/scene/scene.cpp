@@ -66,7 +66,7 @@ LaneMesh lane_mesh(const Shape& shape) {
   const Bsdf& bsdf = mesh->bsdf();
   const bool emits = shape.emitter() != nullptr;
   if (bsdf.lambertian().known()) return {mesh, &bsdf.lambertian(), nullptr, emits};
-  if (bsdf.serves_lanes() && !bsdf.bends_normal()) return {mesh, nullptr, &bsdf, emits};
+  if (bsdf.supports_lanes() && !bsdf.bends_normal()) return {mesh, nullptr, &bsdf, emits};
   return {};
 }
 
@@ -126,7 +126,7 @@ Scene::Scene(std::vector<ShapePtr> shapes, std::vector<EmitterPtr> emitters, Cam
   const Shutter& shutter = camera_->shutter();
   light_choice_ = LightChoice(emitters_, shutter.open, shutter.close);
   for (const EmitterPtr& emitter : emitters_) mesh_lights_.push_back(mlt::mesh_light(*emitter));
-  accel_ = known && known->serves(shapes_, camera_->shutter())
+  accel_ = known && known->fits(shapes_, camera_->shutter())
                ? known
                : std::make_shared<const Accel>(shapes_, camera_->shutter());
   shapes_.insert(shapes_.end(), grouped.begin(), grouped.end());

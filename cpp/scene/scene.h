@@ -37,7 +37,7 @@ struct MeshLight {
 struct LaneMesh {
   const Mesh* mesh = nullptr;                     ///< nullptr if this shape is of another kind.
   const LambertianSurface* lambertian = nullptr;  ///< If it is Lambertian everywhere.
-  /// Else its material: it serves lanes, and its normal is that of the mesh.
+  /// Else its material: it supports lanes, and its normal is that of the mesh.
   const Bsdf* glossy = nullptr;
   bool emits = false;
 };

@@ -121,7 +121,7 @@ inline void BidirectionalWave::wait_for_shadow(const Light& light, const Waiting
 void BidirectionalWave::take_hits(RayCounts& rays) {
   joint_ = 0;
   const auto weighted = [](const SubpathWave::Hit& hit) {
-    return hit.light * (1 / (1 + hit.scaled + hit.fixed));
+    return hit.light * mis_weight(1, hit.scaled, hit.fixed);
   };
   for (const SubpathWave::Hit& hit : camera_.hits())
     take(add({hit.sample, true, hit.survival, hit.certainty, rasters_[hit.sample],
@@ -205,7 +205,7 @@ void BidirectionalWave::join_alone(int s, int sample, const JointLanes& a, const
   wait_for_shadow(
       {sample, !to_lens, a.survival[i] * b.survival[i], certainty,
        to_lens ? joined.raster : rasters_[sample]},
-      {joined.light * (1 / (1 + below + above)), joined.a.dispersed || joined.b.dispersed,
+      {joined.light * mis_weight(1, below, above), joined.a.dispersed || joined.b.dispersed,
        to_lens ? below : below + above, to_lens ? above : 0},
       Vec3f(ray->o), Vec3f(ray->d), static_cast<float>(ray->t_max));
 }
@@ -244,7 +244,7 @@ void BidirectionalWave::connect_to_lens(int s, int block) {
       below = beta_.over(a.sums[i], projection->pdf_direction * G / a.forward[i]);
     const Light light{sample, false, a.survival[i], s == 1 ? 1. : 0., projection->raster};
     const double own = technique.own[i];
-    const double share = projection->importance * G * own / (own + below);
+    const double share = projection->importance * G * mis_weight(own, below);
     const Waiting waiting{a.value.get(i, lanes()) * share, a.dispersed[i], below / own, 0};
     const Vec3 entrance = camera.entrance(lens, -w);
     if (technique.near[i] == 0) {
@@ -282,8 +282,8 @@ void BidirectionalWave::pass(int shadow) {
   const Passage seen = scene_->passage(ray);
   if (seen.is_blocked()) return;
   const auto& [weighted, dispersed, scaled, fixed] = waiting_[shadow];
-  const double mis = 1 / (1 + beta_.over(scaled, seen.probability) + fixed);
-  light.weighted = recorded(weighted * seen.transmittance * (mis * (1 + scaled + fixed)),
+  const double mis = mis_weight(1, beta_.over(scaled, seen.probability), fixed);
+  light.weighted = recorded(weighted * seen.transmittance * (mis / mis_weight(1, scaled, fixed)),
                             ray.wavelength, dispersed);
   light.certainty *= seen.probability;
   take(found);

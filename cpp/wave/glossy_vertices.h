@@ -1,4 +1,4 @@
-// Vertices of a block of paths on meshes whose materials serve lanes, in single precision. Their
+// Vertices of a block of paths on meshes whose materials support lanes, in single precision. Their
 // places and sides are those of the same lanes of LambertianVertices.
 #pragma once
 

@@ -105,12 +105,12 @@ inline void join(const JointLanes& from_light, const JointLanes& from_camera,
     const auto at_a = lambertian_edge(a.ng[i], a.n[i], w, a.cosine[i], strict);
     const auto at_b = lambertian_edge(b.ng[i], b.n[i], -w, b.cosine[i], strict);
     const double G = double{at_a.geometric} * at_b.geometric / distance2;
-    const double below = beta.over(a.sums[i], at_b.quotient * inv_pi * G / a.forward[i]);
+    const double below = beta.over(a.sums[i], at_b.density() * G / a.forward[i]);
     const double above =
         beta.over(b.sums[i], at_a.quotient * technique.onwards[i] * G / b.forward[i]);
     const double own = technique.own[i];
     rays.others[i] = (below + above) / own;
-    share[i] = at_b.quotient * G * own / (own + below + above);
+    share[i] = at_b.quotient * G * mis_weight(own, below, above);
     const Vec3f start = ray_origin(a.p[i], a.ng[i], w, a.extent[i]);
     const Vec3f ray = ray_origin(b.p[i], b.ng[i], -w, b.extent[i]) - start;
     const float length = std::sqrt(dot(ray, ray));

@@ -54,7 +54,7 @@ void LambertianVertices::sample_directions(int count, bool strict_normals) {
     const bool scattered = scatters(cos_c, back[i] > 0),
                consistent = consistent_sides(ng, n[i], direction, strict_normals);
     const bool ok = scattered & (sides[i] > 0) & consistent;
-    scatter_pdf[i] = ok ? std::fabs(to.z) * float(inv_pi) : 0;
+    scatter_pdf[i] = ok ? lambertian_pdf(to.z) : 0;
     o.set(i, ray_origin(p[i], ng, direction, surface.extent[i]));
     w.set(i, direction);
   }

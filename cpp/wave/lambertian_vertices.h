@@ -179,7 +179,7 @@ struct LambertianVertices {
   /// |cos| mis / pdf of next-event estimation with this density in solid angle; scattered
   /// directions have |cos| / pi.
   static float direct_weight(float cosine, float pdf, const MisExponent& mis) {
-    return cosine / (pdf * (1 + mis.raise(cosine * float(inv_pi) / pdf)));
+    return cosine / (pdf * (1 + mis.raise(lambertian_pdf(cosine) / pdf)));
   }
 
   VectorBlock wc_;  ///< Direction towards the camera.

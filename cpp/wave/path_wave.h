@@ -4,7 +4,7 @@
 // "Megakernels considered harmful: wavefront path tracing on GPUs", High-Performance Graphics 2013.
 #pragma once
 
-#include "markov/family_weights.h"
+#include "markov/clamping_weights.h"
 #include "path/background_positions.h"
 #include "path/path_tracer.h"
 #include "wave/drawn_numbers.h"
@@ -16,7 +16,7 @@
 
 namespace mlt {
 
-/// The weights w1 (FamilyWeights) of paths at one raster position.
+/// The weights w1 (ClampingWeights) of paths at one raster position.
 struct PathWeights {
   /// T / (P c) of a path whose f / P has L* = 1; 0: all weights are 1.
   double factor = 0;
@@ -26,7 +26,7 @@ struct PathWeights {
   /// The weight of a path; with the balance heuristic f / P is its radiance, without roulette.
   double of(const Color& radiance, double survival, double certainty) const {
     if (!(factor > 0 && certainty <= most_certain)) return 1;
-    return FamilyWeights::of_sample(factor * survival * target_luminance(radiance), 1);
+    return ClampingWeights::of_sample(factor * survival * target_luminance(radiance), 1);
   }
 };
 

@@ -221,7 +221,7 @@ void BasicPathWave<Numbers>::receive_through(int shadow) {
   ray.wavelength = walk.ray.wavelength;
   const Passage seen = scene_->passage(ray);
   if (seen.is_blocked()) return;
-  const double mis = 1 / (1 + (1 / to_pass.mis - 1) * walk.mis.raise(seen.probability));
+  const double mis = mis_weight(1, (1 / to_pass.mis - 1) * walk.mis.raise(seen.probability));
   const Color found = recorded(to_pass.light * seen.transmittance * (mis / to_pass.mis),
                                ray.wavelength, to_pass.disperses);
   walk.radiance += found * walk.weights.of(found, to_pass.survival, 0);

@@ -6,7 +6,7 @@
 
 namespace mlt {
 
-/// For vertices with `bsdf` (nullptr: it does not serve lanes) and `in_lanes` (whether this was
+/// For vertices with `bsdf` (nullptr: it does not support lanes) and `in_lanes` (whether this was
 /// done): put(vertex, i) sets the i-th lane, take(vertex, i) reads its results.
 template <class Vertex, class Put, class Take>
 void scatter_by_material(Vertex* begin, Vertex* end, ScatteringLanes& lanes, Put&& put,

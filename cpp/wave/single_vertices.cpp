@@ -27,7 +27,7 @@ std::optional<ScatterSample> scattered(const ScatteringLanes& lanes, int i, cons
 void SingleVertices::scatter_in_lanes(const Scene& scene, bool strict_normals) {
   for (SingleVertex& vertex : *this) {
     const Bsdf* bsdf = vertex.at.lambertian.known() ? nullptr : &scene.bsdf(vertex.at);
-    vertex.bsdf = bsdf && bsdf->serves_lanes() ? bsdf : nullptr;
+    vertex.bsdf = bsdf && bsdf->supports_lanes() ? bsdf : nullptr;
   }
   const auto put = [&](const SingleVertex& vertex, int i) {
     lanes_.at[i] = &vertex.at;

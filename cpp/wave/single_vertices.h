@@ -1,5 +1,6 @@
 // Vertices of a block of paths that are computed one by one, in double precision, but for
-// scattering by materials that serve lanes: those that are neither Lambertian nor glossy on a mesh.
+// scattering by materials that support lanes: those that are neither Lambertian nor glossy on a
+// mesh.
 #pragma once
 
 #include "path/path_tracer.h"
@@ -18,7 +19,7 @@ struct SingleVertex {
   LightSample light;     ///< The sampled position.
   Vec3 u_scatter;        ///< The numbers for the scattered direction.
 
-  const Bsdf* bsdf;  ///< Its material if that serves lanes, else nullptr.
+  const Bsdf* bsdf;  ///< Its material if that supports lanes, else nullptr.
   /// Whether the results below were computed together with other vertices.
   bool in_lanes;
   WorldScattering from_light;  ///< Between the light and the camera.
@@ -51,7 +52,7 @@ class SingleVertices {
   }
   void drop_last() { --count_; }
 
-  /// Computes the scattering of all vertices whose materials serve lanes.
+  /// Computes the scattering of all vertices whose materials support lanes.
   void scatter_in_lanes(const Scene& scene, bool strict_normals);
 
  private:

@@ -171,8 +171,7 @@ void SubpathWave::find_techniques(int place) {
   }
 }
 
-/// Computes the densities with which the two walks make the vertex and the one before it. A
-/// scattered direction has the density |w.ns| / pi in solid angle.
+/// Computes the densities with which the two walks make the vertex and the one before it.
 void SubpathWave::arrive() {
   const int end = whole_vectors(count_);
   for (int i = 0; i < end; ++i) {
@@ -184,7 +183,7 @@ void SubpathWave::arrive() {
         rules_.strict_normals);
     const double per_distance2 = 1 / double{near_[k] * dot(between, between) + (1 - near_[k])};
     const double previous = cosine_[k] * per_distance2;
-    const double reverse = ok ? std::fabs(cosine) * inv_pi * previous * stops_back_[k] : 0;
+    const double reverse = ok ? lambertian_pdf(double{cosine}) * previous * stops_back_[k] : 0;
     cosine_to_previous_[i] = ok ? cosine : 0;
     forward_here_[i] = pdf_[k] * geometric * per_distance2;
     sums_here_[i] = technique_[i] + beta_.over(sums_[k], reverse / forward_[k]);

@@ -2,7 +2,7 @@
 
 motion        the scene of the page on motion blur
 equal-time    the same scene by path, bdpt and mlt, with equal CPU time
-two-families  what independent samples and chains show of an image
+samples-and-chains  what independent samples and chains show of an image
 clamped       glasses by path tracing, by chains alone, and by chains beside clamped samples
 strategies    the techniques of bidirectional path tracing
 manifolds     light through water without and with manifold sampling
@@ -42,11 +42,11 @@ def equal_time():
     mlt.write_image(HERE / "equal-time.png", np.concatenate(images, axis=1))
 
 
-def two_families():
+def samples_and_chains():
     scene = mlt.load_dict(mlt.scenes.ring(), size=(240, 180))
     result = mlt.start(scene, mlt.MLT(max_depth=8, parts=True), spp=600).result()
     parts = [result.layers["samples"], result.layers["chains"], result.image]
-    mlt.write_image(HERE / "two-families.png", np.concatenate(parts, axis=1))
+    mlt.write_image(HERE / "samples-and-chains.png", np.concatenate(parts, axis=1))
 
 
 def clamped():
@@ -97,7 +97,7 @@ if __name__ == "__main__":
     pictures = {
         "motion": motion,
         "equal-time": equal_time,
-        "two-families": two_families,
+        "samples-and-chains": samples_and_chains,
         "clamped": clamped,
         "strategies": strategies,
         "manifolds": manifolds,

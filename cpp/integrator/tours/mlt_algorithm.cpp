@@ -45,8 +45,8 @@ class MltAlgorithm : public MetropolisAlgorithm {
       : settings_(settings), target_(std::move(scene), settings.rules, settings.near_specular) {
     std::vector<double> weights;
     for (const MixedMutation& mixed : settings_.mixture) {
-      const auto serves = mutation_plugin(mixed.name).serves;
-      if (serves && !serves(target_.scene()) && settings_.mixture.size() > 1) continue;
+      const auto supports = mutation_plugin(mixed.name).supports;
+      if (supports && !supports(target_.scene()) && settings_.mixture.size() > 1) continue;
       for (const auto& [own, weight] : in_all_sizes(mixed)) {
         mutations_.push_back(make_mutation(mixed.name, target_, own));
         step_sizes_.push_back(step_size(mixed.name, own));
@@ -79,7 +79,7 @@ class MltAlgorithm : public MetropolisAlgorithm {
   void prepare(const CoarseImage& coarse, uint64_t, int, const std::atomic<bool>&) override {
     if (settings_.two_stage) target_.set_map(coarse.map);
   }
-  void set_weights(const FamilyWeights& weights) override { target_.set_weights(weights); }
+  void set_weights(const ClampingWeights& weights) override { target_.set_weights(weights); }
   void adapt(double share, uint64_t seed, int threads,
              const std::atomic<bool>& cancelled) override {
     if (!settings_.adaptive) return;
@@ -105,7 +105,7 @@ class MltAlgorithm : public MetropolisAlgorithm {
     return target_.techniques() == SampleTechniques::path_tracing ? "path" : "bdpt";
   }
   std::unique_ptr<Source> sample_source() const override { return path_samples(target_); }
-  std::unique_ptr<SampleTaker> sample_taker(const FamilyWeights& weights) const override {
+  std::unique_ptr<SampleTaker> sample_taker(const ClampingWeights& weights) const override {
     return path_sample_taker(target_, weights);
   }
 

@@ -23,7 +23,7 @@ struct TourRules {
 /// A chain of tours. Each advance draws as many samples as should be `steps` of work, and ends with
 /// the last tour that need not wait. The target must outlive it.
 ///
-/// The samples are drawn side by side where a wave serves the scene. It does not make paths: a
+/// The samples are drawn side by side where a wave supports the scene. It does not make paths: a
 /// sample whose light starts a tour is drawn again.
 class PathTours : public RenderChain {
  public:

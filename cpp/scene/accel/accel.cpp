@@ -137,7 +137,7 @@ Accel::Accel(const std::vector<ShapePtr>& shapes, const Shutter& shutter, int bu
 
 Accel::~Accel() = default;
 
-bool Accel::serves(const std::vector<ShapePtr>& shapes, const Shutter& shutter) const {
+bool Accel::fits(const std::vector<ShapePtr>& shapes, const Shutter& shutter) const {
   const bool same_times = !impl_->moves || (shutter.open == impl_->shutter.open &&
                                             shutter.close == impl_->shutter.close);
   return same_times && Placements(shapes) == impl_->placements;

@@ -70,7 +70,7 @@ class Accel {
   ~Accel();
 
   /// Whether the hierarchy of these shapes would be the same.
-  bool serves(const std::vector<ShapePtr>& shapes, const Shutter& shutter) const;
+  bool fits(const std::vector<ShapePtr>& shapes, const Shutter& shutter) const;
 
   bool intersect(const Ray& ray, Hit& hit) const;
   /// Where a ray is blocked, it is not known what it would have passed.

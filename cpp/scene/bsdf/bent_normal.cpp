@@ -40,7 +40,7 @@ BentNormal::BentNormal(Params& params)
     : nested_(only_nested<Bsdf>(params, "bsdf")),
       flips_(params.boolean("flip_invalid_normals")),
       shadows_(params.boolean("use_shadowing_function")) {
-  serves_lanes_ = nested_->serves_lanes();
+  supports_lanes_ = nested_->supports_lanes();
 }
 
 double BentNormal::turned_share(const Vec3& n, const Vec3& w) const {

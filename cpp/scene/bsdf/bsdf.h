@@ -70,7 +70,7 @@ class Bsdf : public Object {
 
   /// Whether scatter() computes scattering() and sample() for many points together; of materials
   /// that are opaque, and smooth alone.
-  bool serves_lanes() const { return serves_lanes_; }
+  bool supports_lanes() const { return supports_lanes_; }
   virtual void scatter(ScatteringLanes&) const {}
 
   /// Whether the smooth lobes are present, and whether a delta lobe is.
@@ -110,7 +110,7 @@ class Bsdf : public Object {
  protected:
   // Set by constructors:
   LambertianSurface lambertian_;
-  bool serves_lanes_ = false;
+  bool supports_lanes_ = false;
 };
 
 using BsdfPtr = std::shared_ptr<const Bsdf>;

@@ -41,7 +41,7 @@ class GlossyOverDiffuse final : public SmoothReflector<GlossyOverDiffuse<Lobes>>
 
  public:
   explicit GlossyOverDiffuse(Params& params) : lobes_(params), reflectances_(params) {
-    this->serves_lanes_ = lobes_.typical_alpha() >= least_alpha_in_lanes;
+    this->supports_lanes_ = lobes_.typical_alpha() >= least_alpha_in_lanes;
   }
 
   template <class F>

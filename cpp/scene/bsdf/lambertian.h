@@ -17,7 +17,13 @@ bool scatters(F cosine, bool both) {
   return (cosine > 0) | (both & (cosine < 0));
 }
 
-/// Samples a local direction on the side of `cos_from`; its density is |cos| / pi in solid angle.
+/// The density in solid angle of a scattered direction with this cosine.
+template <class F>
+F lambertian_pdf(F cosine) {
+  return std::abs(cosine) * F(inv_pi);
+}
+
+/// Samples a local direction on the side of `cos_from`, with the density lambertian_pdf().
 template <class F>
 Vec3Of<F> sample_lambertian(F cos_from, const Vec2Of<F>& u) {
   Vec3Of<F> to = sample_cosine_hemisphere(u);
@@ -37,7 +43,7 @@ struct Lambertian {
 
   Scattering scattering(double cos_l, double cos_c, Lobe lobe) const {
     if (lobe != Lobe::smooth || !(cos_l * cos_c > 0) || !scatters(cos_l)) return {};
-    return {f, std::abs(cos_c) * inv_pi, std::abs(cos_l) * inv_pi};
+    return {f, lambertian_pdf(cos_c), lambertian_pdf(cos_l)};
   }
   std::optional<Vec3> sample(double cos_from, const Vec2& u) const {
     if (!scatters(cos_from)) return std::nullopt;

@@ -34,7 +34,7 @@ class Principled final : public Bsdf {
     eta_ = principled_eta(params, refracts_);
     const double alpha = sqr(roughness_.mean());
     const double coat = coated_ ? ClearCoat<double>::alpha(clearcoat_gloss_.mean()) : infinity;
-    serves_lanes_ = !refracts_ && std::min(alpha, coat) >= least_alpha_in_lanes;
+    supports_lanes_ = !refracts_ && std::min(alpha, coat) >= least_alpha_in_lanes;
   }
 
   Scattering scattering(const SurfacePoint& at, const Vec3& wl, const Vec3& wc,

@@ -16,7 +16,7 @@ class RoughConductor final : public SmoothReflector<RoughConductor> {
       : surface_(params),
         ior_(conductor_param(params)),
         reflectance_(texture_param(params, "specular_reflectance")) {
-    serves_lanes_ = fits_lanes(surface_.typical());
+    supports_lanes_ = fits_lanes(surface_.typical());
   }
 
   template <class F>

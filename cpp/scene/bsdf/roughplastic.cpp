@@ -22,7 +22,7 @@ class RoughPlastic final : public SmoothReflector<RoughPlastic> {
         microfacet_(isotropic_microfacet_param(params)),
         coating_(microfacet_.type(), microfacet_.alpha_u(), eta_),
         base_(params, eta_, coating_.internal_reflectance(), coating_.mean_transmittance()) {
-    serves_lanes_ = fits_lanes(microfacet_);
+    supports_lanes_ = fits_lanes(microfacet_);
   }
 
   template <class F>

@@ -18,7 +18,7 @@ class TwoSided final : public Bsdf {
         params.fail("cannot hold a bsdf that transmits light: it is two-sided already");
     front_ = nested.front();
     back_ = nested.back();
-    serves_lanes_ = front_ == back_ && front_->serves_lanes();
+    supports_lanes_ = front_ == back_ && front_->supports_lanes();
     if (front_ == back_ && front_->lambertian().known()) {
       lambertian_ = front_->lambertian();
       lambertian_.lambertian.sides = Lambertian::Sides::both;

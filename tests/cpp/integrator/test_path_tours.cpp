@@ -12,11 +12,11 @@ namespace {
 
 /// Sums up L* of what is recorded, times w2.
 struct Brightness : ChainRecorder {
-  explicit Brightness(const FamilyWeights& w) : weights(w) {}
+  explicit Brightness(const ClampingWeights& w) : weights(w) {}
   void record(const Vec2&, const Color& rgb_per_target, double weight, double over) override {
     sum += weight * target_luminance(rgb_per_target) * weights.of_chain(over);
   }
-  FamilyWeights weights;
+  ClampingWeights weights;
   double sum = 0;
 };
 
@@ -63,7 +63,7 @@ void expect_brightness_of_samples(const TourCase& tour) {
                             std::make_shared<MixtureWeights>(default_weights()));
   constexpr int groups = 16;
   constexpr double b = 0.3;  // Any number is right.
-  const FamilyWeights weights(0.1);
+  const ClampingWeights weights(0.1);
   const double kappa0 = b / steps_per_sample;
   const KillRate rate =
       tour_length > 0 ? KillRate::constant(kappa0, tour_length) : KillRate(kappa0);
@@ -125,7 +125,7 @@ class EndlessTours : public testing::Test {
             {KillRate(b / steps_per_start), steps_per_start, steps_in_pixel}};
   }
   static double brightness(PathTours& tours, uint64_t steps) {
-    Brightness recorder{FamilyWeights()};
+    Brightness recorder{ClampingWeights()};
     tours.advance(steps, recorder);
     return recorder.sum;
   }

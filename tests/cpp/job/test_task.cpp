@@ -72,7 +72,7 @@ TEST(Tasks, CanBeSplitOnTheWay) {
         if (task % 2 == 0) tasks.split(task);
       }
     }
-    const bool can_be_split = divided->plan().share_count() > coarse;
+    const bool can_be_split = divided->plan().strand_count() > coarse;
     EXPECT_EQ(tasks.size() > coarse, can_be_split);
     for (size_t task = coarse; task < tasks.size(); ++task)
       tasks.merge(task, result(tasks, task, whole->plan().unit_count(3), made, 1));
@@ -87,12 +87,12 @@ TEST(Tasks, CutEveryShareIntoOneTask) {
         prepared(lights_on_tiles(), integrator(algorithm.name, algorithm.assignments), seed);
     for (const int wanted : {1, 16, 17, 35, 100000}) {
       uint64_t next = 0;
-      for (const Shares& shares : rendering->plan().cut(wanted)) {
-        EXPECT_EQ(shares.first, next);
-        EXPECT_GT(shares.last, shares.first);
-        next = shares.last;
+      for (const Strands& strands : rendering->plan().cut(wanted)) {
+        EXPECT_EQ(strands.first, next);
+        EXPECT_GT(strands.last, strands.first);
+        next = strands.last;
       }
-      EXPECT_EQ(next, rendering->plan().share_count());
+      EXPECT_EQ(next, rendering->plan().strand_count());
     }
   }
 }

@@ -52,7 +52,9 @@ class KnownAlgorithm : public MetropolisAlgorithm {
  public:
   KnownAlgorithm(ScenePtr scene, const Light& light) : scene_(std::move(scene)), light_(light) {}
   std::unique_ptr<Source> source() const override { return std::make_unique<KnownSource>(light_); }
-  std::unique_ptr<SampleTaker> sample_taker(const FamilyWeights&) const override { return nullptr; }
+  std::unique_ptr<SampleTaker> sample_taker(const ClampingWeights&) const override {
+    return nullptr;
+  }
   const Scene& scene() const override { return *scene_; }
   std::unique_ptr<RenderChain> blank(const ChainId&, const Allocation&) const override {
     return nullptr;

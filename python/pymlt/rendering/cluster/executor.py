@@ -187,7 +187,7 @@ class ClusterExecutor:
     def _submit(self, function, *arguments, key, **place):
         import dask
 
-        # Tasks carry the state of their shares; the scheduler keeps it in case a worker is lost.
+        # Tasks carry the state of their strands; the scheduler keeps it in case a worker is lost.
         with dask.config.set({"distributed.admin.large-graph-warning-threshold": "1TB"}):
             return self.client.submit(function, *arguments, key=key, pure=False, **place)
 

@@ -52,7 +52,7 @@ void expect_close(const Spectrum& lane, const Spectrum& alone, const char* what)
 TEST(BsdfLanes, ScatterAsSinglePointsDo) {
   int served = 0;
   for (const Case& c : cases()) {
-    if (!c.bsdf->serves_lanes()) continue;
+    if (!c.bsdf->supports_lanes()) continue;
     ++served;
     SCOPED_TRACE(c.label);
     const Bsdf& bsdf = *c.bsdf;

@@ -1,7 +1,7 @@
 // Chains and independent samples see the same T / P of a path, so that their weights sum to one.
 #include "harness/statistics.h"
 #include "integrator/path_samples.h"
-#include "markov/family_weights.h"
+#include "markov/clamping_weights.h"
 #include "mutation/path_seeds.h"
 #include "rendering/beside_chains.h"
 #include "scenes.h"
@@ -15,26 +15,26 @@
 namespace mlt::test {
 namespace {
 
-TEST(FamilyWeights, SumToOne) {
+TEST(ClampingWeights, SumToOne) {
   const double infinity = std::numeric_limits<double>::infinity();
   for (const double even : {0.0, 1e-3, 1.0, 1e5})
     for (const double q : {1e-8, 0.3, 7.0, 1e12, infinity}) {
-      const FamilyWeights weights(even);
+      const ClampingWeights weights(even);
       EXPECT_NEAR(weights.of_sample(q) + weights.of_chain(q), 1, 1e-14) << even << " " << q;
     }
 }
 
 /// Clamped samples are no brighter than c, and what is cut off is T' = max(0, T - c P).
-TEST(FamilyWeights, ClampSamples) {
-  const FamilyWeights weights(2);
+TEST(ClampingWeights, ClampSamples) {
+  const ClampingWeights weights(2);
   for (const double tau : {0.5, 2.0, 3.0, 1e9}) {
     EXPECT_NEAR(tau * weights.of_sample(tau), std::min(tau, 2.0), 1e-6 * tau);
     EXPECT_NEAR(tau * weights.of_chain(tau), std::max(0.0, tau - 2), 1e-6 * tau);
   }
 }
 
-TEST(FamilyWeights, AreNumbersWhereThereIsNoTarget) {
-  for (const double even : {0.0, 1.0}) EXPECT_EQ(FamilyWeights(even).of_chain(0), 0);
+TEST(ClampingWeights, AreNumbersWhereThereIsNoTarget) {
+  for (const double even : {0.0, 1.0}) EXPECT_EQ(ClampingWeights(even).of_chain(0), 0);
 }
 
 /// With a map that tells regions apart.
@@ -210,7 +210,7 @@ void expect_the_same(const ScenePtr& scene, OneByOne&& one_by_one, SideBySide&& 
 class PathSampleTaker : public testing::TestWithParam<bool> {
  protected:
   template <class Estimator>
-  void compare(PathTarget& target, const Estimator& estimator, const FamilyWeights& weights) {
+  void compare(PathTarget& target, const Estimator& estimator, const ClampingWeights& weights) {
     if (GetParam()) leave_certain_light(target);
     expect_the_same(
         target.scene_ptr(),
@@ -227,7 +227,7 @@ TEST_P(PathSampleTaker, WeightsPathTracingSideBySideAsOneByOne) {
   PathTarget target = target_of(made);
   target.set_techniques(SampleTechniques::path_tracing);
   compare(target, PathEstimator(*made.scene, target.rules(), Heuristic::balance),
-          FamilyWeights(0.04));
+          ClampingWeights(0.04));
 }
 
 /// With roulette from the first vertex on.
@@ -238,7 +238,7 @@ TEST_P(PathSampleTaker, WeightsBidirectionalPathTracingSideBySideAsOneByOne) {
   PathTarget target(made.scene, rules);
   const BidirectionalSettings settings = PathSeeds::settings(target);
   ASSERT_TRUE(BidirectionalWave::supports(*made.scene, settings));
-  compare(target, BidirectionalEstimator(*made.scene, settings), FamilyWeights(0.02));
+  compare(target, BidirectionalEstimator(*made.scene, settings), ClampingWeights(0.02));
 }
 
 INSTANTIATE_TEST_SUITE_P(CertainPaths, PathSampleTaker, testing::Bool(), [](const auto& info) {
@@ -248,19 +248,19 @@ INSTANTIATE_TEST_SUITE_P(CertainPaths, PathSampleTaker, testing::Bool(), [](cons
 TEST(SamplesOfPssmlt, AreWeightedSideBySideAsOneByOne) {
   const TestScene made = make_scene("cornell");
   const PathRules rules{8};
-  const auto taker = [&](const Scene& scene, const FamilyWeights& weights, bool side_by_side) {
+  const auto taker = [&](const Scene& scene, const ClampingWeights& weights, bool side_by_side) {
     const PathEstimator estimator(scene, rules);
     return take_beside_chains(
         scene, estimator, SampleTargeting(scene, estimator.own_scale(), LargeStepWeights{0.1}),
         weights,
         side_by_side ? std::make_unique<PathSampleWave>(scene, rules, Heuristic::power) : nullptr);
   };
-  const FamilyWeights weights(0.3);
+  const ClampingWeights weights(0.3);
   expect_the_same(
       made.scene, [&](const Scene& scene) { return taker(scene, weights, false); },
       [&](const Scene& scene) { return taker(scene, weights, true); });
   // With all the light, it tells the brightness.
-  const FamilyWeights all(std::numeric_limits<double>::max());
+  const ClampingWeights all(std::numeric_limits<double>::max());
   const auto shown =
       shown_by(made.scene, [&](const Scene& scene) { return taker(scene, all, true); });
   EXPECT_GT(shown->mean_brightness().mean, 0);

@@ -1,4 +1,4 @@
-// Independent samples and chains in one estimator. Both families find the same paths, samples with
+// Independent samples and chains in one estimator. Both find the same paths, samples with
 // the density P(x) of their techniques together. As in any multiple importance sampling (Veach
 // 1997, eq. 9.4) each path has two weights that sum to one, for the case that a sample has found it
 // and for the case that a chain has. With the target T and tau(x) = T(x) / P(x), the brightness of
@@ -25,12 +25,12 @@
 
 namespace mlt {
 
-class FamilyWeights {
+class ClampingWeights {
  public:
   /// The weights of chains alone: c = 0.
-  FamilyWeights() = default;
+  ClampingWeights() = default;
   /// `threshold` is c.
-  explicit FamilyWeights(double threshold) : threshold_(threshold) {}
+  explicit ClampingWeights(double threshold) : threshold_(threshold) {}
 
   double threshold() const { return threshold_; }
 
