@@ -18,6 +18,8 @@ from .images import layer_names, read_image, read_metadata
 if TYPE_CHECKING:
     import numpy as np
 
+__all__ = ["matte", "names"]
+
 
 class Rendered(Protocol):
     """A `Result`, or whatever has layers and says in its metadata what they are."""

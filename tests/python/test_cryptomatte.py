@@ -283,3 +283,44 @@ def test_what_has_no_matte_is_said(tmp_path):
     mlt.write_image(tmp_path / "plain.exr", found.image)
     with pytest.raises(mlt.UsageError, match="there is no Cryptomatte"):
         mlt.cryptomatte.names(tmp_path / "plain.exr")
+
+
+@pytest.mark.parametrize(
+    "manifest", ["", "[]", "{", '{"near": 3}', '{"near": "x"}', '{"near": "-1"}']
+)
+def test_a_file_with_another_manifest_is_refused(manifest, tmp_path):
+    found = mattes(halves(), "cryptomatte_object")
+    (key,) = (key for key in found.metadata if key.endswith("/manifest"))
+    found.metadata[key] = manifest
+    found.save(tmp_path / "a.exr")
+    for source in (found, tmp_path / "a.exr"):
+        with pytest.raises(mlt.FileError, match="manifest"):
+            mlt.cryptomatte.matte(source, "near")
+
+
+def test_layers_that_are_missing_are_said():
+    found = mattes(halves(), "cryptomatte_object")
+    found.layers.clear()
+    with pytest.raises(mlt.UsageError, match="'cryptomatte_object' are missing"):
+        mlt.cryptomatte.matte(found, "near")
+
+
+def test_files_of_other_renderers_are_read(tmp_path):
+    """A pixel of which `cube` covers a half, `plane` a quarter, and another object the rest."""
+    OpenImageIO = pytest.importorskip("OpenImageIO")
+    ranks = [HASHES["cube"], 0.5, HASHES["plane"], 0.25, 1.5, 0.25, 0, 0]
+    spec = OpenImageIO.ImageSpec(1, 1, 3 + len(ranks), "float")
+    spec.channelnames = ["R", "G", "B"] + [f"Asset0{i}.{c}" for i in (0, 1) for c in "RGBA"]
+    manifest = {
+        name: struct.pack(">f", np.float32(HASHES[name])).hex() for name in ("cube", "plane")
+    }
+    about = {"name": "Asset", "hash": "MurmurHash3_32", "conversion": "uint32_to_float32"}
+    for key, text in (about | {"manifest": json.dumps(manifest)}).items():
+        spec.attribute(f"cryptomatte/0123456/{key}", text)
+    file = OpenImageIO.ImageOutput.create(str(tmp_path / "a.exr"))
+    assert file.open(str(tmp_path / "a.exr"), spec)
+    file.write_image(np.array([[[1, 1, 1, *ranks]]], np.float32))
+    file.close()
+    assert mlt.cryptomatte.names(tmp_path / "a.exr") == ["cube", "plane"]
+    for name, coverage in (("cube", 0.5), ("plane", 0.25)):
+        assert mlt.cryptomatte.matte(tmp_path / "a.exr", name) == coverage
