@@ -16,7 +16,7 @@ class PyJob : public Job {
       : Job(loaded->scene, made.integrator, settings),
         loaded_(std::move(loaded)),
         made_(made),
-        seed_(settings.seed) {}
+        settings_(settings) {}
   ~PyJob() {
     const ReleasedGil release;
     stop();  // while an executor may still use this object
@@ -24,10 +24,10 @@ class PyJob : public Job {
 
   const LoadedPtr& loaded() const { return loaded_; }
   Stats stats() const { return render_stats(*this, *loaded_, made_); }
-  Metadata metadata() const { return render_metadata(stats(), *loaded_, made_); }
+  Metadata metadata() const { return render_metadata(stats(), *loaded_, made_, settings_); }
   void checkpoint(const std::string& path, bool overwrite) {
     check_checkpoint_writable(path);
-    Checkpoint checkpoint = checkpoint_of(*loaded_, made_, seed_);
+    Checkpoint checkpoint = checkpoint_of(*loaded_, made_, settings_.seed);
     const auto lock = FileLock::of(path);
     if (!overwrite) check_same_render(path, checkpoint);
     checkpoint.state = save();
@@ -37,7 +37,7 @@ class PyJob : public Job {
  private:
   LoadedPtr loaded_;
   MadeIntegrator made_;
-  uint64_t seed_;
+  RenderSettings settings_;
 };
 
 }  // namespace mlt::python

@@ -23,7 +23,7 @@ std::unique_ptr<PyJob> make_job(LoadedPtr loaded, const MadeIntegrator& made,
   settings.seed = seed;
   settings.threads = threads;
   const std::string& asked = made.aovs.empty() ? loaded->aovs : made.aovs;
-  settings.aovs = parse_aovs(aovs ? std::string(*aovs) : asked);
+  ask_for_layers(aovs ? std::string(*aovs) : asked, *loaded, settings);
   settings.alpha = alpha;
   settings.hide_emitters = made.hide_emitters;
   settings.autosave.every = checkpoint.every;

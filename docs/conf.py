@@ -57,7 +57,7 @@ sphinx_gallery_conf = {
     "plot_gallery": True,
 }
 
-MODULES = ("lab.metropolis", "lab.quadrature", "race")
+MODULES = ("cryptomatte", "lab.metropolis", "lab.quadrature", "race")
 
 
 def write(path: Path, text: str) -> None:

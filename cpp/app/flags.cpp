@@ -116,8 +116,8 @@ const std::vector<Flag>& render_flags() {
       {"error", "--error", "E", &positive, "relative error to reach, such as 0.02"},
       {"aovs", "--aov", "LIST", &any_text,
        "layers of what the camera sees first: albedo, depth, position, uv, geo_normal, sh_normal, "
-       "shape_index, prim_index, optical_depth (of the media before it); each may have a name, as "
-       "in n:sh_normal"},
+       "shape_index, prim_index, optical_depth (of the media before it), cryptomatte_object, "
+       "cryptomatte_material; each may have a name, as in n:sh_normal"},
       {"alpha", "--alpha", "", nullptr, "EXR and PNG files have alpha; see also hide_emitters"},
       {"seed", "--seed", "N", &seed, "seed of all random numbers (0)", Flag::fixed_by_resume},
       {"threads", "--threads", "N", &threads, "0: as many as the machine has"},

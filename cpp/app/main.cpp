@@ -172,7 +172,7 @@ int run(Options options) {
       saved ? saved->integrator
             : choose_integrator(loaded, options.integrator, options.parameters, plugins()),
       plugins());
-  options.render.aovs = parse_aovs(options.aovs.empty() ? loaded.aovs : options.aovs);
+  ask_for_layers(options.aovs.empty() ? loaded.aovs : options.aovs, loaded, options.render);
   options.render.hide_emitters = made.hide_emitters;
   if (!options.checkpoint.path.empty())
     options.render.autosave =
@@ -197,7 +197,7 @@ int run(Options options) {
   }
   WriteOptions write;
   write.half = loaded.scene->film().half_precision;
-  write.metadata = render_metadata(stats, loaded, made);
+  write.metadata = render_metadata(stats, loaded, made, options.render);
   const Outputs outputs = save(options, {job.image(), job.layers()}, stats, write);
   if (failure) std::rethrow_exception(failure);
   if (!options.quiet)

@@ -22,6 +22,7 @@ struct ExrLayer {
   const Image& image;
   /// Names in place of the default ones: Y, YA, RGB, RGBA for 1 to 4 channels.
   std::vector<std::string> channels = {};
+  bool always_floats = false;  ///< Whether it has floats in a file of halfs, too.
 };
 
 /// Encodes a scanline file, ZIP-compressed, with nothing in it that was not passed in. Halfs are

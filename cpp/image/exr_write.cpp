@@ -101,29 +101,30 @@ class Rows {
   static constexpr int most = 16;  ///< Rows that ZIP compresses together.
 
   Rows(const std::vector<ExrLayer>& layers, bool halfs) : layers_(layers), halfs_(halfs) {
-    if (!halfs) return;
     for (const ExrLayer& layer : layers)
-      buffers_.emplace_back(static_cast<size_t>(most) * row_size(layer));
+      buffers_.emplace_back(has_halfs(layer) ? static_cast<size_t>(most) * row_size(layer) : 0);
   }
 
-  Imf::PixelType type() const { return halfs_ ? Imf::HALF : Imf::FLOAT; }
+  Imf::PixelType type(const ExrLayer& layer) const {
+    return has_halfs(layer) ? Imf::HALF : Imf::FLOAT;
+  }
 
   /// The frame buffer of `count` rows from y on.
   Imf::FrameBuffer frame(int y, int count) {
-    const size_t sample = halfs_ ? sizeof(half) : sizeof(float);
     Imf::FrameBuffer frame;
     for (size_t l = 0; l < layers_.size(); ++l) {
+      const size_t sample = has_halfs(layers_[l]) ? sizeof(half) : sizeof(float);
       const Image& image = layers_[l].image;
       const size_t row = row_size(layers_[l]), first = row * static_cast<size_t>(y);
       const char* base = reinterpret_cast<const char*>(image.data.data());
-      if (halfs_) {
+      if (has_halfs(layers_[l])) {
         const auto from = image.data.begin() + static_cast<std::ptrdiff_t>(first);
         std::transform(from, from + static_cast<std::ptrdiff_t>(row) * count, buffers_[l].begin(),
                        to_half);
         base = reinterpret_cast<const char*>(buffers_[l].data()) - sample * first;
       }
       for (const std::string& name : channel_names(layers_[l])) {
-        frame.insert(name, Imf::Slice(type(), const_cast<char*>(base),
+        frame.insert(name, Imf::Slice(type(layers_[l]), const_cast<char*>(base),
                                       sample * static_cast<size_t>(image.channels), sample * row));
         base += sample;
       }
@@ -135,6 +136,7 @@ class Rows {
   static size_t row_size(const ExrLayer& layer) {
     return static_cast<size_t>(layer.image.width) * static_cast<size_t>(layer.image.channels);
   }
+  bool has_halfs(const ExrLayer& layer) const { return halfs_ && !layer.always_floats; }
 
   const std::vector<ExrLayer>& layers_;
   bool halfs_;
@@ -153,7 +155,7 @@ void encode(Imf::OStream& stream, const std::vector<ExrLayer>& layers, bool half
     for (const std::string& name : channel_names(layer)) {
       if (header.channels().findChannel(name))
         throw UsageError("EXR channel '" + name + "' is written twice");
-      header.channels().insert(name, Imf::Channel(rows.type()));
+      header.channels().insert(name, Imf::Channel(rows.type(layer)));
     }
   Imf::OutputFile file(stream, header, 0);
   for (int y = 0; y < height; y += Rows::most) {

@@ -20,6 +20,7 @@ Job::Job(ScenePtr scene, IntegratorPtr integrator, const RenderSettings& setting
       stop_rule_(settings.budget, *scene_),
       autosave_(settings.autosave),
       aovs_(settings.aovs),
+      names_(settings.names),
       alpha_(settings.alpha || scene_->film().alpha),
       hide_emitters_(settings.hide_emitters) {
   if (threads_ < 0 || threads_ > max_threads)
@@ -92,14 +93,19 @@ namespace {
 /// Each layer of the first surface is kept once, and copied once to the caller; alpha has sums of
 /// its own, and is written beside a copy of the image.
 constexpr size_t end_per_pixel = 144, end_at_least = size_t{16} << 20, aov_per_pixel = 24,
-                 alpha_per_pixel = 64;
+                 matte_per_pixel = 32, alpha_per_pixel = 64;
+
+size_t bytes_per_pixel(const Aov& aov) {
+  return is_cryptomatte(aov.kind) ? matte_per_pixel * cryptomatte_layers(aov).size()
+                                  : aov_per_pixel;
+}
 
 }  // namespace
 
 size_t Job::bytes_for_the_end() const {
   const Vec2i size = scene_->camera().raster().size;
-  const size_t per_pixel =
-      end_per_pixel + aov_per_pixel * aovs_.size() + (alpha_ ? alpha_per_pixel : 0);
+  size_t per_pixel = end_per_pixel + (alpha_ ? alpha_per_pixel : 0);
+  for (const Aov& aov : aovs_) per_pixel += bytes_per_pixel(aov);
   return end_at_least + per_pixel * size.x * size.y;
 }
 

@@ -7,7 +7,7 @@
 #include "job/executor.h"
 #include "job/memory_reserve.h"
 #include "job/stop_rule.h"
-#include "rendering/aov.h"
+#include "rendering/cryptomatte.h"
 
 #include <chrono>
 #include <condition_variable>
@@ -26,6 +26,7 @@ struct RenderSettings {
   int threads = 0;  ///< 0: as many as the machine has.
   AutosaveSettings autosave;
   std::vector<Aov> aovs;  ///< Layers to be rendered beside the image.
+  SurfaceNames names;     ///< Needed for Cryptomattes among these.
   bool alpha = false;     ///< Whether there is a layer "alpha", too; the film may also ask for it.
   bool hide_emitters = false;  ///< Whether the background is left out, which else hides all.
 };
@@ -156,6 +157,7 @@ class Job {
   std::condition_variable pause_;
 
   std::vector<Aov> aovs_;
+  SurfaceNames names_;
   bool alpha_, hide_emitters_;
   mutable std::mutex aov_mutex_;
   mutable std::vector<NamedImage> aov_layers_;  ///< Empty until they are first asked for.

@@ -62,6 +62,8 @@ std::shared_ptr<const ErrorEstimate> Job::error() const {
 
 std::vector<NamedImage> Job::first_surface_layers() const {
   std::vector<NamedImage> layers = render_aovs(*scene_, aovs_, seed_, threads_);
+  for (NamedImage& layer : render_cryptomattes(*scene_, aovs_, names_, seed_, threads_))
+    layers.push_back(std::move(layer));
   if (alpha_) layers.push_back({"alpha", render_alpha(scene_, hide_emitters_, seed_, threads_)});
   return layers;
 }

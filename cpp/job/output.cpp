@@ -85,13 +85,15 @@ Stats render_stats(const Job& job, const LoadedScene& loaded, const MadeIntegrat
   return stats;
 }
 
-Metadata render_metadata(const Stats& stats, const LoadedScene& loaded,
-                         const MadeIntegrator& made) {
-  return {{"software", "pymlt " MLT_VERSION},
-          {"scene", fmt::format("{:016x}", loaded.hash)},
-          {"integrator", made.settings.text()},
-          {"seed", fmt::format("{}", stats.seed)},
-          {"spp", fmt::format("{}", stats.spp_done)}};
+Metadata render_metadata(const Stats& stats, const LoadedScene& loaded, const MadeIntegrator& made,
+                         const RenderSettings& settings) {
+  Metadata all = {{"software", "pymlt " MLT_VERSION},
+                  {"scene", fmt::format("{:016x}", loaded.hash)},
+                  {"integrator", made.settings.text()},
+                  {"seed", fmt::format("{}", stats.seed)},
+                  {"spp", fmt::format("{}", stats.spp_done)}};
+  for (auto& text : cryptomatte_metadata(settings)) all.push_back(std::move(text));
+  return all;
 }
 
 void write_render(const std::string& path, const RenderedImage& render,
@@ -102,7 +104,8 @@ void write_render(const std::string& path, const RenderedImage& render,
   if (alpha && has_straight_alpha(path)) whole = straight(std::move(whole));
   std::vector<ExrLayer> layers = {{"", alpha ? whole : render.image}};
   for (const NamedImage& layer : render.layers)
-    if (&layer.image != alpha) layers.push_back({layer.name, layer.image});
+    if (&layer.image != alpha)
+      layers.push_back({layer.name, layer.image, {}, has_ids(layer.name, options.metadata)});
   write_image(path, layers, options);
 }
 

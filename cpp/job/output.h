@@ -5,6 +5,7 @@
 #include "image/image_io.h"
 #include "io/load.h"
 #include "job/job.h"
+#include "job/layers.h"
 #include "job/make_integrator.h"
 
 #include <string>
@@ -20,9 +21,11 @@ void check_pixel(const Scene& scene, const Vec2i& pixel);
 /// The job's statistics, completed by those of loading and the warnings of the integrator.
 Stats render_stats(const Job& job, const LoadedScene& loaded, const MadeIntegrator& made);
 
-/// Metadata: version, hash of the scene, settings of the integrator, seed and samples per pixel.
+/// Metadata: version, hash of the scene, settings of the integrator, seed and samples per pixel;
+/// and what describes Cryptomattes among the layers.
 /// No date, host or number of threads: equal renders are equal files.
-Metadata render_metadata(const Stats& stats, const LoadedScene& loaded, const MadeIntegrator& made);
+Metadata render_metadata(const Stats& stats, const LoadedScene& loaded, const MadeIntegrator& made,
+                         const RenderSettings& settings);
 
 /// The images of a render: the main one, and the layers that it was asked to keep.
 struct RenderedImage {

@@ -3,6 +3,7 @@
 #include "base/text.h"
 #include "path/samplers.h"
 #include "path/walk.h"
+#include "rendering/cryptomatte.h"
 
 #include <fmt/format.h>
 
@@ -23,7 +24,9 @@ constexpr KindName kinds[] = {{"albedo", AovKind::albedo},
                               {"sh_normal", AovKind::sh_normal},
                               {"shape_index", AovKind::shape_index},
                               {"prim_index", AovKind::prim_index},
-                              {"optical_depth", AovKind::optical_depth}};
+                              {"optical_depth", AovKind::optical_depth},
+                              {"cryptomatte_object", AovKind::cryptomatte_object},
+                              {"cryptomatte_material", AovKind::cryptomatte_material}};
 
 AovKind kind_of(const std::string& name) {
   std::vector<std::string> names;
@@ -76,6 +79,8 @@ Vec3 value(AovKind kind, const Scene& scene, const Ray& ray, const FirstSurface&
       return Vec3(at.instance == SurfacePoint::no_shape ? at.shape : at.instance, 0, 0);
     case AovKind::prim_index: return Vec3(at.primitive, 0, 0);
     case AovKind::optical_depth: return first.optical_depth;
+    case AovKind::cryptomatte_object:
+    case AovKind::cryptomatte_material: return Vec3(1);
   }
   return Vec3(0);
 }
@@ -120,6 +125,32 @@ class PixelAovs {
   std::vector<Vec3> values_;
 };
 
+/// Parses one layer.
+Aov parse_aov(std::string_view item) {
+  const size_t colon = item.find(':'), slash = item.rfind('/');
+  const size_t begin = colon == std::string_view::npos ? 0 : colon + 1;
+  const bool has_levels = slash != std::string_view::npos && slash >= begin;
+  const size_t end = has_levels ? slash : item.size();
+  const std::string_view kind = trim(item.substr(begin, end - begin));
+  const std::string_view name = begin == 0 ? kind : trim(item.substr(0, colon));
+  Aov aov{std::string(name), kind_of(std::string(kind))};
+  if (!has_levels) return aov;
+  constexpr int64_t most_levels = 100;
+  const int64_t levels = parse_integer(item.substr(slash + 1)).value_or(0);
+  if (!is_cryptomatte(aov.kind) || levels < 1 || levels > most_levels)
+    throw UsageError(fmt::format(
+        "{} is not a layer that can be rendered; only cryptomatte_object and cryptomatte_material "
+        "have a number, of levels, from 1 to {}",
+        quote(item), most_levels));
+  aov.levels = static_cast<int>(levels);
+  return aov;
+}
+
+/// The names of the layers in which it is kept.
+std::vector<std::string> layers_of(const Aov& aov) {
+  return is_cryptomatte(aov.kind) ? cryptomatte_layers(aov) : std::vector{aov.name};
+}
+
 }  // namespace
 
 Vec3 aov_value(AovKind kind, const Scene& scene, const Ray& ray, double u_leg) {
@@ -136,21 +167,22 @@ std::vector<Aov> parse_aovs(const std::string& list) {
     begin = end + 1;
     if (item.empty()) continue;
     const size_t colon = item.find(':');
-    const std::string name(trim(std::string_view(item).substr(0, colon)));
-    const std::string kind(
-        colon == std::string::npos ? name : trim(std::string_view(item).substr(colon + 1)));
-    if (name.empty()) throw UsageError("the layer '" + item + "' has no name before its colon");
-    if (name == "alpha")
-      throw UsageError("no layer can be called 'alpha', which the image has by --alpha");
-    if (!names.insert(name).second)
-      throw UsageError("the layer '" + name + "' is asked for twice; give it two names");
-    aovs.push_back({name, kind_of(kind)});
+    if (colon == 0) throw UsageError("the layer '" + item + "' has no name before its colon");
+    aovs.push_back(parse_aov(item));
+    for (const std::string& name : layers_of(aovs.back())) {
+      if (name == "alpha")
+        throw UsageError("no layer can be called 'alpha', which the image has by --alpha");
+      if (!names.insert(name).second)
+        throw UsageError("the layer '" + name + "' is asked for twice; give it two names");
+    }
   }
   return aovs;
 }
 
-std::vector<NamedImage> render_aovs(const Scene& scene, const std::vector<Aov>& aovs, uint64_t seed,
+std::vector<NamedImage> render_aovs(const Scene& scene, std::vector<Aov> aovs, uint64_t seed,
                                     int threads) {
+  const auto has_ids = [](const Aov& aov) { return is_cryptomatte(aov.kind); };
+  aovs.erase(std::remove_if(aovs.begin(), aovs.end(), has_ids), aovs.end());
   const Vec2i size = scene.camera().raster().size;
   std::vector<NamedImage> layers;
   for (const Aov& aov : aovs)

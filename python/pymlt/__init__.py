@@ -14,7 +14,7 @@ import importlib as _importlib
 from typing import TYPE_CHECKING
 
 from . import _processor as _processor  # isort: skip (chooses what _core is)
-from . import scenes
+from . import cryptomatte, scenes
 from ._core import (
     Error,
     FileError,
@@ -95,6 +95,7 @@ __all__ = [
     "comparison_figure",
     "convergence",
     "convert",
+    "cryptomatte",
     "denoise",
     "describe",
     "equal_time",

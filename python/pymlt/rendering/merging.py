@@ -9,6 +9,7 @@ from itertools import combinations
 from typing import TYPE_CHECKING
 
 from .. import _core
+from ..cryptomatte import has_ids
 from ..images import read_metadata, read_with_layers
 from .result import Result
 
@@ -32,7 +33,8 @@ def merge(renders, *, force: bool = False) -> Result:
     force
         merge renders of different scenes or with different settings, too.
 
-    The result has the layers of the renders. Its layer `error` is the standard error of each pixel,
+    The result has the layers of the renders, and the Cryptomattes of the first, since of ids there
+    are no means. Its layer `error` is the standard error of each pixel,
     `error_block` that of the means over blocks of 8 x 8 pixels: from the spread between the
     renders if there are at least 8, else from the errors of the renders if all of them have one.
 
@@ -47,9 +49,11 @@ def merge(renders, *, force: bool = False) -> Result:
     total = sum(render.spp for render in renders)
     weights = [render.spp / total for render in renders]
     names = set.intersection(*(set(render.layers) for render in renders))
-    layers = {
+    first = renders[0]
+    layers = {name: ids for name, ids in first.layers.items() if has_ids(name, first.metadata)}
+    layers |= {
         name: _mean([render.layers[name] for render in renders], weights)
-        for name in sorted(names.difference(ERRORS))
+        for name in sorted(names.difference(ERRORS, layers))
     }
     if len(renders) >= SPREAD_FROM:
         images = [render.image for render in renders]
@@ -61,7 +65,6 @@ def merge(renders, *, force: bool = False) -> Result:
             squares = [np.square(render.layers[name], dtype=np.float64) for render in renders]
             variance = sum(w**2 * s for w, s in zip(weights, squares, strict=True))
             layers[name] = np.sqrt(variance).astype(np.float32)
-    first = renders[0]
     seeds = [seed for render in renders for seed in render.seeds]
     metadata = {**first.metadata, "seed": " ".join(seeds), "spp": f"{total:g}"}
     height, width = first.image.shape[:2]

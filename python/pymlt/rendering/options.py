@@ -32,10 +32,13 @@ class RenderOptions:
     aovs
         layers of what the camera sees first, in `result.layers`: "albedo", "depth", "position",
         "uv", "geo_normal", "sh_normal", "shape_index", "prim_index", "optical_depth" (of the media
-        before it; infinite where a ray does not leave them). A list, or one string with commas;
-        "n:sh_normal" calls the layer "n". Means over 16 camera rays per pixel (indices: of the
-        ray through its middle; -1 where there is nothing). float32, (height, width, 3); depth and
-        indices (height, width, 1). None are those of the scene's integrator `aov`.
+        before it; infinite where a ray does not leave them), "cryptomatte_object",
+        "cryptomatte_material". A list, or one string with commas; "n:sh_normal" calls the layer
+        "n". Means over 16 camera rays per pixel (indices: of the ray through its middle; -1 where
+        there is nothing). float32, (height, width, 3); depth and indices (height, width, 1). The
+        Cryptomattes are layers "cryptomatte_object00", "01" and "02" of four channels: two ids,
+        each followed by its coverage (see `pymlt.cryptomatte`); "cryptomatte_object/8" has 8 ids
+        per pixel in place of 6. None are the layers of the scene's integrator `aov`.
     alpha
         whether the result has `result.alpha`, also if the film's `pixel_format` is not "rgba": how
         much each pixel hides of what lies behind the scene. Masks, thin glass and media count in
