@@ -19,6 +19,18 @@ std::optional<int64_t> asked_sensor(const Node& scene) {
   return std::nullopt;
 }
 
+/// The sensors of the scene and those on its shapes, in their order.
+std::vector<const Node*> all_sensors(const Node& scene) {
+  std::vector<const Node*> sensors;
+  for (const Node& child : scene.children) {
+    if (child.family == "sensor") sensors.push_back(&child);
+    if (child.family != "shape") continue;
+    for (const Node& part : child.children)
+      if (part.family == "sensor") sensors.push_back(&part);
+  }
+  return sensors;
+}
+
 /// The property `aovs` of Mitsuba's integrator of that name.
 std::string asked_aovs(const Node& integrator) {
   for (const Node::Property& property : integrator.properties)
@@ -73,9 +85,7 @@ void make_spectral(Node& tree, const std::string& band) {
 }
 
 const Node& chosen_sensor(const Node& scene, std::vector<std::string>& warnings) {
-  std::vector<const Node*> sensors;
-  for (const Node& child : scene.children)
-    if (child.family == "sensor") sensors.push_back(&child);
+  const std::vector<const Node*> sensors = all_sensors(scene);
   if (sensors.empty())
     throw SceneError(at(scene.where, "the scene has no sensor; add <sensor type=\"perspective\">"));
   const auto asked = asked_sensor(scene);
