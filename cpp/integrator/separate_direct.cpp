@@ -1,6 +1,7 @@
 #include "integrator/separate_direct.h"
 
 #include "base/registry.h"
+#include "rendering/hidden_lights.h"
 #include "scene/scene.h"
 
 namespace mlt {
@@ -14,6 +15,9 @@ SeparateDirect separate_direct(ScenePtr scene, uint64_t seed, int samples, bool 
     if (light->delta_direction())
       throw UsageError("direct_samples would lose the direct light of emitter '" + light->type +
                        "', which next-event estimation cannot find; leave direct_samples out");
+  if (const Emitter* lamp = lamp_on_lens(*scene))
+    throw UsageError("direct_samples would lose the light of emitter '" + lamp->type +
+                     "' that falls straight on the sensor's shape; leave direct_samples out");
   const Plugin plugin = integrator_direct();
   Params params(plugin.schema, {});
   params.set("hide_emitters", hide_emitters, {});

@@ -5,8 +5,8 @@
 #include "base/text.h"
 #include "io/families.h"
 #include "io/leniency.h"
+#include "io/shape_parts.h"
 #include "scene/accel/instance.h"
-#include "scene/emitter/moving.h"
 #include "scene/mesh/mesh.h"
 #include "scene/nested.h"
 #include "scene/shape/sphere.h"
@@ -21,7 +21,7 @@ namespace {
 
 /// Whether the builder itself takes this child out of its parent's parameters, whatever its name.
 bool is_part(const std::string& parent, const std::string& child) {
-  if (parent == "shape") return child == "bsdf" || child == "emitter";
+  if (parent == "shape") return child == "bsdf" || child == "emitter" || child == "sensor";
   if (parent == "emitter") return child == "medium";
   return parent == "sensor" && (child == "film" || child == "sampler" || child == "medium");
 }
@@ -36,12 +36,6 @@ bool is_given_by_name(const Schema& schema, const std::string& name, const std::
          std::find(ignored.begin(), ignored.end(), current) != ignored.end();
 }
 
-/// The families of objects that are attached to a shape once it is made.
-std::vector<std::string> attached(const std::string& family) {
-  if (family != "shape") return {};
-  return {"bsdf", "emitter", "interior", "exterior"};
-}
-
 /// The side of a shape on which a medium is.
 const std::string& side_of_medium(const Node& medium) {
   if (medium.name != "interior" && medium.name != "exterior")
@@ -49,20 +43,6 @@ const std::string& side_of_medium(const Node& medium) {
                         "a medium of a shape should be named 'interior' or 'exterior'{}",
                         medium.name.empty() ? "" : ", not " + quote(medium.name)));
   return medium.name;
-}
-
-bool needs_a_shape(const Emitter& emitter) { return !emitter.infinite() && !emitter.delta(); }
-
-/// The shape, or an instance that moves it if its transform is an animation.
-ShapePtr moving(const ShapePtr& shape, Params& params) {
-  const Animation* animation = animation_param(params, "to_world");
-  if (!animation) return shape;
-  const Motion motion = Motion(*animation).after(glm::inverse(at_rest(*animation)));
-  const auto instance = std::make_shared<Instance>(shape, motion);
-  if (!shape->emitter()) return instance;
-  shape->set_emitter(std::make_shared<MovingEmitter>(shape->emitter_ptr(), *instance));
-  instance->set_emitter(shape->emitter_ptr());
-  return instance;
 }
 
 /// The sampler of another program; only its number of samples matters here.
@@ -248,15 +228,9 @@ void Builder::attach(Shape& shape, Params& params) {
   const EmitterPtr emitter = optional_nested<Emitter>(params, "emitter");
   shape.set_media({params.object<Medium>("interior"), params.object<Medium>("exterior")});
   shape.set_bsdf(bsdf ? bsdf : default_bsdf(emitter != nullptr, params.where()));
-  if (!emitter) return;
-  if (!needs_a_shape(*emitter))
-    throw SceneError(
-        at(emitter->where,
-           "emitter '{}' cannot be attached to a shape; put it directly into the scene",
-           emitter->type));
-  if (auto* mesh = dynamic_cast<Mesh*>(&shape)) mesh->prepare_sampling();
-  emitter->set_shape(&shape);
-  shape.set_emitter(emitter);
+  if (emitter) attach_light(shape, emitter);
+  if (const auto sensor = optional_nested<Camera>(params, "sensor"))
+    attach_sensor(shape, *sensor, params);
 }
 
 /// Checks an animation, and restricts it to the time of the shutter.

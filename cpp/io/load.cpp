@@ -76,6 +76,8 @@ Contents build_contents(const Node& scene, const Node& sensor, const std::option
     if (!builder.on_a_shape(*node))
       throw SceneError(
           at(node->where, "emitter '{}' needs a shape; put it inside one", node->type));
+  if (view.camera->lacks_shape())
+    throw SceneError(at(sensor.where, "sensor '{}' needs a shape; put it inside one", sensor.type));
   return contents;
 }
 

@@ -19,10 +19,15 @@ std::optional<int64_t> asked_sensor(const Node& scene) {
   return std::nullopt;
 }
 
+/// The sensors of the scene and those on its shapes, in their order.
 std::vector<const Node*> all_sensors(const Node& scene) {
   std::vector<const Node*> sensors;
-  for (const Node& child : scene.children)
+  for (const Node& child : scene.children) {
     if (child.family == "sensor") sensors.push_back(&child);
+    if (child.family != "shape") continue;
+    for (const Node& part : child.children)
+      if (part.family == "sensor") sensors.push_back(&part);
+  }
   return sensors;
 }
 

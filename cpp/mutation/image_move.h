@@ -16,7 +16,7 @@ class ImageMove {
   std::optional<Ray> move(const PathState& x, PathState& y, Rng& rng) const {
     const int k = x.edges();
     y.path[k] = x[k];
-    if (!camera_->delta_position() && rng.next() < 0.5) {
+    if (moves_on_lens() && rng.next() < 0.5) {
       const auto moved = camera_->move_on_lens(x[k].at, offset(lens_radius(), rng));
       if (!moved) return std::nullopt;
       y.path[k].at = *moved;
@@ -30,7 +30,7 @@ class ImageMove {
   double density(const PathState& x, const PathState& y) const {
     const double on_image = chain_.image_radius().planar_pdf(glm::length(y.raster - x.raster)) *
                             chain_.raster_per_direction(y);
-    if (camera_->delta_position()) return on_image;
+    if (!moves_on_lens()) return on_image;
     const Vec3 from = x[x.edges()].at.p, to = y[y.edges()].at.p;
     return on_image * 0.5 * (from == to ? 1 : lens_radius().planar_pdf(length(to - from)));
   }
@@ -41,6 +41,7 @@ class ImageMove {
     return r * Vec2(std::cos(phi), std::sin(phi));
   }
 
+  bool moves_on_lens() const { return camera_->lens_radius() > 0; }
   /// Radii on the lens: a thousandth and a third of its own radius.
   ExponentialRadius lens_radius() const {
     return {1e-3 * camera_->lens_radius(), camera_->lens_radius() / 3};

@@ -24,7 +24,7 @@ void PathTarget::evaluate_target(PathState& x) const {
   x.choice.known = false;
   x.known.invalidate();
   if (!rules_.wants(x.edges())) return;
-  if (x.edges() == 1 && !(x.terms.light_can_be_hit || x.terms.camera_can_be_hit)) return;
+  if (x.edges() == 1 && scene_->camera().delta_position() && !x.terms.light_can_be_hit) return;
   const Color f = relative_contribution(x.terms);
   const double target = target_luminance(f);
   if (!(target > 0)) {

@@ -86,7 +86,8 @@ bool BidirectionalSampler::evaluate_connection(Connection& connection, RayCounts
   if (b.vertex.at.infinite()) return false;
   if (direct ? !choose_direct(t) : s > static_cast<int>(light_.size())) return false;
   const WalkVertex& a = direct ? direct_ : light_[s - 1];
-  if (k == 1 && !lens_can_be_hit_ && !can_be_hit(*scene_, a.vertex)) return false;
+  // A pinhole does not show a light of no size.
+  if (k == 1 && scene_->camera().delta_position() && !can_be_hit(*scene_, a.vertex)) return false;
 
   JoinedEdge joined;
   if (!joined.find(*scene_, a, b, strict)) return false;

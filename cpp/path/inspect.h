@@ -33,7 +33,8 @@ inline double radiance_scale(const Scene& scene) {
 
 /// The linear sRGB of what a film of the scene has recorded.
 inline Color shown(const Scene& scene, const Color& recorded) {
-  return scene.camera().records_xyz() ? developed(recorded) : recorded;
+  const Camera& camera = scene.camera();
+  return camera.response() * (camera.records_xyz() ? developed(recorded) : recorded);
 }
 
 /// A connection that `paths` has just found, with its path.

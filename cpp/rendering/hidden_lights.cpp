@@ -40,6 +40,14 @@ std::vector<double> hidden_shares(const Scene& scene) {
 
 }  // namespace
 
+const Emitter* lamp_on_lens(const Scene& scene) {
+  const Camera& camera = scene.camera();
+  const bool on_a_shape = !camera.delta_position() && camera.lens_radius() == 0;
+  for (const EmitterPtr& light : scene.emitters())
+    if (on_a_shape && light->delta()) return light.get();
+  return nullptr;
+}
+
 void warn_of_hidden_lights(const Scene& scene, Stats& stats) {
   constexpr double least = 0.005;
   const auto& lights = scene.emitters();
@@ -49,6 +57,11 @@ void warn_of_hidden_lights(const Scene& scene, Stats& stats) {
           fmt::format("{} cannot find the light of emitter '{}', which shines along its normals "
                       "alone; use bdpt or mlt",
                       stats.integrator, light->type));
+  if (const Emitter* lamp = lamp_on_lens(scene))
+    stats.warnings.push_back(
+        fmt::format("{} cannot find the light of emitter '{}' that falls straight on the sensor's "
+                    "shape, since that emitter has no size; use bdpt or mlt",
+                    stats.integrator, lamp->type));
   if (std::none_of(lights.begin(), lights.end(), [](const auto& light) { return light->delta(); }))
     return;
   const std::vector<double> shares = hidden_shares(scene);

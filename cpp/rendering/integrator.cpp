@@ -5,10 +5,11 @@
 namespace mlt {
 
 Image Rendering::shown(Image image) const {
-  if (!scene().camera().records_xyz()) return image;
+  const Camera& camera = scene().camera();
+  if (!camera.records_xyz() && camera.response() == 1) return image;
   for (size_t i = 0; i < image.data.size(); i += 3) {
     float* const pixel = &image.data[i];
-    const Color rgb = developed({pixel[0], pixel[1], pixel[2]});
+    const Color rgb = mlt::shown(scene(), {pixel[0], pixel[1], pixel[2]});
     for (int c = 0; c < 3; ++c) pixel[c] = static_cast<float>(rgb[c]);
   }
   return image;

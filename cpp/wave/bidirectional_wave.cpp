@@ -183,7 +183,7 @@ void BidirectionalWave::join_alone(int s, int sample, const JointLanes& a, const
   const WalkVertex& x = single_vertex(a, i, kind, scratch_[0]);
   const WalkVertex& y = single_vertex(b, i, PointKind::surface, scratch_[1]);
   const bool to_lens = y.vertex.kind == VertexKind::camera, sees_light = s == 1 && to_lens;
-  if (sees_light && sums(a, i, 0) == 0 && sums(b, i, 0) == 0) return;
+  if (sees_light && sums(a, i, 0) == 0 && scene_->camera().delta_position()) return;
   JoinedEdge joined;
   if (!joined.find(*scene_, x, y, settings_.rules.strict_normals)) return;
   if (infinite) joined.a.onwards = technique.onwards[i];

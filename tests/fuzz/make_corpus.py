@@ -156,6 +156,15 @@ def make_vol() -> None:
             write("vol", f"{encoding}-{channels}.vol", b"VOL\x03" + header + data)
 
 
+def make_ies() -> None:
+    for last in (0, 90, 180, 360):
+        columns = [last * i // 2 for i in range(3 if last else 1)]
+        numbers = [1, -1, 2, 2, len(columns), 1, 2, 0, 0, 0, 1, 1, 60, 0, 90, *columns]
+        candela = range(1, 2 * len(columns) + 1)
+        text = " ".join(map(str, [*numbers, *candela]))
+        write("ies", f"{last}.ies", f"IESNA:LM-63-2002\n[TEST] none\nTILT=NONE\n{text}\n".encode())
+
+
 def scenes_of_every_kind(encode: Callable[[str], bytes]) -> Iterator[tuple[int, bytes]]:
     """Random scenes that are short enough, each with a plug-in that those before it lack."""
     known: set[str] = set()
@@ -405,6 +414,7 @@ if __name__ == "__main__":
     make_ply()
     make_serialized()
     make_vol()
+    make_ies()
     make_spectra()
     make_scenes()
     make_gltf()

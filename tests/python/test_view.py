@@ -144,6 +144,15 @@ def test_a_camera_that_sees_all_around_has_a_pose_of_its_own(sensor):
         np.testing.assert_allclose(one, other, atol=1e-6)
 
 
+def test_a_meter_stays_on_its_shape():
+    d = tiny.scene()
+    film = {"type": "hdrfilm", "width": 1, "height": 1, "rfilter": {"type": "box"}}
+    del d["sensor"]
+    d["plate"] = {"type": "rectangle", "meter": {"type": "irradiancemeter", "film": film}}
+    camera = SceneCamera(mlt.load_dict(d))
+    assert camera.scene(camera.pose, 2).width == 1
+
+
 def test_a_pose_is_kept_by_the_way_to_the_scene_and_back():
     from viser.transforms import SO3
 

@@ -105,7 +105,7 @@ class Camera : public Object {
   virtual bool delta_position() const = 0;
   /// Whether walks from lights can end on the lens. With clipping planes none does: what is not
   /// seen would block some of them.
-  bool can_be_hit() const { return !delta_position() && !clips(); }
+  virtual bool can_be_hit() const { return !delta_position() && !clips(); }
   /// The point of the lens at this offset (in its plane) from xk; nullopt beyond its rim.
   virtual std::optional<SurfacePoint> move_on_lens(const SurfacePoint& /*xk*/,
                                                    const Vec2& /*by*/) const {
@@ -140,6 +140,17 @@ class Camera : public Object {
   double invert_wavelength(double u) const {
     return band_ ? (u - band_->first) / (band_->last - band_->first) : u;
   }
+
+  /// By what the mean radiance over the lens and the directions of a pixel is multiplied.
+  virtual double response() const { return 1; }
+
+  /// Makes the surface of a shape its lens. Throws SceneError unless the sensor measures on shapes.
+  virtual void set_shape(const Shape*) {
+    throw SceneError(
+        at(where, "sensor '{}' does not measure on a shape; put it directly into the scene", type));
+  }
+  /// Whether it measures on a shape, and has none.
+  virtual bool lacks_shape() const { return false; }
 
   /// The medium that the scene file puts the lens into, or nullptr.
   const MediumPtr& medium() const { return medium_; }

@@ -13,7 +13,7 @@ namespace {
 class Projector final : public TurnedEmitter {
  public:
   explicit Projector(Params& params)
-      : TurnedEmitter(read_motion(params), turned_axes),
+      : TurnedEmitter(turning_motion_param(params), turned_axes),
         irradiance_(texture_param(params, "irradiance")),
         scale_(params.real_in("scale", 0, 1e9)) {
     const Vec2 size(irradiance_->resolution());
@@ -46,11 +46,6 @@ class Projector final : public TurnedEmitter {
   Color power() const override { return irradiance_->mean() * (pi * scale_ * area()); }
 
  private:
-  static Motion read_motion(Params& params) {
-    const Motion motion = motion_param(params, "to_world");
-    for (const Mat4& step : motion.steps()) orientation(params, "to_world", step);
-    return motion;
-  }
   static double cube(double x) { return x * x * x; }
   double area() const { return 4 * half_.x * half_.y; }
   double density(const Vec3& local) const { return 1 / (area() * cube(local.z)); }

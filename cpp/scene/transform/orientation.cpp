@@ -34,6 +34,12 @@ Frame orientation(const Params& params, const std::string& name, const Mat4& to_
   return perpendicular(x, z, volume);
 }
 
+Motion turning_motion_param(Params& params) {
+  const Motion motion = motion_param(params, "to_world");
+  for (const Mat4& step : motion.steps()) orientation(params, "to_world", step);
+  return motion;
+}
+
 Frame turned_axes(const Mat4& to_world) {
   const Vec3 x = normalize(Vec3(to_world[0])), z = normalize(Vec3(to_world[2]));
   return perpendicular(x, z, glm::determinant(Mat3(to_world)));

@@ -4,6 +4,7 @@
 
 #include "base/params.h"
 #include "math/frame.h"
+#include "scene/transform/motion.h"
 
 namespace mlt {
 
@@ -11,6 +12,9 @@ namespace mlt {
 /// transform). The z axis is kept exactly; the others are made perpendicular to it. Throws
 /// SceneError about the parameter `name` if the transform is singular or shears.
 Frame orientation(const Params& params, const std::string& name, const Mat4& to_world);
+
+/// The parameter `to_world`, of which every step has an orientation.
+Motion turning_motion_param(Params& params);
 
 /// The orientation of a transform that is known to be neither singular nor shearing.
 Frame turned_axes(const Mat4& to_world);

@@ -55,6 +55,8 @@ class SceneCamera:
         self.size = (scene.width, scene.height)
         names = scene.parameters()
         self._name = _nth(names, ".shutter_open", sensor)
+        if f"{self._name}.to_world" not in names:
+            self._name = None  # a meter stays on its shape
         self._film = _nth(names, ".crop_width", sensor)
         if self._film and any(names[f"{self._film}.crop_{side}"] for side in ("width", "height")):
             self._film = None  # a part of an image that is smaller would be another part

@@ -4,15 +4,20 @@
 
 #include "base/rng.h"
 #include "harness/chi_square.h"
+#include "scene/mesh/mesh.h"
 #include "scene/plugin_testing.h"
 
 namespace mlt {
 
 Plugin sensor_fisheye();
+Plugin sensor_irradiancemeter();
 Plugin sensor_orthographic();
 Plugin sensor_perspective();
 Plugin sensor_spherical();
 Plugin sensor_thinlens();
+Plugin shape_cube();
+Plugin shape_disk();
+Plugin shape_sphere();
 
 namespace {
 
@@ -95,6 +100,26 @@ std::vector<CameraPtr> cameras_of_all_kinds() {
   std::vector<CameraPtr> cameras = all_cameras();
   for (const CameraPtr& made : panoramic_cameras()) cameras.push_back(made);
   return cameras;
+}
+
+/// Meters on shapes, each of which keeps its shape.
+std::vector<CameraPtr> meters() {
+  std::vector<CameraPtr> meters;
+  for (const Plugin& plugin : {shape_cube(), shape_disk(), shape_sphere()}) {
+    const auto shape = make<Shape>(plugin, {{"to_world", placed}});
+    if (const auto mesh = std::dynamic_pointer_cast<Mesh>(shape)) mesh->prepare_sampling();
+    const CameraPtr meter = camera(sensor_irradiancemeter(), {}, whole(1, 1));
+    meter->set_shape(shape.get());
+    const auto both = std::make_shared<std::pair<ShapePtr, CameraPtr>>(shape, meter);
+    meters.emplace_back(both, meter.get());
+  }
+  return meters;
+}
+
+std::vector<CameraPtr> all_cameras_and_meters() {
+  std::vector<CameraPtr> all = cameras_of_all_kinds();
+  for (const CameraPtr& meter : meters()) all.push_back(meter);
+  return all;
 }
 
 /// Directions that are nearly parallel differ little from pixel to pixel, and linearly.
@@ -220,7 +245,7 @@ TEST(Camera, ScalesOfItsTransformMeanNothing) {
 
 TEST(Camera, RasterPositionInvertsDirection) {
   Rng rng(1, Purpose::test, 0);
-  for (const CameraPtr& made : cameras_of_all_kinds())
+  for (const CameraPtr& made : all_cameras_and_meters())
     for (int i = 0; i < 1000; ++i) {
       const SurfacePoint xk = made->sample_position({rng.next(), rng.next()}, 0).at;
       const Vec2 raster = made->raster().sample({rng.next(), rng.next()});
@@ -300,7 +325,7 @@ TEST(Camera, ImportanceIntegratesToOneOverTheImage) {
 
 TEST(Camera, PositionsAreATriple) {
   Rng rng(4, Purpose::test, 0);
-  for (const CameraPtr& made : cameras_of_all_kinds()) {
+  for (const CameraPtr& made : all_cameras_and_meters()) {
     for (int i = 0; i < 200; ++i) {
       const Vec2 u(rng.next(), rng.next());
       const PositionSample sample = made->sample_position(u, 0);
@@ -312,6 +337,19 @@ TEST(Camera, PositionsAreATriple) {
       }
     }
   }
+}
+
+TEST(IrradianceMeter, SeesTheHemisphereAboveItsShape) {
+  Rng rng(8, Purpose::test, 0);
+  for (const CameraPtr& meter : meters())
+    for (int i = 0; i < 100; ++i) {
+      const PositionSample lens = meter->sample_position({rng.next(), rng.next()}, 0);
+      const Vec3 w = meter->direction(lens.at, {rng.next(), rng.next()});
+      EXPECT_GE(dot(w, lens.at.ng), 0);
+      EXPECT_NEAR(meter->eval(lens.at, w), lens.pdf / pi, 1e-12);
+      EXPECT_FALSE(meter->project(lens.at, -w));
+      EXPECT_FALSE(meter->can_be_hit());
+    }
 }
 
 TEST(ThinLens, PositionsFillTheLensUniformly) {
