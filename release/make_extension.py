@@ -1,6 +1,6 @@
 """Makes dist/pymlt-blender-VERSION.zip: the extension for Blender with these wheels.
 
-    python release/make_extension.py dist/pymlt-0.2.0-*.whl
+    python release/make_extension.py dist/pymlt-0.3.0-*.whl
 
 `make blender` calls it. The manifest gets the version of pymlt and the names of the wheels.
 """
