@@ -42,6 +42,7 @@ inline std::vector<std::string> scene_names() {
           "mirror",
           "sphere_light",
           "spot",
+          "luminaire",
           "materials",
           "instances",
           "orthographic",
@@ -79,8 +80,9 @@ inline std::vector<std::string> clear_scene_names() {
 /// hours (the sky itself, through a pinhole).
 inline bool light_sees_all(const std::string& name) {
   const std::vector<std::string> seen = {
-      "cornell",   "rough_glass",    "sky_map",      "sun",  "point",        "mixed_lights",
-      "thin_lens", "smooth_normals", "sphere_light", "spot", "orthographic", "projector"};
+      "cornell",      "rough_glass",  "sky_map",        "sun",          "point",
+      "mixed_lights", "thin_lens",    "smooth_normals", "sphere_light", "spot",
+      "luminaire",    "orthographic", "projector"};
   return std::count(seen.begin(), seen.end(), name) > 0;
 }
 
