@@ -361,8 +361,8 @@ TEST(SceneMistake, PluginsOfMitsubaAreRefusedByName) {
     EXPECT_NE(message.find("is not supported: "), std::string::npos) << message;
     EXPECT_EQ(message.substr(0, 10), "<string>:2") << message;
   }
-  EXPECT_NE(error_of("<sensor type='spherical'/>" + point_light)
-                .find("sensor 'spherical' is not supported"),
+  EXPECT_NE(error_of("<sensor type='fluencemeter'/>" + point_light)
+                .find("sensor 'fluencemeter' is not supported"),
             std::string::npos);
 }
 
