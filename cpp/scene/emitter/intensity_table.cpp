@@ -50,16 +50,15 @@ std::optional<IntensityTable::Place> IntensityTable::place(const Vec3& w) const 
   return Place{
       row,
       column,
-      {share(phi, phi_[column], phi_[column + 1]), share(w.z, cosines_[row], cosines_[row + 1])}};
+      {share(phi, phi_[column], phi_[column + 1]), share(w.z, cosines_[row], cosines_[row + 1])},
+      share(theta, theta_[row], theta_[row + 1])};
 }
 
 double IntensityTable::at(const Vec3& w) const {
   const auto place = this->place(w);
   if (!place) return 0;
-  const size_t row = place->row;
-  const double theta = std::atan2(std::hypot(w.x, w.y), w.z);
-  const double x = place->within.x, y = share(theta, theta_[row], theta_[row + 1]);
-  const auto [v00, v10, v01, v11] = patch(row, place->column);
+  const double x = place->within.x, y = place->along_theta;
+  const auto [v00, v10, v01, v11] = patch(place->row, place->column);
   return (1 - y) * ((1 - x) * v00 + x * v10) + y * ((1 - x) * v01 + x * v11);
 }
 

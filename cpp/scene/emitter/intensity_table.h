@@ -30,15 +30,16 @@ class IntensityTable {
   double integral() const;
 
  private:
-  /// A place in a cell, in [0, 1]^2: along phi, and along theta or its cosine.
+  /// A place in a cell.
   struct Place {
     size_t row, column;
-    Vec2 within;
+    Vec2 within;         ///< In [0, 1]^2: along phi, and along cos theta.
+    double along_theta;  ///< In [0, 1].
   };
   size_t rows() const { return theta_.size() - 1; }
   size_t columns() const { return phi_.size() - 1; }
   size_t index(const Place& place) const { return place.row * columns() + place.column; }
-  /// The place by cos theta; nullopt where it is dark.
+  /// nullopt where it is dark.
   std::optional<Place> place(const Vec3& w) const;
   BilinearPatch<double> patch(size_t row, size_t column) const;
   double solid_angle(size_t row, size_t column) const;
