@@ -108,11 +108,12 @@ def test_grey_arrays_have_two_dimensions():
     )
 
 
-def test_environment_maps_may_be_arrays(tmp_path):
+@pytest.mark.parametrize("kind", ["envmap", "goniometric"])
+def test_maps_of_all_directions_may_be_arrays(kind, tmp_path):
     sky = np.random.default_rng(1).random((4, 8, 3)).astype(np.float32)
     mlt.write_image(tmp_path / "sky.exr", sky)
-    array = scene(mesh(), sky={"type": "envmap", "data": sky})
-    file = scene(mesh(), sky={"type": "envmap", "filename": str(tmp_path / "sky.exr")})
+    array = scene(mesh(), sky={"type": kind, "data": sky})
+    file = scene(mesh(), sky={"type": kind, "filename": str(tmp_path / "sky.exr")})
     np.testing.assert_array_equal(image(array), image(file))
 
 

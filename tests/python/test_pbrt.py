@@ -745,7 +745,7 @@ def test_what_has_no_counterpart_is_named():
         'MakeNamedMedium "fog" "string type" "cloud" "rgb sigma_a" [1 1 1]\n',
         'MediumInterface "" "fog"\nColorSpace "srgb"\n',
         'Material "hair" Shape "curve" Shape "sphere" "float zmax" .5 "float beauty" 1\n',
-        'LightSource "goniometric"\n',
+        'LightSource "laser"\n',
     )
     said = " ".join(made.warnings)
     for word in ("ColorSpace", "'cloud'", "'hair'", "'curve'", "parts of spheres"):

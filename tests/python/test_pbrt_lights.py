@@ -4,7 +4,8 @@ import math
 
 import numpy as np
 import pytest
-from pbrt_v3_files import SKY, assert_close, read
+from pbrt_screens import SCREEN_V4, cast, shown, smooth
+from pbrt_v3_files import assert_close, read
 from pbrt_v4_files import VIEW, WALL, seen
 
 import pymlt as mlt
@@ -147,24 +148,6 @@ def test_images_that_shine_are_exposed():
 
 # ---- images that are cast ----------------------------------------------------------------------
 
-#: From where the light is: at the side of a cube to which the wall is the opposite side.
-SCREEN = """
-LookAt 0 0 0  0 0 1  0 1 0
-Camera "perspective" "float fov" [ 90 ]
-Film "rgb" "integer xresolution" [ 48 ] "integer yresolution" [ 32 ]
-PixelFilter "box"
-WorldBegin
-Material "diffuse" "rgb reflectance" [ 1 1 1 ]
-Shape "trianglemesh" "point3 P" [ -3 -3 1  3 -3 1  3 3 1  -3 3 1 ]
-    "integer indices" [ 0 2 1 0 3 2 ]
-"""
-
-
-def cast(light: str, film: str = '"rgb"') -> np.ndarray:
-    made = read(SCREEN.replace('"rgb"', film, 1), light)
-    assert made.warnings == []
-    return mlt.render(mlt.load_dict(made.scene), mlt.Path(max_depth=2), spp=64)
-
 
 def slide() -> np.ndarray:
     """Six colours."""
@@ -174,12 +157,9 @@ def slide() -> np.ndarray:
 
 
 def test_a_projection_casts_the_intensities_of_its_image():
-    """On a plane at unit distance the irradiance is I cos / r^2 = I cos^3."""
     colours = slide()
     found = cast('LightSource "projection" "string filename" "slide.exr" "float scale" 5')
-    x, y = np.meshgrid((np.arange(48) + 0.5) / 16 - 1.5, (np.arange(32) + 0.5) / 16 - 1)
-    cubed = (1 + x**2 + y**2) ** -1.5
-    expected = 5 * colours.repeat(16, axis=0).repeat(16, axis=1) * cubed[..., None] / math.pi
+    expected = 5 * colours.repeat(16, axis=0).repeat(16, axis=1) * shown()
     inside = np.arange(48) % 16 % 15 > 0  # an edge may lie within a pixel beside it
     kept = np.ix_(inside[:32], inside)
     np.testing.assert_allclose(found[kept], expected[kept], rtol=0.02)
@@ -192,7 +172,7 @@ def test_a_projection_has_the_power_that_is_given():
     lamp = 'LightSource "projection" "string filename" "slide.exr" "float power" 100'
     found = cast(lamp) @ LUMINANCES
     assert math.pi * found.mean() * 6 == pytest.approx(100, rel=0.01)
-    exposed = cast(lamp, '"rgb" "float iso" 300') @ LUMINANCES
+    exposed = cast(lamp, SCREEN_V4.replace('"rgb"', '"rgb" "float iso" 300', 1)) @ LUMINANCES
     assert exposed.mean() == pytest.approx(3 * found.mean(), rel=1e-3)
 
 
@@ -221,6 +201,47 @@ def test_a_dark_light_with_a_power_is_refused(lamp):
         read(VIEW, f"LightSource {lamp}")
 
 
-def test_a_goniometric_light_is_left_out_by_name():
-    said = read(VIEW, SKY, 'LightSource "goniometric" "float power" 7').warnings
-    assert said == ["the light 'goniometric' has no counterpart"]
+# ---- goniometric lights ------------------------------------------------------------------------
+
+
+def octahedral_directions(side: int) -> np.ndarray:
+    """EqualAreaSquareToSphere of pbrt-v4 (Clarberg 2008) of the middles of an image's pixels."""
+    along = (np.arange(side) + 0.5) / side * 2 - 1
+    u, v = np.meshgrid(along, along)
+    inside = 1 - abs(u) - abs(v)  # of the square of the upper half
+    r = 1 - abs(inside)
+    phi = np.pi / 4 * ((abs(v) - abs(u)) / r + 1)
+    across = r * np.sqrt(2 - r**2)
+    x, y = np.copysign(across * np.cos(phi), u), np.copysign(across * np.sin(phi), v)
+    return np.stack([x, y, np.copysign(1 - r**2, inside)], axis=-1)
+
+
+TURNS = {
+    "": np.eye(3),
+    "Rotate 50 1 2 3\n": mlt.Transform.rotate([1, 2, 3], 50).matrix[:3, :3],
+    "Scale -1 1 1\n": np.diag([-1.0, 1, 1]),
+}
+
+
+@pytest.mark.parametrize("turn", TURNS)
+def test_a_goniometric_light_has_the_intensities_of_its_image(turn):
+    """The y axis of the light is the z axis of its image, and greys are means of colours."""
+    intensity = smooth(octahedral_directions(128)[..., [0, 2, 1]])[..., None]
+    mlt.write_image("a.exr", np.float32(intensity * [1.2, 1, 0.8]))
+    lamp = f'{turn}LightSource "goniometric" "string filename" "a.exr" "rgb I" [ 3 2 1 ]'
+    expected = shown(lambda d: smooth(d @ TURNS[turn])) * [15, 10, 5]
+    np.testing.assert_allclose(cast(f'{lamp} "float scale" 5'), expected, rtol=0.02)
+
+
+def test_a_goniometric_light_has_the_power_that_is_given():
+    mlt.write_image("a.exr", np.full((4, 4, 3), 7, np.float32))
+    lamp = 'LightSource "goniometric" "string filename" "a.exr" "rgb I" [ 3 2 1 ] "float power" 9'
+    np.testing.assert_allclose(cast(lamp), shown() * [3, 2, 1] * 9 / (4 * math.pi), rtol=0.01)
+
+
+def test_a_goniometric_light_without_an_image_is_refused():
+    with pytest.raises(mlt.SceneError, match="goniometric light needs the 'filename' of its image"):
+        read(VIEW, 'LightSource "goniometric"')
+    mlt.write_image("a.exr", np.ones((2, 4, 3), np.float32))
+    with pytest.raises(mlt.SceneError, match="a map of all directions of pbrt-v4 is square"):
+        read(VIEW, 'LightSource "goniometric" "string filename" "a.exr"')

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from pbrt_screens import SCREEN_V3, cast, shown, smooth
 from pbrt_v3_files import RED, SKY, VIEW, WALL, assert_close, read, seen
 
 import pymlt as mlt
@@ -76,12 +77,6 @@ def test_the_brightest_wavelength_of_a_black_body_has_its_second_number(kelvin):
     assert heights == pytest.approx(expected, rel=1e-4)
 
 
-def test_lights_without_a_counterpart_are_named():
-    for kind in ("goniometric", "projection"):
-        said = read(VIEW, SKY, f'LightSource "{kind}" "string mapname" "a.exr"').warnings
-        assert said == [f"the light '{kind}' has no counterpart"]
-
-
 ROWS = 16
 
 
@@ -124,6 +119,51 @@ def test_a_map_of_bytes_is_not_decoded():
     mlt.write_image("a.png", np.full((ROWS, 2 * ROWS, 3), decoded, np.float32))
     found = looking(RED, 'LightSource "infinite" "string mapname" "a.png"')
     assert_close(found, 0.5)
+
+
+# ---- images that are cast ----------------------------------------------------------------------
+
+
+TURNS = {"": np.eye(3), "Rotate 90 0 1 0\n": mlt.Transform.rotate([0, 1, 0], 90).matrix[:3, :3]}
+
+
+@pytest.mark.parametrize("turn", TURNS)
+def test_a_goniometric_map_is_of_latitude_and_longitude_around_y(turn):
+    u, v = np.meshgrid((np.arange(128) + 0.5) / 128, (np.arange(64) + 0.5) / 64)
+    around_z = np.stack(
+        [*np.sin(np.pi * v) * [np.cos(2 * np.pi * u), np.sin(2 * np.pi * u)], np.cos(np.pi * v)],
+        axis=-1,
+    )
+    intensity = smooth(around_z[..., [0, 2, 1]])[..., None]
+    mlt.write_image("a.exr", np.float32(intensity * [1.5, 1, 0.5]))
+    lamp = f'{turn}LightSource "goniometric" "string mapname" "a.exr" "color I" [ 2 2 4 ]'
+    found = cast(f'{lamp} "color scale" [ 3 3 3 ]', SCREEN_V3)
+    expected = shown(lambda d: smooth(d @ TURNS[turn])) * [9, 6, 6]
+    np.testing.assert_allclose(found, expected, rtol=0.02)
+
+
+def test_a_goniometric_light_without_a_map_is_a_point():
+    found = cast('LightSource "goniometric" "color I" [ 3 2 1 ]', SCREEN_V3)
+    np.testing.assert_allclose(found, shown() * [3, 2, 1], rtol=0.01)
+
+
+def test_a_projection_interpolates_and_has_its_first_row_below():
+    pixels = np.random.default_rng(1).random((2, 3, 3)).astype(np.float32)
+    mlt.write_image("a.exr", pixels)
+    lamp = 'LightSource "projection" "string mapname" "a.exr" "float fov" 90 "color I" [ 2 4 6 ]'
+    found = cast(lamp, SCREEN_V3) / shown()
+    around = np.pad(pixels[::-1] * [2, 4, 6], ((1, 1), (1, 1), (0, 0)), mode="wrap")
+    rows, columns = ((np.arange(count) + 0.5) / 16 + 0.5 for count in (32, 48))
+    between = np.apply_along_axis(lambda c: np.interp(rows, range(4), c), 0, around)
+    expected = np.apply_along_axis(lambda r: np.interp(columns, range(5), r), 1, between)
+    np.testing.assert_allclose(found, expected, rtol=0.02, atol=0.02)
+
+
+def test_a_projection_without_a_map_fills_its_square():
+    found = cast('LightSource "projection"', SCREEN_V3) / shown()
+    reach = math.tan(math.radians(45 / 2)) * 16
+    assert_close(found[14:18, 22:26].mean(axis=(0, 1)), 1)
+    assert found[..., 0].sum() == pytest.approx((2 * reach) ** 2, rel=0.01)
 
 
 # ---- textures ----------------------------------------------------------------------------------

@@ -37,7 +37,9 @@ class EnvironmentMap : public InfiniteEmitter {
   void sample_positions(const PositionRequest* requests, int count) const final;
   double pdf_position(const SurfacePoint& x0) const final;
   Vec2 invert_position(const SurfacePoint& x0) const final;
-  Color power() const final { return integral_ * (scale_ * disk_area()); }
+  Color power() const final { return integral() * disk_area(); }
+  /// The integral of the radiance over the sphere.
+  Color integral() const { return scale_ * integral_; }
 
  private:
   int cell_rows() const { return height_ - 1; }

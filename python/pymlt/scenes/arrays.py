@@ -3,11 +3,11 @@
 A mesh is `{"type": "mesh", "vertices": (n, 3), "faces": (m, 3), "normals": (n, 3), "uv": (n, 2),
 "vertex_color": (n, 3)}`, of which only the first two are needed, or an object with `vertices` and
 `faces`, such as a `trimesh.Trimesh`, in the place of a shape. An image is `{"type": "bitmap",
-"data": (height, width[, channels])}`; `envmap` takes `data` too. Both also take the bytes of an
-image file. A volume is `{"type": "gridvolume", "data": (depth, height, width[, channels])}`. In the
-place of `data`, images have `bitmap` and volumes `grid`, under which Mitsuba takes an `mi.Bitmap`
-and an `mi.VolumeGrid`. The core gets arrays as bytes: so they are part of the scene where it is
-hashed, pickled, saved in a checkpoint or sent to a cluster.
+"data": (height, width[, channels])}`; `envmap` and `goniometric` take `data` too. All also take
+the bytes of an image file. A volume is `{"type": "gridvolume", "data": (depth, height, width[,
+channels])}`. In the place of `data`, images have `bitmap` and volumes `grid`, under which Mitsuba
+takes an `mi.Bitmap` and an `mi.VolumeGrid`. The core gets arrays as bytes: so they are part of the
+scene where it is hashed, pickled, saved in a checkpoint or sent to a cluster.
 """
 
 from __future__ import annotations
@@ -23,9 +23,9 @@ if TYPE_CHECKING:
 MOST_LEVELS = 64
 
 MESH_BUFFERS = {"vertices": 3, "faces": 3, "normals": 3, "uv": 2, "vertex_color": 3}
-IMAGES = ("bitmap", "envmap")
+IMAGES = ("bitmap", "envmap", "goniometric")
 # What Mitsuba calls `data`.
-HELD = {"bitmap": "bitmap", "envmap": "bitmap", "gridvolume": "grid"}
+HELD = dict.fromkeys(IMAGES, "bitmap") | {"gridvolume": "grid"}
 
 
 def with_bytes(scene: dict, path: str = "scene") -> dict:

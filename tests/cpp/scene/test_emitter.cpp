@@ -16,6 +16,7 @@ Plugin emitter_area();
 Plugin emitter_constant();
 Plugin emitter_directional();
 Plugin emitter_envmap();
+Plugin emitter_goniometric();
 Plugin emitter_ies();
 Plugin emitter_point();
 Plugin emitter_projector();
@@ -134,6 +135,12 @@ std::vector<Light> all_lights() {
       {"luminaire",
        make<Emitter>(emitter_ies(),
                      {{"filename", photometric_file()}, {"scale", rgb}, {"to_world", turned}}),
+       {}},
+      {"goniometric",
+       make<Emitter>(emitter_goniometric(),
+                     {{"filename", test::temporary_image("intensities.exr", thirty_texels())},
+                      {"scale", 0.7},
+                      {"to_world", turned}}),
        {}},
       {"sun",
        make<Emitter>(
@@ -555,7 +562,7 @@ TEST(Projector, ShowsItsImageOnAWhitePlaneAcrossItsAxis) {
   }
 }
 
-// ---- daylight
+// ---- goniometric
 
 /// Of a light at infinity, in the direction that looks up to it.
 Color radiance(const Emitter& light, const Vec3& up) {
@@ -564,6 +571,22 @@ Color radiance(const Emitter& light, const Vec3& up) {
   x0.kind = PointKind::infinite;
   return light.eval(x0, -x0.p).rgb();
 }
+
+TEST(Goniometric, ShinesIntoADirectionAsTheEnvironmentDoesFromThere) {
+  const Given turn = {{"scale", 0.7}, {"to_world", turned}};
+  const auto sky = environment("directions.exr", thirty_texels(), turn);
+  Given given = turn;
+  given["filename"] = test::temporary_image("directions.exr", thirty_texels());
+  const auto lamp = make<Emitter>(emitter_goniometric(), given);
+  const SurfacePoint x0 = lamp->sample_position({0.5, 0.5}, 0).at;
+  Rng rng(8, Purpose::test, 0);
+  for (int i = 0; i < 100; ++i) {
+    const Vec3 w = sample_uniform_sphere({rng.next(), rng.next()});
+    expect_close(lamp->eval(x0, w).rgb(), radiance(*sky, w), 1e-12);
+  }
+}
+
+// ---- daylight
 
 TEST(Sun, StandsWhereMitsubaHasIt) {
   const auto integer = [](int64_t x) { return Value(x); };

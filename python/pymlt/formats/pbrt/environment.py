@@ -18,23 +18,36 @@ def environment(params: Params, path: Path, to_world: np.ndarray, scale: float) 
     """An `envmap` of the same light, with as many rows as the octahedral map has."""
     import numpy as np
 
-    given = read_rgb(path)
-    if given.shape[0] != given.shape[1]:
-        raise params.where.error(f"{path.name}: an environment map of pbrt-v4 is square")
-    rows = given.shape[0]
+    given = read_octahedral(params, path)
     if params.get("illuminance"):
         scale *= factor(params, "illuminance", upward_illuminance(given))
-    # Some rows at a time, for their directions take more memory than their colours.
-    parts = [slice(first, first + 64) for first in range(0, rows, 64)]
-    found = [sampled(given, square_of(directions(rows, p))).astype(np.float32) for p in parts]
     # The y axis of our maps, up, is the z axis of theirs.
     turn = np.array([[1.0, 0, 0, 0], [0, 0, -1, 0], [0, 1, 0, 0], [0, 0, 0, 1]])
     return {
         "type": "envmap",
-        "data": np.concatenate(found),
+        "data": resampled(given),
         "scale": scale,
         "to_world": to_world @ turn,
     }
+
+
+def read_octahedral(params: Params, path: Path) -> np.ndarray:
+    """In linear light, (n, n, 3)."""
+    given = read_rgb(path)
+    if given.shape[0] != given.shape[1]:
+        raise params.where.error(f"{path.name}: a map of all directions of pbrt-v4 is square")
+    return given
+
+
+def resampled(octahedral: np.ndarray) -> np.ndarray:
+    """Of latitude and longitude, (n, 2 n, channels), from (n, n, channels)."""
+    import numpy as np
+
+    rows = len(octahedral)
+    # Some rows at a time, for their directions take more memory than their colours.
+    parts = [slice(first, first + 64) for first in range(0, rows, 64)]
+    found = [sampled(octahedral, square_of(directions(rows, p))) for p in parts]
+    return np.concatenate([part.astype(np.float32) for part in found])
 
 
 def directions(rows: int, part: slice = slice(None)) -> np.ndarray:

@@ -40,7 +40,7 @@ def _exposed(part: dict[str, Any], ratio: float) -> dict[str, Any]:
     made = dict(part)
     if "emitter" in part:
         made["emitter"] = _exposed(part["emitter"], ratio)
-    elif part["type"] in ("envmap", "projector"):
+    elif part["type"] in ("envmap", "goniometric", "projector"):
         made["scale"] = part["scale"] * ratio
     else:
         made |= {key: multiplied(part[key], ratio) for key in STRENGTHS if key in part}

@@ -20,6 +20,10 @@ def light(params: Params, folder: Path, to_world: np.ndarray) -> dict[str, Any] 
         from .projection import projection
 
         return projection(params, folder, to_world, scale)
+    if params.type == "goniometric":
+        from .goniometric import goniometric
+
+        return goniometric(params, folder, to_world, scale)
     if params.type == "infinite" and (filename := params.text("filename")):
         from .environment import environment
 
@@ -40,7 +44,7 @@ def placed(params: Params, to_world: np.ndarray, power: Any) -> dict[str, Any] |
     axis = to_world[:3, :3] @ (end - start)
     if params.type == "distant":
         return {"type": "directional", "irradiance": power, "direction": axis.tolist()}
-    if params.type == "point":
+    if params.type in ("point", "goniometric"):  # of pbrt-v3, without an image
         return {"type": "point", "intensity": power, "position": position.tolist()}
     if params.type == "spot":
         from ...scenes.transforms import Transform

@@ -9,17 +9,22 @@ from typing import Any
 import numpy as np
 
 from ....images import read_image
+from ....pictures.tonemapping import encode_srgb, split_alpha
 from ...imported import rgb
 from ...limits import check_pixels
 from ..area_lights import AreaLight, shining_sides
 from ..arithmetic import multiplied
 from ..lights import placed
 from ..params import Params
+from ..projection import cast, division
 from ..spectra import numbers
 from ..textures import Textures
 
 #: From the axes of our maps, whose columns go around y, to those of pbrt's, around z.
 AROUND_Z = np.array([[0.0, 0, -1, 0], [1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 0, 1]])
+
+#: Swaps the y and the z axis.
+Y_AND_Z = np.eye(4)[[0, 2, 1, 3]]
 
 
 def light(params: Params, folder: Path, to_world: np.ndarray) -> dict[str, Any] | None:
@@ -30,6 +35,12 @@ def light(params: Params, folder: Path, to_world: np.ndarray) -> dict[str, Any] 
         if filename := params.text("mapname"):
             return environment(folder / filename, to_world, numbers(radiance))
         return {"type": "constant", "radiance": radiance}
+    if params.type == "projection":
+        return projection(params, folder, to_world)
+    if params.type == "goniometric" and (filename := params.text("mapname")):
+        colour = numbers(strength(params, "I"))
+        around_y = to_world @ Y_AND_Z
+        return environment(folder / filename, around_y, colour) | {"type": "goniometric"}
     found = placed(params, to_world, strength(params, "L" if params.type == "distant" else "I"))
     if found and found["type"] == "spot" and found["beam_width"] < found["cutoff_angle"]:
         found["cutoff_angle"] = _same_power(found["beam_width"], found["cutoff_angle"])
@@ -60,20 +71,39 @@ def environment(path: Path, to_world: np.ndarray, colour: list[float]) -> dict[s
     Our first and last rows are at the poles, pbrt's half a row away from them: with a row between
     each two of pbrt's the map is the same.
     """
-    pixels = read_image(path)[..., :3]
-    check_pixels(pixels, str(path))
-    if path.suffix.lower() in (".png", ".tga"):
-        pixels = _encoded(pixels)
+    pixels = _read_map(path)
     data = np.repeat(pixels * np.asarray(colour, np.float32), 2, axis=0)
     between = (data[1:] + data[:-1]) / 2
     rows = np.concatenate([data[:1], between, data[-1:]])
     return {"type": "envmap", "data": rows, "scale": 1.0, "to_world": to_world @ AROUND_Z}
 
 
-def _encoded(linear: np.ndarray) -> np.ndarray:
-    """As sRGB: the numbers that are stored, which pbrt takes as they are in maps of light."""
-    dark = linear <= 0.0031308
-    return np.where(dark, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
+def projection(params: Params, folder: Path, to_world: np.ndarray) -> dict[str, Any]:
+    """An image that is interpolated, and of which the first row is the lowest one."""
+    filename = params.text("mapname")
+    image = _read_map(folder / filename) if filename else np.ones((1, 1, 3), np.float32)
+    colour = np.float32(numbers(strength(params, "I")))
+    times = division(image, filename or "a light without an image")
+    larger = _interpolated(_interpolated(image * colour, times, axis=0), times, axis=1)
+    return cast(larger[::-1], params.number("fov", 45), 1.0, to_world)
+
+
+def _interpolated(image: np.ndarray, times: int, axis: int) -> np.ndarray:
+    """Each pixel cut into so many; beyond the last one the first one follows."""
+    count = image.shape[axis]
+    place = (np.arange(count * times) + 0.5) / times - 0.5
+    low = np.floor(place).astype(int)
+    part = np.expand_dims(place - low, tuple(range(1, image.ndim - axis)))
+    return image.take(low % count, axis) * (1 - part) + image.take((low + 1) % count, axis) * part
+
+
+def _read_map(path: Path) -> np.ndarray:
+    """The numbers that are stored, which pbrt takes as they are in maps of light."""
+    pixels = split_alpha(read_image(path))[0]
+    check_pixels(pixels, str(path))
+    if path.suffix.lower() in (".png", ".tga"):
+        pixels = encode_srgb(pixels)
+    return np.broadcast_to(pixels, (*pixels.shape[:2], 3))
 
 
 def _same_power(beam: float, cutoff: float) -> float:
