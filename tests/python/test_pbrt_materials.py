@@ -97,11 +97,10 @@ def test_an_inverted_image_stays_where_it_is():
     assert_close(in_the_open(text % ".25"), 1)
 
 
-def test_a_black_border_is_not_inverted():
+def test_a_black_border_is_inverted_to_white():
     mlt.write_image("a.exr", np.ones((2, 2, 3), np.float32))
     image = '"string filename" "a.exr" "bool invert" true "string wrap" "black"'
-    said = read(VIEW, SKY, texture("imagemap", image), WALL).warnings
-    assert said == ["'invert' of an image texture with a black border is left out"]
+    assert_close(in_the_open(texture("imagemap", f'{image} "float udelta" 3')), 1)
 
 
 IMAGE = 'Texture "i" "spectrum" "imagemap" "string filename" "a.exr"\n'
@@ -127,13 +126,23 @@ def test_a_mix_is_linear_in_its_amount(before, parameters):
     np.testing.assert_allclose(found, expected, rtol=0.02, atol=1e-6)
 
 
-@pytest.mark.parametrize(("amount", "larger"), [(0.2, 0.6), (0.8, 0.1)])
-def test_of_two_images_the_larger_share_is_taken(amount, larger):
-    mlt.write_image("a.exr", np.full((2, 2, 3), 0.6, np.float32))
-    mlt.write_image("b.exr", np.full((2, 2, 3), 0.1, np.float32))
+@pytest.mark.parametrize("amount", ['"float amount" .2', '"texture amount" "i"'])
+def test_two_images_are_mixed_also_by_one_of_them(amount):
+    """Images that are an amount have the mean of their colours."""
+    first, second = np.array([0.6, 0.1, 0.2]), np.array([0.1, 0.3, 0.4])
+    mlt.write_image("a.exr", np.full((2, 2, 3), first, np.float32))
+    mlt.write_image("b.exr", np.full((2, 3, 3), second, np.float32))
     other = IMAGE.replace('"i"', '"j"').replace("a.exr", "b.exr")
-    both = f'"texture tex1" "i" "texture tex2" "j" "float amount" {amount}'
-    assert_close(in_the_open(texture("mix", both, IMAGE + other), warnings=1), larger)
+    both = f'"texture tex1" "i" "texture tex2" "j" {amount}'
+    share = 0.2 if "float" in amount else first.mean()
+    expected = (1 - share) * first + share * second
+    assert_close(in_the_open(texture("mix", both, IMAGE + other)), *expected)
+
+
+def test_two_images_are_multiplied():
+    mlt.write_image("a.exr", np.full((2, 2, 3), [0.6, 0.1, 0.2], np.float32))
+    both = '"texture tex" "i" "texture scale" "i"'
+    assert_close(in_the_open(texture("scale", both, IMAGE)), 0.36, 0.01, 0.04)
 
 
 def test_a_missing_image_of_a_mixture_is_named():

@@ -11,6 +11,7 @@ namespace mlt {
 
 Plugin texture_bitmap();
 Plugin texture_checkerboard();
+Plugin texture_mix();
 Plugin texture_scale();
 
 namespace {
@@ -327,6 +328,49 @@ TEST(ScaleTexture, MultipliesWhatIsNested) {
   EXPECT_EQ(scaled->eval(at), -2.0 * inner->eval(at));
   EXPECT_EQ(scaled->gradient(at), -2.0 * inner->gradient(at));
   EXPECT_EQ(scaled->mean(), -2.0 * inner->mean());
+}
+
+TEST(MixTexture, IsLinearInItsAmount) {
+  const auto image = make<Texture>(texture_bitmap(), bitmap_of("mixed.exr", twelve_texels()));
+  const auto amount =
+      make<Texture>(texture_bitmap(), bitmap_of("amount.exr", twelve_texels(), {{"uoffset", 0.3}}));
+  const Triple green = {0.1, 0.8, 0.2};
+  const auto mix =
+      make<Texture>(texture_mix(), {{"first", image}, {"second", green}, {"amount", amount}});
+  SurfacePoint at;
+  Rng rng(3, Purpose::test, 0);
+  for (int i = 0; i < 100; ++i) {
+    at.uv = {rng.next(), rng.next()};
+    const Color share = amount->eval(at).rgb(), first = image->eval(at).rgb();
+    for (int c = 0; c < 3; ++c) {
+      const double expected = (1 - share[c]) * first[c] + share[c] * green[size_t(c)];
+      EXPECT_NEAR(mix->eval(at).rgb()[c], std::max(expected, 0.0), 1e-14);
+      EXPECT_LE(expected, mix->maximum()[c]);
+    }
+  }
+}
+
+TEST(MixTexture, HasTheGradientOfItsValues) {
+  const auto grey = [](const std::string& name, double offset) {
+    Image image(4, 3, 1);
+    for (size_t i = 0; i < image.data.size(); ++i)
+      image.data[i] = static_cast<float>(i * 5 % 12) / 12;
+    return make<Texture>(texture_bitmap(), bitmap_of(name, image, {{"uoffset", offset}}));
+  };
+  const auto mix = make<Texture>(texture_mix(), {{"first", grey("a.exr", 0)},
+                                                 {"second", grey("b.exr", 0.2)},
+                                                 {"amount", grey("c.exr", 0.6)}});
+  const double u = 0.31, v = 0.43, h = 1e-5;
+  const auto value = [&](double u_, double v_) {
+    SurfacePoint at;
+    at.uv = {u_, v_};
+    return luminance(mix->eval(at).rgb());
+  };
+  SurfacePoint at;
+  at.uv = {u, v};
+  const Vec2 slope((value(u + h, v) - value(u - h, v)) / (2 * h),
+                   (value(u, v + h) - value(u, v - h)) / (2 * h));
+  EXPECT_LT(glm::length(mix->gradient(at) - slope), 1e-6);
 }
 
 TEST(ColourParameters, AreBounded) {

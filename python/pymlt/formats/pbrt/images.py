@@ -1,4 +1,4 @@
-"""Images of which the pixels are changed."""
+"""Images of which the pixels are read."""
 
 from __future__ import annotations
 
@@ -26,34 +26,26 @@ def read_rgb(path: Path) -> np.ndarray:
     return np.broadcast_to(colours, (*colours.shape[:2], 3))
 
 
-def changed(
-    bitmap: dict[str, Any], factor: np.ndarray, offset: np.ndarray, grey: bool
-) -> dict[str, Any] | None:
-    """A bitmap of which each pixel, or its mean, is multiplied, and an offset added; what is below
-    0 becomes 0. None for one that has a black border, or decodes what is not of bytes."""
+def grey(bitmap: dict[str, Any]) -> dict[str, Any]:
+    """A bitmap of the means of an image's colours.
+
+    A missing image, and one that decodes what is not of bytes, stays as it is.
+    """
     import numpy as np
 
-    if (bitmap["wrap_mode"] == "black" and offset.any()) or bitmap.get("gamma") == -1:
-        return None
-    if "filename" in bitmap and is_missing(bitmap["filename"]):
+    if bitmap.get("gamma") == -1 or is_missing(bitmap["filename"]):
         return bitmap
-    found = pixels(bitmap)
-    if grey:
-        found = found.mean(axis=2, keepdims=True)
-    data = (found * factor + offset).clip(min=0).astype(np.float32)
+    data = pixels(bitmap).mean(axis=2, keepdims=True).astype(np.float32)
     kept = {key: bitmap[key] for key in bitmap if key not in ("filename", "gamma")}
     return kept | {"data": data, "raw": True}
 
 
 def pixels(bitmap: dict[str, Any]) -> np.ndarray:
-    """In linear light, without alpha."""
-    import numpy as np
-
-    if "data" in bitmap:
-        return np.asarray(bitmap["data"])
+    """Those of an image file in linear light, without alpha."""
     path = Path(bitmap["filename"])
     linear = read_rgb(path)
     gamma = 1.0 if "raw" in bitmap else bitmap.get("gamma")
     if gamma is None or path.suffix.lower() not in BYTES:
         return linear
-    return encode_srgb(linear) ** gamma
+    encoded: np.ndarray = encode_srgb(linear) ** gamma
+    return encoded

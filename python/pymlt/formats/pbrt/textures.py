@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from ..limits import measured
-from .arithmetic import Value, affine, mixed, multiplied, product
+from .arithmetic import Value, mixed, mixture, multiplied, product
 from .images import BYTES
 from .params import Params
 
@@ -72,17 +72,7 @@ class Textures:
         bitmap["voffset"], bitmap["vscale"] = 1 - bitmap["voffset"], -bitmap["vscale"]
         bitmap["wrap_mode"] = WRAP.get(params.text("wrap", "repeat"), "repeat")
         image = multiplied(bitmap | self._encoding(params), params.number("scale", 1.0))
-        return self._inverted(image, params) if params.flag("invert") else image
-
-    def _inverted(self, image: Value, params: Params) -> Value:
-        """1 less the image."""
-        import numpy as np
-
-        found = affine(image, -np.ones(3), np.ones(3))
-        if found is None:
-            params.warn("'invert' of an image texture with a black border is left out")
-            return image
-        return found
+        return mixture(1.0, 0.0, image) if params.flag("invert") else image
 
     def _encoding(self, params: Params) -> dict[str, Any]:
         """How bytes of an image are stored; other numbers are linear."""
@@ -95,11 +85,11 @@ class Textures:
 
     def _make_scale(self, params: Params) -> Value:
         inner, factor = (self.colour(params, name, 1.0) for name in self.factors)
-        return product(inner, factor, params)
+        return product(inner, factor)
 
     def _make_mix(self, params: Params) -> Value:
         ends = (self.colour(params, f"tex{i + 1}", float(i)) for i in range(2))
-        return mixed(*ends, self.number(params, "amount", 0.5), params)
+        return mixed(*ends, self.number(params, "amount", 0.5))
 
     def _make_checkerboard(self, params: Params) -> Value:
         """A period of two squares, where ours has one."""

@@ -110,9 +110,7 @@ def translucent(params: Params, textures: Textures) -> dict[str, Any]:
     """What it reflects and transmits are shares of both its diffuse and its glossy part."""
     base, coat = (textures.colour(params, name, 0.25) for name in ("Kd", "Ks"))
     shares = [textures.colour(params, name, 0.5) for name in ("reflect", "transmit")]
-    reflected, transmitted = (
-        (product(base, share, params), product(coat, share, params)) for share in shares
-    )
+    reflected, transmitted = ((product(base, share), product(coat, share)) for share in shares)
     surface = microfacets("dielectric", alphas(params, textures, 0.1, EVEN))
     return total(
         [
