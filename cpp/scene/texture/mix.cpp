@@ -40,7 +40,7 @@ class Mix final : public Texture {
     light->second_ = as_light(second_);
     return light;
   }
-  /// Of textures that have nothing to do with each other.
+  /// Exact if the textures have nothing to do with each other.
   Color mean() const override { return between(first_->mean(), second_->mean(), amount_->mean()); }
   /// It is linear in the amount, of which the least is not known.
   Color maximum() const override {
