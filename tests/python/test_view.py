@@ -19,7 +19,15 @@ from pymlt.pictures.tonemapping import encode_srgb, tonemap
 
 viser = pytest.importorskip("viser", reason="the view needs viser (pip install viser)")
 
-from pymlt.viewing import lecture_examples, path_tables, shown, walk, world  # noqa: E402
+from pymlt.viewing import (  # noqa: E402
+    lecture_chains,
+    lecture_examples,
+    lecture_mixing,
+    path_tables,
+    shown,
+    walk,
+    world,
+)
 from pymlt.viewing.camera import Pose, SceneCamera  # noqa: E402
 from pymlt.viewing.frame import Frame  # noqa: E402
 from pymlt.viewing.live import Algorithm, LiveRender  # noqa: E402
@@ -472,24 +480,34 @@ def test_examples_run_with_every_end_of_their_sliders(example):
 
 
 def test_examples_say_what_the_lecture_says():
-    two = lecture_examples.two_states(9, 0.5).charts[0]
+    two = lecture_chains.two_states(9, 0.5).charts[0]
     exact, chains = (
         next(c.y for c in two.curves if c.name == f"from b, {n}") for n in ("exact", "chains")
     )
     np.testing.assert_allclose(chains, exact, atol=5 * 0.5 / np.sqrt(4000))
     assert exact[-1] == pytest.approx(0.9, abs=0.01)
-    assert "0.0 % of the samples" in lecture_examples.parabola(0.1, 0.9).text
-    histogram, truth = (c.y for c in lecture_examples.mixture(0.5, 0.1, 0.9).charts[0].curves)
+    assert "0.0 % of the samples" in lecture_chains.parabola(0.1, 0.9).text
+    histogram, truth = (c.y for c in lecture_chains.mixture(0.5, 0.1, 0.9).charts[0].curves)
     assert abs(histogram - truth).max() < 0.5
-    start = lecture_examples.start_up(0.9, 0.1).charts[0].curves
+    start = lecture_chains.start_up(0.9, 0.1).charts[0].curves
     assert abs(start[1].y - 0.5).max() < 5 * 0.39 / np.sqrt(4000)  # from the bootstrap
     assert start[0].y[5] > 0.7
-    peak, truth = (c.y for c in lecture_examples.adaptivity(0, 0.3).charts[0].curves)
+    peak, truth = (c.y for c in lecture_mixing.adaptivity(0, 0.3).charts[0].curves)
     assert peak[-1] > truth[-1] + 0.04
-    assert "0 % of the samples are on the right" in lecture_examples.ergodicity(0.3, 0).text
-    assert "has crossed 0 times" not in lecture_examples.ergodicity(0.3, 0.05).text
-    histogram, truth = (c.y for c in lecture_examples.tours(4, 0.1).charts[0].curves)
+    assert "0 % of the samples are on the right" in lecture_mixing.ergodicity(0.3, 0).text
+    assert "has crossed 0 times" not in lecture_mixing.ergodicity(0.3, 0.05).text
+    histogram, truth = (c.y for c in lecture_chains.tours(4, 0.1).charts[0].curves)
     assert abs(histogram - truth).max() < 0.5
+
+
+def test_the_charts_show_the_island_that_no_sample_is_on():
+    by_step, histogram = lecture_mixing.ergodicity(0.3, 0).charts
+    assert by_step.span == (0, 1)
+    assert by_step.curves[0].y.max() < 0.26
+    found, truth = (curve.y for curve in histogram.curves)
+    there = histogram.x > 0.55
+    assert not found[there].any()
+    assert truth[there] == pytest.approx(1 / 0.7)
 
 
 # ---- the command

@@ -68,16 +68,20 @@ def _uplot(chart: Chart) -> dict[str, Any]:
     for i, curve in enumerate(chart.curves):
         one = {"label": curve.name, "stroke": STROKES[i % len(STROKES)], "width": 1.5}
         if curve.dots:
-            one |= {"width": 0, "points": {"show": True, "size": 6}}
+            one |= {"width": 0, "points": {"show": True, "size": 6 if len(chart.x) < 100 else 3}}
         else:
             one["points"] = {"show": False}
         series.append(one)
     axis = {"stroke": INK, "grid": {"stroke": "rgba(128, 128, 128, 0.25)", "width": 1}}
+    scales: dict[str, Any] = {"x": {"time": False}}
+    if chart.span is not None:
+        scales["y"] = {"range": chart.span}
     return {
         "data": _data(chart),
         "series": tuple(series),
         "title": chart.title,
-        "scales": {"x": {"time": False}},
+        "scales": scales,
         "axes": (axis, axis),
         "aspect": 1.4,
+        "padding": (10, 10, 0, 0),
     }

@@ -34,6 +34,7 @@ class Chart:
     title: str
     x: np.ndarray
     curves: list[Curve]
+    span: tuple[float, float] | None = None  #: of the vertical axis; None: that of the curves
 
 
 @dataclass
