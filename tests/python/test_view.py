@@ -47,6 +47,10 @@ def test_bad_arguments_are_one_line(capsys, tmp_path):
     assert "token" in capsys.readouterr().err
     assert main(["view", "no-such-scene"]) == 2
     assert main(["view", "ring", "--port", "many"]) == 2
+    assert main(["view"]) == 2
+    assert "--lecture for the examples" in capsys.readouterr().err
+    for more in (["ring"], ["--size", "8x8"], ["--sensor", "0"], ["-p", "max_depth=3"]):
+        assert main(["view", "--lecture", *more]) == 2
 
 
 @pytest.mark.parametrize(

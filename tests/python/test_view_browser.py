@@ -314,6 +314,19 @@ def test_the_lecture_follows_its_sliders(tab):
     tab.until(lambda: "80 %" in said.inner_text(), "the text does not follow")
 
 
+def test_the_lecture_needs_no_scene(browser):
+    with mlt.view(port=0) as view:
+        page = browser.new_page(viewport=WINDOW)
+        page.goto(view.url)
+        page.locator("canvas").nth(1).wait_for()  # a chart, beside that of the scene
+        assert page.get_by_role("tab").count() == 0
+        assert page.locator("p[data-example]").bounding_box()["width"] > 500
+        (session,) = view.sessions
+        page.close()
+        session.wait(PATIENCE)
+        assert not session._thread.is_alive()
+
+
 def cpu_seconds() -> float:
     """Of this process's Python threads but the one that tests: what serves the view."""
     total = 0

@@ -1,21 +1,35 @@
-"""The third page of the panel: the lecture's examples, each with its sliders."""
+"""The lecture's examples, each with its sliders: a page of a session's panel, or all of a tab."""
 
 from __future__ import annotations
 
 from html import escape
 from typing import Any
 
+from .browser import set_title
 from .lecture_chart import Chart, Example
 from .lecture_examples import EXAMPLES
+from .page import STYLE, WIDE
+from .worker import Worker
 
 STROKES = ("#4aa3ff", "#ff9f43", "#3ecf8e", "#ff6b6b", "#bbbbbb")
 INK = "#c8c8c8"
 
 
-class Lecture:
-    """Of a session, within the container that is open."""
+class LectureTab(Worker):
+    """A tab without a scene."""
 
-    def __init__(self, session: Any):
+    def __init__(self, client: Any):
+        super().__init__(client)
+        set_title(client, "pymlt lecture")
+        client.gui.add_html(STYLE + WIDE)
+        self.lecture = Lecture(self)
+        self._thread.start()
+
+
+class Lecture:
+    """Of a tab, within the container that is open."""
+
+    def __init__(self, session: Worker):
         self._session, self._gui = session, session.client.gui
         names = [example.name for example in EXAMPLES]
         self._choice = self._gui.add_dropdown("Example", names)

@@ -19,6 +19,13 @@ STYLE = """<style>
 }
 </style>"""
 
+#: The panel of a tab that has nothing beside it; viser gives its width in the one or the other way.
+WIDE = """<style>
+div[style*="width: 388px"], div[style*="width: 20em"] { width: 100% !important; }
+.mantine-Paper-root[style*="width: 20em"] { height: 100%; max-height: 100% !important; }
+.mantine-ScrollArea-content { min-width: 0 !important; width: min(100%, 40em); margin: auto; }
+</style>"""
+
 
 def table(rows: Iterable[Sequence[str]], head: bool = False) -> str:
     """Of cells that are HTML; what looks like a number stands on the right."""
