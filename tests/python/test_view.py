@@ -1,5 +1,6 @@
 """The live view, without a browser: its camera, pictures, renders, paths and examples."""
 
+import re
 import signal
 import subprocess
 import sys
@@ -20,6 +21,7 @@ from pymlt.pictures.tonemapping import encode_srgb, tonemap
 viser = pytest.importorskip("viser", reason="the view needs viser (pip install viser)")
 
 from pymlt.viewing import (  # noqa: E402
+    formula,
     lecture_chains,
     lecture_examples,
     lecture_mixing,
@@ -481,6 +483,21 @@ def test_examples_run_with_every_end_of_their_sliders(example):
                 for curve in chart.curves:
                     assert curve.y.shape == chart.x.shape
                     assert np.isfinite(curve.y).all()
+
+
+def test_formulas_become_html():
+    assert formula.as_html("min(1, {f(y)}/{p_{i}^{−d}})") == (
+        'min(1, <span class="over"><span><i>f</i>(<i>y</i>)</span>'
+        "<span><i>p</i><sub><i>i</i></sub><sup>−<i>d</i></sup></span></span>)"
+    )
+    assert formula.as_html("a < b\nΣ") == "<i>a</i> &lt; <i>b</i><br>Σ"
+
+
+@pytest.mark.parametrize("example", lecture_examples.EXAMPLES, ids=lambda e: e.name)
+def test_every_formula_is_read_to_its_end_and_has_a_source(example):
+    assert example.formula
+    assert not set("{}_^") & set(formula.as_html(example.formula))
+    assert re.search(r"(19|20)\d\d", example.source)
 
 
 def test_examples_say_what_the_lecture_says():

@@ -5,6 +5,7 @@ from __future__ import annotations
 from html import escape
 from typing import Any
 
+from . import formula
 from .browser import set_title
 from .lecture_chart import Chart, Example
 from .lecture_examples import EXAMPLES
@@ -49,7 +50,7 @@ class Lecture:
         self._example = next(e for e in EXAMPLES if e.name == self._choice.value)
         post = self._session.post
         with self._place:
-            intro = self._gui.add_html(f'<p class="mlt">{escape(self._example.text)}</p>')
+            intro = self._gui.add_html(_introduction(self._example))
             self._sliders = [
                 self._gui.add_slider(s.name, float(s.low), float(s.high), s.step, float(s.value))
                 for s in self._example.sliders
@@ -70,6 +71,14 @@ class Lecture:
     def _renew(self) -> None:
         for handle, chart in zip(self._charts, self._run().charts, strict=True):
             handle.data = _data(chart)
+
+
+def _introduction(example: Example) -> str:
+    return (
+        f'{formula.STYLE}<p class="mlt">{escape(example.text)}</p>'
+        f'<p class="mlt formula">{formula.as_html(example.formula)}</p>'
+        f'<p class="mlt source">{escape(example.source)}</p>'
+    )
 
 
 def _data(chart: Chart) -> tuple[Any, ...]:

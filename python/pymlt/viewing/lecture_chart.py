@@ -49,5 +49,7 @@ class Shown:
 class Example:
     name: str
     text: str
+    formula: str  #: as `formula.as_html` reads it
+    source: str  #: of the formula
     sliders: tuple[Slider, ...]
     run: Callable[..., Shown]  #: of the values of the sliders
