@@ -25,6 +25,7 @@ from pymlt.viewing import (  # noqa: E402
     lecture_chains,
     lecture_examples,
     lecture_mixing,
+    lecture_products,
     path_tables,
     shown,
     walk,
@@ -496,7 +497,7 @@ def test_formulas_become_html():
 @pytest.mark.parametrize("example", lecture_examples.EXAMPLES, ids=lambda e: e.name)
 def test_every_formula_is_read_to_its_end_and_has_a_source(example):
     assert example.formula
-    assert not set("{}_^") & set(formula.as_html(example.formula))
+    assert not set("{}_^") & set(formula.as_html(example.formula) + example.source)
     assert re.search(r"(19|20)\d\d", example.source)
 
 
@@ -515,14 +516,30 @@ def test_examples_say_what_the_lecture_says():
     assert start[0].y[5] > 0.7
     peak, truth = (c.y for c in lecture_mixing.adaptivity(0, 0.3).charts[0].curves)
     assert peak[-1] > truth[-1] + 0.04
-    assert "0 % of the samples are on the right" in lecture_mixing.ergodicity(0.3, 0).text
-    assert "has crossed 0 times" not in lecture_mixing.ergodicity(0.3, 0.05).text
+    assert "0 % of the samples are on the right" in lecture_mixing.ergodicity(0.3, 0, 0).text
+    for uniform, bridge in ((0.05, 0), (0, 0.3)):
+        assert "has crossed 0 times" not in lecture_mixing.ergodicity(0.3, uniform, bridge).text
+    basic, extended = (c.y for c in lecture_chains.recording(3).charts[0].curves)
+    assert extended[0] < basic[0] - np.log10(2)
+    assert extended[-1] == pytest.approx(basic[-1], abs=0.1)
     histogram, truth = (c.y for c in lecture_chains.tours(4, 0.1).charts[0].curves)
     assert abs(histogram - truth).max() < 0.5
 
 
+@pytest.mark.parametrize("example", [lecture_products.blur, lecture_products.reflection])
+def test_one_chain_estimates_many_integrals(example):
+    """A hundred times as many steps divide the error by about ten."""
+
+    def error(log_steps: float) -> float:
+        exact, found = (c.y for c in example(log_steps, 5).charts[-1].curves[-2:])
+        return float(np.sqrt(np.mean((found / exact - 1) ** 2)))
+
+    assert error(4.5) < 0.05
+    assert error(4.5) < 0.5 * error(2.5)
+
+
 def test_the_charts_show_the_island_that_no_sample_is_on():
-    by_step, histogram = lecture_mixing.ergodicity(0.3, 0).charts
+    by_step, histogram = lecture_mixing.ergodicity(0.3, 0, 0).charts
     assert by_step.span == (0, 1)
     assert by_step.curves[0].y.max() < 0.26
     found, truth = (curve.y for curve in histogram.curves)

@@ -17,7 +17,7 @@ STYLE = """<style>
 
 def as_html(formula: str) -> str:
     """Single letters become italic, _{i} and ^{i} indices and exponents, {a}/{b} a fraction."""
-    text = re.sub(r"(?<![A-Za-z])([A-Za-zα-ωÎ])(?![A-Za-z])", r"<i>\1</i>", escape(formula))
+    text = re.sub(r"([α-ω]|(?<![A-Za-z])[A-Za-zÎ](?![A-Za-z]))", r"<i>\1</i>", escape(formula))
     text = re.sub(r"_\{([^{}]*)\}", r"<sub>\1</sub>", text)
     text = re.sub(r"\^\{([^{}]*)\}", r"<sup>\1</sup>", text)
     fraction = r'<span class="over"><span>\1</span><span>\2</span></span>'

@@ -43,6 +43,37 @@ def two_states(fa: float, to_a: float) -> Shown:
     return Shown(text, [Chart(title, steps.astype(float), curves, (0, 1))])
 
 
+def recording(decades: float) -> Shown:
+    """Ten states whose f spans so many decades; a uniform proposal, recorded in both ways."""
+    import numpy as np
+
+    f, chains, steps = np.geomspace(1, 10**decades, 10), 500, 500
+    truth = f / f.sum()
+    noise = []
+    for expected_values in (False, True):
+        run = metropolis.run(
+            metropolis.Table(f),
+            metropolis.Discrete(np.full(10, 0.1)),
+            np.random.default_rng(1).choice(10, chains, p=truth),
+            steps,
+            chains=chains,
+            expected_values=expected_values,
+        )
+        shares = np.zeros((chains, 10))
+        chain = np.broadcast_to(np.arange(chains)[:, None], run.samples.shape)
+        np.add.at(shares, (chain, run.samples), run.weights / steps)
+        noise.append(shares.std(axis=0) / truth)
+    gain = noise[1] / noise[0]
+    text = (
+        f"{chains} chains of {steps} steps. Recorded by both states, the darkest has {gain[0]:.2f} "
+        f"and the brightest {gain[-1]:.2f} of the noise. Where f is small nearly all proposals are "
+        "rejected, and the basic recording forgets them."
+    )
+    curves = [Curve("basic", np.log10(noise[0])), Curve("extended", np.log10(noise[1]))]
+    title = "log₁₀ of a chain's relative noise, by state from dark to bright"
+    return Shown(text, [Chart(title, np.arange(10.0), curves)])
+
+
 def parabola(size: float, start: float) -> Shown:
     """A random walk of this size on f(x) = (x - 1/2)^2."""
     return _on_parabola([(metropolis.RandomWalk(size), 1.0)], start)

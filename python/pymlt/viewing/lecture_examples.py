@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from .lecture_chains import mixture, parabola, start_up, tours, two_states
+from .lecture_chains import mixture, parabola, recording, start_up, tours, two_states
 from .lecture_chart import Example, Slider
 from .lecture_mixing import acceptance, adaptivity, ergodicity
+from .lecture_products import blur, reflection
 from .lecture_quadrature import combination, integrals
 
 EXAMPLES = (
@@ -38,6 +39,16 @@ EXAMPLES = (
         two_states,
     ),
     Example(
+        "Extended recording",
+        "A step can record the state that it has chosen, or both, with the probabilities of being "
+        "chosen.",
+        "basic: Î = {1}/{n} Σ_{i} g(x_{i+1})\n"
+        "extended: Î = {1}/{n} Σ_{i} (a_{i} g(y_{i}) + (1 − a_{i}) g(x_{i}))",
+        "Veach & Guibas 1997, sec. 5.1",
+        (Slider("Decades of f", 0, 4, 0.5, 3),),
+        recording,
+    ),
+    Example(
         "Parabola",
         "f(x) = (x - 1/2)² on [0, 1], and a move by up to half of the size either way. Small moves "
         "do not cross the middle, where f is 0.",
@@ -57,6 +68,24 @@ EXAMPLES = (
             Slider("Start", 0, 1, 0.05, 0.9),
         ),
         mixture,
+    ),
+    Example(
+        "Blur",
+        "Samples of f, the brightness of a row of pixels, estimate the integrals of f times any g: "
+        "here the pixels of the blurred row.",
+        "I_{j} = ∫ f g_{j} = ∫ f · {1}/{n} Σ_{i} g_{j}(x_{i})\ng_{j}(x) = h(x − x_{j})",
+        "Veach 1997, sec. 11.2; for n → ∞, and h is a bell",
+        (Slider("log₁₀ steps", 2, 4.5, 0.25, 3.5), Slider("Width", 0.5, 6, 0.25, 1.5)),
+        blur,
+    ),
+    Example(
+        "Reflection",
+        "A glossy surface reflects a sky with a sun in it; here in the plane. The chain knows the "
+        "sky alone, and serves all lobes.",
+        "I = ∫ L(ω) f_{r}(ω) cos θ dω",
+        "Kajiya 1986; the surface has a cosine lobe around the mirror's direction (Phong 1975)",
+        (Slider("log₁₀ steps", 2, 4.5, 0.25, 3.5), Slider("log₂ exponent", 0, 10, 0.5, 5)),
+        reflection,
     ),
     Example(
         "Start-up bias",
@@ -95,10 +124,14 @@ EXAMPLES = (
     ),
     Example(
         "Ergodicity",
-        "f is 1 on two islands and 0 in the gap between them. Does the chain come across?",
+        "f is 1 on two islands and low or 0 in the gap between them. Does the chain come across?",
         "{1}/{n} Σ_{i} g(x_{i}) → {∫ f g}/{∫ f}\nif every y with f(y) > 0 can be reached",
         "Veach 1997, sec. 11.2",
-        (Slider("Gap", 0.02, 0.5, 0.02, 0.3), Slider("Uniform", 0, 0.3, 0.01, 0)),
+        (
+            Slider("Gap", 0.02, 0.5, 0.02, 0.3),
+            Slider("Uniform", 0, 0.3, 0.01, 0),
+            Slider("Bridge", 0, 0.3, 0.01, 0),
+        ),
         ergodicity,
     ),
 )

@@ -7,25 +7,32 @@ from .lecture_chains import STEPS, histogram
 from .lecture_chart import Chart, Curve, Shown
 
 
-def ergodicity(gap: float, uniform: float) -> Shown:
-    """Two islands with nothing between them, and steps of up to 0.1 either way."""
+def ergodicity(gap: float, uniform: float, bridge: float) -> Shown:
+    """Two islands, f in the gap between them, and steps of up to 0.1 either way."""
     import numpy as np
 
     left, right = 0.4 - gap / 2, 0.4 + gap / 2
     moves = [(metropolis.RandomWalk(0.2), 1 - uniform), (metropolis.Uniform(0, 1), uniform)]
 
     def f(x):
-        return np.where((x >= 0) & (x <= left) | (x >= right) & (x <= 1), 1.0, 0.0)
+        land = np.where((x > left) & (x < right), bridge, 1.0)
+        return np.where((x >= 0) & (x <= 1), land, 0.0)
 
     run = metropolis.run(f, moves, 0.1, 4000, seed=1)
     x = np.asarray(run.states)
-    there, truth = float((x > 0.4).mean()), (1 - right) / (1 - right + left)
+    area = 1 - gap * (1 - bridge)
+    there, truth = float((x > 0.4).mean()), (1 - right + bridge * gap / 2) / area
     crossings = int((np.diff(x > 0.4)).sum())
     text = (
-        f"{100 * there:.0f} % of the samples are on the right island, and should be "
-        f"{100 * truth:.0f} %; the chain has crossed {crossings} times. A gap of more than 0.1 "
-        "cannot be crossed by these steps at all: without a uniform proposal now and then the "
-        "chain is not ergodic, and nothing in its samples says so."
+        f"{100 * there:.0f} % of the samples are on the right, and should be {100 * truth:.0f} %; "
+        f"the chain has crossed {crossings} times. "
+    )
+    text += (
+        "Over a bridge it is ergodic, and mixes the worse the lower the bridge is: for a long time "
+        "its error is that of a few samples."
+        if bridge
+        else "A gap of more than 0.1 cannot be crossed by these steps at all: without a uniform "
+        "proposal now and then the chain is not ergodic, and nothing in its samples says so."
     )
     steps = np.arange(len(x), dtype=float)
     shores = [Curve("gap from", 0 * x + left), Curve("gap to", 0 * x + right)]
@@ -33,7 +40,7 @@ def ergodicity(gap: float, uniform: float) -> Shown:
         text,
         [
             Chart("x by step", steps, [Curve("x", x, True), *shores], (0, 1)),
-            histogram(run.samples, "f / ∫ f", lambda at: f(at) / (1 - right + left)),
+            histogram(run.samples, "f / ∫ f", lambda at: f(at) / area),
         ],
     )
 
