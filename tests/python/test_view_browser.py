@@ -1,6 +1,7 @@
 """The live view in a browser: Debian's chromium without a window, driven by playwright."""
 
 import contextlib
+import dataclasses
 import os
 import re
 import shutil
@@ -14,7 +15,7 @@ import pytest
 import pymlt as mlt
 from pymlt.algorithms.integrators import integrator_schema
 from pymlt.pictures.tonemapping import stops_of
-from pymlt.viewing import shown
+from pymlt.viewing import lecture, shown
 
 pytest.importorskip("viser", reason="the view needs viser (pip install viser)")
 playwright = pytest.importorskip("playwright.sync_api", reason="playwright drives the browser")
@@ -325,6 +326,32 @@ def test_the_lecture_needs_no_scene(browser):
         page.close()
         session.wait(PATIENCE)
         assert not session._thread.is_alive()
+
+
+def test_a_chosen_example_clears_the_chart_before_the_next_is_computed(browser, monkeypatch):
+    ready = threading.Event()
+    usual = {example.name: example for example in lecture.EXAMPLES}
+
+    def slow(*values):
+        ready.wait(PATIENCE)
+        return usual["Two states"].run(*values)
+
+    late = dataclasses.replace(usual["Two states"], run=slow)
+    monkeypatch.setattr(lecture, "EXAMPLES", (usual["Parabola"], late))
+    with mlt.view(port=0) as view:
+        page = browser.new_page(viewport=WINDOW)
+        page.goto(view.url)
+        charts = page.locator(".uplot")
+        charts.nth(1).wait_for()
+        page.get_by_role("combobox", name="Example").click()
+        page.get_by_role("option", name="Two states").click()
+        page.get_by_text("computing …").wait_for()
+        charts.first.wait_for(state="detached")
+        page.get_by_text("Hastings 1970").wait_for()
+        ready.set()
+        charts.first.wait_for()
+        assert page.get_by_text("computing …").count() == 0
+        page.close()
 
 
 def cpu_seconds() -> float:

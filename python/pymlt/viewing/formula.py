@@ -12,6 +12,7 @@ STYLE = """<style>
   text-align: center; line-height: 1.35; margin: 2px 3px; }
 .formula .over > :first-child { border-bottom: 1px solid; }
 .source { opacity: .7; }
+.old { opacity: .4; }
 </style>"""
 
 

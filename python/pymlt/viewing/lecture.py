@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from html import escape
 from typing import Any
 
@@ -14,6 +15,7 @@ from .worker import Worker
 
 STROKES = ("#4aa3ff", "#ff9f43", "#3ecf8e", "#ff6b6b", "#bbbbbb")
 INK = "#c8c8c8"
+COMPUTING = '<p class="mlt">computing …</p>'
 
 
 class LectureTab(Worker):
@@ -40,26 +42,40 @@ class Lecture:
         self._charts: list[Any] = []
         self._text: Any = None
         self._example: Example | None = None
-        self._choice.on_update(lambda _: session.post(self._open))
+        self._asked = threading.Event()
+        self._choice.on_update(lambda _: self._choose())
         session.post(self._open)
+
+    def _choose(self) -> None:
+        """Says so at once, whatever the tab's thread is doing."""
+        if self._text is not None:
+            self._text.content = COMPUTING
+        self._session.post(self._open)
+
+    def _move(self) -> None:
+        """Moves of a slider that come before the tab's thread looks at them count as one."""
+        if not self._asked.is_set():
+            self._asked.set()
+            self._text.content = self._text.content.replace('"mlt"', '"mlt old"')
+            self._session.post(self._renew)
 
     def _open(self) -> None:
         """Show the example that was chosen."""
         for part in self._parts:
             part.remove()
         self._example = next(e for e in EXAMPLES if e.name == self._choice.value)
-        post = self._session.post
         with self._place:
             intro = self._gui.add_html(_introduction(self._example))
             self._sliders = [
                 self._gui.add_slider(s.name, float(s.low), float(s.high), s.step, float(s.value))
                 for s in self._example.sliders
             ]
-            self._text = self._gui.add_html("")
+            self._text = self._gui.add_html(COMPUTING)
+            self._session.client.flush()
             shown = self._run()
             self._charts = [self._gui.add_uplot(**_uplot(chart)) for chart in shown.charts]
         for slider in self._sliders:
-            slider.on_update(lambda _: post(self._renew))
+            slider.on_update(lambda _: self._move())
         self._parts = [intro, *self._sliders, self._text, *self._charts]
 
     def _run(self) -> Any:
@@ -69,6 +85,7 @@ class Lecture:
         return shown
 
     def _renew(self) -> None:
+        self._asked.clear()
         for handle, chart in zip(self._charts, self._run().charts, strict=True):
             handle.data = _data(chart)
 
