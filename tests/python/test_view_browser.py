@@ -300,6 +300,7 @@ def test_what_makes_no_sense_gives_a_message(tab):
 
 
 def test_the_lecture_follows_its_sliders(tab):
+    assert tab.session.lecture._example is None  # it would delay the first picture
     tab.open("Lecture")
     said = tab.page.locator("p[data-example]")
     said.wait_for()

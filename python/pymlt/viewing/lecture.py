@@ -26,6 +26,7 @@ class LectureTab(Worker):
         set_title(client, "pymlt lecture")
         client.gui.add_html(STYLE + WIDE)
         self.lecture = Lecture(self)
+        self.lecture.show(True)
         self._thread.start()
 
 
@@ -44,7 +45,11 @@ class Lecture:
         self._example: Example | None = None
         self._asked = threading.Event()
         self._choice.on_update(lambda _: self._choose())
-        session.post(self._open)
+
+    def show(self, visible: bool) -> None:
+        """Its first example is computed when the page is first seen."""
+        if visible and self._example is None:
+            self._session.post(self._open)
 
     def _choose(self) -> None:
         """Says so at once, whatever the tab's thread is doing."""

@@ -47,6 +47,7 @@ class Session(Worker):
             self.lecture = Lecture(self)
         show = self.inspector.show_paths
         follow_tab(client, "Paths", lambda is_open: self.post(lambda: show(is_open)))
+        follow_tab(client, "Lecture", self.lecture.show)
         self._thread.start()
         client.camera.on_update(self._camera_moved)
         client.scene.on_click()(self._clicked)
