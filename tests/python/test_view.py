@@ -7,6 +7,7 @@ import sys
 import time
 import urllib.request
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -22,6 +23,7 @@ viser = pytest.importorskip("viser", reason="the view needs viser (pip install v
 
 from pymlt.viewing import (  # noqa: E402
     formula,
+    labels,
     lecture_chains,
     lecture_examples,
     lecture_mixing,
@@ -239,6 +241,20 @@ def test_a_small_picture_is_enlarged_by_whole_pixels():
     assert large[-1, -1] == 5
 
 
+@pytest.mark.parametrize("pixel", [(20, 30), (0, 0), (63, 47)])
+def test_the_mark_leaves_its_pixel_free(pixel):
+    grey = np.full((48, 64, 3), 128, np.uint8)
+    picture = shown.marked(grey, pixel)
+    x, y = pixel
+    changed = (picture != grey).any(axis=2)
+    rows, columns = np.nonzero(changed)
+    assert not changed[max(0, y - 1) : y + 2, max(0, x - 1) : x + 2].any()
+    assert set(np.unique(picture[changed])) == {0, 255}
+    assert abs(rows - y).max() <= 11
+    assert abs(columns - x).max() <= 11
+    assert (grey == 128).all()
+
+
 def test_the_error_map_is_relative():
     image = np.ones((2, 2, 3))
     picture = shown.error_picture(image, np.array([[0.0, 0.5], [2.0, 9.0]])[..., None] * image)
@@ -453,6 +469,17 @@ def test_shapes_become_triangles():
     assert not any(np.abs(s["positions"]).max() == 1 and len(s["faces"]) == 12 for s in shapes)
     assert any(s["emits"] for s in shapes)
     assert all(s["faces"].max() < len(s["positions"]) for s in shapes)
+
+
+def test_labels_that_would_lie_on_each_other_are_one():
+    places = np.array([[0, 0, 5], [0.1, 0, 6], [2, 0, 5], [0, 0, 9.0], [0, 0.3, 5], [0, 0, -1]])
+    camera = SimpleNamespace(position=(0, 0, 0), wxyz=(1, 0, 0, 0), image_height=800, fov=1.2)
+    at = labels.seen_at(places, camera)
+    scale = 400 / np.tan(0.6)
+    np.testing.assert_allclose(at[[1, 4]], [(0.1 / 6 * scale, 0), (0, 0.3 / 5 * scale)])
+    assert labels.overlapping(at) == [[0, 1, 3], [2], [4], [5]]
+    camera.position, camera.wxyz = (-5, 0, 5), np.array([1, 0, 1, 0]) / np.sqrt(2)  # to the right
+    assert labels.overlapping(labels.seen_at(places, camera)) == [[0, 2], [1], [3], [4], [5]]
 
 
 def test_large_meshes_are_simplified():

@@ -165,6 +165,7 @@ def test_a_click_shows_the_paths_through_a_pixel(tab):
     x, y = tab.session.camera.pixel(tab.session.frame().place(300 / 616, 400 / 560))
     assert abs(found.pixel[0] - x) <= 2
     assert abs(found.pixel[1] - y) <= 2
+    assert tab.session.inspector.pixel == found.pixel  # which has a mark
     tab.page.get_by_text(tab.session.inspector._path.signature).first.wait_for()
     tab.page.get_by_text("found it").first.wait_for()
     tab.session.live.stop()
@@ -265,6 +266,7 @@ def test_shapes_can_be_turned_with_the_paths(tab):
     tab.until(lambda: abs(tab.picture() - still).mean() > 0.005, "they do not turn")
     tab.page.get_by_role("checkbox").first.uncheck(force=True)
     tab.until(lambda: tab.session.live.running, "the render does not come back")
+    tab.until(lambda: tab.session.inspector.pixel is None, "a pixel of another view is marked")
 
 
 def test_a_chain_walks_and_is_watched(tab):

@@ -8,6 +8,7 @@ import time
 from typing import Any
 
 from .. import _core
+from . import shown
 from .browser import follow_tab, open_tab, set_title
 from .camera import Pose, SceneCamera
 from .controls import Controls
@@ -110,6 +111,7 @@ class Session(Worker):
         if self._canvas != self._aspect():
             self._canvas = self._aspect()
             self.renew()
+        self.inspector.camera_moved()
         pose: Pose | None = Pose.of(camera)
         if pose.is_near(self.camera.pose, self.camera.radius):
             pose = None
@@ -118,6 +120,7 @@ class Session(Worker):
         )
         if not same and not self.inspector.shows_meshes:
             self.pose = pose
+            self.inspector.pixel = None  # it shows something else now
             self.restart()
 
     def scene(self, divisor: int = 1) -> _core.Scene:
@@ -161,5 +164,7 @@ class Session(Worker):
             return
         picture = self.pictures.make(self.controls.look(), self.controls.share())
         if picture is not None:
+            if self.inspector.pixel is not None:
+                picture = shown.marked(picture, self.inspector.pixel)
             self.client.scene.set_background_image(self.frame().fill(picture), format="jpeg")
             self.client.flush()

@@ -112,6 +112,21 @@ def enlarged(small: np.ndarray, size: tuple[int, int]) -> np.ndarray:
     return small[rows[:, None], columns]
 
 
+def marked(picture: np.ndarray, pixel: tuple[int, int]) -> np.ndarray:
+    """A picture with a cross around one of its pixels (x, y), which itself stays free."""
+    (x, y), unit = pixel, max(1, picture.shape[0] // 360)
+    seen = picture.copy()
+    for edge, colour in ((unit, 0), (0, 255)):  # white with a black border
+
+        def part(at: int, low: int, high: int, edge: int = edge) -> slice:
+            return slice(max(0, at + low * unit - edge), max(0, at + high * unit + edge))
+
+        for low, high in ((-9, -3), (4, 10)):
+            seen[part(y, 0, 1), part(x, low, high)] = colour
+            seen[part(y, low, high), part(x, 0, 1)] = colour
+    return seen
+
+
 def split(left: np.ndarray, right: np.ndarray, share: float) -> np.ndarray:
     """Two pictures side by side: the left one up to a share of the width."""
     column = round(share * left.shape[1])
