@@ -155,6 +155,22 @@ def test_a_move_restarts_the_render_with_a_picture_at_once(tab):
     tab.until(lambda: session.pose is None, "the camera does not come back")
 
 
+def test_the_keys_that_the_panel_lists_move_the_camera(tab):
+    tab.page.get_by_text("Mouse and keys").click()
+    for said in ("forward, back", "left, right", "down, up"):
+        tab.page.get_by_text(said, exact=True).wait_for()
+    tab.page.get_by_text("Mouse and keys").click()
+    camera = tab.session.client.camera
+    tab.page.mouse.move(300, 300)
+    for key in ("w", "a", "e", "ArrowLeft"):
+        before = np.array(camera.position)
+        tab.page.keyboard.down(key)
+        tab.until(lambda at=before: abs(camera.position - at).max() > 0, f"{key} does not move it")
+        tab.page.keyboard.up(key)
+    tab.press("Scene's view")
+    tab.until(lambda: tab.session.pose is None, "the camera does not come back")
+
+
 def test_a_click_shows_the_paths_through_a_pixel(tab):
     assert tab.page.title() == "pymlt"
     tab.page.mouse.click(300, 400)
