@@ -106,6 +106,7 @@ class Inspector:
         self._pixel.value, self.pixel = f"{x}, {y}", pixel
         self._session.renew()
         self._found = paths_through(scene, pixel, samples, depth)
+        self._session.mended(self._typed)
         self._show_found(signature)
 
     def step(self) -> None:

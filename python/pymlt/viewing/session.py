@@ -128,7 +128,10 @@ class Session(Worker):
         return self.camera.scene(self.pose, divisor)
 
     def restart(self) -> None:
-        """Render anew, since something has changed."""
+        """Render anew, since something has changed; if that fails, the old render goes on."""
+        self._try(self._restart)
+
+    def _restart(self) -> None:
         self.live.start(self.scene, self.controls.algorithms(), self.controls.seconds())
         self.pictures.forget()
         self.renew()
@@ -150,7 +153,7 @@ class Session(Worker):
     def _show(self) -> None:
         ended = not self.live.running
         spent = time.thread_time()
-        self._try(self.live.check)
+        self._try(self.live.check, cure=self._restart)
         self._try(self._send)
         spent = time.thread_time() - spent
         self._due = time.monotonic() + max(INTERVAL, spent / (SHARE * (os.cpu_count() or 1)))

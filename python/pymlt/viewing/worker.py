@@ -18,6 +18,7 @@ class Worker:
         self.client = client
         self._actions: queue.SimpleQueue[Callable[[], object] | None] = queue.SimpleQueue()
         self._open = True
+        self._complaints: dict[Any, Any] = {}  # the messages, by what has failed
         self._thread = threading.Thread(target=self._run, name="pymlt view: tab", daemon=True)
 
     # ---- from other threads
@@ -54,17 +55,36 @@ class Worker:
         except queue.Empty:
             return True
 
-    def _try(self, action: Callable[[], object]) -> None:
+    def _try(self, action: Callable[[], object], cure: Callable[[], object] | None = None) -> None:
+        """Does it, or complains until the cure, or else the action, has worked."""
         try:
             action()
         except (_core.Error, ValueError, OverflowError) as error:
-            self.say("This does not work", str(error))
+            self._complain(cure or action, "This does not work", str(error))
         except Exception as error:  # a bug: say where
             if not self._open:
                 return  # nobody listens any more
             traceback.print_exc()
-            self.say("Something went wrong in pymlt", repr(error))
+            self._complain(cure or action, "Something went wrong in pymlt", repr(error))
+        else:
+            if cure is None:
+                self.mended(action)
 
-    def say(self, title: str, text: str, color: str = "red") -> None:
-        """A message at the corner of the page."""
-        self.client.add_notification(title, text, color=color, auto_close_seconds=15)
+    def _complain(self, cure: Callable[[], object], title: str, text: str) -> None:
+        self.mended(cure)
+        self._complaints[_key(cure)] = self.say(title, text)
+
+    def mended(self, cure: Callable[[], object]) -> None:
+        """Takes away what was said when it failed."""
+        message = self._complaints.pop(_key(cure), None)
+        if message is not None:
+            message.remove()
+
+    def say(self, title: str, text: str, color: str = "red") -> Any:
+        """A message at the corner of the page, for a quarter of a minute; returns its handle."""
+        return self.client.add_notification(title, text, color=color, auto_close_seconds=15)
+
+
+def _key(action: Callable[[], object]) -> object:
+    """Equal for all that one line of code makes."""
+    return getattr(action, "__code__", action)
