@@ -439,6 +439,27 @@ def test_text_is_readable(tab, width):
     tab.page.set_viewport_size(WINDOW)
 
 
+def test_a_narrow_window_shows_all_of_the_picture_and_takes_clicks(tab):
+    tab.page.set_viewport_size({"width": 400, "height": 800})
+    tab.open("Render")
+    panel = tab.page.locator(".mantine-Paper-root").filter(has=tab.page.get_by_role("tab")).first
+    window = tab.page.locator("div[style*='inset: 0px'] > canvas")
+    tab.until(
+        lambda: window.bounding_box()["height"] <= panel.bounding_box()["y"] + 1,
+        "the panel hides a part of the picture",
+    )
+    tab.until(
+        lambda: 0.7 < tab.session.frame().height < 1, "the picture keeps the shape of the window"
+    )
+    tab.session.inspector._found = None
+    tab.page.mouse.click(200, 250)
+    tab.page.get_by_role("tab", name="Paths", selected=True).wait_for()
+    tab.until(lambda: tab.session.inspector._found is not None, "no click arrived")
+    x, y = tab.session.inspector.pixel
+    assert max(abs(x - 48), abs(y - 48)) <= 2
+    tab.page.set_viewport_size(WINDOW)
+
+
 def test_two_integrators_stand_side_by_side(tab):
     controls = tab.session.controls
     tab.open("Render")

@@ -15,6 +15,7 @@ STYLE = """<style>
 @media (max-width: 576px) {
   div[style*="width: 20em"] { width: 100% !important; max-height: 38% !important; }
   div[style*="width: 20em"] div[style*="width: 20em"] { max-height: none !important; }
+  div[style*="inset: 0px"]:has(> canvas) { bottom: 38% !important; }
   label, button, button *, input { font-size: 13px !important; }
 }
 </style>"""
