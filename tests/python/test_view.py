@@ -241,17 +241,19 @@ def test_a_small_picture_is_enlarged_by_whole_pixels():
     assert large[-1, -1] == 5
 
 
+@pytest.mark.parametrize("scale", [0.1, 0.6, 1.5])
 @pytest.mark.parametrize("pixel", [(20, 30), (0, 0), (63, 47)])
-def test_the_mark_leaves_its_pixel_free(pixel):
+def test_the_mark_leaves_its_pixel_free(pixel, scale):
     grey = np.full((48, 64, 3), 128, np.uint8)
-    picture = shown.marked(grey, pixel)
+    picture = shown.marked(grey, pixel, scale)
     x, y = pixel
     changed = (picture != grey).any(axis=2)
     rows, columns = np.nonzero(changed)
     assert not changed[max(0, y - 1) : y + 2, max(0, x - 1) : x + 2].any()
     assert set(np.unique(picture[changed])) == {0, 255}
-    assert abs(rows - y).max() <= 11
-    assert abs(columns - x).max() <= 11
+    most = max(35 * scale, 6) + 3
+    assert abs(rows - y).max() <= most
+    assert abs(columns - x).max() <= most
     assert (grey == 128).all()
 
 

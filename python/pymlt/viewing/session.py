@@ -167,7 +167,9 @@ class Session(Worker):
             return
         picture = self.pictures.make(self.controls.look(), self.controls.share())
         if picture is not None:
+            frame = self.frame()
             if self.inspector.pixel is not None:
-                picture = shown.marked(picture, self.inspector.pixel)
-            self.client.scene.set_background_image(self.frame().fill(picture), format="jpeg")
+                scale = len(picture) / max(self.client.camera.image_height * frame.height, 1)
+                picture = shown.marked(picture, self.inspector.pixel, scale)
+            self.client.scene.set_background_image(frame.fill(picture), format="jpeg")
             self.client.flush()
