@@ -434,6 +434,12 @@ def test_text_is_readable(tab, width):
                     || e.scrollWidth > e.clientWidth + 60).map(e => e.innerText)"""
         )
         assert not cut, name
+    ends = tab.page.locator(".mantine-Slider-markLabel").locator("visible=true")
+    thumbs = tab.page.locator(".mantine-Slider-thumb").locator("visible=true")
+    thumbs.first.wait_for()
+    for end, thumb in zip(ends.all()[::2], thumbs.all(), strict=True):
+        below = thumb.bounding_box()
+        assert end.bounding_box()["y"] >= below["y"] + below["height"] - 1
     panel = tab.page.get_by_role("tab", name="Render").bounding_box()
     assert 0 <= panel["x"] < width
     tab.page.set_viewport_size(WINDOW)

@@ -12,6 +12,8 @@ STYLE = """<style>
 .mlt tr + tr td { border-top: 1px solid rgba(128, 128, 128, .25); }
 .mlt .n { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }
 .mlt b.swatch { display: inline-block; width: .8em; height: .8em; border-radius: 2px; }
+.mantine-Slider-root { padding-bottom: .9em !important; }
+.mantine-Slider-markLabel { margin-top: 3px; font-size: 11px !important; }
 @media (max-width: 576px) {
   div[style*="width: 20em"] { width: 100% !important; max-height: 38% !important; }
   div[style*="width: 20em"] div[style*="width: 20em"] { max-height: none !important; }
