@@ -78,7 +78,8 @@ def given_scene(args) -> _core.Scene | None:
         return scene
     for name in ("scene", "integrator", *SHARED):
         if getattr(args, name):
-            raise _core.UsageError(f"--lecture renders no scene: leave out {name!r}")
+            flag = FLAGS[name].spelling if name != "scene" else "the scene"
+            raise _core.UsageError(f"--lecture renders nothing: leave out {flag}")
     return None
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import threading
 from html import escape
 from typing import Any
@@ -54,15 +55,19 @@ class Lecture:
     def _choose(self) -> None:
         """Says so at once, whatever the tab's thread is doing."""
         if self._text is not None:
-            self._text.content = COMPUTING
+            self._tell(COMPUTING)
         self._session.post(self._open)
 
     def _move(self) -> None:
         """Moves of a slider that come before the tab's thread looks at them count as one."""
         if not self._asked.is_set():
             self._asked.set()
-            self._text.content = self._text.content.replace('"mlt"', '"mlt old"')
+            self._tell(self._text.content.replace('"mlt"', '"mlt old"'))
             self._session.post(self._renew)
+
+    def _tell(self, content: str) -> None:
+        with contextlib.suppress(RuntimeError):  # the tab's thread has just removed the text
+            self._text.content = content
 
     def _open(self) -> None:
         """Show the example that was chosen."""

@@ -26,7 +26,7 @@ SHARE = 0.015
 
 
 class Session(Worker):
-    """Its render belongs to its thread."""
+    """Such a tab. Its render belongs to its thread."""
 
     def __init__(self, camera: SceneCamera, client: Any, algorithm: Algorithm, threads: int):
         super().__init__(client)
